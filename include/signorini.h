@@ -1,0 +1,444 @@
+/*
+ * signorini: unilateral contact with Coulomb friction for existing finite-element codes.
+ *
+ * The problem. For n pairs in dimension D (2 or 3), each with one normal and D - 1 tangential
+ * components of a relative displacement d, ordered pair by pair (n, t) or (n, t1, t2):
+ *
+ *     K d = f + F                                               equilibrium
+ *     d_n <= gap,  F_n <= 0,  (d_n - gap) F_n = 0               unilateral contact
+ *     |F_t| <= mu |F_n|,  d_t = slip            inside the cone Coulomb friction
+ *                         d_t - slip = -lambda F_t on it, lambda >= 0
+ *
+ * K is the stiffness matrix condensed on the contact components: symmetric, positive definite or
+ * only semi-definite (bodies held by nothing but contact).
+ *
+ * Signs. n is the outward normal of the body: d_n > 0 moves towards the obstacle, F_n < 0 presses.
+ * F is the force that the contact exerts on the body. f and F are nodal forces, not stresses.
+ * Units are yours: any consistent set, and no result depends on it but for its unit.
+ *
+ * A component that you hold fixed stays in the problem as a decoupled row: zero off the diagonal,
+ * positive on it, zero load.
+ *
+ * Arrays are plain, 64-bit floating point, matrices column-major with a leading dimension. NULL is
+ * allowed where a parameter says so. Nothing overlaps. With n = 0 no array is looked at.
+ *
+ * Status. Every call that computes returns an int32_t:
+ *     0          solved, and certified on your data: report.eta <= settings.tolerance
+ *     > 0        results were written but are not a solution; SIGNORINI_... says which
+ *     -k         the k-th argument is wrong; nothing was written
+ *     <= -1000   internal: out of memory, a caught defect
+ * signorini_last_error() tells in a sentence what and where.
+ *
+ * The library never prints, exits, reads files or the environment, installs handlers or starts
+ * threads. It keeps your floating-point environment: traps and flush-to-zero are off inside and
+ * back on return. Calls from several threads at once are safe. The same input gives the same bits
+ * on the same machine.
+ */
+
+
+#ifndef SIGNORINI_H
+#define SIGNORINI_H
+
+#include <stdint.h>
+
+/**
+ * Solved and certified: eta <= tolerance.
+ */
+#define SIGNORINI_SOLVED 0
+
+/**
+ * max_iterations used up; the results are the last iterate.
+ */
+#define SIGNORINI_ITERATION_LIMIT 1
+
+/**
+ * time_limit used up; the results are the last iterate.
+ */
+#define SIGNORINI_TIME_LIMIT 2
+
+/**
+ * The progress callback returned nonzero; the results are the last iterate.
+ */
+#define SIGNORINI_CANCELLED 3
+
+/**
+ * Proved: no equilibrium exists. d is the motion of escape (largest component 1), the forces are
+ * zero. For signorini_lcp_lemke: no w, z >= 0 satisfy w = q + M z, and z proves it.
+ */
+#define SIGNORINI_NO_EQUILIBRIUM 4
+
+/**
+ * The method cannot go on (rounding, or a ray that proves nothing); the results are its last
+ * iterate.
+ */
+#define SIGNORINI_STALLED 5
+
+/**
+ * A defect of the library was caught; the results are undefined.
+ */
+#define SIGNORINI_INTERNAL -1000
+
+/**
+ * Not enough memory; nothing was written.
+ */
+#define SIGNORINI_OUT_OF_MEMORY -1001
+
+/**
+ * Major version of this header.
+ */
+#define SIGNORINI_VERSION_MAJOR 0
+
+/**
+ * Minor version of this header.
+ */
+#define SIGNORINI_VERSION_MINOR 1
+
+/**
+ * Patch version of this header.
+ */
+#define SIGNORINI_VERSION_PATCH 0
+
+/**
+ * Version of the binary interface that this header describes; compare it with
+ * signorini_abi_version() after dlopen.
+ */
+#define SIGNORINI_ABI_VERSION 1
+
+/**
+ * Coulomb friction as a sequence of Tresca problems, g <- mu |F_n|, each by projected
+ * over-relaxed Gauss-Seidel. The default.
+ */
+#define SIGNORINI_METHOD_SOR_NESTED 1
+
+/**
+ * Projected over-relaxed Gauss-Seidel with the friction threshold updated inside the sweep.
+ */
+#define SIGNORINI_METHOD_SOR_DIAGONAL 2
+
+/**
+ * Lemke's method, for frictionless contact: every mu must be 0.
+ */
+#define SIGNORINI_METHOD_LEMKE 3
+
+/**
+ * A pair is apart: no contact force.
+ */
+#define SIGNORINI_OPEN 0
+
+/**
+ * A pair slides: |F_t| = mu |F_n|; also every frictionless contact.
+ */
+#define SIGNORINI_SLIP 1
+
+/**
+ * A pair sticks: d_t = slip.
+ */
+#define SIGNORINI_STICK 2
+
+/**
+ * What a progress callback is told. New fields may follow in later versions.
+ */
+typedef struct signorini_progress {
+  /**
+   * Sweeps or pivots done.
+   */
+  int64_t iterations;
+  /**
+   * Latest measured eta; infinite before the first measurement.
+   */
+  double eta;
+  /**
+   * Seconds since the call began.
+   */
+  double elapsed;
+} signorini_progress;
+
+/**
+ * Called before each sweep or pivot; a nonzero result cancels the call (SIGNORINI_CANCELLED).
+ * It runs on the calling thread in the default floating-point environment. It must return: no
+ * longjmp, no exception, and no call of this library.
+ */
+typedef int32_t (*signorini_progress_fn)(void *user, const struct signorini_progress *progress);
+
+/**
+ * How to solve. Fill it by signorini_settings_default(), then change what you like.
+ */
+typedef struct signorini_settings {
+  /**
+   * sizeof(signorini_settings) of the program; later fields than it covers have their defaults.
+   */
+  uint32_t struct_size;
+  /**
+   * SIGNORINI_METHOD_...; default SIGNORINI_METHOD_SOR_NESTED.
+   */
+  int32_t method;
+  /**
+   * Solved means eta <= tolerance; 1e-15 to 0.1, default 1e-10.
+   */
+  double tolerance;
+  /**
+   * Over-relaxation factor between 0 and 2; default 0: chosen from the measured rate.
+   */
+  double omega;
+  /**
+   * Damping of the nested method's threshold update, in (0, 1]; default 0: chosen from the
+   * measured rate.
+   */
+  double damping;
+  /**
+   * Most sweeps (SOR) or pivots (Lemke), at least 1; default 200000.
+   */
+  int64_t max_iterations;
+  /**
+   * Most seconds of wall time; default 0: no limit.
+   */
+  double time_limit;
+  /**
+   * Nonzero: the iteration starts from what d holds; default 0: it starts from zero.
+   * Lemke's method does not use a start.
+   */
+  int32_t warm_start;
+  /**
+   * Must be 0.
+   */
+  int32_t reserved;
+  /**
+   * Called before each sweep or pivot; default NULL.
+   */
+  signorini_progress_fn progress;
+  /**
+   * Handed to progress; default NULL.
+   */
+  void *user;
+} signorini_settings;
+
+/**
+ * How good a result is. Set struct_size before the call; all else is written by it.
+ * Forces and lengths are in the units of the problem.
+ */
+typedef struct signorini_report {
+  /**
+   * sizeof(signorini_report) of the program: no more than that is written.
+   */
+  uint32_t struct_size;
+  /**
+   * What the call returned.
+   */
+  int32_t status;
+  /**
+   * The method that ended it, SIGNORINI_METHOD_...
+   */
+  int32_t method;
+  /**
+   * 0.
+   */
+  int32_t reserved;
+  /**
+   * Sweeps or pivots.
+   */
+  int64_t iterations;
+  /**
+   * Threshold updates of the nested method.
+   */
+  int64_t outer_iterations;
+  /**
+   * How often Lemke's tableau was computed anew because accuracy was lost.
+   */
+  int64_t refactorisations;
+  /**
+   * Residual of the natural map relative to the forces, without unit; 0 at exact solutions
+   * only.
+   */
+  double eta;
+  /**
+   * Rounding of K d relative to the forces, without unit; beyond 1e-6 nothing is certified.
+   */
+  double rounding;
+  /**
+   * Largest d_n - gap, a length; 0 if none.
+   */
+  double penetration;
+  /**
+   * Largest tensile (positive) normal component of K d - f, a force; 0 if none.
+   */
+  double tension;
+  /**
+   * Largest excess of the tangential part of K d - f over its bound, a force; 0 if none.
+   */
+  double cone_excess;
+  /**
+   * Largest component of K d - f - F, a force.
+   */
+  double equilibrium;
+  /**
+   * Over-relaxation factor at the end; 0 if there is none.
+   */
+  double omega;
+  /**
+   * Damping at the end; 0 if there is none.
+   */
+  double damping;
+  /**
+   * Pairs that are open.
+   */
+  int64_t open;
+  /**
+   * Pairs that slide.
+   */
+  int64_t slip;
+  /**
+   * Pairs that stick.
+   */
+  int64_t stick;
+} signorini_report;
+
+#ifdef __cplusplus
+extern "C" {
+#endif // __cplusplus
+
+/**
+ * Version of the library, such as "0.1.0". Static; never NULL.
+ */
+const char *signorini_version(void);
+
+/**
+ * Version of the binary interface of the library. It equals SIGNORINI_ABI_VERSION of the header
+ * that a program was compiled with, or the two do not fit.
+ */
+int32_t signorini_abi_version(void);
+
+/**
+ * A short description of a status, such as "solved". Static; never NULL, whatever the number.
+ */
+const char *signorini_status_string(int32_t status);
+
+/**
+ * What the last call on this thread found, in one sentence, such as "K[12,7] is not finite":
+ * for every status other than 0; empty after a call that returned 0.
+ *
+ * @return UTF-8 text of at most 511 bytes that belongs to the library and to the calling thread;
+ *         the next call of the library on this thread overwrites it. Never NULL.
+ */
+const char *signorini_last_error(void);
+
+/**
+ * Fills settings with their defaults and sets struct_size.
+ *
+ * @param settings     not NULL
+ * @param struct_size  sizeof(signorini_settings); no more than that is written
+ * @return 0, or -1 or -2 for the argument that is wrong
+ */
+int32_t signorini_settings_default(struct signorini_settings *settings, uint32_t struct_size);
+
+/**
+ * Solves a condensed contact problem with Coulomb friction.
+ *
+ * N = dim * pairs. Arrays must not overlap.
+ *
+ * @param dim       space dimension, 2 or 3
+ * @param pairs     number of contact pairs, 0 allowed
+ * @param K         condensed stiffness, N columns of N entries, column-major, both triangles,
+ *                  symmetric, positive semi-definite, positive diagonal; force / length
+ * @param ldk       entries from one column of K to the next, at least max(1, N)
+ * @param f         condensed nodal loads, N; force
+ * @param gap       initial gaps, one for each pair; length; negative: interference, +infinity:
+ *                  never touches
+ * @param mu        friction coefficients, one for each pair, at least 0
+ * @param slip      tangential displacement at which friction is at rest, dim - 1 for each pair;
+ *                  length; NULL: zero (total law). The last converged d_t gives the incremental
+ *                  law.
+ * @param settings  NULL: the defaults
+ * @param d         out: relative displacements, N; in: the start if settings->warm_start
+ * @param F         out: contact forces, N; they obey the law, and K d = f + F up to
+ *                  report->equilibrium
+ * @param state     out: SIGNORINI_OPEN, _SLIP or _STICK, one for each pair; NULL: not wanted
+ * @param report    out; set report->struct_size before the call; NULL: not wanted
+ * @return 0 solved and certified; > 0 results were written but are not a solution; -k the k-th
+ *         argument is wrong, nothing was written; <= -1000 internal. signorini_last_error()
+ *         tells in words.
+ */
+int32_t signorini_solve(int32_t dim,
+                        int64_t pairs,
+                        const double *K,
+                        int64_t ldk,
+                        const double *f,
+                        const double *gap,
+                        const double *mu,
+                        const double *slip,
+                        const struct signorini_settings *settings,
+                        double *d,
+                        double *F,
+                        int32_t *state,
+                        struct signorini_report *report);
+
+/**
+ * Solves a condensed contact problem with given friction thresholds (Tresca): |F_t| <= g, open or
+ * closed.
+ *
+ * The arguments are those of signorini_solve, with g in the place of mu. Methods:
+ * SIGNORINI_METHOD_SOR_NESTED, or SIGNORINI_METHOD_LEMKE if every g is 0.
+ *
+ * @param dim       space dimension, 2 or 3
+ * @param pairs     number of contact pairs, 0 allowed
+ * @param K         condensed stiffness, N columns of N entries; force / length
+ * @param ldk       entries from one column of K to the next, at least max(1, N)
+ * @param f         condensed nodal loads, N; force
+ * @param gap       initial gaps, one for each pair; length
+ * @param g         friction thresholds, one for each pair, at least 0; force
+ * @param slip      tangential displacement at rest, dim - 1 for each pair; length; NULL: zero
+ * @param settings  NULL: the defaults
+ * @param d         out: relative displacements, N; in: the start if settings->warm_start
+ * @param F         out: contact forces, N
+ * @param state     out: state of each pair; NULL: not wanted
+ * @param report    out; set report->struct_size before the call; NULL: not wanted
+ * @return as signorini_solve
+ */
+int32_t signorini_tresca(int32_t dim,
+                         int64_t pairs,
+                         const double *K,
+                         int64_t ldk,
+                         const double *f,
+                         const double *gap,
+                         const double *g,
+                         const double *slip,
+                         const struct signorini_settings *settings,
+                         double *d,
+                         double *F,
+                         int32_t *state,
+                         struct signorini_report *report);
+
+/**
+ * Solves the linear complementarity problem w = q + M z, w >= 0, z >= 0, w . z = 0 by Lemke's
+ * method (lexicographic: it never cycles).
+ *
+ * M may be any matrix. If it is positive definite or a P-matrix the problem is solved; if it is
+ * positive semi-definite or copositive-plus it is solved, or proved infeasible
+ * (SIGNORINI_NO_EQUILIBRIUM); otherwise the method may also end in a ray that proves nothing
+ * (SIGNORINI_STALLED). Arrays must not overlap.
+ *
+ * @param n         number of unknowns, 0 allowed
+ * @param M         n columns of n entries, column-major
+ * @param ldm       entries from one column of M to the next, at least max(1, n)
+ * @param q         n
+ * @param cover     covering vector, n positive entries; NULL: ones
+ * @param settings  NULL: the defaults; method, omega, damping and warm_start do not matter
+ * @param w         out: n
+ * @param z         out: n; with SIGNORINI_NO_EQUILIBRIUM a y >= 0 with M' y <= 0, q . y < 0
+ * @param report    out; set report->struct_size before the call; NULL: not wanted
+ * @return as signorini_solve
+ */
+int32_t signorini_lcp_lemke(int64_t n,
+                            const double *M,
+                            int64_t ldm,
+                            const double *q,
+                            const double *cover,
+                            const struct signorini_settings *settings,
+                            double *w,
+                            double *z,
+                            struct signorini_report *report);
+
+#ifdef __cplusplus
+}  // extern "C"
+#endif  // __cplusplus
+
+#endif  /* SIGNORINI_H */

@@ -1,0 +1,226 @@
+//! How good a candidate is, computed from the problem alone, never from a solver's counters.
+//!
+//! The measure is the residual of the natural map, in forces, relative to the larger of the loads
+//! and the contact forces:
+//!
+//! ```text
+//! e_n = K_nn (d_n - min(gap, d_n - F_n / K_nn))                  F = K d - f
+//! e_t = K_tt (delta - shrink(delta - F_t / K_tt, g / K_tt))      delta = d_t - slip
+//! eta = |e| / max(|f|, |F|)                                      g = mu max(0, -F_n), or given
+//! ```
+//!
+//! It is zero at solutions only and has no unit. Two facts of double precision are taken into
+//! account:
+//!
+//! - Prescribed displacements (gaps, previous slip) that move a body as a whole cancel in `K d` up
+//!   to rounding only. `|e|` is counted from 4 units of that rounding on, and of no other.
+//! - Displacements so large that the rounding of `K d` is itself comparable with the forces
+//!   (`rounding > 1e-6`) certify nothing: on a body that nothing holds they would pass as a
+//!   solution.
+
+use crate::law::{self, Pair, State};
+use crate::linalg::small::{largest, norm};
+use crate::problem::{ContactProblem, Friction};
+
+/// The measures of one candidate, forces and displacements in the units of the problem.
+#[derive(Clone, Debug)]
+pub struct Certificate {
+    /// Residual of the natural map, dimensionless.
+    pub eta: f64,
+    /// Rounding of `K d` relative to the forces, dimensionless.
+    pub rounding: f64,
+    /// Largest `d_n - gap`, a length; 0 if none.
+    pub penetration: f64,
+    /// Largest tensile `F_n` of `F = K d - f`, a force; 0 if none.
+    pub tension: f64,
+    /// Largest `|F_t|` beyond its bound, a force; 0 if none.
+    pub cone_excess: f64,
+    /// Largest `|K d - f - F|` with the `F` returned here, a force.
+    pub equilibrium: f64,
+    /// Contact forces that obey the law: `K d - f`, projected.
+    pub force: Vec<f64>,
+    /// State of each pair.
+    pub states: Vec<State>,
+}
+
+impl Certificate {
+    /// Whether the candidate may be called a solution.
+    pub fn holds(&self, tolerance: f64) -> bool {
+        self.eta <= tolerance && self.rounding <= ROUNDING_LIMIT
+    }
+
+    /// Number of pairs in a state.
+    pub fn count(&self, state: State) -> usize {
+        self.states.iter().filter(|&&other| other == state).count()
+    }
+}
+
+/// See the module's documentation; it admits condition numbers up to about 1e10.
+const ROUNDING_LIMIT: f64 = 1e-6;
+
+/// States closer than this part of the largest force are not told apart (see [`Pair::state`]).
+const STATE_MARGIN: f64 = 1e-11;
+
+/// Measures `d`, of any origin.
+pub fn certify(problem: &ContactProblem<'_>, d: &[f64]) -> Certificate {
+    let raw = problem.force(d);
+    let scale = force_scale(problem, &raw);
+    let (inherent, rounding) = rounding(problem, d);
+    let residual = norm(&natural_residual(problem, d, &raw));
+    let mut certificate = Certificate {
+        eta: ratio((residual - 4.0 * inherent).max(0.0), scale),
+        rounding: ratio(rounding, scale),
+        penetration: 0.0,
+        tension: 0.0,
+        cone_excess: 0.0,
+        equilibrium: 0.0,
+        force: raw.clone(),
+        states: Vec::with_capacity(problem.pairs()),
+    };
+    let margin = STATE_MARGIN * largest(problem.load()).max(largest(&raw));
+    for_each_pair(problem, d, &raw, |index, pair| {
+        let state = pair.state(margin);
+        certificate.states.push(state);
+        certificate.penetration = certificate.penetration.max(pair.opening);
+        certificate.tension = certificate.tension.max(pair.normal_force);
+        let excess = law::length(pair.tangential_force) - pair.threshold;
+        certificate.cone_excess = certificate.cone_excess.max(excess);
+        let (normal, tangential) = pair_mut(&mut certificate.force, problem.dim(), index);
+        *normal = if state == State::Open { 0.0 } else { normal.min(0.0) };
+        law::project_disc(tangential, problem.threshold(index, -*normal));
+    });
+    certificate.equilibrium =
+        raw.iter().zip(&certificate.force).fold(0.0, |most, (a, b)| (a - b).abs().max(most));
+    certificate
+}
+
+/// `eta` of `d` when `raw = K d - f` is at hand, without the rounding that only a full product
+/// can tell: what a solver watches between two certificates.
+pub fn eta(problem: &ContactProblem<'_>, d: &[f64], raw: &[f64]) -> f64 {
+    ratio(norm(&natural_residual(problem, d, raw)), force_scale(problem, raw))
+}
+
+/// Whether the rigid motion `r` proves that no equilibrium exists.
+///
+/// `K r = 0` up to rounding, and for every pair that has an obstacle `-r_n >= mu |r_t|`: then the
+/// contact forces can only do non-negative work `F . r >= sum |F_n| (|r_n| - mu |r_t|)`, while
+/// equilibrium asks for `F . r = -f . r`. So `f . r > 0` excludes it. With given thresholds the
+/// condition is `r_n <= 0` and `f . r > sum g |r_t|`.
+pub fn is_escape(problem: &ContactProblem<'_>, r: &[f64]) -> bool {
+    let n = problem.unknowns();
+    let root: Vec<f64> = (0..n).map(|i| problem.diagonal(i).sqrt()).collect();
+    let size = r.iter().zip(&root).fold(0.0, |most: f64, (r, root)| most.max((r * root).abs()));
+    if size == 0.0 || !size.is_finite() {
+        return false;
+    }
+    let load = problem.load();
+    let internal: Vec<f64> =
+        problem.force(r).iter().zip(load).map(|(force, f)| force + f).collect();
+    if internal.iter().zip(&root).any(|(k, root)| k.abs() > RIGID * size * root) {
+        return false;
+    }
+    let mut resisted = 0.0;
+    for pair in 0..problem.pairs() {
+        if problem.gap(pair) == f64::INFINITY && matches!(problem.friction(), Friction::Coulomb(_))
+        {
+            continue;
+        }
+        let i = problem.dim() * pair;
+        let slide = law::length(&r[i + 1..i + problem.dim()]);
+        let lift = match problem.friction() {
+            Friction::Coulomb(mu) => mu[pair] * slide,
+            Friction::Tresca(g) => {
+                resisted += g[pair] * slide;
+                0.0
+            }
+        };
+        let bounded = problem.gap(pair) < f64::INFINITY;
+        if bounded && (r[i] + lift) * root[i] > RIGID * size {
+            return false;
+        }
+    }
+    let work: f64 = load.iter().zip(r).map(|(f, r)| f * r).sum();
+    let scale: f64 = load.iter().zip(r).map(|(f, r)| (f * r).abs()).sum();
+    work - resisted > WORK * scale
+}
+
+/// A motion is rigid when its internal forces are below this part of those of its components
+/// alone: 100 times the rounding of a host's condensation, and beyond what can be certified.
+const RIGID: f64 = 1e-11;
+
+/// Least work of the loads, relative to the sum of its parts, that tells driving from balance.
+const WORK: f64 = 1e-9;
+
+fn natural_residual(problem: &ContactProblem<'_>, d: &[f64], raw: &[f64]) -> Vec<f64> {
+    let mut residual = vec![0.0; raw.len()];
+    for_each_pair(problem, d, raw, |index, pair| {
+        let (normal, tangential) = pair_mut(&mut residual, problem.dim(), index);
+        *normal = pair.normal_residual();
+        pair.tangential_residual(tangential);
+    });
+    residual
+}
+
+fn force_scale(problem: &ContactProblem<'_>, raw: &[f64]) -> f64 {
+    norm(problem.load()).max(norm(raw))
+}
+
+/// Norms of the rounding of `K d`: first the part that gaps and previous slip prescribe (no larger
+/// than those, component by component), then the rest.
+fn rounding(problem: &ContactProblem<'_>, d: &[f64]) -> (f64, f64) {
+    let n = problem.unknowns();
+    let (mut inherent, mut rest) = (vec![0.0; n], vec![0.0; n]);
+    for j in 0..n {
+        let (pair, component) = (j / problem.dim(), j % problem.dim());
+        let prescribed = match component {
+            0 => problem.gap(pair).abs(),
+            t => problem.previous_slip(pair, t - 1).abs(),
+        };
+        let size = d[j].abs() * f64::EPSILON / 2.0;
+        let prescribed = size.min(prescribed * f64::EPSILON / 2.0);
+        if size > 0.0 {
+            for ((k, inherent), rest) in problem.column(j).iter().zip(&mut inherent).zip(&mut rest)
+            {
+                *inherent += k.abs() * prescribed;
+                *rest += k.abs() * (size - prescribed);
+            }
+        }
+    }
+    (norm(&inherent), norm(&rest))
+}
+
+fn for_each_pair(
+    problem: &ContactProblem<'_>,
+    d: &[f64],
+    raw: &[f64],
+    mut visit: impl FnMut(usize, &Pair<'_>),
+) {
+    let dim = problem.dim();
+    for index in 0..problem.pairs() {
+        let range = dim * index..dim * (index + 1);
+        let (d, raw) = (&d[range.clone()], &raw[range]);
+        let mut slip = [0.0; 2];
+        for (component, slip) in slip[..dim - 1].iter_mut().enumerate() {
+            *slip = d[1 + component] - problem.previous_slip(index, component);
+        }
+        let pair = Pair {
+            opening: d[0] - problem.gap(index),
+            slip: &slip[..dim - 1],
+            normal_force: raw[0],
+            tangential_force: &raw[1..],
+            threshold: problem.threshold(index, (-raw[0]).max(0.0)),
+            k_n: problem.diagonal(dim * index),
+            k_t: problem.tangential_stiffness(index),
+        };
+        visit(index, &pair);
+    }
+}
+
+fn pair_mut(values: &mut [f64], dim: usize, index: usize) -> (&mut f64, &mut [f64]) {
+    let (normal, tangential) = values[dim * index..dim * (index + 1)].split_at_mut(1);
+    (&mut normal[0], tangential)
+}
+
+fn ratio(part: f64, whole: f64) -> f64 {
+    if part == 0.0 { 0.0 } else { part / whole }
+}

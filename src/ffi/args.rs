@@ -1,0 +1,166 @@
+//! From pointers to slices: NULL, alignment, size and overlap are checked before any access.
+
+use super::guard::Failure;
+
+/// The arrays of one call, collected to check that outputs overlap nothing.
+#[derive(Default)]
+pub(super) struct Arrays {
+    ranges: Vec<Range>,
+}
+
+struct Range {
+    position: i32,
+    name: &'static str,
+    begin: usize,
+    end: usize,
+    written: bool,
+}
+
+/// An array of the caller that results go to at the end of the call.
+pub(super) struct Output<T> {
+    pointer: *mut T,
+    length: usize,
+}
+
+impl Arrays {
+    /// An array to read, `None` if it is NULL and not `required`.
+    ///
+    /// # Safety
+    /// A pointer that is not NULL has `length` initialised elements, as the header demands, which
+    /// nobody writes to during the call.
+    pub(super) unsafe fn input<'a>(
+        &mut self,
+        position: i32,
+        name: &'static str,
+        pointer: *const f64,
+        length: usize,
+        required: bool,
+    ) -> Result<Option<&'a [f64]>, Failure> {
+        if !self.add(position, name, pointer, length, required, false)? {
+            return Ok(if required { Some(&[]) } else { None });
+        }
+        // SAFETY: not NULL and aligned (just checked); long enough by the caller's contract.
+        Ok(Some(unsafe { std::slice::from_raw_parts(pointer, length) }))
+    }
+
+    /// An array to write at the end; writing to NULL that is not `required` does nothing.
+    pub(super) fn output<T>(
+        &mut self,
+        position: i32,
+        name: &'static str,
+        pointer: *mut T,
+        length: usize,
+        required: bool,
+    ) -> Result<Output<T>, Failure> {
+        let present = self.add(position, name, pointer.cast_const(), length, required, true)?;
+        Ok(Output { pointer, length: if present { length } else { 0 } })
+    }
+
+    /// Refuses an output that shares memory with another array.
+    pub(super) fn check_overlap(&self) -> Result<(), Failure> {
+        for (index, one) in self.ranges.iter().enumerate() {
+            for two in &self.ranges[..index] {
+                let overlap = one.begin < two.end && two.begin < one.end;
+                if overlap && (one.written || two.written) {
+                    return Err(Failure::argument(
+                        one.position,
+                        format!("{} overlaps {}: arrays must not share memory", one.name, two.name),
+                    ));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Checks and notes an array; false if there is nothing to access.
+    fn add<T>(
+        &mut self,
+        position: i32,
+        name: &'static str,
+        pointer: *const T,
+        length: usize,
+        required: bool,
+        written: bool,
+    ) -> Result<bool, Failure> {
+        let refuse = |message: String| Err(Failure::argument(position, message));
+        if length == 0 {
+            return Ok(false);
+        }
+        if pointer.is_null() {
+            if required {
+                return refuse(format!("{name} is NULL"));
+            }
+            return Ok(false);
+        }
+        if !pointer.is_aligned() {
+            return refuse(format!("{name} is not aligned to {} bytes", align_of::<T>()));
+        }
+        let begin = pointer.addr();
+        let end = length
+            .checked_mul(size_of::<T>())
+            .filter(|bytes| *bytes <= isize::MAX as usize)
+            .and_then(|bytes| begin.checked_add(bytes));
+        let Some(end) = end else {
+            return refuse(format!("{name} cannot have {length} entries"));
+        };
+        self.ranges.push(Range { position, name, begin, end, written });
+        Ok(true)
+    }
+}
+
+impl<T: Copy> Output<T> {
+    /// Writes the results.
+    ///
+    /// # Safety
+    /// The pointer has `length` elements, as the header demands, which nobody else accesses.
+    pub(super) unsafe fn write(&self, values: &[T]) {
+        if self.length > 0 {
+            debug_assert_eq!(self.length, values.len());
+            // SAFETY: not NULL and aligned (checked when it was made), not overlapping ours.
+            unsafe { std::ptr::copy_nonoverlapping(values.as_ptr(), self.pointer, self.length) }
+        }
+    }
+
+    /// A copy of what the array holds now.
+    ///
+    /// # Safety
+    /// As for [`Self::write`]; the elements are initialised.
+    pub(super) unsafe fn read(&self) -> Vec<T> {
+        if self.length == 0 {
+            return Vec::new();
+        }
+        // SAFETY: as above.
+        unsafe { std::slice::from_raw_parts(self.pointer, self.length) }.to_vec()
+    }
+}
+
+/// A size that must not be negative.
+pub(super) fn size(position: i32, name: &str, value: i64) -> Result<usize, Failure> {
+    usize::try_from(value).map_err(|_| {
+        Failure::argument(position, format!("{name} is {value}, it must not be negative"))
+    })
+}
+
+/// Elements of a column-major matrix with `n` rows and columns.
+pub(super) fn matrix_length(
+    position: i32,
+    name: &str,
+    n: usize,
+    leading: usize,
+) -> Result<usize, Failure> {
+    let least = n.max(1);
+    if leading < least {
+        return Err(Failure::argument(
+            position,
+            format!("the leading dimension of {name} is {leading}, it must be at least {least}"),
+        ));
+    }
+    n.saturating_sub(1).checked_mul(leading).and_then(|begin| begin.checked_add(n)).ok_or_else(
+        || {
+            Failure::argument(
+                position,
+                format!("the leading dimension of {name} is {leading}: it cannot exist"),
+            )
+        },
+    )
+}

@@ -1,0 +1,158 @@
+//! What surrounds every call: the floating-point environment and the panic barrier.
+
+use std::cell::Cell;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Once;
+
+use super::status::{SIGNORINI_INTERNAL, SIGNORINI_OUT_OF_MEMORY, remember};
+use crate::error::{Argument, Error};
+
+/// Why a call returns a negative status.
+pub(super) struct Failure {
+    code: i32,
+    message: String,
+}
+
+impl Failure {
+    /// The `position`-th argument is wrong.
+    pub(super) fn argument(position: i32, message: impl Into<String>) -> Self {
+        Failure { code: -position, message: message.into() }
+    }
+
+    /// An error of the library, whose argument has the position that `position` tells.
+    pub(super) fn from_error(error: Error, position: impl Fn(Argument) -> i32) -> Self {
+        let message = error.to_string();
+        match error {
+            Error::Invalid { argument, .. } => Failure { code: -position(argument), message },
+            Error::OutOfMemory(_) => Failure { code: SIGNORINI_OUT_OF_MEMORY, message },
+        }
+    }
+}
+
+thread_local! {
+    static INSIDE: Cell<bool> = const { Cell::new(false) };
+}
+
+/// Runs the body of an entry. Panics become `SIGNORINI_INTERNAL`; nothing is printed.
+pub(super) fn call(body: impl FnOnce() -> Result<i32, Failure>) -> i32 {
+    let _environment = Environment::default_one();
+    silence_panics();
+    let outside = INSIDE.replace(true);
+    remember(format_args!(""));
+    // What a panic leaves half-written is the caller's results, undefined by contract.
+    let result = catch_unwind(AssertUnwindSafe(body));
+    INSIDE.set(outside);
+    match result {
+        Ok(Ok(code)) => code,
+        Ok(Err(failure)) => {
+            remember(format_args!("{}", failure.message));
+            failure.code
+        }
+        Err(_) => SIGNORINI_INTERNAL,
+    }
+}
+
+/// The default hook prints to the host's stderr: inside the library the text goes to
+/// `signorini_last_error` instead. Panics elsewhere in a Rust host keep their own hook.
+fn silence_panics() {
+    static ONCE: Once = Once::new();
+    ONCE.call_once(|| {
+        let outer = std::panic::take_hook();
+        std::panic::set_hook(Box::new(move |panic| {
+            if INSIDE.get() {
+                remember(format_args!("internal error: {panic}"));
+            } else {
+                outer(panic);
+            }
+        }));
+    });
+}
+
+/// Keeps the host's floating-point environment (traps, rounding, flush-to-zero) and sets the
+/// default one until it is dropped. Nothing is raised on the way back.
+struct Environment {
+    #[cfg(any(target_os = "linux", target_os = "macos"))]
+    host: fenv::Environment,
+}
+
+#[cfg(any(target_os = "linux", target_os = "macos"))]
+mod fenv {
+    use std::ffi::c_int;
+
+    /// At least as large and as aligned as `fenv_t` of any Linux or macOS (32 bytes on x86).
+    #[repr(C, align(16))]
+    pub struct Environment(pub [u8; 128]);
+
+    #[link(name = "m")]
+    unsafe extern "C" {
+        pub fn fegetenv(environment: *mut Environment) -> c_int;
+        pub fn fesetenv(environment: *const Environment) -> c_int;
+        #[cfg(target_os = "macos")]
+        #[link_name = "_FE_DFL_ENV"]
+        static FE_DFL_ENV: Environment;
+    }
+
+    /// `FE_DFL_ENV` of the C header.
+    pub fn default() -> *const Environment {
+        // glibc and musl define it as the address -1 on every processor but PowerPC.
+        #[cfg(target_os = "linux")]
+        let default = std::ptr::without_provenance(usize::MAX);
+        #[cfg(target_os = "macos")]
+        let default = &raw const FE_DFL_ENV;
+        default
+    }
+}
+
+impl Environment {
+    #[cfg(any(target_os = "linux", target_os = "macos"))]
+    fn default_one() -> Self {
+        let mut host = fenv::Environment([0; 128]);
+        // SAFETY: `host` is large and aligned enough for fenv_t; the default environment is the
+        // one that Rust code must run in.
+        unsafe {
+            fenv::fegetenv(&raw mut host);
+            fenv::fesetenv(fenv::default());
+        }
+        Environment { host }
+    }
+
+    #[cfg(not(any(target_os = "linux", target_os = "macos")))]
+    fn default_one() -> Self {
+        Environment {}
+    }
+}
+
+#[cfg(any(target_os = "linux", target_os = "macos"))]
+impl Drop for Environment {
+    fn drop(&mut self) {
+        // SAFETY: `host` was filled by fegetenv on this thread.
+        unsafe {
+            fenv::fesetenv(&raw const self.host);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::status::signorini_last_error;
+    use super::*;
+
+    #[test]
+    fn a_panic_becomes_a_status_and_a_message() {
+        let code = call(|| panic!("bug number {}", 7));
+        assert_eq!(code, SIGNORINI_INTERNAL);
+        // SAFETY: the library's own zero-terminated buffer.
+        let text = unsafe { std::ffi::CStr::from_ptr(signorini_last_error()) };
+        assert!(text.to_str().unwrap().contains("bug number 7"), "{text:?}");
+        assert!(!INSIDE.get());
+    }
+
+    #[test]
+    fn a_success_clears_the_message() {
+        call(|| Err(Failure::argument(3, "K is wrong")));
+        assert_eq!(call(|| Ok(0)), 0);
+        // SAFETY: the library's own zero-terminated buffer.
+        let text = unsafe { std::ffi::CStr::from_ptr(signorini_last_error()) };
+        assert!(text.is_empty());
+    }
+}

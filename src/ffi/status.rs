@@ -1,0 +1,137 @@
+//! Status codes, their sentences, the last error and the version.
+
+use std::cell::RefCell;
+use std::ffi::c_char;
+use std::fmt::Write;
+
+use crate::solve::Status;
+
+/// Solved and certified: eta <= tolerance.
+pub const SIGNORINI_SOLVED: i32 = 0;
+/// max_iterations used up; the results are the last iterate.
+pub const SIGNORINI_ITERATION_LIMIT: i32 = 1;
+/// time_limit used up; the results are the last iterate.
+pub const SIGNORINI_TIME_LIMIT: i32 = 2;
+/// The progress callback returned nonzero; the results are the last iterate.
+pub const SIGNORINI_CANCELLED: i32 = 3;
+/// Proved: no equilibrium exists. d is the motion of escape (largest component 1), the forces are
+/// zero. For signorini_lcp_lemke: no w, z >= 0 satisfy w = q + M z, and z proves it.
+pub const SIGNORINI_NO_EQUILIBRIUM: i32 = 4;
+/// The method cannot go on (rounding, or a ray that proves nothing); the results are its last
+/// iterate.
+pub const SIGNORINI_STALLED: i32 = 5;
+/// A defect of the library was caught; the results are undefined.
+pub const SIGNORINI_INTERNAL: i32 = -1000;
+/// Not enough memory; nothing was written.
+pub const SIGNORINI_OUT_OF_MEMORY: i32 = -1001;
+
+/// Major version of this header.
+pub const SIGNORINI_VERSION_MAJOR: i32 = 0;
+/// Minor version of this header.
+pub const SIGNORINI_VERSION_MINOR: i32 = 1;
+/// Patch version of this header.
+pub const SIGNORINI_VERSION_PATCH: i32 = 0;
+/// Version of the binary interface that this header describes; compare it with
+/// signorini_abi_version() after dlopen.
+pub const SIGNORINI_ABI_VERSION: i32 = 1;
+
+// The header's numbers are written out for C; here they are held to the package's version.
+const _: () = {
+    const fn number(text: &str) -> i32 {
+        let (text, mut value, mut i) = (text.as_bytes(), 0, 0);
+        while i < text.len() {
+            value = 10 * value + (text[i] - b'0') as i32;
+            i += 1;
+        }
+        value
+    }
+    assert!(SIGNORINI_VERSION_MAJOR == number(env!("CARGO_PKG_VERSION_MAJOR")));
+    assert!(SIGNORINI_VERSION_MINOR == number(env!("CARGO_PKG_VERSION_MINOR")));
+    assert!(SIGNORINI_VERSION_PATCH == number(env!("CARGO_PKG_VERSION_PATCH")));
+};
+
+pub(super) fn code(status: Status) -> i32 {
+    match status {
+        Status::Solved => SIGNORINI_SOLVED,
+        Status::IterationLimit => SIGNORINI_ITERATION_LIMIT,
+        Status::TimeLimit => SIGNORINI_TIME_LIMIT,
+        Status::Cancelled => SIGNORINI_CANCELLED,
+        Status::NoEquilibrium => SIGNORINI_NO_EQUILIBRIUM,
+        Status::Stalled => SIGNORINI_STALLED,
+    }
+}
+
+/// Version of the library, such as "0.1.0". Static; never NULL.
+#[unsafe(no_mangle)]
+pub extern "C" fn signorini_version() -> *const c_char {
+    concat!(env!("CARGO_PKG_VERSION"), "\0").as_ptr().cast()
+}
+
+/// Version of the binary interface of the library. It equals SIGNORINI_ABI_VERSION of the header
+/// that a program was compiled with, or the two do not fit.
+#[unsafe(no_mangle)]
+pub extern "C" fn signorini_abi_version() -> i32 {
+    SIGNORINI_ABI_VERSION
+}
+
+/// A short description of a status, such as "solved". Static; never NULL, whatever the number.
+#[unsafe(no_mangle)]
+pub extern "C" fn signorini_status_string(status: i32) -> *const c_char {
+    let text = match status {
+        SIGNORINI_SOLVED => c"solved",
+        SIGNORINI_ITERATION_LIMIT => c"iteration limit reached",
+        SIGNORINI_TIME_LIMIT => c"time limit reached",
+        SIGNORINI_CANCELLED => c"cancelled",
+        SIGNORINI_NO_EQUILIBRIUM => c"no equilibrium exists",
+        SIGNORINI_STALLED => c"stalled",
+        SIGNORINI_INTERNAL => c"internal error",
+        SIGNORINI_OUT_OF_MEMORY => c"out of memory",
+        -99..=-1 => c"an argument is wrong (status -k: the k-th)",
+        _ => c"unknown status",
+    };
+    text.as_ptr()
+}
+
+const CAPACITY: usize = 512;
+
+thread_local! {
+    // A fixed buffer: a pointer to it stays valid while a later call in the same printf writes.
+    static LAST: RefCell<Message> = const { RefCell::new(Message { text: [0; CAPACITY], used: 0 }) };
+}
+
+struct Message {
+    text: [u8; CAPACITY],
+    used: usize,
+}
+
+impl Write for Message {
+    fn write_str(&mut self, part: &str) -> std::fmt::Result {
+        let room = CAPACITY - 1 - self.used;
+        let cut = (0..=part.len().min(room)).rev().find(|&i| part.is_char_boundary(i));
+        let part = &part.as_bytes()[..cut.unwrap_or(0)];
+        self.text[self.used..self.used + part.len()].copy_from_slice(part);
+        self.used += part.len();
+        self.text[self.used] = 0;
+        Ok(())
+    }
+}
+
+/// Keeps what happened for `signorini_last_error`.
+pub(super) fn remember(what: std::fmt::Arguments<'_>) {
+    LAST.with_borrow_mut(|message| {
+        message.used = 0;
+        message.text[0] = 0;
+        // Writing to the buffer cannot fail: what does not fit is cut.
+        let _ = message.write_fmt(what);
+    });
+}
+
+/// What the last call on this thread found, in one sentence, such as "K[12,7] is not finite":
+/// for every status other than 0; empty after a call that returned 0.
+///
+/// @return UTF-8 text of at most 511 bytes that belongs to the library and to the calling thread;
+///         the next call of the library on this thread overwrites it. Never NULL.
+#[unsafe(no_mangle)]
+pub extern "C" fn signorini_last_error() -> *const c_char {
+    LAST.with_borrow(|message| message.text.as_ptr().cast())
+}

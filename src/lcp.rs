@@ -1,0 +1,144 @@
+//! The bare linear complementarity problem `w = q + M z`, `w >= 0`, `z >= 0`, `w . z = 0`.
+
+use crate::error::{Argument, Error};
+use crate::linalg::small::norm;
+
+/// A checked problem, a view of the caller's arrays.
+#[derive(Clone, Copy, Debug)]
+pub struct Lcp<'a> {
+    size: usize,
+    matrix: &'a [f64],
+    ld: usize,
+    q: &'a [f64],
+    covering: Option<&'a [f64]>,
+}
+
+impl<'a> Lcp<'a> {
+    /// Checks the data: `matrix` is `M`, column-major `size x size` with leading dimension `ld`,
+    /// of any kind; `covering` is the vector `d > 0` of Lemke's method, `None` for ones.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] names the first entry at fault.
+    pub fn new(
+        size: usize,
+        matrix: &'a [f64],
+        ld: usize,
+        q: &'a [f64],
+        covering: Option<&'a [f64]>,
+    ) -> Result<Self, Error> {
+        let refuse = |argument, message| Err(Error::invalid(argument, message));
+        if ld < size.max(1) {
+            let least = size.max(1);
+            let message =
+                format!("the leading dimension of M is {ld}, it must be at least {least}");
+            return refuse(Argument::LeadingDimension, message);
+        }
+        let entries = size.saturating_sub(1).checked_mul(ld).and_then(|n| n.checked_add(size));
+        if entries.is_none_or(|entries| matrix.len() < entries) {
+            return refuse(Argument::Matrix, format!("M has {} entries, too few", matrix.len()));
+        }
+        if q.len() < size || covering.is_some_and(|covering| covering.len() < size) {
+            return refuse(Argument::Load, format!("q and d must have {size} entries"));
+        }
+        let lcp = Lcp { size, matrix, ld, q, covering };
+        for j in 0..size {
+            if let Some(i) = lcp.column(j).iter().position(|m| !m.is_finite()) {
+                return refuse(Argument::Matrix, format!("M[{i},{j}] is not finite"));
+            }
+        }
+        if let Some(i) = q.iter().position(|q| !q.is_finite()) {
+            return refuse(Argument::Load, format!("q[{i}] is not finite"));
+        }
+        if let Some(covering) = covering
+            && let Some(i) = covering.iter().position(|&d| !(d > 0.0 && d.is_finite()))
+        {
+            let message = format!("d[{i}] is {}, it must be positive", covering[i]);
+            return refuse(Argument::Covering, message);
+        }
+        Ok(lcp)
+    }
+
+    /// Number of unknowns.
+    pub fn size(&self) -> usize {
+        self.size
+    }
+
+    /// Column `j` of `M`.
+    pub fn column(&self, j: usize) -> &'a [f64] {
+        &self.matrix[j * self.ld..j * self.ld + self.size]
+    }
+
+    /// `q`.
+    pub fn q(&self) -> &'a [f64] {
+        self.q
+    }
+
+    /// Entry `i` of the covering vector.
+    pub fn covering(&self, i: usize) -> f64 {
+        self.covering.map_or(1.0, |covering| covering[i])
+    }
+
+    /// `M z`.
+    pub fn product(&self, z: &[f64]) -> Vec<f64> {
+        let mut product = vec![0.0; self.size];
+        for (j, &zj) in z.iter().enumerate() {
+            if zj != 0.0 {
+                for (product, m) in product.iter_mut().zip(self.column(j)) {
+                    *product += m * zj;
+                }
+            }
+        }
+        product
+    }
+
+    /// Largest entry of `M` in row or column `i`, which carries `z_i` to the unit of `w_i`.
+    pub fn magnitudes(&self) -> Vec<f64> {
+        let mut magnitude = vec![0.0_f64; self.size];
+        for j in 0..self.size {
+            for (i, m) in self.column(j).iter().enumerate() {
+                magnitude[i] = magnitude[i].max(m.abs());
+                magnitude[j] = magnitude[j].max(m.abs());
+            }
+        }
+        for magnitude in &mut magnitude {
+            if *magnitude == 0.0 {
+                *magnitude = 1.0;
+            }
+        }
+        magnitude
+    }
+
+    /// `|min(w, m z)| / max(|q|, |M z|)` with `w = q + M z` and `m` of [`Self::magnitudes`]:
+    /// zero at solutions only.
+    pub fn eta(&self, z: &[f64]) -> f64 {
+        let product = self.product(z);
+        let scale = norm(self.q).max(norm(&product));
+        let residual: Vec<f64> = self
+            .magnitudes()
+            .iter()
+            .enumerate()
+            .map(|(i, m)| (self.q[i] + product[i]).min(m * z[i]))
+            .collect();
+        let residual = norm(&residual);
+        if residual == 0.0 { 0.0 } else { residual / scale }
+    }
+
+    /// Whether `y` proves that no `w, z >= 0` satisfy `w = q + M z`:
+    /// `y >= 0`, `Mᵀ y <= 0`, `q . y < 0` (Farkas).
+    pub fn is_infeasible_by(&self, y: &[f64]) -> bool {
+        let magnitude = self.magnitudes();
+        let size = y.iter().zip(&magnitude).fold(0.0, |most: f64, (y, m)| most.max(y * m));
+        if y.iter().any(|&y| y < 0.0) || size == 0.0 || !size.is_finite() {
+            return false;
+        }
+        let q: Vec<f64> = self.q.iter().zip(y).map(|(q, y)| q * y).collect();
+        let work: f64 = q.iter().sum();
+        let scale: f64 = q.iter().map(|q| q.abs()).sum();
+        let rounding = 1e-11 * size;
+        work < -1e-9 * scale
+            && (0..self.size).all(|j| {
+                let transposed: f64 = self.column(j).iter().zip(y).map(|(m, y)| m * y).sum();
+                transposed <= rounding
+            })
+    }
+}

@@ -1,0 +1,89 @@
+//! Budgets, progress and cancellation, the same for every solver.
+
+use std::ops::ControlFlow;
+use std::time::Instant;
+
+use crate::settings::Settings;
+
+/// What a progress callback is told.
+#[derive(Clone, Copy, Debug)]
+pub struct Progress {
+    /// Sweeps or pivots done.
+    pub iterations: u64,
+    /// Latest measured `eta`; infinite before the first measurement.
+    pub eta: f64,
+    /// Seconds since the call began.
+    pub elapsed: f64,
+}
+
+/// Why a solver was told to stop before it was done.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Interruption {
+    /// `max_iterations` is used up.
+    IterationLimit,
+    /// `time_limit` is used up.
+    TimeLimit,
+    /// The progress callback asked for it.
+    Cancelled,
+}
+
+/// A progress callback: `Break` cancels.
+pub type ProgressFn<'a> = dyn FnMut(&Progress) -> ControlFlow<()> + 'a;
+
+/// Counts iterations and says when to stop.
+pub struct Monitor<'a> {
+    begin: Instant,
+    time_limit: f64,
+    max_iterations: u64,
+    iterations: u64,
+    eta: f64,
+    progress: Option<&'a mut ProgressFn<'a>>,
+}
+
+impl<'a> Monitor<'a> {
+    /// A monitor with the budgets of `settings`; the clock starts now.
+    pub fn new(settings: &Settings, progress: Option<&'a mut ProgressFn<'a>>) -> Self {
+        Monitor {
+            begin: Instant::now(),
+            time_limit: if settings.time_limit == 0.0 {
+                f64::INFINITY
+            } else {
+                settings.time_limit
+            },
+            max_iterations: settings.max_iterations,
+            iterations: 0,
+            eta: f64::INFINITY,
+            progress,
+        }
+    }
+
+    /// Sweeps or pivots done so far.
+    pub fn iterations(&self) -> u64 {
+        self.iterations
+    }
+
+    /// Tells the callback's next report how accurate the iterate is.
+    pub(crate) fn measured(&mut self, eta: f64) {
+        self.eta = eta;
+    }
+
+    /// To be called before each sweep or pivot: counts it, or says why it may not be done.
+    pub(crate) fn step(&mut self) -> Result<(), Interruption> {
+        if self.iterations >= self.max_iterations {
+            return Err(Interruption::IterationLimit);
+        }
+        let timed = self.time_limit.is_finite() || self.progress.is_some();
+        let elapsed = if timed { self.begin.elapsed().as_secs_f64() } else { 0.0 };
+        if elapsed > self.time_limit {
+            return Err(Interruption::TimeLimit);
+        }
+        if let Some(progress) = self.progress.as_mut() {
+            let now = Progress { iterations: self.iterations, eta: self.eta, elapsed };
+            if progress(&now).is_break() {
+                return Err(Interruption::Cancelled);
+            }
+        }
+        self.iterations += 1;
+        Ok(())
+    }
+}

@@ -1,0 +1,298 @@
+//! The contact problem in relative displacements: the only thing that a solver sees.
+//!
+//! For `n` pairs in dimension `D`, ordered pair by pair as (n, t) or (n, t1, t2):
+//!
+//! ```text
+//! K d = f + F
+//! d_n <= gap,  F_n <= 0,  (d_n - gap) F_n = 0                        (paper, 5 and 8)
+//! |F_t| <= mu |F_n|,  d_t = slip inside the cone,
+//!                     d_t - slip = -lambda F_t, lambda >= 0, on it     (paper, 6 and 9)
+//! ```
+//!
+//! `K` is symmetric and positive semi-definite: bodies held by nothing but contact are allowed.
+
+use crate::error::{Argument, Error};
+use crate::linalg::small;
+
+/// The bound on the tangential force of each pair.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Friction<'a> {
+    /// Coulomb: `|F_t| <= mu |F_n|`, one coefficient `mu >= 0` for each pair.
+    Coulomb(&'a [f64]),
+    /// Tresca: `|F_t| <= g`, one threshold `g >= 0` (a force) for each pair, open or closed.
+    Tresca(&'a [f64]),
+}
+
+impl<'a> Friction<'a> {
+    fn values(&self) -> &'a [f64] {
+        match *self {
+            Friction::Coulomb(values) | Friction::Tresca(values) => values,
+        }
+    }
+
+    /// True when no pair can carry a tangential force.
+    pub fn is_zero(&self) -> bool {
+        self.values().iter().all(|&value| value == 0.0)
+    }
+}
+
+/// The caller's arrays, not yet checked. Forces and displacements are in the caller's units.
+#[derive(Clone, Copy, Debug)]
+pub struct ContactData<'a> {
+    /// 2 or 3.
+    pub dim: usize,
+    /// Number of contact pairs, 0 allowed.
+    pub pairs: usize,
+    /// `K`, `dim * pairs` columns of the same number of rows, column-major.
+    pub stiffness: &'a [f64],
+    /// Distance between the beginnings of two columns of `stiffness`.
+    pub ld: usize,
+    /// `f`, the condensed nodal loads, `dim * pairs`.
+    pub load: &'a [f64],
+    /// Initial gaps, `pairs`; negative: interference, `+inf`: never touches.
+    pub gap: &'a [f64],
+    /// Friction coefficients or thresholds.
+    pub friction: Friction<'a>,
+    /// Tangential displacement at which friction is at rest, `(dim - 1) * pairs`;
+    /// `None` is zero (the paper's total law).
+    pub previous_slip: Option<&'a [f64]>,
+}
+
+/// A checked contact problem, a view of the caller's arrays.
+#[derive(Clone, Copy, Debug)]
+pub struct ContactProblem<'a> {
+    data: ContactData<'a>,
+}
+
+impl<'a> ContactProblem<'a> {
+    /// Checks the data.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] names the first entry that is not finite, not symmetric beyond rounding
+    /// (1e-9 of the diagonal), on a diagonal that is not positive, or out of range.
+    pub fn new(data: ContactData<'a>) -> Result<Self, Error> {
+        let ContactData { dim, pairs, .. } = data;
+        if dim != 2 && dim != 3 {
+            return Err(Error::invalid(
+                Argument::Dimension,
+                format!("dim is {dim}, it must be 2 or 3"),
+            ));
+        }
+        let n = dim
+            .checked_mul(pairs)
+            .filter(|n| n.checked_mul(*n).is_some_and(|entries| entries <= isize::MAX as usize / 8))
+            .ok_or_else(|| {
+                Error::invalid(Argument::Size, format!("{pairs} pairs: the matrix cannot exist"))
+            })?;
+        let problem = ContactProblem { data };
+        problem.check_lengths(n)?;
+        check_finite(Argument::Load, "f", data.load)?;
+        check_gaps(data.gap)?;
+        check_friction(data.friction)?;
+        if let Some(slip) = data.previous_slip {
+            check_finite(Argument::PreviousSlip, "slip", slip)?;
+        }
+        problem.check_matrix(n)?;
+        Ok(problem)
+    }
+
+    /// The same problem under another friction law.
+    pub(crate) fn with_friction<'b>(&self, friction: Friction<'b>) -> ContactProblem<'b>
+    where
+        'a: 'b,
+    {
+        ContactProblem { data: ContactData { friction, ..self.data } }
+    }
+
+    /// Space dimension `D`, 2 or 3.
+    pub fn dim(&self) -> usize {
+        self.data.dim
+    }
+
+    /// Number of contact pairs.
+    pub fn pairs(&self) -> usize {
+        self.data.pairs
+    }
+
+    /// Number of unknowns, `D` for each pair.
+    pub fn unknowns(&self) -> usize {
+        self.data.dim * self.data.pairs
+    }
+
+    /// Column `j` of `K`.
+    pub fn column(&self, j: usize) -> &'a [f64] {
+        let begin = j * self.data.ld;
+        &self.data.stiffness[begin..begin + self.unknowns()]
+    }
+
+    /// Entry `K[i, i]`, positive.
+    pub fn diagonal(&self, i: usize) -> f64 {
+        self.data.stiffness[i * self.data.ld + i]
+    }
+
+    /// Largest eigenvalue of the tangential block of a pair (in 2D its diagonal entry).
+    pub fn tangential_stiffness(&self, pair: usize) -> f64 {
+        let t = self.data.dim * pair + 1;
+        if self.data.dim == 2 {
+            return self.diagonal(t);
+        }
+        small::largest_eigenvalue(self.diagonal(t), self.column(t)[t + 1], self.diagonal(t + 1))
+    }
+
+    /// `f`.
+    pub fn load(&self) -> &'a [f64] {
+        self.data.load
+    }
+
+    /// Gap of a pair, `+inf` if it never touches.
+    pub fn gap(&self, pair: usize) -> f64 {
+        self.data.gap[pair]
+    }
+
+    /// The friction law.
+    pub fn friction(&self) -> Friction<'a> {
+        self.data.friction
+    }
+
+    /// Tangential displacement at rest of a pair; `component` counts from 0 to `D - 2`.
+    pub fn previous_slip(&self, pair: usize, component: usize) -> f64 {
+        self.data.previous_slip.map_or(0.0, |slip| slip[(self.data.dim - 1) * pair + component])
+    }
+
+    /// Bound on the tangential force of a pair that carries the pressure `pressure >= 0`.
+    pub fn threshold(&self, pair: usize, pressure: f64) -> f64 {
+        match self.data.friction {
+            Friction::Coulomb(mu) => mu[pair] * pressure,
+            Friction::Tresca(g) => g[pair],
+        }
+    }
+
+    /// `K d - f`, the force that `d` asks of the contact.
+    pub fn force(&self, d: &[f64]) -> Vec<f64> {
+        let mut force: Vec<f64> = self.data.load.iter().map(|f| -f).collect();
+        for (j, &dj) in d.iter().enumerate() {
+            if dj != 0.0 {
+                for (force, k) in force.iter_mut().zip(self.column(j)) {
+                    *force += k * dj;
+                }
+            }
+        }
+        force
+    }
+
+    fn check_lengths(&self, n: usize) -> Result<(), Error> {
+        let ContactData { dim, pairs, ld, .. } = self.data;
+        if ld < n.max(1) {
+            return Err(Error::invalid(
+                Argument::LeadingDimension,
+                format!("the leading dimension of K is {ld}, it must be at least {}", n.max(1)),
+            ));
+        }
+        let columns = n.saturating_sub(1).checked_mul(ld).and_then(|begin| begin.checked_add(n));
+        let Some(entries) = columns else {
+            return Err(Error::invalid(
+                Argument::LeadingDimension,
+                format!("the leading dimension of K is {ld}: the matrix cannot exist"),
+            ));
+        };
+        let slip = self.data.previous_slip;
+        let lengths = [
+            (Argument::Matrix, "K", self.data.stiffness.len(), entries),
+            (Argument::Load, "f", self.data.load.len(), n),
+            (Argument::Gap, "gap", self.data.gap.len(), pairs),
+            (Argument::Friction, "friction", self.data.friction.values().len(), pairs),
+            (
+                Argument::PreviousSlip,
+                "slip",
+                slip.map_or((dim - 1) * pairs, <[f64]>::len),
+                (dim - 1) * pairs,
+            ),
+        ];
+        for (argument, name, given, needed) in lengths {
+            if given < needed {
+                return Err(Error::invalid(
+                    argument,
+                    format!("{name} has {given} entries, it must have {needed}"),
+                ));
+            }
+        }
+        Ok(())
+    }
+
+    fn check_matrix(&self, n: usize) -> Result<(), Error> {
+        let refuse = |message: String| Err(Error::invalid(Argument::Matrix, message));
+        for j in 0..n {
+            if let Some(i) = self.column(j).iter().position(|k| !k.is_finite()) {
+                return refuse(format!("K[{i},{j}] is not finite"));
+            }
+            let diagonal = self.diagonal(j);
+            if diagonal <= 0.0 {
+                if self.column(j).iter().all(|&k| k == 0.0) {
+                    return refuse(format!("row {j} of K is zero: nothing resists that component"));
+                }
+                return refuse(format!("K[{j},{j}] is {diagonal}, it must be positive"));
+            }
+        }
+        let root: Vec<f64> = (0..n).map(|i| self.diagonal(i).sqrt()).collect();
+        // Square tiles: the transposed entry is read from cache.
+        const TILE: usize = 32;
+        for j0 in (0..n).step_by(TILE) {
+            for i0 in (j0..n).step_by(TILE) {
+                for j in j0..(j0 + TILE).min(n) {
+                    for i in i0.max(j + 1)..(i0 + TILE).min(n) {
+                        let (lower, upper) = (self.column(j)[i], self.column(i)[j]);
+                        let scale = root[i] * root[j];
+                        if (lower - upper).abs() > SYMMETRY * scale {
+                            return refuse(format!(
+                                "K is not symmetric: K[{i},{j}] is {lower}, K[{j},{i}] is {upper}"
+                            ));
+                        }
+                        if lower.abs() > (1.0 + SYMMETRY) * scale {
+                            return refuse(format!(
+                                "K is not positive semi-definite: K[{i},{j}] is {lower}, more \
+                                 than its diagonal allows ({scale})"
+                            ));
+                        }
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Asymmetry allowed, relative to the diagonal: far above the rounding of a host's condensation
+/// (measured 1e-13 from CalculiX and MUMPS), far below a slip of indices.
+const SYMMETRY: f64 = 1e-9;
+
+fn check_finite(argument: Argument, name: &str, values: &[f64]) -> Result<(), Error> {
+    match values.iter().position(|value| !value.is_finite()) {
+        Some(i) => Err(Error::invalid(argument, format!("{name}[{i}] is not finite"))),
+        None => Ok(()),
+    }
+}
+
+fn check_gaps(gap: &[f64]) -> Result<(), Error> {
+    match gap.iter().position(|&gap| gap.is_nan() || gap == f64::NEG_INFINITY) {
+        Some(i) => Err(Error::invalid(
+            Argument::Gap,
+            format!("gap[{i}] is {}, it must be a number or +inf (never touches)", gap[i]),
+        )),
+        None => Ok(()),
+    }
+}
+
+fn check_friction(friction: Friction<'_>) -> Result<(), Error> {
+    let name = match friction {
+        Friction::Coulomb(_) => "mu",
+        Friction::Tresca(_) => "g",
+    };
+    check_finite(Argument::Friction, name, friction.values())?;
+    match friction.values().iter().position(|&value| value < 0.0) {
+        Some(i) => Err(Error::invalid(
+            Argument::Friction,
+            format!("{name}[{i}] is {}, it must not be negative", friction.values()[i]),
+        )),
+        None => Ok(()),
+    }
+}

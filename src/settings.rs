@@ -1,0 +1,82 @@
+//! How to solve: method, accuracy, budgets.
+
+use crate::error::{Argument, Error};
+
+/// The algorithm to run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Method {
+    /// Coulomb friction as a sequence of Tresca problems, each by projected SOR
+    /// (paper, section 2.1: `g <- mu |F_n|`). The default.
+    SorNested,
+    /// Projected SOR with the threshold updated inside the sweep.
+    SorDiagonal,
+    /// Lemke's method on the frictionless problem (paper, section 2.2).
+    Lemke,
+}
+
+/// Settings of one call. `Settings::default()` suits most problems.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Settings {
+    /// The algorithm.
+    pub method: Method,
+    /// A result is called solved when its certificate has `eta <= tolerance`;
+    /// between 1e-15 and 0.1.
+    pub tolerance: f64,
+    /// Over-relaxation factor, in (0, 2); 0 lets the solver choose from the measured rate.
+    pub omega: f64,
+    /// Damping of the threshold update of [`Method::SorNested`], in (0, 1]; 0 lets the solver
+    /// choose from the measured rate.
+    pub damping: f64,
+    /// Most sweeps (SOR) or pivots (Lemke), at least 1.
+    pub max_iterations: u64,
+    /// Most seconds of wall time; 0 means no limit.
+    pub time_limit: f64,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Settings {
+            method: Method::SorNested,
+            tolerance: 1e-10,
+            omega: 0.0,
+            damping: 0.0,
+            max_iterations: 200_000,
+            time_limit: 0.0,
+        }
+    }
+}
+
+impl Settings {
+    /// Refuses values out of range.
+    pub fn validate(&self) -> Result<(), Error> {
+        let refuse = |message: String| Err(Error::invalid(Argument::Settings, message));
+        if !(1e-15..=0.1).contains(&self.tolerance) {
+            return refuse(format!(
+                "settings: tolerance is {}, it must lie between 1e-15 and 0.1",
+                self.tolerance
+            ));
+        }
+        if !(0.0..2.0).contains(&self.omega) {
+            return refuse(format!(
+                "settings: omega is {}, it must be 0 (chosen) or lie between 0 and 2",
+                self.omega
+            ));
+        }
+        if !(0.0..=1.0).contains(&self.damping) {
+            return refuse(format!(
+                "settings: damping is {}, it must be 0 (chosen) or lie in (0, 1]",
+                self.damping
+            ));
+        }
+        if self.max_iterations == 0 {
+            return refuse("settings: max_iterations is 0, it must be at least 1".into());
+        }
+        if !(self.time_limit >= 0.0) {
+            return refuse(format!(
+                "settings: time_limit is {}, it must be 0 (none) or a number of seconds",
+                self.time_limit
+            ));
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,291 @@
+//! Solvers: each a plain function of (problem, settings, start, monitor) that returns a candidate.
+//! What is called a solution is decided here, by the certificate alone.
+
+mod coulomb;
+mod escape;
+mod frictionless;
+mod lemke;
+mod relaxation;
+mod sor;
+mod tableau;
+
+use crate::certificate::{self, Certificate, certify};
+use crate::error::{Argument, Error};
+use crate::law::State;
+use crate::lcp::Lcp;
+use crate::linalg::small::largest;
+use crate::monitor::{Interruption, Monitor};
+use crate::problem::{ContactProblem, Friction};
+use crate::settings::{Method, Settings};
+
+/// What a result is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Status {
+    /// Certified: `eta <= tolerance`.
+    Solved,
+    /// `max_iterations` used up; the result is the last iterate.
+    IterationLimit,
+    /// `time_limit` used up; the result is the last iterate.
+    TimeLimit,
+    /// Cancelled by the callback; the result is the last iterate.
+    Cancelled,
+    /// Proved: no equilibrium exists. The displacements are the motion of escape.
+    NoEquilibrium,
+    /// The method cannot go on, and proves nothing.
+    Stalled,
+}
+
+/// A candidate of a solver, not yet certified.
+#[derive(Clone, Debug)]
+struct Candidate {
+    d: Vec<f64>,
+    ending: Ending,
+    outer_iterations: u64,
+    refactorisations: u64,
+    omega: f64,
+    damping: f64,
+}
+
+/// Why a solver stopped.
+#[derive(Clone, Debug, PartialEq)]
+enum Ending {
+    Done,
+    Interrupted(Interruption),
+    Escape(Vec<f64>),
+    Stalled(&'static str),
+}
+
+impl Candidate {
+    fn ended(d: Vec<f64>, ending: Ending) -> Self {
+        Candidate { d, ending, outer_iterations: 0, refactorisations: 0, omega: 0.0, damping: 0.0 }
+    }
+
+    fn stalled(d: Vec<f64>, reason: &'static str) -> Self {
+        Self::ended(d, Ending::Stalled(reason))
+    }
+}
+
+/// Result of a contact problem.
+#[derive(Clone, Debug)]
+pub struct Solution {
+    /// What it is.
+    pub status: Status,
+    /// One sentence on what happened.
+    pub message: String,
+    /// Relative displacements; of [`Status::NoEquilibrium`] the motion of escape, its largest
+    /// component 1.
+    pub d: Vec<f64>,
+    /// The certificate: measures, contact forces, states. Of [`Status::NoEquilibrium`] that of the
+    /// last iterate, with the forces set to zero.
+    pub certificate: Certificate,
+    /// Sweeps or pivots.
+    pub iterations: u64,
+    /// Threshold updates of [`Method::SorNested`].
+    pub outer_iterations: u64,
+    /// How often Lemke's tableau was computed anew because accuracy was lost.
+    pub refactorisations: u64,
+    /// Over-relaxation factor at the end, 0 if there is none.
+    pub omega: f64,
+    /// Damping of the threshold at the end, 0 if there is none.
+    pub damping: f64,
+}
+
+/// Solves a contact problem from the displacements `start` (zero if `None`).
+///
+/// # Errors
+/// Settings out of range, a method that does not fit the problem, a start of the wrong length or
+/// with entries that are not finite; memory that cannot be had.
+pub fn solve(
+    problem: &ContactProblem<'_>,
+    settings: &Settings,
+    start: Option<&[f64]>,
+    monitor: &mut Monitor<'_>,
+) -> Result<Solution, Error> {
+    settings.validate()?;
+    check_method(problem, settings.method)?;
+    let start = checked_start(problem, start)?;
+    let tresca = matches!(problem.friction(), Friction::Tresca(_));
+    let candidate = match settings.method {
+        Method::SorNested if !tresca && !problem.friction().is_zero() => {
+            coulomb::nested(problem, settings, start, monitor)
+        }
+        Method::SorNested | Method::SorDiagonal => {
+            coulomb::single(problem, settings, start, monitor)
+        }
+        Method::Lemke => frictionless::solve(problem, settings, monitor)?,
+    };
+    Ok(certified(problem, settings, candidate, monitor.iterations()))
+}
+
+fn check_method(problem: &ContactProblem<'_>, method: Method) -> Result<(), Error> {
+    let refuse = |message: &str| Err(Error::invalid(Argument::Settings, message));
+    let tresca = matches!(problem.friction(), Friction::Tresca(_));
+    match method {
+        Method::Lemke if !problem.friction().is_zero() => {
+            refuse("settings: Lemke's method is for frictionless contact, every mu must be 0")
+        }
+        Method::SorDiagonal if tresca => refuse(
+            "settings: the diagonal method updates thresholds, and here they are given: use the \
+             nested one",
+        ),
+        _ => Ok(()),
+    }
+}
+
+fn checked_start(problem: &ContactProblem<'_>, start: Option<&[f64]>) -> Result<Vec<f64>, Error> {
+    let n = problem.unknowns();
+    let Some(start) = start else { return Ok(vec![0.0; n]) };
+    if start.len() != n {
+        let message = format!("the start has {} entries, it must have {n}", start.len());
+        return Err(Error::invalid(Argument::Start, message));
+    }
+    match start.iter().position(|d| !d.is_finite()) {
+        Some(i) => Err(Error::invalid(Argument::Start, format!("the start d[{i}] is not finite"))),
+        None => Ok(start.to_vec()),
+    }
+}
+
+fn certified(
+    problem: &ContactProblem<'_>,
+    settings: &Settings,
+    candidate: Candidate,
+    iterations: u64,
+) -> Solution {
+    let Candidate { mut d, ending, outer_iterations, refactorisations, omega, damping } = candidate;
+    let mut certificate = certify(problem, &d);
+    let accuracy = format!("eta is {:.1e}", certificate.eta);
+    let (status, message) = if certificate.holds(settings.tolerance) {
+        (Status::Solved, format!("solved: {accuracy}"))
+    } else {
+        let wanted = format!("{accuracy}, wanted {:.1e}", settings.tolerance);
+        match ending {
+            Ending::Escape(mut motion) if certificate::is_escape(problem, &motion) => {
+                let most = largest(&motion);
+                motion.iter_mut().for_each(|r| *r /= most);
+                d = motion;
+                certificate.force.fill(0.0);
+                (
+                    Status::NoEquilibrium,
+                    "no equilibrium exists: the loads drive a rigid motion that contact does not \
+                     stop"
+                        .into(),
+                )
+            }
+            Ending::Escape(_) => {
+                (Status::Stalled, format!("the path ended in a ray that proves nothing; {wanted}"))
+            }
+            Ending::Interrupted(Interruption::IterationLimit) => (
+                Status::IterationLimit,
+                format!("max_iterations ({}) used up; {wanted}", settings.max_iterations),
+            ),
+            Ending::Interrupted(Interruption::TimeLimit) => (
+                Status::TimeLimit,
+                format!("time_limit ({} s) used up; {wanted}", settings.time_limit),
+            ),
+            Ending::Interrupted(Interruption::Cancelled) => {
+                (Status::Cancelled, format!("cancelled by the progress callback; {wanted}"))
+            }
+            Ending::Stalled(reason) => (Status::Stalled, format!("{reason}; {wanted}")),
+            Ending::Done if certificate.eta <= settings.tolerance => (
+                Status::Stalled,
+                "the displacements are so large that rounding hides the forces: nearly nothing \
+                 holds a body"
+                    .into(),
+            ),
+            Ending::Done => (Status::Stalled, format!("accuracy was lost to rounding; {wanted}")),
+        }
+    };
+    Solution {
+        status,
+        message,
+        d,
+        certificate,
+        iterations,
+        outer_iterations,
+        refactorisations,
+        omega,
+        damping,
+    }
+}
+
+/// Result of a bare complementarity problem.
+#[derive(Clone, Debug)]
+pub struct LcpSolution {
+    /// What it is; [`Status::NoEquilibrium`] says that nothing is feasible.
+    pub status: Status,
+    /// One sentence on what happened.
+    pub message: String,
+    /// `w >= 0`.
+    pub w: Vec<f64>,
+    /// `z >= 0`; of [`Status::NoEquilibrium`] the vector `y` that proves it, its largest entry 1.
+    pub z: Vec<f64>,
+    /// [`Lcp::eta`].
+    pub eta: f64,
+    /// Pivots.
+    pub iterations: u64,
+    /// How often the tableau was computed anew because accuracy was lost.
+    pub refactorisations: u64,
+}
+
+/// Solves a bare linear complementarity problem by Lemke's method.
+///
+/// # Errors
+/// Settings out of range; memory that cannot be had. The method in `settings` is not looked at.
+pub fn solve_lcp(
+    lcp: &Lcp<'_>,
+    settings: &Settings,
+    monitor: &mut Monitor<'_>,
+) -> Result<LcpSolution, Error> {
+    settings.validate()?;
+    // Powers of two: the pivots are those of the unscaled problem, rounding included.
+    let scale: Vec<f64> =
+        lcp.magnitudes().iter().map(|m| (-(m.log2() / 2.0).round()).exp2()).collect();
+    let run = lemke::lemke(lcp, &scale, monitor)?;
+    let mut z = run.z;
+    let eta = lcp.eta(&z);
+    let wanted = format!("eta is {eta:.1e}, wanted {:.1e}", settings.tolerance);
+    let (status, message) = match run.path {
+        _ if eta <= settings.tolerance => (Status::Solved, format!("solved: eta is {eta:.1e}")),
+        lemke::Path::Ray(ray) if lcp.is_infeasible_by(&ray) => {
+            let most = largest(&ray);
+            z = ray.iter().map(|y| y / most).collect();
+            (Status::NoEquilibrium, "no w, z >= 0 satisfy w = q + M z: proved by z".into())
+        }
+        lemke::Path::Ray(_) => {
+            (Status::Stalled, format!("the path ended in a ray that proves nothing; {wanted}"))
+        }
+        lemke::Path::Interrupted(reason) => (reason.into(), format!("budget used up; {wanted}")),
+        lemke::Path::Solution | lemke::Path::Breakdown => {
+            (Status::Stalled, format!("accuracy was lost to rounding; {wanted}"))
+        }
+    };
+    let product = lcp.product(&z);
+    let w = lcp.q().iter().zip(&product).zip(&z);
+    let w = w.map(|((q, mz), z)| if *z > 0.0 { 0.0 } else { (q + mz).max(0.0) }).collect();
+    Ok(LcpSolution {
+        status,
+        message,
+        w,
+        z,
+        eta,
+        iterations: monitor.iterations(),
+        refactorisations: run.refactorisations,
+    })
+}
+
+impl From<Interruption> for Status {
+    fn from(reason: Interruption) -> Self {
+        match reason {
+            Interruption::IterationLimit => Status::IterationLimit,
+            Interruption::TimeLimit => Status::TimeLimit,
+            Interruption::Cancelled => Status::Cancelled,
+        }
+    }
+}
+
+impl Solution {
+    /// Number of pairs in a state.
+    pub fn count(&self, state: State) -> usize {
+        self.certificate.count(state)
+    }
+}

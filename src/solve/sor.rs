@@ -1,0 +1,101 @@
+//! Projected over-relaxed Gauss–Seidel in proximal form (Cryer, Christopherson; paper, section 2.2).
+//!
+//! A pair's normal displacement is relaxed and projected on `d_n <= gap`; its tangential one is
+//! relaxed and shrunk towards rest, `delta <- shrink(delta + omega r_t / k_t, omega g / k_t)`, so
+//! that a sticking pair is at rest exactly. With given thresholds each step lowers
+//! `J(d) = d.K d / 2 - f.d + sum g |delta|` for `0 < omega < 2`, definite `K` or not.
+//!
+//! `K d - f` is carried along: an unknown that does not change costs nothing.
+
+use crate::certificate;
+use crate::law;
+use crate::linalg::kernels::{self, Simd};
+use crate::problem::ContactProblem;
+
+/// An iterate with its force.
+pub struct Iterate {
+    /// Displacements.
+    pub d: Vec<f64>,
+    /// `K d - f`.
+    pub force: Vec<f64>,
+    normal_stiffness: Vec<f64>,
+    tangential_stiffness: Vec<f64>,
+    simd: Simd,
+}
+
+impl Iterate {
+    /// Starts from `d`, made admissible.
+    pub fn new(problem: &ContactProblem<'_>, mut d: Vec<f64>) -> Self {
+        let pairs = 0..problem.pairs();
+        for pair in pairs.clone() {
+            let normal = &mut d[problem.dim() * pair];
+            *normal = normal.min(problem.gap(pair));
+        }
+        Iterate {
+            force: problem.force(&d),
+            d,
+            normal_stiffness: pairs.clone().map(|i| problem.diagonal(problem.dim() * i)).collect(),
+            tangential_stiffness: pairs.map(|i| problem.tangential_stiffness(i)).collect(),
+            simd: Simd::new(),
+        }
+    }
+
+    /// One sweep over all pairs. Under Coulomb's law the threshold follows the pressure within the
+    /// sweep. Returns the change in the norm of the diagonal of `K`.
+    pub fn sweep(&mut self, problem: &ContactProblem<'_>, omega: f64) -> f64 {
+        let dim = problem.dim();
+        let mut change = 0.0;
+        for pair in 0..problem.pairs() {
+            let i = dim * pair;
+            let (k_n, k_t) = (self.normal_stiffness[pair], self.tangential_stiffness[pair]);
+            let normal = (self.d[i] - omega * self.force[i] / k_n).min(problem.gap(pair));
+            let step_n = normal - self.d[i];
+            self.d[i] = normal;
+            let pressure = (-self.force[i] - k_n * step_n).max(0.0);
+
+            let mut slip = [0.0; 2];
+            let slip = &mut slip[..dim - 1];
+            let coupling = &problem.column(i)[i + 1..i + dim];
+            for (c, slip) in slip.iter_mut().enumerate() {
+                let force = self.force[i + 1 + c] + coupling[c] * step_n;
+                *slip = self.d[i + 1 + c] - problem.previous_slip(pair, c) - omega * force / k_t;
+            }
+            law::shrink(slip, omega * problem.threshold(pair, pressure) / k_t);
+            let mut steps = [step_n, 0.0, 0.0];
+            change += k_n * step_n * step_n;
+            for (c, slip) in slip.iter().enumerate() {
+                let tangential = problem.previous_slip(pair, c) + slip;
+                let step = tangential - self.d[i + 1 + c];
+                self.d[i + 1 + c] = tangential;
+                change += k_t * step * step;
+                steps[1 + c] = step;
+            }
+            self.add_columns(problem, i, &steps[..dim]);
+        }
+        change.sqrt()
+    }
+
+    fn add_columns(&mut self, problem: &ContactProblem<'_>, first: usize, steps: &[f64]) {
+        let mut moved = steps
+            .iter()
+            .enumerate()
+            .filter(|(_, step)| **step != 0.0)
+            .map(|(component, step)| (-step, problem.column(first + component)));
+        while let Some(one) = moved.next() {
+            match moved.next() {
+                Some(two) => kernels::subtract2(self.simd, &mut self.force, one, two),
+                None => kernels::subtract(self.simd, &mut self.force, one.0, one.1),
+            }
+        }
+    }
+
+    /// `eta` under `problem`'s law, from the carried force.
+    pub fn eta(&self, problem: &ContactProblem<'_>) -> f64 {
+        certificate::eta(problem, &self.d, &self.force)
+    }
+
+    /// Computes the force anew.
+    pub fn refresh(&mut self, problem: &ContactProblem<'_>) {
+        self.force = problem.force(&self.d);
+    }
+}

@@ -1,0 +1,251 @@
+//! The compact tableau of Lemke's method: basic variables as affine functions of the others.
+//!
+//! Variables are numbered `0..n` for `w`, `n..2n` for `z`, `2n` for the artificial `z0`; in
+//! `w = q + M z + d z0` the `w` are basic first. Column `c` of the tableau is the dependence of the
+//! basic variables on nonbasic variable `c`; one more column holds their values. A pivot exchanges
+//! one basic and one nonbasic variable: a rank-1 update of `n x (n + 2)` numbers, no more.
+
+use crate::error::Error;
+use crate::linalg::dense;
+use crate::linalg::kernels::{self, Simd};
+
+/// The problem that a tableau belongs to, scaled so that its entries are of similar size.
+pub struct Scaled {
+    /// Number of equations.
+    pub size: usize,
+    /// `M`, column-major, contiguous.
+    pub matrix: Vec<f64>,
+    /// `q`.
+    pub q: Vec<f64>,
+    /// `d > 0`.
+    pub covering: Vec<f64>,
+}
+
+impl Scaled {
+    /// Column of `variable` in `w - M z - d z0 = q`, added to `column` times `factor`.
+    fn add_column(&self, variable: usize, factor: f64, column: &mut [f64]) {
+        let n = self.size;
+        if variable < n {
+            column[variable] += factor;
+        } else {
+            let source = match variable - n {
+                j if j < n => &self.matrix[j * n..(j + 1) * n],
+                _ => &self.covering,
+            };
+            for (column, entry) in column.iter_mut().zip(source) {
+                *column -= factor * entry;
+            }
+        }
+    }
+}
+
+/// The tableau in a basis.
+pub struct Tableau {
+    size: usize,
+    stride: usize,
+    /// `n + 2` columns, the values last.
+    entries: Vec<f64>,
+    basic: Vec<usize>,
+    nonbasic: Vec<usize>,
+    /// Of each variable: its row if basic, `n +` its column otherwise.
+    place: Vec<usize>,
+    entering: Vec<f64>,
+    simd: Simd,
+}
+
+/// Coefficients below this part of a column's largest are rounding and block nothing.
+const NEGLIGIBLE: f64 = 1e-11;
+
+/// Ratios that agree to this part are a tie, for the lexicographic rule to break.
+const TIE: f64 = 1e-11;
+
+/// Values below this part of the largest are zero up to rounding.
+const ZERO: f64 = 1e-14;
+
+impl Tableau {
+    /// The tableau in which the `w` are basic.
+    pub fn new(problem: &Scaled) -> Result<Self, Error> {
+        let n = problem.size;
+        // Columns begin on different cache sets even when n is a power of two.
+        let stride = n.next_multiple_of(8) + 8;
+        let mut entries = Vec::new();
+        entries
+            .try_reserve_exact(stride * (n + 2))
+            .map_err(|_| Error::OutOfMemory("the tableau of Lemke's method"))?;
+        entries.resize(stride * (n + 2), 0.0);
+        let mut tableau = Tableau {
+            size: n,
+            stride,
+            entries,
+            basic: (0..n).collect(),
+            nonbasic: (n..=2 * n).collect(),
+            place: (0..n).chain(n..=2 * n).collect(),
+            entering: vec![0.0; n],
+            simd: Simd::new(),
+        };
+        for j in 0..n {
+            tableau.column_mut(j).copy_from_slice(&problem.matrix[j * n..(j + 1) * n]);
+        }
+        tableau.column_mut(n).copy_from_slice(&problem.covering);
+        tableau.column_mut(n + 1).copy_from_slice(&problem.q);
+        Ok(tableau)
+    }
+
+    fn column(&self, c: usize) -> &[f64] {
+        &self.entries[c * self.stride..c * self.stride + self.size]
+    }
+
+    fn column_mut(&mut self, c: usize) -> &mut [f64] {
+        &mut self.entries[c * self.stride..c * self.stride + self.size]
+    }
+
+    /// Values of the basic variables, row by row.
+    pub fn values(&self) -> &[f64] {
+        self.column(self.size + 1)
+    }
+
+    /// Value of a variable in the basis.
+    pub fn value(&self, variable: usize) -> f64 {
+        match self.place[variable] {
+            row if row < self.size => self.values()[row],
+            _ => 0.0,
+        }
+    }
+
+    /// The basic variable of a row.
+    pub fn basic(&self, row: usize) -> usize {
+        self.basic[row]
+    }
+
+    /// Rate of `variable` when the nonbasic variable `entering` grows.
+    pub fn rate(&self, variable: usize, entering: usize) -> f64 {
+        match self.place[variable] {
+            _ if variable == entering => 1.0,
+            row if row < self.size => self.column(self.place[entering] - self.size)[row],
+            _ => 0.0,
+        }
+    }
+
+    /// The row whose basic variable reaches zero first when the nonbasic `entering` grows; among
+    /// ties that of `preferred`, then the lexicographic one. `None`: it can grow for ever.
+    pub fn blocking_row(&self, entering: usize, preferred: usize) -> Option<usize> {
+        let column = self.column(self.place[entering] - self.size);
+        let largest = column.iter().fold(0.0, |most: f64, t| most.max(t.abs()));
+        let least = -NEGLIGIBLE * largest;
+        let blocking = || (0..self.size).filter(|&row| column[row] < least);
+        let ratio = |row: usize| self.values()[row].max(0.0) / -column[row];
+        let first = blocking().map(ratio).fold(f64::INFINITY, f64::min);
+        // The second term ties values that are zero up to rounding; divided by the largest
+        // coefficient, it pushes no basic variable below zero by more than that rounding.
+        let scale = self.values().iter().fold(0.0, |most: f64, b| most.max(b.abs()));
+        let last = first * (1.0 + TIE) + ZERO * scale / largest;
+        let mut ties: Vec<usize> = blocking().filter(|&row| ratio(row) <= last).collect();
+        if let Some(&row) = ties.iter().find(|&&row| self.basic[row] == preferred) {
+            return Some(row);
+        }
+        // Perturb q by (e, e², …): its coefficients decide, one component after the other.
+        let mut component = 0;
+        while ties.len() > 1 && component < self.size {
+            let key = |row: usize| self.perturbation(row, component) / -column[row];
+            let first = ties.iter().map(|&row| key(row)).fold(f64::INFINITY, f64::min);
+            let margin = TIE * first.abs();
+            ties.retain(|&row| key(row) <= first + margin);
+            component += 1;
+        }
+        ties.first().copied()
+    }
+
+    /// Effect of a unit change of `q[component]` on the basic variable of `row`.
+    fn perturbation(&self, row: usize, component: usize) -> f64 {
+        match self.place[component] {
+            place if place < self.size => f64::from(u8::from(place == row)),
+            place => -self.column(place - self.size)[row],
+        }
+    }
+
+    /// The row that leaves when `z0` enters the first basis: that which makes all values
+    /// non-negative, the last of ties as the lexicographic rule has it.
+    pub fn first_row(&self) -> Option<usize> {
+        let (values, covering) = (self.values(), self.column(self.size));
+        let ratio = |row: usize| values[row] / covering[row];
+        let first = (0..self.size).map(ratio).fold(0.0, f64::min);
+        (0..self.size).rev().find(|&row| ratio(row) <= first * (1.0 - TIE)).filter(|_| first < 0.0)
+    }
+
+    /// Exchanges the basic variable of `row` with the nonbasic `entering`.
+    pub fn pivot(&mut self, row: usize, entering: usize) {
+        let (n, stride) = (self.size, self.stride);
+        let c = self.place[entering] - n;
+        self.entering.copy_from_slice(&self.entries[c * stride..c * stride + n]);
+        let inverse = 1.0 / self.entering[row];
+        self.entering[row] = 0.0;
+        for (j, column) in self.entries.chunks_exact_mut(stride).enumerate() {
+            let column = &mut column[..n];
+            if j == c {
+                for entry in &mut *column {
+                    *entry *= inverse;
+                }
+                column[row] = inverse;
+                continue;
+            }
+            let share = column[row] * inverse;
+            if share != 0.0 {
+                kernels::subtract(self.simd, column, share, &self.entering);
+                column[row] = -share;
+            }
+        }
+        let leaving = self.basic[row];
+        self.basic[row] = entering;
+        self.nonbasic[c] = leaving;
+        self.place[entering] = row;
+        self.place[leaving] = n + c;
+    }
+
+    /// Corrects the values by one step of iterative refinement on the data of `problem`, with the
+    /// tableau itself as the inverse of the basis. Returns the residual of `w - M z - d z0 = q`
+    /// before, relative to `q`.
+    pub fn refine(&mut self, problem: &Scaled) -> f64 {
+        let n = self.size;
+        let mut residual = problem.q.clone();
+        for row in 0..n {
+            problem.add_column(self.basic[row], -self.values()[row], &mut residual);
+        }
+        let mut correction = vec![0.0; n];
+        for (k, &residual) in residual.iter().enumerate() {
+            match self.place[k] {
+                row if row < n => correction[row] += residual,
+                place => {
+                    kernels::subtract(self.simd, &mut correction, residual, self.column(place - n))
+                }
+            }
+        }
+        for (value, correction) in self.column_mut(n + 1).iter_mut().zip(&correction) {
+            *value += correction;
+        }
+        let largest = |v: &[f64]| v.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+        largest(&residual) / largest(&problem.q)
+    }
+
+    /// Computes the tableau anew from the data of `problem`, in the basis it is in. False if that
+    /// basis is singular to working precision; the tableau is then unchanged.
+    pub fn refactorise(&mut self, problem: &Scaled) -> bool {
+        let n = self.size;
+        let mut basis = vec![0.0; n * n];
+        for (variable, column) in self.basic.iter().zip(basis.chunks_exact_mut(n)) {
+            problem.add_column(*variable, 1.0, column);
+        }
+        let mut fresh = vec![0.0; n * (n + 2)];
+        let (dependence, values) = fresh.split_at_mut(n * (n + 1));
+        for (variable, column) in self.nonbasic.iter().zip(dependence.chunks_exact_mut(n)) {
+            problem.add_column(*variable, -1.0, column);
+        }
+        values.copy_from_slice(&problem.q);
+        if !dense::solve_general(&basis, &mut fresh, n, n + 2) {
+            return false;
+        }
+        for (c, column) in fresh.chunks_exact(n).enumerate() {
+            self.column_mut(c).copy_from_slice(column);
+        }
+        true
+    }
+}
