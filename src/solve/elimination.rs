@@ -101,7 +101,7 @@ impl<'p> Elimination<'p> {
     pub fn polished(&self, d: Vec<f64>) -> Vec<f64> {
         let problem = self.problem;
         let dim = problem.dim();
-        let touches = |i: usize| i % dim == 0 && d[i] == problem.gap(i / dim);
+        let touches = |i: usize| i.is_multiple_of(dim) && d[i] == problem.gap(i / dim);
         let free = (0..problem.unknowns()).filter(|&i| !touches(i)).collect();
         let Some(factor) = Factor::new(problem, free) else { return d };
         let mut better = d.clone();
