@@ -41,7 +41,7 @@ pub fn single(
         Friction::Tresca(_) => LARGEST_FACTOR,
     };
     let mut sweeps = Sweeps::new(problem, settings, start, largest_factor, monitor);
-    let ending = sweeps.solve(settings.tolerance);
+    let ending = sweeps.solve(settings.tolerance).err().unwrap_or(Ending::Done);
     Candidate { omega: sweeps.omega(), ..Candidate::ended(sweeps.d().to_vec(), ending) }
 }
 
@@ -57,8 +57,10 @@ pub fn nested(
     let mut thresholds = sweeps.thresholds();
     let mut outer_iterations = 0;
     let ending = loop {
-        if sweeps.is_solved(settings.tolerance) {
-            break Ending::Done;
+        match sweeps.is_solved(settings.tolerance) {
+            Ok(false) => {}
+            Ok(true) => break Ending::Done,
+            Err(ending) => break ending,
         }
         let target = INNER * sweeps.eta();
         let tresca = problem.with_friction(Friction::Tresca(&thresholds));

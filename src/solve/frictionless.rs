@@ -66,9 +66,9 @@ pub fn sor(
     let mut target = settings.tolerance;
     let ending = loop {
         match sweeps.solve(target) {
-            Ending::Done => {}
-            Ending::Escape(motion) => break Ending::Escape(elimination.follow(&motion)),
-            other => break other,
+            Ok(()) => {}
+            Err(Ending::Escape(motion)) => break Ending::Escape(elimination.follow(&motion)),
+            Err(other) => break other,
         }
         let solved = certify(problem, &elimination.expand(sweeps.d())).holds(settings.tolerance);
         if solved || target < f64::EPSILON * settings.tolerance {

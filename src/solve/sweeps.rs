@@ -15,10 +15,20 @@ pub struct Sweeps<'p, 'm, 'c> {
     relaxation: Relaxation,
     escape: EscapeWatch,
     monitor: &'m mut Monitor<'c>,
+    /// Accuracy when it was last halved, and the sweep count then.
+    halved: (f64, u64),
 }
 
 /// Largest over-relaxation factor chosen.
 pub const LARGEST_FACTOR: f64 = 1.97;
+
+/// Sweeps after which it is looked whether the iteration stagnates.
+const ROUND: u64 = 1000;
+
+/// An accuracy better than this may be as good as rounding allows: it is, if it was not halved in
+/// so many sweeps.
+const AT_ROUNDING: f64 = 1e-11;
+const STAGNATION: u64 = 5000;
 
 /// Sweeps between two measurements of `eta`, which cost a few operations per unknown each.
 const MEASURE: u64 = 4;
@@ -39,35 +49,41 @@ impl<'p, 'm, 'c> Sweeps<'p, 'm, 'c> {
             iterate,
             relaxation: Relaxation::new(settings.omega, largest_factor, problem.unknowns()),
             monitor,
+            halved: (f64::INFINITY, 0),
         }
     }
 
     /// Sweeps under the problem's own law until it is met to `tolerance`, or tells why not.
-    pub fn solve(&mut self, tolerance: f64) -> Ending {
+    pub fn solve(&mut self, tolerance: f64) -> Result<(), Ending> {
         let mut stands_still = false;
-        while !self.is_solved(tolerance) {
+        while !self.is_solved(tolerance)? {
             let stood_still = stands_still;
-            match self.relax(self.problem, tolerance, u64::MAX) {
-                Ok(change) => stands_still = change == 0.0,
-                Err(ending) => return ending,
-            }
+            stands_still = self.relax(self.problem, tolerance, ROUND)? == 0.0;
             if stands_still {
                 if stood_still {
-                    return Ending::Stalled("the sweeps change nothing any more");
+                    return Err(Ending::Stalled("the sweeps change nothing any more"));
                 }
                 self.iterate.refresh(self.problem);
             }
         }
-        Ending::Done
+        Ok(())
     }
 
-    /// Whether the problem's own law is met, by the carried force and then by a fresh one.
-    pub fn is_solved(&mut self, tolerance: f64) -> bool {
-        if self.eta() > tolerance {
-            return false;
+    /// Whether the problem's own law is met, by the carried force and then by a fresh one; an
+    /// error if rounding will keep it from being met.
+    pub fn is_solved(&mut self, tolerance: f64) -> Result<bool, Ending> {
+        let (eta, sweeps) = (self.eta(), self.monitor.iterations());
+        if eta <= tolerance {
+            self.iterate.refresh(self.problem);
+            return Ok(self.eta() <= tolerance);
         }
-        self.iterate.refresh(self.problem);
-        self.eta() <= tolerance
+        if eta <= 0.5 * self.halved.0 {
+            self.halved = (eta, sweeps);
+        }
+        if eta < AT_ROUNDING && sweeps > self.halved.1 + STAGNATION {
+            return Err(Ending::Stalled("rounding keeps the sweeps from a better accuracy"));
+        }
+        Ok(false)
     }
 
     /// Sweeps under `law` until `eta <= target`, nothing moves or `most` sweeps are done. Returns
