@@ -2,11 +2,13 @@
 //! What is called a solution is decided here, by the certificate alone.
 
 mod coulomb;
+mod elimination;
 mod escape;
 mod frictionless;
 mod lemke;
 mod relaxation;
 mod sor;
+mod sweeps;
 mod tableau;
 
 use crate::certificate::{self, Certificate, certify};
@@ -59,10 +61,6 @@ impl Candidate {
     fn ended(d: Vec<f64>, ending: Ending) -> Self {
         Candidate { d, ending, outer_iterations: 0, refactorisations: 0, omega: 0.0, damping: 0.0 }
     }
-
-    fn stalled(d: Vec<f64>, reason: &'static str) -> Self {
-        Self::ended(d, Ending::Stalled(reason))
-    }
 }
 
 /// Result of a contact problem.
@@ -104,15 +102,17 @@ pub fn solve(
     settings.validate()?;
     check_method(problem, settings.method)?;
     let start = checked_start(problem, start)?;
-    let tresca = matches!(problem.friction(), Friction::Tresca(_));
-    let candidate = match settings.method {
-        Method::SorNested if !tresca && !problem.friction().is_zero() => {
+    let candidate = match (settings.method, problem.friction()) {
+        (Method::Lemke, _) => frictionless::lemke(problem, settings, monitor)?,
+        (_, friction) if friction.is_zero() => {
+            frictionless::sor(problem, settings, &start, monitor)
+        }
+        (Method::SorNested, Friction::Coulomb(_)) => {
             coulomb::nested(problem, settings, start, monitor)
         }
-        Method::SorNested | Method::SorDiagonal => {
+        (Method::SorDiagonal, _) | (_, Friction::Tresca(_)) => {
             coulomb::single(problem, settings, start, monitor)
         }
-        Method::Lemke => frictionless::solve(problem, settings, monitor)?,
     };
     Ok(certified(problem, settings, candidate, monitor.iterations()))
 }
