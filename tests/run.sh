@@ -30,14 +30,14 @@ have cargo || PATH=$PATH:${CARGO_HOME:-${HOME:-/root}/.cargo}/bin
 
 # Debian's names of the packages that are missing.
 missing_packages() {
-    have cc || have gcc || echo gcc libc6-dev
+    have cc || echo gcc libc6-dev
     have make || echo make
     have cmake && have ctest || echo cmake
     have nm && have readelf || echo binutils
     have valgrind || echo valgrind
 }
 
-# macOS has its own nm and otool, and neither readelf nor valgrind.
+# macOS has another nm, no readelf and no valgrind.
 if [ "$(uname -s)" = Darwin ]; then
     missing_packages() {
         have cc || echo xcode-select
