@@ -19,7 +19,8 @@ const ALLOWED: [(&str, &[&str]); 10] = [
 ];
 
 /// Solvers that one solver may call.
-const SOLVERS: [(&str, &[&str]); 9] = [
+const SOLVERS: [(&str, &[&str]); 10] = [
+    ("bare", &["lemke"]),
     ("coulomb", &["sweeps"]),
     ("elimination", &[]),
     ("escape", &[]),

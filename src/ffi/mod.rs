@@ -12,5 +12,6 @@ mod args;
 mod flat;
 mod guard;
 mod lcp;
+mod report;
+mod settings;
 mod status;
-mod types;

@@ -5,10 +5,10 @@
 //! Lemke's path in a ray: `M` is positive semi-definite.
 
 use super::elimination::{Elimination, Obstruction};
-use super::lemke::{self, Path};
+use super::lemke::{self, Care, Path};
 use super::sweeps::{LARGEST_FACTOR, Sweeps};
 use super::{Candidate, Ending};
-use crate::certificate::certify;
+use crate::certificate::{certify, is_escape};
 use crate::error::Error;
 use crate::lcp::Lcp;
 use crate::monitor::Monitor;
@@ -25,24 +25,43 @@ pub fn lemke(
         Ok(elimination) => elimination,
         Err(obstruction) => return Ok(obstructed(problem, obstruction)),
     };
+    let usual = follow_path(problem, &elimination, Care::Usual, monitor)?;
+    let settled = match &usual.ending {
+        Ending::Done => certify(problem, &usual.d).holds(settings.tolerance),
+        Ending::Escape(motion) => is_escape(problem, motion),
+        Ending::Interrupted(_) => true,
+        Ending::Stalled(_) => false,
+    };
+    if settled {
+        return Ok(usual);
+    }
+    let mut thorough = follow_path(problem, &elimination, Care::Thorough, monitor)?;
+    if thorough.ending == Ending::Done {
+        thorough.d = elimination.polished(thorough.d);
+    }
+    Ok(thorough)
+}
+
+fn follow_path(
+    problem: &ContactProblem<'_>,
+    elimination: &Elimination<'_>,
+    care: Care,
+    monitor: &mut Monitor<'_>,
+) -> Result<Candidate, Error> {
     let kept = elimination.kept();
     let root: Vec<f64> = kept.iter().map(|&i| problem.diagonal(i).sqrt()).collect();
     let scale: Vec<f64> = root.iter().map(|root| root.recip()).collect();
     let (matrix, q) = (elimination.matrix(), elimination.q());
     let lcp = Lcp::new(kept.len(), matrix, kept.len().max(1), q, Some(&root))?;
-    let run = lemke::lemke(&lcp, &scale, monitor)?;
+    let run = lemke::lemke(&lcp, &scale, care, monitor)?;
+    let closing = |openings: &[f64]| openings.iter().map(|w| -w).collect::<Vec<_>>();
     let ending = match run.path {
         Path::Solution => Ending::Done,
         Path::Interrupted(reason) => Ending::Interrupted(reason),
         Path::Breakdown => Ending::Stalled("rounding made Lemke's basis singular"),
-        Path::Ray(ray) => {
-            Ending::Escape(elimination.follow(&ray.iter().map(|w| -w).collect::<Vec<_>>()))
-        }
+        Path::Ray(ray) => Ending::Escape(elimination.follow(&closing(&ray))),
     };
-    let mut d = elimination.expand(&run.z.iter().map(|w| -w).collect::<Vec<_>>());
-    if ending == Ending::Done && !certify(problem, &d).holds(settings.tolerance) {
-        d = elimination.polished(d);
-    }
+    let d = elimination.expand(&closing(&run.z));
     Ok(Candidate { refactorisations: run.refactorisations, ..Candidate::ended(d, ending) })
 }
 
