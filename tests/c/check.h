@@ -33,8 +33,7 @@ static inline int check_result(const char *file, int line, int passed)
     do {                                                                                          \
         const int check_got = (int)(call), check_want = (int)(expected);                          \
         if (!check_result(__FILE__, __LINE__, check_got == check_want))                           \
-            printf("%s is %d, not %d (%s)\n", #call, check_got, check_want,                       \
-                   signorini_last_error());                                                       \
+            printf("status %d, not %d (%s)\n", check_got, check_want, signorini_last_error());     \
     } while (0)
 
 /* Two numbers agree to 1e-9, relative to the larger of the expected one and 1. */

@@ -196,6 +196,24 @@ static void no_load_no_force(void)
     CHECK(a.report.eta == 0 && a.report.equilibrium == 0 && a.report.penetration == 0);
 }
 
+static void a_load_may_be_small_against_the_gap(void)
+{
+    /* 1 N on a steel part a millimetre away moves it by 1e-8 of that gap, or less. */
+    const double K[] = {2, 1, 1, 2}, gap[] = {3};
+    for (double load = 1; load > 1e-30; load *= 1e-3) {
+        const double f[] = {5 * load, 4 * load};
+        for (int32_t method = NESTED; method <= LEMKE; method++) {
+            for (int friction = 0; friction <= (method != LEMKE); friction++) {
+                const answer a = coulomb(PROBLEM(2, 1, K, f, gap, friction ? half : none, NULL),
+                                         method, SIGNORINI_SOLVED);
+                CHECK_NEAR(a.d[0] / load, 2);
+                CHECK_NEAR(a.d[1] / load, 1);
+                CHECK(a.F[0] == 0 && a.F[1] == 0 && a.state[0] == SIGNORINI_OPEN);
+            }
+        }
+    }
+}
+
 static void a_fixed_component_is_a_decoupled_row(void)
 {
     /* The tangential component of the second pair, in both directions of sliding of the first. */
@@ -843,6 +861,7 @@ int main(void)
     a_pair_slips_along_its_load_in_3d();
     some_pairs_have_no_friction();
     no_load_no_force();
+    a_load_may_be_small_against_the_gap();
     a_fixed_component_is_a_decoupled_row();
     friction_rests_at_the_previous_slip();
     given_thresholds();
