@@ -7,9 +7,8 @@ use common::dense::Elimination;
 use common::measures::{eta, flaw_of_escape, rounding};
 use common::oracle::Enumeration;
 use common::problems::{
-    coulomb, decades, definite, floating, frictionless, loaded, tresca, uniform, vector,
+    Case, Law, coulomb, decades, definite, floating, frictionless, loaded, tresca, uniform, vector,
 };
-use common::{Case, Law};
 use fastrand::Rng;
 use signorini::{Method, Monitor, Settings, Solution, Status};
 
@@ -19,7 +18,9 @@ enum Verdict {
     Solved,
     NoEquilibrium,
     /// The library gave up and says so.
-    Unsolved { solvable: bool },
+    Unsolved {
+        solvable: bool,
+    },
 }
 
 fn judge(case: &Case, solution: &Solution, tolerance: f64) -> Result<Verdict, String> {
@@ -259,9 +260,8 @@ fn sor_is_never_wrong_on_floating_problems_of_high_friction() {
 fn unloaded_problems_are_solved() {
     let unloaded = |case: Case| Case { f: vec![0.0; case.size()], ..case };
     let solved = |verdict| verdict == Verdict::Solved;
-    let make = |rng: &mut Rng| {
-        unloaded(definite_case(rng, 2.0, |rng, pairs| coulomb(rng, pairs, 0.3)))
-    };
+    let make =
+        |rng: &mut Rng| unloaded(definite_case(rng, 2.0, |rng, pairs| coulomb(rng, pairs, 0.3)));
     run(1000, settings(Method::SorNested, 20_000), make, solved);
     run(1000, settings(Method::SorDiagonal, 20_000), make, solved);
     let make = |rng: &mut Rng| unloaded(definite_case(rng, 2.0, tresca));

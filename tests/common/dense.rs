@@ -122,7 +122,9 @@ pub fn best_margin(values: &[f64], rates: &[Vec<f64>]) -> f64 {
         for up in of(1.0) {
             for down in of(-1.0) {
                 let share = -down[k] / (up[k] - down[k]);
-                next.push(up.iter().zip(down).map(|(u, d)| share * u + (1.0 - share) * d).collect());
+                next.push(
+                    up.iter().zip(down).map(|(u, d)| share * u + (1.0 - share) * d).collect(),
+                );
             }
         }
         rows = next;

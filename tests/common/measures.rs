@@ -24,7 +24,8 @@ pub fn eta(case: &Case, d: &[f64]) -> f64 {
         let trial: Vec<f64> = (1..case.dim).map(|c| delta[c - 1] - force[i + c] / k_t).collect();
         let amount = case.bound(pair, force[i]) / k_t;
         let keep = if norm(&trial) > amount { 1.0 - amount / norm(&trial) } else { 0.0 };
-        residual.extend(delta.iter().zip(&trial).map(|(delta, trial)| k_t * (delta - keep * trial)));
+        residual
+            .extend(delta.iter().zip(&trial).map(|(delta, trial)| k_t * (delta - keep * trial)));
     }
     let scale = norm(&case.f).max(norm(&force));
     if norm(&residual) == 0.0 { 0.0 } else { norm(&residual) / scale }

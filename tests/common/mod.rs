@@ -6,5 +6,3 @@ pub mod dense;
 pub mod measures;
 pub mod oracle;
 pub mod problems;
-
-pub use problems::{Case, Law};

@@ -109,7 +109,8 @@ impl<'a> Enumeration<'a> {
         let least = (0..n).fold(f64::INFINITY, |least, i| case.stiffness(i, i).min(least));
         let stiffness = norm(&case.k);
         let c = (1.0 + mu) * (1.0 + mu + 2.0 * stiffness / least);
-        let prescribed = case.gap.iter().filter(|gap| gap.is_finite()).chain(case.slip.iter().flatten());
+        let prescribed =
+            case.gap.iter().filter(|gap| gap.is_finite()).chain(case.slip.iter().flatten());
         let size = prescribed.fold(largest(d), |most, d| most.max(d.abs()));
         let rounding = n as f64 * f64::EPSILON * stiffness * size;
         let error = c * (tolerance * norm(&case.f).max(norm(&force(case, d))) + rounding);
@@ -157,7 +158,8 @@ fn options(case: &Case, pair: usize) -> Vec<Local> {
 }
 
 fn force_unit(case: &Case) -> f64 {
-    let prescribed = case.gap.iter().filter(|gap| gap.is_finite()).chain(case.slip.iter().flatten());
+    let prescribed =
+        case.gap.iter().filter(|gap| gap.is_finite()).chain(case.slip.iter().flatten());
     let stiffness = (0..case.size()).fold(0.0, |most: f64, i| most.max(case.stiffness(i, i)));
     let given = match &case.law {
         Law::Coulomb(_) => 0.0,

@@ -145,9 +145,9 @@ pub fn floating(rng: &mut Rng, pairs: usize, condition: f64) -> (Vec<f64>, Vec<V
     loop {
         let count = if n > 2 && rng.bool() { 2 } else { 1 };
         let motions: Vec<Vec<f64>> = (0..count).map(|_| motion(rng, pairs)).collect();
-        let independent = motions.windows(2).all(|pair| {
-            dot(&pair[0], &pair[1]).abs() < 0.99 * norm(&pair[0]) * norm(&pair[1])
-        });
+        let independent = motions
+            .windows(2)
+            .all(|pair| dot(&pair[0], &pair[1]).abs() < 0.99 * norm(&pair[0]) * norm(&pair[1]));
         if !independent {
             continue;
         }
@@ -244,9 +244,7 @@ pub fn loaded(rng: &mut Rng, dim: usize, k: Vec<f64>, law: Law) -> Case {
 /// Coefficients up to `most`, every fifth zero.
 pub fn coulomb(rng: &mut Rng, pairs: usize, most: f64) -> Law {
     Law::Coulomb(
-        (0..pairs)
-            .map(|_| if rng.u8(0..5) == 0 { 0.0 } else { uniform(rng, 0.0, most) })
-            .collect(),
+        (0..pairs).map(|_| if rng.u8(0..5) == 0 { 0.0 } else { uniform(rng, 0.0, most) }).collect(),
     )
 }
 
