@@ -170,13 +170,13 @@ fn force_scale(problem: &ContactProblem<'_>, raw: &[f64]) -> f64 {
 fn rounding(problem: &ContactProblem<'_>, d: &[f64]) -> (f64, f64) {
     let n = problem.unknowns();
     let (mut inherent, mut rest) = (vec![0.0; n], vec![0.0; n]);
-    for j in 0..n {
+    for (j, dj) in d.iter().enumerate() {
         let (pair, component) = (j / problem.dim(), j % problem.dim());
         let prescribed = match component {
             0 => problem.gap(pair).abs(),
             t => problem.previous_slip(pair, t - 1).abs(),
         };
-        let size = d[j].abs() * f64::EPSILON / 2.0;
+        let size = dj.abs() * f64::EPSILON / 2.0;
         let prescribed = size.min(prescribed * f64::EPSILON / 2.0);
         if size > 0.0 {
             for ((k, inherent), rest) in problem.column(j).iter().zip(&mut inherent).zip(&mut rest)

@@ -16,9 +16,10 @@ pub enum State {
 /// Euclidean length of a tangential vector.
 pub fn length(vector: &[f64]) -> f64 {
     match *vector {
+        [] => 0.0,
         [a] => a.abs(),
         [a, b] => a.hypot(b),
-        _ => unreachable!("a pair has one or two tangential components"),
+        _ => unreachable!("a pair has at most two tangential components"),
     }
 }
 

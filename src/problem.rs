@@ -96,6 +96,11 @@ impl<'a> ContactProblem<'a> {
         Ok(problem)
     }
 
+    /// A problem of the library's own making, which may have a single component for each pair.
+    pub(crate) fn reduced(data: ContactData<'a>) -> Self {
+        ContactProblem { data }
+    }
+
     /// The same problem under another friction law.
     pub(crate) fn with_friction<'b>(&self, friction: Friction<'b>) -> ContactProblem<'b>
     where
@@ -104,7 +109,7 @@ impl<'a> ContactProblem<'a> {
         ContactProblem { data: ContactData { friction, ..self.data } }
     }
 
-    /// Space dimension `D`, 2 or 3.
+    /// Components of a pair: the space dimension `D`, 2 or 3.
     pub fn dim(&self) -> usize {
         self.data.dim
     }
@@ -133,10 +138,16 @@ impl<'a> ContactProblem<'a> {
     /// Largest eigenvalue of the tangential block of a pair (in 2D its diagonal entry).
     pub fn tangential_stiffness(&self, pair: usize) -> f64 {
         let t = self.data.dim * pair + 1;
-        if self.data.dim == 2 {
-            return self.diagonal(t);
+        match self.data.dim {
+            // Nothing tangential: any positive number will do.
+            1 => 1.0,
+            2 => self.diagonal(t),
+            _ => small::largest_eigenvalue(
+                self.diagonal(t),
+                self.column(t)[t + 1],
+                self.diagonal(t + 1),
+            ),
         }
-        small::largest_eigenvalue(self.diagonal(t), self.column(t)[t + 1], self.diagonal(t + 1))
     }
 
     /// `f`.

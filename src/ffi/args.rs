@@ -164,3 +164,35 @@ pub(super) fn matrix_length(
         },
     )
 }
+
+/// Smallest structure of any version: its size, the first word and a number. Fields that an older
+/// program does not have come after it.
+const LEAST: usize = 16;
+
+/// The size in the first field of a structure, if it is one that a version of this library has.
+///
+/// # Safety
+/// `pointer` has at least 4 readable bytes.
+pub(super) unsafe fn checked_size<T>(
+    position: i32,
+    name: &str,
+    pointer: *const T,
+) -> Result<usize, Failure> {
+    if !pointer.is_aligned() {
+        return Err(Failure::argument(position, format!("{name} is not aligned")));
+    }
+    // SAFETY: by the caller's contract, and aligned.
+    let size = unsafe { pointer.cast::<u32>().read() } as usize;
+    let ours = size_of::<T>();
+    if size > ours {
+        let message = format!(
+            "{name}: struct_size is {size}, this version of the library knows {ours} bytes"
+        );
+        return Err(Failure::argument(position, message));
+    }
+    if size < LEAST || !size.is_multiple_of(8) {
+        let message = format!("{name}: struct_size is {size}, set it to sizeof ({ours})");
+        return Err(Failure::argument(position, message));
+    }
+    Ok(size)
+}

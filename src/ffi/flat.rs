@@ -2,8 +2,9 @@
 
 use super::args::{Arrays, matrix_length, size};
 use super::guard::{self, Failure};
+use super::report::{SignoriniReport, state_code};
+use super::settings::SignoriniSettings;
 use super::status::{code, remember};
-use super::types::{SignoriniReport, SignoriniSettings, state_code};
 use crate::error::Argument;
 use crate::monitor::{Monitor, ProgressFn};
 use crate::problem::{ContactData, ContactProblem, Friction};

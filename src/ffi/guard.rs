@@ -2,7 +2,7 @@
 
 use std::cell::Cell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::Once;
+use std::sync::{Once, OnceLock};
 
 use super::status::{SIGNORINI_INTERNAL, SIGNORINI_OUT_OF_MEMORY, remember};
 use crate::error::{Argument, Error};
@@ -56,17 +56,21 @@ pub(super) fn call(body: impl FnOnce() -> Result<i32, Failure>) -> i32 {
 /// `signorini_last_error` instead. Panics elsewhere in a Rust host keep their own hook.
 fn silence_panics() {
     static ONCE: Once = Once::new();
+    static OUTER: OnceLock<Hook> = OnceLock::new();
     ONCE.call_once(|| {
-        let outer = std::panic::take_hook();
-        std::panic::set_hook(Box::new(move |panic| {
+        // A hook without captures: it takes no memory that dlclose would lose.
+        OUTER.get_or_init(std::panic::take_hook);
+        std::panic::set_hook(Box::new(|panic| {
             if INSIDE.get() {
                 remember(format_args!("internal error: {panic}"));
-            } else {
+            } else if let Some(outer) = OUTER.get() {
                 outer(panic);
             }
         }));
     });
 }
+
+type Hook = Box<dyn Fn(&std::panic::PanicHookInfo<'_>) + Sync + Send + 'static>;
 
 /// Keeps the host's floating-point environment (traps, rounding, flush-to-zero) and sets the
 /// default one until it is dropped. Nothing is raised on the way back.

@@ -2,8 +2,9 @@
 
 use super::args::{Arrays, matrix_length, size};
 use super::guard::{self, Failure};
+use super::report::SignoriniReport;
+use super::settings::SignoriniSettings;
 use super::status::{code, remember};
-use super::types::{SignoriniReport, SignoriniSettings};
 use crate::error::Argument;
 use crate::lcp::Lcp;
 use crate::monitor::{Monitor, ProgressFn};

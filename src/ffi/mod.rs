@@ -4,9 +4,14 @@
 //! stops panics; [`args`] turns pointers into slices after checking them; nothing is written before
 //! every argument has been accepted.
 
+// What pointers must be stands at the parameters, where a C programmer reads it; plain arrays make
+// long parameter lists.
+#![allow(clippy::missing_safety_doc, clippy::too_many_arguments)]
+
 mod args;
 mod flat;
 mod guard;
 mod lcp;
+mod report;
+mod settings;
 mod status;
-mod types;

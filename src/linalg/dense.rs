@@ -2,8 +2,9 @@
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt_pivoting::factor as pivoted;
+use faer::linalg::matmul::triangular::{self, BlockStructure};
 use faer::linalg::solvers::{PartialPivLu, Solve};
-use faer::linalg::{matmul, triangular_solve};
+use faer::linalg::triangular_solve;
 use faer::{Accum, Mat, MatMut, MatRef, Par};
 
 /// Rank-revealing Cholesky factor of a positive semi-definite matrix `A` with unit diagonal:
@@ -96,18 +97,26 @@ impl Semidefinite {
         );
         let mut schur = vec![0.0; m * m];
         for j in 0..m {
-            for i in 0..m {
+            for i in j..m {
                 schur[i + m * j] = corner(i, j);
             }
         }
-        matmul::matmul(
+        triangular::matmul(
             MatMut::from_column_major_slice_mut(&mut schur, m, m),
+            BlockStructure::TriangularLower,
             Accum::Add,
             half.transpose(),
+            BlockStructure::Rectangular,
             half.as_ref(),
+            BlockStructure::Rectangular,
             -1.0,
             Par::Seq,
         );
+        for j in 0..m {
+            for i in 0..j {
+                schur[i + m * j] = schur[j + m * i];
+            }
+        }
         schur
     }
 }

@@ -10,7 +10,8 @@
 //! Cottle, Pang and Stone, *The Linear Complementarity Problem*, 4.4; Lemke (1965).
 //!
 //! Rounding: every [`CHECK`] pivots the values are refined on the data; where they were found to
-//! have drifted, the tableau is computed anew from its basis.
+//! have drifted, the tableau is computed anew from its basis. A caller whose certificate finds the
+//! end of a path inaccurate repeats it with [`Care::Thorough`].
 
 use super::tableau::{Scaled, Tableau};
 use crate::error::Error;
@@ -51,14 +52,29 @@ const DRIFT: f64 = 1e-10;
 /// decides between the end and a false ray.
 const END: f64 = 1e-13;
 
+/// When the tableau is computed anew.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Care {
+    /// When its values have drifted.
+    Usual,
+    /// At every check.
+    Thorough,
+}
+
 /// Follows the path of `lcp` in the variables `z_i / scale_i`, `w_i * scale_i`.
-pub fn lemke(lcp: &Lcp<'_>, scale: &[f64], monitor: &mut Monitor<'_>) -> Result<Run, Error> {
+pub fn lemke(
+    lcp: &Lcp<'_>,
+    scale: &[f64],
+    care: Care,
+    monitor: &mut Monitor<'_>,
+) -> Result<Run, Error> {
     let n = lcp.size();
+    let columns = (0..n).flat_map(|j| {
+        lcp.column(j).iter().zip(scale).map(move |(m, row_scale)| row_scale * m * scale[j])
+    });
     let problem = Scaled {
         size: n,
-        matrix: (0..n * n)
-            .map(|k| scale[k % n] * lcp.column(k / n)[k % n] * scale[k / n])
-            .collect(),
+        matrix: columns.collect(),
         q: lcp.q().iter().zip(scale).map(|(q, scale)| q * scale).collect(),
         covering: (0..n).map(|i| lcp.covering(i) * scale[i]).collect(),
     };
@@ -66,7 +82,7 @@ pub fn lemke(lcp: &Lcp<'_>, scale: &[f64], monitor: &mut Monitor<'_>) -> Result<
         scaled.zip(scale).map(|(z, scale)| z.max(0.0) * scale).collect()
     };
     let mut tableau = Tableau::new(&problem)?;
-    let (path, refactorisations) = follow(&problem, &mut tableau, monitor);
+    let (path, refactorisations) = follow(&problem, &mut tableau, care, monitor);
     let path = match path {
         Inner::Ray(entering) => {
             Path::Ray(unscaled(&mut (n..2 * n).map(|z| tableau.rate(z, entering))))
@@ -81,7 +97,12 @@ enum Inner {
     Ray(usize),
 }
 
-fn follow(problem: &Scaled, tableau: &mut Tableau, monitor: &mut Monitor<'_>) -> (Inner, u64) {
+fn follow(
+    problem: &Scaled,
+    tableau: &mut Tableau,
+    care: Care,
+    monitor: &mut Monitor<'_>,
+) -> (Inner, u64) {
     let n = problem.size;
     let z0 = 2 * n;
     let mut refactorisations = 0;
@@ -99,7 +120,7 @@ fn follow(problem: &Scaled, tableau: &mut Tableau, monitor: &mut Monitor<'_>) ->
         let ended = leaving == z0 || tableau.value(z0) <= END * start.unwrap_or(0.0);
         if ended || pivots % CHECK == 0 {
             let drift = tableau.refine(problem);
-            if drift > DRIFT {
+            if drift > DRIFT || care == Care::Thorough {
                 if !tableau.refactorise(problem) {
                     return (Inner::Ended(Path::Breakdown), refactorisations);
                 }

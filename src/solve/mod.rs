@@ -1,22 +1,25 @@
 //! Solvers: each a plain function of (problem, settings, start, monitor) that returns a candidate.
 //! What is called a solution is decided here, by the certificate alone.
 
+mod bare;
 mod coulomb;
+mod elimination;
 mod escape;
 mod frictionless;
 mod lemke;
 mod relaxation;
 mod sor;
+mod sweeps;
 mod tableau;
 
 use crate::certificate::{self, Certificate, certify};
 use crate::error::{Argument, Error};
-use crate::law::State;
-use crate::lcp::Lcp;
 use crate::linalg::small::largest;
 use crate::monitor::{Interruption, Monitor};
 use crate::problem::{ContactProblem, Friction};
 use crate::settings::{Method, Settings};
+
+pub use bare::{LcpSolution, solve_lcp};
 
 /// What a result is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -59,10 +62,6 @@ impl Candidate {
     fn ended(d: Vec<f64>, ending: Ending) -> Self {
         Candidate { d, ending, outer_iterations: 0, refactorisations: 0, omega: 0.0, damping: 0.0 }
     }
-
-    fn stalled(d: Vec<f64>, reason: &'static str) -> Self {
-        Self::ended(d, Ending::Stalled(reason))
-    }
 }
 
 /// Result of a contact problem.
@@ -104,15 +103,17 @@ pub fn solve(
     settings.validate()?;
     check_method(problem, settings.method)?;
     let start = checked_start(problem, start)?;
-    let tresca = matches!(problem.friction(), Friction::Tresca(_));
-    let candidate = match settings.method {
-        Method::SorNested if !tresca && !problem.friction().is_zero() => {
+    let candidate = match (settings.method, problem.friction()) {
+        (Method::Lemke, _) => frictionless::lemke(problem, settings, monitor)?,
+        (_, friction) if friction.is_zero() => {
+            frictionless::sor(problem, settings, &start, monitor)
+        }
+        (Method::SorNested, Friction::Coulomb(_)) => {
             coulomb::nested(problem, settings, start, monitor)
         }
-        Method::SorNested | Method::SorDiagonal => {
+        (Method::SorDiagonal, _) | (_, Friction::Tresca(_)) => {
             coulomb::single(problem, settings, start, monitor)
         }
-        Method::Lemke => frictionless::solve(problem, settings, monitor)?,
     };
     Ok(certified(problem, settings, candidate, monitor.iterations()))
 }
@@ -174,17 +175,7 @@ fn certified(
             Ending::Escape(_) => {
                 (Status::Stalled, format!("the path ended in a ray that proves nothing; {wanted}"))
             }
-            Ending::Interrupted(Interruption::IterationLimit) => (
-                Status::IterationLimit,
-                format!("max_iterations ({}) used up; {wanted}", settings.max_iterations),
-            ),
-            Ending::Interrupted(Interruption::TimeLimit) => (
-                Status::TimeLimit,
-                format!("time_limit ({} s) used up; {wanted}", settings.time_limit),
-            ),
-            Ending::Interrupted(Interruption::Cancelled) => {
-                (Status::Cancelled, format!("cancelled by the progress callback; {wanted}"))
-            }
+            Ending::Interrupted(reason) => reason.ended(settings, &wanted),
             Ending::Stalled(reason) => (Status::Stalled, format!("{reason}; {wanted}")),
             Ending::Done if certificate.eta <= settings.tolerance => (
                 Status::Stalled,
@@ -208,84 +199,21 @@ fn certified(
     }
 }
 
-/// Result of a bare complementarity problem.
-#[derive(Clone, Debug)]
-pub struct LcpSolution {
-    /// What it is; [`Status::NoEquilibrium`] says that nothing is feasible.
-    pub status: Status,
-    /// One sentence on what happened.
-    pub message: String,
-    /// `w >= 0`.
-    pub w: Vec<f64>,
-    /// `z >= 0`; of [`Status::NoEquilibrium`] the vector `y` that proves it, its largest entry 1.
-    pub z: Vec<f64>,
-    /// [`Lcp::eta`].
-    pub eta: f64,
-    /// Pivots.
-    pub iterations: u64,
-    /// How often the tableau was computed anew because accuracy was lost.
-    pub refactorisations: u64,
-}
-
-/// Solves a bare linear complementarity problem by Lemke's method.
-///
-/// # Errors
-/// Settings out of range; memory that cannot be had. The method in `settings` is not looked at.
-pub fn solve_lcp(
-    lcp: &Lcp<'_>,
-    settings: &Settings,
-    monitor: &mut Monitor<'_>,
-) -> Result<LcpSolution, Error> {
-    settings.validate()?;
-    // Powers of two: the pivots are those of the unscaled problem, rounding included.
-    let scale: Vec<f64> =
-        lcp.magnitudes().iter().map(|m| (-(m.log2() / 2.0).round()).exp2()).collect();
-    let run = lemke::lemke(lcp, &scale, monitor)?;
-    let mut z = run.z;
-    let eta = lcp.eta(&z);
-    let wanted = format!("eta is {eta:.1e}, wanted {:.1e}", settings.tolerance);
-    let (status, message) = match run.path {
-        _ if eta <= settings.tolerance => (Status::Solved, format!("solved: eta is {eta:.1e}")),
-        lemke::Path::Ray(ray) if lcp.is_infeasible_by(&ray) => {
-            let most = largest(&ray);
-            z = ray.iter().map(|y| y / most).collect();
-            (Status::NoEquilibrium, "no w, z >= 0 satisfy w = q + M z: proved by z".into())
+impl Interruption {
+    /// Status and sentence of a run that was ended with the accuracy that `wanted` tells.
+    fn ended(self, settings: &Settings, wanted: &str) -> (Status, String) {
+        match self {
+            Interruption::IterationLimit => (
+                Status::IterationLimit,
+                format!("max_iterations ({}) used up; {wanted}", settings.max_iterations),
+            ),
+            Interruption::TimeLimit => (
+                Status::TimeLimit,
+                format!("time_limit ({} s) used up; {wanted}", settings.time_limit),
+            ),
+            Interruption::Cancelled => {
+                (Status::Cancelled, format!("cancelled by the progress callback; {wanted}"))
+            }
         }
-        lemke::Path::Ray(_) => {
-            (Status::Stalled, format!("the path ended in a ray that proves nothing; {wanted}"))
-        }
-        lemke::Path::Interrupted(reason) => (reason.into(), format!("budget used up; {wanted}")),
-        lemke::Path::Solution | lemke::Path::Breakdown => {
-            (Status::Stalled, format!("accuracy was lost to rounding; {wanted}"))
-        }
-    };
-    let product = lcp.product(&z);
-    let w = lcp.q().iter().zip(&product).zip(&z);
-    let w = w.map(|((q, mz), z)| if *z > 0.0 { 0.0 } else { (q + mz).max(0.0) }).collect();
-    Ok(LcpSolution {
-        status,
-        message,
-        w,
-        z,
-        eta,
-        iterations: monitor.iterations(),
-        refactorisations: run.refactorisations,
-    })
-}
-
-impl From<Interruption> for Status {
-    fn from(reason: Interruption) -> Self {
-        match reason {
-            Interruption::IterationLimit => Status::IterationLimit,
-            Interruption::TimeLimit => Status::TimeLimit,
-            Interruption::Cancelled => Status::Cancelled,
-        }
-    }
-}
-
-impl Solution {
-    /// Number of pairs in a state.
-    pub fn count(&self, state: State) -> usize {
-        self.certificate.count(state)
     }
 }

@@ -1,13 +1,12 @@
-//! The structures of the C interface, each led by its size, and their way in and out.
+//! Settings of the C interface, led by their size, and the progress callback.
 
 use std::ffi::c_void;
 use std::ops::ControlFlow;
 
-use super::guard::Failure;
-use crate::law::State;
+use super::args::checked_size;
+use super::guard::{self, Failure};
 use crate::monitor::Progress;
 use crate::settings::{Method, Settings};
-use crate::solve::{LcpSolution, Solution};
 
 /// Coulomb friction as a sequence of Tresca problems, g <- mu |F_n|, each by projected
 /// over-relaxed Gauss-Seidel. The default.
@@ -16,13 +15,6 @@ pub const SIGNORINI_METHOD_SOR_NESTED: i32 = 1;
 pub const SIGNORINI_METHOD_SOR_DIAGONAL: i32 = 2;
 /// Lemke's method, for frictionless contact: every mu must be 0.
 pub const SIGNORINI_METHOD_LEMKE: i32 = 3;
-
-/// A pair is apart: no contact force.
-pub const SIGNORINI_OPEN: i32 = 0;
-/// A pair slides: |F_t| = mu |F_n|; also every frictionless contact.
-pub const SIGNORINI_SLIP: i32 = 1;
-/// A pair sticks: d_t = slip.
-pub const SIGNORINI_STICK: i32 = 2;
 
 /// What a progress callback is told. New fields may follow in later versions.
 #[repr(C)]
@@ -71,50 +63,6 @@ pub struct SignoriniSettings {
     pub user: *mut c_void,
 }
 
-/// How good a result is. Set struct_size before the call; all else is written by it.
-/// Forces and lengths are in the units of the problem.
-#[repr(C)]
-#[derive(Clone, Copy)]
-pub struct SignoriniReport {
-    /// sizeof(signorini_report) of the program: no more than that is written.
-    pub struct_size: u32,
-    /// What the call returned.
-    pub status: i32,
-    /// The method that ended it, SIGNORINI_METHOD_...
-    pub method: i32,
-    /// 0.
-    pub reserved: i32,
-    /// Sweeps or pivots.
-    pub iterations: i64,
-    /// Threshold updates of the nested method.
-    pub outer_iterations: i64,
-    /// How often Lemke's tableau was computed anew because accuracy was lost.
-    pub refactorisations: i64,
-    /// Residual of the natural map relative to the forces, without unit; 0 at exact solutions
-    /// only.
-    pub eta: f64,
-    /// Rounding of K d relative to the forces, without unit; beyond 1e-6 nothing is certified.
-    pub rounding: f64,
-    /// Largest d_n - gap, a length; 0 if none.
-    pub penetration: f64,
-    /// Largest tensile (positive) normal component of K d - f, a force; 0 if none.
-    pub tension: f64,
-    /// Largest excess of the tangential part of K d - f over its bound, a force; 0 if none.
-    pub cone_excess: f64,
-    /// Largest component of K d - f - F, a force.
-    pub equilibrium: f64,
-    /// Over-relaxation factor at the end; 0 if there is none.
-    pub omega: f64,
-    /// Damping at the end; 0 if there is none.
-    pub damping: f64,
-    /// Pairs that are open.
-    pub open: i64,
-    /// Pairs that slide.
-    pub slip: i64,
-    /// Pairs that stick.
-    pub stick: i64,
-}
-
 /// Settings as the solvers know them, with what only the C interface has.
 pub(super) struct Received {
     pub(super) settings: Settings,
@@ -151,7 +99,7 @@ impl SignoriniSettings {
             // SAFETY: the caller's structure begins with its size; `copied` is at most that and
             // at most ours.
             unsafe {
-                let copied = sized::<Self>(position, "settings", pointer)?;
+                let copied = checked_size::<Self>(position, "settings", pointer)?;
                 let target = (&raw mut settings).cast::<u8>();
                 std::ptr::copy_nonoverlapping(pointer.cast::<u8>(), target, copied);
             }
@@ -209,134 +157,11 @@ impl Received {
     }
 }
 
-impl SignoriniReport {
-    /// Checks the size that the caller set; NULL is allowed.
-    ///
-    /// # Safety
-    /// A pointer that is not NULL has at least 4 readable bytes.
-    pub(super) unsafe fn accept(position: i32, pointer: *mut Self) -> Result<(), Failure> {
-        if !pointer.is_null() {
-            // SAFETY: by the caller's contract.
-            unsafe { sized::<Self>(position, "report", pointer.cast_const())? };
-        }
-        Ok(())
-    }
-
-    /// Writes as much of the report as the caller's structure holds.
-    ///
-    /// # Safety
-    /// A pointer that is not NULL was accepted and has as many bytes as its first field says.
-    pub(super) unsafe fn send(mut self, pointer: *mut Self) {
-        if pointer.is_null() {
-            return;
-        }
-        // SAFETY: by the caller's contract; the size was checked by `accept`.
-        unsafe {
-            self.struct_size = pointer.cast::<u32>().read();
-            let bytes = self.struct_size as usize;
-            std::ptr::copy_nonoverlapping(
-                (&raw const self).cast::<u8>(),
-                pointer.cast::<u8>(),
-                bytes,
-            );
-        }
-    }
-
-    pub(super) fn of(status: i32, method: Method, solution: &Solution) -> Self {
-        let certificate = &solution.certificate;
-        SignoriniReport {
-            outer_iterations: solution.outer_iterations as i64,
-            rounding: certificate.rounding,
-            penetration: certificate.penetration,
-            tension: certificate.tension,
-            cone_excess: certificate.cone_excess,
-            equilibrium: certificate.equilibrium,
-            omega: solution.omega,
-            damping: solution.damping,
-            open: certificate.count(State::Open) as i64,
-            slip: certificate.count(State::Slip) as i64,
-            stick: certificate.count(State::Stick) as i64,
-            eta: certificate.eta,
-            iterations: solution.iterations as i64,
-            refactorisations: solution.refactorisations as i64,
-            ..Self::empty(status, method)
-        }
-    }
-
-    pub(super) fn of_lcp(status: i32, solution: &LcpSolution) -> Self {
-        SignoriniReport {
-            eta: solution.eta,
-            iterations: solution.iterations as i64,
-            refactorisations: solution.refactorisations as i64,
-            ..Self::empty(status, Method::Lemke)
-        }
-    }
-
-    fn empty(status: i32, method: Method) -> Self {
-        SignoriniReport {
-            struct_size: size_of::<Self>() as u32,
-            status,
-            method: method_code(method),
-            reserved: 0,
-            iterations: 0,
-            outer_iterations: 0,
-            refactorisations: 0,
-            eta: 0.0,
-            rounding: 0.0,
-            penetration: 0.0,
-            tension: 0.0,
-            cone_excess: 0.0,
-            equilibrium: 0.0,
-            omega: 0.0,
-            damping: 0.0,
-            open: 0,
-            slip: 0,
-            stick: 0,
-        }
-    }
-}
-
-/// Smallest structure of any version: its size, the first word and a number. Fields that an older
-/// program does not have come after it.
-const LEAST: usize = 16;
-
-/// The size in the first field of a structure, if it is one that a version of this library has.
-///
-/// # Safety
-/// `pointer` has at least 4 readable bytes.
-unsafe fn sized<T>(position: i32, name: &str, pointer: *const T) -> Result<usize, Failure> {
-    if !pointer.is_aligned() {
-        return Err(Failure::argument(position, format!("{name} is not aligned")));
-    }
-    // SAFETY: by the caller's contract, and aligned.
-    let size = unsafe { pointer.cast::<u32>().read() } as usize;
-    let ours = size_of::<T>();
-    if size > ours {
-        let message = format!(
-            "{name}: struct_size is {size}, this version of the library knows {ours} bytes"
-        );
-        return Err(Failure::argument(position, message));
-    }
-    if size < LEAST || !size.is_multiple_of(8) {
-        let message = format!("{name}: struct_size is {size}, set it to sizeof ({ours})");
-        return Err(Failure::argument(position, message));
-    }
-    Ok(size)
-}
-
-fn method_code(method: Method) -> i32 {
+pub(super) fn method_code(method: Method) -> i32 {
     match method {
         Method::SorNested => SIGNORINI_METHOD_SOR_NESTED,
         Method::SorDiagonal => SIGNORINI_METHOD_SOR_DIAGONAL,
         Method::Lemke => SIGNORINI_METHOD_LEMKE,
-    }
-}
-
-pub(super) fn state_code(state: State) -> i32 {
-    match state {
-        State::Open => SIGNORINI_OPEN,
-        State::Slip => SIGNORINI_SLIP,
-        State::Stick => SIGNORINI_STICK,
     }
 }
 
@@ -350,7 +175,7 @@ pub unsafe extern "C" fn signorini_settings_default(
     settings: *mut SignoriniSettings,
     struct_size: u32,
 ) -> i32 {
-    super::guard::call(|| {
+    guard::call(|| {
         if settings.is_null() {
             return Err(Failure::argument(1, "settings is NULL"));
         }
@@ -362,7 +187,7 @@ pub unsafe extern "C" fn signorini_settings_default(
         // SAFETY: `default` is ours; the caller's structure has `struct_size` bytes by contract,
         // and `bytes` is at most that and at most ours.
         unsafe {
-            let bytes = sized::<SignoriniSettings>(2, "settings", &raw const default)?;
+            let bytes = checked_size::<SignoriniSettings>(2, "settings", &raw const default)?;
             let source = (&raw const default).cast::<u8>();
             std::ptr::copy_nonoverlapping(source, settings.cast::<u8>(), bytes);
         }

@@ -1,0 +1,164 @@
+/*
+ * The bar on the plane: Table 1 of F. Lebon, M. Raous, D. Boulegues, "Contact with friction
+ * modeling for the study of a bolted junction", computed again.
+ *
+ * This is a host program of the kind that the library is for. It meshes and assembles the bar,
+ * condenses it on its contact side (bar_mesh.c) and has the library find contact and friction:
+ * `solve` below is all that it takes. The rest shows the results and checks them against what is
+ * known about them (bar_check.c).
+ *
+ *     bar_on_plane [DIR]      with DIR, it also writes DIR/bar_on_plane.csv
+ *
+ * It returns 0 if every check passed.
+ */
+
+#include "bar_check.h"
+#include "bar_mesh.h"
+#include "signorini.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static int solve(struct checks *checks, const char *name, int32_t method,
+                 const struct condensed_bar *bar, double friction, struct solution *solution)
+{
+    double gap[BAR_PAIRS], mu[BAR_PAIRS];
+    struct signorini_settings settings;
+    struct signorini_report report;
+    int32_t status;
+
+    for (size_t i = 0; i < BAR_PAIRS; i++) {
+        gap[i] = 0.0;
+        mu[i] = friction;
+    }
+    signorini_settings_default(&settings, sizeof settings);
+    settings.method = method;
+    settings.tolerance = 1e-13; /* far below the 1e-9 that the checks ask for */
+    report.struct_size = sizeof report;
+
+    status = signorini_solve(2, BAR_PAIRS, bar->K, BAR_SIZE, bar->f, gap, mu, NULL, &settings,
+                             solution->d, solution->F, solution->state, &report);
+
+    judge(checks, status == SIGNORINI_SOLVED);
+    printf("%s: %s", name, signorini_status_string(status));
+    if (status == SIGNORINI_SOLVED)
+        printf(" in %lld %s, eta = %.0e\n", (long long)report.iterations,
+               method == SIGNORINI_METHOD_LEMKE ? "pivots" : "sweeps", report.eta);
+    else
+        printf(": %s\n", signorini_last_error());
+    return status == SIGNORINI_SOLVED;
+}
+
+static int condense(struct checks *checks, const struct bar *bar, struct condensed_bar *condensed)
+{
+    const char *problem = bar_condense(bar, condensed);
+    if (problem != NULL) {
+        judge(checks, 0);
+        printf("condensing the bar: %s\n", problem);
+    }
+    return problem == NULL;
+}
+
+static void save(struct checks *checks, const char *directory, const struct bar *bar,
+                 const struct solution *solution)
+{
+    char path[4096];
+    const int length = snprintf(path, sizeof path, "%s/bar_on_plane.csv", directory);
+    const int fits = length > 0 && (size_t)length < sizeof path;
+    const int written = fits && write_csv(path, bar, solution) == 0;
+
+    judge(checks, written);
+    if (written)
+        printf("wrote %s\n", path);
+    else
+        printf("cannot write %s: %s\n", path, fits ? strerror(errno) : "the name is too long");
+}
+
+/* Friction coefficient 1, by both forms of the paper's method. */
+static void table1(struct checks *checks, const struct condensed_bar *condensed,
+                   const struct bar *bar, const char *directory)
+{
+    struct solution solution;
+
+    puts("Table 1: mu = 1, 32 x 5 elements");
+    if (solve(checks, "nested SOR", SIGNORINI_METHOD_SOR_NESTED, condensed, 1.0, &solution)) {
+        print_table1(&solution);
+        check_zones(checks, &solution, 3, 15);
+        check_reference(checks, &solution);
+        check_table1(checks, &solution);
+        if (directory != NULL)
+            save(checks, directory, bar, &solution);
+    }
+    if (solve(checks, "diagonal SOR", SIGNORINI_METHOD_SOR_DIAGONAL, condensed, 1.0, &solution)) {
+        check_zones(checks, &solution, 3, 15);
+        check_reference(checks, &solution);
+    }
+}
+
+static void frictionless(struct checks *checks, const struct condensed_bar *condensed,
+                         const struct bar *bar)
+{
+    struct solution solution;
+
+    puts("\nThe same bar without friction, mu = 0");
+    /* Nothing opens. All closed is where Lemke's method starts, so that it needs no pivot here. */
+    if (solve(checks, "Lemke", SIGNORINI_METHOD_LEMKE, condensed, 0.0, &solution)) {
+        check_zones(checks, &solution, 0, BAR_PAIRS);
+        check_frictionless(checks, bar, &solution);
+    }
+    if (solve(checks, "SOR", SIGNORINI_METHOD_SOR_NESTED, condensed, 0.0, &solution)) {
+        check_zones(checks, &solution, 0, BAR_PAIRS);
+        check_frictionless(checks, bar, &solution);
+    }
+}
+
+static void aster(struct checks *checks, const struct condensed_bar *condensed)
+{
+    struct solution solution;
+
+    puts("\ncode_aster's test SSNV128: mu = 1, 15 daN/mm2 on the side, 32 x 10 equal elements");
+    if (solve(checks, "nested SOR", SIGNORINI_METHOD_SOR_NESTED, condensed, 1.0, &solution)) {
+        check_zones(checks, &solution, 3, 22);
+        check_ssnv128(checks, &solution);
+    }
+}
+
+int main(int argc, char **argv)
+{
+    /* The bar of the paper, on the simplest mesh that comes close to its Table 1. */
+    struct bar bar = {.width = 40.0,
+                      .height = 40.0,
+                      .young = 13000.0,
+                      .poisson = 0.2,
+                      .top_pressure = 5.0,
+                      .side_pressure = 10.0,
+                      .rows = 5,
+                      .ratio = 1.7};
+    struct checks checks = {0, 0};
+    struct condensed_bar condensed;
+
+    if (argc > 2) {
+        fprintf(stderr, "usage: %s [DIR]\n", argv[0]);
+        return EXIT_FAILURE;
+    }
+    printf("signorini %s\n\n", signorini_version());
+
+    if (condense(&checks, &bar, &condensed)) {
+        table1(&checks, &condensed, &bar, argc == 2 ? argv[1] : NULL);
+        frictionless(&checks, &condensed, &bar);
+    }
+
+    bar.side_pressure = 15.0;
+    bar.rows = 10;
+    bar.ratio = 1.0;
+    if (condense(&checks, &bar, &condensed))
+        aster(&checks, &condensed);
+
+    if (checks.failed != 0)
+        printf("\nFAILED: %d of %d checks\n", checks.failed, checks.made);
+    else
+        printf("\nAll %d checks passed\n", checks.made);
+    return checks.failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+}
