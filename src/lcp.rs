@@ -131,9 +131,8 @@ impl<'a> Lcp<'a> {
         if y.iter().any(|&y| y < 0.0) || size == 0.0 || !size.is_finite() {
             return false;
         }
-        let q: Vec<f64> = self.q.iter().zip(y).map(|(q, y)| q * y).collect();
-        let work: f64 = q.iter().sum();
-        let scale: f64 = q.iter().map(|q| q.abs()).sum();
+        let work: f64 = self.q.iter().zip(y).map(|(q, y)| q * y).sum();
+        let scale: f64 = self.q.iter().zip(&magnitude).map(|(q, m)| (q / m).abs() * size).sum();
         let rounding = 1e-11 * size;
         work < -1e-9 * scale
             && (0..self.size).all(|j| {
