@@ -1,0 +1,107 @@
+//! Measures of an answer, computed here from the data and the formulas, not by the library.
+
+use super::dense::{difference, dot, norm, product};
+use super::problems::{Case, Law};
+
+/// `K d - f`.
+pub fn force(case: &Case, d: &[f64]) -> Vec<f64> {
+    difference(&product(&case.k, d), &case.f)
+}
+
+/// `|e| / max(|f|, |F|)` of the natural map as the documentation of `certificate` writes it:
+///
+/// `e_n = K_nn (d_n - min(gap, d_n - F_n / K_nn))`,
+/// `e_t = K_tt (delta - shrink(delta - F_t / K_tt, g / K_tt))`, `g = mu max(0, -F_n)` or given.
+pub fn eta(case: &Case, d: &[f64]) -> f64 {
+    let force = force(case, d);
+    let mut residual = Vec::new();
+    for pair in 0..case.pairs {
+        let i = case.dim * pair;
+        let k_n = case.stiffness(i, i);
+        residual.push(k_n * (d[i] - case.gap[pair].min(d[i] - force[i] / k_n)));
+        let k_t = tangential_stiffness(case, pair);
+        let delta: Vec<f64> = (1..case.dim).map(|c| d[i + c] - case.rest(pair, c - 1)).collect();
+        let trial: Vec<f64> = (1..case.dim).map(|c| delta[c - 1] - force[i + c] / k_t).collect();
+        let amount = case.bound(pair, force[i]) / k_t;
+        let keep = if norm(&trial) > amount { 1.0 - amount / norm(&trial) } else { 0.0 };
+        residual
+            .extend(delta.iter().zip(&trial).map(|(delta, trial)| k_t * (delta - keep * trial)));
+    }
+    let scale = norm(&case.f).max(norm(&force));
+    if norm(&residual) == 0.0 { 0.0 } else { norm(&residual) / scale }
+}
+
+/// Bound on the rounding of `K d` that gaps and previous slip prescribe, relative as `eta` is:
+/// `|K| |prescribed| eps / 2`, of which the library leaves four units out of account.
+pub fn prescribed_rounding(case: &Case, d: &[f64]) -> f64 {
+    let n = case.size();
+    let prescribed: Vec<f64> = (0..n)
+        .map(|i| match i % case.dim {
+            0 => case.gap[i / case.dim].abs().min(d[i].abs()),
+            c => case.rest(i / case.dim, c - 1).abs().min(d[i].abs()),
+        })
+        .collect();
+    let absolute: Vec<f64> = case.k.iter().map(|k| k.abs()).collect();
+    let rounding = norm(&product(&absolute, &prescribed)) * f64::EPSILON / 2.0;
+    rounding / norm(&case.f).max(norm(&force(case, d)))
+}
+
+/// Twice a bound on the rounding of `K d`, relative as `eta` is: how far two computations of `eta`
+/// may be apart, and what the library leaves out of account.
+pub fn rounding(case: &Case, d: &[f64]) -> f64 {
+    let absolute: Vec<f64> = case.k.iter().map(|k| k.abs()).collect();
+    let size: Vec<f64> = d.iter().map(|d| d.abs()).collect();
+    let parts = norm(&product(&absolute, &size)) + norm(&case.f);
+    let scale = norm(&case.f).max(norm(&force(case, d)));
+    if parts == 0.0 { 0.0 } else { 2.0 * case.size() as f64 * f64::EPSILON * parts / scale }
+}
+
+/// `K_tt` of a pair, in 3D the largest eigenvalue of its tangential block.
+pub fn tangential_stiffness(case: &Case, pair: usize) -> f64 {
+    let i = case.dim * pair + 1;
+    let a = case.stiffness(i, i);
+    if case.dim == 2 {
+        return a;
+    }
+    let (b, c) = (case.stiffness(i, i + 1), case.stiffness(i + 1, i + 1));
+    (a + c) / 2.0 + ((a - c) / 2.0).hypot(b)
+}
+
+/// Why `r` does not prove that there is no equilibrium, if it does not.
+///
+/// It does if it strains nothing, `K r = 0`; if contact forces can only do non-negative work on
+/// it, `-r_n >= mu |r_t|` where there is an obstacle (given thresholds: `r_n <= 0`, and they do at
+/// least `-sum g |r_t|`); and if the loads drive it. Then `F . r = -f . r` is impossible.
+///
+/// Zero is anything below 1e-10 of the strain's parts: far above rounding (1e-15), far below the
+/// least stiffness in the tests (1e-6 of the largest).
+pub fn flaw_of_escape(case: &Case, r: &[f64]) -> Option<String> {
+    const ZERO: f64 = 1e-10;
+    let n = case.size();
+    let root: Vec<f64> = (0..n).map(|i| case.stiffness(i, i).sqrt()).collect();
+    let size = (0..n).fold(0.0, |most: f64, i| most.max(root[i] * r[i].abs()));
+    if !(size > 0.0) {
+        return Some("it is zero".into());
+    }
+    let strain = product(&case.k, r);
+    if let Some(i) = (0..n).find(|&i| strain[i].abs() > ZERO * root[i] * size) {
+        return Some(format!("it strains: (K r)[{i}] = {}", strain[i]));
+    }
+    let mut resisted = 0.0;
+    for pair in 0..case.pairs {
+        let i = case.dim * pair;
+        let slide = norm(&r[i + 1..i + case.dim]);
+        let lift = match &case.law {
+            Law::Coulomb(mu) => mu[pair] * slide,
+            Law::Tresca(g) => {
+                resisted += g[pair] * slide;
+                0.0
+            }
+        };
+        if case.gap[pair].is_finite() && (r[i] + lift) * root[i] > ZERO * size {
+            return Some(format!("contact can stop it at pair {pair}"));
+        }
+    }
+    let work = dot(&case.f, r);
+    (!(work > resisted)).then(|| format!("the loads do not drive it: {work} <= {resisted}"))
+}

@@ -1,0 +1,8 @@
+//! What the tests share: random problems, a dense solver of their own, and enumeration of states.
+
+#![allow(dead_code)] // Every test file uses a part.
+
+pub mod dense;
+pub mod measures;
+pub mod oracle;
+pub mod problems;

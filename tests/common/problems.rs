@@ -1,0 +1,258 @@
+//! Problems: data that owns its arrays, and random ones.
+
+use fastrand::Rng;
+use signorini::{ContactData, ContactProblem, Friction, Method, Monitor, Settings, Solution};
+
+use super::dense::{dot, largest, norm};
+
+/// Coefficients or thresholds, one for each pair.
+#[derive(Clone, Debug)]
+pub enum Law {
+    Coulomb(Vec<f64>),
+    Tresca(Vec<f64>),
+}
+
+/// A contact problem with its arrays.
+#[derive(Clone, Debug)]
+pub struct Case {
+    pub dim: usize,
+    pub pairs: usize,
+    pub k: Vec<f64>,
+    pub f: Vec<f64>,
+    pub gap: Vec<f64>,
+    pub law: Law,
+    pub slip: Option<Vec<f64>>,
+}
+
+impl Case {
+    /// The data as the library takes it.
+    pub fn data(&self) -> ContactData<'_> {
+        ContactData {
+            dim: self.dim,
+            pairs: self.pairs,
+            stiffness: &self.k,
+            ld: (self.dim * self.pairs).max(1),
+            load: &self.f,
+            gap: &self.gap,
+            friction: match &self.law {
+                Law::Coulomb(mu) => Friction::Coulomb(mu),
+                Law::Tresca(g) => Friction::Tresca(g),
+            },
+            previous_slip: self.slip.as_deref(),
+        }
+    }
+
+    pub fn problem(&self) -> ContactProblem<'_> {
+        ContactProblem::new(self.data()).expect("the data is valid")
+    }
+
+    pub fn solve(&self, settings: &Settings) -> Solution {
+        signorini::solve(&self.problem(), settings, None, &mut Monitor::new(settings, None))
+            .expect("the settings fit")
+    }
+
+    pub fn solve_by(&self, method: Method) -> Solution {
+        self.solve(&Settings { method, ..Settings::default() })
+    }
+
+    pub fn size(&self) -> usize {
+        self.dim * self.pairs
+    }
+
+    /// `K[i, j]`.
+    pub fn stiffness(&self, i: usize, j: usize) -> f64 {
+        self.k[i + j * self.size()]
+    }
+
+    /// Tangential displacement at rest.
+    pub fn rest(&self, pair: usize, component: usize) -> f64 {
+        self.slip.as_ref().map_or(0.0, |slip| slip[(self.dim - 1) * pair + component])
+    }
+
+    /// Bound on the tangential force under the normal force `normal`.
+    pub fn bound(&self, pair: usize, normal: f64) -> f64 {
+        match &self.law {
+            Law::Coulomb(mu) => mu[pair] * (-normal).max(0.0),
+            Law::Tresca(g) => g[pair],
+        }
+    }
+}
+
+/// Uniform in (low, high).
+pub fn uniform(rng: &mut Rng, low: f64, high: f64) -> f64 {
+    low + (high - low) * rng.f64()
+}
+
+/// `10^e`, `e` uniform in (0, `decades`).
+pub fn decades(rng: &mut Rng, decades: f64) -> f64 {
+    10_f64.powf(uniform(rng, 0.0, decades))
+}
+
+pub fn vector(rng: &mut Rng, n: usize) -> Vec<f64> {
+    (0..n).map(|_| uniform(rng, -1.0, 1.0)).collect()
+}
+
+/// A symmetric positive semi-definite matrix with the given kernel (any independent vectors),
+/// other eigenvalues between `1 / condition` (attained) and 1, other eigenvectors random.
+pub fn semidefinite(rng: &mut Rng, n: usize, condition: f64, kernel: &[Vec<f64>]) -> Vec<f64> {
+    let mut basis: Vec<Vec<f64>> = Vec::new();
+    while basis.len() < n {
+        let given = kernel.get(basis.len());
+        let mut v = given.cloned().unwrap_or_else(|| vector(rng, n));
+        let before = norm(&v);
+        for _ in 0..2 {
+            for q in &basis {
+                let share = dot(q, &v);
+                v.iter_mut().zip(q).for_each(|(v, q)| *v -= share * q);
+            }
+        }
+        let length = norm(&v);
+        if length > 1e-3 * before {
+            basis.push(v.iter().map(|v| v / length).collect());
+        } else {
+            assert!(given.is_none(), "the kernel's vectors are dependent");
+        }
+    }
+    let mut k = vec![0.0; n * n];
+    for (index, q) in basis.iter().enumerate().skip(kernel.len()) {
+        let least = index == kernel.len();
+        let exponent = if least { 1.0 } else { rng.f64() };
+        let value = condition.powf(-exponent);
+        for i in 0..n {
+            for j in 0..=i {
+                k[i + j * n] += value * q[i] * q[j];
+            }
+        }
+    }
+    for i in 0..n {
+        for j in 0..i {
+            k[j + i * n] = k[i + j * n];
+        }
+    }
+    k
+}
+
+/// A symmetric positive definite matrix of a condition number, largest eigenvalue about 1.
+pub fn definite(rng: &mut Rng, n: usize, condition: f64) -> Vec<f64> {
+    semidefinite(rng, n, condition, &[])
+}
+
+/// A 2D stiffness with a kernel of one or two motions: translations and the rotation of a body
+/// that stands on a plane (one tangential for all pairs, normals linear in place), or random ones.
+/// Returns the motions too.
+pub fn floating(rng: &mut Rng, pairs: usize, condition: f64) -> (Vec<f64>, Vec<Vec<f64>>) {
+    let n = 2 * pairs;
+    loop {
+        let count = if n > 2 && rng.bool() { 2 } else { 1 };
+        let motions: Vec<Vec<f64>> = (0..count).map(|_| motion(rng, pairs)).collect();
+        let independent = motions
+            .windows(2)
+            .all(|pair| dot(&pair[0], &pair[1]).abs() < 0.99 * norm(&pair[0]) * norm(&pair[1]));
+        if !independent {
+            continue;
+        }
+        let k = semidefinite(rng, n, condition, &motions);
+        // A component that no spring resists is bad input.
+        if (0..n).all(|i| k[i + i * n] > 1e-2 / condition) {
+            return (k, motions);
+        }
+    }
+}
+
+fn motion(rng: &mut Rng, pairs: usize) -> Vec<f64> {
+    let kind = rng.u8(0..5);
+    let normal = |i: usize| match kind {
+        0 => 1.0,
+        1 => 0.0,
+        2 => i as f64 - 0.5,
+        _ => i as f64 - 1.0,
+    };
+    let slide = if kind == 1 || kind == 2 { 1.0 } else { 0.0 };
+    if kind < 4 {
+        (0..pairs).flat_map(|i| [normal(i), slide]).collect()
+    } else {
+        vector(rng, 2 * pairs)
+    }
+}
+
+/// A block of three or more pairs on a plane, held by nothing: stretching springs between
+/// neighbours, bending springs over three of them, coupled. All entries are integers: the rigid
+/// motions (translations, rotation) are in the kernel without rounding.
+pub fn block(rng: &mut Rng, pairs: usize) -> Vec<f64> {
+    assert!(pairs >= 3);
+    let n = 2 * pairs;
+    let mut k = vec![0.0; n * n];
+    for first in 0..pairs - 2 {
+        for stretched in 0..2 {
+            let mut strain = vec![0.0; n];
+            let at = 2 * (first + stretched);
+            (strain[at + 1], strain[at + 3]) = (-1.0, 1.0);
+            let bend = f64::from(rng.i32(-1..=1));
+            for (i, weight) in [1.0, -2.0, 1.0].into_iter().enumerate() {
+                strain[2 * (first + i)] = bend * weight;
+            }
+            add_spring(&mut k, &strain, f64::from(rng.i32(1..=8)));
+        }
+        let mut strain = vec![0.0; n];
+        for (i, weight) in [1.0, -2.0, 1.0].into_iter().enumerate() {
+            strain[2 * (first + i)] = weight;
+        }
+        add_spring(&mut k, &strain, f64::from(rng.i32(1..=8)));
+    }
+    k
+}
+
+/// Adds `stiffness strain strainᵀ`.
+pub fn add_spring(k: &mut [f64], strain: &[f64], stiffness: f64) {
+    let n = strain.len();
+    for i in 0..n {
+        for j in 0..n {
+            k[i + j * n] += stiffness * strain[i] * strain[j];
+        }
+    }
+}
+
+/// Loads (mostly pressing), gaps (zero, positive, negative, infinite), previous slip.
+pub fn loaded(rng: &mut Rng, dim: usize, k: Vec<f64>, law: Law) -> Case {
+    let n = (0..).find(|n| n * n == k.len()).unwrap();
+    let pairs = n / dim;
+    let mut f: Vec<f64> = vector(rng, n);
+    for (i, f) in f.iter_mut().enumerate() {
+        if i % dim == 0 {
+            *f += 0.4;
+        }
+        if rng.u8(0..12) == 0 {
+            *f = 0.0;
+        }
+    }
+    if largest(&f) == 0.0 {
+        f[0] = 1.0;
+    }
+    let size = decades(rng, 2.0) / 10.0;
+    let gap = (0..pairs)
+        .map(|_| match rng.u8(0..10) {
+            0..4 => 0.0,
+            4..7 => size * rng.f64(),
+            7..9 => -size * rng.f64(),
+            _ => f64::INFINITY,
+        })
+        .collect();
+    let slip = rng.bool().then(|| vector(rng, (dim - 1) * pairs));
+    Case { dim, pairs, k, f, gap, law, slip }
+}
+
+/// Coefficients up to `most`, every fifth zero.
+pub fn coulomb(rng: &mut Rng, pairs: usize, most: f64) -> Law {
+    Law::Coulomb(
+        (0..pairs).map(|_| if rng.u8(0..5) == 0 { 0.0 } else { uniform(rng, 0.0, most) }).collect(),
+    )
+}
+
+/// Thresholds up to 1, every fifth zero.
+pub fn tresca(rng: &mut Rng, pairs: usize) -> Law {
+    Law::Tresca((0..pairs).map(|_| if rng.u8(0..5) == 0 { 0.0 } else { rng.f64() }).collect())
+}
+
+pub fn frictionless(pairs: usize) -> Law {
+    Law::Coulomb(vec![0.0; pairs])
+}

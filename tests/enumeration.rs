@@ -1,0 +1,271 @@
+//! Whatever the solvers call a solution is one of all solutions of the problem, and what they call
+//! impossible has none: 2D problems of up to four pairs against enumeration of all states.
+
+mod common;
+
+use common::dense::Elimination;
+use common::measures::{eta, flaw_of_escape, rounding};
+use common::oracle::Enumeration;
+use common::problems::{
+    Case, Law, coulomb, decades, definite, floating, frictionless, loaded, tresca, uniform, vector,
+};
+use fastrand::Rng;
+use signorini::{Method, Monitor, Settings, Solution, Status};
+
+/// What an answer turned out to be; a wrong one panics.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Verdict {
+    Solved,
+    NoEquilibrium,
+    /// The library gave up and says so.
+    Unsolved {
+        solvable: bool,
+    },
+}
+
+fn judge(case: &Case, solution: &Solution, tolerance: f64) -> Result<Verdict, String> {
+    let enumeration = Enumeration::new(case);
+    let solvable = enumeration.solutions().next().is_some();
+    match solution.status {
+        Status::Solved => {
+            let residual = eta(case, &solution.d);
+            if residual > tolerance + rounding(case, &solution.d) {
+                return Err(format!("'solved' with a residual of {residual:e}"));
+            }
+            let found = enumeration.identify(&solution.d, tolerance);
+            if found.is_empty() {
+                return Err("'solved', but it is none of the solutions".into());
+            }
+            if let [only] = &found[..]
+                && only.strict
+            {
+                let states: Vec<_> = only.piece.local.iter().map(|local| local.state()).collect();
+                if states != solution.certificate.states {
+                    return Err(format!("the states are {states:?}"));
+                }
+            }
+            Ok(Verdict::Solved)
+        }
+        Status::NoEquilibrium => match flaw_of_escape(case, &solution.d) {
+            Some(flaw) => Err(format!("its motion of escape proves nothing: {flaw}")),
+            None if solvable => Err("'no equilibrium', but there is one".into()),
+            None => Ok(Verdict::NoEquilibrium),
+        },
+        Status::Stalled | Status::IterationLimit => Ok(Verdict::Unsolved { solvable }),
+        other => Err(format!("no reason to end with {other:?}")),
+    }
+}
+
+/// Solves `count` problems and judges the answers, which `allowed` may restrict further.
+/// Returns how many were unsolved although they have a solution.
+fn run(
+    count: u64,
+    settings: Settings,
+    make: impl Fn(&mut Rng) -> Case,
+    allowed: impl Fn(Verdict) -> bool,
+) -> usize {
+    let mut unsolved = 0;
+    for seed in 0..count {
+        let mut rng = Rng::with_seed(seed);
+        let case = make(&mut rng);
+        let start = rng.bool().then(|| vector(&mut rng, case.size()));
+        let mut monitor = Monitor::new(&settings, None);
+        let solution =
+            signorini::solve(&case.problem(), &settings, start.as_deref(), &mut monitor).unwrap();
+        let verdict = judge(&case, &solution, settings.tolerance);
+        let fine = verdict.as_ref().is_ok_and(|&verdict| allowed(verdict));
+        assert!(fine, "seed {seed}: {verdict:?}\n{case:?}\n{start:?}\n{solution:?}");
+        unsolved += usize::from(verdict == Ok(Verdict::Unsolved { solvable: true }));
+    }
+    unsolved
+}
+
+fn settings(method: Method, max_iterations: u64) -> Settings {
+    Settings { method, max_iterations, ..Settings::default() }
+}
+
+fn definite_case(rng: &mut Rng, most: f64, law: impl Fn(&mut Rng, usize) -> Law) -> Case {
+    let pairs = rng.usize(1..=4);
+    let condition = decades(rng, most);
+    let k = definite(rng, 2 * pairs, condition);
+    let law = law(rng, pairs);
+    loaded(rng, 2, k, law)
+}
+
+fn floating_case(rng: &mut Rng, most: f64, law: impl Fn(&mut Rng, usize) -> Law) -> Case {
+    let pairs = rng.usize(1..=4);
+    let condition = decades(rng, most);
+    let (k, _) = floating(rng, pairs, condition);
+    let law = law(rng, pairs);
+    loaded(rng, 2, k, law)
+}
+
+/// Klarbring's pair: `K = [[2, 1], [1, 1]]`, `f = (1, F)`. With `mu = 2` and `1 < F < 2` it sticks,
+/// slides by `2 - F` under the pressure `F - 1`, or opens to `(1 - F, 2 F - 1)`; with `mu = 0.9`,
+/// below `k_tt / |k_nt| = 1`, there is one solution.
+/// A. Klarbring, Ingenieur-Archiv 60 (1990) 529-541; the values follow from the law.
+#[test]
+fn enumeration_finds_the_three_solutions_of_klarbrings_pair() {
+    for tangential in [1.1, 1.5, 1.9] {
+        let case = |mu| Case {
+            dim: 2,
+            pairs: 1,
+            k: vec![2.0, 1.0, 1.0, 1.0],
+            f: vec![1.0, tangential],
+            gap: vec![0.0],
+            law: Law::Coulomb(vec![mu]),
+            slip: None,
+        };
+        let three = case(2.0);
+        let enumeration = Enumeration::new(&three);
+        assert_eq!(enumeration.solutions().count(), 3);
+        for d in [[0.0, 0.0], [0.0, 2.0 - tangential], [1.0 - tangential, 2.0 * tangential - 1.0]] {
+            assert_eq!(enumeration.identify(&d, 1e-14).len(), 1);
+            let off = [d[0] - 1e-6, d[1] + 1e-6];
+            assert!(enumeration.identify(&off, 1e-8).is_empty());
+        }
+        assert_eq!(Enumeration::new(&case(0.9)).solutions().count(), 1);
+    }
+}
+
+/// Definite K: with given thresholds (none: frictionless) a strictly convex minimum has one
+/// solution. Under Coulomb's law the number is odd unless states meet: the degree of the natural
+/// map does not change when mu grows from 0, since `f = gap = slip = 0` leaves `d.K d = F.d <= 0`,
+/// so `d = 0`.
+#[test]
+fn enumeration_counts_as_theory_does() {
+    for seed in 0..3000 {
+        let mut rng = Rng::with_seed(seed);
+        let most = uniform(&mut rng, 0.0, 5.0);
+        let case = definite_case(&mut rng, 6.0, |rng, pairs| coulomb(rng, pairs, most));
+        let enumeration = Enumeration::new(&case);
+        if enumeration.pieces.iter().all(|piece| piece.margin.abs() > 1e-7) {
+            assert_eq!(enumeration.solutions().count() % 2, 1, "seed {seed}");
+        }
+        let law = tresca(&mut rng, case.pairs);
+        for law in [law, frictionless(case.pairs)] {
+            let case = Case { law, ..case.clone() };
+            let enumeration = Enumeration::new(&case);
+            if enumeration.pieces.iter().all(|piece| piece.margin.abs() > 1e-7) {
+                assert_eq!(enumeration.solutions().count(), 1, "seed {seed}");
+            }
+        }
+    }
+}
+
+/// Lemke's method decides every frictionless problem: K positive semi-definite makes M so, and
+/// then a ray proves that nothing is feasible (Cottle, Pang, Stone, theorem 4.4.7 and 3.1.7).
+#[test]
+fn lemke_decides_definite_and_floating_frictionless_problems() {
+    let lemke = settings(Method::Lemke, 1000);
+    let definite = |rng: &mut Rng| definite_case(rng, 6.0, |_, pairs| frictionless(pairs));
+    run(4000, lemke.clone(), definite, |verdict| verdict == Verdict::Solved);
+    let floating = |rng: &mut Rng| floating_case(rng, 6.0, |_, pairs| frictionless(pairs));
+    run(8000, lemke, floating, |verdict| !matches!(verdict, Verdict::Unsolved { .. }));
+}
+
+/// With given thresholds each step of SOR lowers a convex function: it converges for every
+/// definite K. (A condition of 1e4 costs it up to 2e4 sweeps.)
+#[test]
+fn sor_solves_every_definite_problem_with_given_thresholds() {
+    let make = |rng: &mut Rng| definite_case(rng, 4.0, tresca);
+    run(3000, settings(Method::SorNested, 1_000_000), make, |verdict| verdict == Verdict::Solved);
+}
+
+/// As long as `mu sqrt(|K_nn| |(K⁻¹)_tt|) < 1` the nested iteration is a contraction (the energy of
+/// a change of the thresholds `g` is at most `|dg| |d_t|`, and `F_n` follows with `sqrt |K_nn|`);
+/// here the product is at most 0.9.
+#[test]
+fn nested_sor_solves_every_problem_in_which_it_contracts() {
+    let make = |rng: &mut Rng| {
+        let mut case = definite_case(rng, 4.0, |rng, pairs| coulomb(rng, pairs, 1.0));
+        let n = case.size();
+        let inverse = Elimination::new(n, &case.k);
+        // Frobenius norms bound the spectral ones.
+        let (mut normal, mut tangential) = (0.0, 0.0);
+        for j in 0..n {
+            let unit: Vec<f64> = (0..n).map(|i| f64::from(u8::from(i == j))).collect();
+            let column = inverse.solve(&unit).0;
+            for i in (j % 2..n).step_by(2) {
+                match j % 2 {
+                    0 => normal += case.stiffness(i, j).powi(2),
+                    _ => tangential += column[i].powi(2),
+                }
+            }
+        }
+        let most = 0.9 / (normal * tangential).powf(0.25);
+        if let Law::Coulomb(mu) = &mut case.law {
+            mu.iter_mut().for_each(|mu| *mu *= most);
+        }
+        case
+    };
+    run(3000, settings(Method::SorNested, 1_000_000), make, |verdict| verdict == Verdict::Solved);
+}
+
+/// Ordinary friction on ordinary stiffness (condition up to 100): the nested form solves all, the
+/// diagonal one, for which there is no theory, all but 1 %.
+#[test]
+fn sor_solves_problems_of_ordinary_friction() {
+    let make = |rng: &mut Rng| definite_case(rng, 2.0, |rng, pairs| coulomb(rng, pairs, 0.3));
+    let solved = |verdict| verdict == Verdict::Solved;
+    run(3000, settings(Method::SorNested, 200_000), make, solved);
+    let unsolved = run(3000, settings(Method::SorDiagonal, 50_000), make, |_| true);
+    assert!(unsolved <= 30, "{unsolved} of 3000");
+}
+
+/// Friction up to 5 on stiffness of condition up to 1e6, where there may be many solutions and
+/// SOR may end without one: it is never wrong, and solves three of four.
+#[test]
+fn sor_is_never_wrong_on_problems_of_high_friction() {
+    let make = |rng: &mut Rng| definite_case(rng, 6.0, |rng, pairs| coulomb(rng, pairs, 5.0));
+    for method in [Method::SorNested, Method::SorDiagonal] {
+        let unsolved = run(3000, settings(method, 20_000), make, |_| true);
+        assert!(unsolved <= 750, "{unsolved} of 3000 by {method:?}");
+    }
+}
+
+/// Bodies that only contact holds, given thresholds: SOR finds an equilibrium where there is one,
+/// and otherwise the rigid motion that proves the contrary, which convex duality promises.
+#[test]
+fn sor_decides_floating_problems_with_given_thresholds() {
+    let make = |rng: &mut Rng| floating_case(rng, 2.0, tresca);
+    let decided = |verdict| !matches!(verdict, Verdict::Unsolved { .. });
+    run(2000, settings(Method::SorNested, 1_000_000), make, decided);
+}
+
+/// Bodies that only contact holds, little friction: the nested form finds an equilibrium where
+/// there is one in all but 0.1 %, the diagonal one in all but 1 %; no theorem promises more. Where
+/// there is none, both may give up.
+#[test]
+fn sor_solves_floating_problems_of_little_friction() {
+    let make = |rng: &mut Rng| floating_case(rng, 2.0, |rng, pairs| coulomb(rng, pairs, 0.2));
+    for (method, allowed) in [(Method::SorNested, 3), (Method::SorDiagonal, 30)] {
+        let unsolved = run(3000, settings(method, 20_000), make, |_| true);
+        assert!(unsolved <= allowed, "{unsolved} of 3000 by {method:?}");
+    }
+}
+
+/// Bodies that only contact holds, friction up to 5, condition up to 1e6: never wrong.
+#[test]
+fn sor_is_never_wrong_on_floating_problems_of_high_friction() {
+    let make = |rng: &mut Rng| floating_case(rng, 6.0, |rng, pairs| coulomb(rng, pairs, 5.0));
+    for method in [Method::SorNested, Method::SorDiagonal] {
+        run(3000, settings(method, 2_000), make, |_| true);
+    }
+}
+
+/// No load at all, after a slip or before it: the answer may be that nothing touches and nothing
+/// moves, and every force then is zero. From a start of zero and from others.
+#[test]
+fn unloaded_problems_are_solved() {
+    let unloaded = |case: Case| Case { f: vec![0.0; case.size()], ..case };
+    let solved = |verdict| verdict == Verdict::Solved;
+    let make =
+        |rng: &mut Rng| unloaded(definite_case(rng, 2.0, |rng, pairs| coulomb(rng, pairs, 0.3)));
+    run(1000, settings(Method::SorNested, 20_000), make, solved);
+    run(1000, settings(Method::SorDiagonal, 20_000), make, solved);
+    let make = |rng: &mut Rng| unloaded(definite_case(rng, 2.0, tresca));
+    run(1000, settings(Method::SorNested, 20_000), make, solved);
+    let make = |rng: &mut Rng| unloaded(floating_case(rng, 2.0, |_, pairs| frictionless(pairs)));
+    run(1000, settings(Method::Lemke, 1000), make, solved);
+}
