@@ -77,7 +77,11 @@ pub fn certify(problem: &ContactProblem<'_>, d: &[f64]) -> Certificate {
     let (inherent, rounding) = rounding(problem, d);
     let residual = norm(&natural_residual(problem, d, &raw));
     let mut certificate = Certificate {
-        eta: ratio((residual - 16.0 * inherent).max(0.0), scale),
+        // Written so that NaN stays NaN.
+        eta: ratio(
+            if residual <= 16.0 * inherent { 0.0 } else { residual - 16.0 * inherent },
+            scale,
+        ),
         rounding: ratio(rounding, scale),
         penetration: 0.0,
         tension: 0.0,
@@ -200,7 +204,8 @@ fn rounding(problem: &ContactProblem<'_>, d: &[f64]) -> (f64, f64) {
             }
         }
     }
-    (norm(&inherent), norm(&rest))
+    let inherent = norm(&inherent);
+    (inherent, if inherent.is_finite() { norm(&rest) } else { f64::INFINITY })
 }
 
 fn for_each_pair(
@@ -235,6 +240,13 @@ fn pair_mut(values: &mut [f64], dim: usize, index: usize) -> (&mut f64, &mut [f6
     (&mut normal[0], tangential)
 }
 
+/// `part / whole`, and infinite where a number on the way overflowed: nothing is certified then.
 fn ratio(part: f64, whole: f64) -> f64 {
-    if part == 0.0 { 0.0 } else { part / whole }
+    if !part.is_finite() || !whole.is_finite() {
+        f64::INFINITY
+    } else if part == 0.0 {
+        0.0
+    } else {
+        part / whole
+    }
 }

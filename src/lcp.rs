@@ -52,7 +52,7 @@ impl<'a> Lcp<'a> {
         if let Some(covering) = covering
             && let Some(i) = covering.iter().position(|&d| !(d > 0.0 && d.is_finite()))
         {
-            let message = format!("d[{i}] is {}, it must be positive", covering[i]);
+            let message = format!("cover[{i}] is {}, it must be positive", covering[i]);
             return refuse(Argument::Covering, message);
         }
         Ok(lcp)

@@ -55,7 +55,10 @@ fn follow_path(
     let root: Vec<f64> = elimination.kept().iter().map(|&i| problem.diagonal(i).sqrt()).collect();
     let scale: Vec<f64> = root.iter().map(|root| root.recip()).collect();
     let size = q.len();
-    let lcp = Lcp::new(size, elimination.matrix(), size.max(1), &q, Some(&root))?;
+    let Ok(lcp) = Lcp::new(size, elimination.matrix(), size.max(1), &q, Some(&root)) else {
+        let ending = Ending::Stalled("numbers overflow in the reduced problem");
+        return Ok(Candidate::ended(elimination.expand(&gap), ending));
+    };
     let run = lemke::lemke(&lcp, &scale, care, monitor)?;
     let ending = match run.path {
         Path::Solution => Ending::Done,

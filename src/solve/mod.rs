@@ -123,9 +123,11 @@ fn check_method(problem: &ContactProblem<'_>, method: Method) -> Result<(), Erro
     let refuse = |message: &str| Err(Error::invalid(Argument::Settings, message));
     let tresca = matches!(problem.friction(), Friction::Tresca(_));
     match method {
-        Method::Lemke if !problem.friction().is_zero() => {
-            refuse("settings: Lemke's method is for frictionless contact, every mu must be 0")
-        }
+        Method::Lemke if !problem.friction().is_zero() => refuse(if tresca {
+            "settings: Lemke's method is for frictionless contact, every g must be 0"
+        } else {
+            "settings: Lemke's method is for frictionless contact, every mu must be 0"
+        }),
         Method::SorDiagonal if tresca => refuse(
             "settings: the diagonal method updates thresholds, and here they are given: use the \
              nested one",
