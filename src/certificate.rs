@@ -14,10 +14,10 @@
 //!
 //! - Where contact moves a body as a whole, by a gap that closes or a slip that has been, these
 //!   displacements cancel in `K d` up to rounding only. `|e|` is counted from 16 units of the
-//!   rounding of displacements up to [`LEVER`] times that size on.
-//! - Displacements beyond it so large that the rounding of `K d` is itself comparable with the forces
-//!   (`rounding > 1e-6`) certify nothing: on a body that nothing holds they would pass as a
-//!   solution.
+//!   rounding of displacements up to 1000 times that size on, which a body that turns may reach.
+//! - Where the rounding of `K d` is itself comparable with the forces (`rounding > 1e-6`) nothing is
+//!   certified: displacements of a body that nothing holds would pass as a solution if they are only
+//!   large enough. Without loads there is nothing to drive them, and the first kind does not count.
 
 use crate::law::{self, Pair, State};
 use crate::linalg::small::{largest, norm};
@@ -64,7 +64,7 @@ impl Certificate {
 /// See the module's documentation; it admits condition numbers up to about 1e10.
 const ROUNDING_LIMIT: f64 = 1e-6;
 
-/// A body that turns moves by this much more than the gap that it closes, at the most.
+/// See the module's documentation.
 const LEVER: f64 = 1e3;
 
 /// States closer than this part of the largest force are not told apart (see [`Pair::state`]).
@@ -74,7 +74,8 @@ const STATE_MARGIN: f64 = 1e-11;
 pub fn certify(problem: &ContactProblem<'_>, d: &[f64]) -> Certificate {
     let raw = problem.force(d);
     let scale = force_scale(problem, &raw);
-    let (inherent, rounding) = rounding(problem, d);
+    let (inherent, rest) = rounding(problem, d);
+    let unloaded = largest(problem.load()) == 0.0;
     let residual = norm(&natural_residual(problem, d, &raw));
     let mut certificate = Certificate {
         // Written so that NaN stays NaN.
@@ -82,7 +83,7 @@ pub fn certify(problem: &ContactProblem<'_>, d: &[f64]) -> Certificate {
             if residual <= 16.0 * inherent { 0.0 } else { residual - 16.0 * inherent },
             scale,
         ),
-        rounding: ratio(rounding, scale),
+        rounding: ratio(if unloaded { rest } else { inherent + rest }, scale),
         penetration: 0.0,
         tension: 0.0,
         cone_excess: 0.0,
