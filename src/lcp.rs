@@ -37,9 +37,13 @@ impl<'a> Lcp<'a> {
         if entries.is_none_or(|entries| matrix.len() < entries) {
             return refuse(Argument::Matrix, format!("M has {} entries, too few", matrix.len()));
         }
-        if q.len() < size || covering.is_some_and(|covering| covering.len() < size) {
-            return refuse(Argument::Load, format!("q and d must have {size} entries"));
+        if q.len() < size {
+            return refuse(Argument::Load, format!("q has {} entries, too few", q.len()));
         }
+        if covering.is_some_and(|covering| covering.len() < size) {
+            return refuse(Argument::Covering, format!("cover must have {size} entries"));
+        }
+        let (q, covering) = (&q[..size], covering.map(|covering| &covering[..size]));
         let lcp = Lcp { size, matrix, ld, q, covering };
         for j in 0..size {
             if let Some(i) = lcp.column(j).iter().position(|m| !m.is_finite()) {

@@ -86,6 +86,8 @@ impl<'a> ContactProblem<'a> {
             })?;
         let problem = ContactProblem { data };
         problem.check_lengths(n)?;
+        let problem = problem.trimmed();
+        let data = problem.data;
         check_finite(Argument::Load, "f", data.load)?;
         check_gaps(data.gap)?;
         check_friction(data.friction)?;
@@ -203,6 +205,23 @@ impl<'a> ContactProblem<'a> {
             }
         }
         sum
+    }
+
+    /// Without what arrays have beyond their lengths.
+    fn trimmed(self) -> Self {
+        let ContactData { dim, pairs, load, gap, friction, previous_slip, .. } = self.data;
+        let friction = match friction {
+            Friction::Coulomb(mu) => Friction::Coulomb(&mu[..pairs]),
+            Friction::Tresca(g) => Friction::Tresca(&g[..pairs]),
+        };
+        let data = ContactData {
+            load: &load[..dim * pairs],
+            gap: &gap[..pairs],
+            friction,
+            previous_slip: previous_slip.map(|slip| &slip[..(dim - 1) * pairs]),
+            ..self.data
+        };
+        ContactProblem { data }
     }
 
     fn check_lengths(&self, n: usize) -> Result<(), Error> {

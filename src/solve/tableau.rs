@@ -150,7 +150,8 @@ impl Tableau {
         while ties.len() > 1 && component < self.size {
             let key = |row: usize| self.perturbation(row, component) / -column[row];
             let first = ties.iter().map(|&row| key(row)).fold(f64::INFINITY, f64::min);
-            let margin = TIE * first.abs();
+            // Coefficients of size one, divided as the ratios are: differences below are rounding.
+            let margin = TIE * first.abs().max(1.0 / largest);
             ties.retain(|&row| key(row) <= first + margin);
             component += 1;
         }
