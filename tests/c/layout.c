@@ -1,0 +1,121 @@
+/*
+ * The binary interface, number by number: the structures of version SIGNORINI_ABI_VERSION 1 and the
+ * constants. A number that changes here breaks programs that are already built.
+ */
+
+#include "check.h"
+
+#include <stddef.h>
+
+#define SIZE(type, bytes) _Static_assert(sizeof(type) == (bytes), "size of " #type)
+#define FIELD(type, field, ctype, bytes)                                                          \
+    _Static_assert(offsetof(type, field) == (bytes) && sizeof((type *)0)->field == sizeof(ctype), \
+                   "place of " #type "." #field)
+#define VALUE(constant, number) _Static_assert((constant) == (number), "value of " #constant)
+
+VALUE(SIGNORINI_ABI_VERSION, 1);
+
+VALUE(SIGNORINI_SOLVED, 0);
+VALUE(SIGNORINI_ITERATION_LIMIT, 1);
+VALUE(SIGNORINI_TIME_LIMIT, 2);
+VALUE(SIGNORINI_CANCELLED, 3);
+VALUE(SIGNORINI_NO_EQUILIBRIUM, 4);
+VALUE(SIGNORINI_STALLED, 5);
+VALUE(SIGNORINI_INTERNAL, -1000);
+VALUE(SIGNORINI_OUT_OF_MEMORY, -1001);
+VALUE(SIGNORINI_METHOD_SOR_NESTED, 1);
+VALUE(SIGNORINI_METHOD_SOR_DIAGONAL, 2);
+VALUE(SIGNORINI_METHOD_LEMKE, 3);
+VALUE(SIGNORINI_OPEN, 0);
+VALUE(SIGNORINI_SLIP, 1);
+VALUE(SIGNORINI_STICK, 2);
+
+/* 64-bit pointers, doubles and 64-bit integers aligned to their size. */
+#if defined __LP64__ || defined _WIN64
+
+SIZE(signorini_progress, 24);
+FIELD(signorini_progress, iterations, int64_t, 0);
+FIELD(signorini_progress, eta, double, 8);
+FIELD(signorini_progress, elapsed, double, 16);
+
+SIZE(signorini_settings, 72);
+FIELD(signorini_settings, struct_size, uint32_t, 0);
+FIELD(signorini_settings, method, int32_t, 4);
+FIELD(signorini_settings, tolerance, double, 8);
+FIELD(signorini_settings, omega, double, 16);
+FIELD(signorini_settings, damping, double, 24);
+FIELD(signorini_settings, max_iterations, int64_t, 32);
+FIELD(signorini_settings, time_limit, double, 40);
+FIELD(signorini_settings, warm_start, int32_t, 48);
+FIELD(signorini_settings, reserved, int32_t, 52);
+FIELD(signorini_settings, progress, signorini_progress_fn, 56);
+FIELD(signorini_settings, user, void *, 64);
+
+SIZE(signorini_report, 128);
+FIELD(signorini_report, struct_size, uint32_t, 0);
+FIELD(signorini_report, status, int32_t, 4);
+FIELD(signorini_report, method, int32_t, 8);
+FIELD(signorini_report, reserved, int32_t, 12);
+FIELD(signorini_report, iterations, int64_t, 16);
+FIELD(signorini_report, outer_iterations, int64_t, 24);
+FIELD(signorini_report, refactorisations, int64_t, 32);
+FIELD(signorini_report, eta, double, 40);
+FIELD(signorini_report, rounding, double, 48);
+FIELD(signorini_report, penetration, double, 56);
+FIELD(signorini_report, tension, double, 64);
+FIELD(signorini_report, cone_excess, double, 72);
+FIELD(signorini_report, equilibrium, double, 80);
+FIELD(signorini_report, omega, double, 88);
+FIELD(signorini_report, damping, double, 96);
+FIELD(signorini_report, open, int64_t, 104);
+FIELD(signorini_report, slip, int64_t, 112);
+FIELD(signorini_report, stick, int64_t, 120);
+
+#endif
+
+/* The library has the same structures: each default and each measure arrives in its field. */
+int main(void)
+{
+    signorini_settings settings;
+    memset(&settings, 0xFF, sizeof settings);
+    CHECK(signorini_abi_version() == SIGNORINI_ABI_VERSION);
+    CHECK_STATUS(signorini_settings_default(&settings, sizeof settings), 0);
+    CHECK(settings.struct_size == sizeof settings);
+    CHECK(settings.method == SIGNORINI_METHOD_SOR_NESTED);
+    CHECK(settings.tolerance == 1e-10);
+    CHECK(settings.omega == 0);
+    CHECK(settings.damping == 0);
+    CHECK(settings.max_iterations == 200000);
+    CHECK(settings.time_limit == 0);
+    CHECK(settings.warm_start == 0);
+    CHECK(settings.reserved == 0);
+    CHECK(settings.progress == NULL);
+    CHECK(settings.user == NULL);
+    /* No larger structure is known to it. */
+    CHECK_STATUS(signorini_settings_default(&settings, sizeof settings + 8), -2);
+
+    /* One pair slides by 1 and one is open, in one sweep with factor 1. */
+    const double K[16] = {5, [5] = 3, [10] = 1, [15] = 1}, f[4] = {10, 8, -1, 0};
+    const double gap[2] = {0, 0}, mu[2] = {0.5, 0.5};
+    double d[4], F[4];
+    signorini_report report;
+    memset(&report, 0xFF, sizeof report);
+    report.struct_size = sizeof report;
+    settings.omega = 1;
+    settings.damping = 0.75;
+    settings.tolerance = 1e-12;
+    CHECK_STATUS(signorini_solve(2, 2, K, 4, f, gap, mu, NULL, &settings, d, F, NULL, &report), 0);
+    CHECK(report.struct_size == sizeof report && report.status == 0 && report.reserved == 0);
+    CHECK(report.method == SIGNORINI_METHOD_SOR_NESTED);
+    CHECK(report.iterations >= 1 && report.iterations <= 1000);
+    CHECK(report.outer_iterations >= 1 && report.outer_iterations <= report.iterations);
+    CHECK(report.refactorisations == 0);
+    CHECK(report.eta >= 0 && report.eta <= 1e-12);
+    CHECK(report.rounding > 0 && report.rounding < 1e-15);
+    CHECK(report.penetration == 0 && report.tension == 0);
+    CHECK(report.cone_excess >= 0 && report.cone_excess < 1e-10);
+    CHECK(report.equilibrium >= 0 && report.equilibrium < 1e-10);
+    CHECK(report.omega == 1 && report.damping == 0.75);
+    CHECK(report.open == 1 && report.slip == 1 && report.stick == 0);
+    return check_summary("layout");
+}

@@ -1,0 +1,75 @@
+#!/bin/sh
+# The shared library exports the functions of include/signorini.h and nothing else, has the name of
+# its interface, and does not call what a library must not call.
+#
+# usage: sh tests/symbols.sh LIBRARY
+
+set -u
+LC_ALL=C
+export LC_ALL
+
+library=${1:?usage: sh tests/symbols.sh LIBRARY}
+header=$(dirname "$0")/../include/signorini.h
+failed=0
+
+fail() {
+    echo "symbols: $*"
+    failed=1
+}
+
+# The header without its comments; then every name in front of an opening parenthesis.
+code() {
+    awk '{
+        line = $0
+        while (1) {
+            if (inside) {
+                end = index(line, "*/")
+                if (!end) break
+                line = substr(line, end + 2)
+                inside = 0
+            }
+            begin = index(line, "/*")
+            if (!begin) { sub(/\/\/.*/, "", line); print line; break }
+            printf "%s ", substr(line, 1, begin - 1)
+            line = substr(line, begin + 2)
+            inside = 1
+        }
+    }' "$header"
+}
+declared=$(code | grep -o 'signorini_[a-z0-9_]*(' | tr -d '(' | sort -u)
+[ -n "$declared" ] || fail "no function found in $header"
+
+# macOS puts an underscore in front of every name and has no versions of shared objects.
+if [ "$(uname -s)" = Darwin ]; then
+    names() { nm -gP "$@" "$library" | sed 's/^_//; s/ .*//' | sort -u; }
+    exported=$(names -U)
+    imported=$(names -u)
+else
+    names() { nm -DP "$@" "$library" | sed 's/[ @].*//' | sort -u; }
+    exported=$(names --defined-only)
+    imported=$(names --undefined-only)
+fi
+
+for name in $declared; do
+    echo "$exported" | grep -qx "$name" || fail "$name is declared but not exported"
+done
+for name in $exported; do
+    echo "$declared" | grep -qx "$name" || fail "$name is exported but not declared"
+done
+
+# exit and its kin, printing through stdio, signal handlers, threads. (_exit, write and signal come
+# with Rust's standard library, which uses them in child processes and for its own last words.)
+for name in exit _Exit quick_exit atexit on_exit printf fprintf vfprintf puts fputs putchar perror \
+    sigaction sigaltstack pthread_create longjmp __longjmp_chk; do
+    echo "$imported" | grep -qx "$name" && fail "it calls $name"
+done
+
+if [ "$(uname -s)" != Darwin ]; then
+    version() { sed -n "s/^#define SIGNORINI_VERSION_$1 \([0-9]*\)$/\1/p" "$header"; }
+    wanted=libsignorini.so.$(version MAJOR).$(version MINOR)
+    soname=$(readelf -d "$library" | sed -n 's/.*(SONAME).*\[\(.*\)\].*/\1/p')
+    [ "$soname" = "$wanted" ] || fail "its SONAME is '$soname', not '$wanted'"
+fi
+
+[ "$failed" = 0 ] && echo "symbols: $(echo "$declared" | wc -l | tr -d ' ') functions, as declared"
+exit "$failed"
