@@ -1,97 +1,12 @@
 //! Lemke's method on bare complementarity problems `w = q + M z`: against enumeration of all
-//! complementary bases, and on the problems that are hardest for it.
+//! complementary bases.
 
 mod common;
 
-use common::dense::{Elimination, best_margin, difference, dot, largest, norm};
+use common::bare::Bare;
 use common::problems::{decades, definite, semidefinite, uniform, vector};
 use fastrand::Rng;
-use signorini::{Lcp, LcpSolution, Monitor, Settings, Status, solve_lcp};
-
-/// A problem with its arrays, `m` column-major.
-#[derive(Clone, Debug)]
-struct Data {
-    n: usize,
-    m: Vec<f64>,
-    q: Vec<f64>,
-}
-
-impl Data {
-    fn solve(&self, settings: &Settings) -> LcpSolution {
-        let lcp = Lcp::new(self.n, &self.m, self.n.max(1), &self.q, None).unwrap();
-        solve_lcp(&lcp, settings, &mut Monitor::new(settings, None)).unwrap()
-    }
-
-    fn row(&self, i: usize) -> Vec<f64> {
-        (0..self.n).map(|j| self.m[i + j * self.n]).collect()
-    }
-
-    fn column(&self, j: usize) -> &[f64] {
-        &self.m[j * self.n..(j + 1) * self.n]
-    }
-
-    /// How strictly the best complementary basis can be filled, relative to `q`; negative: there is
-    /// no solution. In each, `w_i` or `z_i` is free to be positive for every `i`, a square system;
-    /// a singular one that is consistent has a flat of candidates, searched by elimination.
-    fn margin(&self) -> f64 {
-        let n = self.n;
-        let unit = largest(&self.q).max(f64::MIN_POSITIVE);
-        let mut best = f64::NEG_INFINITY;
-        for choice in 0..1_usize << n {
-            // Rows of: sum over chosen z of -M_j z_j + sum over chosen w of e_j w_j = q.
-            let mut basis = vec![0.0; n * n];
-            for j in 0..n {
-                for i in 0..n {
-                    basis[i * n + j] = match choice >> j & 1 {
-                        0 => f64::from(u8::from(i == j)),
-                        _ => -self.m[i + j * n],
-                    };
-                }
-            }
-            let elimination = Elimination::new(n, &basis);
-            let (point, left) = elimination.solve(&self.q);
-            if left <= 1e-9 * unit {
-                best = best.max(best_margin(&point, &elimination.kernel()) / unit);
-            }
-        }
-        best
-    }
-
-    /// Why `solution` is not one, or proves nothing.
-    fn flaw(&self, solution: &LcpSolution, tolerance: f64) -> Option<String> {
-        let LcpSolution { w, z, .. } = solution;
-        if w.iter().chain(z).any(|x| !(*x >= 0.0)) {
-            return Some("negative".into());
-        }
-        match solution.status {
-            Status::Solved => {
-                if (0..self.n).any(|i| w[i] != 0.0 && z[i] != 0.0) {
-                    return Some("not complementary".into());
-                }
-                let product: Vec<f64> = (0..self.n).map(|i| dot(&self.row(i), z)).collect();
-                // The tolerance is on min(w, m z) with w = q + M z; the returned w is cut off by
-                // that much at most. Twice, as the rounding of M z is counted here again.
-                let error: Vec<f64> = (0..self.n).map(|i| self.q[i] + product[i] - w[i]).collect();
-                let scale = norm(&self.q).max(norm(&product));
-                let excess = norm(&error) > 2.0 * tolerance * scale;
-                excess.then(|| format!("w = q + M z is {error:?} off"))
-            }
-            Status::NoEquilibrium => {
-                // Farkas: y >= 0, Mᵀ y <= 0, q.y < 0 leave no w, z >= 0, as w.y = q.y + z.Mᵀy.
-                // Zero is anything below 1e-10 of the parts.
-                let size = |j: usize| largest(self.column(j)) * largest(z);
-                let bad = (0..self.n).find(|&j| dot(self.column(j), z) > 1e-10 * size(j));
-                match bad {
-                    Some(j) => Some(format!("(Mᵀ y)[{j}] = {:e} > 0", dot(self.column(j), z))),
-                    None if dot(&self.q, z) < 0.0 => None,
-                    None => Some("q.y is not negative".into()),
-                }
-            }
-            Status::Stalled => None,
-            other => Some(format!("no reason to end with {other:?}")),
-        }
-    }
-}
+use signorini::{Settings, Status};
 
 /// Solves `count` problems; returns how many were solved, proved infeasible, and given up.
 fn run(
@@ -104,7 +19,7 @@ fn run(
     for seed in 0..count {
         let mut rng = Rng::with_seed(seed);
         let n = rng.usize(1..=8);
-        let mut data = Data { n, m: make(&mut rng, n), q: right_hand_side(&mut rng, n) };
+        let mut data = Bare { n, m: make(&mut rng, n), q: right_hand_side(&mut rng, n) };
         if rng.u8(0..4) == 0 {
             duplicate(&mut rng, &mut data);
         }
@@ -140,7 +55,7 @@ fn right_hand_side(rng: &mut Rng, n: usize) -> Vec<f64> {
 }
 
 /// Makes unknown `j` a copy of unknown `i`: same row, same column, same `q`.
-fn duplicate(rng: &mut Rng, data: &mut Data) {
+fn duplicate(rng: &mut Rng, data: &mut Bare) {
     let n = data.n;
     let (i, j) = (rng.usize(0..n), rng.usize(0..n));
     for k in 0..n {
@@ -289,63 +204,4 @@ fn is_never_wrong_on_general_problems() {
         |_| true,
     );
     assert!(counts.iter().all(|&count| count > 200), "{counts:?}: one-sided");
-}
-
-/// Unit lower triangular with 2 below the diagonal, `q_i = -(2^(n-i) + … + 2^n)`: the path visits
-/// every complementary basis. The solution is `z = 2^n e_0`, `w_i = 2^(n-i)` for `i > 0`.
-/// K. G. Murty, Mathematical Programming Study 7 (1978) 61-73; Cottle, Pang, Stone, 6.6.
-#[test]
-fn takes_two_to_the_n_pivots_on_murtys_worst_case() {
-    for n in [4_usize, 6, 8, 10] {
-        let power = |e: usize| 2_f64.powi(e as i32);
-        let m = (0..n * n)
-            .map(|k| match (k % n).cmp(&(k / n)) {
-                std::cmp::Ordering::Less => 0.0,
-                std::cmp::Ordering::Equal => 1.0,
-                std::cmp::Ordering::Greater => 2.0,
-            })
-            .collect();
-        let q = (0..n).map(|i| -(n - i..=n).map(power).sum::<f64>()).collect();
-        let data = Data { n, m, q };
-        let solution = data.solve(&Settings::default());
-        assert_eq!(solution.status, Status::Solved);
-        assert_eq!(solution.iterations, 1 << n);
-        let z: Vec<f64> = (0..n).map(|i| if i == 0 { power(n) } else { 0.0 }).collect();
-        let w: Vec<f64> = (0..n).map(|i| if i == 0 { 0.0 } else { power(n - i) }).collect();
-        // Whole numbers below 2^11: a few units of rounding of the largest.
-        assert!(largest(&difference(&solution.z, &z)) <= 1e-12 * power(n), "{solution:?}");
-        assert!(largest(&difference(&solution.w, &w)) <= 1e-12 * power(n), "{solution:?}");
-
-        let budget = (1 << n) - 1;
-        let short = data.solve(&Settings { max_iterations: budget, ..Settings::default() });
-        assert_eq!(short.status, Status::IterationLimit);
-        assert_eq!(short.iterations, budget);
-        let enough = data.solve(&Settings { max_iterations: budget + 1, ..Settings::default() });
-        assert_eq!(enough.status, Status::Solved);
-    }
-}
-
-/// `M = L Lᵀ` with that triangular `L`, `q = -1`: definite, and `z = e_0`, `w = (0, 1, …, 1)` since
-/// the first column of `M` is `(1, 2, …, 2)`. Y. Fathi, Mathematical Programming 17 (1979) 335-344.
-#[test]
-fn solves_fathis_problem() {
-    for n in [1_usize, 2, 4, 8, 16, 32] {
-        let lower = |i: usize, j: usize| {
-            if i == j {
-                1.0
-            } else if i > j {
-                2.0
-            } else {
-                0.0
-            }
-        };
-        let m =
-            (0..n * n).map(|k| (0..n).map(|l| lower(k % n, l) * lower(k / n, l)).sum()).collect();
-        let data = Data { n, m, q: vec![-1.0; n] };
-        let solution = data.solve(&Settings { max_iterations: 1 << 20, ..Settings::default() });
-        assert_eq!(solution.status, Status::Solved, "{n}: {}", solution.message);
-        let z: Vec<f64> = (0..n).map(|i| f64::from(u8::from(i == 0))).collect();
-        // Condition of M below 9^2 n^2 = 1e5, rounding 1e-16.
-        assert!(largest(&difference(&solution.z, &z)) <= 1e-10, "{n}: {:?}", solution.z);
-    }
 }

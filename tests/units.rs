@@ -109,14 +109,16 @@ fn check(method: Method, law: impl Fn(&mut Rng, usize) -> Law) {
             let scaled = in_units(case, units);
             let after = scaled.solve(&settings);
             let context = || format!("case {index}, {units:?}: {case:?}\n{before:?}\n{after:?}");
-            assert_eq!(after.status, before.status, "{}", context());
-            // Iterates that converge to nothing are left out: rounding decides on them.
-            if !matches!(before.status, Status::Solved | Status::NoEquilibrium) {
-                continue;
-            }
-            if before.status == Status::NoEquilibrium {
-                // Several motions may prove it.
-                assert_eq!(flaw_of_escape(&scaled, &after.d), None, "{}", context());
+            // Several motions may prove that there is no equilibrium, and when a drift of sweeps has
+            // lost its elastic part, so that it proves anything, is up to rounding.
+            let drifts = method != Method::Lemke
+                && [before.status, after.status]
+                    .iter()
+                    .all(|status| matches!(status, Status::NoEquilibrium | Status::IterationLimit));
+            assert!(after.status == before.status || drifts, "{}", context());
+            if after.status != Status::Solved {
+                let proof = after.status == Status::NoEquilibrium;
+                assert!(!proof || flaw_of_escape(&scaled, &after.d).is_none(), "{}", context());
                 continue;
             }
             let d = times(&before.d, units.length);

@@ -2,6 +2,7 @@
 
 #![allow(dead_code)] // Every test file uses a part.
 
+pub mod bare;
 pub mod dense;
 pub mod measures;
 pub mod oracle;

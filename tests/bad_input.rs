@@ -1,0 +1,228 @@
+//! Bad input is refused, with the argument and the entry named.
+
+use signorini::{
+    Argument, ContactData, ContactProblem, Error, Friction, Lcp, Method, Monitor, Settings, solve,
+    solve_lcp,
+};
+
+/// Two pairs in 2D that nothing is wrong with.
+const K: [f64; 16] = [
+    4.0, 1.0, 0.5, 0.0, //
+    1.0, 3.0, 0.0, 0.5, //
+    0.5, 0.0, 4.0, -1.0, //
+    0.0, 0.5, -1.0, 3.0,
+];
+
+const GOOD: ContactData<'static> = ContactData {
+    dim: 2,
+    pairs: 2,
+    stiffness: &K,
+    ld: 4,
+    load: &[1.0, 0.5, 1.0, -0.5],
+    gap: &[0.0, 0.1],
+    friction: Friction::Coulomb(&[0.3, 0.3]),
+    previous_slip: Some(&[0.0, 0.1]),
+};
+
+fn expect(error: Option<Error>, argument: Argument, parts: &[&str]) {
+    match error {
+        Some(Error::Invalid { argument: named, message }) => {
+            assert_eq!(named, argument, "{message}");
+            for part in parts {
+                assert!(message.contains(part), "'{message}' does not say '{part}'");
+            }
+        }
+        other => panic!("expected {argument:?} {parts:?}, got {other:?}"),
+    }
+}
+
+fn refuses(data: ContactData<'_>, argument: Argument, parts: &[&str]) {
+    expect(ContactProblem::new(data).err(), argument, parts);
+}
+
+/// `K` with some entries replaced.
+fn k_with(entries: &[(usize, usize, f64)]) -> Vec<f64> {
+    let mut k = K.to_vec();
+    for &(i, j, value) in entries {
+        k[i + 4 * j] = value;
+    }
+    k
+}
+
+const NOT_FINITE: [f64; 3] = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
+
+#[test]
+fn refuses_dimensions_that_are_not() {
+    assert!(ContactProblem::new(GOOD).is_ok());
+    for dim in [0, 1, 4, usize::MAX] {
+        refuses(ContactData { dim, ..GOOD }, Argument::Dimension, &[&dim.to_string()]);
+    }
+    for pairs in [usize::MAX, usize::MAX / 2, 1 << 40] {
+        refuses(ContactData { pairs, ..GOOD }, Argument::Size, &[&pairs.to_string()]);
+    }
+}
+
+#[test]
+fn refuses_leading_dimensions_too_small_or_too_large() {
+    for ld in [0, 3] {
+        refuses(ContactData { ld, ..GOOD }, Argument::LeadingDimension, &[&ld.to_string(), "4"]);
+    }
+    refuses(ContactData { ld: usize::MAX, ..GOOD }, Argument::LeadingDimension, &[]);
+    refuses(ContactData { ld: 5, ..GOOD }, Argument::Matrix, &["K", "16", "19"]);
+    refuses(ContactData { ld: 0, pairs: 0, ..GOOD }, Argument::LeadingDimension, &["0", "1"]);
+}
+
+#[test]
+fn refuses_arrays_that_are_too_short() {
+    refuses(ContactData { stiffness: &K[..15], ..GOOD }, Argument::Matrix, &["K", "15", "16"]);
+    refuses(ContactData { load: &[1.0; 3], ..GOOD }, Argument::Load, &["f", "3", "4"]);
+    refuses(ContactData { gap: &[0.0], ..GOOD }, Argument::Gap, &["gap", "1", "2"]);
+    for friction in [Friction::Coulomb(&[0.1]), Friction::Tresca(&[0.1])] {
+        refuses(ContactData { friction, ..GOOD }, Argument::Friction, &["1", "2"]);
+    }
+    let previous_slip = Some(&[0.0][..]);
+    refuses(ContactData { previous_slip, ..GOOD }, Argument::PreviousSlip, &["slip", "1", "2"]);
+}
+
+#[test]
+fn refuses_numbers_that_are_not_finite() {
+    for bad in NOT_FINITE {
+        let (k, load) = (k_with(&[(3, 2, bad)]), [1.0, 1.0, bad, 1.0]);
+        refuses(ContactData { stiffness: &k, ..GOOD }, Argument::Matrix, &["K[3,2]"]);
+        refuses(ContactData { load: &load, ..GOOD }, Argument::Load, &["f[2]"]);
+        let pair = [0.0, bad];
+        let data = ContactData { previous_slip: Some(&pair), ..GOOD };
+        refuses(data, Argument::PreviousSlip, &["slip[1]"]);
+        let data = ContactData { friction: Friction::Coulomb(&pair), ..GOOD };
+        refuses(data, Argument::Friction, &["mu[1]"]);
+        let data = ContactData { friction: Friction::Tresca(&pair), ..GOOD };
+        refuses(data, Argument::Friction, &["g[1]"]);
+        if bad != f64::INFINITY {
+            refuses(ContactData { gap: &pair, ..GOOD }, Argument::Gap, &["gap[1]"]);
+        }
+    }
+    assert!(ContactProblem::new(ContactData { gap: &[0.0, f64::INFINITY], ..GOOD }).is_ok());
+}
+
+#[test]
+fn refuses_negative_friction() {
+    let friction = Friction::Coulomb(&[0.3, -0.25]);
+    refuses(ContactData { friction, ..GOOD }, Argument::Friction, &["mu[1]", "-0.25"]);
+    let friction = Friction::Tresca(&[-1e-300, 0.0]);
+    refuses(ContactData { friction, ..GOOD }, Argument::Friction, &["g[0]"]);
+    let friction = Friction::Coulomb(&[-0.0, 0.0]);
+    assert!(ContactProblem::new(ContactData { friction, ..GOOD }).is_ok());
+}
+
+#[test]
+fn refuses_matrices_that_no_structure_has() {
+    let refuses_matrix = |entries: &[(usize, usize, f64)], parts: &[&str]| {
+        let k = k_with(entries);
+        refuses(ContactData { stiffness: &k, ..GOOD }, Argument::Matrix, parts);
+    };
+    // Not symmetric: an index slipped, a sign, the seventh digit.
+    refuses_matrix(&[(1, 0, 0.0)], &["symmetric", "K[1,0]", "K[0,1]"]);
+    refuses_matrix(&[(3, 2, 1.0)], &["symmetric", "K[3,2]", "K[2,3]"]);
+    refuses_matrix(&[(2, 0, 0.5 + 1e-7)], &["symmetric", "K[2,0]", "K[0,2]"]);
+    // Diagonals.
+    refuses_matrix(&[(2, 2, 0.0)], &["K[2,2]", "positive"]);
+    refuses_matrix(&[(1, 1, -3.0)], &["K[1,1]", "-3", "positive"]);
+    let row: Vec<_> = (0..4).flat_map(|i| [(i, 3, 0.0), (3, i, 0.0)]).collect();
+    refuses_matrix(&row, &["row 3", "zero"]);
+    // Larger than its diagonal allows: K_ij² <= K_ii K_jj holds for every structure.
+    refuses_matrix(&[(1, 0, 4.0), (0, 1, 4.0)], &["semi-definite", "K[1,0]"]);
+    // Rounding of a host's condensation is no fault.
+    let k = k_with(&[(1, 0, 1.0 + 1e-12)]);
+    assert!(ContactProblem::new(ContactData { stiffness: &k, ..GOOD }).is_ok());
+}
+
+#[test]
+fn refuses_settings_out_of_range() {
+    let refuses = |settings: Settings, parts: &[&str]| {
+        expect(settings.validate().err(), Argument::Settings, parts);
+        let problem = ContactProblem::new(GOOD).unwrap();
+        let error = solve(&problem, &settings, None, &mut Monitor::new(&settings, None)).err();
+        expect(error, Argument::Settings, parts);
+        let lcp = Lcp::new(1, &[1.0], 1, &[-1.0], None).unwrap();
+        let error = solve_lcp(&lcp, &settings, &mut Monitor::new(&settings, None)).err();
+        expect(error, Argument::Settings, parts);
+    };
+    let good = Settings::default;
+    assert!(good().validate().is_ok());
+    for tolerance in [0.0, -1e-10, 1e-16, 0.2, f64::NAN, f64::INFINITY] {
+        refuses(Settings { tolerance, ..good() }, &["tolerance"]);
+    }
+    for omega in [-0.1, 2.0, 3.0, f64::NAN, f64::INFINITY] {
+        refuses(Settings { omega, ..good() }, &["omega"]);
+    }
+    for damping in [-0.1, 1.1, f64::NAN, f64::INFINITY] {
+        refuses(Settings { damping, ..good() }, &["damping"]);
+    }
+    for time_limit in [-1.0, f64::NAN, f64::NEG_INFINITY] {
+        refuses(Settings { time_limit, ..good() }, &["time_limit"]);
+    }
+    refuses(Settings { max_iterations: 0, ..good() }, &["max_iterations"]);
+}
+
+#[test]
+fn refuses_methods_that_do_not_fit() {
+    let refuses = |friction, method, part| {
+        let problem = ContactProblem::new(ContactData { friction, ..GOOD }).unwrap();
+        let settings = Settings { method, ..Settings::default() };
+        let error = solve(&problem, &settings, None, &mut Monitor::new(&settings, None)).err();
+        expect(error, Argument::Settings, &[part]);
+    };
+    refuses(Friction::Coulomb(&[0.0, 0.1]), Method::Lemke, "mu");
+    refuses(Friction::Tresca(&[0.1, 0.0]), Method::Lemke, "frictionless");
+    refuses(Friction::Tresca(&[0.1, 0.0]), Method::SorDiagonal, "thresholds");
+}
+
+#[test]
+fn refuses_starts_that_do_not_fit() {
+    let problem = ContactProblem::new(GOOD).unwrap();
+    for method in [Method::SorNested, Method::SorDiagonal] {
+        let settings = Settings { method, ..Settings::default() };
+        let run = |start: &[f64]| {
+            solve(&problem, &settings, Some(start), &mut Monitor::new(&settings, None)).err()
+        };
+        expect(run(&[0.0; 3]), Argument::Start, &["3", "4"]);
+        expect(run(&[0.0; 5]), Argument::Start, &["5", "4"]);
+        expect(run(&[]), Argument::Start, &["0", "4"]);
+        for bad in NOT_FINITE {
+            expect(run(&[0.0, 0.0, 0.0, bad]), Argument::Start, &["d[3]"]);
+        }
+    }
+}
+
+#[test]
+fn refuses_bad_complementarity_problems() {
+    const M: [f64; 4] = [2.0, 1.0, 1.0, 2.0];
+    fn refuses(
+        size: usize,
+        m: &[f64],
+        ld: usize,
+        q: &[f64],
+        covering: Option<&[f64]>,
+        argument: Argument,
+        parts: &[&str],
+    ) {
+        expect(Lcp::new(size, m, ld, q, covering).err(), argument, parts);
+    }
+    let q = [-1.0, 1.0];
+    assert!(Lcp::new(2, &M, 2, &q, Some(&[1.0, 3.0])).is_ok());
+    refuses(2, &M, 1, &q, None, Argument::LeadingDimension, &["1", "2"]);
+    refuses(0, &M, 0, &q, None, Argument::LeadingDimension, &["0", "1"]);
+    refuses(2, &M[..3], 2, &q, None, Argument::Matrix, &["3"]);
+    refuses(2, &M, 3, &q, None, Argument::Matrix, &["4"]);
+    refuses(usize::MAX, &M, usize::MAX, &q, None, Argument::Matrix, &[]);
+    refuses(2, &M, 2, &q[..1], None, Argument::Load, &["2"]);
+    refuses(2, &M, 2, &q, Some(&[1.0]), Argument::Covering, &["2"]);
+    for bad in NOT_FINITE {
+        refuses(2, &[2.0, 1.0, bad, 2.0], 2, &q, None, Argument::Matrix, &["M[0,1]"]);
+        refuses(2, &M, 2, &[-1.0, bad], None, Argument::Load, &["q[1]"]);
+        refuses(2, &M, 2, &q, Some(&[1.0, bad]), Argument::Covering, &["d[1]"]);
+    }
+    for bad in [0.0, -1.0] {
+        refuses(2, &M, 2, &q, Some(&[bad, 1.0]), Argument::Covering, &["d[0]"]);
+    }
+}

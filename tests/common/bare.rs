@@ -1,0 +1,91 @@
+//! Bare linear complementarity problems `w = q + M z`, all their solutions, and what is wrong with
+//! an answer.
+
+use signorini::{Lcp, LcpSolution, Monitor, Settings, Status, solve_lcp};
+
+use super::dense::{Elimination, best_margin, dot, largest, norm};
+
+/// A problem with its arrays, `m` column-major.
+#[derive(Clone, Debug)]
+pub struct Bare {
+    pub n: usize,
+    pub m: Vec<f64>,
+    pub q: Vec<f64>,
+}
+
+impl Bare {
+    pub fn solve(&self, settings: &Settings) -> LcpSolution {
+        let lcp = Lcp::new(self.n, &self.m, self.n.max(1), &self.q, None).unwrap();
+        solve_lcp(&lcp, settings, &mut Monitor::new(settings, None)).unwrap()
+    }
+
+    pub fn row(&self, i: usize) -> Vec<f64> {
+        (0..self.n).map(|j| self.m[i + j * self.n]).collect()
+    }
+
+    pub fn column(&self, j: usize) -> &[f64] {
+        &self.m[j * self.n..(j + 1) * self.n]
+    }
+
+    /// How strictly the best complementary basis can be filled, relative to `q`; negative: there is
+    /// no solution. In each, `w_i` or `z_i` is free to be positive for every `i`, a square system;
+    /// a singular one that is consistent has a flat of candidates, searched by elimination.
+    pub fn margin(&self) -> f64 {
+        let n = self.n;
+        let unit = largest(&self.q).max(f64::MIN_POSITIVE);
+        let mut best = f64::NEG_INFINITY;
+        for choice in 0..1_usize << n {
+            // Rows of: sum over chosen z of -M_j z_j + sum over chosen w of e_j w_j = q.
+            let mut basis = vec![0.0; n * n];
+            for j in 0..n {
+                for i in 0..n {
+                    basis[i * n + j] = match choice >> j & 1 {
+                        0 => f64::from(u8::from(i == j)),
+                        _ => -self.m[i + j * n],
+                    };
+                }
+            }
+            let elimination = Elimination::new(n, &basis);
+            let (point, left) = elimination.solve(&self.q);
+            if left <= 1e-9 * unit {
+                best = best.max(best_margin(&point, &elimination.kernel()) / unit);
+            }
+        }
+        best
+    }
+
+    /// Why `solution` is not one, or proves nothing.
+    pub fn flaw(&self, solution: &LcpSolution, tolerance: f64) -> Option<String> {
+        let LcpSolution { w, z, .. } = solution;
+        if w.iter().chain(z).any(|x| !(*x >= 0.0)) {
+            return Some("negative".into());
+        }
+        match solution.status {
+            Status::Solved => {
+                if (0..self.n).any(|i| w[i] != 0.0 && z[i] != 0.0) {
+                    return Some("not complementary".into());
+                }
+                let product: Vec<f64> = (0..self.n).map(|i| dot(&self.row(i), z)).collect();
+                // The tolerance is on min(w, m z) with w = q + M z; the returned w is cut off by
+                // that much at most. Twice, as the rounding of M z is counted here again.
+                let error: Vec<f64> = (0..self.n).map(|i| self.q[i] + product[i] - w[i]).collect();
+                let scale = norm(&self.q).max(norm(&product));
+                let excess = norm(&error) > 2.0 * tolerance * scale;
+                excess.then(|| format!("w = q + M z is {error:?} off"))
+            }
+            Status::NoEquilibrium => {
+                // Farkas: y >= 0, Mᵀ y <= 0, q.y < 0 leave no w, z >= 0, as w.y = q.y + z.Mᵀy.
+                // Zero is anything below 1e-10 of the parts.
+                let size = |j: usize| largest(self.column(j)) * largest(z);
+                let bad = (0..self.n).find(|&j| dot(self.column(j), z) > 1e-10 * size(j));
+                match bad {
+                    Some(j) => Some(format!("(Mᵀ y)[{j}] = {:e} > 0", dot(self.column(j), z))),
+                    None if dot(&self.q, z) < 0.0 => None,
+                    None => Some("q.y is not negative".into()),
+                }
+            }
+            Status::Stalled => None,
+            other => Some(format!("no reason to end with {other:?}")),
+        }
+    }
+}

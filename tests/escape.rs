@@ -1,0 +1,87 @@
+//! A motion proves that there is no equilibrium exactly if statics says so: nothing strained,
+//! nothing that contact can stop, driven by the loads.
+
+mod common;
+
+use common::problems::{Case, Law, block, uniform};
+use fastrand::Rng;
+use signorini::certificate::is_escape;
+
+/// A block of four pairs on a plane.
+fn standing(press: f64, push: f64, law: Law) -> Case {
+    let (mut rng, pairs) = (Rng::with_seed(1), 4);
+    let k = block(&mut rng, pairs);
+    let f = (0..pairs).flat_map(|_| [press / 4.0, push / 4.0]).collect();
+    Case { dim: 2, pairs, k, f, gap: vec![0.0; pairs], law, slip: None }
+}
+
+/// Motions of all pairs alike, of any size: only their direction counts.
+fn escapes(case: &Case, normal: f64, tangential: f64) -> bool {
+    let at = |size: f64| {
+        let r: Vec<f64> = (0..4).flat_map(|_| [normal * size, tangential * size]).collect();
+        is_escape(&case.problem(), &r)
+    };
+    let answer = at(1.0);
+    for exponent in [-200, -100, -30, -20, -10, 10, 20, 30, 100, 200] {
+        assert_eq!(at(10_f64.powi(exponent)), answer, "({normal}, {tangential}) 1e{exponent}");
+    }
+    answer
+}
+
+#[test]
+fn escapes_from_a_plane_are_those_of_statics() {
+    let mu = |mu: f64| Law::Coulomb(vec![mu; 4]);
+    // A push T against mu N: the way out slides and lifts along the edge of the friction cone.
+    for (push, escapes_it) in [(3.9, false), (4.0, false), (4.1, true), (40.0, true)] {
+        let case = standing(10.0, push, mu(0.4));
+        assert_eq!(escapes(&case, -0.4, 1.0), escapes_it, "T = {push}");
+        assert!(!escapes(&case, -0.4, -1.0), "against the push");
+        assert!(!escapes(&case, -0.3, 1.0), "friction can resist a motion inside its cone");
+        assert!(!escapes(&case, 0.0, 1.0), "friction can resist a slide");
+        assert!(!escapes(&case, 1.0, 0.0), "the plane stops it");
+    }
+    // Lifted off, with any friction.
+    for friction in [0.0, 0.4, 5.0] {
+        let case = standing(-1.0, 0.0, mu(friction));
+        assert!(escapes(&case, -1.0, 0.0));
+        assert!(!escapes(&case, 1.0, 0.0));
+    }
+    // Without friction any push slides it; in balance nothing does.
+    assert!(escapes(&standing(10.0, 0.1, mu(0.0)), 0.0, 1.0));
+    assert!(!escapes(&standing(10.0, 0.0, mu(0.0)), 0.0, 1.0));
+    // Given thresholds resist a push up to their sum.
+    for (push, escapes_it) in [(1.9, false), (2.0, false), (2.1, true)] {
+        let case = standing(10.0, push, Law::Tresca(vec![0.5; 4]));
+        assert_eq!(escapes(&case, 0.0, 1.0), escapes_it, "T = {push}");
+        assert!(!escapes(&case, 1e-3, 1.0), "the plane stops it");
+    }
+    // Without an obstacle nothing stops it, and there is no friction.
+    let mut case = standing(10.0, 0.1, mu(0.4));
+    case.gap.fill(f64::INFINITY);
+    assert!(escapes(&case, 1.0, 0.0) && escapes(&case, 0.0, 1.0));
+}
+
+#[test]
+fn motions_that_strain_prove_nothing() {
+    let case = standing(-1.0, 5.0, Law::Coulomb(vec![0.0; 4]));
+    let problem = case.problem();
+    for seed in 0..500 {
+        let mut rng = Rng::with_seed(seed);
+        // Away from the plane and along the loads, but each pair its own way.
+        let mut r: Vec<f64> =
+            (0..4).flat_map(|_| [-rng.f64(), 1.0 + uniform(&mut rng, -0.5, 0.5)]).collect();
+        for exponent in [-200, -100, -30, -20, -16, -12, -8, 0, 8, 20, 100, 200] {
+            let r: Vec<f64> = r.iter().map(|r| r * 10_f64.powi(exponent)).collect();
+            assert!(!is_escape(&problem, &r), "seed {seed}, 1e{exponent}");
+        }
+        // A rigid lift with a little strain.
+        for (i, r) in r.iter_mut().enumerate() {
+            let strain = uniform(&mut rng, -1e-8, 1e-8);
+            *r = if i % 2 == 0 { -1.0 } else { 0.0 } + strain;
+        }
+        assert!(!is_escape(&problem, &r), "seed {seed}");
+    }
+    for r in [[0.0; 8], [f64::NAN; 8], [f64::NEG_INFINITY; 8]] {
+        assert!(!is_escape(&problem, &r), "{r:?}");
+    }
+}
