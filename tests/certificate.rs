@@ -3,7 +3,7 @@
 mod common;
 
 use common::dense::{largest, norm, product};
-use common::measures::{eta, force, prescribed_rounding, rounding};
+use common::measures::{eta, force, rounding, unit_of_rounding};
 use common::problems::{
     Case, Law, add_spring, coulomb, decades, definite, floating, frictionless, loaded, tresca,
     vector,
@@ -45,7 +45,7 @@ fn eta_is_the_residual_of_the_natural_map() {
         }
         let own = eta(&case, &d);
         let certificate = measure(&case, &d);
-        let (error, left_out) = (rounding(&case, &d), 4.0 * prescribed_rounding(&case, &d));
+        let (error, left_out) = (rounding(&case, &d), 16.0 * unit_of_rounding(&case, &d));
         let range = own - left_out - error..=own + error;
         assert!(range.contains(&certificate.eta), "seed {seed}: {own}, {certificate:?}");
         let plain = certificate::eta(&case.problem(), &d, &force(&case, &d));

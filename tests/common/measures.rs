@@ -31,18 +31,12 @@ pub fn eta(case: &Case, d: &[f64]) -> f64 {
     if norm(&residual) == 0.0 { 0.0 } else { norm(&residual) / scale }
 }
 
-/// Bound on the rounding of `K d` that gaps and previous slip prescribe, relative as `eta` is:
-/// `|K| |prescribed| eps / 2`, of which the library leaves four units out of account.
-pub fn prescribed_rounding(case: &Case, d: &[f64]) -> f64 {
-    let n = case.size();
-    let prescribed: Vec<f64> = (0..n)
-        .map(|i| match i % case.dim {
-            0 => case.gap[i / case.dim].abs().min(d[i].abs()),
-            c => case.rest(i / case.dim, c - 1).abs().min(d[i].abs()),
-        })
-        .collect();
+/// The rounding of `K d`, `|K| |d| eps / 2`, relative as `eta` is: of the part of it that gaps and
+/// previous slip cause the library leaves sixteen units out of account.
+pub fn unit_of_rounding(case: &Case, d: &[f64]) -> f64 {
     let absolute: Vec<f64> = case.k.iter().map(|k| k.abs()).collect();
-    let rounding = norm(&product(&absolute, &prescribed)) * f64::EPSILON / 2.0;
+    let size: Vec<f64> = d.iter().map(|d| d.abs()).collect();
+    let rounding = norm(&product(&absolute, &size)) * f64::EPSILON / 2.0;
     rounding / norm(&case.f).max(norm(&force(case, d)))
 }
 
