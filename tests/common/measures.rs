@@ -74,7 +74,8 @@ pub fn tangential_stiffness(case: &Case, pair: usize) -> f64 {
 /// least `-sum g |r_t|`); and if the loads drive it. Then `F . r = -f . r` is impossible.
 ///
 /// Zero is anything below 1e-10 of the strain's parts: far above rounding (1e-15), far below the
-/// least stiffness in the tests (1e-6 of the largest).
+/// least stiffness in the tests (1e-6 of the largest). Work counts from 1e-12 of what the loads
+/// could do on a motion of that size.
 pub fn flaw_of_escape(case: &Case, r: &[f64]) -> Option<String> {
     const ZERO: f64 = 1e-10;
     let n = case.size();
@@ -103,5 +104,7 @@ pub fn flaw_of_escape(case: &Case, r: &[f64]) -> Option<String> {
         }
     }
     let work = dot(&case.f, r);
-    (!(work > resisted)).then(|| format!("the loads do not drive it: {work} <= {resisted}"))
+    let parts: f64 = size * (0..n).map(|i| case.f[i].abs() / root[i]).sum::<f64>();
+    let driven = work - resisted > 1e-12 * parts;
+    (!driven).then(|| format!("the loads do not drive it: {work} against {resisted}"))
 }
