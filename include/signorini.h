@@ -14,20 +14,23 @@
  *
  * Signs. n is the outward normal of the body: d_n > 0 moves towards the obstacle, F_n < 0 presses.
  * F is the force that the contact exerts on the body. f and F are nodal forces, not stresses.
+ * Example: above a plane, with n = (0, -1) and t = (1, 0), d_n = -u_y and d_t = u_x; loads turn
+ * likewise, and of the stiffness the mixed entries K_nt change their sign.
  * Units are yours: any consistent set, and no result depends on it but for its unit.
  *
  * A component that you hold fixed stays in the problem as a decoupled row: zero off the diagonal,
  * positive on it, zero load.
  *
  * Arrays are plain, 64-bit floating point, matrices column-major with a leading dimension. NULL is
- * allowed where a parameter says so. Nothing overlaps. With n = 0 no array is looked at.
+ * allowed where a parameter says so. What is written to overlaps nothing else. With n = 0 no array
+ * is looked at.
  *
  * Status. Every call that computes returns an int32_t:
  *     0          solved, and certified on your data: report.eta <= settings.tolerance
  *     > 0        results were written but are not a solution; SIGNORINI_... says which
  *     -k         the k-th argument is wrong; nothing was written
  *     <= -1000   internal: out of memory, a caught defect
- * signorini_last_error() tells in a sentence what and where.
+ * signorini_last_error() tells in a sentence what and where; entries count from 0: K[row,column].
  *
  * The library never prints, exits, reads files or the environment, installs handlers or starts
  * threads. It keeps your floating-point environment: traps and flush-to-zero are off inside and
@@ -121,12 +124,13 @@
 #define SIGNORINI_METHOD_LEMKE 3
 
 /**
- * A pair is apart: no contact force.
+ * A pair is apart: no normal force, and no tangential one but that of signorini_tresca.
  */
 #define SIGNORINI_OPEN 0
 
 /**
- * A pair slides: |F_t| = mu |F_n|; also every frictionless contact.
+ * A pair touches and |F_t| = mu |F_n|: it slides. Every frictionless contact, at rest or not, is of
+ * this state.
  */
 #define SIGNORINI_SLIP 1
 
@@ -190,7 +194,7 @@ typedef struct signorini_settings {
    */
   int64_t max_iterations;
   /**
-   * Most seconds of wall time; default 0: no limit.
+   * Most seconds of wall time; 0, the default, and infinity: no limit.
    */
   double time_limit;
   /**
@@ -213,8 +217,8 @@ typedef struct signorini_settings {
 } signorini_settings;
 
 /**
- * How good a result is. Set struct_size before the call; all else is written by it.
- * Forces and lengths are in the units of the problem.
+ * How good a result is. Before the call: report.struct_size = sizeof report; all else is written by
+ * it. Forces and lengths are in the units of the problem.
  */
 typedef struct signorini_report {
   /**
@@ -421,7 +425,8 @@ int32_t signorini_tresca(int32_t dim,
  * @param ldm       entries from one column of M to the next, at least max(1, n)
  * @param q         n
  * @param cover     covering vector, n positive entries; NULL: ones
- * @param settings  NULL: the defaults; method, omega, damping and warm_start do not matter
+ * @param settings  NULL: the defaults; method, omega, damping and warm_start, though they must be
+ *                  valid, have no effect
  * @param w         out: n
  * @param z         out: n; with SIGNORINI_NO_EQUILIBRIUM a y >= 0 with M' y <= 0, q . y < 0
  * @param report    out; set report->struct_size before the call; NULL: not wanted

@@ -12,11 +12,12 @@
 //! It is zero at solutions only and has no unit. Two facts of double precision are taken into
 //! account:
 //!
-//! - Prescribed displacements (gaps, previous slip) that move a body as a whole cancel in `K d` up
-//!   to rounding only. `|e|` is counted from 4 units of that rounding on, and of no other.
-//! - Displacements so large that the rounding of `K d` is itself comparable with the forces
-//!   (`rounding > 1e-6`) certify nothing: on a body that nothing holds they would pass as a
-//!   solution.
+//! - Where contact moves a body as a whole, by a gap that closes or a slip that has been, these
+//!   displacements cancel in `K d` up to rounding only. `|e|` is counted from 16 units of the
+//!   rounding of displacements up to 1000 times that size on, which a body that turns may reach.
+//! - Where the rounding of `K d` is itself comparable with the forces (`rounding > 1e-6`) nothing is
+//!   certified: displacements of a body that nothing holds would pass as a solution if they are only
+//!   large enough. Without loads there is nothing to drive them, and the first kind does not count.
 
 use crate::law::{self, Pair, State};
 use crate::linalg::small::{largest, norm};
@@ -46,7 +47,12 @@ pub struct Certificate {
 impl Certificate {
     /// Whether the candidate may be called a solution.
     pub fn holds(&self, tolerance: f64) -> bool {
-        self.eta <= tolerance && self.rounding <= ROUNDING_LIMIT
+        self.eta <= tolerance && !self.runs_away()
+    }
+
+    /// Whether the displacements are so large that rounding hides the forces.
+    pub fn runs_away(&self) -> bool {
+        self.rounding > ROUNDING_LIMIT
     }
 
     /// Number of pairs in a state.
@@ -58,6 +64,9 @@ impl Certificate {
 /// See the module's documentation; it admits condition numbers up to about 1e10.
 const ROUNDING_LIMIT: f64 = 1e-6;
 
+/// See the module's documentation.
+const LEVER: f64 = 1e3;
+
 /// States closer than this part of the largest force are not told apart (see [`Pair::state`]).
 const STATE_MARGIN: f64 = 1e-11;
 
@@ -65,11 +74,16 @@ const STATE_MARGIN: f64 = 1e-11;
 pub fn certify(problem: &ContactProblem<'_>, d: &[f64]) -> Certificate {
     let raw = problem.force(d);
     let scale = force_scale(problem, &raw);
-    let (inherent, rounding) = rounding(problem, d);
+    let (inherent, rest) = rounding(problem, d);
+    let unloaded = largest(problem.load()) == 0.0;
     let residual = norm(&natural_residual(problem, d, &raw));
     let mut certificate = Certificate {
-        eta: ratio((residual - 4.0 * inherent).max(0.0), scale),
-        rounding: ratio(rounding, scale),
+        // Written so that NaN stays NaN.
+        eta: ratio(
+            if residual <= 16.0 * inherent { 0.0 } else { residual - 16.0 * inherent },
+            scale,
+        ),
+        rounding: ratio(if unloaded { rest } else { inherent + rest }, scale),
         penetration: 0.0,
         tension: 0.0,
         cone_excess: 0.0,
@@ -113,10 +127,7 @@ pub fn is_escape(problem: &ContactProblem<'_>, r: &[f64]) -> bool {
     if size == 0.0 || !size.is_finite() {
         return false;
     }
-    let load = problem.load();
-    let internal: Vec<f64> =
-        problem.force(r).iter().zip(load).map(|(force, f)| force + f).collect();
-    if internal.iter().zip(&root).any(|(k, root)| k.abs() > RIGID * size * root) {
+    if problem.internal_force(r).iter().zip(&root).any(|(k, root)| k.abs() > RIGID * size * root) {
         return false;
     }
     let mut resisted = 0.0;
@@ -139,8 +150,9 @@ pub fn is_escape(problem: &ContactProblem<'_>, r: &[f64]) -> bool {
             return false;
         }
     }
+    let load = problem.load();
     let work: f64 = load.iter().zip(r).map(|(f, r)| f * r).sum();
-    let scale: f64 = load.iter().zip(r).map(|(f, r)| (f * r).abs()).sum();
+    let scale: f64 = load.iter().zip(&root).map(|(f, root)| size * (f / root).abs()).sum();
     work - resisted > WORK * scale
 }
 
@@ -148,7 +160,8 @@ pub fn is_escape(problem: &ContactProblem<'_>, r: &[f64]) -> bool {
 /// alone: 100 times the rounding of a host's condensation, and beyond what can be certified.
 const RIGID: f64 = 1e-11;
 
-/// Least work of the loads, relative to the sum of its parts, that tells driving from balance.
+/// Least work of the loads, relative to what they could do on motions of that size, that tells
+/// driving from balance.
 const WORK: f64 = 1e-9;
 
 fn natural_residual(problem: &ContactProblem<'_>, d: &[f64], raw: &[f64]) -> Vec<f64> {
@@ -165,19 +178,25 @@ fn force_scale(problem: &ContactProblem<'_>, raw: &[f64]) -> f64 {
     norm(problem.load()).max(norm(raw))
 }
 
-/// Norms of the rounding of `K d`: first the part that gaps and previous slip prescribe (no larger
-/// than those, component by component), then the rest.
+/// Norms of the rounding of `K d`: first that of displacements no larger than a body moves that
+/// closes a gap or has slipped, then the rest.
 fn rounding(problem: &ContactProblem<'_>, d: &[f64]) -> (f64, f64) {
-    let n = problem.unknowns();
-    let (mut inherent, mut rest) = (vec![0.0; n], vec![0.0; n]);
+    let dim = problem.dim();
+    let mut prescribed = 0.0_f64;
+    for pair in 0..problem.pairs() {
+        let gap = problem.gap(pair);
+        if d[dim * pair] >= gap {
+            prescribed = prescribed.max(gap.abs());
+        }
+        for component in 0..dim - 1 {
+            prescribed = prescribed.max(problem.previous_slip(pair, component).abs());
+        }
+    }
+    let unit = f64::EPSILON / 2.0;
+    let (mut inherent, mut rest) = (vec![0.0; d.len()], vec![0.0; d.len()]);
     for (j, dj) in d.iter().enumerate() {
-        let (pair, component) = (j / problem.dim(), j % problem.dim());
-        let prescribed = match component {
-            0 => problem.gap(pair).abs(),
-            t => problem.previous_slip(pair, t - 1).abs(),
-        };
-        let size = dj.abs() * f64::EPSILON / 2.0;
-        let prescribed = size.min(prescribed * f64::EPSILON / 2.0);
+        let size = unit * dj.abs();
+        let prescribed = size.min(unit * LEVER * prescribed);
         if size > 0.0 {
             for ((k, inherent), rest) in problem.column(j).iter().zip(&mut inherent).zip(&mut rest)
             {
@@ -186,7 +205,8 @@ fn rounding(problem: &ContactProblem<'_>, d: &[f64]) -> (f64, f64) {
             }
         }
     }
-    (norm(&inherent), norm(&rest))
+    let inherent = norm(&inherent);
+    (inherent, if inherent.is_finite() { norm(&rest) } else { f64::INFINITY })
 }
 
 fn for_each_pair(
@@ -221,6 +241,13 @@ fn pair_mut(values: &mut [f64], dim: usize, index: usize) -> (&mut f64, &mut [f6
     (&mut normal[0], tangential)
 }
 
+/// `part / whole`, and infinite where a number on the way overflowed: nothing is certified then.
 fn ratio(part: f64, whole: f64) -> f64 {
-    if part == 0.0 { 0.0 } else { part / whole }
+    if !part.is_finite() || !whole.is_finite() {
+        f64::INFINITY
+    } else if part == 0.0 {
+        0.0
+    } else {
+        part / whole
+    }
 }

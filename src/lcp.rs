@@ -37,9 +37,13 @@ impl<'a> Lcp<'a> {
         if entries.is_none_or(|entries| matrix.len() < entries) {
             return refuse(Argument::Matrix, format!("M has {} entries, too few", matrix.len()));
         }
-        if q.len() < size || covering.is_some_and(|covering| covering.len() < size) {
-            return refuse(Argument::Load, format!("q and d must have {size} entries"));
+        if q.len() < size {
+            return refuse(Argument::Load, format!("q has {} entries, too few", q.len()));
         }
+        if covering.is_some_and(|covering| covering.len() < size) {
+            return refuse(Argument::Covering, format!("cover must have {size} entries"));
+        }
+        let (q, covering) = (&q[..size], covering.map(|covering| &covering[..size]));
         let lcp = Lcp { size, matrix, ld, q, covering };
         for j in 0..size {
             if let Some(i) = lcp.column(j).iter().position(|m| !m.is_finite()) {
@@ -52,7 +56,7 @@ impl<'a> Lcp<'a> {
         if let Some(covering) = covering
             && let Some(i) = covering.iter().position(|&d| !(d > 0.0 && d.is_finite()))
         {
-            let message = format!("d[{i}] is {}, it must be positive", covering[i]);
+            let message = format!("cover[{i}] is {}, it must be positive", covering[i]);
             return refuse(Argument::Covering, message);
         }
         Ok(lcp)
@@ -131,9 +135,8 @@ impl<'a> Lcp<'a> {
         if y.iter().any(|&y| y < 0.0) || size == 0.0 || !size.is_finite() {
             return false;
         }
-        let q: Vec<f64> = self.q.iter().zip(y).map(|(q, y)| q * y).collect();
-        let work: f64 = q.iter().sum();
-        let scale: f64 = q.iter().map(|q| q.abs()).sum();
+        let work: f64 = self.q.iter().zip(y).map(|(q, y)| q * y).sum();
+        let scale: f64 = self.q.iter().zip(&magnitude).map(|(q, m)| (q / m).abs() * size).sum();
         let rounding = 1e-11 * size;
         work < -1e-9 * scale
             && (0..self.size).all(|j| {

@@ -86,6 +86,8 @@ impl<'a> ContactProblem<'a> {
             })?;
         let problem = ContactProblem { data };
         problem.check_lengths(n)?;
+        let problem = problem.trimmed();
+        let data = problem.data;
         check_finite(Argument::Load, "f", data.load)?;
         check_gaps(data.gap)?;
         check_friction(data.friction)?;
@@ -170,6 +172,11 @@ impl<'a> ContactProblem<'a> {
         self.data.previous_slip.map_or(0.0, |slip| slip[(self.data.dim - 1) * pair + component])
     }
 
+    /// Whether friction is at rest at zero displacement everywhere.
+    pub fn has_no_previous_slip(&self) -> bool {
+        self.data.previous_slip.is_none_or(|slip| slip.iter().all(|&slip| slip == 0.0))
+    }
+
     /// Bound on the tangential force of a pair that carries the pressure `pressure >= 0`.
     pub fn threshold(&self, pair: usize, pressure: f64) -> f64 {
         match self.data.friction {
@@ -180,15 +187,41 @@ impl<'a> ContactProblem<'a> {
 
     /// `K d - f`, the force that `d` asks of the contact.
     pub fn force(&self, d: &[f64]) -> Vec<f64> {
-        let mut force: Vec<f64> = self.data.load.iter().map(|f| -f).collect();
+        self.product(d, self.data.load.iter().map(|f| -f).collect())
+    }
+
+    /// `K d`, the force of the material.
+    pub fn internal_force(&self, d: &[f64]) -> Vec<f64> {
+        self.product(d, vec![0.0; self.unknowns()])
+    }
+
+    /// `sum + K d`.
+    fn product(&self, d: &[f64], mut sum: Vec<f64>) -> Vec<f64> {
         for (j, &dj) in d.iter().enumerate() {
             if dj != 0.0 {
-                for (force, k) in force.iter_mut().zip(self.column(j)) {
-                    *force += k * dj;
+                for (sum, k) in sum.iter_mut().zip(self.column(j)) {
+                    *sum += k * dj;
                 }
             }
         }
-        force
+        sum
+    }
+
+    /// Without what arrays have beyond their lengths.
+    fn trimmed(self) -> Self {
+        let ContactData { dim, pairs, load, gap, friction, previous_slip, .. } = self.data;
+        let friction = match friction {
+            Friction::Coulomb(mu) => Friction::Coulomb(&mu[..pairs]),
+            Friction::Tresca(g) => Friction::Tresca(&g[..pairs]),
+        };
+        let data = ContactData {
+            load: &load[..dim * pairs],
+            gap: &gap[..pairs],
+            friction,
+            previous_slip: previous_slip.map(|slip| &slip[..(dim - 1) * pairs]),
+            ..self.data
+        };
+        ContactProblem { data }
     }
 
     fn check_lengths(&self, n: usize) -> Result<(), Error> {

@@ -19,11 +19,12 @@ const ALLOWED: [(&str, &[&str]); 10] = [
 ];
 
 /// Solvers that one solver may call.
-const SOLVERS: [(&str, &[&str]); 10] = [
+const SOLVERS: [(&str, &[&str]); 11] = [
     ("bare", &["lemke"]),
     ("coulomb", &["sweeps"]),
-    ("elimination", &[]),
-    ("escape", &[]),
+    ("elimination", &["factor"]),
+    ("escape", &["factor"]),
+    ("factor", &[]),
     ("frictionless", &["elimination", "lemke", "sweeps"]),
     ("lemke", &["tableau"]),
     ("relaxation", &[]),

@@ -56,6 +56,17 @@ impl Arrays {
         Ok(Output { pointer, length: if present { length } else { 0 } })
     }
 
+    /// A structure of the caller, to be checked for overlap only.
+    pub(super) fn structure<T>(
+        &mut self,
+        position: i32,
+        name: &'static str,
+        pointer: *const T,
+        written: bool,
+    ) -> Result<(), Failure> {
+        self.add(position, name, pointer, 1, false, written).map(drop)
+    }
+
     /// Refuses an output that shares memory with another array.
     pub(super) fn check_overlap(&self) -> Result<(), Failure> {
         for (index, one) in self.ranges.iter().enumerate() {

@@ -169,6 +169,8 @@ impl Arguments {
         let state = arrays.output(12, "state", self.state, pairs, false)?;
         // SAFETY: as above.
         unsafe { SignoriniReport::accept(13, self.report)? };
+        arrays.structure(9, "settings", self.settings, false)?;
+        arrays.structure(13, "report", self.report.cast_const(), true)?;
         arrays.check_overlap()?;
 
         let from_error = |error| Failure::from_error(error, position);

@@ -23,7 +23,8 @@ use crate::solve::{Status, solve_lcp};
 /// @param ldm       entries from one column of M to the next, at least max(1, n)
 /// @param q         n
 /// @param cover     covering vector, n positive entries; NULL: ones
-/// @param settings  NULL: the defaults; method, omega, damping and warm_start do not matter
+/// @param settings  NULL: the defaults; method, omega, damping and warm_start, though they must be
+///                  valid, have no effect
 /// @param w         out: n
 /// @param z         out: n; with SIGNORINI_NO_EQUILIBRIUM a y >= 0 with M' y <= 0, q . y < 0
 /// @param report    out; set report->struct_size before the call; NULL: not wanted
@@ -60,6 +61,8 @@ pub unsafe extern "C" fn signorini_lcp_lemke(
         let z = arrays.output(8, "z", z, n, true)?;
         // SAFETY: as above.
         unsafe { SignoriniReport::accept(9, report)? };
+        arrays.structure(6, "settings", settings, false)?;
+        arrays.structure(9, "report", report.cast_const(), true)?;
         arrays.check_overlap()?;
 
         let from_error = |error| Failure::from_error(error, position);

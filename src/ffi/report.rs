@@ -7,15 +7,16 @@ use crate::law::State;
 use crate::settings::Method;
 use crate::solve::{LcpSolution, Solution};
 
-/// A pair is apart: no contact force.
+/// A pair is apart: no normal force, and no tangential one but that of signorini_tresca.
 pub const SIGNORINI_OPEN: i32 = 0;
-/// A pair slides: |F_t| = mu |F_n|; also every frictionless contact.
+/// A pair touches and |F_t| = mu |F_n|: it slides. Every frictionless contact, at rest or not, is of
+/// this state.
 pub const SIGNORINI_SLIP: i32 = 1;
 /// A pair sticks: d_t = slip.
 pub const SIGNORINI_STICK: i32 = 2;
 
-/// How good a result is. Set struct_size before the call; all else is written by it.
-/// Forces and lengths are in the units of the problem.
+/// How good a result is. Before the call: report.struct_size = sizeof report; all else is written by
+/// it. Forces and lengths are in the units of the problem.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct SignoriniReport {

@@ -50,7 +50,7 @@ pub struct SignoriniSettings {
     pub damping: f64,
     /// Most sweeps (SOR) or pivots (Lemke), at least 1; default 200000.
     pub max_iterations: i64,
-    /// Most seconds of wall time; default 0: no limit.
+    /// Most seconds of wall time; 0, the default, and infinity: no limit.
     pub time_limit: f64,
     /// Nonzero: the iteration starts from what d holds; default 0: it starts from zero.
     /// Lemke's method does not use a start.

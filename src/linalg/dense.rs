@@ -17,7 +17,7 @@ pub struct Semidefinite {
 
 /// Pivots below this part of the diagonal are dependent: above the rounding that a host's
 /// condensation leaves where a zero should be (1e-13), below the stiffness of anything certifiable.
-const RANK: f64 = 1e-11;
+pub const RANK: f64 = 1e-11;
 
 /// Without pivoting small pivots say less; below this one the factorisation is repeated with it.
 const SAFE_PIVOT: f64 = 1e-8;

@@ -1,4 +1,4 @@
-//! Frictionless contact, reduced to openings and pressures: by Lemke's method (paper, section 2.2)
+//! Frictionless contact, reduced to normal displacements: by Lemke's method (paper, section 2.2)
 //! and by projected SOR.
 //!
 //! A load that drives a motion free of contact has no equilibrium, and neither has one that ends
@@ -48,24 +48,33 @@ fn follow_path(
     care: Care,
     monitor: &mut Monitor<'_>,
 ) -> Result<Candidate, Error> {
-    let kept = elimination.kept();
-    let root: Vec<f64> = kept.iter().map(|&i| problem.diagonal(i).sqrt()).collect();
+    // p = q + M w in the openings w = gap - d_n and the pressures p = -F_n.
+    let reduced = elimination.reduced();
+    let gap: Vec<f64> = (0..reduced.pairs()).map(|i| reduced.gap(i)).collect();
+    let q: Vec<f64> = reduced.force(&gap).iter().map(|force| -force).collect();
+    let root: Vec<f64> = elimination.kept().iter().map(|&i| problem.diagonal(i).sqrt()).collect();
     let scale: Vec<f64> = root.iter().map(|root| root.recip()).collect();
-    let (matrix, q) = (elimination.matrix(), elimination.q());
-    let lcp = Lcp::new(kept.len(), matrix, kept.len().max(1), q, Some(&root))?;
+    let size = q.len();
+    let Ok(lcp) = Lcp::new(size, elimination.matrix(), size.max(1), &q, Some(&root)) else {
+        let ending = Ending::Stalled("numbers overflow in the reduced problem");
+        return Ok(Candidate::ended(elimination.expand(&gap), ending));
+    };
     let run = lemke::lemke(&lcp, &scale, care, monitor)?;
-    let closing = |openings: &[f64]| openings.iter().map(|w| -w).collect::<Vec<_>>();
     let ending = match run.path {
         Path::Solution => Ending::Done,
         Path::Interrupted(reason) => Ending::Interrupted(reason),
         Path::Breakdown => Ending::Stalled("rounding made Lemke's basis singular"),
-        Path::Ray(ray) => Ending::Escape(elimination.follow(&closing(&ray))),
+        Path::Ray(ray) => {
+            let opening: Vec<f64> = ray.iter().map(|w| -w).collect();
+            Ending::Escape(elimination.follow(&opening))
+        }
     };
-    let d = elimination.expand(&closing(&run.z));
+    let normal: Vec<f64> = gap.iter().zip(&run.z).map(|(gap, w)| gap - w).collect();
+    let d = elimination.expand(&normal);
     Ok(Candidate { refactorisations: run.refactorisations, ..Candidate::ended(d, ending) })
 }
 
-/// Solves by projected SOR on the openings.
+/// Solves by projected SOR on the normal displacements.
 pub fn sor(
     problem: &ContactProblem<'_>,
     settings: &Settings,
@@ -76,10 +85,8 @@ pub fn sor(
         Ok(elimination) => elimination,
         Err(obstruction) => return obstructed(problem, obstruction),
     };
-    let zeros = vec![0.0; elimination.kept().len()];
-    let reduced = elimination.reduced(&zeros);
-    let kept = elimination.kept().iter();
-    let start = kept.map(|&i| start[i] - problem.gap(i / problem.dim())).collect();
+    let reduced = elimination.reduced();
+    let start = elimination.kept().iter().map(|&i| start[i]).collect();
     let mut sweeps = Sweeps::new(&reduced, settings, start, LARGEST_FACTOR, monitor);
     // The reduced problem has another scale of forces than the whole one: what counts is the latter.
     let mut target = settings.tolerance;

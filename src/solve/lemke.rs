@@ -69,6 +69,9 @@ pub fn lemke(
     monitor: &mut Monitor<'_>,
 ) -> Result<Run, Error> {
     let n = lcp.size();
+    // Of size one, as the rest of the scaled problem.
+    let covering: Vec<f64> = (0..n).map(|i| lcp.covering(i) * scale[i]).collect();
+    let unit = covering.iter().fold(0.0_f64, |most, d| most.max(*d)).log2().round().exp2();
     let columns = (0..n).flat_map(|j| {
         lcp.column(j).iter().zip(scale).map(move |(m, row_scale)| row_scale * m * scale[j])
     });
@@ -76,7 +79,7 @@ pub fn lemke(
         size: n,
         matrix: columns.collect(),
         q: lcp.q().iter().zip(scale).map(|(q, scale)| q * scale).collect(),
-        covering: (0..n).map(|i| lcp.covering(i) * scale[i]).collect(),
+        covering: covering.iter().map(|d| d / unit).collect(),
     };
     let unscaled = |scaled: &mut dyn Iterator<Item = f64>| -> Vec<f64> {
         scaled.zip(scale).map(|(z, scale)| z.max(0.0) * scale).collect()

@@ -4,6 +4,7 @@ use super::Ending;
 use super::escape::EscapeWatch;
 use super::relaxation::Relaxation;
 use super::sor::Iterate;
+use crate::linalg::small::largest;
 use crate::monitor::Monitor;
 use crate::problem::ContactProblem;
 use crate::settings::Settings;
@@ -17,6 +18,8 @@ pub struct Sweeps<'p, 'm, 'c> {
     monitor: &'m mut Monitor<'c>,
     /// Accuracy when it was last halved, and the sweep count then.
     halved: (f64, u64),
+    /// Largest force of any iterate.
+    largest_force: f64,
 }
 
 /// Largest over-relaxation factor chosen.
@@ -29,6 +32,9 @@ const ROUND: u64 = 1000;
 /// so many sweeps.
 const AT_ROUNDING: f64 = 1e-11;
 const STAGNATION: u64 = 5000;
+
+/// Forces this small beside earlier ones, without load, only fade on.
+const DEAD: f64 = 1e-14;
 
 /// Sweeps between two measurements of `eta`, which cost a few operations per unknown each.
 const MEASURE: u64 = 4;
@@ -50,6 +56,7 @@ impl<'p, 'm, 'c> Sweeps<'p, 'm, 'c> {
             relaxation: Relaxation::new(settings.omega, largest_factor, problem.unknowns()),
             monitor,
             halved: (f64::INFINITY, 0),
+            largest_force: 0.0,
         }
     }
 
@@ -76,6 +83,11 @@ impl<'p, 'm, 'c> Sweeps<'p, 'm, 'c> {
         if eta <= tolerance {
             self.iterate.refresh(self.problem);
             return Ok(self.eta() <= tolerance);
+        }
+        let force = largest(&self.iterate.force);
+        self.largest_force = self.largest_force.max(force);
+        if force < DEAD * self.largest_force && largest(self.problem.load()) == 0.0 {
+            return Err(Ending::Stalled("without load the forces die out"));
         }
         if eta <= 0.5 * self.halved.0 {
             self.halved = (eta, sweeps);

@@ -53,7 +53,8 @@ pub struct Tableau {
     simd: Simd,
 }
 
-/// Coefficients below this part of a column's largest are rounding and block nothing.
+/// Coefficients below this part of a column's largest are rounding and block nothing; so are those
+/// below this number itself in the column of a `z`, where the data, scaled, are of size one.
 const NEGLIGIBLE: f64 = 1e-11;
 
 /// Ratios that agree to this part are a tie, for the lexicographic rule to break.
@@ -131,7 +132,8 @@ impl Tableau {
     pub fn blocking_row(&self, entering: usize, preferred: usize) -> Option<usize> {
         let column = self.column(self.place[entering] - self.size);
         let largest = column.iter().fold(0.0, |most: f64, t| most.max(t.abs()));
-        let least = -NEGLIGIBLE * largest;
+        let size = if entering < self.size { largest } else { largest.max(1.0) };
+        let least = -NEGLIGIBLE * size;
         let blocking = || (0..self.size).filter(|&row| column[row] < least);
         let ratio = |row: usize| self.values()[row].max(0.0) / -column[row];
         let first = blocking().map(ratio).fold(f64::INFINITY, f64::min);
@@ -148,7 +150,8 @@ impl Tableau {
         while ties.len() > 1 && component < self.size {
             let key = |row: usize| self.perturbation(row, component) / -column[row];
             let first = ties.iter().map(|&row| key(row)).fold(f64::INFINITY, f64::min);
-            let margin = TIE * first.abs();
+            // Coefficients of size one, divided as the ratios are: differences below are rounding.
+            let margin = TIE * first.abs().max(1.0 / largest);
             ties.retain(|&row| key(row) <= first + margin);
             component += 1;
         }

@@ -11,14 +11,18 @@
 
 static int checks_done, checks_failed;
 
+/* More failures than these are only counted. */
+enum { MOST_PRINTED = 20 };
+
+/* Counts; whether there is nothing to print about it. */
 static inline int check_result(const char *file, int line, int passed)
 {
     checks_done++;
-    if (!passed) {
-        checks_failed++;
-        printf("%s:%d: failed: ", file, line);
-    }
-    return passed;
+    if (passed) return 1;
+    checks_failed++;
+    if (checks_failed > MOST_PRINTED) return 1;
+    printf("%s:%d: failed: ", file, line);
+    return 0;
 }
 
 /* The condition holds. */
@@ -56,6 +60,7 @@ static inline int check_result(const char *file, int line, int passed)
 /* The last line of main: what was checked, and the exit status. */
 static inline int check_summary(const char *program)
 {
+    if (checks_failed > MOST_PRINTED) printf("... and %d more\n", checks_failed - MOST_PRINTED);
     printf("%s: %d checks, %d failed\n", program, checks_done, checks_failed);
     return checks_failed != 0;
 }

@@ -102,7 +102,7 @@ static void agrees(int line, const small *p, const double *d, const double *F,
             CHECK_NEAR(a.F[i], F[i]);
         }
         for (int i = 0; i < p->pairs; i++) CHECK(a.state[i] == state[i]);
-        if (checks_failed > failed_before)
+        if (checks_failed > failed_before && checks_failed <= MOST_PRINTED)
             printf("... by method %d, called at line %d\n", (int)method, line);
     }
 }
