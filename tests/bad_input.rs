@@ -220,9 +220,9 @@ fn refuses_bad_complementarity_problems() {
     for bad in NOT_FINITE {
         refuses(2, &[2.0, 1.0, bad, 2.0], 2, &q, None, Argument::Matrix, &["M[0,1]"]);
         refuses(2, &M, 2, &[-1.0, bad], None, Argument::Load, &["q[1]"]);
-        refuses(2, &M, 2, &q, Some(&[1.0, bad]), Argument::Covering, &["d[1]"]);
+        refuses(2, &M, 2, &q, Some(&[1.0, bad]), Argument::Covering, &["cover[1]"]);
     }
     for bad in [0.0, -1.0] {
-        refuses(2, &M, 2, &q, Some(&[bad, 1.0]), Argument::Covering, &["d[0]"]);
+        refuses(2, &M, 2, &q, Some(&[bad, 1.0]), Argument::Covering, &["cover[0]"]);
     }
 }

@@ -31,29 +31,15 @@ pub fn eta(case: &Case, d: &[f64]) -> f64 {
     if norm(&residual) == 0.0 { 0.0 } else { norm(&residual) / scale }
 }
 
-/// Bound on the rounding of `K d` that gaps and previous slip prescribe, relative as `eta` is:
-/// `|K| |prescribed| eps / 2`, of which the library leaves four units out of account.
-pub fn prescribed_rounding(case: &Case, d: &[f64]) -> f64 {
-    let n = case.size();
-    let prescribed: Vec<f64> = (0..n)
-        .map(|i| match i % case.dim {
-            0 => case.gap[i / case.dim].abs().min(d[i].abs()),
-            c => case.rest(i / case.dim, c - 1).abs().min(d[i].abs()),
-        })
-        .collect();
-    let absolute: Vec<f64> = case.k.iter().map(|k| k.abs()).collect();
-    let rounding = norm(&product(&absolute, &prescribed)) * f64::EPSILON / 2.0;
-    rounding / norm(&case.f).max(norm(&force(case, d)))
-}
-
-/// Twice a bound on the rounding of `K d`, relative as `eta` is: how far two computations of `eta`
-/// may be apart, and what the library leaves out of account.
+/// Bound on the rounding of `K d`, relative as `eta` is: how far two computations of `eta` may be
+/// apart (`n` units each, half an epsilon), and what the library leaves out of account (16 units).
 pub fn rounding(case: &Case, d: &[f64]) -> f64 {
     let absolute: Vec<f64> = case.k.iter().map(|k| k.abs()).collect();
     let size: Vec<f64> = d.iter().map(|d| d.abs()).collect();
     let parts = norm(&product(&absolute, &size)) + norm(&case.f);
     let scale = norm(&case.f).max(norm(&force(case, d)));
-    if parts == 0.0 { 0.0 } else { 2.0 * case.size() as f64 * f64::EPSILON * parts / scale }
+    let units = 2.0 * case.size() as f64 + 16.0;
+    if parts == 0.0 { 0.0 } else { units * f64::EPSILON / 2.0 * parts / scale }
 }
 
 /// `K_tt` of a pair, in 3D the largest eigenvalue of its tangential block.
