@@ -178,6 +178,27 @@ fn each_violation_raises_its_own_measure() {
     check([-1.0, 4.0], [0.0, 5.0], 5.0, [0.0, 0.0, 5.0, 5.0], Open);
 }
 
+/// Forces far below the rounding of `K_tt` times the slip are measured all the same: at `d = 0`
+/// nothing rounds. A tangential force along the slip instead of against it has `e_t = F_t + g`.
+#[test]
+fn forces_that_are_small_against_the_slip_are_still_measured() {
+    for size in [1.0, 1e-10, 1e-20, 1e-30] {
+        let case = |tangential: f64| Case {
+            dim: 2,
+            pairs: 1,
+            k: vec![4.0, 0.0, 0.0, 2.0],
+            f: vec![8.0 * size, -tangential * size],
+            gap: vec![0.0],
+            law: Law::Coulomb(vec![0.5]),
+            slip: Some(vec![-10.0]),
+        };
+        let (right, wrong) = (case(-4.0), case(4.0));
+        assert!(measure(&right, &[0.0; 2]).eta <= 1e-15, "{size}");
+        let eta = measure(&wrong, &[0.0; 2]).eta;
+        assert!((eta - 8.0 / 80_f64.sqrt()).abs() <= 1e-14, "{size}: {eta}");
+    }
+}
+
 /// The same in 3D, where a tangential block `[[3, 1], [1, 3]]` has the largest eigenvalue 4.
 #[test]
 fn in_space_the_cone_is_round() {

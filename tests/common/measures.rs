@@ -8,24 +8,27 @@ pub fn force(case: &Case, d: &[f64]) -> Vec<f64> {
     difference(&product(&case.k, d), &case.f)
 }
 
-/// `|e| / max(|f|, |F|)` of the natural map as the documentation of `certificate` writes it:
+/// `|e| / max(|f|, |F|)` of the natural map that the documentation of `certificate` defines,
 ///
 /// `e_n = K_nn (d_n - min(gap, d_n - F_n / K_nn))`,
-/// `e_t = K_tt (delta - shrink(delta - F_t / K_tt, g / K_tt))`, `g = mu max(0, -F_n)` or given.
+/// `e_t = K_tt (delta - shrink(delta - F_t / K_tt, g / K_tt))`, `g = mu max(0, -F_n)` or given,
+///
+/// case by case, so that displacements do not hide the forces in their rounding.
 pub fn eta(case: &Case, d: &[f64]) -> f64 {
     let force = force(case, d);
     let mut residual = Vec::new();
     for pair in 0..case.pairs {
         let i = case.dim * pair;
-        let k_n = case.stiffness(i, i);
-        residual.push(k_n * (d[i] - case.gap[pair].min(d[i] - force[i] / k_n)));
+        // d_n - gap or F_n / K_nn, whichever is larger.
+        residual.push((case.stiffness(i, i) * (d[i] - case.gap[pair])).max(force[i]));
         let k_t = tangential_stiffness(case, pair);
         let delta: Vec<f64> = (1..case.dim).map(|c| d[i + c] - case.rest(pair, c - 1)).collect();
-        let trial: Vec<f64> = (1..case.dim).map(|c| delta[c - 1] - force[i + c] / k_t).collect();
-        let amount = case.bound(pair, force[i]) / k_t;
-        let keep = if norm(&trial) > amount { 1.0 - amount / norm(&trial) } else { 0.0 };
-        residual
-            .extend(delta.iter().zip(&trial).map(|(delta, trial)| k_t * (delta - keep * trial)));
+        let trial: Vec<f64> = (1..case.dim).map(|c| k_t * delta[c - 1] - force[i + c]).collect();
+        let (bound, length) = (case.bound(pair, force[i]), norm(&trial));
+        residual.extend((0..case.dim - 1).map(|c| match length > bound {
+            true => force[i + 1 + c] + bound * (trial[c] / length),
+            false => k_t * delta[c],
+        }));
     }
     let scale = norm(&case.f).max(norm(&force));
     if norm(&residual) == 0.0 { 0.0 } else { norm(&residual) / scale }
@@ -33,9 +36,19 @@ pub fn eta(case: &Case, d: &[f64]) -> f64 {
 
 /// Bound on the rounding of `K d`, relative as `eta` is: how far two computations of `eta` may be
 /// apart (`n` units each, half an epsilon), and what the library leaves out of account (16 units).
+/// Without loads, forces are zero or come from gaps and previous slip, whose rounding then counts.
 pub fn rounding(case: &Case, d: &[f64]) -> f64 {
     let absolute: Vec<f64> = case.k.iter().map(|k| k.abs()).collect();
-    let size: Vec<f64> = d.iter().map(|d| d.abs()).collect();
+    let unloaded = case.f.iter().all(|&f| f == 0.0);
+    let size: Vec<f64> = (0..case.size())
+        .map(|i| {
+            let prescribed = match i % case.dim {
+                0 => case.gap[i / case.dim],
+                c => case.rest(i / case.dim, c - 1),
+            };
+            d[i].abs().max(if unloaded && prescribed.is_finite() { prescribed.abs() } else { 0.0 })
+        })
+        .collect();
     let parts = norm(&product(&absolute, &size)) + norm(&case.f);
     let scale = norm(&case.f).max(norm(&force(case, d)));
     let units = 2.0 * case.size() as f64 + 16.0;
