@@ -3,7 +3,7 @@
 mod common;
 
 use common::dense::{largest, norm, product};
-use common::measures::{eta, force, rounding, unit_of_rounding};
+use common::measures::{eta, force, rounding};
 use common::problems::{
     Case, Law, add_spring, coulomb, decades, definite, floating, frictionless, loaded, tresca,
     vector,
@@ -16,8 +16,7 @@ fn measure(case: &Case, d: &[f64]) -> Certificate {
     certify(&case.problem(), d)
 }
 
-/// `eta` by the formulas of the module's documentation, at arbitrary candidates. The library may
-/// leave out of account four units of the rounding that gaps and previous slip prescribe.
+/// `eta` by the formulas of the module's documentation, at arbitrary candidates.
 #[test]
 fn eta_is_the_residual_of_the_natural_map() {
     for seed in 0..4000 {
@@ -45,8 +44,8 @@ fn eta_is_the_residual_of_the_natural_map() {
         }
         let own = eta(&case, &d);
         let certificate = measure(&case, &d);
-        let (error, left_out) = (rounding(&case, &d), 16.0 * unit_of_rounding(&case, &d));
-        let range = own - left_out - error..=own + error;
+        let error = rounding(&case, &d) + 1e-14 * own;
+        let range = own - error..=own + error;
         assert!(range.contains(&certificate.eta), "seed {seed}: {own}, {certificate:?}");
         let plain = certificate::eta(&case.problem(), &d, &force(&case, &d));
         assert!((plain - own).abs() <= error, "seed {seed}: {own}, {plain}");
@@ -177,6 +176,27 @@ fn each_violation_raises_its_own_measure() {
     check([1.0, 4.0], [-8.0, 4.0], 2.0, [0.0; 4], Stick);
     // Tangential force 5 on an open pair: e_t = 2 * 1 - (2 * 1 - 5).
     check([-1.0, 4.0], [0.0, 5.0], 5.0, [0.0, 0.0, 5.0, 5.0], Open);
+}
+
+/// Forces far below the rounding of `K_tt` times the slip are measured all the same: at `d = 0`
+/// nothing rounds. A tangential force along the slip instead of against it has `e_t = F_t + g`.
+#[test]
+fn forces_that_are_small_against_the_slip_are_still_measured() {
+    for size in [1.0, 1e-10, 1e-20, 1e-30] {
+        let case = |tangential: f64| Case {
+            dim: 2,
+            pairs: 1,
+            k: vec![4.0, 0.0, 0.0, 2.0],
+            f: vec![8.0 * size, -tangential * size],
+            gap: vec![0.0],
+            law: Law::Coulomb(vec![0.5]),
+            slip: Some(vec![-10.0]),
+        };
+        let (right, wrong) = (case(-4.0), case(4.0));
+        assert!(measure(&right, &[0.0; 2]).eta <= 1e-15, "{size}");
+        let eta = measure(&wrong, &[0.0; 2]).eta;
+        assert!((eta - 8.0 / 80_f64.sqrt()).abs() <= 1e-14, "{size}: {eta}");
+    }
 }
 
 /// The same in 3D, where a tangential block `[[3, 1], [1, 3]]` has the largest eigenvalue 4.

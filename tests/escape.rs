@@ -85,3 +85,24 @@ fn motions_that_strain_prove_nothing() {
         assert!(!is_escape(&problem, &r), "{r:?}");
     }
 }
+
+/// Loads that do nothing on a slide do nothing on a slide with rounding in it, whatever its sign.
+#[test]
+fn work_of_rounding_proves_nothing() {
+    let mut case = standing(10.0, 0.0, Law::Coulomb(vec![0.0; 4]));
+    let problem = case.problem();
+    for pair in 0..4 {
+        for noise in [1e-17, -1e-17, 1e-16, -1e-16, 1e-15] {
+            for slide in [1.0, -1.0] {
+                let mut r: Vec<f64> = (0..4).flat_map(|_| [0.0, slide]).collect();
+                r[2 * pair] = noise;
+                assert!(!is_escape(&problem, &r), "{r:?}");
+            }
+        }
+    }
+    // The same with a single load, so that the noise is all of the work.
+    case.f.fill(0.0);
+    case.f[2] = 10.0;
+    let r = [0.0, -1.0, 1e-17, -1.0, 0.0, -1.0, 0.0, -1.0];
+    assert!(!is_escape(&case.problem(), &r));
+}

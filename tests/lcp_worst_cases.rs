@@ -1,14 +1,16 @@
-//! Problems built to be hard for Lemke's method, with answers in closed form.
+//! Problems that are hard for Lemke's method: built to be, with answers in closed form, or
+//! degenerate at every pivot.
 
 mod common;
 
 use common::bare::Bare;
 use common::dense::{difference, largest};
-use signorini::{Settings, Status};
+use fastrand::Rng;
+use signorini::{Lcp, Settings, Status};
 
 /// Unit lower triangular with 2 below the diagonal, `q_i = -(2^(n-i) + … + 2^n)`: the path visits
 /// every complementary basis. The solution is `z = 2^n e_0`, `w_i = 2^(n-i)` for `i > 0`.
-/// K. G. Murty, Mathematical Programming Study 7 (1978) 61-73; Cottle, Pang, Stone, 6.6.
+/// K. G. Murty, *Linear Complementarity, Linear and Nonlinear Programming* (1988), chapter 6.
 #[test]
 fn takes_two_to_the_n_pivots_on_murtys_worst_case() {
     for n in [4_usize, 6, 8, 10] {
@@ -63,4 +65,49 @@ fn solves_fathis_problem() {
         // Condition of M below 9^2 n^2 = 1e5, rounding 1e-16.
         assert!(largest(&difference(&solution.z, &z)) <= 1e-10, "{n}: {:?}", solution.z);
     }
+}
+
+/// Ties at every pivot: without a rule the path may return to where it was. There are at
+/// most `n 2^(n-1) + 1` bases on it, 193 for the 6 unknowns here: 1000 pivots would be a cycle.
+#[test]
+fn does_not_cycle_on_degenerate_problems() {
+    let settings = Settings { max_iterations: 1000, ..Settings::default() };
+    let check = |data: Bare, seed| {
+        let solution = data.solve(&settings);
+        assert_eq!(data.flaw(&solution, settings.tolerance), None, "{seed} {data:?}\n{solution:?}");
+    };
+    #[rustfmt::skip]
+    let five = [
+        1.0, -1.0, 1.0, 0.0, 1.0, -1.0, 1.0, 1.0, 0.0, 0.0, -1.0, 0.0, 0.0, 1.0, 1.0, 0.0, -1.0,
+        1.0, 1.0, 0.0, -1.0, 1.0, -1.0, 1.0, 0.0,
+    ];
+    check(Bare { n: 5, m: five.to_vec(), q: vec![-1.0; 5] }, 0);
+    #[rustfmt::skip]
+    let six = [
+        0.0, -1.0, 0.0, -1.0, -1.0, 1.0, -1.0, 0.0, 0.0, 1.0, 0.0, 1.0, 0.0, -1.0, 0.0, 1.0, 1.0,
+        0.0, 0.0, -1.0, 0.0, 1.0, 0.0, -1.0, -1.0, -1.0, -1.0, 0.0, 0.0, 1.0, -1.0, 1.0, 1.0, -1.0,
+        1.0, 0.0,
+    ];
+    check(Bare { n: 6, m: six.to_vec(), q: vec![0.0, 0.0, -1.0, -1.0, -1.0, -1.0] }, 0);
+    for seed in 1..200_000 {
+        let mut rng = Rng::with_seed(seed);
+        let n = rng.usize(2..=6);
+        let m = (0..n * n).map(|_| f64::from(rng.i32(-1..=1))).collect();
+        let q = (0..n).map(|_| f64::from(rng.i32(-1..=0))).collect();
+        check(Bare { n, m, q }, seed);
+    }
+}
+
+/// `q = (0, -1)` is feasible with `M = diag(0, 1)`, by `z = (0, 1)`. A vector that is `e_0` but for
+/// rounding does not prove the contrary, though all of its little `q.y` is negative.
+#[test]
+fn rounding_does_not_prove_infeasibility() {
+    let lcp = Lcp::new(2, &[0.0, 0.0, 0.0, 1.0], 2, &[0.0, -1.0], None).unwrap();
+    for noise in [0.0, 1e-17, 1e-16, 1e-15] {
+        assert!(!lcp.is_infeasible_by(&[1.0, noise]), "{noise}");
+    }
+    // Without the 1 it is not feasible, and e_1 proves it.
+    let lcp = Lcp::new(2, &[0.0; 4], 2, &[0.0, -1.0], None).unwrap();
+    assert!(lcp.is_infeasible_by(&[0.0, 1.0]) && lcp.is_infeasible_by(&[1e-17, 1.0]));
+    assert!(!lcp.is_infeasible_by(&[0.0, -1.0]) && !lcp.is_infeasible_by(&[0.0, 0.0]));
 }

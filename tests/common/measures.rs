@@ -8,46 +8,51 @@ pub fn force(case: &Case, d: &[f64]) -> Vec<f64> {
     difference(&product(&case.k, d), &case.f)
 }
 
-/// `|e| / max(|f|, |F|)` of the natural map as the documentation of `certificate` writes it:
+/// `|e| / max(|f|, |F|)` of the natural map that the documentation of `certificate` defines,
 ///
 /// `e_n = K_nn (d_n - min(gap, d_n - F_n / K_nn))`,
-/// `e_t = K_tt (delta - shrink(delta - F_t / K_tt, g / K_tt))`, `g = mu max(0, -F_n)` or given.
+/// `e_t = K_tt (delta - shrink(delta - F_t / K_tt, g / K_tt))`, `g = mu max(0, -F_n)` or given,
+///
+/// case by case, so that displacements do not hide the forces in their rounding.
 pub fn eta(case: &Case, d: &[f64]) -> f64 {
     let force = force(case, d);
     let mut residual = Vec::new();
     for pair in 0..case.pairs {
         let i = case.dim * pair;
-        let k_n = case.stiffness(i, i);
-        residual.push(k_n * (d[i] - case.gap[pair].min(d[i] - force[i] / k_n)));
+        // d_n - gap or F_n / K_nn, whichever is larger.
+        residual.push((case.stiffness(i, i) * (d[i] - case.gap[pair])).max(force[i]));
         let k_t = tangential_stiffness(case, pair);
         let delta: Vec<f64> = (1..case.dim).map(|c| d[i + c] - case.rest(pair, c - 1)).collect();
-        let trial: Vec<f64> = (1..case.dim).map(|c| delta[c - 1] - force[i + c] / k_t).collect();
-        let amount = case.bound(pair, force[i]) / k_t;
-        let keep = if norm(&trial) > amount { 1.0 - amount / norm(&trial) } else { 0.0 };
-        residual
-            .extend(delta.iter().zip(&trial).map(|(delta, trial)| k_t * (delta - keep * trial)));
+        let trial: Vec<f64> = (1..case.dim).map(|c| k_t * delta[c - 1] - force[i + c]).collect();
+        let (bound, length) = (case.bound(pair, force[i]), norm(&trial));
+        residual.extend((0..case.dim - 1).map(|c| match length > bound {
+            true => force[i + 1 + c] + bound * (trial[c] / length),
+            false => k_t * delta[c],
+        }));
     }
     let scale = norm(&case.f).max(norm(&force));
     if norm(&residual) == 0.0 { 0.0 } else { norm(&residual) / scale }
 }
 
-/// The rounding of `K d`, `|K| |d| eps / 2`, relative as `eta` is: of the part of it that gaps and
-/// previous slip cause the library leaves sixteen units out of account.
-pub fn unit_of_rounding(case: &Case, d: &[f64]) -> f64 {
-    let absolute: Vec<f64> = case.k.iter().map(|k| k.abs()).collect();
-    let size: Vec<f64> = d.iter().map(|d| d.abs()).collect();
-    let rounding = norm(&product(&absolute, &size)) * f64::EPSILON / 2.0;
-    rounding / norm(&case.f).max(norm(&force(case, d)))
-}
-
-/// Twice a bound on the rounding of `K d`, relative as `eta` is: how far two computations of `eta`
-/// may be apart, and what the library leaves out of account.
+/// Bound on the rounding of `K d`, relative as `eta` is: how far two computations of `eta` may be
+/// apart (`n` units each, half an epsilon), and what the library leaves out of account (16 units).
+/// Without loads, forces are zero or come from gaps and previous slip, whose rounding then counts.
 pub fn rounding(case: &Case, d: &[f64]) -> f64 {
     let absolute: Vec<f64> = case.k.iter().map(|k| k.abs()).collect();
-    let size: Vec<f64> = d.iter().map(|d| d.abs()).collect();
+    let unloaded = case.f.iter().all(|&f| f == 0.0);
+    let size: Vec<f64> = (0..case.size())
+        .map(|i| {
+            let prescribed = match i % case.dim {
+                0 => case.gap[i / case.dim],
+                c => case.rest(i / case.dim, c - 1),
+            };
+            d[i].abs().max(if unloaded && prescribed.is_finite() { prescribed.abs() } else { 0.0 })
+        })
+        .collect();
     let parts = norm(&product(&absolute, &size)) + norm(&case.f);
     let scale = norm(&case.f).max(norm(&force(case, d)));
-    if parts == 0.0 { 0.0 } else { 2.0 * case.size() as f64 * f64::EPSILON * parts / scale }
+    let units = 2.0 * case.size() as f64 + 16.0;
+    if parts == 0.0 { 0.0 } else { units * f64::EPSILON / 2.0 * parts / scale }
 }
 
 /// `K_tt` of a pair, in 3D the largest eigenvalue of its tangential block.
@@ -68,7 +73,8 @@ pub fn tangential_stiffness(case: &Case, pair: usize) -> f64 {
 /// least `-sum g |r_t|`); and if the loads drive it. Then `F . r = -f . r` is impossible.
 ///
 /// Zero is anything below 1e-10 of the strain's parts: far above rounding (1e-15), far below the
-/// least stiffness in the tests (1e-6 of the largest).
+/// least stiffness in the tests (1e-6 of the largest). Work counts from 1e-12 of what the loads
+/// could do on a motion of that size.
 pub fn flaw_of_escape(case: &Case, r: &[f64]) -> Option<String> {
     const ZERO: f64 = 1e-10;
     let n = case.size();
@@ -97,5 +103,7 @@ pub fn flaw_of_escape(case: &Case, r: &[f64]) -> Option<String> {
         }
     }
     let work = dot(&case.f, r);
-    (!(work > resisted)).then(|| format!("the loads do not drive it: {work} <= {resisted}"))
+    let parts: f64 = size * (0..n).map(|i| case.f[i].abs() / root[i]).sum::<f64>();
+    let driven = work - resisted > 1e-12 * parts;
+    (!driven).then(|| format!("the loads do not drive it: {work} against {resisted}"))
 }

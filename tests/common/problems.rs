@@ -107,7 +107,7 @@ pub fn semidefinite(rng: &mut Rng, n: usize, condition: f64, kernel: &[Vec<f64>]
             }
         }
         let length = norm(&v);
-        if length > 1e-3 * before {
+        if length > if given.is_some() { 1e-9 } else { 1e-3 } * before {
             basis.push(v.iter().map(|v| v / length).collect());
         } else {
             assert!(given.is_none(), "the kernel's vectors are dependent");
