@@ -140,6 +140,28 @@
 #define SIGNORINI_STICK 2
 
 /**
+ * Entries with row >= column are stored, by columns (or row <= column, by rows).
+ */
+#define SIGNORINI_LOWER 0
+
+/**
+ * Entries with row <= column are stored, by columns (or row >= column, by rows).
+ */
+#define SIGNORINI_UPPER 1
+
+/**
+ * All entries are stored, by columns or by rows.
+ */
+#define SIGNORINI_FULL 2
+
+/**
+ * A structure, reduced to its contact pairs: what every load case shares. Made by
+ * signorini_model_new_..., released by signorini_model_free. It does not change, and every function
+ * that takes it const may be called from several threads at once.
+ */
+typedef struct signorini_model signorini_model;
+
+/**
  * What a progress callback is told. New fields may follow in later versions.
  */
 typedef struct signorini_progress {
@@ -296,6 +318,93 @@ typedef struct signorini_report {
   int64_t stick;
 } signorini_report;
 
+/**
+ * A sparse symmetric stiffness matrix, by columns or by rows, which is the same.
+ */
+typedef struct signorini_sparse {
+  /**
+   * sizeof(signorini_sparse).
+   */
+  uint32_t struct_size;
+  /**
+   * 4 if starts and rows are arrays of int32_t, 8 if of int64_t.
+   */
+  int32_t index_bytes;
+  /**
+   * 0 or 1: what the first row, and the first entry of starts, are called. Degrees of freedom in
+   * other arguments of the same call are counted from it too.
+   */
+  int32_t base;
+  /**
+   * SIGNORINI_LOWER, SIGNORINI_UPPER or SIGNORINI_FULL.
+   */
+  int32_t triangle;
+  /**
+   * Number of rows and columns.
+   */
+  int64_t size;
+  /**
+   * Number of entries.
+   */
+  int64_t entries;
+  /**
+   * Begin of each column in rows and values, and where the last one ends: size + 1.
+   */
+  const void *starts;
+  /**
+   * Row of each entry, ascending in each column.
+   */
+  const void *rows;
+  /**
+   * Entries; force / length.
+   */
+  const double *values;
+} signorini_sparse;
+
+/**
+ * Contact pairs: a slave node, the point that faces it, and a normal. The slave's displacement is
+ * u_slave = sum of weight * u_master + d_n n + d_t t (+ ...), so that the gap closes at d_n = gap.
+ */
+typedef struct signorini_pairs {
+  /**
+   * sizeof(signorini_pairs).
+   */
+  uint32_t struct_size;
+  /**
+   * Space dimension, 2 or 3.
+   */
+  int32_t dim;
+  /**
+   * Number of pairs.
+   */
+  int64_t pairs;
+  /**
+   * Degrees of freedom of each slave node, dim for each pair, in the order of the axes.
+   */
+  const int64_t *slaves;
+  /**
+   * Begin of each pair's masters in masters and weights, and where the last ones end:
+   * pairs + 1, counted from base. No masters: a rigid obstacle. NULL: no masters at all.
+   */
+  const int64_t *master_starts;
+  /**
+   * Degrees of freedom of each master node, dim for each; NULL if there are none.
+   */
+  const int64_t *masters;
+  /**
+   * Weight of each master node; those of a pair sum to 1; NULL if there are none.
+   */
+  const double *weights;
+  /**
+   * Normal of each pair, dim entries, outward from the slave's body, of any length.
+   */
+  const double *normals;
+  /**
+   * First tangent of each pair, dim entries; NULL: chosen, in 2D the normal turned by +90 degrees.
+   */
+  const double *tangents;
+} signorini_pairs;
+
 #ifdef __cplusplus
 extern "C" {
 #endif // __cplusplus
@@ -441,6 +550,153 @@ int32_t signorini_lcp_lemke(int64_t n,
                             double *w,
                             double *z,
                             struct signorini_report *report);
+
+/**
+ * Makes a model of a body that the host has condensed, on an obstacle: d = u.
+ *
+ * @param dim    space dimension, 2 or 3
+ * @param pairs  number of contact pairs
+ * @param K      condensed stiffness, N = dim * pairs columns, as in signorini_solve; copied
+ * @param ldk    entries from one column to the next, at least max(1, N)
+ * @param model  out: the model, NULL unless 0 is returned
+ * @return 0; -k the k-th argument is wrong; <= -1000 internal
+ */
+int32_t signorini_model_new_condensed(int32_t dim,
+                                      int64_t pairs,
+                                      const double *K,
+                                      int64_t ldk,
+                                      struct signorini_model **model);
+
+/**
+ * Makes a model of two bodies that the host has condensed on matching contact nodes. Each body is
+ * in its own outward frame, n_B = -n_A and t_B = -t_A, so that d = u_A + u_B. A motion that neither
+ * body resists is refused; one body may float.
+ *
+ * Loads and displacements of the host are [A; B], 2 N entries.
+ *
+ * @param dim    space dimension, 2 or 3
+ * @param pairs  number of contact pairs
+ * @param K_A    condensed stiffness of body A, N = dim * pairs columns; copied
+ * @param lda    entries from one column to the next, at least max(1, N)
+ * @param K_B    the same of body B
+ * @param ldb    the same of body B
+ * @param model  out: the model, NULL unless 0 is returned
+ * @return 0; -k the k-th argument is wrong; <= -1000 internal
+ */
+int32_t signorini_model_new_two_body(int32_t dim,
+                                     int64_t pairs,
+                                     const double *K_A,
+                                     int64_t lda,
+                                     const double *K_B,
+                                     int64_t ldb,
+                                     struct signorini_model **model);
+
+/**
+ * Makes a model of the host's whole sparse stiffness matrix with contact pairs, for any number of
+ * bodies and zones. Parts that only contact holds are fine.
+ *
+ * Loads and displacements of the host are K->size entries.
+ *
+ * @param K       the stiffness matrix, without supports; copied
+ * @param fixed   number of degrees of freedom that are held
+ * @param dofs    these, counted from K->base; NULL if there are none
+ * @param pairs   the contact pairs; copied
+ * @param model   out: the model, NULL unless 0 is returned
+ * @return 0; -k the k-th argument is wrong; <= -1000 internal
+ */
+int32_t signorini_model_new_sparse(const struct signorini_sparse *K,
+                                   int64_t fixed,
+                                   const int64_t *dofs,
+                                   const struct signorini_pairs *pairs,
+                                   struct signorini_model **model);
+
+/**
+ * Releases a model. NULL is allowed.
+ */
+void signorini_model_free(struct signorini_model *model);
+
+/**
+ * Entries of a load or displacement vector of the model's host; -1 if model is NULL.
+ */
+int64_t signorini_model_host_size(const struct signorini_model *model);
+
+/**
+ * Copies the stiffness matrix in relative displacements, K_rel.
+ *
+ * @param model  the model
+ * @param K      out: N = dim * pairs columns of N entries, without space between them
+ * @return 0; -k the k-th argument is wrong
+ */
+int32_t signorini_model_stiffness(const struct signorini_model *model, double *K);
+
+/**
+ * Solves load cases, one after the other. Case c has its own columns in every array; a NULL status
+ * array is not wanted. A case that is wrong or not solved does not stop the others.
+ *
+ * Friction in load steps: hand over as slip the d_t of the step before (zero at first); all state is
+ * in your arrays.
+ *
+ * @param model       the model
+ * @param cases       number of load cases, 0 allowed
+ * @param f           nodal loads of the host, H = signorini_model_host_size entries a case
+ * @param prescribed  values of the fixed degrees of freedom, in their order, a column a case; NULL:
+ *                    zero
+ * @param gap         gaps, one for each pair and case
+ * @param mu          friction coefficients, one for each pair and case
+ * @param slip        tangential displacement at rest, dim - 1 for each pair and case; NULL: zero
+ * @param settings    NULL: the defaults; a progress callback is told of each case in turn
+ * @param d           out: relative displacements, N = dim * pairs entries a case; in: the starts if
+ *                    settings->warm_start
+ * @param F           out: contact forces, N entries a case
+ * @param state       out: state of each pair, a column a case; NULL: not wanted
+ * @param report      out: one for each case, struct_size set in each; NULL: not wanted
+ * @param status      out: status of each case, as signorini_solve returns it, -k standing for the
+ *                    k-th argument of this call; NULL: not wanted
+ * @return 0 if every case is solved; otherwise the status of the first that is not, and
+ *         signorini_last_error names it; -k the k-th argument is wrong
+ */
+int32_t signorini_model_solve(const struct signorini_model *model,
+                              int64_t cases,
+                              const double *f,
+                              const double *prescribed,
+                              const double *gap,
+                              const double *mu,
+                              const double *slip,
+                              const struct signorini_settings *settings,
+                              double *d,
+                              double *F,
+                              int32_t *state,
+                              struct signorini_report *report,
+                              int32_t *status);
+
+/**
+ * Displacements of the host from the relative ones, for one load case.
+ *
+ * @param model       the model
+ * @param f           nodal loads of the case, H entries; NULL: none, for the motion of a case without
+ *                    equilibrium
+ * @param prescribed  values of the fixed degrees of freedom; NULL: zero
+ * @param d           relative displacements, N entries
+ * @param u           out: displacements, H entries
+ * @return 0; -k the k-th argument is wrong
+ */
+int32_t signorini_model_recover(const struct signorini_model *model,
+                                const double *f,
+                                const double *prescribed,
+                                const double *d,
+                                double *u);
+
+/**
+ * Contact forces as a nodal force vector of the host: on slaves, and the opposite on masters.
+ *
+ * @param model  the model
+ * @param F      contact forces, N entries
+ * @param nodal  out: nodal forces, H entries
+ * @return 0; -k the k-th argument is wrong
+ */
+int32_t signorini_model_nodal_forces(const struct signorini_model *model,
+                                     const double *F,
+                                     double *nodal);
 
 #ifdef __cplusplus
 }  // extern "C"

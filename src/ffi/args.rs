@@ -28,14 +28,14 @@ impl Arrays {
     /// # Safety
     /// A pointer that is not NULL has `length` initialised elements, as the header demands, which
     /// nobody writes to during the call.
-    pub(super) unsafe fn input<'a>(
+    pub(super) unsafe fn input<'a, T>(
         &mut self,
         position: i32,
         name: &'static str,
-        pointer: *const f64,
+        pointer: *const T,
         length: usize,
         required: bool,
-    ) -> Result<Option<&'a [f64]>, Failure> {
+    ) -> Result<Option<&'a [T]>, Failure> {
         if !self.add(position, name, pointer, length, required, false)? {
             return Ok(if required { Some(&[]) } else { None });
         }
@@ -65,6 +65,18 @@ impl Arrays {
         written: bool,
     ) -> Result<(), Failure> {
         self.add(position, name, pointer, 1, false, written).map(drop)
+    }
+
+    /// Several of them, so many bytes in all.
+    pub(super) fn structures<T>(
+        &mut self,
+        position: i32,
+        name: &'static str,
+        pointer: *const T,
+        bytes: usize,
+        written: bool,
+    ) -> Result<(), Failure> {
+        self.add(position, name, pointer.cast::<u8>(), bytes, false, written).map(drop)
     }
 
     /// Refuses an output that shares memory with another array.
@@ -130,6 +142,12 @@ impl<T: Copy> Output<T> {
             // SAFETY: not NULL and aligned (checked when it was made), not overlapping ours.
             unsafe { std::ptr::copy_nonoverlapping(values.as_ptr(), self.pointer, self.length) }
         }
+    }
+
+    /// A part of it, as long as there is any.
+    pub(super) fn part(&self, begin: usize, length: usize) -> Self {
+        let length = if self.length > 0 { length } else { 0 };
+        Output { pointer: self.pointer.wrapping_add(begin), length }
     }
 
     /// A copy of what the array holds now.

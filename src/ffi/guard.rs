@@ -19,6 +19,11 @@ impl Failure {
         Failure { code: -position, message: message.into() }
     }
 
+    /// The status.
+    pub(super) fn code(&self) -> i32 {
+        self.code
+    }
+
     /// An error of the library, whose argument has the position that `position` tells.
     pub(super) fn from_error(error: Error, position: impl Fn(Argument) -> i32) -> Self {
         let message = error.to_string();

@@ -11,7 +11,9 @@
 mod args;
 mod flat;
 mod guard;
+mod host;
 mod lcp;
+mod model;
 mod report;
 mod settings;
 mod status;

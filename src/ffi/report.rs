@@ -60,16 +60,16 @@ pub struct SignoriniReport {
 }
 
 impl SignoriniReport {
-    /// Checks the size that the caller set; NULL is allowed.
+    /// The size that the caller set, checked; 0 for NULL, which is allowed.
     ///
     /// # Safety
     /// A pointer that is not NULL has at least 4 readable bytes.
-    pub(super) unsafe fn accept(position: i32, pointer: *mut Self) -> Result<(), Failure> {
-        if !pointer.is_null() {
-            // SAFETY: by the caller's contract.
-            unsafe { checked_size::<Self>(position, "report", pointer.cast_const())? };
+    pub(super) unsafe fn accept(position: i32, pointer: *mut Self) -> Result<usize, Failure> {
+        if pointer.is_null() {
+            return Ok(0);
         }
-        Ok(())
+        // SAFETY: by the caller's contract.
+        unsafe { checked_size::<Self>(position, "report", pointer.cast_const()) }
     }
 
     /// Writes as much of the report as the caller's structure holds.
