@@ -38,7 +38,10 @@ impl<'a> Lcp<'a> {
             return refuse(Argument::Matrix, format!("M has {} entries, too few", matrix.len()));
         }
         if q.len() < size {
-            return refuse(Argument::Load, format!("q has {} entries, too few", q.len()));
+            return refuse(
+                Argument::Load,
+                format!("q has {} entries, it must have {size}", q.len()),
+            );
         }
         if covering.is_some_and(|covering| covering.len() < size) {
             return refuse(Argument::Covering, format!("cover must have {size} entries"));
