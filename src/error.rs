@@ -29,6 +29,16 @@ pub enum Argument {
     Settings,
     /// Displacements to start from.
     Start,
+    /// Stiffness matrix of the second body.
+    SecondMatrix,
+    /// Leading dimension of the second body's matrix.
+    SecondLeadingDimension,
+    /// Degrees of freedom that the host holds fixed.
+    Fixed,
+    /// Values of the fixed degrees of freedom.
+    Prescribed,
+    /// Contact pairs: slaves, masters, weights, normals, tangents.
+    Pairs,
 }
 
 /// Why a call was refused. Nothing has been computed.

@@ -73,11 +73,19 @@ impl Pair<'_> {
     /// Tangential part of the natural map, a force, into `residual`:
     /// `k_t (delta - shrink(delta - F_t / k_t, threshold / k_t))`.
     /// Zero exactly if `|F_t| <= threshold` and the slip opposes `F_t` where it is on the bound.
+    ///
+    /// Written branch by branch: forces do not drown in the rounding of a much larger `k_t delta`.
     pub fn tangential_residual(&self, residual: &mut [f64]) {
         self.trial(residual);
-        shrink(residual, self.threshold);
-        for (residual, slip) in residual.iter_mut().zip(self.slip) {
-            *residual = self.k_t * slip - *residual;
+        let length = length(residual);
+        if length > self.threshold {
+            for (residual, force) in residual.iter_mut().zip(self.tangential_force) {
+                *residual = force + self.threshold * (*residual / length);
+            }
+        } else {
+            for (residual, slip) in residual.iter_mut().zip(self.slip) {
+                *residual = self.k_t * slip;
+            }
         }
     }
 

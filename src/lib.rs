@@ -48,14 +48,18 @@ mod ffi;
 pub mod law;
 mod lcp;
 mod linalg;
+mod matrix;
+mod model;
 mod monitor;
 mod problem;
+pub mod reduce;
 mod settings;
 mod solve;
 
 pub use error::{Argument, Error};
 pub use law::State;
 pub use lcp::Lcp;
+pub use model::{LoadCase, Model};
 pub use monitor::{Interruption, Monitor, Progress, ProgressFn};
 pub use problem::{ContactData, ContactProblem, Friction};
 pub use settings::{Method, Settings};

@@ -13,6 +13,7 @@
 
 use crate::error::{Argument, Error};
 use crate::linalg::small;
+use crate::matrix::SymmetricMatrix;
 
 /// The bound on the tangential force of each pair.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -94,7 +95,8 @@ impl<'a> ContactProblem<'a> {
         if let Some(slip) = data.previous_slip {
             check_finite(Argument::PreviousSlip, "slip", slip)?;
         }
-        problem.check_matrix(n)?;
+        SymmetricMatrix { size: n, entries: data.stiffness, ld: data.ld }
+            .check("K", Argument::Matrix)?;
         Ok(problem)
     }
 
@@ -262,52 +264,7 @@ impl<'a> ContactProblem<'a> {
         }
         Ok(())
     }
-
-    fn check_matrix(&self, n: usize) -> Result<(), Error> {
-        let refuse = |message: String| Err(Error::invalid(Argument::Matrix, message));
-        for j in 0..n {
-            if let Some(i) = self.column(j).iter().position(|k| !k.is_finite()) {
-                return refuse(format!("K[{i},{j}] is not finite"));
-            }
-            let diagonal = self.diagonal(j);
-            if diagonal <= 0.0 {
-                if self.column(j).iter().all(|&k| k == 0.0) {
-                    return refuse(format!("row {j} of K is zero: nothing resists that component"));
-                }
-                return refuse(format!("K[{j},{j}] is {diagonal}, it must be positive"));
-            }
-        }
-        let root: Vec<f64> = (0..n).map(|i| self.diagonal(i).sqrt()).collect();
-        // Square tiles: the transposed entry is read from cache.
-        const TILE: usize = 32;
-        for j0 in (0..n).step_by(TILE) {
-            for i0 in (j0..n).step_by(TILE) {
-                for j in j0..(j0 + TILE).min(n) {
-                    for i in i0.max(j + 1)..(i0 + TILE).min(n) {
-                        let (lower, upper) = (self.column(j)[i], self.column(i)[j]);
-                        let scale = root[i] * root[j];
-                        if (lower - upper).abs() > SYMMETRY * scale {
-                            return refuse(format!(
-                                "K is not symmetric: K[{i},{j}] is {lower}, K[{j},{i}] is {upper}"
-                            ));
-                        }
-                        if lower.abs() > (1.0 + SYMMETRY) * scale {
-                            return refuse(format!(
-                                "K is not positive semi-definite: K[{i},{j}] is {lower}, more \
-                                 than its diagonal allows ({scale})"
-                            ));
-                        }
-                    }
-                }
-            }
-        }
-        Ok(())
-    }
 }
-
-/// Asymmetry allowed, relative to the diagonal: far above the rounding of a host's condensation
-/// (measured 1e-13 from CalculiX and MUMPS), far below a slip of indices.
-const SYMMETRY: f64 = 1e-9;
 
 fn check_finite(argument: Argument, name: &str, values: &[f64]) -> Result<(), Error> {
     match values.iter().position(|value| !value.is_finite()) {

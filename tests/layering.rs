@@ -5,12 +5,15 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Rooms that each room may import. `linalg::small` is the part of `linalg` that names no factor.
-const ALLOWED: [(&str, &[&str]); 10] = [
+const ALLOWED: [(&str, &[&str]); 13] = [
     ("error", &[]),
     ("linalg", &[]),
     ("settings", &["error"]),
     ("law", &["error", "linalg::small"]),
-    ("problem", &["error", "linalg::small", "law"]),
+    ("matrix", &["error"]),
+    ("problem", &["error", "linalg::small", "law", "matrix"]),
+    ("reduce", &["error", "linalg", "matrix"]),
+    ("model", &["error", "matrix", "monitor", "problem", "reduce", "settings", "solve"]),
     ("lcp", &["error", "linalg::small"]),
     ("certificate", &["error", "linalg::small", "law", "problem"]),
     ("monitor", &["error", "settings"]),

@@ -130,6 +130,7 @@ fn position(argument: Argument) -> i32 {
         Argument::PreviousSlip => 8,
         Argument::Settings => 9,
         Argument::Start => 10,
+        other => unreachable!("these calls have no argument {other:?}"),
     }
 }
 

@@ -121,6 +121,24 @@ impl Semidefinite {
     }
 }
 
+/// `L Lᵀ` of the lower triangle `l`, `n x n` column-major.
+pub fn lower_times_transpose(l: &[f64], n: usize) -> Vec<f64> {
+    let l = MatRef::from_column_major_slice(l, n, n);
+    let mut product = vec![0.0; n * n];
+    triangular::matmul(
+        MatMut::from_column_major_slice_mut(&mut product, n, n),
+        BlockStructure::Rectangular,
+        Accum::Replace,
+        l,
+        BlockStructure::TriangularLower,
+        l.transpose(),
+        BlockStructure::TriangularUpper,
+        1.0,
+        Par::Seq,
+    );
+    product
+}
+
 /// Solves `A X = B` for square `A`, both column-major, and puts `X` in the place of `B`
 /// (`columns` of it). False if `A` is singular to working precision.
 pub fn solve_general(a: &[f64], b: &mut [f64], n: usize, columns: usize) -> bool {

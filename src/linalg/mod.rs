@@ -3,3 +3,4 @@
 pub(crate) mod dense;
 pub(crate) mod kernels;
 pub(crate) mod small;
+pub(crate) mod sparse;

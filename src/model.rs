@@ -1,0 +1,247 @@
+//! Reduce once, solve many load cases, recover.
+
+use crate::error::{Argument, Error};
+use crate::matrix::SymmetricMatrix;
+use crate::monitor::Monitor;
+use crate::problem::{ContactData, ContactProblem, Friction};
+use crate::reduce::{Interface, SparseMatrix, SparseReduction, TwoBodyReduction};
+use crate::settings::Settings;
+use crate::solve::{Solution, solve};
+
+/// A structure, reduced to its contact pairs. It does not change: several threads may use it.
+pub struct Model {
+    dim: usize,
+    pairs: usize,
+    reduction: Reduction,
+}
+
+enum Reduction {
+    Condensed(Vec<f64>),
+    TwoBody(TwoBodyReduction),
+    Sparse(Box<SparseReduction>),
+}
+
+/// One load case: nodal loads of the host and the contact data of each pair.
+#[derive(Clone, Copy, Debug)]
+pub struct LoadCase<'a> {
+    /// Nodal loads, [`Model::host_size`].
+    pub load: &'a [f64],
+    /// Values of the fixed degrees of freedom, in their order; `None`: zero.
+    pub prescribed: Option<&'a [f64]>,
+    /// Gaps of the pairs.
+    pub gap: &'a [f64],
+    /// Friction of the pairs.
+    pub friction: Friction<'a>,
+    /// Tangential displacement at rest, `dim - 1` for each pair; `None`: zero.
+    pub previous_slip: Option<&'a [f64]>,
+}
+
+impl Model {
+    /// A body condensed by the host, on an obstacle: `d = u`.
+    ///
+    /// # Errors
+    /// As [`ContactProblem::new`] for the matrix.
+    pub fn condensed(dim: usize, pairs: usize, k: &[f64], ld: usize) -> Result<Self, Error> {
+        let size = checked_size(dim, pairs)?;
+        check_length(k, ld, size, (Argument::Matrix, Argument::LeadingDimension))?;
+        let matrix = SymmetricMatrix { size, entries: k, ld };
+        matrix.check("K", Argument::Matrix)?;
+        let stiffness = (0..size).flat_map(|j| matrix.column(j).iter().copied()).collect();
+        Ok(Model { dim, pairs, reduction: Reduction::Condensed(stiffness) })
+    }
+
+    /// Two condensed bodies on matching contact nodes, each in its own outward frame.
+    ///
+    /// # Errors
+    /// As [`TwoBodyReduction::new`].
+    pub fn two_body(
+        dim: usize,
+        pairs: usize,
+        first: (&[f64], usize),
+        second: (&[f64], usize),
+    ) -> Result<Self, Error> {
+        let size = checked_size(dim, pairs)?;
+        check_length(first.0, first.1, size, (Argument::Matrix, Argument::LeadingDimension))?;
+        let names = (Argument::SecondMatrix, Argument::SecondLeadingDimension);
+        check_length(second.0, second.1, size, names)?;
+        let reduction = Reduction::TwoBody(TwoBodyReduction::new(size, first, second)?);
+        Ok(Model { dim, pairs, reduction })
+    }
+
+    /// A whole sparse stiffness matrix with fixed degrees of freedom and pairs.
+    ///
+    /// # Errors
+    /// As [`SparseReduction::new`].
+    pub fn sparse(
+        matrix: &SparseMatrix<'_>,
+        fixed: &[usize],
+        interface: &Interface<'_>,
+    ) -> Result<Self, Error> {
+        let reduction = SparseReduction::new(matrix, fixed, interface)?;
+        Ok(Model {
+            dim: interface.dim,
+            pairs: interface.pairs,
+            reduction: Reduction::Sparse(Box::new(reduction)),
+        })
+    }
+
+    /// Space dimension.
+    pub fn dim(&self) -> usize {
+        self.dim
+    }
+
+    /// Number of pairs.
+    pub fn pairs(&self) -> usize {
+        self.pairs
+    }
+
+    /// Entries of a load or displacement vector of the host: `dim * pairs` (condensed), twice that
+    /// (two bodies: A, then B), or the degrees of freedom of the sparse matrix.
+    pub fn host_size(&self) -> usize {
+        match &self.reduction {
+            Reduction::Condensed(_) => self.dim * self.pairs,
+            Reduction::TwoBody(_) => 2 * self.dim * self.pairs,
+            Reduction::Sparse(reduction) => reduction.host_size(),
+        }
+    }
+
+    /// Number of fixed degrees of freedom.
+    pub fn fixed_count(&self) -> usize {
+        match &self.reduction {
+            Reduction::Sparse(reduction) => reduction.fixed_count(),
+            _ => 0,
+        }
+    }
+
+    /// `K_rel`, column-major, `dim * pairs` square.
+    pub fn stiffness(&self) -> &[f64] {
+        match &self.reduction {
+            Reduction::Condensed(stiffness) => stiffness,
+            Reduction::TwoBody(reduction) => reduction.stiffness(),
+            Reduction::Sparse(reduction) => reduction.stiffness(),
+        }
+    }
+
+    /// Solves a load case from the relative displacements `start`.
+    ///
+    /// # Errors
+    /// As [`solve()`], and loads or prescribed values of the wrong length or not finite.
+    pub fn solve(
+        &self,
+        case: &LoadCase<'_>,
+        settings: &Settings,
+        start: Option<&[f64]>,
+        monitor: &mut Monitor<'_>,
+    ) -> Result<Solution, Error> {
+        self.check_loads(Some(case.load), case.prescribed)?;
+        let load = match &self.reduction {
+            Reduction::Condensed(_) => case.load.to_vec(),
+            Reduction::TwoBody(reduction) => reduction.condense(case.load),
+            Reduction::Sparse(reduction) => reduction.condense(case.load, case.prescribed),
+        };
+        let problem = ContactProblem::new(ContactData {
+            dim: self.dim,
+            pairs: self.pairs,
+            stiffness: self.stiffness(),
+            ld: (self.dim * self.pairs).max(1),
+            load: &load,
+            gap: case.gap,
+            friction: case.friction,
+            previous_slip: case.previous_slip,
+        })?;
+        solve(&problem, settings, start, monitor)
+    }
+
+    /// Displacements of the host from the relative ones; without `load` and `prescribed` those of
+    /// a motion, such as that of [`crate::Status::NoEquilibrium`].
+    ///
+    /// # Errors
+    /// Arrays of the wrong length or not finite.
+    pub fn recover(
+        &self,
+        load: Option<&[f64]>,
+        prescribed: Option<&[f64]>,
+        d: &[f64],
+    ) -> Result<Vec<f64>, Error> {
+        self.check_loads(load, prescribed)?;
+        check_vector(Argument::Start, "d", d, self.dim * self.pairs)?;
+        let zero = vec![0.0; self.host_size()];
+        let load = load.unwrap_or(&zero);
+        Ok(match &self.reduction {
+            Reduction::Condensed(_) => d.to_vec(),
+            Reduction::TwoBody(reduction) => reduction.recover(load, d),
+            Reduction::Sparse(reduction) => reduction.recover(load, prescribed, d),
+        })
+    }
+
+    /// Contact forces as a nodal force vector of the host.
+    ///
+    /// # Errors
+    /// A force of the wrong length or not finite.
+    pub fn nodal_forces(&self, force: &[f64]) -> Result<Vec<f64>, Error> {
+        check_vector(Argument::Load, "F", force, self.dim * self.pairs)?;
+        Ok(match &self.reduction {
+            Reduction::Condensed(_) => force.to_vec(),
+            Reduction::TwoBody(_) => [force, force].concat(),
+            Reduction::Sparse(reduction) => reduction.nodal_forces(force),
+        })
+    }
+
+    fn check_loads(&self, load: Option<&[f64]>, prescribed: Option<&[f64]>) -> Result<(), Error> {
+        if let Some(load) = load {
+            check_vector(Argument::Load, "f", load, self.host_size())?;
+        }
+        match prescribed {
+            Some(values) => {
+                check_vector(Argument::Prescribed, "prescribed", values, self.fixed_count())
+            }
+            None => Ok(()),
+        }
+    }
+}
+
+fn checked_size(dim: usize, pairs: usize) -> Result<usize, Error> {
+    if dim != 2 && dim != 3 {
+        let message = format!("dim is {dim}, it must be 2 or 3");
+        return Err(Error::invalid(Argument::Dimension, message));
+    }
+    let fits =
+        |n: &usize| n.checked_mul(*n).is_some_and(|entries| entries <= isize::MAX as usize / 8);
+    dim.checked_mul(pairs).filter(fits).ok_or_else(|| {
+        Error::invalid(Argument::Size, format!("{pairs} pairs: the matrix cannot exist"))
+    })
+}
+
+fn check_length(
+    entries: &[f64],
+    ld: usize,
+    size: usize,
+    (matrix, leading): (Argument, Argument),
+) -> Result<(), Error> {
+    if ld < size.max(1) {
+        let message = format!("the leading dimension is {ld}, it must be at least {}", size.max(1));
+        return Err(Error::invalid(leading, message));
+    }
+    let needed = size.saturating_sub(1).checked_mul(ld).and_then(|begin| begin.checked_add(size));
+    if needed.is_none_or(|needed| entries.len() < needed) {
+        let message = format!("the matrix has {} entries, too few", entries.len());
+        return Err(Error::invalid(matrix, message));
+    }
+    Ok(())
+}
+
+fn check_vector(
+    argument: Argument,
+    name: &str,
+    values: &[f64],
+    length: usize,
+) -> Result<(), Error> {
+    if values.len() != length {
+        let message = format!("{name} has {} entries, it must have {length}", values.len());
+        return Err(Error::invalid(argument, message));
+    }
+    match values.iter().position(|value| !value.is_finite()) {
+        Some(i) => Err(Error::invalid(argument, format!("{name}[{i}] is not finite"))),
+        None => Ok(()),
+    }
+}

@@ -1,0 +1,278 @@
+//! A host's whole sparse stiffness matrix with contact pairs.
+//!
+//! The slave's displacement is written `u_slave = sum w_k u_master,k + R d`, with `R` the pair's frame
+//! and `d` the relative displacement: the paper's change of variables for any number of bodies. With
+//! `u = T [free; d] + u_0` from the fixed degrees of freedom, `K_rel` is the Schur complement of
+//! `Tᵀ K T` on `d`. Parts that only contact holds are fine: with `d` held nothing floats.
+
+use super::interface::{Frame, Interface};
+use super::sparse_matrix::{LowerTriangle, SparseMatrix};
+use crate::error::{Argument, Error};
+use crate::linalg::sparse::{Condensation, Failure, Lower};
+
+/// The reduction, kept for further load cases.
+pub struct SparseReduction {
+    host: LowerTriangle,
+    dim: usize,
+    /// Of each degree of freedom of the host: what it is made of.
+    rows: Vec<Row>,
+    frames: Vec<Frame>,
+    fixed: Vec<usize>,
+    /// Relative components that supports on both sides hold.
+    held: Vec<usize>,
+    unknowns: usize,
+    condensation: Condensation,
+}
+
+/// One row of `T`: coefficients of unknowns, and of fixed degrees of freedom.
+#[derive(Clone, Debug, Default)]
+struct Row {
+    unknowns: Vec<(usize, f64)>,
+    fixed: Vec<(usize, f64)>,
+}
+
+impl SparseReduction {
+    /// Reduces `matrix` with the degrees of freedom `fixed` and the pairs of `interface`.
+    ///
+    /// # Errors
+    /// What is wrong with the arrays, by entry; a slave that is fixed where its masters are not; a
+    /// motion that neither supports nor pairs hold, by a degree of freedom that moves in it.
+    pub fn new(
+        matrix: &SparseMatrix<'_>,
+        fixed: &[usize],
+        interface: &Interface<'_>,
+    ) -> Result<Self, Error> {
+        let size = matrix.size;
+        interface.check(size)?;
+        let host = matrix.lower_triangle()?;
+        let frames = (0..interface.pairs)
+            .map(|pair| interface.frame(pair))
+            .collect::<Result<Vec<_>, _>>()?;
+        let number = numbers_of_fixed(size, fixed)?;
+        let dim = interface.dim;
+        let contact = dim * interface.pairs;
+        let mut is_slave = vec![false; size];
+        interface.slaves.iter().for_each(|&dof| is_slave[dof] = true);
+        let mut rows = vec![Row::default(); size];
+        let mut free_dofs = Vec::new();
+        for dof in 0..size {
+            if let Some(number) = number[dof] {
+                rows[dof].fixed.push((number, 1.0));
+            } else if !is_slave[dof] {
+                rows[dof].unknowns.push((free_dofs.len(), 1.0));
+                free_dofs.push(dof);
+            }
+        }
+        let free = free_dofs.len();
+        let mut held = Vec::new();
+        for (pair, frame) in frames.iter().enumerate() {
+            for (axis, &slave) in interface.slave(pair).iter().enumerate() {
+                if number[slave].is_some() {
+                    held.push(dim * pair + held_component(interface, pair, axis, frame, &number)?);
+                    continue;
+                }
+                let mut row = Row::default();
+                for (component, direction) in frame[..dim].iter().enumerate() {
+                    if direction[axis] != 0.0 {
+                        row.unknowns.push((free + dim * pair + component, direction[axis]));
+                    }
+                }
+                for (weight, masters) in interface.masters_of(pair) {
+                    let master = &rows[masters[axis]];
+                    let times = |entries: &[(usize, f64)]| {
+                        entries.iter().map(|&(k, c)| (k, weight * c)).collect::<Vec<_>>()
+                    };
+                    row.unknowns.extend(times(&master.unknowns));
+                    row.fixed.extend(times(&master.fixed));
+                }
+                rows[slave] = row;
+            }
+        }
+        let transformed = transform(&host, &rows, free, contact, &held);
+        let condensation =
+            Condensation::new(transformed, free).map_err(|failure| match failure {
+                Failure::Memory => Error::OutOfMemory("the factor of the stiffness matrix"),
+                Failure::Dependent(row) => {
+                    let name = if row < free {
+                        format!("degree of freedom {}", free_dofs[row])
+                    } else {
+                        format!("component {} of pair {}", (row - free) % dim, (row - free) / dim)
+                    };
+                    Error::invalid(
+                        Argument::Matrix,
+                        format!(
+                            "{name} belongs to a motion that no support and no pair holds, or K is \
+                         not positive semi-definite"
+                        ),
+                    )
+                }
+            })?;
+        Ok(SparseReduction {
+            host,
+            dim,
+            rows,
+            frames,
+            fixed: fixed.to_vec(),
+            held,
+            unknowns: free + contact,
+            condensation,
+        })
+    }
+
+    /// `K_rel`, column-major, `dim * pairs` square.
+    pub fn stiffness(&self) -> &[f64] {
+        self.condensation.schur()
+    }
+
+    /// Degrees of freedom of the host.
+    pub fn host_size(&self) -> usize {
+        self.rows.len()
+    }
+
+    /// Number of fixed degrees of freedom.
+    pub fn fixed_count(&self) -> usize {
+        self.fixed.len()
+    }
+
+    /// Relative loads from nodal loads and the values of the fixed degrees of freedom.
+    pub fn condense(&self, load: &[f64], prescribed: Option<&[f64]>) -> Vec<f64> {
+        self.half_solved(load, prescribed).0
+    }
+
+    /// Displacements of the whole mesh from the loads, the fixed values and `d`.
+    pub fn recover(&self, load: &[f64], prescribed: Option<&[f64]>, d: &[f64]) -> Vec<f64> {
+        let half = self.half_solved(load, prescribed).1;
+        let x = self.condensation.recover(&half, d);
+        self.rows.iter().map(|row| row.value(&x, prescribed)).collect()
+    }
+
+    /// Contact forces as a nodal force vector of the host: `R F` on slaves, the opposite on
+    /// masters by weight.
+    pub fn nodal_forces(&self, force: &[f64]) -> Vec<f64> {
+        let free = self.unknowns - force.len();
+        let mut nodal = vec![0.0; self.host_size()];
+        for (dof, row) in self.rows.iter().enumerate() {
+            for &(k, c) in row.unknowns.iter().filter(|(k, _)| *k >= free) {
+                nodal[dof] += c * force[k - free];
+            }
+        }
+        nodal
+    }
+
+    fn half_solved(&self, load: &[f64], prescribed: Option<&[f64]>) -> (Vec<f64>, Vec<f64>) {
+        let mut load = load.to_vec();
+        if prescribed.is_some() {
+            let nothing = vec![0.0; self.unknowns];
+            let moved: Vec<f64> =
+                self.rows.iter().map(|row| row.value(&nothing, prescribed)).collect();
+            for (load, force) in load.iter_mut().zip(self.host.product(&moved)) {
+                *load -= force;
+            }
+        }
+        let mut transformed = vec![0.0; self.unknowns];
+        for (row, load) in self.rows.iter().zip(&load) {
+            for &(k, c) in &row.unknowns {
+                transformed[k] += c * load;
+            }
+        }
+        let free = self.unknowns - self.dim * self.frames.len();
+        for &held in &self.held {
+            transformed[free + held] = 0.0;
+        }
+        self.condensation.condense(&transformed)
+    }
+}
+
+impl Row {
+    fn value(&self, x: &[f64], prescribed: Option<&[f64]>) -> f64 {
+        let unknowns: f64 = self.unknowns.iter().map(|&(k, c)| c * x[k]).sum();
+        let fixed =
+            prescribed.map_or(0.0, |values| self.fixed.iter().map(|&(k, c)| c * values[k]).sum());
+        unknowns + fixed
+    }
+}
+
+/// Place in `fixed` of each degree of freedom.
+fn numbers_of_fixed(size: usize, fixed: &[usize]) -> Result<Vec<Option<usize>>, Error> {
+    let mut number = vec![None; size];
+    for (k, &dof) in fixed.iter().enumerate() {
+        if dof >= size {
+            let message = format!("fixed: there is no degree of freedom {dof}");
+            return Err(Error::invalid(Argument::Fixed, message));
+        }
+        if number[dof].replace(k).is_some() {
+            let message = format!("fixed: degree of freedom {dof} stands twice");
+            return Err(Error::invalid(Argument::Fixed, message));
+        }
+    }
+    Ok(number)
+}
+
+/// The relative component that a support of the slave along `axis` holds, if its masters are fixed
+/// there too: a decoupled row.
+fn held_component(
+    interface: &Interface<'_>,
+    pair: usize,
+    axis: usize,
+    frame: &Frame,
+    number: &[Option<usize>],
+) -> Result<usize, Error> {
+    let refuse = |message: String| Err(Error::invalid(Argument::Pairs, message));
+    if interface.masters_of(pair).any(|(_, masters)| number[masters[axis]].is_none()) {
+        return refuse(format!("pair {pair}: its slave is fixed where its masters are not"));
+    }
+    let along = |component: &usize| frame[*component][axis].abs() > 1.0 - 1e-12;
+    match (0..interface.dim).find(along) {
+        Some(component) => Ok(component),
+        None => refuse(format!(
+            "pair {pair}: its slave is fixed along an axis that is neither normal nor tangent"
+        )),
+    }
+}
+
+/// The lower triangle of `Tᵀ K T`; held components become decoupled rows with the diagonal of the
+/// largest entry.
+fn transform(
+    host: &LowerTriangle,
+    rows: &[Row],
+    free: usize,
+    contact: usize,
+    held: &[usize],
+) -> Lower {
+    let size = free + contact;
+    let mut columns: Vec<Vec<(usize, f64)>> = vec![Vec::new(); size];
+    for (i, j, value) in host.entries() {
+        for &(a, ca) in &rows[i].unknowns {
+            for &(b, cb) in &rows[j].unknowns {
+                let value = value * ca * cb;
+                if i == j && a < b {
+                    continue;
+                }
+                let value = if i != j && a == b { 2.0 * value } else { value };
+                columns[a.min(b)].push((a.max(b), value));
+            }
+        }
+    }
+    let largest = host.values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+    for component in held {
+        columns[free + component].push((free + component, largest));
+    }
+    let mut lower = Lower { size, starts: vec![0], rows: Vec::new(), values: Vec::new() };
+    for (j, column) in columns.iter_mut().enumerate() {
+        column.push((j, 0.0));
+        column.sort_unstable_by_key(|(i, _)| *i);
+        for &(i, value) in column.iter() {
+            match lower.rows.last() {
+                Some(&last) if last == i && lower.rows.len() > lower.starts[j] => {
+                    *lower.values.last_mut().expect("as many values as rows") += value;
+                }
+                _ => {
+                    lower.rows.push(i);
+                    lower.values.push(value);
+                }
+            }
+        }
+        lower.starts.push(lower.rows.len());
+    }
+    lower
+}

@@ -1,0 +1,114 @@
+//! Two condensed bodies on matching contact nodes (paper, section 3).
+//!
+//! With each body in its own outward frame, `d = u_A + u_B` is the relative displacement and both
+//! carry the same `F`. Eliminating `u_A` leaves
+//!
+//! ```text
+//! K_rel = K_B - K_B (K_A + K_B)⁻¹ K_B          (symmetric in A and B: the parallel sum)
+//! f_rel = f_B + K_B (K_A + K_B)⁻¹ (f_A - f_B)
+//! u_A   = (K_A + K_B)⁻¹ (f_A - f_B + K_B d),   u_B = d - u_A
+//! ```
+//!
+//! It needs only that no rigid motion is free in both bodies.
+
+use crate::error::{Argument, Error};
+use crate::linalg::dense::Semidefinite;
+use crate::matrix::SymmetricMatrix;
+
+/// The reduction, kept for further load cases.
+pub struct TwoBodyReduction {
+    size: usize,
+    second: Vec<f64>,
+    scale: Vec<f64>,
+    sum: Semidefinite,
+    stiffness: Vec<f64>,
+}
+
+impl TwoBodyReduction {
+    /// Reduces `K_A` and `K_B`, `size x size` column-major with leading dimensions.
+    ///
+    /// # Errors
+    /// Entries that are not finite or symmetric, diagonals that are not positive; a motion that
+    /// neither body resists, named by its largest component.
+    pub fn new(
+        size: usize,
+        (first, first_ld): (&[f64], usize),
+        (second, second_ld): (&[f64], usize),
+    ) -> Result<Self, Error> {
+        let first = SymmetricMatrix { size, entries: first, ld: first_ld };
+        first.check("K_A", Argument::Matrix)?;
+        let second = SymmetricMatrix { size, entries: second, ld: second_ld };
+        second.check("K_B", Argument::SecondMatrix)?;
+        let scale: Vec<f64> =
+            (0..size).map(|i| (first.column(i)[i] + second.column(i)[i]).sqrt().recip()).collect();
+        let entry =
+            |i: usize, j: usize| scale[i] * (first.column(j)[i] + second.column(j)[i]) * scale[j];
+        let Some(sum) = Semidefinite::new(size, entry) else {
+            let message = "K_A + K_B is not positive semi-definite";
+            return Err(Error::invalid(Argument::Matrix, message));
+        };
+        if let Some(&free) = sum.dependent().first() {
+            return Err(Error::invalid(
+                Argument::Matrix,
+                format!("neither body resists a common motion of component {free}"),
+            ));
+        }
+        let stiffness = sum.schur_complement(
+            size,
+            |i, j| scale[i] * second.column(j)[i],
+            |i, j| second.column(j)[i],
+        );
+        let second = (0..size).flat_map(|j| second.column(j).iter().copied()).collect();
+        Ok(TwoBodyReduction { size, second, scale, sum, stiffness })
+    }
+
+    /// `K_rel`, column-major.
+    pub fn stiffness(&self) -> &[f64] {
+        &self.stiffness
+    }
+
+    /// Relative loads from `[f_A; f_B]`.
+    pub fn condense(&self, load: &[f64]) -> Vec<f64> {
+        let (first, second) = load.split_at(self.size);
+        let difference: Vec<f64> = first.iter().zip(second).map(|(a, b)| a - b).collect();
+        let x = self.solve(&difference);
+        self.times_second(&x).iter().zip(second).map(|(carried, f)| carried + f).collect()
+    }
+
+    /// `[u_A; u_B]` from the loads and the relative displacements.
+    pub fn recover(&self, load: &[f64], d: &[f64]) -> Vec<f64> {
+        let (first, second) = load.split_at(self.size);
+        let mut right = self.times_second(d);
+        for (right, (a, b)) in right.iter_mut().zip(first.iter().zip(second)) {
+            *right += a - b;
+        }
+        let mut u = self.solve(&right);
+        for (i, d) in d.iter().enumerate() {
+            u.push(d - u[i]);
+        }
+        u
+    }
+
+    /// `(K_A + K_B)⁻¹ b`.
+    fn solve(&self, b: &[f64]) -> Vec<f64> {
+        let rows = self.sum.independent();
+        let mut y: Vec<f64> = rows.iter().map(|&i| self.scale[i] * b[i]).collect();
+        self.sum.solve(&mut y);
+        let mut x = vec![0.0; self.size];
+        for (&i, y) in rows.iter().zip(&y) {
+            x[i] = self.scale[i] * y;
+        }
+        x
+    }
+
+    /// `K_B x`.
+    fn times_second(&self, x: &[f64]) -> Vec<f64> {
+        let mut y = vec![0.0; self.size];
+        for (column, x) in self.second.chunks_exact(self.size.max(1)).zip(x) {
+            for (y, k) in y.iter_mut().zip(column) {
+                *y += k * x;
+            }
+        }
+        y
+    }
+}
