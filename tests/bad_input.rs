@@ -215,8 +215,8 @@ fn refuses_bad_complementarity_problems() {
     refuses(2, &M[..3], 2, &q, None, Argument::Matrix, &["3"]);
     refuses(2, &M, 3, &q, None, Argument::Matrix, &["4"]);
     refuses(usize::MAX, &M, usize::MAX, &q, None, Argument::Matrix, &[]);
-    refuses(2, &M, 2, &q[..1], None, Argument::Load, &["q"]);
-    refuses(2, &M, 2, &q, Some(&[1.0]), Argument::Covering, &["cover"]);
+    refuses(2, &M, 2, &q[..1], None, Argument::Load, &["q", "2"]);
+    refuses(2, &M, 2, &q, Some(&[1.0]), Argument::Covering, &["cover", "2"]);
     for bad in NOT_FINITE {
         refuses(2, &[2.0, 1.0, bad, 2.0], 2, &q, None, Argument::Matrix, &["M[0,1]"]);
         refuses(2, &M, 2, &[-1.0, bad], None, Argument::Load, &["q[1]"]);

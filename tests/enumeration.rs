@@ -215,13 +215,13 @@ fn sor_solves_problems_of_ordinary_friction() {
 }
 
 /// Friction up to 5 on stiffness of condition up to 1e6, where there may be many solutions and
-/// SOR may end without one: it is never wrong, and solves three of four.
+/// SOR may end without one: it is never wrong, and solves 90 % (nested) and 85 % (diagonal).
 #[test]
 fn sor_is_never_wrong_on_problems_of_high_friction() {
     let make = |rng: &mut Rng| definite_case(rng, 6.0, |rng, pairs| coulomb(rng, pairs, 5.0));
-    for method in [Method::SorNested, Method::SorDiagonal] {
+    for (method, allowed) in [(Method::SorNested, 300), (Method::SorDiagonal, 450)] {
         let unsolved = run(3000, settings(method, 20_000), make, |_| true);
-        assert!(unsolved <= 750, "{unsolved} of 3000 by {method:?}");
+        assert!(unsolved <= allowed, "{unsolved} of 3000 by {method:?}");
     }
 }
 

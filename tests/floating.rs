@@ -78,10 +78,10 @@ fn balances(case: &Case, solution: &Solution, context: &dyn Fn() -> String) {
 /// for `T > mu N` it slides away, and no equilibrium exists. Coulomb.
 ///
 /// The nested form brings it to rest always, the diagonal one, for which there is no theory, for
-/// `mu <= 0.2` and in 95 % beyond. Sliding may stay undecided.
+/// `mu <= 0.2` and in 98 % beyond.
 #[test]
 fn block_on_a_plane_rests_below_the_friction_angle_and_slides_above() {
-    let (mut rests, mut unsolved, mut slides, mut proved) = (0, 0, 0, 0);
+    let (mut rests, mut unsolved) = (0, 0);
     for seed in 0..400 {
         let mut rng = Rng::with_seed(seed);
         let pairs = rng.usize(3..=6);
@@ -121,16 +121,11 @@ fn block_on_a_plane_rests_below_the_friction_angle_and_slides_above() {
                     balances(&case, &solution, &context);
                     assert!(solution.certificate.count(State::Stick) > 0, "{}", context());
                 } else {
-                    slides += 1;
-                    if solution.status != Status::IterationLimit {
-                        assert_eq!(solution.status, Status::NoEquilibrium, "{}", context());
-                        assert_eq!(flaw_of_escape(&case, &solution.d), None, "{}", context());
-                        proved += 1;
-                    }
+                    assert_eq!(solution.status, Status::NoEquilibrium, "{}", context());
+                    assert_eq!(flaw_of_escape(&case, &solution.d), None, "{}", context());
                 }
             }
         }
     }
-    assert!(unsolved <= rests / 40, "{unsolved} of {rests} blocks at rest not solved");
-    assert!(proved >= slides / 2, "only {proved} of {slides} sliding blocks were proved to slide");
+    assert!(unsolved <= rests / 50, "{unsolved} of {rests} blocks at rest not solved");
 }
