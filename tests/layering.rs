@@ -18,7 +18,21 @@ const ALLOWED: [(&str, &[&str]); 13] = [
     ("certificate", &["error", "linalg::small", "law", "problem"]),
     ("monitor", &["error", "settings"]),
     ("solve", &["error", "linalg", "law", "problem", "lcp", "certificate", "settings", "monitor"]),
-    ("ffi", &["error", "law", "problem", "lcp", "certificate", "settings", "monitor", "solve"]),
+    (
+        "ffi",
+        &[
+            "error",
+            "law",
+            "problem",
+            "lcp",
+            "certificate",
+            "settings",
+            "monitor",
+            "model",
+            "reduce",
+            "solve",
+        ],
+    ),
 ];
 
 /// Solvers that one solver may call.

@@ -7,6 +7,7 @@
 use super::factor::Factor;
 use crate::certificate::is_escape;
 use crate::law;
+use crate::linalg::small::largest;
 use crate::problem::{ContactProblem, Friction};
 
 /// Looks at the iterates of sweeps 256, 512, 1024, …
@@ -32,8 +33,16 @@ impl EscapeWatch {
         let drift: Vec<f64> = d.iter().zip(&self.before).map(|(d, before)| d - before).collect();
         self.before.copy_from_slice(d);
         let motion = rigid_part(problem, &drift)?;
-        let lifted = lifted(problem, motion.clone());
-        [motion, lifted].into_iter().find(|motion| is_escape(problem, motion))
+        let Friction::Coulomb(mu) = problem.friction() else {
+            return is_escape(problem, &motion).then_some(motion);
+        };
+        let slides = motion.chunks_exact(problem.dim()).map(|pair| law::length(&pair[1..]));
+        let lifts: Vec<f64> = slides.zip(mu).map(|(slide, mu)| mu * slide).collect();
+        let uniform = vec![largest(&lifts); lifts.len()];
+        [vec![0.0; lifts.len()], lifts, uniform]
+            .into_iter()
+            .map(|lifts| lifted(problem, &motion, &lifts))
+            .find(|motion| is_escape(problem, motion))
     }
 }
 
@@ -48,12 +57,12 @@ fn rigid_part(problem: &ContactProblem<'_>, drift: &[f64]) -> Option<Vec<f64>> {
     Some(motion)
 }
 
-/// A slide together with the lift that makes contact forces do no negative work on it.
-fn lifted(problem: &ContactProblem<'_>, mut motion: Vec<f64>) -> Vec<f64> {
-    if let Friction::Coulomb(mu) = problem.friction() {
-        for (pair, mu) in motion.chunks_exact_mut(problem.dim()).zip(mu) {
-            pair[0] = pair[0].min(0.0) - mu * law::length(&pair[1..]);
-        }
+/// A slide together with a lift of each pair, which makes contact forces do no negative work on it.
+/// Off a plane it is rigid if all are lifted by the same.
+fn lifted(problem: &ContactProblem<'_>, motion: &[f64], lifts: &[f64]) -> Vec<f64> {
+    let mut motion = motion.to_vec();
+    for (pair, lift) in motion.chunks_exact_mut(problem.dim()).zip(lifts) {
+        pair[0] -= lift;
     }
     motion
 }

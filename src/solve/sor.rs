@@ -53,26 +53,52 @@ impl Iterate {
             self.d[i] = normal;
             let pressure = (-self.force[i] - k_n * step_n).max(0.0);
 
-            let mut slip = [0.0; 2];
-            let slip = &mut slip[..dim - 1];
-            let coupling = &problem.column(i)[i + 1..i + dim];
-            for (c, slip) in slip.iter_mut().enumerate() {
-                let force = self.force[i + 1 + c] + coupling[c] * step_n;
-                *slip = self.d[i + 1 + c] - problem.previous_slip(pair, c) - omega * force / k_t;
-            }
-            law::shrink(slip, omega * problem.threshold(pair, pressure) / k_t);
             let mut steps = [step_n, 0.0, 0.0];
             change += k_n * step_n * step_n;
-            for (c, slip) in slip.iter().enumerate() {
-                let tangential = problem.previous_slip(pair, c) + slip;
-                let step = tangential - self.d[i + 1 + c];
-                self.d[i + 1 + c] = tangential;
+            let bound = omega * problem.threshold(pair, pressure) / k_t;
+            self.relax_slip(problem, pair, omega / k_t, bound, &mut steps[..dim]);
+            for step in &steps[1..dim] {
                 change += k_t * step * step;
-                steps[1 + c] = step;
             }
             self.add_columns(problem, i, &steps[..dim]);
         }
         change.sqrt()
+    }
+
+    /// Relaxes the tangential displacements of a pair after its normal step `steps[0]`, by
+    /// `rate = omega / k_t` and shrinkage by `bound`, and puts their steps behind it.
+    ///
+    /// Steps come from forces, not from differences of displacements, so that small ones survive
+    /// next to a large slip; a pair that sticks is at rest exactly.
+    fn relax_slip(
+        &mut self,
+        problem: &ContactProblem<'_>,
+        pair: usize,
+        rate: f64,
+        bound: f64,
+        steps: &mut [f64],
+    ) {
+        let i = steps.len() * pair;
+        let (normal, steps) = steps.split_at_mut(1);
+        let coupling = &problem.column(i)[i + 1..];
+        let mut trial = [0.0; 2];
+        let trial = &mut trial[..steps.len()];
+        for (c, step) in steps.iter_mut().enumerate() {
+            *step = -rate * (self.force[i + 1 + c] + coupling[c] * normal[0]);
+            trial[c] = self.d[i + 1 + c] - problem.previous_slip(pair, c) + *step;
+        }
+        let length = law::length(trial);
+        for (c, step) in steps.iter_mut().enumerate() {
+            let d = &mut self.d[i + 1 + c];
+            if length > bound {
+                *step -= bound * (trial[c] / length);
+                *d += *step;
+            } else {
+                let rest = problem.previous_slip(pair, c);
+                *step = rest - *d;
+                *d = rest;
+            }
+        }
     }
 
     fn add_columns(&mut self, problem: &ContactProblem<'_>, first: usize, steps: &[f64]) {
