@@ -2,6 +2,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* The assembled equations; of the stiffness only the lower triangle is used, column by column. */
 struct equations {
@@ -149,15 +150,26 @@ static void to_contact_frame(const struct equations *eq, struct condensed_bar *c
     }
 }
 
+static int allocate(const struct bar *bar, struct equations *eq)
+{
+    eq->size = 2 * BAR_PAIRS * (bar->rows + 1);
+    eq->stiffness = calloc(eq->size * eq->size, sizeof *eq->stiffness);
+    eq->load = calloc(eq->size, sizeof *eq->load);
+    return eq->stiffness != NULL && eq->load != NULL;
+}
+
+static void release(struct equations *eq)
+{
+    free(eq->stiffness);
+    free(eq->load);
+}
+
 const char *bar_condense(const struct bar *bar, struct condensed_bar *condensed)
 {
     struct equations eq;
     const char *problem = NULL;
 
-    eq.size = 2 * BAR_PAIRS * (bar->rows + 1);
-    eq.stiffness = calloc(eq.size * eq.size, sizeof *eq.stiffness);
-    eq.load = calloc(eq.size, sizeof *eq.load);
-    if (eq.stiffness == NULL || eq.load == NULL) {
+    if (!allocate(bar, &eq)) {
         problem = "not enough memory for the stiffness matrix";
         goto done;
     }
@@ -171,7 +183,70 @@ const char *bar_condense(const struct bar *bar, struct condensed_bar *condensed)
     }
     to_contact_frame(&eq, condensed);
 done:
-    free(eq.stiffness);
-    free(eq.load);
+    release(&eq);
     return problem;
+}
+
+/* Copies the entries that are not zero, column by column. */
+static int compress(const struct equations *eq, struct sparse_bar *sparse)
+{
+    const size_t n = eq->size;
+    size_t used = 0;
+
+    for (size_t j = 0; j < n; j++)
+        for (size_t i = j; i < n; i++)
+            sparse->entries += eq->stiffness[i + j * n] != 0.0;
+    sparse->starts = malloc((n + 1) * sizeof *sparse->starts);
+    sparse->rows = malloc(sparse->entries * sizeof *sparse->rows);
+    sparse->values = malloc(sparse->entries * sizeof *sparse->values);
+    if (sparse->starts == NULL || sparse->rows == NULL || sparse->values == NULL)
+        return -1;
+    for (size_t j = 0; j < n; j++) {
+        sparse->starts[j] = (int64_t)used;
+        for (size_t i = j; i < n; i++) {
+            if (eq->stiffness[i + j * n] != 0.0) {
+                sparse->rows[used] = (int64_t)i;
+                sparse->values[used++] = eq->stiffness[i + j * n];
+            }
+        }
+    }
+    sparse->starts[n] = (int64_t)used;
+    return 0;
+}
+
+const char *bar_assemble(const struct bar *bar, struct sparse_bar *sparse)
+{
+    struct equations eq;
+    const char *problem = NULL;
+
+    memset(sparse, 0, sizeof *sparse);
+    sparse->held_count = bar->rows + 1;
+    sparse->held = malloc(sparse->held_count * sizeof *sparse->held);
+    if (!allocate(bar, &eq) || sparse->held == NULL) {
+        problem = "not enough memory for the stiffness matrix";
+        goto done;
+    }
+    assemble_stiffness(bar, &eq);
+    assemble_loads(bar, &eq);
+    for (size_t row = 0; row <= bar->rows; row++)
+        sparse->held[row] = (int64_t)component(bar, BAR_COLUMNS, row, 0);
+    for (size_t i = 0; i < BAR_SIZE; i++)
+        sparse->contact[i] = (int64_t)component(bar, i / 2, 0, i % 2);
+    sparse->size = eq.size;
+    sparse->load = eq.load; /* moves */
+    eq.load = NULL;
+    if (compress(&eq, sparse) != 0)
+        problem = "not enough memory for the sparse matrix";
+done:
+    release(&eq);
+    return problem;
+}
+
+void bar_release(struct sparse_bar *sparse)
+{
+    free(sparse->starts);
+    free(sparse->rows);
+    free(sparse->values);
+    free(sparse->load);
+    free(sparse->held);
 }

@@ -20,6 +20,7 @@
 #define BAR_MESH_H
 
 #include <stddef.h>
+#include <stdint.h>
 
 enum {
     BAR_COLUMNS = 32,
@@ -49,5 +50,24 @@ struct condensed_bar {
  * Returns NULL, or a message that says what went wrong.
  */
 const char *bar_condense(const struct bar *bar, struct condensed_bar *condensed);
+
+/* The whole bar, as a host with a sparse solver has it: nothing eliminated, supports apart. */
+struct sparse_bar {
+    size_t size, entries;
+    int64_t *starts, *rows; /* lower triangle by columns, counted from 0 */
+    double *values;
+    double *load;
+    size_t held_count;
+    int64_t *held;              /* components that the symmetry holds */
+    int64_t contact[BAR_SIZE];  /* u_x and u_y of each contact node */
+};
+
+/*
+ * Assembles the bar. Returns NULL, or a message that says what went wrong. bar_release is needed
+ * in both cases.
+ */
+const char *bar_assemble(const struct bar *bar, struct sparse_bar *sparse);
+
+void bar_release(struct sparse_bar *sparse);
 
 #endif

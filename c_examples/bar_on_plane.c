@@ -4,7 +4,8 @@
  *
  * This is a host program of the kind that the library is for. It meshes and assembles the bar,
  * condenses it on its contact side (bar_mesh.c) and has the library find contact and friction:
- * `solve` below is all that it takes. The rest shows the results and checks them against what is
+ * `solve` below is all that it takes, or `solve_sparse` to leave condensation to the library. The
+ * rest shows the results and checks them against what is
  * known about them (bar_check.c).
  *
  *     bar_on_plane [DIR]      with DIR, it also writes DIR/bar_on_plane.csv
@@ -17,6 +18,7 @@
 #include "signorini.h"
 
 #include <errno.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -114,6 +116,78 @@ static void frictionless(struct checks *checks, const struct condensed_bar *cond
     }
 }
 
+/* The whole sparse matrix instead of a condensed one: the library condenses, once, and tells the
+ * displacements of the whole mesh. */
+static int32_t solve_sparse(const struct sparse_bar *bar, struct solution *solution, double *u)
+{
+    double gap[BAR_PAIRS], mu[BAR_PAIRS], normal[BAR_SIZE];
+    signorini_model *model = NULL;
+    signorini_sparse matrix = {.struct_size = sizeof matrix,
+                               .index_bytes = 8,
+                               .base = 0,
+                               .triangle = SIGNORINI_LOWER,
+                               .size = (int64_t)bar->size,
+                               .entries = (int64_t)bar->entries,
+                               .starts = bar->starts,
+                               .rows = bar->rows,
+                               .values = bar->values};
+    signorini_pairs pairs = {.struct_size = sizeof pairs,
+                             .dim = 2,
+                             .pairs = BAR_PAIRS,
+                             .slaves = bar->contact,
+                             .normals = normal}; /* no masters: the plane is rigid */
+    signorini_settings settings;
+    int32_t status;
+
+    for (size_t i = 0; i < BAR_PAIRS; i++) {
+        gap[i] = 0.0;
+        mu[i] = 1.0;
+        normal[2 * i] = 0.0;
+        normal[2 * i + 1] = -1.0;
+    }
+    signorini_settings_default(&settings, sizeof settings);
+    settings.tolerance = 1e-13;
+
+    status =
+        signorini_model_new_sparse(&matrix, (int64_t)bar->held_count, bar->held, &pairs, &model);
+    if (status == 0)
+        status = signorini_model_solve(model, 1, bar->load, NULL, gap, mu, NULL, &settings,
+                                       solution->d, solution->F, solution->state, NULL, NULL);
+    if (status == 0)
+        status = signorini_model_recover(model, bar->load, NULL, solution->d, u);
+    signorini_model_free(model);
+    return status;
+}
+
+static void whole_matrix(struct checks *checks, const struct bar *bar)
+{
+    struct sparse_bar sparse;
+    struct solution solution;
+    const char *problem = bar_assemble(bar, &sparse);
+    double *u = malloc((sparse.size + 1) * sizeof *u);
+    double difference = 0.0;
+
+    puts("\nThe same bar, mu = 1, handed over as a whole sparse matrix");
+    if (problem == NULL && u == NULL)
+        problem = "not enough memory";
+    if (problem == NULL && solve_sparse(&sparse, &solution, u) != SIGNORINI_SOLVED)
+        problem = signorini_last_error();
+    judge(checks, problem == NULL);
+    printf("model of %zu components: %s\n", sparse.size, problem == NULL ? "solved" : problem);
+    if (problem == NULL) {
+        check_zones(checks, &solution, 3, 15);
+        check_reference(checks, &solution);
+        for (size_t i = 0; i < BAR_PAIRS; i++) {
+            difference = fmax(difference, fabs(u[sparse.contact[2 * i]] - solution.d[2 * i + 1]));
+            difference = fmax(difference, fabs(u[sparse.contact[2 * i + 1]] + solution.d[2 * i]));
+        }
+        judge(checks, difference <= 1e-15); /* of 1e-2: they are the same numbers */
+        puts("displacements of the whole mesh: (u_x, u_y) = (d_t, -d_n) on the contact side");
+    }
+    free(u);
+    bar_release(&sparse);
+}
+
 static void aster(struct checks *checks, const struct condensed_bar *condensed)
 {
     struct solution solution;
@@ -149,6 +223,7 @@ int main(int argc, char **argv)
         table1(&checks, &condensed, &bar, argc == 2 ? argv[1] : NULL);
         frictionless(&checks, &condensed, &bar);
     }
+    whole_matrix(&checks, &bar);
 
     bar.side_pressure = 15.0;
     bar.rows = 10;
