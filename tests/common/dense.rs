@@ -154,3 +154,23 @@ pub fn difference(a: &[f64], b: &[f64]) -> Vec<f64> {
     assert_eq!(a.len(), b.len());
     a.iter().zip(b).map(|(a, b)| a - b).collect()
 }
+
+/// The rest of a symmetric system `A x = b` once its first `free` unknowns are eliminated: matrix,
+/// column-major, and right side.
+pub fn condensed(a: &[f64], b: &[f64], free: usize) -> (Vec<f64>, Vec<f64>) {
+    let n = b.len();
+    let rest = n - free;
+    let block: Vec<f64> = (0..free * free).map(|k| a[k / free + n * (k % free)]).collect();
+    let elimination = Elimination::new(free, &block);
+    assert_eq!(elimination.rank, free, "the first unknowns can be eliminated");
+    let column = |j: usize| &a[n * j..n * (j + 1)];
+    let mut matrix = Vec::new();
+    for j in free..n {
+        let carried = elimination.solve(&column(j)[..free]).0;
+        matrix.extend((free..n).map(|i| column(j)[i] - dot(&column(i)[..free], &carried)));
+    }
+    let carried = elimination.solve(&b[..free]).0;
+    let right = (free..n).map(|i| b[i] - dot(&column(i)[..free], &carried)).collect();
+    assert_eq!(matrix.len(), rest * rest);
+    (matrix, right)
+}
