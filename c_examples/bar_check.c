@@ -6,16 +6,6 @@
 #include <stdio.h>
 #include <string.h>
 
-static const char *state_name(int32_t state)
-{
-    switch (state) {
-    case SIGNORINI_OPEN: return "open";
-    case SIGNORINI_SLIP: return "slip";
-    case SIGNORINI_STICK: return "stick";
-    default: return "?";
-    }
-}
-
 static double value(const struct solution *solution, size_t node, enum quantity quantity)
 {
     const double *values = quantity == UN || quantity == UT ? solution->d : solution->F;
@@ -33,13 +23,6 @@ static const double *correction(size_t node, enum quantity quantity)
 }
 
 /* ---- Checks -------------------------------------------------------------------------------- */
-
-void judge(struct checks *checks, int passed)
-{
-    checks->made += 1;
-    checks->failed += !passed;
-    fputs(passed ? "  PASS  " : "  FAIL  ", stdout);
-}
 
 void check_zones(struct checks *checks, const struct solution *solution, size_t open, size_t slip)
 {

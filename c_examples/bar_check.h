@@ -7,6 +7,7 @@
 #define BAR_CHECK_H
 
 #include "bar_mesh.h"
+#include "checks.h"
 
 #include <stddef.h>
 #include <stdint.h>
@@ -16,13 +17,6 @@ struct solution {
     double F[BAR_SIZE]; /* contact forces, likewise */
     int32_t state[BAR_PAIRS];
 };
-
-struct checks {
-    int made, failed;
-};
-
-/* Counts a check and opens its line with PASS or FAIL; the caller prints what was checked. */
-void judge(struct checks *checks, int passed);
 
 /* From the free corner on: so many open pairs, so many that slip, and the others stick. */
 void check_zones(struct checks *checks, const struct solution *solution, size_t open, size_t slip);

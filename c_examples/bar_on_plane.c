@@ -231,9 +231,5 @@ int main(int argc, char **argv)
     if (condense(&checks, &bar, &condensed))
         aster(&checks, &condensed);
 
-    if (checks.failed != 0)
-        printf("\nFAILED: %d of %d checks\n", checks.failed, checks.made);
-    else
-        printf("\nAll %d checks passed\n", checks.made);
-    return checks.failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return conclude(&checks);
 }

@@ -56,7 +56,7 @@ say "compiling the program: $cc"
 # shellcheck disable=SC2086 # options in CC
 $cc -std=c11 -O2 -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror -I "$root/include" \
     -o "$build/bar_on_plane.$$" \
-    "$examples/bar_on_plane.c" "$examples/bar_mesh.c" "$examples/bar_check.c" \
+    "$examples/bar_on_plane.c" "$examples/bar_mesh.c" "$examples/bar_check.c" "$examples/checks.c" \
     "$build/lib/$name" -lm "-Wl,-rpath,$here/lib"
 mv -f "$build/bar_on_plane.$$" "$build/bar_on_plane"
 

@@ -71,55 +71,40 @@ impl SignoriniSparse {
         position: i32,
         pointer: *const Self,
     ) -> Result<SparseMatrix<'a>, Failure> {
-        let refuse = |message: String| Err(Failure::argument(position, message));
+        let wrong = |message: String| Failure::argument(position, message);
         // SAFETY: by the caller's contract.
         let given = unsafe { whole(position, "K", pointer)? };
         let triangle = match given.triangle {
             SIGNORINI_LOWER => Triangle::Lower,
             SIGNORINI_UPPER => Triangle::Upper,
             SIGNORINI_FULL => Triangle::Full,
-            other => return refuse(format!("K: there is no triangle {other}")),
+            other => return Err(wrong(format!("K: there is no triangle {other}"))),
         };
         let n = size(position, "K: size", given.size)?;
         let entries = size(position, "K: entries", given.entries)?;
         let Some(columns) = n.checked_add(1) else {
-            return refuse(format!("K: size is {n}, too large"));
+            return Err(wrong(format!("K: size is {n}, too large")));
         };
         let mut arrays = Arrays::default();
         // SAFETY: arrays of the lengths and the width that the structure tells.
         let (starts, rows, values) = unsafe {
             let values = arrays.input(position, "K: values", given.values, entries, true)?;
-            match given.index_bytes {
-                4 => (
-                    Indices::Narrow(
-                        arrays
-                            .input(position, "K: starts", given.starts.cast(), columns, true)?
-                            .unwrap_or_default(),
-                    ),
-                    Indices::Narrow(
-                        arrays
-                            .input(position, "K: rows", given.rows.cast(), entries, true)?
-                            .unwrap_or_default(),
-                    ),
-                    values,
-                ),
-                8 => (
-                    Indices::Wide(
-                        arrays
-                            .input(position, "K: starts", given.starts.cast(), columns, true)?
-                            .unwrap_or_default(),
-                    ),
-                    Indices::Wide(
-                        arrays
-                            .input(position, "K: rows", given.rows.cast(), entries, true)?
-                            .unwrap_or_default(),
-                    ),
-                    values,
-                ),
-                other => {
-                    return refuse(format!("K: index_bytes is {other}, it must be 4 or 8"));
+            let mut indices = |name, pointer: *const c_void, length| {
+                Ok(match given.index_bytes {
+                    4 => arrays
+                        .input(position, name, pointer.cast(), length, true)?
+                        .map(Indices::Narrow),
+                    8 => arrays
+                        .input(position, name, pointer.cast(), length, true)?
+                        .map(Indices::Wide),
+                    other => {
+                        return Err(wrong(format!("K: index_bytes is {other}, it must be 4 or 8")));
+                    }
                 }
-            }
+                .unwrap_or(Indices::Wide(&[])))
+            };
+            let starts = indices("K: starts", given.starts, columns)?;
+            (starts, indices("K: rows", given.rows, entries)?, values)
         };
         let values = values.unwrap_or_default();
         Ok(SparseMatrix { size: n, starts, rows, values, base: i64::from(given.base), triangle })

@@ -9,6 +9,7 @@
 #![allow(clippy::missing_safety_doc, clippy::too_many_arguments)]
 
 mod args;
+mod cases;
 mod flat;
 mod guard;
 mod host;

@@ -1,16 +1,10 @@
-//! Models: reduce once, solve many load cases, recover.
+//! Models: made of what a host has, reduced once.
 
 use super::args::{Arrays, matrix_length, size};
 use super::guard::{self, Failure};
-use super::host::{SignoriniPairs, SignoriniSparse};
-use super::report::{SignoriniReport, state_code};
-use super::settings::SignoriniSettings;
-use super::status::{code, remember};
-use crate::error::Argument;
-use crate::model::{LoadCase, Model};
-use crate::monitor::{Monitor, ProgressFn};
-use crate::problem::Friction;
-use crate::solve::Status;
+use super::host::{SignoriniPairs, SignoriniSparse, shifted};
+use crate::error::{Argument, Error};
+use crate::model::Model;
 
 /// A structure, reduced to its contact pairs: what every load case shares. Made by
 /// signorini_model_new_..., released by signorini_model_free. It does not change, and every function
@@ -130,7 +124,7 @@ pub unsafe extern "C" fn signorini_model_new_sparse(
             let count = size(2, "fixed", fixed)?;
             let mut arrays = Arrays::default();
             let dofs = arrays.input(3, "dofs", dofs, count, true)?.unwrap_or_default();
-            let fixed = super::host::shifted(3, "dofs", dofs, matrix.base)?;
+            let fixed = shifted(3, "dofs", dofs, matrix.base)?;
             let pairs = SignoriniPairs::receive(4, pairs, matrix.base)?;
             Model::sparse(&matrix, &fixed, &pairs.view())
         };
@@ -183,202 +177,6 @@ pub unsafe extern "C" fn signorini_model_stiffness(
     })
 }
 
-/// Solves load cases, one after the other. Case c has its own columns in every array; a NULL status
-/// array is not wanted. A case that is wrong or not solved does not stop the others.
-///
-/// Friction in load steps: hand over as slip the d_t of the step before (zero at first); all state is
-/// in your arrays.
-///
-/// @param model       the model
-/// @param cases       number of load cases, 0 allowed
-/// @param f           nodal loads of the host, H = signorini_model_host_size entries a case
-/// @param prescribed  values of the fixed degrees of freedom, in their order, a column a case; NULL:
-///                    zero
-/// @param gap         gaps, one for each pair and case
-/// @param mu          friction coefficients, one for each pair and case
-/// @param slip        tangential displacement at rest, dim - 1 for each pair and case; NULL: zero
-/// @param settings    NULL: the defaults; a progress callback is told of each case in turn
-/// @param d           out: relative displacements, N = dim * pairs entries a case; in: the starts if
-///                    settings->warm_start
-/// @param F           out: contact forces, N entries a case
-/// @param state       out: state of each pair, a column a case; NULL: not wanted
-/// @param report      out: one for each case, struct_size set in each; NULL: not wanted
-/// @param status      out: status of each case, as signorini_solve returns it, -k standing for the
-///                    k-th argument of this call; NULL: not wanted
-/// @return 0 if every case is solved; otherwise the status of the first that is not, and
-///         signorini_last_error names it; -k the k-th argument is wrong
-#[unsafe(no_mangle)]
-#[allow(non_snake_case)] // as above
-pub unsafe extern "C" fn signorini_model_solve(
-    model: *const SignoriniModel,
-    cases: i64,
-    f: *const f64,
-    prescribed: *const f64,
-    gap: *const f64,
-    mu: *const f64,
-    slip: *const f64,
-    settings: *const SignoriniSettings,
-    d: *mut f64,
-    F: *mut f64,
-    state: *mut i32,
-    report: *mut SignoriniReport,
-    status: *mut i32,
-) -> i32 {
-    guard::call(|| {
-        // SAFETY: a model as the header demands.
-        let model = unsafe { receive(model)? };
-        let cases = size(2, "cases", cases)?;
-        let (pairs, n) = (model.pairs(), model.dim() * model.pairs());
-        let (host, fixed, slips) = (model.host_size(), model.fixed_count(), n - pairs);
-        let times = |position: i32, length: usize| {
-            length
-                .checked_mul(cases)
-                .ok_or_else(|| Failure::argument(position, "there are too many cases"))
-        };
-        let mut arrays = Arrays::default();
-        // SAFETY: the lengths are those of the header.
-        let (load, prescribed, gap, mu, slip) = unsafe {
-            (
-                arrays.input(3, "f", f, times(2, host)?, true)?.unwrap_or_default(),
-                arrays.input(4, "prescribed", prescribed, times(2, fixed)?, false)?,
-                arrays.input(5, "gap", gap, times(2, pairs)?, true)?.unwrap_or_default(),
-                arrays.input(6, "mu", mu, times(2, pairs)?, true)?.unwrap_or_default(),
-                arrays.input(7, "slip", slip, times(2, slips)?, false)?,
-            )
-        };
-        // SAFETY: the header asks for structures that begin with their size.
-        let received = unsafe { SignoriniSettings::receive(8, settings)? };
-        received.settings.validate().map_err(|error| Failure::from_error(error, |_| 8))?;
-        let d = arrays.output(9, "d", d, times(2, n)?, true)?;
-        let force = arrays.output(10, "F", F, times(2, n)?, true)?;
-        let states = arrays.output(11, "state", state, times(2, pairs)?, false)?;
-        let statuses = arrays.output(13, "status", status, cases, false)?;
-        // SAFETY: one report for each case, as the header demands.
-        let reports = unsafe { Reports::accept(12, report, cases)? };
-        arrays.structures(12, "report", report.cast_const(), times(12, reports.stride)?, true)?;
-        arrays.check_overlap()?;
-
-        let mut first = None;
-        for case in 0..cases {
-            let column =
-                |array: &'static [f64], length: usize| &array[length * case..length * (case + 1)];
-            let given = LoadCase {
-                load: column(load, host),
-                prescribed: prescribed.map(|values| column(values, fixed)),
-                gap: column(gap, pairs),
-                friction: Friction::Coulomb(column(mu, pairs)),
-                previous_slip: slip.map(|slip| column(slip, slips)),
-            };
-            let d = d.part(n * case, n);
-            // SAFETY: d has n entries for each case, filled by a caller that wants a warm start.
-            let start = received.warm_start.then(|| unsafe { d.read() });
-            let mut progress = received.progress();
-            let progress = progress.as_mut().map(|progress| progress as &mut ProgressFn<'_>);
-            let mut monitor = Monitor::new(&received.settings, progress);
-            let solved = model.solve(&given, &received.settings, start.as_deref(), &mut monitor);
-            let (code, message) = match solved {
-                Ok(solution) => {
-                    let code = code(solution.status);
-                    let codes: Vec<i32> =
-                        solution.certificate.states.iter().map(|&s| state_code(s)).collect();
-                    // SAFETY: the outputs have the lengths of the header and overlap nothing.
-                    unsafe {
-                        d.write(&solution.d);
-                        force.part(n * case, n).write(&solution.certificate.force);
-                        states.part(pairs * case, pairs).write(&codes);
-                        SignoriniReport::of(code, received.settings.method, &solution)
-                            .send(reports.nth(case));
-                    }
-                    (code, (solution.status != Status::Solved).then_some(solution.message))
-                }
-                Err(error) => {
-                    let message = error.to_string();
-                    (Failure::from_error(error, position).code(), Some(message))
-                }
-            };
-            // SAFETY: as above.
-            unsafe { statuses.part(case, 1).write(&[code]) };
-            if let Some(message) = message
-                && first.is_none()
-            {
-                first = Some(code);
-                remember(format_args!("case {case}: {message}"));
-            }
-        }
-        Ok(first.unwrap_or(0))
-    })
-}
-
-/// Displacements of the host from the relative ones, for one load case.
-///
-/// @param model       the model
-/// @param f           nodal loads of the case, H entries; NULL: none, for the motion of a case without
-///                    equilibrium
-/// @param prescribed  values of the fixed degrees of freedom; NULL: zero
-/// @param d           relative displacements, N entries
-/// @param u           out: displacements, H entries
-/// @return 0; -k the k-th argument is wrong
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn signorini_model_recover(
-    model: *const SignoriniModel,
-    f: *const f64,
-    prescribed: *const f64,
-    d: *const f64,
-    u: *mut f64,
-) -> i32 {
-    guard::call(|| {
-        let mut arrays = Arrays::default();
-        // SAFETY: a model and arrays as the header demands.
-        unsafe {
-            let model = receive(model)?;
-            let (host, n) = (model.host_size(), model.dim() * model.pairs());
-            let load = arrays.input(2, "f", f, host, false)?;
-            let values = arrays.input(3, "prescribed", prescribed, model.fixed_count(), false)?;
-            let d = arrays.input(4, "d", d, n, true)?.unwrap_or_default();
-            let out = arrays.output(5, "u", u, host, true)?;
-            arrays.check_overlap()?;
-            let recovered = model.recover(load, values, d).map_err(|error| {
-                Failure::from_error(error, |argument| match argument {
-                    Argument::Load => 2,
-                    Argument::Prescribed => 3,
-                    _ => 4,
-                })
-            })?;
-            out.write(&recovered);
-        }
-        Ok(0)
-    })
-}
-
-/// Contact forces as a nodal force vector of the host: on slaves, and the opposite on masters.
-///
-/// @param model  the model
-/// @param F      contact forces, N entries
-/// @param nodal  out: nodal forces, H entries
-/// @return 0; -k the k-th argument is wrong
-#[unsafe(no_mangle)]
-#[allow(non_snake_case)] // as above
-pub unsafe extern "C" fn signorini_model_nodal_forces(
-    model: *const SignoriniModel,
-    F: *const f64,
-    nodal: *mut f64,
-) -> i32 {
-    guard::call(|| {
-        let mut arrays = Arrays::default();
-        // SAFETY: a model and arrays as the header demands.
-        unsafe {
-            let model = receive(model)?;
-            let n = model.dim() * model.pairs();
-            let force = arrays.input(2, "F", F, n, true)?.unwrap_or_default();
-            let out = arrays.output(3, "nodal", nodal, model.host_size(), true)?;
-            arrays.check_overlap()?;
-            let forces = model.nodal_forces(force);
-            out.write(&forces.map_err(|error| Failure::from_error(error, |_| 2))?);
-        }
-        Ok(0)
-    })
-}
-
 /// Where a new model goes; NULL until it exists.
 struct Place(*mut *mut SignoriniModel);
 
@@ -394,7 +192,7 @@ impl Place {
 
     fn fill(
         self,
-        made: Result<Model, crate::error::Error>,
+        made: Result<Model, Error>,
         position: impl Fn(Argument) -> i32,
     ) -> Result<i32, Failure> {
         let model = made.map_err(|error| Failure::from_error(error, position))?;
@@ -406,7 +204,7 @@ impl Place {
 
 /// # Safety
 /// NULL or a model that lives during the call.
-unsafe fn receive<'a>(model: *const SignoriniModel) -> Result<&'a Model, Failure> {
+pub(super) unsafe fn receive<'a>(model: *const SignoriniModel) -> Result<&'a Model, Failure> {
     // SAFETY: by the caller's contract.
     match unsafe { model.as_ref() } {
         Some(model) => Ok(&model.0),
@@ -422,58 +220,4 @@ fn dimensions(dim: i32, pairs: i64) -> Result<(usize, usize, usize), Failure> {
     let n = pairs.checked_mul(dim).filter(|n| *n <= isize::MAX as usize / size_of::<f64>());
     let n = n.ok_or_else(|| Failure::argument(2, format!("pairs is {pairs}, too many")))?;
     Ok((dim, pairs, n))
-}
-
-fn position(argument: Argument) -> i32 {
-    match argument {
-        Argument::Load => 3,
-        Argument::Prescribed => 4,
-        Argument::Gap => 5,
-        Argument::Friction => 6,
-        Argument::PreviousSlip => 7,
-        Argument::Settings => 8,
-        Argument::Start => 9,
-        _ => 1,
-    }
-}
-
-/// An array of reports of the caller, whose structure may be smaller than ours.
-struct Reports {
-    first: *mut SignoriniReport,
-    stride: usize,
-}
-
-impl Reports {
-    /// # Safety
-    /// NULL, or an array of `cases` reports that begin with their size.
-    unsafe fn accept(
-        position: i32,
-        first: *mut SignoriniReport,
-        cases: usize,
-    ) -> Result<Self, Failure> {
-        if first.is_null() || cases == 0 {
-            return Ok(Reports { first: std::ptr::null_mut(), stride: 0 });
-        }
-        // SAFETY: by the caller's contract, as in the loop.
-        let stride = unsafe { SignoriniReport::accept(position, first)? };
-        let reports = Reports { first, stride };
-        for case in 1..cases {
-            // SAFETY: as above.
-            let size = unsafe { SignoriniReport::accept(position, reports.nth(case))? };
-            if size != stride {
-                let message = format!("report {case}: struct_size is {size}, not {stride}");
-                return Err(Failure::argument(position, message));
-            }
-        }
-        Ok(reports)
-    }
-
-    /// The report of a case, NULL if none is wanted.
-    fn nth(&self, case: usize) -> *mut SignoriniReport {
-        if self.first.is_null() {
-            self.first
-        } else {
-            self.first.wrapping_byte_add(self.stride * case)
-        }
-    }
 }

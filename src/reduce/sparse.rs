@@ -16,7 +16,9 @@ pub struct SparseReduction {
     dim: usize,
     /// Of each degree of freedom of the host: what it is made of.
     rows: Vec<Row>,
-    frames: Vec<Frame>,
+    pairs: usize,
+    /// What a unit contact force does: degree of freedom, component of `F`, part of it.
+    actions: Vec<(usize, usize, f64)>,
     fixed: Vec<usize>,
     /// Relative components that supports on both sides hold.
     held: Vec<usize>,
@@ -111,7 +113,8 @@ impl SparseReduction {
             host,
             dim,
             rows,
-            frames,
+            pairs: interface.pairs,
+            actions: actions(interface, &frames),
             fixed: fixed.to_vec(),
             held,
             unknowns: free + contact,
@@ -149,12 +152,9 @@ impl SparseReduction {
     /// Contact forces as a nodal force vector of the host: `R F` on slaves, the opposite on
     /// masters by weight.
     pub fn nodal_forces(&self, force: &[f64]) -> Vec<f64> {
-        let free = self.unknowns - force.len();
         let mut nodal = vec![0.0; self.host_size()];
-        for (dof, row) in self.rows.iter().enumerate() {
-            for &(k, c) in row.unknowns.iter().filter(|(k, _)| *k >= free) {
-                nodal[dof] += c * force[k - free];
-            }
+        for &(dof, component, coefficient) in &self.actions {
+            nodal[dof] += coefficient * force[component];
         }
         nodal
     }
@@ -175,7 +175,7 @@ impl SparseReduction {
                 transformed[k] += c * load;
             }
         }
-        let free = self.unknowns - self.dim * self.frames.len();
+        let free = self.unknowns - self.dim * self.pairs;
         for &held in &self.held {
             transformed[free + held] = 0.0;
         }
@@ -190,6 +190,24 @@ impl Row {
             prescribed.map_or(0.0, |values| self.fixed.iter().map(|&(k, c)| c * values[k]).sum());
         unknowns + fixed
     }
+}
+
+/// `F . d = F . Rᵀ (u_slave - sum w_k u_master,k)`, term by term.
+fn actions(interface: &Interface<'_>, frames: &[Frame]) -> Vec<(usize, usize, f64)> {
+    let dim = interface.dim;
+    let mut actions = Vec::new();
+    for (pair, frame) in frames.iter().enumerate() {
+        for (component, direction) in frame[..dim].iter().enumerate() {
+            for axis in 0..dim {
+                let component = dim * pair + component;
+                actions.push((interface.slave(pair)[axis], component, direction[axis]));
+                for (weight, masters) in interface.masters_of(pair) {
+                    actions.push((masters[axis], component, -weight * direction[axis]));
+                }
+            }
+        }
+    }
+    actions
 }
 
 /// Place in `fixed` of each degree of freedom.

@@ -9,7 +9,8 @@
 //! u_A   = (K_A + K_B)⁻¹ (f_A - f_B + K_B d),   u_B = d - u_A
 //! ```
 //!
-//! It needs only that no rigid motion is free in both bodies.
+//! It needs only that no rigid motion is free in both bodies. The bodies may change roles; here B is
+//! the softer one, so that `K_rel` is not the small difference of large numbers.
 
 use crate::error::{Argument, Error};
 use crate::linalg::dense::Semidefinite;
@@ -18,6 +19,9 @@ use crate::matrix::SymmetricMatrix;
 /// The reduction, kept for further load cases.
 pub struct TwoBodyReduction {
     size: usize,
+    /// Whether the host's first body is the softer one.
+    exchanged: bool,
+    /// The softer body's matrix.
     second: Vec<f64>,
     scale: Vec<f64>,
     sum: Semidefinite,
@@ -39,6 +43,9 @@ impl TwoBodyReduction {
         first.check("K_A", Argument::Matrix)?;
         let second = SymmetricMatrix { size, entries: second, ld: second_ld };
         second.check("K_B", Argument::SecondMatrix)?;
+        let trace = |k: &SymmetricMatrix<'_>| (0..size).map(|i| k.column(i)[i]).sum::<f64>();
+        let exchanged = trace(&first) < trace(&second);
+        let (first, second) = if exchanged { (second, first) } else { (first, second) };
         let scale: Vec<f64> =
             (0..size).map(|i| (first.column(i)[i] + second.column(i)[i]).sqrt().recip()).collect();
         let entry =
@@ -59,7 +66,7 @@ impl TwoBodyReduction {
             |i, j| second.column(j)[i],
         );
         let second = (0..size).flat_map(|j| second.column(j).iter().copied()).collect();
-        Ok(TwoBodyReduction { size, second, scale, sum, stiffness })
+        Ok(TwoBodyReduction { size, exchanged, second, scale, sum, stiffness })
     }
 
     /// `K_rel`, column-major.
@@ -67,26 +74,30 @@ impl TwoBodyReduction {
         &self.stiffness
     }
 
-    /// Relative loads from `[f_A; f_B]`.
+    /// Relative loads from the loads of the host's first and second body, one after the other.
     pub fn condense(&self, load: &[f64]) -> Vec<f64> {
-        let (first, second) = load.split_at(self.size);
+        let (first, second) = self.split(load);
         let difference: Vec<f64> = first.iter().zip(second).map(|(a, b)| a - b).collect();
         let x = self.solve(&difference);
         self.times_second(&x).iter().zip(second).map(|(carried, f)| carried + f).collect()
     }
 
-    /// `[u_A; u_B]` from the loads and the relative displacements.
+    /// Displacements of both bodies, as the loads, from these and the relative displacements.
     pub fn recover(&self, load: &[f64], d: &[f64]) -> Vec<f64> {
-        let (first, second) = load.split_at(self.size);
+        let (first, second) = self.split(load);
         let mut right = self.times_second(d);
         for (right, (a, b)) in right.iter_mut().zip(first.iter().zip(second)) {
             *right += a - b;
         }
-        let mut u = self.solve(&right);
-        for (i, d) in d.iter().enumerate() {
-            u.push(d - u[i]);
-        }
-        u
+        let stiffer = self.solve(&right);
+        let softer: Vec<f64> = d.iter().zip(&stiffer).map(|(d, u)| d - u).collect();
+        if self.exchanged { [softer, stiffer].concat() } else { [stiffer, softer].concat() }
+    }
+
+    /// The stiffer body's part, then the softer one's.
+    fn split<'a>(&self, load: &'a [f64]) -> (&'a [f64], &'a [f64]) {
+        let (first, second) = load.split_at(self.size);
+        if self.exchanged { (second, first) } else { (first, second) }
     }
 
     /// `(K_A + K_B)⁻¹ b`.
