@@ -5,5 +5,6 @@
 pub mod bare;
 pub mod dense;
 pub mod measures;
+pub mod mesh;
 pub mod oracle;
 pub mod problems;
