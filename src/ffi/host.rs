@@ -1,6 +1,6 @@
 //! The structures by which a host hands over its sparse matrix and its contact pairs.
 
-use std::ffi::c_void;
+use libc::c_void;
 
 use super::args::{Arrays, checked_size, size};
 use super::guard::Failure;
