@@ -43,6 +43,15 @@ impl Iterate {
     /// One sweep over all pairs. Under Coulomb's law the threshold follows the pressure within the
     /// sweep. Returns the change in the norm of the diagonal of `K`.
     pub fn sweep(&mut self, problem: &ContactProblem<'_>, omega: f64) -> f64 {
+        kernels::vectorised(
+            self.simd,
+            #[inline(always)]
+            || self.sweep_pairs(problem, omega),
+        )
+    }
+
+    #[inline(always)]
+    fn sweep_pairs(&mut self, problem: &ContactProblem<'_>, omega: f64) -> f64 {
         let dim = problem.dim();
         let mut change = 0.0;
         for pair in 0..problem.pairs() {
@@ -70,6 +79,7 @@ impl Iterate {
     ///
     /// Steps come from forces, not from differences of displacements, so that small ones survive
     /// next to a large slip; a pair that sticks is at rest exactly.
+    #[inline(always)]
     fn relax_slip(
         &mut self,
         problem: &ContactProblem<'_>,
@@ -101,6 +111,7 @@ impl Iterate {
         }
     }
 
+    #[inline(always)]
     fn add_columns(&mut self, problem: &ContactProblem<'_>, first: usize, steps: &[f64]) {
         let mut moved = steps
             .iter()
@@ -109,8 +120,8 @@ impl Iterate {
             .map(|(component, step)| (-step, problem.column(first + component)));
         while let Some(one) = moved.next() {
             match moved.next() {
-                Some(two) => kernels::subtract2(self.simd, &mut self.force, one, two),
-                None => kernels::subtract(self.simd, &mut self.force, one.0, one.1),
+                Some(two) => kernels::subtract2(&mut self.force, one, two),
+                None => kernels::subtract(&mut self.force, one.0, one.1),
             }
         }
     }

@@ -182,21 +182,24 @@ impl Tableau {
         self.entering.copy_from_slice(&self.entries[c * stride..c * stride + n]);
         let inverse = 1.0 / self.entering[row];
         self.entering[row] = 0.0;
-        for (j, column) in self.entries.chunks_exact_mut(stride).enumerate() {
-            let column = &mut column[..n];
-            if j == c {
-                for entry in &mut *column {
-                    *entry *= inverse;
+        let (entries, column) = (&mut self.entries, &self.entering);
+        kernels::vectorised(
+            self.simd,
+            #[inline(always)]
+            || {
+                for (j, target) in entries.chunks_exact_mut(stride).enumerate() {
+                    let share = target[row] * inverse;
+                    if share != 0.0 && j != c {
+                        kernels::subtract(&mut target[..n], share, column);
+                        target[row] = -share;
+                    }
                 }
-                column[row] = inverse;
-                continue;
-            }
-            let share = column[row] * inverse;
-            if share != 0.0 {
-                kernels::subtract(self.simd, column, share, &self.entering);
-                column[row] = -share;
-            }
+            },
+        );
+        for entry in self.column_mut(c) {
+            *entry *= inverse;
         }
+        self.column_mut(c)[row] = inverse;
         let leaving = self.basic[row];
         self.basic[row] = entering;
         self.nonbasic[c] = leaving;
@@ -217,9 +220,7 @@ impl Tableau {
         for (k, &residual) in residual.iter().enumerate() {
             match self.place[k] {
                 row if row < n => correction[row] += residual,
-                place => {
-                    kernels::subtract(self.simd, &mut correction, residual, self.column(place - n))
-                }
+                place => kernels::subtract(&mut correction, residual, self.column(place - n)),
             }
         }
         for (value, correction) in self.column_mut(n + 1).iter_mut().zip(&correction) {

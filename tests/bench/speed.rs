@@ -162,7 +162,7 @@ fn rank_one(arch: Arch, tableau: &mut [f64], column: &[f64]) {
             #[inline(always)]
             || {
                 for (target, column) in target.iter_mut().zip(column) {
-                    *target = share.mul_add(-column, *target);
+                    *target -= share * column;
                 }
             },
         );
