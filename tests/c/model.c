@@ -529,7 +529,7 @@ static void bad_calls(void)
     CALL(-10, "F overlaps d", 3, f, NULL, w.gap, w.mu, NULL, NULL, d, w.d[2], NULL, NULL, NULL);
     CALL(-13, "status overlaps state", 3, f, NULL, w.gap, w.mu, NULL, NULL, d, w.F[0], w.state,
          NULL, w.state + 2);
-    CALL(-13, "status overlaps report", 3, f, NULL, w.gap, w.mu, NULL, NULL, d, w.F[0], NULL, w.report,
+    CALL(-12, "report overlaps status", 3, f, NULL, w.gap, w.mu, NULL, NULL, d, w.F[0], NULL, w.report,
          (int32_t *)(void *)&w.report[2]);
     /* Inputs may share memory. */
     CHECK_STATUS(signorini_model_solve(model, 3, f, NULL, w.gap, w.gap, w.gap, NULL, ARRAYS), 0);
