@@ -1,0 +1,63 @@
+# Sourced by the scripts that build and run an example: what they have in common.
+#
+# The script sets `script`, its name for messages. Then `prepare` builds the library, and
+# `compile NAME SOURCE...` compiles sources of this directory against it to $build/NAME. CC names the
+# C compiler, default cc. All goes to target/.
+# shellcheck shell=sh
+
+say() { printf '%s: %s\n' "$script" "$*"; }
+die() {
+    say "$*" >&2
+    exit 1
+}
+
+root=$(CDPATH='' cd -- "$(dirname -- "$0")/.." && pwd)
+examples=$root/c_examples
+build=$root/target/c_examples
+cc=${CC:-cc}
+
+check_tools() {
+    command -v cargo >/dev/null || die "cargo is missing: install Rust, https://rustup.rs"
+    # CC may hold options after the name of the compiler.
+    command -v "${cc%% *}" >/dev/null ||
+        die "the C compiler '$cc' is missing: install one, or set CC"
+}
+
+prepare() {
+    say "building the library: cargo build --release --locked"
+    (cd "$root" && cargo build --release --locked --target-dir "$root/target")
+
+    # The program asks for the shared library by the name that the library has inside, next to
+    # itself.
+    case $(uname -s) in
+    Darwin)
+        built=libsignorini.dylib
+        name=$built
+        here=@loader_path
+        ;;
+    *)
+        built=libsignorini.so
+        interface=$(sed -n '/^version = /{s/[^0-9]*\([0-9]*\.[0-9]*\).*/\1/p;q;}' "$root/Cargo.toml")
+        name=$built.$interface
+        here=\$ORIGIN
+        ;;
+    esac
+    library=$root/target/release/$built
+    [ -f "$library" ] || die "no library at $library: is build.target set in a cargo configuration?"
+
+    # Under temporary names first: another script may be running.
+    mkdir -p "$build/lib"
+    cp "$library" "$build/lib/$name.$$"
+    mv -f "$build/lib/$name.$$" "$build/lib/$name"
+}
+
+compile() {
+    program=$1
+    shift
+    say "compiling the program: $cc"
+    # shellcheck disable=SC2086 # options in CC
+    (cd "$examples" &&
+        $cc -std=c11 -O2 -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror -I "$root/include" \
+            -o "$build/$program.$$" "$@" "$build/lib/$name" -lm "-Wl,-rpath,$here/lib")
+    mv -f "$build/$program.$$" "$build/$program"
+}
