@@ -139,6 +139,7 @@ impl Model {
             Reduction::TwoBody(reduction) => reduction.condense(case.load),
             Reduction::Sparse(reduction) => reduction.condense(case.load, case.prescribed),
         };
+        let slip = case.previous_slip.map(|slip| self.allowed_slip(slip));
         let problem = ContactProblem::new(ContactData {
             dim: self.dim,
             pairs: self.pairs,
@@ -147,7 +148,7 @@ impl Model {
             load: &load,
             gap: case.gap,
             friction: case.friction,
-            previous_slip: case.previous_slip,
+            previous_slip: slip.as_deref(),
         })?;
         solve(&problem, settings, start, monitor)
     }
@@ -193,10 +194,30 @@ impl Model {
         }
         match prescribed {
             Some(values) => {
-                check_vector(Argument::Prescribed, "prescribed", values, self.fixed_count())
+                check_vector(Argument::Prescribed, "prescribed", values, self.fixed_count())?;
+                match &self.reduction {
+                    Reduction::Sparse(reduction) => reduction.check_prescribed(values),
+                    _ => Ok(()),
+                }
             }
             None => Ok(()),
         }
+    }
+
+    /// The previous slip, without any where supports on both sides allow none.
+    fn allowed_slip(&self, slip: &[f64]) -> Vec<f64> {
+        let mut slip = slip.to_vec();
+        if let Reduction::Sparse(reduction) = &self.reduction {
+            for component in reduction.held() {
+                let (pair, axis) = (component / self.dim, component % self.dim);
+                if axis > 0
+                    && let Some(slip) = slip.get_mut((self.dim - 1) * pair + axis - 1)
+                {
+                    *slip = 0.0;
+                }
+            }
+        }
+        slip
     }
 }
 

@@ -12,7 +12,8 @@ use crate::monitor::{Monitor, ProgressFn};
 use crate::problem::Friction;
 
 /// Solves load cases, one after the other. Case c has its own columns in every array; a NULL status
-/// array is not wanted. A case that is wrong or not solved does not stop the others.
+/// array is not wanted. A case that is wrong or not solved does not stop the others; one that is wrong
+/// leaves its d, F, state and report as they were.
 ///
 /// Friction in load steps: hand over as slip the d_t of the step before (zero at first); all state is
 /// in your arrays.

@@ -18,6 +18,7 @@ use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Conj, MatMut, Par, Side, Spec};
 
 use super::dense::lower_times_transpose;
+use super::small::largest;
 
 /// Lower triangle of a symmetric matrix by columns, rows ascending, diagonal entries present.
 pub struct Lower {
@@ -32,10 +33,12 @@ pub struct Lower {
 }
 
 /// Why a matrix was not factorised.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Failure {
-    /// The leading part is singular or indefinite; this row depends on others.
-    Dependent(usize),
+    /// A motion of all rows that nothing resists, its largest component 1.
+    Motion(Vec<f64>),
+    /// The leading part is indefinite, as this row shows.
+    Indefinite(usize),
     /// Not enough memory.
     Memory,
 }
@@ -50,8 +53,16 @@ pub struct Condensation {
     schur: Vec<f64>,
 }
 
-/// Pivots below this part of the diagonal mean that a motion remains that nothing holds.
-const SINGULAR: f64 = 1e-12;
+/// A pivot below this part of the diagonal raises suspicion: a motion may remain that nothing holds.
+/// Whether it does is decided by the motion itself.
+const SUSPICIOUS: f64 = 1e-8;
+
+/// A motion is free if its forces are below this part of those of its components alone: rounding.
+/// Weak parts that are held have 1e-7, free ones 4e-16.
+const FREE: f64 = 10.0 * f64::EPSILON;
+
+/// Added to the diagonal, relative to it, to make a singular matrix tell its free motion.
+const REGULARISATION: f64 = 1e-10;
 
 impl Condensation {
     /// Factorises; the last `size - free` rows are the `d`.
@@ -66,44 +77,52 @@ impl Condensation {
             matrix.values[matrix.starts[j]] += shift;
         }
         let (order, inverse) = ordering(&matrix, free)?;
-        let pattern =
-            SymbolicSparseColMatRef::new_checked(n, n, &matrix.starts, None, &matrix.rows);
-        let params = CholeskySymbolicParams {
-            supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
-            ..Default::default()
-        };
-        let permutation = faer::perm::PermRef::new_checked(&order, &inverse, n);
-        let symbolic = factorize_symbolic_cholesky(
-            pattern,
-            Side::Lower,
-            SymmetricOrdering::Custom(permutation),
-            params,
-        )
-        .map_err(|_| Failure::Memory)?;
+        let symbolic = analyse(&matrix, &order, &inverse)?;
         let mut values = Vec::new();
         values.try_reserve_exact(symbolic.len_val()).map_err(|_| Failure::Memory)?;
         values.resize(symbolic.len_val(), 0.0);
-        let scratch = symbolic.factorize_numeric_llt_scratch::<f64>(Par::Seq, Spec::default());
-        let mut memory = MemBuffer::try_new(scratch).map_err(|_| Failure::Memory)?;
-        let factorised = symbolic.factorize_numeric_llt(
-            &mut values,
-            SparseColMatRef::new(pattern, &matrix.values),
-            Side::Lower,
-            LltRegularization::default(),
-            Par::Seq,
-            MemStack::new(&mut memory),
-            Spec::default(),
-        );
-        if let Err(LltError::NonPositivePivot { index }) = factorised {
-            return Err(Failure::Dependent(order[index.min(n - 1)]));
+        let singular = factorise(&symbolic, &matrix, &mut values)?.is_some();
+        if singular {
+            for j in 0..free {
+                matrix.values[matrix.starts[j]] *= 1.0 + REGULARISATION;
+            }
+            if let Some(index) = factorise(&symbolic, &matrix, &mut values)? {
+                return Err(Failure::Indefinite(order[index.min(n - 1)]));
+            }
         }
         let m = n - free;
-        let tail = read_tail(supernodes(&symbolic, &values), &matrix, &order, free)?;
+        let (tail, (weakest, pivot)) =
+            read_tail(supernodes(&symbolic, &values), &matrix, &order, free);
         let mut schur = lower_times_transpose(&tail, m);
         for (i, shift) in shift.iter().enumerate() {
             schur[i + m * i] -= shift;
         }
-        Ok(Condensation { factor: Some((symbolic, values)), order, free, tail, schur })
+        let condensation =
+            Condensation { factor: Some((symbolic, values)), order, free, tail, schur };
+        if singular || pivot < SUSPICIOUS {
+            let motion = condensation.weakest_motion(weakest);
+            if singular || matrix.resistance(&motion) <= FREE {
+                return Err(Failure::Motion(motion));
+            }
+        }
+        Ok(condensation)
+    }
+
+    /// The motion that resists least, by two steps of inverse iteration from one row.
+    fn weakest_motion(&self, row: usize) -> Vec<f64> {
+        let mut x = vec![0.0; self.order.len()];
+        x[self.order.iter().position(|&i| i == row).unwrap_or(0)] = 1.0;
+        for _ in 0..2 {
+            self.half_solve(&mut x, false);
+            self.half_solve(&mut x, true);
+            let most = largest(&x);
+            x.iter_mut().for_each(|x| *x /= most);
+        }
+        let mut motion = vec![0.0; x.len()];
+        for (&i, x) in self.order.iter().zip(&x) {
+            motion[i] = *x;
+        }
+        motion
     }
 
     /// `S`, column-major.
@@ -165,15 +184,17 @@ fn supernodes<'a>(
     }
 }
 
-/// Copies `L_dd` out of the factor and looks at the pivots before it.
+/// Copies `L_dd` out of the factor and finds the row before it with the smallest pivot relative to
+/// the diagonal.
 fn read_tail(
     factor: SupernodalLltRef<'_, usize, f64>,
     matrix: &Lower,
     order: &[usize],
     free: usize,
-) -> Result<Vec<f64>, Failure> {
+) -> (Vec<f64>, (usize, f64)) {
     let m = matrix.size - free;
     let mut tail = vec![0.0; m * m];
+    let mut weakest = (0, f64::INFINITY);
     for s in 0..factor.symbolic().n_supernodes() {
         let node = factor.supernode(s);
         let (entries, begin) = (node.val(), node.start());
@@ -182,8 +203,9 @@ fn read_tail(
             let j = begin + column;
             if j < free {
                 let diagonal = matrix.values[matrix.starts[order[j]]];
-                if entries[(column, column)].powi(2) <= SINGULAR * diagonal {
-                    return Err(Failure::Dependent(order[j]));
+                let pivot = entries[(column, column)].powi(2) / diagonal;
+                if pivot < weakest.1 {
+                    weakest = (order[j], pivot);
                 }
                 continue;
             }
@@ -193,7 +215,69 @@ fn read_tail(
             }
         }
     }
-    Ok(tail)
+    (tail, weakest)
+}
+
+/// Structure of the factor in the given order.
+fn analyse(
+    matrix: &Lower,
+    order: &[usize],
+    inverse: &[usize],
+) -> Result<SymbolicCholesky<usize>, Failure> {
+    let params = CholeskySymbolicParams {
+        supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
+        ..Default::default()
+    };
+    let permutation = faer::perm::PermRef::new_checked(order, inverse, matrix.size);
+    let ordering = SymmetricOrdering::Custom(permutation);
+    factorize_symbolic_cholesky(matrix.pattern(), Side::Lower, ordering, params)
+        .map_err(|_| Failure::Memory)
+}
+
+/// Fills `values`; the place in the order of a pivot that is not positive, if there is one.
+fn factorise(
+    symbolic: &SymbolicCholesky<usize>,
+    matrix: &Lower,
+    values: &mut [f64],
+) -> Result<Option<usize>, Failure> {
+    let scratch = symbolic.factorize_numeric_llt_scratch::<f64>(Par::Seq, Spec::default());
+    let mut memory = MemBuffer::try_new(scratch).map_err(|_| Failure::Memory)?;
+    let factorised = symbolic.factorize_numeric_llt(
+        values,
+        SparseColMatRef::new(matrix.pattern(), &matrix.values),
+        Side::Lower,
+        LltRegularization::default(),
+        Par::Seq,
+        MemStack::new(&mut memory),
+        Spec::default(),
+    );
+    Ok(match factorised {
+        Ok(_) => None,
+        Err(LltError::NonPositivePivot { index }) => Some(index),
+    })
+}
+
+impl Lower {
+    fn pattern(&self) -> SymbolicSparseColMatRef<'_, usize> {
+        SymbolicSparseColMatRef::new_checked(self.size, self.size, &self.starts, None, &self.rows)
+    }
+
+    /// Largest force of the motion `x`, relative to the largest of its components alone.
+    fn resistance(&self, x: &[f64]) -> f64 {
+        let (mut force, mut parts) = (vec![0.0; self.size], vec![0.0; self.size]);
+        for (j, range) in self.starts.windows(2).enumerate() {
+            for k in range[0]..range[1] {
+                let (i, value) = (self.rows[k], self.values[k]);
+                force[i] += value * x[j];
+                parts[i] += (value * x[j]).abs();
+                if i != j {
+                    force[j] += value * x[i];
+                    parts[j] += (value * x[i]).abs();
+                }
+            }
+        }
+        largest(&force) / largest(&parts)
+    }
 }
 
 /// Approximate minimum degree on the leading part, the others after it in their order.

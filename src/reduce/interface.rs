@@ -118,10 +118,10 @@ impl Interface<'_> {
         };
         let first = match self.tangents {
             Some(tangents) => {
-                let given = vector(tangents);
+                let given = unit(vector(tangents)).unwrap_or_default();
                 let along = dot(given, normal);
                 let rest: [f64; 3] = std::array::from_fn(|c| given[c] - along * normal[c]);
-                match unit(rest).filter(|_| dot(rest, rest) > 1e-12 * dot(given, given)) {
+                match unit(rest).filter(|_| dot(rest, rest) > 1e-12) {
                     Some(tangent) => tangent,
                     None => return refuse("tangent is zero, not finite or along the normal"),
                 }
@@ -150,6 +150,9 @@ fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
 }
 
 fn unit(vector: [f64; 3]) -> Option<[f64; 3]> {
-    let length = dot(vector, vector).sqrt();
-    (length > 0.0 && length.is_finite()).then(|| vector.map(|component| component / length))
+    // Of any length: its square may be out of range.
+    let largest = vector.iter().fold(0.0_f64, |most, component| most.max(component.abs()));
+    let scaled = vector.map(|component| component / largest);
+    let length = dot(scaled, scaled).sqrt();
+    length.is_finite().then(|| scaled.map(|component| component / length))
 }

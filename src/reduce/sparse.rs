@@ -20,8 +20,8 @@ pub struct SparseReduction {
     /// What a unit contact force does: degree of freedom, component of `F`, part of it.
     actions: Vec<(usize, usize, f64)>,
     fixed: Vec<usize>,
-    /// Relative components that supports on both sides hold.
-    held: Vec<usize>,
+    /// Relative components that supports on both sides hold, with what prescribed values give them.
+    held: Vec<(usize, Row)>,
     unknowns: usize,
     condensation: Condensation,
 }
@@ -70,7 +70,13 @@ impl SparseReduction {
         for (pair, frame) in frames.iter().enumerate() {
             for (axis, &slave) in interface.slave(pair).iter().enumerate() {
                 if number[slave].is_some() {
-                    held.push(dim * pair + held_component(interface, pair, axis, frame, &number)?);
+                    let component = held_component(interface, pair, axis, frame, &number)?;
+                    let mut jump = Row { fixed: rows[slave].fixed.clone(), ..Row::default() };
+                    for (weight, masters) in interface.masters_of(pair) {
+                        let master = rows[masters[axis]].fixed.iter();
+                        jump.fixed.extend(master.map(|&(k, c)| (k, -weight * c)));
+                    }
+                    held.push((dim * pair + component, jump));
                     continue;
                 }
                 let mut row = Row::default();
@@ -94,19 +100,18 @@ impl SparseReduction {
         let condensation =
             Condensation::new(transformed, free).map_err(|failure| match failure {
                 Failure::Memory => Error::OutOfMemory("the factor of the stiffness matrix"),
-                Failure::Dependent(row) => {
-                    let name = if row < free {
-                        format!("degree of freedom {}", free_dofs[row])
-                    } else {
-                        format!("component {} of pair {}", (row - free) % dim, (row - free) / dim)
-                    };
-                    Error::invalid(
-                        Argument::Matrix,
-                        format!(
-                            "{name} belongs to a motion that no support and no pair holds, or K is \
-                         not positive semi-definite"
+                Failure::Indefinite(row) => Error::invalid(
+                    Argument::Matrix,
+                    match free_dofs.get(row) {
+                        Some(dof) => format!(
+                            "K is not positive semi-definite, as degree of freedom {dof} shows"
                         ),
-                    )
+                        None => "K is not positive semi-definite".into(),
+                    },
+                ),
+                Failure::Motion(x) => {
+                    let motion: Vec<f64> = rows.iter().map(|row| row.value(&x, None)).collect();
+                    Error::invalid(Argument::Matrix, free_motion(&motion))
                 }
             })?;
         Ok(SparseReduction {
@@ -135,6 +140,30 @@ impl SparseReduction {
     /// Number of fixed degrees of freedom.
     pub fn fixed_count(&self) -> usize {
         self.fixed.len()
+    }
+
+    /// Relative components that supports on both sides hold: they are and stay zero.
+    pub fn held(&self) -> impl Iterator<Item = usize> {
+        self.held.iter().map(|(component, _)| *component)
+    }
+
+    /// Refuses prescribed values that part a pair along a component which supports hold.
+    ///
+    /// # Errors
+    /// Names the pair.
+    pub fn check_prescribed(&self, prescribed: &[f64]) -> Result<(), Error> {
+        for (component, jump) in &self.held {
+            let parts = jump.fixed.iter().map(|&(k, c)| (c * prescribed[k]).abs()).sum::<f64>();
+            let jump = jump.value(&[], Some(prescribed));
+            if jump.abs() > 1e-12 * parts {
+                let pair = component / self.dim;
+                return Err(Error::invalid(
+                    Argument::Prescribed,
+                    format!("prescribed values move both sides of pair {pair} apart by {jump}"),
+                ));
+            }
+        }
+        Ok(())
     }
 
     /// Relative loads from nodal loads and the values of the fixed degrees of freedom.
@@ -176,8 +205,8 @@ impl SparseReduction {
             }
         }
         let free = self.unknowns - self.dim * self.pairs;
-        for &held in &self.held {
-            transformed[free + held] = 0.0;
+        for (component, _) in &self.held {
+            transformed[free + component] = 0.0;
         }
         self.condensation.condense(&transformed)
     }
@@ -208,6 +237,28 @@ fn actions(interface: &Interface<'_>, frames: &[Frame]) -> Vec<(usize, usize, f6
         }
     }
     actions
+}
+
+/// A free motion in words: the part that moves, and how it moves most.
+fn free_motion(motion: &[f64]) -> String {
+    let largest = motion.iter().fold(0.0_f64, |most, u| most.max(u.abs()));
+    let mut moving: Vec<usize> =
+        (0..motion.len()).filter(|&dof| motion[dof].abs() > 1e-6 * largest).collect();
+    let (count, first, last) = (moving.len(), moving.first(), moving.last());
+    let part = match (first, last) {
+        (Some(first), Some(last)) => format!("{count} of the degrees of freedom {first} to {last}"),
+        _ => "nothing".into(),
+    };
+    moving.sort_by(|&a, &b| motion[b].abs().total_cmp(&motion[a].abs()));
+    let most: Vec<String> = moving
+        .iter()
+        .take(3)
+        .map(|&dof| format!("degree of freedom {dof} by {:.3}", motion[dof] / largest))
+        .collect();
+    format!(
+        "a motion remains that no support and no pair holds: it moves {part}, most of all {}",
+        most.join(", ")
+    )
 }
 
 /// Place in `fixed` of each degree of freedom.
@@ -256,7 +307,7 @@ fn transform(
     rows: &[Row],
     free: usize,
     contact: usize,
-    held: &[usize],
+    held: &[(usize, Row)],
 ) -> Lower {
     let size = free + contact;
     let mut columns: Vec<Vec<(usize, f64)>> = vec![Vec::new(); size];
@@ -273,7 +324,7 @@ fn transform(
         }
     }
     let largest = host.values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
-    for component in held {
+    for (component, _) in held {
         columns[free + component].push((free + component, largest));
     }
     let mut lower = Lower { size, starts: vec![0], rows: Vec::new(), values: Vec::new() };
