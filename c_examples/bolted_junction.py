@@ -4,8 +4,9 @@
     sh c_examples/junction.sh OUT
     python3 c_examples/bolted_junction.py OUT       writes OUT/bolted_junction.png
 
-Needs numpy and matplotlib (which brings PIL). mu = 0.3, closed and under the largest inner pressure: the mesh with
-displacements times 100, level curves of the axial stress, and the state of each contact pair.
+Needs numpy and matplotlib (which brings PIL). mu = 0.3, closed and under the largest inner
+pressure: the mesh with displacements times 100, level curves of the axial stress, and the state of
+each contact pair.
 """
 
 import csv
@@ -56,7 +57,7 @@ def read_vtk(path):
         elif word == "VECTORS":
             next(words), next(words)
             displacements = numbers(3 * size).reshape(size, 3)[:, :2]
-        elif word == "sigma_zz":
+        elif word == "sigma_zz":  # at the nodes
             for _ in range(4):  # double 1 LOOKUP_TABLE default
                 next(words)
             stress = numbers(size)
@@ -136,9 +137,9 @@ def save(figure, path):
     """With few colours, which makes a small file."""
     buffer = io.BytesIO()
     figure.savefig(buffer, dpi=110)
-    Image.open(buffer).convert("RGB").quantize(64, dither=Image.Dither.NONE).save(
-        path, optimize=True
-    )
+    image = Image.open(buffer).convert("RGB")
+    image = image.quantize(256, method=Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE)
+    image.save(path, optimize=True)
 
 
 def main():
