@@ -3,7 +3,7 @@
 # The script sets `script`, its name for messages. Then `prepare` builds the library, and
 # `compile NAME SOURCE...` compiles sources of this directory against it to $build/NAME. CC names
 # the C compiler, default cc. All goes to target/.
-# shellcheck shell=sh
+# shellcheck shell=sh disable=SC2154
 
 say() { printf '%s: %s\n' "$script" "$*"; }
 die() {
