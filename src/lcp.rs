@@ -2,6 +2,7 @@
 
 use crate::error::{Argument, Error};
 use crate::linalg::small::norm;
+use crate::matrix;
 
 /// A checked problem, a view of the caller's arrays.
 #[derive(Clone, Copy, Debug)]
@@ -27,15 +28,14 @@ impl<'a> Lcp<'a> {
         covering: Option<&'a [f64]>,
     ) -> Result<Self, Error> {
         let refuse = |argument, message| Err(Error::invalid(argument, message));
-        if ld < size.max(1) {
-            let least = size.max(1);
-            let message =
-                format!("the leading dimension of M is {ld}, it must be at least {least}");
-            return refuse(Argument::LeadingDimension, message);
-        }
-        let entries = size.saturating_sub(1).checked_mul(ld).and_then(|n| n.checked_add(size));
-        if entries.is_none_or(|entries| matrix.len() < entries) {
-            return refuse(Argument::Matrix, format!("M has {} entries, too few", matrix.len()));
+        let entries = matrix::entries("M", size, ld)
+            .map_err(|message| Error::invalid(Argument::LeadingDimension, message))?;
+        if matrix.len() < entries {
+            let given = matrix.len();
+            return refuse(
+                Argument::Matrix,
+                format!("M has {given} entries, it must have {entries}"),
+            );
         }
         if q.len() < size {
             return refuse(

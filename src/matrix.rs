@@ -17,6 +17,23 @@ pub(crate) struct SymmetricMatrix<'a> {
 /// (measured 1e-13 from CalculiX and MUMPS), far below a slip of indices.
 pub(crate) const SYMMETRY: f64 = 1e-9;
 
+/// Entries that a column-major matrix of `size` rows and columns has to the end of its last column.
+///
+/// # Errors
+/// A sentence, if the leading dimension `ld` is less than `max(1, size)` or absurd.
+pub(crate) fn entries(name: &str, size: usize, ld: usize) -> Result<usize, String> {
+    let least = size.max(1);
+    if ld < least {
+        return Err(format!(
+            "the leading dimension of {name} is {ld}, it must be at least {least}"
+        ));
+    }
+    let begin_of_last = size.saturating_sub(1).checked_mul(ld);
+    begin_of_last
+        .and_then(|begin| begin.checked_add(size))
+        .ok_or_else(|| format!("the leading dimension of {name} is {ld}: the matrix cannot exist"))
+}
+
 impl<'a> SymmetricMatrix<'a> {
     /// Column `j`.
     pub(crate) fn column(&self, j: usize) -> &'a [f64] {

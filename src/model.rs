@@ -1,7 +1,7 @@
 //! Reduce once, solve many load cases, recover.
 
 use crate::error::{Argument, Error};
-use crate::matrix::SymmetricMatrix;
+use crate::matrix::{self, SymmetricMatrix};
 use crate::monitor::Monitor;
 use crate::problem::{ContactData, ContactProblem, Friction};
 use crate::reduce::{Interface, SparseMatrix, SparseReduction, TwoBodyReduction};
@@ -43,7 +43,7 @@ impl Model {
     /// As [`ContactProblem::new`] for the matrix.
     pub fn condensed(dim: usize, pairs: usize, k: &[f64], ld: usize) -> Result<Self, Error> {
         let size = checked_size(dim, pairs)?;
-        check_length(k, ld, size, (Argument::Matrix, Argument::LeadingDimension))?;
+        check_length("K", (k, ld), size, (Argument::Matrix, Argument::LeadingDimension))?;
         let matrix = SymmetricMatrix { size, entries: k, ld };
         matrix.check("K", Argument::Matrix)?;
         let stiffness = (0..size).flat_map(|j| matrix.column(j).iter().copied()).collect();
@@ -61,9 +61,9 @@ impl Model {
         second: (&[f64], usize),
     ) -> Result<Self, Error> {
         let size = checked_size(dim, pairs)?;
-        check_length(first.0, first.1, size, (Argument::Matrix, Argument::LeadingDimension))?;
+        check_length("K_A", first, size, (Argument::Matrix, Argument::LeadingDimension))?;
         let names = (Argument::SecondMatrix, Argument::SecondLeadingDimension);
-        check_length(second.0, second.1, size, names)?;
+        check_length("K_B", second, size, names)?;
         let reduction = Reduction::TwoBody(TwoBodyReduction::new(size, first, second)?);
         Ok(Model { dim, pairs, reduction })
     }
@@ -213,18 +213,16 @@ fn checked_size(dim: usize, pairs: usize) -> Result<usize, Error> {
 }
 
 fn check_length(
-    entries: &[f64],
-    ld: usize,
+    name: &str,
+    (given, ld): (&[f64], usize),
     size: usize,
     (matrix, leading): (Argument, Argument),
 ) -> Result<(), Error> {
-    if ld < size.max(1) {
-        let message = format!("the leading dimension is {ld}, it must be at least {}", size.max(1));
-        return Err(Error::invalid(leading, message));
-    }
-    let needed = size.saturating_sub(1).checked_mul(ld).and_then(|begin| begin.checked_add(size));
-    if needed.is_none_or(|needed| entries.len() < needed) {
-        let message = format!("the matrix has {} entries, too few", entries.len());
+    let entries =
+        matrix::entries(name, size, ld).map_err(|message| Error::invalid(leading, message))?;
+    if given.len() < entries {
+        let given = given.len();
+        let message = format!("{name} has {given} entries, it must have {entries}");
         return Err(Error::invalid(matrix, message));
     }
     Ok(())

@@ -13,7 +13,7 @@
 
 use crate::error::{Argument, Error};
 use crate::linalg::small;
-use crate::matrix::SymmetricMatrix;
+use crate::matrix::{self, SymmetricMatrix};
 
 /// The bound on the tangential force of each pair.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -228,19 +228,8 @@ impl<'a> ContactProblem<'a> {
 
     fn check_lengths(&self, n: usize) -> Result<(), Error> {
         let ContactData { dim, pairs, ld, .. } = self.data;
-        if ld < n.max(1) {
-            return Err(Error::invalid(
-                Argument::LeadingDimension,
-                format!("the leading dimension of K is {ld}, it must be at least {}", n.max(1)),
-            ));
-        }
-        let columns = n.saturating_sub(1).checked_mul(ld).and_then(|begin| begin.checked_add(n));
-        let Some(entries) = columns else {
-            return Err(Error::invalid(
-                Argument::LeadingDimension,
-                format!("the leading dimension of K is {ld}: the matrix cannot exist"),
-            ));
-        };
+        let entries = matrix::entries("K", n, ld)
+            .map_err(|message| Error::invalid(Argument::LeadingDimension, message))?;
         let slip = self.data.previous_slip;
         let lengths = [
             (Argument::Matrix, "K", self.data.stiffness.len(), entries),

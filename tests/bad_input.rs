@@ -214,7 +214,7 @@ fn refuses_bad_complementarity_problems() {
     refuses(0, &M, 0, &q, None, Argument::LeadingDimension, &["0", "1"]);
     refuses(2, &M[..3], 2, &q, None, Argument::Matrix, &["3"]);
     refuses(2, &M, 3, &q, None, Argument::Matrix, &["4"]);
-    refuses(usize::MAX, &M, usize::MAX, &q, None, Argument::Matrix, &[]);
+    refuses(usize::MAX, &M, usize::MAX, &q, None, Argument::LeadingDimension, &[]);
     refuses(2, &M, 2, &q[..1], None, Argument::Load, &["q", "2"]);
     refuses(2, &M, 2, &q, Some(&[1.0]), Argument::Covering, &["cover", "2"]);
     for bad in NOT_FINITE {

@@ -14,7 +14,7 @@ const ALLOWED: [(&str, &[&str]); 13] = [
     ("problem", &["error", "linalg::small", "law", "matrix"]),
     ("reduce", &["error", "linalg", "matrix"]),
     ("model", &["error", "matrix", "monitor", "problem", "reduce", "settings", "solve"]),
-    ("lcp", &["error", "linalg::small"]),
+    ("lcp", &["error", "linalg::small", "matrix"]),
     ("certificate", &["error", "linalg::small", "law", "problem"]),
     ("monitor", &["error", "settings"]),
     ("solve", &["error", "linalg", "law", "problem", "lcp", "certificate", "settings", "monitor"]),
@@ -23,6 +23,7 @@ const ALLOWED: [(&str, &[&str]); 13] = [
         &[
             "error",
             "law",
+            "matrix",
             "problem",
             "lcp",
             "certificate",

@@ -638,3 +638,97 @@ fn a_master_of_weight_zero_does_not_count() {
     let models = [&pairs, &weighted].map(|pairs| stiffness.model(&fixed, pairs).unwrap());
     assert_eq!(models[0].stiffness(), models[1].stiffness());
 }
+
+/// A part that may still turn about a node within it is refused on fine meshes too, where rounding
+/// leaves resistance of its own to that motion.
+#[test]
+fn a_finely_meshed_part_that_may_turn_is_refused() {
+    for (columns, rows, width, height) in [(100, 100, 1.0, 1.0), (200, 10, 1.0, 1.0)] {
+        for young in [1.0, 2.1e5, 2.1e11] {
+            let mut mesh = Mesh::default();
+            let body = mesh.block(&steps(0.0, 3.0, 3), &steps(0.0, 1.0, 2), STEEL);
+            let (x, y) = (steps(7.0, 7.0 + width, columns), steps(0.1, 0.1 + height, rows));
+            let loose = mesh.block(&x, &y, (young, 0.3));
+            let pin = loose.node(columns / 3, rows / 2);
+            let pairs = Pairs::on_obstacle(&body.row(0), [0.0, -1.0]);
+            let context = format!("{columns} x {rows}, E {young}");
+            match mesh.stiffness().model(&[2 * pin, 2 * pin + 1], &pairs) {
+                Ok(_) => panic!("{context}: it is taken for held"),
+                Err(error) => {
+                    let message = error.to_string();
+                    let named = message.split(' ').find_map(|word| word.parse::<usize>().ok());
+                    let named = named.unwrap_or_else(|| panic!("{context}: {message}"));
+                    assert!(loose.nodes().contains(&(named / 2)), "{context}: {message}");
+                }
+            }
+            let held = [2 * pin, 2 * pin + 1, 2 * loose.node(0, 0) + 1];
+            assert!(mesh.stiffness().model(&held, &pairs).is_ok(), "{context}: it is held");
+        }
+    }
+}
+
+/// A slender cantilever is weak at its tip, and held: 2 high, 10000 long, `3 E I / l³` is `2e-12` of
+/// its elements' stiffness.
+#[test]
+fn a_slender_part_is_held() {
+    for length in [100, 1000, 10_000] {
+        let mut mesh = Mesh::default();
+        let x = steps(0.0, length as f64, length);
+        let beam = mesh.block(&x, &steps(0.0, 2.0, 2), STEEL);
+        let root = beam.column(0);
+        let fixed = [components(&root, 0), components(&root, 1)].concat();
+        for first in [1, length - 2] {
+            let pairs = Pairs::on_obstacle(&beam.row(0)[first..first + 3], [0.0, -1.0]);
+            let made = mesh.stiffness().model(&fixed, &pairs);
+            assert!(made.is_ok(), "length {length}, pairs from {first}: {:?}", made.err());
+        }
+    }
+}
+
+/// Where slave and master are both held along a component, and moved differently, the answer obeys
+/// `u_slave = u_master + R d` all the same, or is refused.
+#[test]
+fn supports_that_part_a_pair_are_not_overlooked() {
+    let stack = Stack::new([4, 4], [2000.0, 700.0]);
+    let held = components(&stack.upper.column(0), 0);
+    let mut fixed = stack.bottom();
+    fixed.extend(components(&stack.lower.column(0)[1..], 0));
+    let mut values = vec![0.0; fixed.len()];
+    fixed.extend(&held);
+    values.extend(vec![0.01; held.len()]);
+    let model = stack.mesh.stiffness().model(&fixed, &stack.pairs()).unwrap();
+    let load = stack.load(7.0, 0.0);
+    let case = LoadCase {
+        load: &load,
+        prescribed: Some(&values),
+        gap: &[0.0; 5],
+        friction: Friction::Coulomb(&[0.2; 5]),
+        previous_slip: None,
+    };
+    let settings = Settings::default();
+    let monitor = &mut Monitor::new(&settings, None);
+    match model.solve(&case, &settings, None, monitor) {
+        Err(Error::Invalid { argument, .. }) => assert_eq!(argument, Argument::Prescribed),
+        Err(error) => panic!("{error}"),
+        Ok(solution) => {
+            let u = model.recover(Some(&load), Some(&values), &solution.d).unwrap();
+            let (slave, master) = (stack.upper.node(0, 0), stack.lower.node(0, 2));
+            let apart = u[2 * slave] - u[2 * master];
+            assert!((apart - solution.d[1]).abs() < 1e-12, "{apart} apart, d_t {}", solution.d[1]);
+        }
+    }
+}
+
+/// A normal has any length.
+#[test]
+fn the_length_of_a_normal_does_not_matter() {
+    let stack = Stack::new([3, 4], [2000.0, 700.0]);
+    let (stiffness, pairs) = (stack.mesh.stiffness(), stack.pairs());
+    let reference = stiffness.model(&stack.bottom(), &pairs).unwrap();
+    for length in [1e-300, 1e-200, 0.1, 3.0, 1e200, 1e300] {
+        let pairs = Pairs::new(&pairs.slaves, &pairs.masters, [0.0, -length]);
+        let model = stiffness.model(&stack.bottom(), &pairs);
+        let model = model.unwrap_or_else(|error| panic!("length {length:e}: {error}"));
+        close(model.stiffness(), reference.stiffness(), 1e-14, "K_rel");
+    }
+}

@@ -1,6 +1,7 @@
 //! From pointers to slices: NULL, alignment, size and overlap are checked before any access.
 
 use super::guard::Failure;
+use crate::matrix;
 
 /// The arrays of one call, collected to check that outputs overlap nothing.
 #[derive(Default)]
@@ -177,21 +178,7 @@ pub(super) fn matrix_length(
     n: usize,
     leading: usize,
 ) -> Result<usize, Failure> {
-    let least = n.max(1);
-    if leading < least {
-        return Err(Failure::argument(
-            position,
-            format!("the leading dimension of {name} is {leading}, it must be at least {least}"),
-        ));
-    }
-    n.saturating_sub(1).checked_mul(leading).and_then(|begin| begin.checked_add(n)).ok_or_else(
-        || {
-            Failure::argument(
-                position,
-                format!("the leading dimension of {name} is {leading}: it cannot exist"),
-            )
-        },
-    )
+    matrix::entries(name, n, leading).map_err(|message| Failure::argument(position, message))
 }
 
 /// Smallest structure of any version: its size, the first word and a number. Fields that an older

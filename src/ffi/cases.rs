@@ -60,7 +60,7 @@ pub unsafe extern "C" fn signorini_model_solve(
         let times = |length: usize| {
             length
                 .checked_mul(cases)
-                .ok_or_else(|| Failure::argument(2, format!("{cases} cases are too many")))
+                .ok_or_else(|| Failure::argument(2, format!("cases is {cases}, too many cases")))
         };
         let (host, fixed, slips) =
             (times(model.host_size())?, times(model.fixed_count())?, times(n - pairs)?);
@@ -83,9 +83,9 @@ pub unsafe extern "C" fn signorini_model_solve(
             (block, SignoriniSettings::receive(8, settings)?)
         };
         received.settings.validate().map_err(|error| Failure::from_error(error, |_| 8))?;
+        let status = arrays.output(13, "status", status, cases, false)?;
         let bytes = times(block.reports.stride)?;
         arrays.structures(12, "report", report.cast_const(), bytes, true)?;
-        let status = arrays.output(13, "status", status, cases, false)?;
         arrays.check_overlap()?;
 
         let mut first = None;

@@ -86,7 +86,7 @@ struct Environment {
 
 #[cfg(any(target_os = "linux", target_os = "macos"))]
 mod fenv {
-    use std::ffi::c_int;
+    use libc::c_int;
 
     /// At least as large and as aligned as `fenv_t` of any Linux or macOS (32 bytes on x86).
     #[repr(C, align(16))]

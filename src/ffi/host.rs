@@ -1,6 +1,6 @@
 //! The structures by which a host hands over its sparse matrix and its contact pairs.
 
-use std::ffi::c_void;
+use libc::c_void;
 
 use super::args::{Arrays, checked_size, size};
 use super::guard::Failure;
@@ -80,6 +80,9 @@ impl SignoriniSparse {
             SIGNORINI_FULL => Triangle::Full,
             other => return Err(wrong(format!("K: there is no triangle {other}"))),
         };
+        if given.base != 0 && given.base != 1 {
+            return Err(wrong(format!("K: base is {}, it must be 0 or 1", given.base)));
+        }
         let n = size(position, "K: size", given.size)?;
         let entries = size(position, "K: entries", given.entries)?;
         let Some(columns) = n.checked_add(1) else {

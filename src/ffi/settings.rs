@@ -1,6 +1,6 @@
 //! Settings of the C interface, led by their size, and the progress callback.
 
-use std::ffi::c_void;
+use libc::c_void;
 use std::ops::ControlFlow;
 
 use super::args::checked_size;

@@ -1,7 +1,7 @@
 //! Status codes, their sentences, the last error and the version.
 
+use libc::c_char;
 use std::cell::RefCell;
-use std::ffi::c_char;
 use std::fmt::Write;
 
 use crate::solve::Status;

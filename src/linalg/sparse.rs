@@ -42,8 +42,8 @@ pub enum Failure {
 
 /// The factor, with `S`.
 pub struct Condensation {
-    symbolic: SymbolicCholesky<usize>,
-    values: Vec<f64>,
+    /// Structure and entries; nothing if there are no rows.
+    factor: Option<(SymbolicCholesky<usize>, Vec<f64>)>,
     order: Vec<usize>,
     free: usize,
     tail: Vec<f64>,
@@ -57,6 +57,10 @@ impl Condensation {
     /// Factorises; the last `size - free` rows are the `d`.
     pub fn new(mut matrix: Lower, free: usize) -> Result<Self, Failure> {
         let n = matrix.size;
+        if n == 0 {
+            let (order, tail, schur) = (Vec::new(), Vec::new(), Vec::new());
+            return Ok(Condensation { factor: None, order, free, tail, schur });
+        }
         let shift: Vec<f64> = (free..n).map(|j| matrix.values[matrix.starts[j]]).collect();
         for (j, shift) in (free..n).zip(&shift) {
             matrix.values[matrix.starts[j]] += shift;
@@ -93,53 +97,13 @@ impl Condensation {
         if let Err(LltError::NonPositivePivot { index }) = factorised {
             return Err(Failure::Dependent(order[index.min(n - 1)]));
         }
-        let mut condensation =
-            Condensation { symbolic, values, order, free, tail: Vec::new(), schur: Vec::new() };
-        condensation.read_tail(&matrix)?;
         let m = n - free;
-        condensation.schur = lower_times_transpose(&condensation.tail, m);
+        let tail = read_tail(supernodes(&symbolic, &values), &matrix, &order, free)?;
+        let mut schur = lower_times_transpose(&tail, m);
         for (i, shift) in shift.iter().enumerate() {
-            condensation.schur[i + m * i] -= shift;
+            schur[i + m * i] -= shift;
         }
-        Ok(condensation)
-    }
-
-    /// Copies `L_dd` out of the factor and looks at the pivots before it.
-    fn read_tail(&mut self, matrix: &Lower) -> Result<(), Failure> {
-        let (n, m) = (matrix.size, matrix.size - self.free);
-        let mut tail = vec![0.0; m * m];
-        let factor = self.factor();
-        for s in 0..factor.symbolic().n_supernodes() {
-            let node = factor.supernode(s);
-            let (entries, begin) = (node.val(), node.start());
-            let width = entries.ncols();
-            for column in 0..width {
-                let j = begin + column;
-                if j < self.free {
-                    let row = self.order[j];
-                    let diagonal = matrix.values[matrix.starts[row]];
-                    if entries[(column, column)].powi(2) <= SINGULAR * diagonal {
-                        return Err(Failure::Dependent(row));
-                    }
-                    continue;
-                }
-                let rows = (begin..begin + width).chain(node.pattern().iter().copied());
-                for (position, i) in rows.enumerate().filter(|&(_, i)| i >= j && i < n) {
-                    tail[i - self.free + m * (j - self.free)] = entries[(position, column)];
-                }
-            }
-        }
-        self.tail = tail;
-        Ok(())
-    }
-
-    fn factor(&self) -> SupernodalLltRef<'_, usize, f64> {
-        match self.symbolic.raw() {
-            SymbolicCholeskyRaw::Supernodal(symbolic) => {
-                SupernodalLltRef::new(symbolic, &self.values)
-            }
-            SymbolicCholeskyRaw::Simplicial(_) => unreachable!("supernodes were asked for"),
-        }
+        Ok(Condensation { factor: Some((symbolic, values)), order, free, tail, schur })
     }
 
     /// `S`, column-major.
@@ -176,7 +140,8 @@ impl Condensation {
 
     /// Solves with `L`, or with its transpose.
     fn half_solve(&self, x: &mut [f64], transposed: bool) {
-        let factor = self.factor();
+        let Some((symbolic, values)) = &self.factor else { return };
+        let factor = supernodes(symbolic, values);
         let scratch = factor.symbolic().solve_in_place_scratch::<f64>(1, Par::Seq);
         let mut memory = MemBuffer::new(scratch);
         let stack = MemStack::new(&mut memory);
@@ -188,6 +153,47 @@ impl Condensation {
             factor.l_solve_with_conj(Conj::No, x, Par::Seq, stack);
         }
     }
+}
+
+fn supernodes<'a>(
+    symbolic: &'a SymbolicCholesky<usize>,
+    values: &'a [f64],
+) -> SupernodalLltRef<'a, usize, f64> {
+    match symbolic.raw() {
+        SymbolicCholeskyRaw::Supernodal(symbolic) => SupernodalLltRef::new(symbolic, values),
+        SymbolicCholeskyRaw::Simplicial(_) => unreachable!("supernodes were asked for"),
+    }
+}
+
+/// Copies `L_dd` out of the factor and looks at the pivots before it.
+fn read_tail(
+    factor: SupernodalLltRef<'_, usize, f64>,
+    matrix: &Lower,
+    order: &[usize],
+    free: usize,
+) -> Result<Vec<f64>, Failure> {
+    let m = matrix.size - free;
+    let mut tail = vec![0.0; m * m];
+    for s in 0..factor.symbolic().n_supernodes() {
+        let node = factor.supernode(s);
+        let (entries, begin) = (node.val(), node.start());
+        let width = entries.ncols();
+        for column in 0..width {
+            let j = begin + column;
+            if j < free {
+                let diagonal = matrix.values[matrix.starts[order[j]]];
+                if entries[(column, column)].powi(2) <= SINGULAR * diagonal {
+                    return Err(Failure::Dependent(order[j]));
+                }
+                continue;
+            }
+            let rows = (begin..begin + width).chain(node.pattern().iter().copied());
+            for (position, i) in rows.enumerate().filter(|&(_, i)| i >= j) {
+                tail[i - free + m * (j - free)] = entries[(position, column)];
+            }
+        }
+    }
+    Ok(tail)
 }
 
 /// Approximate minimum degree on the leading part, the others after it in their order.

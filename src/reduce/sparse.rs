@@ -236,7 +236,8 @@ fn held_component(
     number: &[Option<usize>],
 ) -> Result<usize, Error> {
     let refuse = |message: String| Err(Error::invalid(Argument::Pairs, message));
-    if interface.masters_of(pair).any(|(_, masters)| number[masters[axis]].is_none()) {
+    let mut masters = interface.masters_of(pair).filter(|(weight, _)| *weight != 0.0);
+    if masters.any(|(_, masters)| number[masters[axis]].is_none()) {
         return refuse(format!("pair {pair}: its slave is fixed where its masters are not"));
     }
     let along = |component: &usize| frame[*component][axis].abs() > 1.0 - 1e-12;

@@ -512,7 +512,7 @@ static void bad_calls(void)
     prepare_cases();
     double *const f = w.f[0], *const d = w.d[0];
     CALL(-2, "cases is -1", -1, f, NULL, w.gap, w.mu, NULL, NULL, ARRAYS);
-    CALL(-2, "too many cases", INT64_MAX, f, NULL, w.gap, w.mu, NULL, NULL, ARRAYS);
+    CALL(-2, "too many", INT64_MAX, f, NULL, w.gap, w.mu, NULL, NULL, ARRAYS);
     CALL(-3, "f is NULL", 3, NULL, NULL, w.gap, w.mu, NULL, NULL, ARRAYS);
     CALL(-5, "gap is NULL", 3, f, NULL, NULL, w.mu, NULL, NULL, ARRAYS);
     CALL(-6, "mu is NULL", 3, f, NULL, w.gap, NULL, NULL, NULL, ARRAYS);
@@ -529,7 +529,7 @@ static void bad_calls(void)
     CALL(-10, "F overlaps d", 3, f, NULL, w.gap, w.mu, NULL, NULL, d, w.d[2], NULL, NULL, NULL);
     CALL(-13, "status overlaps state", 3, f, NULL, w.gap, w.mu, NULL, NULL, d, w.F[0], w.state,
          NULL, w.state + 2);
-    CALL(-12, "report overlaps", 3, f, NULL, w.gap, w.mu, NULL, NULL, d, w.F[0], NULL, w.report,
+    CALL(-12, "report overlaps status", 3, f, NULL, w.gap, w.mu, NULL, NULL, d, w.F[0], NULL, w.report,
          (int32_t *)(void *)&w.report[2]);
     /* Inputs may share memory. */
     CHECK_STATUS(signorini_model_solve(model, 3, f, NULL, w.gap, w.gap, w.gap, NULL, ARRAYS), 0);
