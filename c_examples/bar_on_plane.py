@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Draws the bar on the plane: what bar_on_plane.c has computed, and the paper's Table 1.
 
     sh c_examples/replay.sh OUT

@@ -16,8 +16,9 @@
  *     DIR/bolted_junction.csv          all pairs in all steps, for every friction coefficient; mm,
  *                                      and N over the whole circumference
  *     DIR/junction_mu0.3_STEP.vtk      for mu = 0.3 and each step (closing, p10, p20, p30, p40,
- *                                      p0): mesh, displacements (mm), axial stress sigma_zz (MPa)
- *                                      and the number of the part, for ParaView or alike
+ *                                      p0): mesh, displacements (mm), axial stress (MPa) at the
+ *                                      nodes, sigma_zz, and of the elements, and the number
+ *                                      of the part, for ParaView or alike
  *
  * It returns 0 if every check passed.
  */
@@ -136,7 +137,8 @@ static int run(struct checks *checks, const struct junction *junction,
 /* With the displacements of all nodes and the contact forces on them, the host's own equations
  * hold and the pairs have the relative displacements that the library found. */
 static void check_host(struct checks *checks, const struct junction *junction,
-                       const struct signorini_model *model, const struct history *history)
+                       const struct signorini_model *model, const struct history *history,
+                       size_t drawn)
 {
     static double f[DOFS], u[DOFS], contact[DOFS];
     double unbalanced = 0.0, mismatch = 0.0, largest_load = 0.0, largest_motion = 0.0;
@@ -152,6 +154,8 @@ static void check_host(struct checks *checks, const struct junction *junction,
                 largest_load = fmax(largest_load, fabs(f[k]));
                 f[k] += contact[k];
             }
+            if (s == 0 && i == drawn)
+                check_stress(checks, junction, u);
             unbalanced = fmax(unbalanced, junction_residual(junction, u, f));
             for (size_t pair = 0; pair < PAIRS; pair++) {
                 const int32_t lower = 2 * junction->lower[pair], upper = 2 * junction->upper[pair];
@@ -214,6 +218,7 @@ int main(int argc, char **argv)
     static struct history nested = {.cases = 5, .mu = {0.0, 0.1, 0.2, 0.3, 0.5}};
     static struct history lemke = {.cases = 1, .mu = {0.0}};
     static struct history diagonal = {.cases = 1, .mu = {0.3}};
+    const size_t drawn = 3; /* mu = 0.3 */
     struct checks checks = {0, 0};
     struct junction *junction;
     struct signorini_model *model = NULL;
@@ -248,16 +253,16 @@ int main(int argc, char **argv)
     check_balance(&checks, junction, &nested, closing_pressure * ring_area);
     check_prototype(&checks, junction, &nested);
     check_unloading(&checks, &nested);
-    check_host(&checks, junction, model, &nested);
+    check_host(&checks, junction, model, &nested, drawn);
     if (argc == 2)
-        save(&checks, argv[1], junction, model, &nested, 3);
+        save(&checks, argv[1], junction, model, &nested, drawn);
 
     puts("\nLemke's method, mu = 0");
     if (run(&checks, junction, model, SIGNORINI_METHOD_LEMKE, &lemke))
         check_same(&checks, "as nested SOR", &nested, 0, &lemke, 0);
     puts("\nDiagonal SOR, mu = 0.3");
     if (run(&checks, junction, model, SIGNORINI_METHOD_SOR_DIAGONAL, &diagonal))
-        check_same(&checks, "as nested SOR", &nested, 3, &diagonal, 0);
+        check_same(&checks, "as nested SOR", &nested, drawn, &diagonal, 0);
 done:
     signorini_model_free(model);
     free(junction);

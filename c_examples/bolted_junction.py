@@ -1,11 +1,11 @@
-#!/usr/bin/env python3
 """Draws the bolted junction (the paper's figure 3) from what bolted_junction.c has computed.
 
     sh c_examples/junction.sh OUT
     python3 c_examples/bolted_junction.py OUT       writes OUT/bolted_junction.png
 
-Needs numpy and matplotlib (which brings PIL). mu = 0.3, closed and under the largest inner pressure: the mesh with
-displacements times 100, level curves of the axial stress, and the state of each contact pair.
+Needs numpy and matplotlib (which brings PIL). mu = 0.3, closed and under the largest inner
+pressure: the mesh with displacements times 100, level curves of the axial stress, and the state of
+each contact pair.
 """
 
 import csv
@@ -26,9 +26,9 @@ MU = "0.3"
 SCALE = 100
 PANELS = [("closing", "closed by 678.6 kN"), ("p40", "the same and 40 MPa inside")]
 STATES = {
-    "open": dict(marker="o", facecolor="white", edgecolor="black", label="open"),
-    "slip": dict(marker="^", facecolor="gold", edgecolor="black", label="sliding"),
-    "stick": dict(marker="s", facecolor="black", edgecolor="white", label="sticking"),
+    "open": {"marker": "o", "facecolor": "white", "edgecolor": "black", "label": "open"},
+    "slip": {"marker": "^", "facecolor": "gold", "edgecolor": "black", "label": "sliding"},
+    "stick": {"marker": "s", "facecolor": "black", "edgecolor": "white", "label": "sticking"},
 }
 
 
@@ -56,7 +56,7 @@ def read_vtk(path):
         elif word == "VECTORS":
             next(words), next(words)
             displacements = numbers(3 * size).reshape(size, 3)[:, :2]
-        elif word == "sigma_zz":
+        elif word == "sigma_zz":  # at the nodes
             for _ in range(4):  # double 1 LOOKUP_TABLE default
                 next(words)
             stress = numbers(size)
@@ -104,15 +104,15 @@ def draw(axes, out, step, title, levels):
     for name, at in (("A", (50, 20)), ("B", (20, 136)), ("C", (110, 158))):
         axes.text(*at, name, ha="center", va="center", fontsize=12, weight="bold")
     # Loads: the closing pressure on the ring and under the flange, and the pressure inside.
-    arrow = dict(arrowprops=dict(arrowstyle="-|>", lw=0.8, color="black", mutation_scale=7))
+    style = {"arrowstyle": "-|>", "lw": 0.8, "color": "black", "mutation_scale": 7}
     for r in (82, 86, 90, 94, 98):
-        axes.annotate("", (r, 165), (r, 173), **arrow)
-        axes.annotate("", (r, 80), (r, 72), **arrow)
+        axes.annotate("", (r, 165), (r, 173), arrowprops=style)
+        axes.annotate("", (r, 80), (r, 72), arrowprops=style)
     if step.startswith("p"):
         for z in range(8, 120, 16):
-            axes.annotate("", (40, z), (32, z), **arrow)
+            axes.annotate("", (40, z), (32, z), arrowprops=style)
         for r in (4, 14, 24, 34):
-            axes.annotate("", (r, 129 - r**2 / 500), (r, 121 - r**2 / 500), **arrow)
+            axes.annotate("", (r, 129 - r**2 / 500), (r, 121 - r**2 / 500), arrowprops=style)
 
     axes.set_title(f"$\\mu$ = {MU}: {title}", fontsize=10)
     axes.set_aspect("equal")
@@ -136,9 +136,9 @@ def save(figure, path):
     """With few colours, which makes a small file."""
     buffer = io.BytesIO()
     figure.savefig(buffer, dpi=110)
-    Image.open(buffer).convert("RGB").quantize(64, dither=Image.Dither.NONE).save(
-        path, optimize=True
-    )
+    image = Image.open(buffer).convert("RGB")
+    image = image.quantize(256, method=Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE)
+    image.save(path, optimize=True)
 
 
 def main():

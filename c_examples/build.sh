@@ -1,9 +1,9 @@
 # Sourced by the scripts that build and run an example: what they have in common.
 #
 # The script sets `script`, its name for messages. Then `prepare` builds the library, and
-# `compile NAME SOURCE...` compiles sources of this directory against it to $build/NAME. CC names the
-# C compiler, default cc. All goes to target/.
-# shellcheck shell=sh
+# `compile NAME SOURCE...` compiles sources of this directory against it to $build/NAME. CC names
+# the C compiler, default cc. All goes to target/.
+# shellcheck shell=sh disable=SC2154
 
 say() { printf '%s: %s\n' "$script" "$*"; }
 die() {
@@ -37,8 +37,8 @@ prepare() {
         ;;
     *)
         built=libsignorini.so
-        interface=$(sed -n '/^version = /{s/[^0-9]*\([0-9]*\.[0-9]*\).*/\1/p;q;}' "$root/Cargo.toml")
-        name=$built.$interface
+        name=$(sed -n '/^version = /{s/[^0-9]*\([0-9]*\.[0-9]*\).*/\1/p;q;}' "$root/Cargo.toml")
+        name=$built.$name
         here=\$ORIGIN
         ;;
     esac

@@ -20,7 +20,8 @@ if [ $# -eq 1 ]; then
 fi
 
 prepare
-compile bolted_junction bolted_junction.c junction_mesh.c junction_output.c junction_check.c checks.c
+compile bolted_junction bolted_junction.c junction_mesh.c junction_element.c junction_output.c \
+    junction_check.c checks.c
 
 say "running it"
 echo

@@ -82,6 +82,22 @@ void check_prototype(struct checks *checks, const struct junction *junction,
     }
 }
 
+void check_stress(struct checks *checks, const struct junction *junction, const double u[DOFS])
+{
+    const double known_lowest = -69.0, known_highest = 11.0; /* MPa, as printed there */
+    double at_nodes[NODES], of_elements[ELEMENTS];
+    double lowest = INFINITY, highest = -INFINITY;
+
+    junction_stress(junction, u, at_nodes, of_elements);
+    for (size_t e = 0; e < ELEMENTS; e++) {
+        lowest = fmin(lowest, of_elements[e]);
+        highest = fmax(highest, of_elements[e]);
+    }
+    judge(checks, fabs(lowest - known_lowest) <= 0.5 && fabs(highest - known_highest) <= 0.5);
+    printf("mu = 0.3, closing: sigma_zz of the elements %.1f to %.1f MPa; prototype %.0f, %.0f\n",
+           lowest, highest, known_lowest, known_highest);
+}
+
 /* Largest difference of any component, relative to the largest of the expected values. */
 static double difference(const double *computed, const double *expected)
 {

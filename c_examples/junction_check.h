@@ -19,6 +19,9 @@ void check_balance(struct checks *checks, const struct junction *junction,
 void check_prototype(struct checks *checks, const struct junction *junction,
                      const struct history *history);
 
+/* The displacements u of mu = 0.3, closed: axial stress against that program's. */
+void check_stress(struct checks *checks, const struct junction *junction, const double u[DOFS]);
+
 /* Back at the closing load, friction leaves another state than before; without friction none. */
 void check_unloading(struct checks *checks, const struct history *history);
 

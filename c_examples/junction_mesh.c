@@ -1,12 +1,11 @@
 #include "junction_mesh.h"
+#include "junction_element.h"
 
 #include <math.h>
 #include <stdlib.h>
 
 static const double pi = 3.14159265358979323846;
-static const double pitch = 2.5; /* mm between the lines of the grid */
-static const double poisson = 0.3;
-static const double young[PARTS] = {200000.0, 200000.0, 210000.0};
+static const double pitch = ELEMENT_SIDE;
 
 enum { A, B, C };
 
@@ -84,70 +83,6 @@ static void mesh(struct junction *j)
     }
 }
 
-/* ---- Elements ------------------------------------------------------------------------------ */
-
-static const double corner_r[4] = {-1, 1, 1, -1};
-static const double corner_z[4] = {-1, -1, 1, 1};
-
-/* At a Gauss point: the strains rr, zz, tt (around the axis) and rz that each displacement of the
- * corners gives, and the volume that the point stands for. */
-static double strains(double inner_radius, int point, double strain[4][8])
-{
-    const double r = corner_r[point] / sqrt(3.0), z = corner_z[point] / sqrt(3.0);
-    const double radius = inner_radius + pitch * (1.0 + r) / 2.0;
-
-    for (int a = 0; a < 4; a++) {
-        const double value = (1.0 + corner_r[a] * r) * (1.0 + corner_z[a] * z) / 4.0;
-        const double dr = corner_r[a] * (1.0 + corner_z[a] * z) / (2.0 * pitch);
-        const double dz = corner_z[a] * (1.0 + corner_r[a] * r) / (2.0 * pitch);
-        strain[0][2 * a] = dr;
-        strain[0][2 * a + 1] = 0.0;
-        strain[1][2 * a] = 0.0;
-        strain[1][2 * a + 1] = dz;
-        strain[2][2 * a] = value / radius;
-        strain[2][2 * a + 1] = 0.0;
-        strain[3][2 * a] = dz;
-        strain[3][2 * a + 1] = dr;
-    }
-    return 2.0 * pi * radius * pitch * pitch / 4.0;
-}
-
-static void elasticity(int part, double law[4][4])
-{
-    const double shear = young[part] / (2.0 * (1.0 + poisson));
-    const double cross = 2.0 * shear * poisson / (1.0 - 2.0 * poisson);
-
-    for (int i = 0; i < 4; i++)
-        for (int k = 0; k < 4; k++)
-            law[i][k] = i < 3 && k < 3 ? cross : 0.0;
-    for (int i = 0; i < 3; i++)
-        law[i][i] += 2.0 * shear;
-    law[3][3] = shear;
-}
-
-static void element_stiffness(const struct junction *j, const int32_t corners[4], double k[8][8])
-{
-    double law[4][4];
-
-    elasticity(j->part[corners[0]], law);
-    for (int m = 0; m < 8; m++)
-        for (int n = 0; n < 8; n++)
-            k[m][n] = 0.0;
-    for (int point = 0; point < 4; point++) {
-        double strain[4][8];
-        const double volume = strains(j->r[corners[0]], point, strain);
-        for (int n = 0; n < 8; n++) {
-            for (int i = 0; i < 4; i++) {
-                double stress = 0.0;
-                for (int l = 0; l < 4; l++)
-                    stress += law[i][l] * strain[l][n];
-                for (int m = 0; m < 8; m++)
-                    k[m][n] += volume * strain[i][m] * stress;
-            }
-        }
-    }
-}
-
 /* ---- Assembly ------------------------------------------------------------------------------ */
 
 /* The nodes that share an element with a node, ascending. */
@@ -197,7 +132,7 @@ static void assemble(struct junction *j, struct neighbours *neighbours)
     for (size_t e = 0; e < ELEMENTS; e++) {
         const int32_t *corners = j->corners[e];
         double k[8][8];
-        element_stiffness(j, corners, k);
+        element_stiffness(j->part[corners[0]], j->r[corners[0]], k);
         for (int m = 0; m < 8; m++)
             for (int n = 0; n < 8; n++)
                 *entry(j, 2 * corners[m / 2] + m % 2, 2 * corners[n / 2] + n % 2) += k[m][n];
@@ -255,33 +190,27 @@ void junction_loads(const struct junction *junction, double closing, double inne
 
 /* ---- Results ------------------------------------------------------------------------------- */
 
-void junction_stress(const struct junction *junction, const double u[DOFS], double stress[NODES])
+void junction_stress(const struct junction *junction, const double u[DOFS], double at_nodes[NODES],
+                     double of_elements[ELEMENTS])
 {
     int elements[NODES] = {0};
 
     for (size_t node = 0; node < NODES; node++)
-        stress[node] = 0.0;
+        at_nodes[node] = 0.0;
     for (size_t e = 0; e < ELEMENTS; e++) {
         const int32_t *corners = junction->corners[e];
-        double law[4][4], at_point[4] = {0.0};
-        elasticity(junction->part[corners[0]], law);
-        for (int point = 0; point < 4; point++) {
-            double strain[4][8];
-            strains(junction->r[corners[0]], point, strain);
-            for (int n = 0; n < 8; n++)
-                for (int l = 0; l < 4; l++)
-                    at_point[point] += law[1][l] * strain[l][n] * u[2 * corners[n / 2] + n % 2];
-        }
+        double own[8], at_corners[4];
+        for (int i = 0; i < 8; i++)
+            own[i] = u[2 * corners[i / 2] + i % 2];
+        of_elements[e] = element_stress(junction->part[corners[0]], junction->r[corners[0]], own,
+                                        at_corners);
         for (int a = 0; a < 4; a++) {
-            for (int point = 0; point < 4; point++) /* bilinear through the Gauss points */
-                stress[corners[a]] += at_point[point] *
-                                      (1.0 + sqrt(3.0) * corner_r[a] * corner_r[point]) *
-                                      (1.0 + sqrt(3.0) * corner_z[a] * corner_z[point]) / 4.0;
+            at_nodes[corners[a]] += at_corners[a];
             elements[corners[a]] += 1;
         }
     }
     for (size_t node = 0; node < NODES; node++)
-        stress[node] /= elements[node];
+        at_nodes[node] /= elements[node];
 }
 
 double junction_residual(const struct junction *junction, const double u[DOFS],

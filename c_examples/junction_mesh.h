@@ -62,8 +62,10 @@ struct junction *junction_new(void);
  * inside. */
 void junction_loads(const struct junction *junction, double closing, double inner, double f[DOFS]);
 
-/* Axial stress at the nodes: extrapolated from the Gauss points, averaged over the elements. */
-void junction_stress(const struct junction *junction, const double u[DOFS], double stress[NODES]);
+/* Axial stress: at the nodes, extrapolated from the Gauss points and averaged over the elements;
+ * and the mean of each element's Gauss points. */
+void junction_stress(const struct junction *junction, const double u[DOFS], double at_nodes[NODES],
+                     double of_elements[ELEMENTS]);
 
 /* Largest of |K u - f| among the components that are not held. */
 double junction_residual(const struct junction *junction, const double u[DOFS],

@@ -40,8 +40,8 @@ void zone_states(const struct junction *junction, const int32_t state[PAIRS], in
 
 void print_history(const struct junction *junction, const struct history *history)
 {
-    puts("\nStates from the smallest radius outward: o open, s slip, . stick. Forces in kN over the\n"
-         "whole circumference, the largest opening in um.\n\n"
+    puts("\nStates from the smallest radius outward: o open, s slip, . stick. Forces in kN over\n"
+         "the whole circumference, the largest opening in um.\n\n"
          " mu step     zone 1 (seal)         zone 2 (cover)  zone 3"
          "      force 1  force 2  force 3  opening");
     for (size_t i = 0; i < history->cases; i++) {
@@ -96,11 +96,11 @@ int write_junction_csv(const char *path, const struct junction *junction,
 int write_junction_vtk(const char *path, const char *title, const struct junction *junction,
                        const double u[DOFS])
 {
-    double stress[NODES];
+    double stress[NODES], of_elements[ELEMENTS];
     FILE *file = fopen(path, "w");
     if (file == NULL)
         return -1;
-    junction_stress(junction, u, stress);
+    junction_stress(junction, u, stress, of_elements);
 
     fprintf(file, "# vtk DataFile Version 3.0\n%s\nASCII\nDATASET UNSTRUCTURED_GRID\n", title);
     fprintf(file, "POINTS %d double\n", NODES);
@@ -119,6 +119,9 @@ int write_junction_vtk(const char *path, const char *title, const struct junctio
     fprintf(file, "CELL_DATA %d\nSCALARS part int 1\nLOOKUP_TABLE default\n", ELEMENTS);
     for (size_t e = 0; e < ELEMENTS; e++)
         fprintf(file, "%d\n", junction->part[junction->corners[e][0]]);
+    fputs("SCALARS mean_sigma_zz double 1\nLOOKUP_TABLE default\n", file);
+    for (size_t e = 0; e < ELEMENTS; e++)
+        fprintf(file, "%.9g\n", of_elements[e]);
     fprintf(file, "POINT_DATA %d\nVECTORS displacement double\n", NODES);
     for (size_t i = 0; i < NODES; i++)
         fprintf(file, "%.9g %.9g 0\n", u[2 * i], u[2 * i + 1]);
