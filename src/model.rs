@@ -65,7 +65,7 @@ impl Model {
         let names = (Argument::SecondMatrix, Argument::SecondLeadingDimension);
         check_length("K_B", second, size, names)?;
         let reduction = Reduction::TwoBody(TwoBodyReduction::new(size, first, second)?);
-        Ok(Model { dim, pairs, reduction })
+        Model { dim, pairs, reduction }.checked()
     }
 
     /// A whole sparse stiffness matrix with fixed degrees of freedom and pairs.
@@ -78,11 +78,16 @@ impl Model {
         interface: &Interface<'_>,
     ) -> Result<Self, Error> {
         let reduction = SparseReduction::new(matrix, fixed, interface)?;
-        Ok(Model {
-            dim: interface.dim,
-            pairs: interface.pairs,
-            reduction: Reduction::Sparse(Box::new(reduction)),
-        })
+        let reduction = Reduction::Sparse(Box::new(reduction));
+        Model { dim: interface.dim, pairs: interface.pairs, reduction }.checked()
+    }
+
+    /// Refuses a reduced matrix in which a relative component has no stiffness of its own.
+    fn checked(self) -> Result<Self, Error> {
+        let size = self.dim * self.pairs;
+        let matrix = SymmetricMatrix { size, entries: self.stiffness(), ld: size.max(1) };
+        matrix.check("K_rel", Argument::Matrix)?;
+        Ok(self)
     }
 
     /// Space dimension.
@@ -140,7 +145,7 @@ impl Model {
             Reduction::Sparse(reduction) => reduction.condense(case.load, case.prescribed),
         };
         let slip = case.previous_slip.map(|slip| self.allowed_slip(slip));
-        let problem = ContactProblem::new(ContactData {
+        let problem = ContactProblem::on_checked_matrix(ContactData {
             dim: self.dim,
             pairs: self.pairs,
             stiffness: self.stiffness(),

@@ -72,6 +72,15 @@ impl<'a> ContactProblem<'a> {
     /// [`Error::Invalid`] names the first entry that is not finite, not symmetric beyond rounding
     /// (1e-9 of the diagonal), on a diagonal that is not positive, or out of range.
     pub fn new(data: ContactData<'a>) -> Result<Self, Error> {
+        let problem = Self::on_checked_matrix(data)?;
+        let size = problem.unknowns();
+        SymmetricMatrix { size, entries: data.stiffness, ld: data.ld }
+            .check("K", Argument::Matrix)?;
+        Ok(problem)
+    }
+
+    /// Checks everything but the entries of the matrix, which a model has checked once.
+    pub(crate) fn on_checked_matrix(data: ContactData<'a>) -> Result<Self, Error> {
         let ContactData { dim, pairs, .. } = data;
         if dim != 2 && dim != 3 {
             return Err(Error::invalid(
@@ -95,8 +104,6 @@ impl<'a> ContactProblem<'a> {
         if let Some(slip) = data.previous_slip {
             check_finite(Argument::PreviousSlip, "slip", slip)?;
         }
-        SymmetricMatrix { size: n, entries: data.stiffness, ld: data.ld }
-            .check("K", Argument::Matrix)?;
         Ok(problem)
     }
 

@@ -117,7 +117,8 @@ step "Rust documentation" documentation
 step "C programs: configure" c_configure
 step "C programs: build" c_build
 step "C programs: test" c_test
-step "replay of the examples" sh c_examples/replay.sh
+step "replay of Table 1" sh c_examples/replay.sh
+step "bolted junction" sh c_examples/junction.sh
 
 echo
 echo "== all tests passed in $(($(date +%s) - began)) s"

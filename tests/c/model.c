@@ -152,7 +152,8 @@ static void bad_matrix(void)
           memcpy(in.values, values, sizeof values));
     BAD_K("indefinite", "degree of freedom 5", in.values[5] = 1, in.values[6] = -2,
           in.values[7] = 1, in.fixed = 0);
-    BAD_K("a motion that nothing holds", "a motion remains that no support and no pair holds", in.values[6] = -3, in.fixed = 0);
+    BAD_K("a motion that nothing holds", "no support and no pair holds", in.values[6] = -3,
+          in.fixed = 0);
 }
 
 static void bad_fixed(void)
