@@ -8,3 +8,4 @@ pub mod measures;
 pub mod mesh;
 pub mod oracle;
 pub mod problems;
+pub mod stack;

@@ -1,0 +1,195 @@
+//! Parts that nothing holds, supports on both sides of a pair, weights and normals.
+
+mod common;
+
+use common::mesh::{Mesh, Pairs, steps};
+use common::stack::{STEEL, Stack, close, components, solved};
+use signorini::{Argument, Error, Friction, LoadCase, Monitor, Settings};
+
+/// A part that neither supports nor pairs hold is refused by one of its degrees of freedom.
+#[test]
+fn a_part_that_nothing_holds_is_refused() {
+    for place in 0..3 {
+        let mut mesh = Mesh::default();
+        let mut loose = None;
+        let mut add = |mesh: &mut Mesh, at: usize| {
+            if at == place {
+                let y = steps(7.0, 8.0, 2);
+                loose = Some(mesh.block(&steps(0.0, 2.0, 3), &y, STEEL));
+            }
+        };
+        add(&mut mesh, 0);
+        let lower = mesh.block(&steps(0.0, 3.0, 3), &steps(0.0, 1.0, 2), STEEL);
+        add(&mut mesh, 1);
+        let upper = mesh.block(&steps(0.0, 3.0, 3), &steps(1.0, 2.0, 2), STEEL);
+        add(&mut mesh, 2);
+        let loose = loose.unwrap();
+        let line = lower.row(0);
+        let mut fixed = [components(&line, 0), components(&line, 1)].concat();
+        let pairs = Pairs::matching(&upper.row(0), &lower.row(2), [0.0, -1.0]);
+        let stiffness = mesh.stiffness();
+        // Not held at all, held against motion upwards only, and but for one rotation.
+        let corner = loose.node(0, 0);
+        for held in [vec![], vec![2 * corner + 1], vec![2 * corner, 2 * corner + 1]] {
+            fixed.extend(&held);
+            let Err(Error::Invalid { argument, message }) = stiffness.model(&fixed, &pairs) else {
+                panic!("place {place}: a part is loose");
+            };
+            fixed.truncate(fixed.len() - held.len());
+            assert_eq!(argument, Argument::Matrix, "{message}");
+            // All that it names, three at the most, are of the loose part.
+            let named: Vec<usize> = message
+                .split("degree of freedom ")
+                .skip(1)
+                .map(|rest| rest.split(' ').next().unwrap().parse().expect("a number"))
+                .collect();
+            assert!(!named.is_empty(), "{message}");
+            let loose = |dof: &usize| loose.nodes().contains(&(dof / 2));
+            assert!(named.iter().all(loose), "place {place}: {message}");
+        }
+        fixed.extend([2 * corner, 2 * corner + 1, 2 * loose.node(0, 2)]);
+        assert!(stiffness.model(&fixed, &pairs).is_ok());
+    }
+}
+/// Half models: where the plane of symmetry meets the interface, slave and master are both held
+/// along it. The component between them is a row of its own, zero and without force.
+#[test]
+fn a_slave_held_with_its_master_is_decoupled() {
+    let stack = Stack::new([4, 4], [2000.0, 700.0]);
+    let mut fixed = components(&stack.lower.row(0), 1);
+    fixed.extend(components(&stack.lower.column(0), 0));
+    fixed.extend(components(&stack.upper.column(0), 0));
+    let model = stack.mesh.stiffness().model(&fixed, &stack.pairs()).unwrap();
+    let (n, held) = (10, 1);
+    for j in 0..n {
+        let (row, column) = (model.stiffness()[held + n * j], model.stiffness()[j + n * held]);
+        if j == held {
+            assert!(row > 0.0);
+        } else {
+            assert_eq!((row, column), (0.0, 0.0), "{j}");
+        }
+    }
+    // Loads and reactions of the support do not pass through the pair.
+    let mut load = stack.load(7.0, 1.0);
+    load[2 * stack.upper.node(0, 0)] = 100.0;
+    for mu in [0.0, 0.3] {
+        let solution = solved(&model, &load, mu);
+        assert_eq!(solution.d[held], 0.0, "mu {mu}");
+        assert_eq!(solution.certificate.force[held], 0.0, "mu {mu}");
+    }
+    // The slave alone.
+    fixed.retain(|&dof| dof != 2 * stack.lower.node(0, 2));
+    let refused = stack.mesh.stiffness().model(&fixed, &stack.pairs());
+    assert!(matches!(refused, Err(Error::Invalid { argument: Argument::Pairs, .. })));
+}
+
+/// A master of weight zero, as interpolation leaves it at the end of a segment, does not count:
+/// it need not be held where the slave is.
+#[test]
+fn a_master_of_weight_zero_does_not_count() {
+    let stack = Stack::new([4, 4], [2000.0, 700.0]);
+    let mut fixed = stack.bottom();
+    fixed.extend(components(&stack.lower.column(0)[1..], 0));
+    fixed.extend(components(&stack.upper.column(0), 0));
+    let pairs = stack.pairs();
+    let mut masters = pairs.masters.clone();
+    masters[0].push((stack.lower.node(1, 2), 0.0));
+    let stiffness = stack.mesh.stiffness();
+    let weighted = Pairs::new(&pairs.slaves, &masters, [0.0, -1.0]);
+    let models = [&pairs, &weighted].map(|pairs| stiffness.model(&fixed, pairs).unwrap());
+    assert_eq!(models[0].stiffness(), models[1].stiffness());
+}
+
+/// A part that may still turn about a node within it is refused on fine meshes too, where rounding
+/// leaves resistance of its own to that motion.
+#[test]
+fn a_finely_meshed_part_that_may_turn_is_refused() {
+    for (columns, rows, width, height) in [(100, 100, 1.0, 1.0), (200, 10, 1.0, 1.0)] {
+        for young in [1.0, 2.1e5, 2.1e11] {
+            let mut mesh = Mesh::default();
+            let body = mesh.block(&steps(0.0, 3.0, 3), &steps(0.0, 1.0, 2), STEEL);
+            let (x, y) = (steps(7.0, 7.0 + width, columns), steps(0.1, 0.1 + height, rows));
+            let loose = mesh.block(&x, &y, (young, 0.3));
+            let pin = loose.node(columns / 3, rows / 2);
+            let pairs = Pairs::on_obstacle(&body.row(0), [0.0, -1.0]);
+            let context = format!("{columns} x {rows}, E {young}");
+            match mesh.stiffness().model(&[2 * pin, 2 * pin + 1], &pairs) {
+                Ok(_) => panic!("{context}: it is taken for held"),
+                Err(error) => {
+                    let message = error.to_string();
+                    let named = message.split(' ').find_map(|word| word.parse::<usize>().ok());
+                    let named = named.unwrap_or_else(|| panic!("{context}: {message}"));
+                    assert!(loose.nodes().contains(&(named / 2)), "{context}: {message}");
+                }
+            }
+            let held = [2 * pin, 2 * pin + 1, 2 * loose.node(0, 0) + 1];
+            assert!(mesh.stiffness().model(&held, &pairs).is_ok(), "{context}: it is held");
+        }
+    }
+}
+
+/// A slender cantilever is weak at its tip, and held: 2 high, 10000 long, `3 E I / l³` is `2e-12` of
+/// its elements' stiffness.
+#[test]
+fn a_slender_part_is_held() {
+    for length in [100, 1000, 10_000] {
+        let mut mesh = Mesh::default();
+        let x = steps(0.0, length as f64, length);
+        let beam = mesh.block(&x, &steps(0.0, 2.0, 2), STEEL);
+        let root = beam.column(0);
+        let fixed = [components(&root, 0), components(&root, 1)].concat();
+        for first in [1, length - 2] {
+            let pairs = Pairs::on_obstacle(&beam.row(0)[first..first + 3], [0.0, -1.0]);
+            let made = mesh.stiffness().model(&fixed, &pairs);
+            assert!(made.is_ok(), "length {length}, pairs from {first}: {:?}", made.err());
+        }
+    }
+}
+
+/// Where slave and master are both held along a component, and moved differently, the answer obeys
+/// `u_slave = u_master + R d` all the same, or is refused.
+#[test]
+fn supports_that_part_a_pair_are_not_overlooked() {
+    let stack = Stack::new([4, 4], [2000.0, 700.0]);
+    let held = components(&stack.upper.column(0), 0);
+    let mut fixed = stack.bottom();
+    fixed.extend(components(&stack.lower.column(0)[1..], 0));
+    let mut values = vec![0.0; fixed.len()];
+    fixed.extend(&held);
+    values.extend(vec![0.01; held.len()]);
+    let model = stack.mesh.stiffness().model(&fixed, &stack.pairs()).unwrap();
+    let load = stack.load(7.0, 0.0);
+    let case = LoadCase {
+        load: &load,
+        prescribed: Some(&values),
+        gap: &[0.0; 5],
+        friction: Friction::Coulomb(&[0.2; 5]),
+        previous_slip: None,
+    };
+    let settings = Settings::default();
+    let monitor = &mut Monitor::new(&settings, None);
+    match model.solve(&case, &settings, None, monitor) {
+        Err(Error::Invalid { argument, .. }) => assert_eq!(argument, Argument::Prescribed),
+        Err(error) => panic!("{error}"),
+        Ok(solution) => {
+            let u = model.recover(Some(&load), Some(&values), &solution.d).unwrap();
+            let (slave, master) = (stack.upper.node(0, 0), stack.lower.node(0, 2));
+            let apart = u[2 * slave] - u[2 * master];
+            assert!((apart - solution.d[1]).abs() < 1e-12, "{apart} apart, d_t {}", solution.d[1]);
+        }
+    }
+}
+
+/// A normal has any length.
+#[test]
+fn the_length_of_a_normal_does_not_matter() {
+    let stack = Stack::new([3, 4], [2000.0, 700.0]);
+    let (stiffness, pairs) = (stack.mesh.stiffness(), stack.pairs());
+    let reference = stiffness.model(&stack.bottom(), &pairs).unwrap();
+    for length in [1e-300, 1e-200, 0.1, 3.0, 1e200, 1e300] {
+        let pairs = Pairs::new(&pairs.slaves, &pairs.masters, [0.0, -length]);
+        let model = stiffness.model(&stack.bottom(), &pairs);
+        let model = model.unwrap_or_else(|error| panic!("length {length:e}: {error}"));
+        close(model.stiffness(), reference.stiffness(), 1e-14, "K_rel");
+    }
+}
