@@ -327,7 +327,7 @@ typedef struct signorini_sparse {
    */
   uint32_t struct_size;
   /**
-   * 4 if starts and rows are arrays of int32_t, 8 if of int64_t.
+   * 4 if starts and rows are arrays of int32_t, 8 if of int64_t. Other numbers are int64_t always.
    */
   int32_t index_bytes;
   /**
@@ -650,7 +650,8 @@ int32_t signorini_model_stiffness(const struct signorini_model *model, double *K
  *                    settings->warm_start
  * @param F           out: contact forces, N entries a case
  * @param state       out: state of each pair, a column a case; NULL: not wanted
- * @param report      out: one for each case, struct_size set in each; NULL: not wanted
+ * @param report      out: one for each case; set struct_size in each one before the call; NULL: not
+ *                    wanted
  * @param status      out: status of each case, as signorini_solve returns it, -k standing for the
  *                    k-th argument of this call; NULL: not wanted
  * @return 0 if every case is solved; otherwise the status of the first that is not, and

@@ -31,7 +31,8 @@ use crate::problem::Friction;
 ///                    settings->warm_start
 /// @param F           out: contact forces, N entries a case
 /// @param state       out: state of each pair, a column a case; NULL: not wanted
-/// @param report      out: one for each case, struct_size set in each; NULL: not wanted
+/// @param report      out: one for each case; set struct_size in each one before the call; NULL: not
+///                    wanted
 /// @param status      out: status of each case, as signorini_solve returns it, -k standing for the
 ///                    k-th argument of this call; NULL: not wanted
 /// @return 0 if every case is solved; otherwise the status of the first that is not, and

@@ -18,7 +18,7 @@ pub const SIGNORINI_FULL: i32 = 2;
 pub struct SignoriniSparse {
     /// sizeof(signorini_sparse).
     pub struct_size: u32,
-    /// 4 if starts and rows are arrays of int32_t, 8 if of int64_t.
+    /// 4 if starts and rows are arrays of int32_t, 8 if of int64_t. Other numbers are int64_t always.
     pub index_bytes: i32,
     /// 0 or 1: what the first row, and the first entry of starts, are called. Degrees of freedom in
     /// other arguments of the same call are counted from it too.
