@@ -213,6 +213,46 @@ static void save(struct checks *checks, const char *directory, const struct junc
     }
 }
 
+static int ascending(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* What a load case costs once the model exists: medians, with default settings. Not a check, as
+ * machines are noisy. */
+static void report_cost(const struct junction *junction)
+{
+    enum { RUNS = 11 };
+    static double f[2][DOFS];
+    double gap[PAIRS] = {0}, slip[PAIRS] = {0}, mu[PAIRS], d[SIZE], F[SIZE];
+    double first[RUNS], further[RUNS];
+
+    for (int pair = 0; pair < PAIRS; pair++)
+        mu[pair] = 0.3;
+    for (int step = 0; step < 2; step++)
+        junction_loads(junction, closing_pressure, steps[step].inner, f[step]);
+    for (int run = 0; run < RUNS; run++) {
+        struct signorini_model *model = NULL;
+        double begin = now();
+        if (new_model(junction, &model) != 0)
+            return;
+        signorini_model_solve(model, 1, f[0], NULL, gap, mu, NULL, NULL, d, F, NULL, NULL, NULL);
+        first[run] = now() - begin;
+        for (int pair = 0; pair < PAIRS; pair++)
+            slip[pair] = d[2 * pair + 1];
+        begin = now();
+        signorini_model_solve(model, 1, f[1], NULL, gap, mu, slip, NULL, d, F, NULL, NULL, NULL);
+        further[run] = now() - begin;
+        signorini_model_free(model);
+    }
+    qsort(first, RUNS, sizeof *first, ascending);
+    qsort(further, RUNS, sizeof *further, ascending);
+    printf("\nReduction and first load case: %.2f ms; a further one: %.2f ms, %.1f %% of it\n",
+           1e3 * first[RUNS / 2], 1e3 * further[RUNS / 2],
+           100.0 * further[RUNS / 2] / first[RUNS / 2]);
+}
+
 int main(int argc, char **argv)
 {
     static struct history nested = {.cases = 5, .mu = {0.0, 0.1, 0.2, 0.3, 0.5}};
@@ -263,6 +303,7 @@ int main(int argc, char **argv)
     puts("\nDiagonal SOR, mu = 0.3");
     if (run(&checks, junction, model, SIGNORINI_METHOD_SOR_DIAGONAL, &diagonal))
         check_same(&checks, "as nested SOR", &nested, drawn, &diagonal, 0);
+    report_cost(junction);
 done:
     signorini_model_free(model);
     free(junction);

@@ -4,6 +4,10 @@
 //! and `d` the relative displacement: the paper's change of variables for any number of bodies. With
 //! `u = T [free; d] + u_0` from the fixed degrees of freedom, `K_rel` is the Schur complement of
 //! `Tᵀ K T` on `d`. Parts that only contact holds are fine: with `d` held nothing floats.
+//!
+//! Nodes against segments balance forces and moments, and on matching meshes pass the patch test; on
+//! others they do not: under a uniform pressure the nodal forces of three elements against four are
+//! 6 % off, up to 8 % on other meshes.
 
 use super::interface::{Frame, Interface};
 use super::sparse_matrix::{LowerTriangle, SparseMatrix};

@@ -57,12 +57,11 @@ pub fn nested(
     let mut thresholds = sweeps.thresholds();
     let mut outer_iterations = 0;
     let ending = loop {
-        match sweeps.is_solved(settings.tolerance) {
-            Ok(false) => {}
-            Ok(true) => break Ending::Done,
+        let target = match sweeps.measure(settings.tolerance) {
+            Ok(eta) if eta <= settings.tolerance => break Ending::Done,
+            Ok(eta) => INNER * eta,
             Err(ending) => break ending,
-        }
-        let target = INNER * sweeps.eta();
+        };
         let tresca = problem.with_friction(Friction::Tresca(&thresholds));
         sweeps.restart();
         if let Err(ending) = sweeps.relax(&tresca, target, INNER_SWEEPS) {

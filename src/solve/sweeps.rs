@@ -63,7 +63,7 @@ impl<'p, 'm, 'c> Sweeps<'p, 'm, 'c> {
     /// Sweeps under the problem's own law until it is met to `tolerance`, or tells why not.
     pub fn solve(&mut self, tolerance: f64) -> Result<(), Ending> {
         let mut stands_still = false;
-        while !self.is_solved(tolerance)? {
+        while self.measure(tolerance)? > tolerance {
             let stood_still = stands_still;
             stands_still = self.relax(self.problem, tolerance, ROUND)? == 0.0;
             if stands_still {
@@ -76,13 +76,13 @@ impl<'p, 'm, 'c> Sweeps<'p, 'm, 'c> {
         Ok(())
     }
 
-    /// Whether the problem's own law is met, by the carried force and then by a fresh one; an
+    /// `eta` under the problem's own law, from a fresh force if the carried one meets `tolerance`; an
     /// error if rounding will keep it from being met.
-    pub fn is_solved(&mut self, tolerance: f64) -> Result<bool, Ending> {
-        let (eta, sweeps) = (self.eta(), self.monitor.iterations());
+    pub fn measure(&mut self, tolerance: f64) -> Result<f64, Ending> {
+        let (eta, sweeps) = (self.iterate.eta(self.problem), self.monitor.iterations());
         if eta <= tolerance {
             self.iterate.refresh(self.problem);
-            return Ok(self.eta() <= tolerance);
+            return Ok(self.iterate.eta(self.problem));
         }
         let force = largest(&self.iterate.force);
         self.largest_force = self.largest_force.max(force);
@@ -95,7 +95,7 @@ impl<'p, 'm, 'c> Sweeps<'p, 'm, 'c> {
         if eta < AT_ROUNDING && sweeps > self.halved.1 + STAGNATION {
             return Err(Ending::Stalled("rounding keeps the sweeps from a better accuracy"));
         }
-        Ok(false)
+        Ok(eta)
     }
 
     /// Sweeps under `law` until `eta <= target`, nothing moves or `most` sweeps are done. Returns
@@ -137,11 +137,6 @@ impl<'p, 'm, 'c> Sweeps<'p, 'm, 'c> {
             .enumerate()
             .map(|(pair, force)| self.problem.threshold(pair, (-force[0]).max(0.0)))
             .collect()
-    }
-
-    /// `eta` under the problem's own law.
-    pub fn eta(&self) -> f64 {
-        self.iterate.eta(self.problem)
     }
 
     /// The iterate.
