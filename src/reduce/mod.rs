@@ -1,5 +1,6 @@
 //! From a host's data to relative displacements of contact pairs, once, and back.
 
+mod change;
 mod interface;
 mod sparse;
 mod sparse_matrix;
