@@ -12,14 +12,18 @@
  * K is the stiffness matrix condensed on the contact components: symmetric, positive definite or
  * only semi-definite (bodies held by nothing but contact).
  *
+ * Ways in. signorini_solve, signorini_tresca and signorini_lcp_lemke take plain arrays and do all in
+ * one call. A signorini_model reduces what you have once, a condensed matrix, two of them, or your
+ * whole sparse matrix with contact pairs, then solves load cases and recovers displacements.
+ *
  * Signs. n is the outward normal of the body: d_n > 0 moves towards the obstacle, F_n < 0 presses.
  * F is the force that the contact exerts on the body. f and F are nodal forces, not stresses.
  * Example: above a plane, with n = (0, -1) and t = (1, 0), d_n = -u_y and d_t = u_x; loads turn
  * likewise, and of the stiffness the mixed entries K_nt change their sign.
  * Units are yours: any consistent set, and no result depends on it but for its unit.
  *
- * A component that you hold fixed stays in the problem as a decoupled row: zero off the diagonal,
- * positive on it, zero load.
+ * In a condensed matrix, a component that you hold fixed stays as a decoupled row: zero off the
+ * diagonal, positive on it, zero load.
  *
  * Arrays are plain, 64-bit floating point, matrices column-major with a leading dimension. NULL is
  * allowed where a parameter says so. What is written to overlaps nothing else. With n = 0 no array
