@@ -368,6 +368,9 @@ typedef struct signorini_sparse {
 /**
  * Contact pairs: a slave node, the point that faces it, and a normal. The slave's displacement is
  * u_slave = sum of weight * u_master + d_n n + d_t t (+ ...), so that the gap closes at d_n = gap.
+ * A node is a slave in one pair at the most, and no master is a slave. A slave may be fixed along an
+ * axis only where its masters are fixed too and the axis is its normal or a tangent: along it the
+ * pair is held, d and F are zero.
  */
 typedef struct signorini_pairs {
   /**
@@ -693,7 +696,8 @@ int32_t signorini_model_recover(const struct signorini_model *model,
                                 double *u);
 
 /**
- * Contact forces as a nodal force vector of the host: on slaves, and the opposite on masters.
+ * Contact forces as a nodal force vector of the host: of a sparse model on slaves, and the opposite
+ * on masters; of two bodies F on both, each in its own frame; of a condensed one F itself.
  *
  * @param model  the model
  * @param F      contact forces, N entries

@@ -204,7 +204,8 @@ pub unsafe extern "C" fn signorini_model_recover(
     })
 }
 
-/// Contact forces as a nodal force vector of the host: on slaves, and the opposite on masters.
+/// Contact forces as a nodal force vector of the host: of a sparse model on slaves, and the opposite
+/// on masters; of two bodies F on both, each in its own frame; of a condensed one F itself.
 ///
 /// @param model  the model
 /// @param F      contact forces, N entries

@@ -39,6 +39,9 @@ pub struct SignoriniSparse {
 
 /// Contact pairs: a slave node, the point that faces it, and a normal. The slave's displacement is
 /// u_slave = sum of weight * u_master + d_n n + d_t t (+ ...), so that the gap closes at d_n = gap.
+/// A node is a slave in one pair at the most, and no master is a slave. A slave may be fixed along an
+/// axis only where its masters are fixed too and the axis is its normal or a tangent: along it the
+/// pair is held, d and F are zero.
 #[repr(C)]
 pub struct SignoriniPairs {
     /// sizeof(signorini_pairs).

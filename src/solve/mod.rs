@@ -196,6 +196,10 @@ fn certified(
                         .into(),
                 )
             }
+            Ending::Escape(_) if certificate.runs_away() => (
+                Status::Stalled,
+                format!("the displacements are so large that rounding hides the forces; {wanted}"),
+            ),
             Ending::Escape(_) => {
                 (Status::Stalled, format!("the path ended in a ray that proves nothing; {wanted}"))
             }
