@@ -219,7 +219,15 @@ fn piece(case: &Case, local: Vec<Local>) -> Option<Piece> {
         .iter()
         .map(|direction| {
             let moved: Vec<f64> = point.iter().zip(direction).map(|(x, v)| x + v).collect();
-            dense::difference(&slack(&moved), &at_point)
+            let mut rates = dense::difference(&slack(&moved), &at_point);
+            // What is left of a rigid motion's forces is rounding: no way to go far.
+            let absolute: Vec<f64> = case.k.iter().map(|k| k.abs()).collect();
+            let size: Vec<f64> = direction.iter().map(|v| v.abs()).collect();
+            let parts = largest(&dense::product(&absolute, &size)) / unit;
+            for rate in rates.iter_mut().filter(|rate| rate.abs() <= 1e-9 * parts) {
+                *rate = 0.0;
+            }
+            rates
         })
         .collect();
     let margin = best_margin(&at_point, &rates);
