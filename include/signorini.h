@@ -81,6 +81,11 @@
 #define SIGNORINI_STALLED 5
 
 /**
+ * Of signorini_certify: the displacements are not a solution.
+ */
+#define SIGNORINI_NOT_A_SOLUTION 6
+
+/**
  * A defect of the library was caught; the results are undefined.
  */
 #define SIGNORINI_INTERNAL -1000
@@ -112,8 +117,14 @@
 #define SIGNORINI_ABI_VERSION 1
 
 /**
+ * The default: chooses, checks and falls back. Without friction block pivoting, with friction in 2D
+ * Newton's method; where these fail Lemke's; in the end, and with friction in 3D, sweeps.
+ */
+#define SIGNORINI_METHOD_AUTO 0
+
+/**
  * Coulomb friction as a sequence of Tresca problems, g <- mu |F_n|, each by projected
- * over-relaxed Gauss-Seidel. The default.
+ * over-relaxed Gauss-Seidel.
  */
 #define SIGNORINI_METHOD_SOR_NESTED 1
 
@@ -123,9 +134,36 @@
 #define SIGNORINI_METHOD_SOR_DIAGONAL 2
 
 /**
- * Lemke's method, for frictionless contact: every mu must be 0.
+ * Lemke's method, for frictionless contact and for friction in 2D. It ends at a solution for every
+ * mu if K is positive definite.
  */
 #define SIGNORINI_METHOD_LEMKE 3
+
+/**
+ * Block principal pivoting, for frictionless contact: every mu must be 0.
+ */
+#define SIGNORINI_METHOD_PIVOT 4
+
+/**
+ * Newton's method on the states of the pairs, in 2D. It may fail, and says so.
+ */
+#define SIGNORINI_METHOD_NEWTON 5
+
+/**
+ * Of other solutions tell what the solution itself shows. The default.
+ */
+#define SIGNORINI_SEARCH_OFF 0
+
+/**
+ * Prove that the solution is the only one, or look for a second; 2D. It costs several times the
+ * solution.
+ */
+#define SIGNORINI_SEARCH_OTHERS 1
+
+/**
+ * The same, and return the second solution in the place of the first if there is one.
+ */
+#define SIGNORINI_SEARCH_RETURN_SECOND 2
 
 /**
  * A pair is apart: no normal force, and no tangential one but that of signorini_tresca.
@@ -142,6 +180,46 @@
  * A pair sticks: d_t = slip.
  */
 #define SIGNORINI_STICK 2
+
+/**
+ * Whether there are other solutions is not known.
+ */
+#define SIGNORINI_NOT_KNOWN 0
+
+/**
+ * Proved: the solution is the only one.
+ */
+#define SIGNORINI_UNIQUE 1
+
+/**
+ * Proved: there are other solutions.
+ */
+#define SIGNORINI_SEVERAL 2
+
+/**
+ * The method that was tried first ended it.
+ */
+#define SIGNORINI_FALLBACK_NONE 0
+
+/**
+ * The first method's states repeated in a cycle.
+ */
+#define SIGNORINI_FALLBACK_CYCLE 1
+
+/**
+ * The first method met a singular system.
+ */
+#define SIGNORINI_FALLBACK_SINGULAR 2
+
+/**
+ * The first method found a solution of orientation -1, beside which there are others.
+ */
+#define SIGNORINI_FALLBACK_UNSTABLE 3
+
+/**
+ * The first method found no accurate solution.
+ */
+#define SIGNORINI_FALLBACK_INACCURATE 4
 
 /**
  * Entries with row >= column are stored, by columns (or row <= column, by rows).
@@ -170,7 +248,7 @@ typedef struct signorini_model signorini_model;
  */
 typedef struct signorini_progress {
   /**
-   * Sweeps or pivots done.
+   * Sweeps, pivots or linear systems done.
    */
   int64_t iterations;
   /**
@@ -184,7 +262,7 @@ typedef struct signorini_progress {
 } signorini_progress;
 
 /**
- * Called before each sweep or pivot; a nonzero result cancels the call (SIGNORINI_CANCELLED).
+ * Called before each sweep, pivot or linear system; a nonzero result cancels the call (SIGNORINI_CANCELLED).
  * It runs on the calling thread in the default floating-point environment. It must return: no
  * longjmp, no exception, and no call of this library.
  */
@@ -199,7 +277,7 @@ typedef struct signorini_settings {
    */
   uint32_t struct_size;
   /**
-   * SIGNORINI_METHOD_...; default SIGNORINI_METHOD_SOR_NESTED.
+   * SIGNORINI_METHOD_...; default SIGNORINI_METHOD_AUTO.
    */
   int32_t method;
   /**
@@ -216,7 +294,8 @@ typedef struct signorini_settings {
    */
   double damping;
   /**
-   * Most sweeps (SOR) or pivots (Lemke), at least 1; default 200000.
+   * Most sweeps (SOR), pivots (Lemke) or linear systems (Newton, block pivoting), at least 1;
+   * default 200000.
    */
   int64_t max_iterations;
   /**
@@ -224,16 +303,16 @@ typedef struct signorini_settings {
    */
   double time_limit;
   /**
-   * Nonzero: the iteration starts from what d holds; default 0: it starts from zero.
-   * Lemke's method does not use a start.
+   * Nonzero: the method starts from what d holds; default 0: it starts from zero. Newton's method
+   * and block pivoting start from the states that d has; Lemke's method does not use a start.
    */
   int32_t warm_start;
   /**
-   * Must be 0.
+   * SIGNORINI_SEARCH_...: what to find out about other solutions; default SIGNORINI_SEARCH_OFF.
    */
-  int32_t reserved;
+  int32_t search;
   /**
-   * Called before each sweep or pivot; default NULL.
+   * Called before each sweep, pivot or linear system; default NULL.
    */
   signorini_progress_fn progress;
   /**
@@ -260,11 +339,11 @@ typedef struct signorini_report {
    */
   int32_t method;
   /**
-   * 0.
+   * SIGNORINI_NOT_KNOWN, _UNIQUE or _SEVERAL.
    */
-  int32_t reserved;
+  int32_t uniqueness;
   /**
-   * Sweeps or pivots.
+   * Sweeps, pivots or linear systems, of all methods that were tried.
    */
   int64_t iterations;
   /**
@@ -320,6 +399,28 @@ typedef struct signorini_report {
    * Pairs that stick.
    */
   int64_t stick;
+  /**
+   * Dense factorisations of Newton's method and of block pivoting.
+   */
+  int64_t factorisations;
+  /**
+   * The method that was tried first, SIGNORINI_METHOD_...
+   */
+  int32_t first_method;
+  /**
+   * Why it did not end it, SIGNORINI_FALLBACK_...
+   */
+  int32_t fallback;
+  /**
+   * Sign of the determinant of the system of equations that the states select: +1, or -1 for
+   * an unstable solution, beside which there are at least two others if K is positive definite;
+   * 0 if not known.
+   */
+  int32_t orientation;
+  /**
+   * 0.
+   */
+  int32_t reserved;
 } signorini_report;
 
 /**
@@ -528,6 +629,66 @@ int32_t signorini_tresca(int32_t dim,
                          struct signorini_report *report);
 
 /**
+ * Measures displacements of any origin, say of another solver, on the data of a condensed contact
+ * problem with Coulomb friction: what decides whether this library calls a result solved.
+ *
+ * @param dim       space dimension, 2 or 3
+ * @param pairs     number of contact pairs, 0 allowed
+ * @param K         condensed stiffness, as for signorini_solve
+ * @param ldk       entries from one column of K to the next, at least max(1, N)
+ * @param f         condensed nodal loads, N
+ * @param gap       initial gaps, one for each pair
+ * @param mu        friction coefficients, one for each pair
+ * @param slip      tangential displacement at rest, dim - 1 for each pair; NULL: zero
+ * @param tolerance largest eta of a solution, 1e-15 to 0.1
+ * @param d         relative displacements to be measured, N
+ * @param F         out: contact forces that obey the law, nearest to K d - f, N; NULL: not wanted
+ * @param state     out: state of each pair; NULL: not wanted
+ * @param report    out: the measures; set report->struct_size before the call; NULL: not wanted
+ * @return 0: d is a solution, report->eta <= tolerance; SIGNORINI_NOT_A_SOLUTION: it is not;
+ *         -k the k-th argument is wrong, nothing was written
+ */
+int32_t signorini_certify(int32_t dim,
+                          int64_t pairs,
+                          const double *K,
+                          int64_t ldk,
+                          const double *f,
+                          const double *gap,
+                          const double *mu,
+                          const double *slip,
+                          double tolerance,
+                          const double *d,
+                          double *F,
+                          int32_t *state,
+                          struct signorini_report *report);
+
+/**
+ * Solves the linear complementarity problem w = q + M z, w >= 0, z >= 0, w . z = 0.
+ *
+ * By default block principal pivoting, which solves most problems with a symmetric positive definite
+ * M in a handful of factorisations, then Lemke's method. Arrays must not overlap.
+ *
+ * @param n         number of unknowns, 0 allowed
+ * @param M         n columns of n entries, column-major
+ * @param ldm       entries from one column of M to the next, at least max(1, n)
+ * @param q         n
+ * @param settings  NULL: the defaults; method is SIGNORINI_METHOD_AUTO, _PIVOT or _LEMKE; omega,
+ *                  damping, warm_start and search, though they must be valid, have no effect
+ * @param w         out: n
+ * @param z         out: n; with SIGNORINI_NO_EQUILIBRIUM a y >= 0 with M' y <= 0, q . y < 0
+ * @param report    out; set report->struct_size before the call; NULL: not wanted
+ * @return as signorini_solve
+ */
+int32_t signorini_lcp_solve(int64_t n,
+                            const double *M,
+                            int64_t ldm,
+                            const double *q,
+                            const struct signorini_settings *settings,
+                            double *w,
+                            double *z,
+                            struct signorini_report *report);
+
+/**
  * Solves the linear complementarity problem w = q + M z, w >= 0, z >= 0, w . z = 0 by Lemke's
  * method (lexicographic: it never cycles).
  *
@@ -541,8 +702,8 @@ int32_t signorini_tresca(int32_t dim,
  * @param ldm       entries from one column of M to the next, at least max(1, n)
  * @param q         n
  * @param cover     covering vector, n positive entries; NULL: ones
- * @param settings  NULL: the defaults; method, omega, damping and warm_start, though they must be
- *                  valid, have no effect
+ * @param settings  NULL: the defaults; method, omega, damping, warm_start and search, though they
+ *                  must be valid, have no effect
  * @param w         out: n
  * @param z         out: n; with SIGNORINI_NO_EQUILIBRIUM a y >= 0 with M' y <= 0, q . y < 0
  * @param report    out; set report->struct_size before the call; NULL: not wanted

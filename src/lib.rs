@@ -62,5 +62,5 @@ pub use lcp::Lcp;
 pub use model::{LoadCase, Model};
 pub use monitor::{Interruption, Monitor, Progress, ProgressFn};
 pub use problem::{ContactData, ContactProblem, Friction};
-pub use settings::{Method, Settings};
-pub use solve::{LcpSolution, Solution, Status, solve, solve_lcp};
+pub use settings::{Method, Search, Settings};
+pub use solve::{Fallback, LcpSolution, Other, Solution, Status, Uniqueness, solve, solve_lcp};

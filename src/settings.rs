@@ -5,13 +5,29 @@ use crate::error::{Argument, Error};
 /// The algorithm to run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Method {
+    /// Chooses, checks and falls back: [`Method::Pivot`] without friction, [`Method::Newton`] with
+    /// it, then [`Method::Lemke`], then sweeps. The default.
+    Auto,
     /// Coulomb friction as a sequence of Tresca problems, each by projected SOR
-    /// (paper, section 2.1: `g <- mu |F_n|`). The default.
+    /// (paper, section 2.1: `g <- mu |F_n|`).
     SorNested,
     /// Projected SOR with the threshold updated inside the sweep.
     SorDiagonal,
-    /// Lemke's method on the frictionless problem (paper, section 2.2).
+    /// Lemke's method, without friction (paper, section 2.2) or with it in 2D.
     Lemke,
+    /// Block principal pivoting, without friction.
+    Pivot,
+    /// Active-set Newton on the states of the pairs, in 2D.
+    Newton,
+}
+
+/// What to find out about other solutions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Search {
+    /// What the solution itself tells.
+    Off,
+    /// Prove that it is the only one, or look for a second.
+    Others,
 }
 
 /// Settings of one call. `Settings::default()` suits most problems.
@@ -27,21 +43,24 @@ pub struct Settings {
     /// Damping of the threshold update of [`Method::SorNested`], in (0, 1]; 0 lets the solver
     /// choose from the measured rate.
     pub damping: f64,
-    /// Most sweeps (SOR) or pivots (Lemke), at least 1.
+    /// Most sweeps (SOR), pivots (Lemke) or linear systems (Newton, block pivoting), at least 1.
     pub max_iterations: u64,
     /// Most seconds of wall time; 0 means no limit.
     pub time_limit: f64,
+    /// What to find out about other solutions.
+    pub search: Search,
 }
 
 impl Default for Settings {
     fn default() -> Self {
         Settings {
-            method: Method::SorNested,
+            method: Method::Auto,
             tolerance: 1e-10,
             omega: 0.0,
             damping: 0.0,
             max_iterations: 200_000,
             time_limit: 0.0,
+            search: Search::Off,
         }
     }
 }

@@ -171,6 +171,18 @@ pub(super) fn size(position: i32, name: &str, value: i64) -> Result<usize, Failu
     })
 }
 
+/// Dimension, pairs and unknowns of the first two arguments of a call.
+pub(super) fn sizes(dim: i32, pairs: i64) -> Result<(usize, usize, usize), Failure> {
+    if dim != 2 && dim != 3 {
+        return Err(Failure::argument(1, format!("dim is {dim}, it must be 2 or 3")));
+    }
+    let dim = dim as usize;
+    let pairs = size(2, "pairs", pairs)?;
+    let n = pairs.checked_mul(dim).filter(|n| *n <= isize::MAX as usize / size_of::<f64>());
+    let n = n.ok_or_else(|| Failure::argument(2, format!("pairs is {pairs}, too many")))?;
+    Ok((dim, pairs, n))
+}
+
 /// Elements of a column-major matrix with `n` rows and columns.
 pub(super) fn matrix_length(
     position: i32,

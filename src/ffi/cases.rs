@@ -137,11 +137,14 @@ impl Block<'_> {
         let progress = progress.as_mut().map(|progress| progress as &mut ProgressFn<'_>);
         let mut monitor = Monitor::new(&received.settings, progress);
         match self.model.solve(&given, &received.settings, start.as_deref(), &mut monitor) {
-            Ok(solution) => {
+            Ok(mut solution) => {
+                if received.second {
+                    solution.exchange();
+                }
                 let code = code(solution.status);
                 let states: Vec<i32> =
                     solution.certificate.states.iter().map(|&state| state_code(state)).collect();
-                let report = SignoriniReport::of(code, received.settings.method, &solution);
+                let report = SignoriniReport::of(code, &solution);
                 // SAFETY: the outputs have the lengths of the header and overlap nothing.
                 unsafe {
                     d.write(&solution.d);

@@ -1,6 +1,6 @@
 //! Condensed contact problems in one call on plain arrays.
 
-use super::args::{Arrays, matrix_length, size};
+use super::args::{Arrays, matrix_length, size, sizes};
 use super::guard::{self, Failure};
 use super::report::{SignoriniReport, state_code};
 use super::settings::SignoriniSettings;
@@ -142,13 +142,7 @@ impl Arguments {
         friction_name: &'static str,
         friction: impl for<'a> Fn(&'a [f64]) -> Friction<'a>,
     ) -> Result<i32, Failure> {
-        if self.dim != 2 && self.dim != 3 {
-            return Err(Failure::argument(1, format!("dim is {}, it must be 2 or 3", self.dim)));
-        }
-        let dim = self.dim as usize;
-        let pairs = size(2, "pairs", self.pairs)?;
-        let n = pairs.checked_mul(dim).filter(|n| *n <= isize::MAX as usize / size_of::<f64>());
-        let n = n.ok_or_else(|| Failure::argument(2, format!("pairs is {pairs}, too many")))?;
+        let (dim, pairs, n) = sizes(self.dim, self.pairs)?;
         let ld = size(4, "ldk", self.ldk)?;
         let entries = matrix_length(4, "K", n, ld)?;
         let slips = n - pairs;
@@ -191,8 +185,11 @@ impl Arguments {
         let mut progress = received.progress();
         let progress = progress.as_mut().map(|progress| progress as &mut ProgressFn<'_>);
         let mut monitor = Monitor::new(&received.settings, progress);
-        let solution = solve(&problem, &received.settings, start.as_deref(), &mut monitor)
+        let mut solution = solve(&problem, &received.settings, start.as_deref(), &mut monitor)
             .map_err(from_error)?;
+        if received.second {
+            solution.exchange();
+        }
 
         let status = code(solution.status);
         if solution.status != Status::Solved {
@@ -200,7 +197,7 @@ impl Arguments {
         }
         let states: Vec<i32> =
             solution.certificate.states.iter().map(|&state| state_code(state)).collect();
-        let report = SignoriniReport::of(status, received.settings.method, &solution);
+        let report = SignoriniReport::of(status, &solution);
         // SAFETY: the outputs have the lengths of the header and overlap nothing.
         unsafe {
             d.write(&solution.d);

@@ -8,7 +8,40 @@ use super::status::{code, remember};
 use crate::error::Argument;
 use crate::lcp::Lcp;
 use crate::monitor::{Monitor, ProgressFn};
+use crate::settings::Method;
 use crate::solve::{Status, solve_lcp};
+
+/// Solves the linear complementarity problem w = q + M z, w >= 0, z >= 0, w . z = 0.
+///
+/// By default block principal pivoting, which solves most problems with a symmetric positive definite
+/// M in a handful of factorisations, then Lemke's method. Arrays must not overlap.
+///
+/// @param n         number of unknowns, 0 allowed
+/// @param M         n columns of n entries, column-major
+/// @param ldm       entries from one column of M to the next, at least max(1, n)
+/// @param q         n
+/// @param settings  NULL: the defaults; method is SIGNORINI_METHOD_AUTO, _PIVOT or _LEMKE; omega,
+///                  damping, warm_start and search, though they must be valid, have no effect
+/// @param w         out: n
+/// @param z         out: n; with SIGNORINI_NO_EQUILIBRIUM a y >= 0 with M' y <= 0, q . y < 0
+/// @param report    out; set report->struct_size before the call; NULL: not wanted
+/// @return as signorini_solve
+#[unsafe(no_mangle)]
+#[allow(non_snake_case)] // the name of the mathematics, which the header shows
+pub unsafe extern "C" fn signorini_lcp_solve(
+    n: i64,
+    M: *const f64,
+    ldm: i64,
+    q: *const f64,
+    settings: *const SignoriniSettings,
+    w: *mut f64,
+    z: *mut f64,
+    report: *mut SignoriniReport,
+) -> i32 {
+    let arguments = Arguments { n, M, ldm, q, cover: None, settings, w, z, report, method: None };
+    // SAFETY: the caller's contract, which the header states.
+    guard::call(|| unsafe { arguments.run() })
+}
 
 /// Solves the linear complementarity problem w = q + M z, w >= 0, z >= 0, w . z = 0 by Lemke's
 /// method (lexicographic: it never cycles).
@@ -23,8 +56,8 @@ use crate::solve::{Status, solve_lcp};
 /// @param ldm       entries from one column of M to the next, at least max(1, n)
 /// @param q         n
 /// @param cover     covering vector, n positive entries; NULL: ones
-/// @param settings  NULL: the defaults; method, omega, damping and warm_start, though they must be
-///                  valid, have no effect
+/// @param settings  NULL: the defaults; method, omega, damping, warm_start and search, though they
+///                  must be valid, have no effect
 /// @param w         out: n
 /// @param z         out: n; with SIGNORINI_NO_EQUILIBRIUM a y >= 0 with M' y <= 0, q . y < 0
 /// @param report    out; set report->struct_size before the call; NULL: not wanted
@@ -42,31 +75,77 @@ pub unsafe extern "C" fn signorini_lcp_lemke(
     z: *mut f64,
     report: *mut SignoriniReport,
 ) -> i32 {
-    guard::call(|| {
-        let n = size(1, "n", n)?;
-        let ld = size(3, "ldm", ldm)?;
+    let arguments = Arguments {
+        n,
+        M,
+        ldm,
+        q,
+        cover: Some(cover),
+        settings,
+        w,
+        z,
+        report,
+        method: Some(Method::Lemke),
+    };
+    // SAFETY: the caller's contract, which the header states.
+    guard::call(|| unsafe { arguments.run() })
+}
+
+#[allow(non_snake_case)] // as above
+struct Arguments {
+    n: i64,
+    M: *const f64,
+    ldm: i64,
+    q: *const f64,
+    /// Of the call that has this argument, which shifts the positions of the later ones.
+    cover: Option<*const f64>,
+    settings: *const SignoriniSettings,
+    w: *mut f64,
+    z: *mut f64,
+    report: *mut SignoriniReport,
+    /// The method, if it is not that of the settings.
+    method: Option<Method>,
+}
+
+impl Arguments {
+    /// # Safety
+    /// Every pointer is NULL or has the length that the header demands.
+    unsafe fn run(&self) -> Result<i32, Failure> {
+        let shift = i32::from(self.cover.is_some());
+        let n = size(1, "n", self.n)?;
+        let ld = size(3, "ldm", self.ldm)?;
         let entries = matrix_length(3, "M", n, ld)?;
         let mut arrays = Arrays::default();
         // SAFETY: the lengths are those of the header.
         let (matrix, q, cover) = unsafe {
+            let cover = self.cover.unwrap_or(std::ptr::null());
             (
-                arrays.input(2, "M", M, entries, true)?.unwrap_or_default(),
-                arrays.input(4, "q", q, n, true)?.unwrap_or_default(),
+                arrays.input(2, "M", self.M, entries, true)?.unwrap_or_default(),
+                arrays.input(4, "q", self.q, n, true)?.unwrap_or_default(),
                 arrays.input(5, "cover", cover, n, false)?,
             )
         };
         // SAFETY: the header asks for structures that begin with their size.
-        let received = unsafe { SignoriniSettings::receive(6, settings)? };
-        let w = arrays.output(7, "w", w, n, true)?;
-        let z = arrays.output(8, "z", z, n, true)?;
+        let mut received = unsafe { SignoriniSettings::receive(5 + shift, self.settings)? };
+        let w = arrays.output(6 + shift, "w", self.w, n, true)?;
+        let z = arrays.output(7 + shift, "z", self.z, n, true)?;
         // SAFETY: as above.
-        unsafe { SignoriniReport::accept(9, report)? };
-        arrays.structure(6, "settings", settings, false)?;
-        arrays.structure(9, "report", report.cast_const(), true)?;
+        unsafe { SignoriniReport::accept(8 + shift, self.report)? };
+        arrays.structure(5 + shift, "settings", self.settings, false)?;
+        arrays.structure(8 + shift, "report", self.report.cast_const(), true)?;
         arrays.check_overlap()?;
 
+        let position = |argument| match argument {
+            Argument::Size | Argument::Dimension => 1,
+            Argument::Matrix => 2,
+            Argument::LeadingDimension => 3,
+            Argument::Load => 4,
+            Argument::Covering => 5,
+            _ => 5 + shift,
+        };
         let from_error = |error| Failure::from_error(error, position);
         let lcp = Lcp::new(n, matrix, ld, q, cover).map_err(from_error)?;
+        received.settings.method = self.method.unwrap_or(received.settings.method);
         let mut progress = received.progress();
         let progress = progress.as_mut().map(|progress| progress as &mut ProgressFn<'_>);
         let mut monitor = Monitor::new(&received.settings, progress);
@@ -80,19 +159,8 @@ pub unsafe extern "C" fn signorini_lcp_lemke(
         unsafe {
             w.write(&solution.w);
             z.write(&solution.z);
-            SignoriniReport::of_lcp(status, &solution).send(report);
+            SignoriniReport::of_lcp(status, &solution).send(self.report);
         }
         Ok(status)
-    })
-}
-
-fn position(argument: Argument) -> i32 {
-    match argument {
-        Argument::Size | Argument::Dimension => 1,
-        Argument::Matrix => 2,
-        Argument::LeadingDimension => 3,
-        Argument::Load => 4,
-        Argument::Covering => 5,
-        _ => 6,
     }
 }

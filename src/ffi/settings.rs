@@ -6,20 +6,36 @@ use std::ops::ControlFlow;
 use super::args::checked_size;
 use super::guard::{self, Failure};
 use crate::monitor::Progress;
-use crate::settings::{Method, Settings};
+use crate::settings::{Method, Search, Settings};
 
+/// The default: chooses, checks and falls back. Without friction block pivoting, with friction in 2D
+/// Newton's method; where these fail Lemke's; in the end, and with friction in 3D, sweeps.
+pub const SIGNORINI_METHOD_AUTO: i32 = 0;
 /// Coulomb friction as a sequence of Tresca problems, g <- mu |F_n|, each by projected
-/// over-relaxed Gauss-Seidel. The default.
+/// over-relaxed Gauss-Seidel.
 pub const SIGNORINI_METHOD_SOR_NESTED: i32 = 1;
 /// Projected over-relaxed Gauss-Seidel with the friction threshold updated inside the sweep.
 pub const SIGNORINI_METHOD_SOR_DIAGONAL: i32 = 2;
-/// Lemke's method, for frictionless contact: every mu must be 0.
+/// Lemke's method, for frictionless contact and for friction in 2D. It ends at a solution for every
+/// mu if K is positive definite.
 pub const SIGNORINI_METHOD_LEMKE: i32 = 3;
+/// Block principal pivoting, for frictionless contact: every mu must be 0.
+pub const SIGNORINI_METHOD_PIVOT: i32 = 4;
+/// Newton's method on the states of the pairs, in 2D. It may fail, and says so.
+pub const SIGNORINI_METHOD_NEWTON: i32 = 5;
+
+/// Of other solutions tell what the solution itself shows. The default.
+pub const SIGNORINI_SEARCH_OFF: i32 = 0;
+/// Prove that the solution is the only one, or look for a second; 2D. It costs several times the
+/// solution.
+pub const SIGNORINI_SEARCH_OTHERS: i32 = 1;
+/// The same, and return the second solution in the place of the first if there is one.
+pub const SIGNORINI_SEARCH_RETURN_SECOND: i32 = 2;
 
 /// What a progress callback is told. New fields may follow in later versions.
 #[repr(C)]
 pub struct SignoriniProgress {
-    /// Sweeps or pivots done.
+    /// Sweeps, pivots or linear systems done.
     pub iterations: i64,
     /// Latest measured eta; infinite before the first measurement.
     pub eta: f64,
@@ -27,7 +43,7 @@ pub struct SignoriniProgress {
     pub elapsed: f64,
 }
 
-/// Called before each sweep or pivot; a nonzero result cancels the call (SIGNORINI_CANCELLED).
+/// Called before each sweep, pivot or linear system; a nonzero result cancels the call (SIGNORINI_CANCELLED).
 /// It runs on the calling thread in the default floating-point environment. It must return: no
 /// longjmp, no exception, and no call of this library.
 pub type SignoriniProgressFn =
@@ -39,7 +55,7 @@ pub type SignoriniProgressFn =
 pub struct SignoriniSettings {
     /// sizeof(signorini_settings) of the program; later fields than it covers have their defaults.
     pub struct_size: u32,
-    /// SIGNORINI_METHOD_...; default SIGNORINI_METHOD_SOR_NESTED.
+    /// SIGNORINI_METHOD_...; default SIGNORINI_METHOD_AUTO.
     pub method: i32,
     /// Solved means eta <= tolerance; 1e-15 to 0.1, default 1e-10.
     pub tolerance: f64,
@@ -48,16 +64,17 @@ pub struct SignoriniSettings {
     /// Damping of the nested method's threshold update, in (0, 1]; default 0: chosen from the
     /// measured rate.
     pub damping: f64,
-    /// Most sweeps (SOR) or pivots (Lemke), at least 1; default 200000.
+    /// Most sweeps (SOR), pivots (Lemke) or linear systems (Newton, block pivoting), at least 1;
+    /// default 200000.
     pub max_iterations: i64,
     /// Most seconds of wall time; 0, the default, and infinity: no limit.
     pub time_limit: f64,
-    /// Nonzero: the iteration starts from what d holds; default 0: it starts from zero.
-    /// Lemke's method does not use a start.
+    /// Nonzero: the method starts from what d holds; default 0: it starts from zero. Newton's method
+    /// and block pivoting start from the states that d has; Lemke's method does not use a start.
     pub warm_start: i32,
-    /// Must be 0.
-    pub reserved: i32,
-    /// Called before each sweep or pivot; default NULL.
+    /// SIGNORINI_SEARCH_...: what to find out about other solutions; default SIGNORINI_SEARCH_OFF.
+    pub search: i32,
+    /// Called before each sweep, pivot or linear system; default NULL.
     pub progress: SignoriniProgressFn,
     /// Handed to progress; default NULL.
     pub user: *mut c_void,
@@ -67,6 +84,8 @@ pub struct SignoriniSettings {
 pub(super) struct Received {
     pub(super) settings: Settings,
     pub(super) warm_start: bool,
+    /// Whether a second solution is to be returned in the place of the first.
+    pub(super) second: bool,
     progress: SignoriniProgressFn,
     user: *mut c_void,
 }
@@ -83,7 +102,7 @@ impl SignoriniSettings {
             max_iterations: default.max_iterations as i64,
             time_limit: default.time_limit,
             warm_start: 0,
-            reserved: 0,
+            search: SIGNORINI_SEARCH_OFF,
             progress: None,
             user: std::ptr::null_mut(),
         }
@@ -110,18 +129,23 @@ impl SignoriniSettings {
     fn checked(self, position: i32) -> Result<Received, Failure> {
         let refuse = |message: String| Err(Failure::argument(position, message));
         let method = match self.method {
+            SIGNORINI_METHOD_AUTO => Method::Auto,
             SIGNORINI_METHOD_SOR_NESTED => Method::SorNested,
             SIGNORINI_METHOD_SOR_DIAGONAL => Method::SorDiagonal,
             SIGNORINI_METHOD_LEMKE => Method::Lemke,
+            SIGNORINI_METHOD_PIVOT => Method::Pivot,
+            SIGNORINI_METHOD_NEWTON => Method::Newton,
             other => return refuse(format!("settings: there is no method {other}")),
         };
         let Ok(max_iterations) = u64::try_from(self.max_iterations) else {
             let given = self.max_iterations;
             return refuse(format!("settings: max_iterations is {given}, it must be at least 1"));
         };
-        if self.reserved != 0 {
-            return refuse(format!("settings: reserved is {}, it must be 0", self.reserved));
-        }
+        let search = match self.search {
+            SIGNORINI_SEARCH_OFF => Search::Off,
+            SIGNORINI_SEARCH_OTHERS | SIGNORINI_SEARCH_RETURN_SECOND => Search::Others,
+            other => return refuse(format!("settings: there is no search {other}")),
+        };
         Ok(Received {
             settings: Settings {
                 method,
@@ -130,8 +154,10 @@ impl SignoriniSettings {
                 damping: self.damping,
                 max_iterations,
                 time_limit: self.time_limit,
+                search,
             },
             warm_start: self.warm_start != 0,
+            second: self.search == SIGNORINI_SEARCH_RETURN_SECOND,
             progress: self.progress,
             user: self.user,
         })
@@ -159,9 +185,12 @@ impl Received {
 
 pub(super) fn method_code(method: Method) -> i32 {
     match method {
+        Method::Auto => SIGNORINI_METHOD_AUTO,
         Method::SorNested => SIGNORINI_METHOD_SOR_NESTED,
         Method::SorDiagonal => SIGNORINI_METHOD_SOR_DIAGONAL,
         Method::Lemke => SIGNORINI_METHOD_LEMKE,
+        Method::Pivot => SIGNORINI_METHOD_PIVOT,
+        Method::Newton => SIGNORINI_METHOD_NEWTON,
     }
 }
 

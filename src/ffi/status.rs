@@ -20,6 +20,8 @@ pub const SIGNORINI_NO_EQUILIBRIUM: i32 = 4;
 /// The method cannot go on (rounding, or a ray that proves nothing); the results are its last
 /// iterate.
 pub const SIGNORINI_STALLED: i32 = 5;
+/// Of signorini_certify: the displacements are not a solution.
+pub const SIGNORINI_NOT_A_SOLUTION: i32 = 6;
 /// A defect of the library was caught; the results are undefined.
 pub const SIGNORINI_INTERNAL: i32 = -1000;
 /// Not enough memory; nothing was written.
@@ -84,6 +86,7 @@ pub extern "C" fn signorini_status_string(status: i32) -> *const c_char {
         SIGNORINI_CANCELLED => c"cancelled",
         SIGNORINI_NO_EQUILIBRIUM => c"no equilibrium exists",
         SIGNORINI_STALLED => c"stalled",
+        SIGNORINI_NOT_A_SOLUTION => c"not a solution",
         SIGNORINI_INTERNAL => c"internal error",
         SIGNORINI_OUT_OF_MEMORY => c"out of memory",
         -99..=-1 => c"an argument is wrong (status -k: the k-th)",

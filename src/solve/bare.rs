@@ -1,12 +1,12 @@
 //! The bare linear complementarity problem, by Lemke's method.
 
-use super::Status;
 use super::lemke::{Care, Path, Run, lemke};
+use super::{Fallback, Status};
 use crate::error::Error;
 use crate::lcp::Lcp;
 use crate::linalg::small::largest;
 use crate::monitor::Monitor;
-use crate::settings::Settings;
+use crate::settings::{Method, Settings};
 
 /// Result of a bare complementarity problem.
 #[derive(Clone, Debug)]
@@ -21,8 +21,14 @@ pub struct LcpSolution {
     pub z: Vec<f64>,
     /// [`Lcp::eta`].
     pub eta: f64,
-    /// Pivots.
+    /// The method that ended it.
+    pub method: Method,
+    /// The method tried first, and why it did not end it.
+    pub fallback: Option<(Method, Fallback)>,
+    /// Pivots, or linear systems, of all methods that were tried.
     pub iterations: u64,
+    /// Dense factorisations of block pivoting.
+    pub factorisations: u64,
     /// How often the tableau was computed anew because accuracy was lost.
     pub refactorisations: u64,
 }
@@ -74,5 +80,16 @@ fn certified(lcp: &Lcp<'_>, settings: &Settings, run: Run, iterations: u64) -> L
     let product = lcp.product(&z);
     let w = lcp.q().iter().zip(&product).zip(&z);
     let w = w.map(|((q, mz), z)| if *z > 0.0 { 0.0 } else { (q + mz).max(0.0) }).collect();
-    LcpSolution { status, message, w, z, eta, iterations, refactorisations }
+    LcpSolution {
+        status,
+        message,
+        w,
+        z,
+        eta,
+        method: Method::Lemke,
+        fallback: None,
+        iterations,
+        factorisations: 0,
+        refactorisations,
+    }
 }

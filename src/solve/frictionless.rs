@@ -30,7 +30,7 @@ pub fn lemke(
         Ending::Done => certify(problem, &usual.d).holds(settings.tolerance),
         Ending::Escape(motion) => is_escape(problem, motion),
         Ending::Interrupted(_) => true,
-        Ending::Stalled(_) => false,
+        _ => false,
     };
     if settled {
         return Ok(usual);
