@@ -256,3 +256,21 @@ pub fn tresca(rng: &mut Rng, pairs: usize) -> Law {
 pub fn frictionless(pairs: usize) -> Law {
     Law::Coulomb(vec![0.0; pairs])
 }
+
+/// One to four pairs in 2D of a definite stiffness, condition up to `10^most`.
+pub fn definite_case(rng: &mut Rng, most: f64, law: impl Fn(&mut Rng, usize) -> Law) -> Case {
+    let pairs = rng.usize(1..=4);
+    let condition = decades(rng, most);
+    let k = definite(rng, 2 * pairs, condition);
+    let law = law(rng, pairs);
+    loaded(rng, 2, k, law)
+}
+
+/// The same, of a stiffness with a kernel.
+pub fn floating_case(rng: &mut Rng, most: f64, law: impl Fn(&mut Rng, usize) -> Law) -> Case {
+    let pairs = rng.usize(1..=4);
+    let condition = decades(rng, most);
+    let (k, _) = floating(rng, pairs, condition);
+    let law = law(rng, pairs);
+    loaded(rng, 2, k, law)
+}
