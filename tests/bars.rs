@@ -62,17 +62,17 @@ fn auto_solves_the_pressed_bar_at_any_friction() {
     }
 }
 
-/// The upper side held and moved towards the plane by a length at which pressing and pushing are
-/// comparable, 5 * 40 / 13000, by less and by more: little friction slides, high friction wedges,
-/// and Newton's method may repeat itself. Then the default says so, and solves it.
+/// The upper side held and moved towards the plane by up to what the pressure would move it,
+/// 5 * 40 / 13000: little friction slides, high friction wedges, and Newton's method may repeat
+/// itself. Then the default says so, and solves it.
 #[test]
 fn auto_solves_the_clamped_bar_where_newton_cycles() {
     let mut cycles = 0;
-    for pairs in [33, 64, 65, 129, 257] {
-        for down in [0.005, 0.0154, 0.05] {
+    for pairs in [33, 64, 129, 257] {
+        for down in [0.001, 0.005, 0.0154] {
             let top = Top::Clamped(down);
             let bar = bar(pairs, top);
-            for mu in [1.0, 5.0, 10.0, 20.0] {
+            for mu in [1.0, 10.0, 20.0] {
                 let case = case(&bar, mu);
                 let context = format!("{pairs} pairs, mu {mu}, down {down}");
                 let newton = solve(&case, Method::Newton);
