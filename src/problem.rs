@@ -206,6 +206,12 @@ impl<'a> ContactProblem<'a> {
 
     /// `sum + K d`.
     fn product(&self, d: &[f64], mut sum: Vec<f64>) -> Vec<f64> {
+        self.add_product(d, &mut sum);
+        sum
+    }
+
+    /// Adds `K d` to `sum`.
+    pub(crate) fn add_product(&self, d: &[f64], sum: &mut [f64]) {
         for (j, &dj) in d.iter().enumerate() {
             if dj != 0.0 {
                 for (sum, k) in sum.iter_mut().zip(self.column(j)) {
@@ -213,7 +219,6 @@ impl<'a> ContactProblem<'a> {
                 }
             }
         }
-        sum
     }
 
     /// Without what arrays have beyond their lengths.

@@ -5,10 +5,14 @@ mod auto;
 mod bare;
 mod coulomb;
 mod elimination;
+mod equations;
 mod escape;
 mod factor;
 mod frictionless;
 mod lemke;
+mod newton;
+mod pieces;
+mod pivot;
 mod relaxation;
 mod solution;
 mod sor;
@@ -60,6 +64,8 @@ fn run(
     let rest = || start.map_or_else(|| vec![0.0; problem.unknowns()], <[f64]>::to_vec);
     Ok(match (method, problem.friction()) {
         (Method::Lemke, _) => frictionless::lemke(problem, settings, monitor)?,
+        (Method::Newton, _) => newton::solve(problem, settings, start, monitor),
+        (Method::Pivot, _) => pivot::solve(problem, settings, true, start, monitor),
         (_, friction) if friction.is_zero() => {
             frictionless::sor(problem, settings, &rest(), monitor)
         }

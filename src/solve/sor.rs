@@ -26,14 +26,20 @@ pub struct Iterate {
 impl Iterate {
     /// Starts from `d`, made admissible.
     pub fn new(problem: &ContactProblem<'_>, mut d: Vec<f64>) -> Self {
-        let pairs = 0..problem.pairs();
-        for pair in pairs.clone() {
+        for pair in 0..problem.pairs() {
             let normal = &mut d[problem.dim() * pair];
             *normal = normal.min(problem.gap(pair));
         }
+        let force = problem.force(&d);
+        Iterate::with_force(problem, d, force)
+    }
+
+    /// Starts from `d`, whose force is known.
+    pub fn with_force(problem: &ContactProblem<'_>, d: Vec<f64>, force: Vec<f64>) -> Self {
+        let pairs = 0..problem.pairs();
         Iterate {
-            force: problem.force(&d),
             d,
+            force,
             normal_stiffness: pairs.clone().map(|i| problem.diagonal(problem.dim() * i)).collect(),
             tangential_stiffness: pairs.map(|i| problem.tangential_stiffness(i)).collect(),
             simd: Simd::new(),

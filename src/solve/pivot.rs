@@ -1,0 +1,88 @@
+//! Block principal pivoting without friction (Júdice and Pires 1994): exchange all pairs that
+//! violate their condition at once; when their number has not fallen for [`PATIENCE`] systems,
+//! exchange the last of them only (Murty 1974) until it does. Finite for positive definite `K`.
+//!
+//! The start of a few sweeps leaves few exchanges. Components without a contact law are free
+//! unknowns like those of the pairs that are open.
+
+use super::equations::{Equations, Singular};
+use super::newton::refine;
+use super::pieces;
+use super::solution::{Candidate, Ending};
+use super::sor::Iterate;
+use crate::certificate;
+use crate::monitor::Monitor;
+use crate::problem::ContactProblem;
+use crate::settings::Settings;
+
+/// Systems without progress before single exchanges (Júdice and Pires recommend 10).
+const PATIENCE: u32 = 10;
+
+/// Sweeps at the start, and their over-relaxation.
+const SWEEPS: u32 = 8;
+const OMEGA: f64 = 1.5;
+
+/// Solves from the pieces on which `start` is, or from those of a few sweeps. `symmetric` tells
+/// whether `K` is, as far as rounding goes.
+pub fn solve(
+    problem: &ContactProblem<'_>,
+    settings: &Settings,
+    symmetric: bool,
+    start: Option<&[f64]>,
+    monitor: &mut Monitor<'_>,
+) -> Candidate {
+    let d = match start {
+        Some(d) => d.to_vec(),
+        None if symmetric => swept(problem),
+        None => vec![0.0; problem.unknowns()],
+    };
+    let mut equations = Equations::new(problem, symmetric, d);
+    let mut pieces = pieces::at(problem, &equations.d, &equations.force);
+    let mut best = (f64::INFINITY, equations.d.clone());
+    let (mut fewest, mut patience) = (usize::MAX, PATIENCE);
+    let ending = loop {
+        if let Err(reason) = monitor.step() {
+            break Ending::Interrupted(reason);
+        }
+        if let Err(Singular) = equations.solve(&pieces::rows(problem, &pieces)) {
+            break Ending::Singular;
+        }
+        let eta = certificate::eta(problem, &equations.d, &equations.force);
+        monitor.measured(eta);
+        if eta < best.0 {
+            best = (eta, equations.d.clone());
+        }
+        let next = pieces::at(problem, &equations.d, &equations.force);
+        let violated: Vec<usize> = (0..pieces.len()).filter(|&i| next[i] != pieces[i]).collect();
+        let progress = violated.len() < fewest;
+        if violated.is_empty() {
+            refine(&mut equations, problem, &pieces, settings.tolerance);
+            best.1 = std::mem::take(&mut equations.d);
+            break Ending::Done;
+        }
+        if !progress && best.0 <= settings.tolerance {
+            // Where pieces meet, rounding may exchange them for ever at the solution.
+            break Ending::Done;
+        }
+        if progress {
+            (fewest, patience) = (violated.len(), PATIENCE);
+        }
+        if patience > 0 {
+            patience -= u32::from(!progress);
+            pieces = next;
+        } else {
+            let last = violated[violated.len() - 1];
+            pieces[last] = next[last];
+        }
+    };
+    let factorisations = equations.factorisations;
+    Candidate { orientation: 1, factorisations, ..Candidate::ended(best.1, ending) }
+}
+
+fn swept(problem: &ContactProblem<'_>) -> Vec<f64> {
+    let mut iterate = Iterate::new(problem, vec![0.0; problem.unknowns()]);
+    for _ in 0..SWEEPS {
+        iterate.sweep(problem, OMEGA);
+    }
+    iterate.d
+}
