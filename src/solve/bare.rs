@@ -1,6 +1,6 @@
 //! The bare linear complementarity problem, by Lemke's method.
 
-use super::lemke::{Care, Path, Run, lemke};
+use super::lemke::{Care, Path, Rules, Run, lemke};
 use super::{Fallback, Status};
 use crate::error::Error;
 use crate::lcp::Lcp;
@@ -46,14 +46,14 @@ pub fn solve_lcp(
     // Powers of two: the pivots are those of the unscaled problem, rounding included.
     let scale: Vec<f64> =
         lcp.magnitudes().iter().map(|m| (-(m.log2() / 2.0).round()).exp2()).collect();
-    let mut run = lemke(lcp, &scale, Care::Usual, monitor)?;
+    let mut run = lemke(lcp, &scale, Rules::usual(Care::Usual), monitor)?;
     let lost_accuracy = match run.path {
         Path::Solution => lcp.eta(&run.z) > settings.tolerance,
         Path::Breakdown => true,
         Path::Ray(_) | Path::Interrupted(_) => false,
     };
     if lost_accuracy {
-        run = lemke(lcp, &scale, Care::Thorough, monitor)?;
+        run = lemke(lcp, &scale, Rules::usual(Care::Thorough), monitor)?;
     }
     Ok(certified(lcp, settings, run, monitor.iterations()))
 }

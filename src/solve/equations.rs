@@ -218,7 +218,12 @@ impl Base {
     }
 
     /// The step that makes the equations hold, and the sign of the determinant.
-    fn solve(&mut self, view: &View<'_, '_>, rows: &[Row], force: &[f64]) -> Option<(Vec<f64>, i8)> {
+    fn solve(
+        &mut self,
+        view: &View<'_, '_>,
+        rows: &[Row],
+        force: &[f64],
+    ) -> Option<(Vec<f64>, i8)> {
         // What is asked of a row in force, scaled; zero of one that is not.
         let wanted = |i: usize| match rows[i] {
             Row::Held(_) => 0.0,

@@ -48,10 +48,6 @@ const CHECK: u64 = 32;
 /// Residual, relative to `q`, from which on the tableau is computed anew.
 const DRIFT: f64 = 1e-10;
 
-/// The path is at its end when `z0` has fallen to this part of its start: beyond it rounding
-/// decides between the end and a false ray.
-const END: f64 = 1e-13;
-
 /// When the tableau is computed anew.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Care {
@@ -61,11 +57,28 @@ pub enum Care {
     Thorough,
 }
 
+/// How a path is followed.
+#[derive(Clone, Copy, Debug)]
+pub struct Rules {
+    /// When the tableau is computed anew.
+    pub care: Care,
+    /// The path is at its end when `z0` has fallen to this part of its start: beyond it rounding
+    /// decides between the end and a false ray.
+    pub end: f64,
+}
+
+impl Rules {
+    /// For problems in which a ray proves something.
+    pub fn usual(care: Care) -> Self {
+        Rules { care, end: 1e-13 }
+    }
+}
+
 /// Follows the path of `lcp` in the variables `z_i / scale_i`, `w_i * scale_i`.
 pub fn lemke(
     lcp: &Lcp<'_>,
     scale: &[f64],
-    care: Care,
+    rules: Rules,
     monitor: &mut Monitor<'_>,
 ) -> Result<Run, Error> {
     let n = lcp.size();
@@ -85,7 +98,7 @@ pub fn lemke(
         scaled.zip(scale).map(|(z, scale)| z.max(0.0) * scale).collect()
     };
     let mut tableau = Tableau::new(&problem)?;
-    let (path, refactorisations) = follow(&problem, &mut tableau, care, monitor);
+    let (path, refactorisations) = follow(&problem, &mut tableau, rules, monitor);
     let path = match path {
         Inner::Ray(entering) => {
             Path::Ray(unscaled(&mut (n..2 * n).map(|z| tableau.rate(z, entering))))
@@ -103,7 +116,7 @@ enum Inner {
 fn follow(
     problem: &Scaled,
     tableau: &mut Tableau,
-    care: Care,
+    rules: Rules,
     monitor: &mut Monitor<'_>,
 ) -> (Inner, u64) {
     let n = problem.size;
@@ -120,10 +133,10 @@ fn follow(
         }
         let leaving = tableau.basic(row);
         tableau.pivot(row, entering);
-        let ended = leaving == z0 || tableau.value(z0) <= END * start.unwrap_or(0.0);
+        let ended = leaving == z0 || tableau.value(z0) <= rules.end * start.unwrap_or(0.0);
         if ended || pivots % CHECK == 0 {
             let drift = tableau.refine(problem);
-            if drift > DRIFT || care == Care::Thorough {
+            if drift > DRIFT || rules.care == Care::Thorough {
                 if !tableau.refactorise(problem) {
                     return (Inner::Ended(Path::Breakdown), refactorisations);
                 }

@@ -8,6 +8,7 @@ mod elimination;
 mod equations;
 mod escape;
 mod factor;
+mod frictional_lemke;
 mod frictionless;
 mod lemke;
 mod newton;
@@ -63,7 +64,10 @@ fn run(
 ) -> Result<Candidate, Error> {
     let rest = || start.map_or_else(|| vec![0.0; problem.unknowns()], <[f64]>::to_vec);
     Ok(match (method, problem.friction()) {
-        (Method::Lemke, _) => frictionless::lemke(problem, settings, monitor)?,
+        (Method::Lemke, friction) if friction.is_zero() => {
+            frictionless::lemke(problem, settings, monitor)?
+        }
+        (Method::Lemke, _) => frictional_lemke::solve(problem, settings, monitor)?,
         (Method::Newton, _) => newton::solve(problem, settings, start, monitor),
         (Method::Pivot, _) => pivot::solve(problem, settings, true, start, monitor),
         (_, friction) if friction.is_zero() => {

@@ -71,7 +71,8 @@ pub fn at(problem: &ContactProblem<'_>, d: &[f64], force: &[f64]) -> Vec<Piece> 
 pub fn stuck(problem: &ContactProblem<'_>) -> Vec<Piece> {
     let piece = |pair| {
         let closed = problem.gap(pair) < f64::INFINITY;
-        let rests = problem.dim() == 2 && problem.threshold(pair, f64::from(u8::from(closed))) > 0.0;
+        let rests =
+            problem.dim() == 2 && problem.threshold(pair, f64::from(u8::from(closed))) > 0.0;
         Piece { closed, motion: if rests { Motion::Rest } else { Motion::Slide(0) } }
     };
     (0..problem.pairs()).map(piece).collect()
