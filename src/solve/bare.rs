@@ -59,7 +59,7 @@ pub fn solve_lcp(
 }
 
 fn certified(lcp: &Lcp<'_>, settings: &Settings, run: Run, iterations: u64) -> LcpSolution {
-    let Run { mut z, path, refactorisations } = run;
+    let Run { mut z, path, refactorisations, .. } = run;
     let eta = lcp.eta(&z);
     let wanted = format!("eta is {eta:.1e}, wanted {:.1e}", settings.tolerance);
     let (status, message) = match path {

@@ -19,11 +19,12 @@ mod solution;
 mod sor;
 mod sweeps;
 mod tableau;
+mod uniqueness;
 
 use crate::error::{Argument, Error};
 use crate::monitor::Monitor;
 use crate::problem::{ContactProblem, Friction};
-use crate::settings::{Method, Settings};
+use crate::settings::{Method, Search, Settings};
 
 pub use bare::{LcpSolution, solve_lcp};
 use solution::{Candidate, Ending, certified, is_unloaded};
@@ -50,6 +51,9 @@ pub fn solve(
             certified(problem, settings, method, candidate)
         }
     };
+    if settings.search == Search::Others {
+        uniqueness::examine(problem, settings, &mut solution, monitor)?;
+    }
     solution.iterations = monitor.iterations();
     Ok(solution)
 }
