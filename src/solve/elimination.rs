@@ -140,7 +140,7 @@ impl<'p> Elimination<'p> {
 }
 
 /// A motion of eliminated components alone on which the loads do work, if there is one.
-fn driven_motion(problem: &ContactProblem<'_>, factor: &Factor, d: &[f64]) -> Option<Vec<f64>> {
+pub fn driven_motion(problem: &ContactProblem<'_>, factor: &Factor, d: &[f64]) -> Option<Vec<f64>> {
     factor.dependent().next()?;
     let force = problem.force(d);
     let mut motion = vec![0.0; problem.unknowns()];

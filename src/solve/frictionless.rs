@@ -5,7 +5,7 @@
 //! Lemke's path in a ray: `M` is positive semi-definite.
 
 use super::elimination::{Elimination, Obstruction};
-use super::lemke::{self, Care, Path};
+use super::lemke::{self, Care, Path, Rules};
 use super::sweeps::{LARGEST_FACTOR, Sweeps};
 use super::{Candidate, Ending};
 use crate::certificate::{certify, is_escape};
@@ -59,7 +59,7 @@ fn follow_path(
         let ending = Ending::Stalled("numbers overflow in the reduced problem");
         return Ok(Candidate::ended(elimination.expand(&gap), ending));
     };
-    let run = lemke::lemke(&lcp, &scale, care, monitor)?;
+    let run = lemke::lemke(&lcp, &scale, Rules::usual(care), monitor)?;
     let ending = match run.path {
         Path::Solution => Ending::Done,
         Path::Interrupted(reason) => Ending::Interrupted(reason),
