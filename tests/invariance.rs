@@ -133,6 +133,12 @@ fn tangential_signs_may_be_changed_bit_by_bit() {
             ..case.clone()
         };
         let (before, after) = (solve(&case, method), solve(&other, method));
+        if seed % 8 == 7 {
+            // Lemke's method has an unknown for each side, in an order.
+            let (d, force) = (flip(&before.d), flip(&before.certificate.force));
+            assert_agree(&other, &after, &d, &force, &before.certificate.states, seed);
+            continue;
+        }
         assert_eq!(after.d, flip(&before.d), "seed {seed}");
         assert_eq!(after.certificate.force, flip(&before.certificate.force), "seed {seed}");
         assert_eq!(after.certificate.states, before.certificate.states, "seed {seed}");
@@ -184,7 +190,8 @@ fn pairs_may_be_permuted() {
 fn plane_problems_may_be_embedded_in_space() {
     for seed in 0..400 {
         let mut rng = Rng::with_seed(seed);
-        let (case, method) = problem(&mut rng, 2, seed);
+        // Without the last kind, for which there is no method in space.
+        let (case, method) = problem(&mut rng, 2, seed % 7);
         let n = 3 * case.pairs;
         let stiff = (0..case.size()).fold(0.0, |most: f64, i| most.max(case.stiffness(i, i)));
         let stiff = stiff * uniform(&mut rng, 0.1, 4.0);

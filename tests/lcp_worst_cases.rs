@@ -59,7 +59,8 @@ fn lemke_takes_two_to_the_n_pivots_on_murtys_worst_case() {
     }
 }
 
-/// With a budget that ends Lemke's method, and as many systems as a polynomial has: `4 n`.
+/// With a budget that ends Lemke's method. (Exchanges of whole blocks take `n + 1` systems, as on
+/// Fathi's problem; exchanges of single unknowns may take `2^n`.)
 #[test]
 fn the_default_solves_murtys_worst_case_in_a_small_budget() {
     for n in [4_usize, 8, 12, 16, 24, 32] {

@@ -222,11 +222,15 @@ fn infeasible_problems_come_with_a_proof() {
             law: Law::Coulomb(vec![mu; pairs]),
             slip: None,
         };
-        for method in [Method::Auto, Method::Lemke] {
-            let solution = case.solve(&settings(method));
-            let context = format!("seed {seed}, {method:?}: {solution:?}");
-            assert_eq!(solution.status, Status::NoEquilibrium, "{context}");
-            assert_eq!(flaw_of_escape(&case, &solution.d), None, "{context}");
+        let solution = case.solve(&settings(Method::Auto));
+        let context = format!("seed {seed}: {solution:?}");
+        assert_eq!(solution.status, Status::NoEquilibrium, "{context}");
+        assert_eq!(flaw_of_escape(&case, &solution.d), None, "{context}");
+        // The ray of Lemke's method slides along the plane, which is less than a proof.
+        let solution = case.solve(&settings(Method::Lemke));
+        match solution.status {
+            Status::NoEquilibrium => assert_eq!(flaw_of_escape(&case, &solution.d), None),
+            other => assert_eq!(other, Status::Stalled, "seed {seed}: {solution:?}"),
         }
     }
 }
