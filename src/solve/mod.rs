@@ -73,7 +73,11 @@ fn run(
         }
         (Method::Lemke, _) => frictional_lemke::solve(problem, settings, monitor)?,
         (Method::Newton, _) => newton::solve(problem, settings, start, monitor),
-        (Method::Pivot, _) => pivot::solve(problem, settings, true, start, monitor),
+        (Method::Pivot, _) => {
+            let chosen = settings.method == Method::Pivot;
+            let most = if chosen { u64::MAX } else { pivot::enough(problem.pairs()) };
+            pivot::solve(problem, settings, true, start, most, monitor)
+        }
         (_, friction) if friction.is_zero() => {
             frictionless::sor(problem, settings, &rest(), monitor)
         }
