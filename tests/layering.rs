@@ -38,7 +38,7 @@ const ALLOWED: [(&str, &[&str]); 13] = [
 
 /// Solvers that one solver may call.
 const SOLVERS: [(&str, &[&str]); 19] = [
-    ("auto", &["solution", "uniqueness"]),
+    ("auto", &["run", "solution", "uniqueness"]),
     ("bare", &["lemke", "pivot", "solution"]),
     ("coulomb", &["solution", "sweeps"]),
     ("elimination", &["factor"]),
@@ -50,7 +50,7 @@ const SOLVERS: [(&str, &[&str]); 19] = [
     ("lemke", &["tableau"]),
     ("newton", &["equations", "pieces", "solution"]),
     ("pieces", &[]),
-    ("pivot", &["equations", "newton", "pieces", "solution", "sor"]),
+    ("pivot", &["equations", "newton", "pieces", "solution"]),
     ("relaxation", &[]),
     ("solution", &[]),
     ("sor", &[]),

@@ -104,18 +104,16 @@ impl Tried {
         solution.fallback = self.first;
         solution.factorisations = self.factorisations;
         solution.refactorisations = self.refactorisations;
-        match self.unstable {
-            Some(other) if solution.status == Status::Solved => {
-                if uniqueness::are_different(problem, &solution.d, &other.d) {
-                    solution.uniqueness = Uniqueness::Several;
-                    solution.second = Some(Box::new(Other {
-                        d: other.d,
-                        certificate: other.certificate,
-                        orientation: other.orientation,
-                    }));
-                }
-            }
-            _ => {}
+        if let Some(other) = self.unstable
+            && solution.status == Status::Solved
+            && uniqueness::are_different(problem, &solution.d, &other.d)
+        {
+            solution.uniqueness = Uniqueness::Several;
+            solution.second = Some(Box::new(Other {
+                d: other.d,
+                certificate: other.certificate,
+                orientation: other.orientation,
+            }));
         }
         solution
     }

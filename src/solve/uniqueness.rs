@@ -48,14 +48,22 @@ pub fn examine(
     // To the last digit, and with its orientation.
     let Some(first) = polished(problem, settings, &solution.d, monitor) else { return Ok(()) };
     solution.orientation = first.orientation;
-    if definite.is_some() && first.orientation < 0 && is_strict(problem, &first.d) {
-        solution.uniqueness = Uniqueness::Several;
-    }
+    by_orientation(problem, solution);
     if let Some(second) = another(problem, settings, &first.d, monitor)? {
         solution.uniqueness = Uniqueness::Several;
         solution.second = Some(Box::new(second));
     }
     Ok(())
+}
+
+/// Concludes from an orientation of −1, away from where pieces meet, that there are others.
+pub fn by_orientation(problem: &ContactProblem<'_>, solution: &mut Solution) {
+    if solution.orientation < 0
+        && is_strict(problem, &solution.d)
+        && scaled_factor(problem).is_some()
+    {
+        solution.uniqueness = Uniqueness::Several;
+    }
 }
 
 /// Whether two displacements, solutions to rounding, are different ones: by their pieces, and by
@@ -84,7 +92,8 @@ fn another(
         let other = candidate.ending == Ending::Done
             && certificate.holds(settings.tolerance)
             && are_different(problem, known, &candidate.d);
-        other.then(|| Other { d: candidate.d, certificate, orientation: candidate.orientation })
+        let orientation = candidate.orientation;
+        other.then_some(Other { d: candidate.d, certificate, orientation })
     };
     let rest = || vec![0.0; problem.unknowns()];
     for pieces in starts(problem) {
