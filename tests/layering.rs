@@ -37,7 +37,7 @@ const ALLOWED: [(&str, &[&str]); 13] = [
 ];
 
 /// Solvers that one solver may call.
-const SOLVERS: [(&str, &[&str]); 19] = [
+const SOLVERS: [(&str, &[&str]); 20] = [
     ("auto", &["run", "solution", "uniqueness"]),
     ("bare", &["lemke", "pivot", "solution"]),
     ("coulomb", &["solution", "sweeps"]),
@@ -45,7 +45,10 @@ const SOLVERS: [(&str, &[&str]); 19] = [
     ("equations", &["pieces", "sor"]),
     ("escape", &["factor"]),
     ("factor", &[]),
-    ("frictional_lemke", &["elimination", "factor", "lemke", "newton", "pieces", "solution"]),
+    (
+        "frictional_lemke",
+        &["elimination", "factor", "lemke", "newton", "pieces", "solution", "statics"],
+    ),
     ("frictionless", &["elimination", "lemke", "solution", "sweeps"]),
     ("lemke", &["tableau"]),
     ("newton", &["equations", "pieces", "solution"]),
@@ -54,6 +57,7 @@ const SOLVERS: [(&str, &[&str]); 19] = [
     ("relaxation", &[]),
     ("solution", &[]),
     ("sor", &[]),
+    ("statics", &["factor"]),
     ("sweeps", &["escape", "relaxation", "solution", "sor"]),
     ("tableau", &[]),
     ("uniqueness", &["frictional_lemke", "newton", "pieces", "solution"]),

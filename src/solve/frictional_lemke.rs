@@ -47,6 +47,7 @@ use super::lemke::{self, Care, Path, Rules, Run};
 use super::newton;
 use super::pieces::{Motion, Piece};
 use super::solution::{Candidate, Ending};
+use super::statics;
 use crate::certificate::{certify, is_escape};
 use crate::error::Error;
 use crate::lcp::Lcp;
@@ -55,12 +56,12 @@ use crate::monitor::Monitor;
 use crate::problem::{ContactProblem, Friction};
 use crate::settings::Settings;
 
-/// Glue relative to the clamp, against slip to the side +1 and −1. The theorem holds for any
-/// positive numbers.
-const GLUE: [f64; 2] = [0.5, 0.5];
+/// Glues relative to the clamp, against slip to the side +1 and −1. The theorem holds for any positive
+/// numbers; on a semi-definite `K` another path may end at a solution where the first, usual one
+/// has a ray, and where there are several solutions it may lead to another.
+const GLUES: [[f64; 2]; 5] = [[0.5, 0.5], [0.01, 1.0], [1.0, 0.01], [0.01, 0.01], [100.0, 100.0]];
 
-/// Other glues, whose paths may lead to other solutions, and how many turning points to keep.
-const GLUES: [[f64; 2]; 5] = [GLUE, [0.01, 1.0], [1.0, 0.01], [0.01, 0.01], [100.0, 100.0]];
+/// Turning points to keep in the search for other solutions.
 const TURNS: usize = 4;
 
 /// The path is at its end when `z0` has fallen to this part of its start: nearer to it rounding may
@@ -77,9 +78,12 @@ pub fn solve(
         Ok(path) => path,
         Err(candidate) => return Ok(candidate),
     };
-    let mut last = None;
-    for care in [Care::Usual, Care::Thorough] {
-        let candidate = path.follow(settings, care, monitor)?;
+    let mut first = None;
+    let others = GLUES[1..].iter().map(|&glue| (Care::Usual, glue));
+    for (care, glue) in
+        [(Care::Usual, GLUES[0]), (Care::Thorough, GLUES[0])].into_iter().chain(others)
+    {
+        let candidate = path.follow(settings, care, glue, monitor)?;
         let settled = match &candidate.ending {
             Ending::Escape(motion) => is_escape(problem, motion),
             Ending::Interrupted(_) => true,
@@ -88,9 +92,9 @@ pub fn solve(
         if settled {
             return Ok(candidate);
         }
-        last = Some(candidate);
+        first.get_or_insert(candidate);
     }
-    Ok(last.expect("the path was followed twice"))
+    Ok(first.expect("there are several starts"))
 }
 
 /// Ends of the path from several starts, and what Newton's method makes of its turning points: all
@@ -219,13 +223,19 @@ impl<'p> FrictionPath<'p> {
         &self,
         settings: &Settings,
         care: Care,
+        glue: [f64; 2],
         monitor: &mut Monitor<'_>,
     ) -> Result<Candidate, Error> {
-        let run = self.run(Rules { care, end: END, turns: 0 }, GLUE, monitor)?;
+        let run = self.run(Rules { care, end: END, turns: 0 }, glue, monitor)?;
         let d = self.displacements(&run.z);
         let refactorisations = run.refactorisations;
         let ending = match run.path {
-            Path::Ray(ray) => Ending::Escape(self.motion(&ray)),
+            // The ray's own motion proves it where the body only lifts; what it slides on must be
+            // left too.
+            Path::Ray(ray) => {
+                let motion = statics::escape(self.problem);
+                Ending::Escape(motion.unwrap_or_else(|| self.motion(&ray)))
+            }
             Path::Interrupted(reason) => Ending::Interrupted(reason),
             Path::Breakdown => Ending::Stalled("rounding made Lemke's basis singular"),
             Path::Solution => {

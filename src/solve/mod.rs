@@ -17,6 +17,7 @@ mod pivot;
 mod relaxation;
 mod solution;
 mod sor;
+mod statics;
 mod sweeps;
 mod tableau;
 mod uniqueness;
