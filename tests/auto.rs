@@ -101,6 +101,28 @@ fn the_same_high_friction_on_all_pairs() {
     println!("{}", solves_all(0..400, plane(2..=20), law));
 }
 
+/// Friction of any size, as far as rounding lets: `mu` carries errors of the pressures, which are
+/// 1e-16 of the condition, into the friction; `mu` times the condition is up to 1e7 here, so that
+/// 1e-9 of the forces may be lost at the worst, and hardly ever is.
+#[test]
+fn friction_of_any_size() {
+    for seed in 0..1500 {
+        let mut rng = Rng::with_seed(seed);
+        let pairs = rng.usize(1..=8);
+        let power = uniform(&mut rng, 0.0, 6.0);
+        let condition = decades(&mut rng, 7.0 - power);
+        let k = definite(&mut rng, 2 * pairs, condition.min(1e5));
+        let most = 10_f64.powf(power);
+        let law = Law::Coulomb((0..pairs).map(|_| uniform(&mut rng, 0.1, 1.0) * most).collect());
+        let case = loaded(&mut rng, 2, k, law);
+        let solution = solve(&case, None);
+        let context = || format!("seed {seed}, mu {most:e}: {}", solution.message);
+        assert_eq!(solution.status, Status::Solved, "{}", context());
+        let allowed = TOLERANCE + (1.0 + most) * rounding(&case, &solution.d);
+        assert!(eta(&case, &solution.d) <= allowed, "{}", context());
+    }
+}
+
 /// No friction: a strictly convex problem.
 #[test]
 fn frictionless_problems_in_the_plane_and_in_space() {

@@ -3,9 +3,13 @@
 
 mod common;
 
+use common::dense::{difference, largest};
 use common::measures::{eta, rounding};
 use common::oracle::{Enumeration, Piece};
-use common::problems::{Case, coulomb, definite_case, floating_case, frictionless, tresca, vector};
+use common::problems::{
+    Case, Law, add_spring, block, coulomb, definite_case, floating_case, frictionless, tresca,
+    vector,
+};
 use fastrand::Rng;
 use signorini::{Method, Monitor, Search, Settings, Solution, Status, Uniqueness};
 
@@ -150,6 +154,55 @@ fn the_search_finds_a_second_solution_where_there_are_several() {
     assert!(several > 100);
     assert!(10 * found >= 9 * several, "{found} of {several} problems are found to have several");
     assert!(10 * shown >= 9 * several, "{shown} of {several} problems show a second solution");
+}
+
+/// Whole numbers, where states meet: pairs at rest without force, at the edge of the cone, touching
+/// without pressure. Several states may then be one solution; what counts are displacements, which
+/// differ by more than 1e-3 if at all (of matrices with whole entries up to 100, loads up to 2).
+#[test]
+fn rounding_does_not_make_two_solutions_of_one() {
+    let (mut unique, mut several) = (0, 0);
+    for seed in 0..4000 {
+        let mut rng = Rng::with_seed(seed);
+        let pairs = rng.usize(2..=4);
+        let n = 2 * pairs;
+        let mut k = if pairs > 2 { block(&mut rng, pairs) } else { vec![0.0; n * n] };
+        for _ in 0..3 {
+            let strain: Vec<f64> = (0..n).map(|_| f64::from(rng.i32(-1..=1))).collect();
+            add_spring(&mut k, &strain, f64::from(rng.i32(1..=3)));
+        }
+        (0..n).for_each(|i| k[i * n + i] += 1.0);
+        let whole = |rng: &mut Rng, most| f64::from(rng.i32(-1..=most));
+        let case = Case {
+            dim: 2,
+            pairs,
+            k,
+            f: (0..n).map(|_| whole(&mut rng, 2)).collect(),
+            gap: (0..pairs).map(|_| if rng.bool() { 0.0 } else { whole(&mut rng, 1) }).collect(),
+            law: Law::Coulomb((0..pairs).map(|_| [0.0, 0.5, 1.0, 2.0][rng.usize(0..4)]).collect()),
+            slip: rng.bool().then(|| (0..pairs).map(|_| whole(&mut rng, 1)).collect()),
+        };
+        let enumeration = Enumeration::new(&case);
+        let candidates: Vec<_> = enumeration.solutions().map(Piece::candidate).collect();
+        let differ = |a: &[f64], b: &[f64]| largest(&difference(a, b)) > 1e-6;
+        let one = candidates.iter().all(|d| !differ(d, &candidates[0]));
+        let flat = enumeration.solutions().any(|piece| piece.orientation() == 0);
+        let solution = solve(&case, Method::Auto, Search::Others, None);
+        let context = || format!("seed {seed}: {candidates:?}\n{case:?}\n{solution:?}");
+        assert_eq!(solution.status, Status::Solved, "{}", context());
+        match solution.uniqueness {
+            Uniqueness::NotKnown => {}
+            Uniqueness::Unique => assert!(one && !flat, "{}", context()),
+            Uniqueness::Several => assert!(!one || flat, "{}", context()),
+        }
+        if let Some(second) = &solution.second {
+            assert!(differ(&second.d, &solution.d), "{}", context());
+        }
+        unique += usize::from(solution.uniqueness == Uniqueness::Unique);
+        several += usize::from(solution.uniqueness == Uniqueness::Several);
+    }
+    println!("{unique} unique, {several} several");
+    assert!(unique > 100 && several > 10, "{unique} unique, {several} several");
 }
 
 /// With given thresholds, or none, a definite `K` makes the energy strictly convex: its minimum is

@@ -59,6 +59,11 @@ impl Piece {
     pub fn orientation(&self) -> i8 {
         self.elimination.orientation()
     }
+
+    /// Displacements that solve the state's equations: the only ones of a regular state.
+    pub fn candidate(&self) -> Vec<f64> {
+        self.elimination.solve(&self.rhs).0
+    }
 }
 
 /// An enumerated solution that an answer was found to be.
