@@ -3,10 +3,10 @@
 
 mod common;
 
-use common::dense::Elimination;
 use common::oracle::Enumeration;
 use common::problems::{
-    Case, Law, coulomb, definite_case, floating_case, frictionless, tresca, uniform,
+    Case, Law, contracting_case, coulomb, definite_case, floating_case, frictionless, tresca,
+    uniform,
 };
 use common::verdict::{Verdict, run};
 use fastrand::Rng;
@@ -94,29 +94,8 @@ fn sor_solves_every_definite_problem_with_given_thresholds() {
 /// here the product is at most 0.9.
 #[test]
 fn nested_sor_solves_every_problem_in_which_it_contracts() {
-    let make = |rng: &mut Rng| {
-        let mut case = definite_case(rng, 4.0, |rng, pairs| coulomb(rng, pairs, 1.0));
-        let n = case.size();
-        let inverse = Elimination::new(n, &case.k);
-        // Frobenius norms bound the spectral ones.
-        let (mut normal, mut tangential) = (0.0, 0.0);
-        for j in 0..n {
-            let unit: Vec<f64> = (0..n).map(|i| f64::from(u8::from(i == j))).collect();
-            let column = inverse.solve(&unit).0;
-            for i in (j % 2..n).step_by(2) {
-                match j % 2 {
-                    0 => normal += case.stiffness(i, j).powi(2),
-                    _ => tangential += column[i].powi(2),
-                }
-            }
-        }
-        let most = 0.9 / (normal * tangential).powf(0.25);
-        if let Law::Coulomb(mu) = &mut case.law {
-            mu.iter_mut().for_each(|mu| *mu *= most);
-        }
-        case
-    };
-    run(3000, settings(Method::SorNested, 1_000_000), make, |verdict| verdict == Verdict::Solved);
+    let settings = settings(Method::SorNested, 1_000_000);
+    run(3000, settings, contracting_case, |verdict| verdict == Verdict::Solved);
 }
 
 /// Ordinary friction on ordinary stiffness (condition up to 100): the nested form solves all, the

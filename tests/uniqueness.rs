@@ -7,8 +7,8 @@ use common::dense::{difference, largest};
 use common::measures::{eta, rounding};
 use common::oracle::{Enumeration, Piece};
 use common::problems::{
-    Case, Law, add_spring, block, coulomb, definite_case, floating_case, frictionless, tresca,
-    vector,
+    Case, Law, add_spring, block, contracting_case, coulomb, definite_case, floating_case,
+    frictionless, tresca, vector,
 };
 use fastrand::Rng;
 use signorini::{Method, Monitor, Search, Settings, Solution, Status, Uniqueness};
@@ -131,6 +131,22 @@ fn what_is_said_about_other_solutions_is_true() {
     }
     println!("not known, unique, several: {proved:?}");
     assert!(proved[1] > 0 && proved[2] > 0, "nothing is ever proved: {proved:?}");
+}
+
+/// Where the nested iteration contracts (tests/enumeration.rs) there is one solution, and this is
+/// found out; without friction `K` alone tells.
+#[test]
+fn what_a_contraction_can_prove_is_proved() {
+    for seed in 0..1500 {
+        let mut rng = Rng::with_seed(seed);
+        let case = contracting_case(&mut rng);
+        let solution = solve(&case, Method::Auto, Search::Others, None);
+        assert_eq!(solution.status, Status::Solved, "seed {seed}: {}", solution.message);
+        assert_eq!(solution.uniqueness, Uniqueness::Unique, "seed {seed}: {case:?}");
+        let case = Case { law: frictionless(case.pairs), ..case };
+        let solution = solve(&case, Method::Auto, Search::Others, None);
+        assert_eq!(solution.uniqueness, Uniqueness::Unique, "seed {seed}: {case:?}");
+    }
 }
 
 /// Nine of ten problems that have several solutions are seen to have them, and a second one of
