@@ -4,10 +4,11 @@ mod common;
 #[path = "bench/bar.rs"]
 mod generator;
 
+use common::dense::{Elimination, norm, product};
 use common::measures::{eta, force, rounding};
 use common::problems::{Case, Law};
 use generator::{Condensed, Top, bar_with_top};
-use signorini::{Fallback, Method, Settings, Solution, Status};
+use signorini::{Fallback, Method, Search, Settings, Solution, Status, Uniqueness};
 
 const COEFFICIENTS: [f64; 8] = [0.1, 0.3, 1.0, 2.0, 3.0, 5.0, 10.0, 20.0];
 const SIDE: f64 = 10.0;
@@ -95,6 +96,39 @@ fn auto_solves_the_clamped_bar_where_newton_cycles() {
     }
     println!("{cycles} cycles");
     assert!(cycles > 0, "nothing here is hard for Newton's method");
+}
+
+/// `mu < 1 / sqrt(|K_nn| |(K⁻¹)_tt|)` leaves one solution (tests/enumeration.rs), and the search says
+/// so; norms by the power method, 10 % below to be sure of them.
+#[test]
+fn the_clamped_bar_is_unique_below_the_bound_of_the_contraction() {
+    for pairs in [9, 33, 65] {
+        let bar = bar(pairs, Top::Clamped(0.005));
+        let inverse = Elimination::new(2 * pairs, &bar.stiffness);
+        let part = |x: &[f64], odd: usize| -> Vec<f64> {
+            let kept = |(i, x): (usize, &f64)| if i % 2 == odd { *x } else { 0.0 };
+            x.iter().enumerate().map(kept).collect()
+        };
+        let norm_of = |times: &dyn Fn(&[f64]) -> Vec<f64>, odd: usize| {
+            let mut x: Vec<f64> = (0..2 * pairs).map(|i| 1.0 + (i * i % 7) as f64).collect();
+            let mut size = 0.0;
+            for _ in 0..200 {
+                x = part(&times(&part(&x, odd)), odd);
+                size = norm(&x);
+                x.iter_mut().for_each(|x| *x /= size);
+            }
+            size
+        };
+        let normal = norm_of(&|x| product(&bar.stiffness, x), 0);
+        let tangential = norm_of(&|x| inverse.solve(x).0, 1);
+        let bound = 1.0 / (normal * tangential).sqrt();
+        let case = case(&bar, 0.9 * bound);
+        let settings = Settings { search: Search::Others, ..Settings::default() };
+        let solution = case.solve(&settings);
+        let context = format!("{pairs} pairs, bound {bound}");
+        assert_right(&case, &solution, Top::Clamped(0.005), &context);
+        assert_eq!(solution.uniqueness, Uniqueness::Unique, "{context}");
+    }
 }
 
 /// The states settle from the edges of the zones inwards, which takes one system more each time the
