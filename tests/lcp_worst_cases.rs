@@ -63,7 +63,7 @@ fn lemke_takes_two_to_the_n_pivots_on_murtys_worst_case() {
 /// Fathi's problem; exchanges of single unknowns may take `2^n`.)
 #[test]
 fn the_default_solves_murtys_worst_case_in_a_small_budget() {
-    for n in [4_usize, 8, 12, 16, 24, 32] {
+    for n in [4_usize, 8, 12, 16, 24, 32, 40] {
         let data = murty(n);
         let budget = Settings { max_iterations: 4 * n as u64, ..Settings::default() };
         if n >= 8 {
@@ -71,6 +71,9 @@ fn the_default_solves_murtys_worst_case_in_a_small_budget() {
             assert_eq!(short.status, Status::IterationLimit, "{n}");
         }
         let solution = data.solve(&budget);
+        assert_eq!(solution.status, Status::Solved, "{n}: {}", solution.message);
+        // The least w is 2, and |q| up to 2e13: more than a tolerance of 1e-14 lets pass.
+        let solution = data.solve(&Settings { tolerance: 1e-14, ..budget });
         assert_eq!(solution.status, Status::Solved, "{n}: {}", solution.message);
         assert_murtys_solution(&solution);
     }
