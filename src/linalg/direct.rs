@@ -18,8 +18,9 @@ enum Kind {
     Lu { forward: Vec<usize>, inverse: Vec<usize>, odd: bool },
 }
 
-/// Pivots below this part of the largest make the matrix singular: two digits above rounding.
-const SINGULAR: f64 = 1e-14;
+/// Pivots below this part of the largest make the matrix singular: well above what rounding leaves of a
+/// zero (1e-14), so that units do not decide, and below those of anything certifiable (1e-10).
+const SINGULAR: f64 = 1e-12;
 
 impl Direct {
     /// Factorises the `n x n` matrix whose columns `fill(j, column)` writes, of a symmetric positive
