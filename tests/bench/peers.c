@@ -1,0 +1,151 @@
+/*
+ * Ours beside Siconos: the same matrices, one program, one run. See peers.sh.
+ *
+ *     peers MOST SECONDS [OUT]
+ *
+ * MOST is the largest number of pairs, SECONDS the CPU time that a call may take. The document goes
+ * to standard output and OUT/peers.md, every row to OUT/peers.csv.
+ */
+
+#include "peers_table.h"
+
+#include <math.h>
+#include <signorini.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct results {
+    struct row *rows;
+    size_t count;
+};
+
+static void run(const struct solver *solver, const struct problem *problem, double limit,
+                struct outcome *outcome, struct results *results)
+{
+    if (solver->family != problem->family)
+        return;
+    struct row *row = &results->rows[results->count++];
+    judge(solver, problem, limit, outcome, row);
+    fprintf(stderr, "  %-10s %-13s %10.4g ms %8d iterations  eta %8.1e  %s\n", solver->library,
+            solver->name, row->ms, row->iterations, row->eta, row->status);
+}
+
+/* How many pairs are open, slide and stick: a problem without all of them says little. */
+static void say_states(const struct problem *problem)
+{
+    const struct contact *contact = &problem->contact;
+    const int64_t n = (int64_t)contact->pairs;
+    double *d = need(2 * contact->pairs, sizeof *d), *F = need(2 * contact->pairs, sizeof *F);
+    signorini_report report = {.struct_size = sizeof report};
+    signorini_solve(2, n, contact->K, 2 * n, contact->f, contact->gap, problem->mu_of, NULL, NULL,
+                    d, F, NULL, &report);
+    fprintf(stderr, "%s, %s, %zu pairs, mu %g: %d open, %d slip, %d stick\n",
+            family_name(problem->family), geometry_name(problem->geometry), contact->pairs,
+            problem->mu, (int)report.open, (int)report.slip, (int)report.stick);
+    free(d);
+    free(F);
+}
+
+static void run_all(const struct problem *problem, double limit, struct outcome *outcome,
+                    struct results *results)
+{
+    const size_t first = results->count;
+    say_states(problem);
+    for (size_t k = 0; k < our_solver_count; k++)
+        run(&our_solvers[k], problem, limit, outcome, results);
+    for (size_t k = 0; k < siconos_solver_count; k++)
+        run(&siconos_solvers[k], problem, limit, outcome, results);
+    compare(&results->rows[first], results->count - first);
+}
+
+static void stop(const char *what)
+{
+    fprintf(stderr, "peers: %s\n", what);
+    exit(1);
+}
+
+static void frictionless(enum geometry geometry, size_t pairs, double limit,
+                         struct outcome *outcome, struct results *results)
+{
+    struct problem problem = {.family = FRICTIONLESS, .geometry = geometry};
+    /* Deep waves: about half of the pairs stay open. */
+    const char *wrong = contact_new(geometry, pairs, 4e-3, &problem.contact);
+    if (wrong != NULL)
+        stop(wrong);
+    if (frictionless_forms(&problem.contact, &problem.stiffness, &problem.flexibility) != 0)
+        stop("the condensed stiffness is not positive definite");
+    problem.mu_of = need(pairs, sizeof *problem.mu_of);
+    run_all(&problem, limit, outcome, results);
+    free(problem.mu_of);
+    lcp_free(&problem.stiffness);
+    lcp_free(&problem.flexibility);
+    contact_free(&problem.contact);
+}
+
+static void friction(enum geometry geometry, size_t pairs, double limit, struct outcome *outcome,
+                     struct results *results)
+{
+    static const double mu[] = {0.1, 0.3, 1.0};
+    struct problem problem = {.family = FRICTION_2D, .geometry = geometry};
+    const char *wrong =
+        contact_new(geometry, pairs, geometry == BAR ? 0.0 : 4e-3, &problem.contact);
+    if (wrong != NULL)
+        stop(wrong);
+    if (friction_form(&problem.contact, &problem.flexibility) != 0)
+        stop("the condensed stiffness is not positive definite");
+    problem.mu_of = need(pairs, sizeof *problem.mu_of);
+    for (size_t m = 0; m < sizeof mu / sizeof mu[0]; m++) {
+        problem.mu = mu[m];
+        for (size_t i = 0; i < pairs; i++)
+            problem.mu_of[i] = mu[m];
+        run_all(&problem, limit, outcome, results);
+    }
+    free(problem.mu_of);
+    lcp_free(&problem.flexibility);
+    contact_free(&problem.contact);
+}
+
+static FILE *open_in(const char *directory, const char *name)
+{
+    char path[4096];
+    snprintf(path, sizeof path, "%s/%s", directory, name);
+    FILE *file = fopen(path, "w");
+    if (file == NULL)
+        stop(path);
+    return file;
+}
+
+int main(int argc, char **argv)
+{
+    static const size_t sizes[] = {33, 129, 513, 1025, 2049};
+    if (argc < 3)
+        stop("peers MOST SECONDS [OUT]");
+    const size_t most = (size_t)strtoul(argv[1], NULL, 10);
+    const double limit = strtod(argv[2], NULL);
+    const char *threads = getenv("OPENBLAS_NUM_THREADS");
+    if (threads == NULL || strcmp(threads, "1") != 0)
+        stop("set OPENBLAS_NUM_THREADS=1: thread CPU time sees one thread");
+    struct results results = {need(4096, sizeof(struct row)), 0};
+    struct outcome *outcome = outcome_new(2 * 2049);
+
+    for (size_t s = 0; s < sizeof sizes / sizeof sizes[0] && sizes[s] <= most; s++)
+        for (int geometry = BAR; geometry <= TWO_BLOCKS; geometry++) {
+            frictionless((enum geometry)geometry, sizes[s], limit, outcome, &results);
+            if (sizes[s] <= 1025)
+                friction((enum geometry)geometry, sizes[s], limit, outcome, &results);
+        }
+
+    char versions[512];
+    snprintf(versions, sizeof versions, "signorini %s, Siconos %s, BLAS of both Siconos and the "
+             "preparation: %s.", signorini_version(), SICONOS, blas_name());
+    write_markdown(stdout, results.rows, results.count, versions, limit);
+    if (argc > 3) {
+        FILE *csv = open_in(argv[3], "peers.csv"), *md = open_in(argv[3], "peers.md");
+        write_csv(csv, results.rows, results.count);
+        write_markdown(md, results.rows, results.count, versions, limit);
+        fclose(csv);
+        fclose(md);
+    }
+    free(results.rows);
+    return 0;
+}
