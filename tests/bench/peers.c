@@ -30,32 +30,20 @@ static void run(const struct solver *solver, const struct problem *problem, doub
             solver->name, row->ms, row->iterations, row->eta, row->status);
 }
 
-/* How many pairs are open, slide and stick: a problem without all of them says little. */
-static void say_states(const struct problem *problem)
-{
-    const struct contact *contact = &problem->contact;
-    const int64_t n = (int64_t)contact->pairs;
-    double *d = need(2 * contact->pairs, sizeof *d), *F = need(2 * contact->pairs, sizeof *F);
-    signorini_report report = {.struct_size = sizeof report};
-    signorini_solve(2, n, contact->K, 2 * n, contact->f, contact->gap, problem->mu_of, NULL, NULL,
-                    d, F, NULL, &report);
-    fprintf(stderr, "%s, %s, %zu pairs, mu %g: %d open, %d slip, %d stick\n",
-            family_name(problem->family), geometry_name(problem->geometry), contact->pairs,
-            problem->mu, (int)report.open, (int)report.slip, (int)report.stick);
-    free(d);
-    free(F);
-}
-
 static void run_all(const struct problem *problem, double limit, struct outcome *outcome,
                     struct results *results)
 {
     const size_t first = results->count;
-    say_states(problem);
+    size_t states[3];
+    fprintf(stderr, "%s, %s, %zu pairs, mu %g\n", family_name(problem->family),
+            geometry_name(problem->geometry), problem->contact.pairs, problem->mu);
     for (size_t k = 0; k < our_solver_count; k++)
         run(&our_solvers[k], problem, limit, outcome, results);
     for (size_t k = 0; k < siconos_solver_count; k++)
         run(&siconos_solvers[k], problem, limit, outcome, results);
-    compare(&results->rows[first], results->count - first);
+    compare(&results->rows[first], results->count - first, states);
+    /* A problem without open, sliding and sticking pairs says little. */
+    fprintf(stderr, "  %zu open, %zu slip, %zu stick\n", states[0], states[1], states[2]);
 }
 
 static void stop(const char *what)

@@ -190,12 +190,28 @@ int is_solved(const struct row *row)
     return strncmp(row->status, "solved", 6) == 0;
 }
 
-void compare(struct row *rows, size_t count)
+static void count_states(const struct row *row, size_t states[3])
 {
+    const size_t step = row->solver->family == FRICTION_2D ? 2 : 1;
+    for (size_t i = 0; i < row->pairs; i++) {
+        const double normal = fabs(row->force[step * i]);
+        const double tangential = step == 2 ? fabs(row->force[2 * i + 1]) : 0.0;
+        if (normal == 0.0)
+            states[0]++;
+        else
+            states[tangential < (1.0 - 1e-9) * row->mu * normal ? 2 : 1]++;
+    }
+}
+
+void compare(struct row *rows, size_t count, size_t states[3])
+{
+    states[0] = states[1] = states[2] = 0;
     const struct row *best = NULL;
     for (size_t k = 0; k < count; k++)
         if (is_solved(&rows[k]) && (best == NULL || rows[k].eta < best->eta))
             best = &rows[k];
+    if (best != NULL)
+        count_states(best, states);
     for (size_t k = 0; best != NULL && k < count; k++) {
         if (!isfinite(rows[k].eta))
             continue;

@@ -32,8 +32,9 @@ double certify(const struct problem *problem, enum answer kind, const struct out
 void judge(const struct solver *solver, const struct problem *problem, double limit,
            struct outcome *outcome, struct row *row);
 
-/* Fills rel_error of the rows of one problem and frees their forces. */
-void compare(struct row *rows, size_t count);
+/* Fills rel_error of the rows of one problem, counts the pairs that are open, slip and stick in its
+ * best answer, and frees the forces. */
+void compare(struct row *rows, size_t count, size_t states[3]);
 
 int is_solved(const struct row *row);
 

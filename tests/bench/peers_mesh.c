@@ -35,7 +35,7 @@ struct mesh {
 static const double width = 40.0, height = 40.0, poisson = 0.2;
 static const double side_pressure = 10.0;
 static const double approach = 0.0154; /* of the upper side: about the pressure 5 of the paper */
-static const double shift = 0.004;     /* of the upper block, sideways */
+static const double shift = 0.01;     /* of the upper block, sideways */
 
 void *need(size_t count, size_t size)
 {

@@ -24,8 +24,9 @@ static void keep(struct outcome *outcome, int code, const SolverOptions *options
 {
     outcome->code = code;
     outcome->iterations = options->iparam[SICONOS_IPARAM_ITER_DONE];
-    if (outcome->iterations == 0 && options->numberOfInternalSolvers > 0)
-        outcome->iterations = options->internalSolvers[0]->iparam[SICONOS_IPARAM_ITER_DONE];
+    /* It does not count the first pivot, by which the covering vector enters. */
+    if (options->solverId == SICONOS_LCP_LEMKE || options->solverId == SICONOS_FRICTION_2D_LEMKE)
+        outcome->iterations++;
     if (!outcome->finished || seconds < outcome->seconds)
         outcome->seconds = seconds;
     outcome->finished = 1;
