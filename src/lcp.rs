@@ -2,7 +2,7 @@
 
 use crate::error::{Argument, Error};
 use crate::linalg::small::norm;
-use crate::matrix;
+use crate::matrix::{self, SymmetricMatrix};
 
 /// A checked problem, a view of the caller's arrays.
 #[derive(Clone, Copy, Debug)]
@@ -75,6 +75,21 @@ impl<'a> Lcp<'a> {
         &self.matrix[j * self.ld..j * self.ld + self.size]
     }
 
+    /// `M` as given, column-major.
+    pub(crate) fn matrix(&self) -> &'a [f64] {
+        self.matrix
+    }
+
+    /// Distance between the beginnings of two columns of `M`.
+    pub(crate) fn ld(&self) -> usize {
+        self.ld
+    }
+
+    /// Whether `M` is symmetric but for rounding.
+    pub(crate) fn is_symmetric(&self) -> bool {
+        SymmetricMatrix { size: self.size, entries: self.matrix, ld: self.ld }.is_symmetric()
+    }
+
     /// `q`.
     pub fn q(&self) -> &'a [f64] {
         self.q
@@ -118,6 +133,11 @@ impl<'a> Lcp<'a> {
     /// `|min(w, m z)| / max(|q|, |M z|)` with `w = q + M z` and `m` of [`Self::magnitudes`]:
     /// zero at solutions only.
     pub fn eta(&self, z: &[f64]) -> f64 {
+        self.measure(z).0
+    }
+
+    /// `eta`, and the product `M z` that it takes.
+    pub(crate) fn measure(&self, z: &[f64]) -> (f64, Vec<f64>) {
         let product = self.product(z);
         let scale = norm(self.q).max(norm(&product));
         let residual: Vec<f64> = self
@@ -127,7 +147,7 @@ impl<'a> Lcp<'a> {
             .map(|(i, m)| (self.q[i] + product[i]).min(m * z[i]))
             .collect();
         let residual = norm(&residual);
-        if residual == 0.0 { 0.0 } else { residual / scale }
+        (if residual == 0.0 { 0.0 } else { residual / scale }, product)
     }
 
     /// Whether `y` proves that no `w, z >= 0` satisfy `w = q + M z`:

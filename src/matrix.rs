@@ -40,6 +40,37 @@ impl<'a> SymmetricMatrix<'a> {
         &self.entries[j * self.ld..j * self.ld + self.size]
     }
 
+    /// Whether entries agree with those across the diagonal, up to rounding relative to it, which
+    /// is positive.
+    pub(crate) fn is_symmetric(&self) -> bool {
+        let root: Vec<f64> = (0..self.size).map(|i| self.column(i)[i].sqrt()).collect();
+        self.pairs_across(|i, j, lower, upper| {
+            let scale = SYMMETRY * root[i] * root[j];
+            if (lower - upper).abs() <= scale { Ok(()) } else { Err(()) }
+        })
+        .is_ok()
+    }
+
+    /// Visits each entry below the diagonal with the one across it, until an error.
+    fn pairs_across<E>(
+        &self,
+        visit: impl Fn(usize, usize, f64, f64) -> Result<(), E>,
+    ) -> Result<(), E> {
+        // Square tiles: the transposed entry is read from cache.
+        const TILE: usize = 32;
+        let n = self.size;
+        for j0 in (0..n).step_by(TILE) {
+            for i0 in (j0..n).step_by(TILE) {
+                for j in j0..(j0 + TILE).min(n) {
+                    for i in i0.max(j + 1)..(i0 + TILE).min(n) {
+                        visit(i, j, self.column(j)[i], self.column(i)[j])?;
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
     /// Refuses entries that are not finite, diagonals that are not positive, asymmetry beyond
     /// rounding, and entries that a positive semi-definite matrix cannot have.
     pub(crate) fn check(&self, name: &str, argument: Argument) -> Result<(), Error> {
@@ -60,30 +91,20 @@ impl<'a> SymmetricMatrix<'a> {
             }
         }
         let root: Vec<f64> = (0..n).map(|i| self.column(i)[i].sqrt()).collect();
-        // Square tiles: the transposed entry is read from cache.
-        const TILE: usize = 32;
-        for j0 in (0..n).step_by(TILE) {
-            for i0 in (j0..n).step_by(TILE) {
-                for j in j0..(j0 + TILE).min(n) {
-                    for i in i0.max(j + 1)..(i0 + TILE).min(n) {
-                        let (lower, upper) = (self.column(j)[i], self.column(i)[j]);
-                        let scale = root[i] * root[j];
-                        if (lower - upper).abs() > SYMMETRY * scale {
-                            return refuse(format!(
-                                "{name} is not symmetric: {name}[{i},{j}] is {lower}, \
-                                 {name}[{j},{i}] is {upper}"
-                            ));
-                        }
-                        if lower.abs() > (1.0 + SYMMETRY) * scale {
-                            return refuse(format!(
-                                "{name} is not positive semi-definite: {name}[{i},{j}] is \
-                                 {lower}, more than its diagonal allows ({scale})"
-                            ));
-                        }
-                    }
-                }
+        self.pairs_across(|i, j, lower, upper| {
+            let scale = root[i] * root[j];
+            if (lower - upper).abs() > SYMMETRY * scale {
+                return refuse(format!(
+                    "{name} is not symmetric: {name}[{i},{j}] is {lower}, {name}[{j},{i}] is {upper}"
+                ));
             }
-        }
-        Ok(())
+            if lower.abs() > (1.0 + SYMMETRY) * scale {
+                return refuse(format!(
+                    "{name} is not positive semi-definite: {name}[{i},{j}] is {lower}, more than \
+                     its diagonal allows ({scale})"
+                ));
+            }
+            Ok(())
+        })
     }
 }

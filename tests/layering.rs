@@ -37,18 +37,26 @@ const ALLOWED: [(&str, &[&str]); 13] = [
 ];
 
 /// Solvers that one solver may call.
-const SOLVERS: [(&str, &[&str]); 11] = [
-    ("bare", &["lemke"]),
-    ("coulomb", &["sweeps"]),
+const SOLVERS: [(&str, &[&str]); 19] = [
+    ("auto", &["solution", "uniqueness"]),
+    ("bare", &["lemke", "pivot", "solution"]),
+    ("coulomb", &["solution", "sweeps"]),
     ("elimination", &["factor"]),
+    ("equations", &["pieces", "sor"]),
     ("escape", &["factor"]),
     ("factor", &[]),
-    ("frictionless", &["elimination", "lemke", "sweeps"]),
+    ("frictional_lemke", &["elimination", "factor", "lemke", "newton", "pieces", "solution"]),
+    ("frictionless", &["elimination", "lemke", "solution", "sweeps"]),
     ("lemke", &["tableau"]),
+    ("newton", &["equations", "pieces", "solution"]),
+    ("pieces", &[]),
+    ("pivot", &["equations", "newton", "pieces", "solution", "sor"]),
     ("relaxation", &[]),
+    ("solution", &[]),
     ("sor", &[]),
-    ("sweeps", &["escape", "relaxation", "sor"]),
+    ("sweeps", &["escape", "relaxation", "solution", "sor"]),
     ("tableau", &[]),
+    ("uniqueness", &["frictional_lemke", "newton", "pieces", "solution"]),
 ];
 
 #[test]

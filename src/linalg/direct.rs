@@ -129,3 +129,9 @@ pub fn subtract_product(target: &mut [f64], a: &[f64], b: &[f64], n: usize) {
         Par::Seq,
     );
 }
+
+/// Largest eigenvalue of the symmetric `n x n` matrix `entry(i, j)`; `None` if it is not found.
+pub fn largest_eigenvalue(n: usize, entry: impl Fn(usize, usize) -> f64) -> Option<f64> {
+    let matrix = Mat::from_fn(n, n, entry);
+    matrix.self_adjoint_eigenvalues(faer::Side::Lower).ok()?.last().copied()
+}

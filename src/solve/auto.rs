@@ -1,9 +1,22 @@
 //! The default: choose, check, fall back.
+//!
+//! | problem | methods, in turn, until one is certified |
+//! |---|---|
+//! | without friction | block pivoting, Lemke, sweeps |
+//! | friction in 2D | Newton, Lemke, sweeps (nested, diagonal) |
+//! | friction in 3D | sweeps (nested, diagonal) |
+//!
+//! A solution of orientation −1 is one of at least three, and not the one that a structure takes: the
+//! next method is asked too.
 
-use super::solution::{Solution, certified};
+use super::solution::{
+    Candidate, Ending, Fallback, Other, Solution, Status, Uniqueness, certified,
+};
+use super::uniqueness;
+use crate::certificate;
 use crate::error::Error;
 use crate::monitor::Monitor;
-use crate::problem::ContactProblem;
+use crate::problem::{ContactProblem, Friction};
 use crate::settings::{Method, Settings};
 
 /// Solves by the first method whose result is certified.
@@ -13,7 +26,97 @@ pub fn solve(
     start: Option<&[f64]>,
     monitor: &mut Monitor<'_>,
 ) -> Result<Solution, Error> {
-    let method = Method::SorNested;
-    let candidate = super::run(method, problem, settings, start, monitor)?;
-    Ok(certified(problem, settings, method, candidate))
+    let plan = plan(problem);
+    let mut tried = Tried::default();
+    for &method in plan {
+        let candidate = super::run(method, problem, settings, start, monitor)?;
+        tried.factorisations += candidate.factorisations;
+        tried.refactorisations += candidate.refactorisations;
+        let why = fallback(&candidate);
+        let interrupted = matches!(candidate.ending, Ending::Interrupted(_));
+        let solution = certified(problem, settings, method, candidate.clone());
+        match solution.status {
+            Status::Solved if solution.orientation < 0 && tried.unstable.is_none() => {
+                tried.unstable = Some(solution);
+            }
+            Status::Solved | Status::NoEquilibrium => return Ok(tried.ended(problem, solution)),
+            _ => tried.keep(problem, method, candidate),
+        }
+        tried.first.get_or_insert((plan[0], why));
+        if interrupted || (tried.unstable.is_some() && method == Method::Lemke) {
+            break;
+        }
+    }
+    if let Some(solution) = tried.unstable.take() {
+        return Ok(tried.ended(problem, solution));
+    }
+    let (_, method, candidate) = tried.best.take().expect("a plan has a method");
+    let solution = certified(problem, settings, method, candidate);
+    Ok(tried.ended(problem, solution))
+}
+
+fn plan(problem: &ContactProblem<'_>) -> &'static [Method] {
+    match problem.friction() {
+        friction if friction.is_zero() => &[Method::Pivot, Method::Lemke, Method::SorNested],
+        Friction::Tresca(_) if problem.dim() == 2 => {
+            &[Method::Newton, Method::Lemke, Method::SorNested]
+        }
+        Friction::Coulomb(_) if problem.dim() == 2 => {
+            &[Method::Newton, Method::Lemke, Method::SorNested, Method::SorDiagonal]
+        }
+        Friction::Tresca(_) => &[Method::SorNested],
+        Friction::Coulomb(_) => &[Method::SorNested, Method::SorDiagonal],
+    }
+}
+
+fn fallback(candidate: &Candidate) -> Fallback {
+    match candidate.ending {
+        Ending::Cycle => Fallback::Cycle,
+        Ending::Singular => Fallback::Singular,
+        Ending::Done if candidate.orientation < 0 => Fallback::Unstable,
+        _ => Fallback::Inaccurate,
+    }
+}
+
+/// What earlier methods have left.
+#[derive(Default)]
+struct Tried {
+    first: Option<(Method, Fallback)>,
+    /// A solution of orientation −1.
+    unstable: Option<Solution>,
+    /// What is best among those that are none, with its `eta`, and the last ending.
+    best: Option<(f64, Method, Candidate)>,
+    factorisations: u64,
+    refactorisations: u64,
+}
+
+impl Tried {
+    /// Keeps the better displacements, with the ending of the later method.
+    fn keep(&mut self, problem: &ContactProblem<'_>, method: Method, candidate: Candidate) {
+        let eta = certificate::certify(problem, &candidate.d).eta;
+        match &mut self.best {
+            Some((least, _, best)) if !(eta < *least) => best.ending = candidate.ending,
+            best => *best = Some((eta, method, candidate)),
+        }
+    }
+
+    fn ended(self, problem: &ContactProblem<'_>, mut solution: Solution) -> Solution {
+        solution.fallback = self.first;
+        solution.factorisations = self.factorisations;
+        solution.refactorisations = self.refactorisations;
+        match self.unstable {
+            Some(other) if solution.status == Status::Solved => {
+                if uniqueness::are_different(problem, &solution.d, &other.d) {
+                    solution.uniqueness = Uniqueness::Several;
+                    solution.second = Some(Box::new(Other {
+                        d: other.d,
+                        certificate: other.certificate,
+                        orientation: other.orientation,
+                    }));
+                }
+            }
+            _ => {}
+        }
+        solution
+    }
 }

@@ -1,11 +1,13 @@
-//! The bare linear complementarity problem, by Lemke's method.
+//! The bare linear complementarity problem, by block pivoting and by Lemke's method.
 
-use super::lemke::{Care, Path, Rules, Run, lemke};
-use super::{Fallback, Status};
-use crate::error::Error;
+use super::lemke::{Care, Path, Rules, lemke};
+use super::pivot;
+use super::solution::{Ending, Fallback, Status};
+use crate::error::{Argument, Error};
 use crate::lcp::Lcp;
 use crate::linalg::small::largest;
-use crate::monitor::Monitor;
+use crate::monitor::{Interruption, Monitor};
+use crate::problem::{ContactData, ContactProblem, Friction};
 use crate::settings::{Method, Settings};
 
 /// Result of a bare complementarity problem.
@@ -33,16 +35,97 @@ pub struct LcpSolution {
     pub refactorisations: u64,
 }
 
-/// Solves a bare linear complementarity problem by Lemke's method.
+/// Solves a bare linear complementarity problem: by default by block pivoting, then Lemke's method.
 ///
 /// # Errors
-/// Settings out of range; memory that cannot be had. The method in `settings` is not looked at.
+/// Settings out of range, or a method for contact problems; memory that cannot be had.
 pub fn solve_lcp(
     lcp: &Lcp<'_>,
     settings: &Settings,
     monitor: &mut Monitor<'_>,
 ) -> Result<LcpSolution, Error> {
     settings.validate()?;
+    let mut pivoted = None;
+    match settings.method {
+        Method::Auto | Method::Pivot => {
+            let run = by_pivoting(lcp, settings, monitor);
+            let solution = certified(lcp, settings, Method::Pivot, &run, monitor.iterations());
+            let done = solution.status == Status::Solved || settings.method == Method::Pivot;
+            if done || matches!(run.end, End::Interrupted(_)) {
+                return Ok(solution);
+            }
+            pivoted = Some((run, solution));
+        }
+        Method::Lemke => {}
+        _ => {
+            let message = "settings: a bare complementarity problem is solved by the methods auto, \
+                           pivot and Lemke";
+            return Err(Error::invalid(Argument::Settings, message));
+        }
+    }
+    let run = by_lemke(lcp, settings, monitor)?;
+    let mut solution = certified(lcp, settings, Method::Lemke, &run, monitor.iterations());
+    if let Some((run, before)) = pivoted {
+        let decided = matches!(solution.status, Status::Solved | Status::NoEquilibrium);
+        if !decided && before.eta < solution.eta {
+            (solution.w, solution.z, solution.eta) = (before.w, before.z, before.eta);
+        }
+        let why = if run.end == End::Singular { Fallback::Singular } else { Fallback::Inaccurate };
+        solution.fallback = Some((Method::Pivot, why));
+        solution.factorisations = before.factorisations;
+    }
+    Ok(solution)
+}
+
+/// A candidate `z` and how it was come by.
+struct Run {
+    z: Vec<f64>,
+    end: End,
+    factorisations: u64,
+    refactorisations: u64,
+}
+
+#[derive(PartialEq)]
+enum End {
+    Done,
+    Singular,
+    Ray(Vec<f64>),
+    Interrupted(Interruption),
+}
+
+/// The problem as frictionless contact with one component a pair, `z = -d`, `w = -F`, `q = f`.
+fn by_pivoting(lcp: &Lcp<'_>, settings: &Settings, monitor: &mut Monitor<'_>) -> Run {
+    let n = lcp.size();
+    let nothing = |end| Run { z: vec![0.0; n], end, factorisations: 0, refactorisations: 0 };
+    if (0..n).any(|i| !(lcp.column(i)[i] > 0.0)) {
+        return nothing(End::Singular);
+    }
+    let zero = vec![0.0; n];
+    let problem = ContactProblem::reduced(ContactData {
+        dim: 1,
+        pairs: n,
+        stiffness: lcp.matrix(),
+        ld: lcp.ld(),
+        load: lcp.q(),
+        gap: &zero,
+        friction: Friction::Coulomb(&zero),
+        previous_slip: None,
+    });
+    let most = if settings.method == Method::Pivot { u64::MAX } else { pivot::enough(n) };
+    let candidate = pivot::solve(&problem, settings, lcp.is_symmetric(), None, most, monitor);
+    Run {
+        z: candidate.d.iter().map(|d| (-d).max(0.0)).collect(),
+        end: match candidate.ending {
+            Ending::Interrupted(reason) => End::Interrupted(reason),
+            Ending::Singular => End::Singular,
+            _ => End::Done,
+        },
+        factorisations: candidate.factorisations,
+        refactorisations: 0,
+    }
+}
+
+fn by_lemke(lcp: &Lcp<'_>, settings: &Settings, monitor: &mut Monitor<'_>) -> Result<Run, Error> {
     // Powers of two: the pivots are those of the unscaled problem, rounding included.
     let scale: Vec<f64> =
         lcp.magnitudes().iter().map(|m| (-(m.log2() / 2.0).round()).exp2()).collect();
@@ -55,30 +138,48 @@ pub fn solve_lcp(
     if lost_accuracy {
         run = lemke(lcp, &scale, Rules::usual(Care::Thorough), monitor)?;
     }
-    Ok(certified(lcp, settings, run, monitor.iterations()))
+    Ok(Run {
+        z: run.z,
+        end: match run.path {
+            Path::Ray(ray) => End::Ray(ray),
+            Path::Interrupted(reason) => End::Interrupted(reason),
+            Path::Solution | Path::Breakdown => End::Done,
+        },
+        factorisations: 0,
+        refactorisations: run.refactorisations,
+    })
 }
 
-fn certified(lcp: &Lcp<'_>, settings: &Settings, run: Run, iterations: u64) -> LcpSolution {
-    let Run { mut z, path, refactorisations } = run;
-    let eta = lcp.eta(&z);
+fn certified(
+    lcp: &Lcp<'_>,
+    settings: &Settings,
+    method: Method,
+    run: &Run,
+    iterations: u64,
+) -> LcpSolution {
+    let (eta, product) = lcp.measure(&run.z);
+    let mut z = run.z.clone();
     let wanted = format!("eta is {eta:.1e}, wanted {:.1e}", settings.tolerance);
-    let (status, message) = match path {
+    let (status, message) = match &run.end {
         _ if eta <= settings.tolerance => (Status::Solved, format!("solved: eta is {eta:.1e}")),
-        Path::Ray(ray) if lcp.is_infeasible_by(&ray) => {
-            let most = largest(&ray);
+        End::Ray(ray) if lcp.is_infeasible_by(ray) => {
+            let most = largest(ray);
             z = ray.iter().map(|y| y / most).collect();
             (Status::NoEquilibrium, "no w, z >= 0 satisfy w = q + M z: proved by z".into())
         }
-        Path::Ray(_) => {
+        End::Ray(_) => {
             (Status::Stalled, format!("the path ended in a ray that proves nothing; {wanted}"))
         }
-        Path::Interrupted(reason) => reason.ended(settings, &wanted),
-        Path::Solution | Path::Breakdown => {
-            (Status::Stalled, format!("accuracy was lost to rounding; {wanted}"))
-        }
+        End::Interrupted(reason) => reason.ended(settings, &wanted),
+        End::Singular => (
+            Status::Stalled,
+            format!(
+                "block pivoting met a singular system, or M has no positive diagonal; {wanted}"
+            ),
+        ),
+        End::Done => (Status::Stalled, format!("accuracy was lost to rounding; {wanted}")),
     };
-    let product = lcp.product(&z);
-    let w = lcp.q().iter().zip(&product).zip(&z);
+    let w = lcp.q().iter().zip(&product).zip(&run.z);
     let w = w.map(|((q, mz), z)| if *z > 0.0 { 0.0 } else { (q + mz).max(0.0) }).collect();
     LcpSolution {
         status,
@@ -86,10 +187,10 @@ fn certified(lcp: &Lcp<'_>, settings: &Settings, run: Run, iterations: u64) -> L
         w,
         z,
         eta,
-        method: Method::Lemke,
+        method,
         fallback: None,
         iterations,
-        factorisations: 0,
-        refactorisations,
+        factorisations: run.factorisations,
+        refactorisations: run.refactorisations,
     }
 }

@@ -12,7 +12,8 @@
 //!
 //! a linear complementarity problem in `(w, a, b)`. Its matrix is not copositive for `mu > 0`, and
 //! with the usual covering vector of ones Lemke's method fails. Here the covering vector *clamps
-//! every pair and glues it*: `p` grows by `z0 s`, and the thresholds by `z0 (mu s + c)`, `s, c > 0`.
+//! every pair and glues it*: `p` grows by `z0 s`, and the thresholds by `z0 (mu s + c)`, `s, c > 0`
+//! (`c` may differ between `u` and `v`).
 //! The path starts where all pairs are closed and at rest and leads to `z0 = 0`.
 //!
 //! **Theorem.** Let `x.K x > 0` for all `x != 0` (`K` need not be symmetric), `mu >= 0`. For any loads,
@@ -42,7 +43,7 @@
 
 use super::elimination::driven_motion;
 use super::factor::Factor;
-use super::lemke::{self, Care, Path, Rules};
+use super::lemke::{self, Care, Path, Rules, Run};
 use super::newton;
 use super::pieces::{Motion, Piece};
 use super::solution::{Candidate, Ending};
@@ -54,8 +55,13 @@ use crate::monitor::Monitor;
 use crate::problem::{ContactProblem, Friction};
 use crate::settings::Settings;
 
-/// Glue relative to the clamp.
-const GLUE: f64 = 0.5;
+/// Glue relative to the clamp, against slip to the side +1 and −1. The theorem holds for any
+/// positive numbers.
+const GLUE: [f64; 2] = [0.5, 0.5];
+
+/// Other glues, whose paths may lead to other solutions, and how many turning points to keep.
+const GLUES: [[f64; 2]; 5] = [GLUE, [0.01, 1.0], [1.0, 0.01], [0.01, 0.01], [100.0, 100.0]];
+const TURNS: usize = 4;
 
 /// The path is at its end when `z0` has fallen to this part of its start: nearer to it rounding may
 /// turn the path back, or into a ray.
@@ -85,6 +91,27 @@ pub fn solve(
         last = Some(candidate);
     }
     Ok(last.expect("the path was followed twice"))
+}
+
+/// Ends of the path from several starts, and what Newton's method makes of its turning points: all
+/// solutions that the path shows.
+pub fn ends(
+    problem: &ContactProblem<'_>,
+    settings: &Settings,
+    monitor: &mut Monitor<'_>,
+) -> Result<Vec<Candidate>, Error> {
+    let Ok(path) = FrictionPath::new(problem) else { return Ok(Vec::new()) };
+    let mut ends = Vec::new();
+    for glue in GLUES {
+        let mut run =
+            path.run(Rules { care: Care::Usual, end: END, turns: TURNS }, glue, monitor)?;
+        let points = std::mem::take(&mut run.turns);
+        for z in points.iter().chain(matches!(run.path, Path::Solution).then_some(&run.z)) {
+            let (pieces, d) = (path.pieces(z), path.displacements(z));
+            ends.push(newton::from_pieces(problem, settings, pieces, d, monitor));
+        }
+    }
+    Ok(ends)
 }
 
 /// The complementarity problem of a contact problem.
@@ -131,7 +158,7 @@ impl<'p> FrictionPath<'p> {
 
     /// Matrix and vector of the complementarity problem in `(w, a, b)`, its covering vector, and the
     /// scales of its variables.
-    fn lcp(&self) -> (Vec<f64>, Vec<f64>, Vec<f64>, Vec<f64>) {
+    fn lcp(&self, glue: [f64; 2]) -> (Vec<f64>, Vec<f64>, Vec<f64>, Vec<f64>) {
         let (problem, n, m) = (self.problem, self.normal.len(), self.tangential.len());
         let size = n + 2 * m;
         let force = problem.force(&self.at_rest);
@@ -164,8 +191,8 @@ impl<'p> FrictionPath<'p> {
                 None => (g.map_or(0.0, |g| g[i / 2]), 0.0),
             };
             (q[n + k], q[n + m + k]) = (bound + force[i], bound - force[i]);
-            let glue = clamp + GLUE * root(i);
-            (cover[n + k], cover[n + m + k]) = (glue, glue);
+            (cover[n + k], cover[n + m + k]) =
+                (clamp + glue[0] * root(i), clamp + glue[1] * root(i));
         }
         let mut matrix = vec![0.0; size * size];
         for (j, column) in matrix.chunks_exact_mut(size.max(1)).enumerate() {
@@ -194,13 +221,7 @@ impl<'p> FrictionPath<'p> {
         care: Care,
         monitor: &mut Monitor<'_>,
     ) -> Result<Candidate, Error> {
-        let (matrix, q, cover, scales) = self.lcp();
-        let size = q.len();
-        let Ok(lcp) = Lcp::new(size, &matrix, size.max(1), &q, Some(&cover)) else {
-            let ending = Ending::Stalled("numbers overflow in the complementarity problem");
-            return Ok(Candidate::ended(self.at_rest.clone(), ending));
-        };
-        let run = lemke::lemke(&lcp, &scales, Rules { care, end: END }, monitor)?;
+        let run = self.run(Rules { care, end: END, turns: 0 }, GLUE, monitor)?;
         let d = self.displacements(&run.z);
         let refactorisations = run.refactorisations;
         let ending = match run.path {
@@ -223,6 +244,16 @@ impl<'p> FrictionPath<'p> {
             }
         };
         Ok(Candidate { refactorisations, ..Candidate::ended(d, ending) })
+    }
+
+    fn run(&self, rules: Rules, glue: [f64; 2], monitor: &mut Monitor<'_>) -> Result<Run, Error> {
+        let (matrix, q, cover, scales) = self.lcp(glue);
+        let size = q.len();
+        match Lcp::new(size, &matrix, size.max(1), &q, Some(&cover)) {
+            Ok(lcp) => lemke::lemke(&lcp, &scales, rules, monitor),
+            // Numbers have overflowed.
+            Err(_) => Ok(Run::broken(size)),
+        }
     }
 
     /// All displacements of a point of the path.

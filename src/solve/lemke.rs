@@ -38,8 +38,17 @@ pub struct Run {
     pub z: Vec<f64>,
     /// How it ended.
     pub path: Path,
+    /// Where the path turned, `z0` growing again: the first of such points.
+    pub turns: Vec<Vec<f64>>,
     /// How often accuracy was lost and restored.
     pub refactorisations: u64,
+}
+
+impl Run {
+    /// A run that could not begin.
+    pub fn broken(size: usize) -> Self {
+        Run { z: vec![0.0; size], path: Path::Breakdown, turns: Vec::new(), refactorisations: 0 }
+    }
 }
 
 /// Pivots between two checks of the values against the data: the check costs about one pivot.
@@ -65,12 +74,14 @@ pub struct Rules {
     /// The path is at its end when `z0` has fallen to this part of its start: beyond it rounding
     /// decides between the end and a false ray.
     pub end: f64,
+    /// Most turning points to be kept.
+    pub turns: usize,
 }
 
 impl Rules {
     /// For problems in which a ray proves something.
     pub fn usual(care: Care) -> Self {
-        Rules { care, end: 1e-13 }
+        Rules { care, end: 1e-13, turns: 0 }
     }
 }
 
@@ -98,14 +109,17 @@ pub fn lemke(
         scaled.zip(scale).map(|(z, scale)| z.max(0.0) * scale).collect()
     };
     let mut tableau = Tableau::new(&problem)?;
-    let (path, refactorisations) = follow(&problem, &mut tableau, rules, monitor);
+    let mut turns = Vec::new();
+    let (path, refactorisations) = follow(&problem, &mut tableau, rules, &mut turns, monitor);
     let path = match path {
         Inner::Ray(entering) => {
             Path::Ray(unscaled(&mut (n..2 * n).map(|z| tableau.rate(z, entering))))
         }
         Inner::Ended(path) => path,
     };
-    Ok(Run { z: unscaled(&mut (n..2 * n).map(|z| tableau.value(z))), path, refactorisations })
+    let turns = turns.iter().map(|z| unscaled(&mut z.iter().copied())).collect();
+    let z = unscaled(&mut (n..2 * n).map(|z| tableau.value(z)));
+    Ok(Run { z, path, turns, refactorisations })
 }
 
 enum Inner {
@@ -117,6 +131,7 @@ fn follow(
     problem: &Scaled,
     tableau: &mut Tableau,
     rules: Rules,
+    turns: &mut Vec<Vec<f64>>,
     monitor: &mut Monitor<'_>,
 ) -> (Inner, u64) {
     let n = problem.size;
@@ -148,6 +163,9 @@ fn follow(
         }
         start.get_or_insert(tableau.value(z0));
         entering = if leaving < n { leaving + n } else { leaving - n };
+        if turns.len() < rules.turns && tableau.rate(z0, entering) > 0.0 {
+            turns.push((n..2 * n).map(|z| tableau.value(z)).collect());
+        }
         row = match tableau.blocking_row(entering, z0) {
             Some(row) => row,
             None => return (Inner::Ray(entering), refactorisations),

@@ -19,11 +19,12 @@ mod solution;
 mod sor;
 mod sweeps;
 mod tableau;
+mod uniqueness;
 
 use crate::error::{Argument, Error};
 use crate::monitor::Monitor;
 use crate::problem::{ContactProblem, Friction};
-use crate::settings::{Method, Settings};
+use crate::settings::{Method, Search, Settings};
 
 pub use bare::{LcpSolution, solve_lcp};
 use solution::{Candidate, Ending, certified, is_unloaded};
@@ -50,6 +51,9 @@ pub fn solve(
             certified(problem, settings, method, candidate)
         }
     };
+    if settings.search == Search::Others {
+        uniqueness::examine(problem, settings, &mut solution, monitor)?;
+    }
     solution.iterations = monitor.iterations();
     Ok(solution)
 }
@@ -69,7 +73,11 @@ fn run(
         }
         (Method::Lemke, _) => frictional_lemke::solve(problem, settings, monitor)?,
         (Method::Newton, _) => newton::solve(problem, settings, start, monitor),
-        (Method::Pivot, _) => pivot::solve(problem, settings, true, start, monitor),
+        (Method::Pivot, _) => {
+            let chosen = settings.method == Method::Pivot;
+            let most = if chosen { u64::MAX } else { pivot::enough(problem.pairs()) };
+            pivot::solve(problem, settings, true, start, most, monitor)
+        }
         (_, friction) if friction.is_zero() => {
             frictionless::sor(problem, settings, &rest(), monitor)
         }

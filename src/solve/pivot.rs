@@ -22,13 +22,20 @@ const PATIENCE: u32 = 10;
 const SWEEPS: u32 = 8;
 const OMEGA: f64 = 1.5;
 
+/// Systems after which a problem of `n` pairs is left to another method: single exchanges may take
+/// `2^n`, whole blocks take a few, or at most about `n` on the worst problems known.
+pub fn enough(n: usize) -> u64 {
+    50 + 2 * n as u64
+}
+
 /// Solves from the pieces on which `start` is, or from those of a few sweeps. `symmetric` tells
-/// whether `K` is, as far as rounding goes.
+/// whether `K` is, as far as rounding goes; after `most` systems it gives up.
 pub fn solve(
     problem: &ContactProblem<'_>,
     settings: &Settings,
     symmetric: bool,
     start: Option<&[f64]>,
+    most: u64,
     monitor: &mut Monitor<'_>,
 ) -> Candidate {
     let d = match start {
@@ -40,7 +47,11 @@ pub fn solve(
     let mut pieces = pieces::at(problem, &equations.d, &equations.force);
     let mut best = (f64::INFINITY, equations.d.clone());
     let (mut fewest, mut patience) = (usize::MAX, PATIENCE);
+    let last = monitor.iterations().saturating_add(most);
     let ending = loop {
+        if monitor.iterations() >= last {
+            break Ending::Stalled("block pivoting does not settle");
+        }
         if let Err(reason) = monitor.step() {
             break Ending::Interrupted(reason);
         }
@@ -71,8 +82,8 @@ pub fn solve(
             patience -= u32::from(!progress);
             pieces = next;
         } else {
-            let last = violated[violated.len() - 1];
-            pieces[last] = next[last];
+            let single = violated[violated.len() - 1];
+            pieces[single] = next[single];
         }
     };
     let factorisations = equations.factorisations;
