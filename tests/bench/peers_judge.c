@@ -144,7 +144,7 @@ void judge(const struct solver *solver, const struct problem *problem, double li
 {
     const size_t size = force_size(problem);
     double *force = need(size, sizeof *force);
-    double tolerance = solver->iterative ? 1e-10 : SOLVED_ETA, spent = 0.0;
+    double tolerance = solver->iterative ? 1e-10 : SOLVED_ETA, taken = tolerance, spent = 0.0;
     /* What Siconos' Lemke returns is exact or not; its tolerance is for its own check alone. */
     if (!solver->iterative && strcmp(solver->library, "siconos") == 0)
         tolerance = 1e-9;
@@ -166,8 +166,10 @@ void judge(const struct solver *solver, const struct problem *problem, double li
         }
         const double eta = certify(problem, solver->answer, outcome, force);
         const int failed = outcome->code != 0 && !(eta <= SOLVED_ETA);
-        if (!(row->eta <= eta) && !(failed && has_answer))
+        if (!(row->eta <= eta) && !(failed && has_answer)) {
             take(row, outcome, eta, force, size);
+            taken = tolerance;
+        }
         if (failed) {
             if (!has_answer)
                 snprintf(row->status, sizeof row->status, "failed(%d)", outcome->code);
@@ -179,8 +181,8 @@ void judge(const struct solver *solver, const struct problem *problem, double li
         const double factor = isfinite(eta) ? 0.5 * SOLVED_ETA / eta : 0.1;
         tolerance = fmax(1e-16, tolerance * fmin(0.3, fmax(factor, 1e-3)));
     }
-    if (row->ms > 0.0 && row->ms < 2000.0 && strcmp(row->status, "solved") == 0 &&
-        call_in_child(solver, problem, tolerance, 1, limit, outcome) == ENDED)
+    if (row->ms > 0.0 && row->ms < 2000.0 && row->eta <= USABLE_ETA &&
+        call_in_child(solver, problem, taken, 1, limit, outcome) == ENDED)
         row->ms = fmin(row->ms, 1e3 * outcome->seconds);
     free(force);
 }
