@@ -60,7 +60,7 @@ static void child(const struct solver *solver, const struct problem *problem, do
     if (repeat && first < 2.0) {
         limit_cpu(limit + 20.0);
         double filled = first;
-        for (int calls = 1; calls < 3 || (filled < 0.2 && calls < 2000); calls++) {
+        for (int calls = 1; calls < 3 || (filled < 0.1 && calls < 2000); calls++) {
             const double begin = thread_seconds();
             solver->call(solver, problem, tolerance, outcome);
             filled += thread_seconds() - begin;
@@ -73,7 +73,7 @@ enum ending call_in_child(const struct solver *solver, const struct problem *pro
                           double tolerance, int repeat, double limit, struct outcome *outcome)
 {
     int status = 0;
-    outcome->finished = 0;
+    outcome->finished = outcome->fell_back = 0;
     fflush(NULL);
     const pid_t pid = fork();
     if (pid < 0) {

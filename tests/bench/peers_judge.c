@@ -133,6 +133,7 @@ static void take(struct row *row, const struct outcome *outcome, double eta, dou
 {
     row->ms = 1e3 * outcome->seconds;
     row->iterations = outcome->iterations;
+    row->fell_back = outcome->fell_back;
     row->eta = eta;
     memcpy(row->force, force, size * sizeof *force);
     snprintf(row->status, sizeof row->status, "%s",
@@ -144,7 +145,7 @@ void judge(const struct solver *solver, const struct problem *problem, double li
 {
     const size_t size = force_size(problem);
     double *force = need(size, sizeof *force);
-    double tolerance = solver->iterative ? 1e-10 : SOLVED_ETA, taken = tolerance, spent = 0.0;
+    double tolerance = solver->iterative ? 1e-9 : SOLVED_ETA, spent = 0.0;
     /* What Siconos' Lemke returns is exact or not; its tolerance is for its own check alone. */
     if (!solver->iterative && strcmp(solver->library, "siconos") == 0)
         tolerance = 1e-9;
@@ -168,7 +169,7 @@ void judge(const struct solver *solver, const struct problem *problem, double li
         const int failed = outcome->code != 0 && !(eta <= SOLVED_ETA);
         if (!(row->eta <= eta) && !(failed && has_answer)) {
             take(row, outcome, eta, force, size);
-            taken = tolerance;
+            row->tolerance = tolerance;
         }
         if (failed) {
             if (!has_answer)
@@ -181,10 +182,15 @@ void judge(const struct solver *solver, const struct problem *problem, double li
         const double factor = isfinite(eta) ? 0.5 * SOLVED_ETA / eta : 0.1;
         tolerance = fmax(1e-16, tolerance * fmin(0.3, fmax(factor, 1e-3)));
     }
-    if (row->ms > 0.0 && row->ms < 2000.0 && row->eta <= USABLE_ETA &&
-        call_in_child(solver, problem, taken, 1, limit, outcome) == ENDED)
-        row->ms = fmin(row->ms, 1e3 * outcome->seconds);
     free(force);
+}
+
+void time_again(const struct problem *problem, double limit, struct outcome *outcome,
+                struct row *row)
+{
+    if (row->ms > 0.0 && row->ms < 2000.0 && row->eta <= USABLE_ETA &&
+        call_in_child(row->solver, problem, row->tolerance, 1, limit, outcome) == ENDED)
+        row->ms = fmin(row->ms, 1e3 * outcome->seconds);
 }
 
 int is_solved(const struct row *row)

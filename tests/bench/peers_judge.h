@@ -18,6 +18,8 @@ struct row {
     double mu;
     double ms; /* 0: none was measured */
     int iterations;
+    double tolerance; /* that its solver was given */
+    int fell_back;    /* ours: the method that came first did not end it */
     double eta;       /* NaN: no answer */
     double rel_error; /* of the contact forces, to the best certified answer of the problem */
     char status[24];
@@ -28,9 +30,15 @@ struct row {
 double certify(const struct problem *problem, enum answer kind, const struct outcome *outcome,
                double *force);
 
-/* Runs a solver until the certificate accepts its answer, at the loosest tolerance that does. */
+/* Runs a solver until the certificate accepts its answer, at the loosest tolerance that does. Each
+ * run is one call. */
 void judge(const struct solver *solver, const struct problem *problem, double limit,
            struct outcome *outcome, struct row *row);
+
+/* Takes the time of a short call again, and again: the least of all counts. Called for all solvers
+ * in turn, more than once, it lets no solver have a slow moment of the machine for itself. */
+void time_again(const struct problem *problem, double limit, struct outcome *outcome,
+                struct row *row);
 
 /* Fills rel_error of the rows of one problem, counts the pairs that are open, slip and stick in its
  * best answer, and frees the forces. */

@@ -39,6 +39,7 @@ static void call(const struct solver *solver, const struct problem *problem, dou
 
     outcome->code = code;
     outcome->iterations = (int)report.iterations;
+    outcome->fell_back = report.fallback != SIGNORINI_FALLBACK_NONE;
     if (!outcome->finished || seconds < outcome->seconds)
         outcome->seconds = seconds;
     outcome->finished = 1;

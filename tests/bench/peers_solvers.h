@@ -33,6 +33,7 @@ struct outcome {
     int finished;
     int code; /* 0: the solver says that it succeeded */
     int iterations;
+    int fell_back; /* ours: the method that came first did not end it */
     double seconds; /* thread CPU time of the call, the least of all calls */
     double *x, *y;
 };
