@@ -97,6 +97,9 @@ enum End {
 fn by_pivoting(lcp: &Lcp<'_>, settings: &Settings, monitor: &mut Monitor<'_>) -> Run {
     let n = lcp.size();
     let nothing = |end| Run { z: vec![0.0; n], end, factorisations: 0, refactorisations: 0 };
+    if n == 0 {
+        return nothing(End::Done);
+    }
     if (0..n).any(|i| !(lcp.column(i)[i] > 0.0)) {
         return nothing(End::Singular);
     }

@@ -3,11 +3,13 @@
 
 mod auto;
 mod bare;
+mod bordered;
 mod coulomb;
 mod elimination;
 mod equations;
 mod escape;
 mod factor;
+mod friction_lcp;
 mod frictional_lemke;
 mod frictionless;
 mod lemke;
@@ -17,6 +19,7 @@ mod pivot;
 mod relaxation;
 mod solution;
 mod sor;
+mod statics;
 mod sweeps;
 mod tableau;
 mod uniqueness;
@@ -51,6 +54,7 @@ pub fn solve(
             certified(problem, settings, method, candidate)
         }
     };
+    uniqueness::by_orientation(problem, &mut solution);
     if settings.search == Search::Others {
         uniqueness::examine(problem, settings, &mut solution, monitor)?;
     }
@@ -66,6 +70,9 @@ fn run(
     start: Option<&[f64]>,
     monitor: &mut Monitor<'_>,
 ) -> Result<Candidate, Error> {
+    if problem.pairs() == 0 {
+        return Ok(Candidate::ended(Vec::new(), Ending::Done));
+    }
     let rest = || start.map_or_else(|| vec![0.0; problem.unknowns()], <[f64]>::to_vec);
     Ok(match (method, problem.friction()) {
         (Method::Lemke, friction) if friction.is_zero() => {

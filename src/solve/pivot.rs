@@ -2,14 +2,14 @@
 //! violate their condition at once; when their number has not fallen for [`PATIENCE`] systems,
 //! exchange the last of them only (Murty 1974) until it does. Finite for positive definite `K`.
 //!
-//! The start of a few sweeps leaves few exchanges. Components without a contact law are free
-//! unknowns like those of the pairs that are open.
+//! All pairs closed is a cheap start: the first system has the components without a contact law
+//! alone, and a few sweeps from its solution tell nearly all pairs that open; sweeps follow each later
+//! solution too, as in Newton's method.
 
 use super::equations::{Equations, Singular};
 use super::newton::refine;
 use super::pieces;
 use super::solution::{Candidate, Ending};
-use super::sor::Iterate;
 use crate::certificate;
 use crate::monitor::Monitor;
 use crate::problem::ContactProblem;
@@ -18,9 +18,8 @@ use crate::settings::Settings;
 /// Systems without progress before single exchanges (Júdice and Pires recommend 10).
 const PATIENCE: u32 = 10;
 
-/// Sweeps at the start, and their over-relaxation.
-const SWEEPS: u32 = 8;
-const OMEGA: f64 = 1.5;
+/// Sweeps between a solution and its pieces.
+const SWEEPS: u32 = 2;
 
 /// Systems after which a problem of `n` pairs is left to another method: single exchanges may take
 /// `2^n`, whole blocks take a few, or at most about `n` on the worst problems known.
@@ -28,7 +27,7 @@ pub fn enough(n: usize) -> u64 {
     50 + 2 * n as u64
 }
 
-/// Solves from the pieces on which `start` is, or from those of a few sweeps. `symmetric` tells
+/// Solves from the pieces on which `start` is, or from all pairs closed. `symmetric` tells
 /// whether `K` is, as far as rounding goes; after `most` systems it gives up.
 pub fn solve(
     problem: &ContactProblem<'_>,
@@ -38,13 +37,11 @@ pub fn solve(
     most: u64,
     monitor: &mut Monitor<'_>,
 ) -> Candidate {
-    let d = match start {
-        Some(d) => d.to_vec(),
-        None if symmetric => swept(problem),
-        None => vec![0.0; problem.unknowns()],
+    let (mut pieces, d) = match start {
+        Some(d) => (pieces::at(problem, d, &problem.force(d)), d.to_vec()),
+        None => (pieces::stuck(problem), vec![0.0; problem.unknowns()]),
     };
     let mut equations = Equations::new(problem, symmetric, d);
-    let mut pieces = pieces::at(problem, &equations.d, &equations.force);
     let mut best = (f64::INFINITY, equations.d.clone());
     let (mut fewest, mut patience) = (usize::MAX, PATIENCE);
     let last = monitor.iterations().saturating_add(most);
@@ -80,7 +77,7 @@ pub fn solve(
         }
         if patience > 0 {
             patience -= u32::from(!progress);
-            pieces = next;
+            pieces = if symmetric { equations.swept_pieces(SWEEPS) } else { next };
         } else {
             let single = violated[violated.len() - 1];
             pieces[single] = next[single];
@@ -88,12 +85,4 @@ pub fn solve(
     };
     let factorisations = equations.factorisations;
     Candidate { orientation: 1, factorisations, ..Candidate::ended(best.1, ending) }
-}
-
-fn swept(problem: &ContactProblem<'_>) -> Vec<f64> {
-    let mut iterate = Iterate::new(problem, vec![0.0; problem.unknowns()]);
-    for _ in 0..SWEEPS {
-        iterate.sweep(problem, OMEGA);
-    }
-    iterate.d
 }

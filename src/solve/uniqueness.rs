@@ -48,15 +48,26 @@ pub fn examine(
     // To the last digit, and with its orientation.
     let Some(first) = polished(problem, settings, &solution.d, monitor) else { return Ok(()) };
     solution.orientation = first.orientation;
-    if definite.is_some() && first.orientation < 0 && is_strict(problem, &first.d) {
-        solution.uniqueness = Uniqueness::Several;
-    }
+    by_orientation(problem, solution);
     if let Some(second) = another(problem, settings, &first.d, monitor)? {
         solution.uniqueness = Uniqueness::Several;
         solution.second = Some(Box::new(second));
     }
     Ok(())
 }
+
+/// Concludes from an orientation of −1, away from where pieces meet, that there are others.
+pub fn by_orientation(problem: &ContactProblem<'_>, solution: &mut Solution) {
+    if solution.orientation < 0
+        && is_strict(problem, &solution.d)
+        && scaled_factor(problem).is_some()
+    {
+        solution.uniqueness = Uniqueness::Several;
+    }
+}
+
+/// Pairs whose piece is changed, one at a time, in the search for other solutions.
+const NEIGHBOURS: usize = 32;
 
 /// Whether two displacements, solutions to rounding, are different ones: by their pieces, and by
 /// more than the rounding of a system of condition 1e9.
@@ -84,7 +95,8 @@ fn another(
         let other = candidate.ending == Ending::Done
             && certificate.holds(settings.tolerance)
             && are_different(problem, known, &candidate.d);
-        other.then(|| Other { d: candidate.d, certificate, orientation: candidate.orientation })
+        let orientation = candidate.orientation;
+        other.then_some(Other { d: candidate.d, certificate, orientation })
     };
     let rest = || vec![0.0; problem.unknowns()];
     for pieces in starts(problem) {
@@ -94,6 +106,12 @@ fn another(
         }
     }
     for candidate in frictional_lemke::ends(problem, settings, monitor)? {
+        if let Some(other) = accepted(candidate) {
+            return Ok(Some(other));
+        }
+    }
+    for pieces in neighbours(problem, known) {
+        let candidate = newton::from_pieces(problem, settings, pieces, known.to_vec(), monitor);
         if let Some(other) = accepted(candidate) {
             return Ok(Some(other));
         }
@@ -112,6 +130,27 @@ fn starts(problem: &ContactProblem<'_>) -> Vec<Vec<Piece>> {
         stuck.iter().map(piece).collect()
     };
     vec![all(false, 0), all(true, 1), all(true, -1), stuck.clone()]
+}
+
+/// The pieces of a solution with that of one pair changed, of the first pairs.
+fn neighbours(problem: &ContactProblem<'_>, known: &[f64]) -> Vec<Vec<Piece>> {
+    let here = pieces::at(problem, known, &problem.force(known));
+    let stuck = pieces::stuck(problem);
+    let mut neighbours = Vec::new();
+    for pair in 0..here.len().min(NEIGHBOURS) {
+        let slides = [-1, 1].map(|side| Piece { closed: true, motion: Motion::Slide(side) });
+        let open = Piece { closed: false, motion: Motion::Slide(0) };
+        let others = [open, stuck[pair], slides[0], slides[1]];
+        for other in others
+            .into_iter()
+            .filter(|&other| other != here[pair] && (stuck[pair].closed || !other.closed))
+        {
+            let mut pieces = here.clone();
+            pieces[pair] = other;
+            neighbours.push(pieces);
+        }
+    }
+    neighbours
 }
 
 /// The solution of the pieces on which `d` is, if that is `d`.
