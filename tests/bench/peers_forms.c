@@ -69,7 +69,8 @@ void lcp_free(struct lcp *lcp)
     free(lcp->q);
 }
 
-int frictionless_forms(const struct contact *contact, struct lcp *stiffness, struct lcp *flexibility)
+int frictionless_forms(const struct contact *contact, struct lcp *stiffness,
+                       struct lcp *flexibility)
 {
     const size_t n = contact->pairs, both = 2 * n;
     const int size = (int)n, with_load = size + 1;

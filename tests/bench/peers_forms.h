@@ -18,8 +18,9 @@ struct lcp {
     double *q;
 };
 
-/* Both forms of the frictionless problem; 0, or the matrix is not positive definite. */
-int frictionless_forms(const struct contact *contact, struct lcp *stiffness, struct lcp *flexibility);
+/* Both forms of the frictionless problem; not 0 if the matrix is not positive definite. */
+int frictionless_forms(const struct contact *contact, struct lcp *stiffness,
+                       struct lcp *flexibility);
 
 /* W = K^-1, and q of the problem with friction. */
 int friction_form(const struct contact *contact, struct lcp *flexibility);

@@ -67,7 +67,8 @@ static void choose_heights(struct mesh *mesh)
         mesh->heights[i] = height * pow(low, (double)i) / sum;
 }
 
-static size_t dof(const struct mesh *mesh, const struct body *body, size_t column, size_t row, int axis)
+static size_t dof(const struct mesh *mesh, const struct body *body, size_t column, size_t row,
+                  int axis)
 {
     return body->first + 2 * (row * mesh->columns + column) + (size_t)axis;
 }
@@ -79,7 +80,19 @@ static size_t place(const struct mesh *mesh, const size_t node[2], int axis, con
     const size_t left = node[0] > 0, right = node[0] + 1 < mesh->columns;
     const size_t before = node[1] > 0;
     const size_t across = other[0] + left - node[0], along = other[1] + before - node[1];
-    return (size_t)mesh->starts[column_dof] + 2 * (along * (left + 1 + right) + across) + (size_t)axis;
+    const size_t nodes = along * (left + 1 + right) + across;
+    return (size_t)mesh->starts[column_dof] + 2 * nodes + (size_t)axis;
+}
+
+/* The rows of one column: all components of the nodes around its own. */
+static size_t pattern_of(const struct mesh *mesh, const struct body *body, size_t column,
+                         size_t row, size_t used)
+{
+    for (size_t r = row - (row > 0); r <= row + 1 && r <= mesh->rows; r++)
+        for (size_t c = column - (column > 0); c <= column + 1 && c < mesh->columns; c++)
+            for (int axis = 0; axis < 2; axis++)
+                mesh->rows_of[used++] = (int64_t)dof(mesh, body, c, r, axis);
+    return used;
 }
 
 static void pattern(struct mesh *mesh)
@@ -95,11 +108,7 @@ static void pattern(struct mesh *mesh)
             for (size_t column = 0; column < mesh->columns; column++)
                 for (int axis = 0; axis < 2; axis++) {
                     mesh->starts[dof(mesh, &mesh->body[b], column, row, axis)] = (int64_t)used;
-                    for (size_t r = row - (row > 0); r <= row + 1 && r < nodes_up; r++)
-                        for (size_t c = column - (column > 0); c <= column + 1 && c < mesh->columns; c++)
-                            for (int k = 0; k < 2; k++)
-                                mesh->rows_of[used++] =
-                                    (int64_t)dof(mesh, &mesh->body[b], c, r, k);
+                    used = pattern_of(mesh, &mesh->body[b], column, row, used);
                 }
     mesh->starts[mesh->size] = (int64_t)used;
 }
@@ -178,8 +187,9 @@ static void hold_and_load(struct mesh *mesh, enum geometry geometry)
         for (size_t row = 0; row <= mesh->rows; row++) {
             hold(mesh, dof(mesh, top, last, row, 0), 0.0);
             if (row < mesh->rows) {
-                mesh->load[dof(mesh, top, 0, row, 0)] += side_pressure * mesh->heights[row] / 2.0;
-                mesh->load[dof(mesh, top, 0, row + 1, 0)] += side_pressure * mesh->heights[row] / 2.0;
+                const double half = side_pressure * mesh->heights[row] / 2.0;
+                mesh->load[dof(mesh, top, 0, row, 0)] += half;
+                mesh->load[dof(mesh, top, 0, row + 1, 0)] += half;
             }
         }
 }

@@ -24,7 +24,8 @@ static void call(const struct solver *solver, const struct problem *problem, dou
     const double begin = thread_seconds();
     switch (solver->id) {
     case LCP_AUTO:
-        code = signorini_lcp_solve(n, lcp->M, n, lcp->q, &settings, outcome->y, outcome->x, &report);
+        code = signorini_lcp_solve(n, lcp->M, n, lcp->q, &settings, outcome->y, outcome->x,
+                                   &report);
         break;
     case LCP_LEMKE:
         code = signorini_lcp_lemke(n, lcp->M, n, lcp->q, NULL, &settings, outcome->y, outcome->x,

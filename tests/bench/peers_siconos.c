@@ -87,7 +87,8 @@ static void call_friction(const struct solver *solver, const struct problem *pro
     free(M);
 }
 
-#define LCP(name, form, iterative, id) {FRICTIONLESS, "siconos", name, form, iterative, id, call_lcp}
+#define LCP(name, form, iterative, id) \
+    {FRICTIONLESS, "siconos", name, form, iterative, id, call_lcp}
 #define FRICTION(name, iterative, id) \
     {FRICTION_2D, "siconos", name, REACTIONS, iterative, id, call_friction}
 
