@@ -5,9 +5,9 @@
 #
 # Builds the library, compiles tests/bench/peers*.c against it and Siconos (CC names the C compiler,
 # default cc) and runs it. A Markdown document goes to standard output, and with OUT, a directory,
-# to OUT/peers.md; OUT/peers.csv has every row. All else goes to target/bench. It takes about a
-# quarter of an hour. SIGNORINI_PEERS_MOST is the largest number of pairs (129: half a minute),
-# SIGNORINI_PEERS_SECONDS the CPU time that one call may take (default 30).
+# to OUT/peers.md; OUT/peers.csv has every row. All else goes to target/bench. It takes about half
+# an hour, most of it for peers that do not end. SIGNORINI_PEERS_MOST is the largest number of pairs
+# (129: half a minute), SIGNORINI_PEERS_SECONDS the CPU time that a call may take (default 30).
 set -eu
 LC_ALL=C
 export LC_ALL

@@ -194,10 +194,12 @@ void write_markdown(FILE *file, const struct row *rows, size_t count, const char
     fprintf(file, "%s, one core of: ", date);
     machine(file);
     fprintf(file, ". %s\n\n", versions);
-    fprintf(file, "Thread CPU time to `eta <= 1e-12`, measured by the same certificate for every "
-                  "solver; a call may take %g s. Siconos is Debian's build, for any x86-64 but for its "
-                  "BLAS; each of its solvers runs at the loosest tolerance whose answer is accepted, "
-                  "on stiffness (`_K`) and flexibility (`_W`).\n\n", limit);
+    fprintf(file,
+            "Thread CPU time to `eta <= 1e-12`, measured by the same certificate for every solver; "
+            "a call may take %g s. Siconos is Debian's build, for any x86-64 but for its BLAS; "
+            "each of its solvers runs at the loosest tolerance whose answer is accepted, on "
+            "stiffness (`_K`) and flexibility (`_W`).\n\n",
+            limit);
     fprintf(file, "| family | geometry | pairs | mu | `auto`, ms | best of Siconos, ms | ratio | "
                   "which | not solved |\n|---|---|---|---|---|---|---|---|---|\n");
     for (size_t k = 0; k < count; k++) {
