@@ -104,6 +104,17 @@ static FILE *open_in(const char *directory, const char *name)
     return file;
 }
 
+/* After every size, so that a run that is ended early leaves what it has. */
+static void save(const char *directory, const struct results *results, const char *versions,
+                 double limit)
+{
+    FILE *csv = open_in(directory, "peers.csv"), *markdown = open_in(directory, "peers.md");
+    write_csv(csv, results->rows, results->count);
+    write_markdown(markdown, results->rows, results->count, versions, limit);
+    fclose(csv);
+    fclose(markdown);
+}
+
 int main(int argc, char **argv)
 {
     static const size_t sizes[] = {33, 129, 513, 1025, 2049};
@@ -120,25 +131,20 @@ int main(int argc, char **argv)
     mallopt(M_TRIM_THRESHOLD, INT_MAX);
     struct results results = {need(4096, sizeof(struct row)), 0};
     struct outcome *outcome = outcome_new(2 * 2049);
+    char versions[512];
+    snprintf(versions, sizeof versions, "signorini %s, Siconos %s, BLAS of both Siconos and the "
+             "preparation: %s.", signorini_version(), SICONOS, blas_name());
 
     for (size_t s = 0; s < sizeof sizes / sizeof sizes[0] && sizes[s] <= most; s++)
         for (int geometry = BAR; geometry <= TWO_BLOCKS; geometry++) {
             frictionless((enum geometry)geometry, sizes[s], limit, outcome, &results);
             if (sizes[s] <= 1025)
                 friction((enum geometry)geometry, sizes[s], limit, outcome, &results);
+            if (argc > 3)
+                save(argv[3], &results, versions, limit);
         }
 
-    char versions[512];
-    snprintf(versions, sizeof versions, "signorini %s, Siconos %s, BLAS of both Siconos and the "
-             "preparation: %s.", signorini_version(), SICONOS, blas_name());
     write_markdown(stdout, results.rows, results.count, versions, limit);
-    if (argc > 3) {
-        FILE *csv = open_in(argv[3], "peers.csv"), *md = open_in(argv[3], "peers.md");
-        write_csv(csv, results.rows, results.count);
-        write_markdown(md, results.rows, results.count, versions, limit);
-        fclose(csv);
-        fclose(md);
-    }
     free(results.rows);
     return 0;
 }
