@@ -14,8 +14,8 @@ For P pairs in dimension D (2 or 3), N = D * P, ordered pair by pair (n, t) or (
 
 Signs: n is the outward normal of the body; d_n > 0 moves towards the obstacle, F_n < 0 presses, F is
 the force on the body. f and F are nodal forces. Units are yours, and so are those of the results.
-Numbers for each pair (gap, mu, g, slip) may be one number for all. Vectors of N entries may have the
-shape (P, D) as well. signorini.h is the reference; it also says what each field of a report is.
+gap, mu, g and slip may be one number for all pairs. Vectors of N entries may have the shape (P, D).
+signorini.h is the reference; it also says what each field of a report is.
 
 Settings are keywords of everything that solves: method ("auto", "sor_nested", "sor_diagonal",
 "lemke", "pivot", "newton"), tolerance, omega, damping, max_iterations, time_limit, search ("off",
@@ -197,7 +197,9 @@ def _bind(library, place):
             f"{ABI_VERSION}: use the signorini.py that belongs to the library"
         )
     for name, (result, arguments) in _SIGNATURES.items():
-        function = getattr(library, "signorini_" + name)
+        function = getattr(library, "signorini_" + name, None)
+        if function is None:
+            raise SignoriniError(f"{place} has no signorini_{name}: it is older than this module")
         function.restype, function.argtypes = result, arguments
 
 
@@ -210,8 +212,8 @@ def _library():
 # ---- arrays ----
 
 
-def _reals(name, values, shape=None, order="C", copy=False):
-    """64-bit numbers of a shape; None for None. One number fills it, and so does one row."""
+def _reals(name, values, shape=None, order="C", fill=False):
+    """64-bit numbers of a shape; None for None. With fill, fewer numbers are repeated to fill it."""
     if values is None:
         return None
     array = np.asarray(values)
@@ -220,12 +222,11 @@ def _reals(name, values, shape=None, order="C", copy=False):
     if shape is not None and array.shape != shape:
         if array.size == np.prod(shape, dtype=int) and array.ndim > 0:
             array = array.reshape(shape)
-        elif array.ndim <= 1 and array.shape in ((), shape[-1:]):
+        elif fill and array.shape in ((), *(shape[i:] for i in range(1, len(shape)))):
             array = np.broadcast_to(array, shape)
         else:
             raise ValueError(f"{name} has the shape {array.shape}, not {shape}")
-    return np.array(array, dtype=np.float64, order=order, copy=True) if copy else np.require(
-        array, np.float64, ["F" if order == "F" else "C", "ALIGNED"])
+    return np.require(array, np.float64, [order, "ALIGNED"])
 
 
 def _indices(name, values, shape, kinds=(np.int64,)):
@@ -347,10 +348,12 @@ def _flat(function, K, f, gap, friction, slip, dim, start, settings):
     library = _library()
     K, pairs = _condensed("K", K, dim)
     call = _Call(library, settings, start)
-    given = [K, _reals("f", f, (len(K),)), _reals("gap", gap, (pairs,)),
-             _reals("mu" if function == "solve" else "g", friction, (pairs,)),
-             _reals("slip", slip, (pairs, dim - 1))]
-    d = _reals("start", 0.0 if start is None else start, (pairs, dim), copy=True)
+    given = [K, _reals("f", f, (len(K),)), _reals("gap", gap, (pairs,), fill=True),
+             _reals("mu" if function == "solve" else "g", friction, (pairs,), fill=True),
+             _reals("slip", slip, (pairs, dim - 1), fill=True)]
+    d = np.zeros((pairs, dim))
+    if start is not None:
+        d[:] = _reals("start", start, (pairs, dim))
     F, state, report = np.zeros((pairs, dim)), np.zeros(pairs, np.int32), _report()
     at = [_at(array) for array in given]
     status, message = call.run(
@@ -388,9 +391,10 @@ def certify(K, f, gap, mu, d, slip=None, *, dim=2, tolerance=1e-10):
     """
     library = _library()
     K, pairs = _condensed("K", K, dim)
-    given = [K, _reals("f", f, (len(K),)), _reals("gap", gap, (pairs,)), _reals("mu", mu, (pairs,)),
-             _reals("slip", slip, (pairs, dim - 1))]
-    d = _reals("d", d, (pairs, dim), copy=True)
+    given = [K, _reals("f", f, (len(K),)), _reals("gap", gap, (pairs,), fill=True),
+             _reals("mu", mu, (pairs,), fill=True),
+             _reals("slip", slip, (pairs, dim - 1), fill=True)]
+    d = _reals("d", d, (pairs, dim)).copy()
     F, state, report = np.zeros((pairs, dim)), np.zeros(pairs, np.int32), _report()
     at = [_at(array) for array in given]
     status = library.certify(dim, pairs, at[0], max(1, len(K)), *at[1:], tolerance, _at(d), _at(F),
@@ -484,8 +488,8 @@ class Model:
         count, dim = slaves.shape
         slaves = _indices("slaves", slaves, (count, dim))
         fixed = _indices("fixed", fixed, (np.size(fixed),))
-        normals = _reals("normals", normals, (count, dim))
-        tangents = _reals("tangents", tangents, (count, dim))
+        normals = _reals("normals", normals, (count, dim), fill=True)
+        tangents = _reals("tangents", tangents, (count, dim), fill=True)
         first = nodes = None
         if masters is not None:
             if len(masters) != count or (weights is not None and len(weights) != count):
@@ -513,26 +517,23 @@ class Model:
         """Solves a load case, f of H entries: a Result; or several, f of (C, H): a list of them.
 
         gap, mu, slip, start: as for solve.  prescribed: values of the fixed degrees of freedom;
-        None: zero. With several cases each may have a leading axis of C, and a case that is wrong
-        does not stop the others: its status is negative, its numbers are NaN, its report is None.
+        None: zero. With several cases each may have a leading axis of C, or be the same for all, and
+        a case that is wrong does not stop the others: its status is negative, its numbers are NaN,
+        its report is None.
         """
-        given = np.asarray(f)
-        several = given.ndim == 2 and given.shape[1:] == (self.host_size,)
-        cases, pairs, dim = len(given) if several else 1, self.pairs, self.dim
-
-        def block(name, values, *shape):
-            if several and np.shape(values) == shape:  # the same for all cases
-                values = np.broadcast_to(values, (cases, *shape))
-            return _reals(name, values, (cases, *shape))
-
+        several = np.ndim(f) == 2 and np.shape(f)[1:] == (self.host_size,)
+        cases, pairs, dim = len(f) if several else 1, self.pairs, self.dim
         call = _Call(self._library, settings, start)
-        given = [block("f", f, self.host_size), block("prescribed", prescribed, self._fixed),
-                 block("gap", gap, pairs), block("mu", mu, pairs),
-                 block("slip", slip, pairs, dim - 1)]
-        if start is None:
-            d = np.full((cases, pairs, dim), np.nan)
-        else:
-            d = np.array(block("start", start, pairs, dim))
+        given = [
+            _reals("f", f, (cases, self.host_size)),
+            _reals("prescribed", prescribed, (cases, self._fixed), fill=True),
+            _reals("gap", gap, (cases, pairs), fill=True),
+            _reals("mu", mu, (cases, pairs), fill=True),
+            _reals("slip", slip, (cases, pairs, dim - 1), fill=True),
+        ]
+        d = np.full((cases, pairs, dim), np.nan)
+        if start is not None:
+            d[:] = _reals("start", start, d.shape, fill=True)
         F, state = np.full_like(d, np.nan), np.full((cases, pairs), -1, np.int32)
         untouched = np.iinfo(np.int32).min
         status = np.full(cases, untouched, np.int32)

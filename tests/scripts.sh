@@ -1,0 +1,26 @@
+#!/bin/sh
+# The Python module over the library, signorini.py, and the scripts that draw with it.
+#
+#     sh tests/scripts.sh [--require]
+#
+# PYTHON names the Python, default python3. Without numpy it is skipped, or fails if --require is
+# given; the pictures need matplotlib and PIL too.
+set -eu
+
+root=$(CDPATH='' cd -- "$(dirname -- "$0")/.." && pwd)
+work=$root/target/tests/scripts\ of\ python
+python=${PYTHON:-python3}
+
+if ! "$python" -c 'import numpy' >/dev/null 2>&1; then
+    echo "scripts: '$python' has no numpy (python3 and python3-numpy in Debian)"
+    [ "${1-}" != --require ] || exit 1
+    echo "scripts: SKIPPED"
+    exit 0
+fi
+
+command -v cargo >/dev/null || PATH=$PATH:${CARGO_HOME:-${HOME:-/root}/.cargo}/bin
+(cd "$root" && cargo build --quiet --release --locked --lib --target-dir "$root/target")
+rm -rf -- "$work"
+mkdir -p -- "$work"
+unset SIGNORINI_LIBRARY
+"$python" -B "$root/tests/python/scripts.py" "${CC:-cc}" "$work"
