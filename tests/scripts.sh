@@ -24,3 +24,22 @@ rm -rf -- "$work"
 mkdir -p -- "$work"
 unset SIGNORINI_LIBRARY
 "$python" -B "$root/tests/python/scripts.py" "${CC:-cc}" "$work"
+
+if ! "$python" -c 'import matplotlib, PIL' >/dev/null 2>&1; then
+    echo "scripts: '$python' has no matplotlib (python3-matplotlib in Debian)"
+    [ "${1-}" != --require ] || exit 1
+    echo "scripts: pictures SKIPPED"
+    exit 0
+fi
+sh "$root/c_examples/replay.sh" "$work/out" >"$work/replay.log" 2>&1 ||
+    { cat "$work/replay.log"; exit 1; }
+sh "$root/c_examples/junction.sh" "$work/out" >"$work/junction.log" 2>&1 ||
+    { cat "$work/junction.log"; exit 1; }
+for script in bar_on_plane bolted_junction; do
+    "$python" "$root/c_examples/$script.py" "$work/out"
+done
+for picture in bar_on_plane bar_friction bolted_junction; do
+    [ -s "$work/out/$picture.png" ] || { echo "scripts: no picture $picture.png"; exit 1; }
+done
+[ ! -e "$root/c_examples/__pycache__" ] || { echo "scripts: Python left files"; exit 1; }
+echo "scripts: passed, pictures in $work/out"
