@@ -6,8 +6,8 @@
     result = model.solve(bar.load, gap=0.0, mu=1.0)
     u = model.recover(result.d, bar.load)
 
-It is the mesh of bar_mesh.c: plane strain, four-node quadrilaterals, 2 x 2 Gauss points, 40 x 40 mm,
-rows that grow from the contact side y = 0; forces in daN for 1 mm of thickness.
+It is the mesh of bar_mesh.c: plane strain, four-node quadrilaterals, 2 x 2 Gauss points, 40 mm by
+40 mm, rows that grow from the contact side y = 0; forces in daN for 1 mm of thickness.
 """
 
 from collections import namedtuple
@@ -17,8 +17,8 @@ import numpy as np
 Bar = namedtuple("Bar", "x matrix load contact held")
 Bar.__doc__ = """An assembled bar of n degrees of freedom.
 
-x: of the contact nodes, from the free corner on, mm.  matrix: (data, indices, indptr), n columns, all
-entries.  load: n, daN.  contact: degrees of freedom (x, y) of each contact node, (P, 2).
+x: of the contact nodes, from the free corner on, mm.  matrix: (data, indices, indptr), n columns,
+all entries.  load: n, daN.  contact: degrees of freedom (x, y) of each contact node, (P, 2).
 held: those that the symmetry at x = 40 holds.
 """
 
@@ -67,9 +67,10 @@ def condense(bar):
     inner = np.setdiff1d(np.arange(len(f)), bar.contact)
     outer = bar.contact[:, ::-1].ravel()  # (y, x), node by node
     sign = np.tile([-1.0, 1.0], len(bar.contact))
-    X = np.linalg.solve(K[np.ix_(inner, inner)], np.column_stack([K[np.ix_(inner, outer)], f[inner]]))
-    K_c = K[np.ix_(outer, outer)] - K[np.ix_(outer, inner)] @ X[:, :-1]
-    f_c = f[outer] - K[np.ix_(outer, inner)] @ X[:, -1]
+    K_ii, K_io = K[np.ix_(inner, inner)], K[np.ix_(inner, outer)]
+    X = np.linalg.solve(K_ii, np.column_stack([K_io, f[inner]]))
+    K_c = K[np.ix_(outer, outer)] - K_io.T @ X[:, :-1]
+    f_c = f[outer] - K_io.T @ X[:, -1]
     return sign[:, None] * (K_c + K_c.T) / 2 * sign, sign * f_c
 
 

@@ -16,7 +16,8 @@ script=calculix
 [ $# -le 1 ] || die "usage: sh calculix.sh [OUT]"
 check_tools
 ccx=${CCX:-ccx}
-command -v "$ccx" >/dev/null || die "CalculiX ('$ccx') is missing: install it (calculix-ccx in Debian), or set CCX"
+command -v "$ccx" >/dev/null ||
+    die "CalculiX ('$ccx') is missing: install it (calculix-ccx in Debian), or set CCX"
 out=${1:-$build/calculix}
 mkdir -p -- "$out" || die "cannot create the directory $out"
 out=$(CDPATH='' cd -- "$out" && pwd)

@@ -12,9 +12,9 @@ For P pairs in dimension D (2 or 3), N = D * P, ordered pair by pair (n, t) or (
     |F_t| <= mu |F_n|                               Coulomb friction: d_t = slip inside the cone,
                                                     d_t - slip = -lambda F_t, lambda >= 0, on it
 
-Signs: n is the outward normal of the body; d_n > 0 moves towards the obstacle, F_n < 0 presses, F is
-the force on the body. f and F are nodal forces. Units are yours, and so are those of the results.
-gap, mu, g and slip may be one number for all pairs. Vectors of N entries may have the shape (P, D).
+Signs: n is the outward normal of the body; d_n > 0 moves towards the obstacle, F_n < 0 presses, F
+is the force on the body. f and F are nodal forces. Units are yours, also those of the results. gap,
+mu, g and slip may be one number for all pairs. Vectors of N entries may have the shape (P, D).
 signorini.h is the reference; it also says what each field of a report is.
 
 Settings are keywords of everything that solves: method ("auto", "sor_nested", "sor_diagonal",
@@ -213,7 +213,7 @@ def _library():
 
 
 def _reals(name, values, shape=None, order="C", fill=False):
-    """64-bit numbers of a shape; None for None. With fill, fewer numbers are repeated to fill it."""
+    """64-bit numbers of a shape; None for None. With fill, fewer numbers are repeated."""
     if values is None:
         return None
     array = np.asarray(values)
@@ -274,7 +274,8 @@ class _Call:
         self.settings = _Settings()
         library.settings_default(ctypes.byref(self.settings), ctypes.sizeof(_Settings))
         self.progress = settings.pop("progress", None)
-        known = ("method", "tolerance", "omega", "damping", "max_iterations", "time_limit", "search")
+        known = ("method", "tolerance", "omega", "damping", "max_iterations", "time_limit",
+                 "search")
         for name, value in settings.items():
             if name not in known:
                 raise TypeError(f"{name} is not a setting; settings: {', '.join(known)}, progress")
@@ -312,7 +313,7 @@ class _Call:
         previous = signal.getsignal(signal.SIGINT) if self.progress is not None else None
         watch = callable(previous) and threading.current_thread() is threading.main_thread()
         if watch:
-            # Python would raise KeyboardInterrupt on the first line of _tell, where ctypes drops it.
+            # Python would raise KeyboardInterrupt at the door of _tell, where ctypes drops it.
             def handle(number, frame):
                 self.pending = (previous, number, frame)
                 if self.inside:
@@ -406,8 +407,8 @@ def certify(K, f, gap, mu, d, slip=None, *, dim=2, tolerance=1e-10):
 def lcp_solve(M, q, **settings):
     """Solves w = q + M z, w >= 0, z >= 0, w . z = 0. M: (n, n).  q: n. Returns an LcpResult.
 
-    method is "auto", "pivot" or "lemke". With status NO_EQUILIBRIUM no solution exists, and z proves
-    it: z >= 0, M' z <= 0, q . z < 0.
+    method is "auto", "pivot" or "lemke". With status NO_EQUILIBRIUM no solution exists, and z
+    proves it: z >= 0, M' z <= 0, q . z < 0.
     """
     library = _library()
     M = _square("M", M)
@@ -517,9 +518,9 @@ class Model:
         """Solves a load case, f of H entries: a Result; or several, f of (C, H): a list of them.
 
         gap, mu, slip, start: as for solve.  prescribed: values of the fixed degrees of freedom;
-        None: zero. With several cases each may have a leading axis of C, or be the same for all, and
-        a case that is wrong does not stop the others: its status is negative, its numbers are NaN,
-        its report is None.
+        None: zero. With several cases each may have a leading axis of C, or be the same for all,
+        and a case that is wrong does not stop the others: its status is negative, its numbers are
+        NaN, its report is None.
         """
         several = np.ndim(f) == 2 and np.shape(f)[1:] == (self.host_size,)
         cases, pairs, dim = len(f) if several else 1, self.pairs, self.dim

@@ -1,6 +1,6 @@
 #!/bin/sh
-# CalculiX as the host: the forces that it reports for the library's displacements are the library's,
-# to the digits that it prints; matrix files that are not whole are told, not used.
+# CalculiX as the host: the forces that it reports for the library's displacements are those of the
+# library, to the digits that it prints; matrix files that are not whole are told, not used.
 #
 #     sh tests/host_calculix.sh [--require]
 #

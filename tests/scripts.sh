@@ -23,7 +23,9 @@ command -v cargo >/dev/null || PATH=$PATH:${CARGO_HOME:-${HOME:-/root}/.cargo}/b
 rm -rf -- "$work"
 mkdir -p -- "$work"
 unset SIGNORINI_LIBRARY
-"$python" -B "$root/tests/python/scripts.py" "${CC:-cc}" "$work"
+"$python" -B "$root/tests/python/results.py"
+"$python" -B "$root/tests/python/progress.py"
+"$python" -B "$root/tests/python/library.py" "${CC:-cc}" "$work"
 
 if ! "$python" -c 'import matplotlib, PIL' >/dev/null 2>&1; then
     echo "scripts: '$python' has no matplotlib (python3-matplotlib in Debian)"

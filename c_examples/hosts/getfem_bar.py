@@ -2,10 +2,10 @@
 
     /usr/bin/python3 c_examples/hosts/getfem_bar.py
 
-GetFEM meshes and assembles the bar. Its tangent matrix and right-hand side go to the library as they
-are, a sparse matrix with contact pairs; the same model with GetFEM's own contact brick must give the
-same forces. Needs GetFEM (python3-getfem, which Debian installs for its own /usr/bin/python3) and
-numpy. The library is found as signorini.py says.
+GetFEM meshes and assembles the bar. Its tangent matrix and right-hand side go to the library as
+they are, a sparse matrix with contact pairs; the same model with GetFEM's own contact brick must
+give the same forces. Needs GetFEM (python3-getfem, which Debian installs for its own
+/usr/bin/python3) and numpy. The library is found as signorini.py says.
 """
 
 import os

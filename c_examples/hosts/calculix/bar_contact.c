@@ -53,7 +53,8 @@ static const char *read_matrix(struct matrix_files *matrix, const char *director
 }
 
 /* The lines node,direction,value of *CLOAD. CalculiX does not write loads with its matrix. */
-static const char *read_loads(const struct matrix_files *matrix, const char *directory, double *load)
+static const char *read_loads(const struct matrix_files *matrix, const char *directory,
+                              double *load)
 {
     FILE *const file = open_in(directory, "bar_loads.inc", "r");
     const char *problem = NULL;

@@ -29,7 +29,8 @@ f = [2 1.5 3 0.5];
 [d, F, state, eta] = signorini_solve (K, f, 0, 0.3);
 names = {"open", "slip", "stick"};
 for i = 1:2
-  printf ("pair %d %-5s d_n %.4f d_t %.4f  F_n %.4f F_t %.4f\n", i, names{state(i) + 1}, d(:,i), F(:,i));
+  printf ("pair %d %-5s d_n %.4f d_t %.4f  F_n %.4f F_t %.4f\n", i, ...
+          names{state(i) + 1}, d(:,i), F(:,i));
 endfor
 check (eta <= 1e-10, "solved");
 check (norm (K * d(:) - f(:) - F(:)) <= 1e-12, "equilibrium");

@@ -1,48 +1,24 @@
 """signorini.py: what it returns, what it refuses, and in which words.
 
-    python3 tests/python/scripts.py CC WORK       CC: a C compiler; WORK: a directory to write to
+    python3 tests/python/results.py
 """
 
-import os
 import re
-import signal
-import subprocess
-import sys
-import threading
-import time
 import unittest
 
 import numpy as np
 
-ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-sys.dont_write_bytecode = True
-sys.path.insert(0, os.path.join(ROOT, "c_examples"))
-import bar_mesh  # noqa: E402
-import signorini  # noqa: E402
+from common import LOAD, K, chain, text
 
-CC, WORK = "cc", "."
-BUILT = os.path.join(ROOT, "target", "release", "libsignorini.so")
-
-# Two pairs of the README's first program.
-K = np.array([[4, 1, -1, 0], [1, 4, 0, -1], [-1, 0, 4, 1], [0, -1, 1, 4]])
-LOAD = [2, 1.5, 3, 0.5]
-
-
-def text(*parts):
-    with open(os.path.join(ROOT, *parts), encoding="utf-8") as file:
-        return file.read()
+import bar_mesh
+import signorini
 
 
 def reference(name):
     """An array of bar_reference.h."""
-    body = re.search(name + r"\[BAR_SIZE\] = \{(.*?)\}", text("c_examples", "bar_reference.h"), re.S)
-    return np.array([float(word) for word in body[1].split(",") if word.strip()]).reshape(-1, 2)
-
-
-def spring(pairs=60):
-    """K of a long chain, on which slow methods take long, and a load."""
-    K = np.kron(2 * np.eye(pairs) - np.eye(pairs, k=1) - np.eye(pairs, k=-1), np.eye(2))
-    return K, np.tile([1.0, 0.5], pairs)
+    header = text("c_examples", "bar_reference.h")
+    body = re.search(name + r"\[BAR_SIZE\] = \{(.*?)\}", header, re.S)[1]
+    return np.array([float(word) for word in body.split(",") if word.strip()]).reshape(-1, 2)
 
 
 class Bar(unittest.TestCase):
@@ -120,11 +96,12 @@ class Calls(unittest.TestCase):
     def test_start_and_settings(self):
         first = signorini.solve(K, LOAD, 0.0, 0.3, method="sor_nested", tolerance=1e-12)
         start = first.d.copy()
-        again = signorini.solve(K, LOAD, 0.0, 0.3, method="sor_nested", tolerance=1e-12, start=start)
+        again = signorini.solve(K, LOAD, 0.0, 0.3, method="sor_nested", tolerance=1e-12,
+                                start=start)
         self.assertLess(again.report.iterations, first.report.iterations)
         self.assertEqual(again.report.method, "sor_nested")
         np.testing.assert_array_equal(start, first.d)
-        limited = signorini.solve(*spring(), 0.01, 0.3, method="sor_nested", max_iterations=2)
+        limited = signorini.solve(*chain(), 0.01, 0.3, method="sor_nested", max_iterations=2)
         self.assertEqual(limited.status, signorini.ITERATION_LIMIT)
         self.assertEqual(limited.report.status, signorini.ITERATION_LIMIT)
         self.assertTrue(limited.message)
@@ -250,150 +227,5 @@ class Refused(unittest.TestCase):
                 sparse(K_, slaves, [0, -1])
 
 
-class Progress(unittest.TestCase):
-    slow = {"method": "sor_nested", "omega": 1e-6, "max_iterations": 10**9, "tolerance": 1e-15}
-
-    def test_is_told_and_cancels(self):
-        told = []
-        result = signorini.solve(*spring(), 0.01, 0.3, **self.slow,
-                                 progress=lambda now: told.append(now) or len(told) == 5)
-        self.assertEqual(result.status, signorini.CANCELLED)
-        self.assertEqual(len(told), 5)
-        self.assertGreaterEqual(told[-1].iterations, told[0].iterations)
-        self.assertGreaterEqual(told[-1].elapsed, 0)
-
-    def test_exceptions_cancel_and_go_on(self):
-        def fail(_):
-            calls.append(1)
-            raise LookupError("mine")
-
-        bar = spring()
-        model = signorini.Model.condensed(bar[0])
-        for call in (
-            lambda: signorini.solve(*bar, 0.01, 0.3, **self.slow, progress=fail),
-            lambda: model.solve(bar[1], 0.01, 0.3, **self.slow, progress=fail),
-            lambda: signorini.lcp_solve(bar[0], -bar[1], progress=fail),
-        ):
-            calls = []
-            with self.assertRaisesRegex(LookupError, "mine"):
-                call()
-            self.assertEqual(len(calls), 1)
-
-    def interrupted(self, progress):
-        timer = threading.Timer(0.2, os.kill, (os.getpid(), signal.SIGINT))
-        timer.start()
-        began = time.monotonic()
-        with self.assertRaises(KeyboardInterrupt):
-            signorini.solve(*spring(), 0.01, 0.3, **self.slow, time_limit=20, progress=progress)
-        self.assertLess(time.monotonic() - began, 10)
-        self.assertIs(signal.getsignal(signal.SIGINT), signal.default_int_handler)
-        timer.join()
-
-    def test_ctrl_c_in_the_library(self):
-        for _ in range(5):
-            self.interrupted(lambda _: False)
-
-    def test_ctrl_c_in_the_function(self):
-        self.interrupted(lambda _: time.sleep(5))
-
-    def test_in_another_thread(self):
-        results = []
-
-        def work():
-            results.append(signorini.solve(*spring(), 0.01, 0.3, **self.slow, progress=lambda _: 1))
-
-        thread = threading.Thread(target=work)
-        thread.start()
-        thread.join()
-        self.assertEqual(results[0].status, signorini.CANCELLED)
-
-
-class Library(unittest.TestCase):
-    """Each in a Python of its own."""
-
-    def run_python(self, code, **environment):
-        code = f"import sys; sys.path.insert(0, {os.path.join(ROOT, 'c_examples')!r})\n" + code
-        return subprocess.run([sys.executable, "-B", "-c", code], capture_output=True, text=True,
-                              env={**os.environ, **environment}, check=False)
-
-    def fake(self, name, source):
-        path = os.path.join(WORK, name)
-        with open(path + ".c", "w", encoding="ascii") as file:
-            file.write(source)
-        subprocess.run([*CC.split(), "-shared", "-fPIC", "-o", path, path + ".c"], check=True)
-        return path
-
-    def test_another_interface_is_told(self):
-        # All that it has is its number: any other call would crash.
-        path = self.fake("libanother.so", "int signorini_abi_version(void) { return 999; }\n")
-        code = "import signorini\ntry: signorini.solve([[1, 0], [0, 1]], [1, 0], 0, 0)\n" \
-               "except signorini.SignoriniError as error: print(error)"
-        for result in (
-            self.run_python(code, SIGNORINI_LIBRARY=path),
-            self.run_python(f"import signorini\ntry: signorini.load({path!r})\n"
-                            "except signorini.SignoriniError as error: print(error)"),
-        ):
-            self.assertEqual((result.returncode, result.stderr), (0, ""))
-            self.assertIn("has the binary interface 999, but this module is written for "
-                          f"{signorini.ABI_VERSION}", result.stdout)
-
-    def test_what_is_not_it_is_told(self):
-        number = signorini.ABI_VERSION
-        for path, words in (
-            (self.fake("libother.so", "int other(void) { return 1; }\n"), "is not the library"),
-            (self.fake("libolder.so",
-                       f"int signorini_abi_version(void) {{ return {number}; }}\n"), "is older"),
-            (os.path.join(WORK, "nowhere.so"), "cannot be loaded"),
-        ):
-            with self.assertRaisesRegex(signorini.SignoriniError, words):
-                signorini.load(path)
-        self.assertEqual(signorini.solve(K, LOAD, 0, 0.3).status, signorini.SOLVED)
-
-    def test_is_found(self):
-        version = re.search(r'^version = "(.*)"', text("Cargo.toml"), re.M)[1]
-        self.assertEqual(signorini.load(), version)
-        if os.path.exists(BUILT):
-            code = "import os, signorini; os.chdir('/'); print(signorini.load())"
-            found = self.run_python(code, SIGNORINI_LIBRARY=BUILT)
-            self.assertEqual((found.stdout.strip(), found.stderr), (version, ""))
-
-    def test_module_is_that_of_the_header(self):
-        header = text("include", "signorini.h")
-        constants = dict(re.findall(r"#define SIGNORINI_(\w+) (-?\d+)", header))
-        self.assertEqual(int(constants["ABI_VERSION"]), signorini.ABI_VERSION)
-        for name in ("SOLVED ITERATION_LIMIT TIME_LIMIT CANCELLED NO_EQUILIBRIUM STALLED "
-                     "NOT_A_SOLUTION OPEN SLIP STICK").split():
-            self.assertEqual(getattr(signorini, name), int(constants[name]), name)
-        for prefix, names in (("METHOD", signorini.METHODS), ("SEARCH", signorini.SEARCHES),
-                              ("FALLBACK", signorini.FALLBACKS), ("", signorini.UNIQUENESS),
-                              ("", signorini.TRIANGLES)):
-            for value, name in enumerate(names):
-                key = f"{prefix}_{name}".strip("_").upper()
-                self.assertEqual(int(constants[key]), value, key)
-        header = re.sub(r"/\*.*?\*/", "", header, flags=re.S)
-        kinds = {"c_int": "int32_t", "c_uint": "uint32_t", "c_long": "int64_t",
-                 "c_longlong": "int64_t", "c_double": "double", "CFunctionType": "signorini_progress_fn"}
-        for name, structure in (("progress", signorini._Told), ("settings", signorini._Settings),
-                                ("report", signorini._Report), ("sparse", signorini._Sparse),
-                                ("pairs", signorini._Pairs)):
-            body = re.search(rf"struct signorini_{name} \{{(.*?)\}}", header, re.S)[1]
-            fields = [re.match(r"(.*?)\s*(\w+)$", " ".join(line.split())).groups()
-                      for line in body.split(";") if line.strip()]
-            # Later versions may have more fields at the end.
-            self.assertLessEqual(len(structure._fields_), len(fields))
-            for (field, kind), (c_kind, c_name) in zip(structure._fields_, fields):
-                self.assertEqual(field, c_name)
-                expected = kinds.get(kind.__name__)
-                if expected:
-                    self.assertEqual(c_kind, expected, field)
-                else:
-                    self.assertTrue(c_kind.endswith("*"), field)
-        for name, (_, arguments) in signorini._SIGNATURES.items():
-            declared = re.search(rf"\bsignorini_{name}\(([^)]*)\);", header)[1]
-            count = 0 if declared.strip() == "void" else declared.count(",") + 1
-            self.assertEqual(len(arguments), count, name)
-
-
 if __name__ == "__main__":
-    CC, WORK = sys.argv[1:3]
-    unittest.main(argv=sys.argv[:1])
+    unittest.main()
