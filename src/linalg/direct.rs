@@ -136,3 +136,26 @@ pub fn largest_eigenvalue(n: usize, entry: impl Fn(usize, usize) -> f64) -> Opti
     let matrix = Mat::from_fn(n, n, entry);
     matrix.self_adjoint_eigenvalues(faer::Side::Lower).ok()?.last().copied()
 }
+
+/// `target - sum_k x_k y_kᵀ` for a matrix of `shape` with leading dimension `ld`; the `x_k` and the
+/// `y_k` are contiguous, one after the other.
+pub fn subtract_outer(
+    target: &mut [f64],
+    (rows, columns): (usize, usize),
+    ld: usize,
+    x: &[f64],
+    y: &[f64],
+) {
+    if x.is_empty() {
+        return;
+    }
+    let count = x.len() / rows;
+    matmul(
+        MatMut::from_column_major_slice_with_stride_mut(target, rows, columns, ld),
+        Accum::Add,
+        MatRef::from_column_major_slice(x, rows, count),
+        MatRef::from_column_major_slice(y, columns, count).transpose(),
+        -1.0,
+        Par::Seq,
+    );
+}
