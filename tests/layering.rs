@@ -37,11 +37,12 @@ const ALLOWED: [(&str, &[&str]); 13] = [
 ];
 
 /// Solvers that one solver may call.
-const SOLVERS: [(&str, &[&str]); 22] = [
+const SOLVERS: [(&str, &[&str]); 23] = [
     ("auto", &["run", "solution", "uniqueness"]),
     ("bare", &["lemke", "pivot", "solution"]),
     ("bordered", &["pieces"]),
     ("coulomb", &["solution", "sweeps"]),
+    ("delayed", &[]),
     ("elimination", &["factor"]),
     ("equations", &["bordered", "pieces", "sor"]),
     ("escape", &["factor"]),
@@ -58,7 +59,7 @@ const SOLVERS: [(&str, &[&str]); 22] = [
     ("sor", &[]),
     ("statics", &["factor"]),
     ("sweeps", &["escape", "relaxation", "solution", "sor"]),
-    ("tableau", &[]),
+    ("tableau", &["delayed"]),
     ("uniqueness", &["frictional_lemke", "newton", "pieces", "solution"]),
 ];
 
