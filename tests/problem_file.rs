@@ -16,7 +16,7 @@ fn number(random: &mut fastrand::Rng) -> f64 {
         0.0,
         -0.0,
         5e-324,
-        -2.2250738585072011e-308,
+        -2.225_073_858_507_201e-308,
         f64::MIN_POSITIVE,
         1e308,
         f64::MAX,
