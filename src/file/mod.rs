@@ -10,7 +10,8 @@
 //! % dim: 2
 //! % pairs: 2
 //! % remark: step 7 of the crane hook
-//! % Written by signorini 0.1.0 in the units of the host. Columns: ...
+//! % Written by signorini 0.1.0 in the units of the host.
+//! % Columns: K (4), f, gap and mu in normal rows, slip in tangential rows.
 //! 4 8
 //! 4e0
 //! ...
@@ -20,7 +21,7 @@
 //! column, one a line, with as many digits (17 at most) as give back the same bits. With
 //! `N = dim * pairs` rows the columns are `K` (N of them), `f`, `gap` and `mu` (kind `tresca`: `g`),
 //! which stand in the normal row of each pair, and `slip`, which stands in the tangential rows;
-//! rows where there is nothing are 0. Of kind `lcp` they are `M` (n columns), `q` and, if given, the
+//! other rows are 0. Of kind `lcp` they are `M` (n columns), `q` and, if given, the
 //! covering vector. A gap of a pair that never touches is `inf`, the one spelling that all of the
 //! readers that were tried take. Other comment lines are skipped.
 //!

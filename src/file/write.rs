@@ -29,30 +29,24 @@ pub fn save(path: &Path, problem: &ContactProblem<'_>, remark: Option<&str>) -> 
         Friction::Coulomb(mu) => (Kind::Coulomb, "mu", mu),
         Friction::Tresca(g) => (Kind::Tresca, "g", g),
     };
+    let gap: Vec<f64> = (0..problem.pairs()).map(|pair| problem.gap(pair)).collect();
     replace(path, |file| {
         head(file, kind, remark, &[("dim", dim), ("pairs", problem.pairs())])?;
-        writeln!(file, "K ({n} columns), f,")?;
-        writeln!(file, "% gap and {name} (in normal rows), slip (in tangential rows).")?;
+        writeln!(file, "K ({n}), f, gap and {name} in normal rows, slip in tangential rows.")?;
         writeln!(file, "{n} {}", n + 4)?;
         for j in 0..n {
             entries(file, problem.column(j).iter().copied())?;
         }
         entries(file, problem.load().iter().copied())?;
-        // A value of each pair in its normal row, and one for each of its tangential rows.
-        let row = |i: usize| (i / dim, (i % dim).checked_sub(1));
-        let normal = |value: &dyn Fn(usize) -> f64, i| match row(i) {
-            (pair, None) => value(pair),
-            _ => 0.0,
+        // A value of each pair in its normal row.
+        for values in [&gap[..], friction] {
+            entries(file, (0..n).map(|i| if i % dim == 0 { values[i / dim] } else { 0.0 }))?;
+        }
+        let slip = |i| match i % dim {
+            0 => 0.0,
+            axis => problem.previous_slip(i / dim, axis - 1),
         };
-        entries(file, (0..n).map(|i| normal(&|pair| problem.gap(pair), i)))?;
-        entries(file, (0..n).map(|i| normal(&|pair| friction[pair], i)))?;
-        entries(
-            file,
-            (0..n).map(|i| match row(i) {
-                (pair, Some(component)) => problem.previous_slip(pair, component),
-                _ => 0.0,
-            }),
-        )
+        entries(file, (0..n).map(slip))
     })
 }
 
@@ -66,7 +60,7 @@ pub fn save_lcp(path: &Path, lcp: &Lcp<'_>, remark: Option<&str>) -> Result<(), 
     replace(path, |file| {
         head(file, Kind::Lcp, remark, &[])?;
         let (name, columns) = if covering.is_some() { (", cover", n + 2) } else { ("", n + 1) };
-        writeln!(file, "M ({n} columns), q{name}.")?;
+        writeln!(file, "M ({n}), q{name}.")?;
         writeln!(file, "{n} {columns}")?;
         for j in 0..n {
             entries(file, lcp.column(j).iter().copied())?;
@@ -91,7 +85,8 @@ fn head(
         writeln!(file, "% remark: {remark}")?;
     }
     let version = env!("CARGO_PKG_VERSION");
-    write!(file, "% Written by signorini {version} in the units of the host. Columns: ")
+    writeln!(file, "% Written by signorini {version} in the units of the host.")?;
+    write!(file, "% Columns: ")
 }
 
 /// One entry a line, in the fewest digits that give back the same bits.
