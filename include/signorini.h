@@ -12,9 +12,10 @@
  * K is the stiffness matrix condensed on the contact components: symmetric, positive definite or
  * only semi-definite (bodies held by nothing but contact).
  *
- * Ways in. signorini_solve, signorini_tresca and signorini_lcp_lemke take plain arrays and do all in
+ * Ways in. signorini_solve, signorini_tresca and signorini_lcp_solve take plain arrays and do all in
  * one call. A signorini_model reduces what you have once, a condensed matrix, two of them, or your
  * whole sparse matrix with contact pairs, then solves load cases and recovers displacements.
+ * signorini_certify measures displacements that you have from elsewhere.
  *
  * Signs. n is the outward normal of the body: d_n > 0 moves towards the obstacle, F_n < 0 presses.
  * F is the force that the contact exerts on the body. f and F are nodal forces, not stresses.
@@ -57,29 +58,29 @@
 #define SIGNORINI_SOLVED 0
 
 /**
- * max_iterations used up; the results are the last iterate.
+ * max_iterations used up; the results are the best iterate so far.
  */
 #define SIGNORINI_ITERATION_LIMIT 1
 
 /**
- * time_limit used up; the results are the last iterate.
+ * time_limit used up; the results are the best iterate so far.
  */
 #define SIGNORINI_TIME_LIMIT 2
 
 /**
- * The progress callback returned nonzero; the results are the last iterate.
+ * The progress callback returned nonzero; the results are the best iterate so far.
  */
 #define SIGNORINI_CANCELLED 3
 
 /**
  * Proved: no equilibrium exists. d is the motion of escape (largest component 1), the forces are
- * zero. For signorini_lcp_lemke: no w, z >= 0 satisfy w = q + M z, and z proves it.
+ * zero. For a bare complementarity problem: no w, z >= 0 satisfy w = q + M z, and z proves it.
  */
 #define SIGNORINI_NO_EQUILIBRIUM 4
 
 /**
- * The method cannot go on (rounding, or a ray that proves nothing); the results are its last
- * iterate.
+ * The method cannot go on (rounding, a cycle, a ray that proves nothing); the results are its best
+ * iterate. Of SIGNORINI_METHOD_AUTO: no method found a solution or a proof that there is none.
  */
 #define SIGNORINI_STALLED 5
 
@@ -364,7 +365,7 @@ typedef struct signorini_report {
    */
   int32_t status;
   /**
-   * The method that ended it, SIGNORINI_METHOD_...
+   * The method that ended it, SIGNORINI_METHOD_...; of signorini_certify 0.
    */
   int32_t method;
   /**
@@ -625,8 +626,8 @@ int32_t signorini_solve(int32_t dim,
  * Solves a condensed contact problem with given friction thresholds (Tresca): |F_t| <= g, open or
  * closed.
  *
- * The arguments are those of signorini_solve, with g in the place of mu. Methods:
- * SIGNORINI_METHOD_SOR_NESTED, or SIGNORINI_METHOD_LEMKE if every g is 0.
+ * The arguments are those of signorini_solve, with g in the place of mu. The method
+ * SIGNORINI_METHOD_SOR_DIAGONAL is not for given thresholds.
  *
  * @param dim       space dimension, 2 or 3
  * @param pairs     number of contact pairs, 0 allowed

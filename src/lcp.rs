@@ -122,10 +122,15 @@ impl<'a> Lcp<'a> {
     pub fn magnitudes(&self) -> Vec<f64> {
         let mut magnitude = vec![0.0_f64; self.size];
         for j in 0..self.size {
-            for (i, m) in self.column(j).iter().enumerate() {
-                magnitude[i] = magnitude[i].max(m.abs());
-                magnitude[j] = magnitude[j].max(m.abs());
+            // Two plain loops, for the vectoriser.
+            let mut most = 0.0;
+            for m in self.column(j) {
+                most = if m.abs() > most { m.abs() } else { most };
             }
+            for (magnitude, m) in magnitude.iter_mut().zip(self.column(j)) {
+                *magnitude = if m.abs() > *magnitude { m.abs() } else { *magnitude };
+            }
+            magnitude[j] = magnitude[j].max(most);
         }
         for magnitude in &mut magnitude {
             if *magnitude == 0.0 {

@@ -62,6 +62,19 @@ impl<'a> Monitor<'a> {
         self.iterations
     }
 
+    /// Allows no more than `steps` further ones, in a part of the work; returns what
+    /// [`Self::restore`] takes to end that.
+    pub(crate) fn allow(&mut self, steps: u64) -> u64 {
+        let all = self.max_iterations;
+        self.max_iterations = all.min(self.iterations.saturating_add(steps));
+        all
+    }
+
+    /// Ends what [`Self::allow`] began.
+    pub(crate) fn restore(&mut self, all: u64) {
+        self.max_iterations = all;
+    }
+
     /// Tells the callback's next report how accurate the iterate is.
     pub(crate) fn measured(&mut self, eta: f64) {
         self.eta = eta;

@@ -39,15 +39,17 @@ const ALLOWED: [(&str, &[&str]); 14] = [
 ];
 
 /// Solvers that one solver may call.
-const SOLVERS: [(&str, &[&str]); 19] = [
+const SOLVERS: [(&str, &[&str]); 22] = [
     ("auto", &["run", "solution", "uniqueness"]),
     ("bare", &["lemke", "pivot", "solution"]),
+    ("bordered", &["pieces"]),
     ("coulomb", &["solution", "sweeps"]),
     ("elimination", &["factor"]),
-    ("equations", &["pieces", "sor"]),
+    ("equations", &["bordered", "pieces", "sor"]),
     ("escape", &["factor"]),
     ("factor", &[]),
-    ("frictional_lemke", &["elimination", "factor", "lemke", "newton", "pieces", "solution"]),
+    ("friction_lcp", &["elimination", "factor", "pieces", "solution"]),
+    ("frictional_lemke", &["friction_lcp", "lemke", "newton", "solution", "statics"]),
     ("frictionless", &["elimination", "lemke", "solution", "sweeps"]),
     ("lemke", &["tableau"]),
     ("newton", &["equations", "pieces", "solution"]),
@@ -56,6 +58,7 @@ const SOLVERS: [(&str, &[&str]); 19] = [
     ("relaxation", &[]),
     ("solution", &[]),
     ("sor", &[]),
+    ("statics", &["factor"]),
     ("sweeps", &["escape", "relaxation", "solution", "sor"]),
     ("tableau", &[]),
     ("uniqueness", &["frictional_lemke", "newton", "pieces", "solution"]),

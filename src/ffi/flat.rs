@@ -61,8 +61,8 @@ pub unsafe extern "C" fn signorini_solve(
 /// Solves a condensed contact problem with given friction thresholds (Tresca): |F_t| <= g, open or
 /// closed.
 ///
-/// The arguments are those of signorini_solve, with g in the place of mu. Methods:
-/// SIGNORINI_METHOD_SOR_NESTED, or SIGNORINI_METHOD_LEMKE if every g is 0.
+/// The arguments are those of signorini_solve, with g in the place of mu. The method
+/// SIGNORINI_METHOD_SOR_DIAGONAL is not for given thresholds.
 ///
 /// @param dim       space dimension, 2 or 3
 /// @param pairs     number of contact pairs, 0 allowed

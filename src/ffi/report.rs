@@ -43,7 +43,7 @@ pub struct SignoriniReport {
     pub struct_size: u32,
     /// What the call returned.
     pub status: i32,
-    /// The method that ended it, SIGNORINI_METHOD_...
+    /// The method that ended it, SIGNORINI_METHOD_...; of signorini_certify 0.
     pub method: i32,
     /// SIGNORINI_NOT_KNOWN, _UNIQUE or _SEVERAL.
     pub uniqueness: i32,

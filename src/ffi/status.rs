@@ -8,17 +8,17 @@ use crate::solve::Status;
 
 /// Solved and certified: eta <= tolerance.
 pub const SIGNORINI_SOLVED: i32 = 0;
-/// max_iterations used up; the results are the last iterate.
+/// max_iterations used up; the results are the best iterate so far.
 pub const SIGNORINI_ITERATION_LIMIT: i32 = 1;
-/// time_limit used up; the results are the last iterate.
+/// time_limit used up; the results are the best iterate so far.
 pub const SIGNORINI_TIME_LIMIT: i32 = 2;
-/// The progress callback returned nonzero; the results are the last iterate.
+/// The progress callback returned nonzero; the results are the best iterate so far.
 pub const SIGNORINI_CANCELLED: i32 = 3;
 /// Proved: no equilibrium exists. d is the motion of escape (largest component 1), the forces are
-/// zero. For signorini_lcp_lemke: no w, z >= 0 satisfy w = q + M z, and z proves it.
+/// zero. For a bare complementarity problem: no w, z >= 0 satisfy w = q + M z, and z proves it.
 pub const SIGNORINI_NO_EQUILIBRIUM: i32 = 4;
-/// The method cannot go on (rounding, or a ray that proves nothing); the results are its last
-/// iterate.
+/// The method cannot go on (rounding, a cycle, a ray that proves nothing); the results are its best
+/// iterate. Of SIGNORINI_METHOD_AUTO: no method found a solution or a proof that there is none.
 pub const SIGNORINI_STALLED: i32 = 5;
 /// Of signorini_certify: the displacements are not a solution.
 pub const SIGNORINI_NOT_A_SOLUTION: i32 = 6;

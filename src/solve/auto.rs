@@ -15,9 +15,12 @@ use super::solution::{
 use super::uniqueness;
 use crate::certificate;
 use crate::error::Error;
-use crate::monitor::Monitor;
+use crate::monitor::{Interruption, Monitor};
 use crate::problem::{ContactProblem, Friction};
 use crate::settings::{Method, Settings};
+
+/// Sweeps that are tried where exact methods have failed.
+const LATER_SWEEPS: u64 = 5000;
 
 /// Solves by the first method whose result is certified.
 pub fn solve(
@@ -29,7 +32,7 @@ pub fn solve(
     let plan = plan(problem);
     let mut tried = Tried::default();
     for &method in plan {
-        let candidate = super::run(method, problem, settings, start, monitor)?;
+        let candidate = attempt(method, problem, settings, start, monitor)?;
         tried.factorisations += candidate.factorisations;
         tried.refactorisations += candidate.refactorisations;
         let why = fallback(&candidate);
@@ -53,6 +56,29 @@ pub fn solve(
     let (_, method, candidate) = tried.best.take().expect("a plan has a method");
     let solution = certified(problem, settings, method, candidate);
     Ok(tried.ended(problem, solution))
+}
+
+/// Runs a method; sweeps after an exact method only for a while.
+fn attempt(
+    method: Method,
+    problem: &ContactProblem<'_>,
+    settings: &Settings,
+    start: Option<&[f64]>,
+    monitor: &mut Monitor<'_>,
+) -> Result<Candidate, Error> {
+    let sweeps = matches!(method, Method::SorNested | Method::SorDiagonal);
+    if !sweeps || plan(problem)[0] == method {
+        return super::run(method, problem, settings, start, monitor);
+    }
+    let all = monitor.allow(LATER_SWEEPS);
+    let candidate = super::run(method, problem, settings, start, monitor);
+    monitor.restore(all);
+    let mut candidate = candidate?;
+    let limit = Ending::Interrupted(Interruption::IterationLimit);
+    if candidate.ending == limit && monitor.iterations() < all {
+        candidate.ending = Ending::Stalled("no method settles");
+    }
+    Ok(candidate)
 }
 
 fn plan(problem: &ContactProblem<'_>) -> &'static [Method] {

@@ -42,7 +42,7 @@ pub fn single(
     };
     let mut sweeps = Sweeps::new(problem, settings, start, largest_factor, monitor);
     let ending = sweeps.solve(settings.tolerance).err().unwrap_or(Ending::Done);
-    Candidate { omega: sweeps.omega(), ..Candidate::ended(sweeps.d().to_vec(), ending) }
+    Candidate { omega: sweeps.omega(), ..ended(sweeps, ending) }
 }
 
 /// Solves Coulomb's problem as a sequence of Tresca problems.
@@ -79,8 +79,14 @@ pub fn nested(
         outer_iterations,
         damping: damping.theta,
         omega: sweeps.omega(),
-        ..Candidate::ended(sweeps.d().to_vec(), ending)
+        ..ended(sweeps, ending)
     }
+}
+
+/// The last iterate if it is the solution, the best one otherwise.
+fn ended(sweeps: Sweeps<'_, '_, '_>, ending: Ending) -> Candidate {
+    let d = if ending == Ending::Done { sweeps.d().to_vec() } else { sweeps.best() };
+    Candidate::ended(d, ending)
 }
 
 /// Damping of the threshold update, given or chosen from the measured rate.

@@ -41,26 +41,24 @@
 //! With given thresholds the matrix is positive semi-definite and the method needs no such care;
 //! the same start serves.
 
-use super::elimination::driven_motion;
-use super::factor::Factor;
+use super::friction_lcp::{Arrays, FrictionLcp};
 use super::lemke::{self, Care, Path, Rules, Run};
 use super::newton;
-use super::pieces::{Motion, Piece};
 use super::solution::{Candidate, Ending};
+use super::statics;
 use crate::certificate::{certify, is_escape};
 use crate::error::Error;
 use crate::lcp::Lcp;
-use crate::linalg::small::largest;
 use crate::monitor::Monitor;
-use crate::problem::{ContactProblem, Friction};
+use crate::problem::ContactProblem;
 use crate::settings::Settings;
 
-/// Glue relative to the clamp, against slip to the side +1 and −1. The theorem holds for any
-/// positive numbers.
-const GLUE: [f64; 2] = [0.5, 0.5];
+/// Glues relative to the clamp, against slip to the side +1 and −1. The theorem holds for any positive
+/// numbers; on a semi-definite `K` another path may end at a solution where the first, usual one
+/// has a ray, and where there are several solutions it may lead to another.
+const GLUES: [[f64; 2]; 5] = [[0.5, 0.5], [0.01, 1.0], [1.0, 0.01], [0.01, 0.01], [100.0, 100.0]];
 
-/// Other glues, whose paths may lead to other solutions, and how many turning points to keep.
-const GLUES: [[f64; 2]; 5] = [GLUE, [0.01, 1.0], [1.0, 0.01], [0.01, 0.01], [100.0, 100.0]];
+/// Turning points to keep in the search for other solutions.
 const TURNS: usize = 4;
 
 /// The path is at its end when `z0` has fallen to this part of its start: nearer to it rounding may
@@ -73,13 +71,16 @@ pub fn solve(
     settings: &Settings,
     monitor: &mut Monitor<'_>,
 ) -> Result<Candidate, Error> {
-    let path = match FrictionPath::new(problem) {
+    let path = match FrictionLcp::new(problem) {
         Ok(path) => path,
         Err(candidate) => return Ok(candidate),
     };
-    let mut last = None;
-    for care in [Care::Usual, Care::Thorough] {
-        let candidate = path.follow(settings, care, monitor)?;
+    let mut first = None;
+    let others = GLUES[1..].iter().map(|&glue| (Care::Usual, glue));
+    for (care, glue) in
+        [(Care::Usual, GLUES[0]), (Care::Thorough, GLUES[0])].into_iter().chain(others)
+    {
+        let candidate = follow(&path, problem, settings, care, glue, monitor)?;
         let settled = match &candidate.ending {
             Ending::Escape(motion) => is_escape(problem, motion),
             Ending::Interrupted(_) => true,
@@ -88,9 +89,9 @@ pub fn solve(
         if settled {
             return Ok(candidate);
         }
-        last = Some(candidate);
+        first.get_or_insert(candidate);
     }
-    Ok(last.expect("the path was followed twice"))
+    Ok(first.expect("there are several starts"))
 }
 
 /// Ends of the path from several starts, and what Newton's method makes of its turning points: all
@@ -100,11 +101,11 @@ pub fn ends(
     settings: &Settings,
     monitor: &mut Monitor<'_>,
 ) -> Result<Vec<Candidate>, Error> {
-    let Ok(path) = FrictionPath::new(problem) else { return Ok(Vec::new()) };
+    let Ok(path) = FrictionLcp::new(problem) else { return Ok(Vec::new()) };
     let mut ends = Vec::new();
     for glue in GLUES {
         let mut run =
-            path.run(Rules { care: Care::Usual, end: END, turns: TURNS }, glue, monitor)?;
+            run(&path, Rules { care: Care::Usual, end: END, turns: TURNS }, glue, monitor)?;
         let points = std::mem::take(&mut run.turns);
         for z in points.iter().chain(matches!(run.path, Path::Solution).then_some(&run.z)) {
             let (pieces, d) = (path.pieces(z), path.displacements(z));
@@ -114,200 +115,52 @@ pub fn ends(
     Ok(ends)
 }
 
-/// The complementarity problem of a contact problem.
-struct FrictionPath<'p> {
-    problem: &'p ContactProblem<'p>,
-    /// Components that carry no contact force are eliminated.
-    eliminated: Factor,
-    at_rest: Vec<f64>,
-    /// Normal, then tangential components that are left.
-    normal: Vec<usize>,
-    tangential: Vec<usize>,
-    /// `K` on them, condensed, column-major.
-    stiffness: Vec<f64>,
+/// Follows a path to its end, and polishes the solution there.
+fn follow(
+    path: &FrictionLcp<'_>,
+    problem: &ContactProblem<'_>,
+    settings: &Settings,
+    care: Care,
+    glue: [f64; 2],
+    monitor: &mut Monitor<'_>,
+) -> Result<Candidate, Error> {
+    let run = run(path, Rules { care, end: END, turns: 0 }, glue, monitor)?;
+    let d = path.displacements(&run.z);
+    let refactorisations = run.refactorisations;
+    let ending = match run.path {
+        // The ray's own motion proves it where the body only lifts; what it slides on must be
+        // left too.
+        Path::Ray(ray) => {
+            let motion = statics::escape(problem);
+            Ending::Escape(motion.unwrap_or_else(|| path.motion(&ray)))
+        }
+        Path::Interrupted(reason) => Ending::Interrupted(reason),
+        Path::Breakdown => Ending::Stalled("rounding made Lemke's basis singular"),
+        Path::Solution => {
+            let polished =
+                newton::from_pieces(problem, settings, path.pieces(&run.z), d.clone(), monitor);
+            let eta = |d: &[f64]| certify(problem, d).eta;
+            if eta(&polished.d) <= eta(&d) {
+                return Ok(Candidate { refactorisations, ending: Ending::Done, ..polished });
+            }
+            Ending::Done
+        }
+    };
+    Ok(Candidate { refactorisations, ..Candidate::ended(d, ending) })
 }
 
-impl<'p> FrictionPath<'p> {
-    fn new(problem: &'p ContactProblem<'p>) -> Result<Self, Candidate> {
-        let stalled = |reason| Candidate::ended(vec![0.0; problem.unknowns()], reason);
-        let faces = |i: &usize| problem.gap(i / 2) < f64::INFINITY;
-        let normal: Vec<usize> = (0..problem.unknowns()).step_by(2).filter(faces).collect();
-        let coulomb = matches!(problem.friction(), Friction::Coulomb(_));
-        let rubs = |i: &usize| !coulomb || faces(i);
-        let tangential: Vec<usize> = (1..problem.unknowns()).step_by(2).filter(rubs).collect();
-        let kept: Vec<usize> = normal.iter().chain(&tangential).copied().collect();
-        let mut is_kept = vec![false; problem.unknowns()];
-        kept.iter().for_each(|&i| is_kept[i] = true);
-        let others = (0..problem.unknowns()).filter(|&i| !is_kept[i]).collect();
-        let eliminated = Factor::new(problem, others)
-            .ok_or_else(|| stalled(Ending::Stalled("K is not positive semi-definite")))?;
-        let mut at_rest = vec![0.0; problem.unknowns()];
-        for &i in &normal {
-            at_rest[i] = problem.gap(i / 2);
-        }
-        for &i in &tangential {
-            at_rest[i] = problem.previous_slip(i / 2, 0);
-        }
-        eliminated.equilibrate(problem, &mut at_rest);
-        if let Some(motion) = driven_motion(problem, &eliminated, &at_rest) {
-            return Err(stalled(Ending::Escape(motion)));
-        }
-        let stiffness = eliminated.schur_complement(problem, &kept);
-        Ok(FrictionPath { problem, eliminated, at_rest, normal, tangential, stiffness })
-    }
-
-    /// Matrix and vector of the complementarity problem in `(w, a, b)`, its covering vector, and the
-    /// scales of its variables.
-    fn lcp(&self, glue: [f64; 2]) -> (Vec<f64>, Vec<f64>, Vec<f64>, Vec<f64>) {
-        let (problem, n, m) = (self.problem, self.normal.len(), self.tangential.len());
-        let size = n + 2 * m;
-        let force = problem.force(&self.at_rest);
-        let root = |i: usize| problem.diagonal(i).sqrt();
-        let scale = |i: &usize| root(*i).recip();
-        let scales: Vec<f64> = self.normal.iter().map(scale).collect();
-        let tangential_scales: Vec<f64> = self.tangential.iter().map(scale).collect();
-        let scales = [&scales[..], &tangential_scales, &tangential_scales].concat();
-        // Where the pair of each tangential component has its pressure, and its coefficient.
-        let mut place = vec![usize::MAX; problem.pairs()];
-        for (k, &i) in self.normal.iter().enumerate() {
-            place[i / 2] = k;
-        }
-        let (mu, g) = match problem.friction() {
-            Friction::Coulomb(mu) => (Some(mu), None),
-            Friction::Tresca(g) => (None, Some(g)),
-        };
-        let coefficient =
-            |k: usize| mu.map(|mu| (mu[self.tangential[k] / 2], place[self.tangential[k] / 2]));
-
-        let mut q = vec![0.0; size];
-        let mut cover = vec![0.0; size];
-        for (k, &i) in self.normal.iter().enumerate() {
-            q[k] = -force[i];
-            cover[k] = root(i);
-        }
-        for (k, &i) in self.tangential.iter().enumerate() {
-            let (bound, clamp) = match coefficient(k) {
-                Some((mu, normal)) => (mu * q[normal], mu * cover[normal]),
-                None => (g.map_or(0.0, |g| g[i / 2]), 0.0),
-            };
-            (q[n + k], q[n + m + k]) = (bound + force[i], bound - force[i]);
-            (cover[n + k], cover[n + m + k]) =
-                (clamp + glue[0] * root(i), clamp + glue[1] * root(i));
-        }
-        let mut matrix = vec![0.0; size * size];
-        for (j, column) in matrix.chunks_exact_mut(size.max(1)).enumerate() {
-            // Unknown j moves one component, an opening or a slip to one side.
-            let (component, sign) = match j {
-                j if j < n => (j, -1.0),
-                j if j < n + m => (j, 1.0),
-                j => (j - m, -1.0),
-            };
-            let source = &self.stiffness[component * (n + m)..(component + 1) * (n + m)];
-            for (column, k) in column.iter_mut().zip(&source[..n]) {
-                *column = -sign * k;
-            }
-            for k in 0..m {
-                let bound = coefficient(k).map_or(0.0, |(mu, normal)| -mu * sign * source[normal]);
-                let force = sign * source[n + k];
-                (column[n + k], column[n + m + k]) = (bound + force, bound - force);
-            }
-        }
-        (matrix, q, cover, scales)
-    }
-
-    fn follow(
-        &self,
-        settings: &Settings,
-        care: Care,
-        monitor: &mut Monitor<'_>,
-    ) -> Result<Candidate, Error> {
-        let run = self.run(Rules { care, end: END, turns: 0 }, GLUE, monitor)?;
-        let d = self.displacements(&run.z);
-        let refactorisations = run.refactorisations;
-        let ending = match run.path {
-            Path::Ray(ray) => Ending::Escape(self.motion(&ray)),
-            Path::Interrupted(reason) => Ending::Interrupted(reason),
-            Path::Breakdown => Ending::Stalled("rounding made Lemke's basis singular"),
-            Path::Solution => {
-                let polished = newton::from_pieces(
-                    self.problem,
-                    settings,
-                    self.pieces(&run.z),
-                    d.clone(),
-                    monitor,
-                );
-                let eta = |d: &[f64]| certify(self.problem, d).eta;
-                if eta(&polished.d) <= eta(&d) {
-                    return Ok(Candidate { refactorisations, ending: Ending::Done, ..polished });
-                }
-                Ending::Done
-            }
-        };
-        Ok(Candidate { refactorisations, ..Candidate::ended(d, ending) })
-    }
-
-    fn run(&self, rules: Rules, glue: [f64; 2], monitor: &mut Monitor<'_>) -> Result<Run, Error> {
-        let (matrix, q, cover, scales) = self.lcp(glue);
-        let size = q.len();
-        match Lcp::new(size, &matrix, size.max(1), &q, Some(&cover)) {
-            Ok(lcp) => lemke::lemke(&lcp, &scales, rules, monitor),
-            // Numbers have overflowed.
-            Err(_) => Ok(Run::broken(size)),
-        }
-    }
-
-    /// All displacements of a point of the path.
-    fn displacements(&self, z: &[f64]) -> Vec<f64> {
-        let mut d = self.at_rest.clone();
-        for (d, motion) in d.iter_mut().zip(self.kept_motion(z)) {
-            *d += motion;
-        }
-        self.eliminated.equilibrate(self.problem, &mut d);
-        d
-    }
-
-    /// The motion of all components along a ray.
-    fn motion(&self, ray: &[f64]) -> Vec<f64> {
-        let mut motion = self.kept_motion(ray);
-        // Digits that rounding has left beside the largest are no motion.
-        let least = 1e-12 * largest(&motion);
-        motion.iter_mut().filter(|r| r.abs() < least).for_each(|r| *r = 0.0);
-        self.eliminated.follow(self.problem, &mut motion);
-        motion
-    }
-
-    fn kept_motion(&self, z: &[f64]) -> Vec<f64> {
-        let (n, m) = (self.normal.len(), self.tangential.len());
-        let mut motion = vec![0.0; self.problem.unknowns()];
-        for (k, &i) in self.normal.iter().enumerate() {
-            motion[i] = -z[k];
-        }
-        for (k, &i) in self.tangential.iter().enumerate() {
-            motion[i] = z[n + k] - z[n + m + k];
-        }
-        motion
-    }
-
-    /// The pieces of a point of the path.
-    fn pieces(&self, z: &[f64]) -> Vec<Piece> {
-        let (n, m) = (self.normal.len(), self.tangential.len());
-        let apart = Piece { closed: false, motion: Motion::Slide(0) };
-        let mut pieces = vec![apart; self.problem.pairs()];
-        for (k, &i) in self.normal.iter().enumerate() {
-            pieces[i / 2].closed = z[k] == 0.0;
-        }
-        let tresca = matches!(self.problem.friction(), Friction::Tresca(_));
-        for (k, &i) in self.tangential.iter().enumerate() {
-            let piece = &mut pieces[i / 2];
-            let rubs = self.problem.threshold(i / 2, 1.0) > 0.0;
-            if rubs && (piece.closed || tresca) {
-                piece.motion = match (z[n + k], z[n + m + k]) {
-                    (a, b) if a > b => Motion::Slide(1),
-                    (a, b) if a < b => Motion::Slide(-1),
-                    _ => Motion::Rest,
-                };
-            }
-        }
-        pieces
+/// Follows a path to its end.
+fn run(
+    path: &FrictionLcp<'_>,
+    rules: Rules,
+    glue: [f64; 2],
+    monitor: &mut Monitor<'_>,
+) -> Result<Run, Error> {
+    let Arrays { matrix, q, cover, scales } = path.arrays(glue)?;
+    let size = q.len();
+    match Lcp::new(size, &matrix, size.max(1), &q, Some(&cover)) {
+        Ok(lcp) => lemke::lemke(&lcp, &scales, rules, monitor),
+        // Numbers have overflowed.
+        Err(_) => Ok(Run::broken(size)),
     }
 }

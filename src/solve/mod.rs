@@ -3,11 +3,13 @@
 
 mod auto;
 mod bare;
+mod bordered;
 mod coulomb;
 mod elimination;
 mod equations;
 mod escape;
 mod factor;
+mod friction_lcp;
 mod frictional_lemke;
 mod frictionless;
 mod lemke;
@@ -17,6 +19,7 @@ mod pivot;
 mod relaxation;
 mod solution;
 mod sor;
+mod statics;
 mod sweeps;
 mod tableau;
 mod uniqueness;

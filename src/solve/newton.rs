@@ -104,10 +104,14 @@ pub fn refine(
     for _ in 0..=REFINEMENTS {
         equations.refresh();
         let eta = certificate::eta(problem, &equations.d, &equations.force);
-        if eta <= tolerance || eta >= best {
+        if eta <= tolerance {
             return;
         }
-        best = eta;
+        if eta >= best {
+            // Borders may have lost what a fresh factor has.
+            equations.forget();
+        }
+        best = best.min(eta);
         let before = equations.d.clone();
         if equations.solve(&pieces::rows(problem, pieces)).is_err() {
             equations.d = before;

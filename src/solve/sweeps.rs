@@ -20,6 +20,8 @@ pub struct Sweeps<'p, 'm, 'c> {
     halved: (f64, u64),
     /// Largest force of any iterate.
     largest_force: f64,
+    /// The best iterate that was measured under the problem's own law, with its `eta`.
+    best: (f64, Vec<f64>),
 }
 
 /// Largest over-relaxation factor chosen.
@@ -57,6 +59,7 @@ impl<'p, 'm, 'c> Sweeps<'p, 'm, 'c> {
             monitor,
             halved: (f64::INFINITY, 0),
             largest_force: 0.0,
+            best: (f64::INFINITY, Vec::new()),
         }
     }
 
@@ -79,7 +82,7 @@ impl<'p, 'm, 'c> Sweeps<'p, 'm, 'c> {
     /// `eta` under the problem's own law, from a fresh force if the carried one meets `tolerance`; an
     /// error if rounding will keep it from being met.
     pub fn measure(&mut self, tolerance: f64) -> Result<f64, Ending> {
-        let (eta, sweeps) = (self.iterate.eta(self.problem), self.monitor.iterations());
+        let (eta, sweeps) = (self.note(), self.monitor.iterations());
         if eta <= tolerance {
             self.iterate.refresh(self.problem);
             return Ok(self.iterate.eta(self.problem));
@@ -137,6 +140,24 @@ impl<'p, 'm, 'c> Sweeps<'p, 'm, 'c> {
             .enumerate()
             .map(|(pair, force)| self.problem.threshold(pair, (-force[0]).max(0.0)))
             .collect()
+    }
+
+    /// Measures the iterate under the problem's own law and keeps it if it is the best.
+    fn note(&mut self) -> f64 {
+        let eta = self.iterate.eta(self.problem);
+        if eta < self.best.0 {
+            self.best.0 = eta;
+            self.best.1.clone_from(&self.iterate.d);
+        }
+        eta
+    }
+
+    /// The best iterate.
+    pub fn best(mut self) -> Vec<f64> {
+        match self.note() {
+            eta if eta > self.best.0 => self.best.1,
+            _ => self.iterate.d,
+        }
     }
 
     /// The iterate.

@@ -66,6 +66,9 @@ pub fn by_orientation(problem: &ContactProblem<'_>, solution: &mut Solution) {
     }
 }
 
+/// Pairs whose piece is changed, one at a time, in the search for other solutions.
+const NEIGHBOURS: usize = 32;
+
 /// Whether two displacements, solutions to rounding, are different ones: by their pieces, and by
 /// more than the rounding of a system of condition 1e9.
 pub fn are_different(problem: &ContactProblem<'_>, one: &[f64], two: &[f64]) -> bool {
@@ -107,6 +110,12 @@ fn another(
             return Ok(Some(other));
         }
     }
+    for pieces in neighbours(problem, known) {
+        let candidate = newton::from_pieces(problem, settings, pieces, known.to_vec(), monitor);
+        if let Some(other) = accepted(candidate) {
+            return Ok(Some(other));
+        }
+    }
     Ok(None)
 }
 
@@ -121,6 +130,27 @@ fn starts(problem: &ContactProblem<'_>) -> Vec<Vec<Piece>> {
         stuck.iter().map(piece).collect()
     };
     vec![all(false, 0), all(true, 1), all(true, -1), stuck.clone()]
+}
+
+/// The pieces of a solution with that of one pair changed, of the first pairs.
+fn neighbours(problem: &ContactProblem<'_>, known: &[f64]) -> Vec<Vec<Piece>> {
+    let here = pieces::at(problem, known, &problem.force(known));
+    let stuck = pieces::stuck(problem);
+    let mut neighbours = Vec::new();
+    for pair in 0..here.len().min(NEIGHBOURS) {
+        let slides = [-1, 1].map(|side| Piece { closed: true, motion: Motion::Slide(side) });
+        let open = Piece { closed: false, motion: Motion::Slide(0) };
+        let others = [open, stuck[pair], slides[0], slides[1]];
+        for other in others
+            .into_iter()
+            .filter(|&other| other != here[pair] && (stuck[pair].closed || !other.closed))
+        {
+            let mut pieces = here.clone();
+            pieces[pair] = other;
+            neighbours.push(pieces);
+        }
+    }
+    neighbours
 }
 
 /// The solution of the pieces on which `d` is, if that is `d`.

@@ -1,63 +1,105 @@
-//! How time and iterations grow with the number of pairs: the bar on the plane by the default
-//! method, `cargo bench --bench growth`. Minimum of repeats, one thread.
+//! How time and work grow with the number of pairs, by the default method.
+//!
+//! `cargo bench --bench growth`: the bar on the plane (paper, section 4.1) on meshes that are
+//! refined with the contact line, 33 to 2049 pairs, one thread. Times are minima of repeats and
+//! hold one load case of a model; the exponent is that of the last three doublings.
 
-mod bar;
+#[allow(dead_code)]
+#[path = "../common/mesh.rs"]
+mod mesh;
 
 use std::time::Instant;
 
-use signorini::{
-    ContactData, ContactProblem, Friction, Method, Monitor, Settings, Solution, solve,
-};
+use faer::Par;
+use mesh::{Mesh, Pairs, steps};
+use signorini::{Friction, LoadCase, Model, Monitor, Settings, Solution, Status};
+
+const SIZE: f64 = 40.0;
+const COEFFICIENTS: [f64; 4] = [0.0, 0.1, 0.3, 1.0];
 
 fn main() {
-    faer::set_global_parallelism(faer::Par::Seq);
-    let most: usize = std::env::var("MOST").ok().and_then(|v| v.parse().ok()).unwrap_or(1025);
-    let rows: usize = std::env::var("ROWS").ok().and_then(|v| v.parse().ok()).unwrap_or(8);
-    let mut pairs = 33;
-    while pairs <= most {
-        let bar = bar::bar(pairs - 1, rows, 1.5, 10.0);
-        let waves = 3.0 * std::f64::consts::TAU / (bar.pairs - 1) as f64;
-        let gap: Vec<f64> =
-            (0..bar.pairs).map(|i| 2e-3 * (1.0 - (i as f64 * waves).cos())).collect();
-        let zero = vec![0.0; bar.pairs];
-        for mu in [0.0, 0.1, 0.3, 1.0] {
-            let gap = if mu == 0.0 { &gap } else { &zero };
-            let coefficients = vec![mu; bar.pairs];
-            let problem = ContactProblem::new(ContactData {
-                dim: 2,
-                pairs: bar.pairs,
-                stiffness: &bar.stiffness,
-                ld: 2 * bar.pairs,
-                load: &bar.load,
-                gap,
-                friction: Friction::Coulomb(&coefficients),
-                previous_slip: None,
-            })
-            .unwrap();
-            let method = if mu == 0.0 { Method::Pivot } else { Method::Newton };
-            let settings = Settings { method, tolerance: 1e-12, ..Settings::default() };
-            let mut best = f64::INFINITY;
-            let mut s: Option<Solution> = None;
-            let repeats = if std::env::var("DBG").is_ok() { 1 } else { 3 }
-                * (70_000 / (pairs * pairs)).clamp(1, 60);
-            for _ in 0..repeats {
-                let begin = Instant::now();
-                s = Some(
-                    solve(&problem, &settings, None, &mut Monitor::new(&settings, None)).unwrap(),
-                );
-                best = best.min(begin.elapsed().as_secs_f64());
-            }
-            let s = s.unwrap();
-            println!(
-                "{pairs:5} mu {mu:3} {:?} {:8.3} ms, {:3} its {:3} factorisations eta {:.1e} {}",
-                s.status,
-                1e3 * best,
-                s.iterations,
-                s.factorisations,
-                s.certificate.eta,
-                s.message
-            );
+    faer::set_global_parallelism(Par::Seq);
+    println!("The bar on the plane by the default method, eta <= 1e-12");
+    println!(
+        "ms of a load case, linear systems / factorisations; without friction the gap is wavy"
+    );
+    println!(
+        "{:>5} {}",
+        "pairs",
+        COEFFICIENTS.map(|mu| format!("{:>22}", format!("mu {mu}"))).join("")
+    );
+    let mut times = Vec::new();
+    for pairs in (5..=11).map(|power| (1 << power) + 1) {
+        let bar = Bar::new(pairs - 1);
+        let row = COEFFICIENTS.map(|mu| bar.time(mu));
+        let cells = row.iter().map(|(time, solution)| {
+            let work = format!("{:>3}/{}", solution.iterations, solution.factorisations);
+            format!("{:>16.3} {work:<5}", 1e3 * time)
+        });
+        println!("{pairs:>5} {}", cells.collect::<String>());
+        times.push(row.map(|(time, _)| time));
+    }
+    let last = times.len() - 1;
+    let exponents = (0..COEFFICIENTS.len()).map(|k| {
+        let exponent = (times[last][k] / times[last - 3][k]).log2() / 3.0;
+        format!("{exponent:>16.2}      ")
+    });
+    println!("time ~ pairs^ {}", exponents.collect::<String>().split_off(8));
+}
+
+struct Bar {
+    model: Model,
+    load: Vec<f64>,
+}
+
+impl Bar {
+    /// Half of the bar, 40 x 40 mm, with square elements along the contact line and rows that grow
+    /// by about 1.5 away from it.
+    fn new(columns: usize) -> Bar {
+        let mut heights = vec![SIZE / columns as f64];
+        while heights.iter().sum::<f64>() < SIZE {
+            heights.push(1.5 * heights[heights.len() - 1]);
         }
-        pairs = 2 * pairs - 1;
+        let stretch = SIZE / heights.iter().sum::<f64>();
+        let mut lines = vec![0.0];
+        for height in &heights {
+            lines.push(lines[lines.len() - 1] + stretch * height);
+        }
+        let mut mesh = Mesh::default();
+        let block = mesh.block(&steps(0.0, SIZE, columns), &lines, (13000.0, 0.2));
+        let mut load = vec![0.0; mesh.size()];
+        mesh.traction(&block.row(block.rows), [0.0, -5.0], &mut load);
+        mesh.traction(&block.column(0), [10.0, 0.0], &mut load);
+        let fixed: Vec<usize> = block.column(columns).iter().map(|node| 2 * node).collect();
+        let pairs = Pairs::on_obstacle(&block.row(0), [0.0, -1.0]);
+        Bar { model: mesh.stiffness().model(&fixed, &pairs).expect("a valid model"), load }
+    }
+
+    /// Least time of a load case, and its solution.
+    fn time(&self, mu: f64) -> (f64, Solution) {
+        let pairs = self.model.pairs();
+        let wave = 3.0 * std::f64::consts::TAU / (pairs - 1) as f64;
+        let gap = |i: usize| if mu == 0.0 { 2e-3 * (1.0 - (wave * i as f64).cos()) } else { 0.0 };
+        let gap: Vec<f64> = (0..pairs).map(gap).collect();
+        let case = LoadCase {
+            load: &self.load,
+            prescribed: None,
+            gap: &gap,
+            friction: Friction::Coulomb(&vec![mu; pairs]),
+            previous_slip: None,
+        };
+        let settings = Settings { tolerance: 1e-12, ..Settings::default() };
+        let mut least = (f64::INFINITY, None);
+        for _ in 0..(100_000 / (pairs * pairs)).clamp(3, 50) {
+            let monitor = &mut Monitor::new(&settings, None);
+            let begin = Instant::now();
+            let solution = self.model.solve(&case, &settings, None, monitor).expect("a valid case");
+            let time = begin.elapsed().as_secs_f64();
+            assert_eq!(solution.status, Status::Solved, "{}", solution.message);
+            if time < least.0 {
+                least = (time, Some(solution));
+            }
+        }
+        (least.0, least.1.expect("it was solved"))
     }
 }
