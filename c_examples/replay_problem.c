@@ -18,12 +18,20 @@
 enum { SOLVED, NOT_SOLVED, WRONG };
 
 static const char *const methods[] = {"auto", "nested", "diagonal", "lemke", "pivot", "newton"};
-static const char *const uniqueness[] = {"not known", "yes", "no, there are others"};
 enum { METHODS = sizeof methods / sizeof *methods };
 
 static const char *method_name(int32_t method)
 {
     return method >= 0 && method < METHODS ? methods[method] : "?";
+}
+
+static const char *uniqueness(int32_t code)
+{
+    switch (code) {
+    case SIGNORINI_UNIQUE: return "yes";
+    case SIGNORINI_SEVERAL: return "no, there are others";
+    default: return "not known";
+    }
 }
 
 static int print_problem(const struct signorini_problem *problem, const char *path)
@@ -92,7 +100,7 @@ static void print_report(const struct signorini_report *report, int contact)
            report->penetration, report->tension, report->cone_excess, report->equilibrium);
     printf("pairs     %lld open, %lld slip, %lld stick\n", (long long)report->open,
            (long long)report->slip, (long long)report->stick);
-    printf("the only solution: %s\n", uniqueness[report->uniqueness]);
+    printf("the only solution: %s\n", uniqueness(report->uniqueness));
 }
 
 static int replay(const struct signorini_problem *problem,

@@ -134,7 +134,7 @@ fn random_damage_is_refused_or_read() {
     let folder = Folder::new("damaged");
     let mut random = fastrand::Rng::with_seed(4);
     let mut refused = 0;
-    for _ in 0..2000 {
+    for _ in 0..1000 {
         let mut text = SMALL.as_bytes().to_vec();
         for _ in 0..random.usize(1..4) {
             let at = random.usize(..text.len());
@@ -152,7 +152,7 @@ fn random_damage_is_refused_or_read() {
             }
         }
     }
-    assert!(refused > 500, "{refused}");
+    assert!(refused > 250, "{refused}");
 }
 
 #[test]
