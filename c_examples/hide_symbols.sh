@@ -49,12 +49,13 @@ done
     exit 1
 }
 
-# A thousand sections that no function reaches are left behind.
+# Without --gc-sections, which makes weak references strong: the standard library looks that way for
+# functions that older C libraries do not have. The host's linker may still be told to use it.
 set --
 while read -r name; do
     set -- "$@" -u "$name"
 done <"$work/names"
-"$ld" -r --gc-sections --force-group-allocation "$@" -o "$work/all.o" "$archive"
+"$ld" -r --force-group-allocation "$@" -o "$work/all.o" "$archive"
 
 # Along go debugging information and bitcode of the standard library; the latter makes tools that
 # are older than Rust's LLVM stumble.

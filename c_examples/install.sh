@@ -67,11 +67,13 @@ quoted() { printf '%s' "$1" | sed 's/[&|\\]/\\&/g'; }
 package=$libdir/cmake/signorini
 up=$(printf '%s' "$package" | sed 's|//*|/|g; s|[^/][^/]*|..|g')
 
+# shellcheck disable=SC2016 # names of pkg-config and CMake
 sed -e "s|@prefix@|$(quoted "$prefix")|" -e "s|@libdir@|\${prefix}/$(quoted "$libdir")|" \
     -e 's|@includedir@|${prefix}/include|' -e "s|@version@|$version|" -e "s|@private@|$private|" \
     "$examples/signorini.pc.in" >"$work/signorini.pc"
 
 cmake_private=$(printf '%s' "$private" | sed 's/^-l//; s/ -l/;/g')
+# shellcheck disable=SC2016
 sed -e "s|@PACKAGE_INIT@|get_filename_component(PACKAGE_PREFIX_DIR \"\${CMAKE_CURRENT_LIST_FILE}\" REALPATH)\\
 get_filename_component(PACKAGE_PREFIX_DIR \"\${PACKAGE_PREFIX_DIR}/../$up\" ABSOLUTE)|" \
     -e "s|@PACKAGE_libdir@|\${PACKAGE_PREFIX_DIR}/$(quoted "$libdir")|" \

@@ -73,7 +73,8 @@ if [ "$(uname -s)" != Darwin ]; then
     [ "$soname" = "$wanted" ] || fail "its SONAME is '$soname', not '$wanted'"
 
     if [ -n "$archive" ]; then
-        shown=$(nm -P --defined-only --extern-only "$archive" | awk 'NF > 1 { print $1 }' | sort -u)
+        shown=$(nm -P --defined-only --extern-only "$archive" | awk '$2 ~ /^[A-Za-z]$/ { print $1 }' |
+            sort -u)
         [ "$shown" = "$declared" ] || {
             fail "$archive does not show what is declared, but:"
             echo "$shown" | head -n 40
