@@ -117,9 +117,10 @@ static void frictionless(struct checks *checks, const struct condensed_bar *cond
 }
 
 /* The whole sparse matrix instead of a condensed one: the library condenses, once, and tells the
- * displacements of the whole mesh. */
-static int32_t solve_sparse(const struct sparse_bar *bar, struct solution *solution, double *u)
+ * displacements of the whole mesh. Returns NULL, or what went wrong. */
+static const char *solve_sparse(const struct sparse_bar *bar, struct solution *solution, double *u)
 {
+    static char problem[512];
     double gap[BAR_PAIRS], mu[BAR_PAIRS], normal[BAR_SIZE];
     signorini_model *model = NULL;
     signorini_sparse matrix = {.struct_size = sizeof matrix,
@@ -155,8 +156,10 @@ static int32_t solve_sparse(const struct sparse_bar *bar, struct solution *solut
                                        solution->d, solution->F, solution->state, NULL, NULL);
     if (status == 0)
         status = signorini_model_recover(model, bar->load, NULL, solution->d, u);
+    /* Before signorini_model_free: each call of the library has a sentence of its own. */
+    snprintf(problem, sizeof problem, "%s", signorini_last_error());
     signorini_model_free(model);
-    return status;
+    return status == SIGNORINI_SOLVED ? NULL : problem;
 }
 
 static void whole_matrix(struct checks *checks, const struct bar *bar)
@@ -170,8 +173,8 @@ static void whole_matrix(struct checks *checks, const struct bar *bar)
     puts("\nThe same bar, mu = 1, handed over as a whole sparse matrix");
     if (problem == NULL && u == NULL)
         problem = "not enough memory";
-    if (problem == NULL && solve_sparse(&sparse, &solution, u) != SIGNORINI_SOLVED)
-        problem = signorini_last_error();
+    if (problem == NULL)
+        problem = solve_sparse(&sparse, &solution, u);
     judge(checks, problem == NULL);
     printf("model of %zu components: %s\n", sparse.size, problem == NULL ? "solved" : problem);
     if (problem == NULL) {

@@ -1,7 +1,8 @@
-"""Draws the bar on the plane: what bar_on_plane.c has computed, and the paper's Table 1.
+"""Draws the bar on the plane: what bar_on_plane.c has computed and the paper's Table 1, and how the
+zones of contact depend on friction, which it computes by signorini.py.
 
     sh c_examples/replay.sh OUT
-    python3 c_examples/bar_on_plane.py OUT          writes OUT/bar_on_plane.png
+    python3 c_examples/bar_on_plane.py OUT      writes OUT/bar_on_plane.png and OUT/bar_friction.png
 
 Needs numpy and matplotlib.
 """
@@ -15,6 +16,11 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.colors import ListedColormap
+
+sys.dont_write_bytecode = True  # what is built goes to target/
+import bar_mesh  # noqa: E402
+import signorini  # noqa: E402
 
 # Table 1 of F. Lebon, M. Raous, D. Boulegues, "Contact with friction modeling for the study of a
 # bolted junction", nodes 1 to 32: u^t, F^n, F^t; displacements in mm, forces in daN for 1 mm. What
@@ -82,10 +88,7 @@ def shade(axes, x, states):
             begin = i
 
 
-def main():
-    if len(sys.argv) != 2:
-        sys.exit("usage: python3 bar_on_plane.py OUT")
-    out = sys.argv[1]
+def draw_table(out):
     computed, states = read(os.path.join(out, "bar_on_plane.csv"))
     x = computed["x"]
     table_x = x[: len(TABLE)]
@@ -122,6 +125,54 @@ def main():
         shade(axes, x, states)
         axes.grid(color="0.85", lw=0.5)
     figure.savefig(os.path.join(out, "bar_on_plane.png"), dpi=100)
+
+
+def draw_friction(out):
+    """Every coefficient from 0 to 2 is a load case of one model."""
+    bar = bar_mesh.assemble()
+    model = signorini.Model.sparse(bar.matrix, bar.contact, [0, -1], fixed=bar.held)
+    mu = np.linspace(0.0, 2.0, 401)
+    results = model.solve(
+        np.tile(bar.load, (len(mu), 1)), 0.0, np.tile(mu[:, None], model.pairs)
+    )
+    for value, result in zip(mu, results):
+        if result.status != signorini.SOLVED:
+            sys.exit(f"mu = {value}: {result.message}")
+
+    figure, (zones, forces) = plt.subplots(
+        2, 1, figsize=(7.4, 6.6), sharex=True, layout="constrained"
+    )
+    x, half = bar.x, (bar.x[1] - bar.x[0]) / 2
+    edges = np.clip(np.append(x - half, x[-1] + half), x[0], x[-1])
+    zones.pcolormesh(
+        edges, np.append(mu, mu[-1]), [result.state for result in results], vmin=0, vmax=2,
+        cmap=ListedColormap(list(COLORS.values())), rasterized=True,
+    )
+    for at, name in (((1.6, 1.72), "open"), ((9.5, 0.9), "sliding"), ((30.0, 1.1), "sticking")):
+        zones.text(*at, name, ha="center", fontsize=9)
+    zones.set_ylabel("friction coefficient $\\mu$")
+    zones.set_title("Bar on a plane: 401 friction coefficients, one model", fontsize=10)
+
+    for value, color in ((0.2, "C0"), (0.5, "C2"), (1.0, "C3"), (2.0, "C1")):
+        result = results[int(np.argmin(abs(mu - value)))]
+        forces.plot(x, -result.F[:, 1], color=color, lw=1.4, label=f"$\\mu$ = {value:g}")
+        zones.axhline(value, color=color, lw=0.8, ls=(0, (4, 3)))
+    forces.set_ylabel("friction $-F^t$, daN for 1 mm of thickness")
+    forces.set_xlabel("x, mm")
+    forces.set_xlim(x[0], x[-1])
+    forces.grid(color="0.85", lw=0.5)
+    forces.legend(fontsize=9)
+    figure.savefig(os.path.join(out, "bar_friction.png"), dpi=100)
+
+
+def main():
+    if len(sys.argv) != 2:
+        sys.exit("usage: python3 bar_on_plane.py OUT")
+    draw_table(sys.argv[1])
+    try:
+        draw_friction(sys.argv[1])
+    except signorini.SignoriniError as error:
+        sys.exit(f"bar_friction.png: {error}")
 
 
 if __name__ == "__main__":

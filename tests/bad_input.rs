@@ -166,15 +166,36 @@ fn refuses_settings_out_of_range() {
 
 #[test]
 fn refuses_methods_that_do_not_fit() {
-    let refuses = |friction, method, part| {
-        let problem = ContactProblem::new(ContactData { friction, ..GOOD }).unwrap();
+    let identity: Vec<f64> = (0..36).map(|k| f64::from(u8::from(k % 7 == 0))).collect();
+    let space = ContactData {
+        dim: 3,
+        stiffness: &identity,
+        ld: 6,
+        load: &[1.0; 6],
+        previous_slip: None,
+        ..GOOD
+    };
+    let refuses = |data: ContactData<'_>, friction, method, parts: &[&str]| {
+        let problem = ContactProblem::new(ContactData { friction, ..data }).unwrap();
         let settings = Settings { method, ..Settings::default() };
         let error = solve(&problem, &settings, None, &mut Monitor::new(&settings, None)).err();
-        expect(error, Argument::Settings, &[part]);
+        expect(error, Argument::Settings, parts);
     };
-    refuses(Friction::Coulomb(&[0.0, 0.1]), Method::Lemke, "mu");
-    refuses(Friction::Tresca(&[0.1, 0.0]), Method::Lemke, "frictionless");
-    refuses(Friction::Tresca(&[0.1, 0.0]), Method::SorDiagonal, "thresholds");
+    let (mu, g) = (Friction::Coulomb(&[0.0, 0.1]), Friction::Tresca(&[0.1, 0.0]));
+    refuses(space, mu, Method::Lemke, &["frictionless", "friction in 2D"]);
+    refuses(space, g, Method::Lemke, &["frictionless", "2D"]);
+    refuses(GOOD, mu, Method::Pivot, &["block pivoting", "every mu must be 0"]);
+    refuses(GOOD, g, Method::Pivot, &["block pivoting", "every g must be 0"]);
+    refuses(space, mu, Method::Newton, &["Newton", "2D"]);
+    refuses(space, Friction::Coulomb(&[0.0; 2]), Method::Newton, &["Newton", "2D"]);
+    refuses(GOOD, g, Method::SorDiagonal, &["thresholds"]);
+
+    let lcp = Lcp::new(1, &[1.0], 1, &[-1.0], None).unwrap();
+    for method in [Method::SorNested, Method::SorDiagonal, Method::Newton] {
+        let settings = Settings { method, ..Settings::default() };
+        let error = solve_lcp(&lcp, &settings, &mut Monitor::new(&settings, None)).err();
+        expect(error, Argument::Settings, &["auto, pivot and Lemke"]);
+    }
 }
 
 #[test]

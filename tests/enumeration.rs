@@ -3,101 +3,17 @@
 
 mod common;
 
-use common::dense::Elimination;
-use common::measures::{eta, flaw_of_escape, rounding};
 use common::oracle::Enumeration;
 use common::problems::{
-    Case, Law, coulomb, decades, definite, floating, frictionless, loaded, tresca, uniform, vector,
+    Case, Law, contracting_case, coulomb, definite_case, floating_case, frictionless, tresca,
+    uniform,
 };
+use common::verdict::{Verdict, run};
 use fastrand::Rng;
-use signorini::{Method, Monitor, Settings, Solution, Status};
-
-/// What an answer turned out to be; a wrong one panics.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Verdict {
-    Solved,
-    NoEquilibrium,
-    /// The library gave up and says so.
-    Unsolved {
-        solvable: bool,
-    },
-}
-
-fn judge(case: &Case, solution: &Solution, tolerance: f64) -> Result<Verdict, String> {
-    let enumeration = Enumeration::new(case);
-    let solvable = enumeration.solutions().next().is_some();
-    match solution.status {
-        Status::Solved => {
-            let residual = eta(case, &solution.d);
-            if residual > tolerance + rounding(case, &solution.d) {
-                return Err(format!("'solved' with a residual of {residual:e}"));
-            }
-            let found = enumeration.identify(&solution.d, tolerance);
-            if found.is_empty() {
-                return Err("'solved', but it is none of the solutions".into());
-            }
-            if let [only] = &found[..]
-                && only.strict
-            {
-                let states: Vec<_> = only.piece.local.iter().map(|local| local.state()).collect();
-                if states != solution.certificate.states {
-                    return Err(format!("the states are {states:?}"));
-                }
-            }
-            Ok(Verdict::Solved)
-        }
-        Status::NoEquilibrium => match flaw_of_escape(case, &solution.d) {
-            Some(flaw) => Err(format!("its motion of escape proves nothing: {flaw}")),
-            None if solvable => Err("'no equilibrium', but there is one".into()),
-            None => Ok(Verdict::NoEquilibrium),
-        },
-        Status::Stalled | Status::IterationLimit => Ok(Verdict::Unsolved { solvable }),
-        other => Err(format!("no reason to end with {other:?}")),
-    }
-}
-
-/// Solves `count` problems and judges the answers, which `allowed` may restrict further.
-/// Returns how many were unsolved although they have a solution.
-fn run(
-    count: u64,
-    settings: Settings,
-    make: impl Fn(&mut Rng) -> Case,
-    allowed: impl Fn(Verdict) -> bool,
-) -> usize {
-    let mut unsolved = 0;
-    for seed in 0..count {
-        let mut rng = Rng::with_seed(seed);
-        let case = make(&mut rng);
-        let start = rng.bool().then(|| vector(&mut rng, case.size()));
-        let mut monitor = Monitor::new(&settings, None);
-        let solution =
-            signorini::solve(&case.problem(), &settings, start.as_deref(), &mut monitor).unwrap();
-        let verdict = judge(&case, &solution, settings.tolerance);
-        let fine = verdict.as_ref().is_ok_and(|&verdict| allowed(verdict));
-        assert!(fine, "seed {seed}: {verdict:?}\n{case:?}\n{start:?}\n{solution:?}");
-        unsolved += usize::from(verdict == Ok(Verdict::Unsolved { solvable: true }));
-    }
-    unsolved
-}
+use signorini::{Method, Settings};
 
 fn settings(method: Method, max_iterations: u64) -> Settings {
     Settings { method, max_iterations, ..Settings::default() }
-}
-
-fn definite_case(rng: &mut Rng, most: f64, law: impl Fn(&mut Rng, usize) -> Law) -> Case {
-    let pairs = rng.usize(1..=4);
-    let condition = decades(rng, most);
-    let k = definite(rng, 2 * pairs, condition);
-    let law = law(rng, pairs);
-    loaded(rng, 2, k, law)
-}
-
-fn floating_case(rng: &mut Rng, most: f64, law: impl Fn(&mut Rng, usize) -> Law) -> Case {
-    let pairs = rng.usize(1..=4);
-    let condition = decades(rng, most);
-    let (k, _) = floating(rng, pairs, condition);
-    let law = law(rng, pairs);
-    loaded(rng, 2, k, law)
 }
 
 /// Klarbring's pair: `K = [[2, 1], [1, 1]]`, `f = (1, F)`. With `mu = 2` and `1 < F < 2` it sticks,
@@ -139,14 +55,14 @@ fn enumeration_counts_as_theory_does() {
         let most = uniform(&mut rng, 0.0, 5.0);
         let case = definite_case(&mut rng, 6.0, |rng, pairs| coulomb(rng, pairs, most));
         let enumeration = Enumeration::new(&case);
-        if enumeration.pieces.iter().all(|piece| piece.margin.abs() > 1e-7) {
+        if enumeration.is_clear() {
             assert_eq!(enumeration.solutions().count() % 2, 1, "seed {seed}");
         }
         let law = tresca(&mut rng, case.pairs);
         for law in [law, frictionless(case.pairs)] {
             let case = Case { law, ..case.clone() };
             let enumeration = Enumeration::new(&case);
-            if enumeration.pieces.iter().all(|piece| piece.margin.abs() > 1e-7) {
+            if enumeration.is_clear() {
                 assert_eq!(enumeration.solutions().count(), 1, "seed {seed}");
             }
         }
@@ -178,29 +94,8 @@ fn sor_solves_every_definite_problem_with_given_thresholds() {
 /// here the product is at most 0.9.
 #[test]
 fn nested_sor_solves_every_problem_in_which_it_contracts() {
-    let make = |rng: &mut Rng| {
-        let mut case = definite_case(rng, 4.0, |rng, pairs| coulomb(rng, pairs, 1.0));
-        let n = case.size();
-        let inverse = Elimination::new(n, &case.k);
-        // Frobenius norms bound the spectral ones.
-        let (mut normal, mut tangential) = (0.0, 0.0);
-        for j in 0..n {
-            let unit: Vec<f64> = (0..n).map(|i| f64::from(u8::from(i == j))).collect();
-            let column = inverse.solve(&unit).0;
-            for i in (j % 2..n).step_by(2) {
-                match j % 2 {
-                    0 => normal += case.stiffness(i, j).powi(2),
-                    _ => tangential += column[i].powi(2),
-                }
-            }
-        }
-        let most = 0.9 / (normal * tangential).powf(0.25);
-        if let Law::Coulomb(mu) = &mut case.law {
-            mu.iter_mut().for_each(|mu| *mu *= most);
-        }
-        case
-    };
-    run(3000, settings(Method::SorNested, 1_000_000), make, |verdict| verdict == Verdict::Solved);
+    let settings = settings(Method::SorNested, 1_000_000);
+    run(3000, settings, contracting_case, |verdict| verdict == Verdict::Solved);
 }
 
 /// Ordinary friction on ordinary stiffness (condition up to 100): the nested form solves all, the

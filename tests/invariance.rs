@@ -30,11 +30,16 @@ fn problem(rng: &mut Rng, dim: usize, kind: u64) -> (Case, Method) {
     let pairs = rng.usize(1..=6);
     let condition = decades(rng, 3.0);
     let k = definite(rng, dim * pairs, condition);
-    let (law, method) = match kind % 4 {
+    let (law, method) = match kind % 8 {
         0 => (coulomb(rng, pairs, 0.3), Method::SorNested),
         1 => (coulomb(rng, pairs, 0.1), Method::SorDiagonal),
         2 => (tresca(rng, pairs), Method::SorNested),
-        _ => (frictionless(pairs), Method::Lemke),
+        3 => (frictionless(pairs), Method::Lemke),
+        4 => (coulomb(rng, pairs, 0.3), Method::Auto),
+        5 => (frictionless(pairs), Method::Pivot),
+        6 => (tresca(rng, pairs), Method::Auto),
+        _ if dim == 2 => (coulomb(rng, pairs, 0.3), Method::Lemke),
+        _ => (frictionless(pairs), Method::Auto),
     };
     (loaded(rng, dim, k, law), method)
 }
@@ -128,6 +133,12 @@ fn tangential_signs_may_be_changed_bit_by_bit() {
             ..case.clone()
         };
         let (before, after) = (solve(&case, method), solve(&other, method));
+        if seed % 8 == 7 {
+            // Lemke's method has an unknown for each side, in an order.
+            let (d, force) = (flip(&before.d), flip(&before.certificate.force));
+            assert_agree(&other, &after, &d, &force, &before.certificate.states, seed);
+            continue;
+        }
         assert_eq!(after.d, flip(&before.d), "seed {seed}");
         assert_eq!(after.certificate.force, flip(&before.certificate.force), "seed {seed}");
         assert_eq!(after.certificate.states, before.certificate.states, "seed {seed}");
@@ -179,7 +190,8 @@ fn pairs_may_be_permuted() {
 fn plane_problems_may_be_embedded_in_space() {
     for seed in 0..400 {
         let mut rng = Rng::with_seed(seed);
-        let (case, method) = problem(&mut rng, 2, seed);
+        // Without the last kind, for which there is no method in space.
+        let (case, method) = problem(&mut rng, 2, seed % 7);
         let n = 3 * case.pairs;
         let stiff = (0..case.size()).fold(0.0, |most: f64, i| most.max(case.stiffness(i, i)));
         let stiff = stiff * uniform(&mut rng, 0.1, 4.0);
@@ -217,7 +229,7 @@ fn without_gaps_and_slip_answers_are_proportional_to_the_load() {
         let mut rng = Rng::with_seed(seed);
         let dim = rng.usize(2..=3);
         // Thresholds are forces: no cone.
-        let kind = [0, 1, 3][seed as usize % 3];
+        let kind = [0, 1, 3, 4, 5, 7][seed as usize % 6];
         let (mut case, method) = problem(&mut rng, dim, kind);
         case.gap.iter_mut().filter(|gap| gap.is_finite()).for_each(|gap| *gap = 0.0);
         case.slip = None;

@@ -1,20 +1,19 @@
-//! Lemke's method on bare complementarity problems `w = q + M z`: against enumeration of all
-//! complementary bases.
+//! Bare complementarity problems `w = q + M z`, by Lemke's method and by the default, which ends with
+//! it: against enumeration of all complementary bases.
 
 mod common;
 
 use common::bare::Bare;
 use common::problems::{decades, definite, semidefinite, uniform, vector};
 use fastrand::Rng;
-use signorini::{Settings, Status};
+use signorini::{Method, Settings, Status};
 
-/// Solves `count` problems; returns how many were solved, proved infeasible, and given up.
+/// Solves `count` problems by both; returns how many were solved, proved infeasible, and given up.
 fn run(
     count: u64,
     make: impl Fn(&mut Rng, usize) -> Vec<f64>,
     allowed: impl Fn(Status) -> bool,
 ) -> [usize; 3] {
-    let settings = Settings { max_iterations: 5000, ..Settings::default() };
     let mut counts = [0; 3];
     for seed in 0..count {
         let mut rng = Rng::with_seed(seed);
@@ -23,22 +22,25 @@ fn run(
         if rng.u8(0..4) == 0 {
             duplicate(&mut rng, &mut data);
         }
-        let solution = data.solve(&settings);
-        let context = || format!("seed {seed}\n{data:?}\n{solution:?}");
-        assert!(allowed(solution.status), "{}", context());
-        assert_eq!(data.flaw(&solution, settings.tolerance), None, "{}", context());
         // Decisions closer than this are left to rounding: bases of condition 1e6.
         let margin = data.margin();
-        match solution.status {
-            Status::Solved => assert!(margin > -1e-7, "margin {margin}: {}", context()),
-            Status::NoEquilibrium => assert!(margin < -1e-12, "margin {margin}: {}", context()),
-            _ => {}
+        for method in [Method::Lemke, Method::Auto] {
+            let settings = Settings { method, max_iterations: 5000, ..Settings::default() };
+            let solution = data.solve(&settings);
+            let context = || format!("seed {seed}\n{data:?}\n{solution:?}");
+            assert!(allowed(solution.status), "{}", context());
+            assert_eq!(data.flaw(&solution, settings.tolerance), None, "{}", context());
+            match solution.status {
+                Status::Solved => assert!(margin > -1e-7, "margin {margin}: {}", context()),
+                Status::NoEquilibrium => assert!(margin < -1e-12, "margin {margin}: {}", context()),
+                _ => {}
+            }
+            counts[match solution.status {
+                Status::Solved => 0,
+                Status::NoEquilibrium => 1,
+                _ => 2,
+            }] += 1;
         }
-        counts[match solution.status {
-            Status::Solved => 0,
-            Status::NoEquilibrium => 1,
-            _ => 2,
-        }] += 1;
     }
     counts
 }

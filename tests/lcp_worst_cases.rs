@@ -1,4 +1,4 @@
-//! Problems that are hard for Lemke's method: built to be, with answers in closed form, or
+//! Problems that are hard for methods of pivoting: built to be, with answers in closed form, or
 //! degenerate at every pivot.
 
 mod common;
@@ -6,64 +6,117 @@ mod common;
 use common::bare::Bare;
 use common::dense::{difference, largest};
 use fastrand::Rng;
-use signorini::{Lcp, Settings, Status};
+use signorini::{Lcp, LcpSolution, Method, Settings, Status};
 
-/// Unit lower triangular with 2 below the diagonal, `q_i = -(2^(n-i) + … + 2^n)`: the path visits
-/// every complementary basis. The solution is `z = 2^n e_0`, `w_i = 2^(n-i)` for `i > 0`.
+fn lemke() -> Settings {
+    Settings { method: Method::Lemke, ..Settings::default() }
+}
+
+/// Unit lower triangular with 2 below the diagonal.
+fn lower(i: usize, j: usize) -> f64 {
+    match i.cmp(&j) {
+        std::cmp::Ordering::Less => 0.0,
+        std::cmp::Ordering::Equal => 1.0,
+        std::cmp::Ordering::Greater => 2.0,
+    }
+}
+
+/// `M` is that triangle, `q_i = -(2^(n-i) + … + 2^n)`: Lemke's path visits every complementary
+/// basis. The solution is `z = 2^n e_0`, `w_i = 2^(n-i)` for `i > 0`.
 /// K. G. Murty, *Linear Complementarity, Linear and Nonlinear Programming* (1988), chapter 6.
+fn murty(n: usize) -> Bare {
+    let power = |e: usize| 2_f64.powi(e as i32);
+    let m = (0..n * n).map(|k| lower(k % n, k / n)).collect();
+    let q = (0..n).map(|i| -(n - i..=n).map(power).sum::<f64>()).collect();
+    Bare { n, m, q }
+}
+
+/// Whole numbers below `2^(n+1)`: a few units of rounding of the largest.
+fn assert_murtys_solution(solution: &LcpSolution) {
+    let n = solution.z.len();
+    let power = |e: usize| 2_f64.powi(e as i32);
+    let z: Vec<f64> = (0..n).map(|i| if i == 0 { power(n) } else { 0.0 }).collect();
+    let w: Vec<f64> = (0..n).map(|i| if i == 0 { 0.0 } else { power(n - i) }).collect();
+    assert!(largest(&difference(&solution.z, &z)) <= 1e-12 * power(n), "{solution:?}");
+    assert!(largest(&difference(&solution.w, &w)) <= 1e-12 * power(n), "{solution:?}");
+}
+
 #[test]
-fn takes_two_to_the_n_pivots_on_murtys_worst_case() {
+fn lemke_takes_two_to_the_n_pivots_on_murtys_worst_case() {
     for n in [4_usize, 6, 8, 10] {
-        let power = |e: usize| 2_f64.powi(e as i32);
-        let m = (0..n * n)
-            .map(|k| match (k % n).cmp(&(k / n)) {
-                std::cmp::Ordering::Less => 0.0,
-                std::cmp::Ordering::Equal => 1.0,
-                std::cmp::Ordering::Greater => 2.0,
-            })
-            .collect();
-        let q = (0..n).map(|i| -(n - i..=n).map(power).sum::<f64>()).collect();
-        let data = Bare { n, m, q };
-        let solution = data.solve(&Settings::default());
+        let data = murty(n);
+        let solution = data.solve(&lemke());
         assert_eq!(solution.status, Status::Solved);
         assert_eq!(solution.iterations, 1 << n);
-        let z: Vec<f64> = (0..n).map(|i| if i == 0 { power(n) } else { 0.0 }).collect();
-        let w: Vec<f64> = (0..n).map(|i| if i == 0 { 0.0 } else { power(n - i) }).collect();
-        // Whole numbers below 2^11: a few units of rounding of the largest.
-        assert!(largest(&difference(&solution.z, &z)) <= 1e-12 * power(n), "{solution:?}");
-        assert!(largest(&difference(&solution.w, &w)) <= 1e-12 * power(n), "{solution:?}");
+        assert_murtys_solution(&solution);
 
         let budget = (1 << n) - 1;
-        let short = data.solve(&Settings { max_iterations: budget, ..Settings::default() });
+        let short = data.solve(&Settings { max_iterations: budget, ..lemke() });
         assert_eq!(short.status, Status::IterationLimit);
         assert_eq!(short.iterations, budget);
-        let enough = data.solve(&Settings { max_iterations: budget + 1, ..Settings::default() });
+        let enough = data.solve(&Settings { max_iterations: budget + 1, ..lemke() });
         assert_eq!(enough.status, Status::Solved);
+    }
+}
+
+/// With a budget that ends Lemke's method. (Exchanges of whole blocks take `n + 1` systems, as on
+/// Fathi's problem; exchanges of single unknowns may take `2^n`.)
+#[test]
+fn the_default_solves_murtys_worst_case_in_a_small_budget() {
+    for n in [4_usize, 8, 12, 16, 24, 32, 40] {
+        let data = murty(n);
+        let budget = Settings { max_iterations: 4 * n as u64, ..Settings::default() };
+        if n >= 8 {
+            let short = data.solve(&Settings { method: Method::Lemke, ..budget.clone() });
+            assert_eq!(short.status, Status::IterationLimit, "{n}");
+        }
+        let solution = data.solve(&budget);
+        assert_eq!(solution.status, Status::Solved, "{n}: {}", solution.message);
+        // The least w is 2, and |q| up to 2e13: more than a tolerance of 1e-14 lets pass.
+        let solution = data.solve(&Settings { tolerance: 1e-14, ..budget });
+        assert_eq!(solution.status, Status::Solved, "{n}: {}", solution.message);
+        assert_murtys_solution(&solution);
     }
 }
 
 /// `M = L Lᵀ` with that triangular `L`, `q = -1`: definite, and `z = e_0`, `w = (0, 1, …, 1)` since
 /// the first column of `M` is `(1, 2, …, 2)`. Y. Fathi, Mathematical Programming 17 (1979) 335-344.
+fn fathi(n: usize) -> Bare {
+    let entry = |i: usize, j: usize| (0..n).map(|l| lower(i, l) * lower(j, l)).sum();
+    let m = (0..n * n).map(|k| entry(k % n, k / n)).collect();
+    Bare { n, m, q: vec![-1.0; n] }
+}
+
+fn assert_fathis_solution(solution: &LcpSolution, tolerance: f64) {
+    let n = solution.z.len();
+    assert_eq!(solution.status, Status::Solved, "{n}: {}", solution.message);
+    let z: Vec<f64> = (0..n).map(|i| f64::from(u8::from(i == 0))).collect();
+    let w: Vec<f64> = (0..n).map(|i| f64::from(u8::from(i != 0))).collect();
+    assert!(largest(&difference(&solution.z, &z)) <= tolerance, "{n}: {:?}", solution.z);
+    assert!(largest(&difference(&solution.w, &w)) <= tolerance, "{n}: {:?}", solution.w);
+}
+
 #[test]
-fn solves_fathis_problem() {
+fn lemke_solves_fathis_problem() {
     for n in [1_usize, 2, 4, 8, 16, 32] {
-        let lower = |i: usize, j: usize| {
-            if i == j {
-                1.0
-            } else if i > j {
-                2.0
-            } else {
-                0.0
-            }
-        };
-        let m =
-            (0..n * n).map(|k| (0..n).map(|l| lower(k % n, l) * lower(k / n, l)).sum()).collect();
-        let data = Bare { n, m, q: vec![-1.0; n] };
-        let solution = data.solve(&Settings { max_iterations: 1 << 20, ..Settings::default() });
-        assert_eq!(solution.status, Status::Solved, "{n}: {}", solution.message);
-        let z: Vec<f64> = (0..n).map(|i| f64::from(u8::from(i == 0))).collect();
+        let solution = fathi(n).solve(&Settings { max_iterations: 1 << 20, ..lemke() });
         // Condition of M below 9^2 n^2 = 1e5, rounding 1e-16.
-        assert!(largest(&difference(&solution.z, &z)) <= 1e-10, "{n}: {:?}", solution.z);
+        assert_fathis_solution(&solution, 1e-10);
+    }
+}
+
+/// Block pivoting takes `n + 1` systems: each exchanges one more unknown for good. Condition of `M`
+/// below 9^2 n^2 = 4e5, rounding 1e-16.
+#[test]
+fn block_pivoting_takes_n_plus_1_systems_on_fathis_problem() {
+    for n in 4_usize..=64 {
+        for method in [Method::Pivot, Method::Auto] {
+            let solution = fathi(n).solve(&Settings { method, ..Settings::default() });
+            assert_eq!(solution.method, Method::Pivot, "{n}: {solution:?}");
+            assert_fathis_solution(&solution, 1e-10);
+            let systems = solution.iterations;
+            assert!(systems <= n as u64 + 1, "{n}: {systems} systems by {method:?}");
+        }
     }
 }
 
@@ -71,7 +124,7 @@ fn solves_fathis_problem() {
 /// most `n 2^(n-1) + 1` bases on it, 193 for the 6 unknowns here: 1000 pivots would be a cycle.
 #[test]
 fn does_not_cycle_on_degenerate_problems() {
-    let settings = Settings { max_iterations: 1000, ..Settings::default() };
+    let settings = Settings { max_iterations: 1000, ..lemke() };
     let check = |data: Bare, seed| {
         let solution = data.solve(&settings);
         assert_eq!(data.flaw(&solution, settings.tolerance), None, "{seed} {data:?}\n{solution:?}");

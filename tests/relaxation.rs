@@ -64,7 +64,7 @@ impl Case {
 /// 250 sweeps where the best fixed factor takes about 170 and Gauss–Seidel about 2000.
 #[test]
 fn frictionless_1025_pairs_take_at_most_250_sweeps() {
-    let settings = Settings { tolerance: 1e-8, ..Settings::default() };
+    let settings = Settings { method: Method::SorNested, tolerance: 1e-8, ..Settings::default() };
     let (chosen, best) = Case::frictionless().compare(&settings, &[1.8, 1.85, 1.9]);
     assert!(chosen <= 250, "{chosen} sweeps, the best fixed factor takes {best}");
 }
@@ -92,7 +92,7 @@ fn friction_takes_at_most_twice_the_best_fixed_factor() {
 #[test]
 fn damping_goes_beyond_the_paper() {
     let case = Case::with_friction(5.0);
-    let damped = Settings::default();
+    let damped = Settings { method: Method::SorNested, ..Settings::default() };
     assert!(case.sweeps(&damped) < 5000);
     let undamped = Settings { damping: 1.0, max_iterations: 20_000, ..damped };
     assert_eq!(case.solve(&undamped).status, Status::IterationLimit);

@@ -68,7 +68,7 @@ fn length_of(solution: &Solution, units: Units) -> f64 {
 /// Problems of all kinds, conditions up to 1e4: the rounding of data given in other units, 1e-16,
 /// changes answers by 1e-12 of their size. With each whether its stiffness is definite; otherwise
 /// contact forces may be unique and displacements not.
-fn problems(law: impl Fn(&mut Rng, usize) -> Law) -> Vec<(Case, bool)> {
+fn problems(dims: &[usize], law: impl Fn(&mut Rng, usize) -> Law) -> Vec<(Case, bool)> {
     let mut cases = Vec::new();
     for seed in 0..60 {
         let mut rng = Rng::with_seed(seed);
@@ -91,10 +91,11 @@ fn problems(law: impl Fn(&mut Rng, usize) -> Law) -> Vec<(Case, bool)> {
     }
     for seed in 0..20 {
         let mut rng = Rng::with_seed(seed);
+        let dim = dims[seed as usize % dims.len()];
         let condition = decades(&mut rng, 4.0);
         let k = definite(&mut rng, 12, condition);
-        let law = law(&mut rng, 4);
-        cases.push((loaded(&mut rng, 3, k, law), true));
+        let law = law(&mut rng, 12 / dim);
+        cases.push((loaded(&mut rng, dim, k, law), true));
     }
     cases
 }
@@ -102,7 +103,12 @@ fn problems(law: impl Fn(&mut Rng, usize) -> Law) -> Vec<(Case, bool)> {
 fn check(method: Method, law: impl Fn(&mut Rng, usize) -> Law) {
     let settings = Settings { method, max_iterations: 20_000, ..Settings::default() };
     let mut decided = 0;
-    for (index, (case, definite)) in problems(law).iter().enumerate() {
+    let with_friction =
+        matches!(law(&mut Rng::with_seed(0), 40), Law::Coulomb(mu) if largest(&mu) > 0.0);
+    let planar = method == Method::Newton || method == Method::Lemke && with_friction;
+    for (index, (case, definite)) in
+        problems(if planar { &[2] } else { &[3] }, law).iter().enumerate()
+    {
         let before = case.solve(&settings);
         decided += usize::from(matches!(before.status, Status::Solved | Status::NoEquilibrium));
         for units in DECIMAL {
@@ -140,7 +146,9 @@ fn check(method: Method, law: impl Fn(&mut Rng, usize) -> Law) {
             assert_eq!(after.certificate.force, force, "{}", context());
         }
     }
-    assert!(decided >= 60, "only {decided} of 80 problems compare anything");
+    // Alone, block pivoting and Newton's method do not decide about bodies that nothing holds.
+    let least = if matches!(method, Method::Pivot | Method::Newton) { 45 } else { 60 };
+    assert!(decided >= least, "only {decided} of 80 problems compare anything");
 }
 
 fn near(a: &[f64], b: &[f64], scale: f64) -> bool {
@@ -167,10 +175,38 @@ fn units_do_not_matter_to_lemke() {
     check(Method::Lemke, |_, pairs| frictionless(pairs));
 }
 
+#[test]
+fn units_do_not_matter_to_lemke_with_friction() {
+    check(Method::Lemke, |rng, pairs| coulomb(rng, pairs, 0.3));
+}
+
+#[test]
+fn units_do_not_matter_to_auto() {
+    check(Method::Auto, |rng, pairs| coulomb(rng, pairs, 0.3));
+    check(Method::Auto, |_, pairs| frictionless(pairs));
+    check(Method::Auto, tresca);
+}
+
+#[test]
+fn units_do_not_matter_to_block_pivoting() {
+    check(Method::Pivot, |_, pairs| frictionless(pairs));
+}
+
+#[test]
+fn units_do_not_matter_to_newton() {
+    check(Method::Newton, |rng, pairs| coulomb(rng, pairs, 0.3));
+}
+
 /// `w = q + M z` with `w`, `q` forces and `z` lengths.
 #[test]
 fn units_do_not_matter_to_a_bare_complementarity_problem() {
-    let settings = Settings::default();
+    for method in [Method::Lemke, Method::Auto, Method::Pivot] {
+        check_bare(method);
+    }
+}
+
+fn check_bare(method: Method) {
+    let settings = Settings { method, ..Settings::default() };
     let solve = |m: &[f64], q: &[f64]| -> LcpSolution {
         let lcp = Lcp::new(q.len(), m, q.len(), q, None).unwrap();
         solve_lcp(&lcp, &settings, &mut Monitor::new(&settings, None)).unwrap()
@@ -200,7 +236,12 @@ fn units_do_not_matter_to_a_bare_complementarity_problem() {
             let after = solve(&times(&m, units.force / units.length), &times(&q, units.force));
             let context = || format!("seed {seed}, {units:?}\n{before:?}\n{after:?}");
             assert_eq!(after.status, before.status, "{}", context());
-            assert_eq!(after.iterations, before.iterations, "{}", context());
+            // What is singular to rounding may be so in one unit only, and take another way.
+            let as_many = after.iterations == before.iterations || method != Method::Lemke;
+            assert!(as_many, "{}", context());
+            if before.status == Status::Stalled && method != Method::Lemke {
+                continue;
+            }
             let z = times(&before.z, of_length(units));
             assert!(near(&after.z, &z, largest(&z)), "{}", context());
             if before.status == Status::Solved {
@@ -219,5 +260,5 @@ fn units_do_not_matter_to_a_bare_complementarity_problem() {
             }
         }
     }
-    assert!(infeasible > 20, "only {infeasible} problems are infeasible");
+    assert!(infeasible > 20 || method == Method::Pivot, "only {infeasible} are infeasible");
 }

@@ -18,8 +18,9 @@ enum Kind {
     Lu { forward: Vec<usize>, inverse: Vec<usize>, odd: bool },
 }
 
-/// Pivots below this part of the largest make the matrix singular: two digits above rounding.
-const SINGULAR: f64 = 1e-14;
+/// Pivots below this part of the largest make the matrix singular: well above what rounding leaves of a
+/// zero (1e-14), so that units do not decide, and below those of anything certifiable (1e-10).
+const SINGULAR: f64 = 1e-12;
 
 impl Direct {
     /// Factorises the `n x n` matrix whose columns `fill(j, column)` writes, of a symmetric positive
@@ -134,4 +135,27 @@ pub fn subtract_product(target: &mut [f64], a: &[f64], b: &[f64], n: usize) {
 pub fn largest_eigenvalue(n: usize, entry: impl Fn(usize, usize) -> f64) -> Option<f64> {
     let matrix = Mat::from_fn(n, n, entry);
     matrix.self_adjoint_eigenvalues(faer::Side::Lower).ok()?.last().copied()
+}
+
+/// `target - sum_k x_k y_kᵀ` for a matrix of `shape` with leading dimension `ld`; the `x_k` and the
+/// `y_k` are contiguous, one after the other.
+pub fn subtract_outer(
+    target: &mut [f64],
+    (rows, columns): (usize, usize),
+    ld: usize,
+    x: &[f64],
+    y: &[f64],
+) {
+    if x.is_empty() {
+        return;
+    }
+    let count = x.len() / rows;
+    matmul(
+        MatMut::from_column_major_slice_with_stride_mut(target, rows, columns, ld),
+        Accum::Add,
+        MatRef::from_column_major_slice(x, rows, count),
+        MatRef::from_column_major_slice(y, columns, count).transpose(),
+        -1.0,
+        Par::Seq,
+    );
 }

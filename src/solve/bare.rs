@@ -115,7 +115,9 @@ fn by_pivoting(lcp: &Lcp<'_>, settings: &Settings, monitor: &mut Monitor<'_>) ->
         previous_slip: None,
     });
     let most = if settings.method == Method::Pivot { u64::MAX } else { pivot::enough(n) };
-    let candidate = pivot::solve(&problem, settings, lcp.is_symmetric(), None, most, monitor);
+    // The measure of contact problems has another scale than `Lcp::eta`, which decides.
+    let strict = Settings { tolerance: 0.01 * settings.tolerance, ..settings.clone() };
+    let candidate = pivot::solve(&problem, &strict, lcp.is_symmetric(), None, most, monitor);
     Run {
         z: candidate.d.iter().map(|d| (-d).max(0.0)).collect(),
         end: match candidate.ending {

@@ -141,6 +141,7 @@ fn follow(
         return (Inner::Ended(Path::Solution), 0);
     };
     let mut entering = z0;
+    tableau.choose(entering);
     let mut start = None;
     for pivots in 1.. {
         if let Err(reason) = monitor.step() {
@@ -163,6 +164,7 @@ fn follow(
         }
         start.get_or_insert(tableau.value(z0));
         entering = if leaving < n { leaving + n } else { leaving - n };
+        tableau.choose(entering);
         if turns.len() < rules.turns && tableau.rate(z0, entering) > 0.0 {
             turns.push((n..2 * n).map(|z| tableau.value(z)).collect());
         }

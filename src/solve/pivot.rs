@@ -1,10 +1,10 @@
 //! Block principal pivoting without friction (Júdice and Pires 1994): exchange all pairs that
-//! violate their condition at once; when their number has not fallen for [`PATIENCE`] systems,
-//! exchange the last of them only (Murty 1974) until it does. Finite for positive definite `K`.
+//! violate their condition at once; when their number has not fallen for as many systems as there are
+//! pairs, exchange the last of them only (Murty 1974) until it does. Finite for positive definite `K`.
 //!
 //! All pairs closed is a cheap start: the first system has the components without a contact law
 //! alone, and a few sweeps from its solution tell nearly all pairs that open; sweeps follow each later
-//! solution too, as in Newton's method.
+//! solution too, as in Newton's method, as long as they help.
 
 use super::equations::{Equations, Singular};
 use super::newton::refine;
@@ -15,8 +15,9 @@ use crate::monitor::Monitor;
 use crate::problem::ContactProblem;
 use crate::settings::Settings;
 
-/// Systems without progress before single exchanges (Júdice and Pires recommend 10).
-const PATIENCE: u32 = 10;
+/// Least number of systems without progress before single exchanges. Júdice and Pires recommend 10; on
+/// the worst problems of single exchanges, which take `2^n`, whole blocks need `n`.
+const PATIENCE: usize = 10;
 
 /// Sweeps between a solution and its pieces.
 const SWEEPS: u32 = 2;
@@ -43,7 +44,8 @@ pub fn solve(
     };
     let mut equations = Equations::new(problem, symmetric, d);
     let mut best = (f64::INFINITY, equations.d.clone());
-    let (mut fewest, mut patience) = (usize::MAX, PATIENCE);
+    let most_patience = PATIENCE.max(problem.pairs());
+    let (mut fewest, mut patience) = (usize::MAX, most_patience);
     let last = monitor.iterations().saturating_add(most);
     let ending = loop {
         if monitor.iterations() >= last {
@@ -73,11 +75,11 @@ pub fn solve(
             break Ending::Done;
         }
         if progress {
-            (fewest, patience) = (violated.len(), PATIENCE);
+            (fewest, patience) = (violated.len(), most_patience);
         }
         if patience > 0 {
-            patience -= u32::from(!progress);
-            pieces = if symmetric { equations.swept_pieces(SWEEPS) } else { next };
+            patience -= usize::from(!progress);
+            pieces = if symmetric && progress { equations.swept_pieces(SWEEPS) } else { next };
         } else {
             let single = violated[violated.len() - 1];
             pieces[single] = next[single];

@@ -3,10 +3,16 @@
 //! Variables are numbered `0..n` for `w`, `n..2n` for `z`, `2n` for the artificial `z0`; in
 //! `w = q + M z + d z0` the `w` are basic first. Column `c` of the tableau is the dependence of the
 //! basic variables on nonbasic variable `c`; one more column holds their values. A pivot exchanges
-//! one basic and one nonbasic variable: a rank-1 update of `n x (n + 2)` numbers, no more.
+//! one basic and one nonbasic variable: with its column `x`, its row `y` and their common entry `p` the
+//! tableau changes by `-(x + e_r) (y - e_c)ᵀ / p`.
+//!
+//! A tableau beyond the cache is not changed at each pivot: up to [`DELAY`] changes are kept and made
+//! together, as one matrix product, which reads the tableau once. In between a pivot needs one column
+//! and one row, which the kept changes correct, and the values, which are always up to date.
 
 use crate::error::Error;
 use crate::linalg::dense;
+use crate::linalg::direct;
 use crate::linalg::kernels::{self, Simd};
 
 /// The problem that a tableau belongs to, scaled so that its entries are of similar size.
@@ -43,15 +49,28 @@ impl Scaled {
 pub struct Tableau {
     size: usize,
     stride: usize,
-    /// `n + 2` columns, the values last.
+    /// `n + 1` columns, without the changes that are kept.
     entries: Vec<f64>,
     basic: Vec<usize>,
     nonbasic: Vec<usize>,
     /// Of each variable: its row if basic, `n +` its column otherwise.
     place: Vec<usize>,
+    /// The column of the entering variable, up to date.
     entering: Vec<f64>,
+    values: Vec<f64>,
+    /// Changes that are kept: columns `(x + e_r) / p` and rows `y - e_c`, contiguous.
+    columns: Vec<f64>,
+    rows: Vec<f64>,
+    /// Most changes that are kept.
+    delay: usize,
     simd: Simd,
 }
+
+/// Changes made together where the tableau is beyond the cache.
+const DELAY: usize = 32;
+
+/// Rows from which on that pays.
+const LARGE: usize = 160;
 
 /// Coefficients below this part of a column's largest are rounding and block nothing; so are those
 /// below this number itself in the column of a `z`, where the data, scaled, are of size one.
@@ -71,9 +90,9 @@ impl Tableau {
         let stride = n.next_multiple_of(8) + 8;
         let mut entries = Vec::new();
         entries
-            .try_reserve_exact(stride * (n + 2))
+            .try_reserve_exact(stride * (n + 1))
             .map_err(|_| Error::OutOfMemory("the tableau of Lemke's method"))?;
-        entries.resize(stride * (n + 2), 0.0);
+        entries.resize(stride * (n + 1), 0.0);
         let mut tableau = Tableau {
             size: n,
             stride,
@@ -82,13 +101,16 @@ impl Tableau {
             nonbasic: (n..=2 * n).collect(),
             place: (0..n).chain(n..=2 * n).collect(),
             entering: vec![0.0; n],
+            values: problem.q.clone(),
+            columns: Vec::new(),
+            rows: Vec::new(),
+            delay: if n < LARGE { 1 } else { DELAY },
             simd: Simd::new(),
         };
         for j in 0..n {
             tableau.column_mut(j).copy_from_slice(&problem.matrix[j * n..(j + 1) * n]);
         }
         tableau.column_mut(n).copy_from_slice(&problem.covering);
-        tableau.column_mut(n + 1).copy_from_slice(&problem.q);
         Ok(tableau)
     }
 
@@ -100,15 +122,10 @@ impl Tableau {
         &mut self.entries[c * self.stride..c * self.stride + self.size]
     }
 
-    /// Values of the basic variables, row by row.
-    pub fn values(&self) -> &[f64] {
-        self.column(self.size + 1)
-    }
-
     /// Value of a variable in the basis.
     pub fn value(&self, variable: usize) -> f64 {
         match self.place[variable] {
-            row if row < self.size => self.values()[row],
+            row if row < self.size => self.values[row],
             _ => 0.0,
         }
     }
@@ -118,28 +135,41 @@ impl Tableau {
         self.basic[row]
     }
 
-    /// Rate of `variable` when the nonbasic variable `entering` grows.
+    /// Brings the column of the nonbasic variable `entering` up to date.
+    pub fn choose(&mut self, entering: usize) {
+        let (n, stride, c) = (self.size, self.stride, self.place[entering] - self.size);
+        self.entering.copy_from_slice(&self.entries[c * stride..c * stride + n]);
+        let changes = self.columns.chunks_exact(n).zip(self.rows.chunks_exact(n + 1));
+        let entering = &mut self.entering;
+        kernels::vectorised(
+            self.simd,
+            #[inline(always)]
+            || changes.for_each(|(column, row)| kernels::subtract(entering, row[c], column)),
+        );
+    }
+
+    /// Rate of `variable` when the chosen variable `entering` grows.
     pub fn rate(&self, variable: usize, entering: usize) -> f64 {
         match self.place[variable] {
             _ if variable == entering => 1.0,
-            row if row < self.size => self.column(self.place[entering] - self.size)[row],
+            row if row < self.size => self.entering[row],
             _ => 0.0,
         }
     }
 
-    /// The row whose basic variable reaches zero first when the nonbasic `entering` grows; among
-    /// ties that of `preferred`, then the lexicographic one. `None`: it can grow for ever.
+    /// The row whose basic variable reaches zero first when the chosen variable `entering` grows;
+    /// among ties that of `preferred`, then the lexicographic one. `None`: it can grow for ever.
     pub fn blocking_row(&self, entering: usize, preferred: usize) -> Option<usize> {
-        let column = self.column(self.place[entering] - self.size);
+        let column = &self.entering;
         let largest = column.iter().fold(0.0, |most: f64, t| most.max(t.abs()));
         let size = if entering < self.size { largest } else { largest.max(1.0) };
         let least = -NEGLIGIBLE * size;
         let blocking = || (0..self.size).filter(|&row| column[row] < least);
-        let ratio = |row: usize| self.values()[row].max(0.0) / -column[row];
+        let ratio = |row: usize| self.values[row].max(0.0) / -column[row];
         let first = blocking().map(ratio).fold(f64::INFINITY, f64::min);
         // The second term ties values that are zero up to rounding; divided by the largest
         // coefficient, it pushes no basic variable below zero by more than that rounding.
-        let scale = self.values().iter().fold(0.0, |most: f64, b| most.max(b.abs()));
+        let scale = self.values.iter().fold(0.0, |most: f64, b| most.max(b.abs()));
         let last = first * (1.0 + TIE) + ZERO * scale / largest;
         let mut ties: Vec<usize> = blocking().filter(|&row| ratio(row) <= last).collect();
         if let Some(&row) = ties.iter().find(|&&row| self.basic[row] == preferred) {
@@ -162,25 +192,49 @@ impl Tableau {
     fn perturbation(&self, row: usize, component: usize) -> f64 {
         match self.place[component] {
             place if place < self.size => f64::from(u8::from(place == row)),
-            place => -self.column(place - self.size)[row],
+            place => -self.entry(row, place - self.size),
         }
+    }
+
+    /// An entry, up to date.
+    fn entry(&self, row: usize, c: usize) -> f64 {
+        let n = self.size;
+        let changes = self.columns.chunks_exact(n).zip(self.rows.chunks_exact(n + 1));
+        let change: f64 = changes.map(|(column, of_row)| column[row] * of_row[c]).sum();
+        self.column(c)[row] - change
     }
 
     /// The row that leaves when `z0` enters the first basis: that which makes all values
     /// non-negative, the last of ties as the lexicographic rule has it.
     pub fn first_row(&self) -> Option<usize> {
-        let (values, covering) = (self.values(), self.column(self.size));
+        let (values, covering) = (&self.values, self.column(self.size));
         let ratio = |row: usize| values[row] / covering[row];
         let first = (0..self.size).map(ratio).fold(0.0, f64::min);
         (0..self.size).rev().find(|&row| ratio(row) <= first * (1.0 - TIE)).filter(|_| first < 0.0)
     }
 
-    /// Exchanges the basic variable of `row` with the nonbasic `entering`.
+    /// Exchanges the basic variable of `row` with the chosen variable `entering`.
     pub fn pivot(&mut self, row: usize, entering: usize) {
-        let (n, stride) = (self.size, self.stride);
-        let c = self.place[entering] - n;
-        self.entering.copy_from_slice(&self.entries[c * stride..c * stride + n]);
+        let c = self.place[entering] - self.size;
         let inverse = 1.0 / self.entering[row];
+        let step = self.values[row] * inverse;
+        kernels::subtract(&mut self.values, step, &self.entering);
+        self.values[row] = -step;
+        if self.delay == 1 {
+            self.change(row, c, inverse);
+        } else {
+            self.keep_change(row, c, inverse);
+        }
+        let leaving = self.basic[row];
+        self.basic[row] = entering;
+        self.nonbasic[c] = leaving;
+        self.place[entering] = row;
+        self.place[leaving] = self.size + c;
+    }
+
+    /// Changes the tableau at once.
+    fn change(&mut self, row: usize, c: usize, inverse: f64) {
+        let (n, stride) = (self.size, self.stride);
         self.entering[row] = 0.0;
         let (entries, column) = (&mut self.entries, &self.entering);
         kernels::vectorised(
@@ -196,25 +250,51 @@ impl Tableau {
                 }
             },
         );
-        for entry in self.column_mut(c) {
-            *entry *= inverse;
+        let (entries, column) = (&mut self.entries, &self.entering);
+        for (entry, x) in entries[c * stride..c * stride + n].iter_mut().zip(column) {
+            *entry = x * inverse;
         }
-        self.column_mut(c)[row] = inverse;
-        let leaving = self.basic[row];
-        self.basic[row] = entering;
-        self.nonbasic[c] = leaving;
-        self.place[entering] = row;
-        self.place[leaving] = n + c;
+        entries[c * stride + row] = inverse;
+    }
+
+    /// Keeps the change; the tableau follows when there are enough.
+    fn keep_change(&mut self, row: usize, c: usize, inverse: f64) {
+        let n = self.size;
+        let mut y: Vec<f64> = (0..=n).map(|j| self.entries[j * self.stride + row]).collect();
+        let changes = self.columns.chunks_exact(n).zip(self.rows.chunks_exact(n + 1));
+        let target = &mut y;
+        kernels::vectorised(
+            self.simd,
+            #[inline(always)]
+            || changes.for_each(|(x, of_row)| kernels::subtract(target, x[row], of_row)),
+        );
+        y[c] -= 1.0;
+        self.rows.extend(y);
+        let begin = self.columns.len();
+        self.columns.extend(self.entering.iter().map(|x| x * inverse));
+        self.columns[begin + row] = 1.0 + inverse;
+        if self.columns.len() == self.delay * n {
+            self.settle();
+        }
+    }
+
+    /// Makes the changes that are kept.
+    fn settle(&mut self) {
+        let (n, stride) = (self.size, self.stride);
+        direct::subtract_outer(&mut self.entries, (n, n + 1), stride, &self.columns, &self.rows);
+        self.columns.clear();
+        self.rows.clear();
     }
 
     /// Corrects the values by one step of iterative refinement on the data of `problem`, with the
     /// tableau itself as the inverse of the basis. Returns the residual of `w - M z - d z0 = q`
     /// before, relative to `q`.
     pub fn refine(&mut self, problem: &Scaled) -> f64 {
+        self.settle();
         let n = self.size;
         let mut residual = problem.q.clone();
         for row in 0..n {
-            problem.add_column(self.basic[row], -self.values()[row], &mut residual);
+            problem.add_column(self.basic[row], -self.values[row], &mut residual);
         }
         let mut correction = vec![0.0; n];
         for (k, &residual) in residual.iter().enumerate() {
@@ -223,7 +303,7 @@ impl Tableau {
                 place => kernels::subtract(&mut correction, residual, self.column(place - n)),
             }
         }
-        for (value, correction) in self.column_mut(n + 1).iter_mut().zip(&correction) {
+        for (value, correction) in self.values.iter_mut().zip(&correction) {
             *value += correction;
         }
         let largest = |v: &[f64]| v.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
@@ -247,9 +327,13 @@ impl Tableau {
         if !dense::solve_general(&basis, &mut fresh, n, n + 2) {
             return false;
         }
-        for (c, column) in fresh.chunks_exact(n).enumerate() {
+        let (dependence, values) = fresh.split_at(n * (n + 1));
+        for (c, column) in dependence.chunks_exact(n).enumerate() {
             self.column_mut(c).copy_from_slice(column);
         }
+        self.values.copy_from_slice(values);
+        self.columns.clear();
+        self.rows.clear();
         true
     }
 }

@@ -75,8 +75,10 @@ pub fn are_different(problem: &ContactProblem<'_>, one: &[f64], two: &[f64]) -> 
     let at = |d: &[f64]| pieces::at(problem, d, &problem.force(d));
     let root = |i: usize| problem.diagonal(i).sqrt();
     let largest = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, f64::max);
-    let size =
-        largest(&mut one.iter().chain(two).enumerate().map(|(i, d)| d.abs() * root(i % one.len())));
+    // Of what the loads can move too: two displacements of rounding's size are both zero.
+    let loads = problem.load().iter().enumerate().map(|(i, f)| (f / root(i)).abs());
+    let moves = one.iter().chain(two).enumerate().map(|(i, d)| d.abs() * root(i % one.len()));
+    let size = largest(&mut loads.chain(moves));
     let distance =
         largest(&mut one.iter().zip(two).enumerate().map(|(i, (a, b))| (a - b).abs() * root(i)));
     distance > MARGIN * size && at(one) != at(two)

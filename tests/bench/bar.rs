@@ -1,7 +1,8 @@
 //! The bar on the plane (paper, section 4.1) on any Q1 mesh, condensed row by row of nodes.
 //!
 //! Plane strain, half model 40 x 40 mm, E = 13000 daN/mm², nu = 0.2; row heights in geometric
-//! progression from the contact side; pressure 5 on top, `side` inward on x = 0, u_x = 0 on x = 40.
+//! progression from the contact side; `side` inward on x = 0, u_x = 0 on x = 40. On top a pressure
+//! of 5, or all nodes held there and moved down.
 //! Components per node: (n, t) = (-u_y, u_x).
 
 use faer::linalg::solvers::Solve;
@@ -19,8 +20,23 @@ const E: f64 = 13000.0;
 const NU: f64 = 0.2;
 const SIZE: f64 = 40.0;
 
-/// The bar with `columns x rows` elements of heights growing by `ratio`.
+/// What is done to the upper side.
+#[derive(Clone, Copy, PartialEq)]
+#[allow(dead_code)] // Every user uses a part.
+pub enum Top {
+    Pressed,
+    /// Held, and moved towards the plane by a length.
+    Clamped(f64),
+}
+
+/// The bar with `columns x rows` elements of heights growing by `ratio`, pressed.
+#[allow(dead_code)] // as above
 pub fn bar(columns: usize, rows: usize, ratio: f64, side: f64) -> Condensed {
+    bar_with_top(columns, rows, ratio, side, Top::Pressed)
+}
+
+/// The bar with either kind of upper side.
+pub fn bar_with_top(columns: usize, rows: usize, ratio: f64, side: f64, top: Top) -> Condensed {
     let n = 2 * (columns + 1);
     let first = if ratio == 1.0 {
         SIZE / rows as f64
@@ -55,26 +71,33 @@ pub fn bar(columns: usize, rows: usize, ratio: f64, side: f64) -> Condensed {
             layer.col_mut(fixed).fill(0.0);
             layer[(fixed, fixed)] = diagonal;
         }
-        let mut top = layer.submatrix(n, n, n, n).to_owned();
-        let mut top_load = load.submatrix(n, 0, n, 1).to_owned();
+        let coupling = layer.submatrix(n, 0, n, n).to_owned();
+        let rest = layer.submatrix(0, 0, n, n);
+        if let (None, Top::Clamped(down)) = (&carried, top) {
+            let moved = Mat::<f64>::from_fn(n, 1, |i, _| if i % 2 == 0 { down } else { 0.0 });
+            let held = load.submatrix(0, 0, n, 1) - coupling.transpose() * &moved;
+            carried = Some((rest.to_owned(), held));
+            continue;
+        }
+        let mut upper = layer.submatrix(n, n, n, n).to_owned();
+        let mut upper_load = load.submatrix(n, 0, n, 1).to_owned();
         match carried.take() {
             Some((stiffness, load)) => {
-                top += stiffness;
-                top_load += load;
+                upper += stiffness;
+                upper_load += load;
             }
             None => {
                 let share = 5.0 * SIZE / columns as f64;
                 for node in 0..=columns {
                     let share = if node % columns == 0 { share / 2.0 } else { share };
-                    top_load[(2 * node, 0)] += share;
+                    upper_load[(2 * node, 0)] += share;
                 }
             }
         }
-        let coupling = layer.submatrix(n, 0, n, n).to_owned();
-        let factor = top.llt(Side::Lower).expect("the upper part of the bar is held from below");
+        let factor = upper.llt(Side::Lower).expect("the upper part of the bar is held from below");
         let inner = factor.solve(&coupling);
-        let inner_load = factor.solve(&top_load);
-        let stiffness = layer.submatrix(0, 0, n, n) - coupling.transpose() * &inner;
+        let inner_load = factor.solve(&upper_load);
+        let stiffness = rest - coupling.transpose() * &inner;
         let load = load.submatrix(0, 0, n, 1) - coupling.transpose() * &inner_load;
         carried = Some((stiffness, load));
     }

@@ -75,8 +75,13 @@ fn sweep(bar: &bar::Condensed) {
     let threshold = vec![1e-9; bar.pairs];
     let problem = problem(bar, &gap, Friction::Tresca(&threshold));
     let sweeps = |count| {
-        let settings =
-            Settings { tolerance: 1e-15, omega: 1.0, max_iterations: count, ..Settings::default() };
+        let settings = Settings {
+            method: Method::SorNested,
+            tolerance: 1e-15,
+            omega: 1.0,
+            max_iterations: count,
+            ..Settings::default()
+        };
         assert_eq!(run(&problem, &settings).iterations, count);
     };
     let read = || {
@@ -122,7 +127,7 @@ fn pivot(bar: &bar::Condensed) {
         (0..n * n).map(|k| bar.stiffness[2 * (k % n) + 2 * n * 2 * (k / n)]).collect();
     let q: Vec<f64> = (0..n).map(|i| (0.37 * i as f64).sin() + 0.2).collect();
     let lcp = Lcp::new(n, &matrix, n, &q, None).expect("a valid problem");
-    let settings = Settings::default();
+    let settings = Settings { method: Method::Lemke, ..Settings::default() };
     let pivoted = || {
         let mut pivots = 0;
         let time = seconds(|| {
@@ -175,7 +180,8 @@ fn frictionless(bar: &bar::Condensed) {
     let gap: Vec<f64> = (0..bar.pairs).map(|i| 2e-3 * (1.0 - (i as f64 * waves).cos())).collect();
     let problem = problem(bar, &gap, Friction::Coulomb(&zero));
     for omega in [1.0, 1.7, 1.8, 1.85, 1.9, 0.0] {
-        let settings = Settings { tolerance: 1e-8, omega, ..Settings::default() };
+        let method = Method::SorNested;
+        let settings = Settings { method, tolerance: 1e-8, omega, ..Settings::default() };
         report("SOR", bar.pairs, &format!("omega {omega:4}"), &problem, &settings);
     }
     let settings = Settings { method: Method::Lemke, ..Settings::default() };

@@ -21,14 +21,32 @@ VALUE(SIGNORINI_TIME_LIMIT, 2);
 VALUE(SIGNORINI_CANCELLED, 3);
 VALUE(SIGNORINI_NO_EQUILIBRIUM, 4);
 VALUE(SIGNORINI_STALLED, 5);
+VALUE(SIGNORINI_NOT_A_SOLUTION, 6);
 VALUE(SIGNORINI_INTERNAL, -1000);
 VALUE(SIGNORINI_OUT_OF_MEMORY, -1001);
+VALUE(SIGNORINI_METHOD_AUTO, 0);
 VALUE(SIGNORINI_METHOD_SOR_NESTED, 1);
 VALUE(SIGNORINI_METHOD_SOR_DIAGONAL, 2);
 VALUE(SIGNORINI_METHOD_LEMKE, 3);
+VALUE(SIGNORINI_METHOD_PIVOT, 4);
+VALUE(SIGNORINI_METHOD_NEWTON, 5);
+VALUE(SIGNORINI_SEARCH_OFF, 0);
+VALUE(SIGNORINI_SEARCH_OTHERS, 1);
+VALUE(SIGNORINI_SEARCH_RETURN_SECOND, 2);
 VALUE(SIGNORINI_OPEN, 0);
 VALUE(SIGNORINI_SLIP, 1);
 VALUE(SIGNORINI_STICK, 2);
+VALUE(SIGNORINI_NOT_KNOWN, 0);
+VALUE(SIGNORINI_UNIQUE, 1);
+VALUE(SIGNORINI_SEVERAL, 2);
+VALUE(SIGNORINI_FALLBACK_NONE, 0);
+VALUE(SIGNORINI_FALLBACK_CYCLE, 1);
+VALUE(SIGNORINI_FALLBACK_SINGULAR, 2);
+VALUE(SIGNORINI_FALLBACK_UNSTABLE, 3);
+VALUE(SIGNORINI_FALLBACK_INACCURATE, 4);
+VALUE(SIGNORINI_LOWER, 0);
+VALUE(SIGNORINI_UPPER, 1);
+VALUE(SIGNORINI_FULL, 2);
 
 /* 64-bit pointers, doubles and 64-bit integers aligned to their size. */
 #if defined __LP64__ || defined _WIN64
@@ -47,15 +65,15 @@ FIELD(signorini_settings, damping, double, 24);
 FIELD(signorini_settings, max_iterations, int64_t, 32);
 FIELD(signorini_settings, time_limit, double, 40);
 FIELD(signorini_settings, warm_start, int32_t, 48);
-FIELD(signorini_settings, reserved, int32_t, 52);
+FIELD(signorini_settings, search, int32_t, 52);
 FIELD(signorini_settings, progress, signorini_progress_fn, 56);
 FIELD(signorini_settings, user, void *, 64);
 
-SIZE(signorini_report, 128);
+SIZE(signorini_report, 152);
 FIELD(signorini_report, struct_size, uint32_t, 0);
 FIELD(signorini_report, status, int32_t, 4);
 FIELD(signorini_report, method, int32_t, 8);
-FIELD(signorini_report, reserved, int32_t, 12);
+FIELD(signorini_report, uniqueness, int32_t, 12);
 FIELD(signorini_report, iterations, int64_t, 16);
 FIELD(signorini_report, outer_iterations, int64_t, 24);
 FIELD(signorini_report, refactorisations, int64_t, 32);
@@ -70,6 +88,33 @@ FIELD(signorini_report, damping, double, 96);
 FIELD(signorini_report, open, int64_t, 104);
 FIELD(signorini_report, slip, int64_t, 112);
 FIELD(signorini_report, stick, int64_t, 120);
+FIELD(signorini_report, factorisations, int64_t, 128);
+FIELD(signorini_report, first_method, int32_t, 136);
+FIELD(signorini_report, fallback, int32_t, 140);
+FIELD(signorini_report, orientation, int32_t, 144);
+FIELD(signorini_report, reserved, int32_t, 148);
+
+SIZE(signorini_sparse, 56);
+FIELD(signorini_sparse, struct_size, uint32_t, 0);
+FIELD(signorini_sparse, index_bytes, int32_t, 4);
+FIELD(signorini_sparse, base, int32_t, 8);
+FIELD(signorini_sparse, triangle, int32_t, 12);
+FIELD(signorini_sparse, size, int64_t, 16);
+FIELD(signorini_sparse, entries, int64_t, 24);
+FIELD(signorini_sparse, starts, void *, 32);
+FIELD(signorini_sparse, rows, void *, 40);
+FIELD(signorini_sparse, values, double *, 48);
+
+SIZE(signorini_pairs, 64);
+FIELD(signorini_pairs, struct_size, uint32_t, 0);
+FIELD(signorini_pairs, dim, int32_t, 4);
+FIELD(signorini_pairs, pairs, int64_t, 8);
+FIELD(signorini_pairs, slaves, int64_t *, 16);
+FIELD(signorini_pairs, master_starts, int64_t *, 24);
+FIELD(signorini_pairs, masters, int64_t *, 32);
+FIELD(signorini_pairs, weights, double *, 40);
+FIELD(signorini_pairs, normals, double *, 48);
+FIELD(signorini_pairs, tangents, double *, 56);
 
 #endif
 
@@ -81,14 +126,14 @@ int main(void)
     CHECK(signorini_abi_version() == SIGNORINI_ABI_VERSION);
     CHECK_STATUS(signorini_settings_default(&settings, sizeof settings), 0);
     CHECK(settings.struct_size == sizeof settings);
-    CHECK(settings.method == SIGNORINI_METHOD_SOR_NESTED);
+    CHECK(settings.method == SIGNORINI_METHOD_AUTO);
     CHECK(settings.tolerance == 1e-10);
     CHECK(settings.omega == 0);
     CHECK(settings.damping == 0);
     CHECK(settings.max_iterations == 200000);
     CHECK(settings.time_limit == 0);
     CHECK(settings.warm_start == 0);
-    CHECK(settings.reserved == 0);
+    CHECK(settings.search == SIGNORINI_SEARCH_OFF);
     CHECK(settings.progress == NULL);
     CHECK(settings.user == NULL);
     /* No larger structure is known to it. */
@@ -101,6 +146,7 @@ int main(void)
     signorini_report report;
     memset(&report, 0xFF, sizeof report);
     report.struct_size = sizeof report;
+    settings.method = SIGNORINI_METHOD_SOR_NESTED;
     settings.omega = 1;
     settings.damping = 0.75;
     settings.tolerance = 1e-12;
@@ -117,5 +163,22 @@ int main(void)
     CHECK(report.equilibrium >= 0 && report.equilibrium < 1e-10);
     CHECK(report.omega == 1 && report.damping == 0.75);
     CHECK(report.open == 1 && report.slip == 1 && report.stick == 0);
+    CHECK(report.factorisations == 0);
+    CHECK(report.first_method == SIGNORINI_METHOD_SOR_NESTED);
+    CHECK(report.fallback == SIGNORINI_FALLBACK_NONE);
+    CHECK(report.uniqueness == SIGNORINI_NOT_KNOWN && report.orientation == 0);
+
+    /* By Newton's method; without coupling every determinant is a product of positive entries. */
+    memset(&report, 0xFF, sizeof report);
+    report.struct_size = sizeof report;
+    settings.method = SIGNORINI_METHOD_NEWTON;
+    CHECK_STATUS(signorini_solve(2, 2, K, 4, f, gap, mu, NULL, &settings, d, F, NULL, &report), 0);
+    CHECK(report.method == SIGNORINI_METHOD_NEWTON && report.reserved == 0);
+    CHECK(report.first_method == SIGNORINI_METHOD_NEWTON);
+    CHECK(report.fallback == SIGNORINI_FALLBACK_NONE);
+    CHECK(report.iterations >= 1 && report.iterations <= 10);
+    CHECK(report.factorisations >= 1 && report.factorisations <= report.iterations);
+    CHECK(report.orientation == 1 && report.uniqueness != SIGNORINI_SEVERAL);
+    CHECK(report.omega == 0 && report.damping == 0 && report.outer_iterations == 0);
     return check_summary("layout");
 }

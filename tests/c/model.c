@@ -420,7 +420,7 @@ static void cases(void)
     prepare_cases();
     signorini_settings settings;
     CHECK_STATUS(signorini_settings_default(&settings, sizeof settings), 0);
-    settings.method = SIGNORINI_METHOD_LEMKE;
+    settings.method = SIGNORINI_METHOD_PIVOT;
     w.mu[1] = 0.1;
     w.f[2][0] = NAN;
     CHECK_STATUS(signorini_model_solve(model, CASES, w.f[0], NULL, w.gap, w.mu, NULL, &settings,
@@ -477,7 +477,7 @@ static void smaller_reports(void)
         memcpy(&status, report + offsetof(signorini_report, status), sizeof status);
         memcpy(&method, report + offsetof(signorini_report, method), sizeof method);
         memcpy(&iterations, report + offsetof(signorini_report, iterations), sizeof iterations);
-        CHECK(size == SMALL && status == 0 && method == SIGNORINI_METHOD_SOR_NESTED);
+        CHECK(size == SMALL && status == 0 && method > SIGNORINI_METHOD_AUTO);
         CHECK(iterations == sweeps[c]);
         check_case(c);
     }

@@ -9,10 +9,24 @@
 #include <stddef.h>
 
 enum {
+    AUTO = SIGNORINI_METHOD_AUTO,
     NESTED = SIGNORINI_METHOD_SOR_NESTED,
     DIAGONAL = SIGNORINI_METHOD_SOR_DIAGONAL,
-    LEMKE = SIGNORINI_METHOD_LEMKE
+    LEMKE = SIGNORINI_METHOD_LEMKE,
+    PIVOT = SIGNORINI_METHOD_PIVOT,
+    NEWTON = SIGNORINI_METHOD_NEWTON
 };
+
+/* Whether a method is for problems of this dimension, with friction or without. */
+static int fits(int32_t method, int32_t dim, int friction)
+{
+    switch (method) {
+    case LEMKE: return dim == 2 || !friction;
+    case PIVOT: return !friction;
+    case NEWTON: return dim == 2;
+    default: return 1;
+    }
+}
 
 /* What a call returned, for up to two pairs. */
 typedef struct answer {
@@ -52,6 +66,12 @@ static void check_report(const signorini_report *report, int32_t status, int64_t
     CHECK(report->struct_size == sizeof *report);
     CHECK_STATUS(report->status, status);
     CHECK(report->reserved == 0);
+    CHECK(report->uniqueness >= SIGNORINI_NOT_KNOWN && report->uniqueness <= SIGNORINI_SEVERAL);
+    CHECK(report->orientation >= -1 && report->orientation <= 1);
+    CHECK(report->fallback >= SIGNORINI_FALLBACK_NONE);
+    CHECK(report->fallback <= SIGNORINI_FALLBACK_INACCURATE);
+    CHECK(report->fallback != SIGNORINI_FALLBACK_NONE || report->first_method == report->method);
+    CHECK(report->factorisations >= 0 && report->refactorisations >= 0);
     CHECK(report->iterations >= 0);
     CHECK(report->open + report->slip + report->stick == pairs);
     CHECK(report->open >= 0 && report->slip >= 0 && report->stick >= 0);
@@ -73,7 +93,9 @@ static answer coulomb(const small *p, int32_t method, int32_t expected)
                                  p->mu, p->slip, &settings, a.d, a.F, a.state, &a.report),
                  expected);
     check_report(&a.report, expected, p->pairs);
-    CHECK(a.report.method == method);
+    /* The default tells which it chose. */
+    CHECK(method == AUTO ? a.report.method != AUTO : a.report.method == method);
+    CHECK(method == AUTO || a.report.fallback == SIGNORINI_FALLBACK_NONE);
     return a;
 }
 
@@ -92,9 +114,10 @@ static answer tresca(const small *p, int32_t method, int32_t expected)
 static void agrees(int line, const small *p, const double *d, const double *F,
                    const int32_t *state)
 {
-    int frictionless = 1;
-    for (int i = 0; i < p->pairs; i++) frictionless = frictionless && p->mu[i] == 0;
-    for (int32_t method = NESTED; method <= (frictionless ? LEMKE : DIAGONAL); method++) {
+    int friction = 0;
+    for (int i = 0; i < p->pairs; i++) friction = friction || p->mu[i] != 0;
+    for (int32_t method = AUTO; method <= NEWTON; method++) {
+        if (!fits(method, p->dim, friction)) continue;
         const int failed_before = checks_failed;
         const answer a = coulomb(p, method, SIGNORINI_SOLVED);
         for (int i = 0; i < p->dim * p->pairs; i++) {
@@ -202,8 +225,8 @@ static void a_load_may_be_small_against_the_gap(void)
     const double K[] = {2, 1, 1, 2}, gap[] = {3};
     for (double load = 1; load > 1e-30; load *= 1e-3) {
         const double f[] = {5 * load, 4 * load};
-        for (int32_t method = NESTED; method <= LEMKE; method++) {
-            for (int friction = 0; friction <= (method != LEMKE); friction++) {
+        for (int32_t method = AUTO; method <= NEWTON; method++) {
+            for (int friction = 0; friction <= fits(method, 2, 1); friction++) {
                 const answer a = coulomb(PROBLEM(2, 1, K, f, gap, friction ? half : none, NULL),
                                          method, SIGNORINI_SOLVED);
                 CHECK_NEAR(a.d[0] / load, 2);
@@ -245,12 +268,12 @@ static void friction_rests_at_the_previous_slip(void)
     AGREES(PROBLEM(3, 1, K3, f3, gap, half, slip3), d3, F3, SIGNORINI_STICK);
 }
 
-static void given_thresholds(void)
+static void given_thresholds_by(int32_t method)
 {
     const double K[] = {5, 0, 0, 4}, gap[] = {0.5}, g[] = {2};
     /* Open, and the threshold acts all the same. */
     const double f[] = {-1, 6};
-    answer a = tresca(PROBLEM(2, 1, K, f, gap, g, NULL), NESTED, SIGNORINI_SOLVED);
+    answer a = tresca(PROBLEM(2, 1, K, f, gap, g, NULL), method, SIGNORINI_SOLVED);
     CHECK_NEAR(a.d[0], -0.2);
     CHECK_NEAR(a.d[1], 1);
     CHECK_NEAR(a.F[0], 0);
@@ -258,7 +281,7 @@ static void given_thresholds(void)
     CHECK(a.state[0] == SIGNORINI_OPEN);
     /* Closed and sliding, whatever the pressure. */
     const double f2[] = {100, -6};
-    a = tresca(PROBLEM(2, 1, K, f2, gap, g, NULL), NESTED, SIGNORINI_SOLVED);
+    a = tresca(PROBLEM(2, 1, K, f2, gap, g, NULL), method, SIGNORINI_SOLVED);
     CHECK_NEAR(a.d[0], 0.5);
     CHECK_NEAR(a.d[1], -1);
     CHECK_NEAR(a.F[0], -97.5);
@@ -266,24 +289,34 @@ static void given_thresholds(void)
     CHECK(a.state[0] == SIGNORINI_SLIP);
     /* Closed and at rest. */
     const double f3[] = {100, 1.5};
-    a = tresca(PROBLEM(2, 1, K, f3, gap, g, NULL), NESTED, SIGNORINI_SOLVED);
+    a = tresca(PROBLEM(2, 1, K, f3, gap, g, NULL), method, SIGNORINI_SOLVED);
     CHECK(a.d[1] == 0);
     CHECK_NEAR(a.F[1], -1.5);
     CHECK(a.state[0] == SIGNORINI_STICK);
-    /* No threshold at all: also by Lemke. */
-    for (int32_t method = NESTED; method <= LEMKE; method += 2) {
-        a = tresca(PROBLEM(2, 1, K, f2, gap, none, NULL), method, SIGNORINI_SOLVED);
+}
+
+static void given_thresholds(void)
+{
+    const int32_t methods[] = {AUTO, NESTED, LEMKE, NEWTON};
+    for (int i = 0; i < 4; i++) given_thresholds_by(methods[i]);
+    /* No threshold at all. */
+    const double K[] = {5, 0, 0, 4}, gap[] = {0.5}, f2[] = {100, -6};
+    for (int32_t method = AUTO; method <= NEWTON; method++) {
+        if (method == DIAGONAL) continue; /* It updates thresholds. */
+        const answer a = tresca(PROBLEM(2, 1, K, f2, gap, none, NULL), method, SIGNORINI_SOLVED);
         CHECK_NEAR(a.d[1], -1.5);
         CHECK_NEAR(a.F[0], -97.5);
         CHECK_NEAR(a.F[1], 0);
     }
     const double K3[9] = {5, [4] = 2, [8] = 2}, f3d[] = {-5, 9, 12}, g3[] = {5};
-    a = tresca(PROBLEM(3, 1, K3, f3d, gap, g3, NULL), NESTED, SIGNORINI_SOLVED);
-    CHECK_NEAR(a.d[0], -1);
-    CHECK_NEAR(a.d[1], 3);
-    CHECK_NEAR(a.d[2], 4);
-    CHECK_NEAR(a.F[1], -3);
-    CHECK_NEAR(a.F[2], -4);
+    for (int32_t method = AUTO; method <= NESTED; method++) {
+        const answer a = tresca(PROBLEM(3, 1, K3, f3d, gap, g3, NULL), method, SIGNORINI_SOLVED);
+        CHECK_NEAR(a.d[0], -1);
+        CHECK_NEAR(a.d[1], 3);
+        CHECK_NEAR(a.d[2], 4);
+        CHECK_NEAR(a.F[1], -3);
+        CHECK_NEAR(a.F[2], -4);
+    }
 }
 
 /* ---- bodies that nothing but contact holds ---- */
@@ -292,7 +325,7 @@ static void a_floating_body_leaves(void)
 {
     /* One pair whose components are tied: it can move along (1, 1), and is driven off. */
     const double K[] = {1, -1, -1, 1}, away[] = {-1, -1}, gap[] = {0}, mu[] = {0.25};
-    for (int32_t method = NESTED; method <= LEMKE; method++) {
+    for (int32_t method = AUTO; method <= LEMKE; method++) {
         const answer a = coulomb(PROBLEM(2, 1, K, away, gap, method == LEMKE ? none : mu, NULL),
                                  method, SIGNORINI_NO_EQUILIBRIUM);
         CHECK_NEAR(a.d[0], -1);
@@ -303,7 +336,7 @@ static void a_floating_body_leaves(void)
     /* Two pairs, a spring between their normals: lifted as a whole. */
     const double K2[16] = {1, [2] = -1, [5] = 1, [8] = -1, [10] = 1, [15] = 1};
     const double lift[] = {-1, 0, -1, 0};
-    for (int32_t method = NESTED; method <= LEMKE; method++) {
+    for (int32_t method = AUTO; method <= LEMKE; method++) {
         const answer a = coulomb(PROBLEM(2, 2, K2, lift, none, none, NULL), method,
                                  SIGNORINI_NO_EQUILIBRIUM);
         CHECK_NEAR(a.d[0], -1);
@@ -402,7 +435,8 @@ static void nothing_to_solve(void)
 {
     for (int32_t dim = 2; dim <= 3; dim++) {
         const small empty = {dim, 0, NULL, NULL, NULL, NULL, NULL};
-        for (int32_t method = NESTED; method <= LEMKE; method++) {
+        for (int32_t method = AUTO; method <= NEWTON; method++) {
+            if (!fits(method, dim, 0)) continue;
             const signorini_settings settings = settings_for(method);
             signorini_report report = {.struct_size = sizeof report};
             CHECK_STATUS(signorini_solve(dim, 0, NULL, 1, NULL, NULL, NULL, NULL, &settings, NULL,
@@ -463,7 +497,7 @@ static void padding_of_the_matrix_is_not_looked_at(void)
 static void the_same_input_gives_the_same_bits(void)
 {
     chain one = chain_new(3, 10, 0.2, 2), two = chain_new(3, 10, 0.2, 2);
-    for (int32_t method = NESTED; method <= DIAGONAL; method++) {
+    for (int32_t method = AUTO; method <= DIAGONAL; method++) {
         const signorini_settings settings = settings_for(method);
         CHECK_STATUS(signorini_solve(3, one.pairs, one.K, one.n, one.f, one.gap, one.mu, NULL,
                                      &settings, one.d, one.F, one.state, NULL),
@@ -512,7 +546,8 @@ static void check_law(const chain *c)
 static void many_pairs_obey_the_law(void)
 {
     for (int32_t dim = 2; dim <= 3; dim++) {
-        for (int32_t method = NESTED; method <= DIAGONAL; method++) {
+        for (int32_t method = AUTO; method <= NEWTON; method++) {
+            if (!fits(method, dim, 1)) continue;
             chain c = chain_new(dim, 20, 0.1, 3);
             const signorini_settings settings = settings_for(method);
             signorini_report report = {.struct_size = sizeof report};
@@ -529,7 +564,8 @@ static void many_pairs_obey_the_law(void)
 
 static void a_warm_start_leads_to_the_same_answer(void)
 {
-    for (int32_t method = NESTED; method <= DIAGONAL; method++) {
+    for (int32_t method = AUTO; method <= NEWTON; method++) {
+        if (method == LEMKE || method == PIVOT) continue; /* No start; no friction. */
         chain cold = chain_new(2, 20, 0.5, 4), warm = chain_new(2, 20, 0.5, 4);
         signorini_settings settings = settings_for(method);
         signorini_report first = {.struct_size = sizeof first}, again = first;
@@ -564,11 +600,11 @@ static void a_warm_start_leads_to_the_same_answer(void)
 static void units_change_nothing_but_the_unit(void)
 {
     const double force_units[] = {1e-40, 1e9, 1e40}, length_units[] = {1e-40, 1e-3, 1e40};
-    for (int32_t method = NESTED; method <= LEMKE; method++) {
+    for (int32_t method = AUTO; method <= PIVOT; method++) {
         chain base = chain_new(3, 8, 0.5, 5);
         signorini_settings settings = settings_for(method);
         settings.tolerance = 1e-12;
-        if (method == LEMKE)
+        if (!fits(method, 3, 1))
             for (int64_t i = 0; i < base.pairs; i++) base.mu[i] = 0;
         CHECK_STATUS(signorini_solve(3, base.pairs, base.K, base.n, base.f, base.gap, base.mu, NULL,
                                      &settings, base.d, base.F, base.state, NULL),
@@ -600,15 +636,15 @@ static void numbers_beyond_double_precision_are_not_called_a_solution(void)
     const double soft[] = {1, 0, 0, 1e-300}, f[] = {1, 1e300}, touching[] = {0};
     const double stiff[] = {1.7e308, 0, 0, 1.7e308}, f2[] = {1.7e308, 1.7e308}, deep[] = {-3};
     const double K[] = {1e10, 0, 0, 1e10}, f3[] = {1, 1}, far_slip[] = {1.7e308};
-    for (int32_t method = NESTED; method <= LEMKE; method++) {
-        const double *mu = method == LEMKE ? none : half;
+    for (int32_t method = AUTO; method <= NEWTON; method++) {
+        const double *mu = fits(method, 2, 1) ? half : none;
         const signorini_settings s = settings_for(method);
         double d[2], F[2];
         CHECK(signorini_solve(2, 1, soft, 2, f, touching, mu, NULL, &s, d, F, NULL, NULL) > 0);
         CHECK(signorini_last_error()[0] != '\0');
         CHECK(signorini_solve(2, 1, stiff, 2, f2, deep, mu, NULL, &s, d, F, NULL, NULL) > 0);
         CHECK(signorini_last_error()[0] != '\0');
-        if (method == LEMKE) continue; /* A previous slip does not matter without friction. */
+        if (!fits(method, 2, 1)) continue; /* A previous slip does not matter without friction. */
         /* Here it can hold the answer, but not every number on the way. */
         if (signorini_solve(2, 1, K, 2, f3, touching, mu, far_slip, &s, d, F, NULL, NULL) <= 0) {
             CHECK_NEAR(F[0], -1);
@@ -663,17 +699,22 @@ static int32_t limited(chain *c, const signorini_settings *settings, signorini_r
 
 static void budgets_end_a_call_with_results(void)
 {
-    for (int32_t method = NESTED; method <= LEMKE; method++) {
+    for (int32_t method = AUTO; method <= NEWTON; method++) {
         chain c = chain_new(2, 20, 1e-3, 6);
-        if (method == LEMKE)
+        if (!fits(method, 2, 1))
             for (int64_t i = 0; i < c.pairs; i++) c.mu[i] = 0;
         signorini_report report;
 
         signorini_settings settings = settings_for(method);
         settings.max_iterations = 1;
-        CHECK_STATUS(limited(&c, &settings, &report), SIGNORINI_ITERATION_LIMIT);
-        CHECK(report.iterations == 1 && report.eta > 1e-10);
-        CHECK_TEXT(signorini_last_error(), "max_iterations (1)");
+        const int32_t status = limited(&c, &settings, &report);
+        CHECK(report.iterations == 1);
+        /* One system may be enough for block pivoting. */
+        if (method != PIVOT || status != SIGNORINI_SOLVED) {
+            CHECK_STATUS(status, SIGNORINI_ITERATION_LIMIT);
+            CHECK(report.eta > 1e-10);
+            CHECK_TEXT(signorini_last_error(), "max_iterations (1)");
+        }
 
         settings = settings_for(method);
         settings.time_limit = 1e-300;
@@ -688,9 +729,10 @@ static void budgets_end_a_call_with_results(void)
         settings.user = &seen;
         CHECK_STATUS(limited(&c, &settings, &report), SIGNORINI_SOLVED);
         CHECK(seen.in_order && seen.started_at_infinity);
-        CHECK(seen.calls == report.iterations && seen.calls > 3);
+        CHECK(seen.calls == report.iterations && seen.calls >= 1);
+        const int calls = seen.calls;
 
-        for (int at = 1; at <= 3; at += 2) {
+        for (int at = 1; at <= 3 && at <= calls; at += 2) {
             seen = (watch){.in_order = 1, .last = -1, .cancel_at = at};
             CHECK_STATUS(limited(&c, &settings, &report), SIGNORINI_CANCELLED);
             CHECK(seen.in_order && seen.calls == at && report.iterations == at - 1);
@@ -746,7 +788,7 @@ static void settings_of_an_older_program(void)
         void *block = short_structure(size, 0);
         CHECK_STATUS(signorini_settings_default(block, size), 0);
         memcpy(&copy, block, size);
-        CHECK(copy.struct_size == size && copy.method == NESTED && copy.tolerance == 1e-10);
+        CHECK(copy.struct_size == size && copy.method == AUTO && copy.tolerance == 1e-10);
         CHECK(memcmp((char *)&copy + 4, (char *)&defaults + 4, size - 4) == 0);
         /* A program that knows no more than these. */
         CHECK_STATUS(signorini_solve(2, 1, K, 2, f, gap, half, NULL, block, d, F, NULL, NULL), 0);
@@ -812,6 +854,7 @@ static void every_status_has_its_words(void)
     const int32_t known[] = {SIGNORINI_SOLVED,          SIGNORINI_ITERATION_LIMIT,
                              SIGNORINI_TIME_LIMIT,      SIGNORINI_CANCELLED,
                              SIGNORINI_NO_EQUILIBRIUM,  SIGNORINI_STALLED,
+                             SIGNORINI_NOT_A_SOLUTION,
                              SIGNORINI_INTERNAL,        SIGNORINI_OUT_OF_MEMORY, -1};
     const int count = sizeof known / sizeof *known;
     const char *unknown = signorini_status_string(12345);
@@ -822,7 +865,7 @@ static void every_status_has_its_words(void)
     }
     for (int32_t k = 1; k <= 13; k++)
         CHECK(strcmp(signorini_status_string(-k), signorini_status_string(-1)) == 0);
-    const int32_t garbage[] = {INT32_MIN, INT32_MIN + 1, -1000000, -1002, -500, 6, 99, INT32_MAX};
+    const int32_t garbage[] = {INT32_MIN, INT32_MIN + 1, -1000000, -1002, -500, 7, 99, INT32_MAX};
     for (int i = 0; i < 8; i++) {
         CHECK(signorini_status_string(garbage[i]) != NULL);
         CHECK(signorini_status_string(garbage[i])[0] != '\0');

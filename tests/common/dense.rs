@@ -77,6 +77,16 @@ impl Elimination {
         (0..free).map(|k| self.back_substituted(vec![0.0; self.rank], &unit(k))).collect()
     }
 
+    /// Sign of the determinant; 0 of a singular matrix.
+    pub fn orientation(&self) -> i8 {
+        if self.rank < self.n {
+            return 0;
+        }
+        let pivots = (0..self.n).filter(|p| self.factors[p * self.n + p] < 0.0).count();
+        let odd = (pivots + swaps(&self.rows) + swaps(&self.columns)) % 2 == 1;
+        if odd { -1 } else { 1 }
+    }
+
     /// Frobenius norm of the map from `b` to the solution.
     pub fn inverse_norm(&self) -> f64 {
         let mut square = 0.0;
@@ -103,6 +113,21 @@ impl Elimination {
         }
         x
     }
+}
+
+/// Exchanges of two that make a permutation: its length less its cycles.
+fn swaps(permutation: &[usize]) -> usize {
+    let mut seen = vec![false; permutation.len()];
+    let mut cycles = 0;
+    for start in 0..permutation.len() {
+        cycles += usize::from(!seen[start]);
+        let mut at = start;
+        while !seen[at] {
+            seen[at] = true;
+            at = permutation[at];
+        }
+    }
+    permutation.len() - cycles
 }
 
 /// The largest `t` with `values[i] + sum_k c_k rates[k][i] >= t` for all `i` and some `c`: how

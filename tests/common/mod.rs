@@ -9,3 +9,4 @@ pub mod mesh;
 pub mod oracle;
 pub mod problems;
 pub mod stack;
+pub mod verdict;

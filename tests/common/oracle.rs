@@ -52,6 +52,20 @@ pub struct Piece {
     rhs: Vec<f64>,
 }
 
+impl Piece {
+    /// Sign of the determinant of the state's equations, 0 if they are singular. The row of what
+    /// the state holds fixed has a positive entry on the diagonal and no other, so that this is the
+    /// sign for the rows and columns of the free unknowns alone.
+    pub fn orientation(&self) -> i8 {
+        self.elimination.orientation()
+    }
+
+    /// Displacements that solve the state's equations: the only ones of a regular state.
+    pub fn candidate(&self) -> Vec<f64> {
+        self.elimination.solve(&self.rhs).0
+    }
+}
+
 /// An enumerated solution that an answer was found to be.
 pub struct Match<'a> {
     pub piece: &'a Piece,
@@ -83,6 +97,12 @@ impl<'a> Enumeration<'a> {
             choice[pair] += 1;
             choice[..pair].fill(0);
         }
+    }
+
+    /// Whether no inequality is so close to equality that rounding may decide it (`FEASIBLE`, 100
+    /// times over), and no state's equations are singular: then the number of solutions is certain.
+    pub fn is_clear(&self) -> bool {
+        self.pieces.iter().all(|piece| piece.margin.abs() > 1e-7 && piece.orientation() != 0)
     }
 
     /// Those whose inequalities hold.

@@ -3,7 +3,7 @@
 use fastrand::Rng;
 use signorini::{ContactData, ContactProblem, Friction, Method, Monitor, Settings, Solution};
 
-use super::dense::{dot, largest, norm};
+use super::dense::{Elimination, dot, largest, norm};
 
 /// Coefficients or thresholds, one for each pair.
 #[derive(Clone, Debug)]
@@ -255,4 +255,46 @@ pub fn tresca(rng: &mut Rng, pairs: usize) -> Law {
 
 pub fn frictionless(pairs: usize) -> Law {
     Law::Coulomb(vec![0.0; pairs])
+}
+
+/// One to four pairs in 2D of a definite stiffness, condition up to `10^most`.
+pub fn definite_case(rng: &mut Rng, most: f64, law: impl Fn(&mut Rng, usize) -> Law) -> Case {
+    let pairs = rng.usize(1..=4);
+    let condition = decades(rng, most);
+    let k = definite(rng, 2 * pairs, condition);
+    let law = law(rng, pairs);
+    loaded(rng, 2, k, law)
+}
+
+/// The same, of a stiffness with a kernel.
+pub fn floating_case(rng: &mut Rng, most: f64, law: impl Fn(&mut Rng, usize) -> Law) -> Case {
+    let pairs = rng.usize(1..=4);
+    let condition = decades(rng, most);
+    let (k, _) = floating(rng, pairs, condition);
+    let law = law(rng, pairs);
+    loaded(rng, 2, k, law)
+}
+
+/// Friction so low that `mu sqrt(|K_nn| |(K⁻¹)_tt|)` is 0.9 at most.
+pub fn contracting_case(rng: &mut Rng) -> Case {
+    let mut case = definite_case(rng, 4.0, |rng, pairs| coulomb(rng, pairs, 1.0));
+    let n = case.size();
+    let inverse = Elimination::new(n, &case.k);
+    // Frobenius norms bound the spectral ones.
+    let (mut normal, mut tangential) = (0.0, 0.0);
+    for j in 0..n {
+        let unit: Vec<f64> = (0..n).map(|i| f64::from(u8::from(i == j))).collect();
+        let column = inverse.solve(&unit).0;
+        for i in (j % 2..n).step_by(2) {
+            match j % 2 {
+                0 => normal += case.stiffness(i, j).powi(2),
+                _ => tangential += column[i].powi(2),
+            }
+        }
+    }
+    let most = 0.9 / (normal * tangential).powf(0.25);
+    if let Law::Coulomb(mu) = &mut case.law {
+        mu.iter_mut().for_each(|mu| *mu *= most);
+    }
+    case
 }

@@ -1,0 +1,234 @@
+#include "peers_table.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include <signorini.h>
+
+const char *family_name(enum family family)
+{
+    return family == FRICTIONLESS ? "frictionless" : "friction2d";
+}
+
+const char *geometry_name(enum geometry geometry)
+{
+    return geometry == BAR ? "bar" : "two_blocks";
+}
+
+void write_csv(FILE *file, const struct row *rows, size_t count)
+{
+    fprintf(file, "family,geometry,pairs,mu,library,solver,cpu_ms,iterations,eta,rel_error,"
+                  "status\n");
+    for (size_t k = 0; k < count; k++) {
+        const struct row *row = &rows[k];
+        fprintf(file, "%s,%s,%zu,%g,%s,%s,", family_name(row->solver->family),
+                geometry_name(row->geometry), row->pairs, row->mu, row->solver->library,
+                row->solver->name);
+        /* What was not measured stays empty. */
+        if (row->ms > 0.0)
+            fprintf(file, "%.6g,%d,", row->ms, row->iterations);
+        else
+            fprintf(file, ",,");
+        if (isfinite(row->eta))
+            fprintf(file, "%.3e", row->eta);
+        fputc(',', file);
+        if (isfinite(row->rel_error))
+            fprintf(file, "%.3e", row->rel_error);
+        fprintf(file, ",%s\n", row->status);
+    }
+}
+
+/* ---- who is compared with whom ---- */
+
+static int same_problem(const struct row *a, const struct row *b)
+{
+    return a->solver->family == b->solver->family && a->geometry == b->geometry &&
+           a->pairs == b->pairs && a->mu == b->mu;
+}
+
+static int is_peer(const struct row *row)
+{
+    return strcmp(row->solver->library, "signorini") != 0;
+}
+
+static const struct row *find(const struct row *rows, size_t count, const struct row *like,
+                              const char *library, const char *solver)
+{
+    for (size_t k = 0; k < count; k++)
+        if (same_problem(&rows[k], like) && strcmp(rows[k].solver->library, library) == 0 &&
+            strcmp(rows[k].solver->name, solver) == 0)
+            return &rows[k];
+    return NULL;
+}
+
+/* The fastest peer with a certified answer; if there is none, with a usable one. */
+static const struct row *best_peer(const struct row *rows, size_t count, const struct row *like)
+{
+    for (int usable = 0; usable < 2; usable++) {
+        const struct row *best = NULL;
+        for (size_t k = 0; k < count; k++)
+            if (is_peer(&rows[k]) && same_problem(&rows[k], like) && rows[k].ms > 0.0 &&
+                (usable ? strcmp(rows[k].status, "inexact") == 0 : is_solved(&rows[k])) &&
+                (best == NULL || rows[k].ms < best->ms))
+                best = &rows[k];
+        if (best != NULL)
+            return best;
+    }
+    return NULL;
+}
+
+/* ---- geometric means ---- */
+
+struct mean {
+    double logs;
+    int count;
+    double least;
+};
+
+static void add(struct mean *mean, double ratio)
+{
+    mean->logs += log(ratio);
+    if (mean->count == 0 || ratio < mean->least)
+        mean->least = ratio;
+    mean->count++;
+}
+
+static void say_mean(FILE *file, const char *what, const struct mean *mean, const char *aim)
+{
+    if (mean->count > 0)
+        fprintf(file, "| %s | %d | %.2f | %.2f | %s |\n", what, mean->count,
+                exp(mean->logs / mean->count), mean->least, aim);
+}
+
+static void speed_means(FILE *file, const struct row *rows, size_t count)
+{
+    static const struct {
+        enum family family;
+        size_t least, most;
+        const char *name, *aim;
+    } classes[] = {
+        {FRICTIONLESS, 0, 64, "frictionless, 33 pairs", "1"},
+        {FRICTIONLESS, 65, 256, "frictionless, 129 pairs", "2"},
+        {FRICTIONLESS, 257, 1 << 20, "frictionless, 513 pairs and more", "10"},
+        {FRICTION_2D, 0, 64, "friction in 2D, 33 pairs", "1.5"},
+        {FRICTION_2D, 65, 256, "friction in 2D, 129 pairs", "1.5"},
+        {FRICTION_2D, 257, 1 << 20, "friction in 2D, 513 pairs and more", "8"},
+    };
+    for (size_t c = 0; c < sizeof classes / sizeof classes[0]; c++) {
+        struct mean mean = {0};
+        for (size_t k = 0; k < count; k++) {
+            const struct row *row = &rows[k];
+            if (is_peer(row) || strcmp(row->solver->name, "auto") != 0 ||
+                row->solver->family != classes[c].family || row->pairs < classes[c].least ||
+                row->pairs > classes[c].most || !is_solved(row))
+                continue;
+            const struct row *best = best_peer(rows, count, row);
+            if (best != NULL)
+                add(&mean, best->ms / row->ms);
+        }
+        say_mean(file, classes[c].name, &mean, classes[c].aim);
+    }
+}
+
+/* Pivots in a second, ours to theirs, of the same forms of the same problems. */
+static void lemke_means(FILE *file, const struct row *rows, size_t count)
+{
+    static const struct {
+        const char *ours, *theirs;
+    } forms[] = {{"lemke", "lemke_K"}, {"lemke_W", "lemke_W"}};
+    static const size_t sizes[] = {33, 129, 513, 1025, 2049};
+    static const char *const aims[] = {"", "", "2.5", "3.5", ""};
+    for (size_t s = 0; s < sizeof sizes / sizeof sizes[0]; s++) {
+        struct mean mean = {0};
+        for (size_t k = 0; k < count; k++)
+            for (size_t form = 0; form < 2; form++) {
+                const struct row *row = &rows[k];
+                if (is_peer(row) || row->solver->family != FRICTIONLESS ||
+                    row->pairs != sizes[s] || strcmp(row->solver->name, forms[form].ours) != 0)
+                    continue;
+                const struct row *peer = find(rows, count, row, "siconos", forms[form].theirs);
+                if (peer != NULL && peer->ms > 0.0 && peer->iterations > 0 && row->iterations > 0)
+                    add(&mean, (row->iterations / row->ms) / (peer->iterations / peer->ms));
+            }
+        char what[64];
+        snprintf(what, sizeof what, "Lemke's method, pivots per second, %zu pairs", sizes[s]);
+        say_mean(file, what, &mean, aims[s]);
+    }
+}
+
+/* ---- the document ---- */
+
+/* The processor's name, as Linux has it. */
+static void machine(FILE *file)
+{
+    char line[256], *name = NULL;
+    FILE *info = fopen("/proc/cpuinfo", "r");
+    while (info != NULL && name == NULL && fgets(line, sizeof line, info) != NULL)
+        if (strncmp(line, "model name", 10) == 0 && (name = strchr(line, ':')) != NULL)
+            name[strcspn(name, "\n")] = '\0';
+    if (info != NULL)
+        fclose(info);
+    fprintf(file, "%s", name != NULL ? name + 2 : "unknown processor");
+}
+
+static void failures(FILE *file, const struct row *rows, size_t count, const struct row *like)
+{
+    const char *separator = "";
+    for (size_t k = 0; k < count; k++)
+        if (same_problem(&rows[k], like) && !is_solved(&rows[k])) {
+            fprintf(file, "%s%s%s %s", separator, is_peer(&rows[k]) ? "" : "**ours** ",
+                    rows[k].solver->name, rows[k].status);
+            separator = ", ";
+        }
+}
+
+void write_markdown(FILE *file, const struct row *rows, size_t count, const char *versions,
+                    double limit)
+{
+    char date[32];
+    const time_t now = time(NULL);
+    int footnote = 0;
+    strftime(date, sizeof date, "%Y-%m-%d", gmtime(&now));
+    fprintf(file, "%s, one core of: ", date);
+    machine(file);
+    fprintf(file, ". %s\n\n", versions);
+    fprintf(file,
+            "Thread CPU time to `eta <= 1e-12`, measured by the same certificate for every solver; "
+            "a call may take %g s. Siconos is Debian's build, for any x86-64 but for its BLAS; "
+            "each of its solvers runs at the loosest tolerance whose answer is accepted, on "
+            "stiffness (`_K`) and flexibility (`_W`).\n\n",
+            limit);
+    fprintf(file, "| family | geometry | pairs | mu | `auto`, ms | best of Siconos, ms | ratio | "
+                  "which | not solved |\n|---|---|---|---|---|---|---|---|---|\n");
+    for (size_t k = 0; k < count; k++) {
+        const struct row *row = &rows[k];
+        if (is_peer(row) || strcmp(row->solver->name, "auto") != 0)
+            continue;
+        const struct row *best = best_peer(rows, count, row);
+        fprintf(file, "| %s | %s | %zu | %g | ", family_name(row->solver->family),
+                geometry_name(row->geometry), row->pairs, row->mu);
+        if (is_solved(row))
+            fprintf(file, "%.3g | ", row->ms);
+        else
+            fprintf(file, "%s | ", row->status);
+        if (best != NULL && is_solved(row)) {
+            footnote |= !is_solved(best);
+            fprintf(file, "%.4g%s | %.2f | %s | ", best->ms, is_solved(best) ? "" : " (*)",
+                    best->ms / row->ms, best->solver->name);
+        } else if (best != NULL) {
+            fprintf(file, "%.4g | - | %s | ", best->ms, best->solver->name);
+        } else {
+            fprintf(file, "none | - | - | ");
+        }
+        failures(file, rows, count, row);
+        fprintf(file, " |\n");
+    }
+    if (footnote)
+        fprintf(file, "\n(*) No peer reaches 1e-12 here: the fastest with `eta <= 1e-8` counts.\n");
+    fprintf(file, "\n| geometric means of the ratios | problems | mean | least | aim |\n"
+                  "|---|---|---|---|---|\n");
+    speed_means(file, rows, count);
+    lemke_means(file, rows, count);
+}

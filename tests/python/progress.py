@@ -1,0 +1,76 @@
+"""signorini.py: progress functions, and what ends a call early.
+
+    python3 tests/python/progress.py
+"""
+
+import os
+import signal
+import threading
+import time
+import unittest
+
+from common import chain
+
+import signorini
+
+
+class Progress(unittest.TestCase):
+    slow = {"method": "sor_nested", "omega": 1e-6, "max_iterations": 10**9, "tolerance": 1e-15}
+
+    def test_is_told_and_cancels(self):
+        told = []
+        result = signorini.solve(*chain(), 0.01, 0.3, **self.slow,
+                                 progress=lambda now: told.append(now) or len(told) == 5)
+        self.assertEqual(result.status, signorini.CANCELLED)
+        self.assertEqual(len(told), 5)
+        self.assertGreaterEqual(told[-1].iterations, told[0].iterations)
+        self.assertGreaterEqual(told[-1].elapsed, 0)
+
+    def test_exceptions_cancel_and_go_on(self):
+        def fail(_):
+            calls.append(1)
+            raise LookupError("mine")
+
+        K, load = chain()
+        model = signorini.Model.condensed(K)
+        for call in (
+            lambda: signorini.solve(K, load, 0.01, 0.3, **self.slow, progress=fail),
+            lambda: model.solve(load, 0.01, 0.3, **self.slow, progress=fail),
+            lambda: signorini.lcp_solve(K, -load, progress=fail),
+        ):
+            calls = []
+            with self.assertRaisesRegex(LookupError, "mine"):
+                call()
+            self.assertEqual(len(calls), 1)
+
+    def interrupted(self, progress):
+        timer = threading.Timer(0.2, os.kill, (os.getpid(), signal.SIGINT))
+        timer.start()
+        began = time.monotonic()
+        with self.assertRaises(KeyboardInterrupt):
+            signorini.solve(*chain(), 0.01, 0.3, **self.slow, time_limit=20, progress=progress)
+        self.assertLess(time.monotonic() - began, 10)
+        self.assertIs(signal.getsignal(signal.SIGINT), signal.default_int_handler)
+        timer.join()
+
+    def test_ctrl_c_in_the_library(self):
+        for _ in range(5):
+            self.interrupted(lambda _: False)
+
+    def test_ctrl_c_in_the_function(self):
+        self.interrupted(lambda _: time.sleep(5))
+
+    def test_in_another_thread(self):
+        results = []
+
+        def work():
+            results.append(signorini.solve(*chain(), 0.01, 0.3, **self.slow, progress=lambda _: 1))
+
+        thread = threading.Thread(target=work)
+        thread.start()
+        thread.join()
+        self.assertEqual(results[0].status, signorini.CANCELLED)
+
+
+if __name__ == "__main__":
+    unittest.main()
