@@ -31,7 +31,7 @@ run=libsignorini$interface
 dev=libsignorini-dev
 
 DESTDIR=$work/$dev PREFIX=/usr LIBDIR=$libdir sh "$examples/install.sh"
-mkdir -p "$work/$run/usr/$libdir"
+mkdir -p "$work/$run/DEBIAN" "$work/$run/usr/$libdir"
 for file in "libsignorini.so.$version" "libsignorini.so.$interface"; do
     mv "$work/$dev/usr/$libdir/$file" "$work/$run/usr/$libdir"
 done
