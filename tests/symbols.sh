@@ -1,14 +1,16 @@
 #!/bin/sh
 # The shared library exports the functions of include/signorini.h and nothing else, has the name of
-# its interface, and does not call what a library must not call.
+# its interface, and does not call what a library must not call. The static library of an
+# installation shows the same functions and no others.
 #
-# usage: sh tests/symbols.sh LIBRARY
+# usage: sh tests/symbols.sh LIBRARY [ARCHIVE]
 
 set -u
 LC_ALL=C
 export LC_ALL
 
-library=${1:?usage: sh tests/symbols.sh LIBRARY}
+library=${1:?usage: sh tests/symbols.sh LIBRARY [ARCHIVE]}
+archive=${2:-}
 header=$(dirname "$0")/../include/signorini.h
 failed=0
 
@@ -69,6 +71,15 @@ if [ "$(uname -s)" != Darwin ]; then
     wanted=libsignorini.so.$(version MAJOR).$(version MINOR)
     soname=$(readelf -d "$library" | sed -n 's/.*(SONAME).*\[\(.*\)\].*/\1/p')
     [ "$soname" = "$wanted" ] || fail "its SONAME is '$soname', not '$wanted'"
+
+    if [ -n "$archive" ]; then
+        shown=$(nm -P --defined-only --extern-only "$archive" | awk '$2 ~ /^[A-Za-z]$/ { print $1 }' |
+            sort -u)
+        [ "$shown" = "$declared" ] || {
+            fail "$archive does not show what is declared, but:"
+            echo "$shown" | head -n 40
+        }
+    fi
 fi
 
 [ "$failed" = 0 ] && echo "symbols: $(echo "$declared" | wc -l | tr -d ' ') functions, as declared"

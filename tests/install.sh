@@ -1,0 +1,242 @@
+#!/bin/sh
+# Installs the library as users do and uses what was installed, all in target/install-test.
+#
+#     sh tests/install.sh
+#
+# By CMake and by c_examples/install.sh; in a prefix with a space in its name, and staged by DESTDIR;
+# programs by pkg-config and by CMake, shared, static and with -static; beside other Rust archives;
+# the header in every dialect; `cargo package`. It ends at the first thing that is wrong.
+set -eu
+LC_ALL=C
+export LC_ALL
+unset DESTDIR PREFIX LIBDIR CMAKE_INSTALL_PREFIX PKG_CONFIG_PATH PKG_CONFIG_LIBDIR LD_LIBRARY_PATH
+
+root=$(CDPATH='' cd -- "$(dirname -- "$0")/.." && pwd)
+sources=$root/tests/install
+work=$root/target/install-test
+cc=${CC:-cc}
+CARGO_TARGET_DIR=$root/target
+export CARGO_TARGET_DIR
+
+say() { printf 'install: %s\n' "$*"; }
+die() {
+    say "$*" >&2
+    exit 1
+}
+# Runs a command and shows what it printed if it fails.
+quietly() {
+    "$@" >"$work/log" 2>&1 || {
+        cat "$work/log"
+        die "failed: $*"
+    }
+}
+for tool in cargo rustc cmake pkg-config nm readelf "${cc%% *}"; do
+    command -v "$tool" >/dev/null || die "$tool is missing (Debian: rustc cargo cmake pkg-config gcc)"
+done
+[ "$(uname -s)" = Linux ] || {
+    say "skipped: this test knows Linux only"
+    exit 0
+}
+rm -rf "$work"
+mkdir -p "$work"
+interface=$(sed -n '/^version = /{s/[^0-9]*\([0-9]*\.[0-9]*\).*/\1/p;q;}' "$root/Cargo.toml")
+
+# ---- install ----
+
+by_cmake="$work/by cmake"
+by_script="$work/by script"
+quietly cmake -S "$root/c_examples" -B "$work/build" -DBUILD_TESTING=OFF \
+    -DCMAKE_INSTALL_PREFIX=/nowhere -DCMAKE_INSTALL_LIBDIR=lib
+quietly cmake --build "$work/build"
+quietly cmake --install "$work/build" --prefix "$by_cmake"
+quietly env PREFIX="$by_script" sh "$root/c_examples/install.sh"
+
+# Staged: written below DESTDIR, for a prefix that need not exist yet. It is then moved there.
+final=$work/final
+quietly env DESTDIR="$work/stage" cmake --install "$work/build" --prefix "$final"
+quietly env DESTDIR="$work/stage2" PREFIX="$final" LIBDIR=lib/deep \
+    sh "$root/c_examples/install.sh"
+[ ! -e "$final" ] || die "something was installed past DESTDIR"
+for stage in stage stage2; do
+    if grep -rIl "$work/$stage" "$work/$stage"; then die "these files name the stage"; fi
+done
+
+listing() { (cd "$1" && find . ! -type d | sort); }
+[ "$(listing "$by_cmake")" = "$(listing "$by_script")" ] || {
+    listing "$by_cmake"
+    listing "$by_script"
+    die "CMake and the script do not install the same files"
+}
+cmp "$by_cmake/lib/libsignorini.a" "$by_script/lib/libsignorini.a"
+[ ! -f "$root/include/signorini.f90" ] || [ -f "$by_script/include/signorini.f90" ] ||
+    die "the Fortran module's source was not installed"
+say "the same $(listing "$by_script" | wc -l) files by CMake and by the script, staged and not"
+
+# ---- libraries ----
+
+check_libraries() {
+    library=$1/libsignorini.so.$interface
+    sh "$root/tests/symbols.sh" "$library" "$1/libsignorini.a"
+    newest=$(readelf -VW "$library" | grep -o 'GLIBC_[0-9.]*' | sort -uV | tail -n 1)
+    [ "$(printf 'GLIBC_2.36\n%s\n' "$newest" | sort -V | tail -n 1)" = GLIBC_2.36 ] ||
+        die "the library needs $newest, and Debian 12 has 2.36"
+    say "the library needs glibc ${newest#GLIBC_}, Debian 12 has 2.36"
+}
+check_libraries "$by_script/lib"
+
+# What the standard library may do without must stay weak: older C libraries do not have it.
+for name in pidfd_spawnp pidfd_getpid posix_spawn_file_actions_addchdir; do
+    if nm -P --undefined-only "$by_script/lib/libsignorini.a" | grep -q "^$name U"; then
+        die "the static library cannot do without $name"
+    fi
+done
+
+# ---- programs ----
+
+# Whether programs can be static at all: a libc.a is there.
+static_works=no
+printf 'int main(void) { return 0; }\n' >"$work/empty.c"
+if $cc -static "$work/empty.c" -o "$work/empty" 2>/dev/null && "$work/empty"; then
+    static_works=yes
+else
+    say "programs with -static: skipped, the C library has no static form here"
+fi
+
+# The program links what it should: the shared library, or not.
+links_shared() {
+    readelf -d "$1" 2>/dev/null | grep -q "NEEDED.*libsignorini.so.$interface]"
+}
+
+# by_pkg_config PREFIX LIBDIR OPTION...: OPTIONs are those of pkg-config that find the prefix.
+by_pkg_config() {
+    prefix=$1
+    directory=$2
+    shift 2
+    PKG_CONFIG_PATH=$directory/pkgconfig
+    export PKG_CONFIG_PATH
+    flags=$(pkg-config "$@" --cflags --libs signorini)
+    eval "$cc -std=c11 \"\$sources/host.c\" $flags \"-Wl,-rpath,\$directory\" -o \"\$work/shared\""
+    "$work/shared" >/dev/null
+    links_shared "$work/shared" || die "$work/shared does not use the shared library"
+
+    # Without the shared library at hand -lsignorini is the static one.
+    rm -rf "$work/archive"
+    mkdir "$work/archive"
+    ln -s "$directory/libsignorini.a" "$work/archive"
+    flags=$(pkg-config "$@" --static --cflags --libs signorini)
+    eval "$cc -std=c11 \"\$sources/host.c\" -L\"\$work/archive\" $flags -o \"\$work/static\""
+    if links_shared "$work/static"; then die "$work/static uses the shared library"; fi
+    "$work/static" >/dev/null
+    if [ $static_works = yes ]; then
+        # The C library warns that its name service would not be static.
+        eval "quietly $cc -std=c11 -static \"\$sources/host.c\" $flags -o \"\$work/all_static\""
+        "$work/all_static" >/dev/null
+    fi
+    unset PKG_CONFIG_PATH
+    say "programs by pkg-config from $prefix"
+}
+
+# by_cmake_package PREFIX LIBDIR: a directory that CMake does not know is handed over as the user does.
+by_cmake_package() {
+    case $2 in
+    lib) where=-DCMAKE_PREFIX_PATH=$1 ;;
+    *) where=-Dsignorini_DIR=$1/$2/cmake/signorini ;;
+    esac
+    rm -rf "$work/consumer"
+    quietly cmake -S "$sources" -B "$work/consumer" "$where" -DWANTED="$interface"
+    quietly cmake --build "$work/consumer"
+    "$work/consumer/shared" >/dev/null
+    "$work/consumer/static" >/dev/null
+    links_shared "$work/consumer/shared" || die "the target signorini::signorini is not shared"
+    if links_shared "$work/consumer/static"; then die "the target signorini::static is shared"; fi
+    if [ $static_works = yes ]; then
+        quietly cmake -S "$sources" -B "$work/consumer" -DCMAKE_EXE_LINKER_FLAGS=-static
+        quietly cmake --build "$work/consumer" --target static
+        "$work/consumer/static" >/dev/null
+    fi
+    for wanted in "${interface%.*}.$((${interface#*.} + 1))" "$interface.1000" 99; do
+        if cmake -S "$sources" -B "$work/refused" "$where" -DWANTED="$wanted" >"$work/log" 2>&1
+        then
+            die "CMake takes version $wanted"
+        fi
+        grep -q 'requested version' "$work/log" || die "CMake fails, but not for the version"
+        rm -rf "$work/refused"
+    done
+    say "programs by CMake from $1; versions that are too high are refused"
+}
+
+for prefix in "$by_cmake" "$by_script"; do
+    by_pkg_config "$prefix" "$prefix/lib"
+    by_cmake_package "$prefix" lib
+done
+for stage in stage/lib stage2/lib/deep; do
+    libdir=${stage#*/}
+    rm -rf "$final"
+    cp -R "$work/${stage%%/*}$final" "$final"
+    by_pkg_config "$final" "$final/$libdir"
+    by_cmake_package "$final" "$libdir"
+    # Another place than was said, for those who unpack a staged tree anywhere.
+    rm -rf "$work/moved"
+    mv "$final" "$work/moved"
+    [ "$libdir" != lib ] || by_pkg_config "$work/moved" "$work/moved/lib" --define-prefix
+    by_cmake_package "$work/moved" "$libdir"
+done
+
+# ---- beside other Rust archives ----
+
+installed=$by_script/lib/libsignorini.a
+other() {
+    name=$1
+    shift
+    quietly rustc --edition 2024 -O --crate-name "$name" --out-dir "$work" "$@" "$sources/other.rs"
+}
+with_other() {
+    # shellcheck disable=SC2086 # options in CC
+    quietly $cc -DOTHER -I "$by_script/include" "$sources/host.c" "$1" "$2" \
+        -lutil -lrt -lpthread -lm -ldl -o "$work/with_other"
+    "$work/with_other" >/dev/null
+}
+# Its own standard library; that and all of Rust in one piece, which cargo's archive does not link
+# with; the same build of a dependency a second time; and with its own names hidden as ours are,
+# where panics must still be caught.
+other plain --crate-type staticlib --crate-type cdylib
+other whole --crate-type staticlib -C lto=fat
+# shellcheck disable=SC2012 # names by cargo
+faer=$(ls -t "$root"/target/release/deps/libfaer-*.rlib | head -n 1)
+other copy --crate-type staticlib --cfg faer --extern "faer=$faer" \
+    -L "dependency=$root/target/release/deps"
+sh "$root/c_examples/hide_symbols.sh" "$work/libplain.a" "$work/libplain.so" "$work/libhidden.a"
+for name in plain whole copy hidden; do
+    with_other "$installed" "$work/lib$name.a"
+    with_other "$work/lib$name.a" "$installed"
+done
+say "programs with a second Rust archive: four kinds, in both orders"
+
+# ---- the header ----
+
+header() {
+    compiler=$1
+    language=$2
+    shift 2
+    printf '#include <signorini.h>\n#include <signorini.h>\nint main(void) { return 0; }\n' \
+        >"$work/header.$language"
+    for dialect in "$@"; do
+        # shellcheck disable=SC2086 # options in CC
+        quietly $compiler "-std=$dialect" -Wall -Wextra -Wpedantic -Werror -fsyntax-only \
+            -I "$by_script/include" "$work/header.$language"
+    done
+    say "the header: $*"
+}
+header "$cc" c c99 c11 c17
+if command -v "${CXX:-c++}" >/dev/null; then
+    header "${CXX:-c++}" cc c++11 c++20
+else
+    say "the header in C++: skipped, there is no C++ compiler"
+fi
+
+# ---- the package ----
+
+# It builds from nothing but what is in it.
+quietly env CARGO_PROFILE_DEV_DEBUG=0 cargo package --allow-dirty --offline
+if grep '^warning' "$work/log"; then die "cargo package warns"; fi
+say "cargo package"
