@@ -1,6 +1,7 @@
 #!/bin/sh
 # The README's C example compiles as it stands, statically and shared, and prints what the README
-# says. The library has been built in target/release.
+# says; the functions of the guide for hosts compile and do what it says. The library has been built in
+# target/release.
 set -eu
 
 root=$(CDPATH='' cd -- "$(dirname -- "$0")/.." && pwd)
@@ -31,3 +32,13 @@ for program in static shared; do
     diff "$work/expected" "$work/printed"
     echo "README example, $program: prints what the README says"
 done
+
+# The guide's blocks, one file each, and the program that calls them.
+for number in 1 2; do
+    awk -v want="$number" '$0 == "```c" { inside = ++number == want; next } $0 == "```" { inside = 0 }
+        inside' c_examples/GUIDE.md >"$work/guide_$number.h"
+done
+# shellcheck disable=SC2086 # several flags
+${CC:-cc} $flags -Itests/c -I"$work" tests/c/guide.c target/release/libsignorini.a \
+    -lm -lpthread -ldl -o "$work/guide"
+"$work/guide"
