@@ -21,7 +21,7 @@ fi
 
 prepare
 compile bolted_junction bolted_junction.c junction_mesh.c junction_element.c junction_output.c \
-    junction_check.c checks.c
+    junction_check.c checks.c watch.c
 
 say "running it"
 echo

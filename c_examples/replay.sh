@@ -19,7 +19,7 @@ if [ $# -eq 1 ]; then
 fi
 
 prepare
-compile bar_on_plane bar_on_plane.c bar_mesh.c bar_check.c checks.c
+compile bar_on_plane bar_on_plane.c bar_mesh.c bar_check.c checks.c watch.c
 
 say "running it"
 echo

@@ -34,11 +34,14 @@
  *     0          solved, and certified on your data: report.eta <= settings.tolerance
  *     > 0        results were written but are not a solution; SIGNORINI_... says which
  *     -k         the k-th argument is wrong; nothing was written
- *     <= -1000   internal: out of memory, a caught defect
+ *     <= -1000   out of memory, a file that cannot be read or written, a caught defect
  * signorini_last_error() tells in a sentence what and where; entries count from 0: K[row,column].
  *
- * The library never prints, exits, reads files or the environment, installs handlers or starts
- * threads. It keeps your floating-point environment: traps and flush-to-zero are off inside and
+ * Files. signorini_problem_save, signorini_model_save_case and the like write a problem to a file
+ * that can be mailed; signorini_problem_load gets it back with the same bits.
+ *
+ * The library never prints, exits, reads the environment, installs handlers or starts threads, and
+ * it touches no file but the one that such a call names. It keeps your floating-point environment: traps and flush-to-zero are off inside and
  * back on return. Calls from several threads at once are safe. The same input gives the same bits
  * on the same machine.
  */
@@ -95,6 +98,11 @@
  * Not enough memory; nothing was written.
  */
 #define SIGNORINI_OUT_OF_MEMORY -1001
+
+/**
+ * A file cannot be read or written; signorini_last_error() names it, the line, and what is wrong.
+ */
+#define SIGNORINI_FILE -1002
 
 /**
  * Major version of this header.
@@ -238,11 +246,32 @@
 #define SIGNORINI_FULL 2
 
 /**
+ * A problem of signorini_problem_load is one of signorini_solve.
+ */
+#define SIGNORINI_PROBLEM_COULOMB 0
+
+/**
+ * A problem of signorini_problem_load is one of signorini_tresca.
+ */
+#define SIGNORINI_PROBLEM_TRESCA 1
+
+/**
+ * A problem of signorini_problem_load is one of signorini_lcp_solve.
+ */
+#define SIGNORINI_PROBLEM_LCP 2
+
+/**
  * A structure, reduced to its contact pairs: what every load case shares. Made by
  * signorini_model_new_..., released by signorini_model_free. It does not change, and every function
  * that takes it const may be called from several threads at once.
  */
 typedef struct signorini_model signorini_model;
+
+/**
+ * A problem that was read from a file, by signorini_problem_load; released by
+ * signorini_problem_free. It does not change, and several threads may use it at once.
+ */
+typedef struct signorini_problem signorini_problem;
 
 /**
  * What a progress callback is told. New fields may follow in later versions.
@@ -869,6 +898,182 @@ int32_t signorini_model_recover(const struct signorini_model *model,
 int32_t signorini_model_nodal_forces(const struct signorini_model *model,
                                      const double *F,
                                      double *nodal);
+
+/**
+ * Writes the problem of signorini_solve to a file, as text that keeps every bit.
+ *
+ * The file is of the Matrix Market format, one dense matrix of N rows with comments that say what
+ * it is: the columns of K, then f, gap and mu in the normal rows, slip in the tangential rows. It
+ * is written beside its place under a name that ends in .part and moved there when it is complete.
+ * K must be finite; that it is symmetric and semi-definite is not asked here.
+ *
+ * @param path    name of the file, which is replaced if it exists; bytes as for fopen (UTF-8 on
+ *                Windows)
+ * @param dim     space dimension, 2 or 3
+ * @param pairs   number of contact pairs, 0 allowed
+ * @param K       condensed stiffness, as for signorini_solve
+ * @param ldk     entries from one column of K to the next, at least max(1, N)
+ * @param f       condensed nodal loads, N
+ * @param gap     initial gaps, one for each pair
+ * @param mu      friction coefficients, one for each pair
+ * @param slip    tangential displacement at rest, dim - 1 for each pair; NULL: zero
+ * @param remark  one line of UTF-8 for who reads the file, at most 1000 bytes; NULL: none
+ * @return 0; -k the k-th argument is wrong; SIGNORINI_FILE: the file cannot be written, and an old
+ *         one is as it was
+ */
+int32_t signorini_problem_save(const char *path,
+                               int32_t dim,
+                               int64_t pairs,
+                               const double *K,
+                               int64_t ldk,
+                               const double *f,
+                               const double *gap,
+                               const double *mu,
+                               const double *slip,
+                               const char *remark);
+
+/**
+ * Writes the problem of signorini_tresca to a file. The arguments are those of
+ * signorini_problem_save, with g in the place of mu.
+ *
+ * @param path    name of the file, which is replaced if it exists
+ * @param dim     space dimension, 2 or 3
+ * @param pairs   number of contact pairs, 0 allowed
+ * @param K       condensed stiffness, as for signorini_solve
+ * @param ldk     entries from one column of K to the next, at least max(1, N)
+ * @param f       condensed nodal loads, N
+ * @param gap     initial gaps, one for each pair
+ * @param g       friction thresholds, one for each pair
+ * @param slip    tangential displacement at rest, dim - 1 for each pair; NULL: zero
+ * @param remark  one line of UTF-8, at most 1000 bytes; NULL: none
+ * @return as signorini_problem_save
+ */
+int32_t signorini_tresca_save(const char *path,
+                              int32_t dim,
+                              int64_t pairs,
+                              const double *K,
+                              int64_t ldk,
+                              const double *f,
+                              const double *gap,
+                              const double *g,
+                              const double *slip,
+                              const char *remark);
+
+/**
+ * Writes the problem of signorini_lcp_solve or signorini_lcp_lemke to a file, as
+ * signorini_problem_save does: the columns of M, then q and, if given, cover.
+ *
+ * @param path    name of the file, which is replaced if it exists
+ * @param n       number of unknowns, 0 allowed
+ * @param M       n columns of n entries, column-major
+ * @param ldm     entries from one column of M to the next, at least max(1, n)
+ * @param q       n
+ * @param cover   covering vector, n positive entries; NULL: none
+ * @param remark  one line of UTF-8, at most 1000 bytes; NULL: none
+ * @return as signorini_problem_save
+ */
+int32_t signorini_lcp_save(const char *path,
+                           int64_t n,
+                           const double *M,
+                           int64_t ldm,
+                           const double *q,
+                           const double *cover,
+                           const char *remark);
+
+/**
+ * Writes the condensed problem that signorini_model_solve solves for a load case to a file, as
+ * signorini_problem_save does. signorini_solve gives the same d and F for it.
+ *
+ * @param model       the model
+ * @param path        name of the file, which is replaced if it exists
+ * @param f           nodal loads of the host, H = signorini_model_host_size entries
+ * @param prescribed  values of the fixed degrees of freedom, in their order; NULL: zero
+ * @param gap         gaps, one for each pair
+ * @param mu          friction coefficients, one for each pair
+ * @param slip        tangential displacement at rest, dim - 1 for each pair; NULL: zero
+ * @param remark      one line of UTF-8, at most 1000 bytes; NULL: none
+ * @return as signorini_problem_save
+ */
+int32_t signorini_model_save_case(const struct signorini_model *model,
+                                  const char *path,
+                                  const double *f,
+                                  const double *prescribed,
+                                  const double *gap,
+                                  const double *mu,
+                                  const double *slip,
+                                  const char *remark);
+
+/**
+ * Reads a problem from a file. Whatever the file holds, the call ends with a problem or with a
+ * sentence that names the line.
+ *
+ * @param path     name of the file
+ * @param problem  out: the problem, NULL unless 0 is returned
+ * @return 0; -k the k-th argument is wrong; SIGNORINI_FILE: the file cannot be read, or is not a
+ *         complete problem file; SIGNORINI_OUT_OF_MEMORY
+ */
+int32_t signorini_problem_load(const char *path, struct signorini_problem **problem);
+
+/**
+ * Releases a problem. NULL is allowed.
+ */
+void signorini_problem_free(struct signorini_problem *problem);
+
+/**
+ * What kind of problem it is: SIGNORINI_PROBLEM_...; -1 if problem is NULL.
+ */
+int32_t signorini_problem_kind(const struct signorini_problem *problem);
+
+/**
+ * Space dimension, 2 or 3; 0 of a bare complementarity problem; -1 if problem is NULL.
+ */
+int32_t signorini_problem_dim(const struct signorini_problem *problem);
+
+/**
+ * Number of contact pairs; 0 of a bare complementarity problem; -1 if problem is NULL.
+ */
+int64_t signorini_problem_pairs(const struct signorini_problem *problem);
+
+/**
+ * Number of unknowns, N = dim * pairs or n; -1 if problem is NULL.
+ */
+int64_t signorini_problem_size(const struct signorini_problem *problem);
+
+/**
+ * K or M: as many columns as unknowns, without space between them. This and the other arrays of a
+ * problem are valid until signorini_problem_free, and NULL if they have no entries.
+ */
+const double *signorini_problem_matrix(const struct signorini_problem *problem);
+
+/**
+ * f or q.
+ */
+const double *signorini_problem_vector(const struct signorini_problem *problem);
+
+/**
+ * Gaps, one for each pair.
+ */
+const double *signorini_problem_gap(const struct signorini_problem *problem);
+
+/**
+ * mu, or g of SIGNORINI_PROBLEM_TRESCA, one for each pair.
+ */
+const double *signorini_problem_friction(const struct signorini_problem *problem);
+
+/**
+ * Tangential displacement at rest, dim - 1 for each pair.
+ */
+const double *signorini_problem_slip(const struct signorini_problem *problem);
+
+/**
+ * Covering vector of a bare complementarity problem; NULL: none.
+ */
+const double *signorini_problem_cover(const struct signorini_problem *problem);
+
+/**
+ * The remark of who wrote the file, UTF-8; empty if there is none or problem is NULL.
+ */
+const char *signorini_problem_remark(const struct signorini_problem *problem);
 
 #ifdef __cplusplus
 }  // extern "C"

@@ -39,6 +39,8 @@ pub enum Argument {
     Prescribed,
     /// Contact pairs: slaves, masters, weights, normals, tangents.
     Pairs,
+    /// Remark of a problem file.
+    Remark,
 }
 
 /// Why a call was refused. Nothing has been computed.
@@ -53,6 +55,9 @@ pub enum Error {
     },
     /// The memory for the named work array could not be had.
     OutOfMemory(&'static str),
+    /// A file cannot be read or written; the message names it, the line if there is one, and what
+    /// is wrong.
+    File(String),
 }
 
 impl Error {
@@ -64,7 +69,7 @@ impl Error {
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Error::Invalid { message, .. } => f.write_str(message),
+            Error::Invalid { message, .. } | Error::File(message) => f.write_str(message),
             Error::OutOfMemory(what) => write!(f, "not enough memory for {what}"),
         }
     }

@@ -100,6 +100,11 @@ impl<'a> Lcp<'a> {
         self.covering.map_or(1.0, |covering| covering[i])
     }
 
+    /// The covering vector, `None` for ones.
+    pub(crate) fn covering_vector(&self) -> Option<&'a [f64]> {
+        self.covering
+    }
+
     /// `M z`.
     pub fn product(&self, z: &[f64]) -> Vec<f64> {
         let mut product = vec![0.0; self.size];

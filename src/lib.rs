@@ -45,6 +45,7 @@
 pub mod certificate;
 mod error;
 mod ffi;
+pub mod file;
 pub mod law;
 mod lcp;
 mod linalg;

@@ -1,6 +1,9 @@
 //! Reduce once, solve many load cases, recover.
 
+use std::path::Path;
+
 use crate::error::{Argument, Error};
+use crate::file;
 use crate::matrix::{self, SymmetricMatrix};
 use crate::monitor::Monitor;
 use crate::problem::{ContactData, ContactProblem, Friction};
@@ -138,6 +141,28 @@ impl Model {
         start: Option<&[f64]>,
         monitor: &mut Monitor<'_>,
     ) -> Result<Solution, Error> {
+        self.reduced(case, |problem| solve(problem, settings, start, monitor))
+    }
+
+    /// Writes the contact problem that [`Self::solve`] solves for a load case to a file.
+    ///
+    /// # Errors
+    /// As [`Self::solve`] for the load case, and as [`file::save`].
+    pub fn save_case(
+        &self,
+        path: &Path,
+        case: &LoadCase<'_>,
+        remark: Option<&str>,
+    ) -> Result<(), Error> {
+        self.reduced(case, |problem| file::save(path, problem, remark))
+    }
+
+    /// Hands over the contact problem of a load case.
+    fn reduced<T>(
+        &self,
+        case: &LoadCase<'_>,
+        to: impl FnOnce(&ContactProblem<'_>) -> Result<T, Error>,
+    ) -> Result<T, Error> {
         self.check_loads(Some(case.load), case.prescribed)?;
         let load = match &self.reduction {
             Reduction::Condensed(_) => case.load.to_vec(),
@@ -155,7 +180,7 @@ impl Model {
             friction: case.friction,
             previous_slip: slip.as_deref(),
         })?;
-        solve(&problem, settings, start, monitor)
+        to(&problem)
     }
 
     /// Displacements of the host from the relative ones; without `load` and `prescribed` those of

@@ -10,7 +10,10 @@ fn header_is_fresh() {
     let mut fresh = Vec::new();
     let mut builder = cbindgen::Builder::new().with_config(config);
     // In the order in which a reader needs them.
-    for file in ["status", "settings", "report", "flat", "check", "lcp", "host", "model", "cases"] {
+    for file in [
+        "status", "settings", "report", "flat", "check", "lcp", "host", "model", "cases", "save",
+        "load",
+    ] {
         builder = builder.with_src(root.join(format!("src/ffi/{file}.rs")));
     }
     builder.generate().unwrap().write(&mut fresh);

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Rooms that each room may import. `linalg::small` is the part of `linalg` that names no factor.
-const ALLOWED: [(&str, &[&str]); 13] = [
+const ALLOWED: [(&str, &[&str]); 14] = [
     ("error", &[]),
     ("linalg", &[]),
     ("settings", &["error"]),
@@ -13,7 +13,8 @@ const ALLOWED: [(&str, &[&str]); 13] = [
     ("matrix", &["error"]),
     ("problem", &["error", "linalg::small", "law", "matrix"]),
     ("reduce", &["error", "linalg", "matrix"]),
-    ("model", &["error", "matrix", "monitor", "problem", "reduce", "settings", "solve"]),
+    ("file", &["error", "lcp", "problem"]),
+    ("model", &["error", "file", "matrix", "monitor", "problem", "reduce", "settings", "solve"]),
     ("lcp", &["error", "linalg::small", "matrix"]),
     ("certificate", &["error", "linalg::small", "law", "problem"]),
     ("monitor", &["error", "settings"]),
@@ -22,6 +23,7 @@ const ALLOWED: [(&str, &[&str]); 13] = [
         "ffi",
         &[
             "error",
+            "file",
             "law",
             "matrix",
             "problem",
@@ -37,11 +39,12 @@ const ALLOWED: [(&str, &[&str]); 13] = [
 ];
 
 /// Solvers that one solver may call.
-const SOLVERS: [(&str, &[&str]); 22] = [
+const SOLVERS: [(&str, &[&str]); 23] = [
     ("auto", &["run", "solution", "uniqueness"]),
     ("bare", &["lemke", "pivot", "solution"]),
     ("bordered", &["pieces"]),
     ("coulomb", &["solution", "sweeps"]),
+    ("delayed", &[]),
     ("elimination", &["factor"]),
     ("equations", &["bordered", "pieces", "sor"]),
     ("escape", &["factor"]),
@@ -58,7 +61,7 @@ const SOLVERS: [(&str, &[&str]); 22] = [
     ("sor", &[]),
     ("statics", &["factor"]),
     ("sweeps", &["escape", "relaxation", "solution", "sor"]),
-    ("tableau", &[]),
+    ("tableau", &["delayed"]),
     ("uniqueness", &["frictional_lemke", "newton", "pieces", "solution"]),
 ];
 

@@ -1,5 +1,9 @@
 //! From pointers to slices: NULL, alignment, size and overlap are checked before any access.
 
+use libc::c_char;
+use std::ffi::CStr;
+use std::path::Path;
+
 use super::guard::Failure;
 use crate::matrix;
 
@@ -191,6 +195,44 @@ pub(super) fn matrix_length(
     leading: usize,
 ) -> Result<usize, Failure> {
     matrix::entries(name, n, leading).map_err(|message| Failure::argument(position, message))
+}
+
+/// The name of a file: any bytes on Unix, UTF-8 elsewhere.
+///
+/// # Safety
+/// NULL or a text that ends with a zero and lives as long as the name is used.
+pub(super) unsafe fn path<'a>(position: i32, pointer: *const c_char) -> Result<&'a Path, Failure> {
+    if pointer.is_null() {
+        return Err(Failure::argument(position, "path is NULL"));
+    }
+    // SAFETY: by the caller's contract.
+    let bytes = unsafe { CStr::from_ptr(pointer) }.to_bytes();
+    if bytes.is_empty() {
+        return Err(Failure::argument(position, "path is empty"));
+    }
+    #[cfg(unix)]
+    let path = Some(<std::ffi::OsStr as std::os::unix::ffi::OsStrExt>::from_bytes(bytes));
+    #[cfg(not(unix))]
+    let path = std::str::from_utf8(bytes).ok();
+    let path = path.ok_or_else(|| Failure::argument(position, "path is not UTF-8"))?;
+    Ok(Path::new(path))
+}
+
+/// A text, `None` if it is NULL.
+///
+/// # Safety
+/// NULL or a text that ends with a zero and lives as long as it is used.
+pub(super) unsafe fn text<'a>(
+    position: i32,
+    name: &str,
+    pointer: *const c_char,
+) -> Result<Option<&'a str>, Failure> {
+    if pointer.is_null() {
+        return Ok(None);
+    }
+    // SAFETY: by the caller's contract.
+    let text = unsafe { CStr::from_ptr(pointer) }.to_str();
+    text.map(Some).map_err(|_| Failure::argument(position, format!("{name} is not UTF-8")))
 }
 
 /// Smallest structure of any version: its size, the first word and a number. Fields that an older

@@ -4,7 +4,7 @@ use std::cell::Cell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Once, OnceLock};
 
-use super::status::{SIGNORINI_INTERNAL, SIGNORINI_OUT_OF_MEMORY, remember};
+use super::status::{SIGNORINI_FILE, SIGNORINI_INTERNAL, SIGNORINI_OUT_OF_MEMORY, remember};
 use crate::error::{Argument, Error};
 
 /// Why a call returns a negative status.
@@ -24,12 +24,18 @@ impl Failure {
         self.code
     }
 
+    /// The same failure, in a call that has `shift` arguments before those that it counted.
+    pub(super) fn later(self, shift: i32) -> Self {
+        Failure { code: self.code - shift, ..self }
+    }
+
     /// An error of the library, whose argument has the position that `position` tells.
     pub(super) fn from_error(error: Error, position: impl Fn(Argument) -> i32) -> Self {
         let message = error.to_string();
         match error {
             Error::Invalid { argument, .. } => Failure { code: -position(argument), message },
             Error::OutOfMemory(_) => Failure { code: SIGNORINI_OUT_OF_MEMORY, message },
+            Error::File(_) => Failure { code: SIGNORINI_FILE, message },
         }
     }
 }

@@ -26,6 +26,8 @@ pub const SIGNORINI_NOT_A_SOLUTION: i32 = 6;
 pub const SIGNORINI_INTERNAL: i32 = -1000;
 /// Not enough memory; nothing was written.
 pub const SIGNORINI_OUT_OF_MEMORY: i32 = -1001;
+/// A file cannot be read or written; signorini_last_error() names it, the line, and what is wrong.
+pub const SIGNORINI_FILE: i32 = -1002;
 
 /// Major version of this header.
 pub const SIGNORINI_VERSION_MAJOR: i32 = 0;
@@ -89,6 +91,7 @@ pub extern "C" fn signorini_status_string(status: i32) -> *const c_char {
         SIGNORINI_NOT_A_SOLUTION => c"not a solution",
         SIGNORINI_INTERNAL => c"internal error",
         SIGNORINI_OUT_OF_MEMORY => c"out of memory",
+        SIGNORINI_FILE => c"a file cannot be read or written",
         -99..=-1 => c"an argument is wrong (status -k: the k-th)",
         _ => c"unknown status",
     };

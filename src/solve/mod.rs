@@ -5,6 +5,7 @@ mod auto;
 mod bare;
 mod bordered;
 mod coulomb;
+mod delayed;
 mod elimination;
 mod equations;
 mod escape;

@@ -10,9 +10,9 @@
 //! together, as one matrix product, which reads the tableau once. In between a pivot needs one column
 //! and one row, which the kept changes correct, and the values, which are always up to date.
 
+use super::delayed::Delayed;
 use crate::error::Error;
 use crate::linalg::dense;
-use crate::linalg::direct;
 use crate::linalg::kernels::{self, Simd};
 
 /// The problem that a tableau belongs to, scaled so that its entries are of similar size.
@@ -58,9 +58,7 @@ pub struct Tableau {
     /// The column of the entering variable, up to date.
     entering: Vec<f64>,
     values: Vec<f64>,
-    /// Changes that are kept: columns `(x + e_r) / p` and rows `y - e_c`, contiguous.
-    columns: Vec<f64>,
-    rows: Vec<f64>,
+    kept: Delayed,
     /// Most changes that are kept.
     delay: usize,
     simd: Simd,
@@ -93,6 +91,7 @@ impl Tableau {
             .try_reserve_exact(stride * (n + 1))
             .map_err(|_| Error::OutOfMemory("the tableau of Lemke's method"))?;
         entries.resize(stride * (n + 1), 0.0);
+        let simd = Simd::new();
         let mut tableau = Tableau {
             size: n,
             stride,
@@ -102,10 +101,9 @@ impl Tableau {
             place: (0..n).chain(n..=2 * n).collect(),
             entering: vec![0.0; n],
             values: problem.q.clone(),
-            columns: Vec::new(),
-            rows: Vec::new(),
+            kept: Delayed::new(n, n + 1, simd),
             delay: if n < LARGE { 1 } else { DELAY },
-            simd: Simd::new(),
+            simd,
         };
         for j in 0..n {
             tableau.column_mut(j).copy_from_slice(&problem.matrix[j * n..(j + 1) * n]);
@@ -139,13 +137,7 @@ impl Tableau {
     pub fn choose(&mut self, entering: usize) {
         let (n, stride, c) = (self.size, self.stride, self.place[entering] - self.size);
         self.entering.copy_from_slice(&self.entries[c * stride..c * stride + n]);
-        let changes = self.columns.chunks_exact(n).zip(self.rows.chunks_exact(n + 1));
-        let entering = &mut self.entering;
-        kernels::vectorised(
-            self.simd,
-            #[inline(always)]
-            || changes.for_each(|(column, row)| kernels::subtract(entering, row[c], column)),
-        );
+        self.kept.correct_column(c, &mut self.entering);
     }
 
     /// Rate of `variable` when the chosen variable `entering` grows.
@@ -192,16 +184,11 @@ impl Tableau {
     fn perturbation(&self, row: usize, component: usize) -> f64 {
         match self.place[component] {
             place if place < self.size => f64::from(u8::from(place == row)),
-            place => -self.entry(row, place - self.size),
+            place => {
+                let c = place - self.size;
+                self.kept.at(row, c) - self.column(c)[row]
+            }
         }
-    }
-
-    /// An entry, up to date.
-    fn entry(&self, row: usize, c: usize) -> f64 {
-        let n = self.size;
-        let changes = self.columns.chunks_exact(n).zip(self.rows.chunks_exact(n + 1));
-        let change: f64 = changes.map(|(column, of_row)| column[row] * of_row[c]).sum();
-        self.column(c)[row] - change
     }
 
     /// The row that leaves when `z0` enters the first basis: that which makes all values
@@ -259,38 +246,22 @@ impl Tableau {
 
     /// Keeps the change; the tableau follows when there are enough.
     fn keep_change(&mut self, row: usize, c: usize, inverse: f64) {
-        let n = self.size;
-        let mut y: Vec<f64> = (0..=n).map(|j| self.entries[j * self.stride + row]).collect();
-        let changes = self.columns.chunks_exact(n).zip(self.rows.chunks_exact(n + 1));
-        let target = &mut y;
-        kernels::vectorised(
-            self.simd,
-            #[inline(always)]
-            || changes.for_each(|(x, of_row)| kernels::subtract(target, x[row], of_row)),
-        );
+        let mut y: Vec<f64> = (0..=self.size).map(|j| self.column(j)[row]).collect();
+        self.kept.correct_row(row, &mut y);
         y[c] -= 1.0;
-        self.rows.extend(y);
-        let begin = self.columns.len();
-        self.columns.extend(self.entering.iter().map(|x| x * inverse));
-        self.columns[begin + row] = 1.0 + inverse;
-        if self.columns.len() == self.delay * n {
-            self.settle();
+        let at_row = |i: usize| if i == row { 1.0 } else { 0.0 };
+        let x = self.entering.iter().enumerate().map(|(i, x)| x * inverse + at_row(i) * inverse);
+        self.kept.push(x, &y);
+        if self.kept.count() == self.delay {
+            self.kept.settle(&mut self.entries, self.stride);
         }
-    }
-
-    /// Makes the changes that are kept.
-    fn settle(&mut self) {
-        let (n, stride) = (self.size, self.stride);
-        direct::subtract_outer(&mut self.entries, (n, n + 1), stride, &self.columns, &self.rows);
-        self.columns.clear();
-        self.rows.clear();
     }
 
     /// Corrects the values by one step of iterative refinement on the data of `problem`, with the
     /// tableau itself as the inverse of the basis. Returns the residual of `w - M z - d z0 = q`
     /// before, relative to `q`.
     pub fn refine(&mut self, problem: &Scaled) -> f64 {
-        self.settle();
+        self.kept.settle(&mut self.entries, self.stride);
         let n = self.size;
         let mut residual = problem.q.clone();
         for row in 0..n {
@@ -332,8 +303,7 @@ impl Tableau {
             self.column_mut(c).copy_from_slice(column);
         }
         self.values.copy_from_slice(values);
-        self.columns.clear();
-        self.rows.clear();
+        self.kept.clear();
         true
     }
 }

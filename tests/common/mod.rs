@@ -4,6 +4,7 @@
 
 pub mod bare;
 pub mod dense;
+pub mod folder;
 pub mod measures;
 pub mod mesh;
 pub mod oracle;

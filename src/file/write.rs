@@ -1,0 +1,158 @@
+//! Writing a problem file: all of it, or none.
+
+use std::fs::{self, File};
+use std::io::{self, BufWriter, ErrorKind, Write};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use super::{BANNER, Kind, MOST_REMARK, TITLE, VERSION, refuse};
+use crate::error::{Argument, Error};
+use crate::lcp::Lcp;
+use crate::problem::{ContactProblem, Friction};
+
+/// Writes a contact problem to the file `path`, which is replaced if it exists. The remark is one
+/// line.
+///
+/// # Errors
+/// [`Error::Invalid`] for an entry of the matrix that is not finite, or the remark;
+/// [`Error::File`] if the file cannot be written: then there is no new one, and an old one is as it
+/// was.
+pub fn save(path: &Path, problem: &ContactProblem<'_>, remark: Option<&str>) -> Result<(), Error> {
+    check_remark(remark)?;
+    let (dim, n) = (problem.dim(), problem.unknowns());
+    for j in 0..n {
+        if let Some(i) = problem.column(j).iter().position(|k| !k.is_finite()) {
+            return Err(Error::invalid(Argument::Matrix, format!("K[{i},{j}] is not finite")));
+        }
+    }
+    let (kind, name, friction) = match problem.friction() {
+        Friction::Coulomb(mu) => (Kind::Coulomb, "mu", mu),
+        Friction::Tresca(g) => (Kind::Tresca, "g", g),
+    };
+    let gap: Vec<f64> = (0..problem.pairs()).map(|pair| problem.gap(pair)).collect();
+    replace(path, |file| {
+        head(file, kind, remark, &[("dim", dim), ("pairs", problem.pairs())])?;
+        writeln!(file, "K ({n}), f, gap and {name} in normal rows, slip in tangential rows.")?;
+        writeln!(file, "{n} {}", n + 4)?;
+        for j in 0..n {
+            entries(file, problem.column(j).iter().copied())?;
+        }
+        entries(file, problem.load().iter().copied())?;
+        // A value of each pair in its normal row.
+        for values in [&gap[..], friction] {
+            entries(file, (0..n).map(|i| if i % dim == 0 { values[i / dim] } else { 0.0 }))?;
+        }
+        let slip = |i| match i % dim {
+            0 => 0.0,
+            axis => problem.previous_slip(i / dim, axis - 1),
+        };
+        entries(file, (0..n).map(slip))
+    })
+}
+
+/// Writes a bare complementarity problem.
+///
+/// # Errors
+/// As [`save`].
+pub fn save_lcp(path: &Path, lcp: &Lcp<'_>, remark: Option<&str>) -> Result<(), Error> {
+    check_remark(remark)?;
+    let (n, covering) = (lcp.size(), lcp.covering_vector());
+    replace(path, |file| {
+        head(file, Kind::Lcp, remark, &[])?;
+        let (name, columns) = if covering.is_some() { (", cover", n + 2) } else { ("", n + 1) };
+        writeln!(file, "M ({n}), q{name}.")?;
+        writeln!(file, "{n} {columns}")?;
+        for j in 0..n {
+            entries(file, lcp.column(j).iter().copied())?;
+        }
+        entries(file, lcp.q().iter().copied())?;
+        entries(file, covering.unwrap_or_default().iter().copied())
+    })
+}
+
+/// The comment lines but for the end of the last, which names the columns.
+fn head(
+    file: &mut impl Write,
+    kind: Kind,
+    remark: Option<&str>,
+    sizes: &[(&str, usize)],
+) -> io::Result<()> {
+    writeln!(file, "{BANNER}\n% {TITLE} {VERSION}\n% kind: {}", kind.name())?;
+    for (name, size) in sizes {
+        writeln!(file, "% {name}: {size}")?;
+    }
+    if let Some(remark) = remark.filter(|remark| !remark.is_empty()) {
+        writeln!(file, "% remark: {remark}")?;
+    }
+    let version = env!("CARGO_PKG_VERSION");
+    writeln!(file, "% Written by signorini {version} in the units of the host.")?;
+    write!(file, "% Columns: ")
+}
+
+/// One entry a line, in the fewest digits that give back the same bits.
+fn entries(file: &mut impl Write, mut values: impl Iterator<Item = f64>) -> io::Result<()> {
+    values.try_for_each(|value| writeln!(file, "{value:e}"))
+}
+
+fn check_remark(remark: Option<&str>) -> Result<(), Error> {
+    let remark = remark.unwrap_or_default();
+    if remark.len() > MOST_REMARK {
+        let message = format!("remark has {} bytes, at most {MOST_REMARK} fit", remark.len());
+        return Err(Error::invalid(Argument::Remark, message));
+    }
+    if remark.chars().any(char::is_control) {
+        let message = "remark has a control character, it must be one line of text";
+        return Err(Error::invalid(Argument::Remark, message));
+    }
+    if remark.trim() != remark {
+        return Err(Error::invalid(Argument::Remark, "remark begins or ends with a space"));
+    }
+    Ok(())
+}
+
+/// Fills a file beside the wanted one, which it replaces when it is complete: a full disk or a
+/// crash leaves no half file under the name.
+fn replace(
+    path: &Path,
+    fill: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
+) -> Result<(), Error> {
+    let fail = |error: io::Error| refuse(path, None, &format!("cannot be written: {error}"));
+    // Through a symbolic link to the file that it names; a path that names nothing yet stays.
+    let target = match fs::canonicalize(path) {
+        Ok(target) => target,
+        Err(error) if error.kind() == ErrorKind::NotFound => path.to_path_buf(),
+        Err(error) => return Err(fail(error)),
+    };
+    // A directory, a device or a pipe must not be replaced.
+    if fs::metadata(&target).is_ok_and(|found| !found.is_file()) {
+        return Err(refuse(path, None, "cannot be written: it is not a file"));
+    }
+    let (file, part) = new_part(&target).map_err(fail)?;
+    let mut file = BufWriter::new(file);
+    let written = fill(&mut file)
+        .and_then(|()| file.flush())
+        // Some file systems tell only here that they are full.
+        .and_then(|()| file.get_ref().sync_all());
+    // Closed before it is renamed, as Windows wants it, without another try to write the rest.
+    drop(file.into_parts());
+    written.and_then(|()| fs::rename(&part, &target)).map_err(|error| {
+        // The error that is told is the first one.
+        let _ = fs::remove_file(&part);
+        fail(error)
+    })
+}
+
+/// A new file in the directory of `target`.
+fn new_part(target: &Path) -> io::Result<(File, PathBuf)> {
+    static COUNT: AtomicU64 = AtomicU64::new(0);
+    loop {
+        let count = COUNT.fetch_add(1, Ordering::Relaxed);
+        let part = target.with_file_name(format!(".signorini-{}-{count}.part", std::process::id()));
+        match File::create_new(&part) {
+            Ok(file) => return Ok((file, part)),
+            // Left by a program of the same number that was killed.
+            Err(error) if error.kind() == ErrorKind::AlreadyExists => {}
+            Err(error) => return Err(error),
+        }
+    }
+}

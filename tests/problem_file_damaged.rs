@@ -1,0 +1,208 @@
+//! Problem files that are damaged, foreign or out of reach: a sentence, and never a crash.
+
+mod common;
+
+use std::fs;
+use std::path::Path;
+
+use common::folder::{Folder, SMALL};
+use signorini::ContactProblem;
+use signorini::file;
+
+#[test]
+fn every_truncation_is_refused() {
+    let folder = Folder::new("truncated");
+    let whole = folder.load(SMALL.as_bytes()).unwrap();
+    for ending in ["\n", "\r\n"] {
+        let text = SMALL.replace('\n', ending);
+        assert_eq!(folder.load(text.as_bytes()).unwrap(), whole);
+        for length in 0..text.len() {
+            let message = folder.load(&text.as_bytes()[..length]).unwrap_err();
+            let line = 1 + text[..length].matches('\n').count();
+            assert!(message.contains(&format!(": line {line}: ")), "{length} bytes: {message}");
+        }
+    }
+}
+
+#[test]
+fn what_readers_and_mailers_change_is_accepted() {
+    let folder = Folder::new("changed");
+    let whole = folder.load(SMALL.as_bytes()).unwrap();
+    for changed in [
+        SMALL.replace("%%MatrixMarket matrix array", "%%matrixmarket  MATRIX Array"),
+        SMALL.replace("% kind", "% by way of: mail\n%\n%%\n%no space\n% kind"),
+        SMALL.replace("inf", "Infinity").replace("3e-1", "  +0.3  "),
+        SMALL.replace("2 6", "  2\t6"),
+        format!("{SMALL}\n \r\n\n"),
+    ] {
+        assert_eq!(folder.load(changed.as_bytes()).unwrap(), whole, "{changed}");
+    }
+    let latin = SMALL.replace("% Written", "% M?ller");
+    let latin: Vec<u8> = latin.bytes().map(|b| if b == b'?' { 0xFC } else { b }).collect();
+    assert_eq!(folder.load(&latin).unwrap(), whole);
+    let remark = folder.load(SMALL.replace("one pair", "a\x1b[2Jb\0c").as_bytes()).unwrap().remark;
+    assert_eq!(remark, "a [2Jb c");
+}
+
+/// What is changed, into what, the line that is named, and a part of the sentence.
+const MUTATIONS: [(&str, &str, usize, &str); 36] = [
+    ("%%MatrixMarket", "%MatrixMarket", 1, "not a problem file"),
+    ("array", "coordinate", 1, "not a problem file"),
+    ("real", "complex", 1, "not a problem file"),
+    ("general", "symmetric", 1, "not a problem file"),
+    ("%%MatrixMarket matrix array real general\n", "", 1, "not a problem file"),
+    ("% signorini problem 1\n", "", 7, "some other matrix"),
+    ("problem 1", "problem 2", 2, "version '2'"),
+    ("problem 1", "problem 11", 2, "version '11'"),
+    ("% kind: coulomb\n", "", 7, "no line '% kind:'"),
+    ("coulomb", "viscous", 3, "'viscous'"),
+    ("% dim: 2\n", "", 7, "no line '% dim:'"),
+    ("dim: 2", "dim: 4", 8, "dim above is 4"),
+    ("dim: 2", "dim: two", 4, "dim is 'two'"),
+    ("dim: 2", "dim: 3", 8, "with dim 3"),
+    ("% pairs: 1\n", "", 7, "no line '% pairs:'"),
+    ("pairs: 1", "pairs: 2", 8, "2 pairs"),
+    ("pairs: 1", "pairs: -1", 5, "pairs is '-1'"),
+    ("pairs: 1", "pairs: 99999999999999999999", 5, "pairs is '99999999999999999999'"),
+    ("% dim: 2\n", "% dim: 2\n% dim: 2\n", 5, "a second 'dim:'"),
+    ("2 6", "2 7", 8, "4 columns more"),
+    ("2 6", "2", 8, "not two sizes"),
+    ("2 6", "2 6 12", 8, "not two sizes"),
+    ("2 6", "4294967296 4294967300", 8, "there must be"),
+    ("1.25e0", "1.25e0 7", 14, "f, row 1: '1.25e0 7' is not a number"),
+    ("1.25e0", "1.25d0", 14, "'1.25d0' is not a number"),
+    ("1.25e0", "", 14, "'' is not a number"),
+    ("1.25e0", "NaN", 14, "must be finite"),
+    ("1.25e0", "inf", 14, "must be finite"),
+    ("1.25e0", "1e999", 14, "too large"),
+    ("1.25e0", "% 1", 14, "is not a number"),
+    ("inf", "-inf", 15, "gap, row 0: '-inf' must be finite"),
+    ("inf", "1e400", 15, "too large"),
+    ("inf\n0e0", "inf\n1e0", 16, "such rows have no gap"),
+    ("3e-1\n0e0", "3e-1\ninf", 18, "must be finite"),
+    ("0e0\n-7e-1", "2e0\n-7e-1", 19, "such rows have no slip"),
+    ("-7e-1\n", "-7e-1\n0e0\n", 21, "the problem ends above"),
+];
+
+#[test]
+fn every_mutation_is_refused_with_its_line() {
+    let folder = Folder::new("mutated");
+    for (from, to, line, part) in MUTATIONS {
+        assert!(SMALL.contains(from), "{from}");
+        let message = folder.load(SMALL.replacen(from, to, 1).as_bytes()).unwrap_err();
+        assert!(message.contains(&format!("problem.mtx: line {line}: ")), "{to}: {message}");
+        assert!(message.contains(part), "{to}: {message}");
+    }
+    let long = format!("% {}\n", "x".repeat(5000));
+    let message = folder.load(SMALL.replace("% kind", &(long + "% kind")).as_bytes()).unwrap_err();
+    assert!(message.contains("line 3: longer than 4096 bytes"), "{message}");
+    let message = folder.load(&[0xFF; 5000]).unwrap_err();
+    assert!(message.contains("line 1: longer"), "{message}");
+    let message = folder.load(b"\xFF\xFE\x00\n").unwrap_err();
+    assert!(message.contains("line 1: not a problem file"), "{message}");
+}
+
+/// A size line is not believed: no memory is taken for what cannot be in the file.
+#[test]
+fn absurd_sizes_are_refused() {
+    let folder = Folder::new("absurd");
+    for (pairs, part) in [
+        (1_usize << 28, "K[1,0] is missing"),
+        (1_usize << 40, "the matrix cannot exist"),
+        (usize::MAX / 2, "there must be"),
+        (usize::MAX, "there must be"),
+    ] {
+        let n = pairs.wrapping_mul(2);
+        let text = format!(
+            "%%MatrixMarket matrix array real general\n% signorini problem 1\n% kind: coulomb\n\
+             % dim: 2\n% pairs: {pairs}\n{n} {}\n1e0\n",
+            n.wrapping_add(4)
+        );
+        let message = folder.load(text.as_bytes()).unwrap_err();
+        assert!(message.contains(part), "{message}");
+    }
+    let lcp = "%%MatrixMarket matrix array real general\n% signorini problem 1\n% kind: lcp\n";
+    let message = folder.load(format!("{lcp}0 18446744073709551615\n").as_bytes()).unwrap_err();
+    assert!(message.contains("line 4: 0 rows ask for 1 or 2 columns more"), "{message}");
+    let message = folder.load(format!("{lcp}5000000000 5000000001\n").as_bytes()).unwrap_err();
+    assert!(message.contains("line 4: 5000000000 rows: the matrix cannot exist"), "{message}");
+}
+
+/// Random damage never brings a panic, and what is read is what the lines say.
+#[test]
+fn random_damage_is_refused_or_read() {
+    let folder = Folder::new("damaged");
+    let mut random = fastrand::Rng::with_seed(4);
+    let mut refused = 0;
+    for _ in 0..1000 {
+        let mut text = SMALL.as_bytes().to_vec();
+        for _ in 0..random.usize(1..4) {
+            let at = random.usize(..text.len());
+            match random.u8(0..3) {
+                0 => text[at] = random.u8(..),
+                1 => drop(text.remove(at)),
+                _ => text.insert(at, *b"\n%1e- .:".get(random.usize(..8)).unwrap()),
+            }
+        }
+        match folder.load(&text) {
+            Ok(problem) => assert_eq!((problem.size, problem.matrix.len()), (2, 4)),
+            Err(message) => {
+                assert!(message.contains(": line "), "{message}");
+                refused += 1;
+            }
+        }
+    }
+    assert!(refused > 250, "{refused}");
+}
+
+#[test]
+fn files_that_cannot_be_written_or_read_are_named() {
+    let folder = Folder::new("paths");
+    let problem = file::load(&{
+        fs::write(folder.file(), SMALL).unwrap();
+        folder.file()
+    })
+    .unwrap();
+    let problem = ContactProblem::new(problem.contact().unwrap()).unwrap();
+    let save = |path: &Path| file::save(path, &problem, None).unwrap_err().to_string();
+    let load = |path: &Path| file::load(path).unwrap_err().to_string();
+
+    let absent = folder.0.join("absent");
+    assert!(save(&absent.join("p.mtx")).contains("p.mtx: cannot be written: "));
+    assert!(load(&absent).contains("absent: cannot be read: "));
+    assert!(save(&folder.0).contains("it is not a file"));
+    assert!(load(&folder.0).contains("it is a directory"));
+    assert!(save(&folder.file().join("p.mtx")).contains("cannot be written: "));
+
+    let deep = folder.0.join("d".repeat(200)).join("e".repeat(200)).join("p.mtx");
+    let message = load(&deep);
+    assert!(message.len() < 300 && message.contains("p.mtx: cannot be read"), "{message}");
+
+    for remark in ["two\nlines", "a tab\t", " space", &"x".repeat(1001)] {
+        let refused = file::save(&folder.file(), &problem, Some(remark)).unwrap_err();
+        assert!(refused.to_string().starts_with("remark"), "{refused}");
+    }
+    assert_eq!(fs::read_to_string(folder.file()).unwrap(), SMALL, "a refused call wrote");
+    assert_eq!(folder.names(), ["problem.mtx"]);
+}
+
+#[cfg(unix)]
+#[test]
+fn links_are_followed_and_devices_left_alone() {
+    let folder = Folder::new("links");
+    fs::write(folder.file(), SMALL).unwrap();
+    let problem = file::load(&folder.file()).unwrap();
+    let problem = ContactProblem::new(problem.contact().unwrap()).unwrap();
+    let link = folder.0.join("link");
+    std::os::unix::fs::symlink("problem.mtx", &link).unwrap();
+    file::save(&link, &problem, Some("through the link")).unwrap();
+    assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
+    assert_eq!(file::load(&folder.file()).unwrap().remark, "through the link");
+
+    let message = file::save(Path::new("/dev/null"), &problem, None).unwrap_err().to_string();
+    assert_eq!(message, "/dev/null: cannot be written: it is not a file");
+    let message = file::load(Path::new("/dev/zero")).unwrap_err().to_string();
+    assert_eq!(message, "/dev/zero: line 1: longer than 4096 bytes");
+    let message = file::load(Path::new("/dev/null")).unwrap_err().to_string();
+    assert_eq!(message, "/dev/null: line 1: the file ends, the line of the format is missing");
+}
