@@ -52,7 +52,7 @@ Darwin)
 esac
 for file in "$built" libsignorini.a; do
     [ -f "$root/target/release/$file" ] ||
-        die "target/release/$file is missing: run 'cargo build --release' first (Rust: https://rustup.rs)"
+        die "target/release/$file is missing: 'cargo build --release' makes it (https://rustup.rs)"
 done
 
 work=$(mktemp -d "${TMPDIR:-/tmp}/signorini.XXXXXX")

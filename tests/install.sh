@@ -136,7 +136,7 @@ by_pkg_config() {
     say "programs by pkg-config from $prefix"
 }
 
-# by_cmake_package PREFIX LIBDIR: a directory that CMake does not know is handed over as the user does.
+# by_cmake_package PREFIX LIBDIR: where CMake does not look, it is told the place of the package.
 by_cmake_package() {
     case $2 in
     lib) where=-DCMAKE_PREFIX_PATH=$1 ;;
