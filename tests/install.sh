@@ -67,7 +67,8 @@ listing() { (cd "$1" && find . ! -type d | sort); }
     listing "$by_script"
     die "CMake and the script do not install the same files"
 }
-cmp "$by_cmake/lib/libsignorini.a" "$by_script/lib/libsignorini.a"
+cmp "$by_cmake/lib/libsignorini.a" "$by_script/lib/libsignorini.a" ||
+    die "CMake and the script do not make the same static library"
 [ ! -f "$root/include/signorini.f90" ] || [ -f "$by_script/include/signorini.f90" ] ||
     die "the Fortran module's source was not installed"
 say "the same $(listing "$by_script" | wc -l) files by CMake and by the script, staged and not"
