@@ -36,7 +36,8 @@ write_basic_package_version_file("${CMAKE_CURRENT_BINARY_DIR}/signorini-config-v
 install(FILES "${CMAKE_CURRENT_BINARY_DIR}/signorini-config.cmake"
     "${CMAKE_CURRENT_BINARY_DIR}/signorini-config-version.cmake" DESTINATION "${package}")
 
-# signorini.pc holds the prefix, which is known for sure only now: `cmake --install --prefix`.
+# signorini.pc holds the prefix, which is known for sure only at the installation: cmake --install
+# --prefix. pkg-config wants a backslash in front of a space.
 list(TRANSFORM private PREPEND "-l")
 list(JOIN private " " private)
 foreach(directory libdir includedir)
@@ -46,7 +47,7 @@ foreach(directory libdir includedir)
 endforeach()
 set(pc "${CMAKE_CURRENT_BINARY_DIR}/signorini.pc")
 install(CODE "
-    set(prefix \"\${CMAKE_INSTALL_PREFIX}\")
+    string(REPLACE [[ ]] [[\\ ]] prefix \"\${CMAKE_INSTALL_PREFIX}\")
     set(libdir [[${libdir}]])
     set(includedir [[${includedir}]])
     set(version \"${version}\")

@@ -52,7 +52,7 @@ Darwin)
 esac
 for file in "$built" libsignorini.a; do
     [ -f "$root/target/release/$file" ] ||
-        die "target/release/$file is missing: run 'cargo build --release' first (Rust: https://rustup.rs)"
+        die "target/release/$file is missing: 'cargo build --release' makes it (https://rustup.rs)"
 done
 
 work=$(mktemp -d "${TMPDIR:-/tmp}/signorini.XXXXXX")
@@ -67,8 +67,10 @@ quoted() { printf '%s' "$1" | sed 's/[&|\\]/\\&/g'; }
 package=$libdir/cmake/signorini
 up=$(printf '%s' "$package" | sed 's|//*|/|g; s|[^/][^/]*|..|g')
 
+# pkg-config wants a backslash in front of a space.
+escaped=$(printf '%s' "$prefix" | sed 's/ /\\ /g')
 # shellcheck disable=SC2016 # names of pkg-config and CMake
-sed -e "s|@prefix@|$(quoted "$prefix")|" -e "s|@libdir@|\${prefix}/$(quoted "$libdir")|" \
+sed -e "s|@prefix@|$(quoted "$escaped")|" -e "s|@libdir@|\${prefix}/$(quoted "$libdir")|" \
     -e 's|@includedir@|${prefix}/include|' -e "s|@version@|$version|" -e "s|@private@|$private|" \
     "$examples/signorini.pc.in" >"$work/signorini.pc"
 

@@ -67,7 +67,8 @@ listing() { (cd "$1" && find . ! -type d | sort); }
     listing "$by_script"
     die "CMake and the script do not install the same files"
 }
-cmp "$by_cmake/lib/libsignorini.a" "$by_script/lib/libsignorini.a"
+cmp "$by_cmake/lib/libsignorini.a" "$by_script/lib/libsignorini.a" ||
+    die "CMake and the script do not make the same static library"
 [ ! -f "$root/include/signorini.f90" ] || [ -f "$by_script/include/signorini.f90" ] ||
     die "the Fortran module's source was not installed"
 say "the same $(listing "$by_script" | wc -l) files by CMake and by the script, staged and not"
@@ -136,7 +137,7 @@ by_pkg_config() {
     say "programs by pkg-config from $prefix"
 }
 
-# by_cmake_package PREFIX LIBDIR: a directory that CMake does not know is handed over as the user does.
+# by_cmake_package PREFIX LIBDIR: where CMake does not look, it is told the place of the package.
 by_cmake_package() {
     case $2 in
     lib) where=-DCMAKE_PREFIX_PATH=$1 ;;
