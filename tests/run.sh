@@ -1,9 +1,13 @@
 #!/bin/sh
-# Every test of the project: sh tests/run.sh
+# Every test of the project: sh tests/run.sh [--hosts]
 #
-# Formatting, lints, the Rust tests, the documentation, the C programs, and the replay of the
-# examples. It ends at the first step that fails, with its name. What it needs and does not find it
-# installs by apt-get if it may, and names it otherwise. It writes to target/ alone.
+# Formatting, lints, the Rust tests, the documentation, the C and Fortran programs, the installation,
+# the scripts, and the replay of the examples. It ends at the first step that fails, with its name.
+# It writes to target/ alone. Compilers, CMake and numpy that it does not find it installs by apt-get
+# if it may; other tools it uses where they are, and says what it skips.
+#
+# With --hosts it installs the rest too, the finite-element codes of the examples among it, and skips
+# nothing.
 
 set -u
 LC_ALL=C
@@ -14,11 +18,21 @@ cd "$root" || exit 1
 target=$root/target
 began=$(date +%s)
 
+hosts=
+case $#:${1-} in
+0:) ;;
+1:--hosts) hosts=--require ;;
+*)
+    echo "usage: sh tests/run.sh [--hosts]"
+    exit 2
+    ;;
+esac
+
 # One place for everything that is built, whatever the caller has set.
 CARGO_TARGET_DIR=$target
 CARGO_TERM_COLOR=${CARGO_TERM_COLOR:-never}
 export CARGO_TARGET_DIR CARGO_TERM_COLOR
-unset CARGO_BUILD_TARGET RUSTFLAGS RUSTDOCFLAGS DESTDIR
+unset CARGO_BUILD_TARGET RUSTFLAGS RUSTDOCFLAGS DESTDIR PREFIX LIBDIR
 
 # ---- tools ----
 
@@ -28,24 +42,55 @@ have() {
 
 have cargo || PATH=$PATH:${CARGO_HOME:-${HOME:-/root}/.cargo}/bin
 
-# Debian's names of the packages that are missing.
-missing_packages() {
+# A Python that has the modules named; Debian's may not be the first in PATH.
+python_with() {
+    for candidate in "${PYTHON:-python3}" python3 /usr/bin/python3; do
+        "$candidate" -c "import $1" >/dev/null 2>&1 && echo "$candidate" && return
+    done
+    return 1
+}
+
+# Debian's names of the packages that are missing: what every test needs, ...
+needed_packages() {
     have cc || echo gcc libc6-dev
     have make || echo make
     have cmake && have ctest || echo cmake
     have nm && have readelf || echo binutils
-    have valgrind || echo valgrind
 }
 
-# macOS has another nm, no readelf and no valgrind.
+# ... what some do, ...
+wanted_packages() {
+    have gfortran || echo gfortran
+    python_with numpy >/dev/null || echo python3-numpy
+}
+
+# ... and what --hosts asks for.
+host_packages() {
+    have c++ || echo g++
+    have valgrind || echo valgrind
+    have pkg-config || echo pkgconf
+    have ccx || echo calculix-ccx
+    /usr/bin/python3 -c 'import getfem' >/dev/null 2>&1 || echo python3-getfem
+    python_with numpy,matplotlib,PIL >/dev/null || echo python3-numpy python3-matplotlib python3-pil
+    [ -f /usr/include/mumps_seq/mpif.h ] || echo libmumps-seq-dev
+    have octave-cli && have mkoctfile || echo octave octave-dev
+}
+
+# macOS has another nm, no readelf, and its compilers come otherwise.
 if [ "$(uname -s)" = Darwin ]; then
-    missing_packages() {
+    needed_packages() {
         have cc || echo xcode-select
         have cmake && have ctest || echo cmake
     }
 fi
 
-packages=$(missing_packages | tr '\n' ' ')
+missing() {
+    needed_packages
+    wanted_packages
+    [ -z "$hosts" ] || host_packages
+}
+
+packages=$(missing | tr '\n' ' ')
 if [ -n "$packages" ] && have apt-get && [ "$(id -u)" = 0 ]; then
     echo "== installing: $packages"
     DEBIAN_FRONTEND=noninteractive
@@ -53,7 +98,11 @@ if [ -n "$packages" ] && have apt-get && [ "$(id -u)" = 0 ]; then
     log=$(apt-get update 2>&1 </dev/null) || echo "$log"
     # shellcheck disable=SC2086 # a list of words
     log=$(apt-get install -y --no-install-recommends $packages 2>&1 </dev/null) || echo "$log"
-    packages=$(missing_packages | tr '\n' ' ')
+fi
+if [ -n "$hosts" ]; then
+    packages=$(missing | tr '\n' ' ')
+else
+    packages=$(needed_packages | tr '\n' ' ')
 fi
 if ! have cargo; then
     echo "tests/run.sh: install Rust (https://rustup.rs) $packages" | sed 's/) \(.\)/) and: \1/'
@@ -63,6 +112,8 @@ if [ -n "$packages" ]; then
     echo "tests/run.sh: install first (names of Debian and Ubuntu): $packages"
     exit 1
 fi
+PYTHON=$(python_with numpy,matplotlib,PIL || python_with numpy || echo python3)
+export PYTHON
 
 # ---- steps ----
 
@@ -117,8 +168,18 @@ step "Rust documentation" documentation
 step "C programs: configure" c_configure
 step "C programs: build" c_build
 step "C programs: test" c_test
+if have pkg-config; then
+    step "installation" sh tests/install.sh
+else
+    skip "installation" "there is no pkg-config"
+fi
 step "replay of Table 1" sh c_examples/replay.sh
 step "bolted junction" sh c_examples/junction.sh
+step "Ctrl-C and progress" sh tests/interrupt.sh
+for name in fortran scripts host_calculix host_getfem host_mumps host_octave; do
+    # shellcheck disable=SC2086 # --require or nothing
+    step "$name" sh "tests/$name.sh" $hosts
+done
 
 echo
 echo "== all tests passed in $(($(date +%s) - began)) s"
