@@ -1,43 +1,79 @@
 #!/bin/sh
-# The README's C example compiles as it stands, statically and shared, and prints what the README
-# says; the functions of the guide for hosts compile and do what it says. The library has been built in
-# target/release.
+# What the README and the guide for hosts say is so: the commands from a clone to a program run as they
+# stand and print what the README says, with -static too where that can be; the C example is the file;
+# the functions of the guide compile and do what it says.
+#
+#     sh tests/readme.sh [--require]
+#
+# Languages that are not there are skipped, or fail with --require.
 set -eu
 
 root=$(CDPATH='' cd -- "$(dirname -- "$0")/.." && pwd)
 work=$root/target/readme
+python=${PYTHON:-python3}
+rm -rf "$work"
 mkdir -p "$work"
 cd "$root"
+command -v cargo >/dev/null || PATH=$PATH:${CARGO_HOME:-${HOME:-/root}/.cargo}/bin
+CARGO_TARGET_DIR=$root/target
+CARGO_TERM_QUIET=true
+export CARGO_TARGET_DIR CARGO_TERM_QUIET
 
-# The blocks of a kind: what stands between ```KIND and ```.
-block() {
-    awk -v kind="$1" '$0 == "```" kind { inside = 1; next } $0 == "```" { inside = 0 } inside' README.md
-}
-
-block c >"$work/first.c"
-[ "$(grep -c . "$work/first.c")" -le 32 ] || { echo "the README's example is too long"; exit 1; }
 grep '^pair ' README.md >"$work/expected"
 [ -s "$work/expected" ]
+awk '$0 == "```c" { inside = 1; next } $0 == "```" { inside = 0 } inside' README.md |
+    diff - c_examples/first.c || { echo "README: its C example is not c_examples/first.c"; exit 1; }
+[ "$(grep -c . c_examples/first.c)" -le 32 ] || { echo "README: its example is too long"; exit 1; }
 
-ln -sf libsignorini.so target/release/libsignorini.so.0.1
-flags="-std=c11 -Wall -Wextra -Wpedantic -Werror -Iinclude"
-# The README's two lines, with warnings as errors.
-# shellcheck disable=SC2086 # several flags
-${CC:-cc} $flags "$work/first.c" target/release/libsignorini.a -lm -lpthread -ldl -o "$work/static"
-# shellcheck disable=SC2086
-${CC:-cc} $flags "$work/first.c" -Ltarget/release -lsignorini "-Wl,-rpath,$PWD/target/release" \
-    -o "$work/shared"
-for program in static shared; do
-    "$work/$program" >"$work/printed"
+# The commands of a language: the block that begins with its name.
+commands() {
+    awk -v name="# $1" '$0 == "```sh" { getline; inside = index($0, name) == 1; next }
+        $0 == "```" { inside = 0 } inside' README.md
+}
+
+# Whether the C library has a static form.
+can_be_static() {
+    echo 'int main(void) { return 0; }' >"$work/empty.c"
+    ${CC:-cc} -static "$work/empty.c" -o "$work/empty" 2>/dev/null
+}
+
+# try LANGUAGE TOOL: the commands as they stand, then with -static.
+try() {
+    if ! command -v "$2" >/dev/null || { [ "$1" = Python ] && ! "$2" -c 'import numpy' 2>/dev/null; }
+    then
+        echo "README, $1: '$2' is missing"
+        [ "${require:-}" != yes ] || exit 1
+        echo "README, $1: SKIPPED"
+        return
+    fi
+    commands "$1" >"$work/commands"
+    lines=$(grep -c . "$work/commands")
+    [ "$lines" -ge 2 ] && [ "$lines" -le 3 ] || { echo "README, $1: $lines commands"; exit 1; }
+    sed "s|^python3 |'$python' |" "$work/commands" >"$work/as_they_stand"
+    sh -e "$work/as_they_stand" >"$work/printed"
     diff "$work/expected" "$work/printed"
-    echo "README example, $program: prints what the README says"
-done
+    echo "README, $1: prints what the README says"
+    if [ "$1" != Python ] && can_be_static; then
+        sed 's/ -o target/ -static&/' "$work/commands" >"$work/static"
+        sh -e "$work/static" >"$work/printed" 2>"$work/warnings" ||
+            { cat "$work/warnings"; exit 1; }
+        diff "$work/expected" "$work/printed"
+        echo "README, $1: the same with -static"
+    fi
+}
+
+[ "${1-}" != --require ] || require=yes
+try C cc
+try "Fortran 77" gfortran
+try "Fortran 90" gfortran
+try Python "$python"
 
 # The guide's blocks, one file each, and the program that calls them.
 for number in 1 2; do
     awk -v want="$number" '$0 == "```c" { inside = ++number == want; next } $0 == "```" { inside = 0 }
         inside' c_examples/GUIDE.md >"$work/guide_$number.h"
 done
+flags="-std=c11 -Wall -Wextra -Wpedantic -Werror -Iinclude"
 # shellcheck disable=SC2086 # several flags
 ${CC:-cc} $flags -Itests/c -I"$work" tests/c/guide.c target/release/libsignorini.a \
     -lm -lpthread -ldl -o "$work/guide"
