@@ -40,6 +40,12 @@ code() {
 }
 declared=$(code | grep -o 'signorini_[a-z0-9_]*(' | tr -d '(' | sort -u)
 [ -n "$declared" ] || fail "no function found in $header"
+# Those of Fortran 77, which include/signorini.inc documents.
+for name in sgsolv sgtres sgcert sglcps sgmodl sgtwob sgspar sgcase sgrecv sgnodf sgfree sgmesg; do
+    declared="$declared
+${name}_
+${name}_64_"
+done
 
 # macOS puts an underscore in front of every name and has no versions of shared objects.
 if [ "$(uname -s)" = Darwin ]; then

@@ -19,6 +19,11 @@ impl Failure {
         Failure { code: -position, message: message.into() }
     }
 
+    /// There is no memory for something.
+    pub(super) fn out_of_memory(message: impl Into<String>) -> Self {
+        Failure { code: SIGNORINI_OUT_OF_MEMORY, message: message.into() }
+    }
+
     /// The status.
     pub(super) fn code(&self) -> i32 {
         self.code

@@ -12,6 +12,7 @@ mod args;
 mod cases;
 mod check;
 mod flat;
+mod fortran;
 mod guard;
 mod host;
 mod lcp;

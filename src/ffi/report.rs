@@ -169,6 +169,11 @@ impl SignoriniReport {
         }
     }
 
+    /// One to be filled by a call.
+    pub(super) fn blank() -> Self {
+        Self::empty(0, Method::Auto)
+    }
+
     fn empty(status: i32, method: Method) -> Self {
         SignoriniReport {
             struct_size: size_of::<Self>() as u32,

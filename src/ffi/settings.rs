@@ -91,7 +91,8 @@ pub(super) struct Received {
 }
 
 impl SignoriniSettings {
-    fn default_one() -> Self {
+    /// The defaults.
+    pub(super) fn default_one() -> Self {
         let default = Settings::default();
         SignoriniSettings {
             struct_size: size_of::<Self>() as u32,

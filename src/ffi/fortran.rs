@@ -1,0 +1,75 @@
+//! The Fortran 77 entries: by reference, `name_` for 4-byte and `name_64_` for 8-byte integers.
+//!
+//! `include/signorini.inc` is their reference. They count from 1, return nothing but their last
+//! argument INFO, and call the entries of C: what is here translates arguments, their positions and
+//! the numbers in sentences. Models are known by numbers, of 8 bytes in both widths, so that a
+//! wrong one is refused and not followed.
+
+mod arguments;
+mod flat;
+mod message;
+mod models;
+mod sparse;
+
+/// Exports one generic function for each width of integers; `I` is the integer in the types.
+macro_rules! entries {
+    ($($short:ident $long:ident = $body:path, ($($argument:ident: $type:ty),* $(,)?);)*) => {
+        mod narrow {
+            type I = i32;
+            $(
+                #[unsafe(no_mangle)]
+                unsafe extern "C" fn $short($($argument: $type),*) {
+                    // SAFETY: the caller's contract, which include/signorini.inc states.
+                    unsafe { $body($($argument),*) }
+                }
+            )*
+        }
+        mod wide {
+            type I = i64;
+            $(
+                #[unsafe(no_mangle)]
+                unsafe extern "C" fn $long($($argument: $type),*) {
+                    // SAFETY: the caller's contract, which include/signorini.inc states.
+                    unsafe { $body($($argument),*) }
+                }
+            )*
+        }
+    };
+}
+
+entries! {
+    sgsolv_ sgsolv_64_ = super::flat::solve, (ndim: *const I, npair: *const I, k: *const f64,
+        ldk: *const I, f: *const f64, gap: *const f64, mu: *const f64, slip: *const f64,
+        method: *const I, tol: *const f64, maxit: *const I, d: *mut f64, r: *mut f64,
+        state: *mut I, eta: *mut f64, iter: *mut I, info: *mut I);
+    sgtres_ sgtres_64_ = super::flat::tresca, (ndim: *const I, npair: *const I, k: *const f64,
+        ldk: *const I, f: *const f64, gap: *const f64, g: *const f64, slip: *const f64,
+        method: *const I, tol: *const f64, maxit: *const I, d: *mut f64, r: *mut f64,
+        state: *mut I, eta: *mut f64, iter: *mut I, info: *mut I);
+    sgcert_ sgcert_64_ = super::flat::certify, (ndim: *const I, npair: *const I, k: *const f64,
+        ldk: *const I, f: *const f64, gap: *const f64, mu: *const f64, slip: *const f64,
+        tol: *const f64, d: *const f64, r: *mut f64, state: *mut I, eta: *mut f64, info: *mut I);
+    sglcps_ sglcps_64_ = super::flat::lcp, (n: *const I, m: *const f64, ldm: *const I,
+        q: *const f64, method: *const I, tol: *const f64, maxit: *const I, w: *mut f64,
+        z: *mut f64, eta: *mut f64, iter: *mut I, info: *mut I);
+    sgmodl_ sgmodl_64_ = super::models::condensed, (ndim: *const I, npair: *const I,
+        k: *const f64, ldk: *const I, handle: *mut i64, info: *mut I);
+    sgtwob_ sgtwob_64_ = super::models::two_body, (ndim: *const I, npair: *const I,
+        ka: *const f64, lda: *const I, kb: *const f64, ldb: *const I, handle: *mut i64,
+        info: *mut I);
+    sgspar_ sgspar_64_ = super::sparse::new, (n: *const I, nnz: *const I, colptr: *const I,
+        rowind: *const I, values: *const f64, tri: *const I, nfix: *const I, fixed: *const I,
+        ndim: *const I, npair: *const I, slave: *const I, nmast: *const I, mstart: *const I,
+        master: *const I, weight: *const f64, normal: *const f64, ntan: *const I,
+        tangnt: *const f64, handle: *mut i64, info: *mut I);
+    sgcase_ sgcase_64_ = super::models::case, (handle: *const i64, f: *const f64,
+        presc: *const f64, gap: *const f64, mu: *const f64, slip: *const f64, method: *const I,
+        tol: *const f64, maxit: *const I, d: *mut f64, r: *mut f64, state: *mut I,
+        eta: *mut f64, iter: *mut I, info: *mut I);
+    sgrecv_ sgrecv_64_ = super::models::recover, (handle: *const i64, f: *const f64,
+        presc: *const f64, d: *const f64, u: *mut f64, info: *mut I);
+    sgnodf_ sgnodf_64_ = super::models::nodal_forces, (handle: *const i64, r: *const f64,
+        p: *mut f64, info: *mut I);
+    sgfree_ sgfree_64_ = super::models::free, (handle: *mut i64, info: *mut I);
+    sgmesg_ sgmesg_64_ = super::message::copy, (text: *mut libc::c_char, ltext: *const I);
+}

@@ -1,0 +1,131 @@
+C     Wrong arguments: INFO tells which, SGMESG what is wrong with it.
+C     Compiled with trapping: a NaN must be refused, not met.
+C
+      PROGRAM BADIN
+      INCLUDE 'signorini.inc'
+      DOUBLE PRECISION K(4, 4), F(4), GAP(2), MU(2), SLIP(2), D(4), R(4)
+      DOUBLE PRECISION ETA, NAN, V(4), RN(2), U(4), WT(1)
+      INTEGER STATE(2), ITER, INFO, I, J, NFAIL
+      INTEGER COLPTR(5), ROWIND(4), FIXED(1), SLAVE(2), NOT(2)
+      INTEGER*4 BITS(2)
+      INTEGER*8 HANDLE
+      EQUIVALENCE (NAN, BITS)
+      DATA MU /2*0.3D0/, GAP /2*0D0/, SLIP /2*0D0/
+      DATA F /2D0, 1.5D0, 3D0, 0.5D0/
+      DATA COLPTR /1, 2, 3, 4, 5/, ROWIND /1, 2, 3, 4/, V /4*1D0/
+      DATA FIXED /4/, SLAVE /1, 2/, RN /0D0, -1D0/, NOT /2*0/
+      BITS(1) = 2146959360
+      BITS(2) = 2146959360
+      NFAIL = 0
+      WT(1) = 1D0
+      DO 20 J = 1, 4
+         DO 10 I = 1, 4
+            K(I, J) = 0D0
+   10    CONTINUE
+         K(J, J) = 4D0
+   20 CONTINUE
+
+      CALL SGSOLV(4, 2, K, 4, F, GAP, MU, SLIP, 0,
+     &            0D0, 0, D, R, STATE, ETA, ITER, INFO)
+      CALL EXPECT('dimension', INFO, -1, NFAIL)
+      CALL SGSOLV(2, -2, K, 4, F, GAP, MU, SLIP, 0,
+     &            0D0, 0, D, R, STATE, ETA, ITER, INFO)
+      CALL EXPECT('negative NPAIR', INFO, -2, NFAIL)
+      CALL SGSOLV(2, 2, K, 3, F, GAP, MU, SLIP, 0,
+     &            0D0, 0, D, R, STATE, ETA, ITER, INFO)
+      CALL EXPECT('short LDK', INFO, -4, NFAIL)
+      CALL SGSOLV(2, 2, K, 4, F, GAP, MU, SLIP, 9,
+     &            0D0, 0, D, R, STATE, ETA, ITER, INFO)
+      CALL EXPECT('no such METHOD', INFO, -9, NFAIL)
+      CALL SGSOLV(2, 2, K, 4, F, GAP, MU, SLIP, SGPIVO,
+     &            0D0, 0, D, R, STATE, ETA, ITER, INFO)
+      CALL EXPECT('METHOD without friction', INFO, -9, NFAIL)
+      CALL SGSOLV(2, 2, K, 4, F, GAP, MU, SLIP, 0,
+     &            NAN, 0, D, R, STATE, ETA, ITER, INFO)
+      CALL EXPECT('NaN as TOL', INFO, -10, NFAIL)
+      CALL SGSOLV(2, 2, K, 4, F, GAP, MU, SLIP, 0,
+     &            0D0, -1, D, R, STATE, ETA, ITER, INFO)
+      CALL EXPECT('negative MAXIT', INFO, -11, NFAIL)
+      CALL SGSOLV(2, 2, K, 4, F, GAP, MU, SLIP, 0,
+     &            0D0, 0, D, D, STATE, ETA, ITER, INFO)
+      CALL EXPECT('D is R', INFO, -13, NFAIL)
+      K(3, 2) = NAN
+      CALL SGSOLV(2, 2, K, 4, F, GAP, MU, SLIP, 0,
+     &            0D0, 0, D, R, STATE, ETA, ITER, INFO)
+      CALL EXPECT('NaN in K', INFO, -3, NFAIL)
+      CALL SGMODL(2, 2, K, 4, HANDLE, INFO)
+      CALL EXPECT('NaN in K of a model', INFO, -3, NFAIL)
+      CALL SGLCPS(4, K, 4, F, 0, 0D0, 0, D, R, ETA, ITER, INFO)
+      CALL EXPECT('NaN in M', INFO, -2, NFAIL)
+      K(3, 2) = 0D0
+      MU(2) = -1D0
+      CALL SGSOLV(2, 2, K, 4, F, GAP, MU, SLIP, 0,
+     &            0D0, 0, D, R, STATE, ETA, ITER, INFO)
+      CALL EXPECT('negative MU', INFO, -7, NFAIL)
+      MU(2) = 0.3D0
+      CALL SGSOLV(2, 2, K, 4, F, GAP, MU, SLIP, 0,
+     &            0D0, 0, D, R, STATE, ETA, ITER, INFO)
+      CALL EXPECT('nothing wrong', INFO, 0, NFAIL)
+      D(1) = -1D0
+      CALL SGCERT(2, 2, K, 4, F, GAP, MU, SLIP, 0D0,
+     &            D, R, STATE, ETA, INFO)
+      CALL EXPECT('no solution', INFO, SGNOSO, NFAIL)
+
+C     Models: an index base of 0, rows and slaves out of range.
+      DO 30 I = 1, 5
+         COLPTR(I) = COLPTR(I) - 1
+   30 CONTINUE
+      CALL SGSPAR(4, 4, COLPTR, ROWIND, V, 0, 1, FIXED, 2, 1,
+     &            SLAVE, 0, NOT, NOT, WT, RN, 0, WT, HANDLE, INFO)
+      CALL EXPECT('COLPTR from 0', INFO, -3, NFAIL)
+      DO 40 I = 1, 5
+         COLPTR(I) = COLPTR(I) + 1
+   40 CONTINUE
+      SLAVE(1) = 0
+      CALL SGSPAR(4, 4, COLPTR, ROWIND, V, 0, 1, FIXED, 2, 1,
+     &            SLAVE, 0, NOT, NOT, WT, RN, 0, WT, HANDLE, INFO)
+      CALL EXPECT('SLAVE from 0', INFO, -11, NFAIL)
+      SLAVE(1) = 1
+      FIXED(1) = 5
+      CALL SGSPAR(4, 4, COLPTR, ROWIND, V, 0, 1, FIXED, 2, 1,
+     &            SLAVE, 0, NOT, NOT, WT, RN, 0, WT, HANDLE, INFO)
+      CALL EXPECT('FIXED out of range', INFO, -8, NFAIL)
+      FIXED(1) = 4
+      CALL SGSPAR(4, 4, COLPTR, ROWIND, V, 0, 1, FIXED, 2, 1,
+     &            SLAVE, 0, NOT, NOT, WT, RN, 0, WT, HANDLE, INFO)
+      CALL EXPECT('nothing wrong', INFO, 0, NFAIL)
+      F(2) = NAN
+      CALL SGCASE(HANDLE, F, SLIP, GAP, MU, SLIP, 0, 0D0, 0,
+     &            D, R, STATE, ETA, ITER, INFO)
+      CALL EXPECT('NaN in F', INFO, -2, NFAIL)
+      F(2) = -1.5D0
+      CALL SGCASE(HANDLE, F, SLIP, GAP, MU, SLIP, 0, 0D0, 0,
+     &            D, R, STATE, ETA, ITER, INFO)
+      CALL EXPECT('nothing wrong', INFO, 0, NFAIL)
+      CALL SGRECV(HANDLE, F, SLIP, D, U, INFO)
+      CALL EXPECT('nothing wrong', INFO, 0, NFAIL)
+      CALL SGNODF(HANDLE, R, U, INFO)
+      CALL EXPECT('nothing wrong', INFO, 0, NFAIL)
+      CALL SGFREE(HANDLE, INFO)
+      CALL EXPECT('nothing wrong', INFO, 0, NFAIL)
+      HANDLE = 12345
+      CALL SGRECV(HANDLE, F, SLIP, D, U, INFO)
+      CALL EXPECT('no such HANDLE', INFO, -1, NFAIL)
+      CALL SGFREE(HANDLE, INFO)
+      CALL EXPECT('no such HANDLE', INFO, -1, NFAIL)
+      IF (NFAIL .NE. 0) STOP 1
+      WRITE (*, '(A)') 'bad input: refused, with a sentence each'
+      END
+
+      SUBROUTINE EXPECT(WHAT, INFO, WANTED, NFAIL)
+      CHARACTER*(*) WHAT
+      INTEGER INFO, WANTED, NFAIL
+      CHARACTER*96 TEXT
+      CALL SGMESG(TEXT, 96)
+      WRITE (*, '(A, T26, I4, 2X, A)') WHAT, INFO, TEXT
+      IF (INFO .NE. WANTED .OR. (INFO .EQ. 0) .NEQV. (TEXT .EQ. ' '))
+     &   THEN
+         WRITE (*, '(A, I6)') '   FAIL: wanted INFO =', WANTED
+         NFAIL = NFAIL + 1
+      END IF
+      END
