@@ -24,6 +24,7 @@ module signorini
     integer(c_int32_t), parameter :: SIGNORINI_NOT_A_SOLUTION = 6
     integer(c_int32_t), parameter :: SIGNORINI_INTERNAL = -1000
     integer(c_int32_t), parameter :: SIGNORINI_OUT_OF_MEMORY = -1001
+    integer(c_int32_t), parameter :: SIGNORINI_FILE = -1002
     integer(c_int32_t), parameter :: SIGNORINI_VERSION_MAJOR = 0
     integer(c_int32_t), parameter :: SIGNORINI_VERSION_MINOR = 1
     integer(c_int32_t), parameter :: SIGNORINI_VERSION_PATCH = 0
@@ -51,6 +52,9 @@ module signorini
     integer(c_int32_t), parameter :: SIGNORINI_LOWER = 0
     integer(c_int32_t), parameter :: SIGNORINI_UPPER = 1
     integer(c_int32_t), parameter :: SIGNORINI_FULL = 2
+    integer(c_int32_t), parameter :: SIGNORINI_PROBLEM_COULOMB = 0
+    integer(c_int32_t), parameter :: SIGNORINI_PROBLEM_TRESCA = 1
+    integer(c_int32_t), parameter :: SIGNORINI_PROBLEM_LCP = 2
 
     type, bind(C) :: signorini_progress
         integer(c_int64_t) :: iterations = 0
@@ -322,6 +326,139 @@ module signorini
             real(c_double), intent(in) :: force(*)
             real(c_double), intent(out) :: nodal(*)
             integer(c_int32_t) :: answer
+        end function
+        function signorini_problem_save(path, dim, pairs, k, ldk, f, gap, mu, slip, remark) &
+            bind(C, name="signorini_problem_save") result(answer)
+            import
+            character(kind=c_char), intent(in) :: path(*)
+            integer(c_int32_t), value :: dim
+            integer(c_int64_t), value :: pairs
+            real(c_double), intent(in) :: k(*)
+            integer(c_int64_t), value :: ldk
+            real(c_double), intent(in) :: f(*)
+            real(c_double), intent(in) :: gap(*)
+            real(c_double), intent(in) :: mu(*)
+            type(c_ptr), value :: slip
+            type(c_ptr), value :: remark
+            integer(c_int32_t) :: answer
+        end function
+        function signorini_tresca_save(path, dim, pairs, k, ldk, f, gap, g, slip, remark) &
+            bind(C, name="signorini_tresca_save") result(answer)
+            import
+            character(kind=c_char), intent(in) :: path(*)
+            integer(c_int32_t), value :: dim
+            integer(c_int64_t), value :: pairs
+            real(c_double), intent(in) :: k(*)
+            integer(c_int64_t), value :: ldk
+            real(c_double), intent(in) :: f(*)
+            real(c_double), intent(in) :: gap(*)
+            real(c_double), intent(in) :: g(*)
+            type(c_ptr), value :: slip
+            type(c_ptr), value :: remark
+            integer(c_int32_t) :: answer
+        end function
+        function signorini_lcp_save(path, n, m, ldm, q, cover, remark) &
+            bind(C, name="signorini_lcp_save") result(answer)
+            import
+            character(kind=c_char), intent(in) :: path(*)
+            integer(c_int64_t), value :: n
+            real(c_double), intent(in) :: m(*)
+            integer(c_int64_t), value :: ldm
+            real(c_double), intent(in) :: q(*)
+            type(c_ptr), value :: cover
+            type(c_ptr), value :: remark
+            integer(c_int32_t) :: answer
+        end function
+        function signorini_model_save_case(model, path, f, prescribed, gap, mu, slip, remark) &
+            bind(C, name="signorini_model_save_case") result(answer)
+            import
+            type(c_ptr), value :: model
+            character(kind=c_char), intent(in) :: path(*)
+            type(c_ptr), value :: f
+            type(c_ptr), value :: prescribed
+            real(c_double), intent(in) :: gap(*)
+            real(c_double), intent(in) :: mu(*)
+            type(c_ptr), value :: slip
+            type(c_ptr), value :: remark
+            integer(c_int32_t) :: answer
+        end function
+        function signorini_problem_load(path, problem) &
+            bind(C, name="signorini_problem_load") result(answer)
+            import
+            character(kind=c_char), intent(in) :: path(*)
+            type(c_ptr), intent(out) :: problem
+            integer(c_int32_t) :: answer
+        end function
+        subroutine signorini_problem_free(problem) &
+            bind(C, name="signorini_problem_free")
+            import
+            type(c_ptr), value :: problem
+        end subroutine
+        function signorini_problem_kind(problem) &
+            bind(C, name="signorini_problem_kind") result(answer)
+            import
+            type(c_ptr), value :: problem
+            integer(c_int32_t) :: answer
+        end function
+        function signorini_problem_dim(problem) &
+            bind(C, name="signorini_problem_dim") result(answer)
+            import
+            type(c_ptr), value :: problem
+            integer(c_int32_t) :: answer
+        end function
+        function signorini_problem_pairs(problem) &
+            bind(C, name="signorini_problem_pairs") result(answer)
+            import
+            type(c_ptr), value :: problem
+            integer(c_int64_t) :: answer
+        end function
+        function signorini_problem_size(problem) &
+            bind(C, name="signorini_problem_size") result(answer)
+            import
+            type(c_ptr), value :: problem
+            integer(c_int64_t) :: answer
+        end function
+        function signorini_problem_matrix(problem) &
+            bind(C, name="signorini_problem_matrix") result(answer)
+            import
+            type(c_ptr), value :: problem
+            type(c_ptr) :: answer
+        end function
+        function signorini_problem_vector(problem) &
+            bind(C, name="signorini_problem_vector") result(answer)
+            import
+            type(c_ptr), value :: problem
+            type(c_ptr) :: answer
+        end function
+        function signorini_problem_gap(problem) &
+            bind(C, name="signorini_problem_gap") result(answer)
+            import
+            type(c_ptr), value :: problem
+            type(c_ptr) :: answer
+        end function
+        function signorini_problem_friction(problem) &
+            bind(C, name="signorini_problem_friction") result(answer)
+            import
+            type(c_ptr), value :: problem
+            type(c_ptr) :: answer
+        end function
+        function signorini_problem_slip(problem) &
+            bind(C, name="signorini_problem_slip") result(answer)
+            import
+            type(c_ptr), value :: problem
+            type(c_ptr) :: answer
+        end function
+        function signorini_problem_cover(problem) &
+            bind(C, name="signorini_problem_cover") result(answer)
+            import
+            type(c_ptr), value :: problem
+            type(c_ptr) :: answer
+        end function
+        function signorini_problem_remark(problem) &
+            bind(C, name="signorini_problem_remark") result(answer)
+            import
+            type(c_ptr), value :: problem
+            type(c_ptr) :: answer
         end function
     end interface
 

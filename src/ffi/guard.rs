@@ -53,6 +53,8 @@ thread_local! {
 pub(super) fn call(body: impl FnOnce() -> Result<i32, Failure>) -> i32 {
     let _environment = Environment::default_one();
     silence_panics();
+    #[cfg(all(target_os = "linux", target_env = "gnu"))]
+    super::static_link::keep();
     let outside = INSIDE.replace(true);
     remember(format_args!(""));
     // What a panic leaves half-written is the caller's results, undefined by contract.

@@ -21,4 +21,6 @@ mod model;
 mod report;
 mod save;
 mod settings;
+#[cfg(all(target_os = "linux", target_env = "gnu"))]
+mod static_link;
 mod status;
