@@ -8,7 +8,8 @@ set(libdir "${CMAKE_INSTALL_LIBDIR}")
 set(includedir "${CMAKE_INSTALL_INCLUDEDIR}")
 
 install(FILES "${root}/include/signorini.h" DESTINATION "${includedir}")
-install(FILES "${root}/include/signorini.f90" DESTINATION "${includedir}" OPTIONAL)
+install(FILES "${root}/include/signorini.f90" "${root}/include/signorini.inc"
+    DESTINATION "${includedir}")
 install(FILES "${static}" DESTINATION "${libdir}")
 
 # The shared library under its whole version; links for those who run and who link programs.

@@ -69,8 +69,9 @@ listing() { (cd "$1" && find . ! -type d | sort); }
 }
 cmp "$by_cmake/lib/libsignorini.a" "$by_script/lib/libsignorini.a" ||
     die "CMake and the script do not make the same static library"
-[ ! -f "$root/include/signorini.f90" ] || [ -f "$by_script/include/signorini.f90" ] ||
-    die "the Fortran module's source was not installed"
+for name in signorini.f90 signorini.inc; do
+    [ -f "$by_script/include/$name" ] || die "$name was not installed"
+done
 say "the same $(listing "$by_script" | wc -l) files by CMake and by the script, staged and not"
 
 # ---- libraries ----

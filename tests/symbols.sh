@@ -46,6 +46,7 @@ for name in sgsolv sgtres sgcert sglcps sgmodl sgtwob sgspar sgcase sgrecv sgnod
 ${name}_
 ${name}_64_"
 done
+declared=$(echo "$declared" | sort -u)
 
 # macOS puts an underscore in front of every name and has no versions of shared objects.
 if [ "$(uname -s)" = Darwin ]; then
