@@ -120,7 +120,8 @@ pub struct Solution {
     pub fallback: Option<(Method, Fallback)>,
     /// Whether it is the only solution.
     pub uniqueness: Uniqueness,
-    /// Another solution, if [`crate::Search::Others`] found one.
+    /// Another solution, if [`crate::Search::Others`] found one or the default method met an unstable
+    /// one on its way.
     pub second: Option<Box<Other>>,
     /// Sign of the determinant of the system of equations that the states select, 0 if not known.
     /// Over all solutions of a problem with positive definite `K` it adds up to +1.
