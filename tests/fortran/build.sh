@@ -29,9 +29,10 @@ compile() (
     name=$1
     kind=$2
     shift 2
-    # Modules of two programs that are built with other options must not meet.
+    # Modules of two programs that are built with other options must not meet: gfortran looks for
+    # them where it runs before it looks elsewhere.
     mkdir -p "$work/$name.mod"
-    cd "$work"
+    cd "$work/$name.mod"
     case $kind in
     static) set -- "$@" "$release/libsignorini.a" -lm -lpthread -ldl ;;
     # shellcheck disable=SC2016 # the linker's own variable
