@@ -10,11 +10,11 @@ program first
     character(len=5), parameter :: names(0:2) = ['open ', 'slip ', 'stick']
     real(c_double) :: d(4), force(4)
     integer :: state(2), info, i
-    character(len=:), allocatable :: message
+    character(len=200) :: message
 
     call contact_solve(k, f, gap, mu, d, force, info, state=state, tolerance=1d-12, message=message)
     if (info /= SIGNORINI_SOLVED) then
-        print '(a, i0, 2a)', 'status ', info, ': ', message
+        print '(a, i0, 2a)', 'status ', info, ': ', trim(message)
         stop 1
     end if
     do i = 1, 2

@@ -8,8 +8,8 @@
 ! default integers, find the sizes out by themselves and count from 1.
 !
 ! Of these, info is the status of signorini.h: 0 solved and certified; > 0 results were written but
-! are not a solution; < 0 an argument is wrong. message is a sentence that tells what and where; as
-! it is the library's own, entries in brackets count from 0 there: K[row,column].
+! are not a solution; < 0 an argument is wrong. message, of any length, is a sentence that tells
+! what and where; where it is the library's own, entries in it count from 0: K[row,column].
 module signorini
     use, intrinsic :: iso_c_binding
     implicit none
@@ -507,7 +507,7 @@ contains
         integer, intent(in), optional :: method, max_iterations
         real(c_double), intent(in), optional :: tolerance
         type(signorini_settings), intent(in), optional :: settings
-        character(len=:), allocatable, intent(out), optional :: message
+        character(len=*), intent(out), optional :: message
         call condensed(.false., k, f, gap, mu, d, force, info, slip, state, report, method, &
             tolerance, max_iterations, settings, message)
     end subroutine
@@ -525,7 +525,7 @@ contains
         integer, intent(in), optional :: method, max_iterations
         real(c_double), intent(in), optional :: tolerance
         type(signorini_settings), intent(in), optional :: settings
-        character(len=:), allocatable, intent(out), optional :: message
+        character(len=*), intent(out), optional :: message
         call condensed(.true., k, f, gap, g, d, force, info, slip, state, report, method, &
             tolerance, max_iterations, settings, message)
     end subroutine
@@ -543,7 +543,7 @@ contains
         integer, intent(in), optional :: method, max_iterations
         real(c_double), intent(in), optional :: tolerance
         type(signorini_settings), intent(in), optional :: settings
-        character(len=:), allocatable, intent(out), optional :: message
+        character(len=*), intent(out), optional :: message
         type(signorini_settings), target :: chosen
         type(signorini_report), target :: measured
         integer(c_int32_t), target :: states(size(gap))
@@ -591,7 +591,7 @@ contains
         integer, intent(out) :: info
         real(c_double), intent(in), contiguous, target, optional :: slip(:)
         type(signorini_report), intent(out), optional :: report
-        character(len=:), allocatable, intent(out), optional :: message
+        character(len=*), intent(out), optional :: message
         type(signorini_report), target :: measured
         integer(c_int32_t) :: status
         integer :: n, dim
@@ -619,7 +619,7 @@ contains
         type(signorini_report), intent(out), optional :: report
         integer, intent(in), optional :: method, max_iterations
         real(c_double), intent(in), optional :: tolerance
-        character(len=:), allocatable, intent(out), optional :: message
+        character(len=*), intent(out), optional :: message
         type(signorini_settings), target :: chosen
         type(signorini_report), target :: measured
         logical :: fits
@@ -638,7 +638,7 @@ contains
         integer, intent(in) :: dim
         real(c_double), intent(in), contiguous :: k(:, :)
         integer, intent(out) :: info
-        character(len=:), allocatable, intent(out), optional :: message
+        character(len=*), intent(out), optional :: message
         call self%release()
         self%dim = dim
         self%pairs = size(k, 2) / max(1, dim)
@@ -651,7 +651,7 @@ contains
         integer, intent(in) :: dim
         real(c_double), intent(in), contiguous :: k_a(:, :), k_b(:, :)
         integer, intent(out) :: info
-        character(len=:), allocatable, intent(out), optional :: message
+        character(len=*), intent(out), optional :: message
         call self%release()
         self%dim = dim
         self%pairs = size(k_a, 2) / max(1, dim)
@@ -675,7 +675,7 @@ contains
         integer, intent(out) :: info
         integer, intent(in), optional :: fixed(:), master_starts(:), masters(:, :)
         real(c_double), intent(in), contiguous, target, optional :: weights(:), tangents(:, :)
-        character(len=:), allocatable, intent(out), optional :: message
+        character(len=*), intent(out), optional :: message
         type(signorini_sparse) :: matrix
         type(signorini_pairs) :: pairs
         integer(c_int64_t), allocatable, target :: held(:), of_slaves(:, :), begins(:), of_masters(:, :)
@@ -752,7 +752,7 @@ contains
         integer, intent(in), optional :: method, max_iterations
         real(c_double), intent(in), optional :: tolerance
         type(signorini_settings), intent(in), optional :: settings
-        character(len=:), allocatable, intent(out), optional :: message
+        character(len=*), intent(out), optional :: message
         type(signorini_settings), target :: chosen
         type(signorini_report), target :: measured
         integer(c_int32_t), target :: states(self%pairs)
@@ -782,7 +782,7 @@ contains
         real(c_double), intent(out), contiguous :: u(:)
         integer, intent(out) :: info
         real(c_double), intent(in), contiguous, target, optional :: prescribed(:)
-        character(len=:), allocatable, intent(out), optional :: message
+        character(len=*), intent(out), optional :: message
         logical :: fits
         fits = size(f) == self%host_size() .and. size(u) == size(f) .and. size(d) == self%dim * self%pairs
         if (present(prescribed)) fits = fits .and. size(prescribed) == self%fixed
@@ -797,7 +797,7 @@ contains
         real(c_double), intent(in), contiguous :: force(:)
         real(c_double), intent(out), contiguous :: nodal(:)
         integer, intent(out) :: info
-        character(len=:), allocatable, intent(out), optional :: message
+        character(len=*), intent(out), optional :: message
         logical :: fits
         fits = size(nodal) == self%host_size() .and. size(force) == self%dim * self%pairs
         if (.not. fits) call refuse(info, 1, 'the model and the arrays do not fit each other', message)
@@ -818,7 +818,7 @@ contains
         integer, intent(out) :: info
         integer, intent(in) :: position
         character(len=*), intent(in) :: sentence
-        character(len=:), allocatable, intent(out), optional :: message
+        character(len=*), intent(out), optional :: message
         info = -position
         if (present(message)) message = sentence
     end subroutine
@@ -826,7 +826,7 @@ contains
     subroutine finish(status, info, message)
         integer(c_int32_t), intent(in) :: status
         integer, intent(out) :: info
-        character(len=:), allocatable, intent(out), optional :: message
+        character(len=*), intent(out), optional :: message
         info = int(status)
         if (present(message)) message = signorini_message()
     end subroutine

@@ -12,7 +12,7 @@ program bar_sparse
     real(dp), allocatable :: values(:)
     type(contact_model) :: model
     type(signorini_report) :: report
-    character(len=:), allocatable :: message
+    character(len=256) :: message
 
     call bar_assemble(i, j, value, load)
     call compress(i, j, value, starts, lines, values)
@@ -42,7 +42,7 @@ program bar_sparse
     if (abs(sum(nodal(2::2)) - 200) > 1d-8) stop 4
 contains
     subroutine give_up
-        print '(a, i0, 2a)', 'info = ', info, ': ', message
+        print '(a, i0, 2a)', 'info = ', info, ': ', trim(message)
         stop 1
     end subroutine
 

@@ -13,7 +13,7 @@ program mumps_schur
     integer :: error, info, p, state(pairs), row, column
     real(dp) :: k(n, n), f(n), gap(pairs), mu(pairs), d(n), force(n), turn(n)
     integer :: from(n)
-    character(len=:), allocatable :: message
+    character(len=256) :: message
 
     call mpi_init(error)
     id%comm = mpi_comm_world
@@ -54,7 +54,7 @@ program mumps_schur
     end do
     do column = 1, n
         do row = 1, n
-            ! With ICNTL(19) = 3 the lower triangle is complete.
+            ! Symmetric: one triangle of it will do.
             k(row, column) = turn(row)*turn(column) &
                 *id%schur(min(from(row), from(column)) + (max(from(row), from(column)) - 1)*n)
         end do
@@ -64,7 +64,7 @@ program mumps_schur
     mu = 1
     call contact_solve(k, f, gap, mu, d, force, info, state=state, tolerance=1d-13, message=message)
     if (info /= SIGNORINI_SOLVED) then
-        print '(a, i0, 2a)', 'info = ', info, ': ', message
+        print '(a, i0, 2a)', 'info = ', info, ': ', trim(message)
         stop 1
     end if
     call bar_print(state, d, force)
