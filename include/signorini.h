@@ -41,9 +41,9 @@
  * that can be mailed; signorini_problem_load gets it back with the same bits.
  *
  * The library never prints, exits, reads the environment, installs handlers or starts threads, and
- * it touches no file but the one that such a call names. It keeps your floating-point environment: traps and flush-to-zero are off inside and
- * back on return. Calls from several threads at once are safe. The same input gives the same bits
- * on the same machine.
+ * it touches no file but the one that such a call names. It keeps your floating-point environment:
+ * traps and flush-to-zero are off inside and back on return. Calls from several threads at once are
+ * safe. The same input gives the same bits on the same machine.
  */
 
 
