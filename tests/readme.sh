@@ -68,6 +68,15 @@ try "Fortran 77" gfortran
 try "Fortran 90" gfortran
 try Python "$python"
 
+# The README's numpy block, as it stands.
+if "$python" -c 'import numpy' 2>/dev/null; then
+    awk '$0 == "```python" { inside = 1; next } $0 == "```" { inside = 0 } inside' README.md \
+        >"$work/block.py"
+    PYTHONDONTWRITEBYTECODE=1 PYTHONPATH=$root/c_examples "$python" "$work/block.py" >"$work/printed"
+    grep -q '^solved' "$work/printed"
+    echo "README, the bar in numpy: $(head -n 1 "$work/printed" | cut -c 1-30)"
+fi
+
 # The guide's blocks, one file each, and the program that calls them.
 for number in 1 2; do
     awk -v want="$number" '$0 == "```c" { inside = ++number == want; next } $0 == "```" { inside = 0 }
