@@ -17,6 +17,10 @@ import signorini
 class Progress(unittest.TestCase):
     slow = {"method": "sor_nested", "omega": 1e-6, "max_iterations": 10**9, "tolerance": 1e-15}
 
+    def setUp(self):
+        # A program that was started in the background ignores Ctrl-C.
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+
     def test_is_told_and_cancels(self):
         told = []
         result = signorini.solve(*chain(), 0.01, 0.3, **self.slow,
