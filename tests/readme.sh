@@ -17,7 +17,8 @@ cd "$root"
 command -v cargo >/dev/null || PATH=$PATH:${CARGO_HOME:-${HOME:-/root}/.cargo}/bin
 CARGO_TARGET_DIR=$root/target
 CARGO_TERM_QUIET=true
-export CARGO_TARGET_DIR CARGO_TERM_QUIET
+PYTHONDONTWRITEBYTECODE=1 # nothing beside the sources
+export CARGO_TARGET_DIR CARGO_TERM_QUIET PYTHONDONTWRITEBYTECODE
 
 grep '^pair ' README.md >"$work/expected"
 [ -s "$work/expected" ]
@@ -72,7 +73,7 @@ try Python "$python"
 if "$python" -c 'import numpy' 2>/dev/null; then
     awk '$0 == "```python" { inside = 1; next } $0 == "```" { inside = 0 } inside' README.md \
         >"$work/block.py"
-    PYTHONDONTWRITEBYTECODE=1 PYTHONPATH=$root/c_examples "$python" "$work/block.py" >"$work/printed"
+    PYTHONPATH=$root/c_examples "$python" "$work/block.py" >"$work/printed"
     grep -q '^solved' "$work/printed"
     echo "README, the bar in numpy: $(head -n 1 "$work/printed" | cut -c 1-30)"
 fi
