@@ -3,7 +3,7 @@
 //! The law is piecewise linear: the equations of a piece of every pair are solved exactly, and the
 //! solution tells the next pieces. When they are the same again it is the solution of the problem,
 //! to rounding. Two sweeps between a solution and its pieces carry a zone's edge over many pairs,
-//! where Newton's step alone moves it by one: 4 to 10 systems on the bar on the plane up to 513 pairs,
+//! where Newton's step alone moves it by one: 3 to 11 systems on the bar on the plane up to 513 pairs,
 //! 5 to 24 without. Nothing makes the steps descend: they may cycle, which is recognised, when pieces
 //! come that were there before.
 
