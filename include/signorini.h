@@ -221,7 +221,8 @@
 #define SIGNORINI_FALLBACK_SINGULAR 2
 
 /**
- * The first method found a solution of orientation -1, beside which there are others.
+ * The first method found a solution of orientation -1, beside which there are others if K is
+ * positive definite.
  */
 #define SIGNORINI_FALLBACK_UNSTABLE 3
 
@@ -292,8 +293,8 @@ typedef struct signorini_progress {
 } signorini_progress;
 
 /**
- * Called before each sweep, pivot or linear system; a nonzero result cancels the call (SIGNORINI_CANCELLED).
- * It runs on the calling thread in the default floating-point environment. It must return: no
+ * Called before each sweep, pivot or linear system; a nonzero result cancels the call
+ * (SIGNORINI_CANCELLED). It runs on the calling thread in the default floating-point environment. It must return: no
  * longjmp, no exception, and no call of this library.
  */
 typedef int32_t (*signorini_progress_fn)(void *user, const struct signorini_progress *progress);
@@ -333,8 +334,9 @@ typedef struct signorini_settings {
    */
   double time_limit;
   /**
-   * Nonzero: the method starts from what d holds; default 0: it starts from zero. Newton's method
-   * and block pivoting start from the states that d has; Lemke's method does not use a start.
+   * Nonzero: the method starts from what d holds, Newton's and block pivoting from the states that
+   * it has. Default 0: sweeps start from zero, these two from all pairs in contact and at rest.
+   * Lemke's method does not use a start.
    */
   int32_t warm_start;
   /**

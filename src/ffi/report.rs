@@ -29,7 +29,8 @@ pub const SIGNORINI_FALLBACK_NONE: i32 = 0;
 pub const SIGNORINI_FALLBACK_CYCLE: i32 = 1;
 /// The first method met a singular system.
 pub const SIGNORINI_FALLBACK_SINGULAR: i32 = 2;
-/// The first method found a solution of orientation -1, beside which there are others.
+/// The first method found a solution of orientation -1, beside which there are others if K is
+/// positive definite.
 pub const SIGNORINI_FALLBACK_UNSTABLE: i32 = 3;
 /// The first method found no accurate solution.
 pub const SIGNORINI_FALLBACK_INACCURATE: i32 = 4;

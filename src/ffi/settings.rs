@@ -43,8 +43,8 @@ pub struct SignoriniProgress {
     pub elapsed: f64,
 }
 
-/// Called before each sweep, pivot or linear system; a nonzero result cancels the call (SIGNORINI_CANCELLED).
-/// It runs on the calling thread in the default floating-point environment. It must return: no
+/// Called before each sweep, pivot or linear system; a nonzero result cancels the call
+/// (SIGNORINI_CANCELLED). It runs on the calling thread in the default floating-point environment. It must return: no
 /// longjmp, no exception, and no call of this library.
 pub type SignoriniProgressFn =
     Option<unsafe extern "C" fn(user: *mut c_void, progress: *const SignoriniProgress) -> i32>;
@@ -69,8 +69,9 @@ pub struct SignoriniSettings {
     pub max_iterations: i64,
     /// Most seconds of wall time; 0, the default, and infinity: no limit.
     pub time_limit: f64,
-    /// Nonzero: the method starts from what d holds; default 0: it starts from zero. Newton's method
-    /// and block pivoting start from the states that d has; Lemke's method does not use a start.
+    /// Nonzero: the method starts from what d holds, Newton's and block pivoting from the states that
+    /// it has. Default 0: sweeps start from zero, these two from all pairs in contact and at rest.
+    /// Lemke's method does not use a start.
     pub warm_start: i32,
     /// SIGNORINI_SEARCH_...: what to find out about other solutions; default SIGNORINI_SEARCH_OFF.
     pub search: i32,

@@ -25,6 +25,9 @@ use crate::settings::Settings;
 /// What is proved must be true by more than rounding.
 const MARGIN: f64 = 1e-6;
 
+/// Pairs whose piece is changed, one at a time, in the search for other solutions.
+const NEIGHBOURS: usize = 32;
+
 /// Finds out whether `solution` is the only one, as far as it can.
 pub fn examine(
     problem: &ContactProblem<'_>,
@@ -66,9 +69,6 @@ pub fn by_orientation(problem: &ContactProblem<'_>, solution: &mut Solution) {
     }
 }
 
-/// Pairs whose piece is changed, one at a time, in the search for other solutions.
-const NEIGHBOURS: usize = 32;
-
 /// Whether two displacements, solutions to rounding, are different ones: by their pieces, and by
 /// more than the rounding of a system of condition 1e9.
 pub fn are_different(problem: &ContactProblem<'_>, one: &[f64], two: &[f64]) -> bool {
@@ -85,7 +85,8 @@ pub fn are_different(problem: &ContactProblem<'_>, one: &[f64], two: &[f64]) -> 
 }
 
 /// A solution other than `known`, if one is found: by Newton's method from all pairs at rest, open
-/// or sliding, and by Lemke's with several starts, from where its path turns too.
+/// or sliding, by Lemke's with several starts and from where its path turns, and by Newton's from
+/// pieces next to the known ones.
 fn another(
     problem: &ContactProblem<'_>,
     settings: &Settings,
