@@ -21,7 +21,7 @@
 
 use crate::law::{self, Pair, State};
 use crate::linalg::small::{largest, norm};
-use crate::problem::{ContactProblem, Friction};
+use crate::problem::{ContactProblem, FrictionLaw};
 
 /// The measures of one candidate, forces and displacements in the units of the problem.
 #[derive(Clone, Debug)]
@@ -132,15 +132,15 @@ pub fn is_escape(problem: &ContactProblem<'_>, r: &[f64]) -> bool {
     }
     let mut resisted = 0.0;
     for pair in 0..problem.pairs() {
-        if problem.gap(pair) == f64::INFINITY && matches!(problem.friction(), Friction::Coulomb(_))
-        {
+        if problem.gap(pair) == f64::INFINITY && !matches!(problem.law(), FrictionLaw::Tresca(_)) {
             continue;
         }
         let i = problem.dim() * pair;
         let slide = law::length(&r[i + 1..i + problem.dim()]);
-        let lift = match problem.friction() {
-            Friction::Coulomb(mu) => mu[pair] * slide,
-            Friction::Tresca(g) => {
+        let lift = match problem.law() {
+            FrictionLaw::Frictionless => 0.0,
+            FrictionLaw::Coulomb(mu) => mu[pair] * slide,
+            FrictionLaw::Tresca(g) => {
                 resisted += g[pair] * slide;
                 0.0
             }
@@ -189,7 +189,7 @@ fn rounding(problem: &ContactProblem<'_>, d: &[f64]) -> (f64, f64) {
             prescribed = prescribed.max(gap.abs());
         }
         for component in 0..dim - 1 {
-            prescribed = prescribed.max(problem.previous_slip(pair, component).abs());
+            prescribed = prescribed.max(problem.reference_slip(pair, component).abs());
         }
     }
     let unit = f64::EPSILON / 2.0;
@@ -221,7 +221,7 @@ fn for_each_pair(
         let (d, raw) = (&d[range.clone()], &raw[range]);
         let mut slip = [0.0; 2];
         for (component, slip) in slip[..dim - 1].iter_mut().enumerate() {
-            *slip = d[1 + component] - problem.previous_slip(index, component);
+            *slip = d[1 + component] - problem.reference_slip(index, component);
         }
         let pair = Pair {
             opening: d[0] - problem.gap(index),

@@ -19,10 +19,10 @@ pub enum Argument {
     Load,
     /// Initial gaps.
     Gap,
-    /// Friction coefficients, or the thresholds of a Tresca problem.
-    Friction,
+    /// Parameters of the friction law: coefficients or thresholds.
+    Law,
     /// Slip accumulated before this load case.
-    PreviousSlip,
+    ReferenceSlip,
     /// Covering vector of Lemke's method.
     Covering,
     /// Settings.

@@ -20,7 +20,7 @@
 //! force changes nothing but the units of the answer.
 //!
 //! ```
-//! use signorini::{ContactData, ContactProblem, Friction, Monitor, Settings, State, Status, solve};
+//! use signorini::{ContactData, ContactProblem, FrictionLaw, Monitor, Settings, State, Status, solve};
 //!
 //! // One pair pressed on a plane by 2 and pushed along it by 1.
 //! let problem = ContactProblem::new(ContactData {
@@ -30,8 +30,8 @@
 //!     ld: 2,
 //!     load: &[2.0, 1.0],
 //!     gap: &[0.0],
-//!     friction: Friction::Coulomb(&[0.3]),
-//!     previous_slip: None,
+//!     law: FrictionLaw::Coulomb(&[0.3]),
+//!     reference_slip: None,
 //! })?;
 //! let settings = Settings::default();
 //! let solution = solve(&problem, &settings, None, &mut Monitor::new(&settings, None))?;
@@ -61,7 +61,9 @@ pub use error::{Argument, Error};
 pub use law::State;
 pub use lcp::Lcp;
 pub use model::{LoadCase, Model};
-pub use monitor::{Interruption, Monitor, Progress, ProgressFn};
-pub use problem::{ContactData, ContactProblem, Friction};
+pub use monitor::{Monitor, Progress, ProgressFn, Stop};
+pub use problem::{ContactData, ContactProblem, FrictionLaw};
 pub use settings::{Method, Search, Settings};
-pub use solve::{Fallback, LcpSolution, Other, Solution, Status, Uniqueness, solve, solve_lcp};
+pub use solve::{
+    Fallback, LcpSolution, SecondSolution, Solution, Status, Uniqueness, solve, solve_lcp,
+};

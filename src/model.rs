@@ -6,8 +6,8 @@ use crate::error::{Argument, Error};
 use crate::file;
 use crate::matrix::{self, SymmetricMatrix};
 use crate::monitor::Monitor;
-use crate::problem::{ContactData, ContactProblem, Friction};
-use crate::reduce::{Interface, SparseMatrix, SparseReduction, TwoBodyReduction};
+use crate::problem::{ContactData, ContactProblem, FrictionLaw};
+use crate::reduce::{ContactPairs, SparseMatrix, SparseReduction, TwoBodyReduction};
 use crate::settings::Settings;
 use crate::solve::{Solution, solve};
 
@@ -34,9 +34,9 @@ pub struct LoadCase<'a> {
     /// Gaps of the pairs.
     pub gap: &'a [f64],
     /// Friction of the pairs.
-    pub friction: Friction<'a>,
+    pub law: FrictionLaw<'a>,
     /// Tangential displacement at rest, `dim - 1` for each pair; `None`: zero.
-    pub previous_slip: Option<&'a [f64]>,
+    pub reference_slip: Option<&'a [f64]>,
 }
 
 impl Model {
@@ -78,7 +78,7 @@ impl Model {
     pub fn sparse(
         matrix: &SparseMatrix<'_>,
         fixed: &[usize],
-        interface: &Interface<'_>,
+        interface: &ContactPairs<'_>,
     ) -> Result<Self, Error> {
         let reduction = SparseReduction::new(matrix, fixed, interface)?;
         let reduction = Reduction::Sparse(Box::new(reduction));
@@ -147,14 +147,14 @@ impl Model {
     /// Writes the contact problem that [`Self::solve`] solves for a load case to a file.
     ///
     /// # Errors
-    /// As [`Self::solve`] for the load case, and as [`file::save`].
-    pub fn save_case(
+    /// As [`Self::solve`] for the load case, and as [`file::write`].
+    pub fn write_case(
         &self,
         path: &Path,
         case: &LoadCase<'_>,
         remark: Option<&str>,
     ) -> Result<(), Error> {
-        self.reduced(case, |problem| file::save(path, problem, remark))
+        self.reduced(case, |problem| file::write(path, problem, remark))
     }
 
     /// Hands over the contact problem of a load case.
@@ -169,7 +169,7 @@ impl Model {
             Reduction::TwoBody(reduction) => reduction.condense(case.load),
             Reduction::Sparse(reduction) => reduction.condense(case.load, case.prescribed),
         };
-        let slip = case.previous_slip.map(|slip| self.allowed_slip(slip));
+        let slip = case.reference_slip.map(|slip| self.allowed_slip(slip));
         let problem = ContactProblem::on_checked_matrix(ContactData {
             dim: self.dim,
             pairs: self.pairs,
@@ -177,8 +177,8 @@ impl Model {
             ld: (self.dim * self.pairs).max(1),
             load: &load,
             gap: case.gap,
-            friction: case.friction,
-            previous_slip: slip.as_deref(),
+            law: case.law,
+            reference_slip: slip.as_deref(),
         })?;
         to(&problem)
     }

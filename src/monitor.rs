@@ -18,7 +18,7 @@ pub struct Progress {
 
 /// Why a solver was told to stop before it was done.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Interruption {
+pub enum Stop {
     /// `max_iterations` is used up.
     IterationLimit,
     /// `time_limit` is used up.
@@ -81,19 +81,19 @@ impl<'a> Monitor<'a> {
     }
 
     /// To be called before each sweep or pivot: counts it, or says why it may not be done.
-    pub(crate) fn step(&mut self) -> Result<(), Interruption> {
+    pub(crate) fn step(&mut self) -> Result<(), Stop> {
         if self.iterations >= self.max_iterations {
-            return Err(Interruption::IterationLimit);
+            return Err(Stop::IterationLimit);
         }
         let timed = self.time_limit.is_finite() || self.progress.is_some();
         let elapsed = if timed { self.begin.elapsed().as_secs_f64() } else { 0.0 };
         if elapsed > self.time_limit {
-            return Err(Interruption::TimeLimit);
+            return Err(Stop::TimeLimit);
         }
         if let Some(progress) = self.progress.as_mut() {
             let now = Progress { iterations: self.iterations, eta: self.eta, elapsed };
             if progress(&now).is_break() {
-                return Err(Interruption::Cancelled);
+                return Err(Stop::Cancelled);
             }
         }
         self.iterations += 1;

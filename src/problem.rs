@@ -17,17 +17,28 @@ use crate::matrix::{self, SymmetricMatrix};
 
 /// The bound on the tangential force of each pair.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Friction<'a> {
+pub enum FrictionLaw<'a> {
+    /// No friction: `F_t = 0`.
+    Frictionless,
     /// Coulomb: `|F_t| <= mu |F_n|`, one coefficient `mu >= 0` for each pair.
     Coulomb(&'a [f64]),
     /// Tresca: `|F_t| <= g`, one threshold `g >= 0` (a force) for each pair, open or closed.
     Tresca(&'a [f64]),
 }
 
-impl<'a> Friction<'a> {
+impl<'a> FrictionLaw<'a> {
     fn values(&self) -> &'a [f64] {
         match *self {
-            Friction::Coulomb(values) | Friction::Tresca(values) => values,
+            FrictionLaw::Frictionless => &[],
+            FrictionLaw::Coulomb(values) | FrictionLaw::Tresca(values) => values,
+        }
+    }
+
+    /// Number of parameters of each pair.
+    pub fn parameters(&self) -> usize {
+        match self {
+            FrictionLaw::Frictionless => 0,
+            FrictionLaw::Coulomb(_) | FrictionLaw::Tresca(_) => 1,
         }
     }
 
@@ -53,10 +64,10 @@ pub struct ContactData<'a> {
     /// Initial gaps, `pairs`; negative: interference, `+inf`: never touches.
     pub gap: &'a [f64],
     /// Friction coefficients or thresholds.
-    pub friction: Friction<'a>,
+    pub law: FrictionLaw<'a>,
     /// Tangential displacement at which friction is at rest, `(dim - 1) * pairs`;
     /// `None` is zero (the paper's total law).
-    pub previous_slip: Option<&'a [f64]>,
+    pub reference_slip: Option<&'a [f64]>,
 }
 
 /// A checked contact problem, a view of the caller's arrays.
@@ -100,9 +111,9 @@ impl<'a> ContactProblem<'a> {
         let data = problem.data;
         check_finite(Argument::Load, "f", data.load)?;
         check_gaps(data.gap)?;
-        check_friction(data.friction)?;
-        if let Some(slip) = data.previous_slip {
-            check_finite(Argument::PreviousSlip, "slip", slip)?;
+        check_friction(data.law)?;
+        if let Some(slip) = data.reference_slip {
+            check_finite(Argument::ReferenceSlip, "slip", slip)?;
         }
         Ok(problem)
     }
@@ -113,11 +124,11 @@ impl<'a> ContactProblem<'a> {
     }
 
     /// The same problem under another friction law.
-    pub(crate) fn with_friction<'b>(&self, friction: Friction<'b>) -> ContactProblem<'b>
+    pub(crate) fn with_law<'b>(&self, law: FrictionLaw<'b>) -> ContactProblem<'b>
     where
         'a: 'b,
     {
-        ContactProblem { data: ContactData { friction, ..self.data } }
+        ContactProblem { data: ContactData { law, ..self.data } }
     }
 
     /// Components of a pair: the space dimension `D`, 2 or 3.
@@ -172,25 +183,26 @@ impl<'a> ContactProblem<'a> {
     }
 
     /// The friction law.
-    pub fn friction(&self) -> Friction<'a> {
-        self.data.friction
+    pub fn law(&self) -> FrictionLaw<'a> {
+        self.data.law
     }
 
     /// Tangential displacement at rest of a pair; `component` counts from 0 to `D - 2`.
-    pub fn previous_slip(&self, pair: usize, component: usize) -> f64 {
-        self.data.previous_slip.map_or(0.0, |slip| slip[(self.data.dim - 1) * pair + component])
+    pub fn reference_slip(&self, pair: usize, component: usize) -> f64 {
+        self.data.reference_slip.map_or(0.0, |slip| slip[(self.data.dim - 1) * pair + component])
     }
 
     /// Whether friction is at rest at zero displacement everywhere.
-    pub fn has_no_previous_slip(&self) -> bool {
-        self.data.previous_slip.is_none_or(|slip| slip.iter().all(|&slip| slip == 0.0))
+    pub fn has_no_reference_slip(&self) -> bool {
+        self.data.reference_slip.is_none_or(|slip| slip.iter().all(|&slip| slip == 0.0))
     }
 
     /// Bound on the tangential force of a pair that carries the pressure `pressure >= 0`.
     pub fn threshold(&self, pair: usize, pressure: f64) -> f64 {
-        match self.data.friction {
-            Friction::Coulomb(mu) => mu[pair] * pressure,
-            Friction::Tresca(g) => g[pair],
+        match self.data.law {
+            FrictionLaw::Frictionless => 0.0,
+            FrictionLaw::Coulomb(mu) => mu[pair] * pressure,
+            FrictionLaw::Tresca(g) => g[pair],
         }
     }
 
@@ -223,16 +235,17 @@ impl<'a> ContactProblem<'a> {
 
     /// Without what arrays have beyond their lengths.
     fn trimmed(self) -> Self {
-        let ContactData { dim, pairs, load, gap, friction, previous_slip, .. } = self.data;
-        let friction = match friction {
-            Friction::Coulomb(mu) => Friction::Coulomb(&mu[..pairs]),
-            Friction::Tresca(g) => Friction::Tresca(&g[..pairs]),
+        let ContactData { dim, pairs, load, gap, law, reference_slip, .. } = self.data;
+        let law = match law {
+            FrictionLaw::Frictionless => law,
+            FrictionLaw::Coulomb(mu) => FrictionLaw::Coulomb(&mu[..pairs]),
+            FrictionLaw::Tresca(g) => FrictionLaw::Tresca(&g[..pairs]),
         };
         let data = ContactData {
             load: &load[..dim * pairs],
             gap: &gap[..pairs],
-            friction,
-            previous_slip: previous_slip.map(|slip| &slip[..(dim - 1) * pairs]),
+            law,
+            reference_slip: reference_slip.map(|slip| &slip[..(dim - 1) * pairs]),
             ..self.data
         };
         ContactProblem { data }
@@ -242,14 +255,19 @@ impl<'a> ContactProblem<'a> {
         let ContactData { dim, pairs, ld, .. } = self.data;
         let entries = matrix::entries("K", n, ld)
             .map_err(|message| Error::invalid(Argument::LeadingDimension, message))?;
-        let slip = self.data.previous_slip;
+        let slip = self.data.reference_slip;
         let lengths = [
             (Argument::Matrix, "K", self.data.stiffness.len(), entries),
             (Argument::Load, "f", self.data.load.len(), n),
             (Argument::Gap, "gap", self.data.gap.len(), pairs),
-            (Argument::Friction, "friction", self.data.friction.values().len(), pairs),
             (
-                Argument::PreviousSlip,
+                Argument::Law,
+                "friction",
+                self.data.law.values().len(),
+                self.data.law.parameters() * pairs,
+            ),
+            (
+                Argument::ReferenceSlip,
                 "slip",
                 slip.map_or((dim - 1) * pairs, <[f64]>::len),
                 (dim - 1) * pairs,
@@ -284,15 +302,16 @@ fn check_gaps(gap: &[f64]) -> Result<(), Error> {
     }
 }
 
-fn check_friction(friction: Friction<'_>) -> Result<(), Error> {
+fn check_friction(friction: FrictionLaw<'_>) -> Result<(), Error> {
     let name = match friction {
-        Friction::Coulomb(_) => "mu",
-        Friction::Tresca(_) => "g",
+        FrictionLaw::Frictionless => return Ok(()),
+        FrictionLaw::Coulomb(_) => "mu",
+        FrictionLaw::Tresca(_) => "g",
     };
-    check_finite(Argument::Friction, name, friction.values())?;
+    check_finite(Argument::Law, name, friction.values())?;
     match friction.values().iter().position(|&value| value < 0.0) {
         Some(i) => Err(Error::invalid(
-            Argument::Friction,
+            Argument::Law,
             format!("{name}[{i}] is {}, it must not be negative", friction.values()[i]),
         )),
         None => Ok(()),

@@ -5,7 +5,7 @@ use crate::error::{Argument, Error};
 /// The algorithm to run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Method {
-    /// Chooses, checks and falls back: [`Method::Pivot`] without friction, [`Method::Newton`] with
+    /// Chooses, checks and falls back: [`Method::BlockPivoting`] without friction, [`Method::Newton`] with
     /// it, then [`Method::Lemke`], then sweeps. The default.
     Auto,
     /// Coulomb friction as a sequence of Tresca problems, each by projected SOR
@@ -16,7 +16,7 @@ pub enum Method {
     /// Lemke's method, without friction (paper, section 2.2) or with it in 2D.
     Lemke,
     /// Block principal pivoting, without friction.
-    Pivot,
+    BlockPivoting,
     /// Active-set Newton on the states of the pairs, in 2D.
     Newton,
 }

@@ -1,8 +1,8 @@
 //! Bad input is refused, with the argument and the entry named.
 
 use signorini::{
-    Argument, ContactData, ContactProblem, Error, Friction, Lcp, Method, Monitor, Settings, solve,
-    solve_lcp,
+    Argument, ContactData, ContactProblem, Error, FrictionLaw, Lcp, Method, Monitor, Settings,
+    solve, solve_lcp,
 };
 
 /// Two pairs in 2D that nothing is wrong with.
@@ -20,8 +20,8 @@ const GOOD: ContactData<'static> = ContactData {
     ld: 4,
     load: &[1.0, 0.5, 1.0, -0.5],
     gap: &[0.0, 0.1],
-    friction: Friction::Coulomb(&[0.3, 0.3]),
-    previous_slip: Some(&[0.0, 0.1]),
+    law: FrictionLaw::Coulomb(&[0.3, 0.3]),
+    reference_slip: Some(&[0.0, 0.1]),
 };
 
 fn expect(error: Option<Error>, argument: Argument, parts: &[&str]) {
@@ -77,11 +77,11 @@ fn refuses_arrays_that_are_too_short() {
     refuses(ContactData { stiffness: &K[..15], ..GOOD }, Argument::Matrix, &["K", "15", "16"]);
     refuses(ContactData { load: &[1.0; 3], ..GOOD }, Argument::Load, &["f", "3", "4"]);
     refuses(ContactData { gap: &[0.0], ..GOOD }, Argument::Gap, &["gap", "1", "2"]);
-    for friction in [Friction::Coulomb(&[0.1]), Friction::Tresca(&[0.1])] {
-        refuses(ContactData { friction, ..GOOD }, Argument::Friction, &["1", "2"]);
+    for friction in [FrictionLaw::Coulomb(&[0.1]), FrictionLaw::Tresca(&[0.1])] {
+        refuses(ContactData { law: friction, ..GOOD }, Argument::Law, &["1", "2"]);
     }
-    let previous_slip = Some(&[0.0][..]);
-    refuses(ContactData { previous_slip, ..GOOD }, Argument::PreviousSlip, &["slip", "1", "2"]);
+    let reference_slip = Some(&[0.0][..]);
+    refuses(ContactData { reference_slip, ..GOOD }, Argument::ReferenceSlip, &["slip", "1", "2"]);
 }
 
 #[test]
@@ -91,12 +91,12 @@ fn refuses_numbers_that_are_not_finite() {
         refuses(ContactData { stiffness: &k, ..GOOD }, Argument::Matrix, &["K[3,2]"]);
         refuses(ContactData { load: &load, ..GOOD }, Argument::Load, &["f[2]"]);
         let pair = [0.0, bad];
-        let data = ContactData { previous_slip: Some(&pair), ..GOOD };
-        refuses(data, Argument::PreviousSlip, &["slip[1]"]);
-        let data = ContactData { friction: Friction::Coulomb(&pair), ..GOOD };
-        refuses(data, Argument::Friction, &["mu[1]"]);
-        let data = ContactData { friction: Friction::Tresca(&pair), ..GOOD };
-        refuses(data, Argument::Friction, &["g[1]"]);
+        let data = ContactData { reference_slip: Some(&pair), ..GOOD };
+        refuses(data, Argument::ReferenceSlip, &["slip[1]"]);
+        let data = ContactData { law: FrictionLaw::Coulomb(&pair), ..GOOD };
+        refuses(data, Argument::Law, &["mu[1]"]);
+        let data = ContactData { law: FrictionLaw::Tresca(&pair), ..GOOD };
+        refuses(data, Argument::Law, &["g[1]"]);
         if bad != f64::INFINITY {
             refuses(ContactData { gap: &pair, ..GOOD }, Argument::Gap, &["gap[1]"]);
         }
@@ -106,12 +106,12 @@ fn refuses_numbers_that_are_not_finite() {
 
 #[test]
 fn refuses_negative_friction() {
-    let friction = Friction::Coulomb(&[0.3, -0.25]);
-    refuses(ContactData { friction, ..GOOD }, Argument::Friction, &["mu[1]", "-0.25"]);
-    let friction = Friction::Tresca(&[-1e-300, 0.0]);
-    refuses(ContactData { friction, ..GOOD }, Argument::Friction, &["g[0]"]);
-    let friction = Friction::Coulomb(&[-0.0, 0.0]);
-    assert!(ContactProblem::new(ContactData { friction, ..GOOD }).is_ok());
+    let friction = FrictionLaw::Coulomb(&[0.3, -0.25]);
+    refuses(ContactData { law: friction, ..GOOD }, Argument::Law, &["mu[1]", "-0.25"]);
+    let friction = FrictionLaw::Tresca(&[-1e-300, 0.0]);
+    refuses(ContactData { law: friction, ..GOOD }, Argument::Law, &["g[0]"]);
+    let friction = FrictionLaw::Coulomb(&[-0.0, 0.0]);
+    assert!(ContactProblem::new(ContactData { law: friction, ..GOOD }).is_ok());
 }
 
 #[test]
@@ -172,22 +172,22 @@ fn refuses_methods_that_do_not_fit() {
         stiffness: &identity,
         ld: 6,
         load: &[1.0; 6],
-        previous_slip: None,
+        reference_slip: None,
         ..GOOD
     };
     let refuses = |data: ContactData<'_>, friction, method, parts: &[&str]| {
-        let problem = ContactProblem::new(ContactData { friction, ..data }).unwrap();
+        let problem = ContactProblem::new(ContactData { law: friction, ..data }).unwrap();
         let settings = Settings { method, ..Settings::default() };
         let error = solve(&problem, &settings, None, &mut Monitor::new(&settings, None)).err();
         expect(error, Argument::Settings, parts);
     };
-    let (mu, g) = (Friction::Coulomb(&[0.0, 0.1]), Friction::Tresca(&[0.1, 0.0]));
+    let (mu, g) = (FrictionLaw::Coulomb(&[0.0, 0.1]), FrictionLaw::Tresca(&[0.1, 0.0]));
     refuses(space, mu, Method::Lemke, &["frictionless", "friction in 2D"]);
     refuses(space, g, Method::Lemke, &["frictionless", "2D"]);
-    refuses(GOOD, mu, Method::Pivot, &["block pivoting", "every mu must be 0"]);
-    refuses(GOOD, g, Method::Pivot, &["block pivoting", "every g must be 0"]);
+    refuses(GOOD, mu, Method::BlockPivoting, &["block pivoting", "every mu must be 0"]);
+    refuses(GOOD, g, Method::BlockPivoting, &["block pivoting", "every g must be 0"]);
     refuses(space, mu, Method::Newton, &["Newton", "2D"]);
-    refuses(space, Friction::Coulomb(&[0.0; 2]), Method::Newton, &["Newton", "2D"]);
+    refuses(space, FrictionLaw::Coulomb(&[0.0; 2]), Method::Newton, &["Newton", "2D"]);
     refuses(GOOD, g, Method::SorDiagonal, &["thresholds"]);
 
     let lcp = Lcp::new(1, &[1.0], 1, &[-1.0], None).unwrap();

@@ -16,19 +16,19 @@ const ALL: [Method; 6] = [
     Method::SorNested,
     Method::SorDiagonal,
     Method::Lemke,
-    Method::Pivot,
+    Method::BlockPivoting,
     Method::Newton,
 ];
 
 /// Problems that the method solves, with friction that has one solution, and some work to do.
 fn problems(method: Method) -> Vec<Case> {
     let laws: &[fn(&mut Rng, usize) -> Law] = match method {
-        Method::Pivot => &[|_, pairs| frictionless(pairs)],
+        Method::BlockPivoting => &[|_, pairs| frictionless(pairs)],
         Method::SorDiagonal => &[|rng, pairs| coulomb(rng, pairs, 0.1), |_, n| frictionless(n)],
         _ => &[|rng, pairs| coulomb(rng, pairs, 0.3), |_, n| frictionless(n), tresca],
     };
     // Of harder ones block pivoting needs more than one system.
-    let (least, condition) = if method == Method::Pivot { (12, 1e4) } else { (4, 30.0) };
+    let (least, condition) = if method == Method::BlockPivoting { (12, 1e4) } else { (4, 30.0) };
     let make = |seed: u64| {
         let mut rng = Rng::with_seed(seed);
         let pairs = rng.usize(least..=least + 8);

@@ -18,17 +18,17 @@ fn settings(method: Method, max_iterations: u64) -> Settings {
 fn block_pivoting_solves_every_definite_frictionless_problem() {
     let make = |rng: &mut Rng| definite_case(rng, 6.0, |_, pairs| frictionless(pairs));
     let solved = |verdict| verdict == Verdict::Solved;
-    run(2000, settings(Method::Pivot, 1000), make, solved);
+    run(2000, settings(Method::BlockPivoting, 1000), make, solved);
     // Bodies that only contact holds meet singular systems: never wrong.
     let make = |rng: &mut Rng| floating_case(rng, 6.0, |_, pairs| frictionless(pairs));
-    let unsolved = run(2000, settings(Method::Pivot, 1000), make, |_| true);
+    let unsolved = run(2000, settings(Method::BlockPivoting, 1000), make, |_| true);
     println!("{unsolved} of 2000 floating ones unsolved");
 }
 
 /// With a covering vector that presses and holds every pair a ray leaves no room: it would be a
 /// motion `v` with `v.K v <= 0`. So Lemke's method solves every definite problem with friction.
 #[test]
-fn lemke_solves_every_definite_problem_with_friction() {
+fn lemke_solves_every_definite_problem_with_law() {
     let make = |rng: &mut Rng| definite_case(rng, 6.0, |rng, pairs| coulomb(rng, pairs, 5.0));
     run(2000, settings(Method::Lemke, 10_000), make, |verdict| verdict == Verdict::Solved);
     let make = |rng: &mut Rng| floating_case(rng, 6.0, |rng, pairs| coulomb(rng, pairs, 5.0));

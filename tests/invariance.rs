@@ -36,7 +36,7 @@ fn problem(rng: &mut Rng, dim: usize, kind: u64) -> (Case, Method) {
         2 => (tresca(rng, pairs), Method::SorNested),
         3 => (frictionless(pairs), Method::Lemke),
         4 => (coulomb(rng, pairs, 0.3), Method::Auto),
-        5 => (frictionless(pairs), Method::Pivot),
+        5 => (frictionless(pairs), Method::BlockPivoting),
         6 => (tresca(rng, pairs), Method::Auto),
         _ if dim == 2 => (coulomb(rng, pairs, 0.3), Method::Lemke),
         _ => (frictionless(pairs), Method::Auto),

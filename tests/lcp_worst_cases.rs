@@ -110,9 +110,9 @@ fn lemke_solves_fathis_problem() {
 #[test]
 fn block_pivoting_takes_n_plus_1_systems_on_fathis_problem() {
     for n in 4_usize..=64 {
-        for method in [Method::Pivot, Method::Auto] {
+        for method in [Method::BlockPivoting, Method::Auto] {
             let solution = fathi(n).solve(&Settings { method, ..Settings::default() });
-            assert_eq!(solution.method, Method::Pivot, "{n}: {solution:?}");
+            assert_eq!(solution.method, Method::BlockPivoting, "{n}: {solution:?}");
             assert_fathis_solution(&solution, 1e-10);
             let systems = solution.iterations;
             assert!(systems <= n as u64 + 1, "{n}: {systems} systems by {method:?}");

@@ -5,7 +5,7 @@ mod common;
 use common::dense::{difference, largest};
 use common::mesh::{Mesh, Pairs, Stiffness, steps};
 use fastrand::Rng;
-use signorini::{Friction, LoadCase, Method, Model, Monitor, Settings, Solution, State, Status};
+use signorini::{FrictionLaw, LoadCase, Method, Model, Monitor, Settings, Solution, State, Status};
 
 const PAIRS: usize = 9;
 
@@ -52,8 +52,8 @@ impl Blocks {
             load,
             prescribed: None,
             gap: &[0.0; PAIRS],
-            friction: Friction::Coulomb(&[mu; PAIRS]),
-            previous_slip: slip,
+            law: FrictionLaw::Coulomb(&[mu; PAIRS]),
+            reference_slip: slip,
         };
         let settings = Settings { method, tolerance: 1e-12, ..Settings::default() };
         let monitor = &mut Monitor::new(&settings, None);

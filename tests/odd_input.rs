@@ -8,8 +8,8 @@ use common::measures::eta;
 use common::problems::{Case, Law, coulomb, definite, frictionless, loaded, uniform};
 use fastrand::Rng;
 use signorini::{
-    ContactData, ContactProblem, Friction, Lcp, Method, Monitor, Settings, Solution, State, Status,
-    solve, solve_lcp,
+    ContactData, ContactProblem, FrictionLaw, Lcp, Method, Monitor, Settings, Solution, State,
+    Status, solve, solve_lcp,
 };
 
 /// Solves by every method that fits, and checks the law.
@@ -174,8 +174,8 @@ fn what_lies_beyond_the_data_does_not_matter() {
         ld,
         load: &load,
         gap: &gap,
-        friction: Friction::Coulomb(&mu),
-        previous_slip: Some(&slip),
+        law: FrictionLaw::Coulomb(&mu),
+        reference_slip: Some(&slip),
         ..case.data()
     };
     let settings = Settings::default();

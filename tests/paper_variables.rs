@@ -8,7 +8,7 @@ mod common;
 
 use common::problems::{Case, Law, definite, vector};
 use fastrand::Rng;
-use signorini::{Friction, LoadCase, Method, Model, Monitor, Settings, Status};
+use signorini::{FrictionLaw, LoadCase, Method, Model, Monitor, Settings, Status};
 
 #[test]
 fn sor_in_the_papers_variables_agrees_with_the_reduced_problem() {
@@ -47,8 +47,8 @@ fn sor_in_the_papers_variables_agrees_with_the_reduced_problem() {
             load: &load,
             prescribed: None,
             gap: &gap,
-            friction: Friction::Coulomb(&mu),
-            previous_slip: None,
+            law: FrictionLaw::Coulomb(&mu),
+            reference_slip: None,
         };
         for method in [Method::SorNested, Method::SorDiagonal] {
             let settings = Settings { method, tolerance: 1e-12, ..Settings::default() };

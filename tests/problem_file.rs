@@ -7,7 +7,7 @@ use std::fs;
 use common::folder::{Folder, SMALL};
 use signorini::file::{self, Kind};
 use signorini::{
-    ContactData, ContactProblem, Friction, Lcp, LoadCase, Model, Monitor, Settings, solve,
+    ContactData, ContactProblem, FrictionLaw, Lcp, LoadCase, Model, Monitor, Settings, solve,
 };
 
 /// Numbers that text may spoil, and random bits.
@@ -76,15 +76,15 @@ fn contact_problems_come_back_bit_for_bit() {
             load: &load,
             gap: &gap,
             friction: match tresca {
-                true => Friction::Tresca(&friction),
-                false => Friction::Coulomb(&friction),
+                true => FrictionLaw::Tresca(&friction),
+                false => FrictionLaw::Coulomb(&friction),
             },
-            previous_slip: (round % 5 > 0).then_some(&slip[..]),
+            reference_slip: (round % 5 > 0).then_some(&slip[..]),
         })
         .unwrap();
         let remark = ["", "a remark", "kind: lcp, % dim: 7", "Bolzen \u{f8} 12"][round % 4];
-        file::save(&folder.file(), &problem, Some(remark)).unwrap();
-        let back = file::load(&folder.file()).unwrap();
+        file::write(&folder.file(), &problem, Some(remark)).unwrap();
+        let back = file::read(&folder.file()).unwrap();
 
         assert_eq!(back.kind, if tresca { Kind::Tresca } else { Kind::Coulomb });
         assert_eq!((back.dim, back.pairs, back.size), (dim, pairs, n));
@@ -113,8 +113,8 @@ fn complementarity_problems_come_back_bit_for_bit() {
         let cover: Vec<_> = numbers(n).iter().map(|x| x.abs().max(5e-324)).collect();
         let cover = (n % 2 == 1).then_some(&cover[..]);
         let lcp = Lcp::new(n, &m, n.max(1), &q, cover).unwrap();
-        file::save_lcp(&folder.file(), &lcp, None).unwrap();
-        let back = file::load(&folder.file()).unwrap();
+        file::write_lcp(&folder.file(), &lcp, None).unwrap();
+        let back = file::read(&folder.file()).unwrap();
         assert_eq!((back.kind, back.size), (Kind::Lcp, n));
         assert_eq!(bits(&back.matrix), bits(&m));
         assert_eq!(bits(&back.load), bits(&q));
@@ -137,14 +137,14 @@ fn the_case_of_a_model_is_solved_again_with_the_same_bits() {
         load: &load,
         prescribed: None,
         gap: &[0.0, 0.01, f64::INFINITY, -0.02],
-        friction: Friction::Coulomb(&[0.3, 0.0, 0.5, 0.1]),
-        previous_slip: Some(&[0.0, 0.01, 0.0, -0.01]),
+        law: FrictionLaw::Coulomb(&[0.3, 0.0, 0.5, 0.1]),
+        reference_slip: Some(&[0.0, 0.01, 0.0, -0.01]),
     };
     let settings = Settings::default();
     let expected = model.solve(&case, &settings, None, &mut Monitor::new(&settings, None)).unwrap();
 
-    model.save_case(&folder.file(), &case, Some("two bodies")).unwrap();
-    let back = file::load(&folder.file()).unwrap();
+    model.write_case(&folder.file(), &case, Some("two bodies")).unwrap();
+    let back = file::read(&folder.file()).unwrap();
     let problem = ContactProblem::new(back.contact().unwrap()).unwrap();
     let again = solve(&problem, &settings, None, &mut Monitor::new(&settings, None)).unwrap();
     assert_eq!(again.status, expected.status);
@@ -165,7 +165,7 @@ fn the_format_is_what_it_is_said_to_be() {
     assert_eq!(back.remark, "one pair");
 
     let problem = ContactProblem::new(back.contact().unwrap()).unwrap();
-    file::save(&folder.file(), &problem, Some("one pair")).unwrap();
+    file::write(&folder.file(), &problem, Some("one pair")).unwrap();
     let written = fs::read_to_string(folder.file()).unwrap();
     let but_comments = |text: &str| -> Vec<String> {
         text.lines().filter(|line| !line.starts_with("% Written")).map(Into::into).collect()

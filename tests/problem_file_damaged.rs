@@ -158,14 +158,14 @@ fn random_damage_is_refused_or_read() {
 #[test]
 fn files_that_cannot_be_written_or_read_are_named() {
     let folder = Folder::new("paths");
-    let problem = file::load(&{
+    let problem = file::read(&{
         fs::write(folder.file(), SMALL).unwrap();
         folder.file()
     })
     .unwrap();
     let problem = ContactProblem::new(problem.contact().unwrap()).unwrap();
-    let save = |path: &Path| file::save(path, &problem, None).unwrap_err().to_string();
-    let load = |path: &Path| file::load(path).unwrap_err().to_string();
+    let save = |path: &Path| file::write(path, &problem, None).unwrap_err().to_string();
+    let load = |path: &Path| file::read(path).unwrap_err().to_string();
 
     let absent = folder.0.join("absent");
     assert!(save(&absent.join("p.mtx")).contains("p.mtx: cannot be written: "));
@@ -179,7 +179,7 @@ fn files_that_cannot_be_written_or_read_are_named() {
     assert!(message.len() < 300 && message.contains("p.mtx: cannot be read"), "{message}");
 
     for remark in ["two\nlines", "a tab\t", " space", &"x".repeat(1001)] {
-        let refused = file::save(&folder.file(), &problem, Some(remark)).unwrap_err();
+        let refused = file::write(&folder.file(), &problem, Some(remark)).unwrap_err();
         assert!(refused.to_string().starts_with("remark"), "{refused}");
     }
     assert_eq!(fs::read_to_string(folder.file()).unwrap(), SMALL, "a refused call wrote");
@@ -191,18 +191,18 @@ fn files_that_cannot_be_written_or_read_are_named() {
 fn links_are_followed_and_devices_left_alone() {
     let folder = Folder::new("links");
     fs::write(folder.file(), SMALL).unwrap();
-    let problem = file::load(&folder.file()).unwrap();
+    let problem = file::read(&folder.file()).unwrap();
     let problem = ContactProblem::new(problem.contact().unwrap()).unwrap();
     let link = folder.0.join("link");
     std::os::unix::fs::symlink("problem.mtx", &link).unwrap();
-    file::save(&link, &problem, Some("through the link")).unwrap();
+    file::write(&link, &problem, Some("through the link")).unwrap();
     assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
-    assert_eq!(file::load(&folder.file()).unwrap().remark, "through the link");
+    assert_eq!(file::read(&folder.file()).unwrap().remark, "through the link");
 
-    let message = file::save(Path::new("/dev/null"), &problem, None).unwrap_err().to_string();
+    let message = file::write(Path::new("/dev/null"), &problem, None).unwrap_err().to_string();
     assert_eq!(message, "/dev/null: cannot be written: it is not a file");
-    let message = file::load(Path::new("/dev/zero")).unwrap_err().to_string();
+    let message = file::read(Path::new("/dev/zero")).unwrap_err().to_string();
     assert_eq!(message, "/dev/zero: line 1: longer than 4096 bytes");
-    let message = file::load(Path::new("/dev/null")).unwrap_err().to_string();
+    let message = file::read(Path::new("/dev/null")).unwrap_err().to_string();
     assert_eq!(message, "/dev/null: line 1: the file ends, the line of the format is missing");
 }

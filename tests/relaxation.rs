@@ -4,7 +4,7 @@
 mod bar;
 
 use signorini::{
-    ContactData, ContactProblem, Friction, Method, Monitor, Settings, Solution, Status, solve,
+    ContactData, ContactProblem, FrictionLaw, Method, Monitor, Settings, Solution, Status, solve,
 };
 
 struct Case {
@@ -22,7 +22,7 @@ impl Case {
         Case { mu: vec![0.0; bar.pairs], gap, bar }
     }
 
-    fn with_friction(mu: f64) -> Self {
+    fn with_law(mu: f64) -> Self {
         let bar = bar::bar(128, 8, 1.6, 10.0);
         Case { mu: vec![mu; bar.pairs], gap: vec![0.0; bar.pairs], bar }
     }
@@ -41,8 +41,8 @@ impl Case {
             ld: 2 * self.bar.pairs,
             load: &self.bar.load,
             gap: &self.gap,
-            friction: Friction::Coulomb(&self.mu),
-            previous_slip: None,
+            law: FrictionLaw::Coulomb(&self.mu),
+            reference_slip: None,
         })
         .unwrap();
         solve(&problem, settings, None, &mut Monitor::new(settings, None)).unwrap()
@@ -81,8 +81,7 @@ fn friction_takes_at_most_twice_the_best_fixed_factor() {
         (Method::SorDiagonal, 1.0),
     ] {
         let settings = Settings { method, ..Settings::default() };
-        let (chosen, best) =
-            Case::with_friction(mu).compare(&settings, &[1.0, 1.3, 1.5, 1.6, 1.7, 1.8]);
+        let (chosen, best) = Case::with_law(mu).compare(&settings, &[1.0, 1.3, 1.5, 1.6, 1.7, 1.8]);
         assert!(chosen <= 2 * best, "{method:?}, mu {mu}: {chosen} sweeps, fixed {best}");
     }
 }
@@ -91,7 +90,7 @@ fn friction_takes_at_most_twice_the_best_fixed_factor() {
 /// nu = 0.2 on a rigid obstacle), so that mu = 5 needs the damping: without it the budget ends.
 #[test]
 fn damping_goes_beyond_the_paper() {
-    let case = Case::with_friction(5.0);
+    let case = Case::with_law(5.0);
     let damped = Settings { method: Method::SorNested, ..Settings::default() };
     assert!(case.sweeps(&damped) < 5000);
     let undamped = Settings { damping: 1.0, max_iterations: 20_000, ..damped };

@@ -11,7 +11,9 @@ use common::problems::vector;
 use common::stack::{Stack, close, components, solve_case, solved};
 use fastrand::Rng;
 use signorini::reduce::{Indices, SparseMatrix, Triangle};
-use signorini::{ContactData, ContactProblem, Friction, Method, Model, Monitor, Settings, solve};
+use signorini::{
+    ContactData, ContactProblem, FrictionLaw, Method, Model, Monitor, Settings, solve,
+};
 
 /// `K_rel`, `f_rel` by a dense change of variables `u = T [free; d] + u_0` and a dense elimination:
 /// every slave component `u_s = sum w u_m + n d_n + t d_t`.
@@ -139,8 +141,8 @@ fn bar_as_a_whole_matrix_is_the_condensed_bar() {
             ld: n,
             load: &reference.load,
             gap: &gap,
-            friction: Friction::Coulomb(&coefficients),
-            previous_slip: None,
+            law: FrictionLaw::Coulomb(&coefficients),
+            reference_slip: None,
         })
         .unwrap();
         let settings = Settings { tolerance: 1e-13, ..Settings::default() };

@@ -3,6 +3,7 @@
 mod common;
 
 use common::dense::{difference, dot, largest};
+use common::measures::motion;
 use common::mesh::Pairs;
 use common::stack::{STEEL, Stack, close, components, solve_case, solved};
 use fastrand::Rng;
@@ -260,8 +261,8 @@ fn a_part_that_flies_off_moves_rigidly() {
         let solution = solve_case(&model, &load, None, 0.0, 0.0, Method::Lemke);
         let context = format!("pressure {pressure}, moment {moment}");
         assert_eq!(solution.status, Status::NoEquilibrium, "{context}: {}", solution.message);
-        assert_eq!(largest(&solution.certificate.force), 0.0);
-        let u = model.recover(None, None, &solution.d).unwrap();
+        let motion = motion(&solution);
+        let u = model.recover(None, None, motion).unwrap();
         let most = largest(&u);
         assert!(most > 0.1, "{context}");
         let energy = dot(&u, &stiffness.times(&u));
@@ -273,6 +274,6 @@ fn a_part_that_flies_off_moves_rigidly() {
             }
         }
         assert!(dot(&u, &load) > 0.0, "{context}: the loads drive it");
-        assert!(solution.d.iter().step_by(2).all(|d| *d <= 1e-10), "{context}: it leaves");
+        assert!(motion.iter().step_by(2).all(|d| *d <= 1e-10), "{context}: it leaves");
     }
 }

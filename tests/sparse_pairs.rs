@@ -5,8 +5,8 @@ mod common;
 use common::dense::{condensed, difference, dot, largest, norm, product};
 use common::problems::{uniform, vector};
 use fastrand::Rng;
-use signorini::reduce::{Indices, Interface, SparseMatrix, Triangle};
-use signorini::{Friction, LoadCase, Model, Monitor, Settings, Status};
+use signorini::reduce::{ContactPairs, Indices, SparseMatrix, Triangle};
+use signorini::{FrictionLaw, LoadCase, Model, Monitor, Settings, Status};
 
 /// A host with nodes of `dim` components, pairs with up to three masters (one of them twice at
 /// times, weights of both signs), supports that slaves do not have.
@@ -96,7 +96,7 @@ impl Host {
             base: 0,
             triangle: Triangle::Lower,
         };
-        let interface = Interface {
+        let interface = ContactPairs {
             dim: self.dim,
             pairs: self.pairs,
             slaves: &self.slaves,
@@ -231,8 +231,8 @@ fn recovered_displacements_balance_loads_and_contact_forces() {
             load: &load,
             prescribed: Some(&host.values),
             gap: &gap,
-            friction: Friction::Coulomb(&mu),
-            previous_slip: None,
+            law: FrictionLaw::Coulomb(&mu),
+            reference_slip: None,
         };
         let settings = Settings { tolerance: 1e-12, ..Settings::default() };
         let monitor = &mut Monitor::new(&settings, None);

@@ -4,7 +4,7 @@ mod common;
 
 use common::mesh::{Mesh, Pairs, steps};
 use common::stack::{STEEL, Stack, close, components, solved};
-use signorini::{Argument, Error, Friction, LoadCase, Monitor, Settings};
+use signorini::{Argument, Error, FrictionLaw, LoadCase, Monitor, Settings};
 
 /// A part that neither supports nor pairs hold is refused by one of its degrees of freedom.
 #[test]
@@ -163,8 +163,8 @@ fn supports_that_part_a_pair_are_not_overlooked() {
         load: &load,
         prescribed: Some(&values),
         gap: &[0.0; 5],
-        friction: Friction::Coulomb(&[0.2; 5]),
-        previous_slip: None,
+        law: FrictionLaw::Coulomb(&[0.2; 5]),
+        reference_slip: None,
     };
     let settings = Settings::default();
     let monitor = &mut Monitor::new(&settings, None);

@@ -6,7 +6,7 @@ use common::dense::{condensed, difference, largest, product};
 use common::problems::{definite, floating, semidefinite, uniform, vector};
 use fastrand::Rng;
 use signorini::{
-    Argument, ContactData, ContactProblem, Error, Friction, LoadCase, Method, Model, Monitor,
+    Argument, ContactData, ContactProblem, Error, FrictionLaw, LoadCase, Method, Model, Monitor,
     Settings, Solution, Status, solve,
 };
 
@@ -52,8 +52,8 @@ impl Pair {
             load: &self.load,
             prescribed: None,
             gap: &self.gap,
-            friction: Friction::Coulomb(&self.mu),
-            previous_slip: None,
+            law: FrictionLaw::Coulomb(&self.mu),
+            reference_slip: None,
         };
         let settings = Settings { method, tolerance: 1e-12, ..Settings::default() };
         let monitor = &mut Monitor::new(&settings, None);
@@ -163,8 +163,8 @@ fn solution_is_that_of_the_eliminated_system() {
             ld: pair.size(),
             load: &load,
             gap: &pair.gap,
-            friction: Friction::Coulomb(&pair.mu),
-            previous_slip: None,
+            law: FrictionLaw::Coulomb(&pair.mu),
+            reference_slip: None,
         })
         .unwrap();
         let settings = Settings { tolerance: 1e-12, ..Settings::default() };
@@ -258,8 +258,8 @@ fn a_very_stiff_second_body_is_an_obstacle() {
             load: &pair.load[..n],
             prescribed: None,
             gap: &pair.gap,
-            friction: Friction::Coulomb(&pair.mu),
-            previous_slip: None,
+            law: FrictionLaw::Coulomb(&pair.mu),
+            reference_slip: None,
         };
         let settings = Settings::default();
         let monitor = &mut Monitor::new(&settings, None);

@@ -9,7 +9,7 @@ use super::status::{code, remember};
 use crate::error::Argument;
 use crate::model::{LoadCase, Model};
 use crate::monitor::{Monitor, ProgressFn};
-use crate::problem::Friction;
+use crate::problem::FrictionLaw;
 
 /// Solves load cases, one after the other. Case c has its own columns in every array; a NULL status
 /// array is not wanted. A case that is wrong or not solved does not stop the others; one that is wrong
@@ -127,8 +127,8 @@ impl Block<'_> {
             load: column(self.load, self.model.host_size(), case),
             prescribed: self.prescribed.map(|values| column(values, fixed, case)),
             gap: column(self.gap, pairs, case),
-            friction: Friction::Coulomb(column(self.mu, pairs, case)),
-            previous_slip: self.slip.map(|slip| column(slip, n - pairs, case)),
+            law: FrictionLaw::Coulomb(column(self.mu, pairs, case)),
+            reference_slip: self.slip.map(|slip| column(slip, n - pairs, case)),
         };
         let d = self.d.part(n * case, n);
         // SAFETY: d has n entries for each case, filled by a caller that wants a warm start.
@@ -137,10 +137,7 @@ impl Block<'_> {
         let progress = progress.as_mut().map(|progress| progress as &mut ProgressFn<'_>);
         let mut monitor = Monitor::new(&received.settings, progress);
         match self.model.solve(&given, &received.settings, start.as_deref(), &mut monitor) {
-            Ok(mut solution) => {
-                if received.second {
-                    solution.exchange();
-                }
+            Ok(solution) => {
                 let code = code(solution.status);
                 let states: Vec<i32> =
                     solution.certificate.states.iter().map(|&state| state_code(state)).collect();
@@ -242,8 +239,8 @@ fn position(argument: Argument) -> i32 {
         Argument::Load => 3,
         Argument::Prescribed => 4,
         Argument::Gap => 5,
-        Argument::Friction => 6,
-        Argument::PreviousSlip => 7,
+        Argument::Law => 6,
+        Argument::ReferenceSlip => 7,
         Argument::Settings => 8,
         Argument::Start => 9,
         _ => 1,

@@ -6,7 +6,7 @@ use super::report::{SignoriniReport, state_code};
 use super::status::{SIGNORINI_NOT_A_SOLUTION, SIGNORINI_SOLVED, remember};
 use crate::certificate::certify;
 use crate::error::{Argument, Error};
-use crate::problem::{ContactData, ContactProblem, Friction};
+use crate::problem::{ContactData, ContactProblem, FrictionLaw};
 
 /// Measures displacements of any origin, say of another solver, on the data of a condensed contact
 /// problem with Coulomb friction: what decides whether this library calls a result solved.
@@ -49,7 +49,7 @@ pub unsafe extern "C" fn signorini_certify(
         let entries = matrix_length(4, "K", n, ld)?;
         let mut arrays = Arrays::default();
         // SAFETY: the lengths are those of the header.
-        let (stiffness, load, gap, mu, previous_slip, given) = unsafe {
+        let (stiffness, load, gap, mu, reference_slip, given) = unsafe {
             (
                 arrays.input(3, "K", K, entries, true)?.unwrap_or_default(),
                 arrays.input(5, "f", f, n, true)?.unwrap_or_default(),
@@ -78,8 +78,8 @@ pub unsafe extern "C" fn signorini_certify(
             ld,
             load,
             gap,
-            friction: Friction::Coulomb(mu),
-            previous_slip,
+            law: FrictionLaw::Coulomb(mu),
+            reference_slip,
         })
         .map_err(from_error)?;
         if let Some(i) = given.iter().position(|d| !d.is_finite()) {
@@ -112,8 +112,8 @@ fn position(argument: Argument) -> i32 {
         Argument::LeadingDimension => 4,
         Argument::Load => 5,
         Argument::Gap => 6,
-        Argument::Friction => 7,
-        Argument::PreviousSlip => 8,
+        Argument::Law => 7,
+        Argument::ReferenceSlip => 8,
         other => unreachable!("this call has no argument {other:?}"),
     }
 }

@@ -7,7 +7,7 @@ use super::settings::SignoriniSettings;
 use super::status::{code, remember};
 use crate::error::Argument;
 use crate::monitor::{Monitor, ProgressFn};
-use crate::problem::{ContactData, ContactProblem, Friction};
+use crate::problem::{ContactData, ContactProblem, FrictionLaw};
 use crate::solve::{Status, solve};
 
 /// Solves a condensed contact problem with Coulomb friction.
@@ -55,7 +55,7 @@ pub unsafe extern "C" fn signorini_solve(
     let arguments =
         Arguments { dim, pairs, K, ldk, f, gap, friction: mu, slip, settings, d, F, state, report };
     // SAFETY: the caller's contract, which the header states.
-    guard::call(|| unsafe { arguments.run("mu", |mu| Friction::Coulomb(mu)) })
+    guard::call(|| unsafe { arguments.run("mu", |mu| FrictionLaw::Coulomb(mu)) })
 }
 
 /// Solves a condensed contact problem with given friction thresholds (Tresca): |F_t| <= g, open or
@@ -98,7 +98,7 @@ pub unsafe extern "C" fn signorini_tresca(
     let arguments =
         Arguments { dim, pairs, K, ldk, f, gap, friction: g, slip, settings, d, F, state, report };
     // SAFETY: the caller's contract, which the header states.
-    guard::call(|| unsafe { arguments.run("g", |g| Friction::Tresca(g)) })
+    guard::call(|| unsafe { arguments.run("g", |g| FrictionLaw::Tresca(g)) })
 }
 
 #[allow(non_snake_case)] // as above
@@ -126,8 +126,8 @@ fn position(argument: Argument) -> i32 {
         Argument::LeadingDimension => 4,
         Argument::Load => 5,
         Argument::Gap => 6,
-        Argument::Friction | Argument::Covering => 7,
-        Argument::PreviousSlip => 8,
+        Argument::Law | Argument::Covering => 7,
+        Argument::ReferenceSlip => 8,
         Argument::Settings => 9,
         Argument::Start => 10,
         other => unreachable!("these calls have no argument {other:?}"),
@@ -140,7 +140,7 @@ impl Arguments {
     unsafe fn run(
         &self,
         friction_name: &'static str,
-        friction: impl for<'a> Fn(&'a [f64]) -> Friction<'a>,
+        friction: impl for<'a> Fn(&'a [f64]) -> FrictionLaw<'a>,
     ) -> Result<i32, Failure> {
         let (dim, pairs, n) = sizes(self.dim, self.pairs)?;
         let ld = size(4, "ldk", self.ldk)?;
@@ -148,7 +148,7 @@ impl Arguments {
         let slips = n - pairs;
         let mut arrays = Arrays::default();
         // SAFETY: the lengths are those of the header.
-        let (stiffness, load, gap, friction_values, previous_slip) = unsafe {
+        let (stiffness, load, gap, friction_values, reference_slip) = unsafe {
             (
                 arrays.input(3, "K", self.K, entries, true)?.unwrap_or_default(),
                 arrays.input(5, "f", self.f, n, true)?.unwrap_or_default(),
@@ -176,8 +176,8 @@ impl Arguments {
             ld,
             load,
             gap,
-            friction: friction(friction_values),
-            previous_slip,
+            law: friction(friction_values),
+            reference_slip,
         })
         .map_err(from_error)?;
         // SAFETY: d has n entries, which the caller has filled if it asked for a warm start.
@@ -185,11 +185,8 @@ impl Arguments {
         let mut progress = received.progress();
         let progress = progress.as_mut().map(|progress| progress as &mut ProgressFn<'_>);
         let mut monitor = Monitor::new(&received.settings, progress);
-        let mut solution = solve(&problem, &received.settings, start.as_deref(), &mut monitor)
+        let solution = solve(&problem, &received.settings, start.as_deref(), &mut monitor)
             .map_err(from_error)?;
-        if received.second {
-            solution.exchange();
-        }
 
         let status = code(solution.status);
         if solution.status != Status::Solved {

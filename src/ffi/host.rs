@@ -4,7 +4,7 @@ use libc::c_void;
 
 use super::args::{Arrays, checked_size, size};
 use super::guard::Failure;
-use crate::reduce::{Indices, Interface, SparseMatrix, Triangle};
+use crate::reduce::{ContactPairs, Indices, SparseMatrix, Triangle};
 
 /// Entries with row >= column are stored, by columns (or row <= column, by rows).
 pub const SIGNORINI_LOWER: i32 = 0;
@@ -130,8 +130,8 @@ pub(super) struct Pairs<'a> {
 }
 
 impl Pairs<'_> {
-    pub(super) fn view(&self) -> Interface<'_> {
-        Interface {
+    pub(super) fn view(&self) -> ContactPairs<'_> {
+        ContactPairs {
             dim: self.dim,
             pairs: self.pairs,
             slaves: &self.slaves,

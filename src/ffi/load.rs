@@ -6,7 +6,7 @@ use std::ptr::null;
 
 use super::args;
 use super::guard::{self, Failure};
-use crate::file::{self, Kind, SavedProblem};
+use crate::file::{self, Kind, ProblemFile};
 
 /// A problem of signorini_problem_load is one of signorini_solve.
 pub const SIGNORINI_PROBLEM_COULOMB: i32 = 0;
@@ -18,7 +18,7 @@ pub const SIGNORINI_PROBLEM_LCP: i32 = 2;
 /// A problem that was read from a file, by signorini_problem_load; released by
 /// signorini_problem_free. It does not change, and several threads may use it at once.
 pub struct SignoriniProblem {
-    problem: SavedProblem,
+    problem: ProblemFile,
     remark: CString,
 }
 
@@ -43,7 +43,7 @@ pub unsafe extern "C" fn signorini_problem_load(
             problem.write(std::ptr::null_mut());
             args::path(1, path)?
         };
-        let loaded = file::load(path).map_err(|error| Failure::from_error(error, |_| 1))?;
+        let loaded = file::read(path).map_err(|error| Failure::from_error(error, |_| 1))?;
         // Without zeros, as it has no control characters.
         let remark = CString::new(loaded.remark.as_str()).unwrap_or_default();
         // SAFETY: as above.
@@ -153,7 +153,7 @@ pub unsafe extern "C" fn signorini_problem_remark(
 unsafe fn look<T>(
     problem: *const SignoriniProblem,
     otherwise: T,
-    at: impl FnOnce(&SavedProblem) -> T,
+    at: impl FnOnce(&ProblemFile) -> T,
 ) -> T {
     // SAFETY: by the caller's contract.
     unsafe { problem.as_ref() }.map_or(otherwise, |problem| at(&problem.problem))

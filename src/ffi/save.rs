@@ -9,7 +9,7 @@ use crate::error::Argument;
 use crate::file;
 use crate::lcp::Lcp;
 use crate::model::LoadCase;
-use crate::problem::{ContactData, ContactProblem, Friction};
+use crate::problem::{ContactData, ContactProblem, FrictionLaw};
 
 /// Writes the problem of signorini_solve to a file, as text that keeps every bit.
 ///
@@ -47,7 +47,7 @@ pub unsafe extern "C" fn signorini_problem_save(
 ) -> i32 {
     let arguments = Arguments { path, dim, pairs, K, ldk, f, gap, friction: mu, slip, remark };
     // SAFETY: the caller's contract, which the header states.
-    guard::call(|| unsafe { arguments.save("mu", |mu| Friction::Coulomb(mu)) })
+    guard::call(|| unsafe { arguments.save("mu", |mu| FrictionLaw::Coulomb(mu)) })
 }
 
 /// Writes the problem of signorini_tresca to a file. The arguments are those of
@@ -80,7 +80,7 @@ pub unsafe extern "C" fn signorini_tresca_save(
 ) -> i32 {
     let arguments = Arguments { path, dim, pairs, K, ldk, f, gap, friction: g, slip, remark };
     // SAFETY: the caller's contract, which the header states.
-    guard::call(|| unsafe { arguments.save("g", |g| Friction::Tresca(g)) })
+    guard::call(|| unsafe { arguments.save("g", |g| FrictionLaw::Tresca(g)) })
 }
 
 #[allow(non_snake_case)] // as above
@@ -103,7 +103,7 @@ impl Arguments {
     unsafe fn save(
         &self,
         friction_name: &'static str,
-        friction: impl for<'a> Fn(&'a [f64]) -> Friction<'a>,
+        friction: impl for<'a> Fn(&'a [f64]) -> FrictionLaw<'a>,
     ) -> Result<i32, Failure> {
         // SAFETY: as the header demands.
         let (path, remark) =
@@ -113,7 +113,7 @@ impl Arguments {
         let entries = matrix_length(5, "K", n, ld)?;
         let mut arrays = Arrays::default();
         // SAFETY: the lengths are those of the header.
-        let (stiffness, load, gap, friction_values, previous_slip) = unsafe {
+        let (stiffness, load, gap, friction_values, reference_slip) = unsafe {
             (
                 arrays.input(4, "K", self.K, entries, true)?.unwrap_or_default(),
                 arrays.input(6, "f", self.f, n, true)?.unwrap_or_default(),
@@ -129,10 +129,10 @@ impl Arguments {
             ld,
             load,
             gap,
-            friction: friction(friction_values),
-            previous_slip,
+            law: friction(friction_values),
+            reference_slip,
         })
-        .and_then(|problem| file::save(path, &problem, remark))
+        .and_then(|problem| file::write(path, &problem, remark))
         .map_err(|error| Failure::from_error(error, position))?;
         Ok(0)
     }
@@ -146,8 +146,8 @@ fn position(argument: Argument) -> i32 {
         Argument::LeadingDimension => 5,
         Argument::Load => 6,
         Argument::Gap => 7,
-        Argument::Friction => 8,
-        Argument::PreviousSlip => 9,
+        Argument::Law => 8,
+        Argument::ReferenceSlip => 9,
         Argument::Remark => 10,
         other => unreachable!("these calls have no argument {other:?}"),
     }
@@ -191,7 +191,7 @@ pub unsafe extern "C" fn signorini_lcp_save(
             )
         };
         Lcp::new(n, matrix, ld, q, cover)
-            .and_then(|lcp| file::save_lcp(path, &lcp, remark))
+            .and_then(|lcp| file::write_lcp(path, &lcp, remark))
             .map_err(|error| {
                 Failure::from_error(error, |argument| match argument {
                     Argument::Size => 2,
@@ -241,18 +241,18 @@ pub unsafe extern "C" fn signorini_model_save_case(
                 load: arrays.input(3, "f", f, model.host_size(), true)?.unwrap_or_default(),
                 prescribed: arrays.input(4, "prescribed", prescribed, fixed, false)?,
                 gap: arrays.input(5, "gap", gap, pairs, true)?.unwrap_or_default(),
-                friction: Friction::Coulomb(mu),
-                previous_slip: arrays.input(7, "slip", slip, slips, false)?,
+                law: FrictionLaw::Coulomb(mu),
+                reference_slip: arrays.input(7, "slip", slip, slips, false)?,
             };
             (model, args::path(2, path)?, text(8, "remark", remark)?, case)
         };
-        model.save_case(path, &case, remark).map_err(|error| {
+        model.write_case(path, &case, remark).map_err(|error| {
             Failure::from_error(error, |argument| match argument {
                 Argument::Load => 3,
                 Argument::Prescribed => 4,
                 Argument::Gap => 5,
-                Argument::Friction => 6,
-                Argument::PreviousSlip => 7,
+                Argument::Law => 6,
+                Argument::ReferenceSlip => 7,
                 Argument::Remark => 8,
                 _ => 1,
             })

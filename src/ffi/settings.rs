@@ -20,7 +20,7 @@ pub const SIGNORINI_METHOD_SOR_DIAGONAL: i32 = 2;
 /// mu if K is positive definite.
 pub const SIGNORINI_METHOD_LEMKE: i32 = 3;
 /// Block principal pivoting, for frictionless contact: every mu must be 0.
-pub const SIGNORINI_METHOD_PIVOT: i32 = 4;
+pub const SIGNORINI_METHOD_BLOCK_PIVOTING: i32 = 4;
 /// Newton's method on the states of the pairs, in 2D. It may fail, and says so.
 pub const SIGNORINI_METHOD_NEWTON: i32 = 5;
 
@@ -135,7 +135,7 @@ impl SignoriniSettings {
             SIGNORINI_METHOD_SOR_NESTED => Method::SorNested,
             SIGNORINI_METHOD_SOR_DIAGONAL => Method::SorDiagonal,
             SIGNORINI_METHOD_LEMKE => Method::Lemke,
-            SIGNORINI_METHOD_PIVOT => Method::Pivot,
+            SIGNORINI_METHOD_BLOCK_PIVOTING => Method::BlockPivoting,
             SIGNORINI_METHOD_NEWTON => Method::Newton,
             other => return refuse(format!("settings: there is no method {other}")),
         };
@@ -191,7 +191,7 @@ pub(super) fn method_code(method: Method) -> i32 {
         Method::SorNested => SIGNORINI_METHOD_SOR_NESTED,
         Method::SorDiagonal => SIGNORINI_METHOD_SOR_DIAGONAL,
         Method::Lemke => SIGNORINI_METHOD_LEMKE,
-        Method::Pivot => SIGNORINI_METHOD_PIVOT,
+        Method::BlockPivoting => SIGNORINI_METHOD_BLOCK_PIVOTING,
         Method::Newton => SIGNORINI_METHOD_NEWTON,
     }
 }

@@ -35,10 +35,10 @@ mod write;
 use std::path::Path;
 
 use crate::error::Error;
-use crate::problem::{ContactData, Friction};
+use crate::problem::{ContactData, FrictionLaw};
 
-pub use read::load;
-pub use write::{save, save_lcp};
+pub use read::read;
+pub use write::{write, write_lcp};
 
 /// What every problem file begins with, up to case and space.
 const BANNER: &str = "%%MatrixMarket matrix array real general";
@@ -76,7 +76,7 @@ impl Kind {
 /// A problem that was read from a file. Its numbers are finite (a gap may be `+inf`) and its arrays
 /// have the lengths that they must have; all else is checked by whom it is handed to.
 #[derive(Clone, Debug, PartialEq)]
-pub struct SavedProblem {
+pub struct ProblemFile {
     /// What it is.
     pub kind: Kind,
     /// 2 or 3; 0 of a bare complementarity problem.
@@ -101,12 +101,12 @@ pub struct SavedProblem {
     pub remark: String,
 }
 
-impl SavedProblem {
+impl ProblemFile {
     /// The contact problem, not yet checked; `None` of a bare complementarity problem.
     pub fn contact(&self) -> Option<ContactData<'_>> {
         let friction = match self.kind {
-            Kind::Coulomb => Friction::Coulomb(&self.friction),
-            Kind::Tresca => Friction::Tresca(&self.friction),
+            Kind::Coulomb => FrictionLaw::Coulomb(&self.friction),
+            Kind::Tresca => FrictionLaw::Tresca(&self.friction),
             Kind::Lcp => return None,
         };
         Some(ContactData {
@@ -116,8 +116,8 @@ impl SavedProblem {
             ld: self.size.max(1),
             load: &self.load,
             gap: &self.gap,
-            friction,
-            previous_slip: Some(&self.slip),
+            law: friction,
+            reference_slip: Some(&self.slip),
         })
     }
 }

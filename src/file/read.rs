@@ -4,7 +4,7 @@ use std::fs::File;
 use std::path::Path;
 
 use super::lines::{Lines, shown};
-use super::{BANNER, Kind, SavedProblem, TITLE, VERSION, refuse};
+use super::{BANNER, Kind, ProblemFile, TITLE, VERSION, refuse};
 use crate::error::Error;
 
 /// Reads a problem file.
@@ -12,7 +12,7 @@ use crate::error::Error;
 /// # Errors
 /// [`Error::File`] if it cannot be read or is not a complete problem file; the message names the
 /// line and what is wrong there. [`Error::OutOfMemory`].
-pub fn load(path: &Path) -> Result<SavedProblem, Error> {
+pub fn read(path: &Path) -> Result<ProblemFile, Error> {
     let fail = |error| refuse(path, None, &format!("cannot be read: {error}"));
     let file = File::open(path).map_err(fail)?;
     let about = file.metadata().map_err(fail)?;
@@ -116,7 +116,7 @@ impl Header {
     }
 
     /// Reads the columns and what follows them: nothing.
-    fn columns(self, lines: &mut Lines<'_>, most: usize) -> Result<SavedProblem, Error> {
+    fn columns(self, lines: &mut Lines<'_>, most: usize) -> Result<ProblemFile, Error> {
         let Header { kind, dim, pairs, size, covering, remark } = self;
         let names = match kind {
             Kind::Coulomb => ["K", "f", "mu"],
@@ -125,7 +125,7 @@ impl Header {
         };
         let matrix = lines.entries(names[0], (size, size * size), most)?;
         let mut column = |name| lines.entries(name, (size, size), most);
-        let mut problem = SavedProblem {
+        let mut problem = ProblemFile {
             kind,
             dim,
             pairs,

@@ -8,7 +8,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use super::{BANNER, Kind, MOST_REMARK, TITLE, VERSION, refuse};
 use crate::error::{Argument, Error};
 use crate::lcp::Lcp;
-use crate::problem::{ContactProblem, Friction};
+use crate::problem::{ContactProblem, FrictionLaw};
 
 /// Writes a contact problem to the file `path`, which is replaced if it exists. The remark is one
 /// line.
@@ -17,7 +17,7 @@ use crate::problem::{ContactProblem, Friction};
 /// [`Error::Invalid`] for an entry of the matrix that is not finite, or the remark;
 /// [`Error::File`] if the file cannot be written: then there is no new one, and an old one is as it
 /// was.
-pub fn save(path: &Path, problem: &ContactProblem<'_>, remark: Option<&str>) -> Result<(), Error> {
+pub fn write(path: &Path, problem: &ContactProblem<'_>, remark: Option<&str>) -> Result<(), Error> {
     check_remark(remark)?;
     let (dim, n) = (problem.dim(), problem.unknowns());
     for j in 0..n {
@@ -25,9 +25,11 @@ pub fn save(path: &Path, problem: &ContactProblem<'_>, remark: Option<&str>) -> 
             return Err(Error::invalid(Argument::Matrix, format!("K[{i},{j}] is not finite")));
         }
     }
-    let (kind, name, friction) = match problem.friction() {
-        Friction::Coulomb(mu) => (Kind::Coulomb, "mu", mu),
-        Friction::Tresca(g) => (Kind::Tresca, "g", g),
+    let zero = vec![0.0; problem.pairs()];
+    let (kind, name, friction) = match problem.law() {
+        FrictionLaw::Frictionless => (Kind::Coulomb, "mu", &zero[..]),
+        FrictionLaw::Coulomb(mu) => (Kind::Coulomb, "mu", mu),
+        FrictionLaw::Tresca(g) => (Kind::Tresca, "g", g),
     };
     let gap: Vec<f64> = (0..problem.pairs()).map(|pair| problem.gap(pair)).collect();
     replace(path, |file| {
@@ -44,7 +46,7 @@ pub fn save(path: &Path, problem: &ContactProblem<'_>, remark: Option<&str>) -> 
         }
         let slip = |i| match i % dim {
             0 => 0.0,
-            axis => problem.previous_slip(i / dim, axis - 1),
+            axis => problem.reference_slip(i / dim, axis - 1),
         };
         entries(file, (0..n).map(slip))
     })
@@ -54,7 +56,7 @@ pub fn save(path: &Path, problem: &ContactProblem<'_>, remark: Option<&str>) -> 
 ///
 /// # Errors
 /// As [`save`].
-pub fn save_lcp(path: &Path, lcp: &Lcp<'_>, remark: Option<&str>) -> Result<(), Error> {
+pub fn write_lcp(path: &Path, lcp: &Lcp<'_>, remark: Option<&str>) -> Result<(), Error> {
     check_remark(remark)?;
     let (n, covering) = (lcp.size(), lcp.covering_vector());
     replace(path, |file| {

@@ -4,7 +4,7 @@ use crate::error::{Argument, Error};
 
 /// Pairs of slave nodes and points of other bodies, in degrees of freedom of the host.
 #[derive(Clone, Copy, Debug)]
-pub struct Interface<'a> {
+pub struct ContactPairs<'a> {
     /// Space dimension, 2 or 3.
     pub dim: usize,
     /// Number of pairs.
@@ -26,7 +26,7 @@ pub struct Interface<'a> {
 /// A pair's frame by columns: normal, tangents.
 pub(super) type Frame = [[f64; 3]; 3];
 
-impl Interface<'_> {
+impl ContactPairs<'_> {
     /// Degrees of freedom of the slave of a pair.
     pub(super) fn slave(&self, pair: usize) -> &[usize] {
         &self.slaves[self.dim * pair..self.dim * (pair + 1)]

@@ -6,7 +6,7 @@ mod sparse;
 mod sparse_matrix;
 mod two_body;
 
-pub use interface::Interface;
+pub use interface::ContactPairs;
 pub use sparse::SparseReduction;
 pub use sparse_matrix::{Indices, SparseMatrix, Triangle};
 pub use two_body::TwoBodyReduction;

@@ -10,7 +10,7 @@
 //! 6 % off, up to 8 % on other meshes.
 
 use super::change::{Row, transform};
-use super::interface::{Frame, Interface};
+use super::interface::{ContactPairs, Frame};
 use super::sparse_matrix::{LowerTriangle, SparseMatrix};
 use crate::error::{Argument, Error};
 use crate::linalg::sparse::{Condensation, Failure};
@@ -40,7 +40,7 @@ impl SparseReduction {
     pub fn new(
         matrix: &SparseMatrix<'_>,
         fixed: &[usize],
-        interface: &Interface<'_>,
+        interface: &ContactPairs<'_>,
     ) -> Result<Self, Error> {
         let size = matrix.size;
         interface.check(size)?;
@@ -211,7 +211,7 @@ impl SparseReduction {
 }
 
 /// `F . d = F . Rᵀ (u_slave - sum w_k u_master,k)`, term by term.
-fn actions(interface: &Interface<'_>, frames: &[Frame]) -> Vec<(usize, usize, f64)> {
+fn actions(interface: &ContactPairs<'_>, frames: &[Frame]) -> Vec<(usize, usize, f64)> {
     let dim = interface.dim;
     let mut actions = Vec::new();
     for (pair, frame) in frames.iter().enumerate() {
@@ -269,7 +269,7 @@ fn numbers_of_fixed(size: usize, fixed: &[usize]) -> Result<Vec<Option<usize>>, 
 /// The relative component that a support of the slave along `axis` holds, if its masters are fixed
 /// there too: a decoupled row.
 fn held_component(
-    interface: &Interface<'_>,
+    interface: &ContactPairs<'_>,
     pair: usize,
     axis: usize,
     frame: &Frame,

@@ -10,13 +10,13 @@
 //! next method is asked too.
 
 use super::solution::{
-    Candidate, Ending, Fallback, Other, Solution, Status, Uniqueness, certified,
+    Candidate, Ending, Fallback, SecondSolution, Solution, Status, Uniqueness, certified,
 };
 use super::uniqueness;
 use crate::certificate;
 use crate::error::Error;
-use crate::monitor::{Interruption, Monitor};
-use crate::problem::{ContactProblem, Friction};
+use crate::monitor::{Monitor, Stop};
+use crate::problem::{ContactProblem, FrictionLaw};
 use crate::settings::{Method, Settings};
 
 /// Sweeps that are tried where exact methods have failed.
@@ -74,7 +74,7 @@ fn attempt(
     let candidate = super::run(method, problem, settings, start, monitor);
     monitor.restore(all);
     let mut candidate = candidate?;
-    let limit = Ending::Interrupted(Interruption::IterationLimit);
+    let limit = Ending::Interrupted(Stop::IterationLimit);
     if candidate.ending == limit && monitor.iterations() < all {
         candidate.ending = Ending::Stalled("no method settles");
     }
@@ -82,16 +82,19 @@ fn attempt(
 }
 
 fn plan(problem: &ContactProblem<'_>) -> &'static [Method] {
-    match problem.friction() {
-        friction if friction.is_zero() => &[Method::Pivot, Method::Lemke, Method::SorNested],
-        Friction::Tresca(_) if problem.dim() == 2 => {
+    match problem.law() {
+        FrictionLaw::Frictionless => &[Method::BlockPivoting, Method::Lemke, Method::SorNested],
+        friction if friction.is_zero() => {
+            &[Method::BlockPivoting, Method::Lemke, Method::SorNested]
+        }
+        FrictionLaw::Tresca(_) if problem.dim() == 2 => {
             &[Method::Newton, Method::Lemke, Method::SorNested]
         }
-        Friction::Coulomb(_) if problem.dim() == 2 => {
+        FrictionLaw::Coulomb(_) if problem.dim() == 2 => {
             &[Method::Newton, Method::Lemke, Method::SorNested, Method::SorDiagonal]
         }
-        Friction::Tresca(_) => &[Method::SorNested],
-        Friction::Coulomb(_) => &[Method::SorNested, Method::SorDiagonal],
+        FrictionLaw::Tresca(_) => &[Method::SorNested],
+        FrictionLaw::Coulomb(_) => &[Method::SorNested, Method::SorDiagonal],
     }
 }
 
@@ -135,7 +138,7 @@ impl Tried {
             && uniqueness::are_different(problem, &solution.d, &other.d)
         {
             solution.uniqueness = Uniqueness::Several;
-            solution.second = Some(Box::new(Other {
+            solution.second = Some(Box::new(SecondSolution {
                 d: other.d,
                 certificate: other.certificate,
                 orientation: other.orientation,

@@ -6,8 +6,8 @@ use super::solution::{Ending, Fallback, Status};
 use crate::error::{Argument, Error};
 use crate::lcp::Lcp;
 use crate::linalg::small::largest;
-use crate::monitor::{Interruption, Monitor};
-use crate::problem::{ContactData, ContactProblem, Friction};
+use crate::monitor::{Monitor, Stop};
+use crate::problem::{ContactData, ContactProblem, FrictionLaw};
 use crate::settings::{Method, Settings};
 
 /// Result of a bare complementarity problem.
@@ -19,8 +19,11 @@ pub struct LcpSolution {
     pub message: String,
     /// `w >= 0`.
     pub w: Vec<f64>,
-    /// `z >= 0`; of [`Status::NoEquilibrium`] the vector `y` that proves it, its largest entry 1.
+    /// `z >= 0`.
     pub z: Vec<f64>,
+    /// Of [`Status::NoEquilibrium`] the vector `y` that proves it ([`Lcp::is_infeasible_by`]), its
+    /// largest entry 1.
+    pub infeasible_by: Option<Vec<f64>>,
     /// [`Lcp::eta`].
     pub eta: f64,
     /// The method that ended it.
@@ -47,10 +50,12 @@ pub fn solve_lcp(
     settings.validate()?;
     let mut pivoted = None;
     match settings.method {
-        Method::Auto | Method::Pivot => {
+        Method::Auto | Method::BlockPivoting => {
             let run = by_pivoting(lcp, settings, monitor);
-            let solution = certified(lcp, settings, Method::Pivot, &run, monitor.iterations());
-            let done = solution.status == Status::Solved || settings.method == Method::Pivot;
+            let solution =
+                certified(lcp, settings, Method::BlockPivoting, &run, monitor.iterations());
+            let done =
+                solution.status == Status::Solved || settings.method == Method::BlockPivoting;
             if done || matches!(run.end, End::Interrupted(_)) {
                 return Ok(solution);
             }
@@ -71,7 +76,7 @@ pub fn solve_lcp(
             (solution.w, solution.z, solution.eta) = (before.w, before.z, before.eta);
         }
         let why = if run.end == End::Singular { Fallback::Singular } else { Fallback::Inaccurate };
-        solution.fallback = Some((Method::Pivot, why));
+        solution.fallback = Some((Method::BlockPivoting, why));
         solution.factorisations = before.factorisations;
     }
     Ok(solution)
@@ -90,7 +95,7 @@ enum End {
     Done,
     Singular,
     Ray(Vec<f64>),
-    Interrupted(Interruption),
+    Interrupted(Stop),
 }
 
 /// The problem as frictionless contact with one component a pair, `z = -d`, `w = -F`, `q = f`.
@@ -111,10 +116,10 @@ fn by_pivoting(lcp: &Lcp<'_>, settings: &Settings, monitor: &mut Monitor<'_>) ->
         ld: lcp.ld(),
         load: lcp.q(),
         gap: &zero,
-        friction: Friction::Coulomb(&zero),
-        previous_slip: None,
+        law: FrictionLaw::Coulomb(&zero),
+        reference_slip: None,
     });
-    let most = if settings.method == Method::Pivot { u64::MAX } else { pivot::enough(n) };
+    let most = if settings.method == Method::BlockPivoting { u64::MAX } else { pivot::enough(n) };
     // The measure of contact problems has another scale than `Lcp::eta`, which decides.
     let strict = Settings { tolerance: 0.01 * settings.tolerance, ..settings.clone() };
     let candidate = pivot::solve(&problem, &strict, lcp.is_symmetric(), None, most, monitor);
@@ -163,14 +168,14 @@ fn certified(
     iterations: u64,
 ) -> LcpSolution {
     let (eta, product) = lcp.measure(&run.z);
-    let mut z = run.z.clone();
+    let mut infeasible_by = None;
     let wanted = format!("eta is {eta:.1e}, wanted {:.1e}", settings.tolerance);
     let (status, message) = match &run.end {
         _ if eta <= settings.tolerance => (Status::Solved, format!("solved: eta is {eta:.1e}")),
         End::Ray(ray) if lcp.is_infeasible_by(ray) => {
             let most = largest(ray);
-            z = ray.iter().map(|y| y / most).collect();
-            (Status::NoEquilibrium, "no w, z >= 0 satisfy w = q + M z: proved by z".into())
+            infeasible_by = Some(ray.iter().map(|y| y / most).collect());
+            (Status::NoEquilibrium, "no w, z >= 0 satisfy w = q + M z: proved".into())
         }
         End::Ray(_) => {
             (Status::Stalled, format!("the path ended in a ray that proves nothing; {wanted}"))
@@ -190,7 +195,8 @@ fn certified(
         status,
         message,
         w,
-        z,
+        z: run.z.clone(),
+        infeasible_by,
         eta,
         method,
         fallback: None,

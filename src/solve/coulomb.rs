@@ -14,7 +14,7 @@ use super::Ending;
 use super::sweeps::{LARGEST_FACTOR, Sweeps};
 use crate::linalg::small::{largest, norm};
 use crate::monitor::Monitor;
-use crate::problem::{ContactProblem, Friction};
+use crate::problem::{ContactProblem, FrictionLaw};
 use crate::settings::Settings;
 
 /// Accuracy of an inner problem relative to that of the threshold.
@@ -36,9 +36,9 @@ pub fn single(
     start: Vec<f64>,
     monitor: &mut Monitor<'_>,
 ) -> Candidate {
-    let largest_factor = match problem.friction() {
-        Friction::Coulomb(mu) => LARGEST_FACTOR.min(1.0 + 0.95 / (1.0 + 0.55 * largest(mu))),
-        Friction::Tresca(_) => LARGEST_FACTOR,
+    let largest_factor = match problem.law() {
+        FrictionLaw::Coulomb(mu) => LARGEST_FACTOR.min(1.0 + 0.95 / (1.0 + 0.55 * largest(mu))),
+        FrictionLaw::Frictionless | FrictionLaw::Tresca(_) => LARGEST_FACTOR,
     };
     let mut sweeps = Sweeps::new(problem, settings, start, largest_factor, monitor);
     let ending = sweeps.solve(settings.tolerance).err().unwrap_or(Ending::Done);
@@ -62,7 +62,7 @@ pub fn nested(
             Ok(eta) => INNER * eta,
             Err(ending) => break ending,
         };
-        let tresca = problem.with_friction(Friction::Tresca(&thresholds));
+        let tresca = problem.with_law(FrictionLaw::Tresca(&thresholds));
         sweeps.restart();
         if let Err(ending) = sweeps.relax(&tresca, target, INNER_SWEEPS) {
             break ending;

@@ -8,7 +8,7 @@
 use super::factor::Factor;
 use crate::certificate;
 use crate::linalg::dense::RANK;
-use crate::problem::{ContactData, ContactProblem, Friction};
+use crate::problem::{ContactData, ContactProblem, FrictionLaw};
 
 /// A frictionless problem and what is left of it.
 pub struct Elimination<'p> {
@@ -91,8 +91,8 @@ impl<'p> Elimination<'p> {
             ld: self.kept.len().max(1),
             load: &self.load,
             gap: &self.gap,
-            friction: Friction::Coulomb(&self.no_friction),
-            previous_slip: None,
+            law: FrictionLaw::Coulomb(&self.no_friction),
+            reference_slip: None,
         })
     }
 

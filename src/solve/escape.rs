@@ -8,7 +8,7 @@ use super::factor::Factor;
 use crate::certificate::is_escape;
 use crate::law;
 use crate::linalg::small::largest;
-use crate::problem::{ContactProblem, Friction};
+use crate::problem::{ContactProblem, FrictionLaw};
 
 /// Looks at the iterates of sweeps 256, 512, 1024, …
 pub struct EscapeWatch {
@@ -33,7 +33,7 @@ impl EscapeWatch {
         let drift: Vec<f64> = d.iter().zip(&self.before).map(|(d, before)| d - before).collect();
         self.before.copy_from_slice(d);
         let motion = rigid_part(problem, &drift)?;
-        let Friction::Coulomb(mu) = problem.friction() else {
+        let FrictionLaw::Coulomb(mu) = problem.law() else {
             return is_escape(problem, &motion).then_some(motion);
         };
         let slides = motion.chunks_exact(problem.dim()).map(|pair| law::length(&pair[1..]));

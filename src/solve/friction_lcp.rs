@@ -6,7 +6,7 @@ use super::pieces::{Motion, Piece};
 use super::solution::{Candidate, Ending};
 use crate::error::Error;
 use crate::linalg::small::largest;
-use crate::problem::{ContactProblem, Friction};
+use crate::problem::{ContactProblem, FrictionLaw};
 
 /// The arrays of a complementarity problem in `(w, a, b)`.
 pub struct Arrays {
@@ -39,7 +39,7 @@ impl<'p> FrictionLcp<'p> {
         let stalled = |reason| Candidate::ended(vec![0.0; problem.unknowns()], reason);
         let faces = |i: &usize| problem.gap(i / 2) < f64::INFINITY;
         let normal: Vec<usize> = (0..problem.unknowns()).step_by(2).filter(faces).collect();
-        let coulomb = matches!(problem.friction(), Friction::Coulomb(_));
+        let coulomb = matches!(problem.law(), FrictionLaw::Coulomb(_));
         let rubs = |i: &usize| !coulomb || faces(i);
         let tangential: Vec<usize> = (1..problem.unknowns()).step_by(2).filter(rubs).collect();
         let kept: Vec<usize> = normal.iter().chain(&tangential).copied().collect();
@@ -53,7 +53,7 @@ impl<'p> FrictionLcp<'p> {
             at_rest[i] = problem.gap(i / 2);
         }
         for &i in &tangential {
-            at_rest[i] = problem.previous_slip(i / 2, 0);
+            at_rest[i] = problem.reference_slip(i / 2, 0);
         }
         eliminated.equilibrate(problem, &mut at_rest);
         if let Some(motion) = driven_motion(problem, &eliminated, &at_rest) {
@@ -78,9 +78,10 @@ impl<'p> FrictionLcp<'p> {
         for (k, &i) in self.normal.iter().enumerate() {
             place[i / 2] = k;
         }
-        let (mu, g) = match problem.friction() {
-            Friction::Coulomb(mu) => (Some(mu), None),
-            Friction::Tresca(g) => (None, Some(g)),
+        let (mu, g) = match problem.law() {
+            FrictionLaw::Frictionless => (None, None),
+            FrictionLaw::Coulomb(mu) => (Some(mu), None),
+            FrictionLaw::Tresca(g) => (None, Some(g)),
         };
         let coefficient =
             |k: usize| mu.map(|mu| (mu[self.tangential[k] / 2], place[self.tangential[k] / 2]));
@@ -165,7 +166,7 @@ impl<'p> FrictionLcp<'p> {
         for (k, &i) in self.normal.iter().enumerate() {
             pieces[i / 2].closed = z[k] == 0.0;
         }
-        let tresca = matches!(self.problem.friction(), Friction::Tresca(_));
+        let tresca = matches!(self.problem.law(), FrictionLaw::Tresca(_));
         for (k, &i) in self.tangential.iter().enumerate() {
             let piece = &mut pieces[i / 2];
             let rubs = self.problem.threshold(i / 2, 1.0) > 0.0;

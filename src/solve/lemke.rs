@@ -16,7 +16,7 @@
 use super::tableau::{Scaled, Tableau};
 use crate::error::Error;
 use crate::lcp::Lcp;
-use crate::monitor::{Interruption, Monitor};
+use crate::monitor::{Monitor, Stop};
 
 /// How a run of Lemke's method ended.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,7 +28,7 @@ pub enum Path {
     /// Rounding made the basis singular.
     Breakdown,
     /// A budget ended it, or the caller.
-    Interrupted(Interruption),
+    Interrupted(Stop),
 }
 
 /// Result of a run.

@@ -27,12 +27,12 @@ mod uniqueness;
 
 use crate::error::{Argument, Error};
 use crate::monitor::Monitor;
-use crate::problem::{ContactProblem, Friction};
+use crate::problem::{ContactProblem, FrictionLaw};
 use crate::settings::{Method, Search, Settings};
 
 pub use bare::{LcpSolution, solve_lcp};
 use solution::{Candidate, Ending, certified, is_unloaded};
-pub use solution::{Fallback, Other, Solution, Status, Uniqueness};
+pub use solution::{Fallback, SecondSolution, Solution, Status, Uniqueness};
 
 /// Solves a contact problem from the displacements `start` (zero if `None`).
 ///
@@ -75,21 +75,21 @@ fn run(
         return Ok(Candidate::ended(Vec::new(), Ending::Done));
     }
     let rest = || start.map_or_else(|| vec![0.0; problem.unknowns()], <[f64]>::to_vec);
-    Ok(match (method, problem.friction()) {
+    Ok(match (method, problem.law()) {
         (Method::Lemke, friction) if friction.is_zero() => {
             frictionless::lemke(problem, settings, monitor)?
         }
         (Method::Lemke, _) => frictional_lemke::solve(problem, settings, monitor)?,
         (Method::Newton, _) => newton::solve(problem, settings, start, monitor),
-        (Method::Pivot, _) => {
-            let chosen = settings.method == Method::Pivot;
+        (Method::BlockPivoting, _) => {
+            let chosen = settings.method == Method::BlockPivoting;
             let most = if chosen { u64::MAX } else { pivot::enough(problem.pairs()) };
             pivot::solve(problem, settings, true, start, most, monitor)
         }
         (_, friction) if friction.is_zero() => {
             frictionless::sor(problem, settings, &rest(), monitor)
         }
-        (Method::SorDiagonal, _) | (_, Friction::Tresca(_)) => {
+        (Method::SorDiagonal, _) | (_, FrictionLaw::Tresca(_)) => {
             coulomb::single(problem, settings, rest(), monitor)
         }
         _ => coulomb::nested(problem, settings, rest(), monitor),
@@ -98,14 +98,14 @@ fn run(
 
 fn check_method(problem: &ContactProblem<'_>, method: Method) -> Result<(), Error> {
     let refuse = |message: &str| Err(Error::invalid(Argument::Settings, message));
-    let frictionless = problem.friction().is_zero();
-    let tresca = matches!(problem.friction(), Friction::Tresca(_));
+    let frictionless = problem.law().is_zero();
+    let tresca = matches!(problem.law(), FrictionLaw::Tresca(_));
     let planar = problem.dim() == 2;
     match method {
         Method::Lemke if !frictionless && !planar => {
             refuse("settings: Lemke's method is for frictionless contact, and for friction in 2D")
         }
-        Method::Pivot if !frictionless => refuse(if tresca {
+        Method::BlockPivoting if !frictionless => refuse(if tresca {
             "settings: block pivoting is for frictionless contact, every g must be 0"
         } else {
             "settings: block pivoting is for frictionless contact, every mu must be 0"
@@ -132,7 +132,7 @@ fn checked_start(
     match start.iter().position(|d| !d.is_finite()) {
         Some(i) => Err(Error::invalid(Argument::Start, format!("the start d[{i}] is not finite"))),
         // Without load and slip rest is the solution, which other starts only approach.
-        None if is_unloaded(problem) && problem.has_no_previous_slip() => Ok(None),
+        None if is_unloaded(problem) && problem.has_no_reference_slip() => Ok(None),
         None => Ok(Some(start.to_vec())),
     }
 }

@@ -10,7 +10,7 @@
 //!
 //! In two dimensions; in others without friction.
 
-use crate::problem::{ContactProblem, Friction};
+use crate::problem::{ContactProblem, FrictionLaw};
 
 /// What a pair does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -54,7 +54,7 @@ pub fn at(problem: &ContactProblem<'_>, d: &[f64], force: &[f64]) -> Vec<Piece> 
             return Piece { closed, motion: Motion::Slide(0) };
         }
         let t = n + 1;
-        let trial = problem.diagonal(t) * (d[t] - problem.previous_slip(pair, 0)) - force[t];
+        let trial = problem.diagonal(t) * (d[t] - problem.reference_slip(pair, 0)) - force[t];
         let motion = if trial > threshold {
             Motion::Slide(1)
         } else if trial < -threshold {
@@ -84,13 +84,13 @@ pub fn rows(problem: &ContactProblem<'_>, pieces: &[Piece]) -> Vec<Row> {
     for (pair, piece) in pieces.iter().enumerate() {
         rows.push(if piece.closed { Row::Held(problem.gap(pair)) } else { FORCELESS });
         for component in 0..problem.dim() - 1 {
-            rows.push(match (piece.motion, problem.friction()) {
-                (Motion::Rest, _) => Row::Held(problem.previous_slip(pair, component)),
-                (Motion::Slide(0), _) => FORCELESS,
-                (Motion::Slide(side), Friction::Coulomb(mu)) => {
+            rows.push(match (piece.motion, problem.law()) {
+                (Motion::Rest, _) => Row::Held(problem.reference_slip(pair, component)),
+                (Motion::Slide(0), _) | (_, FrictionLaw::Frictionless) => FORCELESS,
+                (Motion::Slide(side), FrictionLaw::Coulomb(mu)) => {
                     Row::Free { coupling: -f64::from(side) * mu[pair], offset: 0.0 }
                 }
-                (Motion::Slide(side), Friction::Tresca(g)) => {
+                (Motion::Slide(side), FrictionLaw::Tresca(g)) => {
                     Row::Free { coupling: 0.0, offset: f64::from(side) * g[pair] }
                 }
             });

@@ -2,7 +2,7 @@
 
 use crate::certificate::{Certificate, certify, is_escape};
 use crate::linalg::small::largest;
-use crate::monitor::Interruption;
+use crate::monitor::Stop;
 use crate::problem::ContactProblem;
 use crate::settings::{Method, Settings};
 
@@ -74,7 +74,7 @@ pub enum Ending {
     /// It believes that it is done.
     Done,
     /// A budget ended it, or the caller.
-    Interrupted(Interruption),
+    Interrupted(Stop),
     /// It follows a motion that may prove that no equilibrium exists.
     Escape(Vec<f64>),
     /// The states of an earlier iteration came again.
@@ -108,21 +108,22 @@ pub struct Solution {
     pub status: Status,
     /// One sentence on what happened.
     pub message: String,
-    /// Relative displacements; of [`Status::NoEquilibrium`] the motion of escape, its largest
-    /// component 1.
+    /// Relative displacements; the best iterate where [`Self::status`] is not [`Status::Solved`].
     pub d: Vec<f64>,
-    /// The certificate: measures, contact forces, states. Of [`Status::NoEquilibrium`] that of the
-    /// last iterate, with the forces set to zero.
+    /// The certificate of `d`: measures, contact forces, states.
     pub certificate: Certificate,
+    /// Of [`Status::NoEquilibrium`] the motion that proves it (a recession direction), its largest
+    /// component 1.
+    pub recession: Option<Vec<f64>>,
     /// The method that ended it.
     pub method: Method,
     /// The method tried first, and why it did not end it.
     pub fallback: Option<(Method, Fallback)>,
     /// Whether it is the only solution.
     pub uniqueness: Uniqueness,
-    /// Another solution, if [`crate::Search::Others`] found one or the default method met an unstable
+    /// Another solution, if [`crate::Search::SecondSolutions`] found one or the default method met an unstable
     /// one on its way.
-    pub second: Option<Box<Other>>,
+    pub second: Option<Box<SecondSolution>>,
     /// Sign of the determinant of the system of equations that the states select, 0 if not known.
     /// Over all solutions of a problem with positive definite `K` it adds up to +1.
     pub orientation: i8,
@@ -142,24 +143,13 @@ pub struct Solution {
 
 /// A further solution, certified like the first.
 #[derive(Clone, Debug)]
-pub struct Other {
+pub struct SecondSolution {
     /// Relative displacements.
     pub d: Vec<f64>,
     /// The certificate: measures, contact forces, states.
     pub certificate: Certificate,
     /// As [`Solution::orientation`].
     pub orientation: i8,
-}
-
-impl Solution {
-    /// Exchanges the solution with the second one, if there is one.
-    pub fn exchange(&mut self) {
-        if let Some(second) = &mut self.second {
-            std::mem::swap(&mut self.d, &mut second.d);
-            std::mem::swap(&mut self.certificate, &mut second.certificate);
-            std::mem::swap(&mut self.orientation, &mut second.orientation);
-        }
-    }
 }
 
 /// Whether nothing but previous slip can cause forces.
@@ -191,6 +181,7 @@ pub fn certified(
         _ if certificate.runs_away() => Ending::Escape(d.clone()),
         other => other,
     };
+    let mut recession = None;
     let accuracy = format!("eta is {:.1e}", certificate.eta);
     let (status, message) = if certificate.holds(settings.tolerance) {
         (Status::Solved, format!("solved: {accuracy}"))
@@ -200,8 +191,7 @@ pub fn certified(
             Ending::Escape(mut motion) if is_escape(problem, &motion) => {
                 let most = largest(&motion);
                 motion.iter_mut().for_each(|r| *r /= most);
-                d = motion;
-                certificate.force.fill(0.0);
+                recession = Some(motion);
                 (
                     Status::NoEquilibrium,
                     "no equilibrium exists: the loads drive a rigid motion that contact does not \
@@ -218,6 +208,7 @@ pub fn certified(
         message,
         d,
         certificate,
+        recession,
         method,
         fallback: None,
         uniqueness: Uniqueness::NotKnown,
@@ -248,19 +239,19 @@ impl Ending {
     }
 }
 
-impl Interruption {
+impl Stop {
     /// Status and sentence of a run that was ended with the accuracy that `wanted` tells.
     pub(super) fn ended(self, settings: &Settings, wanted: &str) -> (Status, String) {
         match self {
-            Interruption::IterationLimit => (
+            Stop::IterationLimit => (
                 Status::IterationLimit,
                 format!("max_iterations ({}) used up; {wanted}", settings.max_iterations),
             ),
-            Interruption::TimeLimit => (
+            Stop::TimeLimit => (
                 Status::TimeLimit,
                 format!("time_limit ({} s) used up; {wanted}", settings.time_limit),
             ),
-            Interruption::Cancelled => {
+            Stop::Cancelled => {
                 (Status::Cancelled, format!("cancelled by the progress callback; {wanted}"))
             }
         }

@@ -101,7 +101,7 @@ impl Iterate {
         let trial = &mut trial[..steps.len()];
         for (c, step) in steps.iter_mut().enumerate() {
             *step = -rate * (self.force[i + 1 + c] + coupling[c] * normal[0]);
-            trial[c] = self.d[i + 1 + c] - problem.previous_slip(pair, c) + *step;
+            trial[c] = self.d[i + 1 + c] - problem.reference_slip(pair, c) + *step;
         }
         let length = law::length(trial);
         for (c, step) in steps.iter_mut().enumerate() {
@@ -110,7 +110,7 @@ impl Iterate {
                 *step -= bound * (trial[c] / length);
                 *d += *step;
             } else {
-                let rest = problem.previous_slip(pair, c);
+                let rest = problem.reference_slip(pair, c);
                 *step = rest - *d;
                 *d = rest;
             }

@@ -10,7 +10,7 @@
 use super::factor::Factor;
 use crate::certificate;
 use crate::linalg::direct::Direct;
-use crate::problem::{ContactProblem, Friction};
+use crate::problem::{ContactProblem, FrictionLaw};
 
 /// Edges of the polygon around a friction cone in 3D, which it contains: what its forces cannot
 /// balance the cone's cannot.
@@ -21,7 +21,7 @@ const GRADIENT: f64 = 1e-13;
 
 /// A motion that proves that there is no equilibrium, under Coulomb's law.
 pub fn escape(problem: &ContactProblem<'_>) -> Option<Vec<f64>> {
-    let Friction::Coulomb(mu) = problem.friction() else { return None };
+    let FrictionLaw::Coulomb(mu) = problem.law() else { return None };
     let root: Vec<f64> = (0..problem.unknowns()).map(|i| problem.diagonal(i).sqrt()).collect();
     let basis = rigid_motions(problem, &root);
     let on_motions = |force: &dyn Fn(usize) -> f64, first: usize, count: usize| -> Vec<f64> {

@@ -14,12 +14,12 @@
 use super::frictional_lemke;
 use super::newton;
 use super::pieces::{self, Motion, Piece};
-use super::solution::{Candidate, Ending, Other, Solution, Status, Uniqueness};
+use super::solution::{Candidate, Ending, SecondSolution, Solution, Status, Uniqueness};
 use crate::certificate::certify;
 use crate::error::Error;
 use crate::linalg::direct::{Direct, largest_eigenvalue};
 use crate::monitor::Monitor;
-use crate::problem::{ContactProblem, Friction};
+use crate::problem::{ContactProblem, FrictionLaw};
 use crate::settings::Settings;
 
 /// What is proved must be true by more than rounding.
@@ -45,7 +45,7 @@ pub fn examine(
         solution.uniqueness = Uniqueness::Unique;
         return Ok(());
     }
-    if problem.dim() != 2 || problem.friction().is_zero() {
+    if problem.dim() != 2 || problem.law().is_zero() {
         return Ok(());
     }
     // To the last digit, and with its orientation.
@@ -92,14 +92,14 @@ fn another(
     settings: &Settings,
     known: &[f64],
     monitor: &mut Monitor<'_>,
-) -> Result<Option<Other>, Error> {
+) -> Result<Option<SecondSolution>, Error> {
     let accepted = |candidate: Candidate| {
         let certificate = certify(problem, &candidate.d);
         let other = candidate.ending == Ending::Done
             && certificate.holds(settings.tolerance)
             && are_different(problem, known, &candidate.d);
         let orientation = candidate.orientation;
-        other.then_some(Other { d: candidate.d, certificate, orientation })
+        other.then_some(SecondSolution { d: candidate.d, certificate, orientation })
     };
     let rest = || vec![0.0; problem.unknowns()];
     for pieces in starts(problem) {
@@ -177,8 +177,8 @@ fn is_strict(problem: &ContactProblem<'_>, d: &[f64]) -> bool {
         let (n, t) = (2 * pair, 2 * pair + 1);
         let pressure = problem.diagonal(n) * (d[n] - problem.gap(pair)) - force[n];
         let threshold = problem.threshold(pair, pressure.max(0.0));
-        let trial = problem.diagonal(t) * (d[t] - problem.previous_slip(pair, 0)) - force[t];
-        match pressure > 0.0 || matches!(problem.friction(), Friction::Tresca(_)) {
+        let trial = problem.diagonal(t) * (d[t] - problem.reference_slip(pair, 0)) - force[t];
+        match pressure > 0.0 || matches!(problem.law(), FrictionLaw::Tresca(_)) {
             true if threshold > 0.0 => pressure.abs().min((trial.abs() - threshold).abs()),
             _ => pressure.abs(),
         }
@@ -198,7 +198,7 @@ fn scaled_factor(problem: &ContactProblem<'_>) -> Option<Direct> {
 
 /// Whether `g -> mu p` is a contraction; without friction, or with given thresholds, it is constant.
 fn is_contraction(problem: &ContactProblem<'_>, factor: &Direct) -> bool {
-    let Friction::Coulomb(mu) = problem.friction() else { return true };
+    let FrictionLaw::Coulomb(mu) = problem.law() else { return true };
     let (n, dim) = (problem.unknowns(), problem.dim());
     let rubbing: Vec<usize> =
         (0..problem.pairs()).filter(|&i| mu[i] > 0.0 && problem.gap(i) < f64::INFINITY).collect();

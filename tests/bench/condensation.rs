@@ -11,7 +11,7 @@ use std::time::Instant;
 use faer::linalg::solvers::Solve;
 use faer::{Mat, Par, Side};
 use mesh::{Block, Mesh, Pairs, Stiffness, steps};
-use signorini::{Friction, LoadCase, Model, Monitor, Settings, Solution, Status};
+use signorini::{FrictionLaw, LoadCase, Model, Monitor, Settings, Solution, Status};
 
 fn main() {
     faer::set_global_parallelism(Par::Seq);
@@ -67,8 +67,8 @@ fn solved(model: &Model, load: &[f64], start: Option<&[f64]>) -> Solution {
         load,
         prescribed: None,
         gap: &vec![0.0; model.pairs()],
-        friction: Friction::Coulomb(&vec![0.5; model.pairs()]),
-        previous_slip: None,
+        law: FrictionLaw::Coulomb(&vec![0.5; model.pairs()]),
+        reference_slip: None,
     };
     let settings = Settings::default();
     let monitor = &mut Monitor::new(&settings, None);

@@ -12,7 +12,7 @@ use std::time::Instant;
 
 use faer::Par;
 use mesh::{Mesh, Pairs, steps};
-use signorini::{Friction, LoadCase, Model, Monitor, Settings, Solution, Status};
+use signorini::{FrictionLaw, LoadCase, Model, Monitor, Settings, Solution, Status};
 
 const SIZE: f64 = 40.0;
 const COEFFICIENTS: [f64; 4] = [0.0, 0.1, 0.3, 1.0];
@@ -85,8 +85,8 @@ impl Bar {
             load: &self.load,
             prescribed: None,
             gap: &gap,
-            friction: Friction::Coulomb(&vec![mu; pairs]),
-            previous_slip: None,
+            law: FrictionLaw::Coulomb(&vec![mu; pairs]),
+            reference_slip: None,
         };
         let settings = Settings { tolerance: 1e-12, ..Settings::default() };
         let mut least = (f64::INFINITY, None);

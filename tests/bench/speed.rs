@@ -9,8 +9,8 @@ use std::time::Instant;
 
 use pulp::Arch;
 use signorini::{
-    ContactData, ContactProblem, Friction, Lcp, Method, Monitor, Settings, Solution, State, Status,
-    solve, solve_lcp,
+    ContactData, ContactProblem, FrictionLaw, Lcp, Method, Monitor, Settings, Solution, State,
+    Status, solve, solve_lcp,
 };
 
 fn main() {
@@ -49,7 +49,7 @@ fn seconds(work: impl FnOnce()) -> f64 {
 fn problem<'a>(
     bar: &'a bar::Condensed,
     gap: &'a [f64],
-    friction: Friction<'a>,
+    friction: FrictionLaw<'a>,
 ) -> ContactProblem<'a> {
     ContactProblem::new(ContactData {
         dim: 2,
@@ -59,7 +59,7 @@ fn problem<'a>(
         load: &bar.load,
         gap,
         friction,
-        previous_slip: None,
+        reference_slip: None,
     })
     .expect("a valid problem")
 }
@@ -73,7 +73,7 @@ fn sweep(bar: &bar::Condensed) {
     let gap = vec![f64::INFINITY; bar.pairs];
     // A threshold too small to hold anything, but not zero, which would eliminate the tangents.
     let threshold = vec![1e-9; bar.pairs];
-    let problem = problem(bar, &gap, Friction::Tresca(&threshold));
+    let problem = problem(bar, &gap, FrictionLaw::Tresca(&threshold));
     let sweeps = |count| {
         let settings = Settings {
             method: Method::SorNested,
@@ -178,7 +178,7 @@ fn frictionless(bar: &bar::Condensed) {
     let zero = vec![0.0; bar.pairs];
     let waves = 3.0 * std::f64::consts::TAU / (bar.pairs - 1) as f64;
     let gap: Vec<f64> = (0..bar.pairs).map(|i| 2e-3 * (1.0 - (i as f64 * waves).cos())).collect();
-    let problem = problem(bar, &gap, Friction::Coulomb(&zero));
+    let problem = problem(bar, &gap, FrictionLaw::Coulomb(&zero));
     for omega in [1.0, 1.7, 1.8, 1.85, 1.9, 0.0] {
         let method = Method::SorNested;
         let settings = Settings { method, tolerance: 1e-8, omega, ..Settings::default() };
@@ -192,7 +192,7 @@ fn friction(bar: &bar::Condensed) {
     let gap = vec![0.0; bar.pairs];
     for mu in [0.3, 1.0, 3.0] {
         let coefficients = vec![mu; bar.pairs];
-        let problem = problem(bar, &gap, Friction::Coulomb(&coefficients));
+        let problem = problem(bar, &gap, FrictionLaw::Coulomb(&coefficients));
         for (name, method) in [("nested", Method::SorNested), ("diagonal", Method::SorDiagonal)] {
             let settings = Settings { method, ..Settings::default() };
             report(name, bar.pairs, &format!("mu {mu}"), &problem, &settings);

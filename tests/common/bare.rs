@@ -74,13 +74,17 @@ impl Bare {
                 excess.then(|| format!("w = q + M z is {error:?} off"))
             }
             Status::NoEquilibrium => {
+                let Some(y) = &solution.infeasible_by else { return Some("no proof".into()) };
+                if y.iter().any(|y| !(*y >= 0.0)) {
+                    return Some("negative".into());
+                }
                 // Farkas: y >= 0, Mᵀ y <= 0, q.y < 0 leave no w, z >= 0, as w.y = q.y + z.Mᵀy.
                 // Zero is anything below 1e-10 of the parts.
-                let size = |j: usize| largest(self.column(j)) * largest(z);
-                let bad = (0..self.n).find(|&j| dot(self.column(j), z) > 1e-10 * size(j));
+                let size = |j: usize| largest(self.column(j)) * largest(y);
+                let bad = (0..self.n).find(|&j| dot(self.column(j), y) > 1e-10 * size(j));
                 match bad {
-                    Some(j) => Some(format!("(Mᵀ y)[{j}] = {:e} > 0", dot(self.column(j), z))),
-                    None if dot(&self.q, z) < 0.0 => None,
+                    Some(j) => Some(format!("(Mᵀ y)[{j}] = {:e} > 0", dot(self.column(j), y))),
+                    None if dot(&self.q, y) < 0.0 => None,
                     None => Some("q.y is not negative".into()),
                 }
             }

@@ -5,7 +5,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 
 use signorini::Error;
-use signorini::file::{self, SavedProblem};
+use signorini::file::{self, ProblemFile};
 
 /// A problem file of one pair.
 pub const SMALL: &str = "\
@@ -52,9 +52,9 @@ impl Folder {
     }
 
     /// What `load` says of a file with this content.
-    pub fn load(&self, content: &[u8]) -> Result<SavedProblem, String> {
+    pub fn load(&self, content: &[u8]) -> Result<ProblemFile, String> {
         fs::write(self.file(), content).unwrap();
-        let loaded = catch_unwind(AssertUnwindSafe(|| file::load(&self.file())));
+        let loaded = catch_unwind(AssertUnwindSafe(|| file::read(&self.file())));
         loaded.expect("a panic").map_err(|error| {
             assert!(matches!(error, Error::File(_)), "{error}");
             error.to_string()

@@ -1,7 +1,14 @@
 //! Measures of an answer, computed here from the data and the formulas, not by the library.
 
+use signorini::Solution;
+
 use super::dense::{difference, dot, norm, product};
 use super::problems::{Case, Law};
+
+/// The motion that proves that there is no equilibrium.
+pub fn motion(solution: &Solution) -> &[f64] {
+    solution.recession.as_deref().expect("a proof of no equilibrium has its motion")
+}
 
 /// `K d - f`.
 pub fn force(case: &Case, d: &[f64]) -> Vec<f64> {

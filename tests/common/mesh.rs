@@ -1,6 +1,6 @@
 //! Plane-strain Q1 meshes, their stiffness as a sparse matrix, and contact pairs on them.
 
-use signorini::reduce::{Indices, Interface, SparseMatrix, Triangle};
+use signorini::reduce::{ContactPairs, Indices, SparseMatrix, Triangle};
 use signorini::{Error, Model};
 
 /// Elements of one material each: nodes counterclockwise, and (E, nu).
@@ -263,8 +263,8 @@ impl Pairs {
         self.slaves.len()
     }
 
-    pub fn interface(&self) -> Interface<'_> {
-        Interface {
+    pub fn interface(&self) -> ContactPairs<'_> {
+        ContactPairs {
             dim: 2,
             pairs: self.count(),
             slaves: &self.dofs[0],

@@ -1,7 +1,7 @@
 //! Problems: data that owns its arrays, and random ones.
 
 use fastrand::Rng;
-use signorini::{ContactData, ContactProblem, Friction, Method, Monitor, Settings, Solution};
+use signorini::{ContactData, ContactProblem, FrictionLaw, Method, Monitor, Settings, Solution};
 
 use super::dense::{Elimination, dot, largest, norm};
 
@@ -34,11 +34,11 @@ impl Case {
             ld: (self.dim * self.pairs).max(1),
             load: &self.f,
             gap: &self.gap,
-            friction: match &self.law {
-                Law::Coulomb(mu) => Friction::Coulomb(mu),
-                Law::Tresca(g) => Friction::Tresca(g),
+            law: match &self.law {
+                Law::Coulomb(mu) => FrictionLaw::Coulomb(mu),
+                Law::Tresca(g) => FrictionLaw::Tresca(g),
             },
-            previous_slip: self.slip.as_deref(),
+            reference_slip: self.slip.as_deref(),
         }
     }
 

@@ -1,6 +1,6 @@
 //! Two blocks, one upon the other, and what tests of sparse models do with models.
 
-use signorini::{Friction, LoadCase, Method, Model, Monitor, Settings, Solution, Status};
+use signorini::{FrictionLaw, LoadCase, Method, Model, Monitor, Settings, Solution, Status};
 
 use super::dense::{difference, largest};
 use super::mesh::{Block, Mesh, Pairs, steps};
@@ -20,8 +20,8 @@ pub fn solve_case(
         load,
         prescribed,
         gap: &vec![gap; pairs],
-        friction: Friction::Coulomb(&vec![mu; pairs]),
-        previous_slip: None,
+        law: FrictionLaw::Coulomb(&vec![mu; pairs]),
+        reference_slip: None,
     };
     let settings = Settings { method, tolerance: 1e-13, ..Settings::default() };
     model.solve(&case, &settings, None, &mut Monitor::new(&settings, None)).unwrap()

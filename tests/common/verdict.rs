@@ -3,7 +3,7 @@
 use fastrand::Rng;
 use signorini::{Monitor, Settings, Solution, Status};
 
-use super::measures::{eta, flaw_of_escape, rounding};
+use super::measures::{eta, flaw_of_escape, motion, rounding};
 use super::oracle::Enumeration;
 use super::problems::{Case, vector};
 
@@ -42,7 +42,7 @@ pub fn judge(case: &Case, solution: &Solution, tolerance: f64) -> Result<Verdict
             }
             Ok(Verdict::Solved)
         }
-        Status::NoEquilibrium => match flaw_of_escape(case, &solution.d) {
+        Status::NoEquilibrium => match flaw_of_escape(case, motion(solution)) {
             Some(flaw) => Err(format!("its motion of escape proves nothing: {flaw}")),
             None if solvable => Err("'no equilibrium', but there is one".into()),
             None => Ok(Verdict::NoEquilibrium),
