@@ -58,7 +58,7 @@ fn problem<'a>(
         ld: 2 * bar.pairs,
         load: &bar.load,
         gap,
-        friction,
+        law: friction,
         reference_slip: None,
     })
     .expect("a valid problem")
