@@ -75,7 +75,7 @@ fn contact_problems_come_back_bit_for_bit() {
             ld,
             load: &load,
             gap: &gap,
-            friction: match tresca {
+            law: match tresca {
                 true => FrictionLaw::Tresca(&friction),
                 false => FrictionLaw::Coulomb(&friction),
             },
