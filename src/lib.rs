@@ -47,9 +47,7 @@ mod error;
 mod ffi;
 pub mod file;
 pub mod law;
-mod lcp;
 mod linalg;
-mod matrix;
 mod model;
 mod monitor;
 mod problem;
@@ -59,10 +57,9 @@ mod solve;
 
 pub use error::{Argument, Error};
 pub use law::State;
-pub use lcp::Lcp;
 pub use model::{LoadCase, Model};
 pub use monitor::{Monitor, Progress, ProgressFn, Stop};
-pub use problem::{ContactData, ContactProblem, FrictionLaw};
+pub use problem::{ContactData, ContactProblem, FrictionLaw, Lcp, Relation, Stiffness};
 pub use settings::{Method, Search, Settings};
 pub use solve::{
     Fallback, LcpSolution, SecondSolution, Solution, Status, Uniqueness, solve, solve_lcp,

@@ -4,9 +4,9 @@ use std::path::Path;
 
 use crate::error::{Argument, Error};
 use crate::file;
-use crate::matrix::{self, SymmetricMatrix};
+use crate::linalg::matrix::{Matrix, required_length};
 use crate::monitor::Monitor;
-use crate::problem::{ContactData, ContactProblem, FrictionLaw};
+use crate::problem::{ContactData, ContactProblem, FrictionLaw, checked_size, symmetric_matrix};
 use crate::reduce::{ContactPairs, SparseMatrix, SparseReduction, TwoBodyReduction};
 use crate::settings::Settings;
 use crate::solve::{Solution, solve};
@@ -47,8 +47,8 @@ impl Model {
     pub fn condensed(dim: usize, pairs: usize, k: &[f64], ld: usize) -> Result<Self, Error> {
         let size = checked_size(dim, pairs)?;
         check_length("K", (k, ld), size, (Argument::Matrix, Argument::LeadingDimension))?;
-        let matrix = SymmetricMatrix { size, entries: k, ld };
-        matrix.check("K", Argument::Matrix)?;
+        let matrix = Matrix::new(size, k, ld);
+        symmetric_matrix::check(&matrix, "K", Argument::Matrix)?;
         let stiffness = (0..size).flat_map(|j| matrix.column(j).iter().copied()).collect();
         Ok(Model { dim, pairs, reduction: Reduction::Condensed(stiffness) })
     }
@@ -88,8 +88,8 @@ impl Model {
     /// Refuses a reduced matrix in which a relative component has no stiffness of its own.
     fn checked(self) -> Result<Self, Error> {
         let size = self.dim * self.pairs;
-        let matrix = SymmetricMatrix { size, entries: self.stiffness(), ld: size.max(1) };
-        matrix.check("K_rel", Argument::Matrix)?;
+        let matrix = Matrix::new(size, self.stiffness(), size.max(1));
+        symmetric_matrix::check(&matrix, "K_rel", Argument::Matrix)?;
         Ok(self)
     }
 
@@ -251,18 +251,6 @@ impl Model {
     }
 }
 
-fn checked_size(dim: usize, pairs: usize) -> Result<usize, Error> {
-    if dim != 2 && dim != 3 {
-        let message = format!("dim is {dim}, it must be 2 or 3");
-        return Err(Error::invalid(Argument::Dimension, message));
-    }
-    let fits =
-        |n: &usize| n.checked_mul(*n).is_some_and(|entries| entries <= isize::MAX as usize / 8);
-    dim.checked_mul(pairs).filter(fits).ok_or_else(|| {
-        Error::invalid(Argument::Size, format!("{pairs} pairs: the matrix cannot exist"))
-    })
-}
-
 fn check_length(
     name: &str,
     (given, ld): (&[f64], usize),
@@ -270,7 +258,7 @@ fn check_length(
     (matrix, leading): (Argument, Argument),
 ) -> Result<(), Error> {
     let entries =
-        matrix::entries(name, size, ld).map_err(|message| Error::invalid(leading, message))?;
+        required_length(name, size, ld).map_err(|message| Error::invalid(leading, message))?;
     if given.len() < entries {
         let given = given.len();
         let message = format!("{name} has {given} entries, it must have {entries}");

@@ -62,20 +62,17 @@ impl<'a> Monitor<'a> {
         self.iterations
     }
 
-    /// Allows no more than `steps` further ones, in a part of the work; returns what
-    /// [`Self::restore`] takes to end that.
-    pub(crate) fn allow(&mut self, steps: u64) -> u64 {
+    /// Does a part of the work with no more than `steps` further iterations. Returns its result, and
+    /// whether all that the whole call may do is used up.
+    pub(crate) fn within<T>(&mut self, steps: u64, work: impl FnOnce(&mut Self) -> T) -> (T, bool) {
         let all = self.max_iterations;
         self.max_iterations = all.min(self.iterations.saturating_add(steps));
-        all
-    }
-
-    /// Ends what [`Self::allow`] began.
-    pub(crate) fn restore(&mut self, all: u64) {
+        let result = work(self);
         self.max_iterations = all;
+        (result, self.iterations >= all)
     }
 
-    /// Tells the callback's next report how accurate the iterate is.
+    /// Records `eta` for the next progress report.
     pub(crate) fn measured(&mut self, eta: f64) {
         self.eta = eta;
     }

@@ -5,7 +5,7 @@ use std::ffi::CStr;
 use std::path::Path;
 
 use super::guard::Failure;
-use crate::matrix;
+use crate::linalg::matrix;
 
 /// The arrays of one call, collected to check that outputs overlap nothing.
 #[derive(Default)]
@@ -194,7 +194,8 @@ pub(super) fn matrix_length(
     n: usize,
     leading: usize,
 ) -> Result<usize, Failure> {
-    matrix::entries(name, n, leading).map_err(|message| Failure::argument(position, message))
+    matrix::required_length(name, n, leading)
+        .map_err(|message| Failure::argument(position, message))
 }
 
 /// The name of a file: any bytes on Unix, UTF-8 elsewhere.

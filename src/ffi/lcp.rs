@@ -6,8 +6,8 @@ use super::report::SignoriniReport;
 use super::settings::SignoriniSettings;
 use super::status::{code, remember};
 use crate::error::Argument;
-use crate::lcp::Lcp;
 use crate::monitor::{Monitor, ProgressFn};
+use crate::problem::Lcp;
 use crate::settings::Method;
 use crate::solve::{Status, solve_lcp};
 

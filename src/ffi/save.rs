@@ -7,8 +7,8 @@ use super::guard::{self, Failure};
 use super::model::{SignoriniModel, receive};
 use crate::error::Argument;
 use crate::file;
-use crate::lcp::Lcp;
 use crate::model::LoadCase;
+use crate::problem::Lcp;
 use crate::problem::{ContactData, ContactProblem, FrictionLaw};
 
 /// Writes the problem of signorini_solve to a file, as text that keeps every bit.

@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::{BANNER, Kind, MOST_REMARK, TITLE, VERSION, refuse};
 use crate::error::{Argument, Error};
-use crate::lcp::Lcp;
+use crate::problem::Lcp;
 use crate::problem::{ContactProblem, FrictionLaw};
 
 /// Writes a contact problem to the file `path`, which is replaced if it exists. The remark is one

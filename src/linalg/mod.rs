@@ -1,7 +1,11 @@
-//! Linear algebra: the only room that names faer, nalgebra and the SIMD kernels.
+//! Linear algebra: the only room that names faer, nalgebra and the SIMD kernels. It knows nothing of
+//! mechanics.
 
-pub(crate) mod dense;
-pub(crate) mod direct;
-pub(crate) mod kernels;
-pub(crate) mod small;
+pub(crate) mod factor;
+pub(crate) mod matrix;
+pub(crate) mod nnls;
+pub(crate) mod pivoted_cholesky;
+pub(crate) mod simd;
 pub(crate) mod sparse;
+pub(crate) mod tolerances;
+pub(crate) mod vector;

@@ -17,8 +17,8 @@ use faer::sparse::linalg::cholesky::{
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Conj, MatMut, Par, Side, Spec};
 
-use super::dense::lower_times_transpose;
-use super::small::largest;
+use super::pivoted_cholesky::lower_times_transpose;
+use super::vector::norm_inf as largest;
 
 /// Lower triangle of a symmetric matrix by columns, rows ascending, diagonal entries present.
 pub struct Lower {

@@ -207,7 +207,7 @@ fn check_symmetry(
             let below = lower.next_if(|(row, _)| *row == i).map_or(0.0, |entry| entry.1);
             let above = upper.next_if(|(row, _)| *row == i).map_or(0.0, |entry| entry.1);
             let scale = diagonal(i).sqrt() * diagonal(j).sqrt();
-            if (below - above).abs() > crate::matrix::SYMMETRY * scale {
+            if (below - above).abs() > crate::problem::symmetric_matrix::SYMMETRY * scale {
                 return Err(Error::invalid(
                     Argument::Matrix,
                     format!("K is not symmetric: K[{i},{j}] is {below}, K[{j},{i}] is {above}"),

@@ -13,8 +13,9 @@
 //! the softer one, so that `K_rel` is not the small difference of large numbers.
 
 use crate::error::{Argument, Error};
-use crate::linalg::dense::Semidefinite;
-use crate::matrix::SymmetricMatrix;
+use crate::linalg::matrix::Matrix;
+use crate::linalg::pivoted_cholesky::PivotedCholesky;
+use crate::problem::symmetric_matrix::check;
 
 /// The reduction, kept for further load cases.
 pub struct TwoBodyReduction {
@@ -24,7 +25,7 @@ pub struct TwoBodyReduction {
     /// The softer body's matrix.
     second: Vec<f64>,
     scale: Vec<f64>,
-    sum: Semidefinite,
+    sum: PivotedCholesky,
     stiffness: Vec<f64>,
 }
 
@@ -39,18 +40,18 @@ impl TwoBodyReduction {
         (first, first_ld): (&[f64], usize),
         (second, second_ld): (&[f64], usize),
     ) -> Result<Self, Error> {
-        let first = SymmetricMatrix { size, entries: first, ld: first_ld };
-        first.check("K_A", Argument::Matrix)?;
-        let second = SymmetricMatrix { size, entries: second, ld: second_ld };
-        second.check("K_B", Argument::SecondMatrix)?;
-        let trace = |k: &SymmetricMatrix<'_>| (0..size).map(|i| k.column(i)[i]).sum::<f64>();
+        let first = Matrix::new(size, first, first_ld);
+        check(&first, "K_A", Argument::Matrix)?;
+        let second = Matrix::new(size, second, second_ld);
+        check(&second, "K_B", Argument::SecondMatrix)?;
+        let trace = |k: &Matrix<'_>| (0..size).map(|i| k.column(i)[i]).sum::<f64>();
         let exchanged = trace(&first) < trace(&second);
         let (first, second) = if exchanged { (second, first) } else { (first, second) };
         let scale: Vec<f64> =
             (0..size).map(|i| (first.column(i)[i] + second.column(i)[i]).sqrt().recip()).collect();
         let entry =
             |i: usize, j: usize| scale[i] * (first.column(j)[i] + second.column(j)[i]) * scale[j];
-        let Some(sum) = Semidefinite::new(size, entry) else {
+        let Some(sum) = PivotedCholesky::new(size, entry) else {
             let message = "K_A + K_B is not positive semi-definite";
             return Err(Error::invalid(Argument::Matrix, message));
         };

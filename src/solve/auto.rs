@@ -6,95 +6,85 @@
 //! | friction in 2D | Newton, Lemke, sweeps (nested, diagonal) |
 //! | friction in 3D | sweeps (nested, diagonal) |
 //!
-//! A solution of orientation −1 is one of at least three, and not the one that a structure takes: the
-//! next method is asked too.
+//! If the orientation of a solution is −1, there are at least three solutions and this one is
+//! unstable: the next method is asked too.
 
-use super::solution::{
-    Candidate, Ending, Fallback, SecondSolution, Solution, Status, Uniqueness, certified,
-};
+use super::candidate::{Candidate, Effort, Ending, certified};
+use super::outcome::{Fallback, SecondSolution, Solution, Status, Uniqueness};
 use super::uniqueness;
-use crate::certificate;
 use crate::error::Error;
+use crate::law::Contact;
 use crate::monitor::{Monitor, Stop};
-use crate::problem::{ContactProblem, FrictionLaw};
 use crate::settings::{Method, Settings};
 
-/// Sweeps that are tried where exact methods have failed.
+/// Sweeps that are tried where exact methods have failed: a thousandth of what they may take when they
+/// are chosen is not worth the wait, ten times more never helped on the problems of the tests.
 const LATER_SWEEPS: u64 = 5000;
 
 /// Solves by the first method whose result is certified.
 pub fn solve(
-    problem: &ContactProblem<'_>,
+    contact: &Contact<'_>,
     settings: &Settings,
     start: Option<&[f64]>,
     monitor: &mut Monitor<'_>,
 ) -> Result<Solution, Error> {
-    let plan = plan(problem);
+    let plan = plan(contact);
     let mut tried = Tried::default();
     for &method in plan {
-        let candidate = attempt(method, problem, settings, start, monitor)?;
-        tried.factorisations += candidate.factorisations;
-        tried.refactorisations += candidate.refactorisations;
-        let why = fallback(&candidate);
-        let interrupted = matches!(candidate.ending, Ending::Interrupted(_));
-        let solution = certified(problem, settings, method, candidate.clone());
+        let candidate = attempt(method, contact, settings, start, monitor)?;
+        tried.count(&candidate.effort);
+        let (why, stopped) = (fallback(&candidate), matches!(candidate.ending, Ending::Stopped(_)));
+        let solution = certified(contact, settings, method, &candidate);
         match solution.status {
             Status::Solved if solution.orientation < 0 && tried.unstable.is_none() => {
                 tried.unstable = Some(solution);
             }
-            Status::Solved | Status::NoEquilibrium => return Ok(tried.ended(problem, solution)),
-            _ => tried.keep(problem, method, candidate),
+            Status::Solved | Status::NoEquilibrium => return Ok(tried.ended(contact, solution)),
+            _ => tried.keep(contact, method, candidate),
         }
         tried.first.get_or_insert((plan[0], why));
-        if interrupted || (tried.unstable.is_some() && method == Method::Lemke) {
+        if stopped || (tried.unstable.is_some() && method == Method::Lemke) {
             break;
         }
     }
     if let Some(solution) = tried.unstable.take() {
-        return Ok(tried.ended(problem, solution));
+        return Ok(tried.ended(contact, solution));
     }
-    let (_, method, candidate) = tried.best.take().expect("a plan has a method");
-    let solution = certified(problem, settings, method, candidate);
-    Ok(tried.ended(problem, solution))
+    let (method, candidate) = tried.best.take().expect("a plan has a method");
+    let solution = certified(contact, settings, method, &candidate);
+    Ok(tried.ended(contact, solution))
 }
 
 /// Runs a method; sweeps after an exact method only for a while.
 fn attempt(
     method: Method,
-    problem: &ContactProblem<'_>,
+    contact: &Contact<'_>,
     settings: &Settings,
     start: Option<&[f64]>,
     monitor: &mut Monitor<'_>,
 ) -> Result<Candidate, Error> {
     let sweeps = matches!(method, Method::SorNested | Method::SorDiagonal);
-    if !sweeps || plan(problem)[0] == method {
-        return super::run(method, problem, settings, start, monitor);
+    if !sweeps || plan(contact)[0] == method {
+        return super::run(method, contact, settings, start, monitor);
     }
-    let all = monitor.allow(LATER_SWEEPS);
-    let candidate = super::run(method, problem, settings, start, monitor);
-    monitor.restore(all);
+    let (candidate, used_up) = monitor
+        .within(LATER_SWEEPS, |monitor| super::run(method, contact, settings, start, monitor));
     let mut candidate = candidate?;
-    let limit = Ending::Interrupted(Stop::IterationLimit);
-    if candidate.ending == limit && monitor.iterations() < all {
-        candidate.ending = Ending::Stalled("no method settles");
+    if candidate.ending == Ending::Stopped(Stop::IterationLimit) && !used_up {
+        candidate.ending = Ending::Stalled("no method converges");
     }
     Ok(candidate)
 }
 
-fn plan(problem: &ContactProblem<'_>) -> &'static [Method] {
-    match problem.law() {
-        FrictionLaw::Frictionless => &[Method::BlockPivoting, Method::Lemke, Method::SorNested],
-        friction if friction.is_zero() => {
-            &[Method::BlockPivoting, Method::Lemke, Method::SorNested]
-        }
-        FrictionLaw::Tresca(_) if problem.dim() == 2 => {
-            &[Method::Newton, Method::Lemke, Method::SorNested]
-        }
-        FrictionLaw::Coulomb(_) if problem.dim() == 2 => {
+fn plan(contact: &Contact<'_>) -> &'static [Method] {
+    match (contact.is_frictionless(), contact.dim(), contact.is_coupled()) {
+        (true, _, _) => &[Method::BlockPivoting, Method::Lemke, Method::SorNested],
+        (false, 2, false) => &[Method::Newton, Method::Lemke, Method::SorNested],
+        (false, 2, true) => {
             &[Method::Newton, Method::Lemke, Method::SorNested, Method::SorDiagonal]
         }
-        FrictionLaw::Tresca(_) => &[Method::SorNested],
-        FrictionLaw::Coulomb(_) => &[Method::SorNested, Method::SorDiagonal],
+        (false, _, false) => &[Method::SorNested],
+        (false, _, true) => &[Method::SorNested, Method::SorDiagonal],
     }
 }
 
@@ -113,29 +103,33 @@ struct Tried {
     first: Option<(Method, Fallback)>,
     /// A solution of orientation −1.
     unstable: Option<Solution>,
-    /// What is best among those that are none, with its `eta`, and the last ending.
-    best: Option<(f64, Method, Candidate)>,
-    factorisations: u64,
-    refactorisations: u64,
+    /// Best uncertified candidate and its method, with how the last method ended.
+    best: Option<(Method, Candidate)>,
+    effort: Effort,
 }
 
 impl Tried {
+    fn count(&mut self, effort: &Effort) {
+        self.effort.factorisations += effort.factorisations;
+        self.effort.refactorisations += effort.refactorisations;
+    }
+
     /// Keeps the better displacements, with the ending of the later method.
-    fn keep(&mut self, problem: &ContactProblem<'_>, method: Method, candidate: Candidate) {
-        let eta = certificate::certify(problem, &candidate.d).eta;
+    fn keep(&mut self, contact: &Contact<'_>, method: Method, candidate: Candidate) {
+        let eta = |candidate: &Candidate| candidate.certificate(contact).eta;
         match &mut self.best {
-            Some((least, _, best)) if !(eta < *least) => best.ending = candidate.ending,
-            best => *best = Some((eta, method, candidate)),
+            Some((_, best)) if !(eta(&candidate) < eta(best)) => best.ending = candidate.ending,
+            best => *best = Some((method, candidate)),
         }
     }
 
-    fn ended(self, problem: &ContactProblem<'_>, mut solution: Solution) -> Solution {
+    fn ended(self, contact: &Contact<'_>, mut solution: Solution) -> Solution {
         solution.fallback = self.first;
-        solution.factorisations = self.factorisations;
-        solution.refactorisations = self.refactorisations;
+        solution.factorisations = self.effort.factorisations;
+        solution.refactorisations = self.effort.refactorisations;
         if let Some(other) = self.unstable
             && solution.status == Status::Solved
-            && uniqueness::are_different(problem, &solution.d, &other.d)
+            && uniqueness::are_different(contact, &solution.d, &other.d)
         {
             solution.uniqueness = Uniqueness::Several;
             solution.second = Some(Box::new(SecondSolution {

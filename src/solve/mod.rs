@@ -1,38 +1,34 @@
 //! Solvers: each a plain function of (problem, settings, start, monitor) that returns a candidate.
-//! What is called a solution is decided in `solution`, by the certificate alone.
+//! What is called a solution is decided in `candidate`, by the certificate alone.
+//!
+//! ```text
+//! outcome ← candidate ← condense ← rigid_balance ← sweeps ← active_set ← lemke ← uniqueness ← auto ← mod
+//!                                                                          └──── lcp ────────────┘
+//! ```
+//!
+//! Each imports from those to its left only. One algorithm is one folder; what others may use of it is
+//! what its `mod.rs` names.
 
+mod active_set;
 mod auto;
-mod bare;
-mod bordered;
-mod coulomb;
-mod delayed;
-mod elimination;
-mod equations;
-mod escape;
-mod factor;
-mod friction_lcp;
-mod frictional_lemke;
-mod frictionless;
+mod candidate;
+mod condense;
+mod lcp;
 mod lemke;
-mod newton;
-mod pieces;
-mod pivot;
-mod relaxation;
-mod solution;
-mod sor;
-mod statics;
+mod outcome;
+mod rigid_balance;
 mod sweeps;
-mod tableau;
 mod uniqueness;
 
 use crate::error::{Argument, Error};
+use crate::law::Contact;
 use crate::monitor::Monitor;
-use crate::problem::{ContactProblem, FrictionLaw};
+use crate::problem::ContactProblem;
 use crate::settings::{Method, Search, Settings};
 
-pub use bare::{LcpSolution, solve_lcp};
-use solution::{Candidate, Ending, certified, is_unloaded};
-pub use solution::{Fallback, SecondSolution, Solution, Status, Uniqueness};
+use candidate::{Candidate, Ending, certified};
+pub use lcp::{LcpSolution, solve_lcp};
+pub use outcome::{Fallback, SecondSolution, Solution, Status, Uniqueness};
 
 /// Solves a contact problem from the displacements `start` (zero if `None`).
 ///
@@ -46,18 +42,21 @@ pub fn solve(
     monitor: &mut Monitor<'_>,
 ) -> Result<Solution, Error> {
     settings.validate()?;
-    check_method(problem, settings.method)?;
-    let start = checked_start(problem, start)?;
+    let contact = Contact::new(problem);
+    check_method(&contact, settings.method)?;
+    check_start(&contact, start)?;
+    // Where d = 0 is the solution, other starts only approach it.
+    let start = start.filter(|_| !contact.is_at_rest());
     let mut solution = match settings.method {
-        Method::Auto => auto::solve(problem, settings, start.as_deref(), monitor)?,
+        Method::Auto => auto::solve(&contact, settings, start, monitor)?,
         method => {
-            let candidate = run(method, problem, settings, start.as_deref(), monitor)?;
-            certified(problem, settings, method, candidate)
+            let candidate = run(method, &contact, settings, start, monitor)?;
+            certified(&contact, settings, method, &candidate)
         }
     };
-    uniqueness::by_orientation(problem, &mut solution);
+    uniqueness::by_orientation(&contact, &mut solution);
     if settings.search == Search::Others {
-        uniqueness::examine(problem, settings, &mut solution, monitor)?;
+        uniqueness::examine(&contact, settings, &mut solution, monitor)?;
     }
     solution.iterations = monitor.iterations();
     Ok(solution)
@@ -66,52 +65,48 @@ pub fn solve(
 /// Runs one method, which fits the problem.
 fn run(
     method: Method,
-    problem: &ContactProblem<'_>,
+    contact: &Contact<'_>,
     settings: &Settings,
     start: Option<&[f64]>,
     monitor: &mut Monitor<'_>,
 ) -> Result<Candidate, Error> {
-    if problem.pairs() == 0 {
-        return Ok(Candidate::ended(Vec::new(), Ending::Done));
+    if contact.pairs().is_empty() {
+        return Ok(Candidate::without_displacements(contact, Ending::Done));
     }
-    let rest = || start.map_or_else(|| vec![0.0; problem.unknowns()], <[f64]>::to_vec);
-    Ok(match (method, problem.law()) {
-        (Method::Lemke, friction) if friction.is_zero() => {
-            frictionless::lemke(problem, settings, monitor)?
-        }
-        (Method::Lemke, _) => frictional_lemke::solve(problem, settings, monitor)?,
-        (Method::Newton, _) => newton::solve(problem, settings, start, monitor),
+    let start_or_zero = || start.map_or_else(|| vec![0.0; contact.unknowns()], <[f64]>::to_vec);
+    Ok(match (method, contact.is_frictionless()) {
+        (Method::Lemke, true) => lemke::frictionless(contact, settings, monitor)?,
+        (Method::Lemke, false) => lemke::friction_2d(contact, settings, monitor)?,
+        (Method::Newton, _) => active_set::newton(contact, settings, start, monitor),
         (Method::BlockPivoting, _) => {
             let chosen = settings.method == Method::BlockPivoting;
-            let most = if chosen { u64::MAX } else { pivot::enough(problem.pairs()) };
-            pivot::solve(problem, settings, true, start, most, monitor)
+            let most = if chosen { u64::MAX } else { active_set::enough(contact.pairs().len()) };
+            active_set::contact(contact, settings, start, most, monitor)
         }
-        (_, friction) if friction.is_zero() => {
-            frictionless::sor(problem, settings, &rest(), monitor)
+        (_, true) => sweeps::frictionless(contact, settings, &start_or_zero(), monitor),
+        // Thresholds that do not depend on the pressure need no updates.
+        (Method::SorNested, false) if contact.is_coupled() => {
+            sweeps::nested(contact, settings, start_or_zero(), monitor)
         }
-        (Method::SorDiagonal, _) | (_, FrictionLaw::Tresca(_)) => {
-            coulomb::single(problem, settings, rest(), monitor)
-        }
-        _ => coulomb::nested(problem, settings, rest(), monitor),
+        _ => sweeps::single(contact, settings, start_or_zero(), monitor),
     })
 }
 
-fn check_method(problem: &ContactProblem<'_>, method: Method) -> Result<(), Error> {
+fn check_method(contact: &Contact<'_>, method: Method) -> Result<(), Error> {
     let refuse = |message: &str| Err(Error::invalid(Argument::Settings, message));
-    let frictionless = problem.law().is_zero();
-    let tresca = matches!(problem.law(), FrictionLaw::Tresca(_));
-    let planar = problem.dim() == 2;
+    let frictionless = contact.is_frictionless();
+    let planar = contact.dim() == 2;
     match method {
         Method::Lemke if !frictionless && !planar => {
             refuse("settings: Lemke's method is for frictionless contact, and for friction in 2D")
         }
-        Method::BlockPivoting if !frictionless => refuse(if tresca {
-            "settings: block pivoting is for frictionless contact, every g must be 0"
-        } else {
+        Method::BlockPivoting if !frictionless => refuse(if contact.is_coupled() {
             "settings: block pivoting is for frictionless contact, every mu must be 0"
+        } else {
+            "settings: block pivoting is for frictionless contact, every g must be 0"
         }),
         Method::Newton if !planar => refuse("settings: Newton's method is for 2D"),
-        Method::SorDiagonal if tresca => refuse(
+        Method::SorDiagonal if !frictionless && !contact.is_coupled() => refuse(
             "settings: the diagonal method updates thresholds, and here they are given: use the \
              nested one",
         ),
@@ -119,20 +114,15 @@ fn check_method(problem: &ContactProblem<'_>, method: Method) -> Result<(), Erro
     }
 }
 
-fn checked_start(
-    problem: &ContactProblem<'_>,
-    start: Option<&[f64]>,
-) -> Result<Option<Vec<f64>>, Error> {
-    let n = problem.unknowns();
-    let Some(start) = start else { return Ok(None) };
+fn check_start(contact: &Contact<'_>, start: Option<&[f64]>) -> Result<(), Error> {
+    let n = contact.unknowns();
+    let Some(start) = start else { return Ok(()) };
     if start.len() != n {
         let message = format!("the start has {} entries, it must have {n}", start.len());
         return Err(Error::invalid(Argument::Start, message));
     }
     match start.iter().position(|d| !d.is_finite()) {
         Some(i) => Err(Error::invalid(Argument::Start, format!("the start d[{i}] is not finite"))),
-        // Without load and slip rest is the solution, which other starts only approach.
-        None if is_unloaded(problem) && problem.has_no_reference_slip() => Ok(None),
-        None => Ok(Some(start.to_vec())),
+        None => Ok(()),
     }
 }

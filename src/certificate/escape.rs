@@ -1,0 +1,56 @@
+//! The proof that no equilibrium exists: a rigid motion on which the loads do more work than contact
+//! can take (a recession direction of the energy). What a pair must satisfy stands in
+//! `law::recession`.
+
+use crate::law::{Contact, Recession};
+use crate::linalg::tolerances::NEGLIGIBLE;
+use crate::linalg::vector::{dot, largest_of};
+use crate::problem::ContactProblem;
+
+/// Least work of the loads, relative to what they could do on motions of that size, that tells driving
+/// from balance: 100 times the internal forces that count as none, so that these cannot make up for it.
+const LEAST_WORK: f64 = 100.0 * NEGLIGIBLE;
+
+/// Whether the rigid motion `r` proves that no equilibrium exists.
+///
+/// `K r = 0` up to rounding, and for every pair that has an obstacle `-r_n >= mu |r_t|`: then the
+/// contact forces can only do non-negative work `F . r >= sum |F_n| (|r_n| - mu |r_t|)`, while
+/// equilibrium asks for `F . r = -f . r`. So `f . r > 0` excludes it. With given thresholds the
+/// condition is `r_n <= 0` and `f . r > sum g |r_t|`.
+pub fn is_escape(problem: &ContactProblem<'_>, r: &[f64]) -> bool {
+    is_escape_of(&Contact::new(problem), r)
+}
+
+/// [`is_escape`], on a problem whose laws are worked out.
+pub(crate) fn is_escape_of(contact: &Contact<'_>, r: &[f64]) -> bool {
+    let problem = contact.problem();
+    let root = problem.stiffness().diagonal_roots();
+    let size = largest_of(r.iter().zip(&root).map(|(r, root)| r * root));
+    if size == 0.0 || !size.is_finite() {
+        return false;
+    }
+    let negligible = NEGLIGIBLE * size;
+    let internal = problem.internal_force(r);
+    if internal.iter().zip(&root).any(|(k, root)| k.abs() > negligible * root) {
+        return false;
+    }
+    let motions = recessions(contact, r);
+    let normals = root.iter().step_by(contact.dim());
+    if motions.iter().zip(normals).any(|(motion, root)| motion.approach * root > negligible) {
+        return false;
+    }
+    let resisted: f64 = motions.iter().map(|motion| motion.resisted).sum();
+    let load = problem.load();
+    let scale: f64 = load.iter().zip(&root).map(|(f, root)| size * (f / root).abs()).sum();
+    dot(load, r) - resisted > LEAST_WORK * scale
+}
+
+/// By how much each pair must be lifted in the motion `r` so that contact forces do no negative work.
+pub(crate) fn lifts(contact: &Contact<'_>, r: &[f64]) -> Vec<f64> {
+    recessions(contact, r).iter().map(|motion| motion.lift).collect()
+}
+
+fn recessions(contact: &Contact<'_>, r: &[f64]) -> Vec<Recession> {
+    let parts = r.chunks_exact(contact.dim());
+    contact.pairs().iter().zip(parts).map(|(law, r)| law.recession(r)).collect()
+}

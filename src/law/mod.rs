@@ -1,0 +1,136 @@
+//! The law of a contact pair: the only room that knows what open, stick and slip are, which sign a
+//! penetration has, and that a pair without an obstacle has an infinite gap.
+//!
+//! One file for one notion: a friction law is a [`Bound`] on the tangential force
+//! ([`frictionless`], [`coulomb`], [`tresca`]); all else is the same for every law:
+//!
+//! | file | what it gives | who uses it |
+//! |---|---|---|
+//! | `natural_map` | how far a displacement and a force are from the law | certificate |
+//! | `normal_map` | `y -> (v, P)`, the chart on which the law is one function | branches |
+//! | `branch` | which smooth piece of the law a point is on, with the derivative there | active-set methods, uniqueness |
+//! | `proximal` | the step of one pair in a sweep | sweeps |
+//! | `complementarity` | the law as complementarity of non-negative variables | Lemke's method, block pivoting |
+//! | `recession` | what a rigid motion must satisfy to prove that no equilibrium exists | certificate |
+//!
+//! Notation, for one pair: `v = d - (gap, slip0)`, so that `v_n` is the penetration (at most 0 if the
+//! law is obeyed) and `delta = v_t` the slip; `P = -F = (p, tau)`, so that `p` is the pressure. With
+//! `k = (k_n, k_t)`, forces per length that only scale,
+//!
+//! ```text
+//! v_n <= 0,  p >= 0,  v_n p = 0;   |tau| <= g(p),  delta = lambda tau, lambda >= 0, zero where |tau| < g(p)
+//! y = P + k v                                                      (Alart and Curnier's trial forces)
+//! ```
+
+mod bound;
+pub mod branch;
+pub mod complementarity;
+mod contact;
+pub mod coulomb;
+pub mod frictionless;
+mod natural_map;
+mod normal_map;
+mod proximal;
+mod recession;
+pub mod tresca;
+
+pub use bound::{Bound, length, project_disc};
+pub use contact::Contact;
+pub use recession::Recession;
+
+/// What a contact pair does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum State {
+    /// Apart: no force (under Tresca's law: no normal force).
+    Open,
+    /// In contact with the tangential force on its bound; also every contact without friction.
+    Slip,
+    /// In contact without slip.
+    Stick,
+}
+
+/// A vector of a pair: normal and up to two tangential components.
+pub type Vector = [f64; 3];
+
+/// A matrix of a pair, by rows.
+pub type Block = [Vector; 3];
+
+/// The law of one pair with its numbers.
+#[derive(Clone, Copy, Debug)]
+pub struct PairLaw {
+    /// Number of components, 2 or 3.
+    dim: usize,
+    /// `+inf`: no obstacle.
+    gap: f64,
+    slip0: [f64; 2],
+    bound: Bound,
+    k_n: f64,
+    k_t: f64,
+}
+
+impl PairLaw {
+    /// The law of a pair in dimension `dim` with its gap (`+inf`: no obstacle), its reference slip, the
+    /// bound on its tangential force and the stiffnesses that scale displacements into forces.
+    pub fn new(
+        dim: usize,
+        gap: f64,
+        slip0: [f64; 2],
+        bound: Bound,
+        (k_n, k_t): (f64, f64),
+    ) -> Self {
+        PairLaw { dim, gap, slip0, bound, k_n, k_t }
+    }
+
+    /// The bound on the tangential force.
+    pub fn bound(&self) -> Bound {
+        self.bound
+    }
+
+    /// The same law with another bound.
+    pub fn with_bound(self, bound: Bound) -> Self {
+        PairLaw { bound, ..self }
+    }
+
+    /// Whether there is an obstacle that the pair can touch.
+    pub fn has_obstacle(&self) -> bool {
+        self.gap < f64::INFINITY
+    }
+
+    /// Whether a tangential force can act on the pair at all.
+    pub fn has_friction(&self) -> bool {
+        self.bound.at(if self.has_obstacle() { 1.0 } else { 0.0 }) > 0.0
+    }
+
+    /// Whether friction can act and grows with the pressure, as in Coulomb's law.
+    pub fn is_coupled(&self) -> bool {
+        self.has_obstacle() && self.bound.slope > 0.0
+    }
+
+    /// The point `v = 0` in terms of `d`: the gap and the reference slip. Zero in the normal
+    /// component of a pair without an obstacle.
+    pub fn reference(&self) -> Vector {
+        [if self.has_obstacle() { self.gap } else { 0.0 }, self.slip0[0], self.slip0[1]]
+    }
+
+    /// The normal displacement nearest to `d_n` that does not penetrate.
+    pub fn admissible(&self, d_n: f64) -> f64 {
+        d_n.min(self.gap)
+    }
+
+    /// Bound on the tangential force at the normal force `f_n`, which may be tensile.
+    pub fn threshold(&self, f_n: f64) -> f64 {
+        self.bound.at((-f_n).max(0.0))
+    }
+
+    /// Whether zero displacement is admissible.
+    pub fn admits_zero(&self) -> bool {
+        self.gap >= 0.0
+    }
+
+    /// Largest displacement that contact itself has prescribed to the pair at `d_n`: by a gap that has
+    /// closed and by an earlier slip.
+    pub fn prescribed(&self, d_n: f64) -> f64 {
+        let gap = if d_n >= self.gap { self.gap.abs() } else { 0.0 };
+        gap.max(self.slip0[0].abs()).max(self.slip0[1].abs())
+    }
+}

@@ -1,0 +1,56 @@
+//! What a motion must satisfy to prove that no equilibrium exists.
+//!
+//! A rigid motion `r` (`K r = 0`) with `r_n + slope |r_t| <= 0` at every pair that has an obstacle is a
+//! recession direction: admissible contact forces do at least the work `- sum offset |r_t|` on it,
+//! `F . r >= sum |F_n| (|r_n| - slope |r_t|) - sum offset |r_t|`, while equilibrium asks for
+//! `F . r = -f . r`. So `f . r > sum offset |r_t|` excludes equilibrium.
+
+use super::{PairLaw, Vector, length};
+
+/// A motion of a pair, as its law sees it.
+#[derive(Clone, Copy, Debug)]
+pub struct Recession {
+    /// `r_n + slope |r_t|`, which must not be positive; `-inf` without an obstacle.
+    pub approach: f64,
+    /// `slope |r_t|`: the lift that keeps contact forces from doing negative work on the slip.
+    pub lift: f64,
+    /// `offset |r_t|`: most work that friction takes.
+    pub resisted: f64,
+}
+
+/// Edges of the polygon around a friction cone in 3D. The polygon contains the cone, so that what its
+/// forces cannot balance the cone's cannot; it is at most `1 / cos(pi / 16) - 1 = 1.9 %` wider.
+const EDGES: usize = 16;
+
+impl PairLaw {
+    /// The motion `r` of the pair.
+    pub fn recession(&self, r: &[f64]) -> Recession {
+        let slip = length(&r[1..self.dim]);
+        let lift = self.bound.slope * slip;
+        let approach = if self.has_obstacle() { r[0] + lift } else { f64::NEG_INFINITY };
+        Recession { approach, lift, resisted: self.bound.offset * slip }
+    }
+
+    /// Edges of a cone that contains all forces which the pair can carry, each with the normal
+    /// component −1; none without an obstacle. The law's bound is a cone.
+    pub fn cone_edges(&self) -> Vec<Vector> {
+        let mu = self.bound.slope;
+        match self.dim {
+            _ if !self.has_obstacle() => Vec::new(),
+            _ if mu == 0.0 => vec![[-1.0, 0.0, 0.0]],
+            2 => vec![[-1.0, mu, 0.0], [-1.0, -mu, 0.0]],
+            _ => (0..EDGES)
+                .map(|k| {
+                    let half = std::f64::consts::PI / EDGES as f64;
+                    let (sin, cos) = (2.0 * half * k as f64).sin_cos();
+                    [-1.0, mu * cos / half.cos(), mu * sin / half.cos()]
+                })
+                .collect(),
+        }
+    }
+
+    /// Whether the pair would have to pull with this normal force.
+    pub fn is_tensile(&self, f_n: f64) -> bool {
+        f_n > 0.0
+    }
+}

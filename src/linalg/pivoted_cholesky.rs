@@ -1,0 +1,135 @@
+//! Dense Cholesky factorisation of a semi-definite matrix, by faer on the calling thread.
+
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::linalg::cholesky::llt_pivoting::factor as pivoted;
+use faer::linalg::matmul::triangular::{self, BlockStructure};
+use faer::linalg::triangular_solve;
+use faer::{Accum, Mat, MatMut, MatRef, Par};
+
+use super::tolerances::{NEGLIGIBLE, SUSPICIOUS_PIVOT};
+
+/// Rank-revealing Cholesky factor of a positive semi-definite matrix `A` with unit diagonal:
+/// `A[p, p] = L Lᵀ` on the independent rows `p`; the other rows depend on them.
+pub struct PivotedCholesky {
+    lower: Mat<f64>,
+    independent: Vec<usize>,
+    dependent: Vec<usize>,
+}
+
+impl PivotedCholesky {
+    /// Factorises the `n x n` matrix whose lower triangle is `entry(i, j)`, `i >= j`.
+    /// `None` if it is not positive semi-definite.
+    pub fn new(n: usize, entry: impl Fn(usize, usize) -> f64) -> Option<Self> {
+        let fill = || Mat::from_fn(n, n, |i, j| if i >= j { entry(i, j) } else { entry(j, i) });
+        if let Ok(factor) = faer::linalg::solvers::Llt::new(fill().as_ref(), faer::Side::Lower) {
+            let lower = factor.L();
+            if (0..n).all(|i| lower[(i, i)].powi(2) > SUSPICIOUS_PIVOT) {
+                return Some(PivotedCholesky {
+                    lower: lower.to_owned(),
+                    independent: (0..n).collect(),
+                    dependent: Vec::new(),
+                });
+            }
+        }
+        let mut lower = fill();
+        let (mut forward, mut inverse) = (vec![0_usize; n], vec![0_usize; n]);
+        let scratch =
+            pivoted::cholesky_in_place_scratch::<usize, f64>(n, Par::Seq, faer::Spec::default());
+        let info = pivoted::cholesky_in_place(
+            lower.as_mut(),
+            &mut forward,
+            &mut inverse,
+            Par::Seq,
+            MemStack::new(&mut MemBuffer::new(scratch)),
+            faer::Spec::default(),
+        );
+        let Ok((info, _)) = info else { return None };
+        let rank =
+            (0..info.rank).find(|&i| lower[(i, i)].powi(2) <= NEGLIGIBLE).unwrap_or(info.rank);
+        Some(PivotedCholesky {
+            lower: lower.as_ref().submatrix(0, 0, rank, rank).to_owned(),
+            independent: forward[..rank].to_vec(),
+            dependent: forward[rank..].to_vec(),
+        })
+    }
+
+    /// Independent rows, in the order of the factor.
+    pub fn independent(&self) -> &[usize] {
+        &self.independent
+    }
+
+    /// Rows that depend on the independent ones.
+    pub fn dependent(&self) -> &[usize] {
+        &self.dependent
+    }
+
+    /// Overwrites `y`, in the order of [`Self::independent`], with `A⁻¹ y` on these rows.
+    pub fn solve(&self, y: &mut [f64]) {
+        let n = self.independent.len();
+        let mut y = MatMut::from_column_major_slice_mut(y, n, 1);
+        triangular_solve::solve_lower_triangular_in_place(
+            self.lower.as_ref(),
+            y.as_mut(),
+            Par::Seq,
+        );
+        triangular_solve::solve_upper_triangular_in_place(self.lower.transpose(), y, Par::Seq);
+    }
+
+    /// `C - Bᵀ A⁻¹ B` for `m` columns, `B = coupling(row, column)` over the independent rows
+    /// named as in [`Self::independent`], `C = corner(i, j)` symmetric; column-major `m x m`.
+    pub fn schur_complement(
+        &self,
+        m: usize,
+        coupling: impl Fn(usize, usize) -> f64,
+        corner: impl Fn(usize, usize) -> f64,
+    ) -> Vec<f64> {
+        let mut half =
+            Mat::from_fn(self.independent.len(), m, |i, j| coupling(self.independent[i], j));
+        triangular_solve::solve_lower_triangular_in_place(
+            self.lower.as_ref(),
+            half.as_mut(),
+            Par::Seq,
+        );
+        let mut schur = vec![0.0; m * m];
+        for j in 0..m {
+            for i in j..m {
+                schur[i + m * j] = corner(i, j);
+            }
+        }
+        triangular::matmul(
+            MatMut::from_column_major_slice_mut(&mut schur, m, m),
+            BlockStructure::TriangularLower,
+            Accum::Add,
+            half.transpose(),
+            BlockStructure::Rectangular,
+            half.as_ref(),
+            BlockStructure::Rectangular,
+            -1.0,
+            Par::Seq,
+        );
+        for j in 0..m {
+            for i in 0..j {
+                schur[i + m * j] = schur[j + m * i];
+            }
+        }
+        schur
+    }
+}
+
+/// `L Lᵀ` of the lower triangle `l`, `n x n` column-major.
+pub fn lower_times_transpose(l: &[f64], n: usize) -> Vec<f64> {
+    let l = MatRef::from_column_major_slice(l, n, n);
+    let mut product = vec![0.0; n * n];
+    triangular::matmul(
+        MatMut::from_column_major_slice_mut(&mut product, n, n),
+        BlockStructure::Rectangular,
+        Accum::Replace,
+        l,
+        BlockStructure::TriangularLower,
+        l.transpose(),
+        BlockStructure::TriangularUpper,
+        1.0,
+        Par::Seq,
+    );
+    product
+}

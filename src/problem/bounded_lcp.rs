@@ -1,0 +1,49 @@
+//! The linear complementarity problem with lower bounds, which contact without friction is.
+
+use crate::linalg::matrix::Matrix;
+use crate::linalg::vector::norm;
+
+/// `w = q + M x`, `x >= l`, `w >= 0`, `(x - l) . w = 0`; where a bound is `-inf` the variable is free
+/// and `w = 0`. A view of its arrays.
+///
+/// [`super::Lcp`] is the problem with `l = 0`. Contact without friction is the problem in `x = -d` with
+/// `M = K`, `q = f`, `w = -F` and `l = -gap`; tangential components are free.
+#[derive(Clone, Copy, Debug)]
+pub struct BoundedLcp<'a> {
+    /// `M`.
+    pub matrix: Matrix<'a>,
+    /// `q`.
+    pub q: &'a [f64],
+    /// `l`, `-inf` for a free variable.
+    pub lower: &'a [f64],
+    /// Whether `M` is symmetric, as far as rounding goes.
+    pub symmetric: bool,
+}
+
+impl BoundedLcp<'_> {
+    /// `q + M x`.
+    pub fn w(&self, x: &[f64]) -> Vec<f64> {
+        let mut w = self.q.to_vec();
+        self.matrix.add_product(x, &mut w);
+        w
+    }
+
+    /// Residual `|min(w, m (x - l))|` of `x` and its `w`, relative to `max(|q|, |w|)`, with `m` the
+    /// diagonal of `M`. Zero at solutions only, if the diagonal is positive.
+    pub fn eta(&self, x: &[f64], w: &[f64]) -> f64 {
+        let residual: Vec<f64> = (0..x.len())
+            .map(|i| match self.lower[i] {
+                f64::NEG_INFINITY => w[i],
+                lower => w[i].min(self.matrix.at(i, i) * (x[i] - lower)),
+            })
+            .collect();
+        let residual = norm(&residual);
+        if residual == 0.0 { 0.0 } else { residual / norm(self.q).max(norm(w)) }
+    }
+
+    /// Whether variable `i` is off its bound on the branch of `min(w, m (x - l))` that `x` and `w` are
+    /// on: `w = 0` holds there, otherwise `x = l`.
+    pub fn is_basic(&self, i: usize, x: &[f64], w: &[f64]) -> bool {
+        self.lower[i] == f64::NEG_INFINITY || self.matrix.at(i, i) * (x[i] - self.lower[i]) >= w[i]
+    }
+}

@@ -1,0 +1,303 @@
+//! The contact problem in relative displacements: the only thing that a contact solver sees.
+//!
+//! For `n` pairs in dimension `D`, ordered pair by pair as (n, t) or (n, t1, t2):
+//!
+//! ```text
+//! K d = f + F
+//! d_n <= gap,  F_n <= 0,  (d_n - gap) F_n = 0                            (paper, 5 and 8)
+//! |F_t| <= mu |F_n|,  d_t = slip0 inside the cone,
+//!                     d_t - slip0 = -lambda F_t, lambda >= 0, on it        (paper, 6 and 9)
+//! ```
+//!
+//! `K` is symmetric and positive semi-definite: bodies held by nothing but contact are allowed. What
+//! the data mean for the forces is in the room [`crate::law`].
+
+use super::relation::{Relation, Stiffness};
+use super::symmetric_matrix;
+use crate::error::{Argument, Error};
+use crate::linalg::matrix::{Matrix, can_exist, required_length};
+use crate::linalg::vector;
+
+/// The friction law of all pairs, with its parameters, one number for each pair.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum FrictionLaw<'a> {
+    /// No friction: `F_t = 0`. No parameters.
+    Frictionless,
+    /// Coulomb: `|F_t| <= mu |F_n|`, with the coefficient `mu >= 0`.
+    Coulomb(&'a [f64]),
+    /// Tresca: `|F_t| <= g`, with the threshold `g >= 0` (a force), whether the pair is open or closed.
+    Tresca(&'a [f64]),
+}
+
+impl<'a> FrictionLaw<'a> {
+    /// The parameters, pair by pair.
+    pub fn values(&self) -> &'a [f64] {
+        match *self {
+            FrictionLaw::Frictionless => &[],
+            FrictionLaw::Coulomb(values) | FrictionLaw::Tresca(values) => values,
+        }
+    }
+
+    /// Number of parameters of each pair.
+    pub fn parameters(&self) -> usize {
+        match self {
+            FrictionLaw::Frictionless => 0,
+            FrictionLaw::Coulomb(_) | FrictionLaw::Tresca(_) => 1,
+        }
+    }
+
+    /// True when no pair can carry a tangential force.
+    pub fn is_zero(&self) -> bool {
+        self.values().iter().all(|&value| value == 0.0)
+    }
+
+    /// The same law of the first `pairs` pairs.
+    fn truncated(self, pairs: usize) -> Self {
+        match self {
+            FrictionLaw::Frictionless => self,
+            FrictionLaw::Coulomb(mu) => FrictionLaw::Coulomb(&mu[..pairs]),
+            FrictionLaw::Tresca(g) => FrictionLaw::Tresca(&g[..pairs]),
+        }
+    }
+
+    fn check(self) -> Result<(), Error> {
+        let name = match self {
+            FrictionLaw::Frictionless => return Ok(()),
+            FrictionLaw::Coulomb(_) => "mu",
+            FrictionLaw::Tresca(_) => "g",
+        };
+        check_finite(Argument::Law, name, self.values())?;
+        match self.values().iter().position(|&value| value < 0.0) {
+            Some(i) => Err(Error::invalid(
+                Argument::Law,
+                format!("{name}[{i}] is {}, it must not be negative", self.values()[i]),
+            )),
+            None => Ok(()),
+        }
+    }
+}
+
+/// The caller's arrays, not yet checked. Forces and displacements are in the caller's units.
+#[derive(Clone, Copy, Debug)]
+pub struct ContactData<'a> {
+    /// Space dimension, 2 or 3.
+    pub dim: usize,
+    /// Number of contact pairs, 0 allowed.
+    pub pairs: usize,
+    /// `K`, `dim * pairs` columns of the same number of rows, column-major.
+    pub stiffness: &'a [f64],
+    /// Entries from the beginning of one column of `stiffness` to that of the next.
+    pub ld: usize,
+    /// `f`, the condensed nodal loads, `dim * pairs`.
+    pub load: &'a [f64],
+    /// Initial gaps, `pairs`; negative: interference, `+inf`: the pair never touches.
+    pub gap: &'a [f64],
+    /// The friction law.
+    pub law: FrictionLaw<'a>,
+    /// Reference slip `slip0`: the tangential displacement of each pair at which its friction carries
+    /// no memory of a slip, `(dim - 1) * pairs`; `None` is zero (the paper's total law).
+    pub reference_slip: Option<&'a [f64]>,
+}
+
+/// A checked contact problem, a view of the caller's arrays. `R` is the form of the relation between
+/// displacements and contact forces.
+#[derive(Clone, Copy, Debug)]
+pub struct ContactProblem<'a, R = Stiffness<'a>> {
+    relation: R,
+    dim: usize,
+    gap: &'a [f64],
+    law: FrictionLaw<'a>,
+    reference_slip: Option<&'a [f64]>,
+}
+
+impl<'a> ContactProblem<'a> {
+    /// Checks the data.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] names the first entry that is not finite, not symmetric beyond rounding
+    /// (1e-9 of the diagonal), on a diagonal that is not positive, or out of range.
+    pub fn new(data: ContactData<'a>) -> Result<Self, Error> {
+        let problem = Self::on_checked_matrix(data)?;
+        symmetric_matrix::check(&problem.relation.matrix, "K", Argument::Matrix)?;
+        Ok(problem)
+    }
+
+    /// Checks everything but the entries of the matrix, which a model has checked once.
+    pub(crate) fn on_checked_matrix(data: ContactData<'a>) -> Result<Self, Error> {
+        let size = checked_size(data.dim, data.pairs)?;
+        let entries = required_length("K", size, data.ld)
+            .map_err(|message| Error::invalid(Argument::LeadingDimension, message))?;
+        check_length(Argument::Matrix, "K", data.stiffness.len(), entries)?;
+        check_length(Argument::Load, "f", data.load.len(), size)?;
+        let load = &data.load[..size];
+        check_finite(Argument::Load, "f", load)?;
+        let matrix = Matrix::new(size, data.stiffness, data.ld);
+        Self::with_relation(
+            Stiffness { matrix, load },
+            data.dim,
+            data.gap,
+            data.law,
+            data.reference_slip,
+        )
+    }
+
+    /// `K`.
+    pub(crate) fn stiffness(&self) -> Matrix<'a> {
+        self.relation.matrix
+    }
+
+    /// Column `j` of `K`.
+    pub fn column(&self, j: usize) -> &'a [f64] {
+        self.relation.matrix.column(j)
+    }
+
+    /// Entry `K[i, i]`, positive.
+    pub fn diagonal(&self, i: usize) -> f64 {
+        self.relation.matrix.at(i, i)
+    }
+
+    /// `f`.
+    pub fn load(&self) -> &'a [f64] {
+        self.relation.load
+    }
+
+    /// Contact force that equilibrium at `d` needs: `K d - f`.
+    pub fn force(&self, d: &[f64]) -> Vec<f64> {
+        let mut force: Vec<f64> = self.relation.load.iter().map(|f| -f).collect();
+        self.relation.matrix.add_product(d, &mut force);
+        force
+    }
+
+    /// Internal force `K d`.
+    pub fn internal_force(&self, d: &[f64]) -> Vec<f64> {
+        self.relation.matrix.product(d)
+    }
+}
+
+impl<'a, R: Relation> ContactProblem<'a, R> {
+    /// The contact problem of pairs in dimension `dim` on any relation of `dim * pairs` components;
+    /// other arguments as in [`ContactData`].
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] names the array of a wrong length, or the first entry out of range.
+    pub fn with_relation(
+        relation: R,
+        dim: usize,
+        gap: &'a [f64],
+        law: FrictionLaw<'a>,
+        reference_slip: Option<&'a [f64]>,
+    ) -> Result<Self, Error> {
+        checked_dim(dim)?;
+        let pairs = relation.size() / dim;
+        if dim * pairs != relation.size() {
+            let message = format!("{} components are no pairs of {dim}", relation.size());
+            return Err(Error::invalid(Argument::Size, message));
+        }
+        check_length(Argument::Gap, "gap", gap.len(), pairs)?;
+        check_length(Argument::Law, "friction", law.values().len(), law.parameters() * pairs)?;
+        let slips = (dim - 1) * pairs;
+        if let Some(slip) = reference_slip {
+            check_length(Argument::ReferenceSlip, "slip0", slip.len(), slips)?;
+            check_finite(Argument::ReferenceSlip, "slip0", &slip[..slips])?;
+        }
+        let (gap, law) = (&gap[..pairs], law.truncated(pairs));
+        check_gaps(gap)?;
+        law.check()?;
+        let reference_slip = reference_slip.map(|slip| &slip[..slips]);
+        Ok(ContactProblem { relation, dim, gap, law, reference_slip })
+    }
+
+    /// The relation between displacements and contact forces.
+    pub fn relation(&self) -> &R {
+        &self.relation
+    }
+
+    /// Components of a pair: the space dimension `D`, 2 or 3.
+    pub fn dim(&self) -> usize {
+        self.dim
+    }
+
+    /// Number of contact pairs.
+    pub fn pairs(&self) -> usize {
+        self.gap.len()
+    }
+
+    /// Number of unknowns, `D` for each pair.
+    pub fn unknowns(&self) -> usize {
+        self.dim * self.gap.len()
+    }
+
+    /// Force per length of the normal component of a pair.
+    pub fn normal_stiffness(&self, pair: usize) -> f64 {
+        self.relation.block(self.dim * pair, self.dim * pair)
+    }
+
+    /// Force per length of the tangential components of a pair: the largest eigenvalue of their block.
+    pub fn tangential_stiffness(&self, pair: usize) -> f64 {
+        let t = self.dim * pair + 1;
+        let block = |i: usize, j: usize| self.relation.block(t + i, t + j);
+        match self.dim {
+            2 => block(0, 0),
+            _ => vector::largest_eigenvalue(block(0, 0), block(1, 0), block(1, 1)),
+        }
+    }
+
+    /// Gap of a pair, `+inf` if it never touches.
+    pub fn gap(&self, pair: usize) -> f64 {
+        self.gap[pair]
+    }
+
+    /// The friction law.
+    pub fn law(&self) -> FrictionLaw<'a> {
+        self.law
+    }
+
+    /// Reference slip of a pair; `component` counts from 0 to `D - 2`.
+    pub fn reference_slip(&self, pair: usize, component: usize) -> f64 {
+        self.reference_slip.map_or(0.0, |slip| slip[(self.dim - 1) * pair + component])
+    }
+}
+
+/// A space dimension.
+pub(crate) fn checked_dim(dim: usize) -> Result<(), Error> {
+    match dim {
+        2 | 3 => Ok(()),
+        _ => {
+            let message = format!("dim is {dim}, it must be 2 or 3");
+            Err(Error::invalid(Argument::Dimension, message))
+        }
+    }
+}
+
+/// Number of unknowns of pairs in dimension `dim`, if a matrix of that size can exist.
+pub(crate) fn checked_size(dim: usize, pairs: usize) -> Result<usize, Error> {
+    checked_dim(dim)?;
+    dim.checked_mul(pairs).filter(|&size| can_exist(size)).ok_or_else(|| {
+        Error::invalid(Argument::Size, format!("{pairs} pairs: the matrix cannot exist"))
+    })
+}
+
+fn check_length(argument: Argument, name: &str, given: usize, needed: usize) -> Result<(), Error> {
+    if given >= needed {
+        return Ok(());
+    }
+    let message = format!("{name} has {given} entries, it must have {needed}");
+    Err(Error::invalid(argument, message))
+}
+
+fn check_finite(argument: Argument, name: &str, values: &[f64]) -> Result<(), Error> {
+    match values.iter().position(|value| !value.is_finite()) {
+        Some(i) => Err(Error::invalid(argument, format!("{name}[{i}] is not finite"))),
+        None => Ok(()),
+    }
+}
+
+fn check_gaps(gap: &[f64]) -> Result<(), Error> {
+    match gap.iter().position(|&gap| gap.is_nan() || gap == f64::NEG_INFINITY) {
+        Some(i) => Err(Error::invalid(
+            Argument::Gap,
+            format!("gap[{i}] is {}, it must be a number or +inf (never touches)", gap[i]),
+        )),
+        None => Ok(()),
+    }
+}

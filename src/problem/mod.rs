@@ -1,0 +1,13 @@
+//! The problems that solvers see: contact in relative displacements, and linear complementarity.
+
+mod bounded_lcp;
+mod contact;
+mod lcp;
+mod relation;
+pub(crate) mod symmetric_matrix;
+
+pub(crate) use bounded_lcp::BoundedLcp;
+pub use contact::{ContactData, ContactProblem, FrictionLaw};
+pub(crate) use contact::{checked_dim, checked_size};
+pub use lcp::Lcp;
+pub use relation::{Relation, Stiffness};

@@ -1,0 +1,85 @@
+//! What ties the relative displacements `d` and the contact forces `F` of a problem to each other.
+//!
+//! | form | relation | when |
+//! |---|---|---|
+//! | stiffness ([`Stiffness`]) | `K d = f + F` | rows of independent pairs |
+//! | general rows | `(I − S) v + S P = q` | rows that depend on each other; not built in |
+//!
+//! The certificate measures a pair `(d, F)` on any form. In the stiffness form `d` determines `F`; in
+//! others it does not, so that a candidate carries both.
+
+use crate::linalg::matrix::Matrix;
+
+/// A linear relation between `d` and `F`, from the host's data alone. Components are ordered pair by
+/// pair, `D` for each.
+pub trait Relation {
+    /// Number of components of `d`, and of `F`.
+    fn size(&self) -> usize;
+
+    /// Entry of the symmetric positive definite `D x D` block, a force per length, that turns
+    /// displacements of a pair into forces of the size that the relation has: `K` itself, or another
+    /// one that is diagonal. `i` and `j` are components of one pair.
+    fn block(&self, i: usize, j: usize) -> f64;
+
+    /// The loads, in the unit of force: what drives the problem, and the size of forces.
+    fn load(&self) -> &[f64];
+
+    /// The contact force that `d` determines; `None` if it determines none.
+    fn force(&self, d: &[f64]) -> Option<Vec<f64>>;
+
+    /// How far `(d, F)` is from equilibrium, a force for each component: zero if the relation holds.
+    fn residual(&self, d: &[f64], force: &[f64]) -> Vec<f64>;
+
+    /// Bound on the sums of the relation in which each component of `d` has at most the given size:
+    /// `|K| size`.
+    fn magnitude(&self, size: &[f64]) -> Vec<f64>;
+}
+
+/// The stiffness form `K d = f + F`, with `K` dense, symmetric and positive semi-definite: a view of
+/// the host's arrays.
+#[derive(Clone, Copy, Debug)]
+pub struct Stiffness<'a> {
+    pub(super) matrix: Matrix<'a>,
+    pub(super) load: &'a [f64],
+}
+
+impl Relation for Stiffness<'_> {
+    fn size(&self) -> usize {
+        self.matrix.size()
+    }
+
+    fn block(&self, i: usize, j: usize) -> f64 {
+        self.matrix.at(i, j)
+    }
+
+    fn load(&self) -> &[f64] {
+        self.load
+    }
+
+    /// `K d - f`.
+    fn force(&self, d: &[f64]) -> Option<Vec<f64>> {
+        let mut force: Vec<f64> = self.load.iter().map(|f| -f).collect();
+        self.matrix.add_product(d, &mut force);
+        Some(force)
+    }
+
+    /// `K d - f - F`.
+    fn residual(&self, d: &[f64], force: &[f64]) -> Vec<f64> {
+        let mut residual: Vec<f64> =
+            self.load.iter().zip(force).map(|(f, force)| -f - force).collect();
+        self.matrix.add_product(d, &mut residual);
+        residual
+    }
+
+    fn magnitude(&self, size: &[f64]) -> Vec<f64> {
+        let mut sum = vec![0.0; size.len()];
+        for (j, &size) in size.iter().enumerate() {
+            if size > 0.0 {
+                for (sum, k) in sum.iter_mut().zip(self.matrix.column(j)) {
+                    *sum += k.abs() * size;
+                }
+            }
+        }
+        sum
+    }
+}

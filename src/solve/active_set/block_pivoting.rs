@@ -1,0 +1,180 @@
+//! Block principal pivoting on an LCP (Júdice and Pires 1994): exchange all variables that violate
+//! their condition at once; when their number has not fallen for as many systems as there are
+//! variables, exchange the last of them only (Murty 1974) until it does. Finite for positive definite
+//! matrices.
+//!
+//! Contact without friction is the LCP in `x = -d` with `M = K` and the bounds `-gap`; tangential
+//! components are free. Starting with all pairs closed keeps the first system small, tangential
+//! components only, and a few sweeps from its solution tell nearly all pairs that open; sweeps follow
+//! each later solution too, as long as they help.
+
+use super::linear_system::{LinearSystem, Singular};
+use crate::law::Contact;
+use crate::law::branch::Row;
+use crate::law::complementarity::lower_bounds;
+use crate::linalg::simd::Simd;
+use crate::monitor::Monitor;
+use crate::problem::symmetric_matrix::is_symmetric;
+use crate::problem::{BoundedLcp, Lcp};
+use crate::settings::Settings;
+use crate::solve::candidate::{Candidate, Effort, Ending};
+use crate::solve::sweeps::sweep_lcp;
+
+/// Least number of systems without progress before single exchanges. Júdice and Pires recommend 10; on
+/// the worst problems of single exchanges, which take `2^n`, whole blocks need `n`.
+const PATIENCE: usize = 10;
+
+/// Sweeps between a solution and its active set.
+const SWEEPS: u32 = 2;
+
+/// Systems after which a problem of `n` complementary variables is left to another method: single
+/// exchanges may take `2^n`; whole blocks take a few, or at most about `n` on the worst problems
+/// known. Twice that and 50 more end no run that converges.
+pub fn enough(n: usize) -> u64 {
+    50 + 2 * n as u64
+}
+
+/// What block pivoting found.
+pub struct Pivoted {
+    /// `x`.
+    pub x: Vec<f64>,
+    /// `q + M x`.
+    pub w: Vec<f64>,
+    /// Why it stopped.
+    pub ending: Ending,
+    /// Dense factorisations.
+    pub factorisations: u64,
+}
+
+/// Solves frictionless contact from the active set of `start`, or from all pairs closed; after `most`
+/// systems it gives up.
+pub fn contact(
+    contact: &Contact<'_>,
+    settings: &Settings,
+    start: Option<&[f64]>,
+    most: u64,
+    monitor: &mut Monitor<'_>,
+) -> Candidate {
+    let problem = contact.problem();
+    let lower = lower_bounds(contact);
+    let lcp = BoundedLcp {
+        matrix: problem.stiffness(),
+        q: problem.load(),
+        lower: &lower,
+        symmetric: true,
+    };
+    let opposite = |values: &[f64]| -> Vec<f64> { values.iter().map(|value| -value).collect() };
+    let start = start.map(opposite);
+    let is_accurate = |x: &[f64]| {
+        let candidate = Candidate::of_displacements(contact, opposite(x), Ending::Done);
+        candidate.certificate(contact).holds(settings.tolerance)
+    };
+    let pivoted = solve(&lcp, settings.tolerance, start, most, &is_accurate, monitor);
+    let effort = Effort { factorisations: pivoted.factorisations, ..Effort::default() };
+    let (d, force) = (opposite(&pivoted.x), opposite(&pivoted.w));
+    let mut candidate = Candidate::new(d, force, pivoted.ending, effort);
+    // Of a symmetric positive definite matrix all principal minors are positive.
+    candidate.orientation = 1;
+    candidate
+}
+
+/// Solves an LCP whose matrix has a positive diagonal; after `most` systems it gives up.
+pub fn lcp(lcp: &Lcp<'_>, tolerance: f64, most: u64, monitor: &mut Monitor<'_>) -> Pivoted {
+    let zero = vec![0.0; lcp.size()];
+    let bounded = BoundedLcp {
+        matrix: lcp.matrix(),
+        q: lcp.q(),
+        lower: &zero,
+        symmetric: is_symmetric(&lcp.matrix()),
+    };
+    let is_accurate = |x: &[f64]| lcp.eta(x) <= tolerance;
+    solve(&bounded, tolerance, None, most, &is_accurate, monitor)
+}
+
+fn solve(
+    lcp: &BoundedLcp<'_>,
+    tolerance: f64,
+    start: Option<Vec<f64>>,
+    most: u64,
+    is_accurate: &dyn Fn(&[f64]) -> bool,
+    monitor: &mut Monitor<'_>,
+) -> Pivoted {
+    let n = lcp.q.len();
+    let mut basic: Vec<bool> = match &start {
+        Some(x) => active_set(lcp, x, &lcp.w(x)),
+        None => lcp.lower.iter().map(|&lower| lower == f64::NEG_INFINITY).collect(),
+    };
+    let x = start.unwrap_or_else(|| vec![0.0; n]);
+    let mut system = LinearSystem::new(lcp.matrix, lcp.symmetric, 1, lcp.q.to_vec(), x);
+    let mut best = (f64::INFINITY, system.x.clone(), system.residual.clone());
+    let complementary = lcp.lower.iter().filter(|&&lower| lower > f64::NEG_INFINITY).count();
+    let most_patience = PATIENCE.max(complementary);
+    let (mut fewest, mut patience) = (usize::MAX, most_patience);
+    let last = monitor.iterations().saturating_add(most);
+    let simd = Simd::new();
+    let ending = loop {
+        if monitor.iterations() >= last {
+            break Ending::Stalled("block pivoting does not settle");
+        }
+        if let Err(stop) = monitor.step() {
+            break Ending::Stopped(stop);
+        }
+        let rows = select(lcp, &basic);
+        if let Err(Singular) = system.solve(&rows) {
+            break Ending::Singular;
+        }
+        let eta = lcp.eta(&system.x, &system.residual);
+        monitor.measured(eta);
+        if eta < best.0 {
+            best = (eta, system.x.clone(), system.residual.clone());
+        }
+        let next = active_set(lcp, &system.x, &system.residual);
+        let violated: Vec<usize> = (0..n).filter(|&i| next[i] != basic[i]).collect();
+        let progress = violated.len() < fewest;
+        if violated.is_empty() {
+            system.refine(&rows, |x, w| lcp.eta(x, w), |x, _| is_accurate(x));
+            best = (0.0, std::mem::take(&mut system.x), std::mem::take(&mut system.residual));
+            break Ending::Done;
+        }
+        if !progress && best.0 <= tolerance && is_accurate(&best.1) {
+            // At a degenerate solution rounding may flip the active set forever.
+            break Ending::Done;
+        }
+        if progress {
+            (fewest, patience) = (violated.len(), most_patience);
+        }
+        if patience > 0 {
+            patience -= usize::from(!progress);
+            let sweeps_help = lcp.symmetric && progress;
+            basic = if sweeps_help { swept(simd, lcp, &system) } else { next };
+        } else {
+            let single = violated[violated.len() - 1];
+            basic[single] = next[single];
+        }
+    };
+    let (_, x, w) = best;
+    Pivoted { x, w, ending, factorisations: system.factorisations }
+}
+
+/// Whether each variable is off its bound.
+fn active_set(lcp: &BoundedLcp<'_>, x: &[f64], w: &[f64]) -> Vec<bool> {
+    (0..x.len()).map(|i| lcp.is_basic(i, x, w)).collect()
+}
+
+/// The equation of each variable.
+fn select(lcp: &BoundedLcp<'_>, basic: &[bool]) -> Vec<Row> {
+    let row = |(&basic, &lower): (&bool, &f64)| match basic {
+        true => Row::Free { coupling: 0.0, offset: 0.0 },
+        false => Row::Fixed(lower),
+    };
+    basic.iter().zip(lcp.lower).map(row).collect()
+}
+
+/// The active set after some sweeps, which the iterate does not keep.
+fn swept(simd: Simd, lcp: &BoundedLcp<'_>, system: &LinearSystem<'_>) -> Vec<bool> {
+    let (mut x, mut w) = (system.x.clone(), system.residual.clone());
+    for _ in 0..SWEEPS {
+        sweep_lcp(simd, lcp, &mut x, &mut w, 1.0);
+    }
+    active_set(lcp, &x, &w)
+}

@@ -1,0 +1,226 @@
+//! What a solver hands over, how it ended, and what is called a solution: decided by the certificate
+//! alone.
+
+use std::cell::OnceCell;
+
+use super::outcome::{Solution, Status, Uniqueness};
+use crate::certificate::{Certificate, is_escape_of, measure};
+use crate::law::Contact;
+use crate::linalg::vector::normalise;
+use crate::monitor::Stop;
+use crate::settings::{Method, Settings};
+
+/// How an algorithm ended: the one list for all of them.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Ending {
+    /// It believes that it is done.
+    Done,
+    /// A budget ended it, or the caller.
+    Stopped(Stop),
+    /// It follows a motion that may prove that no equilibrium exists (of an LCP: a ray that may prove
+    /// that nothing is feasible).
+    Recession(Vec<f64>),
+    /// The branches of an earlier iteration came again.
+    Cycle,
+    /// The system of its branches, or its basis, is singular to working precision.
+    Singular,
+    /// It cannot go on for another reason.
+    Stalled(&'static str),
+}
+
+/// A candidate of a solver: displacements with the forces that they need, and how they were found.
+#[derive(Clone, Debug)]
+pub struct Candidate {
+    /// Displacements.
+    pub d: Vec<f64>,
+    /// Contact forces that equilibrium needs at `d`, as the solver has them.
+    pub force: Vec<f64>,
+    /// Why the solver stopped.
+    pub ending: Ending,
+    /// Counts.
+    pub effort: Effort,
+    /// Sign of the determinant of the system of its branches, 0 if not known.
+    pub orientation: i8,
+    certificate: OnceCell<Certificate>,
+}
+
+/// What a solver did.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Effort {
+    /// Dense factorisations.
+    pub factorisations: u64,
+    /// Threshold updates.
+    pub outer_iterations: u64,
+    /// How often a tableau was refactorised.
+    pub refactorisations: u64,
+    /// Over-relaxation factor at the end, 0 if there is none.
+    pub omega: f64,
+    /// Damping of the threshold at the end, 0 if there is none.
+    pub damping: f64,
+}
+
+impl Candidate {
+    /// A candidate with its forces.
+    pub fn new(d: Vec<f64>, force: Vec<f64>, ending: Ending, effort: Effort) -> Self {
+        Candidate { d, force, ending, effort, orientation: 0, certificate: OnceCell::new() }
+    }
+
+    /// A candidate whose forces follow from its displacements.
+    pub fn of_displacements(contact: &Contact<'_>, d: Vec<f64>, ending: Ending) -> Self {
+        let force = contact.problem().force(&d);
+        Candidate::new(d, force, ending, Effort::default())
+    }
+
+    /// A solver that could not begin: zero displacement.
+    pub fn without_displacements(contact: &Contact<'_>, ending: Ending) -> Self {
+        Candidate::of_displacements(contact, vec![0.0; contact.unknowns()], ending)
+    }
+
+    /// The same candidate with the counts of what found it.
+    pub fn with_effort(self, effort: Effort) -> Self {
+        Candidate { effort, ..self }
+    }
+
+    /// The certificate, measured once.
+    pub fn certificate(&self, contact: &Contact<'_>) -> &Certificate {
+        self.certificate.get_or_init(|| measure(contact, &self.d, &self.force))
+    }
+
+    /// Whether nothing is left to try: solved, proved to have no solution, or stopped.
+    pub fn is_settled(&self, contact: &Contact<'_>, tolerance: f64) -> bool {
+        match &self.ending {
+            Ending::Recession(motion) => is_escape_of(contact, motion),
+            Ending::Stopped(_) => true,
+            _ => self.certificate(contact).holds(tolerance),
+        }
+    }
+}
+
+/// Turns the candidate of `method` into a result.
+pub fn certified(
+    contact: &Contact<'_>,
+    settings: &Settings,
+    method: Method,
+    candidate: &Candidate,
+) -> Solution {
+    let at_rest = at_rest(contact, settings, candidate);
+    let candidate = at_rest.as_ref().unwrap_or(candidate);
+    let certificate = candidate.certificate(contact);
+    let mut recession = None;
+    let accuracy = format!("eta is {:.1e}", certificate.eta);
+    let wanted = format!("{accuracy}, wanted {:.1e}", settings.tolerance);
+    // Displacements that run away may themselves be a motion that proves why.
+    let motion = match &candidate.ending {
+        Ending::Recession(motion) => Some(motion),
+        Ending::Stopped(_) => None,
+        _ => certificate.runs_away().then_some(&candidate.d),
+    };
+    let (status, message) = if certificate.holds(settings.tolerance) {
+        (Status::Solved, format!("solved: {accuracy}"))
+    } else if let Some(motion) = motion.filter(|motion| is_escape_of(contact, motion)) {
+        let mut motion = motion.clone();
+        normalise(&mut motion);
+        let message = no_equilibrium(contact, &motion);
+        recession = Some(motion);
+        (Status::NoEquilibrium, message)
+    } else if let Ending::Stopped(stop) = candidate.ending {
+        stop.status(settings, &wanted)
+    } else {
+        (Status::Stalled, format!("{}; {wanted}", candidate.ending.reason(certificate)))
+    };
+    let effort = candidate.effort;
+    Solution {
+        status,
+        message,
+        d: candidate.d.clone(),
+        certificate: certificate.clone(),
+        recession,
+        method,
+        fallback: None,
+        uniqueness: Uniqueness::NotKnown,
+        second: None,
+        orientation: if status == Status::Solved { candidate.orientation } else { 0 },
+        iterations: 0,
+        factorisations: effort.factorisations,
+        outer_iterations: effort.outer_iterations,
+        refactorisations: effort.refactorisations,
+        omega: effort.omega,
+        damping: effort.damping,
+    }
+}
+
+/// Zero displacement, if it is the solution and the candidate is not. Without loads the scale of
+/// forces is rounding only, which no iterate gets below.
+fn at_rest(contact: &Contact<'_>, settings: &Settings, other: &Candidate) -> Option<Candidate> {
+    if !contact.is_unloaded() || other.certificate(contact).holds(settings.tolerance) {
+        return None;
+    }
+    let mut rest = Candidate::without_displacements(contact, other.ending.clone());
+    (rest.effort, rest.orientation) = (other.effort, other.orientation);
+    rest.certificate(contact).holds(settings.tolerance).then_some(rest)
+}
+
+/// The sentence about a proof that no equilibrium exists: which pairs move, how, and what drives them.
+fn no_equilibrium(contact: &Contact<'_>, motion: &[f64]) -> String {
+    let problem = contact.problem();
+    let dim = contact.dim();
+    let most = (0..motion.len()).max_by(|&a, &b| motion[a].abs().total_cmp(&motion[b].abs()));
+    let most = most.unwrap_or(0);
+    let moving = motion.chunks_exact(dim).filter(|r| r.iter().any(|r| r.abs() > MOVING)).count();
+    let work: f64 = problem.load().iter().zip(motion).map(|(f, r)| f * r).sum();
+    let (pair, component) = (most / dim, most % dim);
+    let direction = match (component, motion[most] < 0.0) {
+        (0, true) => "away from the obstacle".to_owned(),
+        (0, false) => "towards where its obstacle would be".to_owned(),
+        (c, backwards) => {
+            let axis = if dim == 2 { "t".to_owned() } else { format!("t{c}") };
+            format!("along {}{axis}", if backwards { "-" } else { "+" })
+        }
+    };
+    format!(
+        "no equilibrium exists: the loads drive a rigid motion that contact does not stop; it moves \
+         {moving} of {} pairs, most of all pair {pair}, {direction}, and the loads do the work \
+         {work:.3e} on it when its largest component is 1; are a support, friction, or a pair \
+         missing, or is a normal, a load or the sign of gap turned round?",
+        contact.pairs().len()
+    )
+}
+
+/// Part of the largest component that counts as moving in a sentence: what is below is not worth
+/// reading.
+const MOVING: f64 = 1e-6;
+
+impl Ending {
+    /// Why there is no solution at this end.
+    fn reason(&self, certificate: &Certificate) -> &'static str {
+        match self {
+            _ if certificate.runs_away() => {
+                "the displacements are so large that rounding hides the forces"
+            }
+            Ending::Recession(_) => "the path ended in a ray that proves nothing",
+            Ending::Cycle => "the states of the pairs repeat in a cycle",
+            Ending::Singular => "the system of equations is singular",
+            Ending::Stalled(reason) => reason,
+            Ending::Done | Ending::Stopped(_) => "accuracy was lost to rounding",
+        }
+    }
+}
+
+impl Stop {
+    /// Status and sentence of a run that was stopped with the accuracy that `wanted` tells.
+    pub(super) fn status(self, settings: &Settings, wanted: &str) -> (Status, String) {
+        match self {
+            Stop::IterationLimit => (
+                Status::IterationLimit,
+                format!("max_iterations ({}) used up; {wanted}", settings.max_iterations),
+            ),
+            Stop::TimeLimit => (
+                Status::TimeLimit,
+                format!("time_limit ({} s) used up; {wanted}", settings.time_limit),
+            ),
+            Stop::Cancelled => {
+                (Status::Cancelled, format!("cancelled by the progress callback; {wanted}"))
+            }
+        }
+    }
+}

@@ -1,0 +1,79 @@
+//! Equilibrium of some components while the others are fixed.
+
+use crate::linalg::matrix::Matrix;
+use crate::linalg::pivoted_cholesky::PivotedCholesky;
+
+/// The factor of some rows and columns of a symmetric positive semi-definite matrix `K`, scaled to a
+/// unit diagonal.
+pub struct FreeBlock<'p> {
+    matrix: Matrix<'p>,
+    rows: Vec<usize>,
+    scale: Vec<f64>,
+    factor: PivotedCholesky,
+}
+
+/// One solution and one step of iterative refinement: the second recovers the digits that the
+/// scaling and a nearly singular block lose.
+const SOLUTIONS: usize = 2;
+
+impl<'p> FreeBlock<'p> {
+    /// Factorises the block of `rows`; `None` if it is not positive semi-definite.
+    pub fn new(matrix: Matrix<'p>, rows: Vec<usize>) -> Option<Self> {
+        let scale: Vec<f64> = rows.iter().map(|&i| matrix.at(i, i).sqrt().recip()).collect();
+        let entry = |i: usize, j: usize| scale[i] * matrix.at(rows[i], rows[j]) * scale[j];
+        let factor = PivotedCholesky::new(rows.len(), entry)?;
+        Some(FreeBlock { matrix, rows, scale, factor })
+    }
+
+    /// Rows that depend on the others.
+    pub fn dependent(&self) -> impl Iterator<Item = usize> {
+        self.factor.dependent().iter().map(|&i| self.rows[i])
+    }
+
+    /// Schur complement of `K` on the rows `kept`, column-major.
+    pub fn schur_complement(&self, kept: &[usize]) -> Vec<f64> {
+        self.factor.schur_complement(
+            kept.len(),
+            |i, j| self.scale[i] * self.matrix.at(self.rows[i], kept[j]),
+            |i, j| self.matrix.at(kept[i], kept[j]),
+        )
+    }
+
+    /// Adds to the independent rows of `d` what makes `K d = load` there, given `K d - load`.
+    fn correct(&self, excess: &[f64], d: &mut [f64]) {
+        let rows = self.factor.independent();
+        let mut y: Vec<f64> = rows.iter().map(|&i| self.scale[i] * excess[self.rows[i]]).collect();
+        self.factor.solve(&mut y);
+        for (&i, y) in rows.iter().zip(&y) {
+            d[self.rows[i]] -= self.scale[i] * y;
+        }
+    }
+
+    /// Brings the independent rows into equilibrium with the loads.
+    pub fn equilibrate(&self, load: &[f64], d: &mut [f64]) {
+        for _ in 0..SOLUTIONS {
+            let mut excess: Vec<f64> = load.iter().map(|f| -f).collect();
+            self.matrix.add_product(d, &mut excess);
+            self.correct(&excess, d);
+        }
+    }
+
+    /// Extends a motion of the other rows to the independent ones so that no force acts on these.
+    pub fn follow(&self, motion: &mut [f64]) {
+        for _ in 0..SOLUTIONS {
+            let internal = self.matrix.product(motion);
+            self.correct(&internal, motion);
+        }
+    }
+
+    /// A basis of the motions that `K` does not resist: each has one dependent component of the size
+    /// that gives it unit force scale.
+    pub fn null_vectors(&self) -> impl Iterator<Item = Vec<f64>> {
+        self.dependent().map(|i| {
+            let mut motion = vec![0.0; self.matrix.size()];
+            motion[i] = self.matrix.at(i, i).sqrt().recip();
+            self.follow(&mut motion);
+            motion
+        })
+    }
+}

@@ -1,0 +1,182 @@
+//! The linear complementarity problem, by block pivoting and by Lemke's method.
+
+use super::active_set;
+use super::candidate::Ending;
+use super::lemke::{self, Care, Rules, ScaledLcp};
+use super::outcome::{Fallback, Status};
+use crate::error::{Argument, Error};
+use crate::linalg::vector::normalise;
+use crate::monitor::Monitor;
+use crate::problem::Lcp;
+use crate::settings::{Method, Settings};
+
+/// Result of an LCP.
+#[derive(Clone, Debug)]
+pub struct LcpSolution {
+    /// What it is; [`Status::NoEquilibrium`] says that nothing is feasible.
+    pub status: Status,
+    /// One sentence on what happened.
+    pub message: String,
+    /// `w >= 0`.
+    pub w: Vec<f64>,
+    /// `z >= 0`.
+    pub z: Vec<f64>,
+    /// Of [`Status::NoEquilibrium`] the vector `y` that proves it ([`Lcp::is_infeasible_by`]), its
+    /// largest entry 1.
+    pub infeasible_by: Option<Vec<f64>>,
+    /// [`Lcp::eta`].
+    pub eta: f64,
+    /// The method that ended it.
+    pub method: Method,
+    /// The method tried first and why it was abandoned, if another one ended it.
+    pub fallback: Option<(Method, Fallback)>,
+    /// Pivots, or linear systems, of all methods that were tried.
+    pub iterations: u64,
+    /// Dense factorisations of block pivoting.
+    pub factorisations: u64,
+    /// How often the tableau was refactorised because accuracy was lost.
+    pub refactorisations: u64,
+}
+
+/// Solves an LCP: by default by block pivoting, then Lemke's method.
+///
+/// # Errors
+/// Settings out of range, or a method for contact problems; memory that cannot be had.
+pub fn solve_lcp(
+    lcp: &Lcp<'_>,
+    settings: &Settings,
+    monitor: &mut Monitor<'_>,
+) -> Result<LcpSolution, Error> {
+    settings.validate()?;
+    let mut pivoted = None;
+    match settings.method {
+        Method::Auto | Method::BlockPivoting => {
+            let run = by_pivoting(lcp, settings, monitor);
+            let solution =
+                certified(lcp, settings, Method::BlockPivoting, &run, monitor.iterations());
+            let done =
+                solution.status == Status::Solved || settings.method == Method::BlockPivoting;
+            if done || matches!(run.ending, Ending::Stopped(_)) {
+                return Ok(solution);
+            }
+            pivoted = Some((run, solution));
+        }
+        Method::Lemke => {}
+        _ => {
+            let message =
+                "settings: an LCP is solved by the methods auto, block pivoting and Lemke";
+            return Err(Error::invalid(Argument::Settings, message));
+        }
+    }
+    let run = by_lemke(lcp, settings, monitor)?;
+    let mut solution = certified(lcp, settings, Method::Lemke, &run, monitor.iterations());
+    if let Some((run, before)) = pivoted {
+        let decided = matches!(solution.status, Status::Solved | Status::NoEquilibrium);
+        if !decided && before.eta < solution.eta {
+            (solution.w, solution.z, solution.eta) = (before.w, before.z, before.eta);
+        }
+        let why =
+            if run.ending == Ending::Singular { Fallback::Singular } else { Fallback::Inaccurate };
+        solution.fallback = Some((Method::BlockPivoting, why));
+        solution.factorisations = before.factorisations;
+    }
+    Ok(solution)
+}
+
+/// A candidate `z` and how it was found.
+struct Run {
+    z: Vec<f64>,
+    ending: Ending,
+    factorisations: u64,
+    refactorisations: u64,
+}
+
+fn by_pivoting(lcp: &Lcp<'_>, settings: &Settings, monitor: &mut Monitor<'_>) -> Run {
+    let n = lcp.size();
+    let nothing = |ending| Run { z: vec![0.0; n], ending, factorisations: 0, refactorisations: 0 };
+    if n == 0 {
+        return nothing(Ending::Done);
+    }
+    if (0..n).any(|i| !(lcp.column(i)[i] > 0.0)) {
+        return nothing(Ending::Singular);
+    }
+    let chosen = settings.method == Method::BlockPivoting;
+    let most = if chosen { u64::MAX } else { active_set::enough(n) };
+    let pivoted = active_set::lcp(lcp, settings.tolerance, most, monitor);
+    Run {
+        z: pivoted.x.iter().map(|x| x.max(0.0)).collect(),
+        ending: pivoted.ending,
+        factorisations: pivoted.factorisations,
+        refactorisations: 0,
+    }
+}
+
+fn by_lemke(lcp: &Lcp<'_>, settings: &Settings, monitor: &mut Monitor<'_>) -> Result<Run, Error> {
+    // Powers of two: the pivots are those of the unscaled problem, rounding included.
+    let scale: Vec<f64> =
+        lcp.magnitudes().iter().map(|m| (-(m.log2() / 2.0).round()).exp2()).collect();
+    let covering: Vec<f64> = (0..lcp.size()).map(|i| lcp.covering(i)).collect();
+    let matrix = lcp.matrix();
+    let problem = ScaledLcp { matrix: &matrix, q: lcp.q(), covering: &covering, scale: &scale };
+    let mut run = lemke::follow(problem, Rules::usual(Care::Usual), monitor)?;
+    let lost_accuracy = match run.ending {
+        Ending::Done => lcp.eta(&run.z) > settings.tolerance,
+        Ending::Recession(_) | Ending::Stopped(_) => false,
+        _ => true,
+    };
+    if lost_accuracy {
+        run = lemke::follow(problem, Rules::usual(Care::Thorough), monitor)?;
+    }
+    let lemke::Run { z, ending, refactorisations, .. } = run;
+    Ok(Run { z, ending, factorisations: 0, refactorisations })
+}
+
+fn certified(
+    lcp: &Lcp<'_>,
+    settings: &Settings,
+    method: Method,
+    run: &Run,
+    iterations: u64,
+) -> LcpSolution {
+    let (eta, product) = lcp.measure(&run.z);
+    let mut infeasible_by = None;
+    let wanted = format!("eta is {eta:.1e}, wanted {:.1e}", settings.tolerance);
+    let (status, message) = match &run.ending {
+        _ if eta <= settings.tolerance => (Status::Solved, format!("solved: eta is {eta:.1e}")),
+        Ending::Recession(ray) if lcp.is_infeasible_by(ray) => {
+            let mut ray = ray.clone();
+            normalise(&mut ray);
+            infeasible_by = Some(ray);
+            (Status::NoEquilibrium, "no w, z >= 0 satisfy w = q + M z: proved".into())
+        }
+        Ending::Recession(_) => {
+            (Status::Stalled, format!("the path ended in a ray that proves nothing; {wanted}"))
+        }
+        Ending::Stopped(stop) => stop.status(settings, &wanted),
+        Ending::Singular => (
+            Status::Stalled,
+            format!(
+                "block pivoting met a singular system, or M has no positive diagonal; {wanted}"
+            ),
+        ),
+        Ending::Stalled(reason) => (Status::Stalled, format!("{reason}; {wanted}")),
+        Ending::Done | Ending::Cycle => {
+            (Status::Stalled, format!("accuracy was lost to rounding; {wanted}"))
+        }
+    };
+    let w = lcp.q().iter().zip(&product).zip(&run.z);
+    let w = w.map(|((q, mz), z)| if *z > 0.0 { 0.0 } else { (q + mz).max(0.0) }).collect();
+    LcpSolution {
+        status,
+        message,
+        w,
+        z: run.z.clone(),
+        infeasible_by,
+        eta,
+        method,
+        fallback: None,
+        iterations,
+        factorisations: run.factorisations,
+        refactorisations: run.refactorisations,
+    }
+}

@@ -1,0 +1,156 @@
+//! Lemke's method for Coulomb friction in 2D, for every coefficient.
+//!
+//! With `w = gap - d_n`, `d_t - slip0 = a - b` (`a, b >= 0`) and the force that `d = (gap, slip0)` asks
+//! for, `K (gap, slip0) - f = -(r_n, r_t)`, the problem is
+//!
+//! ```text
+//! p  = r_n + K_nn w - K_nt (a - b)          >= 0,  w >= 0,  p w = 0
+//! t  = r_t + K_tn w - K_tt (a - b)                 t = -F_t, p = -F_n
+//! u  = mu p - t                              >= 0,  a >= 0,  u a = 0
+//! v  = mu p + t                              >= 0,  b >= 0,  v b = 0
+//! ```
+//!
+//! a linear complementarity problem in `(w, a, b)`. Its matrix is not copositive for `mu > 0`, and
+//! with the usual covering vector of ones Lemke's method fails. Here the covering vector *clamps
+//! every pair and adds cohesion*: `p` grows by `z0 s`, and the thresholds by `z0 (mu s + c)`, `s, c > 0`
+//! (`c` may differ between `u` and `v`).
+//! The path starts where all pairs are closed and stick, and leads to `z0 = 0`.
+//!
+//! **Theorem.** Let `x.K x > 0` for all `x != 0` (`K` need not be symmetric), `mu >= 0`. For any loads,
+//! gaps and slips the lexicographic method with this covering vector ends at a solution.
+//!
+//! *Proof.* It does not cycle, so it ends at a solution or on a ray: a direction
+//! `(w, a, b, z0) >= 0`, `z0 >= 0`, not all of `(w, a, b)` zero, along which complementarity holds and
+//! which satisfies the equations without `r`. Let `e = (-w, a - b)` be its motion and
+//! `P = -(K e)_n`, `T = -(K e)_t` its forces. Then `e.K e = w.P - (a - b).T`. On the ray
+//! `0 <= P + z0 s`, and `w > 0` only where it is zero: `w.P = -z0 s.w <= 0`. Where `a > b`,
+//! complementarity gives `mu (P + z0 s) + z0 c - T = 0`, so `(a - b) T >= 0`; likewise where `a < b`.
+//! So `e.K e <= 0`, `e = 0`: `w = 0` and `a = b`, not zero for some pair. Its `u` and `v` then vanish on
+//! the whole ray, also where it begins; there their sum is `2 (mu p + c z0)` with `p >= 0`, so
+//! `z0 = 0`, and where it begins there already was a solution. ∎
+//!
+//! *Limits.* The number of steps is not bounded by a polynomial; on meshes it is about the number of
+//! pairs that open or slide. In 2D only. If `K` is symmetric and only semi-definite, a ray has
+//! `K e = 0`, `e_n <= 0`, and the loads do work on it beyond what friction takes: where the path
+//! tells this in floating point, [`crate::certificate::is_escape`] makes it a proof, and otherwise
+//! nothing is claimed. Rounding: `z0` ends at a small part of its start, and Newton's method polishes
+//! from the branches found there; the certificate decides.
+//!
+//! The paper (section 2.2) holds that Lemke's method cannot be extended to friction; Klarbring
+//! (Ingenieur-Archiv 56, 1986) formulates the complementarity problem, without this start.
+//! With given thresholds the matrix is positive semi-definite and the standard theory applies; the same
+//! start serves.
+
+use super::friction_2d_lcp::FrictionLcp;
+use super::path::{self, Care, Rules, Run, ScaledLcp};
+use crate::error::Error;
+use crate::law::Contact;
+use crate::monitor::Monitor;
+use crate::settings::Settings;
+use crate::solve::active_set;
+use crate::solve::candidate::{Candidate, Ending};
+use crate::solve::rigid_balance;
+
+/// Cohesion relative to the clamp, against slip to the side +1 and −1. The theorem holds for any
+/// positive numbers. The first pair is of the size of the clamp. The others are tried where it fails,
+/// and in the search for other solutions: lopsided by 100 to either side, weak and strong by 100. On a
+/// semi-definite `K` another path may end at a solution where the first has a ray, and where there are
+/// several solutions it may lead to another.
+const COHESIONS: [[f64; 2]; 5] =
+    [[0.5, 0.5], [0.01, 1.0], [1.0, 0.01], [0.01, 0.01], [100.0, 100.0]];
+
+/// Turning points to keep in the search for other solutions: one more than the solutions of the
+/// smallest problem that has several.
+const TURNS: usize = 4;
+
+/// The path is at its end when `z0` has fallen to this part of its start: nearer to it rounding may
+/// turn the path back, or into a ray. Newton's method finds the rest of the digits.
+const END: f64 = 1e-10;
+
+/// Solves a problem in 2D.
+pub fn solve(
+    contact: &Contact<'_>,
+    settings: &Settings,
+    monitor: &mut Monitor<'_>,
+) -> Result<Candidate, Error> {
+    let lcp = match FrictionLcp::new(contact) {
+        Ok(lcp) => lcp,
+        Err(why) => return Ok(Candidate::without_displacements(contact, why)),
+    };
+    let mut first = None;
+    let others = COHESIONS[1..].iter().map(|&cohesion| (Care::Usual, cohesion));
+    for (care, cohesion) in
+        [(Care::Usual, COHESIONS[0]), (Care::Thorough, COHESIONS[0])].into_iter().chain(others)
+    {
+        let candidate = follow(&lcp, contact, settings, care, cohesion, monitor)?;
+        if candidate.is_settled(contact, settings.tolerance) {
+            return Ok(candidate);
+        }
+        first.get_or_insert(candidate);
+    }
+    Ok(first.expect("there are several starts"))
+}
+
+/// Ends of the path from several starts, and what Newton's method makes of its turning points: all
+/// solutions that the path shows.
+pub fn ends(
+    contact: &Contact<'_>,
+    settings: &Settings,
+    monitor: &mut Monitor<'_>,
+) -> Result<Vec<Candidate>, Error> {
+    let Ok(lcp) = FrictionLcp::new(contact) else { return Ok(Vec::new()) };
+    let mut ends = Vec::new();
+    for cohesion in COHESIONS {
+        let rules = Rules { care: Care::Usual, end: END, turns: TURNS };
+        let run = run(&lcp, rules, cohesion, monitor)?;
+        for z in run.turns.iter().chain((run.ending == Ending::Done).then_some(&run.z)) {
+            let (branches, d) = (lcp.branches(z), lcp.displacements(z));
+            ends.push(active_set::from_branches(contact, settings, branches, d, monitor));
+        }
+    }
+    Ok(ends)
+}
+
+/// Follows a path to its end, and polishes the solution there.
+fn follow(
+    lcp: &FrictionLcp<'_>,
+    contact: &Contact<'_>,
+    settings: &Settings,
+    care: Care,
+    cohesion: [f64; 2],
+    monitor: &mut Monitor<'_>,
+) -> Result<Candidate, Error> {
+    let run = run(lcp, Rules { care, end: END, turns: 0 }, cohesion, monitor)?;
+    let d = lcp.displacements(&run.z);
+    let ending = match run.ending {
+        // If the body only lifts off, the ray itself is the proof; if it also slips, the balance of
+        // the other pairs decides.
+        Ending::Recession(ray) => {
+            Ending::Recession(rigid_balance::escape(contact).unwrap_or_else(|| lcp.motion(&ray)))
+        }
+        other => other,
+    };
+    let mut candidate = Candidate::of_displacements(contact, d, ending);
+    if candidate.ending == Ending::Done {
+        let (branches, d) = (lcp.branches(&run.z), candidate.d.clone());
+        let mut polished = active_set::from_branches(contact, settings, branches, d, monitor);
+        polished.ending = Ending::Done;
+        if polished.certificate(contact).eta <= candidate.certificate(contact).eta {
+            candidate = polished;
+        }
+    }
+    candidate.effort.refactorisations = run.refactorisations;
+    Ok(candidate)
+}
+
+/// Follows a path to its end.
+fn run(
+    lcp: &FrictionLcp<'_>,
+    rules: Rules,
+    cohesion: [f64; 2],
+    monitor: &mut Monitor<'_>,
+) -> Result<Run, Error> {
+    let vectors = lcp.vectors(cohesion);
+    let (q, covering, scale) = (&vectors.q, &vectors.covering, &vectors.scale);
+    path::follow(ScaledLcp { matrix: lcp, q, covering, scale }, rules, monitor)
+}

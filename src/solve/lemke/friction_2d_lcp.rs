@@ -1,0 +1,188 @@
+//! The LCP of friction in 2D, as `friction_2d` states it. Its matrix is not stored: its columns are
+//! made from those of `K` when the tableau asks for them.
+
+use std::borrow::Cow;
+
+use super::tableau::Entries;
+use crate::law::Contact;
+use crate::law::branch::Branch;
+use crate::linalg::vector::norm_inf;
+use crate::solve::candidate::Ending;
+use crate::solve::condense::{FreeBlock, INDEFINITE, driven_motion};
+
+/// The LCP of a contact problem in the variables `(w, a, b)`.
+pub struct FrictionLcp<'p> {
+    contact: &'p Contact<'p>,
+    /// Components that carry no contact force are condensed.
+    block: FreeBlock<'p>,
+    at_rest: Vec<f64>,
+    /// The others: normal, then tangential.
+    normal: Vec<usize>,
+    tangential: Vec<usize>,
+    /// Of each tangential component: the place of its pair in `normal`, and the slope of its bound.
+    coupling: Vec<Option<(usize, f64)>>,
+    /// `K` where nothing is condensed, with `normal` and `tangential` as its indices, otherwise the
+    /// Schur complement, whose indices are counted.
+    stiffness: Cow<'p, [f64]>,
+    ld: usize,
+    indices: Vec<usize>,
+}
+
+/// Right-hand side, covering vector and scales of the variables.
+pub struct Vectors {
+    /// `q`.
+    pub q: Vec<f64>,
+    /// Covering vector.
+    pub covering: Vec<f64>,
+    /// Scales.
+    pub scale: Vec<f64>,
+}
+
+impl<'p> FrictionLcp<'p> {
+    /// Condenses what carries no contact force. `Err`: why that is impossible, which may be a proof
+    /// that no equilibrium exists.
+    pub fn new(contact: &'p Contact<'p>) -> Result<Self, Ending> {
+        let problem = contact.problem();
+        let (mut normal, mut tangential, mut free) = (Vec::new(), Vec::new(), Vec::new());
+        let mut coupling = Vec::new();
+        for (pair, law) in contact.pairs().iter().enumerate() {
+            let variables = law.variables();
+            if variables.slips {
+                coupling.push(variables.clearance.then_some((normal.len(), law.bound().slope)));
+            }
+            if variables.clearance { &mut normal } else { &mut free }.push(2 * pair);
+            if variables.slips { &mut tangential } else { &mut free }.push(2 * pair + 1);
+        }
+        let indices: Vec<usize> = normal.iter().chain(&tangential).copied().collect();
+        let condenses = !free.is_empty();
+        let block = FreeBlock::new(problem.stiffness(), free).ok_or(INDEFINITE)?;
+        let mut at_rest = vec![0.0; contact.unknowns()];
+        for &i in &indices {
+            at_rest[i] = contact.pairs()[i / 2].reference()[i % 2];
+        }
+        block.equilibrate(problem.load(), &mut at_rest);
+        if let Some(motion) = driven_motion(contact, &block, &at_rest) {
+            return Err(Ending::Recession(motion));
+        }
+        let matrix = problem.stiffness();
+        let (stiffness, ld, indices) = if condenses {
+            let schur = block.schur_complement(&indices);
+            (Cow::Owned(schur), indices.len().max(1), (0..indices.len()).collect())
+        } else {
+            (Cow::Borrowed(matrix.entries()), matrix.ld(), indices)
+        };
+        Ok(FrictionLcp {
+            contact,
+            block,
+            at_rest,
+            normal,
+            tangential,
+            coupling,
+            stiffness,
+            ld,
+            indices,
+        })
+    }
+
+    /// The vectors, with the cohesion of the covering vector against slip to either side.
+    pub fn vectors(&self, cohesion: [f64; 2]) -> Vectors {
+        let (problem, n, m) = (self.contact.problem(), self.normal.len(), self.tangential.len());
+        let force = problem.force(&self.at_rest);
+        let root = |i: usize| problem.diagonal(i).sqrt();
+        let mut vectors = Vectors {
+            q: self.normal.iter().map(|&i| -force[i]).collect(),
+            covering: self.normal.iter().map(|&i| root(i)).collect(),
+            scale: Vec::with_capacity(n + 2 * m),
+        };
+        for (side, cohesion) in [1.0, -1.0].into_iter().zip(cohesion) {
+            for (k, &i) in self.tangential.iter().enumerate() {
+                let (bound, clamp) = match self.coupling[k] {
+                    Some((normal, slope)) => {
+                        (slope * vectors.q[normal], slope * vectors.covering[normal])
+                    }
+                    None => (0.0, 0.0),
+                };
+                let offset = self.contact.pairs()[i / 2].bound().offset;
+                vectors.q.push(bound + offset + side * force[i]);
+                vectors.covering.push(clamp + cohesion * root(i));
+            }
+        }
+        let scale = |i: &usize| root(*i).recip();
+        let components = self.normal.iter().chain(&self.tangential).chain(&self.tangential);
+        vectors.scale.extend(components.map(scale));
+        vectors
+    }
+
+    /// All displacements of a point of the path.
+    pub fn displacements(&self, z: &[f64]) -> Vec<f64> {
+        let mut d = self.at_rest.clone();
+        for (d, motion) in d.iter_mut().zip(self.motion_of_variables(z)) {
+            *d += motion;
+        }
+        self.block.equilibrate(self.contact.problem().load(), &mut d);
+        d
+    }
+
+    /// The motion of all components along a ray.
+    pub fn motion(&self, ray: &[f64]) -> Vec<f64> {
+        let mut motion = self.motion_of_variables(ray);
+        let least = DIGITS * norm_inf(&motion);
+        motion.iter_mut().filter(|r| r.abs() < least).for_each(|r| *r = 0.0);
+        self.block.follow(&mut motion);
+        motion
+    }
+
+    fn motion_of_variables(&self, z: &[f64]) -> Vec<f64> {
+        let (n, m) = (self.normal.len(), self.tangential.len());
+        let mut motion = vec![0.0; self.contact.unknowns()];
+        for (k, &i) in self.normal.iter().enumerate() {
+            motion[i] = -z[k];
+        }
+        for (k, &i) in self.tangential.iter().enumerate() {
+            motion[i] = z[n + k] - z[n + m + k];
+        }
+        motion
+    }
+
+    /// The branches of a point of the path.
+    pub fn branches(&self, z: &[f64]) -> Vec<Branch> {
+        let (n, m) = (self.normal.len(), self.tangential.len());
+        let mut variables = vec![[0.0; 3]; self.contact.pairs().len()];
+        for (k, &i) in self.normal.iter().enumerate() {
+            variables[i / 2][0] = z[k];
+        }
+        for (k, &i) in self.tangential.iter().enumerate() {
+            (variables[i / 2][1], variables[i / 2][2]) = (z[n + k], z[n + m + k]);
+        }
+        let laws = self.contact.pairs().iter();
+        laws.zip(variables).map(|(law, [w, a, b])| law.branch_of_variables(w, a, b)).collect()
+    }
+}
+
+/// Components of a ray below this part of the largest are digits that rounding has left: a tenth of
+/// what counts as rigid in the certificate.
+const DIGITS: f64 = 1e-12;
+
+impl Entries for FrictionLcp<'_> {
+    fn write_column(&self, j: usize, column: &mut [f64]) {
+        let (n, m) = (self.normal.len(), self.tangential.len());
+        // Variable j moves one component: a clearance, or a slip to one side.
+        let (component, sign) = match j {
+            j if j < n => (j, -1.0),
+            j if j < n + m => (j, 1.0),
+            j => (j - m, -1.0),
+        };
+        let source = &self.stiffness[self.indices[component] * self.ld..];
+        for (column, &i) in column.iter_mut().zip(&self.indices[..n]) {
+            *column = -sign * source[i];
+        }
+        for (k, &i) in self.indices[n..].iter().enumerate() {
+            let bound = match self.coupling[k] {
+                Some((normal, slope)) => -slope * sign * source[self.indices[normal]],
+                None => 0.0,
+            };
+            let force = sign * source[i];
+            (column[n + k], column[n + m + k]) = (bound + force, bound - force);
+        }
+    }
+}

@@ -1,0 +1,12 @@
+//! Lemke's method: for LCPs, for frictionless contact and for friction in 2D.
+
+mod friction_2d;
+mod friction_2d_lcp;
+mod frictionless;
+mod path;
+mod rank_one_updates;
+mod tableau;
+
+pub use friction_2d::{ends, solve as friction_2d};
+pub use frictionless::frictionless;
+pub use path::{Care, Rules, Run, ScaledLcp, follow};

@@ -1,0 +1,194 @@
+//! Lemke's method for linear complementarity problems, lexicographic, on the compact tableau.
+//!
+//! | matrix `M` | what the method does (exact arithmetic) |
+//! |---|---|
+//! | positive definite, P | solves |
+//! | positive semi-definite, copositive-plus | solves, or its ray proves that nothing is feasible |
+//! | any other | solves, or ends in a ray that proves nothing |
+//!
+//! It never cycles. The number of pivots is of the order of `n` in mechanics and `2^n` at worst.
+//! Cottle, Pang and Stone, *The Linear Complementarity Problem*, 4.4; Lemke (1965).
+//!
+//! Rounding: every [`CHECK`] pivots the values are refined on the data; where they were found to
+//! have drifted, the tableau is refactorised. A caller whose certificate finds the
+//! end of a path inaccurate repeats it with [`Care::Thorough`].
+
+use super::tableau::{Entries, Scaled, Tableau};
+use crate::error::Error;
+use crate::linalg::matrix::Matrix;
+use crate::linalg::tolerances::NEGLIGIBLE;
+use crate::linalg::vector::largest_of;
+use crate::monitor::Monitor;
+use crate::solve::candidate::Ending;
+
+/// Result of a run.
+#[derive(Clone, Debug)]
+pub struct Run {
+    /// `z`, non-negative; of a run that was stopped that of the last basis.
+    pub z: Vec<f64>,
+    /// How it ended: done (`z0 = 0`, a solution up to rounding), on a secondary ray with its direction
+    /// in `z` ([`Ending::Recession`]), in a basis that rounding made singular, or stopped.
+    pub ending: Ending,
+    /// First turning points of the path, where `z0` starts to increase.
+    pub turns: Vec<Vec<f64>>,
+    /// How often accuracy was lost and restored.
+    pub refactorisations: u64,
+}
+
+/// Rounding made a basis of Lemke's method singular.
+pub const BREAKDOWN: Ending = Ending::Stalled("rounding made Lemke's basis singular");
+
+/// Pivots between two checks of the values against the data: the check costs about one pivot.
+const CHECK: u64 = 32;
+
+/// Residual, relative to `q`, from which on the tableau is refactorised: ten times what a check's own
+/// refinement can mend.
+const DRIFT: f64 = 10.0 * NEGLIGIBLE;
+
+/// When the tableau is refactorised.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Care {
+    /// When its values have drifted.
+    Usual,
+    /// At every check.
+    Thorough,
+}
+
+/// How a path is followed.
+#[derive(Clone, Copy, Debug)]
+pub struct Rules {
+    /// When the tableau is refactorised.
+    pub care: Care,
+    /// The path is at its end when `z0` has fallen to this part of its start: beyond it rounding
+    /// decides between the end and a false ray.
+    pub end: f64,
+    /// Most turning points to be kept.
+    pub turns: usize,
+}
+
+/// End of the path where a ray proves something: only the rounding of the last pivots is forgiven, ten
+/// units of [`crate::linalg::tolerances::ROUNDING`].
+const END: f64 = 1e-13;
+
+impl Rules {
+    /// For problems in which a ray proves something.
+    pub fn usual(care: Care) -> Self {
+        Rules { care, end: END, turns: 0 }
+    }
+}
+
+/// An LCP to be solved in the variables `z_i / scale_i`, `w_i * scale_i`.
+#[derive(Clone, Copy)]
+pub struct ScaledLcp<'p> {
+    /// `M`.
+    pub matrix: &'p dyn Entries,
+    /// `q`.
+    pub q: &'p [f64],
+    /// Covering vector, positive.
+    pub covering: &'p [f64],
+    /// Scales.
+    pub scale: &'p [f64],
+}
+
+impl Entries for Matrix<'_> {
+    fn write_column(&self, j: usize, column: &mut [f64]) {
+        column.copy_from_slice(self.column(j));
+    }
+}
+
+/// Follows the path of `lcp`.
+pub fn follow(lcp: ScaledLcp<'_>, rules: Rules, monitor: &mut Monitor<'_>) -> Result<Run, Error> {
+    let ScaledLcp { matrix, q, scale, .. } = lcp;
+    let n = q.len();
+    let scaled = |values: &[f64]| -> Vec<f64> {
+        values.iter().zip(scale).map(|(value, scale)| value * scale).collect()
+    };
+    // Of size one, as the rest of the scaled problem.
+    let covering = scaled(lcp.covering);
+    let unit = largest_of(covering.iter().copied()).log2().round().exp2();
+    let covering = covering.iter().map(|d| d / unit).collect();
+    let problem = Scaled { matrix, scale, q: scaled(q), covering };
+    let unscaled = |z: &mut dyn Iterator<Item = f64>| -> Vec<f64> {
+        z.zip(scale).map(|(z, scale)| z.max(0.0) * scale).collect()
+    };
+    let tableau = Tableau::new(&problem)?;
+    if !tableau.is_finite() {
+        let ending = Ending::Stalled("numbers overflow in the complementarity problem");
+        return Ok(Run { z: vec![0.0; n], ending, turns: Vec::new(), refactorisations: 0 });
+    }
+    let mut path =
+        Path { problem: &problem, tableau, rules, turns: Vec::new(), refactorisations: 0 };
+    let ending = match path.run(monitor) {
+        End::Ray(entering) => {
+            Ending::Recession(unscaled(&mut (n..2 * n).map(|z| path.tableau.rate(z, entering))))
+        }
+        End::Ended(ending) => ending,
+    };
+    let turns = path.turns.iter().map(|z| unscaled(&mut z.iter().copied())).collect();
+    let z = unscaled(&mut (n..2 * n).map(|z| path.tableau.value(z)));
+    Ok(Run { z, ending, turns, refactorisations: path.refactorisations })
+}
+
+/// A path that is being followed.
+struct Path<'p> {
+    problem: &'p Scaled<'p>,
+    tableau: Tableau,
+    rules: Rules,
+    turns: Vec<Vec<f64>>,
+    refactorisations: u64,
+}
+
+/// The end of a path in terms of the tableau.
+enum End {
+    Ended(Ending),
+    /// Nothing blocks the entering variable.
+    Ray(usize),
+}
+
+impl Path<'_> {
+    fn run(&mut self, monitor: &mut Monitor<'_>) -> End {
+        let n = self.problem.size();
+        let z0 = 2 * n;
+        let Some(mut row) = self.tableau.first_row() else { return End::Ended(Ending::Done) };
+        let mut entering = z0;
+        self.tableau.choose(entering);
+        let mut start = None;
+        let mut pivots = 0;
+        loop {
+            if let Err(stop) = monitor.step() {
+                return End::Ended(Ending::Stopped(stop));
+            }
+            pivots += 1;
+            let leaving = self.tableau.basic(row);
+            self.tableau.pivot(row, entering);
+            let limit = self.rules.end * start.unwrap_or(0.0);
+            let ended = leaving == z0 || self.tableau.value(z0) <= limit;
+            if (ended || pivots % CHECK == 0) && !self.check() {
+                return End::Ended(BREAKDOWN);
+            }
+            if ended {
+                return End::Ended(Ending::Done);
+            }
+            start.get_or_insert(self.tableau.value(z0));
+            entering = if leaving < n { leaving + n } else { leaving - n };
+            self.tableau.choose(entering);
+            if self.turns.len() < self.rules.turns && self.tableau.rate(z0, entering) > 0.0 {
+                self.turns.push((n..2 * n).map(|z| self.tableau.value(z)).collect());
+            }
+            row = match self.tableau.blocking_row(entering, z0) {
+                Some(row) => row,
+                None => return End::Ray(entering),
+            };
+        }
+    }
+
+    /// Refines the values, and refactorises where they have drifted; false if the basis is singular.
+    fn check(&mut self) -> bool {
+        let drift = self.tableau.refine(self.problem);
+        if drift <= DRIFT && self.rules.care == Care::Usual {
+            return true;
+        }
+        self.refactorisations += 1;
+        self.tableau.refactorise(self.problem)
+    }
+}

@@ -1,0 +1,96 @@
+//! Results of contact problems, and what they are called.
+
+use crate::certificate::Certificate;
+use crate::settings::Method;
+
+/// What a result is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Status {
+    /// Certified: `eta <= tolerance`.
+    Solved,
+    /// `max_iterations` used up; the result is the best iterate.
+    IterationLimit,
+    /// `time_limit` used up; the result is the best iterate.
+    TimeLimit,
+    /// Cancelled by the callback; the result is the best iterate.
+    Cancelled,
+    /// Proved: no equilibrium exists; [`Solution::recession`] is the proof.
+    NoEquilibrium,
+    /// The method cannot go on, and proves nothing.
+    Stalled,
+}
+
+/// Why the first method was abandoned.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Fallback {
+    /// It cycled through the same active sets.
+    Cycle,
+    /// It met a singular system.
+    Singular,
+    /// It found a solution of orientation −1, beside which there are others.
+    Unstable,
+    /// It found no accurate solution.
+    Inaccurate,
+}
+
+/// Whether a solution is the only one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Uniqueness {
+    /// Neither is proved.
+    NotKnown,
+    /// Proved to be the only one.
+    Unique,
+    /// Proved to be one of several.
+    Several,
+}
+
+/// Result of a contact problem.
+#[derive(Clone, Debug)]
+pub struct Solution {
+    /// What it is.
+    pub status: Status,
+    /// One sentence on what happened.
+    pub message: String,
+    /// Relative displacements; the best iterate where [`Self::status`] is not [`Status::Solved`].
+    pub d: Vec<f64>,
+    /// The certificate of `d`: measures, contact forces, states.
+    pub certificate: Certificate,
+    /// Of [`Status::NoEquilibrium`] the motion that proves it (a recession direction), its largest
+    /// component 1.
+    pub recession: Option<Vec<f64>>,
+    /// The method that ended it.
+    pub method: Method,
+    /// The method tried first and why it was abandoned, if another one ended it.
+    pub fallback: Option<(Method, Fallback)>,
+    /// Whether it is the only solution.
+    pub uniqueness: Uniqueness,
+    /// Another solution, if [`crate::Search::SecondSolutions`] found one or the default method met an unstable
+    /// one on its way.
+    pub second: Option<Box<SecondSolution>>,
+    /// Sign of the determinant of the system of equations that the states select, 0 if not known.
+    /// Over all solutions of a problem with positive definite `K` it adds up to +1.
+    pub orientation: i8,
+    /// Sweeps, pivots or linear systems, of all methods that were tried.
+    pub iterations: u64,
+    /// Dense factorisations of Newton's method and of block pivoting.
+    pub factorisations: u64,
+    /// Threshold updates of [`Method::SorNested`].
+    pub outer_iterations: u64,
+    /// How often Lemke's tableau was refactorised because accuracy was lost.
+    pub refactorisations: u64,
+    /// Over-relaxation factor at the end, 0 if there is none.
+    pub omega: f64,
+    /// Damping of the threshold at the end, 0 if there is none.
+    pub damping: f64,
+}
+
+/// A further solution, certified like the first.
+#[derive(Clone, Debug)]
+pub struct SecondSolution {
+    /// Relative displacements.
+    pub d: Vec<f64>,
+    /// The certificate: measures, contact forces, states.
+    pub certificate: Certificate,
+    /// As [`Solution::orientation`].
+    pub orientation: i8,
+}

@@ -1,0 +1,154 @@
+//! Sweeps on a contact problem, pair by pair, in proximal form (`law::proximal`).
+//!
+//! With given thresholds each step lowers `J(d) = d.K d / 2 - f.d + sum g |delta|` for
+//! `0 < omega < 2`, definite `K` or not. `K d - f` is carried along: an unknown that does not change
+//! costs nothing.
+
+use super::Iterate;
+use super::drift::contact_recession;
+use crate::certificate::eta_of;
+use crate::law::Contact;
+use crate::linalg::matrix::Matrix;
+use crate::linalg::simd::{self, Simd};
+use crate::linalg::vector::norm_inf;
+
+/// The sweeps of a law, without an iterate of their own.
+pub struct Sweeper {
+    simd: Simd,
+}
+
+impl Sweeper {
+    /// Detects the instruction set.
+    pub fn new() -> Self {
+        Sweeper { simd: Simd::new() }
+    }
+
+    /// One sweep over all pairs of `contact` on displacements and their force `K d - f`. Under
+    /// Coulomb's law the threshold follows the pressure within the sweep. Returns the change in the
+    /// norm of the diagonal of `K`.
+    pub fn sweep(
+        &self,
+        contact: &Contact<'_>,
+        (d, force): (&mut [f64], &mut [f64]),
+        omega: f64,
+    ) -> f64 {
+        let matrix = contact.problem().stiffness();
+        simd::vectorised(
+            self.simd,
+            #[inline(always)]
+            || sweep_pairs(contact, matrix, d, force, omega),
+        )
+    }
+}
+
+#[inline(always)]
+fn sweep_pairs(
+    contact: &Contact<'_>,
+    matrix: Matrix<'_>,
+    d: &mut [f64],
+    force: &mut [f64],
+    omega: f64,
+) -> f64 {
+    let dim = contact.dim();
+    let mut change = 0.0;
+    for (pair, law) in contact.pairs().iter().enumerate() {
+        let i = dim * pair;
+        let coupling = &matrix.column(i)[i + 1..i + dim];
+        let (steps, moved) = law.relax(&mut d[i..i + dim], &force[i..i + dim], coupling, omega);
+        change += moved;
+        add_columns(matrix, i, &steps[..dim], force);
+    }
+    change.sqrt()
+}
+
+#[inline(always)]
+fn add_columns(matrix: Matrix<'_>, first: usize, steps: &[f64], force: &mut [f64]) {
+    let mut moved = steps
+        .iter()
+        .enumerate()
+        .filter(|(_, step)| **step != 0.0)
+        .map(|(component, step)| (*step, matrix.column(first + component)));
+    while let Some(one) = moved.next() {
+        match moved.next() {
+            Some(two) => simd::axpy2(force, one, two),
+            None => simd::axpy(force, one.0, one.1),
+        }
+    }
+}
+
+/// An iterate with its force.
+pub struct ContactIterate<'p> {
+    /// The problem with its own law.
+    own: &'p Contact<'p>,
+    /// The problem with the law that the sweeps obey, if it is another.
+    working: Option<Contact<'p>>,
+    d: Vec<f64>,
+    /// `K d - f`.
+    force: Vec<f64>,
+    sweeper: Sweeper,
+}
+
+impl<'p> ContactIterate<'p> {
+    /// Starts from `d`, made admissible.
+    pub fn new(contact: &'p Contact<'p>, mut d: Vec<f64>) -> Self {
+        for (law, normal) in contact.pairs().iter().zip(d.iter_mut().step_by(contact.dim())) {
+            *normal = law.admissible(*normal);
+        }
+        let force = contact.problem().force(&d);
+        ContactIterate { own: contact, working: None, d, force, sweeper: Sweeper::new() }
+    }
+
+    /// Thresholds of the problem's own law at the pressures of the iterate.
+    pub fn thresholds(&self) -> Vec<f64> {
+        self.own.each(&self.d, &self.force).map(|(law, _, force)| law.threshold(force[0])).collect()
+    }
+
+    /// Lets the following sweeps obey given thresholds.
+    pub fn set_thresholds(&mut self, thresholds: &[f64]) {
+        self.working.get_or_insert_with(|| self.own.clone()).set_thresholds(thresholds);
+    }
+
+    /// Displacements and forces.
+    pub fn into_parts(self) -> (Vec<f64>, Vec<f64>) {
+        (self.d, self.force)
+    }
+
+    fn law(&self) -> &Contact<'p> {
+        self.working.as_ref().unwrap_or(self.own)
+    }
+}
+
+impl Iterate for ContactIterate<'_> {
+    fn sweep(&mut self, omega: f64) -> f64 {
+        let law = self.working.as_ref().unwrap_or(self.own);
+        self.sweeper.sweep(law, (&mut self.d, &mut self.force), omega)
+    }
+
+    fn eta_of_sweeps(&self) -> f64 {
+        eta_of(self.law(), &self.d, &self.force)
+    }
+
+    fn eta(&self) -> f64 {
+        eta_of(self.own, &self.d, &self.force)
+    }
+
+    fn refresh(&mut self) {
+        self.force = self.own.problem().force(&self.d);
+    }
+
+    fn unknowns(&self) -> &[f64] {
+        &self.d
+    }
+
+    fn largest_force(&self) -> f64 {
+        norm_inf(&self.force)
+    }
+
+    fn is_unloaded(&self) -> bool {
+        norm_inf(self.own.problem().load()) == 0.0
+    }
+
+    fn recession(&self, drift: &[f64]) -> Option<Vec<f64>> {
+        contact_recession(self.own, drift)
+    }
+}

@@ -1,0 +1,76 @@
+//! Detects the divergence of sweeps along a rigid-body motion.
+//!
+//! Components that did not move between two looks are taken as fixed; if the matrix is singular on the
+//! others, its null vectors there follow from the components that depend on others, and the one that
+//! agrees with the drift on these is free of the drift's elastic part.
+
+use super::Iterate;
+use crate::certificate::{is_escape_of, lifts};
+use crate::law::Contact;
+use crate::linalg::matrix::Matrix;
+use crate::linalg::vector::norm_inf;
+use crate::solve::condense::FreeBlock;
+
+/// Looks at the iterates of sweeps 256, 512, 1024, …
+pub struct DriftDetector {
+    sweeps: u64,
+    next: u64,
+    before: Vec<f64>,
+}
+
+/// The first look: most problems that have a solution are solved before, and a look costs a dense
+/// factorisation. Looks are then spaced at doubling counts, so that their number stays small.
+const FIRST_LOOK: u64 = 256;
+
+impl DriftDetector {
+    /// Watches from the unknowns `x` on.
+    pub fn new(x: &[f64]) -> Self {
+        DriftDetector { sweeps: 0, next: FIRST_LOOK, before: x.to_vec() }
+    }
+
+    /// Counts a sweep; returns a motion that proves that no equilibrium exists once one is found.
+    pub fn observe(&mut self, iterate: &impl Iterate) -> Option<Vec<f64>> {
+        self.sweeps += 1;
+        if self.sweeps < self.next {
+            return None;
+        }
+        self.next *= 2;
+        let x = iterate.unknowns();
+        let drift: Vec<f64> = x.iter().zip(&self.before).map(|(x, before)| x - before).collect();
+        self.before.copy_from_slice(x);
+        iterate.recession(&drift)
+    }
+}
+
+/// The part of a drift that the matrix does not resist.
+pub fn rigid_part(matrix: Matrix<'_>, drift: &[f64]) -> Option<Vec<f64>> {
+    let moved = (0..drift.len()).filter(|&i| drift[i] != 0.0).collect();
+    let block = FreeBlock::new(matrix, moved)?;
+    let mut motion = vec![0.0; drift.len()];
+    for i in block.dependent() {
+        motion[i] = drift[i];
+    }
+    block.follow(&mut motion);
+    Some(motion)
+}
+
+/// A motion of escape of a contact problem, from the drift of its displacements.
+pub fn contact_recession(contact: &Contact<'_>, drift: &[f64]) -> Option<Vec<f64>> {
+    let motion = rigid_part(contact.problem().stiffness(), drift)?;
+    let lifts = lifts(contact, &motion);
+    let uniform = vec![norm_inf(&lifts); lifts.len()];
+    [vec![0.0; lifts.len()], lifts, uniform]
+        .into_iter()
+        .map(|lifts| lifted(contact.dim(), &motion, &lifts))
+        .find(|motion| is_escape_of(contact, motion))
+}
+
+/// A slip together with a lift of each pair, which makes contact forces do no negative work on it.
+/// Off a plane it is rigid if all are lifted by the same.
+fn lifted(dim: usize, motion: &[f64], lifts: &[f64]) -> Vec<f64> {
+    let mut motion = motion.to_vec();
+    for (normal, lift) in motion.iter_mut().step_by(dim).zip(lifts) {
+        *normal -= lift;
+    }
+    motion
+}

@@ -1,0 +1,96 @@
+//! Whether a solution is the only one: proofs (`proof`), and a search for a second one (`search`).
+//!
+//! *Several.* Two certified solutions that differ; or one whose orientation, the sign of the
+//! determinant of its system, is −1: over all solutions the signs add up to the degree of the
+//! natural map, which is +1 for positive definite `K` as it is for `mu = 0`.
+
+mod proof;
+mod search;
+
+use super::active_set;
+use super::candidate::{Candidate, Ending};
+use super::outcome::{Solution, Status, Uniqueness};
+use crate::error::Error;
+use crate::law::Contact;
+use crate::linalg::vector::{largest_of, norm_inf};
+use crate::monitor::Monitor;
+use crate::settings::Settings;
+
+/// What is proved must be true by more than this, relatively: the rounding of systems with condition
+/// numbers up to 1e9 or 1e10, the largest that are certified, stays below it.
+const MARGIN: f64 = 1e-6;
+
+/// Tries to prove that `solution` is the only one, or to find a second.
+pub fn examine(
+    contact: &Contact<'_>,
+    settings: &Settings,
+    solution: &mut Solution,
+    monitor: &mut Monitor<'_>,
+) -> Result<(), Error> {
+    if solution.status != Status::Solved || solution.second.is_some() {
+        return Ok(());
+    }
+    if proof::is_unique(contact) {
+        solution.uniqueness = Uniqueness::Unique;
+        return Ok(());
+    }
+    if contact.dim() != 2 || contact.is_frictionless() {
+        return Ok(());
+    }
+    // To the last digit, and with its orientation.
+    let Some(first) = polished(contact, settings, &solution.d, monitor) else { return Ok(()) };
+    solution.orientation = first.orientation;
+    by_orientation(contact, solution);
+    if let Some(second) = search::another(contact, settings, &first.d, monitor)? {
+        solution.uniqueness = Uniqueness::Several;
+        solution.second = Some(Box::new(second));
+    }
+    Ok(())
+}
+
+/// Concludes from an orientation of −1, away from where branches meet, that there are others.
+pub fn by_orientation(contact: &Contact<'_>, solution: &mut Solution) {
+    if solution.orientation < 0
+        && is_strict(contact, &solution.d)
+        && proof::scaled_factor(contact).is_some()
+    {
+        solution.uniqueness = Uniqueness::Several;
+    }
+}
+
+/// Whether two displacements, solutions to rounding, are different ones: by their branches, and by
+/// more than rounding.
+pub fn are_different(contact: &Contact<'_>, one: &[f64], two: &[f64]) -> bool {
+    let problem = contact.problem();
+    let root = problem.stiffness().diagonal_roots();
+    let scaled = |d: &[f64]| largest_of(d.iter().zip(&root).map(|(d, root)| d * root));
+    // Scale also by the displacement that the loads can induce, so that two solutions of rounding's
+    // size compare equal.
+    let loads = largest_of(problem.load().iter().zip(&root).map(|(f, root)| f / root));
+    let size = loads.max(scaled(one)).max(scaled(two));
+    let difference: Vec<f64> = one.iter().zip(two).map(|(one, two)| one - two).collect();
+    let branches = |d: &[f64]| contact.branches(d, &problem.force(d));
+    scaled(&difference) > MARGIN * size && branches(one) != branches(two)
+}
+
+/// The solution on the branches of `d`, if that is `d`.
+fn polished(
+    contact: &Contact<'_>,
+    settings: &Settings,
+    d: &[f64],
+    monitor: &mut Monitor<'_>,
+) -> Option<Candidate> {
+    let branches = contact.branches(d, &contact.problem().force(d));
+    let candidate = active_set::from_branches(contact, settings, branches, d.to_vec(), monitor);
+    let same = candidate.ending == Ending::Done && !are_different(contact, d, &candidate.d);
+    same.then_some(candidate)
+}
+
+/// Whether no pair is where branches meet: forces and displacements are clear of all bounds.
+fn is_strict(contact: &Contact<'_>, d: &[f64]) -> bool {
+    let force = contact.problem().force(d);
+    let unit = norm_inf(&force).max(norm_inf(contact.problem().load()));
+    contact
+        .each(d, &force)
+        .all(|(law, d, force)| law.distance_to_kink(&law.trial(d, force)) > MARGIN * unit)
+}

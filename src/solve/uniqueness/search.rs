@@ -1,0 +1,81 @@
+//! The search for a second solution, in 2D.
+
+use super::are_different;
+use crate::error::Error;
+use crate::law::branch::Branch;
+use crate::law::{Contact, PairLaw};
+use crate::monitor::Monitor;
+use crate::settings::Settings;
+use crate::solve::active_set::from_branches;
+use crate::solve::candidate::{Candidate, Ending};
+use crate::solve::lemke;
+use crate::solve::outcome::SecondSolution;
+
+/// Pairs whose branch is changed, one at a time: four runs of Newton's method for each, which is what
+/// the rest of the search costs for a hundred pairs.
+const NEIGHBOURS: usize = 32;
+
+/// A solution other than `known`, if one is found: by Newton's method from all pairs sticking, open
+/// or slipping, by Lemke's with several starts and from where its path turns, and by Newton's from
+/// branches next to the known ones.
+pub fn another(
+    contact: &Contact<'_>,
+    settings: &Settings,
+    known: &[f64],
+    monitor: &mut Monitor<'_>,
+) -> Result<Option<SecondSolution>, Error> {
+    let accepted = |candidate: Candidate| {
+        let other = candidate.ending == Ending::Done
+            && candidate.certificate(contact).holds(settings.tolerance)
+            && are_different(contact, known, &candidate.d);
+        other.then(|| SecondSolution {
+            certificate: candidate.certificate(contact).clone(),
+            orientation: candidate.orientation,
+            d: candidate.d,
+        })
+    };
+    for branches in starts(contact) {
+        let d = vec![0.0; contact.unknowns()];
+        let candidate = from_branches(contact, settings, branches, d, monitor);
+        if let Some(other) = accepted(candidate) {
+            return Ok(Some(other));
+        }
+    }
+    for candidate in lemke::ends(contact, settings, monitor)? {
+        if let Some(other) = accepted(candidate) {
+            return Ok(Some(other));
+        }
+    }
+    for branches in neighbours(contact, known) {
+        let candidate = from_branches(contact, settings, branches, known.to_vec(), monitor);
+        if let Some(other) = accepted(candidate) {
+            return Ok(Some(other));
+        }
+    }
+    Ok(None)
+}
+
+/// All pairs open, all slipping to either side, all sticking.
+fn starts(contact: &Contact<'_>) -> Vec<Vec<Branch>> {
+    let all = |branch: &dyn Fn(&PairLaw) -> Branch| contact.pairs().iter().map(branch).collect();
+    vec![
+        all(&|_| Branch::OPEN),
+        all(&|law| law.slip([1.0, 0.0])),
+        all(&|law| law.slip([-1.0, 0.0])),
+        all(&PairLaw::stick),
+    ]
+}
+
+/// The branches of a solution with that of one pair changed, of the first pairs.
+fn neighbours(contact: &Contact<'_>, known: &[f64]) -> Vec<Vec<Branch>> {
+    let here = contact.branches(known, &contact.problem().force(known));
+    let mut neighbours = Vec::new();
+    for (pair, law) in contact.pairs().iter().enumerate().take(NEIGHBOURS) {
+        for branch in law.planar_branches().into_iter().filter(|branch| *branch != here[pair]) {
+            let mut branches = here.clone();
+            branches[pair] = branch;
+            neighbours.push(branches);
+        }
+    }
+    neighbours
+}
