@@ -9,7 +9,7 @@ use common::problems::{
     tresca, vector,
 };
 use fastrand::Rng;
-use signorini::{Lcp, LcpSolution, Method, Monitor, Settings, Solution, Status, solve_lcp};
+use signorini::{Lcp, LcpSolution, Method, Monitor, Settings, Status, solve_lcp};
 
 /// Units in which lengths and forces are given by numbers `length` and `force` times as large.
 #[derive(Clone, Copy, Debug)]

@@ -3,13 +3,9 @@
 //! `law::recession`.
 
 use crate::law::{Contact, Recession};
-use crate::linalg::tolerances::NEGLIGIBLE;
+use crate::linalg::tolerances::{LEAST_WORK, NEGLIGIBLE};
 use crate::linalg::vector::{dot, largest_of};
 use crate::problem::ContactProblem;
-
-/// Least work of the loads, relative to what they could do on motions of that size, that tells driving
-/// from balance: 100 times the internal forces that count as none, so that these cannot make up for it.
-const LEAST_WORK: f64 = 100.0 * NEGLIGIBLE;
 
 /// Whether the rigid motion `r` proves that no equilibrium exists.
 ///

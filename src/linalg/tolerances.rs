@@ -4,6 +4,7 @@
 //! |---|---|---|
 //! | [`ROUNDING`] | 1e-14 | one sum, beside its terms: about 50 units of double precision |
 //! | [`NEGLIGIBLE`] | 1e-11 | the result of a factorisation or of thousands of sums, beside its largest entry; a host's own condensation leaves 1e-13 where a zero should be |
+//! | [`LEAST_WORK`] | 1e-9 | the work that a proof needs, beside what its motion could do |
 //! | [`SINGULAR`] | 1e-12 | a pivot of an unscaled `LU` beside the largest pivot |
 //! | [`SINGULAR_BASIS`] | 2.2e-16 | a pivot of the `LU` of a basis of Lemke's method, whose values are refined on the data afterwards |
 //! | [`SUSPICIOUS_PIVOT`] | 1e-8 | nothing yet: a closer look is taken |
@@ -29,3 +30,7 @@ pub const SUSPICIOUS_PIVOT: f64 = 1e-8;
 /// The same for a basis of Lemke's method. Iterative refinement on the data follows, so that only a
 /// basis that is singular to the last digit is lost.
 pub const SINGULAR_BASIS: f64 = f64::EPSILON;
+
+/// Least work of a motion in a proof, relative to what a motion of its size could do: 100 times the
+/// rounding that is allowed in the motion ([`NEGLIGIBLE`]), so that the rounding cannot make up for it.
+pub const LEAST_WORK: f64 = 100.0 * NEGLIGIBLE;

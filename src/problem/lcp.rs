@@ -2,7 +2,7 @@
 
 use crate::error::{Argument, Error};
 use crate::linalg::matrix::{Matrix, required_length};
-use crate::linalg::tolerances::NEGLIGIBLE;
+use crate::linalg::tolerances::{LEAST_WORK, NEGLIGIBLE};
 use crate::linalg::vector::{dot, largest_of, norm};
 
 /// A checked problem, a view of the caller's arrays.
@@ -155,7 +155,3 @@ impl<'a> Lcp<'a> {
             && (0..self.size()).all(|j| dot(self.column(j), y) <= NEGLIGIBLE * size)
     }
 }
-
-/// Least `-q . y` of a proof, relative to what a `y` of its size could give: 100 times the rounding
-/// that is allowed in `Mᵀ y`, so that the rounding cannot make up for it.
-const LEAST_WORK: f64 = 100.0 * NEGLIGIBLE;

@@ -3,8 +3,7 @@
 use super::Iterate;
 use super::drift::rigid_part;
 use crate::linalg::simd::{self, Simd};
-use crate::linalg::tolerances::NEGLIGIBLE;
-use crate::linalg::vector::{dot, largest_of, norm_inf};
+use crate::linalg::vector::norm_inf;
 use crate::problem::BoundedLcp;
 
 /// One sweep over all variables of `lcp`, whose matrix is symmetric, on `x` and `w = q + M x`. Returns
@@ -78,12 +77,7 @@ impl Iterate for LcpIterate<'_> {
         norm_inf(self.lcp.q) == 0.0
     }
 
-    /// A motion `r` with `M r = 0`, `r >= 0` and `q . r < 0`. Whether it proves that the contact problem
-    /// has no solution is decided there.
     fn recession(&self, drift: &[f64]) -> Option<Vec<f64>> {
-        let motion = rigid_part(self.lcp.matrix, drift)?;
-        let least = -NEGLIGIBLE * largest_of(motion.iter().copied());
-        let proves = motion.iter().all(|&r| r >= least) && dot(self.lcp.q, &motion) < 0.0;
-        proves.then_some(motion)
+        rigid_part(self.lcp.matrix, drift).filter(|motion| self.lcp.is_recession(motion))
     }
 }
