@@ -62,7 +62,7 @@ wide="-cpp -fdefault-integer-8"
 for name in SOLV TRES CERT LCPS MODL TWOB SPAR CASE RECV NODF FREE MESG; do
     wide="$wide -DSG$name=SG${name}_64"
 done
-hosts=$root/c_examples/hosts
+hosts=$root/c_examples/hosts/fortran
 tests=$root/tests/fortran
 
 runs() {

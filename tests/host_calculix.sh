@@ -20,7 +20,7 @@ fi
 
 rm -rf -- "$work"
 mkdir -p -- "$work"
-sh "$root/c_examples/calculix.sh" "$work/run"
+sh "$root/c_examples/hosts/calculix/calculix.sh" "$work/run"
 
 # A directory with the files of the run, of which the test then spoils one.
 spoiled() {

@@ -30,5 +30,5 @@ command -v cargo >/dev/null || PATH=$PATH:${CARGO_HOME:-${HOME:-/root}/.cargo}/b
 PYTHONDONTWRITEBYTECODE=1
 export PYTHONDONTWRITEBYTECODE
 unset SIGNORINI_LIBRARY
-"$python" "$root/c_examples/hosts/getfem_bar.py"
+"$python" "$root/c_examples/hosts/getfem/getfem_bar.py"
 echo "host_getfem: passed"

@@ -24,7 +24,7 @@ fi
 # shellcheck source=tests/fortran/build.sh
 . "$(dirname -- "$0")/fortran/build.sh"
 
-hosts=$root/c_examples/hosts
+hosts=$root/c_examples/hosts/fortran
 for kind in static shared; do
     compile "mumps_schur_$kind" "$kind" "-I$sequential" "-I$mumps" "$root/include/signorini.f90" \
         "$hosts/bar_mesh.f90" "$hosts/mumps_schur.f90" -ldmumps_seq

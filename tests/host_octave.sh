@@ -18,7 +18,7 @@ fi
 work=$root/target/tests/host\ octave
 rm -rf -- "$work"
 mkdir -p -- "$work"
-sh "$root/c_examples/octave.sh" "$work" | tee "$work/printed"
+sh "$root/c_examples/hosts/octave/octave.sh" "$work" | tee "$work/printed"
 # What the C program of the README prints, the Octave one prints too.
 grep '^pair ' "$root/README.md" >"$work/expected"
 grep '^pair ' "$work/printed" | diff "$work/expected" -

@@ -10,14 +10,16 @@ LC_ALL=C
 export LC_ALL
 
 script=interrupt
-# shellcheck source=c_examples/build.sh
-. "$(dirname -- "$0")/../c_examples/build.sh"
+root=$(CDPATH='' cd -- "$(dirname -- "$0")/.." && pwd)
+# shellcheck source=c_examples/common/build.sh
+. "$root/c_examples/common/build.sh"
 
 check_tools
 prepare
-compile replay_problem replay_problem.c watch.c
-compile bolted_junction bolted_junction.c junction_mesh.c junction_element.c junction_output.c \
-    junction_check.c checks.c watch.c
+compile replay_problem files/replay_problem.c common/watch.c
+compile bolted_junction junction/bolted_junction.c junction/junction_mesh.c \
+    junction/junction_element.c junction/junction_output.c junction/junction_check.c \
+    common/checks.c common/watch.c
 
 folder=$build/interrupt.$$
 mkdir -p "$folder/out"

@@ -23,8 +23,8 @@ export CARGO_TARGET_DIR CARGO_TERM_QUIET PYTHONDONTWRITEBYTECODE
 grep '^pair ' README.md >"$work/expected"
 [ -s "$work/expected" ]
 awk '$0 == "```c" { inside = 1; next } $0 == "```" { inside = 0 } inside' README.md |
-    diff - c_examples/first.c || { echo "README: its C example is not c_examples/first.c"; exit 1; }
-[ "$(grep -c . c_examples/first.c)" -le 32 ] || { echo "README: its example is too long"; exit 1; }
+    diff - c_examples/first/first.c || { echo "README: its C example is not c_examples/first/first.c"; exit 1; }
+[ "$(grep -c . c_examples/first/first.c)" -le 32 ] || { echo "README: its example is too long"; exit 1; }
 
 # The commands of a language: the block that begins with its name.
 commands() {
@@ -73,7 +73,7 @@ try Python "$python"
 if "$python" -c 'import numpy' 2>/dev/null; then
     awk '$0 == "```python" { inside = 1; next } $0 == "```" { inside = 0 } inside' README.md \
         >"$work/block.py"
-    PYTHONPATH=$root/c_examples "$python" "$work/block.py" >"$work/printed"
+    PYTHONPATH=$root/c_examples/bar:$root/c_examples/python "$python" "$work/block.py" >"$work/printed"
     grep -q '^solved' "$work/printed"
     echo "README, the bar in numpy: $(head -n 1 "$work/printed" | cut -c 1-30)"
 fi

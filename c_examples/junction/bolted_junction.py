@@ -1,7 +1,8 @@
+#!/usr/bin/env python3
 """Draws the bolted junction (the paper's figure 3) from what bolted_junction.c has computed.
 
     sh c_examples/junction.sh OUT
-    python3 c_examples/bolted_junction.py OUT       writes OUT/bolted_junction.png
+    python3 c_examples/junction/bolted_junction.py OUT      writes OUT/bolted_junction.png
 
 Needs numpy and matplotlib (which brings PIL). mu = 0.3, closed and under the largest inner
 pressure: the mesh with displacements times 100, level curves of the axial stress, and the state of
