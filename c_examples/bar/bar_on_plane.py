@@ -93,7 +93,10 @@ def shade(axes, x, states):
 
 
 def draw_table(out):
-    computed, states = read(os.path.join(out, "bar_on_plane.csv"))
+    try:
+        computed, states = read(os.path.join(out, "bar_on_plane.csv"))
+    except FileNotFoundError as error:
+        sys.exit(f"{error.filename} is missing: run sh c_examples/replay.sh {out} first")
     x = computed["x"]
     table_x = x[: len(TABLE)]
     fixed = np.array([CORRECTIONS.get(node + 1, row[2]) for node, row in enumerate(TABLE)])

@@ -60,8 +60,8 @@ done
 
 work=$(mktemp -d "${TMPDIR:-/tmp}/signorini.XXXXXX")
 trap 'rm -rf "$work"' EXIT
-sh "$examples/install/hide_symbols.sh" "$root/target/release/libsignorini.a" "$root/target/release/$built" \
-    "$work/libsignorini.a"
+sh "$examples/install/hide_symbols.sh" "$root/target/release/libsignorini.a" \
+    "$root/target/release/$built" "$work/libsignorini.a"
 
 # A path as the right side of a substitution.
 quoted() { printf '%s' "$1" | sed 's/[&|\\]/\\&/g'; }
