@@ -52,24 +52,24 @@ pub type SignoriniProgressFn =
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct SignoriniSettings {
-    /// sizeof(signorini_settings) in your program; fields beyond it have their defaults.
+    /// sizeof(signorini_settings) in your program; later fields: defaults.
     pub struct_size: u32,
     /// SIGNORINI_METHOD_...; default SIGNORINI_METHOD_AUTO.
     pub method: i32,
-    /// A result is solved if eta <= tolerance; 1e-15 to 0.1, default 1e-10.
+    /// Solved means eta <= tolerance; 1e-15 to 0.1, default 1e-10.
     pub tolerance: f64,
-    /// Over-relaxation factor between 0 and 2; default 0: chosen from the measured rate.
+    /// Over-relaxation factor, 0 to 2; default 0: chosen from the measured rate.
     pub omega: f64,
-    /// Damping of the threshold update, in (0, 1]; default 0: chosen from the measured rate.
+    /// Damping of the threshold update, to 1; default 0: chosen likewise.
     pub damping: f64,
     /// Most sweeps, pivots or linear systems, at least 1; default 200000.
     pub max_iterations: i64,
-    /// Most seconds of wall time; 0 (the default) and infinity: no limit.
+    /// Most seconds of wall time; 0 and infinity: no limit; default 0.
     pub time_limit: f64,
     /// Nonzero: start from what d holds (Newton, block pivoting: from its states). Default 0: start
     /// from d = 0 (Newton, block pivoting: from all pairs sticking). Lemke's method has no start.
     pub warm_start: i32,
-    /// SIGNORINI_SEARCH_...: whether to look for other solutions; default SIGNORINI_SEARCH_OFF.
+    /// SIGNORINI_SEARCH_...; default SIGNORINI_SEARCH_OFF.
     pub search: i32,
     /// Progress callback; default NULL.
     pub progress: SignoriniProgressFn,

@@ -25,10 +25,10 @@ pub struct SignoriniSparse {
     pub struct_size: u32,
     /// Width of col_start and row: 4 for int32_t, 8 for int64_t.
     pub index_bytes: i32,
-    /// 0 or 1: the number of the first row and of the first entry. The degrees of freedom in all
-    /// other arguments of the call are counted from it too.
+    /// 0 or 1: the number of the first row. col_start, row and the degrees of freedom in all other
+    /// arguments of the call count from it.
     pub index_base: i32,
-    /// SIGNORINI_TRIANGLE_..., which entries are stored.
+    /// Which entries are stored, SIGNORINI_TRIANGLE_...
     pub triangle: i32,
     /// Number of rows and columns.
     pub size: i64,
