@@ -55,7 +55,10 @@
  * as nobody frees it. The library never prints, exits, reads the environment, installs handlers or
  * starts threads. It opens only the files that you name. It keeps your floating-point environment:
  * inside a call traps and flush-to-zero are off; on return they are as before. The same input gives
- * the same bits on the same machine.#ifndef SIGNORINI_H
+ * the same bits on the same machine.
+ */
+
+#ifndef SIGNORINI_H
 #define SIGNORINI_H
 
 #include <stdint.h>
@@ -103,9 +106,9 @@ typedef struct signorini_extra signorini_extra;
  *                  the pair never touches
  * @param law       SIGNORINI_LAW_..., the friction law of all pairs
  * @param friction  parameters of the law, pair by pair: mu or g; may be NULL if frictionless
- * @param slip0     reference slip: the tangential displacement d_t0 at which a sticking pair has no
- *                  motion, dim - 1 for each pair; length; NULL: zero. In load steps hand over the
- *                  d_t of the step before.
+ * @param slip0     reference slip: the tangential displacement d_t0 at which a sticking pair has
+ *                  no motion, dim - 1 for each pair; length; NULL: zero. In load steps hand over
+ *                  the d_t of the step before.
  * @param settings  NULL: the defaults
  * @param d         out: relative displacements, N; in: the start if settings->warm_start
  * @param F         out: contact forces, N. They obey the contact law; K d = f + F holds up to
@@ -171,9 +174,9 @@ typedef struct signorini_sparse signorini_sparse;
 typedef struct signorini_pairs signorini_pairs;
 
 /**
- * A sparse symmetric stiffness matrix by columns (CSC). A matrix by rows (CSR) is handed over as its
- * transpose: rows are called columns, and LOWER is called UPPER. The library only reads it during
- * the call.
+ * A sparse symmetric stiffness matrix by columns (CSC). Hand over a matrix by rows (CSR) as its
+ * transpose: its rows are the columns here, and its LOWER is UPPER. The library only reads it
+ * during the call.
  */
 struct signorini_sparse {
     uint32_t struct_size; /**< sizeof(signorini_sparse). */
@@ -198,9 +201,9 @@ struct signorini_sparse {
  * u_slave = sum of weight * u_master + n d_n + t d_t (3D: + t1 d_t1 + t2 d_t2),
  * so that the gap is closed at d_n = gap.
  *
- * A node is the slave of at most one pair. No master is a slave. A slave may be fixed along an axis
- * only if its masters are fixed along it too and the axis is its normal or a tangent; along this
- * axis d and F are zero. The library only reads the structure during the call.
+ * A node is the slave of at most one pair. No master is a slave. A slave may be fixed along an
+ * axis only if its masters are fixed along it too and the axis is its normal or a tangent; along
+ * this axis d and F are zero. The library only reads the structure during the call.
  */
 struct signorini_pairs {
     uint32_t struct_size; /**< sizeof(signorini_pairs). */
@@ -210,8 +213,8 @@ struct signorini_pairs {
     const int64_t *slaves;
     /**
      * Start of each pair's masters in masters and weights, count + 1 entries, counted from
-     * index_base. A pair without masters faces a rigid obstacle. NULL: no pair has masters; masters
-     * and weights must be NULL too.
+     * index_base. A pair without masters faces a rigid obstacle. NULL: no pair has masters;
+     * masters and weights must be NULL too.
      */
     const int64_t *master_start;
     /** Degrees of freedom of each master node, dim for each; may be NULL if there are none. */
@@ -270,8 +273,9 @@ int32_t signorini_model_new_condensed(int32_t dim, int64_t pairs, const double *
 
 /**
  * Makes a model of two bodies that you have condensed on matching contact nodes, each in its own
- * outward frame: n_B = -n_A and t_B = -t_A, so that d = u_A + u_B. One body may float. A motion that
- * neither body resists is refused. Loads and displacements of the host are [A; B], H = 2 N entries.
+ * outward frame: n_B = -n_A and t_B = -t_A, so that d = u_A + u_B. One body may float. A motion
+ * that neither body resists is refused. Loads and displacements of the host are [A; B], H = 2 N
+ * entries.
  *
  * @param dim    space dimension, 2 or 3
  * @param pairs  number of contact pairs
@@ -339,8 +343,8 @@ int32_t signorini_model_stiffness(const signorini_model *model, double *K);
  * @param friction    parameters of the law, pair by pair: mu or g; may be NULL if frictionless
  * @param slip0       reference slip, dim - 1 for each pair; NULL: zero
  * @param settings    NULL: the defaults; a progress callback is called in each case in turn
- * @param d           out: relative displacements, N = dim * pairs entries a case; in: the starts if
- *                    settings->warm_start
+ * @param d           out: relative displacements, N = dim * pairs entries a case; in: the starts
+ *                    if settings->warm_start
  * @param F           out: contact forces, N entries a case
  * @param state       out: SIGNORINI_STATE_... of each pair; may be NULL
  * @param status      out: status of each case, as signorini_solve returns it, -k standing for the
@@ -587,8 +591,8 @@ const char *signorini_problem_remark(const signorini_problem *problem);
 
 /**
  * The default: chooses a method, checks its result, and falls back to the next one if it fails.
- * Without friction: block pivoting, then Lemke's method. With friction in 2D: Newton's method, then
- * Lemke's. At last, and with friction in 3D: sweeps.
+ * Without friction: block pivoting, then Lemke's method. With friction in 2D: Newton's method,
+ * then Lemke's. At last, and with friction in 3D: sweeps.
  */
 #define SIGNORINI_METHOD_AUTO 0
 /** Projected over-relaxed Gauss-Seidel (SOR) on a sequence of Tresca problems, g <- mu |F_n|. */
@@ -596,8 +600,8 @@ const char *signorini_problem_remark(const signorini_problem *problem);
 /** The same with the threshold updated inside the sweep; not for Tresca's law. */
 #define SIGNORINI_METHOD_SOR_DIAGONAL 2
 /**
- * Lemke's method, without friction, or with friction in 2D. It ends at a solution for every mu if K
- * is positive definite.
+ * Lemke's method, without friction, or with friction in 2D. It ends at a solution for every mu if
+ * K is positive definite.
  */
 #define SIGNORINI_METHOD_LEMKE 3
 /** Block principal pivoting, for contact without friction. */
@@ -705,8 +709,8 @@ struct signorini_report {
     int32_t first_method;     /**< The method that was tried first, SIGNORINI_METHOD_... */
     int32_t fallback;         /**< Why the first method was abandoned, SIGNORINI_FALLBACK_... */
     /**
-     * Sign of the determinant of the system of equations that the states select. -1: the solution is
-     * unstable; if K is positive definite, at least two others exist. 0: not known.
+     * Sign of the determinant of the system of equations that the states select. -1: the solution
+     * is unstable; if K is positive definite, at least two others exist. 0: not known.
      */
     int32_t orientation;
     int32_t second;           /**< 1: a second solution was found, see extra; else 0. */
@@ -732,8 +736,8 @@ struct signorini_extra {
     uint32_t struct_size; /**< sizeof(signorini_extra). */
     int32_t reserved;     /**< 0. */
     /**
-     * Out: N entries. With SIGNORINI_STATUS_NO_EQUILIBRIUM the motion of escape r, which proves the
-     * status: K r = 0, and f . r + F . r > 0 for all contact forces F that the law admits. Its
+     * Out: N entries. With SIGNORINI_STATUS_NO_EQUILIBRIUM the motion of escape r, which proves
+     * the status: K r = 0, and f . r + F . r > 0 for all contact forces F that the law admits. Its
      * largest component is 1. With every other status zeros.
      */
     double *motion;
@@ -772,9 +776,9 @@ int32_t signorini_extra_default(signorini_extra *extra, uint32_t struct_size);
  *                  omega, damping, warm_start and search are checked and have no effect
  * @param w         out: n
  * @param z         out: n
- * @param y         out: n; with SIGNORINI_STATUS_NO_EQUILIBRIUM the proof that no w, z >= 0 satisfy
- *                  w = q + M z: y >= 0, M' y <= 0, q . y < 0; with every other status zeros; may be
- *                  NULL
+ * @param y         out: n; with SIGNORINI_STATUS_NO_EQUILIBRIUM the proof that no w, z >= 0
+ *                  satisfy w = q + M z: y >= 0, M' y <= 0, q . y < 0; with every other status
+ *                  zeros; may be NULL
  * @param report    out: set report->struct_size before the call; may be NULL
  * @return as signorini_solve
  */
@@ -818,8 +822,8 @@ int32_t signorini_lcp_lemke(int64_t n, const double *M, int64_t ldm, const doubl
 const char *signorini_version(void);
 
 /**
- * Binary interface of the library. If it differs from the SIGNORINI_ABI_VERSION with which a program
- * was compiled, the two are incompatible.
+ * Binary interface of the library. If it differs from the SIGNORINI_ABI_VERSION with which a
+ * program was compiled, the two are incompatible.
  */
 int32_t signorini_abi_version(void);
 

@@ -82,8 +82,8 @@ pub struct SignoriniReport {
     pub first_method: i32,
     /// Why the first method was abandoned, SIGNORINI_FALLBACK_...
     pub fallback: i32,
-    /// Sign of the determinant of the system of equations that the states select. -1: the solution is
-    /// unstable; if K is positive definite, at least two others exist. 0: not known.
+    /// Sign of the determinant of the system of equations that the states select. -1: the solution
+    /// is unstable; if K is positive definite, at least two others exist. 0: not known.
     pub orientation: i32,
     /// 1: a second solution was found, see extra; else 0.
     pub second: i32,

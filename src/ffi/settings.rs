@@ -9,15 +9,15 @@ use crate::monitor::Progress;
 use crate::settings::{Method, Search, Settings};
 
 /// The default: chooses a method, checks its result, and falls back to the next one if it fails.
-/// Without friction: block pivoting, then Lemke's method. With friction in 2D: Newton's method, then
-/// Lemke's. At last, and with friction in 3D: sweeps.
+/// Without friction: block pivoting, then Lemke's method. With friction in 2D: Newton's method,
+/// then Lemke's. At last, and with friction in 3D: sweeps.
 pub const SIGNORINI_METHOD_AUTO: i32 = 0;
 /// Projected over-relaxed Gauss-Seidel (SOR) on a sequence of Tresca problems, g <- mu |F_n|.
 pub const SIGNORINI_METHOD_SOR_NESTED: i32 = 1;
 /// The same with the threshold updated inside the sweep; not for Tresca's law.
 pub const SIGNORINI_METHOD_SOR_DIAGONAL: i32 = 2;
-/// Lemke's method, without friction, or with friction in 2D. It ends at a solution for every mu if K
-/// is positive definite.
+/// Lemke's method, without friction, or with friction in 2D. It ends at a solution for every mu if
+/// K is positive definite.
 pub const SIGNORINI_METHOD_LEMKE: i32 = 3;
 /// Block principal pivoting, for contact without friction.
 pub const SIGNORINI_METHOD_BLOCK_PIVOTING: i32 = 4;

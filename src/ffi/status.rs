@@ -70,8 +70,8 @@ pub extern "C" fn signorini_version() -> *const c_char {
     concat!(env!("CARGO_PKG_VERSION"), "\0").as_ptr().cast()
 }
 
-/// Binary interface of the library. If it differs from the SIGNORINI_ABI_VERSION with which a program
-/// was compiled, the two are incompatible.
+/// Binary interface of the library. If it differs from the SIGNORINI_ABI_VERSION with which a
+/// program was compiled, the two are incompatible.
 #[unsafe(no_mangle)]
 pub extern "C" fn signorini_abi_version() -> i32 {
     SIGNORINI_ABI_VERSION
