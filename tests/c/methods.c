@@ -1,6 +1,6 @@
 /*
  * What a caller is told about methods and other solutions: the choice of the default, several
- * solutions, the certificate of displacements from elsewhere, bare complementarity problems. Answers
+ * solutions, the certificate of displacements from elsewhere, LCPs. Answers
  * in closed form.
  */
 
@@ -12,7 +12,7 @@
 enum {
     AUTO = SIGNORINI_METHOD_AUTO,
     LEMKE = SIGNORINI_METHOD_LEMKE,
-    PIVOT = SIGNORINI_METHOD_BLOCK_PIVOTING,
+    BLOCK_PIVOTING = SIGNORINI_METHOD_BLOCK_PIVOTING,
     NEWTON = SIGNORINI_METHOD_NEWTON
 };
 
@@ -58,44 +58,56 @@ static int which(const double *d, const double *F, int32_t state)
     return -1;
 }
 
-static int klarbring(double mu, const signorini_settings *settings, double *d,
-                     signorini_report *report)
+/* Room for a second solution; NaN before. */
+typedef struct other {
+    double d[2], F[2];
+    int32_t state;
+} other;
+
+static int klarbring_with(double mu, const signorini_settings *settings, double *d,
+                          signorini_report *report, other *second)
 {
     double F[2];
     int32_t state;
+    signorini_extra extra;
+    memset(second, 0xFF, sizeof *second);
+    CHECK_STATUS(signorini_extra_default(&extra, sizeof extra), 0);
+    extra.second_d = second->d;
+    extra.second_F = second->F;
+    extra.second_state = &second->state;
     *report = blank_report();
     CHECK_STATUS(signorini_solve(2, 1, klarbring_K, 2, klarbring_f, touching, SIGNORINI_LAW_COULOMB,
-                                 &mu, NULL, settings, d, F, &state, report, NULL),
+                                 &mu, NULL, settings, d, F, &state, report, &extra),
                  SIGNORINI_STATUS_SOLVED);
-    CHECK(report->eta <= 1e-10 && report->second == 0);
+    CHECK(report->eta <= 1e-10 && (report->second == 0 || report->second == 1));
     return mu > 1 ? which(d, F, state) : -1;
 }
 
-static void the_second_solution_is_returned_if_it_is_asked_for(void)
+static int klarbring(double mu, const signorini_settings *settings, double *d,
+                     signorini_report *report)
+{
+    other second;
+    return klarbring_with(mu, settings, d, report, &second);
+}
+
+static void the_second_solution_has_its_own_arrays(void)
 {
     const int32_t methods[] = {AUTO, LEMKE, NEWTON};
     for (int i = 0; i < 3; i++) {
         signorini_settings settings = settings_for(methods[i]);
         signorini_report report;
+        other second;
         double d[2];
         settings.search = SIGNORINI_SEARCH_OTHERS;
-        const int first = klarbring(2, &settings, d, &report);
-        CHECK(report.uniqueness == SIGNORINI_UNIQUENESS_SEVERAL);
+        const int first = klarbring_with(2, &settings, d, &report, &second);
+        CHECK(report.uniqueness == SIGNORINI_UNIQUENESS_SEVERAL && report.second == 1);
         CHECK(report.orientation == 0 || report.orientation == (first == 1 ? -1 : 1));
-        settings.search = SIGNORINI_SEARCH_RETURN_SECOND;
-        const int second = klarbring(2, &settings, d, &report);
-        CHECK(report.uniqueness == SIGNORINI_UNIQUENESS_SEVERAL);
-        CHECK(report.orientation == 0 || report.orientation == (second == 1 ? -1 : 1));
-        CHECK(first != second);
-        /* Where there is no second one, the first stays. */
-        double only[2], same[2];
-        settings.search = SIGNORINI_SEARCH_OTHERS;
-        klarbring(0.4, &settings, only, &report);
-        CHECK(report.uniqueness == SIGNORINI_UNIQUENESS_UNIQUE);
-        settings.search = SIGNORINI_SEARCH_RETURN_SECOND;
-        klarbring(0.4, &settings, same, &report);
-        CHECK(report.uniqueness == SIGNORINI_UNIQUENESS_UNIQUE);
-        CHECK(memcmp(only, same, sizeof only) == 0);
+        CHECK(which(second.d, second.F, second.state) != first);
+        /* One of a kind: no second one, and zeros. */
+        klarbring_with(0.4, &settings, d, &report, &second);
+        CHECK(report.uniqueness == SIGNORINI_UNIQUENESS_UNIQUE && report.second == 0);
+        CHECK(second.d[0] == 0 && second.d[1] == 0 && second.F[0] == 0 && second.F[1] == 0);
+        CHECK(second.state == SIGNORINI_STATE_OPEN);
     }
 }
 
@@ -138,7 +150,7 @@ static void the_default_says_what_it_chose(void)
                                   : dim == 2 ? SIGNORINI_METHOD_NEWTON
                                              : SIGNORINI_METHOD_SOR_NESTED;
             CHECK(report.first_method == first);
-            const int direct = report.method == PIVOT || report.method == NEWTON;
+            const int direct = report.method == BLOCK_PIVOTING || report.method == NEWTON;
             CHECK(direct == (report.factorisations > 0));
             chain_free(&c);
         }
@@ -237,16 +249,17 @@ static void what_is_solved_is_certified(void)
     }
 }
 
-/* ---- bare complementarity problems ---- */
+/* ---- LCPs ---- */
 
-static int32_t lcp(int32_t method, int64_t n, const double *M, const double *q, double *w, double *z)
+static int32_t lcp(int32_t method, int64_t n, const double *M, const double *q, double *w, double *z,
+                   double *y)
 {
     const signorini_settings settings = settings_for(method);
     signorini_report report = blank_report();
     const int32_t status =
-        signorini_lcp_solve(n, M, n > 1 ? n : 1, q, &settings, w, z, NULL, &report);
+        signorini_lcp_solve(n, M, n > 1 ? n : 1, q, &settings, w, z, y, &report);
     CHECK_STATUS(report.status, status);
-    CHECK(method == AUTO ? report.method == PIVOT || report.method == LEMKE
+    CHECK(method == AUTO ? report.method == BLOCK_PIVOTING || report.method == LEMKE
                          : report.method == method);
     CHECK(report.second == 0 && report.orientation == 0);
     CHECK(report.uniqueness == SIGNORINI_UNIQUENESS_NOT_KNOWN);
@@ -254,26 +267,27 @@ static int32_t lcp(int32_t method, int64_t n, const double *M, const double *q, 
     return status;
 }
 
-static void bare_problems_in_closed_form(void)
+static void lcps_in_closed_form(void)
 {
-    const int32_t methods[] = {AUTO, PIVOT, LEMKE};
+    const int32_t methods[] = {AUTO, BLOCK_PIVOTING, LEMKE};
     const double M[] = {2, 1, 1, 2}, q[] = {-5, -6}, plenty[] = {3, 0}, mixed[] = {-1, 2};
     const double identity[] = {1, 0, 0, 1}, P[] = {1, 0, 0, -4, 1, 0, 0, -4, 1}, q3[] = {1, -1, -2};
-    double w[3], z[3];
+    double w[3], z[3], y[3];
     for (int i = 0; i < 3; i++) {
-        CHECK_STATUS(lcp(methods[i], 2, M, q, w, z), SIGNORINI_STATUS_SOLVED);
+        memset(y, 0xFF, sizeof y);
+        CHECK_STATUS(lcp(methods[i], 2, M, q, w, z, y), SIGNORINI_STATUS_SOLVED);
         CHECK_NEAR(z[0], 4.0 / 3);
         CHECK_NEAR(z[1], 7.0 / 3);
-        CHECK(w[0] == 0 && w[1] == 0);
-        CHECK_STATUS(lcp(methods[i], 2, identity, mixed, w, z), SIGNORINI_STATUS_SOLVED);
+        CHECK(w[0] == 0 && w[1] == 0 && y[0] == 0 && y[1] == 0);
+        CHECK_STATUS(lcp(methods[i], 2, identity, mixed, w, z, y), SIGNORINI_STATUS_SOLVED);
         CHECK_NEAR(z[0], 1);
         CHECK_NEAR(w[1], 2);
         CHECK(w[0] == 0 && z[1] == 0);
-        CHECK_STATUS(lcp(methods[i], 2, M, plenty, w, z), SIGNORINI_STATUS_SOLVED);
+        CHECK_STATUS(lcp(methods[i], 2, M, plenty, w, z, y), SIGNORINI_STATUS_SOLVED);
         CHECK(z[0] == 0 && z[1] == 0 && w[0] == 3 && w[1] == 0);
-        CHECK_STATUS(lcp(methods[i], 0, NULL, NULL, NULL, NULL), SIGNORINI_STATUS_SOLVED);
+        CHECK_STATUS(lcp(methods[i], 0, NULL, NULL, NULL, NULL, NULL), SIGNORINI_STATUS_SOLVED);
         /* A P-matrix that is neither symmetric nor positive definite. */
-        CHECK_STATUS(lcp(methods[i], 3, P, q3, w, z), SIGNORINI_STATUS_SOLVED);
+        CHECK_STATUS(lcp(methods[i], 3, P, q3, w, z, y), SIGNORINI_STATUS_SOLVED);
         for (int j = 0; j < 3; j++) {
             CHECK(z[j] >= 0 && w[j] >= 0 && z[j] * w[j] == 0);
             CHECK_NEAR(q3[j] + P[j] * z[0] + P[j + 3] * z[1] + P[j + 6] * z[2] - w[j], 0);
@@ -285,22 +299,24 @@ static void bare_problems_in_closed_form(void)
     CHECK_NEAR(z[1], 7.0 / 3);
 }
 
-static void bare_problems_without_solution(void)
+static void lcps_without_solution(void)
 {
     /* w1 = -1 - z2: y = (1, 0) proves that nothing is feasible. */
     const double skew[] = {0, 1, -1, 0}, q[] = {-1, 3};
-    double w[2], z[2];
+    double w[2], z[2], y[2];
     for (int32_t method = AUTO; method <= LEMKE; method += LEMKE) {
-        CHECK_STATUS(lcp(method, 2, skew, q, w, z), SIGNORINI_STATUS_NO_EQUILIBRIUM);
-        CHECK(z[0] >= 0 && z[1] >= 0);
-        CHECK(skew[0] * z[0] + skew[1] * z[1] <= 1e-12);
-        CHECK(skew[2] * z[0] + skew[3] * z[1] <= 1e-12);
-        CHECK(q[0] * z[0] + q[1] * z[1] < 0);
+        CHECK_STATUS(lcp(method, 2, skew, q, w, z, y), SIGNORINI_STATUS_NO_EQUILIBRIUM);
+        CHECK(y[0] >= 0 && y[1] >= 0);
+        CHECK(skew[0] * y[0] + skew[1] * y[1] <= 1e-12);
+        CHECK(skew[2] * y[0] + skew[3] * y[1] <= 1e-12);
+        CHECK(q[0] * y[0] + q[1] * y[1] < 0);
+        CHECK(w[0] >= 0 && w[1] >= 0 && z[0] >= 0 && z[1] >= 0);
         CHECK(signorini_last_error()[0] != '\0');
     }
     /* By block pivoting alone it is not decided, and nothing is claimed. */
-    CHECK(lcp(PIVOT, 2, skew, q, w, z) > 0);
+    CHECK(lcp(BLOCK_PIVOTING, 2, skew, q, w, z, y) > 0);
     CHECK(w[0] >= 0 && w[1] >= 0 && z[0] >= 0 && z[1] >= 0);
+    CHECK(y[0] == 0 && y[1] == 0);
 }
 
 static int32_t cancel(void *user, const signorini_progress *progress)
@@ -309,10 +325,10 @@ static int32_t cancel(void *user, const signorini_progress *progress)
     return ++*(int *)user == 1;
 }
 
-static void budgets_of_bare_problems(void)
+static void budgets_of_lcps(void)
 {
     const double M[] = {2, 1, 1, 2}, q[] = {-5, -6};
-    const int32_t methods[] = {AUTO, PIVOT, LEMKE};
+    const int32_t methods[] = {AUTO, BLOCK_PIVOTING, LEMKE};
     for (int i = 0; i < 3; i++) {
         int calls = 0;
         double w[2] = {NAN, NAN}, z[2] = {NAN, NAN};
@@ -330,13 +346,13 @@ static void budgets_of_bare_problems(void)
 
 int main(void)
 {
-    the_second_solution_is_returned_if_it_is_asked_for();
+    the_second_solution_has_its_own_arrays();
     an_unstable_solution_is_known_by_its_orientation();
     the_default_says_what_it_chose();
     displacements_of_any_origin_are_measured();
     what_is_solved_is_certified();
-    bare_problems_in_closed_form();
-    bare_problems_without_solution();
-    budgets_of_bare_problems();
+    lcps_in_closed_form();
+    lcps_without_solution();
+    budgets_of_lcps();
     return check_summary("methods");
 }

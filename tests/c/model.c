@@ -142,6 +142,10 @@ static void bad_matrix(void)
     BAD_K("a diagonal entry is missing", "K[1,1] is missing", in.rows[2] = 2);
     BAD_K("a diagonal entry is zero", "K[1,1] is 0", in.values[2] = 0);
     BAD_K("a diagonal entry is negative", "K[1,1] is -3", in.values[2] = -3);
+    BAD_K("index_bytes is 8 of int32_t", "col_start[0] is 8589934592, it must be index_base",
+          in.narrow_starts[1] = 2, in.K.col_start = in.narrow_starts);
+    BAD_K("size is the number of nodes", "col_start[3], the last one, is 4", in.K.size = 3);
+    BAD_K("nnz is one short", "is 8, it must be index_base + nnz, which is 7", in.K.nnz = 7);
     BAD_K("a column is empty", "K[5,5] is missing", in.starts[6] = 7, in.K.nnz = 7);
     BAD_K("half of an off-diagonal pair", "not symmetric", in.K.triangle = SIGNORINI_TRIANGLE_FULL);
     const int64_t starts[] = {0, 2, 4, 5, 6, 8, 10}, rows[] = {0, 1, 0, 1, 2, 3, 4, 5, 4, 5};
@@ -181,6 +185,12 @@ static void bad_pairs(void)
     BAD_PAIRS("slaves is NULL", "slaves is NULL", in.pairs.slaves = NULL);
     BAD_PAIRS("masters is NULL", "masters is NULL", in.pairs.masters = NULL);
     BAD_PAIRS("weights is NULL", "weights is NULL", in.pairs.weights = NULL);
+    BAD_PAIRS("master_start is NULL", "master_start is NULL, but masters or weights is not",
+              in.pairs.master_start = NULL);
+    BAD_PAIRS("master_start and masters are NULL", "master_start is NULL",
+              in.pairs.master_start = in.pairs.masters = NULL);
+    BAD_PAIRS("master_start and weights are NULL", "master_start is NULL",
+              in.pairs.master_start = NULL, in.pairs.weights = NULL);
     BAD_PAIRS("normals is NULL", "normals is NULL", in.pairs.normals = NULL);
     BAD_PAIRS("slave out of range", "degree of freedom 6", in.slaves[1] = 6);
     BAD_PAIRS("slave negative", "slaves[0] is -1", in.slaves[0] = -1);
@@ -273,6 +283,12 @@ static void no_model(void)
     double x[8] = {0};
     signorini_model_free(NULL);
     CHECK(signorini_model_host_size(NULL) == -1);
+    CHECK(signorini_model_dim(NULL) == -1 && signorini_model_pairs(NULL) == -1);
+    CHECK_STATUS(signorini_model_frames(NULL, x), -1);
+    CHECK_STATUS(signorini_model_condensed_load(NULL, x, NULL, x + 4), -1);
+    CHECK_STATUS(signorini_model_certify(NULL, x, NULL, x, SIGNORINI_LAW_FRICTIONLESS, NULL, NULL,
+                                         1e-10, x, NULL, NULL, NULL),
+                 -1);
     CHECK_STATUS(signorini_model_stiffness(NULL, x), -1);
     CHECK_STATUS(signorini_model_recover(NULL, NULL, NULL, x, x + 4), -1);
     CHECK_STATUS(signorini_model_nodal_forces(NULL, x, x + 4), -1);
@@ -337,7 +353,7 @@ static void sizes_and_stiffness(void)
 /* The arguments of signorini_model_solve for up to three cases. */
 enum { CASES = 3 };
 static struct world {
-    double f[CASES][SIZE], prescribed[CASES], gap[CASES], mu[CASES], slip[CASES];
+    double f[CASES][SIZE], prescribed[CASES], gap[CASES], mu[CASES], slip0[CASES];
     double d[CASES][2], F[CASES][2];
     int32_t state[CASES];
     signorini_report report[CASES];
@@ -362,7 +378,7 @@ static void prepare_cases(void)
 static int32_t solve_all(const signorini_model *model)
 {
     return signorini_model_solve(model, CASES, w.f[0], w.prescribed, w.gap, SIGNORINI_LAW_COULOMB,
-                                 w.mu, w.slip, NULL, w.d[0], w.F[0], w.state, w.status, w.report,
+                                 w.mu, w.slip0, NULL, w.d[0], w.F[0], w.state, w.status, w.report,
                                  NULL);
 }
 
@@ -411,12 +427,12 @@ static void cases(void)
     w.mu[2] = -1;
     CHECK_STATUS(solve_all(model), -4);
     CHECK_TEXT(signorini_last_error(), "case 0: prescribed[0] is not finite");
-    CHECK(w.status[0] == -4 && w.status[1] == -5 && w.status[2] == -6);
+    CHECK(w.status[0] == -4 && w.status[1] == -5 && w.status[2] == -7);
     prepare_cases();
-    w.slip[2] = NAN;
-    CHECK_STATUS(solve_all(model), -7);
-    CHECK_TEXT(signorini_last_error(), "case 2: slip[0] is not finite");
-    CHECK(w.status[0] == 0 && w.status[1] == 0 && w.status[2] == -7);
+    w.slip0[2] = NAN;
+    CHECK_STATUS(solve_all(model), -8);
+    CHECK_TEXT(signorini_last_error(), "case 2: slip0[0] is not finite");
+    CHECK(w.status[0] == 0 && w.status[1] == 0 && w.status[2] == -8);
 
     /* The first case that is not solved is told, though later ones are worse. */
     prepare_cases();
@@ -428,9 +444,9 @@ static void cases(void)
     CHECK_STATUS(signorini_model_solve(model, CASES, w.f[0], NULL, w.gap, SIGNORINI_LAW_COULOMB,
                                        w.mu, NULL, &settings, w.d[0], w.F[0], w.state, w.status,
                                        w.report, NULL),
-                 -8);
+                 -9);
     CHECK_TEXT(signorini_last_error(), "case 1: settings");
-    CHECK(w.status[0] == 0 && w.status[1] == -8 && w.status[2] == -3);
+    CHECK(w.status[0] == 0 && w.status[1] == -9 && w.status[2] == -3);
     check_case(0);
 
     /* What is not wanted is NULL; without status the rest goes on too. */
@@ -492,7 +508,7 @@ static void smaller_reports(void)
     CHECK_STATUS(signorini_model_solve(model, CASES, w.f[0], NULL, w.gap, SIGNORINI_LAW_COULOMB,
                                        w.mu, NULL, NULL, w.d[0], w.F[0], w.state, w.status,
                                        (signorini_report *)(void *)bytes, NULL),
-                 -12);
+                 -14);
     CHECK_TEXT(signorini_last_error(), "report 1: struct_size is 32, not 40");
     CHECK(w.status[0] == 77 && w.d[0][0] == 77);
     free(bytes);
@@ -510,36 +526,41 @@ static void bad_calls(void)
 #define CALL(result, part, ...)                                                                   \
     do {                                                                                          \
         memcpy(&before, &w, sizeof w);                                                            \
-        CHECK_STATUS(signorini_model_solve(model, __VA_ARGS__, SIGNORINI_LAW_COULOMB, NULL), result);                          \
+        CHECK_STATUS(signorini_model_solve(model, __VA_ARGS__), result);                          \
         CHECK_TEXT(signorini_last_error(), part);                                                 \
         CHECK(memcmp(&before, &w, sizeof w) == 0);                                                \
     } while (0)
-#define ARRAYS w.d[0], w.F[0], w.state, w.report, w.status
+#define ARRAYS w.d[0], w.F[0], w.state, w.status, w.report, NULL
     prepare_cases();
     double *const f = w.f[0], *const d = w.d[0];
-    CALL(-2, "cases is -1", -1, f, NULL, w.gap, w.mu, NULL, NULL, ARRAYS);
-    CALL(-2, "too many", INT64_MAX, f, NULL, w.gap, w.mu, NULL, NULL, ARRAYS);
-    CALL(-3, "f is NULL", 3, NULL, NULL, w.gap, w.mu, NULL, NULL, ARRAYS);
-    CALL(-5, "gap is NULL", 3, f, NULL, NULL, w.mu, NULL, NULL, ARRAYS);
-    CALL(-6, "mu is NULL", 3, f, NULL, w.gap, NULL, NULL, NULL, ARRAYS);
-    CALL(-9, "d is NULL", 3, f, NULL, w.gap, w.mu, NULL, NULL, NULL, w.F[0], NULL, NULL, NULL);
-    CALL(-10, "F is NULL", 3, f, NULL, w.gap, w.mu, NULL, NULL, d, NULL, NULL, NULL, NULL);
+    const int32_t law = SIGNORINI_LAW_COULOMB;
+#define DATA f, NULL, w.gap, law, w.mu, NULL
+    CALL(-2, "cases is -1", -1, DATA, NULL, ARRAYS);
+    CALL(-2, "too many", INT64_MAX, DATA, NULL, ARRAYS);
+    CALL(-3, "f is NULL", 3, NULL, NULL, w.gap, law, w.mu, NULL, NULL, ARRAYS);
+    CALL(-5, "gap is NULL", 3, f, NULL, NULL, law, w.mu, NULL, NULL, ARRAYS);
+    CALL(-6, "law is 9", 3, f, NULL, w.gap, 9, w.mu, NULL, NULL, ARRAYS);
+    CALL(-7, "friction is NULL", 3, f, NULL, w.gap, law, NULL, NULL, NULL, ARRAYS);
+    CALL(-10, "d is NULL", 3, DATA, NULL, NULL, w.F[0], NULL, NULL, NULL, NULL);
+    CALL(-11, "F is NULL", 3, DATA, NULL, d, NULL, NULL, NULL, NULL, NULL);
     settings.tolerance = 1;
-    CALL(-8, "tolerance is 1", 3, f, NULL, w.gap, w.mu, NULL, &settings, ARRAYS);
+    CALL(-9, "tolerance is 1", 3, DATA, &settings, ARRAYS);
     settings.struct_size = 3;
-    CALL(-8, "struct_size is 3", 3, f, NULL, w.gap, w.mu, NULL, &settings, ARRAYS);
+    CALL(-9, "struct_size is 3", 3, DATA, &settings, ARRAYS);
     w.report[2].struct_size = 12;
-    CALL(-12, "struct_size is 12", 3, f, NULL, w.gap, w.mu, NULL, NULL, ARRAYS);
+    CALL(-14, "struct_size is 12", 3, DATA, NULL, ARRAYS);
     prepare_cases();
-    CALL(-9, "d overlaps f", 3, f, NULL, w.gap, w.mu, NULL, NULL, w.f[2], w.F[0], NULL, NULL, NULL);
-    CALL(-10, "F overlaps d", 3, f, NULL, w.gap, w.mu, NULL, NULL, d, w.d[2], NULL, NULL, NULL);
-    CALL(-13, "status overlaps state", 3, f, NULL, w.gap, w.mu, NULL, NULL, d, w.F[0], w.state,
-         NULL, w.state + 2);
-    CALL(-12, "report overlaps status", 3, f, NULL, w.gap, w.mu, NULL, NULL, d, w.F[0], NULL, w.report,
-         (int32_t *)(void *)&w.report[2]);
+    signorini_extra extra = {.struct_size = 24};
+    extra.motion = w.f[1];
+    CALL(-15, "motion overlaps f", 3, DATA, NULL, d, w.F[0], NULL, NULL, NULL, &extra);
+    CALL(-10, "d overlaps f", 3, DATA, NULL, w.f[2], w.F[0], NULL, NULL, NULL, NULL);
+    CALL(-11, "F overlaps d", 3, DATA, NULL, d, w.d[2], NULL, NULL, NULL, NULL);
+    CALL(-13, "status overlaps state", 3, DATA, NULL, d, w.F[0], w.state, w.state + 2, NULL, NULL);
+    CALL(-14, "report overlaps status", 3, DATA, NULL, d, w.F[0], NULL,
+         (int32_t *)(void *)&w.report[2], w.report, NULL);
     /* Inputs may share memory. */
-    CHECK_STATUS(signorini_model_solve(model, 3, f, NULL, w.gap, SIGNORINI_LAW_COULOMB, w.gap,
-                                       w.gap, NULL, ARRAYS, NULL), 0);
+    CHECK_STATUS(signorini_model_solve(model, 3, f, NULL, w.gap, law, w.gap, w.gap, NULL, ARRAYS),
+                 0);
     for (int c = 0; c < CASES; c++) check_case(c);
 
     double u[SIZE], two[SIZE] = {0};

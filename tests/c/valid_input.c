@@ -13,7 +13,7 @@ enum {
     NESTED = SIGNORINI_METHOD_SOR_NESTED,
     DIAGONAL = SIGNORINI_METHOD_SOR_DIAGONAL,
     LEMKE = SIGNORINI_METHOD_LEMKE,
-    PIVOT = SIGNORINI_METHOD_BLOCK_PIVOTING,
+    BLOCK_PIVOTING = SIGNORINI_METHOD_BLOCK_PIVOTING,
     NEWTON = SIGNORINI_METHOD_NEWTON
 };
 
@@ -22,7 +22,7 @@ static int fits(int32_t method, int32_t dim, int friction)
 {
     switch (method) {
     case LEMKE: return dim == 2 || !friction;
-    case PIVOT: return !friction;
+    case BLOCK_PIVOTING: return !friction;
     case NEWTON: return dim == 2;
     default: return 1;
     }
@@ -30,7 +30,7 @@ static int fits(int32_t method, int32_t dim, int friction)
 
 /* What a call returned, for up to two pairs. */
 typedef struct answer {
-    double d[6], F[6];
+    double d[6], F[6], motion[6];
     int32_t state[2];
     signorini_report report;
 } answer;
@@ -39,7 +39,7 @@ typedef struct answer {
 typedef struct small {
     int32_t dim;
     int64_t pairs;
-    const double *K, *f, *gap, *mu, *slip;
+    const double *K, *f, *gap, *mu, *slip0;
 } small;
 
 #define PROBLEM(...) (&(small){__VA_ARGS__})
@@ -65,7 +65,7 @@ static void check_report(const signorini_report *report, int32_t status, int64_t
 {
     CHECK(report->struct_size == sizeof *report);
     CHECK_STATUS(report->status, status);
-    CHECK(report->second == 0);
+    CHECK(report->second == 0 || report->second == 1);
     CHECK(report->uniqueness >= SIGNORINI_UNIQUENESS_NOT_KNOWN && report->uniqueness <= SIGNORINI_UNIQUENESS_SEVERAL);
     CHECK(report->orientation >= -1 && report->orientation <= 1);
     CHECK(report->fallback >= SIGNORINI_FALLBACK_NONE);
@@ -85,15 +85,53 @@ static int64_t leading(int64_t n)
     return n > 1 ? n : 1;
 }
 
-static answer coulomb(const small *p, int32_t method, int32_t expected)
+/* The motion of escape: zeros, or a proof that no equilibrium exists under Coulomb's law. */
+static void check_motion(const small *p, const double *r, int32_t status)
+{
+    const int32_t dim = p->dim;
+    const int64_t n = dim * p->pairs;
+    double most = 0, work = 0;
+    for (int64_t i = 0; i < n; i++) {
+        most = fmax(most, fabs(r[i]));
+        if (n > 0) work += p->f[i] * r[i];
+    }
+    if (status != SIGNORINI_STATUS_NO_EQUILIBRIUM) {
+        CHECK(most == 0);
+        return;
+    }
+    CHECK(most == 1 && work > 0);
+    for (int64_t i = 0; i < n; i++) {
+        double force = 0;
+        for (int64_t j = 0; j < n; j++) force += p->K[i + n * j] * r[j];
+        CHECK(fabs(force) <= 1e-10 * p->K[i + n * i]);
+    }
+    /* F . r >= 0 for all F of the cone if -r_n >= mu |r_t|; a pair that never touches has no F. */
+    for (int64_t pair = 0; pair < p->pairs; pair++) {
+        const double *part = r + dim * pair, t = dim == 2 ? fabs(part[1]) : hypot(part[1], part[2]);
+        const double mu = p->mu ? p->mu[pair] : 0;
+        CHECK(isinf(p->gap[pair]) || part[0] + mu * t <= 1e-12);
+    }
+}
+
+static answer solved(const small *p, int32_t law, int32_t method, int32_t expected)
 {
     answer a = blank();
     const signorini_settings settings = settings_for(method);
+    signorini_extra extra;
+    CHECK_STATUS(signorini_extra_default(&extra, sizeof extra), 0);
+    extra.motion = a.motion;
     CHECK_STATUS(signorini_solve(p->dim, p->pairs, p->K, leading(p->dim * p->pairs), p->f, p->gap,
-                                 SIGNORINI_LAW_COULOMB, p->mu, p->slip, &settings, a.d, a.F,
-                                 a.state, &a.report, NULL),
+                                 law, p->mu, p->slip0, &settings, a.d, a.F, a.state, &a.report,
+                                 &extra),
                  expected);
     check_report(&a.report, expected, p->pairs);
+    check_motion(p, a.motion, expected);
+    return a;
+}
+
+static answer coulomb(const small *p, int32_t method, int32_t expected)
+{
+    const answer a = solved(p, SIGNORINI_LAW_COULOMB, method, expected);
     /* The default tells which it chose. */
     CHECK(method == AUTO ? a.report.method != AUTO : a.report.method == method);
     CHECK(method == AUTO || a.report.fallback == SIGNORINI_FALLBACK_NONE);
@@ -102,14 +140,7 @@ static answer coulomb(const small *p, int32_t method, int32_t expected)
 
 static answer tresca(const small *p, int32_t method, int32_t expected)
 {
-    answer a = blank();
-    const signorini_settings settings = settings_for(method);
-    CHECK_STATUS(signorini_solve(p->dim, p->pairs, p->K, leading(p->dim * p->pairs), p->f, p->gap,
-                                 SIGNORINI_LAW_TRESCA, p->mu, p->slip, &settings, a.d, a.F, a.state,
-                                 &a.report, NULL),
-                 expected);
-    check_report(&a.report, expected, p->pairs);
-    return a;
+    return solved(p, SIGNORINI_LAW_TRESCA, method, expected);
 }
 
 /* Solves by each method that applies, and compares with the closed form. */
@@ -118,10 +149,17 @@ static void agrees(int line, const small *p, const double *d, const double *F,
 {
     int friction = 0;
     for (int i = 0; i < p->pairs; i++) friction = friction || p->mu[i] != 0;
-    for (int32_t method = AUTO; method <= NEWTON; method++) {
-        if (!fits(method, p->dim, friction)) continue;
+    small bare = *p;
+    bare.mu = NULL;
+    /* Without friction twice: mu = 0, and the law that has no parameters. */
+    for (int32_t round = 0; round < 2 * (NEWTON + 1); round++) {
+        const int32_t method = round / 2;
+        const int frictionless = round % 2;
+        if (!fits(method, p->dim, friction) || (frictionless && friction)) continue;
         const int failed_before = checks_failed;
-        const answer a = coulomb(p, method, SIGNORINI_STATUS_SOLVED);
+        const answer a = frictionless ? solved(&bare, SIGNORINI_LAW_FRICTIONLESS, method,
+                                               SIGNORINI_STATUS_SOLVED)
+                                      : coulomb(p, method, SIGNORINI_STATUS_SOLVED);
         for (int i = 0; i < p->dim * p->pairs; i++) {
             CHECK_NEAR(a.d[i], d[i]);
             CHECK_NEAR(a.F[i], F[i]);
@@ -252,7 +290,7 @@ static void a_fixed_component_is_a_decoupled_row(void)
     AGREES(PROBLEM(2, 2, K2, f2, none, half, NULL), d, F2, SIGNORINI_STATE_SLIP, SIGNORINI_STATE_OPEN);
 }
 
-static void friction_rests_at_the_previous_slip(void)
+static void friction_sticks_at_the_reference_slip(void)
 {
     const double K[] = {5, 0, 0, 4}, f[] = {10, 2}, gap[] = {0}, slip[] = {0.25};
     const double d[] = {0, 0.25}, F[] = {-10, -1};
@@ -330,9 +368,10 @@ static void a_floating_body_leaves(void)
     for (int32_t method = AUTO; method <= LEMKE; method++) {
         const answer a = coulomb(PROBLEM(2, 1, K, away, gap, method == LEMKE ? none : mu, NULL),
                                  method, SIGNORINI_STATUS_NO_EQUILIBRIUM);
-        CHECK_NEAR(a.d[0], -1);
-        CHECK_NEAR(a.d[1], -1);
-        CHECK(a.F[0] == 0 && a.F[1] == 0);
+        CHECK_NEAR(a.motion[0], -1);
+        CHECK_NEAR(a.motion[1], -1);
+        /* d and F are an iterate and its forces, of the size of problem or motion, not garbage. */
+        CHECK(isfinite(a.d[0]) && isfinite(a.d[1]) && a.F[0] <= 0 && fabs(a.F[1]) <= -a.F[0]);
         CHECK_TEXT(signorini_last_error(), "no equilibrium");
     }
     /* Two pairs, a spring between their normals: lifted as a whole. */
@@ -341,10 +380,10 @@ static void a_floating_body_leaves(void)
     for (int32_t method = AUTO; method <= LEMKE; method++) {
         const answer a = coulomb(PROBLEM(2, 2, K2, lift, none, none, NULL), method,
                                  SIGNORINI_STATUS_NO_EQUILIBRIUM);
-        CHECK_NEAR(a.d[0], -1);
-        CHECK_NEAR(a.d[1], 0);
-        CHECK_NEAR(a.d[2], -1);
-        CHECK_NEAR(a.d[3], 0);
+        CHECK_NEAR(a.motion[0], -1);
+        CHECK_NEAR(a.motion[1], 0);
+        CHECK_NEAR(a.motion[2], -1);
+        CHECK_NEAR(a.motion[3], 0);
     }
 }
 
@@ -357,7 +396,7 @@ static void a_floating_body_that_is_pressed_stays(void)
     AGREES(PROBLEM(2, 2, K, f, none, none, NULL), slid, F0, SIGNORINI_STATE_SLIP, SIGNORINI_STATE_SLIP);
 }
 
-/* ---- bare complementarity problems ---- */
+/* ---- LCPs ---- */
 
 static int32_t lcp(int64_t n, const double *M, const double *q, const double *cover, double *w,
                    double *z)
@@ -406,13 +445,16 @@ static void complementarity_in_closed_form(void)
 
 static void complementarity_without_solution(void)
 {
-    double w[2], z[2];
+    double w[2], z[2], y[2];
     /* w1 = -1 - z2: y = (1, 0) proves that nothing is feasible. */
     const double skew[] = {0, 1, -1, 0}, q[] = {-1, 3};
     CHECK_STATUS(lcp(2, skew, q, NULL, w, z), SIGNORINI_STATUS_NO_EQUILIBRIUM);
-    CHECK(z[0] >= 0 && z[1] >= 0);
-    CHECK(skew[0] * z[0] + skew[1] * z[1] <= 1e-12 && skew[2] * z[0] + skew[3] * z[1] <= 1e-12);
-    CHECK(q[0] * z[0] + q[1] * z[1] < 0);
+    CHECK(w[0] >= 0 && w[1] >= 0 && z[0] >= 0 && z[1] >= 0);
+    CHECK_STATUS(signorini_lcp_lemke(2, skew, 2, q, NULL, NULL, w, z, y, NULL),
+                 SIGNORINI_STATUS_NO_EQUILIBRIUM);
+    CHECK(y[0] >= 0 && y[1] >= 0 && fmax(y[0], y[1]) == 1);
+    CHECK(skew[0] * y[0] + skew[1] * y[1] <= 1e-12 && skew[2] * y[0] + skew[3] * y[1] <= 1e-12);
+    CHECK(q[0] * y[0] + q[1] * y[1] < 0);
     /* Solvable by (0, 1), but of no class for which Lemke's method must find it. */
     const double other[] = {-2, -2, 1, -2}, q2[] = {-1, 2};
     const int32_t status = lcp(2, other, q2, NULL, w, z);
@@ -572,7 +614,7 @@ static void many_pairs_obey_the_law(void)
 static void a_warm_start_leads_to_the_same_answer(void)
 {
     for (int32_t method = AUTO; method <= NEWTON; method++) {
-        if (method == LEMKE || method == PIVOT) continue; /* No start; no friction. */
+        if (method == LEMKE || method == BLOCK_PIVOTING) continue; /* No start; no friction. */
         chain cold = chain_new(2, 20, 0.5, 4), warm = chain_new(2, 20, 0.5, 4);
         signorini_settings settings = settings_for(method);
         signorini_report first = {.struct_size = sizeof first}, again = first;
@@ -611,7 +653,7 @@ static void a_warm_start_leads_to_the_same_answer(void)
 static void units_change_nothing_but_the_unit(void)
 {
     const double force_units[] = {1e-40, 1e9, 1e40}, length_units[] = {1e-40, 1e-3, 1e40};
-    for (int32_t method = AUTO; method <= PIVOT; method++) {
+    for (int32_t method = AUTO; method <= BLOCK_PIVOTING; method++) {
         chain base = chain_new(3, 8, 0.5, 5);
         signorini_settings settings = settings_for(method);
         settings.tolerance = 1e-12;
@@ -726,7 +768,7 @@ static void budgets_end_a_call_with_results(void)
         const int32_t status = limited(&c, &settings, &report);
         CHECK(report.iterations == 1);
         /* One system may be enough for block pivoting. */
-        if (method != PIVOT || status != SIGNORINI_STATUS_SOLVED) {
+        if (method != BLOCK_PIVOTING || status != SIGNORINI_STATUS_SOLVED) {
             CHECK_STATUS(status, SIGNORINI_STATUS_ITERATION_LIMIT);
             CHECK(report.eta > 1e-10);
             CHECK_TEXT(signorini_last_error(), "max_iterations (1)");
@@ -884,7 +926,7 @@ static void every_status_has_its_words(void)
         for (int j = 0; j < i; j++)
             CHECK(strcmp(signorini_status_string(known[i]), signorini_status_string(known[j])));
     }
-    for (int32_t k = 1; k <= 13; k++)
+    for (int32_t k = 1; k <= 15; k++)
         CHECK(strcmp(signorini_status_string(-k), signorini_status_string(-1)) == 0);
     const int32_t garbage[] = {INT32_MIN, INT32_MIN + 1, -1000000, -1002, -500, 7, 99, INT32_MAX};
     for (int i = 0; i < 8; i++) {
@@ -927,7 +969,7 @@ int main(void)
     no_load_no_force();
     a_load_may_be_small_against_the_gap();
     a_fixed_component_is_a_decoupled_row();
-    friction_rests_at_the_previous_slip();
+    friction_sticks_at_the_reference_slip();
     given_thresholds();
     a_floating_body_leaves();
     a_floating_body_that_is_pressed_stays();
