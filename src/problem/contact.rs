@@ -124,7 +124,7 @@ impl<'a> ContactProblem<'a> {
 
     /// Checks everything but the entries of the matrix, which a model has checked once.
     pub(crate) fn on_checked_matrix(data: ContactData<'a>) -> Result<Self, Error> {
-        let size = checked_size(data.dim, data.pairs)?;
+        let size = unknowns(checked_dim(data.dim as i64)?, data.pairs)?;
         let entries = required_length("K", size, data.ld)
             .map_err(|message| Error::invalid(Argument::LeadingDimension, message))?;
         check_length(Argument::Matrix, "K", data.stiffness.len(), entries)?;
@@ -187,7 +187,7 @@ impl<'a, R: Relation> ContactProblem<'a, R> {
         law: FrictionLaw<'a>,
         reference_slip: Option<&'a [f64]>,
     ) -> Result<Self, Error> {
-        checked_dim(dim)?;
+        checked_dim(dim as i64)?;
         let pairs = relation.size() / dim;
         if dim * pairs != relation.size() {
             let message = format!("{} components are no pairs of {dim}", relation.size());
@@ -258,10 +258,10 @@ impl<'a, R: Relation> ContactProblem<'a, R> {
     }
 }
 
-/// A space dimension.
-pub(crate) fn checked_dim(dim: usize) -> Result<(), Error> {
+/// A space dimension, which must be 2 or 3.
+pub(crate) fn checked_dim(dim: i64) -> Result<usize, Error> {
     match dim {
-        2 | 3 => Ok(()),
+        2 | 3 => Ok(dim as usize),
         _ => {
             let message = format!("dim is {dim}, it must be 2 or 3");
             Err(Error::invalid(Argument::Dimension, message))
@@ -269,9 +269,8 @@ pub(crate) fn checked_dim(dim: usize) -> Result<(), Error> {
     }
 }
 
-/// Number of unknowns of pairs in dimension `dim`, if a matrix of that size can exist.
-pub(crate) fn checked_size(dim: usize, pairs: usize) -> Result<usize, Error> {
-    checked_dim(dim)?;
+/// Number of unknowns `dim * pairs`, if a matrix of that size can exist.
+pub(crate) fn unknowns(dim: usize, pairs: usize) -> Result<usize, Error> {
     dim.checked_mul(pairs).filter(|&size| can_exist(size)).ok_or_else(|| {
         Error::invalid(Argument::Size, format!("{pairs} pairs: the matrix cannot exist"))
     })

@@ -8,6 +8,6 @@ pub(crate) mod symmetric_matrix;
 
 pub(crate) use bounded_lcp::BoundedLcp;
 pub use contact::{ContactData, ContactProblem, FrictionLaw};
-pub(crate) use contact::{checked_dim, checked_size};
+pub(crate) use contact::{checked_dim, unknowns};
 pub use lcp::Lcp;
 pub use relation::{Relation, Stiffness};

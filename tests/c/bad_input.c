@@ -11,26 +11,32 @@ enum { MOST = 6, LEADING = 7 };
 
 /* All memory of the caller, compared as a whole before and after. */
 static struct world {
-    double K[MOST * LEADING], f[MOST], gap[2], mu[2], slip[4];
+    double K[MOST * LEADING], f[MOST], gap[2], friction[2], slip0[4];
     signorini_settings settings;
     double d[MOST], F[MOST];
     int32_t state[2];
     signorini_report report;
-    double M[9], q[3], cover[3], w[3], z[3];
+    signorini_extra extra;
+    double motion[MOST], second_d[MOST], second_F[MOST];
+    int32_t second_state[2];
+    double M[9], q[3], cover[3], w[3], z[3], y[3];
     double spare[2];
 } world, before;
 
-/* The arguments of signorini_solve, of signorini_tresca, whose mu is g, and of signorini_certify. */
+/* The arguments of signorini_solve and of signorini_certify. */
 static struct contact_call {
     int32_t dim;
     int64_t pairs;
     double *K;
     int64_t ldk;
-    double *f, *gap, *mu, *slip;
+    double *f, *gap;
+    int32_t law;
+    double *friction, *slip0;
     signorini_settings *settings;
     double *d, *F;
     int32_t *state;
     signorini_report *report;
+    signorini_extra *extra;
     double tolerance;
 } c;
 
@@ -41,7 +47,7 @@ static struct lcp_call {
     int64_t ldm;
     double *q, *cover;
     signorini_settings *settings;
-    double *w, *z;
+    double *w, *z, *y;
     signorini_report *report;
 } l;
 
@@ -58,10 +64,10 @@ static void prepare(int32_t dim)
     for (int j = 0; j < n; j++)
         for (int i = 0; i < n; i++) column(j)[i] = i == j ? 4 : i + j == n - 1 ? 1 : 0;
     for (int i = 0; i < n; i++) world.f[i] = 1 + i;
-    for (int i = 0; i < 2 * (dim - 1); i++) world.slip[i] = 0;
+    for (int i = 0; i < 2 * (dim - 1); i++) world.slip0[i] = 0;
     for (int i = 0; i < 2; i++) {
         world.gap[i] = 0;
-        world.mu[i] = 0.5;
+        world.friction[i] = 0.5;
     }
     for (int i = 0; i < 9; i++) world.M[i] = i % 4 == 0 ? 2 : 1;
     for (int i = 0; i < 3; i++) {
@@ -70,41 +76,58 @@ static void prepare(int32_t dim)
     }
     CHECK_STATUS(signorini_settings_default(&world.settings, sizeof world.settings), 0);
     world.report.struct_size = sizeof world.report;
-    c = (struct contact_call){dim,       2,          world.K,
-                              LEADING,   world.f,    world.gap,
-                              world.mu,  world.slip, &world.settings,
-                              world.d,   world.F,    world.state,
-                              &world.report, 1e-10};
-    l = (struct lcp_call){3,       world.M, 3,       world.q,      world.cover, &world.settings,
-                          world.w, world.z, &world.report};
+    CHECK_STATUS(signorini_extra_default(&world.extra, sizeof world.extra), 0);
+    world.extra.motion = world.motion;
+    world.extra.second_d = world.second_d;
+    world.extra.second_F = world.second_F;
+    world.extra.second_state = world.second_state;
+    c = (struct contact_call){.dim = dim,
+                              .pairs = 2,
+                              .K = world.K,
+                              .ldk = LEADING,
+                              .f = world.f,
+                              .gap = world.gap,
+                              .law = SIGNORINI_LAW_COULOMB,
+                              .friction = world.friction,
+                              .slip0 = world.slip0,
+                              .settings = &world.settings,
+                              .d = world.d,
+                              .F = world.F,
+                              .state = world.state,
+                              .report = &world.report,
+                              .extra = &world.extra,
+                              .tolerance = 1e-10};
+    l = (struct lcp_call){3,       world.M, 3,       world.q,       world.cover, &world.settings,
+                          world.w, world.z, world.y, &world.report};
 }
 
 static int32_t call_solve(void)
 {
-    return signorini_solve(c.dim, c.pairs, c.K, c.ldk, c.f, c.gap, c.mu, c.slip, c.settings, c.d,
-                           c.F, c.state, c.report);
+    return signorini_solve(c.dim, c.pairs, c.K, c.ldk, c.f, c.gap, c.law, c.friction, c.slip0,
+                           c.settings, c.d, c.F, c.state, c.report, c.extra);
 }
 
 static int32_t call_tresca(void)
 {
-    return signorini_tresca(c.dim, c.pairs, c.K, c.ldk, c.f, c.gap, c.mu, c.slip, c.settings, c.d,
-                            c.F, c.state, c.report);
+    if (c.law == SIGNORINI_LAW_COULOMB) c.law = SIGNORINI_LAW_TRESCA;
+    return call_solve();
 }
 
 static int32_t call_certify(void)
 {
-    return signorini_certify(c.dim, c.pairs, c.K, c.ldk, c.f, c.gap, c.mu, c.slip, c.tolerance,
-                             c.d, c.F, c.state, c.report);
+    return signorini_certify(c.dim, c.pairs, c.K, c.ldk, c.f, c.gap, c.law, c.friction, c.slip0,
+                             c.tolerance, c.d, c.F, c.state, c.report);
 }
 
 static int32_t call_lcp_solve(void)
 {
-    return signorini_lcp_solve(l.n, l.M, l.ldm, l.q, l.settings, l.w, l.z, l.report);
+    return signorini_lcp_solve(l.n, l.M, l.ldm, l.q, l.settings, l.w, l.z, l.y, l.report);
 }
 
 static int32_t call_lcp(void)
 {
-    return signorini_lcp_lemke(l.n, l.M, l.ldm, l.q, l.cover, l.settings, l.w, l.z, l.report);
+    return signorini_lcp_lemke(l.n, l.M, l.ldm, l.q, l.cover, l.settings, l.w, l.z, l.y,
+                               l.report);
 }
 
 /* Calls, expects the status and the part of the sentence, and that nothing was written. */
@@ -123,7 +146,7 @@ static void expect(int line, const char *function, int32_t (*call)(void), const 
 }
 
 #define SOLVE "signorini_solve", call_solve
-#define TRESCA "signorini_tresca", call_tresca
+#define TRESCA "signorini_solve with Tresca's law", call_tresca
 #define CERTIFY "signorini_certify", call_certify
 #define LCP "signorini_lcp_lemke", call_lcp
 #define LCP_SOLVE "signorini_lcp_solve", call_lcp_solve
@@ -136,7 +159,7 @@ static void expect(int line, const char *function, int32_t (*call)(void), const 
         expect(__LINE__, call, name, status, part);                                               \
     } while (0)
 
-/* The same fault in both contact calls that solve, and in all three; mu and g have a part each. */
+/* The same fault under both laws of friction, and in the certificate too; mu and g have a part each. */
 #define BOTH_IN(dim, name, status, part, ...)                                                     \
     do {                                                                                          \
         BAD(dim, SOLVE, name, status, part, __VA_ARGS__);                                         \
@@ -151,12 +174,12 @@ static void expect(int line, const char *function, int32_t (*call)(void), const 
 #define ALL(name, status, part, ...) ALL_IN(2, name, status, part, __VA_ARGS__)
 #define FRICTION(name, part, ...)                                                                 \
     do {                                                                                          \
-        BAD(2, SOLVE, name, -7, "mu" part, __VA_ARGS__);                                          \
-        BAD(2, CERTIFY, name, -7, "mu" part, __VA_ARGS__);                                        \
-        BAD(2, TRESCA, name, -7, "g" part, __VA_ARGS__);                                          \
+        BAD(2, SOLVE, name, -8, "mu" part, __VA_ARGS__);                                          \
+        BAD(2, CERTIFY, name, -8, "mu" part, __VA_ARGS__);                                        \
+        BAD(2, TRESCA, name, -8, "g" part, __VA_ARGS__);                                          \
     } while (0)
 
-/* The same fault in both bare calls; of the later arguments, which cover shifts, its place is that
+/* The same fault in both LCP calls; of the later arguments, which cover shifts, its place is that
    in the one without. */
 #define BARE(name, status, part, ...)                                                             \
     do {                                                                                          \
@@ -170,10 +193,10 @@ static void expect(int line, const char *function, int32_t (*call)(void), const 
     } while (0)
 #define COVER(name, status, part, ...) BAD(2, LCP, name, status, part, __VA_ARGS__)
 
-/* Faults of settings: the ninth argument of the contact calls, the fifth of the bare one. */
+/* Faults of settings: the tenth argument of the contact calls, the fifth of the LCP's. */
 #define SETTINGS(name, part, ...)                                                                 \
     do {                                                                                          \
-        BOTH(name, -9, part, __VA_ARGS__);                                                        \
+        BOTH(name, -10, part, __VA_ARGS__);                                                        \
         LATER(name, -5, part, __VA_ARGS__);                                                       \
     } while (0)
 
@@ -218,9 +241,10 @@ static void pointers(void)
     ALL("K is NULL", -3, "K is NULL", c.K = NULL);
     ALL("f is NULL", -5, "f is NULL", c.f = NULL);
     ALL("gap is NULL", -6, "gap is NULL", c.gap = NULL);
-    FRICTION("friction is NULL", " is NULL", c.mu = NULL);
-    ALL("d is NULL", -10, "d is NULL", c.d = NULL);
-    BOTH("F is NULL", -11, "F is NULL", c.F = NULL);
+    ALL("friction is NULL", -8, "friction is NULL, it must hold the parameters of",
+        c.friction = NULL);
+    ALL("d is NULL", -11, "d is NULL", c.d = NULL);
+    BOTH("F is NULL", -12, "F is NULL", c.F = NULL);
     BARE("M is NULL", -2, "M is NULL", l.M = NULL);
     BARE("q is NULL", -4, "q is NULL", l.q = NULL);
     LATER("w is NULL", -6, "w is NULL", l.w = NULL);
@@ -229,14 +253,15 @@ static void pointers(void)
     ALL("K is misaligned", -3, "K is not aligned", c.K = shifted(c.K, 4));
     ALL("f is misaligned", -5, "f is not aligned", c.f = shifted(c.f, 1));
     ALL("gap is misaligned", -6, "gap is not aligned", c.gap = shifted(c.gap, 2));
-    FRICTION("friction is misaligned", " is not aligned", c.mu = shifted(c.mu, 4));
-    ALL("slip is misaligned", -8, "slip is not aligned", c.slip = shifted(c.slip, 4));
-    BOTH("settings is misaligned", -9, "settings is not aligned",
+    ALL("friction is misaligned", -8, "friction is not aligned",
+        c.friction = shifted(c.friction, 4));
+    ALL("slip0 is misaligned", -9, "slip0 is not aligned", c.slip0 = shifted(c.slip0, 4));
+    BOTH("settings is misaligned", -10, "settings is not aligned",
          c.settings = shifted(c.settings, 4));
-    ALL("d is misaligned", -10, "d is not aligned", c.d = shifted(c.d, 4));
-    ALL("F is misaligned", -11, "F is not aligned", c.F = shifted(c.F, 4));
-    ALL("state is misaligned", -12, "state is not aligned", c.state = shifted(c.state, 2));
-    ALL("report is misaligned", -13, "report is not aligned", c.report = shifted(c.report, 4));
+    ALL("d is misaligned", -11, "d is not aligned", c.d = shifted(c.d, 4));
+    ALL("F is misaligned", -12, "F is not aligned", c.F = shifted(c.F, 4));
+    ALL("state is misaligned", -13, "state is not aligned", c.state = shifted(c.state, 2));
+    ALL("report is misaligned", -14, "report is not aligned", c.report = shifted(c.report, 4));
     BARE("M is misaligned", -2, "M is not aligned", l.M = shifted(l.M, 4));
     BARE("q is misaligned", -4, "q is not aligned", l.q = shifted(l.q, 4));
     COVER("cover is misaligned", -5, "cover is not aligned", l.cover = shifted(l.cover, 4));
@@ -244,21 +269,23 @@ static void pointers(void)
           l.settings = shifted(l.settings, 4));
     LATER("w is misaligned", -6, "w is not aligned", l.w = shifted(l.w, 4));
     LATER("z is misaligned", -7, "z is not aligned", l.z = shifted(l.z, 4));
-    LATER("report is misaligned", -8, "report is not aligned", l.report = shifted(l.report, 4));
+    LATER("y is misaligned", -8, "y is not aligned", l.y = shifted(l.y, 4));
+    LATER("report is misaligned", -9, "report is not aligned", l.report = shifted(l.report, 4));
 
-    ALL("d is F", -11, "F overlaps d", c.F = c.d);
-    ALL("the end of d is the beginning of F", -11, "F overlaps d", c.F = c.d + 3);
-    BOTH("d lies in K", -10, "d overlaps K", c.d = c.K + 8);
-    BOTH("d lies in the padding of K", -10, "d overlaps K", c.d = c.K + 4);
-    ALL("F is f", -11, "F overlaps f", c.F = c.f);
-    ALL("F is gap", -11, "F overlaps gap", c.F = c.gap);
-    BAD(2, SOLVE, "d is mu", -10, "d overlaps mu", c.d = c.mu);
-    BAD(2, TRESCA, "d is g", -10, "d overlaps g", c.d = c.mu);
-    BOTH("d is slip", -10, "d overlaps slip", c.d = c.slip);
-    ALL("state lies in d", -12, "state overlaps d", c.state = shifted(c.d, 8));
-    ALL("state lies in K", -12, "state overlaps K", c.state = shifted(c.K, 12));
+    ALL("d is F", -12, "F overlaps d", c.F = c.d);
+    ALL("the end of d is the beginning of F", -12, "F overlaps d", c.F = c.d + 3);
+    BOTH("d lies in K", -11, "d overlaps K", c.d = c.K + 8);
+    BOTH("d lies in the padding of K", -11, "d overlaps K", c.d = c.K + 4);
+    ALL("F is f", -12, "F overlaps f", c.F = c.f);
+    ALL("F is gap", -12, "F overlaps gap", c.F = c.gap);
+    BAD(2, SOLVE, "d is mu", -11, "d overlaps friction", c.d = c.friction);
+    BAD(2, TRESCA, "d is g", -11, "d overlaps friction", c.d = c.friction);
+    BOTH("d is slip0", -11, "d overlaps slip0", c.d = c.slip0);
+    ALL("state lies in d", -13, "state overlaps d", c.state = shifted(c.d, 8));
+    ALL("state lies in K", -13, "state overlaps K", c.state = shifted(c.K, 12));
     LATER("w is z", -7, "z overlaps w", l.z = l.w);
     LATER("w is q", -6, "w overlaps q", l.w = l.q);
+    LATER("y is z", -8, "y overlaps z", l.y = l.z);
     LATER("w lies in M", -6, "w overlaps M", l.w = l.M + 6);
     COVER("z is cover", -8, "z overlaps cover", l.z = l.cover);
 }
@@ -293,21 +320,21 @@ static void numbers(void)
     ALL("NaN in gap", -6, "gap[1] is NaN", c.gap[1] = NAN);
     ALL("-inf in gap", -6, "gap[0] is -inf", c.gap[0] = -INFINITY);
 
-    FRICTION("NaN", "[1] is not finite", c.mu[1] = NAN);
-    FRICTION("+inf", "[0] is not finite", c.mu[0] = INFINITY);
-    FRICTION("-inf", "[0] is not finite", c.mu[0] = -INFINITY);
-    FRICTION("negative", "[1] is -0.25", c.mu[1] = -0.25);
+    FRICTION("NaN", "[1] is not finite", c.friction[1] = NAN);
+    FRICTION("+inf", "[0] is not finite", c.friction[0] = INFINITY);
+    FRICTION("-inf", "[0] is not finite", c.friction[0] = -INFINITY);
+    FRICTION("negative", "[1] is -0.25", c.friction[1] = -0.25);
 
-    ALL("NaN in slip", -8, "slip[1] is not finite", c.slip[1] = NAN);
-    ALL("+inf in slip", -8, "slip[0] is not finite", c.slip[0] = INFINITY);
-    ALL("-inf in slip", -8, "slip[0] is not finite", c.slip[0] = -INFINITY);
-    ALL_IN(3, "NaN in slip, 3D", -8, "slip[3] is not finite", c.slip[3] = NAN);
+    ALL("NaN in slip0", -9, "slip0[1] is not finite", c.slip0[1] = NAN);
+    ALL("+inf in slip0", -9, "slip0[0] is not finite", c.slip0[0] = INFINITY);
+    ALL("-inf in slip0", -9, "slip0[0] is not finite", c.slip0[0] = -INFINITY);
+    ALL_IN(3, "NaN in slip0, 3D", -9, "slip0[3] is not finite", c.slip0[3] = NAN);
 
-    BOTH("NaN in a warm start", -10, "d[1] is not finite",
+    BOTH("NaN in a warm start", -11, "d[1] is not finite",
          memset(c.d, 0, sizeof world.d), c.d[1] = NAN, c.settings->warm_start = 1);
-    BOTH("+inf in a warm start", -10, "d[3] is not finite",
+    BOTH("+inf in a warm start", -11, "d[3] is not finite",
          memset(c.d, 0, sizeof world.d), c.d[3] = INFINITY, c.settings->warm_start = 1);
-    BOTH("-inf in a warm start", -10, "d[0] is not finite",
+    BOTH("-inf in a warm start", -11, "d[0] is not finite",
          memset(c.d, 0, sizeof world.d), c.d[0] = -INFINITY, c.settings->warm_start = -1);
 
     BARE("NaN in M", -2, "M[2,1] is not finite", l.M[5] = NAN);
@@ -322,15 +349,39 @@ static void numbers(void)
     COVER("zero in cover", -5, "cover[2] is 0", l.cover[2] = 0);
     COVER("negative cover", -5, "cover[1] is -1", l.cover[1] = -1);
 
-    BAD(2, CERTIFY, "NaN in d", -10, "d[1] is not finite", c.d[1] = NAN);
-    BAD(2, CERTIFY, "+inf in d", -10, "d[3] is not finite", c.d[3] = INFINITY);
-    BAD(3, CERTIFY, "-inf in d, 3D", -10, "d[5] is not finite", c.d[5] = -INFINITY);
-    BAD(2, CERTIFY, "tolerance is 0", -9, "tolerance is 0", c.tolerance = 0);
-    BAD(2, CERTIFY, "tolerance is negative", -9, "tolerance is -1", c.tolerance = -1);
-    BAD(2, CERTIFY, "tolerance is NaN", -9, "tolerance is NaN", c.tolerance = NAN);
-    BAD(2, CERTIFY, "tolerance is 1", -9, "tolerance is 1", c.tolerance = 1);
-    BAD(2, CERTIFY, "tolerance is infinite", -9, "tolerance is inf", c.tolerance = INFINITY);
-    BAD(2, CERTIFY, "bad tolerance without pairs", -9, "tolerance", c.pairs = 0, c.tolerance = 0);
+    BAD(2, CERTIFY, "NaN in d", -11, "d[1] is not finite", c.d[1] = NAN);
+    BAD(2, CERTIFY, "+inf in d", -11, "d[3] is not finite", c.d[3] = INFINITY);
+    BAD(3, CERTIFY, "-inf in d, 3D", -11, "d[5] is not finite", c.d[5] = -INFINITY);
+    BAD(2, CERTIFY, "tolerance is 0", -10, "tolerance is 0", c.tolerance = 0);
+    BAD(2, CERTIFY, "tolerance is negative", -10, "tolerance is -1", c.tolerance = -1);
+    BAD(2, CERTIFY, "tolerance is NaN", -10, "tolerance is NaN", c.tolerance = NAN);
+    BAD(2, CERTIFY, "tolerance is 1", -10, "tolerance is 1", c.tolerance = 1);
+    BAD(2, CERTIFY, "tolerance is infinite", -10, "tolerance is inf", c.tolerance = INFINITY);
+    BAD(2, CERTIFY, "bad tolerance without pairs", -10, "tolerance", c.pairs = 0, c.tolerance = 0);
+}
+
+/* The friction law, and the results that not every call wants. */
+static void laws(void)
+{
+    ALL("law is -1", -7, "law is -1, it must be", c.law = -1);
+    ALL("law is 3", -7, "law is 3, it must be", c.law = 3);
+    ALL("law is 3 without pairs", -7, "law is 3", c.law = 3, c.pairs = 0);
+    BAD(2, SOLVE, "a NULL says what it must hold", -8, "mu of each pair", c.friction = NULL);
+    BAD(2, TRESCA, "a NULL says what it must hold", -8, "g of each pair", c.friction = NULL);
+
+    BOTH("extra: struct_size is 0", -15, "extra: struct_size is 0", world.extra.struct_size = 0);
+    BOTH("extra: struct_size is too large", -15, "extra: struct_size is 48",
+         world.extra.struct_size += 8);
+    BOTH("extra is misaligned", -15, "extra is not aligned", c.extra = shifted(c.extra, 4));
+    BOTH("extra: reserved is 1", -15, "reserved is 1, it must be 0", world.extra.reserved = 1);
+    BOTH("motion is misaligned", -15, "extra: motion is not aligned",
+         world.extra.motion = shifted(world.motion, 4));
+    BOTH("motion is d", -15, "extra: motion overlaps d", world.extra.motion = world.d);
+    BOTH("second_d is f", -15, "extra: second_d overlaps f", world.extra.second_d = world.f);
+    BOTH("second_F is second_d", -15, "extra: second_F overlaps extra: second_d",
+         world.extra.second_F = world.second_d);
+    BOTH("second_state is state", -15, "extra: second_state overlaps state",
+         world.extra.second_state = world.state);
 }
 
 static void settings(void)
@@ -345,7 +396,7 @@ static void settings(void)
              world.settings.max_iterations = -1);
     SETTINGS("time_limit is negative", "time_limit is -1", world.settings.time_limit = -1);
     SETTINGS("time_limit is NaN", "time_limit is NaN", world.settings.time_limit = NAN);
-    SETTINGS("there is no search 3", "no search 3", world.settings.search = 3);
+    SETTINGS("there is no search 2", "no search 2", world.settings.search = 2);
     SETTINGS("there is no search -1", "no search -1", world.settings.search = -1);
     SETTINGS("there is no method 6", "no method 6", world.settings.method = 6);
     SETTINGS("there is no method -1", "no method -1", world.settings.method = -1);
@@ -366,7 +417,7 @@ static void settings(void)
     SETTINGS("damping is NaN", "damping is NaN", world.settings.damping = NAN);
 
     /* Settings are checked even where nothing is to be solved. */
-    BOTH("bad settings without pairs", -9, "tolerance", c.pairs = 0, c.settings->tolerance = 0);
+    BOTH("bad settings without pairs", -10, "tolerance", c.pairs = 0, c.settings->tolerance = 0);
     LATER("bad settings without unknowns", -5, "tolerance", l.n = 0, l.settings->tolerance = 0);
 }
 
@@ -375,19 +426,19 @@ static void methods(void)
 {
     const int32_t contact_only[] = {SIGNORINI_METHOD_SOR_NESTED, SIGNORINI_METHOD_SOR_DIAGONAL,
                                     SIGNORINI_METHOD_NEWTON};
-    BOTH_IN(3, "Lemke with friction in 3D", -9, "Lemke's method is for frictionless contact",
+    BOTH_IN(3, "Lemke with friction in 3D", -10, "Lemke's method is for frictionless contact",
             c.settings->method = SIGNORINI_METHOD_LEMKE);
-    BOTH_IN(3, "Lemke with friction in 3D", -9, "friction in 2D",
+    BOTH_IN(3, "Lemke with friction in 3D", -10, "friction in 2D",
             c.settings->method = SIGNORINI_METHOD_LEMKE);
-    BAD(2, SOLVE, "block pivoting with friction", -9, "every mu must be 0",
-        c.settings->method = SIGNORINI_METHOD_PIVOT);
-    BAD(2, TRESCA, "block pivoting with a threshold", -9, "every g must be 0",
-        c.settings->method = SIGNORINI_METHOD_PIVOT);
-    BOTH_IN(3, "Newton in 3D", -9, "Newton's method is for 2D",
+    BAD(2, SOLVE, "block pivoting with friction", -10, "every mu must be 0",
+        c.settings->method = SIGNORINI_METHOD_BLOCK_PIVOTING);
+    BAD(2, TRESCA, "block pivoting with a threshold", -10, "every g must be 0",
+        c.settings->method = SIGNORINI_METHOD_BLOCK_PIVOTING);
+    BOTH_IN(3, "Newton in 3D", -10, "Newton's method is for 2D",
             c.settings->method = SIGNORINI_METHOD_NEWTON);
-    BOTH_IN(3, "Newton in 3D without friction", -9, "Newton's method is for 2D",
-            c.settings->method = SIGNORINI_METHOD_NEWTON, memset(world.mu, 0, sizeof world.mu));
-    BAD(2, TRESCA, "the diagonal method with thresholds", -9, "diagonal",
+    BOTH_IN(3, "Newton in 3D without friction", -10, "Newton's method is for 2D",
+            c.settings->method = SIGNORINI_METHOD_NEWTON, memset(world.friction, 0, sizeof world.friction));
+    BAD(2, TRESCA, "the diagonal method with thresholds", -10, "diagonal",
         c.settings->method = SIGNORINI_METHOD_SOR_DIAGONAL);
     for (int i = 0; i < 3; i++)
         BAD(2, LCP_SOLVE, "a method of contact problems", -5, "auto, pivot and Lemke",
@@ -398,9 +449,9 @@ static void report_sizes(void)
 {
     const uint32_t bad[] = {0, 4, 13, sizeof(signorini_report) + 8, UINT32_MAX - 7};
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
-        ALL("struct_size of the report", -13, "report: struct_size is",
+        ALL("struct_size of the report", -14, "report: struct_size is",
              c.report->struct_size = bad[i]);
-        LATER("struct_size of the report", -8, "report: struct_size is",
+        LATER("struct_size of the report", -9, "report: struct_size is",
               l.report->struct_size = bad[i]);
     }
 }
@@ -420,6 +471,17 @@ static void defaults(void)
     CHECK_STATUS(signorini_settings_default(shifted(&settings, 4), 16), -1);
     CHECK_TEXT(signorini_last_error(), "settings is not aligned");
     CHECK(memcmp(&settings, &untouched, sizeof settings) == 0);
+
+    signorini_report report;
+    CHECK_STATUS(signorini_report_default(NULL, sizeof report), -1);
+    CHECK_TEXT(signorini_last_error(), "report is NULL");
+    CHECK_STATUS(signorini_report_default(&report, sizeof report + 8), -2);
+    CHECK_TEXT(signorini_last_error(), "report: struct_size is 160");
+    signorini_extra extra;
+    CHECK_STATUS(signorini_extra_default(NULL, sizeof extra), -1);
+    CHECK_TEXT(signorini_last_error(), "extra is NULL");
+    CHECK_STATUS(signorini_extra_default(&extra, 0), -2);
+    CHECK_TEXT(signorini_last_error(), "extra: struct_size is 0");
 }
 
 /* The calls that all of the above spoil are good. */
@@ -427,14 +489,14 @@ static void after_all_of_it(void)
 {
     for (int32_t dim = 2; dim <= 3; dim++) {
         prepare(dim);
-        CHECK_STATUS(call_solve(), SIGNORINI_SOLVED);
-        CHECK_STATUS(call_tresca(), SIGNORINI_SOLVED);
+        CHECK_STATUS(call_solve(), SIGNORINI_STATUS_SOLVED);
+        CHECK_STATUS(call_tresca(), SIGNORINI_STATUS_SOLVED);
     }
-    CHECK_STATUS(call_lcp(), SIGNORINI_SOLVED);
-    CHECK_STATUS(call_lcp_solve(), SIGNORINI_SOLVED);
+    CHECK_STATUS(call_lcp(), SIGNORINI_STATUS_SOLVED);
+    CHECK_STATUS(call_lcp_solve(), SIGNORINI_STATUS_SOLVED);
     prepare(2);
-    CHECK_STATUS(call_solve(), SIGNORINI_SOLVED);
-    CHECK_STATUS(call_certify(), SIGNORINI_SOLVED);
+    CHECK_STATUS(call_solve(), SIGNORINI_STATUS_SOLVED);
+    CHECK_STATUS(call_certify(), SIGNORINI_STATUS_SOLVED);
     CHECK(signorini_last_error()[0] == '\0');
 }
 
@@ -443,6 +505,7 @@ int main(void)
     sizes();
     pointers();
     numbers();
+    laws();
     settings();
     methods();
     report_sizes();

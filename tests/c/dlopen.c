@@ -26,8 +26,8 @@ static int use(const char *path)
     const char *(*last_error)(void);
     int32_t (*settings_default)(signorini_settings *, uint32_t);
     int32_t (*solve)(int32_t, int64_t, const double *, int64_t, const double *, const double *,
-                     const double *, const double *, const signorini_settings *, double *, double *,
-                     int32_t *, signorini_report *);
+                     int32_t, const double *, const double *, const signorini_settings *, double *,
+                     double *, int32_t *, signorini_report *, const signorini_extra *);
 
     void *const library = dlopen(path, RTLD_NOW | RTLD_LOCAL);
     if (!library) return fail(path, dlerror());
@@ -43,11 +43,13 @@ static int use(const char *path)
     signorini_report report = {.struct_size = sizeof report};
     if (settings_default(&settings, sizeof settings)) return fail("settings", last_error());
     settings.tolerance = 1e-12;
-    if (solve(2, 1, K, 2, f, gap, mu, NULL, &settings, d, F, NULL, &report) != SIGNORINI_SOLVED)
+    if (solve(2, 1, K, 2, f, gap, SIGNORINI_LAW_COULOMB, mu, NULL, &settings, d, F, NULL, &report,
+              NULL) != SIGNORINI_STATUS_SOLVED)
         return fail("signorini_solve", last_error());
-    if (d[0] != 0 || d[1] < 0.999999999 || d[1] > 1.000000001 || report.slip != 1)
+    if (d[0] != 0 || d[1] < 0.999999999 || d[1] > 1.000000001 || report.pairs_slipping != 1)
         return fail("signorini_solve", "a wrong answer");
-    if (solve(2, 1, K, 1, f, gap, mu, NULL, &settings, d, F, NULL, NULL) != -4)
+    if (solve(2, 1, K, 1, f, gap, SIGNORINI_LAW_COULOMB, mu, NULL, &settings, d, F, NULL, NULL,
+              NULL) != -4)
         return fail("signorini_solve", "a wrong argument was accepted");
     if (!strstr(last_error(), "leading dimension")) return fail("last_error", last_error());
     if (dlclose(library)) return fail("dlclose", dlerror());
