@@ -57,7 +57,7 @@ pub mod reduce;
 mod settings;
 mod solve;
 
-pub use error::{Argument, Error};
+pub use error::{Argument, Error, Message};
 pub use law::State;
 pub use lcp::Lcp;
 pub use model::{LoadCase, Model};

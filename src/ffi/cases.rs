@@ -152,7 +152,7 @@ impl Block<'_> {
                 (code, solution.message)
             }
             Err(error) => {
-                let message = error.to_string();
+                let message = error.message().marked().to_owned();
                 (Failure::from_error(error, position).code(), message)
             }
         }

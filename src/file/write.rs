@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::{BANNER, Kind, MOST_REMARK, TITLE, VERSION, refuse};
-use crate::error::{Argument, Error};
+use crate::error::{Argument, Error, entry};
 use crate::lcp::Lcp;
 use crate::problem::{ContactProblem, FrictionLaw};
 
@@ -22,7 +22,7 @@ pub fn write(path: &Path, problem: &ContactProblem<'_>, remark: Option<&str>) ->
     let (dim, n) = (problem.dim(), problem.unknowns());
     for j in 0..n {
         if let Some(i) = problem.column(j).iter().position(|k| !k.is_finite()) {
-            return Err(Error::invalid(Argument::Matrix, format!("K[{i},{j}] is not finite")));
+            return Err(Error::invalid(Argument::Matrix, entry("K", [i, j]) + " is not finite"));
         }
     }
     let zero = vec![0.0; problem.pairs()];

@@ -3,7 +3,6 @@
 use super::super::guard::{self, Failure};
 use super::super::report::SignoriniReport;
 use super::super::settings::{SIGNORINI_METHOD_NEWTON, SignoriniSettings};
-use super::message;
 use crate::settings::Settings;
 
 /// A Fortran INTEGER.
@@ -47,9 +46,6 @@ pub(super) unsafe fn run<I: Integer>(
 ) {
     let status = guard::call(|| {
         let status = body()?;
-        if status != 0 {
-            message::count_from_one();
-        }
         let argument = status.checked_neg().and_then(|k| usize::try_from(k).ok());
         let position = argument.filter(|k| *k >= 1).and_then(|k| positions.get(k - 1));
         Ok(position.map_or(status, |position| -position))
