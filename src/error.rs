@@ -100,7 +100,7 @@ pub(crate) fn index(i: impl fmt::Display) -> String {
 }
 
 /// An entry of an array for a sentence: `K[12,7]`, in Fortran `K(13,8)`.
-pub(crate) fn entry<const N: usize>(array: &str, indices: [usize; N]) -> String {
+pub(crate) fn entry<const N: usize>(array: &str, indices: [impl fmt::Display; N]) -> String {
     let indices = indices.map(|i| i.to_string()).join(",");
     format!("{array}{BEGIN}[{indices}]{END}")
 }

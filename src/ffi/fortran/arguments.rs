@@ -3,7 +3,8 @@
 use super::super::guard::{self, Failure};
 use super::super::report::SignoriniReport;
 use super::super::settings::{SIGNORINI_METHOD_NEWTON, SignoriniSettings};
-use crate::settings::Settings;
+use crate::problem::checked_dim;
+use crate::settings::{Settings, check_tolerance};
 
 /// A Fortran INTEGER.
 pub(super) trait Integer: Copy {
@@ -91,8 +92,9 @@ pub(super) unsafe fn choice<I: Integer>(
     i32::try_from(value).map_err(|_| absurd::<I>(position, name, value))
 }
 
-/// The number of something that is in memory: beyond 2^31 it can only be two integers of 4 bytes
-/// taken for one. A matrix with such a leading dimension would be read far outside.
+/// The number of something that is in memory. A value of 2^31 or more almost certainly means that two
+/// integers of 4 bytes were read as one of 8 bytes; a matrix with such a leading dimension would be
+/// read far outside.
 ///
 /// # Safety
 /// As for [`read`].
@@ -108,6 +110,45 @@ pub(super) unsafe fn count<I: Integer>(
         return Err(Failure::argument(position, message));
     }
     Ok(i64::from(value))
+}
+
+/// NDIM and NPAIR, at consecutive positions.
+///
+/// # Safety
+/// As for [`read`].
+pub(super) unsafe fn sizes<I: Integer>(
+    first: i32,
+    ndim: *const I,
+    npair: *const I,
+) -> Result<(i32, i64), Failure> {
+    // SAFETY: by the caller's contract.
+    let dim = unsafe { choice(first, "NDIM", ndim)? };
+    let wrong = |_| Failure::argument(first, format!("NDIM is {dim}, it must be 2 or 3"));
+    checked_dim(i64::from(dim)).map_err(wrong)?;
+    // SAFETY: as above.
+    Ok((dim, unsafe { count(first + 1, "NPAIR", npair)? }))
+}
+
+/// The leading dimension of a matrix of all components of pairs.
+///
+/// # Safety
+/// As for [`read`].
+pub(super) unsafe fn leading<I: Integer>(
+    position: i32,
+    name: &str,
+    place: *const I,
+    (dim, pairs): (i32, i64),
+) -> Result<i64, Failure> {
+    // SAFETY: by the caller's contract.
+    let leading = unsafe { count(position, name, place)? };
+    let n = i64::from(dim) * pairs;
+    if leading < n.max(1) {
+        let message = format!(
+            "{name} is {leading}, it must be at least NDIM * NPAIR, which is {n}; NPAIR counts pairs"
+        );
+        return Err(Failure::argument(position, message));
+    }
+    Ok(leading)
 }
 
 pub(super) fn absurd<I: Integer>(position: i32, name: &str, value: i64) -> Failure {
@@ -155,11 +196,13 @@ pub(super) unsafe fn settings<I: Integer>(
 pub(super) fn tolerance_or_default(position: i32, tolerance: f64) -> Result<f64, Failure> {
     if tolerance == 0.0 {
         Ok(Settings::default().tolerance)
-    } else if (1e-15..=0.1).contains(&tolerance) {
-        Ok(tolerance)
     } else {
-        let message = format!("TOL is {tolerance:e}, it must be 0 or lie between 1e-15 and 0.1");
-        Err(Failure::argument(position, message))
+        let wrong = |message| {
+            let rest = "or be 0 (the default); is it DOUBLE PRECISION, 1D-10 and not 1E-10?";
+            Failure::argument(position, format!("{message}, {rest}"))
+        };
+        check_tolerance("TOL", tolerance).map_err(wrong)?;
+        Ok(tolerance)
     }
 }
 

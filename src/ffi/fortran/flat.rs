@@ -1,29 +1,11 @@
-//! SGSOLV, SGTRES, SGCERT, SGLCPS: everything in one call.
+//! SGSOLV, SGCERT, SGLCPS: everything in one call.
 
-use super::super::check::signorini_certify;
-use super::super::flat::{signorini_solve, signorini_tresca};
+use super::super::certify::signorini_certify;
 use super::super::lcp::signorini_lcp_solve;
-use super::super::report::SignoriniReport;
-use super::super::settings::SignoriniSettings;
+use super::super::solve::signorini_solve;
 use super::arguments::{
-    Integer, Results, choice, count, read, run, settings, tolerance_or_default,
+    Integer, Results, choice, count, leading, read, run, settings, sizes, tolerance_or_default,
 };
-
-type Solver = unsafe extern "C" fn(
-    i32,
-    i64,
-    *const f64,
-    i64,
-    *const f64,
-    *const f64,
-    *const f64,
-    *const f64,
-    *const SignoriniSettings,
-    *mut f64,
-    *mut f64,
-    *mut i32,
-    *mut SignoriniReport,
-) -> i32;
 
 /// # Safety
 /// As include/signorini.inc demands, as for all entries.
@@ -34,8 +16,9 @@ pub(super) unsafe fn solve<I: Integer>(
     ldk: *const I,
     f: *const f64,
     gap: *const f64,
-    mu: *const f64,
-    slip: *const f64,
+    law: *const I,
+    fric: *const f64,
+    slip0: *const f64,
     method: *const I,
     tol: *const f64,
     maxit: *const I,
@@ -46,127 +29,36 @@ pub(super) unsafe fn solve<I: Integer>(
     iter: *mut I,
     info: *mut I,
 ) {
-    let arguments = Arguments {
-        ndim,
-        npair,
-        k,
-        ldk,
-        f,
-        gap,
-        friction: mu,
-        slip,
-        method,
-        tol,
-        maxit,
-        d,
-        r,
-        state,
-        eta,
-        iter,
-        info,
-    };
-    // SAFETY: by the caller's contract.
-    unsafe { arguments.run(signorini_solve) }
-}
-
-/// # Safety
-/// As above.
-pub(super) unsafe fn tresca<I: Integer>(
-    ndim: *const I,
-    npair: *const I,
-    k: *const f64,
-    ldk: *const I,
-    f: *const f64,
-    gap: *const f64,
-    g: *const f64,
-    slip: *const f64,
-    method: *const I,
-    tol: *const f64,
-    maxit: *const I,
-    d: *mut f64,
-    r: *mut f64,
-    state: *mut I,
-    eta: *mut f64,
-    iter: *mut I,
-    info: *mut I,
-) {
-    let arguments = Arguments {
-        ndim,
-        npair,
-        k,
-        ldk,
-        f,
-        gap,
-        friction: g,
-        slip,
-        method,
-        tol,
-        maxit,
-        d,
-        r,
-        state,
-        eta,
-        iter,
-        info,
-    };
-    // SAFETY: by the caller's contract.
-    unsafe { arguments.run(signorini_tresca) }
-}
-
-/// What SGSOLV and SGTRES have in common: all.
-struct Arguments<I> {
-    ndim: *const I,
-    npair: *const I,
-    k: *const f64,
-    ldk: *const I,
-    f: *const f64,
-    gap: *const f64,
-    friction: *const f64,
-    slip: *const f64,
-    method: *const I,
-    tol: *const f64,
-    maxit: *const I,
-    d: *mut f64,
-    r: *mut f64,
-    state: *mut I,
-    eta: *mut f64,
-    iter: *mut I,
-    info: *mut I,
-}
-
-impl<I: Integer> Arguments<I> {
-    /// # Safety
-    /// As above.
-    unsafe fn run(&self, solver: Solver) {
-        let body = || {
-            // SAFETY: by the caller's contract.
-            unsafe {
-                let dim = choice(1, "NDIM", self.ndim)?;
-                let pairs = count(2, "NPAIR", self.npair)?;
-                let ldk = count(4, "LDK", self.ldk)?;
-                let settings = settings(9, self.method, self.tol, self.maxit)?;
-                let mut results = Results::new(pairs)?;
-                let status = solver(
-                    dim,
-                    pairs,
-                    self.k,
-                    ldk,
-                    self.f,
-                    self.gap,
-                    self.friction,
-                    self.slip,
-                    &raw const settings,
-                    self.d,
-                    self.r,
-                    results.state.as_mut_ptr(),
-                    &raw mut results.report,
-                );
-                Ok(results.send(status, self.state, self.eta, self.iter))
-            }
-        };
+    let body = || {
         // SAFETY: by the caller's contract.
-        unsafe { run(self.info, &[1, 2, 3, 4, 5, 6, 7, 8, 9, 12, 13], body) }
-    }
+        unsafe {
+            let (dim, pairs) = sizes(1, ndim, npair)?;
+            let ldk = leading(4, "LDK", ldk, (dim, pairs))?;
+            let law = choice(7, "LAW", law)?;
+            let settings = settings(10, method, tol, maxit)?;
+            let mut results = Results::new(pairs)?;
+            let status = signorini_solve(
+                dim,
+                pairs,
+                k,
+                ldk,
+                f,
+                gap,
+                law,
+                fric,
+                slip0,
+                &raw const settings,
+                d,
+                r,
+                results.state.as_mut_ptr(),
+                &raw mut results.report,
+                std::ptr::null(),
+            );
+            Ok(results.send(status, state, eta, iter))
+        }
+    };
+    // SAFETY: by the caller's contract.
+    unsafe { run(info, &[1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 13, 14], body) }
 }
 
 /// # Safety
@@ -178,8 +70,9 @@ pub(super) unsafe fn certify<I: Integer>(
     ldk: *const I,
     f: *const f64,
     gap: *const f64,
-    mu: *const f64,
-    slip: *const f64,
+    law: *const I,
+    fric: *const f64,
+    slip0: *const f64,
     tol: *const f64,
     d: *const f64,
     r: *mut f64,
@@ -190,10 +83,10 @@ pub(super) unsafe fn certify<I: Integer>(
     let body = || {
         // SAFETY: by the caller's contract.
         unsafe {
-            let dim = choice(1, "NDIM", ndim)?;
-            let pairs = count(2, "NPAIR", npair)?;
-            let ldk = count(4, "LDK", ldk)?;
-            let tolerance = tolerance_or_default(9, read(9, "TOL", tol)?)?;
+            let (dim, pairs) = sizes(1, ndim, npair)?;
+            let ldk = leading(4, "LDK", ldk, (dim, pairs))?;
+            let law = choice(7, "LAW", law)?;
+            let tolerance = tolerance_or_default(10, read(10, "TOL", tol)?)?;
             let mut results = Results::new(pairs)?;
             let status = signorini_certify(
                 dim,
@@ -202,8 +95,9 @@ pub(super) unsafe fn certify<I: Integer>(
                 ldk,
                 f,
                 gap,
-                mu,
-                slip,
+                law,
+                fric,
+                slip0,
                 tolerance,
                 d,
                 r,
@@ -214,7 +108,7 @@ pub(super) unsafe fn certify<I: Integer>(
         }
     };
     // SAFETY: by the caller's contract.
-    unsafe { run(info, &[1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11], body) }
+    unsafe { run(info, &[1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12], body) }
 }
 
 /// # Safety
@@ -241,7 +135,17 @@ pub(super) unsafe fn lcp<I: Integer>(
             let settings = settings(5, method, tol, maxit)?;
             let mut results = Results::new(0)?;
             let report = &raw mut results.report;
-            let status = signorini_lcp_solve(n, m, ldm, q, &raw const settings, w, z, report);
+            let status = signorini_lcp_solve(
+                n,
+                m,
+                ldm,
+                q,
+                &raw const settings,
+                w,
+                z,
+                std::ptr::null_mut(),
+                report,
+            );
             Ok(results.send(status, std::ptr::null_mut(), eta, iter))
         }
     };

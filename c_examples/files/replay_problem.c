@@ -1,0 +1,181 @@
+/*
+ * Solves a problem again that a host has written to a file, by signorini_problem_save or the like:
+ * for a case that came by mail.
+ *
+ *     replay_problem FILE [METHOD [TOLERANCE]]
+ *
+ * METHOD is auto (the default), nested, diagonal, lemke, pivot or newton. It returns 0 if the
+ * problem is solved, 1 if it is not, 2 if the file or the arguments are wrong, 130 after Ctrl-C.
+ */
+
+#include "signorini.h"
+#include "../common/watch.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { SOLVED, NOT_SOLVED, WRONG };
+
+static const char *const methods[] = {"auto", "nested", "diagonal", "lemke", "pivot", "newton"};
+enum { METHODS = sizeof methods / sizeof *methods };
+
+static const char *method_name(int32_t method)
+{
+    return method >= 0 && method < METHODS ? methods[method] : "?";
+}
+
+static const char *uniqueness(int32_t code)
+{
+    switch (code) {
+    case SIGNORINI_UNIQUE: return "yes";
+    case SIGNORINI_SEVERAL: return "no, there are others";
+    default: return "not known";
+    }
+}
+
+static int print_problem(const struct signorini_problem *problem, const char *path)
+{
+    const int32_t kind = signorini_problem_kind(problem);
+
+    printf("signorini %s\nfile      %s\n", signorini_version(), path);
+    if (*signorini_problem_remark(problem) != '\0')
+        printf("remark    %s\n", signorini_problem_remark(problem));
+    switch (kind) {
+    case SIGNORINI_PROBLEM_COULOMB:
+    case SIGNORINI_PROBLEM_TRESCA:
+        printf("problem   contact with %s friction, dim %d, %lld pairs, N = %lld\n",
+               kind == SIGNORINI_PROBLEM_COULOMB ? "Coulomb" : "Tresca",
+               (int)signorini_problem_dim(problem), (long long)signorini_problem_pairs(problem),
+               (long long)signorini_problem_size(problem));
+        return 1;
+    case SIGNORINI_PROBLEM_LCP:
+        printf("problem   bare complementarity, n = %lld%s\n",
+               (long long)signorini_problem_size(problem),
+               signorini_problem_cover(problem) != NULL ? ", with a covering vector" : "");
+        return 1;
+    default: printf("problem   of a kind that this program does not know\n"); return 0;
+    }
+}
+
+/* Only Lemke's method of a bare problem looks at the covering vector. */
+static int32_t solve(const struct signorini_problem *problem,
+                     const struct signorini_settings *settings, double *x, double *y,
+                     struct signorini_report *report)
+{
+    const int32_t kind = signorini_problem_kind(problem), dim = signorini_problem_dim(problem);
+    const int64_t n = signorini_problem_size(problem), pairs = signorini_problem_pairs(problem);
+    const int64_t ld = n > 0 ? n : 1;
+    const double *matrix = signorini_problem_matrix(problem);
+    const double *vector = signorini_problem_vector(problem);
+    const double *gap = signorini_problem_gap(problem);
+    const double *friction = signorini_problem_friction(problem);
+    const double *slip = signorini_problem_slip(problem);
+
+    if (kind == SIGNORINI_PROBLEM_COULOMB)
+        return signorini_solve(dim, pairs, matrix, ld, vector, gap, friction, slip, settings, x, y,
+                               NULL, report);
+    if (kind == SIGNORINI_PROBLEM_TRESCA)
+        return signorini_tresca(dim, pairs, matrix, ld, vector, gap, friction, slip, settings, x,
+                                y, NULL, report);
+    if (settings->method == SIGNORINI_METHOD_LEMKE)
+        return signorini_lcp_lemke(n, matrix, ld, vector, signorini_problem_cover(problem),
+                                   settings, x, y, report);
+    return signorini_lcp_solve(n, matrix, ld, vector, settings, x, y, report);
+}
+
+static void print_report(const struct signorini_report *report, int contact)
+{
+    printf("method    %s", method_name(report->method));
+    if (report->first_method != report->method)
+        printf(", after %s", method_name(report->first_method));
+    printf(": %lld iterations, %lld outer, %lld factorisations, %lld refactorisations\n",
+           (long long)report->iterations, (long long)report->outer_iterations,
+           (long long)report->factorisations, (long long)report->refactorisations);
+    printf("eta       %.3e\n", report->eta);
+    if (!contact)
+        return;
+    printf("rounding  %.3e\n", report->rounding);
+    printf("excess    penetration %.3e, tension %.3e, friction %.3e, equilibrium %.3e\n",
+           report->penetration, report->tension, report->cone_excess, report->equilibrium);
+    printf("pairs     %lld open, %lld slip, %lld stick\n", (long long)report->open,
+           (long long)report->slip, (long long)report->stick);
+    printf("the only solution: %s\n", uniqueness(report->uniqueness));
+}
+
+static int replay(const struct signorini_problem *problem,
+                  const struct signorini_settings *settings)
+{
+    const size_t size = (size_t)signorini_problem_size(problem) + 1;
+    struct signorini_report report = {.struct_size = sizeof report};
+    double *x = malloc(size * sizeof *x), *y = malloc(size * sizeof *y);
+    int32_t status;
+
+    if (x == NULL || y == NULL) {
+        fputs("not enough memory for the results\n", stderr);
+        free(x);
+        free(y);
+        return NOT_SOLVED;
+    }
+    puts("solving");
+    fflush(stdout);
+    status = solve(problem, settings, x, y, &report);
+    watch_erase();
+    free(x);
+    free(y);
+
+    printf("status    %d, %s\n", (int)status, signorini_status_string(status));
+    if (status != SIGNORINI_SOLVED)
+        printf("          %s\n", signorini_last_error());
+    if (status >= 0)
+        print_report(&report, signorini_problem_kind(problem) != SIGNORINI_PROBLEM_LCP);
+    if (status == SIGNORINI_CANCELLED)
+        return watch_end();
+    return status == SIGNORINI_SOLVED ? SOLVED : NOT_SOLVED;
+}
+
+/* The method and tolerance of the command line; 0 if there is none like it. */
+static int choose(int argc, char **argv, struct signorini_settings *settings)
+{
+    if (argc > 2) {
+        int method = 0;
+        while (method < METHODS && strcmp(argv[2], methods[method]) != 0)
+            method++;
+        if (method == METHODS)
+            return 0;
+        settings->method = method;
+    }
+    if (argc > 3) {
+        char *end;
+        settings->tolerance = strtod(argv[3], &end);
+        if (end == argv[3] || *end != '\0')
+            return 0;
+    }
+    return 1;
+}
+
+int main(int argc, char **argv)
+{
+    struct signorini_problem *problem;
+    struct signorini_settings settings;
+    int result = WRONG;
+
+    signorini_settings_default(&settings, sizeof settings);
+    if (argc < 2 || argc > 4 || !choose(argc, argv, &settings)) {
+        fprintf(stderr, "usage: %s FILE [METHOD [TOLERANCE]]\nmethods:", argv[0]);
+        for (int method = 0; method < METHODS; method++)
+            fprintf(stderr, " %s", methods[method]);
+        fputs("\n", stderr);
+        return WRONG;
+    }
+    if (signorini_problem_load(argv[1], &problem) != 0) {
+        fprintf(stderr, "%s\n", signorini_last_error());
+        return WRONG;
+    }
+    watch_begin();
+    watch_calls(&settings);
+    if (print_problem(problem, argv[1]))
+        result = replay(problem, &settings);
+    signorini_problem_free(problem);
+    return result;
+}
