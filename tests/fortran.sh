@@ -23,7 +23,7 @@ fi
 # ---- the module against the header ----
 
 module=$root/include/signorini.f90
-sed -n 's/^#define \(SIGNORINI_[A-Z0-9_]*\) \(-\{0,1\}[0-9]\{1,\}\)$/\1 = \2/p' \
+sed -n 's/^#define \(SIGNORINI_[A-Z0-9_]*\) \(-\{0,1\}[0-9]\{1,\}\)\( .*\)\{0,1\}$/\1 = \2/p' \
     "$root/include/signorini.h" | sort >"$work/wanted"
 sed -n 's/^ *integer(c_int32_t), parameter :: \(SIGNORINI_.*\)$/\1/p' "$module" | sort >"$work/given"
 [ -s "$work/wanted" ] || die "no constant found in the header"
@@ -46,7 +46,7 @@ END {
         print name, n
     }
 }'
-sed '/^#/d; s/^ *\*.*//; s/^\/\*.*//; s/\/\/.*//' "$root/include/signorini.h" |
+sed '/^#/d; s/^ *\*.*//; s/\/\*.*//; s/\/\/.*//' "$root/include/signorini.h" |
     awk -v start='signorini_[a-z_0-9]+\\(' -v fortran=0 "$count" | sort >"$work/wanted"
 sed -n '/^    interface/,/^    end interface/p' "$module" | sed '/^ *end /d; s/!.*//' |
     awk -v start='(function|subroutine) signorini_[a-z_0-9]+\\(' -v fortran=1 "$count" |

@@ -51,8 +51,8 @@ program refusals
     call expect(-17, 'second_d')
     call contact_solve(k, f, gap, d, force, info, friction=mu, second_force=u, message=message)
     call expect(-18, 'second_force')
-    call contact_solve(k, f, gap, d, force, info, friction=mu, second_state=[integer ::], message=message)
-    call expect(-19, 'second_state')
+    call contact_solve(k, f, gap, d, force, info, friction=mu, second_state=state(1:1), message=message)
+    call expect(-19, 'second_state has 1 entry, it must have 2')
     ! What the library finds has the position here too, and counts from 1.
     k(3, 2) = nan
     call contact_solve(k, f, gap, d, force, info, friction=mu, message=message)

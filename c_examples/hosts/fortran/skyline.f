@@ -12,6 +12,7 @@ C     compiled with -fdefault-integer-8 and -DSGSOLV=SGSOLV_64, likewise
 C     for the other names.
 C
       PROGRAM SKYLIN
+      INCLUDE 'signorini.inc'
       INTEGER NX, NY, NNODE, NPAIR, NC, MAXEQ, MAXSKY
       PARAMETER (NX = 32, NY = 5, NNODE = (NX + 1) * (NY + 1))
       PARAMETER (NPAIR = NX + 1, NC = 2 * NPAIR)

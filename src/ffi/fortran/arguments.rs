@@ -1,6 +1,7 @@
 //! Scalars by reference in both widths, settings of three scalars, and states.
 
 use super::super::guard::{self, Failure};
+use super::super::law::{SIGNORINI_LAW_FRICTIONLESS, SIGNORINI_LAW_TRESCA};
 use super::super::report::SignoriniReport;
 use super::super::settings::{SIGNORINI_METHOD_NEWTON, SignoriniSettings};
 use crate::problem::checked_dim;
@@ -158,6 +159,20 @@ pub(super) fn absurd<I: Integer>(position: i32, name: &str, value: i64) -> Failu
     Failure::argument(position, message)
 }
 
+/// LAW.
+///
+/// # Safety
+/// As for [`read`].
+pub(super) unsafe fn law<I: Integer>(position: i32, place: *const I) -> Result<i32, Failure> {
+    // SAFETY: by the caller's contract.
+    let law = unsafe { choice(position, "LAW", place)? };
+    if !(SIGNORINI_LAW_FRICTIONLESS..=SIGNORINI_LAW_TRESCA).contains(&law) {
+        let message = format!("LAW is {law}, it must be SGNOFR (0), SGCOUL (1) or SGTRSC (2)");
+        return Err(Failure::argument(position, message));
+    }
+    Ok(law)
+}
+
 /// METHOD, TOL and MAXIT at consecutive positions; 0 stands for the default of each.
 ///
 /// # Safety
@@ -177,7 +192,8 @@ pub(super) unsafe fn settings<I: Integer>(
         )
     };
     if !(0..=SIGNORINI_METHOD_NEWTON).contains(&method) {
-        return Err(Failure::argument(first, format!("METHOD is {method}, there is no such")));
+        let message = format!("METHOD is {method}, it must be 0 or SGNEST (1) to SGNEWT (5)");
+        return Err(Failure::argument(first, message));
     }
     if most < 0 {
         let message = format!("MAXIT is {most}, it must not be negative");

@@ -4,7 +4,8 @@ use super::super::certify::signorini_certify;
 use super::super::lcp::signorini_lcp_solve;
 use super::super::solve::signorini_solve;
 use super::arguments::{
-    Integer, Results, choice, count, leading, read, run, settings, sizes, tolerance_or_default,
+    Integer, Results, count, law as read_law, leading, read, run, settings, sizes,
+    tolerance_or_default,
 };
 
 /// # Safety
@@ -34,7 +35,7 @@ pub(super) unsafe fn solve<I: Integer>(
         unsafe {
             let (dim, pairs) = sizes(1, ndim, npair)?;
             let ldk = leading(4, "LDK", ldk, (dim, pairs))?;
-            let law = choice(7, "LAW", law)?;
+            let law = read_law(7, law)?;
             let settings = settings(10, method, tol, maxit)?;
             let mut results = Results::new(pairs)?;
             let status = signorini_solve(
@@ -85,7 +86,7 @@ pub(super) unsafe fn certify<I: Integer>(
         unsafe {
             let (dim, pairs) = sizes(1, ndim, npair)?;
             let ldk = leading(4, "LDK", ldk, (dim, pairs))?;
-            let law = choice(7, "LAW", law)?;
+            let law = read_law(7, law)?;
             let tolerance = tolerance_or_default(10, read(10, "TOL", tol)?)?;
             let mut results = Results::new(pairs)?;
             let status = signorini_certify(

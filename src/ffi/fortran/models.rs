@@ -10,7 +10,9 @@ use super::super::model_new::{
 };
 use super::super::model_recover::{signorini_model_nodal_forces, signorini_model_recover};
 use super::super::model_solve::signorini_model_solve;
-use super::arguments::{Integer, Results, choice, leading, read, run, settings, sizes, write};
+use super::arguments::{
+    Integer, Results, law as read_law, leading, read, run, settings, sizes, write,
+};
 
 /// The models that live. Fortran has no pointer type of its own: an address in an INTEGER*8 would
 /// be followed whatever it holds, a number that is not here is refused.
@@ -140,7 +142,7 @@ pub(super) unsafe fn case<I: Integer>(
         // SAFETY: by the caller's contract.
         unsafe {
             let model = find(handle)?;
-            let law = choice(5, "LAW", law)?;
+            let law = read_law(5, law)?;
             let settings = settings(8, method, tol, maxit)?;
             let pairs = signorini_model_pairs(Arc::as_ptr(&model));
             let mut results = Results::new(pairs)?;
