@@ -5,7 +5,7 @@ mod common;
 use std::fs;
 
 use common::folder::{Folder, SMALL};
-use signorini::file::{self, Kind};
+use signorini::file::{self, Kind, Law};
 use signorini::{
     ContactData, ContactProblem, FrictionLaw, Lcp, LoadCase, Model, Monitor, Settings, solve,
 };
@@ -67,7 +67,7 @@ fn contact_problems_come_back_bit_for_bit() {
         for gap in gap.iter_mut().skip(round % 3).step_by(3) {
             *gap = f64::INFINITY;
         }
-        let tresca = round % 4 == 3;
+        let kind = [Law::Coulomb, Law::Frictionless, Law::Coulomb, Law::Tresca][round % 4];
         let problem = ContactProblem::new(ContactData {
             dim,
             pairs,
@@ -75,9 +75,10 @@ fn contact_problems_come_back_bit_for_bit() {
             ld,
             load: &load,
             gap: &gap,
-            law: match tresca {
-                true => FrictionLaw::Tresca(&friction),
-                false => FrictionLaw::Coulomb(&friction),
+            law: match kind {
+                Law::Frictionless => FrictionLaw::Frictionless,
+                Law::Coulomb => FrictionLaw::Coulomb(&friction),
+                Law::Tresca => FrictionLaw::Tresca(&friction),
             },
             reference_slip: (round % 5 > 0).then_some(&slip[..]),
         })
@@ -86,15 +87,16 @@ fn contact_problems_come_back_bit_for_bit() {
         file::write(&folder.file(), &problem, Some(remark)).unwrap();
         let back = file::read(&folder.file()).unwrap();
 
-        assert_eq!(back.kind, if tresca { Kind::Tresca } else { Kind::Coulomb });
+        assert_eq!(back.kind, Kind::Contact(kind));
         assert_eq!((back.dim, back.pairs, back.size), (dim, pairs, n));
         let tight: Vec<f64> = (0..n).flat_map(|j| k[ld * j..ld * j + n].to_vec()).collect();
         assert_eq!(bits(&back.matrix), bits(&tight));
         assert_eq!(bits(&back.load), bits(&load));
         assert_eq!(bits(&back.gap), bits(&gap));
+        let friction = if kind == Law::Frictionless { vec![] } else { friction };
         assert_eq!(bits(&back.friction), bits(&friction));
         let slip = if round % 5 > 0 { slip } else { vec![0.0; n - pairs] };
-        assert_eq!(bits(&back.slip), bits(&slip));
+        assert_eq!(bits(&back.reference_slip), bits(&slip));
         assert_eq!(back.covering, None);
         assert_eq!(back.remark, remark);
         assert!(ContactProblem::new(back.contact().unwrap()).is_ok());
@@ -152,6 +154,31 @@ fn the_case_of_a_model_is_solved_again_with_the_same_bits() {
     assert_eq!(bits(&again.certificate.force), bits(&expected.certificate.force));
 }
 
+/// Version 1 of the format: the kind is the law.
+#[test]
+fn files_of_version_1_are_read() {
+    let folder = Folder::new("old");
+    for (law, other) in [("coulomb", "tresca"), ("tresca", "coulomb")] {
+        let new = SMALL.replace("law: coulomb", &format!("law: {law}"));
+        let old = new
+            .replace("problem 2", "problem 1")
+            .replace("kind: contact", &format!("kind: {law}"))
+            // Version 1 skipped this line as any other comment.
+            .replace(&format!("law: {law}"), &format!("law: {other}"));
+        let old = folder.load(old.as_bytes()).unwrap();
+        assert_eq!(old, folder.load(new.as_bytes()).unwrap());
+    }
+    let head = |version| {
+        format!(
+            "%%MatrixMarket matrix array real general\n% signorini problem {version}\n% kind: lcp\n"
+        )
+    };
+    let numbers = "1 3\n2e0\n-1e0\n4e0\n";
+    let old = folder.load((head(1) + numbers).as_bytes()).unwrap();
+    assert_eq!(old.covering.as_deref(), Some(&[4.0][..]));
+    assert_eq!(old, folder.load((head(2) + numbers).as_bytes()).unwrap());
+}
+
 #[test]
 fn the_format_is_what_it_is_said_to_be() {
     let folder = Folder::new("format");
@@ -161,7 +188,7 @@ fn the_format_is_what_it_is_said_to_be() {
     assert_eq!(back.load, [2.0, 1.25]);
     assert_eq!(back.gap, [f64::INFINITY]);
     assert_eq!(back.friction, [0.3]);
-    assert_eq!(back.slip, [-0.7]);
+    assert_eq!(back.reference_slip, [-0.7]);
     assert_eq!(back.remark, "one pair");
 
     let problem = ContactProblem::new(back.contact().unwrap()).unwrap();

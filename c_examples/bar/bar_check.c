@@ -28,16 +28,16 @@ void check_zones(struct checks *checks, const struct solution *solution, size_t 
 {
     size_t wrong = 0, counted[3] = {0, 0, 0};
     for (size_t i = 0; i < BAR_PAIRS; i++) {
-        const int32_t expected = i < open          ? SIGNORINI_OPEN
-                                 : i < open + slip ? SIGNORINI_SLIP
-                                                   : SIGNORINI_STICK;
+        const int32_t expected = i < open          ? SIGNORINI_STATE_OPEN
+                                 : i < open + slip ? SIGNORINI_STATE_SLIP
+                                                   : SIGNORINI_STATE_STICK;
         counted[expected] += 1;
         if (solution->state[i] != expected && wrong == 0)
             wrong = i + 1;
     }
     judge(checks, wrong == 0);
-    printf("zones: from the free corner %zu open, %zu slip, %zu stick", counted[SIGNORINI_OPEN],
-           counted[SIGNORINI_SLIP], counted[SIGNORINI_STICK]);
+    printf("zones: from the free corner %zu open, %zu slip, %zu stick", counted[SIGNORINI_STATE_OPEN],
+           counted[SIGNORINI_STATE_SLIP], counted[SIGNORINI_STATE_STICK]);
     if (wrong != 0)
         printf("; but node %zu is %s", wrong, state_name(solution->state[wrong - 1]));
     putchar('\n');

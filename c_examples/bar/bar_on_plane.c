@@ -57,20 +57,21 @@ static int solve(struct checks *checks, const char *name, int32_t method,
     watch_calls(&settings);
     report.struct_size = sizeof report;
 
-    status = signorini_solve(2, BAR_PAIRS, bar->K, BAR_SIZE, bar->f, gap, mu, NULL, &settings,
-                             solution->d, solution->F, solution->state, &report);
+    status = signorini_solve(2, BAR_PAIRS, bar->K, BAR_SIZE, bar->f, gap, SIGNORINI_LAW_COULOMB, mu,
+                             NULL, &settings, solution->d, solution->F, solution->state, &report,
+                             NULL);
     watch_erase();
     if (watch_interrupted())
         return 0;
 
-    judge(checks, status == SIGNORINI_SOLVED);
+    judge(checks, status == SIGNORINI_STATUS_SOLVED);
     printf("%s: %s", name, signorini_status_string(status));
-    if (status == SIGNORINI_SOLVED)
+    if (status == SIGNORINI_STATUS_SOLVED)
         printf(" in %lld %s, eta = %.0e\n", (long long)report.iterations,
                steps_of(report.method), report.eta);
     else
         printf(": %s\n", signorini_last_error());
-    return status == SIGNORINI_SOLVED;
+    return status == SIGNORINI_STATUS_SOLVED;
 }
 
 static int condense(struct checks *checks, const struct bar *bar, struct condensed_bar *condensed)
@@ -157,16 +158,16 @@ static const char *solve_sparse(const struct sparse_bar *bar, struct solution *s
     signorini_model *model = NULL;
     signorini_sparse matrix = {.struct_size = sizeof matrix,
                                .index_bytes = 8,
-                               .base = 0,
-                               .triangle = SIGNORINI_LOWER,
+                               .index_base = 0,
+                               .triangle = SIGNORINI_TRIANGLE_LOWER,
                                .size = (int64_t)bar->size,
-                               .entries = (int64_t)bar->entries,
-                               .starts = bar->starts,
-                               .rows = bar->rows,
+                               .nnz = (int64_t)bar->entries,
+                               .col_start = bar->starts,
+                               .row = bar->rows,
                                .values = bar->values};
     signorini_pairs pairs = {.struct_size = sizeof pairs,
                              .dim = 2,
-                             .pairs = BAR_PAIRS,
+                             .count = BAR_PAIRS,
                              .slaves = bar->contact,
                              .normals = normal}; /* no masters: the plane is rigid */
     signorini_settings settings;
@@ -184,14 +185,15 @@ static const char *solve_sparse(const struct sparse_bar *bar, struct solution *s
     status =
         signorini_model_new_sparse(&matrix, (int64_t)bar->held_count, bar->held, &pairs, &model);
     if (status == 0)
-        status = signorini_model_solve(model, 1, bar->load, NULL, gap, mu, NULL, &settings,
-                                       solution->d, solution->F, solution->state, NULL, NULL);
+        status = signorini_model_solve(model, 1, bar->load, NULL, gap, SIGNORINI_LAW_COULOMB, mu,
+                                       NULL, &settings, solution->d, solution->F, solution->state,
+                                       NULL, NULL, NULL);
     if (status == 0)
         status = signorini_model_recover(model, bar->load, NULL, solution->d, u);
     /* Before signorini_model_free: each call of the library has a sentence of its own. */
     snprintf(problem, sizeof problem, "%s", signorini_last_error());
     signorini_model_free(model);
-    return status == SIGNORINI_SOLVED ? NULL : problem;
+    return status == SIGNORINI_STATUS_SOLVED ? NULL : problem;
 }
 
 static void whole_matrix(struct checks *checks, const struct bar *bar)

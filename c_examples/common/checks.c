@@ -23,9 +23,9 @@ int conclude(const struct checks *checks)
 const char *state_name(int32_t state)
 {
     switch (state) {
-    case SIGNORINI_OPEN: return "open";
-    case SIGNORINI_SLIP: return "slip";
-    case SIGNORINI_STICK: return "stick";
+    case SIGNORINI_STATE_OPEN: return "open";
+    case SIGNORINI_STATE_SLIP: return "slip";
+    case SIGNORINI_STATE_STICK: return "stick";
     default: return "?";
     }
 }

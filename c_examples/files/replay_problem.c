@@ -1,5 +1,5 @@
 /*
- * Solves a problem again that a host has written to a file, by signorini_problem_save or the like:
+ * Solves a problem again that a host has written to a file, by signorini_problem_write or the like:
  * for a case that came by mail.
  *
  *     replay_problem FILE [METHOD [TOLERANCE]]
@@ -28,9 +28,19 @@ static const char *method_name(int32_t method)
 static const char *uniqueness(int32_t code)
 {
     switch (code) {
-    case SIGNORINI_UNIQUE: return "yes";
-    case SIGNORINI_SEVERAL: return "no, there are others";
+    case SIGNORINI_UNIQUENESS_UNIQUE: return "yes";
+    case SIGNORINI_UNIQUENESS_SEVERAL: return "no, there are others";
     default: return "not known";
+    }
+}
+
+static const char *law_name(int32_t law)
+{
+    switch (law) {
+    case SIGNORINI_LAW_FRICTIONLESS: return "no friction";
+    case SIGNORINI_LAW_COULOMB: return "Coulomb friction";
+    case SIGNORINI_LAW_TRESCA: return "Tresca friction";
+    default: return "a law that this program does not know";
     }
 }
 
@@ -42,15 +52,13 @@ static int print_problem(const struct signorini_problem *problem, const char *pa
     if (*signorini_problem_remark(problem) != '\0')
         printf("remark    %s\n", signorini_problem_remark(problem));
     switch (kind) {
-    case SIGNORINI_PROBLEM_COULOMB:
-    case SIGNORINI_PROBLEM_TRESCA:
-        printf("problem   contact with %s friction, dim %d, %lld pairs, N = %lld\n",
-               kind == SIGNORINI_PROBLEM_COULOMB ? "Coulomb" : "Tresca",
-               (int)signorini_problem_dim(problem), (long long)signorini_problem_pairs(problem),
+    case SIGNORINI_PROBLEM_CONTACT:
+        printf("problem   contact, %s, dim %d, %lld pairs, N = %lld\n",
+               law_name(signorini_problem_law(problem)), (int)signorini_problem_dim(problem), (long long)signorini_problem_pairs(problem),
                (long long)signorini_problem_size(problem));
         return 1;
     case SIGNORINI_PROBLEM_LCP:
-        printf("problem   bare complementarity, n = %lld%s\n",
+        printf("problem   linear complementarity (LCP), n = %lld%s\n",
                (long long)signorini_problem_size(problem),
                signorini_problem_cover(problem) != NULL ? ", with a covering vector" : "");
         return 1;
@@ -58,7 +66,7 @@ static int print_problem(const struct signorini_problem *problem, const char *pa
     }
 }
 
-/* Only Lemke's method of a bare problem looks at the covering vector. */
+/* Only Lemke's method looks at the covering vector of an LCP. */
 static int32_t solve(const struct signorini_problem *problem,
                      const struct signorini_settings *settings, double *x, double *y,
                      struct signorini_report *report)
@@ -67,21 +75,18 @@ static int32_t solve(const struct signorini_problem *problem,
     const int64_t n = signorini_problem_size(problem), pairs = signorini_problem_pairs(problem);
     const int64_t ld = n > 0 ? n : 1;
     const double *matrix = signorini_problem_matrix(problem);
-    const double *vector = signorini_problem_vector(problem);
+    const double *rhs = signorini_problem_rhs(problem);
     const double *gap = signorini_problem_gap(problem);
     const double *friction = signorini_problem_friction(problem);
-    const double *slip = signorini_problem_slip(problem);
+    const double *slip0 = signorini_problem_slip0(problem);
 
-    if (kind == SIGNORINI_PROBLEM_COULOMB)
-        return signorini_solve(dim, pairs, matrix, ld, vector, gap, friction, slip, settings, x, y,
-                               NULL, report);
-    if (kind == SIGNORINI_PROBLEM_TRESCA)
-        return signorini_tresca(dim, pairs, matrix, ld, vector, gap, friction, slip, settings, x,
-                                y, NULL, report);
+    if (kind == SIGNORINI_PROBLEM_CONTACT)
+        return signorini_solve(dim, pairs, matrix, ld, rhs, gap, signorini_problem_law(problem),
+                               friction, slip0, settings, x, y, NULL, report, NULL);
     if (settings->method == SIGNORINI_METHOD_LEMKE)
-        return signorini_lcp_lemke(n, matrix, ld, vector, signorini_problem_cover(problem),
-                                   settings, x, y, report);
-    return signorini_lcp_solve(n, matrix, ld, vector, settings, x, y, report);
+        return signorini_lcp_lemke(n, matrix, ld, rhs, signorini_problem_cover(problem),
+                                   settings, x, y, NULL, report);
+    return signorini_lcp_solve(n, matrix, ld, rhs, settings, x, y, NULL, report);
 }
 
 static void print_report(const struct signorini_report *report, int contact)
@@ -98,8 +103,8 @@ static void print_report(const struct signorini_report *report, int contact)
     printf("rounding  %.3e\n", report->rounding);
     printf("excess    penetration %.3e, tension %.3e, friction %.3e, equilibrium %.3e\n",
            report->penetration, report->tension, report->cone_excess, report->equilibrium);
-    printf("pairs     %lld open, %lld slip, %lld stick\n", (long long)report->open,
-           (long long)report->slip, (long long)report->stick);
+    printf("pairs     %lld open, %lld slip, %lld stick\n", (long long)report->pairs_open,
+           (long long)report->pairs_slipping, (long long)report->pairs_sticking);
     printf("the only solution: %s\n", uniqueness(report->uniqueness));
 }
 
@@ -125,13 +130,13 @@ static int replay(const struct signorini_problem *problem,
     free(y);
 
     printf("status    %d, %s\n", (int)status, signorini_status_string(status));
-    if (status != SIGNORINI_SOLVED)
+    if (status != SIGNORINI_STATUS_SOLVED)
         printf("          %s\n", signorini_last_error());
     if (status >= 0)
         print_report(&report, signorini_problem_kind(problem) != SIGNORINI_PROBLEM_LCP);
-    if (status == SIGNORINI_CANCELLED)
+    if (status == SIGNORINI_STATUS_CANCELLED)
         return watch_end();
-    return status == SIGNORINI_SOLVED ? SOLVED : NOT_SOLVED;
+    return status == SIGNORINI_STATUS_SOLVED ? SOLVED : NOT_SOLVED;
 }
 
 /* The method and tolerance of the command line; 0 if there is none like it. */
@@ -168,7 +173,7 @@ int main(int argc, char **argv)
         fputs("\n", stderr);
         return WRONG;
     }
-    if (signorini_problem_load(argv[1], &problem) != 0) {
+    if (signorini_problem_read(argv[1], &problem) != 0) {
         fprintf(stderr, "%s\n", signorini_last_error());
         return WRONG;
     }

@@ -16,8 +16,9 @@ int main(void)
     settings.tolerance = 1e-12;
     signorini_report report = {.struct_size = sizeof report};
 
-    int32_t status = signorini_solve(2, 2, K, 4, f, gap, mu, NULL, &settings, d, F, state, &report);
-    if (status != SIGNORINI_SOLVED) {
+    int32_t status = signorini_solve(2, 2, K, 4, f, gap, SIGNORINI_LAW_COULOMB, mu, NULL, &settings,
+                                     d, F, state, &report, NULL);
+    if (status != SIGNORINI_STATUS_SOLVED) {
         fprintf(stderr, "status %d: %s\n", (int)status, signorini_last_error());
         return 1;
     }

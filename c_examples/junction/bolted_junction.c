@@ -53,18 +53,18 @@ static int32_t new_model(const struct junction *junction, struct signorini_model
     double weights[PAIRS], normals[2 * PAIRS], tangents[2 * PAIRS];
     const struct signorini_sparse K = {.struct_size = sizeof K,
                                        .index_bytes = 4,
-                                       .base = 0,
-                                       .triangle = SIGNORINI_FULL,
+                                       .index_base = 0,
+                                       .triangle = SIGNORINI_TRIANGLE_FULL,
                                        .size = DOFS,
-                                       .entries = junction->starts[DOFS],
-                                       .starts = junction->starts,
-                                       .rows = junction->rows,
+                                       .nnz = junction->starts[DOFS],
+                                       .col_start = junction->starts,
+                                       .row = junction->rows,
                                        .values = junction->values};
     const struct signorini_pairs pairs = {.struct_size = sizeof pairs,
                                           .dim = 2,
-                                          .pairs = PAIRS,
+                                          .count = PAIRS,
                                           .slaves = slaves,
-                                          .master_starts = master_starts,
+                                          .master_start = master_starts,
                                           .masters = masters,
                                           .weights = weights,
                                           .normals = normals,
@@ -114,15 +114,16 @@ static int run(struct checks *checks, const struct junction *junction,
         for (size_t i = 0; i < history->cases; i++)
             junction_loads(junction, closing_pressure, steps[s].inner, f[i]);
 
-        status = signorini_model_solve(model, (int64_t)history->cases, f[0], NULL, gap[0], mu[0],
-                                       slip[0], &settings, history->d[s][0], history->F[s][0],
-                                       history->state[s][0], report, NULL);
+        status = signorini_model_solve(model, (int64_t)history->cases, f[0], NULL, gap[0],
+                                       SIGNORINI_LAW_COULOMB, mu[0], slip[0], &settings,
+                                       history->d[s][0], history->F[s][0], history->state[s][0],
+                                       NULL, report, NULL);
         watch_erase();
         if (watch_interrupted())
             return 0;
 
-        judge(checks, status == SIGNORINI_SOLVED);
-        if (status != SIGNORINI_SOLVED) {
+        judge(checks, status == SIGNORINI_STATUS_SOLVED);
+        if (status != SIGNORINI_STATUS_SOLVED) {
             printf("%-8s %s: %s\n", steps[s].name, signorini_status_string(status),
                    signorini_last_error());
             return 0;
@@ -246,12 +247,14 @@ static void report_cost(const struct junction *junction)
         double begin = now();
         if (new_model(junction, &model) != 0)
             return;
-        signorini_model_solve(model, 1, f[0], NULL, gap, mu, NULL, NULL, d, F, NULL, NULL, NULL);
+        signorini_model_solve(model, 1, f[0], NULL, gap, SIGNORINI_LAW_COULOMB, mu, NULL, NULL, d,
+                              F, NULL, NULL, NULL, NULL);
         first[run] = now() - begin;
         for (int pair = 0; pair < PAIRS; pair++)
             slip[pair] = d[2 * pair + 1];
         begin = now();
-        signorini_model_solve(model, 1, f[1], NULL, gap, mu, slip, NULL, d, F, NULL, NULL, NULL);
+        signorini_model_solve(model, 1, f[1], NULL, gap, SIGNORINI_LAW_COULOMB, mu, slip, NULL, d,
+                              F, NULL, NULL, NULL, NULL);
         further[run] = now() - begin;
         signorini_model_free(model);
     }

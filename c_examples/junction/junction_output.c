@@ -31,9 +31,9 @@ void zone_states(const struct junction *junction, const int32_t state[PAIRS], in
 {
     for (size_t i = 0; i < PAIRS; i++)
         if (junction->zone[i] == zone)
-            *text++ = state[i] == SIGNORINI_OPEN    ? 'o'
-                      : state[i] == SIGNORINI_SLIP  ? 's'
-                      : state[i] == SIGNORINI_STICK ? '.'
+            *text++ = state[i] == SIGNORINI_STATE_OPEN    ? 'o'
+                      : state[i] == SIGNORINI_STATE_SLIP  ? 's'
+                      : state[i] == SIGNORINI_STATE_STICK ? '.'
                                                     : '?';
     *text = '\0';
 }

@@ -75,9 +75,9 @@ static double eta_of_displacements(const struct problem *problem, const double *
     const int64_t n = (int64_t)contact->pairs;
     signorini_report report = {.struct_size = sizeof report};
     const int32_t status =
-        signorini_certify(2, n, contact->K, 2 * n, contact->f, contact->gap, problem->mu_of, NULL,
-                          SOLVED_ETA, d, F, NULL, &report);
-    return status == SIGNORINI_SOLVED || status == SIGNORINI_NOT_A_SOLUTION ? report.eta : NAN;
+        signorini_certify(2, n, contact->K, 2 * n, contact->f, contact->gap, SIGNORINI_LAW_COULOMB,
+                          problem->mu_of, NULL, SOLVED_ETA, d, F, NULL, &report);
+    return status == SIGNORINI_STATUS_SOLVED || status == SIGNORINI_STATUS_NOT_A_SOLUTION ? report.eta : NAN;
 }
 
 /* Reactions r are the displacements d = (gap, 0) - q - W r. They too are measured as they are, and

@@ -237,13 +237,13 @@ static int32_t condense(const struct mesh *mesh, struct contact *contact)
         tangents[2 * i] = 1.0;
     }
     const signorini_sparse K = {.struct_size = sizeof K, .index_bytes = 8,
-        .triangle = SIGNORINI_FULL, .size = (int64_t)mesh->size,
-        .entries = mesh->starts[mesh->size], .starts = mesh->starts, .rows = mesh->rows_of,
+        .triangle = SIGNORINI_TRIANGLE_FULL, .size = (int64_t)mesh->size,
+        .nnz = mesh->starts[mesh->size], .col_start = mesh->starts, .row = mesh->rows_of,
         .values = mesh->values};
-    signorini_pairs pairs = {.struct_size = sizeof pairs, .dim = 2, .pairs = (int64_t)n,
+    signorini_pairs pairs = {.struct_size = sizeof pairs, .dim = 2, .count = (int64_t)n,
         .slaves = slaves, .normals = normals, .tangents = tangents};
     if (mesh->bodies == 2) {
-        pairs.master_starts = starts;
+        pairs.master_start = starts;
         pairs.masters = masters;
         pairs.weights = weights;
     }

@@ -24,16 +24,17 @@ static void call(const struct solver *solver, const struct problem *problem, dou
     const double begin = thread_seconds();
     switch (solver->id) {
     case LCP_AUTO:
-        code = signorini_lcp_solve(n, lcp->M, n, lcp->q, &settings, outcome->y, outcome->x,
+        code = signorini_lcp_solve(n, lcp->M, n, lcp->q, &settings, outcome->y, outcome->x, NULL,
                                    &report);
         break;
     case LCP_LEMKE:
         code = signorini_lcp_lemke(n, lcp->M, n, lcp->q, NULL, &settings, outcome->y, outcome->x,
-                                   &report);
+                                   NULL, &report);
         break;
     case CONTACT:
-        code = signorini_solve(2, n, contact->K, 2 * n, contact->f, contact->gap, problem->mu_of,
-                               NULL, &settings, outcome->x, outcome->y, NULL, &report);
+        code = signorini_solve(2, n, contact->K, 2 * n, contact->f, contact->gap,
+                               SIGNORINI_LAW_COULOMB, problem->mu_of, NULL, &settings, outcome->x,
+                               outcome->y, NULL, &report, NULL);
         break;
     }
     const double seconds = thread_seconds() - begin;

@@ -81,30 +81,30 @@ static void prepare(int32_t dim)
 
 static int32_t call_solve(void)
 {
-    return signorini_solve(c.dim, c.pairs, c.K, c.ldk, c.f, c.gap, c.mu, c.slip, c.settings, c.d,
-                           c.F, c.state, c.report);
+    return signorini_solve(c.dim, c.pairs, c.K, c.ldk, c.f, c.gap, SIGNORINI_LAW_COULOMB, c.mu,
+                           c.slip, c.settings, c.d, c.F, c.state, c.report, NULL);
 }
 
 static int32_t call_tresca(void)
 {
-    return signorini_tresca(c.dim, c.pairs, c.K, c.ldk, c.f, c.gap, c.mu, c.slip, c.settings, c.d,
-                            c.F, c.state, c.report);
+    return signorini_solve(c.dim, c.pairs, c.K, c.ldk, c.f, c.gap, SIGNORINI_LAW_TRESCA, c.mu,
+                           c.slip, c.settings, c.d, c.F, c.state, c.report, NULL);
 }
 
 static int32_t call_certify(void)
 {
-    return signorini_certify(c.dim, c.pairs, c.K, c.ldk, c.f, c.gap, c.mu, c.slip, c.tolerance,
-                             c.d, c.F, c.state, c.report);
+    return signorini_certify(c.dim, c.pairs, c.K, c.ldk, c.f, c.gap, SIGNORINI_LAW_COULOMB, c.mu,
+                             c.slip, c.tolerance, c.d, c.F, c.state, c.report);
 }
 
 static int32_t call_lcp_solve(void)
 {
-    return signorini_lcp_solve(l.n, l.M, l.ldm, l.q, l.settings, l.w, l.z, l.report);
+    return signorini_lcp_solve(l.n, l.M, l.ldm, l.q, l.settings, l.w, l.z, NULL, l.report);
 }
 
 static int32_t call_lcp(void)
 {
-    return signorini_lcp_lemke(l.n, l.M, l.ldm, l.q, l.cover, l.settings, l.w, l.z, l.report);
+    return signorini_lcp_lemke(l.n, l.M, l.ldm, l.q, l.cover, l.settings, l.w, l.z, NULL, l.report);
 }
 
 /* Calls, expects the status and the part of the sentence, and that nothing was written. */
@@ -380,9 +380,9 @@ static void methods(void)
     BOTH_IN(3, "Lemke with friction in 3D", -9, "friction in 2D",
             c.settings->method = SIGNORINI_METHOD_LEMKE);
     BAD(2, SOLVE, "block pivoting with friction", -9, "every mu must be 0",
-        c.settings->method = SIGNORINI_METHOD_PIVOT);
+        c.settings->method = SIGNORINI_METHOD_BLOCK_PIVOTING);
     BAD(2, TRESCA, "block pivoting with a threshold", -9, "every g must be 0",
-        c.settings->method = SIGNORINI_METHOD_PIVOT);
+        c.settings->method = SIGNORINI_METHOD_BLOCK_PIVOTING);
     BOTH_IN(3, "Newton in 3D", -9, "Newton's method is for 2D",
             c.settings->method = SIGNORINI_METHOD_NEWTON);
     BOTH_IN(3, "Newton in 3D without friction", -9, "Newton's method is for 2D",
@@ -427,14 +427,14 @@ static void after_all_of_it(void)
 {
     for (int32_t dim = 2; dim <= 3; dim++) {
         prepare(dim);
-        CHECK_STATUS(call_solve(), SIGNORINI_SOLVED);
-        CHECK_STATUS(call_tresca(), SIGNORINI_SOLVED);
+        CHECK_STATUS(call_solve(), SIGNORINI_STATUS_SOLVED);
+        CHECK_STATUS(call_tresca(), SIGNORINI_STATUS_SOLVED);
     }
-    CHECK_STATUS(call_lcp(), SIGNORINI_SOLVED);
-    CHECK_STATUS(call_lcp_solve(), SIGNORINI_SOLVED);
+    CHECK_STATUS(call_lcp(), SIGNORINI_STATUS_SOLVED);
+    CHECK_STATUS(call_lcp_solve(), SIGNORINI_STATUS_SOLVED);
     prepare(2);
-    CHECK_STATUS(call_solve(), SIGNORINI_SOLVED);
-    CHECK_STATUS(call_certify(), SIGNORINI_SOLVED);
+    CHECK_STATUS(call_solve(), SIGNORINI_STATUS_SOLVED);
+    CHECK_STATUS(call_certify(), SIGNORINI_STATUS_SOLVED);
     CHECK(signorini_last_error()[0] == '\0');
 }
 

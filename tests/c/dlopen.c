@@ -43,9 +43,9 @@ static int use(const char *path)
     signorini_report report = {.struct_size = sizeof report};
     if (settings_default(&settings, sizeof settings)) return fail("settings", last_error());
     settings.tolerance = 1e-12;
-    if (solve(2, 1, K, 2, f, gap, mu, NULL, &settings, d, F, NULL, &report) != SIGNORINI_SOLVED)
+    if (solve(2, 1, K, 2, f, gap, mu, NULL, &settings, d, F, NULL, &report) != SIGNORINI_STATUS_SOLVED)
         return fail("signorini_solve", last_error());
-    if (d[0] != 0 || d[1] < 0.999999999 || d[1] > 1.000000001 || report.slip != 1)
+    if (d[0] != 0 || d[1] < 0.999999999 || d[1] > 1.000000001 || report.pairs_slipping != 1)
         return fail("signorini_solve", "a wrong answer");
     if (solve(2, 1, K, 1, f, gap, mu, NULL, &settings, d, F, NULL, NULL) != -4)
         return fail("signorini_solve", "a wrong argument was accepted");

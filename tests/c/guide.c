@@ -34,8 +34,8 @@ static void check_load_steps(void)
     CHECK_STATUS(signorini_model_new_condensed(2, PAIRS, K, N, &model), 0);
     CHECK_STATUS(load_steps(model, 2, loads, N, gap, mu, PAIRS, slip, d, F), 0);
     for (int step = 0; step < 2; step++) {
-        CHECK_STATUS(signorini_solve(2, PAIRS, K, N, loads + step * N, gap, mu, slip_1, NULL, d_1,
-                                     F_1, NULL, NULL), 0);
+        CHECK_STATUS(signorini_solve(2, PAIRS, K, N, loads + step * N, gap, SIGNORINI_LAW_COULOMB,
+                                     mu, slip_1, NULL, d_1, F_1, NULL, NULL, NULL), 0);
         for (int i = 0; i < PAIRS; i++)
             slip_1[i] = d_1[2 * i + 1];
     }
@@ -58,7 +58,8 @@ static void check_contact_iteration(void)
             r[i] -= K[i + N * j] * d[j];
     }
     CHECK_STATUS(contact_iteration(PAIRS, K, r, d, gap, mu, slip, room, c, F), 0);
-    CHECK_STATUS(signorini_solve(2, PAIRS, K, N, f, gap, mu, slip, NULL, wanted, force, NULL, NULL),
+    CHECK_STATUS(signorini_solve(2, PAIRS, K, N, f, gap, SIGNORINI_LAW_COULOMB, mu, slip, NULL,
+                                 wanted, force, NULL, NULL, NULL),
                  0);
     for (int i = 0; i < N; i++)
         c[i] += d[i];

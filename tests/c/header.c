@@ -24,8 +24,9 @@ int main(void)
     report.struct_size = sizeof report;
     if (signorini_settings_default(&settings, sizeof settings) != 0) return 1;
     settings.progress = progress;
-    status = signorini_solve(2, 1, K, 2, f, gap, mu, 0, &settings, d, F, state, &report);
+    status = signorini_solve(2, 1, K, 2, f, gap, SIGNORINI_LAW_COULOMB, mu, 0, &settings, d, F,
+                             state, &report, NULL);
     printf("header: signorini %s, %s, d_t = %g\n", signorini_version(),
            signorini_status_string(status), d[1]);
-    return !(status == SIGNORINI_SOLVED && state[0] == SIGNORINI_SLIP && report.slip == 1);
+    return !(status == SIGNORINI_STATUS_SOLVED && state[0] == SIGNORINI_STATE_SLIP && report.pairs_slipping == 1);
 }

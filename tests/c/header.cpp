@@ -25,9 +25,9 @@ int main()
     settings.progress = on_progress;
     settings.user = &iterations;
     const int32_t status =
-        signorini_solve(2, 1, K.data(), 2, f.data(), gap.data(), mu.data(), nullptr, &settings,
-                        d.data(), F.data(), state.data(), &report);
+        signorini_solve(2, 1, K.data(), 2, f.data(), gap.data(), SIGNORINI_LAW_COULOMB, mu.data(),
+                        nullptr, &settings, d.data(), F.data(), state.data(), &report, NULL);
     std::printf("header: signorini %s, %s, d_t = %g\n", signorini_version(),
                 signorini_status_string(status), d[1]);
-    return !(status == SIGNORINI_SOLVED && state[0] == SIGNORINI_SLIP && iterations >= 0);
+    return !(status == SIGNORINI_STATUS_SOLVED && state[0] == SIGNORINI_STATE_SLIP && iterations >= 0);
 }

@@ -1,5 +1,5 @@
 /*
- * The binary interface, number by number: the structures of version SIGNORINI_ABI_VERSION 1 and the
+ * The binary interface, number by number: the structures of version SIGNORINI_ABI_VERSION 2 and the
  * constants. A number that changes here breaks programs that are already built.
  */
 
@@ -13,40 +13,45 @@
                    "place of " #type "." #field)
 #define VALUE(constant, number) _Static_assert((constant) == (number), "value of " #constant)
 
-VALUE(SIGNORINI_ABI_VERSION, 1);
+VALUE(SIGNORINI_ABI_VERSION, 2);
 
-VALUE(SIGNORINI_SOLVED, 0);
-VALUE(SIGNORINI_ITERATION_LIMIT, 1);
-VALUE(SIGNORINI_TIME_LIMIT, 2);
-VALUE(SIGNORINI_CANCELLED, 3);
-VALUE(SIGNORINI_NO_EQUILIBRIUM, 4);
-VALUE(SIGNORINI_STALLED, 5);
-VALUE(SIGNORINI_NOT_A_SOLUTION, 6);
-VALUE(SIGNORINI_INTERNAL, -1000);
-VALUE(SIGNORINI_OUT_OF_MEMORY, -1001);
+VALUE(SIGNORINI_STATUS_SOLVED, 0);
+VALUE(SIGNORINI_STATUS_ITERATION_LIMIT, 1);
+VALUE(SIGNORINI_STATUS_TIME_LIMIT, 2);
+VALUE(SIGNORINI_STATUS_CANCELLED, 3);
+VALUE(SIGNORINI_STATUS_NO_EQUILIBRIUM, 4);
+VALUE(SIGNORINI_STATUS_STALLED, 5);
+VALUE(SIGNORINI_STATUS_NOT_A_SOLUTION, 6);
+VALUE(SIGNORINI_STATUS_INTERNAL, -1000);
+VALUE(SIGNORINI_STATUS_OUT_OF_MEMORY, -1001);
+VALUE(SIGNORINI_STATUS_FILE, -1002);
+VALUE(SIGNORINI_LAW_FRICTIONLESS, 0);
+VALUE(SIGNORINI_LAW_COULOMB, 1);
+VALUE(SIGNORINI_LAW_TRESCA, 2);
+VALUE(SIGNORINI_PROBLEM_CONTACT, 0);
+VALUE(SIGNORINI_PROBLEM_LCP, 1);
 VALUE(SIGNORINI_METHOD_AUTO, 0);
 VALUE(SIGNORINI_METHOD_SOR_NESTED, 1);
 VALUE(SIGNORINI_METHOD_SOR_DIAGONAL, 2);
 VALUE(SIGNORINI_METHOD_LEMKE, 3);
-VALUE(SIGNORINI_METHOD_PIVOT, 4);
+VALUE(SIGNORINI_METHOD_BLOCK_PIVOTING, 4);
 VALUE(SIGNORINI_METHOD_NEWTON, 5);
 VALUE(SIGNORINI_SEARCH_OFF, 0);
 VALUE(SIGNORINI_SEARCH_OTHERS, 1);
-VALUE(SIGNORINI_SEARCH_RETURN_SECOND, 2);
-VALUE(SIGNORINI_OPEN, 0);
-VALUE(SIGNORINI_SLIP, 1);
-VALUE(SIGNORINI_STICK, 2);
-VALUE(SIGNORINI_NOT_KNOWN, 0);
-VALUE(SIGNORINI_UNIQUE, 1);
-VALUE(SIGNORINI_SEVERAL, 2);
+VALUE(SIGNORINI_STATE_OPEN, 0);
+VALUE(SIGNORINI_STATE_SLIP, 1);
+VALUE(SIGNORINI_STATE_STICK, 2);
+VALUE(SIGNORINI_UNIQUENESS_NOT_KNOWN, 0);
+VALUE(SIGNORINI_UNIQUENESS_UNIQUE, 1);
+VALUE(SIGNORINI_UNIQUENESS_SEVERAL, 2);
 VALUE(SIGNORINI_FALLBACK_NONE, 0);
 VALUE(SIGNORINI_FALLBACK_CYCLE, 1);
 VALUE(SIGNORINI_FALLBACK_SINGULAR, 2);
 VALUE(SIGNORINI_FALLBACK_UNSTABLE, 3);
 VALUE(SIGNORINI_FALLBACK_INACCURATE, 4);
-VALUE(SIGNORINI_LOWER, 0);
-VALUE(SIGNORINI_UPPER, 1);
-VALUE(SIGNORINI_FULL, 2);
+VALUE(SIGNORINI_TRIANGLE_LOWER, 0);
+VALUE(SIGNORINI_TRIANGLE_UPPER, 1);
+VALUE(SIGNORINI_TRIANGLE_FULL, 2);
 
 /* 64-bit pointers, doubles and 64-bit integers aligned to their size. */
 #if defined __LP64__ || defined _WIN64
@@ -85,36 +90,44 @@ FIELD(signorini_report, cone_excess, double, 72);
 FIELD(signorini_report, equilibrium, double, 80);
 FIELD(signorini_report, omega, double, 88);
 FIELD(signorini_report, damping, double, 96);
-FIELD(signorini_report, open, int64_t, 104);
-FIELD(signorini_report, slip, int64_t, 112);
-FIELD(signorini_report, stick, int64_t, 120);
+FIELD(signorini_report, pairs_open, int64_t, 104);
+FIELD(signorini_report, pairs_slipping, int64_t, 112);
+FIELD(signorini_report, pairs_sticking, int64_t, 120);
 FIELD(signorini_report, factorisations, int64_t, 128);
 FIELD(signorini_report, first_method, int32_t, 136);
 FIELD(signorini_report, fallback, int32_t, 140);
 FIELD(signorini_report, orientation, int32_t, 144);
-FIELD(signorini_report, reserved, int32_t, 148);
+FIELD(signorini_report, second, int32_t, 148);
 
 SIZE(signorini_sparse, 56);
 FIELD(signorini_sparse, struct_size, uint32_t, 0);
 FIELD(signorini_sparse, index_bytes, int32_t, 4);
-FIELD(signorini_sparse, base, int32_t, 8);
+FIELD(signorini_sparse, index_base, int32_t, 8);
 FIELD(signorini_sparse, triangle, int32_t, 12);
 FIELD(signorini_sparse, size, int64_t, 16);
-FIELD(signorini_sparse, entries, int64_t, 24);
-FIELD(signorini_sparse, starts, void *, 32);
-FIELD(signorini_sparse, rows, void *, 40);
+FIELD(signorini_sparse, nnz, int64_t, 24);
+FIELD(signorini_sparse, col_start, void *, 32);
+FIELD(signorini_sparse, row, void *, 40);
 FIELD(signorini_sparse, values, double *, 48);
 
 SIZE(signorini_pairs, 64);
 FIELD(signorini_pairs, struct_size, uint32_t, 0);
 FIELD(signorini_pairs, dim, int32_t, 4);
-FIELD(signorini_pairs, pairs, int64_t, 8);
+FIELD(signorini_pairs, count, int64_t, 8);
 FIELD(signorini_pairs, slaves, int64_t *, 16);
-FIELD(signorini_pairs, master_starts, int64_t *, 24);
+FIELD(signorini_pairs, master_start, int64_t *, 24);
 FIELD(signorini_pairs, masters, int64_t *, 32);
 FIELD(signorini_pairs, weights, double *, 40);
 FIELD(signorini_pairs, normals, double *, 48);
 FIELD(signorini_pairs, tangents, double *, 56);
+
+SIZE(signorini_extra, 40);
+FIELD(signorini_extra, struct_size, uint32_t, 0);
+FIELD(signorini_extra, reserved, int32_t, 4);
+FIELD(signorini_extra, motion, double *, 8);
+FIELD(signorini_extra, second_d, double *, 16);
+FIELD(signorini_extra, second_F, double *, 24);
+FIELD(signorini_extra, second_state, int32_t *, 32);
 
 #endif
 
@@ -138,6 +151,15 @@ int main(void)
     CHECK(settings.user == NULL);
     /* No larger structure is known to it. */
     CHECK_STATUS(signorini_settings_default(&settings, sizeof settings + 8), -2);
+    signorini_extra extra;
+    memset(&extra, 0xFF, sizeof extra);
+    CHECK_STATUS(signorini_extra_default(&extra, sizeof extra), 0);
+    CHECK(extra.struct_size == sizeof extra && extra.reserved == 0 && extra.motion == NULL);
+    CHECK(extra.second_d == NULL && extra.second_F == NULL && extra.second_state == NULL);
+    signorini_report blank, zeros = {.struct_size = sizeof zeros};
+    memset(&blank, 0xFF, sizeof blank);
+    CHECK_STATUS(signorini_report_default(&blank, sizeof blank), 0);
+    CHECK(memcmp(&blank, &zeros, sizeof blank) == 0);
 
     /* One pair slides by 1 and one is open, in one sweep with factor 1. */
     const double K[16] = {5, [5] = 3, [10] = 1, [15] = 1}, f[4] = {10, 8, -1, 0};
@@ -150,8 +172,9 @@ int main(void)
     settings.omega = 1;
     settings.damping = 0.75;
     settings.tolerance = 1e-12;
-    CHECK_STATUS(signorini_solve(2, 2, K, 4, f, gap, mu, NULL, &settings, d, F, NULL, &report), 0);
-    CHECK(report.struct_size == sizeof report && report.status == 0 && report.reserved == 0);
+    CHECK_STATUS(signorini_solve(2, 2, K, 4, f, gap, SIGNORINI_LAW_COULOMB, mu, NULL, &settings, d,
+                                 F, NULL, &report, NULL), 0);
+    CHECK(report.struct_size == sizeof report && report.status == 0 && report.second == 0);
     CHECK(report.method == SIGNORINI_METHOD_SOR_NESTED);
     CHECK(report.iterations >= 1 && report.iterations <= 1000);
     CHECK(report.outer_iterations >= 1 && report.outer_iterations <= report.iterations);
@@ -162,23 +185,24 @@ int main(void)
     CHECK(report.cone_excess >= 0 && report.cone_excess < 1e-10);
     CHECK(report.equilibrium >= 0 && report.equilibrium < 1e-10);
     CHECK(report.omega == 1 && report.damping == 0.75);
-    CHECK(report.open == 1 && report.slip == 1 && report.stick == 0);
+    CHECK(report.pairs_open == 1 && report.pairs_slipping == 1 && report.pairs_sticking == 0);
     CHECK(report.factorisations == 0);
     CHECK(report.first_method == SIGNORINI_METHOD_SOR_NESTED);
     CHECK(report.fallback == SIGNORINI_FALLBACK_NONE);
-    CHECK(report.uniqueness == SIGNORINI_NOT_KNOWN && report.orientation == 0);
+    CHECK(report.uniqueness == SIGNORINI_UNIQUENESS_NOT_KNOWN && report.orientation == 0);
 
     /* By Newton's method; without coupling every determinant is a product of positive entries. */
     memset(&report, 0xFF, sizeof report);
     report.struct_size = sizeof report;
     settings.method = SIGNORINI_METHOD_NEWTON;
-    CHECK_STATUS(signorini_solve(2, 2, K, 4, f, gap, mu, NULL, &settings, d, F, NULL, &report), 0);
-    CHECK(report.method == SIGNORINI_METHOD_NEWTON && report.reserved == 0);
+    CHECK_STATUS(signorini_solve(2, 2, K, 4, f, gap, SIGNORINI_LAW_COULOMB, mu, NULL, &settings, d,
+                                 F, NULL, &report, NULL), 0);
+    CHECK(report.method == SIGNORINI_METHOD_NEWTON && report.second == 0);
     CHECK(report.first_method == SIGNORINI_METHOD_NEWTON);
     CHECK(report.fallback == SIGNORINI_FALLBACK_NONE);
     CHECK(report.iterations >= 1 && report.iterations <= 10);
     CHECK(report.factorisations >= 1 && report.factorisations <= report.iterations);
-    CHECK(report.orientation == 1 && report.uniqueness != SIGNORINI_SEVERAL);
+    CHECK(report.orientation == 1 && report.uniqueness != SIGNORINI_UNIQUENESS_SEVERAL);
     CHECK(report.omega == 0 && report.damping == 0 && report.outer_iterations == 0);
     return check_summary("layout");
 }

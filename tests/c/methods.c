@@ -12,7 +12,7 @@
 enum {
     AUTO = SIGNORINI_METHOD_AUTO,
     LEMKE = SIGNORINI_METHOD_LEMKE,
-    PIVOT = SIGNORINI_METHOD_PIVOT,
+    PIVOT = SIGNORINI_METHOD_BLOCK_PIVOTING,
     NEWTON = SIGNORINI_METHOD_NEWTON
 };
 
@@ -42,7 +42,7 @@ static signorini_report blank_report(void)
 static const double klarbring_K[] = {2, 1, 1, 1}, klarbring_f[] = {1, 1.5}, touching[] = {0};
 static const double known_d[3][2] = {{0, 0}, {0, 0.5}, {-0.5, 2}};
 static const double known_F[3][2] = {{-1, -1.5}, {-0.5, -1}, {0, 0}};
-static const int32_t known_state[] = {SIGNORINI_STICK, SIGNORINI_SLIP, SIGNORINI_OPEN};
+static const int32_t known_state[] = {SIGNORINI_STATE_STICK, SIGNORINI_STATE_SLIP, SIGNORINI_STATE_OPEN};
 
 /* Which of the three an answer is, to 1e-9; checks its forces and state. */
 static int which(const double *d, const double *F, int32_t state)
@@ -64,10 +64,10 @@ static int klarbring(double mu, const signorini_settings *settings, double *d,
     double F[2];
     int32_t state;
     *report = blank_report();
-    CHECK_STATUS(signorini_solve(2, 1, klarbring_K, 2, klarbring_f, touching, &mu, NULL, settings,
-                                 d, F, &state, report),
-                 SIGNORINI_SOLVED);
-    CHECK(report->eta <= 1e-10 && report->reserved == 0);
+    CHECK_STATUS(signorini_solve(2, 1, klarbring_K, 2, klarbring_f, touching, SIGNORINI_LAW_COULOMB,
+                                 &mu, NULL, settings, d, F, &state, report, NULL),
+                 SIGNORINI_STATUS_SOLVED);
+    CHECK(report->eta <= 1e-10 && report->second == 0);
     return mu > 1 ? which(d, F, state) : -1;
 }
 
@@ -80,21 +80,21 @@ static void the_second_solution_is_returned_if_it_is_asked_for(void)
         double d[2];
         settings.search = SIGNORINI_SEARCH_OTHERS;
         const int first = klarbring(2, &settings, d, &report);
-        CHECK(report.uniqueness == SIGNORINI_SEVERAL);
+        CHECK(report.uniqueness == SIGNORINI_UNIQUENESS_SEVERAL);
         CHECK(report.orientation == 0 || report.orientation == (first == 1 ? -1 : 1));
         settings.search = SIGNORINI_SEARCH_RETURN_SECOND;
         const int second = klarbring(2, &settings, d, &report);
-        CHECK(report.uniqueness == SIGNORINI_SEVERAL);
+        CHECK(report.uniqueness == SIGNORINI_UNIQUENESS_SEVERAL);
         CHECK(report.orientation == 0 || report.orientation == (second == 1 ? -1 : 1));
         CHECK(first != second);
         /* Where there is no second one, the first stays. */
         double only[2], same[2];
         settings.search = SIGNORINI_SEARCH_OTHERS;
         klarbring(0.4, &settings, only, &report);
-        CHECK(report.uniqueness == SIGNORINI_UNIQUE);
+        CHECK(report.uniqueness == SIGNORINI_UNIQUENESS_UNIQUE);
         settings.search = SIGNORINI_SEARCH_RETURN_SECOND;
         klarbring(0.4, &settings, same, &report);
-        CHECK(report.uniqueness == SIGNORINI_UNIQUE);
+        CHECK(report.uniqueness == SIGNORINI_UNIQUENESS_UNIQUE);
         CHECK(memcmp(only, same, sizeof only) == 0);
     }
 }
@@ -108,7 +108,7 @@ static void an_unstable_solution_is_known_by_its_orientation(void)
         double d[2] = {known_d[i][0], known_d[i][1]};
         CHECK(klarbring(2, &settings, d, &report) == i);
         CHECK(report.orientation == (i == 1 ? -1 : 1));
-        CHECK(i != 1 || report.uniqueness == SIGNORINI_SEVERAL);
+        CHECK(i != 1 || report.uniqueness == SIGNORINI_UNIQUENESS_SEVERAL);
         CHECK(report.method == NEWTON && report.first_method == NEWTON);
         CHECK(report.fallback == SIGNORINI_FALLBACK_NONE);
     }
@@ -117,7 +117,7 @@ static void an_unstable_solution_is_known_by_its_orientation(void)
     double d[2] = {known_d[1][0], known_d[1][1]};
     CHECK(klarbring(2, &settings, d, &report) != 1);
     CHECK(report.first_method == NEWTON && report.fallback == SIGNORINI_FALLBACK_UNSTABLE);
-    CHECK(report.orientation == 1 && report.uniqueness == SIGNORINI_SEVERAL);
+    CHECK(report.orientation == 1 && report.uniqueness == SIGNORINI_UNIQUENESS_SEVERAL);
 }
 
 /* ---- the default ---- */
@@ -129,12 +129,12 @@ static void the_default_says_what_it_chose(void)
             chain c = chain_new(dim, 12, 0.5, 9);
             for (int64_t i = 0; i < c.pairs; i++) c.mu[i] *= friction;
             signorini_report report = blank_report();
-            CHECK_STATUS(signorini_solve(dim, c.pairs, c.K, c.n, c.f, c.gap, c.mu, NULL, NULL, c.d,
-                                         c.F, c.state, &report),
-                         SIGNORINI_SOLVED);
+            CHECK_STATUS(signorini_solve(dim, c.pairs, c.K, c.n, c.f, c.gap, SIGNORINI_LAW_COULOMB,
+                                         c.mu, NULL, NULL, c.d, c.F, c.state, &report, NULL),
+                         SIGNORINI_STATUS_SOLVED);
             CHECK(report.method > AUTO && report.method <= NEWTON);
             /* What the header says of it. */
-            const int32_t first = !friction  ? SIGNORINI_METHOD_PIVOT
+            const int32_t first = !friction  ? SIGNORINI_METHOD_BLOCK_PIVOTING
                                   : dim == 2 ? SIGNORINI_METHOD_NEWTON
                                              : SIGNORINI_METHOD_SOR_NESTED;
             CHECK(report.first_method == first);
@@ -155,24 +155,26 @@ static void displacements_of_any_origin_are_measured(void)
     double F[4];
     int32_t state[2];
     signorini_report report = blank_report();
-    CHECK_STATUS(signorini_certify(2, 2, K, 4, f, gap, mu, NULL, 1e-15, d, F, state, &report),
-                 SIGNORINI_SOLVED);
+    CHECK_STATUS(signorini_certify(2, 2, K, 4, f, gap, SIGNORINI_LAW_COULOMB, mu, NULL, 1e-15, d, F,
+                                   state, &report),
+                 SIGNORINI_STATUS_SOLVED);
     CHECK(signorini_last_error()[0] == '\0');
-    CHECK(report.status == SIGNORINI_SOLVED && report.eta == 0 && report.struct_size == sizeof report);
-    CHECK(report.open == 1 && report.slip == 1 && report.stick == 0);
-    CHECK(state[0] == SIGNORINI_SLIP && state[1] == SIGNORINI_OPEN);
+    CHECK(report.status == SIGNORINI_STATUS_SOLVED && report.eta == 0 && report.struct_size == sizeof report);
+    CHECK(report.pairs_open == 1 && report.pairs_slipping == 1 && report.pairs_sticking == 0);
+    CHECK(state[0] == SIGNORINI_STATE_SLIP && state[1] == SIGNORINI_STATE_OPEN);
     CHECK(F[0] == -10 && F[1] == -5 && F[2] == 0 && F[3] == 0);
-    CHECK(report.iterations == 0 && report.factorisations == 0 && report.reserved == 0);
-    CHECK(report.uniqueness == SIGNORINI_NOT_KNOWN && report.orientation == 0);
+    CHECK(report.iterations == 0 && report.factorisations == 0 && report.second == 0);
+    CHECK(report.uniqueness == SIGNORINI_UNIQUENESS_NOT_KNOWN && report.orientation == 0);
 
     /* 0.25 into the obstacle, pulled at by 5 * 0.25 too little, and not slid far enough. */
     const double off[4] = {0.25, 0.5, -1, 0};
     report = blank_report();
-    CHECK_STATUS(signorini_certify(2, 2, K, 4, f, gap, mu, NULL, 0.1, off, F, state, &report),
-                 SIGNORINI_NOT_A_SOLUTION);
+    CHECK_STATUS(signorini_certify(2, 2, K, 4, f, gap, SIGNORINI_LAW_COULOMB, mu, NULL, 0.1, off, F,
+                                   state, &report),
+                 SIGNORINI_STATUS_NOT_A_SOLUTION);
     CHECK_TEXT(signorini_last_error(), "not a solution");
     CHECK_TEXT(signorini_last_error(), "eta is");
-    CHECK(report.status == SIGNORINI_NOT_A_SOLUTION);
+    CHECK(report.status == SIGNORINI_STATUS_NOT_A_SOLUTION);
     CHECK_NEAR(report.penetration, 0.25);
     /* K d - f = (-8.75, -6.5): 6.5 against 0.5 * 8.75. */
     CHECK_NEAR(report.cone_excess, 6.5 - 4.375);
@@ -185,23 +187,27 @@ static void displacements_of_any_origin_are_measured(void)
     /* Pulled. */
     const double pulled[4] = {3, 1, -1, 0}, far_gap[2] = {3, 0.5};
     report = blank_report();
-    CHECK_STATUS(signorini_certify(2, 2, K, 4, f, far_gap, mu, NULL, 0.1, pulled, NULL, NULL,
-                                   &report),
-                 SIGNORINI_NOT_A_SOLUTION);
+    CHECK_STATUS(signorini_certify(2, 2, K, 4, f, far_gap, SIGNORINI_LAW_COULOMB, mu, NULL, 0.1,
+                                   pulled, NULL, NULL, &report),
+                 SIGNORINI_STATUS_NOT_A_SOLUTION);
     CHECK_NEAR(report.tension, 5);
     /* What is not wanted may be NULL, and inputs may be one array. */
-    CHECK_STATUS(signorini_certify(2, 2, K, 4, f, gap, mu, NULL, 1e-10, d, NULL, NULL, NULL), 0);
-    CHECK_STATUS(signorini_certify(2, 2, K, 4, f, f, mu, NULL, 1e-10, f, NULL, NULL, NULL),
-                 SIGNORINI_NOT_A_SOLUTION);
-    CHECK_STATUS(signorini_certify(2, 0, NULL, 1, NULL, NULL, NULL, NULL, 0.1, NULL, NULL, NULL,
-                                   NULL),
-                 SIGNORINI_SOLVED);
+    CHECK_STATUS(signorini_certify(2, 2, K, 4, f, gap, SIGNORINI_LAW_COULOMB, mu, NULL, 1e-10, d,
+                                   NULL, NULL, NULL), 0);
+    CHECK_STATUS(signorini_certify(2, 2, K, 4, f, f, SIGNORINI_LAW_COULOMB, mu, NULL, 1e-10, f,
+                                   NULL, NULL, NULL),
+                 SIGNORINI_STATUS_NOT_A_SOLUTION);
+    CHECK_STATUS(signorini_certify(2, 0, NULL, 1, NULL, NULL, SIGNORINI_LAW_COULOMB, NULL, NULL,
+                                   0.1, NULL, NULL, NULL, NULL),
+                 SIGNORINI_STATUS_SOLVED);
     /* The tolerance decides. */
     const double near_it[4] = {0, 1 + 1e-6, -1, 0};
-    CHECK_STATUS(signorini_certify(2, 2, K, 4, f, gap, mu, NULL, 1e-5, near_it, NULL, NULL, NULL),
-                 SIGNORINI_SOLVED);
-    CHECK_STATUS(signorini_certify(2, 2, K, 4, f, gap, mu, NULL, 1e-8, near_it, NULL, NULL, NULL),
-                 SIGNORINI_NOT_A_SOLUTION);
+    CHECK_STATUS(signorini_certify(2, 2, K, 4, f, gap, SIGNORINI_LAW_COULOMB, mu, NULL, 1e-5,
+                                   near_it, NULL, NULL, NULL),
+                 SIGNORINI_STATUS_SOLVED);
+    CHECK_STATUS(signorini_certify(2, 2, K, 4, f, gap, SIGNORINI_LAW_COULOMB, mu, NULL, 1e-8,
+                                   near_it, NULL, NULL, NULL),
+                 SIGNORINI_STATUS_NOT_A_SOLUTION);
 }
 
 static void what_is_solved_is_certified(void)
@@ -213,16 +219,16 @@ static void what_is_solved_is_certified(void)
         for (int64_t i = 0; i < (dim - 1) * c.pairs; i++) slip[i] = 0.1 * chain_draw(&seed);
         int32_t state[15];
         signorini_report solved = blank_report(), measured = blank_report();
-        CHECK_STATUS(signorini_solve(dim, c.pairs, c.K, c.n, c.f, c.gap, c.mu, slip, NULL, c.d, c.F,
-                                     c.state, &solved),
-                     SIGNORINI_SOLVED);
-        CHECK_STATUS(signorini_certify(dim, c.pairs, c.K, c.n, c.f, c.gap, c.mu, slip, 1e-10, c.d,
-                                       F, state, &measured),
-                     SIGNORINI_SOLVED);
+        CHECK_STATUS(signorini_solve(dim, c.pairs, c.K, c.n, c.f, c.gap, SIGNORINI_LAW_COULOMB,
+                                     c.mu, slip, NULL, c.d, c.F, c.state, &solved, NULL),
+                     SIGNORINI_STATUS_SOLVED);
+        CHECK_STATUS(signorini_certify(dim, c.pairs, c.K, c.n, c.f, c.gap, SIGNORINI_LAW_COULOMB,
+                                       c.mu, slip, 1e-10, c.d, F, state, &measured),
+                     SIGNORINI_STATUS_SOLVED);
         CHECK(measured.eta == solved.eta && measured.rounding == solved.rounding);
         CHECK(measured.penetration == solved.penetration && measured.tension == solved.tension);
         CHECK(measured.equilibrium == solved.equilibrium);
-        CHECK(measured.open == solved.open && measured.slip == solved.slip);
+        CHECK(measured.pairs_open == solved.pairs_open && measured.pairs_slipping == solved.pairs_slipping);
         CHECK(memcmp(F, c.F, (size_t)c.n * sizeof *F) == 0);
         CHECK(memcmp(state, c.state, sizeof state) == 0);
         free(F);
@@ -238,13 +244,13 @@ static int32_t lcp(int32_t method, int64_t n, const double *M, const double *q, 
     const signorini_settings settings = settings_for(method);
     signorini_report report = blank_report();
     const int32_t status =
-        signorini_lcp_solve(n, M, n > 1 ? n : 1, q, &settings, w, z, &report);
+        signorini_lcp_solve(n, M, n > 1 ? n : 1, q, &settings, w, z, NULL, &report);
     CHECK_STATUS(report.status, status);
     CHECK(method == AUTO ? report.method == PIVOT || report.method == LEMKE
                          : report.method == method);
-    CHECK(report.reserved == 0 && report.orientation == 0);
-    CHECK(report.uniqueness == SIGNORINI_NOT_KNOWN);
-    CHECK((status == SIGNORINI_SOLVED) == (signorini_last_error()[0] == '\0'));
+    CHECK(report.second == 0 && report.orientation == 0);
+    CHECK(report.uniqueness == SIGNORINI_UNIQUENESS_NOT_KNOWN);
+    CHECK((status == SIGNORINI_STATUS_SOLVED) == (signorini_last_error()[0] == '\0'));
     return status;
 }
 
@@ -255,19 +261,19 @@ static void bare_problems_in_closed_form(void)
     const double identity[] = {1, 0, 0, 1}, P[] = {1, 0, 0, -4, 1, 0, 0, -4, 1}, q3[] = {1, -1, -2};
     double w[3], z[3];
     for (int i = 0; i < 3; i++) {
-        CHECK_STATUS(lcp(methods[i], 2, M, q, w, z), SIGNORINI_SOLVED);
+        CHECK_STATUS(lcp(methods[i], 2, M, q, w, z), SIGNORINI_STATUS_SOLVED);
         CHECK_NEAR(z[0], 4.0 / 3);
         CHECK_NEAR(z[1], 7.0 / 3);
         CHECK(w[0] == 0 && w[1] == 0);
-        CHECK_STATUS(lcp(methods[i], 2, identity, mixed, w, z), SIGNORINI_SOLVED);
+        CHECK_STATUS(lcp(methods[i], 2, identity, mixed, w, z), SIGNORINI_STATUS_SOLVED);
         CHECK_NEAR(z[0], 1);
         CHECK_NEAR(w[1], 2);
         CHECK(w[0] == 0 && z[1] == 0);
-        CHECK_STATUS(lcp(methods[i], 2, M, plenty, w, z), SIGNORINI_SOLVED);
+        CHECK_STATUS(lcp(methods[i], 2, M, plenty, w, z), SIGNORINI_STATUS_SOLVED);
         CHECK(z[0] == 0 && z[1] == 0 && w[0] == 3 && w[1] == 0);
-        CHECK_STATUS(lcp(methods[i], 0, NULL, NULL, NULL, NULL), SIGNORINI_SOLVED);
+        CHECK_STATUS(lcp(methods[i], 0, NULL, NULL, NULL, NULL), SIGNORINI_STATUS_SOLVED);
         /* A P-matrix that is neither symmetric nor positive definite. */
-        CHECK_STATUS(lcp(methods[i], 3, P, q3, w, z), SIGNORINI_SOLVED);
+        CHECK_STATUS(lcp(methods[i], 3, P, q3, w, z), SIGNORINI_STATUS_SOLVED);
         for (int j = 0; j < 3; j++) {
             CHECK(z[j] >= 0 && w[j] >= 0 && z[j] * w[j] == 0);
             CHECK_NEAR(q3[j] + P[j] * z[0] + P[j + 3] * z[1] + P[j + 6] * z[2] - w[j], 0);
@@ -275,7 +281,7 @@ static void bare_problems_in_closed_form(void)
     }
     /* Padding is not looked at; what is not wanted may be NULL. */
     const double padded[] = {2, 1, NAN, NAN, 1, 2};
-    CHECK_STATUS(signorini_lcp_solve(2, padded, 4, q, NULL, w, z, NULL), SIGNORINI_SOLVED);
+    CHECK_STATUS(signorini_lcp_solve(2, padded, 4, q, NULL, w, z, NULL, NULL), SIGNORINI_STATUS_SOLVED);
     CHECK_NEAR(z[1], 7.0 / 3);
 }
 
@@ -285,7 +291,7 @@ static void bare_problems_without_solution(void)
     const double skew[] = {0, 1, -1, 0}, q[] = {-1, 3};
     double w[2], z[2];
     for (int32_t method = AUTO; method <= LEMKE; method += LEMKE) {
-        CHECK_STATUS(lcp(method, 2, skew, q, w, z), SIGNORINI_NO_EQUILIBRIUM);
+        CHECK_STATUS(lcp(method, 2, skew, q, w, z), SIGNORINI_STATUS_NO_EQUILIBRIUM);
         CHECK(z[0] >= 0 && z[1] >= 0);
         CHECK(skew[0] * z[0] + skew[1] * z[1] <= 1e-12);
         CHECK(skew[2] * z[0] + skew[3] * z[1] <= 1e-12);
@@ -314,8 +320,8 @@ static void budgets_of_bare_problems(void)
         signorini_report report = blank_report();
         settings.progress = cancel;
         settings.user = &calls;
-        CHECK_STATUS(signorini_lcp_solve(2, M, 2, q, &settings, w, z, &report),
-                     SIGNORINI_CANCELLED);
+        CHECK_STATUS(signorini_lcp_solve(2, M, 2, q, &settings, w, z, NULL, &report),
+                     SIGNORINI_STATUS_CANCELLED);
         CHECK(calls == 1 && report.iterations == 0);
         CHECK(w[0] >= 0 && w[1] >= 0 && z[0] >= 0 && z[1] >= 0);
         CHECK_TEXT(signorini_last_error(), "cancelled");

@@ -48,7 +48,8 @@ static int files(void)
 
 static int32_t save(const char *name, const char *remark)
 {
-    return signorini_problem_save(in_folder(name), 2, 2, K, 4, f, gap, mu, slip, remark);
+    return signorini_problem_write(in_folder(name), 2, 2, K, 4, f, gap, SIGNORINI_LAW_COULOMB, mu,
+                                   slip, remark);
 }
 
 static int same(const double *a, const double *b, size_t count)
@@ -62,41 +63,42 @@ static void kinds(void)
     const double cover[4] = {1, 2, 3, 4};
 
     CHECK_STATUS(save("coulomb", "M\xC3\xBCller's crane"), 0);
-    CHECK_STATUS(signorini_problem_load(path, &problem), 0);
+    CHECK_STATUS(signorini_problem_read(path, &problem), 0);
     CHECK(signorini_problem_kind(problem) == SIGNORINI_PROBLEM_COULOMB);
     CHECK(signorini_problem_dim(problem) == 2 && signorini_problem_pairs(problem) == 2);
     CHECK(signorini_problem_size(problem) == 4);
     CHECK(same(signorini_problem_matrix(problem), K, 16));
-    CHECK(same(signorini_problem_vector(problem), f, 4));
+    CHECK(same(signorini_problem_rhs(problem), f, 4));
     CHECK(same(signorini_problem_gap(problem), gap, 2));
     CHECK(same(signorini_problem_friction(problem), mu, 2));
-    CHECK(same(signorini_problem_slip(problem), slip, 2));
+    CHECK(same(signorini_problem_slip0(problem), slip, 2));
     CHECK(signorini_problem_cover(problem) == NULL);
     CHECK(strcmp(signorini_problem_remark(problem), "M\xC3\xBCller's crane") == 0);
     signorini_problem_free(problem);
 
-    CHECK_STATUS(signorini_tresca_save(in_folder("tresca"), 2, 2, K, 4, f, gap, mu, NULL, NULL), 0);
-    CHECK_STATUS(signorini_problem_load(path, &problem), 0);
+    CHECK_STATUS(signorini_problem_write(in_folder("tresca"), 2, 2, K, 4, f, gap,
+                                         SIGNORINI_LAW_TRESCA, mu, NULL, NULL), 0);
+    CHECK_STATUS(signorini_problem_read(path, &problem), 0);
     CHECK(signorini_problem_kind(problem) == SIGNORINI_PROBLEM_TRESCA);
     CHECK(same(signorini_problem_friction(problem), mu, 2));
-    CHECK(signorini_problem_slip(problem)[0] == 0 && signorini_problem_slip(problem)[1] == 0);
+    CHECK(signorini_problem_slip0(problem)[0] == 0 && signorini_problem_slip0(problem)[1] == 0);
     CHECK(signorini_problem_remark(problem)[0] == '\0');
     signorini_problem_free(problem);
 
-    CHECK_STATUS(signorini_lcp_save(in_folder("lcp"), 4, K, 4, f, cover, "bare"), 0);
-    CHECK_STATUS(signorini_problem_load(path, &problem), 0);
+    CHECK_STATUS(signorini_lcp_write(in_folder("lcp"), 4, K, 4, f, cover, "bare"), 0);
+    CHECK_STATUS(signorini_problem_read(path, &problem), 0);
     CHECK(signorini_problem_kind(problem) == SIGNORINI_PROBLEM_LCP);
     CHECK(signorini_problem_dim(problem) == 0 && signorini_problem_pairs(problem) == 0);
     CHECK(signorini_problem_size(problem) == 4);
     CHECK(same(signorini_problem_matrix(problem), K, 16));
-    CHECK(same(signorini_problem_vector(problem), f, 4));
+    CHECK(same(signorini_problem_rhs(problem), f, 4));
     CHECK(same(signorini_problem_cover(problem), cover, 4));
-    CHECK(signorini_problem_gap(problem) == NULL && signorini_problem_slip(problem) == NULL);
+    CHECK(signorini_problem_gap(problem) == NULL && signorini_problem_slip0(problem) == NULL);
     signorini_problem_free(problem);
 
-    CHECK_STATUS(signorini_problem_save(in_folder("empty"), 3, 0, NULL, 1, NULL, NULL, NULL, NULL,
-                                        ""), 0);
-    CHECK_STATUS(signorini_problem_load(path, &problem), 0);
+    CHECK_STATUS(signorini_problem_write(in_folder("empty"), 3, 0, NULL, 1, NULL, NULL,
+                                         SIGNORINI_LAW_COULOMB, NULL, NULL, ""), 0);
+    CHECK_STATUS(signorini_problem_read(path, &problem), 0);
     CHECK(signorini_problem_dim(problem) == 3 && signorini_problem_size(problem) == 0);
     CHECK(signorini_problem_matrix(problem) == NULL);
     signorini_problem_free(problem);
@@ -110,26 +112,32 @@ static void model_case(void)
     double d[4], F[4], d_again[4], F_again[4];
 
     CHECK_STATUS(signorini_model_new_condensed(2, 2, K, 4, &model), 0);
-    CHECK_STATUS(signorini_model_solve(model, 1, f, NULL, gap, mu, slip, NULL, d, F, NULL, NULL,
-                                       NULL), 0);
-    CHECK_STATUS(signorini_model_save_case(model, in_folder("case"), f, NULL, gap, mu, slip,
-                                           "step 1"), 0);
-    CHECK_STATUS(signorini_problem_load(path, &problem), 0);
+    CHECK_STATUS(signorini_model_solve(model, 1, f, NULL, gap, SIGNORINI_LAW_COULOMB, mu, slip,
+                                       NULL, d, F, NULL, NULL, NULL, NULL), 0);
+    CHECK_STATUS(signorini_model_write(model, in_folder("case"), f, NULL, gap,
+                                       SIGNORINI_LAW_COULOMB, mu, slip, "step 1"), 0);
+    CHECK_STATUS(signorini_problem_read(path, &problem), 0);
     CHECK_STATUS(signorini_solve(signorini_problem_dim(problem), signorini_problem_pairs(problem),
                                  signorini_problem_matrix(problem), 4,
-                                 signorini_problem_vector(problem), signorini_problem_gap(problem),
-                                 signorini_problem_friction(problem),
-                                 signorini_problem_slip(problem), NULL, d_again, F_again, NULL,
-                                 NULL), 0);
+                                 signorini_problem_rhs(problem), signorini_problem_gap(problem),
+                                 SIGNORINI_LAW_COULOMB, signorini_problem_friction(problem),
+                                 signorini_problem_slip0(problem), NULL, d_again, F_again, NULL,
+                                 NULL, NULL), 0);
     CHECK(same(d_again, d, 4) && same(F_again, F, 4));
     signorini_problem_free(problem);
 
-    CHECK_STATUS(signorini_model_save_case(NULL, path, f, NULL, gap, mu, NULL, NULL), -1);
-    CHECK_STATUS(signorini_model_save_case(model, NULL, f, NULL, gap, mu, NULL, NULL), -2);
-    CHECK_STATUS(signorini_model_save_case(model, path, NULL, NULL, gap, mu, NULL, NULL), -3);
-    CHECK_STATUS(signorini_model_save_case(model, path, f, NULL, NULL, mu, NULL, NULL), -5);
-    CHECK_STATUS(signorini_model_save_case(model, path, f, NULL, gap, NULL, NULL, NULL), -6);
-    CHECK_STATUS(signorini_model_save_case(model, path, f, NULL, gap, mu, NULL, "\xFF"), -8);
+    CHECK_STATUS(signorini_model_write(NULL, path, f, NULL, gap, SIGNORINI_LAW_COULOMB, mu, NULL,
+                                       NULL), -1);
+    CHECK_STATUS(signorini_model_write(model, NULL, f, NULL, gap, SIGNORINI_LAW_COULOMB, mu, NULL,
+                                       NULL), -2);
+    CHECK_STATUS(signorini_model_write(model, path, NULL, NULL, gap, SIGNORINI_LAW_COULOMB, mu,
+                                       NULL, NULL), -3);
+    CHECK_STATUS(signorini_model_write(model, path, f, NULL, NULL, SIGNORINI_LAW_COULOMB, mu, NULL,
+                                       NULL), -5);
+    CHECK_STATUS(signorini_model_write(model, path, f, NULL, gap, SIGNORINI_LAW_COULOMB, NULL, NULL,
+                                       NULL), -6);
+    CHECK_STATUS(signorini_model_write(model, path, f, NULL, gap, SIGNORINI_LAW_COULOMB, mu, NULL,
+                                       "\xFF"), -8);
     signorini_model_free(model);
 }
 
@@ -145,40 +153,52 @@ static void bad_arguments(void)
         CHECK_STATUS(call, status);                                                               \
         CHECK_TEXT(signorini_last_error(), part);                                                 \
     } while (0)
-    BAD(-1, "path is NULL", signorini_problem_save(NULL, 2, 2, K, 4, f, gap, mu, slip, NULL));
-    BAD(-1, "path is empty", signorini_problem_save("", 2, 2, K, 4, f, gap, mu, slip, NULL));
-    BAD(-2, "dim is 4", signorini_problem_save(p, 4, 2, K, 4, f, gap, mu, slip, NULL));
-    BAD(-3, "pairs is -1", signorini_problem_save(p, 2, -1, K, 4, f, gap, mu, slip, NULL));
-    BAD(-4, "K is NULL", signorini_problem_save(p, 2, 2, NULL, 4, f, gap, mu, slip, NULL));
+    BAD(-1, "path is NULL", signorini_problem_write(NULL, 2, 2, K, 4, f, gap, SIGNORINI_LAW_COULOMB,
+                                                    mu, slip, NULL));
+    BAD(-1, "path is empty", signorini_problem_write("", 2, 2, K, 4, f, gap, SIGNORINI_LAW_COULOMB,
+                                                     mu, slip, NULL));
+    BAD(-2, "dim is 4", signorini_problem_write(p, 4, 2, K, 4, f, gap, SIGNORINI_LAW_COULOMB, mu,
+                                                slip, NULL));
+    BAD(-3, "pairs is -1", signorini_problem_write(p, 2, -1, K, 4, f, gap, SIGNORINI_LAW_COULOMB,
+                                                   mu, slip, NULL));
+    BAD(-4, "K is NULL", signorini_problem_write(p, 2, 2, NULL, 4, f, gap, SIGNORINI_LAW_COULOMB,
+                                                 mu, slip, NULL));
     BAD(-4, "K[1,1] is not finite",
-        signorini_problem_save(p, 2, 2, nan, 4, f, gap, mu, slip, NULL));
-    BAD(-5, "leading dimension", signorini_problem_save(p, 2, 2, K, 3, f, gap, mu, slip, NULL));
-    BAD(-6, "f is NULL", signorini_problem_save(p, 2, 2, K, 4, NULL, gap, mu, slip, NULL));
-    BAD(-7, "gap is NULL", signorini_problem_save(p, 2, 2, K, 4, f, NULL, mu, slip, NULL));
-    BAD(-8, "mu is NULL", signorini_problem_save(p, 2, 2, K, 4, f, gap, NULL, slip, NULL));
-    BAD(-8, "g is NULL", signorini_tresca_save(p, 2, 2, K, 4, f, gap, NULL, slip, NULL));
+        signorini_problem_write(p, 2, 2, nan, 4, f, gap, SIGNORINI_LAW_COULOMB, mu, slip, NULL));
+    BAD(-5, "leading dimension", signorini_problem_write(p, 2, 2, K, 3, f, gap,
+                                                         SIGNORINI_LAW_COULOMB, mu, slip, NULL));
+    BAD(-6, "f is NULL", signorini_problem_write(p, 2, 2, K, 4, NULL, gap, SIGNORINI_LAW_COULOMB,
+                                                 mu, slip, NULL));
+    BAD(-7, "gap is NULL", signorini_problem_write(p, 2, 2, K, 4, f, NULL, SIGNORINI_LAW_COULOMB,
+                                                   mu, slip, NULL));
+    BAD(-8, "mu is NULL", signorini_problem_write(p, 2, 2, K, 4, f, gap, SIGNORINI_LAW_COULOMB,
+                                                  NULL, slip, NULL));
+    BAD(-8, "g is NULL", signorini_problem_write(p, 2, 2, K, 4, f, gap, SIGNORINI_LAW_TRESCA, NULL,
+                                                 slip, NULL));
     BAD(-9, "slip[0] is not finite",
-        signorini_problem_save(p, 2, 2, K, 4, f, gap, mu, nan + 5, NULL));
+        signorini_problem_write(p, 2, 2, K, 4, f, gap, SIGNORINI_LAW_COULOMB, mu, nan + 5, NULL));
     BAD(-10, "control character",
-        signorini_problem_save(p, 2, 2, K, 4, f, gap, mu, slip, "two\nlines"));
-    BAD(-10, "not UTF-8", signorini_problem_save(p, 2, 2, K, 4, f, gap, mu, slip, "M\xFCller"));
-    BAD(-1, "path is NULL", signorini_lcp_save(NULL, 4, K, 4, f, NULL, NULL));
-    BAD(-2, "n is -1", signorini_lcp_save(p, -1, K, 4, f, NULL, NULL));
-    BAD(-3, "M is NULL", signorini_lcp_save(p, 4, NULL, 4, f, NULL, NULL));
-    BAD(-4, "leading dimension", signorini_lcp_save(p, 4, K, 3, f, NULL, NULL));
-    BAD(-5, "q is NULL", signorini_lcp_save(p, 4, K, 4, NULL, NULL, NULL));
-    BAD(-6, "cover[2] is -1", signorini_lcp_save(p, 4, K, 4, f, K, NULL));
-    BAD(-7, "remark", signorini_lcp_save(p, 4, K, 4, f, NULL, " "));
-    BAD(-2, "problem is NULL", signorini_problem_load(p, NULL));
-    BAD(-1, "path is NULL", signorini_problem_load(NULL, &problem));
+        signorini_problem_write(p, 2, 2, K, 4, f, gap, SIGNORINI_LAW_COULOMB, mu, slip,
+                                "two\nlines"));
+    BAD(-10, "not UTF-8", signorini_problem_write(p, 2, 2, K, 4, f, gap, SIGNORINI_LAW_COULOMB, mu,
+                                                  slip, "M\xFCller"));
+    BAD(-1, "path is NULL", signorini_lcp_write(NULL, 4, K, 4, f, NULL, NULL));
+    BAD(-2, "n is -1", signorini_lcp_write(p, -1, K, 4, f, NULL, NULL));
+    BAD(-3, "M is NULL", signorini_lcp_write(p, 4, NULL, 4, f, NULL, NULL));
+    BAD(-4, "leading dimension", signorini_lcp_write(p, 4, K, 3, f, NULL, NULL));
+    BAD(-5, "q is NULL", signorini_lcp_write(p, 4, K, 4, NULL, NULL, NULL));
+    BAD(-6, "cover[2] is -1", signorini_lcp_write(p, 4, K, 4, f, K, NULL));
+    BAD(-7, "remark", signorini_lcp_write(p, 4, K, 4, f, NULL, " "));
+    BAD(-2, "problem is NULL", signorini_problem_read(p, NULL));
+    BAD(-1, "path is NULL", signorini_problem_read(NULL, &problem));
     CHECK(problem == NULL);
 
     signorini_problem_free(NULL);
     CHECK(signorini_problem_kind(NULL) == -1 && signorini_problem_dim(NULL) == -1);
     CHECK(signorini_problem_pairs(NULL) == -1 && signorini_problem_size(NULL) == -1);
-    CHECK(signorini_problem_matrix(NULL) == NULL && signorini_problem_vector(NULL) == NULL);
+    CHECK(signorini_problem_matrix(NULL) == NULL && signorini_problem_rhs(NULL) == NULL);
     CHECK(signorini_problem_gap(NULL) == NULL && signorini_problem_friction(NULL) == NULL);
-    CHECK(signorini_problem_slip(NULL) == NULL && signorini_problem_cover(NULL) == NULL);
+    CHECK(signorini_problem_slip0(NULL) == NULL && signorini_problem_cover(NULL) == NULL);
     CHECK(signorini_problem_remark(NULL)[0] == '\0');
     CHECK(files() == before);
 }
@@ -189,18 +209,19 @@ static void bad_paths(void)
     signorini_problem *problem;
 
     CHECK(mkdir(in_folder("inner"), 0700) == 0);
-    BAD(SIGNORINI_FILE, "inner: cannot be written: it is not a file", save("inner", NULL));
-    BAD(SIGNORINI_FILE, "inner: cannot be read: it is a dir", signorini_problem_load(path, &problem));
-    BAD(SIGNORINI_FILE, "absent/p: cannot be written: ", save("absent/p", NULL));
-    BAD(SIGNORINI_FILE, "absent/p: cannot be read: ", signorini_problem_load(path, &problem));
-    BAD(SIGNORINI_FILE, "cannot be written: ", save("coulomb/p", NULL));
+    BAD(SIGNORINI_STATUS_FILE, "inner: cannot be written: it is not a file", save("inner", NULL));
+    BAD(SIGNORINI_STATUS_FILE, "inner: cannot be read: it is a dir", signorini_problem_read(path, &problem));
+    BAD(SIGNORINI_STATUS_FILE, "absent/p: cannot be written: ", save("absent/p", NULL));
+    BAD(SIGNORINI_STATUS_FILE, "absent/p: cannot be read: ", signorini_problem_read(path, &problem));
+    BAD(SIGNORINI_STATUS_FILE, "cannot be written: ", save("coulomb/p", NULL));
     CHECK(problem == NULL && files() == before);
 
     /* Names are bytes, as for fopen; a relative one is meant. macOS wants UTF-8. */
 #ifndef __APPLE__
     CHECK(chdir(folder) == 0);
-    CHECK_STATUS(signorini_problem_save("\xFF\xFE.mtx", 2, 2, K, 4, f, gap, mu, slip, NULL), 0);
-    CHECK_STATUS(signorini_problem_load("\xFF\xFE.mtx", &problem), 0);
+    CHECK_STATUS(signorini_problem_write("\xFF\xFE.mtx", 2, 2, K, 4, f, gap, SIGNORINI_LAW_COULOMB,
+                                         mu, slip, NULL), 0);
+    CHECK_STATUS(signorini_problem_read("\xFF\xFE.mtx", &problem), 0);
     CHECK(same(signorini_problem_matrix(problem), K, 16));
     signorini_problem_free(problem);
     CHECK(remove("\xFF\xFE.mtx") == 0 && files() == before);
@@ -221,11 +242,11 @@ static void full_disk(void)
     CHECK(setrlimit(RLIMIT_FSIZE, &small) == 0);
     const int32_t old = save("coulomb", "new"), new = save("unwritten", NULL);
     CHECK(setrlimit(RLIMIT_FSIZE, &limit) == 0);
-    CHECK_STATUS(old, SIGNORINI_FILE);
-    CHECK_STATUS(new, SIGNORINI_FILE);
+    CHECK_STATUS(old, SIGNORINI_STATUS_FILE);
+    CHECK_STATUS(new, SIGNORINI_STATUS_FILE);
     CHECK_TEXT(signorini_last_error(), "unwritten: cannot be written: ");
     CHECK(files() == before);
-    CHECK_STATUS(signorini_problem_load(in_folder("coulomb"), &problem), 0);
+    CHECK_STATUS(signorini_problem_read(in_folder("coulomb"), &problem), 0);
     CHECK_TEXT(signorini_problem_remark(problem), "crane");
     signorini_problem_free(problem);
 }
@@ -247,10 +268,10 @@ static void bad_files(void)
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
         signorini_problem *problem = (signorini_problem *)folder;
         write_file("bad", bad[i].content);
-        BAD(SIGNORINI_FILE, bad[i].part, signorini_problem_load(in_folder("bad"), &problem));
+        BAD(SIGNORINI_STATUS_FILE, bad[i].part, signorini_problem_read(in_folder("bad"), &problem));
         CHECK(problem == NULL);
     }
-    CHECK_TEXT(signorini_status_string(SIGNORINI_FILE), "file");
+    CHECK_TEXT(signorini_status_string(SIGNORINI_STATUS_FILE), "file");
 }
 
 static void clean(void)

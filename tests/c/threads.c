@@ -25,8 +25,8 @@ static int32_t solve(chain *c, int number)
     signorini_settings settings;
     if (signorini_settings_default(&settings, sizeof settings)) return -1000;
     settings.method = number % 2 ? SIGNORINI_METHOD_SOR_DIAGONAL : SIGNORINI_METHOD_SOR_NESTED;
-    return signorini_solve(c->dim, c->pairs, c->K, c->n, c->f, c->gap, c->mu, NULL, &settings, c->d,
-                           c->F, c->state, NULL);
+    return signorini_solve(c->dim, c->pairs, c->K, c->n, c->f, c->gap, SIGNORINI_LAW_COULOMB, c->mu,
+                           NULL, &settings, c->d, c->F, c->state, NULL, NULL);
 }
 
 static void *work(void *argument)
@@ -37,7 +37,7 @@ static void *work(void *argument)
     pthread_barrier_wait(&barrier);
     if (signorini_last_error()[0] != '\0') j->sentences_differ++;
     for (int round = 0; round < ROUNDS; round++) {
-        if (solve(c, j->number) != SIGNORINI_SOLVED) j->statuses_differ++;
+        if (solve(c, j->number) != SIGNORINI_STATUS_SOLVED) j->statuses_differ++;
         if (signorini_last_error()[0] != '\0') j->sentences_differ++;
         if (memcmp(c->d, j->expected.d, (size_t)c->n * sizeof *c->d) ||
             memcmp(c->F, j->expected.F, (size_t)c->n * sizeof *c->F) ||
@@ -63,7 +63,7 @@ int main(void)
         jobs[i].number = i;
         jobs[i].expected = chain_new(2 + i % 2, 20 + 7 * i, 0.05, 10 + (uint64_t)i);
         jobs[i].c = chain_new(2 + i % 2, 20 + 7 * i, 0.05, 10 + (uint64_t)i);
-        CHECK_STATUS(solve(&jobs[i].expected, i), SIGNORINI_SOLVED);
+        CHECK_STATUS(solve(&jobs[i].expected, i), SIGNORINI_STATUS_SOLVED);
     }
     CHECK_STATUS(signorini_settings_default(NULL, 0), -1);
     CHECK(pthread_barrier_init(&barrier, NULL, THREADS) == 0);

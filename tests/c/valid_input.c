@@ -13,7 +13,7 @@ enum {
     NESTED = SIGNORINI_METHOD_SOR_NESTED,
     DIAGONAL = SIGNORINI_METHOD_SOR_DIAGONAL,
     LEMKE = SIGNORINI_METHOD_LEMKE,
-    PIVOT = SIGNORINI_METHOD_PIVOT,
+    PIVOT = SIGNORINI_METHOD_BLOCK_PIVOTING,
     NEWTON = SIGNORINI_METHOD_NEWTON
 };
 
@@ -65,18 +65,18 @@ static void check_report(const signorini_report *report, int32_t status, int64_t
 {
     CHECK(report->struct_size == sizeof *report);
     CHECK_STATUS(report->status, status);
-    CHECK(report->reserved == 0);
-    CHECK(report->uniqueness >= SIGNORINI_NOT_KNOWN && report->uniqueness <= SIGNORINI_SEVERAL);
+    CHECK(report->second == 0);
+    CHECK(report->uniqueness >= SIGNORINI_UNIQUENESS_NOT_KNOWN && report->uniqueness <= SIGNORINI_UNIQUENESS_SEVERAL);
     CHECK(report->orientation >= -1 && report->orientation <= 1);
     CHECK(report->fallback >= SIGNORINI_FALLBACK_NONE);
     CHECK(report->fallback <= SIGNORINI_FALLBACK_INACCURATE);
     CHECK(report->fallback != SIGNORINI_FALLBACK_NONE || report->first_method == report->method);
     CHECK(report->factorisations >= 0 && report->refactorisations >= 0);
     CHECK(report->iterations >= 0);
-    CHECK(report->open + report->slip + report->stick == pairs);
-    CHECK(report->open >= 0 && report->slip >= 0 && report->stick >= 0);
-    CHECK(status != SIGNORINI_SOLVED || report->eta <= 1e-10);
-    CHECK((status == SIGNORINI_SOLVED) == (signorini_last_error()[0] == '\0'));
+    CHECK(report->pairs_open + report->pairs_slipping + report->pairs_sticking == pairs);
+    CHECK(report->pairs_open >= 0 && report->pairs_slipping >= 0 && report->pairs_sticking >= 0);
+    CHECK(status != SIGNORINI_STATUS_SOLVED || report->eta <= 1e-10);
+    CHECK((status == SIGNORINI_STATUS_SOLVED) == (signorini_last_error()[0] == '\0'));
 }
 
 /* A leading dimension without padding; it is at least 1. */
@@ -90,7 +90,8 @@ static answer coulomb(const small *p, int32_t method, int32_t expected)
     answer a = blank();
     const signorini_settings settings = settings_for(method);
     CHECK_STATUS(signorini_solve(p->dim, p->pairs, p->K, leading(p->dim * p->pairs), p->f, p->gap,
-                                 p->mu, p->slip, &settings, a.d, a.F, a.state, &a.report),
+                                 SIGNORINI_LAW_COULOMB, p->mu, p->slip, &settings, a.d, a.F,
+                                 a.state, &a.report, NULL),
                  expected);
     check_report(&a.report, expected, p->pairs);
     /* The default tells which it chose. */
@@ -103,8 +104,9 @@ static answer tresca(const small *p, int32_t method, int32_t expected)
 {
     answer a = blank();
     const signorini_settings settings = settings_for(method);
-    CHECK_STATUS(signorini_tresca(p->dim, p->pairs, p->K, leading(p->dim * p->pairs), p->f, p->gap,
-                                  p->mu, p->slip, &settings, a.d, a.F, a.state, &a.report),
+    CHECK_STATUS(signorini_solve(p->dim, p->pairs, p->K, leading(p->dim * p->pairs), p->f, p->gap,
+                                 SIGNORINI_LAW_TRESCA, p->mu, p->slip, &settings, a.d, a.F, a.state,
+                                 &a.report, NULL),
                  expected);
     check_report(&a.report, expected, p->pairs);
     return a;
@@ -119,7 +121,7 @@ static void agrees(int line, const small *p, const double *d, const double *F,
     for (int32_t method = AUTO; method <= NEWTON; method++) {
         if (!fits(method, p->dim, friction)) continue;
         const int failed_before = checks_failed;
-        const answer a = coulomb(p, method, SIGNORINI_SOLVED);
+        const answer a = coulomb(p, method, SIGNORINI_STATUS_SOLVED);
         for (int i = 0; i < p->dim * p->pairs; i++) {
             CHECK_NEAR(a.d[i], d[i]);
             CHECK_NEAR(a.F[i], F[i]);
@@ -140,34 +142,34 @@ static void a_pair_that_opens_moves_freely(void)
 {
     /* K d = f: (2, 1) from [[4, 1], [1, 3]]. */
     const double K[] = {4, 1, 1, 3}, f[] = {9, 5}, d[] = {2, 1}, gap[] = {2.5};
-    AGREES(PROBLEM(2, 1, K, f, gap, half, NULL), d, zero, SIGNORINI_OPEN);
-    AGREES(PROBLEM(2, 1, K, f, gap, none, NULL), d, zero, SIGNORINI_OPEN);
+    AGREES(PROBLEM(2, 1, K, f, gap, half, NULL), d, zero, SIGNORINI_STATE_OPEN);
+    AGREES(PROBLEM(2, 1, K, f, gap, none, NULL), d, zero, SIGNORINI_STATE_OPEN);
 }
 
 static void an_infinite_gap_never_closes(void)
 {
     const double K[] = {2, 0, 0, 4}, f[] = {6000, 8}, d[] = {3000, 2}, gap[] = {INFINITY};
-    AGREES(PROBLEM(2, 1, K, f, gap, half, NULL), d, zero, SIGNORINI_OPEN);
-    AGREES(PROBLEM(2, 1, K, f, gap, none, NULL), d, zero, SIGNORINI_OPEN);
+    AGREES(PROBLEM(2, 1, K, f, gap, half, NULL), d, zero, SIGNORINI_STATE_OPEN);
+    AGREES(PROBLEM(2, 1, K, f, gap, none, NULL), d, zero, SIGNORINI_STATE_OPEN);
     /* One pair of two. The second presses with 1 and sticks. */
     const double K2[16] = {2, [5] = 2, [10] = 2, [15] = 2}, f2[] = {2, 0, 1, 0.25};
     const double gap2[] = {INFINITY, 0}, d2[] = {1, 0, 0, 0}, F2[] = {0, 0, -1, -0.25};
-    AGREES(PROBLEM(2, 2, K2, f2, gap2, half, NULL), d2, F2, SIGNORINI_OPEN, SIGNORINI_STICK);
+    AGREES(PROBLEM(2, 2, K2, f2, gap2, half, NULL), d2, F2, SIGNORINI_STATE_OPEN, SIGNORINI_STATE_STICK);
 }
 
 static void a_negative_gap_presses_without_load(void)
 {
     const double K[] = {4, 0, 0, 1}, gap[] = {-0.5}, d[] = {-0.5, 0}, F[] = {-2, 0};
-    AGREES(PROBLEM(2, 1, K, zero, gap, none, NULL), d, F, SIGNORINI_SLIP);
-    AGREES(PROBLEM(2, 1, K, zero, gap, half, NULL), d, F, SIGNORINI_STICK);
+    AGREES(PROBLEM(2, 1, K, zero, gap, none, NULL), d, F, SIGNORINI_STATE_SLIP);
+    AGREES(PROBLEM(2, 1, K, zero, gap, half, NULL), d, F, SIGNORINI_STATE_STICK);
 }
 
 static void a_pair_inside_the_cone_sticks(void)
 {
     const double K[] = {5, 0, 0, 3}, f[] = {10, 1}, F[] = {-10, -1}, gap[] = {0};
-    AGREES(PROBLEM(2, 1, K, f, gap, half, NULL), zero, F, SIGNORINI_STICK);
+    AGREES(PROBLEM(2, 1, K, f, gap, half, NULL), zero, F, SIGNORINI_STATE_STICK);
     const double huge[] = {1e10};
-    AGREES(PROBLEM(2, 1, K, f, gap, huge, NULL), zero, F, SIGNORINI_STICK);
+    AGREES(PROBLEM(2, 1, K, f, gap, huge, NULL), zero, F, SIGNORINI_STATE_STICK);
 }
 
 static void all_pairs_stick_in_3d(void)
@@ -175,22 +177,22 @@ static void all_pairs_stick_in_3d(void)
     const double K[36] = {4, [7] = 4, [14] = 4, [21] = 4, [28] = 4, [35] = 4,
                           [3] = 1, [18] = 1, [11] = 1, [31] = 1};
     const double f[] = {5, 1, -1, 7, -2, 0.5}, F[] = {-5, -1, 1, -7, 2, -0.5};
-    AGREES(PROBLEM(3, 2, K, f, none, half, NULL), zero, F, SIGNORINI_STICK, SIGNORINI_STICK);
+    AGREES(PROBLEM(3, 2, K, f, none, half, NULL), zero, F, SIGNORINI_STATE_STICK, SIGNORINI_STATE_STICK);
 }
 
 static void a_pair_on_the_cone_slips(void)
 {
     const double K[] = {5, 0, 0, 3}, f[] = {10, 8}, gap[] = {0}, d[] = {0, 1}, F[] = {-10, -5};
-    AGREES(PROBLEM(2, 1, K, f, gap, half, NULL), d, F, SIGNORINI_SLIP);
+    AGREES(PROBLEM(2, 1, K, f, gap, half, NULL), d, F, SIGNORINI_STATE_SLIP);
     const double f2[] = {10, -8}, d2[] = {0, -1}, F2[] = {-10, 5};
-    AGREES(PROBLEM(2, 1, K, f2, gap, half, NULL), d2, F2, SIGNORINI_SLIP);
+    AGREES(PROBLEM(2, 1, K, f2, gap, half, NULL), d2, F2, SIGNORINI_STATE_SLIP);
 }
 
 static void a_slipping_pair_with_coupling(void)
 {
     /* 2 d_t = 5 - (4 - d_t) / 2 */
     const double K[] = {2, 1, 1, 2}, f[] = {4, 5}, gap[] = {0}, d[] = {0, 2}, F[] = {-2, -1};
-    AGREES(PROBLEM(2, 1, K, f, gap, half, NULL), d, F, SIGNORINI_SLIP);
+    AGREES(PROBLEM(2, 1, K, f, gap, half, NULL), d, F, SIGNORINI_STATE_SLIP);
 }
 
 static void a_pair_slips_along_its_load_in_3d(void)
@@ -198,23 +200,23 @@ static void a_pair_slips_along_its_load_in_3d(void)
     /* A load of 15 along (3, 4) / 5 against 5 of friction, stiffness 2. */
     const double K[9] = {7, [4] = 2, [8] = 2}, f[] = {10, 9, 12}, gap[] = {0};
     const double d[] = {0, 3, 4}, F[] = {-10, -3, -4};
-    AGREES(PROBLEM(3, 1, K, f, gap, half, NULL), d, F, SIGNORINI_SLIP);
+    AGREES(PROBLEM(3, 1, K, f, gap, half, NULL), d, F, SIGNORINI_STATE_SLIP);
 }
 
 static void some_pairs_have_no_friction(void)
 {
     const double K[16] = {2, [5] = 2, [10] = 2, [15] = 2}, f[] = {2, 0.5, 2, 0.5};
     const double mu[] = {0, 0.5}, d[] = {0, 0.25, 0, 0}, F[] = {-2, 0, -2, -0.5};
-    AGREES(PROBLEM(2, 2, K, f, none, mu, NULL), d, F, SIGNORINI_SLIP, SIGNORINI_STICK);
+    AGREES(PROBLEM(2, 2, K, f, none, mu, NULL), d, F, SIGNORINI_STATE_SLIP, SIGNORINI_STATE_STICK);
     const double minus[] = {-0.0, -0.0}, d2[] = {0, 0.25, 0, 0.25}, F2[] = {-2, 0, -2, 0};
-    AGREES(PROBLEM(2, 2, K, f, none, minus, NULL), d2, F2, SIGNORINI_SLIP, SIGNORINI_SLIP);
+    AGREES(PROBLEM(2, 2, K, f, none, minus, NULL), d2, F2, SIGNORINI_STATE_SLIP, SIGNORINI_STATE_SLIP);
 }
 
 static void no_load_no_force(void)
 {
     const double K[] = {2, 1, 1, 2}, touching[] = {0}, apart[] = {0.25};
-    AGREES(PROBLEM(2, 1, K, zero, touching, half, NULL), zero, zero, SIGNORINI_OPEN);
-    AGREES(PROBLEM(2, 1, K, zero, apart, none, NULL), zero, zero, SIGNORINI_OPEN);
+    AGREES(PROBLEM(2, 1, K, zero, touching, half, NULL), zero, zero, SIGNORINI_STATE_OPEN);
+    AGREES(PROBLEM(2, 1, K, zero, apart, none, NULL), zero, zero, SIGNORINI_STATE_OPEN);
     const answer a = coulomb(PROBLEM(2, 1, K, zero, touching, half, NULL), NESTED, 0);
     CHECK(a.report.eta == 0 && a.report.equilibrium == 0 && a.report.penetration == 0);
 }
@@ -228,10 +230,10 @@ static void a_load_may_be_small_against_the_gap(void)
         for (int32_t method = AUTO; method <= NEWTON; method++) {
             for (int friction = 0; friction <= fits(method, 2, 1); friction++) {
                 const answer a = coulomb(PROBLEM(2, 1, K, f, gap, friction ? half : none, NULL),
-                                         method, SIGNORINI_SOLVED);
+                                         method, SIGNORINI_STATUS_SOLVED);
                 CHECK_NEAR(a.d[0] / load, 2);
                 CHECK_NEAR(a.d[1] / load, 1);
-                CHECK(a.F[0] == 0 && a.F[1] == 0 && a.state[0] == SIGNORINI_OPEN);
+                CHECK(a.F[0] == 0 && a.F[1] == 0 && a.state[0] == SIGNORINI_STATE_OPEN);
             }
         }
     }
@@ -242,30 +244,30 @@ static void a_fixed_component_is_a_decoupled_row(void)
     /* The tangential component of the second pair, in both directions of sliding of the first. */
     const double K[16] = {3, 0, 1, 0, 0, 2, 0, 0, 1, 0, 3, 0, 0, 0, 0, 1e6};
     const double f[] = {4, 5, 4, 0}, d[] = {0, 1.5, 0, 0}, F[] = {-4, -2, -4, 0};
-    AGREES(PROBLEM(2, 2, K, f, none, half, NULL), d, F, SIGNORINI_SLIP, SIGNORINI_STICK);
+    AGREES(PROBLEM(2, 2, K, f, none, half, NULL), d, F, SIGNORINI_STATE_SLIP, SIGNORINI_STATE_STICK);
     /* A fixed normal component: no force, open. */
     const double f2[] = {4, 5, 0, 0};
     const double K2[16] = {3, [5] = 2, [10] = 1e6, [15] = 1e6};
     const double F2[] = {-4, -2, 0, 0};
-    AGREES(PROBLEM(2, 2, K2, f2, none, half, NULL), d, F2, SIGNORINI_SLIP, SIGNORINI_OPEN);
+    AGREES(PROBLEM(2, 2, K2, f2, none, half, NULL), d, F2, SIGNORINI_STATE_SLIP, SIGNORINI_STATE_OPEN);
 }
 
 static void friction_rests_at_the_previous_slip(void)
 {
     const double K[] = {5, 0, 0, 4}, f[] = {10, 2}, gap[] = {0}, slip[] = {0.25};
     const double d[] = {0, 0.25}, F[] = {-10, -1};
-    AGREES(PROBLEM(2, 1, K, f, gap, half, slip), d, F, SIGNORINI_STICK);
+    AGREES(PROBLEM(2, 1, K, f, gap, half, slip), d, F, SIGNORINI_STATE_STICK);
     const answer a = coulomb(PROBLEM(2, 1, K, f, gap, half, slip), NESTED, 0);
     CHECK(a.d[1] == slip[0]);
     /* It slides back when the load is gone: 4 * 2 = 8 against 5. */
     const double far_slip[] = {2}, back[] = {0, 1.25}, f0[] = {10, 0}, F0[] = {-10, 5};
-    AGREES(PROBLEM(2, 1, K, f0, gap, half, far_slip), back, F0, SIGNORINI_SLIP);
+    AGREES(PROBLEM(2, 1, K, f0, gap, half, far_slip), back, F0, SIGNORINI_STATE_SLIP);
     /* Without friction nothing rests. */
     const double d1[] = {0, 0.5}, F1[] = {-10, 0};
-    AGREES(PROBLEM(2, 1, K, f, gap, none, far_slip), d1, F1, SIGNORINI_SLIP);
+    AGREES(PROBLEM(2, 1, K, f, gap, none, far_slip), d1, F1, SIGNORINI_STATE_SLIP);
     const double K3[9] = {5, [4] = 4, [8] = 4}, f3[] = {10, 2, -2}, slip3[] = {0.25, -0.25};
     const double d3[] = {0, 0.25, -0.25}, F3[] = {-10, -1, 1};
-    AGREES(PROBLEM(3, 1, K3, f3, gap, half, slip3), d3, F3, SIGNORINI_STICK);
+    AGREES(PROBLEM(3, 1, K3, f3, gap, half, slip3), d3, F3, SIGNORINI_STATE_STICK);
 }
 
 static void given_thresholds_by(int32_t method)
@@ -273,26 +275,26 @@ static void given_thresholds_by(int32_t method)
     const double K[] = {5, 0, 0, 4}, gap[] = {0.5}, g[] = {2};
     /* Open, and the threshold acts all the same. */
     const double f[] = {-1, 6};
-    answer a = tresca(PROBLEM(2, 1, K, f, gap, g, NULL), method, SIGNORINI_SOLVED);
+    answer a = tresca(PROBLEM(2, 1, K, f, gap, g, NULL), method, SIGNORINI_STATUS_SOLVED);
     CHECK_NEAR(a.d[0], -0.2);
     CHECK_NEAR(a.d[1], 1);
     CHECK_NEAR(a.F[0], 0);
     CHECK_NEAR(a.F[1], -2);
-    CHECK(a.state[0] == SIGNORINI_OPEN);
+    CHECK(a.state[0] == SIGNORINI_STATE_OPEN);
     /* Closed and sliding, whatever the pressure. */
     const double f2[] = {100, -6};
-    a = tresca(PROBLEM(2, 1, K, f2, gap, g, NULL), method, SIGNORINI_SOLVED);
+    a = tresca(PROBLEM(2, 1, K, f2, gap, g, NULL), method, SIGNORINI_STATUS_SOLVED);
     CHECK_NEAR(a.d[0], 0.5);
     CHECK_NEAR(a.d[1], -1);
     CHECK_NEAR(a.F[0], -97.5);
     CHECK_NEAR(a.F[1], 2);
-    CHECK(a.state[0] == SIGNORINI_SLIP);
+    CHECK(a.state[0] == SIGNORINI_STATE_SLIP);
     /* Closed and at rest. */
     const double f3[] = {100, 1.5};
-    a = tresca(PROBLEM(2, 1, K, f3, gap, g, NULL), method, SIGNORINI_SOLVED);
+    a = tresca(PROBLEM(2, 1, K, f3, gap, g, NULL), method, SIGNORINI_STATUS_SOLVED);
     CHECK(a.d[1] == 0);
     CHECK_NEAR(a.F[1], -1.5);
-    CHECK(a.state[0] == SIGNORINI_STICK);
+    CHECK(a.state[0] == SIGNORINI_STATE_STICK);
 }
 
 static void given_thresholds(void)
@@ -303,14 +305,14 @@ static void given_thresholds(void)
     const double K[] = {5, 0, 0, 4}, gap[] = {0.5}, f2[] = {100, -6};
     for (int32_t method = AUTO; method <= NEWTON; method++) {
         if (method == DIAGONAL) continue; /* It updates thresholds. */
-        const answer a = tresca(PROBLEM(2, 1, K, f2, gap, none, NULL), method, SIGNORINI_SOLVED);
+        const answer a = tresca(PROBLEM(2, 1, K, f2, gap, none, NULL), method, SIGNORINI_STATUS_SOLVED);
         CHECK_NEAR(a.d[1], -1.5);
         CHECK_NEAR(a.F[0], -97.5);
         CHECK_NEAR(a.F[1], 0);
     }
     const double K3[9] = {5, [4] = 2, [8] = 2}, f3d[] = {-5, 9, 12}, g3[] = {5};
     for (int32_t method = AUTO; method <= NESTED; method++) {
-        const answer a = tresca(PROBLEM(3, 1, K3, f3d, gap, g3, NULL), method, SIGNORINI_SOLVED);
+        const answer a = tresca(PROBLEM(3, 1, K3, f3d, gap, g3, NULL), method, SIGNORINI_STATUS_SOLVED);
         CHECK_NEAR(a.d[0], -1);
         CHECK_NEAR(a.d[1], 3);
         CHECK_NEAR(a.d[2], 4);
@@ -327,7 +329,7 @@ static void a_floating_body_leaves(void)
     const double K[] = {1, -1, -1, 1}, away[] = {-1, -1}, gap[] = {0}, mu[] = {0.25};
     for (int32_t method = AUTO; method <= LEMKE; method++) {
         const answer a = coulomb(PROBLEM(2, 1, K, away, gap, method == LEMKE ? none : mu, NULL),
-                                 method, SIGNORINI_NO_EQUILIBRIUM);
+                                 method, SIGNORINI_STATUS_NO_EQUILIBRIUM);
         CHECK_NEAR(a.d[0], -1);
         CHECK_NEAR(a.d[1], -1);
         CHECK(a.F[0] == 0 && a.F[1] == 0);
@@ -338,7 +340,7 @@ static void a_floating_body_leaves(void)
     const double lift[] = {-1, 0, -1, 0};
     for (int32_t method = AUTO; method <= LEMKE; method++) {
         const answer a = coulomb(PROBLEM(2, 2, K2, lift, none, none, NULL), method,
-                                 SIGNORINI_NO_EQUILIBRIUM);
+                                 SIGNORINI_STATUS_NO_EQUILIBRIUM);
         CHECK_NEAR(a.d[0], -1);
         CHECK_NEAR(a.d[1], 0);
         CHECK_NEAR(a.d[2], -1);
@@ -351,8 +353,8 @@ static void a_floating_body_that_is_pressed_stays(void)
     const double K[16] = {1, [2] = -1, [5] = 1, [8] = -1, [10] = 1, [15] = 1};
     const double f[] = {1, 0.25, 3, 0}, F[] = {-1, -0.25, -3, 0}, F0[] = {-1, 0, -3, 0};
     const double slid[] = {0, 0.25, 0, 0};
-    AGREES(PROBLEM(2, 2, K, f, none, half, NULL), zero, F, SIGNORINI_STICK, SIGNORINI_STICK);
-    AGREES(PROBLEM(2, 2, K, f, none, none, NULL), slid, F0, SIGNORINI_SLIP, SIGNORINI_SLIP);
+    AGREES(PROBLEM(2, 2, K, f, none, half, NULL), zero, F, SIGNORINI_STATE_STICK, SIGNORINI_STATE_STICK);
+    AGREES(PROBLEM(2, 2, K, f, none, none, NULL), slid, F0, SIGNORINI_STATE_SLIP, SIGNORINI_STATE_SLIP);
 }
 
 /* ---- bare complementarity problems ---- */
@@ -363,7 +365,8 @@ static int32_t lcp(int64_t n, const double *M, const double *q, const double *co
     signorini_report report;
     memset(&report, 0xFF, sizeof report);
     report.struct_size = sizeof report;
-    const int32_t status = signorini_lcp_lemke(n, M, leading(n), q, cover, NULL, w, z, &report);
+    const int32_t status = signorini_lcp_lemke(n, M, leading(n), q, cover, NULL, w, z, NULL,
+                                               &report);
     check_report(&report, status, 0);
     CHECK(report.method == LEMKE);
     return status;
@@ -374,30 +377,30 @@ static void complementarity_in_closed_form(void)
     double w[3], z[3];
     const double M[] = {2, 1, 1, 2}, q[] = {-5, -6}, cover[] = {1, 100};
     for (int i = 0; i < 2; i++) {
-        CHECK_STATUS(lcp(2, M, q, i ? cover : NULL, w, z), SIGNORINI_SOLVED);
+        CHECK_STATUS(lcp(2, M, q, i ? cover : NULL, w, z), SIGNORINI_STATUS_SOLVED);
         CHECK_NEAR(z[0], 4.0 / 3);
         CHECK_NEAR(z[1], 7.0 / 3);
         CHECK(w[0] == 0 && w[1] == 0);
     }
     const double identity[] = {1, 0, 0, 1}, mixed[] = {-1, 2};
-    CHECK_STATUS(lcp(2, identity, mixed, NULL, w, z), SIGNORINI_SOLVED);
+    CHECK_STATUS(lcp(2, identity, mixed, NULL, w, z), SIGNORINI_STATUS_SOLVED);
     CHECK_NEAR(z[0], 1);
     CHECK_NEAR(w[1], 2);
     CHECK(w[0] == 0 && z[1] == 0);
     /* A P-matrix that is neither symmetric nor positive definite. */
     const double P[] = {1, 0, 0, -4, 1, 0, 0, -4, 1}, q3[] = {1, -1, -2};
-    CHECK_STATUS(lcp(3, P, q3, NULL, w, z), SIGNORINI_SOLVED);
+    CHECK_STATUS(lcp(3, P, q3, NULL, w, z), SIGNORINI_STATUS_SOLVED);
     for (int i = 0; i < 3; i++) {
         CHECK(z[i] >= 0 && w[i] >= 0 && z[i] * w[i] == 0);
         CHECK_NEAR(q3[i] + P[i] * z[0] + P[i + 3] * z[1] + P[i + 6] * z[2] - w[i], 0);
     }
     const double plenty[] = {3, 0};
-    CHECK_STATUS(lcp(2, M, plenty, NULL, w, z), SIGNORINI_SOLVED);
+    CHECK_STATUS(lcp(2, M, plenty, NULL, w, z), SIGNORINI_STATUS_SOLVED);
     CHECK(z[0] == 0 && z[1] == 0 && w[0] == 3 && w[1] == 0);
-    CHECK_STATUS(lcp(0, NULL, NULL, NULL, NULL, NULL), SIGNORINI_SOLVED);
+    CHECK_STATUS(lcp(0, NULL, NULL, NULL, NULL, NULL), SIGNORINI_STATUS_SOLVED);
     /* Padding is not looked at. */
     const double padded[] = {2, 1, NAN, NAN, 1, 2};
-    CHECK_STATUS(signorini_lcp_lemke(2, padded, 4, q, NULL, NULL, w, z, NULL), SIGNORINI_SOLVED);
+    CHECK_STATUS(signorini_lcp_lemke(2, padded, 4, q, NULL, NULL, w, z, NULL, NULL), SIGNORINI_STATUS_SOLVED);
     CHECK_NEAR(z[1], 7.0 / 3);
 }
 
@@ -406,14 +409,14 @@ static void complementarity_without_solution(void)
     double w[2], z[2];
     /* w1 = -1 - z2: y = (1, 0) proves that nothing is feasible. */
     const double skew[] = {0, 1, -1, 0}, q[] = {-1, 3};
-    CHECK_STATUS(lcp(2, skew, q, NULL, w, z), SIGNORINI_NO_EQUILIBRIUM);
+    CHECK_STATUS(lcp(2, skew, q, NULL, w, z), SIGNORINI_STATUS_NO_EQUILIBRIUM);
     CHECK(z[0] >= 0 && z[1] >= 0);
     CHECK(skew[0] * z[0] + skew[1] * z[1] <= 1e-12 && skew[2] * z[0] + skew[3] * z[1] <= 1e-12);
     CHECK(q[0] * z[0] + q[1] * z[1] < 0);
     /* Solvable by (0, 1), but of no class for which Lemke's method must find it. */
     const double other[] = {-2, -2, 1, -2}, q2[] = {-1, 2};
     const int32_t status = lcp(2, other, q2, NULL, w, z);
-    CHECK(status == SIGNORINI_SOLVED || status == SIGNORINI_STALLED);
+    CHECK(status == SIGNORINI_STATUS_SOLVED || status == SIGNORINI_STATUS_STALLED);
     CHECK(z[0] >= 0 && z[1] >= 0 && w[0] >= 0 && w[1] >= 0);
 }
 
@@ -425,7 +428,7 @@ static void the_contact_settings_do_not_matter_to_it(void)
     settings.omega = 1.9;
     settings.damping = 0.5;
     settings.warm_start = 1;
-    CHECK_STATUS(signorini_lcp_lemke(2, M, 2, q, NULL, &settings, w, z, NULL), SIGNORINI_SOLVED);
+    CHECK_STATUS(signorini_lcp_lemke(2, M, 2, q, NULL, &settings, w, z, NULL, NULL), SIGNORINI_STATUS_SOLVED);
     CHECK_NEAR(z[0], 4.0 / 3);
 }
 
@@ -439,14 +442,14 @@ static void nothing_to_solve(void)
             if (!fits(method, dim, 0)) continue;
             const signorini_settings settings = settings_for(method);
             signorini_report report = {.struct_size = sizeof report};
-            CHECK_STATUS(signorini_solve(dim, 0, NULL, 1, NULL, NULL, NULL, NULL, &settings, NULL,
-                                         NULL, NULL, &report),
-                         SIGNORINI_SOLVED);
-            check_report(&report, SIGNORINI_SOLVED, 0);
+            CHECK_STATUS(signorini_solve(dim, 0, NULL, 1, NULL, NULL, SIGNORINI_LAW_COULOMB, NULL,
+                                         NULL, &settings, NULL, NULL, NULL, &report, NULL),
+                         SIGNORINI_STATUS_SOLVED);
+            check_report(&report, SIGNORINI_STATUS_SOLVED, 0);
             CHECK(report.eta == 0);
         }
         /* Arrays that are given all the same are left alone. */
-        const answer a = tresca(&empty, NESTED, SIGNORINI_SOLVED), untouched = blank();
+        const answer a = tresca(&empty, NESTED, SIGNORINI_STATUS_SOLVED), untouched = blank();
         CHECK(memcmp(a.d, untouched.d, sizeof a.d) == 0);
         CHECK(memcmp(a.F, untouched.F, sizeof a.F) == 0);
         CHECK(memcmp(a.state, untouched.state, sizeof a.state) == 0);
@@ -457,15 +460,17 @@ static void what_is_not_wanted_may_be_null(void)
 {
     const double K[] = {5, 0, 0, 3}, f[] = {10, 8}, gap[] = {0};
     double d[2], F[2];
-    CHECK_STATUS(signorini_solve(2, 1, K, 2, f, gap, half, NULL, NULL, d, F, NULL, NULL), 0);
+    CHECK_STATUS(signorini_solve(2, 1, K, 2, f, gap, SIGNORINI_LAW_COULOMB, half, NULL, NULL, d, F,
+                                 NULL, NULL, NULL), 0);
     CHECK_NEAR(d[1], 1);
     CHECK_NEAR(F[1], -5);
-    CHECK_STATUS(signorini_tresca(2, 1, K, 2, f, gap, half, NULL, NULL, d, F, NULL, NULL), 0);
+    CHECK_STATUS(signorini_solve(2, 1, K, 2, f, gap, SIGNORINI_LAW_TRESCA, half, NULL, NULL, d, F,
+                                 NULL, NULL, NULL), 0);
     CHECK_NEAR(d[1], 2.5);
     CHECK_NEAR(F[1], -0.5);
     const double M[] = {2}, q[] = {-1};
     double w[1], z[1];
-    CHECK_STATUS(signorini_lcp_lemke(1, M, 1, q, NULL, NULL, w, z, NULL), 0);
+    CHECK_STATUS(signorini_lcp_lemke(1, M, 1, q, NULL, NULL, w, z, NULL, NULL), 0);
     CHECK_NEAR(z[0], 0.5);
 }
 
@@ -480,12 +485,12 @@ static void padding_of_the_matrix_is_not_looked_at(void)
         const int64_t row = k % ldk, j = k / ldk;
         K[k] = row < c.n ? c.K[row + c.n * j] : NAN;
     }
-    CHECK_STATUS(signorini_solve(3, c.pairs, c.K, c.n, c.f, c.gap, c.mu, NULL, NULL, c.d, c.F,
-                                 NULL, NULL),
-                 SIGNORINI_SOLVED);
-    CHECK_STATUS(signorini_solve(3, c.pairs, K, ldk, c.f, c.gap, c.mu, NULL, NULL, d, F, NULL,
-                                 NULL),
-                 SIGNORINI_SOLVED);
+    CHECK_STATUS(signorini_solve(3, c.pairs, c.K, c.n, c.f, c.gap, SIGNORINI_LAW_COULOMB, c.mu,
+                                 NULL, NULL, c.d, c.F, NULL, NULL, NULL),
+                 SIGNORINI_STATUS_SOLVED);
+    CHECK_STATUS(signorini_solve(3, c.pairs, K, ldk, c.f, c.gap, SIGNORINI_LAW_COULOMB, c.mu, NULL,
+                                 NULL, d, F, NULL, NULL, NULL),
+                 SIGNORINI_STATUS_SOLVED);
     CHECK(memcmp(d, c.d, (size_t)c.n * sizeof *d) == 0);
     CHECK(memcmp(F, c.F, (size_t)c.n * sizeof *F) == 0);
     free(K);
@@ -499,12 +504,14 @@ static void the_same_input_gives_the_same_bits(void)
     chain one = chain_new(3, 10, 0.2, 2), two = chain_new(3, 10, 0.2, 2);
     for (int32_t method = AUTO; method <= DIAGONAL; method++) {
         const signorini_settings settings = settings_for(method);
-        CHECK_STATUS(signorini_solve(3, one.pairs, one.K, one.n, one.f, one.gap, one.mu, NULL,
-                                     &settings, one.d, one.F, one.state, NULL),
-                     SIGNORINI_SOLVED);
-        CHECK_STATUS(signorini_solve(3, two.pairs, two.K, two.n, two.f, two.gap, two.mu, NULL,
-                                     &settings, two.d, two.F, two.state, NULL),
-                     SIGNORINI_SOLVED);
+        CHECK_STATUS(signorini_solve(3, one.pairs, one.K, one.n, one.f, one.gap,
+                                     SIGNORINI_LAW_COULOMB, one.mu, NULL, &settings, one.d, one.F,
+                                     one.state, NULL, NULL),
+                     SIGNORINI_STATUS_SOLVED);
+        CHECK_STATUS(signorini_solve(3, two.pairs, two.K, two.n, two.f, two.gap,
+                                     SIGNORINI_LAW_COULOMB, two.mu, NULL, &settings, two.d, two.F,
+                                     two.state, NULL, NULL),
+                     SIGNORINI_STATUS_SOLVED);
         CHECK(memcmp(one.d, two.d, (size_t)one.n * sizeof *one.d) == 0);
         CHECK(memcmp(one.F, two.F, (size_t)one.n * sizeof *one.F) == 0);
         CHECK(memcmp(one.state, two.state, (size_t)one.pairs * sizeof *one.state) == 0);
@@ -535,9 +542,9 @@ static void check_law(const chain *c)
         CHECK(force <= bound * (1 + 1e-12));
         CHECK(fabs(power + bound * slide) <= 1e-7);
         switch (c->state[pair]) {
-        case SIGNORINI_OPEN: CHECK(F[0] == 0 && force == 0); break;
-        case SIGNORINI_SLIP: CHECK(fabs(force - bound) <= 1e-7); break;
-        case SIGNORINI_STICK: CHECK(slide <= 1e-8); break;
+        case SIGNORINI_STATE_OPEN: CHECK(F[0] == 0 && force == 0); break;
+        case SIGNORINI_STATE_SLIP: CHECK(fabs(force - bound) <= 1e-7); break;
+        case SIGNORINI_STATE_STICK: CHECK(slide <= 1e-8); break;
         default: CHECK(!"a state of the header");
         }
     }
@@ -551,11 +558,11 @@ static void many_pairs_obey_the_law(void)
             chain c = chain_new(dim, 20, 0.1, 3);
             const signorini_settings settings = settings_for(method);
             signorini_report report = {.struct_size = sizeof report};
-            CHECK_STATUS(signorini_solve(dim, c.pairs, c.K, c.n, c.f, c.gap, c.mu, NULL, &settings,
-                                         c.d, c.F, c.state, &report),
-                         SIGNORINI_SOLVED);
-            check_report(&report, SIGNORINI_SOLVED, c.pairs);
-            CHECK(report.open > 0 && report.slip > 0 && report.stick > 0);
+            CHECK_STATUS(signorini_solve(dim, c.pairs, c.K, c.n, c.f, c.gap, SIGNORINI_LAW_COULOMB,
+                                         c.mu, NULL, &settings, c.d, c.F, c.state, &report, NULL),
+                         SIGNORINI_STATUS_SOLVED);
+            check_report(&report, SIGNORINI_STATUS_SOLVED, c.pairs);
+            CHECK(report.pairs_open > 0 && report.pairs_slipping > 0 && report.pairs_sticking > 0);
             check_law(&c);
             chain_free(&c);
         }
@@ -570,27 +577,31 @@ static void a_warm_start_leads_to_the_same_answer(void)
         signorini_settings settings = settings_for(method);
         signorini_report first = {.struct_size = sizeof first}, again = first;
         settings.tolerance = 1e-13;
-        CHECK_STATUS(signorini_solve(2, cold.pairs, cold.K, cold.n, cold.f, cold.gap, cold.mu, NULL,
-                                     &settings, cold.d, cold.F, NULL, &first),
-                     SIGNORINI_SOLVED);
+        CHECK_STATUS(signorini_solve(2, cold.pairs, cold.K, cold.n, cold.f, cold.gap,
+                                     SIGNORINI_LAW_COULOMB, cold.mu, NULL, &settings, cold.d,
+                                     cold.F, NULL, &first, NULL),
+                     SIGNORINI_STATUS_SOLVED);
         settings.warm_start = 1;
         /* From far away and from the answer itself. */
         for (int64_t i = 0; i < warm.n; i++) warm.d[i] = i % 3 ? -5 : 7;
-        CHECK_STATUS(signorini_solve(2, warm.pairs, warm.K, warm.n, warm.f, warm.gap, warm.mu, NULL,
-                                     &settings, warm.d, warm.F, NULL, NULL),
-                     SIGNORINI_SOLVED);
+        CHECK_STATUS(signorini_solve(2, warm.pairs, warm.K, warm.n, warm.f, warm.gap,
+                                     SIGNORINI_LAW_COULOMB, warm.mu, NULL, &settings, warm.d,
+                                     warm.F, NULL, NULL, NULL),
+                     SIGNORINI_STATUS_SOLVED);
         for (int64_t i = 0; i < warm.n; i++) CHECK_NEAR(warm.d[i], cold.d[i]);
-        CHECK_STATUS(signorini_solve(2, warm.pairs, warm.K, warm.n, warm.f, warm.gap, warm.mu, NULL,
-                                     &settings, warm.d, warm.F, NULL, &again),
-                     SIGNORINI_SOLVED);
+        CHECK_STATUS(signorini_solve(2, warm.pairs, warm.K, warm.n, warm.f, warm.gap,
+                                     SIGNORINI_LAW_COULOMB, warm.mu, NULL, &settings, warm.d,
+                                     warm.F, NULL, &again, NULL),
+                     SIGNORINI_STATUS_SOLVED);
         CHECK(again.iterations < first.iterations);
         for (int64_t i = 0; i < warm.n; i++) CHECK_NEAR(warm.d[i], cold.d[i]);
         /* Without one, what d holds is not looked at: not even NaN. */
         settings.warm_start = 0;
         for (int64_t i = 0; i < warm.n; i++) warm.d[i] = NAN;
-        CHECK_STATUS(signorini_solve(2, warm.pairs, warm.K, warm.n, warm.f, warm.gap, warm.mu, NULL,
-                                     &settings, warm.d, warm.F, NULL, NULL),
-                     SIGNORINI_SOLVED);
+        CHECK_STATUS(signorini_solve(2, warm.pairs, warm.K, warm.n, warm.f, warm.gap,
+                                     SIGNORINI_LAW_COULOMB, warm.mu, NULL, &settings, warm.d,
+                                     warm.F, NULL, NULL, NULL),
+                     SIGNORINI_STATUS_SOLVED);
         CHECK(memcmp(warm.d, cold.d, (size_t)cold.n * sizeof *cold.d) == 0);
         chain_free(&cold);
         chain_free(&warm);
@@ -606,9 +617,10 @@ static void units_change_nothing_but_the_unit(void)
         settings.tolerance = 1e-12;
         if (!fits(method, 3, 1))
             for (int64_t i = 0; i < base.pairs; i++) base.mu[i] = 0;
-        CHECK_STATUS(signorini_solve(3, base.pairs, base.K, base.n, base.f, base.gap, base.mu, NULL,
-                                     &settings, base.d, base.F, base.state, NULL),
-                     SIGNORINI_SOLVED);
+        CHECK_STATUS(signorini_solve(3, base.pairs, base.K, base.n, base.f, base.gap,
+                                     SIGNORINI_LAW_COULOMB, base.mu, NULL, &settings, base.d,
+                                     base.F, base.state, NULL, NULL),
+                     SIGNORINI_STATUS_SOLVED);
         for (int k = 0; k < 9; k++) {
             const double force = force_units[k % 3], length = length_units[k / 3];
             chain c = chain_new(3, 8, 0.5, 5);
@@ -616,9 +628,9 @@ static void units_change_nothing_but_the_unit(void)
             for (int64_t i = 0; i < c.n * c.n; i++) c.K[i] *= force / length;
             for (int64_t i = 0; i < c.n; i++) c.f[i] *= force;
             for (int64_t i = 0; i < c.pairs; i++) c.gap[i] *= length;
-            CHECK_STATUS(signorini_solve(3, c.pairs, c.K, c.n, c.f, c.gap, c.mu, NULL, &settings,
-                                         c.d, c.F, c.state, NULL),
-                         SIGNORINI_SOLVED);
+            CHECK_STATUS(signorini_solve(3, c.pairs, c.K, c.n, c.f, c.gap, SIGNORINI_LAW_COULOMB,
+                                         c.mu, NULL, &settings, c.d, c.F, c.state, NULL, NULL),
+                         SIGNORINI_STATUS_SOLVED);
             for (int64_t i = 0; i < c.n; i++) {
                 CHECK_NEAR(c.d[i] / length, base.d[i]);
                 CHECK_NEAR(c.F[i] / force, base.F[i]);
@@ -640,13 +652,16 @@ static void numbers_beyond_double_precision_are_not_called_a_solution(void)
         const double *mu = fits(method, 2, 1) ? half : none;
         const signorini_settings s = settings_for(method);
         double d[2], F[2];
-        CHECK(signorini_solve(2, 1, soft, 2, f, touching, mu, NULL, &s, d, F, NULL, NULL) > 0);
+        CHECK(signorini_solve(2, 1, soft, 2, f, touching, SIGNORINI_LAW_COULOMB, mu, NULL, &s, d, F,
+                              NULL, NULL, NULL) > 0);
         CHECK(signorini_last_error()[0] != '\0');
-        CHECK(signorini_solve(2, 1, stiff, 2, f2, deep, mu, NULL, &s, d, F, NULL, NULL) > 0);
+        CHECK(signorini_solve(2, 1, stiff, 2, f2, deep, SIGNORINI_LAW_COULOMB, mu, NULL, &s, d, F,
+                              NULL, NULL, NULL) > 0);
         CHECK(signorini_last_error()[0] != '\0');
         if (!fits(method, 2, 1)) continue; /* A previous slip does not matter without friction. */
         /* Here it can hold the answer, but not every number on the way. */
-        if (signorini_solve(2, 1, K, 2, f3, touching, mu, far_slip, &s, d, F, NULL, NULL) <= 0) {
+        if (signorini_solve(2, 1, K, 2, f3, touching, SIGNORINI_LAW_COULOMB, mu, far_slip, &s, d, F,
+                            NULL, NULL, NULL) <= 0) {
             CHECK_NEAR(F[0], -1);
             CHECK_NEAR(F[1], 0.5);
         }
@@ -689,8 +704,9 @@ static int32_t limited(chain *c, const signorini_settings *settings, signorini_r
     memset(c->state, 0xFF, (size_t)c->pairs * sizeof *c->state);
     memset(report, 0xFF, sizeof *report);
     report->struct_size = sizeof *report;
-    const int32_t status = signorini_solve(c->dim, c->pairs, c->K, c->n, c->f, c->gap, c->mu, NULL,
-                                           settings, c->d, c->F, c->state, report);
+    const int32_t status = signorini_solve(c->dim, c->pairs, c->K, c->n, c->f, c->gap,
+                                           SIGNORINI_LAW_COULOMB, c->mu, NULL, settings, c->d, c->F,
+                                           c->state, report, NULL);
     check_report(report, status, c->pairs);
     CHECK(is_finite(c->d, c->n) && is_finite(c->F, c->n));
     for (int64_t i = 0; i < c->pairs; i++) CHECK(c->state[i] >= 0 && c->state[i] <= 2);
@@ -710,31 +726,31 @@ static void budgets_end_a_call_with_results(void)
         const int32_t status = limited(&c, &settings, &report);
         CHECK(report.iterations == 1);
         /* One system may be enough for block pivoting. */
-        if (method != PIVOT || status != SIGNORINI_SOLVED) {
-            CHECK_STATUS(status, SIGNORINI_ITERATION_LIMIT);
+        if (method != PIVOT || status != SIGNORINI_STATUS_SOLVED) {
+            CHECK_STATUS(status, SIGNORINI_STATUS_ITERATION_LIMIT);
             CHECK(report.eta > 1e-10);
             CHECK_TEXT(signorini_last_error(), "max_iterations (1)");
         }
 
         settings = settings_for(method);
         settings.time_limit = 1e-300;
-        CHECK_STATUS(limited(&c, &settings, &report), SIGNORINI_TIME_LIMIT);
+        CHECK_STATUS(limited(&c, &settings, &report), SIGNORINI_STATUS_TIME_LIMIT);
         CHECK_TEXT(signorini_last_error(), "time_limit");
         settings.time_limit = INFINITY;
-        CHECK_STATUS(limited(&c, &settings, &report), SIGNORINI_SOLVED);
+        CHECK_STATUS(limited(&c, &settings, &report), SIGNORINI_STATUS_SOLVED);
 
         watch seen = {.in_order = 1, .last = -1};
         settings = settings_for(method);
         settings.progress = on_progress;
         settings.user = &seen;
-        CHECK_STATUS(limited(&c, &settings, &report), SIGNORINI_SOLVED);
+        CHECK_STATUS(limited(&c, &settings, &report), SIGNORINI_STATUS_SOLVED);
         CHECK(seen.in_order && seen.started_at_infinity);
         CHECK(seen.calls == report.iterations && seen.calls >= 1);
         const int calls = seen.calls;
 
         for (int at = 1; at <= 3 && at <= calls; at += 2) {
             seen = (watch){.in_order = 1, .last = -1, .cancel_at = at};
-            CHECK_STATUS(limited(&c, &settings, &report), SIGNORINI_CANCELLED);
+            CHECK_STATUS(limited(&c, &settings, &report), SIGNORINI_STATUS_CANCELLED);
             CHECK(seen.in_order && seen.calls == at && report.iterations == at - 1);
             CHECK_TEXT(signorini_last_error(), "cancelled");
         }
@@ -749,17 +765,17 @@ static void budgets_of_the_bare_problem(void)
     signorini_report report = {.struct_size = sizeof report};
     signorini_settings settings = settings_for(LEMKE);
     settings.max_iterations = 1;
-    CHECK_STATUS(signorini_lcp_lemke(2, M, 2, q, NULL, &settings, w, z, &report),
-                 SIGNORINI_ITERATION_LIMIT);
-    check_report(&report, SIGNORINI_ITERATION_LIMIT, 0);
+    CHECK_STATUS(signorini_lcp_lemke(2, M, 2, q, NULL, &settings, w, z, NULL, &report),
+                 SIGNORINI_STATUS_ITERATION_LIMIT);
+    check_report(&report, SIGNORINI_STATUS_ITERATION_LIMIT, 0);
     CHECK(report.iterations == 1);
     CHECK(w[0] >= 0 && w[1] >= 0 && z[0] >= 0 && z[1] >= 0);
     watch seen = {.in_order = 1, .last = -1, .cancel_at = 2};
     settings = settings_for(LEMKE);
     settings.progress = on_progress;
     settings.user = &seen;
-    CHECK_STATUS(signorini_lcp_lemke(2, M, 2, q, NULL, &settings, w, z, &report),
-                 SIGNORINI_CANCELLED);
+    CHECK_STATUS(signorini_lcp_lemke(2, M, 2, q, NULL, &settings, w, z, NULL, &report),
+                 SIGNORINI_STATUS_CANCELLED);
     CHECK(seen.calls == 2 && seen.in_order);
     CHECK(w[0] >= 0 && w[1] >= 0 && z[0] >= 0 && z[1] >= 0);
 }
@@ -791,7 +807,8 @@ static void settings_of_an_older_program(void)
         CHECK(copy.struct_size == size && copy.method == AUTO && copy.tolerance == 1e-10);
         CHECK(memcmp((char *)&copy + 4, (char *)&defaults + 4, size - 4) == 0);
         /* A program that knows no more than these. */
-        CHECK_STATUS(signorini_solve(2, 1, K, 2, f, gap, half, NULL, block, d, F, NULL, NULL), 0);
+        CHECK_STATUS(signorini_solve(2, 1, K, 2, f, gap, SIGNORINI_LAW_COULOMB, half, NULL, block,
+                                     d, F, NULL, NULL, NULL), 0);
         CHECK_NEAR(d[1], 1);
         free(block);
     }
@@ -804,13 +821,14 @@ static void settings_of_an_older_program(void)
         settings.method = LEMKE;
         settings.tolerance = 1e-8;
         if (sizes[i] == 24) settings.omega = 1.5;
-        CHECK_STATUS(signorini_solve(2, 1, K, 2, f, gap, none, NULL, &settings, d, F, NULL, NULL),
-                     SIGNORINI_SOLVED);
+        CHECK_STATUS(signorini_solve(2, 1, K, 2, f, gap, SIGNORINI_LAW_COULOMB, none, NULL,
+                                     &settings, d, F, NULL, NULL, NULL),
+                     SIGNORINI_STATUS_SOLVED);
         settings.method = DIAGONAL;
         signorini_report report = {.struct_size = sizeof report};
-        CHECK_STATUS(signorini_solve(2, 1, K, 2, f, gap, half, NULL, &settings, d, F, NULL,
-                                     &report),
-                     SIGNORINI_SOLVED);
+        CHECK_STATUS(signorini_solve(2, 1, K, 2, f, gap, SIGNORINI_LAW_COULOMB, half, NULL,
+                                     &settings, d, F, NULL, &report, NULL),
+                     SIGNORINI_STATUS_SOLVED);
         CHECK(report.method == DIAGONAL && (sizes[i] == 16 || report.omega == 1.5));
     }
 }
@@ -822,17 +840,20 @@ static void report_of_an_older_program(void)
     signorini_report full;
     memset(&full, 0xA5, sizeof full);
     full.struct_size = sizeof full;
-    CHECK_STATUS(signorini_solve(2, 1, K, 2, f, gap, half, NULL, NULL, d, F, NULL, &full), 0);
+    CHECK_STATUS(signorini_solve(2, 1, K, 2, f, gap, SIGNORINI_LAW_COULOMB, half, NULL, NULL, d, F,
+                                 NULL, &full, NULL), 0);
     for (uint32_t size = 16; size < sizeof full; size += 8) {
         signorini_report part, expected;
         memset(&part, 0xA5, sizeof part);
         part.struct_size = size;
         memcpy(&expected, &part, sizeof part);
         memcpy((char *)&expected + 4, (char *)&full + 4, size - 4);
-        CHECK_STATUS(signorini_solve(2, 1, K, 2, f, gap, half, NULL, NULL, d, F, NULL, &part), 0);
+        CHECK_STATUS(signorini_solve(2, 1, K, 2, f, gap, SIGNORINI_LAW_COULOMB, half, NULL, NULL, d,
+                                     F, NULL, &part, NULL), 0);
         CHECK(memcmp(&part, &expected, sizeof part) == 0);
         void *block = short_structure(size, 0);
-        CHECK_STATUS(signorini_solve(2, 1, K, 2, f, gap, half, NULL, NULL, d, F, NULL, block), 0);
+        CHECK_STATUS(signorini_solve(2, 1, K, 2, f, gap, SIGNORINI_LAW_COULOMB, half, NULL, NULL, d,
+                                     F, NULL, block, NULL), 0);
         CHECK(memcmp(block, &expected, size) == 0);
         free(block);
     }
@@ -851,11 +872,11 @@ static void versions(void)
 
 static void every_status_has_its_words(void)
 {
-    const int32_t known[] = {SIGNORINI_SOLVED,          SIGNORINI_ITERATION_LIMIT,
-                             SIGNORINI_TIME_LIMIT,      SIGNORINI_CANCELLED,
-                             SIGNORINI_NO_EQUILIBRIUM,  SIGNORINI_STALLED,
-                             SIGNORINI_NOT_A_SOLUTION,
-                             SIGNORINI_INTERNAL,        SIGNORINI_OUT_OF_MEMORY, -1};
+    const int32_t known[] = {SIGNORINI_STATUS_SOLVED,          SIGNORINI_STATUS_ITERATION_LIMIT,
+                             SIGNORINI_STATUS_TIME_LIMIT,      SIGNORINI_STATUS_CANCELLED,
+                             SIGNORINI_STATUS_NO_EQUILIBRIUM,  SIGNORINI_STATUS_STALLED,
+                             SIGNORINI_STATUS_NOT_A_SOLUTION,
+                             SIGNORINI_STATUS_INTERNAL,        SIGNORINI_STATUS_OUT_OF_MEMORY, -1};
     const int count = sizeof known / sizeof *known;
     const char *unknown = signorini_status_string(12345);
     for (int i = 0; i < count; i++) {
@@ -877,14 +898,14 @@ static void the_last_error_is_that_of_the_last_call(void)
     const double M[] = {2}, q[] = {-1};
     double w[1], z[1];
     signorini_settings settings;
-    CHECK_STATUS(signorini_lcp_lemke(-1, M, 1, q, NULL, NULL, w, z, NULL), -1);
+    CHECK_STATUS(signorini_lcp_lemke(-1, M, 1, q, NULL, NULL, w, z, NULL, NULL), -1);
     CHECK(signorini_last_error()[0] != '\0');
     /* Asking does not clear it, nor does any call that computes nothing. */
     signorini_status_string(-1);
     signorini_version();
     signorini_abi_version();
     CHECK_TEXT(signorini_last_error(), "n is -1");
-    CHECK_STATUS(signorini_lcp_lemke(1, M, 1, q, NULL, NULL, w, z, NULL), 0);
+    CHECK_STATUS(signorini_lcp_lemke(1, M, 1, q, NULL, NULL, w, z, NULL, NULL), 0);
     CHECK(signorini_last_error()[0] == '\0');
     CHECK_STATUS(signorini_settings_default(NULL, sizeof settings), -1);
     CHECK(signorini_last_error()[0] != '\0');

@@ -10,8 +10,9 @@ use signorini::file::{self, ProblemFile};
 /// A problem file of one pair.
 pub const SMALL: &str = "\
 %%MatrixMarket matrix array real general
-% signorini problem 1
-% kind: coulomb
+% signorini problem 2
+% kind: contact
+% law: coulomb
 % dim: 2
 % pairs: 1
 % remark: one pair

@@ -15,8 +15,9 @@ int main(void)
     double d[4], F[4];
     int32_t state[2];
 
-    int32_t status = signorini_solve(2, 2, K, 4, f, gap, mu, NULL, NULL, d, F, state, NULL);
-    if (status != SIGNORINI_SOLVED || state[0] != SIGNORINI_SLIP || state[1] != SIGNORINI_STICK) {
+    int32_t status = signorini_solve(2, 2, K, 4, f, gap, SIGNORINI_LAW_COULOMB, mu, NULL, NULL, d,
+                                     F, state, NULL, NULL);
+    if (status != SIGNORINI_STATUS_SOLVED || state[0] != SIGNORINI_STATE_SLIP || state[1] != SIGNORINI_STATE_STICK) {
         fprintf(stderr, "host: status %d: %s\n", (int)status, signorini_last_error());
         return 1;
     }

@@ -87,7 +87,7 @@ static const char *solve(const struct matrix_files *matrix, const double *load,
     const signorini_sparse view = matrix_view(matrix);
     const signorini_pairs pairs = {.struct_size = sizeof pairs,
                                    .dim = 2,
-                                   .pairs = BAR_PAIRS,
+                                   .count = BAR_PAIRS,
                                    .slaves = contact,
                                    .normals = normal}; /* no masters: the plane is rigid */
     int64_t fixed = 0;
@@ -105,15 +105,16 @@ static const char *solve(const struct matrix_files *matrix, const double *load,
     settings.tolerance = 1e-12;
 
     status = signorini_model_new_sparse(&view, fixed, held, &pairs, &model);
-    if (status == SIGNORINI_SOLVED)
-        status = signorini_model_solve(model, 1, load, NULL, gap, mu, NULL, &settings, solution->d,
-                                       solution->F, solution->state, NULL, NULL);
-    if (status == SIGNORINI_SOLVED)
+    if (status == SIGNORINI_STATUS_SOLVED)
+        status = signorini_model_solve(model, 1, load, NULL, gap, SIGNORINI_LAW_COULOMB, mu, NULL,
+                                       &settings, solution->d, solution->F, solution->state, NULL,
+                                       NULL, NULL);
+    if (status == SIGNORINI_STATUS_SOLVED)
         status = signorini_model_nodal_forces(model, solution->F, nodal);
     /* Before signorini_model_free: each call of the library has a sentence of its own. */
     snprintf(problem, sizeof problem, "%s", signorini_last_error());
     signorini_model_free(model);
-    return status == SIGNORINI_SOLVED ? NULL : problem;
+    return status == SIGNORINI_STATUS_SOLVED ? NULL : problem;
 }
 
 /* n = (0, -1) and, turned by +90 degrees, t = (1, 0): u_x = d_t, u_y = -d_n. What is held keeps its

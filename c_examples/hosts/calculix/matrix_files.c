@@ -111,12 +111,12 @@ signorini_sparse matrix_view(const struct matrix_files *matrix)
 {
     return (signorini_sparse){.struct_size = sizeof(signorini_sparse),
                               .index_bytes = 8,
-                              .base = 0,
-                              .triangle = SIGNORINI_UPPER,
+                              .index_base = 0,
+                              .triangle = SIGNORINI_TRIANGLE_UPPER,
                               .size = (int64_t)matrix->size,
-                              .entries = (int64_t)matrix->entries,
-                              .starts = matrix->starts,
-                              .rows = matrix->rows,
+                              .nnz = (int64_t)matrix->entries,
+                              .col_start = matrix->starts,
+                              .row = matrix->rows,
                               .values = matrix->values};
 }
 

@@ -46,11 +46,12 @@ residual.  What is not solved is an error.")
     std::vector<int32_t> states(pairs);
     signorini_report report;
     report.struct_size = sizeof report;
-    const int32_t status = ::signorini_solve(
-        dim, pairs, K.data(), size > 0 ? size : 1, f.data(), gap.data(), mu.data(),
-        slip.numel() != 0 ? slip.data() : nullptr, nullptr, d.fortran_vec(), F.fortran_vec(),
-        states.data(), &report);
-    if (status != SIGNORINI_SOLVED)
+    const int32_t status = ::signorini_solve(dim, pairs, K.data(), size > 0 ? size : 1, f.data(),
+                                             gap.data(), SIGNORINI_LAW_COULOMB, mu.data(),
+                                             slip.numel() != 0 ? slip.data() : nullptr, nullptr,
+                                             d.fortran_vec(), F.fortran_vec(), states.data(),
+                                             &report, nullptr);
+    if (status != SIGNORINI_STATUS_SOLVED)
         error("signorini_solve: %s", signorini_last_error());
     NDArray state(dim_vector(1, pairs));
     std::copy(states.begin(), states.end(), state.fortran_vec());
