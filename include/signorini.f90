@@ -1,60 +1,99 @@
-! signorini: unilateral contact with Coulomb friction, for Fortran.
+! signorini: unilateral contact with friction, for Fortran 2008.
 !
 ! Compile this file with your program: the module has no object code of its own to be delivered.
 !
-! Two layers. The functions signorini_... are those of signorini.h, argument by argument: that
-! header is their reference. In front of them stand contact_solve, contact_tresca, contact_certify,
-! lcp_solve and the type contact_model, which take assumed-shape arrays, optional arguments and
-! default integers, find the sizes out by themselves and count from 1.
+!     call contact_solve(k, f, gap, d, force, info, friction=mu, message=message)
 !
-! Of these, info is the status of signorini.h: 0 solved and certified; > 0 results were written but
-! are not a solution; < 0 an argument is wrong. message, of any length, is a sentence that tells
-! what and where; where it is the library's own, entries in it count from 0: K[row,column].
+! d are the relative displacements and force the contact forces of size(gap) pairs of nodes, ordered
+! pair by pair as (n, t) or (n, t1, t2), for the condensed stiffness k, the loads f and the gaps. The
+! body's outward normal is n, force(n) < 0 presses. The problem, the signs and the units are those
+! of signorini.h.
+!
+! What to call:
+!     contact_solve    a condensed problem in one call
+!     contact_certify  measures displacements of any origin
+!     lcp_solve        a linear complementarity problem (LCP)
+!     contact_model    a type: a structure that is reduced once and solved for many load cases;
+!                      call model%new_condensed, %new_two_body or %new_sparse, then %solve,
+!                      %certify, %recover, %nodal_forces, %frames, %condensed_load, %stiffness,
+!                      at the end %release
+! The functions signorini_... are those of signorini.h, argument by argument: files, and whatever
+! else is not above. That header is their reference.
+!
+! Arguments that many calls have:
+!     friction  the law's parameters, one for each pair. Without it there is no friction.
+!     law       SIGNORINI_LAW_COULOMB (the default with friction: coefficients mu) or
+!               SIGNORINI_LAW_TRESCA (thresholds g, forces).
+!     slip0     reference slip: tangential displacements at which friction is at rest, dim - 1 for
+!               each pair. Absent: zeros, the total law. The d_t of the last load step: the
+!               incremental law.
+!     method, tolerance, max_iterations  overrule what settings say.
+!     settings  type(signorini_settings): all settings. As declared it holds the defaults.
+!     state     SIGNORINI_STATE_OPEN, _SLIP or _STICK of each pair.
+!     report    type(signorini_report): how good the result is, and how it was found.
+!     motion    if info is SIGNORINI_STATUS_NO_EQUILIBRIUM, the motion of escape, which proves it;
+!               otherwise zeros.
+!     second_d, second_force, second_state  a second solution if report%second is 1, otherwise
+!               zeros. Ask for it by settings%search = SIGNORINI_SEARCH_OTHERS.
+!     info      0: solved and certified. > 0: SIGNORINI_STATUS_..., results were written but are
+!               not a solution. -k: the k-th argument in the parentheses of your call, counted as
+!               if none was left out, is wrong, and nothing was written. CONTACT_WRONG_MODEL: so
+!               is the model itself. <= -1000: internal, memory, a file.
+!     message   a sentence of any length that tells what is wrong and where; empty if info is 0.
+!               Indices in it count from 1.
 module signorini
     use, intrinsic :: iso_c_binding
     implicit none
     public
 
-    integer(c_int32_t), parameter :: SIGNORINI_SOLVED = 0
-    integer(c_int32_t), parameter :: SIGNORINI_ITERATION_LIMIT = 1
-    integer(c_int32_t), parameter :: SIGNORINI_TIME_LIMIT = 2
-    integer(c_int32_t), parameter :: SIGNORINI_CANCELLED = 3
-    integer(c_int32_t), parameter :: SIGNORINI_NO_EQUILIBRIUM = 4
-    integer(c_int32_t), parameter :: SIGNORINI_STALLED = 5
-    integer(c_int32_t), parameter :: SIGNORINI_NOT_A_SOLUTION = 6
-    integer(c_int32_t), parameter :: SIGNORINI_INTERNAL = -1000
-    integer(c_int32_t), parameter :: SIGNORINI_OUT_OF_MEMORY = -1001
-    integer(c_int32_t), parameter :: SIGNORINI_FILE = -1002
+    ! The model has not been made, has been released, or has not what is asked for.
+    integer, parameter :: CONTACT_WRONG_MODEL = -99
+
+    integer(c_int32_t), parameter :: SIGNORINI_STATUS_SOLVED = 0
+    integer(c_int32_t), parameter :: SIGNORINI_STATUS_ITERATION_LIMIT = 1
+    integer(c_int32_t), parameter :: SIGNORINI_STATUS_TIME_LIMIT = 2
+    integer(c_int32_t), parameter :: SIGNORINI_STATUS_CANCELLED = 3
+    integer(c_int32_t), parameter :: SIGNORINI_STATUS_NO_EQUILIBRIUM = 4
+    integer(c_int32_t), parameter :: SIGNORINI_STATUS_STALLED = 5
+    integer(c_int32_t), parameter :: SIGNORINI_STATUS_NOT_A_SOLUTION = 6
+    integer(c_int32_t), parameter :: SIGNORINI_STATUS_INTERNAL = -1000
+    integer(c_int32_t), parameter :: SIGNORINI_STATUS_OUT_OF_MEMORY = -1001
+    integer(c_int32_t), parameter :: SIGNORINI_STATUS_FILE = -1002
     integer(c_int32_t), parameter :: SIGNORINI_VERSION_MAJOR = 0
-    integer(c_int32_t), parameter :: SIGNORINI_VERSION_MINOR = 1
+    integer(c_int32_t), parameter :: SIGNORINI_VERSION_MINOR = 2
     integer(c_int32_t), parameter :: SIGNORINI_VERSION_PATCH = 0
-    integer(c_int32_t), parameter :: SIGNORINI_ABI_VERSION = 1
+    integer(c_int32_t), parameter :: SIGNORINI_ABI_VERSION = 2
+    integer(c_int32_t), parameter :: SIGNORINI_LAW_FRICTIONLESS = 0
+    integer(c_int32_t), parameter :: SIGNORINI_LAW_COULOMB = 1
+    integer(c_int32_t), parameter :: SIGNORINI_LAW_TRESCA = 2
     integer(c_int32_t), parameter :: SIGNORINI_METHOD_AUTO = 0
     integer(c_int32_t), parameter :: SIGNORINI_METHOD_SOR_NESTED = 1
     integer(c_int32_t), parameter :: SIGNORINI_METHOD_SOR_DIAGONAL = 2
     integer(c_int32_t), parameter :: SIGNORINI_METHOD_LEMKE = 3
-    integer(c_int32_t), parameter :: SIGNORINI_METHOD_PIVOT = 4
+    integer(c_int32_t), parameter :: SIGNORINI_METHOD_BLOCK_PIVOTING = 4
     integer(c_int32_t), parameter :: SIGNORINI_METHOD_NEWTON = 5
     integer(c_int32_t), parameter :: SIGNORINI_SEARCH_OFF = 0
     integer(c_int32_t), parameter :: SIGNORINI_SEARCH_OTHERS = 1
-    integer(c_int32_t), parameter :: SIGNORINI_SEARCH_RETURN_SECOND = 2
-    integer(c_int32_t), parameter :: SIGNORINI_OPEN = 0
-    integer(c_int32_t), parameter :: SIGNORINI_SLIP = 1
-    integer(c_int32_t), parameter :: SIGNORINI_STICK = 2
-    integer(c_int32_t), parameter :: SIGNORINI_NOT_KNOWN = 0
-    integer(c_int32_t), parameter :: SIGNORINI_UNIQUE = 1
-    integer(c_int32_t), parameter :: SIGNORINI_SEVERAL = 2
+    integer(c_int32_t), parameter :: SIGNORINI_STATE_OPEN = 0
+    integer(c_int32_t), parameter :: SIGNORINI_STATE_SLIP = 1
+    integer(c_int32_t), parameter :: SIGNORINI_STATE_STICK = 2
+    integer(c_int32_t), parameter :: SIGNORINI_UNIQUENESS_NOT_KNOWN = 0
+    integer(c_int32_t), parameter :: SIGNORINI_UNIQUENESS_UNIQUE = 1
+    integer(c_int32_t), parameter :: SIGNORINI_UNIQUENESS_SEVERAL = 2
     integer(c_int32_t), parameter :: SIGNORINI_FALLBACK_NONE = 0
     integer(c_int32_t), parameter :: SIGNORINI_FALLBACK_CYCLE = 1
     integer(c_int32_t), parameter :: SIGNORINI_FALLBACK_SINGULAR = 2
     integer(c_int32_t), parameter :: SIGNORINI_FALLBACK_UNSTABLE = 3
     integer(c_int32_t), parameter :: SIGNORINI_FALLBACK_INACCURATE = 4
-    integer(c_int32_t), parameter :: SIGNORINI_LOWER = 0
-    integer(c_int32_t), parameter :: SIGNORINI_UPPER = 1
-    integer(c_int32_t), parameter :: SIGNORINI_FULL = 2
-    integer(c_int32_t), parameter :: SIGNORINI_PROBLEM_COULOMB = 0
-    integer(c_int32_t), parameter :: SIGNORINI_PROBLEM_TRESCA = 1
-    integer(c_int32_t), parameter :: SIGNORINI_PROBLEM_LCP = 2
+    integer(c_int32_t), parameter :: SIGNORINI_TRIANGLE_LOWER = 0
+    integer(c_int32_t), parameter :: SIGNORINI_TRIANGLE_UPPER = 1
+    integer(c_int32_t), parameter :: SIGNORINI_TRIANGLE_FULL = 2
+    integer(c_int32_t), parameter :: SIGNORINI_PROBLEM_CONTACT = 0
+    integer(c_int32_t), parameter :: SIGNORINI_PROBLEM_LCP = 1
+
+    ! A variable of these types is ready to use: struct_size is that of the structure, settings have
+    ! their defaults, and all pointers are null.
+    integer, parameter, private :: address_bytes = storage_size(0_c_intptr_t) / 8
 
     type, bind(C) :: signorini_progress
         integer(c_int64_t) :: iterations = 0
@@ -63,21 +102,21 @@ module signorini
     end type
 
     type, bind(C) :: signorini_settings
-        integer(c_int32_t) :: struct_size = 0
-        integer(c_int32_t) :: method = 0
-        real(c_double) :: tolerance = 0
+        integer(c_int32_t) :: struct_size = 56 + 2 * address_bytes
+        integer(c_int32_t) :: method = SIGNORINI_METHOD_AUTO
+        real(c_double) :: tolerance = 1e-10_c_double
         real(c_double) :: omega = 0
         real(c_double) :: damping = 0
-        integer(c_int64_t) :: max_iterations = 0
+        integer(c_int64_t) :: max_iterations = 200000
         real(c_double) :: time_limit = 0
         integer(c_int32_t) :: warm_start = 0
-        integer(c_int32_t) :: search = 0
+        integer(c_int32_t) :: search = SIGNORINI_SEARCH_OFF
         type(c_funptr) :: progress = c_null_funptr
         type(c_ptr) :: user = c_null_ptr
     end type
 
     type, bind(C) :: signorini_report
-        integer(c_int32_t) :: struct_size = 0
+        integer(c_int32_t) :: struct_size = 152
         integer(c_int32_t) :: status = 0
         integer(c_int32_t) :: method = 0
         integer(c_int32_t) :: uniqueness = 0
@@ -92,34 +131,43 @@ module signorini
         real(c_double) :: equilibrium = 0
         real(c_double) :: omega = 0
         real(c_double) :: damping = 0
-        integer(c_int64_t) :: open = 0
-        integer(c_int64_t) :: slip = 0
-        integer(c_int64_t) :: stick = 0
+        integer(c_int64_t) :: pairs_open = 0
+        integer(c_int64_t) :: pairs_slipping = 0
+        integer(c_int64_t) :: pairs_sticking = 0
         integer(c_int64_t) :: factorisations = 0
         integer(c_int32_t) :: first_method = 0
         integer(c_int32_t) :: fallback = 0
         integer(c_int32_t) :: orientation = 0
+        integer(c_int32_t) :: second = 0
+    end type
+
+    type, bind(C) :: signorini_extra
+        integer(c_int32_t) :: struct_size = 8 + 4 * address_bytes
         integer(c_int32_t) :: reserved = 0
+        type(c_ptr) :: motion = c_null_ptr
+        type(c_ptr) :: second_d = c_null_ptr
+        type(c_ptr) :: second_force = c_null_ptr
+        type(c_ptr) :: second_state = c_null_ptr
     end type
 
     type, bind(C) :: signorini_sparse
-        integer(c_int32_t) :: struct_size = 0
+        integer(c_int32_t) :: struct_size = 32 + 3 * address_bytes
         integer(c_int32_t) :: index_bytes = 0
-        integer(c_int32_t) :: base = 0
-        integer(c_int32_t) :: triangle = 0
+        integer(c_int32_t) :: index_base = 0
+        integer(c_int32_t) :: triangle = SIGNORINI_TRIANGLE_LOWER
         integer(c_int64_t) :: size = 0
-        integer(c_int64_t) :: entries = 0
-        type(c_ptr) :: starts = c_null_ptr
-        type(c_ptr) :: rows = c_null_ptr
+        integer(c_int64_t) :: nnz = 0
+        type(c_ptr) :: col_start = c_null_ptr
+        type(c_ptr) :: row = c_null_ptr
         type(c_ptr) :: values = c_null_ptr
     end type
 
     type, bind(C) :: signorini_pairs
-        integer(c_int32_t) :: struct_size = 0
+        integer(c_int32_t) :: struct_size = 16 + 6 * address_bytes
         integer(c_int32_t) :: dim = 0
-        integer(c_int64_t) :: pairs = 0
+        integer(c_int64_t) :: count = 0
         type(c_ptr) :: slaves = c_null_ptr
-        type(c_ptr) :: master_starts = c_null_ptr
+        type(c_ptr) :: master_start = c_null_ptr
         type(c_ptr) :: masters = c_null_ptr
         type(c_ptr) :: weights = c_null_ptr
         type(c_ptr) :: normals = c_null_ptr
@@ -152,12 +200,26 @@ module signorini
         function signorini_settings_default(settings, struct_size) &
             bind(C, name="signorini_settings_default") result(answer)
             import
-            type(signorini_settings), intent(out) :: settings
+            type(signorini_settings), intent(inout) :: settings
             integer(c_int32_t), value :: struct_size
             integer(c_int32_t) :: answer
         end function
-        function signorini_solve(dim, pairs, k, ldk, f, gap, mu, slip, settings, d, force, &
-            state, report) &
+        function signorini_report_default(report, struct_size) &
+            bind(C, name="signorini_report_default") result(answer)
+            import
+            type(signorini_report), intent(inout) :: report
+            integer(c_int32_t), value :: struct_size
+            integer(c_int32_t) :: answer
+        end function
+        function signorini_extra_default(extra, struct_size) &
+            bind(C, name="signorini_extra_default") result(answer)
+            import
+            type(signorini_extra), intent(inout) :: extra
+            integer(c_int32_t), value :: struct_size
+            integer(c_int32_t) :: answer
+        end function
+        function signorini_solve(dim, pairs, k, ldk, f, gap, law, friction, slip0, settings, d, &
+            force, state, report, extra) &
             bind(C, name="signorini_solve") result(answer)
             import
             integer(c_int32_t), value :: dim
@@ -166,36 +228,19 @@ module signorini
             integer(c_int64_t), value :: ldk
             real(c_double), intent(in) :: f(*)
             real(c_double), intent(in) :: gap(*)
-            real(c_double), intent(in) :: mu(*)
-            type(c_ptr), value :: slip
+            integer(c_int32_t), value :: law
+            type(c_ptr), value :: friction
+            type(c_ptr), value :: slip0
             type(c_ptr), value :: settings
             real(c_double), intent(inout) :: d(*)
             real(c_double), intent(out) :: force(*)
             type(c_ptr), value :: state
             type(c_ptr), value :: report
+            type(c_ptr), value :: extra
             integer(c_int32_t) :: answer
         end function
-        function signorini_tresca(dim, pairs, k, ldk, f, gap, g, slip, settings, d, force, &
-            state, report) &
-            bind(C, name="signorini_tresca") result(answer)
-            import
-            integer(c_int32_t), value :: dim
-            integer(c_int64_t), value :: pairs
-            real(c_double), intent(in) :: k(*)
-            integer(c_int64_t), value :: ldk
-            real(c_double), intent(in) :: f(*)
-            real(c_double), intent(in) :: gap(*)
-            real(c_double), intent(in) :: g(*)
-            type(c_ptr), value :: slip
-            type(c_ptr), value :: settings
-            real(c_double), intent(inout) :: d(*)
-            real(c_double), intent(out) :: force(*)
-            type(c_ptr), value :: state
-            type(c_ptr), value :: report
-            integer(c_int32_t) :: answer
-        end function
-        function signorini_certify(dim, pairs, k, ldk, f, gap, mu, slip, tolerance, d, force, &
-            state, report) &
+        function signorini_certify(dim, pairs, k, ldk, f, gap, law, friction, slip0, tolerance, &
+            d, force, state, report) &
             bind(C, name="signorini_certify") result(answer)
             import
             integer(c_int32_t), value :: dim
@@ -204,8 +249,9 @@ module signorini
             integer(c_int64_t), value :: ldk
             real(c_double), intent(in) :: f(*)
             real(c_double), intent(in) :: gap(*)
-            real(c_double), intent(in) :: mu(*)
-            type(c_ptr), value :: slip
+            integer(c_int32_t), value :: law
+            type(c_ptr), value :: friction
+            type(c_ptr), value :: slip0
             real(c_double), value :: tolerance
             real(c_double), intent(in) :: d(*)
             type(c_ptr), value :: force
@@ -213,7 +259,7 @@ module signorini
             type(c_ptr), value :: report
             integer(c_int32_t) :: answer
         end function
-        function signorini_lcp_solve(n, m, ldm, q, settings, w, z, report) &
+        function signorini_lcp_solve(n, m, ldm, q, settings, w, z, y, report) &
             bind(C, name="signorini_lcp_solve") result(answer)
             import
             integer(c_int64_t), value :: n
@@ -223,10 +269,11 @@ module signorini
             type(c_ptr), value :: settings
             real(c_double), intent(out) :: w(*)
             real(c_double), intent(out) :: z(*)
+            type(c_ptr), value :: y
             type(c_ptr), value :: report
             integer(c_int32_t) :: answer
         end function
-        function signorini_lcp_lemke(n, m, ldm, q, cover, settings, w, z, report) &
+        function signorini_lcp_lemke(n, m, ldm, q, cover, settings, w, z, y, report) &
             bind(C, name="signorini_lcp_lemke") result(answer)
             import
             integer(c_int64_t), value :: n
@@ -237,6 +284,7 @@ module signorini
             type(c_ptr), value :: settings
             real(c_double), intent(out) :: w(*)
             real(c_double), intent(out) :: z(*)
+            type(c_ptr), value :: y
             type(c_ptr), value :: report
             integer(c_int32_t) :: answer
         end function
@@ -262,12 +310,12 @@ module signorini
             type(c_ptr), intent(out) :: model
             integer(c_int32_t) :: answer
         end function
-        function signorini_model_new_sparse(k, fixed, dofs, pairs, model) &
+        function signorini_model_new_sparse(k, n_fixed, fixed, pairs, model) &
             bind(C, name="signorini_model_new_sparse") result(answer)
             import
             type(signorini_sparse), intent(in) :: k
-            integer(c_int64_t), value :: fixed
-            type(c_ptr), value :: dofs
+            integer(c_int64_t), value :: n_fixed
+            type(c_ptr), value :: fixed
             type(signorini_pairs), intent(in) :: pairs
             type(c_ptr), intent(out) :: model
             integer(c_int32_t) :: answer
@@ -277,6 +325,18 @@ module signorini
             import
             type(c_ptr), value :: model
         end subroutine
+        function signorini_model_dim(model) &
+            bind(C, name="signorini_model_dim") result(answer)
+            import
+            type(c_ptr), value :: model
+            integer(c_int32_t) :: answer
+        end function
+        function signorini_model_pairs(model) &
+            bind(C, name="signorini_model_pairs") result(answer)
+            import
+            type(c_ptr), value :: model
+            integer(c_int64_t) :: answer
+        end function
         function signorini_model_host_size(model) &
             bind(C, name="signorini_model_host_size") result(answer)
             import
@@ -290,23 +350,59 @@ module signorini
             real(c_double), intent(out) :: k(*)
             integer(c_int32_t) :: answer
         end function
-        function signorini_model_solve(model, cases, f, prescribed, gap, mu, slip, settings, &
-            d, force, state, report, status) &
+        function signorini_model_frames(model, frames) &
+            bind(C, name="signorini_model_frames") result(answer)
+            import
+            type(c_ptr), value :: model
+            real(c_double), intent(out) :: frames(*)
+            integer(c_int32_t) :: answer
+        end function
+        function signorini_model_condensed_load(model, f, prescribed, load) &
+            bind(C, name="signorini_model_condensed_load") result(answer)
+            import
+            type(c_ptr), value :: model
+            type(c_ptr), value :: f
+            type(c_ptr), value :: prescribed
+            real(c_double), intent(out) :: load(*)
+            integer(c_int32_t) :: answer
+        end function
+        function signorini_model_solve(model, cases, f, prescribed, gap, law, friction, slip0, &
+            settings, d, force, state, status, report, extra) &
             bind(C, name="signorini_model_solve") result(answer)
             import
             type(c_ptr), value :: model
             integer(c_int64_t), value :: cases
-            real(c_double), intent(in) :: f(*)
+            type(c_ptr), value :: f
             type(c_ptr), value :: prescribed
             real(c_double), intent(in) :: gap(*)
-            real(c_double), intent(in) :: mu(*)
-            type(c_ptr), value :: slip
+            integer(c_int32_t), value :: law
+            type(c_ptr), value :: friction
+            type(c_ptr), value :: slip0
             type(c_ptr), value :: settings
             real(c_double), intent(inout) :: d(*)
             real(c_double), intent(out) :: force(*)
             type(c_ptr), value :: state
-            type(c_ptr), value :: report
             type(c_ptr), value :: status
+            type(c_ptr), value :: report
+            type(c_ptr), value :: extra
+            integer(c_int32_t) :: answer
+        end function
+        function signorini_model_certify(model, f, prescribed, gap, law, friction, slip0, &
+            tolerance, d, force, state, report) &
+            bind(C, name="signorini_model_certify") result(answer)
+            import
+            type(c_ptr), value :: model
+            type(c_ptr), value :: f
+            type(c_ptr), value :: prescribed
+            real(c_double), intent(in) :: gap(*)
+            integer(c_int32_t), value :: law
+            type(c_ptr), value :: friction
+            type(c_ptr), value :: slip0
+            real(c_double), value :: tolerance
+            real(c_double), intent(in) :: d(*)
+            type(c_ptr), value :: force
+            type(c_ptr), value :: state
+            type(c_ptr), value :: report
             integer(c_int32_t) :: answer
         end function
         function signorini_model_recover(model, f, prescribed, d, u) &
@@ -327,8 +423,9 @@ module signorini
             real(c_double), intent(out) :: nodal(*)
             integer(c_int32_t) :: answer
         end function
-        function signorini_problem_save(path, dim, pairs, k, ldk, f, gap, mu, slip, remark) &
-            bind(C, name="signorini_problem_save") result(answer)
+        function signorini_problem_write(path, dim, pairs, k, ldk, f, gap, law, friction, &
+            slip0, remark) &
+            bind(C, name="signorini_problem_write") result(answer)
             import
             character(kind=c_char), intent(in) :: path(*)
             integer(c_int32_t), value :: dim
@@ -337,28 +434,14 @@ module signorini
             integer(c_int64_t), value :: ldk
             real(c_double), intent(in) :: f(*)
             real(c_double), intent(in) :: gap(*)
-            real(c_double), intent(in) :: mu(*)
-            type(c_ptr), value :: slip
+            integer(c_int32_t), value :: law
+            type(c_ptr), value :: friction
+            type(c_ptr), value :: slip0
             type(c_ptr), value :: remark
             integer(c_int32_t) :: answer
         end function
-        function signorini_tresca_save(path, dim, pairs, k, ldk, f, gap, g, slip, remark) &
-            bind(C, name="signorini_tresca_save") result(answer)
-            import
-            character(kind=c_char), intent(in) :: path(*)
-            integer(c_int32_t), value :: dim
-            integer(c_int64_t), value :: pairs
-            real(c_double), intent(in) :: k(*)
-            integer(c_int64_t), value :: ldk
-            real(c_double), intent(in) :: f(*)
-            real(c_double), intent(in) :: gap(*)
-            real(c_double), intent(in) :: g(*)
-            type(c_ptr), value :: slip
-            type(c_ptr), value :: remark
-            integer(c_int32_t) :: answer
-        end function
-        function signorini_lcp_save(path, n, m, ldm, q, cover, remark) &
-            bind(C, name="signorini_lcp_save") result(answer)
+        function signorini_lcp_write(path, n, m, ldm, q, cover, remark) &
+            bind(C, name="signorini_lcp_write") result(answer)
             import
             character(kind=c_char), intent(in) :: path(*)
             integer(c_int64_t), value :: n
@@ -369,21 +452,23 @@ module signorini
             type(c_ptr), value :: remark
             integer(c_int32_t) :: answer
         end function
-        function signorini_model_save_case(model, path, f, prescribed, gap, mu, slip, remark) &
-            bind(C, name="signorini_model_save_case") result(answer)
+        function signorini_model_write(model, path, f, prescribed, gap, law, friction, slip0, &
+            remark) &
+            bind(C, name="signorini_model_write") result(answer)
             import
             type(c_ptr), value :: model
             character(kind=c_char), intent(in) :: path(*)
             type(c_ptr), value :: f
             type(c_ptr), value :: prescribed
             real(c_double), intent(in) :: gap(*)
-            real(c_double), intent(in) :: mu(*)
-            type(c_ptr), value :: slip
+            integer(c_int32_t), value :: law
+            type(c_ptr), value :: friction
+            type(c_ptr), value :: slip0
             type(c_ptr), value :: remark
             integer(c_int32_t) :: answer
         end function
-        function signorini_problem_load(path, problem) &
-            bind(C, name="signorini_problem_load") result(answer)
+        function signorini_problem_read(path, problem) &
+            bind(C, name="signorini_problem_read") result(answer)
             import
             character(kind=c_char), intent(in) :: path(*)
             type(c_ptr), intent(out) :: problem
@@ -396,6 +481,12 @@ module signorini
         end subroutine
         function signorini_problem_kind(problem) &
             bind(C, name="signorini_problem_kind") result(answer)
+            import
+            type(c_ptr), value :: problem
+            integer(c_int32_t) :: answer
+        end function
+        function signorini_problem_law(problem) &
+            bind(C, name="signorini_problem_law") result(answer)
             import
             type(c_ptr), value :: problem
             integer(c_int32_t) :: answer
@@ -424,8 +515,8 @@ module signorini
             type(c_ptr), value :: problem
             type(c_ptr) :: answer
         end function
-        function signorini_problem_vector(problem) &
-            bind(C, name="signorini_problem_vector") result(answer)
+        function signorini_problem_rhs(problem) &
+            bind(C, name="signorini_problem_rhs") result(answer)
             import
             type(c_ptr), value :: problem
             type(c_ptr) :: answer
@@ -442,8 +533,8 @@ module signorini
             type(c_ptr), value :: problem
             type(c_ptr) :: answer
         end function
-        function signorini_problem_slip(problem) &
-            bind(C, name="signorini_problem_slip") result(answer)
+        function signorini_problem_slip0(problem) &
+            bind(C, name="signorini_problem_slip0") result(answer)
             import
             type(c_ptr), value :: problem
             type(c_ptr) :: answer
@@ -460,6 +551,12 @@ module signorini
             type(c_ptr), value :: problem
             type(c_ptr) :: answer
         end function
+        ! The sentence of signorini_last_error with indices that count from 1, of Fortran 77.
+        subroutine sgmesg(text, ltext) bind(C, name="sgmesg_")
+            import
+            character(kind=c_char), intent(inout) :: text(*)
+            integer(c_int32_t), intent(in) :: ltext
+        end subroutine
     end interface
 
     ! A structure, reduced to its contact pairs. Copies of it are the same model: release it once.
@@ -471,20 +568,35 @@ module signorini
         procedure :: new_two_body => model_new_two_body
         procedure :: new_sparse => model_new_sparse
         procedure :: host_size => model_host_size
+        procedure :: stiffness => model_stiffness
+        procedure :: frames => model_frames
+        procedure :: condensed_load => model_condensed_load
         procedure :: solve => model_solve
+        procedure :: certify => model_certify
         procedure :: recover => model_recover
         procedure :: nodal_forces => model_nodal_forces
         procedure :: release => model_release
     end type
 
-    private :: condensed, text_of, finish, refuse, fill, address, copy_states, number
+    ! The first argument that is wrong, and a sentence about it; position 0: none is.
+    type, private :: refusal
+        integer :: position = 0
+        character(len=512) :: sentence = ''
+    end type
+
+    private :: text_of, finish, refused, refuse, check_size, check_shape
+    private :: check_case, check_pairs, check_square, check_dim, check_data, check_starts, check_second
+    private :: check_model, check_masters, choose_law, choose_settings, place_of_settings
+    private :: address, address_of_extra, copy_states, entries, number, text, tuple, keep_sizes
 
 contains
 
-    ! The last sentence of the library on this thread.
+    ! The sentence of the last call of the library on this thread; its indices count from 1.
     function signorini_message() result(text)
         character(len=:), allocatable :: text
-        text = text_of(signorini_last_error())
+        character(len=512) :: buffer
+        call sgmesg(buffer, len(buffer, c_int32_t))
+        text = trim(buffer)
     end function
 
     ! A short description of a status.
@@ -494,241 +606,229 @@ contains
         text = text_of(signorini_status_string(number(info)))
     end function
 
-    ! Condensed contact with Coulomb friction: the dimension is size(f) / size(gap).
-    subroutine contact_solve(k, f, gap, mu, d, force, info, slip, state, report, method, tolerance, &
-            max_iterations, settings, message)
-        real(c_double), intent(in), contiguous :: k(:, :), f(:), gap(:), mu(:)
+    ! Solves a condensed contact problem of n = size(f) unknowns, size(f) / size(gap) for each pair.
+    ! k(n, n), f(n), gap(pairs), d(n), force(n), slip0(n - pairs).
+    subroutine contact_solve(k, f, gap, d, force, info, law, friction, slip0, method, tolerance, &
+            max_iterations, settings, state, report, motion, second_d, second_force, second_state, &
+            message)
+        real(c_double), intent(in), contiguous :: k(:, :), f(:), gap(:)
         real(c_double), intent(inout), contiguous :: d(:)
         real(c_double), intent(out), contiguous :: force(:)
         integer, intent(out) :: info
-        real(c_double), intent(in), contiguous, target, optional :: slip(:)
-        integer, intent(out), optional :: state(:)
-        type(signorini_report), intent(out), optional :: report
-        integer, intent(in), optional :: method, max_iterations
+        integer, intent(in), optional :: law, method, max_iterations
+        real(c_double), intent(in), contiguous, target, optional :: friction(:), slip0(:)
         real(c_double), intent(in), optional :: tolerance
         type(signorini_settings), intent(in), optional :: settings
-        character(len=*), intent(out), optional :: message
-        call condensed(.false., k, f, gap, mu, d, force, info, slip, state, report, method, &
-            tolerance, max_iterations, settings, message)
-    end subroutine
-
-    ! The same with friction thresholds g.
-    subroutine contact_tresca(k, f, gap, g, d, force, info, slip, state, report, method, tolerance, &
-            max_iterations, settings, message)
-        real(c_double), intent(in), contiguous :: k(:, :), f(:), gap(:), g(:)
-        real(c_double), intent(inout), contiguous :: d(:)
-        real(c_double), intent(out), contiguous :: force(:)
-        integer, intent(out) :: info
-        real(c_double), intent(in), contiguous, target, optional :: slip(:)
-        integer, intent(out), optional :: state(:)
+        integer, intent(out), optional :: state(:), second_state(:)
         type(signorini_report), intent(out), optional :: report
-        integer, intent(in), optional :: method, max_iterations
-        real(c_double), intent(in), optional :: tolerance
-        type(signorini_settings), intent(in), optional :: settings
-        character(len=*), intent(out), optional :: message
-        call condensed(.true., k, f, gap, g, d, force, info, slip, state, report, method, &
-            tolerance, max_iterations, settings, message)
-    end subroutine
-
-    subroutine condensed(thresholds, k, f, gap, friction, d, force, info, slip, state, report, &
-            method, tolerance, max_iterations, settings, message)
-        logical, intent(in) :: thresholds
-        real(c_double), intent(in), contiguous :: k(:, :), f(:), gap(:), friction(:)
-        real(c_double), intent(inout), contiguous :: d(:)
-        real(c_double), intent(out), contiguous :: force(:)
-        integer, intent(out) :: info
-        real(c_double), intent(in), contiguous, target, optional :: slip(:)
-        integer, intent(out), optional :: state(:)
-        type(signorini_report), intent(out), optional :: report
-        integer, intent(in), optional :: method, max_iterations
-        real(c_double), intent(in), optional :: tolerance
-        type(signorini_settings), intent(in), optional :: settings
+        real(c_double), intent(out), contiguous, target, optional :: motion(:), second_d(:), second_force(:)
         character(len=*), intent(out), optional :: message
         type(signorini_settings), target :: chosen
         type(signorini_report), target :: measured
-        integer(c_int32_t), target :: states(size(gap))
-        integer(c_int32_t) :: dim, status
-        integer :: n
+        type(signorini_extra), target :: extra
+        integer(c_int32_t), target :: states(size(gap)), second_states(size(gap))
+        type(refusal) :: wrong
+        integer(c_int32_t) :: which, status
+        integer :: n, pairs
         n = size(f)
-        dim = number(n / max(1, size(gap)))
-        if (size(gap) == 0) dim = 2
-        if (dim * size(gap) /= n) call refuse(info, 5, 'f has no whole number of components a pair', message)
-        if (dim * size(gap) /= n) return
-        if (size(k, 2) /= n) call refuse(info, 3, 'k has not as many columns as f has entries', message)
-        if (size(k, 2) /= n) return
-        if (size(friction) /= size(gap)) call refuse(info, 7, 'friction and gap differ in size', message)
-        if (size(friction) /= size(gap)) return
-        if (present(slip)) then
-            if (size(slip) /= n - size(gap)) call refuse(info, 8, 'slip has a wrong size', message)
-            if (size(slip) /= n - size(gap)) return
-        end if
-        if (size(d) /= n) call refuse(info, 10, 'd and f differ in size', message)
-        if (size(d) /= n) return
-        if (size(force) /= n) call refuse(info, 11, 'force and f differ in size', message)
-        if (size(force) /= n) return
-        if (present(state)) then
-            if (size(state) /= size(gap)) call refuse(info, 12, 'state and gap differ in size', message)
-            if (size(state) /= size(gap)) return
-        end if
-        call fill(chosen, method, tolerance, max_iterations, settings)
-        measured%struct_size = number(int(c_sizeof(measured)))
-        if (thresholds) then
-            status = signorini_tresca(dim, int(size(gap), c_int64_t), k, int(max(1, size(k, 1)), c_int64_t), &
-                f, gap, friction, address(slip), c_loc(chosen), d, force, c_loc(states), c_loc(measured))
-        else
-            status = signorini_solve(dim, int(size(gap), c_int64_t), k, int(max(1, size(k, 1)), c_int64_t), &
-                f, gap, friction, address(slip), c_loc(chosen), d, force, c_loc(states), c_loc(measured))
-        end if
-        call finish(status, info, message)
+        pairs = size(gap)
+        call check_data(wrong, shape(k), n, pairs)
+        call check_size(wrong, 4, 'd', size(d), n, 'as many as f')
+        call check_size(wrong, 5, 'force', size(force), n, 'as many as f')
+        call choose_law(wrong, 7, pairs, which, law, friction)
+        if (present(slip0)) call check_size(wrong, 9, 'slip0', size(slip0), n - pairs, 'dim - 1 for each pair')
+        call choose_settings(wrong, 10, chosen, method, tolerance, max_iterations, settings)
+        if (present(state)) call check_size(wrong, 14, 'state', size(state), pairs, 'one for each pair')
+        call check_second(wrong, 16, n, pairs, motion, second_d, second_force, second_state)
+        if (refused(wrong, info, message)) return
+        extra = address_of_extra(second_states, motion, second_d, second_force)
+        status = signorini_solve(number(max(2, n / max(1, pairs))), int(pairs, c_int64_t), k, &
+            int(max(1, n), c_int64_t), f, gap, which, address(friction), address(slip0), &
+            c_loc(chosen), d, force, c_loc(states), c_loc(measured), c_loc(extra))
+        call finish(status, info, message, [2, 3, 1, 1, 2, 3, 7, 8, 9, &
+            place_of_settings(10, method, settings), 4, 5, 14, 15, 16])
+        if (status >= 0) call copy_states(states, state)
+        if (status >= 0) call copy_states(second_states, second_state)
+        if (present(report)) report = measured
+    end subroutine
+
+    ! Measures displacements d of any origin on the data of a condensed problem. info is 0 if they
+    ! are a solution up to tolerance, SIGNORINI_STATUS_NOT_A_SOLUTION if not.
+    subroutine contact_certify(k, f, gap, d, info, law, friction, slip0, tolerance, force, state, &
+            report, message)
+        real(c_double), intent(in), contiguous :: k(:, :), f(:), gap(:), d(:)
+        integer, intent(out) :: info
+        integer, intent(in), optional :: law
+        real(c_double), intent(in), contiguous, target, optional :: friction(:), slip0(:)
+        real(c_double), intent(in), optional :: tolerance
+        real(c_double), intent(out), contiguous, target, optional :: force(:)
+        integer, intent(out), optional :: state(:)
+        type(signorini_report), intent(out), optional :: report
+        character(len=*), intent(out), optional :: message
+        type(signorini_settings) :: chosen
+        type(signorini_report), target :: measured
+        integer(c_int32_t), target :: states(size(gap))
+        type(refusal) :: wrong
+        integer(c_int32_t) :: which, status
+        integer :: n, pairs
+        n = size(f)
+        pairs = size(gap)
+        call check_data(wrong, shape(k), n, pairs)
+        call check_size(wrong, 4, 'd', size(d), n, 'as many as f')
+        call choose_law(wrong, 6, pairs, which, law, friction)
+        if (present(slip0)) call check_size(wrong, 8, 'slip0', size(slip0), n - pairs, 'dim - 1 for each pair')
+        if (present(force)) call check_size(wrong, 10, 'force', size(force), n, 'as many as f')
+        if (present(state)) call check_size(wrong, 11, 'state', size(state), pairs, 'one for each pair')
+        if (refused(wrong, info, message)) return
+        if (present(tolerance)) chosen%tolerance = tolerance
+        status = signorini_certify(number(max(2, n / max(1, pairs))), int(pairs, c_int64_t), k, &
+            int(max(1, n), c_int64_t), f, gap, which, address(friction), address(slip0), &
+            chosen%tolerance, d, address(force), c_loc(states), c_loc(measured))
+        call finish(status, info, message, [2, 3, 1, 1, 2, 3, 6, 7, 8, 9, 4, 10, 11, 12])
         if (status >= 0) call copy_states(states, state)
         if (present(report)) report = measured
     end subroutine
 
-    ! Measures displacements d of any origin on the data of a condensed problem.
-    subroutine contact_certify(k, f, gap, mu, d, tolerance, info, slip, report, message)
-        real(c_double), intent(in), contiguous :: k(:, :), f(:), gap(:), mu(:), d(:)
-        real(c_double), intent(in) :: tolerance
-        integer, intent(out) :: info
-        real(c_double), intent(in), contiguous, target, optional :: slip(:)
-        type(signorini_report), intent(out), optional :: report
-        character(len=*), intent(out), optional :: message
-        type(signorini_report), target :: measured
-        integer(c_int32_t) :: status
-        integer :: n, dim
-        logical :: fits
-        n = size(f)
-        dim = 2
-        if (size(gap) > 0) dim = n / size(gap)
-        fits = dim * size(gap) == n .and. size(k, 2) == n .and. size(mu) == size(gap) .and. size(d) == n
-        if (present(slip)) fits = fits .and. size(slip) == n - size(gap)
-        if (.not. fits) call refuse(info, 2, 'k, f, gap, mu, slip and d do not fit each other', message)
-        if (.not. fits) return
-        measured%struct_size = number(int(c_sizeof(measured)))
-        status = signorini_certify(number(dim), int(size(gap), c_int64_t), k, &
-            int(max(1, size(k, 1)), c_int64_t), f, gap, mu, address(slip), tolerance, d, c_null_ptr, &
-            c_null_ptr, c_loc(measured))
-        call finish(status, info, message)
-        if (present(report)) report = measured
-    end subroutine
-
-    ! w = q + m z, w >= 0, z >= 0, w . z = 0.
-    subroutine lcp_solve(m, q, w, z, info, report, method, tolerance, max_iterations, message)
+    ! An LCP: w = q + m z, w >= 0, z >= 0, w . z = 0, with m(n, n), q(n), w(n), z(n). infeasible_by(n):
+    ! if info is SIGNORINI_STATUS_NO_EQUILIBRIUM, y >= 0 with m^T y <= 0 and q . y < 0, which proves
+    ! that no w >= 0 and z >= 0 satisfy w = q + m z; otherwise zeros.
+    subroutine lcp_solve(m, q, w, z, info, method, tolerance, max_iterations, settings, &
+            infeasible_by, report, message)
         real(c_double), intent(in), contiguous :: m(:, :), q(:)
         real(c_double), intent(out), contiguous :: w(:), z(:)
         integer, intent(out) :: info
-        type(signorini_report), intent(out), optional :: report
         integer, intent(in), optional :: method, max_iterations
         real(c_double), intent(in), optional :: tolerance
+        type(signorini_settings), intent(in), optional :: settings
+        real(c_double), intent(out), contiguous, target, optional :: infeasible_by(:)
+        type(signorini_report), intent(out), optional :: report
         character(len=*), intent(out), optional :: message
         type(signorini_settings), target :: chosen
         type(signorini_report), target :: measured
-        logical :: fits
-        fits = size(m, 2) == size(q) .and. size(w) == size(q) .and. size(z) == size(q)
-        if (.not. fits) call refuse(info, 1, 'm, q, w and z do not fit each other', message)
-        if (.not. fits) return
-        call fill(chosen, method, tolerance, max_iterations)
-        measured%struct_size = number(int(c_sizeof(measured)))
-        call finish(signorini_lcp_solve(int(size(q), c_int64_t), m, int(max(1, size(m, 1)), c_int64_t), q, &
-            c_loc(chosen), w, z, c_loc(measured)), info, message)
+        type(refusal) :: wrong
+        integer :: n
+        n = size(q)
+        call check_shape(wrong, 1, 'm', shape(m), [n, n], 'a row and a column for each entry of q')
+        call check_size(wrong, 3, 'w', size(w), n, 'as many as q')
+        call check_size(wrong, 4, 'z', size(z), n, 'as many as q')
+        call choose_settings(wrong, 6, chosen, method, tolerance, max_iterations, settings)
+        if (present(infeasible_by)) &
+            call check_size(wrong, 10, 'infeasible_by', size(infeasible_by), n, 'as many as q')
+        if (refused(wrong, info, message)) return
+        call finish(signorini_lcp_solve(int(n, c_int64_t), m, int(max(1, n), c_int64_t), q, &
+            c_loc(chosen), w, z, address(infeasible_by), c_loc(measured)), info, message, &
+            [2, 1, 1, 2, place_of_settings(6, method, settings), 3, 4, 10, 11])
         if (present(report)) report = measured
     end subroutine
 
+    ! A model of the condensed stiffness k(n, n), n = dim * pairs.
     subroutine model_new_condensed(self, dim, k, info, message)
         class(contact_model), intent(inout) :: self
         integer, intent(in) :: dim
         real(c_double), intent(in), contiguous :: k(:, :)
         integer, intent(out) :: info
         character(len=*), intent(out), optional :: message
+        type(refusal) :: wrong
+        integer :: pairs
         call self%release()
-        self%dim = dim
-        self%pairs = size(k, 2) / max(1, dim)
-        call finish(signorini_model_new_condensed(number(dim), int(self%pairs, c_int64_t), k, &
-            int(max(1, size(k, 1)), c_int64_t), self%handle), info, message)
+        call check_dim(wrong, 1, dim)
+        call check_square(wrong, 2, 'k', shape(k), dim)
+        if (refused(wrong, info, message)) return
+        pairs = size(k, 2) / dim
+        call finish(signorini_model_new_condensed(number(dim), int(pairs, c_int64_t), k, &
+            int(max(1, size(k, 1)), c_int64_t), self%handle), info, message, [1, 2, 2, 2])
+        if (info == 0) call keep_sizes(self, dim, pairs, 0)
     end subroutine
 
+    ! A model of two bodies that face each other in the same frames: k_a(n, n) and k_b(n, n),
+    ! n = dim * pairs. A load of the model is that of the first body, then that of the second.
     subroutine model_new_two_body(self, dim, k_a, k_b, info, message)
         class(contact_model), intent(inout) :: self
         integer, intent(in) :: dim
         real(c_double), intent(in), contiguous :: k_a(:, :), k_b(:, :)
         integer, intent(out) :: info
         character(len=*), intent(out), optional :: message
+        type(refusal) :: wrong
+        integer :: pairs
         call self%release()
-        self%dim = dim
-        self%pairs = size(k_a, 2) / max(1, dim)
-        if (size(k_b, 2) /= size(k_a, 2)) call refuse(info, 5, 'k_a and k_b differ in size', message)
-        if (size(k_b, 2) /= size(k_a, 2)) return
-        call finish(signorini_model_new_two_body(number(dim), int(self%pairs, c_int64_t), k_a, &
-            int(max(1, size(k_a, 1)), c_int64_t), k_b, int(max(1, size(k_b, 1)), c_int64_t), self%handle), &
-            info, message)
+        call check_dim(wrong, 1, dim)
+        call check_square(wrong, 2, 'k_a', shape(k_a), dim)
+        call check_shape(wrong, 3, 'k_b', shape(k_b), shape(k_a), 'as k_a')
+        if (refused(wrong, info, message)) return
+        pairs = size(k_a, 2) / dim
+        call finish(signorini_model_new_two_body(number(dim), int(pairs, c_int64_t), k_a, &
+            int(max(1, size(k_a, 1)), c_int64_t), k_b, int(max(1, size(k_b, 1)), c_int64_t), &
+            self%handle), info, message, [1, 2, 2, 2, 3, 3])
+        if (info == 0) call keep_sizes(self, dim, pairs, 0)
     end subroutine
 
-    ! Of a whole sparse matrix by columns: starts(size + 1), rows, values, all counted from 1. Each
-    ! pair has a column in slaves and normals. Without masters the obstacle is rigid.
-    subroutine model_new_sparse(self, starts, rows, values, triangle, slaves, normals, info, fixed, &
-            master_starts, masters, weights, tangents, message)
+    ! A model of a whole sparse symmetric matrix of n rows by columns, whose indices count from 1:
+    ! col_start(n + 1), row(nnz) ascending in each column, values(nnz), triangle: which entries are
+    ! stored, SIGNORINI_TRIANGLE_LOWER, _UPPER or _FULL.
+    !
+    ! slaves(dim, pairs): degrees of freedom of each slave node. normals(dim, pairs), outward from the
+    ! slave's body. tangents(dim, pairs): the first tangents; absent: chosen. fixed: degrees of
+    ! freedom that supports hold.
+    ! masters(dim, m): degrees of freedom of all master nodes, weights(m), master_start(pairs + 1):
+    ! those of pair i are master_start(i) to master_start(i + 1) - 1. Without masters the obstacle
+    ! is rigid. If the library finds something wrong in the matrix, info is the position of values,
+    ! if in the pairs, that of slaves; message tells the array.
+    subroutine model_new_sparse(self, col_start, row, values, triangle, slaves, normals, info, fixed, &
+            master_start, masters, weights, tangents, message)
         class(contact_model), intent(inout) :: self
-        integer, intent(in), contiguous, target :: starts(:), rows(:)
+        integer, intent(in), contiguous, target :: col_start(:), row(:)
         real(c_double), intent(in), contiguous, target :: values(:)
         integer(c_int32_t), intent(in) :: triangle
         integer, intent(in) :: slaves(:, :)
         real(c_double), intent(in), contiguous, target :: normals(:, :)
         integer, intent(out) :: info
-        integer, intent(in), optional :: fixed(:), master_starts(:), masters(:, :)
+        integer, intent(in), optional :: fixed(:), master_start(:), masters(:, :)
         real(c_double), intent(in), contiguous, target, optional :: weights(:), tangents(:, :)
         character(len=*), intent(out), optional :: message
         type(signorini_sparse) :: matrix
         type(signorini_pairs) :: pairs
-        integer(c_int64_t), allocatable, target :: held(:), of_slaves(:, :), begins(:), of_masters(:, :)
-        integer(c_int64_t) :: held_count
-        logical :: fits
+        integer(c_int64_t), allocatable, target :: held(:), of_slaves(:), begins(:), of_masters(:)
+        integer(c_int64_t) :: n_fixed
+        type(refusal) :: wrong
         call self%release()
-        fits = size(starts) > 0 .and. size(rows) == size(values) .and. all(shape(slaves) == shape(normals))
-        if (present(tangents)) fits = fits .and. all(shape(tangents) == shape(normals))
-        if (present(masters) .neqv. present(weights)) fits = .false.
-        if (present(masters) .neqv. present(master_starts)) fits = .false.
-        if (fits .and. present(masters)) then
-            fits = size(master_starts) == size(slaves, 2) + 1 .and. size(masters, 2) == size(weights) &
-                .and. size(masters, 1) == size(slaves, 1)
-            if (fits) fits = master_starts(size(master_starts)) == size(weights) + 1
-        end if
-        if (.not. fits) call refuse(info, 4, 'the arrays of the matrix or of the pairs do not fit each other', message)
-        if (.not. fits) return
-        allocate (held(0))
-        if (present(fixed)) held = int(fixed, c_int64_t)
-        held_count = size(held)
-        if (held_count == 0) held = [0_c_int64_t]
-        allocate (of_slaves(size(slaves, 1), size(slaves, 2)))
-        of_slaves = int(slaves, c_int64_t)
-        self%dim = size(slaves, 1)
-        self%pairs = size(slaves, 2)
-        self%fixed = int(held_count)
-        matrix%struct_size = number(int(c_sizeof(matrix)))
-        matrix%index_bytes = storage_size(starts) / 8
-        matrix%base = 1
+        call check_size(wrong, 2, 'row', size(row), size(values), 'as many as values')
+        call check_starts(wrong, 1, 'col_start', col_start, size(values), 'values has entries')
+        if (triangle < SIGNORINI_TRIANGLE_LOWER .or. triangle > SIGNORINI_TRIANGLE_FULL) call refuse(wrong, &
+            4, 'triangle is ' // text(int(triangle)) // ', it must be SIGNORINI_TRIANGLE_LOWER, _UPPER or _FULL')
+        call check_pairs(wrong, 6, 'normals', shape(normals), shape(slaves))
+        call check_masters(wrong, 9, shape(slaves), master_start, masters, weights)
+        if (present(tangents)) call check_pairs(wrong, 12, 'tangents', shape(tangents), shape(slaves))
+        if (refused(wrong, info, message)) return
+        matrix%index_bytes = storage_size(col_start) / 8
+        matrix%index_base = 1
         matrix%triangle = triangle
-        matrix%size = size(starts) - 1
-        matrix%entries = size(values)
-        matrix%starts = c_loc(starts)
-        if (size(rows) > 0) matrix%rows = c_loc(rows)
+        matrix%size = size(col_start) - 1
+        matrix%nnz = size(values)
+        matrix%col_start = c_loc(col_start)
+        if (size(row) > 0) matrix%row = c_loc(row)
         matrix%values = address(values)
-        pairs%struct_size = number(int(c_sizeof(pairs)))
-        pairs%dim = number(self%dim)
-        pairs%pairs = self%pairs
-        if (self%pairs > 0) then
-            pairs%slaves = c_loc(of_slaves)
-            pairs%normals = c_loc(normals)
-            if (present(tangents)) pairs%tangents = c_loc(tangents)
+        pairs%dim = number(size(slaves, 1))
+        pairs%count = size(slaves, 2)
+        of_slaves = int([slaves], c_int64_t)
+        if (size(slaves) > 0) pairs%slaves = c_loc(of_slaves)
+        if (size(normals) > 0) pairs%normals = c_loc(normals)
+        if (present(tangents)) then
+            if (size(tangents) > 0) pairs%tangents = c_loc(tangents)
         end if
         if (present(masters)) then
-            begins = int(master_starts, c_int64_t)
-            allocate (of_masters(size(masters, 1), size(masters, 2)))
-            of_masters = int(masters, c_int64_t)
-            pairs%master_starts = c_loc(begins)
-            if (size(weights) > 0) pairs%masters = c_loc(of_masters)
+            begins = int(master_start, c_int64_t)
+            of_masters = int([masters], c_int64_t)
+            pairs%master_start = c_loc(begins)
+            if (size(masters) > 0) pairs%masters = c_loc(of_masters)
             pairs%weights = address(weights)
         end if
-        call finish(signorini_model_new_sparse(matrix, held_count, c_loc(held), pairs, self%handle), &
-            info, message)
+        n_fixed = 0
+        if (present(fixed)) n_fixed = size(fixed)
+        held = [0_c_int64_t]
+        if (n_fixed > 0) held = int(fixed, c_int64_t)
+        call finish(signorini_model_new_sparse(matrix, n_fixed, c_loc(held), pairs, self%handle), &
+            info, message, [3, 8, 8, 5])
+        if (info == 0) call keep_sizes(self, size(slaves, 1), size(slaves, 2), int(n_fixed))
     end subroutine
 
     ! Entries of a load or displacement vector of the model's host; -1 without a model.
@@ -738,43 +838,146 @@ contains
         entries = int(signorini_model_host_size(self%handle))
     end function
 
-    ! One load case.
-    subroutine model_solve(self, f, gap, mu, d, force, info, prescribed, slip, state, report, method, &
-            tolerance, max_iterations, settings, message)
+    ! The condensed stiffness k(n, n), n = dim * pairs.
+    subroutine model_stiffness(self, k, info, message)
         class(contact_model), intent(in) :: self
-        real(c_double), intent(in), contiguous :: f(:), gap(:), mu(:)
+        real(c_double), intent(out), contiguous :: k(:, :)
+        integer, intent(out) :: info
+        character(len=*), intent(out), optional :: message
+        type(refusal) :: wrong
+        integer :: n
+        n = self%dim * self%pairs
+        call check_model(wrong, self)
+        call check_shape(wrong, 1, 'k', shape(k), [n, n], 'dim * pairs rows and columns')
+        if (refused(wrong, info, message)) return
+        call finish(signorini_model_stiffness(self%handle, k), info, message, [CONTACT_WRONG_MODEL, 1])
+    end subroutine
+
+    ! The frames that the model uses, frames(dim, dim, pairs): frames(:, 1, i) is the normal of pair
+    ! i, then come its tangents, all of unit length. A vector d of pair i in global axes is
+    ! matmul(frames(:, :, i), d). A model that its host condensed knows none: info is
+    ! CONTACT_WRONG_MODEL.
+    subroutine model_frames(self, frames, info, message)
+        class(contact_model), intent(in) :: self
+        real(c_double), intent(out), contiguous :: frames(:, :, :)
+        integer, intent(out) :: info
+        character(len=*), intent(out), optional :: message
+        type(refusal) :: wrong
+        call check_model(wrong, self)
+        call check_shape(wrong, 1, 'frames', shape(frames), [self%dim, self%dim, self%pairs], &
+            '(dim, dim, pairs)')
+        if (refused(wrong, info, message)) return
+        call finish(signorini_model_frames(self%handle, frames), info, message, [CONTACT_WRONG_MODEL, 1])
+    end subroutine
+
+    ! The load of a case on the contact components, load(dim * pairs): the f of contact_solve.
+    subroutine model_condensed_load(self, f, load, info, prescribed, message)
+        class(contact_model), intent(in) :: self
+        real(c_double), intent(in), contiguous, target :: f(:)
+        real(c_double), intent(out), contiguous :: load(:)
+        integer, intent(out) :: info
+        real(c_double), intent(in), contiguous, target, optional :: prescribed(:)
+        character(len=*), intent(out), optional :: message
+        type(refusal) :: wrong
+        call check_model(wrong, self)
+        call check_case(wrong, self, size(f), 4, prescribed)
+        call check_size(wrong, 2, 'load', size(load), self%dim * self%pairs, 'dim * pairs')
+        if (refused(wrong, info, message)) return
+        call finish(signorini_model_condensed_load(self%handle, address(f), address(prescribed), &
+            load), info, message, [CONTACT_WRONG_MODEL, 1, 4, 2])
+    end subroutine
+
+    ! Solves one load case: f(host_size()), prescribed: values of the degrees of freedom of fixed,
+    ! absent: zeros.
+    subroutine model_solve(self, f, gap, d, force, info, prescribed, law, friction, slip0, method, &
+            tolerance, max_iterations, settings, state, report, motion, second_d, second_force, &
+            second_state, message)
+        class(contact_model), intent(in) :: self
+        real(c_double), intent(in), contiguous, target :: f(:)
+        real(c_double), intent(in), contiguous :: gap(:)
         real(c_double), intent(inout), contiguous :: d(:)
         real(c_double), intent(out), contiguous :: force(:)
         integer, intent(out) :: info
-        real(c_double), intent(in), contiguous, target, optional :: prescribed(:), slip(:)
-        integer, intent(out), optional :: state(:)
-        type(signorini_report), intent(out), optional :: report
-        integer, intent(in), optional :: method, max_iterations
+        real(c_double), intent(in), contiguous, target, optional :: prescribed(:), friction(:), slip0(:)
+        integer, intent(in), optional :: law, method, max_iterations
         real(c_double), intent(in), optional :: tolerance
         type(signorini_settings), intent(in), optional :: settings
+        integer, intent(out), optional :: state(:), second_state(:)
+        type(signorini_report), intent(out), optional :: report
+        real(c_double), intent(out), contiguous, target, optional :: motion(:), second_d(:), second_force(:)
         character(len=*), intent(out), optional :: message
         type(signorini_settings), target :: chosen
         type(signorini_report), target :: measured
+        type(signorini_extra), target :: extra
+        integer(c_int32_t), target :: states(self%pairs), second_states(self%pairs)
+        type(refusal) :: wrong
+        integer(c_int32_t) :: which, status
+        integer :: n, pairs
+        pairs = self%pairs
+        n = self%dim * pairs
+        call check_model(wrong, self)
+        call check_case(wrong, self, size(f), 6, prescribed)
+        call check_size(wrong, 2, 'gap', size(gap), pairs, 'one for each pair')
+        call check_size(wrong, 3, 'd', size(d), n, 'dim * pairs')
+        call check_size(wrong, 4, 'force', size(force), n, 'dim * pairs')
+        call choose_law(wrong, 7, pairs, which, law, friction)
+        if (present(slip0)) call check_size(wrong, 9, 'slip0', size(slip0), n - pairs, 'dim - 1 for each pair')
+        call choose_settings(wrong, 10, chosen, method, tolerance, max_iterations, settings)
+        if (present(state)) call check_size(wrong, 14, 'state', size(state), pairs, 'one for each pair')
+        call check_second(wrong, 16, n, pairs, motion, second_d, second_force, second_state)
+        if (refused(wrong, info, message)) return
+        extra = address_of_extra(second_states, motion, second_d, second_force)
+        status = signorini_model_solve(self%handle, 1_c_int64_t, address(f), address(prescribed), gap, &
+            which, address(friction), address(slip0), c_loc(chosen), d, force, c_loc(states), &
+            c_null_ptr, c_loc(measured), c_loc(extra))
+        call finish(status, info, message, [CONTACT_WRONG_MODEL, 1, 1, 6, 2, 7, 8, 9, &
+            place_of_settings(10, method, settings), 3, 4, 14, 5, 15, 16])
+        if (status >= 0) call copy_states(states, state)
+        if (status >= 0) call copy_states(second_states, second_state)
+        if (present(report)) report = measured
+    end subroutine
+
+    ! Measures displacements d of any origin on a load case of the model.
+    subroutine model_certify(self, f, gap, d, info, prescribed, law, friction, slip0, tolerance, &
+            force, state, report, message)
+        class(contact_model), intent(in) :: self
+        real(c_double), intent(in), contiguous, target :: f(:)
+        real(c_double), intent(in), contiguous :: gap(:), d(:)
+        integer, intent(out) :: info
+        real(c_double), intent(in), contiguous, target, optional :: prescribed(:), friction(:), slip0(:)
+        integer, intent(in), optional :: law
+        real(c_double), intent(in), optional :: tolerance
+        real(c_double), intent(out), contiguous, target, optional :: force(:)
+        integer, intent(out), optional :: state(:)
+        type(signorini_report), intent(out), optional :: report
+        character(len=*), intent(out), optional :: message
+        type(signorini_settings) :: chosen
+        type(signorini_report), target :: measured
         integer(c_int32_t), target :: states(self%pairs)
-        integer(c_int32_t) :: status
-        logical :: fits
-        fits = size(f) == self%host_size() .and. size(gap) == self%pairs .and. size(mu) == self%pairs &
-            .and. size(d) == self%dim * self%pairs .and. size(force) == self%dim * self%pairs
-        if (present(prescribed)) fits = fits .and. size(prescribed) == self%fixed
-        if (present(slip)) fits = fits .and. size(slip) == (self%dim - 1) * self%pairs
-        if (present(state)) fits = fits .and. size(state) == self%pairs
-        if (.not. fits) call refuse(info, 1, 'the model and the arrays do not fit each other', message)
-        if (.not. fits) return
-        call fill(chosen, method, tolerance, max_iterations, settings)
-        measured%struct_size = number(int(c_sizeof(measured)))
-        status = signorini_model_solve(self%handle, 1_c_int64_t, f, address(prescribed), gap, mu, &
-            address(slip), c_loc(chosen), d, force, c_loc(states), c_loc(measured), c_null_ptr)
-        call finish(status, info, message)
+        type(refusal) :: wrong
+        integer(c_int32_t) :: which, status
+        integer :: n, pairs
+        pairs = self%pairs
+        n = self%dim * pairs
+        call check_model(wrong, self)
+        call check_case(wrong, self, size(f), 5, prescribed)
+        call check_size(wrong, 2, 'gap', size(gap), pairs, 'one for each pair')
+        call check_size(wrong, 3, 'd', size(d), n, 'dim * pairs')
+        call choose_law(wrong, 6, pairs, which, law, friction)
+        if (present(slip0)) call check_size(wrong, 8, 'slip0', size(slip0), n - pairs, 'dim - 1 for each pair')
+        if (present(force)) call check_size(wrong, 10, 'force', size(force), n, 'dim * pairs')
+        if (present(state)) call check_size(wrong, 11, 'state', size(state), pairs, 'one for each pair')
+        if (refused(wrong, info, message)) return
+        if (present(tolerance)) chosen%tolerance = tolerance
+        status = signorini_model_certify(self%handle, address(f), address(prescribed), gap, which, &
+            address(friction), address(slip0), chosen%tolerance, d, address(force), c_loc(states), &
+            c_loc(measured))
+        call finish(status, info, message, [CONTACT_WRONG_MODEL, 1, 5, 2, 6, 7, 8, 9, 3, 10, 11, 12])
         if (status >= 0) call copy_states(states, state)
         if (present(report)) report = measured
     end subroutine
 
-    ! Displacements u of the host from d.
+    ! Displacements u(host_size()) of the host that belong to d.
     subroutine model_recover(self, f, d, u, info, prescribed, message)
         class(contact_model), intent(in) :: self
         real(c_double), intent(in), contiguous, target :: f(:)
@@ -783,65 +986,258 @@ contains
         integer, intent(out) :: info
         real(c_double), intent(in), contiguous, target, optional :: prescribed(:)
         character(len=*), intent(out), optional :: message
-        logical :: fits
-        fits = size(f) == self%host_size() .and. size(u) == size(f) .and. size(d) == self%dim * self%pairs
-        if (present(prescribed)) fits = fits .and. size(prescribed) == self%fixed
-        if (.not. fits) call refuse(info, 1, 'the model and the arrays do not fit each other', message)
-        if (.not. fits) return
-        call finish(signorini_model_recover(self%handle, address(f), address(prescribed), d, u), info, message)
+        type(refusal) :: wrong
+        call check_model(wrong, self)
+        call check_case(wrong, self, size(f), 5, prescribed)
+        call check_size(wrong, 2, 'd', size(d), self%dim * self%pairs, 'dim * pairs')
+        call check_size(wrong, 3, 'u', size(u), self%host_size(), 'as many as f')
+        if (refused(wrong, info, message)) return
+        call finish(signorini_model_recover(self%handle, address(f), address(prescribed), d, u), &
+            info, message, [CONTACT_WRONG_MODEL, 1, 5, 2, 3])
     end subroutine
 
-    ! Contact forces as a nodal force vector of the host.
+    ! Contact forces as a nodal force vector nodal(host_size()) of the host.
     subroutine model_nodal_forces(self, force, nodal, info, message)
         class(contact_model), intent(in) :: self
         real(c_double), intent(in), contiguous :: force(:)
         real(c_double), intent(out), contiguous :: nodal(:)
         integer, intent(out) :: info
         character(len=*), intent(out), optional :: message
-        logical :: fits
-        fits = size(nodal) == self%host_size() .and. size(force) == self%dim * self%pairs
-        if (.not. fits) call refuse(info, 1, 'the model and the arrays do not fit each other', message)
-        if (.not. fits) return
-        call finish(signorini_model_nodal_forces(self%handle, force, nodal), info, message)
+        type(refusal) :: wrong
+        call check_model(wrong, self)
+        call check_size(wrong, 1, 'force', size(force), self%dim * self%pairs, 'dim * pairs')
+        call check_size(wrong, 2, 'nodal', size(nodal), self%host_size(), 'those of the host')
+        if (refused(wrong, info, message)) return
+        call finish(signorini_model_nodal_forces(self%handle, force, nodal), info, message, &
+            [CONTACT_WRONG_MODEL, 1, 2])
     end subroutine
 
     subroutine model_release(self)
         class(contact_model), intent(inout) :: self
         call signorini_model_free(self%handle)
         self%handle = c_null_ptr
-        self%dim = 0
-        self%pairs = 0
-        self%fixed = 0
+        call keep_sizes(self, 0, 0, 0)
     end subroutine
 
-    subroutine refuse(info, position, sentence, message)
-        integer, intent(out) :: info
+    subroutine keep_sizes(self, dim, pairs, fixed)
+        class(contact_model), intent(inout) :: self
+        integer, intent(in) :: dim, pairs, fixed
+        self%dim = dim
+        self%pairs = pairs
+        self%fixed = fixed
+    end subroutine
+
+    ! Notes what is wrong, if nothing has been wrong before.
+    subroutine refuse(wrong, position, sentence)
+        type(refusal), intent(inout) :: wrong
         integer, intent(in) :: position
         character(len=*), intent(in) :: sentence
-        character(len=*), intent(out), optional :: message
-        info = -position
-        if (present(message)) message = sentence
+        if (wrong%position /= 0) return
+        wrong%position = position
+        wrong%sentence = sentence
     end subroutine
 
-    subroutine finish(status, info, message)
-        integer(c_int32_t), intent(in) :: status
-        integer, intent(out) :: info
-        character(len=*), intent(out), optional :: message
-        info = int(status)
-        if (present(message)) message = signorini_message()
+    ! Hands over what is wrong, if anything is.
+    function refused(wrong, info, message)
+        type(refusal), intent(in) :: wrong
+        integer, intent(inout) :: info
+        character(len=*), intent(inout), optional :: message
+        logical :: refused
+        refused = wrong%position /= 0
+        if (.not. refused) return
+        info = -abs(wrong%position)
+        if (present(message)) message = wrong%sentence
+    end function
+
+    subroutine check_size(wrong, position, name, found, wanted, meaning)
+        type(refusal), intent(inout) :: wrong
+        integer, intent(in) :: position, found, wanted
+        character(len=*), intent(in) :: name, meaning
+        if (found /= wanted) call refuse(wrong, position, name // ' has ' // entries(found) // &
+            ', it must have ' // text(wanted) // ': ' // meaning)
     end subroutine
 
-    subroutine fill(chosen, method, tolerance, max_iterations, settings)
+    subroutine check_shape(wrong, position, name, found, wanted, meaning)
+        type(refusal), intent(inout) :: wrong
+        integer, intent(in) :: position, found(:), wanted(:)
+        character(len=*), intent(in) :: name, meaning
+        if (any(found /= wanted)) call refuse(wrong, position, name // ' has the shape ' // &
+            tuple(found) // ', it must be ' // tuple(wanted) // ': ' // meaning)
+    end subroutine
+
+    ! An array of vectors, one for each pair.
+    subroutine check_pairs(wrong, position, name, found, wanted)
+        type(refusal), intent(inout) :: wrong
+        integer, intent(in) :: position, found(2), wanted(2)
+        character(len=*), intent(in) :: name
+        call check_shape(wrong, position, name, found, wanted, '(dim, pairs), as slaves')
+    end subroutine
+
+    subroutine check_dim(wrong, position, dim)
+        type(refusal), intent(inout) :: wrong
+        integer, intent(in) :: position, dim
+        if (dim /= 2 .and. dim /= 3) &
+            call refuse(wrong, position, 'dim is ' // text(dim) // ', it must be 2 or 3')
+    end subroutine
+
+    ! A matrix with a row and a column for each component of each pair.
+    subroutine check_square(wrong, position, name, found, dim)
+        type(refusal), intent(inout) :: wrong
+        integer, intent(in) :: position, found(2), dim
+        character(len=*), intent(in) :: name
+        if (found(1) /= found(2)) call refuse(wrong, position, name // ' has the shape ' // tuple(found) &
+            // ', it must be square')
+        if (wrong%position /= 0) return
+        if (mod(found(1), dim) /= 0) call refuse(wrong, position, name // ' has the shape ' // &
+            tuple(found) // ', its rows must be a multiple of dim (' // text(dim) // '): dim for each pair')
+    end subroutine
+
+    ! The data of a condensed problem: k at position 1, n loads at 2, pairs at 3.
+    subroutine check_data(wrong, found, n, pairs)
+        type(refusal), intent(inout) :: wrong
+        integer, intent(in) :: found(2), n, pairs
+        if (n /= 2 * pairs .and. n /= 3 * pairs) call refuse(wrong, 2, 'f has ' // entries(n) // &
+            ' and gap ' // text(pairs) // ': f must have 2 (2D) or 3 (3D) for each of gap')
+        call check_shape(wrong, 1, 'k', found, [n, n], 'a row and a column for each entry of f')
+    end subroutine
+
+    subroutine check_model(wrong, self)
+        type(refusal), intent(inout) :: wrong
+        class(contact_model), intent(in) :: self
+        if (.not. c_associated(self%handle)) call refuse(wrong, CONTACT_WRONG_MODEL, &
+            'there is no model: new_condensed, new_two_body or new_sparse makes one')
+    end subroutine
+
+    ! The load of a model at position 1 and its prescribed values.
+    subroutine check_case(wrong, self, loads, position, prescribed)
+        type(refusal), intent(inout) :: wrong
+        class(contact_model), intent(in) :: self
+        integer, intent(in) :: loads, position
+        real(c_double), intent(in), optional :: prescribed(:)
+        call check_size(wrong, 1, 'f', loads, self%host_size(), 'the degrees of freedom of the host')
+        if (present(prescribed)) call check_size(wrong, position, 'prescribed', size(prescribed), &
+            self%fixed, 'one for each of fixed')
+    end subroutine
+
+    ! Where columns or the masters of pairs start: from 1 to behind the last of count.
+    subroutine check_starts(wrong, position, name, starts, count, last)
+        type(refusal), intent(inout) :: wrong
+        integer, intent(in) :: position, starts(:), count
+        character(len=*), intent(in) :: name, last
+        integer :: n
+        n = size(starts)
+        if (n == 0) call refuse(wrong, position, name // ' is empty, it must have at least the entry 1')
+        if (wrong%position /= 0) return
+        if (starts(1) /= 1) call refuse(wrong, position, name // '(1) is ' // text(starts(1)) // &
+            ', it must be 1: indices count from 1')
+        if (starts(n) /= count + 1) call refuse(wrong, position, name // '(' // text(n) // ') is ' // &
+            text(starts(n)) // ', it must be ' // text(count + 1) // ': one more than ' // last)
+    end subroutine
+
+    ! master_start, masters and weights from a position on: all or none.
+    subroutine check_masters(wrong, first, pairs, master_start, masters, weights)
+        type(refusal), intent(inout) :: wrong
+        integer, intent(in) :: first, pairs(2)
+        integer, intent(in), optional :: master_start(:), masters(:, :)
+        real(c_double), intent(in), optional :: weights(:)
+        character(len=*), parameter :: together = ' is missing: master_start, masters and weights belong together'
+        if (.not. (present(master_start) .or. present(masters) .or. present(weights))) return
+        if (.not. present(master_start)) call refuse(wrong, first, 'master_start' // together)
+        if (.not. present(masters)) call refuse(wrong, first + 1, 'masters' // together)
+        if (.not. present(weights)) call refuse(wrong, first + 2, 'weights' // together)
+        if (wrong%position /= 0) return
+        call check_size(wrong, first, 'master_start', size(master_start), pairs(2) + 1, 'one more than pairs')
+        call check_shape(wrong, first + 1, 'masters', shape(masters), [pairs(1), size(weights)], &
+            '(dim, entries of weights)')
+        call check_starts(wrong, first, 'master_start', master_start, size(weights), 'weights has entries')
+    end subroutine
+
+    ! motion, second_d, second_force and second_state from a position on.
+    subroutine check_second(wrong, first, n, pairs, motion, second_d, second_force, second_state)
+        type(refusal), intent(inout) :: wrong
+        integer, intent(in) :: first, n, pairs
+        real(c_double), intent(in), optional :: motion(:), second_d(:), second_force(:)
+        integer, intent(in), optional :: second_state(:)
+        character(len=*), parameter :: as_d = 'as many as d'
+        if (present(motion)) call check_size(wrong, first, 'motion', size(motion), n, as_d)
+        if (present(second_d)) call check_size(wrong, first + 1, 'second_d', size(second_d), n, as_d)
+        if (present(second_force)) &
+            call check_size(wrong, first + 2, 'second_force', size(second_force), n, as_d)
+        if (present(second_state)) &
+            call check_size(wrong, first + 3, 'second_state', size(second_state), pairs, 'one for each pair')
+    end subroutine
+
+    ! The law at a position and its parameters at the next one.
+    subroutine choose_law(wrong, position, pairs, chosen, law, friction)
+        type(refusal), intent(inout) :: wrong
+        integer, intent(in) :: position, pairs
+        integer(c_int32_t), intent(out) :: chosen
+        integer, intent(in), optional :: law
+        real(c_double), intent(in), optional :: friction(:)
+        chosen = SIGNORINI_LAW_FRICTIONLESS
+        if (present(friction)) chosen = SIGNORINI_LAW_COULOMB
+        if (present(law)) chosen = number(law)
+        if (chosen /= SIGNORINI_LAW_COULOMB .and. chosen /= SIGNORINI_LAW_TRESCA) return
+        if (.not. present(friction)) call refuse(wrong, position + 1, 'friction is missing: the law ' &
+            // text(int(chosen)) // ' has a parameter for each pair')
+        if (present(friction)) call check_size(wrong, position + 1, 'friction', size(friction), pairs, &
+            'one for each pair')
+    end subroutine
+
+    ! The settings of a call: the defaults, or `settings`, with what the arguments from the position
+    ! `first` (method, tolerance, max_iterations) say. Those two that are wrong by themselves are
+    ! found by an LCP without unknowns, in which only settings can be wrong.
+    subroutine choose_settings(wrong, first, chosen, method, tolerance, max_iterations, settings)
+        type(refusal), intent(inout) :: wrong
+        integer, intent(in) :: first
         type(signorini_settings), intent(out) :: chosen
         integer, intent(in), optional :: method, max_iterations
         real(c_double), intent(in), optional :: tolerance
         type(signorini_settings), intent(in), optional :: settings
-        integer(c_int32_t) :: status
-        status = signorini_settings_default(chosen, number(int(c_sizeof(chosen))))
-        if (present(settings) .and. status == 0) chosen = settings
+        type(signorini_settings) :: one
+        if (present(tolerance)) one%tolerance = tolerance
+        if (present(tolerance)) call try(first + 1)
+        one = signorini_settings()
+        if (present(max_iterations)) one%max_iterations = max_iterations
+        if (present(max_iterations)) call try(first + 2)
+        if (present(settings)) chosen = settings
         if (present(method)) chosen%method = number(method)
         if (present(tolerance)) chosen%tolerance = tolerance
         if (present(max_iterations)) chosen%max_iterations = max_iterations
+    contains
+        subroutine try(position)
+            integer, intent(in) :: position
+            type(signorini_settings), target :: tried
+            real(c_double) :: m(1), q(1), w(1), z(1)
+            integer(c_int32_t) :: status
+            tried = one
+            m = 0
+            q = 0
+            status = signorini_lcp_solve(0_c_int64_t, m, 1_c_int64_t, q, c_loc(tried), w, z, &
+                c_null_ptr, c_null_ptr)
+            if (status < 0) call refuse(wrong, position, signorini_message())
+        end subroutine
+    end subroutine
+
+    ! The position of the argument that chooses the method, if the library refuses the settings.
+    pure function place_of_settings(first, method, settings) result(position)
+        integer, intent(in) :: first
+        integer, intent(in), optional :: method
+        type(signorini_settings), intent(in), optional :: settings
+        integer :: position
+        position = first + 3
+        if (present(method) .and. .not. present(settings)) position = first
+    end function
+
+    ! The status of a call of C: positions(k) is the position here of its argument k.
+    subroutine finish(status, info, message, positions)
+        integer(c_int32_t), intent(in) :: status
+        integer, intent(out) :: info
+        character(len=*), intent(out), optional :: message
+        integer, intent(in) :: positions(:)
+        info = int(status)
+        if (info < 0 .and. -info <= size(positions)) info = -abs(positions(-info))
+        if (present(message)) message = signorini_message()
     end subroutine
 
     subroutine copy_states(states, state)
@@ -849,6 +1245,16 @@ contains
         integer, intent(out), optional :: state(:)
         if (present(state)) state = int(states)
     end subroutine
+
+    function address_of_extra(second_states, motion, second_d, second_force) result(extra)
+        integer(c_int32_t), intent(in), target :: second_states(:)
+        real(c_double), intent(in), contiguous, target, optional :: motion(:), second_d(:), second_force(:)
+        type(signorini_extra) :: extra
+        extra%motion = address(motion)
+        extra%second_d = address(second_d)
+        extra%second_force = address(second_force)
+        if (size(second_states) > 0) extra%second_state = c_loc(second_states)
+    end function
 
     ! Of an array that may be absent, or empty.
     function address(array) result(pointer)
@@ -864,6 +1270,32 @@ contains
         integer, intent(in) :: value
         integer(c_int32_t) :: narrow
         narrow = int(value, c_int32_t)
+    end function
+
+    pure function text(value) result(digits)
+        integer, intent(in) :: value
+        character(len=:), allocatable :: digits
+        character(len=24) :: buffer
+        write (buffer, '(i0)') value
+        digits = trim(buffer)
+    end function
+
+    pure function entries(count) result(words)
+        integer, intent(in) :: count
+        character(len=:), allocatable :: words
+        words = text(count) // ' entries'
+        if (count == 1) words = '1 entry'
+    end function
+
+    pure function tuple(sizes) result(words)
+        integer, intent(in) :: sizes(:)
+        character(len=:), allocatable :: words
+        integer :: i
+        words = '(' // text(sizes(1))
+        do i = 2, size(sizes)
+            words = words // ', ' // text(sizes(i))
+        end do
+        words = words // ')'
     end function
 
     function text_of(pointer) result(text)

@@ -55,7 +55,7 @@ pub mod reduce;
 mod settings;
 mod solve;
 
-pub use error::{Argument, Error};
+pub use error::{Argument, Error, Message};
 pub use law::State;
 pub use model::{LoadCase, Model};
 pub use monitor::{Monitor, Progress, ProgressFn, Stop};

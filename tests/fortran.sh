@@ -23,7 +23,7 @@ fi
 # ---- the module against the header ----
 
 module=$root/include/signorini.f90
-sed -n 's/^#define \(SIGNORINI_[A-Z0-9_]*\) \(-\{0,1\}[0-9]\{1,\}\)$/\1 = \2/p' \
+sed -n 's/^#define \(SIGNORINI_[A-Z0-9_]*\) \(-\{0,1\}[0-9]\{1,\}\)\( .*\)\{0,1\}$/\1 = \2/p' \
     "$root/include/signorini.h" | sort >"$work/wanted"
 sed -n 's/^ *integer(c_int32_t), parameter :: \(SIGNORINI_.*\)$/\1/p' "$module" | sort >"$work/given"
 [ -s "$work/wanted" ] || die "no constant found in the header"
@@ -46,7 +46,7 @@ END {
         print name, n
     }
 }'
-sed '/^#/d; s/^ *\*.*//; s/^\/\*.*//; s/\/\/.*//' "$root/include/signorini.h" |
+sed '/^#/d; s/^ *\*.*//; s/\/\*.*//; s/\/\/.*//' "$root/include/signorini.h" |
     awk -v start='signorini_[a-z_0-9]+\\(' -v fortran=0 "$count" | sort >"$work/wanted"
 sed -n '/^    interface/,/^    end interface/p' "$module" | sed '/^ *end /d; s/!.*//' |
     awk -v start='(function|subroutine) signorini_[a-z_0-9]+\\(' -v fortran=1 "$count" |
@@ -59,7 +59,7 @@ say "signorini.f90 has the $(wc -l <"$work/wanted" | tr -d ' ') functions of the
 
 # The names for 8-byte integers.
 wide="-cpp -fdefault-integer-8"
-for name in SOLV TRES CERT LCPS MODL TWOB SPAR CASE RECV NODF FREE MESG; do
+for name in SOLV CERT LCPS MODL TWOB SPAR FRAM CASE RECV NODF FREE MESG; do
     wide="$wide -DSG$name=SG${name}_64"
 done
 hosts=$root/c_examples/hosts/fortran
@@ -88,6 +88,12 @@ for kind in static shared; do
     compare "bar_sparse_$kind"
     compile "layer_$kind" "$kind" -std=f2008 "$module" "$tests/layer.f90"
     runs "layer_$kind"
+    compile "refusals_$kind" "$kind" -std=f2008 "$module" "$tests/refusals.f90"
+    runs "refusals_$kind"
+done
+for name in layer refusals; do
+    compile "${name}_64" shared -fdefault-integer-8 "$module" "$tests/$name.f90"
+    runs "${name}_64"
 done
 compile bar_sparse_64 shared -fdefault-integer-8 "$module" "$hosts/bar_mesh.f90" \
     "$hosts/bar_sparse.f90"

@@ -12,8 +12,8 @@ program first
     integer :: state(2), info, i
     character(len=200) :: message
 
-    call contact_solve(k, f, gap, mu, d, force, info, state=state, tolerance=1d-12, message=message)
-    if (info /= SIGNORINI_SOLVED) then
+    call contact_solve(k, f, gap, d, force, info, friction=mu, tolerance=1d-12, state=state, message=message)
+    if (info /= SIGNORINI_STATUS_SOLVED) then
         print '(a, i0, 2a)', 'status ', info, ': ', trim(message)
         stop 1
     end if

@@ -1,8 +1,8 @@
 //! The Fortran 77 entries: by reference, `name_` for 4-byte and `name_64_` for 8-byte integers.
 //!
 //! `include/signorini.inc` is their reference. They count from 1, return nothing but their last
-//! argument INFO, and call the entries of C: what is here translates arguments, their positions and
-//! the numbers in sentences. Models are known by numbers, of 8 bytes in both widths, so that a
+//! argument INFO, and call the entries of C: what is here translates arguments and their positions;
+//! indices in sentences are counted by [`crate::error`]. Models are known by numbers, of 8 bytes in both widths, so that a
 //! wrong one is refused and not followed.
 
 mod arguments;
@@ -39,16 +39,13 @@ macro_rules! entries {
 
 entries! {
     sgsolv_ sgsolv_64_ = super::flat::solve, (ndim: *const I, npair: *const I, k: *const f64,
-        ldk: *const I, f: *const f64, gap: *const f64, mu: *const f64, slip: *const f64,
-        method: *const I, tol: *const f64, maxit: *const I, d: *mut f64, r: *mut f64,
-        state: *mut I, eta: *mut f64, iter: *mut I, info: *mut I);
-    sgtres_ sgtres_64_ = super::flat::tresca, (ndim: *const I, npair: *const I, k: *const f64,
-        ldk: *const I, f: *const f64, gap: *const f64, g: *const f64, slip: *const f64,
-        method: *const I, tol: *const f64, maxit: *const I, d: *mut f64, r: *mut f64,
-        state: *mut I, eta: *mut f64, iter: *mut I, info: *mut I);
+        ldk: *const I, f: *const f64, gap: *const f64, law: *const I, fric: *const f64,
+        slip0: *const f64, method: *const I, tol: *const f64, maxit: *const I, d: *mut f64,
+        r: *mut f64, state: *mut I, eta: *mut f64, iter: *mut I, info: *mut I);
     sgcert_ sgcert_64_ = super::flat::certify, (ndim: *const I, npair: *const I, k: *const f64,
-        ldk: *const I, f: *const f64, gap: *const f64, mu: *const f64, slip: *const f64,
-        tol: *const f64, d: *const f64, r: *mut f64, state: *mut I, eta: *mut f64, info: *mut I);
+        ldk: *const I, f: *const f64, gap: *const f64, law: *const I, fric: *const f64,
+        slip0: *const f64, tol: *const f64, d: *const f64, r: *mut f64, state: *mut I,
+        eta: *mut f64, info: *mut I);
     sglcps_ sglcps_64_ = super::flat::lcp, (n: *const I, m: *const f64, ldm: *const I,
         q: *const f64, method: *const I, tol: *const f64, maxit: *const I, w: *mut f64,
         z: *mut f64, eta: *mut f64, iter: *mut I, info: *mut I);
@@ -63,9 +60,11 @@ entries! {
         master: *const I, weight: *const f64, normal: *const f64, ntan: *const I,
         tangnt: *const f64, handle: *mut i64, info: *mut I);
     sgcase_ sgcase_64_ = super::models::case, (handle: *const i64, f: *const f64,
-        presc: *const f64, gap: *const f64, mu: *const f64, slip: *const f64, method: *const I,
-        tol: *const f64, maxit: *const I, d: *mut f64, r: *mut f64, state: *mut I,
-        eta: *mut f64, iter: *mut I, info: *mut I);
+        presc: *const f64, gap: *const f64, law: *const I, fric: *const f64, slip0: *const f64,
+        method: *const I, tol: *const f64, maxit: *const I, d: *mut f64, r: *mut f64,
+        state: *mut I, eta: *mut f64, iter: *mut I, info: *mut I);
+    sgfram_ sgfram_64_ = super::models::frames, (handle: *const i64, frames: *mut f64,
+        info: *mut I);
     sgrecv_ sgrecv_64_ = super::models::recover, (handle: *const i64, f: *const f64,
         presc: *const f64, d: *const f64, u: *mut f64, info: *mut I);
     sgnodf_ sgnodf_64_ = super::models::nodal_forces, (handle: *const i64, r: *const f64,

@@ -33,7 +33,7 @@ impl Failure {
 
     /// An error of the library, whose argument has the position that `position` tells.
     pub(super) fn from_error(error: Error, position: impl Fn(Argument) -> i32) -> Self {
-        let message = error.to_string();
+        let message = error.message().marked().to_owned();
         match error {
             Error::Invalid { argument, .. } => Failure { code: -position(argument), message },
             Error::OutOfMemory(_) => Failure { code: SIGNORINI_STATUS_OUT_OF_MEMORY, message },

@@ -8,7 +8,7 @@ use super::model_new::{SignoriniModel, read};
 use super::report::{Reports, SignoriniReport, state_codes};
 use super::settings::{Received, SignoriniSettings};
 use super::status::{code, remember};
-use crate::error::Argument;
+use crate::error::{Argument, index};
 use crate::model::{LoadCase, Model};
 use crate::monitor::{Monitor, ProgressFn};
 use crate::problem::FrictionLaw;
@@ -95,7 +95,11 @@ pub unsafe extern "C" fn signorini_model_solve(
             unsafe { status.part(case, 1).write(&[code]) };
             if code != 0 && first.is_none() {
                 first = Some(code);
-                remember(format_args!("case {case}: {message}"));
+                // Of one case nobody asks which.
+                match cases {
+                    1 => remember(format_args!("{message}")),
+                    _ => remember(format_args!("case {}: {message}", index(case))),
+                }
             }
         }
         Ok(first.unwrap_or(0))
@@ -232,7 +236,7 @@ impl Block<'_> {
                 (code, solution.message)
             }
             Err(error) => {
-                let message = error.to_string();
+                let message = error.message().marked().to_owned();
                 let position = |argument| {
                     let own = if argument == Argument::Start { START } else { SETTINGS };
                     self.given.position(argument, own)

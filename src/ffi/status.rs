@@ -2,8 +2,8 @@
 
 use libc::c_char;
 use std::cell::RefCell;
-use std::fmt::Write;
 
+use crate::error;
 use crate::solve::Status;
 
 /// Solved and certified: eta <= tolerance.
@@ -104,34 +104,40 @@ const CAPACITY: usize = 512;
 
 thread_local! {
     // A fixed buffer: a pointer to it stays valid while a later call in the same printf writes.
-    static LAST: RefCell<Message> = const { RefCell::new(Message { text: [0; CAPACITY], used: 0 }) };
+    static LAST: RefCell<Sentence> = const { RefCell::new(Sentence::EMPTY) };
+    // The same for Fortran.
+    static FROM_ONE: RefCell<Sentence> = const { RefCell::new(Sentence::EMPTY) };
 }
 
-struct Message {
+struct Sentence {
     text: [u8; CAPACITY],
     used: usize,
 }
 
-impl Write for Message {
-    fn write_str(&mut self, part: &str) -> std::fmt::Result {
-        let room = CAPACITY - 1 - self.used;
-        let cut = (0..=part.len().min(room)).rev().find(|&i| part.is_char_boundary(i));
-        let part = &part.as_bytes()[..cut.unwrap_or(0)];
-        self.text[self.used..self.used + part.len()].copy_from_slice(part);
-        self.used += part.len();
+impl Sentence {
+    const EMPTY: Self = Sentence { text: [0; CAPACITY], used: 0 };
+
+    /// What does not fit is cut.
+    fn set(&mut self, text: &str) {
+        let cut = (0..=text.len().min(CAPACITY - 1)).rev().find(|&i| text.is_char_boundary(i));
+        self.used = cut.unwrap_or(0);
+        self.text[..self.used].copy_from_slice(&text.as_bytes()[..self.used]);
         self.text[self.used] = 0;
-        Ok(())
     }
 }
 
-/// Keeps what happened for `signorini_last_error`.
+/// Keeps what happened for `signorini_last_error` and for SGMESG; indices in it may be marked.
 pub(super) fn remember(what: std::fmt::Arguments<'_>) {
-    LAST.with_borrow_mut(|message| {
-        message.used = 0;
-        message.text[0] = 0;
-        // Writing to the buffer cannot fail: what does not fit is cut.
-        let _ = message.write_fmt(what);
-    });
+    let message = error::Message::from(what.to_string());
+    LAST.with_borrow_mut(|sentence| sentence.set(&message));
+    FROM_ONE.with_borrow_mut(|sentence| sentence.set(&message.counted_from_one()));
+}
+
+/// What the last call on this thread found, as Fortran counts.
+pub(super) fn last_counted_from_one() -> String {
+    FROM_ONE.with_borrow(|sentence| {
+        String::from_utf8_lossy(&sentence.text[..sentence.used]).into_owned()
+    })
 }
 
 /// What was wrong in the last call on this thread, in one sentence, such as "K[12,7] is not
@@ -141,5 +147,5 @@ pub(super) fn remember(what: std::fmt::Arguments<'_>) {
 ///         call of the library on this thread overwrites it.
 #[unsafe(no_mangle)]
 pub extern "C" fn signorini_last_error() -> *const c_char {
-    LAST.with_borrow(|message| message.text.as_ptr().cast())
+    LAST.with_borrow(|sentence| sentence.text.as_ptr().cast())
 }

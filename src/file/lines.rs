@@ -6,7 +6,7 @@ use std::io::{BufRead, BufReader, Read};
 use std::path::Path;
 
 use super::refuse;
-use crate::error::Error;
+use crate::error::{Error, entry, index};
 
 /// Most bytes of a line, its end included.
 const MOST_LINE: u64 = 4096;
@@ -83,8 +83,8 @@ impl<'a> Lines<'a> {
         values.try_reserve_exact(count.min(most)).map_err(memory)?;
         for i in 0..count {
             let place = || match count == size {
-                true => format!("{name}, row {i}"),
-                false => format!("{name}[{},{}]", i % size, i / size),
+                true => format!("{name}, row {}", index(i)),
+                false => entry(name, [i % size, i / size]),
             };
             self.require(place)?;
             let value = self.value(name == "gap", place)?;

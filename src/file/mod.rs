@@ -157,8 +157,9 @@ fn refuse(path: &Path, line: Option<u64>, what: &str) -> Error {
         Some(cut) if cut > 0 => "...".chars().chain(path.chars().skip(cut)).collect(),
         _ => path.into_owned(),
     };
-    Error::File(match line {
+    let message = match line {
         Some(line) => format!("{shown}: line {line}: {what}"),
         None => format!("{shown}: {what}"),
-    })
+    };
+    Error::File(message.into())
 }

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use super::lines::{Lines, shown};
 use super::{BANNER, Kind, Law, OLD_VERSION, ProblemFile, TITLE, VERSION, refuse};
-use crate::error::Error;
+use crate::error::{Error, index};
 use crate::problem;
 
 /// Reads a problem file.
@@ -196,7 +196,8 @@ fn rows(
     let before = lines.number();
     let column = lines.entries(name, (size, size), most)?;
     if let Some(i) = (0..size).find(|&i| !hold(i) && column[i] != 0.0) {
-        let what = format!("{name}, row {i}: {:e} must be 0, such rows have no {name}", column[i]);
+        let (row, value) = (index(i), column[i]);
+        let what = format!("{name}, row {row}: {value:e} must be 0, such rows have no {name}");
         return Err(lines.refuse_at(before + 1 + i as u64, &what));
     }
     Ok(column.into_iter().enumerate().filter(|(i, _)| hold(*i)).map(|(_, value)| value).collect())

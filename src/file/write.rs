@@ -6,9 +6,8 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::{BANNER, Law, MOST_REMARK, TITLE, VERSION, refuse};
-use crate::error::{Argument, Error};
-use crate::problem::Lcp;
-use crate::problem::{ContactProblem, FrictionLaw};
+use crate::error::{Argument, Error, entry};
+use crate::problem::{ContactProblem, FrictionLaw, Lcp};
 
 /// Writes a contact problem to the file `path`, which is replaced if it exists. The remark is one
 /// line.
@@ -22,7 +21,7 @@ pub fn write(path: &Path, problem: &ContactProblem<'_>, remark: Option<&str>) ->
     let (dim, n) = (problem.dim(), problem.unknowns());
     for j in 0..n {
         if let Some(i) = problem.column(j).iter().position(|k| !k.is_finite()) {
-            return Err(Error::invalid(Argument::Matrix, format!("K[{i},{j}] is not finite")));
+            return Err(Error::invalid(Argument::Matrix, entry("K", [i, j]) + " is not finite"));
         }
     }
     let (law, parameters) = match problem.law() {

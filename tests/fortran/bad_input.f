@@ -1,16 +1,18 @@
-C     Wrong arguments: INFO tells which, SGMESG what is wrong with it.
+C     Wrong arguments: INFO tells which, SGMESG what is wrong with it,
+C     counting from 1. Before that the three laws and frames.
 C     Compiled with trapping: a NaN must be refused, not met.
 C
       PROGRAM BADIN
       INCLUDE 'signorini.inc'
-      DOUBLE PRECISION K(4, 4), F(4), GAP(2), MU(2), SLIP(2), D(4), R(4)
+      DOUBLE PRECISION K(4, 4), F(4), GAP(2), MU(2), SLIP0(2)
+      DOUBLE PRECISION D(4), R(4), FRAMES(2, 2)
       DOUBLE PRECISION ETA, NAN, V(4), RN(2), U(4), WT(1)
       INTEGER STATE(2), ITER, INFO, I, J, NFAIL
       INTEGER COLPTR(5), ROWIND(4), FIXED(1), SLAVE(2), NOT(2)
       INTEGER*4 BITS(2)
       INTEGER*8 HANDLE
       EQUIVALENCE (NAN, BITS)
-      DATA MU /2*0.3D0/, GAP /2*0D0/, SLIP /2*0D0/
+      DATA MU /2*0.3D0/, GAP /2*0D0/, SLIP0 /2*0D0/
       DATA F /2D0, 1.5D0, 3D0, 0.5D0/
       DATA COLPTR /1, 2, 3, 4, 5/, ROWIND /1, 2, 3, 4/, V /4*1D0/
       DATA FIXED /4/, SLAVE /1, 2/, RN /0D0, -1D0/, NOT /2*0/
@@ -25,49 +27,58 @@ C
          K(J, J) = 4D0
    20 CONTINUE
 
-      CALL SGSOLV(4, 2, K, 4, F, GAP, MU, SLIP, 0,
+      CALL LAWS(NFAIL)
+      CALL SGSOLV(4, 2, K, 4, F, GAP, SGCOUL, MU, SLIP0, 0,
      &            0D0, 0, D, R, STATE, ETA, ITER, INFO)
       CALL EXPECT('dimension', INFO, -1, NFAIL)
-      CALL SGSOLV(2, -2, K, 4, F, GAP, MU, SLIP, 0,
+      CALL SGSOLV(2, -2, K, 4, F, GAP, SGCOUL, MU, SLIP0, 0,
      &            0D0, 0, D, R, STATE, ETA, ITER, INFO)
       CALL EXPECT('negative NPAIR', INFO, -2, NFAIL)
-      CALL SGSOLV(2, 2, K, 3, F, GAP, MU, SLIP, 0,
+      CALL SGSOLV(2, 2, K, 3, F, GAP, SGCOUL, MU, SLIP0, 0,
      &            0D0, 0, D, R, STATE, ETA, ITER, INFO)
       CALL EXPECT('short LDK', INFO, -4, NFAIL)
-      CALL SGSOLV(2, 2, K, 4, F, GAP, MU, SLIP, 9,
+      CALL SAYS('NDIM * NPAIR', NFAIL)
+      CALL SGSOLV(2, 2, K, 4, F, GAP, 7, MU, SLIP0, 0,
      &            0D0, 0, D, R, STATE, ETA, ITER, INFO)
-      CALL EXPECT('no such METHOD', INFO, -9, NFAIL)
-      CALL SGSOLV(2, 2, K, 4, F, GAP, MU, SLIP, SGPIVO,
+      CALL EXPECT('no such LAW', INFO, -7, NFAIL)
+      CALL SGSOLV(2, 2, K, 4, F, GAP, SGCOUL, MU, SLIP0, 9,
      &            0D0, 0, D, R, STATE, ETA, ITER, INFO)
-      CALL EXPECT('METHOD without friction', INFO, -9, NFAIL)
-      CALL SGSOLV(2, 2, K, 4, F, GAP, MU, SLIP, 0,
+      CALL EXPECT('no such METHOD', INFO, -10, NFAIL)
+      CALL SGSOLV(2, 2, K, 4, F, GAP, SGCOUL, MU, SLIP0, SGPIVO,
+     &            0D0, 0, D, R, STATE, ETA, ITER, INFO)
+      CALL EXPECT('METHOD without friction', INFO, -10, NFAIL)
+      CALL SGSOLV(2, 2, K, 4, F, GAP, SGCOUL, MU, SLIP0, 0,
      &            NAN, 0, D, R, STATE, ETA, ITER, INFO)
-      CALL EXPECT('NaN as TOL', INFO, -10, NFAIL)
-      CALL SGSOLV(2, 2, K, 4, F, GAP, MU, SLIP, 0,
+      CALL EXPECT('NaN as TOL', INFO, -11, NFAIL)
+      CALL SAYS('DOUBLE PRECISION', NFAIL)
+      CALL SGSOLV(2, 2, K, 4, F, GAP, SGCOUL, MU, SLIP0, 0,
      &            0D0, -1, D, R, STATE, ETA, ITER, INFO)
-      CALL EXPECT('negative MAXIT', INFO, -11, NFAIL)
-      CALL SGSOLV(2, 2, K, 4, F, GAP, MU, SLIP, 0,
+      CALL EXPECT('negative MAXIT', INFO, -12, NFAIL)
+      CALL SGSOLV(2, 2, K, 4, F, GAP, SGCOUL, MU, SLIP0, 0,
      &            0D0, 0, D, D, STATE, ETA, ITER, INFO)
-      CALL EXPECT('D is R', INFO, -13, NFAIL)
+      CALL EXPECT('D is R', INFO, -14, NFAIL)
       K(3, 2) = NAN
-      CALL SGSOLV(2, 2, K, 4, F, GAP, MU, SLIP, 0,
+      CALL SGSOLV(2, 2, K, 4, F, GAP, SGCOUL, MU, SLIP0, 0,
      &            0D0, 0, D, R, STATE, ETA, ITER, INFO)
       CALL EXPECT('NaN in K', INFO, -3, NFAIL)
+      CALL SAYS('K(3,2)', NFAIL)
       CALL SGMODL(2, 2, K, 4, HANDLE, INFO)
       CALL EXPECT('NaN in K of a model', INFO, -3, NFAIL)
       CALL SGLCPS(4, K, 4, F, 0, 0D0, 0, D, R, ETA, ITER, INFO)
       CALL EXPECT('NaN in M', INFO, -2, NFAIL)
+      CALL SAYS('M(3,2)', NFAIL)
       K(3, 2) = 0D0
       MU(2) = -1D0
-      CALL SGSOLV(2, 2, K, 4, F, GAP, MU, SLIP, 0,
+      CALL SGSOLV(2, 2, K, 4, F, GAP, SGCOUL, MU, SLIP0, 0,
      &            0D0, 0, D, R, STATE, ETA, ITER, INFO)
-      CALL EXPECT('negative MU', INFO, -7, NFAIL)
+      CALL EXPECT('negative FRIC', INFO, -8, NFAIL)
+      CALL SAYS('(2)', NFAIL)
       MU(2) = 0.3D0
-      CALL SGSOLV(2, 2, K, 4, F, GAP, MU, SLIP, 0,
+      CALL SGSOLV(2, 2, K, 4, F, GAP, SGCOUL, MU, SLIP0, 0,
      &            0D0, 0, D, R, STATE, ETA, ITER, INFO)
       CALL EXPECT('nothing wrong', INFO, 0, NFAIL)
       D(1) = -1D0
-      CALL SGCERT(2, 2, K, 4, F, GAP, MU, SLIP, 0D0,
+      CALL SGCERT(2, 2, K, 4, F, GAP, SGCOUL, MU, SLIP0, 0D0,
      &            D, R, STATE, ETA, INFO)
       CALL EXPECT('no solution', INFO, SGNOSO, NFAIL)
 
@@ -78,6 +89,7 @@ C     Models: an index base of 0, rows and slaves out of range.
       CALL SGSPAR(4, 4, COLPTR, ROWIND, V, 0, 1, FIXED, 2, 1,
      &            SLAVE, 0, NOT, NOT, WT, RN, 0, WT, HANDLE, INFO)
       CALL EXPECT('COLPTR from 0', INFO, -3, NFAIL)
+      CALL SAYS('COLPTR(1) is 0', NFAIL)
       DO 40 I = 1, 5
          COLPTR(I) = COLPTR(I) + 1
    40 CONTINUE
@@ -90,31 +102,90 @@ C     Models: an index base of 0, rows and slaves out of range.
       CALL SGSPAR(4, 4, COLPTR, ROWIND, V, 0, 1, FIXED, 2, 1,
      &            SLAVE, 0, NOT, NOT, WT, RN, 0, WT, HANDLE, INFO)
       CALL EXPECT('FIXED out of range', INFO, -8, NFAIL)
+      CALL SAYS('degree of freedom 5', NFAIL)
       FIXED(1) = 4
       CALL SGSPAR(4, 4, COLPTR, ROWIND, V, 0, 1, FIXED, 2, 1,
      &            SLAVE, 0, NOT, NOT, WT, RN, 0, WT, HANDLE, INFO)
       CALL EXPECT('nothing wrong', INFO, 0, NFAIL)
-      F(2) = NAN
-      CALL SGCASE(HANDLE, F, SLIP, GAP, MU, SLIP, 0, 0D0, 0,
-     &            D, R, STATE, ETA, ITER, INFO)
-      CALL EXPECT('NaN in F', INFO, -2, NFAIL)
-      F(2) = -1.5D0
-      CALL SGCASE(HANDLE, F, SLIP, GAP, MU, SLIP, 0, 0D0, 0,
-     &            D, R, STATE, ETA, ITER, INFO)
+C     The normal is -y: with the first tangent along x.
+      CALL SGFRAM(HANDLE, FRAMES, INFO)
       CALL EXPECT('nothing wrong', INFO, 0, NFAIL)
-      CALL SGRECV(HANDLE, F, SLIP, D, U, INFO)
+      IF (ABS(FRAMES(1, 1)) + ABS(FRAMES(2, 1) + 1D0) .GT. 1D-15
+     &    .OR. ABS(FRAMES(2, 2)) .GT. 1D-15
+     &    .OR. ABS(ABS(FRAMES(1, 2)) - 1D0) .GT. 1D-15) THEN
+         WRITE (*, '(A, 4F9.5)') '   FAIL: FRAMES', FRAMES
+         NFAIL = NFAIL + 1
+      END IF
+      F(2) = NAN
+      CALL SGCASE(HANDLE, F, SLIP0, GAP, SGCOUL, MU, SLIP0,
+     &            0, 0D0, 0, D, R, STATE, ETA, ITER, INFO)
+      CALL EXPECT('NaN in F', INFO, -2, NFAIL)
+      CALL SAYS('f(2)', NFAIL)
+      F(2) = -1.5D0
+      CALL SGCASE(HANDLE, F, SLIP0, GAP, SGCOUL, MU, SLIP0,
+     &            0, 0D0, 0, D, R, STATE, ETA, ITER, INFO)
+      CALL EXPECT('nothing wrong', INFO, 0, NFAIL)
+      CALL SGRECV(HANDLE, F, SLIP0, D, U, INFO)
       CALL EXPECT('nothing wrong', INFO, 0, NFAIL)
       CALL SGNODF(HANDLE, R, U, INFO)
       CALL EXPECT('nothing wrong', INFO, 0, NFAIL)
       CALL SGFREE(HANDLE, INFO)
       CALL EXPECT('nothing wrong', INFO, 0, NFAIL)
+      CALL SGMODL(2, 2, K, 4, HANDLE, INFO)
+      CALL EXPECT('nothing wrong', INFO, 0, NFAIL)
+      CALL SGFRAM(HANDLE, FRAMES, INFO)
+      CALL EXPECT('no frames', INFO, -1, NFAIL)
+      CALL SGFREE(HANDLE, INFO)
       HANDLE = 12345
-      CALL SGRECV(HANDLE, F, SLIP, D, U, INFO)
+      CALL SGRECV(HANDLE, F, SLIP0, D, U, INFO)
       CALL EXPECT('no such HANDLE', INFO, -1, NFAIL)
       CALL SGFREE(HANDLE, INFO)
       CALL EXPECT('no such HANDLE', INFO, -1, NFAIL)
       IF (NFAIL .NE. 0) STOP 1
       WRITE (*, '(A)') 'bad input: refused, with a sentence each'
+      END
+
+C     One pair under f = (2, 1) on K = (4 1; 1 4), which slides. Without
+C     friction 4 d_t = 1, with mu = 0.3 and the pressure 2 - d_t
+C     4 d_t = 1 - 0.3 (2 - d_t), with the threshold 0.3 4 d_t = 0.7.
+      SUBROUTINE LAWS(NFAIL)
+      INCLUDE 'signorini.inc'
+      INTEGER NFAIL, LAW, ITER, INFO, STATE(1)
+      DOUBLE PRECISION K(2, 2), F(2), GAP(1), FRIC(1), SLIP0(1)
+      DOUBLE PRECISION D(2), R(2), ETA, WANTED(0:2)
+      DATA K /4D0, 1D0, 1D0, 4D0/, F /2D0, 1D0/, FRIC /0.3D0/
+      DATA GAP /0D0/, SLIP0 /0D0/
+      WANTED(SGNOFR) = 0.25D0
+      WANTED(SGCOUL) = 0.4D0 / 3.7D0
+      WANTED(SGTRSC) = 0.175D0
+      DO 10 LAW = SGNOFR, SGTRSC
+         CALL SGSOLV(2, 1, K, 2, F, GAP, LAW, FRIC, SLIP0, 0, 0D0, 0,
+     &               D, R, STATE, ETA, ITER, INFO)
+         CALL EXPECT('law', INFO, 0, NFAIL)
+         IF (ABS(D(2) - WANTED(LAW)) .GT. 1D-9) THEN
+            WRITE (*, '(A, I2, A, F12.9)') '   FAIL: law', LAW, D(2)
+            NFAIL = NFAIL + 1
+         END IF
+         CALL SGCERT(2, 1, K, 2, F, GAP, LAW, FRIC, SLIP0, 0D0,
+     &               D, R, STATE, ETA, INFO)
+         CALL EXPECT('its certificate', INFO, 0, NFAIL)
+         D(2) = D(2) + 1D-3
+         CALL SGCERT(2, 1, K, 2, F, GAP, LAW, FRIC, SLIP0, 0D0,
+     &               D, R, STATE, ETA, INFO)
+         CALL EXPECT('moved away', INFO, SGNOSO, NFAIL)
+   10 CONTINUE
+      END
+
+C     The last sentence has these words.
+      SUBROUTINE SAYS(WORDS, NFAIL)
+      CHARACTER*(*) WORDS
+      INTEGER NFAIL
+      CHARACTER*256 TEXT
+      CALL SGMESG(TEXT, 256)
+      IF (INDEX(TEXT, WORDS) .EQ. 0) THEN
+         WRITE (*, '(2A)') '   FAIL: not a word of ', WORDS
+         NFAIL = NFAIL + 1
+      END IF
       END
 
       SUBROUTINE EXPECT(WHAT, INFO, WANTED, NFAIL)

@@ -19,7 +19,7 @@ program widths
         i = [2, 0, 2, 0, 4, 0, 0, 0]
         if (j < 4) i(2*j) = 7
         info = 0
-        call sgsolv_64(i(1), i(3), k, i(5), f, v, v, v, i(7), 0d0, i(7), d, r, state, eta, i(7), info)
+        call sgsolv_64(i(1), i(3), k, i(5), f, v, i(7), v, v, i(7), 0d0, i(7), d, r, state, eta, i(7), info)
         text = ' '
         call sgmesg(text, 96)
         print '(a, i0, 2a)', 'INFO = ', info(1), '  ', trim(text)

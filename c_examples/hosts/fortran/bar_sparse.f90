@@ -22,12 +22,12 @@ program bar_sparse
     gap = 0
     mu = 1
 
-    call model%new_sparse(starts, lines, values, SIGNORINI_LOWER, slaves, normals, info, &
+    call model%new_sparse(starts, lines, values, SIGNORINI_TRIANGLE_LOWER, slaves, normals, info, &
         fixed=bar_held(), message=message)
     if (info /= 0) call give_up
-    call model%solve(load, gap, mu, d, force, info, state=state, report=report, tolerance=1d-13, &
-        message=message)
-    if (info /= SIGNORINI_SOLVED) call give_up
+    call model%solve(load, gap, d, force, info, friction=mu, tolerance=1d-13, state=state, &
+        report=report, message=message)
+    if (info /= SIGNORINI_STATUS_SOLVED) call give_up
     call model%recover(load, d, u, info, message=message)
     if (info /= 0) call give_up
     call model%nodal_forces(force, nodal, info, message=message)

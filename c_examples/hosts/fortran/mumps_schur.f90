@@ -62,8 +62,8 @@ program mumps_schur
     end do
     gap = 0
     mu = 1
-    call contact_solve(k, f, gap, mu, d, force, info, state=state, tolerance=1d-13, message=message)
-    if (info /= SIGNORINI_SOLVED) then
+    call contact_solve(k, f, gap, d, force, info, friction=mu, tolerance=1d-13, state=state, message=message)
+    if (info /= SIGNORINI_STATUS_SOLVED) then
         print '(a, i0, 2a)', 'info = ', info, ': ', trim(message)
         stop 1
     end if

@@ -12,6 +12,7 @@ C     compiled with -fdefault-integer-8 and -DSGSOLV=SGSOLV_64, likewise
 C     for the other names.
 C
       PROGRAM SKYLIN
+      INCLUDE 'signorini.inc'
       INTEGER NX, NY, NNODE, NPAIR, NC, MAXEQ, MAXSKY
       PARAMETER (NX = 32, NY = 5, NNODE = (NX + 1) * (NY + 1))
       PARAMETER (NPAIR = NX + 1, NC = 2 * NPAIR)
@@ -20,7 +21,7 @@ C
       INTEGER NEQ, I, INFO, ITER
       DOUBLE PRECISION X(2, NNODE), SKY(MAXSKY), P(MAXEQ)
       DOUBLE PRECISION KIC(MAXEQ, NC), KC(NC, NC), FC(NC), WORK(MAXEQ)
-      DOUBLE PRECISION GAP(NPAIR), MU(NPAIR), SLIP(NPAIR)
+      DOUBLE PRECISION GAP(NPAIR), MU(NPAIR), SLIP0(NPAIR)
       DOUBLE PRECISION D(NC), R(NC), ETA
       CHARACTER*128 TEXT
 
@@ -35,11 +36,11 @@ C
       DO 10 I = 1, NPAIR
          GAP(I) = 0D0
          MU(I) = 1D0
-         SLIP(I) = 0D0
+         SLIP0(I) = 0D0
    10 CONTINUE
 C     Method 0 chooses; tolerance 1E-13; at most as many iterations as
 C     the library thinks fit.
-      CALL SGSOLV(2, NPAIR, KC, NC, FC, GAP, MU, SLIP,
+      CALL SGSOLV(2, NPAIR, KC, NC, FC, GAP, SGCOUL, MU, SLIP0,
      &            0, 1D-13, 0, D, R, STATE, ETA, ITER, INFO)
       IF (INFO .NE. 0) THEN
          CALL SGMESG(TEXT, 128)
@@ -53,7 +54,7 @@ C     the library thinks fit.
    20 CONTINUE
 
 C     The certificate of what was found, on the same data.
-      CALL SGCERT(2, NPAIR, KC, NC, FC, GAP, MU, SLIP,
+      CALL SGCERT(2, NPAIR, KC, NC, FC, GAP, SGCOUL, MU, SLIP0,
      &            1D-13, D, R, STATE, ETA, INFO)
       IF (INFO .NE. 0) STOP 2
       END

@@ -1,10 +1,11 @@
 //! Scalars by reference in both widths, settings of three scalars, and states.
 
 use super::super::guard::{self, Failure};
+use super::super::law::{SIGNORINI_LAW_FRICTIONLESS, SIGNORINI_LAW_TRESCA};
 use super::super::report::SignoriniReport;
 use super::super::settings::{SIGNORINI_METHOD_NEWTON, SignoriniSettings};
-use super::message;
-use crate::settings::Settings;
+use crate::problem::checked_dim;
+use crate::settings::{Settings, check_tolerance};
 
 /// A Fortran INTEGER.
 pub(super) trait Integer: Copy {
@@ -47,9 +48,6 @@ pub(super) unsafe fn run<I: Integer>(
 ) {
     let status = guard::call(|| {
         let status = body()?;
-        if status != 0 {
-            message::count_from_one();
-        }
         let argument = status.checked_neg().and_then(|k| usize::try_from(k).ok());
         let position = argument.filter(|k| *k >= 1).and_then(|k| positions.get(k - 1));
         Ok(position.map_or(status, |position| -position))
@@ -95,8 +93,9 @@ pub(super) unsafe fn choice<I: Integer>(
     i32::try_from(value).map_err(|_| absurd::<I>(position, name, value))
 }
 
-/// The number of something that is in memory: beyond 2^31 it can only be two integers of 4 bytes
-/// taken for one. A matrix with such a leading dimension would be read far outside.
+/// The number of something that is in memory. A value of 2^31 or more almost certainly means that two
+/// integers of 4 bytes were read as one of 8 bytes; a matrix with such a leading dimension would be
+/// read far outside.
 ///
 /// # Safety
 /// As for [`read`].
@@ -114,11 +113,64 @@ pub(super) unsafe fn count<I: Integer>(
     Ok(i64::from(value))
 }
 
+/// NDIM and NPAIR, at consecutive positions.
+///
+/// # Safety
+/// As for [`read`].
+pub(super) unsafe fn sizes<I: Integer>(
+    first: i32,
+    ndim: *const I,
+    npair: *const I,
+) -> Result<(i32, i64), Failure> {
+    // SAFETY: by the caller's contract.
+    let dim = unsafe { choice(first, "NDIM", ndim)? };
+    let wrong = |_| Failure::argument(first, format!("NDIM is {dim}, it must be 2 or 3"));
+    checked_dim(i64::from(dim)).map_err(wrong)?;
+    // SAFETY: as above.
+    Ok((dim, unsafe { count(first + 1, "NPAIR", npair)? }))
+}
+
+/// The leading dimension of a matrix of all components of pairs.
+///
+/// # Safety
+/// As for [`read`].
+pub(super) unsafe fn leading<I: Integer>(
+    position: i32,
+    name: &str,
+    place: *const I,
+    (dim, pairs): (i32, i64),
+) -> Result<i64, Failure> {
+    // SAFETY: by the caller's contract.
+    let leading = unsafe { count(position, name, place)? };
+    let n = i64::from(dim) * pairs;
+    if leading < n.max(1) {
+        let message = format!(
+            "{name} is {leading}, it must be at least NDIM * NPAIR, which is {n}; NPAIR counts pairs"
+        );
+        return Err(Failure::argument(position, message));
+    }
+    Ok(leading)
+}
+
 pub(super) fn absurd<I: Integer>(position: i32, name: &str, value: i64) -> Failure {
     let bytes = I::BYTES;
     let message =
         format!("{name} is {value}: this entry takes integers of {bytes} bytes, were they others?");
     Failure::argument(position, message)
+}
+
+/// LAW.
+///
+/// # Safety
+/// As for [`read`].
+pub(super) unsafe fn law<I: Integer>(position: i32, place: *const I) -> Result<i32, Failure> {
+    // SAFETY: by the caller's contract.
+    let law = unsafe { choice(position, "LAW", place)? };
+    if !(SIGNORINI_LAW_FRICTIONLESS..=SIGNORINI_LAW_TRESCA).contains(&law) {
+        let message = format!("LAW is {law}, it must be SGNOFR (0), SGCOUL (1) or SGTRSC (2)");
+        return Err(Failure::argument(position, message));
+    }
+    Ok(law)
 }
 
 /// METHOD, TOL and MAXIT at consecutive positions; 0 stands for the default of each.
@@ -140,7 +192,8 @@ pub(super) unsafe fn settings<I: Integer>(
         )
     };
     if !(0..=SIGNORINI_METHOD_NEWTON).contains(&method) {
-        return Err(Failure::argument(first, format!("METHOD is {method}, there is no such")));
+        let message = format!("METHOD is {method}, it must be 0 or SGNEST (1) to SGNEWT (5)");
+        return Err(Failure::argument(first, message));
     }
     if most < 0 {
         let message = format!("MAXIT is {most}, it must not be negative");
@@ -159,11 +212,13 @@ pub(super) unsafe fn settings<I: Integer>(
 pub(super) fn tolerance_or_default(position: i32, tolerance: f64) -> Result<f64, Failure> {
     if tolerance == 0.0 {
         Ok(Settings::default().tolerance)
-    } else if (1e-15..=0.1).contains(&tolerance) {
-        Ok(tolerance)
     } else {
-        let message = format!("TOL is {tolerance:e}, it must be 0 or lie between 1e-15 and 0.1");
-        Err(Failure::argument(position, message))
+        let wrong = |message| {
+            let rest = "or be 0 (the default); is it DOUBLE PRECISION, 1D-10 and not 1E-10?";
+            Failure::argument(position, format!("{message}, {rest}"))
+        };
+        check_tolerance("TOL", tolerance).map_err(wrong)?;
+        Ok(tolerance)
     }
 }
 

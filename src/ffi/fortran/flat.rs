@@ -1,11 +1,11 @@
-//! SGSOLV, SGTRES, SGCERT, SGLCPS: everything in one call.
+//! SGSOLV, SGCERT, SGLCPS: everything in one call.
 
 use super::super::certify::signorini_certify;
-use super::super::law::{SIGNORINI_LAW_COULOMB, SIGNORINI_LAW_TRESCA};
 use super::super::lcp::signorini_lcp_solve;
 use super::super::solve::signorini_solve;
 use super::arguments::{
-    Integer, Results, choice, count, read, run, settings, tolerance_or_default,
+    Integer, Results, count, law as read_law, leading, read, run, settings, sizes,
+    tolerance_or_default,
 };
 
 /// # Safety
@@ -17,8 +17,9 @@ pub(super) unsafe fn solve<I: Integer>(
     ldk: *const I,
     f: *const f64,
     gap: *const f64,
-    mu: *const f64,
-    slip: *const f64,
+    law: *const I,
+    fric: *const f64,
+    slip0: *const f64,
     method: *const I,
     tol: *const f64,
     maxit: *const I,
@@ -29,129 +30,36 @@ pub(super) unsafe fn solve<I: Integer>(
     iter: *mut I,
     info: *mut I,
 ) {
-    let arguments = Arguments {
-        ndim,
-        npair,
-        k,
-        ldk,
-        f,
-        gap,
-        friction: mu,
-        slip,
-        method,
-        tol,
-        maxit,
-        d,
-        r,
-        state,
-        eta,
-        iter,
-        info,
-    };
-    // SAFETY: by the caller's contract.
-    unsafe { arguments.run(SIGNORINI_LAW_COULOMB) }
-}
-
-/// # Safety
-/// As above.
-pub(super) unsafe fn tresca<I: Integer>(
-    ndim: *const I,
-    npair: *const I,
-    k: *const f64,
-    ldk: *const I,
-    f: *const f64,
-    gap: *const f64,
-    g: *const f64,
-    slip: *const f64,
-    method: *const I,
-    tol: *const f64,
-    maxit: *const I,
-    d: *mut f64,
-    r: *mut f64,
-    state: *mut I,
-    eta: *mut f64,
-    iter: *mut I,
-    info: *mut I,
-) {
-    let arguments = Arguments {
-        ndim,
-        npair,
-        k,
-        ldk,
-        f,
-        gap,
-        friction: g,
-        slip,
-        method,
-        tol,
-        maxit,
-        d,
-        r,
-        state,
-        eta,
-        iter,
-        info,
-    };
-    // SAFETY: by the caller's contract.
-    unsafe { arguments.run(SIGNORINI_LAW_TRESCA) }
-}
-
-/// What SGSOLV and SGTRES have in common: all.
-struct Arguments<I> {
-    ndim: *const I,
-    npair: *const I,
-    k: *const f64,
-    ldk: *const I,
-    f: *const f64,
-    gap: *const f64,
-    friction: *const f64,
-    slip: *const f64,
-    method: *const I,
-    tol: *const f64,
-    maxit: *const I,
-    d: *mut f64,
-    r: *mut f64,
-    state: *mut I,
-    eta: *mut f64,
-    iter: *mut I,
-    info: *mut I,
-}
-
-impl<I: Integer> Arguments<I> {
-    /// # Safety
-    /// As above.
-    unsafe fn run(&self, law: i32) {
-        let body = || {
-            // SAFETY: by the caller's contract.
-            unsafe {
-                let dim = choice(1, "NDIM", self.ndim)?;
-                let pairs = count(2, "NPAIR", self.npair)?;
-                let ldk = count(4, "LDK", self.ldk)?;
-                let settings = settings(9, self.method, self.tol, self.maxit)?;
-                let mut results = Results::new(pairs)?;
-                let status = signorini_solve(
-                    dim,
-                    pairs,
-                    self.k,
-                    ldk,
-                    self.f,
-                    self.gap,
-                    law,
-                    self.friction,
-                    self.slip,
-                    &raw const settings,
-                    self.d,
-                    self.r,
-                    results.state.as_mut_ptr(),
-                    &raw mut results.report,
-                    std::ptr::null(),
-                );
-                Ok(results.send(status, self.state, self.eta, self.iter))
-            }
-        };
+    let body = || {
         // SAFETY: by the caller's contract.
-        unsafe { run(self.info, &[1, 2, 3, 4, 5, 6, 7, 7, 8, 9, 12, 13], body) }
-    }
+        unsafe {
+            let (dim, pairs) = sizes(1, ndim, npair)?;
+            let ldk = leading(4, "LDK", ldk, (dim, pairs))?;
+            let law = read_law(7, law)?;
+            let settings = settings(10, method, tol, maxit)?;
+            let mut results = Results::new(pairs)?;
+            let status = signorini_solve(
+                dim,
+                pairs,
+                k,
+                ldk,
+                f,
+                gap,
+                law,
+                fric,
+                slip0,
+                &raw const settings,
+                d,
+                r,
+                results.state.as_mut_ptr(),
+                &raw mut results.report,
+                std::ptr::null(),
+            );
+            Ok(results.send(status, state, eta, iter))
+        }
+    };
+    // SAFETY: by the caller's contract.
+    unsafe { run(info, &[1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 13, 14], body) }
 }
 
 /// # Safety
@@ -163,8 +71,9 @@ pub(super) unsafe fn certify<I: Integer>(
     ldk: *const I,
     f: *const f64,
     gap: *const f64,
-    mu: *const f64,
-    slip: *const f64,
+    law: *const I,
+    fric: *const f64,
+    slip0: *const f64,
     tol: *const f64,
     d: *const f64,
     r: *mut f64,
@@ -175,10 +84,10 @@ pub(super) unsafe fn certify<I: Integer>(
     let body = || {
         // SAFETY: by the caller's contract.
         unsafe {
-            let dim = choice(1, "NDIM", ndim)?;
-            let pairs = count(2, "NPAIR", npair)?;
-            let ldk = count(4, "LDK", ldk)?;
-            let tolerance = tolerance_or_default(9, read(9, "TOL", tol)?)?;
+            let (dim, pairs) = sizes(1, ndim, npair)?;
+            let ldk = leading(4, "LDK", ldk, (dim, pairs))?;
+            let law = read_law(7, law)?;
+            let tolerance = tolerance_or_default(10, read(10, "TOL", tol)?)?;
             let mut results = Results::new(pairs)?;
             let status = signorini_certify(
                 dim,
@@ -187,9 +96,9 @@ pub(super) unsafe fn certify<I: Integer>(
                 ldk,
                 f,
                 gap,
-                SIGNORINI_LAW_COULOMB,
-                mu,
-                slip,
+                law,
+                fric,
+                slip0,
                 tolerance,
                 d,
                 r,
@@ -200,7 +109,7 @@ pub(super) unsafe fn certify<I: Integer>(
         }
     };
     // SAFETY: by the caller's contract.
-    unsafe { run(info, &[1, 2, 3, 4, 5, 6, 7, 7, 8, 9, 10, 11], body) }
+    unsafe { run(info, &[1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12], body) }
 }
 
 /// # Safety

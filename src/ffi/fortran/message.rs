@@ -1,23 +1,21 @@
-//! The last sentence for Fortran: its numbers count from 1, and SGMESG copies it.
+//! SGMESG: the last sentence for Fortran, whose numbers count from 1.
 
 use libc::c_char;
 use std::ffi::CStr;
 
-use super::super::status::{remember, signorini_last_error};
+use super::super::status::{last_counted_from_one, signorini_last_error};
 use super::arguments::{Integer, read};
 
-/// In front of these words' numbers stand things that are counted.
+/// In front of these words' numbers stand indices, in sentences that do not mark them.
 const COUNTED: [&str; 6] =
     ["pair ", "row ", "column ", "entry ", "degree of freedom ", "degrees of freedom "];
 
+/// A sentence without marks is searched for its indices.
 fn last() -> String {
+    let marked = last_counted_from_one();
     // SAFETY: the library's own zero-terminated buffer.
-    unsafe { CStr::from_ptr(signorini_last_error()) }.to_string_lossy().into_owned()
-}
-
-/// Turns the last sentence from the counting of C to that of Fortran: `K[12,7]` is `K(13,8)`.
-pub(super) fn count_from_one() {
-    remember(format_args!("{}", from_one(&last())));
+    let plain = unsafe { CStr::from_ptr(signorini_last_error()) }.to_string_lossy().into_owned();
+    if marked == plain { from_one(&plain) } else { marked }
 }
 
 fn from_one(text: &str) -> String {
@@ -64,7 +62,7 @@ fn from_one(text: &str) -> String {
 pub(super) unsafe fn copy<I: Integer>(text: *mut c_char, ltext: *const I) {
     // SAFETY: by the caller's contract.
     let Ok(length) = (unsafe { read(2, "LTEXT", ltext) }) else { return };
-    // Nobody has a longer CHARACTER for a sentence: rather none than one written far outside.
+    // No CHARACTER for a sentence is longer: such a length is refused, not written to.
     let Some(length) = usize::try_from(length.wide()).ok().filter(|n| *n <= i32::MAX as usize)
     else {
         return;

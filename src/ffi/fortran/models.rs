@@ -1,16 +1,18 @@
-//! SGMODL, SGTWOB, SGCASE, SGRECV, SGNODF, SGFREE: models known by numbers.
+//! SGMODL, SGTWOB, SGFRAM, SGCASE, SGRECV, SGNODF, SGFREE: models known by numbers.
 
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use super::super::guard::Failure;
-use super::super::law::SIGNORINI_LAW_COULOMB;
 use super::super::model_new::{
-    SignoriniModel, read as read_model, signorini_model_new_condensed, signorini_model_new_two_body,
+    SignoriniModel, signorini_model_frames, signorini_model_new_condensed,
+    signorini_model_new_two_body, signorini_model_pairs,
 };
 use super::super::model_recover::{signorini_model_nodal_forces, signorini_model_recover};
 use super::super::model_solve::signorini_model_solve;
-use super::arguments::{Integer, Results, choice, count, read, run, settings, write};
+use super::arguments::{
+    Integer, Results, law as read_law, leading, read, run, settings, sizes, write,
+};
 
 /// The models that live. Fortran has no pointer type of its own: an address in an INTEGER*8 would
 /// be followed whatever it holds, a number that is not here is refused.
@@ -19,7 +21,8 @@ struct Models {
     living: BTreeMap<i64, Arc<SignoriniModel>>,
 }
 
-/// Both halves of a number are not 0: half of one, in a variable of 4 bytes, is none.
+/// The upper half of a handle is "SG" in ASCII, the lower half counts from 1: neither is 0, so that a
+/// handle cut to an INTEGER*4 is never one.
 const FIRST: i64 = (0x5347 << 32) + 1;
 
 static MODELS: Mutex<Models> = Mutex::new(Models { next: FIRST, living: BTreeMap::new() });
@@ -84,9 +87,8 @@ pub(super) unsafe fn condensed<I: Integer>(
 ) {
     // SAFETY: by the caller's contract.
     let make = |model| unsafe {
-        let dim = choice(1, "NDIM", ndim)?;
-        let pairs = count(2, "NPAIR", npair)?;
-        let ldk = count(4, "LDK", ldk)?;
+        let (dim, pairs) = sizes(1, ndim, npair)?;
+        let ldk = leading(4, "LDK", ldk, (dim, pairs))?;
         Ok(signorini_model_new_condensed(dim, pairs, k, ldk, model))
     };
     // SAFETY: by the caller's contract.
@@ -107,10 +109,9 @@ pub(super) unsafe fn two_body<I: Integer>(
 ) {
     // SAFETY: by the caller's contract.
     let make = |model| unsafe {
-        let dim = choice(1, "NDIM", ndim)?;
-        let pairs = count(2, "NPAIR", npair)?;
-        let lda = count(4, "LDA", lda)?;
-        let ldb = count(6, "LDB", ldb)?;
+        let (dim, pairs) = sizes(1, ndim, npair)?;
+        let lda = leading(4, "LDA", lda, (dim, pairs))?;
+        let ldb = leading(6, "LDB", ldb, (dim, pairs))?;
         Ok(signorini_model_new_two_body(dim, pairs, ka, lda, kb, ldb, model))
     };
     // SAFETY: by the caller's contract.
@@ -124,8 +125,9 @@ pub(super) unsafe fn case<I: Integer>(
     f: *const f64,
     presc: *const f64,
     gap: *const f64,
-    mu: *const f64,
-    slip: *const f64,
+    law: *const I,
+    fric: *const f64,
+    slip0: *const f64,
     method: *const I,
     tol: *const f64,
     maxit: *const I,
@@ -140,18 +142,19 @@ pub(super) unsafe fn case<I: Integer>(
         // SAFETY: by the caller's contract.
         unsafe {
             let model = find(handle)?;
-            let settings = settings(7, method, tol, maxit)?;
-            let pairs = read_model(Arc::as_ptr(&model))?.pairs();
-            let mut results = Results::new(pairs as i64)?;
+            let law = read_law(5, law)?;
+            let settings = settings(8, method, tol, maxit)?;
+            let pairs = signorini_model_pairs(Arc::as_ptr(&model));
+            let mut results = Results::new(pairs)?;
             let status = signorini_model_solve(
                 Arc::as_ptr(&model),
                 1,
                 f,
                 presc,
                 gap,
-                SIGNORINI_LAW_COULOMB,
-                mu,
-                slip,
+                law,
+                fric,
+                slip0,
                 &raw const settings,
                 d,
                 r,
@@ -165,7 +168,19 @@ pub(super) unsafe fn case<I: Integer>(
     };
     // The entry of C has the number of cases at its second position.
     // SAFETY: by the caller's contract.
-    unsafe { run(info, &[1, 1, 2, 3, 4, 5, 5, 6, 7, 10, 11], body) }
+    unsafe { run(info, &[1, 1, 2, 3, 4, 5, 6, 7, 8, 11, 12], body) }
+}
+
+/// # Safety
+/// As above.
+pub(super) unsafe fn frames<I: Integer>(handle: *const i64, frames: *mut f64, info: *mut I) {
+    // SAFETY: by the caller's contract.
+    let body = || unsafe {
+        let model = find(handle)?;
+        Ok(signorini_model_frames(Arc::as_ptr(&model), frames))
+    };
+    // SAFETY: by the caller's contract.
+    unsafe { run(info, &[1, 2], body) }
 }
 
 /// # Safety

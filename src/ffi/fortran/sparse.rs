@@ -3,9 +3,12 @@
 use super::super::args::Arrays;
 use super::super::guard::Failure;
 use super::super::model_new::signorini_model_new_sparse;
-use super::super::sparse::{SignoriniPairs, SignoriniSparse};
-use super::arguments::{Integer, absurd, choice, count, read, run};
+use super::super::sparse::{
+    SIGNORINI_TRIANGLE_FULL, SIGNORINI_TRIANGLE_LOWER, SignoriniPairs, SignoriniSparse,
+};
+use super::arguments::{Integer, absurd, choice, count, read, run, sizes};
 use super::models::create;
+use crate::error::entry;
 
 /// # Safety
 /// As include/signorini.inc demands.
@@ -31,99 +34,159 @@ pub(super) unsafe fn new<I: Integer>(
     handle: *mut i64,
     info: *mut I,
 ) {
+    let matrix = Matrix { n, nnz, colptr, rowind, values, tri };
+    let pairs = Pairs { ndim, npair, slave, nmast, mstart, master, weight, normal, ntan, tangnt };
     // SAFETY: by the caller's contract.
     let make = |model| unsafe {
-        let size = count(1, "N", n)?;
-        let entries = read(2, "NNZ", nnz)?.wide();
-        // More than a triangle has. In 8 bytes there may be more than 2^31 of them.
-        if entries < 0 || entries > size.saturating_mul(size) {
-            return Err(absurd::<I>(2, "NNZ", entries));
+        let matrix = matrix.read()?;
+        let n_fixed = count(7, "NFIX", nfix)?;
+        let fixed = numbers(8, "FIXED", fixed, n_fixed)?;
+        let numbers = pairs.numbers()?;
+        let interface = pairs.read(&numbers)?;
+        let (matrix, interface) = (&raw const matrix, &raw const interface);
+        Ok(signorini_model_new_sparse(matrix, n_fixed, fixed.as_ptr(), interface, model))
+    };
+    // Of the matrix the entry of C tells the argument, not which array of it: here its values. Of
+    // the pairs likewise: here SLAVE.
+    // SAFETY: by the caller's contract.
+    unsafe { run(info, &[5, 7, 8, 11, 19], || create(19, handle, make)) }
+}
+
+/// The arguments from N to TRI, the first ones.
+struct Matrix<I> {
+    n: *const I,
+    nnz: *const I,
+    colptr: *const I,
+    rowind: *const I,
+    values: *const f64,
+    tri: *const I,
+}
+
+impl<I: Integer> Matrix<I> {
+    /// # Safety
+    /// As include/signorini.inc demands.
+    unsafe fn read(&self) -> Result<SignoriniSparse, Failure> {
+        // SAFETY: by the caller's contract.
+        let (size, nnz, triangle) = unsafe {
+            (count(1, "N", self.n)?, read(2, "NNZ", self.nnz)?.wide(), choice(6, "TRI", self.tri)?)
+        };
+        // More than a full matrix has. In 8 bytes there may be more than 2^31 of them.
+        if nnz < 0 || nnz > size.saturating_mul(size) {
+            return Err(absurd::<I>(2, "NNZ", nnz));
         }
-        let triangle = choice(6, "TRI", tri)?;
-        if !(0..=2).contains(&triangle) {
-            let message = format!("TRI is {triangle}, it must be 0, 1 or 2");
+        if !(SIGNORINI_TRIANGLE_LOWER..=SIGNORINI_TRIANGLE_FULL).contains(&triangle) {
+            let message = format!("TRI is {triangle}, it must be 0 (lower), 1 (upper) or 2 (all)");
             return Err(Failure::argument(6, message));
         }
-        check_begins(size, entries, colptr)?;
-        let held = count(7, "NFIX", nfix)?;
-        let dim = choice(9, "NDIM", ndim)?;
-        if dim != 2 && dim != 3 {
-            return Err(Failure::argument(9, format!("NDIM is {dim}, it must be 2 or 3")));
-        }
-        let pairs = count(10, "NPAIR", npair)?;
-        let masters = count(12, "NMAST", nmast)?;
-        let tangents = count(17, "NTAN", ntan)?;
-        if tangents != 0 && tangents != pairs {
-            let message = format!("NTAN is {tangents}, it must be 0 or NPAIR ({pairs})");
-            return Err(Failure::argument(17, message));
-        }
-        let fixed = numbers(8, "FIXED", fixed, held)?;
-        let slaves = numbers(11, "SLAVE", slave, pairs * i64::from(dim))?;
-        let mut begins = Vec::new();
-        if masters > 0 {
-            begins = numbers(13, "MSTART", mstart, pairs + 1)?;
-            if begins.last() != Some(&(masters + 1)) {
-                let last = begins[pairs as usize];
-                let message = format!(
-                    "MSTART({}) is {last}, it must be NMAST + 1 ({})",
-                    pairs + 1,
-                    masters + 1
-                );
-                return Err(Failure::argument(13, message));
-            }
-        }
-        let masters = numbers(14, "MASTER", master, masters * i64::from(dim))?;
-        let matrix = SignoriniSparse {
+        // SAFETY: as above.
+        unsafe { check_begins(size, nnz, self.colptr)? };
+        Ok(SignoriniSparse {
             struct_size: size_of::<SignoriniSparse>() as u32,
             index_bytes: I::BYTES,
             index_base: 1,
             triangle,
             size,
-            nnz: entries,
-            col_start: colptr.cast(),
-            row: rowind.cast(),
-            values,
-        };
-        let interface = SignoriniPairs {
+            nnz,
+            col_start: self.colptr.cast(),
+            row: self.rowind.cast(),
+            values: self.values,
+        })
+    }
+}
+
+/// The arguments from NDIM, the ninth, to TANGNT.
+struct Pairs<I> {
+    ndim: *const I,
+    npair: *const I,
+    slave: *const I,
+    nmast: *const I,
+    mstart: *const I,
+    master: *const I,
+    weight: *const f64,
+    normal: *const f64,
+    ntan: *const I,
+    tangnt: *const f64,
+}
+
+/// Its sizes, and its integer arrays in the width of the entries of C.
+struct Numbers {
+    dim: i32,
+    pairs: i64,
+    slaves: Vec<i64>,
+    /// Empty without masters, as `masters` is.
+    begins: Vec<i64>,
+    masters: Vec<i64>,
+}
+
+impl<I: Integer> Pairs<I> {
+    /// # Safety
+    /// As include/signorini.inc demands.
+    unsafe fn numbers(&self) -> Result<Numbers, Failure> {
+        // SAFETY: by the caller's contract.
+        unsafe {
+            let (dim, pairs) = sizes(9, self.ndim, self.npair)?;
+            let slaves = numbers(11, "SLAVE", self.slave, pairs * i64::from(dim))?;
+            let masters = count(12, "NMAST", self.nmast)?;
+            let mut begins = Vec::new();
+            if masters > 0 {
+                begins = numbers(13, "MSTART", self.mstart, pairs + 1)?;
+                let last = begins[pairs as usize];
+                if last != masters + 1 {
+                    let place = entry("MSTART", [pairs]);
+                    let message =
+                        format!("{place} is {last}, it must be NMAST + 1 ({})", masters + 1);
+                    return Err(Failure::argument(13, message));
+                }
+            }
+            let masters = numbers(14, "MASTER", self.master, masters * i64::from(dim))?;
+            Ok(Numbers { dim, pairs, slaves, begins, masters })
+        }
+    }
+
+    /// # Safety
+    /// As above.
+    unsafe fn read(&self, numbers: &Numbers) -> Result<SignoriniPairs, Failure> {
+        let Numbers { dim, pairs, slaves, begins, masters } = numbers;
+        // SAFETY: by the caller's contract.
+        let tangents = unsafe { count(17, "NTAN", self.ntan)? };
+        if tangents != 0 && tangents != *pairs {
+            let message = format!("NTAN is {tangents}, it must be 0 or NPAIR ({pairs})");
+            return Err(Failure::argument(17, message));
+        }
+        let null = std::ptr::null();
+        let rigid = begins.is_empty();
+        Ok(SignoriniPairs {
             struct_size: size_of::<SignoriniPairs>() as u32,
-            dim,
-            count: pairs,
+            dim: *dim,
+            count: *pairs,
             slaves: slaves.as_ptr(),
-            master_start: if begins.is_empty() { std::ptr::null() } else { begins.as_ptr() },
-            masters: if begins.is_empty() { std::ptr::null() } else { masters.as_ptr() },
-            weights: if begins.is_empty() { std::ptr::null() } else { weight },
-            normals: normal,
-            tangents: if tangents == 0 { std::ptr::null() } else { tangnt },
-        };
-        let (matrix, interface) = (&raw const matrix, &raw const interface);
-        Ok(signorini_model_new_sparse(matrix, held, fixed.as_ptr(), interface, model))
-    };
-    // Of the matrix the entry of C tells the argument, not which array of it: here its values.
-    // SAFETY: by the caller's contract.
-    unsafe { run(info, &[5, 7, 8, 11, 19], || create(19, handle, make)) }
+            master_start: if rigid { std::ptr::null() } else { begins.as_ptr() },
+            masters: if rigid { std::ptr::null() } else { masters.as_ptr() },
+            weights: if rigid { null } else { self.weight },
+            normals: self.normal,
+            tangents: if tangents == 0 { null } else { self.tangnt },
+        })
+    }
 }
 
 /// The begins of the columns, before ROWIND and VALUES are believed to be as long as NNZ says.
 ///
 /// # Safety
 /// `colptr` has `size` + 1 entries.
-unsafe fn check_begins<I: Integer>(
-    size: i64,
-    entries: i64,
-    colptr: *const I,
-) -> Result<(), Failure> {
-    let length = size as usize + 1;
+unsafe fn check_begins<I: Integer>(size: i64, nnz: i64, colptr: *const I) -> Result<(), Failure> {
+    let last = size as usize;
     // SAFETY: by the caller's contract.
-    let begins = unsafe { Arrays::default().required(3, "COLPTR", colptr, length)? };
+    let begins = unsafe { Arrays::default().required(3, "COLPTR", colptr, last + 1)? };
     let refuse = |i: usize, wanted: String| {
-        let value = begins[i].wide();
-        Err(Failure::argument(3, format!("COLPTR({}) is {value}, it must be {wanted}", i + 1)))
+        let (place, value) = (entry("COLPTR", [i]), begins[i].wide());
+        Err(Failure::argument(3, format!("{place} is {value}, it must be {wanted}")))
     };
     if begins[0].wide() != 1 {
-        return refuse(0, "1: indices count from 1, in integers of this entry".to_owned());
+        let bytes = I::BYTES;
+        return refuse(0, format!("1: indices count from 1, in integers of {bytes} bytes"));
     }
-    if begins[length - 1].wide() != entries + 1 {
-        return refuse(length - 1, format!("NNZ + 1 ({})", entries + 1));
+    if begins[last].wide() != nnz + 1 {
+        return refuse(last, format!("NNZ + 1 ({})", nnz + 1));
     }
     Ok(())
 }
