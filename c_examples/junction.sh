@@ -1,16 +1,17 @@
 #!/bin/sh
-# Computes the bolted junction with the C host program of this directory.
+# Computes the bolted junction with the C host program junction/bolted_junction.c.
 #
 #     sh c_examples/junction.sh [OUT]
 #
 # Builds the library, compiles the program against it (CC names the C compiler, default cc) and runs
 # it. With OUT, a directory, it also writes OUT/bolted_junction.csv and OUT/junction_mu0.3_STEP.vtk,
-# which bolted_junction.py draws. All else goes to target/.
+# which junction/bolted_junction.py draws. All else goes to target/.
 set -eu
 
 script=junction
-# shellcheck source=c_examples/build.sh
-. "$(dirname -- "$0")/build.sh"
+root=$(CDPATH='' cd -- "$(dirname -- "$0")/.." && pwd)
+# shellcheck source=c_examples/common/build.sh
+. "$root/c_examples/common/build.sh"
 
 [ $# -le 1 ] || die "usage: sh junction.sh [OUT]"
 check_tools
@@ -20,8 +21,9 @@ if [ $# -eq 1 ]; then
 fi
 
 prepare
-compile bolted_junction bolted_junction.c junction_mesh.c junction_element.c junction_output.c \
-    junction_check.c checks.c watch.c
+compile bolted_junction junction/bolted_junction.c junction/junction_mesh.c \
+    junction/junction_element.c junction/junction_output.c junction/junction_check.c \
+    common/checks.c common/watch.c
 
 say "running it"
 echo

@@ -1,15 +1,17 @@
 #!/bin/sh
-# Replays Table 1 of the paper with the C host program of this directory.
+# Replays Table 1 of the paper with the C host program bar/bar_on_plane.c.
 #
 #     sh c_examples/replay.sh [OUT]
 #
 # Builds the library, compiles the program against it (CC names the C compiler, default cc) and runs
-# it. With OUT, a directory, it also writes OUT/bar_on_plane.csv. All else goes to target/.
+# it. With OUT, a directory, it also writes OUT/bar_on_plane.csv,
+# which bar/bar_on_plane.py draws. All else goes to target/.
 set -eu
 
 script=replay
-# shellcheck source=c_examples/build.sh
-. "$(dirname -- "$0")/build.sh"
+root=$(CDPATH='' cd -- "$(dirname -- "$0")/.." && pwd)
+# shellcheck source=c_examples/common/build.sh
+. "$root/c_examples/common/build.sh"
 
 [ $# -le 1 ] || die "usage: sh replay.sh [OUT]"
 check_tools
@@ -19,7 +21,8 @@ if [ $# -eq 1 ]; then
 fi
 
 prepare
-compile bar_on_plane bar_on_plane.c bar_mesh.c bar_check.c checks.c watch.c
+compile bar_on_plane bar/bar_on_plane.c bar/bar_mesh.c bar/bar_check.c common/checks.c \
+    common/watch.c
 
 say "running it"
 echo

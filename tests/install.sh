@@ -3,9 +3,10 @@
 #
 #     sh tests/install.sh
 #
-# By CMake and by c_examples/install.sh; in a prefix with a space in its name, and staged by DESTDIR;
-# programs by pkg-config and by CMake, shared, static and with -static; beside other Rust archives;
-# the header in every dialect; `cargo package`. It ends at the first thing that is wrong.
+# By CMake and by c_examples/install/install.sh; in a prefix with a space in its name, and
+# staged by DESTDIR; programs by pkg-config and by CMake, shared, static and with -static; beside other
+# Rust archives; the header in every dialect; `cargo package`. It ends at the first thing that is
+# wrong, and with 77 if it skipped anything.
 set -eu
 LC_ALL=C
 export LC_ALL
@@ -30,13 +31,13 @@ quietly() {
         die "failed: $*"
     }
 }
+[ "$(uname -s)" = Linux ] || {
+    say "SKIPPED: this test knows Linux only"
+    exit 77
+}
 for tool in cargo rustc cmake pkg-config nm readelf "${cc%% *}"; do
     command -v "$tool" >/dev/null || die "$tool is missing (Debian: rustc cargo cmake pkg-config gcc)"
 done
-[ "$(uname -s)" = Linux ] || {
-    say "skipped: this test knows Linux only"
-    exit 0
-}
 rm -rf "$work"
 mkdir -p "$work"
 interface=$(sed -n '/^version = /{s/[^0-9]*\([0-9]*\.[0-9]*\).*/\1/p;q;}' "$root/Cargo.toml")
@@ -49,13 +50,13 @@ quietly cmake -S "$root/c_examples" -B "$work/build" -DBUILD_TESTING=OFF \
     -DCMAKE_INSTALL_PREFIX=/nowhere -DCMAKE_INSTALL_LIBDIR=lib
 quietly cmake --build "$work/build"
 quietly cmake --install "$work/build" --prefix "$by_cmake"
-quietly env PREFIX="$by_script" sh "$root/c_examples/install.sh"
+quietly env PREFIX="$by_script" sh "$root/c_examples/install/install.sh"
 
 # Staged: written below DESTDIR, for a prefix that need not exist yet. It is then moved there.
 final=$work/final
 quietly env DESTDIR="$work/stage" cmake --install "$work/build" --prefix "$final"
 quietly env DESTDIR="$work/stage2" PREFIX="$final" LIBDIR=lib/deep \
-    sh "$root/c_examples/install.sh"
+    sh "$root/c_examples/install/install.sh"
 [ ! -e "$final" ] || die "something was installed past DESTDIR"
 for stage in stage stage2; do
     if grep -rIl "$work/$stage" "$work/$stage"; then die "these files name the stage"; fi
@@ -207,7 +208,8 @@ other whole --crate-type staticlib -C lto=fat
 faer=$(ls -t "$root"/target/release/deps/libfaer-*.rlib | head -n 1)
 other copy --crate-type staticlib --cfg faer --extern "faer=$faer" \
     -L "dependency=$root/target/release/deps"
-sh "$root/c_examples/hide_symbols.sh" "$work/libplain.a" "$work/libplain.so" "$work/libhidden.a"
+sh "$root/c_examples/install/hide_symbols.sh" "$work/libplain.a" "$work/libplain.so" \
+    "$work/libhidden.a"
 for name in plain whole copy hidden; do
     with_other "$installed" "$work/lib$name.a"
     with_other "$work/lib$name.a" "$installed"
@@ -233,7 +235,8 @@ header "$cc" c c99 c11 c17
 if command -v "${CXX:-c++}" >/dev/null; then
     header "${CXX:-c++}" cc c++11 c++20
 else
-    say "the header in C++: skipped, there is no C++ compiler"
+    say "the header in C++: SKIPPED, there is no C++ compiler"
+    skipped=yes
 fi
 
 # ---- the package ----
@@ -242,3 +245,4 @@ fi
 quietly env CARGO_PROFILE_DEV_DEBUG=0 cargo package --allow-dirty --offline
 if grep '^warning' "$work/log"; then die "cargo package warns"; fi
 say "cargo package"
+[ "${skipped:-}" != yes ] || exit 77

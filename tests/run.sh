@@ -3,8 +3,9 @@
 #
 # Formatting, lints, the Rust tests, the documentation, the C and Fortran programs, the installation,
 # the scripts, and the replay of the examples. It ends at the first step that fails, with its name.
-# It writes to target/ alone. Compilers, CMake and numpy that it does not find it installs by apt-get
-# if it may; other tools it uses where they are, and says what it skips.
+# It writes to target/ alone. Compilers, CMake, pkg-config and numpy that it does not find it installs
+# by apt-get if it may; other tools it uses where they are. It says what it skips, and the last line
+# says how many steps that were.
 #
 # With --hosts it installs the rest too, the finite-element codes of the examples among it, and skips
 # nothing.
@@ -56,6 +57,7 @@ needed_packages() {
     have make || echo make
     have cmake && have ctest || echo cmake
     have nm && have readelf || echo binutils
+    have pkg-config || echo pkgconf
 }
 
 # ... what some do, ...
@@ -68,7 +70,6 @@ wanted_packages() {
 host_packages() {
     have c++ || echo g++
     have valgrind || echo valgrind
-    have pkg-config || echo pkgconf
     have ccx || echo calculix-ccx
     /usr/bin/python3 -c 'import getfem' >/dev/null 2>&1 || echo python3-getfem
     python_with numpy,matplotlib,PIL >/dev/null || echo python3-numpy python3-matplotlib python3-pil
@@ -117,7 +118,17 @@ export PYTHON
 
 # ---- steps ----
 
-# Runs a step under its heading; ends everything if it fails.
+# The steps of which all or a part was skipped.
+skipped=
+skipped_steps=0
+
+note_skip() {
+    skipped="$skipped${skipped:+, }$1"
+    skipped_steps=$((skipped_steps + 1))
+}
+
+# Runs a step under its heading; ends everything if it fails. A step that ends with 77 has passed,
+# but for what it skipped.
 step() {
     name=$1
     shift
@@ -125,7 +136,9 @@ step() {
     echo "== $name"
     "$@" </dev/null
     result=$?
-    if [ "$result" -ne 0 ]; then
+    if [ "$result" -eq 77 ]; then
+        note_skip "$name"
+    elif [ "$result" -ne 0 ]; then
         echo
         echo "== FAILED: $name ($* ended with $result)"
         exit 1
@@ -135,6 +148,7 @@ step() {
 skip() {
     echo
     echo "== $1: skipped, $2"
+    note_skip "$1"
 }
 
 documentation() {
@@ -168,11 +182,9 @@ step "Rust documentation" documentation
 step "C programs: configure" c_configure
 step "C programs: build" c_build
 step "C programs: test" c_test
-if have pkg-config; then
-    step "installation" sh tests/install.sh
-else
-    skip "installation" "there is no pkg-config"
-fi
+have valgrind || skip "C programs under valgrind" "valgrind is not installed"
+have c++ || skip "the header in C++" "there is no C++ compiler"
+step "installation" sh tests/install.sh
 step "replay of Table 1" sh c_examples/replay.sh
 step "bolted junction" sh c_examples/junction.sh
 step "Ctrl-C and progress" sh tests/interrupt.sh
@@ -182,4 +194,9 @@ for name in readme fortran scripts host_calculix host_getfem host_mumps host_oct
 done
 
 echo
-echo "== all tests passed in $(($(date +%s) - began)) s"
+seconds=$(($(date +%s) - began))
+if [ "$skipped_steps" -eq 0 ]; then
+    echo "== all tests passed in $seconds s"
+else
+    echo "== passed in $seconds s; skipped, wholly or in part, $skipped_steps steps: $skipped"
+fi

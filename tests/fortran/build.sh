@@ -43,7 +43,7 @@ compile() (
 )
 
 # Runs a program that prints `node NUMBER STATE d_n d_t F_n F_t` and compares with the solution in
-# c_examples/bar_reference.h: largest difference relative to the largest value, at most 1e-9.
+# c_examples/bar/bar_reference.h: largest difference relative to the largest value, at most 1e-9.
 compare() {
     "$work/$1" >"$work/$1.out" || { cat "$work/$1.out"; die "$1 failed"; }
     awk -v name="$1" '
@@ -81,5 +81,5 @@ compare() {
             print name ": " open + 0 " open, " slip + 0 " slip, " stick + 0 " stick"
             if (open != 3 || slip != 15 || stick != 15) failed = 1
             exit failed
-        }' "$root/c_examples/bar_reference.h" "$work/$1.out" || die "$1: not the bar's solution"
+        }' "$root/c_examples/bar/bar_reference.h" "$work/$1.out" || die "$1: not the bar's solution"
 }

@@ -7,7 +7,8 @@ import numpy as np
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 sys.dont_write_bytecode = True
-sys.path.insert(0, os.path.join(ROOT, "c_examples"))
+PYTHON = os.path.join(ROOT, "c_examples", "python")
+sys.path[:0] = [PYTHON, os.path.join(ROOT, "c_examples", "bar")]
 
 # Two pairs of the README's first program.
 K = np.array([[4, 1, -1, 0], [1, 4, 0, -1], [-1, 0, 4, 1], [0, -1, 1, 4]])

@@ -9,7 +9,7 @@ import subprocess
 import sys
 import unittest
 
-from common import LOAD, ROOT, K, text
+from common import LOAD, PYTHON, ROOT, K, text
 
 import signorini
 
@@ -21,7 +21,7 @@ class Library(unittest.TestCase):
     """Each in a Python of its own."""
 
     def run_python(self, code, **environment):
-        code = f"import sys; sys.path.insert(0, {os.path.join(ROOT, 'c_examples')!r})\n" + code
+        code = f"import sys; sys.path.insert(0, {PYTHON!r})\n" + code
         return subprocess.run([sys.executable, "-B", "-c", code], capture_output=True, text=True,
                               env={**os.environ, **environment}, check=False)
 

@@ -16,7 +16,7 @@ import signorini
 
 def reference(name):
     """An array of bar_reference.h."""
-    header = text("c_examples", "bar_reference.h")
+    header = text("c_examples", "bar", "bar_reference.h")
     body = re.search(name + r"\[BAR_SIZE\] = \{(.*?)\}", header, re.S)[1]
     return np.array([float(word) for word in body.split(",") if word.strip()]).reshape(-1, 2)
 

@@ -12,7 +12,7 @@
  * A deck of your own needs other contact nodes, normals, gaps and coefficients: all else stays.
  */
 
-#include "../../bar_check.h"
+#include "../../bar/bar_check.h"
 #include "matrix_files.h"
 #include "signorini.h"
 

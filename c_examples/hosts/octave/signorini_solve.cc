@@ -1,4 +1,4 @@
-// The library as a function of GNU Octave. c_examples/octave.sh builds it.
+// The library as a function of GNU Octave. octave.sh builds it.
 
 #include <algorithm>
 #include <cstdint>

@@ -1,4 +1,4 @@
-% The README's first program in GNU Octave; run by c_examples/octave.sh.
+% The README's first program in GNU Octave; run by octave.sh.
 
 function check (passed, what)
   printf ("  %s  %s\n", ifelse (passed, "PASS", "FAIL"), what);

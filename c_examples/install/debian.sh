@@ -2,16 +2,18 @@
 # Makes Debian packages of the library: libsignorini0.1, what programs need to run, and
 # libsignorini-dev, what they are built with.
 #
-#     sh c_examples/debian.sh [OUT]
+#     sh c_examples/install/debian.sh [OUT]
 #
 # They go to OUT, by default target/debian. MAINTAINER is who answers for them, "Name <address>".
 set -eu
 
 script=debian
-# shellcheck source=c_examples/build.sh
-. "$(dirname -- "$0")/build.sh"
+root=$(CDPATH='' cd -- "$(dirname -- "$0")/../.." && pwd)
+# shellcheck source=c_examples/common/build.sh
+. "$root/c_examples/common/build.sh"
 
 [ $# -le 1 ] || die "usage: sh debian.sh [OUT]"
+find_cargo
 for tool in cargo dpkg-deb dpkg-shlibdeps; do
     command -v "$tool" >/dev/null || die "$tool is missing: install Rust and Debian's dpkg-dev"
 done
@@ -30,7 +32,7 @@ libdir=lib/$(dpkg-architecture -qDEB_HOST_MULTIARCH)
 run=libsignorini$interface
 dev=libsignorini-dev
 
-DESTDIR=$work/$dev PREFIX=/usr LIBDIR=$libdir sh "$examples/install.sh"
+DESTDIR=$work/$dev PREFIX=/usr LIBDIR=$libdir sh "$examples/install/install.sh"
 mkdir -p "$work/$run/DEBIAN" "$work/$run/usr/$libdir"
 for file in "libsignorini.so.$version" "libsignorini.so.$interface"; do
     mv "$work/$dev/usr/$libdir/$file" "$work/$run/usr/$libdir"

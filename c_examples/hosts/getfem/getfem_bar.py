@@ -1,6 +1,6 @@
 """GetFEM as the host: the bar on the plane, by its own contact brick and by the library.
 
-    /usr/bin/python3 c_examples/hosts/getfem_bar.py
+    /usr/bin/python3 c_examples/hosts/getfem/getfem_bar.py
 
 GetFEM meshes and assembles the bar. Its tangent matrix and right-hand side go to the library as
 they are, a sparse matrix with contact pairs; the same model with GetFEM's own contact brick must
@@ -14,7 +14,8 @@ import sys
 import numpy as np
 
 sys.dont_write_bytecode = True  # what is built goes to target/
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), os.pardir))
+# signorini.py is in c_examples/python.
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../python"))
 import getfem as gf  # noqa: E402
 import signorini  # noqa: E402
 

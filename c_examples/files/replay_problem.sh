@@ -1,7 +1,7 @@
 #!/bin/sh
 # Solves a problem again that a host has written to a file by signorini_problem_save or the like.
 #
-#     sh c_examples/replay_problem.sh FILE [METHOD [TOLERANCE]]
+#     sh c_examples/files/replay_problem.sh FILE [METHOD [TOLERANCE]]
 #
 # METHOD is auto (the default), nested, diagonal, lemke, pivot or newton. Builds the library,
 # compiles the program against it (CC names the C compiler, default cc) and runs it. It ends with 0
@@ -10,15 +10,16 @@
 set -eu
 
 script=replay_problem
-# shellcheck source=c_examples/build.sh
-. "$(dirname -- "$0")/build.sh"
+root=$(CDPATH='' cd -- "$(dirname -- "$0")/../.." && pwd)
+# shellcheck source=c_examples/common/build.sh
+. "$root/c_examples/common/build.sh"
 
 [ $# -ge 1 ] && [ $# -le 3 ] || die "usage: sh replay_problem.sh FILE [METHOD [TOLERANCE]]"
 [ -r "$1" ] || die "cannot read the file $1"
 check_tools
 
 prepare
-compile replay_problem replay_problem.c watch.c
+compile replay_problem files/replay_problem.c common/watch.c
 
 say "running it"
 echo

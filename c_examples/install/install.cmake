@@ -29,7 +29,8 @@ install(PROGRAMS "${shared}" DESTINATION "${libdir}" RENAME "${shared_name}")
 # The CMake package finds its files from its own place.
 set(package "${libdir}/cmake/signorini")
 set(private "${private_libraries}")
-configure_package_config_file(signorini-config.cmake.in signorini-config.cmake
+configure_package_config_file("${CMAKE_CURRENT_LIST_DIR}/signorini-config.cmake.in"
+    signorini-config.cmake
     INSTALL_DESTINATION "${package}" PATH_VARS libdir includedir
     NO_SET_AND_CHECK_MACRO NO_CHECK_REQUIRED_COMPONENTS_MACRO)
 write_basic_package_version_file("${CMAKE_CURRENT_BINARY_DIR}/signorini-config-version.cmake"
@@ -53,5 +54,5 @@ install(CODE "
     set(includedir [[${includedir}]])
     set(version \"${version}\")
     set(private \"${private}\")
-    configure_file([[${CMAKE_CURRENT_SOURCE_DIR}/signorini.pc.in]] [[${pc}]] @ONLY)")
+    configure_file([[${CMAKE_CURRENT_LIST_DIR}/signorini.pc.in]] [[${pc}]] @ONLY)")
 install(FILES "${pc}" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig")

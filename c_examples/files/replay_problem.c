@@ -9,7 +9,7 @@
  */
 
 #include "signorini.h"
-#include "watch.h"
+#include "../common/watch.h"
 
 #include <stdio.h>
 #include <stdlib.h>

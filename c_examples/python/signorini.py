@@ -24,7 +24,7 @@ result, or by an exception (such as that of Ctrl-C), which goes on after the cal
 this module. Without one, Ctrl-C waits for the end of the call.
 
 The shared library is the one that load() names, or the environment variable SIGNORINI_LIBRARY, or
-that of ../target/release, or that of the system. Needs numpy. Threads may share everything here.
+that of ../../target/release, or that of the system. Needs numpy. Threads may share everything here.
 """
 
 import ctypes
@@ -162,7 +162,7 @@ def _open(path):
     end = {"darwin": ".dylib", "win32": ".dll"}.get(sys.platform, ".so")
     name = ("" if sys.platform == "win32" else "lib") + "signorini" + end
     here = os.path.dirname(os.path.abspath(__file__))
-    built = os.path.join(here, os.pardir, "target", "release", name)
+    built = os.path.join(here, os.pardir, os.pardir, "target", "release", name)
     named = path or os.environ.get("SIGNORINI_LIBRARY")
     if named:
         places = [os.path.abspath(named)]

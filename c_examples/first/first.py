@@ -1,7 +1,13 @@
 """A body touches a plane with two pairs, on numpy arrays."""
 
+import os
+import sys
+
 import numpy as np
-import signorini
+
+# signorini.py is in c_examples/python. A program of yours may have it beside itself.
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "python"))
+import signorini  # noqa: E402
 
 K = np.array([[4, 1, -1, 0], [1, 4, 0, -1], [-1, 0, 4, 1], [0, -1, 1, 4]], dtype=float)
 f = np.array([2, 1.5, 3, 0.5])  # loads: > 0 in n presses on the obstacle

@@ -1,5 +1,5 @@
 #include "junction_output.h"
-#include "checks.h"
+#include "../common/checks.h"
 #include "signorini.h"
 
 #include <math.h>

@@ -7,7 +7,7 @@
 #define BAR_CHECK_H
 
 #include "bar_mesh.h"
-#include "checks.h"
+#include "../common/checks.h"
 
 #include <stddef.h>
 #include <stdint.h>

@@ -17,7 +17,7 @@
 #include "bar_check.h"
 #include "bar_mesh.h"
 #include "signorini.h"
-#include "watch.h"
+#include "../common/watch.h"
 
 #include <errno.h>
 #include <math.h>

@@ -1,8 +1,10 @@
+#!/usr/bin/env python3
 """Draws the bar on the plane: what bar_on_plane.c has computed and the paper's Table 1, and how the
 zones of contact depend on friction, which it computes by signorini.py.
 
     sh c_examples/replay.sh OUT
-    python3 c_examples/bar_on_plane.py OUT      writes OUT/bar_on_plane.png and OUT/bar_friction.png
+    python3 c_examples/bar/bar_on_plane.py OUT      writes two pictures, OUT/bar_on_plane.png
+                                                    and OUT/bar_friction.png
 
 Needs numpy and matplotlib.
 """
@@ -19,6 +21,8 @@ import numpy as np
 from matplotlib.colors import ListedColormap
 
 sys.dont_write_bytecode = True  # what is built goes to target/
+# signorini.py is in c_examples/python.
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "python"))
 import bar_mesh  # noqa: E402
 import signorini  # noqa: E402
 
@@ -89,7 +93,10 @@ def shade(axes, x, states):
 
 
 def draw_table(out):
-    computed, states = read(os.path.join(out, "bar_on_plane.csv"))
+    try:
+        computed, states = read(os.path.join(out, "bar_on_plane.csv"))
+    except FileNotFoundError as error:
+        sys.exit(f"{error.filename} is missing: run sh c_examples/replay.sh {out} first")
     x = computed["x"]
     table_x = x[: len(TABLE)]
     fixed = np.array([CORRECTIONS.get(node + 1, row[2]) for node, row in enumerate(TABLE)])

@@ -1,7 +1,7 @@
 #!/bin/sh
 # CalculiX as the host: the bar on the plane, from its deck and back.
 #
-#     sh c_examples/calculix.sh [OUT]
+#     sh c_examples/hosts/calculix/calculix.sh [OUT]
 #
 # CalculiX (ccx, or what CCX names) writes the stiffness matrix of the deck, a C program has the
 # library find contact and friction and writes displacements as *BOUNDARY, and CalculiX solves its
@@ -10,8 +10,9 @@
 set -eu
 
 script=calculix
-# shellcheck source=c_examples/build.sh
-. "$(dirname -- "$0")/build.sh"
+root=$(CDPATH='' cd -- "$(dirname -- "$0")/../../.." && pwd)
+# shellcheck source=c_examples/common/build.sh
+. "$root/c_examples/common/build.sh"
 
 [ $# -le 1 ] || die "usage: sh calculix.sh [OUT]"
 check_tools
@@ -24,7 +25,8 @@ out=$(CDPATH='' cd -- "$out" && pwd)
 host=$examples/hosts/calculix
 
 prepare
-compile bar_contact hosts/calculix/bar_contact.c hosts/calculix/matrix_files.c bar_check.c checks.c
+compile bar_contact hosts/calculix/bar_contact.c hosts/calculix/matrix_files.c \
+    bar/bar_check.c common/checks.c
 
 # ccx may end with 0 after an error: what counts is the file that it should write.
 run_ccx() {

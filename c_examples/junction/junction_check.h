@@ -5,7 +5,7 @@
 #ifndef JUNCTION_CHECK_H
 #define JUNCTION_CHECK_H
 
-#include "checks.h"
+#include "../common/checks.h"
 #include "junction_output.h"
 
 #include <stddef.h>

@@ -1,7 +1,7 @@
 #!/bin/sh
 # Makes a static library that shows the names of the shared one and no others.
 #
-#     sh c_examples/hide_symbols.sh ARCHIVE SHARED OUT
+#     sh c_examples/install/hide_symbols.sh ARCHIVE SHARED OUT
 #
 # cargo's archive shows thousands of names: those of Rust's standard library and of every crate in
 # it. A program that links a second Rust archive may then have two definitions of one name, and the

@@ -26,7 +26,7 @@
 
 #include "junction_check.h"
 #include "signorini.h"
-#include "watch.h"
+#include "../common/watch.h"
 
 #include <errno.h>
 #include <math.h>

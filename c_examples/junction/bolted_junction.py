@@ -1,7 +1,8 @@
+#!/usr/bin/env python3
 """Draws the bolted junction (the paper's figure 3) from what bolted_junction.c has computed.
 
     sh c_examples/junction.sh OUT
-    python3 c_examples/bolted_junction.py OUT       writes OUT/bolted_junction.png
+    python3 c_examples/junction/bolted_junction.py OUT      writes OUT/bolted_junction.png
 
 Needs numpy and matplotlib (which brings PIL). mu = 0.3, closed and under the largest inner
 pressure: the mesh with displacements times 100, level curves of the axial stress, and the state of
@@ -148,8 +149,11 @@ def main():
     levels = np.arange(-80, 81, 10)
 
     figure, panels = plt.subplots(1, 2, figsize=(9.2, 6.4), sharey=True, layout="constrained")
-    for axes, (step, title) in zip(panels, PANELS):
-        filled = draw(axes, out, step, title, levels)
+    try:
+        for axes, (step, title) in zip(panels, PANELS):
+            filled = draw(axes, out, step, title, levels)
+    except FileNotFoundError as error:
+        sys.exit(f"{error.filename} is missing: run sh c_examples/junction.sh {out} first")
     panels[0].set_ylabel("z, mm")
     bar = figure.colorbar(filled, ax=panels, shrink=0.9, aspect=35, pad=0.01, ticks=levels[::2])
     bar.set_label("axial stress $\\sigma_{zz}$, MPa")

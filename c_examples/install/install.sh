@@ -2,7 +2,7 @@
 # Installs the library without CMake: libraries, header, the Fortran module's source, signorini.pc
 # and the CMake package, all that install.cmake installs.
 #
-#     PREFIX=/usr/local sh c_examples/install.sh
+#     PREFIX=/usr/local sh c_examples/install/install.sh
 #
 # PREFIX   where the library will be used, an absolute path; default /usr/local
 # LIBDIR   the directory of libraries in PREFIX; default lib
@@ -13,8 +13,9 @@
 set -eu
 
 script=install
-# shellcheck source=c_examples/build.sh
-. "$(dirname -- "$0")/build.sh"
+root=$(CDPATH='' cd -- "$(dirname -- "$0")/../.." && pwd)
+# shellcheck source=c_examples/common/build.sh
+. "$root/c_examples/common/build.sh"
 
 [ $# -eq 0 ] || die "it takes no arguments: set PREFIX, LIBDIR and DESTDIR"
 prefix=${PREFIX:-/usr/local}
@@ -27,6 +28,8 @@ case /$libdir/ in
 //* | */./* | */../*) die "LIBDIR is '$libdir', not a directory in PREFIX" ;;
 esac
 
+# Under sudo cargo would leave files of root in target/.
+[ -n "${SUDO_USER-}" ] || find_cargo
 if command -v cargo >/dev/null; then
     say "building the library: cargo build --release --locked --lib"
     (cd "$root" && cargo build --quiet --release --locked --lib --target-dir "$root/target")
@@ -57,8 +60,8 @@ done
 
 work=$(mktemp -d "${TMPDIR:-/tmp}/signorini.XXXXXX")
 trap 'rm -rf "$work"' EXIT
-sh "$examples/hide_symbols.sh" "$root/target/release/libsignorini.a" "$root/target/release/$built" \
-    "$work/libsignorini.a"
+sh "$examples/install/hide_symbols.sh" "$root/target/release/libsignorini.a" \
+    "$root/target/release/$built" "$work/libsignorini.a"
 
 # A path as the right side of a substitution.
 quoted() { printf '%s' "$1" | sed 's/[&|\\]/\\&/g'; }
@@ -72,7 +75,7 @@ escaped=$(printf '%s' "$prefix" | sed 's/ /\\ /g')
 # shellcheck disable=SC2016 # names of pkg-config and CMake
 sed -e "s|@prefix@|$(quoted "$escaped")|" -e "s|@libdir@|\${prefix}/$(quoted "$libdir")|" \
     -e 's|@includedir@|${prefix}/include|' -e "s|@version@|$version|" -e "s|@private@|$private|" \
-    "$examples/signorini.pc.in" >"$work/signorini.pc"
+    "$examples/install/signorini.pc.in" >"$work/signorini.pc"
 
 cmake_private=$(printf '%s' "$private" | sed 's/^-l//; s/ -l/;/g')
 # shellcheck disable=SC2016
@@ -81,7 +84,7 @@ get_filename_component(PACKAGE_PREFIX_DIR \"\${PACKAGE_PREFIX_DIR}/../$up\" ABSO
     -e "s|@PACKAGE_libdir@|\${PACKAGE_PREFIX_DIR}/$(quoted "$libdir")|" \
     -e 's|@PACKAGE_includedir@|${PACKAGE_PREFIX_DIR}/include|' -e "s|@shared_name@|$shared_name|" \
     -e "s|@version@|$version|" -e "s|@private@|$cmake_private|" \
-    "$examples/signorini-config.cmake.in" >"$work/signorini-config.cmake"
+    "$examples/install/signorini-config.cmake.in" >"$work/signorini-config.cmake"
 
 # Before version 1.0 each minor version is its own interface.
 cat >"$work/signorini-config-version.cmake" <<END

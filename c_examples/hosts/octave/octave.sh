@@ -1,15 +1,16 @@
 #!/bin/sh
 # GNU Octave as the host: builds the function signorini_solve and runs a small problem with it.
 #
-#     sh c_examples/octave.sh [OUT]
+#     sh c_examples/hosts/octave/octave.sh [OUT]
 #
 # Needs mkoctfile and octave-cli (octave and octave-dev in Debian). signorini_solve.oct goes to OUT,
 # default target/; in Octave, addpath of that directory is all that it takes.
 set -eu
 
 script=octave
-# shellcheck source=c_examples/build.sh
-. "$(dirname -- "$0")/build.sh"
+root=$(CDPATH='' cd -- "$(dirname -- "$0")/../../.." && pwd)
+# shellcheck source=c_examples/common/build.sh
+. "$root/c_examples/common/build.sh"
 
 [ $# -le 1 ] || die "usage: sh octave.sh [OUT]"
 check_tools

@@ -1,8 +1,8 @@
 # Sourced by the scripts that build and run an example: what they have in common.
 #
-# The script sets `script`, its name for messages. Then `prepare` builds the library, and
-# `compile NAME SOURCE...` compiles sources of this directory against it to $build/NAME. CC names
-# the C compiler, default cc. All goes to target/.
+# The script sets `script`, its name for messages, and `root`, the directory of Cargo.toml. Then
+# `prepare` builds the library, and `compile NAME SOURCE...` compiles sources, named from c_examples
+# on, against it to $build/NAME. CC names the C compiler, default cc. All goes to target/.
 # shellcheck shell=sh disable=SC2154
 
 say() { printf '%s: %s\n' "$script" "$*"; }
@@ -11,12 +11,17 @@ die() {
     exit 1
 }
 
-root=$(CDPATH='' cd -- "$(dirname -- "$0")/.." && pwd)
 examples=$root/c_examples
 build=$root/target/c_examples
 cc=${CC:-cc}
 
+# rustup installs cargo where PATH may not lead.
+find_cargo() {
+    command -v cargo >/dev/null || PATH=$PATH:${CARGO_HOME:-${HOME:-/root}/.cargo}/bin
+}
+
 check_tools() {
+    find_cargo
     command -v cargo >/dev/null || die "cargo is missing: install Rust, https://rustup.rs"
     # CC may hold options after the name of the compiler.
     command -v "${cc%% *}" >/dev/null ||
