@@ -107,8 +107,8 @@ class Calls(unittest.TestCase):
                      signorini.solve(K, LOAD, 0.0, g=0.0),
                      signorini.Model.condensed(K).solve(LOAD, 0.0)):
             self.assertIs(none.status, Status.SOLVED)
-            # Without friction F_t = 0, and both pairs press: d_n = 0, 4 d_t1 = 1.5, 4 d_t2 = 0.5.
-            np.testing.assert_allclose(none.d, [[0, 0.375], [0, 0.125]], atol=1e-9)
+            # Both press, d_n = 0, and F_t = 0: 4 d_t1 - d_t2 = 1.5, 4 d_t2 - d_t1 = 0.5.
+            np.testing.assert_allclose(none.d, [[0, 6.5 / 15], [0, 3.5 / 15]], atol=1e-9)
             np.testing.assert_allclose(none.F[:, 1], 0, atol=1e-12)
 
     def test_start_and_settings(self):
