@@ -2,11 +2,12 @@
 
 use std::path::Path;
 
+use crate::certificate::{Certificate, certify};
 use crate::error::{Argument, Error};
 use crate::file;
 use crate::matrix::{self, SymmetricMatrix};
 use crate::monitor::Monitor;
-use crate::problem::{ContactData, ContactProblem, FrictionLaw};
+use crate::problem::{ContactData, ContactProblem, FrictionLaw, checked_dim, unknowns};
 use crate::reduce::{ContactPairs, SparseMatrix, SparseReduction, TwoBodyReduction};
 use crate::settings::Settings;
 use crate::solve::{Solution, solve};
@@ -45,7 +46,7 @@ impl Model {
     /// # Errors
     /// As [`ContactProblem::new`] for the matrix.
     pub fn condensed(dim: usize, pairs: usize, k: &[f64], ld: usize) -> Result<Self, Error> {
-        let size = checked_size(dim, pairs)?;
+        let size = unknowns(checked_dim(dim as i64)?, pairs)?;
         check_length("K", (k, ld), size, (Argument::Matrix, Argument::LeadingDimension))?;
         let matrix = SymmetricMatrix { size, entries: k, ld };
         matrix.check("K", Argument::Matrix)?;
@@ -63,7 +64,7 @@ impl Model {
         first: (&[f64], usize),
         second: (&[f64], usize),
     ) -> Result<Self, Error> {
-        let size = checked_size(dim, pairs)?;
+        let size = unknowns(checked_dim(dim as i64)?, pairs)?;
         check_length("K_A", first, size, (Argument::Matrix, Argument::LeadingDimension))?;
         let names = (Argument::SecondMatrix, Argument::SecondLeadingDimension);
         check_length("K_B", second, size, names)?;
@@ -130,6 +131,43 @@ impl Model {
         }
     }
 
+    /// Frames of the pairs of a sparse model: for each pair the normal, then the tangents, unit
+    /// vectors of `dim` entries. `None` of other models, which the host condensed in its own frames.
+    pub fn frames(&self) -> Option<&[f64]> {
+        match &self.reduction {
+            Reduction::Sparse(reduction) => Some(reduction.frames()),
+            _ => None,
+        }
+    }
+
+    /// Relative loads of a load case, `dim * pairs`: `f` of the contact problem whose stiffness is
+    /// [`Self::stiffness`].
+    ///
+    /// # Errors
+    /// Loads or prescribed values of the wrong length or not finite.
+    pub fn condensed_load(
+        &self,
+        load: &[f64],
+        prescribed: Option<&[f64]>,
+    ) -> Result<Vec<f64>, Error> {
+        self.check_loads(Some(load), prescribed)?;
+        Ok(match &self.reduction {
+            Reduction::Condensed(_) => load.to_vec(),
+            Reduction::TwoBody(reduction) => reduction.condense(load),
+            Reduction::Sparse(reduction) => reduction.condense(load, prescribed),
+        })
+    }
+
+    /// Measures relative displacements `d` of any origin on a load case.
+    ///
+    /// # Errors
+    /// As [`Self::solve`] for the load case; a `d` of the wrong length or not finite
+    /// ([`Argument::Start`]).
+    pub fn certify(&self, case: &LoadCase<'_>, d: &[f64]) -> Result<Certificate, Error> {
+        check_vector(Argument::Start, "d", d, self.dim * self.pairs)?;
+        self.reduced(case, |problem| Ok(certify(problem, d)))
+    }
+
     /// Solves a load case from the relative displacements `start`.
     ///
     /// # Errors
@@ -163,12 +201,7 @@ impl Model {
         case: &LoadCase<'_>,
         to: impl FnOnce(&ContactProblem<'_>) -> Result<T, Error>,
     ) -> Result<T, Error> {
-        self.check_loads(Some(case.load), case.prescribed)?;
-        let load = match &self.reduction {
-            Reduction::Condensed(_) => case.load.to_vec(),
-            Reduction::TwoBody(reduction) => reduction.condense(case.load),
-            Reduction::Sparse(reduction) => reduction.condense(case.load, case.prescribed),
-        };
+        let load = self.condensed_load(case.load, case.prescribed)?;
         let slip = case.reference_slip.map(|slip| self.allowed_slip(slip));
         let problem = ContactProblem::on_checked_matrix(ContactData {
             dim: self.dim,
@@ -249,18 +282,6 @@ impl Model {
         }
         slip
     }
-}
-
-fn checked_size(dim: usize, pairs: usize) -> Result<usize, Error> {
-    if dim != 2 && dim != 3 {
-        let message = format!("dim is {dim}, it must be 2 or 3");
-        return Err(Error::invalid(Argument::Dimension, message));
-    }
-    let fits =
-        |n: &usize| n.checked_mul(*n).is_some_and(|entries| entries <= isize::MAX as usize / 8);
-    dim.checked_mul(pairs).filter(fits).ok_or_else(|| {
-        Error::invalid(Argument::Size, format!("{pairs} pairs: the matrix cannot exist"))
-    })
 }
 
 fn check_length(

@@ -93,18 +93,7 @@ impl<'a> ContactProblem<'a> {
     /// Checks everything but the entries of the matrix, which a model has checked once.
     pub(crate) fn on_checked_matrix(data: ContactData<'a>) -> Result<Self, Error> {
         let ContactData { dim, pairs, .. } = data;
-        if dim != 2 && dim != 3 {
-            return Err(Error::invalid(
-                Argument::Dimension,
-                format!("dim is {dim}, it must be 2 or 3"),
-            ));
-        }
-        let n = dim
-            .checked_mul(pairs)
-            .filter(|n| n.checked_mul(*n).is_some_and(|entries| entries <= isize::MAX as usize / 8))
-            .ok_or_else(|| {
-                Error::invalid(Argument::Size, format!("{pairs} pairs: the matrix cannot exist"))
-            })?;
+        let n = unknowns(checked_dim(dim as i64)?, pairs)?;
         let problem = ContactProblem { data };
         problem.check_lengths(n)?;
         let problem = problem.trimmed();
@@ -113,7 +102,7 @@ impl<'a> ContactProblem<'a> {
         check_gaps(data.gap)?;
         check_friction(data.law)?;
         if let Some(slip) = data.reference_slip {
-            check_finite(Argument::ReferenceSlip, "slip", slip)?;
+            check_finite(Argument::ReferenceSlip, "slip0", slip)?;
         }
         Ok(problem)
     }
@@ -268,7 +257,7 @@ impl<'a> ContactProblem<'a> {
             ),
             (
                 Argument::ReferenceSlip,
-                "slip",
+                "slip0",
                 slip.map_or((dim - 1) * pairs, <[f64]>::len),
                 (dim - 1) * pairs,
             ),
@@ -283,6 +272,26 @@ impl<'a> ContactProblem<'a> {
         }
         Ok(())
     }
+}
+
+/// A space dimension, which must be 2 or 3.
+pub(crate) fn checked_dim(dim: i64) -> Result<usize, Error> {
+    match dim {
+        2 | 3 => Ok(dim as usize),
+        _ => {
+            let message = format!("dim is {dim}, it must be 2 or 3");
+            Err(Error::invalid(Argument::Dimension, message))
+        }
+    }
+}
+
+/// Number of unknowns `dim * pairs`, if their matrix fits in the address space.
+pub(crate) fn unknowns(dim: usize, pairs: usize) -> Result<usize, Error> {
+    const MOST: usize = isize::MAX as usize / size_of::<f64>();
+    let fits = |n: &usize| n.checked_mul(*n).is_some_and(|entries| entries <= MOST);
+    dim.checked_mul(pairs).filter(fits).ok_or_else(|| {
+        Error::invalid(Argument::Size, format!("{pairs} pairs: the matrix cannot exist"))
+    })
 }
 
 fn check_finite(argument: Argument, name: &str, values: &[f64]) -> Result<(), Error> {

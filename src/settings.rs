@@ -30,13 +30,29 @@ pub enum Search {
     Others,
 }
 
+/// Smallest tolerance: a few units of the rounding of `eta` itself.
+pub const SMALLEST_TOLERANCE: f64 = 1e-15;
+/// Largest tolerance: beyond it a result says nothing about the contact.
+pub const LARGEST_TOLERANCE: f64 = 0.1;
+
+/// Refuses a tolerance out of range, by a sentence about the argument `name`.
+pub fn check_tolerance(name: &str, tolerance: f64) -> Result<(), String> {
+    if (SMALLEST_TOLERANCE..=LARGEST_TOLERANCE).contains(&tolerance) {
+        return Ok(());
+    }
+    Err(format!(
+        "{name} is {tolerance:?}, it must lie between {SMALLEST_TOLERANCE:?} and \
+         {LARGEST_TOLERANCE:?}"
+    ))
+}
+
 /// Settings of one call. `Settings::default()` suits most problems.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
     /// The algorithm.
     pub method: Method,
     /// A result is called solved when its certificate has `eta <= tolerance`;
-    /// between 1e-15 and 0.1.
+    /// between [`SMALLEST_TOLERANCE`] and [`LARGEST_TOLERANCE`].
     pub tolerance: f64,
     /// Over-relaxation factor, in (0, 2); 0 lets the solver choose from the measured rate.
     pub omega: f64,
@@ -69,12 +85,7 @@ impl Settings {
     /// Refuses values out of range.
     pub fn validate(&self) -> Result<(), Error> {
         let refuse = |message: String| Err(Error::invalid(Argument::Settings, message));
-        if !(1e-15..=0.1).contains(&self.tolerance) {
-            return refuse(format!(
-                "settings: tolerance is {}, it must lie between 1e-15 and 0.1",
-                self.tolerance
-            ));
-        }
+        check_tolerance("settings: tolerance", self.tolerance).or_else(refuse)?;
         if !(0.0..2.0).contains(&self.omega) {
             return refuse(format!(
                 "settings: omega is {}, it must be 0 (chosen) or lie between 0 and 2",

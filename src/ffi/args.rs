@@ -5,7 +5,8 @@ use std::ffi::CStr;
 use std::path::Path;
 
 use super::guard::Failure;
-use crate::matrix;
+use crate::error::Argument;
+use crate::{matrix, problem};
 
 /// The arrays of one call, collected to check that outputs overlap nothing.
 #[derive(Default)]
@@ -28,36 +29,61 @@ pub(super) struct Output<T> {
 }
 
 impl Arrays {
-    /// An array to read, `None` if it is NULL and not `required`.
+    /// An array to read, which must not be NULL unless it has no elements.
     ///
     /// # Safety
     /// A pointer that is not NULL has `length` initialised elements, as the header demands, which
     /// nobody writes to during the call.
-    pub(super) unsafe fn input<'a, T>(
+    pub(super) unsafe fn required<'a, T>(
         &mut self,
         position: i32,
         name: &'static str,
         pointer: *const T,
         length: usize,
-        required: bool,
-    ) -> Result<Option<&'a [T]>, Failure> {
-        if !self.add(position, name, pointer, length, required, false)? {
-            return Ok(if required { Some(&[]) } else { None });
-        }
-        // SAFETY: not NULL and aligned (just checked); long enough by the caller's contract.
-        Ok(Some(unsafe { std::slice::from_raw_parts(pointer, length) }))
+    ) -> Result<&'a [T], Failure> {
+        refuse_null(position, name, pointer, length)?;
+        // SAFETY: by the caller's contract.
+        let values = unsafe { self.optional(position, name, pointer, length)? };
+        Ok(values.unwrap_or_default())
     }
 
-    /// An array to write at the end; writing to NULL that is not `required` does nothing.
+    /// An array to read, `None` if it is NULL or has no elements.
+    ///
+    /// # Safety
+    /// As for [`Self::required`].
+    pub(super) unsafe fn optional<'a, T>(
+        &mut self,
+        position: i32,
+        name: &'static str,
+        pointer: *const T,
+        length: usize,
+    ) -> Result<Option<&'a [T]>, Failure> {
+        let present = self.add(position, name, pointer, length, false)?;
+        // SAFETY: not NULL and aligned (just checked); long enough by the caller's contract.
+        Ok(present.then(|| unsafe { std::slice::from_raw_parts(pointer, length) }))
+    }
+
+    /// An array to write at the end, which must not be NULL unless it has no elements.
     pub(super) fn output<T>(
         &mut self,
         position: i32,
         name: &'static str,
         pointer: *mut T,
         length: usize,
-        required: bool,
     ) -> Result<Output<T>, Failure> {
-        let present = self.add(position, name, pointer.cast_const(), length, required, true)?;
+        refuse_null(position, name, pointer, length)?;
+        self.optional_output(position, name, pointer, length)
+    }
+
+    /// An array to write at the end; writing to NULL does nothing.
+    pub(super) fn optional_output<T>(
+        &mut self,
+        position: i32,
+        name: &'static str,
+        pointer: *mut T,
+        length: usize,
+    ) -> Result<Output<T>, Failure> {
+        let present = self.add(position, name, pointer.cast_const(), length, true)?;
         Ok(Output { pointer, length: if present { length } else { 0 } })
     }
 
@@ -69,10 +95,10 @@ impl Arrays {
         pointer: *const T,
         written: bool,
     ) -> Result<(), Failure> {
-        self.add(position, name, pointer, 1, false, written).map(drop)
+        self.add(position, name, pointer, 1, written).map(drop)
     }
 
-    /// Several of them, so many bytes in all.
+    /// An array of structures of `bytes` bytes in all.
     pub(super) fn structures<T>(
         &mut self,
         position: i32,
@@ -81,7 +107,7 @@ impl Arrays {
         bytes: usize,
         written: bool,
     ) -> Result<(), Failure> {
-        self.add(position, name, pointer.cast::<u8>(), bytes, false, written).map(drop)
+        self.add(position, name, pointer.cast::<u8>(), bytes, written).map(drop)
     }
 
     /// Refuses an output that shares memory with another array.
@@ -107,17 +133,10 @@ impl Arrays {
         name: &'static str,
         pointer: *const T,
         length: usize,
-        required: bool,
         written: bool,
     ) -> Result<bool, Failure> {
         let refuse = |message: String| Err(Failure::argument(position, message));
-        if length == 0 {
-            return Ok(false);
-        }
-        if pointer.is_null() {
-            if required {
-                return refuse(format!("{name} is NULL"));
-            }
+        if length == 0 || pointer.is_null() {
             return Ok(false);
         }
         if !pointer.is_aligned() {
@@ -149,7 +168,7 @@ impl<T: Copy> Output<T> {
         }
     }
 
-    /// A part of it, as long as there is any.
+    /// A range of it; a range of an empty output is empty.
     pub(super) fn part(&self, begin: usize, length: usize) -> Self {
         let length = if self.length > 0 { length } else { 0 };
         Output { pointer: self.pointer.wrapping_add(begin), length }
@@ -168,6 +187,18 @@ impl<T: Copy> Output<T> {
     }
 }
 
+fn refuse_null<T>(
+    position: i32,
+    name: &str,
+    pointer: *const T,
+    length: usize,
+) -> Result<(), Failure> {
+    if length > 0 && pointer.is_null() {
+        return Err(Failure::argument(position, format!("{name} is NULL")));
+    }
+    Ok(())
+}
+
 /// A size that must not be negative.
 pub(super) fn size(position: i32, name: &str, value: i64) -> Result<usize, Failure> {
     usize::try_from(value).map_err(|_| {
@@ -175,16 +206,13 @@ pub(super) fn size(position: i32, name: &str, value: i64) -> Result<usize, Failu
     })
 }
 
-/// Dimension, pairs and unknowns of the first two arguments of a call.
-pub(super) fn sizes(dim: i32, pairs: i64) -> Result<(usize, usize, usize), Failure> {
-    if dim != 2 && dim != 3 {
-        return Err(Failure::argument(1, format!("dim is {dim}, it must be 2 or 3")));
-    }
-    let dim = dim as usize;
-    let pairs = size(2, "pairs", pairs)?;
-    let n = pairs.checked_mul(dim).filter(|n| *n <= isize::MAX as usize / size_of::<f64>());
-    let n = n.ok_or_else(|| Failure::argument(2, format!("pairs is {pairs}, too many")))?;
-    Ok((dim, pairs, n))
+/// Dimension, pairs and unknowns, from the arguments number `first` and `first + 1` of a call.
+pub(super) fn sizes(first: i32, dim: i32, pairs: i64) -> Result<(usize, usize, usize), Failure> {
+    let place = |argument| first + i32::from(argument == Argument::Size);
+    let from_error = |error| Failure::from_error(error, place);
+    let dim = problem::checked_dim(i64::from(dim)).map_err(from_error)?;
+    let pairs = size(first + 1, "pairs", pairs)?;
+    Ok((dim, pairs, problem::unknowns(dim, pairs).map_err(from_error)?))
 }
 
 /// Elements of a column-major matrix with `n` rows and columns.
@@ -233,36 +261,4 @@ pub(super) unsafe fn text<'a>(
     // SAFETY: by the caller's contract.
     let text = unsafe { CStr::from_ptr(pointer) }.to_str();
     text.map(Some).map_err(|_| Failure::argument(position, format!("{name} is not UTF-8")))
-}
-
-/// Smallest structure of any version: its size, the first word and a number. Fields that an older
-/// program does not have come after it.
-const LEAST: usize = 16;
-
-/// The size in the first field of a structure, if it is one that a version of this library has.
-///
-/// # Safety
-/// `pointer` has at least 4 readable bytes.
-pub(super) unsafe fn checked_size<T>(
-    position: i32,
-    name: &str,
-    pointer: *const T,
-) -> Result<usize, Failure> {
-    if !pointer.is_aligned() {
-        return Err(Failure::argument(position, format!("{name} is not aligned")));
-    }
-    // SAFETY: by the caller's contract, and aligned.
-    let size = unsafe { pointer.cast::<u32>().read() } as usize;
-    let ours = size_of::<T>();
-    if size > ours {
-        let message = format!(
-            "{name}: struct_size is {size}, this version of the library knows {ours} bytes"
-        );
-        return Err(Failure::argument(position, message));
-    }
-    if size < LEAST || !size.is_multiple_of(8) {
-        let message = format!("{name}: struct_size is {size}, set it to sizeof ({ours})");
-        return Err(Failure::argument(position, message));
-    }
-    Ok(size)
 }

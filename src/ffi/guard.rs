@@ -4,7 +4,9 @@ use std::cell::Cell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Once, OnceLock};
 
-use super::status::{SIGNORINI_FILE, SIGNORINI_INTERNAL, SIGNORINI_OUT_OF_MEMORY, remember};
+use super::status::{
+    SIGNORINI_STATUS_FILE, SIGNORINI_STATUS_INTERNAL, SIGNORINI_STATUS_OUT_OF_MEMORY, remember,
+};
 use crate::error::{Argument, Error};
 
 /// Why a call returns a negative status.
@@ -21,7 +23,7 @@ impl Failure {
 
     /// There is no memory for something.
     pub(super) fn out_of_memory(message: impl Into<String>) -> Self {
-        Failure { code: SIGNORINI_OUT_OF_MEMORY, message: message.into() }
+        Failure { code: SIGNORINI_STATUS_OUT_OF_MEMORY, message: message.into() }
     }
 
     /// The status.
@@ -29,18 +31,13 @@ impl Failure {
         self.code
     }
 
-    /// The same failure, in a call that has `shift` arguments before those that it counted.
-    pub(super) fn later(self, shift: i32) -> Self {
-        Failure { code: self.code - shift, ..self }
-    }
-
     /// An error of the library, whose argument has the position that `position` tells.
     pub(super) fn from_error(error: Error, position: impl Fn(Argument) -> i32) -> Self {
         let message = error.to_string();
         match error {
             Error::Invalid { argument, .. } => Failure { code: -position(argument), message },
-            Error::OutOfMemory(_) => Failure { code: SIGNORINI_OUT_OF_MEMORY, message },
-            Error::File(_) => Failure { code: SIGNORINI_FILE, message },
+            Error::OutOfMemory(_) => Failure { code: SIGNORINI_STATUS_OUT_OF_MEMORY, message },
+            Error::File(_) => Failure { code: SIGNORINI_STATUS_FILE, message },
         }
     }
 }
@@ -49,7 +46,7 @@ thread_local! {
     static INSIDE: Cell<bool> = const { Cell::new(false) };
 }
 
-/// Runs the body of an entry. Panics become `SIGNORINI_INTERNAL`; nothing is printed.
+/// Runs the body of an entry. Panics become `SIGNORINI_STATUS_INTERNAL`; nothing is printed.
 pub(super) fn call(body: impl FnOnce() -> Result<i32, Failure>) -> i32 {
     let _environment = Environment::default_one();
     silence_panics();
@@ -57,7 +54,8 @@ pub(super) fn call(body: impl FnOnce() -> Result<i32, Failure>) -> i32 {
     super::static_link::keep();
     let outside = INSIDE.replace(true);
     remember(format_args!(""));
-    // What a panic leaves half-written is the caller's results, undefined by contract.
+    // Unwind safety: only the caller's outputs can be half-written, and they are undefined with
+    // SIGNORINI_STATUS_INTERNAL.
     let result = catch_unwind(AssertUnwindSafe(body));
     INSIDE.set(outside);
     match result {
@@ -66,7 +64,7 @@ pub(super) fn call(body: impl FnOnce() -> Result<i32, Failure>) -> i32 {
             remember(format_args!("{}", failure.message));
             failure.code
         }
-        Err(_) => SIGNORINI_INTERNAL,
+        Err(_) => SIGNORINI_STATUS_INTERNAL,
     }
 }
 
@@ -162,7 +160,7 @@ mod tests {
     #[test]
     fn a_panic_becomes_a_status_and_a_message() {
         let code = call(|| panic!("bug number {}", 7));
-        assert_eq!(code, SIGNORINI_INTERNAL);
+        assert_eq!(code, SIGNORINI_STATUS_INTERNAL);
         // SAFETY: the library's own zero-terminated buffer.
         let text = unsafe { std::ffi::CStr::from_ptr(signorini_last_error()) };
         assert!(text.to_str().unwrap().contains("bug number 7"), "{text:?}");

@@ -1,4 +1,4 @@
-//! The bare linear complementarity problem in one call.
+//! The linear complementarity problem (LCP) in one call.
 
 use super::args::{Arrays, matrix_length, size};
 use super::guard::{self, Failure};
@@ -11,20 +11,22 @@ use crate::monitor::{Monitor, ProgressFn};
 use crate::settings::Method;
 use crate::solve::{Status, solve_lcp};
 
-/// Solves the linear complementarity problem w = q + M z, w >= 0, z >= 0, w . z = 0.
+/// Solves a linear complementarity problem (LCP): w = q + M z, w >= 0, z >= 0, w . z = 0.
 ///
-/// By default block principal pivoting, which solves most problems with a symmetric positive definite
-/// M in a handful of factorisations, then Lemke's method. Arrays must not overlap.
+/// The default method is block principal pivoting, then Lemke's method.
 ///
 /// @param n         number of unknowns, 0 allowed
-/// @param M         n columns of n entries, column-major
+/// @param M         any matrix, n columns of n entries, column-major
 /// @param ldm       entries from one column of M to the next, at least max(1, n)
 /// @param q         n
-/// @param settings  NULL: the defaults; method is SIGNORINI_METHOD_AUTO, _PIVOT or _LEMKE; omega,
-///                  damping, warm_start and search, though they must be valid, have no effect
+/// @param settings  NULL: the defaults; method is SIGNORINI_METHOD_AUTO, _BLOCK_PIVOTING or _LEMKE;
+///                  omega, damping, warm_start and search are checked and have no effect
 /// @param w         out: n
-/// @param z         out: n; with SIGNORINI_NO_EQUILIBRIUM a y >= 0 with M' y <= 0, q . y < 0
-/// @param report    out; set report->struct_size before the call; NULL: not wanted
+/// @param z         out: n
+/// @param y         out: n; with SIGNORINI_STATUS_NO_EQUILIBRIUM the proof that no w, z >= 0 satisfy
+///                  w = q + M z: y >= 0, M' y <= 0, q . y < 0; with every other status zeros; may be
+///                  NULL
+/// @param report    out: set report->struct_size before the call; may be NULL
 /// @return as signorini_solve
 #[unsafe(no_mangle)]
 #[allow(non_snake_case)] // the name of the mathematics, which the header shows
@@ -36,31 +38,32 @@ pub unsafe extern "C" fn signorini_lcp_solve(
     settings: *const SignoriniSettings,
     w: *mut f64,
     z: *mut f64,
+    y: *mut f64,
     report: *mut SignoriniReport,
 ) -> i32 {
-    let arguments = Arguments { n, M, ldm, q, cover: None, settings, w, z, report, method: None };
+    let arguments =
+        Arguments { n, M, ldm, q, cover: None, settings, w, z, y, report, method: None };
     // SAFETY: the caller's contract, which the header states.
     guard::call(|| unsafe { arguments.run() })
 }
 
-/// Solves the linear complementarity problem w = q + M z, w >= 0, z >= 0, w . z = 0 by Lemke's
-/// method (lexicographic: it never cycles).
+/// Solves an LCP by Lemke's method (lexicographic: it never cycles).
 ///
-/// M may be any matrix. If it is positive definite or a P-matrix the problem is solved; if it is
-/// positive semi-definite or copositive-plus it is solved, or proved infeasible
-/// (SIGNORINI_NO_EQUILIBRIUM); otherwise the method may also end in a ray that proves nothing
-/// (SIGNORINI_STALLED). Arrays must not overlap.
+/// M positive definite or a P-matrix: the problem is solved. M positive semi-definite or
+/// copositive-plus: it is solved, or proved infeasible (SIGNORINI_STATUS_NO_EQUILIBRIUM). Any other
+/// M: the method may also end in a ray that proves nothing (SIGNORINI_STATUS_STALLED).
 ///
 /// @param n         number of unknowns, 0 allowed
-/// @param M         n columns of n entries, column-major
+/// @param M         any matrix, n columns of n entries, column-major
 /// @param ldm       entries from one column of M to the next, at least max(1, n)
 /// @param q         n
 /// @param cover     covering vector, n positive entries; NULL: ones
-/// @param settings  NULL: the defaults; method, omega, damping, warm_start and search, though they
-///                  must be valid, have no effect
+/// @param settings  NULL: the defaults; method, omega, damping, warm_start and search are checked
+///                  and have no effect
 /// @param w         out: n
-/// @param z         out: n; with SIGNORINI_NO_EQUILIBRIUM a y >= 0 with M' y <= 0, q . y < 0
-/// @param report    out; set report->struct_size before the call; NULL: not wanted
+/// @param z         out: n
+/// @param y         out: n; the proof of infeasibility, as in signorini_lcp_solve; may be NULL
+/// @param report    out: set report->struct_size before the call; may be NULL
 /// @return as signorini_solve
 #[unsafe(no_mangle)]
 #[allow(non_snake_case)] // the name of the mathematics, which the header shows
@@ -73,6 +76,7 @@ pub unsafe extern "C" fn signorini_lcp_lemke(
     settings: *const SignoriniSettings,
     w: *mut f64,
     z: *mut f64,
+    y: *mut f64,
     report: *mut SignoriniReport,
 ) -> i32 {
     let arguments = Arguments {
@@ -84,6 +88,7 @@ pub unsafe extern "C" fn signorini_lcp_lemke(
         settings,
         w,
         z,
+        y,
         report,
         method: Some(Method::Lemke),
     };
@@ -102,6 +107,7 @@ struct Arguments {
     settings: *const SignoriniSettings,
     w: *mut f64,
     z: *mut f64,
+    y: *mut f64,
     report: *mut SignoriniReport,
     /// The method, if it is not that of the settings.
     method: Option<Method>,
@@ -120,19 +126,20 @@ impl Arguments {
         let (matrix, q, cover) = unsafe {
             let cover = self.cover.unwrap_or(std::ptr::null());
             (
-                arrays.input(2, "M", self.M, entries, true)?.unwrap_or_default(),
-                arrays.input(4, "q", self.q, n, true)?.unwrap_or_default(),
-                arrays.input(5, "cover", cover, n, false)?,
+                arrays.required(2, "M", self.M, entries)?,
+                arrays.required(4, "q", self.q, n)?,
+                arrays.optional(5, "cover", cover, n)?,
             )
         };
         // SAFETY: the header asks for structures that begin with their size.
-        let mut received = unsafe { SignoriniSettings::receive(5 + shift, self.settings)? };
-        let w = arrays.output(6 + shift, "w", self.w, n, true)?;
-        let z = arrays.output(7 + shift, "z", self.z, n, true)?;
+        let mut received = unsafe { SignoriniSettings::read(5 + shift, self.settings)? };
+        let w = arrays.output(6 + shift, "w", self.w, n)?;
+        let z = arrays.output(7 + shift, "z", self.z, n)?;
+        let y = arrays.optional_output(8 + shift, "y", self.y, n)?;
         // SAFETY: as above.
-        unsafe { SignoriniReport::accept(8 + shift, self.report)? };
+        unsafe { SignoriniReport::accept(9 + shift, self.report)? };
         arrays.structure(5 + shift, "settings", self.settings, false)?;
-        arrays.structure(8 + shift, "report", self.report.cast_const(), true)?;
+        arrays.structure(9 + shift, "report", self.report.cast_const(), true)?;
         arrays.check_overlap()?;
 
         let position = |argument| match argument {
@@ -159,7 +166,8 @@ impl Arguments {
         unsafe {
             w.write(&solution.w);
             z.write(&solution.z);
-            SignoriniReport::of_lcp(status, &solution).send(self.report);
+            y.write(solution.infeasible_by.as_deref().unwrap_or(&vec![0.0; n]));
+            SignoriniReport::of_lcp(status, &solution).write(self.report);
         }
         Ok(status)
     }

@@ -4,23 +4,28 @@
 //! stops panics; [`args`] turns pointers into slices after checking them; nothing is written before
 //! every argument has been accepted.
 
-// What pointers must be stands at the parameters, where a C programmer reads it; plain arrays make
-// long parameter lists.
+// Pointer requirements are documented for each @param, where a C programmer reads them. Plain arrays
+// make long parameter lists.
 #![allow(clippy::missing_safety_doc, clippy::too_many_arguments)]
 
 mod args;
-mod cases;
-mod check;
-mod flat;
+mod certify;
+mod condensed;
+mod extra;
 mod fortran;
 mod guard;
-mod host;
+mod law;
 mod lcp;
-mod load;
-mod model;
+mod model_new;
+mod model_recover;
+mod model_solve;
+mod problem_read;
+mod problem_write;
 mod report;
-mod save;
 mod settings;
+mod solve;
+mod sparse;
 #[cfg(all(target_os = "linux", target_env = "gnu"))]
 mod static_link;
 mod status;
+mod structures;

@@ -1,94 +1,92 @@
 //! The report of the C interface, led by its size, and the states of pairs.
 
-use super::args::checked_size;
-use super::guard::Failure;
+use super::args::Arrays;
+use super::guard::{self, Failure};
 use super::settings::method_code;
+use super::structures::{self, checked_size};
 use crate::certificate::Certificate;
 use crate::law::State;
 use crate::settings::Method;
 use crate::solve::{Fallback, LcpSolution, Solution, Uniqueness};
 
-/// A pair is apart: no normal force, and no tangential one but that of signorini_tresca.
-pub const SIGNORINI_OPEN: i32 = 0;
-/// A pair touches and |F_t| = mu |F_n|: it slides. Every frictionless contact, at rest or not, is of
-/// this state.
-pub const SIGNORINI_SLIP: i32 = 1;
-/// A pair sticks: d_t = slip.
-pub const SIGNORINI_STICK: i32 = 2;
+/// The pair is apart: F_n = 0, and F_t = 0 but under Tresca's law.
+pub const SIGNORINI_STATE_OPEN: i32 = 0;
+/// The pair touches and slips: |F_t| is at its bound. Frictionless pairs that touch are of this state.
+pub const SIGNORINI_STATE_SLIP: i32 = 1;
+/// The pair sticks: d_t = slip0.
+pub const SIGNORINI_STATE_STICK: i32 = 2;
 
-/// Whether there are other solutions is not known.
-pub const SIGNORINI_NOT_KNOWN: i32 = 0;
-/// Proved: the solution is the only one.
-pub const SIGNORINI_UNIQUE: i32 = 1;
+/// It is not known whether there are other solutions.
+pub const SIGNORINI_UNIQUENESS_NOT_KNOWN: i32 = 0;
+/// Proved: there is no other solution.
+pub const SIGNORINI_UNIQUENESS_UNIQUE: i32 = 1;
 /// Proved: there are other solutions.
-pub const SIGNORINI_SEVERAL: i32 = 2;
+pub const SIGNORINI_UNIQUENESS_SEVERAL: i32 = 2;
 
-/// The method that was tried first ended it.
+/// The first method succeeded.
 pub const SIGNORINI_FALLBACK_NONE: i32 = 0;
-/// The first method's states repeated in a cycle.
+/// The states of the first method repeated in a cycle.
 pub const SIGNORINI_FALLBACK_CYCLE: i32 = 1;
 /// The first method met a singular system.
 pub const SIGNORINI_FALLBACK_SINGULAR: i32 = 2;
-/// The first method found a solution of orientation -1, beside which there are others if K is
-/// positive definite.
+/// The first method found an unstable solution (orientation -1).
 pub const SIGNORINI_FALLBACK_UNSTABLE: i32 = 3;
 /// The first method found no accurate solution.
 pub const SIGNORINI_FALLBACK_INACCURATE: i32 = 4;
 
-/// How good a result is. Before the call: report.struct_size = sizeof report; all else is written by
-/// it. Forces and lengths are in the units of the problem.
+/// How good a result is, and how it was found. Fill it by signorini_report_default() or set
+/// struct_size before the call; the call writes all other fields. Forces and lengths are in the
+/// units of the problem. K d - f is the contact force that d requires.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct SignoriniReport {
-    /// sizeof(signorini_report) of the program: no more than that is written.
+    /// sizeof(signorini_report) in your program; no more than that is written.
     pub struct_size: u32,
-    /// What the call returned.
+    /// The status of the result, as the call returns it.
     pub status: i32,
-    /// The method that ended it, SIGNORINI_METHOD_...; of signorini_certify 0.
+    /// SIGNORINI_METHOD_..., the method that found the result; 0 of a certify call.
     pub method: i32,
-    /// SIGNORINI_NOT_KNOWN, _UNIQUE or _SEVERAL.
+    /// SIGNORINI_UNIQUENESS_...
     pub uniqueness: i32,
     /// Sweeps, pivots or linear systems, of all methods that were tried.
     pub iterations: i64,
     /// Threshold updates of the nested method.
     pub outer_iterations: i64,
-    /// How often Lemke's tableau was computed anew because accuracy was lost.
+    /// How often Lemke's tableau was factorised anew because accuracy was lost.
     pub refactorisations: i64,
-    /// Residual of the natural map relative to the forces, without unit; 0 at exact solutions
-    /// only.
+    /// Residual of the contact law relative to the forces, no unit; 0 at exact solutions only.
     pub eta: f64,
-    /// Rounding of K d relative to the forces, without unit; beyond 1e-6 nothing is certified.
+    /// Rounding of K d relative to the forces, no unit; above 1e-6 nothing is certified.
     pub rounding: f64,
-    /// Largest d_n - gap, a length; 0 if none.
+    /// Largest d_n - gap; length; 0 if there is no penetration.
     pub penetration: f64,
-    /// Largest tensile (positive) normal component of K d - f, a force; 0 if none.
+    /// Largest positive (tensile) normal component of K d - f; force; 0 if there is none.
     pub tension: f64,
-    /// Largest excess of the tangential part of K d - f over its bound, a force; 0 if none.
+    /// Largest excess of the tangential part of K d - f over its bound; force; 0 if there is none.
     pub cone_excess: f64,
-    /// Largest component of K d - f - F, a force.
+    /// Largest component of K d - f - F; force.
     pub equilibrium: f64,
-    /// Over-relaxation factor at the end; 0 if there is none.
+    /// Over-relaxation factor at the end; 0 if the method has none.
     pub omega: f64,
-    /// Damping at the end; 0 if there is none.
+    /// Damping at the end; 0 if the method has none.
     pub damping: f64,
-    /// Pairs that are open.
-    pub open: i64,
-    /// Pairs that slide.
-    pub slip: i64,
-    /// Pairs that stick.
-    pub stick: i64,
+    /// Pairs of SIGNORINI_STATE_OPEN.
+    pub pairs_open: i64,
+    /// Pairs of SIGNORINI_STATE_SLIP.
+    pub pairs_slipping: i64,
+    /// Pairs of SIGNORINI_STATE_STICK.
+    pub pairs_sticking: i64,
     /// Dense factorisations of Newton's method and of block pivoting.
     pub factorisations: i64,
-    /// The method that was tried first, SIGNORINI_METHOD_...
+    /// SIGNORINI_METHOD_..., the method that was tried first.
     pub first_method: i32,
-    /// Why it did not end it, SIGNORINI_FALLBACK_...
+    /// SIGNORINI_FALLBACK_..., why the first method was abandoned.
     pub fallback: i32,
-    /// Sign of the determinant of the system of equations that the states select: +1, or -1 for
-    /// an unstable solution, beside which there are at least two others if K is positive definite;
-    /// 0 if not known.
+    /// +1: stable; -1: unstable, and at least two other solutions exist if K is positive definite;
+    /// 0: not known. It is the sign of the determinant of the system that the states select.
     pub orientation: i32,
-    /// 0.
-    pub reserved: i32,
+    /// 1: there is a second solution, and the arrays of extra hold it; otherwise 0.
+    pub second: i32,
 }
 
 impl SignoriniReport {
@@ -104,23 +102,14 @@ impl SignoriniReport {
         unsafe { checked_size::<Self>(position, "report", pointer.cast_const()) }
     }
 
-    /// Writes as much of the report as the caller's structure holds.
+    /// Writes as much of the report as the caller's structure holds; nothing to NULL.
     ///
     /// # Safety
     /// A pointer that is not NULL was accepted and has as many bytes as its first field says.
-    pub(super) unsafe fn send(mut self, pointer: *mut Self) {
-        if pointer.is_null() {
-            return;
-        }
-        // SAFETY: by the caller's contract; the size was checked by `accept`.
-        unsafe {
-            self.struct_size = pointer.cast::<u32>().read();
-            let bytes = self.struct_size as usize;
-            std::ptr::copy_nonoverlapping(
-                (&raw const self).cast::<u8>(),
-                pointer.cast::<u8>(),
-                bytes,
-            );
+    pub(super) unsafe fn write(&self, pointer: *mut Self) {
+        if !pointer.is_null() {
+            // SAFETY: by the caller's contract.
+            unsafe { structures::write(self, pointer) }
         }
     }
 
@@ -138,6 +127,7 @@ impl SignoriniReport {
             first_method: method_code(first),
             fallback,
             orientation: i32::from(solution.orientation),
+            second: i32::from(solution.second.is_some()),
             ..Self::of_certificate(status, &solution.certificate)
         }
     }
@@ -150,9 +140,9 @@ impl SignoriniReport {
             tension: certificate.tension,
             cone_excess: certificate.cone_excess,
             equilibrium: certificate.equilibrium,
-            open: certificate.count(State::Open) as i64,
-            slip: certificate.count(State::Slip) as i64,
-            stick: certificate.count(State::Stick) as i64,
+            pairs_open: certificate.count(State::Open) as i64,
+            pairs_slipping: certificate.count(State::Slip) as i64,
+            pairs_sticking: certificate.count(State::Stick) as i64,
             ..Self::empty(status, Method::Auto)
         }
     }
@@ -170,7 +160,7 @@ impl SignoriniReport {
         }
     }
 
-    /// One to be filled by a call.
+    /// A report of no call.
     pub(super) fn blank() -> Self {
         Self::empty(0, Method::Auto)
     }
@@ -180,7 +170,7 @@ impl SignoriniReport {
             struct_size: size_of::<Self>() as u32,
             status,
             method: method_code(method),
-            uniqueness: SIGNORINI_NOT_KNOWN,
+            uniqueness: SIGNORINI_UNIQUENESS_NOT_KNOWN,
             iterations: 0,
             outer_iterations: 0,
             refactorisations: 0,
@@ -192,27 +182,74 @@ impl SignoriniReport {
             equilibrium: 0.0,
             omega: 0.0,
             damping: 0.0,
-            open: 0,
-            slip: 0,
-            stick: 0,
+            pairs_open: 0,
+            pairs_slipping: 0,
+            pairs_sticking: 0,
             factorisations: 0,
             first_method: method_code(method),
             fallback: SIGNORINI_FALLBACK_NONE,
             orientation: 0,
-            reserved: 0,
+            second: 0,
+        }
+    }
+}
+
+/// An array of reports of the caller, whose structure may be smaller than ours.
+pub(super) struct Reports {
+    first: *mut SignoriniReport,
+    stride: usize,
+}
+
+impl Reports {
+    /// Checks the size of each report and notes the array in `arrays`.
+    ///
+    /// # Safety
+    /// NULL, or an array of `cases` reports that begin with their size.
+    pub(super) unsafe fn read(
+        arrays: &mut Arrays,
+        position: i32,
+        first: *mut SignoriniReport,
+        cases: usize,
+    ) -> Result<Self, Failure> {
+        if first.is_null() || cases == 0 {
+            return Ok(Reports { first: std::ptr::null_mut(), stride: 0 });
+        }
+        // SAFETY: by the caller's contract, as in the loop.
+        let stride = unsafe { SignoriniReport::accept(position, first)? };
+        let reports = Reports { first, stride };
+        for case in 1..cases {
+            // SAFETY: as above.
+            let size = unsafe { SignoriniReport::accept(position, reports.nth(case))? };
+            if size != stride {
+                let message = format!("report {case}: struct_size is {size}, not {stride}");
+                return Err(Failure::argument(position, message));
+            }
+        }
+        // An overflow is refused with the array, which cannot have so many entries.
+        let bytes = stride.saturating_mul(cases);
+        arrays.structures(position, "report", first.cast_const(), bytes, true)?;
+        Ok(reports)
+    }
+
+    /// The report of a case, NULL if none is wanted.
+    pub(super) fn nth(&self, case: usize) -> *mut SignoriniReport {
+        if self.first.is_null() {
+            self.first
+        } else {
+            self.first.wrapping_byte_add(self.stride * case)
         }
     }
 }
 
 fn uniqueness_code(uniqueness: Uniqueness) -> i32 {
     match uniqueness {
-        Uniqueness::NotKnown => SIGNORINI_NOT_KNOWN,
-        Uniqueness::Unique => SIGNORINI_UNIQUE,
-        Uniqueness::Several => SIGNORINI_SEVERAL,
+        Uniqueness::NotKnown => SIGNORINI_UNIQUENESS_NOT_KNOWN,
+        Uniqueness::Unique => SIGNORINI_UNIQUENESS_UNIQUE,
+        Uniqueness::Several => SIGNORINI_UNIQUENESS_SEVERAL,
     }
 }
 
-/// The first method, and why it did not end it.
+/// The first method, and why it was abandoned.
 fn tried(method: Method, fallback: Option<(Method, Fallback)>) -> (Method, i32) {
     match fallback {
         None => (method, SIGNORINI_FALLBACK_NONE),
@@ -223,10 +260,29 @@ fn tried(method: Method, fallback: Option<(Method, Fallback)>) -> (Method, i32) 
     }
 }
 
-pub(super) fn state_code(state: State) -> i32 {
-    match state {
-        State::Open => SIGNORINI_OPEN,
-        State::Slip => SIGNORINI_SLIP,
-        State::Stick => SIGNORINI_STICK,
-    }
+/// The states of the pairs as numbers.
+pub(super) fn state_codes(states: &[State]) -> Vec<i32> {
+    let code = |state: &State| match state {
+        State::Open => SIGNORINI_STATE_OPEN,
+        State::Slip => SIGNORINI_STATE_SLIP,
+        State::Stick => SIGNORINI_STATE_STICK,
+    };
+    states.iter().map(code).collect()
+}
+
+/// Fills report with zeros and sets struct_size: a report of no call.
+///
+/// @param report       not NULL
+/// @param struct_size  sizeof(signorini_report); no more than that is written
+/// @return 0, or -1 or -2 for the argument that is wrong
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn signorini_report_default(
+    report: *mut SignoriniReport,
+    struct_size: u32,
+) -> i32 {
+    guard::call(|| {
+        // SAFETY: the caller's structure has `struct_size` bytes, as the header demands.
+        unsafe { structures::fill("report", report, struct_size, &SignoriniReport::blank())? };
+        Ok(0)
+    })
 }

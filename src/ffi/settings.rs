@@ -3,36 +3,33 @@
 use libc::c_void;
 use std::ops::ControlFlow;
 
-use super::args::checked_size;
 use super::guard::{self, Failure};
+use super::structures;
 use crate::monitor::Progress;
 use crate::settings::{Method, Search, Settings};
 
-/// The default: chooses, checks and falls back. Without friction block pivoting, with friction in 2D
-/// Newton's method; where these fail Lemke's; in the end, and with friction in 3D, sweeps.
+/// The default: chooses a method, checks its result, and falls back to the next one if it fails.
+/// Without friction: block pivoting, then Lemke's method. With friction in 2D: Newton's method, then
+/// Lemke's. At last, and with friction in 3D: sweeps.
 pub const SIGNORINI_METHOD_AUTO: i32 = 0;
-/// Coulomb friction as a sequence of Tresca problems, g <- mu |F_n|, each by projected
-/// over-relaxed Gauss-Seidel.
+/// Projected over-relaxed Gauss-Seidel (SOR) on a sequence of Tresca problems, g <- mu |F_n|.
 pub const SIGNORINI_METHOD_SOR_NESTED: i32 = 1;
-/// Projected over-relaxed Gauss-Seidel with the friction threshold updated inside the sweep.
+/// The same with the threshold updated inside the sweep; not for Tresca's law.
 pub const SIGNORINI_METHOD_SOR_DIAGONAL: i32 = 2;
-/// Lemke's method, for frictionless contact and for friction in 2D. It ends at a solution for every
-/// mu if K is positive definite.
+/// Lemke's method, without friction, or with friction in 2D. It ends at a solution for every mu if K
+/// is positive definite.
 pub const SIGNORINI_METHOD_LEMKE: i32 = 3;
-/// Block principal pivoting, for frictionless contact: every mu must be 0.
+/// Block principal pivoting, for contact without friction.
 pub const SIGNORINI_METHOD_BLOCK_PIVOTING: i32 = 4;
-/// Newton's method on the states of the pairs, in 2D. It may fail, and says so.
+/// Newton's method on the states of the pairs, in 2D. It may fail; the status says so.
 pub const SIGNORINI_METHOD_NEWTON: i32 = 5;
 
-/// Of other solutions tell what the solution itself shows. The default.
+/// Report only what the solution itself proves about other solutions. The default.
 pub const SIGNORINI_SEARCH_OFF: i32 = 0;
-/// Prove that the solution is the only one, or look for a second; 2D. It costs several times the
-/// solution.
+/// Prove that the solution is unique, or look for a second one; 2D. It costs several solutions.
 pub const SIGNORINI_SEARCH_OTHERS: i32 = 1;
-/// The same, and return the second solution in the place of the first if there is one.
-pub const SIGNORINI_SEARCH_RETURN_SECOND: i32 = 2;
 
-/// What a progress callback is told. New fields may follow in later versions.
+/// What a progress callback receives. Later versions may add fields at the end.
 #[repr(C)]
 pub struct SignoriniProgress {
     /// Sweeps, pivots or linear systems done.
@@ -43,41 +40,40 @@ pub struct SignoriniProgress {
     pub elapsed: f64,
 }
 
-/// Called before each sweep, pivot or linear system; a nonzero result cancels the call
-/// (SIGNORINI_CANCELLED). It runs on the calling thread in the default floating-point environment. It must return: no
-/// longjmp, no exception, and no call of this library.
+/// A progress callback: called before each sweep, pivot or linear system. A nonzero result cancels
+/// the call (SIGNORINI_STATUS_CANCELLED). It runs on the calling thread, in the default
+/// floating-point environment. It must return: no longjmp, no exception; and it must not call this
+/// library.
 pub type SignoriniProgressFn =
     Option<unsafe extern "C" fn(user: *mut c_void, progress: *const SignoriniProgress) -> i32>;
 
-/// How to solve. Fill it by signorini_settings_default(), then change what you like.
+/// How to solve. Fill it by signorini_settings_default(), then change what you like. The library
+/// only reads it, so that several threads may use one.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct SignoriniSettings {
-    /// sizeof(signorini_settings) of the program; later fields than it covers have their defaults.
+    /// sizeof(signorini_settings) in your program; fields beyond it have their defaults.
     pub struct_size: u32,
     /// SIGNORINI_METHOD_...; default SIGNORINI_METHOD_AUTO.
     pub method: i32,
-    /// Solved means eta <= tolerance; 1e-15 to 0.1, default 1e-10.
+    /// A result is solved if eta <= tolerance; 1e-15 to 0.1, default 1e-10.
     pub tolerance: f64,
     /// Over-relaxation factor between 0 and 2; default 0: chosen from the measured rate.
     pub omega: f64,
-    /// Damping of the nested method's threshold update, in (0, 1]; default 0: chosen from the
-    /// measured rate.
+    /// Damping of the threshold update, in (0, 1]; default 0: chosen from the measured rate.
     pub damping: f64,
-    /// Most sweeps (SOR), pivots (Lemke) or linear systems (Newton, block pivoting), at least 1;
-    /// default 200000.
+    /// Most sweeps, pivots or linear systems, at least 1; default 200000.
     pub max_iterations: i64,
-    /// Most seconds of wall time; 0, the default, and infinity: no limit.
+    /// Most seconds of wall time; 0 (the default) and infinity: no limit.
     pub time_limit: f64,
-    /// Nonzero: the method starts from what d holds, Newton's and block pivoting from the states that
-    /// it has. Default 0: sweeps start from zero, these two from all pairs in contact and at rest.
-    /// Lemke's method does not use a start.
+    /// Nonzero: start from what d holds (Newton, block pivoting: from its states). Default 0: start
+    /// from d = 0 (Newton, block pivoting: from all pairs sticking). Lemke's method has no start.
     pub warm_start: i32,
-    /// SIGNORINI_SEARCH_...: what to find out about other solutions; default SIGNORINI_SEARCH_OFF.
+    /// SIGNORINI_SEARCH_...: whether to look for other solutions; default SIGNORINI_SEARCH_OFF.
     pub search: i32,
-    /// Called before each sweep, pivot or linear system; default NULL.
+    /// Progress callback; default NULL.
     pub progress: SignoriniProgressFn,
-    /// Handed to progress; default NULL.
+    /// Passed to progress as its first argument; default NULL.
     pub user: *mut c_void,
 }
 
@@ -85,8 +81,6 @@ pub struct SignoriniSettings {
 pub(super) struct Received {
     pub(super) settings: Settings,
     pub(super) warm_start: bool,
-    /// Whether a second solution is to be returned in the place of the first.
-    pub(super) second: bool,
     progress: SignoriniProgressFn,
     user: *mut c_void,
 }
@@ -114,16 +108,11 @@ impl SignoriniSettings {
     ///
     /// # Safety
     /// A pointer that is not NULL has as many readable bytes as its first field says.
-    pub(super) unsafe fn receive(position: i32, pointer: *const Self) -> Result<Received, Failure> {
+    pub(super) unsafe fn read(position: i32, pointer: *const Self) -> Result<Received, Failure> {
         let mut settings = Self::default_one();
         if !pointer.is_null() {
-            // SAFETY: the caller's structure begins with its size; `copied` is at most that and
-            // at most ours.
-            unsafe {
-                let copied = checked_size::<Self>(position, "settings", pointer)?;
-                let target = (&raw mut settings).cast::<u8>();
-                std::ptr::copy_nonoverlapping(pointer.cast::<u8>(), target, copied);
-            }
+            // SAFETY: by the caller's contract.
+            settings = unsafe { structures::read(position, "settings", pointer, settings)? };
         }
         settings.checked(position)
     }
@@ -145,7 +134,7 @@ impl SignoriniSettings {
         };
         let search = match self.search {
             SIGNORINI_SEARCH_OFF => Search::Off,
-            SIGNORINI_SEARCH_OTHERS | SIGNORINI_SEARCH_RETURN_SECOND => Search::Others,
+            SIGNORINI_SEARCH_OTHERS => Search::Others,
             other => return refuse(format!("settings: there is no search {other}")),
         };
         Ok(Received {
@@ -159,7 +148,6 @@ impl SignoriniSettings {
                 search,
             },
             warm_start: self.warm_start != 0,
-            second: self.search == SIGNORINI_SEARCH_RETURN_SECOND,
             progress: self.progress,
             user: self.user,
         })
@@ -207,21 +195,9 @@ pub unsafe extern "C" fn signorini_settings_default(
     struct_size: u32,
 ) -> i32 {
     guard::call(|| {
-        if settings.is_null() {
-            return Err(Failure::argument(1, "settings is NULL"));
-        }
-        if !settings.is_aligned() {
-            return Err(Failure::argument(1, "settings is not aligned"));
-        }
-        let mut default = SignoriniSettings::default_one();
-        default.struct_size = struct_size;
-        // SAFETY: `default` is ours; the caller's structure has `struct_size` bytes by contract,
-        // and `bytes` is at most that and at most ours.
-        unsafe {
-            let bytes = checked_size::<SignoriniSettings>(2, "settings", &raw const default)?;
-            let source = (&raw const default).cast::<u8>();
-            std::ptr::copy_nonoverlapping(source, settings.cast::<u8>(), bytes);
-        }
+        let default = SignoriniSettings::default_one();
+        // SAFETY: the caller's structure has `struct_size` bytes, as the header demands.
+        unsafe { structures::fill("settings", settings, struct_size, &default)? };
         Ok(0)
     })
 }

@@ -7,37 +7,36 @@ use std::fmt::Write;
 use crate::solve::Status;
 
 /// Solved and certified: eta <= tolerance.
-pub const SIGNORINI_SOLVED: i32 = 0;
-/// max_iterations used up; the results are the best iterate so far.
-pub const SIGNORINI_ITERATION_LIMIT: i32 = 1;
-/// time_limit used up; the results are the best iterate so far.
-pub const SIGNORINI_TIME_LIMIT: i32 = 2;
-/// The progress callback returned nonzero; the results are the best iterate so far.
-pub const SIGNORINI_CANCELLED: i32 = 3;
-/// Proved: no equilibrium exists. d is the motion of escape (largest component 1), the forces are
-/// zero. For a bare complementarity problem: no w, z >= 0 satisfy w = q + M z, and z proves it.
-pub const SIGNORINI_NO_EQUILIBRIUM: i32 = 4;
+pub const SIGNORINI_STATUS_SOLVED: i32 = 0;
+/// max_iterations is used up; the results are the best iterate.
+pub const SIGNORINI_STATUS_ITERATION_LIMIT: i32 = 1;
+/// time_limit is used up; the results are the best iterate.
+pub const SIGNORINI_STATUS_TIME_LIMIT: i32 = 2;
+/// The progress callback cancelled the call; the results are the best iterate.
+pub const SIGNORINI_STATUS_CANCELLED: i32 = 3;
+/// Proved: no equilibrium exists (LCP: no w, z >= 0 satisfy w = q + M z). extra->motion (LCP: y) is
+/// the proof. d, F, states and counts are those of the last iterate: not a solution.
+pub const SIGNORINI_STATUS_NO_EQUILIBRIUM: i32 = 4;
 /// The method cannot go on (rounding, a cycle, a ray that proves nothing); the results are its best
-/// iterate. Of SIGNORINI_METHOD_AUTO: no method found a solution or a proof that there is none.
-pub const SIGNORINI_STALLED: i32 = 5;
-/// Of signorini_certify: the displacements are not a solution.
-pub const SIGNORINI_NOT_A_SOLUTION: i32 = 6;
+/// iterate. With SIGNORINI_METHOD_AUTO: no method found a solution or a proof that there is none.
+pub const SIGNORINI_STATUS_STALLED: i32 = 5;
+/// From the certify calls only: the displacements are not a solution.
+pub const SIGNORINI_STATUS_NOT_A_SOLUTION: i32 = 6;
 /// A defect of the library was caught; the results are undefined.
-pub const SIGNORINI_INTERNAL: i32 = -1000;
+pub const SIGNORINI_STATUS_INTERNAL: i32 = -1000;
 /// Not enough memory; nothing was written.
-pub const SIGNORINI_OUT_OF_MEMORY: i32 = -1001;
-/// A file cannot be read or written; signorini_last_error() names it, the line, and what is wrong.
-pub const SIGNORINI_FILE: i32 = -1002;
+pub const SIGNORINI_STATUS_OUT_OF_MEMORY: i32 = -1001;
+/// A file cannot be read or written; signorini_last_error() says which, where and why.
+pub const SIGNORINI_STATUS_FILE: i32 = -1002;
 
 /// Major version of this header.
 pub const SIGNORINI_VERSION_MAJOR: i32 = 0;
 /// Minor version of this header.
-pub const SIGNORINI_VERSION_MINOR: i32 = 1;
+pub const SIGNORINI_VERSION_MINOR: i32 = 2;
 /// Patch version of this header.
 pub const SIGNORINI_VERSION_PATCH: i32 = 0;
-/// Version of the binary interface that this header describes; compare it with
-/// signorini_abi_version() after dlopen.
-pub const SIGNORINI_ABI_VERSION: i32 = 1;
+/// Binary interface of this header; compare it with signorini_abi_version() after dlopen.
+pub const SIGNORINI_ABI_VERSION: i32 = 2;
 
 // The header's numbers are written out for C; here they are held to the package's version.
 const _: () = {
@@ -56,43 +55,46 @@ const _: () = {
 
 pub(super) fn code(status: Status) -> i32 {
     match status {
-        Status::Solved => SIGNORINI_SOLVED,
-        Status::IterationLimit => SIGNORINI_ITERATION_LIMIT,
-        Status::TimeLimit => SIGNORINI_TIME_LIMIT,
-        Status::Cancelled => SIGNORINI_CANCELLED,
-        Status::NoEquilibrium => SIGNORINI_NO_EQUILIBRIUM,
-        Status::Stalled => SIGNORINI_STALLED,
+        Status::Solved => SIGNORINI_STATUS_SOLVED,
+        Status::IterationLimit => SIGNORINI_STATUS_ITERATION_LIMIT,
+        Status::TimeLimit => SIGNORINI_STATUS_TIME_LIMIT,
+        Status::Cancelled => SIGNORINI_STATUS_CANCELLED,
+        Status::NoEquilibrium => SIGNORINI_STATUS_NO_EQUILIBRIUM,
+        Status::Stalled => SIGNORINI_STATUS_STALLED,
     }
 }
 
-/// Version of the library, such as "0.1.0". Static; never NULL.
+/// Version of the library, such as "0.2.0". Static text; never NULL.
 #[unsafe(no_mangle)]
 pub extern "C" fn signorini_version() -> *const c_char {
     concat!(env!("CARGO_PKG_VERSION"), "\0").as_ptr().cast()
 }
 
-/// Version of the binary interface of the library. It equals SIGNORINI_ABI_VERSION of the header
-/// that a program was compiled with, or the two do not fit.
+/// Binary interface of the library. If it differs from the SIGNORINI_ABI_VERSION with which a program
+/// was compiled, the two are incompatible.
 #[unsafe(no_mangle)]
 pub extern "C" fn signorini_abi_version() -> i32 {
     SIGNORINI_ABI_VERSION
 }
 
-/// A short description of a status, such as "solved". Static; never NULL, whatever the number.
+/// Statuses from this one to -1 are reserved for arguments.
+const LAST_ARGUMENT: i32 = -99;
+
+/// A short description of a status, such as "solved". Static text; never NULL, for any number.
 #[unsafe(no_mangle)]
 pub extern "C" fn signorini_status_string(status: i32) -> *const c_char {
     let text = match status {
-        SIGNORINI_SOLVED => c"solved",
-        SIGNORINI_ITERATION_LIMIT => c"iteration limit reached",
-        SIGNORINI_TIME_LIMIT => c"time limit reached",
-        SIGNORINI_CANCELLED => c"cancelled",
-        SIGNORINI_NO_EQUILIBRIUM => c"no equilibrium exists",
-        SIGNORINI_STALLED => c"stalled",
-        SIGNORINI_NOT_A_SOLUTION => c"not a solution",
-        SIGNORINI_INTERNAL => c"internal error",
-        SIGNORINI_OUT_OF_MEMORY => c"out of memory",
-        SIGNORINI_FILE => c"a file cannot be read or written",
-        -99..=-1 => c"an argument is wrong (status -k: the k-th)",
+        SIGNORINI_STATUS_SOLVED => c"solved",
+        SIGNORINI_STATUS_ITERATION_LIMIT => c"iteration limit reached",
+        SIGNORINI_STATUS_TIME_LIMIT => c"time limit reached",
+        SIGNORINI_STATUS_CANCELLED => c"cancelled",
+        SIGNORINI_STATUS_NO_EQUILIBRIUM => c"no equilibrium exists",
+        SIGNORINI_STATUS_STALLED => c"stalled",
+        SIGNORINI_STATUS_NOT_A_SOLUTION => c"not a solution",
+        SIGNORINI_STATUS_INTERNAL => c"internal error",
+        SIGNORINI_STATUS_OUT_OF_MEMORY => c"out of memory",
+        SIGNORINI_STATUS_FILE => c"a file cannot be read or written",
+        LAST_ARGUMENT..=-1 => c"an argument is wrong (status -k: the k-th)",
         _ => c"unknown status",
     };
     text.as_ptr()
@@ -132,11 +134,11 @@ pub(super) fn remember(what: std::fmt::Arguments<'_>) {
     });
 }
 
-/// What the last call on this thread found, in one sentence, such as "K[12,7] is not finite":
-/// for every status other than 0; empty after a call that returned 0.
+/// What was wrong in the last call on this thread, in one sentence, such as "K[12,7] is not
+/// finite". Empty after a call that returned 0.
 ///
-/// @return UTF-8 text of at most 511 bytes that belongs to the library and to the calling thread;
-///         the next call of the library on this thread overwrites it. Never NULL.
+/// @return UTF-8 text of at most 511 bytes, never NULL. It belongs to the calling thread; the next
+///         call of the library on this thread overwrites it.
 #[unsafe(no_mangle)]
 pub extern "C" fn signorini_last_error() -> *const c_char {
     LAST.with_borrow(|message| message.text.as_ptr().cast())

@@ -1,17 +1,18 @@
-//! Problem files: a problem as it goes to a solver, to be mailed and replayed.
+//! Problem files: serialised contact problems and LCPs, for bug reports and replay.
 //!
 //! A problem file is a Matrix Market file, `matrix array real general`, which every reader of that
 //! format takes for one dense matrix. Comment lines say what it is:
 //!
 //! ```text
 //! %%MatrixMarket matrix array real general
-//! % signorini problem 1
-//! % kind: coulomb
+//! % signorini problem 2
+//! % kind: contact
+//! % law: coulomb
 //! % dim: 2
 //! % pairs: 2
 //! % remark: step 7 of the crane hook
-//! % Written by signorini 0.1.0 in the units of the host.
-//! % Columns: K (4), f, gap and mu in normal rows, slip in tangential rows.
+//! % Written by signorini 0.2.0 in the units of the host.
+//! % Columns: K (4), f, gap and mu in normal rows, slip0 in tangential rows.
 //! 4 8
 //! 4e0
 //! ...
@@ -19,11 +20,14 @@
 //!
 //! The lines after the last comment are the numbers of rows and columns, then the entries column by
 //! column, one a line, with as many digits (17 at most) as give back the same bits. With
-//! `N = dim * pairs` rows the columns are `K` (N of them), `f`, `gap` and `mu` (kind `tresca`: `g`),
-//! which stand in the normal row of each pair, and `slip`, which stands in the tangential rows;
-//! other rows are 0. Of kind `lcp` they are `M` (n columns), `q` and, if given, the
-//! covering vector. A gap of a pair that never touches is `inf`, the one spelling that all of the
-//! readers that were tried take. Other comment lines are skipped.
+//! `N = dim * pairs` rows the columns of kind `contact` are `K` (N of them), `f`, `gap`, the
+//! parameters of the law (`coulomb`: mu; `tresca`: g; `frictionless`: none) and the reference slip
+//! `slip0`. Gap and parameters stand in the normal row of each pair, `slip0` in its tangential rows;
+//! other rows are 0. Of kind `lcp`, which has neither law, dim nor pairs, the columns are `M` (n of
+//! them), `q` and, if given, the covering vector. A gap of a pair that never touches is `inf`, the
+//! one spelling that all of the readers that were tried take. Other comment lines are skipped.
+//!
+//! Version 1 of the format is read too. It has no law: its kinds `coulomb` and `tresca` say it.
 //!
 //! The other open format of the field, FCLIB's, holds the flexibility matrix (Delassus), which does
 //! not exist for bodies held by nothing but contact, and needs the HDF5 library.
@@ -44,69 +48,91 @@ pub use write::{write, write_lcp};
 const BANNER: &str = "%%MatrixMarket matrix array real general";
 /// The comment that tells a problem file from other matrices, followed by the version.
 const TITLE: &str = "signorini problem";
-/// The version of the format.
-const VERSION: &str = "1";
+/// The version of the format that is written.
+const VERSION: &str = "2";
+/// The version before it, which is read too: the kind is the law, or `lcp`.
+const OLD_VERSION: &str = "1";
 /// Most bytes of a remark.
 const MOST_REMARK: usize = 1000;
 
-/// The kind of a problem.
+/// The friction law of a problem, without its parameters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
-    /// Contact with Coulomb friction.
+pub enum Law {
+    /// No friction.
+    Frictionless,
+    /// Coulomb friction.
     Coulomb,
-    /// Contact with given thresholds of friction.
+    /// Tresca friction: given thresholds.
     Tresca,
-    /// A bare linear complementarity problem.
-    Lcp,
 }
 
-impl Kind {
-    const ALL: [Kind; 3] = [Kind::Coulomb, Kind::Tresca, Kind::Lcp];
+impl Law {
+    const ALL: [Law; 3] = [Law::Frictionless, Law::Coulomb, Law::Tresca];
 
     /// Its name in a file.
     fn name(self) -> &'static str {
         match self {
-            Kind::Coulomb => "coulomb",
-            Kind::Tresca => "tresca",
-            Kind::Lcp => "lcp",
+            Law::Frictionless => "frictionless",
+            Law::Coulomb => "coulomb",
+            Law::Tresca => "tresca",
+        }
+    }
+
+    /// Names of the parameters of each pair.
+    fn parameters(self) -> &'static [&'static str] {
+        match self {
+            Law::Frictionless => &[],
+            Law::Coulomb => &["mu"],
+            Law::Tresca => &["g"],
         }
     }
 }
 
+/// The kind of a problem.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// A contact problem with its friction law.
+    Contact(Law),
+    /// A linear complementarity problem.
+    Lcp,
+}
+
 /// A problem that was read from a file. Its numbers are finite (a gap may be `+inf`) and its arrays
-/// have the lengths that they must have; all else is checked by whom it is handed to.
+/// have the lengths that they must have; other checks are made when the problem is solved.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ProblemFile {
     /// What it is.
     pub kind: Kind,
-    /// 2 or 3; 0 of a bare complementarity problem.
+    /// 2 or 3; 0 of an LCP.
     pub dim: usize,
-    /// Contact pairs; 0 of a bare complementarity problem.
+    /// Contact pairs; 0 of an LCP.
     pub pairs: usize,
-    /// Unknowns, `dim * pairs` or those of the bare problem.
+    /// Unknowns, `dim * pairs` or those of the LCP.
     pub size: usize,
-    /// `K` or `M`, `size` columns, column-major, without space between them.
+    /// `K` or `M`, `size` columns, column-major with leading dimension `size`.
     pub matrix: Vec<f64>,
     /// `f` or `q`, `size`.
     pub load: Vec<f64>,
     /// Gaps, `pairs`.
     pub gap: Vec<f64>,
-    /// Friction coefficients or thresholds, `pairs`.
+    /// Parameters of the friction law pair by pair: coefficients or thresholds, `pairs`; none if
+    /// frictionless.
     pub friction: Vec<f64>,
-    /// Tangential displacement at rest, `(dim - 1) * pairs`.
-    pub slip: Vec<f64>,
-    /// Covering vector of a bare complementarity problem, if there is one.
+    /// Reference slip, `(dim - 1) * pairs`.
+    pub reference_slip: Vec<f64>,
+    /// Covering vector of an LCP, if there is one.
     pub covering: Option<Vec<f64>>,
-    /// What its sender says; may be empty.
+    /// The remark stored in the file; may be empty.
     pub remark: String,
 }
 
 impl ProblemFile {
-    /// The contact problem, not yet checked; `None` of a bare complementarity problem.
+    /// The contact problem, not yet checked; `None` of an LCP.
     pub fn contact(&self) -> Option<ContactData<'_>> {
-        let friction = match self.kind {
-            Kind::Coulomb => FrictionLaw::Coulomb(&self.friction),
-            Kind::Tresca => FrictionLaw::Tresca(&self.friction),
+        let law = match self.kind {
+            Kind::Contact(Law::Frictionless) => FrictionLaw::Frictionless,
+            Kind::Contact(Law::Coulomb) => FrictionLaw::Coulomb(&self.friction),
+            Kind::Contact(Law::Tresca) => FrictionLaw::Tresca(&self.friction),
             Kind::Lcp => return None,
         };
         Some(ContactData {
@@ -116,8 +142,8 @@ impl ProblemFile {
             ld: self.size.max(1),
             load: &self.load,
             gap: &self.gap,
-            law: friction,
-            reference_slip: Some(&self.slip),
+            law,
+            reference_slip: Some(&self.reference_slip),
         })
     }
 }

@@ -4,8 +4,9 @@ use std::fs::File;
 use std::path::Path;
 
 use super::lines::{Lines, shown};
-use super::{BANNER, Kind, ProblemFile, TITLE, VERSION, refuse};
+use super::{BANNER, Kind, Law, OLD_VERSION, ProblemFile, TITLE, VERSION, refuse};
 use crate::error::Error;
+use crate::problem;
 
 /// Reads a problem file.
 ///
@@ -19,7 +20,7 @@ pub fn read(path: &Path) -> Result<ProblemFile, Error> {
     if about.is_dir() {
         return Err(refuse(path, None, "cannot be read: it is a directory"));
     }
-    // An entry takes two bytes at least: what a size line claims is not believed beyond that.
+    // An entry takes two bytes at least: never allocate more than the size of the file allows.
     let most = usize::try_from(about.len() / 2).unwrap_or(usize::MAX);
     let mut lines = Lines::new(path, file);
     let header = Header::read(&mut lines)?;
@@ -49,22 +50,24 @@ impl Header {
             let what = format!("not a problem file, which begins with '{BANNER}'");
             return Err(lines.refuse(&what));
         }
-        let mut titled = false;
-        let [mut kind, mut dim, mut pairs, mut remark]: [Comment; 4] = Default::default();
+        let mut version = None;
+        let [mut kind, mut law, mut dim, mut pairs, mut remark]: [Comment; 5] = Default::default();
         loop {
             lines.require(|| "the line of the sizes".into())?;
             let text = lines.text();
             let Some(comment) = text.strip_prefix('%').map(str::trim_ascii) else { break };
-            if let Some(version) = comment.strip_prefix(TITLE).map(str::trim_ascii) {
-                if version != VERSION {
-                    let version = shown(version);
-                    let what = format!("version {version} of the format: {VERSION} is known");
-                    return Err(lines.refuse(&what));
+            if let Some(found) = comment.strip_prefix(TITLE).map(str::trim_ascii) {
+                let known = [OLD_VERSION, VERSION].into_iter().find(|known| *known == found);
+                if known.is_none() {
+                    let found = shown(found);
+                    let known = format!("{OLD_VERSION} and {VERSION} are known");
+                    return Err(lines.refuse(&format!("version {found} of the format: {known}")));
                 }
-                titled = true;
+                version = known;
             } else if let Some((key, value)) = comment.split_once(':') {
                 let place = match key {
                     "kind" => &mut kind,
+                    "law" => &mut law,
                     "dim" => &mut dim,
                     "pairs" => &mut pairs,
                     "remark" => &mut remark,
@@ -75,20 +78,15 @@ impl Header {
                 }
             }
         }
-        if !titled {
+        let Some(version) = version else {
             let what = format!("some other matrix: no line '% {TITLE} {VERSION}' stands above");
             return Err(lines.refuse(&what));
-        }
-        let Some((at, name)) = kind else {
-            return Err(lines.refuse("no line '% kind:' stands above"));
         };
-        let Some(kind) = Kind::ALL.into_iter().find(|kind| kind.name() == name) else {
-            return Err(lines.refuse_at(at, &format!("no kind of problem is {}", shown(&name))));
-        };
+        let kind = read_kind(lines, version, &kind, &law)?;
         // It may be shown on a terminal, which control characters command.
         let remark = remark.map_or_else(String::new, |(_, remark)| remark);
         let remark = remark.replace(char::is_control, " ");
-        if kind == Kind::Lcp {
+        let Kind::Contact(law) = kind else {
             let (size, columns) = sizes(lines)?;
             let covering = columns.checked_sub(2) == Some(size);
             if !covering && columns.checked_sub(1) != Some(size) {
@@ -97,17 +95,18 @@ impl Header {
             }
             check_memory(lines, size)?;
             return Ok(Header { kind, dim: 0, pairs: 0, size, covering, remark });
-        }
+        };
         let dim = number(lines, "dim", &dim)?;
-        if dim != 2 && dim != 3 {
-            return Err(lines.refuse(&format!("dim above is {dim}, it must be 2 or 3")));
-        }
+        problem::checked_dim(dim as i64)
+            .map_err(|error| lines.refuse(&format!("above, {error}")))?;
         let pairs = number(lines, "pairs", &pairs)?;
         let (size, columns) = sizes(lines)?;
-        if dim.checked_mul(pairs) != Some(size) || columns.checked_sub(4) != Some(size) {
+        let more = 3 + law.parameters().len();
+        if dim.checked_mul(pairs) != Some(size) || columns.checked_sub(more) != Some(size) {
             let what = format!(
-                "{size} rows and {columns} columns: with dim {dim} and {pairs} pairs there must \
-                 be dim * pairs rows and 4 columns more"
+                "{size} rows and {columns} columns: with dim {dim}, {pairs} pairs and the law \
+                 '{}' there must be dim * pairs rows and {more} columns more",
+                law.name()
             );
             return Err(lines.refuse(&what));
         }
@@ -118,12 +117,11 @@ impl Header {
     /// Reads the columns and what follows them: nothing.
     fn columns(self, lines: &mut Lines<'_>, most: usize) -> Result<ProblemFile, Error> {
         let Header { kind, dim, pairs, size, covering, remark } = self;
-        let names = match kind {
-            Kind::Coulomb => ["K", "f", "mu"],
-            Kind::Tresca => ["K", "f", "g"],
-            Kind::Lcp => ["M", "q", ""],
+        let (matrix_name, load_name) = match kind {
+            Kind::Contact(_) => ("K", "f"),
+            Kind::Lcp => ("M", "q"),
         };
-        let matrix = lines.entries(names[0], (size, size * size), most)?;
+        let matrix = lines.entries(matrix_name, (size, size * size), most)?;
         let mut column = |name| lines.entries(name, (size, size), most);
         let mut problem = ProblemFile {
             kind,
@@ -131,19 +129,22 @@ impl Header {
             pairs,
             size,
             matrix,
-            load: column(names[1])?,
+            load: column(load_name)?,
             gap: Vec::new(),
             friction: Vec::new(),
-            slip: Vec::new(),
+            reference_slip: Vec::new(),
             covering: None,
             remark,
         };
-        if kind == Kind::Lcp {
-            problem.covering = covering.then(|| column("cover")).transpose()?;
-        } else {
-            problem.gap = rows(lines, "gap", (size, most), |i| i % dim == 0)?;
-            problem.friction = rows(lines, names[2], (size, most), |i| i % dim == 0)?;
-            problem.slip = rows(lines, "slip", (size, most), |i| i % dim != 0)?;
+        match kind {
+            Kind::Lcp => problem.covering = covering.then(|| column("cover")).transpose()?,
+            Kind::Contact(law) => {
+                problem.gap = rows(lines, "gap", (size, most), |i| i % dim == 0)?;
+                for name in law.parameters() {
+                    problem.friction = rows(lines, name, (size, most), |i| i % dim == 0)?;
+                }
+                problem.reference_slip = rows(lines, "slip0", (size, most), |i| i % dim != 0)?;
+            }
         }
         while lines.advance()? {
             if !lines.text().is_empty() {
@@ -153,6 +154,36 @@ impl Header {
         }
         Ok(problem)
     }
+}
+
+/// The kind and, of contact, the law: in version 1 of the format the kind is the law.
+fn read_kind(
+    lines: &Lines<'_>,
+    version: &str,
+    kind: &Comment,
+    law: &Comment,
+) -> Result<Kind, Error> {
+    let Some((at, name)) = kind else {
+        return Err(lines.refuse("no line '% kind:' stands above"));
+    };
+    if name == "lcp" {
+        return Ok(Kind::Lcp);
+    }
+    let find = |name: &str| Law::ALL.into_iter().find(|law| law.name() == name);
+    if version == OLD_VERSION {
+        let law = find(name).filter(|law| *law != Law::Frictionless);
+        let unknown = || lines.refuse_at(*at, &format!("no kind of problem is {}", shown(name)));
+        return law.map(Kind::Contact).ok_or_else(unknown);
+    }
+    if name != "contact" {
+        return Err(lines.refuse_at(*at, &format!("no kind of problem is {}", shown(name))));
+    }
+    let Some((at, name)) = law else {
+        return Err(lines.refuse("no line '% law:' stands above"));
+    };
+    find(name)
+        .map(Kind::Contact)
+        .ok_or_else(|| lines.refuse_at(*at, &format!("no friction law is {}", shown(name))))
 }
 
 /// The entries of a column in the rows that `hold` some; the others are 0.

@@ -5,7 +5,7 @@ use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use super::{BANNER, Kind, MOST_REMARK, TITLE, VERSION, refuse};
+use super::{BANNER, Law, MOST_REMARK, TITLE, VERSION, refuse};
 use crate::error::{Argument, Error};
 use crate::lcp::Lcp;
 use crate::problem::{ContactProblem, FrictionLaw};
@@ -25,42 +25,44 @@ pub fn write(path: &Path, problem: &ContactProblem<'_>, remark: Option<&str>) ->
             return Err(Error::invalid(Argument::Matrix, format!("K[{i},{j}] is not finite")));
         }
     }
-    let zero = vec![0.0; problem.pairs()];
-    let (kind, name, friction) = match problem.law() {
-        FrictionLaw::Frictionless => (Kind::Coulomb, "mu", &zero[..]),
-        FrictionLaw::Coulomb(mu) => (Kind::Coulomb, "mu", mu),
-        FrictionLaw::Tresca(g) => (Kind::Tresca, "g", g),
+    let (law, parameters) = match problem.law() {
+        FrictionLaw::Frictionless => (Law::Frictionless, None),
+        FrictionLaw::Coulomb(mu) => (Law::Coulomb, Some(mu)),
+        FrictionLaw::Tresca(g) => (Law::Tresca, Some(g)),
     };
     let gap: Vec<f64> = (0..problem.pairs()).map(|pair| problem.gap(pair)).collect();
+    let pairs = problem.pairs();
     replace(path, |file| {
-        head(file, kind, remark, &[("dim", dim), ("pairs", problem.pairs())])?;
-        writeln!(file, "K ({n}), f, gap and {name} in normal rows, slip in tangential rows.")?;
-        writeln!(file, "{n} {}", n + 4)?;
+        let lines = format!("contact\n% law: {}\n% dim: {dim}\n% pairs: {pairs}", law.name());
+        head(file, &lines, remark)?;
+        let names = [&["gap"], law.parameters()].concat().join(" and ");
+        writeln!(file, "K ({n}), f, {names} in normal rows, slip0 in tangential rows.")?;
+        writeln!(file, "{n} {}", n + 3 + law.parameters().len())?;
         for j in 0..n {
             entries(file, problem.column(j).iter().copied())?;
         }
         entries(file, problem.load().iter().copied())?;
         // A value of each pair in its normal row.
-        for values in [&gap[..], friction] {
+        for values in [Some(&gap[..]), parameters].into_iter().flatten() {
             entries(file, (0..n).map(|i| if i % dim == 0 { values[i / dim] } else { 0.0 }))?;
         }
-        let slip = |i| match i % dim {
+        let slip0 = |i| match i % dim {
             0 => 0.0,
             axis => problem.reference_slip(i / dim, axis - 1),
         };
-        entries(file, (0..n).map(slip))
+        entries(file, (0..n).map(slip0))
     })
 }
 
-/// Writes a bare complementarity problem.
+/// Writes an LCP.
 ///
 /// # Errors
-/// As [`save`].
+/// As [`write`].
 pub fn write_lcp(path: &Path, lcp: &Lcp<'_>, remark: Option<&str>) -> Result<(), Error> {
     check_remark(remark)?;
     let (n, covering) = (lcp.size(), lcp.covering_vector());
     replace(path, |file| {
-        head(file, Kind::Lcp, remark, &[])?;
+        head(file, "lcp", remark)?;
         let (name, columns) = if covering.is_some() { (", cover", n + 2) } else { ("", n + 1) };
         writeln!(file, "M ({n}), q{name}.")?;
         writeln!(file, "{n} {columns}")?;
@@ -72,17 +74,10 @@ pub fn write_lcp(path: &Path, lcp: &Lcp<'_>, remark: Option<&str>) -> Result<(),
     })
 }
 
-/// The comment lines but for the end of the last, which names the columns.
-fn head(
-    file: &mut impl Write,
-    kind: Kind,
-    remark: Option<&str>,
-    sizes: &[(&str, usize)],
-) -> io::Result<()> {
-    writeln!(file, "{BANNER}\n% {TITLE} {VERSION}\n% kind: {}", kind.name())?;
-    for (name, size) in sizes {
-        writeln!(file, "% {name}: {size}")?;
-    }
+/// The comment lines, beginning with the kind and what belongs to it, without the names of the
+/// columns, which end the last one.
+fn head(file: &mut impl Write, kind: &str, remark: Option<&str>) -> io::Result<()> {
+    writeln!(file, "{BANNER}\n% {TITLE} {VERSION}\n% kind: {kind}")?;
     if let Some(remark) = remark.filter(|remark| !remark.is_empty()) {
         writeln!(file, "% remark: {remark}")?;
     }
@@ -112,8 +107,8 @@ fn check_remark(remark: Option<&str>) -> Result<(), Error> {
     Ok(())
 }
 
-/// Fills a file beside the wanted one, which it replaces when it is complete: a full disk or a
-/// crash leaves no half file under the name.
+/// Writes to a temporary file and renames it: a full disk or a crash leaves no half file under the
+/// name.
 fn replace(
     path: &Path,
     fill: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,

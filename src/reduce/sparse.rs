@@ -25,6 +25,8 @@ pub struct SparseReduction {
     /// What a unit contact force does: degree of freedom, component of `F`, part of it.
     actions: Vec<(usize, usize, f64)>,
     fixed: Vec<usize>,
+    /// Normal and tangents of each pair, `dim` entries each.
+    frames: Vec<f64>,
     /// Relative components that supports on both sides hold, with what prescribed values give them.
     held: Vec<(usize, Row)>,
     unknowns: usize,
@@ -119,6 +121,12 @@ impl SparseReduction {
             pairs: interface.pairs,
             actions: actions(interface, &frames),
             fixed: fixed.to_vec(),
+            frames: frames
+                .iter()
+                .flat_map(|frame| &frame[..dim])
+                .flat_map(|direction| &direction[..dim])
+                .copied()
+                .collect(),
             held,
             unknowns: free + contact,
             condensation,
@@ -128,6 +136,11 @@ impl SparseReduction {
     /// `K_rel`, column-major, `dim * pairs` square.
     pub fn stiffness(&self) -> &[f64] {
         self.condensation.schur()
+    }
+
+    /// For each pair the normal, then the tangents, `dim` entries each, of unit length.
+    pub fn frames(&self) -> &[f64] {
+        &self.frames
     }
 
     /// Degrees of freedom of the host.

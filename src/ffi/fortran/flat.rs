@@ -1,29 +1,12 @@
 //! SGSOLV, SGTRES, SGCERT, SGLCPS: everything in one call.
 
-use super::super::check::signorini_certify;
-use super::super::flat::{signorini_solve, signorini_tresca};
+use super::super::certify::signorini_certify;
+use super::super::law::{SIGNORINI_LAW_COULOMB, SIGNORINI_LAW_TRESCA};
 use super::super::lcp::signorini_lcp_solve;
-use super::super::report::SignoriniReport;
-use super::super::settings::SignoriniSettings;
+use super::super::solve::signorini_solve;
 use super::arguments::{
     Integer, Results, choice, count, read, run, settings, tolerance_or_default,
 };
-
-type Solver = unsafe extern "C" fn(
-    i32,
-    i64,
-    *const f64,
-    i64,
-    *const f64,
-    *const f64,
-    *const f64,
-    *const f64,
-    *const SignoriniSettings,
-    *mut f64,
-    *mut f64,
-    *mut i32,
-    *mut SignoriniReport,
-) -> i32;
 
 /// # Safety
 /// As include/signorini.inc demands, as for all entries.
@@ -66,7 +49,7 @@ pub(super) unsafe fn solve<I: Integer>(
         info,
     };
     // SAFETY: by the caller's contract.
-    unsafe { arguments.run(signorini_solve) }
+    unsafe { arguments.run(SIGNORINI_LAW_COULOMB) }
 }
 
 /// # Safety
@@ -110,7 +93,7 @@ pub(super) unsafe fn tresca<I: Integer>(
         info,
     };
     // SAFETY: by the caller's contract.
-    unsafe { arguments.run(signorini_tresca) }
+    unsafe { arguments.run(SIGNORINI_LAW_TRESCA) }
 }
 
 /// What SGSOLV and SGTRES have in common: all.
@@ -137,7 +120,7 @@ struct Arguments<I> {
 impl<I: Integer> Arguments<I> {
     /// # Safety
     /// As above.
-    unsafe fn run(&self, solver: Solver) {
+    unsafe fn run(&self, law: i32) {
         let body = || {
             // SAFETY: by the caller's contract.
             unsafe {
@@ -146,13 +129,14 @@ impl<I: Integer> Arguments<I> {
                 let ldk = count(4, "LDK", self.ldk)?;
                 let settings = settings(9, self.method, self.tol, self.maxit)?;
                 let mut results = Results::new(pairs)?;
-                let status = solver(
+                let status = signorini_solve(
                     dim,
                     pairs,
                     self.k,
                     ldk,
                     self.f,
                     self.gap,
+                    law,
                     self.friction,
                     self.slip,
                     &raw const settings,
@@ -160,12 +144,13 @@ impl<I: Integer> Arguments<I> {
                     self.r,
                     results.state.as_mut_ptr(),
                     &raw mut results.report,
+                    std::ptr::null(),
                 );
                 Ok(results.send(status, self.state, self.eta, self.iter))
             }
         };
         // SAFETY: by the caller's contract.
-        unsafe { run(self.info, &[1, 2, 3, 4, 5, 6, 7, 8, 9, 12, 13], body) }
+        unsafe { run(self.info, &[1, 2, 3, 4, 5, 6, 7, 7, 8, 9, 12, 13], body) }
     }
 }
 
@@ -202,6 +187,7 @@ pub(super) unsafe fn certify<I: Integer>(
                 ldk,
                 f,
                 gap,
+                SIGNORINI_LAW_COULOMB,
                 mu,
                 slip,
                 tolerance,
@@ -214,7 +200,7 @@ pub(super) unsafe fn certify<I: Integer>(
         }
     };
     // SAFETY: by the caller's contract.
-    unsafe { run(info, &[1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11], body) }
+    unsafe { run(info, &[1, 2, 3, 4, 5, 6, 7, 7, 8, 9, 10, 11], body) }
 }
 
 /// # Safety
@@ -241,7 +227,17 @@ pub(super) unsafe fn lcp<I: Integer>(
             let settings = settings(5, method, tol, maxit)?;
             let mut results = Results::new(0)?;
             let report = &raw mut results.report;
-            let status = signorini_lcp_solve(n, m, ldm, q, &raw const settings, w, z, report);
+            let status = signorini_lcp_solve(
+                n,
+                m,
+                ldm,
+                q,
+                &raw const settings,
+                w,
+                z,
+                std::ptr::null_mut(),
+                report,
+            );
             Ok(results.send(status, std::ptr::null_mut(), eta, iter))
         }
     };

@@ -3,13 +3,13 @@
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use super::super::cases::{
-    signorini_model_nodal_forces, signorini_model_recover, signorini_model_solve,
-};
 use super::super::guard::Failure;
-use super::super::model::{
-    SignoriniModel, receive, signorini_model_new_condensed, signorini_model_new_two_body,
+use super::super::law::SIGNORINI_LAW_COULOMB;
+use super::super::model_new::{
+    SignoriniModel, read as read_model, signorini_model_new_condensed, signorini_model_new_two_body,
 };
+use super::super::model_recover::{signorini_model_nodal_forces, signorini_model_recover};
+use super::super::model_solve::signorini_model_solve;
 use super::arguments::{Integer, Results, choice, count, read, run, settings, write};
 
 /// The models that live. Fortran has no pointer type of its own: an address in an INTEGER*8 would
@@ -141,7 +141,7 @@ pub(super) unsafe fn case<I: Integer>(
         unsafe {
             let model = find(handle)?;
             let settings = settings(7, method, tol, maxit)?;
-            let pairs = receive(Arc::as_ptr(&model))?.pairs();
+            let pairs = read_model(Arc::as_ptr(&model))?.pairs();
             let mut results = Results::new(pairs as i64)?;
             let status = signorini_model_solve(
                 Arc::as_ptr(&model),
@@ -149,21 +149,23 @@ pub(super) unsafe fn case<I: Integer>(
                 f,
                 presc,
                 gap,
+                SIGNORINI_LAW_COULOMB,
                 mu,
                 slip,
                 &raw const settings,
                 d,
                 r,
                 results.state.as_mut_ptr(),
-                &raw mut results.report,
                 std::ptr::null_mut(),
+                &raw mut results.report,
+                std::ptr::null(),
             );
             Ok(results.send(status, state, eta, iter))
         }
     };
     // The entry of C has the number of cases at its second position.
     // SAFETY: by the caller's contract.
-    unsafe { run(info, &[1, 1, 2, 3, 4, 5, 6, 7, 10, 11], body) }
+    unsafe { run(info, &[1, 1, 2, 3, 4, 5, 5, 6, 7, 10, 11], body) }
 }
 
 /// # Safety

@@ -2,8 +2,8 @@
 
 use super::super::args::Arrays;
 use super::super::guard::Failure;
-use super::super::host::{SignoriniPairs, SignoriniSparse};
-use super::super::model::signorini_model_new_sparse;
+use super::super::model_new::signorini_model_new_sparse;
+use super::super::sparse::{SignoriniPairs, SignoriniSparse};
 use super::arguments::{Integer, absurd, choice, count, read, run};
 use super::models::create;
 
@@ -76,22 +76,22 @@ pub(super) unsafe fn new<I: Integer>(
         let matrix = SignoriniSparse {
             struct_size: size_of::<SignoriniSparse>() as u32,
             index_bytes: I::BYTES,
-            base: 1,
+            index_base: 1,
             triangle,
             size,
-            entries,
-            starts: colptr.cast(),
-            rows: rowind.cast(),
+            nnz: entries,
+            col_start: colptr.cast(),
+            row: rowind.cast(),
             values,
         };
         let interface = SignoriniPairs {
             struct_size: size_of::<SignoriniPairs>() as u32,
             dim,
-            pairs,
+            count: pairs,
             slaves: slaves.as_ptr(),
-            master_starts: if begins.is_empty() { std::ptr::null() } else { begins.as_ptr() },
-            masters: masters.as_ptr(),
-            weights: weight,
+            master_start: if begins.is_empty() { std::ptr::null() } else { begins.as_ptr() },
+            masters: if begins.is_empty() { std::ptr::null() } else { masters.as_ptr() },
+            weights: if begins.is_empty() { std::ptr::null() } else { weight },
             normals: normal,
             tangents: if tangents == 0 { std::ptr::null() } else { tangnt },
         };
@@ -114,8 +114,7 @@ unsafe fn check_begins<I: Integer>(
 ) -> Result<(), Failure> {
     let length = size as usize + 1;
     // SAFETY: by the caller's contract.
-    let begins = unsafe { Arrays::default().input(3, "COLPTR", colptr, length, true)? };
-    let begins = begins.unwrap_or_default();
+    let begins = unsafe { Arrays::default().required(3, "COLPTR", colptr, length)? };
     let refuse = |i: usize, wanted: String| {
         let value = begins[i].wide();
         Err(Failure::argument(3, format!("COLPTR({}) is {value}, it must be {wanted}", i + 1)))
@@ -140,6 +139,6 @@ unsafe fn numbers<I: Integer>(
     length: i64,
 ) -> Result<Vec<i64>, Failure> {
     // SAFETY: by the caller's contract.
-    let values = unsafe { Arrays::default().input(position, name, array, length as usize, true)? };
-    Ok(values.unwrap_or_default().iter().map(|value| value.wide()).collect())
+    let values = unsafe { Arrays::default().required(position, name, array, length as usize)? };
+    Ok(values.iter().map(|value| value.wide()).collect())
 }

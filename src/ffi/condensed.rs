@@ -1,0 +1,69 @@
+//! The data of a condensed contact problem, which several calls receive in the same order.
+
+use super::args::{Arrays, matrix_length, size, sizes};
+use super::guard::Failure;
+use super::law;
+use crate::error::Argument;
+use crate::problem::ContactData;
+
+/// The arguments from `dim` to `slip0`, as the host hands them over.
+#[allow(non_snake_case)] // the names of the mechanics, which the header shows
+pub(super) struct CondensedArguments {
+    /// Number of `dim` among the arguments of the call; the others follow it.
+    pub(super) first: i32,
+    pub(super) dim: i32,
+    pub(super) pairs: i64,
+    pub(super) K: *const f64,
+    pub(super) ldk: i64,
+    pub(super) f: *const f64,
+    pub(super) gap: *const f64,
+    pub(super) law: i32,
+    pub(super) friction: *const f64,
+    pub(super) slip0: *const f64,
+}
+
+impl CondensedArguments {
+    /// How many they are.
+    pub(super) const COUNT: i32 = 9;
+
+    /// The arrays as slices, noted in `arrays`.
+    ///
+    /// # Safety
+    /// Every pointer is NULL or has the length that the header demands.
+    pub(super) unsafe fn read<'a>(&self, arrays: &mut Arrays) -> Result<ContactData<'a>, Failure> {
+        let at = |offset| self.first + offset;
+        let (dim, pairs, n) = sizes(self.first, self.dim, self.pairs)?;
+        let ld = size(at(3), "ldk", self.ldk)?;
+        let entries = matrix_length(at(3), "K", n, ld)?;
+        // SAFETY: the lengths are those of the header.
+        unsafe {
+            Ok(ContactData {
+                dim,
+                pairs,
+                stiffness: arrays.required(at(2), "K", self.K, entries)?,
+                ld,
+                load: arrays.required(at(4), "f", self.f, n)?,
+                gap: arrays.required(at(5), "gap", self.gap, pairs)?,
+                law: law::read(arrays, at(6), (self.law, self.friction), pairs)?,
+                reference_slip: arrays.optional(at(8), "slip0", self.slip0, n - pairs)?,
+            })
+        }
+    }
+
+    /// Number of the argument that an error is about; `otherwise` of an argument of the call that
+    /// is not here.
+    pub(super) fn position(&self, argument: Argument, otherwise: i32) -> i32 {
+        let offset = match argument {
+            Argument::Dimension => 0,
+            Argument::Size => 1,
+            Argument::Matrix => 2,
+            Argument::LeadingDimension => 3,
+            Argument::Load => 4,
+            Argument::Gap => 5,
+            Argument::Law => 7,
+            Argument::ReferenceSlip => 8,
+            _ => return otherwise,
+        };
+        self.first + offset
+    }
+}

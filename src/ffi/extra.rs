@@ -1,0 +1,137 @@
+//! Results that not every call wants: the motion of escape and a second solution.
+
+use super::args::{Arrays, Output};
+use super::guard::{self, Failure};
+use super::report::state_codes;
+use super::structures;
+use crate::solve::Solution;
+
+/// Results that not every call wants. Fill it by signorini_extra_default(), then set the pointers
+/// of the arrays that you want. Each pointer may be NULL. In signorini_model_solve each array has a
+/// column for each case.
+#[repr(C)]
+#[derive(Clone, Copy)]
+#[allow(non_snake_case)] // the names of the mechanics, which the header shows
+pub struct SignoriniExtra {
+    /// sizeof(signorini_extra).
+    pub struct_size: u32,
+    /// 0.
+    pub reserved: i32,
+    /// Out: N entries. With SIGNORINI_STATUS_NO_EQUILIBRIUM the motion of escape r, which proves the
+    /// status: K r = 0, and f . r + F . r > 0 for all contact forces F that the law admits. Its
+    /// largest component is 1. With every other status zeros.
+    pub motion: *mut f64,
+    /// Out: N entries. If report.second is 1, the relative displacements of a second solution,
+    /// certified as the first is; otherwise zeros.
+    pub second_d: *mut f64,
+    /// Out: N entries. Contact forces of the second solution; otherwise zeros.
+    pub second_F: *mut f64,
+    /// Out: one for each pair. SIGNORINI_STATE_... of the second solution; otherwise zeros.
+    pub second_state: *mut i32,
+}
+
+impl SignoriniExtra {
+    fn default_one() -> Self {
+        let nothing = std::ptr::null_mut();
+        SignoriniExtra {
+            struct_size: size_of::<Self>() as u32,
+            reserved: 0,
+            motion: nothing,
+            second_d: nothing,
+            second_F: nothing,
+            second_state: std::ptr::null_mut(),
+        }
+    }
+}
+
+/// The arrays of the caller's structure.
+pub(super) struct Extra {
+    n: usize,
+    pairs: usize,
+    motion: Output<f64>,
+    second_d: Output<f64>,
+    second_force: Output<f64>,
+    second_state: Output<i32>,
+}
+
+impl Extra {
+    /// Reads the caller's structure for results of `n` unknowns of `pairs` pairs, each `cases`
+    /// times; NULL: nothing is wanted.
+    ///
+    /// # Safety
+    /// A pointer that is not NULL has as many readable bytes as its first field says, and its
+    /// pointers are NULL or have the lengths of the header.
+    pub(super) unsafe fn read(
+        arrays: &mut Arrays,
+        position: i32,
+        pointer: *const SignoriniExtra,
+        (n, pairs, cases): (usize, usize, usize),
+    ) -> Result<Self, Failure> {
+        let mut given = SignoriniExtra::default_one();
+        if !pointer.is_null() {
+            // SAFETY: by the caller's contract.
+            given = unsafe { structures::read(position, "extra", pointer, given)? };
+        }
+        if given.reserved != 0 {
+            let message = format!("extra: reserved is {}, it must be 0", given.reserved);
+            return Err(Failure::argument(position, message));
+        }
+        arrays.structure(position, "extra", pointer, false)?;
+        // No overflow: the required arrays d and state of the call are as long.
+        let (all, all_pairs) = (n * cases, pairs * cases);
+        let mut vector = |name, pointer| arrays.optional_output(position, name, pointer, all);
+        Ok(Extra {
+            n,
+            pairs,
+            motion: vector("extra: motion", given.motion)?,
+            second_d: vector("extra: second_d", given.second_d)?,
+            second_force: vector("extra: second_F", given.second_F)?,
+            second_state: arrays.optional_output(
+                position,
+                "extra: second_state",
+                given.second_state,
+                all_pairs,
+            )?,
+        })
+    }
+
+    /// Writes the results of a case.
+    ///
+    /// # Safety
+    /// The arrays have the lengths of the header and overlap nothing.
+    pub(super) unsafe fn write(&self, case: usize, solution: &Solution) {
+        let (n, pairs) = (self.n, self.pairs);
+        let zeros = vec![0.0; n];
+        let motion = solution.recession.as_deref().unwrap_or(&zeros);
+        let second = solution.second.as_deref();
+        let d = second.map_or(&zeros[..], |second| &second.d);
+        let force = second.map_or(&zeros[..], |second| &second.certificate.force);
+        let states =
+            second.map_or_else(|| vec![0; pairs], |second| state_codes(&second.certificate.states));
+        // SAFETY: by the caller's contract.
+        unsafe {
+            self.motion.part(n * case, n).write(motion);
+            self.second_d.part(n * case, n).write(d);
+            self.second_force.part(n * case, n).write(force);
+            self.second_state.part(pairs * case, pairs).write(&states);
+        }
+    }
+}
+
+/// Fills extra with NULL pointers, so that no array is wanted, and sets struct_size.
+///
+/// @param extra        not NULL
+/// @param struct_size  sizeof(signorini_extra); no more than that is written
+/// @return 0, or -1 or -2 for the argument that is wrong
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn signorini_extra_default(
+    extra: *mut SignoriniExtra,
+    struct_size: u32,
+) -> i32 {
+    guard::call(|| {
+        let default = SignoriniExtra::default_one();
+        // SAFETY: the caller's structure has `struct_size` bytes, as the header demands.
+        unsafe { structures::fill("extra", extra, struct_size, &default)? };
+        Ok(0)
+    })
+}

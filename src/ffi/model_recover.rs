@@ -1,0 +1,112 @@
+//! From relative displacements and contact forces back to the host, and what a load case condenses to.
+
+use super::args::Arrays;
+use super::guard::{self, Failure};
+use super::model_new::{SignoriniModel, read};
+use crate::error::Argument;
+
+/// Displacements of the host from the relative ones, for one load case.
+///
+/// @param model       the model
+/// @param f           nodal loads of the case, H entries; NULL: zero, for the motion of escape
+/// @param prescribed  values of the fixed degrees of freedom; NULL: zero
+/// @param d           relative displacements, N entries
+/// @param u           out: displacements, H entries
+/// @return 0; -k: the k-th argument is wrong
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn signorini_model_recover(
+    model: *const SignoriniModel,
+    f: *const f64,
+    prescribed: *const f64,
+    d: *const f64,
+    u: *mut f64,
+) -> i32 {
+    guard::call(|| {
+        let mut arrays = Arrays::default();
+        // SAFETY: a model and arrays as the header demands.
+        unsafe {
+            let model = read(model)?;
+            let (host, n) = (model.host_size(), model.dim() * model.pairs());
+            let load = arrays.optional(2, "f", f, host)?;
+            let values = arrays.optional(3, "prescribed", prescribed, model.fixed_count())?;
+            let d = arrays.required(4, "d", d, n)?;
+            let out = arrays.output(5, "u", u, host)?;
+            arrays.check_overlap()?;
+            let recovered = model.recover(load, values, d).map_err(|error| {
+                Failure::from_error(error, |argument| match argument {
+                    Argument::Load => 2,
+                    Argument::Prescribed => 3,
+                    _ => 4,
+                })
+            })?;
+            out.write(&recovered);
+        }
+        Ok(0)
+    })
+}
+
+/// Contact forces as a nodal force vector of the host. Sparse model: F on the slaves, the opposite
+/// on the masters. Two bodies: F on both, each in its own frame. Condensed model: F itself.
+///
+/// @param model  the model
+/// @param F      contact forces, N entries
+/// @param nodal  out: nodal forces, H entries
+/// @return 0; -k: the k-th argument is wrong
+#[unsafe(no_mangle)]
+#[allow(non_snake_case)] // the names of the mechanics, which the header shows
+pub unsafe extern "C" fn signorini_model_nodal_forces(
+    model: *const SignoriniModel,
+    F: *const f64,
+    nodal: *mut f64,
+) -> i32 {
+    guard::call(|| {
+        let mut arrays = Arrays::default();
+        // SAFETY: a model and arrays as the header demands.
+        unsafe {
+            let model = read(model)?;
+            let n = model.dim() * model.pairs();
+            let force = arrays.required(2, "F", F, n)?;
+            let out = arrays.output(3, "nodal", nodal, model.host_size())?;
+            arrays.check_overlap()?;
+            let forces = model.nodal_forces(force);
+            out.write(&forces.map_err(|error| Failure::from_error(error, |_| 2))?);
+        }
+        Ok(0)
+    })
+}
+
+/// Relative loads of one load case: the f that signorini_solve takes beside the matrix of
+/// signorini_model_stiffness.
+///
+/// @param model       the model
+/// @param f           nodal loads of the host, H entries
+/// @param prescribed  values of the fixed degrees of freedom; NULL: zero
+/// @param load        out: relative loads, N entries
+/// @return 0; -k: the k-th argument is wrong
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn signorini_model_condensed_load(
+    model: *const SignoriniModel,
+    f: *const f64,
+    prescribed: *const f64,
+    load: *mut f64,
+) -> i32 {
+    guard::call(|| {
+        let mut arrays = Arrays::default();
+        // SAFETY: a model and arrays as the header demands.
+        unsafe {
+            let model = read(model)?;
+            let given = arrays.required(2, "f", f, model.host_size())?;
+            let values = arrays.optional(3, "prescribed", prescribed, model.fixed_count())?;
+            let out = arrays.output(4, "load", load, model.dim() * model.pairs())?;
+            arrays.check_overlap()?;
+            let condensed = model.condensed_load(given, values).map_err(|error| {
+                Failure::from_error(error, |argument| match argument {
+                    Argument::Prescribed => 3,
+                    _ => 2,
+                })
+            })?;
+            out.write(&condensed);
+        }
+        Ok(0)
+    })
+}

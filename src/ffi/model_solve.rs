@@ -1,0 +1,244 @@
+//! Load cases of a model.
+
+use super::args::{Arrays, Output, size};
+use super::extra::{Extra, SignoriniExtra};
+use super::guard::{self, Failure};
+use super::law;
+use super::model_new::{SignoriniModel, read};
+use super::report::{Reports, SignoriniReport, state_codes};
+use super::settings::{Received, SignoriniSettings};
+use super::status::{code, remember};
+use crate::error::Argument;
+use crate::model::{LoadCase, Model};
+use crate::monitor::{Monitor, ProgressFn};
+use crate::problem::FrictionLaw;
+
+const SETTINGS: i32 = 9;
+const START: i32 = 10;
+
+/// Solves load cases, one after the other. Every array has a column for each case, without space
+/// between the columns. All cases have the same law. A case that is wrong or not solved does not
+/// stop the others; the d, F, state, report and extra of a wrong case are not written.
+///
+/// Load steps with friction: in each step hand over as slip0 the d_t of the step before, zero at
+/// first. The model keeps no state.
+///
+/// @param model       the model
+/// @param cases       number of load cases, 0 allowed
+/// @param f           nodal loads of the host, H = signorini_model_host_size entries a case
+/// @param prescribed  values of the fixed degrees of freedom, in the order of fixed; NULL: zero
+/// @param gap         gaps, one for each pair
+/// @param law         SIGNORINI_LAW_..., the friction law of all pairs
+/// @param friction    parameters of the law, pair by pair: mu or g; may be NULL if frictionless
+/// @param slip0       reference slip, dim - 1 for each pair; NULL: zero
+/// @param settings    NULL: the defaults; a progress callback is called in each case in turn
+/// @param d           out: relative displacements, N = dim * pairs entries a case; in: the starts if
+///                    settings->warm_start
+/// @param F           out: contact forces, N entries a case
+/// @param state       out: SIGNORINI_STATE_... of each pair; may be NULL
+/// @param status      out: status of each case, as signorini_solve returns it, -k standing for the
+///                    k-th argument of this call; may be NULL
+/// @param report      out: one for each case; set struct_size in each one before the call; may be
+///                    NULL
+/// @param extra       the motion of escape, a second solution; may be NULL
+/// @return 0: every case is solved; otherwise the status of the first case that is not, which
+///         signorini_last_error names; -k: the k-th argument is wrong
+#[unsafe(no_mangle)]
+#[allow(non_snake_case)] // the names of the mechanics, which the header shows
+pub unsafe extern "C" fn signorini_model_solve(
+    model: *const SignoriniModel,
+    cases: i64,
+    f: *const f64,
+    prescribed: *const f64,
+    gap: *const f64,
+    law: i32,
+    friction: *const f64,
+    slip0: *const f64,
+    settings: *const SignoriniSettings,
+    d: *mut f64,
+    F: *mut f64,
+    state: *mut i32,
+    status: *mut i32,
+    report: *mut SignoriniReport,
+    extra: *const SignoriniExtra,
+) -> i32 {
+    let given = CaseArguments { first: 3, f, prescribed, gap, law, friction, slip0 };
+    guard::call(|| {
+        let mut arrays = Arrays::default();
+        // SAFETY: a model as the header demands.
+        let model = unsafe { read(model)? };
+        let cases = size(2, "cases", cases)?;
+        // SAFETY: arrays of the lengths of the header, structures that begin with their size.
+        let (load_cases, received) = unsafe {
+            (given.read(&mut arrays, model, cases)?, SignoriniSettings::read(SETTINGS, settings)?)
+        };
+        received.settings.validate().map_err(|error| Failure::from_error(error, |_| SETTINGS))?;
+        arrays.structure(SETTINGS, "settings", settings, false)?;
+        let (pairs, n) = (model.pairs(), model.dim() * model.pairs());
+        let (all_pairs, all) = (times(cases, pairs)?, times(cases, n)?);
+        let d = arrays.output(START, "d", d, all)?;
+        let force = arrays.output(11, "F", F, all)?;
+        let state = arrays.optional_output(12, "state", state, all_pairs)?;
+        let status = arrays.optional_output(13, "status", status, cases)?;
+        // SAFETY: as above.
+        let (reports, extra) = unsafe {
+            let reports = Reports::read(&mut arrays, 14, report, cases)?;
+            (reports, Extra::read(&mut arrays, 15, extra, (n, pairs, cases))?)
+        };
+        arrays.check_overlap()?;
+
+        let block = Block { model, given: &given, load_cases, d, force, state, reports, extra };
+        let mut first = None;
+        for case in 0..cases {
+            let (code, message) = block.solve(case, &received);
+            // SAFETY: one status for each case, as the header demands.
+            unsafe { status.part(case, 1).write(&[code]) };
+            if code != 0 && first.is_none() {
+                first = Some(code);
+                remember(format_args!("case {case}: {message}"));
+            }
+        }
+        Ok(first.unwrap_or(0))
+    })
+}
+
+/// The arguments from `f` to `slip0` of a load case, as the host hands them over.
+pub(super) struct CaseArguments {
+    /// Number of `f` among the arguments of the call; the others follow it.
+    pub(super) first: i32,
+    pub(super) f: *const f64,
+    pub(super) prescribed: *const f64,
+    pub(super) gap: *const f64,
+    pub(super) law: i32,
+    pub(super) friction: *const f64,
+    pub(super) slip0: *const f64,
+}
+
+impl CaseArguments {
+    /// The arrays of `cases` load cases as slices, noted in `arrays`.
+    ///
+    /// # Safety
+    /// Every pointer is NULL or has the length that the header demands.
+    pub(super) unsafe fn read<'a>(
+        &self,
+        arrays: &mut Arrays,
+        model: &'a Model,
+        cases: usize,
+    ) -> Result<LoadCases<'a>, Failure> {
+        let at = |offset| self.first + offset;
+        let slips = (model.dim() - 1) * model.pairs();
+        let (host, fixed) = (times(cases, model.host_size())?, times(cases, model.fixed_count())?);
+        let (pairs, slips) = (times(cases, model.pairs())?, times(cases, slips)?);
+        // SAFETY: the lengths are those of the header.
+        unsafe {
+            Ok(LoadCases {
+                model,
+                load: arrays.required(at(0), "f", self.f, host)?,
+                prescribed: arrays.optional(at(1), "prescribed", self.prescribed, fixed)?,
+                gap: arrays.required(at(2), "gap", self.gap, pairs)?,
+                law: law::read(arrays, at(3), (self.law, self.friction), pairs)?,
+                slip0: arrays.optional(at(5), "slip0", self.slip0, slips)?,
+            })
+        }
+    }
+
+    /// Number of the argument that an error is about; `otherwise` of an argument of the call that
+    /// is not here.
+    pub(super) fn position(&self, argument: Argument, otherwise: i32) -> i32 {
+        let offset = match argument {
+            Argument::Load => 0,
+            Argument::Prescribed => 1,
+            Argument::Gap => 2,
+            Argument::Law => 4,
+            Argument::ReferenceSlip => 5,
+            _ => return otherwise,
+        };
+        self.first + offset
+    }
+}
+
+/// The data of several load cases, a column for each.
+pub(super) struct LoadCases<'a> {
+    model: &'a Model,
+    load: &'a [f64],
+    prescribed: Option<&'a [f64]>,
+    gap: &'a [f64],
+    law: FrictionLaw<'a>,
+    slip0: Option<&'a [f64]>,
+}
+
+impl<'a> LoadCases<'a> {
+    /// The load case number `case`.
+    pub(super) fn case(&self, case: usize) -> LoadCase<'a> {
+        let (pairs, fixed) = (self.model.pairs(), self.model.fixed_count());
+        let slips = (self.model.dim() - 1) * pairs;
+        let column = |array: &'a [f64], length: usize| &array[length * case..length * (case + 1)];
+        LoadCase {
+            load: column(self.load, self.model.host_size()),
+            prescribed: self.prescribed.map(|values| column(values, fixed)),
+            gap: column(self.gap, pairs),
+            law: match self.law {
+                FrictionLaw::Frictionless => FrictionLaw::Frictionless,
+                FrictionLaw::Coulomb(mu) => FrictionLaw::Coulomb(column(mu, pairs)),
+                FrictionLaw::Tresca(g) => FrictionLaw::Tresca(column(g, pairs)),
+            },
+            reference_slip: self.slip0.map(|slip0| column(slip0, slips)),
+        }
+    }
+}
+
+/// `length` for each case.
+fn times(cases: usize, length: usize) -> Result<usize, Failure> {
+    length
+        .checked_mul(cases)
+        .ok_or_else(|| Failure::argument(2, format!("cases is {cases}, too many cases")))
+}
+
+/// A block of load cases and where their results go.
+struct Block<'a> {
+    model: &'a Model,
+    given: &'a CaseArguments,
+    load_cases: LoadCases<'a>,
+    d: Output<f64>,
+    force: Output<f64>,
+    state: Output<i32>,
+    reports: Reports,
+    extra: Extra,
+}
+
+impl Block<'_> {
+    /// Solves a case and writes its results, unless it is wrong. Returns status and message.
+    fn solve(&self, case: usize, received: &Received) -> (i32, String) {
+        let (pairs, n) = (self.model.pairs(), self.model.dim() * self.model.pairs());
+        let load_case = self.load_cases.case(case);
+        let d = self.d.part(n * case, n);
+        // SAFETY: d has n entries for each case, filled by a caller that wants a warm start.
+        let start = received.warm_start.then(|| unsafe { d.read() });
+        let mut progress = received.progress();
+        let progress = progress.as_mut().map(|progress| progress as &mut ProgressFn<'_>);
+        let mut monitor = Monitor::new(&received.settings, progress);
+        match self.model.solve(&load_case, &received.settings, start.as_deref(), &mut monitor) {
+            Ok(solution) => {
+                let code = code(solution.status);
+                let certificate = &solution.certificate;
+                // SAFETY: the outputs have the lengths of the header and overlap nothing.
+                unsafe {
+                    d.write(&solution.d);
+                    self.force.part(n * case, n).write(&certificate.force);
+                    self.state.part(pairs * case, pairs).write(&state_codes(&certificate.states));
+                    SignoriniReport::of(code, &solution).write(self.reports.nth(case));
+                    self.extra.write(case, &solution);
+                }
+                (code, solution.message)
+            }
+            Err(error) => {
+                let message = error.to_string();
+                let position = |argument| {
+                    let own = if argument == Argument::Start { START } else { SETTINGS };
+                    self.given.position(argument, own)
+                };
+                (Failure::from_error(error, position).code(), message)
+            }
+        }
+    }
+}

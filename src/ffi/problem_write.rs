@@ -1,0 +1,164 @@
+//! Problems to files, to be mailed and replayed.
+
+use libc::c_char;
+
+use super::args::{self, Arrays, matrix_length, size, text};
+use super::condensed::CondensedArguments;
+use super::guard::{self, Failure};
+use super::model_new::{SignoriniModel, read};
+use super::model_solve::CaseArguments;
+use crate::error::Argument;
+use crate::file;
+use crate::lcp::Lcp;
+use crate::problem::ContactProblem;
+
+/// Writes the problem of signorini_solve to a file, as text that keeps every bit.
+///
+/// The file is a dense matrix in the Matrix Market format: the columns of K, f, gap, friction and
+/// slip0, and comment lines that say so. It appears under its name only when it is complete: it is
+/// written beside its place under a name that ends in .part, then renamed. K must be finite; its
+/// symmetry and definiteness are not checked here.
+///
+/// @param path      name of the file, which is replaced if it exists; bytes as for fopen (UTF-8 on
+///                  Windows)
+/// @param dim       space dimension, 2 or 3
+/// @param pairs     number of contact pairs, 0 allowed
+/// @param K         condensed stiffness, as for signorini_solve
+/// @param ldk       entries from one column of K to the next, at least max(1, N)
+/// @param f         condensed nodal loads, N
+/// @param gap       initial gaps, one for each pair
+/// @param law       SIGNORINI_LAW_..., the friction law of all pairs
+/// @param friction  parameters of the law, pair by pair; may be NULL if frictionless
+/// @param slip0     reference slip, dim - 1 for each pair; NULL: zero
+/// @param remark    one line of UTF-8 for the reader of the file, at most 1000 bytes; may be NULL
+/// @return 0; -k: the k-th argument is wrong; SIGNORINI_STATUS_FILE: the file cannot be written; an
+///         old file is then unchanged
+#[unsafe(no_mangle)]
+#[allow(non_snake_case)] // the names of the mechanics, which the header shows
+pub unsafe extern "C" fn signorini_problem_write(
+    path: *const c_char,
+    dim: i32,
+    pairs: i64,
+    K: *const f64,
+    ldk: i64,
+    f: *const f64,
+    gap: *const f64,
+    law: i32,
+    friction: *const f64,
+    slip0: *const f64,
+    remark: *const c_char,
+) -> i32 {
+    const FIRST: i32 = 2;
+    const REMARK: i32 = FIRST + CondensedArguments::COUNT;
+    let given =
+        CondensedArguments { first: FIRST, dim, pairs, K, ldk, f, gap, law, friction, slip0 };
+    guard::call(|| {
+        // SAFETY: texts and arrays as the header demands.
+        let (path, data, remark) = unsafe {
+            let path = args::path(1, path)?;
+            let data = given.read(&mut Arrays::default())?;
+            (path, data, text(REMARK, "remark", remark)?)
+        };
+        ContactProblem::on_checked_matrix(data)
+            .and_then(|problem| file::write(path, &problem, remark))
+            .map_err(|error| {
+                Failure::from_error(error, |argument| given.position(argument, REMARK))
+            })?;
+        Ok(0)
+    })
+}
+
+/// Writes an LCP, the problem of signorini_lcp_solve or signorini_lcp_lemke, to a file, as
+/// signorini_problem_write does: the columns of M, q and, if given, cover.
+///
+/// @param path    name of the file, which is replaced if it exists
+/// @param n       number of unknowns, 0 allowed
+/// @param M       n columns of n entries, column-major
+/// @param ldm     entries from one column of M to the next, at least max(1, n)
+/// @param q       n
+/// @param cover   covering vector, n positive entries; may be NULL
+/// @param remark  one line of UTF-8 for the reader of the file, at most 1000 bytes; may be NULL
+/// @return as signorini_problem_write
+#[unsafe(no_mangle)]
+#[allow(non_snake_case)] // the name of the mathematics, which the header shows
+pub unsafe extern "C" fn signorini_lcp_write(
+    path: *const c_char,
+    n: i64,
+    M: *const f64,
+    ldm: i64,
+    q: *const f64,
+    cover: *const f64,
+    remark: *const c_char,
+) -> i32 {
+    guard::call(|| {
+        // SAFETY: as the header demands.
+        let (path, remark) = unsafe { (args::path(1, path)?, text(7, "remark", remark)?) };
+        let n = size(2, "n", n)?;
+        let ld = size(4, "ldm", ldm)?;
+        let entries = matrix_length(4, "M", n, ld)?;
+        let mut arrays = Arrays::default();
+        // SAFETY: the lengths are those of the header.
+        let (matrix, q, cover) = unsafe {
+            (
+                arrays.required(3, "M", M, entries)?,
+                arrays.required(5, "q", q, n)?,
+                arrays.optional(6, "cover", cover, n)?,
+            )
+        };
+        Lcp::new(n, matrix, ld, q, cover)
+            .and_then(|lcp| file::write_lcp(path, &lcp, remark))
+            .map_err(|error| {
+                Failure::from_error(error, |argument| match argument {
+                    Argument::Size => 2,
+                    Argument::Matrix => 3,
+                    Argument::LeadingDimension => 4,
+                    Argument::Load => 5,
+                    Argument::Covering => 6,
+                    _ => 7,
+                })
+            })?;
+        Ok(0)
+    })
+}
+
+/// Writes a load case of a model to a file, as signorini_problem_write does: the condensed problem
+/// that signorini_model_solve solves. signorini_solve gives the same d and F for it.
+///
+/// @param model       the model
+/// @param path        name of the file, which is replaced if it exists
+/// @param f           nodal loads of the host, H = signorini_model_host_size entries
+/// @param prescribed  values of the fixed degrees of freedom, in the order of fixed; NULL: zero
+/// @param gap         gaps, one for each pair
+/// @param law         SIGNORINI_LAW_..., the friction law of all pairs
+/// @param friction    parameters of the law, pair by pair; may be NULL if frictionless
+/// @param slip0       reference slip, dim - 1 for each pair; NULL: zero
+/// @param remark      one line of UTF-8 for the reader of the file, at most 1000 bytes; may be NULL
+/// @return as signorini_problem_write
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn signorini_model_write(
+    model: *const SignoriniModel,
+    path: *const c_char,
+    f: *const f64,
+    prescribed: *const f64,
+    gap: *const f64,
+    law: i32,
+    friction: *const f64,
+    slip0: *const f64,
+    remark: *const c_char,
+) -> i32 {
+    const REMARK: i32 = 9;
+    let given = CaseArguments { first: 3, f, prescribed, gap, law, friction, slip0 };
+    guard::call(|| {
+        // SAFETY: a model, arrays and texts as the header demands.
+        let (model, path, case, remark) = unsafe {
+            let model = read(model)?;
+            let path = args::path(2, path)?;
+            let case = given.read(&mut Arrays::default(), model, 1)?.case(0);
+            (model, path, case, text(REMARK, "remark", remark)?)
+        };
+        model.write_case(path, &case, remark).map_err(|error| {
+            Failure::from_error(error, |argument| given.position(argument, REMARK))
+        })?;
+        Ok(0)
+    })
+}

@@ -1,0 +1,110 @@
+//! Condensed contact problems in one call on plain arrays.
+
+use super::args::Arrays;
+use super::condensed::CondensedArguments;
+use super::extra::{Extra, SignoriniExtra};
+use super::guard::{self, Failure};
+use super::report::{SignoriniReport, state_codes};
+use super::settings::SignoriniSettings;
+use super::status::{code, remember};
+use crate::error::Argument;
+use crate::monitor::{Monitor, ProgressFn};
+use crate::problem::ContactProblem;
+use crate::solve::{Status, solve};
+
+/// Solves a contact problem that you have condensed on the N = dim * pairs contact components.
+///
+/// @param dim       space dimension, 2 or 3
+/// @param pairs     number of contact pairs, 0 allowed
+/// @param K         condensed stiffness, N columns of N entries, column-major, both triangles;
+///                  symmetric, positive semi-definite, positive diagonal; force / length
+/// @param ldk       entries from one column of K to the next, at least max(1, N)
+/// @param f         condensed nodal loads, N; force
+/// @param gap       initial gaps, one for each pair; length; negative: interference; +infinity:
+///                  the pair never touches
+/// @param law       SIGNORINI_LAW_..., the friction law of all pairs
+/// @param friction  parameters of the law, pair by pair: mu or g; may be NULL if frictionless
+/// @param slip0     reference slip: the tangential displacement d_t0 at which a sticking pair has no
+///                  motion, dim - 1 for each pair; length; NULL: zero. In load steps hand over the
+///                  d_t of the step before.
+/// @param settings  NULL: the defaults
+/// @param d         out: relative displacements, N; in: the start if settings->warm_start
+/// @param F         out: contact forces, N. They obey the contact law; K d = f + F holds up to
+///                  report->equilibrium.
+/// @param state     out: SIGNORINI_STATE_... of each pair; may be NULL
+/// @param report    out: the measures of the result; set report->struct_size before the call, as
+///                  signorini_report_default does; may be NULL
+/// @param extra     the motion of escape, a second solution; may be NULL
+/// @return 0: solved and certified; > 0: the results are not a solution, SIGNORINI_STATUS_... says
+///         which; -k: the k-th argument is wrong, nothing was written; <= -1000: out of memory or
+///         a defect
+#[unsafe(no_mangle)]
+#[allow(non_snake_case)] // the names of the mechanics, which the header shows
+pub unsafe extern "C" fn signorini_solve(
+    dim: i32,
+    pairs: i64,
+    K: *const f64,
+    ldk: i64,
+    f: *const f64,
+    gap: *const f64,
+    law: i32,
+    friction: *const f64,
+    slip0: *const f64,
+    settings: *const SignoriniSettings,
+    d: *mut f64,
+    F: *mut f64,
+    state: *mut i32,
+    report: *mut SignoriniReport,
+    extra: *const SignoriniExtra,
+) -> i32 {
+    const SETTINGS: i32 = 10;
+    const START: i32 = 11;
+    let given = CondensedArguments { first: 1, dim, pairs, K, ldk, f, gap, law, friction, slip0 };
+    guard::call(|| {
+        let mut arrays = Arrays::default();
+        // SAFETY: arrays of the lengths of the header, structures that begin with their size.
+        let (data, received) =
+            unsafe { (given.read(&mut arrays)?, SignoriniSettings::read(SETTINGS, settings)?) };
+        let (pairs, n) = (data.pairs, data.dim * data.pairs);
+        arrays.structure(SETTINGS, "settings", settings, false)?;
+        let d = arrays.output(START, "d", d, n)?;
+        let force = arrays.output(12, "F", F, n)?;
+        let state = arrays.optional_output(13, "state", state, pairs)?;
+        // SAFETY: as above.
+        let extra = unsafe {
+            SignoriniReport::accept(14, report)?;
+            arrays.structure(14, "report", report.cast_const(), true)?;
+            Extra::read(&mut arrays, 15, extra, (n, pairs, 1))?
+        };
+        arrays.check_overlap()?;
+
+        let from_error = |error| {
+            Failure::from_error(error, |argument| {
+                let own = if argument == Argument::Start { START } else { SETTINGS };
+                given.position(argument, own)
+            })
+        };
+        let problem = ContactProblem::new(data).map_err(from_error)?;
+        // SAFETY: d has n entries, which the caller has filled if it asked for a warm start.
+        let start = received.warm_start.then(|| unsafe { d.read() });
+        let mut progress = received.progress();
+        let progress = progress.as_mut().map(|progress| progress as &mut ProgressFn<'_>);
+        let mut monitor = Monitor::new(&received.settings, progress);
+        let solution = solve(&problem, &received.settings, start.as_deref(), &mut monitor)
+            .map_err(from_error)?;
+
+        let status = code(solution.status);
+        if solution.status != Status::Solved {
+            remember(format_args!("{}", solution.message));
+        }
+        // SAFETY: the outputs have the lengths of the header and overlap nothing.
+        unsafe {
+            d.write(&solution.d);
+            force.write(&solution.certificate.force);
+            state.write(&state_codes(&solution.certificate.states));
+            SignoriniReport::of(status, &solution).write(report);
+            extra.write(0, &solution);
+        }
+        Ok(status)
+    })
+}

@@ -1,0 +1,246 @@
+//! The structures by which a host hands over its sparse matrix and its contact pairs.
+
+use libc::c_void;
+
+use super::args::{Arrays, size};
+use super::guard::Failure;
+use super::structures::whole;
+use crate::error::Error;
+use crate::problem;
+use crate::reduce::{ContactPairs, Indices, SparseMatrix, Triangle};
+
+/// Stored are the entries with row >= column.
+pub const SIGNORINI_TRIANGLE_LOWER: i32 = 0;
+/// Stored are the entries with row <= column.
+pub const SIGNORINI_TRIANGLE_UPPER: i32 = 1;
+/// All entries are stored.
+pub const SIGNORINI_TRIANGLE_FULL: i32 = 2;
+
+/// A sparse symmetric stiffness matrix by columns (CSC). A matrix by rows (CSR) is handed over as its
+/// transpose: rows are called columns, and LOWER is called UPPER. The library only reads it during
+/// the call.
+#[repr(C)]
+pub struct SignoriniSparse {
+    /// sizeof(signorini_sparse).
+    pub struct_size: u32,
+    /// Width of col_start and row: 4 for int32_t, 8 for int64_t.
+    pub index_bytes: i32,
+    /// 0 or 1: the number of the first row and of the first entry. The degrees of freedom in all
+    /// other arguments of the call are counted from it too.
+    pub index_base: i32,
+    /// SIGNORINI_TRIANGLE_..., which entries are stored.
+    pub triangle: i32,
+    /// Number of rows and columns.
+    pub size: i64,
+    /// Number of stored entries.
+    pub nnz: i64,
+    /// Start of each column in row and values, size + 1 entries; the last is index_base + nnz.
+    pub col_start: *const c_void,
+    /// Row of each entry, ascending in each column; nnz entries.
+    pub row: *const c_void,
+    /// The entries, nnz; force / length.
+    pub values: *const f64,
+}
+
+/// Contact pairs: each has a slave node, a point that faces it on other bodies, and a normal. The
+/// point is interpolated between master nodes. The slave's displacement is
+/// u_slave = sum of weight * u_master + n d_n + t d_t (3D: + t1 d_t1 + t2 d_t2),
+/// so that the gap is closed at d_n = gap.
+///
+/// A node is the slave of at most one pair. No master is a slave. A slave may be fixed along an axis
+/// only if its masters are fixed along it too and the axis is its normal or a tangent; along this
+/// axis d and F are zero. The library only reads the structure during the call.
+#[repr(C)]
+pub struct SignoriniPairs {
+    /// sizeof(signorini_pairs).
+    pub struct_size: u32,
+    /// Space dimension, 2 or 3.
+    pub dim: i32,
+    /// Number of pairs.
+    pub count: i64,
+    /// Degrees of freedom of each slave node, dim for each pair, in the order of the axes.
+    pub slaves: *const i64,
+    /// Start of each pair's masters in masters and weights, count + 1 entries, counted from
+    /// index_base. A pair without masters faces a rigid obstacle. NULL: no pair has masters; masters
+    /// and weights must be NULL too.
+    pub master_start: *const i64,
+    /// Degrees of freedom of each master node, dim for each; may be NULL if there are none.
+    pub masters: *const i64,
+    /// Weight of each master node; may be NULL if there are none. The weights of a pair sum to 1;
+    /// negative weights are allowed.
+    pub weights: *const f64,
+    /// Normal of each pair, dim entries, outward from the slave's body, of any length.
+    pub normals: *const f64,
+    /// First tangent of each pair, dim entries; its part along the normal is removed. NULL: chosen.
+    /// 2D: the normal turned by +90 degrees. 3D: t1 = e x n with the axis e that is most across the
+    /// normal. In 3D always t2 = n x t1; signorini_model_frames returns all.
+    pub tangents: *const f64,
+}
+
+impl SignoriniSparse {
+    /// Views the caller's matrix.
+    ///
+    /// # Safety
+    /// The structure and its arrays are as the header demands and live during the call.
+    pub(super) unsafe fn read<'a>(
+        position: i32,
+        pointer: *const Self,
+    ) -> Result<SparseMatrix<'a>, Failure> {
+        let wrong = |message: String| Failure::argument(position, message);
+        // SAFETY: by the caller's contract.
+        let given = unsafe { whole(position, "K", pointer)? };
+        let triangle = match given.triangle {
+            SIGNORINI_TRIANGLE_LOWER => Triangle::Lower,
+            SIGNORINI_TRIANGLE_UPPER => Triangle::Upper,
+            SIGNORINI_TRIANGLE_FULL => Triangle::Full,
+            other => return Err(wrong(format!("K: there is no triangle {other}"))),
+        };
+        let base = i64::from(given.index_base);
+        if base != 0 && base != 1 {
+            return Err(wrong(format!("K: index_base is {base}, it must be 0 or 1")));
+        }
+        let n = size(position, "K: size", given.size)?;
+        let nnz = size(position, "K: nnz", given.nnz)?;
+        let Some(columns) = n.checked_add(1) else {
+            return Err(wrong(format!("K: size is {n}, too large")));
+        };
+        let mut arrays = Arrays::default();
+        // SAFETY: arrays of the lengths and the width that the structure tells.
+        unsafe {
+            let values = arrays.required(position, "K: values", given.values, nnz)?;
+            let mut indices = |name, pointer: *const c_void, length| match given.index_bytes {
+                4 => arrays.required(position, name, pointer.cast(), length).map(Indices::Narrow),
+                8 => arrays.required(position, name, pointer.cast(), length).map(Indices::Wide),
+                other => Err(wrong(format!("K: index_bytes is {other}, it must be 4 or 8"))),
+            };
+            let starts = indices("K: col_start", given.col_start, columns)?;
+            check_ends(&starts, &given).map_err(wrong)?;
+            let rows = indices("K: row", given.row, nnz)?;
+            Ok(SparseMatrix { size: n, starts, rows, values, base, triangle })
+        }
+    }
+}
+
+/// Refuses starts whose first or last one contradicts the other fields: mostly another index base or
+/// width.
+fn check_ends(starts: &Indices<'_>, given: &SignoriniSparse) -> Result<(), String> {
+    let start = |k: usize| match starts {
+        Indices::Narrow(starts) => i64::from(starts[k]),
+        Indices::Wide(starts) => starts[k],
+    };
+    let (base, bytes, nnz) = (given.index_base, given.index_bytes, given.nnz);
+    if start(0) != i64::from(base) {
+        return Err(format!(
+            "K: col_start[0] is {}, it must be index_base, which is {base}; are indices of \
+             {bytes} bytes (index_bytes) right?",
+            start(0)
+        ));
+    }
+    let (n, end) = (given.size, i64::from(base) + nnz);
+    let last = start(n as usize);
+    if last != end {
+        return Err(format!(
+            "K: col_start[{n}], the last one, is {last}, it must be index_base + nnz, which is \
+             {end}; are size ({n}), nnz ({nnz}) and indices of {bytes} bytes (index_bytes) right?"
+        ));
+    }
+    Ok(())
+}
+
+/// Pairs of the caller with degrees of freedom counted from 0.
+pub(super) struct Pairs<'a> {
+    dim: usize,
+    pairs: usize,
+    slaves: Vec<usize>,
+    master_starts: Vec<usize>,
+    masters: Vec<usize>,
+    weights: &'a [f64],
+    normals: &'a [f64],
+    tangents: Option<&'a [f64]>,
+}
+
+impl Pairs<'_> {
+    pub(super) fn view(&self) -> ContactPairs<'_> {
+        ContactPairs {
+            dim: self.dim,
+            pairs: self.pairs,
+            slaves: &self.slaves,
+            master_starts: &self.master_starts,
+            masters: &self.masters,
+            weights: self.weights,
+            normals: self.normals,
+            tangents: self.tangents,
+        }
+    }
+}
+
+impl SignoriniPairs {
+    /// Views the caller's pairs.
+    ///
+    /// # Safety
+    /// The structure and its arrays are as the header demands and live during the call.
+    pub(super) unsafe fn read<'a>(
+        position: i32,
+        pointer: *const Self,
+        base: i64,
+    ) -> Result<Pairs<'a>, Failure> {
+        let refuse = |message: String| Err(Failure::argument(position, message));
+        // SAFETY: by the caller's contract.
+        let given = unsafe { whole(position, "pairs", pointer)? };
+        let wrong = |error: Error| Failure::argument(position, format!("pairs: {error}"));
+        let dim = problem::checked_dim(i64::from(given.dim)).map_err(wrong)?;
+        let count = size(position, "pairs: count", given.count)?;
+        let components = problem::unknowns(dim, count).map_err(wrong)?;
+        let mut arrays = Arrays::default();
+        // SAFETY: arrays of the lengths that the header tells.
+        unsafe {
+            let slaves = arrays.required(position, "slaves", given.slaves, components)?;
+            let slaves = shifted(position, "slaves", slaves, base)?;
+            let starts =
+                arrays.optional(position, "master_start", given.master_start, count + 1)?;
+            let master_starts = match starts {
+                Some(starts) => shifted(position, "master_start", starts, base)?,
+                None if given.masters.is_null() && given.weights.is_null() => vec![0; count + 1],
+                None => {
+                    return refuse(
+                        "pairs: master_start is NULL, but masters or weights is not: set \
+                         master_start, or all three to NULL for rigid obstacles"
+                            .into(),
+                    );
+                }
+            };
+            // The last start gives the lengths of masters and weights; Model::sparse checks the
+            // other starts.
+            let masters = master_starts[count];
+            let Some(entries) = masters.checked_mul(dim) else {
+                return refuse(format!("pairs: {masters} masters are too many"));
+            };
+            let dofs = arrays.required(position, "masters", given.masters, entries)?;
+            Ok(Pairs {
+                dim,
+                pairs: count,
+                slaves,
+                master_starts,
+                masters: shifted(position, "masters", dofs, base)?,
+                weights: arrays.required(position, "weights", given.weights, masters)?,
+                normals: arrays.required(position, "normals", given.normals, components)?,
+                tangents: arrays.optional(position, "tangents", given.tangents, components)?,
+            })
+        }
+    }
+}
+
+/// Numbers counted from `base`, counted from 0.
+pub(super) fn shifted(
+    position: i32,
+    name: &str,
+    values: &[i64],
+    base: i64,
+) -> Result<Vec<usize>, Failure> {
+    let shift = |(i, &value): (usize, &i64)| {
+        value.checked_sub(base).and_then(|value| usize::try_from(value).ok()).ok_or_else(|| {
+            Failure::argument(position, format!("{name}[{i}] is {value}, less than {base}"))
+        })
+    };
+    values.iter().enumerate().map(shift).collect()
+}
