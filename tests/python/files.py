@@ -76,12 +76,13 @@ class Files(unittest.TestCase):
     def test_a_case_of_a_model(self):
         bar = bar_mesh.assemble()
         model = signorini.Model.sparse(bar.matrix, bar.contact, [0, -1], fixed=bar.held)
+        moved = np.linspace(0, 1e-3, len(bar.held))
         for law in ({"mu": 1.0}, {"g": 2.0}, {}):
-            model.write(path("bar.mtx"), bar.load, 0.0, **law, prescribed=1e-3)
+            model.write(path("bar.mtx"), bar.load, 0.0, **law, prescribed=moved)
             found = signorini.read(path("bar.mtx"))
             self.same(model.stiffness, found.K)
-            self.same(model.condensed_load(bar.load, 1e-3), found.f)
-            solved = model.solve(bar.load, 0.0, **law, prescribed=1e-3)
+            self.same(model.condensed_load(bar.load, moved), found.f)
+            solved = model.solve(bar.load, 0.0, **law, prescribed=moved)
             result = found.solve()
             self.assertIs(result.status, Status.SOLVED)
             self.same(solved.d, result.d)

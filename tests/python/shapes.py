@@ -69,7 +69,8 @@ class Refused(unittest.TestCase):
                      0, 0.3, dim=3)
         self.refused(ValueError, ["K has the shape (9, 9)", "dim is 2"], solve, np.eye(9),
                      np.ones(9), 0, 0.3)
-        self.refused(ValueError, "dim is 1: give 2 or 3", solve, K, LOAD, 0, 0.3, dim=1)
+        for dim in (1, 2.0):
+            self.refused(ValueError, f"dim is {dim}: give 2 or 3", solve, K, LOAD, 0, 0.3, dim=dim)
         for part, name in ((np.tril(K), "lower"), (np.triu(K), "upper")):
             self.refused(ValueError, ["K has the shape (4, 4)", f"only its {name} triangle",
                                       "K + K.T"], solve, part, LOAD, 0, 0.3)

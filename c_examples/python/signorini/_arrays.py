@@ -35,7 +35,7 @@ def fit(name, values, shapes, asked, *, cases=None, scalar=False):
         if array.ndim == 2 and array.shape[::-1] in shapes:
             asked += "; the transpose fits"
         raise ValueError(f"{name} has the shape {array.shape}: give {asked}")
-    return np.require(array, np.float64, ["C", "ALIGNED"])
+    return doubles(array)
 
 
 def per_pair(name, values, pairs, cases=None):
@@ -60,6 +60,11 @@ def reals(name, values):
     if array.dtype.kind not in "iuf":
         raise TypeError(f"{name} holds {array.dtype}, not real numbers")
     return array
+
+
+def doubles(array):
+    """Real numbers in the memory layout of the library."""
+    return np.require(array, np.float64, ["C", "ALIGNED"])
 
 
 def integers(name, values):
@@ -98,7 +103,7 @@ def stiffness(name, values):
 
 def pairs_of(name, array, dim):
     """Number of pairs of a condensed matrix."""
-    if dim not in (2, 3):
+    if dim not in (2, 3) or not isinstance(dim, (int, np.integer)):
         raise ValueError(f"dim is {dim!r}: give 2 or 3")
     if len(array) % dim:
         raise ValueError(f"{name} has the shape {array.shape}, and dim is {dim}: give {dim} rows "

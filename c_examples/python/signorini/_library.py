@@ -106,8 +106,8 @@ def check(functions, status, message=None):
 def _open(path):
     end = {"darwin": ".dylib", "win32": ".dll"}.get(sys.platform, ".so")
     name = ("" if sys.platform == "win32" else "lib") + "signorini" + end
-    root = os.path.join(os.path.dirname(os.path.abspath(__file__)), *[os.pardir] * 3)
-    built = os.path.join(root, "target", "release", name)
+    beside = os.path.join(os.path.dirname(__file__), *[os.pardir] * 3, "target", "release", name)
+    built = os.path.abspath(beside)
     named = path or os.environ.get("SIGNORINI_LIBRARY")
     if named:
         places = [os.path.abspath(named)]

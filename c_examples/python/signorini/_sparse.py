@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ._arrays import at, fit, indices, integers, reals
+from ._arrays import at, doubles, fit, indices, integers, reals
 from ._constants import Triangle, chosen
 from ._structures import Pairs, Sparse, sized
 
@@ -13,7 +13,7 @@ class Matrix:
     def __init__(self, K, triangle):
         triangle = chosen("triangle", Triangle, triangle)
         data, rows, starts = _compressed(K)
-        self.values = fit("data of K", data, [np.shape(data)], "numbers")
+        self.values = doubles(reals("data of K", data))
         rows, starts = integers("indices of K", rows), integers("indptr of K", starts)
         if self.values.ndim != 1 or rows.shape != self.values.shape:
             raise ValueError(f"data and indices of K have the shapes {self.values.shape} and "
