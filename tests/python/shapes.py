@@ -61,6 +61,21 @@ class Refused(unittest.TestCase):
         self.refused(ValueError, ["mu and g", "mu for Coulomb", "g for given thresholds"], solve, K,
                      LOAD, 0.0, 0.3, g=1.0)
 
+    def test_nothing(self):
+        model = signorini.Model.condensed(K)
+        for parts, call in (
+            ("K is None", lambda: signorini.solve(None, LOAD, 0.0)),
+            ("f is None", lambda: signorini.solve(K, None, 0.0)),
+            (["gap is None", "each of the 2 pairs"], lambda: signorini.solve(K, LOAD, None)),
+            (["d is None", "shape (4,)"], lambda: signorini.certify(K, LOAD, 0.0, d=None)),
+            ("f is None", lambda: model.solve(None, 0.0)),
+            (["d is None", "shape (4,)"], lambda: model.recover(None)),
+            (["q is None", "each row of M"], lambda: signorini.lcp_solve(np.eye(2), None)),
+            ("slaves is None", lambda: signorini.Model.sparse(SPRINGS, None, [0, -1])),
+            ("normals is None", lambda: signorini.Model.sparse(SPRINGS, [[0, 1]], None)),
+        ):
+            self.refused(TypeError, parts, call)
+
     def test_condensed_matrices(self):
         solve = signorini.solve
         self.refused(ValueError, ["K has the shape (3, 4)", "square"], solve, K[:3], LOAD, 0, 0.3)
@@ -169,6 +184,9 @@ class Refused(unittest.TestCase):
             (ValueError, "search is 'return_second', not one of off, others",
              {"search": "return_second"}),
             (TypeError, "tolerance is 'small'", {"tolerance": "small"}),
+            (ValueError, "max_iterations is 18446744073709551617: give at most",
+             {"max_iterations": 2**64 + 1}),
+            (TypeError, "progress is 3: give a function", {"progress": 3}),
         ):
             self.refused(kind, parts, solve, K, LOAD, 0.0, 0.3, **keywords)
 

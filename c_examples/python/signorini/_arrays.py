@@ -12,14 +12,17 @@ def at(array):
     return None if array is None else array.ctypes.data
 
 
-def fit(name, values, shapes, asked, *, cases=None, scalar=False):
-    """64-bit numbers of one of the shapes, which all mean the last one; None for None.
+def fit(name, values, shapes, asked, *, cases=None, scalar=False, optional=False):
+    """64-bit numbers of one of the shapes, which all mean the last one.
 
     asked: the shapes in words.  scalar: one number for all is fine.  cases: the result has a
-    leading axis of that many; values without one are the same in every case.
+    leading axis of that many; values without one are the same in every case.  optional: None for
+    None.
     """
-    if values is None:
+    if values is None and optional:
         return None
+    if values is None:
+        raise TypeError(f"{name} is None: give {asked}")
     array = reals(name, values)
     lead = () if cases is None else (cases,)
     meant = lead + shapes[-1]
@@ -38,24 +41,26 @@ def fit(name, values, shapes, asked, *, cases=None, scalar=False):
     return doubles(array)
 
 
-def per_pair(name, values, pairs, cases=None):
+def per_pair(name, values, pairs, cases=None, optional=False):
     """One number for each pair."""
     asked = f"one number for each of the {pairs} pairs, shape {(pairs,)}, or one for all"
-    return fit(name, values, [(pairs,)], asked, cases=cases, scalar=True)
+    return fit(name, values, [(pairs,)], asked, cases=cases, scalar=True, optional=optional)
 
 
-def components(name, values, pairs, width, *, cases=None, scalar=False):
+def components(name, values, pairs, width, *, cases=None, scalar=False, optional=False):
     """width numbers for each pair."""
     flat, rows = (pairs * width,), (pairs, width)
     asked = f"the numbers of the {pairs} pairs one pair after the other, shape {flat} or {rows}"
     asked += ", or one for all" if scalar else ""
-    return fit(name, values, [flat, rows], asked, cases=cases, scalar=scalar)
+    return fit(name, values, [flat, rows], asked, cases=cases, scalar=scalar, optional=optional)
 
 
 def reals(name, values):
     """Real numbers of any shape and width."""
     if hasattr(values, "tocsc"):
         raise TypeError(f"{name} is a scipy sparse matrix: give an array, {name}.toarray()")
+    if values is None:
+        raise TypeError(f"{name} is None: give real numbers")
     array = _array(name, values)
     if array.dtype.kind not in "iuf":
         raise TypeError(f"{name} holds {array.dtype}, not real numbers")
@@ -69,6 +74,8 @@ def doubles(array):
 
 def integers(name, values):
     """Integers of any shape and width."""
+    if values is None:
+        raise TypeError(f"{name} is None: give integers")
     array = _array(name, values)
     if array.size == 0:
         array = array.astype(np.int64)

@@ -29,8 +29,13 @@ class Call:
                 setattr(self.settings, name, value)
             except TypeError as error:
                 raise TypeError(f"{name} is {value!r}: {error}") from None
+            # ctypes keeps the last 64 bits of an integer.
+            if name == "max_iterations" and self.settings.max_iterations != value:
+                raise ValueError(f"{name} is {value!r}: give at most {2**63 - 1}")
         self.settings.warm_start = warm_start
         if self.progress is not None:
+            if not callable(self.progress):
+                raise TypeError(f"progress is {self.progress!r}: give a function of a Progress")
             self.settings.progress = Callback(self._tell)
 
     def at(self):

@@ -19,8 +19,8 @@ class _Data:
         self.K, self.law = K, law
         self.f = components("f", f, pairs, self.dim)
         self.gap = per_pair("gap", gap, pairs)
-        self.friction = per_pair(name, friction, pairs)
-        self.slip0 = components("slip0", slip0, pairs, self.dim - 1, scalar=True)
+        self.friction = per_pair(name, friction, pairs, optional=True)
+        self.slip0 = components("slip0", slip0, pairs, self.dim - 1, scalar=True, optional=True)
 
     def arguments(self):
         """dim, pairs, K, ldk, f, gap, law, friction, slip0 of the C calls."""
@@ -42,7 +42,7 @@ def solve(K, f, gap, mu=None, *, g=None, slip0=None, dim=None, start=None, **set
     data = _Data(K, f, gap, mu, g, slip0, dim)
     functions = library()
     call = Call(functions, settings, start is not None)
-    start = components("start", start, data.pairs, data.dim)
+    start = components("start", start, data.pairs, data.dim, optional=True)
     output = Output(1, data.pairs, data.dim, start)
     status, message = check(functions, *call.run(
         functions.solve, *data.arguments(), call.at(), *output.solution(), *output.more()

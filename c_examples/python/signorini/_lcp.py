@@ -40,7 +40,8 @@ def _data(M, q, cover=None):
     M = square("M", M)
     shape = (len(M),)
     asked = f"one number for each row of M, shape {shape}"
-    return M, fit("q", q, [shape], asked), fit("cover", cover, [shape], asked)
+    cover = fit("cover", cover, [shape], asked, optional=True)
+    return M, fit("q", q, [shape], asked), cover
 
 
 def _solve(function, M, q, cover, settings):

@@ -133,7 +133,7 @@ class Model:
         f = reals("f", f)
         cases = len(f) if f.ndim == 2 and f.shape[1] == self.host_size else None
         data = self._case(f, gap, mu, g, slip0, prescribed, cases)
-        start = components("start", start, self.pairs, self.dim, cases=cases)
+        start = components("start", start, self.pairs, self.dim, cases=cases, optional=True)
         call = Call(self._functions, settings, start is not None)
         count = 1 if cases is None else cases
         output = Output(count, self.pairs, self.dim, start)
@@ -168,7 +168,7 @@ class Model:
 
     def recover(self, d, f=None, prescribed=None):
         """Displacements of the host, H, of one case: from its d, N, its loads and its supports."""
-        f, prescribed = self._loads(f, prescribed)
+        f, prescribed = self._loads(f, prescribed, optional=True)
         d = components("d", d, self.pairs, self.dim)
         u = np.zeros(self.host_size)
         self._do("model_recover", at(f), at(prescribed), at(d), at(u))
@@ -181,15 +181,16 @@ class Model:
         self._do("model_nodal_forces", at(F), at(nodal))
         return nodal
 
-    def _loads(self, f, prescribed, cases=None):
+    def _loads(self, f, prescribed, cases=None, optional=False):
         """f and prescribed in the library's layout."""
         shapes, n_fixed = self._host_shapes, self._n_fixed
         asked = "one load for each degree of freedom of the host, shape "
         asked += " or ".join(str(shape) for shape in reversed(shapes))
-        f = fit("f", f, shapes, asked, cases=cases)
+        f = fit("f", f, shapes, asked, cases=cases, optional=optional)
         asked = (f"one value for each of the {n_fixed} fixed degrees of freedom, shape "
                  f"{(n_fixed,)}, or one for all")
-        prescribed = fit("prescribed", prescribed, [(n_fixed,)], asked, cases=cases, scalar=True)
+        prescribed = fit("prescribed", prescribed, [(n_fixed,)], asked, cases=cases, scalar=True,
+                         optional=True)
         return f, prescribed
 
     def _case(self, f, gap, mu, g, slip0, prescribed, cases=None):
@@ -197,8 +198,9 @@ class Model:
         f, prescribed = self._loads(f, prescribed, cases)
         return _Case(
             f, prescribed, per_pair("gap", gap, self.pairs, cases), law,
-            per_pair(name, friction, self.pairs, cases),
-            components("slip0", slip0, self.pairs, self.dim - 1, cases=cases, scalar=True),
+            per_pair(name, friction, self.pairs, cases, optional=True),
+            components("slip0", slip0, self.pairs, self.dim - 1, cases=cases, scalar=True,
+                       optional=True),
         )
 
     def _certify(self, case, d, tolerance):

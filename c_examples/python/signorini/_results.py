@@ -1,6 +1,7 @@
 """What calls return."""
 
 import ctypes
+import numbers
 from collections import namedtuple
 
 import numpy as np
@@ -86,6 +87,8 @@ def certified(functions, function, data, tolerance, d):
 
     data: the arguments before the tolerance.  d: (P, D).
     """
+    if not isinstance(tolerance, numbers.Real):
+        raise TypeError(f"tolerance is {tolerance!r}: give a number")
     F, state, report = np.zeros_like(d), np.zeros(len(d), np.int32), sized(Report)
     status = function(*data, tolerance, at(d), at(F), at(state), ctypes.byref(report))
     status, message = check(functions, status)

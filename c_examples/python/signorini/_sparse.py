@@ -43,7 +43,7 @@ class ContactPairs:
                              f"slave node, shape (pairs, dim), dim 2 or 3")
         self.slaves, (count, dim) = indices(slaves), slaves.shape
         self.normals, self.tangents = (
-            _vectors(name, given, count, dim)
+            _vectors(name, given, count, dim, name == "tangents")
             for name, given in (("normals", normals), ("tangents", tangents))
         )
         self.starts = self.masters = self.weights = None
@@ -102,11 +102,11 @@ def _compressed(K):
                     f"for a condensed matrix use Model.condensed")
 
 
-def _vectors(name, values, count, dim):
+def _vectors(name, values, count, dim, optional):
     asked = f"one vector for each pair, shape {(count, dim)}, or one for all, shape {(dim,)}"
     if values is not None and np.shape(values) == (dim,):
         values = np.broadcast_to(reals(name, values), (count, dim))
-    return fit(name, values, [(count, dim)], asked)
+    return fit(name, values, [(count, dim)], asked, optional=optional)
 
 
 def _one_each(name, lists, count):

@@ -10,7 +10,11 @@ def path_bytes(path):
 
 def remark_bytes(remark):
     """A remark of a problem file, or None."""
-    return None if remark is None else _terminated("remark", remark.encode())
+    if remark is None:
+        return None
+    if not isinstance(remark, str):
+        raise TypeError(f"remark is {remark!r}: give a text of one line")
+    return _terminated("remark", remark.encode())
 
 
 def _terminated(name, text):
