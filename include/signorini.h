@@ -1,578 +1,659 @@
 /*
- * signorini: unilateral contact with Coulomb friction for existing finite-element codes.
+ * signorini: unilateral contact with friction for existing finite-element codes.
  *
- * The problem. For n pairs in dimension D (2 or 3), each with one normal and D - 1 tangential
- * components of a relative displacement d, ordered pair by pair (n, t) or (n, t1, t2):
+ * Sections of this header, in the order of need:
  *
- *     K d = f + F                                               equilibrium
- *     d_n <= gap,  F_n <= 0,  (d_n - gap) F_n = 0               unilateral contact
- *     |F_t| <= mu |F_n|,  d_t = slip            inside the cone Coulomb friction
- *                         d_t - slip = -lambda F_t on it, lambda >= 0
+ *     1  One call            a matrix that you have condensed on the contact components
+ *     2  Your own matrix     a whole sparse matrix with contact pairs, or two condensed bodies
+ *     3  Many load cases     solve, recover, certify
+ *     4  Files               problems written for bug reports and replay
+ *     5  Fine tuning         settings, report, second solutions, LCPs, versions
+ *
+ * The problem. P pairs in dimension D (2 or 3) have N = D P unknowns: a relative displacement d and
+ * a contact force F with one normal and D - 1 tangential components each, ordered pair by pair as
+ * (n, t) or (n, t1, t2).
+ *
+ *     K d = f + F                                        equilibrium
+ *     d_n <= gap,  F_n <= 0,  (d_n - gap) F_n = 0        unilateral contact
+ *     |F_t| <= mu |F_n|  and
+ *         stick:  d_t = slip0                            Coulomb friction
+ *         slip:   d_t - slip0 = -lambda F_t, lambda >= 0, |F_t| = mu |F_n|
  *
  * K is the stiffness matrix condensed on the contact components: symmetric, positive definite or
- * only semi-definite (bodies held by nothing but contact).
- *
- * Ways in. signorini_solve, signorini_tresca and signorini_lcp_solve take plain arrays and do all in
- * one call. A signorini_model reduces what you have once, a condensed matrix, two of them, or your
- * whole sparse matrix with contact pairs, then solves load cases and recovers displacements.
- * signorini_certify measures displacements that you have from elsewhere.
+ * semi-definite (bodies supported by nothing but contact). slip0 is the reference slip: the d_t at
+ * which a sticking pair stays. Other friction laws put another bound on |F_t|: SIGNORINI_LAW_...
  *
  * Signs. n is the outward normal of the body: d_n > 0 moves towards the obstacle, F_n < 0 presses.
- * F is the force that the contact exerts on the body. f and F are nodal forces, not stresses.
- * Example: above a plane, with n = (0, -1) and t = (1, 0), d_n = -u_y and d_t = u_x; loads turn
- * likewise, and of the stiffness the mixed entries K_nt change their sign.
- * Units are yours: any consistent set, and no result depends on it but for its unit.
+ * F is the force of the contact on the body. f and F are nodal forces, not stresses. Example: above
+ * a plane, with n = (0, -1) and t = (1, 0), d_n = -u_y and d_t = u_x. Transform f in the same way;
+ * the mixed entries K_nt change their sign.
  *
- * In a condensed matrix, a component that you hold fixed stays as a decoupled row: zero off the
- * diagonal, positive on it, zero load.
+ * Units are yours: any consistent set. Results scale with them.
  *
- * Arrays are plain, 64-bit floating point, matrices column-major with a leading dimension. NULL is
- * allowed where a parameter says so. What is written to overlaps nothing else. With n = 0 no array
- * is looked at.
+ * A component that you hold fixed stays in a condensed matrix as a decoupled row: zero off the
+ * diagonal, positive on the diagonal, zero load.
+ *
+ * Arguments have one order in all functions: the model or file that the call works on; sizes; the
+ * problem (K, ldk, f, prescribed, gap, law, friction, slip0); settings or tolerance; results (d, F,
+ * state, status); report; extra. A matrix is followed by its leading dimension.
+ *
+ * Arrays are plain and 64-bit floating point; matrices are column-major with a leading dimension.
+ * An argument may be NULL where its description says so, and where the array has no entries. An
+ * array that a call writes must not overlap another array of the call.
  *
  * Status. Every call that computes returns an int32_t:
- *     0          solved, and certified on your data: report.eta <= settings.tolerance
- *     > 0        results were written but are not a solution; SIGNORINI_... says which
+ *
+ *     0          solved and certified on your data: report.eta <= settings.tolerance
+ *     > 0        the results are written but are not a solution: SIGNORINI_STATUS_...
  *     -k         the k-th argument is wrong; nothing was written
  *     <= -1000   out of memory, a file that cannot be read or written, a caught defect
- * signorini_last_error() tells in a sentence what and where; entries count from 0: K[row,column].
  *
- * Files. signorini_problem_save, signorini_model_save_case and the like write a problem to a file
- * that can be mailed; signorini_problem_load gets it back with the same bits.
+ * signorini_last_error() says in a sentence what is wrong and where. Entries count from 0:
+ * K[row,column].
  *
- * The library never prints, exits, reads the environment, installs handlers or starts threads, and
- * it touches no file but the one that such a call names. It keeps your floating-point environment:
- * traps and flush-to-zero are off inside and back on return. Calls from several threads at once are
- * safe. The same input gives the same bits on the same machine.
+ * Threads. Calls from several threads at once are safe, on the same model or problem too, as long
+ * as nobody frees it. The library never prints, exits, reads the environment, installs handlers or
+ * starts threads. It opens only the files that you name. It keeps your floating-point environment:
+ * inside a call traps and flush-to-zero are off; on return they are as before. The same input gives
+ * the same bits on the same machine.
  */
-
 
 #ifndef SIGNORINI_H
 #define SIGNORINI_H
 
 #include <stdint.h>
 
-/**
- * Solved and certified: eta <= tolerance.
- */
-#define SIGNORINI_SOLVED 0
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ============================================================================================
+ * 1  One call
+ *
+ * signorini_solve takes a condensed problem on plain arrays. settings, report and extra may be
+ * NULL; their structures stand in section 5.
+ * ========================================================================================== */
+
+typedef struct signorini_settings signorini_settings;
+typedef struct signorini_report signorini_report;
+typedef struct signorini_extra signorini_extra;
+
+/* Friction law: how large |F_t| may be. */
+/** No friction: F_t = 0. friction may be NULL and is not read. */
+#define SIGNORINI_LAW_FRICTIONLESS 0
+/** Coulomb: |F_t| <= mu |F_n|. friction holds mu >= 0, one for each pair. */
+#define SIGNORINI_LAW_COULOMB 1
+/** Tresca: |F_t| <= g, open or closed. friction holds g >= 0, one for each pair; force. */
+#define SIGNORINI_LAW_TRESCA 2
+
+/* State of a pair. */
+/** The pair is apart: F_n = 0, and F_t = 0 but under Tresca's law. */
+#define SIGNORINI_STATE_OPEN 0
+/** The pair touches and slips: |F_t| is at its bound. Frictionless: every pair that touches. */
+#define SIGNORINI_STATE_SLIP 1
+#define SIGNORINI_STATE_STICK 2 /**< The pair sticks: d_t = slip0. */
 
 /**
- * max_iterations used up; the results are the best iterate so far.
+ * Solves a contact problem that you have condensed on the N = dim * pairs contact components.
+ *
+ * @param dim       space dimension, 2 or 3
+ * @param pairs     number of contact pairs, 0 allowed
+ * @param K         condensed stiffness, N columns of N entries, column-major, both triangles;
+ *                  symmetric, positive semi-definite, positive diagonal; force / length
+ * @param ldk       entries from one column of K to the next, at least max(1, N)
+ * @param f         condensed nodal loads, N; force
+ * @param gap       initial gaps, one for each pair; length; negative: interference; +infinity:
+ *                  the pair never touches
+ * @param law       SIGNORINI_LAW_..., the friction law of all pairs
+ * @param friction  parameters of the law, pair by pair: mu or g; may be NULL if frictionless
+ * @param slip0     reference slip: the tangential displacement d_t0 at which a sticking pair has
+ *                  no motion, dim - 1 for each pair; length; NULL: zero. In load steps hand over
+ *                  the d_t of the step before.
+ * @param settings  NULL: the defaults
+ * @param d         out: relative displacements, N; in: the start if settings->warm_start
+ * @param F         out: contact forces, N. They obey the contact law; K d = f + F holds up to
+ *                  report->equilibrium.
+ * @param state     out: SIGNORINI_STATE_... of each pair; may be NULL
+ * @param report    out: the measures of the result; set report->struct_size before the call, as
+ *                  signorini_report_default does; may be NULL
+ * @param extra     the motion of escape, a second solution; may be NULL
+ * @return 0: solved and certified; > 0: the results are not a solution, SIGNORINI_STATUS_... says
+ *         which; -k: the k-th argument is wrong, nothing was written; <= -1000: out of memory or
+ *         a defect
  */
-#define SIGNORINI_ITERATION_LIMIT 1
+int32_t signorini_solve(int32_t dim, int64_t pairs, const double *K, int64_t ldk, const double *f,
+                        const double *gap, int32_t law, const double *friction, const double *slip0,
+                        const signorini_settings *settings, double *d, double *F, int32_t *state,
+                        signorini_report *report, const signorini_extra *extra);
 
 /**
- * time_limit used up; the results are the best iterate so far.
+ * What was wrong in the last call on this thread, in one sentence, such as "K[12,7] is not
+ * finite". Empty after a call that returned 0.
+ *
+ * @return UTF-8 text of at most 511 bytes, never NULL. It belongs to the calling thread; the next
+ *         call of the library on this thread overwrites it.
  */
-#define SIGNORINI_TIME_LIMIT 2
+const char *signorini_last_error(void);
 
+/* What a call returns, besides -k for a wrong argument. */
+#define SIGNORINI_STATUS_SOLVED 0            /**< Solved and certified: eta <= tolerance. */
+#define SIGNORINI_STATUS_ITERATION_LIMIT 1   /**< max_iterations is used up: best iterate. */
+#define SIGNORINI_STATUS_TIME_LIMIT 2        /**< time_limit is used up: best iterate. */
+#define SIGNORINI_STATUS_CANCELLED 3         /**< The progress callback cancelled: best iterate. */
 /**
- * The progress callback returned nonzero; the results are the best iterate so far.
+ * Proved: no equilibrium exists (LCP: no w, z >= 0 satisfy w = q + M z). extra->motion (LCP: y) is
+ * the proof. d, F, states and counts are those of the last iterate: not a solution.
  */
-#define SIGNORINI_CANCELLED 3
-
-/**
- * Proved: no equilibrium exists. d is the motion of escape (largest component 1), the forces are
- * zero. For a bare complementarity problem: no w, z >= 0 satisfy w = q + M z, and z proves it.
- */
-#define SIGNORINI_NO_EQUILIBRIUM 4
-
+#define SIGNORINI_STATUS_NO_EQUILIBRIUM 4
 /**
  * The method cannot go on (rounding, a cycle, a ray that proves nothing); the results are its best
- * iterate. Of SIGNORINI_METHOD_AUTO: no method found a solution or a proof that there is none.
+ * iterate. With SIGNORINI_METHOD_AUTO: no method found a solution or a proof that there is none.
  */
-#define SIGNORINI_STALLED 5
+#define SIGNORINI_STATUS_STALLED 5
+#define SIGNORINI_STATUS_NOT_A_SOLUTION 6    /**< Certify: the displacements are no solution. */
+#define SIGNORINI_STATUS_INTERNAL -1000 /**< A caught defect of the library: results undefined. */
+#define SIGNORINI_STATUS_OUT_OF_MEMORY -1001 /**< Out of memory: nothing was written. */
+#define SIGNORINI_STATUS_FILE -1002          /**< A file cannot be read or written. */
+
+/** A short description of a status, such as "solved". Static text; never NULL, for any number. */
+const char *signorini_status_string(int32_t status);
+
+/* ============================================================================================
+ * 2  Your own matrix
+ *
+ * A model reduces what you have to the contact pairs, once: your whole sparse matrix, a condensed
+ * matrix, or two of them. Section 3 solves load cases with it.
+ * ========================================================================================== */
+
+/* Which entries of a sparse symmetric matrix are stored. */
+#define SIGNORINI_TRIANGLE_LOWER 0 /**< Stored are the entries with row >= column. */
+#define SIGNORINI_TRIANGLE_UPPER 1 /**< Stored are the entries with row <= column. */
+#define SIGNORINI_TRIANGLE_FULL 2  /**< All entries are stored. */
+
+typedef struct signorini_sparse signorini_sparse;
+typedef struct signorini_pairs signorini_pairs;
 
 /**
- * Of signorini_certify: the displacements are not a solution.
+ * A sparse symmetric stiffness matrix by columns (CSC). Hand over a matrix by rows (CSR) as its
+ * transpose: its rows are the columns here, and its LOWER is UPPER. The library only reads it
+ * during the call.
  */
-#define SIGNORINI_NOT_A_SOLUTION 6
+struct signorini_sparse {
+    uint32_t struct_size; /**< sizeof(signorini_sparse). */
+    int32_t index_bytes;  /**< Width of col_start and row: 4 for int32_t, 8 for int64_t. */
+    /**
+     * 0 or 1: the number of the first row. col_start, row and the degrees of freedom in all other
+     * arguments of the call count from it.
+     */
+    int32_t index_base;
+    int32_t triangle;     /**< Which entries are stored, SIGNORINI_TRIANGLE_... */
+    int64_t size;         /**< Number of rows and columns. */
+    int64_t nnz;          /**< Number of stored entries. */
+    /** Start of each column in row and values, size + 1 entries; the last is index_base + nnz. */
+    const void *col_start;
+    const void *row;      /**< Row of each entry, ascending in each column; nnz entries. */
+    const double *values; /**< The entries, nnz; force / length. */
+};
 
 /**
- * A defect of the library was caught; the results are undefined.
+ * Contact pairs: each has a slave node, a point that faces it on other bodies, and a normal. The
+ * point is interpolated between master nodes. The slave's displacement is
+ * u_slave = sum of weight * u_master + n d_n + t d_t (3D: + t1 d_t1 + t2 d_t2),
+ * so that the gap is closed at d_n = gap.
+ *
+ * A node is the slave of at most one pair. No master is a slave. A slave may be fixed along an
+ * axis only if its masters are fixed along it too and the axis is its normal or a tangent; along
+ * this axis d and F are zero. The library only reads the structure during the call.
  */
-#define SIGNORINI_INTERNAL -1000
+struct signorini_pairs {
+    uint32_t struct_size; /**< sizeof(signorini_pairs). */
+    int32_t dim;          /**< Space dimension, 2 or 3. */
+    int64_t count;        /**< Number of pairs. */
+    /** Degrees of freedom of each slave node, dim for each pair, in the order of the axes. */
+    const int64_t *slaves;
+    /**
+     * Start of each pair's masters in masters and weights, count + 1 entries, counted from
+     * index_base. A pair without masters faces a rigid obstacle. NULL: no pair has masters;
+     * masters and weights must be NULL too.
+     */
+    const int64_t *master_start;
+    /** Degrees of freedom of each master node, dim for each; may be NULL if there are none. */
+    const int64_t *masters;
+    /**
+     * Weight of each master node; may be NULL if there are none. The weights of a pair sum to 1;
+     * negative weights are allowed.
+     */
+    const double *weights;
+    /** Normal of each pair, dim entries, outward from the slave's body, of any length. */
+    const double *normals;
+    /**
+     * First tangent of each pair, dim entries; its part along the normal is removed. NULL: chosen.
+     * 2D: the normal turned by +90 degrees. 3D: t1 = e x n with the axis e that is most across the
+     * normal. In 3D always t2 = n x t1; signorini_model_frames returns all.
+     */
+    const double *tangents;
+};
 
 /**
- * Not enough memory; nothing was written.
- */
-#define SIGNORINI_OUT_OF_MEMORY -1001
-
-/**
- * A file cannot be read or written; signorini_last_error() names it, the line, and what is wrong.
- */
-#define SIGNORINI_FILE -1002
-
-/**
- * Major version of this header.
- */
-#define SIGNORINI_VERSION_MAJOR 0
-
-/**
- * Minor version of this header.
- */
-#define SIGNORINI_VERSION_MINOR 1
-
-/**
- * Patch version of this header.
- */
-#define SIGNORINI_VERSION_PATCH 0
-
-/**
- * Version of the binary interface that this header describes; compare it with
- * signorini_abi_version() after dlopen.
- */
-#define SIGNORINI_ABI_VERSION 1
-
-/**
- * The default: chooses, checks and falls back. Without friction block pivoting, with friction in 2D
- * Newton's method; where these fail Lemke's; in the end, and with friction in 3D, sweeps.
- */
-#define SIGNORINI_METHOD_AUTO 0
-
-/**
- * Coulomb friction as a sequence of Tresca problems, g <- mu |F_n|, each by projected
- * over-relaxed Gauss-Seidel.
- */
-#define SIGNORINI_METHOD_SOR_NESTED 1
-
-/**
- * Projected over-relaxed Gauss-Seidel with the friction threshold updated inside the sweep.
- */
-#define SIGNORINI_METHOD_SOR_DIAGONAL 2
-
-/**
- * Lemke's method, for frictionless contact and for friction in 2D. It ends at a solution for every
- * mu if K is positive definite.
- */
-#define SIGNORINI_METHOD_LEMKE 3
-
-/**
- * Block principal pivoting, for frictionless contact: every mu must be 0.
- */
-#define SIGNORINI_METHOD_PIVOT 4
-
-/**
- * Newton's method on the states of the pairs, in 2D. It may fail, and says so.
- */
-#define SIGNORINI_METHOD_NEWTON 5
-
-/**
- * Of other solutions tell what the solution itself shows. The default.
- */
-#define SIGNORINI_SEARCH_OFF 0
-
-/**
- * Prove that the solution is the only one, or look for a second; 2D. It costs several times the
- * solution.
- */
-#define SIGNORINI_SEARCH_OTHERS 1
-
-/**
- * The same, and return the second solution in the place of the first if there is one.
- */
-#define SIGNORINI_SEARCH_RETURN_SECOND 2
-
-/**
- * A pair is apart: no normal force, and no tangential one but that of signorini_tresca.
- */
-#define SIGNORINI_OPEN 0
-
-/**
- * A pair touches and |F_t| = mu |F_n|: it slides. Every frictionless contact, at rest or not, is of
- * this state.
- */
-#define SIGNORINI_SLIP 1
-
-/**
- * A pair sticks: d_t = slip.
- */
-#define SIGNORINI_STICK 2
-
-/**
- * Whether there are other solutions is not known.
- */
-#define SIGNORINI_NOT_KNOWN 0
-
-/**
- * Proved: the solution is the only one.
- */
-#define SIGNORINI_UNIQUE 1
-
-/**
- * Proved: there are other solutions.
- */
-#define SIGNORINI_SEVERAL 2
-
-/**
- * The method that was tried first ended it.
- */
-#define SIGNORINI_FALLBACK_NONE 0
-
-/**
- * The first method's states repeated in a cycle.
- */
-#define SIGNORINI_FALLBACK_CYCLE 1
-
-/**
- * The first method met a singular system.
- */
-#define SIGNORINI_FALLBACK_SINGULAR 2
-
-/**
- * The first method found a solution of orientation -1, beside which there are others if K is
- * positive definite.
- */
-#define SIGNORINI_FALLBACK_UNSTABLE 3
-
-/**
- * The first method found no accurate solution.
- */
-#define SIGNORINI_FALLBACK_INACCURATE 4
-
-/**
- * Entries with row >= column are stored, by columns (or row <= column, by rows).
- */
-#define SIGNORINI_LOWER 0
-
-/**
- * Entries with row <= column are stored, by columns (or row >= column, by rows).
- */
-#define SIGNORINI_UPPER 1
-
-/**
- * All entries are stored, by columns or by rows.
- */
-#define SIGNORINI_FULL 2
-
-/**
- * A problem of signorini_problem_load is one of signorini_solve.
- */
-#define SIGNORINI_PROBLEM_COULOMB 0
-
-/**
- * A problem of signorini_problem_load is one of signorini_tresca.
- */
-#define SIGNORINI_PROBLEM_TRESCA 1
-
-/**
- * A problem of signorini_problem_load is one of signorini_lcp_solve.
- */
-#define SIGNORINI_PROBLEM_LCP 2
-
-/**
- * A structure, reduced to its contact pairs: what every load case shares. Made by
- * signorini_model_new_..., released by signorini_model_free. It does not change, and every function
- * that takes it const may be called from several threads at once.
+ * A structure that is reduced to its contact pairs: what all load cases share. Made by
+ * signorini_model_new_..., released by signorini_model_free. It does not change: several threads
+ * may use one at once. It holds copies: your arrays may go once the model is made.
  */
 typedef struct signorini_model signorini_model;
 
 /**
- * A problem that was read from a file, by signorini_problem_load; released by
- * signorini_problem_free. It does not change, and several threads may use it at once.
+ * Makes a model of your whole sparse stiffness matrix with contact pairs, for any number of bodies
+ * and contact zones. Bodies that only contact supports are allowed. Loads and displacements of the
+ * host have H = K->size entries.
+ *
+ * @param K        the stiffness matrix of all degrees of freedom, the fixed ones too
+ * @param n_fixed  number of fixed degrees of freedom
+ * @param fixed    the fixed degrees of freedom, counted from K->index_base; may be NULL if n_fixed
+ *                 is 0
+ * @param pairs    the contact pairs
+ * @param model    out: the model; NULL unless 0 is returned
+ * @return 0; -k: the k-th argument is wrong; <= -1000: out of memory or a defect
+ */
+int32_t signorini_model_new_sparse(const signorini_sparse *K, int64_t n_fixed, const int64_t *fixed,
+                                   const signorini_pairs *pairs, signorini_model **model);
+
+/**
+ * Makes a model of a body that you have condensed, on a rigid obstacle: d = u. Loads and
+ * displacements of the host have H = N entries.
+ *
+ * @param dim    space dimension, 2 or 3
+ * @param pairs  number of contact pairs
+ * @param K      condensed stiffness, N = dim * pairs columns, as for signorini_solve
+ * @param ldk    entries from one column to the next, at least max(1, N)
+ * @param model  out: the model; NULL unless 0 is returned
+ * @return 0; -k: the k-th argument is wrong; <= -1000: out of memory or a defect
+ */
+int32_t signorini_model_new_condensed(int32_t dim, int64_t pairs, const double *K, int64_t ldk,
+                                      signorini_model **model);
+
+/**
+ * Makes a model of two bodies that you have condensed on matching contact nodes, each in its own
+ * outward frame: n_B = -n_A and t_B = -t_A, so that d = u_A + u_B. One body may float. A motion
+ * that neither body resists is refused. Loads and displacements of the host are [A; B], H = 2 N
+ * entries.
+ *
+ * @param dim    space dimension, 2 or 3
+ * @param pairs  number of contact pairs
+ * @param K_A    condensed stiffness of body A, N = dim * pairs columns
+ * @param lda    entries from one column to the next, at least max(1, N)
+ * @param K_B    condensed stiffness of body B
+ * @param ldb    entries from one column to the next, at least max(1, N)
+ * @param model  out: the model; NULL unless 0 is returned
+ * @return 0; -k: the k-th argument is wrong; <= -1000: out of memory or a defect
+ */
+int32_t signorini_model_new_two_body(int32_t dim, int64_t pairs, const double *K_A, int64_t lda,
+                                     const double *K_B, int64_t ldb, signorini_model **model);
+
+/** Releases a model. NULL is allowed. */
+void signorini_model_free(signorini_model *model);
+
+/** Space dimension, 2 or 3; -1 if model is NULL. */
+int32_t signorini_model_dim(const signorini_model *model);
+
+/** Number of contact pairs; -1 if model is NULL. */
+int64_t signorini_model_pairs(const signorini_model *model);
+
+/** H, the entries of a load or displacement vector of the host; -1 if model is NULL. */
+int64_t signorini_model_host_size(const signorini_model *model);
+
+/**
+ * Copies the frames of the pairs of a sparse model, to turn d and F to global axes:
+ * vector = n d_n + t d_t (2D) or n d_n + t1 d_t1 + t2 d_t2 (3D). Other models have no frames: they
+ * were condensed in frames of your own.
+ *
+ * @param model   a model of signorini_model_new_sparse
+ * @param frames  out: for each pair the normal, then the tangents, each a unit vector of dim
+ *                entries; dim * dim entries a pair
+ * @return 0; -k: the k-th argument is wrong; -1 too: the model has no frames
+ */
+int32_t signorini_model_frames(const signorini_model *model, double *frames);
+
+/**
+ * Copies the stiffness matrix in relative displacements.
+ *
+ * @param model  the model
+ * @param K      out: N = dim * pairs columns of N entries; leading dimension N
+ * @return 0; -k: the k-th argument is wrong
+ */
+int32_t signorini_model_stiffness(const signorini_model *model, double *K);
+
+/* ============================================================================================
+ * 3  Many load cases
+ * ========================================================================================== */
+
+/**
+ * Solves load cases, one after the other. Every array has a column for each case, without space
+ * between the columns. All cases have the same law. A case that is wrong or not solved does not
+ * stop the others; the d, F, state, report and extra of a wrong case are not written.
+ *
+ * Load steps with friction: in each step hand over as slip0 the d_t of the step before, zero at
+ * first. The model keeps no state.
+ *
+ * @param model       the model
+ * @param cases       number of load cases, 0 allowed
+ * @param f           nodal loads of the host, H = signorini_model_host_size entries a case
+ * @param prescribed  values of the fixed degrees of freedom, in the order of fixed; NULL: zero
+ * @param gap         gaps, one for each pair
+ * @param law         SIGNORINI_LAW_..., the friction law of all pairs
+ * @param friction    parameters of the law, pair by pair: mu or g; may be NULL if frictionless
+ * @param slip0       reference slip, dim - 1 for each pair; NULL: zero
+ * @param settings    NULL: the defaults; a progress callback is called in each case in turn
+ * @param d           out: relative displacements, N = dim * pairs entries a case; in: the starts
+ *                    if settings->warm_start
+ * @param F           out: contact forces, N entries a case
+ * @param state       out: SIGNORINI_STATE_... of each pair; may be NULL
+ * @param status      out: status of each case, as signorini_solve returns it, -k standing for the
+ *                    k-th argument of this call; may be NULL
+ * @param report      out: one for each case; set struct_size in each one before the call; may be
+ *                    NULL
+ * @param extra       the motion of escape, a second solution; may be NULL
+ * @return 0: every case is solved; otherwise the status of the first case that is not, which
+ *         signorini_last_error names; -k: the k-th argument is wrong
+ */
+int32_t signorini_model_solve(const signorini_model *model, int64_t cases, const double *f,
+                              const double *prescribed, const double *gap, int32_t law,
+                              const double *friction, const double *slip0,
+                              const signorini_settings *settings, double *d, double *F,
+                              int32_t *state, int32_t *status, signorini_report *report,
+                              const signorini_extra *extra);
+
+/**
+ * Displacements of the host from the relative ones, for one load case.
+ *
+ * @param model       the model
+ * @param f           nodal loads of the case, H entries; NULL: zero, for the motion of escape
+ * @param prescribed  values of the fixed degrees of freedom; NULL: zero
+ * @param d           relative displacements, N entries
+ * @param u           out: displacements, H entries
+ * @return 0; -k: the k-th argument is wrong
+ */
+int32_t signorini_model_recover(const signorini_model *model, const double *f,
+                                const double *prescribed, const double *d, double *u);
+
+/**
+ * Contact forces as a nodal force vector of the host. Sparse model: F on the slaves, the opposite
+ * on the masters. Two bodies: F on both, each in its own frame. Condensed model: F itself.
+ *
+ * @param model  the model
+ * @param F      contact forces, N entries
+ * @param nodal  out: nodal forces, H entries
+ * @return 0; -k: the k-th argument is wrong
+ */
+int32_t signorini_model_nodal_forces(const signorini_model *model, const double *F, double *nodal);
+
+/**
+ * Relative loads of one load case: the f that signorini_solve takes beside the matrix of
+ * signorini_model_stiffness.
+ *
+ * @param model       the model
+ * @param f           nodal loads of the host, H entries
+ * @param prescribed  values of the fixed degrees of freedom; NULL: zero
+ * @param load        out: relative loads, N entries
+ * @return 0; -k: the k-th argument is wrong
+ */
+int32_t signorini_model_condensed_load(const signorini_model *model, const double *f,
+                                       const double *prescribed, double *load);
+
+/**
+ * Measures relative displacements of any origin on a load case of a model, as signorini_certify
+ * does on a condensed problem.
+ *
+ * @param model       the model
+ * @param f           nodal loads of the host, H = signorini_model_host_size entries
+ * @param prescribed  values of the fixed degrees of freedom, in the order of fixed; NULL: zero
+ * @param gap         gaps, one for each pair
+ * @param law         SIGNORINI_LAW_..., the friction law of all pairs
+ * @param friction    parameters of the law, pair by pair; may be NULL if frictionless
+ * @param slip0       reference slip, dim - 1 for each pair; NULL: zero
+ * @param tolerance   largest eta of a solution, 1e-15 to 0.1
+ * @param d           relative displacements to be measured, N
+ * @param F           out: contact forces, N, as in signorini_certify; may be NULL
+ * @param state       out: SIGNORINI_STATE_... of each pair; may be NULL
+ * @param report      out: the measures; set report->struct_size before the call; may be NULL
+ * @return as signorini_certify
+ */
+int32_t signorini_model_certify(const signorini_model *model, const double *f,
+                                const double *prescribed, const double *gap, int32_t law,
+                                const double *friction, const double *slip0, double tolerance,
+                                const double *d, double *F, int32_t *state,
+                                signorini_report *report);
+
+/**
+ * Measures displacements of any origin, say of another solver, on the data of a condensed contact
+ * problem. The same measure decides whether a result of this library is called solved.
+ *
+ * @param dim        space dimension, 2 or 3
+ * @param pairs      number of contact pairs, 0 allowed
+ * @param K          condensed stiffness, as for signorini_solve
+ * @param ldk        entries from one column of K to the next, at least max(1, N)
+ * @param f          condensed nodal loads, N
+ * @param gap        initial gaps, one for each pair
+ * @param law        SIGNORINI_LAW_..., the friction law of all pairs
+ * @param friction   parameters of the law, pair by pair; may be NULL if frictionless
+ * @param slip0      reference slip, dim - 1 for each pair; NULL: zero
+ * @param tolerance  largest eta of a solution, 1e-15 to 0.1
+ * @param d          relative displacements to be measured, N
+ * @param F          out: the contact forces that obey the contact law and are nearest to K d - f,
+ *                   N; may be NULL
+ * @param state      out: SIGNORINI_STATE_... of each pair; may be NULL
+ * @param report     out: the measures; set report->struct_size before the call; may be NULL
+ * @return 0: d is a solution, report->eta <= tolerance; SIGNORINI_STATUS_NOT_A_SOLUTION: it is
+ *         not; -k: the k-th argument is wrong, nothing was written
+ */
+int32_t signorini_certify(int32_t dim, int64_t pairs, const double *K, int64_t ldk, const double *f,
+                          const double *gap, int32_t law, const double *friction,
+                          const double *slip0, double tolerance, const double *d, double *F,
+                          int32_t *state, signorini_report *report);
+
+/* ============================================================================================
+ * 4  Files
+ *
+ * A problem file holds one problem as text, with the same bits. Mail it with a bug report.
+ * ========================================================================================== */
+
+/**
+ * Writes the problem of signorini_solve to a file, as text that keeps every bit.
+ *
+ * The file is a dense matrix in the Matrix Market format: the columns of K, f, gap, friction and
+ * slip0, and comment lines that say so. It appears under its name only when it is complete: it is
+ * written beside its place under a name that ends in .part, then renamed. K must be finite; its
+ * symmetry and definiteness are not checked here.
+ *
+ * @param path      name of the file, which is replaced if it exists; bytes as for fopen (UTF-8 on
+ *                  Windows)
+ * @param dim       space dimension, 2 or 3
+ * @param pairs     number of contact pairs, 0 allowed
+ * @param K         condensed stiffness, as for signorini_solve
+ * @param ldk       entries from one column of K to the next, at least max(1, N)
+ * @param f         condensed nodal loads, N
+ * @param gap       initial gaps, one for each pair
+ * @param law       SIGNORINI_LAW_..., the friction law of all pairs
+ * @param friction  parameters of the law, pair by pair; may be NULL if frictionless
+ * @param slip0     reference slip, dim - 1 for each pair; NULL: zero
+ * @param remark    one line of UTF-8 for the reader of the file, at most 1000 bytes; may be NULL
+ * @return 0; -k: the k-th argument is wrong; SIGNORINI_STATUS_FILE: the file cannot be written; an
+ *         old file is then unchanged
+ */
+int32_t signorini_problem_write(const char *path, int32_t dim, int64_t pairs, const double *K,
+                                int64_t ldk, const double *f, const double *gap, int32_t law,
+                                const double *friction, const double *slip0, const char *remark);
+
+/**
+ * Writes a load case of a model to a file, as signorini_problem_write does: the condensed problem
+ * that signorini_model_solve solves. signorini_solve gives the same d and F for it.
+ *
+ * @param model       the model
+ * @param path        name of the file, which is replaced if it exists
+ * @param f           nodal loads of the host, H = signorini_model_host_size entries
+ * @param prescribed  values of the fixed degrees of freedom, in the order of fixed; NULL: zero
+ * @param gap         gaps, one for each pair
+ * @param law         SIGNORINI_LAW_..., the friction law of all pairs
+ * @param friction    parameters of the law, pair by pair; may be NULL if frictionless
+ * @param slip0       reference slip, dim - 1 for each pair; NULL: zero
+ * @param remark      one line of UTF-8 for the reader of the file, at most 1000 bytes; may be NULL
+ * @return as signorini_problem_write
+ */
+int32_t signorini_model_write(const signorini_model *model, const char *path, const double *f,
+                              const double *prescribed, const double *gap, int32_t law,
+                              const double *friction, const double *slip0, const char *remark);
+
+/**
+ * Writes an LCP, the problem of signorini_lcp_solve or signorini_lcp_lemke, to a file, as
+ * signorini_problem_write does: the columns of M, q and, if given, cover.
+ *
+ * @param path    name of the file, which is replaced if it exists
+ * @param n       number of unknowns, 0 allowed
+ * @param M       n columns of n entries, column-major
+ * @param ldm     entries from one column of M to the next, at least max(1, n)
+ * @param q       n
+ * @param cover   covering vector, n positive entries; may be NULL
+ * @param remark  one line of UTF-8 for the reader of the file, at most 1000 bytes; may be NULL
+ * @return as signorini_problem_write
+ */
+int32_t signorini_lcp_write(const char *path, int64_t n, const double *M, int64_t ldm,
+                            const double *q, const double *cover, const char *remark);
+
+/* Kind of a problem. */
+#define SIGNORINI_PROBLEM_CONTACT 0 /**< A contact problem, of signorini_solve. */
+/** An LCP, of signorini_lcp_solve or, if it has a covering vector, signorini_lcp_lemke. */
+#define SIGNORINI_PROBLEM_LCP 1
+
+/**
+ * A problem that was read from a file by signorini_problem_read; released by
+ * signorini_problem_free. It does not change: several threads may use one at once. Its arrays live
+ * as long as it does; an array without entries is NULL.
  */
 typedef struct signorini_problem signorini_problem;
 
 /**
- * What a progress callback is told. New fields may follow in later versions.
- */
-typedef struct signorini_progress {
-  /**
-   * Sweeps, pivots or linear systems done.
-   */
-  int64_t iterations;
-  /**
-   * Latest measured eta; infinite before the first measurement.
-   */
-  double eta;
-  /**
-   * Seconds since the call began.
-   */
-  double elapsed;
-} signorini_progress;
-
-/**
- * Called before each sweep, pivot or linear system; a nonzero result cancels the call
- * (SIGNORINI_CANCELLED). It runs on the calling thread in the default floating-point environment. It must return: no
- * longjmp, no exception, and no call of this library.
- */
-typedef int32_t (*signorini_progress_fn)(void *user, const struct signorini_progress *progress);
-
-/**
- * How to solve. Fill it by signorini_settings_default(), then change what you like.
- */
-typedef struct signorini_settings {
-  /**
-   * sizeof(signorini_settings) of the program; later fields than it covers have their defaults.
-   */
-  uint32_t struct_size;
-  /**
-   * SIGNORINI_METHOD_...; default SIGNORINI_METHOD_AUTO.
-   */
-  int32_t method;
-  /**
-   * Solved means eta <= tolerance; 1e-15 to 0.1, default 1e-10.
-   */
-  double tolerance;
-  /**
-   * Over-relaxation factor between 0 and 2; default 0: chosen from the measured rate.
-   */
-  double omega;
-  /**
-   * Damping of the nested method's threshold update, in (0, 1]; default 0: chosen from the
-   * measured rate.
-   */
-  double damping;
-  /**
-   * Most sweeps (SOR), pivots (Lemke) or linear systems (Newton, block pivoting), at least 1;
-   * default 200000.
-   */
-  int64_t max_iterations;
-  /**
-   * Most seconds of wall time; 0, the default, and infinity: no limit.
-   */
-  double time_limit;
-  /**
-   * Nonzero: the method starts from what d holds, Newton's and block pivoting from the states that
-   * it has. Default 0: sweeps start from zero, these two from all pairs in contact and at rest.
-   * Lemke's method does not use a start.
-   */
-  int32_t warm_start;
-  /**
-   * SIGNORINI_SEARCH_...: what to find out about other solutions; default SIGNORINI_SEARCH_OFF.
-   */
-  int32_t search;
-  /**
-   * Called before each sweep, pivot or linear system; default NULL.
-   */
-  signorini_progress_fn progress;
-  /**
-   * Handed to progress; default NULL.
-   */
-  void *user;
-} signorini_settings;
-
-/**
- * How good a result is. Before the call: report.struct_size = sizeof report; all else is written by
- * it. Forces and lengths are in the units of the problem.
- */
-typedef struct signorini_report {
-  /**
-   * sizeof(signorini_report) of the program: no more than that is written.
-   */
-  uint32_t struct_size;
-  /**
-   * What the call returned.
-   */
-  int32_t status;
-  /**
-   * The method that ended it, SIGNORINI_METHOD_...; of signorini_certify 0.
-   */
-  int32_t method;
-  /**
-   * SIGNORINI_NOT_KNOWN, _UNIQUE or _SEVERAL.
-   */
-  int32_t uniqueness;
-  /**
-   * Sweeps, pivots or linear systems, of all methods that were tried.
-   */
-  int64_t iterations;
-  /**
-   * Threshold updates of the nested method.
-   */
-  int64_t outer_iterations;
-  /**
-   * How often Lemke's tableau was computed anew because accuracy was lost.
-   */
-  int64_t refactorisations;
-  /**
-   * Residual of the natural map relative to the forces, without unit; 0 at exact solutions
-   * only.
-   */
-  double eta;
-  /**
-   * Rounding of K d relative to the forces, without unit; beyond 1e-6 nothing is certified.
-   */
-  double rounding;
-  /**
-   * Largest d_n - gap, a length; 0 if none.
-   */
-  double penetration;
-  /**
-   * Largest tensile (positive) normal component of K d - f, a force; 0 if none.
-   */
-  double tension;
-  /**
-   * Largest excess of the tangential part of K d - f over its bound, a force; 0 if none.
-   */
-  double cone_excess;
-  /**
-   * Largest component of K d - f - F, a force.
-   */
-  double equilibrium;
-  /**
-   * Over-relaxation factor at the end; 0 if there is none.
-   */
-  double omega;
-  /**
-   * Damping at the end; 0 if there is none.
-   */
-  double damping;
-  /**
-   * Pairs that are open.
-   */
-  int64_t open;
-  /**
-   * Pairs that slide.
-   */
-  int64_t slip;
-  /**
-   * Pairs that stick.
-   */
-  int64_t stick;
-  /**
-   * Dense factorisations of Newton's method and of block pivoting.
-   */
-  int64_t factorisations;
-  /**
-   * The method that was tried first, SIGNORINI_METHOD_...
-   */
-  int32_t first_method;
-  /**
-   * Why it did not end it, SIGNORINI_FALLBACK_...
-   */
-  int32_t fallback;
-  /**
-   * Sign of the determinant of the system of equations that the states select: +1, or -1 for
-   * an unstable solution, beside which there are at least two others if K is positive definite;
-   * 0 if not known.
-   */
-  int32_t orientation;
-  /**
-   * 0.
-   */
-  int32_t reserved;
-} signorini_report;
-
-/**
- * A sparse symmetric stiffness matrix, by columns or by rows, which is the same.
- */
-typedef struct signorini_sparse {
-  /**
-   * sizeof(signorini_sparse).
-   */
-  uint32_t struct_size;
-  /**
-   * 4 if starts and rows are arrays of int32_t, 8 if of int64_t. Other numbers are int64_t always.
-   */
-  int32_t index_bytes;
-  /**
-   * 0 or 1: what the first row, and the first entry of starts, are called. Degrees of freedom in
-   * other arguments of the same call are counted from it too.
-   */
-  int32_t base;
-  /**
-   * SIGNORINI_LOWER, SIGNORINI_UPPER or SIGNORINI_FULL.
-   */
-  int32_t triangle;
-  /**
-   * Number of rows and columns.
-   */
-  int64_t size;
-  /**
-   * Number of entries.
-   */
-  int64_t entries;
-  /**
-   * Begin of each column in rows and values, and where the last one ends: size + 1.
-   */
-  const void *starts;
-  /**
-   * Row of each entry, ascending in each column.
-   */
-  const void *rows;
-  /**
-   * Entries; force / length.
-   */
-  const double *values;
-} signorini_sparse;
-
-/**
- * Contact pairs: a slave node, the point that faces it, and a normal. The slave's displacement is
- * u_slave = sum of weight * u_master + d_n n + d_t t (+ ...), so that the gap closes at d_n = gap.
- * A node is a slave in one pair at the most, and no master is a slave. A slave may be fixed along an
- * axis only where its masters are fixed too and the axis is its normal or a tangent: along it the
- * pair is held, d and F are zero.
- */
-typedef struct signorini_pairs {
-  /**
-   * sizeof(signorini_pairs).
-   */
-  uint32_t struct_size;
-  /**
-   * Space dimension, 2 or 3.
-   */
-  int32_t dim;
-  /**
-   * Number of pairs.
-   */
-  int64_t pairs;
-  /**
-   * Degrees of freedom of each slave node, dim for each pair, in the order of the axes.
-   */
-  const int64_t *slaves;
-  /**
-   * Begin of each pair's masters in masters and weights, and where the last ones end:
-   * pairs + 1, counted from base. No masters: a rigid obstacle. NULL: no masters at all.
-   */
-  const int64_t *master_starts;
-  /**
-   * Degrees of freedom of each master node, dim for each; NULL if there are none.
-   */
-  const int64_t *masters;
-  /**
-   * Weight of each master node; those of a pair sum to 1; NULL if there are none.
-   */
-  const double *weights;
-  /**
-   * Normal of each pair, dim entries, outward from the slave's body, of any length.
-   */
-  const double *normals;
-  /**
-   * First tangent of each pair, dim entries; NULL: chosen, in 2D the normal turned by +90 degrees.
-   */
-  const double *tangents;
-} signorini_pairs;
-
-#ifdef __cplusplus
-extern "C" {
-#endif // __cplusplus
-
-/**
- * Version of the library, such as "0.1.0". Static; never NULL.
- */
-const char *signorini_version(void);
-
-/**
- * Version of the binary interface of the library. It equals SIGNORINI_ABI_VERSION of the header
- * that a program was compiled with, or the two do not fit.
- */
-int32_t signorini_abi_version(void);
-
-/**
- * A short description of a status, such as "solved". Static; never NULL, whatever the number.
- */
-const char *signorini_status_string(int32_t status);
-
-/**
- * What the last call on this thread found, in one sentence, such as "K[12,7] is not finite":
- * for every status other than 0; empty after a call that returned 0.
+ * Reads a problem from a file. Any file is safe to read: the call returns either a problem or an
+ * error that names the line.
  *
- * @return UTF-8 text of at most 511 bytes that belongs to the library and to the calling thread;
- *         the next call of the library on this thread overwrites it. Never NULL.
+ * @param path     name of the file
+ * @param problem  out: the problem; NULL unless 0 is returned
+ * @return 0; -k: the k-th argument is wrong; SIGNORINI_STATUS_FILE: the file cannot be read, or is
+ *         not a complete problem file; SIGNORINI_STATUS_OUT_OF_MEMORY
  */
-const char *signorini_last_error(void);
+int32_t signorini_problem_read(const char *path, signorini_problem **problem);
+
+/** Releases a problem. NULL is allowed. */
+void signorini_problem_free(signorini_problem *problem);
+
+/** SIGNORINI_PROBLEM_..., the kind of the problem; -1 if problem is NULL. */
+int32_t signorini_problem_kind(const signorini_problem *problem);
+
+/** SIGNORINI_LAW_..., the friction law; -1 of an LCP or if problem is NULL. */
+int32_t signorini_problem_law(const signorini_problem *problem);
+
+/** Space dimension, 2 or 3; 0 of an LCP; -1 if problem is NULL. */
+int32_t signorini_problem_dim(const signorini_problem *problem);
+
+/** Number of contact pairs; 0 of an LCP; -1 if problem is NULL. */
+int64_t signorini_problem_pairs(const signorini_problem *problem);
+
+/** Number of unknowns, N = dim * pairs or n; -1 if problem is NULL. */
+int64_t signorini_problem_size(const signorini_problem *problem);
+
+/** K or M, column-major; its leading dimension is the number of unknowns. */
+const double *signorini_problem_matrix(const signorini_problem *problem);
+
+/** Right-hand side: f or q, one entry for each unknown. */
+const double *signorini_problem_rhs(const signorini_problem *problem);
+
+/** Gaps, one for each pair. */
+const double *signorini_problem_gap(const signorini_problem *problem);
+
+/** Parameters of the friction law, pair by pair: mu or g; NULL if frictionless. */
+const double *signorini_problem_friction(const signorini_problem *problem);
+
+/** Reference slip, dim - 1 for each pair. */
+const double *signorini_problem_slip0(const signorini_problem *problem);
+
+/** Covering vector of an LCP; NULL if the file has none. */
+const double *signorini_problem_cover(const signorini_problem *problem);
+
+/**
+ * The remark of the file, UTF-8; empty if there is none or problem is NULL. It lives as long as
+ * the problem.
+ */
+const char *signorini_problem_remark(const signorini_problem *problem);
+
+/* ============================================================================================
+ * 5  Fine tuning
+ * ========================================================================================== */
+
+/* ---- How to solve -------------------------------------------------------------------------- */
+
+/**
+ * The default: chooses a method, checks its result, and falls back to the next one if it fails.
+ * Without friction: block pivoting, then Lemke's method. With friction in 2D: Newton's method,
+ * then Lemke's. At last, and with friction in 3D: sweeps.
+ */
+#define SIGNORINI_METHOD_AUTO 0
+/** Projected over-relaxed Gauss-Seidel (SOR) on a sequence of Tresca problems, g <- mu |F_n|. */
+#define SIGNORINI_METHOD_SOR_NESTED 1
+/** The same with the threshold updated inside the sweep; not for Tresca's law. */
+#define SIGNORINI_METHOD_SOR_DIAGONAL 2
+/**
+ * Lemke's method, without friction, or with friction in 2D. It ends at a solution for every mu if
+ * K is positive definite.
+ */
+#define SIGNORINI_METHOD_LEMKE 3
+/** Block principal pivoting, for contact without friction. */
+#define SIGNORINI_METHOD_BLOCK_PIVOTING 4
+/** Newton's method on the states of the pairs, in 2D. It may fail; the status says so. */
+#define SIGNORINI_METHOD_NEWTON 5
+
+/** Report only what the solution itself proves about other solutions. The default. */
+#define SIGNORINI_SEARCH_OFF 0
+/** Prove that the solution is unique, or look for a second one; 2D. It costs several solutions. */
+#define SIGNORINI_SEARCH_OTHERS 1
+
+typedef struct signorini_progress signorini_progress;
+
+/** What a progress callback receives. Later versions may add fields at the end. */
+struct signorini_progress {
+    int64_t iterations; /**< Sweeps, pivots or linear systems done. */
+    double eta;         /**< Latest measured eta; infinite before the first measurement. */
+    double elapsed;     /**< Seconds since the call began. */
+};
+
+/**
+ * A progress callback: called before each sweep, pivot or linear system. A nonzero result cancels
+ * the call (SIGNORINI_STATUS_CANCELLED). It runs on the calling thread, in the default
+ * floating-point environment. It must return: no longjmp, no exception; and it must not call this
+ * library.
+ */
+typedef int32_t (*signorini_progress_fn)(void *user, const signorini_progress *progress);
+
+/**
+ * How to solve. Fill it by signorini_settings_default(), then change what you like. The library
+ * only reads it, so that several threads may use one.
+ */
+struct signorini_settings {
+    /** sizeof(signorini_settings) in your program; later fields: defaults. */
+    uint32_t struct_size;
+    int32_t method;                 /**< SIGNORINI_METHOD_...; default SIGNORINI_METHOD_AUTO. */
+    double tolerance; /**< Solved means eta <= tolerance; 1e-15 to 0.1, default 1e-10. */
+    double omega; /**< Over-relaxation factor, 0 to 2; default 0: chosen from the measured rate. */
+    double damping; /**< Damping of the threshold update, to 1; default 0: chosen likewise. */
+    /** Most sweeps, pivots or linear systems, at least 1; default 200000. */
+    int64_t max_iterations;
+    double time_limit; /**< Most seconds of wall time; 0 and infinity: no limit; default 0. */
+    /**
+     * Nonzero: start from what d holds (Newton, block pivoting: from its states). Default 0: start
+     * from d = 0 (Newton, block pivoting: from all pairs sticking). Lemke's method has no start.
+     */
+    int32_t warm_start;
+    int32_t search;                 /**< SIGNORINI_SEARCH_...; default SIGNORINI_SEARCH_OFF. */
+    signorini_progress_fn progress; /**< Progress callback; default NULL. */
+    void *user;                     /**< Passed to progress as its first argument; default NULL. */
+};
 
 /**
  * Fills settings with their defaults and sets struct_size.
@@ -581,504 +662,173 @@ const char *signorini_last_error(void);
  * @param struct_size  sizeof(signorini_settings); no more than that is written
  * @return 0, or -1 or -2 for the argument that is wrong
  */
-int32_t signorini_settings_default(struct signorini_settings *settings, uint32_t struct_size);
+int32_t signorini_settings_default(signorini_settings *settings, uint32_t struct_size);
+
+/* ---- How good the result is ---------------------------------------------------------------- */
+
+#define SIGNORINI_UNIQUENESS_NOT_KNOWN 0 /**< It is not known whether there are other solutions. */
+#define SIGNORINI_UNIQUENESS_UNIQUE 1    /**< Proved: there is no other solution. */
+#define SIGNORINI_UNIQUENESS_SEVERAL 2   /**< Proved: there are other solutions. */
+
+/* Why the first method was abandoned. */
+#define SIGNORINI_FALLBACK_NONE 0       /**< The first method succeeded. */
+#define SIGNORINI_FALLBACK_CYCLE 1      /**< The states of the first method repeated in a cycle. */
+#define SIGNORINI_FALLBACK_SINGULAR 2   /**< The first method met a singular system. */
+/** The first method found an unstable solution (orientation -1). */
+#define SIGNORINI_FALLBACK_UNSTABLE 3
+#define SIGNORINI_FALLBACK_INACCURATE 4 /**< The first method found no accurate solution. */
 
 /**
- * Solves a condensed contact problem with Coulomb friction.
- *
- * N = dim * pairs. Arrays must not overlap.
- *
- * @param dim       space dimension, 2 or 3
- * @param pairs     number of contact pairs, 0 allowed
- * @param K         condensed stiffness, N columns of N entries, column-major, both triangles,
- *                  symmetric, positive semi-definite, positive diagonal; force / length
- * @param ldk       entries from one column of K to the next, at least max(1, N)
- * @param f         condensed nodal loads, N; force
- * @param gap       initial gaps, one for each pair; length; negative: interference, +infinity:
- *                  never touches
- * @param mu        friction coefficients, one for each pair, at least 0
- * @param slip      tangential displacement at which friction is at rest, dim - 1 for each pair;
- *                  length; NULL: zero (total law). The last converged d_t gives the incremental
- *                  law.
- * @param settings  NULL: the defaults
- * @param d         out: relative displacements, N; in: the start if settings->warm_start
- * @param F         out: contact forces, N; they obey the law, and K d = f + F up to
- *                  report->equilibrium
- * @param state     out: SIGNORINI_OPEN, _SLIP or _STICK, one for each pair; NULL: not wanted
- * @param report    out; set report->struct_size before the call; NULL: not wanted
- * @return 0 solved and certified; > 0 results were written but are not a solution; -k the k-th
- *         argument is wrong, nothing was written; <= -1000 internal. signorini_last_error()
- *         tells in words.
+ * How good a result is, and how it was found. Fill it by signorini_report_default() or set
+ * struct_size before the call; the call writes all other fields. Forces and lengths are in the
+ * units of the problem. K d - f is the contact force that d requires.
  */
-int32_t signorini_solve(int32_t dim,
-                        int64_t pairs,
-                        const double *K,
-                        int64_t ldk,
-                        const double *f,
-                        const double *gap,
-                        const double *mu,
-                        const double *slip,
-                        const struct signorini_settings *settings,
-                        double *d,
-                        double *F,
-                        int32_t *state,
-                        struct signorini_report *report);
+struct signorini_report {
+    uint32_t struct_size;     /**< sizeof(signorini_report) in your program; no more is written. */
+    int32_t status;           /**< The status of the result, as the call returns it. */
+    int32_t method; /**< The method that found the result, SIGNORINI_METHOD_...; certify: 0. */
+    int32_t uniqueness;       /**< SIGNORINI_UNIQUENESS_... */
+    int64_t iterations;       /**< Sweeps, pivots or linear systems, of all methods tried. */
+    int64_t outer_iterations; /**< Threshold updates of the nested method. */
+    int64_t refactorisations; /**< How often Lemke's tableau was refactorised to regain accuracy. */
+    /** Residual of the contact law relative to the forces, no unit; 0 at exact solutions only. */
+    double eta;
+    /** Rounding of K d relative to the forces, no unit; above 1e-6 nothing is certified. */
+    double rounding;
+    double penetration;       /**< Largest d_n - gap; length; 0 if none. */
+    double tension; /**< Largest tensile (positive) normal part of K d - f; force; 0 if none. */
+    /** Largest excess of the tangential part of K d - f over its bound; force; 0 if none. */
+    double cone_excess;
+    double equilibrium;       /**< Largest component of K d - f - F; force. */
+    double omega;             /**< Over-relaxation factor at the end; 0 if the method has none. */
+    double damping;           /**< Damping at the end; 0 if the method has none. */
+    int64_t pairs_open;       /**< Pairs of SIGNORINI_STATE_OPEN. */
+    int64_t pairs_slipping;   /**< Pairs of SIGNORINI_STATE_SLIP. */
+    int64_t pairs_sticking;   /**< Pairs of SIGNORINI_STATE_STICK. */
+    int64_t factorisations;   /**< Dense factorisations by Newton's method and block pivoting. */
+    int32_t first_method;     /**< The method that was tried first, SIGNORINI_METHOD_... */
+    int32_t fallback;         /**< Why the first method was abandoned, SIGNORINI_FALLBACK_... */
+    /**
+     * Sign of the determinant of the system of equations that the states select. -1: the solution
+     * is unstable; if K is positive definite, at least two others exist. 0: not known.
+     */
+    int32_t orientation;
+    int32_t second;           /**< 1: a second solution was found, see extra; else 0. */
+};
 
 /**
- * Solves a condensed contact problem with given friction thresholds (Tresca): |F_t| <= g, open or
- * closed.
+ * Fills report with zeros and sets struct_size: a report of no call.
  *
- * The arguments are those of signorini_solve, with g in the place of mu. The method
- * SIGNORINI_METHOD_SOR_DIAGONAL is not for given thresholds.
- *
- * @param dim       space dimension, 2 or 3
- * @param pairs     number of contact pairs, 0 allowed
- * @param K         condensed stiffness, N columns of N entries; force / length
- * @param ldk       entries from one column of K to the next, at least max(1, N)
- * @param f         condensed nodal loads, N; force
- * @param gap       initial gaps, one for each pair; length
- * @param g         friction thresholds, one for each pair, at least 0; force
- * @param slip      tangential displacement at rest, dim - 1 for each pair; length; NULL: zero
- * @param settings  NULL: the defaults
- * @param d         out: relative displacements, N; in: the start if settings->warm_start
- * @param F         out: contact forces, N
- * @param state     out: state of each pair; NULL: not wanted
- * @param report    out; set report->struct_size before the call; NULL: not wanted
- * @return as signorini_solve
+ * @param report       not NULL
+ * @param struct_size  sizeof(signorini_report); no more than that is written
+ * @return 0, or -1 or -2 for the argument that is wrong
  */
-int32_t signorini_tresca(int32_t dim,
-                         int64_t pairs,
-                         const double *K,
-                         int64_t ldk,
-                         const double *f,
-                         const double *gap,
-                         const double *g,
-                         const double *slip,
-                         const struct signorini_settings *settings,
-                         double *d,
-                         double *F,
-                         int32_t *state,
-                         struct signorini_report *report);
+int32_t signorini_report_default(signorini_report *report, uint32_t struct_size);
+
+/* ---- More results -------------------------------------------------------------------------- */
 
 /**
- * Measures displacements of any origin, say of another solver, on the data of a condensed contact
- * problem with Coulomb friction: what decides whether this library calls a result solved.
- *
- * @param dim       space dimension, 2 or 3
- * @param pairs     number of contact pairs, 0 allowed
- * @param K         condensed stiffness, as for signorini_solve
- * @param ldk       entries from one column of K to the next, at least max(1, N)
- * @param f         condensed nodal loads, N
- * @param gap       initial gaps, one for each pair
- * @param mu        friction coefficients, one for each pair
- * @param slip      tangential displacement at rest, dim - 1 for each pair; NULL: zero
- * @param tolerance largest eta of a solution, 1e-15 to 0.1
- * @param d         relative displacements to be measured, N
- * @param F         out: contact forces that obey the law, nearest to K d - f, N; NULL: not wanted
- * @param state     out: state of each pair; NULL: not wanted
- * @param report    out: the measures; set report->struct_size before the call; NULL: not wanted
- * @return 0: d is a solution, report->eta <= tolerance; SIGNORINI_NOT_A_SOLUTION: it is not;
- *         -k the k-th argument is wrong, nothing was written
+ * Results that not every call wants. Fill it by signorini_extra_default(), then set the pointers
+ * of the arrays that you want. Each pointer may be NULL. In signorini_model_solve each array has a
+ * column for each case.
  */
-int32_t signorini_certify(int32_t dim,
-                          int64_t pairs,
-                          const double *K,
-                          int64_t ldk,
-                          const double *f,
-                          const double *gap,
-                          const double *mu,
-                          const double *slip,
-                          double tolerance,
-                          const double *d,
-                          double *F,
-                          int32_t *state,
-                          struct signorini_report *report);
+struct signorini_extra {
+    uint32_t struct_size; /**< sizeof(signorini_extra). */
+    int32_t reserved;     /**< 0. */
+    /**
+     * Out: N entries. With SIGNORINI_STATUS_NO_EQUILIBRIUM the motion of escape r, which proves
+     * the status: K r = 0, and f . r + F . r > 0 for all contact forces F that the law admits. Its
+     * largest component is 1. With every other status zeros.
+     */
+    double *motion;
+    /**
+     * Out: N entries. If report.second is 1, the relative displacements of a second solution,
+     * certified as the first is; otherwise zeros.
+     */
+    double *second_d;
+    /** Out: N entries. Contact forces of the second solution; otherwise zeros. */
+    double *second_F;
+    /** Out: one for each pair. SIGNORINI_STATE_... of the second solution; otherwise zeros. */
+    int32_t *second_state;
+};
 
 /**
- * Solves the linear complementarity problem w = q + M z, w >= 0, z >= 0, w . z = 0.
+ * Fills extra with NULL pointers, so that no array is wanted, and sets struct_size.
  *
- * By default block principal pivoting, which solves most problems with a symmetric positive definite
- * M in a handful of factorisations, then Lemke's method. Arrays must not overlap.
+ * @param extra        not NULL
+ * @param struct_size  sizeof(signorini_extra); no more than that is written
+ * @return 0, or -1 or -2 for the argument that is wrong
+ */
+int32_t signorini_extra_default(signorini_extra *extra, uint32_t struct_size);
+
+/* ---- Linear complementarity problems ------------------------------------------------------- */
+
+/**
+ * Solves a linear complementarity problem (LCP): w = q + M z, w >= 0, z >= 0, w . z = 0.
+ *
+ * The default method is block principal pivoting, then Lemke's method.
  *
  * @param n         number of unknowns, 0 allowed
- * @param M         n columns of n entries, column-major
+ * @param M         any matrix, n columns of n entries, column-major
  * @param ldm       entries from one column of M to the next, at least max(1, n)
  * @param q         n
- * @param settings  NULL: the defaults; method is SIGNORINI_METHOD_AUTO, _PIVOT or _LEMKE; omega,
- *                  damping, warm_start and search, though they must be valid, have no effect
+ * @param settings  NULL: the defaults; method is SIGNORINI_METHOD_AUTO, _BLOCK_PIVOTING or _LEMKE;
+ *                  omega, damping, warm_start and search are checked and have no effect
  * @param w         out: n
- * @param z         out: n; with SIGNORINI_NO_EQUILIBRIUM a y >= 0 with M' y <= 0, q . y < 0
- * @param report    out; set report->struct_size before the call; NULL: not wanted
+ * @param z         out: n
+ * @param y         out: n; with SIGNORINI_STATUS_NO_EQUILIBRIUM the proof that no w, z >= 0
+ *                  satisfy w = q + M z: y >= 0, M' y <= 0, q . y < 0; with every other status
+ *                  zeros; may be NULL
+ * @param report    out: set report->struct_size before the call; may be NULL
  * @return as signorini_solve
  */
-int32_t signorini_lcp_solve(int64_t n,
-                            const double *M,
-                            int64_t ldm,
-                            const double *q,
-                            const struct signorini_settings *settings,
-                            double *w,
-                            double *z,
-                            struct signorini_report *report);
+int32_t signorini_lcp_solve(int64_t n, const double *M, int64_t ldm, const double *q,
+                            const signorini_settings *settings, double *w, double *z, double *y,
+                            signorini_report *report);
 
 /**
- * Solves the linear complementarity problem w = q + M z, w >= 0, z >= 0, w . z = 0 by Lemke's
- * method (lexicographic: it never cycles).
+ * Solves an LCP by Lemke's method (lexicographic: it never cycles).
  *
- * M may be any matrix. If it is positive definite or a P-matrix the problem is solved; if it is
- * positive semi-definite or copositive-plus it is solved, or proved infeasible
- * (SIGNORINI_NO_EQUILIBRIUM); otherwise the method may also end in a ray that proves nothing
- * (SIGNORINI_STALLED). Arrays must not overlap.
+ * M positive definite or a P-matrix: the problem is solved. M positive semi-definite or
+ * copositive-plus: it is solved, or proved infeasible (SIGNORINI_STATUS_NO_EQUILIBRIUM). Any other
+ * M: the method may also end in a ray that proves nothing (SIGNORINI_STATUS_STALLED).
  *
  * @param n         number of unknowns, 0 allowed
- * @param M         n columns of n entries, column-major
+ * @param M         any matrix, n columns of n entries, column-major
  * @param ldm       entries from one column of M to the next, at least max(1, n)
  * @param q         n
  * @param cover     covering vector, n positive entries; NULL: ones
- * @param settings  NULL: the defaults; method, omega, damping, warm_start and search, though they
- *                  must be valid, have no effect
+ * @param settings  NULL: the defaults; method, omega, damping, warm_start and search are checked
+ *                  and have no effect
  * @param w         out: n
- * @param z         out: n; with SIGNORINI_NO_EQUILIBRIUM a y >= 0 with M' y <= 0, q . y < 0
- * @param report    out; set report->struct_size before the call; NULL: not wanted
+ * @param z         out: n
+ * @param y         out: n; the proof of infeasibility, as in signorini_lcp_solve; may be NULL
+ * @param report    out: set report->struct_size before the call; may be NULL
  * @return as signorini_solve
  */
-int32_t signorini_lcp_lemke(int64_t n,
-                            const double *M,
-                            int64_t ldm,
-                            const double *q,
-                            const double *cover,
-                            const struct signorini_settings *settings,
-                            double *w,
-                            double *z,
-                            struct signorini_report *report);
+int32_t signorini_lcp_lemke(int64_t n, const double *M, int64_t ldm, const double *q,
+                            const double *cover, const signorini_settings *settings, double *w,
+                            double *z, double *y, signorini_report *report);
+
+/* ---- Versions ------------------------------------------------------------------------------ */
+
+#define SIGNORINI_VERSION_MAJOR 0 /**< Major version of this header. */
+#define SIGNORINI_VERSION_MINOR 2 /**< Minor version of this header. */
+#define SIGNORINI_VERSION_PATCH 0 /**< Patch version of this header. */
+/** Binary interface of this header; compare it with signorini_abi_version() after dlopen. */
+#define SIGNORINI_ABI_VERSION 2
+
+/** Version of the library, such as "0.2.0". Static text; never NULL. */
+const char *signorini_version(void);
 
 /**
- * Makes a model of a body that the host has condensed, on an obstacle: d = u.
- *
- * @param dim    space dimension, 2 or 3
- * @param pairs  number of contact pairs
- * @param K      condensed stiffness, N = dim * pairs columns, as in signorini_solve; copied
- * @param ldk    entries from one column to the next, at least max(1, N)
- * @param model  out: the model, NULL unless 0 is returned
- * @return 0; -k the k-th argument is wrong; <= -1000 internal
+ * Binary interface of the library. If it differs from the SIGNORINI_ABI_VERSION with which a
+ * program was compiled, the two are incompatible.
  */
-int32_t signorini_model_new_condensed(int32_t dim,
-                                      int64_t pairs,
-                                      const double *K,
-                                      int64_t ldk,
-                                      struct signorini_model **model);
-
-/**
- * Makes a model of two bodies that the host has condensed on matching contact nodes. Each body is
- * in its own outward frame, n_B = -n_A and t_B = -t_A, so that d = u_A + u_B. A motion that neither
- * body resists is refused; one body may float.
- *
- * Loads and displacements of the host are [A; B], 2 N entries.
- *
- * @param dim    space dimension, 2 or 3
- * @param pairs  number of contact pairs
- * @param K_A    condensed stiffness of body A, N = dim * pairs columns; copied
- * @param lda    entries from one column to the next, at least max(1, N)
- * @param K_B    the same of body B
- * @param ldb    the same of body B
- * @param model  out: the model, NULL unless 0 is returned
- * @return 0; -k the k-th argument is wrong; <= -1000 internal
- */
-int32_t signorini_model_new_two_body(int32_t dim,
-                                     int64_t pairs,
-                                     const double *K_A,
-                                     int64_t lda,
-                                     const double *K_B,
-                                     int64_t ldb,
-                                     struct signorini_model **model);
-
-/**
- * Makes a model of the host's whole sparse stiffness matrix with contact pairs, for any number of
- * bodies and zones. Parts that only contact holds are fine.
- *
- * Loads and displacements of the host are K->size entries.
- *
- * @param K       the stiffness matrix, without supports; copied
- * @param fixed   number of degrees of freedom that are held
- * @param dofs    these, counted from K->base; NULL if there are none
- * @param pairs   the contact pairs; copied
- * @param model   out: the model, NULL unless 0 is returned
- * @return 0; -k the k-th argument is wrong; <= -1000 internal
- */
-int32_t signorini_model_new_sparse(const struct signorini_sparse *K,
-                                   int64_t fixed,
-                                   const int64_t *dofs,
-                                   const struct signorini_pairs *pairs,
-                                   struct signorini_model **model);
-
-/**
- * Releases a model. NULL is allowed.
- */
-void signorini_model_free(struct signorini_model *model);
-
-/**
- * Entries of a load or displacement vector of the model's host; -1 if model is NULL.
- */
-int64_t signorini_model_host_size(const struct signorini_model *model);
-
-/**
- * Copies the stiffness matrix in relative displacements, K_rel.
- *
- * @param model  the model
- * @param K      out: N = dim * pairs columns of N entries, without space between them
- * @return 0; -k the k-th argument is wrong
- */
-int32_t signorini_model_stiffness(const struct signorini_model *model, double *K);
-
-/**
- * Solves load cases, one after the other. Case c has its own columns in every array; a NULL status
- * array is not wanted. A case that is wrong or not solved does not stop the others; one that is wrong
- * leaves its d, F, state and report as they were.
- *
- * Friction in load steps: hand over as slip the d_t of the step before (zero at first); all state is
- * in your arrays.
- *
- * @param model       the model
- * @param cases       number of load cases, 0 allowed
- * @param f           nodal loads of the host, H = signorini_model_host_size entries a case
- * @param prescribed  values of the fixed degrees of freedom, in their order, a column a case; NULL:
- *                    zero
- * @param gap         gaps, one for each pair and case
- * @param mu          friction coefficients, one for each pair and case
- * @param slip        tangential displacement at rest, dim - 1 for each pair and case; NULL: zero
- * @param settings    NULL: the defaults; a progress callback is told of each case in turn
- * @param d           out: relative displacements, N = dim * pairs entries a case; in: the starts if
- *                    settings->warm_start
- * @param F           out: contact forces, N entries a case
- * @param state       out: state of each pair, a column a case; NULL: not wanted
- * @param report      out: one for each case; set struct_size in each one before the call; NULL: not
- *                    wanted
- * @param status      out: status of each case, as signorini_solve returns it, -k standing for the
- *                    k-th argument of this call; NULL: not wanted
- * @return 0 if every case is solved; otherwise the status of the first that is not, and
- *         signorini_last_error names it; -k the k-th argument is wrong
- */
-int32_t signorini_model_solve(const struct signorini_model *model,
-                              int64_t cases,
-                              const double *f,
-                              const double *prescribed,
-                              const double *gap,
-                              const double *mu,
-                              const double *slip,
-                              const struct signorini_settings *settings,
-                              double *d,
-                              double *F,
-                              int32_t *state,
-                              struct signorini_report *report,
-                              int32_t *status);
-
-/**
- * Displacements of the host from the relative ones, for one load case.
- *
- * @param model       the model
- * @param f           nodal loads of the case, H entries; NULL: none, for the motion of a case without
- *                    equilibrium
- * @param prescribed  values of the fixed degrees of freedom; NULL: zero
- * @param d           relative displacements, N entries
- * @param u           out: displacements, H entries
- * @return 0; -k the k-th argument is wrong
- */
-int32_t signorini_model_recover(const struct signorini_model *model,
-                                const double *f,
-                                const double *prescribed,
-                                const double *d,
-                                double *u);
-
-/**
- * Contact forces as a nodal force vector of the host: of a sparse model on slaves, and the opposite
- * on masters; of two bodies F on both, each in its own frame; of a condensed one F itself.
- *
- * @param model  the model
- * @param F      contact forces, N entries
- * @param nodal  out: nodal forces, H entries
- * @return 0; -k the k-th argument is wrong
- */
-int32_t signorini_model_nodal_forces(const struct signorini_model *model,
-                                     const double *F,
-                                     double *nodal);
-
-/**
- * Writes the problem of signorini_solve to a file, as text that keeps every bit.
- *
- * The file is of the Matrix Market format, one dense matrix of N rows with comments that say what
- * it is: the columns of K, then f, gap and mu in the normal rows, slip in the tangential rows. It
- * is written beside its place under a name that ends in .part and moved there when it is complete.
- * K must be finite; that it is symmetric and semi-definite is not asked here.
- *
- * @param path    name of the file, which is replaced if it exists; bytes as for fopen (UTF-8 on
- *                Windows)
- * @param dim     space dimension, 2 or 3
- * @param pairs   number of contact pairs, 0 allowed
- * @param K       condensed stiffness, as for signorini_solve
- * @param ldk     entries from one column of K to the next, at least max(1, N)
- * @param f       condensed nodal loads, N
- * @param gap     initial gaps, one for each pair
- * @param mu      friction coefficients, one for each pair
- * @param slip    tangential displacement at rest, dim - 1 for each pair; NULL: zero
- * @param remark  one line of UTF-8 for who reads the file, at most 1000 bytes; NULL: none
- * @return 0; -k the k-th argument is wrong; SIGNORINI_FILE: the file cannot be written, and an old
- *         one is as it was
- */
-int32_t signorini_problem_save(const char *path,
-                               int32_t dim,
-                               int64_t pairs,
-                               const double *K,
-                               int64_t ldk,
-                               const double *f,
-                               const double *gap,
-                               const double *mu,
-                               const double *slip,
-                               const char *remark);
-
-/**
- * Writes the problem of signorini_tresca to a file. The arguments are those of
- * signorini_problem_save, with g in the place of mu.
- *
- * @param path    name of the file, which is replaced if it exists
- * @param dim     space dimension, 2 or 3
- * @param pairs   number of contact pairs, 0 allowed
- * @param K       condensed stiffness, as for signorini_solve
- * @param ldk     entries from one column of K to the next, at least max(1, N)
- * @param f       condensed nodal loads, N
- * @param gap     initial gaps, one for each pair
- * @param g       friction thresholds, one for each pair
- * @param slip    tangential displacement at rest, dim - 1 for each pair; NULL: zero
- * @param remark  one line of UTF-8, at most 1000 bytes; NULL: none
- * @return as signorini_problem_save
- */
-int32_t signorini_tresca_save(const char *path,
-                              int32_t dim,
-                              int64_t pairs,
-                              const double *K,
-                              int64_t ldk,
-                              const double *f,
-                              const double *gap,
-                              const double *g,
-                              const double *slip,
-                              const char *remark);
-
-/**
- * Writes the problem of signorini_lcp_solve or signorini_lcp_lemke to a file, as
- * signorini_problem_save does: the columns of M, then q and, if given, cover.
- *
- * @param path    name of the file, which is replaced if it exists
- * @param n       number of unknowns, 0 allowed
- * @param M       n columns of n entries, column-major
- * @param ldm     entries from one column of M to the next, at least max(1, n)
- * @param q       n
- * @param cover   covering vector, n positive entries; NULL: none
- * @param remark  one line of UTF-8, at most 1000 bytes; NULL: none
- * @return as signorini_problem_save
- */
-int32_t signorini_lcp_save(const char *path,
-                           int64_t n,
-                           const double *M,
-                           int64_t ldm,
-                           const double *q,
-                           const double *cover,
-                           const char *remark);
-
-/**
- * Writes the condensed problem that signorini_model_solve solves for a load case to a file, as
- * signorini_problem_save does. signorini_solve gives the same d and F for it.
- *
- * @param model       the model
- * @param path        name of the file, which is replaced if it exists
- * @param f           nodal loads of the host, H = signorini_model_host_size entries
- * @param prescribed  values of the fixed degrees of freedom, in their order; NULL: zero
- * @param gap         gaps, one for each pair
- * @param mu          friction coefficients, one for each pair
- * @param slip        tangential displacement at rest, dim - 1 for each pair; NULL: zero
- * @param remark      one line of UTF-8, at most 1000 bytes; NULL: none
- * @return as signorini_problem_save
- */
-int32_t signorini_model_save_case(const struct signorini_model *model,
-                                  const char *path,
-                                  const double *f,
-                                  const double *prescribed,
-                                  const double *gap,
-                                  const double *mu,
-                                  const double *slip,
-                                  const char *remark);
-
-/**
- * Reads a problem from a file. Whatever the file holds, the call ends with a problem or with a
- * sentence that names the line.
- *
- * @param path     name of the file
- * @param problem  out: the problem, NULL unless 0 is returned
- * @return 0; -k the k-th argument is wrong; SIGNORINI_FILE: the file cannot be read, or is not a
- *         complete problem file; SIGNORINI_OUT_OF_MEMORY
- */
-int32_t signorini_problem_load(const char *path, struct signorini_problem **problem);
-
-/**
- * Releases a problem. NULL is allowed.
- */
-void signorini_problem_free(struct signorini_problem *problem);
-
-/**
- * What kind of problem it is: SIGNORINI_PROBLEM_...; -1 if problem is NULL.
- */
-int32_t signorini_problem_kind(const struct signorini_problem *problem);
-
-/**
- * Space dimension, 2 or 3; 0 of a bare complementarity problem; -1 if problem is NULL.
- */
-int32_t signorini_problem_dim(const struct signorini_problem *problem);
-
-/**
- * Number of contact pairs; 0 of a bare complementarity problem; -1 if problem is NULL.
- */
-int64_t signorini_problem_pairs(const struct signorini_problem *problem);
-
-/**
- * Number of unknowns, N = dim * pairs or n; -1 if problem is NULL.
- */
-int64_t signorini_problem_size(const struct signorini_problem *problem);
-
-/**
- * K or M: as many columns as unknowns, without space between them. This and the other arrays of a
- * problem are valid until signorini_problem_free, and NULL if they have no entries.
- */
-const double *signorini_problem_matrix(const struct signorini_problem *problem);
-
-/**
- * f or q.
- */
-const double *signorini_problem_vector(const struct signorini_problem *problem);
-
-/**
- * Gaps, one for each pair.
- */
-const double *signorini_problem_gap(const struct signorini_problem *problem);
-
-/**
- * mu, or g of SIGNORINI_PROBLEM_TRESCA, one for each pair.
- */
-const double *signorini_problem_friction(const struct signorini_problem *problem);
-
-/**
- * Tangential displacement at rest, dim - 1 for each pair.
- */
-const double *signorini_problem_slip(const struct signorini_problem *problem);
-
-/**
- * Covering vector of a bare complementarity problem; NULL: none.
- */
-const double *signorini_problem_cover(const struct signorini_problem *problem);
-
-/**
- * The remark of who wrote the file, UTF-8; empty if there is none or problem is NULL.
- */
-const char *signorini_problem_remark(const struct signorini_problem *problem);
+int32_t signorini_abi_version(void);
 
 #ifdef __cplusplus
-}  // extern "C"
-#endif  // __cplusplus
+} /* extern "C" */
+#endif
 
-#endif  /* SIGNORINI_H */
+#endif /* SIGNORINI_H */

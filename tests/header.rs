@@ -1,30 +1,57 @@
-//! include/signorini.h is what cbindgen makes of src/ffi.
+//! include/signorini.h is what cbindgen makes of src/ffi, in the order of include/layout.txt.
 
+#[path = "header/items.rs"]
+mod items;
+#[path = "header/layout.rs"]
+mod layout;
+
+use std::fs;
 use std::path::Path;
 
 /// Fails when the committed header is stale; `SIGNORINI_BLESS=1 cargo test --test header` renews it.
 #[test]
 fn header_is_fresh() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let config = cbindgen::Config::from_file(root.join("include/cbindgen.toml")).unwrap();
-    let mut fresh = Vec::new();
-    let mut builder = cbindgen::Builder::new().with_config(config);
-    // In the order in which a reader needs them.
-    for file in [
-        "status", "settings", "report", "flat", "check", "lcp", "host", "model", "cases", "save",
-        "load",
-    ] {
-        builder = builder.with_src(root.join(format!("src/ffi/{file}.rs")));
-    }
-    builder.generate().unwrap().write(&mut fresh);
-    let fresh = String::from_utf8(fresh).unwrap();
-    let path = root.join("include/signorini.h");
+    let fresh = fresh();
+    let path = root().join("include/signorini.h");
     if std::env::var_os("SIGNORINI_BLESS").is_some() {
-        std::fs::write(&path, &fresh).unwrap();
+        fs::write(&path, &fresh).unwrap();
     }
-    let committed = std::fs::read_to_string(&path).unwrap_or_default();
+    let committed = fs::read_to_string(&path).unwrap_or_default();
     assert!(
         committed == fresh,
         "include/signorini.h is stale: run SIGNORINI_BLESS=1 cargo test --release --test header"
     );
+}
+
+#[test]
+fn no_line_is_longer_than_a_hundred_columns() {
+    for (i, line) in fresh().lines().enumerate() {
+        assert!(line.len() <= 100, "line {} of the header: {line}", i + 1);
+        assert!(line.is_ascii() && line.trim_end() == line, "line {}: {line}", i + 1);
+    }
+}
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+fn fresh() -> String {
+    let config = cbindgen::Config::from_file(root().join("include/cbindgen.toml")).unwrap();
+    let mut builder = cbindgen::Builder::new().with_config(config);
+    let mut sources: Vec<_> =
+        fs::read_dir(root().join("src/ffi")).unwrap().map(|entry| entry.unwrap().path()).collect();
+    sources.sort();
+    for source in sources {
+        // The entries of Fortran 77 have a reference of their own, include/signorini.inc.
+        if source.extension().is_some_and(|extension| extension == "rs")
+            && !source.ends_with("fortran.rs")
+        {
+            builder = builder.with_src(source);
+        }
+    }
+    let mut output = Vec::new();
+    builder.generate().unwrap().write(&mut output);
+    let items = items::cut(std::str::from_utf8(&output).unwrap());
+    let layout = fs::read_to_string(root().join("include/layout.txt")).unwrap();
+    layout::arrange(&layout, items)
 }

@@ -17,8 +17,8 @@ pub struct SignoriniExtra {
     pub struct_size: u32,
     /// 0.
     pub reserved: i32,
-    /// Out: N entries. With SIGNORINI_STATUS_NO_EQUILIBRIUM the motion of escape r, which proves the
-    /// status: K r = 0, and f . r + F . r > 0 for all contact forces F that the law admits. Its
+    /// Out: N entries. With SIGNORINI_STATUS_NO_EQUILIBRIUM the motion of escape r, which proves
+    /// the status: K r = 0, and f . r + F . r > 0 for all contact forces F that the law admits. Its
     /// largest component is 1. With every other status zeros.
     pub motion: *mut f64,
     /// Out: N entries. If report.second is 1, the relative displacements of a second solution,

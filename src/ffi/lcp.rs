@@ -23,9 +23,9 @@ use crate::solve::{Status, solve_lcp};
 ///                  omega, damping, warm_start and search are checked and have no effect
 /// @param w         out: n
 /// @param z         out: n
-/// @param y         out: n; with SIGNORINI_STATUS_NO_EQUILIBRIUM the proof that no w, z >= 0 satisfy
-///                  w = q + M z: y >= 0, M' y <= 0, q . y < 0; with every other status zeros; may be
-///                  NULL
+/// @param y         out: n; with SIGNORINI_STATUS_NO_EQUILIBRIUM the proof that no w, z >= 0
+///                  satisfy w = q + M z: y >= 0, M' y <= 0, q . y < 0; with every other status
+///                  zeros; may be NULL
 /// @param report    out: set report->struct_size before the call; may be NULL
 /// @return as signorini_solve
 #[unsafe(no_mangle)]

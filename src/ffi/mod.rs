@@ -4,8 +4,8 @@
 //! stops panics; [`args`] turns pointers into slices after checking them; nothing is written before
 //! every argument has been accepted.
 
-// Pointer requirements are documented for each @param, where a C programmer reads them. Plain arrays
-// make long parameter lists.
+// Pointer requirements are documented for each @param, where a C programmer reads them. Plain
+// arrays make long parameter lists.
 #![allow(clippy::missing_safety_doc, clippy::too_many_arguments)]
 
 mod args;

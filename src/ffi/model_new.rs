@@ -47,8 +47,9 @@ pub unsafe extern "C" fn signorini_model_new_condensed(
 }
 
 /// Makes a model of two bodies that you have condensed on matching contact nodes, each in its own
-/// outward frame: n_B = -n_A and t_B = -t_A, so that d = u_A + u_B. One body may float. A motion that
-/// neither body resists is refused. Loads and displacements of the host are [A; B], H = 2 N entries.
+/// outward frame: n_B = -n_A and t_B = -t_A, so that d = u_A + u_B. One body may float. A motion
+/// that neither body resists is refused. Loads and displacements of the host are [A; B], H = 2 N
+/// entries.
 ///
 /// @param dim    space dimension, 2 or 3
 /// @param pairs  number of contact pairs

@@ -1,4 +1,5 @@
-//! From relative displacements and contact forces back to the host, and what a load case condenses to.
+//! From relative displacements and contact forces back to the host, and what a load case condenses
+//! to.
 
 use super::args::Arrays;
 use super::guard::{self, Failure};

@@ -32,8 +32,8 @@ const START: i32 = 10;
 /// @param friction    parameters of the law, pair by pair: mu or g; may be NULL if frictionless
 /// @param slip0       reference slip, dim - 1 for each pair; NULL: zero
 /// @param settings    NULL: the defaults; a progress callback is called in each case in turn
-/// @param d           out: relative displacements, N = dim * pairs entries a case; in: the starts if
-///                    settings->warm_start
+/// @param d           out: relative displacements, N = dim * pairs entries a case; in: the starts
+///                    if settings->warm_start
 /// @param F           out: contact forces, N entries a case
 /// @param state       out: SIGNORINI_STATE_... of each pair; may be NULL
 /// @param status      out: status of each case, as signorini_solve returns it, -k standing for the

@@ -11,7 +11,7 @@ use crate::solve::{Fallback, LcpSolution, Solution, Uniqueness};
 
 /// The pair is apart: F_n = 0, and F_t = 0 but under Tresca's law.
 pub const SIGNORINI_STATE_OPEN: i32 = 0;
-/// The pair touches and slips: |F_t| is at its bound. Frictionless pairs that touch are of this state.
+/// The pair touches and slips: |F_t| is at its bound. Frictionless: every pair that touches.
 pub const SIGNORINI_STATE_SLIP: i32 = 1;
 /// The pair sticks: d_t = slip0.
 pub const SIGNORINI_STATE_STICK: i32 = 2;
@@ -40,29 +40,29 @@ pub const SIGNORINI_FALLBACK_INACCURATE: i32 = 4;
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct SignoriniReport {
-    /// sizeof(signorini_report) in your program; no more than that is written.
+    /// sizeof(signorini_report) in your program; no more is written.
     pub struct_size: u32,
     /// The status of the result, as the call returns it.
     pub status: i32,
-    /// SIGNORINI_METHOD_..., the method that found the result; 0 of a certify call.
+    /// The method that found the result, SIGNORINI_METHOD_...; certify: 0.
     pub method: i32,
     /// SIGNORINI_UNIQUENESS_...
     pub uniqueness: i32,
-    /// Sweeps, pivots or linear systems, of all methods that were tried.
+    /// Sweeps, pivots or linear systems, of all methods tried.
     pub iterations: i64,
     /// Threshold updates of the nested method.
     pub outer_iterations: i64,
-    /// How often Lemke's tableau was factorised anew because accuracy was lost.
+    /// How often Lemke's tableau was refactorised to regain accuracy.
     pub refactorisations: i64,
     /// Residual of the contact law relative to the forces, no unit; 0 at exact solutions only.
     pub eta: f64,
     /// Rounding of K d relative to the forces, no unit; above 1e-6 nothing is certified.
     pub rounding: f64,
-    /// Largest d_n - gap; length; 0 if there is no penetration.
+    /// Largest d_n - gap; length; 0 if none.
     pub penetration: f64,
-    /// Largest positive (tensile) normal component of K d - f; force; 0 if there is none.
+    /// Largest tensile (positive) normal part of K d - f; force; 0 if none.
     pub tension: f64,
-    /// Largest excess of the tangential part of K d - f over its bound; force; 0 if there is none.
+    /// Largest excess of the tangential part of K d - f over its bound; force; 0 if none.
     pub cone_excess: f64,
     /// Largest component of K d - f - F; force.
     pub equilibrium: f64,
@@ -76,16 +76,16 @@ pub struct SignoriniReport {
     pub pairs_slipping: i64,
     /// Pairs of SIGNORINI_STATE_STICK.
     pub pairs_sticking: i64,
-    /// Dense factorisations of Newton's method and of block pivoting.
+    /// Dense factorisations by Newton's method and block pivoting.
     pub factorisations: i64,
-    /// SIGNORINI_METHOD_..., the method that was tried first.
+    /// The method that was tried first, SIGNORINI_METHOD_...
     pub first_method: i32,
-    /// SIGNORINI_FALLBACK_..., why the first method was abandoned.
+    /// Why the first method was abandoned, SIGNORINI_FALLBACK_...
     pub fallback: i32,
-    /// +1: stable; -1: unstable, and at least two other solutions exist if K is positive definite;
-    /// 0: not known. It is the sign of the determinant of the system that the states select.
+    /// Sign of the determinant of the system of equations that the states select. -1: the solution
+    /// is unstable; if K is positive definite, at least two others exist. 0: not known.
     pub orientation: i32,
-    /// 1: there is a second solution, and the arrays of extra hold it; otherwise 0.
+    /// 1: a second solution was found, see extra; else 0.
     pub second: i32,
 }
 

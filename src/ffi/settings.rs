@@ -9,15 +9,15 @@ use crate::monitor::Progress;
 use crate::settings::{Method, Search, Settings};
 
 /// The default: chooses a method, checks its result, and falls back to the next one if it fails.
-/// Without friction: block pivoting, then Lemke's method. With friction in 2D: Newton's method, then
-/// Lemke's. At last, and with friction in 3D: sweeps.
+/// Without friction: block pivoting, then Lemke's method. With friction in 2D: Newton's method,
+/// then Lemke's. At last, and with friction in 3D: sweeps.
 pub const SIGNORINI_METHOD_AUTO: i32 = 0;
 /// Projected over-relaxed Gauss-Seidel (SOR) on a sequence of Tresca problems, g <- mu |F_n|.
 pub const SIGNORINI_METHOD_SOR_NESTED: i32 = 1;
 /// The same with the threshold updated inside the sweep; not for Tresca's law.
 pub const SIGNORINI_METHOD_SOR_DIAGONAL: i32 = 2;
-/// Lemke's method, without friction, or with friction in 2D. It ends at a solution for every mu if K
-/// is positive definite.
+/// Lemke's method, without friction, or with friction in 2D. It ends at a solution for every mu if
+/// K is positive definite.
 pub const SIGNORINI_METHOD_LEMKE: i32 = 3;
 /// Block principal pivoting, for contact without friction.
 pub const SIGNORINI_METHOD_BLOCK_PIVOTING: i32 = 4;
@@ -52,24 +52,24 @@ pub type SignoriniProgressFn =
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct SignoriniSettings {
-    /// sizeof(signorini_settings) in your program; fields beyond it have their defaults.
+    /// sizeof(signorini_settings) in your program; later fields: defaults.
     pub struct_size: u32,
     /// SIGNORINI_METHOD_...; default SIGNORINI_METHOD_AUTO.
     pub method: i32,
-    /// A result is solved if eta <= tolerance; 1e-15 to 0.1, default 1e-10.
+    /// Solved means eta <= tolerance; 1e-15 to 0.1, default 1e-10.
     pub tolerance: f64,
-    /// Over-relaxation factor between 0 and 2; default 0: chosen from the measured rate.
+    /// Over-relaxation factor, 0 to 2; default 0: chosen from the measured rate.
     pub omega: f64,
-    /// Damping of the threshold update, in (0, 1]; default 0: chosen from the measured rate.
+    /// Damping of the threshold update, to 1; default 0: chosen likewise.
     pub damping: f64,
     /// Most sweeps, pivots or linear systems, at least 1; default 200000.
     pub max_iterations: i64,
-    /// Most seconds of wall time; 0 (the default) and infinity: no limit.
+    /// Most seconds of wall time; 0 and infinity: no limit; default 0.
     pub time_limit: f64,
     /// Nonzero: start from what d holds (Newton, block pivoting: from its states). Default 0: start
     /// from d = 0 (Newton, block pivoting: from all pairs sticking). Lemke's method has no start.
     pub warm_start: i32,
-    /// SIGNORINI_SEARCH_...: whether to look for other solutions; default SIGNORINI_SEARCH_OFF.
+    /// SIGNORINI_SEARCH_...; default SIGNORINI_SEARCH_OFF.
     pub search: i32,
     /// Progress callback; default NULL.
     pub progress: SignoriniProgressFn,

@@ -24,9 +24,9 @@ use crate::solve::{Status, solve};
 ///                  the pair never touches
 /// @param law       SIGNORINI_LAW_..., the friction law of all pairs
 /// @param friction  parameters of the law, pair by pair: mu or g; may be NULL if frictionless
-/// @param slip0     reference slip: the tangential displacement d_t0 at which a sticking pair has no
-///                  motion, dim - 1 for each pair; length; NULL: zero. In load steps hand over the
-///                  d_t of the step before.
+/// @param slip0     reference slip: the tangential displacement d_t0 at which a sticking pair has
+///                  no motion, dim - 1 for each pair; length; NULL: zero. In load steps hand over
+///                  the d_t of the step before.
 /// @param settings  NULL: the defaults
 /// @param d         out: relative displacements, N; in: the start if settings->warm_start
 /// @param F         out: contact forces, N. They obey the contact law; K d = f + F holds up to

@@ -16,19 +16,19 @@ pub const SIGNORINI_TRIANGLE_UPPER: i32 = 1;
 /// All entries are stored.
 pub const SIGNORINI_TRIANGLE_FULL: i32 = 2;
 
-/// A sparse symmetric stiffness matrix by columns (CSC). A matrix by rows (CSR) is handed over as its
-/// transpose: rows are called columns, and LOWER is called UPPER. The library only reads it during
-/// the call.
+/// A sparse symmetric stiffness matrix by columns (CSC). Hand over a matrix by rows (CSR) as its
+/// transpose: its rows are the columns here, and its LOWER is UPPER. The library only reads it
+/// during the call.
 #[repr(C)]
 pub struct SignoriniSparse {
     /// sizeof(signorini_sparse).
     pub struct_size: u32,
     /// Width of col_start and row: 4 for int32_t, 8 for int64_t.
     pub index_bytes: i32,
-    /// 0 or 1: the number of the first row and of the first entry. The degrees of freedom in all
-    /// other arguments of the call are counted from it too.
+    /// 0 or 1: the number of the first row. col_start, row and the degrees of freedom in all other
+    /// arguments of the call count from it.
     pub index_base: i32,
-    /// SIGNORINI_TRIANGLE_..., which entries are stored.
+    /// Which entries are stored, SIGNORINI_TRIANGLE_...
     pub triangle: i32,
     /// Number of rows and columns.
     pub size: i64,
@@ -47,9 +47,9 @@ pub struct SignoriniSparse {
 /// u_slave = sum of weight * u_master + n d_n + t d_t (3D: + t1 d_t1 + t2 d_t2),
 /// so that the gap is closed at d_n = gap.
 ///
-/// A node is the slave of at most one pair. No master is a slave. A slave may be fixed along an axis
-/// only if its masters are fixed along it too and the axis is its normal or a tangent; along this
-/// axis d and F are zero. The library only reads the structure during the call.
+/// A node is the slave of at most one pair. No master is a slave. A slave may be fixed along an
+/// axis only if its masters are fixed along it too and the axis is its normal or a tangent; along
+/// this axis d and F are zero. The library only reads the structure during the call.
 #[repr(C)]
 pub struct SignoriniPairs {
     /// sizeof(signorini_pairs).
@@ -61,8 +61,8 @@ pub struct SignoriniPairs {
     /// Degrees of freedom of each slave node, dim for each pair, in the order of the axes.
     pub slaves: *const i64,
     /// Start of each pair's masters in masters and weights, count + 1 entries, counted from
-    /// index_base. A pair without masters faces a rigid obstacle. NULL: no pair has masters; masters
-    /// and weights must be NULL too.
+    /// index_base. A pair without masters faces a rigid obstacle. NULL: no pair has masters;
+    /// masters and weights must be NULL too.
     pub master_start: *const i64,
     /// Degrees of freedom of each master node, dim for each; may be NULL if there are none.
     pub masters: *const i64,
@@ -121,8 +121,8 @@ impl SignoriniSparse {
     }
 }
 
-/// Refuses starts whose first or last one contradicts the other fields: mostly another index base or
-/// width.
+/// Refuses starts whose first or last one contradicts the other fields: mostly another index base
+/// or width.
 fn check_ends(starts: &Indices<'_>, given: &SignoriniSparse) -> Result<(), String> {
     let start = |k: usize| match starts {
         Indices::Narrow(starts) => i64::from(starts[k]),

@@ -8,11 +8,11 @@ use crate::solve::Status;
 
 /// Solved and certified: eta <= tolerance.
 pub const SIGNORINI_STATUS_SOLVED: i32 = 0;
-/// max_iterations is used up; the results are the best iterate.
+/// max_iterations is used up: best iterate.
 pub const SIGNORINI_STATUS_ITERATION_LIMIT: i32 = 1;
-/// time_limit is used up; the results are the best iterate.
+/// time_limit is used up: best iterate.
 pub const SIGNORINI_STATUS_TIME_LIMIT: i32 = 2;
-/// The progress callback cancelled the call; the results are the best iterate.
+/// The progress callback cancelled: best iterate.
 pub const SIGNORINI_STATUS_CANCELLED: i32 = 3;
 /// Proved: no equilibrium exists (LCP: no w, z >= 0 satisfy w = q + M z). extra->motion (LCP: y) is
 /// the proof. d, F, states and counts are those of the last iterate: not a solution.
@@ -20,13 +20,13 @@ pub const SIGNORINI_STATUS_NO_EQUILIBRIUM: i32 = 4;
 /// The method cannot go on (rounding, a cycle, a ray that proves nothing); the results are its best
 /// iterate. With SIGNORINI_METHOD_AUTO: no method found a solution or a proof that there is none.
 pub const SIGNORINI_STATUS_STALLED: i32 = 5;
-/// From the certify calls only: the displacements are not a solution.
+/// Certify: the displacements are no solution.
 pub const SIGNORINI_STATUS_NOT_A_SOLUTION: i32 = 6;
-/// A defect of the library was caught; the results are undefined.
+/// A caught defect of the library: results undefined.
 pub const SIGNORINI_STATUS_INTERNAL: i32 = -1000;
-/// Not enough memory; nothing was written.
+/// Out of memory: nothing was written.
 pub const SIGNORINI_STATUS_OUT_OF_MEMORY: i32 = -1001;
-/// A file cannot be read or written; signorini_last_error() says which, where and why.
+/// A file cannot be read or written.
 pub const SIGNORINI_STATUS_FILE: i32 = -1002;
 
 /// Major version of this header.
@@ -70,8 +70,8 @@ pub extern "C" fn signorini_version() -> *const c_char {
     concat!(env!("CARGO_PKG_VERSION"), "\0").as_ptr().cast()
 }
 
-/// Binary interface of the library. If it differs from the SIGNORINI_ABI_VERSION with which a program
-/// was compiled, the two are incompatible.
+/// Binary interface of the library. If it differs from the SIGNORINI_ABI_VERSION with which a
+/// program was compiled, the two are incompatible.
 #[unsafe(no_mangle)]
 pub extern "C" fn signorini_abi_version() -> i32 {
     SIGNORINI_ABI_VERSION

@@ -19,13 +19,13 @@
 //! ```
 //!
 //! The lines after the last comment are the numbers of rows and columns, then the entries column by
-//! column, one a line, with as many digits (17 at most) as give back the same bits. With
-//! `N = dim * pairs` rows the columns of kind `contact` are `K` (N of them), `f`, `gap`, the
-//! parameters of the law (`coulomb`: mu; `tresca`: g; `frictionless`: none) and the reference slip
-//! `slip0`. Gap and parameters stand in the normal row of each pair, `slip0` in its tangential rows;
-//! other rows are 0. Of kind `lcp`, which has neither law, dim nor pairs, the columns are `M` (n of
-//! them), `q` and, if given, the covering vector. A gap of a pair that never touches is `inf`, the
-//! one spelling that all of the readers that were tried take. Other comment lines are skipped.
+//! column, one a line, with as many digits (17 at most) as give back the same bits. With `N = dim *
+//! pairs` rows the columns of kind `contact` are `K` (N of them), `f`, `gap`, the parameters of the
+//! law (`coulomb`: mu; `tresca`: g; `frictionless`: none) and the reference slip `slip0`. Gap and
+//! parameters stand in the normal row of each pair, `slip0` in its tangential rows; other rows are
+//! 0. Of kind `lcp`, which has neither law, dim nor pairs, the columns are `M` (n of them), `q`
+//! and, if given, the covering vector. A gap of a pair that never touches is `inf`, the one
+//! spelling that all of the readers that were tried take. Other comment lines are skipped.
 //!
 //! Version 1 of the format is read too. It has no law: its kinds `coulomb` and `tresca` say it.
 //!
