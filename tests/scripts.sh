@@ -1,5 +1,5 @@
 #!/bin/sh
-# The Python module over the library, signorini.py, and the scripts that draw with it.
+# The Python package over the library, and the scripts that draw with it.
 #
 #     sh tests/scripts.sh [--require]
 #
@@ -24,8 +24,10 @@ rm -rf -- "$work"
 mkdir -p -- "$work"
 touch -- "$work/began"
 unset SIGNORINI_LIBRARY
-"$python" -B "$root/tests/python/results.py"
-"$python" -B "$root/tests/python/progress.py"
+for name in results shapes solutions progress; do
+    "$python" -B "$root/tests/python/$name.py"
+done
+"$python" -B "$root/tests/python/files.py" "$work"
 "$python" -B "$root/tests/python/library.py" "${CC:-cc}" "$work"
 
 if ! "$python" -c 'import matplotlib, PIL' >/dev/null 2>&1; then
@@ -50,7 +52,7 @@ sh "$root/c_examples/replay.sh" "$work/out" >"$work/replay.log" 2>&1 ||
     { cat "$work/replay.log"; exit 1; }
 sh "$root/c_examples/junction.sh" "$work/out" >"$work/junction.log" 2>&1 ||
     { cat "$work/junction.log"; exit 1; }
-# From another directory: the scripts find signorini.py and the library by their own place.
+# From another directory: the scripts find the package and the library by their own place.
 for script in bar/bar_on_plane junction/bolted_junction; do
     (cd "$work" && "$python" "$root/c_examples/$script.py" out)
 done

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Draws the bar on the plane: what bar_on_plane.c has computed and the paper's Table 1, and how the
-zones of contact depend on friction, which it computes by signorini.py.
+zones of contact depend on friction, which it computes by the Python package.
 
     sh c_examples/replay.sh OUT
     python3 c_examples/bar/bar_on_plane.py OUT      writes two pictures, OUT/bar_on_plane.png
@@ -21,7 +21,7 @@ import numpy as np
 from matplotlib.colors import ListedColormap
 
 sys.dont_write_bytecode = True  # what is built goes to target/
-# signorini.py is in c_examples/python.
+# The package is in c_examples/python.
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "python"))
 import bar_mesh  # noqa: E402
 import signorini  # noqa: E402
@@ -143,7 +143,7 @@ def draw_friction(out):
         np.tile(bar.load, (len(mu), 1)), 0.0, np.tile(mu[:, None], model.pairs)
     )
     for value, result in zip(mu, results):
-        if result.status != signorini.SOLVED:
+        if result.status != signorini.Status.SOLVED:
             sys.exit(f"mu = {value}: {result.message}")
 
     figure, (zones, forces) = plt.subplots(

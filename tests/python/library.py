@@ -1,19 +1,32 @@
-"""signorini.py: which shared library it takes, and whether both fit.
+"""The Python package: which shared library it takes, and whether both fit.
 
     python3 tests/python/library.py CC WORK       CC: a C compiler; WORK: a directory to write to
 """
 
+import ctypes
 import os
 import re
 import subprocess
 import sys
 import unittest
 
+import numpy as np
+
 from common import LOAD, PYTHON, ROOT, K, text
 
 import signorini
+from signorini import _library as library
+from signorini import _structures as structures
+from signorini._constants import Problem
+from signorini._sparse import Matrix
 
 CC, WORK = "cc", "."
+HEADER = "include", "signorini.h"
+FAMILIES = (signorini.Status, signorini.State, signorini.Law, signorini.Method, signorini.Search,
+            signorini.Uniqueness, signorini.Fallback, signorini.Triangle, Problem)
+STRUCTURES = {structures.Told: "progress", structures.Settings: "settings",
+              structures.Report: "report", structures.Extra: "extra", structures.Sparse: "sparse",
+              structures.Pairs: "pairs"}
 BUILT = os.path.join(ROOT, "target", "release", "libsignorini.so")
 
 
@@ -43,7 +56,7 @@ class Library(unittest.TestCase):
                             "except signorini.SignoriniError as error: print(error)"),
         ):
             self.assertEqual((result.returncode, result.stderr), (0, ""))
-            self.assertIn("has the binary interface 999, but this module is written for "
+            self.assertIn("has the binary interface 999, but this package is written for "
                           f"{signorini.ABI_VERSION}", result.stdout)
 
     def test_what_is_not_it_is_told(self):
@@ -56,7 +69,7 @@ class Library(unittest.TestCase):
         ):
             with self.assertRaisesRegex(signorini.SignoriniError, words):
                 signorini.load(path)
-        self.assertEqual(signorini.solve(K, LOAD, 0, 0.3).status, signorini.SOLVED)
+        self.assertEqual(signorini.solve(K, LOAD, 0, 0.3).status, signorini.Status.SOLVED)
 
     def test_is_found(self):
         version = re.search(r'^version = "(.*)"', text("Cargo.toml"), re.M)[1]
@@ -66,26 +79,21 @@ class Library(unittest.TestCase):
             found = self.run_python(code, SIGNORINI_LIBRARY=BUILT)
             self.assertEqual((found.stdout.strip(), found.stderr), (version, ""))
 
-    def test_module_is_that_of_the_header(self):
-        header = text("include", "signorini.h")
-        constants = dict(re.findall(r"#define SIGNORINI_(\w+) (-?\d+)", header))
+    def test_constants_are_those_of_the_header(self):
+        constants = dict(re.findall(r"#define SIGNORINI_(\w+) \(?(-?\d+)\)?", text(*HEADER)))
         self.assertEqual(int(constants["ABI_VERSION"]), signorini.ABI_VERSION)
-        for name in ("SOLVED ITERATION_LIMIT TIME_LIMIT CANCELLED NO_EQUILIBRIUM STALLED "
-                     "NOT_A_SOLUTION OPEN SLIP STICK").split():
-            self.assertEqual(getattr(signorini, name), int(constants[name]), name)
-        for prefix, names in (("METHOD", signorini.METHODS), ("SEARCH", signorini.SEARCHES),
-                              ("FALLBACK", signorini.FALLBACKS), ("", signorini.UNIQUENESS),
-                              ("", signorini.TRIANGLES)):
-            for value, name in enumerate(names):
-                key = f"{prefix}_{name}".strip("_").upper()
-                self.assertEqual(int(constants[key]), value, key)
-        header = re.sub(r"/\*.*?\*/", "", header, flags=re.S)
+        for family in FAMILIES:
+            prefix = family.__name__.upper() + "_"
+            found = {name[len(prefix):]: int(value) for name, value in constants.items()
+                     if name.startswith(prefix)}
+            self.assertEqual({each.name: each.value for each in family}, found)
+
+    def test_structures_are_those_of_the_header(self):
+        header = re.sub(r"/\*.*?\*/", "", text(*HEADER), flags=re.S)
         kinds = {"c_int": "int32_t", "c_uint": "uint32_t", "c_long": "int64_t",
                  "c_longlong": "int64_t", "c_double": "double",
                  "CFunctionType": "signorini_progress_fn"}
-        for name, structure in (("progress", signorini._Told), ("settings", signorini._Settings),
-                                ("report", signorini._Report), ("sparse", signorini._Sparse),
-                                ("pairs", signorini._Pairs)):
+        for structure, name in STRUCTURES.items():
             body = re.search(rf"struct signorini_{name} \{{(.*?)\}}", header, re.S)[1]
             fields = [re.match(r"(.*?)\s*(\w+)$", " ".join(line.split())).groups()
                       for line in body.split(";") if line.strip()]
@@ -98,10 +106,44 @@ class Library(unittest.TestCase):
                     self.assertEqual(c_kind, expected, field)
                 else:
                     self.assertTrue(c_kind.endswith("*"), field)
-        for name, (_, arguments) in signorini._SIGNATURES.items():
+
+    def test_functions_are_those_of_the_header(self):
+        header = re.sub(r"/\*.*?\*/", "", text(*HEADER), flags=re.S)
+        kinds = {"int32_t": "c_int", "int64_t": ("c_long", "c_longlong"), "uint32_t": "c_uint",
+                 "double": "c_double"}
+        for name, (_, arguments) in library.SIGNATURES.items():
             declared = re.search(rf"\bsignorini_{name}\(([^)]*)\);", header)[1]
-            count = 0 if declared.strip() == "void" else declared.count(",") + 1
-            self.assertEqual(len(arguments), count, name)
+            declared = [] if declared.strip() == "void" else declared.split(",")
+            self.assertEqual(len(arguments), len(declared), name)
+            for kind, words in zip(arguments, declared):
+                pointer = "c_char_p" if "char *" in words else "c_void_p"
+                expected = pointer if "*" in words else kinds[words.split()[0]]
+                self.assertIn(kind.__name__, expected, f"{name}: {words}")
+
+    def test_sizes_are_those_of_the_library(self):
+        functions = library.library()
+        too_large = 10**6
+        room = ctypes.create_string_buffer(too_large)
+        for name, structure in (("settings", structures.Settings), ("report", structures.Report),
+                                ("extra", structures.Extra)):
+            default = getattr(functions, name + "_default")
+            self.assertEqual(default(room, too_large), -2, name)
+            self.told(functions, ctypes.sizeof(structure))
+            filled = structure()
+            self.assertEqual(default(ctypes.byref(filled), ctypes.sizeof(structure)), 0)
+            self.assertEqual(filled.struct_size, ctypes.sizeof(structure))
+        # A matrix or pairs without a size are told the one that is asked.
+        matrix, pairs, model = structures.Sparse(), structures.Pairs(), ctypes.c_void_p()
+        arguments = [ctypes.byref(matrix), 0, None, ctypes.byref(pairs), ctypes.byref(model)]
+        self.assertEqual(functions.model_new_sparse(*arguments), -1)
+        self.told(functions, ctypes.sizeof(matrix))
+        springs = Matrix((np.ones(2), np.arange(2), np.arange(3)), "full")
+        arguments[0] = ctypes.byref(springs.structure)
+        self.assertEqual(functions.model_new_sparse(*arguments), -4)
+        self.told(functions, ctypes.sizeof(pairs))
+
+    def told(self, functions, size):
+        self.assertIn(str(size), re.findall(r"\d+", functions.last_error().decode()))
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""signorini.py: progress functions, and what ends a call early.
+"""The Python package: progress functions, and what ends a call early.
 
     python3 tests/python/progress.py
 """
@@ -25,7 +25,7 @@ class Progress(unittest.TestCase):
         told = []
         result = signorini.solve(*chain(), 0.01, 0.3, **self.slow,
                                  progress=lambda now: told.append(now) or len(told) == 5)
-        self.assertEqual(result.status, signorini.CANCELLED)
+        self.assertEqual(result.status, signorini.Status.CANCELLED)
         self.assertEqual(len(told), 5)
         self.assertGreaterEqual(told[-1].iterations, told[0].iterations)
         self.assertGreaterEqual(told[-1].elapsed, 0)
@@ -73,7 +73,7 @@ class Progress(unittest.TestCase):
         thread = threading.Thread(target=work)
         thread.start()
         thread.join()
-        self.assertEqual(results[0].status, signorini.CANCELLED)
+        self.assertEqual(results[0].status, signorini.Status.CANCELLED)
 
 
 if __name__ == "__main__":

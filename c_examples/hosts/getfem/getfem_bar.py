@@ -5,7 +5,7 @@
 GetFEM meshes and assembles the bar. Its tangent matrix and right-hand side go to the library as
 they are, a sparse matrix with contact pairs; the same model with GetFEM's own contact brick must
 give the same forces. Needs GetFEM (python3-getfem, which Debian installs for its own
-/usr/bin/python3) and numpy. The library is found as signorini.py says.
+/usr/bin/python3) and numpy. The library is found as the Python package says.
 """
 
 import os
@@ -14,7 +14,7 @@ import sys
 import numpy as np
 
 sys.dont_write_bytecode = True  # what is built goes to target/
-# signorini.py is in c_examples/python.
+# The package is in c_examples/python.
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../python"))
 import getfem as gf  # noqa: E402
 import signorini  # noqa: E402
@@ -105,7 +105,7 @@ def main():
         difference = np.abs(result.F - other)
         difference[-1, 1] = 0.0  # held by the symmetry, which shares that force with friction
         worst = difference.max() / np.abs(other).max()
-        passed = result.status == signorini.SOLVED and worst <= LIMIT
+        passed = result.status == signorini.Status.SOLVED and worst <= LIMIT
         failed += not passed
         states = np.bincount(result.state, minlength=3)
         print(f"  {'PASS' if passed else 'FAIL'}  mu = {friction}: {result.message}; {states[0]} "

@@ -8,12 +8,21 @@
 
 #include "signorini.h"
 
+static void check_count(const char *name, const NDArray &array, octave_idx_type asked,
+                        const char *what)
+{
+    if (array.numel() != asked)
+        error("signorini_solve: %s has %ld entries: give %ld, %s", name,
+              static_cast<long>(array.numel()), static_cast<long>(asked), what);
+}
+
 DEFUN_DLD(signorini_solve, arguments, ,
-          "[d, F, state, eta] = signorini_solve (K, f, gap, mu, dim = 2, slip = zeros)\n\
+          "[d, F, state, eta] = signorini_solve (K, f, gap, mu, dim = 2, slip0 = zeros)\n\
 \n\
 Solves a condensed contact problem with Coulomb friction (signorini.h).\n\
 \n\
-K: N x N, N = dim * P; f: N; gap, mu: P, or one number for all; slip: (dim - 1) * P.\n\
+K: N x N, N = dim * P; f: N; gap, mu: P, or one number for all; slip0 (reference slip):\n\
+(dim - 1) * P.\n\
 d, F: dim x P, a column (n, t) or (n, t1, t2) for each pair; d(1,:) > 0 moves towards the\n\
 obstacle, F(1,:) < 0 presses.  state: 1 x P; 0 open, 1 slides, 2 sticks.  eta: the\n\
 residual.  What is not solved is an error.")
@@ -26,9 +35,9 @@ residual.  What is not solved is an error.")
     NDArray gap = arguments(2).xarray_value("signorini_solve: gap is not a real array");
     NDArray mu = arguments(3).xarray_value("signorini_solve: mu is not a real array");
     const int dim = count > 4 ? arguments(4).xint_value("signorini_solve: dim is not a number") : 2;
-    NDArray slip;
+    NDArray slip0;
     if (count > 5)
-        slip = arguments(5).xarray_value("signorini_solve: slip is not a real array");
+        slip0 = arguments(5).xarray_value("signorini_solve: slip0 is not a real array");
 
     const octave_idx_type size = K.rows();
     if (K.columns() != size || (dim != 2 && dim != 3) || size % dim != 0)
@@ -38,19 +47,20 @@ residual.  What is not solved is an error.")
         gap = NDArray(dim_vector(pairs, 1), gap(0));
     if (mu.numel() == 1)
         mu = NDArray(dim_vector(pairs, 1), mu(0));
-    if (f.numel() != size || gap.numel() != pairs || mu.numel() != pairs ||
-        (slip.numel() != 0 && slip.numel() != size - pairs))
-        error("signorini_solve: f has N entries, gap and mu P, slip (dim - 1) * P");
+    check_count("f", f, size, "dim for each pair");
+    check_count("gap", gap, pairs, "one for each pair, or one for all");
+    check_count("mu", mu, pairs, "one for each pair, or one for all");
+    if (slip0.numel() != 0)
+        check_count("slip0", slip0, size - pairs, "dim - 1 for each pair");
 
     Matrix d(dim, pairs, 0.0), F(dim, pairs, 0.0);
     std::vector<int32_t> states(pairs);
     signorini_report report;
-    report.struct_size = sizeof report;
-    const int32_t status = ::signorini_solve(dim, pairs, K.data(), size > 0 ? size : 1, f.data(),
-                                             gap.data(), SIGNORINI_LAW_COULOMB, mu.data(),
-                                             slip.numel() != 0 ? slip.data() : nullptr, nullptr,
-                                             d.fortran_vec(), F.fortran_vec(), states.data(),
-                                             &report, nullptr);
+    signorini_report_default(&report, sizeof report);
+    const int32_t status = ::signorini_solve(
+        dim, pairs, K.data(), size > 0 ? size : 1, f.data(), gap.data(), SIGNORINI_LAW_COULOMB,
+        mu.data(), slip0.numel() != 0 ? slip0.data() : nullptr, nullptr, d.fortran_vec(),
+        F.fortran_vec(), states.data(), &report, nullptr);
     if (status != SIGNORINI_STATUS_SOLVED)
         error("signorini_solve: %s", signorini_last_error());
     NDArray state(dim_vector(1, pairs));

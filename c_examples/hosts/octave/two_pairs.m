@@ -39,10 +39,12 @@ check (abs (F(2,1) - 0.3 * F(1,1)) <= 1e-12, "friction of the first");
 [d, F] = signorini_solve (2 * eye (3), [1 3 4], 0, 0.5, 3);
 check (norm (F - [-1; -0.3; -0.4]) <= 1e-9, "in 3D: on the cone, against the motion");
 [d, F, state] = signorini_solve (K, f, 0, 5, 2, [0.01 0.02]);
-check (isequal (state, [2 2]) && isequal (d(2,:), [0.01 0.02]), "slip of the step before");
+check (isequal (state, [2 2]) && isequal (d(2,:), [0.01 0.02]), "reference slip of the step before");
 
 refused ("K[1,1] is not finite", diag ([1 NaN]), [1 1], 0, 0);
 refused ("mu[0] is -1", K, f, 0, [-1 0]);
-refused ("f has N entries", K, [1 2 3], 0, 0.3);
+refused ("f has 3 entries: give 4, dim for each pair", K, [1 2 3], 0, 0.3);
+refused ("gap has 4 entries: give 2, one for each pair", K, f, [0 0 0 0], 0.3);
+refused ("slip0 has 4 entries: give 2", K, f, 0, 0.3, 2, f);
 refused ("K must be square", ones (3), [1 2 3], 0, 0.3);
 refused ("K is not a real matrix", "abc", [1 2 3], 0, {});

@@ -1,0 +1,50 @@
+"""Unilateral contact with friction on numpy arrays: the library signorini by ctypes.
+
+    import signorini
+    result = signorini.solve(K, f, gap=0.0, mu=0.3)
+    print(result.status, result.message, result.report.eta)
+    print(result.d[:, 0], result.F[:, 0], result.state)
+
+For P pairs in dimension D (2 or 3), N = D * P, ordered pair by pair (n, t) or (n, t1, t2):
+
+    K d = f + F                                     equilibrium
+    d_n <= gap,  F_n <= 0,  (d_n - gap) F_n = 0     unilateral contact
+    |F_t| <= r                                      friction: d_t = slip0 inside the cone,
+                                                    d_t - slip0 = -lambda F_t, lambda >= 0, on it
+
+The law of friction follows from what is given: mu, r = mu |F_n| (Coulomb); g, r = g (Tresca);
+neither, r = 0 (frictionless).
+
+Signs: n is the outward normal of the body; d_n > 0 moves towards the obstacle, F_n < 0 presses, F
+is the force on the body. f and F are nodal forces. Units are yours, also those of the results.
+gap, mu, g and slip0 may be one number for all pairs. Vectors of N entries may have the shape
+(P, D). Any other shape is a ValueError, other kinds of numbers are a TypeError, and what the
+library refuses is a SignoriniError. signorini.h is the reference; it also says what each field of a
+report is.
+
+Settings are keywords of everything that solves: method and search (a member of Method, of Search,
+or its name in lower case), tolerance, omega, damping, max_iterations, time_limit, and progress, a
+function of a Progress. It cancels the call by a true result, or by an exception (such as that of
+Ctrl-C), which goes on after the call. It must not call this module. Without a progress function,
+Ctrl-C waits for the end of the call.
+
+The shared library is the one that load() names, or the environment variable SIGNORINI_LIBRARY, or
+that of ../../target/release beside this folder, or that of the system. Needs numpy. Threads may
+share everything here.
+"""
+
+from ._condensed import certify, solve, write
+from ._constants import (ABI_VERSION, Fallback, Law, Method, Search, State, Status, Triangle,
+                         Uniqueness)
+from ._files import ContactProblem, LcpProblem, read
+from ._lcp import lcp_lemke, lcp_solve, write_lcp
+from ._library import SignoriniError, load
+from ._model import Model
+from ._results import LcpResult, Progress, Result
+
+__all__ = [
+    "ABI_VERSION", "ContactProblem", "Fallback", "Law", "LcpProblem", "LcpResult", "Method",
+    "Model", "Progress", "Result", "Search", "SignoriniError", "State", "Status", "Triangle",
+    "Uniqueness", "certify", "lcp_lemke", "lcp_solve", "load", "read", "solve", "write",
+    "write_lcp",
+]

@@ -1,0 +1,104 @@
+"""The constants of signorini.h, one family each."""
+
+from enum import IntEnum
+
+ABI_VERSION = 2  # of the signorini.h that this package is written for
+
+
+class Status(IntEnum):
+    """What a call returned. Below 0 it is an error; -k: the k-th argument of the C call."""
+
+    SOLVED = 0
+    ITERATION_LIMIT = 1
+    TIME_LIMIT = 2
+    CANCELLED = 3
+    NO_EQUILIBRIUM = 4
+    STALLED = 5
+    NOT_A_SOLUTION = 6
+    INTERNAL = -1000
+    OUT_OF_MEMORY = -1001
+    FILE = -1002
+
+
+class State(IntEnum):
+    """State of a pair."""
+
+    OPEN = 0
+    SLIP = 1
+    STICK = 2
+
+
+class Law(IntEnum):
+    """Law of friction."""
+
+    FRICTIONLESS = 0
+    COULOMB = 1
+    TRESCA = 2
+
+
+class Method(IntEnum):
+    """How to solve."""
+
+    AUTO = 0
+    SOR_NESTED = 1
+    SOR_DIAGONAL = 2
+    LEMKE = 3
+    BLOCK_PIVOTING = 4
+    NEWTON = 5
+
+
+class Search(IntEnum):
+    """What to find out about other solutions."""
+
+    OFF = 0
+    OTHERS = 1
+
+
+class Uniqueness(IntEnum):
+    """What is known about other solutions."""
+
+    NOT_KNOWN = 0
+    UNIQUE = 1
+    SEVERAL = 2
+
+
+class Fallback(IntEnum):
+    """Why the method that was tried first did not end the call."""
+
+    NONE = 0
+    CYCLE = 1
+    SINGULAR = 2
+    UNSTABLE = 3
+    INACCURATE = 4
+
+
+class Triangle(IntEnum):
+    """Which entries a sparse matrix holds."""
+
+    LOWER = 0
+    UPPER = 1
+    FULL = 2
+
+
+class Problem(IntEnum):
+    """What a problem file holds."""
+
+    CONTACT = 0
+    LCP = 1
+
+
+def member(family, value):
+    """The member of a family with this value; the number itself if there is none."""
+    try:
+        return family(value)
+    except ValueError:
+        return int(value)
+
+
+def chosen(name, family, value):
+    """The member of a family that the caller names by itself, its number or its name."""
+    words = [each.name.lower() for each in family]
+    try:
+        return family[value.upper()] if value in words else family(value)
+    except ValueError:
+        raise ValueError(f"{name} is {value!r}, not one of {', '.join(words)}") from None

@@ -1,0 +1,149 @@
+"""The shared library: finding it, the types of its functions, its errors."""
+
+import ctypes
+import os
+import sys
+from types import SimpleNamespace
+
+from ._constants import ABI_VERSION, Status, member
+from ._structures import address, i32, i64, real, u32
+
+SONAME_VERSION = "0.2"  # of libsignorini.so.0.2
+numbers, text = ctypes.POINTER(real), ctypes.c_char_p
+
+# What friction looks like in every call: law, its parameters, reference slip.
+_LAW = [i32, address, address]
+# dim, pairs, K, ldk, f, gap and the law.
+_CONDENSED = [i32, i64, address, i64, address, address, *_LAW]
+# f, prescribed, gap and the law.
+_CASE = [address] * 3 + _LAW
+
+SIGNATURES = {
+    "version": (text, []),
+    "status_string": (text, [i32]),
+    "last_error": (text, []),
+    "settings_default": (i32, [address, u32]),
+    "report_default": (i32, [address, u32]),
+    "extra_default": (i32, [address, u32]),
+    "solve": (i32, [*_CONDENSED, *[address] * 6]),
+    "certify": (i32, [*_CONDENSED, real, *[address] * 4]),
+    "lcp_solve": (i32, [i64, address, i64, *[address] * 6]),
+    "lcp_lemke": (i32, [i64, address, i64, *[address] * 7]),
+    "model_new_condensed": (i32, [i32, i64, address, i64, address]),
+    "model_new_two_body": (i32, [i32, i64, address, i64, address, i64, address]),
+    "model_new_sparse": (i32, [address, i64, *[address] * 3]),
+    "model_free": (None, [address]),
+    "model_dim": (i32, [address]),
+    "model_pairs": (i64, [address]),
+    "model_host_size": (i64, [address]),
+    "model_stiffness": (i32, [address] * 2),
+    "model_frames": (i32, [address] * 2),
+    "model_condensed_load": (i32, [address] * 4),
+    "model_solve": (i32, [address, i64, *_CASE, *[address] * 7]),
+    "model_certify": (i32, [address, *_CASE, real, *[address] * 4]),
+    "model_recover": (i32, [address] * 5),
+    "model_nodal_forces": (i32, [address] * 3),
+    "model_write": (i32, [address, text, *_CASE, text]),
+    "problem_write": (i32, [text, *_CONDENSED, text]),
+    "lcp_write": (i32, [text, i64, address, i64, address, address, text]),
+    "problem_read": (i32, [text, address]),
+    "problem_free": (None, [address]),
+    "problem_kind": (i32, [address]),
+    "problem_law": (i32, [address]),
+    "problem_dim": (i32, [address]),
+    "problem_pairs": (i64, [address]),
+    "problem_size": (i64, [address]),
+    "problem_matrix": (numbers, [address]),
+    "problem_rhs": (numbers, [address]),
+    "problem_gap": (numbers, [address]),
+    "problem_friction": (numbers, [address]),
+    "problem_slip0": (numbers, [address]),
+    "problem_cover": (numbers, [address]),
+    "problem_remark": (text, [address]),
+}
+_loaded = None
+
+
+class SignoriniError(RuntimeError):
+    """A wrong argument, a file, an internal error, or a library that cannot be used.
+
+    status: what the call returned (negative); None if the library cannot be used.
+    """
+
+    __module__ = "signorini"  # what a traceback calls it
+
+    def __init__(self, message, status=None):
+        super().__init__(message)
+        self.status = status
+
+
+def load(path=None):
+    """Loads the library, from path if it is given; this package uses it from now on.
+
+    Returns its version. Raises SignoriniError if there is none or if it does not fit.
+    """
+    global _loaded
+    _loaded = _open(path)
+    return _loaded.version().decode()
+
+
+def library():
+    """The functions of the library, by their names without signorini_."""
+    if _loaded is None:
+        load()
+    return _loaded
+
+
+def check(functions, status, message=None):
+    """Raises an error; otherwise the status, and the library's sentence on it."""
+    message = functions.last_error().decode() if message is None else message
+    status = member(Status, status)
+    if status < 0:
+        raise SignoriniError(message, status)
+    return status, message or functions.status_string(status).decode()
+
+
+def _open(path):
+    end = {"darwin": ".dylib", "win32": ".dll"}.get(sys.platform, ".so")
+    name = ("" if sys.platform == "win32" else "lib") + "signorini" + end
+    beside = os.path.join(os.path.dirname(__file__), *[os.pardir] * 3, "target", "release", name)
+    built = os.path.abspath(beside)
+    named = path or os.environ.get("SIGNORINI_LIBRARY")
+    if named:
+        places = [os.path.abspath(named)]
+    else:
+        system = [name, f"{name}.{SONAME_VERSION}"]
+        places = ([built] if os.path.exists(built) else []) + system
+    reasons = []
+    for place in places:
+        try:
+            opened = ctypes.CDLL(place)
+        except OSError as error:
+            reasons.append(str(error))
+            continue
+        return _bound(opened, place)
+    raise SignoriniError(
+        "the library signorini cannot be loaded (" + "; ".join(reasons) + "): build it by "
+        "cargo build --release, or set SIGNORINI_LIBRARY to its path"
+    )
+
+
+def _bound(opened, place):
+    # Before all else: of another interface nothing else may be called.
+    if not hasattr(opened, "signorini_abi_version"):
+        raise SignoriniError(f"{place} is not the library signorini")
+    opened.signorini_abi_version.restype = i32
+    found = opened.signorini_abi_version()
+    if found != ABI_VERSION:
+        raise SignoriniError(
+            f"{place} has the binary interface {found}, but this package is written for "
+            f"{ABI_VERSION}: use the Python package that belongs to the library"
+        )
+    functions = SimpleNamespace()
+    for name, (result, arguments) in SIGNATURES.items():
+        function = getattr(opened, "signorini_" + name, None)
+        if function is None:
+            raise SignoriniError(f"{place} has no signorini_{name}: it is older than this package")
+        function.restype, function.argtypes = result, arguments
+        setattr(functions, name, function)
+    return functions

@@ -1,0 +1,211 @@
+"""Models: a structure reduced to its contact pairs."""
+
+import ctypes
+import weakref
+from collections import namedtuple
+
+import numpy as np
+
+from ._arrays import at, components, fit, pairs_of, per_pair, reals, stiffness
+from ._call import Call
+from ._constants import Status, member
+from ._law import law_of
+from ._library import SignoriniError, check, library
+from ._results import Output, certified
+from ._sparse import ContactPairs, Matrix, supports
+from ._structures import address
+from ._text import path_bytes, remark_bytes
+
+_UNTOUCHED = np.iinfo(np.int32).min
+
+
+class _Case(namedtuple("_Case", "f prescribed gap law friction slip0")):
+    """Loads and data of one case or several, in the library's layout."""
+
+    __slots__ = ()
+
+    def arguments(self):
+        return [self.law if name == "law" else at(value) for name, value in
+                zip(self._fields, self)]
+
+    def of(self, case):
+        """One of several cases."""
+        return _Case(*[value if name == "law" or value is None else value[case]
+                       for name, value in zip(self._fields, self)])
+
+
+class Model:
+    """A structure reduced to its contact pairs, for any number of load cases.
+
+    Made by Model.condensed, Model.two_body or Model.sparse.
+    dim, pairs: D and P.  host_size: H, the entries of a load or displacement vector of the host.
+    """
+
+    def __init__(self, make, n_fixed, *arguments):
+        self._functions = library()
+        handle = address()
+        check(self._functions, getattr(self._functions, make)(*arguments, ctypes.byref(handle)))
+        self._handle, self._n_fixed = handle.value, n_fixed
+        weakref.finalize(self, self._functions.model_free, self._handle)
+        self.dim = self._functions.model_dim(self._handle)
+        self.pairs = self._functions.model_pairs(self._handle)
+        self.host_size = self._functions.model_host_size(self._handle)
+        # The host's vectors of one condensed body are those of its pairs.
+        pairwise = [(self.pairs, self.dim)] if make == "model_new_condensed" else []
+        self._host_shapes = [*pairwise, (self.host_size,)]
+
+    @classmethod
+    def condensed(cls, K, *, dim=2):
+        """One body on an obstacle. K: condensed stiffness, (N, N). H = N."""
+        K = stiffness("K", K)
+        pairs = pairs_of("K", K, dim)
+        return cls("model_new_condensed", 0, dim, pairs, at(K), max(1, len(K)))
+
+    @classmethod
+    def two_body(cls, K_A, K_B, *, dim=2):
+        """Two bodies on matching contact nodes, each in its own outward frame; d = u_A + u_B.
+
+        K_A, K_B: condensed stiffness, (N, N) each. Loads and displacements are [A; B], H = 2 N.
+        """
+        K_A, K_B = stiffness("K_A", K_A), stiffness("K_B", K_B)
+        pairs = pairs_of("K_A", K_A, dim)
+        if K_B.shape != K_A.shape:
+            raise ValueError(f"K_B has the shape {K_B.shape}: give the shape of K_A, {K_A.shape}")
+        size = max(1, len(K_A))
+        return cls("model_new_two_body", 0, dim, pairs, at(K_A), size, at(K_B), size)
+
+    @classmethod
+    def sparse(cls, K, slaves, normals, *, fixed=(), masters=None, weights=None, tangents=None,
+               triangle="full"):
+        """The whole stiffness matrix of the host, without supports, and contact pairs.
+
+        K: a scipy.sparse matrix, or (data, indices, indptr) by columns, rows ascending; counted
+        from 0, as all degrees of freedom (dof) here.  triangle: which entries K holds, "full",
+        "lower" or "upper".  slaves: dof numbers of each slave node, (P, D).  normals: outward from
+        the slave's body, of any length, (P, D), or one for all.  fixed: dof numbers of the
+        supports.
+        masters: for each pair the dof numbers of its master nodes, (k, D), none of them for a rigid
+        obstacle; None: rigid obstacles.  weights: for each pair those of its masters, k, of sum 1;
+        None: 1, of one master each.
+        tangents: first tangent of each pair, (P, D), or one for all; None: chosen, in 2D the normal
+        turned by +90 degrees. frames gives what the model uses.
+        """
+        matrix, fixed = Matrix(K, triangle), supports(fixed)
+        pairs = ContactPairs(slaves, normals, masters, weights, tangents)
+        return cls("model_new_sparse", len(fixed), ctypes.byref(matrix.structure), len(fixed),
+                   at(fixed), ctypes.byref(pairs.structure))
+
+    @property
+    def stiffness(self):
+        """K_rel, the stiffness in relative displacements, (N, N)."""
+        K = np.zeros((self.dim * self.pairs,) * 2, order="F")
+        self._do("model_stiffness", at(K))
+        return K
+
+    @property
+    def frames(self):
+        """Normal, then tangents of each pair in the axes of the host, (P, D, D), of unit length.
+
+        numpy.einsum("pi,pij->pj", result.F, model.frames) are the forces in these axes. A model
+        that the host condensed in frames of its own raises SignoriniError.
+        """
+        frames = np.zeros((self.pairs, self.dim, self.dim))
+        self._do("model_frames", at(frames))
+        return frames
+
+    def condensed_load(self, f, prescribed=None):
+        """Loads of a case on the relative displacements, (P, D). f, prescribed: as for solve."""
+        load = np.zeros((self.pairs, self.dim))
+        f, prescribed = self._loads(f, prescribed)
+        self._do("model_condensed_load", at(f), at(prescribed), at(load))
+        return load
+
+    def solve(self, f, gap, mu=None, *, g=None, slip0=None, prescribed=None, start=None,
+              **settings):
+        """Solves a load case, f of H entries: a Result; or several, f of (C, H): a list of them.
+
+        gap, mu, g, slip0, start: as for the function solve.  prescribed: values of the fixed
+        degrees of freedom, or one for all; None: zero.
+        With several cases each may have a leading axis of C, or be the same for all. A case that is
+        wrong does not stop the others: its status is negative, its numbers are NaN, its state is -1
+        and its report None.
+        """
+        f = reals("f", f)
+        cases = len(f) if f.ndim == 2 and f.shape[1] == self.host_size else None
+        data = self._case(f, gap, mu, g, slip0, prescribed, cases)
+        start = components("start", start, self.pairs, self.dim, cases=cases, optional=True)
+        call = Call(self._functions, settings, start is not None)
+        count = 1 if cases is None else cases
+        output = Output(count, self.pairs, self.dim, start)
+        status = np.full(count, _UNTOUCHED, np.int32)
+        first, message = call.run(
+            self._functions.model_solve, self._handle, count, *data.arguments(), call.at(),
+            *output.solution(), at(status), *output.more(),
+        )
+        if first < 0 and (cases is None or _UNTOUCHED in status):
+            raise SignoriniError(message.removeprefix("case 0: "), member(Status, first))
+        tolerance, results, told = call.settings.tolerance, [], False
+        for c, code in enumerate(member(Status, value) for value in status):
+            words = self._functions.status_string(code).decode()
+            if code != 0 and not told:  # the library's sentence is of the first of them
+                words, told = message.removeprefix(f"case {c}: "), True
+            case = data if cases is None else data.of(c)
+            results.append(output.result(
+                c, code, words, lambda d, case=case: self._certify(case, d, tolerance)
+            ))
+        return results[0] if cases is None else results
+
+    def certify(self, f, gap, mu=None, *, d, g=None, slip0=None, prescribed=None,
+                tolerance=1e-10):
+        """Measures relative displacements d, N, on the data of one case of solve; see certify."""
+        case = self._case(f, gap, mu, g, slip0, prescribed)
+        return self._certify(case, components("d", d, self.pairs, self.dim), tolerance)
+
+    def write(self, path, f, gap, mu=None, *, g=None, slip0=None, prescribed=None, remark=None):
+        """Writes the condensed problem of one case of solve to a file; see write."""
+        case = self._case(f, gap, mu, g, slip0, prescribed)
+        self._do("model_write", path_bytes(path), *case.arguments(), remark_bytes(remark))
+
+    def recover(self, d, f=None, prescribed=None):
+        """Displacements of the host, H, of one case: from its d, N, its loads and its supports."""
+        f, prescribed = self._loads(f, prescribed, optional=True)
+        d = components("d", d, self.pairs, self.dim)
+        u = np.zeros(self.host_size)
+        self._do("model_recover", at(f), at(prescribed), at(d), at(u))
+        return u
+
+    def nodal_forces(self, F):
+        """Contact forces F, N, as a nodal force vector of the host, H."""
+        F = components("F", F, self.pairs, self.dim)
+        nodal = np.zeros(self.host_size)
+        self._do("model_nodal_forces", at(F), at(nodal))
+        return nodal
+
+    def _loads(self, f, prescribed, cases=None, optional=False):
+        """f and prescribed in the library's layout."""
+        shapes, n_fixed = self._host_shapes, self._n_fixed
+        asked = "one load for each degree of freedom of the host, shape "
+        asked += " or ".join(str(shape) for shape in reversed(shapes))
+        f = fit("f", f, shapes, asked, cases=cases, optional=optional)
+        asked = (f"one value for each of the {n_fixed} fixed degrees of freedom, shape "
+                 f"{(n_fixed,)}, or one for all")
+        prescribed = fit("prescribed", prescribed, [(n_fixed,)], asked, cases=cases, scalar=True,
+                         optional=True)
+        return f, prescribed
+
+    def _case(self, f, gap, mu, g, slip0, prescribed, cases=None):
+        law, name, friction = law_of(mu, g)
+        f, prescribed = self._loads(f, prescribed, cases)
+        return _Case(
+            f, prescribed, per_pair("gap", gap, self.pairs, cases), law,
+            per_pair(name, friction, self.pairs, cases, optional=True),
+            components("slip0", slip0, self.pairs, self.dim - 1, cases=cases, scalar=True,
+                       optional=True),
+        )
+
+    def _certify(self, case, d, tolerance):
+        data = [self._handle, *case.arguments()]
+        return certified(self._functions, self._functions.model_certify, data, tolerance, d.copy())
+
+    def _do(self, function, *arguments):
+        check(self._functions, getattr(self._functions, function)(self._handle, *arguments))

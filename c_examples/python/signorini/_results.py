@@ -1,0 +1,95 @@
+"""What calls return."""
+
+import ctypes
+import numbers
+from collections import namedtuple
+
+import numpy as np
+
+from ._arrays import at
+from ._constants import Status
+from ._library import check
+from ._structures import Extra, Report, sized
+
+Progress = namedtuple("Progress", "iterations eta elapsed")
+Progress.__doc__ = """What a progress function is told.
+
+iterations: sweeps, pivots or linear systems done.  eta: the latest, infinite before the first.
+elapsed: seconds since the call began.
+"""
+
+Result = namedtuple("Result", "d F state status message report motion second")
+Result.__doc__ = """What a call has found.
+
+d: relative displacements, (P, D); length.  F: contact forces, (P, D); force.  state: of each pair
+(State), (P,).  Unless status is SOLVED these are the best or last iterate.
+status: a Status.  message: the same in words.
+report: the fields of signorini_report, with members of Method, Uniqueness and Fallback.
+motion: with status NO_EQUILIBRIUM the motion of escape, (P, D), largest component 1; else None.
+second: a second solution, a Result whose report is measured as certify does, or None. What
+uniqueness proves needs no second solution; ask for one by search="others".
+"""
+
+LcpResult = namedtuple("LcpResult", "w z status message report y")
+LcpResult.__doc__ = """What a call on an LCP has found.
+
+w, z: n.  Unless status is SOLVED these are the best or last iterate.
+status: a Status.  message: the same in words.  report: as that of a Result.
+y: with status NO_EQUILIBRIUM a proof that no solution exists, n: y >= 0, M' y <= 0, q . y < 0; else
+None.
+"""
+
+
+class Output:
+    """Arrays that the library writes to, for one case or several."""
+
+    def __init__(self, cases, pairs, dim, start=None):
+        shape = (cases, pairs, dim)
+        self.d = np.full(shape, np.nan) if start is None else np.array(start).reshape(shape)
+        self.F, self.state = np.full(shape, np.nan), np.full(shape[:2], -1, np.int32)
+        self.motion, self.second_d, self.second_F = (np.zeros(shape) for _ in range(3))
+        self.second_state = np.zeros(shape[:2], np.int32)
+        self.report = (Report * cases)(*[sized(Report) for _ in range(cases)])
+        self.extra = sized(Extra, motion=at(self.motion), second_d=at(self.second_d),
+                           second_F=at(self.second_F), second_state=at(self.second_state))
+
+    def solution(self):
+        """Arguments d, F, state."""
+        return [at(self.d), at(self.F), at(self.state)]
+
+    def more(self):
+        """Arguments report, extra."""
+        return [ctypes.byref(self.report), ctypes.byref(self.extra)]
+
+    def result(self, case, status, message, measure):
+        """Result of a case; if its arguments are wrong its numbers are NaN.
+
+        measure: certify, of displacements.
+        """
+        motion = second = report = None
+        if status < 0:
+            self.d[case] = np.nan
+        else:
+            report = self.report[case].plain()
+            if self.report[case].second:
+                # The forces and states are those that the library found with it.
+                second = measure(self.second_d[case])._replace(
+                    F=self.second_F[case], state=self.second_state[case]
+                )
+            if status == Status.NO_EQUILIBRIUM:
+                motion = self.motion[case]
+        return Result(self.d[case], self.F[case], self.state[case], status, message, report,
+                      motion, second)
+
+
+def certified(functions, function, data, tolerance, d):
+    """Result of signorini_certify or signorini_model_certify.
+
+    data: the arguments before the tolerance.  d: (P, D).
+    """
+    if not isinstance(tolerance, numbers.Real):
+        raise TypeError(f"tolerance is {tolerance!r}: give a number")
+    F, state, report = np.zeros_like(d), np.zeros(len(d), np.int32), sized(Report)
+    status = function(*data, tolerance, at(d), at(F), at(state), ctypes.byref(report))
+    status, message = check(functions, status)
+    return Result(d, F, state, status, message, report.plain(), None, None)

@@ -1,0 +1,127 @@
+"""The arguments of Model.sparse: a sparse matrix, supports, contact pairs."""
+
+import numpy as np
+
+from ._arrays import at, doubles, fit, indices, integers, reals
+from ._constants import Triangle, chosen
+from ._structures import Pairs, Sparse, sized
+
+
+class Matrix:
+    """A sparse matrix; structure: signorini_sparse."""
+
+    def __init__(self, K, triangle):
+        triangle = chosen("triangle", Triangle, triangle)
+        data, rows, starts = _compressed(K)
+        self.values = doubles(reals("data of K", data))
+        rows, starts = integers("indices of K", rows), integers("indptr of K", starts)
+        if self.values.ndim != 1 or rows.shape != self.values.shape:
+            raise ValueError(f"data and indices of K have the shapes {self.values.shape} and "
+                             f"{rows.shape}: give one value and one row for each entry")
+        if starts.ndim != 1 or not len(starts):
+            raise ValueError(f"indptr of K has the shape {starts.shape}: give the begin of each "
+                             f"column and the end of the last one, shape (columns + 1,)")
+        if starts[-1] != len(rows):
+            raise ValueError(f"indptr of K ends with {starts[-1]}, but K has {len(rows)} entries: "
+                             f"end it with their number")
+        kind = np.int32 if rows.dtype == np.int32 else np.int64
+        self.rows, self.starts = indices(rows, kind), indices(starts, kind)
+        self.structure = sized(
+            Sparse, index_bytes=self.rows.itemsize, index_base=0, triangle=triangle,
+            size=len(starts) - 1, nnz=len(rows), col_start=at(self.starts), row=at(self.rows),
+            values=at(self.values),
+        )
+
+
+class ContactPairs:
+    """Contact pairs; structure: signorini_pairs."""
+
+    def __init__(self, slaves, normals, masters, weights, tangents):
+        slaves = integers("slaves", slaves)
+        if slaves.ndim != 2 or slaves.shape[1] not in (2, 3):
+            raise ValueError(f"slaves has the shape {slaves.shape}: give the dof numbers of each "
+                             f"slave node, shape (pairs, dim), dim 2 or 3")
+        self.slaves, (count, dim) = indices(slaves), slaves.shape
+        self.normals, self.tangents = (
+            _vectors(name, given, count, dim, name == "tangents")
+            for name, given in (("normals", normals), ("tangents", tangents))
+        )
+        self.starts = self.masters = self.weights = None
+        if masters is not None:
+            self._take(masters, weights, count, dim)
+        elif weights is not None:
+            raise ValueError("weights is given without masters: give both, or neither")
+        self.structure = sized(
+            Pairs, dim=dim, count=count, slaves=at(self.slaves), master_start=at(self.starts),
+            masters=at(self.masters), weights=at(self.weights), normals=at(self.normals),
+            tangents=at(self.tangents),
+        )
+
+    def _take(self, masters, weights, count, dim):
+        _one_each("masters", masters, count)
+        nodes = [_nodes(f"masters[{pair}]", of, dim) for pair, of in enumerate(masters)]
+        sizes = [len(of) for of in nodes]
+        if weights is None:
+            several = [pair for pair, size in enumerate(sizes) if size > 1]
+            if several:
+                raise ValueError(f"weights is None, but pair {several[0]} has "
+                                 f"{sizes[several[0]]} masters: give their weights")
+            weights = [[1.0] * size for size in sizes]
+        _one_each("weights", weights, count)
+        weights = [
+            fit(f"weights[{pair}]", of, [(size,)], f"one number for each of the {size} masters of "
+                f"that pair, shape {(size,)}")
+            for pair, (of, size) in enumerate(zip(weights, sizes))
+        ]
+        self.starts = indices(np.cumsum([0, *sizes]))
+        self.masters = indices(np.concatenate([np.zeros((0, dim), np.int64), *nodes]))
+        self.weights = np.concatenate([np.zeros(0), *weights])
+
+
+def supports(fixed):
+    """Numbers of the fixed degrees of freedom."""
+    fixed = integers("fixed", fixed)
+    if fixed.ndim != 1:
+        raise ValueError(f"fixed has the shape {fixed.shape}: give the dof numbers in one list, "
+                         f"shape (count,)")
+    return indices(fixed)
+
+
+def _compressed(K):
+    if hasattr(K, "tocsc"):
+        if K.shape[0] != K.shape[1]:
+            raise ValueError(f"K has the shape {K.shape}: give a square matrix, one row for each "
+                             f"degree of freedom")
+        K = K.tocsc(copy=True)
+        K.sum_duplicates()  # which sorts the rows, too
+        return K.data, K.indices, K.indptr
+    if isinstance(K, tuple) and len(K) == 3:
+        return K
+    given = f"an array of the shape {K.shape}" if hasattr(K, "shape") else f"a {type(K).__name__}"
+    raise TypeError(f"K is {given}: give a scipy sparse matrix or a tuple (data, indices, indptr); "
+                    f"for a condensed matrix use Model.condensed")
+
+
+def _vectors(name, values, count, dim, optional):
+    asked = f"one vector for each pair, shape {(count, dim)}, or one for all, shape {(dim,)}"
+    if values is not None and np.shape(values) == (dim,):
+        values = np.broadcast_to(reals(name, values), (count, dim))
+    return fit(name, values, [(count, dim)], asked, optional=optional)
+
+
+def _one_each(name, lists, count):
+    if not hasattr(lists, "__len__") or len(lists) != count:
+        entries = f"{len(lists)} entries" if hasattr(lists, "__len__") else "no entries"
+        raise ValueError(f"{name} has {entries}: give one list for each of the {count} pairs")
+
+
+def _nodes(name, values, dim):
+    nodes = integers(name, values)
+    if nodes.size == 0:
+        return np.zeros((0, dim), np.int64)
+    if nodes.shape == (dim,):
+        return nodes[None, :]
+    if nodes.ndim != 2 or nodes.shape[1] != dim:
+        raise ValueError(f"{name} has the shape {nodes.shape}: give the dof numbers of each master "
+                         f"node of that pair, shape (masters, {dim})")
+    return nodes

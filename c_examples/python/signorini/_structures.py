@@ -1,0 +1,86 @@
+"""The structures of signorini.h. The tests compare them with the header and with the library."""
+
+import ctypes
+from types import SimpleNamespace
+
+from ._constants import Fallback, Method, Status, Uniqueness, member
+
+i32, i64, u32 = ctypes.c_int32, ctypes.c_int64, ctypes.c_uint32
+real, address = ctypes.c_double, ctypes.c_void_p
+
+
+class Told(ctypes.Structure):
+    """signorini_progress"""
+
+    _fields_ = [("iterations", i64), ("eta", real), ("elapsed", real)]
+
+
+Callback = ctypes.CFUNCTYPE(i32, address, ctypes.POINTER(Told))
+
+
+class Settings(ctypes.Structure):
+    """signorini_settings"""
+
+    _fields_ = [
+        ("struct_size", u32), ("method", i32), ("tolerance", real), ("omega", real),
+        ("damping", real), ("max_iterations", i64), ("time_limit", real), ("warm_start", i32),
+        ("search", i32), ("progress", Callback), ("user", address),
+    ]
+
+
+class Report(ctypes.Structure):
+    """signorini_report"""
+
+    _fields_ = [
+        ("struct_size", u32), ("status", i32), ("method", i32), ("uniqueness", i32),
+        ("iterations", i64), ("outer_iterations", i64), ("refactorisations", i64), ("eta", real),
+        ("rounding", real), ("penetration", real), ("tension", real), ("cone_excess", real),
+        ("equilibrium", real), ("omega", real), ("damping", real), ("pairs_open", i64),
+        ("pairs_slipping", i64), ("pairs_sticking", i64), ("factorisations", i64),
+        ("first_method", i32), ("fallback", i32), ("orientation", i32), ("second", i32),
+    ]
+
+    families = {"status": Status, "method": Method, "first_method": Method,
+                "uniqueness": Uniqueness, "fallback": Fallback}
+
+    def plain(self):
+        """The fields with members of their families. What `second` tells, Result.second is."""
+        values = {name: getattr(self, name) for name, _ in self._fields_}
+        del values["struct_size"], values["second"]
+        for name, family in self.families.items():
+            values[name] = member(family, values[name])
+        return SimpleNamespace(**values)
+
+
+class Extra(ctypes.Structure):
+    """signorini_extra"""
+
+    _fields_ = [
+        ("struct_size", u32), ("reserved", i32), ("motion", address), ("second_d", address),
+        ("second_F", address), ("second_state", address),
+    ]
+
+
+class Sparse(ctypes.Structure):
+    """signorini_sparse"""
+
+    _fields_ = [
+        ("struct_size", u32), ("index_bytes", i32), ("index_base", i32), ("triangle", i32),
+        ("size", i64), ("nnz", i64), ("col_start", address), ("row", address),
+        ("values", address),
+    ]
+
+
+class Pairs(ctypes.Structure):
+    """signorini_pairs"""
+
+    _fields_ = [
+        ("struct_size", u32), ("dim", i32), ("count", i64), ("slaves", address),
+        ("master_start", address), ("masters", address), ("weights", address),
+        ("normals", address), ("tangents", address),
+    ]
+
+
+def sized(structure, **values):
+    """A structure of zeros and of these values, with its size in it."""
+    return structure(struct_size=ctypes.sizeof(structure), **values)

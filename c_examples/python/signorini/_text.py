@@ -1,0 +1,23 @@
+"""Text of the caller as C strings."""
+
+import os
+
+
+def path_bytes(path):
+    """Name of a file."""
+    return _terminated("path", os.fsencode(path))
+
+
+def remark_bytes(remark):
+    """A remark of a problem file, or None."""
+    if remark is None:
+        return None
+    if not isinstance(remark, str):
+        raise TypeError(f"remark is {remark!r}: give a text of one line")
+    return _terminated("remark", remark.encode())
+
+
+def _terminated(name, text):
+    if b"\0" in text:
+        raise ValueError(f"{name} holds a null character, which ends a text in C: leave it out")
+    return text
