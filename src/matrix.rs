@@ -17,6 +17,20 @@ pub(crate) struct SymmetricMatrix<'a> {
 /// (measured 1e-13 from CalculiX and MUMPS), far below a slip of indices.
 pub(crate) const SYMMETRY: f64 = 1e-9;
 
+/// Asymmetry up to this, relative to the diagonal, is that of entries rounded to single precision
+/// (6e-8) or printed with seven digits (5e-7); more is another mistake.
+const SINGLE_PRECISION: f64 = 1e-6;
+
+/// How far two entries that mirror each other differ, relative to what the diagonal allows, and the
+/// `remedy` if it is the rounding of single precision.
+pub(crate) fn difference(relative: f64, remedy: &str) -> String {
+    if !relative.is_finite() {
+        return "beside a zero on the diagonal both must be zero".into();
+    }
+    let said = format!("they differ by {relative:.0e} of the diagonal, {SYMMETRY:.0e} is allowed");
+    if relative <= SINGLE_PRECISION { format!("{said}: {remedy}") } else { said }
+}
+
 /// Entries that a column-major matrix of `size` rows and columns has to the end of its last column.
 ///
 /// # Errors
@@ -94,8 +108,12 @@ impl<'a> SymmetricMatrix<'a> {
         self.pairs_across(|i, j, lower, upper| {
             let scale = root[i] * root[j];
             if (lower - upper).abs() > SYMMETRY * scale {
+                let (below, above) = (format!("{name}[{i},{j}]"), format!("{name}[{j},{i}]"));
+                let remedy =
+                    format!("average {below} and {above}, or compute both in double precision");
+                let difference = difference((lower - upper).abs() / scale, &remedy);
                 return refuse(format!(
-                    "{name} is not symmetric: {name}[{i},{j}] is {lower}, {name}[{j},{i}] is {upper}"
+                    "{name} is not symmetric: {below} is {lower}, {above} is {upper}: {difference}"
                 ));
             }
             if lower.abs() > (1.0 + SYMMETRY) * scale {

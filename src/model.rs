@@ -4,24 +4,21 @@ use std::path::Path;
 
 use crate::error::{Argument, Error};
 use crate::file;
+use crate::linalg::small::largest;
 use crate::matrix::{self, SymmetricMatrix};
 use crate::monitor::Monitor;
 use crate::problem::{ContactData, ContactProblem, FrictionLaw};
-use crate::reduce::{ContactPairs, SparseMatrix, SparseReduction, TwoBodyReduction};
+use crate::reduce::{
+    CondensedReduction, ContactPairs, Reduction, SparseMatrix, SparseReduction, TwoBodyReduction,
+};
 use crate::settings::Settings;
-use crate::solve::{Solution, solve};
+use crate::solve::{Solution, Status, solve};
 
 /// A structure, reduced to its contact pairs. It does not change: several threads may use it.
 pub struct Model {
     dim: usize,
     pairs: usize,
-    reduction: Reduction,
-}
-
-enum Reduction {
-    Condensed(Vec<f64>),
-    TwoBody(TwoBodyReduction),
-    Sparse(Box<SparseReduction>),
+    reduction: Box<dyn Reduction>,
 }
 
 /// One load case: nodal loads of the host and the contact data of each pair.
@@ -50,7 +47,8 @@ impl Model {
         let matrix = SymmetricMatrix { size, entries: k, ld };
         matrix.check("K", Argument::Matrix)?;
         let stiffness = (0..size).flat_map(|j| matrix.column(j).iter().copied()).collect();
-        Ok(Model { dim, pairs, reduction: Reduction::Condensed(stiffness) })
+        let reduction = Box::new(CondensedReduction::new(dim, stiffness));
+        Ok(Model { dim, pairs, reduction })
     }
 
     /// Two condensed bodies on matching contact nodes, each in its own outward frame.
@@ -67,7 +65,7 @@ impl Model {
         check_length("K_A", first, size, (Argument::Matrix, Argument::LeadingDimension))?;
         let names = (Argument::SecondMatrix, Argument::SecondLeadingDimension);
         check_length("K_B", second, size, names)?;
-        let reduction = Reduction::TwoBody(TwoBodyReduction::new(size, first, second)?);
+        let reduction = Box::new(TwoBodyReduction::new(dim, size, first, second)?);
         Model { dim, pairs, reduction }.checked()
     }
 
@@ -78,11 +76,10 @@ impl Model {
     pub fn sparse(
         matrix: &SparseMatrix<'_>,
         fixed: &[usize],
-        interface: &ContactPairs<'_>,
+        pairs: &ContactPairs<'_>,
     ) -> Result<Self, Error> {
-        let reduction = SparseReduction::new(matrix, fixed, interface)?;
-        let reduction = Reduction::Sparse(Box::new(reduction));
-        Model { dim: interface.dim, pairs: interface.pairs, reduction }.checked()
+        let reduction = Box::new(SparseReduction::new(matrix, fixed, pairs)?);
+        Model { dim: pairs.dim, pairs: pairs.count, reduction }.checked()
     }
 
     /// Refuses a reduced matrix in which a relative component has no stiffness of its own.
@@ -106,28 +103,37 @@ impl Model {
     /// Entries of a load or displacement vector of the host: `dim * pairs` (condensed), twice that
     /// (two bodies: A, then B), or the degrees of freedom of the sparse matrix.
     pub fn host_size(&self) -> usize {
-        match &self.reduction {
-            Reduction::Condensed(_) => self.dim * self.pairs,
-            Reduction::TwoBody(_) => 2 * self.dim * self.pairs,
-            Reduction::Sparse(reduction) => reduction.host_size(),
-        }
+        self.reduction.host_size()
     }
 
     /// Number of fixed degrees of freedom.
     pub fn fixed_count(&self) -> usize {
-        match &self.reduction {
-            Reduction::Sparse(reduction) => reduction.fixed_count(),
-            _ => 0,
-        }
+        self.reduction.fixed_count()
     }
 
     /// `K_rel`, column-major, `dim * pairs` square.
     pub fn stiffness(&self) -> &[f64] {
-        match &self.reduction {
-            Reduction::Condensed(stiffness) => stiffness,
-            Reduction::TwoBody(reduction) => reduction.stiffness(),
-            Reduction::Sparse(reduction) => reduction.stiffness(),
-        }
+        self.reduction.stiffness()
+    }
+
+    /// Frames of the pairs in the host's axes: of each pair the normal, then the `dim - 1` tangents,
+    /// `dim` entries each, orthonormal, as the components of `d` and `F` use them. `None` if the host
+    /// has condensed its bodies in frames of its own.
+    pub fn frames(&self) -> Option<&[f64]> {
+        self.reduction.frames()
+    }
+
+    /// Loads of a load case in relative displacements, `dim * pairs`: `f` of `K_rel d = f + F`.
+    ///
+    /// # Errors
+    /// Loads or prescribed values of the wrong length or not finite, or that contradict the supports.
+    pub fn condensed_load(
+        &self,
+        load: &[f64],
+        prescribed: Option<&[f64]>,
+    ) -> Result<Vec<f64>, Error> {
+        self.check_loads(Some(load), prescribed)?;
+        Ok(self.reduction.condense(load, prescribed))
     }
 
     /// Solves a load case from the relative displacements `start`.
@@ -141,7 +147,16 @@ impl Model {
         start: Option<&[f64]>,
         monitor: &mut Monitor<'_>,
     ) -> Result<Solution, Error> {
-        self.reduced(case, |problem| solve(problem, settings, start, monitor))
+        self.reduced(case, |problem| {
+            let mut solution = solve(problem, settings, start, monitor)?;
+            if solution.status == Status::NoEquilibrium
+                && let Some(motion) = &solution.recession
+            {
+                let driven = self.driven_motion(problem.load(), motion);
+                solution.message = format!("{}: {driven}", solution.message);
+            }
+            Ok(solution)
+        })
     }
 
     /// Writes the contact problem that [`Self::solve`] solves for a load case to a file.
@@ -163,12 +178,7 @@ impl Model {
         case: &LoadCase<'_>,
         to: impl FnOnce(&ContactProblem<'_>) -> Result<T, Error>,
     ) -> Result<T, Error> {
-        self.check_loads(Some(case.load), case.prescribed)?;
-        let load = match &self.reduction {
-            Reduction::Condensed(_) => case.load.to_vec(),
-            Reduction::TwoBody(reduction) => reduction.condense(case.load),
-            Reduction::Sparse(reduction) => reduction.condense(case.load, case.prescribed),
-        };
+        let load = self.condensed_load(case.load, case.prescribed)?;
         let slip = case.reference_slip.map(|slip| self.allowed_slip(slip));
         let problem = ContactProblem::on_checked_matrix(ContactData {
             dim: self.dim,
@@ -196,13 +206,7 @@ impl Model {
     ) -> Result<Vec<f64>, Error> {
         self.check_loads(load, prescribed)?;
         check_vector(Argument::Start, "d", d, self.dim * self.pairs)?;
-        let zero = vec![0.0; self.host_size()];
-        let load = load.unwrap_or(&zero);
-        Ok(match &self.reduction {
-            Reduction::Condensed(_) => d.to_vec(),
-            Reduction::TwoBody(reduction) => reduction.recover(load, d),
-            Reduction::Sparse(reduction) => reduction.recover(load, prescribed, d),
-        })
+        Ok(self.reduction.recover(load, prescribed, d))
     }
 
     /// Contact forces as a nodal force vector of the host.
@@ -211,11 +215,7 @@ impl Model {
     /// A force of the wrong length or not finite.
     pub fn nodal_forces(&self, force: &[f64]) -> Result<Vec<f64>, Error> {
         check_vector(Argument::Load, "F", force, self.dim * self.pairs)?;
-        Ok(match &self.reduction {
-            Reduction::Condensed(_) => force.to_vec(),
-            Reduction::TwoBody(_) => [force, force].concat(),
-            Reduction::Sparse(reduction) => reduction.nodal_forces(force),
-        })
+        Ok(self.reduction.nodal_forces(force))
     }
 
     fn check_loads(&self, load: Option<&[f64]>, prescribed: Option<&[f64]>) -> Result<(), Error> {
@@ -225,29 +225,36 @@ impl Model {
         match prescribed {
             Some(values) => {
                 check_vector(Argument::Prescribed, "prescribed", values, self.fixed_count())?;
-                match &self.reduction {
-                    Reduction::Sparse(reduction) => reduction.check_prescribed(values),
-                    _ => Ok(()),
-                }
+                self.reduction.check_prescribed(values)
             }
             None => Ok(()),
         }
     }
 
-    /// The previous slip, without any where supports on both sides allow none.
+    /// The reference slip, zero where supports on both sides of a pair fix it.
     fn allowed_slip(&self, slip: &[f64]) -> Vec<f64> {
         let mut slip = slip.to_vec();
-        if let Reduction::Sparse(reduction) = &self.reduction {
-            for component in reduction.held() {
-                let (pair, axis) = (component / self.dim, component % self.dim);
-                if axis > 0
-                    && let Some(slip) = slip.get_mut((self.dim - 1) * pair + axis - 1)
-                {
-                    *slip = 0.0;
-                }
+        for component in self.reduction.fixed_components() {
+            let (pair, direction) = (component / self.dim, component % self.dim);
+            if direction > 0
+                && let Some(slip) = slip.get_mut((self.dim - 1) * pair + direction - 1)
+            {
+                *slip = 0.0;
             }
         }
         slip
+    }
+
+    /// What moves in the recession direction `motion`, how much the relative loads drive it, and what
+    /// to look at.
+    fn driven_motion(&self, load: &[f64], motion: &[f64]) -> String {
+        let work: f64 = load.iter().zip(motion).map(|(f, d)| f * d).sum();
+        let host = self.reduction.recover(None, None, motion);
+        format!(
+            "it moves {}; the resultant of the loads along it is {:.3e}, per unit of its largest              displacement. Do the normals point out of the slave's body, have the loads the right              signs, is a support or a pair missing?",
+            self.reduction.motion_in_words(motion),
+            work / largest(&host)
+        )
     }
 }
 

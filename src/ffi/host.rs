@@ -113,7 +113,17 @@ impl SignoriniSparse {
             (starts, indices("K: rows", given.rows, entries)?, values)
         };
         let values = values.unwrap_or_default();
-        Ok(SparseMatrix { size: n, starts, rows, values, base: i64::from(given.base), triangle })
+        let matrix = SparseMatrix {
+            size: n,
+            col_start: starts,
+            row: rows,
+            values,
+            index_base: i64::from(given.base),
+            triangle,
+        };
+        // Before other indices: a wrong index base is most likely that of all of them.
+        matrix.check_col_start().map_err(|error| Failure::from_error(error, |_| position))?;
+        Ok(matrix)
     }
 }
 
@@ -133,9 +143,9 @@ impl Pairs<'_> {
     pub(super) fn view(&self) -> ContactPairs<'_> {
         ContactPairs {
             dim: self.dim,
-            pairs: self.pairs,
+            count: self.pairs,
             slaves: &self.slaves,
-            master_starts: &self.master_starts,
+            master_start: &self.master_starts,
             masters: &self.masters,
             weights: self.weights,
             normals: self.normals,

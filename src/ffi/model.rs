@@ -124,8 +124,8 @@ pub unsafe extern "C" fn signorini_model_new_sparse(
             let count = size(2, "fixed", fixed)?;
             let mut arrays = Arrays::default();
             let dofs = arrays.input(3, "dofs", dofs, count, true)?.unwrap_or_default();
-            let fixed = shifted(3, "dofs", dofs, matrix.base)?;
-            let pairs = SignoriniPairs::receive(4, pairs, matrix.base)?;
+            let fixed = shifted(3, "dofs", dofs, matrix.index_base)?;
+            let pairs = SignoriniPairs::receive(4, pairs, matrix.index_base)?;
             Model::sparse(&matrix, &fixed, &pairs.view())
         };
         place.fill(made, |argument| match argument {
