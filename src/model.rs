@@ -4,12 +4,12 @@ use std::path::Path;
 
 use crate::error::{Argument, Error};
 use crate::file;
-use crate::linalg::small::largest;
 use crate::matrix::{self, SymmetricMatrix};
 use crate::monitor::Monitor;
 use crate::problem::{ContactData, ContactProblem, FrictionLaw};
 use crate::reduce::{
     CondensedReduction, ContactPairs, Reduction, SparseMatrix, SparseReduction, TwoBodyReduction,
+    driven_motion,
 };
 use crate::settings::Settings;
 use crate::solve::{Solution, Status, solve};
@@ -32,7 +32,8 @@ pub struct LoadCase<'a> {
     pub gap: &'a [f64],
     /// Friction of the pairs.
     pub law: FrictionLaw<'a>,
-    /// Tangential displacement at rest, `dim - 1` for each pair; `None`: zero.
+    /// Reference slip `d_t0`, `dim - 1` for each pair: the tangential displacement at which friction
+    /// carries no force. `None`: zero.
     pub reference_slip: Option<&'a [f64]>,
 }
 
@@ -47,7 +48,7 @@ impl Model {
         let matrix = SymmetricMatrix { size, entries: k, ld };
         matrix.check("K", Argument::Matrix)?;
         let stiffness = (0..size).flat_map(|j| matrix.column(j).iter().copied()).collect();
-        let reduction = Box::new(CondensedReduction::new(dim, stiffness));
+        let reduction = Box::new(CondensedReduction::new(dim, size, stiffness));
         Ok(Model { dim, pairs, reduction })
     }
 
@@ -152,7 +153,7 @@ impl Model {
             if solution.status == Status::NoEquilibrium
                 && let Some(motion) = &solution.recession
             {
-                let driven = self.driven_motion(problem.load(), motion);
+                let driven = driven_motion(&*self.reduction, problem.load(), motion);
                 solution.message = format!("{}: {driven}", solution.message);
             }
             Ok(solution)
@@ -243,18 +244,6 @@ impl Model {
             }
         }
         slip
-    }
-
-    /// What moves in the recession direction `motion`, how much the relative loads drive it, and what
-    /// to look at.
-    fn driven_motion(&self, load: &[f64], motion: &[f64]) -> String {
-        let work: f64 = load.iter().zip(motion).map(|(f, d)| f * d).sum();
-        let host = self.reduction.recover(None, None, motion);
-        format!(
-            "it moves {}; the resultant of the loads along it is {:.3e}, per unit of its largest              displacement. Do the normals point out of the slave's body, have the loads the right              signs, is a support or a pair missing?",
-            self.reduction.motion_in_words(motion),
-            work / largest(&host)
-        )
     }
 }
 

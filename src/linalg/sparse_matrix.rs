@@ -54,15 +54,23 @@ pub fn both<'a>(
     let tail = |matrix: &'a Csc| {
         let (rows, values) = column(matrix, j);
         let skipped = rows.partition_point(|&i| i < first);
-        rows[skipped..].iter().copied().zip(values[skipped..].iter().copied()).peekable()
+        (&rows[skipped..], &values[skipped..])
     };
-    let (mut a, mut b) = (tail(a), tail(b));
+    let ((a_rows, a_values), (b_rows, b_values)) = (tail(a), tail(b));
+    let (mut p, mut q) = (0, 0);
     std::iter::from_fn(move || {
-        let i = [a.peek(), b.peek()].into_iter().flatten().map(|(i, _)| *i).min()?;
-        let value = |tail: &mut std::iter::Peekable<_>| {
-            tail.next_if(|(row, _): &(usize, f64)| *row == i).map_or(0.0, |(_, value)| value)
-        };
-        Some((i, value(&mut a), value(&mut b)))
+        let (one, other) = (a_rows.get(p).copied(), b_rows.get(q).copied());
+        let i = one.into_iter().chain(other).min()?;
+        let mut values = (0.0, 0.0);
+        if one == Some(i) {
+            values.0 = a_values[p];
+            p += 1;
+        }
+        if other == Some(i) {
+            values.1 = b_values[q];
+            q += 1;
+        }
+        Some((i, values.0, values.1))
     })
 }
 
@@ -96,11 +104,12 @@ fn as_column_mut(x: &mut [f64]) -> MatMut<'_, f64> {
     MatMut::from_column_major_slice_mut(x, length, 1)
 }
 
-/// The lower triangle of `Wᵀ A W`; `lower` is that of the symmetric `A`.
+/// Of `Wᵀ A W` the first `columns` columns: the lower triangle of their first `columns` rows, and the
+/// rows after these. `lower` is the lower triangle of the symmetric `A`.
 ///
 /// With `A = H + Hᵀ`, `H` the lower triangle with half the diagonal, it is `Wᵀ H W` and its transpose:
 /// no product needs the upper triangle.
-pub fn congruence(mut lower: Csc, w: &Csc) -> Result<Csc, OutOfMemory> {
+pub fn congruence(mut lower: Csc, w: &Csc, columns: usize) -> Result<(Csc, Csc), OutOfMemory> {
     for j in 0..lower.ncols() {
         if diagonal(&lower, j).is_some() {
             let place = lower.symbolic().col_ptr()[j];
@@ -111,48 +120,71 @@ pub fn congruence(mut lower: Csc, w: &Csc) -> Result<Csc, OutOfMemory> {
     drop(lower);
     let half = product(&transposed(w)?, &half)?;
     let mirrored = transposed(&half)?;
-    lower_of_sum(&half, &mirrored)
+    // Each entry of the product gives one of the lower triangle at the most.
+    let (mut leading, mut below) =
+        (Columns::with_capacity(half.compute_nnz())?, Columns::default());
+    for j in 0..columns {
+        for (i, one, other) in both(&half, &mirrored, j, j) {
+            let (part, row) =
+                if i < columns { (&mut leading, i) } else { (&mut below, i - columns) };
+            part.row.push(row);
+            part.values.push(one + other);
+        }
+        leading.end_column();
+        below.end_column();
+    }
+    Ok((leading.matrix(columns), below.matrix(w.ncols() - columns)))
 }
 
 fn product(a: &Csc, b: &Csc) -> Result<Csc, OutOfMemory> {
     sparse_sparse_matmul(a.as_ref(), b.as_ref(), 1.0, Par::Seq).map_err(|_| OutOfMemory)
 }
 
-/// The lower triangle of `A + Aᵀ`, `mirrored` being `Aᵀ`.
-fn lower_of_sum(a: &Csc, mirrored: &Csc) -> Result<Csc, OutOfMemory> {
-    let n = a.ncols();
-    // Each entry of A gives one of the lower triangle at the most.
-    let most = a.compute_nnz();
-    let (mut col_start, mut row, mut values) = (vec![0], Vec::new(), Vec::new());
-    row.try_reserve_exact(most).map_err(|_| OutOfMemory)?;
-    values.try_reserve_exact(most).map_err(|_| OutOfMemory)?;
-    for j in 0..n {
-        for (i, one, other) in both(a, mirrored, j, j) {
-            row.push(i);
-            values.push(one + other);
-        }
-        col_start.push(row.len());
-    }
-    Ok(from_columns((n, n), col_start, row, values))
+/// A matrix that is made column by column.
+pub struct Columns {
+    col_start: Vec<usize>,
+    /// Rows of the entries so far.
+    pub row: Vec<usize>,
+    /// The entries so far.
+    pub values: Vec<f64>,
 }
 
-/// The rows before `first` and the others, of the columns before `columns`.
-pub fn split_rows(a: &Csc, first: usize, columns: usize) -> (Csc, Csc) {
-    let part = |from: usize, to: usize| {
-        let range = |j: usize| {
-            let (begin, rows) = (a.symbolic().col_ptr()[j], column(a, j).0);
-            let [from, to] = [from, to].map(|bound| rows.partition_point(|&i| i < bound));
-            begin + from..begin + to
-        };
-        let stored: usize = (0..columns).map(|j| range(j).len()).sum();
-        let mut col_start = vec![0];
-        let (mut row, mut values) = (Vec::with_capacity(stored), Vec::with_capacity(stored));
-        for range in (0..columns).map(range) {
-            row.extend(a.symbolic().row_idx()[range.clone()].iter().map(|i| i - from));
-            values.extend_from_slice(&a.val()[range]);
-            col_start.push(row.len());
-        }
-        from_columns((to - from, columns), col_start, row, values)
-    };
-    (part(0, first), part(first, a.nrows()))
+impl Default for Columns {
+    fn default() -> Self {
+        Columns { col_start: vec![0], row: Vec::new(), values: Vec::new() }
+    }
+}
+
+impl Columns {
+    /// Room for entries.
+    pub fn with_capacity(entries: usize) -> Result<Self, OutOfMemory> {
+        let mut columns = Columns::default();
+        columns.row.try_reserve_exact(entries).map_err(|_| OutOfMemory)?;
+        columns.values.try_reserve_exact(entries).map_err(|_| OutOfMemory)?;
+        Ok(columns)
+    }
+
+    /// The next entries are of the next column.
+    pub fn end_column(&mut self) {
+        self.col_start.push(self.row.len());
+    }
+
+    /// The matrix of the columns so far.
+    pub fn matrix(self, rows: usize) -> Csc {
+        from_columns((rows, self.col_start.len() - 1), self.col_start, self.row, self.values)
+    }
+}
+
+/// The first `size` rows and columns of a lower triangle.
+pub fn leading_part(lower: &Csc, size: usize) -> Result<Csc, OutOfMemory> {
+    let stored = lower.symbolic().col_ptr()[size];
+    let mut columns = Columns::with_capacity(stored)?;
+    for j in 0..size {
+        let (rows, values) = column(lower, j);
+        let inside = rows.partition_point(|&i| i < size);
+        columns.row.extend_from_slice(&rows[..inside]);
+        columns.values.extend_from_slice(&values[..inside]);
+        columns.end_column();
+    }
+    Ok(columns.matrix(size))
 }

@@ -19,7 +19,7 @@ use faer::{Conj, MatMut, Par, Side, Spec};
 
 use super::dense::lower_times_transpose;
 use super::null_vector::{resistance, weakest};
-use super::sparse_matrix::{Csc, diagonal, split_rows};
+use super::sparse_matrix::{Csc, diagonal, leading_part};
 use super::tolerances::{NULL_VECTOR, REGULARISATION, SUSPICIOUS_PIVOT};
 use super::workspaces::Workspaces;
 
@@ -36,7 +36,8 @@ pub enum Failure {
 
 /// The factor and the Schur complement.
 pub struct SparseSchur {
-    factor: Factor,
+    /// `None` if there are no rows.
+    factor: Option<Factor>,
     /// Rows in the order of the factor: those of `A` permuted, then those of `C`.
     order: Vec<usize>,
     /// Number of rows of `A`.
@@ -52,6 +53,10 @@ impl SparseSchur {
     /// The first `eliminated` rows are those of `A`.
     pub fn new(mut lower: Csc, eliminated: usize) -> Result<Self, Failure> {
         let n = lower.ncols();
+        if n == 0 {
+            let (order, tail, schur) = (Vec::new(), Vec::new(), Vec::new());
+            return Ok(SparseSchur { factor: None, order, eliminated, tail, schur });
+        }
         let shift: Vec<f64> = (eliminated..n).map(|j| scale_diagonal(&mut lower, j, 2.0)).collect();
         let (order, inverse) = ordering(&lower, eliminated)?;
         let mut factor = Factor::analysed(&lower, PermRef::new_checked(&order, &inverse, n))?;
@@ -82,7 +87,7 @@ impl SparseSchur {
                 return Err(Failure::NullVector(vector));
             }
         }
-        Ok(SparseSchur { factor, order, eliminated, tail, schur })
+        Ok(SparseSchur { factor: Some(factor), order, eliminated, tail, schur })
     }
 
     /// `S`, column-major.
@@ -105,7 +110,7 @@ impl SparseSchur {
         for (i, x) in x[self.eliminated..].iter_mut().enumerate() {
             *x = (i..m).map(|j| self.tail[j + m * i] * d[j]).sum();
         }
-        self.factor.half_solve(&mut x, Half::Backward);
+        self.half_solve(&mut x, Half::Backward);
         let mut solution = unpermuted(&self.order, &x);
         solution[self.eliminated..].copy_from_slice(d);
         solution
@@ -114,8 +119,14 @@ impl SparseSchur {
     /// `L⁻¹` of the right side, in the order of the factor.
     fn forward(&self, rhs: &[f64]) -> Vec<f64> {
         let mut x: Vec<f64> = self.order.iter().map(|&i| rhs[i]).collect();
-        self.factor.half_solve(&mut x, Half::Forward);
+        self.half_solve(&mut x, Half::Forward);
         x
+    }
+
+    fn half_solve(&self, x: &mut [f64], half: Half) {
+        if let Some(factor) = &self.factor {
+            factor.half_solve(x, half);
+        }
     }
 }
 
@@ -249,7 +260,7 @@ impl Factor {
 
 /// Approximate minimum degree on the first rows, the others after them as they are; with its inverse.
 fn ordering(lower: &Csc, eliminated: usize) -> Result<(Vec<usize>, Vec<usize>), Failure> {
-    let (leading, _) = split_rows(lower, eliminated, eliminated);
+    let leading = leading_part(lower, eliminated).map_err(|_| Failure::OutOfMemory)?;
     let (mut order, mut inverse) = (vec![0; eliminated], vec![0; eliminated]);
     let scratch = amd::order_maybe_unsorted_scratch::<usize>(eliminated, leading.compute_nnz());
     let mut memory = MemBuffer::try_new(scratch).map_err(|_| Failure::OutOfMemory)?;

@@ -5,14 +5,16 @@ use super::{Reduction, motion};
 /// The host's condensed stiffness, taken as it is.
 pub struct CondensedReduction {
     dim: usize,
+    /// Components of `d`.
+    size: usize,
     stiffness: Vec<f64>,
 }
 
 impl CondensedReduction {
-    /// Keeps a checked stiffness of pairs with `dim` components each, column-major without gaps
-    /// between columns.
-    pub(crate) fn new(dim: usize, stiffness: Vec<f64>) -> Self {
-        CondensedReduction { dim, stiffness }
+    /// Keeps a checked stiffness of `size` rows, column-major with leading dimension `size`; each pair
+    /// has `dim` of them.
+    pub(crate) fn new(dim: usize, size: usize, stiffness: Vec<f64>) -> Self {
+        CondensedReduction { dim, size, stiffness }
     }
 }
 
@@ -22,7 +24,7 @@ impl Reduction for CondensedReduction {
     }
 
     fn host_size(&self) -> usize {
-        self.stiffness.len().isqrt()
+        self.size
     }
 
     fn condense(&self, load: &[f64], _prescribed: Option<&[f64]>) -> Vec<f64> {

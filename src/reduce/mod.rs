@@ -11,6 +11,7 @@ mod sparse;
 mod two_body;
 
 pub use condensed::CondensedReduction;
+pub(crate) use motion::driven_motion;
 pub use pairs::ContactPairs;
 pub use sparse::{Indices, SparseMatrix, SparseReduction, Triangle};
 pub use two_body::TwoBodyReduction;
@@ -45,7 +46,8 @@ pub trait Reduction: Send + Sync {
     /// Contact forces as nodal forces of the host.
     fn nodal_forces(&self, force: &[f64]) -> Vec<f64>;
 
-    /// Refuses values of the fixed degrees of freedom that contradict [`Self::fixed_components`].
+    /// Rejects values of the fixed degrees of freedom that would open a pair along one of
+    /// [`Self::fixed_components`].
     ///
     /// # Errors
     /// Names the pair.

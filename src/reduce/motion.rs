@@ -1,13 +1,26 @@
 //! Motions in words: which part moves, and what moves most.
 
+use super::Reduction;
 use crate::linalg::small::largest;
 
 /// Displacements below this part of the largest one are not counted as moving: a motion comes from
-/// an iteration that leaves 1e-8 and less where nothing moves.
+/// an iteration that leaves up to this where nothing moves (`linalg::tolerances::INVERSE_ITERATIONS`).
 const MOVING: f64 = 1e-6;
 
 /// How many of what moves most are named: a node's translation in space, or one point of a rotation.
 const MOST_NAMED: usize = 3;
+
+/// What moves in the recession direction `d` that relative loads drive, how much they drive it, and what
+/// to look at.
+pub(crate) fn driven_motion(reduction: &dyn Reduction, load: &[f64], d: &[f64]) -> String {
+    let work: f64 = load.iter().zip(d).map(|(f, d)| f * d).sum();
+    format!(
+        "it moves {}; the resultant of the loads along it is {:.3e} (largest displacement 1). Are all \
+         normals outward from the slaves and the signs of loads right, is a support or pair missing?",
+        reduction.motion_in_words(d),
+        work / largest(&reduction.recover(None, None, d))
+    )
+}
 
 /// Places of the entries that move, and of those that move most, the largest first.
 pub(super) fn moving(values: &[f64]) -> (Vec<usize>, Vec<usize>) {

@@ -11,7 +11,7 @@
 use super::supports::FixedComponent;
 use crate::linalg::small::largest;
 use crate::linalg::sparse_matrix::{
-    Csc, OutOfMemory, congruence, from_columns, from_entries, split_rows, times, transpose_times,
+    Csc, OutOfMemory, congruence, from_columns, from_entries, times, transpose_times,
 };
 use crate::reduce::frame::Frame;
 use crate::reduce::pairs::ContactPairs;
@@ -86,8 +86,7 @@ impl ChangeOfVariables {
     /// The lower triangle of `Tᵀ K T`, and `Pᵀ K T`, from the lower triangle of `K`.
     pub(super) fn transform(&self, host: Csc) -> Result<(Csc, Csc), OutOfMemory> {
         let host = with_springs(host, self.springs);
-        let all = congruence(host, &self.matrix)?;
-        Ok(split_rows(&all, self.unknowns, self.unknowns))
+        congruence(host, &self.matrix, self.unknowns)
     }
 
     /// `T x + P p`; `None`: `p` is zero.

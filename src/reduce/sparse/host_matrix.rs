@@ -3,7 +3,7 @@
 use super::messages;
 use crate::error::{Argument, Error};
 use crate::linalg::sparse_matrix::{
-    Csc, OutOfMemory, both, column, diagonal, from_columns, transposed,
+    Columns, Csc, OutOfMemory, both, column, diagonal, from_columns, transposed,
 };
 use crate::matrix::SYMMETRY;
 
@@ -100,7 +100,7 @@ impl SparseMatrix<'_> {
             Triangle::Upper => transposed(&stored).map_err(memory)?,
             Triangle::Full => {
                 check_symmetry(&stored, &transposed(&stored).map_err(memory)?)?;
-                lower_part(&stored)
+                lower_part(&stored).map_err(memory)?
             }
         };
         check_diagonal(&lower, is_fixed)?;
@@ -181,17 +181,17 @@ fn check_symmetry(full: &Csc, transposed: &Csc) -> Result<(), Error> {
     Ok(())
 }
 
-fn lower_part(full: &Csc) -> Csc {
+fn lower_part(full: &Csc) -> Result<Csc, OutOfMemory> {
     let size = full.ncols();
-    let (mut col_start, mut row, mut values) = (vec![0], Vec::new(), Vec::new());
+    let mut lower = Columns::with_capacity(full.compute_nnz().div_ceil(2) + size)?;
     for j in 0..size {
-        let (rows, entries) = column(full, j);
+        let (rows, values) = column(full, j);
         let above = rows.partition_point(|&i| i < j);
-        row.extend_from_slice(&rows[above..]);
-        values.extend_from_slice(&entries[above..]);
-        col_start.push(row.len());
+        lower.row.extend_from_slice(&rows[above..]);
+        lower.values.extend_from_slice(&values[above..]);
+        lower.end_column();
     }
-    from_columns((size, size), col_start, row, values)
+    Ok(lower.matrix(size))
 }
 
 /// Refuses diagonal entries that are not positive. One of a fixed degree of freedom may be zero, if its

@@ -52,9 +52,11 @@ impl SparseReduction {
         pairs: &ContactPairs<'_>,
     ) -> Result<Self, Error> {
         let memory = |_: OutOfMemory| Error::OutOfMemory("the reduced stiffness matrix");
-        pairs.check(matrix.size)?;
+        // The matrix first: a wrong size or index base shows in the other arrays too.
+        matrix.check_col_start()?;
         let places = supports::places_in_fixed(matrix.size, fixed)?;
         let host = matrix.lower_triangle(|dof| places[dof].is_some())?;
+        pairs.check(matrix.size)?;
         let mut frames = pairs.frames()?;
         let supports = supports::fixed_components(pairs, &mut frames, &places)?;
         let variables =
@@ -134,10 +136,10 @@ impl Reduction for SparseReduction {
         let size = |pair: &usize| largest(&d[dim * pair..dim * (pair + 1)]);
         let most = (0..d.len() / dim).max_by(|a, b| size(a).total_cmp(&size(b)));
         let Some(pair) = most.filter(|pair| size(pair) > 0.0) else { return whole };
+        let range = dim * pair..dim * (pair + 1);
         let mut relative = vec![0.0; dim];
-        for component in dim * pair..dim * (pair + 1) {
-            let direction = &self.frames[dim * component..dim * (component + 1)];
-            relative.iter_mut().zip(direction).for_each(|(u, part)| *u += d[component] * part);
+        for (d, direction) in d[range].iter().zip(self.frames[dim * dim * pair..].chunks(dim)) {
+            relative.iter_mut().zip(direction).for_each(|(u, part)| *u += d * part);
         }
         messages::with_pair(&whole, pair, &relative)
     }

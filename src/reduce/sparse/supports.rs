@@ -36,7 +36,7 @@ pub(super) struct FixedComponent {
 }
 
 impl FixedComponent {
-    /// Refuses fixed values that give the component a displacement.
+    /// Rejects fixed values that would open the pair along the component.
     ///
     /// # Errors
     /// Names the pair.
