@@ -2,9 +2,7 @@
 
 use super::messages;
 use crate::error::{Argument, Error};
-use crate::linalg::sparse_matrix::{
-    Columns, Csc, OutOfMemory, both, column, diagonal, from_columns, transposed,
-};
+use crate::linalg::sparse_matrix::{Columns, Csc, OutOfMemory, both, column, diagonal, transposed};
 use crate::matrix::SYMMETRY;
 
 /// Which entries of the symmetric matrix are stored.
@@ -93,8 +91,8 @@ impl SparseMatrix<'_> {
     pub(super) fn lower_triangle(&self, is_fixed: impl Fn(usize) -> bool) -> Result<Csc, Error> {
         let memory = |_: OutOfMemory| Error::OutOfMemory("a copy of the stiffness matrix");
         let col_start = self.checked_col_start()?;
-        let row = self.checked_rows(&col_start)?;
-        let stored = from_columns((self.size, self.size), col_start, row, self.values.to_vec());
+        let columns = Columns::with_capacity(self.values.len()).map_err(memory)?;
+        let stored = self.checked_columns(&col_start, columns)?;
         let lower = match self.triangle {
             Triangle::Lower => stored,
             Triangle::Upper => transposed(&stored).map_err(memory)?,
@@ -137,15 +135,15 @@ impl SparseMatrix<'_> {
         Ok(col_start)
     }
 
-    fn checked_rows(&self, col_start: &[usize]) -> Result<Vec<usize>, Error> {
-        let mut row: Vec<usize> = Vec::with_capacity(self.values.len());
+    /// Copies the stored entries to `columns`.
+    fn checked_columns(&self, col_start: &[usize], mut columns: Columns) -> Result<Csc, Error> {
         for (j, ends) in col_start.windows(2).enumerate() {
             for k in ends[0]..ends[1] {
                 let i = self.row.get(k).checked_sub(self.index_base);
                 let i = i.and_then(|i| usize::try_from(i).ok()).filter(|i| *i < self.size);
                 let Some(i) = i else { return refuse(messages::row_out_of_range(self, k, j)) };
-                if k > ends[0] && row[k - 1] >= i {
-                    return refuse(messages::row_out_of_order(k, j, (row[k - 1], i)));
+                if k > ends[0] && columns.row[k - 1] >= i {
+                    return refuse(messages::row_out_of_order(k, j, (columns.row[k - 1], i)));
                 }
                 if !self.values[k].is_finite() {
                     return refuse(format!("K[{i},{j}] is not finite"));
@@ -158,10 +156,12 @@ impl SparseMatrix<'_> {
                 if !in_place {
                     return refuse(format!("K[{i},{j}] is not in the triangle that was named"));
                 }
-                row.push(i);
+                columns.row.push(i);
+                columns.values.push(self.values[k]);
             }
+            columns.end_column();
         }
-        Ok(row)
+        Ok(columns.matrix(self.size))
     }
 }
 
