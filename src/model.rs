@@ -10,21 +10,18 @@ use crate::monitor::Monitor;
 use crate::problem::{
     ContactData, ContactProblem, FrictionLaw, checked_dim, symmetric_matrix, unknowns,
 };
-use crate::reduce::{ContactPairs, SparseMatrix, SparseReduction, TwoBodyReduction};
+use crate::reduce::{
+    CondensedReduction, ContactPairs, Reduction, SparseMatrix, SparseReduction, TwoBodyReduction,
+    driven_motion,
+};
 use crate::settings::Settings;
-use crate::solve::{Solution, solve};
+use crate::solve::{NO_EQUILIBRIUM, Solution, Status, solve};
 
 /// A structure, reduced to its contact pairs. It does not change: several threads may use it.
 pub struct Model {
     dim: usize,
     pairs: usize,
-    reduction: Reduction,
-}
-
-enum Reduction {
-    Condensed(Vec<f64>),
-    TwoBody(TwoBodyReduction),
-    Sparse(Box<SparseReduction>),
+    reduction: Box<dyn Reduction>,
 }
 
 /// One load case: nodal loads of the host and the contact data of each pair.
@@ -38,7 +35,8 @@ pub struct LoadCase<'a> {
     pub gap: &'a [f64],
     /// Friction of the pairs.
     pub law: FrictionLaw<'a>,
-    /// Tangential displacement at rest, `dim - 1` for each pair; `None`: zero.
+    /// Reference slip `d_t0`, `dim - 1` for each pair: the tangential displacement at which friction
+    /// carries no force. `None`: zero.
     pub reference_slip: Option<&'a [f64]>,
 }
 
@@ -53,7 +51,8 @@ impl Model {
         let matrix = Matrix::new(size, k, ld);
         symmetric_matrix::check(&matrix, "K", Argument::Matrix)?;
         let stiffness = (0..size).flat_map(|j| matrix.column(j).iter().copied()).collect();
-        Ok(Model { dim, pairs, reduction: Reduction::Condensed(stiffness) })
+        let reduction = Box::new(CondensedReduction::new(dim, size, stiffness));
+        Ok(Model { dim, pairs, reduction })
     }
 
     /// Two condensed bodies on matching contact nodes, each in its own outward frame.
@@ -70,7 +69,7 @@ impl Model {
         check_length("K_A", first, size, (Argument::Matrix, Argument::LeadingDimension))?;
         let names = (Argument::SecondMatrix, Argument::SecondLeadingDimension);
         check_length("K_B", second, size, names)?;
-        let reduction = Reduction::TwoBody(TwoBodyReduction::new(size, first, second)?);
+        let reduction = Box::new(TwoBodyReduction::new(dim, size, first, second)?);
         Model { dim, pairs, reduction }.checked()
     }
 
@@ -81,11 +80,10 @@ impl Model {
     pub fn sparse(
         matrix: &SparseMatrix<'_>,
         fixed: &[usize],
-        interface: &ContactPairs<'_>,
+        pairs: &ContactPairs<'_>,
     ) -> Result<Self, Error> {
-        let reduction = SparseReduction::new(matrix, fixed, interface)?;
-        let reduction = Reduction::Sparse(Box::new(reduction));
-        Model { dim: interface.dim, pairs: interface.pairs, reduction }.checked()
+        let reduction = Box::new(SparseReduction::new(matrix, fixed, pairs)?);
+        Model { dim: pairs.dim, pairs: pairs.count, reduction }.checked()
     }
 
     /// Refuses a reduced matrix in which a relative component has no stiffness of its own.
@@ -109,55 +107,37 @@ impl Model {
     /// Entries of a load or displacement vector of the host: `dim * pairs` (condensed), twice that
     /// (two bodies: A, then B), or the degrees of freedom of the sparse matrix.
     pub fn host_size(&self) -> usize {
-        match &self.reduction {
-            Reduction::Condensed(_) => self.dim * self.pairs,
-            Reduction::TwoBody(_) => 2 * self.dim * self.pairs,
-            Reduction::Sparse(reduction) => reduction.host_size(),
-        }
+        self.reduction.host_size()
     }
 
     /// Number of fixed degrees of freedom.
     pub fn fixed_count(&self) -> usize {
-        match &self.reduction {
-            Reduction::Sparse(reduction) => reduction.fixed_count(),
-            _ => 0,
-        }
+        self.reduction.fixed_count()
     }
 
     /// `K_rel`, column-major, `dim * pairs` square.
     pub fn stiffness(&self) -> &[f64] {
-        match &self.reduction {
-            Reduction::Condensed(stiffness) => stiffness,
-            Reduction::TwoBody(reduction) => reduction.stiffness(),
-            Reduction::Sparse(reduction) => reduction.stiffness(),
-        }
+        self.reduction.stiffness()
     }
 
-    /// Frames of the pairs of a sparse model: for each pair the normal, then the tangents, unit
-    /// vectors of `dim` entries. `None` of other models, which the host condensed in its own frames.
+    /// Frames of the pairs in the host's axes: of each pair the normal, then the `dim - 1` tangents,
+    /// `dim` entries each, orthonormal, as the components of `d` and `F` use them. `None` if the host
+    /// has condensed its bodies in frames of its own.
     pub fn frames(&self) -> Option<&[f64]> {
-        match &self.reduction {
-            Reduction::Sparse(reduction) => Some(reduction.frames()),
-            _ => None,
-        }
+        self.reduction.frames()
     }
 
-    /// Relative loads of a load case, `dim * pairs`: `f` of the contact problem whose stiffness is
-    /// [`Self::stiffness`].
+    /// Loads of a load case in relative displacements, `dim * pairs`: `f` of `K_rel d = f + F`.
     ///
     /// # Errors
-    /// Loads or prescribed values of the wrong length or not finite.
+    /// Loads or prescribed values of the wrong length or not finite, or that contradict the supports.
     pub fn condensed_load(
         &self,
         load: &[f64],
         prescribed: Option<&[f64]>,
     ) -> Result<Vec<f64>, Error> {
         self.check_loads(Some(load), prescribed)?;
-        Ok(match &self.reduction {
-            Reduction::Condensed(_) => load.to_vec(),
-            Reduction::TwoBody(reduction) => reduction.condense(load),
-            Reduction::Sparse(reduction) => reduction.condense(load, prescribed),
-        })
+        Ok(self.reduction.condense(load, prescribed))
     }
 
     /// Measures relative displacements `d` of any origin on a load case.
@@ -181,7 +161,16 @@ impl Model {
         start: Option<&[f64]>,
         monitor: &mut Monitor<'_>,
     ) -> Result<Solution, Error> {
-        self.reduced(case, |problem| solve(problem, settings, start, monitor))
+        self.reduced(case, |problem| {
+            let mut solution = solve(problem, settings, start, monitor)?;
+            if solution.status == Status::NoEquilibrium
+                && let Some(motion) = &solution.recession
+            {
+                let driven = driven_motion(&*self.reduction, problem.load(), motion);
+                solution.message = format!("{NO_EQUILIBRIUM}: {driven}");
+            }
+            Ok(solution)
+        })
     }
 
     /// Writes the contact problem that [`Self::solve`] solves for a load case to a file.
@@ -231,13 +220,7 @@ impl Model {
     ) -> Result<Vec<f64>, Error> {
         self.check_loads(load, prescribed)?;
         check_vector(Argument::Start, "d", d, self.dim * self.pairs)?;
-        let zero = vec![0.0; self.host_size()];
-        let load = load.unwrap_or(&zero);
-        Ok(match &self.reduction {
-            Reduction::Condensed(_) => d.to_vec(),
-            Reduction::TwoBody(reduction) => reduction.recover(load, d),
-            Reduction::Sparse(reduction) => reduction.recover(load, prescribed, d),
-        })
+        Ok(self.reduction.recover(load, prescribed, d))
     }
 
     /// Contact forces as a nodal force vector of the host.
@@ -246,11 +229,7 @@ impl Model {
     /// A force of the wrong length or not finite.
     pub fn nodal_forces(&self, force: &[f64]) -> Result<Vec<f64>, Error> {
         check_vector(Argument::Load, "F", force, self.dim * self.pairs)?;
-        Ok(match &self.reduction {
-            Reduction::Condensed(_) => force.to_vec(),
-            Reduction::TwoBody(_) => [force, force].concat(),
-            Reduction::Sparse(reduction) => reduction.nodal_forces(force),
-        })
+        Ok(self.reduction.nodal_forces(force))
     }
 
     fn check_loads(&self, load: Option<&[f64]>, prescribed: Option<&[f64]>) -> Result<(), Error> {
@@ -260,26 +239,21 @@ impl Model {
         match prescribed {
             Some(values) => {
                 check_vector(Argument::Prescribed, "prescribed", values, self.fixed_count())?;
-                match &self.reduction {
-                    Reduction::Sparse(reduction) => reduction.check_prescribed(values),
-                    _ => Ok(()),
-                }
+                self.reduction.check_prescribed(values)
             }
             None => Ok(()),
         }
     }
 
-    /// The previous slip, without any where supports on both sides allow none.
+    /// The reference slip, zero where supports on both sides of a pair fix it.
     fn allowed_slip(&self, slip: &[f64]) -> Vec<f64> {
         let mut slip = slip.to_vec();
-        if let Reduction::Sparse(reduction) = &self.reduction {
-            for component in reduction.held() {
-                let (pair, axis) = (component / self.dim, component % self.dim);
-                if axis > 0
-                    && let Some(slip) = slip.get_mut((self.dim - 1) * pair + axis - 1)
-                {
-                    *slip = 0.0;
-                }
+        for component in self.reduction.fixed_components() {
+            let (pair, direction) = (component / self.dim, component % self.dim);
+            if direction > 0
+                && let Some(slip) = slip.get_mut((self.dim - 1) * pair + direction - 1)
+            {
+                *slip = 0.0;
             }
         }
         slip

@@ -168,7 +168,7 @@ fn storage_does_not_matter() {
         for base in [0, 1] {
             let shift = |values: &[i64]| values.iter().map(|v| v + base).collect::<Vec<i64>>();
             let narrow = |values: &[i64]| values.iter().map(|v| *v as i32).collect::<Vec<i32>>();
-            let (starts, rows) = (shift(&stored.starts), shift(&stored.rows));
+            let (starts, rows) = (shift(&stored.col_start), shift(&stored.row));
             let (narrow_starts, narrow_rows) = (narrow(&starts), narrow(&rows));
             for (starts, rows) in [
                 (Indices::Wide(&starts), Indices::Wide(&rows)),
@@ -176,13 +176,13 @@ fn storage_does_not_matter() {
             ] {
                 let matrix = SparseMatrix {
                     size: stored.size,
-                    starts,
-                    rows,
+                    col_start: starts,
+                    row: rows,
                     values: &stored.values,
-                    base,
+                    index_base: base,
                     triangle,
                 };
-                let model = Model::sparse(&matrix, &fixed, &pairs.interface()).unwrap();
+                let model = Model::sparse(&matrix, &fixed, &pairs.view()).unwrap();
                 assert_eq!(model.stiffness(), reference.stiffness(), "{triangle:?}, base {base}");
                 assert_eq!(solved(&model, &load, 0.4).d, d, "{triangle:?}, base {base}");
             }
@@ -200,26 +200,26 @@ fn triangles_may_differ_by_roundings() {
     let known = lower.dense();
     let absent = |i: usize, j: usize| i < j && known[i + lower.size * j] == 0.0;
     for (extra, accepted) in [(1e-12, true), (1e-3, false)] {
-        let mut full = Stiffness { starts: vec![0], rows: vec![], values: vec![], ..lower };
+        let mut full = Stiffness { col_start: vec![0], row: vec![], values: vec![], ..lower };
         for j in 0..lower.size {
             for i in 0..lower.size {
                 let value = if absent(i, j) { extra } else { known[i + lower.size * j] };
                 if value != 0.0 {
-                    full.rows.push(i as i64);
+                    full.row.push(i as i64);
                     full.values.push(value);
                 }
             }
-            full.starts.push(full.rows.len() as i64);
+            full.col_start.push(full.row.len() as i64);
         }
         let matrix = SparseMatrix {
             size: full.size,
-            starts: Indices::Wide(&full.starts),
-            rows: Indices::Wide(&full.rows),
+            col_start: Indices::Wide(&full.col_start),
+            row: Indices::Wide(&full.row),
             values: &full.values,
-            base: 0,
+            index_base: 0,
             triangle: Triangle::Full,
         };
-        match Model::sparse(&matrix, &fixed, &pairs.interface()) {
+        match Model::sparse(&matrix, &fixed, &pairs.view()) {
             Ok(model) => {
                 assert!(accepted);
                 close(model.stiffness(), reference.stiffness(), 1e-12, "K_rel");

@@ -90,23 +90,23 @@ impl Host {
         }
         let matrix = SparseMatrix {
             size: n,
-            starts: Indices::Wide(&starts),
-            rows: Indices::Wide(&rows),
+            col_start: Indices::Wide(&starts),
+            row: Indices::Wide(&rows),
             values: &values,
-            base: 0,
+            index_base: 0,
             triangle: Triangle::Lower,
         };
-        let interface = ContactPairs {
+        let pairs = ContactPairs {
             dim: self.dim,
-            pairs: self.pairs,
+            count: self.pairs,
             slaves: &self.slaves,
-            master_starts: &self.starts,
+            master_start: &self.starts,
             masters: &self.masters,
             weights: &self.weights,
             normals: &self.normals,
             tangents: self.tangents.as_deref(),
         };
-        Model::sparse(&matrix, &self.fixed, &interface).unwrap()
+        Model::sparse(&matrix, &self.fixed, &pairs).unwrap()
     }
 
     /// `u_slave - sum w u_master` of each pair.

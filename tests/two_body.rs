@@ -323,3 +323,39 @@ fn a_motion_free_in_both_bodies_is_refused() {
         assert!(named.is_some_and(|component| support.contains(&component)), "{message}");
     }
 }
+
+/// Bodies that are pulled off: which one moves, which pair most, and the resultant, 1 on each of two
+/// nodes. Body A resists no translation, body B is held.
+#[test]
+fn the_body_that_flies_off_is_named() {
+    let mut free = vec![0.0; 16];
+    let mut held = vec![0.0; 16];
+    for i in 0..4 {
+        free[5 * i] = 1.0;
+        free[i + 4 * ((i + 2) % 4)] = -1.0;
+        held[5 * i] = 4.0;
+    }
+    let pull = [-1.0, 0.0, -1.0, 0.0];
+    let two = Model::two_body(2, 2, (&free, 4), (&held, 4)).unwrap();
+    let one = Model::condensed(2, 2, &free, 4).unwrap();
+    let moves = "2 of 2 pairs, most of all pair 0 by (-1.000, 0.000) along its normal and tangent";
+    for (model, load, words) in [
+        (two, [pull, [0.0; 4]].concat(), format!("it moves body A: {moves}; body B not at all;")),
+        (one, pull.to_vec(), format!("it moves {moves};")),
+    ] {
+        let case = LoadCase {
+            load: &load,
+            prescribed: None,
+            gap: &[0.0; 2],
+            law: FrictionLaw::Coulomb(&[0.5; 2]),
+            reference_slip: None,
+        };
+        let settings = Settings::default();
+        let monitor = &mut Monitor::new(&settings, None);
+        let solution = model.solve(&case, &settings, None, monitor).unwrap();
+        assert_eq!(solution.status, Status::NoEquilibrium, "{}", solution.message);
+        assert!(solution.message.contains(&words), "{}", solution.message);
+        let resultant = "the resultant of the loads along it is 2.000e0";
+        assert!(solution.message.contains(resultant), "{}", solution.message);
+    }
+}

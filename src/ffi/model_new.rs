@@ -120,8 +120,8 @@ pub unsafe extern "C" fn signorini_model_new_sparse(
             let matrix = SignoriniSparse::read(1, K)?;
             let count = size(2, "n_fixed", n_fixed)?;
             let fixed = Arrays::default().required(3, "fixed", fixed, count)?;
-            let fixed = shifted(3, "fixed", fixed, matrix.base)?;
-            let pairs = SignoriniPairs::read(4, pairs, matrix.base)?;
+            let fixed = shifted(3, "fixed", fixed, matrix.index_base)?;
+            let pairs = SignoriniPairs::read(4, pairs, matrix.index_base)?;
             Model::sparse(&matrix, &fixed, &pairs.view())
         };
         place.fill(made, |argument| match argument {

@@ -113,38 +113,15 @@ impl SignoriniSparse {
                 8 => arrays.required(position, name, pointer.cast(), length).map(Indices::Wide),
                 other => Err(wrong(format!("K: index_bytes is {other}, it must be 4 or 8"))),
             };
-            let starts = indices("K: col_start", given.col_start, columns)?;
-            check_ends(&starts, &given).map_err(wrong)?;
-            let rows = indices("K: row", given.row, nnz)?;
-            Ok(SparseMatrix { size: n, starts, rows, values, base, triangle })
+            let col_start = indices("K: col_start", given.col_start, columns)?;
+            let row = indices("K: row", given.row, nnz)?;
+            let matrix =
+                SparseMatrix { size: n, col_start, row, values, index_base: base, triangle };
+            // Before other indices: a wrong index base is most likely that of all of them.
+            matrix.check_col_start().map_err(|error| Failure::from_error(error, |_| position))?;
+            Ok(matrix)
         }
     }
-}
-
-/// Refuses starts whose first or last one contradicts the other fields: mostly another index base
-/// or width.
-fn check_ends(starts: &Indices<'_>, given: &SignoriniSparse) -> Result<(), String> {
-    let start = |k: usize| match starts {
-        Indices::Narrow(starts) => i64::from(starts[k]),
-        Indices::Wide(starts) => starts[k],
-    };
-    let (base, bytes, nnz) = (given.index_base, given.index_bytes, given.nnz);
-    if start(0) != i64::from(base) {
-        return Err(format!(
-            "K: col_start[0] is {}, it must be index_base, which is {base}; are indices of \
-             {bytes} bytes (index_bytes) right?",
-            start(0)
-        ));
-    }
-    let (n, end) = (given.size, i64::from(base) + nnz);
-    let last = start(n as usize);
-    if last != end {
-        return Err(format!(
-            "K: col_start[{n}], the last one, is {last}, it must be index_base + nnz, which is \
-             {end}; are size ({n}), nnz ({nnz}) and indices of {bytes} bytes (index_bytes) right?"
-        ));
-    }
-    Ok(())
 }
 
 /// Pairs of the caller with degrees of freedom counted from 0.
@@ -163,9 +140,9 @@ impl Pairs<'_> {
     pub(super) fn view(&self) -> ContactPairs<'_> {
         ContactPairs {
             dim: self.dim,
-            pairs: self.pairs,
+            count: self.pairs,
             slaves: &self.slaves,
-            master_starts: &self.master_starts,
+            master_start: &self.master_starts,
             masters: &self.masters,
             weights: self.weights,
             normals: self.normals,

@@ -4,8 +4,12 @@
 pub(crate) mod factor;
 pub(crate) mod matrix;
 pub(crate) mod nnls;
+pub(crate) mod null_vector;
 pub(crate) mod pivoted_cholesky;
 pub(crate) mod simd;
-pub(crate) mod sparse;
+pub(crate) mod sparse_matrix;
+pub(crate) mod sparse_schur;
 pub(crate) mod tolerances;
 pub(crate) mod vector;
+pub(crate) mod vector3;
+pub(crate) mod workspaces;

@@ -1,18 +1,25 @@
 //! The sizes below which a number is taken for zero, each idea with one number.
 //!
-//! | name | size | what is zero below it |
-//! |---|---|---|
-//! | [`ROUNDING`] | 1e-14 | one sum, beside its terms: about 50 units of double precision |
-//! | [`NEGLIGIBLE`] | 1e-11 | the result of a factorisation or of thousands of sums, beside its largest entry; a host's own condensation leaves 1e-13 where a zero should be |
-//! | [`LEAST_WORK`] | 1e-9 | the work that a proof needs, beside what its motion could do |
-//! | [`SINGULAR`] | 1e-12 | a pivot of an unscaled `LU` beside the largest pivot |
-//! | [`SINGULAR_BASIS`] | 2.2e-16 | a pivot of the `LU` of a basis of Lemke's method, whose values are refined on the data afterwards |
-//! | [`SUSPICIOUS_PIVOT`] | 1e-8 | nothing yet: a closer look is taken |
+//! Each is relative to what the last column names, so that units do not matter.
+//!
+//! | name | size | what is decided | relative to |
+//! |---|---|---|---|
+//! | [`SUSPICIOUS_PIVOT`] | 1e-8 | may the matrix be singular? then look closer | its diagonal |
+//! | [`LEAST_WORK`] | 1e-9 | do the loads do work on a motion, so that it is a proof? | what they could do |
+//! | [`REGULARISATION`] | 1e-10 | what is added to a singular matrix to find its null vector | its diagonal |
+//! | [`NEGLIGIBLE`] | 1e-11 | is the result of a factorisation, or of thousands of sums, zero? | its largest entry |
+//! | [`SINGULAR`] | 1e-12 | is a dense matrix singular? | the largest pivot |
+//! | [`ROUNDING_OF_SUM`] | 1e-12 | is a sum of a host's terms that should cancel zero? | the sum of their sizes |
+//! | [`ROUNDING`] | 1e-14 | is one sum of the library's own terms zero? | its terms |
+//! | [`NULL_VECTOR`] | 2.2e-15 | is `A x` zero, so that `x` is a null vector of a sparse `A`? | the terms of its sums |
+//! | [`SINGULAR_BASIS`] | 2.2e-16 | is a basis of Lemke's method singular? | the largest pivot |
 //!
 //! [`SINGULAR`] lies below [`NEGLIGIBLE`] because a pivot of `LU` is no eigenvalue: systems with the
 //! condition number 1e10, the largest that can be certified, have pivots of 1e-10 and slightly less.
+//! [`SINGULAR_BASIS`] lies at the last digit because iterative refinement on the data follows.
 
-/// What rounding leaves of a sum that should be zero, relative to its terms.
+/// What rounding leaves of a sum that should be zero, relative to its terms: about 50 units of double
+/// precision.
 pub const ROUNDING: f64 = 1e-14;
 
 /// What rounding leaves of a zero after a factorisation, relative to the largest entry: 100 times the
@@ -23,14 +30,34 @@ pub const NEGLIGIBLE: f64 = 1e-11;
 /// a zero, so that units do not decide, and below those of anything certifiable.
 pub const SINGULAR: f64 = 1e-12;
 
-/// A relative pivot of an unpivoted Cholesky factorisation, of a scaled matrix, below which the matrix
-/// may be singular. Without pivoting a small pivot says less: a closer look decides.
-pub const SUSPICIOUS_PIVOT: f64 = 1e-8;
-
-/// The same for a basis of Lemke's method. Iterative refinement on the data follows, so that only a
-/// basis that is singular to the last digit is lost.
+/// The same for a basis of Lemke's method: only one that is singular to the last digit is lost.
 pub const SINGULAR_BASIS: f64 = f64::EPSILON;
 
 /// Least work of a motion in a proof, relative to what a motion of its size could do: 100 times the
 /// rounding that is allowed in the motion ([`NEGLIGIBLE`]), so that the rounding cannot make up for it.
 pub const LEAST_WORK: f64 = 100.0 * NEGLIGIBLE;
+
+/// Pivots of an unpivoted Cholesky factorisation below this part of the diagonal raise suspicion: the
+/// matrix may be singular. A small pivot proves nothing, as slender parts are weak and held (the tip of
+/// a cantilever of 1 : 5000 resists with 2e-12 of its elements). A factorisation with pivoting, or
+/// the null vector itself, decides.
+pub const SUSPICIOUS_PIVOT: f64 = 1e-8;
+
+/// Added to the diagonal of a singular matrix, relative to it, so that it has a factor by which inverse
+/// iteration finds the null vector: far above rounding, far below the eigenvalues of weak parts that are
+/// held (1e-7, measured).
+pub const REGULARISATION: f64 = 1e-10;
+
+/// Steps of inverse iteration to a null vector. A step divides the part of another eigenvector by its
+/// eigenvalue (weak parts that are held: 1e-7) over the smallest one. That is rounding, 1e-16, where
+/// [`NULL_VECTOR`] decides: two steps leave 1e-18. It is [`REGULARISATION`] where the matrix is known to
+/// be singular and the vector is only described: two steps leave 1e-6.
+pub const INVERSE_ITERATIONS: usize = 2;
+
+/// `x` is a null vector of `A` if the entries of `A x` are below this part of their largest terms: ten
+/// roundings. Weak parts of structures that supports hold have 1e-7, free parts 4e-16 (measured).
+pub const NULL_VECTOR: f64 = 10.0 * f64::EPSILON;
+
+/// A sum of terms that should cancel is zero below this part of the sum of their sizes: terms that
+/// a host has computed in doubles, a few thousand operations each (1e-16 an operation).
+pub const ROUNDING_OF_SUM: f64 = 1e-12;

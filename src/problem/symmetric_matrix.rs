@@ -42,7 +42,13 @@ pub(crate) fn check(matrix: &Matrix<'_>, name: &str, argument: Argument) -> Resu
         let scale = root[i] * root[j];
         let difference = (lower - upper).abs() / scale;
         if difference > SYMMETRY {
-            return refuse(asymmetry(name, (i, j), (lower, upper), difference));
+            let (below, above) = (format!("{name}[{i},{j}]"), format!("{name}[{j},{i}]"));
+            let remedy =
+                format!("average {below} and {above}, or compute both in double precision");
+            return refuse(format!(
+                "{name} is not symmetric: {below} is {lower}, {above} is {upper}: {}",
+                self::difference(difference, &remedy)
+            ));
         }
         if lower.abs() > (1.0 + SYMMETRY) * scale {
             return refuse(format!(
@@ -54,26 +60,16 @@ pub(crate) fn check(matrix: &Matrix<'_>, name: &str, argument: Argument) -> Resu
     })
 }
 
-/// Rounding of single precision and of seven printed digits, relative to the diagonal: an asymmetry
-/// below it is no slip of indices.
+/// Asymmetry up to this, relative to the diagonal, is that of entries rounded to single precision
+/// (6e-8) or printed with seven digits (5e-7); more is another mistake.
 const SINGLE_PRECISION: f64 = 1e-6;
 
-/// The sentence about two entries that should be equal; `difference` is relative to the diagonal.
-pub(crate) fn asymmetry(
-    name: &str,
-    (i, j): (usize, usize),
-    (lower, upper): (f64, f64),
-    difference: f64,
-) -> String {
-    let mut message = format!(
-        "{name} is not symmetric: {name}[{i},{j}] is {lower}, {name}[{j},{i}] is {upper}, they \
-         differ by {difference:.1e} of the diagonal and may by {SYMMETRY:.0e}"
-    );
-    if difference < SINGLE_PRECISION {
-        message.push_str(
-            "; one of them looks rounded to single precision: use double precision for both, or \
-             the average of the two",
-        );
+/// How far two entries that mirror each other differ, relative to what the diagonal allows, and the
+/// `remedy` if it is the rounding of single precision.
+pub(crate) fn difference(relative: f64, remedy: &str) -> String {
+    if !relative.is_finite() {
+        return "beside a zero on the diagonal both must be zero".into();
     }
-    message
+    let said = format!("they differ by {relative:.0e} of the diagonal, {SYMMETRY:.0e} is allowed");
+    if relative <= SINGLE_PRECISION { format!("{said}: {remedy}") } else { said }
 }

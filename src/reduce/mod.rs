@@ -1,12 +1,73 @@
 //! From a host's data to relative displacements of contact pairs, once, and back.
+//!
+//! A [`Reduction`] gives the stiffness `K_rel` in relative displacements `d`, reduces each load case to
+//! relative loads, and turns a solution back into the host's displacements and nodal forces.
 
-mod change;
-mod interface;
+mod condensed;
+mod frame;
+mod motion;
+mod pairs;
 mod sparse;
-mod sparse_matrix;
 mod two_body;
 
-pub use interface::ContactPairs;
-pub use sparse::SparseReduction;
-pub use sparse_matrix::{Indices, SparseMatrix, Triangle};
+pub use condensed::CondensedReduction;
+pub(crate) use motion::driven_motion;
+pub use pairs::ContactPairs;
+pub use sparse::{Indices, SparseMatrix, SparseReduction, Triangle};
 pub use two_body::TwoBodyReduction;
+
+use crate::error::Error;
+
+/// A structure reduced to its contact pairs. It does not change: several threads may use it at once.
+///
+/// Vectors of the host have [`Self::host_size`] entries; vectors of relative displacements and of
+/// contact forces have `dim` entries for each pair, the normal component first. The lengths of
+/// arguments are the caller's responsibility.
+pub trait Reduction: Send + Sync {
+    /// `K_rel`, column-major, square.
+    fn stiffness(&self) -> &[f64];
+
+    /// Entries of a load or displacement vector of the host.
+    fn host_size(&self) -> usize;
+
+    /// Number of degrees of freedom that the host holds fixed.
+    fn fixed_count(&self) -> usize {
+        0
+    }
+
+    /// Relative loads of a load case: nodal loads and the values of the fixed degrees of freedom
+    /// (`None`: zero).
+    fn condense(&self, load: &[f64], prescribed: Option<&[f64]>) -> Vec<f64>;
+
+    /// Displacements of the host from the loads (`None`: zero), the values of the fixed degrees of
+    /// freedom (`None`: zero) and the relative displacements `d`.
+    fn recover(&self, load: Option<&[f64]>, prescribed: Option<&[f64]>, d: &[f64]) -> Vec<f64>;
+
+    /// Contact forces as nodal forces of the host.
+    fn nodal_forces(&self, force: &[f64]) -> Vec<f64>;
+
+    /// Rejects values of the fixed degrees of freedom that would open a pair along one of
+    /// [`Self::fixed_components`].
+    ///
+    /// # Errors
+    /// Names the pair.
+    fn check_prescribed(&self, _values: &[f64]) -> Result<(), Error> {
+        Ok(())
+    }
+
+    /// Components of `d` that supports on both sides of a pair fix: `d` and the contact force are
+    /// zero there in every load case, and so must be the reference slip.
+    fn fixed_components(&self) -> &[usize] {
+        &[]
+    }
+
+    /// Frames of the pairs in the host's axes, `dim * dim` entries for each pair: the normal, then the
+    /// tangents, orthonormal. `None` if only the host knows them.
+    fn frames(&self) -> Option<&[f64]> {
+        None
+    }
+
+    /// A motion in words, from its relative displacements: which part moves, where, and in which
+    /// direction. It completes "it moves ...".
+    fn motion_in_words(&self, d: &[f64]) -> String;
+}

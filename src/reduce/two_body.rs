@@ -12,30 +12,39 @@
 //! It needs only that no rigid motion is free in both bodies. The bodies may change roles; here B is
 //! the softer one, so that `K_rel` is not the small difference of large numbers.
 
+use super::{Reduction, motion};
 use crate::error::{Argument, Error};
 use crate::linalg::matrix::Matrix;
 use crate::linalg::pivoted_cholesky::PivotedCholesky;
+use crate::linalg::vector::norm_inf;
 use crate::problem::symmetric_matrix::check;
 
-/// The reduction, kept for further load cases.
+/// The reduction of two bodies, kept for further load cases.
 pub struct TwoBodyReduction {
+    dim: usize,
+    /// Components of `d`, and of the displacements of each body.
     size: usize,
     /// Whether the host's first body is the softer one.
     exchanged: bool,
     /// The softer body's matrix.
     second: Vec<f64>,
+    /// Of each component the root of the diagonal of `K_A + K_B`, inverted.
     scale: Vec<f64>,
+    /// Factor of `K_A + K_B`, scaled to a unit diagonal.
     sum: PivotedCholesky,
+    /// `K_rel`.
     stiffness: Vec<f64>,
 }
 
 impl TwoBodyReduction {
-    /// Reduces `K_A` and `K_B`, `size x size` column-major with leading dimensions.
+    /// Reduces `K_A` and `K_B`, `size x size` column-major with leading dimensions; `size` is `dim`
+    /// components for each pair.
     ///
     /// # Errors
     /// Entries that are not finite or symmetric, diagonals that are not positive; a motion that
     /// neither body resists, named by its largest component.
     pub fn new(
+        dim: usize,
         size: usize,
         (first, first_ld): (&[f64], usize),
         (second, second_ld): (&[f64], usize),
@@ -67,32 +76,7 @@ impl TwoBodyReduction {
             |i, j| second.column(j)[i],
         );
         let second = (0..size).flat_map(|j| second.column(j).iter().copied()).collect();
-        Ok(TwoBodyReduction { size, exchanged, second, scale, sum, stiffness })
-    }
-
-    /// `K_rel`, column-major.
-    pub fn stiffness(&self) -> &[f64] {
-        &self.stiffness
-    }
-
-    /// Relative loads from the loads of the host's first and second body, one after the other.
-    pub fn condense(&self, load: &[f64]) -> Vec<f64> {
-        let (first, second) = self.split(load);
-        let difference: Vec<f64> = first.iter().zip(second).map(|(a, b)| a - b).collect();
-        let x = self.solve(&difference);
-        self.times_second(&x).iter().zip(second).map(|(carried, f)| carried + f).collect()
-    }
-
-    /// Displacements of both bodies, as the loads, from these and the relative displacements.
-    pub fn recover(&self, load: &[f64], d: &[f64]) -> Vec<f64> {
-        let (first, second) = self.split(load);
-        let mut right = self.times_second(d);
-        for (right, (a, b)) in right.iter_mut().zip(first.iter().zip(second)) {
-            *right += a - b;
-        }
-        let stiffer = self.solve(&right);
-        let softer: Vec<f64> = d.iter().zip(&stiffer).map(|(d, u)| d - u).collect();
-        if self.exchanged { [softer, stiffer].concat() } else { [stiffer, softer].concat() }
+        Ok(TwoBodyReduction { dim, size, exchanged, second, scale, sum, stiffness })
     }
 
     /// The stiffer body's part, then the softer one's.
@@ -122,5 +106,55 @@ impl TwoBodyReduction {
             }
         }
         y
+    }
+}
+
+/// Vectors of the host are those of its first body, then those of its second.
+impl Reduction for TwoBodyReduction {
+    fn stiffness(&self) -> &[f64] {
+        &self.stiffness
+    }
+
+    fn host_size(&self) -> usize {
+        2 * self.size
+    }
+
+    fn condense(&self, load: &[f64], _prescribed: Option<&[f64]>) -> Vec<f64> {
+        let (first, second) = self.split(load);
+        let difference: Vec<f64> = first.iter().zip(second).map(|(a, b)| a - b).collect();
+        let x = self.solve(&difference);
+        self.times_second(&x).iter().zip(second).map(|(carried, f)| carried + f).collect()
+    }
+
+    fn recover(&self, load: Option<&[f64]>, _prescribed: Option<&[f64]>, d: &[f64]) -> Vec<f64> {
+        let mut right = self.times_second(d);
+        if let Some(load) = load {
+            let (first, second) = self.split(load);
+            for (right, (a, b)) in right.iter_mut().zip(first.iter().zip(second)) {
+                *right += a - b;
+            }
+        }
+        let stiffer = self.solve(&right);
+        let softer: Vec<f64> = d.iter().zip(&stiffer).map(|(d, u)| d - u).collect();
+        if self.exchanged { [softer, stiffer].concat() } else { [stiffer, softer].concat() }
+    }
+
+    /// `F` acts on both bodies, each in its own outward frame.
+    fn nodal_forces(&self, force: &[f64]) -> Vec<f64> {
+        [force, force].concat()
+    }
+
+    fn motion_in_words(&self, d: &[f64]) -> String {
+        let u = self.recover(None, None, d);
+        let largest = norm_inf(&u);
+        let (first, second) = u.split_at(self.size);
+        let moving = |name, u: &[f64]| {
+            if motion::rests(u, largest) {
+                format!("body {name} not at all")
+            } else {
+                format!("body {name}: {}", motion::of_pairs(self.dim, u))
+            }
+        };
+        format!("{}; {}", moving("A", first), moving("B", second))
     }
 }

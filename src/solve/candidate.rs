@@ -160,6 +160,10 @@ fn at_rest(contact: &Contact<'_>, settings: &Settings, other: &Candidate) -> Opt
     rest.certificate(contact).holds(settings.tolerance).then_some(rest)
 }
 
+/// What a proof that no equilibrium exists says.
+pub const NO_EQUILIBRIUM: &str =
+    "no equilibrium exists: the loads drive a rigid motion that contact does not stop";
+
 /// The sentence about a proof that no equilibrium exists: which pairs move, how, and what drives them.
 fn no_equilibrium(contact: &Contact<'_>, motion: &[f64]) -> String {
     let problem = contact.problem();
@@ -178,8 +182,7 @@ fn no_equilibrium(contact: &Contact<'_>, motion: &[f64]) -> String {
         }
     };
     format!(
-        "no equilibrium exists: the loads drive a rigid motion that contact does not stop; it moves \
-         {moving} of {} pairs, most of all pair {pair}, {direction}, and the loads do the work \
+        "{NO_EQUILIBRIUM}: it moves {moving} of {} pairs, most of all pair {pair}, {direction}, and the loads do the work \
          {work:.3e} on it when its largest component is 1; are a support, friction, or a pair \
          missing, or is a normal, a load or the sign of gap turned round?",
         contact.pairs().len()

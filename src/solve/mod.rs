@@ -26,6 +26,7 @@ use crate::monitor::Monitor;
 use crate::problem::ContactProblem;
 use crate::settings::{Method, Search, Settings};
 
+pub(crate) use candidate::NO_EQUILIBRIUM;
 use candidate::{Candidate, Ending, certified};
 pub use lcp::{LcpSolution, solve_lcp};
 pub use outcome::{Fallback, SecondSolution, Solution, Status, Uniqueness};

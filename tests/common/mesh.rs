@@ -76,19 +76,19 @@ impl Mesh {
             }
         }
         let mut lower =
-            Stiffness { size: self.size(), starts: vec![0], rows: vec![], values: vec![] };
+            Stiffness { size: self.size(), col_start: vec![0], row: vec![], values: vec![] };
         for column in &mut columns {
             column.sort_by_key(|(i, _)| *i);
-            let begin = lower.rows.len();
+            let begin = lower.row.len();
             for &(i, value) in column.iter() {
-                if lower.rows.len() > begin && lower.rows.last() == Some(&(i as i64)) {
+                if lower.row.len() > begin && lower.row.last() == Some(&(i as i64)) {
                     *lower.values.last_mut().unwrap() += value;
                 } else {
-                    lower.rows.push(i as i64);
+                    lower.row.push(i as i64);
                     lower.values.push(value);
                 }
             }
-            lower.starts.push(lower.rows.len() as i64);
+            lower.col_start.push(lower.row.len() as i64);
         }
         lower
     }
@@ -143,8 +143,8 @@ fn element(corners: [[f64; 2]; 4], (young, poisson): (f64, f64)) -> [[f64; 8]; 8
 #[derive(Clone, Debug)]
 pub struct Stiffness {
     pub size: usize,
-    pub starts: Vec<i64>,
-    pub rows: Vec<i64>,
+    pub col_start: Vec<i64>,
+    pub row: Vec<i64>,
     pub values: Vec<f64>,
 }
 
@@ -152,8 +152,8 @@ impl Stiffness {
     /// Entries as (row, column, value), row >= column.
     pub fn entries(&self) -> impl Iterator<Item = (usize, usize, f64)> + '_ {
         (0..self.size).flat_map(move |j| {
-            (self.starts[j] as usize..self.starts[j + 1] as usize)
-                .map(move |k| (self.rows[k] as usize, j, self.values[k]))
+            (self.col_start[j] as usize..self.col_start[j + 1] as usize)
+                .map(move |k| (self.row[k] as usize, j, self.values[k]))
         })
     }
 
@@ -189,12 +189,12 @@ impl Stiffness {
                 columns[i].push((j, value));
             }
         }
-        let mut stored = Stiffness { starts: vec![0], rows: vec![], values: vec![], ..*self };
+        let mut stored = Stiffness { col_start: vec![0], row: vec![], values: vec![], ..*self };
         for mut column in columns {
             column.sort_by_key(|(i, _)| *i);
-            stored.rows.extend(column.iter().map(|(i, _)| *i as i64));
+            stored.row.extend(column.iter().map(|(i, _)| *i as i64));
             stored.values.extend(column.iter().map(|(_, value)| *value));
-            stored.starts.push(stored.rows.len() as i64);
+            stored.col_start.push(stored.row.len() as i64);
         }
         stored
     }
@@ -202,13 +202,13 @@ impl Stiffness {
     pub fn model(&self, fixed: &[usize], pairs: &Pairs) -> Result<Model, Error> {
         let matrix = SparseMatrix {
             size: self.size,
-            starts: Indices::Wide(&self.starts),
-            rows: Indices::Wide(&self.rows),
+            col_start: Indices::Wide(&self.col_start),
+            row: Indices::Wide(&self.row),
             values: &self.values,
-            base: 0,
+            index_base: 0,
             triangle: Triangle::Lower,
         };
-        Model::sparse(&matrix, fixed, &pairs.interface())
+        Model::sparse(&matrix, fixed, &pairs.view())
     }
 }
 
@@ -263,12 +263,12 @@ impl Pairs {
         self.slaves.len()
     }
 
-    pub fn interface(&self) -> ContactPairs<'_> {
+    pub fn view(&self) -> ContactPairs<'_> {
         ContactPairs {
             dim: 2,
-            pairs: self.count(),
+            count: self.count(),
             slaves: &self.dofs[0],
-            master_starts: &self.dofs[1],
+            master_start: &self.dofs[1],
             masters: &self.dofs[2],
             weights: &self.weights,
             normals: &self.flat_normals,

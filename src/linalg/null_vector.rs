@@ -1,0 +1,38 @@
+//! Does a positive semi-definite matrix have a null vector? Finds the candidate and measures it.
+
+use super::sparse_matrix::{Csc, column};
+use super::tolerances::INVERSE_ITERATIONS;
+use super::vector::norm_inf;
+
+/// The vector of `n` entries that `A` resists least, its largest entry 1, by inverse iteration from
+/// the unit vector of entry `first`. `solve` overwrites its argument `b` with `A⁻¹ b`.
+pub fn weakest(n: usize, first: usize, solve: impl Fn(&mut [f64])) -> Vec<f64> {
+    let mut x = vec![0.0; n];
+    x[first] = 1.0;
+    for _ in 0..INVERSE_ITERATIONS {
+        solve(&mut x);
+        let most = norm_inf(&x);
+        x.iter_mut().for_each(|x| *x /= most);
+    }
+    x
+}
+
+/// Largest entry of `A x`, relative to the largest sum of the sizes of its terms. `A` is symmetric, its
+/// `lower` triangle given.
+pub fn resistance(lower: &Csc, x: &[f64]) -> f64 {
+    let (mut sum, mut terms) = (vec![0.0; x.len()], vec![0.0; x.len()]);
+    let mut add = |i: usize, term: f64| {
+        sum[i] += term;
+        terms[i] += term.abs();
+    };
+    for j in 0..x.len() {
+        let (rows, values) = column(lower, j);
+        for (&i, value) in rows.iter().zip(values) {
+            add(i, value * x[j]);
+            if i != j {
+                add(j, value * x[i]);
+            }
+        }
+    }
+    norm_inf(&sum) / norm_inf(&terms)
+}

@@ -1,0 +1,190 @@
+//! Sparse matrices in compressed columns, rows ascending, by faer on the calling thread.
+
+use faer::sparse::linalg::matmul::{sparse_dense_matmul, sparse_sparse_matmul};
+use faer::sparse::{SparseColMat, SymbolicSparseColMat, Triplet};
+use faer::{Accum, MatMut, MatRef, Par};
+
+/// Compressed columns, rows ascending.
+pub type Csc = SparseColMat<usize, f64>;
+
+/// Not enough memory.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct OutOfMemory;
+
+/// The matrix of `shape` whose column `j` has the rows and values from `col_start[j]` to
+/// `col_start[j + 1]`; rows ascend.
+pub fn from_columns(
+    (rows, columns): (usize, usize),
+    col_start: Vec<usize>,
+    row: Vec<usize>,
+    values: Vec<f64>,
+) -> Csc {
+    Csc::new(SymbolicSparseColMat::new_checked(rows, columns, col_start, None, row), values)
+}
+
+/// The matrix of `shape` with entries (row, column, value) in any order; those of one place add up.
+pub fn from_entries(
+    (rows, columns): (usize, usize),
+    entries: impl Iterator<Item = (usize, usize, f64)>,
+) -> Result<Csc, OutOfMemory> {
+    let entries: Vec<_> = entries.map(|(i, j, value)| Triplet::new(i, j, value)).collect();
+    Csc::try_new_from_triplets(rows, columns, &entries).map_err(|_| OutOfMemory)
+}
+
+/// Rows and values of a column.
+pub fn column(a: &Csc, j: usize) -> (&[usize], &[f64]) {
+    let range = a.symbolic().col_range(j);
+    (&a.symbolic().row_idx()[range.clone()], &a.val()[range])
+}
+
+/// The diagonal entry of column `j` of a lower triangle, if it is stored.
+pub fn diagonal(lower: &Csc, j: usize) -> Option<f64> {
+    let (rows, values) = column(lower, j);
+    (rows.first() == Some(&j)).then(|| values[0])
+}
+
+/// Rows from `first` on that are stored in column `j` of `a` or of `b`, with both values; 0 stands for
+/// one that is not stored.
+pub fn both<'a>(
+    a: &'a Csc,
+    b: &'a Csc,
+    j: usize,
+    first: usize,
+) -> impl Iterator<Item = (usize, f64, f64)> + 'a {
+    let tail = |matrix: &'a Csc| {
+        let (rows, values) = column(matrix, j);
+        let skipped = rows.partition_point(|&i| i < first);
+        (&rows[skipped..], &values[skipped..])
+    };
+    let ((a_rows, a_values), (b_rows, b_values)) = (tail(a), tail(b));
+    let (mut p, mut q) = (0, 0);
+    std::iter::from_fn(move || {
+        let (one, other) = (a_rows.get(p).copied(), b_rows.get(q).copied());
+        let i = one.into_iter().chain(other).min()?;
+        let mut values = (0.0, 0.0);
+        if one == Some(i) {
+            values.0 = a_values[p];
+            p += 1;
+        }
+        if other == Some(i) {
+            values.1 = b_values[q];
+            q += 1;
+        }
+        Some((i, values.0, values.1))
+    })
+}
+
+/// `Aᵀ`.
+pub fn transposed(a: &Csc) -> Result<Csc, OutOfMemory> {
+    a.transpose().to_col_major().map_err(|_| OutOfMemory)
+}
+
+/// `A x`.
+pub fn times(a: &Csc, x: &[f64]) -> Vec<f64> {
+    let mut y = vec![0.0; a.nrows()];
+    let (target, x) = (as_column_mut(&mut y), as_column(x));
+    sparse_dense_matmul(target, Accum::Replace, a.as_ref(), x, 1.0, Par::Seq);
+    y
+}
+
+/// `Aᵀ x`.
+pub fn transpose_times(a: &Csc, x: &[f64]) -> Vec<f64> {
+    let mut y = vec![0.0; a.ncols()];
+    let (target, x) = (as_column_mut(&mut y), as_column(x));
+    sparse_dense_matmul(target, Accum::Replace, a.transpose(), x, 1.0, Par::Seq);
+    y
+}
+
+fn as_column(x: &[f64]) -> MatRef<'_, f64> {
+    MatRef::from_column_major_slice(x, x.len(), 1)
+}
+
+fn as_column_mut(x: &mut [f64]) -> MatMut<'_, f64> {
+    let length = x.len();
+    MatMut::from_column_major_slice_mut(x, length, 1)
+}
+
+/// Of `Wᵀ A W` the first `columns` columns: the lower triangle of their first `columns` rows, and the
+/// rows after these. `lower` is the lower triangle of the symmetric `A`.
+///
+/// With `A = H + Hᵀ`, `H` the lower triangle with half the diagonal, it is `Wᵀ H W` and its transpose:
+/// no product needs the upper triangle.
+pub fn congruence(mut lower: Csc, w: &Csc, columns: usize) -> Result<(Csc, Csc), OutOfMemory> {
+    for j in 0..lower.ncols() {
+        if diagonal(&lower, j).is_some() {
+            let place = lower.symbolic().col_ptr()[j];
+            lower.val_mut()[place] *= 0.5;
+        }
+    }
+    let half = product(&lower, w)?;
+    drop(lower);
+    let half = product(&transposed(w)?, &half)?;
+    let mirrored = transposed(&half)?;
+    // Each entry of the product gives one of the lower triangle at the most.
+    let (mut leading, mut below) =
+        (Columns::with_capacity(half.compute_nnz())?, Columns::default());
+    for j in 0..columns {
+        for (i, one, other) in both(&half, &mirrored, j, j) {
+            let (part, row) =
+                if i < columns { (&mut leading, i) } else { (&mut below, i - columns) };
+            part.row.push(row);
+            part.values.push(one + other);
+        }
+        leading.end_column();
+        below.end_column();
+    }
+    Ok((leading.matrix(columns), below.matrix(w.ncols() - columns)))
+}
+
+fn product(a: &Csc, b: &Csc) -> Result<Csc, OutOfMemory> {
+    sparse_sparse_matmul(a.as_ref(), b.as_ref(), 1.0, Par::Seq).map_err(|_| OutOfMemory)
+}
+
+/// A matrix that is made column by column.
+pub struct Columns {
+    col_start: Vec<usize>,
+    /// Rows of the entries so far.
+    pub row: Vec<usize>,
+    /// The entries so far.
+    pub values: Vec<f64>,
+}
+
+impl Default for Columns {
+    fn default() -> Self {
+        Columns { col_start: vec![0], row: Vec::new(), values: Vec::new() }
+    }
+}
+
+impl Columns {
+    /// Room for entries.
+    pub fn with_capacity(entries: usize) -> Result<Self, OutOfMemory> {
+        let mut columns = Columns::default();
+        columns.row.try_reserve_exact(entries).map_err(|_| OutOfMemory)?;
+        columns.values.try_reserve_exact(entries).map_err(|_| OutOfMemory)?;
+        Ok(columns)
+    }
+
+    /// The next entries are of the next column.
+    pub fn end_column(&mut self) {
+        self.col_start.push(self.row.len());
+    }
+
+    /// The matrix of the columns so far.
+    pub fn matrix(self, rows: usize) -> Csc {
+        from_columns((rows, self.col_start.len() - 1), self.col_start, self.row, self.values)
+    }
+}
+
+/// The first `size` rows and columns of a lower triangle.
+pub fn leading_part(lower: &Csc, size: usize) -> Result<Csc, OutOfMemory> {
+    let stored = lower.symbolic().col_ptr()[size];
+    let mut columns = Columns::with_capacity(stored)?;
+    for j in 0..size {
+        let (rows, values) = column(lower, j);
+        let inside = rows.partition_point(|&i| i < size);
+        columns.row.extend_from_slice(&rows[..inside]);
+        columns.values.extend_from_slice(&values[..inside]);
+        columns.end_column();
+    }
+    Ok(columns.matrix(size))
+}

@@ -1,0 +1,24 @@
+//! Vectors of the plane and of space, by nalgebra. In the plane the third component is zero.
+
+/// Three components.
+pub type Vector3 = nalgebra::Vector3<f64>;
+
+/// The vector with two or three components.
+pub fn vector(components: &[f64]) -> Vector3 {
+    let mut vector = Vector3::zeros();
+    vector.as_mut_slice()[..components.len()].copy_from_slice(components);
+    vector
+}
+
+/// The unit vector along an axis.
+pub fn axis(axis: usize) -> Vector3 {
+    Vector3::ith(axis, 1.0)
+}
+
+/// The vector at length one; `None` if it is zero or not finite.
+pub fn unit(vector: Vector3) -> Option<Vector3> {
+    // Scaled first: the square of its length may be out of range.
+    let scaled = vector / vector.amax();
+    let length = scaled.norm();
+    length.is_finite().then(|| scaled / length)
+}

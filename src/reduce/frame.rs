@@ -1,0 +1,112 @@
+//! The frame of a contact pair: its normal and its tangents.
+
+use crate::linalg::vector3::{self, Vector3, unit};
+
+/// A tangent closer to the normal than this sine is refused: normals and tangents of seven digits
+/// have errors of 1e-6 and less, and its direction would be these errors.
+const LEAST_SINE: f64 = 1e-6;
+
+/// A normal or tangent is along an axis if the angle between them is smaller than this (radians): ten
+/// times the error of a normal of seven digits.
+const ALONG_AXIS: f64 = 1e-5;
+
+/// Names of the axes.
+pub(super) const AXES: [&str; 3] = ["x", "y", "z"];
+
+/// Orthonormal: the normal, then `dim - 1` tangents. In space `t2 = n x t1`.
+#[derive(Clone, Debug)]
+pub(super) struct Frame {
+    dim: usize,
+    directions: [Vector3; 3],
+}
+
+impl Frame {
+    /// The frame of a normal of any length and, if given, the first tangent, which is made orthogonal
+    /// to the normal. Without one it is the normal turned by +90 degrees in the plane, and in space
+    /// one across the axis that is most across the normal.
+    ///
+    /// # Errors
+    /// What is wrong with the normal or the tangent: "normal is zero or not finite".
+    pub(super) fn new(normal: &[f64], tangent: Option<&[f64]>) -> Result<Self, &'static str> {
+        let dim = normal.len();
+        let normal = unit(vector3::vector(normal)).ok_or("normal is zero or not finite")?;
+        let first = match tangent {
+            Some(tangent) => {
+                let given = unit(vector3::vector(tangent)).unwrap_or_default();
+                let across = given - given.dot(&normal) * normal;
+                unit(across)
+                    .filter(|_| across.norm() > LEAST_SINE)
+                    .ok_or("tangent is zero, not finite or along the normal")?
+            }
+            None if dim == 2 => Vector3::new(-normal.y, normal.x, 0.0),
+            None => {
+                let across = vector3::axis(normal.iamin());
+                unit(across.cross(&normal)).unwrap_or(across)
+            }
+        };
+        let second = if dim == 3 { normal.cross(&first) } else { Vector3::zeros() };
+        Ok(Frame { dim, directions: [normal, first, second] })
+    }
+
+    /// Normal and tangents, component by component of `d`.
+    pub(super) fn directions(&self) -> impl Iterator<Item = &[f64]> {
+        self.directions[..self.dim].iter().map(|direction| &direction.as_slice()[..self.dim])
+    }
+
+    /// The component of `d` whose direction is along an axis.
+    pub(super) fn component_along(&self, axis: usize) -> Option<usize> {
+        let sine = |direction: &Vector3| {
+            let mut across = *direction;
+            across[axis] = 0.0;
+            across.norm()
+        };
+        (0..self.dim).find(|&component| sine(&self.directions[component]) <= ALONG_AXIS)
+    }
+
+    /// Whether the normal is across an axis, to the same accuracy.
+    pub(super) fn normal_is_across(&self, axis: usize) -> bool {
+        self.directions[0][axis].abs() <= ALONG_AXIS
+    }
+
+    /// Turns the frame so that the direction of `component`, which is along `axis` but for rounding,
+    /// is exactly so.
+    pub(super) fn align(&mut self, component: usize, axis: usize) {
+        let exact = vector3::axis(axis) * self.directions[component][axis].signum();
+        self.directions[component] = exact;
+        let [next, last] = [1, 2].map(|step| (component + step) % 3);
+        if self.dim == 2 {
+            let other = 1 - component;
+            let across = vector3::axis(1 - axis);
+            self.directions[other] = across * self.directions[other][1 - axis].signum();
+            return;
+        }
+        self.directions[next][axis] = 0.0;
+        self.directions[next] =
+            unit(self.directions[next]).unwrap_or_else(|| vector3::axis((axis + 1) % 3));
+        self.directions[last] = exact.cross(&self.directions[next]);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Frame;
+
+    /// A normal of seven digits along y: the frame is that of the exact normal.
+    #[test]
+    fn a_frame_is_aligned_with_an_axis() {
+        let rounded = [3e-7, -0.9999999, -8e-7];
+        let mut frame = Frame::new(&rounded, Some(&[1.0, 1.0, 0.5])).unwrap();
+        assert_eq!(frame.component_along(1), Some(0));
+        frame.align(0, 1);
+        let directions: Vec<Vec<f64>> = frame.directions().map(<[f64]>::to_vec).collect();
+        assert_eq!(directions[0], [0.0, -1.0, 0.0]);
+        let length = 1.25_f64.sqrt();
+        for (i, exact) in [(1, [1.0, 0.0, 0.5]), (2, [-0.5, 0.0, 1.0])] {
+            for (c, e) in directions[i].iter().zip(exact) {
+                assert!((c - e / length).abs() < 2e-6, "{directions:?}");
+            }
+        }
+        let inclined = Frame::new(&[1e-4, -1.0], None).unwrap();
+        assert_eq!(inclined.component_along(1), None);
+    }
+}

@@ -1,0 +1,150 @@
+//! The change of variables `u = T x + P p` from the unknowns and the fixed values to the host's degrees
+//! of freedom, and what it makes of a matrix and of loads.
+//!
+//! The unknowns `x` are the free degrees of freedom that are no slaves, then the relative
+//! displacements `d`; `p` are the values of the fixed degrees of freedom. `W = [T P]` is one sparse
+//! matrix, so that `Wᵀ K W` has all that is needed: `Tᵀ K T`, and `Pᵀ K T` for the loads of the fixed values.
+//!
+//! A component of `d` that supports fix moves nothing. It gets a spring to nothing, as stiff as the
+//! stiffest entry of `K`: a further row of `K` and of `W`, so that `Tᵀ K T` has a decoupled row for it.
+
+use super::supports::FixedComponent;
+use crate::linalg::sparse_matrix::{
+    Csc, OutOfMemory, congruence, from_columns, from_entries, times, transpose_times,
+};
+use crate::linalg::vector::norm_inf;
+use crate::reduce::frame::Frame;
+use crate::reduce::pairs::ContactPairs;
+
+pub(super) struct ChangeOfVariables {
+    /// `W`: a row for each degree of freedom of the host, then one for each spring.
+    matrix: Csc,
+    host_size: usize,
+    springs: usize,
+    /// Number of entries of `x`.
+    unknowns: usize,
+    /// The host's degree of freedom of each free unknown.
+    free: Vec<usize>,
+}
+
+impl ChangeOfVariables {
+    /// `places` are the places in `fixed` of the host's degrees of freedom.
+    pub(super) fn new(
+        pairs: &ContactPairs<'_>,
+        frames: &[Frame],
+        places: &[Option<usize>],
+        fixed_components: &[FixedComponent],
+    ) -> Result<Self, OutOfMemory> {
+        let host_size = places.len();
+        let mut is_slave = vec![false; host_size];
+        pairs.slaves.iter().for_each(|&dof| is_slave[dof] = true);
+        let free: Vec<usize> =
+            (0..host_size).filter(|&dof| places[dof].is_none() && !is_slave[dof]).collect();
+        let unknowns = free.len() + pairs.dim * pairs.count;
+        let fixed = places.iter().flatten().count();
+        // The column of each degree of freedom that is an unknown or fixed.
+        let mut column: Vec<Option<usize>> =
+            places.iter().map(|place| place.map(|k| unknowns + k)).collect();
+        free.iter().enumerate().for_each(|(k, &dof)| column[dof] = Some(k));
+
+        let mut entries: Vec<(usize, usize, f64)> =
+            (0..host_size).filter_map(|dof| Some((dof, column[dof]?, 1.0))).collect();
+        for (pair, frame) in frames.iter().enumerate() {
+            for (axis, &slave) in pairs.slave(pair).iter().enumerate() {
+                if column[slave].is_some() {
+                    continue;
+                }
+                for (component, direction) in frame.directions().enumerate() {
+                    let unknown = free.len() + pairs.dim * pair + component;
+                    entries.push((slave, unknown, direction[axis]));
+                }
+                for (weight, master) in pairs.masters_of(pair) {
+                    // No master is a slave, so it has a column.
+                    entries.extend(column[master[axis]].map(|k| (slave, k, weight)));
+                }
+            }
+        }
+        let springs = fixed_components.len();
+        for (k, fixed) in fixed_components.iter().enumerate() {
+            entries.push((host_size + k, free.len() + fixed.component, 1.0));
+        }
+        entries.retain(|(_, _, value)| *value != 0.0);
+        let matrix = from_entries((host_size + springs, unknowns + fixed), entries.into_iter())?;
+        Ok(ChangeOfVariables { matrix, host_size, springs, unknowns, free })
+    }
+
+    /// The host's degree of freedom of each free unknown.
+    pub(super) fn free(&self) -> &[usize] {
+        &self.free
+    }
+
+    /// Number of the host's degrees of freedom.
+    pub(super) fn host_size(&self) -> usize {
+        self.host_size
+    }
+
+    /// The lower triangle of `Tᵀ K T`, and `Pᵀ K T`, from the lower triangle of `K`.
+    pub(super) fn transform(&self, host: Csc) -> Result<(Csc, Csc), OutOfMemory> {
+        let host = with_springs(host, self.springs);
+        congruence(host, &self.matrix, self.unknowns)
+    }
+
+    /// `T x + P p`; `None`: `p` is zero.
+    pub(super) fn host_displacements(&self, x: &[f64], p: Option<&[f64]>) -> Vec<f64> {
+        let mut all = vec![0.0; self.matrix.ncols()];
+        all[..x.len()].copy_from_slice(x);
+        if let Some(p) = p {
+            all[self.unknowns..].copy_from_slice(p);
+        }
+        let mut u = times(&self.matrix, &all);
+        u.truncate(self.host_size);
+        u
+    }
+
+    /// `Tᵀ f`.
+    pub(super) fn load(&self, f: &[f64]) -> Vec<f64> {
+        let mut all = f.to_vec();
+        all.resize(self.matrix.nrows(), 0.0);
+        let mut load = transpose_times(&self.matrix, &all);
+        load.truncate(self.unknowns);
+        load
+    }
+}
+
+/// The matrix with rows for decoupled springs at its end, as stiff as its largest entry.
+fn with_springs(lower: Csc, springs: usize) -> Csc {
+    if springs == 0 {
+        return lower;
+    }
+    let stiff = norm_inf(lower.val());
+    let (symbolic, mut values) = lower.into_parts();
+    let (size, _, mut col_start, _, mut row) = symbolic.into_parts();
+    for k in size..size + springs {
+        row.push(k);
+        values.push(stiff);
+        col_start.push(row.len());
+    }
+    from_columns((size + springs, size + springs), col_start, row, values)
+}
+
+/// `Bᵀ`: the nodal forces of unit contact forces. `B` gives the relative displacements,
+/// `d = Rᵀ (u_slave - sum w_k u_master,k)`.
+pub(super) fn contact_forces(
+    host_size: usize,
+    pairs: &ContactPairs<'_>,
+    frames: &[Frame],
+) -> Result<Csc, OutOfMemory> {
+    let mut entries = Vec::new();
+    for (pair, frame) in frames.iter().enumerate() {
+        for (component, direction) in frame.directions().enumerate() {
+            let component = pairs.dim * pair + component;
+            for (axis, &part) in direction.iter().enumerate() {
+                entries.push((pairs.slave(pair)[axis], component, part));
+                for (weight, master) in pairs.masters_of(pair) {
+                    entries.push((master[axis], component, -weight * part));
+                }
+            }
+        }
+    }
+    from_entries((host_size, pairs.dim * pairs.count), entries.into_iter())
+}

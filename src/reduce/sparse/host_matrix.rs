@@ -1,0 +1,229 @@
+//! A host's sparse symmetric matrix, as it is stored: checked, and its lower triangle taken.
+
+use super::messages;
+use crate::error::{Argument, Error};
+use crate::linalg::sparse_matrix::{Columns, Csc, OutOfMemory, both, column, diagonal, transposed};
+use crate::problem::symmetric_matrix::SYMMETRY;
+
+/// Which entries of the symmetric matrix are stored.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Triangle {
+    /// Row >= column.
+    Lower,
+    /// Row <= column.
+    Upper,
+    /// All.
+    Full,
+}
+
+/// Integer arrays of a host, 32 or 64 bits wide.
+#[derive(Clone, Copy, Debug)]
+pub enum Indices<'a> {
+    /// 32 bits.
+    Narrow(&'a [i32]),
+    /// 64 bits.
+    Wide(&'a [i64]),
+}
+
+impl Indices<'_> {
+    /// Number of entries.
+    pub fn len(&self) -> usize {
+        match self {
+            Indices::Narrow(values) => values.len(),
+            Indices::Wide(values) => values.len(),
+        }
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Entry `i` as the host has it.
+    pub(super) fn get(&self, i: usize) -> i64 {
+        match self {
+            Indices::Narrow(values) => i64::from(values[i]),
+            Indices::Wide(values) => values[i],
+        }
+    }
+}
+
+/// A symmetric matrix in compressed columns, or in compressed rows, which is the same of the other
+/// triangle.
+#[derive(Clone, Copy, Debug)]
+pub struct SparseMatrix<'a> {
+    /// Number of rows and columns: of degrees of freedom.
+    pub size: usize,
+    /// Start of each column in `row` and `values`, counted from `index_base`; `size + 1` entries, the
+    /// last is the number of stored entries.
+    pub col_start: Indices<'a>,
+    /// Row of each stored entry, counted from `index_base`, strictly ascending in each column.
+    pub row: Indices<'a>,
+    /// Stored entries.
+    pub values: &'a [f64],
+    /// Index base of `col_start` and `row`: 0 or 1.
+    pub index_base: i64,
+    /// Which entries are stored; a compressed-row matrix has the other triangle.
+    pub triangle: Triangle,
+}
+
+pub(super) fn refuse<T>(message: String) -> Result<T, Error> {
+    Err(Error::invalid(Argument::Matrix, message))
+}
+
+impl SparseMatrix<'_> {
+    /// Checks the arrays' lengths and `col_start`. What else is wrong, a model finds.
+    ///
+    /// # Errors
+    /// An index base that is not 0 or 1 or is not that of `col_start`, a wrong length, and the first
+    /// entry of `col_start` that is out of order or range, with its value.
+    pub fn check_col_start(&self) -> Result<(), Error> {
+        self.checked_col_start().map(|_| ())
+    }
+
+    /// Checks the arrays and copies the lower triangle. The diagonal entry of a degree of freedom that
+    /// `is_fixed` may be zero or not stored.
+    ///
+    /// # Errors
+    /// The first start of a column that is out of order or range; the first row that is out of range,
+    /// not ascending, listed twice or in the wrong triangle; the first value that is not finite; the
+    /// first pair of entries that are not symmetric; the first diagonal entry that is not positive.
+    pub(super) fn lower_triangle(&self, is_fixed: impl Fn(usize) -> bool) -> Result<Csc, Error> {
+        let memory = |_: OutOfMemory| Error::OutOfMemory("a copy of the stiffness matrix");
+        let col_start = self.checked_col_start()?;
+        let columns = Columns::with_capacity(self.values.len()).map_err(memory)?;
+        let stored = self.checked_columns(&col_start, columns)?;
+        let lower = match self.triangle {
+            Triangle::Lower => stored,
+            Triangle::Upper => transposed(&stored).map_err(memory)?,
+            Triangle::Full => {
+                check_symmetry(&stored, &transposed(&stored).map_err(memory)?)?;
+                lower_part(&stored).map_err(memory)?
+            }
+        };
+        check_diagonal(&lower, is_fixed)?;
+        Ok(lower)
+    }
+
+    fn checked_col_start(&self) -> Result<Vec<usize>, Error> {
+        if self.index_base != 0 && self.index_base != 1 {
+            return refuse(format!("index_base is {}, it must be 0 or 1", self.index_base));
+        }
+        let (columns, nnz) = (self.col_start.len(), self.values.len());
+        if columns.checked_sub(1) != Some(self.size) {
+            return refuse(format!(
+                "col_start has {columns} entries, it must have size + 1, and size is {}",
+                self.size
+            ));
+        }
+        if self.row.len() != nnz {
+            let rows = self.row.len();
+            return refuse(format!("row has {rows} entries, but there are {nnz} values"));
+        }
+        let mut col_start: Vec<usize> = Vec::with_capacity(columns);
+        for j in 0..columns {
+            let start = self.col_start.get(j).checked_sub(self.index_base);
+            let fits = |start: &usize| {
+                let last = col_start.last().copied();
+                *start <= nnz && last.map_or(*start == 0, |last| last <= *start)
+            };
+            match start.and_then(|start| usize::try_from(start).ok()).filter(fits) {
+                Some(start) if j < self.size || start == nnz => col_start.push(start),
+                _ => return refuse(messages::col_start(self, j)),
+            }
+        }
+        Ok(col_start)
+    }
+
+    /// Copies the stored entries to `columns`.
+    fn checked_columns(&self, col_start: &[usize], mut columns: Columns) -> Result<Csc, Error> {
+        for (j, ends) in col_start.windows(2).enumerate() {
+            for k in ends[0]..ends[1] {
+                let i = self.row.get(k).checked_sub(self.index_base);
+                let i = i.and_then(|i| usize::try_from(i).ok()).filter(|i| *i < self.size);
+                let Some(i) = i else { return refuse(messages::row_out_of_range(self, k, j)) };
+                if k > ends[0] && columns.row[k - 1] >= i {
+                    return refuse(messages::row_out_of_order(k, j, (columns.row[k - 1], i)));
+                }
+                if !self.values[k].is_finite() {
+                    return refuse(format!("K[{i},{j}] is not finite"));
+                }
+                let in_place = match self.triangle {
+                    Triangle::Lower => i >= j,
+                    Triangle::Upper => i <= j,
+                    Triangle::Full => true,
+                };
+                if !in_place {
+                    return refuse(format!("K[{i},{j}] is not in the triangle that was named"));
+                }
+                columns.row.push(i);
+                columns.values.push(self.values[k]);
+            }
+            columns.end_column();
+        }
+        Ok(columns.matrix(self.size))
+    }
+}
+
+/// Compares a matrix with its transpose. Their patterns may differ: an assembly that drops zeros keeps
+/// the rounding of one entry and not that of its mirror image.
+fn check_symmetry(full: &Csc, transposed: &Csc) -> Result<(), Error> {
+    let root: Vec<f64> =
+        (0..full.ncols()).map(|i| full.get(i, i).copied().unwrap_or_default().sqrt()).collect();
+    for j in 0..full.ncols() {
+        for (i, below, above) in both(full, transposed, j, j + 1) {
+            let scale = root[i] * root[j];
+            if (below - above).abs() > SYMMETRY * scale {
+                return refuse(messages::not_symmetric((i, j), (below, above), scale));
+            }
+        }
+    }
+    Ok(())
+}
+
+fn lower_part(full: &Csc) -> Result<Csc, OutOfMemory> {
+    let size = full.ncols();
+    let mut lower = Columns::with_capacity(full.compute_nnz().div_ceil(2) + size)?;
+    for j in 0..size {
+        let (rows, values) = column(full, j);
+        let above = rows.partition_point(|&i| i < j);
+        lower.row.extend_from_slice(&rows[above..]);
+        lower.values.extend_from_slice(&values[above..]);
+        lower.end_column();
+    }
+    Ok(lower.matrix(size))
+}
+
+/// Refuses diagonal entries that are not positive. One of a fixed degree of freedom may be zero, if its
+/// row is.
+fn check_diagonal(lower: &Csc, is_fixed: impl Fn(usize) -> bool) -> Result<(), Error> {
+    let size = lower.ncols();
+    let mut without = vec![false; size];
+    for (j, without) in without.iter_mut().enumerate() {
+        match diagonal(lower, j) {
+            Some(value) if value > 0.0 => {}
+            Some(value) if value < 0.0 => {
+                return refuse(format!("K[{j},{j}] is {value}, it must be positive"));
+            }
+            _ => *without = true,
+        }
+    }
+    let Some(first) = without.iter().position(|without| *without) else { return Ok(()) };
+    let is = |j: usize| if diagonal(lower, j).is_some() { "0" } else { "missing" };
+    // Beside a zero on its diagonal a positive semi-definite matrix has zeros.
+    for j in 0..size {
+        let (rows, values) = column(lower, j);
+        for (&i, value) in rows.iter().zip(values).filter(|(_, value)| **value != 0.0) {
+            if let Some(dof) = [i, j].into_iter().find(|&dof| without[dof]) {
+                return refuse(format!(
+                    "K[{dof},{dof}] is {}, it must be positive: K[{i},{j}] is {value}",
+                    is(dof)
+                ));
+            }
+        }
+    }
+    match (first..size).find(|&dof| without[dof] && !is_fixed(dof)) {
+        Some(dof) => refuse(messages::no_stiffness(dof, is(dof))),
+        None => Ok(()),
+    }
+}

@@ -1,0 +1,164 @@
+//! What is wrong with a host's sparse matrix, its supports and pairs, in sentences: what, where, and
+//! what to do.
+
+use super::host_matrix::{Indices, SparseMatrix};
+use crate::problem::symmetric_matrix;
+use crate::reduce::motion;
+
+/// Beyond this an integer is none that counts the entries of a matrix in memory, but two integers of 4
+/// bytes side by side.
+const TWO_INTEGERS: i64 = 1 << 32;
+
+/// Why entry `j` of `col_start` is refused.
+pub(super) fn col_start(matrix: &SparseMatrix<'_>, j: usize) -> String {
+    let (value, base, nnz) = (matrix.col_start.get(j), matrix.index_base, matrix.values.len());
+    let said = format!("col_start[{j}] is {value}");
+    if let Some(question) = width(&matrix.col_start, j) {
+        return format!("{said}: {question}");
+    }
+    if j == 0 {
+        let other = 1 - base;
+        if value == other {
+            return format!(
+                "{said}, but index_base is {base}: set index_base to {other}, or count from {base}"
+            );
+        }
+        return format!("{said}, it must be index_base, which is {base}");
+    }
+    let last = matrix.col_start.get(j - 1);
+    if value < last {
+        return format!(
+            "{said}, less than col_start[{}], which is {last}: col_start must not descend",
+            j - 1
+        );
+    }
+    if j == matrix.size {
+        return format!(
+            "the columns hold {} entries ({said}, index_base is {base}), but nnz is {nnz}: size, \
+             here {}, must be the number of degrees of freedom, and nnz the number of stored entries",
+            value.saturating_sub(base),
+            matrix.size
+        );
+    }
+    format!("{said}, beyond the stored entries: nnz is {nnz}, index_base is {base}")
+}
+
+/// Asks whether the integers have another width than was said, if entry `k` looks like it.
+fn width(indices: &Indices<'_>, k: usize) -> Option<&'static str> {
+    let value = indices.get(k);
+    match indices {
+        Indices::Wide(_) if !(-TWO_INTEGERS..TWO_INTEGERS).contains(&value) => {
+            Some("are these integers of 4 bytes, and index_bytes 8?")
+        }
+        // The upper halves of small integers of 8 bytes are zero.
+        Indices::Narrow(values)
+            if k % 2 == 1 && values[1..=k].iter().step_by(2).all(|half| *half == 0) =>
+        {
+            Some("are these integers of 8 bytes, and index_bytes 4?")
+        }
+        _ => None,
+    }
+}
+
+/// Entry `k` of `row`, in column `j`, is no row of the matrix.
+pub(super) fn row_out_of_range(matrix: &SparseMatrix<'_>, k: usize, j: usize) -> String {
+    let (value, base) = (matrix.row.get(k), matrix.index_base);
+    let what = match width(&matrix.row, k) {
+        Some(question) => question.to_owned(),
+        None => format!("size is {} and index_base {base}", matrix.size),
+    };
+    format!("row[{k}], in column {j}, is {value}: {what}")
+}
+
+/// Entry `k` of `row`, in column `j`, names row `i` after row `last`.
+pub(super) fn row_out_of_order(k: usize, j: usize, (last, i): (usize, usize)) -> String {
+    if last == i {
+        return format!(
+            "column {j}: row {i} is listed twice, in row[{}] and row[{k}]: sum the values of one place \
+             to one entry",
+            k - 1
+        );
+    }
+    format!(
+        "column {j}: row {i} stands after row {last}, in row[{k}]: row indices must be strictly \
+         ascending in each column"
+    )
+}
+
+/// Two entries that mirror each other differ; `scale` is what the diagonal allows them to be.
+pub(super) fn not_symmetric(
+    (i, j): (usize, usize),
+    (below, above): (f64, f64),
+    scale: f64,
+) -> String {
+    let remedy = "hand over one triangle (SIGNORINI_TRIANGLE_LOWER), or average the two";
+    let difference = symmetric_matrix::difference((below - above).abs() / scale, remedy);
+    format!("K is not symmetric: K[{i},{j}] is {below}, K[{j},{i}] is {above}: {difference}")
+}
+
+/// The row of a degree of freedom that is not fixed is zero; its diagonal entry `is` so.
+pub(super) fn no_stiffness(dof: usize, is: &str) -> String {
+    format!(
+        "nothing resists degree of freedom {dof}: list it in fixed, or give it stiffness \
+         (K[{dof},{dof}] is {is})"
+    )
+}
+
+/// The factorisation met a negative pivot at a degree of freedom.
+pub(super) fn indefinite(dof: Option<&usize>) -> String {
+    match dof {
+        Some(dof) => {
+            format!("K is not positive semi-definite, as degree of freedom {dof} shows")
+        }
+        None => "K is not positive semi-definite".into(),
+    }
+}
+
+/// A motion `u` of the host without stiffness, support or pair.
+pub(super) fn free_motion(u: &[f64]) -> String {
+    format!("a motion remains that no support and no pair holds: it moves {}", motion::of_host(u))
+}
+
+/// A motion with the relative displacement, in the host's axes, of the pair that moves most.
+pub(super) fn with_pair(whole: &str, pair: usize, relative: &[f64]) -> String {
+    format!(
+        "{whole}; the slave of pair {pair} moves along {} relative to what it faces",
+        motion::components(relative)
+    )
+}
+
+/// The slave is fixed along an axis, and a master (degree of freedom, weight) is not.
+pub(super) fn free_master(
+    pair: usize,
+    axis: &str,
+    (master, weight): (usize, f64),
+    wholly: bool,
+) -> String {
+    if wholly {
+        return format!(
+            "pair {pair}: its slave is fixed along every axis, and its master's degree of freedom \
+             {master} is not: exchange slave and master, or leave the pair out"
+        );
+    }
+    format!(
+        "pair {pair}: its slave is fixed along {axis} where its masters are not: degree of freedom \
+         {master}, of weight {weight}, is free: fix both sides along {axis}, or neither"
+    )
+}
+
+/// The slave and its masters are fixed along an axis that is no direction of the pair's frame.
+pub(super) fn inclined_support(pair: usize, axis: &str, across: bool, wholly: bool) -> String {
+    if wholly {
+        return format!("pair {pair}: its slave is fixed along every axis: leave the pair out");
+    }
+    let said = format!(
+        "pair {pair}: its slave is fixed along {axis}, which is neither normal nor tangent"
+    );
+    if across {
+        return format!("{said}: hand over {axis} as its tangent");
+    }
+    format!(
+        "{said}: hand over a normal along or across {axis}, as on a plane of symmetry, or leave the \
+         pair out"
+    )
+}

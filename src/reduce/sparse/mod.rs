@@ -1,0 +1,156 @@
+//! A host's whole sparse stiffness matrix with contact pairs.
+//!
+//! The slave's displacement is written `u_slave = sum w_k u_master,k + R d`, with `R` the pair's frame
+//! and `d` the relative displacement: the paper's change of variables for any number of bodies. With
+//! `u = T [free; d] + P p`, `p` the values of the fixed degrees of freedom, `K_rel` is the Schur
+//! complement of `Tᵀ K T` on `d`. Parts that only contact holds are fine: with `d` given nothing floats.
+//!
+//! Nodes against segments balance forces and moments, and on matching meshes pass the patch test; on
+//! others they do not: under a uniform pressure the nodal forces of three elements against four are
+//! 6 % off, up to 8 % on other meshes.
+
+mod change_of_variables;
+mod host_matrix;
+mod messages;
+mod supports;
+
+pub use host_matrix::{Indices, SparseMatrix, Triangle};
+
+use super::{ContactPairs, Reduction};
+use crate::error::{Argument, Error};
+use crate::linalg::sparse_matrix::{Csc, OutOfMemory, times, transpose_times};
+use crate::linalg::sparse_schur::{Failure, SparseSchur};
+use crate::linalg::vector::norm_inf;
+use change_of_variables::{ChangeOfVariables, contact_forces};
+use supports::FixedComponent;
+
+/// The reduction of a whole sparse matrix, kept for further load cases.
+pub struct SparseReduction {
+    dim: usize,
+    fixed_count: usize,
+    variables: ChangeOfVariables,
+    /// `Pᵀ K T`: a row for each fixed degree of freedom, a column for each unknown.
+    of_fixed: Csc,
+    /// `Bᵀ`: nodal forces of unit contact forces.
+    contact_forces: Csc,
+    /// Normals and tangents, pair by pair.
+    frames: Vec<f64>,
+    supports: Vec<FixedComponent>,
+    fixed_components: Vec<usize>,
+    schur: SparseSchur,
+}
+
+impl SparseReduction {
+    /// Reduces `matrix` with the degrees of freedom `fixed` and the contact `pairs`.
+    ///
+    /// # Errors
+    /// What is wrong with the arrays, by entry; a slave that is fixed where its masters are not; a
+    /// motion that neither supports nor pairs hold, by degrees of freedom that move in it.
+    pub fn new(
+        matrix: &SparseMatrix<'_>,
+        fixed: &[usize],
+        pairs: &ContactPairs<'_>,
+    ) -> Result<Self, Error> {
+        let memory = |_: OutOfMemory| Error::OutOfMemory("the reduced stiffness matrix");
+        // The matrix first: a wrong size or index base shows in the other arrays too.
+        matrix.check_col_start()?;
+        let places = supports::places_in_fixed(matrix.size, fixed)?;
+        let host = matrix.lower_triangle(|dof| places[dof].is_some())?;
+        pairs.check(matrix.size)?;
+        let mut frames = pairs.frames()?;
+        let supports = supports::fixed_components(pairs, &mut frames, &places)?;
+        let variables =
+            ChangeOfVariables::new(pairs, &frames, &places, &supports).map_err(memory)?;
+        let contact_forces = contact_forces(matrix.size, pairs, &frames).map_err(memory)?;
+        let (transformed, of_fixed) = variables.transform(host).map_err(memory)?;
+        let schur = SparseSchur::new(transformed, variables.free().len())
+            .map_err(|failure| refused(&variables, failure))?;
+        Ok(SparseReduction {
+            dim: pairs.dim,
+            fixed_count: fixed.len(),
+            variables,
+            of_fixed,
+            contact_forces,
+            frames: frames.iter().flat_map(|frame| frame.directions().flatten().copied()).collect(),
+            fixed_components: supports.iter().map(|support| support.component).collect(),
+            supports,
+            schur,
+        })
+    }
+
+    /// `Tᵀ (f - K P p)`.
+    fn transformed_load(&self, load: &[f64], prescribed: Option<&[f64]>) -> Vec<f64> {
+        let mut transformed = self.variables.load(load);
+        if let Some(values) = prescribed {
+            let forces = transpose_times(&self.of_fixed, values);
+            transformed.iter_mut().zip(forces).for_each(|(load, force)| *load -= force);
+        }
+        transformed
+    }
+}
+
+impl Reduction for SparseReduction {
+    fn stiffness(&self) -> &[f64] {
+        self.schur.schur()
+    }
+
+    fn host_size(&self) -> usize {
+        self.variables.host_size()
+    }
+
+    fn fixed_count(&self) -> usize {
+        self.fixed_count
+    }
+
+    fn condense(&self, load: &[f64], prescribed: Option<&[f64]>) -> Vec<f64> {
+        self.schur.condense(&self.transformed_load(load, prescribed))
+    }
+
+    fn recover(&self, load: Option<&[f64]>, prescribed: Option<&[f64]>, d: &[f64]) -> Vec<f64> {
+        let nothing = vec![0.0; if load.is_none() { self.host_size() } else { 0 }];
+        let load = self.transformed_load(load.unwrap_or(&nothing), prescribed);
+        let x = self.schur.recover(&load, d);
+        self.variables.host_displacements(&x, prescribed)
+    }
+
+    /// `Bᵀ F`: `R F` on slaves, the opposite on masters by weight.
+    fn nodal_forces(&self, force: &[f64]) -> Vec<f64> {
+        times(&self.contact_forces, force)
+    }
+
+    fn check_prescribed(&self, values: &[f64]) -> Result<(), Error> {
+        self.supports.iter().try_for_each(|support| support.check(values))
+    }
+
+    fn fixed_components(&self) -> &[usize] {
+        &self.fixed_components
+    }
+
+    fn frames(&self) -> Option<&[f64]> {
+        Some(&self.frames)
+    }
+
+    fn motion_in_words(&self, d: &[f64]) -> String {
+        let whole = super::motion::of_host(&self.recover(None, None, d));
+        let dim = self.dim;
+        let size = |pair: &usize| norm_inf(&d[dim * pair..dim * (pair + 1)]);
+        let most = (0..d.len() / dim).max_by(|a, b| size(a).total_cmp(&size(b)));
+        let Some(pair) = most.filter(|pair| size(pair) > 0.0) else { return whole };
+        let range = dim * pair..dim * (pair + 1);
+        let mut relative = vec![0.0; dim];
+        for (d, direction) in d[range].iter().zip(self.frames[dim * dim * pair..].chunks(dim)) {
+            relative.iter_mut().zip(direction).for_each(|(u, part)| *u += d * part);
+        }
+        messages::with_pair(&whole, pair, &relative)
+    }
+}
+
+/// Why the factorisation failed, in degrees of freedom of the host.
+fn refused(variables: &ChangeOfVariables, failure: Failure) -> Error {
+    let message = match failure {
+        Failure::OutOfMemory => return Error::OutOfMemory("the factor of the stiffness matrix"),
+        Failure::Indefinite(row) => messages::indefinite(variables.free().get(row)),
+        Failure::NullVector(x) => messages::free_motion(&variables.host_displacements(&x, None)),
+    };
+    Error::invalid(Argument::Matrix, message)
+}
