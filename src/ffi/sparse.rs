@@ -165,7 +165,7 @@ impl SignoriniPairs {
         // SAFETY: by the caller's contract.
         let given = unsafe { whole(position, "pairs", pointer)? };
         let wrong = |error: Error| Failure::argument(position, format!("pairs: {error}"));
-        let dim = problem::checked_dim(i64::from(given.dim)).map_err(wrong)?;
+        let dim = problem::checked_dim(given.dim).map_err(wrong)?;
         let count = size(position, "pairs: count", given.count)?;
         let components = problem::unknowns(dim, count).map_err(wrong)?;
         let mut arrays = Arrays::default();

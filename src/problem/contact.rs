@@ -12,6 +12,8 @@
 //! `K` is symmetric and positive semi-definite: bodies held by nothing but contact are allowed. What
 //! the data mean for the forces is in the room [`crate::law`].
 
+use std::fmt::Display;
+
 use super::relation::{Relation, Stiffness};
 use super::symmetric_matrix;
 use crate::error::{Argument, Error};
@@ -124,7 +126,7 @@ impl<'a> ContactProblem<'a> {
 
     /// Checks everything but the entries of the matrix, which a model has checked once.
     pub(crate) fn on_checked_matrix(data: ContactData<'a>) -> Result<Self, Error> {
-        let size = unknowns(checked_dim(data.dim as i64)?, data.pairs)?;
+        let size = unknowns(checked_dim(data.dim)?, data.pairs)?;
         let entries = required_length("K", size, data.ld)
             .map_err(|message| Error::invalid(Argument::LeadingDimension, message))?;
         check_length(Argument::Matrix, "K", data.stiffness.len(), entries)?;
@@ -187,7 +189,7 @@ impl<'a, R: Relation> ContactProblem<'a, R> {
         law: FrictionLaw<'a>,
         reference_slip: Option<&'a [f64]>,
     ) -> Result<Self, Error> {
-        checked_dim(dim as i64)?;
+        checked_dim(dim)?;
         let pairs = relation.size() / dim;
         if dim * pairs != relation.size() {
             let message = format!("{} components are no pairs of {dim}", relation.size());
@@ -259,9 +261,9 @@ impl<'a, R: Relation> ContactProblem<'a, R> {
 }
 
 /// A space dimension, which must be 2 or 3.
-pub(crate) fn checked_dim(dim: i64) -> Result<usize, Error> {
-    match dim {
-        2 | 3 => Ok(dim as usize),
+pub(crate) fn checked_dim<T: Copy + Display + TryInto<usize>>(dim: T) -> Result<usize, Error> {
+    match dim.try_into() {
+        Ok(dim @ (2 | 3)) => Ok(dim),
         _ => {
             let message = format!("dim is {dim}, it must be 2 or 3");
             Err(Error::invalid(Argument::Dimension, message))
