@@ -290,7 +290,7 @@ pub(crate) fn unknowns(dim: usize, pairs: usize) -> Result<usize, Error> {
     const MOST: usize = isize::MAX as usize / size_of::<f64>();
     let fits = |n: &usize| n.checked_mul(*n).is_some_and(|entries| entries <= MOST);
     dim.checked_mul(pairs).filter(fits).ok_or_else(|| {
-        Error::invalid(Argument::Size, format!("{pairs} pairs: the matrix cannot exist"))
+        Error::invalid(Argument::Size, format!("pairs is {pairs}: the matrix cannot exist"))
     })
 }
 

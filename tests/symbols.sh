@@ -74,7 +74,7 @@ for name in exit _Exit quick_exit atexit on_exit printf fprintf vfprintf puts fp
 done
 
 if [ "$(uname -s)" != Darwin ]; then
-    version() { sed -n "s/^#define SIGNORINI_VERSION_$1 \([0-9]*\)$/\1/p" "$header"; }
+    version() { sed -n "s/^#define SIGNORINI_VERSION_$1 \([0-9]*\)\( .*\)\{0,1\}$/\1/p" "$header"; }
     wanted=libsignorini.so.$(version MAJOR).$(version MINOR)
     soname=$(readelf -d "$library" | sed -n 's/.*(SONAME).*\[\(.*\)\].*/\1/p')
     [ "$soname" = "$wanted" ] || fail "its SONAME is '$soname', not '$wanted'"
