@@ -46,7 +46,7 @@ impl Model {
     /// # Errors
     /// As [`ContactProblem::new`] for the matrix.
     pub fn condensed(dim: usize, pairs: usize, k: &[f64], ld: usize) -> Result<Self, Error> {
-        let size = unknowns(checked_dim(dim as i64)?, pairs)?;
+        let size = unknowns(checked_dim(dim)?, pairs)?;
         check_length("K", (k, ld), size, (Argument::Matrix, Argument::LeadingDimension))?;
         let matrix = SymmetricMatrix { size, entries: k, ld };
         matrix.check("K", Argument::Matrix)?;
@@ -64,7 +64,7 @@ impl Model {
         first: (&[f64], usize),
         second: (&[f64], usize),
     ) -> Result<Self, Error> {
-        let size = unknowns(checked_dim(dim as i64)?, pairs)?;
+        let size = unknowns(checked_dim(dim)?, pairs)?;
         check_length("K_A", first, size, (Argument::Matrix, Argument::LeadingDimension))?;
         let names = (Argument::SecondMatrix, Argument::SecondLeadingDimension);
         check_length("K_B", second, size, names)?;

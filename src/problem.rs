@@ -11,6 +11,8 @@
 //!
 //! `K` is symmetric and positive semi-definite: bodies held by nothing but contact are allowed.
 
+use std::fmt::Display;
+
 use crate::error::{Argument, Error};
 use crate::linalg::small;
 use crate::matrix::{self, SymmetricMatrix};
@@ -93,7 +95,7 @@ impl<'a> ContactProblem<'a> {
     /// Checks everything but the entries of the matrix, which a model has checked once.
     pub(crate) fn on_checked_matrix(data: ContactData<'a>) -> Result<Self, Error> {
         let ContactData { dim, pairs, .. } = data;
-        let n = unknowns(checked_dim(dim as i64)?, pairs)?;
+        let n = unknowns(checked_dim(dim)?, pairs)?;
         let problem = ContactProblem { data };
         problem.check_lengths(n)?;
         let problem = problem.trimmed();
@@ -274,10 +276,10 @@ impl<'a> ContactProblem<'a> {
     }
 }
 
-/// A space dimension, which must be 2 or 3.
-pub(crate) fn checked_dim(dim: i64) -> Result<usize, Error> {
-    match dim {
-        2 | 3 => Ok(dim as usize),
+/// A space dimension, of any type of integer, which must be 2 or 3.
+pub(crate) fn checked_dim<T: Copy + Display + TryInto<usize>>(dim: T) -> Result<usize, Error> {
+    match dim.try_into() {
+        Ok(dim @ (2 | 3)) => Ok(dim),
         _ => {
             let message = format!("dim is {dim}, it must be 2 or 3");
             Err(Error::invalid(Argument::Dimension, message))

@@ -92,7 +92,7 @@ fn refuses_numbers_that_are_not_finite() {
         refuses(ContactData { load: &load, ..GOOD }, Argument::Load, &["f[2]"]);
         let pair = [0.0, bad];
         let data = ContactData { reference_slip: Some(&pair), ..GOOD };
-        refuses(data, Argument::ReferenceSlip, &["slip[1]"]);
+        refuses(data, Argument::ReferenceSlip, &["slip0[1]"]);
         let data = ContactData { law: FrictionLaw::Coulomb(&pair), ..GOOD };
         refuses(data, Argument::Law, &["mu[1]"]);
         let data = ContactData { law: FrictionLaw::Tresca(&pair), ..GOOD };

@@ -210,7 +210,7 @@ pub(super) fn size(position: i32, name: &str, value: i64) -> Result<usize, Failu
 pub(super) fn sizes(first: i32, dim: i32, pairs: i64) -> Result<(usize, usize, usize), Failure> {
     let place = |argument| first + i32::from(argument == Argument::Size);
     let from_error = |error| Failure::from_error(error, place);
-    let dim = problem::checked_dim(i64::from(dim)).map_err(from_error)?;
+    let dim = problem::checked_dim(dim).map_err(from_error)?;
     let pairs = size(first + 1, "pairs", pairs)?;
     Ok((dim, pairs, problem::unknowns(dim, pairs).map_err(from_error)?))
 }

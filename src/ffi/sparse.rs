@@ -114,7 +114,7 @@ impl SignoriniSparse {
                 other => Err(wrong(format!("K: index_bytes is {other}, it must be 4 or 8"))),
             };
             let starts = indices("K: col_start", given.col_start, columns)?;
-            check_ends(&starts, &given).map_err(wrong)?;
+            check_ends(&starts, given).map_err(wrong)?;
             let rows = indices("K: row", given.row, nnz)?;
             Ok(SparseMatrix { size: n, starts, rows, values, base, triangle })
         }
@@ -188,7 +188,7 @@ impl SignoriniPairs {
         // SAFETY: by the caller's contract.
         let given = unsafe { whole(position, "pairs", pointer)? };
         let wrong = |error: Error| Failure::argument(position, format!("pairs: {error}"));
-        let dim = problem::checked_dim(i64::from(given.dim)).map_err(wrong)?;
+        let dim = problem::checked_dim(given.dim).map_err(wrong)?;
         let count = size(position, "pairs: count", given.count)?;
         let components = problem::unknowns(dim, count).map_err(wrong)?;
         let mut arrays = Arrays::default();
