@@ -36,8 +36,9 @@ void check_zones(struct checks *checks, const struct solution *solution, size_t 
             wrong = i + 1;
     }
     judge(checks, wrong == 0);
-    printf("zones: from the free corner %zu open, %zu slip, %zu stick", counted[SIGNORINI_STATE_OPEN],
-           counted[SIGNORINI_STATE_SLIP], counted[SIGNORINI_STATE_STICK]);
+    printf("zones: from the free corner %zu open, %zu slip, %zu stick",
+           counted[SIGNORINI_STATE_OPEN], counted[SIGNORINI_STATE_SLIP],
+           counted[SIGNORINI_STATE_STICK]);
     if (wrong != 0)
         printf("; but node %zu is %s", wrong, state_name(solution->state[wrong - 1]));
     putchar('\n');

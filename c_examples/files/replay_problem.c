@@ -54,7 +54,8 @@ static int print_problem(const struct signorini_problem *problem, const char *pa
     switch (kind) {
     case SIGNORINI_PROBLEM_CONTACT:
         printf("problem   contact, %s, dim %d, %lld pairs, N = %lld\n",
-               law_name(signorini_problem_law(problem)), (int)signorini_problem_dim(problem), (long long)signorini_problem_pairs(problem),
+               law_name(signorini_problem_law(problem)), (int)signorini_problem_dim(problem),
+               (long long)signorini_problem_pairs(problem),
                (long long)signorini_problem_size(problem));
         return 1;
     case SIGNORINI_PROBLEM_LCP:

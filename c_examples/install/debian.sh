@@ -1,5 +1,5 @@
 #!/bin/sh
-# Makes Debian packages of the library: libsignorini0.1, what programs need to run, and
+# Makes Debian packages of the library: libsignorini0.2, what programs need to run, and
 # libsignorini-dev, what they are built with.
 #
 #     sh c_examples/install/debian.sh [OUT]

@@ -1,4 +1,4 @@
-//! The lines of a file that may be anything, and the numbers that stand one a line.
+//! Defensive reader of lines, and of the numbers that stand one a line.
 
 use std::borrow::Cow;
 use std::fs::File;

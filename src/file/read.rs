@@ -97,8 +97,7 @@ impl Header {
             return Ok(Header { kind, dim: 0, pairs: 0, size, covering, remark });
         };
         let dim = number(lines, "dim", &dim)?;
-        problem::checked_dim(dim as i64)
-            .map_err(|error| lines.refuse(&format!("above, {error}")))?;
+        problem::checked_dim(dim).map_err(|error| lines.refuse(&format!("above, {error}")))?;
         let pairs = number(lines, "pairs", &pairs)?;
         let (size, columns) = sizes(lines)?;
         let more = 3 + law.parameters().len();

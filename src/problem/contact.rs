@@ -274,7 +274,7 @@ pub(crate) fn checked_dim<T: Copy + Display + TryInto<usize>>(dim: T) -> Result<
 /// Number of unknowns `dim * pairs`, if a matrix of that size can exist.
 pub(crate) fn unknowns(dim: usize, pairs: usize) -> Result<usize, Error> {
     dim.checked_mul(pairs).filter(|&size| can_exist(size)).ok_or_else(|| {
-        Error::invalid(Argument::Size, format!("{pairs} pairs: the matrix cannot exist"))
+        Error::invalid(Argument::Size, format!("pairs is {pairs}: the matrix cannot exist"))
     })
 }
 

@@ -77,7 +77,7 @@ static double eta_of_displacements(const struct problem *problem, const double *
     const int32_t status =
         signorini_certify(2, n, contact->K, 2 * n, contact->f, contact->gap, SIGNORINI_LAW_COULOMB,
                           problem->mu_of, NULL, SOLVED_ETA, d, F, NULL, &report);
-    return status == SIGNORINI_STATUS_SOLVED || status == SIGNORINI_STATUS_NOT_A_SOLUTION ? report.eta : NAN;
+    return status >= 0 ? report.eta : NAN;
 }
 
 /* Reactions r are the displacements d = (gap, 0) - q - W r. They too are measured as they are, and

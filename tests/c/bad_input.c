@@ -159,7 +159,7 @@ static void expect(int line, const char *function, int32_t (*call)(void), const 
         expect(__LINE__, call, name, status, part);                                               \
     } while (0)
 
-/* The same fault under both laws of friction, and in the certificate too; mu and g have a part each. */
+/* The same fault under both laws of friction, and in the certificate too. */
 #define BOTH_IN(dim, name, status, part, ...)                                                     \
     do {                                                                                          \
         BAD(dim, SOLVE, name, status, part, __VA_ARGS__);                                         \
@@ -437,7 +437,8 @@ static void methods(void)
     BOTH_IN(3, "Newton in 3D", -10, "Newton's method is for 2D",
             c.settings->method = SIGNORINI_METHOD_NEWTON);
     BOTH_IN(3, "Newton in 3D without friction", -10, "Newton's method is for 2D",
-            c.settings->method = SIGNORINI_METHOD_NEWTON, memset(world.friction, 0, sizeof world.friction));
+            c.settings->method = SIGNORINI_METHOD_NEWTON,
+            memset(world.friction, 0, sizeof world.friction));
     BAD(2, TRESCA, "the diagonal method with thresholds", -10, "diagonal",
         c.settings->method = SIGNORINI_METHOD_SOR_DIAGONAL);
     for (int i = 0; i < 3; i++)

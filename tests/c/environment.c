@@ -117,7 +117,8 @@ static void all_calls(const char *when)
 
     const double M[] = {2, 1, 1, 2}, q[] = {-5, -6}, infinite[] = {-INFINITY, 0}, none[] = {0};
     double w[2], z[2];
-    CHECK_STATUS(signorini_lcp_lemke(2, M, 2, q, NULL, NULL, w, z, NULL, NULL), SIGNORINI_STATUS_SOLVED);
+    CHECK_STATUS(signorini_lcp_lemke(2, M, 2, q, NULL, NULL, w, z, NULL, NULL),
+                 SIGNORINI_STATUS_SOLVED);
     CHECK_STATUS(signorini_lcp_lemke(2, M, 2, infinite, NULL, NULL, w, z, NULL, NULL), -4);
     CHECK_STATUS(signorini_lcp_lemke(1, none, 1, q, NULL, NULL, w, z, NULL, NULL),
                  SIGNORINI_STATUS_NO_EQUILIBRIUM);
@@ -173,7 +174,8 @@ static void flush_to_zero_is_kept(void)
 /* The bits of an answer do not depend on what the host has set. */
 static void results_do_not_depend_on_the_environment(void)
 {
-    for (int32_t method = SIGNORINI_METHOD_AUTO; method <= SIGNORINI_METHOD_BLOCK_PIVOTING; method++) {
+    const int32_t last = SIGNORINI_METHOD_BLOCK_PIVOTING;
+    for (int32_t method = SIGNORINI_METHOD_AUTO; method <= last; method++) {
         /* Loads so small that flushing to zero would show. */
         chain plain = chain_new(3, 12, 0.3, 8), other = chain_new(3, 12, 0.3, 8);
         for (int64_t i = 0; i < plain.n; i++) plain.f[i] = other.f[i] = plain.f[i] * 1e-306;

@@ -28,11 +28,11 @@ static double distance(const double *a, const double *b)
 static void check_load_steps(void)
 {
     static const double loads[2 * N] = {2, 1.5, 3, 0.5, 2, 0.2, 3, -0.5};
-    double slip[PAIRS] = {0}, d[N], F[N], slip_1[PAIRS] = {0}, d_1[N], F_1[N];
+    double slip0[PAIRS] = {0}, d[N], F[N], slip_1[PAIRS] = {0}, d_1[N], F_1[N];
     signorini_model *model;
 
     CHECK_STATUS(signorini_model_new_condensed(2, PAIRS, K, N, &model), 0);
-    CHECK_STATUS(load_steps(model, 2, loads, N, gap, mu, PAIRS, slip, d, F), 0);
+    CHECK_STATUS(load_steps(model, 2, loads, N, gap, mu, PAIRS, slip0, d, F), 0);
     for (int step = 0; step < 2; step++) {
         CHECK_STATUS(signorini_solve(2, PAIRS, K, N, loads + step * N, gap, SIGNORINI_LAW_COULOMB,
                                      mu, slip_1, NULL, d_1, F_1, NULL, NULL, NULL), 0);
@@ -49,7 +49,7 @@ static void check_load_steps(void)
 static void check_contact_iteration(void)
 {
     static const double f[N] = {2, 1.5, 3, 0.5};
-    const double d[N] = {-0.3, 0.2, 0.05, -0.1}, slip[PAIRS] = {0.02, -0.01};
+    const double d[N] = {-0.3, 0.2, 0.05, -0.1}, slip0[PAIRS] = {0.02, -0.01};
     double r[N], room[N], c[N], F[N], wanted[N], force[N];
 
     for (int i = 0; i < N; i++) {
@@ -57,8 +57,8 @@ static void check_contact_iteration(void)
         for (int j = 0; j < N; j++)
             r[i] -= K[i + N * j] * d[j];
     }
-    CHECK_STATUS(contact_iteration(PAIRS, K, r, d, gap, mu, slip, room, c, F), 0);
-    CHECK_STATUS(signorini_solve(2, PAIRS, K, N, f, gap, SIGNORINI_LAW_COULOMB, mu, slip, NULL,
+    CHECK_STATUS(contact_iteration(PAIRS, K, r, d, gap, mu, slip0, room, c, F), 0);
+    CHECK_STATUS(signorini_solve(2, PAIRS, K, N, f, gap, SIGNORINI_LAW_COULOMB, mu, slip0, NULL,
                                  wanted, force, NULL, NULL, NULL),
                  0);
     for (int i = 0; i < N; i++)

@@ -28,5 +28,6 @@ int main(void)
                              state, &report, NULL);
     printf("header: signorini %s, %s, d_t = %g\n", signorini_version(),
            signorini_status_string(status), d[1]);
-    return !(status == SIGNORINI_STATUS_SOLVED && state[0] == SIGNORINI_STATE_SLIP && report.pairs_slipping == 1);
+    return !(status == SIGNORINI_STATUS_SOLVED && state[0] == SIGNORINI_STATE_SLIP &&
+             report.pairs_slipping == 1);
 }

@@ -29,5 +29,6 @@ int main()
                         nullptr, &settings, d.data(), F.data(), state.data(), &report, NULL);
     std::printf("header: signorini %s, %s, d_t = %g\n", signorini_version(),
                 signorini_status_string(status), d[1]);
-    return !(status == SIGNORINI_STATUS_SOLVED && state[0] == SIGNORINI_STATE_SLIP && iterations >= 0);
+    return !(status == SIGNORINI_STATUS_SOLVED && state[0] == SIGNORINI_STATE_SLIP &&
+             iterations >= 0);
 }

@@ -42,7 +42,8 @@ static signorini_report blank_report(void)
 static const double klarbring_K[] = {2, 1, 1, 1}, klarbring_f[] = {1, 1.5}, touching[] = {0};
 static const double known_d[3][2] = {{0, 0}, {0, 0.5}, {-0.5, 2}};
 static const double known_F[3][2] = {{-1, -1.5}, {-0.5, -1}, {0, 0}};
-static const int32_t known_state[] = {SIGNORINI_STATE_STICK, SIGNORINI_STATE_SLIP, SIGNORINI_STATE_OPEN};
+static const int32_t known_state[] = {SIGNORINI_STATE_STICK, SIGNORINI_STATE_SLIP,
+                                      SIGNORINI_STATE_OPEN};
 
 /* Which of the three an answer is, to 1e-9; checks its forces and state. */
 static int which(const double *d, const double *F, int32_t state)
@@ -171,7 +172,8 @@ static void displacements_of_any_origin_are_measured(void)
                                    state, &report),
                  SIGNORINI_STATUS_SOLVED);
     CHECK(signorini_last_error()[0] == '\0');
-    CHECK(report.status == SIGNORINI_STATUS_SOLVED && report.eta == 0 && report.struct_size == sizeof report);
+    CHECK(report.status == SIGNORINI_STATUS_SOLVED && report.eta == 0 &&
+          report.struct_size == sizeof report);
     CHECK(report.pairs_open == 1 && report.pairs_slipping == 1 && report.pairs_sticking == 0);
     CHECK(state[0] == SIGNORINI_STATE_SLIP && state[1] == SIGNORINI_STATE_OPEN);
     CHECK(F[0] == -10 && F[1] == -5 && F[2] == 0 && F[3] == 0);
@@ -240,7 +242,8 @@ static void what_is_solved_is_certified(void)
         CHECK(measured.eta == solved.eta && measured.rounding == solved.rounding);
         CHECK(measured.penetration == solved.penetration && measured.tension == solved.tension);
         CHECK(measured.equilibrium == solved.equilibrium);
-        CHECK(measured.pairs_open == solved.pairs_open && measured.pairs_slipping == solved.pairs_slipping);
+        CHECK(measured.pairs_open == solved.pairs_open &&
+              measured.pairs_slipping == solved.pairs_slipping);
         CHECK(memcmp(F, c.F, (size_t)c.n * sizeof *F) == 0);
         CHECK(memcmp(state, c.state, sizeof state) == 0);
         free(F);
@@ -251,8 +254,8 @@ static void what_is_solved_is_certified(void)
 
 /* ---- LCPs ---- */
 
-static int32_t lcp(int32_t method, int64_t n, const double *M, const double *q, double *w, double *z,
-                   double *y)
+static int32_t lcp(int32_t method, int64_t n, const double *M, const double *q, double *w,
+                   double *z, double *y)
 {
     const signorini_settings settings = settings_for(method);
     signorini_report report = blank_report();
@@ -295,7 +298,8 @@ static void lcps_in_closed_form(void)
     }
     /* Padding is not looked at; what is not wanted may be NULL. */
     const double padded[] = {2, 1, NAN, NAN, 1, 2};
-    CHECK_STATUS(signorini_lcp_solve(2, padded, 4, q, NULL, w, z, NULL, NULL), SIGNORINI_STATUS_SOLVED);
+    CHECK_STATUS(signorini_lcp_solve(2, padded, 4, q, NULL, w, z, NULL, NULL),
+                 SIGNORINI_STATUS_SOLVED);
     CHECK_NEAR(z[1], 7.0 / 3);
 }
 

@@ -38,8 +38,15 @@ static void prepare(void)
     memcpy(in.starts, starts, sizeof starts);
     memcpy(in.rows, rows, sizeof rows);
     memcpy(in.values, values, sizeof values);
-    in.K = (signorini_sparse){sizeof in.K, 8, 0, SIGNORINI_TRIANGLE_LOWER, SIZE, 8, in.starts, in.rows,
-                              in.values};
+    in.K = (signorini_sparse){.struct_size = sizeof in.K,
+                              .index_bytes = 8,
+                              .index_base = 0,
+                              .triangle = SIGNORINI_TRIANGLE_LOWER,
+                              .size = SIZE,
+                              .nnz = 8,
+                              .col_start = in.starts,
+                              .row = in.rows,
+                              .values = in.values};
     in.n_fixed = 1;
     in.fixed[0] = 5;
     in.slaves[0] = 0;
@@ -50,8 +57,15 @@ static void prepare(void)
     in.weights[0] = 1;
     in.normals[1] = -1;
     in.tangents[0] = 1;
-    in.pairs = (signorini_pairs){sizeof in.pairs, 2,          1,          in.slaves,  in.master_start,
-                                 in.masters,      in.weights, in.normals, in.tangents};
+    in.pairs = (signorini_pairs){.struct_size = sizeof in.pairs,
+                                 .dim = 2,
+                                 .count = 1,
+                                 .slaves = in.slaves,
+                                 .master_start = in.master_start,
+                                 .masters = in.masters,
+                                 .weights = in.weights,
+                                 .normals = in.normals,
+                                 .tangents = in.tangents};
     in.K_pointer = &in.K;
     in.pairs_pointer = &in.pairs;
     in.fixed_pointer = in.fixed;
@@ -117,15 +131,20 @@ static void bad_matrix(void)
     BAD_K("col_start is NULL", "col_start is NULL", in.K.col_start = NULL);
     BAD_K("row is NULL", "row is NULL", in.K.row = NULL);
     BAD_K("values is NULL", "values is NULL", in.K.values = NULL);
-    BAD_K("col_start is misaligned", "col_start is not aligned", in.K.col_start = (char *)in.starts + 4);
+    BAD_K("col_start is misaligned", "col_start is not aligned",
+          in.K.col_start = (char *)in.starts + 4);
     BAD_K("row is misaligned", "row is not aligned", in.K.row = (char *)in.rows + 4);
-    BAD_K("col_start does not begin at 0", "col_start[0] is 1, it must be index_base, which is 0", in.starts[0] = 1);
+    BAD_K("col_start does not begin at 0", "col_start[0] is 1, it must be index_base, which is 0",
+          in.starts[0] = 1);
     BAD_K("starts is not monotone", "begin of column 3", in.starts[2] = 5);
     BAD_K("a start is negative", "begin of column 2", in.starts[2] = -1);
     BAD_K("a start is beyond the entries", "begin of column 2", in.starts[2] = 9);
-    BAD_K("col_start ends before the entries", "is 7, it must be index_base + nnz, which is 8", in.starts[SIZE] = 7);
-    BAD_K("col_start ends beyond the entries", "is 9, it must be index_base + nnz, which is 8", in.starts[SIZE] = 9);
-    BAD_K("col_start counts from 1", "col_start[0] is 1, it must be index_base", for (int i = 0; i <= SIZE; i++) in.starts[i]++);
+    BAD_K("col_start ends before the entries", "is 7, it must be index_base + nnz, which is 8",
+          in.starts[SIZE] = 7);
+    BAD_K("col_start ends beyond the entries", "is 9, it must be index_base + nnz, which is 8",
+          in.starts[SIZE] = 9);
+    BAD_K("col_start counts from 1", "col_start[0] is 1, it must be index_base",
+          for (int i = 0; i <= SIZE; i++) in.starts[i]++);
     BAD_K("a row is out of range", "column 4", in.rows[6] = 6);
     BAD_K("a row is negative", "column 0", in.rows[0] = -1);
     BAD_K("a row is the least number", "column 0", in.rows[0] = INT64_MIN; in.K.index_base = 1;

@@ -1,11 +1,11 @@
 /*
  * What a model says of itself and of displacements: sizes, frames, the loads that a case condenses
- * to, certificates, and the further results of each case of a block. By hand or against closed forms.
+ * to, certificates, and the further results of each case of a block.
  */
 
 #include "check.h"
 
-/* ---- a sparse model in 3D: two pairs on a rigid obstacle, every component on its own spring ---- */
+/* ---- a sparse model in 3D: two pairs on a rigid obstacle, each component on a spring ---- */
 
 enum { DIM = 3, PAIRS = 2, SIZE = 9, N = DIM * PAIRS };
 
@@ -209,7 +209,8 @@ static void bad_certificates(void)
     BAD(-8, "tolerance is 0", f, NULL, gap, 1, mu, NULL, 0, d);
     BAD(-9, "d is NULL", f, NULL, gap, 1, mu, NULL, 1e-10, NULL);
     BAD(-9, "d[1] is not finite", f, NULL, gap, 1, mu, NULL, 1e-10, nan);
-    CHECK_STATUS(signorini_model_certify(model, f, NULL, gap, 0, NULL, NULL, 1e-10, d, d, NULL, NULL),
+    CHECK_STATUS(signorini_model_certify(model, f, NULL, gap, 0, NULL, NULL, 1e-10, d, d, NULL,
+                                         NULL),
                  -10);
     signorini_model_free(model);
 }

@@ -92,8 +92,8 @@ static void kinds(void)
     CHECK(signorini_problem_remark(problem)[0] == '\0');
     signorini_problem_free(problem);
 
-    CHECK_STATUS(signorini_problem_write(in_folder("frictionless"), 2, 2, K, 4, f, gap, FRICTIONLESS,
-                                         NULL, slip0, NULL),
+    CHECK_STATUS(signorini_problem_write(in_folder("frictionless"), 2, 2, K, 4, f, gap,
+                                         FRICTIONLESS, NULL, slip0, NULL),
                  0);
     CHECK_STATUS(signorini_problem_read(path, &problem), 0);
     CHECK(signorini_problem_kind(problem) == SIGNORINI_PROBLEM_CONTACT);
@@ -221,10 +221,13 @@ static void bad_paths(void)
     signorini_problem *problem;
 
     CHECK(mkdir(in_folder("inner"), 0700) == 0);
-    BAD(SIGNORINI_STATUS_FILE, "inner: cannot be written: it is not a file", write_problem("inner", NULL));
-    BAD(SIGNORINI_STATUS_FILE, "inner: cannot be read: it is a dir", signorini_problem_read(path, &problem));
+    BAD(SIGNORINI_STATUS_FILE, "inner: cannot be written: it is not a file",
+        write_problem("inner", NULL));
+    BAD(SIGNORINI_STATUS_FILE, "inner: cannot be read: it is a dir",
+        signorini_problem_read(path, &problem));
     BAD(SIGNORINI_STATUS_FILE, "absent/p: cannot be written: ", write_problem("absent/p", NULL));
-    BAD(SIGNORINI_STATUS_FILE, "absent/p: cannot be read: ", signorini_problem_read(path, &problem));
+    BAD(SIGNORINI_STATUS_FILE, "absent/p: cannot be read: ",
+        signorini_problem_read(path, &problem));
     BAD(SIGNORINI_STATUS_FILE, "cannot be written: ", write_problem("coulomb/p", NULL));
     CHECK(problem == NULL && files() == before);
 
@@ -288,7 +291,8 @@ static void bad_files(void)
 
 static void clean(void)
 {
-    const char *names[] = {"coulomb", "tresca", "frictionless", "lcp", "empty", "case", "bad", "inner"};
+    const char *names[] = {"coulomb", "tresca", "frictionless", "lcp", "empty", "case", "bad",
+                           "inner"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) remove(in_folder(names[i]));
     CHECK(rmdir(folder) == 0);
 }

@@ -66,7 +66,8 @@ static void check_report(const signorini_report *report, int32_t status, int64_t
     CHECK(report->struct_size == sizeof *report);
     CHECK_STATUS(report->status, status);
     CHECK(report->second == 0 || report->second == 1);
-    CHECK(report->uniqueness >= SIGNORINI_UNIQUENESS_NOT_KNOWN && report->uniqueness <= SIGNORINI_UNIQUENESS_SEVERAL);
+    CHECK(report->uniqueness >= SIGNORINI_UNIQUENESS_NOT_KNOWN &&
+          report->uniqueness <= SIGNORINI_UNIQUENESS_SEVERAL);
     CHECK(report->orientation >= -1 && report->orientation <= 1);
     CHECK(report->fallback >= SIGNORINI_FALLBACK_NONE);
     CHECK(report->fallback <= SIGNORINI_FALLBACK_INACCURATE);
@@ -192,7 +193,8 @@ static void an_infinite_gap_never_closes(void)
     /* One pair of two. The second presses with 1 and sticks. */
     const double K2[16] = {2, [5] = 2, [10] = 2, [15] = 2}, f2[] = {2, 0, 1, 0.25};
     const double gap2[] = {INFINITY, 0}, d2[] = {1, 0, 0, 0}, F2[] = {0, 0, -1, -0.25};
-    AGREES(PROBLEM(2, 2, K2, f2, gap2, half, NULL), d2, F2, SIGNORINI_STATE_OPEN, SIGNORINI_STATE_STICK);
+    AGREES(PROBLEM(2, 2, K2, f2, gap2, half, NULL), d2, F2, SIGNORINI_STATE_OPEN,
+           SIGNORINI_STATE_STICK);
 }
 
 static void a_negative_gap_presses_without_load(void)
@@ -215,7 +217,8 @@ static void all_pairs_stick_in_3d(void)
     const double K[36] = {4, [7] = 4, [14] = 4, [21] = 4, [28] = 4, [35] = 4,
                           [3] = 1, [18] = 1, [11] = 1, [31] = 1};
     const double f[] = {5, 1, -1, 7, -2, 0.5}, F[] = {-5, -1, 1, -7, 2, -0.5};
-    AGREES(PROBLEM(3, 2, K, f, none, half, NULL), zero, F, SIGNORINI_STATE_STICK, SIGNORINI_STATE_STICK);
+    AGREES(PROBLEM(3, 2, K, f, none, half, NULL), zero, F, SIGNORINI_STATE_STICK,
+           SIGNORINI_STATE_STICK);
 }
 
 static void a_pair_on_the_cone_slips(void)
@@ -247,7 +250,8 @@ static void some_pairs_have_no_friction(void)
     const double mu[] = {0, 0.5}, d[] = {0, 0.25, 0, 0}, F[] = {-2, 0, -2, -0.5};
     AGREES(PROBLEM(2, 2, K, f, none, mu, NULL), d, F, SIGNORINI_STATE_SLIP, SIGNORINI_STATE_STICK);
     const double minus[] = {-0.0, -0.0}, d2[] = {0, 0.25, 0, 0.25}, F2[] = {-2, 0, -2, 0};
-    AGREES(PROBLEM(2, 2, K, f, none, minus, NULL), d2, F2, SIGNORINI_STATE_SLIP, SIGNORINI_STATE_SLIP);
+    AGREES(PROBLEM(2, 2, K, f, none, minus, NULL), d2, F2, SIGNORINI_STATE_SLIP,
+           SIGNORINI_STATE_SLIP);
 }
 
 static void no_load_no_force(void)
@@ -282,12 +286,14 @@ static void a_fixed_component_is_a_decoupled_row(void)
     /* The tangential component of the second pair, in both directions of sliding of the first. */
     const double K[16] = {3, 0, 1, 0, 0, 2, 0, 0, 1, 0, 3, 0, 0, 0, 0, 1e6};
     const double f[] = {4, 5, 4, 0}, d[] = {0, 1.5, 0, 0}, F[] = {-4, -2, -4, 0};
-    AGREES(PROBLEM(2, 2, K, f, none, half, NULL), d, F, SIGNORINI_STATE_SLIP, SIGNORINI_STATE_STICK);
+    AGREES(PROBLEM(2, 2, K, f, none, half, NULL), d, F, SIGNORINI_STATE_SLIP,
+           SIGNORINI_STATE_STICK);
     /* A fixed normal component: no force, open. */
     const double f2[] = {4, 5, 0, 0};
     const double K2[16] = {3, [5] = 2, [10] = 1e6, [15] = 1e6};
     const double F2[] = {-4, -2, 0, 0};
-    AGREES(PROBLEM(2, 2, K2, f2, none, half, NULL), d, F2, SIGNORINI_STATE_SLIP, SIGNORINI_STATE_OPEN);
+    AGREES(PROBLEM(2, 2, K2, f2, none, half, NULL), d, F2, SIGNORINI_STATE_SLIP,
+           SIGNORINI_STATE_OPEN);
 }
 
 static void friction_sticks_at_the_reference_slip(void)
@@ -343,14 +349,16 @@ static void given_thresholds(void)
     const double K[] = {5, 0, 0, 4}, gap[] = {0.5}, f2[] = {100, -6};
     for (int32_t method = AUTO; method <= NEWTON; method++) {
         if (method == DIAGONAL) continue; /* It updates thresholds. */
-        const answer a = tresca(PROBLEM(2, 1, K, f2, gap, none, NULL), method, SIGNORINI_STATUS_SOLVED);
+        const answer a = tresca(PROBLEM(2, 1, K, f2, gap, none, NULL), method,
+                                SIGNORINI_STATUS_SOLVED);
         CHECK_NEAR(a.d[1], -1.5);
         CHECK_NEAR(a.F[0], -97.5);
         CHECK_NEAR(a.F[1], 0);
     }
     const double K3[9] = {5, [4] = 2, [8] = 2}, f3d[] = {-5, 9, 12}, g3[] = {5};
     for (int32_t method = AUTO; method <= NESTED; method++) {
-        const answer a = tresca(PROBLEM(3, 1, K3, f3d, gap, g3, NULL), method, SIGNORINI_STATUS_SOLVED);
+        const answer a = tresca(PROBLEM(3, 1, K3, f3d, gap, g3, NULL), method,
+                                SIGNORINI_STATUS_SOLVED);
         CHECK_NEAR(a.d[0], -1);
         CHECK_NEAR(a.d[1], 3);
         CHECK_NEAR(a.d[2], 4);
@@ -392,8 +400,10 @@ static void a_floating_body_that_is_pressed_stays(void)
     const double K[16] = {1, [2] = -1, [5] = 1, [8] = -1, [10] = 1, [15] = 1};
     const double f[] = {1, 0.25, 3, 0}, F[] = {-1, -0.25, -3, 0}, F0[] = {-1, 0, -3, 0};
     const double slid[] = {0, 0.25, 0, 0};
-    AGREES(PROBLEM(2, 2, K, f, none, half, NULL), zero, F, SIGNORINI_STATE_STICK, SIGNORINI_STATE_STICK);
-    AGREES(PROBLEM(2, 2, K, f, none, none, NULL), slid, F0, SIGNORINI_STATE_SLIP, SIGNORINI_STATE_SLIP);
+    AGREES(PROBLEM(2, 2, K, f, none, half, NULL), zero, F, SIGNORINI_STATE_STICK,
+           SIGNORINI_STATE_STICK);
+    AGREES(PROBLEM(2, 2, K, f, none, none, NULL), slid, F0, SIGNORINI_STATE_SLIP,
+           SIGNORINI_STATE_SLIP);
 }
 
 /* ---- LCPs ---- */
@@ -439,7 +449,8 @@ static void complementarity_in_closed_form(void)
     CHECK_STATUS(lcp(0, NULL, NULL, NULL, NULL, NULL), SIGNORINI_STATUS_SOLVED);
     /* Padding is not looked at. */
     const double padded[] = {2, 1, NAN, NAN, 1, 2};
-    CHECK_STATUS(signorini_lcp_lemke(2, padded, 4, q, NULL, NULL, w, z, NULL, NULL), SIGNORINI_STATUS_SOLVED);
+    CHECK_STATUS(signorini_lcp_lemke(2, padded, 4, q, NULL, NULL, w, z, NULL, NULL),
+                 SIGNORINI_STATUS_SOLVED);
     CHECK_NEAR(z[1], 7.0 / 3);
 }
 
@@ -470,7 +481,8 @@ static void the_contact_settings_do_not_matter_to_it(void)
     settings.omega = 1.9;
     settings.damping = 0.5;
     settings.warm_start = 1;
-    CHECK_STATUS(signorini_lcp_lemke(2, M, 2, q, NULL, &settings, w, z, NULL, NULL), SIGNORINI_STATUS_SOLVED);
+    CHECK_STATUS(signorini_lcp_lemke(2, M, 2, q, NULL, &settings, w, z, NULL, NULL),
+                 SIGNORINI_STATUS_SOLVED);
     CHECK_NEAR(z[0], 4.0 / 3);
 }
 

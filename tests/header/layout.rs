@@ -122,7 +122,7 @@ fn table(indent: &str, rows: &[(&[String], String)]) -> String {
                 writeln!(text, "{indent}{code:width$} {note}").unwrap();
             }
             Some(note) => writeln!(text, "{indent}{code} {note}").unwrap(),
-            None => write!(text, "{}{indent}{code}\n", above(indent, comment)).unwrap(),
+            None => writeln!(text, "{}{indent}{code}", above(indent, comment)).unwrap(),
         }
     }
     text

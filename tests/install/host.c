@@ -17,7 +17,8 @@ int main(void)
 
     int32_t status = signorini_solve(2, 2, K, 4, f, gap, SIGNORINI_LAW_COULOMB, mu, NULL, NULL, d,
                                      F, state, NULL, NULL);
-    if (status != SIGNORINI_STATUS_SOLVED || state[0] != SIGNORINI_STATE_SLIP || state[1] != SIGNORINI_STATE_STICK) {
+    if (status != SIGNORINI_STATUS_SOLVED || state[0] != SIGNORINI_STATE_SLIP ||
+        state[1] != SIGNORINI_STATE_STICK) {
         fprintf(stderr, "host: status %d: %s\n", (int)status, signorini_last_error());
         return 1;
     }

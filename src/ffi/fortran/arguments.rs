@@ -125,7 +125,7 @@ pub(super) unsafe fn sizes<I: Integer>(
     // SAFETY: by the caller's contract.
     let dim = unsafe { choice(first, "NDIM", ndim)? };
     let wrong = |_| Failure::argument(first, format!("NDIM is {dim}, it must be 2 or 3"));
-    checked_dim(i64::from(dim)).map_err(wrong)?;
+    checked_dim(dim).map_err(wrong)?;
     // SAFETY: as above.
     Ok((dim, unsafe { count(first + 1, "NPAIR", npair)? }))
 }
