@@ -442,7 +442,7 @@ static void methods(void)
     BAD(2, TRESCA, "the diagonal method with thresholds", -10, "diagonal",
         c.settings->method = SIGNORINI_METHOD_SOR_DIAGONAL);
     for (int i = 0; i < 3; i++)
-        BAD(2, LCP_SOLVE, "a method of contact problems", -5, "auto, pivot and Lemke",
+        BAD(2, LCP_SOLVE, "a method of contact problems", -5, "auto, block pivoting and Lemke",
             l.settings->method = contact_only[i]);
 }
 

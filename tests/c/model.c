@@ -134,16 +134,17 @@ static void bad_matrix(void)
     BAD_K("col_start is misaligned", "col_start is not aligned",
           in.K.col_start = (char *)in.starts + 4);
     BAD_K("row is misaligned", "row is not aligned", in.K.row = (char *)in.rows + 4);
-    BAD_K("col_start does not begin at 0", "col_start[0] is 1, it must be index_base, which is 0",
+    BAD_K("col_start does not begin at 0", "col_start[0] is 1, but index_base is 0",
           in.starts[0] = 1);
-    BAD_K("starts is not monotone", "begin of column 3", in.starts[2] = 5);
-    BAD_K("a start is negative", "begin of column 2", in.starts[2] = -1);
-    BAD_K("a start is beyond the entries", "begin of column 2", in.starts[2] = 9);
-    BAD_K("col_start ends before the entries", "is 7, it must be index_base + nnz, which is 8",
+    BAD_K("col_start descends", "col_start[3] is 4, less than col_start[2], which is 5",
+          in.starts[2] = 5);
+    BAD_K("a start is negative", "col_start[2] is -1", in.starts[2] = -1);
+    BAD_K("a start is beyond the entries", "col_start[2] is 9, beyond", in.starts[2] = 9);
+    BAD_K("col_start ends before the entries", "the columns hold 7 entries",
           in.starts[SIZE] = 7);
-    BAD_K("col_start ends beyond the entries", "is 9, it must be index_base + nnz, which is 8",
+    BAD_K("col_start ends beyond the entries", "the columns hold 9 entries",
           in.starts[SIZE] = 9);
-    BAD_K("col_start counts from 1", "col_start[0] is 1, it must be index_base",
+    BAD_K("col_start counts from 1", "set index_base to 1",
           for (int i = 0; i <= SIZE; i++) in.starts[i]++);
     BAD_K("a row is out of range", "column 4", in.rows[6] = 6);
     BAD_K("a row is negative", "column 0", in.rows[0] = -1);
@@ -152,7 +153,7 @@ static void bad_matrix(void)
           in.slaves[1]++; in.masters[0]++; in.masters[1]++; in.master_start[0]++;
           in.master_start[1]++);
     BAD_K("rows do not ascend", "ascend", in.rows[5] = 5, in.rows[6] = 4);
-    BAD_K("a row stands twice", "row 4 stands twice", in.rows[6] = 4);
+    BAD_K("a row stands twice", "row 4 is listed twice", in.rows[6] = 4);
     BAD_K("an entry is in the upper triangle", "K[0,1] is not in the triangle", in.rows[2] = 0);
     BAD_K("an entry is in the lower triangle", "K[1,0] is not in the triangle",
           in.K.triangle = SIGNORINI_TRIANGLE_UPPER);
@@ -161,10 +162,11 @@ static void bad_matrix(void)
     BAD_K("a diagonal entry is missing", "K[1,1] is missing", in.rows[2] = 2);
     BAD_K("a diagonal entry is zero", "K[1,1] is 0", in.values[2] = 0);
     BAD_K("a diagonal entry is negative", "K[1,1] is -3", in.values[2] = -3);
-    BAD_K("index_bytes is 8 of int32_t", "col_start[0] is 8589934592, it must be index_base",
+    BAD_K("index_bytes is 8 of int32_t", "are these integers of 4 bytes, and index_bytes 8?",
           in.narrow_starts[1] = 2, in.K.col_start = in.narrow_starts);
-    BAD_K("size is the number of nodes", "col_start[3], the last one, is 4", in.K.size = 3);
-    BAD_K("nnz is one short", "is 8, it must be index_base + nnz, which is 7", in.K.nnz = 7);
+    BAD_K("size is the number of nodes", "size, here 3, must be the number of degrees of freedom",
+          in.K.size = 3);
+    BAD_K("nnz is one short", "the columns hold 8 entries", in.K.nnz = 7);
     BAD_K("a column is empty", "K[5,5] is missing", in.starts[6] = 7, in.K.nnz = 7);
     BAD_K("half of an off-diagonal pair", "not symmetric", in.K.triangle = SIGNORINI_TRIANGLE_FULL);
     const int64_t starts[] = {0, 2, 4, 5, 6, 8, 10}, rows[] = {0, 1, 0, 1, 2, 3, 4, 5, 4, 5};
@@ -188,7 +190,7 @@ static void bad_fixed(void)
     BAD_FIXED("fixed too high", "no degree of freedom 6", in.fixed[0] = 6);
     BAD_FIXED("fixed negative", "fixed[0] is -1", in.fixed[0] = -1);
     BAD_FIXED("fixed the least number", "fixed[0]", in.fixed[0] = INT64_MIN);
-    BAD_FIXED("fixed twice", "5 stands twice", in.fixed[1] = 5, in.n_fixed = 2);
+    BAD_FIXED("fixed twice", "5 is listed twice", in.fixed[1] = 5, in.n_fixed = 2);
 }
 
 static void bad_pairs(void)
@@ -239,7 +241,7 @@ static void bad_pairs(void)
     BAD_PAIRS("tangent along the normal", "along the normal", in.tangents[0] = 0,
               in.tangents[1] = 2);
     BAD_PAIRS("tangent is NaN", "tangent", in.tangents[1] = NAN);
-    BAD_PAIRS("slave fixed where its master is not", "fixed where its masters are not",
+    BAD_PAIRS("slave fixed where its master is not", "fixed along y where its masters are not",
               in.fixed[1] = 1, in.n_fixed = 2);
     BAD_PAIRS("slave fixed across the frame", "neither normal nor tangent", in.fixed[1] = 1,
               in.fixed[2] = 3, in.n_fixed = 3, in.normals[0] = -1, in.pairs.tangents = NULL);
