@@ -31,6 +31,29 @@ fn no_line_is_longer_than_a_hundred_columns() {
     }
 }
 
+/// What cbindgen writes for a constant and a function.
+const TWO: &str =
+    "/**\n * One.\n */\n#define ONE 1\n\n/**\n * Two.\n */\nint32_t two(int32_t n,\n double *x);\n";
+
+#[test]
+fn items_stand_where_the_layout_wants_them() {
+    let header = layout::arrange("begin\n@ two\n\n@ ONE\nend", items::cut(TWO));
+    let wanted = "begin\n/** Two. */\nint32_t two(int32_t n, double *x);\n\n#define ONE 1 /**< One. */\nend\n";
+    assert_eq!(header, wanted);
+}
+
+#[test]
+#[should_panic(expected = "does not name [\"two\"]")]
+fn an_item_that_the_layout_misses_is_named() {
+    layout::arrange("@ ONE", items::cut(TWO));
+}
+
+#[test]
+#[should_panic(expected = "ONE is no item, or stands twice")]
+fn an_item_that_the_layout_names_twice_is_named() {
+    layout::arrange("@ ONE\n\n@ two ONE", items::cut(TWO));
+}
+
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
