@@ -2,7 +2,7 @@
 
 use crate::linalg::matrix::Matrix;
 use crate::linalg::tolerances::{LEAST_WORK, NEGLIGIBLE};
-use crate::linalg::vector::{dot, largest_of, norm};
+use crate::linalg::vector::{NormSum, dot, largest_of, norm};
 
 /// `w = q + M x`, `x >= l`, `w >= 0`, `(x - l) . w = 0`; where a bound is `-inf` the variable is free
 /// and `w = 0`. A view of its arrays.
@@ -32,13 +32,12 @@ impl BoundedLcp<'_> {
     /// Residual `|min(w, m (x - l))|` of `x` and its `w`, relative to `max(|q|, |w|)`, with `m` the
     /// diagonal of `M`. Zero at solutions only, if the diagonal is positive.
     pub fn eta(&self, x: &[f64], w: &[f64]) -> f64 {
-        let residual: Vec<f64> = (0..x.len())
-            .map(|i| match self.lower[i] {
-                f64::NEG_INFINITY => w[i],
-                lower => w[i].min(self.matrix.at(i, i) * (x[i] - lower)),
-            })
-            .collect();
-        let residual = norm(&residual);
+        let mut residual = NormSum::default();
+        for (i, ((&w, &x), &lower)) in w.iter().zip(x).zip(self.lower).enumerate() {
+            // m (x - l) is infinite of a free variable.
+            residual.add(w.min(self.matrix.at(i, i) * (x - lower)));
+        }
+        let residual = residual.root();
         if residual == 0.0 { 0.0 } else { residual / norm(self.q).max(norm(w)) }
     }
 

@@ -3,7 +3,7 @@
 use crate::error::{Argument, Error};
 use crate::linalg::matrix::{Matrix, required_length};
 use crate::linalg::tolerances::{LEAST_WORK, NEGLIGIBLE};
-use crate::linalg::vector::{dot, largest_of, norm};
+use crate::linalg::vector::{NormSum, dot, largest_of, norm};
 
 /// A checked problem, a view of the caller's arrays.
 #[derive(Clone, Copy, Debug)]
@@ -124,20 +124,18 @@ impl<'a> Lcp<'a> {
     /// `|min(w, m z)| / max(|q|, |M z|)` with `w = q + M z` and `m` of [`Self::magnitudes`]:
     /// zero at solutions only.
     pub fn eta(&self, z: &[f64]) -> f64 {
-        self.measure(z).0
+        self.measure(z, &self.magnitudes()).0
     }
 
-    /// `eta`, and the product `M z` that it takes.
-    pub(crate) fn measure(&self, z: &[f64]) -> (f64, Vec<f64>) {
+    /// `eta`, and the product `M z` that it takes, from the [`Self::magnitudes`].
+    pub(crate) fn measure(&self, z: &[f64], magnitudes: &[f64]) -> (f64, Vec<f64>) {
         let product = self.product(z);
         let scale = norm(self.q).max(norm(&product));
-        let residual: Vec<f64> = self
-            .magnitudes()
-            .iter()
-            .enumerate()
-            .map(|(i, m)| (self.q[i] + product[i]).min(m * z[i]))
-            .collect();
-        let residual = norm(&residual);
+        let mut residual = NormSum::default();
+        for (((m, q), mz), z) in magnitudes.iter().zip(self.q).zip(&product).zip(z) {
+            residual.add((q + mz).min(m * z));
+        }
+        let residual = residual.root();
         (if residual == 0.0 { 0.0 } else { residual / scale }, product)
     }
 

@@ -48,12 +48,18 @@ pub fn solve_lcp(
     monitor: &mut Monitor<'_>,
 ) -> Result<LcpSolution, Error> {
     settings.validate()?;
+    let magnitudes = lcp.magnitudes();
     let mut pivoted = None;
     match settings.method {
         Method::Auto | Method::BlockPivoting => {
-            let run = by_pivoting(lcp, settings, monitor);
-            let solution =
-                certified(lcp, settings, Method::BlockPivoting, &run, monitor.iterations());
+            let run = by_pivoting(lcp, &magnitudes, settings, monitor);
+            let solution = certified(
+                (lcp, &magnitudes),
+                settings,
+                Method::BlockPivoting,
+                &run,
+                monitor.iterations(),
+            );
             let done =
                 solution.status == Status::Solved || settings.method == Method::BlockPivoting;
             if done || matches!(run.ending, Ending::Stopped(_)) {
@@ -68,8 +74,9 @@ pub fn solve_lcp(
             return Err(Error::invalid(Argument::Settings, message));
         }
     }
-    let run = by_lemke(lcp, settings, monitor)?;
-    let mut solution = certified(lcp, settings, Method::Lemke, &run, monitor.iterations());
+    let run = by_lemke(lcp, &magnitudes, settings, monitor)?;
+    let mut solution =
+        certified((lcp, &magnitudes), settings, Method::Lemke, &run, monitor.iterations());
     if let Some((run, before)) = pivoted {
         let decided = matches!(solution.status, Status::Solved | Status::NoEquilibrium);
         if !decided && before.eta < solution.eta {
@@ -91,7 +98,12 @@ struct Run {
     refactorisations: u64,
 }
 
-fn by_pivoting(lcp: &Lcp<'_>, settings: &Settings, monitor: &mut Monitor<'_>) -> Run {
+fn by_pivoting(
+    lcp: &Lcp<'_>,
+    magnitudes: &[f64],
+    settings: &Settings,
+    monitor: &mut Monitor<'_>,
+) -> Run {
     let n = lcp.size();
     let nothing = |ending| Run { z: vec![0.0; n], ending, factorisations: 0, refactorisations: 0 };
     if n == 0 {
@@ -102,7 +114,7 @@ fn by_pivoting(lcp: &Lcp<'_>, settings: &Settings, monitor: &mut Monitor<'_>) ->
     }
     let chosen = settings.method == Method::BlockPivoting;
     let most = if chosen { u64::MAX } else { active_set::enough(n) };
-    let pivoted = active_set::lcp(lcp, settings.tolerance, most, monitor);
+    let pivoted = active_set::lcp(lcp, magnitudes, settings.tolerance, most, monitor);
     Run {
         z: pivoted.x.iter().map(|x| x.max(0.0)).collect(),
         ending: pivoted.ending,
@@ -111,16 +123,20 @@ fn by_pivoting(lcp: &Lcp<'_>, settings: &Settings, monitor: &mut Monitor<'_>) ->
     }
 }
 
-fn by_lemke(lcp: &Lcp<'_>, settings: &Settings, monitor: &mut Monitor<'_>) -> Result<Run, Error> {
+fn by_lemke(
+    lcp: &Lcp<'_>,
+    magnitudes: &[f64],
+    settings: &Settings,
+    monitor: &mut Monitor<'_>,
+) -> Result<Run, Error> {
     // Powers of two: the pivots are those of the unscaled problem, rounding included.
-    let scale: Vec<f64> =
-        lcp.magnitudes().iter().map(|m| (-(m.log2() / 2.0).round()).exp2()).collect();
+    let scale: Vec<f64> = magnitudes.iter().map(|m| (-(m.log2() / 2.0).round()).exp2()).collect();
     let covering: Vec<f64> = (0..lcp.size()).map(|i| lcp.covering(i)).collect();
     let matrix = lcp.matrix();
     let problem = ScaledLcp { matrix: &matrix, q: lcp.q(), covering: &covering, scale: &scale };
     let mut run = lemke::follow(problem, Rules::usual(Care::Usual), monitor)?;
     let lost_accuracy = match run.ending {
-        Ending::Done => lcp.eta(&run.z) > settings.tolerance,
+        Ending::Done => lcp.measure(&run.z, magnitudes).0 > settings.tolerance,
         Ending::Recession(_) | Ending::Stopped(_) => false,
         _ => true,
     };
@@ -132,13 +148,13 @@ fn by_lemke(lcp: &Lcp<'_>, settings: &Settings, monitor: &mut Monitor<'_>) -> Re
 }
 
 fn certified(
-    lcp: &Lcp<'_>,
+    (lcp, magnitudes): (&Lcp<'_>, &[f64]),
     settings: &Settings,
     method: Method,
     run: &Run,
     iterations: u64,
 ) -> LcpSolution {
-    let (eta, product) = lcp.measure(&run.z);
+    let (eta, product) = lcp.measure(&run.z, magnitudes);
     let mut infeasible_by = None;
     let wanted = format!("eta is {eta:.1e}, wanted {:.1e}", settings.tolerance);
     let (status, message) = match &run.ending {

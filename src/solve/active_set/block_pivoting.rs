@@ -78,8 +78,15 @@ pub fn contact(
     candidate
 }
 
-/// Solves an LCP whose matrix has a positive diagonal; after `most` systems it gives up.
-pub fn lcp(lcp: &Lcp<'_>, tolerance: f64, most: u64, monitor: &mut Monitor<'_>) -> Pivoted {
+/// Solves an LCP whose matrix has a positive diagonal, from all variables at their bounds; after `most`
+/// systems it gives up. `magnitudes` are those of the LCP.
+pub fn lcp(
+    lcp: &Lcp<'_>,
+    magnitudes: &[f64],
+    tolerance: f64,
+    most: u64,
+    monitor: &mut Monitor<'_>,
+) -> Pivoted {
     let zero = vec![0.0; lcp.size()];
     let bounded = BoundedLcp {
         matrix: lcp.matrix(),
@@ -87,7 +94,7 @@ pub fn lcp(lcp: &Lcp<'_>, tolerance: f64, most: u64, monitor: &mut Monitor<'_>) 
         lower: &zero,
         symmetric: is_symmetric(&lcp.matrix()),
     };
-    let is_accurate = |x: &[f64]| lcp.eta(x) <= tolerance;
+    let is_accurate = |x: &[f64]| lcp.measure(x, magnitudes).0 <= tolerance;
     solve(&bounded, tolerance, None, most, &is_accurate, monitor)
 }
 

@@ -115,11 +115,18 @@ impl Bordered {
                 coupling.push(c);
             }
         }
-        let symmetric = coefficients.symmetric && coupling.iter().all(|&c| c == 0.0);
+        let coupled: Vec<usize> = (0..free.len()).filter(|&k| coupling[k] != 0.0).collect();
+        let symmetric = coefficients.symmetric && coupled.is_empty();
+        let scale: Vec<f64> = free.iter().map(|&i| coefficients.scale[i]).collect();
         let factor = Factor::new(free.len(), symmetric, |j, column| {
+            let source = coefficients.matrix.column(free[j]);
             let begin = if symmetric { j } else { 0 };
-            for (k, column) in column.iter_mut().enumerate().skip(begin) {
-                *column = coefficients.entry(free[k], coupling[k], free[j]);
+            let rows = free[begin..].iter().zip(&scale[begin..]);
+            for (column, (&i, row_scale)) in column[begin..].iter_mut().zip(rows) {
+                *column = row_scale * source[i] * scale[j];
+            }
+            for &k in &coupled {
+                column[k] = coefficients.entry(free[k], coupling[k], free[j]);
             }
         })?;
         Some(Bordered {

@@ -19,8 +19,15 @@ use crate::solve::sweeps::Sweeper;
 /// Systems after which Newton's method is abandoned: it takes up to 24 where it converges.
 const MOST_SYSTEMS: usize = 60;
 
-/// Sweeps between a solution and its branches.
+/// Sweeps between a solution and its branches: two carry a zone's edge far enough.
 const SWEEPS: u32 = 2;
+
+/// Up to so many unknowns a linear system costs as much as a dozen sweeps, because its fixed costs
+/// outweigh its arithmetic: there more sweeps save time wherever they save a system. The first
+/// system, with all pairs sticking, is nearly free, and most is left to be found after it.
+const FEW_UNKNOWNS: usize = 128;
+const FIRST_SWEEPS_OF_FEW: u32 = 8;
+const SWEEPS_OF_FEW: u32 = 4;
 
 /// After a cycle there are so many times more sweeps, up to a limit.
 const MORE_SWEEPS: u32 = 4;
@@ -55,7 +62,11 @@ pub fn from_branches(
     let mut best = Best::at(&system, f64::INFINITY);
     let mut rows = Vec::with_capacity(contact.unknowns());
     let mut seen: Vec<Vec<Branch>> = Vec::new();
-    let mut sweeps = SWEEPS;
+    let (mut sweeps, later_sweeps) = match contact.unknowns() <= FEW_UNKNOWNS {
+        true => (FIRST_SWEEPS_OF_FEW, SWEEPS_OF_FEW),
+        false => (SWEEPS, SWEEPS),
+    };
+    let mut first = true;
     let ending = loop {
         if let Err(stop) = monitor.step() {
             break Ending::Stopped(stop);
@@ -77,6 +88,9 @@ pub fn from_branches(
             break Ending::Stalled("Newton's method does not settle");
         }
         let next = swept(contact, &sweeper, &system, sweeps);
+        if std::mem::take(&mut first) {
+            sweeps = later_sweeps;
+        }
         seen.push(std::mem::replace(&mut branches, next));
         if seen.contains(&branches) {
             if best.eta <= settings.tolerance {
