@@ -106,19 +106,15 @@ fn solve(
     is_accurate: &dyn Fn(&[f64]) -> bool,
     monitor: &mut Monitor<'_>,
 ) -> Pivoted {
-    let n = lcp.q.len();
     let mut basic: Vec<bool> = match &start {
         Some(x) => active_set(lcp, x, &lcp.w(x)),
         None => lcp.lower.iter().map(|&lower| lower == f64::NEG_INFINITY).collect(),
     };
-    let x = start.unwrap_or_else(|| vec![0.0; n]);
+    let x = start.unwrap_or_else(|| vec![0.0; lcp.q.len()]);
     let mut system = LinearSystem::new(lcp.matrix, lcp.symmetric, 1, lcp.q.to_vec(), x);
     let mut best = (f64::INFINITY, system.x.clone(), system.residual.clone());
-    let complementary = lcp.lower.iter().filter(|&&lower| lower > f64::NEG_INFINITY).count();
-    let most_patience = PATIENCE.max(complementary);
-    let (mut fewest, mut patience) = (usize::MAX, most_patience);
+    let mut exchange = Exchange::new(lcp);
     let last = monitor.iterations().saturating_add(most);
-    let simd = Simd::new();
     let ending = loop {
         if monitor.iterations() >= last {
             break Ending::Stalled("block pivoting does not settle");
@@ -136,31 +132,62 @@ fn solve(
             best = (eta, system.x.clone(), system.residual.clone());
         }
         let next = active_set(lcp, &system.x, &system.residual);
-        let violated: Vec<usize> = (0..n).filter(|&i| next[i] != basic[i]).collect();
-        let progress = violated.len() < fewest;
-        if violated.is_empty() {
+        if next == basic {
             system.refine(&rows, |x, w| lcp.eta(x, w), |x, _| is_accurate(x));
             best = (0.0, std::mem::take(&mut system.x), std::mem::take(&mut system.residual));
             break Ending::Done;
         }
+        let progress = exchange.choose(lcp, &system, &mut basic, next);
         if !progress && best.0 <= tolerance && is_accurate(&best.1) {
             // At a degenerate solution rounding may flip the active set forever.
             break Ending::Done;
         }
-        if progress {
-            (fewest, patience) = (violated.len(), most_patience);
-        }
-        if patience > 0 {
-            patience -= usize::from(!progress);
-            let sweeps_help = lcp.symmetric && progress;
-            basic = if sweeps_help { swept(simd, lcp, &system) } else { next };
-        } else {
-            let single = violated[violated.len() - 1];
-            basic[single] = next[single];
-        }
     };
     let (_, x, w) = best;
     Pivoted { x, w, ending, factorisations: system.factorisations }
+}
+
+/// Which variables are exchanged: blocks as long as that helps.
+struct Exchange {
+    /// Fewest variables that violated their condition so far.
+    fewest: usize,
+    /// Systems without progress that are left before single exchanges.
+    patience: usize,
+    most_patience: usize,
+    simd: Simd,
+}
+
+impl Exchange {
+    fn new(lcp: &BoundedLcp<'_>) -> Self {
+        let bounds = lcp.lower.iter().filter(|&&lower| lower > f64::NEG_INFINITY).count();
+        let most_patience = PATIENCE.max(bounds);
+        Exchange { fewest: usize::MAX, patience: most_patience, most_patience, simd: Simd::new() }
+    }
+
+    /// Changes `basic`, of which the solution of the system selects `next`. Returns whether fewer
+    /// variables than ever violate their condition.
+    fn choose(
+        &mut self,
+        lcp: &BoundedLcp<'_>,
+        system: &LinearSystem<'_>,
+        basic: &mut Vec<bool>,
+        next: Vec<bool>,
+    ) -> bool {
+        let violated = || (0..next.len()).filter(|&i| next[i] != basic[i]);
+        let count = violated().count();
+        let progress = count < self.fewest;
+        if progress {
+            (self.fewest, self.patience) = (count, self.most_patience);
+        }
+        if self.patience > 0 {
+            self.patience -= usize::from(!progress);
+            let sweeps_help = lcp.symmetric && progress;
+            *basic = if sweeps_help { swept(self.simd, lcp, system) } else { next };
+        } else if let Some(single) = violated().last() {
+            basic[single] = next[single];
+        }
+        progress
+    }
 }
 
 /// Whether each variable is off its bound.

@@ -58,15 +58,9 @@ pub fn from_branches(
     let problem = contact.problem();
     let constant = problem.load().iter().map(|f| -f).collect();
     let mut system = LinearSystem::new(problem.stiffness(), true, contact.dim(), constant, d);
-    let sweeper = Sweeper::new();
     let mut best = Best::at(&system, f64::INFINITY);
     let mut rows = Vec::with_capacity(contact.unknowns());
-    let mut seen: Vec<Vec<Branch>> = Vec::new();
-    let (mut sweeps, later_sweeps) = match contact.unknowns() <= FEW_UNKNOWNS {
-        true => (FIRST_SWEEPS_OF_FEW, SWEEPS_OF_FEW),
-        false => (SWEEPS, SWEEPS),
-    };
-    let mut first = true;
+    let mut history = History::new(contact.unknowns());
     let ending = loop {
         if let Err(stop) = monitor.step() {
             break Ending::Stopped(stop);
@@ -78,36 +72,61 @@ pub fn from_branches(
         let eta = eta_of(contact, &system.x, &system.residual);
         monitor.measured(eta);
         best.keep(&system, eta);
-        let next = contact.branches(&system.x, &system.residual);
-        if next == branches {
+        if contact.branches(&system.x, &system.residual) == branches {
             refine(&mut system, contact, &rows, settings.tolerance);
             best = Best::at(&system, 0.0);
             break Ending::Done;
         }
-        if seen.len() >= MOST_SYSTEMS {
-            break Ending::Stalled("Newton's method does not settle");
-        }
-        let next = swept(contact, &sweeper, &system, sweeps);
-        if std::mem::take(&mut first) {
-            sweeps = later_sweeps;
-        }
-        seen.push(std::mem::replace(&mut branches, next));
-        if seen.contains(&branches) {
-            if best.eta <= settings.tolerance {
-                // At a degenerate solution rounding may flip the active set forever.
-                break Ending::Done;
-            }
-            if sweeps >= MOST_SWEEPS {
-                break Ending::Cycle;
-            }
-            sweeps *= MORE_SWEEPS;
-            seen.clear();
+        let next = swept(contact, &system, history.sweeps);
+        if let Err(ending) = history.advance(&mut branches, next) {
+            // At a degenerate solution rounding may flip the active set forever.
+            let solved = ending == Ending::Cycle && best.eta <= settings.tolerance;
+            break if solved { Ending::Done } else { ending };
         }
     };
     let effort = Effort { factorisations: system.factorisations, ..Effort::default() };
     let mut candidate = Candidate::new(best.d, best.force, ending, effort);
     candidate.orientation = best.orientation;
     candidate
+}
+
+/// The branches that were there before, and the sweeps that follow from them.
+struct History {
+    seen: Vec<Vec<Branch>>,
+    /// Sweeps to the next branches.
+    sweeps: u32,
+    /// Whether only the first system has been solved, and the sweeps after the others.
+    at_first: bool,
+    later_sweeps: u32,
+}
+
+impl History {
+    fn new(unknowns: usize) -> Self {
+        let (sweeps, later_sweeps) = match unknowns <= FEW_UNKNOWNS {
+            true => (FIRST_SWEEPS_OF_FEW, SWEEPS_OF_FEW),
+            false => (SWEEPS, SWEEPS),
+        };
+        History { seen: Vec::new(), sweeps, at_first: true, later_sweeps }
+    }
+
+    /// Goes on to the branches `next`, with more sweeps if they have been there before.
+    fn advance(&mut self, branches: &mut Vec<Branch>, next: Vec<Branch>) -> Result<(), Ending> {
+        if self.seen.len() >= MOST_SYSTEMS {
+            return Err(Ending::Stalled("Newton's method does not settle"));
+        }
+        if std::mem::take(&mut self.at_first) {
+            self.sweeps = self.later_sweeps;
+        }
+        self.seen.push(std::mem::replace(branches, next));
+        if self.seen.contains(branches) {
+            if self.sweeps >= MOST_SWEEPS {
+                return Err(Ending::Cycle);
+            }
+            self.sweeps *= MORE_SWEEPS;
+            self.seen.clear();
+        }
+        Ok(())
+    }
 }
 
 /// The best iterate so far.
@@ -143,13 +162,9 @@ fn select(contact: &Contact<'_>, branches: &[Branch], rows: &mut Vec<Row>) {
 }
 
 /// The branches on which the iterate is after some sweeps, which it does not keep.
-fn swept(
-    contact: &Contact<'_>,
-    sweeper: &Sweeper,
-    system: &LinearSystem<'_>,
-    sweeps: u32,
-) -> Vec<Branch> {
+fn swept(contact: &Contact<'_>, system: &LinearSystem<'_>, sweeps: u32) -> Vec<Branch> {
     let (mut d, mut force) = (system.x.clone(), system.residual.clone());
+    let sweeper = Sweeper::new();
     for _ in 0..sweeps {
         sweeper.sweep(contact, (&mut d, &mut force), 1.0);
     }
