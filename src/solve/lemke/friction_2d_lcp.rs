@@ -3,7 +3,7 @@
 
 use std::borrow::Cow;
 
-use super::tableau::Entries;
+use super::scaled::Entries;
 use crate::law::Contact;
 use crate::law::branch::Branch;
 use crate::linalg::vector::norm_inf;
