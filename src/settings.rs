@@ -1,5 +1,7 @@
 //! How to solve: method, accuracy, budgets.
 
+use std::ops::RangeInclusive;
+
 use crate::error::{Argument, Error};
 
 /// The algorithm to run.
@@ -65,14 +67,20 @@ impl Default for Settings {
     }
 }
 
+/// Tolerances that can be asked for: at most a tenth of the forces, and not below the rounding of one
+/// operation on them.
+pub(crate) const TOLERANCES: RangeInclusive<f64> = 1e-15..=0.1;
+
 impl Settings {
     /// Refuses values out of range.
     pub fn validate(&self) -> Result<(), Error> {
         let refuse = |message: String| Err(Error::invalid(Argument::Settings, message));
-        if !(1e-15..=0.1).contains(&self.tolerance) {
+        if !TOLERANCES.contains(&self.tolerance) {
             return refuse(format!(
-                "settings: tolerance is {}, it must lie between 1e-15 and 0.1",
-                self.tolerance
+                "settings: tolerance is {}, it must lie between {:e} and {}",
+                self.tolerance,
+                TOLERANCES.start(),
+                TOLERANCES.end()
             ));
         }
         if !(0.0..2.0).contains(&self.omega) {

@@ -39,18 +39,23 @@ struct Header {
 /// The value of a comment `% key: value` and its line.
 type Comment = Option<(u64, String)>;
 
-impl Header {
+/// The comments above the size line.
+#[derive(Default)]
+struct Comments {
+    kind: Comment,
+    dim: Comment,
+    pairs: Comment,
+    remark: Comment,
+}
+
+/// Columns of a contact problem besides the matrix: loads, gaps, friction and reference slips.
+const CONTACT_COLUMNS: usize = 4;
+
+impl Comments {
+    /// Reads all lines to that of the sizes, on which it stops.
     fn read(lines: &mut Lines<'_>) -> Result<Self, Error> {
-        lines.require(|| "the line of the format".into())?;
-        let words = |text: &str| -> Vec<String> {
-            text.split_ascii_whitespace().map(str::to_ascii_lowercase).collect()
-        };
-        if words(&lines.text()) != words(BANNER) {
-            let what = format!("not a problem file, which begins with '{BANNER}'");
-            return Err(lines.refuse(&what));
-        }
+        let mut comments = Comments::default();
         let mut titled = false;
-        let [mut kind, mut dim, mut pairs, mut remark]: [Comment; 4] = Default::default();
         loop {
             lines.require(|| "the line of the sizes".into())?;
             let text = lines.text();
@@ -64,10 +69,10 @@ impl Header {
                 titled = true;
             } else if let Some((key, value)) = comment.split_once(':') {
                 let place = match key {
-                    "kind" => &mut kind,
-                    "dim" => &mut dim,
-                    "pairs" => &mut pairs,
-                    "remark" => &mut remark,
+                    "kind" => &mut comments.kind,
+                    "dim" => &mut comments.dim,
+                    "pairs" => &mut comments.pairs,
+                    "remark" => &mut comments.remark,
                     _ => continue,
                 };
                 if place.replace((lines.number(), value.trim_ascii().to_owned())).is_some() {
@@ -79,6 +84,21 @@ impl Header {
             let what = format!("some other matrix: no line '% {TITLE} {VERSION}' stands above");
             return Err(lines.refuse(&what));
         }
+        Ok(comments)
+    }
+}
+
+impl Header {
+    fn read(lines: &mut Lines<'_>) -> Result<Self, Error> {
+        lines.require(|| "the line of the format".into())?;
+        let words = |text: &str| -> Vec<String> {
+            text.split_ascii_whitespace().map(str::to_ascii_lowercase).collect()
+        };
+        if words(&lines.text()) != words(BANNER) {
+            let what = format!("not a problem file, which begins with '{BANNER}'");
+            return Err(lines.refuse(&what));
+        }
+        let Comments { kind, dim, pairs, remark } = Comments::read(lines)?;
         let Some((at, name)) = kind else {
             return Err(lines.refuse("no line '% kind:' stands above"));
         };
@@ -88,31 +108,51 @@ impl Header {
         // It may be shown on a terminal, which control characters command.
         let remark = remark.map_or_else(String::new, |(_, remark)| remark);
         let remark = remark.replace(char::is_control, " ");
-        if kind == Kind::Lcp {
-            let (size, columns) = sizes(lines)?;
-            let covering = columns.checked_sub(2) == Some(size);
-            if !covering && columns.checked_sub(1) != Some(size) {
-                let what = format!("{size} rows ask for 1 or 2 columns more, not for {columns}");
-                return Err(lines.refuse(&what));
-            }
-            check_memory(lines, size)?;
-            return Ok(Header { kind, dim: 0, pairs: 0, size, covering, remark });
+        let mut header = match kind {
+            Kind::Lcp => Self::lcp(lines)?,
+            Kind::Coulomb | Kind::Tresca => Self::contact(lines, kind, &dim, &pairs)?,
+        };
+        header.remark = remark;
+        Ok(header)
+    }
+
+    /// Of a bare complementarity problem, at its size line.
+    fn lcp(lines: &Lines<'_>) -> Result<Self, Error> {
+        let (size, columns) = sizes(lines)?;
+        let covering = columns.checked_sub(2) == Some(size);
+        if !covering && columns.checked_sub(1) != Some(size) {
+            let what = format!("{size} rows ask for 1 or 2 columns more, not for {columns}");
+            return Err(lines.refuse(&what));
         }
-        let dim = number(lines, "dim", &dim)?;
+        check_memory(lines, size)?;
+        let remark = String::new();
+        Ok(Header { kind: Kind::Lcp, dim: 0, pairs: 0, size, covering, remark })
+    }
+
+    /// Of a contact problem, at its size line.
+    fn contact(
+        lines: &Lines<'_>,
+        kind: Kind,
+        dim: &Comment,
+        pairs: &Comment,
+    ) -> Result<Self, Error> {
+        let dim = number(lines, "dim", dim)?;
         if dim != 2 && dim != 3 {
             return Err(lines.refuse(&format!("dim above is {dim}, it must be 2 or 3")));
         }
-        let pairs = number(lines, "pairs", &pairs)?;
+        let pairs = number(lines, "pairs", pairs)?;
         let (size, columns) = sizes(lines)?;
-        if dim.checked_mul(pairs) != Some(size) || columns.checked_sub(4) != Some(size) {
+        if dim.checked_mul(pairs) != Some(size)
+            || columns.checked_sub(CONTACT_COLUMNS) != Some(size)
+        {
             let what = format!(
                 "{size} rows and {columns} columns: with dim {dim} and {pairs} pairs there must \
-                 be dim * pairs rows and 4 columns more"
+                 be dim * pairs rows and {CONTACT_COLUMNS} columns more"
             );
             return Err(lines.refuse(&what));
         }
         check_memory(lines, size)?;
-        Ok(Header { kind, dim, pairs, size, covering: false, remark })
+        Ok(Header { kind, dim, pairs, size, covering: false, remark: String::new() })
     }
 
     /// Reads the columns and what follows them: nothing.
