@@ -57,6 +57,7 @@ impl Tableau {
             .map_err(|_| Error::OutOfMemory("the tableau of Lemke's method"))?;
         entries.resize(stride * (n + 1), 0.0);
         let simd = Simd::new();
+        let delay = if n < LARGE { 1 } else { DELAY };
         let mut tableau = Tableau {
             size: n,
             stride,
@@ -66,8 +67,8 @@ impl Tableau {
             place: (0..n).chain(n..=2 * n).collect(),
             entering: vec![0.0; n],
             values: problem.q.clone(),
-            kept: RankOneUpdates::new(n, n + 1, simd),
-            delay: if n < LARGE { 1 } else { DELAY },
+            kept: RankOneUpdates::new(n, n + 1, if delay == 1 { 0 } else { delay }, simd),
+            delay,
             simd,
         };
         for j in 0..n {
