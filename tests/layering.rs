@@ -1,193 +1,210 @@
-//! Who may import whom: the rooms of the library and the arrows between them.
+//! Who may import whom: rooms, the order of the solvers, and no cycle between files.
 
-use std::collections::BTreeMap;
-use std::fs;
-use std::path::{Path, PathBuf};
+#[path = "common/modules.rs"]
+mod modules;
+#[path = "common/sources.rs"]
+#[allow(dead_code)] // as of every test that reads sources
+mod sources;
 
-/// Rooms that each room may import. `linalg::small` is the part of `linalg` that names no factor.
-const ALLOWED: [(&str, &[&str]); 14] = [
+use std::collections::{BTreeMap, BTreeSet};
+
+use modules::{Modules, cycles};
+use sources::{Source, sources};
+
+/// Rooms that each room may import. `lib.rs` passes names on and is no room.
+const ROOMS: [(&str, &[&str]); 13] = [
     ("error", &[]),
     ("linalg", &[]),
     ("settings", &["error"]),
-    ("law", &["error", "linalg::small"]),
-    ("matrix", &["error"]),
-    ("problem", &["error", "linalg::small", "law", "matrix"]),
-    ("reduce", &["error", "linalg", "matrix"]),
-    ("file", &["error", "lcp", "problem"]),
+    ("monitor", &["error", "settings"]),
+    ("problem", &["error", "linalg"]),
+    ("law", &["error", "linalg", "problem"]),
+    ("reduce", &["error", "linalg", "problem"]),
+    ("surface", &["error", "linalg", "problem"]),
+    ("file", &["error", "problem"]),
+    ("certificate", &["error", "linalg", "problem", "law"]),
+    ("solve", &["error", "linalg", "settings", "monitor", "problem", "law", "certificate"]),
     (
         "model",
         &[
-            "certificate",
             "error",
-            "file",
-            "matrix",
+            "linalg",
+            "settings",
             "monitor",
             "problem",
+            "law",
             "reduce",
-            "settings",
+            "surface",
+            "file",
+            "certificate",
             "solve",
         ],
     ),
-    ("lcp", &["error", "linalg::small", "matrix"]),
-    ("certificate", &["error", "linalg::small", "law", "problem"]),
-    ("monitor", &["error", "settings"]),
-    ("solve", &["error", "linalg", "law", "problem", "lcp", "certificate", "settings", "monitor"]),
     (
         "ffi",
         &[
             "error",
-            "file",
-            "law",
-            "matrix",
-            "problem",
-            "lcp",
-            "certificate",
+            "linalg",
             "settings",
             "monitor",
-            "model",
+            "problem",
+            "law",
             "reduce",
+            "surface",
+            "file",
+            "certificate",
             "solve",
+            "model",
         ],
     ),
 ];
 
-/// Solvers that one solver may call.
-const SOLVERS: [(&str, &[&str]); 23] = [
-    ("auto", &["run", "solution", "uniqueness"]),
-    ("bare", &["lemke", "pivot", "solution"]),
-    ("bordered", &["pieces"]),
-    ("coulomb", &["solution", "sweeps"]),
-    ("delayed", &[]),
-    ("elimination", &["factor"]),
-    ("equations", &["bordered", "pieces", "sor"]),
-    ("escape", &["factor"]),
-    ("factor", &[]),
-    ("friction_lcp", &["elimination", "factor", "pieces", "solution"]),
-    ("frictional_lemke", &["friction_lcp", "lemke", "newton", "solution", "statics"]),
-    ("frictionless", &["elimination", "lemke", "solution", "sweeps"]),
-    ("lemke", &["tableau"]),
-    ("newton", &["equations", "pieces", "solution"]),
-    ("pieces", &[]),
-    ("pivot", &["equations", "newton", "pieces", "solution"]),
-    ("relaxation", &[]),
-    ("solution", &[]),
-    ("sor", &[]),
-    ("statics", &["factor"]),
-    ("sweeps", &["escape", "relaxation", "solution", "sor"]),
-    ("tableau", &["delayed"]),
-    ("uniqueness", &["frictional_lemke", "newton", "pieces", "solution"]),
+/// The files and folders of `solve`: each imports from those before it only. `lcp` stands beside
+/// those that are behind `lemke`.
+const SOLVERS: [&str; 12] = [
+    "outcome",
+    "candidate",
+    "condense",
+    "rigid_balance",
+    "sweeps",
+    "active_set",
+    "lemke",
+    "lcp",
+    "uniqueness",
+    "dispatch",
+    "auto",
+    "mod",
 ];
 
 #[test]
 fn rooms_import_only_what_they_may() {
-    let allowed: BTreeMap<_, _> = ALLOWED.into_iter().collect();
-    for file in sources() {
-        let room = room(&file);
-        if room == "lib" || room == "build" {
-            continue;
-        }
-        let allowed = allowed.get(room.as_str()).unwrap_or_else(|| panic!("a new room: {room}"));
-        for import in imports(&file, "crate::") {
-            let fits = allowed.iter().any(|may| {
-                import == *may
-                    || import.strip_prefix(may).is_some_and(|rest| rest.starts_with("::"))
-            });
-            assert!(
-                fits || import.split("::").next() == Some(room.as_str()),
-                "{} may not import {import}",
-                file.display()
-            );
-        }
-    }
-}
-
-#[test]
-fn solvers_call_only_what_they_may() {
-    for (solver, allowed) in SOLVERS {
-        let file = root().join(format!("src/solve/{solver}.rs"));
-        for import in imports(&file, "super::") {
-            let module = import.split("::").next().unwrap();
-            let is_type = module.starts_with(char::is_uppercase);
-            assert!(is_type || allowed.contains(&module), "{solver} may not import {import}");
-        }
-    }
-    let known = SOLVERS.map(|(solver, _)| solver);
-    for file in sources().iter().filter(|file| room(file) == "solve") {
-        let stem = file.file_stem().unwrap().to_str().unwrap();
-        assert!(stem == "mod" || known.contains(&stem), "a solver without a rule: {stem}");
-    }
-}
-
-#[test]
-fn foreign_crates_stay_in_their_rooms() {
-    let homes = [("faer", "linalg"), ("nalgebra", "linalg"), ("pulp", "linalg"), ("libc", "ffi")];
-    for file in sources() {
-        let text = fs::read_to_string(&file).unwrap();
-        for (name, home) in homes {
-            let named = text.contains(&format!("{name}::"));
-            assert!(!named || room(&file) == home, "{} names {name}", file.display());
-        }
-        let unsafe_allowed = room(&file) == "ffi";
-        assert!(unsafe_allowed || !code(&text).contains("unsafe"), "{} is unsafe", file.display());
-    }
-}
-
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).to_path_buf()
-}
-
-fn sources() -> Vec<PathBuf> {
-    let mut folders = vec![root().join("src")];
-    let mut files = Vec::new();
-    while let Some(folder) = folders.pop() {
-        for entry in fs::read_dir(folder).unwrap() {
-            let path = entry.unwrap().path();
-            if path.is_dir() {
-                folders.push(path);
-            } else if path.extension().is_some_and(|extension| extension == "rs") {
-                files.push(path);
+    let sources = sources();
+    let modules = Modules::new(&sources);
+    let allowed: BTreeMap<&str, &[&str]> = ROOMS.into_iter().collect();
+    let mut wrong = Vec::new();
+    for (at, source) in sources.iter().enumerate().filter(|(_, source)| source.room() != "lib") {
+        let room = source.room();
+        let may = allowed.get(room).unwrap_or_else(|| panic!("a room without a rule: {room}"));
+        for import in modules.imports(at) {
+            let target = sources[import.target].room();
+            if target != room && !may.contains(&target) {
+                wrong.push(format!("{} imports {}", source.path, import.path));
             }
         }
     }
-    assert!(files.len() > 10, "the sources have moved");
-    files
+    assert!(wrong.is_empty(), "imports that no room may have:\n{}", wrong.join("\n"));
 }
 
-/// The first folder or file below `src`.
-fn room(file: &Path) -> String {
-    let inner = file.strip_prefix(root().join("src")).unwrap();
-    let first = inner.components().next().unwrap().as_os_str().to_str().unwrap();
-    first.trim_end_matches(".rs").to_owned()
+#[test]
+fn solvers_import_only_what_stands_before_them() {
+    let sources = sources();
+    let modules = Modules::new(&sources);
+    let group = |source: &Source| match source.module.get(1) {
+        Some(name) => name.clone(),
+        None => "mod".to_owned(),
+    };
+    let rank = |source: &Source| {
+        let name = group(source);
+        let rank = SOLVERS.iter().position(|solver| *solver == name);
+        rank.unwrap_or_else(|| panic!("a solver without a place in the order: {name}"))
+    };
+    let mut wrong = Vec::new();
+    for (at, source) in sources.iter().enumerate().filter(|(_, source)| source.room() == "solve") {
+        for import in modules.imports(at) {
+            let target = &sources[import.target];
+            if target.room() != "solve" || group(target) == group(source) {
+                continue;
+            }
+            let beside = group(source) == "uniqueness" && group(target) == "lcp";
+            if rank(target) > rank(source) || beside {
+                wrong.push(format!("{} imports {}: upwards", source.path, import.path));
+            }
+            if import.written.len() > 2 {
+                let what = "past the mod.rs of its folder";
+                wrong.push(format!("{} imports {} {what}", source.path, import.path));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
-fn code(text: &str) -> String {
-    let lines = text.lines().map(|line| line.split("//").next().unwrap());
-    lines.collect::<Vec<_>>().join("\n")
+#[test]
+fn the_order_of_the_solvers_is_the_documented_one() {
+    let sources = sources();
+    let solve = sources.iter().find(|source| source.path == "solve/mod.rs").unwrap();
+    let order: Vec<&str> = SOLVERS.into_iter().filter(|solver| *solver != "lcp").collect();
+    let stated =
+        solve.lines.iter().any(|line| line.trim_start_matches("//! ") == order.join(" ← "));
+    assert!(stated, "solve/mod.rs does not say: {}", order.join(" ← "));
 }
 
-/// Paths below `prefix` that a file names, in `use` or in place; groups are taken apart.
-fn imports(file: &Path, prefix: &str) -> Vec<String> {
-    let text = code(&fs::read_to_string(file).unwrap());
+#[test]
+fn no_files_import_each_other_in_a_cycle() {
+    let sources = sources();
+    let modules = Modules::new(&sources);
+    let edges: Vec<BTreeSet<usize>> = (0..sources.len())
+        .map(|at| modules.imports(at).into_iter().map(|import| import.target).collect())
+        .collect();
     let mut found = Vec::new();
-    for (begin, _) in text.match_indices(prefix) {
-        let rest = &text[begin + prefix.len()..];
-        let end = rest.find(|c: char| !(c.is_alphanumeric() || c == '_' || c == ':')).unwrap();
-        let path = &rest[..end];
-        match path.strip_suffix("::") {
-            Some(base) => {
-                let group = rest[end..].strip_prefix('{').expect("a group of imports");
-                for item in group[..group.find('}').unwrap()].split(',') {
-                    found.push(format!("{base}::{}", item.trim()));
-                }
+    for cycle in cycles(&edges) {
+        for &from in &cycle {
+            let imports = modules.imports(from);
+            for import in imports.iter().filter(|import| cycle.contains(&import.target)) {
+                found.push(format!("{} imports {}", sources[from].path, import.path));
             }
-            None if rest[end..].starts_with('{') && path.is_empty() => {
-                let group = &rest[end + 1..];
-                for item in group[..group.find('}').unwrap()].split(',') {
-                    found.push(item.trim().to_owned());
-                }
-            }
-            None => found.push(path.to_owned()),
+        }
+        found.push(String::new());
+    }
+    assert!(found.is_empty(), "files that import each other:\n{}", found.join("\n"));
+}
+
+#[test]
+fn the_search_follows_names_to_their_files() {
+    let sources = sources();
+    let modules = Modules::new(&sources);
+    let place = |path: &str| sources.iter().position(|source| source.path == path).unwrap();
+    let imports = |path: &str| -> BTreeSet<&str> {
+        let imports = modules.imports(place(path));
+        imports.iter().map(|import| sources[import.target].path.as_str()).collect()
+    };
+    // `use super::Bound`, which law/mod.rs passes on.
+    assert!(imports("law/coulomb.rs").contains("law/bound.rs"));
+    assert!(!imports("law/coulomb.rs").contains("law/mod.rs"));
+    // law/mod.rs passes `Contact` on without a use of its own, and needs `Bound` itself.
+    assert!(imports("law/mod.rs").contains("law/bound.rs"));
+    assert!(!imports("law/mod.rs").contains("law/contact.rs"));
+    // `use super::Iterate`, which its parent defines.
+    assert!(imports("solve/sweeps/driver.rs").contains("solve/sweeps/mod.rs"));
+    // `lemke::friction_2d(..)` after `use super::lemke`.
+    assert!(imports("solve/dispatch.rs").contains("solve/lemke/friction_2d.rs"));
+    // `pub use solve::Status` of lib.rs.
+    assert!(!imports("lib.rs").contains("solve/outcome.rs"));
+}
+
+#[test]
+fn the_search_finds_cycles() {
+    let edges = |lists: &[&[usize]]| -> Vec<BTreeSet<usize>> {
+        lists.iter().map(|list| list.iter().copied().collect()).collect()
+    };
+    assert!(cycles(&edges(&[&[1, 2], &[2], &[]])).is_empty());
+    assert_eq!(cycles(&edges(&[&[1], &[2], &[0], &[0]])), [vec![0, 1, 2]]);
+    assert_eq!(cycles(&edges(&[&[1], &[0], &[3], &[2, 0]])), [vec![0, 1], vec![2, 3]]);
+}
+
+#[test]
+fn foreign_crates_and_unsafe_stay_in_their_rooms() {
+    let homes = [
+        ("faer", "linalg"),
+        ("nalgebra", "linalg"),
+        ("pulp", "linalg"),
+        ("libc", "ffi"),
+        ("unsafe", "ffi"),
+    ];
+    for source in sources() {
+        for token in &source.tokens {
+            let home = homes.iter().find(|(name, _)| token.text == *name);
+            let fits = home.is_none_or(|(_, home)| source.room() == *home);
+            assert!(fits, "src/{}:{} names {}", source.path, token.line, token.text);
         }
     }
-    found
 }

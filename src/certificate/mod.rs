@@ -27,7 +27,7 @@ mod escape;
 pub use escape::is_escape;
 pub(crate) use escape::{is_escape_of, lifts};
 
-use crate::law::{Contact, State};
+use crate::law::{Contact, State, Violation};
 use crate::linalg::tolerances::NEGLIGIBLE;
 use crate::linalg::vector::{NormSum, largest_of, norm, norm_inf};
 use crate::problem::{ContactProblem, Relation};
@@ -128,31 +128,31 @@ fn measure_pair<R: Relation>(
     let rounding = ratio(if unloaded { rest } else { inherent + rest }, scale);
     let margin = NEGLIGIBLE * norm_inf(relation.load()).max(norm_inf(&raw));
     let dim = contact.dim();
-    let mut certificate = Certificate {
-        eta,
-        rounding,
-        penetration: 0.0,
-        tension: 0.0,
-        cone_excess: 0.0,
-        equilibrium: 0.0,
-        force: Vec::with_capacity(raw.len()),
-        states: Vec::with_capacity(contact.pairs().len()),
-    };
+    let mut worst = Violation::default();
+    let mut admissible = Vec::with_capacity(raw.len());
+    let mut states = Vec::with_capacity(contact.pairs().len());
     for (law, d, raw) in contact.each(d, &raw) {
         let state = law.state(d, raw, margin);
-        let violation = law.violation(d, raw);
-        certificate.states.push(state);
-        certificate.penetration = certificate.penetration.max(violation.penetration);
-        certificate.tension = certificate.tension.max(violation.tension);
-        certificate.cone_excess = certificate.cone_excess.max(violation.cone_excess);
-        certificate.force.extend_from_slice(&law.admissible_force(raw, state)[..dim]);
+        worst = worst.or_worse(law.violation(d, raw));
+        states.push(state);
+        admissible.extend_from_slice(&law.admissible_force(raw, state)[..dim]);
     }
-    let lacking = raw.iter().zip(&certificate.force).map(|(a, b)| a - b);
-    certificate.equilibrium = match residual {
+    let lacking = raw.iter().zip(&admissible).map(|(a, b)| a - b);
+    let equilibrium = match residual {
         [] => largest_of(lacking),
         _ => largest_of(lacking.zip(residual).map(|(lacking, residual)| lacking + residual)),
     };
-    certificate
+    let Violation { penetration, tension, cone_excess } = worst;
+    Certificate {
+        eta,
+        rounding,
+        penetration,
+        tension,
+        cone_excess,
+        equilibrium,
+        force: admissible,
+        states,
+    }
 }
 
 /// `eta` of `d` when `raw = K d - f` is at hand, without the rounding that only a full product

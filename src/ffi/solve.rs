@@ -40,6 +40,7 @@ use crate::solve::{Status, solve};
 ///         a defect
 #[unsafe(no_mangle)]
 #[allow(non_snake_case)] // the names of the mechanics, which the header shows
+// long: fifteen arguments, each received at its position, in one scope of their lifetimes
 pub unsafe extern "C" fn signorini_solve(
     dim: i32,
     pairs: i64,

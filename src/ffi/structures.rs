@@ -24,6 +24,9 @@ pub(super) unsafe fn checked_size<T>(
     Ok(size)
 }
 
+/// Sizes of all structures are multiples of that of their widest fields.
+const ALIGNMENT: usize = align_of::<i64>();
+
 /// Refuses a size that no version of a structure has.
 fn check_number<T>(position: i32, name: &str, size: usize) -> Result<(), Failure> {
     let ours = size_of::<T>();
@@ -33,7 +36,7 @@ fn check_number<T>(position: i32, name: &str, size: usize) -> Result<(), Failure
         );
         return Err(Failure::argument(position, message));
     }
-    if size < LEAST || !size.is_multiple_of(8) {
+    if size < LEAST || !size.is_multiple_of(ALIGNMENT) {
         let message = format!("{name}: struct_size is {size}, set it to sizeof ({ours})");
         return Err(Failure::argument(position, message));
     }

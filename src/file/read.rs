@@ -40,6 +40,59 @@ struct Header {
 /// The value of a comment `% key: value` and its line.
 type Comment = Option<(u64, String)>;
 
+/// The comments above the size line.
+#[derive(Default)]
+struct Comments {
+    version: &'static str,
+    kind: Comment,
+    law: Comment,
+    dim: Comment,
+    pairs: Comment,
+    remark: Comment,
+}
+
+impl Comments {
+    /// Reads all lines to that of the sizes, on which it stops.
+    fn read(lines: &mut Lines<'_>) -> Result<Self, Error> {
+        let mut comments = Comments::default();
+        loop {
+            lines.require(|| "the line of the sizes".into())?;
+            let text = lines.text();
+            let Some(comment) = text.strip_prefix('%').map(str::trim_ascii) else { break };
+            if let Some(found) = comment.strip_prefix(TITLE).map(str::trim_ascii) {
+                let known = [OLD_VERSION, VERSION].into_iter().find(|known| *known == found);
+                let Some(known) = known else {
+                    let found = shown(found);
+                    let known = format!("{OLD_VERSION} and {VERSION} are known");
+                    return Err(lines.refuse(&format!("version {found} of the format: {known}")));
+                };
+                comments.version = known;
+            } else if let Some((key, value)) = comment.split_once(':') {
+                let place = match key {
+                    "kind" => &mut comments.kind,
+                    "law" => &mut comments.law,
+                    "dim" => &mut comments.dim,
+                    "pairs" => &mut comments.pairs,
+                    "remark" => &mut comments.remark,
+                    _ => continue,
+                };
+                if place.replace((lines.number(), value.trim_ascii().to_owned())).is_some() {
+                    return Err(lines.refuse(&format!("a second '{key}:'")));
+                }
+            }
+        }
+        if comments.version.is_empty() {
+            let what = format!("some other matrix: no line '% {TITLE} {VERSION}' stands above");
+            return Err(lines.refuse(&what));
+        }
+        Ok(comments)
+    }
+}
+
+/// Columns of a contact problem besides the matrix and the parameters of its law: loads, gaps and
+/// reference slips.
+const CONTACT_COLUMNS: usize = 3;
+
 impl Header {
     fn read(lines: &mut Lines<'_>) -> Result<Self, Error> {
         lines.require(|| "the line of the format".into())?;
@@ -50,57 +103,38 @@ impl Header {
             let what = format!("not a problem file, which begins with '{BANNER}'");
             return Err(lines.refuse(&what));
         }
-        let mut version = None;
-        let [mut kind, mut law, mut dim, mut pairs, mut remark]: [Comment; 5] = Default::default();
-        loop {
-            lines.require(|| "the line of the sizes".into())?;
-            let text = lines.text();
-            let Some(comment) = text.strip_prefix('%').map(str::trim_ascii) else { break };
-            if let Some(found) = comment.strip_prefix(TITLE).map(str::trim_ascii) {
-                let known = [OLD_VERSION, VERSION].into_iter().find(|known| *known == found);
-                if known.is_none() {
-                    let found = shown(found);
-                    let known = format!("{OLD_VERSION} and {VERSION} are known");
-                    return Err(lines.refuse(&format!("version {found} of the format: {known}")));
-                }
-                version = known;
-            } else if let Some((key, value)) = comment.split_once(':') {
-                let place = match key {
-                    "kind" => &mut kind,
-                    "law" => &mut law,
-                    "dim" => &mut dim,
-                    "pairs" => &mut pairs,
-                    "remark" => &mut remark,
-                    _ => continue,
-                };
-                if place.replace((lines.number(), value.trim_ascii().to_owned())).is_some() {
-                    return Err(lines.refuse(&format!("a second '{key}:'")));
-                }
-            }
-        }
-        let Some(version) = version else {
-            let what = format!("some other matrix: no line '% {TITLE} {VERSION}' stands above");
-            return Err(lines.refuse(&what));
+        let comments = Comments::read(lines)?;
+        let kind = read_kind(lines, comments.version, &comments.kind, &comments.law)?;
+        let mut header = match kind {
+            Kind::Lcp => Self::lcp(lines)?,
+            Kind::Contact(law) => Self::contact(lines, law, &comments)?,
         };
-        let kind = read_kind(lines, version, &kind, &law)?;
         // It may be shown on a terminal, which control characters command.
-        let remark = remark.map_or_else(String::new, |(_, remark)| remark);
-        let remark = remark.replace(char::is_control, " ");
-        let Kind::Contact(law) = kind else {
-            let (size, columns) = sizes(lines)?;
-            let covering = columns.checked_sub(2) == Some(size);
-            if !covering && columns.checked_sub(1) != Some(size) {
-                let what = format!("{size} rows ask for 1 or 2 columns more, not for {columns}");
-                return Err(lines.refuse(&what));
-            }
-            check_memory(lines, size)?;
-            return Ok(Header { kind, dim: 0, pairs: 0, size, covering, remark });
-        };
-        let dim = number(lines, "dim", &dim)?;
-        problem::checked_dim(dim).map_err(|error| lines.refuse(&format!("above, {error}")))?;
-        let pairs = number(lines, "pairs", &pairs)?;
+        let remark = comments.remark.map_or_else(String::new, |(_, remark)| remark);
+        header.remark = remark.replace(char::is_control, " ");
+        Ok(header)
+    }
+
+    /// Of an LCP, at its size line.
+    fn lcp(lines: &Lines<'_>) -> Result<Self, Error> {
         let (size, columns) = sizes(lines)?;
-        let more = 3 + law.parameters().len();
+        let covering = columns.checked_sub(2) == Some(size);
+        if !covering && columns.checked_sub(1) != Some(size) {
+            let what = format!("{size} rows ask for 1 or 2 columns more, not for {columns}");
+            return Err(lines.refuse(&what));
+        }
+        check_memory(lines, size)?;
+        let remark = String::new();
+        Ok(Header { kind: Kind::Lcp, dim: 0, pairs: 0, size, covering, remark })
+    }
+
+    /// Of a contact problem, at its size line.
+    fn contact(lines: &Lines<'_>, law: Law, comments: &Comments) -> Result<Self, Error> {
+        let dim = number(lines, "dim", &comments.dim)?;
+        problem::checked_dim(dim).map_err(|error| lines.refuse(&format!("above, {error}")))?;
+        let pairs = number(lines, "pairs", &comments.pairs)?;
+        let (size, columns) = sizes(lines)?;
+        let more = CONTACT_COLUMNS + law.parameters().len();
         if dim.checked_mul(pairs) != Some(size) || columns.checked_sub(more) != Some(size) {
             let what = format!(
                 "{size} rows and {columns} columns: with dim {dim}, {pairs} pairs and the law \
@@ -110,6 +144,7 @@ impl Header {
             return Err(lines.refuse(&what));
         }
         check_memory(lines, size)?;
+        let (kind, remark) = (Kind::Contact(law), String::new());
         Ok(Header { kind, dim, pairs, size, covering: false, remark })
     }
 

@@ -36,7 +36,8 @@ pub mod tresca;
 
 pub use bound::{Bound, length, project_disc};
 pub use contact::Contact;
-pub use recession::Recession;
+pub use natural_map::Violation;
+pub use recession::{Recession, lift};
 
 /// What a contact pair does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -127,10 +128,15 @@ impl PairLaw {
         self.gap >= 0.0
     }
 
+    /// Whether a pair with the normal displacement `d_n` touches its obstacle, or penetrates it.
+    pub fn touches(&self, d_n: f64) -> bool {
+        d_n >= self.gap
+    }
+
     /// Largest displacement that contact itself has prescribed to the pair at `d_n`: by a gap that has
     /// closed and by an earlier slip.
     pub fn prescribed(&self, d_n: f64) -> f64 {
-        let gap = if d_n >= self.gap { self.gap.abs() } else { 0.0 };
+        let gap = if self.touches(d_n) { self.gap.abs() } else { 0.0 };
         gap.max(self.slip0[0].abs()).max(self.slip0[1].abs())
     }
 }

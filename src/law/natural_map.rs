@@ -10,7 +10,7 @@
 use super::{PairLaw, State, Vector, length, project_disc};
 
 /// How far a pair is outside the law, in the units of the problem; 0 where it is not.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct Violation {
     /// `d_n - gap`, a length.
     pub penetration: f64,
@@ -18,6 +18,17 @@ pub struct Violation {
     pub tension: f64,
     /// `|F_t|` beyond its bound, a force.
     pub cone_excess: f64,
+}
+
+impl Violation {
+    /// The larger of both in each measure.
+    pub fn or_worse(self, other: Violation) -> Violation {
+        Violation {
+            penetration: self.penetration.max(other.penetration),
+            tension: self.tension.max(other.tension),
+            cone_excess: self.cone_excess.max(other.cone_excess),
+        }
+    }
 }
 
 impl PairLaw {

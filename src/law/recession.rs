@@ -18,6 +18,11 @@ pub struct Recession {
     pub resisted: f64,
 }
 
+/// Lifts a pair off its obstacle: adds to its motion `r`.
+pub fn lift(r: &mut [f64], by: f64) {
+    r[0] -= by;
+}
+
 /// Edges of the polygon around a friction cone in 3D. The polygon contains the cone, so that what its
 /// forces cannot balance the cone's cannot; it is at most `1 / cos(pi / 16) - 1 = 1.9 %` wider.
 const EDGES: usize = 16;
@@ -29,6 +34,18 @@ impl PairLaw {
         let lift = self.bound.slope * slip;
         let approach = if self.has_obstacle() { r[0] + lift } else { f64::NEG_INFINITY };
         Recession { approach, lift, resisted: self.bound.offset * slip }
+    }
+
+    /// Where `motion` of the pair's component goes, in words.
+    pub fn direction(&self, component: usize, motion: f64) -> String {
+        match (component, motion < 0.0) {
+            (0, true) => "away from the obstacle".to_owned(),
+            (0, false) => "towards where its obstacle would be".to_owned(),
+            (c, backwards) => {
+                let axis = if self.dim == 2 { "t".to_owned() } else { format!("t{c}") };
+                format!("along {}{axis}", if backwards { "-" } else { "+" })
+            }
+        }
     }
 
     /// Edges of a cone that contains all forces which the pair can carry, each with the normal

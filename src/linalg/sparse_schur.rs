@@ -83,7 +83,8 @@ impl SparseSchur {
                 factor.half_solve(x, Half::Backward);
             });
             let vector = unpermuted(&order, &ordered);
-            if singular || resistance(&lower, &vector) <= NULL_VECTOR {
+            let is_null = || resistance(&lower, &vector) <= NULL_VECTOR;
+            if singular || is_null() {
                 return Err(Failure::NullVector(vector));
             }
         }

@@ -29,13 +29,25 @@ impl BoundedLcp<'_> {
         w
     }
 
+    /// Whether variable `i` has no bound.
+    #[inline(always)]
+    pub fn is_free(&self, i: usize) -> bool {
+        self.lower[i] == f64::NEG_INFINITY
+    }
+
+    /// The value nearest to `x` that variable `i` may have.
+    #[inline(always)]
+    pub fn admissible(&self, i: usize, x: f64) -> f64 {
+        x.max(self.lower[i])
+    }
+
     /// Residual `|min(w, m (x - l))|` of `x` and its `w`, relative to `max(|q|, |w|)`, with `m` the
     /// diagonal of `M`. Zero at solutions only, if the diagonal is positive.
     pub fn eta(&self, x: &[f64], w: &[f64]) -> f64 {
         let mut residual = NormSum::default();
-        for (i, ((&w, &x), &lower)) in w.iter().zip(x).zip(self.lower).enumerate() {
+        for (i, (w, x)) in w.iter().zip(x).enumerate() {
             // m (x - l) is infinite of a free variable.
-            residual.add(w.min(self.matrix.at(i, i) * (x - lower)));
+            residual.add(w.min(self.matrix.at(i, i) * (x - self.lower[i])));
         }
         let residual = residual.root();
         if residual == 0.0 { 0.0 } else { residual / norm(self.q).max(norm(w)) }
@@ -50,8 +62,7 @@ impl BoundedLcp<'_> {
         let negligible = NEGLIGIBLE * size;
         let resisted = self.matrix.product(r);
         let is_free = resisted.iter().zip(&root).all(|(w, root)| w.abs() <= negligible * root);
-        let is_admissible = (0..r.len())
-            .all(|i| self.lower[i] == f64::NEG_INFINITY || r[i] * root[i] >= -negligible);
+        let is_admissible = (0..r.len()).all(|i| self.is_free(i) || r[i] * root[i] >= -negligible);
         let scale: f64 = self.q.iter().zip(&root).map(|(q, root)| size * (q / root).abs()).sum();
         is_free && is_admissible && dot(self.q, r) < -LEAST_WORK * scale
     }
@@ -59,6 +70,6 @@ impl BoundedLcp<'_> {
     /// Whether variable `i` is off its bound on the branch of `min(w, m (x - l))` that `x` and `w` are
     /// on: `w = 0` holds there, otherwise `x = l`.
     pub fn is_basic(&self, i: usize, x: &[f64], w: &[f64]) -> bool {
-        self.lower[i] == f64::NEG_INFINITY || self.matrix.at(i, i) * (x[i] - self.lower[i]) >= w[i]
+        self.is_free(i) || self.matrix.at(i, i) * (x[i] - self.lower[i]) >= w[i]
     }
 }

@@ -10,6 +10,7 @@
 //! unstable: the next method is asked too.
 
 use super::candidate::{Candidate, Effort, Ending, certified};
+use super::dispatch::run;
 use super::outcome::{Fallback, SecondSolution, Solution, Status, Uniqueness};
 use super::uniqueness;
 use crate::error::Error;
@@ -65,10 +66,10 @@ fn attempt(
 ) -> Result<Candidate, Error> {
     let sweeps = matches!(method, Method::SorNested | Method::SorDiagonal);
     if !sweeps || plan(contact)[0] == method {
-        return super::run(method, contact, settings, start, monitor);
+        return run(method, contact, settings, start, monitor);
     }
-    let (candidate, used_up) = monitor
-        .within(LATER_SWEEPS, |monitor| super::run(method, contact, settings, start, monitor));
+    let (candidate, used_up) =
+        monitor.within(LATER_SWEEPS, |monitor| run(method, contact, settings, start, monitor));
     let mut candidate = candidate?;
     if candidate.ending == Ending::Stopped(Stop::IterationLimit) && !used_up {
         candidate.ending = Ending::Stalled("no method converges");

@@ -173,14 +173,7 @@ fn no_equilibrium(contact: &Contact<'_>, motion: &[f64]) -> String {
     let moving = motion.chunks_exact(dim).filter(|r| r.iter().any(|r| r.abs() > MOVING)).count();
     let work: f64 = problem.load().iter().zip(motion).map(|(f, r)| f * r).sum();
     let (pair, component) = (most / dim, most % dim);
-    let direction = match (component, motion[most] < 0.0) {
-        (0, true) => "away from the obstacle".to_owned(),
-        (0, false) => "towards where its obstacle would be".to_owned(),
-        (c, backwards) => {
-            let axis = if dim == 2 { "t".to_owned() } else { format!("t{c}") };
-            format!("along {}{axis}", if backwards { "-" } else { "+" })
-        }
-    };
+    let direction = contact.pairs()[pair].direction(component, motion[most]);
     format!(
         "{NO_EQUILIBRIUM}: it moves {moving} of {} pairs, most of all pair {pair}, {direction}, and the loads do the work \
          {work:.3e} on it when its largest component is 1; are a support, friction, or a pair \

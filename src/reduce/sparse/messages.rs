@@ -1,7 +1,7 @@
 //! What is wrong with a host's sparse matrix, its supports and pairs, in sentences: what, where, and
 //! what to do.
 
-use super::host_matrix::{Indices, SparseMatrix};
+use super::host_arrays::{Indices, SparseMatrix};
 use crate::problem::symmetric_matrix;
 use crate::reduce::motion;
 

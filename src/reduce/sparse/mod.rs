@@ -10,11 +10,12 @@
 //! 6 % off, up to 8 % on other meshes.
 
 mod change_of_variables;
+mod host_arrays;
 mod host_matrix;
 mod messages;
 mod supports;
 
-pub use host_matrix::{Indices, SparseMatrix, Triangle};
+pub use host_arrays::{Indices, SparseMatrix, Triangle};
 
 use super::{ContactPairs, Reduction};
 use crate::error::{Argument, Error};

@@ -108,7 +108,7 @@ fn solve(
 ) -> Pivoted {
     let mut basic: Vec<bool> = match &start {
         Some(x) => active_set(lcp, x, &lcp.w(x)),
-        None => lcp.lower.iter().map(|&lower| lower == f64::NEG_INFINITY).collect(),
+        None => (0..lcp.q.len()).map(|i| lcp.is_free(i)).collect(),
     };
     let x = start.unwrap_or_else(|| vec![0.0; lcp.q.len()]);
     let mut system = LinearSystem::new(lcp.matrix, lcp.symmetric, 1, lcp.q.to_vec(), x);
@@ -159,8 +159,8 @@ struct Exchange {
 
 impl Exchange {
     fn new(lcp: &BoundedLcp<'_>) -> Self {
-        let bounds = lcp.lower.iter().filter(|&&lower| lower > f64::NEG_INFINITY).count();
-        let most_patience = PATIENCE.max(bounds);
+        let complementary = (0..lcp.q.len()).filter(|&i| !lcp.is_free(i)).count();
+        let most_patience = PATIENCE.max(complementary);
         Exchange { fewest: usize::MAX, patience: most_patience, most_patience, simd: Simd::new() }
     }
 

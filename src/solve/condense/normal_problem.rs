@@ -8,7 +8,7 @@
 use super::free_block::FreeBlock;
 use crate::certificate::is_escape_of;
 use crate::law::Contact;
-use crate::law::complementarity::lower_bounds;
+use crate::law::complementarity::{is_bounded, is_stopped, lower_bounds};
 use crate::linalg::matrix::Matrix;
 use crate::linalg::tolerances::NEGLIGIBLE;
 use crate::problem::BoundedLcp;
@@ -33,7 +33,7 @@ impl<'p> NormalProblem<'p> {
         let problem = contact.problem();
         let lower = lower_bounds(contact);
         let (normal, free): (Vec<usize>, Vec<usize>) =
-            (0..contact.unknowns()).partition(|&i| lower[i] > f64::NEG_INFINITY);
+            (0..contact.unknowns()).partition(|&i| is_bounded(contact, i));
         let block = FreeBlock::new(problem.stiffness(), free).ok_or(INDEFINITE)?;
         let mut at_rest = vec![0.0; contact.unknowns()];
         block.equilibrate(problem.load(), &mut at_rest);
@@ -112,8 +112,7 @@ impl<'p> NormalProblem<'p> {
     /// Re-solves equilibrium directly with the closed pairs of `d` fixed, and keeps the better.
     pub fn polished(&self, d: Vec<f64>) -> Vec<f64> {
         let problem = self.contact.problem();
-        let lower = lower_bounds(self.contact);
-        let free = (0..d.len()).filter(|&i| d[i] != -lower[i]).collect();
+        let free = (0..d.len()).filter(|&i| !is_stopped(self.contact, i, &d)).collect();
         let Some(block) = FreeBlock::new(problem.stiffness(), free) else { return d };
         let mut better = d.clone();
         block.equilibrate(problem.load(), &mut better);

@@ -3,7 +3,7 @@
 
 use std::borrow::Cow;
 
-use super::tableau::Entries;
+use super::scaled::Entries;
 use crate::law::Contact;
 use crate::law::branch::Branch;
 use crate::linalg::vector::norm_inf;
@@ -19,8 +19,9 @@ pub struct FrictionLcp<'p> {
     /// The others: normal, then tangential.
     normal: Vec<usize>,
     tangential: Vec<usize>,
-    /// Of each tangential component: the place of its pair in `normal`, and the slope of its bound.
-    coupling: Vec<Option<(usize, f64)>>,
+    /// Of each tangential component: the place of its pair in `normal`, and the slope of its bound; 0
+    /// of a pair without an obstacle.
+    coupling: Vec<(usize, f64)>,
     /// `K` where nothing is condensed, with `normal` and `tangential` as its indices, otherwise the
     /// Schur complement, whose indices are counted.
     stiffness: Cow<'p, [f64]>,
@@ -48,7 +49,8 @@ impl<'p> FrictionLcp<'p> {
         for (pair, law) in contact.pairs().iter().enumerate() {
             let variables = law.variables();
             if variables.slips {
-                coupling.push(variables.clearance.then_some((normal.len(), law.bound().slope)));
+                let slope = law.bound().slope;
+                coupling.push(if variables.clearance { (normal.len(), slope) } else { (0, 0.0) });
             }
             if variables.clearance { &mut normal } else { &mut free }.push(2 * pair);
             if variables.slips { &mut tangential } else { &mut free }.push(2 * pair + 1);
@@ -96,12 +98,10 @@ impl<'p> FrictionLcp<'p> {
         };
         for (side, cohesion) in [1.0, -1.0].into_iter().zip(cohesion) {
             for (k, &i) in self.tangential.iter().enumerate() {
-                let (bound, clamp) = match self.coupling[k] {
-                    Some((normal, slope)) => {
-                        (slope * vectors.q[normal], slope * vectors.covering[normal])
-                    }
-                    None => (0.0, 0.0),
-                };
+                let (normal, slope) = self.coupling[k];
+                let coupled =
+                    |values: &[f64]| values.get(normal).map_or(0.0, |value| slope * value);
+                let (bound, clamp) = (coupled(&vectors.q), coupled(&vectors.covering));
                 let offset = self.contact.pairs()[i / 2].bound().offset;
                 vectors.q.push(bound + offset + side * force[i]);
                 vectors.covering.push(clamp + cohesion * root(i));
@@ -173,16 +173,18 @@ impl Entries for FrictionLcp<'_> {
             j => (j - m, -1.0),
         };
         let source = &self.stiffness[self.indices[component] * self.ld..];
-        for (column, &i) in column.iter_mut().zip(&self.indices[..n]) {
-            *column = -sign * source[i];
+        let (clearances, slips) = column.split_at_mut(n);
+        let (forward, backward) = slips.split_at_mut(m);
+        for (entry, &i) in clearances.iter_mut().zip(&self.indices[..n]) {
+            *entry = -sign * source[i];
         }
-        for (k, &i) in self.indices[n..].iter().enumerate() {
-            let bound = match self.coupling[k] {
-                Some((normal, slope)) => -slope * sign * source[self.indices[normal]],
-                None => 0.0,
-            };
+        let sides = forward.iter_mut().zip(backward);
+        for ((forward, backward), (&i, &(normal, slope))) in
+            sides.zip(self.indices[n..].iter().zip(&self.coupling))
+        {
+            let bound = clearances.get(normal).map_or(0.0, |clearance| slope * clearance);
             let force = sign * source[i];
-            (column[n + k], column[n + m + k]) = (bound + force, bound - force);
+            (*forward, *backward) = (bound + force, bound - force);
         }
     }
 }

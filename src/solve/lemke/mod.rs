@@ -5,6 +5,8 @@ mod friction_2d_lcp;
 mod frictionless;
 mod path;
 mod rank_one_updates;
+mod refactorisation;
+mod scaled;
 mod tableau;
 
 pub use friction_2d::{ends, solve as friction_2d};

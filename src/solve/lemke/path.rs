@@ -13,7 +13,8 @@
 //! have drifted, the tableau is refactorised. A caller whose certificate finds the
 //! end of a path inaccurate repeats it with [`Care::Thorough`].
 
-use super::tableau::{Entries, Scaled, Tableau};
+use super::scaled::{Entries, Scaled};
+use super::tableau::Tableau;
 use crate::error::Error;
 use crate::linalg::matrix::Matrix;
 use crate::linalg::tolerances::NEGLIGIBLE;

@@ -17,9 +17,10 @@ pub struct RankOneUpdates {
 }
 
 impl RankOneUpdates {
-    /// None yet.
-    pub fn new(rows: usize, columns: usize, simd: Simd) -> Self {
-        RankOneUpdates { rows, columns, x: Vec::new(), y: Vec::new(), simd }
+    /// None yet; there is room for `most`.
+    pub fn new(rows: usize, columns: usize, most: usize, simd: Simd) -> Self {
+        let (x, y) = (Vec::with_capacity(most * rows), Vec::with_capacity(most * columns));
+        RankOneUpdates { rows, columns, x, y, simd }
     }
 
     /// Number of updates.

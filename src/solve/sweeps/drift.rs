@@ -6,7 +6,7 @@
 
 use super::Iterate;
 use crate::certificate::{is_escape_of, lifts};
-use crate::law::Contact;
+use crate::law::{Contact, lift};
 use crate::linalg::matrix::Matrix;
 use crate::linalg::vector::norm_inf;
 use crate::solve::condense::FreeBlock;
@@ -69,8 +69,8 @@ pub fn contact_recession(contact: &Contact<'_>, drift: &[f64]) -> Option<Vec<f64
 /// Off a plane it is rigid if all are lifted by the same.
 fn lifted(dim: usize, motion: &[f64], lifts: &[f64]) -> Vec<f64> {
     let mut motion = motion.to_vec();
-    for (normal, lift) in motion.iter_mut().step_by(dim).zip(lifts) {
-        *normal -= lift;
+    for (r, &by) in motion.chunks_exact_mut(dim).zip(lifts) {
+        lift(r, by);
     }
     motion
 }

@@ -16,7 +16,7 @@ pub fn sweep(simd: Simd, lcp: &BoundedLcp<'_>, x: &mut [f64], w: &mut [f64], ome
             let mut change = 0.0;
             for i in 0..x.len() {
                 let column = lcp.matrix.column(i);
-                let value = (x[i] - omega * w[i] / column[i]).max(lcp.lower[i]);
+                let value = lcp.admissible(i, x[i] - omega * w[i] / column[i]);
                 let step = value - x[i];
                 if step != 0.0 {
                     x[i] = value;
@@ -40,8 +40,8 @@ pub struct LcpIterate<'p> {
 impl<'p> LcpIterate<'p> {
     /// Starts from `x`, made admissible.
     pub fn new(lcp: BoundedLcp<'p>, mut x: Vec<f64>) -> Self {
-        for (x, lower) in x.iter_mut().zip(lcp.lower) {
-            *x = x.max(*lower);
+        for (i, x) in x.iter_mut().enumerate() {
+            *x = lcp.admissible(i, *x);
         }
         let w = lcp.w(&x);
         LcpIterate { lcp, x, w, simd: Simd::new() }

@@ -4,21 +4,21 @@
 //! determinant of its system, is −1: over all solutions the signs add up to the degree of the
 //! natural map, which is +1 for positive definite `K` as it is for `mu = 0`.
 
+mod difference;
 mod proof;
 mod search;
+
+pub use difference::are_different;
 
 use super::active_set;
 use super::candidate::{Candidate, Ending};
 use super::outcome::{Solution, Status, Uniqueness};
 use crate::error::Error;
 use crate::law::Contact;
-use crate::linalg::vector::{largest_of, norm_inf};
+use crate::linalg::vector::norm_inf;
 use crate::monitor::Monitor;
 use crate::settings::Settings;
-
-/// What is proved must be true by more than this, relatively: the rounding of systems with condition
-/// numbers up to 1e9 or 1e10, the largest that are certified, stays below it.
-const MARGIN: f64 = 1e-6;
+use difference::MARGIN;
 
 /// Tries to prove that `solution` is the only one, or to find a second.
 pub fn examine(
@@ -56,21 +56,6 @@ pub fn by_orientation(contact: &Contact<'_>, solution: &mut Solution) {
     {
         solution.uniqueness = Uniqueness::Several;
     }
-}
-
-/// Whether two displacements, solutions to rounding, are different ones: by their branches, and by
-/// more than rounding.
-pub fn are_different(contact: &Contact<'_>, one: &[f64], two: &[f64]) -> bool {
-    let problem = contact.problem();
-    let root = problem.stiffness().diagonal_roots();
-    let scaled = |d: &[f64]| largest_of(d.iter().zip(&root).map(|(d, root)| d * root));
-    // Scale also by the displacement that the loads can induce, so that two solutions of rounding's
-    // size compare equal.
-    let loads = largest_of(problem.load().iter().zip(&root).map(|(f, root)| f / root));
-    let size = loads.max(scaled(one)).max(scaled(two));
-    let difference: Vec<f64> = one.iter().zip(two).map(|(one, two)| one - two).collect();
-    let branches = |d: &[f64]| contact.branches(d, &problem.force(d));
-    scaled(&difference) > MARGIN * size && branches(one) != branches(two)
 }
 
 /// The solution on the branches of `d`, if that is `d`.

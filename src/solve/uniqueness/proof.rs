@@ -7,7 +7,7 @@
 //! the map `g -> mu p` is a contraction, and Coulomb's problem has one solution. With uniform `mu`
 //! and `X = 1` this is `mu < 1 / sqrt(|K_nn| |W_tt|)`.
 
-use super::MARGIN;
+use super::difference::MARGIN;
 use crate::law::Contact;
 use crate::linalg::factor::{Factor, largest_eigenvalue};
 

@@ -1,6 +1,6 @@
 //! The search for a second solution, in 2D.
 
-use super::are_different;
+use super::difference::are_different;
 use crate::error::Error;
 use crate::law::branch::Branch;
 use crate::law::{Contact, PairLaw};

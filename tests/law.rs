@@ -1,0 +1,199 @@
+//! The law of a pair against its statement: the normal map and the natural map describe the same law,
+//! and the branches have the derivative of the normal map.
+
+#[path = "common/laws.rs"]
+#[allow(dead_code)] // Every test of the law uses a part.
+mod laws;
+
+use fastrand::Rng;
+use laws::{Numbers, dot, norm, uniform};
+use signorini::law::branch::Row;
+use signorini::law::{State, Vector};
+
+const POINTS: usize = 20_000;
+
+/// Rounding of a few operations on forces up to about 100: 50 units of 100 eps.
+const ROUNDING: f64 = 1e-12;
+
+/// Any trial force, 0 and `-inf` (no obstacle) among them.
+fn any(rng: &mut Rng, law: &Numbers) -> Vector {
+    let mut y = [0.0; 3];
+    for y in &mut y[..law.dim] {
+        *y = if rng.u8(0..10) == 0 { 0.0 } else { uniform(rng, -3.0, 3.0) };
+    }
+    if !law.has_obstacle() {
+        y[0] = f64::NEG_INFINITY;
+    }
+    y
+}
+
+fn is_near(a: &Vector, b: &Vector) -> bool {
+    a.iter().zip(b).all(|(a, b)| a == b || (a - b).abs() <= ROUNDING)
+}
+
+#[test]
+fn every_point_of_the_normal_map_obeys_the_law() {
+    let rng = &mut Rng::with_seed(1);
+    for _ in 0..POINTS {
+        let law = Numbers::random(rng);
+        let y = any(rng, &law);
+        let (v, p) = law.law().normal_map(&y);
+        assert!(law.defect(&v, &p) <= ROUNDING, "{law:?} at {y:?}: {v:?} {p:?}");
+        assert!(is_near(&law.trial(&v, &p), &y), "{law:?} at {y:?}");
+    }
+}
+
+#[test]
+fn every_point_of_the_law_is_one_of_the_normal_map() {
+    let rng = &mut Rng::with_seed(2);
+    for _ in 0..POINTS {
+        let law = Numbers::random(rng);
+        let (v, p) = law.point(rng, 0.0);
+        assert!(law.defect(&v, &p) <= ROUNDING, "a wrong test: {law:?} {v:?} {p:?}");
+        let (v_again, p_again) = law.law().normal_map(&law.trial(&v, &p));
+        assert!(is_near(&v, &v_again) && is_near(&p, &p_again), "{law:?} at {v:?} {p:?}");
+        // In terms of the host's displacement and force.
+        let (d, force) = law.of_host(&v, &p);
+        assert!(is_near(&law.law().trial(&d, &force), &law.trial(&v, &p)), "{law:?}");
+    }
+}
+
+#[test]
+fn the_natural_map_is_zero_on_the_law() {
+    let rng = &mut Rng::with_seed(3);
+    for _ in 0..POINTS {
+        let law = Numbers::random(rng);
+        let (v, p) = law.point(rng, 0.0);
+        let (d, force) = law.of_host(&v, &p);
+        let mut residual = vec![f64::NAN; law.dim];
+        law.law().natural_residual(&d, &force, &mut residual);
+        assert!(norm(&residual) <= ROUNDING, "{law:?} at {v:?} {p:?}: {residual:?}");
+        let violation = law.law().violation(&d, &force);
+        let worst = violation.tension.max(violation.cone_excess).max(violation.penetration);
+        assert!(worst <= ROUNDING, "{law:?} at {v:?} {p:?}: {violation:?}");
+    }
+}
+
+/// With the residual `e`, `tau + e_t` is the point of the disc nearest to `k delta + tau`: it lies in
+/// the disc, and `k delta - e_t` is along it, `g |k delta - e_t| = (k delta - e_t) . (tau + e_t)`. So
+///
+/// `|tau| - g <= |e_t|`   and   `g |k delta| - k delta . tau <= |e_t| (g + |k delta| + |tau|)`.
+///
+/// The normal component is exact: `|e_n|` is the penetration, the tension, or the smaller of clearance
+/// and pressure.
+#[test]
+fn the_natural_map_is_not_zero_off_the_law() {
+    let rng = &mut Rng::with_seed(4);
+    let mut off = 0;
+    for _ in 0..POINTS {
+        let law = Numbers::random(rng);
+        // A point of the law for some displacements and another for the forces.
+        let ((mut v, _), (_, p)) = (law.point(rng, 0.0), law.point(rng, 0.0));
+        if law.has_obstacle() && rng.bool() {
+            v[0] = uniform(rng, -1.0, 1.0);
+        }
+        let (d, force) = law.of_host(&v, &p);
+        let mut residual = vec![f64::NAN; law.dim];
+        law.law().natural_residual(&d, &force, &mut residual);
+        let (k_n, k_t) = law.k;
+        let penetration = k_n * v[0];
+        let normal = penetration.max(-p[0]).max(p[0].min(-penetration));
+        let (e_n, e_t) = (residual[0].abs(), norm(&residual[1..]));
+        assert!((e_n - normal).abs() <= ROUNDING, "{law:?} at {v:?} {p:?}: {residual:?}");
+        let moved: Vec<f64> = v[1..law.dim].iter().map(|delta| k_t * delta).collect();
+        let tau = &p[1..law.dim];
+        let g = law.threshold(p[0]);
+        let lost = g * norm(&moved) - dot(&moved, tau);
+        let size = g + norm(&moved) + norm(tau);
+        assert!(norm(tau) - g <= e_t + ROUNDING, "{law:?} at {v:?} {p:?}: {residual:?}");
+        assert!(lost <= e_t * size + ROUNDING, "{law:?} at {v:?} {p:?}: {residual:?}");
+        if law.defect(&v, &p) > 1e-3 {
+            off += 1;
+            assert!(norm(&residual) > ROUNDING, "{law:?} at {v:?} {p:?}");
+        }
+    }
+    assert!(off > POINTS / 4, "{off} points were off the law");
+}
+
+/// Central differences over `2 h` are off by `h² / 6` times the third derivative and by the rounding of
+/// `P` over `h`. On a slip the third derivative is at most `6 g / |y_t|³ <= 6 / |y_t|²`, below 70 where
+/// `|y_t| >= 0.3`; with `h = 1e-5` that is 1.2e-9, and the rounding 1e-10.
+#[test]
+fn branches_have_the_derivative_of_the_normal_map() {
+    const H: f64 = 1e-5;
+    const TOLERANCE: f64 = 5e-9;
+    let rng = &mut Rng::with_seed(5);
+    let mut slips = [0; 2];
+    for _ in 0..POINTS {
+        let law = Numbers::random(rng);
+        let y = any(rng, &law);
+        let (size, g) = (norm(&y[1..law.dim]), law.threshold(y[0].max(0.0)));
+        // The kinks: y_n = 0, |y_t| = g.
+        let kink = if g > 0.0 { y[0].abs().min((size - g).abs()) } else { y[0].abs() };
+        if kink <= 10.0 * H || size < 0.3 {
+            continue;
+        }
+        slips[law.dim - 2] += usize::from(g > 0.0 && size > g);
+        let distance = law.law().distance_to_kink(&y);
+        assert!(distance == kink || (distance - kink).abs() <= ROUNDING, "{law:?} at {y:?}");
+        let block = law.law().branch(&y).derivative(law.bound);
+        for j in usize::from(!law.has_obstacle())..law.dim {
+            let moved = |h: f64| {
+                let mut y = y;
+                y[j] += h;
+                law.law().normal_map(&y)
+            };
+            let ((v_after, after), (v_before, before)) = (moved(H), moved(-H));
+            for i in 0..law.dim {
+                let slope = (after[i] - before[i]) / (2.0 * H);
+                assert!((block[i][j] - slope).abs() <= TOLERANCE, "{law:?} at {y:?}: {i} {j}");
+                // k dv/dy = 1 - dP/dy.
+                if i > 0 || law.has_obstacle() {
+                    let k = if i == 0 { law.k.0 } else { law.k.1 };
+                    let unit = f64::from(u8::from(i == j));
+                    let slope = k * (v_after[i] - v_before[i]) / (2.0 * H);
+                    assert!((unit - block[i][j] - slope).abs() <= TOLERANCE, "{law:?} at {y:?}");
+                }
+            }
+        }
+    }
+    assert!(slips.iter().all(|&slips| slips > POINTS / 20), "{slips:?} slips were seen");
+}
+
+#[test]
+fn in_the_plane_the_equations_of_a_branch_hold_on_it() {
+    let rng = &mut Rng::with_seed(6);
+    for _ in 0..POINTS {
+        let law = Numbers { dim: 2, ..Numbers::random(rng) };
+        let y = any(rng, &law);
+        let (v, p) = law.law().normal_map(&y);
+        let (d, force) = law.of_host(&v, &p);
+        let rows = law.law().branch(&y).rows(&law.law());
+        for (i, row) in rows[..2].iter().enumerate() {
+            let left = match *row {
+                Row::Fixed(value) => d[i] - value,
+                Row::Free { coupling, offset } => force[i] + coupling * force[0] + offset,
+            };
+            assert!(left.abs() <= 10.0 * ROUNDING, "{law:?} at {y:?}: {rows:?} {left}");
+        }
+    }
+}
+
+#[test]
+fn states_are_those_of_the_points() {
+    let rng = &mut Rng::with_seed(7);
+    for _ in 0..POINTS {
+        let law = Numbers::random(rng);
+        let (v, p) = law.point(rng, 1e-6);
+        let (d, force) = law.of_host(&v, &p);
+        let slips = norm(&v[1..law.dim]) > 0.0;
+        let expected = match p[0] > 0.0 {
+            false => State::Open,
+            true if law.threshold(p[0]) == 0.0 || slips => State::Slip,
+            true => State::Stick,
+        };
+        assert_eq!(law.law().state(&d, &force, 1e-9), expected, "{law:?} at {v:?} {p:?}");
+        let admissible = law.law().admissible_force(&force, expected);
+        assert!(is_near(&admissible, &p.map(|p| -p)), "{law:?} at {v:?} {p:?}: {admissible:?}");
+    }
+}

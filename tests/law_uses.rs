@@ -1,0 +1,240 @@
+//! What the law offers to methods, against mechanics: the step of a sweep minimises the energy of its
+//! pair, motions of recession take no work from contact forces, cones hold their forces, and the
+//! variables of the complementarity problem name the branch of the normal map.
+
+#[path = "common/laws.rs"]
+#[allow(dead_code)] // Every test of the law uses a part.
+mod laws;
+
+use fastrand::Rng;
+use laws::{Numbers, direction, dot, norm, uniform};
+
+const POINTS: usize = 20_000;
+
+/// Rounding of a few operations on numbers up to about 1000.
+const ROUNDING: f64 = 1e-11;
+
+/// A pair in a sweep: its law, its block of `K`, and where it is.
+struct Pair {
+    law: Numbers,
+    /// `K_tn`.
+    coupling: [f64; 2],
+    /// `K_tt`, its largest eigenvalue `k_t`.
+    block: [[f64; 2]; 2],
+    d: Vec<f64>,
+    /// `K d - f`.
+    force: Vec<f64>,
+}
+
+impl Pair {
+    fn random(rng: &mut Rng, dim: usize) -> Pair {
+        let mut law = Numbers { dim, ..Numbers::random(rng) };
+        if dim == 2 {
+            law.slip0[1] = 0.0;
+        }
+        let (k_n, k_t) = law.k;
+        // [k_n, c; c, B] is definite with |c|² < k_n times the least eigenvalue of B.
+        let least = if dim == 2 { k_t } else { k_t * uniform(rng, 0.1, 1.0) };
+        let [x, y] = direction(rng, dim);
+        let block = [
+            [k_t * x * x + least * y * y, (k_t - least) * x * y],
+            [(k_t - least) * x * y, k_t * y * y + least * x * x],
+        ];
+        let share = uniform(rng, 0.0, 0.95) * (k_n * least).sqrt();
+        let coupling = direction(rng, dim).map(|c| share * c);
+        let (mut d, mut force) = (vec![0.0; dim], vec![0.0; dim]);
+        d.iter_mut().for_each(|d| *d = uniform(rng, -2.0, 2.0));
+        force.iter_mut().for_each(|force| *force = uniform(rng, -4.0, 4.0));
+        d[0] = d[0].min(law.gap);
+        if rng.u8(0..4) == 0 {
+            d[1..].copy_from_slice(&law.slip0[..dim - 1]);
+        }
+        Pair { law, coupling, block, d, force }
+    }
+
+    /// Energy of the pair at `d`, beside that where it is, with the threshold `g`; other pairs stay.
+    fn energy(&self, d: &[f64], g: f64) -> f64 {
+        let moved: Vec<f64> = d.iter().zip(&self.d).map(|(d, before)| d - before).collect();
+        let mut energy = dot(&self.force, &moved) + self.law.k.0 * moved[0] * moved[0] / 2.0;
+        for c in 1..d.len() {
+            energy += self.coupling[c - 1] * moved[0] * moved[c];
+            for other in 1..d.len() {
+                energy += self.block[c - 1][other - 1] * moved[c] * moved[other] / 2.0;
+            }
+        }
+        let slip: Vec<f64> = d[1..].iter().zip(&self.law.slip0).map(|(d, rest)| d - rest).collect();
+        let before = self.d[1..].iter().zip(&self.law.slip0).map(|(d, rest)| d - rest);
+        energy + g * (norm(&slip) - norm(&before.collect::<Vec<_>>()))
+    }
+
+    /// `d` after a step, and the threshold at the pressure that the normal step has left.
+    fn step(&self, omega: f64) -> (Vec<f64>, f64) {
+        let mut d = self.d.clone();
+        let dim = self.law.dim;
+        let law = self.law.law();
+        let (steps, change) = law.relax(&mut d, &self.force, &self.coupling[..dim - 1], omega);
+        let mut sum = 0.0;
+        for i in 0..dim {
+            assert!((d[i] - self.d[i] - steps[i]).abs() <= ROUNDING);
+            sum += if i == 0 { self.law.k.0 } else { self.law.k.1 } * steps[i] * steps[i];
+        }
+        assert!((sum - change).abs() <= ROUNDING * (1.0 + sum));
+        let pressure = (-(self.force[0] + self.law.k.0 * steps[0])).max(0.0);
+        (d, self.law.threshold(pressure))
+    }
+}
+
+/// Normal: the energy is a parabola on `d_n <= gap`. Tangential: it is one on either side of no slip.
+/// So the minimum is among these candidates.
+#[test]
+fn in_the_plane_a_step_minimises_the_energy_of_its_pair() {
+    let rng = &mut Rng::with_seed(1);
+    for _ in 0..POINTS {
+        let pair = Pair::random(rng, 2);
+        let (k_n, k_t) = pair.law.k;
+        let (d, g) = pair.step(1.0);
+        let normals = [pair.d[0] - pair.force[0] / k_n, pair.law.gap];
+        let at = |d_n: f64| pair.energy(&[d_n, pair.d[1]], g);
+        let least = normals
+            .into_iter()
+            .filter(|d_n| d_n.is_finite() && *d_n <= pair.law.gap)
+            .map(at)
+            .fold(f64::INFINITY, f64::min);
+        assert!(d[0] <= pair.law.gap);
+        assert!((at(d[0]) - least).abs() <= ROUNDING, "{:?}: {d:?}", pair.law);
+
+        let trial = pair.force[1] + pair.coupling[0] * (d[0] - pair.d[0]);
+        let slipped = |side: f64| pair.d[1] - (trial + side * g) / k_t;
+        let tangentials = [pair.law.slip0[0], slipped(1.0), slipped(-1.0)];
+        let at = |d_t: f64| pair.energy(&[d[0], d_t], g);
+        let least = tangentials.into_iter().map(at).fold(f64::INFINITY, f64::min);
+        assert!((at(d[1]) - least).abs() <= ROUNDING, "{:?}: {d:?}", pair.law);
+    }
+}
+
+#[test]
+fn a_step_lowers_the_energy_of_its_pair() {
+    let rng = &mut Rng::with_seed(2);
+    let mut lowered = 0;
+    for _ in 0..POINTS {
+        let dim = rng.usize(2..=3);
+        let pair = Pair::random(rng, dim);
+        let (d, g) = pair.step(uniform(rng, 0.01, 1.99));
+        let energy = pair.energy(&d, g);
+        assert!(energy <= ROUNDING, "{:?} to {d:?}: {energy}", pair.law);
+        lowered += usize::from(energy < -1e-6);
+    }
+    assert!(lowered > POINTS / 2, "{lowered}");
+}
+
+/// A force that the pair can carry.
+fn admissible(rng: &mut Rng, law: &Numbers) -> Vec<f64> {
+    let p = if law.has_obstacle() { uniform(rng, 0.0, 2.0) } else { 0.0 };
+    let tau = law.threshold(p) * rng.f64();
+    let h = direction(rng, law.dim);
+    let mut force = vec![-p, tau * h[0], tau * h[1]];
+    force.truncate(law.dim);
+    force
+}
+
+#[test]
+fn contact_forces_take_no_more_work_than_said_from_a_recession() {
+    let rng = &mut Rng::with_seed(3);
+    for _ in 0..POINTS {
+        let law = Numbers::random(rng);
+        let slide = if rng.u8(0..5) == 0 { 0.0 } else { uniform(rng, 0.0, 2.0) };
+        let h = direction(rng, law.dim);
+        let mut r = vec![0.0, slide * h[0], slide * h[1]];
+        r.truncate(law.dim);
+        // Just admissible, and beyond that.
+        let lift = law.bound.slope * slide;
+        let beyond = if rng.bool() { 0.0 } else { uniform(rng, 0.0, 1.0) };
+        r[0] = -lift - beyond;
+        let motion = law.law().recession(&r);
+        assert!((motion.lift - lift).abs() <= ROUNDING);
+        match law.has_obstacle() {
+            true => assert!((motion.approach + beyond).abs() <= ROUNDING),
+            false => assert!(motion.approach < 0.0, "nothing to approach"),
+        }
+        for _ in 0..5 {
+            let force = admissible(rng, &law);
+            let work = dot(&force, &r);
+            assert!(work >= -motion.resisted - ROUNDING, "{law:?} {r:?} {force:?}");
+        }
+        // The bound is met: by the force on the bound against the slip.
+        let p = if law.has_obstacle() { 1.0 } else { 0.0 };
+        let against = law.threshold(p);
+        let mut force = vec![-p, -against * h[0], -against * h[1]];
+        force.truncate(law.dim);
+        let work = dot(&force, &r) - p * beyond;
+        assert!((work + motion.resisted).abs() <= ROUNDING, "{law:?} {r:?}");
+        // Nearer to the obstacle some force takes more.
+        if law.has_obstacle() {
+            r[0] += beyond + 0.1;
+            assert!(law.law().recession(&r).approach > 0.0);
+            assert!(dot(&force, &r) < -motion.resisted);
+        }
+    }
+}
+
+#[test]
+fn edges_hold_the_friction_cone() {
+    let rng = &mut Rng::with_seed(4);
+    let wider = (std::f64::consts::PI / 16.0).cos().recip();
+    for _ in 0..POINTS / 10 {
+        let mut law = Numbers::random(rng);
+        law.bound.offset = 0.0;
+        let edges = law.law().cone_edges();
+        if !law.has_obstacle() {
+            assert!(edges.is_empty(), "no obstacle, no force");
+            continue;
+        }
+        let mu = law.bound.slope;
+        for edge in &edges {
+            assert_eq!(edge[0], -1.0);
+            let length = norm(&edge[1..law.dim]);
+            assert!(length >= mu - ROUNDING && length <= mu * wider + ROUNDING, "{edge:?}");
+        }
+        for _ in 0..20 {
+            let force = admissible(rng, &law);
+            let p = -force[0];
+            if p == 0.0 || mu == 0.0 {
+                assert!(norm(&force[1..]) <= ROUNDING);
+                continue;
+            }
+            let t: Vec<f64> = force[1..].iter().map(|t| t / p).collect();
+            if law.dim == 2 {
+                let ends = edges.iter().map(|edge| edge[1]);
+                let (low, high) = ends.fold((0.0_f64, 0.0_f64), |(a, b), t| (a.min(t), b.max(t)));
+                assert!(t[0] >= low - ROUNDING && t[0] <= high + ROUNDING, "{law:?} {force:?}");
+                continue;
+            }
+            // The polygon is convex and goes round once: the point is left of all its sides.
+            for (k, a) in edges.iter().enumerate() {
+                let b = &edges[(k + 1) % edges.len()];
+                let side = (b[1] - a[1]) * (t[1] - a[2]) - (b[2] - a[2]) * (t[0] - a[1]);
+                assert!(side >= -ROUNDING, "{law:?} {force:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn variables_name_the_branch_of_the_normal_map() {
+    let rng = &mut Rng::with_seed(5);
+    for _ in 0..POINTS {
+        let law = Numbers { dim: 2, ..Numbers::random(rng) };
+        let (mut v, mut p) = law.point(rng, 1e-6);
+        (v[2], p[2]) = (0.0, 0.0);
+        let has = law.law().variables();
+        assert_eq!(has.clearance, law.has_obstacle());
+        let friction = law.threshold(if law.has_obstacle() { 1.0 } else { 0.0 }) > 0.0;
+        assert_eq!(has.slips, law.has_obstacle() || friction);
+        // What the pair has no variable for is 0.
+        let clearance = if has.clearance { -v[0] } else { 0.0 };
+        let slip = if has.slips { v[1] } else { 0.0 };
+        let named = law.law().branch_of_variables(clearance, slip.max(0.0), (-slip).max(0.0));
+        let branch = law.law().branch(&law.trial(&v, &p));
+        assert_eq!(named, branch, "{law:?} at {v:?} {p:?}");
+    }
+}
