@@ -5,6 +5,7 @@ use std::cell::OnceCell;
 
 use super::outcome::{Solution, Status, Uniqueness};
 use crate::certificate::{Certificate, is_escape_of, measure};
+use crate::error::index;
 use crate::law::Contact;
 use crate::linalg::vector::normalise;
 use crate::monitor::Stop;
@@ -131,7 +132,7 @@ pub fn certified(
     let effort = candidate.effort;
     Solution {
         status,
-        message,
+        message: message.into(),
         d: candidate.d.clone(),
         certificate: certificate.clone(),
         recession,
@@ -172,7 +173,7 @@ fn no_equilibrium(contact: &Contact<'_>, motion: &[f64]) -> String {
     let most = most.unwrap_or(0);
     let moving = motion.chunks_exact(dim).filter(|r| r.iter().any(|r| r.abs() > MOVING)).count();
     let work: f64 = problem.load().iter().zip(motion).map(|(f, r)| f * r).sum();
-    let (pair, component) = (most / dim, most % dim);
+    let (pair, component) = (index(most / dim), most % dim);
     let direction = match (component, motion[most] < 0.0) {
         (0, true) => "away from the obstacle".to_owned(),
         (0, false) => "towards where its obstacle would be".to_owned(),

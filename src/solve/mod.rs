@@ -20,7 +20,7 @@ mod rigid_balance;
 mod sweeps;
 mod uniqueness;
 
-use crate::error::{Argument, Error};
+use crate::error::{Argument, Error, entry};
 use crate::law::Contact;
 use crate::monitor::Monitor;
 use crate::problem::ContactProblem;
@@ -102,9 +102,11 @@ fn check_method(contact: &Contact<'_>, method: Method) -> Result<(), Error> {
             refuse("settings: Lemke's method is for frictionless contact, and for friction in 2D")
         }
         Method::BlockPivoting if !frictionless => refuse(if contact.is_coupled() {
-            "settings: block pivoting is for frictionless contact, every mu must be 0"
+            "settings: block pivoting is for frictionless contact: the law must be frictionless, \
+             or every mu must be 0"
         } else {
-            "settings: block pivoting is for frictionless contact, every g must be 0"
+            "settings: block pivoting is for frictionless contact: the law must be frictionless, \
+             or every g must be 0"
         }),
         Method::Newton if !planar => refuse("settings: Newton's method is for 2D"),
         Method::SorDiagonal if !frictionless && !contact.is_coupled() => refuse(
@@ -123,7 +125,10 @@ fn check_start(contact: &Contact<'_>, start: Option<&[f64]>) -> Result<(), Error
         return Err(Error::invalid(Argument::Start, message));
     }
     match start.iter().position(|d| !d.is_finite()) {
-        Some(i) => Err(Error::invalid(Argument::Start, format!("the start d[{i}] is not finite"))),
+        Some(i) => {
+            let message = format!("the start {} is not finite", entry("d", [i]));
+            Err(Error::invalid(Argument::Start, message))
+        }
         None => Ok(()),
     }
 }
