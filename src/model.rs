@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use crate::certificate::{Certificate, certify};
-use crate::error::{Argument, Error};
+use crate::error::{Argument, Error, entry};
 use crate::file;
 use crate::linalg::matrix::{Matrix, required_length};
 use crate::monitor::Monitor;
@@ -167,7 +167,7 @@ impl Model {
                 && let Some(motion) = &solution.recession
             {
                 let driven = driven_motion(&*self.reduction, problem.load(), motion);
-                solution.message = format!("{NO_EQUILIBRIUM}: {driven}");
+                solution.message = format!("{NO_EQUILIBRIUM}: {driven}").into();
             }
             Ok(solution)
         })
@@ -287,7 +287,7 @@ fn check_vector(
         return Err(Error::invalid(argument, message));
     }
     match values.iter().position(|value| !value.is_finite()) {
-        Some(i) => Err(Error::invalid(argument, format!("{name}[{i}] is not finite"))),
+        Some(i) => Err(Error::invalid(argument, entry(name, [i]) + " is not finite")),
         None => Ok(()),
     }
 }

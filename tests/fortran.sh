@@ -90,8 +90,10 @@ for kind in static shared; do
     runs "layer_$kind"
     compile "refusals_$kind" "$kind" -std=f2008 "$module" "$tests/refusals.f90"
     runs "refusals_$kind"
+    compile "counting_$kind" "$kind" -std=f2008 "$module" "$tests/counting.f90"
+    runs "counting_$kind"
 done
-for name in layer refusals; do
+for name in layer refusals counting; do
     compile "${name}_64" shared -fdefault-integer-8 "$module" "$tests/$name.f90"
     runs "${name}_64"
 done

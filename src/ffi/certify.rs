@@ -8,6 +8,7 @@ use super::model_solve::CaseArguments;
 use super::report::{SignoriniReport, state_codes};
 use super::status::{SIGNORINI_STATUS_NOT_A_SOLUTION, SIGNORINI_STATUS_SOLVED, remember};
 use crate::certificate::{Certificate, certify};
+use crate::error::entry;
 use crate::problem::ContactProblem;
 use crate::settings::check_tolerance;
 
@@ -66,7 +67,7 @@ pub unsafe extern "C" fn signorini_certify(
             Failure::from_error(error, |argument| given.position(argument, MEASURED))
         })?;
         if let Some(i) = d.iter().position(|d| !d.is_finite()) {
-            return Err(Failure::argument(MEASURED, format!("d[{i}] is not finite")));
+            return Err(Failure::argument(MEASURED, entry("d", [i]) + " is not finite"));
         }
         // SAFETY: as above.
         Ok(unsafe { results.write(&certify(&problem, d)) })
@@ -180,7 +181,7 @@ impl Results {
         let status = if certificate.holds(tolerance) {
             SIGNORINI_STATUS_SOLVED
         } else {
-            remember(format_args!("d is not a solution: eta is {eta:.1e}, wanted {tolerance:.1e}"));
+            remember(format!("d is not a solution: eta is {eta:.1e}, wanted {tolerance:.1e}"));
             SIGNORINI_STATUS_NOT_A_SOLUTION
         };
         // SAFETY: by the caller's contract.

@@ -7,22 +7,22 @@ use std::sync::{Once, OnceLock};
 use super::status::{
     SIGNORINI_STATUS_FILE, SIGNORINI_STATUS_INTERNAL, SIGNORINI_STATUS_OUT_OF_MEMORY, remember,
 };
-use crate::error::{Argument, Error};
+use crate::error::{Argument, Error, Message};
 
 /// Why a call returns a negative status.
 pub(super) struct Failure {
     code: i32,
-    message: String,
+    message: Message,
 }
 
 impl Failure {
     /// The `position`-th argument is wrong.
-    pub(super) fn argument(position: i32, message: impl Into<String>) -> Self {
+    pub(super) fn argument(position: i32, message: impl Into<Message>) -> Self {
         Failure { code: -position, message: message.into() }
     }
 
     /// There is no memory for something.
-    pub(super) fn out_of_memory(message: impl Into<String>) -> Self {
+    pub(super) fn out_of_memory(message: impl Into<Message>) -> Self {
         Failure { code: SIGNORINI_STATUS_OUT_OF_MEMORY, message: message.into() }
     }
 
@@ -33,7 +33,7 @@ impl Failure {
 
     /// An error of the library, whose argument has the position that `position` tells.
     pub(super) fn from_error(error: Error, position: impl Fn(Argument) -> i32) -> Self {
-        let message = error.message().marked().to_owned();
+        let message = error.message();
         match error {
             Error::Invalid { argument, .. } => Failure { code: -position(argument), message },
             Error::OutOfMemory(_) => Failure { code: SIGNORINI_STATUS_OUT_OF_MEMORY, message },
@@ -53,7 +53,7 @@ pub(super) fn call(body: impl FnOnce() -> Result<i32, Failure>) -> i32 {
     #[cfg(all(target_os = "linux", target_env = "gnu"))]
     super::static_link::keep();
     let outside = INSIDE.replace(true);
-    remember(format_args!(""));
+    remember("");
     // Unwind safety: only the caller's outputs can be half-written, and they are undefined with
     // SIGNORINI_STATUS_INTERNAL.
     let result = catch_unwind(AssertUnwindSafe(body));
@@ -61,7 +61,7 @@ pub(super) fn call(body: impl FnOnce() -> Result<i32, Failure>) -> i32 {
     match result {
         Ok(Ok(code)) => code,
         Ok(Err(failure)) => {
-            remember(format_args!("{}", failure.message));
+            remember(failure.message);
             failure.code
         }
         Err(_) => SIGNORINI_STATUS_INTERNAL,
@@ -78,7 +78,7 @@ fn silence_panics() {
         OUTER.get_or_init(std::panic::take_hook);
         std::panic::set_hook(Box::new(|panic| {
             if INSIDE.get() {
-                remember(format_args!("internal error: {panic}"));
+                remember(format!("internal error: {panic}"));
             } else if let Some(outer) = OUTER.get() {
                 outer(panic);
             }

@@ -160,7 +160,7 @@ impl Arguments {
 
         let status = code(solution.status);
         if solution.status != Status::Solved {
-            remember(format_args!("{}", solution.message));
+            remember(solution.message.clone());
         }
         // SAFETY: the outputs have the lengths of the header and overlap nothing.
         unsafe {

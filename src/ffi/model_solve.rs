@@ -8,7 +8,7 @@ use super::model_new::{SignoriniModel, read};
 use super::report::{Reports, SignoriniReport, state_codes};
 use super::settings::{Received, SignoriniSettings};
 use super::status::{code, remember};
-use crate::error::{Argument, index};
+use crate::error::{Argument, Message, index};
 use crate::model::{LoadCase, Model};
 use crate::monitor::{Monitor, ProgressFn};
 use crate::problem::FrictionLaw;
@@ -97,8 +97,8 @@ pub unsafe extern "C" fn signorini_model_solve(
                 first = Some(code);
                 // Of one case nobody asks which.
                 match cases {
-                    1 => remember(format_args!("{message}")),
-                    _ => remember(format_args!("case {}: {message}", index(case))),
+                    1 => remember(message),
+                    _ => remember(format!("case {}: {}", index(case), message.marked())),
                 }
             }
         }
@@ -212,7 +212,7 @@ struct Block<'a> {
 
 impl Block<'_> {
     /// Solves a case and writes its results, unless it is wrong. Returns status and message.
-    fn solve(&self, case: usize, received: &Received) -> (i32, String) {
+    fn solve(&self, case: usize, received: &Received) -> (i32, Message) {
         let (pairs, n) = (self.model.pairs(), self.model.dim() * self.model.pairs());
         let load_case = self.load_cases.case(case);
         let d = self.d.part(n * case, n);
@@ -236,7 +236,7 @@ impl Block<'_> {
                 (code, solution.message)
             }
             Err(error) => {
-                let message = error.message().marked().to_owned();
+                let message = error.message();
                 let position = |argument| {
                     let own = if argument == Argument::Start { START } else { SETTINGS };
                     self.given.position(argument, own)

@@ -5,6 +5,7 @@ use super::guard::{self, Failure};
 use super::settings::method_code;
 use super::structures::{self, checked_size};
 use crate::certificate::Certificate;
+use crate::error::index;
 use crate::law::State;
 use crate::settings::Method;
 use crate::solve::{Fallback, LcpSolution, Solution, Uniqueness};
@@ -221,7 +222,8 @@ impl Reports {
             // SAFETY: as above.
             let size = unsafe { SignoriniReport::accept(position, reports.nth(case))? };
             if size != stride {
-                let message = format!("report {case}: struct_size is {size}, not {stride}");
+                let message =
+                    format!("report {}: struct_size is {size}, not {stride}", index(case));
                 return Err(Failure::argument(position, message));
             }
         }

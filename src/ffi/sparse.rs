@@ -5,7 +5,7 @@ use libc::c_void;
 use super::args::{Arrays, size};
 use super::guard::Failure;
 use super::structures::whole;
-use crate::error::Error;
+use crate::error::{Error, entry};
 use crate::problem;
 use crate::reduce::{ContactPairs, Indices, SparseMatrix, Triangle};
 
@@ -164,7 +164,9 @@ impl SignoriniPairs {
         let refuse = |message: String| Err(Failure::argument(position, message));
         // SAFETY: by the caller's contract.
         let given = unsafe { whole(position, "pairs", pointer)? };
-        let wrong = |error: Error| Failure::argument(position, format!("pairs: {error}"));
+        let wrong = |error: Error| {
+            Failure::argument(position, format!("pairs: {}", error.message().marked()))
+        };
         let dim = problem::checked_dim(given.dim).map_err(wrong)?;
         let count = size(position, "pairs: count", given.count)?;
         let components = problem::unknowns(dim, count).map_err(wrong)?;
@@ -216,7 +218,8 @@ pub(super) fn shifted(
 ) -> Result<Vec<usize>, Failure> {
     let shift = |(i, &value): (usize, &i64)| {
         value.checked_sub(base).and_then(|value| usize::try_from(value).ok()).ok_or_else(|| {
-            Failure::argument(position, format!("{name}[{i}] is {value}, less than {base}"))
+            let place = entry(name, [i]);
+            Failure::argument(position, format!("{place} is {value}, less than {base}"))
         })
     };
     values.iter().enumerate().map(shift).collect()

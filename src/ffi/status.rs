@@ -3,7 +3,7 @@
 use libc::c_char;
 use std::cell::RefCell;
 
-use crate::error;
+use crate::error::Message;
 use crate::solve::Status;
 
 /// Solved and certified: eta <= tolerance.
@@ -126,9 +126,9 @@ impl Sentence {
     }
 }
 
-/// Keeps what happened for `signorini_last_error` and for SGMESG; indices in it may be marked.
-pub(super) fn remember(what: std::fmt::Arguments<'_>) {
-    let message = error::Message::from(what.to_string());
+/// Keeps what happened for `signorini_last_error` and for SGMESG.
+pub(super) fn remember(message: impl Into<Message>) {
+    let message = message.into();
     LAST.with_borrow_mut(|sentence| sentence.set(&message));
     FROM_ONE.with_borrow_mut(|sentence| sentence.set(&message.counted_from_one()));
 }

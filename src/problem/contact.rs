@@ -16,7 +16,7 @@ use std::fmt::Display;
 
 use super::relation::{Relation, Stiffness};
 use super::symmetric_matrix;
-use crate::error::{Argument, Error};
+use crate::error::{Argument, Error, entry};
 use crate::linalg::matrix::{Matrix, can_exist, required_length};
 use crate::linalg::vector;
 
@@ -72,7 +72,7 @@ impl<'a> FrictionLaw<'a> {
         match self.values().iter().position(|&value| value < 0.0) {
             Some(i) => Err(Error::invalid(
                 Argument::Law,
-                format!("{name}[{i}] is {}, it must not be negative", self.values()[i]),
+                format!("{} is {}, it must not be negative", entry(name, [i]), self.values()[i]),
             )),
             None => Ok(()),
         }
@@ -288,7 +288,7 @@ fn check_length(argument: Argument, name: &str, given: usize, needed: usize) -> 
 
 fn check_finite(argument: Argument, name: &str, values: &[f64]) -> Result<(), Error> {
     match values.iter().position(|value| !value.is_finite()) {
-        Some(i) => Err(Error::invalid(argument, format!("{name}[{i}] is not finite"))),
+        Some(i) => Err(Error::invalid(argument, entry(name, [i]) + " is not finite")),
         None => Ok(()),
     }
 }
@@ -297,7 +297,11 @@ fn check_gaps(gap: &[f64]) -> Result<(), Error> {
     match gap.iter().position(|&gap| gap.is_nan() || gap == f64::NEG_INFINITY) {
         Some(i) => Err(Error::invalid(
             Argument::Gap,
-            format!("gap[{i}] is {}, it must be a number or +inf (never touches)", gap[i]),
+            format!(
+                "{} is {}, it must be a number or +inf (never touches)",
+                entry("gap", [i]),
+                gap[i]
+            ),
         )),
         None => Ok(()),
     }

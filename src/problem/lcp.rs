@@ -1,6 +1,6 @@
 //! The linear complementarity problem (LCP) `w = q + M z`, `w >= 0`, `z >= 0`, `w . z = 0`.
 
-use crate::error::{Argument, Error};
+use crate::error::{Argument, Error, entry};
 use crate::linalg::matrix::{Matrix, required_length};
 use crate::linalg::tolerances::{LEAST_WORK, NEGLIGIBLE};
 use crate::linalg::vector::{NormSum, dot, largest_of, norm};
@@ -49,16 +49,17 @@ impl<'a> Lcp<'a> {
         let lcp = Lcp { matrix: Matrix::new(size, matrix, ld), q, covering };
         for j in 0..size {
             if let Some(i) = lcp.column(j).iter().position(|m| !m.is_finite()) {
-                return refuse(Argument::Matrix, format!("M[{i},{j}] is not finite"));
+                return refuse(Argument::Matrix, entry("M", [i, j]) + " is not finite");
             }
         }
         if let Some(i) = q.iter().position(|q| !q.is_finite()) {
-            return refuse(Argument::Load, format!("q[{i}] is not finite"));
+            return refuse(Argument::Load, entry("q", [i]) + " is not finite");
         }
         if let Some(covering) = covering
             && let Some(i) = covering.iter().position(|&d| !(d > 0.0 && d.is_finite()))
         {
-            let message = format!("cover[{i}] is {}, it must be positive", covering[i]);
+            let message =
+                format!("{} is {}, it must be positive", entry("cover", [i]), covering[i]);
             return refuse(Argument::Covering, message);
         }
         Ok(lcp)

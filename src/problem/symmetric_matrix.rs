@@ -1,6 +1,6 @@
 //! Validation of a host's dense symmetric matrix.
 
-use crate::error::{Argument, Error};
+use crate::error::{Argument, Error, entry, index};
 use crate::linalg::matrix::Matrix;
 
 /// Asymmetry allowed, relative to the diagonal: far above the rounding of a host's condensation
@@ -22,19 +22,21 @@ pub(crate) fn is_symmetric(matrix: &Matrix<'_>) -> bool {
 /// matrix.
 pub(crate) fn check(matrix: &Matrix<'_>, name: &str, argument: Argument) -> Result<(), Error> {
     let refuse = |message: String| Err(Error::invalid(argument, message));
+    let at = |i: usize, j: usize| entry(name, [i, j]);
     for j in 0..matrix.size() {
         let column = matrix.column(j);
         if let Some(i) = column.iter().position(|k| !k.is_finite()) {
-            return refuse(format!("{name}[{i},{j}] is not finite"));
+            return refuse(at(i, j) + " is not finite");
         }
         if column[j] <= 0.0 {
             if column.iter().all(|&k| k == 0.0) {
+                let row = index(j);
                 return refuse(format!(
-                    "row {j} of {name} is zero: component {j} has no stiffness; if the host holds \
-                     it fixed, put a positive number on the diagonal"
+                    "row {row} of {name} is zero: component {row} has no stiffness; if the host \
+                     holds it fixed, put a positive number on the diagonal"
                 ));
             }
-            return refuse(format!("{name}[{j},{j}] is {}, it must be positive", column[j]));
+            return refuse(format!("{} is {}, it must be positive", at(j, j), column[j]));
         }
     }
     let root = matrix.diagonal_roots();
@@ -42,7 +44,7 @@ pub(crate) fn check(matrix: &Matrix<'_>, name: &str, argument: Argument) -> Resu
         let scale = root[i] * root[j];
         let difference = (lower - upper).abs() / scale;
         if difference > SYMMETRY {
-            let (below, above) = (format!("{name}[{i},{j}]"), format!("{name}[{j},{i}]"));
+            let (below, above) = (at(i, j), at(j, i));
             let remedy =
                 format!("average {below} and {above}, or compute both in double precision");
             return refuse(format!(
@@ -52,8 +54,9 @@ pub(crate) fn check(matrix: &Matrix<'_>, name: &str, argument: Argument) -> Resu
         }
         if lower.abs() > (1.0 + SYMMETRY) * scale {
             return refuse(format!(
-                "{name} is not positive semi-definite: {name}[{i},{j}] is {lower}, more than its \
-                 diagonal allows ({scale})"
+                "{name} is not positive semi-definite: {} is {lower}, more than its diagonal \
+                 allows ({scale})",
+                at(i, j)
             ));
         }
         Ok(())

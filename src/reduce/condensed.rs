@@ -1,6 +1,7 @@
 //! A body that the host itself has condensed on its contact nodes, on an obstacle: `d = u`.
 
 use super::{Reduction, motion};
+use crate::error::Message;
 
 /// The host's condensed stiffness, taken as it is.
 pub struct CondensedReduction {
@@ -39,7 +40,7 @@ impl Reduction for CondensedReduction {
         force.to_vec()
     }
 
-    fn motion_in_words(&self, d: &[f64]) -> String {
-        motion::of_pairs(self.dim, d)
+    fn motion_in_words(&self, d: &[f64]) -> Message {
+        motion::of_pairs(self.dim, d).into()
     }
 }

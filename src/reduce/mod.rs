@@ -16,7 +16,7 @@ pub use pairs::ContactPairs;
 pub use sparse::{Indices, SparseMatrix, SparseReduction, Triangle};
 pub use two_body::TwoBodyReduction;
 
-use crate::error::Error;
+use crate::error::{Error, Message};
 
 /// A structure reduced to its contact pairs. It does not change: several threads may use it at once.
 ///
@@ -69,5 +69,5 @@ pub trait Reduction: Send + Sync {
 
     /// A motion in words, from its relative displacements: which part moves, where, and in which
     /// direction. It completes "it moves ...".
-    fn motion_in_words(&self, d: &[f64]) -> String;
+    fn motion_in_words(&self, d: &[f64]) -> Message;
 }

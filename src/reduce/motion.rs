@@ -1,6 +1,7 @@
 //! Motions in words: which part moves, and what moves most.
 
 use super::Reduction;
+use crate::error::index;
 use crate::linalg::vector::norm_inf;
 
 /// Displacements below this part of the largest one are not counted as moving: a motion comes from
@@ -17,7 +18,7 @@ pub(crate) fn driven_motion(reduction: &dyn Reduction, load: &[f64], d: &[f64]) 
     format!(
         "it moves {}; the resultant of the loads along it is {:.3e} (largest displacement 1). Are all \
          normals outward from the slaves and the signs of loads right, is a support or pair missing?",
-        reduction.motion_in_words(d),
+        reduction.motion_in_words(d).marked(),
         work / norm_inf(&reduction.recover(None, None, d))
     )
 }
@@ -46,9 +47,10 @@ pub(super) fn of_host(u: &[f64]) -> String {
     };
     let most: Vec<String> = most
         .iter()
-        .map(|&dof| format!("degree of freedom {dof} by {:.3}", u[dof] / u[most[0]].abs()))
+        .map(|&dof| format!("degree of freedom {} by {:.3}", index(dof), u[dof] / u[most[0]].abs()))
         .collect();
     let count = moving.len();
+    let (first, last) = (index(first), index(last));
     format!("{count} of the degrees of freedom {first} to {last}, most of all {}", most.join(", "))
 }
 
@@ -61,9 +63,10 @@ pub(super) fn of_pairs(dim: usize, d: &[f64]) -> String {
     let components = components(&d[dim * pair..dim * (pair + 1)]);
     let frame = if dim == 2 { "normal and tangent" } else { "normal and tangents" };
     format!(
-        "{} of {} pairs, most of all pair {pair} by {components} along its {frame}",
+        "{} of {} pairs, most of all pair {} by {components} along its {frame}",
         moving.len(),
-        sizes.len()
+        sizes.len(),
+        index(pair)
     )
 }
 

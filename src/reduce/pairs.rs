@@ -1,7 +1,7 @@
 //! Contact pairs of a host: a slave node, the point that it faces, and a frame.
 
 use super::frame::Frame;
-use crate::error::{Argument, Error};
+use crate::error::{Argument, Error, index};
 
 /// The weights of a pair's masters sum to 1 up to this: far above the rounding of shape functions in
 /// doubles (1e-16) and of tables with ten digits, below anything that a gap shows.
@@ -31,6 +31,11 @@ pub struct ContactPairs<'a> {
 
 fn refuse<T>(message: String) -> Result<T, Error> {
     Err(Error::invalid(Argument::Pairs, message))
+}
+
+/// A slave or master of a pair is a degree of freedom that the host does not have.
+fn no_dof(pair: usize, dof: usize) -> String {
+    format!("pair {}: there is no degree of freedom {}", index(pair), index(dof))
 }
 
 impl ContactPairs<'_> {
@@ -83,13 +88,15 @@ impl ContactPairs<'_> {
         let (start, count, masters) = (self.master_start, self.count, self.weights.len());
         if start[0] != 0 {
             return refuse(format!(
-                "pair 0: its masters begin at {}, they must begin with the first one",
-                start[0]
+                "pair {}: its masters begin at {}, they must begin with the first one",
+                index(0),
+                index(start[0])
             ));
         }
         if let Some(pair) = (0..count).find(|&pair| start[pair] > start[pair + 1]) {
             return refuse(format!(
-                "pair {pair}: its masters begin after they end, master_start must not descend"
+                "pair {}: its masters begin after they end, master_start must not descend",
+                index(pair)
             ));
         }
         if start[count] != masters {
@@ -107,11 +114,14 @@ impl ContactPairs<'_> {
         for pair in 0..self.count {
             for &dof in self.slave(pair) {
                 let Some(place) = pair_of_slave.get_mut(dof) else {
-                    return refuse(format!("pair {pair}: there is no degree of freedom {dof}"));
+                    return refuse(no_dof(pair, dof));
                 };
                 if let Some(other) = place.replace(pair) {
                     return refuse(format!(
-                        "degree of freedom {dof} is a slave in pair {other} and in pair {pair}"
+                        "degree of freedom {} is a slave in pair {} and in pair {}",
+                        index(dof),
+                        index(other),
+                        index(pair)
                     ));
                 }
             }
@@ -126,13 +136,13 @@ impl ContactPairs<'_> {
             for &dof in dofs {
                 match pair_of_slave.get(dof) {
                     Some(None) => {}
-                    None => {
-                        return refuse(format!("pair {pair}: there is no degree of freedom {dof}"));
-                    }
+                    None => return refuse(no_dof(pair, dof)),
                     Some(Some(other)) => {
                         return refuse(format!(
-                            "pair {pair}: its master's degree of freedom {dof} is a slave in \
-                             pair {other}"
+                            "pair {}: its master's degree of freedom {} is a slave in pair {}",
+                            index(pair),
+                            index(dof),
+                            index(*other)
                         ));
                     }
                 }
@@ -141,7 +151,7 @@ impl ContactPairs<'_> {
         match sum {
             // Written so that NaN is refused.
             Some(sum) if !(f64::abs(sum - 1.0) <= SUM_OF_WEIGHTS) => {
-                refuse(format!("pair {pair}: its weights sum to {sum}, not to 1"))
+                refuse(format!("pair {}: its weights sum to {sum}, not to 1", index(pair)))
             }
             _ => Ok(()),
         }
@@ -157,7 +167,7 @@ impl ContactPairs<'_> {
                 let range = self.dim * pair..self.dim * (pair + 1);
                 let tangent = self.tangents.map(|tangents| &tangents[range.clone()]);
                 Frame::new(&self.normals[range], tangent)
-                    .or_else(|what| refuse(format!("pair {pair}: its {what}")))
+                    .or_else(|what| refuse(format!("pair {}: its {what}", index(pair))))
             })
             .collect()
     }

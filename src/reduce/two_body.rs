@@ -13,7 +13,7 @@
 //! the softer one, so that `K_rel` is not the small difference of large numbers.
 
 use super::{Reduction, motion};
-use crate::error::{Argument, Error};
+use crate::error::{Argument, Error, Message, index};
 use crate::linalg::matrix::Matrix;
 use crate::linalg::pivoted_cholesky::PivotedCholesky;
 use crate::linalg::vector::norm_inf;
@@ -67,7 +67,7 @@ impl TwoBodyReduction {
         if let Some(&free) = sum.dependent().first() {
             return Err(Error::invalid(
                 Argument::Matrix,
-                format!("neither body resists a common motion of component {free}"),
+                format!("neither body resists a common motion of component {}", index(free)),
             ));
         }
         let stiffness = sum.schur_complement(
@@ -144,7 +144,7 @@ impl Reduction for TwoBodyReduction {
         [force, force].concat()
     }
 
-    fn motion_in_words(&self, d: &[f64]) -> String {
+    fn motion_in_words(&self, d: &[f64]) -> Message {
         let u = self.recover(None, None, d);
         let largest = norm_inf(&u);
         let (first, second) = u.split_at(self.size);
@@ -155,6 +155,6 @@ impl Reduction for TwoBodyReduction {
                 format!("body {name}: {}", motion::of_pairs(self.dim, u))
             }
         };
-        format!("{}; {}", moving("A", first), moving("B", second))
+        format!("{}; {}", moving("A", first), moving("B", second)).into()
     }
 }

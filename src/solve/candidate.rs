@@ -5,6 +5,7 @@ use std::cell::OnceCell;
 
 use super::outcome::{Solution, Status, Uniqueness};
 use crate::certificate::{Certificate, is_escape_of, measure};
+use crate::error::index;
 use crate::law::Contact;
 use crate::linalg::vector::normalise;
 use crate::monitor::Stop;
@@ -131,7 +132,7 @@ pub fn certified(
     let effort = candidate.effort;
     Solution {
         status,
-        message,
+        message: message.into(),
         d: candidate.d.clone(),
         certificate: certificate.clone(),
         recession,
@@ -175,10 +176,11 @@ fn no_equilibrium(contact: &Contact<'_>, motion: &[f64]) -> String {
     let (pair, component) = (most / dim, most % dim);
     let direction = contact.pairs()[pair].direction(component, motion[most]);
     format!(
-        "{NO_EQUILIBRIUM}: it moves {moving} of {} pairs, most of all pair {pair}, {direction}, and the loads do the work \
-         {work:.3e} on it when its largest component is 1; are a support, friction, or a pair \
+        "{NO_EQUILIBRIUM}: it moves {moving} of {} pairs, most of all pair {}, {direction}, and the \
+         loads do the work {work:.3e} on it when its largest component is 1; are a support, friction, or a pair \
          missing, or is a normal, a load or the sign of gap turned round?",
-        contact.pairs().len()
+        contact.pairs().len(),
+        index(pair)
     )
 }
 

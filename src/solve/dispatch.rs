@@ -17,9 +17,11 @@ pub fn check_method(contact: &Contact<'_>, method: Method) -> Result<(), Error> 
             refuse("settings: Lemke's method is for frictionless contact, and for friction in 2D")
         }
         Method::BlockPivoting if !frictionless => refuse(if contact.is_coupled() {
-            "settings: block pivoting is for frictionless contact, every mu must be 0"
+            "settings: block pivoting is for frictionless contact: the law must be frictionless, \
+             or every mu must be 0"
         } else {
-            "settings: block pivoting is for frictionless contact, every g must be 0"
+            "settings: block pivoting is for frictionless contact: the law must be frictionless, \
+             or every g must be 0"
         }),
         Method::Newton if !planar => refuse("settings: Newton's method is for 2D"),
         Method::SorDiagonal if !frictionless && !contact.is_coupled() => refuse(

@@ -4,7 +4,7 @@ use super::active_set;
 use super::candidate::Ending;
 use super::lemke::{self, Care, Rules, ScaledLcp};
 use super::outcome::{Fallback, Status};
-use crate::error::{Argument, Error};
+use crate::error::{Argument, Error, Message};
 use crate::linalg::vector::normalise;
 use crate::monitor::Monitor;
 use crate::problem::Lcp;
@@ -16,7 +16,7 @@ pub struct LcpSolution {
     /// What it is; [`Status::NoEquilibrium`] says that nothing is feasible.
     pub status: Status,
     /// One sentence on what happened.
-    pub message: String,
+    pub message: Message,
     /// `w >= 0`.
     pub w: Vec<f64>,
     /// `z >= 0`.
@@ -184,7 +184,7 @@ fn certified(
     let w = w.map(|((q, mz), z)| if *z > 0.0 { 0.0 } else { (q + mz).max(0.0) }).collect();
     LcpSolution {
         status,
-        message,
+        message: message.into(),
         w,
         z: run.z.clone(),
         infeasible_by,

@@ -21,7 +21,7 @@ mod rigid_balance;
 mod sweeps;
 mod uniqueness;
 
-use crate::error::{Argument, Error};
+use crate::error::{Argument, Error, entry};
 use crate::law::Contact;
 use crate::monitor::Monitor;
 use crate::problem::ContactProblem;
@@ -73,7 +73,10 @@ fn check_start(contact: &Contact<'_>, start: Option<&[f64]>) -> Result<(), Error
         return Err(Error::invalid(Argument::Start, message));
     }
     match start.iter().position(|d| !d.is_finite()) {
-        Some(i) => Err(Error::invalid(Argument::Start, format!("the start d[{i}] is not finite"))),
+        Some(i) => {
+            let message = format!("the start {} is not finite", entry("d", [i]));
+            Err(Error::invalid(Argument::Start, message))
+        }
         None => Ok(()),
     }
 }

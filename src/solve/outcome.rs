@@ -1,6 +1,7 @@
 //! Results of contact problems, and what they are called.
 
 use crate::certificate::Certificate;
+use crate::error::Message;
 use crate::settings::Method;
 
 /// What a result is.
@@ -50,7 +51,7 @@ pub struct Solution {
     /// What it is.
     pub status: Status,
     /// One sentence on what happened.
-    pub message: String,
+    pub message: Message,
     /// Relative displacements; the best iterate where [`Self::status`] is not [`Status::Solved`].
     pub d: Vec<f64>,
     /// The certificate of `d`: measures, contact forces, states.

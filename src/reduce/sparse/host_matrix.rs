@@ -2,7 +2,7 @@
 
 use super::host_arrays::{SparseMatrix, Triangle};
 use super::messages;
-use crate::error::{Argument, Error};
+use crate::error::{Argument, Error, entry};
 use crate::linalg::sparse_matrix::{Columns, Csc, OutOfMemory, both, column, diagonal, transposed};
 use crate::problem::symmetric_matrix::SYMMETRY;
 
@@ -85,7 +85,7 @@ impl SparseMatrix<'_> {
                     return refuse(messages::row_out_of_order(k, j, (columns.row[k - 1], i)));
                 }
                 if !self.values[k].is_finite() {
-                    return refuse(format!("K[{i},{j}] is not finite"));
+                    return refuse(entry("K", [i, j]) + " is not finite");
                 }
                 let in_place = match self.triangle {
                     Triangle::Lower => i >= j,
@@ -93,7 +93,8 @@ impl SparseMatrix<'_> {
                     Triangle::Full => true,
                 };
                 if !in_place {
-                    return refuse(format!("K[{i},{j}] is not in the triangle that was named"));
+                    let place = entry("K", [i, j]);
+                    return refuse(place + " is not in the triangle that was named");
                 }
                 columns.row.push(i);
                 columns.values.push(self.values[k]);
@@ -142,7 +143,8 @@ fn check_diagonal(lower: &Csc, is_fixed: impl Fn(usize) -> bool) -> Result<(), E
         match diagonal(lower, j) {
             Some(value) if value > 0.0 => {}
             Some(value) if value < 0.0 => {
-                return refuse(format!("K[{j},{j}] is {value}, it must be positive"));
+                let place = entry("K", [j, j]);
+                return refuse(format!("{place} is {value}, it must be positive"));
             }
             _ => *without = true,
         }
@@ -155,8 +157,10 @@ fn check_diagonal(lower: &Csc, is_fixed: impl Fn(usize) -> bool) -> Result<(), E
         for (&i, value) in rows.iter().zip(values).filter(|(_, value)| **value != 0.0) {
             if let Some(dof) = [i, j].into_iter().find(|&dof| without[dof]) {
                 return refuse(format!(
-                    "K[{dof},{dof}] is {}, it must be positive: K[{i},{j}] is {value}",
-                    is(dof)
+                    "{} is {}, it must be positive: {} is {value}",
+                    entry("K", [dof, dof]),
+                    is(dof),
+                    entry("K", [i, j])
                 ));
             }
         }

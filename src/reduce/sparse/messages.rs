@@ -2,6 +2,7 @@
 //! what to do.
 
 use super::host_arrays::{Indices, SparseMatrix};
+use crate::error::{entry, index};
 use crate::problem::symmetric_matrix;
 use crate::reduce::motion;
 
@@ -12,7 +13,7 @@ const TWO_INTEGERS: i64 = 1 << 32;
 /// Why entry `j` of `col_start` is refused.
 pub(super) fn col_start(matrix: &SparseMatrix<'_>, j: usize) -> String {
     let (value, base, nnz) = (matrix.col_start.get(j), matrix.index_base, matrix.values.len());
-    let said = format!("col_start[{j}] is {value}");
+    let said = format!("{} is {value}", entry("col_start", [j]));
     if let Some(question) = width(&matrix.col_start, j) {
         return format!("{said}: {question}");
     }
@@ -28,8 +29,8 @@ pub(super) fn col_start(matrix: &SparseMatrix<'_>, j: usize) -> String {
     let last = matrix.col_start.get(j - 1);
     if value < last {
         return format!(
-            "{said}, less than col_start[{}], which is {last}: col_start must not descend",
-            j - 1
+            "{said}, less than {}, which is {last}: col_start must not descend",
+            entry("col_start", [j - 1])
         );
     }
     if j == matrix.size {
@@ -67,21 +68,21 @@ pub(super) fn row_out_of_range(matrix: &SparseMatrix<'_>, k: usize, j: usize) ->
         Some(question) => question.to_owned(),
         None => format!("size is {} and index_base {base}", matrix.size),
     };
-    format!("row[{k}], in column {j}, is {value}: {what}")
+    format!("{}, in column {}, is {value}: {what}", entry("row", [k]), index(j))
 }
 
 /// Entry `k` of `row`, in column `j`, names row `i` after row `last`.
 pub(super) fn row_out_of_order(k: usize, j: usize, (last, i): (usize, usize)) -> String {
+    let (said, place) = (format!("column {}: row {}", index(j), index(i)), entry("row", [k]));
     if last == i {
+        let before = entry("row", [k - 1]);
         return format!(
-            "column {j}: row {i} is listed twice, in row[{}] and row[{k}]: sum the values of one place \
-             to one entry",
-            k - 1
+            "{said} is listed twice, in {before} and {place}: sum the values of one place to one entry"
         );
     }
     format!(
-        "column {j}: row {i} stands after row {last}, in row[{k}]: row indices must be strictly \
-         ascending in each column"
+        "{said} stands after row {}, in {place}: row indices must be strictly ascending in each column",
+        index(last)
     )
 }
 
@@ -93,14 +94,16 @@ pub(super) fn not_symmetric(
 ) -> String {
     let remedy = "hand over one triangle (SIGNORINI_TRIANGLE_LOWER), or average the two";
     let difference = symmetric_matrix::difference((below - above).abs() / scale, remedy);
-    format!("K is not symmetric: K[{i},{j}] is {below}, K[{j},{i}] is {above}: {difference}")
+    let (lower, upper) = (entry("K", [i, j]), entry("K", [j, i]));
+    format!("K is not symmetric: {lower} is {below}, {upper} is {above}: {difference}")
 }
 
 /// The row of a degree of freedom that is not fixed is zero; its diagonal entry `is` so.
 pub(super) fn no_stiffness(dof: usize, is: &str) -> String {
     format!(
-        "nothing resists degree of freedom {dof}: list it in fixed, or give it stiffness \
-         (K[{dof},{dof}] is {is})"
+        "nothing resists degree of freedom {}: list it in fixed, or give it stiffness ({} is {is})",
+        index(dof),
+        entry("K", [dof, dof])
     )
 }
 
@@ -108,7 +111,7 @@ pub(super) fn no_stiffness(dof: usize, is: &str) -> String {
 pub(super) fn indefinite(dof: Option<&usize>) -> String {
     match dof {
         Some(dof) => {
-            format!("K is not positive semi-definite, as degree of freedom {dof} shows")
+            format!("K is not positive semi-definite, as degree of freedom {} shows", index(dof))
         }
         None => "K is not positive semi-definite".into(),
     }
@@ -122,7 +125,8 @@ pub(super) fn free_motion(u: &[f64]) -> String {
 /// A motion with the relative displacement, in the host's axes, of the pair that moves most.
 pub(super) fn with_pair(whole: &str, pair: usize, relative: &[f64]) -> String {
     format!(
-        "{whole}; the slave of pair {pair} moves along {} relative to what it faces",
+        "{whole}; the slave of pair {} moves along {} relative to what it faces",
+        index(pair),
         motion::components(relative)
     )
 }
@@ -134,6 +138,7 @@ pub(super) fn free_master(
     (master, weight): (usize, f64),
     wholly: bool,
 ) -> String {
+    let (pair, master) = (index(pair), index(master));
     if wholly {
         return format!(
             "pair {pair}: its slave is fixed along every axis, and its master's degree of freedom \
@@ -148,6 +153,7 @@ pub(super) fn free_master(
 
 /// The slave and its masters are fixed along an axis that is no direction of the pair's frame.
 pub(super) fn inclined_support(pair: usize, axis: &str, across: bool, wholly: bool) -> String {
+    let pair = index(pair);
     if wholly {
         return format!("pair {pair}: its slave is fixed along every axis: leave the pair out");
     }

@@ -18,7 +18,7 @@ mod supports;
 pub use host_arrays::{Indices, SparseMatrix, Triangle};
 
 use super::{ContactPairs, Reduction};
-use crate::error::{Argument, Error};
+use crate::error::{Argument, Error, Message};
 use crate::linalg::sparse_matrix::{Csc, OutOfMemory, times, transpose_times};
 use crate::linalg::sparse_schur::{Failure, SparseSchur};
 use crate::linalg::vector::norm_inf;
@@ -131,18 +131,20 @@ impl Reduction for SparseReduction {
         Some(&self.frames)
     }
 
-    fn motion_in_words(&self, d: &[f64]) -> String {
+    fn motion_in_words(&self, d: &[f64]) -> Message {
         let whole = super::motion::of_host(&self.recover(None, None, d));
         let dim = self.dim;
         let size = |pair: &usize| norm_inf(&d[dim * pair..dim * (pair + 1)]);
         let most = (0..d.len() / dim).max_by(|a, b| size(a).total_cmp(&size(b)));
-        let Some(pair) = most.filter(|pair| size(pair) > 0.0) else { return whole };
+        let Some(pair) = most.filter(|pair| size(pair) > 0.0) else {
+            return whole.into();
+        };
         let range = dim * pair..dim * (pair + 1);
         let mut relative = vec![0.0; dim];
         for (d, direction) in d[range].iter().zip(self.frames[dim * dim * pair..].chunks(dim)) {
             relative.iter_mut().zip(direction).for_each(|(u, part)| *u += d * part);
         }
-        messages::with_pair(&whole, pair, &relative)
+        messages::with_pair(&whole, pair, &relative).into()
     }
 }
 

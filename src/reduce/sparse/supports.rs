@@ -2,7 +2,7 @@
 //! relative displacement is zero.
 
 use super::messages;
-use crate::error::{Argument, Error};
+use crate::error::{Argument, Error, index};
 use crate::linalg::tolerances::ROUNDING_OF_SUM;
 use crate::reduce::frame::{AXES, Frame};
 use crate::reduce::pairs::ContactPairs;
@@ -16,10 +16,10 @@ pub(super) fn places_in_fixed(size: usize, fixed: &[usize]) -> Result<Vec<Option
     let mut places = vec![None; size];
     for (k, &dof) in fixed.iter().enumerate() {
         let Some(place) = places.get_mut(dof) else {
-            return refuse(format!("fixed: there is no degree of freedom {dof}"));
+            return refuse(format!("fixed: there is no degree of freedom {}", index(dof)));
         };
         if place.replace(k).is_some() {
-            return refuse(format!("fixed: degree of freedom {dof} is listed twice"));
+            return refuse(format!("fixed: degree of freedom {} is listed twice", index(dof)));
         }
     }
     Ok(places)
@@ -46,7 +46,7 @@ impl FixedComponent {
         if jump.abs() <= ROUNDING_OF_SUM * terms().map(f64::abs).sum::<f64>() {
             return Ok(());
         }
-        let pair = self.pair;
+        let pair = index(self.pair);
         let message = format!(
             "prescribed values move both sides of pair {pair} apart by {jump}, along an axis along \
              which both are fixed: they must move alike"
