@@ -183,7 +183,7 @@ impl Exchange {
             self.patience -= usize::from(!progress);
             let sweeps_help = lcp.symmetric && progress;
             *basic = if sweeps_help { swept(self.simd, lcp, system) } else { next };
-        } else if let Some(single) = violated().last() {
+        } else if let Some(single) = violated().next_back() {
             basic[single] = next[single];
         }
         progress
