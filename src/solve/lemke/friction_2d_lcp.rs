@@ -6,6 +6,8 @@ use std::borrow::Cow;
 use super::scaled::Entries;
 use crate::law::Contact;
 use crate::law::branch::Branch;
+use crate::linalg::matrix::Matrix;
+use crate::linalg::packed::PackedSymmetric;
 use crate::linalg::vector::norm_inf;
 use crate::solve::candidate::Ending;
 use crate::solve::condense::{FreeBlock, INDEFINITE, driven_motion};
@@ -21,11 +23,28 @@ pub struct FrictionLcp<'p> {
     tangential: Vec<usize>,
     /// Of each tangential component: the place of its pair in `normal`, and the slope of its bound.
     coupling: Vec<Option<(usize, f64)>>,
-    /// `K` where nothing is condensed, with `normal` and `tangential` as its indices, otherwise the
-    /// Schur complement, whose indices are counted.
-    stiffness: Cow<'p, [f64]>,
-    ld: usize,
-    indices: Vec<usize>,
+    stiffness: Stiffness<'p>,
+}
+
+/// The stiffness of the components that are left, normal, then tangential.
+enum Stiffness<'p> {
+    /// `K` itself where nothing is condensed, with the places of the components in it.
+    Whole(Matrix<'p>, Vec<usize>),
+    /// The Schur complement, half of it: the tableau beside it is larger than `K`.
+    Condensed(PackedSymmetric),
+}
+
+impl Stiffness<'_> {
+    /// Column of component `c`, and where in it component `i` stands.
+    fn column(&self, c: usize) -> (Cow<'_, [f64]>, impl Fn(usize) -> usize) {
+        let (column, places) = match self {
+            Stiffness::Whole(matrix, places) => {
+                (Cow::Borrowed(matrix.column(places[c])), Some(places))
+            }
+            Stiffness::Condensed(matrix) => (Cow::Owned(matrix.column(c)), None),
+        };
+        (column, move |i: usize| places.map_or(i, |places| places[i]))
+    }
 }
 
 /// Right-hand side, covering vector and scales of the variables.
@@ -64,24 +83,13 @@ impl<'p> FrictionLcp<'p> {
         if let Some(motion) = driven_motion(contact, &block, &at_rest) {
             return Err(Ending::Recession(motion));
         }
-        let matrix = problem.stiffness();
-        let (stiffness, ld, indices) = if condenses {
+        let stiffness = if condenses {
             let schur = block.schur_complement(&indices);
-            (Cow::Owned(schur), indices.len().max(1), (0..indices.len()).collect())
+            Stiffness::Condensed(PackedSymmetric::new(indices.len(), schur))
         } else {
-            (Cow::Borrowed(matrix.entries()), matrix.ld(), indices)
+            Stiffness::Whole(problem.stiffness(), indices)
         };
-        Ok(FrictionLcp {
-            contact,
-            block,
-            at_rest,
-            normal,
-            tangential,
-            coupling,
-            stiffness,
-            ld,
-            indices,
-        })
+        Ok(FrictionLcp { contact, block, at_rest, normal, tangential, coupling, stiffness })
     }
 
     /// The vectors, with the cohesion of the covering vector against slip to either side.
@@ -172,16 +180,16 @@ impl Entries for FrictionLcp<'_> {
             j if j < n + m => (j, 1.0),
             j => (j - m, -1.0),
         };
-        let source = &self.stiffness[self.indices[component] * self.ld..];
-        for (column, &i) in column.iter_mut().zip(&self.indices[..n]) {
-            *column = -sign * source[i];
+        let (source, place) = self.stiffness.column(component);
+        for (i, column) in column[..n].iter_mut().enumerate() {
+            *column = -sign * source[place(i)];
         }
-        for (k, &i) in self.indices[n..].iter().enumerate() {
+        for k in 0..m {
             let bound = match self.coupling[k] {
-                Some((normal, slope)) => -slope * sign * source[self.indices[normal]],
+                Some((normal, slope)) => -slope * sign * source[place(normal)],
                 None => 0.0,
             };
-            let force = sign * source[i];
+            let force = sign * source[place(n + k)];
             (column[n + k], column[n + m + k]) = (bound + force, bound - force);
         }
     }
