@@ -20,16 +20,6 @@ impl<'a> Matrix<'a> {
         self.size
     }
 
-    /// All entries, with what stands between the columns.
-    pub fn entries(&self) -> &'a [f64] {
-        self.entries
-    }
-
-    /// Entries from the beginning of one column to that of the next.
-    pub fn ld(&self) -> usize {
-        self.ld
-    }
-
     /// Column `j`.
     #[inline(always)]
     pub fn column(&self, j: usize) -> &'a [f64] {

@@ -5,6 +5,7 @@ pub(crate) mod factor;
 pub(crate) mod matrix;
 pub(crate) mod nnls;
 pub(crate) mod null_vector;
+pub(crate) mod packed;
 pub(crate) mod pivoted_cholesky;
 pub(crate) mod simd;
 pub(crate) mod sparse_matrix;

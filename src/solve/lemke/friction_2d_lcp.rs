@@ -6,6 +6,8 @@ use std::borrow::Cow;
 use super::scaled::Entries;
 use crate::law::Contact;
 use crate::law::branch::Branch;
+use crate::linalg::matrix::Matrix;
+use crate::linalg::packed::PackedSymmetric;
 use crate::linalg::vector::norm_inf;
 use crate::solve::candidate::Ending;
 use crate::solve::condense::{FreeBlock, INDEFINITE, driven_motion};
@@ -22,11 +24,28 @@ pub struct FrictionLcp<'p> {
     /// Of each tangential component: the place of its pair in `normal`, and the slope of its bound; 0
     /// of a pair without an obstacle.
     coupling: Vec<(usize, f64)>,
-    /// `K` where nothing is condensed, with `normal` and `tangential` as its indices, otherwise the
-    /// Schur complement, whose indices are counted.
-    stiffness: Cow<'p, [f64]>,
-    ld: usize,
-    indices: Vec<usize>,
+    stiffness: Stiffness<'p>,
+}
+
+/// The stiffness of the components that are left, normal, then tangential.
+enum Stiffness<'p> {
+    /// `K` itself where nothing is condensed, with the places of the components in it.
+    Whole(Matrix<'p>, Vec<usize>),
+    /// The Schur complement, half of it: the tableau beside it is larger than `K`.
+    Condensed(PackedSymmetric),
+}
+
+impl Stiffness<'_> {
+    /// Column of component `c`, and where in it component `i` stands.
+    fn column(&self, c: usize) -> (Cow<'_, [f64]>, impl Fn(usize) -> usize) {
+        let (column, places) = match self {
+            Stiffness::Whole(matrix, places) => {
+                (Cow::Borrowed(matrix.column(places[c])), Some(places))
+            }
+            Stiffness::Condensed(matrix) => (Cow::Owned(matrix.column(c)), None),
+        };
+        (column, move |i: usize| places.map_or(i, |places| places[i]))
+    }
 }
 
 /// Right-hand side, covering vector and scales of the variables.
@@ -66,24 +85,13 @@ impl<'p> FrictionLcp<'p> {
         if let Some(motion) = driven_motion(contact, &block, &at_rest) {
             return Err(Ending::Recession(motion));
         }
-        let matrix = problem.stiffness();
-        let (stiffness, ld, indices) = if condenses {
+        let stiffness = if condenses {
             let schur = block.schur_complement(&indices);
-            (Cow::Owned(schur), indices.len().max(1), (0..indices.len()).collect())
+            Stiffness::Condensed(PackedSymmetric::new(indices.len(), schur))
         } else {
-            (Cow::Borrowed(matrix.entries()), matrix.ld(), indices)
+            Stiffness::Whole(problem.stiffness(), indices)
         };
-        Ok(FrictionLcp {
-            contact,
-            block,
-            at_rest,
-            normal,
-            tangential,
-            coupling,
-            stiffness,
-            ld,
-            indices,
-        })
+        Ok(FrictionLcp { contact, block, at_rest, normal, tangential, coupling, stiffness })
     }
 
     /// The vectors, with the cohesion of the covering vector against slip to either side.
@@ -172,18 +180,16 @@ impl Entries for FrictionLcp<'_> {
             j if j < n + m => (j, 1.0),
             j => (j - m, -1.0),
         };
-        let source = &self.stiffness[self.indices[component] * self.ld..];
+        let (source, place) = self.stiffness.column(component);
         let (clearances, slips) = column.split_at_mut(n);
         let (forward, backward) = slips.split_at_mut(m);
-        for (entry, &i) in clearances.iter_mut().zip(&self.indices[..n]) {
-            *entry = -sign * source[i];
+        for (i, entry) in clearances.iter_mut().enumerate() {
+            *entry = -sign * source[place(i)];
         }
-        let sides = forward.iter_mut().zip(backward);
-        for ((forward, backward), (&i, &(normal, slope))) in
-            sides.zip(self.indices[n..].iter().zip(&self.coupling))
-        {
+        let sides = forward.iter_mut().zip(backward).zip(&self.coupling).enumerate();
+        for (k, ((forward, backward), &(normal, slope))) in sides {
             let bound = clearances.get(normal).map_or(0.0, |clearance| slope * clearance);
-            let force = sign * source[i];
+            let force = sign * source[place(n + k)];
             (*forward, *backward) = (bound + force, bound - force);
         }
     }
