@@ -69,13 +69,11 @@ impl<'a> FrictionLaw<'a> {
             FrictionLaw::Tresca(_) => "g",
         };
         check_finite(Argument::Law, name, self.values())?;
-        match self.values().iter().position(|&value| value < 0.0) {
-            Some(i) => Err(Error::invalid(
-                Argument::Law,
-                format!("{} is {}, it must not be negative", entry(name, [i]), self.values()[i]),
-            )),
-            None => Ok(()),
-        }
+        let negative = self.values().iter().position(|&value| value < 0.0);
+        let Some(i) = negative else { return Ok(()) };
+        let (place, value) = (entry(name, [i]), self.values()[i]);
+        let message = format!("{place} is {value}, it must not be negative");
+        Err(Error::invalid(Argument::Law, message))
     }
 }
 
@@ -294,15 +292,9 @@ fn check_finite(argument: Argument, name: &str, values: &[f64]) -> Result<(), Er
 }
 
 fn check_gaps(gap: &[f64]) -> Result<(), Error> {
-    match gap.iter().position(|&gap| gap.is_nan() || gap == f64::NEG_INFINITY) {
-        Some(i) => Err(Error::invalid(
-            Argument::Gap,
-            format!(
-                "{} is {}, it must be a number or +inf (never touches)",
-                entry("gap", [i]),
-                gap[i]
-            ),
-        )),
-        None => Ok(()),
-    }
+    let wrong = gap.iter().position(|&gap| gap.is_nan() || gap == f64::NEG_INFINITY);
+    let Some(i) = wrong else { return Ok(()) };
+    let (place, gap) = (entry("gap", [i]), gap[i]);
+    let message = format!("{place} is {gap}, it must be a number or +inf (never touches)");
+    Err(Error::invalid(Argument::Gap, message))
 }

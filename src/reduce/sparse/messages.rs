@@ -77,11 +77,13 @@ pub(super) fn row_out_of_order(k: usize, j: usize, (last, i): (usize, usize)) ->
     if last == i {
         let before = entry("row", [k - 1]);
         return format!(
-            "{said} is listed twice, in {before} and {place}: sum the values of one place to one entry"
+            "{said} is listed twice, in {before} and {place}: sum the values of one place to one \
+             entry"
         );
     }
     format!(
-        "{said} stands after row {}, in {place}: row indices must be strictly ascending in each column",
+        "{said} stands after row {}, in {place}: row indices must be strictly ascending in each \
+         column",
         index(last)
     )
 }
