@@ -56,7 +56,7 @@ pub fn write(path: &Path, problem: &ContactProblem<'_>, remark: Option<&str>) ->
 /// Writes an LCP.
 ///
 /// # Errors
-/// As [`write`].
+/// As [`write()`].
 pub fn write_lcp(path: &Path, lcp: &Lcp<'_>, remark: Option<&str>) -> Result<(), Error> {
     check_remark(remark)?;
     let (n, covering) = (lcp.size(), lcp.covering_vector());

@@ -1,4 +1,4 @@
-//! Results of contact problems, and what they are called.
+//! The public result of a contact problem: its status, and why the first method was abandoned.
 
 use crate::certificate::Certificate;
 use crate::settings::Method;
@@ -55,8 +55,8 @@ pub struct Solution {
     pub d: Vec<f64>,
     /// The certificate of `d`: measures, contact forces, states.
     pub certificate: Certificate,
-    /// Of [`Status::NoEquilibrium`] the motion that proves it (a recession direction), its largest
-    /// component 1.
+    /// With [`Status::NoEquilibrium`] the recession direction that proves it, its largest component 1.
+    /// With friction it lifts each slipping pair by `mu` times its slip: it proves, but no body moves so.
     pub recession: Option<Vec<f64>>,
     /// The method that ended it.
     pub method: Method,
@@ -64,7 +64,7 @@ pub struct Solution {
     pub fallback: Option<(Method, Fallback)>,
     /// Whether it is the only solution.
     pub uniqueness: Uniqueness,
-    /// Another solution, if [`crate::Search::SecondSolutions`] found one or the default method met an unstable
+    /// Another solution, if [`crate::Search::Others`] found one, or the default method met an unstable
     /// one on its way.
     pub second: Option<Box<SecondSolution>>,
     /// Sign of the determinant of the system of equations that the states select, 0 if not known.
