@@ -1,6 +1,6 @@
 //! The sizes below which a number is taken for zero, each idea with one number.
 //!
-//! Each is relative to what the last column names, so that units do not matter.
+//! Each is relative to the quantity in the last column, so that units do not matter.
 //!
 //! | name | size | what is decided | relative to |
 //! |---|---|---|---|

@@ -47,7 +47,7 @@ pub enum Uniqueness {
 /// Result of a contact problem.
 #[derive(Clone, Debug)]
 pub struct Solution {
-    /// What it is.
+    /// The status.
     pub status: Status,
     /// One sentence on what happened.
     pub message: String,
