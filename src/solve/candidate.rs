@@ -200,7 +200,9 @@ impl Ending {
             _ if certificate.runs_away() => {
                 "the displacements are so large that rounding hides the forces"
             }
-            Ending::Recession(_) => "the path ended in a ray that proves nothing",
+            Ending::Recession(_) => {
+                "the method ended on a motion that does not prove that no equilibrium exists"
+            }
             Ending::Cycle => "the states of the pairs repeat in a cycle",
             Ending::Singular => "the system of equations is singular",
             Ending::Stalled(reason) => reason,

@@ -149,9 +149,10 @@ fn certified(
             infeasible_by = Some(ray);
             (Status::NoEquilibrium, "no w, z >= 0 satisfy w = q + M z: proved".into())
         }
-        Ending::Recession(_) => {
-            (Status::Stalled, format!("the path ended in a ray that proves nothing; {wanted}"))
-        }
+        Ending::Recession(_) => (
+            Status::Stalled,
+            format!("Lemke's path ended in a ray that is no proof of infeasibility; {wanted}"),
+        ),
         Ending::Stopped(stop) => stop.status(settings, &wanted),
         Ending::Singular => (
             Status::Stalled,

@@ -114,7 +114,7 @@ fn solve(
     let simd = Simd::new();
     let ending = loop {
         if monitor.iterations() >= last {
-            break Ending::Stalled("block pivoting does not settle");
+            break Ending::Stalled("block pivoting does not converge");
         }
         if let Err(stop) = monitor.step() {
             break Ending::Stopped(stop);
