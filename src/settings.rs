@@ -52,7 +52,7 @@ pub struct Settings {
     /// The algorithm.
     pub method: Method,
     /// A result is called solved when its certificate has `eta <= tolerance`;
-    /// from 1e-15, a few units of the rounding of `eta` itself, to 0.1.
+    /// between 1e-15 and 0.1.
     pub tolerance: f64,
     /// Over-relaxation factor, in (0, 2); 0 lets the solver choose from the measured rate.
     pub omega: f64,

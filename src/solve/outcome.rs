@@ -64,7 +64,7 @@ pub struct Solution {
     pub fallback: Option<(Method, Fallback)>,
     /// Whether it is the only solution.
     pub uniqueness: Uniqueness,
-    /// Another solution, if [`crate::Search::Others`] found one, or the default method met an unstable
+    /// Another solution, if [`crate::Search::Others`] found one or the default method met an unstable
     /// one on its way.
     pub second: Option<Box<SecondSolution>>,
     /// Sign of the determinant of the system of equations that the states select, 0 if not known.
