@@ -24,7 +24,7 @@
 !     friction  the law's parameters, one for each pair. Without it there is no friction.
 !     law       SIGNORINI_LAW_COULOMB (the default with friction: coefficients mu) or
 !               SIGNORINI_LAW_TRESCA (thresholds g, forces).
-!     slip0     reference slip: tangential displacements at which friction is at rest, dim - 1 for
+!     slip0     reference slip: tangential displacements at which a sticking pair stays, dim - 1 for
 !               each pair. Absent: zeros, the total law. The d_t of the last load step: the
 !               incremental law.
 !     method, tolerance, max_iterations  overrule what settings say.

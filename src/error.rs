@@ -17,13 +17,13 @@ use std::ops::Deref;
 pub enum Argument {
     /// Space dimension of the contact pairs.
     Dimension,
-    /// Number of contact pairs, or of unknowns of a bare complementarity problem.
+    /// Number of contact pairs, or of unknowns of an LCP.
     Size,
-    /// Stiffness matrix, or the matrix of a bare complementarity problem.
+    /// Stiffness matrix, or the matrix of an LCP.
     Matrix,
     /// Leading dimension of the matrix.
     LeadingDimension,
-    /// Nodal loads, or the vector `q` of a bare complementarity problem.
+    /// Nodal loads, or the vector `q` of an LCP.
     Load,
     /// Initial gaps.
     Gap,

@@ -7,17 +7,33 @@
 //! ```text
 //! K d = f + F                                            equilibrium
 //! d_n <= gap,  F_n <= 0,  (d_n - gap) F_n = 0            unilateral contact
-//! |F_t| <= mu |F_n|,  d_t = slip inside the cone,        Coulomb friction
-//! d_t - slip = -lambda F_t, lambda >= 0, on it
+//! |F_t| <= mu |F_n|,  d_t = slip0 inside the cone,       Coulomb friction
+//! d_t - slip0 = -lambda F_t, lambda >= 0, on it
 //! ```
 //!
 //! `K` is the stiffness condensed on the contact components, symmetric and positive definite or
-//! semi-definite; `n` is the body's outward normal, `F_n < 0` presses; units are the caller's.
+//! semi-definite; `n` is the body's outward normal, `F_n < 0` presses; `slip0` is the reference slip,
+//! the `d_t` at which a sticking pair stays; units are the caller's. [`FrictionLaw`] has the other laws.
 //!
-//! Guarantees: [`Status::Solved`] means that [`certificate::certify`] measured `eta` at or below the
-//! tolerance on the data as given. [`Status::NoEquilibrium`] means that the returned motion passed
-//! [`certificate::is_escape`]. No solver's own opinion enters. Changing the units of length and
-//! force changes nothing but the units of the answer.
+//! [`solve`] solves one condensed problem. A [`Model`] reduces a sparse matrix or condensed bodies once,
+//! solves many load cases, and recovers the displacements of the host. [`solve_lcp`] solves a linear
+//! complementarity problem.
+//!
+//! # Guarantees
+//!
+//! - [`Status::Solved`]: the certificate ([`certificate::certify`]) has measured `eta` at or below the
+//!   tolerance on the data as given. It is computed after the solver has ended; the solver's own
+//!   convergence test plays no part.
+//! - [`Status::NoEquilibrium`]: the motion in [`Solution::recession`] has passed
+//!   [`certificate::is_escape`], which tests it on the data as given.
+//! - [`Uniqueness::Unique`] and [`Uniqueness::Several`] follow from a criterion or from a second certified
+//!   solution; otherwise it is [`Uniqueness::NotKnown`].
+//! - Changing the units of length and force changes the units of the answer and nothing else.
+//! - The same input gives the same bits on the same machine.
+//!
+//! All of this is double precision: CHANGELOG.md lists what is known beyond which condition numbers.
+//!
+//! # Example
 //!
 //! ```
 //! use signorini::{ContactData, ContactProblem, FrictionLaw, Monitor, Settings, State, Status, solve};
@@ -41,6 +57,39 @@
 //! assert!((solution.d[1] - 0.4 / 3.7).abs() < 1e-9);
 //! # Ok::<(), signorini::Error>(())
 //! ```
+//!
+//! # References
+//!
+//! "The paper", with the number of an equation or section, is
+//!
+//! - F. Lebon, M. Raous (CNRS, Laboratoire de Mécanique et d'Acoustique and GRECO G.D.E., Marseille) and
+//!   D. Boulegues (Technicatome, Les Milles): *Contact with friction modeling for the study of a bolted
+//!   junction*. The copy at hand names neither year nor journal; its references go up to 1985.
+//!
+//! Others are cited by author and year:
+//!
+//! - P. Alart and A. Curnier: *A mixed formulation for frictional contact problems prone to Newton like
+//!   solution methods*. Computer Methods in Applied Mechanics and Engineering 92 (1991) 353–375.
+//! - D. G. Christopherson: *A new mathematical method for the solution of film lubrication problems*.
+//!   Proceedings of the Institution of Mechanical Engineers 146 (1941) 126–135.
+//! - R. W. Cottle, J.-S. Pang and R. E. Stone: *The Linear Complementarity Problem*. Academic Press, 1992.
+//! - C. W. Cryer: *The solution of a quadratic programming problem using systematic overrelaxation*. SIAM
+//!   Journal on Control 9 (1971) 385–392.
+//! - J. J. Júdice and F. M. Pires: *A block principal pivoting algorithm for large-scale strictly monotone
+//!   linear complementarity problems*. Computers & Operations Research 21 (1994) 587–596.
+//! - A. Klarbring: *A mathematical programming approach to three-dimensional contact problems with
+//!   friction*. Computer Methods in Applied Mechanics and Engineering 58 (1986) 175–200.
+//! - A. Klarbring: *Examples of non-uniqueness and non-existence of solutions to quasistatic contact
+//!   problems with friction*. Ingenieur-Archiv 60 (1990) 529–541.
+//! - C. L. Lawson and R. J. Hanson: *Solving Least Squares Problems*. Prentice-Hall, 1974.
+//! - C. E. Lemke: *Bimatrix equilibrium points and mathematical programming*. Management Science 11 (1965)
+//!   681–689.
+//! - K. G. Murty: *Note on a Bard-type scheme for solving the complementarity problem*. Opsearch 11 (1974)
+//!   123–130.
+//! - B. N. Parlett: *The Symmetric Eigenvalue Problem*. Prentice-Hall, 1980.
+//! - S. M. Robinson: *Normal maps induced by linear transformations*. Mathematics of Operations Research 17
+//!   (1992) 691–714.
+//! - D. M. Young: *Iterative Solution of Large Linear Systems*. Academic Press, 1971.
 
 pub mod certificate;
 mod error;

@@ -35,8 +35,8 @@ pub struct LoadCase<'a> {
     pub gap: &'a [f64],
     /// Friction of the pairs.
     pub law: FrictionLaw<'a>,
-    /// Reference slip `d_t0`, `dim - 1` for each pair: the tangential displacement at which friction
-    /// carries no force. `None`: zero.
+    /// Reference slip `d_t0`, `dim - 1` for each pair: the tangential displacement at which
+    /// a sticking pair stays. `None`: zero.
     pub reference_slip: Option<&'a [f64]>,
 }
 

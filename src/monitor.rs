@@ -5,10 +5,10 @@ use std::time::Instant;
 
 use crate::settings::Settings;
 
-/// What a progress callback is told.
+/// What a progress callback receives.
 #[derive(Clone, Copy, Debug)]
 pub struct Progress {
-    /// Sweeps or pivots done.
+    /// Sweeps, pivots or linear systems done.
     pub iterations: u64,
     /// Latest measured `eta`; infinite before the first measurement.
     pub eta: f64,
@@ -16,21 +16,21 @@ pub struct Progress {
     pub elapsed: f64,
 }
 
-/// Why a solver was told to stop before it was done.
+/// Why a solver stopped before it was done.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stop {
     /// `max_iterations` is used up.
     IterationLimit,
     /// `time_limit` is used up.
     TimeLimit,
-    /// The progress callback asked for it.
+    /// The progress callback cancelled.
     Cancelled,
 }
 
 /// A progress callback: `Break` cancels.
 pub type ProgressFn<'a> = dyn FnMut(&Progress) -> ControlFlow<()> + 'a;
 
-/// Counts iterations and says when to stop.
+/// Counts iterations, reports progress and ends a call whose budget is used up.
 pub struct Monitor<'a> {
     begin: Instant,
     time_limit: f64,
@@ -57,13 +57,13 @@ impl<'a> Monitor<'a> {
         }
     }
 
-    /// Sweeps or pivots done so far.
+    /// Sweeps, pivots or linear systems done so far.
     pub fn iterations(&self) -> u64 {
         self.iterations
     }
 
-    /// Does a part of the work with no more than `steps` further iterations. Returns its result, and
-    /// whether all that the whole call may do is used up.
+    /// Runs `work` with at most `steps` further iterations. Returns its result, and whether the
+    /// iterations of the whole call are used up.
     pub(crate) fn within<T>(&mut self, steps: u64, work: impl FnOnce(&mut Self) -> T) -> (T, bool) {
         let all = self.max_iterations;
         self.max_iterations = all.min(self.iterations.saturating_add(steps));
@@ -77,7 +77,7 @@ impl<'a> Monitor<'a> {
         self.eta = eta;
     }
 
-    /// To be called before each sweep or pivot: counts it, or says why it may not be done.
+    /// To be called before each sweep, pivot or linear system: counts it, or returns why to stop.
     pub(crate) fn step(&mut self) -> Result<(), Stop> {
         if self.iterations >= self.max_iterations {
             return Err(Stop::IterationLimit);

@@ -21,12 +21,12 @@ pub enum Method {
     Newton,
 }
 
-/// What to find out about other solutions.
+/// Whether to look for other solutions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Search {
-    /// What the solution itself tells.
+    /// Report only what the solution itself proves.
     Off,
-    /// Prove that it is the only one, or look for a second.
+    /// Prove that the solution is unique, or look for a second one.
     Others,
 }
 
@@ -63,7 +63,7 @@ pub struct Settings {
     pub max_iterations: u64,
     /// Most seconds of wall time; 0 means no limit.
     pub time_limit: f64,
-    /// What to find out about other solutions.
+    /// Whether to look for other solutions.
     pub search: Search,
 }
 

@@ -1,4 +1,4 @@
-//! The default on bodies that only contact holds: solved, or proved to be without equilibrium.
+//! The default method on bodies that only contact supports: solved, or proved to have no equilibrium.
 
 mod common;
 

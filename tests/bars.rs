@@ -1,4 +1,4 @@
-//! The bar on the plane (paper, section 4.1) and the same with its upper side held, at any friction.
+//! The bar on the plane (paper, section 4.1) and the same with its upper side fixed, at any friction.
 
 mod common;
 #[path = "bench/bar.rs"]
@@ -63,8 +63,8 @@ fn auto_solves_the_pressed_bar_at_any_friction() {
     }
 }
 
-/// The upper side held and moved towards the plane by up to what the pressure would move it,
-/// 5 * 40 / 13000: little friction slides, high friction wedges, and Newton's method may repeat
+/// The upper side fixed and moved towards the plane by up to what the pressure would move it,
+/// 5 * 40 / 13000: with little friction it slips, with much it wedges, and Newton's method may repeat
 /// itself. Then the default says so, and solves it.
 #[test]
 fn auto_solves_the_clamped_bar_where_newton_cycles() {

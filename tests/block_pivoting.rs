@@ -1,4 +1,4 @@
-//! How many systems block pivoting takes: as few as its textbook form.
+//! Block pivoting takes no more linear systems than its textbook form.
 
 mod common;
 

@@ -1,4 +1,4 @@
-//! Budgets and the callback end a call with results that are what they are said to be.
+//! Budgets and the progress callback end a call with the status that names them, and the best iterate.
 
 mod common;
 

@@ -34,7 +34,7 @@ fn eta_is_the_residual_of_the_natural_map() {
         };
         let case = loaded(&mut rng, dim, k, law);
         let mut d = vector(&mut rng, case.size());
-        // Some components at rest, some gaps closed.
+        // Some pairs at their reference slip, some gaps closed.
         for (i, d) in d.iter_mut().enumerate() {
             match (rng.bool(), i % dim) {
                 (true, 0) => *d = d.min(case.gap[i / dim]),
@@ -79,7 +79,7 @@ fn exact_solutions_have_no_residual() {
             // Lengths 5, 10, … of whole numbers; pressures that mu = 1/2 makes such.
             let direction = if dim == 2 { vec![5.0] } else { vec![-3.0, 4.0] };
             let (pressure, distance) = (10.0 * whole(&mut rng), whole(&mut rng));
-            // Of given thresholds one may slide, or be at rest, without touching.
+            // Of given thresholds one may slip, or stick, without touching.
             let slides = if state == Open && given { rng.bool() } else { state == Slip };
             let bound = if state == Open && !given { 0.0 } else { 0.5 * pressure };
             let along = match (state, slides) {
@@ -117,7 +117,7 @@ fn exact_solutions_have_no_residual() {
     }
 }
 
-/// One pair, `k_n = 4`, `k_t = 2`, gap 1, `mu = 1/2`, at rest at 3; the load that makes `force` of
+/// One pair, `k_n = 4`, `k_t = 2`, gap 1, `mu = 1/2`, reference slip 3; the load that makes `force` of
 /// `d`.
 fn one_pair(d: [f64; 2], force: [f64; 2]) -> (Case, Vec<f64>) {
     let case = Case {
@@ -166,7 +166,7 @@ fn each_violation_raises_its_own_measure() {
     check([0.0, 3.0], [-8.0, 0.0], 4.0, [0.0; 4], Stick);
     // Pressure 2 at a distance 1: e_n = -2; the pair counts as open, without force.
     check([0.0, 3.0], [-2.0, 0.0], 2.0, [0.0, 0.0, 0.0, 2.0], Open);
-    // |F_t| = 7 at rest, bound 4: e_t = 3.
+    // |F_t| = 7 without slip, bound 4: e_t = 3.
     check([1.0, 3.0], [-8.0, 7.0], 3.0, [0.0, 0.0, 3.0, 3.0], Slip);
     // Slip 1 against F_t = -7, bound 4: e_t = k_t 1 - (2 + 7 - 4) = -3.
     check([1.0, 4.0], [-8.0, -7.0], 3.0, [0.0, 0.0, 3.0, 3.0], Slip);
@@ -217,7 +217,7 @@ fn in_space_the_cone_is_round() {
     };
     // On the bound 5, against the slip: a solution.
     check([3.0, 4.0], [-3.0, -4.0], 0.0, 0.0, Slip);
-    // Inside the round cone though outside the square one: at rest.
+    // Inside the round cone though outside the square one: it sticks.
     check([0.0, 0.0], [3.0, -4.0], 0.0, 0.0, Stick);
     // Outside the round cone though inside the square one: |F_t| = 10 against 5.
     check([0.0, 0.0], [6.0, 8.0], 5.0, 5.0, Slip);

@@ -1,5 +1,5 @@
-//! Whatever the solvers call a solution is one of all solutions of the problem, and what they call
-//! impossible has none: 2D problems of up to four pairs against enumeration of all states.
+//! Every result of a solver is checked against exhaustive enumeration of contact states (2D, up to four
+//! pairs): what is called solved is a solution, and where "no equilibrium" is proved there is none.
 
 mod common;
 
@@ -17,7 +17,7 @@ fn settings(method: Method, max_iterations: u64) -> Settings {
 }
 
 /// Klarbring's pair: `K = [[2, 1], [1, 1]]`, `f = (1, F)`. With `mu = 2` and `1 < F < 2` it sticks,
-/// slides by `2 - F` under the pressure `F - 1`, or opens to `(1 - F, 2 F - 1)`; with `mu = 0.9`,
+/// slips by `2 - F` under the pressure `F - 1`, or opens to `(1 - F, 2 F - 1)`; with `mu = 0.9`,
 /// below `k_tt / |k_nt| = 1`, there is one solution.
 /// A. Klarbring, Ingenieur-Archiv 60 (1990) 529-541; the values follow from the law.
 #[test]

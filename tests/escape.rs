@@ -1,5 +1,5 @@
-//! A motion proves that there is no equilibrium exactly if statics says so: nothing strained,
-//! nothing that contact can stop, driven by the loads.
+//! A motion proves that there is no equilibrium if and only if it strains nothing, contact cannot stop
+//! it, and the loads do work on it.
 
 mod common;
 

@@ -1,4 +1,4 @@
-//! A block that nothing but a plane holds: statics decides whether it is in equilibrium.
+//! A block that nothing but a plane supports: statics decides whether it is in equilibrium.
 
 mod common;
 

@@ -1,4 +1,4 @@
-//! What describes the same bodies in another way gives the same forces.
+//! The same bodies, described in another way, have the same forces.
 //!
 //! All problems have a condition number up to 1e3, friction up to 0.3 (one solution), and are
 //! solved to 1e-12: answers agree to 1e-9 of their size, and 1e-8 is asked for.
@@ -185,7 +185,7 @@ fn pairs_may_be_permuted() {
 }
 
 /// A plane problem in space: a second tangential direction that nothing couples to and nothing
-/// loads stays at rest without force. Its stiffness does not matter.
+/// loads sticks without force. Its stiffness does not matter.
 #[test]
 fn plane_problems_may_be_embedded_in_space() {
     for seed in 0..400 {
@@ -242,7 +242,7 @@ fn without_gaps_and_slip_answers_are_proportional_to_the_load() {
     }
 }
 
-/// Displacements may be counted from contact at rest: gaps and previous slip become loads
+/// Displacements may be counted from closed pairs at their reference slip: both become loads
 /// `-K (gap, slip)`.
 #[test]
 fn gaps_and_slip_may_be_replaced_by_loads() {

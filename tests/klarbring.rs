@@ -1,7 +1,7 @@
 //! One pair with several solutions in closed form.
 //!
 //! Klarbring's pair: `K = [[2, 1], [1, 1]]`, `f = (1, F)`, gap 0. With `mu = 2` and `1 < F < 2` it
-//! sticks at `(0, 0)`, slides to `(0, 2 - F)` under the pressure `F - 1`, or opens to
+//! sticks at `(0, 0)`, slips to `(0, 2 - F)` under the pressure `F - 1`, or opens to
 //! `(1 - F, 2 F - 1)`. Up to `mu = k_tt / |k_nt| = 1` there is one solution.
 //! A. Klarbring, Ingenieur-Archiv 60 (1990) 529-541; the values follow from the law.
 
@@ -25,7 +25,7 @@ fn klarbring(tangential: f64, mu: f64) -> Case {
     pair([1.0, tangential], 0.0, mu, 0.0)
 }
 
-/// Stuck, sliding, open.
+/// Stick, slip, open.
 fn three(tangential: f64) -> [[f64; 2]; 3] {
     [[0.0, 0.0], [0.0, 2.0 - tangential], [1.0 - tangential, 2.0 * tangential - 1.0]]
 }
@@ -60,7 +60,7 @@ fn two_different_ones_of_the_three_are_returned() {
                 assert!(eta(&case, &second.d) <= 1.1e-10, "{solution:?}");
                 let other = which(&known, &second.d).expect("another of the three");
                 assert_ne!(first, other, "{solution:?}");
-                // Determinants: stuck 1 (nothing is free), sliding k_tt - mu k_nt = -1, open det K.
+                // Determinants: stick 1 (nothing is free), slip k_tt - mu k_nt = -1, open det K.
                 let expected = [1, -1, 1];
                 for (orientation, which) in
                     [(solution.orientation, first), (second.orientation, other)]
@@ -137,10 +137,10 @@ fn is_never_called_one_of_several_where_it_is_the_only_one() {
     }
 }
 
-/// Without load, a pair that has slipped by -1 towards the obstacle may stay wedged there: stuck at
+/// Without load, a pair that has slipped by -1 towards the obstacle may stay wedged there: sticking at
 /// `(gap, -1)` it presses with `1 - 2 gap` and is dragged with `1 - gap`. So it does if and only if
-/// `mu >= (1 - gap) / (1 - 2 gap)`, for gap 0 `k_tt / |k_nt|`. It may as well be at rest at `(0, 0)`,
-/// and for a positive gap slide, to `gap (2 mu - 1) / (1 - mu)`.
+/// `mu >= (1 - gap) / (1 - 2 gap)`, for gap 0 `k_tt / |k_nt|`. It may as well stick at `(0, 0)`,
+/// and for a positive gap slip, to `gap (2 mu - 1) / (1 - mu)`.
 #[test]
 fn a_pair_stays_wedged_if_friction_is_high_enough() {
     for gap in [0.0, 0.1] {

@@ -1,5 +1,5 @@
-//! Bare complementarity problems `w = q + M z`, by Lemke's method and by the default, which ends with
-//! it: against enumeration of all complementary bases.
+//! LCPs `w = q + M z`, by Lemke's method and by the default method, which falls back to it: against
+//! enumeration of all complementary bases.
 
 mod common;
 

@@ -1,5 +1,5 @@
-//! Odd but valid input has its plain answer: nothing, everything open or stuck, no load, rows of
-//! their own, arrays longer than needed.
+//! Degenerate but valid input has its plain answer: empty problems, all pairs open, all sticking, no
+//! load, decoupled rows, over-long arrays.
 
 mod common;
 

@@ -1,4 +1,4 @@
-//! Where other solvers were seen to go wrong, one test each.
+//! Regression tests for known failures of other solvers, one each.
 
 mod common;
 #[path = "bench/bar.rs"]
@@ -134,7 +134,7 @@ fn redundant_pairs_are_solved() {
     }
 }
 
-/// The same of bare problems: `M' = [M M; M M]`, and the sum of both halves of `z` solves `M`.
+/// The same of LCPs: `M' = [M M; M M]`, and the sum of both halves of `z` solves `M`.
 #[test]
 fn redundant_complementarity_is_solved() {
     for seed in 0..200 {

@@ -1,4 +1,4 @@
-//! Problem files that are damaged, foreign or out of reach: a sentence, and never a crash.
+//! Problem files that are damaged, foreign or out of reach: an error in a sentence, and never a crash.
 
 mod common;
 

@@ -1,4 +1,4 @@
-//! Parts that nothing holds, supports on both sides of a pair, weights and normals.
+//! Parts without supports, supports on both sides of a pair, weights and normals.
 
 mod common;
 

@@ -1,4 +1,4 @@
-//! What is said about other solutions, against the enumeration of all states: 2D problems of up to
+//! What is reported about other solutions, against the enumeration of all states: 2D problems of up to
 //! four pairs, where states do not meet.
 
 mod common;
@@ -172,7 +172,7 @@ fn the_search_finds_a_second_solution_where_there_are_several() {
     assert!(10 * shown >= 9 * several, "{shown} of {several} problems show a second solution");
 }
 
-/// Whole numbers, where states meet: pairs at rest without force, at the edge of the cone, touching
+/// Whole numbers, where states meet: pairs that stick without force, at the edge of the cone, touching
 /// without pressure. Several states may then be one solution; what counts are displacements, which
 /// differ by more than 1e-3 if at all (of matrices with whole entries up to 100, loads up to 2).
 #[test]

@@ -1,4 +1,4 @@
-//! Other units of length and force change the numbers of an answer and nothing else.
+//! Results are invariant under a change of the units of length and force.
 
 mod common;
 

@@ -47,7 +47,7 @@ struct junction {
     int32_t corners[ELEMENTS][4];           /* anticlockwise */
     int32_t lower[PAIRS], upper[PAIRS];     /* the two nodes of a pair; the surface is level */
     int zone[PAIRS];                        /* 1 to 3, each from its smallest radius outward */
-    int64_t fixed[FIXED];                   /* components that are held */
+    int64_t fixed[FIXED];                   /* components that supports fix */
 
     /* The stiffness matrix without supports, both triangles, in compressed columns. */
     int32_t starts[DOFS + 1];

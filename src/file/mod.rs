@@ -30,7 +30,7 @@
 //! Version 1 of the format is read too. It has no law: its kinds `coulomb` and `tresca` say it.
 //!
 //! The other open format of the field, FCLIB's, holds the flexibility matrix (Delassus), which does
-//! not exist for bodies held by nothing but contact, and needs the HDF5 library.
+//! not exist for bodies that only contact supports, and needs the HDF5 library.
 
 mod lines;
 mod read;

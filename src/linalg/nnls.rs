@@ -22,7 +22,7 @@ pub fn nearest(target: &[f64], columns: &[Vec<f64>]) -> Option<Vec<f64>> {
         let Some(entering) = steepest(&rest, columns, &active, SLOPE * size) else { break };
         active.push(entering);
         x.push(0.0);
-        // A column that depends on the others: what is left of its slope is rounding.
+        // A column that depends on the active ones: its remaining slope is rounding.
         if descend(target, columns, &mut active, &mut x).is_none() {
             break;
         }
@@ -44,8 +44,8 @@ fn steepest(rest: &[f64], columns: &[Vec<f64>], active: &[usize], least: f64) ->
         .map(|(_, j)| j)
 }
 
-/// Goes from `x` towards the least squares solution on the active columns, and gives up columns whose
-/// coefficient reaches zero on the way, until it is there. `None`: the active columns are dependent.
+/// Moves `x` to the least squares solution on the active columns; a column whose coefficient reaches
+/// zero on the way becomes inactive. `None`: the active columns are dependent.
 fn descend(
     target: &[f64],
     columns: &[Vec<f64>],

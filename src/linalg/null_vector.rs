@@ -1,4 +1,4 @@
-//! Does a positive semi-definite matrix have a null vector? Finds the candidate and measures it.
+//! The null vector of a positive semi-definite matrix: a candidate, and how far it is from being one.
 
 use super::sparse_matrix::{Csc, column};
 use super::tolerances::INVERSE_ITERATIONS;

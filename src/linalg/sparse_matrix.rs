@@ -104,8 +104,8 @@ fn as_column_mut(x: &mut [f64]) -> MatMut<'_, f64> {
     MatMut::from_column_major_slice_mut(x, length, 1)
 }
 
-/// Of `Wᵀ A W` the first `columns` columns: the lower triangle of their first `columns` rows, and the
-/// rows after these. `lower` is the lower triangle of the symmetric `A`.
+/// The first `columns` columns of `Wᵀ A W`, in two parts: the lower triangle of their first `columns`
+/// rows, and all later rows. `lower` is the lower triangle of the symmetric `A`.
 ///
 /// With `A = H + Hᵀ`, `H` the lower triangle with half the diagonal, it is `Wᵀ H W` and its transpose:
 /// no product needs the upper triangle.

@@ -184,7 +184,7 @@ impl Factor {
         Ok(Factor { symbolic, values, workspaces: Workspaces::new(size) })
     }
 
-    /// Computes the values; the place in the order of a pivot that is not positive, if there is one.
+    /// Computes the values. Returns the place in the order of a pivot that is not positive, if any.
     fn fill(&mut self, lower: &Csc) -> Result<Option<usize>, Failure> {
         let scratch = self.symbolic.factorize_numeric_llt_scratch::<f64>(Par::Seq, Spec::default());
         let mut memory = MemBuffer::try_new(scratch).map_err(|_| Failure::OutOfMemory)?;
@@ -223,8 +223,8 @@ impl Factor {
         });
     }
 
-    /// Copies `L_s`; with it, of the rows before it, the place in the order of the pivot that is
-    /// smallest relative to the diagonal, and this ratio.
+    /// Copies `L_s`. Returns with it the pivot of the earlier rows that is smallest relative to the
+    /// diagonal: its place in the order, and this ratio.
     fn tail(
         &self,
         lower: &Csc,

@@ -1,6 +1,6 @@
 //! The sizes below which a number is taken for zero, each idea with one number.
 //!
-//! Each is relative to what the last column names, so that units do not matter.
+//! Each is relative to the quantity in the last column, so that units do not matter.
 //!
 //! | name | size | what is decided | relative to |
 //! |---|---|---|---|
@@ -38,18 +38,18 @@ pub const SINGULAR_BASIS: f64 = f64::EPSILON;
 pub const LEAST_WORK: f64 = 100.0 * NEGLIGIBLE;
 
 /// Pivots of an unpivoted Cholesky factorisation below this part of the diagonal raise suspicion: the
-/// matrix may be singular. A small pivot proves nothing, as slender parts are weak and held (the tip of
+/// matrix may be singular. A small pivot proves nothing, as slender parts are weak and supported (the tip of
 /// a cantilever of 1 : 5000 resists with 2e-12 of its elements). A factorisation with pivoting, or
 /// the null vector itself, decides.
 pub const SUSPICIOUS_PIVOT: f64 = 1e-8;
 
 /// Added to the diagonal of a singular matrix, relative to it, so that it has a factor by which inverse
-/// iteration finds the null vector: far above rounding, far below the eigenvalues of weak parts that are
-/// held (1e-7, measured).
+/// iteration finds the null vector: far above rounding, far below the eigenvalues of weak parts with
+/// supports (1e-7, measured).
 pub const REGULARISATION: f64 = 1e-10;
 
 /// Steps of inverse iteration to a null vector. A step divides the part of another eigenvector by its
-/// eigenvalue (weak parts that are held: 1e-7) over the smallest one. That is rounding, 1e-16, where
+/// eigenvalue (weak parts with supports: 1e-7) over the smallest one. That is rounding, 1e-16, where
 /// [`NULL_VECTOR`] decides: two steps leave 1e-18. It is [`REGULARISATION`] where the matrix is known to
 /// be singular and the vector is only described: two steps leave 1e-6.
 pub const INVERSE_ITERATIONS: usize = 2;

@@ -11,12 +11,12 @@ pub struct Workspaces {
 }
 
 impl Workspaces {
-    /// Buffers of `size`, the first of which is made when it is needed.
+    /// No buffers yet; each will have `size`.
     pub fn new(size: StackReq) -> Self {
         Workspaces { size, idle: Mutex::new(Vec::new()) }
     }
 
-    /// Does `work` with a buffer of its own.
+    /// Runs `work` with a buffer that no other thread uses meanwhile.
     pub fn lend<R>(&self, work: impl FnOnce(&mut MemStack) -> R) -> R {
         // Buffers hold nothing between solves: a panic of another thread spoils none.
         let idle = || self.idle.lock().unwrap_or_else(PoisonError::into_inner);

@@ -9,7 +9,7 @@
 //!                     d_t - slip0 = -lambda F_t, lambda >= 0, on it        (paper, 6 and 9)
 //! ```
 //!
-//! `K` is symmetric and positive semi-definite: bodies held by nothing but contact are allowed. What
+//! `K` is symmetric and positive semi-definite: bodies that only contact supports are allowed. What
 //! the data mean for the forces is in the room [`crate::law`].
 
 use std::fmt::Display;

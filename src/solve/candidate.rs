@@ -1,5 +1,5 @@
-//! What a solver hands over, how it ended, and what is called a solution: decided by the certificate
-//! alone.
+//! The internal result of a method, how it ended, and its certification: the certificate alone decides
+//! what is called a solution.
 
 use std::cell::OnceCell;
 
@@ -14,14 +14,14 @@ use crate::settings::{Method, Settings};
 /// How an algorithm ended: the one list for all of them.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Ending {
-    /// It believes that it is done.
+    /// Its own test of convergence is met.
     Done,
-    /// A budget ended it, or the caller.
+    /// A budget is used up, or the callback cancelled.
     Stopped(Stop),
-    /// It follows a motion that may prove that no equilibrium exists (of an LCP: a ray that may prove
-    /// that nothing is feasible).
+    /// It found a motion that may be a recession direction and prove that no equilibrium exists (LCP: a
+    /// ray that may prove that nothing is feasible).
     Recession(Vec<f64>),
-    /// The branches of an earlier iteration came again.
+    /// The branches of an earlier iteration repeat.
     Cycle,
     /// The system of its branches, or its basis, is singular to working precision.
     Singular,
@@ -110,7 +110,7 @@ pub fn certified(
     let mut recession = None;
     let accuracy = format!("eta is {:.1e}", certificate.eta);
     let wanted = format!("{accuracy}, wanted {:.1e}", settings.tolerance);
-    // Displacements that run away may themselves be a motion that proves why.
+    // A diverging iterate may itself be a recession direction.
     let motion = match &candidate.ending {
         Ending::Recession(motion) => Some(motion),
         Ending::Stopped(_) => None,
@@ -161,7 +161,7 @@ fn at_rest(contact: &Contact<'_>, settings: &Settings, other: &Candidate) -> Opt
     rest.certificate(contact).holds(settings.tolerance).then_some(rest)
 }
 
-/// What a proof that no equilibrium exists says.
+/// The sentence of a proof that no equilibrium exists.
 pub const NO_EQUILIBRIUM: &str =
     "no equilibrium exists: the loads drive a rigid motion that contact does not stop";
 
@@ -195,7 +195,9 @@ impl Ending {
             _ if certificate.runs_away() => {
                 "the displacements are so large that rounding hides the forces"
             }
-            Ending::Recession(_) => "the path ended in a ray that proves nothing",
+            Ending::Recession(_) => {
+                "the method ended on a motion that does not prove that no equilibrium exists"
+            }
             Ending::Cycle => "the states of the pairs repeat in a cycle",
             Ending::Singular => "the system of equations is singular",
             Ending::Stalled(reason) => reason,

@@ -13,7 +13,7 @@ use crate::settings::{Method, Settings};
 /// Result of an LCP.
 #[derive(Clone, Debug)]
 pub struct LcpSolution {
-    /// What it is; [`Status::NoEquilibrium`] says that nothing is feasible.
+    /// The status; [`Status::NoEquilibrium`] means that no `w, z >= 0` satisfy `w = q + M z`.
     pub status: Status,
     /// One sentence on what happened.
     pub message: Message,
@@ -21,7 +21,7 @@ pub struct LcpSolution {
     pub w: Vec<f64>,
     /// `z >= 0`.
     pub z: Vec<f64>,
-    /// Of [`Status::NoEquilibrium`] the vector `y` that proves it ([`Lcp::is_infeasible_by`]), its
+    /// With [`Status::NoEquilibrium`] the vector `y` that proves it ([`Lcp::is_infeasible_by`]), its
     /// largest entry 1.
     pub infeasible_by: Option<Vec<f64>>,
     /// [`Lcp::eta`].
@@ -165,9 +165,10 @@ fn certified(
             infeasible_by = Some(ray);
             (Status::NoEquilibrium, "no w, z >= 0 satisfy w = q + M z: proved".into())
         }
-        Ending::Recession(_) => {
-            (Status::Stalled, format!("the path ended in a ray that proves nothing; {wanted}"))
-        }
+        Ending::Recession(_) => (
+            Status::Stalled,
+            format!("Lemke's path ended in a ray that is no proof of infeasibility; {wanted}"),
+        ),
         Ending::Stopped(stop) => stop.status(settings, &wanted),
         Ending::Singular => (
             Status::Stalled,

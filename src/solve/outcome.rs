@@ -1,4 +1,4 @@
-//! Results of contact problems, and what they are called.
+//! The public result of a contact problem: its status, and why the first method was abandoned.
 
 use crate::certificate::Certificate;
 use crate::error::Message;
@@ -48,7 +48,7 @@ pub enum Uniqueness {
 /// Result of a contact problem.
 #[derive(Clone, Debug)]
 pub struct Solution {
-    /// What it is.
+    /// The status.
     pub status: Status,
     /// One sentence on what happened.
     pub message: Message,
@@ -56,8 +56,8 @@ pub struct Solution {
     pub d: Vec<f64>,
     /// The certificate of `d`: measures, contact forces, states.
     pub certificate: Certificate,
-    /// Of [`Status::NoEquilibrium`] the motion that proves it (a recession direction), its largest
-    /// component 1.
+    /// With [`Status::NoEquilibrium`] the recession direction that proves it, its largest component 1.
+    /// With friction it lifts each slipping pair by `mu` times its slip: it proves, but no body moves so.
     pub recession: Option<Vec<f64>>,
     /// The method that ended it.
     pub method: Method,

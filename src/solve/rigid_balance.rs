@@ -13,7 +13,7 @@ use crate::law::Contact;
 use crate::linalg::nnls::{extend_basis, nearest};
 use crate::linalg::vector::dot;
 
-/// A motion that proves that there is no equilibrium, where the admissible forces are cones.
+/// A recession direction that the loads drive, where the admissible forces are cones.
 pub fn escape(contact: &Contact<'_>) -> Option<Vec<f64>> {
     if !contact.bounds().all(|bound| bound.is_cone()) {
         return None;

@@ -32,7 +32,7 @@ static void check_load_steps(void)
     signorini_model *model;
 
     CHECK_STATUS(signorini_model_new_condensed(2, PAIRS, K, N, &model), 0);
-    CHECK_STATUS(load_steps(model, 2, loads, N, gap, mu, PAIRS, slip0, d, F), 0);
+    CHECK_STATUS(load_steps(model, 2, loads, gap, mu, slip0, d, F), 0);
     for (int step = 0; step < 2; step++) {
         CHECK_STATUS(signorini_solve(2, PAIRS, K, N, loads + step * N, gap, SIGNORINI_LAW_COULOMB,
                                      mu, slip_1, NULL, d_1, F_1, NULL, NULL, NULL), 0);
@@ -57,7 +57,7 @@ static void check_contact_iteration(void)
         for (int j = 0; j < N; j++)
             r[i] -= K[i + N * j] * d[j];
     }
-    CHECK_STATUS(contact_iteration(PAIRS, K, r, d, gap, mu, slip0, room, c, F), 0);
+    CHECK_STATUS(contact_iteration(2, PAIRS, K, r, d, gap, mu, slip0, room, c, F), 0);
     CHECK_STATUS(signorini_solve(2, PAIRS, K, N, f, gap, SIGNORINI_LAW_COULOMB, mu, slip0, NULL,
                                  wanted, force, NULL, NULL, NULL),
                  0);
@@ -67,9 +67,36 @@ static void check_contact_iteration(void)
     CHECK(distance(F, force) < 1e-9);
 }
 
+/*
+ * One pair in 3D, K = 2, mu = 0.5, pressed by 3. Under the tangential load (1.2, 1.6), of size 2, it
+ * carries 1.5 and slips by (2 - 1.5) / 2 along the load, to (0.15, 0.2). Unloaded it sticks there.
+ */
+static void check_three_dimensions(void)
+{
+    static const double K_3[9] = {2, 0, 0, 0, 2, 0, 0, 0, 2}, loads[6] = {3, 1.2, 1.6, 3, 0, 0};
+    const double closed = 0, friction = 0.5, start[3] = {-0.1, 0.05, 0.02}, none[2] = {0};
+    double slip0[2] = {0}, d[3], F[3], r[3], room[3], c[3];
+    signorini_model *model;
+
+    CHECK_STATUS(signorini_model_new_condensed(3, 1, K_3, 3, &model), 0);
+    CHECK_STATUS(load_steps(model, 2, loads, &closed, &friction, slip0, d, F), 0);
+    CHECK(fabs(d[1] - 0.15) < 1e-9 && fabs(d[2] - 0.2) < 1e-9); /* as above */
+    CHECK(fabs(slip0[0] - 0.15) < 1e-9 && fabs(slip0[1] - 0.2) < 1e-9);
+    CHECK(fabs(F[0] + 3) < 1e-9 && fabs(F[1] - 0.3) < 1e-9 && fabs(F[2] - 0.4) < 1e-9);
+    signorini_model_free(model);
+
+    for (int i = 0; i < 3; i++)
+        r[i] = loads[i] - 2 * start[i];
+    CHECK_STATUS(contact_iteration(3, 1, K_3, r, start, &closed, &friction, none, room, c, F), 0);
+    CHECK(fabs(start[0] + c[0]) < 1e-9);
+    CHECK(fabs(start[1] + c[1] - 0.15) < 1e-9 && fabs(start[2] + c[2] - 0.2) < 1e-9);
+    CHECK(fabs(F[1] + 0.9) < 1e-9 && fabs(F[2] + 1.2) < 1e-9);
+}
+
 int main(void)
 {
     check_load_steps();
     check_contact_iteration();
+    check_three_dimensions();
     return check_summary("guide");
 }

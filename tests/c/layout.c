@@ -161,7 +161,7 @@ int main(void)
     CHECK_STATUS(signorini_report_default(&blank, sizeof blank), 0);
     CHECK(memcmp(&blank, &zeros, sizeof blank) == 0);
 
-    /* One pair slides by 1 and one is open, in one sweep with factor 1. */
+    /* One pair slips by 1 and one is open, in one sweep with factor 1. */
     const double K[16] = {5, [5] = 3, [10] = 1, [15] = 1}, f[4] = {10, 8, -1, 0};
     const double gap[2] = {0, 0}, mu[2] = {0.5, 0.5};
     double d[4], F[4];

@@ -35,7 +35,7 @@ static signorini_report blank_report(void)
 /* ---- several solutions ---- */
 
 /*
- * Klarbring's pair, f = (1, 1.5): with mu = 2 it sticks, slides by 0.5 under the pressure 0.5 or
+ * Klarbring's pair, f = (1, 1.5): with mu = 2 it sticks, slips by 0.5 under the pressure 0.5 or
  * opens to (-0.5, 2); the second one is unstable, k_tt - mu k_nt = -1. With mu = 0.4 it is one of a
  * kind: 2 mu < 1.
  */
@@ -162,7 +162,7 @@ static void the_default_says_what_it_chose(void)
 
 static void displacements_of_any_origin_are_measured(void)
 {
-    /* One pair slides by 1, one is open. */
+    /* One pair slips by 1, one is open. */
     const double K[16] = {5, [5] = 3, [10] = 1, [15] = 1}, f[4] = {10, 8, -1, 0};
     const double gap[2] = {0, 0.5}, mu[2] = {0.5, 0.5}, d[4] = {0, 1, -1, 0};
     double F[4];

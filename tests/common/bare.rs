@@ -1,4 +1,4 @@
-//! Bare linear complementarity problems `w = q + M z`, all their solutions, and what is wrong with
+//! LCPs `w = q + M z`, all their solutions, and what is wrong with
 //! an answer.
 
 use signorini::{Lcp, LcpSolution, Monitor, Settings, Status, solve_lcp};

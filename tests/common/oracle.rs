@@ -1,6 +1,6 @@
 //! All solutions of a 2D problem, by enumeration of the states of its pairs.
 //!
-//! In a state (open or closed, stuck or sliding to one side) the law of a pair is two equations,
+//! In a state (open or closed, sticking or slipping to one side) the law of a pair is two equations,
 //! so that a state of all pairs is a square linear system, and some inequalities. A regular system
 //! has one candidate. A singular one that is consistent has a flat of candidates, and the
 //! inequalities cut a polyhedron from it, which may be empty: both cases are treated as the second,
@@ -17,7 +17,7 @@ use super::problems::{Case, Law};
 /// systems of condition 1e6 are solved to 1e-10, and random inequalities rarely fall below.
 const FEASIBLE: f64 = 1e-9;
 
-/// What one pair does. `side` is 1 or -1 where it slides (the sign of the slip), 0 where no
+/// What one pair does. `side` is 1 or -1 where it slips (the sign of the slip), 0 where no
 /// friction resists it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Local {

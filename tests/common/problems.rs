@@ -64,7 +64,7 @@ impl Case {
         self.k[i + j * self.size()]
     }
 
-    /// Tangential displacement at rest.
+    /// Reference slip.
     pub fn rest(&self, pair: usize, component: usize) -> f64 {
         self.slip.as_ref().map_or(0.0, |slip| slip[(self.dim - 1) * pair + component])
     }
@@ -175,7 +175,7 @@ fn motion(rng: &mut Rng, pairs: usize) -> Vec<f64> {
     }
 }
 
-/// A block of three or more pairs on a plane, held by nothing: stretching springs between
+/// A block of three or more pairs on a plane, without supports: stretching springs between
 /// neighbours, bending springs over three of them, coupled. All entries are integers: the rigid
 /// motions (translations, rotation) are in the kernel without rounding.
 pub fn block(rng: &mut Rng, pairs: usize) -> Vec<f64> {

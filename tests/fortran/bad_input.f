@@ -145,7 +145,7 @@ C     The normal is -y: with the first tangent along x.
       WRITE (*, '(A)') 'bad input: refused, with a sentence each'
       END
 
-C     One pair under f = (2, 1) on K = (4 1; 1 4), which slides. Without
+C     One pair under f = (2, 1) on K = (4 1; 1 4), which slips. Without
 C     friction 4 d_t = 1, with mu = 0.3 and the pressure 2 - d_t
 C     4 d_t = 1 - 0.3 (2 - d_t), with the threshold 0.3 4 d_t = 0.7.
       SUBROUTINE LAWS(NFAIL)

@@ -69,7 +69,7 @@ program layer
     if (failed /= 0) stop 1
     print '(a)', 'the layer of the module: all as expected'
 contains
-    ! One pair under f = (2, 1) on K = (4 1; 1 4), which slides. Without friction 4 d_t = 1, with
+    ! One pair under f = (2, 1) on K = (4 1; 1 4), which slips. Without friction 4 d_t = 1, with
     ! mu = 0.3 and the pressure 2 - d_t 4 d_t = 1 - 0.3 (2 - d_t), with the threshold 0.3 4 d_t = 0.7.
     subroutine laws
         real(dp), parameter :: k(2, 2) = reshape([real(dp) :: 4, 1, 1, 4], [2, 2]), f(2) = [2, 1]
@@ -147,7 +147,7 @@ contains
         call model%release()
     end subroutine
 
-    ! Klarbring's pair, K = (2 1; 1 1), f = (1, 1.5), mu = 2: it sticks at (0, 0), slides to (0, 0.5) or
+    ! Klarbring's pair, K = (2 1; 1 1), f = (1, 1.5), mu = 2: it sticks at (0, 0), slips to (0, 0.5) or
     ! opens to (-0.5, 2). A. Klarbring, Ingenieur-Archiv 60 (1990) 529-541.
     subroutine second_solution
         real(dp), parameter :: k(2, 2) = reshape([real(dp) :: 2, 1, 1, 1], [2, 2]), f(2) = [1._dp, 1.5_dp]

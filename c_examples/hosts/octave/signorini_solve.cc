@@ -24,7 +24,7 @@ Solves a condensed contact problem with Coulomb friction (signorini.h).\n\
 K: N x N, N = dim * P; f: N; gap, mu: P, or one number for all; slip0 (reference slip):\n\
 (dim - 1) * P.\n\
 d, F: dim x P, a column (n, t) or (n, t1, t2) for each pair; d(1,:) > 0 moves towards the\n\
-obstacle, F(1,:) < 0 presses.  state: 1 x P; 0 open, 1 slides, 2 sticks.  eta: the\n\
+obstacle, F(1,:) < 0 presses.  state: 1 x P; 0 open, 1 slips, 2 sticks.  eta: the\n\
 residual.  What is not solved is an error.")
 {
     const int count = arguments.length();

@@ -34,7 +34,7 @@ for i = 1:2
 endfor
 check (eta <= 1e-10, "solved");
 check (norm (K * d(:) - f(:) - F(:)) <= 1e-12, "equilibrium");
-check (isequal (state, [1 2]), "the first pair slides, the second sticks");
+check (isequal (state, [1 2]), "the first pair slips, the second sticks");
 check (abs (F(2,1) - 0.3 * F(1,1)) <= 1e-12, "friction of the first");
 [d, F] = signorini_solve (2 * eye (3), [1 3 4], 0, 0.5, 3);
 check (norm (F - [-1; -0.3; -0.4]) <= 1e-9, "in 3D: on the cone, against the motion");

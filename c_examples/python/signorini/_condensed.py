@@ -35,7 +35,7 @@ def solve(K, f, gap, mu=None, *, g=None, slip0=None, dim=None, start=None, **set
     gap: initial gaps, P; length; infinite: no obstacle.
     mu: friction coefficients, P (Coulomb).  g: friction thresholds, P; force (Tresca).  Neither: no
     friction; both: ValueError.
-    slip0: reference slip, the tangential displacement at which friction is at rest, P (D - 1);
+    slip0: reference slip, the tangential displacement at which a sticking pair stays, P (D - 1);
     length; None: zero. The last converged d[:, 1:] gives the incremental law.
     dim: D; None: 3 if f has the shape (P, 3), else 2.  start: d to start from, N, or None.
     """

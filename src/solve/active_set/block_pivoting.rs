@@ -117,7 +117,7 @@ fn solve(
     let last = monitor.iterations().saturating_add(most);
     let ending = loop {
         if monitor.iterations() >= last {
-            break Ending::Stalled("block pivoting does not settle");
+            break Ending::Stalled("block pivoting does not converge");
         }
         if let Err(stop) = monitor.step() {
             break Ending::Stopped(stop);

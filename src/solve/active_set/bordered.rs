@@ -19,10 +19,10 @@ use crate::linalg::matrix::Matrix;
 pub struct Bordered {
     free: Vec<usize>,
     coupling: Vec<f64>,
-    /// Of each unknown: where it is in `free`.
+    /// Position of each unknown in `free`.
     place: Vec<Option<usize>>,
     factor: Factor,
-    /// Columns of `A⁻¹ B`, contiguous, and of each border that has one where it is.
+    /// Columns of `A⁻¹ B`, contiguous; the next two have the column of each border that has one.
     solved: Vec<f64>,
     column_of_row: Vec<Option<usize>>,
     column_of_unknown: Vec<Option<usize>>,

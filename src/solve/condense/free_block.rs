@@ -66,8 +66,8 @@ impl<'p> FreeBlock<'p> {
         }
     }
 
-    /// A basis of the motions that `K` does not resist: each has one dependent component of the size
-    /// that gives it unit force scale.
+    /// A basis of the motions that `K` does not resist. Each moves one dependent component, `i`, by
+    /// `K_ii^-1/2`.
     pub fn null_vectors(&self) -> impl Iterator<Item = Vec<f64>> {
         self.dependent().map(|i| {
             let mut motion = vec![0.0; self.matrix.size()];

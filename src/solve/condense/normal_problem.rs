@@ -1,9 +1,9 @@
 //! Frictionless contact condensed on the normal displacements.
 //!
-//! Tangential components, and normal ones without an obstacle, carry no contact force. What is left
-//! is an LCP in `x = -d_n` with the lower bound `-gap` and the Schur complement `M` as its matrix.
-//! `K` may be singular: components that depend on others through a free motion are set aside, and
-//! no singular block is inverted.
+//! Tangential components, and normal ones without an obstacle, carry no contact force. Their condensation
+//! leaves an LCP in `x = -d_n` with the lower bound `-gap` and the Schur complement `M` as its matrix.
+//! `K` may be singular: components that depend on others through a free motion are left out of the
+//! factor, and no singular block is inverted.
 
 use super::free_block::FreeBlock;
 use crate::certificate::is_escape_of;
@@ -14,10 +14,10 @@ use crate::linalg::tolerances::NEGLIGIBLE;
 use crate::problem::BoundedLcp;
 use crate::solve::candidate::{Candidate, Ending};
 
-/// A frictionless problem and what is left of it.
+/// A frictionless problem, condensed.
 pub struct NormalProblem<'p> {
     contact: &'p Contact<'p>,
-    /// Normal components that are left, in the order of the LCP.
+    /// Normal components that the LCP keeps, in its order.
     kept: Vec<usize>,
     block: FreeBlock<'p>,
     at_rest: Vec<f64>,

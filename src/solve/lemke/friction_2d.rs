@@ -1,7 +1,7 @@
 //! Lemke's method for Coulomb friction in 2D, for every coefficient.
 //!
-//! With `w = gap - d_n`, `d_t - slip0 = a - b` (`a, b >= 0`) and the force that `d = (gap, slip0)` asks
-//! for, `K (gap, slip0) - f = -(r_n, r_t)`, the problem is
+//! With the clearance `w = gap - d_n`, the slip `d_t - slip0 = a - b` (`a, b >= 0`) and the contact force
+//! that `d = (gap, slip0)` requires, `K (gap, slip0) - f = -(r_n, r_t)`, the problem is
 //!
 //! ```text
 //! p  = r_n + K_nn w - K_nt (a - b)          >= 0,  w >= 0,  p w = 0
@@ -10,14 +10,14 @@
 //! v  = mu p + t                              >= 0,  b >= 0,  v b = 0
 //! ```
 //!
-//! a linear complementarity problem in `(w, a, b)`. Its matrix is not copositive for `mu > 0`, and
+//! an LCP in `(w, a, b)`. Its matrix is not copositive for `mu > 0`, and
 //! with the usual covering vector of ones Lemke's method fails. Here the covering vector *clamps
 //! every pair and adds cohesion*: `p` grows by `z0 s`, and the thresholds by `z0 (mu s + c)`, `s, c > 0`
 //! (`c` may differ between `u` and `v`).
 //! The path starts where all pairs are closed and stick, and leads to `z0 = 0`.
 //!
 //! **Theorem.** Let `x.K x > 0` for all `x != 0` (`K` need not be symmetric), `mu >= 0`. For any loads,
-//! gaps and slips the lexicographic method with this covering vector ends at a solution.
+//! gaps and reference slips the lexicographic method with this covering vector ends at a solution.
 //!
 //! *Proof.* It does not cycle, so it ends at a solution or on a ray: a direction
 //! `(w, a, b, z0) >= 0`, `z0 >= 0`, not all of `(w, a, b)` zero, along which complementarity holds and
@@ -30,16 +30,15 @@
 //! `z0 = 0`, and where it begins there already was a solution. ∎
 //!
 //! *Limits.* The number of steps is not bounded by a polynomial; on meshes it is about the number of
-//! pairs that open or slide. In 2D only. If `K` is symmetric and only semi-definite, a ray has
-//! `K e = 0`, `e_n <= 0`, and the loads do work on it beyond what friction takes: where the path
-//! tells this in floating point, [`crate::certificate::is_escape`] makes it a proof, and otherwise
-//! nothing is claimed. Rounding: `z0` ends at a small part of its start, and Newton's method polishes
-//! from the branches found there; the certificate decides.
+//! pairs that open or slip. In 2D only. If `K` is symmetric and only semi-definite, a ray has
+//! `K e = 0`, `e_n <= 0`, and the loads do work on it beyond what friction takes. It proves that no
+//! equilibrium exists where it passes [`crate::certificate::is_escape`]; otherwise nothing is claimed.
+//! Rounding: `z0` ends at a small part of its start, and Newton's method polishes from the branches found
+//! there; the certificate decides.
 //!
-//! The paper (section 2.2) holds that Lemke's method cannot be extended to friction; Klarbring
-//! (Ingenieur-Archiv 56, 1986) formulates the complementarity problem, without this start.
-//! With given thresholds the matrix is positive semi-definite and the standard theory applies; the same
-//! start serves.
+//! The paper (section 2.2) holds that Lemke's method cannot be extended to friction; Klarbring (1986)
+//! formulates friction as linear complementarity, without this start. With given thresholds the matrix is
+//! positive semi-definite and the standard theory applies; the same start serves.
 
 use super::friction_2d_lcp::FrictionLcp;
 use super::path::{self, Care, Rules, Run, ScaledLcp};

@@ -114,7 +114,7 @@ pub fn follow(lcp: ScaledLcp<'_>, rules: Rules, monitor: &mut Monitor<'_>) -> Re
     };
     let tableau = Tableau::new(&problem)?;
     if !tableau.is_finite() {
-        let ending = Ending::Stalled("numbers overflow in the complementarity problem");
+        let ending = Ending::Stalled("numbers overflow in the LCP");
         return Ok(Run { z: vec![0.0; n], ending, turns: Vec::new(), refactorisations: 0 });
     }
     let mut path =

@@ -1,8 +1,8 @@
 //! Detects the divergence of sweeps along a rigid-body motion.
 //!
-//! Components that did not move between two looks are taken as fixed; if the matrix is singular on the
-//! others, its null vectors there follow from the components that depend on others, and the one that
-//! agrees with the drift on these is free of the drift's elastic part.
+//! The drift is the change between two looks. Components that did not move are taken as fixed. If the
+//! matrix is singular on the others, its factor tells which of them depend on the rest: the null vector
+//! that agrees with the drift on these has none of the drift's elastic part.
 
 use super::Iterate;
 use crate::certificate::{is_escape_of, lifts};
@@ -23,12 +23,12 @@ pub struct DriftDetector {
 const FIRST_LOOK: u64 = 256;
 
 impl DriftDetector {
-    /// Watches from the unknowns `x` on.
+    /// Starts at the unknowns `x`.
     pub fn new(x: &[f64]) -> Self {
         DriftDetector { sweeps: 0, next: FIRST_LOOK, before: x.to_vec() }
     }
 
-    /// Counts a sweep; returns a motion that proves that no equilibrium exists once one is found.
+    /// Counts a sweep; returns a recession direction once one is found.
     pub fn observe(&mut self, iterate: &impl Iterate) -> Option<Vec<f64>> {
         self.sweeps += 1;
         if self.sweeps < self.next {
@@ -54,7 +54,7 @@ pub fn rigid_part(matrix: Matrix<'_>, drift: &[f64]) -> Option<Vec<f64>> {
     Some(motion)
 }
 
-/// A motion of escape of a contact problem, from the drift of its displacements.
+/// A recession direction of a contact problem, from the drift of its displacements.
 pub fn contact_recession(contact: &Contact<'_>, drift: &[f64]) -> Option<Vec<f64>> {
     let motion = rigid_part(contact.problem().stiffness(), drift)?;
     let lifts = lifts(contact, &motion);

@@ -78,7 +78,7 @@ impl<'m, 'c, I: Iterate> Driver<'m, 'c, I> {
             stands_still = self.relax(tolerance, ROUND)? == 0.0;
             if stands_still {
                 if stood_still {
-                    return Err(Ending::Stalled("the sweeps change nothing any more"));
+                    return Err(Ending::Stalled("the sweeps no longer change the displacements"));
                 }
                 self.iterate.refresh();
             }
@@ -97,7 +97,7 @@ impl<'m, 'c, I: Iterate> Driver<'m, 'c, I> {
         let force = self.iterate.largest_force();
         self.largest_force = self.largest_force.max(force);
         if force < ROUNDING * self.largest_force && self.iterate.is_unloaded() {
-            return Err(Ending::Stalled("without load the forces die out"));
+            return Err(Ending::Stalled("without loads the forces fall to rounding"));
         }
         if eta <= HALF * self.milestone.eta {
             self.milestone = Measured { eta, sweeps };

@@ -37,7 +37,6 @@ pub trait Iterate {
     /// Whether there are no loads.
     fn is_unloaded(&self) -> bool;
 
-    /// A motion that proves that no equilibrium exists, found in the change of the unknowns between
-    /// two looks.
+    /// A recession direction, found in the change of the unknowns between two looks.
     fn recession(&self, drift: &[f64]) -> Option<Vec<f64>>;
 }
