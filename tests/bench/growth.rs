@@ -8,13 +8,15 @@
 #[path = "../common/mesh.rs"]
 mod mesh;
 
+#[path = "../common/graded_bar.rs"]
+mod graded_bar;
+
 use std::time::Instant;
 
 use faer::Par;
-use mesh::{Mesh, Pairs, steps};
-use signorini::{FrictionLaw, LoadCase, Model, Monitor, Settings, Solution, Status};
+use graded_bar::GradedBar;
+use signorini::{FrictionLaw, LoadCase, Monitor, Settings, Solution, Status};
 
-const SIZE: f64 = 40.0;
 const COEFFICIENTS: [f64; 4] = [0.0, 0.1, 0.3, 1.0];
 
 fn main() {
@@ -30,8 +32,8 @@ fn main() {
     );
     let mut times = Vec::new();
     for pairs in (5..=11).map(|power| (1 << power) + 1) {
-        let bar = Bar::new(pairs - 1);
-        let row = COEFFICIENTS.map(|mu| bar.time(mu));
+        let bar = GradedBar::new(pairs - 1);
+        let row = COEFFICIENTS.map(|mu| time(&bar, mu));
         let cells = row.iter().map(|(time, solution)| {
             let work = format!("{:>3}/{}", solution.iterations, solution.factorisations);
             format!("{:>16.3} {work:<5}", 1e3 * time)
@@ -47,59 +49,30 @@ fn main() {
     println!("time ~ pairs^ {}", exponents.collect::<String>().split_off(8));
 }
 
-struct Bar {
-    model: Model,
-    load: Vec<f64>,
-}
-
-impl Bar {
-    /// Half of the bar, 40 x 40 mm, with square elements along the contact line and rows that grow
-    /// by about 1.5 away from it.
-    fn new(columns: usize) -> Bar {
-        let mut heights = vec![SIZE / columns as f64];
-        while heights.iter().sum::<f64>() < SIZE {
-            heights.push(1.5 * heights[heights.len() - 1]);
+/// Least time of a load case, and its solution.
+fn time(bar: &GradedBar, mu: f64) -> (f64, Solution) {
+    let pairs = bar.model.pairs();
+    let wave = 3.0 * std::f64::consts::TAU / (pairs - 1) as f64;
+    let gap = |i: usize| if mu == 0.0 { 2e-3 * (1.0 - (wave * i as f64).cos()) } else { 0.0 };
+    let gap: Vec<f64> = (0..pairs).map(gap).collect();
+    let case = LoadCase {
+        load: &bar.load,
+        prescribed: None,
+        gap: &gap,
+        law: FrictionLaw::Coulomb(&vec![mu; pairs]),
+        reference_slip: None,
+    };
+    let settings = Settings { tolerance: 1e-12, ..Settings::default() };
+    let mut least = (f64::INFINITY, None);
+    for _ in 0..(100_000 / (pairs * pairs)).clamp(3, 50) {
+        let monitor = &mut Monitor::new(&settings, None);
+        let begin = Instant::now();
+        let solution = bar.model.solve(&case, &settings, None, monitor).expect("a valid case");
+        let time = begin.elapsed().as_secs_f64();
+        assert_eq!(solution.status, Status::Solved, "{}", solution.message);
+        if time < least.0 {
+            least = (time, Some(solution));
         }
-        let stretch = SIZE / heights.iter().sum::<f64>();
-        let mut lines = vec![0.0];
-        for height in &heights {
-            lines.push(lines[lines.len() - 1] + stretch * height);
-        }
-        let mut mesh = Mesh::default();
-        let block = mesh.block(&steps(0.0, SIZE, columns), &lines, (13000.0, 0.2));
-        let mut load = vec![0.0; mesh.size()];
-        mesh.traction(&block.row(block.rows), [0.0, -5.0], &mut load);
-        mesh.traction(&block.column(0), [10.0, 0.0], &mut load);
-        let fixed: Vec<usize> = block.column(columns).iter().map(|node| 2 * node).collect();
-        let pairs = Pairs::on_obstacle(&block.row(0), [0.0, -1.0]);
-        Bar { model: mesh.stiffness().model(&fixed, &pairs).expect("a valid model"), load }
     }
-
-    /// Least time of a load case, and its solution.
-    fn time(&self, mu: f64) -> (f64, Solution) {
-        let pairs = self.model.pairs();
-        let wave = 3.0 * std::f64::consts::TAU / (pairs - 1) as f64;
-        let gap = |i: usize| if mu == 0.0 { 2e-3 * (1.0 - (wave * i as f64).cos()) } else { 0.0 };
-        let gap: Vec<f64> = (0..pairs).map(gap).collect();
-        let case = LoadCase {
-            load: &self.load,
-            prescribed: None,
-            gap: &gap,
-            law: FrictionLaw::Coulomb(&vec![mu; pairs]),
-            reference_slip: None,
-        };
-        let settings = Settings { tolerance: 1e-12, ..Settings::default() };
-        let mut least = (f64::INFINITY, None);
-        for _ in 0..(100_000 / (pairs * pairs)).clamp(3, 50) {
-            let monitor = &mut Monitor::new(&settings, None);
-            let begin = Instant::now();
-            let solution = self.model.solve(&case, &settings, None, monitor).expect("a valid case");
-            let time = begin.elapsed().as_secs_f64();
-            assert_eq!(solution.status, Status::Solved, "{}", solution.message);
-            if time < least.0 {
-                least = (time, Some(solution));
-            }
-        }
-        (least.0, least.1.expect("it was solved"))
-    }
+    (least.0, least.1.expect("it was solved"))
 }

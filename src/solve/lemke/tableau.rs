@@ -36,10 +36,13 @@ pub struct Tableau {
     simd: Simd,
 }
 
-/// Changes made together where the tableau is beyond the cache.
+/// Changes made together where the tableau is beyond the cache: as many as let the product do some
+/// thirty operations for each number that it reads, and no more than the correction of one row and one
+/// column at each pivot can bear.
 const DELAY: usize = 32;
 
-/// Rows from which on that pays.
+/// Rows from which on that pays: 160 make a tableau of 200 kB, which fills the second-level cache of
+/// common processors.
 const LARGE: usize = 160;
 
 /// Columns begin so many entries further than a multiple of a cache line, on different cache sets even
