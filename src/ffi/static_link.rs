@@ -2,8 +2,8 @@
 //!
 //! libgfortran refers to the functions of threads weakly, and calls them where one of them is
 //! there. In a program linked with `-static` Rust's standard library brings that one, but weak
-//! references bring none of the others, and the first lock is a call of address zero. Strong
-//! references bring them.
+//! references bring none of the others, so that the first lock calls address zero. The strong
+//! references below bring them.
 
 use libc::{c_int, c_void, pthread_cond_t, pthread_key_t, pthread_mutex_t, pthread_t};
 

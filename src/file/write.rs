@@ -106,8 +106,8 @@ fn check_remark(remark: Option<&str>) -> Result<(), Error> {
     Ok(())
 }
 
-/// Writes to a temporary file and renames it: a full disk or a crash leaves no half file under the
-/// name.
+/// Writes to a temporary file, then renames it: a full disk or a crash leaves the old file, or none,
+/// under the name, never a part of the new one.
 fn replace(
     path: &Path,
     fill: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
