@@ -95,11 +95,11 @@ static void add(struct mean *mean, double ratio)
     mean->count++;
 }
 
-static void say_mean(FILE *file, const char *what, const struct mean *mean, const char *aim)
+static void say_mean(FILE *file, const char *what, const struct mean *mean)
 {
     if (mean->count > 0)
-        fprintf(file, "| %s | %d | %.2f | %.2f | %s |\n", what, mean->count,
-                exp(mean->logs / mean->count), mean->least, aim);
+        fprintf(file, "| %s | %d | %.2f | %.2f |\n", what, mean->count,
+                exp(mean->logs / mean->count), mean->least);
 }
 
 static void speed_means(FILE *file, const struct row *rows, size_t count)
@@ -107,14 +107,14 @@ static void speed_means(FILE *file, const struct row *rows, size_t count)
     static const struct {
         enum family family;
         size_t least, most;
-        const char *name, *aim;
+        const char *name;
     } classes[] = {
-        {FRICTIONLESS, 0, 64, "frictionless, 33 pairs", "1"},
-        {FRICTIONLESS, 65, 256, "frictionless, 129 pairs", "2"},
-        {FRICTIONLESS, 257, 1 << 20, "frictionless, 513 pairs and more", "10"},
-        {FRICTION_2D, 0, 64, "friction in 2D, 33 pairs", "1.5"},
-        {FRICTION_2D, 65, 256, "friction in 2D, 129 pairs", "1.5"},
-        {FRICTION_2D, 257, 1 << 20, "friction in 2D, 513 pairs and more", "8"},
+        {FRICTIONLESS, 0, 64, "frictionless, 33 pairs"},
+        {FRICTIONLESS, 65, 256, "frictionless, 129 pairs"},
+        {FRICTIONLESS, 257, 1 << 20, "frictionless, 513 pairs and more"},
+        {FRICTION_2D, 0, 64, "friction in 2D, 33 pairs"},
+        {FRICTION_2D, 65, 256, "friction in 2D, 129 pairs"},
+        {FRICTION_2D, 257, 1 << 20, "friction in 2D, 513 pairs and more"},
     };
     for (size_t c = 0; c < sizeof classes / sizeof classes[0]; c++) {
         struct mean mean = {0};
@@ -128,7 +128,7 @@ static void speed_means(FILE *file, const struct row *rows, size_t count)
             if (best != NULL)
                 add(&mean, best->ms / row->ms);
         }
-        say_mean(file, classes[c].name, &mean, classes[c].aim);
+        say_mean(file, classes[c].name, &mean);
     }
 }
 
@@ -139,7 +139,6 @@ static void lemke_means(FILE *file, const struct row *rows, size_t count)
         const char *ours, *theirs;
     } forms[] = {{"lemke", "lemke_K"}, {"lemke_W", "lemke_W"}};
     static const size_t sizes[] = {33, 129, 513, 1025, 2049};
-    static const char *const aims[] = {"", "", "2.5", "3.5", ""};
     for (size_t s = 0; s < sizeof sizes / sizeof sizes[0]; s++) {
         struct mean mean = {0};
         for (size_t k = 0; k < count; k++)
@@ -154,7 +153,7 @@ static void lemke_means(FILE *file, const struct row *rows, size_t count)
             }
         char what[64];
         snprintf(what, sizeof what, "Lemke's method, pivots per second, %zu pairs", sizes[s]);
-        say_mean(file, what, &mean, aims[s]);
+        say_mean(file, what, &mean);
     }
 }
 
@@ -227,8 +226,8 @@ void write_markdown(FILE *file, const struct row *rows, size_t count, const char
     }
     if (footnote)
         fprintf(file, "\n(*) No peer reaches 1e-12 here: the fastest with `eta <= 1e-8` counts.\n");
-    fprintf(file, "\n| geometric means of the ratios | problems | mean | least | aim |\n"
-                  "|---|---|---|---|---|\n");
+    fprintf(file, "\n| geometric means of the ratios | problems | mean | least |\n"
+                  "|---|---|---|---|\n");
     speed_means(file, rows, count);
     lemke_means(file, rows, count);
 }

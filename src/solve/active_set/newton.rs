@@ -112,7 +112,7 @@ impl History {
     /// Goes on to the branches `next`, with more sweeps if they have been there before.
     fn advance(&mut self, branches: &mut Vec<Branch>, next: Vec<Branch>) -> Result<(), Ending> {
         if self.seen.len() >= MOST_SYSTEMS {
-            return Err(Ending::Stalled("Newton's method does not settle"));
+            return Err(Ending::Stalled("Newton's method does not converge"));
         }
         if std::mem::take(&mut self.at_first) {
             self.sweeps = self.later_sweeps;
