@@ -10,6 +10,7 @@
 //! | `normal_map` | `y -> (v, P)`, the chart on which the law is one function | branches |
 //! | `branch` | which smooth piece of the law a point is on, with the derivative there | active-set methods, uniqueness |
 //! | `proximal` | the step of one pair in a sweep | sweeps |
+//! | `local` | the exact solution of one pair, its block coupled | who solves pair by pair |
 //! | `complementarity` | the law as complementarity of non-negative variables | Lemke's method, block pivoting |
 //! | `recession` | what a rigid motion must satisfy to prove that no equilibrium exists | certificate |
 //!
@@ -28,6 +29,7 @@ pub mod complementarity;
 mod contact;
 pub mod coulomb;
 pub mod frictionless;
+mod local;
 mod natural_map;
 mod normal_map;
 mod proximal;
