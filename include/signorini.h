@@ -591,8 +591,8 @@ const char *signorini_problem_remark(const signorini_problem *problem);
 
 /**
  * The default: chooses a method, checks its result, and falls back to the next one if it fails.
- * Without friction: block pivoting, then Lemke's method. With friction in 2D: Newton's method,
- * then Lemke's. At last, and with friction in 3D: sweeps.
+ * Without friction: block pivoting, then Lemke's method. With friction: Newton's method, in 2D
+ * then Lemke's. At last: sweeps.
  */
 #define SIGNORINI_METHOD_AUTO 0
 /** Projected over-relaxed Gauss-Seidel (SOR) on a sequence of Tresca problems, g <- mu |F_n|. */
@@ -606,7 +606,10 @@ const char *signorini_problem_remark(const signorini_problem *problem);
 #define SIGNORINI_METHOD_LEMKE 3
 /** Block principal pivoting, for contact without friction. */
 #define SIGNORINI_METHOD_BLOCK_PIVOTING 4
-/** Newton's method on the states of the pairs, in 2D. It may fail; the status says so. */
+/**
+ * Newton's method, on the states of the pairs (2D) or the normal map (3D). It may fail; the status
+ * says so.
+ */
 #define SIGNORINI_METHOD_NEWTON 5
 
 /** Report only what the solution itself proves about other solutions. The default. */

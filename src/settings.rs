@@ -6,7 +6,7 @@ use crate::error::{Argument, Error};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Method {
     /// Chooses, checks and falls back: [`Method::BlockPivoting`] without friction, [`Method::Newton`] with
-    /// it, then [`Method::Lemke`], then sweeps. The default.
+    /// it, then [`Method::Lemke`] (not with friction in 3D), then sweeps. The default.
     Auto,
     /// Coulomb friction as a sequence of Tresca problems, each by projected SOR
     /// (paper, section 2.1: `g <- mu |F_n|`).
@@ -17,7 +17,7 @@ pub enum Method {
     Lemke,
     /// Block principal pivoting, without friction.
     BlockPivoting,
-    /// Active-set Newton on the states of the pairs, in 2D.
+    /// Newton's method: on the active set of the pairs in 2D, on the normal map in 3D.
     Newton,
 }
 

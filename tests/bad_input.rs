@@ -186,8 +186,6 @@ fn refuses_methods_that_do_not_fit() {
     refuses(space, g, Method::Lemke, &["frictionless", "2D"]);
     refuses(GOOD, mu, Method::BlockPivoting, &["block pivoting", "every mu must be 0"]);
     refuses(GOOD, g, Method::BlockPivoting, &["block pivoting", "every g must be 0"]);
-    refuses(space, mu, Method::Newton, &["Newton", "2D"]);
-    refuses(space, FrictionLaw::Coulomb(&[0.0; 2]), Method::Newton, &["Newton", "2D"]);
     refuses(GOOD, g, Method::SorDiagonal, &["thresholds"]);
 
     let lcp = Lcp::new(1, &[1.0], 1, &[-1.0], None).unwrap();

@@ -61,12 +61,13 @@ const ROOMS: [(&str, &[&str]); 13] = [
 
 /// The files and folders of `solve`: each imports from those before it only. `lcp` stands beside
 /// those that are behind `lemke`.
-const SOLVERS: [&str; 12] = [
+const SOLVERS: [&str; 13] = [
     "outcome",
     "candidate",
     "condense",
     "rigid_balance",
     "sweeps",
+    "normal_map",
     "active_set",
     "lemke",
     "lcp",

@@ -130,9 +130,12 @@ fn independent_rows_have_one_verdict_in_both_forms() {
         assert!(certify(&stiffness, &d).holds(TOLERANCE));
         assert_eq!(certificate.states, states);
         for part in [1e-2, 1e-5] {
+            // A displacement is moved by what changes its force as much as the force itself is moved.
+            let size = part * largest(&load);
+            let softest = (0..d.len()).map(|i| k[i * (d.len() + 1)]).fold(f64::INFINITY, f64::min);
             for (d, force) in [
-                (moved(rng, &d, part * largest(&d)), force.clone()),
-                (d.clone(), moved(rng, &force, part * largest(&load))),
+                (moved(rng, &d, size / softest), force.clone()),
+                (d.clone(), moved(rng, &force, size)),
             ] {
                 let verdicts = [
                     certify_pair(&general, &d, &force).holds(TOLERANCE),

@@ -100,7 +100,7 @@ fn check(method: Method, law: impl Fn(&mut Rng, usize) -> Law) {
     let mut decided = 0;
     let with_law =
         matches!(law(&mut Rng::with_seed(0), 40), Law::Coulomb(mu) if largest(&mu) > 0.0);
-    let planar = method == Method::Newton || method == Method::Lemke && with_law;
+    let planar = method == Method::Lemke && with_law;
     for (index, (case, definite)) in
         problems(if planar { &[2] } else { &[3] }, law).iter().enumerate()
     {

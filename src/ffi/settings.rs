@@ -9,8 +9,8 @@ use crate::monitor::Progress;
 use crate::settings::{Method, Search, Settings};
 
 /// The default: chooses a method, checks its result, and falls back to the next one if it fails.
-/// Without friction: block pivoting, then Lemke's method. With friction in 2D: Newton's method,
-/// then Lemke's. At last, and with friction in 3D: sweeps.
+/// Without friction: block pivoting, then Lemke's method. With friction: Newton's method, in 2D
+/// then Lemke's. At last: sweeps.
 pub const SIGNORINI_METHOD_AUTO: i32 = 0;
 /// Projected over-relaxed Gauss-Seidel (SOR) on a sequence of Tresca problems, g <- mu |F_n|.
 pub const SIGNORINI_METHOD_SOR_NESTED: i32 = 1;
@@ -21,7 +21,8 @@ pub const SIGNORINI_METHOD_SOR_DIAGONAL: i32 = 2;
 pub const SIGNORINI_METHOD_LEMKE: i32 = 3;
 /// Block principal pivoting, for contact without friction.
 pub const SIGNORINI_METHOD_BLOCK_PIVOTING: i32 = 4;
-/// Newton's method on the states of the pairs, in 2D. It may fail; the status says so.
+/// Newton's method, on the states of the pairs (2D) or the normal map (3D). It may fail; the status
+/// says so.
 pub const SIGNORINI_METHOD_NEWTON: i32 = 5;
 
 /// Report only what the solution itself proves about other solutions. The default.

@@ -60,4 +60,43 @@ impl PairLaw {
         };
         Branch { closed, tangential }
     }
+
+    /// The coordinates `y = P + k (d - reference)` of a displacement and a force on the chart that
+    /// [`Self::point`] reads; of a pair without an obstacle `y_n` is `k_n d_n`.
+    pub fn chart(&self, d: &[f64], force: &[f64]) -> Vector {
+        let mut y = self.trial(d, force);
+        if !self.has_obstacle() {
+            y[0] = self.k_n * d[0];
+        }
+        y
+    }
+
+    /// The displacement `d` and the pressure and friction `P = -F` at the coordinates `y`; they obey the
+    /// law.
+    pub fn point(&self, y: &Vector) -> (Vector, Vector) {
+        let (mut v, p) = self.normal_map(&self.without_obstacle(y));
+        let reference = self.reference();
+        if !self.has_obstacle() {
+            v[0] = y[0] / self.k_n;
+        }
+        for c in 0..self.dim {
+            v[c] += reference[c];
+        }
+        (v, p)
+    }
+
+    /// The branch of the law at the coordinates `y`.
+    pub fn chart_branch(&self, y: &Vector) -> Branch {
+        self.branch(&self.without_obstacle(y))
+    }
+
+    /// `y` with the normal coordinate that the normal map has for an infinite gap.
+    fn without_obstacle(&self, y: &Vector) -> Vector {
+        if self.has_obstacle() { *y } else { [f64::NEG_INFINITY, y[1], y[2]] }
+    }
+
+    /// `k`: forces per length of the components.
+    pub fn scale(&self) -> Vector {
+        [self.k_n, self.k_t, self.k_t]
+    }
 }

@@ -4,7 +4,7 @@
 //! |---|---|
 //! | without friction | block pivoting, Lemke, sweeps |
 //! | friction in 2D | Newton, Lemke, sweeps (nested, diagonal) |
-//! | friction in 3D | sweeps (nested, diagonal) |
+//! | friction in 3D | Newton, sweeps (nested, diagonal) |
 //!
 //! If the orientation of a solution is −1, there are at least three solutions and this one is
 //! unstable: the next method is asked too.
@@ -64,8 +64,13 @@ fn attempt(
     start: Option<&[f64]>,
     monitor: &mut Monitor<'_>,
 ) -> Result<Candidate, Error> {
-    let sweeps = matches!(method, Method::SorNested | Method::SorDiagonal);
-    if !sweeps || plan(contact)[0] == method {
+    // In space the nested sweeps are the only method with all its iterations behind Newton's.
+    let brief = match method {
+        Method::SorNested => contact.dim() == 2 || contact.is_frictionless(),
+        Method::SorDiagonal => true,
+        _ => false,
+    };
+    if !brief {
         return run(method, contact, settings, start, monitor);
     }
     let (candidate, used_up) =
@@ -84,8 +89,8 @@ fn plan(contact: &Contact<'_>) -> &'static [Method] {
         (false, 2, true) => {
             &[Method::Newton, Method::Lemke, Method::SorNested, Method::SorDiagonal]
         }
-        (false, _, false) => &[Method::SorNested],
-        (false, _, true) => &[Method::SorNested, Method::SorDiagonal],
+        (false, _, false) => &[Method::Newton, Method::SorNested],
+        (false, _, true) => &[Method::Newton, Method::SorNested, Method::SorDiagonal],
     }
 }
 

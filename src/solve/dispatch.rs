@@ -1,7 +1,7 @@
 //! One method on one problem: which it fits, and what runs it.
 
 use super::candidate::{Candidate, Ending};
-use super::{active_set, lemke, sweeps};
+use super::{active_set, lemke, normal_map, sweeps};
 use crate::error::{Argument, Error};
 use crate::law::Contact;
 use crate::monitor::Monitor;
@@ -23,7 +23,6 @@ pub fn check_method(contact: &Contact<'_>, method: Method) -> Result<(), Error> 
             "settings: block pivoting is for frictionless contact: the law must be frictionless, \
              or every g must be 0"
         }),
-        Method::Newton if !planar => refuse("settings: Newton's method is for 2D"),
         Method::SorDiagonal if !frictionless && !contact.is_coupled() => refuse(
             "settings: the diagonal method updates thresholds, and here they are given: use the \
              nested one",
@@ -47,7 +46,10 @@ pub fn run(
     Ok(match (method, contact.is_frictionless()) {
         (Method::Lemke, true) => lemke::frictionless(contact, settings, monitor)?,
         (Method::Lemke, false) => lemke::friction_2d(contact, settings, monitor)?,
-        (Method::Newton, _) => active_set::newton(contact, settings, start, monitor),
+        (Method::Newton, _) if contact.dim() == 2 => {
+            active_set::newton(contact, settings, start, monitor)
+        }
+        (Method::Newton, _) => normal_map::newton(contact, settings, start, monitor),
         (Method::BlockPivoting, _) => {
             let chosen = settings.method == Method::BlockPivoting;
             let most = if chosen { u64::MAX } else { active_set::enough(contact.pairs().len()) };

@@ -2,7 +2,7 @@
 //! What is called a solution is decided in `candidate`, by the certificate alone.
 //!
 //! ```text
-//! outcome ← candidate ← condense ← rigid_balance ← sweeps ← active_set ← lemke ← uniqueness ← dispatch ← auto ← mod
+//! outcome ← candidate ← condense ← rigid_balance ← sweeps ← normal_map ← active_set ← lemke ← uniqueness ← dispatch ← auto ← mod
 //!                                                                          └──── lcp ────────────────────────┘
 //! ```
 //!
@@ -16,6 +16,7 @@ mod condense;
 mod dispatch;
 mod lcp;
 mod lemke;
+mod normal_map;
 mod outcome;
 mod rigid_balance;
 mod sweeps;

@@ -434,11 +434,6 @@ static void methods(void)
         c.settings->method = SIGNORINI_METHOD_BLOCK_PIVOTING);
     BAD(2, TRESCA, "block pivoting with a threshold", -10, "every g must be 0",
         c.settings->method = SIGNORINI_METHOD_BLOCK_PIVOTING);
-    BOTH_IN(3, "Newton in 3D", -10, "Newton's method is for 2D",
-            c.settings->method = SIGNORINI_METHOD_NEWTON);
-    BOTH_IN(3, "Newton in 3D without friction", -10, "Newton's method is for 2D",
-            c.settings->method = SIGNORINI_METHOD_NEWTON,
-            memset(world.friction, 0, sizeof world.friction));
     BAD(2, TRESCA, "the diagonal method with thresholds", -10, "diagonal",
         c.settings->method = SIGNORINI_METHOD_SOR_DIAGONAL);
     for (int i = 0; i < 3; i++)

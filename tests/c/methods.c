@@ -147,9 +147,8 @@ static void the_default_says_what_it_chose(void)
                          SIGNORINI_STATUS_SOLVED);
             CHECK(report.method > AUTO && report.method <= NEWTON);
             /* What the header says of it. */
-            const int32_t first = !friction  ? SIGNORINI_METHOD_BLOCK_PIVOTING
-                                  : dim == 2 ? SIGNORINI_METHOD_NEWTON
-                                             : SIGNORINI_METHOD_SOR_NESTED;
+            const int32_t first =
+                friction ? SIGNORINI_METHOD_NEWTON : SIGNORINI_METHOD_BLOCK_PIVOTING;
             CHECK(report.first_method == first);
             const int direct = report.method == BLOCK_PIVOTING || report.method == NEWTON;
             CHECK(direct == (report.factorisations > 0));
