@@ -7,7 +7,7 @@
 //! | file | what it gives | who uses it |
 //! |---|---|---|
 //! | `natural_map` | how far a displacement and a force are from the law | certificate |
-//! | `normal_map` | `y -> (v, P)`, the chart on which the law is one function | branches |
+//! | `normal_map` | `y -> (v, P)`, the chart on which the law is one function | branches, Newton's method in space |
 //! | `branch` | which smooth piece of the law a point is on, with the derivative there | active-set methods, uniqueness |
 //! | `proximal` | the step of one pair in a sweep | sweeps |
 //! | `local` | the exact solution of one pair, its block coupled | who solves pair by pair |

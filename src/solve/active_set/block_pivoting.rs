@@ -27,6 +27,11 @@ const PATIENCE: usize = 10;
 /// Sweeps between a solution and its active set.
 const SWEEPS: u32 = 2;
 
+/// Up to so many variables the fixed costs of a system outweigh its arithmetic: there more sweeps save
+/// time wherever they save a system.
+const FEW_VARIABLES: usize = 256;
+const SWEEPS_OF_FEW: u32 = 6;
+
 /// Systems after which a problem of `n` complementary variables is left to another method: single
 /// exchanges may take `2^n`; whole blocks take a few, or at most about `n` on the worst problems
 /// known. Twice that and 50 more end no run that converges.
@@ -207,7 +212,8 @@ fn select(lcp: &BoundedLcp<'_>, basic: &[bool]) -> Vec<Row> {
 /// The active set after some sweeps, which the iterate does not keep.
 fn swept(simd: Simd, lcp: &BoundedLcp<'_>, system: &LinearSystem<'_>) -> Vec<bool> {
     let (mut x, mut w) = (system.x.clone(), system.residual.clone());
-    for _ in 0..SWEEPS {
+    let sweeps = if x.len() <= FEW_VARIABLES { SWEEPS_OF_FEW } else { SWEEPS };
+    for _ in 0..sweeps {
         sweep_lcp(simd, lcp, &mut x, &mut w, 1.0);
     }
     active_set(lcp, &x, &w)
