@@ -9,11 +9,16 @@ pub fn largest_eigenvalue(a: f64, b: f64, c: f64) -> f64 {
 
 /// Euclidean norm that neither overflows nor underflows on the way; NaN if an entry is.
 pub fn norm(values: &[f64]) -> f64 {
-    let largest = norm_inf(values);
-    if largest == 0.0 || !largest.is_finite() {
-        return largest;
+    let mut sum = NormSum::default();
+    for &value in values {
+        sum.add(value);
     }
-    largest * values.iter().map(|value| (value / largest).powi(2)).sum::<f64>().sqrt()
+    sum.root()
+}
+
+/// Whether no entry is infinite or NaN. Without an early end, for the vectoriser.
+pub fn is_finite(values: &[f64]) -> bool {
+    values.iter().fold(true, |all, value| all & value.is_finite())
 }
 
 /// Largest absolute value, 0 for an empty slice; NaN if an entry is.
@@ -46,31 +51,45 @@ pub fn normalise(values: &mut [f64]) {
     values.iter_mut().for_each(|value| *value /= largest);
 }
 
-/// A Euclidean norm, entry by entry, that neither overflows nor underflows.
+/// A Euclidean norm, entry by entry, that neither overflows nor underflows (Blue 1978): squares of
+/// large and of small entries are scaled, each in its own sum, so that no entry takes a division.
 #[derive(Default)]
 pub struct NormSum {
-    largest: f64,
-    /// Sum of the squares relative to `largest`.
-    squares: f64,
+    large: f64,
+    usual: f64,
+    small: f64,
 }
+
+/// Entries above are large: the squares of 1e26 entries below do not overflow.
+const LARGE: f64 = 1e140;
+
+/// Entries below are small: squares of those above are normal numbers.
+const SMALL: f64 = 1e-140;
+
+/// Large entries are divided by it and small ones multiplied: what comes out has normal squares.
+const SCALE: f64 = 1e200;
 
 impl NormSum {
     /// Adds an entry.
+    #[inline]
     pub fn add(&mut self, value: f64) {
         let size = value.abs();
-        if size > self.largest {
-            self.squares = 1.0 + self.squares * (self.largest / size).powi(2);
-            self.largest = size;
-        } else if size > 0.0 {
-            self.squares += (size / self.largest).powi(2);
-        } else if size.is_nan() {
-            self.squares = f64::NAN;
-            self.largest = f64::NAN;
+        if size > LARGE {
+            self.large += (size / SCALE).powi(2);
+        } else if size < SMALL {
+            self.small += (size * SCALE).powi(2);
+        } else {
+            self.usual += size * size;
         }
     }
 
     /// The norm of the entries so far; NaN if one of them is.
     pub fn root(&self) -> f64 {
-        if self.largest.is_finite() { self.largest * self.squares.sqrt() } else { self.largest }
+        let usual = self.usual.sqrt();
+        // `hypot` would drop a NaN beside an infinity.
+        if usual.is_nan() || (self.large == 0.0 && self.small == 0.0) {
+            return usual;
+        }
+        (self.large.sqrt() * SCALE).hypot(usual).hypot(self.small.sqrt() / SCALE)
     }
 }

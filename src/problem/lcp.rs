@@ -3,7 +3,7 @@
 use crate::error::{Argument, Error, entry};
 use crate::linalg::matrix::{Matrix, required_length};
 use crate::linalg::tolerances::{LEAST_WORK, NEGLIGIBLE};
-use crate::linalg::vector::{NormSum, dot, largest_of, norm};
+use crate::linalg::vector::{NormSum, dot, is_finite, largest_of, norm};
 
 /// A checked problem, a view of the caller's arrays.
 #[derive(Clone, Copy, Debug)]
@@ -48,7 +48,9 @@ impl<'a> Lcp<'a> {
         let (q, covering) = (&q[..size], covering.map(|covering| &covering[..size]));
         let lcp = Lcp { matrix: Matrix::new(size, matrix, ld), q, covering };
         for j in 0..size {
-            if let Some(i) = lcp.column(j).iter().position(|m| !m.is_finite()) {
+            if !is_finite(lcp.column(j))
+                && let Some(i) = lcp.column(j).iter().position(|m| !m.is_finite())
+            {
                 return refuse(Argument::Matrix, entry("M", [i, j]) + " is not finite");
             }
         }
@@ -104,15 +106,17 @@ impl<'a> Lcp<'a> {
     pub fn magnitudes(&self) -> Vec<f64> {
         let mut magnitude = vec![0.0_f64; self.size()];
         for j in 0..self.size() {
-            // Two plain loops, for the vectoriser.
-            let mut most = 0.0;
-            for m in self.column(j) {
-                most = if m.abs() > most { m.abs() } else { most };
+            // Two plain loops, for the vectoriser; a largest entry in one lane would wait for itself.
+            let mut most = [0.0_f64; 8];
+            for chunk in self.column(j).chunks(most.len()) {
+                for (most, m) in most.iter_mut().zip(chunk) {
+                    *most = if m.abs() > *most { m.abs() } else { *most };
+                }
             }
             for (magnitude, m) in magnitude.iter_mut().zip(self.column(j)) {
                 *magnitude = if m.abs() > *magnitude { m.abs() } else { *magnitude };
             }
-            magnitude[j] = magnitude[j].max(most);
+            magnitude[j] = magnitude[j].max(largest_of(most));
         }
         for magnitude in &mut magnitude {
             if *magnitude == 0.0 {

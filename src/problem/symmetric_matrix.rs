@@ -2,6 +2,7 @@
 
 use crate::error::{Argument, Error, entry, index};
 use crate::linalg::matrix::Matrix;
+use crate::linalg::vector::is_finite;
 
 /// Asymmetry allowed, relative to the diagonal: far above the rounding of a host's condensation
 /// (measured 1e-13 from CalculiX and MUMPS), far below a slip of indices.
@@ -25,7 +26,9 @@ pub(crate) fn check(matrix: &Matrix<'_>, name: &str, argument: Argument) -> Resu
     let at = |i: usize, j: usize| entry(name, [i, j]);
     for j in 0..matrix.size() {
         let column = matrix.column(j);
-        if let Some(i) = column.iter().position(|k| !k.is_finite()) {
+        if !is_finite(column)
+            && let Some(i) = column.iter().position(|k| !k.is_finite())
+        {
             return refuse(at(i, j) + " is not finite");
         }
         if column[j] <= 0.0 {
@@ -42,14 +45,14 @@ pub(crate) fn check(matrix: &Matrix<'_>, name: &str, argument: Argument) -> Resu
     let root = matrix.diagonal_roots();
     matrix.pairs_across(|i, j, lower, upper| {
         let scale = root[i] * root[j];
-        let difference = (lower - upper).abs() / scale;
-        if difference > SYMMETRY {
+        let difference = (lower - upper).abs();
+        if difference > SYMMETRY * scale {
             let (below, above) = (at(i, j), at(j, i));
             let remedy =
                 format!("average {below} and {above}, or compute both in double precision");
             return refuse(format!(
                 "{name} is not symmetric: {below} is {lower}, {above} is {upper}: {}",
-                self::difference(difference, &remedy)
+                self::difference(difference / scale, &remedy)
             ));
         }
         if lower.abs() > (1.0 + SYMMETRY) * scale {

@@ -156,7 +156,7 @@ fn certified(
 ) -> LcpSolution {
     let (eta, product) = lcp.measure(&run.z, magnitudes);
     let mut infeasible_by = None;
-    let wanted = format!("eta is {eta:.1e}, wanted {:.1e}", settings.tolerance);
+    let wanted = || format!("eta is {eta:.1e}, wanted {:.1e}", settings.tolerance);
     let (status, message) = match &run.ending {
         _ if eta <= settings.tolerance => (Status::Solved, format!("solved: eta is {eta:.1e}")),
         Ending::Recession(ray) if lcp.is_infeasible_by(ray) => {
@@ -167,18 +167,19 @@ fn certified(
         }
         Ending::Recession(_) => (
             Status::Stalled,
-            format!("Lemke's path ended in a ray that is no proof of infeasibility; {wanted}"),
+            format!("Lemke's path ended in a ray that is no proof of infeasibility; {}", wanted()),
         ),
-        Ending::Stopped(stop) => stop.status(settings, &wanted),
+        Ending::Stopped(stop) => stop.status(settings, &wanted()),
         Ending::Singular => (
             Status::Stalled,
             format!(
-                "block pivoting met a singular system, or M has no positive diagonal; {wanted}"
+                "block pivoting met a singular system, or M has no positive diagonal; {}",
+                wanted()
             ),
         ),
-        Ending::Stalled(reason) => (Status::Stalled, format!("{reason}; {wanted}")),
+        Ending::Stalled(reason) => (Status::Stalled, format!("{reason}; {}", wanted())),
         Ending::Done | Ending::Cycle => {
-            (Status::Stalled, format!("accuracy was lost to rounding; {wanted}"))
+            (Status::Stalled, format!("accuracy was lost to rounding; {}", wanted()))
         }
     };
     let w = lcp.q().iter().zip(&product).zip(&run.z);
