@@ -70,6 +70,8 @@
 //!
 //! - P. Alart and A. Curnier: *A mixed formulation for frictional contact problems prone to Newton like
 //!   solution methods*. Computer Methods in Applied Mechanics and Engineering 92 (1991) 353–375.
+//! - J. L. Blue: *A portable Fortran program to find the Euclidean norm of a vector*. ACM Transactions on
+//!   Mathematical Software 4 (1978) 15–23.
 //! - D. G. Christopherson: *A new mathematical method for the solution of film lubrication problems*.
 //!   Proceedings of the Institution of Mechanical Engineers 146 (1941) 126–135.
 //! - R. W. Cottle, J.-S. Pang and R. E. Stone: *The Linear Complementarity Problem*. Academic Press, 1992.
