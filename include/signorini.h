@@ -649,8 +649,9 @@ struct signorini_settings {
     int64_t max_iterations;
     double time_limit; /**< Most seconds of wall time; 0 and infinity: no limit; default 0. */
     /**
-     * Nonzero: start from what d holds (Newton, block pivoting: from its states). Default 0: start
-     * from d = 0 (Newton, block pivoting: from all pairs sticking). Lemke's method has no start.
+     * Nonzero: start from what d holds (Newton in 2D, block pivoting: from its states). Default 0:
+     * start from d = 0 (Newton in 2D, block pivoting: from all pairs sticking). Lemke's method has
+     * no start.
      */
     int32_t warm_start;
     int32_t search;                 /**< SIGNORINI_SEARCH_...; default SIGNORINI_SEARCH_OFF. */

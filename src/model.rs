@@ -6,6 +6,7 @@ use crate::certificate::{Certificate, certify};
 use crate::error::{Argument, Error, entry};
 use crate::file;
 use crate::linalg::matrix::{Matrix, required_length};
+use crate::linalg::vector::first_not_finite;
 use crate::monitor::Monitor;
 use crate::problem::{
     ContactData, ContactProblem, FrictionLaw, checked_dim, symmetric_matrix, unknowns,
@@ -286,7 +287,7 @@ fn check_vector(
         let message = format!("{name} has {} entries, it must have {length}", values.len());
         return Err(Error::invalid(argument, message));
     }
-    match values.iter().position(|value| !value.is_finite()) {
+    match first_not_finite(values) {
         Some(i) => Err(Error::invalid(argument, entry(name, [i]) + " is not finite")),
         None => Ok(()),
     }

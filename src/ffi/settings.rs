@@ -67,8 +67,9 @@ pub struct SignoriniSettings {
     pub max_iterations: i64,
     /// Most seconds of wall time; 0 and infinity: no limit; default 0.
     pub time_limit: f64,
-    /// Nonzero: start from what d holds (Newton, block pivoting: from its states). Default 0: start
-    /// from d = 0 (Newton, block pivoting: from all pairs sticking). Lemke's method has no start.
+    /// Nonzero: start from what d holds (Newton in 2D, block pivoting: from its states). Default 0:
+    /// start from d = 0 (Newton in 2D, block pivoting: from all pairs sticking). Lemke's method has
+    /// no start.
     pub warm_start: i32,
     /// SIGNORINI_SEARCH_...; default SIGNORINI_SEARCH_OFF.
     pub search: i32,

@@ -16,9 +16,11 @@ pub fn norm(values: &[f64]) -> f64 {
     sum.root()
 }
 
-/// Whether no entry is infinite or NaN. Without an early end, for the vectoriser.
-pub fn is_finite(values: &[f64]) -> bool {
-    values.iter().fold(true, |all, value| all & value.is_finite())
+/// The first entry that is infinite or NaN.
+pub fn first_not_finite(values: &[f64]) -> Option<usize> {
+    // Without an early end, for the vectoriser: nearly always all are finite.
+    let all = values.iter().fold(true, |all, value| all & value.is_finite());
+    if all { None } else { values.iter().position(|value| !value.is_finite()) }
 }
 
 /// Largest absolute value, 0 for an empty slice; NaN if an entry is.

@@ -18,7 +18,7 @@ use super::relation::{Relation, Stiffness};
 use super::symmetric_matrix;
 use crate::error::{Argument, Error, entry};
 use crate::linalg::matrix::{Matrix, can_exist, required_length};
-use crate::linalg::vector;
+use crate::linalg::vector::{self, first_not_finite};
 
 /// The friction law of all pairs, with its parameters, one number for each pair.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -285,7 +285,7 @@ fn check_length(argument: Argument, name: &str, given: usize, needed: usize) -> 
 }
 
 fn check_finite(argument: Argument, name: &str, values: &[f64]) -> Result<(), Error> {
-    match values.iter().position(|value| !value.is_finite()) {
+    match first_not_finite(values) {
         Some(i) => Err(Error::invalid(argument, entry(name, [i]) + " is not finite")),
         None => Ok(()),
     }

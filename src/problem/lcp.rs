@@ -3,7 +3,7 @@
 use crate::error::{Argument, Error, entry};
 use crate::linalg::matrix::{Matrix, required_length};
 use crate::linalg::tolerances::{LEAST_WORK, NEGLIGIBLE};
-use crate::linalg::vector::{NormSum, dot, is_finite, largest_of, norm};
+use crate::linalg::vector::{NormSum, dot, first_not_finite, largest_of, norm};
 
 /// A checked problem, a view of the caller's arrays.
 #[derive(Clone, Copy, Debug)]
@@ -48,13 +48,11 @@ impl<'a> Lcp<'a> {
         let (q, covering) = (&q[..size], covering.map(|covering| &covering[..size]));
         let lcp = Lcp { matrix: Matrix::new(size, matrix, ld), q, covering };
         for j in 0..size {
-            if !is_finite(lcp.column(j))
-                && let Some(i) = lcp.column(j).iter().position(|m| !m.is_finite())
-            {
+            if let Some(i) = first_not_finite(lcp.column(j)) {
                 return refuse(Argument::Matrix, entry("M", [i, j]) + " is not finite");
             }
         }
-        if let Some(i) = q.iter().position(|q| !q.is_finite()) {
+        if let Some(i) = first_not_finite(q) {
             return refuse(Argument::Load, entry("q", [i]) + " is not finite");
         }
         if let Some(covering) = covering

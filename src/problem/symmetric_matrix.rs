@@ -2,7 +2,7 @@
 
 use crate::error::{Argument, Error, entry, index};
 use crate::linalg::matrix::Matrix;
-use crate::linalg::vector::is_finite;
+use crate::linalg::vector::first_not_finite;
 
 /// Asymmetry allowed, relative to the diagonal: far above the rounding of a host's condensation
 /// (measured 1e-13 from CalculiX and MUMPS), far below a slip of indices.
@@ -26,9 +26,7 @@ pub(crate) fn check(matrix: &Matrix<'_>, name: &str, argument: Argument) -> Resu
     let at = |i: usize, j: usize| entry(name, [i, j]);
     for j in 0..matrix.size() {
         let column = matrix.column(j);
-        if !is_finite(column)
-            && let Some(i) = column.iter().position(|k| !k.is_finite())
-        {
+        if let Some(i) = first_not_finite(column) {
             return refuse(at(i, j) + " is not finite");
         }
         if column[j] <= 0.0 {

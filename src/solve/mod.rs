@@ -24,6 +24,7 @@ mod uniqueness;
 
 use crate::error::{Argument, Error, entry};
 use crate::law::Contact;
+use crate::linalg::vector::first_not_finite;
 use crate::monitor::Monitor;
 use crate::problem::ContactProblem;
 use crate::settings::{Method, Search, Settings};
@@ -73,7 +74,7 @@ fn check_start(contact: &Contact<'_>, start: Option<&[f64]>) -> Result<(), Error
         let message = format!("the start has {} entries, it must have {n}", start.len());
         return Err(Error::invalid(Argument::Start, message));
     }
-    match start.iter().position(|d| !d.is_finite()) {
+    match first_not_finite(start) {
         Some(i) => {
             let message = format!("the start {} is not finite", entry("d", [i]));
             Err(Error::invalid(Argument::Start, message))
