@@ -32,6 +32,7 @@ pub mod frictionless;
 mod local;
 mod natural_map;
 mod normal_map;
+pub mod piece;
 mod proximal;
 mod recession;
 pub mod tresca;
