@@ -5,6 +5,7 @@
 pub mod bare;
 pub mod dense;
 pub mod folder;
+pub mod half_space;
 pub mod measures;
 pub mod mesh;
 pub mod oracle;
