@@ -1,7 +1,7 @@
 //! Blocks of 8-node bricks on a plane obstacle: trilinear, 2 x 2 x 2 Gauss points, isotropic.
 
+use signorini::Model;
 use signorini::reduce::{ContactPairs, Indices, SparseMatrix, Triangle};
-use signorini::{FrictionLaw, LoadCase, Model};
 
 use super::dense::dot;
 use super::mesh::Stiffness;
@@ -188,33 +188,31 @@ impl Brick {
         }
     }
 
+    /// The axes of each pair in those of the block: normal and tangents.
+    pub fn frames(model: &Model) -> Vec<[Vector; 3]> {
+        let frames = model.frames().expect("a sparse model has frames");
+        let axis = |pair: usize, c: usize| -> Vector {
+            std::array::from_fn(|i| frames[9 * pair + 3 * c + i])
+        };
+        (0..model.pairs()).map(|pair| std::array::from_fn(|c| axis(pair, c))).collect()
+    }
+
+    /// Vectors of the pairs, given in the axes of the block, in the frames of the pairs.
+    pub fn in_frames(model: &Model, vectors: impl IntoIterator<Item = Vector>) -> Vec<f64> {
+        let frames = Self::frames(model).into_iter();
+        frames.zip(vectors).flat_map(|(frame, v)| frame.map(|axis| dot(&axis, &v))).collect()
+    }
+
     /// The rigid motions of the pairs, in their frames: along x, y, z and about them.
     pub fn rigid_motions(&self, model: &Model) -> [Vec<f64>; 6] {
-        let frames = model.frames().expect("a sparse model has frames");
         std::array::from_fn(|motion| {
             let mut axis = [0.0; 3];
             axis[motion % 3] = 1.0;
-            (0..self.pairs())
-                .flat_map(|pair| {
-                    let u = if motion < 3 { axis } else { cross(axis, self.place(pair)) };
-                    std::array::from_fn::<f64, 3, _>(|c| {
-                        dot(&frames[9 * pair + 3 * c..9 * pair + 3 * (c + 1)], &u)
-                    })
-                })
-                .collect()
+            let places = (0..self.pairs()).map(|pair| self.place(pair));
+            let moved = |place| if motion < 3 { axis } else { cross(axis, place) };
+            Self::in_frames(model, places.map(moved))
         })
     }
-}
-
-/// A load case with one coefficient of friction.
-pub fn load_case<'a>(
-    (load, prescribed): &'a (Vec<f64>, Option<Vec<f64>>),
-    gap: &'a [f64],
-    mu: &'a [f64],
-    slip: Option<&'a [f64]>,
-) -> LoadCase<'a> {
-    let (prescribed, law) = (prescribed.as_deref(), FrictionLaw::Coulomb(mu));
-    LoadCase { load, prescribed, gap, law, reference_slip: slip }
 }
 
 pub fn cross(a: Vector, b: Vector) -> Vector {
