@@ -23,10 +23,6 @@ pub fn lift(r: &mut [f64], by: f64) {
     r[0] -= by;
 }
 
-/// Edges of the polygon around a friction cone in 3D. The polygon contains the cone, so that what its
-/// forces cannot balance the cone's cannot; it is at most `1 / cos(pi / 16) - 1 = 1.9 %` wider.
-const EDGES: usize = 16;
-
 impl PairLaw {
     /// The motion `r` of the pair.
     pub fn recession(&self, r: &[f64]) -> Recession {
@@ -48,24 +44,29 @@ impl PairLaw {
         }
     }
 
-    /// Edges of a cone that contains all forces which the pair can carry, each with the normal
-    /// component −1; none without an obstacle. The law's bound is a cone.
+    /// Some edges of the cone of forces that the pair can carry, each with the normal component −1: all
+    /// in the plane, four in space; none without an obstacle. The law's bound is a cone.
     pub fn cone_edges(&self) -> Vec<Vector> {
         let mu = self.bound.slope;
         match self.dim {
             _ if !self.has_obstacle() => Vec::new(),
             _ if mu == 0.0 => vec![[-1.0, 0.0, 0.0]],
             2 => vec![[-1.0, mu, 0.0], [-1.0, -mu, 0.0]],
-            _ => (0..EDGES)
-                .map(|k| {
-                    let half = std::f64::consts::PI / EDGES as f64;
-                    let (sin, cos) = (2.0 * half * k as f64).sin_cos();
-                    [-1.0, mu * cos / half.cos(), mu * sin / half.cos()]
-                })
-                .collect(),
+            _ => vec![[-1.0, mu, 0.0], [-1.0, -mu, 0.0], [-1.0, 0.0, mu], [-1.0, 0.0, -mu]],
         }
     }
 
+    /// The edge of the cone whose force does the least work on the motion `r`: the work is
+    /// `-(r_n + slope |r_t|)`.
+    pub fn opposing_edge(&self, r: &[f64]) -> Vector {
+        let (mut edge, slip) = ([-1.0, 0.0, 0.0], length(&r[1..self.dim]));
+        if slip > 0.0 {
+            for c in 1..self.dim {
+                edge[c] = -self.bound.slope * r[c] / slip;
+            }
+        }
+        edge
+    }
     /// Whether the pair would have to pull with this normal force.
     pub fn is_tensile(&self, f_n: f64) -> bool {
         f_n > 0.0

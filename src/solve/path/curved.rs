@@ -8,6 +8,7 @@ use crate::monitor::Monitor;
 use crate::settings::Settings;
 use crate::solve::candidate::{Candidate, Ending};
 use crate::solve::normal_map::{Ended, Equations, Point, newton_from, on_candidates};
+use crate::solve::rigid_balance;
 
 /// Size of the perturbation of a start beside the loads: symmetric meshes have ties, and on a generic
 /// start no two pairs reach their boundaries at once.
@@ -28,6 +29,10 @@ pub fn curved(
     start: Option<&[f64]>,
     monitor: &mut Monitor<'_>,
 ) -> Candidate {
+    // Without an equilibrium the path runs away slowly: what can be proved at once is.
+    if let Some(motion) = rigid_balance::escape(contact) {
+        return Candidate::without_displacements(contact, Ending::Recession(motion));
+    }
     on_candidates(contact, settings, start, monitor, &mut |equations, y, monitor| {
         from(equations, y, settings.tolerance, monitor)
     })
