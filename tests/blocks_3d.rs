@@ -150,7 +150,7 @@ fn newton_solves_slender_columns() {
 
 /// A block that is pressed and whose plate then goes round a circle, each step from the slip and the
 /// displacements of the one before. Starts change nothing: both answers obey the law to 1e-12, which
-/// the condition number of the block, some 100, makes 1e-10 of the displacements.
+/// the condition number of the block, 56, makes 1e-10 of the displacements.
 #[test]
 fn a_warm_start_saves_systems_and_changes_nothing() {
     let (brick, mu, steps) = (block(15, Support::Clamped), 0.3, 20);

@@ -2,8 +2,8 @@
 //! turned, in other units. The answer is the same, in space.
 //!
 //! Friction is as small as theory asks for one solution only: `mu < (|K_nn| |(K⁻¹)_tt|)^-½`, where the
-//! map of thresholds contracts. Answers obey the law to 1e-13 of the forces; the condition number of the
-//! blocks, 100 and 1000, makes this 1e-10 of the displacements at most.
+//! map of thresholds contracts. Answers obey the law to 1e-13 of the forces; the condition numbers of
+//! the blocks, 18 and 38, make this 4e-12 of the displacements, and contraction by 0.9 ten times that.
 
 mod common;
 
