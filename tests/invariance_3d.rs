@@ -11,9 +11,9 @@ use std::f64::consts::TAU;
 
 use common::brick::{Brick, Support, Vector, cross};
 use common::dense::{difference, dot, largest, norm, product};
+use common::measures::most_with_one_solution;
 use common::problems::{Case, Law, uniform};
 use fastrand::Rng;
-use nalgebra::DMatrix;
 use signorini::{Method, Settings, Solution, State, Status};
 
 const AGREEMENT: f64 = 1e-9;
@@ -139,18 +139,6 @@ fn solve(case: &Case) -> Solution {
     solution
 }
 
-/// Most friction for which theory proves one solution.
-fn contracting(case: &Case) -> f64 {
-    let (n, pairs) = (case.size(), case.pairs);
-    let k = DMatrix::from_column_slice(n, n, &case.k);
-    let w = k.clone().cholesky().expect("the block is held").inverse();
-    let normal = DMatrix::from_fn(pairs, pairs, |i, j| k[(3 * i, 3 * j)]);
-    let place = |i: usize| 3 * (i / 2) + 1 + i % 2;
-    let tangential = DMatrix::from_fn(2 * pairs, 2 * pairs, |i, j| w[(place(i), place(j))]);
-    let largest = |matrix: DMatrix<f64>| matrix.symmetric_eigenvalues().max();
-    1.0 / (largest(normal) * largest(tangential)).sqrt()
-}
-
 /// A plate that presses, shifts, twists and tilts; gaps, and previous slips of a tenth of the shift.
 fn event(rng: &mut Rng) -> Event {
     let mut event = Event {
@@ -164,7 +152,7 @@ fn event(rng: &mut Rng) -> Event {
     let plain = Description::plain();
     let (case, _) = plain
         .problem(&Event { slip: vec![[0.0; 3]; PAIRS], ..event.clone() }, &plain.brick(&event));
-    event.mu = 0.9 * contracting(&case);
+    event.mu = 0.9 * most_with_one_solution(&case);
     let slide = 0.1 * event.mu;
     let mut some = |size: f64| uniform(rng, -size, size);
     event.translation = [some(slide), some(slide), -0.05];
