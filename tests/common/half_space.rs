@@ -105,7 +105,10 @@ impl HalfSpace {
     /// Inverse of the flexibility, symmetric to the last bit, column-major. Forces on squares that are
     /// not in the grid are zero.
     pub fn stiffness(&self, grid: &Grid) -> Vec<f64> {
-        let k = self.flexibility(grid).cholesky().expect("the flexibility is definite").inverse();
+        let w = self.flexibility(grid);
+        // Betti's theorem.
+        assert!((&w - w.transpose()).amax() <= 1e-13 * w.amax(), "the flexibility is symmetric");
+        let k = w.cholesky().expect("the flexibility is definite").inverse();
         ((&k + k.transpose()) / 2.0).as_slice().to_vec()
     }
 }
