@@ -238,3 +238,26 @@ fn symmetric_blocks_with_much_friction_are_solved() {
         }
     }
 }
+
+/// Fine meshes with much friction, where a line search alone comes to a halt between branches: a path
+/// takes some tens of systems. Sweeps, which may take thousands, are cut short.
+#[test]
+fn fine_blocks_with_much_friction_are_solved() {
+    let hard = [
+        (17, Loading::Tilt, 10.0),
+        (22, Loading::Twist, 3.0),
+        (22, Loading::Shift, 10.0),
+        (23, Loading::Tilt, 10.0),
+    ];
+    let settings = Settings { tolerance: TOLERANCE, max_iterations: 500, ..Settings::default() };
+    let mut failed = Vec::new();
+    for (n, loading, mu) in hard {
+        let brick = block(n, Support::Clamped);
+        let case = loaded(&brick, &brick.model(), loading, mu);
+        let solution = case.solve(&settings);
+        let what = format!("{} pairs, {loading:?}, mu {mu}", n * n);
+        println!("{what}: {:?}, {} systems", solution.method, solution.factorisations);
+        failed.extend(flaw(&case, &solution).map(|flaw| format!("{what}: {flaw}")));
+    }
+    assert!(failed.is_empty(), "{failed:#?}");
+}

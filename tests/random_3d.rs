@@ -29,8 +29,8 @@ const MOST_MU: f64 = 20.0;
 const MOST_ITERATIONS: u64 = 20_000;
 
 /// Rounding of `K d` beside the forces is up to `eps c sqrt(n)`, as `|d|` is up to `c |f|`: 1e-11 at the
-/// condition number `c` of 1e4 and 1e-9 at 1e6 with `n = 90`. Displacements that large are rare: to 1e4
-/// a tenth of it is met by all.
+/// condition number `c` of 1e4 and 1e-9 at 1e6, with `n = 90`. Up to 1e4 a tenth of that is asked for, as
+/// loads along the softest motion alone would reach it.
 fn tolerance(condition: f64) -> f64 {
     if condition <= 1e4 { 1e-12 } else { 1e-9 }
 }

@@ -3,7 +3,8 @@
 //!
 //! Displacements at the centres of the squares, by Boussinesq's and Cerruti's solutions integrated over a
 //! rectangle (A. E. H. Love 1929; K. L. Johnson, *Contact Mechanics*, 1985, chapter 3). With
-//! `x`, `y` from the square to the point, `r` its length, `n` outward, forces on the half-space:
+//! `x`, `y` from the square to the point, `r` its length, means over the square, `n` outward, and forces on
+//! the half-space:
 //!
 //! ```text
 //! d_n   from F_n:   (1 - nu) / (2 pi G) ∬ 1/r
