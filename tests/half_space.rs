@@ -263,3 +263,24 @@ fn punches_that_spin() {
         vec![("M", error(contact.torque(), 16.0 / 3.0 * A.powi(3) * turn), 0.03)]
     });
 }
+
+/// A flat punch to whose face the surface sticks as it goes down: V. I. Mossakovskii (1954),
+/// `P = 4 G a delta ln(3 - 4 nu) / (1 - 2 nu)`; without friction `4 G a delta / (1 - nu)`. The ratio,
+/// 1.10 and 1.03, hardly depends on how squares follow the rim. Pressure and shear act on each other here.
+#[test]
+fn flat_punch_that_sticks() {
+    for poisson in [0.0, 0.3] {
+        let body = HalfSpace { shear: 1.0, poisson, coupled: true };
+        check(&format!("bonded punch, nu {poisson}"), |n| {
+            // Friction that holds at every point.
+            let press = |mu: f64| {
+                let contact = Contact::new(&body, Grid::new(n, A), |_| -1.0, |_| [0.0; 2], mu);
+                let states = &contact.solution.certificate.states;
+                assert!(mu == 0.0 || states.iter().all(|&state| state == State::Stick));
+                contact.press()
+            };
+            let exact = (1.0 - poisson) * (3.0 - 4.0 * poisson).ln() / (1.0 - 2.0 * poisson);
+            vec![("P/P without friction", error(press(10.0) / press(0.0), exact), 0.005)]
+        });
+    }
+}

@@ -35,6 +35,8 @@ pub struct Brick {
     pub tangents: Option<Vec<Vector>>,
     /// The nodes of the lower face in the order of the pairs.
     pub contact: Vec<usize>,
+    /// Degrees of freedom held at zero beside the support.
+    pub held: Vec<usize>,
 }
 
 impl Brick {
@@ -57,7 +59,8 @@ impl Brick {
         let contact: Vec<usize> = (0..(nx + 1) * (ny + 1)).collect();
         let tangents = Some(vec![[1.0, 0.0, 0.0]; contact.len()]);
         let material = (1.0, 0.3);
-        Brick { cells, nodes, material, support, normal: [0.0, 0.0, -1.0], tangents, contact }
+        let (normal, held) = ([0.0, 0.0, -1.0], Vec::new());
+        Brick { cells, nodes, material, support, normal, tangents, contact, held }
     }
 
     pub fn pairs(&self) -> usize {
@@ -149,20 +152,24 @@ impl Brick {
             normals: &vec![self.normal; count].concat(),
             tangents: tangents.as_deref(),
         };
-        let fixed: Vec<usize> = match self.support {
+        let mut fixed: Vec<usize> = match self.support {
             Support::Clamped => self.top().flat_map(dofs).collect(),
             _ => Vec::new(),
         };
+        fixed.extend(&self.held);
         Model::sparse(&matrix, &fixed, &pairs).expect("the block is a model")
     }
 
     /// Loads and prescribed displacements by which the plate moves as `motion` says of a place: a
     /// clamped face with it, springs at their upper ends.
     pub fn moved(&self, motion: impl Fn(Vector) -> Vector) -> (Vec<f64>, Option<Vec<f64>>) {
-        let values: Vec<f64> = self.top().flat_map(|node| motion(self.nodes[node])).collect();
+        let mut values: Vec<f64> = self.top().flat_map(|node| motion(self.nodes[node])).collect();
         let mut load = vec![0.0; self.size()];
         match self.support {
-            Support::Clamped => return (load, Some(values)),
+            Support::Clamped => {
+                values.extend(self.held.iter().map(|_| 0.0));
+                return (load, Some(values));
+            }
             Support::Springs(spring) => {
                 let top = 3 * self.top().start;
                 load[top..].iter_mut().zip(&values).for_each(|(f, u)| *f = spring * u);

@@ -3,7 +3,8 @@
 //!
 //! Displacements at the centres of the squares, by Boussinesq's and Cerruti's solutions integrated over a
 //! rectangle (A. E. H. Love 1929; K. L. Johnson, *Contact Mechanics*, 1985, chapter 3). With
-//! `x`, `y` from the square to the point, `r` its length, `n` outward, forces on the half-space:
+//! `x`, `y` from the square to the point, `r` its length, means over the square, `n` outward, and forces on
+//! the half-space:
 //!
 //! ```text
 //! d_n   from F_n:   (1 - nu) / (2 pi G) ∬ 1/r
@@ -105,7 +106,10 @@ impl HalfSpace {
     /// Inverse of the flexibility, symmetric to the last bit, column-major. Forces on squares that are
     /// not in the grid are zero.
     pub fn stiffness(&self, grid: &Grid) -> Vec<f64> {
-        let k = self.flexibility(grid).cholesky().expect("the flexibility is definite").inverse();
+        let w = self.flexibility(grid);
+        // Betti's theorem.
+        assert!((&w - w.transpose()).amax() <= 1e-13 * w.amax(), "the flexibility is symmetric");
+        let k = w.cholesky().expect("the flexibility is definite").inverse();
         ((&k + k.transpose()) / 2.0).as_slice().to_vec()
     }
 }
