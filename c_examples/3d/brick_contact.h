@@ -17,6 +17,12 @@ struct contact {
     int32_t *lower, *upper; /* the nodes of each pair */
 };
 
+/* What the library finds. The pairs one after the other, (n, t1, t2) for each in d and F. */
+struct answer {
+    double *d, *F;
+    int32_t *state;
+};
+
 /*
  * Makes the library's model of the assembled mesh. Returns what signorini_model_new_sparse returns,
  * or SIGNORINI_STATUS_OUT_OF_MEMORY.

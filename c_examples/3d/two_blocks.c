@@ -1,30 +1,23 @@
 /*
  * Two blocks: the upper one lies on the lower one, held by nothing but contact and friction. It is
- * pressed down in the middle, then twisted more and more.
- *
- *        z                 | press
- *        |            +----v----+
- *     30 |            |  upper  |<- twist about z, by forces on its top face
- *      0 |        +---+=========+---+      contact: 9 x 9 pairs of nodes, 80 mm by 80 mm
- *        |        |      lower      |
- *    -40 |        +-----------------+      held
- *                -50 -40   0   40  50   x, y; mm, N, MPa
+ * pressed in the middle, so that its corners lift, and then twisted more and more. blocks.h has a
+ * drawing.
  *
  * This is a host program of the kind that the library is for. It meshes and assembles both blocks
- * into one sparse matrix (brick_mesh.c). The library makes a model of it (brick_contact.c) and
- * solves one load step after the other (`run`): friction remembers the slip of the step before.
- * The rest shows the answers and checks them against statics: the upper block has six rigid motions,
- * so that contact must give exactly the opposite of the six applied resultants.
+ * into one sparse matrix (blocks.c, brick_mesh.c). The library makes a model of it (brick_contact.c)
+ * and solves one load step after the other (`run`): friction remembers the slip of the step before.
+ * The rest shows the answers and checks them. The upper block has six rigid motions, so that the
+ * contact forces must balance the loads on it exactly, three forces and three moments.
  *
  *     two_blocks [DIR]
  *
- * With DIR, it also writes DIR/two_blocks.csv, the pairs after the last step that has a solution, and
- * DIR/two_blocks.vtk, the blocks in that step, for ParaView or alike. It returns 0 if every check
+ * With DIR, it also writes DIR/two_blocks.csv, the pairs after the last step, and
+ * DIR/two_blocks.vtk, the blocks after it, for ParaView or alike. It returns 0 if every check
  * passed. two_blocks.f90 and two_blocks.py are the same program.
  */
 
-#include "brick_contact.h"
-#include "brick_vtk.h"
+#include "blocks.h"
+#include "brick_output.h"
 #include "../common/checks.h"
 
 #include <errno.h>
@@ -33,165 +26,62 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum {
-    LOWER, UPPER, /* the boxes */
-    WIDE = 10, DEEP = 4,    /* cells of the lower block, of 10 mm */
-    NARROW = 8, HIGH = 3,   /* of the upper block */
-    LINE = NARROW + 1,      /* nodes along a side of the contact */
-    PAIRS = LINE * LINE,
-    SIZE = 3 * PAIRS,
-    NODES = (WIDE + 1) * (WIDE + 1) * (DEEP + 1) + LINE * LINE * (HIGH + 1),
-    DOFS = 3 * NODES,
-    FIXED = 3 * (WIDE + 1) * (WIDE + 1),
-    STEPS = 5,
-};
+enum { STEPS = 5 };
 
-static const double pitch = 10.0;                    /* mm */
-static const struct material steel = {210000.0, 0.3}; /* MPa */
-static const double mu = 0.3;
-static const double press = 40000.0; /* N */
+static const double mu = 0.6;
+static const double twist[STEPS] = {0.0, 100e3, 200e3, 300e3, 400e3}; /* N mm */
 
-/* The twist of each step, N mm. */
-static const double twist[STEPS] = {0.0, 50e3, 100e3, 150e3, 200e3};
-/* Rounding of sums of some hundred forces; errors of the host would be of order 1. */
+/* Rounding of sums of some hundred forces; a wrong sign or a missing force is of order 1. */
 static const double tiny = 1e-9;
-
-struct answer {
-    double d[SIZE], F[SIZE]; /* (n, t1, t2) of each pair; mm, N */
-    int32_t state[PAIRS];
-};
-
-/* ---- The host ------------------------------------------------------------------------------ */
-
-static struct brick_mesh *new_mesh(void)
-{
-    double wide[WIDE + 1], narrow[NARROW + 1], deep[DEEP + 1], high[HIGH + 1];
-
-    for (int i = 0; i <= WIDE; i++)
-        wide[i] = pitch * (i - WIDE / 2);
-    for (int i = 0; i <= NARROW; i++)
-        narrow[i] = pitch * (i - NARROW / 2);
-    for (int i = 0; i <= DEEP; i++)
-        deep[i] = pitch * (i - DEEP);
-    for (int i = 0; i <= HIGH; i++)
-        high[i] = pitch * i;
-    const struct box boxes[2] = {{{WIDE, WIDE, DEEP}, {wide, wide, deep}},
-                                 {{NARROW, NARROW, HIGH}, {narrow, narrow, high}}};
-    return brick_mesh_new(2, boxes, steel);
-}
-
-/* The pairs row by row, x first; the bottom of the lower block is held. */
-static int32_t new_model(const struct brick_mesh *mesh, struct contact *contact,
-                         signorini_model **model)
-{
-    const int rim = (WIDE - NARROW) / 2;
-    int64_t fixed[FIXED];
-
-    for (int pair = 0; pair < PAIRS; pair++) {
-        const int i = pair % LINE, j = pair / LINE;
-        contact->lower[pair] = brick_node(mesh, LOWER, i + rim, j + rim, DEEP);
-        contact->upper[pair] = brick_node(mesh, UPPER, i, j, 0);
-    }
-    for (int i = 0; i < FIXED; i++) /* the nodes of the lowest layer have the first numbers */
-        fixed[i] = i;
-    return contact_model(mesh, contact, FIXED, fixed, model);
-}
-
-/* Forces on the top of the upper block: the press on the inner 5 x 5 nodes, the twist on all of
- * them, across the radius and in proportion to it. */
-static void loads(const struct brick_mesh *mesh, double moment, double f[DOFS])
-{
-    const double middle = 2.0 * pitch;
-    double polar = 0.0; /* sum of the squared radii */
-    int inner = 0;
-
-    for (int i = 0; i < DOFS; i++)
-        f[i] = 0.0;
-    for (int i = 0; i < PAIRS; i++) {
-        const double *at = mesh->at[brick_node(mesh, UPPER, i % LINE, i / LINE, HIGH)];
-        polar += at[0] * at[0] + at[1] * at[1];
-        inner += fabs(at[0]) <= middle && fabs(at[1]) <= middle;
-    }
-    for (int i = 0; i < PAIRS; i++) {
-        const int32_t node = brick_node(mesh, UPPER, i % LINE, i / LINE, HIGH);
-        const double *at = mesh->at[node];
-        f[3 * node] = -moment * at[1] / polar;
-        f[3 * node + 1] = moment * at[0] / polar;
-        if (fabs(at[0]) <= middle && fabs(at[1]) <= middle)
-            f[3 * node + 2] = -press / inner;
-    }
-}
-
-/* ---- What is seen -------------------------------------------------------------------------- */
-
-/* One letter for each pair, seen from above. */
-static void print_map(const int32_t state[PAIRS])
-{
-    for (int j = LINE - 1; j >= 0; j--) {
-        fputs("        ", stdout);
-        for (int i = 0; i < LINE; i++)
-            printf(" %c", "os."[state[i + LINE * j]]);
-        putchar('\n');
-    }
-}
-
-/* Slip works its way from the rim to the middle: how far it has come. */
-static double innermost_slip(const struct brick_mesh *mesh, const struct contact *contact,
-                             const int32_t state[PAIRS])
-{
-    double radius = HUGE_VAL;
-    for (int pair = 0; pair < PAIRS; pair++) {
-        const double *at = mesh->at[contact->lower[pair]];
-        if (state[pair] == SIGNORINI_STATE_SLIP)
-            radius = fmin(radius, hypot(at[0], at[1]));
-    }
-    return radius;
-}
 
 /* ---- What is checked ----------------------------------------------------------------------- */
 
-/* The upper block floats: contact forces and loads on it have no resultant. Returns the largest
- * component of force over the press, or of moment over the press times the contact's half side. */
-static double imbalance(const struct brick_mesh *mesh, const signorini_model *model,
-                        const double F[SIZE], const double f[DOFS], double force[3],
-                        double moment[3])
+struct balance {
+    double force[3], moment[3]; /* of contact, on the upper block */
+    double off; /* largest sum with the loads, over the press, and over the press times half a side */
+};
+
+static struct balance balance_of(const struct brick_mesh *mesh, const signorini_model *model,
+                                 const double F[SIZE], const double f[DOFS])
 {
-    const double arm = pitch * NARROW / 2;
+    const double arm = CELL * NARROW / 2;
     static double nodal[DOFS];
-    double applied_force[3], applied_moment[3], worst = 0.0;
+    double force[3], moment[3];
+    struct balance balance = {.off = 0.0};
 
     if (signorini_model_nodal_forces(model, F, nodal) != 0)
-        return HUGE_VAL;
-    brick_resultant(mesh, UPPER, nodal, force, moment);
-    brick_resultant(mesh, UPPER, f, applied_force, applied_moment);
+        return (struct balance){.off = HUGE_VAL};
+    brick_resultant(mesh, UPPER, nodal, balance.force, balance.moment);
+    brick_resultant(mesh, UPPER, f, force, moment);
     for (int axis = 0; axis < 3; axis++) {
-        worst = fmax(worst, fabs(force[axis] + applied_force[axis]) / press);
-        worst = fmax(worst, fabs(moment[axis] + applied_moment[axis]) / (press * arm));
+        balance.off = fmax(balance.off, fabs(balance.force[axis] + force[axis]) / PRESS);
+        balance.off = fmax(balance.off, fabs(balance.moment[axis] + moment[axis]) / (PRESS * arm));
     }
-    return worst;
+    return balance;
 }
 
-/* A quarter turn, (x, y) to (-y, x), brings blocks and loads to themselves, and so the answer:
- * forces of each pair against those of the pair that it turns to, turned; over the largest. */
+/* A quarter turn, (x, y) to (-y, x), changes neither blocks nor loads. So it must turn the forces of
+ * each pair to those of another pair. Returns the largest difference over the largest force. */
 static double turned_apart(const double F[SIZE])
 {
-    double worst = 0.0, largest = 0.0;
+    double apart = 0.0, largest = 0.0;
+
     for (int j = 0; j < LINE; j++) {
         for (int i = 0; i < LINE; i++) {
             const double *from = &F[3 * (i + LINE * j)];
             const double *to = &F[3 * ((NARROW - j) + LINE * i)];
-            worst = fmax(worst, fabs(to[0] - from[0]));
-            worst = fmax(worst, fabs(to[1] + from[2]));
-            worst = fmax(worst, fabs(to[2] - from[1]));
+            apart = fmax(apart, fabs(to[0] - from[0]));
+            apart = fmax(apart, fabs(to[1] + from[2]));
+            apart = fmax(apart, fabs(to[2] - from[1]));
             largest = fmax(largest, fabs(from[0]));
         }
     }
-    return worst / largest;
+    return apart / largest;
 }
 
 /* The host's own equations, K u = f + contact forces, at all nodes that are not held. */
-static double host_residual(const struct brick_mesh *mesh, const double u[DOFS],
-                            const double f[DOFS], const double nodal[DOFS])
+static void check_host(struct checks *checks, const struct brick_mesh *mesh, const double u[DOFS],
+                       const double f[DOFS], const double nodal[DOFS])
 {
     static double all[DOFS], residual[DOFS];
     double worst = 0.0;
@@ -200,20 +90,22 @@ static double host_residual(const struct brick_mesh *mesh, const double u[DOFS],
         all[i] = f[i] + nodal[i];
     brick_residual(mesh, u, all, residual);
     for (int i = FIXED; i < DOFS; i++)
-        worst = fmax(worst, fabs(residual[i]));
-    return worst / press;
+        worst = fmax(worst, fabs(residual[i]) / PRESS);
+    judge(checks, worst <= tiny);
+    printf("K u = f + contact forces at all nodes: off by %.0e of the press\n", worst);
 }
 
 /* ---- Load steps ---------------------------------------------------------------------------- */
 
-static int32_t solve(const signorini_model *model, const double f[DOFS], const double slip0[],
-                     struct answer *answer, signorini_report *report)
+static int32_t solve(const signorini_model *model, const double f[DOFS],
+                     const double slip0[2 * PAIRS], const struct answer *answer,
+                     signorini_report *report)
 {
-    static double gap[PAIRS], friction[PAIRS];
+    double gap[PAIRS], friction[PAIRS];
     signorini_settings settings;
 
     signorini_settings_default(&settings, sizeof settings);
-    settings.tolerance = 1e-12; /* far below what the checks ask for */
+    settings.tolerance = 1e-12; /* far below the 1e-9 that the checks ask for */
     signorini_report_default(report, sizeof *report);
     for (int pair = 0; pair < PAIRS; pair++) {
         gap[pair] = 0.0;
@@ -224,20 +116,47 @@ static int32_t solve(const signorini_model *model, const double f[DOFS], const d
                                  NULL);
 }
 
-/* All steps; `answer` is that of the last one. */
+/* Radius of the slipping pair that is nearest to the middle. */
+static double innermost_slip(const struct brick_mesh *mesh, const struct contact *contact,
+                             const int32_t state[PAIRS])
+{
+    double radius = HUGE_VAL;
+
+    for (int pair = 0; pair < PAIRS; pair++) {
+        const double *at = mesh->at[contact->lower[pair]];
+        if (state[pair] == SIGNORINI_STATE_SLIP)
+            radius = fmin(radius, hypot(at[0], at[1]));
+    }
+    return radius;
+}
+
+static void print_map(const int32_t state[PAIRS])
+{
+    puts("\n        The last step from above: o open, s slip, . stick\n");
+    for (int j = LINE - 1; j >= 0; j--) {
+        fputs("       ", stdout);
+        for (int i = 0; i < LINE; i++)
+            printf(" %c", "os."[state[i + LINE * j]]);
+        putchar('\n');
+    }
+    putchar('\n');
+}
+
+/* All steps; the answer is that of the last one, and slip0 its slip. */
 static int run(struct checks *checks, const struct brick_mesh *mesh, const struct contact *contact,
-               const signorini_model *model, struct answer *answer)
+               const signorini_model *model, const struct answer *answer, double slip0[2 * PAIRS])
 {
     static double f[DOFS];
-    double slip0[2 * PAIRS] = {0.0}, unbalanced = 0.0, excess = 0.0, turned = 0.0;
+    double off = 0.0, excess = 0.0, turned = 0.0;
 
-    puts("\n twist  open slip stick  slip from   contact forces on the upper block     eta  systems\n"
-         "   N m                       r, mm     F_x     F_y     F_z, N   M_z, N m");
+    for (int i = 0; i < 2 * PAIRS; i++)
+        slip0[i] = 0.0;
+    puts("        pairs         slip from   loads            contact forces on the upper block\n"
+         "   open slip stick      r, mm     F_z, N  M_z, N m     F_z, N  M_z, N m       eta");
     for (int step = 0; step < STEPS; step++) {
-        double force[3], moment[3];
         signorini_report report;
 
-        loads(mesh, twist[step], f);
+        blocks_loads(mesh, twist[step], f);
         const int32_t status = solve(model, f, slip0, answer, &report);
         if (status != SIGNORINI_STATUS_SOLVED) {
             judge(checks, 0);
@@ -245,72 +164,60 @@ static int run(struct checks *checks, const struct brick_mesh *mesh, const struc
                    signorini_status_string(status), signorini_last_error());
             return 0;
         }
-        unbalanced = fmax(unbalanced, imbalance(mesh, model, answer->F, f, force, moment));
+        const struct balance balance = balance_of(mesh, model, answer->F, f);
+        off = fmax(off, balance.off);
         excess = fmax(excess, contact_excess(PAIRS, answer->F, mu));
         turned = fmax(turned, turned_apart(answer->F));
-        printf("%6.0f %5d %4d %5d %10.1f %7.1f %7.1f %10.1f %10.1f %7.0e %8d\n",
-               1e-3 * twist[step], (int)report.pairs_open, (int)report.pairs_slipping,
-               (int)report.pairs_sticking, innermost_slip(mesh, contact, answer->state), force[0],
-               force[1], force[2], 1e-3 * moment[2], report.eta, (int)report.iterations);
+        printf("%7d %4d %5d %10.1f %10.1f %9.1f %10.1f %9.1f %9.0e\n", (int)report.pairs_open,
+               (int)report.pairs_slipping, (int)report.pairs_sticking,
+               innermost_slip(mesh, contact, answer->state), -PRESS, 1e-3 * twist[step],
+               balance.force[2], 1e-3 * balance.moment[2], report.eta);
 
-        /* Friction remembers: where a pair is now, it sticks in the next step. */
+        /* Friction remembers: a pair that sticks in the next step stays where it is now. */
         for (int pair = 0; pair < PAIRS; pair++) {
             slip0[2 * pair] = answer->d[3 * pair + 1];
             slip0[2 * pair + 1] = answer->d[3 * pair + 2];
         }
     }
-    puts("\n        The last step from above: o open, s slip, . stick");
     print_map(answer->state);
-    putchar('\n');
-    judge(checks, unbalanced <= tiny);
-    printf("contact forces and loads balance, 3 forces and 3 moments: off by %.0e\n", unbalanced);
-    judge(checks, excess <= tiny * press);
+    judge(checks, off <= tiny);
+    printf("contact forces balance the loads, 3 forces and 3 moments: off by %.0e\n", off);
+    judge(checks, excess <= tiny * PRESS);
     printf("no tension, |F_t| <= mu |F_n|: exceeded by %.0e N\n", excess);
     judge(checks, turned <= tiny);
     printf("a quarter turn changes nothing: off by %.0e of the largest force\n", turned);
     return 1;
 }
 
-/* No friction forces can hold a twist of more than mu times the press times the largest radius:
- * the library must not call any answer a solution. */
+/* Friction holds no more than mu times the press at the largest radius. With a larger twist there is
+ * no equilibrium, and the library must not call an answer a solution. */
 static void check_limit(struct checks *checks, const struct brick_mesh *mesh,
                         const signorini_model *model, const double slip0[2 * PAIRS])
 {
-    static double f[DOFS];
-    static struct answer answer;
-    const double limit = mu * press * sqrt(2.0) * pitch * NARROW / 2;
+    static double f[DOFS], d[SIZE], F[SIZE];
+    static int32_t state[PAIRS];
+    const double limit = mu * PRESS * sqrt(2.0) * CELL * NARROW / 2;
     signorini_report report;
 
-    loads(mesh, 1.01 * limit, f);
-    const int32_t status = solve(model, f, slip0, &answer, &report);
-    judge(checks, status > 0);
-    printf("twist of %.0f N m, 1 %% more than friction can ever hold: %s\n", 1.01e-3 * limit,
-           signorini_status_string(status));
+    blocks_loads(mesh, 1.01 * limit, f);
+    const int32_t status = solve(model, f, slip0, &(struct answer){d, F, state}, &report);
+    judge(checks, status == SIGNORINI_STATUS_NO_EQUILIBRIUM);
+    printf("twist of %.0f N m, 1 %% more than friction can hold: status %d, %s\n", 1.01e-3 * limit,
+           (int)status, signorini_status_string(status));
 }
 
-/* ---- Files --------------------------------------------------------------------------------- */
+/* ---- Results ------------------------------------------------------------------------------- */
 
-static int write_csv(const char *path, const struct brick_mesh *mesh,
-                     const struct contact *contact, const struct answer *answer)
+static void report_file(struct checks *checks, const char *path, int result)
 {
-    FILE *file = fopen(path, "w");
-    if (file == NULL)
-        return -1;
-    fputs("x,y,d_n,d_t1,d_t2,F_n,F_t1,F_t2,state\n", file);
-    for (int pair = 0; pair < PAIRS; pair++) {
-        const double *at = mesh->at[contact->lower[pair]];
-        fprintf(file, "%.1f,%.1f", at[0], at[1]);
-        for (int i = 0; i < 3; i++)
-            fprintf(file, ",%.12e", answer->d[3 * pair + i]);
-        for (int i = 0; i < 3; i++)
-            fprintf(file, ",%.12e", answer->F[3 * pair + i]);
-        fprintf(file, ",%s\n", state_name(answer->state[pair]));
-    }
-    const int failed = ferror(file);
-    return fclose(file) != 0 || failed ? -1 : 0;
+    judge(checks, result == 0);
+    if (result == 0)
+        printf("wrote %s\n", path);
+    else
+        printf("cannot write %s: %s\n", path, strerror(errno));
 }
 
-/* Displacements of all nodes, and with DIR the files. */
+/* The displacements of all nodes, checked, and with a directory the files. */
 static void finish(struct checks *checks, const char *directory, const struct brick_mesh *mesh,
                    const struct contact *contact, const signorini_model *model,
                    const struct answer *answer)
@@ -319,37 +226,31 @@ static void finish(struct checks *checks, const char *directory, const struct br
     double area[PAIRS];
     char path[4096];
 
-    loads(mesh, twist[STEPS - 1], f);
+    blocks_loads(mesh, twist[STEPS - 1], f);
     if (signorini_model_recover(model, f, NULL, answer->d, u) != 0 ||
         signorini_model_nodal_forces(model, answer->F, nodal) != 0) {
         judge(checks, 0);
         printf("no displacements: %s\n", signorini_last_error());
         return;
     }
-    const double residual = host_residual(mesh, u, f, nodal);
-    judge(checks, residual <= tiny);
-    printf("K u = f + contact forces at all nodes: off by %.0e of the press\n", residual);
+    check_host(checks, mesh, u, f, nodal);
     if (directory == NULL)
         return;
-
-    for (int pair = 0; pair < PAIRS; pair++) {
-        const int i = pair % LINE, j = pair / LINE;
-        area[pair] = pitch * pitch * (i % NARROW == 0 ? 0.5 : 1.0) * (j % NARROW == 0 ? 0.5 : 1.0);
-    }
     snprintf(path, sizeof path, "%s/two_blocks.csv", directory);
-    judge(checks, write_csv(path, mesh, contact, answer) == 0);
-    printf("%s: %s\n", path, strerror(errno));
+    report_file(checks, path, write_csv(path, mesh, contact, answer));
+    blocks_areas(area);
     snprintf(path, sizeof path, "%s/two_blocks.vtk", directory);
-    judge(checks, write_vtk(path, "two blocks, pressed and twisted; mm, N, MPa", mesh, contact, u,
-                            nodal, answer->state, area) == 0);
-    printf("%s: %s\n", path, strerror(errno));
+    report_file(checks, path, write_vtk(path, "two blocks, pressed and twisted; mm, N, MPa", mesh,
+                                        contact, answer->state, area, u, nodal));
 }
 
 int main(int argc, char **argv)
 {
-    static struct answer answer;
-    static int32_t lower[PAIRS], upper[PAIRS];
-    struct contact contact = {PAIRS, lower, upper};
+    static double d[SIZE], F[SIZE], slip0[2 * PAIRS];
+    static int32_t state[PAIRS], lower[PAIRS], upper[PAIRS];
+    static int64_t fixed[FIXED];
+    const struct answer answer = {d, F, state};
+    struct contact contact = {0, lower, upper};
     struct checks checks = {0, 0};
     signorini_model *model = NULL;
 
@@ -357,19 +258,21 @@ int main(int argc, char **argv)
         fprintf(stderr, "usage: %s [DIR]\n", argv[0]);
         return EXIT_FAILURE;
     }
-    struct brick_mesh *mesh = new_mesh();
+    struct brick_mesh *mesh = blocks_mesh();
     if (mesh == NULL) {
         fputs("not enough memory for the mesh\n", stderr);
         return EXIT_FAILURE;
     }
-    const int32_t status = new_model(mesh, &contact, &model);
+    blocks_pairs(mesh, &contact);
+    blocks_fixed(fixed);
+    printf("signorini %s\n\n%d nodes, %d bricks, %d pairs, mu = %.1f, pressed by %.0f N\n\n",
+           signorini_version(), (int)mesh->nodes, (int)mesh->bricks, PAIRS, mu, PRESS);
+
+    const int32_t status = contact_model(mesh, &contact, FIXED, fixed, &model);
     if (status != 0) {
         judge(&checks, 0);
         printf("model: %s: %s\n", signorini_status_string(status), signorini_last_error());
-    } else if (run(&checks, mesh, &contact, model, &answer)) {
-        double slip0[2 * PAIRS];
-        for (int i = 0; i < 2 * PAIRS; i++)
-            slip0[i] = answer.d[3 * (i / 2) + 1 + i % 2];
+    } else if (run(&checks, mesh, &contact, model, &answer, slip0)) {
         check_limit(&checks, mesh, model, slip0);
         finish(&checks, argc == 2 ? argv[1] : NULL, mesh, &contact, model, &answer);
     }

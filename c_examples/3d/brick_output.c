@@ -1,7 +1,30 @@
-#include "brick_vtk.h"
+#include "brick_output.h"
+#include "../common/checks.h"
 
 #include <stdio.h>
 #include <stdlib.h>
+
+int write_csv(const char *path, const struct brick_mesh *mesh, const struct contact *contact,
+              const struct answer *answer)
+{
+    FILE *file = fopen(path, "w");
+    if (file == NULL)
+        return -1;
+    fputs("x,y,d_n,d_t1,d_t2,F_n,F_t1,F_t2,state\n", file);
+    for (int32_t pair = 0; pair < contact->pairs; pair++) {
+        const double *at = mesh->at[contact->lower[pair]];
+        fprintf(file, "%.12g,%.12g", at[0], at[1]);
+        for (int i = 0; i < 3; i++)
+            fprintf(file, ",%.12e", answer->d[3 * pair + i] + 0.0); /* + 0.0 turns -0.0 into 0.0 */
+        for (int i = 0; i < 3; i++)
+            fprintf(file, ",%.12e", answer->F[3 * pair + i] + 0.0);
+        fprintf(file, ",%s\n", state_name(answer->state[pair]));
+    }
+    const int failed = ferror(file);
+    return fclose(file) != 0 || failed ? -1 : 0;
+}
+
+/* ---- VTK ----------------------------------------------------------------------------------- */
 
 static void write_mesh(FILE *file, const struct brick_mesh *mesh)
 {
@@ -36,8 +59,8 @@ static void write_scalars(FILE *file, const char *name, int32_t nodes, const dou
 }
 
 int write_vtk(const char *path, const char *title, const struct brick_mesh *mesh,
-              const struct contact *contact, const double u[], const double nodal[],
-              const int32_t state[], const double area[])
+              const struct contact *contact, const int32_t state[], const double area[],
+              const double u[], const double nodal[])
 {
     double *pressure = calloc((size_t)mesh->nodes, sizeof *pressure);
     double *states = malloc((size_t)mesh->nodes * sizeof *states);
