@@ -103,7 +103,7 @@ int32_t study_recover(const struct study *study, int number, double u[], double 
 
 /* What the forces of a load case sum up to. */
 struct sums {
-    double P, Q, M, p0, apart_p, apart_q, all_p, all_q, along, across;
+    double P, Q, M, p0, apart_p, apart_q, all_p, all_q;
     int closed, stick;
 };
 
@@ -143,8 +143,6 @@ static struct sums sum_up(const struct study *study, const struct hertz *hertz, 
         sums.apart_q += pow(F[1] / area - q[0], 2.0) + pow(F[2] / area - q[1], 2.0);
         sums.all_p += p * p;
         sums.all_q += q[0] * q[0] + q[1] * q[1];
-        sums.along = fmax(sums.along, fabs(F[1]));
-        sums.across = fmax(sums.across, fabs(F[2]));
         sums.closed += answer.state[pair] != SIGNORINI_STATE_OPEN;
         sums.stick += answer.state[pair] == SIGNORINI_STATE_STICK;
     }
@@ -169,7 +167,6 @@ struct errors study_errors(const struct study *study, const struct hertz *hertz)
         .p = sqrt(pressed.apart_p / pressed.all_p),
         .q_shift = sqrt(shifted.apart_q / shifted.all_q),
         .q_twist = sqrt(twisted.apart_q / twisted.all_q),
-        .across = shifted.across / shifted.along,
     };
 }
 

@@ -42,7 +42,6 @@ struct errors {
     double a, c_shift, c_twist; /* in cells: radii of circles as large as the area of all closed
                                    pairs, and of all sticking pairs */
     double p, q_shift, q_twist; /* root mean square of p and of the friction's traction, relative */
-    double across;              /* largest friction across the shift over the largest along it */
 };
 
 struct errors study_errors(const struct study *study, const struct hertz *hertz);
