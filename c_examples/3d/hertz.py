@@ -2,7 +2,7 @@
 """Draws two balls that are pressed and then shifted or twisted, from what hertz.c has computed.
 
     sh c_examples/3d.sh OUT
-    python3 c_examples/3d/hertz.py OUT      writes OUT/two_balls.png
+    python3 c_examples/3d/hertz.py OUT      writes OUT/hertz.png
 
 Needs numpy and matplotlib (which brings PIL). For both load cases: the pressure, the direction in
 which each pair slips, and the circle within which the closed form has the pairs stick.
@@ -113,7 +113,7 @@ def main():
         ],
         loc="lower center", ncols=3, fontsize=9, frameon=False,
     )
-    save(figure, os.path.join(out, "two_balls.png"))
+    save(figure, os.path.join(out, "hertz.png"))
 
 
 if __name__ == "__main__":
