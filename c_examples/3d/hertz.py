@@ -93,7 +93,7 @@ def main():
     if len(sys.argv) != 2:
         sys.exit("usage: python3 hertz.py OUT")
     out = sys.argv[1]
-    figure, panels = plt.subplots(1, 2, figsize=(9.2, 5.0), sharey=True, layout="constrained")
+    figure, panels = plt.subplots(1, 2, figsize=(9.2, 4.9), sharey=True, layout="constrained")
     try:
         for axes, (name, title) in zip(panels, PANELS):
             shown = draw(axes, *read(os.path.join(out, f"hertz_{name}.csv")), title)
@@ -102,7 +102,7 @@ def main():
     panels[0].set_ylabel("y, mm")
     bar = figure.colorbar(shown, ax=panels, shrink=0.9, aspect=30, pad=0.01)
     bar.set_label("pressure, MPa")
-    figure.get_layout_engine().set(rect=(0, 0.06, 1, 0.91))  # room for the legend
+    figure.get_layout_engine().set(rect=(0, 0.06, 1, 0.935))  # room for the legend
     figure.legend(
         handles=[
             plt.Line2D([], [], color="black", lw=1.1, label="closed form: radius of contact"),
