@@ -12,7 +12,7 @@
 #include "brick_contact.h"
 #include "hertz_theory.h"
 
-/* A load case: how the upper ball moves, and the loads on the lower ball that belong to it. */
+/* How the upper ball moves to the lower one, and the loads on the lower ball by contact. */
 struct motion {
     double approach, shift, rotation; /* along -z, along x, about z */
     struct load press, friction;

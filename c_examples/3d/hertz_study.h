@@ -8,15 +8,17 @@
 
 #include "hertz_mesh.h"
 
-/* The load cases. RIGID is PRESSED, but that the cut faces move as rigid plates. */
-enum { PRESSED, SHIFTED, TWISTED, RIGID, CASES };
+enum { PRESSED, SHIFTED, TWISTED, CASES };
 
 struct study {
     double stick_radius; /* c: so far the balls are shifted or twisted */
     struct hertz_mesh mesh;
     signorini_model *model;
+    struct motion motion[CASES];
+    double rigid_force; /* what presses the balls if the cut faces do not give way */
+    double apart;       /* loads of the cut faces less those of contact in the end, relative */
     /* One load case after the other, as the library has them. */
-    double *f, *prescribed;
+    double *f, *prescribed, *gap, *friction;
     struct answer answer;
     signorini_report report[CASES];
 };
@@ -24,7 +26,10 @@ struct study {
 /* Meshes, assembles and makes the model. Returns the library's status; study_release after any. */
 int32_t study_make(struct study *study, const struct hertz *hertz, double stick_radius, int cells);
 
-/* Solves all load cases. Returns the library's status. */
+/*
+ * Solves all load cases, with cut faces that give way under the forces of contact themselves: first
+ * without any, then some rounds with those of the round before. Returns the library's status.
+ */
 int32_t study_solve(struct study *study, const struct hertz *hertz);
 
 /* The part of the answer that belongs to a load case. */
@@ -45,8 +50,5 @@ struct errors {
 };
 
 struct errors study_errors(const struct study *study, const struct hertz *hertz);
-
-/* The force that presses the balls in a load case. */
-double study_force(const struct study *study, int number);
 
 #endif

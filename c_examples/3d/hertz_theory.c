@@ -124,17 +124,6 @@ double twist_traction(const struct hertz *h, double c, double r)
 
 /* ---- Far away ------------------------------------------------------------------------------ */
 
-/* A dome over a disc of radius a has the volume 2 pi a^2 / 3 and the mean squared radius 2 a^2 / 5. */
-double hertz_spread(const struct hertz *h)
-{
-    return h->a * sqrt(0.4);
-}
-
-double shift_spread(const struct hertz *h, double c)
-{
-    return sqrt(0.4 * (pow(h->a, 5.0) - pow(c, 5.0)) / (pow(h->a, 3.0) - pow(c, 3.0)));
-}
-
 /* One force at the origin. The formulas have the depth as z: -z here, and so is the force's. */
 static void add_force(struct material material, const double force[3], double x, double y,
                       double depth, double u[3])

@@ -39,15 +39,11 @@ double twist_moment(const struct hertz *h, double c);
 double twist_rotation(const struct hertz *h, double c);
 double twist_traction(const struct hertz *h, double c, double r);
 
-/* Loads on the surface of a half-space, near the origin. */
+/* A load on the surface of a half-space, around the origin. */
 struct load {
     double force[3], moment; /* along x, y, z; about z */
-    double spread;           /* root of the mean squared radius of the forces' place */
+    double spread;           /* root mean square of the forces' distance from the origin */
 };
-
-/* Mean squared radius's root of p, and of the traction of a shift. */
-double hertz_spread(const struct hertz *h);
-double shift_spread(const struct hertz *h, double c);
 
 /*
  * Adds to u the displacement at a point of the half-space z <= 0, far from a load on its surface
