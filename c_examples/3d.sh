@@ -3,9 +3,9 @@
 #
 #     sh c_examples/3d.sh [OUT]
 #
-# Builds the library, compiles the programs against it (CC names the C compiler, default cc) and runs
-# them. With OUT, a directory, they also write OUT/two_blocks and OUT/hertz_CASE, .csv and .vtk;
-# 3d/hertz.py draws the latter. All else goes to target/.
+# Builds the library, compiles the programs against it (CC names the C compiler, default cc) and
+# runs them. With OUT, a directory, they also write OUT/two_blocks and OUT/hertz_CASE, .csv and
+# .vtk; 3d/hertz.py draws the latter. All else goes to target/.
 set -eu
 
 script=3d

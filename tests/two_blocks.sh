@@ -41,8 +41,8 @@ runs() {
     echo "two_blocks, $language: $(grep 'balance the loads' "$language.out" | sed 's/^ *PASS *//')"
 }
 
-# same LANGUAGE: its answer is C's. The programs add the same numbers in another order: rounding, some
-# 1e-13 of the largest displacement or force, and no more than 1e-9.
+# same LANGUAGE: its answer is C's. The programs add the same numbers in another order: rounding,
+# some 1e-13 of the largest displacement or force, and no more than 1e-9.
 same() {
     awk -F ', *' -v name="$1" '
         function size(x) { return x < 0 ? -x : x }
@@ -77,9 +77,9 @@ ${CC:-cc} -std=c11 -O2 -Wall -Wextra -Wpedantic -Werror -I"$root/include" "$exam
 runs c ./two_blocks_c
 
 if command -v "$fc" >/dev/null 2>&1; then
-    "$fc" -std=f2008 -O1 -Wall -Werror -ffpe-trap=invalid,zero,overflow "$root/include/signorini.f90" \
-        "$examples/brick_mesh.f90" "$examples/two_blocks.f90" "$release/libsignorini.a" -lm \
-        -lpthread -ldl -o two_blocks_fortran
+    "$fc" -std=f2008 -O1 -Wall -Werror -ffpe-trap=invalid,zero,overflow \
+        "$root/include/signorini.f90" "$examples/brick_mesh.f90" "$examples/two_blocks.f90" \
+        "$release/libsignorini.a" -lm -lpthread -ldl -o two_blocks_fortran
     runs fortran ./two_blocks_fortran
     same fortran
 else

@@ -10,8 +10,8 @@ struct material {
 };
 
 /*
- * Stiffness of a brick. The displacements are (u_x, u_y, u_z) corner by corner. The corners stand in
- * the order of VTK_HEXAHEDRON: the lower face anticlockwise seen from above, then the upper face.
+ * Stiffness of a brick. The displacements are (u_x, u_y, u_z) corner by corner. The corners stand
+ * in the order of VTK_HEXAHEDRON: the lower face anticlockwise from above, then the upper face.
  */
 void brick_stiffness(double corner[8][3], struct material material, double k[24][24]);
 

@@ -192,7 +192,8 @@ void brick_resultant(const struct brick_mesh *mesh, int box, const double f[], d
         for (int axis = 0; axis < 3; axis++) {
             const int p = (axis + 1) % 3, q = (axis + 2) % 3;
             force[axis] += f[3 * node + axis];
-            moment[axis] += mesh->at[node][p] * f[3 * node + q] - mesh->at[node][q] * f[3 * node + p];
+            moment[axis] += mesh->at[node][p] * f[3 * node + q];
+            moment[axis] -= mesh->at[node][q] * f[3 * node + p];
         }
     }
 }

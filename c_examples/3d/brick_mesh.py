@@ -6,8 +6,8 @@
                                    masters=blocks.upper[:, None], tangents=[1, 0, 0])
     result = model.solve(blocks.press, gap=0.0, mu=0.6)
 
-It is the mesh of blocks.h: two blocks on each other, trilinear bricks of 10 mm, 2 x 2 x 2 Gauss points;
-mm, N, MPa.
+It is the mesh of blocks.h: two blocks on each other, trilinear bricks of 10 mm, 2 x 2 x 2 Gauss
+points; mm, N, MPa.
 """
 
 from collections import namedtuple
@@ -18,8 +18,8 @@ Blocks = namedtuple("Blocks", "at matrix lower upper held press twist")
 Blocks.__doc__ = """Two assembled blocks of n nodes.
 
 at: coordinates of the nodes, (n, 3).  matrix: (data, indices, indptr), 3 n columns, all entries.
-lower, upper: degrees of freedom (x, y, z) of the two nodes of each pair, (P, 3).  held: those of the
-bottom.  press, twist: loads of 40000 N downwards, and of a moment of 1 N mm about z, 3 n each.
+lower, upper: degrees of freedom (x, y, z) of the two nodes of each pair, (P, 3).  held: those of
+the bottom.  press, twist: loads of 40000 N downwards, and of a moment of 1 N mm about z, 3 n each.
 """
 
 

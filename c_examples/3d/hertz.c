@@ -1,21 +1,22 @@
 /*
- * Two equal balls pressed together, then shifted along x, or twisted about z, until the middle sticks
- * and a ring slips: the contact of Hertz, with friction after Cattaneo and Mindlin, and Lubkin.
+ * Two equal balls are pressed together, then shifted along x, or twisted about z, so far that the
+ * middle sticks and a ring slips: the contact of Hertz, with friction after Cattaneo and Mindlin,
+ * and after Lubkin.
  *
- * Near the contact a ball is a half-space, of which two blocks of bricks are cut out (hertz_mesh.c);
- * the gap is r^2 / 2 R. The cut faces give way as the rest of the half-space would under the forces
- * of contact. These are not known before, so that each load case is solved some rounds
- * (hertz_study.c). Equal bodies do not move along the contact when they are pressed, nor across it
- * when they are shifted or twisted: the closed forms (hertz_theory.c) count on it. They are exact if
- * Poisson's ratio is zero.
+ * Near the contact a ball is a half-space. A block of bricks is cut out of each (hertz_mesh.c); the
+ * gap is r^2 / 2 R. The cut faces give way as the rest of the half-space would under the forces of
+ * contact. These are not known before, so that each load case is solved several times
+ * (hertz_study.c). Points of two equal balls that meet move alike along the contact when the balls
+ * are pressed, and across it when they are shifted or twisted: the closed forms (hertz_theory.c)
+ * count on it. That of the shift is exact if Poisson's ratio is zero.
  *
  * The program solves three meshes, each with three load cases of one model, and compares pressing
  * force P, friction force Q, moment M, largest pressure, radii and tractions with the closed forms.
  *
  *     hertz [DIR]
  *
- * With DIR, it also writes DIR/hertz_pressed, DIR/hertz_shifted and DIR/hertz_twisted, .csv and .vtk,
- * of the finest mesh; hertz.py draws them. It returns 0 if every check passed.
+ * With DIR, it also writes hertz_pressed, hertz_shifted and hertz_twisted, .csv and .vtk, of the
+ * finest mesh to DIR; hertz.py draws them. It returns 0 if every check passed.
  */
 
 #include "brick_output.h"
@@ -30,12 +31,14 @@
 
 enum { MESHES = 3 };
 
+static const double pi = 3.14159265358979323846;
+
 static const int cells_of[MESHES] = {4, 6, 8}; /* along the radius of the contact */
 
 /* Two steel balls of 200 mm (without Poisson's ratio), N, mm, MPa: 1 / R = 1 / 200 + 1 / 200. */
 static const struct material material = {200000.0, 0.0};
 static const double gap_radius = 100.0, contact_radius = 1.0, mu = 0.3;
-static const double stick_radius = 0.6; /* in the end */
+static const double stick_radius = 0.6; /* so far they are shifted or twisted */
 
 /* ---- What is seen -------------------------------------------------------------------------- */
 
@@ -44,11 +47,28 @@ static void print_closed_forms(const struct hertz *hertz)
     const double c = stick_radius;
 
     printf("closed forms: a %.3f mm, approach %.3f um, P %.1f N, p0 %.1f MPa, c %.3f mm\n"
-           "shifted by %.3f um: Q %.1f N = %.3f mu P; twisted by %.4f mrad: M %.2f N mm = %.4f mu P a\n",
+           "shifted by %.3f um: Q %.1f N = %.4f mu P\n"
+           "twisted by %.3f mrad: M %.1f N mm = %.4f mu P a\n\n",
            hertz->a, 1e3 * hertz->approach, hertz->force, hertz->pressure, c,
            1e3 * shift_motion(hertz, c), shift_force(hertz, c),
            shift_force(hertz, c) / (mu * hertz->force), 1e3 * twist_rotation(hertz, c),
            twist_moment(hertz, c), twist_moment(hertz, c) / (mu * hertz->force * hertz->a));
+}
+
+/* The closed form of the twist at its two ends: everything slips, M = mu int p r dA; and almost
+ * nothing does, as if each ball were turned by a glued disc, M = 16/3 G a^3 rotation / 2. */
+static void check_closed_form(struct checks *checks, const struct hertz *hertz)
+{
+    const double shear = material.young / (2.0 * (1.0 + material.poisson));
+    const double a = hertz->a, near = 1e-6;
+    const double all = 3.0 * pi / 16.0 * mu * hertz->force * a;
+    const double glued = 16.0 / 3.0 * shear * pow(a, 3.0) *
+                         twist_rotation(hertz, (1.0 - near) * a) / 2.0;
+    const double off = fmax(fabs(twist_moment(hertz, near * a) / all - 1.0),
+                            fabs(twist_moment(hertz, (1.0 - near) * a) / glued - 1.0));
+
+    judge(checks, off <= 10.0 * near);
+    printf("the closed form of the twist between no slip and slip everywhere: off by %.0e\n", off);
 }
 
 static void print_head(void)
@@ -92,9 +112,10 @@ static void check_errors(struct checks *checks, const struct errors errors[MESHE
         forces[i] = largest(4, (double[]){e->P, e->p0, e->Q, e->M});
         tractions[i] = largest(3, (double[]){e->p, e->q_shift, e->q_twist});
         judge(checks, forces[i] <= h * h / 2.0 && tractions[i] <= h && radii <= 0.5);
-        printf("a / h = %d: forces off by %.2f %% (limit %.2f), tractions by %.1f %% (%.1f), radii by "
-               "%.2f cells (0.50)\n", cells_of[i], 100.0 * forces[i], 50.0 * h * h,
-               100.0 * tractions[i], 100.0 * h, radii);
+        printf("a / h = %d: forces off by %.2f %% (limit %.2f), tractions by %.1f %% (%.1f), "
+               "radii by %.2f cells (0.50)\n",
+               cells_of[i], 100.0 * forces[i], 50.0 * h * h, 100.0 * tractions[i], 100.0 * h,
+               radii);
     }
     for (int i = 1; i < MESHES; i++) {
         judge(checks, forces[i] < forces[i - 1] && tractions[i] < tractions[i - 1]);
@@ -172,6 +193,7 @@ int main(int argc, char **argv)
     }
     printf("signorini %s\n\n", signorini_version());
     print_closed_forms(&hertz);
+    check_closed_form(&checks, &hertz);
     print_head();
     for (int i = 0; i < MESHES; i++) {
         struct study study;

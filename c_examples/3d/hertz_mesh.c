@@ -86,7 +86,8 @@ static void make_pairs(struct hertz_mesh *mesh, int rim, const struct hertz *her
 int hertz_mesh_make(struct hertz_mesh *mesh, const struct hertz *hertz, int cells)
 {
     const double length = half_width * hertz->a;
-    /* A quarter more than the radius comes near; the cells grow by about 3/2. */
+    /* The square of pairs reaches a quarter beyond the contact. From there on each cell is larger
+     * by a quarter to a half: numbers in proportion to `cells` refine the whole mesh. */
     const int even = cells + (cells + 3) / 4, graded = 3 * cells / 4;
     const int half = even + graded, deep = cells + 1;
     double from_middle[MOST_LINES], across[2 * MOST_LINES], up[MOST_LINES], down[MOST_LINES];

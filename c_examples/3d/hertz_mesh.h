@@ -28,8 +28,8 @@ struct hertz_mesh {
     int64_t *fixed;            /* the degrees of freedom of the cut faces */
 };
 
-/* Meshes and assembles: `cells` along the radius of the contact. 0 if there is not enough memory;
- * hertz_mesh_free after that, too. */
+/* Meshes and assembles, with 4 to 30 cells along the radius of the contact. Returns 0 if there is
+ * not enough memory; hertz_mesh_free after that, too. */
 int hertz_mesh_make(struct hertz_mesh *mesh, const struct hertz *hertz, int cells);
 
 void hertz_mesh_free(struct hertz_mesh *mesh);

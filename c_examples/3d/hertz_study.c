@@ -70,8 +70,8 @@ int32_t study_recover(const struct study *study, int number, double u[], double 
 
 /* What the forces of a load case on the lower ball sum up to. */
 struct sums {
-    double P, Q, M;                  /* along -z, along x, about z */
-    double P_squares, Q_squares;     /* times the squared radius */
+    double P, Q, M;              /* along -z, along x, about z */
+    double P_squares, Q_squares; /* each force times its squared radius */
 };
 
 static struct sums sum_up(const struct study *study, int number)

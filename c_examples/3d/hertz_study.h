@@ -1,6 +1,6 @@
 /*
- * A mesh of the two balls with its model and load cases, and how far the answers are from the closed
- * forms.
+ * A mesh of the two balls with its model and load cases, and how far the answers are from the
+ * closed forms.
  */
 
 #ifndef HERTZ_STUDY_H

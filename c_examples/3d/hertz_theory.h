@@ -3,8 +3,9 @@
  *
  * H. Hertz (1882): pressed. C. Cattaneo (1938), R. D. Mindlin (1949): then shifted. J. L. Lubkin
  * (1951): or twisted. Slip enters from the rim, so that the pairs within a radius c stick. The
- * traction is then a sum of those under rigid discs of radius s, c <= s <= a, glued on and turned by
- * 2 w(s) ds, w(s) = mu p0 E(k) / (2 G s), k^2 = 1 - s^2 / a^2, with the elliptic integral E.
+ * traction of a twist is the sum of those under rigid discs of radius s, c <= s <= a, that are
+ * glued on and turned by w(s) ds, with w(s) = mu p0 E(k) / (2 G s), k^2 = 1 - s^2 / a^2, and the
+ * complete elliptic integral E. Both balls turn so far.
  *
  * Forces in N, lengths in mm, stresses in MPa.
  */
@@ -20,7 +21,7 @@ struct hertz {
     double a;                 /* radius of the contact */
     double mu;
     /* what follows from these */
-    double force, pressure, approach; /* P, largest pressure p0, motion of the balls to each other */
+    double force, pressure, approach; /* P, largest pressure p0, motion to each other */
 };
 
 struct hertz hertz_pressed(struct material material, double gap_radius, double a, double mu);
@@ -28,8 +29,8 @@ struct hertz hertz_pressed(struct material material, double gap_radius, double a
 /* p at the radius r. */
 double hertz_pressure(const struct hertz *h, double r);
 
-/* Shifted until the pairs within c stick: the force Q, the relative motion of the balls, and the
- * traction at r. Without Poisson's ratio the closed form is exact. */
+/* Shifted until only the pairs within c stick: the force Q, the motion of the balls to each other,
+ * and the traction at r. */
 double shift_force(const struct hertz *h, double c);
 double shift_motion(const struct hertz *h, double c);
 double shift_traction(const struct hertz *h, double c, double r);

@@ -4,10 +4,11 @@
  * drawing.
  *
  * This is a host program of the kind that the library is for. It meshes and assembles both blocks
- * into one sparse matrix (blocks.c, brick_mesh.c). The library makes a model of it (brick_contact.c)
- * and solves one load step after the other (`run`): friction remembers the slip of the step before.
- * The rest shows the answers and checks them. The upper block has six rigid motions, so that the
- * contact forces must balance the loads on it exactly, three forces and three moments.
+ * into one sparse matrix (blocks.c, brick_mesh.c). The library makes a model of it
+ * (brick_contact.c) and solves one load step after the other (`run`): friction remembers the slip
+ * of the step before. The rest shows the answers and checks them. The upper block has six rigid
+ * motions, so that the contact forces must balance the loads on it exactly, three forces and three
+ * moments.
  *
  *     two_blocks [DIR]
  *
@@ -38,7 +39,7 @@ static const double tiny = 1e-9;
 
 struct balance {
     double force[3], moment[3]; /* of contact, on the upper block */
-    double off; /* largest sum with the loads, over the press, and over the press times half a side */
+    double off; /* largest sum with the loads, over the press, or over it times half a side */
 };
 
 static struct balance balance_of(const struct brick_mesh *mesh, const signorini_model *model,
@@ -60,8 +61,8 @@ static struct balance balance_of(const struct brick_mesh *mesh, const signorini_
     return balance;
 }
 
-/* A quarter turn, (x, y) to (-y, x), changes neither blocks nor loads. So it must turn the forces of
- * each pair to those of another pair. Returns the largest difference over the largest force. */
+/* A quarter turn, (x, y) to (-y, x), changes neither blocks nor loads. So it must turn the forces
+ * of each pair to those of another pair. Returns the largest difference over the largest force. */
 static double turned_apart(const double F[SIZE])
 {
     double apart = 0.0, largest = 0.0;
@@ -189,8 +190,8 @@ static int run(struct checks *checks, const struct brick_mesh *mesh, const struc
     return 1;
 }
 
-/* Friction holds no more than mu times the press at the largest radius. With a larger twist there is
- * no equilibrium, and the library must not call an answer a solution. */
+/* Friction holds at most mu times the press at the largest radius. With a larger twist there is no
+ * equilibrium, and the library must prove it. */
 static void check_limit(struct checks *checks, const struct brick_mesh *mesh,
                         const signorini_model *model, const double slip0[2 * PAIRS])
 {

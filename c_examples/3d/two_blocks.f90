@@ -65,7 +65,7 @@ contains
     ! Degrees of freedom of nodes.
     function components_of(node) result(dof)
         integer, intent(in) :: node(:)
-        integer :: dof(3, size(node))
+        integer :: dof(3, size(node)), p
         dof = reshape([(3*node(p) - [2, 1, 0], p=1, size(node))], shape(dof))
     end function
 
@@ -73,7 +73,7 @@ contains
     ! proportion to it, those with the moment `twist`.
     subroutine place_loads(twist)
         real(dp), intent(in) :: twist
-        integer :: node
+        integer :: node, p
         real(dp) :: squares
         logical :: inner(pairs)
         squares = sum(at(1:2, top)**2)
@@ -99,7 +99,7 @@ contains
     subroutine write_csv
         character(len=5), parameter :: name(0:2) = [character(len=5) :: 'open', 'slip', 'stick']
         character(len=4000) :: directory
-        integer :: unit
+        integer :: unit, p
         call get_command_argument(1, directory)
         open (newunit=unit, file=trim(directory)//'/two_blocks.csv', status='replace', action='write')
         write (unit, '(a)') 'x,y,d_n,d_t1,d_t2,F_n,F_t1,F_t2,state'

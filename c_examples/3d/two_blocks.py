@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Two blocks, the upper one held by nothing but contact and friction, pressed and then twisted more and
-more: two_blocks.c in Python.
+"""Two blocks, the upper one held by nothing but contact and friction, pressed and then twisted more
+and more: two_blocks.c in Python.
 
     cargo build --release
     python3 c_examples/3d/two_blocks.py [DIR]       with DIR, writes DIR/two_blocks.csv
