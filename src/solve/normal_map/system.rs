@@ -170,8 +170,8 @@ impl<'e> System<'e> {
         let mut moved = free.to_vec();
         for (pair, moved) in self.pairs.iter().zip(moved.chunks_exact_mut(dim)) {
             let x = [moved[1], if dim == 2 { 0.0 } else { moved[2] }];
-            for c in 1..dim {
-                moved[c] = pair.moves[c - 1][0] * x[0] + pair.moves[c - 1][1] * x[1];
+            for (moved, moves) in moved[1..].iter_mut().zip(&pair.moves) {
+                *moved = moves[0] * x[0] + moves[1] * x[1];
             }
         }
         // -(H + K_s dd + g ds).

@@ -91,8 +91,8 @@ fn perturbed(equations: &Equations<'_>, y: &[Vector], by: f64, seed: u64) -> Vec
     let mut random = Perturbation::new(seed);
     let moved = |(at, y): (usize, &Vector)| {
         let mut y = *y;
-        for c in 0..dim {
-            y[c] += by * size * equations.root[dim * at + c] * random.next();
+        for (y, root) in y.iter_mut().zip(&equations.root[dim * at..dim * (at + 1)]) {
+            *y += by * size * root * random.next();
         }
         y
     };
