@@ -178,7 +178,7 @@ impl<'w> Split<'w> {
             .filter(|&pair| !is_kept[pair])
             .flat_map(|pair| parts(&pair))
             .collect();
-        if dropped.len() < WORTHWHILE || kept.is_empty() {
+        if dropped.len() < WORTHWHILE || kept.is_empty() || !whole.symmetric {
             return None;
         }
         let (elimination, schur) = Elimination::new(whole.matrix, &dropped, &components)?;

@@ -14,6 +14,9 @@ use crate::linalg::factor::{Factor, largest_eigenvalue};
 /// The factor of `K`, scaled to a unit diagonal, if it is positive definite.
 pub fn scaled_factor(contact: &Contact<'_>) -> Option<Factor> {
     let matrix = contact.problem().stiffness();
+    if !contact.problem().is_symmetric() {
+        return None;
+    }
     let root = matrix.diagonal_roots();
     Factor::new(matrix.size(), true, |j, column| {
         for (i, (entry, k)) in column.iter_mut().zip(matrix.column(j)).enumerate() {
