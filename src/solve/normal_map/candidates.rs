@@ -59,13 +59,7 @@ pub fn solve(
         let Some(split) = split else {
             let ended = core(&whole, y, monitor);
             systems += ended.systems;
-            return candidate(
-                ended.point.d,
-                ended.point.force,
-                ended.ending,
-                systems,
-                ended.orientation,
-            );
+            return Ended { systems, ..ended }.into_candidate();
         };
         let on_kept = split.kept.iter().map(|&pair| y[pair]).collect();
         let ended = core(&split.equations(), on_kept, monitor);

@@ -73,4 +73,4 @@ mod curve;
 mod curved;
 mod homotopy;
 
-pub use curved::curved;
+pub use curved::{curved, ends};
