@@ -6,6 +6,7 @@ use faer::linalg::matmul::triangular::{self, BlockStructure};
 use faer::linalg::triangular_solve;
 use faer::{Accum, Mat, MatMut, MatRef, Par};
 
+use super::factor::cholesky;
 use super::tolerances::{NEGLIGIBLE, SUSPICIOUS_PIVOT};
 
 /// Rank-revealing Cholesky factor of a positive semi-definite matrix `A` with unit diagonal:
@@ -20,17 +21,14 @@ impl PivotedCholesky {
     /// Factorises the `n x n` matrix whose lower triangle is `entry(i, j)`, `i >= j`.
     /// `None` if it is not positive semi-definite.
     pub fn new(n: usize, entry: impl Fn(usize, usize) -> f64) -> Option<Self> {
-        let fill = || Mat::from_fn(n, n, |i, j| if i >= j { entry(i, j) } else { entry(j, i) });
-        if let Ok(factor) = faer::linalg::solvers::Llt::new(fill().as_ref(), faer::Side::Lower) {
-            let lower = factor.L();
-            if (0..n).all(|i| lower[(i, i)].powi(2) > SUSPICIOUS_PIVOT) {
-                return Some(PivotedCholesky {
-                    lower: lower.to_owned(),
-                    independent: (0..n).collect(),
-                    dependent: Vec::new(),
-                });
-            }
+        let fill = || Mat::from_fn(n, n, |i, j| if i >= j { entry(i, j) } else { 0.0 });
+        let mut lower = fill();
+        let regular = cholesky(&mut lower).is_some();
+        if regular && (0..n).all(|i| lower[(i, i)].powi(2) > SUSPICIOUS_PIVOT) {
+            let independent = (0..n).collect();
+            return Some(PivotedCholesky { lower, independent, dependent: Vec::new() });
         }
+        drop(lower);
         let mut lower = fill();
         let (mut forward, mut inverse) = (vec![0_usize; n], vec![0_usize; n]);
         let scratch =
