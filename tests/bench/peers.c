@@ -1,10 +1,11 @@
 /*
  * Ours beside Siconos: the same matrices, one program, one run. See peers.sh.
  *
- *     peers MOST SECONDS [OUT]
+ *     peers LEAST MOST SECONDS FAMILY [OUT]
  *
- * MOST is the largest number of pairs, SECONDS the CPU time that a call may take. The document goes
- * to standard output and OUT/peers.md, every row to OUT/peers.csv.
+ * LEAST and MOST are the smallest and largest number of pairs, SECONDS the CPU time that a call may
+ * take, FAMILY one of frictionless, friction2d, friction3d, or all. The document goes to standard
+ * output and OUT/peers.md, every row to OUT/peers.csv.
  */
 
 #include "peers_block.h"
@@ -190,13 +191,26 @@ static void save(const char *directory, const struct results *results, const cha
     fclose(markdown);
 }
 
+struct wanted {
+    size_t least, most; /* pairs */
+    const char *family;
+};
+
+static int is_wanted(const struct wanted *wanted, enum family family, size_t pairs)
+{
+    return pairs >= wanted->least && pairs <= wanted->most &&
+           (strcmp(wanted->family, "all") == 0 ||
+            strcmp(wanted->family, family_name(family)) == 0);
+}
+
 int main(int argc, char **argv)
 {
     static const size_t sizes[] = {33, 129, 513, 1025, 2049}, sides[] = {5, 15, 31, 45};
-    if (argc < 3)
-        stop("peers MOST SECONDS [OUT]");
-    const size_t most = (size_t)strtoul(argv[1], NULL, 10);
-    const double limit = strtod(argv[2], NULL);
+    if (argc < 5)
+        stop("peers LEAST MOST SECONDS FAMILY [OUT]");
+    const struct wanted wanted = {(size_t)strtoul(argv[1], NULL, 10),
+        (size_t)strtoul(argv[2], NULL, 10), argv[4]};
+    const double limit = strtod(argv[3], NULL);
     const char *threads = getenv("OPENBLAS_NUM_THREADS");
     if (threads == NULL || strcmp(threads, "1") != 0)
         stop("set OPENBLAS_NUM_THREADS=1: thread CPU time sees one thread");
@@ -210,19 +224,21 @@ int main(int argc, char **argv)
     snprintf(versions, sizeof versions, "signorini %s, Siconos %s, BLAS of both Siconos and the "
              "preparation: %s.", signorini_version(), SICONOS, blas_name());
 
-    for (size_t s = 0; s < sizeof sizes / sizeof sizes[0] && sizes[s] <= most; s++)
+    for (size_t s = 0; s < sizeof sizes / sizeof sizes[0]; s++)
         for (int geometry = BAR; geometry <= TWO_BLOCKS; geometry++) {
-            frictionless((enum geometry)geometry, sizes[s], limit, outcome, &results);
-            if (sizes[s] <= 1025)
+            if (is_wanted(&wanted, FRICTIONLESS, sizes[s]))
+                frictionless((enum geometry)geometry, sizes[s], limit, outcome, &results);
+            if (is_wanted(&wanted, FRICTION_2D, sizes[s]) && sizes[s] <= 1025)
                 friction((enum geometry)geometry, sizes[s], limit, outcome, &results);
-            if (argc > 3)
-                save(argv[3], &results, versions, limit);
+            if (argc > 5)
+                save(argv[5], &results, versions, limit);
         }
 
-    for (size_t s = 0; s < sizeof sides / sizeof sides[0] && sides[s] * sides[s] <= most; s++) {
-        all_in_space(sides[s], limit, outcome, &results);
-        if (argc > 3)
-            save(argv[3], &results, versions, limit);
+    for (size_t s = 0; s < sizeof sides / sizeof sides[0]; s++) {
+        if (is_wanted(&wanted, FRICTION_3D, sides[s] * sides[s]))
+            all_in_space(sides[s], limit, outcome, &results);
+        if (argc > 5)
+            save(argv[5], &results, versions, limit);
     }
 
     write_markdown(stdout, results.rows, results.count, versions, limit);

@@ -6,9 +6,11 @@
 # Builds the library, compiles tests/bench/peers*.c against it and Siconos (CC names the C compiler,
 # default cc) and runs it. A Markdown document goes to standard output, and with OUT, a directory,
 # to OUT/peers.md; OUT/peers.csv has every row. All else goes to target/bench. It takes more than an
-# hour, most of it for peers that do not end. SIGNORINI_PEERS_MOST is the largest number of pairs in
-# the plane and in space (25: friction in space alone, half a minute), SIGNORINI_PEERS_SECONDS the
-# CPU time that a call may take (default 30).
+# hour, most of it for peers that do not end. These variables choose less of it:
+#
+#     SIGNORINI_PEERS_LEAST, _MOST   smallest and largest number of pairs (both 25: half a minute)
+#     SIGNORINI_PEERS_SECONDS        CPU time that a call may take, default 30
+#     SIGNORINI_PEERS_FAMILY         frictionless, friction2d or friction3d; default all
 set -eu
 LC_ALL=C
 export LC_ALL
@@ -74,4 +76,5 @@ export OPENBLAS_NUM_THREADS OMP_NUM_THREADS
 lapack=$(ldd "$build/peers" | sed -n 's/.*liblapack\.so\.3 => \([^ ]*\).*/\1/p')
 say "LAPACK of the peers: $(readlink -f "$lapack")"
 
-exec "$build/peers" "${SIGNORINI_PEERS_MOST:-2049}" "${SIGNORINI_PEERS_SECONDS:-30}" "$@"
+exec "$build/peers" "${SIGNORINI_PEERS_LEAST:-0}" "${SIGNORINI_PEERS_MOST:-2049}" \
+    "${SIGNORINI_PEERS_SECONDS:-30}" "${SIGNORINI_PEERS_FAMILY:-all}" "$@"

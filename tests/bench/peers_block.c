@@ -221,7 +221,7 @@ static struct motion motion_of(const struct block *block, enum geometry geometry
         motion.about[2] = 0.7 * shear / half;
         break;
     case BLOCK_TILT: /* one edge lifts */
-        motion.about[1] = 1.2 * press / half;
+        motion.about[1] = 2.0 * press / half;
         motion.along[1] = 0.3 * shear;
         break;
     case BLOCK_WAVES:
@@ -243,7 +243,7 @@ static double gap_at(const struct block *block, enum geometry geometry, double x
     const double pi = acos(-1.0), press = strain * block->height, half = width / 2.0;
     const double from_centre = hypot(x, y) / half;
     if (geometry == BLOCK_WAVES)
-        return 0.6 * press * (1.0 - cos(2.0 * pi * x / half) * cos(1.5 * pi * y / half));
+        return 0.4 * press * (1.0 - cos(2.0 * pi * x / half) * cos(1.5 * pi * y / half));
     if (geometry == BLOCK_RIM)
         return 2.0 * press * pow(fmax(0.0, from_centre - 0.6), 2.0);
     return 0.0;
