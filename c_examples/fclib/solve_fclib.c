@@ -4,7 +4,7 @@
  *
  *     solve_fclib FILE [SOFTNESS]
  *
- * SOFTNESS > 0 (such as 1e-8) times the mean diagonal entry of W is added to the diagonal of W:
+ * SOFTNESS > 0 (such as 1e-6) times the mean diagonal entry of W is added to the diagonal of W:
  * every contact gets a spring of its own, and W is definite. Default 0: the problem as it is.
  *
  * It returns 0 if the problem is solved, 1 if it is not, 2 if the file or the arguments are wrong,
@@ -143,7 +143,7 @@ static int run(const char *path, const struct local_form *form, double softness)
                "The library takes K = W^-1, which does not exist: the reactions are not determined "
                "by u.\nModel the bodies as deformable or leave out redundant contacts; a later "
                "version of the library takes W itself. Or soften the contacts: call this program "
-               "with a SOFTNESS such as 1e-8.\n",
+               "with a SOFTNESS such as 1e-6.\n",
                row, n, row / (size_t)form->dim);
         result = NOT_DEFINITE;
     } else {

@@ -31,8 +31,8 @@ static size_t node_at(const struct block *block, size_t x, size_t y, size_t z)
     return (z * block->side + y) * block->side + x;
 }
 
-/* The first layer is as high as an element is wide; the others grow by one ratio. In columns, which
- * have more layers than that needs, the ratio is 1. */
+/* The first layer is about as high as an element is wide, and the others grow by one ratio; it is 1
+ * in columns, whose elements are cubes. */
 static void choose_heights(struct block *block)
 {
     const double first = width / (double)(block->side - 1);
@@ -170,7 +170,7 @@ struct block *block_new(size_t side, size_t slenderness, struct contact *contact
     struct block *block = need(1, sizeof *block);
     const size_t elements = side - 1;
     block->side = side;
-    /* Of cubes; in blocks of few layers, so that large ones condense in seconds. */
+    /* Few in blocks, so that large ones condense in seconds. */
     block->layers = slenderness > 0 ? slenderness * elements : 5;
     block->height = slenderness > 0 ? (double)slenderness * width : width;
     block->heights = need(block->layers, sizeof *block->heights);

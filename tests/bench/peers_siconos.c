@@ -7,8 +7,8 @@
  * crashed, did not end or ended with wrong answers; VI_FPP, FPP, EG and TFP, which VI_EG and PROX
  * bettered; NSGS with the quartic local solver, which at times never ends, and with the damped
  * Newton one, which took more time for the same steps than the plain one. At 961 pairs only those
- * run that may be the best there: NSGS then spends its time on the matrix,
- * whatever its local solver.
+ * run that may be the best there: NSGS spends its time on the matrix then, whatever its local
+ * solver.
  */
 
 #include "peers_solvers.h"
