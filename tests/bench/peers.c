@@ -29,10 +29,15 @@ struct results {
     size_t count;
 };
 
+static int is_ours(const struct solver *solver)
+{
+    return strcmp(solver->library, "signorini") == 0;
+}
+
 /* Without the flexibility no peer has data. */
 static int is_given(const struct solver *solver, const struct problem *problem)
 {
-    return strcmp(solver->library, "signorini") == 0 ||
+    return is_ours(solver) ||
            (problem->flexibility.M != NULL &&
             (solver->most == 0 || problem->contact.pairs <= solver->most));
 }
@@ -41,8 +46,7 @@ static double best_peer_ms(const struct row *rows, size_t count)
 {
     double best = INFINITY;
     for (size_t k = 0; k < count; k++)
-        if (strcmp(rows[k].solver->library, "signorini") != 0 && rows[k].ms > 0.0 &&
-            rows[k].eta <= USABLE_ETA)
+        if (!is_ours(rows[k].solver) && rows[k].ms > 0.0 && rows[k].eta <= USABLE_ETA)
             best = fmin(best, rows[k].ms);
     return best;
 }
@@ -63,7 +67,8 @@ static void run_all(const struct problem *problem, double limit, struct outcome 
     for (int round = 0; round < 2; round++) {
         const double best = best_peer_ms(rows, count);
         for (size_t k = 0; k < count; k++)
-            if (problem->family != FRICTION_3D || rows[k].ms < much_slower * best)
+            if (problem->family != FRICTION_3D || is_ours(rows[k].solver) ||
+                rows[k].ms < much_slower * best)
                 time_again(problem, limit, outcome, &rows[k]);
     }
     compare(rows, count, states);
@@ -203,13 +208,25 @@ static int is_wanted(const struct wanted *wanted, enum family family, size_t pai
             strcmp(wanted->family, family_name(family)) == 0);
 }
 
+/* The command line without OUT. */
+static struct wanted wanted_of(char **argv)
+{
+    const struct wanted wanted = {(size_t)strtoul(argv[1], NULL, 10),
+        (size_t)strtoul(argv[2], NULL, 10), argv[4]};
+    int known = strcmp(wanted.family, "all") == 0;
+    for (int family = FRICTIONLESS; family <= FRICTION_3D; family++)
+        known |= strcmp(wanted.family, family_name((enum family)family)) == 0;
+    if (!known)
+        stop("FAMILY is frictionless, friction2d, friction3d or all");
+    return wanted;
+}
+
 int main(int argc, char **argv)
 {
     static const size_t sizes[] = {33, 129, 513, 1025, 2049}, sides[] = {5, 15, 31, 45};
     if (argc < 5)
         stop("peers LEAST MOST SECONDS FAMILY [OUT]");
-    const struct wanted wanted = {(size_t)strtoul(argv[1], NULL, 10),
-        (size_t)strtoul(argv[2], NULL, 10), argv[4]};
+    const struct wanted wanted = wanted_of(argv);
     const double limit = strtod(argv[3], NULL);
     const char *threads = getenv("OPENBLAS_NUM_THREADS");
     if (threads == NULL || strcmp(threads, "1") != 0)
