@@ -21,7 +21,8 @@
  *
  * K is the stiffness matrix condensed on the contact components: symmetric, positive definite or
  * semi-definite (bodies supported by nothing but contact). slip0 is the reference slip: the d_t at
- * which a sticking pair stays. Other friction laws put another bound on |F_t|: SIGNORINI_LAW_...
+ * which a sticking pair stays. Other laws put another bound on |F_t|, or let a pair carry tension:
+ * SIGNORINI_LAW_... below.
  *
  * Signs. n is the outward normal of the body: d_n > 0 moves towards the obstacle, F_n < 0 presses.
  * F is the force of the contact on the body. f and F are nodal forces, not stresses. Example: above
@@ -85,6 +86,24 @@ typedef struct signorini_extra signorini_extra;
 #define SIGNORINI_LAW_COULOMB 1
 /** Tresca: |F_t| <= g, open or closed. friction holds g >= 0, one for each pair; force. */
 #define SIGNORINI_LAW_TRESCA 2
+/**
+ * Coulomb with cohesion and a tension cut-off: F_n <= a, (d_n - gap) (F_n - a) = 0,
+ * |F_t| <= b - mu F_n. friction holds three numbers for each pair, (mu, b, a): mu >= 0; a >= 0,
+ * the tension at which the pair opens, force; b >= mu a, the cohesion, force. The law has no
+ * memory: an open pair carries the tension F_n = a and a friction of up to b - mu a, however far
+ * it is open (gap +inf too). To let a pair break, the host sets its b and a to 0 in the load steps
+ * after it opened.
+ */
+#define SIGNORINI_LAW_COHESIVE 3
+/**
+ * Orthotropic, 3D only: (F_1 / mu1)^2 + (F_2 / mu2)^2 <= F_n^2, an ellipse. friction holds three
+ * numbers for each pair, (mu1, mu2, angle): the coefficients along axis 1 and 2, both > 0, and the
+ * angle of axis 1 from t1 towards t2 in radians. The pair slips along the normal of the ellipse at
+ * -F_t (associated rule): of all forces in the ellipse F_t takes the most work from the slip.
+ */
+#define SIGNORINI_LAW_ORTHOTROPIC 4
+/** The same ellipse and numbers; the pair slips opposite to F_t (collinear rule). */
+#define SIGNORINI_LAW_ORTHOTROPIC_COLLINEAR 5
 
 /* State of a pair. */
 /** The pair is apart: F_n = 0, and F_t = 0 but under Tresca's law. */

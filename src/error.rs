@@ -29,6 +29,8 @@ pub enum Argument {
     Gap,
     /// Parameters of the friction law: coefficients or thresholds.
     Law,
+    /// The friction law itself.
+    LawChoice,
     /// Slip accumulated before this load case.
     ReferenceSlip,
     /// Covering vector of Lemke's method.

@@ -164,10 +164,7 @@ fn pairs_may_be_permuted() {
             k: (0..n * n).map(|k| case.stiffness(from(k % n), from(k / n))).collect(),
             f: pick(&case.f),
             gap: pair(&case.gap),
-            law: match &case.law {
-                Law::Coulomb(mu) => Law::Coulomb(pair(mu)),
-                Law::Tresca(g) => Law::Tresca(pair(g)),
-            },
+            law: case.law.with(pair(case.law.values())),
             slip: case.slip.as_ref().map(|_| {
                 order
                     .iter()

@@ -153,6 +153,7 @@ impl CaseArguments {
             Argument::Load => 0,
             Argument::Prescribed => 1,
             Argument::Gap => 2,
+            Argument::LawChoice => 3,
             Argument::Law => 4,
             Argument::ReferenceSlip => 5,
             _ => return otherwise,
@@ -181,11 +182,7 @@ impl<'a> LoadCases<'a> {
             load: column(self.load, self.model.host_size()),
             prescribed: self.prescribed.map(|values| column(values, fixed)),
             gap: column(self.gap, pairs),
-            law: match self.law {
-                FrictionLaw::Frictionless => FrictionLaw::Frictionless,
-                FrictionLaw::Coulomb(mu) => FrictionLaw::Coulomb(column(mu, pairs)),
-                FrictionLaw::Tresca(g) => FrictionLaw::Tresca(column(g, pairs)),
-            },
+            law: self.law.with_values(column(self.law.values(), self.law.parameters() * pairs)),
             reference_slip: self.slip0.map(|slip0| column(slip0, slips)),
         }
     }

@@ -27,7 +27,7 @@ pub fn escape(contact: &Contact<'_>) -> Option<Vec<f64>> {
             force.iter().zip(&root[first..]).map(|(force, root)| force / root).collect();
         basis.iter().map(|v| dot(&v[first..first + force.len()], &scaled)).collect()
     };
-    let load = on_motions(problem.load(), 0);
+    let load = on_motions(contact.shifted_load(), 0);
     let mut edges = Vec::new();
     for (pair, law) in contact.pairs().iter().enumerate() {
         for edge in law.cone_edges() {

@@ -2,17 +2,19 @@
 //!
 //! With `dP/dy` of each pair's branch, `J dy = -H` is reduced to the normal components of open pairs and
 //! the tangential ones of slipping pairs and of pairs without friction. A slipping pair has the unknown
-//! `x` with `dy_t = k_t x + slope h dp`, so that
+//! `x` with `dy_t = k x + drag dp`; `drag = dtau/dp` and `T = dtau/dy_t` have `T drag = 0` under every law,
+//! so that
 //!
 //! ```text
-//! dd_t = (1 - q (1 - h hᵀ)) x,   dtau = slope h dp + k_t q (1 - h hᵀ) x,   dp = -(H + K dd)_n
-//! (K dd)_t - slope h (K dd)_n + k_t q (1 - h hᵀ) x = -H_t + slope h H_n
+//! dd_t = k⁻¹ (1 - T) k x,   dtau = drag dp + T k x,   dp = -(H + K dd)_n
+//! (K dd)_t - drag (K dd)_n + T k x = -H_t + drag H_n
 //! ```
 //!
-//! with the slip's direction `h` and `q = g / |y_t|`. Nothing is divided by the slip.
+//! Under Coulomb's law `drag = mu h` and `T = q (1 - h hᵀ)` with the slip's direction `h` and
+//! `q = g / |y_t|`. Nothing is divided by the slip.
 
 use super::point::Point;
-use crate::law::{Block, Contact, Vector};
+use crate::law::{Block, Contact, PairLaw, Plane, Vector, ellipse};
 use crate::linalg::factor::Factor;
 use crate::linalg::matrix::Matrix;
 
@@ -32,32 +34,26 @@ struct Pair {
     tangents: usize,
     /// Whether the pressure follows `y`, and not the displacement.
     is_closed: bool,
-    /// `slope h`, zero without slip and of an open pair.
+    /// `dtau/dp`, zero without slip and of an open pair.
     drag: [f64; 2],
-    /// `1 - dtau/dy_t`: zero if the pair sticks, `1 - q (1 - h hᵀ)` if it slips.
-    moves: [[f64; 2]; 2],
-    /// `k_t dtau/dy_t`.
-    turns: [[f64; 2]; 2],
+    /// `k⁻¹ (1 - T) k`: zero if the pair sticks.
+    moves: Plane,
+    /// `T k`.
+    turns: Plane,
 }
 
 impl Pair {
-    fn new(derivative: &Block, normal: usize, tangents: usize, k_t: f64) -> Self {
-        let mut pair = Pair {
+    fn new(law: &PairLaw, derivative: &Block, normal: usize, tangents: usize) -> Self {
+        let [_, [first, a, b], [second, c, d]] = *derivative;
+        let turned = [[a, b], [c, d]];
+        Pair {
             normal,
             tangents,
             is_closed: derivative[0][0] == 1.0,
-            drag: [derivative[1][0], derivative[2][0]],
-            moves: [[0.0; 2]; 2],
-            turns: [[0.0; 2]; 2],
-        };
-        for row in 0..tangents {
-            for c in 0..tangents {
-                let unit = if row == c { 1.0 } else { 0.0 };
-                pair.moves[row][c] = unit - derivative[1 + row][1 + c];
-                pair.turns[row][c] = k_t * derivative[1 + row][1 + c];
-            }
+            drag: [first, second],
+            moves: law.moves(&turned),
+            turns: ellipse::times(&turned, &law.tangential_scale()),
         }
-        pair
     }
 
     /// Whether the pair moves along its tangents at all.
@@ -79,8 +75,7 @@ impl<'p> System<'p> {
         let (dim, matrix) = (contact.dim(), contact.problem().stiffness());
         let (mut unknowns, mut pairs) = (Vec::new(), Vec::with_capacity(point.y.len()));
         for (at, (law, y)) in contact.pairs().iter().zip(&point.y).enumerate() {
-            let derivative = law.chart_branch(y).derivative(law.bound());
-            let pair = Pair::new(&derivative, dim * at, dim - 1, law.scale()[1]);
+            let pair = Pair::new(law, &law.derivative(y), dim * at, dim - 1);
             if !pair.is_closed {
                 unknowns.push(Unknown { component: pair.normal, tangential: None });
             }
@@ -160,13 +155,15 @@ impl<'p> System<'p> {
         let mut reaction: Vec<f64> = point.lack.iter().map(|lack| -lack).collect();
         let opposite: Vec<f64> = moved.iter().map(|d| -d).collect();
         self.matrix.add_product(&opposite, &mut reaction);
-        let coordinates = |(law, pair): (&crate::law::PairLaw, &Pair)| {
-            let (n, scale) = (pair.normal, law.scale());
+        let coordinates = |(law, pair): (&PairLaw, &Pair)| {
+            let (n, scale) = (pair.normal, law.tangential_scale());
             let mut dy = [0.0; 3];
-            dy[0] = if pair.is_closed { reaction[n] } else { scale[0] * moved[n] };
+            dy[0] = if pair.is_closed { reaction[n] } else { law.normal_scale() * moved[n] };
+            let x = &free[n + 1..n + 1 + pair.tangents];
             for c in 0..pair.tangents {
+                let scaled: f64 = scale[c].iter().zip(x).map(|(k, x)| k * x).sum();
                 dy[1 + c] = match pair.moves_along() {
-                    true => scale[1 + c] * free[n + 1 + c] + pair.drag[c] * dy[0],
+                    true => scaled + pair.drag[c] * dy[0],
                     false => reaction[n + 1 + c],
                 };
             }
