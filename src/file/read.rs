@@ -179,7 +179,7 @@ impl Header {
                 problem.friction = vec![0.0; pairs * names.len()];
                 for (k, name) in names.iter().enumerate() {
                     let column = rows(lines, name, (size, most), |i| i % dim == 0)?;
-                    let places = problem.friction[k..].iter_mut().step_by(names.len());
+                    let places = problem.friction.iter_mut().skip(k).step_by(names.len());
                     places.zip(column).for_each(|(place, value)| *place = value);
                 }
                 problem.reference_slip = rows(lines, "slip0", (size, most), |i| i % dim != 0)?;

@@ -133,6 +133,11 @@ impl<'p, R: Relation> Contact<'p, R> {
         self.bounds().any(|bound| bound.slope > 0.0)
     }
 
+    /// Whether some pair slips along a friction that does not take the most work from its slip.
+    pub fn has_collinear_slip(&self) -> bool {
+        self.pairs.iter().any(PairLaw::is_collinear)
+    }
+
     /// The bounds of all pairs.
     pub fn bounds(&self) -> impl Iterator<Item = Bound> {
         self.pairs.iter().map(PairLaw::bound)

@@ -5,7 +5,7 @@
 //! | isotropic | its length | `k_t` |
 //! | with an ellipse | `\|W t\|` | that of the rule ([`super::ellipse`]) |
 
-use super::{Ellipse, PairLaw, Plane, ellipse, length};
+use super::{Ellipse, PairLaw, Plane, Rule, ellipse, length};
 
 impl PairLaw {
     /// The size of a tangential force that the bound limits: stick and slip meet where the gauge of the
@@ -60,6 +60,11 @@ impl PairLaw {
             None => [force[0] / self.k_t, force[1] / self.k_t],
             Some(ellipse) => ellipse.unscaled(force),
         }
+    }
+
+    /// Whether the pair has an ellipse and slips along its friction all the same.
+    pub fn is_collinear(&self) -> bool {
+        self.ellipse.as_ref().is_some_and(|ellipse| ellipse.rule() == Rule::Collinear)
     }
 
     /// Brings a tangential force back to what the pair can carry under `threshold`, along its own line.
