@@ -106,7 +106,9 @@ typedef struct signorini_extra signorini_extra;
 #define SIGNORINI_LAW_ORTHOTROPIC_COLLINEAR 5
 
 /* State of a pair. */
-/** The pair is apart: F_n = 0, and F_t = 0 but under Tresca's law. */
+/**
+ * The pair is apart: F_n = 0, with cohesion F_n = a; F_t = 0 but under Tresca's law and cohesion.
+ */
 #define SIGNORINI_STATE_OPEN 0
 /** The pair touches and slips: |F_t| is at its bound. Frictionless: every pair that touches. */
 #define SIGNORINI_STATE_SLIP 1
@@ -124,7 +126,7 @@ typedef struct signorini_extra signorini_extra;
  * @param gap       initial gaps, one for each pair; length; negative: interference; +infinity:
  *                  the pair never touches
  * @param law       SIGNORINI_LAW_..., the friction law of all pairs
- * @param friction  parameters of the law, pair by pair: mu or g; may be NULL if frictionless
+ * @param friction  parameters of the law, pair by pair; may be NULL if frictionless
  * @param slip0     reference slip: the tangential displacement d_t0 at which a sticking pair has
  *                  no motion, dim - 1 for each pair; length; NULL: zero. In load steps hand over
  *                  the d_t of the step before.
@@ -359,7 +361,7 @@ int32_t signorini_model_stiffness(const signorini_model *model, double *K);
  * @param prescribed  values of the fixed degrees of freedom, in the order of fixed; NULL: zero
  * @param gap         gaps, one for each pair
  * @param law         SIGNORINI_LAW_..., the friction law of all pairs
- * @param friction    parameters of the law, pair by pair: mu or g; may be NULL if frictionless
+ * @param friction    parameters of the law, pair by pair; may be NULL if frictionless
  * @param slip0       reference slip, dim - 1 for each pair; NULL: zero
  * @param settings    NULL: the defaults; a progress callback is called in each case in turn
  * @param d           out: relative displacements, N = dim * pairs entries a case; in: the starts
@@ -587,7 +589,7 @@ const double *signorini_problem_rhs(const signorini_problem *problem);
 /** Gaps, one for each pair. */
 const double *signorini_problem_gap(const signorini_problem *problem);
 
-/** Parameters of the friction law, pair by pair: mu or g; NULL if frictionless. */
+/** Parameters of the friction law, pair by pair; NULL if frictionless. */
 const double *signorini_problem_friction(const signorini_problem *problem);
 
 /** Reference slip, dim - 1 for each pair. */
@@ -719,7 +721,8 @@ struct signorini_report {
     /** Rounding of K d relative to the forces, no unit; above 1e-6 nothing is certified. */
     double rounding;
     double penetration;       /**< Largest d_n - gap; length; 0 if none. */
-    double tension; /**< Largest tensile (positive) normal part of K d - f; force; 0 if none. */
+    /** Largest normal part of K d - f beyond the tension of the law, 0 but for cohesion; force. */
+    double tension;
     /** Largest excess of the tangential part of K d - f over its bound; force; 0 if none. */
     double cone_excess;
     double equilibrium;       /**< Largest component of K d - f - F; force. */

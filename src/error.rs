@@ -27,7 +27,7 @@ pub enum Argument {
     Load,
     /// Initial gaps.
     Gap,
-    /// Parameters of the friction law: coefficients or thresholds.
+    /// Parameters of the friction law: coefficients, thresholds and others.
     Law,
     /// The friction law itself.
     LawChoice,

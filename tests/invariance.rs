@@ -6,9 +6,7 @@
 mod common;
 
 use common::dense::{largest, product};
-use common::problems::{
-    Case, Law, coulomb, decades, definite, frictionless, loaded, tresca, uniform,
-};
+use common::problems::{Case, coulomb, decades, definite, frictionless, loaded, tresca, uniform};
 use fastrand::Rng;
 use signorini::{Method, Settings, Solution, State, Status};
 

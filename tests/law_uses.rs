@@ -222,6 +222,12 @@ fn contact_forces_take_no_more_work_than_said_from_a_recession() {
         force.truncate(law.dim);
         let work = dot(&force, &r) - law.tension * r[0] - p * beyond;
         assert!((work + motion.resisted).abs() <= ROUNDING, "{law:?} {r:?}");
+        let is_cone = law.bound.offset == 0.0 && law.tension == 0.0;
+        if law.has_obstacle() && is_cone && slide > 0.0 {
+            let edge = law.law().opposing_edge(&r);
+            let off = edge.iter().zip(&force).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            assert!(off <= ROUNDING, "{law:?} {r:?}: {edge:?} {force:?}");
+        }
         // Nearer to the obstacle some force takes more.
         if law.has_obstacle() {
             r[0] += beyond + 0.1;

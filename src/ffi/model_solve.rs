@@ -29,7 +29,7 @@ const START: i32 = 10;
 /// @param prescribed  values of the fixed degrees of freedom, in the order of fixed; NULL: zero
 /// @param gap         gaps, one for each pair
 /// @param law         SIGNORINI_LAW_..., the friction law of all pairs
-/// @param friction    parameters of the law, pair by pair: mu or g; may be NULL if frictionless
+/// @param friction    parameters of the law, pair by pair; may be NULL if frictionless
 /// @param slip0       reference slip, dim - 1 for each pair; NULL: zero
 /// @param settings    NULL: the defaults; a progress callback is called in each case in turn
 /// @param d           out: relative displacements, N = dim * pairs entries a case; in: the starts

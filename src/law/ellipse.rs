@@ -99,6 +99,11 @@ impl Ellipse {
         a.hypot(b)
     }
 
+    /// The direction of the force in the ellipse that takes most work from the slip `t`: `(Wᵀ W)⁻¹ t`.
+    pub fn most_opposed(&self, t: [f64; 2]) -> [f64; 2] {
+        product(&inverse(&self.form()), t)
+    }
+
     /// `Wᵀ W`.
     pub fn form(&self) -> Plane {
         form(&self.to_disc)

@@ -77,6 +77,24 @@ impl PairLaw {
         }
     }
 
+    /// The edge of the cone whose force does the least work on the motion `r`: the work is
+    /// `-(r_n + slope |r_t|*)`. The law's bound is a cone.
+    pub fn opposing_edge(&self, r: &[f64]) -> Vector {
+        let mut edge = [-1.0, 0.0, 0.0];
+        let mut against = [0.0; 2];
+        against[..self.dim - 1].copy_from_slice(&r[1..self.dim]);
+        if let Some(ellipse) = &self.ellipse {
+            against = ellipse.most_opposed(against);
+        }
+        let gauge = self.gauge(&against[..self.dim - 1]);
+        if gauge > 0.0 {
+            for c in 1..self.dim {
+                edge[c] = -self.bound.slope * against[c - 1] / gauge;
+            }
+        }
+        edge
+    }
+
     /// Whether the pair would have to pull more than its tension with the normal force `f_n - a`.
     pub fn is_tensile(&self, shifted: f64) -> bool {
         shifted > 0.0
