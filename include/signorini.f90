@@ -77,6 +77,7 @@ module signorini
     integer(c_int32_t), parameter :: SIGNORINI_METHOD_LEMKE = 3
     integer(c_int32_t), parameter :: SIGNORINI_METHOD_BLOCK_PIVOTING = 4
     integer(c_int32_t), parameter :: SIGNORINI_METHOD_NEWTON = 5
+    integer(c_int32_t), parameter :: SIGNORINI_METHOD_PATH = 6
     integer(c_int32_t), parameter :: SIGNORINI_SEARCH_OFF = 0
     integer(c_int32_t), parameter :: SIGNORINI_SEARCH_OTHERS = 1
     integer(c_int32_t), parameter :: SIGNORINI_STATE_OPEN = 0

@@ -632,6 +632,11 @@ const char *signorini_problem_remark(const signorini_problem *problem);
  * says so.
  */
 #define SIGNORINI_METHOD_NEWTON 5
+/**
+ * A path of solutions from the start to one of the problem, with friction. If K is positive
+ * definite it exists for every mu, load and gap. AUTO follows it where Newton's method fails.
+ */
+#define SIGNORINI_METHOD_PATH 6
 
 /** Report only what the solution itself proves about other solutions. The default. */
 #define SIGNORINI_SEARCH_OFF 0

@@ -19,6 +19,8 @@ pub enum Method {
     BlockPivoting,
     /// Newton's method: on the active set of the pairs in 2D, on the normal map in 3D.
     Newton,
+    /// A path of solutions followed from the start, with a proof for every `mu` if `K` is definite.
+    Path,
 }
 
 /// Whether to look for other solutions.

@@ -8,6 +8,7 @@ mod laws;
 use fastrand::Rng;
 use laws::{Numbers, dot, norm, uniform};
 use signorini::law::branch::Row;
+use signorini::law::piece::Boundary;
 use signorini::law::{State, Vector};
 
 const POINTS: usize = 20_000;
@@ -165,6 +166,58 @@ fn branches_have_the_derivative_of_the_normal_map() {
         }
     }
     assert!(slips.iter().all(|&slips| slips > POINTS / 20), "{slips:?} slips were seen");
+}
+
+/// On its own piece the map of a piece is the normal map; a line leaves the piece where the function of
+/// the boundary is zero, and that function has the gradient that is said.
+#[test]
+fn pieces_are_those_of_the_normal_map_and_end_at_their_boundaries() {
+    const H: f64 = 1e-6;
+    let rng = &mut Rng::with_seed(8);
+    let mut left = [0; 2];
+    for _ in 0..POINTS {
+        let law = Numbers::random(rng);
+        let (y, t) = (any(rng, &law), any(rng, &law));
+        if !law.has_obstacle() || norm(&y[1..law.dim]) < 0.3 {
+            continue;
+        }
+        let pair = law.law();
+        let piece = pair.piece(&y);
+        let (v, p) = pair.normal_map(&y);
+        let push = pair.push_on(piece, &y);
+        let d = pair.displacement(&y, &push);
+        assert!(is_near(&push, &p), "{law:?} at {y:?}: {push:?}");
+        let moved = law.of_host(&v, &p).0;
+        let off = d.iter().zip(&moved).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        // The displacements are forces divided by k, at least 0.1 over the ratio squared.
+        assert!(off <= 10.0 * ROUNDING * law.ratio().powi(2), "{law:?} at {y:?}: {d:?} {moved:?}");
+        for (boundary, left) in [Boundary::Contact, Boundary::Slip].into_iter().zip(&mut left) {
+            if !pair.has_boundary(piece, boundary) {
+                continue;
+            }
+            assert!(pair.excess(piece, boundary, &y) <= 0.0, "{law:?} at {y:?}");
+            let along = |q: f64| -> Vector { std::array::from_fn(|c| y[c] + q * t[c]) };
+            let q = pair.exit(piece, boundary, &y, &t);
+            // Beyond the end of contact the bound is negative, and its square has zeros of no meaning.
+            if q < 100.0 && q <= pair.exit(piece, Boundary::Contact, &y, &t) {
+                *left += 1;
+                let (value, _) = pair.boundary(piece, boundary, &along(q));
+                // A root of a quadratic: half the digits where it touches.
+                assert!(
+                    value.abs() <= 1e-6 * (1.0 + q),
+                    "{law:?} at {y:?} along {t:?}: {q} {value}"
+                );
+            }
+            let (_, gradient) = pair.boundary(piece, boundary, &y);
+            let difference = (pair.boundary(piece, boundary, &along(H)).0
+                - pair.boundary(piece, boundary, &along(-H)).0)
+                / (2.0 * H);
+            // H² over |y_t|² and rounding over H, in the variables of the disc.
+            let slope = dot(&gradient, &t);
+            assert!((slope - difference).abs() <= 1e-8 * law.ratio().powi(3), "{law:?} at {y:?}");
+        }
+    }
+    assert!(left.iter().all(|&left| left > POINTS / 20), "{left:?}");
 }
 
 #[test]

@@ -237,44 +237,27 @@ fn contact_forces_take_no_more_work_than_said_from_a_recession() {
     }
 }
 
+/// Edges lie on the cone; in the plane they hold all of it.
 #[test]
-fn edges_hold_the_friction_cone() {
+fn edges_lie_on_the_friction_cone() {
     let rng = &mut Rng::with_seed(4);
-    let wider = (std::f64::consts::PI / 16.0).cos().recip();
     for _ in 0..POINTS / 10 {
         let mut law = Numbers::random(rng);
         (law.bound.offset, law.tension) = (0.0, 0.0);
         let edges = law.law().cone_edges();
-        if !law.has_obstacle() {
-            assert!(edges.is_empty(), "no obstacle, no force");
-            continue;
-        }
         let mu = law.bound.slope;
+        let expected = match law.dim {
+            _ if !law.has_obstacle() => 0,
+            _ if mu == 0.0 => 1,
+            dim => 2 * (dim - 1),
+        };
+        assert_eq!(edges.len(), expected, "{law:?}");
         for edge in &edges {
             assert_eq!(edge[0], -1.0);
-            let size = law.size(&edge[1..law.dim]);
-            assert!(size >= mu - ROUNDING && size <= mu * wider + ROUNDING, "{edge:?}");
+            assert!((law.size(&edge[1..law.dim]) - mu).abs() <= ROUNDING, "{law:?} {edge:?}");
         }
-        for _ in 0..20 {
-            let force = admissible(rng, &law);
-            let p = -force[0];
-            if p == 0.0 || mu == 0.0 {
-                assert!(norm(&force[1..]) <= ROUNDING);
-                continue;
-            }
-            let t: Vec<f64> = force[1..].iter().map(|t| t / p).collect();
-            if law.dim == 2 {
-                let ends = edges.iter().map(|edge| edge[1]);
-                let (low, high) = ends.fold((0.0_f64, 0.0_f64), |(a, b), t| (a.min(t), b.max(t)));
-                assert!(t[0] >= low - ROUNDING && t[0] <= high + ROUNDING, "{law:?} {force:?}");
-                continue;
-            }
-            // The polygon is convex and goes round once: the point is left of all its sides.
-            for (k, a) in edges.iter().enumerate() {
-                let b = &edges[(k + 1) % edges.len()];
-                let side = (b[1] - a[1]) * (t[1] - a[2]) - (b[2] - a[2]) * (t[0] - a[1]);
-                assert!(side >= -ROUNDING, "{law:?} {force:?}");
-            }
+        if law.dim == 2 && expected == 2 {
+            assert!((edges[0][1] + edges[1][1]).abs() <= ROUNDING, "{edges:?}");
         }
     }
 }

@@ -38,7 +38,7 @@ if ! "$python" -c 'import matplotlib, PIL' >/dev/null 2>&1; then
 fi
 # Without the files to draw: one sentence that says what to run.
 mkdir -- "$work/empty"
-for pair in bar/bar_on_plane:replay junction/bolted_junction:junction; do
+for pair in bar/bar_on_plane:replay junction/bolted_junction:junction 3d/hertz:3d; do
     script=$root/c_examples/${pair%:*}.py
     [ -x "$script" ] || { echo "scripts: $script cannot be run as a command"; exit 1; }
     if "$python" "$script" "$work/empty" >"$work/said" 2>&1; then
@@ -52,11 +52,13 @@ sh "$root/c_examples/replay.sh" "$work/out" >"$work/replay.log" 2>&1 ||
     { cat "$work/replay.log"; exit 1; }
 sh "$root/c_examples/junction.sh" "$work/out" >"$work/junction.log" 2>&1 ||
     { cat "$work/junction.log"; exit 1; }
+sh "$root/c_examples/3d.sh" "$work/out" >"$work/3d.log" 2>&1 ||
+    { cat "$work/3d.log"; exit 1; }
 # From another directory: the scripts find the package and the library by their own place.
-for script in bar/bar_on_plane junction/bolted_junction; do
+for script in bar/bar_on_plane junction/bolted_junction 3d/hertz; do
     (cd "$work" && "$python" "$root/c_examples/$script.py" out)
 done
-for picture in bar_on_plane bar_friction bolted_junction; do
+for picture in bar_on_plane bar_friction bolted_junction hertz; do
     [ -s "$work/out/$picture.png" ] || { echo "scripts: no picture $picture.png"; exit 1; }
 done
 [ -z "$(find "$root/c_examples" -name __pycache__ -newer "$work/began")" ] ||

@@ -68,7 +68,6 @@ TABLE = np.array([
 CORRECTIONS = {20: -5.07, 21: -4.33, 22: -3.73, 23: -3.23}
 
 COLORS = {"open": "#e8f1fa", "slip": "#fff3cf", "stick": "#e9e9e9"}
-NAMES = {"open": "open", "slip": "sliding", "stick": "sticking"}
 
 
 def read(path):
@@ -86,7 +85,7 @@ def shade(axes, x, states):
             left, right = max(x[begin] - half, x[0]), min(x[i - 1] + half, x[-1])
             axes.axvspan(left, right, color=COLORS[states[begin]], lw=0, zorder=0)
             axes.text(
-                (left + right) / 2, 1.02, NAMES[states[begin]], ha="center", fontsize=9,
+                (left + right) / 2, 1.02, states[begin], ha="center", fontsize=9,
                 transform=axes.get_xaxis_transform(),
             )
             begin = i
@@ -155,7 +154,7 @@ def draw_friction(out):
         edges, np.append(mu, mu[-1]), [result.state for result in results], vmin=0, vmax=2,
         cmap=ListedColormap(list(COLORS.values())), rasterized=True,
     )
-    for at, name in (((1.6, 1.72), "open"), ((9.5, 0.9), "sliding"), ((30.0, 1.1), "sticking")):
+    for at, name in (((1.6, 1.72), "open"), ((9.5, 0.9), "slip"), ((30.0, 1.1), "stick")):
         zones.text(*at, name, ha="center", fontsize=9)
     zones.set_ylabel("friction coefficient $\\mu$")
     zones.set_title("Bar on a plane: 401 friction coefficients, one model", fontsize=10)

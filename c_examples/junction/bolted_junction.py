@@ -27,9 +27,9 @@ MU = "0.3"
 SCALE = 100
 PANELS = [("closing", "closed by 678.6 kN"), ("p40", "the same and 40 MPa inside")]
 STATES = {
-    "open": {"marker": "o", "facecolor": "white", "edgecolor": "black", "label": "open"},
-    "slip": {"marker": "^", "facecolor": "gold", "edgecolor": "black", "label": "sliding"},
-    "stick": {"marker": "s", "facecolor": "black", "edgecolor": "white", "label": "sticking"},
+    "open": {"marker": "o", "facecolor": "white", "edgecolor": "black"},
+    "slip": {"marker": "^", "facecolor": "gold", "edgecolor": "black"},
+    "stick": {"marker": "s", "facecolor": "black", "edgecolor": "white"},
 }
 
 
@@ -99,7 +99,6 @@ def draw(axes, out, step, title, levels):
                 at.append(moved[node].mean(axis=0))
         if at:
             at = np.array(at)
-            style = {key: value for key, value in style.items() if key != "label"}
             axes.scatter(at[:, 0], at[:, 1], s=15, linewidth=0.5, zorder=5, **style)
 
     for name, at in (("A", (50, 20)), ("B", (20, 136)), ("C", (110, 158))):
@@ -159,10 +158,10 @@ def main():
     bar.set_label("axial stress $\\sigma_{zz}$, MPa")
     handles = [
         plt.Line2D(
-            [], [], ls="", ms=5, mew=0.5, marker=style["marker"], label=style["label"],
+            [], [], ls="", ms=5, mew=0.5, marker=style["marker"], label=state,
             mfc=style["facecolor"], mec=style["edgecolor"],
         )
-        for style in STATES.values()
+        for state, style in STATES.items()
     ]
     panels[0].legend(
         handles=handles, title="contact pairs", loc="lower right", fontsize=9, title_fontsize=9

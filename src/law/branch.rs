@@ -15,7 +15,7 @@
 //! In the plane, and without friction, `T = 0`: the law is piecewise linear, and the equations of a
 //! branch are exact everywhere on it ([`Branch::rows`]).
 
-use super::{Block, PairLaw, Vector, ellipse};
+use super::{Block, PairLaw, Vector};
 
 /// A branch of the law of one pair.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -90,31 +90,7 @@ impl Branch {
 impl PairLaw {
     /// `dP/dy` at the coordinates `y` of the chart.
     pub fn derivative(&self, y: &Vector) -> Block {
-        self.derivative_on(&self.chart_branch(y), y)
-    }
-
-    /// The derivative that the function of a branch has at `y`, on the branch or beyond its end.
-    pub fn derivative_on(&self, branch: &Branch, y: &Vector) -> Block {
-        let mut block = [[0.0; 3]; 3];
-        block[0][0] = if branch.closed { 1.0 } else { 0.0 };
-        match branch.tangential {
-            Tangential::Free => {}
-            Tangential::Stick => (block[1][1], block[2][2]) = (1.0, 1.0),
-            Tangential::Slip { .. } => {
-                let size = self.gauge(&y[1..self.dim]);
-                let turning = self.bound.at(if branch.closed { y[0] } else { 0.0 }) / size;
-                let h = [y[1] / size, if self.dim == 2 { 0.0 } else { y[2] / size }];
-                let conormal = ellipse::product(&self.gauge_form(), h);
-                for c in 0..self.dim - 1 {
-                    block[1 + c][0] = self.bound.slope * h[c] * block[0][0];
-                    for other in 0..self.dim - 1 {
-                        let unit = if c == other { 1.0 } else { 0.0 };
-                        block[1 + c][1 + other] = turning * (unit - h[c] * conormal[other]);
-                    }
-                }
-            }
-        }
-        block
+        self.derivative_on(self.piece(y), y)
     }
 
     /// Closed if there is an obstacle, and sticking if there is friction.

@@ -5,7 +5,7 @@
 //! | isotropic | its length | `k_t` |
 //! | with an ellipse | `\|W t\|` | that of the rule ([`super::ellipse`]) |
 
-use super::{Ellipse, PairLaw, Plane, Rule, ellipse, length};
+use super::{Ellipse, PairLaw, Plane, Rule, Vector, ellipse, length};
 
 impl PairLaw {
     /// The size of a tangential force that the bound limits: stick and slip meet where the gauge of the
@@ -43,6 +43,12 @@ impl PairLaw {
             None => [[self.k_t, 0.0], [0.0, self.k_t]],
             Some(ellipse) => *ellipse.scale(),
         }
+    }
+
+    /// Diagonal of `k`: the units in which components of a pair are compared.
+    pub fn scale(&self) -> Vector {
+        let [[first, _], [_, second]] = self.tangential_scale();
+        [self.k_n, first, second]
     }
 
     /// `k delta`.

@@ -41,6 +41,7 @@ mod local;
 mod natural_map;
 mod normal_map;
 pub mod orthotropic;
+pub mod piece;
 mod proximal;
 mod recession;
 pub mod tresca;

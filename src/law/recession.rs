@@ -31,10 +31,6 @@ pub fn lift(r: &mut [f64], by: f64) {
     r[0] -= by;
 }
 
-/// Edges of the polygon around a friction cone in 3D. The polygon contains the cone, so that what its
-/// forces cannot balance the cone's cannot; it is at most `1 / cos(pi / 16) - 1 = 1.9 %` wider.
-const EDGES: usize = 16;
-
 impl PairLaw {
     /// The motion `r` of the pair.
     pub fn recession(&self, r: &[f64]) -> Recession {
@@ -56,24 +52,21 @@ impl PairLaw {
         }
     }
 
-    /// Edges of a cone that contains all forces which the pair can carry beside its tension, each with
-    /// the normal component −1; none without an obstacle. The law's bound is a cone.
+    /// Some edges of the cone of forces that the pair can carry beside its tension, each with the normal
+    /// component −1: all in the plane, four in space; none without an obstacle. The law's bound is a cone.
     pub fn cone_edges(&self) -> Vec<Vector> {
         let mu = self.bound.slope;
         match self.dim {
             _ if !self.has_obstacle() => Vec::new(),
             _ if mu == 0.0 => vec![[-1.0, 0.0, 0.0]],
             2 => vec![[-1.0, mu, 0.0], [-1.0, -mu, 0.0]],
-            _ => (0..EDGES)
-                .map(|k| {
-                    let half = std::f64::consts::PI / EDGES as f64;
-                    let (sin, cos) = (2.0 * half * k as f64).sin_cos();
-                    let edge = [mu * cos / half.cos(), mu * sin / half.cos()];
+            _ => [[mu, 0.0], [-mu, 0.0], [0.0, mu], [0.0, -mu]]
+                .map(|edge| {
                     let edge =
                         self.ellipse.as_ref().map_or(edge, |ellipse| ellipse.from_disc(edge));
                     [-1.0, edge[0], edge[1]]
                 })
-                .collect(),
+                .to_vec(),
         }
     }
 

@@ -27,7 +27,7 @@ impl Factor {
     /// Factorises the `n x n` matrix whose columns `fill(j, column)` writes, of a symmetric positive
     /// definite one on and below the diagonal. `None` if it is singular to working precision, or
     /// not positive definite as promised.
-    pub fn new(n: usize, symmetric: bool, fill: impl Fn(usize, &mut [f64])) -> Option<Self> {
+    pub fn new(n: usize, symmetric: bool, fill: impl FnMut(usize, &mut [f64])) -> Option<Self> {
         Self::with_least_pivot(n, symmetric, SINGULAR, fill)
     }
 
@@ -36,7 +36,7 @@ impl Factor {
         n: usize,
         symmetric: bool,
         least: f64,
-        fill: impl Fn(usize, &mut [f64]),
+        mut fill: impl FnMut(usize, &mut [f64]),
     ) -> Option<Self> {
         let mut factors = Mat::zeros(n, n);
         for j in 0..n {

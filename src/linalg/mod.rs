@@ -1,11 +1,13 @@
 //! Linear algebra: the only room that names faer, nalgebra and the SIMD kernels. It knows nothing of
 //! mechanics.
 
+pub(crate) mod elimination;
 pub(crate) mod factor;
 pub(crate) mod matrix;
 pub(crate) mod nnls;
 pub(crate) mod null_vector;
 pub(crate) mod packed;
+pub(crate) mod perturbation;
 pub(crate) mod pivoted_cholesky;
 pub(crate) mod simd;
 pub(crate) mod sparse_matrix;

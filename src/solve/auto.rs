@@ -4,7 +4,7 @@
 //! |---|---|
 //! | without friction | block pivoting, Lemke, sweeps |
 //! | friction in 2D | Newton, Lemke, sweeps (nested, diagonal) |
-//! | friction in 3D | Newton, sweeps (nested, diagonal) |
+//! | friction in 3D | Newton, path (from Newton's last iterate), sweeps (nested, diagonal) |
 //!
 //! If the orientation of a solution is −1, there are at least three solutions and this one is
 //! unstable: the next method is asked too.
@@ -32,7 +32,11 @@ pub fn solve(
     let plan = plan(contact);
     let mut tried = Tried::default();
     for &method in plan {
-        let candidate = attempt(method, contact, settings, start, monitor)?;
+        let from = match (&tried.best, method) {
+            (Some((_, best)), Method::Path) => Some(best.d.as_slice()),
+            _ => start,
+        };
+        let candidate = attempt(method, contact, settings, from, monitor)?;
         tried.count(&candidate.effort);
         let (why, stopped) = (fallback(&candidate), matches!(candidate.ending, Ending::Stopped(_)));
         let solution = certified(contact, settings, method, &candidate);
@@ -64,13 +68,7 @@ fn attempt(
     start: Option<&[f64]>,
     monitor: &mut Monitor<'_>,
 ) -> Result<Candidate, Error> {
-    // In space the nested sweeps are the only method with all its iterations behind Newton's.
-    let brief = match method {
-        Method::SorNested => contact.dim() == 2 || contact.is_frictionless(),
-        Method::SorDiagonal => true,
-        _ => false,
-    };
-    if !brief {
+    if !matches!(method, Method::SorNested | Method::SorDiagonal) {
         return run(method, contact, settings, start, monitor);
     }
     let (candidate, used_up) =
@@ -89,8 +87,8 @@ fn plan(contact: &Contact<'_>) -> &'static [Method] {
         (false, 2, true) => {
             &[Method::Newton, Method::Lemke, Method::SorNested, Method::SorDiagonal]
         }
-        (false, _, false) => &[Method::Newton, Method::SorNested],
-        (false, _, true) => &[Method::Newton, Method::SorNested, Method::SorDiagonal],
+        (false, _, false) => &[Method::Newton, Method::Path, Method::SorNested],
+        (false, _, true) => &[Method::Newton, Method::Path, Method::SorNested, Method::SorDiagonal],
     }
 }
 

@@ -1,7 +1,7 @@
 //! One method on one problem: which it fits, and what runs it.
 
 use super::candidate::{Candidate, Ending};
-use super::{active_set, lemke, normal_map, sweeps};
+use super::{active_set, lemke, normal_map, path, sweeps};
 use crate::error::{Argument, Error};
 use crate::law::Contact;
 use crate::monitor::Monitor;
@@ -47,6 +47,7 @@ pub fn run(
             active_set::newton(contact, settings, start, monitor)
         }
         (Method::Newton, _) => normal_map::newton(contact, settings, start, monitor),
+        (Method::Path, _) => path::curved(contact, settings, start, monitor),
         (Method::BlockPivoting, _) => {
             let chosen = settings.method == Method::BlockPivoting;
             let most = if chosen { u64::MAX } else { active_set::enough(contact.pairs().len()) };

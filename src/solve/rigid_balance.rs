@@ -2,57 +2,167 @@
 //! displacements.
 //!
 //! With a basis `N` of the motions that `K` does not resist, balance is `Nᵀ (f + F) = 0` for forces
-//! `F` in the friction cones. The forces that come nearest, by non-negative least squares over the
-//! edges of the cones, leave `e = Nᵀ (f + F)`; if it is not zero, `r = N e` is a motion on which the
-//! loads do work, `f . r = |e|²`, and no admissible force does negative work: what
-//! [`crate::certificate::is_escape`] asks of a proof.
+//! `F` in the friction cones. The forces that come nearest leave `e = Nᵀ (f + F)`; if it is not zero,
+//! `r = N e` is a motion on which the loads do work, `f . r = |e|²`, and no admissible force does
+//! negative work: what [`crate::certificate::is_escape`] asks of a proof.
+//!
+//! In space a cone has infinitely many edges. The projection begins with a few (non-negative least
+//! squares); where a force of a cone does negative work on `r`, the edge of the least work joins, and
+//! the projection is repeated (cutting planes, on the exact disc). What is left of negative work within
+//! the tolerance is taken away by a motion that lifts all pairs.
 
 use super::condense::FreeBlock;
 use crate::certificate::is_escape_of;
 use crate::law::Contact;
 use crate::linalg::nnls::{extend_basis, nearest};
-use crate::linalg::vector::dot;
+use crate::linalg::pivoted_cholesky::PivotedCholesky;
+use crate::linalg::tolerances::NEGLIGIBLE;
+use crate::linalg::vector::{dot, largest_of};
+
+/// Negative work of a cone's force that counts, relative to the motion. Next to the limit of balance
+/// `e` is small beside the loads, and rounding of the projection is no smaller.
+const NEGATIVE: f64 = 1e-9;
+
+/// Pairs whose edges join in one round.
+const JOINING: usize = 4;
+
+/// Rounds of cutting planes: a hundred were the most where it converged.
+const MOST_ROUNDS: usize = 300;
 
 /// A recession direction that the loads drive, where the admissible forces are cones.
 pub fn escape(contact: &Contact<'_>) -> Option<Vec<f64>> {
     if !contact.bounds().all(|bound| bound.is_cone()) {
         return None;
     }
-    let (problem, dim) = (contact.problem(), contact.dim());
-    let root = problem.stiffness().diagonal_roots();
-    let basis = rigid_motions(contact, &root);
-    // Work on each motion of forces whose first component is `first`.
-    let on_motions = |force: &[f64], first: usize| -> Vec<f64> {
-        let scaled: Vec<f64> =
-            force.iter().zip(&root[first..]).map(|(force, root)| force / root).collect();
-        basis.iter().map(|v| dot(&v[first..first + force.len()], &scaled)).collect()
-    };
-    let load = on_motions(contact.shifted_load(), 0);
+    let balance = Balance::new(contact)?;
+    let load = balance.on_motions(contact.shifted_load(), 0);
     let mut edges = Vec::new();
     for (pair, law) in contact.pairs().iter().enumerate() {
-        for edge in law.cone_edges() {
-            edges.push(on_motions(&edge[..dim], dim * pair));
-        }
+        let own = law.cone_edges();
+        edges.extend(own.iter().map(|edge| balance.on_pair(edge, pair)));
     }
-    let rest = nearest(&load, &edges)?;
-    let mut motion = vec![0.0; contact.unknowns()];
-    for (v, e) in basis.iter().zip(&rest) {
-        for ((motion, v), root) in motion.iter_mut().zip(v).zip(&root) {
-            *motion += e * v / root;
+    let mut before = Vec::new();
+    for _ in 0..MOST_ROUNDS {
+        let rest = nearest(&load, &edges)?;
+        let motion = balance.motion(&rest);
+        let worst = balance.worst(&motion);
+        // Edges that differ by rounding alone from those that carry are of no more use.
+        if worst.is_empty() || contact.dim() == 2 || rest == before {
+            let motion = balance.lifted(motion);
+            return is_escape_of(contact, &motion).then_some(motion);
         }
+        for pair in worst.into_iter().take(JOINING) {
+            let own = &motion[contact.dim() * pair..contact.dim() * (pair + 1)];
+            edges.push(balance.on_pair(&contact.pairs()[pair].opposing_edge(own), pair));
+        }
+        before = rest;
     }
-    is_escape_of(contact, &motion).then_some(motion)
+    None
 }
 
-/// An orthonormal basis of the motions without internal force, each component times its `root`.
-fn rigid_motions(contact: &Contact<'_>, root: &[f64]) -> Vec<Vec<f64>> {
-    let matrix = contact.problem().stiffness();
-    let mut basis = Vec::new();
-    if let Some(block) = FreeBlock::new(matrix, (0..matrix.size()).collect()) {
+/// The rigid motions of a problem.
+struct Balance<'c> {
+    contact: &'c Contact<'c>,
+    /// Roots of the diagonal of `K`.
+    root: Vec<f64>,
+    /// An orthonormal basis of the motions without internal force, each component times its `root`.
+    basis: Vec<Vec<f64>>,
+}
+
+impl<'c> Balance<'c> {
+    /// `None` if there are no such motions.
+    fn new(contact: &'c Contact<'c>) -> Option<Self> {
+        let matrix = contact.problem().stiffness();
+        let root = matrix.diagonal_roots();
+        let mut basis = Vec::new();
+        let block = FreeBlock::new(matrix, (0..matrix.size()).collect())?;
         for mut motion in block.null_vectors() {
-            motion.iter_mut().zip(root).for_each(|(r, root)| *r *= root);
+            motion.iter_mut().zip(&root).for_each(|(r, root)| *r *= root);
             extend_basis(&mut basis, motion);
         }
+        (!basis.is_empty()).then_some(Balance { contact, root, basis })
     }
-    basis
+
+    /// Work on each motion of forces whose first component is `first`.
+    fn on_motions(&self, force: &[f64], first: usize) -> Vec<f64> {
+        let scaled: Vec<f64> =
+            force.iter().zip(&self.root[first..]).map(|(force, root)| force / root).collect();
+        self.basis.iter().map(|v| dot(&v[first..first + force.len()], &scaled)).collect()
+    }
+
+    /// Work on each motion of a force of a pair.
+    fn on_pair(&self, force: &[f64], pair: usize) -> Vec<f64> {
+        let dim = self.contact.dim();
+        self.on_motions(&force[..dim], dim * pair)
+    }
+
+    /// The motion with the coordinates `e`.
+    fn motion(&self, e: &[f64]) -> Vec<f64> {
+        let mut motion = vec![0.0; self.root.len()];
+        for (v, e) in self.basis.iter().zip(e) {
+            for ((motion, v), root) in motion.iter_mut().zip(v).zip(&self.root) {
+                *motion += e * v / root;
+            }
+        }
+        motion
+    }
+
+    /// `r_n + slope |r_t|` of each pair, in the unit of `root`.
+    fn approaches(&self, motion: &[f64]) -> Vec<f64> {
+        let dim = self.contact.dim();
+        let parts = self.contact.pairs().iter().zip(motion.chunks_exact(dim));
+        let roots = self.root.iter().step_by(dim);
+        parts.zip(roots).map(|((law, r), root)| law.recession(r).approach * root).collect()
+    }
+
+    /// Largest component of a motion in the unit of `root`.
+    fn size(&self, motion: &[f64]) -> f64 {
+        largest_of(motion.iter().zip(&self.root).map(|(r, root)| r * root))
+    }
+
+    /// The pairs with a force that does negative work on a motion, those of most work first.
+    fn worst(&self, motion: &[f64]) -> Vec<usize> {
+        let (least, approaches) = (NEGATIVE * self.size(motion), self.approaches(motion));
+        let mut worst: Vec<usize> =
+            (0..approaches.len()).filter(|&pair| approaches[pair] > least).collect();
+        worst.sort_by(|&a, &b| approaches[b].total_cmp(&approaches[a]));
+        worst
+    }
+
+    /// A motion with as much of one that lifts the pairs as takes away the negative work.
+    fn lifted(&self, mut motion: Vec<f64>) -> Vec<f64> {
+        let Some(lift) = self.lift() else { return motion };
+        let margin = NEGLIGIBLE * self.size(&motion);
+        let wanted = self.approaches(&motion).into_iter().zip(self.approaches(&lift));
+        let part = wanted
+            .filter(|(approach, _)| *approach > -margin)
+            .map(|(approach, lifted)| (approach + margin) / -lifted)
+            .fold(0.0, |most: f64, part| if part < 0.0 { f64::NAN } else { most.max(part) });
+        if part.is_finite() {
+            motion.iter_mut().zip(&lift).for_each(|(r, lift)| *r += part * lift);
+        }
+        motion
+    }
+
+    /// The motion nearest to `-1` in the normal components, by least squares; `None` if none has any.
+    fn lift(&self) -> Option<Vec<f64>> {
+        let dim = self.contact.dim();
+        let normals: Vec<Vec<f64>> =
+            self.basis.iter().map(|v| v.iter().step_by(dim).copied().collect()).collect();
+        let size: Vec<f64> = normals.iter().map(|v| dot(v, v).sqrt()).collect();
+        let moving: Vec<usize> = (0..size.len()).filter(|&k| size[k] > NEGLIGIBLE).collect();
+        let unit = |i: usize, j: usize| {
+            let (i, j) = (moving[i], moving[j]);
+            dot(&normals[i], &normals[j]) / (size[i] * size[j])
+        };
+        let gram = PivotedCholesky::new(moving.len(), unit)?;
+        let wanted = |k: usize| -normals[k].iter().sum::<f64>() / size[k];
+        let mut x: Vec<f64> = gram.independent().iter().map(|&i| wanted(moving[i])).collect();
+        gram.solve(&mut x);
+        let mut e = vec![0.0; self.basis.len()];
+        for (&i, x) in gram.independent().iter().zip(&x) {
+            e[moving[i]] = x / size[moving[i]];
+        }
+        Some(self.motion(&e))
+    }
 }

@@ -1,5 +1,6 @@
 //! Measures of an answer, computed here from the data and the formulas, not by the library.
 
+use nalgebra::DMatrix;
 use signorini::Solution;
 
 use super::dense::{difference, dot, norm, product};
@@ -114,4 +115,17 @@ pub fn flaw_of_escape(case: &Case, r: &[f64]) -> Option<String> {
     let parts: f64 = size * (0..n).map(|i| case.f[i].abs() / root[i]).sum::<f64>() + pulled;
     let driven = work - resisted > 1e-12 * parts;
     (!driven).then(|| format!("the loads do not drive it: {work} against {resisted}"))
+}
+
+/// The coefficient of friction below which theory proves one solution in 3D: there the map of
+/// thresholds contracts, `mu (|K_nn| |(K⁻¹)_tt|)^½ < 1` in the spectral norm.
+pub fn most_with_one_solution(case: &Case) -> f64 {
+    let (n, pairs) = (case.size(), case.pairs);
+    let k = DMatrix::from_column_slice(n, n, &case.k);
+    let w = k.clone().cholesky().expect("the stiffness is definite").inverse();
+    let normal = DMatrix::from_fn(pairs, pairs, |i, j| k[(3 * i, 3 * j)]);
+    let place = |i: usize| 3 * (i / 2) + 1 + i % 2;
+    let tangential = DMatrix::from_fn(2 * pairs, 2 * pairs, |i, j| w[(place(i), place(j))]);
+    let largest = |matrix: DMatrix<f64>| matrix.symmetric_eigenvalues().max();
+    1.0 / (largest(normal) * largest(tangential)).sqrt()
 }

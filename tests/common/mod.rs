@@ -3,8 +3,10 @@
 #![allow(dead_code)] // Every test file uses a part.
 
 pub mod bare;
+pub mod brick;
 pub mod dense;
 pub mod folder;
+pub mod half_space;
 pub mod measures;
 pub mod mesh;
 pub mod oracle;

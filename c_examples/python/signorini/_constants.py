@@ -48,6 +48,7 @@ class Method(IntEnum):
     LEMKE = 3
     BLOCK_PIVOTING = 4
     NEWTON = 5
+    PATH = 6
 
 
 class Search(IntEnum):

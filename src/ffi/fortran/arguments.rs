@@ -3,7 +3,7 @@
 use super::super::guard::{self, Failure};
 use super::super::law::{LAST_LAW, SIGNORINI_LAW_FRICTIONLESS};
 use super::super::report::SignoriniReport;
-use super::super::settings::{SIGNORINI_METHOD_NEWTON, SignoriniSettings};
+use super::super::settings::{SIGNORINI_METHOD_PATH, SignoriniSettings};
 use crate::problem::checked_dim;
 use crate::settings::{Settings, check_tolerance};
 
@@ -194,8 +194,8 @@ pub(super) unsafe fn settings<I: Integer>(
             read(first + 2, "MAXIT", maxit)?.wide(),
         )
     };
-    if !(0..=SIGNORINI_METHOD_NEWTON).contains(&method) {
-        let message = format!("METHOD is {method}, it must be 0 or SGNEST (1) to SGNEWT (5)");
+    if !(0..=SIGNORINI_METHOD_PATH).contains(&method) {
+        let message = format!("METHOD is {method}, it must be 0 or SGNEST (1) to SGPATH (6)");
         return Err(Failure::argument(first, message));
     }
     if most < 0 {

@@ -1,23 +1,17 @@
 //! Newton's method on the normal map with a line search on the lack of equilibrium.
 //!
-//! The iterates obey the law exactly; what falls is `|H|`. Some sweeps before the first system bring
-//! nearly all pairs to their branch. In the plane the active-set method takes fewer systems and is
-//! used instead. There is no guarantee: where it fails, sweeps follow.
+//! The iterates obey the law exactly; what falls is `|H|`. There is no guarantee: from `mu` of about 1
+//! on, on matrices that are no stiffness of a mesh, it may stop at a kink of `|H|`.
 
-use super::point::Point;
-use super::step::System;
-use crate::certificate::eta_of;
-use crate::law::Contact;
+use super::equations::{Equations, Point};
+use super::system::System;
+use crate::law::Vector;
 use crate::monitor::Monitor;
-use crate::settings::Settings;
-use crate::solve::candidate::{Candidate, Effort, Ending};
+use crate::solve::candidate::Ending;
 use crate::solve::sweeps::Sweeper;
 
-/// Sweeps before the first system: they cost a small part of one on a hundred pairs and more.
-const SWEEPS: usize = 20;
-
 /// Systems after which it is given up: it takes up to about ten where it converges.
-const MOST_SYSTEMS: u64 = 60;
+const MOST_SYSTEMS: u64 = 20;
 
 /// Part of the fall of `|H|` that a full step promises which a shortened one must keep (Armijo).
 const SUFFICIENT: f64 = 1e-4;
@@ -25,59 +19,106 @@ const SUFFICIENT: f64 = 1e-4;
 /// Shortest step: a kink of the law may lie within any longer one.
 const SHORTEST: f64 = 1e-3;
 
-/// Solves from the displacements `start` (zero if `None`).
-pub fn newton(
-    contact: &Contact<'_>,
-    settings: &Settings,
-    start: Option<&[f64]>,
+/// Shortest steps in a row after which it is given up.
+const MOST_SHORTEST: u32 = 3;
+
+/// A step that is cut below this part ends at a kink of `|H|`: some sweeps lead away from it, a few
+/// times. They halve the failures on random problems.
+const SHORT: f64 = 0.1;
+const RESWEEPS: usize = 20;
+const MOST_RESWEEPS: u32 = 3;
+
+/// Part of the tolerance that is aimed at: the certificate of the whole problem, with its own rounding,
+/// must meet the tolerance.
+const AIM: f64 = 0.1;
+
+/// Where `eta` is below and falls no further, rounding is reached.
+const NEAR_ROUNDING: f64 = 1e-6;
+
+/// How Newton's method ended, and where.
+pub struct Ended {
+    /// The best point.
+    pub point: Point,
+    /// `Done` if `eta` is below the tolerance or at its rounding.
+    pub ending: Ending,
+    /// Linear systems.
+    pub systems: u64,
+    /// Sign of the determinant of the last system, 0 if there was none.
+    pub orientation: i8,
+}
+
+/// Solves the equations from the coordinates `y`.
+pub fn solve(
+    equations: &Equations<'_>,
+    y: Vec<Vector>,
+    tolerance: f64,
     monitor: &mut Monitor<'_>,
-) -> Candidate {
-    let root = contact.problem().stiffness().diagonal_roots();
-    let mut point = swept(contact, &root, start);
-    let mut factorisations = 0;
-    let ending = loop {
-        let eta = eta_of(contact, &point.d, &point.force);
+) -> Ended {
+    let point = Point::new(equations, y);
+    let mut ended = Ended { point, ending: Ending::Done, systems: 0, orientation: 0 };
+    let mut shortest = 0;
+    let mut resweeps = 0;
+    let mut last = f64::INFINITY;
+    ended.ending = loop {
+        let eta = equations.eta(&ended.point.d, &ended.point.force);
         monitor.measured(eta);
-        // One system at least: it finds the digits that sweeps have not.
-        if eta <= settings.tolerance && factorisations > 0 {
+        // One system at least: it finds the digits that sweeps have not, and the orientation.
+        let at_rounding = eta <= NEAR_ROUNDING && eta >= last;
+        if ended.systems > 0 && (eta <= AIM * tolerance || at_rounding) {
             break Ending::Done;
         }
-        if factorisations >= MOST_SYSTEMS {
+        last = eta;
+        if ended.systems >= MOST_SYSTEMS || shortest >= MOST_SHORTEST {
             break Ending::Stalled("Newton's method does not converge");
         }
         if let Err(stop) = monitor.step() {
             break Ending::Stopped(stop);
         }
-        factorisations += 1;
-        let Some(step) = System::new(contact, &point).step(contact, &point, &root) else {
-            break Ending::Singular;
+        ended.systems += 1;
+        let point = &ended.point;
+        let system = System::new(equations, (&point.pieces, &point.y), 1.0, None);
+        let Some(mut system) = system else { break Ending::Singular };
+        let Some((step, _)) = system.step(&point.lack, 0.0) else { break Ending::Singular };
+        ended.orientation = system.orientation();
+        let (next, part) = line_search(equations, point, &step);
+        shortest = if part <= SHORTEST { shortest + 1 } else { 0 };
+        ended.point = match part < SHORT && resweeps < MOST_RESWEEPS {
+            true => swept(equations, &next),
+            false => next,
         };
-        let mut part = 1.0;
-        point = loop {
-            let y = point.y.iter().zip(&step);
-            let y = y.map(|(y, dy)| std::array::from_fn(|c| y[c] + part * dy[c])).collect();
-            let next = Point::new(contact, &root, y);
-            if next.merit <= (1.0 - SUFFICIENT * part) * point.merit || part <= SHORTEST {
-                break next;
-            }
-            part /= 2.0;
-        };
+        resweeps += u32::from(part < SHORT);
     };
-    let effort = Effort { factorisations, ..Effort::default() };
-    Candidate::new(point.d, point.force, ending, effort)
+    ended
 }
 
-/// The point after some sweeps from a start.
-fn swept(contact: &Contact<'_>, root: &[f64], start: Option<&[f64]>) -> Point {
-    let mut d = start.map_or_else(|| vec![0.0; contact.unknowns()], <[f64]>::to_vec);
-    for (law, normal) in contact.pairs().iter().zip(d.iter_mut().step_by(contact.dim())) {
-        *normal = law.admissible(*normal);
-    }
-    let mut force = contact.problem().force(&d);
+/// The point after some sweeps.
+fn swept(equations: &Equations<'_>, point: &Point) -> Point {
     let sweeper = Sweeper::new();
-    for _ in 0..SWEEPS {
-        sweeper.sweep(contact, (&mut d, &mut force), 1.0);
+    let (mut d, mut force) = (point.d.clone(), point.force.clone());
+    for _ in 0..RESWEEPS {
+        sweeper.sweep_pairs(&equations.laws, equations.matrix, (&mut d, &mut force), 1.0);
     }
-    let y = contact.each(&d, &force).map(|(law, d, force)| law.chart(d, force)).collect();
-    Point::new(contact, root, y)
+    Point::new(equations, equations.coordinates(&d, &force))
+}
+
+/// The first of ever shorter steps along which `|H|` falls enough, or the shortest; and its length.
+fn line_search(equations: &Equations<'_>, point: &Point, step: &[Vector]) -> (Point, f64) {
+    let mut part = 1.0;
+    loop {
+        let y = point.y.iter().zip(step);
+        let y = y.map(|(y, dy)| std::array::from_fn(|c| y[c] + part * dy[c])).collect();
+        let next = Point::new(equations, y);
+        if next.merit <= (1.0 - SUFFICIENT * part) * point.merit || part <= SHORTEST {
+            return (next, part);
+        }
+        part /= 2.0;
+    }
+}
+
+/// The point after one system, with the whole step; `None` if the system is singular.
+pub fn step(equations: &Equations<'_>, point: &Point) -> Option<Point> {
+    let mut system = System::new(equations, (&point.pieces, &point.y), 1.0, None)?;
+    let (step, _) = system.step(&point.lack, 0.0)?;
+    let y = point.y.iter().zip(&step).map(|(y, dy)| std::array::from_fn(|c| y[c] + dy[c]));
+    Some(Point::new(equations, y.collect()))
 }

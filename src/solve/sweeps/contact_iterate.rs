@@ -7,7 +7,7 @@
 use super::Iterate;
 use super::drift::contact_recession;
 use crate::certificate::eta_of;
-use crate::law::Contact;
+use crate::law::{Contact, PairLaw};
 use crate::linalg::matrix::Matrix;
 use crate::linalg::simd::{self, Simd};
 use crate::linalg::vector::norm_inf;
@@ -29,29 +29,39 @@ impl Sweeper {
     pub fn sweep(
         &self,
         contact: &Contact<'_>,
+        iterate: (&mut [f64], &mut [f64]),
+        omega: f64,
+    ) -> f64 {
+        self.sweep_pairs(contact.pairs(), contact.problem().stiffness(), iterate, omega)
+    }
+
+    /// [`Self::sweep`], for pairs whose matrix is given.
+    pub fn sweep_pairs(
+        &self,
+        laws: &[PairLaw],
+        matrix: Matrix<'_>,
         (d, force): (&mut [f64], &mut [f64]),
         omega: f64,
     ) -> f64 {
-        let matrix = contact.problem().stiffness();
         simd::vectorised(
             self.simd,
             #[inline(always)]
-            || sweep_pairs(contact, matrix, d, force, omega),
+            || sweep_pairs(laws, matrix, d, force, omega),
         )
     }
 }
 
 #[inline(always)]
 fn sweep_pairs(
-    contact: &Contact<'_>,
+    laws: &[PairLaw],
     matrix: Matrix<'_>,
     d: &mut [f64],
     force: &mut [f64],
     omega: f64,
 ) -> f64 {
-    let dim = contact.dim();
+    let dim = matrix.size() / laws.len().max(1);
     let mut change = 0.0;
-    for (pair, law) in contact.pairs().iter().enumerate() {
+    for (pair, law) in laws.iter().enumerate() {
         let i = dim * pair;
         let coupling = &matrix.column(i)[i + 1..i + dim];
         let (steps, moved) = law.relax(&mut d[i..i + dim], &force[i..i + dim], coupling, omega);

@@ -1,0 +1,111 @@
+! Two blocks, the upper one held by nothing but contact and friction, pressed and then twisted more and
+! more: two_blocks.c in Fortran 2008, with the module of include/signorini.f90 and brick_mesh.f90.
+!
+!     two_blocks [DIR]        with DIR, writes DIR/two_blocks.csv
+!
+! It stops with 0 if the contact forces balance the loads.
+program two_blocks
+    use brick_mesh
+    use signorini
+    implicit none
+    real(dp), parameter :: mu = 0.6_dp, press = 40000, twists(5) = [0, 100, 200, 300, 400]*1d3
+    real(dp), parameter :: rounding = 1d-9 ! rounding of sums of some hundred forces, relative
+    integer, allocatable :: col_start(:), row(:)
+    real(dp), allocatable :: values(:)
+    real(dp) :: at(3, nodes), load(3, nodes), d(3, pairs), force(3, pairs), slip0(2, pairs)
+    real(dp) :: flat_d(3*pairs), flat_force(3*pairs), contact(6), off
+    real(dp) :: normals(3, pairs), tangents(3, pairs), gap(pairs), friction(pairs), weights(pairs)
+    integer :: corners(8, bricks), lower(pairs), upper(pairs), top(pairs), state(pairs), info, step, p
+    type(contact_model) :: model
+    type(signorini_report) :: report
+    character(len=256) :: message
+
+    call place_nodes(at)
+    call place_bricks(corners)
+    call place_pairs(lower, upper, top)
+    call assemble(corners, col_start, row, values)
+    ! n = z, t1 = x, t2 = n x t1 = y: the force is (F_z, F_x, F_y) on the lower block.
+    normals = spread([0d0, 0d0, 1d0], 2, pairs)
+    tangents = spread([1d0, 0d0, 0d0], 2, pairs)
+    weights = 1
+    call model%new_sparse(col_start, row, values, SIGNORINI_TRIANGLE_FULL, components_of(lower), normals, &
+        info, fixed=[(p, p=1, held)], master_start=[(p, p=1, pairs + 1)], &
+        masters=components_of(upper), weights=weights, tangents=tangents, message=message)
+    if (info /= 0) call give_up
+
+    gap = 0
+    friction = mu
+    slip0 = 0
+    off = 0
+    print '(a)', 'twist, N m   open slip stick   M_z, N m       eta'
+    do step = 1, size(twists)
+        call place_loads(twists(step))
+        call model%solve(reshape(load, [components]), gap, flat_d, flat_force, info, friction=friction, &
+            slip0=reshape(slip0, [2*pairs]), tolerance=1d-12, state=state, report=report, message=message)
+        if (info /= SIGNORINI_STATUS_SOLVED) call give_up
+        d = reshape(flat_d, [3, pairs])
+        force = reshape(flat_force, [3, pairs])
+        slip0 = d(2:3, :) ! friction remembers
+
+        contact = resultant(at(:, lower), -force([2, 3, 1], :))
+        off = max(off, maxval(abs(contact + resultant(at, load))/press/[1, 1, 1, 40, 40, 40]))
+        print '(i10, i7, i5, i6, f11.1, es10.1)', nint(1d-3*twists(step)), &
+            [(count(state == p), p=0, 2)], 1d-3*contact(6), report%eta
+    end do
+    call model%release()
+    print '(a, es8.1)', 'contact forces balance the loads: off by', off
+    if (command_argument_count() == 1) call write_csv
+    if (off > rounding) stop 1
+contains
+    subroutine give_up
+        print '(a, i0, 2a)', 'info = ', info, ': ', trim(message)
+        stop 1
+    end subroutine
+
+    ! Degrees of freedom of nodes.
+    function components_of(node) result(dof)
+        integer, intent(in) :: node(:)
+        integer :: dof(3, size(node)), p
+        dof = reshape([(3*node(p) - [2, 1, 0], p=1, size(node))], shape(dof))
+    end function
+
+    ! Forces on the top: the press on the inner 5 x 5 nodes, and across the radius of all nodes, in
+    ! proportion to it, those with the moment `twist`.
+    subroutine place_loads(twist)
+        real(dp), intent(in) :: twist
+        integer :: node, p
+        real(dp) :: squares
+        logical :: inner(pairs)
+        squares = sum(at(1:2, top)**2)
+        inner = abs(at(1, top)) <= 2*cell .and. abs(at(2, top)) <= 2*cell
+        load = 0
+        do p = 1, pairs
+            node = top(p)
+            load(1:2, node) = twist/squares*[-at(2, node), at(1, node)]
+            if (inner(p)) load(3, node) = -press/count(inner)
+        end do
+    end subroutine
+
+    ! Sum of nodal forces, and of their moments about the origin.
+    function resultant(place, nodal)
+        real(dp), intent(in) :: place(:, :), nodal(:, :)
+        real(dp) :: resultant(6)
+        resultant(1:3) = sum(nodal, 2)
+        resultant(4) = sum(place(2, :)*nodal(3, :) - place(3, :)*nodal(2, :))
+        resultant(5) = sum(place(3, :)*nodal(1, :) - place(1, :)*nodal(3, :))
+        resultant(6) = sum(place(1, :)*nodal(2, :) - place(2, :)*nodal(1, :))
+    end function
+
+    subroutine write_csv
+        character(len=5), parameter :: name(0:2) = [character(len=5) :: 'open', 'slip', 'stick']
+        character(len=4000) :: directory
+        integer :: unit, p
+        call get_command_argument(1, directory)
+        open (newunit=unit, file=trim(directory)//'/two_blocks.csv', status='replace', action='write')
+        write (unit, '(a)') 'x,y,d_n,d_t1,d_t2,F_n,F_t1,F_t2,state'
+        do p = 1, pairs
+            write (unit, '(8(es20.12, ","), a)') at(1:2, lower(p)), d(:, p), force(:, p), trim(name(state(p)))
+        end do
+        close (unit)
+    end subroutine
+end program

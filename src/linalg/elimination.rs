@@ -1,0 +1,116 @@
+//! Elimination of some components of a symmetric positive definite system, by faer on the calling
+//! thread.
+
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::linalg::cholesky::llt;
+use faer::linalg::matmul::triangular::{self, BlockStructure};
+use faer::linalg::triangular_solve;
+use faer::{Accum, Mat, MatMut, MatRef, Par};
+
+use super::matrix::Matrix;
+use super::tolerances::SINGULAR;
+
+/// `K_OO = L Lᵀ` of the components `O`, and `X = L⁻¹ K_OC` with the components `C` that are kept.
+pub struct Elimination {
+    lower: Mat<f64>,
+    half: Mat<f64>,
+}
+
+impl Elimination {
+    /// Eliminates `dropped` and keeps `kept`; `None` if `K_OO` is not positive definite to working
+    /// precision. Returns the Schur complement `K_CC - Xᵀ X` too, column-major.
+    pub fn new(matrix: Matrix<'_>, dropped: &[usize], kept: &[usize]) -> Option<(Self, Vec<f64>)> {
+        let (o, c) = (dropped.len(), kept.len());
+        let mut lower = Mat::zeros(o, o);
+        for (j, &at) in dropped.iter().enumerate() {
+            let column = matrix.column(at);
+            let target = &mut lower.col_as_slice_mut(j)[j..];
+            target.iter_mut().zip(&dropped[j..]).for_each(|(entry, &i)| *entry = column[i]);
+        }
+        let scratch =
+            llt::factor::cholesky_in_place_scratch::<f64>(o, Par::Seq, faer::Spec::default());
+        llt::factor::cholesky_in_place(
+            lower.as_mut(),
+            llt::factor::LltRegularization::default(),
+            Par::Seq,
+            MemStack::new(&mut MemBuffer::new(scratch)),
+            faer::Spec::default(),
+        )
+        .ok()?;
+        // Written so that NaN is singular too.
+        let regular = dropped
+            .iter()
+            .enumerate()
+            .all(|(j, &at)| lower[(j, j)].powi(2) > SINGULAR * matrix.at(at, at));
+        if !regular {
+            return None;
+        }
+        let mut half = Mat::zeros(o, c);
+        let mut schur = vec![0.0; c * c];
+        for (j, &at) in kept.iter().enumerate() {
+            let column = matrix.column(at);
+            let target = half.col_as_slice_mut(j);
+            target.iter_mut().zip(dropped).for_each(|(entry, &i)| *entry = column[i]);
+            let target = &mut schur[c * j + j..c * (j + 1)];
+            target.iter_mut().zip(&kept[j..]).for_each(|(entry, &i)| *entry = column[i]);
+        }
+        triangular_solve::solve_lower_triangular_in_place(lower.as_ref(), half.as_mut(), Par::Seq);
+        triangular::matmul(
+            MatMut::from_column_major_slice_mut(&mut schur, c, c),
+            BlockStructure::TriangularLower,
+            Accum::Add,
+            half.transpose(),
+            BlockStructure::Rectangular,
+            half.as_ref(),
+            BlockStructure::Rectangular,
+            -1.0,
+            Par::Seq,
+        );
+        for j in 0..c {
+            for i in 0..j {
+                schur[i + c * j] = schur[j + c * i];
+            }
+        }
+        Some((Elimination { lower, half }, schur))
+    }
+
+    /// `K_OO⁻¹ b`, in place.
+    pub fn solve(&self, b: &mut [f64]) {
+        self.solve_half(b);
+        self.solve_other_half(b);
+    }
+
+    /// `Xᵀ L⁻¹ b`: what a load `b` on the components `O` takes from the load on `C`.
+    pub fn transfer(&self, b: &[f64]) -> Vec<f64> {
+        let mut half = b.to_vec();
+        self.solve_half(&mut half);
+        let product = self.half.transpose() * as_column(&half);
+        product.col_as_slice(0).to_vec()
+    }
+
+    /// `K_OO⁻¹ (b - K_OC x)`.
+    pub fn follow(&self, b: &[f64], x: &[f64]) -> Vec<f64> {
+        let mut half = b.to_vec();
+        self.solve_half(&mut half);
+        let taken = &self.half * as_column(x);
+        half.iter_mut().zip(taken.col_as_slice(0)).for_each(|(half, taken)| *half -= taken);
+        self.solve_other_half(&mut half);
+        half
+    }
+
+    /// `L⁻¹ b`, in place.
+    fn solve_half(&self, b: &mut [f64]) {
+        let b = MatMut::from_column_major_slice_mut(b, self.lower.nrows(), 1);
+        triangular_solve::solve_lower_triangular_in_place(self.lower.as_ref(), b, Par::Seq);
+    }
+
+    /// `L⁻ᵀ b`, in place.
+    fn solve_other_half(&self, b: &mut [f64]) {
+        let b = MatMut::from_column_major_slice_mut(b, self.lower.nrows(), 1);
+        triangular_solve::solve_upper_triangular_in_place(self.lower.transpose(), b, Par::Seq);
+    }
+}
+
+fn as_column(x: &[f64]) -> MatRef<'_, f64> {
+    MatRef::from_column_major_slice(x, x.len(), 1)
+}

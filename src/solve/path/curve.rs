@@ -1,0 +1,305 @@
+//! The curve of zeros of a homotopy, followed piece by piece.
+//!
+//! The piece of every pair is a state of the method. On frozen pieces `H` is analytic and is evaluated
+//! beyond their boundaries, so that a corrector cannot change branches by itself. One boundary is
+//! crossed at a time: the corrector lands on it, the piece of that one pair changes, and the tangent in
+//! the new piece has the orientation of the old one, that of `det [dH; t'] > 0`.
+//!
+//! One factorisation serves a tangent and the correction of the step along it: with `t` the solution
+//! for the border alone and `z` that for `H`, `z + a t` meets any one condition by its `a`.
+
+use super::homotopy::{Direction, Homotopy, Place, Value};
+use crate::law::piece::{Boundary, Piece};
+use crate::monitor::Monitor;
+use crate::solve::candidate::Ending;
+use crate::solve::normal_map::{Border, System};
+
+/// Longest step, as a part of the size of the place, which begins near one.
+const LONGEST: f64 = 0.5;
+
+/// A step that is halved more often than this finds no zero at all.
+const MOST_HALVINGS: usize = 40;
+
+/// Steps of the corrector between two factorisations, and factorisations of one correction.
+const MOST_CORRECTIONS: usize = 6;
+const MOST_REFACTORISATIONS: u32 = 2;
+
+/// A correction that leaves more of `H` asks for a new factorisation.
+const CONTRACTION: f64 = 0.3;
+
+/// `H` relative to the loads where a correction is done: well below what decides on a piece.
+const ON_CURVE: f64 = 1e-10;
+
+/// How far another pair may be outside its piece, relative to the size of the homotopy.
+const OUTSIDE: f64 = 1e-9;
+
+/// First step after a boundary, as a part of the size of the place.
+const AFTER_BOUNDARY: f64 = 1e-4;
+
+/// Systems after which it is given up: for each pair, and at least.
+const SYSTEMS_PER_PAIR: usize = 25;
+const LEAST_SYSTEMS: usize = 1500;
+
+/// Displacements, relative to what the loads make of the scaling stiffness, that no certificate
+/// accepts: the curve runs away.
+const AWAY: f64 = 1e11;
+
+/// How closely a curve is followed.
+#[derive(Clone, Copy)]
+pub struct Care {
+    /// Most distance from the predicted place, relative to the step.
+    pub deviation: f64,
+}
+
+/// A curve on the way from `s = 0` to `s = 1`.
+pub struct Curve<'h> {
+    homotopy: &'h Homotopy<'h>,
+    care: Care,
+    pieces: Vec<Piece>,
+    place: Place,
+    /// Linear systems so far.
+    pub systems: u64,
+}
+
+/// The system at a place, with the unit tangent of the curve.
+struct Local<'h> {
+    system: System<'h>,
+    tangent: Direction,
+}
+
+/// The one condition beside `H = 0`: `normal . X = value`.
+enum Condition {
+    /// The plane across the tangent through a predicted place.
+    Plane { normal: Direction, through: Place },
+    /// The boundary of a pair.
+    Boundary { pair: usize, boundary: Boundary },
+    /// The end, `s = 1`.
+    End,
+}
+
+impl<'h> Curve<'h> {
+    /// The curve that begins at `start`, the base of the homotopy.
+    pub fn new(homotopy: &'h Homotopy<'h>, start: Place, care: Care) -> Self {
+        let pieces = homotopy.equations.pieces(&start.y);
+        Curve { homotopy, care, pieces, place: start, systems: 0 }
+    }
+
+    /// Where the curve is.
+    pub fn place(&self) -> &Place {
+        &self.place
+    }
+
+    /// Follows the curve to `s = 1`.
+    pub fn follow(&mut self, monitor: &mut Monitor<'_>) -> Result<(), Ending> {
+        let pairs = self.pieces.len();
+        let most = LEAST_SYSTEMS.max(SYSTEMS_PER_PAIR * pairs) as u64;
+        let mut border = Direction { y: vec![[0.0; 3]; pairs], s: 1.0 };
+        let mut step = f64::INFINITY;
+        loop {
+            let mut local = self.local(&border, monitor)?;
+            let tangent = local.tangent.clone();
+            let size = 1.0 + self.size_of(&self.place);
+            step = step.min(LONGEST * size);
+            let (leave, pair, boundary) = self.exit(&tangent);
+            let end =
+                if tangent.s > 0.0 { (1.0 - self.place.s) / tangent.s } else { f64::INFINITY };
+            let mut q = step.min(leave).min(end);
+            let mut accepted = None;
+            for _ in 0..MOST_HALVINGS {
+                let predicted = self.place.along(&tangent, q);
+                let (condition, reach) = if q == end {
+                    (Condition::End, 2.0)
+                } else if q == leave {
+                    (Condition::Boundary { pair, boundary }, 2.0)
+                } else {
+                    let normal = self.homotopy.dual(&tangent);
+                    (Condition::Plane { normal, through: predicted.clone() }, 1.0)
+                };
+                let crossed = (q == leave).then_some((pair, boundary));
+                let found = self.correct(&mut local, predicted.clone(), &condition, monitor)?;
+                let near = |place: &Place| {
+                    self.homotopy.norm(&predicted.to(place))
+                        <= self.care.deviation * reach * q.max(OUTSIDE)
+                        && self.is_inside(place, crossed)
+                };
+                if let Some(place) = found.filter(near) {
+                    accepted = Some((place, condition));
+                    break;
+                }
+                q /= 2.0;
+            }
+            let Some((place, condition)) = accepted else {
+                return Err(Ending::Stalled("the path of solutions cannot be followed further"));
+            };
+            self.place = place;
+            border = self.homotopy.dual(&tangent);
+            match condition {
+                Condition::End => return Ok(()),
+                Condition::Plane { .. } => step = 2.0 * q,
+                Condition::Boundary { pair, boundary } => {
+                    border = self.normal_of(pair, boundary);
+                    self.pieces[pair] = self.pieces[pair].across(boundary);
+                    step = step.max(AFTER_BOUNDARY * size);
+                }
+            }
+            if self.systems > most {
+                return Err(Ending::Stalled("the path of solutions is too long"));
+            }
+        }
+    }
+
+    /// Factorises at the place of the curve with the border `normal`, and finds the tangent.
+    fn local(
+        &mut self,
+        border: &Direction,
+        monitor: &mut Monitor<'_>,
+    ) -> Result<Local<'h>, Ending> {
+        let value = self.homotopy.value(&self.pieces, &self.place);
+        if value.stretch > AWAY * self.homotopy.size {
+            return Err(Ending::Stalled("the displacements run away on the path of solutions"));
+        }
+        let place = self.place.clone();
+        self.factorised(&place, &value, border, monitor)?.ok_or(Ending::Singular)
+    }
+
+    fn factorised(
+        &mut self,
+        place: &Place,
+        value: &Value,
+        border: &Direction,
+        monitor: &mut Monitor<'_>,
+    ) -> Result<Option<Local<'h>>, Ending> {
+        monitor.step().map_err(Ending::Stopped)?;
+        self.systems += 1;
+        let border = Border {
+            rate: &value.rate,
+            normal: &border.y,
+            along: border.s,
+            unit: self.homotopy.size.recip(),
+        };
+        let system =
+            System::new(self.homotopy.equations, (&self.pieces, &place.y), place.s, Some(&border));
+        let Some(mut system) = system else { return Ok(None) };
+        let Some((y, s)) = system.step(&vec![0.0; value.lack.len()], 1.0) else { return Ok(None) };
+        let mut tangent = Direction { y, s };
+        let length = self.homotopy.norm(&tangent);
+        tangent.scale(f64::from(system.orientation()) / length);
+        Ok(Some(Local { system, tangent }))
+    }
+
+    /// The zero of `H` on the pieces near `place` that meets a condition, if the corrector finds it.
+    fn correct(
+        &mut self,
+        local: &mut Local<'h>,
+        mut place: Place,
+        condition: &Condition,
+        monitor: &mut Monitor<'_>,
+    ) -> Result<Option<Place>, Ending> {
+        let mut fresh: Option<Local<'h>> = None;
+        let mut refactorisations = 0;
+        let mut before = f64::INFINITY;
+        for _ in 0..MOST_CORRECTIONS {
+            let value = self.homotopy.value(&self.pieces, &place);
+            let (miss, normal) = self.miss(condition, &place);
+            let rounding = f64::EPSILON * (value.lack.len() as f64).sqrt() * value.stretch;
+            let goal = ON_CURVE * self.homotopy.size.max(value.terms) + rounding;
+            let now = value.merit.max(miss.abs() * self.homotopy.size);
+            if now <= goal {
+                return Ok(Some(place));
+            }
+            if !(now <= CONTRACTION * before) && before.is_finite() {
+                if refactorisations == MOST_REFACTORISATIONS || !(now < before) {
+                    return Ok(None);
+                }
+                refactorisations += 1;
+                let border = self.homotopy.dual(&local.tangent);
+                fresh = self.factorised(&place, &value, &border, monitor)?;
+                if fresh.is_none() {
+                    return Ok(None);
+                }
+            }
+            before = now;
+            let local = fresh.as_mut().unwrap_or(local);
+            let Some((y, s)) = local.system.step(&value.lack, 0.0) else { return Ok(None) };
+            let z = Direction { y, s };
+            let along = normal.apply(&local.tangent);
+            let part = (-miss - normal.apply(&z)) / along;
+            if !part.is_finite() {
+                return Ok(None);
+            }
+            place = place.along(&z, 1.0).along(&local.tangent, part);
+        }
+        Ok(None)
+    }
+
+    /// By how much a place misses a condition, and the condition's coefficients.
+    fn miss(&self, condition: &Condition, place: &Place) -> (f64, Direction) {
+        match condition {
+            Condition::Plane { normal, through } => {
+                (normal.apply(&through.to(place)), normal.clone())
+            }
+            Condition::Boundary { pair, boundary } => {
+                let law = &self.homotopy.equations.laws[*pair];
+                let (value, gradient) =
+                    law.boundary(self.pieces[*pair], *boundary, &place.y[*pair]);
+                let unit = self.unit_of(*pair, *boundary);
+                let mut y = vec![[0.0; 3]; place.y.len()];
+                y[*pair] = gradient.map(|g| g / unit);
+                (value / unit, Direction { y, s: 0.0 })
+            }
+            Condition::End => {
+                (place.s - 1.0, Direction { y: vec![[0.0; 3]; place.y.len()], s: 1.0 })
+            }
+        }
+    }
+
+    /// The normal of a boundary at the place of the curve.
+    fn normal_of(&self, pair: usize, boundary: Boundary) -> Direction {
+        self.miss(&Condition::Boundary { pair, boundary }, &self.place).1
+    }
+
+    /// The nearest boundary along a direction: how far, of which pair, which.
+    fn exit(&self, tangent: &Direction) -> (f64, usize, Boundary) {
+        let mut nearest = (f64::INFINITY, 0, Boundary::Contact);
+        for (pair, law) in self.homotopy.equations.laws.iter().enumerate() {
+            for boundary in [Boundary::Contact, Boundary::Slip] {
+                let (piece, y, t) = (self.pieces[pair], &self.place.y[pair], &tangent.y[pair]);
+                if law.has_boundary(piece, boundary) {
+                    let q = law.exit(piece, boundary, y, t);
+                    if q < nearest.0 {
+                        nearest = (q, pair, boundary);
+                    }
+                }
+            }
+        }
+        nearest
+    }
+
+    /// Whether all pairs but one that is on a boundary are in their pieces.
+    fn is_inside(&self, place: &Place, crossed: Option<(usize, Boundary)>) -> bool {
+        self.homotopy.equations.laws.iter().enumerate().all(|(pair, law)| {
+            [Boundary::Contact, Boundary::Slip].into_iter().all(|boundary| {
+                let piece = self.pieces[pair];
+                !law.has_boundary(piece, boundary)
+                    || crossed == Some((pair, boundary))
+                    || law.excess(piece, boundary, &place.y[pair])
+                        <= OUTSIDE * self.unit_of(pair, boundary)
+            })
+        })
+    }
+
+    /// The unit of a boundary's function.
+    fn unit_of(&self, pair: usize, boundary: Boundary) -> f64 {
+        let component = self.homotopy.equations.dim * pair
+            + match boundary {
+                Boundary::Contact => 0,
+                Boundary::Slip => 1,
+            };
+        self.homotopy.equations.root[component] * self.homotopy.size
+    }
+
+    /// Length of a place in units of the homotopy.
+    fn size_of(&self, place: &Place) -> f64 {
+        self.homotopy.norm(&Direction { y: place.y.clone(), s: place.s })
+    }
+}

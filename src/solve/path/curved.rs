@@ -1,0 +1,100 @@
+//! The path in space: from any start, several starts in turn.
+
+use super::curve::{Care, Curve};
+use super::homotopy::{Homotopy, Place};
+use crate::law::{Contact, Vector};
+use crate::linalg::perturbation::Perturbation;
+use crate::monitor::Monitor;
+use crate::settings::Settings;
+use crate::solve::candidate::{Candidate, Ending};
+use crate::solve::normal_map::{Ended, Equations, Point, newton_from, on_candidates};
+use crate::solve::rigid_balance;
+
+/// Size of the perturbation of a start beside the loads: symmetric meshes have ties, and on a generic
+/// start no two pairs reach their boundaries at once.
+const PERTURBATION: f64 = 1e-7;
+
+/// How closely curves are followed, first and where that has failed.
+const EASY: Care = Care { deviation: 1.0 };
+const CAREFUL: Care = Care { deviation: 0.3 };
+
+/// Attempts from starts at random, of the size of the loads, where those from near a solution and from
+/// zero have failed. One failed of 10,000 random problems up to condition number 1e6 without them.
+const RANDOM_STARTS: usize = 6;
+
+/// Solves from the displacements `start` (zero if `None`) by following a path.
+pub fn curved(
+    contact: &Contact<'_>,
+    settings: &Settings,
+    start: Option<&[f64]>,
+    monitor: &mut Monitor<'_>,
+) -> Candidate {
+    // Without an equilibrium the path runs away slowly: what can be proved at once is.
+    if let Some(motion) = rigid_balance::escape(contact) {
+        return Candidate::without_displacements(contact, Ending::Recession(motion));
+    }
+    on_candidates(contact, settings, start, monitor, &mut |equations, y, monitor| {
+        from(equations, y, settings.tolerance, monitor)
+    })
+}
+
+/// Follows paths from `y`, and from other starts if one fails, to a solution of the equations.
+fn from(
+    equations: &Equations<'_>,
+    y: Vec<Vector>,
+    tolerance: f64,
+    monitor: &mut Monitor<'_>,
+) -> Ended {
+    let mut systems = 0;
+    let mut failed: Option<Ended> = None;
+    let none = vec![[0.0; 3]; y.len()];
+    let near = [(&y, PERTURBATION, EASY), (&none, PERTURBATION, EASY), (&y, PERTURBATION, CAREFUL)];
+    let far = [(&none, 1.0, CAREFUL); RANDOM_STARTS];
+    for (attempt, (start, by, care)) in near.into_iter().chain(far).enumerate() {
+        let start = perturbed(equations, start, by, attempt as u64);
+        let homotopy = Homotopy::new(equations, &start);
+        let mut curve = Curve::new(&homotopy, Place { y: start, s: 0.0 }, care);
+        let end = curve.follow(monitor);
+        systems += curve.systems;
+        let mut ended = match end {
+            // Where pairs are on the bounds of their pieces Newton's method settles them.
+            Ok(()) => newton_from(equations, curve.place().y.clone(), tolerance, monitor),
+            Err(ending) => Ended {
+                point: Point::new(equations, curve.place().y.clone()),
+                ending,
+                systems: 0,
+                orientation: 0,
+            },
+        };
+        systems += ended.systems;
+        ended.systems = systems;
+        match ended.ending {
+            Ending::Done | Ending::Stopped(_) => return ended,
+            _ => {
+                let better =
+                    failed.as_ref().is_none_or(|best| ended.point.merit < best.point.merit);
+                if better {
+                    failed = Some(ended);
+                }
+            }
+        }
+    }
+    let mut failed = failed.expect("there is a first attempt");
+    failed.systems = systems;
+    failed
+}
+
+/// A start, moved at random by a part of the loads.
+fn perturbed(equations: &Equations<'_>, y: &[Vector], by: f64, seed: u64) -> Vec<Vector> {
+    let dim = equations.dim;
+    let size = Homotopy::new(equations, y).size / (equations.root.len() as f64).sqrt();
+    let mut random = Perturbation::new(seed);
+    let moved = |(at, y): (usize, &Vector)| {
+        let mut y = *y;
+        for c in 0..dim {
+            y[c] += by * size * equations.root[dim * at + c] * random.next();
+        }
+        y
+    };
+    y.iter().enumerate().map(moved).collect()
+}

@@ -1,0 +1,141 @@
+//! The homotopy from any point to the contact problem, and its values on given pieces.
+
+use crate::law::Vector;
+use crate::law::piece::Piece;
+use crate::linalg::vector::dot;
+use crate::solve::normal_map::Equations;
+
+/// `H_s(y) = s (K d - f) + (1 - s) (k v - b) + P` on the normal map, with `b = k v + P` at the start. With
+/// tension `k v` and `b` both stand for themselves plus the tension.
+pub struct Homotopy<'e> {
+    pub equations: &'e Equations<'e>,
+    /// `b`, component by component.
+    base: Vec<f64>,
+    /// Size of the coordinates and loads, in scaled forces.
+    pub size: f64,
+}
+
+/// A point of the curve, or near it.
+#[derive(Clone)]
+pub struct Place {
+    pub y: Vec<Vector>,
+    pub s: f64,
+}
+
+/// The homotopy at a place on given pieces.
+pub struct Value {
+    /// `H`.
+    pub lack: Vec<f64>,
+    /// `dH/ds`.
+    pub rate: Vec<f64>,
+    /// Length of `H` in scaled forces.
+    pub merit: f64,
+    /// Length of the terms of `H`, whose rounding it carries.
+    pub terms: f64,
+    /// Length of `k v`.
+    pub stretch: f64,
+}
+
+impl<'e> Homotopy<'e> {
+    /// The homotopy that begins at `start`.
+    pub fn new(equations: &'e Equations<'e>, start: &[Vector]) -> Self {
+        let dim = equations.dim;
+        let base: Vec<f64> = start.iter().flat_map(|y| y[..dim].iter().copied()).collect();
+        // f - K (gap, slip0): the force that the law's corner would need.
+        let corner: Vec<f64> =
+            equations.laws.iter().flat_map(|law| law.reference().into_iter().take(dim)).collect();
+        let size = equations.length(&equations.force(&corner)).max(equations.length(&base));
+        Homotopy { equations, base, size: if size > 0.0 { size } else { 1.0 } }
+    }
+
+    /// The homotopy at a place on given pieces.
+    pub fn value(&self, pieces: &[Piece], place: &Place) -> Value {
+        let (equations, s) = (self.equations, place.s);
+        let dim = equations.dim;
+        let (d, push) = equations.values(pieces, &place.y);
+        let force = equations.force(&d);
+        let size = force.len();
+        let (mut lack, mut rate) = (Vec::with_capacity(size), Vec::with_capacity(size));
+        let mut stretch = Vec::with_capacity(size);
+        for i in 0..size {
+            let scaled = place.y[i / dim][i % dim] - push[i];
+            let other = scaled - self.base[i];
+            lack.push(s * force[i] + (1.0 - s) * other + push[i]);
+            rate.push(force[i] - other);
+            stretch.push(scaled);
+        }
+        let merit = equations.length(&lack);
+        let stretch = equations.length(&stretch);
+        Value { terms: equations.length(&push), lack, rate, merit, stretch }
+    }
+}
+
+/// A direction in the space of places, with coordinates in units of the homotopy's size and `s`.
+#[derive(Clone)]
+pub struct Direction {
+    pub y: Vec<Vector>,
+    pub s: f64,
+}
+
+impl Homotopy<'_> {
+    /// Inner product of directions.
+    pub fn product(&self, a: &Direction, b: &Direction) -> f64 {
+        let mut sum = a.s * b.s;
+        let dim = self.equations.dim;
+        for (at, (a, b)) in a.y.iter().zip(&b.y).enumerate() {
+            for c in 0..dim {
+                let unit = self.equations.root[dim * at + c] * self.size;
+                sum += (a[c] / unit) * (b[c] / unit);
+            }
+        }
+        sum
+    }
+
+    /// Length of a direction.
+    pub fn norm(&self, a: &Direction) -> f64 {
+        self.product(a, a).sqrt()
+    }
+
+    /// The coefficients of `product(a, .)`.
+    pub fn dual(&self, a: &Direction) -> Direction {
+        let dim = self.equations.dim;
+        let mut dual = a.clone();
+        for (at, y) in dual.y.iter_mut().enumerate() {
+            for c in 0..dim {
+                let unit = self.equations.root[dim * at + c] * self.size;
+                y[c] /= unit * unit;
+            }
+        }
+        dual
+    }
+}
+
+impl Place {
+    /// The place `q` along a direction.
+    pub fn along(&self, direction: &Direction, q: f64) -> Place {
+        let y = self.y.iter().zip(&direction.y);
+        let y = y.map(|(y, t)| std::array::from_fn(|c| y[c] + q * t[c])).collect();
+        Place { y, s: self.s + q * direction.s }
+    }
+
+    /// The direction from here to another place.
+    pub fn to(&self, other: &Place) -> Direction {
+        let y = self.y.iter().zip(&other.y);
+        let y = y.map(|(a, b)| std::array::from_fn(|c| b[c] - a[c])).collect();
+        Direction { y, s: other.s - self.s }
+    }
+}
+
+impl Direction {
+    /// Multiplies by a number.
+    pub fn scale(&mut self, by: f64) {
+        self.s *= by;
+        self.y.iter_mut().flatten().for_each(|y| *y *= by);
+    }
+
+    /// The value of a dual, of which `self` holds the coefficients, at a direction.
+    pub fn apply(&self, other: &Direction) -> f64 {
+        let y = self.y.iter().zip(&other.y);
+        self.s * other.s + y.map(|(a, b)| dot(a, b)).sum::<f64>()
+    }
+}
