@@ -426,7 +426,7 @@ static void settings(void)
     SETTINGS("time_limit is NaN", "time_limit is NaN", world.settings.time_limit = NAN);
     SETTINGS("there is no search 2", "no search 2", world.settings.search = 2);
     SETTINGS("there is no search -1", "no search -1", world.settings.search = -1);
-    SETTINGS("there is no method 6", "no method 6", world.settings.method = 6);
+    SETTINGS("there is no method 60", "no method 60", world.settings.method = 60);
     SETTINGS("there is no method -1", "no method -1", world.settings.method = -1);
     SETTINGS("there is no method 1000", "no method 1000", world.settings.method = 1000);
     SETTINGS("struct_size is 0", "struct_size is 0", world.settings.struct_size = 0);

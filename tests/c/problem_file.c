@@ -299,8 +299,8 @@ static void bad_files(void)
 
 static void clean(void)
 {
-    const char *names[] = {"coulomb", "tresca", "frictionless", "lcp", "empty", "case", "bad",
-                           "inner"};
+    const char *names[] = {"coulomb", "tresca", "cohesive", "frictionless", "lcp",
+                           "empty",   "case",   "bad",      "inner"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) remove(in_folder(names[i]));
     CHECK(rmdir(folder) == 0);
 }
