@@ -640,7 +640,7 @@ const char *signorini_problem_remark(const signorini_problem *problem);
 
 /** Report only what the solution itself proves about other solutions. The default. */
 #define SIGNORINI_SEARCH_OFF 0
-/** Prove that the solution is unique, or look for a second one; 2D. It costs several solutions. */
+/** Prove that the solution is unique, or look for a second one. It costs several solutions. */
 #define SIGNORINI_SEARCH_OTHERS 1
 
 typedef struct signorini_progress signorini_progress;

@@ -13,8 +13,8 @@ use fastrand::Rng;
 use laws::{Axes, Numbers, norm};
 use signorini::law::{Rule, cohesive, orthotropic};
 use signorini::{
-    ContactData, ContactProblem, FrictionLaw, Method, Monitor, Settings, Solution, State, Status,
-    solve,
+    ContactData, ContactProblem, FrictionLaw, Method, Monitor, Search, Settings, Solution, State,
+    Status, Uniqueness, solve,
 };
 
 /// Rounding of one small system, far below any difference that is looked for.
@@ -244,6 +244,37 @@ fn equal_coefficients_are_coulombs_law() {
                 assert_near(&solution.d, &coulomb.d, 1e-9, "d");
             }
         }
+    }
+}
+
+/// Little friction on a matrix of condition 100 is a contraction: proved with the associated rule, with
+/// cohesion and tension, and nothing is said with the collinear one.
+#[test]
+fn uniqueness_is_proved_where_friction_is_monotone() {
+    let rng = &mut Rng::with_seed(3);
+    let (k, f, gap, slip) = random(rng, 3, 4);
+    let (axes, glue) = ([0.002, 0.001, 0.7].repeat(4), [0.002, 0.5, 0.1].repeat(4));
+    for (law, expected) in [
+        (FrictionLaw::Orthotropic(&axes), Uniqueness::Unique),
+        (FrictionLaw::Cohesive(&glue), Uniqueness::Unique),
+        (FrictionLaw::OrthotropicCollinear(&axes), Uniqueness::NotKnown),
+    ] {
+        let problem = ContactProblem::new(ContactData {
+            dim: 3,
+            pairs: 4,
+            stiffness: &k,
+            ld: 12,
+            load: &f,
+            gap: &gap,
+            law,
+            reference_slip: Some(&slip),
+        })
+        .unwrap();
+        let settings = Settings { search: Search::Others, ..Settings::default() };
+        let solution =
+            solve(&problem, &settings, None, &mut Monitor::new(&settings, None)).unwrap();
+        assert_eq!(solution.status, Status::Solved);
+        assert_eq!(solution.uniqueness, expected, "{law:?}");
     }
 }
 

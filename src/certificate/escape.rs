@@ -23,7 +23,8 @@ pub(crate) fn is_escape_of(contact: &Contact<'_>, r: &[f64]) -> bool {
     let problem = contact.problem();
     let root = problem.stiffness().diagonal_roots();
     let size = largest_of(r.iter().zip(&root).map(|(r, root)| r * root));
-    if size == 0.0 || !size.is_finite() {
+    // On a motion that only Kᵀ resists internal forces do work.
+    if size == 0.0 || !size.is_finite() || !problem.is_symmetric() {
         return false;
     }
     let negligible = NEGLIGIBLE * size;

@@ -30,7 +30,7 @@ pub const SIGNORINI_METHOD_PATH: i32 = 6;
 
 /// Report only what the solution itself proves about other solutions. The default.
 pub const SIGNORINI_SEARCH_OFF: i32 = 0;
-/// Prove that the solution is unique, or look for a second one; 2D. It costs several solutions.
+/// Prove that the solution is unique, or look for a second one. It costs several solutions.
 pub const SIGNORINI_SEARCH_OTHERS: i32 = 1;
 
 /// What a progress callback receives. Later versions may add fields at the end.

@@ -66,6 +66,28 @@ impl<'a> ContactProblem<'a> {
         Ok(problem)
     }
 
+    /// A problem in 3D whose `K` need not be symmetric, as where a host's material or load follows the
+    /// motion: `x . K x > 0` for all `x` is all that [`crate::Method::Path`] asks for. It is not checked.
+    /// [`crate::Method::Newton`], `Path` and `Auto` solve it; nothing is proved about it.
+    ///
+    /// # Errors
+    /// As [`Self::new`], but for the symmetry; [`Error::Invalid`] too if the dimension is 2.
+    pub fn unsymmetric(data: ContactData<'a>) -> Result<Self, Error> {
+        let mut problem = Self::on_checked_matrix(data)?;
+        if problem.dim == 2 {
+            let message = "dim is 2: a matrix that is not symmetric is for dim 3";
+            return Err(Error::invalid(Argument::Dimension, message));
+        }
+        symmetric_matrix::check_diagonal(&problem.relation.matrix, "K", Argument::Matrix)?;
+        problem.relation.symmetric = false;
+        Ok(problem)
+    }
+
+    /// Whether `K` is symmetric.
+    pub(crate) fn is_symmetric(&self) -> bool {
+        self.relation.symmetric
+    }
+
     /// Checks everything but the entries of the matrix, which a model has checked once.
     pub(crate) fn on_checked_matrix(data: ContactData<'a>) -> Result<Self, Error> {
         let size = unknowns(checked_dim(data.dim)?, data.pairs)?;
@@ -77,7 +99,7 @@ impl<'a> ContactProblem<'a> {
         check_finite(Argument::Load, "f", load)?;
         let matrix = Matrix::new(size, data.stiffness, data.ld);
         Self::with_relation(
-            Stiffness { matrix, load },
+            Stiffness { matrix, load, symmetric: true },
             data.dim,
             data.gap,
             data.law,

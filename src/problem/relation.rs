@@ -35,12 +35,13 @@ pub trait Relation {
     fn magnitude(&self, size: &[f64]) -> Vec<f64>;
 }
 
-/// The stiffness form `K d = f + F`, with `K` dense, symmetric and positive semi-definite: a view of
-/// the host's arrays.
+/// The stiffness form `K d = f + F`, with `K` dense, symmetric and positive semi-definite, or positive
+/// definite alone: a view of the host's arrays.
 #[derive(Clone, Copy, Debug)]
 pub struct Stiffness<'a> {
     pub(super) matrix: Matrix<'a>,
     pub(super) load: &'a [f64],
+    pub(super) symmetric: bool,
 }
 
 impl Relation for Stiffness<'_> {

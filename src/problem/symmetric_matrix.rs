@@ -22,24 +22,9 @@ pub(crate) fn is_symmetric(matrix: &Matrix<'_>) -> bool {
 /// and entries that a positive semi-definite matrix cannot have. `name` is the host's name of the
 /// matrix.
 pub(crate) fn check(matrix: &Matrix<'_>, name: &str, argument: Argument) -> Result<(), Error> {
+    check_diagonal(matrix, name, argument)?;
     let refuse = |message: String| Err(Error::invalid(argument, message));
     let at = |i: usize, j: usize| entry(name, [i, j]);
-    for j in 0..matrix.size() {
-        let column = matrix.column(j);
-        if let Some(i) = first_not_finite(column) {
-            return refuse(at(i, j) + " is not finite");
-        }
-        if column[j] <= 0.0 {
-            if column.iter().all(|&k| k == 0.0) {
-                let row = index(j);
-                return refuse(format!(
-                    "row {row} of {name} is zero: component {row} has no stiffness; if the host \
-                     holds it fixed, put a positive number on the diagonal"
-                ));
-            }
-            return refuse(format!("{} is {}, it must be positive", at(j, j), column[j]));
-        }
-    }
     let root = matrix.diagonal_roots();
     matrix.pairs_across(|i, j, lower, upper| {
         let scale = root[i] * root[j];
@@ -62,6 +47,33 @@ pub(crate) fn check(matrix: &Matrix<'_>, name: &str, argument: Argument) -> Resu
         }
         Ok(())
     })
+}
+
+/// Refuses entries that are not finite and diagonals that are not positive.
+pub(crate) fn check_diagonal(
+    matrix: &Matrix<'_>,
+    name: &str,
+    argument: Argument,
+) -> Result<(), Error> {
+    let refuse = |message: String| Err(Error::invalid(argument, message));
+    let at = |i: usize, j: usize| entry(name, [i, j]);
+    for j in 0..matrix.size() {
+        let column = matrix.column(j);
+        if let Some(i) = first_not_finite(column) {
+            return refuse(at(i, j) + " is not finite");
+        }
+        if column[j] <= 0.0 {
+            if column.iter().all(|&k| k == 0.0) {
+                let row = index(j);
+                return refuse(format!(
+                    "row {row} of {name} is zero: component {row} has no stiffness; if the host \
+                     holds it fixed, put a positive number on the diagonal"
+                ));
+            }
+            return refuse(format!("{} is {}, it must be positive", at(j, j), column[j]));
+        }
+    }
+    Ok(())
 }
 
 /// Asymmetry up to this, relative to the diagonal, is that of entries rounded to single precision

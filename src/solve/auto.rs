@@ -81,6 +81,9 @@ fn attempt(
 }
 
 fn plan(contact: &Contact<'_>) -> &'static [Method] {
+    if !contact.problem().is_symmetric() {
+        return &[Method::Newton, Method::Path];
+    }
     match (contact.is_frictionless(), contact.dim(), contact.is_coupled()) {
         (true, _, _) => &[Method::BlockPivoting, Method::Lemke, Method::SorNested],
         (false, 2, false) => &[Method::Newton, Method::Lemke, Method::SorNested],

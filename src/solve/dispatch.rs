@@ -12,6 +12,12 @@ pub fn check_method(contact: &Contact<'_>, method: Method) -> Result<(), Error> 
     let refuse = |message: &str| Err(Error::invalid(Argument::Settings, message));
     let frictionless = contact.is_frictionless();
     let planar = contact.dim() == 2;
+    let general = matches!(method, Method::Auto | Method::Newton | Method::Path);
+    if !general && !contact.problem().is_symmetric() {
+        return refuse(
+            "settings: this method needs a symmetric K: use Newton's, the path, or auto",
+        );
+    }
     match method {
         Method::Lemke if !frictionless && !planar => {
             refuse("settings: Lemke's method is for frictionless contact, and for friction in 2D")

@@ -31,7 +31,7 @@ const MOST_ROUNDS: usize = 300;
 
 /// A recession direction that the loads drive, where the admissible forces are cones.
 pub fn escape(contact: &Contact<'_>) -> Option<Vec<f64>> {
-    if !contact.bounds().all(|bound| bound.is_cone()) {
+    if !contact.bounds().all(|bound| bound.is_cone()) || !contact.problem().is_symmetric() {
         return None;
     }
     let balance = Balance::new(contact)?;

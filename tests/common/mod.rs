@@ -3,6 +3,7 @@
 #![allow(dead_code)] // Every test file uses a part.
 
 pub mod bare;
+pub mod blocks;
 pub mod brick;
 pub mod dense;
 pub mod folder;

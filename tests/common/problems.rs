@@ -84,6 +84,26 @@ impl Case {
         self.solve(&Settings { method, ..Settings::default() })
     }
 
+    /// A problem in the plane with a second tangent that nothing loads or couples, of the stiffness that
+    /// `stiffness` gives it. Its solutions are those of the plane: `k delta_2 + tau_2 = 0` and
+    /// `delta_2 tau_2 >= 0` leave zero.
+    pub fn extruded(&self, mut stiffness: impl FnMut() -> f64) -> Case {
+        let (pairs, n) = (self.pairs, 3 * self.pairs);
+        let place = |i: usize| 3 * (i / 2) + i % 2;
+        let (mut k, mut f, mut slip) = (vec![0.0; n * n], vec![0.0; n], vec![0.0; 2 * pairs]);
+        for j in 0..2 * pairs {
+            for i in 0..2 * pairs {
+                k[place(i) + n * place(j)] = self.stiffness(i, j);
+            }
+            f[place(j)] = self.f[j];
+        }
+        for pair in 0..pairs {
+            k[(3 * pair + 2) * (n + 1)] = stiffness();
+            slip[2 * pair] = self.rest(pair, 0);
+        }
+        Case { dim: 3, pairs, k, f, gap: self.gap.clone(), law: self.law.clone(), slip: Some(slip) }
+    }
+
     pub fn size(&self) -> usize {
         self.dim * self.pairs
     }

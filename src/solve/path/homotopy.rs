@@ -101,9 +101,8 @@ impl Homotopy<'_> {
         let dim = self.equations.dim;
         let mut dual = a.clone();
         for (at, y) in dual.y.iter_mut().enumerate() {
-            for c in 0..dim {
-                let unit = self.equations.root[dim * at + c] * self.size;
-                y[c] /= unit * unit;
+            for (y, root) in y.iter_mut().zip(&self.equations.root[dim * at..dim * (at + 1)]) {
+                *y /= (root * self.size).powi(2);
             }
         }
         dual

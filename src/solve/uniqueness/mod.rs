@@ -34,7 +34,14 @@ pub fn examine(
         solution.uniqueness = Uniqueness::Unique;
         return Ok(());
     }
-    if contact.dim() != 2 || contact.is_frictionless() {
+    if contact.is_frictionless() {
+        return Ok(());
+    }
+    if contact.dim() != 2 {
+        if let Some(second) = search::another_in_space(contact, settings, &solution.d, monitor) {
+            solution.uniqueness = Uniqueness::Several;
+            solution.second = Some(Box::new(second));
+        }
         return Ok(());
     }
     // To the last digit, and with its orientation.
