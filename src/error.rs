@@ -27,8 +27,10 @@ pub enum Argument {
     Load,
     /// Initial gaps.
     Gap,
-    /// Parameters of the friction law: coefficients or thresholds.
+    /// Parameters of the friction law: coefficients, thresholds and others.
     Law,
+    /// The friction law itself.
+    LawChoice,
     /// Slip accumulated before this load case.
     ReferenceSlip,
     /// Covering vector of Lemke's method.

@@ -22,13 +22,10 @@ pub fn check_method(contact: &Contact<'_>, method: Method) -> Result<(), Error> 
         Method::Lemke if !frictionless && !planar => {
             refuse("settings: Lemke's method is for frictionless contact, and for friction in 2D")
         }
-        Method::BlockPivoting if !frictionless => refuse(if contact.is_coupled() {
-            "settings: block pivoting is for frictionless contact: the law must be frictionless, \
-             or every mu must be 0"
-        } else {
-            "settings: block pivoting is for frictionless contact: the law must be frictionless, \
-             or every g must be 0"
-        }),
+        Method::BlockPivoting if !frictionless => refuse(&format!(
+            "settings: block pivoting is for frictionless contact: the law must be frictionless, or {}",
+            contact.problem().law().frictionless_if()
+        )),
         Method::SorDiagonal if !frictionless && !contact.is_coupled() => refuse(
             "settings: the diagonal method updates thresholds, and here they are given: use the \
              nested one",

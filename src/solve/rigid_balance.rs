@@ -35,17 +35,19 @@ pub fn escape(contact: &Contact<'_>) -> Option<Vec<f64>> {
         return None;
     }
     let balance = Balance::new(contact)?;
-    let load = balance.on_motions(contact.problem().load(), 0);
+    let load = balance.on_motions(contact.shifted_load(), 0);
     let mut edges = Vec::new();
     for (pair, law) in contact.pairs().iter().enumerate() {
         let own = law.cone_edges();
         edges.extend(own.iter().map(|edge| balance.on_pair(edge, pair)));
     }
+    let mut before = Vec::new();
     for _ in 0..MOST_ROUNDS {
         let rest = nearest(&load, &edges)?;
         let motion = balance.motion(&rest);
         let worst = balance.worst(&motion);
-        if worst.is_empty() || contact.dim() == 2 {
+        // Edges that differ by rounding alone from those that carry are of no more use.
+        if worst.is_empty() || contact.dim() == 2 || rest == before {
             let motion = balance.lifted(motion);
             return is_escape_of(contact, &motion).then_some(motion);
         }
@@ -53,6 +55,7 @@ pub fn escape(contact: &Contact<'_>) -> Option<Vec<f64>> {
             let own = &motion[contact.dim() * pair..contact.dim() * (pair + 1)];
             edges.push(balance.on_pair(&contact.pairs()[pair].opposing_edge(own), pair));
         }
+        before = rest;
     }
     None
 }

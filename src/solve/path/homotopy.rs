@@ -5,7 +5,8 @@ use crate::law::piece::Piece;
 use crate::linalg::vector::dot;
 use crate::solve::normal_map::Equations;
 
-/// `H_s(y) = s (K d - f) + (1 - s) (k v - b) + P` on the normal map, with `b = k v + P` at the start.
+/// `H_s(y) = s (K d - f) + (1 - s) (k v - b) + P` on the normal map, with `b = k v + P` at the start. With
+/// tension `k v` and `b` both stand for themselves plus the tension.
 pub struct Homotopy<'e> {
     pub equations: &'e Equations<'e>,
     /// `b`, component by component.

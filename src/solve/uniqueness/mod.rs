@@ -81,7 +81,7 @@ fn polished(
 /// Whether no pair is where branches meet: forces and displacements are clear of all bounds.
 fn is_strict(contact: &Contact<'_>, d: &[f64]) -> bool {
     let force = contact.problem().force(d);
-    let unit = norm_inf(&force).max(norm_inf(contact.problem().load()));
+    let unit = norm_inf(&force).max(norm_inf(contact.shifted_load()));
     contact
         .each(d, &force)
         .all(|(law, d, force)| law.distance_to_kink(&law.trial(d, force)) > MARGIN * unit)

@@ -8,6 +8,10 @@
 //! and `X = 1` this is `mu < 1 / sqrt(|K_nn| |W_tt|)`. In space `W_tt` has the two tangents of each pair,
 //! and friction discs of the radii `g` and `g'` give the same bound:
 //! `(tau - tau').(delta - delta') >= (g - g') (|delta| - |delta'|)`.
+//!
+//! Cohesion adds a constant to `g`. With an ellipse and the associated rule `|delta|` is the most work
+//! of forces of gauge 1, which is no longer than the slip (`law::ellipse`), and the same bound follows.
+//! Under the collinear rule friction is not monotone, and nothing is proved.
 
 use super::difference::MARGIN;
 use crate::law::Contact;
@@ -33,7 +37,8 @@ pub fn is_unique(contact: &Contact<'_>) -> bool {
     let Some(mut factor) = scaled_factor(contact) else { return false };
     let laws = contact.pairs();
     let coupled: Vec<usize> = (0..laws.len()).filter(|&i| laws[i].is_coupled()).collect();
-    coupled.is_empty() || is_contraction(contact, &mut factor, &coupled)
+    coupled.is_empty()
+        || (!contact.has_collinear_slip() && is_contraction(contact, &mut factor, &coupled))
 }
 
 fn is_contraction(contact: &Contact<'_>, factor: &mut Factor, coupled: &[usize]) -> bool {
