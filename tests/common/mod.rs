@@ -8,6 +8,7 @@ pub mod folder;
 pub mod measures;
 pub mod mesh;
 pub mod oracle;
+pub mod plane_families;
 pub mod problems;
 pub mod stack;
 pub mod verdict;

@@ -5,7 +5,9 @@
 //! to rounding. A few sweeps between a solution and its branches carry a zone's edge over many pairs,
 //! where Newton's step alone moves it by one: 3 to 11 systems on the bar on the plane up to 513 pairs,
 //! 5 to 24 without. There is no merit function: the steps may cycle, which is detected by the branches
-//! that were there before.
+//! that were there before. Most cycles are slips that turn back from one system to the next. So from
+//! the first repetition on a pair whose slip would turn back sticks first, and more sweeps follow each
+//! system; before it the rule would cost systems on problems that need none of it.
 
 use super::linear_system::{LinearSystem, Singular};
 use crate::certificate::{eta_of, measure};
@@ -77,7 +79,7 @@ pub fn from_branches(
             best = Best::at(&system, 0.0);
             break Ending::Done;
         }
-        let next = swept(contact, &system, history.sweeps);
+        let next = history.next(contact, &branches, swept(contact, &system, history.sweeps));
         if let Err(ending) = history.advance(&mut branches, next) {
             // At a degenerate solution rounding may flip the active set forever.
             let solved = ending == Ending::Cycle && best.eta <= settings.tolerance;
@@ -98,6 +100,8 @@ struct History {
     /// Whether only the first system has been solved, and the sweeps after the others.
     at_first: bool,
     later_sweeps: u32,
+    /// Whether branches have repeated: from then on no slip turns back at once.
+    repeated: bool,
 }
 
 impl History {
@@ -106,7 +110,18 @@ impl History {
             true => (FIRST_SWEEPS_OF_FEW, SWEEPS_OF_FEW),
             false => (SWEEPS, SWEEPS),
         };
-        History { seen: Vec::new(), sweeps, at_first: true, later_sweeps }
+        History { seen: Vec::new(), sweeps, at_first: true, later_sweeps, repeated: false }
+    }
+
+    /// The branches after `before`, of which sweeps select `next`.
+    fn next(&self, contact: &Contact<'_>, before: &[Branch], mut next: Vec<Branch>) -> Vec<Branch> {
+        if self.repeated {
+            let pairs = contact.pairs().iter().zip(before);
+            for (next, (law, before)) in next.iter_mut().zip(pairs) {
+                *next = before.without_reversal(law, *next);
+            }
+        }
+        next
     }
 
     /// Goes on to the branches `next`, with more sweeps if they have been there before.
@@ -123,6 +138,7 @@ impl History {
                 return Err(Ending::Cycle);
             }
             self.sweeps *= MORE_SWEEPS;
+            self.repeated = true;
             self.seen.clear();
         }
         Ok(())
