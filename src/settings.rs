@@ -19,6 +19,8 @@ pub enum Method {
     BlockPivoting,
     /// Newton's method: on the active set of the pairs in 2D, on the normal map in 3D.
     Newton,
+    /// The path: from piece to piece of the law along solutions of neighbouring problems.
+    Path,
 }
 
 /// Whether to look for other solutions.

@@ -61,7 +61,7 @@ const ROOMS: [(&str, &[&str]); 13] = [
 
 /// The files and folders of `solve`: each imports from those before it only. `lcp` stands beside
 /// those that are behind `lemke`.
-const SOLVERS: [&str; 13] = [
+const SOLVERS: [&str; 14] = [
     "outcome",
     "candidate",
     "condense",
@@ -69,6 +69,7 @@ const SOLVERS: [&str; 13] = [
     "sweeps",
     "normal_map",
     "active_set",
+    "path",
     "lemke",
     "lcp",
     "uniqueness",

@@ -24,6 +24,8 @@ pub const SIGNORINI_METHOD_BLOCK_PIVOTING: i32 = 4;
 /// Newton's method, on the states of the pairs (2D) or the normal map (3D). It may fail; the status
 /// says so.
 pub const SIGNORINI_METHOD_NEWTON: i32 = 5;
+/// The path.
+const METHOD_PATH: i32 = 6;
 
 /// Report only what the solution itself proves about other solutions. The default.
 pub const SIGNORINI_SEARCH_OFF: i32 = 0;
@@ -128,6 +130,7 @@ impl SignoriniSettings {
             SIGNORINI_METHOD_LEMKE => Method::Lemke,
             SIGNORINI_METHOD_BLOCK_PIVOTING => Method::BlockPivoting,
             SIGNORINI_METHOD_NEWTON => Method::Newton,
+            METHOD_PATH => Method::Path,
             other => return refuse(format!("settings: there is no method {other}")),
         };
         let Ok(max_iterations) = u64::try_from(self.max_iterations) else {
@@ -183,6 +186,7 @@ pub(super) fn method_code(method: Method) -> i32 {
         Method::Lemke => SIGNORINI_METHOD_LEMKE,
         Method::BlockPivoting => SIGNORINI_METHOD_BLOCK_PIVOTING,
         Method::Newton => SIGNORINI_METHOD_NEWTON,
+        Method::Path => METHOD_PATH,
     }
 }
 

@@ -9,6 +9,7 @@
 //! | `natural_map` | how far a displacement and a force are from the law | certificate |
 //! | `normal_map` | `y -> (v, P)`, the chart on which the law is one function | branches, Newton's method in space |
 //! | `branch` | which smooth piece of the law a point is on, with the derivative there | active-set methods, uniqueness |
+//! | `planar_piece` | the boundaries between the pieces in the plane | the linear path |
 //! | `proximal` | the step of one pair in a sweep | sweeps |
 //! | `local` | the exact solution of one pair, its block coupled | who solves pair by pair |
 //! | `complementarity` | the law as complementarity of non-negative variables | Lemke's method, block pivoting |
@@ -32,6 +33,7 @@ pub mod frictionless;
 mod local;
 mod natural_map;
 mod normal_map;
+mod planar_piece;
 mod proximal;
 mod recession;
 pub mod tresca;
@@ -39,6 +41,7 @@ pub mod tresca;
 pub use bound::{Bound, length, project_disc};
 pub use contact::Contact;
 pub use natural_map::Violation;
+pub use planar_piece::{Exit, Planar};
 pub use recession::{Recession, lift};
 
 /// What a contact pair does.

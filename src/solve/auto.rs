@@ -85,9 +85,9 @@ fn attempt(
 fn plan(contact: &Contact<'_>) -> &'static [Method] {
     match (contact.is_frictionless(), contact.dim(), contact.is_coupled()) {
         (true, _, _) => &[Method::BlockPivoting, Method::Lemke, Method::SorNested],
-        (false, 2, false) => &[Method::Newton, Method::Lemke, Method::SorNested],
+        (false, 2, false) => &[Method::Newton, Method::Path, Method::Lemke, Method::SorNested],
         (false, 2, true) => {
-            &[Method::Newton, Method::Lemke, Method::SorNested, Method::SorDiagonal]
+            &[Method::Newton, Method::Path, Method::Lemke, Method::SorNested, Method::SorDiagonal]
         }
         (false, _, false) => &[Method::Newton, Method::SorNested],
         (false, _, true) => &[Method::Newton, Method::SorNested, Method::SorDiagonal],

@@ -1,7 +1,7 @@
 //! One method on one problem: which it fits, and what runs it.
 
 use super::candidate::{Candidate, Ending};
-use super::{active_set, lemke, normal_map, sweeps};
+use super::{active_set, lemke, normal_map, path, sweeps};
 use crate::error::{Argument, Error};
 use crate::law::Contact;
 use crate::monitor::Monitor;
@@ -23,6 +23,7 @@ pub fn check_method(contact: &Contact<'_>, method: Method) -> Result<(), Error> 
             "settings: block pivoting is for frictionless contact: the law must be frictionless, \
              or every g must be 0"
         }),
+        Method::Path if !planar => refuse("settings: the path is for contact in 2D"),
         Method::SorDiagonal if !frictionless && !contact.is_coupled() => refuse(
             "settings: the diagonal method updates thresholds, and here they are given: use the \
              nested one",
@@ -50,6 +51,7 @@ pub fn run(
             active_set::newton(contact, settings, start, monitor)
         }
         (Method::Newton, _) => normal_map::newton(contact, settings, start, monitor),
+        (Method::Path, _) => path::linear(contact, settings, start, monitor),
         (Method::BlockPivoting, _) => {
             let chosen = settings.method == Method::BlockPivoting;
             let most = if chosen { u64::MAX } else { active_set::enough(contact.pairs().len()) };

@@ -2,8 +2,8 @@
 //! What is called a solution is decided in `candidate`, by the certificate alone.
 //!
 //! ```text
-//! outcome ← candidate ← condense ← rigid_balance ← sweeps ← normal_map ← active_set ← lemke ← uniqueness ← dispatch ← auto ← mod
-//!                                                                          └──── lcp ────────────────────────┘
+//! outcome ← candidate ← condense ← rigid_balance ← sweeps ← normal_map ← active_set ← path ← lemke ← uniqueness ← dispatch ← auto ← mod
+//!                                                                          └──── lcp ───────────────────────────────┘
 //! ```
 //!
 //! Each imports from those to its left only. One algorithm is one folder; what others may use of it is
@@ -18,6 +18,7 @@ mod lcp;
 mod lemke;
 mod normal_map;
 mod outcome;
+mod path;
 mod rigid_balance;
 mod sweeps;
 mod uniqueness;

@@ -1,0 +1,124 @@
+//! The linear path in the plane, alone and behind the default: every positive definite problem has a
+//! solution, and the path leads to one whatever the coefficients, loads, gaps and slips.
+
+mod common;
+
+use common::measures::{eta, rounding};
+use common::plane_families::{SUPPORTS, Structure, Support};
+use common::problems::{Case, Law, definite, loaded, tresca, uniform, vector};
+use fastrand::Rng;
+use signorini::{Method, Settings, Status};
+
+const TOLERANCE: f64 = 1e-10;
+
+/// Solves the problem by one method, and measures the answer here. `mu` carries errors of the pressures
+/// into the friction.
+fn assert_solved(case: &Case, method: Method, context: &str) -> u64 {
+    let settings = Settings { method, tolerance: TOLERANCE, ..Settings::default() };
+    let solution = case.solve(&settings);
+    assert_eq!(solution.status, Status::Solved, "{context}: {}", solution.message);
+    let most = match &case.law {
+        Law::Coulomb(mu) => mu.iter().fold(1.0, |most: f64, mu| most.max(*mu)),
+        Law::Tresca(_) => 1.0,
+    };
+    let residual = eta(case, &solution.d);
+    let allowed = TOLERANCE + most * rounding(case, &solution.d);
+    assert!(residual <= allowed, "{context}: {residual:e}");
+    solution.iterations
+}
+
+/// Random dense stiffness: nothing local is safe on it.
+#[test]
+fn the_path_alone_solves_random_dense_problems() {
+    for (pairs, count) in [(5, 40), (20, 25)] {
+        for condition in [1e2, 1e4] {
+            for mu in [0.3, 1.0, 3.0, 10.0] {
+                let mut most = 0;
+                for seed in 0..count {
+                    let mut rng = Rng::with_seed(seed);
+                    let k = definite(&mut rng, 2 * pairs, condition);
+                    let law = match seed % 2 {
+                        0 => Law::Coulomb(vec![mu; pairs]),
+                        _ => Law::Coulomb((0..pairs).map(|_| uniform(&mut rng, 0.1, mu)).collect()),
+                    };
+                    let mut case = loaded(&mut rng, 2, k, law);
+                    if seed % 3 == 0 {
+                        case.slip = Some(vector(&mut rng, pairs));
+                    }
+                    let context = format!("seed {seed}, {pairs} pairs, {condition:e}, mu {mu}");
+                    most = most.max(assert_solved(&case, Method::Path, &context));
+                }
+                println!("{pairs} pairs, condition {condition:e}, mu {mu}: at most {most}");
+            }
+        }
+    }
+}
+
+/// Given thresholds: one solution, and `s` never turns back.
+#[test]
+fn the_path_alone_solves_problems_with_given_thresholds() {
+    for seed in 0..300 {
+        let mut rng = Rng::with_seed(seed);
+        let pairs = rng.usize(1..=30);
+        let k = definite(&mut rng, 2 * pairs, 1e4);
+        let law = tresca(&mut rng, pairs);
+        let case = loaded(&mut rng, 2, k, law);
+        assert_solved(&case, Method::Path, &format!("seed {seed}, {pairs} pairs"));
+    }
+}
+
+fn on_mesh(structure: &Structure, seed: u64) -> (Case, String) {
+    let case = structure.case(&mut Rng::with_seed(seed));
+    let problem = Case {
+        dim: 2,
+        pairs: structure.pairs,
+        k: structure.stiffness.clone(),
+        f: case.load,
+        gap: case.gap,
+        law: Law::Coulomb(case.mu),
+        slip: case.slip,
+    };
+    (problem, format!("seed {seed}, {}", case.name))
+}
+
+/// Meshes on four supports, two of them with a rigid motion that contact alone stops.
+fn solves_all_on_meshes(method: Method, pairs: usize, seeds: std::ops::Range<u64>) {
+    for support in SUPPORTS {
+        let structure = Structure::new(support, pairs);
+        let mut most = 0;
+        for seed in seeds.clone() {
+            let (case, context) = on_mesh(&structure, seed);
+            most = most.max(assert_solved(&case, method, &context));
+        }
+        println!("{support:?}, {pairs} pairs: at most {most}");
+    }
+}
+
+#[test]
+fn the_path_alone_solves_problems_on_meshes() {
+    solves_all_on_meshes(Method::Path, 33, 0..60);
+    solves_all_on_meshes(Method::Path, 65, 60..90);
+}
+
+#[test]
+fn the_default_solves_problems_on_meshes() {
+    solves_all_on_meshes(Method::Auto, 33, 0..80);
+    solves_all_on_meshes(Method::Auto, 129, 80..110);
+}
+
+/// A body on a roller whose loads lift it by a hundredth more than they press it down: no equilibrium,
+/// and the ray on which the path ends proves it.
+#[test]
+fn the_path_proves_that_a_lifted_body_has_no_equilibrium() {
+    let structure = Structure::new(Support::Roller, 33);
+    for seed in 0..20 {
+        let (mut case, context) = on_mesh(&structure, seed);
+        let pressed: f64 = case.f.iter().step_by(2).sum();
+        let n = case.f.len();
+        // The normal points down: a negative load lifts.
+        case.f[n - 2] -= 1.01 * pressed;
+        let settings = Settings { method: Method::Path, ..Settings::default() };
+        let solution = case.solve(&settings);
+        assert_eq!(solution.status, Status::NoEquilibrium, "{context}: {}", solution.message);
+    }
+}
