@@ -2,8 +2,8 @@
 //! time.
 //!
 //! `cargo bench --bench plane_families -- PAIRS PROBLEMS`: on each of the four supports as many
-//! problems (default: 257 pairs, 40 problems). Counts of those that leave Newton's method; times of
-//! one run each, the worst of a support beside its median.
+//! problems (default: 257 pairs, 40 problems). Counts of those that leave Newton's method; the worst
+//! time of a support beside its median.
 
 #[allow(dead_code)]
 #[path = "../common/mesh.rs"]
@@ -16,7 +16,19 @@ use std::time::Instant;
 
 use fastrand::Rng;
 use plane_families::{SUPPORTS, Structure};
-use signorini::{ContactData, ContactProblem, FrictionLaw, Monitor, Settings, Status};
+use signorini::{ContactData, ContactProblem, FrictionLaw, Monitor, Settings, Solution, Status};
+
+/// Least time of three runs, as others use the machine too; and the solution.
+fn solve(problem: &ContactProblem<'_>) -> (f64, Solution) {
+    let settings = Settings::default();
+    let runs = (0..3).map(|_| {
+        let begin = Instant::now();
+        let solution =
+            signorini::solve(problem, &settings, None, &mut Monitor::new(&settings, None));
+        (begin.elapsed().as_secs_f64(), solution.expect("the settings fit"))
+    });
+    runs.min_by(|a, b| a.0.total_cmp(&b.0)).expect("there are three runs")
+}
 
 fn main() {
     let mut numbers = std::env::args().filter_map(|argument| argument.parse().ok());
@@ -41,12 +53,7 @@ fn main() {
                 reference_slip: case.slip.as_deref(),
             });
             let problem = problem.expect("the data is valid");
-            let settings = Settings::default();
-            let begin = Instant::now();
-            let solution =
-                signorini::solve(&problem, &settings, None, &mut Monitor::new(&settings, None));
-            let solution = solution.expect("the settings fit");
-            let time = begin.elapsed().as_secs_f64();
+            let (time, solution) = solve(&problem);
             times.push(time);
             let status = match solution.status {
                 Status::Solved => "solved".to_owned(),

@@ -27,10 +27,8 @@ pub struct Starts {
 impl Starts {
     /// Sweeps from the displacements `start` (zero if `None`).
     pub fn new(contact: &Contact<'_>, root: &[f64], start: Option<&[f64]>) -> Self {
-        let mut d = start.map_or_else(|| vec![0.0; contact.unknowns()], <[f64]>::to_vec);
-        for (law, normal) in contact.pairs().iter().zip(d.iter_mut().step_by(contact.dim())) {
-            *normal = law.admissible(*normal);
-        }
+        let zero = || vec![0.0; contact.unknowns()];
+        let mut d = contact.admissible(&start.map_or_else(zero, <[f64]>::to_vec));
         let mut force = contact.problem().force(&d);
         let sweeper = Sweeper::new();
         for _ in 0..SWEEPS {
