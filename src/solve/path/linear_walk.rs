@@ -1,10 +1,9 @@
 //! One way along the linear path, from piece to piece.
 
 use super::linear_system::PieceSystem;
-use crate::certificate::is_escape_of;
 use crate::law::branch::Branch;
 use crate::law::{Contact, Exit, Planar};
-use crate::linalg::vector::NormSum;
+use crate::linalg::vector::{NormSum, largest_of};
 use crate::monitor::{Monitor, Stop};
 
 /// A pivot below this part of one is taken for zero: the error of all that went through it would be as
@@ -27,12 +26,11 @@ pub struct Rules {
 pub enum End {
     /// At the loads of the problem.
     Arrived,
-    /// At the loads of the start, or beyond all events.
-    Back,
-    /// The system of a piece is singular, or there were too many events.
+    /// At the loads of the start, or beyond all events; the system of a piece is singular; too many
+    /// events.
     Lost,
-    /// On a ray whose motion proves that no equilibrium exists.
-    Escape(Vec<f64>),
+    /// On a ray with a rigid motion.
+    Ray(Vec<f64>),
     /// A budget is used up, or the callback cancelled.
     Stopped(Stop),
 }
@@ -111,12 +109,12 @@ impl<'p> Walk<'p> {
             let left = if sign > 0.0 { 1.0 - self.s } else { f64::INFINITY };
             let step = exit.as_ref().map_or(left, |(_, exit)| exit.step.min(left));
             if !step.is_finite() {
-                return End::Back;
+                return End::Lost;
             }
             if step * self.length(&self.rate) > FAR * (self.length(&self.y) + self.ground.size)
-                && let Some(motion) = self.escape(&self.rate, sign)
+                && let Some(motion) = self.rigid(&self.rate, sign)
             {
-                return End::Escape(motion);
+                return End::Ray(motion);
             }
             for (y, rate) in self.y.iter_mut().zip(&self.rate) {
                 *y += sign * step * rate;
@@ -126,7 +124,7 @@ impl<'p> Walk<'p> {
                 return End::Arrived;
             };
             if self.s < 0.0 {
-                return End::Back;
+                return End::Lost;
             }
             if let Err(end) = self.pass(pair, &exit, rules) {
                 return end;
@@ -158,8 +156,8 @@ impl<'p> Walk<'p> {
         let singular = flip.pivot().abs() < SMALL_PIVOT;
         let ray = if singular { flip.direction().to_vec() } else { Vec::new() };
         self.system.pass(flip, &mut self.rate);
-        if singular && let Some(motion) = self.escape(&ray, 1.0) {
-            return Err(End::Escape(motion));
+        if singular && let Some(motion) = self.rigid(&ray, 1.0) {
+            return Err(End::Ray(motion));
         }
         if singular || self.system.age() >= rules.age {
             return self.refactorise().ok_or(End::Lost);
@@ -191,11 +189,15 @@ impl<'p> Walk<'p> {
         (finite(&self.y) && finite(&self.rate)).then_some(())
     }
 
-    /// The motion of the coordinates' direction `sign way`, if it proves that no equilibrium exists.
-    fn escape(&self, way: &[f64], sign: f64) -> Option<Vec<f64>> {
+    /// The motion of the coordinates' direction `sign way`, if it is rigid.
+    fn rigid(&self, way: &[f64], sign: f64) -> Option<Vec<f64>> {
         let mut motion = self.system.motion(way);
         motion.iter_mut().for_each(|motion| *motion *= sign);
-        is_escape_of(self.ground.contact, &motion).then_some(motion)
+        let internal = self.ground.contact.problem().internal_force(&motion);
+        let pairs = || motion.iter().zip(self.ground.root);
+        let size = largest_of(pairs().map(|(motion, root)| motion * root));
+        let resisted = internal.iter().zip(self.ground.root).map(|(force, root)| force / root);
+        (size > 0.0 && largest_of(resisted) <= SMALL_PIVOT * size).then_some(motion)
     }
 
     /// Norm of coordinates, each in its unit.
