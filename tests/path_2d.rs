@@ -5,7 +5,7 @@ mod common;
 
 use common::measures::{eta, rounding};
 use common::plane_families::{SUPPORTS, Structure, Support};
-use common::problems::{Case, Law, definite, loaded, tresca, uniform, vector};
+use common::problems::{Case, Law, block, definite, frictionless, loaded, tresca, uniform, vector};
 use fastrand::Rng;
 use signorini::{Method, Settings, Status};
 
@@ -67,6 +67,18 @@ fn the_path_alone_solves_problems_with_given_thresholds() {
     }
 }
 
+/// Without friction no event turns back either.
+#[test]
+fn the_path_alone_solves_problems_without_friction() {
+    for seed in 0..200 {
+        let mut rng = Rng::with_seed(seed);
+        let pairs = rng.usize(1..=30);
+        let k = definite(&mut rng, 2 * pairs, 1e4);
+        let case = loaded(&mut rng, 2, k, frictionless(pairs));
+        assert_solved(&case, Method::Path, &format!("seed {seed}, {pairs} pairs"));
+    }
+}
+
 fn on_mesh(structure: &Structure, seed: u64) -> (Case, String) {
     let case = structure.case(&mut Rng::with_seed(seed));
     let problem = Case {
@@ -120,5 +132,35 @@ fn the_path_proves_that_a_lifted_body_has_no_equilibrium() {
         let settings = Settings { method: Method::Path, ..Settings::default() };
         let solution = case.solve(&settings);
         assert_eq!(solution.status, Status::NoEquilibrium, "{context}: {}", solution.message);
+    }
+}
+
+/// Coulomb: a block that nothing else holds rests while it is pushed by less than `mu N`, and slides
+/// away when it is pushed by more. The ray shows the motion.
+#[test]
+fn the_path_finds_the_friction_angle_of_a_loose_block() {
+    for seed in 0..100 {
+        let mut rng = Rng::with_seed(seed);
+        let pairs = rng.usize(3..=10);
+        let mu = uniform(&mut rng, 0.05, 1.0);
+        let press: Vec<f64> = (0..pairs).map(|_| uniform(&mut rng, 0.9, 1.1)).collect();
+        let push = mu * press.iter().sum::<f64>() / pairs as f64;
+        let k = block(&mut rng, pairs);
+        for (ratio, status) in
+            [(0.5, Status::Solved), (0.999, Status::Solved), (1.001, Status::NoEquilibrium)]
+        {
+            let case = Case {
+                dim: 2,
+                pairs,
+                k: k.clone(),
+                f: press.iter().flat_map(|press| [*press, ratio * push]).collect(),
+                gap: vec![0.0; pairs],
+                law: Law::Coulomb(vec![mu; pairs]),
+                slip: None,
+            };
+            let solution = case.solve_by(Method::Path);
+            let context = format!("seed {seed}, mu {mu}, {ratio}: {}", solution.message);
+            assert_eq!(solution.status, status, "{context}");
+        }
     }
 }

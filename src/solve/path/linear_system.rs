@@ -181,10 +181,10 @@ impl<'p> PieceSystem<'p> {
         let pairs = self.contact.pairs().iter().zip(&self.branches);
         for (pair, (law, branch)) in pairs.enumerate() {
             let slopes = law.slopes(*branch);
-            for c in 0..2 {
-                let i = 2 * pair + c;
-                let kept = slopes[c][0] * y[2 * pair] + slopes[c][1] * y[2 * pair + 1];
-                motion.push((y[i] - kept) / (self.root[i] * self.root[i]));
+            let at = [y[2 * pair], y[2 * pair + 1]];
+            for (c, (y, row)) in at.iter().zip(&slopes).enumerate() {
+                let root = self.root[2 * pair + c];
+                motion.push((y - row[0] * at[0] - row[1] * at[1]) / (root * root));
             }
         }
         motion
