@@ -6,7 +6,8 @@ use crate::error::{Argument, Error};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Method {
     /// Chooses, checks and falls back: [`Method::BlockPivoting`] without friction, [`Method::Newton`] with
-    /// it, then [`Method::Lemke`] (not with friction in 3D), then sweeps. The default.
+    /// it, then [`Method::Path`] with friction in 2D, then [`Method::Lemke`] (not with friction in 3D),
+    /// then sweeps. The default.
     Auto,
     /// Coulomb friction as a sequence of Tresca problems, each by projected SOR
     /// (paper, section 2.1: `g <- mu |F_n|`).
@@ -19,7 +20,7 @@ pub enum Method {
     BlockPivoting,
     /// Newton's method: on the active set of the pairs in 2D, on the normal map in 3D.
     Newton,
-    /// The path: from piece to piece of the law along solutions of neighbouring problems.
+    /// The path: along the solutions of neighbouring problems, from piece to piece of the law; in 2D.
     Path,
 }
 

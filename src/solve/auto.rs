@@ -3,8 +3,12 @@
 //! | problem | methods, in turn, until one is certified |
 //! |---|---|
 //! | without friction | block pivoting, Lemke, sweeps |
-//! | friction in 2D | Newton, Lemke, sweeps (nested, diagonal) |
+//! | friction in 2D | Newton, the path, Lemke, sweeps (nested, diagonal) |
 //! | friction in 3D | Newton, sweeps (nested, diagonal) |
+//!
+//! In 2D the path has the guarantee, and takes a tenth of Lemke's pivots or less, as it starts where sweeps
+//! end. Lemke's method is asked only where rounding spoils all its starts, or where a body without
+//! supports leaves it on a ray that proves nothing: another path may end elsewhere.
 //!
 //! If the orientation of a solution is −1, there are at least three solutions and this one is
 //! unstable: the next method is asked too.

@@ -18,11 +18,8 @@ use crate::settings::Settings;
 use crate::solve::candidate::{Candidate, Effort, Ending};
 use crate::solve::sweeps::Sweeper;
 
-/// Systems after which the steps count as a cycle: nearly all that converge do so before.
+/// Systems of a start after which the steps count as a cycle: nearly all that converge take fewer.
 const MOST_SYSTEMS: usize = 16;
-
-/// The same after [`SWEEPS_OF_SECOND_START`], whose steps are shorter.
-const MOST_SYSTEMS_OF_SECOND: usize = 20;
 
 /// Sweeps from the start to the branches of a second one, after a cycle: with 20 half as many problems
 /// again are left unsolved, and 400 cost more than they save.
@@ -132,8 +129,7 @@ impl History {
         }
         self.seen.push(std::mem::replace(branches, next));
         let repeats = self.seen.contains(branches);
-        let most = if self.is_second_start { MOST_SYSTEMS_OF_SECOND } else { MOST_SYSTEMS };
-        if !repeats && self.seen.len() < most {
+        if !repeats && self.seen.len() < MOST_SYSTEMS {
             return Ok(());
         }
         if self.is_second_start {

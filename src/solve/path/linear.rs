@@ -65,7 +65,7 @@
 //! [`crate::certificate::is_escape`] decides; friction may hold a body that this proof does not.
 //!
 //! *What is followed.* First from the swept start as it is, all states kept, for it is near: G without its
-//! premise. If that comes back, or takes as many events as half of the pairs, from the sure start, H; and if
+//! premise. If that comes back, or takes nearly as many events as there are pairs, from the sure start, H; and if
 //! rounding spoils that, with factorisations at nearly every event, and from all pairs pressed on their
 //! obstacles. Starts are moved at random by 1e-7 of the loads, always by the same numbers: symmetric
 //! meshes have ties. At `s = 1` nothing is left of that, and Newton's method polishes from the pieces
@@ -84,7 +84,7 @@ use crate::solve::candidate::{Candidate, Effort, Ending};
 use crate::solve::rigid_balance;
 
 /// Events of a walk from the swept start, for each pair: those that arrive nearly always take fewer.
-const SHORT: f64 = 0.5;
+const SHORT: f64 = 0.7;
 
 /// Events of a walk from a sure start, for each pair: the worst that arrived took 4.
 const LONG: f64 = 10.0;
