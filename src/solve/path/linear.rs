@@ -65,11 +65,11 @@
 //! [`crate::certificate::is_escape`] decides; friction may hold a body that this proof does not.
 //!
 //! *What is followed.* First from the swept start as it is, all states kept, for it is near: G without its
-//! premise. If that comes back, or takes nearly as many events as there are pairs, from the sure start, H; and if
-//! rounding spoils that, with factorisations at nearly every event, and from all pairs pressed on their
-//! obstacles. Starts are moved at random by 1e-7 of the loads, always by the same numbers: symmetric
-//! meshes have ties. At `s = 1` nothing is left of that, and Newton's method polishes from the pieces
-//! found there.
+//! premise; if that comes back, or takes nearly as many events as there are pairs, once more after further
+//! sweeps. Then from the sure start, H; if rounding spoils that, with factorisations at nearly every event,
+//! and from all pairs pressed on their obstacles. Starts are moved at random by 1e-7 of the loads, always by
+//! the same numbers: symmetric meshes have ties. At `s = 1` nothing is left of that, and Newton's method
+//! polishes from the pieces found there.
 //!
 //! *Limits.* The number of events is not bounded by a polynomial. On meshes it is about the number of
 //! pairs whose state differs from that of the start, a few in a hundred pairs from swept starts.
@@ -116,17 +116,28 @@ enum Start {
 /// A walk that is tried.
 #[derive(Clone, Copy)]
 struct Attempt {
+    /// Sweeps before it, beside those of earlier ones.
+    sweeps: usize,
     start: Start,
     events: f64,
     age: usize,
 }
 
-const ATTEMPTS: [Attempt; 4] = [
-    Attempt { start: Start::Swept, events: SHORT, age: AGE },
-    Attempt { start: Start::Sure, events: LONG, age: AGE },
-    Attempt { start: Start::Sure, events: LONG, age: CAREFUL_AGE },
-    Attempt { start: Start::Pressed, events: LONG, age: CAREFUL_AGE },
+/// A sweep costs about as much as an event. A hundred spare more than they cost on nearly all
+/// problems; those on which the path comes back from there would take many hundred events otherwise.
+const ATTEMPTS: [Attempt; 5] = [
+    Attempt { sweeps: 100, start: Start::Swept, events: SHORT, age: AGE },
+    Attempt { sweeps: 300, start: Start::Swept, events: SHORT, age: AGE },
+    Attempt { sweeps: 0, start: Start::Sure, events: LONG, age: AGE },
+    Attempt { sweeps: 0, start: Start::Sure, events: LONG, age: CAREFUL_AGE },
+    Attempt { sweeps: 0, start: Start::Pressed, events: LONG, age: CAREFUL_AGE },
 ];
+
+/// Where attempts begin that are sure.
+const SURE: usize = 2;
+
+/// Sweeps before the first of these, where none is made before.
+const SWEEPS_OF_SURE: usize = 100;
 
 /// Solves a problem in the plane, from the displacements `start` (zero if `None`). An iteration is an
 /// event: a pair that passes from one piece to the next.
@@ -136,9 +147,13 @@ pub fn linear(
     start: Option<&[f64]>,
     monitor: &mut Monitor<'_>,
 ) -> Candidate {
+    if contact.is_coupled() {
+        return solve(contact, settings, start, &ATTEMPTS, monitor);
+    }
     // With given thresholds every start is sure.
-    let first = if contact.is_coupled() { 0 } else { 1 };
-    solve(contact, settings, start, &ATTEMPTS[first..], monitor)
+    let mut attempts = ATTEMPTS[SURE..].to_vec();
+    attempts[0].sweeps = SWEEPS_OF_SURE;
+    solve(contact, settings, start, &attempts, monitor)
 }
 
 fn solve(
@@ -149,14 +164,16 @@ fn solve(
     monitor: &mut Monitor<'_>,
 ) -> Candidate {
     let root = contact.problem().stiffness().diagonal_roots();
-    let starts = Starts::new(contact, &root, start);
-    let ground = Ground { contact, root: &root, load: &starts.load, size: starts.size };
+    let mut starts = Starts::new(contact, &root, start);
+    let load = starts.load.clone();
+    let ground = Ground { contact, root: &root, load: &load, size: starts.size };
     let mut random = Random::new(0);
     let mut best = Candidate::without_displacements(contact, Ending::Stalled(LOST));
     let mut effort = Effort::default();
     for attempt in attempts {
+        starts.sweep(contact, attempt.sweeps);
         let y: Vec<Planar> = match attempt.start {
-            Start::Swept => starts.swept(&mut random),
+            Start::Swept => starts.swept(contact, &mut random),
             Start::Sure => starts.sure(contact, &mut random),
             Start::Pressed => starts.pressed(contact, &root, &mut random),
         };
@@ -247,7 +264,7 @@ mod tests {
             let problem = problem.expect("the data is valid");
             let (contact, settings) = (Contact::new(&problem), Settings::default());
             let mut monitor = Monitor::new(&settings, None);
-            let candidate = solve(&contact, &settings, None, &ATTEMPTS[1..2], &mut monitor);
+            let candidate = solve(&contact, &settings, None, &ATTEMPTS[SURE..=SURE], &mut monitor);
             let method = crate::settings::Method::Auto;
             let solution =
                 crate::solve::candidate::certified(&contact, &settings, method, &candidate);

@@ -1,13 +1,9 @@
 //! Where the linear path starts: coordinates after some sweeps, moved by a little at random so that no
 //! two pairs change at once.
 
-use crate::law::{Contact, Planar};
+use crate::law::{Contact, PairLaw, Planar};
 use crate::linalg::vector::NormSum;
 use crate::solve::sweeps::Sweeper;
-
-/// Sweeps before the path: each spares events, and a hundred cost about as much as one event for each
-/// tenth pair.
-const SWEEPS: usize = 100;
 
 /// Random part of a start, of all loads.
 const RANDOM: f64 = 1e-7;
@@ -16,8 +12,8 @@ const RANDOM: f64 = 1e-7;
 pub struct Starts {
     /// `r = f - K (gap, slip0)`: the loads on the body that touches all its obstacles.
     pub load: Vec<f64>,
-    /// Coordinates after the sweeps.
-    swept: Vec<Planar>,
+    /// Displacements after the sweeps, and their force.
+    swept: (Vec<f64>, Vec<f64>),
     /// Size of the random part of each component.
     unit: Vec<f64>,
     /// Size of all forces, each in the unit that its diagonal entry of `K` gives it.
@@ -25,20 +21,11 @@ pub struct Starts {
 }
 
 impl Starts {
-    /// Sweeps from the displacements `start` (zero if `None`).
+    /// Begins at the displacements `start` (zero if `None`).
     pub fn new(contact: &Contact<'_>, root: &[f64], start: Option<&[f64]>) -> Self {
         let zero = || vec![0.0; contact.unknowns()];
-        let mut d = contact.admissible(&start.map_or_else(zero, <[f64]>::to_vec));
-        let mut force = contact.problem().force(&d);
-        let sweeper = Sweeper::new();
-        for _ in 0..SWEEPS {
-            sweeper.sweep(contact, (&mut d, &mut force), 1.0);
-        }
-        let swept: Vec<Planar> = contact
-            .each(&d, &force)
-            .map(|(law, d, force)| law.chart(d, force))
-            .map(|y| [y[0], y[1]])
-            .collect();
+        let d = contact.admissible(&start.map_or_else(zero, <[f64]>::to_vec));
+        let force = contact.problem().force(&d);
         let reference: Vec<f64> =
             contact.pairs().iter().flat_map(|law| law.reference()[..2].to_vec()).collect();
         let load: Vec<f64> =
@@ -47,27 +34,41 @@ impl Starts {
         load.iter().zip(root).for_each(|(load, root)| size.add(load / root));
         let size = size.root();
         let part = RANDOM * size / (root.len() as f64).sqrt();
-        Starts { load, swept, unit: root.iter().map(|root| part * root).collect(), size }
+        Starts {
+            load,
+            swept: (d, force),
+            unit: root.iter().map(|root| part * root).collect(),
+            size,
+        }
+    }
+
+    /// Sweeps on.
+    pub fn sweep(&mut self, contact: &Contact<'_>, sweeps: usize) {
+        let (sweeper, (d, force)) = (Sweeper::new(), &mut self.swept);
+        for _ in 0..sweeps {
+            sweeper.sweep(contact, (&mut *d, &mut *force), 1.0);
+        }
     }
 
     /// The coordinates after the sweeps, moved at random.
-    pub fn swept(&self, random: &mut Random) -> Vec<Planar> {
-        let units = self.unit.chunks_exact(2);
-        let moved = |(y, unit): (&Planar, &[f64])| {
+    pub fn swept(&self, contact: &Contact<'_>, random: &mut Random) -> Vec<Planar> {
+        let moved = |((law, d, force), unit): ((&PairLaw, &[f64], &[f64]), &[f64])| {
+            let y = law.chart(d, force);
             std::array::from_fn(|c| y[c] + unit[c] * random.signed())
         };
-        self.swept.iter().zip(units).map(moved).collect()
+        let (d, force) = &self.swept;
+        contact.each(d, force).zip(self.unit.chunks_exact(2)).map(moved).collect()
     }
 
     /// The same with the pairs in the states that make the path sure to arrive.
     pub fn sure(&self, contact: &Contact<'_>, random: &mut Random) -> Vec<Planar> {
-        let swept = self.swept(random);
+        let swept = self.swept(contact, random);
         contact.pairs().iter().zip(swept).map(|(law, y)| law.sure_start(y)).collect()
     }
 
     /// All pairs pressed on their obstacles and stuck, by random forces of the size of the loads.
     pub fn pressed(&self, contact: &Contact<'_>, root: &[f64], random: &mut Random) -> Vec<Planar> {
-        let swept = self.swept(random);
+        let swept = self.swept(contact, random);
         let mean = self.size / (root.len() as f64).sqrt();
         let pairs = contact.pairs().iter().zip(swept).zip(root.chunks_exact(2));
         pairs
