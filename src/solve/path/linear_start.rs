@@ -52,12 +52,13 @@ impl Starts {
 
     /// The coordinates after the sweeps, moved at random.
     pub fn swept(&self, contact: &Contact<'_>, random: &mut Random) -> Vec<Planar> {
-        let moved = |((law, d, force), unit): ((&PairLaw, &[f64], &[f64]), &[f64])| {
-            let y = law.chart(d, force);
+        let (d, force) = &self.swept;
+        let mut units = self.unit.chunks_exact(2);
+        let moved = |(law, d, force): (&PairLaw, &[f64], &[f64])| {
+            let (y, unit) = (law.chart(d, force), units.next().expect("every pair has units"));
             std::array::from_fn(|c| y[c] + unit[c] * random.signed())
         };
-        let (d, force) = &self.swept;
-        contact.each(d, force).zip(self.unit.chunks_exact(2)).map(moved).collect()
+        contact.each(d, force).map(moved).collect()
     }
 
     /// The same with the pairs in the states that make the path sure to arrive.
