@@ -9,7 +9,7 @@ use fastrand::Rng;
 use laws::{Numbers, dot, norm, uniform};
 use signorini::law::branch::Row;
 use signorini::law::piece::Boundary;
-use signorini::law::{State, Vector};
+use signorini::law::{Planar, State, Vector};
 
 const POINTS: usize = 20_000;
 
@@ -256,4 +256,39 @@ fn states_are_those_of_the_points() {
         let admissible = law.law().admissible_force(&force, expected);
         assert!(is_near(&admissible, &p.map(|p| -p)), "{law:?} at {v:?} {p:?}: {admissible:?}");
     }
+}
+
+/// A way leaves its piece where the normal map says so: just before that it is on the piece, just
+/// after it on the one beyond; and no earlier.
+#[test]
+fn a_straight_way_leaves_a_piece_at_its_exit() {
+    let rng = &mut Rng::with_seed(8);
+    let mut exits = 0;
+    for _ in 0..POINTS {
+        let numbers = Numbers::random(rng);
+        if numbers.dim != 2 {
+            continue;
+        }
+        let law = numbers.law();
+        let mut random = || -> Planar { [uniform(rng, -3.0, 3.0), uniform(rng, -3.0, 3.0)] };
+        let (y, rate) = (random(), random());
+        let at = |step: f64| [y[0] + step * rate[0], y[1] + step * rate[1], 0.0];
+        let branch = law.chart_branch(&at(0.0));
+        // Coordinates up to 300 have a rounding of 1e-13: a boundary is crossed within so much by all
+        // ways that are not nearly along it, and hardly any crosses two.
+        let (near, far) = (1e-6, 100.0);
+        let end = match law.planar_exit(branch, y, rate) {
+            Some(exit) if exit.step < far => {
+                exits += 1;
+                assert_eq!(law.chart_branch(&at(exit.step + near)), exit.beyond, "{numbers:?}");
+                exit.step
+            }
+            _ => far,
+        };
+        for part in [0.0, 0.1, 0.5, 0.9, 1.0] {
+            let step = (part * end - near).max(0.0);
+            assert_eq!(law.chart_branch(&at(step)), branch, "{numbers:?}");
+        }
+    }
+    assert!(exits > 1000, "{exits}");
 }

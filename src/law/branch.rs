@@ -64,6 +64,19 @@ impl Branch {
     /// Open, without tangential force.
     pub const OPEN: Branch = Branch { closed: false, tangential: Tangential::Free };
 
+    /// What a pair does next that was on this branch: `next`, but if its slip would turn back, it
+    /// sticks first. From one slip to the other it passes stick.
+    pub fn without_reversal(&self, law: &PairLaw, next: Branch) -> Branch {
+        match (self.tangential, next.tangential) {
+            (Tangential::Slip { direction: before, .. }, Tangential::Slip { direction: h, .. })
+                if next.closed && before[0] * h[0] + before[1] * h[1] < 0.0 =>
+            {
+                law.stick()
+            }
+            _ => next,
+        }
+    }
+
     /// The equation of each component on this branch of the piecewise linear `law`: where `dP/dy` is 1
     /// the displacement is fixed at its reference, elsewhere the force is.
     #[inline]

@@ -111,6 +111,15 @@ impl<'p, R: Relation> Contact<'p, R> {
         self.each(d, force).map(|(law, d, force)| law.branch(&law.trial(d, force))).collect()
     }
 
+    /// The displacements nearest to `d` that do not penetrate.
+    pub fn admissible(&self, d: &[f64]) -> Vec<f64> {
+        let mut d = d.to_vec();
+        for (law, normal) in self.pairs.iter().zip(d.iter_mut().step_by(self.dim())) {
+            *normal = law.admissible(*normal);
+        }
+        d
+    }
+
     /// Every pair that has an obstacle closed, and sticking as far as it has friction.
     pub fn all_stick(&self) -> Vec<Branch> {
         self.pairs.iter().map(PairLaw::stick).collect()

@@ -11,6 +11,7 @@
 //! | `natural_map` | how far a displacement and a force are from the law | certificate |
 //! | `normal_map` | `y -> (v, P)`, the chart on which the law is one function | branches, Newton's method in space |
 //! | `branch` | which smooth piece of the law a point is on, with the derivative there | active-set methods, uniqueness |
+//! | `planar_piece` | the boundaries between the pieces in the plane | the linear path |
 //! | `proximal` | the step of one pair in a sweep | sweeps |
 //! | `local` | the exact solution of one pair, its block coupled | who solves pair by pair |
 //! | `complementarity` | the law as complementarity of non-negative variables | Lemke's method, block pivoting |
@@ -42,6 +43,7 @@ mod natural_map;
 mod normal_map;
 pub mod orthotropic;
 pub mod piece;
+mod planar_piece;
 mod proximal;
 mod recession;
 pub mod tresca;
@@ -50,6 +52,7 @@ pub use bound::{Bound, length};
 pub use contact::Contact;
 pub use ellipse::{Ellipse, Plane, Rule};
 pub use natural_map::Violation;
+pub use planar_piece::{Exit, Planar};
 pub use recession::{Recession, lift};
 
 /// What a contact pair does.

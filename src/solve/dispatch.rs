@@ -53,6 +53,7 @@ pub fn run(
             active_set::newton(contact, settings, start, monitor)
         }
         (Method::Newton, _) => normal_map::newton(contact, settings, start, monitor),
+        (Method::Path, _) if contact.dim() == 2 => path::linear(contact, settings, start, monitor),
         (Method::Path, _) => path::curved(contact, settings, start, monitor),
         (Method::BlockPivoting, _) => {
             let chosen = settings.method == Method::BlockPivoting;

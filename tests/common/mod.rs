@@ -11,6 +11,7 @@ pub mod half_space;
 pub mod measures;
 pub mod mesh;
 pub mod oracle;
+pub mod plane_families;
 pub mod problems;
 pub mod stack;
 pub mod verdict;

@@ -37,6 +37,9 @@
 //! Rounding: `z0` ends at a small part of its start, and Newton's method polishes from the branches found
 //! there; the certificate decides.
 //!
+//! The default asks the linear path before (`solve::path`), which has the same guarantee and starts where
+//! sweeps end: here each pair that opens or slips costs a pivot of the whole tableau.
+//!
 //! The paper (section 2.2) holds that Lemke's method cannot be extended to friction; Klarbring (1986)
 //! formulates friction as linear complementarity, without this start. With given thresholds the matrix is
 //! positive semi-definite and the standard theory applies; the same start serves.

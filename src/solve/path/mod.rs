@@ -1,6 +1,7 @@
 //! Paths of solutions that lead from any start to a solution, for every `mu`.
 //!
-//! In space the path is piecewise analytic: `curved`, with its homotopy, and `curve`, which follows it.
+//! In the plane the path is piecewise linear: `linear`, with theorems of its own (G, H, K), which moves the
+//! load alone. In space it is piecewise analytic: `curved`, with its homotopy, and `curve`, which follows it.
 //!
 //! # What is proved
 //!
@@ -72,5 +73,10 @@
 mod curve;
 mod curved;
 mod homotopy;
+mod linear;
+mod linear_start;
+mod linear_system;
+mod linear_walk;
 
 pub use curved::{curved, ends};
+pub use linear::linear;
