@@ -140,8 +140,8 @@ pub fn rounding(case: &Case, d: &[Quad], scale: f64) -> f64 {
         let i = case.dim * pair;
         let k_t = tangential_stiffness(case, pair).value();
         sum = sum.hypot(a(i));
-        for c in i + 1..i + case.dim {
-            let own = UNIT * k_t * d[c].value().abs();
+        for (c, d) in d.iter().enumerate().take(i + case.dim).skip(i + 1) {
+            let own = UNIT * k_t * d.value().abs();
             sum = sum.hypot(2.0 * a(c) + bound(case, pair).0 * a(i) + own);
         }
     }
@@ -253,7 +253,7 @@ pub const BEYOND_ROUNDING: f64 = 2.0;
 pub fn is_definite(case: &Case, units: f64) -> bool {
     let n = case.size();
     let root: Vec<Quad> = (0..n).map(|i| Quad::from(case.stiffness(i, i)).sqrt()).collect();
-    if root.iter().any(|root| *root == Quad::ZERO) {
+    if root.contains(&Quad::ZERO) {
         return false;
     }
     let shift = Quad::from(units * n as f64 * UNIT);

@@ -192,17 +192,17 @@ pub fn solve(mut matrix: Vec<Vec<Quad>>, mut rhs: Vec<Quad>) -> Option<Vec<Quad>
         }
         matrix.swap(step, pivot);
         rhs.swap(step, pivot);
-        for i in step + 1..n {
-            let factor = matrix[i][step] / matrix[step][step];
+        let (above, below) = matrix.split_at_mut(step + 1);
+        let (row, known) = (&above[step], rhs[step]);
+        for (other, rhs) in below.iter_mut().zip(&mut rhs[step + 1..]) {
+            let factor = other[step] / row[step];
             if factor == Quad::ZERO {
                 continue;
             }
-            for j in step + 1..n {
-                let product = factor * matrix[step][j];
-                matrix[i][j] -= product;
+            for (entry, pivot) in other[step + 1..].iter_mut().zip(&row[step + 1..]) {
+                *entry -= factor * *pivot;
             }
-            let product = factor * rhs[step];
-            rhs[i] -= product;
+            *rhs -= factor * known;
         }
     }
     for i in (0..n).rev() {
@@ -220,11 +220,11 @@ pub fn is_definite(mut matrix: Vec<Vec<Quad>>) -> bool {
         if !(pivot > Quad::ZERO) {
             return false;
         }
-        for i in step + 1..n {
-            let factor = matrix[i][step] / pivot;
-            for j in step + 1..=i {
-                let product = factor * matrix[j][step];
-                matrix[i][j] -= product;
+        let column: Vec<Quad> = matrix.iter().map(|row| row[step]).collect();
+        for (i, row) in matrix.iter_mut().enumerate().skip(step + 1) {
+            let factor = row[step] / pivot;
+            for (entry, other) in row[step + 1..=i].iter_mut().zip(&column[step + 1..=i]) {
+                *entry -= factor * *other;
             }
         }
     }
