@@ -17,9 +17,6 @@ use signorini::{ContactProblem, Monitor, Search, Settings, Solution, Status, Uni
 /// How many problems without the variable: 200 of each class in each dimension.
 const PROBLEMS: u64 = 4800;
 
-/// Sweeps that end nowhere do not take the test's time.
-const MOST_ITERATIONS: u64 = 5_000;
-
 fn number(name: &str) -> Option<u64> {
     std::env::var(name).ok().map(|text| text.parse().expect("a number"))
 }
@@ -28,7 +25,6 @@ fn solve_by_default(problem: &Problem) -> Result<Solution, String> {
     let settings = Settings {
         tolerance: problem.tolerance,
         search: if problem.search { Search::Others } else { Search::Off },
-        max_iterations: MOST_ITERATIONS,
         ..Settings::default()
     };
     let checked = ContactProblem::new(problem.case.data()).map_err(|error| format!("{error:?}"))?;
@@ -60,7 +56,7 @@ const STILL_IN_THE_PLANE: Limits = [
     [4, 0, 0, 0, 0, 0, 0, 0, 0, 0, 228, 0], // body on two or three points
     [226, 0, 5, 0, 0, 0, 0, 0, 0, 0, 0, 0], // duplicated pairs
     [81, 0, 5, 0, 0, 0, 0, 0, 0, 0, 0, 0], // touching, on the cone, unloaded
-    [178, 0, 49, 0, 0, 0, 0, 0, 0, 5, 0, 0], // gaps to 1e300 and infinite, mu to 1e3
+    [178, 0, 49, 0, 0, 0, 0, 0, 0, 0, 0, 0], // gaps to 1e300 and infinite, mu to 1e3
 ];
 #[rustfmt::skip]
 const STILL_IN_SPACE: Limits = [
@@ -70,12 +66,12 @@ const STILL_IN_SPACE: Limits = [
     [123, 5, 21, 0, 0, 8, 8, 0, 0, 63, 0, 0], // definite, condition 1e3 to 1e15
     [219, 0, 69, 14, 0, 0, 0, 0, 0, 0, 0, 0], // definite, stiffness 1e13 apart
     [153, 15, 31, 6, 0, 38, 33, 0, 0, 35, 0, 0], // soft springs beside stiff ones, to 1e-15
-    [94, 0, 40, 0, 0, 0, 6, 0, 0, 0, 0, 0], // rigid motions
+    [94, 0, 40, 0, 0, 0, 8, 0, 0, 0, 0, 0], // rigid motions
     [83, 0, 30, 0, 0, 0, 29, 0, 0, 0, 0, 0], // blocks, rigid motions exact
     [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 249, 0], // body on two or three points
-    [220, 0, 140, 0, 0, 0, 0, 0, 0, 0, 0, 0], // duplicated pairs
+    [221, 0, 141, 0, 0, 0, 0, 0, 0, 0, 0, 0], // duplicated pairs
     [166, 0, 40, 0, 0, 0, 0, 0, 4, 0, 0, 0], // touching, on the cone, unloaded
-    [188, 0, 90, 0, 0, 0, 0, 0, 0, 23, 0, 0], // gaps to 1e300 and infinite, mu to 1e3
+    [204, 0, 93, 0, 0, 0, 0, 0, 0, 0, 0, 0], // gaps to 1e300 and infinite, mu to 1e3
 ];
 
 type Limits = [[u64; FAULTS.len()]; CLASSES.len()];

@@ -22,9 +22,6 @@ const TOLERANCES: [f64; 3] = [1e-8, 1e-10, 1e-12];
 const PROBLEMS: u64 = 100;
 const MOST_MU: f64 = 2.0;
 
-/// Sweeps that end nowhere do not take the bench's time.
-const MOST_ITERATIONS: u64 = 5_000;
-
 fn main() {
     let count = std::env::var("SIGNORINI_CONDITIONS");
     let count = count.map_or(PROBLEMS, |count| count.parse().expect("a number of problems"));
@@ -66,7 +63,7 @@ struct Cell {
 
 fn cell(dim: usize, condition: f64, tolerance: f64, count: u64) -> Cell {
     let mut cell = Cell::default();
-    let settings = Settings { tolerance, max_iterations: MOST_ITERATIONS, ..Settings::default() };
+    let settings = Settings { tolerance, ..Settings::default() };
     for seed in 0..count {
         let case = problem(&mut Rng::with_seed(seed), dim, condition);
         let solution = case.solve(&settings);
