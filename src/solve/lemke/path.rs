@@ -17,8 +17,8 @@ use super::scaled::{Entries, Scaled};
 use super::tableau::Tableau;
 use crate::error::Error;
 use crate::linalg::matrix::Matrix;
+use crate::linalg::power_of_two::{largest_exponent, times_power_of_two};
 use crate::linalg::tolerances::NEGLIGIBLE;
-use crate::linalg::vector::largest_of;
 use crate::monitor::Monitor;
 use crate::solve::candidate::Ending;
 
@@ -101,32 +101,37 @@ impl Entries for Matrix<'_> {
 pub fn follow(lcp: ScaledLcp<'_>, rules: Rules, monitor: &mut Monitor<'_>) -> Result<Run, Error> {
     let ScaledLcp { matrix, q, scale, .. } = lcp;
     let n = q.len();
-    let scaled = |values: &[f64]| -> Vec<f64> {
-        values.iter().zip(scale).map(|(value, scale)| value * scale).collect()
+    // Of size one, as the rest of the scaled problem. Powers of two: the pivots stay the same.
+    let of_size_one = |values: &[f64]| -> (Vec<f64>, i32) {
+        let first = largest_exponent(values.iter().copied()).unwrap_or(0);
+        let scaled = values.iter().zip(scale);
+        let scaled = scaled.map(|(&value, scale)| times_power_of_two(value, -first) * scale);
+        let scaled: Vec<f64> = scaled.collect();
+        let second = largest_exponent(scaled.iter().copied()).unwrap_or(0);
+        let of_size_one = scaled.iter().map(|&value| times_power_of_two(value, -second));
+        (of_size_one.collect(), first + second)
     };
-    // Of size one, as the rest of the scaled problem.
-    let covering = scaled(lcp.covering);
-    let unit = largest_of(covering.iter().copied()).log2().round().exp2();
-    let covering = covering.iter().map(|d| d / unit).collect();
-    let problem = Scaled { matrix, scale, q: scaled(q), covering };
-    let unscaled = |z: &mut dyn Iterator<Item = f64>| -> Vec<f64> {
-        z.zip(scale).map(|(z, scale)| z.max(0.0) * scale).collect()
+    let ((q, unit), (covering, _)) = (of_size_one(q), of_size_one(lcp.covering));
+    let problem = Scaled { matrix, scale, q, covering };
+    let in_unit = |z: &mut dyn Iterator<Item = f64>, unit: i32| -> Vec<f64> {
+        let unscaled = z.zip(scale).map(|(z, scale)| z.max(0.0) * scale);
+        unscaled.map(|z| times_power_of_two(z, unit)).collect()
     };
     let tableau = Tableau::new(&problem)?;
-    if !tableau.is_finite() {
-        let ending = Ending::Stalled("numbers overflow in the LCP");
+    if !tableau.is_finite() || problem.covering.contains(&0.0) {
+        let ending = Ending::Stalled("numbers overflow or underflow in the LCP");
         return Ok(Run { z: vec![0.0; n], ending, turns: Vec::new(), refactorisations: 0 });
     }
     let mut path =
         Path { problem: &problem, tableau, rules, turns: Vec::new(), refactorisations: 0 };
     let ending = match path.run(monitor) {
         End::Ray(entering) => {
-            Ending::Recession(unscaled(&mut (n..2 * n).map(|z| path.tableau.rate(z, entering))))
+            Ending::Recession(in_unit(&mut (n..2 * n).map(|z| path.tableau.rate(z, entering)), 0))
         }
         End::Ended(ending) => ending,
     };
-    let turns = path.turns.iter().map(|z| unscaled(&mut z.iter().copied())).collect();
-    let z = unscaled(&mut (n..2 * n).map(|z| path.tableau.value(z)));
+    let turns = path.turns.iter().map(|z| in_unit(&mut z.iter().copied(), unit)).collect();
+    let z = in_unit(&mut (n..2 * n).map(|z| path.tableau.value(z)), unit);
     Ok(Run { z, ending, turns, refactorisations: path.refactorisations })
 }
 
@@ -197,6 +202,7 @@ impl Path<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::linalg::vector::largest_of;
 
     /// Both ways of keeping the tableau end at the one solution of a definite problem. `M = B Bᵀ / n + 1`
     /// has a condition number of about 10, so that rounding is far below 1e-10 of `z`.
