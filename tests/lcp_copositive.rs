@@ -194,6 +194,38 @@ fn assert_ends(n: usize, seeds: std::ops::Range<u64>) {
     assert!(known > 0);
 }
 
+/// Ones on the diagonal and at a tenth to a third of the other places, not symmetric: nothing is negative, so
+/// that it is strictly copositive. With `q = -1` all ratios are those of small whole numbers, and
+/// exact paths take up to ten times as many pivots as there are equations.
+fn directed(seed: u64, n: usize) -> Bare {
+    let mut rng = Rng::with_seed(seed);
+    let density = 0.1 + 0.2 * rng.f64();
+    let entry = |k: usize| f64::from(u8::from(k % n == k / n || rng.f64() < density));
+    Bare { n, m: (0..n * n).map(entry).collect(), q: vec![-1.0; n] }
+}
+
+#[test]
+fn directed_graphs_end_where_the_exact_method_does() {
+    let n = 40;
+    let (mut longest, mut same) = (0, 0);
+    for seed in 0..200 {
+        let data = directed(seed, n);
+        let End::Solved { pivots } = Exact::new(&data).run() else { continue };
+        // What rounding may cost: the pivots before it is noticed.
+        let budget = pivots.max(10 * n as u64);
+        let settings =
+            Settings { method: Method::Lemke, max_iterations: budget, ..Settings::default() };
+        let solution = data.solve(&settings);
+        println!("{seed}: {pivots} {} {}", solution.iterations, solution.message);
+        assert_eq!(solution.status, Status::Solved, "{seed} {pivots}: {}", solution.message);
+        assert_eq!(data.flaw(&solution, settings.tolerance), None, "{seed}");
+        longest = pivots.max(longest);
+        same += u64::from(solution.iterations == pivots);
+    }
+    println!("longest {longest}, same {same}");
+    assert!(longest > 3 * n as u64, "{longest}: no long path among them");
+}
+
 #[test]
 fn small_problems_take_the_pivots_of_the_exact_method() {
     for n in 2..=16 {
