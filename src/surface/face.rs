@@ -26,8 +26,8 @@ impl Face<'_> {
         self.x.iter().zip(values).map(|(x, value)| x * value).sum()
     }
 
-    /// The outward normal, as long as the area of a unit of local coordinates: to the left of nobody,
-    /// to the right of a line, and towards the eye that sees the nodes counterclockwise.
+    /// The outward normal, as long as the area of a unit of local coordinates: to the right of a
+    /// line, and towards the eye that sees the corners of a face counterclockwise.
     pub(super) fn outward(&self, at: Local) -> Vector3 {
         let mut along = [Vector3::zeros(); 2];
         for (x, slopes) in self.x.iter().zip(self.kind.derivatives(at)) {

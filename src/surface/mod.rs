@@ -25,38 +25,28 @@ mod face;
 mod fold;
 mod mesh;
 mod mortar;
+mod node_to_surface;
+mod obstacle;
 mod overlap;
 mod pairs;
 mod plane;
 mod projected_shapes;
 mod quadrature;
 mod row;
+mod settings;
 mod shape;
 mod tree;
+mod whole_faces;
 
 pub use mesh::{Faces, Surfaces};
+pub use obstacle::{Obstacle, pair_with_obstacle};
 pub use pairs::{PairArrays, SurfacePair, SurfacePairs, SurfaceReport, Weight};
+pub use settings::{Pairing, SurfaceSettings};
 pub use shape::FaceKind;
 
-use crate::error::{Argument, Error};
-
-/// How the rows are made.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Pairing {
-    /// Dual mortar: a uniform pressure passes between any two flat meshes.
-    #[default]
-    DualMortar,
-}
-
-/// Settings of the pairing.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct SurfaceSettings {
-    /// How the rows are made.
-    pub pairing: Pairing,
-    /// The largest distance along the normal at which surfaces are paired, open or overlapping; `None`:
-    /// the size of the largest slave face.
-    pub search_distance: Option<f64>,
-}
+#[cfg(doc)]
+use crate::error::Argument;
+use crate::error::Error;
 
 /// Pairs two surfaces. Surfaces that never meet give no pairs, which is no error.
 ///
@@ -72,16 +62,10 @@ pub fn pair_surfaces(
     settings: &SurfaceSettings,
 ) -> Result<SurfacePairs, Error> {
     let [slave, master] = surfaces.sides()?;
-    let reach = match settings.search_distance {
-        // Written so that NaN is refused.
-        Some(distance) if !(distance > 0.0 && distance.is_finite()) => {
-            let message = format!("search_distance is {distance}, it must be positive and finite");
-            return Err(Error::invalid(Argument::Settings, message));
-        }
-        Some(distance) => distance,
-        None => (0..slave.count()).map(|face| slave.face(face).size()).fold(0.0, f64::max),
-    };
+    let largest = || (0..slave.count()).map(|face| slave.face(face).size()).fold(0.0, f64::max);
+    let reach = settings::reach(settings.search_distance, largest)?;
     match settings.pairing {
         Pairing::DualMortar => mortar::pairs(&slave, &master, surfaces.dim, reach),
+        Pairing::NodeToSurface => node_to_surface::pairs(&slave, &master, surfaces.dim, reach),
     }
 }

@@ -19,7 +19,8 @@ use super::pairs::{SurfacePair, SurfacePairs, SurfaceReport, Weight};
 use super::plane::Plane;
 use super::projected_shapes::{Covered, project};
 use super::row::Row;
-use super::shape::{MOST_NODES, Values};
+use super::shape::Values;
+use super::whole_faces::{unit_values, whole_integrals};
 use crate::error::{Error, index};
 
 /// A face that lacks less than this share of cover is covered wholly, and one that has more than all of
@@ -150,23 +151,4 @@ fn rows(faces: &[CoveredFace<'_>]) -> BTreeMap<usize, Row> {
         }
     }
     rows
-}
-
-/// Nodal values that are one at a node each.
-pub(super) fn unit_values(nodes: usize) -> impl Iterator<Item = Values> {
-    (0..nodes).map(|node| {
-        let mut values = [0.0; MOST_NODES];
-        values[node] = 1.0;
-        values
-    })
-}
-
-/// Integrals of the shape functions over a whole face.
-pub(super) fn whole_integrals(face: &Face<'_>) -> Values {
-    let mut integrals = [0.0; MOST_NODES];
-    for (at, weight) in face.area_points() {
-        let values = face.kind.values(at);
-        integrals.iter_mut().zip(values).for_each(|(sum, value)| *sum += weight * value);
-    }
-    integrals
 }
