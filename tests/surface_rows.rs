@@ -160,18 +160,19 @@ fn exact_sheet_loads(sheet: &Sheet, window: [[f64; 2]; 2]) -> Option<Vec<f64>> {
                 } else {
                     (at(0, x), at(1, y), shrink * v * w)
                 };
-                let [p, q]: [[f64; 2]; 2] = if triangle {
-                    [[b[0] - a[0], b[1] - a[1]], [c[0] - a[0], c[1] - a[1]]]
-                } else {
-                    let by = |i: usize| {
-                        [
-                            0.25 * ((1.0 - t) * (b[i] - a[i]) + (1.0 + t) * (c[i] - d[i])),
-                            0.25 * ((1.0 - s) * (d[i] - a[i]) + (1.0 + s) * (c[i] - b[i])),
-                        ]
-                    };
-                    let (x, y) = (by(0), by(1));
-                    [[x[0], y[0]], [x[1], y[1]]]
+                // Of degree 2 at most in each coordinate, where central differences are exact.
+                let slope = |ds: f64, dt: f64| {
+                    let ahead = shapes(face.len(), s + ds, t + dt);
+                    let behind = shapes(face.len(), s - ds, t - dt);
+                    let mut slope = [0.0; 2];
+                    for (i, node) in face.iter().enumerate() {
+                        for c in 0..2 {
+                            slope[c] += (ahead[i] - behind[i]) * sheet.nodes[*node][c];
+                        }
+                    }
+                    slope
                 };
+                let (p, q) = (slope(0.5, 0.0), slope(0.0, 0.5));
                 let area = weight * (p[0] * q[1] - p[1] * q[0]);
                 for (node, value) in face.iter().zip(shapes(face.len(), s, t)) {
                     loads[*node] += area * value;
@@ -199,7 +200,7 @@ fn faces_pass_the_patch_test_by_statics() {
     for slave in SHAPES {
         for master in SHAPES {
             for distortion in [0.0, 0.25] {
-                for part in [0.0, 0.03, 0.5, 0.95] {
+                for part in [0.0, 0.03, 0.5, 0.95, 0.9999] {
                     statics_of(slave, master, (distortion, part), &mut rng);
                 }
             }
@@ -223,11 +224,13 @@ fn statics_of(slave: Shape, master: Shape, (distortion, part): (f64, f64), rng: 
         for weights in [&pair.slaves, &pair.masters] {
             let sum: f64 = weights.iter().map(|(_, weight)| weight).sum();
             assert!((sum - 1.0).abs() < tolerance, "{context}, pair of {}: {sum}", pair.slave);
+            // No row holds a node by others that are far away, by weights far above 1.
+            assert!(weights.iter().all(|(_, weight)| weight.abs() < 20.0), "{context}: {pair:?}");
         }
         assert!(pair.area > 0.0 && pair.gap.abs() < tolerance, "{context}: {pair:?}");
     }
     // Rectangles can be cut.
-    let cut = |shape| part > 0.0 && (matches!(shape, Shape::T3 | Shape::T6) || distortion > 0.0);
+    let cut = |shape: Shape| part > 0.0 && (!shape.is_quadrilateral() || distortion > 0.0);
     assert_eq!(loads.each_ref().map(Option::is_none), [slave, master].map(cut), "{context}");
     let motion = |[x, y, z]: [f64; 3]| [1.0 + 2.0 * x - y, 0.5 - x + 0.7 * y - z, x + y + z];
     let moved = most_moved(&found, &sheets.nodes, motion);
@@ -433,6 +436,78 @@ fn obstacles_load_quadratic_faces() {
         assert!(found.pairs.iter().all(|pair| pair.area > 0.0 && pair.gap.abs() < 1e-15));
         for (force, load) in nodal_forces(&found, sheet.nodes.len(), 1.0).iter().zip(loads) {
             assert!((force[2] - load).abs() < 1e-14, "{shape:?}: {force:?}, {load}");
+        }
+    }
+}
+
+/// A square whose inner lines are bent, mid nodes on the bent lines: edges are curved.
+fn bent(shape: Shape, cells: usize) -> Sheet {
+    let wave = |x: f64| (std::f64::consts::PI * x).sin();
+    let square = Sheet::rectangle(shape, [cells; 2], [[0.0, 1.0]; 2], (0.0, &mut Rng::new()));
+    square.mapped(|[x, y, z]| {
+        let bend = 0.1 * wave(x) * wave(y);
+        [x + bend, y - bend, z]
+    })
+}
+
+/// Faces with curved edges are cut into flat parts with straight edges. Areas and linear fields stay
+/// exact, but slivers at an edge count for the neighbour's functions. An edge bulges by 2 % of its length
+/// with 6 faces a side, and by half of that with twice as many: the error of nodal loads, relative to the
+/// largest, is below 1 % and falls by 2 at least.
+#[test]
+fn the_error_of_curved_edges_falls_with_the_mesh() {
+    for shape in [Shape::T6, Shape::Q8, Shape::Q9] {
+        let error = |cells: usize| {
+            let (above, below) = (bent(shape, cells), bent(shape, cells + 1));
+            let loads = exact_sheet_loads(&below, [[-1.0, 2.0]; 2]).unwrap();
+            let sheets = TwoSheets::new(3, above.turned(), below);
+            let found = sheets.pair(&SurfaceSettings::default()).unwrap();
+            assert!((found.report.covered_area - 1.0).abs() < 1e-12, "{shape:?}");
+            let motion = |[x, y, _]: [f64; 3]| [1.0 + 2.0 * x - y, 0.5 - x + 0.7 * y, x + y];
+            assert!(most_moved(&found, &sheets.nodes, motion) < 1e-12, "{shape:?}");
+            let forces = nodal_forces(&found, sheets.nodes.len(), 1.0);
+            let first = sheets.nodes.len() - loads.len();
+            let largest = loads.iter().fold(0.0_f64, |most, load| most.max(load.abs()));
+            let miss = forces[first..].iter().zip(&loads).map(|(f, load)| (f[2] + load).abs());
+            miss.fold(0.0, f64::max) / largest
+        };
+        let errors = [6, 12, 24].map(error);
+        assert!(errors[0] < 0.01, "{shape:?}: {errors:?}");
+        assert!(errors.windows(2).all(|e| e[1] < e[0] / 2.0), "{shape:?}: {errors:?}");
+    }
+}
+
+/// A part of a sphere of radius 1 in a hollow one of radius 1.02: the gap is 0.02, but for the error of
+/// the meshes, of second order with linear faces and of third with quadratic ones: by 16 and by 64 from a
+/// mesh to one four times as fine. The largest error depends on how the two meshes lie to each other
+/// too: half an order less, and one order less, are asked for.
+#[test]
+fn gaps_of_curved_surfaces_converge() {
+    let cap = |shape, cells, radius: f64, size: f64| {
+        let flat = Sheet::rectangle(shape, [cells; 2], [[-size, size]; 2], (0.0, &mut Rng::new()));
+        flat.mapped(|[x, y, _]| {
+            let length = (1.0 + x * x + y * y).sqrt() / radius;
+            [x / length, y / length, 1.0 / length]
+        })
+    };
+    for (shape, factor) in [
+        (Shape::T3, 8.0),
+        (Shape::Q4, 8.0),
+        (Shape::T6, 16.0),
+        (Shape::Q8, 16.0),
+        (Shape::Q9, 16.0),
+    ] {
+        for pairing in [Pairing::DualMortar, Pairing::NodeToSurface] {
+            let error = |cells| {
+                let master = cap(shape, 2 * cells - 1, 1.02, 0.6).turned();
+                let sheets = TwoSheets::new(3, cap(shape, cells, 1.0, 0.4), master);
+                let settings = SurfaceSettings { pairing, search_distance: None };
+                let found = sheets.pair(&settings).unwrap();
+                assert!(found.unpaired.is_empty(), "{shape:?}, {pairing:?}");
+                found.pairs.iter().map(|pair| (pair.gap - 0.02).abs()).fold(0.0, f64::max)
+            };
+            let errors = [4, 16].map(error);
+            assert!(errors[1] < errors[0] / factor, "{shape:?}, {pairing:?}: {errors:?}");
         }
     }
 }

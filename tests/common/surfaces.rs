@@ -18,9 +18,21 @@ pub enum Shape {
     T6,
     Q8,
     Q9,
+    /// T3 and Q4 by turns.
+    Linear,
+    /// T6 and Q8 by turns.
+    Quadratic,
 }
 
-pub const SHAPES: [Shape; 5] = [Shape::T3, Shape::Q4, Shape::T6, Shape::Q8, Shape::Q9];
+impl Shape {
+    /// Whether all faces are quadrilaterals.
+    pub fn is_quadrilateral(self) -> bool {
+        matches!(self, Shape::Q4 | Shape::Q8 | Shape::Q9)
+    }
+}
+
+pub const SHAPES: [Shape; 7] =
+    [Shape::T3, Shape::Q4, Shape::T6, Shape::Q8, Shape::Q9, Shape::Linear, Shape::Quadratic];
 
 impl Sheet {
     /// A rectangle in the plane z = 0 with its normal upwards: `cells` squares, or twice as many
@@ -49,12 +61,14 @@ impl Sheet {
             for i in 0..nx {
                 let node = |i, j| i + (nx + 1) * j;
                 let [a, b, c, d] = [node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)];
+                let even = (i + j) % 2 == 0;
                 match shape {
-                    Shape::T3 | Shape::T6 if (i + j) % 2 == 0 => {
-                        sheet.faces.extend([vec![a, b, c], vec![a, c, d]]);
+                    Shape::Q4 | Shape::Q8 | Shape::Q9 => sheet.faces.push(vec![a, b, c, d]),
+                    Shape::Linear | Shape::Quadratic if even => {
+                        sheet.faces.push(vec![a, b, c, d]);
                     }
-                    Shape::T3 | Shape::T6 => sheet.faces.extend([vec![a, b, d], vec![b, c, d]]),
-                    _ => sheet.faces.push(vec![a, b, c, d]),
+                    _ if even => sheet.faces.extend([vec![a, b, c], vec![a, c, d]]),
+                    _ => sheet.faces.extend([vec![a, b, d], vec![b, c, d]]),
                 }
             }
         }
@@ -63,7 +77,7 @@ impl Sheet {
     }
 
     fn add_mids(&mut self, shape: Shape) {
-        if matches!(shape, Shape::T3 | Shape::Q4) {
+        if matches!(shape, Shape::T3 | Shape::Q4 | Shape::Linear) {
             return;
         }
         let mut mids = std::collections::HashMap::new();
@@ -168,9 +182,8 @@ pub fn nodal_forces(found: &SurfacePairs, nodes: usize, pressure: f64) -> Vec<[f
     for pair in &found.pairs {
         for (weights, sign) in [(&pair.slaves, -1.0), (&pair.masters, 1.0)] {
             for &(node, weight) in weights {
-                for c in 0..3 {
-                    forces[node][c] += sign * pressure * pair.area * weight * pair.normal[c];
-                }
+                let size = sign * pressure * pair.area * weight;
+                forces[node].iter_mut().zip(pair.normal).for_each(|(f, n)| *f += size * n);
             }
         }
     }
