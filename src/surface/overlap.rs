@@ -67,7 +67,6 @@ impl SlaveFace {
     /// Newton's method fails on a face that is turned over in the projection.
     pub(super) fn overlap(&self, master: &Face<'_>, reach: f64) -> Result<Part, NotFound> {
         let flat = self.plane.flatten(master);
-        let rule = self.rule(master);
         let mut part = Part { points: Vec::new(), area: 0.0 };
         for window in polygons(master, &flat) {
             for polygon in &self.polygons {
@@ -76,7 +75,7 @@ impl SlaveFace {
                 if !(area > LEAST_PART * self.area) {
                     continue;
                 }
-                let (points, distance) = self.points(&flat, &common, &rule)?;
+                let (points, distance) = self.points(&flat, &common, &self.rule(master))?;
                 if distance.abs() <= reach {
                     part.points.extend(points);
                     part.area += area;
@@ -97,7 +96,8 @@ impl SlaveFace {
             let rule = quadrature::on_interval(points);
             return rule.iter().map(|(s, w)| ([1.0 - s, *s, 0.0], *w)).collect();
         }
-        quadrature::on_triangle(if many { MANY_POINTS } else { (degree + 3) / 2 })
+        let points = if many { MANY_POINTS } else { (degree + 3) / 2 };
+        quadrature::on_triangle(points).to_vec()
     }
 
     /// Points of a common part, and its mean distance along the normal.

@@ -84,14 +84,15 @@ impl Flat {
 
     /// Position less `p`, and its derivatives by the local coordinates.
     fn offset(&self, at: Local, p: Point) -> (Point, [Point; 2]) {
-        let (values, slopes) = (self.kind.values(at), self.kind.derivatives(at));
         let mut from = [-p[0], -p[1]];
         let mut by = [[0.0; 2]; 2];
-        for (i, point) in self.points.iter().enumerate() {
+        let functions = self.kind.functions(at);
+        let nodes = self.kind.nodes();
+        for (point, [value, first, second]) in self.points[..nodes].iter().zip(functions) {
             for c in 0..2 {
-                from[c] += values[i] * point[c];
-                by[0][c] += slopes[i][0] * point[c];
-                by[1][c] += slopes[i][1] * point[c];
+                from[c] += value * point[c];
+                by[0][c] += first * point[c];
+                by[1][c] += second * point[c];
             }
         }
         if self.kind.is_line() {
@@ -105,6 +106,7 @@ impl Flat {
     pub(super) fn local(&self, p: Point) -> Option<Local> {
         let p = if self.kind.is_line() { [p[0], 0.0] } else { p };
         let mut at = self.kind.centre();
+        let mut miss = f64::INFINITY;
         for _ in 0..STEPS {
             let (from, [a, b]) = self.offset(at, p);
             let determinant = a[0] * b[1] - a[1] * b[0];
@@ -113,12 +115,12 @@ impl Flat {
                 (a[0] * from[1] - a[1] * from[0]) / determinant,
             ];
             at = [at[0] - step[0], if self.kind.is_line() { 0.0 } else { at[1] - step[1] }];
+            miss = from[0].abs().max(from[1].abs());
+            // The step has taken away most of what was missed before it.
             if step[0].abs().max(step[1].abs()) <= AT_REST {
                 break;
             }
         }
-        let (from, _) = self.offset(at, p);
-        let miss = from[0].abs().max(if self.kind.is_line() { 0.0 } else { from[1].abs() });
         (miss <= FOUND * self.size).then_some(at)
     }
 

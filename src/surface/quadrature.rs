@@ -1,11 +1,38 @@
 //! Rules of integration: Gauss and Legendre's on intervals, and collapsed onto triangles.
 
+use std::sync::LazyLock;
+
 /// Steps of Newton's method to a root of a Legendre polynomial: from the usual start, whose error is
 /// below 1e-2, four reach the last digit.
 const STEPS: usize = 8;
 
+/// Most points of a rule along a direction.
+const MOST_POINTS: usize = 9;
+
+/// A point of 0..1 with its weight.
+type OnInterval = (f64, f64);
+
+/// Barycentric coordinates of a point of a triangle with its weight.
+type OnTriangle = ([f64; 3], f64);
+
+/// The rules, by the number of points along a direction: every face asks for them.
+static INTERVALS: LazyLock<Vec<Vec<OnInterval>>> =
+    LazyLock::new(|| (0..=MOST_POINTS).map(interval).collect());
+static TRIANGLES: LazyLock<Vec<Vec<OnTriangle>>> =
+    LazyLock::new(|| (0..=MOST_POINTS).map(triangle).collect());
+
 /// Points of 0..1 and their weights, exact for polynomials of degree `2 n - 1`.
-pub(super) fn on_interval(n: usize) -> Vec<(f64, f64)> {
+pub(super) fn on_interval(n: usize) -> &'static [OnInterval] {
+    &INTERVALS[n]
+}
+
+/// Barycentric coordinates of points of a triangle and weights that sum to 1: an interval's rule in
+/// both directions, one of them collapsed to a corner. Exact for polynomials of degree `2 n - 2`.
+pub(super) fn on_triangle(n: usize) -> &'static [OnTriangle] {
+    &TRIANGLES[n]
+}
+
+fn interval(n: usize) -> Vec<OnInterval> {
     (0..n)
         .map(|i| {
             let order = n as f64;
@@ -30,10 +57,8 @@ fn legendre(n: usize, x: f64) -> (f64, f64) {
     (value, n as f64 * (x * value - last) / (x * x - 1.0))
 }
 
-/// Barycentric coordinates of points of a triangle and weights that sum to 1: an interval's rule in
-/// both directions, one of them collapsed to a corner. Exact for polynomials of degree `2 n - 2`.
-pub(super) fn on_triangle(n: usize) -> Vec<([f64; 3], f64)> {
-    let rule = on_interval(n);
+fn triangle(n: usize) -> Vec<OnTriangle> {
+    let rule = interval(n);
     let mut points = Vec::with_capacity(n * n);
     for &(s, a) in &rule {
         for &(t, b) in &rule {

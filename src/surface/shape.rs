@@ -162,8 +162,8 @@ impl FaceKind {
         self.functions(at).map(|[_, first, second]| [first, second])
     }
 
-    /// Shape functions with their derivatives.
-    fn functions(self, [s, t]: Local) -> [[f64; 3]; MOST_NODES] {
+    /// Shape functions, each with its derivatives by the two coordinates.
+    pub(super) fn functions(self, [s, t]: Local) -> [[f64; 3]; MOST_NODES] {
         let mut functions = [[0.0; 3]; MOST_NODES];
         match self {
             Line2 => (0..2).for_each(|i| functions[i] = product(linear(s, i), ONE)),
