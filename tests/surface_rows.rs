@@ -166,9 +166,9 @@ fn exact_sheet_loads(sheet: &Sheet, window: [[f64; 2]; 2]) -> Option<Vec<f64>> {
                     let behind = shapes(face.len(), s - ds, t - dt);
                     let mut slope = [0.0; 2];
                     for (i, node) in face.iter().enumerate() {
-                        for c in 0..2 {
-                            slope[c] += (ahead[i] - behind[i]) * sheet.nodes[*node][c];
-                        }
+                        let change = ahead[i] - behind[i];
+                        let pairs = slope.iter_mut().zip(sheet.nodes[*node]);
+                        pairs.for_each(|(slope, x)| *slope += change * x);
                     }
                     slope
                 };
@@ -228,6 +228,17 @@ fn statics_of(slave: Shape, master: Shape, (distortion, part): (f64, f64), rng: 
             assert!(weights.iter().all(|(_, weight)| weight.abs() < 20.0), "{context}: {pair:?}");
         }
         assert!(pair.area > 0.0 && pair.gap.abs() < tolerance, "{context}: {pair:?}");
+    }
+    match (slave, found.one_slave_each()) {
+        (Shape::T3 | Shape::Q4 | Shape::Linear, arrays) => {
+            let arrays = arrays.expect("linear faces have one slave each");
+            for ends in arrays.master_start.windows(2) {
+                let sum: f64 = arrays.weights[ends[0]..ends[1]].iter().sum();
+                assert!((sum - 1.0).abs() < tolerance, "{context}: {sum}");
+            }
+        }
+        (Shape::Q9, _) => {}
+        (_, arrays) => assert!(arrays.is_none(), "{context}: mid rows hold corners too"),
     }
     // Rectangles can be cut.
     let cut = |shape: Shape| part > 0.0 && (!shape.is_quadrilateral() || distortion > 0.0);
@@ -471,15 +482,15 @@ fn the_error_of_curved_edges_falls_with_the_mesh() {
             let miss = forces[first..].iter().zip(&loads).map(|(f, load)| (f[2] + load).abs());
             miss.fold(0.0, f64::max) / largest
         };
-        let errors = [6, 12, 24].map(error);
+        let errors = [6, 12].map(error);
         assert!(errors[0] < 0.01, "{shape:?}: {errors:?}");
-        assert!(errors.windows(2).all(|e| e[1] < e[0] / 2.0), "{shape:?}: {errors:?}");
+        assert!(errors[1] < errors[0] / 2.0, "{shape:?}: {errors:?}");
     }
 }
 
 /// A part of a sphere of radius 1 in a hollow one of radius 1.02: the gap is 0.02, but for the error of
-/// the meshes, of second order with linear faces and of third with quadratic ones: by 16 and by 64 from a
-/// mesh to one four times as fine. The largest error depends on how the two meshes lie to each other
+/// the meshes, of second order with linear faces and of third with quadratic ones: by 9 and by 27 from a
+/// mesh to one three times as fine. The largest error depends on how the two meshes lie to each other
 /// too: half an order less, and one order less, are asked for.
 #[test]
 fn gaps_of_curved_surfaces_converge() {
@@ -490,13 +501,9 @@ fn gaps_of_curved_surfaces_converge() {
             [x / length, y / length, 1.0 / length]
         })
     };
-    for (shape, factor) in [
-        (Shape::T3, 8.0),
-        (Shape::Q4, 8.0),
-        (Shape::T6, 16.0),
-        (Shape::Q8, 16.0),
-        (Shape::Q9, 16.0),
-    ] {
+    for (shape, factor) in
+        [(Shape::T3, 5.0), (Shape::Q4, 5.0), (Shape::T6, 9.0), (Shape::Q8, 9.0), (Shape::Q9, 9.0)]
+    {
         for pairing in [Pairing::DualMortar, Pairing::NodeToSurface] {
             let error = |cells| {
                 let master = cap(shape, 2 * cells - 1, 1.02, 0.6).turned();
@@ -506,7 +513,7 @@ fn gaps_of_curved_surfaces_converge() {
                 assert!(found.unpaired.is_empty(), "{shape:?}, {pairing:?}");
                 found.pairs.iter().map(|pair| (pair.gap - 0.02).abs()).fold(0.0, f64::max)
             };
-            let errors = [4, 16].map(error);
+            let errors = [4, 12].map(error);
             assert!(errors[1] < errors[0] / factor, "{shape:?}, {pairing:?}: {errors:?}");
         }
     }
