@@ -10,16 +10,18 @@ use super::Contact;
 /// `far` times longer than what loads on their own components, slips and nearer gaps make pairs move, and
 /// than `moved`, displacements that are known to occur.
 pub fn gaps_within_reach(contact: &Contact<'_>, moved: &[f64], far: f64) -> Option<Vec<f64>> {
-    // Most problems have no distant obstacle at all, and small ones are solved in microseconds.
-    if !contact.pairs().iter().any(|law| law.has_obstacle() && law.gap > 0.0) {
-        return None;
-    }
     let problem = contact.problem();
     let dim = contact.dim();
     let root = |i: usize| problem.diagonal(i).sqrt();
     let loads = problem.load().iter().enumerate().map(|(i, f)| f.abs() / root(i));
     let moved = moved.iter().enumerate().map(|(i, d)| d.abs() * root(i));
     let mut reach = loads.chain(moved).fold(0.0, f64::max);
+    // The reach only grows from here: nothing is far beside it if the longest gap is not.
+    let longest = contact.pairs().iter().enumerate().filter(|(_, law)| law.has_obstacle());
+    let longest = longest.map(|(pair, law)| law.gap * root(dim * pair)).fold(0.0, f64::max);
+    if longest <= far * reach {
+        return None;
+    }
     let mut gaps: Vec<f64> = Vec::with_capacity(contact.pairs().len());
     let mut lengths = Vec::with_capacity(gaps.capacity());
     for (pair, law) in contact.pairs().iter().enumerate() {
