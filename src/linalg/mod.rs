@@ -3,6 +3,7 @@
 
 pub(crate) mod elimination;
 pub(crate) mod factor;
+pub(crate) mod free_motions;
 pub(crate) mod matrix;
 pub(crate) mod nnls;
 pub(crate) mod null_vector;
@@ -13,6 +14,7 @@ pub(crate) mod simd;
 pub(crate) mod sparse_matrix;
 pub(crate) mod sparse_schur;
 pub(crate) mod tolerances;
+pub(crate) mod unreduced;
 pub(crate) mod vector;
 pub(crate) mod vector3;
 pub(crate) mod workspaces;

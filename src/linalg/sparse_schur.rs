@@ -17,10 +17,12 @@ use faer::sparse::linalg::cholesky::{
 };
 use faer::{Conj, MatMut, Par, Side, Spec};
 
+use super::free_motions::{self, Doubt};
 use super::null_vector::{resistance, weakest};
 use super::pivoted_cholesky::lower_times_transpose;
 use super::sparse_matrix::{Csc, diagonal, leading_part};
 use super::tolerances::{NULL_VECTOR, REGULARISATION, SUSPICIOUS_PIVOT};
+use super::unreduced::Unreduced;
 use super::workspaces::Workspaces;
 
 /// Why a matrix was not factorised.
@@ -30,6 +32,10 @@ pub enum Failure {
     NullVector(Vec<f64>),
     /// The matrix is not positive semi-definite, as this row shows.
     Indefinite(usize),
+    /// The energy of this motion is negative, so that the matrix is not positive semi-definite.
+    Negative(Vec<f64>),
+    /// Whether the matrix resists this motion cannot be told from rounding.
+    Unclear(Vec<f64>),
     /// Not enough memory.
     OutOfMemory,
 }
@@ -88,7 +94,18 @@ impl SparseSchur {
                 return Err(Failure::NullVector(vector));
             }
         }
-        Ok(SparseSchur { factor: Some(factor), order, eliminated, tail, schur })
+        for (j, shift) in (eliminated..n).zip(&shift) {
+            set_diagonal(&mut lower, j, *shift);
+        }
+        let mut found = SparseSchur { factor: Some(factor), order, eliminated, tail, schur };
+        let mut schur = std::mem::take(&mut found.schur);
+        free_motions::settle(
+            &mut schur,
+            &shift,
+            &Unreduced::new(lower, &|load, d| found.recover(load, d)),
+        )?;
+        found.schur = schur;
+        Ok(found)
     }
 
     /// `S`, column-major.
@@ -131,13 +148,26 @@ impl SparseSchur {
     }
 }
 
+impl From<Doubt> for Failure {
+    fn from(doubt: Doubt) -> Self {
+        match doubt {
+            Doubt::Indefinite(motion) => Failure::Negative(motion),
+            Doubt::Unclear(motion) => Failure::Unclear(motion),
+        }
+    }
+}
+
 /// Multiplies the diagonal entry of column `j` and returns what it was.
 fn scale_diagonal(lower: &mut Csc, j: usize, factor: f64) -> f64 {
-    let place = lower.symbolic().col_ptr()[j];
-    let entry = &mut lower.val_mut()[place];
-    let before = *entry;
-    *entry *= factor;
+    let before = diagonal(lower, j).unwrap_or_default();
+    set_diagonal(lower, j, factor * before);
     before
+}
+
+/// Sets the diagonal entry of column `j`, which is stored.
+fn set_diagonal(lower: &mut Csc, j: usize, value: f64) {
+    let place = lower.symbolic().col_ptr()[j];
+    lower.val_mut()[place] = value;
 }
 
 fn unpermuted(order: &[usize], ordered: &[f64]) -> Vec<f64> {

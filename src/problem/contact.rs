@@ -133,7 +133,7 @@ impl<'a> ContactProblem<'a> {
         check_finite(Argument::Load, "f", load)?;
         let matrix = Matrix::new(size, data.stiffness, data.ld);
         Self::with_relation(
-            Stiffness { matrix, load },
+            Stiffness::new(matrix, load, data.dim),
             data.dim,
             data.gap,
             data.law,
@@ -151,9 +151,15 @@ impl<'a> ContactProblem<'a> {
         self.relation.matrix.column(j)
     }
 
-    /// Entry `K[i, i]`, positive.
-    pub fn diagonal(&self, i: usize) -> f64 {
-        self.relation.matrix.at(i, i)
+    /// The unit of force per length of component `i`, positive: `K[i, i]`; where nothing resists the
+    /// component, the largest diagonal entry of its pair, or of the whole.
+    pub fn unit(&self, i: usize) -> f64 {
+        self.relation.unit(i)
+    }
+
+    /// Square roots of the units of all components.
+    pub fn unit_roots(&self) -> Vec<f64> {
+        (0..self.unknowns()).map(|i| self.unit(i).sqrt()).collect()
     }
 
     /// `f`.

@@ -11,5 +11,6 @@ pub mod measures;
 pub mod mesh;
 pub mod oracle;
 pub mod problems;
+pub mod rigid_statics;
 pub mod stack;
 pub mod verdict;

@@ -43,9 +43,13 @@ impl DriftDetector {
 }
 
 /// The part of a drift that the matrix does not resist.
-pub fn rigid_part(matrix: Matrix<'_>, drift: &[f64]) -> Option<Vec<f64>> {
+pub fn rigid_part(
+    matrix: Matrix<'_>,
+    unit: impl Fn(usize) -> f64,
+    drift: &[f64],
+) -> Option<Vec<f64>> {
     let moved = (0..drift.len()).filter(|&i| drift[i] != 0.0).collect();
-    let block = FreeBlock::new(matrix, moved)?;
+    let block = FreeBlock::new(matrix, moved, unit)?;
     let mut motion = vec![0.0; drift.len()];
     for i in block.dependent() {
         motion[i] = drift[i];
@@ -56,7 +60,8 @@ pub fn rigid_part(matrix: Matrix<'_>, drift: &[f64]) -> Option<Vec<f64>> {
 
 /// A recession direction of a contact problem, from the drift of its displacements.
 pub fn contact_recession(contact: &Contact<'_>, drift: &[f64]) -> Option<Vec<f64>> {
-    let motion = rigid_part(contact.problem().stiffness(), drift)?;
+    let problem = contact.problem();
+    let motion = rigid_part(problem.stiffness(), |i| problem.unit(i), drift)?;
     let lifts = lifts(contact, &motion);
     let uniform = vec![norm_inf(&lifts); lifts.len()];
     [vec![0.0; lifts.len()], lifts, uniform]

@@ -14,7 +14,7 @@ use crate::linalg::factor::{Factor, largest_eigenvalue};
 /// The factor of `K`, scaled to a unit diagonal, if it is positive definite.
 pub fn scaled_factor(contact: &Contact<'_>) -> Option<Factor> {
     let matrix = contact.problem().stiffness();
-    let root = matrix.diagonal_roots();
+    let root = contact.problem().unit_roots();
     Factor::new(matrix.size(), true, |j, column| {
         for (i, (entry, k)) in column.iter_mut().zip(matrix.column(j)).enumerate() {
             *entry = k / (root[i] * root[j]);
@@ -42,7 +42,7 @@ fn is_contraction(contact: &Contact<'_>, factor: &mut Factor, coupled: &[usize])
         column[2 * pair + 1] = 1.0;
     }
     factor.solve(&mut flexibility);
-    let root = matrix.diagonal_roots();
+    let root = contact.problem().unit_roots();
     let mu: Vec<f64> = coupled.iter().map(|&pair| contact.pairs()[pair].bound().slope).collect();
     let compliance = |a: usize, b: usize| {
         let (i, j) = (2 * coupled[a] + 1, 2 * coupled[b] + 1);
