@@ -45,14 +45,14 @@ impl Model {
     /// A body condensed by the host, on an obstacle: `d = u`.
     ///
     /// # Errors
-    /// As [`ContactProblem::new`] for the matrix.
+    /// As [`ContactProblem::new`] for the matrix, but a diagonal entry that is zero up to the rounding of
+    /// a condensation is zero; a motion of negative energy, and one whose stiffness cannot be told from
+    /// rounding.
     pub fn condensed(dim: usize, pairs: usize, k: &[f64], ld: usize) -> Result<Self, Error> {
         let size = unknowns(checked_dim(dim)?, pairs)?;
         check_length("K", (k, ld), size, (Argument::Matrix, Argument::LeadingDimension))?;
         let matrix = Matrix::new(size, k, ld);
-        symmetric_matrix::check(&matrix, "K", Argument::Matrix)?;
-        let stiffness = (0..size).flat_map(|j| matrix.column(j).iter().copied()).collect();
-        let reduction = Box::new(CondensedReduction::new(dim, size, stiffness));
+        let reduction = Box::new(CondensedReduction::new(dim, &matrix)?);
         Ok(Model { dim, pairs, reduction })
     }
 

@@ -73,12 +73,19 @@ struct Motion {
 pub fn settle(matrix: &mut [f64], units: &[f64], whole: &dyn Whole) -> Result<(), Doubt> {
     let size = units.len();
     let root: Vec<f64> = units.iter().map(|unit| unit.sqrt()).collect();
+    let entry = |i: usize, j: usize| matrix[i + size * j] / (root[i] * root[j]);
+    let Some(factor) = PivotedCholesky::with_least_pivot(size, SUSPICIOUS_PIVOT, entry) else {
+        return Ok(());
+    };
+    if factor.dependent().is_empty() {
+        return Ok(());
+    }
     for j in 0..size {
         for i in 0..size {
             matrix[i + size * j] /= root[i] * root[j];
         }
     }
-    let settled = settle_scaled(matrix, &root, whole);
+    let settled = settle_scaled(matrix, &factor, &root, whole);
     for j in 0..size {
         for i in 0..size {
             matrix[i + size * j] *= root[i] * root[j];
@@ -87,16 +94,14 @@ pub fn settle(matrix: &mut [f64], units: &[f64], whole: &dyn Whole) -> Result<()
     settled
 }
 
-fn settle_scaled(matrix: &mut [f64], root: &[f64], whole: &dyn Whole) -> Result<(), Doubt> {
+fn settle_scaled(
+    matrix: &mut [f64],
+    factor: &PivotedCholesky,
+    root: &[f64],
+    whole: &dyn Whole,
+) -> Result<(), Doubt> {
     let size = root.len();
-    let entry = |i: usize, j: usize| matrix[i + size * j];
-    let Some(factor) = PivotedCholesky::with_least_pivot(size, SUSPICIOUS_PIVOT, entry) else {
-        return Ok(());
-    };
-    if factor.dependent().is_empty() {
-        return Ok(());
-    }
-    let candidates = candidates(matrix, &factor, root, whole);
+    let candidates = candidates(matrix, factor, root, whole);
     let (mut basis, mut products) = (Vec::new(), Vec::new());
     let mut free = Vec::new();
     for motion in parted(candidates, root, whole) {

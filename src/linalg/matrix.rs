@@ -47,14 +47,15 @@ impl<'a> Matrix<'a> {
     /// The unit of component `i`, positive: its diagonal entry; where that is nothing beside the largest of
     /// its group of `group` components, this one; `otherwise` in a group that nothing resists.
     pub fn unit(&self, i: usize, group: usize, otherwise: f64) -> f64 {
-        let own = self.at(i, i);
+        let (own, unit) = (self.at(i, i), self.unit_of_group(i, group, otherwise));
+        if own > UNRESISTED * unit { own } else { unit }
+    }
+
+    /// The largest diagonal entry of the group of component `i`, or `otherwise` if that is zero.
+    pub fn unit_of_group(&self, i: usize, group: usize, otherwise: f64) -> f64 {
         let first = i - i % group;
         let largest = largest_of((first..first + group).map(|k| self.at(k, k)));
-        match own > UNRESISTED * largest {
-            true => own,
-            false if largest > 0.0 => largest,
-            false => otherwise,
-        }
+        if largest > 0.0 { largest } else { otherwise }
     }
 
     /// The units of all components, [`Self::unit`]; those of a group that nothing resists are the largest

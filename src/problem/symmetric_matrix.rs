@@ -11,7 +11,11 @@ pub(crate) const SYMMETRY: f64 = 1e-9;
 /// Whether entries agree with those across the diagonal, up to rounding relative to it, which is
 /// positive.
 pub(crate) fn is_symmetric(matrix: &Matrix<'_>) -> bool {
-    let root = matrix.diagonal_roots();
+    is_symmetric_beside(matrix, &matrix.diagonal_roots())
+}
+
+/// Whether entries agree with those across the diagonal, up to rounding relative to the squares of `root`.
+pub(crate) fn is_symmetric_beside(matrix: &Matrix<'_>, root: &[f64]) -> bool {
     let compare = |i: usize, j: usize, lower: f64, upper: f64| {
         if (lower - upper).abs() <= SYMMETRY * root[i] * root[j] { Ok(()) } else { Err(()) }
     };
