@@ -115,7 +115,8 @@ impl<'a> ContactProblem<'a> {
     ///
     /// # Errors
     /// [`Error::Invalid`] names the first entry that is not finite, not symmetric beyond rounding
-    /// (1e-9 of the diagonal), on a diagonal that is not positive, or out of range.
+    /// (1e-9 of the diagonal), negative on the diagonal or zero there in a row that is not zero, or out of
+    /// range. Small entries on the diagonal are taken as they are; a [`crate::Model`] tells them from rounding.
     pub fn new(data: ContactData<'a>) -> Result<Self, Error> {
         let problem = Self::on_checked_matrix(data)?;
         symmetric_matrix::check(&problem.relation.matrix, "K", Argument::Matrix)?;
