@@ -21,9 +21,11 @@
 ! else is not above. That header is their reference.
 !
 ! Arguments that many calls have:
-!     friction  the law's parameters, one for each pair. Without it there is no friction.
-!     law       SIGNORINI_LAW_COULOMB (the default with friction: coefficients mu) or
-!               SIGNORINI_LAW_TRESCA (thresholds g, forces).
+!     friction  the law's parameters, pair by pair. Without it there is no friction.
+!     law       SIGNORINI_LAW_COULOMB (the default with friction: coefficients mu),
+!               SIGNORINI_LAW_TRESCA (thresholds g, forces); with three parameters a pair
+!               SIGNORINI_LAW_COHESIVE (mu, cohesion b, tension a) and, in 3D,
+!               SIGNORINI_LAW_ORTHOTROPIC, _ORTHOTROPIC_COLLINEAR (mu1, mu2, angle).
 !     slip0     reference slip: tangential displacements at which a sticking pair stays, dim - 1 for
 !               each pair. Absent: zeros, the total law. The d_t of the last load step: the
 !               incremental law.
@@ -66,6 +68,9 @@ module signorini
     integer(c_int32_t), parameter :: SIGNORINI_LAW_FRICTIONLESS = 0
     integer(c_int32_t), parameter :: SIGNORINI_LAW_COULOMB = 1
     integer(c_int32_t), parameter :: SIGNORINI_LAW_TRESCA = 2
+    integer(c_int32_t), parameter :: SIGNORINI_LAW_COHESIVE = 3
+    integer(c_int32_t), parameter :: SIGNORINI_LAW_ORTHOTROPIC = 4
+    integer(c_int32_t), parameter :: SIGNORINI_LAW_ORTHOTROPIC_COLLINEAR = 5
     integer(c_int32_t), parameter :: SIGNORINI_METHOD_AUTO = 0
     integer(c_int32_t), parameter :: SIGNORINI_METHOD_SOR_NESTED = 1
     integer(c_int32_t), parameter :: SIGNORINI_METHOD_SOR_DIAGONAL = 2
@@ -1175,14 +1180,25 @@ contains
         integer(c_int32_t), intent(out) :: chosen
         integer, intent(in), optional :: law
         real(c_double), intent(in), optional :: friction(:)
+        integer :: numbers
+        character(len=:), allocatable :: asked
         chosen = SIGNORINI_LAW_FRICTIONLESS
         if (present(friction)) chosen = SIGNORINI_LAW_COULOMB
         if (present(law)) chosen = number(law)
-        if (chosen /= SIGNORINI_LAW_COULOMB .and. chosen /= SIGNORINI_LAW_TRESCA) return
+        select case (chosen)
+        case (SIGNORINI_LAW_COULOMB, SIGNORINI_LAW_TRESCA)
+            numbers = 1
+            asked = 'one for each pair'
+        case (SIGNORINI_LAW_COHESIVE, SIGNORINI_LAW_ORTHOTROPIC, SIGNORINI_LAW_ORTHOTROPIC_COLLINEAR)
+            numbers = 3
+            asked = 'three for each pair'
+        case default
+            return
+        end select
         if (.not. present(friction)) call refuse(wrong, position + 1, 'friction is missing: the law ' &
-            // text(int(chosen)) // ' has a parameter for each pair')
-        if (present(friction)) call check_size(wrong, position + 1, 'friction', size(friction), pairs, &
-            'one for each pair')
+            // text(int(chosen)) // ' has parameters, ' // asked)
+        if (present(friction)) call check_size(wrong, position + 1, 'friction', size(friction), &
+            numbers * pairs, asked)
     end subroutine
 
     ! The settings of a call: the defaults, or `settings`, with what the arguments from the position

@@ -21,7 +21,8 @@
  *
  * K is the stiffness matrix condensed on the contact components: symmetric, positive definite or
  * semi-definite (bodies supported by nothing but contact). slip0 is the reference slip: the d_t at
- * which a sticking pair stays. Other friction laws put another bound on |F_t|: SIGNORINI_LAW_...
+ * which a sticking pair stays. Other laws put another bound on |F_t|, or let a pair carry tension:
+ * SIGNORINI_LAW_... below.
  *
  * Signs. n is the outward normal of the body: d_n > 0 moves towards the obstacle, F_n < 0 presses.
  * F is the force of the contact on the body. f and F are nodal forces, not stresses. Example: above
@@ -85,9 +86,29 @@ typedef struct signorini_extra signorini_extra;
 #define SIGNORINI_LAW_COULOMB 1
 /** Tresca: |F_t| <= g, open or closed. friction holds g >= 0, one for each pair; force. */
 #define SIGNORINI_LAW_TRESCA 2
+/**
+ * Coulomb with cohesion and a tension cut-off: F_n <= a, (d_n - gap) (F_n - a) = 0,
+ * |F_t| <= b - mu F_n. friction holds three numbers for each pair, (mu, b, a): mu >= 0; a >= 0,
+ * the tension at which the pair opens, force; b >= mu a, the cohesion, force. The law has no
+ * memory: an open pair carries the tension F_n = a and a friction of up to b - mu a, however far
+ * it is open (gap +inf too). To let a pair break, the host sets its b and a to 0 in the load steps
+ * after it opened.
+ */
+#define SIGNORINI_LAW_COHESIVE 3
+/**
+ * Orthotropic, 3D only: (F_1 / mu1)^2 + (F_2 / mu2)^2 <= F_n^2, an ellipse. friction holds three
+ * numbers for each pair, (mu1, mu2, angle): the coefficients along axis 1 and 2, both > 0, and the
+ * angle of axis 1 from t1 towards t2 in radians. The pair slips along the normal of the ellipse at
+ * -F_t (associated rule): of all forces in the ellipse F_t takes the most work from the slip.
+ */
+#define SIGNORINI_LAW_ORTHOTROPIC 4
+/** The same ellipse and numbers; the pair slips opposite to F_t (collinear rule). */
+#define SIGNORINI_LAW_ORTHOTROPIC_COLLINEAR 5
 
 /* State of a pair. */
-/** The pair is apart: F_n = 0, and F_t = 0 but under Tresca's law. */
+/**
+ * The pair is apart: F_n = 0, with cohesion F_n = a; F_t = 0 but under Tresca's law and cohesion.
+ */
 #define SIGNORINI_STATE_OPEN 0
 /** The pair touches and slips: |F_t| is at its bound. Frictionless: every pair that touches. */
 #define SIGNORINI_STATE_SLIP 1
@@ -107,7 +128,7 @@ typedef struct signorini_extra signorini_extra;
  * @param gap       initial gaps, one for each pair; length; negative: interference; +infinity:
  *                  the pair never touches
  * @param law       SIGNORINI_LAW_..., the friction law of all pairs
- * @param friction  parameters of the law, pair by pair: mu or g; may be NULL if frictionless
+ * @param friction  parameters of the law, pair by pair; may be NULL if frictionless
  * @param slip0     reference slip: the tangential displacement d_t0 at which a sticking pair has
  *                  no motion, dim - 1 for each pair; length; NULL: zero. In load steps hand over
  *                  the d_t of the step before.
@@ -342,7 +363,7 @@ int32_t signorini_model_stiffness(const signorini_model *model, double *K);
  * @param prescribed  values of the fixed degrees of freedom, in the order of fixed; NULL: zero
  * @param gap         gaps, one for each pair
  * @param law         SIGNORINI_LAW_..., the friction law of all pairs
- * @param friction    parameters of the law, pair by pair: mu or g; may be NULL if frictionless
+ * @param friction    parameters of the law, pair by pair; may be NULL if frictionless
  * @param slip0       reference slip, dim - 1 for each pair; NULL: zero
  * @param settings    NULL: the defaults; a progress callback is called in each case in turn
  * @param d           out: relative displacements, N = dim * pairs entries a case; in: the starts
@@ -570,7 +591,7 @@ const double *signorini_problem_rhs(const signorini_problem *problem);
 /** Gaps, one for each pair. */
 const double *signorini_problem_gap(const signorini_problem *problem);
 
-/** Parameters of the friction law, pair by pair: mu or g; NULL if frictionless. */
+/** Parameters of the friction law, pair by pair; NULL if frictionless. */
 const double *signorini_problem_friction(const signorini_problem *problem);
 
 /** Reference slip, dim - 1 for each pair. */
@@ -593,8 +614,8 @@ const char *signorini_problem_remark(const signorini_problem *problem);
 
 /**
  * The default: chooses a method, checks its result, and falls back to the next one if it fails.
- * Without friction: block pivoting, then Lemke's method. With friction: Newton's method, in 2D
- * then Lemke's. At last: sweeps.
+ * Without friction: block pivoting, then Lemke's method. With friction: Newton's method, then the
+ * path, in 2D then Lemke's method. At last: sweeps.
  */
 #define SIGNORINI_METHOD_AUTO 0
 /** Projected over-relaxed Gauss-Seidel (SOR) on a sequence of Tresca problems, g <- mu |F_n|. */
@@ -621,7 +642,7 @@ const char *signorini_problem_remark(const signorini_problem *problem);
 
 /** Report only what the solution itself proves about other solutions. The default. */
 #define SIGNORINI_SEARCH_OFF 0
-/** Prove that the solution is unique, or look for a second one; 2D. It costs several solutions. */
+/** Prove that the solution is unique, or look for a second one. It costs several solutions. */
 #define SIGNORINI_SEARCH_OTHERS 1
 
 typedef struct signorini_progress signorini_progress;
@@ -707,7 +728,8 @@ struct signorini_report {
     /** Rounding of K d relative to the forces, no unit; above 1e-6 nothing is certified. */
     double rounding;
     double penetration;       /**< Largest d_n - gap; length; 0 if none. */
-    double tension; /**< Largest tensile (positive) normal part of K d - f; force; 0 if none. */
+    /** Largest normal part of K d - f beyond the tension of the law, 0 but for cohesion; force. */
+    double tension;
     /** Largest excess of the tangential part of K d - f over its bound; force; 0 if none. */
     double cone_excess;
     double equilibrium;       /**< Largest component of K d - f - F; force. */

@@ -27,8 +27,10 @@ pub enum Argument {
     Load,
     /// Initial gaps.
     Gap,
-    /// Parameters of the friction law: coefficients or thresholds.
+    /// Parameters of the friction law: coefficients, thresholds and others.
     Law,
+    /// The friction law itself.
+    LawChoice,
     /// Slip accumulated before this load case.
     ReferenceSlip,
     /// Covering vector of Lemke's method.
@@ -49,6 +51,14 @@ pub enum Argument {
     Pairs,
     /// Remark of a problem file.
     Remark,
+    /// Coordinates of the nodes of surfaces.
+    Coordinates,
+    /// Faces of the slave side of two surfaces.
+    SlaveFaces,
+    /// Faces of the master side of two surfaces.
+    MasterFaces,
+    /// A rigid obstacle.
+    Obstacle,
 }
 
 /// Why a call was refused. Nothing has been computed.

@@ -1,4 +1,4 @@
-//! Unilateral contact with Coulomb friction for existing finite-element codes.
+//! Unilateral contact with friction for existing finite-element codes.
 //!
 //! Most hosts call the C interface, `include/signorini.h`. This is the same library for Rust.
 //!
@@ -13,7 +13,8 @@
 //!
 //! `K` is the stiffness condensed on the contact components, symmetric and positive definite or
 //! semi-definite; `n` is the body's outward normal, `F_n < 0` presses; `slip0` is the reference slip,
-//! the `d_t` at which a sticking pair stays; units are the caller's. [`FrictionLaw`] has the other laws.
+//! the `d_t` at which a sticking pair stays; units are the caller's. [`FrictionLaw`] has the other laws:
+//! none, Tresca's, cohesion with tension, and orthotropic friction in 3D.
 //!
 //! [`solve`] solves one condensed problem. A [`Model`] reduces a sparse matrix or condensed bodies once,
 //! solves many load cases, and recovers the displacements of the host. [`solve_lcp`] solves a linear
@@ -105,6 +106,7 @@ mod problem;
 pub mod reduce;
 mod settings;
 mod solve;
+pub mod surface;
 
 pub use error::{Argument, Error, Message};
 pub use law::State;

@@ -45,9 +45,9 @@ impl Model {
     /// A body condensed by the host, on an obstacle: `d = u`.
     ///
     /// # Errors
-    /// As [`ContactProblem::new`] for the matrix, but a diagonal entry that is zero up to the rounding of
-    /// a condensation is zero; a motion of negative energy, and one whose stiffness cannot be told from
-    /// rounding.
+    /// As [`ContactProblem::new`] for the matrix, after it was cleaned: if a diagonal entry is at most 3e-12
+    /// of the largest one of its pair, and the component is coupled to others, motions of so little energy
+    /// are the rounding of a condensation and become exactly free. All other matrices are taken as they are.
     pub fn condensed(dim: usize, pairs: usize, k: &[f64], ld: usize) -> Result<Self, Error> {
         let size = unknowns(checked_dim(dim)?, pairs)?;
         check_length("K", (k, ld), size, (Argument::Matrix, Argument::LeadingDimension))?;

@@ -1,5 +1,5 @@
 //! The default method solves every problem of a positive definite stiffness: in 2D there always is a
-//! solution, and Lemke's method finds it where others fail; without friction, or with given
+//! solution, and the linear path finds it where Newton's method fails; without friction, or with given
 //! thresholds, in any dimension.
 
 mod common;
@@ -77,8 +77,8 @@ fn up_to(most: f64) -> impl Fn(&mut Rng, usize) -> Law {
     move |rng, pairs| coulomb(rng, pairs, most)
 }
 
-/// Every positive definite `K` and every `mu`, in 2D: Lemke's method with a covering vector that
-/// presses and holds each pair cannot end in a ray. Small problems, many states.
+/// Every positive definite `K` and every `mu`, in 2D: the path from a start whose closed pairs stick
+/// without friction cannot come back. Small problems, many states.
 #[test]
 fn friction_up_to_5_on_small_problems() {
     println!("{}", solves_all(0..1600, plane(1..=8), up_to(5.0)));

@@ -115,6 +115,48 @@ fn refuses_negative_friction() {
 }
 
 #[test]
+fn refuses_wrong_parameters_of_a_law_that_has_three() {
+    let cohesive = |numbers: &[f64; 6], parts: &[&str]| {
+        refuses(ContactData { law: FrictionLaw::Cohesive(numbers), ..GOOD }, Argument::Law, parts);
+    };
+    cohesive(&[0.3, 1.0, 1.0, 0.3, 0.25, 1.0], &["friction[4]", "b of pair 1", "0.25", "0.3"]);
+    cohesive(&[0.3, -1.0, 0.0, 0.3, 1.0, 1.0], &["friction[1]", "b of pair 0", "negative"]);
+    cohesive(&[0.3, 1.0, 1.0, 0.3, 1.0, -1.0], &["friction[5]", "a of pair 1", "negative"]);
+    cohesive(&[-0.3, 1.0, 1.0, 0.3, 1.0, 1.0], &["friction[0]", "mu of pair 0", "negative"]);
+    cohesive(&[0.3, 1.0, 1.0, 0.3, 1.0, f64::NAN], &["friction[5]", "not finite"]);
+    let short = FrictionLaw::Cohesive(&[0.3, 1.0, 1.0, 0.3]);
+    refuses(ContactData { law: short, ..GOOD }, Argument::Law, &["friction", "4", "6"]);
+    // The rounded product: 0.1 * 0.3 is above 0.03 in the last bit.
+    let rounded = FrictionLaw::Cohesive(&[0.1, 0.03, 0.3, 0.0, 0.0, 0.0]);
+    assert!(ContactProblem::new(ContactData { law: rounded, ..GOOD }).is_ok());
+
+    let space = ContactData {
+        dim: 3,
+        pairs: 1,
+        stiffness: &[2.0, 0.0, 0.0, 0.0, 2.0, 0.0, 0.0, 0.0, 2.0],
+        ld: 3,
+        load: &[1.0; 3],
+        gap: &[0.0],
+        law: FrictionLaw::Frictionless,
+        reference_slip: None,
+    };
+    for like in [FrictionLaw::Orthotropic(&[]), FrictionLaw::OrthotropicCollinear(&[])] {
+        let law = |numbers: &'static [f64]| like.with_values(numbers);
+        for (numbers, parts) in [
+            (&[0.0, 0.5, 0.0], ["friction[0]", "mu1 of pair 0", "positive"]),
+            (&[0.5, -0.5, 0.0], ["friction[1]", "mu2 of pair 0", "positive"]),
+            (&[0.5, f64::INFINITY, 0.0], ["friction[1]", "mu2 of pair 0", "not finite"]),
+            (&[0.5, 0.5, f64::NAN], ["friction[2]", "angle of pair 0", "not finite"]),
+        ] {
+            refuses(ContactData { law: law(numbers), ..space }, Argument::Law, &parts);
+        }
+        assert!(ContactProblem::new(ContactData { law: law(&[0.5, 0.1, -7.0]), ..space }).is_ok());
+        let planar = ContactData { law: law(&[0.5; 6]), ..GOOD };
+        refuses(planar, Argument::LawChoice, &["orthotropic", "dim is 2", "Coulomb's law"]);
+    }
+}
+
+#[test]
 fn refuses_matrices_that_no_structure_has() {
     let refuses_matrix = |entries: &[(usize, usize, f64)], parts: &[&str]| {
         let k = k_with(entries);

@@ -5,15 +5,14 @@ mod common;
 
 use std::f64::consts::TAU;
 
+use common::blocks::{LOADINGS, Loading, MU, PRESS, TOLERANCE, block, flaw, loaded, solve};
 use common::brick::{Brick, Support, Vector};
 use common::dense::{difference, largest};
-use common::measures::{eta, most_with_one_solution, rounding};
-use common::problems::{Case, vector};
+use common::measures::most_with_one_solution;
+use common::problems::vector;
 use fastrand::Rng;
 use nalgebra::DMatrix;
-use signorini::{Method, Model, Monitor, Settings, Solution, State, Status};
-
-const TOLERANCE: f64 = 1e-12;
+use signorini::{Method, Model, Settings, State};
 
 /// Systems for a block, and for a slender column, whose condition number is up to 4e6.
 const SYSTEMS: u64 = 7;
@@ -21,71 +20,6 @@ const SYSTEMS_OF_COLUMNS: u64 = 10;
 
 /// Systems for a step of a load history.
 const SYSTEMS_OF_STEPS: u64 = 5;
-
-/// Coefficients of friction.
-const MU: [f64; 4] = [0.1, 0.3, 1.0, 3.0];
-
-/// How far the plate goes down, for a block of the height 1: strains of a twentieth.
-const PRESS: f64 = 0.05;
-
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Loading {
-    Shift,
-    Twist,
-    Tilt,
-    WavyGaps,
-    LiftedRim,
-}
-
-const LOADINGS: [Loading; 5] =
-    [Loading::Shift, Loading::Twist, Loading::Tilt, Loading::WavyGaps, Loading::LiftedRim];
-
-/// A block of 2 x 2 on the plane, with `n²` pairs; bricks are about cubes.
-fn block(n: usize, support: Support) -> Brick {
-    Brick::new([n - 1, n - 1, n.div_ceil(2)], [2.0, 2.0, 1.0], support)
-}
-
-/// A block whose plate presses and moves along the plane as far as friction makes slip and stick meet;
-/// that of a column bends it until it nearly tips, or does.
-fn loaded(brick: &Brick, model: &Model, loading: Loading, mu: f64) -> Case {
-    let [x, _, height] = brick.nodes[brick.nodes.len() - 1];
-    let press = PRESS * height;
-    let slide = mu * press;
-    let bend = slide * (height / (2.0 * x)).max(1.0);
-    let motion = |[x, y, _]: Vector| match loading {
-        Loading::Shift => [1.5 * bend, 0.5 * bend, -press],
-        Loading::Twist => [-2.0 * slide * y, 2.0 * slide * x, -press],
-        Loading::Tilt => [bend, 0.0, -press * (1.0 + x + 0.3 * y)],
-        Loading::WavyGaps => [0.5 * bend - slide * y, slide * x, -press],
-        Loading::LiftedRim => [bend - 0.5 * slide * y, 0.5 * slide * x, -press],
-    };
-    let mut case = brick.case(model, motion, mu);
-    for pair in 0..brick.pairs() {
-        let [x, y, _] = brick.place(pair);
-        case.gap[pair] = PRESS
-            * match loading {
-                Loading::WavyGaps => 0.4 * (5.0 * x).sin() * (4.0 * y + 1.0).cos(),
-                Loading::LiftedRim => 0.8 * x.hypot(y).powi(2),
-                _ => 0.0,
-            };
-    }
-    case
-}
-
-fn solve(case: &Case, method: Method, start: Option<&[f64]>) -> Solution {
-    let settings = Settings { method, tolerance: TOLERANCE, ..Settings::default() };
-    let mut monitor = Monitor::new(&settings, None);
-    signorini::solve(&case.problem(), &settings, start, &mut monitor).expect("the settings fit")
-}
-
-/// Why it is not solved, as measured here: to the tolerance and the rounding of another sum.
-fn flaw(case: &Case, solution: &Solution) -> Option<String> {
-    if solution.status != Status::Solved {
-        return Some(solution.message.to_string());
-    }
-    let (eta, rounding) = (eta(case, &solution.d), rounding(case, &solution.d));
-    (eta > TOLERANCE + rounding).then(|| format!("eta is {eta:e}, rounding {rounding:e}"))
-}
 
 /// Solves a block under all loadings and coefficients by Newton's method, each in at most `most` systems.
 /// Returns how many pairs are open, stick and slip, in all.

@@ -5,8 +5,8 @@ mod common;
 
 use common::oracle::Enumeration;
 use common::problems::{
-    Case, Law, contracting_case, coulomb, definite_case, floating_case, frictionless, tresca,
-    uniform,
+    Case, Law, cohesive, contracting_case, coulomb, definite_case, floating_case, frictionless,
+    tresca, uniform,
 };
 use common::verdict::{Verdict, run};
 use fastrand::Rng;
@@ -96,6 +96,39 @@ fn sor_solves_every_definite_problem_with_given_thresholds() {
 fn nested_sor_solves_every_problem_in_which_it_contracts() {
     let settings = settings(Method::SorNested, 1_000_000);
     run(3000, settings, contracting_case, |verdict| verdict == Verdict::Solved);
+}
+
+/// Cohesion and tension beside friction of any size: Lemke's method solves every definite problem, as
+/// its theorem says; Newton's is never wrong; and the default solves all.
+#[test]
+fn problems_with_cohesion_are_solved() {
+    let definite = |rng: &mut Rng| definite_case(rng, 4.0, |rng, pairs| cohesive(rng, pairs, 3.0));
+    let solved = |verdict| verdict == Verdict::Solved;
+    run(2000, settings(Method::Lemke, 1000), definite, solved);
+    run(2000, settings(Method::Auto, 20_000), definite, solved);
+    run(2000, settings(Method::Newton, 1000), definite, |_| true);
+    let little = |rng: &mut Rng| definite_case(rng, 2.0, |rng, pairs| cohesive(rng, pairs, 0.3));
+    run(1000, settings(Method::SorNested, 200_000), little, solved);
+}
+
+/// The same on bodies that only contact holds, which tension may hold too: never wrong. With tension
+/// alone, without friction, every problem is decided.
+#[test]
+fn floating_problems_with_cohesion_are_judged_rightly() {
+    let floating = |rng: &mut Rng| floating_case(rng, 4.0, |rng, pairs| cohesive(rng, pairs, 3.0));
+    for method in [Method::Auto, Method::Lemke, Method::SorNested] {
+        run(1500, settings(method, 2_000), floating, |_| true);
+    }
+    let tension = |rng: &mut Rng, pairs: usize| {
+        Law::Cohesive((0..pairs).flat_map(|_| [0.0, 0.0, rng.f64()]).collect())
+    };
+    let floating = |rng: &mut Rng| floating_case(rng, 4.0, tension);
+    let decided = |verdict| !matches!(verdict, Verdict::Unsolved { .. });
+    run(2000, settings(Method::Lemke, 1000), floating, decided);
+    let definite = |rng: &mut Rng| definite_case(rng, 4.0, tension);
+    run(2000, settings(Method::BlockPivoting, 1000), definite, |verdict| {
+        verdict == Verdict::Solved
+    });
 }
 
 /// Ordinary friction on ordinary stiffness (condition up to 100): the nested form solves all, the

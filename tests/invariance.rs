@@ -6,9 +6,7 @@
 mod common;
 
 use common::dense::{largest, product};
-use common::problems::{
-    Case, Law, coulomb, decades, definite, frictionless, loaded, tresca, uniform,
-};
+use common::problems::{Case, coulomb, decades, definite, frictionless, loaded, tresca, uniform};
 use fastrand::Rng;
 use signorini::{Method, Settings, Solution, State, Status};
 
@@ -164,10 +162,7 @@ fn pairs_may_be_permuted() {
             k: (0..n * n).map(|k| case.stiffness(from(k % n), from(k / n))).collect(),
             f: pick(&case.f),
             gap: pair(&case.gap),
-            law: match &case.law {
-                Law::Coulomb(mu) => Law::Coulomb(pair(mu)),
-                Law::Tresca(g) => Law::Tresca(pair(g)),
-            },
+            law: case.law.with(pair(case.law.values())),
             slip: case.slip.as_ref().map(|_| {
                 order
                     .iter()

@@ -60,15 +60,23 @@ const INFINITE: [&str; 2] = ["INFINITY", "NEG_INFINITY"];
 
 /// Types whose variants only the law may choose by.
 const CHOICES: [(&str, &[&str]); 3] = [
-    ("FrictionLaw", &["Frictionless", "Coulomb", "Tresca"]),
+    (
+        "FrictionLaw",
+        &["Frictionless", "Coulomb", "Tresca", "Cohesive", "Orthotropic", "OrthotropicCollinear"],
+    ),
     ("State", &["Open", "Slip", "Stick"]),
     ("Tangential", &["Free", "Slip", "Stick"]),
 ];
 
 /// Where the data pass in or out, or where a name means something else: the place, what is allowed
 /// there, and why.
-const ALLOWED: [(&str, &str, &str); 10] = [
-    ("problem/contact.rs", "FrictionLaw ::", "the arrays of a law: their number, length and range"),
+const ALLOWED: [(&str, &str, &str); 11] = [
+    ("problem/friction_law.rs", "FrictionLaw ::", "the arrays of a law: their number and range"),
+    (
+        "problem/friction_law.rs",
+        "* b < mu * a",
+        "input: friction must not be negative under tension",
+    ),
     ("problem/contact.rs", "gap == f64 :: NEG_INFINITY", "input: a gap is a number or +inf"),
     ("problem/bounded_lcp.rs", "self . lower", "the bound of an LCP's variable"),
     ("problem/symmetric_matrix.rs", "lower", "an entry below the diagonal"),

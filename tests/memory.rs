@@ -2,11 +2,10 @@
 //!
 //! The bar on the plane (paper, section 4.1) with friction, its elements refined with the contact line.
 //! Lemke's method works on a tableau of three unknowns for each pair where `K` has two: 2.25 times
-//! `K`, and nothing else may be of that size.
+//! `K`, and nothing else may be of that size. In space, blocks of bricks: what is eliminated, its Schur
+//! complement and a system of what is left make at most twice `K`.
 
-#[allow(dead_code)] // Every user uses a part.
-#[path = "common/mesh.rs"]
-mod mesh;
+mod common;
 
 #[path = "common/graded_bar.rs"]
 mod graded_bar;
@@ -14,6 +13,9 @@ mod graded_bar;
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
+use common::blocks::{LOADINGS, block, loaded};
+use common::brick::Support;
+use common::mesh;
 use graded_bar::GradedBar;
 use signorini::{FrictionLaw, LoadCase, Method, Monitor, Settings, Status};
 
@@ -90,6 +92,24 @@ fn peak(bar: &GradedBar, method: Method, (mu, gap): (f64, &[f64]), tolerance: f6
     (peak as f64 / matrix as f64, solution.iterations)
 }
 
+/// [`peak`] of blocks in space under all loadings.
+fn peak_in_space(method: Method, mu: f64) -> (f64, u64) {
+    let brick = block(15, Support::Clamped);
+    let model = brick.model();
+    let mut worst = (0.0_f64, 0);
+    for loading in LOADINGS {
+        let case = loaded(&brick, &model, loading, mu);
+        let before = NOW.load(Relaxed);
+        PEAK.store(before, Relaxed);
+        let solution = case.solve_by(method);
+        let peak = PEAK.load(Relaxed) - before;
+        assert_eq!(solution.status, Status::Solved, "{}", solution.message);
+        let peak = peak as f64 / size_of_val(&case.k[..]) as f64;
+        worst = (worst.0.max(peak), worst.1.max(solution.iterations));
+    }
+    worst
+}
+
 /// One test, since the counts are those of the whole program.
 #[test]
 fn a_solution_takes_at_most_three_times_the_memory_of_its_matrix() {
@@ -109,6 +129,11 @@ fn a_solution_takes_at_most_three_times_the_memory_of_its_matrix() {
             check(&format!("{what}, auto"), peak(&bar, Method::Auto, (mu, &gap), 1e-10));
             let peak = peak(&bar, Method::Lemke, (mu, &without), 1e-10);
             check(&format!("{what}, one of them without an obstacle, Lemke"), peak);
+        }
+    }
+    for mu in [0.1, 1.0, 3.0] {
+        for method in [Method::Auto, Method::Path] {
+            check(&format!("225 pairs in space, mu {mu}, {method:?}"), peak_in_space(method, mu));
         }
     }
     let peak = peak(&GradedBar::new(512), Method::Lemke, (0.1, &[0.0; 513]), UNATTAINABLE);

@@ -53,23 +53,8 @@ fn an_extruded_problem_has_the_answer_of_the_plane() {
         let pairs = rng.usize(1..=12);
         let k = definite(&mut rng, 2 * pairs, 1e2);
         let law = coulomb(&mut rng, pairs, 0.3);
-        let plane = loaded(&mut rng, 2, k, law.clone());
-        let n = 3 * pairs;
-        let mut k = vec![0.0; n * n];
-        for i in 0..2 * pairs {
-            for j in 0..2 * pairs {
-                let place = |i: usize| 3 * (i / 2) + i % 2;
-                k[place(i) + n * place(j)] = plane.stiffness(i, j);
-            }
-        }
-        let mut f = vec![0.0; n];
-        let mut slip = vec![0.0; 2 * pairs];
-        for pair in 0..pairs {
-            k[(3 * pair + 2) * (n + 1)] = uniform(&mut rng, 0.5, 2.0);
-            f[3 * pair..3 * pair + 2].copy_from_slice(&plane.f[2 * pair..2 * pair + 2]);
-            slip[2 * pair] = plane.rest(pair, 0);
-        }
-        let space = Case { dim: 3, pairs, k, f, gap: plane.gap.clone(), law, slip: Some(slip) };
+        let plane = loaded(&mut rng, 2, k, law);
+        let space = plane.extruded(|| uniform(&mut rng, 0.5, 2.0));
         let (two, three) =
             (plane.solve(&settings(Method::Auto)), space.solve(&settings(Method::Newton)));
         assert_eq!((two.status, three.status), (Status::Solved, Status::Solved), "seed {seed}");

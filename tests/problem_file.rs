@@ -62,12 +62,22 @@ fn contact_problems_come_back_bit_for_bit() {
         let mut numbers =
             |count: usize| (0..count).map(|_| number(&mut random)).collect::<Vec<_>>();
         let (load, slip) = (numbers(n), numbers(n - pairs));
-        let friction: Vec<_> = numbers(pairs).into_iter().map(f64::abs).collect();
+        let mut friction: Vec<_> = numbers(pairs).into_iter().map(f64::abs).collect();
         let mut gap = numbers(pairs);
         for gap in gap.iter_mut().skip(round % 3).step_by(3) {
             *gap = f64::INFINITY;
         }
-        let kind = [Law::Coulomb, Law::Frictionless, Law::Coulomb, Law::Tresca][round % 4];
+        let planar = [Law::Coulomb, Law::Frictionless, Law::Cohesive, Law::Tresca];
+        let spatial = [Law::Cohesive, Law::Orthotropic, Law::OrthotropicCollinear, Law::Coulomb];
+        let kind = if dim == 2 { planar[round / 2 % 4] } else { spatial[round / 2 % 4] };
+        if kind.with(&[]).parameters() == 3 {
+            // Positive coefficients, a cohesion above mu a, and any bits that such numbers have.
+            friction = (0..3 * pairs)
+                .map(|i| if i % 3 == 1 { 4.0 } else { 1.0 } * (1.0 + random.f64()))
+                .collect();
+        } else if kind == Law::Frictionless {
+            friction.clear();
+        }
         let problem = ContactProblem::new(ContactData {
             dim,
             pairs,
@@ -75,11 +85,7 @@ fn contact_problems_come_back_bit_for_bit() {
             ld,
             load: &load,
             gap: &gap,
-            law: match kind {
-                Law::Frictionless => FrictionLaw::Frictionless,
-                Law::Coulomb => FrictionLaw::Coulomb(&friction),
-                Law::Tresca => FrictionLaw::Tresca(&friction),
-            },
+            law: kind.with(&friction),
             reference_slip: (round % 5 > 0).then_some(&slip[..]),
         })
         .unwrap();
@@ -93,7 +99,6 @@ fn contact_problems_come_back_bit_for_bit() {
         assert_eq!(bits(&back.matrix), bits(&tight));
         assert_eq!(bits(&back.load), bits(&load));
         assert_eq!(bits(&back.gap), bits(&gap));
-        let friction = if kind == Law::Frictionless { vec![] } else { friction };
         assert_eq!(bits(&back.friction), bits(&friction));
         let slip = if round % 5 > 0 { slip } else { vec![0.0; n - pairs] };
         assert_eq!(bits(&back.reference_slip), bits(&slip));
@@ -102,6 +107,26 @@ fn contact_problems_come_back_bit_for_bit() {
         assert!(ContactProblem::new(back.contact().unwrap()).is_ok());
     }
     assert_eq!(folder.names(), ["problem.mtx"], "parts are left");
+}
+
+/// A law of three parameters has three columns, pair by pair in the rows.
+#[test]
+fn the_parameters_of_a_law_stand_in_columns() {
+    let folder = Folder::new("columns");
+    let numbers = "% dim: 2\n% pairs: 2\n4 10\n".to_owned()
+        + &(0..16).map(|k| if k % 5 == 0 { "1\n" } else { "0\n" }).collect::<String>()
+        + &"0\n".repeat(8)
+        + "0.25\n0\n0.5\n0\n1\n0\n2\n0\n3\n0\n4\n0\n"
+        + &"0\n".repeat(4);
+    let head = "%%MatrixMarket matrix array real general\n% signorini problem 2\n% kind: contact\n";
+    let text = format!("{head}% law: cohesive\n{numbers}");
+    let back = folder.load(text.as_bytes()).unwrap();
+    assert_eq!(back.kind, Kind::Contact(Law::Cohesive));
+    assert_eq!(back.friction, [0.25, 1.0, 3.0, 0.5, 2.0, 4.0]);
+    let problem = ContactProblem::new(back.contact().unwrap()).unwrap();
+    file::write(&folder.file(), &problem, None).unwrap();
+    let written = fs::read_to_string(folder.file()).unwrap();
+    assert!(written.contains("f, gap, mu, b and a in normal rows"), "{written}");
 }
 
 #[test]

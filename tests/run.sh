@@ -51,6 +51,10 @@ python_with() {
     return 1
 }
 
+have_fclib() {
+    pkg-config --exists fclib hdf5 2>/dev/null
+}
+
 # Debian's names of the packages that are missing: what every test needs, ...
 needed_packages() {
     have cc || echo gcc libc6-dev
@@ -75,6 +79,7 @@ host_packages() {
     python_with numpy,matplotlib,PIL >/dev/null || echo python3-numpy python3-matplotlib python3-pil
     [ -f /usr/include/mumps_seq/mpif.h ] || echo libmumps-seq-dev
     have octave-cli && have mkoctfile || echo octave octave-dev
+    have_fclib || echo libfclib-dev
 }
 
 # macOS has another nm, no readelf, and its compilers come otherwise.
@@ -183,6 +188,7 @@ step "C programs: configure" c_configure
 step "C programs: build" c_build
 step "C programs: test" c_test
 have valgrind || skip "C programs under valgrind" "valgrind is not installed"
+have_fclib || skip "FCLIB files" "libfclib is not installed"
 have c++ || skip "the header in C++" "there is no C++ compiler"
 step "installation" sh tests/install.sh
 step "replay of Table 1" sh c_examples/replay.sh

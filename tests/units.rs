@@ -54,6 +54,12 @@ fn in_units(case: &Case, units: Units) -> Case {
         law: match &case.law {
             Law::Coulomb(mu) => Law::Coulomb(mu.clone()),
             Law::Tresca(g) => Law::Tresca(times(g, units.force)),
+            Law::Cohesive(numbers) => Law::Cohesive(
+                numbers
+                    .chunks_exact(3)
+                    .flat_map(|n| [n[0], n[1] * units.force, n[2] * units.force])
+                    .collect(),
+            ),
         },
         slip: case.slip.as_ref().map(|slip| times(slip, units.length)),
         ..*case

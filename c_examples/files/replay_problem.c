@@ -40,6 +40,9 @@ static const char *law_name(int32_t law)
     case SIGNORINI_LAW_FRICTIONLESS: return "no friction";
     case SIGNORINI_LAW_COULOMB: return "Coulomb friction";
     case SIGNORINI_LAW_TRESCA: return "Tresca friction";
+    case SIGNORINI_LAW_COHESIVE: return "friction with cohesion";
+    case SIGNORINI_LAW_ORTHOTROPIC: return "orthotropic friction";
+    case SIGNORINI_LAW_ORTHOTROPIC_COLLINEAR: return "orthotropic friction, collinear slip";
     default: return "a law that this program does not know";
     }
 }

@@ -12,7 +12,8 @@ use crate::problem::ContactProblem;
 /// `K r = 0` up to rounding, and for every pair that has an obstacle `-r_n >= mu |r_t|`: then the
 /// contact forces can only do non-negative work `F . r >= sum |F_n| (|r_n| - mu |r_t|)`, while
 /// equilibrium asks for `F . r = -f . r`. So `f . r > 0` excludes it. With given thresholds the
-/// condition is `r_n <= 0` and `f . r > sum g |r_t|`.
+/// condition is `r_n <= 0` and `f . r > sum g |r_t|`. The tension of pairs counts as a load; for all laws
+/// see `law::recession`.
 pub fn is_escape(problem: &ContactProblem<'_>, r: &[f64]) -> bool {
     is_escape_of(&Contact::new(problem), r)
 }
@@ -22,7 +23,8 @@ pub(crate) fn is_escape_of(contact: &Contact<'_>, r: &[f64]) -> bool {
     let problem = contact.problem();
     let root = problem.unit_roots();
     let size = largest_of(r.iter().zip(&root).map(|(r, root)| r * root));
-    if size == 0.0 || !size.is_finite() {
+    // On a motion that only Kᵀ resists internal forces do work.
+    if size == 0.0 || !size.is_finite() || !problem.is_symmetric() {
         return false;
     }
     let negligible = NEGLIGIBLE * size;
@@ -36,7 +38,7 @@ pub(crate) fn is_escape_of(contact: &Contact<'_>, r: &[f64]) -> bool {
         return false;
     }
     let resisted: f64 = motions.iter().map(|motion| motion.resisted).sum();
-    let load = problem.load();
+    let load = contact.shifted_load();
     let scale: f64 = load.iter().zip(&root).map(|(f, root)| size * (f / root).abs()).sum();
     dot(load, r) - resisted > LEAST_WORK * scale
 }

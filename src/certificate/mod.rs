@@ -9,6 +9,8 @@
 //! eta = |e| / max(|f|, |F|)                                      g = mu max(0, -F_n), or given
 //! ```
 //!
+//! For other laws see `law::natural_map`.
+//!
 //! It is zero at solutions only and has no unit. On a relation in which `d` does not determine `F`, the
 //! candidate is the pair `(d, F)` and the residual of the relation counts in `|e|` too.
 //!
@@ -41,7 +43,7 @@ pub struct Certificate {
     pub rounding: f64,
     /// Largest `d_n - gap`, a length; 0 if none.
     pub penetration: f64,
-    /// Largest tensile `F_n` of `F = K d - f`, a force; 0 if none.
+    /// Largest tensile `F_n` of `F = K d - f` beyond the tension that the law allows, a force; 0 if none.
     pub tension: f64,
     /// Largest `|F_t|` beyond its bound, a force; 0 if none.
     pub cone_excess: f64,
@@ -120,7 +122,7 @@ fn measure_pair<R: Relation>(
     let relation = contact.problem().relation();
     let scale = force_scale(relation.load(), &raw);
     let (inherent, rest) = rounding(contact, d);
-    let unloaded = norm_inf(relation.load()) == 0.0;
+    let unloaded = norm_inf(contact.shifted_load()) == 0.0;
     let size = norm(&natural_residual(contact, d, &raw)).hypot(norm(residual));
     let forgiven = FORGIVEN * inherent;
     // Written so that NaN stays NaN.

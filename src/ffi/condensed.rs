@@ -60,6 +60,7 @@ impl CondensedArguments {
             Argument::LeadingDimension => 3,
             Argument::Load => 4,
             Argument::Gap => 5,
+            Argument::LawChoice => 6,
             Argument::Law => 7,
             Argument::ReferenceSlip => 8,
             _ => return otherwise,

@@ -29,7 +29,7 @@ const START: i32 = 10;
 /// @param prescribed  values of the fixed degrees of freedom, in the order of fixed; NULL: zero
 /// @param gap         gaps, one for each pair
 /// @param law         SIGNORINI_LAW_..., the friction law of all pairs
-/// @param friction    parameters of the law, pair by pair: mu or g; may be NULL if frictionless
+/// @param friction    parameters of the law, pair by pair; may be NULL if frictionless
 /// @param slip0       reference slip, dim - 1 for each pair; NULL: zero
 /// @param settings    NULL: the defaults; a progress callback is called in each case in turn
 /// @param d           out: relative displacements, N = dim * pairs entries a case; in: the starts
@@ -153,6 +153,7 @@ impl CaseArguments {
             Argument::Load => 0,
             Argument::Prescribed => 1,
             Argument::Gap => 2,
+            Argument::LawChoice => 3,
             Argument::Law => 4,
             Argument::ReferenceSlip => 5,
             _ => return otherwise,
@@ -181,11 +182,7 @@ impl<'a> LoadCases<'a> {
             load: column(self.load, self.model.host_size()),
             prescribed: self.prescribed.map(|values| column(values, fixed)),
             gap: column(self.gap, pairs),
-            law: match self.law {
-                FrictionLaw::Frictionless => FrictionLaw::Frictionless,
-                FrictionLaw::Coulomb(mu) => FrictionLaw::Coulomb(column(mu, pairs)),
-                FrictionLaw::Tresca(g) => FrictionLaw::Tresca(column(g, pairs)),
-            },
+            law: self.law.with_values(column(self.law.values(), self.law.parameters() * pairs)),
             reference_slip: self.slip0.map(|slip0| column(slip0, slips)),
         }
     }

@@ -122,7 +122,7 @@ pub unsafe extern "C" fn signorini_problem_gap(problem: *const SignoriniProblem)
     unsafe { look(problem, null(), |problem| array(&problem.gap)) }
 }
 
-/// Parameters of the friction law, pair by pair: mu or g; NULL if frictionless.
+/// Parameters of the friction law, pair by pair; NULL if frictionless.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn signorini_problem_friction(
     problem: *const SignoriniProblem,

@@ -10,7 +10,7 @@ use crate::law::State;
 use crate::settings::Method;
 use crate::solve::{Fallback, LcpSolution, Solution, Uniqueness};
 
-/// The pair is apart: F_n = 0, and F_t = 0 but under Tresca's law.
+/// The pair is apart: F_n = 0, with cohesion F_n = a; F_t = 0 but under Tresca's law and cohesion.
 pub const SIGNORINI_STATE_OPEN: i32 = 0;
 /// The pair touches and slips: |F_t| is at its bound. Frictionless: every pair that touches.
 pub const SIGNORINI_STATE_SLIP: i32 = 1;
@@ -61,7 +61,7 @@ pub struct SignoriniReport {
     pub rounding: f64,
     /// Largest d_n - gap; length; 0 if none.
     pub penetration: f64,
-    /// Largest tensile (positive) normal part of K d - f; force; 0 if none.
+    /// Largest normal part of K d - f beyond the tension of the law, 0 but for cohesion; force.
     pub tension: f64,
     /// Largest excess of the tangential part of K d - f over its bound; force; 0 if none.
     pub cone_excess: f64,

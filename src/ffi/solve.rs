@@ -25,7 +25,7 @@ use crate::solve::{Status, solve};
 /// @param gap       initial gaps, one for each pair; length; negative: interference; +infinity:
 ///                  the pair never touches
 /// @param law       SIGNORINI_LAW_..., the friction law of all pairs
-/// @param friction  parameters of the law, pair by pair: mu or g; may be NULL if frictionless
+/// @param friction  parameters of the law, pair by pair; may be NULL if frictionless
 /// @param slip0     reference slip: the tangential displacement d_t0 at which a sticking pair has
 ///                  no motion, dim - 1 for each pair; length; NULL: zero. In load steps hand over
 ///                  the d_t of the step before.

@@ -21,9 +21,10 @@
 //! The lines after the last comment are the numbers of rows and columns, then the entries column by
 //! column, one a line, with as many digits (17 at most) as give back the same bits. With `N = dim *
 //! pairs` rows the columns of kind `contact` are `K` (N of them), `f`, `gap`, the parameters of the
-//! law (`coulomb`: mu; `tresca`: g; `frictionless`: none) and the reference slip `slip0`. Gap and
-//! parameters stand in the normal row of each pair, `slip0` in its tangential rows; other rows are
-//! 0. Of kind `lcp`, which has neither law, dim nor pairs, the columns are `M` (n of them), `q`
+//! law, a column each, and the reference slip `slip0`. Gap and parameters stand in the normal row of
+//! each pair, `slip0` in its tangential rows; other rows are 0. The laws and their parameters are
+//! `frictionless` (none), `coulomb` (mu), `tresca` (g), `cohesive` (mu, b, a), `orthotropic` and
+//! `orthotropic-collinear` (mu1, mu2, angle). Of kind `lcp`, which has neither law, dim nor pairs, the columns are `M` (n of them), `q`
 //! and, if given, the covering vector. A gap of a pair that never touches is `inf`, the one
 //! spelling that all of the readers that were tried take. Other comment lines are skipped.
 //!
@@ -32,6 +33,7 @@
 //! The other open format of the field, FCLIB's, holds the flexibility matrix (Delassus), which does
 //! not exist for bodies that only contact supports, and needs the HDF5 library.
 
+mod law;
 mod lines;
 mod read;
 mod write;
@@ -39,8 +41,9 @@ mod write;
 use std::path::Path;
 
 use crate::error::Error;
-use crate::problem::{ContactData, FrictionLaw};
+use crate::problem::ContactData;
 
+pub use law::Law;
 pub use read::read;
 pub use write::{write, write_lcp};
 
@@ -54,39 +57,6 @@ const VERSION: &str = "2";
 const OLD_VERSION: &str = "1";
 /// Most bytes of a remark.
 const MOST_REMARK: usize = 1000;
-
-/// The friction law of a problem, without its parameters.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Law {
-    /// No friction.
-    Frictionless,
-    /// Coulomb friction.
-    Coulomb,
-    /// Tresca friction: given thresholds.
-    Tresca,
-}
-
-impl Law {
-    const ALL: [Law; 3] = [Law::Frictionless, Law::Coulomb, Law::Tresca];
-
-    /// Its name in a file.
-    fn name(self) -> &'static str {
-        match self {
-            Law::Frictionless => "frictionless",
-            Law::Coulomb => "coulomb",
-            Law::Tresca => "tresca",
-        }
-    }
-
-    /// Names of the parameters of each pair.
-    fn parameters(self) -> &'static [&'static str] {
-        match self {
-            Law::Frictionless => &[],
-            Law::Coulomb => &["mu"],
-            Law::Tresca => &["g"],
-        }
-    }
-}
 
 /// The kind of a problem.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -115,8 +85,7 @@ pub struct ProblemFile {
     pub load: Vec<f64>,
     /// Gaps, `pairs`.
     pub gap: Vec<f64>,
-    /// Parameters of the friction law pair by pair: coefficients or thresholds, `pairs`; none if
-    /// frictionless.
+    /// Parameters of the friction law pair by pair, one or three for each; none if frictionless.
     pub friction: Vec<f64>,
     /// Reference slip, `(dim - 1) * pairs`.
     pub reference_slip: Vec<f64>,
@@ -130,9 +99,7 @@ impl ProblemFile {
     /// The contact problem, not yet checked; `None` of an LCP.
     pub fn contact(&self) -> Option<ContactData<'_>> {
         let law = match self.kind {
-            Kind::Contact(Law::Frictionless) => FrictionLaw::Frictionless,
-            Kind::Contact(Law::Coulomb) => FrictionLaw::Coulomb(&self.friction),
-            Kind::Contact(Law::Tresca) => FrictionLaw::Tresca(&self.friction),
+            Kind::Contact(law) => law.with(&self.friction),
             Kind::Lcp => return None,
         };
         Some(ContactData {

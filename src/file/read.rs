@@ -174,8 +174,13 @@ impl Header {
             Kind::Lcp => problem.covering = covering.then(|| column("cover")).transpose()?,
             Kind::Contact(law) => {
                 problem.gap = rows(lines, "gap", (size, most), |i| i % dim == 0)?;
-                for name in law.parameters() {
-                    problem.friction = rows(lines, name, (size, most), |i| i % dim == 0)?;
+                let names = law.parameters();
+                // Columns of the file, of which the pairs are the rows.
+                problem.friction = vec![0.0; pairs * names.len()];
+                for (k, name) in names.iter().enumerate() {
+                    let column = rows(lines, name, (size, most), |i| i % dim == 0)?;
+                    let places = problem.friction.iter_mut().skip(k).step_by(names.len());
+                    places.zip(column).for_each(|(place, value)| *place = value);
                 }
                 problem.reference_slip = rows(lines, "slip0", (size, most), |i| i % dim != 0)?;
             }
@@ -189,6 +194,9 @@ impl Header {
         Ok(problem)
     }
 }
+
+/// The laws that version 1 of the format has.
+const OLD_LAWS: [Law; 2] = [Law::Coulomb, Law::Tresca];
 
 /// The kind and, of contact, the law: in version 1 of the format the kind is the law.
 fn read_kind(
@@ -205,7 +213,7 @@ fn read_kind(
     }
     let find = |name: &str| Law::ALL.into_iter().find(|law| law.name() == name);
     if version == OLD_VERSION {
-        let law = find(name).filter(|law| *law != Law::Frictionless);
+        let law = find(name).filter(|law| OLD_LAWS.contains(law));
         let unknown = || lines.refuse_at(*at, &format!("no kind of problem is {}", shown(name)));
         return law.map(Kind::Contact).ok_or_else(unknown);
     }

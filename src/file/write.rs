@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::{BANNER, Law, MOST_REMARK, TITLE, VERSION, refuse};
 use crate::error::{Argument, Error, entry};
-use crate::problem::{ContactProblem, FrictionLaw, Lcp};
+use crate::problem::{ContactProblem, Lcp};
 
 /// Writes a contact problem to the file `path`, which is replaced if it exists. The remark is one
 /// line.
@@ -24,17 +24,13 @@ pub fn write(path: &Path, problem: &ContactProblem<'_>, remark: Option<&str>) ->
             return Err(Error::invalid(Argument::Matrix, entry("K", [i, j]) + " is not finite"));
         }
     }
-    let (law, parameters) = match problem.law() {
-        FrictionLaw::Frictionless => (Law::Frictionless, None),
-        FrictionLaw::Coulomb(mu) => (Law::Coulomb, Some(mu)),
-        FrictionLaw::Tresca(g) => (Law::Tresca, Some(g)),
-    };
+    let (law, given) = (Law::of(&problem.law()), problem.law());
     let gap: Vec<f64> = (0..problem.pairs()).map(|pair| problem.gap(pair)).collect();
     let pairs = problem.pairs();
     replace(path, |file| {
         let lines = format!("contact\n% law: {}\n% dim: {dim}\n% pairs: {pairs}", law.name());
         head(file, &lines, remark)?;
-        let names = [&["gap"], law.parameters()].concat().join(" and ");
+        let names = listed(&[&["gap"], law.parameters()].concat());
         writeln!(file, "K ({n}), f, {names} in normal rows, slip0 in tangential rows.")?;
         writeln!(file, "{n} {}", n + 3 + law.parameters().len())?;
         for j in 0..n {
@@ -42,8 +38,12 @@ pub fn write(path: &Path, problem: &ContactProblem<'_>, remark: Option<&str>) ->
         }
         entries(file, problem.load().iter().copied())?;
         // A value of each pair in its normal row.
-        for values in [Some(&gap[..]), parameters].into_iter().flatten() {
-            entries(file, (0..n).map(|i| if i % dim == 0 { values[i / dim] } else { 0.0 }))?;
+        let in_normal_rows = |value: &dyn Fn(usize) -> f64| -> Vec<f64> {
+            (0..n).map(|i| if i % dim == 0 { value(i / dim) } else { 0.0 }).collect()
+        };
+        entries(file, in_normal_rows(&|pair| gap[pair]).into_iter())?;
+        for k in 0..given.parameters() {
+            entries(file, in_normal_rows(&|pair| given.of_pair(pair)[k]).into_iter())?;
         }
         let slip0 = |i| match i % dim {
             0 => 0.0,
@@ -83,6 +83,14 @@ fn head(file: &mut impl Write, kind: &str, remark: Option<&str>) -> io::Result<(
     let version = env!("CARGO_PKG_VERSION");
     writeln!(file, "% Written by signorini {version} in the units of the host.")?;
     write!(file, "% Columns: ")
+}
+
+/// Names in a sentence: "gap and mu", "gap, mu, b and a".
+fn listed(names: &[&str]) -> String {
+    match names {
+        [rest @ .., last] if !rest.is_empty() => format!("{} and {last}", rest.join(", ")),
+        _ => names.concat(),
+    }
 }
 
 /// One entry a line, in the fewest digits that give back the same bits.

@@ -1,6 +1,8 @@
-//! The bound on the tangential force, `|F_t| <= g(p)`, and the disc that it makes.
+//! The bound on the tangential force, `|F_t| <= g(p')`.
 
-/// `g(p) = slope p + offset`, for the pressure `p >= 0`. It holds for an open pair too, with `p = 0`.
+/// `g(p') = slope p' + offset`, for the pressure `p' = p + a >= 0` beside the tension `a` that the pair
+/// may carry. It holds for an open pair too, with `p' = 0`. Under a law with an ellipse it bounds the
+/// gauge of the tangential force.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bound {
     /// `dg/dp`, without unit, at least 0.
@@ -29,15 +31,5 @@ pub fn length(vector: &[f64]) -> f64 {
         [a] => a.abs(),
         [a, b] => a.hypot(b),
         _ => unreachable!("a pair has one or two tangential components"),
-    }
-}
-
-/// Brings a tangential vector back to the disc of radius `radius >= 0`.
-pub fn project_disc(vector: &mut [f64], radius: f64) {
-    let length = length(vector);
-    if length > radius {
-        for component in vector {
-            *component *= radius / length;
-        }
     }
 }

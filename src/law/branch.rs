@@ -7,12 +7,15 @@
 //! | open, without tangential force | 0 |
 //! | closed | 1 in the normal component |
 //! | stick | 1 in the tangential components |
-//! | slip along `h` | `slope h` in the column of the normal component, `q (1 - h hᵀ)` in the tangential ones, `q = g / |y_t|` |
+//! | slip | `slope h` in the column of the normal component, `T = q (1 - h cᵀ)` in the tangential ones |
 //!
-//! In the plane, and without friction, `q (1 - h hᵀ) = 0`: the law is piecewise linear, and the
-//! equations of a branch are exact everywhere on it ([`Branch::rows`]).
+//! with `q = g / gauge(y_t)`, `h = y_t / gauge(y_t)` and `c = Q h`, `Q` the form of the gauge: `c . h = 1`,
+//! so that `T h = 0`. Of an isotropic law `h = c` is the unit vector of the slip.
+//!
+//! In the plane, and without friction, `T = 0`: the law is piecewise linear, and the equations of a
+//! branch are exact everywhere on it ([`Branch::rows`]).
 
-use super::{Block, Bound, PairLaw, Vector, length};
+use super::{Block, PairLaw, Vector};
 
 /// A branch of the law of one pair.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,10 +35,9 @@ pub enum Tangential {
     Stick,
     /// Slip along a direction.
     Slip {
-        /// Unit vector of the slip: +1 or −1 in the plane.
+        /// Direction of the friction that `tau` balances, of gauge 1: +1 or −1 in the plane, the unit
+        /// vector of the slip under an isotropic law.
         direction: [f64; 2],
-        /// How much the force turns with the trial force, `g / |y_t|`; 0 in the plane.
-        turning: f64,
     },
 }
 
@@ -46,60 +48,64 @@ pub enum Row {
     Fixed(f64),
     /// `F_i + coupling F_n + offset = 0`, with the normal component `n` of its pair.
     Free {
-        /// Coefficient of `F_n`.
+        /// Coefficient of `F_n`; 0 in the equation of `F_n` itself.
         coupling: f64,
         /// A force.
         offset: f64,
     },
 }
 
+impl Row {
+    /// No force.
+    const FREE: Row = Row::Free { coupling: 0.0, offset: 0.0 };
+}
+
 impl Branch {
     /// Open, without tangential force.
     pub const OPEN: Branch = Branch { closed: false, tangential: Tangential::Free };
 
-    /// `dP/dy`.
-    pub fn derivative(&self, bound: Bound) -> Block {
-        let mut block = [[0.0; 3]; 3];
-        let normal = if self.closed { 1.0 } else { 0.0 };
-        block[0][0] = normal;
-        match self.tangential {
-            Tangential::Free => {}
-            Tangential::Stick => (block[1][1], block[2][2]) = (1.0, 1.0),
-            Tangential::Slip { direction: h, turning } => {
-                for c in 0..2 {
-                    block[1 + c][0] = bound.slope * h[c] * normal;
-                    for other in 0..2 {
-                        let unit = if c == other { 1.0 } else { 0.0 };
-                        block[1 + c][1 + other] = turning * (unit - h[c] * h[other]);
-                    }
-                }
+    /// What a pair does next that was on this branch: `next`, but if its slip would turn back, it
+    /// sticks first. From one slip to the other it passes stick.
+    pub fn without_reversal(&self, law: &PairLaw, next: Branch) -> Branch {
+        match (self.tangential, next.tangential) {
+            (Tangential::Slip { direction: before, .. }, Tangential::Slip { direction: h, .. })
+                if next.closed && before[0] * h[0] + before[1] * h[1] < 0.0 =>
+            {
+                law.stick()
             }
+            _ => next,
         }
-        block
     }
 
     /// The equation of each component on this branch of the piecewise linear `law`: where `dP/dy` is 1
     /// the displacement is fixed at its reference, elsewhere the force is.
     #[inline]
     pub fn rows(&self, law: &PairLaw) -> [Row; 3] {
-        let block = self.derivative(law.bound);
         let reference = law.reference();
-        let offset = match self.tangential {
-            Tangential::Slip { direction: h, .. } => {
-                [0.0, law.bound.offset * h[0], law.bound.offset * h[1]]
+        let normal = match self.closed {
+            true => Row::Fixed(reference[0]),
+            false => Row::Free { coupling: 0.0, offset: -law.tension },
+        };
+        // P' = (a - F_n, -F_t), so that tau = slope h p' + offset h is the equation of F below.
+        let slope = if self.closed { law.bound.slope } else { 0.0 };
+        let offset = slope * law.tension + law.bound.offset;
+        let tangential = |c: usize| match self.tangential {
+            Tangential::Free => Row::FREE,
+            Tangential::Stick => Row::Fixed(reference[c]),
+            Tangential::Slip { direction: h } => {
+                Row::Free { coupling: -slope * h[c - 1], offset: offset * h[c - 1] }
             }
-            _ => [0.0; 3],
         };
-        let row = |i: usize| match block[i][i] {
-            1.0 => Row::Fixed(reference[i]),
-            // P = -F, so that tau = slope h p + offset h is the equation of F below.
-            _ => Row::Free { coupling: if i == 0 { 0.0 } else { -block[i][0] }, offset: offset[i] },
-        };
-        [row(0), row(1), row(2)]
+        [normal, tangential(1), tangential(2)]
     }
 }
 
 impl PairLaw {
+    /// `dP/dy` at the coordinates `y` of the chart.
+    pub fn derivative(&self, y: &Vector) -> Block {
+        self.derivative_on(self.piece(y), y)
+    }
+
     /// Closed if there is an obstacle, and sticking if there is friction.
     pub fn stick(&self) -> Branch {
         let tangential = if self.has_friction() { Tangential::Stick } else { Tangential::Free };
@@ -108,7 +114,7 @@ impl PairLaw {
 
     /// Slip along `direction` of a pair that is closed if there is an obstacle; without friction free.
     pub fn slip(&self, direction: [f64; 2]) -> Branch {
-        let slip = Tangential::Slip { direction, turning: 0.0 };
+        let slip = Tangential::Slip { direction };
         let tangential = if self.has_friction() { slip } else { Tangential::Free };
         Branch { closed: self.has_obstacle(), tangential }
     }
@@ -125,6 +131,6 @@ impl PairLaw {
         if threshold == 0.0 {
             return normal;
         }
-        normal.min((length(&y[1..self.dim]) - threshold).abs())
+        normal.min((self.gauge(&y[1..self.dim]) - threshold).abs())
     }
 }

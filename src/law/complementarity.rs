@@ -3,13 +3,14 @@
 //! With the clearance `w = gap - d_n` and the slip `delta = a - b` (`a, b >= 0`):
 //!
 //! ```text
-//! p              >= 0,  w >= 0,  p w = 0
-//! g(p) - tau     >= 0,  a >= 0,  (g(p) - tau) a = 0
-//! g(p) + tau     >= 0,  b >= 0,  (g(p) + tau) b = 0
+//! p'              >= 0,  w >= 0,  p' w = 0
+//! g(p') - tau     >= 0,  a >= 0,  (g(p') - tau) a = 0
+//! g(p') + tau     >= 0,  b >= 0,  (g(p') + tau) b = 0
 //! ```
 //!
-//! Without friction only the first line is left. In `x = -d_n` it is an LCP with the lower bound
-//! `-gap`, and `w`, the variable that the bound is complementary to, is the pressure `-F_n`.
+//! with the pressure `p'` beside the tension that the pair may carry: that of equilibrium under
+//! [`Contact::shifted_load`]. Without friction only the first line is left. In `x = -d_n` it is an LCP
+//! with the lower bound `-gap`, and `w`, the variable that the bound is complementary to, is `p'`.
 
 use super::branch::{Branch, Tangential};
 use super::{Contact, PairLaw};
@@ -35,7 +36,7 @@ impl PairLaw {
     pub fn branch_of_variables(&self, w: f64, a: f64, b: f64) -> Branch {
         let closed = self.has_obstacle() && w == 0.0;
         let acts = self.bound.at(if closed { 1.0 } else { 0.0 }) > 0.0;
-        let slip = |side: f64| Tangential::Slip { direction: [side, 0.0], turning: 0.0 };
+        let slip = |side: f64| Tangential::Slip { direction: [side, 0.0] };
         let tangential = match (a, b) {
             _ if !acts => Tangential::Free,
             (a, b) if a > b => slip(1.0),

@@ -1,7 +1,9 @@
 //! A contact problem with the law of each pair worked out: what solvers and the certificate work on.
 
+use std::borrow::Cow;
+
 use super::branch::Branch;
-use super::{Bound, PairLaw, coulomb, frictionless, tresca};
+use super::{Bound, Ellipse, PairLaw, Rule, cohesive, coulomb, frictionless, orthotropic, tresca};
 use crate::linalg::vector::norm_inf;
 use crate::problem::{ContactProblem, FrictionLaw, Relation, Stiffness};
 
@@ -10,25 +12,67 @@ use crate::problem::{ContactProblem, FrictionLaw, Relation, Stiffness};
 pub struct Contact<'p, R = Stiffness<'p>> {
     problem: &'p ContactProblem<'p, R>,
     pairs: Vec<PairLaw>,
+    /// `f` with the tensions of the pairs.
+    load: Cow<'p, [f64]>,
+}
+
+impl Contact<'_> {
+    /// The force `F - a` that equilibrium at `d` needs beside the tension of the pairs: `K d - (f + a)`.
+    pub fn shifted_force(&self, d: &[f64]) -> Vec<f64> {
+        let mut force: Vec<f64> = self.load.iter().map(|f| -f).collect();
+        self.problem.stiffness().add_product(d, &mut force);
+        force
+    }
 }
 
 impl<'p, R: Relation> Contact<'p, R> {
     /// Works out the laws of a problem.
     pub fn new(problem: &'p ContactProblem<'p, R>) -> Self {
         let pair = |pair: usize| {
-            let bound = match problem.law() {
-                FrictionLaw::Frictionless => frictionless::bound(),
-                FrictionLaw::Coulomb(mu) => coulomb::bound(mu[pair]),
-                FrictionLaw::Tresca(g) => tresca::bound(g[pair]),
-            };
             let mut slip0 = [0.0; 2];
             for (component, slip0) in slip0[..problem.dim() - 1].iter_mut().enumerate() {
                 *slip0 = problem.reference_slip(pair, component);
             }
             let stiffness = (problem.normal_stiffness(pair), problem.tangential_stiffness(pair));
-            PairLaw::new(problem.dim(), problem.gap(pair), slip0, bound, stiffness)
+            let law =
+                |bound| PairLaw::new(problem.dim(), problem.gap(pair), slip0, bound, stiffness);
+            let elliptic = |numbers: &[f64], rule| {
+                let (mu, angle) = ([numbers[0], numbers[1]], numbers[2]);
+                let block = problem.tangential_block(pair);
+                law(orthotropic::bound(mu)).with_ellipse(Ellipse::new(mu, angle, rule, &block))
+            };
+            let numbers = problem.law().of_pair(pair);
+            match problem.law() {
+                FrictionLaw::Frictionless => law(frictionless::bound()),
+                FrictionLaw::Coulomb(_) => law(coulomb::bound(numbers[0])),
+                FrictionLaw::Tresca(_) => law(tresca::bound(numbers[0])),
+                FrictionLaw::Cohesive(_) => {
+                    let (mu, b, a) = (numbers[0], numbers[1], numbers[2]);
+                    law(cohesive::bound(mu, b, a)).with_tension(a)
+                }
+                FrictionLaw::Orthotropic(_) => elliptic(numbers, Rule::Associated),
+                FrictionLaw::OrthotropicCollinear(_) => elliptic(numbers, Rule::Collinear),
+            }
         };
-        Contact { problem, pairs: (0..problem.pairs()).map(pair).collect() }
+        let pairs: Vec<PairLaw> = (0..problem.pairs()).map(pair).collect();
+        let mut load = Cow::Borrowed(problem.relation().load());
+        for (pair, law) in pairs.iter().enumerate().filter(|(_, law)| law.tension() > 0.0) {
+            load.to_mut()[problem.dim() * pair] += law.tension();
+        }
+        Contact { problem, pairs, load }
+    }
+
+    /// `f` with the tension of each pair added to its normal component. Under this load the law has no
+    /// tension: `K d = (f + a) + (F - a)`, and `F_n - a <= 0`.
+    pub fn shifted_load(&self) -> &[f64] {
+        &self.load
+    }
+
+    /// Adds the tension of each pair to its normal force: `F` from `F - a`.
+    pub fn add_tension(&self, force: &mut [f64]) {
+        for (law, normal) in self.pairs.iter().zip(force.iter_mut().step_by(self.dim())) {
+            *normal += law.tension();
+        }
     }
 
     /// The problem.
@@ -67,6 +111,15 @@ impl<'p, R: Relation> Contact<'p, R> {
         self.each(d, force).map(|(law, d, force)| law.branch(&law.trial(d, force))).collect()
     }
 
+    /// The displacements nearest to `d` that do not penetrate.
+    pub fn admissible(&self, d: &[f64]) -> Vec<f64> {
+        let mut d = d.to_vec();
+        for (law, normal) in self.pairs.iter().zip(d.iter_mut().step_by(self.dim())) {
+            *normal = law.admissible(*normal);
+        }
+        d
+    }
+
     /// Every pair that has an obstacle closed, and sticking as far as it has friction.
     pub fn all_stick(&self) -> Vec<Branch> {
         self.pairs.iter().map(PairLaw::stick).collect()
@@ -87,6 +140,11 @@ impl<'p, R: Relation> Contact<'p, R> {
     /// Whether the bound of some pair depends on its pressure.
     pub fn is_coupled(&self) -> bool {
         self.bounds().any(|bound| bound.slope > 0.0)
+    }
+
+    /// Whether some pair slips along a friction that does not take the most work from its slip.
+    pub fn has_collinear_slip(&self) -> bool {
+        self.pairs.iter().any(PairLaw::is_collinear)
     }
 
     /// The bounds of all pairs.

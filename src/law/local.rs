@@ -1,4 +1,5 @@
-//! The exact solution of one pair, its block coupled: `A v + P = r` with `(v, P)` on the law.
+//! The exact solution of one pair, its block coupled: `A v + P' = r` with `(v, P)` on the law; `r` holds
+//! the tension of the pair.
 //!
 //! Given the bound `g` on the tangential force, the problem is convex. With the pair closed,
 //! `A_tt delta + tau = r_t`, `|tau| <= g`, has one solution `delta(g)`, and the pressure that belongs to
@@ -7,8 +8,12 @@
 //! - Under the bound of zero pressure the pressure is not positive: the pair is open.
 //! - Otherwise `h(p) = p - r_n + A_nt delta(g(p))` is negative at 0 and positive where `g(p)` holds the
 //!   pair and `p > r_n`. It is continuous: a zero between them is a solution, for every coefficient.
+//!
+//! With the ellipse of the associated rule the same holds in the variables of the disc. Under the
+//! collinear rule a solution `delta(g)` exists, but others may too, and where it jumps the pair returned
+//! is none of the law: there is no theorem for that rule here.
 
-use super::{Block, PairLaw, Vector, length};
+use super::{Block, PairLaw, Plane, Rule, Vector, ellipse, length};
 
 /// Halvings of the interval of a root: they end at its last bit, and at the latest when it has shrunk
 /// to 1e-60 of its length, for roots near zero.
@@ -23,6 +28,7 @@ impl PairLaw {
         for (r, row) in r.iter_mut().zip(block).take(self.dim) {
             *r -= (0..self.dim).map(|j| row[j] * reference[j]).sum::<f64>();
         }
+        r[0] += self.tension;
         let v = self.closed(block, &r).unwrap_or_else(|| self.open(block, &r));
         let mut d = [0.0; 3];
         for c in 0..self.dim {
@@ -68,28 +74,39 @@ impl PairLaw {
         [(r[0] - coupled) / block[0][0], delta[0], delta[1]]
     }
 
-    /// `delta` with `a delta + tau = r`, `|tau| <= g`, `delta` along `tau` and zero inside the disc:
-    /// `(a + lambda) delta = r` with the `lambda` for which `lambda |delta| = g`, which grows with it.
-    fn slip_under(&self, a: [[f64; 2]; 2], r: [f64; 2], g: f64) -> [f64; 2] {
-        let size = length(&r[..self.dim - 1]);
-        if size <= g {
-            return [0.0; 2];
-        }
+    /// `delta` with `a delta + tau = r`, the gauge of `tau` at most `g`, and the slip of the law.
+    fn slip_under(&self, a: Plane, r: [f64; 2], g: f64) -> [f64; 2] {
         if self.dim == 2 {
-            return [(r[0] - g * (r[0] / size)) / a[0][0], 0.0];
+            let size = r[0].abs();
+            return if size <= g { [0.0; 2] } else { [(r[0] - g * (r[0] / size)) / a[0][0], 0.0] };
         }
-        let delta = |lambda: f64| {
-            let (p, q) = (a[0][0] + lambda, a[1][1] + lambda);
-            let determinant = p * q - a[0][1] * a[1][0];
-            [(q * r[0] - a[0][1] * r[1]) / determinant, (p * r[1] - a[1][0] * r[0]) / determinant]
-        };
-        let excess = |lambda: f64| lambda * length(&delta(lambda)) - g;
-        let mut above = a[0][0].max(a[1][1]);
-        while excess(above) < 0.0 {
-            above *= 2.0;
+        match &self.ellipse {
+            Some(ellipse) if ellipse.rule() == Rule::Associated => {
+                let (a, r) = (ellipse.block_to_disc(&a), ellipse.to_disc(r));
+                ellipse.slip_from_disc(slip_along_force(&a, r, g, |t| length(&t)))
+            }
+            _ => slip_along_force(&a, r, g, |t| self.gauge(&t)),
         }
-        delta(root(0.0, above, excess))
     }
+}
+
+/// `delta` with `a delta + tau = r`, `gauge(tau) <= g`, `delta` along `tau` and zero where the gauge is
+/// smaller: `(a + lambda) delta = r` with a `lambda` for which `lambda gauge(delta) = g`. The left-hand
+/// side grows with `lambda` if the gauge is the length.
+fn slip_along_force(a: &Plane, r: [f64; 2], g: f64, gauge: impl Fn([f64; 2]) -> f64) -> [f64; 2] {
+    if gauge(r) <= g {
+        return [0.0; 2];
+    }
+    let delta = |lambda: f64| {
+        let stiffened = [[a[0][0] + lambda, a[0][1]], [a[1][0], a[1][1] + lambda]];
+        ellipse::product(&ellipse::inverse(&stiffened), r)
+    };
+    let excess = |lambda: f64| lambda * gauge(delta(lambda)) - g;
+    let mut above = a[0][0].max(a[1][1]);
+    while excess(above) < 0.0 {
+        above *= 2.0;
+    }
+    delta(root(0.0, above, excess))
 }
 
 /// A zero of a continuous function that is not positive at `below` and not negative at `above`, to the

@@ -2,50 +2,66 @@
 //! penetration has, and that a pair without an obstacle has an infinite gap.
 //!
 //! One file for one notion: a friction law is a [`Bound`] on the tangential force
-//! ([`frictionless`], [`coulomb`], [`tresca`]); all else is the same for every law:
+//! ([`frictionless`], [`coulomb`], [`tresca`], [`cohesive`], [`orthotropic`]), with a tension that the pair
+//! may carry and, if it is not isotropic, an [`Ellipse`]; all else is the same for every law:
 //!
 //! | file | what it gives | who uses it |
 //! |---|---|---|
+//! | `gauge` | what the bound limits, and the scale of slips | all below, Newton's method in space |
 //! | `natural_map` | how far a displacement and a force are from the law | certificate |
 //! | `normal_map` | `y -> (v, P)`, the chart on which the law is one function | branches, Newton's method in space |
 //! | `branch` | which smooth piece of the law a point is on, with the derivative there | active-set methods, uniqueness |
+//! | `planar_piece` | the boundaries between the pieces in the plane | the linear path |
 //! | `proximal` | the step of one pair in a sweep | sweeps |
 //! | `local` | the exact solution of one pair, its block coupled | who solves pair by pair |
 //! | `complementarity` | the law as complementarity of non-negative variables | Lemke's method, block pivoting |
+//! | `reach` | which obstacles are too far away to matter | `solve::far_obstacles` |
 //! | `recession` | what a rigid motion must satisfy to prove that no equilibrium exists | certificate |
 //!
 //! Notation, for one pair: `v = d - (gap, slip0)`, so that `v_n` is the penetration (at most 0 if the
-//! law is obeyed) and `delta = v_t` the slip; `P = -F = (p, tau)`, so that `p` is the pressure. With
+//! law is obeyed) and `delta = v_t` the slip; `P = -F = (p, tau)`, so that `p` is the pressure, and
+//! `p' = p + a`, `P' = (p', tau)` with the tension `a` that the pair may carry, 0 but for cohesion. With
 //! `k = (k_n, k_t)`, forces per length that only scale,
 //!
 //! ```text
-//! v_n <= 0,  p >= 0,  v_n p = 0;   |tau| <= g(p),  delta = lambda tau, lambda >= 0, zero where |tau| < g(p)
-//! y = P + k v                                                      (Alart and Curnier's trial forces)
+//! v_n <= 0,  p' >= 0,  v_n p' = 0;   |tau| <= g(p'),  delta = lambda tau, lambda >= 0, zero where |tau| < g(p')
+//! y = P' + k v                                                     (Alart and Curnier's trial forces)
 //! ```
+//!
+//! With an ellipse the length of `tau` is its gauge, `k_t` is a matrix, and `k delta` is along `tau`.
 
 mod bound;
 pub mod branch;
+pub mod cohesive;
 pub mod complementarity;
 mod contact;
 pub mod coulomb;
+pub mod ellipse;
 pub mod frictionless;
+mod gauge;
 mod local;
 mod natural_map;
 mod normal_map;
+pub mod orthotropic;
 pub mod piece;
+mod planar_piece;
 mod proximal;
+mod reach;
 mod recession;
 pub mod tresca;
 
-pub use bound::{Bound, length, project_disc};
+pub use bound::{Bound, length};
 pub use contact::Contact;
+pub use ellipse::{Ellipse, Plane, Rule};
 pub use natural_map::Violation;
+pub use planar_piece::{Exit, Planar};
+pub use reach::gaps_within_reach;
 pub use recession::{Recession, lift};
 
 /// What a contact pair does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum State {
-    /// Apart: no force (under Tresca's law: no normal force).
+    /// Apart: no force; under Tresca's law no normal force, with cohesion the tension.
     Open,
     /// In contact with the tangential force on its bound; also every contact without friction.
     Slip,
@@ -68,6 +84,10 @@ pub struct PairLaw {
     gap: f64,
     slip0: [f64; 2],
     bound: Bound,
+    /// `a`, a force, at least 0.
+    tension: f64,
+    /// `None`: isotropic.
+    ellipse: Option<Ellipse>,
     k_n: f64,
     k_t: f64,
 }
@@ -82,10 +102,25 @@ impl PairLaw {
         bound: Bound,
         (k_n, k_t): (f64, f64),
     ) -> Self {
-        PairLaw { dim, gap, slip0, bound, k_n, k_t }
+        PairLaw { dim, gap, slip0, bound, tension: 0.0, ellipse: None, k_n, k_t }
     }
 
-    /// The bound on the tangential force.
+    /// The same law with a tension `a >= 0` that the pair may carry: `p >= -a`.
+    pub fn with_tension(self, tension: f64) -> Self {
+        PairLaw { tension, ..self }
+    }
+
+    /// The same law, of a pair in space, with an ellipse in the place of the disc.
+    pub fn with_ellipse(self, ellipse: Ellipse) -> Self {
+        PairLaw { ellipse: Some(ellipse), ..self }
+    }
+
+    /// The tension that the pair may carry, a force.
+    pub fn tension(&self) -> f64 {
+        self.tension
+    }
+
+    /// The bound on the tangential force, or on its gauge.
     pub fn bound(&self) -> Bound {
         self.bound
     }
@@ -123,12 +158,13 @@ impl PairLaw {
 
     /// Bound on the tangential force at the normal force `f_n`, which may be tensile.
     pub fn threshold(&self, f_n: f64) -> f64 {
-        self.bound.at((-f_n).max(0.0))
+        self.bound.at((self.tension - f_n).max(0.0))
     }
 
-    /// Whether zero displacement is admissible.
+    /// Whether zero displacement without a normal force is admissible: no interference, and no tension
+    /// across an open gap.
     pub fn admits_zero(&self) -> bool {
-        self.gap >= 0.0
+        if self.tension > 0.0 { self.gap == 0.0 } else { self.gap >= 0.0 }
     }
 
     /// Whether a pair with the normal displacement `d_n` touches its obstacle, or penetrates it.

@@ -1,20 +1,22 @@
 //! The natural map: how far a displacement and a force are from the law, as a force.
 //!
 //! ```text
-//! e_n = k_n (d_n - min(gap, d_n - F_n / k_n))
-//! e_t = k_t (delta - shrink(delta - F_t / k_t, g / k_t))         g = g(max(0, -F_n))
+//! e_n = k_n (d_n - min(gap, d_n - (F_n - a) / k_n))
+//! e_t = back(k delta - F_t) + F_t                                g = g(max(0, a - F_n))
 //! ```
 //!
-//! with `shrink(x, a)` the vector `x` shortened by `a`. It is zero exactly if the law is obeyed.
+//! with `back(y)` the trial force `y` brought back along its own line to the gauge `g` if that is
+//! exceeded. Of an isotropic law `e_t = k_t (delta - shrink(delta - F_t / k_t, g / k_t))`, `shrink(x, s)`
+//! the vector `x` shortened by `s`. It is zero exactly if the law is obeyed.
 
-use super::{PairLaw, State, Vector, length, project_disc};
+use super::{PairLaw, State, Vector, length};
 
 /// How far a pair is outside the law, in the units of the problem; 0 where it is not.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Violation {
     /// `d_n - gap`, a length.
     pub penetration: f64,
-    /// Tensile normal force.
+    /// Tensile normal force beyond the tension that the law allows.
     pub tension: f64,
     /// `|F_t|` beyond its bound, a force.
     pub cone_excess: f64,
@@ -37,14 +39,19 @@ impl PairLaw {
     /// Branch by branch, so that a force is not lost in the rounding of a much larger `k_t delta`.
     pub fn natural_residual(&self, d: &[f64], force: &[f64], residual: &mut [f64]) {
         // max() of the two branches, so that an infinite gap leaves the force and no NaN.
-        residual[0] = (self.k_n * (d[0] - self.gap)).max(force[0]);
-        let (trial, threshold) = (self.trial(d, force), self.threshold(force[0]));
-        let length = length(&trial[1..self.dim]);
+        residual[0] = (self.k_n * (d[0] - self.gap)).max(force[0] - self.tension);
+        let threshold = self.threshold(force[0]);
+        let scaled = self.scaled(self.slip_at(d));
+        let mut trial = [0.0; 2];
         for c in 1..self.dim {
-            residual[c] = if length > threshold {
-                force[c] + threshold * (trial[c] / length)
+            trial[c - 1] = scaled[c - 1] - force[c];
+        }
+        let gauge = self.gauge(&trial[..self.dim - 1]);
+        for c in 1..self.dim {
+            residual[c] = if gauge > threshold {
+                force[c] + threshold * (trial[c - 1] / gauge)
             } else {
-                self.k_t * (d[c] - self.slip0[c - 1])
+                scaled[c - 1]
             };
         }
     }
@@ -56,29 +63,35 @@ impl PairLaw {
         let threshold = self.threshold(force[0]);
         if trial[0] <= margin {
             State::Open
-        } else if threshold > 0.0 && length(&trial[1..self.dim]) <= threshold + margin {
+        } else if threshold > 0.0 && self.gauge(&trial[1..self.dim]) <= threshold + margin {
             State::Stick
         } else {
             State::Slip
         }
     }
 
-    /// The force nearest to `force` that a pair in `state` can carry.
+    /// A force next to `force` that a pair in `state` can carry: of an isotropic law the nearest one.
     pub fn admissible_force(&self, force: &[f64], state: State) -> Vector {
         let mut admissible = [0.0; 3];
         admissible[..self.dim].copy_from_slice(force);
-        admissible[0] = if state == State::Open { 0.0 } else { force[0].min(0.0) };
+        let tension = self.tension;
+        admissible[0] = if state == State::Open { tension } else { force[0].min(tension) };
         let threshold = self.threshold(admissible[0]);
-        project_disc(&mut admissible[1..self.dim], threshold);
+        self.bring_back(&mut admissible[1..self.dim], threshold);
         admissible
     }
 
     /// How far the pair is outside the law.
     pub fn violation(&self, d: &[f64], force: &[f64]) -> Violation {
+        let friction = &force[1..self.dim];
+        let mut carried = [0.0; 2];
+        let carried = &mut carried[..self.dim - 1];
+        carried.copy_from_slice(friction);
+        self.bring_back(carried, self.threshold(force[0]));
         Violation {
             penetration: (d[0] - self.gap).max(0.0),
-            tension: force[0].max(0.0),
-            cone_excess: (length(&force[1..self.dim]) - self.threshold(force[0])).max(0.0),
+            tension: (force[0] - self.tension).max(0.0),
+            cone_excess: length(friction) - length(carried),
         }
     }
 }

@@ -1,50 +1,57 @@
 //! The normal map `y -> (v, P)`: every point of the law, each from one `y`.
 //!
 //! ```text
-//! p   = max(y_n, 0),                     k_n v_n = min(y_n, 0)
-//! tau = y_t if |y_t| <= g(p), else g(p) y_t / |y_t|,     k_t delta = y_t - tau
+//! p'  = max(y_n, 0),   p = p' - a,       k_n v_n = min(y_n, 0)
+//! tau = y_t if gauge(y_t) <= g(p'), else g(p') y_t / gauge(y_t),     k delta = y_t - tau
 //! ```
 //!
-//! `(v, P)` obeys the law if and only if it is of this form, with `y = P + k v`, and `y` is then unique
+//! `(v, P)` obeys the law if and only if it is of this form, with `y = P' + k v`, and `y` is then unique
 //! (Robinson, *Normal maps induced by linear transformations*, 1992). It has no kink but where
 //! branches meet, and no singularity where a slip begins.
 
 use super::branch::{Branch, Tangential};
-use super::{PairLaw, Vector, length};
+use super::{PairLaw, Vector};
 
 impl PairLaw {
-    /// The trial forces `y = P + k v` of a displacement and a force; `y_n = -inf` without an obstacle.
+    /// The trial forces `y = P' + k v` of a displacement and a force; `y_n = -inf` without an obstacle.
     #[inline(always)]
     pub fn trial(&self, d: &[f64], force: &[f64]) -> Vector {
         let mut y = [0.0; 3];
-        y[0] = self.k_n * (d[0] - self.gap) - force[0];
+        y[0] = self.k_n * (d[0] - self.gap) - (force[0] - self.tension);
+        let scaled = self.scaled(self.slip_at(d));
         for c in 1..self.dim {
-            y[c] = self.k_t * (d[c] - self.slip0[c - 1]) - force[c];
+            y[c] = scaled[c - 1] - force[c];
         }
         y
     }
 
+    /// `delta`: the slip at the displacement `d`.
+    #[inline(always)]
+    pub(super) fn slip_at(&self, d: &[f64]) -> [f64; 2] {
+        let mut delta = [0.0; 2];
+        for c in 1..self.dim {
+            delta[c - 1] = d[c] - self.slip0[c - 1];
+        }
+        delta
+    }
+
     /// `(v, P)` at `y`, in the units of length and force.
     pub fn normal_map(&self, y: &Vector) -> (Vector, Vector) {
-        let mut p = [y[0].max(0.0), 0.0, 0.0];
+        let mut p = *y;
+        p[0] = y[0].max(0.0);
+        let v_n = (y[0] - p[0]) / self.k_n;
         let threshold = self.bound.at(p[0]);
-        let size = length(&y[1..self.dim]);
-        let keep = if size > threshold { threshold / size } else { 1.0 };
-        for c in 1..self.dim {
-            p[c] = keep * y[c];
-        }
-        let mut v = [(y[0] - p[0]) / self.k_n, 0.0, 0.0];
-        for c in 1..self.dim {
-            v[c] = (y[c] - p[c]) / self.k_t;
-        }
-        (v, p)
+        self.bring_back(&mut p[1..self.dim], threshold);
+        let delta = self.unscaled([y[1] - p[1], y[2] - p[2]]);
+        p[0] -= self.tension;
+        ([v_n, delta[0], delta[1]], p)
     }
 
     /// The branch of the normal map at `y`.
     pub fn branch(&self, y: &Vector) -> Branch {
         let closed = y[0] > 0.0;
         let threshold = self.bound.at(y[0].max(0.0));
-        let size = length(&y[1..self.dim]);
+        let size = self.gauge(&y[1..self.dim]);
         let tangential = if threshold == 0.0 {
             Tangential::Free
         } else if size > threshold {
@@ -52,16 +59,14 @@ impl PairLaw {
             for c in 1..self.dim {
                 direction[c - 1] = y[c] / size;
             }
-            // In the plane a slip has no direction to turn in.
-            let turning = if self.dim == 2 { 0.0 } else { threshold / size };
-            Tangential::Slip { direction, turning }
+            Tangential::Slip { direction }
         } else {
             Tangential::Stick
         };
         Branch { closed, tangential }
     }
 
-    /// The coordinates `y = P + k (d - reference)` of a displacement and a force on the chart that
+    /// The coordinates `y = P' + k (d - reference)` of a displacement and a force on the chart that
     /// [`Self::point`] reads; of a pair without an obstacle `y_n` is `k_n d_n`.
     pub fn chart(&self, d: &[f64], force: &[f64]) -> Vector {
         let mut y = self.trial(d, force);
@@ -93,10 +98,5 @@ impl PairLaw {
     /// `y` with the normal coordinate that the normal map has for an infinite gap.
     fn without_obstacle(&self, y: &Vector) -> Vector {
         if self.has_obstacle() { *y } else { [f64::NEG_INFINITY, y[1], y[2]] }
-    }
-
-    /// `k`: forces per length of the components.
-    pub fn scale(&self) -> Vector {
-        [self.k_n, self.k_t, self.k_t]
     }
 }

@@ -7,11 +7,11 @@
 //! | boundary | function of `y` | on one side | on the other |
 //! |---|---|---|---|
 //! | contact | `y_n` | open: not positive | closed: positive |
-//! | slip | `\|y_t\| - g(p)` | stick: not positive | slip: positive |
+//! | slip | `gauge(y_t) - g(p')` | stick: not positive | slip: positive |
 //!
 //! An open pair whose bound is a cone has no boundary of slip: its tangential force is zero.
 
-use super::{Block, PairLaw, Vector, length};
+use super::{Block, PairLaw, Vector, ellipse};
 
 /// A piece of the normal map of one pair.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -46,15 +46,15 @@ impl PairLaw {
     pub fn piece(&self, y: &Vector) -> Piece {
         let closed = self.has_obstacle() && y[0] > 0.0;
         let threshold = self.bound.at(if closed { y[0] } else { 0.0 });
-        Piece { closed, slips: threshold == 0.0 || length(&y[1..self.dim]) > threshold }
+        Piece { closed, slips: threshold == 0.0 || self.gauge(&y[1..self.dim]) > threshold }
     }
 
     /// Whether a pair that is open carries no force at all.
     pub fn is_free_when_open(&self) -> bool {
-        self.bound.is_cone()
+        self.bound.is_cone() && self.tension == 0.0
     }
 
-    /// The pressure on a piece, and the bound on the tangential force that belongs to it.
+    /// The pressure `p'` on a piece, and the bound on the tangential force that belongs to it.
     fn pressure_on(&self, piece: Piece, y: &Vector) -> (f64, f64) {
         let pressure = if piece.closed { y[0] } else { 0.0 };
         (pressure, self.bound.at(pressure))
@@ -66,10 +66,10 @@ impl PairLaw {
         let (pressure, threshold) = self.pressure_on(piece, y);
         let keep = match piece.slips {
             true if threshold == 0.0 => 0.0,
-            true => threshold / length(&y[1..self.dim]),
+            true => threshold / self.gauge(&y[1..self.dim]),
             false => 1.0,
         };
-        let mut push = [pressure, 0.0, 0.0];
+        let mut push = [pressure - self.tension, 0.0, 0.0];
         for c in 1..self.dim {
             push[c] = keep * y[c];
         }
@@ -79,8 +79,10 @@ impl PairLaw {
     /// The displacement at `y` where the push is `push`.
     #[inline]
     pub fn displacement(&self, y: &Vector, push: &Vector) -> Vector {
-        let (reference, scale) = (self.reference(), self.scale());
-        std::array::from_fn(|c| reference[c] + (y[c] - push[c]) / scale[c])
+        let reference = self.reference();
+        let delta = self.unscaled([y[1] - push[1], y[2] - push[2]]);
+        let v = [(y[0] - push[0] - self.tension) / self.k_n, delta[0], delta[1]];
+        std::array::from_fn(|c| reference[c] + v[c])
     }
 
     /// `dP/dy` on a piece at `y`.
@@ -89,7 +91,8 @@ impl PairLaw {
         let normal = if piece.closed { 1.0 } else { 0.0 };
         let mut block = [[0.0; 3]; 3];
         block[0][0] = normal;
-        let size = length(&y[1..self.dim]);
+        let size = self.gauge(&y[1..self.dim]);
+        let conormal = self.conormal(y, size);
         for row in 1..self.dim {
             if !piece.slips {
                 block[row][row] = 1.0;
@@ -98,7 +101,7 @@ impl PairLaw {
                 block[row][0] = self.bound.slope * h * normal;
                 for column in 1..self.dim {
                     let unit = if row == column { 1.0 } else { 0.0 };
-                    block[row][column] = threshold / size * (unit - h * y[column] / size);
+                    block[row][column] = threshold / size * (unit - h * conormal[column - 1]);
                 }
                 // In the plane a slip has no direction to turn in.
                 if self.dim == 2 {
@@ -107,6 +110,11 @@ impl PairLaw {
             }
         }
         block
+    }
+
+    /// Gradient of the gauge at the coordinates `y`, of the gauge `size`: `Q y_t / size`.
+    fn conormal(&self, y: &Vector, size: f64) -> [f64; 2] {
+        ellipse::product(&self.gauge_form(), [y[1] / size, y[2] / size])
     }
 
     /// Whether a piece has this boundary.
@@ -124,12 +132,10 @@ impl PairLaw {
             return (y[0], [1.0, 0.0, 0.0]);
         }
         let (_, threshold) = self.pressure_on(piece, y);
-        let size = length(&y[1..self.dim]);
-        let mut gradient = [if piece.closed { -self.bound.slope } else { 0.0 }, 0.0, 0.0];
-        for c in 1..self.dim {
-            gradient[c] = y[c] / size;
-        }
-        (size - threshold, gradient)
+        let size = self.gauge(&y[1..self.dim]);
+        let normal = if piece.closed { -self.bound.slope } else { 0.0 };
+        let [first, second] = self.conormal(y, size);
+        (size - threshold, [normal, first, if self.dim == 2 { 0.0 } else { second }])
     }
 
     /// How far `y` is outside a piece beyond a boundary, a force; not positive inside.
@@ -152,14 +158,18 @@ impl PairLaw {
                 if outwards > 0.0 { (-y[0] / t[0]).max(0.0) } else { f64::INFINITY }
             }
             Boundary::Slip => {
-                // |y_t + q t_t|^2 - g(p + q dp)^2 = a q^2 + 2 b q + c, positive where the pair slips.
+                // gauge(y_t + q t_t)^2 - g(p' + q dp)^2 = a q^2 + 2 b q + c, positive where the pair
+                // slips.
                 let (_, g) = self.pressure_on(piece, y);
                 let dg = if piece.closed { self.bound.slope * t[0] } else { 0.0 };
                 let (mut a, mut b, mut c) = (-dg * dg, -g * dg, -g * g);
-                for i in 1..self.dim {
-                    a += t[i] * t[i];
-                    b += y[i] * t[i];
-                    c += y[i] * y[i];
+                let form = self.gauge_form();
+                let (y, t) = ([y[1], y[2]], [t[1], t[2]]);
+                let (form_t, form_y) = (ellipse::product(&form, t), ellipse::product(&form, y));
+                for i in 0..self.dim - 1 {
+                    a += t[i] * form_t[i];
+                    b += y[i] * form_t[i];
+                    c += y[i] * form_y[i];
                 }
                 if piece.slips { falls_to_zero(a, b, c) } else { falls_to_zero(-a, -b, -c) }
             }

@@ -4,8 +4,13 @@
 //! tangential one is the proximal map of `g |delta|`, `delta <- shrink(delta - omega r_t / k_t,
 //! omega g / k_t)`, the exact minimum in the plane and for isotropic blocks, and a majorised one for
 //! others. A sticking pair has `delta = 0` exactly.
+//!
+//! With an ellipse the trial slip is `x = delta - omega k⁻¹ r_t` and `z = k x / omega` its force:
+//! `delta <- x (1 - g / gauge(z))`, or 0. Under the associated rule this is the proximal map in the
+//! variables of the disc; under the collinear one no energy has it for its minimum, but the points that
+//! it leaves where they are obey the law.
 
-use super::{PairLaw, Vector, length};
+use super::{Ellipse, PairLaw, Vector, length};
 
 impl PairLaw {
     /// Steps of a pair at the displacement `d` with the force `force = K d - f`, over-relaxed by
@@ -23,12 +28,21 @@ impl PairLaw {
         omega: f64,
     ) -> (Vector, f64) {
         let mut steps = [0.0; 3];
-        let normal = (d[0] - omega * force[0] / self.k_n).min(self.gap);
+        let normal = (d[0] - omega * (force[0] - self.tension) / self.k_n).min(self.gap);
         steps[0] = normal - d[0];
         d[0] = normal;
         let mut change = self.k_n * steps[0] * steps[0];
 
-        let pressure = (-force[0] - self.k_n * steps[0]).max(0.0);
+        let pressure = (self.tension - force[0] - self.k_n * steps[0]).max(0.0);
+        if let Some(ellipse) = &self.ellipse {
+            let mut friction = [0.0; 2];
+            for c in 0..2 {
+                friction[c] = force[1 + c] + coupling[c] * steps[0];
+            }
+            change +=
+                self.relax_on(ellipse, d, friction, (self.bound.at(pressure), omega), &mut steps);
+            return (steps, change);
+        }
         let shrinkage = omega * self.bound.at(pressure) / self.k_t;
         let rate = omega / self.k_t;
         let mut trial = [0.0; 2];
@@ -49,5 +63,32 @@ impl PairLaw {
             change += self.k_t * steps[c] * steps[c];
         }
         (steps, change)
+    }
+
+    /// The tangential step of a pair with an ellipse and the force `friction`, under a threshold. Returns
+    /// its squared length in the norm of `k`. Not inlined: it would slow down the isotropic step.
+    #[inline(never)]
+    fn relax_on(
+        &self,
+        ellipse: &Ellipse,
+        d: &mut [f64],
+        friction: [f64; 2],
+        (threshold, omega): (f64, f64),
+        steps: &mut Vector,
+    ) -> f64 {
+        let (slip, moved) = (self.slip_at(d), ellipse.unscaled(friction).map(|r| -omega * r));
+        let trial = [slip[0] + moved[0], slip[1] + moved[1]];
+        let gauge = ellipse.gauge(ellipse.scaled(trial)) / omega;
+        for c in 0..2 {
+            if gauge > threshold {
+                steps[1 + c] = moved[c] - trial[c] * (threshold / gauge);
+                d[1 + c] += steps[1 + c];
+            } else {
+                steps[1 + c] = -slip[c];
+                d[1 + c] = self.slip0[c];
+            }
+        }
+        let scaled = ellipse.scaled([steps[1], steps[2]]);
+        scaled[0] * steps[1] + scaled[1] * steps[2]
     }
 }

@@ -1,20 +1,28 @@
 //! What a motion must satisfy to prove that no equilibrium exists.
 //!
-//! A rigid motion `r` (`K r = 0`) with `r_n + slope |r_t| <= 0` at every pair that has an obstacle is a
-//! recession direction: admissible contact forces do at least the work `- sum offset |r_t|` on it,
-//! `F . r >= sum |F_n| (|r_n| - slope |r_t|) - sum offset |r_t|`, while equilibrium asks for
-//! `F . r = -f . r`. So `f . r > sum offset |r_t|` excludes equilibrium.
+//! Let `|r_t|*` be the largest work of tangential forces of gauge 1 on `r_t`; of an isotropic law it is
+//! the length. With `p' = p + a >= 0`, and `p' = 0` without an obstacle, an admissible force does the work
+//!
+//! ```text
+//! F . r = -p r_n - tau . r_t >= p' (-r_n - slope |r_t|*) + a r_n - offset |r_t|*
+//! ```
+//!
+//! on a motion `r`. A rigid motion (`K r = 0`) with `r_n + slope |r_t|* <= 0` at every pair that has an
+//! obstacle is a recession direction: `F . r >= sum (a r_n - offset |r_t|*)`, while equilibrium asks for
+//! `F . r = -f . r`. So `f . r + sum a r_n > sum offset |r_t|*` excludes equilibrium: the tension of the
+//! pairs counts as a part of the loads ([`super::Contact::shifted_load`]). Of a pair that has an obstacle
+//! `r_n <= 0`: tension takes the work `a |r_n|`.
 
-use super::{PairLaw, Vector, length};
+use super::{PairLaw, Vector};
 
 /// A motion of a pair, as its law sees it.
 #[derive(Clone, Copy, Debug)]
 pub struct Recession {
-    /// `r_n + slope |r_t|`, which must not be positive; `-inf` without an obstacle.
+    /// `r_n + slope |r_t|*`, which must not be positive; `-inf` without an obstacle.
     pub approach: f64,
-    /// `slope |r_t|`: the lift that keeps contact forces from doing negative work on the slip.
+    /// `slope |r_t|*`: the lift that keeps contact forces from doing negative work on the slip.
     pub lift: f64,
-    /// `offset |r_t|`: most work that friction takes.
+    /// `offset |r_t|*`: most work that friction takes.
     pub resisted: f64,
 }
 
@@ -26,7 +34,7 @@ pub fn lift(r: &mut [f64], by: f64) {
 impl PairLaw {
     /// The motion `r` of the pair.
     pub fn recession(&self, r: &[f64]) -> Recession {
-        let slip = length(&r[1..self.dim]);
+        let slip = self.dual_gauge(&r[1..self.dim]);
         let lift = self.bound.slope * slip;
         let approach = if self.has_obstacle() { r[0] + lift } else { f64::NEG_INFINITY };
         Recession { approach, lift, resisted: self.bound.offset * slip }
@@ -44,31 +52,44 @@ impl PairLaw {
         }
     }
 
-    /// Some edges of the cone of forces that the pair can carry, each with the normal component −1: all
-    /// in the plane, four in space; none without an obstacle. The law's bound is a cone.
+    /// Some edges of the cone of forces that the pair can carry beside its tension, each with the normal
+    /// component −1: all in the plane, four in space; none without an obstacle. The law's bound is a cone.
     pub fn cone_edges(&self) -> Vec<Vector> {
         let mu = self.bound.slope;
         match self.dim {
             _ if !self.has_obstacle() => Vec::new(),
             _ if mu == 0.0 => vec![[-1.0, 0.0, 0.0]],
             2 => vec![[-1.0, mu, 0.0], [-1.0, -mu, 0.0]],
-            _ => vec![[-1.0, mu, 0.0], [-1.0, -mu, 0.0], [-1.0, 0.0, mu], [-1.0, 0.0, -mu]],
+            _ => [[mu, 0.0], [-mu, 0.0], [0.0, mu], [0.0, -mu]]
+                .map(|edge| {
+                    let edge =
+                        self.ellipse.as_ref().map_or(edge, |ellipse| ellipse.from_disc(edge));
+                    [-1.0, edge[0], edge[1]]
+                })
+                .to_vec(),
         }
     }
 
     /// The edge of the cone whose force does the least work on the motion `r`: the work is
-    /// `-(r_n + slope |r_t|)`.
+    /// `-(r_n + slope |r_t|*)`. The law's bound is a cone.
     pub fn opposing_edge(&self, r: &[f64]) -> Vector {
-        let (mut edge, slip) = ([-1.0, 0.0, 0.0], length(&r[1..self.dim]));
-        if slip > 0.0 {
+        let mut edge = [-1.0, 0.0, 0.0];
+        let mut against = [0.0; 2];
+        against[..self.dim - 1].copy_from_slice(&r[1..self.dim]);
+        if let Some(ellipse) = &self.ellipse {
+            against = ellipse.most_opposed(against);
+        }
+        let gauge = self.gauge(&against[..self.dim - 1]);
+        if gauge > 0.0 {
             for c in 1..self.dim {
-                edge[c] = -self.bound.slope * r[c] / slip;
+                edge[c] = -self.bound.slope * against[c - 1] / gauge;
             }
         }
         edge
     }
-    /// Whether the pair would have to pull with this normal force.
-    pub fn is_tensile(&self, f_n: f64) -> bool {
-        f_n > 0.0
+
+    /// Whether the pair would have to pull more than its tension with the normal force `f_n - a`.
+    pub fn is_tensile(&self, shifted: f64) -> bool {
+        shifted > 0.0
     }
 }

@@ -1,12 +1,11 @@
 //! Elimination of some components of a symmetric positive definite system, by faer on the calling
 //! thread.
 
-use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::linalg::cholesky::llt;
 use faer::linalg::matmul::triangular::{self, BlockStructure};
 use faer::linalg::triangular_solve;
 use faer::{Accum, Mat, MatMut, MatRef, Par};
 
+use super::factor::cholesky;
 use super::matrix::Matrix;
 use super::tolerances::SINGULAR;
 
@@ -27,16 +26,7 @@ impl Elimination {
             let target = &mut lower.col_as_slice_mut(j)[j..];
             target.iter_mut().zip(&dropped[j..]).for_each(|(entry, &i)| *entry = column[i]);
         }
-        let scratch =
-            llt::factor::cholesky_in_place_scratch::<f64>(o, Par::Seq, faer::Spec::default());
-        llt::factor::cholesky_in_place(
-            lower.as_mut(),
-            llt::factor::LltRegularization::default(),
-            Par::Seq,
-            MemStack::new(&mut MemBuffer::new(scratch)),
-            faer::Spec::default(),
-        )
-        .ok()?;
+        cholesky(&mut lower)?;
         // Written so that NaN is singular too.
         let regular = dropped
             .iter()

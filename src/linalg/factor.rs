@@ -42,7 +42,11 @@ impl Factor {
         for j in 0..n {
             fill(j, factors.col_as_slice_mut(j));
         }
-        let kind = if symmetric { cholesky(&mut factors)? } else { general(&mut factors) };
+        let kind = if symmetric {
+            cholesky(&mut factors).map(|()| Kind::Cholesky)?
+        } else {
+            general(&mut factors)
+        };
         let pivot = |i: usize| match kind {
             Kind::Cholesky => factors[(i, i)].powi(2),
             Kind::Lu { .. } => factors[(i, i)].abs(),
@@ -94,7 +98,9 @@ impl Factor {
     }
 }
 
-fn cholesky(matrix: &mut Mat<f64>) -> Option<Kind> {
+/// Overwrites the lower triangle of a symmetric matrix with Cholesky's factor; `None` if the matrix is not
+/// positive definite.
+pub fn cholesky(matrix: &mut Mat<f64>) -> Option<()> {
     let scratch = llt::factor::cholesky_in_place_scratch::<f64>(
         matrix.nrows(),
         Par::Seq,
@@ -107,8 +113,8 @@ fn cholesky(matrix: &mut Mat<f64>) -> Option<Kind> {
         MemStack::new(&mut MemBuffer::new(scratch)),
         faer::Spec::default(),
     )
-    .ok()?;
-    Some(Kind::Cholesky)
+    .ok()
+    .map(|_| ())
 }
 
 fn general(matrix: &mut Mat<f64>) -> Kind {

@@ -68,17 +68,25 @@ struct Motion {
     scaled: Vec<f64>,
 }
 
+/// Whether a component keeps so little of its unit that a motion may be free. A look at the diagonal costs
+/// nothing beside a factorisation. Free motions that move many components leave no such trace; where the
+/// matrix is factorised, their pivots are negligible.
+pub fn is_suspicious(units: &[f64], diagonal: impl Fn(usize) -> f64) -> bool {
+    units.iter().enumerate().any(|(i, unit)| diagonal(i) <= SUSPICIOUS_PIVOT * unit)
+}
+
 /// Settles which motions the condensed `matrix`, column-major, does not resist, and makes it exact on them.
-/// `units` are positive, of the size of the diagonal before anything was eliminated.
-pub fn settle(matrix: &mut [f64], units: &[f64], whole: &dyn Whole) -> Result<(), Doubt> {
+/// `units` are positive, of the size of the diagonal before anything was eliminated. Returns whether any
+/// motion is free.
+pub fn settle(matrix: &mut [f64], units: &[f64], whole: &dyn Whole) -> Result<bool, Doubt> {
     let size = units.len();
     let root: Vec<f64> = units.iter().map(|unit| unit.sqrt()).collect();
     let entry = |i: usize, j: usize| matrix[i + size * j] / (root[i] * root[j]);
     let Some(factor) = PivotedCholesky::with_least_pivot(size, SUSPICIOUS_PIVOT, entry) else {
-        return Ok(());
+        return Ok(false);
     };
     if factor.dependent().is_empty() {
-        return Ok(());
+        return Ok(false);
     }
     for j in 0..size {
         for i in 0..size {
@@ -99,7 +107,7 @@ fn settle_scaled(
     factor: &PivotedCholesky,
     root: &[f64],
     whole: &dyn Whole,
-) -> Result<(), Doubt> {
+) -> Result<bool, Doubt> {
     let size = root.len();
     let candidates = candidates(matrix, factor, root, whole);
     let (mut basis, mut products) = (Vec::new(), Vec::new());
@@ -119,6 +127,7 @@ fn settle_scaled(
             return Err(Doubt::Unclear(motion.whole));
         }
     }
+    let some_free = !free.is_empty();
     let alone = separate(&mut free, size);
     products.extend(free.iter().map(|_| vec![0.0; size]));
     basis.extend(free);
@@ -129,7 +138,7 @@ fn settle_scaled(
             matrix[j + size * i] = 0.0;
         });
     }
-    Ok(())
+    Ok(some_free)
 }
 
 /// Motions of the kept components that move one dependent component each, and of the others what no force

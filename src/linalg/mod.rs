@@ -1,6 +1,7 @@
 //! Linear algebra: the only room that names faer, nalgebra and the SIMD kernels. It knows nothing of
 //! mechanics.
 
+pub(crate) mod double_double;
 pub(crate) mod elimination;
 pub(crate) mod factor;
 pub(crate) mod free_motions;
@@ -10,6 +11,7 @@ pub(crate) mod null_vector;
 pub(crate) mod packed;
 pub(crate) mod perturbation;
 pub(crate) mod pivoted_cholesky;
+pub(crate) mod power_of_two;
 pub(crate) mod simd;
 pub(crate) mod sparse_matrix;
 pub(crate) mod sparse_schur;

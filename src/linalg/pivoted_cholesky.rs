@@ -6,6 +6,7 @@ use faer::linalg::matmul::triangular::{self, BlockStructure};
 use faer::linalg::triangular_solve;
 use faer::{Accum, Mat, MatMut, MatRef, Par};
 
+use super::factor::cholesky;
 use super::tolerances::{NEGLIGIBLE, SUSPICIOUS_PIVOT};
 
 /// Rank-revealing Cholesky factor of a positive semi-definite matrix `A` with a diagonal of size one, or
@@ -34,22 +35,14 @@ impl PivotedCholesky {
         let (rows, mut without): (Vec<usize>, Vec<usize>) =
             (0..size).partition(|&i| entry(i, i) > least);
         let n = rows.len();
-        let fill = || {
-            Mat::from_fn(n, n, |i, j| {
-                let (i, j) = (rows[i], rows[j]);
-                if i >= j { entry(i, j) } else { entry(j, i) }
-            })
-        };
-        if let Ok(factor) = faer::linalg::solvers::Llt::new(fill().as_ref(), faer::Side::Lower) {
-            let lower = factor.L();
-            if (0..n).all(|i| lower[(i, i)].powi(2) > SUSPICIOUS_PIVOT) {
-                return Some(PivotedCholesky {
-                    lower: lower.to_owned(),
-                    independent: rows,
-                    dependent: without,
-                });
-            }
+        let lower_entry = |i: usize, j: usize| if i >= j { entry(rows[i], rows[j]) } else { 0.0 };
+        let fill = || Mat::from_fn(n, n, lower_entry);
+        let mut lower = fill();
+        let regular = cholesky(&mut lower).is_some();
+        if regular && (0..n).all(|i| lower[(i, i)].powi(2) > SUSPICIOUS_PIVOT) {
+            return Some(PivotedCholesky { lower, independent: rows, dependent: without });
         }
+        drop(lower);
         let mut lower = fill();
         let (mut forward, mut inverse) = (vec![0_usize; n], vec![0_usize; n]);
         let scratch =

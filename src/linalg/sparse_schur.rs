@@ -17,13 +17,17 @@ use faer::sparse::linalg::cholesky::{
 };
 use faer::{Conj, MatMut, Par, Side, Spec};
 
-use super::free_motions::{self, Doubt};
+use super::free_motions::{self, Doubt, is_suspicious};
 use super::null_vector::{resistance, weakest};
 use super::pivoted_cholesky::lower_times_transpose;
 use super::sparse_matrix::{Csc, diagonal, leading_part};
 use super::tolerances::{NULL_VECTOR, REGULARISATION, SUSPICIOUS_PIVOT};
 use super::unreduced::Unreduced;
 use super::workspaces::Workspaces;
+
+/// So many rows of `C` are few beside the rigid motions of a body, which are up to six: pivots tell which of
+/// them depend on the others, at no cost. Of more rows small diagonal entries alone are looked at.
+const FEW: usize = 24;
 
 /// Why a matrix was not factorised.
 #[derive(Clone, Debug, PartialEq)]
@@ -94,18 +98,24 @@ impl SparseSchur {
                 return Err(Failure::NullVector(vector));
             }
         }
-        for (j, shift) in (eliminated..n).zip(&shift) {
-            set_diagonal(&mut lower, j, *shift);
-        }
         let mut found = SparseSchur { factor: Some(factor), order, eliminated, tail, schur };
-        let mut schur = std::mem::take(&mut found.schur);
-        free_motions::settle(
-            &mut schur,
-            &shift,
-            &Unreduced::new(lower, &|load, d| found.recover(load, d)),
-        )?;
-        found.schur = schur;
+        if m <= FEW || is_suspicious(&shift, |i| found.schur[i + m * i]) {
+            for (j, shift) in (eliminated..n).zip(&shift) {
+                set_diagonal(&mut lower, j, *shift);
+            }
+            found.settle(lower, &shift)?;
+        }
         Ok(found)
+    }
+
+    /// Makes `S` exact on the motions that nothing resists; `lower` is the whole matrix, and `units` is the
+    /// diagonal of `C`.
+    fn settle(&mut self, lower: Csc, units: &[f64]) -> Result<(), Doubt> {
+        let mut schur = std::mem::take(&mut self.schur);
+        let recover = |load: &[f64], d: &[f64]| self.recover(load, d);
+        free_motions::settle(&mut schur, units, &Unreduced::new(lower, &recover))?;
+        self.schur = schur;
+        Ok(())
     }
 
     /// `S`, column-major.

@@ -53,8 +53,8 @@ pub const REGULARISATION: f64 = 1e-10;
 
 /// The rounding of the energy of a motion that a condensed matrix has, relative to the stiffness of the pairs
 /// that it moves: what a host's condensation leaves, of which the matrix itself does not tell. It is
-/// about 1e-14 of compact bodies and 1e-12 of flat ones on a few points (measured). Motions of at most 3e-12
-/// are free, and of at least 1e-10 held: across the tip of a cantilever of 1 : 5000 it is 1e-8.
+/// about 1e-14 of compact bodies and 1e-12 of flat ones on a few points (measured). Across the tip of a
+/// cantilever of 1 : 5000 the energy is 1e-8.
 pub const CONDENSATION: f64 = 1e-12;
 
 /// A motion is free if its energy is at most so many times the rounding of that energy. Free motions of

@@ -9,73 +9,17 @@
 //!                     d_t - slip0 = -lambda F_t, lambda >= 0, on it        (paper, 6 and 9)
 //! ```
 //!
-//! `K` is symmetric and positive semi-definite: bodies that only contact supports are allowed. What
-//! the data mean for the forces is in the room [`crate::law`].
+//! Other laws: [`FrictionLaw`]. `K` is symmetric and positive semi-definite: bodies that only contact
+//! supports are allowed. What the data mean for the forces is in the room [`crate::law`].
 
 use std::fmt::Display;
 
+use super::friction_law::FrictionLaw;
 use super::relation::{Relation, Stiffness};
 use super::symmetric_matrix;
 use crate::error::{Argument, Error, entry};
 use crate::linalg::matrix::{Matrix, can_exist, required_length};
 use crate::linalg::vector::{self, first_not_finite};
-
-/// The friction law of all pairs, with its parameters, one number for each pair.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum FrictionLaw<'a> {
-    /// No friction: `F_t = 0`. No parameters.
-    Frictionless,
-    /// Coulomb: `|F_t| <= mu |F_n|`, with the coefficient `mu >= 0`.
-    Coulomb(&'a [f64]),
-    /// Tresca: `|F_t| <= g`, with the threshold `g >= 0` (a force), whether the pair is open or closed.
-    Tresca(&'a [f64]),
-}
-
-impl<'a> FrictionLaw<'a> {
-    /// The parameters, pair by pair.
-    pub fn values(&self) -> &'a [f64] {
-        match *self {
-            FrictionLaw::Frictionless => &[],
-            FrictionLaw::Coulomb(values) | FrictionLaw::Tresca(values) => values,
-        }
-    }
-
-    /// Number of parameters of each pair.
-    pub fn parameters(&self) -> usize {
-        match self {
-            FrictionLaw::Frictionless => 0,
-            FrictionLaw::Coulomb(_) | FrictionLaw::Tresca(_) => 1,
-        }
-    }
-
-    /// True when no pair can carry a tangential force.
-    pub fn is_zero(&self) -> bool {
-        self.values().iter().all(|&value| value == 0.0)
-    }
-
-    /// The same law of the first `pairs` pairs.
-    fn truncated(self, pairs: usize) -> Self {
-        match self {
-            FrictionLaw::Frictionless => self,
-            FrictionLaw::Coulomb(mu) => FrictionLaw::Coulomb(&mu[..pairs]),
-            FrictionLaw::Tresca(g) => FrictionLaw::Tresca(&g[..pairs]),
-        }
-    }
-
-    fn check(self) -> Result<(), Error> {
-        let name = match self {
-            FrictionLaw::Frictionless => return Ok(()),
-            FrictionLaw::Coulomb(_) => "mu",
-            FrictionLaw::Tresca(_) => "g",
-        };
-        check_finite(Argument::Law, name, self.values())?;
-        let negative = self.values().iter().position(|&value| value < 0.0);
-        let Some(i) = negative else { return Ok(()) };
-        let (place, value) = (entry(name, [i]), self.values()[i]);
-        let message = format!("{place} is {value}, it must not be negative");
-        Err(Error::invalid(Argument::Law, message))
-    }
-}
 
 /// The caller's arrays, not yet checked. Forces and displacements are in the caller's units.
 #[derive(Clone, Copy, Debug)]
@@ -123,6 +67,33 @@ impl<'a> ContactProblem<'a> {
         Ok(problem)
     }
 
+    /// A problem in 3D whose `K` need not be symmetric, as where a host's material or load follows the
+    /// motion: `x . K x > 0` for all `x` is all that [`crate::Method::Path`] asks for. It is not checked.
+    /// [`crate::Method::Newton`], `Path` and `Auto` solve it; nothing is proved about it.
+    ///
+    /// # Errors
+    /// As [`Self::new`], but for the symmetry; [`Error::Invalid`] too if the dimension is 2.
+    pub fn unsymmetric(data: ContactData<'a>) -> Result<Self, Error> {
+        let mut problem = Self::on_checked_matrix(data)?;
+        if problem.dim == 2 {
+            let message = "dim is 2: a matrix that is not symmetric is for dim 3";
+            return Err(Error::invalid(Argument::Dimension, message));
+        }
+        symmetric_matrix::check_diagonal(&problem.relation.matrix, "K", Argument::Matrix)?;
+        let matrix = problem.relation.matrix;
+        if let Some(i) = (0..matrix.size()).find(|&i| matrix.at(i, i) == 0.0) {
+            let message = format!("{} is 0, it must be positive", entry("K", [i, i]));
+            return Err(Error::invalid(Argument::Matrix, message));
+        }
+        problem.relation.symmetric = false;
+        Ok(problem)
+    }
+
+    /// Whether `K` is symmetric.
+    pub(crate) fn is_symmetric(&self) -> bool {
+        self.relation.symmetric
+    }
+
     /// Checks everything but the entries of the matrix, which a model has checked once.
     pub(crate) fn on_checked_matrix(data: ContactData<'a>) -> Result<Self, Error> {
         let size = unknowns(checked_dim(data.dim)?, data.pairs)?;
@@ -145,6 +116,14 @@ impl<'a> ContactProblem<'a> {
     /// `K`.
     pub(crate) fn stiffness(&self) -> Matrix<'a> {
         self.relation.matrix
+    }
+
+    /// The same problem with other gaps, one for each pair.
+    pub(crate) fn with_gaps<'b>(&self, gap: &'b [f64]) -> ContactProblem<'b>
+    where
+        'a: 'b,
+    {
+        ContactProblem { gap, ..*self }
     }
 
     /// Column `j` of `K`.
@@ -209,7 +188,7 @@ impl<'a, R: Relation> ContactProblem<'a, R> {
         }
         let (gap, law) = (&gap[..pairs], law.truncated(pairs));
         check_gaps(gap)?;
-        law.check()?;
+        law.check(dim)?;
         let reference_slip = reference_slip.map(|slip| &slip[..slips]);
         Ok(ContactProblem { relation, dim, gap, law, reference_slip })
     }
@@ -241,12 +220,23 @@ impl<'a, R: Relation> ContactProblem<'a, R> {
 
     /// Force per length of the tangential components of a pair: the largest eigenvalue of their block.
     pub fn tangential_stiffness(&self, pair: usize) -> f64 {
-        let t = self.dim * pair + 1;
-        let block = |i: usize, j: usize| self.relation.block(t + i, t + j);
+        let block = self.tangential_block(pair);
         match self.dim {
-            2 => block(0, 0),
-            _ => vector::largest_eigenvalue(block(0, 0), block(1, 0), block(1, 1)),
+            2 => block[0][0],
+            _ => vector::largest_eigenvalue(block[0][0], block[1][0], block[1][1]),
         }
+    }
+
+    /// Block of the tangential components of a pair; in the plane only its first entry is not 0.
+    pub fn tangential_block(&self, pair: usize) -> [[f64; 2]; 2] {
+        let t = self.dim * pair + 1;
+        let mut block = [[0.0; 2]; 2];
+        for (i, row) in block[..self.dim - 1].iter_mut().enumerate() {
+            for (j, entry) in row[..self.dim - 1].iter_mut().enumerate() {
+                *entry = self.relation.block(t + i, t + j);
+            }
+        }
+        block
     }
 
     /// Gap of a pair, `+inf` if it never touches.

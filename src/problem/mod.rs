@@ -2,12 +2,14 @@
 
 mod bounded_lcp;
 mod contact;
+mod friction_law;
 mod lcp;
 mod relation;
 pub(crate) mod symmetric_matrix;
 
 pub(crate) use bounded_lcp::BoundedLcp;
-pub use contact::{ContactData, ContactProblem, FrictionLaw};
+pub use contact::{ContactData, ContactProblem};
 pub(crate) use contact::{checked_dim, unknowns};
+pub use friction_law::FrictionLaw;
 pub use lcp::Lcp;
 pub use relation::{Relation, Stiffness};

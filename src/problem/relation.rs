@@ -35,12 +35,13 @@ pub trait Relation {
     fn magnitude(&self, size: &[f64]) -> Vec<f64>;
 }
 
-/// The stiffness form `K d = f + F`, with `K` dense, symmetric and positive semi-definite: a view of
-/// the host's arrays.
+/// The stiffness form `K d = f + F`, with `K` dense, symmetric and positive semi-definite, or positive
+/// definite alone: a view of the host's arrays.
 #[derive(Clone, Copy, Debug)]
 pub struct Stiffness<'a> {
     pub(super) matrix: Matrix<'a>,
     pub(super) load: &'a [f64],
+    pub(super) symmetric: bool,
     /// Components of a pair.
     dim: usize,
     /// Largest diagonal entry.
@@ -48,9 +49,9 @@ pub struct Stiffness<'a> {
 }
 
 impl<'a> Stiffness<'a> {
-    /// The relation of pairs of `dim` components.
+    /// The relation of pairs of `dim` components, with a symmetric matrix.
     pub(super) fn new(matrix: Matrix<'a>, load: &'a [f64], dim: usize) -> Self {
-        Stiffness { matrix, load, dim, largest: matrix.largest_diagonal() }
+        Stiffness { matrix, load, symmetric: true, dim, largest: matrix.largest_diagonal() }
     }
 
     /// The unit of force per length of component `i`, positive: `K[i, i]`, or one of the pair, or of the

@@ -29,6 +29,40 @@ pub(crate) fn is_symmetric_beside(matrix: &Matrix<'_>, root: &[f64]) -> bool {
 /// A row of zeros is a component that a free body moves without a force: a foot along its normal, if the
 /// body stands on two feet in the plane, or on three in space.
 pub(crate) fn check(matrix: &Matrix<'_>, name: &str, argument: Argument) -> Result<(), Error> {
+    check_diagonal(matrix, name, argument)?;
+    let refuse = |message: String| Err(Error::invalid(argument, message));
+    let at = |i: usize, j: usize| entry(name, [i, j]);
+    let root = matrix.diagonal_roots();
+    matrix.pairs_across(|i, j, lower, upper| {
+        let scale = root[i] * root[j];
+        let difference = (lower - upper).abs();
+        if difference > SYMMETRY * scale {
+            let (below, above) = (at(i, j), at(j, i));
+            let remedy =
+                format!("average {below} and {above}, or compute both in double precision");
+            return refuse(format!(
+                "{name} is not symmetric: {below} is {lower}, {above} is {upper}: {}",
+                self::difference(difference / scale, &remedy)
+            ));
+        }
+        if lower.abs() > (1.0 + SYMMETRY) * scale {
+            return refuse(format!(
+                "{name} is not positive semi-definite: {} is {lower}, more than its diagonal \
+                 allows ({scale})",
+                at(i, j)
+            ));
+        }
+        Ok(())
+    })
+}
+
+/// Refuses entries that are not finite, negative diagonals, zeros on the diagonal of columns that are not
+/// zero, and a matrix of zeros.
+pub(crate) fn check_diagonal(
+    matrix: &Matrix<'_>,
+    name: &str,
+    argument: Argument,
+) -> Result<(), Error> {
     let refuse = |message: String| Err(Error::invalid(argument, message));
     let at = |i: usize, j: usize| entry(name, [i, j]);
     for j in 0..matrix.size() {
@@ -56,28 +90,7 @@ pub(crate) fn check(matrix: &Matrix<'_>, name: &str, argument: Argument) -> Resu
              positive numbers on the diagonal"
         ));
     }
-    let root = matrix.diagonal_roots();
-    matrix.pairs_across(|i, j, lower, upper| {
-        let scale = root[i] * root[j];
-        let difference = (lower - upper).abs();
-        if difference > SYMMETRY * scale {
-            let (below, above) = (at(i, j), at(j, i));
-            let remedy =
-                format!("average {below} and {above}, or compute both in double precision");
-            return refuse(format!(
-                "{name} is not symmetric: {below} is {lower}, {above} is {upper}: {}",
-                self::difference(difference / scale, &remedy)
-            ));
-        }
-        if lower.abs() > (1.0 + SYMMETRY) * scale {
-            return refuse(format!(
-                "{name} is not positive semi-definite: {} is {lower}, more than its diagonal \
-                 allows ({scale})",
-                at(i, j)
-            ));
-        }
-        Ok(())
-    })
+    Ok(())
 }
 
 /// Asymmetry up to this, relative to the diagonal, is that of entries rounded to single precision

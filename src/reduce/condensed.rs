@@ -2,9 +2,9 @@
 
 use super::{Reduction, motion};
 use crate::error::{Argument, Error, Message};
-use crate::linalg::free_motions::{Doubt, Whole, settle};
+use crate::linalg::free_motions::{Whole, settle};
 use crate::linalg::matrix::Matrix;
-use crate::linalg::tolerances::CONDENSATION;
+use crate::linalg::tolerances::{CONDENSATION, FREE};
 use crate::linalg::vector::first_not_finite;
 use crate::problem::symmetric_matrix::{check, is_symmetric_beside};
 
@@ -23,51 +23,73 @@ impl CondensedReduction {
     /// # Errors
     /// As [`settled`].
     pub(crate) fn new(dim: usize, matrix: &Matrix<'_>) -> Result<Self, Error> {
-        let stiffness = settled(dim, matrix, "K", Argument::Matrix)?;
+        let settled = settled(dim, matrix, "K", Argument::Matrix)?;
+        let stiffness = settled.unwrap_or_else(|| contiguous(matrix));
         Ok(CondensedReduction { dim, size: matrix.size(), stiffness })
     }
 }
 
-/// A host's condensed matrix, contiguous, checked, and exact on the motions that are free up to the rounding
-/// of its condensation. `name` is the host's name of the matrix.
+/// Checks a host's condensed matrix, and returns it, contiguous, exact on the motions that are free up to
+/// the rounding of its condensation; `None` if it is to be taken as it is. `name` is the host's name of
+/// the matrix.
+///
+/// It is taken so, unless a diagonal entry is at most 3e-12 of the largest one of its pair and the
+/// component is coupled to others: that may be rounding of a free body on few points. Then motions of
+/// so little energy become exactly free, and all others keep what they have. What cannot be told from
+/// rounding is no reason to refuse a matrix.
 ///
 /// # Errors
-/// As `check`; a motion of negative energy, and one whose energy cannot be told from rounding.
+/// As `check`.
 pub(super) fn settled(
     dim: usize,
     matrix: &Matrix<'_>,
     name: &str,
     argument: Argument,
-) -> Result<Vec<f64>, Error> {
-    let size = matrix.size();
-    let given: Vec<f64> = (0..size).flat_map(|j| matrix.column(j).iter().copied()).collect();
-    let mut stiffness = given.clone();
-    let otherwise = matrix.largest_diagonal();
-    let units: Vec<f64> = (0..size).map(|i| matrix.unit_of_group(i, dim, otherwise)).collect();
-    let root: Vec<f64> = units.iter().map(|unit| unit.sqrt()).collect();
-    let is_sound = first_not_finite(&given).is_none()
-        && units.iter().all(|&unit| unit > 0.0)
-        && is_symmetric_beside(matrix, &root);
-    // What is not sound the check names.
-    if is_sound {
-        let given = Given { matrix: Matrix::new(size, &given, size.max(1)), units: &units };
-        settle(&mut stiffness, &units, &given).map_err(|doubt| {
-            let (what, moves) = match doubt {
-                Doubt::Indefinite(moves) => (INDEFINITE, moves),
-                Doubt::Unclear(moves) => (UNCLEAR, moves),
-            };
-            let moves = motion::of_pairs(dim, &moves);
-            Error::invalid(argument, format!("{name} {what}: it moves {moves}"))
-        })?;
-    }
-    check(&Matrix::new(size, &stiffness, size.max(1)), name, argument)?;
-    Ok(stiffness)
+) -> Result<Option<Vec<f64>>, Error> {
+    let cleaned = without_rounding(dim, matrix);
+    check(&view(matrix, &cleaned), name, argument)?;
+    Ok(cleaned)
 }
 
-const INDEFINITE: &str = "is not positive semi-definite: the energy of a motion is negative";
+/// The matrix without rounding, if there is one, or as it was given.
+pub(super) fn view<'k>(given: &Matrix<'k>, cleaned: &'k Option<Vec<f64>>) -> Matrix<'k> {
+    let size = given.size();
+    cleaned.as_ref().map_or(*given, |cleaned| Matrix::new(size, cleaned, size.max(1)))
+}
 
-const UNCLEAR: &str = "resists a motion so little that its stiffness cannot be told from the rounding of \
-     a condensation; support the motion, or hand over the whole sparse matrix";
+fn contiguous(matrix: &Matrix<'_>) -> Vec<f64> {
+    (0..matrix.size()).flat_map(|j| matrix.column(j).iter().copied()).collect()
+}
+
+/// The matrix without what rounding made of free motions; `None` if it is to be taken as it is.
+fn without_rounding(dim: usize, matrix: &Matrix<'_>) -> Option<Vec<f64>> {
+    let units = units(dim, matrix);
+    let is_rounding = |i: usize| matrix.at(i, i) <= FREE * CONDENSATION * units[i];
+    if !(0..matrix.size()).any(is_rounding) {
+        return None;
+    }
+    let root: Vec<f64> = units.iter().map(|unit| unit.sqrt()).collect();
+    let mut stiffness = contiguous(matrix);
+    let is_sound = units.iter().all(|&unit| unit > 0.0)
+        && first_not_finite(&stiffness).is_none()
+        && is_symmetric_beside(matrix, &root);
+    let given = Given { matrix: *matrix, units: &units };
+    // What is not sound the check names.
+    (is_sound && settle(&mut stiffness, &units, &given) == Ok(true)).then_some(stiffness)
+}
+
+/// The largest diagonal entry of each component's pair. A component that is coupled to no other one has its
+/// own: condensation leaves no such row, it is a spring of the host.
+fn units(dim: usize, matrix: &Matrix<'_>) -> Vec<f64> {
+    let otherwise = matrix.largest_diagonal();
+    let unit = |i: usize| {
+        let (own, unit) = (matrix.at(i, i), matrix.unit_of_group(i, dim, otherwise));
+        let is_small = own > 0.0 && own <= FREE * CONDENSATION * unit;
+        let is_spring = || matrix.column(i).iter().enumerate().all(|(j, &k)| j == i || k == 0.0);
+        if is_small && is_spring() { own } else { unit }
+    };
+    (0..matrix.size()).map(unit).collect()
+}
 
 /// A matrix of which nothing was eliminated here.
 struct Given<'k> {

@@ -12,7 +12,7 @@
 //! It needs only that no rigid motion is free in both bodies. The bodies may change roles; here B is
 //! the softer one, so that `K_rel` is not the small difference of large numbers.
 
-use super::condensed::settled;
+use super::condensed::{settled, view};
 use super::{Reduction, motion};
 use crate::error::{Argument, Error, Message, index};
 use crate::linalg::matrix::Matrix;
@@ -49,12 +49,11 @@ impl TwoBodyReduction {
         (first, first_ld): (&[f64], usize),
         (second, second_ld): (&[f64], usize),
     ) -> Result<Self, Error> {
-        let given = Matrix::new(size, first, first_ld);
-        let first = settled(dim, &given, "K_A", Argument::Matrix)?;
-        let given = Matrix::new(size, second, second_ld);
-        let second = settled(dim, &given, "K_B", Argument::SecondMatrix)?;
-        let ld = size.max(1);
-        let (first, second) = (Matrix::new(size, &first, ld), Matrix::new(size, &second, ld));
+        let first = Matrix::new(size, first, first_ld);
+        let cleaned_first = settled(dim, &first, "K_A", Argument::Matrix)?;
+        let second = Matrix::new(size, second, second_ld);
+        let cleaned_second = settled(dim, &second, "K_B", Argument::SecondMatrix)?;
+        let (first, second) = (view(&first, &cleaned_first), view(&second, &cleaned_second));
         let trace = |k: &Matrix<'_>| (0..size).map(|i| k.column(i)[i]).sum::<f64>();
         let exchanged = trace(&first) < trace(&second);
         let (first, second) = if exchanged { (second, first) } else { (first, second) };

@@ -167,12 +167,11 @@ pub const NO_EQUILIBRIUM: &str =
 
 /// The sentence about a proof that no equilibrium exists: which pairs move, how, and what drives them.
 fn no_equilibrium(contact: &Contact<'_>, motion: &[f64]) -> String {
-    let problem = contact.problem();
     let dim = contact.dim();
     let most = (0..motion.len()).max_by(|&a, &b| motion[a].abs().total_cmp(&motion[b].abs()));
     let most = most.unwrap_or(0);
     let moving = motion.chunks_exact(dim).filter(|r| r.iter().any(|r| r.abs() > MOVING)).count();
-    let work: f64 = problem.load().iter().zip(motion).map(|(f, r)| f * r).sum();
+    let work: f64 = contact.shifted_load().iter().zip(motion).map(|(f, r)| f * r).sum();
     let (pair, component) = (most / dim, most % dim);
     let direction = contact.pairs()[pair].direction(component, motion[most]);
     format!(

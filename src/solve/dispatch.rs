@@ -12,17 +12,20 @@ pub fn check_method(contact: &Contact<'_>, method: Method) -> Result<(), Error> 
     let refuse = |message: &str| Err(Error::invalid(Argument::Settings, message));
     let frictionless = contact.is_frictionless();
     let planar = contact.dim() == 2;
+    let general = matches!(method, Method::Auto | Method::Newton | Method::Path);
+    if !general && !contact.problem().is_symmetric() {
+        return refuse(
+            "settings: this method needs a symmetric K: use Newton's, the path, or auto",
+        );
+    }
     match method {
         Method::Lemke if !frictionless && !planar => {
             refuse("settings: Lemke's method is for frictionless contact, and for friction in 2D")
         }
-        Method::BlockPivoting if !frictionless => refuse(if contact.is_coupled() {
-            "settings: block pivoting is for frictionless contact: the law must be frictionless, \
-             or every mu must be 0"
-        } else {
-            "settings: block pivoting is for frictionless contact: the law must be frictionless, \
-             or every g must be 0"
-        }),
+        Method::BlockPivoting if !frictionless => refuse(&format!(
+            "settings: block pivoting is for frictionless contact: the law must be frictionless, or {}",
+            contact.problem().law().frictionless_if()
+        )),
         Method::SorDiagonal if !frictionless && !contact.is_coupled() => refuse(
             "settings: the diagonal method updates thresholds, and here they are given: use the \
              nested one",
@@ -50,6 +53,7 @@ pub fn run(
             active_set::newton(contact, settings, start, monitor)
         }
         (Method::Newton, _) => normal_map::newton(contact, settings, start, monitor),
+        (Method::Path, _) if contact.dim() == 2 => path::linear(contact, settings, start, monitor),
         (Method::Path, _) => path::curved(contact, settings, start, monitor),
         (Method::BlockPivoting, _) => {
             let chosen = settings.method == Method::BlockPivoting;

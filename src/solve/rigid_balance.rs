@@ -35,11 +35,11 @@ const MOST_ROUNDS: usize = 300;
 
 /// A recession direction that the loads drive, where the admissible forces are cones.
 pub fn escape(contact: &Contact<'_>) -> Option<Vec<f64>> {
-    if !contact.bounds().all(|bound| bound.is_cone()) {
+    if !contact.bounds().all(|bound| bound.is_cone()) || !contact.problem().is_symmetric() {
         return None;
     }
     let balance = Balance::new(contact)?;
-    let load = balance.on_motions(contact.problem().load(), 0);
+    let load = balance.on_motions(contact.shifted_load(), 0);
     let mut edges = Vec::new();
     for (pair, law) in contact.pairs().iter().enumerate() {
         let own = law.cone_edges();

@@ -5,9 +5,12 @@
 #
 # Builds the library, compiles tests/bench/peers*.c against it and Siconos (CC names the C compiler,
 # default cc) and runs it. A Markdown document goes to standard output, and with OUT, a directory,
-# to OUT/peers.md; OUT/peers.csv has every row. All else goes to target/bench. It takes about half
-# an hour, most of it for peers that do not end. SIGNORINI_PEERS_MOST is the largest number of pairs
-# (129: half a minute), SIGNORINI_PEERS_SECONDS the CPU time that a call may take (default 30).
+# to OUT/peers.md; OUT/peers.csv has every row. All else goes to target/bench. It takes more than an
+# hour, most of it for peers that do not end. These variables choose less of it:
+#
+#     SIGNORINI_PEERS_LEAST, _MOST   smallest and largest number of pairs (both 25: half a minute)
+#     SIGNORINI_PEERS_SECONDS        CPU time that a call may take, default 30
+#     SIGNORINI_PEERS_FAMILY         frictionless, friction2d or friction3d; default all
 set -eu
 LC_ALL=C
 export LC_ALL
@@ -34,7 +37,7 @@ fi
 # too: a slow reference LAPACK would not be fair.
 package=libsiconos-numerics-dev
 headers=/usr/include/siconos
-if [ ! -f "$headers/numerics/fc2d_Solvers.h" ]; then
+if [ ! -f "$headers/numerics/fc3d_Solvers.h" ]; then
     if command -v apt-get >/dev/null && [ "$(id -u)" = 0 ]; then
         say "installing $package libopenblas0"
         DEBIAN_FRONTEND=noninteractive
@@ -42,7 +45,7 @@ if [ ! -f "$headers/numerics/fc2d_Solvers.h" ]; then
         { apt-get update && apt-get install -y --no-install-recommends $package libopenblas0; } \
             >/dev/null 2>&1 </dev/null || true
     fi
-    [ -f "$headers/numerics/fc2d_Solvers.h" ] ||
+    [ -f "$headers/numerics/fc3d_Solvers.h" ] ||
         die "install first (names of Debian and Ubuntu): $package libopenblas0"
 fi
 command -v cargo >/dev/null || PATH=$PATH:${CARGO_HOME:-${HOME:-/root}/.cargo}/bin
@@ -61,8 +64,9 @@ say "compiling the program: $cc"
     $cc -std=c11 -O3 -march=native -Wall -Wextra -Wpedantic -Wshadow -Werror \
         -D_POSIX_C_SOURCE=200809L "-DSICONOS=\"$version\"" \
         -I "$root/include" -isystem "$headers" -isystem "$headers/numerics" \
-        -o "$build/peers.$$" peers.c peers_mesh.c peers_forms.c peers_siconos.c peers_ours.c \
-        peers_child.c peers_judge.c peers_table.c "$root/target/release/libsignorini.a" \
+        -o "$build/peers.$$" peers.c peers_mesh.c peers_block.c peers_forms.c peers_siconos.c \
+        peers_ours.c peers_child.c peers_judge.c peers_table.c \
+        "$root/target/release/libsignorini.a" \
         -lsiconos_numerics -l:libopenblas.so.0 -lm -lpthread -ldl)
 mv -f "$build/peers.$$" "$build/peers"
 
@@ -72,4 +76,5 @@ export OPENBLAS_NUM_THREADS OMP_NUM_THREADS
 lapack=$(ldd "$build/peers" | sed -n 's/.*liblapack\.so\.3 => \([^ ]*\).*/\1/p')
 say "LAPACK of the peers: $(readlink -f "$lapack")"
 
-exec "$build/peers" "${SIGNORINI_PEERS_MOST:-2049}" "${SIGNORINI_PEERS_SECONDS:-30}" "$@"
+exec "$build/peers" "${SIGNORINI_PEERS_LEAST:-0}" "${SIGNORINI_PEERS_MOST:-2049}" \
+    "${SIGNORINI_PEERS_SECONDS:-30}" "${SIGNORINI_PEERS_FAMILY:-all}" "$@"

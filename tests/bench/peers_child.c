@@ -3,11 +3,13 @@
 #include "peers_child.h"
 
 #include <fcntl.h>
+#include <math.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
+#include <sys/time.h>
 #include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
@@ -33,12 +35,13 @@ struct outcome *outcome_new(size_t size)
     return outcome;
 }
 
+/* SIGPROF ends the process after so much CPU time. */
 static void limit_cpu(double seconds)
 {
-    struct rlimit limit;
-    getrlimit(RLIMIT_CPU, &limit);
-    limit.rlim_cur = (rlim_t)(seconds + 1.0);
-    setrlimit(RLIMIT_CPU, &limit);
+    const double whole = floor(seconds);
+    const struct itimerval limit = {.it_value = {.tv_sec = (time_t)whole,
+        .tv_usec = (suseconds_t)(1e6 * (seconds - whole))}};
+    setitimer(ITIMER_PROF, &limit, NULL);
 }
 
 static void child(const struct solver *solver, const struct problem *problem, double tolerance,
@@ -58,9 +61,10 @@ static void child(const struct solver *solver, const struct problem *problem, do
     solver->call(solver, problem, tolerance, outcome);
     const double first = outcome->seconds;
     if (repeat && first < 2.0) {
-        limit_cpu(limit + 20.0);
+        const double enough = fmin(0.1, 0.1 * limit);
+        limit_cpu(5.0 * first + 10.0 * enough); /* one that succeeds once may hang the next time */
         double filled = first;
-        for (int calls = 1; calls < 3 || (filled < 0.1 && calls < 2000); calls++) {
+        for (int calls = 1; calls < 3 || (filled < enough && calls < 2000); calls++) {
             const double begin = thread_seconds();
             solver->call(solver, problem, tolerance, outcome);
             filled += thread_seconds() - begin;
@@ -86,7 +90,7 @@ enum ending call_in_child(const struct solver *solver, const struct problem *pro
         continue;
     if (outcome->finished && WIFEXITED(status) && WEXITSTATUS(status) == 0)
         return ENDED;
-    if (WIFSIGNALED(status) && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGALRM ||
+    if (WIFSIGNALED(status) && (WTERMSIG(status) == SIGPROF || WTERMSIG(status) == SIGALRM ||
                                 WTERMSIG(status) == SIGKILL))
         return OUT_OF_TIME;
     return CRASHED;

@@ -10,6 +10,7 @@ void dpotri_(const char *uplo, const int *n, double *a, const int *lda, int *inf
 void dtrsm_(const char *side, const char *uplo, const char *trans, const char *diag, const int *m,
             const int *n, const double *alpha, const double *a, const int *lda, double *b,
             const int *ldb);
+void dgetrf_(const int *m, const int *n, double *a, const int *lda, int *pivots, int *info);
 void dsyrk_(const char *uplo, const char *trans, const int *n, const int *k, const double *alpha,
             const double *a, const int *lda, const double *beta, double *c, const int *ldc);
 char *openblas_get_config(void);
@@ -121,12 +122,35 @@ int frictionless_forms(const struct contact *contact, struct lcp *stiffness,
 
 int friction_form(const struct contact *contact, struct lcp *flexibility)
 {
-    const size_t both = 2 * contact->pairs;
-    lcp_new(flexibility, both);
-    memcpy(flexibility->M, contact->K, both * both * sizeof(double));
-    const int info = invert(both, flexibility->M);
-    product(both, flexibility->M, contact->f, flexibility->q);
-    for (size_t i = 0; i < both; i++)
-        flexibility->q[i] = (i % 2 == 0 ? contact->gap[i / 2] : 0.0) - flexibility->q[i];
+    const size_t size = contact->dim * contact->pairs;
+    lcp_new(flexibility, size);
+    memcpy(flexibility->M, contact->K, size * size * sizeof(double));
+    const int info = invert(size, flexibility->M);
+    friction_load(contact, flexibility);
     return info;
+}
+
+void friction_load(const struct contact *contact, struct lcp *flexibility)
+{
+    const size_t dim = contact->dim, size = flexibility->size;
+    product(size, flexibility->M, contact->f, flexibility->q);
+    for (size_t i = 0; i < size; i++)
+        flexibility->q[i] = (i % dim == 0 ? contact->gap[i / dim] : 0.0) - flexibility->q[i];
+}
+
+double factorisation_ms(const struct contact *contact)
+{
+    const int n = (int)(contact->dim * contact->pairs);
+    const size_t bytes = (size_t)n * (size_t)n * sizeof(double);
+    double *A = need((size_t)n * (size_t)n, sizeof *A), least = INFINITY;
+    int *pivots = need((size_t)n, sizeof *pivots), info;
+    for (int call = 0; call < 3; call++) {
+        memcpy(A, contact->K, bytes);
+        const double begin = thread_seconds();
+        dgetrf_(&n, &n, A, &n, pivots, &info);
+        least = fmin(least, thread_seconds() - begin);
+    }
+    free(A);
+    free(pivots);
+    return 1e3 * least;
 }

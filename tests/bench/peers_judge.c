@@ -6,10 +6,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Number of contact forces that an answer of this family means. */
+/* Contact forces of a pair that an answer of this family means. */
+static size_t forces_of_pair(enum family family)
+{
+    return family == FRICTION_3D ? 3 : family == FRICTION_2D ? 2 : 1;
+}
+
 static size_t force_size(const struct problem *problem)
 {
-    return problem->contact.pairs * (problem->family == FRICTION_2D ? 2 : 1);
+    return problem->contact.pairs * forces_of_pair(problem->family);
 }
 
 /* Largest entries of the rows: they carry openings to the unit of pressures. */
@@ -72,11 +77,12 @@ static double certify_lcp(const struct problem *problem, enum answer kind,
 static double eta_of_displacements(const struct problem *problem, const double *d, double *F)
 {
     const struct contact *contact = &problem->contact;
-    const int64_t n = (int64_t)contact->pairs;
+    const int64_t n = (int64_t)contact->pairs, dim = (int64_t)contact->dim;
     signorini_report report = {.struct_size = sizeof report};
     const int32_t status =
-        signorini_certify(2, n, contact->K, 2 * n, contact->f, contact->gap, SIGNORINI_LAW_COULOMB,
-                          problem->mu_of, NULL, SOLVED_ETA, d, F, NULL, &report);
+        signorini_certify((int32_t)dim, n, contact->K, dim * n, contact->f, contact->gap,
+                          SIGNORINI_LAW_COULOMB, problem->mu_of, NULL, SOLVED_ETA, d, F, NULL,
+                          &report);
     return status >= 0 ? report.eta : NAN;
 }
 
@@ -86,25 +92,26 @@ static double certify_reactions(const struct problem *problem, const struct outc
                                 double *force)
 {
     const struct contact *contact = &problem->contact;
-    const size_t n = contact->pairs, both = 2 * n;
+    const size_t dim = contact->dim, size = dim * contact->pairs;
     const double *r = outcome->x;
-    double *d = need(both, sizeof *d), *other_force = need(both, sizeof *other_force);
-    product(both, problem->flexibility.M, r, d);
-    for (size_t i = 0; i < both; i++)
-        d[i] = (i % 2 == 0 ? contact->gap[i / 2] : 0.0) - problem->flexibility.q[i] - d[i];
+    double *d = need(size, sizeof *d), *other_force = need(size, sizeof *other_force);
+    product(size, problem->flexibility.M, r, d);
+    for (size_t i = 0; i < size; i++)
+        d[i] = (i % dim == 0 ? contact->gap[i / dim] : 0.0) - problem->flexibility.q[i] - d[i];
     double eta = eta_of_displacements(problem, d, force);
-    for (size_t i = 0; i < n; i++) {
-        const double stiff = contact->K[2 * i * (both + 1)];
-        if (r[2 * i] > stiff * (contact->gap[i] - d[2 * i])) {
-            d[2 * i] = contact->gap[i];
-            if (fabs(r[2 * i + 1]) + stiff * fabs(d[2 * i + 1]) < problem->mu * r[2 * i])
-                d[2 * i + 1] = 0.0;
+    for (size_t i = 0; i < size; i += dim) {
+        const double stiff = contact->K[i * (size + 1)], gap = contact->gap[i / dim];
+        if (r[i] > stiff * (gap - d[i])) {
+            d[i] = gap;
+            if (norm(dim - 1, &r[i + 1]) + stiff * norm(dim - 1, &d[i + 1]) < problem->mu * r[i])
+                for (size_t c = 1; c < dim; c++)
+                    d[i + c] = 0.0;
         }
     }
     const double second = eta_of_displacements(problem, d, other_force);
     if (!(eta <= second)) {
         eta = second;
-        memcpy(force, other_force, both * sizeof *force);
+        memcpy(force, other_force, size * sizeof *force);
     }
     free(d);
     free(other_force);
@@ -118,11 +125,11 @@ double certify(const struct problem *problem, enum answer kind, const struct out
         return certify_lcp(problem, kind, outcome, force);
     if (kind == REACTIONS)
         return certify_reactions(problem, outcome, force);
-    const size_t n = problem->contact.pairs;
-    double *F = need(2 * n, sizeof *F);
+    const struct contact *contact = &problem->contact;
+    double *F = need(contact->dim * contact->pairs, sizeof *F);
     const double eta = eta_of_displacements(problem, outcome->x, F);
     for (size_t i = 0; i < force_size(problem); i++)
-        force[i] = problem->family == FRICTION_2D ? F[i] : -F[2 * i];
+        force[i] = problem->family != FRICTIONLESS ? F[i] : -F[2 * i];
     free(F);
     return eta;
 }
@@ -151,8 +158,8 @@ void judge(const struct solver *solver, const struct problem *problem, double li
         tolerance = 1e-9;
 
     *row = (struct row){.solver = solver, .geometry = problem->geometry,
-        .pairs = problem->contact.pairs, .mu = problem->mu, .eta = NAN, .rel_error = NAN,
-        .force = need(size, sizeof *force)};
+        .pairs = problem->contact.pairs, .mu = problem->mu, .lu_ms = problem->lu_ms, .eta = NAN,
+        .rel_error = NAN, .force = need(size, sizeof *force)};
     for (int attempt = 0; attempt < 6 && spent < 2.0 * limit; attempt++) {
         const enum ending ending =
             call_in_child(solver, problem, tolerance, 0, limit, outcome);
@@ -181,8 +188,8 @@ void judge(const struct solver *solver, const struct problem *problem, double li
         }
         if (eta <= SOLVED_ETA || !solver->iterative || tolerance <= 1e-16)
             break;
-        /* As much less as the certificate asks for. */
-        const double factor = isfinite(eta) ? 0.5 * SOLVED_ETA / eta : 0.1;
+        /* As much less as the certificate asks for; far less if the last step changed nothing. */
+        const double factor = !better ? 1e-2 : isfinite(eta) ? 0.5 * SOLVED_ETA / eta : 0.1;
         tolerance = fmax(1e-16, tolerance * fmin(0.3, fmax(factor, 1e-3)));
     }
     free(force);
@@ -203,10 +210,10 @@ int is_solved(const struct row *row)
 
 static void count_states(const struct row *row, size_t states[3])
 {
-    const size_t step = row->solver->family == FRICTION_2D ? 2 : 1;
+    const size_t step = forces_of_pair(row->solver->family);
     for (size_t i = 0; i < row->pairs; i++) {
         const double normal = fabs(row->force[step * i]);
-        const double tangential = step == 2 ? fabs(row->force[2 * i + 1]) : 0.0;
+        const double tangential = norm(step - 1, &row->force[step * i + 1]);
         if (normal == 0.0)
             states[0]++;
         else
@@ -226,7 +233,7 @@ void compare(struct row *rows, size_t count, size_t states[3])
     for (size_t k = 0; best != NULL && k < count; k++) {
         if (!isfinite(rows[k].eta))
             continue;
-        const size_t size = rows[k].pairs * (rows[k].solver->family == FRICTION_2D ? 2 : 1);
+        const size_t size = rows[k].pairs * forces_of_pair(rows[k].solver->family);
         double most = 0.0, difference = 0.0;
         for (size_t i = 0; i < size; i++) {
             most = fmax(most, fabs(best->force[i]));

@@ -268,6 +268,7 @@ const char *contact_new(enum geometry geometry, size_t pairs, double wave, struc
 {
     const double pi = acos(-1.0);
     struct mesh mesh = {.columns = pairs, .rows = pairs < 100 ? 8 : 10, .bodies = 1};
+    contact->dim = 2;
     contact->pairs = pairs;
     contact->K = need(4 * pairs * pairs, sizeof *contact->K);
     contact->f = need(2 * pairs, sizeof *contact->f);

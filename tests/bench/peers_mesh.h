@@ -1,5 +1,5 @@
 /*
- * Contact problems of any size, from two meshes, condensed by the library.
+ * Contact problems of any size in the plane, from two meshes, condensed by the library.
  *
  *   bar                                    two blocks
  *      held from above, pushed down           held from above, pushed down and sideways
@@ -19,12 +19,24 @@
 
 #include <stddef.h>
 
-enum geometry { BAR, TWO_BLOCKS };
+enum geometry {
+    BAR,
+    TWO_BLOCKS,
+    /* In space, see peers_block.h: the loads of the block, and columns by their slenderness. */
+    BLOCK_SHIFT,
+    BLOCK_TWIST,
+    BLOCK_TILT,
+    BLOCK_WAVES,
+    BLOCK_RIM,
+    COLUMN_10,
+    COLUMN_20,
+    COLUMN_40
+};
 
-/* K d = f + F, pairs (n, t), a gap for each: what signorini_solve takes. */
+/* K d = f + F, pairs (n, t) or (n, t1, t2), a gap for each: what signorini_solve takes. */
 struct contact {
-    size_t pairs;
-    double *K; /* 2 pairs columns of as many entries */
+    size_t dim, pairs;
+    double *K; /* dim pairs columns of as many entries */
     double *f;
     double *gap;
 };

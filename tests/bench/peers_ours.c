@@ -15,6 +15,7 @@ static void call(const struct solver *solver, const struct problem *problem, dou
         solver->answer == PRESSURES ? &problem->flexibility : &problem->stiffness;
     const struct contact *contact = &problem->contact;
     const int64_t n = (int64_t)contact->pairs;
+    const int32_t dim = (int32_t)contact->dim;
     signorini_settings settings;
     signorini_settings_default(&settings, sizeof settings);
     settings.tolerance = tolerance;
@@ -32,7 +33,7 @@ static void call(const struct solver *solver, const struct problem *problem, dou
                                    NULL, &report);
         break;
     case CONTACT:
-        code = signorini_solve(2, n, contact->K, 2 * n, contact->f, contact->gap,
+        code = signorini_solve(dim, n, contact->K, dim * n, contact->f, contact->gap,
                                SIGNORINI_LAW_COULOMB, problem->mu_of, NULL, &settings, outcome->x,
                                outcome->y, NULL, &report, NULL);
         break;
@@ -48,10 +49,11 @@ static void call(const struct solver *solver, const struct problem *problem, dou
 }
 
 const struct solver our_solvers[] = {
-    {FRICTIONLESS, "signorini", "auto", OPENINGS, 0, LCP_AUTO, call},
-    {FRICTIONLESS, "signorini", "auto_contact", DISPLACEMENTS, 0, CONTACT, call},
-    {FRICTIONLESS, "signorini", "lemke", OPENINGS, 0, LCP_LEMKE, call},
-    {FRICTIONLESS, "signorini", "lemke_W", PRESSURES, 0, LCP_LEMKE, call},
-    {FRICTION_2D, "signorini", "auto", DISPLACEMENTS, 0, CONTACT, call},
+    {FRICTIONLESS, "signorini", "auto", OPENINGS, 0, 0, LCP_AUTO, call},
+    {FRICTIONLESS, "signorini", "auto_contact", DISPLACEMENTS, 0, 0, CONTACT, call},
+    {FRICTIONLESS, "signorini", "lemke", OPENINGS, 0, 0, LCP_LEMKE, call},
+    {FRICTIONLESS, "signorini", "lemke_W", PRESSURES, 0, 0, LCP_LEMKE, call},
+    {FRICTION_2D, "signorini", "auto", DISPLACEMENTS, 0, 0, CONTACT, call},
+    {FRICTION_3D, "signorini", "auto", DISPLACEMENTS, 0, 0, CONTACT, call},
 };
 const size_t our_solver_count = sizeof our_solvers / sizeof our_solvers[0];

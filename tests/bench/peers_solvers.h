@@ -7,7 +7,7 @@
 
 #include "peers_forms.h"
 
-enum family { FRICTIONLESS, FRICTION_2D };
+enum family { FRICTIONLESS, FRICTION_2D, FRICTION_3D };
 
 /* The same data for every solver, made before any clock runs. */
 struct problem {
@@ -17,14 +17,15 @@ struct problem {
     double *mu_of; /* one for each pair */
     struct contact contact;
     struct lcp stiffness;   /* FRICTIONLESS */
-    struct lcp flexibility; /* of either family */
+    struct lcp flexibility; /* of every family; empty where no peer runs */
+    double lu_ms;           /* FRICTION_3D: factorisation_ms() of this body */
 };
 
 /* What a solver's numbers mean. */
 enum answer {
     OPENINGS,      /* x: openings, y: pressures */
     PRESSURES,     /* x: pressures, y: openings */
-    DISPLACEMENTS, /* x: relative displacements (n, t) */
+    DISPLACEMENTS, /* x: relative displacements (n, t) or (n, t1, t2) */
     REACTIONS      /* x: reactions, y: velocities, as Siconos has them */
 };
 
@@ -44,6 +45,7 @@ struct solver {
     const char *name;
     enum answer answer;
     int iterative; /* its tolerance decides about its time */
+    size_t most;   /* pairs: larger problems it is not given; 0: all are */
     int id;        /* what `call` is to do */
     void (*call)(const struct solver *solver, const struct problem *problem, double tolerance,
                  struct outcome *outcome);
@@ -52,8 +54,6 @@ struct solver {
 extern const struct solver our_solvers[], siconos_solvers[];
 extern const size_t our_solver_count, siconos_solver_count;
 
-/* CPU time of this thread in seconds. */
-double thread_seconds(void);
 /* Once in each process, before its first call. */
 void siconos_prepare(void);
 

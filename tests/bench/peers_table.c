@@ -1,6 +1,7 @@
 #include "peers_table.h"
 
 #include <math.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
@@ -9,12 +10,20 @@
 
 const char *family_name(enum family family)
 {
-    return family == FRICTIONLESS ? "frictionless" : "friction2d";
+    static const char *const names[] = {"frictionless", "friction2d", "friction3d"};
+    return names[family];
 }
 
 const char *geometry_name(enum geometry geometry)
 {
-    return geometry == BAR ? "bar" : "two_blocks";
+    static const char *const names[] = {"bar", "two_blocks", "block_shift", "block_twist",
+        "block_tilt", "block_waves", "block_rim", "column_10", "column_20", "column_40"};
+    return names[geometry];
+}
+
+static int is_peer(const struct row *row)
+{
+    return strcmp(row->solver->library, "signorini") != 0;
 }
 
 void write_csv(FILE *file, const struct row *rows, size_t count)
@@ -37,6 +46,11 @@ void write_csv(FILE *file, const struct row *rows, size_t count)
         if (isfinite(row->rel_error))
             fprintf(file, "%.3e", row->rel_error);
         fprintf(file, ",%s\n", row->status);
+        /* The yardstick, once for each problem. */
+        if (row->solver->family == FRICTION_3D && !is_peer(row))
+            fprintf(file, "%s,%s,%zu,%g,lapack,dgetrf,%.6g,,,,yardstick\n",
+                    family_name(FRICTION_3D), geometry_name(row->geometry), row->pairs, row->mu,
+                    row->lu_ms);
     }
 }
 
@@ -46,11 +60,6 @@ static int same_problem(const struct row *a, const struct row *b)
 {
     return a->solver->family == b->solver->family && a->geometry == b->geometry &&
            a->pairs == b->pairs && a->mu == b->mu;
-}
-
-static int is_peer(const struct row *row)
-{
-    return strcmp(row->solver->library, "signorini") != 0;
 }
 
 static const struct row *find(const struct row *rows, size_t count, const struct row *like,
@@ -102,6 +111,14 @@ static void say_mean(FILE *file, const char *what, const struct mean *mean)
                 exp(mean->logs / mean->count), mean->least);
 }
 
+/* In place of the least number of pairs. */
+#define COLUMNS SIZE_MAX
+
+static int is_column(const struct row *row)
+{
+    return row->geometry >= COLUMN_10;
+}
+
 static void speed_means(FILE *file, const struct row *rows, size_t count)
 {
     static const struct {
@@ -115,14 +132,20 @@ static void speed_means(FILE *file, const struct row *rows, size_t count)
         {FRICTION_2D, 0, 64, "friction in 2D, 33 pairs"},
         {FRICTION_2D, 65, 256, "friction in 2D, 129 pairs"},
         {FRICTION_2D, 257, 1 << 20, "friction in 2D, 513 pairs and more"},
+        {FRICTION_3D, 0, 25, "friction in 3D, 25 pairs"},
+        {FRICTION_3D, 225, 225, "friction in 3D, 225 pairs"},
+        {FRICTION_3D, 961, 961, "friction in 3D, 961 pairs"},
+        {FRICTION_3D, COLUMNS, 0, "friction in 3D, slender columns"},
     };
     for (size_t c = 0; c < sizeof classes / sizeof classes[0]; c++) {
         struct mean mean = {0};
         for (size_t k = 0; k < count; k++) {
             const struct row *row = &rows[k];
             if (is_peer(row) || strcmp(row->solver->name, "auto") != 0 ||
-                row->solver->family != classes[c].family || row->pairs < classes[c].least ||
-                row->pairs > classes[c].most || !is_solved(row))
+                row->solver->family != classes[c].family || !is_solved(row) ||
+                is_column(row) != (classes[c].least == COLUMNS) ||
+                (!is_column(row) &&
+                 (row->pairs < classes[c].least || row->pairs > classes[c].most)))
                 continue;
             const struct row *best = best_peer(rows, count, row);
             if (best != NULL)
@@ -157,6 +180,29 @@ static void lemke_means(FILE *file, const struct row *rows, size_t count)
     }
 }
 
+/* How much the default solve costs in units of one LU factorisation. */
+static void lu_means(FILE *file, const struct row *rows, size_t count)
+{
+    static const size_t sizes[] = {25, 225, 961, 2025};
+    fprintf(file, "\n| default solve over one LU | problems | mean | most |\n"
+                  "|---|---|---|---|\n");
+    for (size_t s = 0; s < sizeof sizes / sizeof sizes[0]; s++) {
+        struct mean mean = {0};
+        double most = 0.0;
+        for (size_t k = 0; k < count; k++) {
+            const struct row *row = &rows[k];
+            if (!is_peer(row) && row->solver->family == FRICTION_3D && row->pairs == sizes[s] &&
+                !is_column(row) && is_solved(row)) {
+                add(&mean, row->ms / row->lu_ms);
+                most = fmax(most, row->ms / row->lu_ms);
+            }
+        }
+        if (mean.count > 0)
+            fprintf(file, "| friction in 3D, %zu pairs | %d | %.2f | %.2f |\n", sizes[s],
+                    mean.count, exp(mean.logs / mean.count), most);
+    }
+}
+
 /* ---- the document ---- */
 
 /* The processor's name, as Linux has it. */
@@ -183,51 +229,79 @@ static void failures(FILE *file, const struct row *rows, size_t count, const str
         }
 }
 
+/* One row of the table; returns whether its ratio is to a peer that is usable only. */
+static int table_row(FILE *file, const struct row *rows, size_t count, const struct row *row)
+{
+    const struct row *best = best_peer(rows, count, row);
+    int marked = 0;
+    fprintf(file, "| %s | %s | %zu | %g | ", family_name(row->solver->family),
+            geometry_name(row->geometry), row->pairs, row->mu);
+    if (is_solved(row))
+        fprintf(file, "%.3g | ", row->ms);
+    else
+        fprintf(file, "%s | ", row->status);
+    if (row->solver->family == FRICTION_3D && is_solved(row))
+        fprintf(file, "%.2f | ", row->ms / row->lu_ms);
+    else if (row->solver->family == FRICTION_3D)
+        fprintf(file, "- | ");
+    if (best != NULL && is_solved(row)) {
+        marked = !is_solved(best);
+        fprintf(file, "%.4g%s | %.2f | %s | ", best->ms, marked ? " (*)" : "",
+                best->ms / row->ms, best->solver->name);
+    } else if (best != NULL) {
+        fprintf(file, "%.4g | - | %s | ", best->ms, best->solver->name);
+    } else {
+        fprintf(file, "none | - | - | ");
+    }
+    failures(file, rows, count, row);
+    fprintf(file, " |\n");
+    return marked;
+}
+
+/* The problems in the plane, or those in space, which have a yardstick. */
+static void table(FILE *file, const struct row *rows, size_t count, int in_space)
+{
+    int marked = 0, begun = 0;
+    for (size_t k = 0; k < count; k++) {
+        const struct row *row = &rows[k];
+        if (is_peer(row) || strcmp(row->solver->name, "auto") != 0 ||
+            (row->solver->family == FRICTION_3D) != in_space)
+            continue;
+        if (!begun)
+            fprintf(file, "| family | geometry | pairs | mu | `auto`, ms |%s best of Siconos, ms | "
+                          "ratio | which | not solved |\n|---|---|---|---|---|%s---|---|---|---|\n",
+                    in_space ? " over LU |" : "", in_space ? "---|" : "");
+        begun = 1;
+        marked |= table_row(file, rows, count, row);
+    }
+    if (marked)
+        fprintf(file, "\n(*) No peer reaches 1e-12 here: the fastest with `eta <= 1e-8` counts.\n");
+    if (begun)
+        fprintf(file, "\n");
+}
+
 void write_markdown(FILE *file, const struct row *rows, size_t count, const char *versions,
                     double limit)
 {
     char date[32];
     const time_t now = time(NULL);
-    int footnote = 0;
     strftime(date, sizeof date, "%Y-%m-%d", gmtime(&now));
     fprintf(file, "%s, one core of: ", date);
     machine(file);
     fprintf(file, ". %s\n\n", versions);
     fprintf(file,
             "Thread CPU time to `eta <= 1e-12`, measured by the same certificate for every solver; "
-            "a call may take %g s. Siconos is Debian's build, for any x86-64 but for its BLAS; "
-            "each of its solvers runs at the loosest tolerance whose answer is accepted, on "
-            "stiffness (`_K`) and flexibility (`_W`).\n\n",
+            "a call may take %g s, in space a hundred LU factorisations if that is less (0.2 s at "
+            "the least). Siconos is Debian's build, for any x86-64 but for its BLAS; each of its "
+            "solvers runs at the loosest tolerance whose answer is accepted, on stiffness (`_K`) "
+            "and flexibility (`_W`). With friction it is given the flexibility, whose computation "
+            "is not timed. LU: one `dgetrf` of the stiffness, same BLAS, same run.\n\n",
             limit);
-    fprintf(file, "| family | geometry | pairs | mu | `auto`, ms | best of Siconos, ms | ratio | "
-                  "which | not solved |\n|---|---|---|---|---|---|---|---|---|\n");
-    for (size_t k = 0; k < count; k++) {
-        const struct row *row = &rows[k];
-        if (is_peer(row) || strcmp(row->solver->name, "auto") != 0)
-            continue;
-        const struct row *best = best_peer(rows, count, row);
-        fprintf(file, "| %s | %s | %zu | %g | ", family_name(row->solver->family),
-                geometry_name(row->geometry), row->pairs, row->mu);
-        if (is_solved(row))
-            fprintf(file, "%.3g | ", row->ms);
-        else
-            fprintf(file, "%s | ", row->status);
-        if (best != NULL && is_solved(row)) {
-            footnote |= !is_solved(best);
-            fprintf(file, "%.4g%s | %.2f | %s | ", best->ms, is_solved(best) ? "" : " (*)",
-                    best->ms / row->ms, best->solver->name);
-        } else if (best != NULL) {
-            fprintf(file, "%.4g | - | %s | ", best->ms, best->solver->name);
-        } else {
-            fprintf(file, "none | - | - | ");
-        }
-        failures(file, rows, count, row);
-        fprintf(file, " |\n");
-    }
-    if (footnote)
-        fprintf(file, "\n(*) No peer reaches 1e-12 here: the fastest with `eta <= 1e-8` counts.\n");
-    fprintf(file, "\n| geometric means of the ratios | problems | mean | least |\n"
+    table(file, rows, count, 0);
+    table(file, rows, count, 1);
+    fprintf(file, "| geometric means of the ratios | problems | mean | least |\n"
                   "|---|---|---|---|\n");
     speed_means(file, rows, count);
     lemke_means(file, rows, count);
+    lu_means(file, rows, count);
 }

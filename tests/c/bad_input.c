@@ -360,14 +360,42 @@ static void numbers(void)
     BAD(2, CERTIFY, "bad tolerance without pairs", -10, "tolerance", c.pairs = 0, c.tolerance = 0);
 }
 
+/* A wrong parameter of a law that has three for each of the two pairs. */
+#define LAW(dim, name_of_law, name, part, ...)                                                    \
+    do {                                                                                          \
+        static double three[6] = {__VA_ARGS__};                                             \
+        BAD(dim, SOLVE, name, -8, part, c.law = SIGNORINI_LAW_##name_of_law, c.friction = three); \
+        BAD(dim, CERTIFY, name, -8, part, c.law = SIGNORINI_LAW_##name_of_law,                    \
+            c.friction = three);                                                                  \
+    } while (0)
+
 /* The friction law, and the results that not every call wants. */
 static void laws(void)
 {
     ALL("law is -1", -7, "law is -1, it must be", c.law = -1);
-    ALL("law is 3", -7, "law is 3, it must be", c.law = 3);
-    ALL("law is 3 without pairs", -7, "law is 3", c.law = 3, c.pairs = 0);
+    ALL("law is 6", -7, "law is 6, it must be", c.law = 6);
+    ALL("law is 6 without pairs", -7, "law is 6", c.law = 6, c.pairs = 0);
     BAD(2, SOLVE, "a NULL says what it must hold", -8, "mu of each pair", c.friction = NULL);
     BAD(2, TRESCA, "a NULL says what it must hold", -8, "g of each pair", c.friction = NULL);
+    BAD(2, SOLVE, "a NULL says what it must hold", -8, "mu, b, a of each pair", c.friction = NULL,
+        c.law = SIGNORINI_LAW_COHESIVE);
+    LAW(2, COHESIVE, "b is below mu a", "friction[4] (b of pair 1) is 0.2, it must be at least",
+        0.3, 1, 1, 0.5, 0.2, 1);
+    LAW(2, COHESIVE, "a < 0", "friction[2] (a of pair 0) is -1, it must not be negative", 0.3, 1,
+        -1, 0.5, 1, 1);
+    LAW(2, COHESIVE, "b < 0", "friction[1] (b of pair 0) is -1, it must not", 0.3, -1, 0, 0.5, 1, 1);
+    LAW(2, COHESIVE, "mu < 0", "friction[3] (mu of pair 1) is -0.5", 0.3, 1, 0, -0.5, 1, 1);
+    LAW(3, COHESIVE, "b is NaN", "friction[1] (b of pair 0) is not finite", 0.3, NAN, 0, 0.5, 1, 1);
+    LAW(3, ORTHOTROPIC, "mu1 is 0", "friction[0] (mu1 of pair 0) is 0, it must be positive", 0, 1,
+        0, 0.5, 1, 1);
+    LAW(3, ORTHOTROPIC_COLLINEAR, "mu2 < 0", "friction[4] (mu2 of pair 1) is -1", 1, 1, 0, 0.5, -1,
+        1);
+    LAW(3, ORTHOTROPIC, "angle is infinite", "friction[5] (angle of pair 1) is not finite", 1, 1,
+        0, 0.5, 1, INFINITY);
+    BAD(2, SOLVE, "orthotropic in the plane", -7, "dim is 2", c.law = SIGNORINI_LAW_ORTHOTROPIC,
+        c.friction = world.K);
+    BAD(2, CERTIFY, "orthotropic in the plane", -7, "use Coulomb's law",
+        c.law = SIGNORINI_LAW_ORTHOTROPIC_COLLINEAR, c.friction = world.K);
 
     BOTH("extra: struct_size is 0", -15, "extra: struct_size is 0", world.extra.struct_size = 0);
     BOTH("extra: struct_size is too large", -15, "extra: struct_size is 48",
@@ -398,7 +426,7 @@ static void settings(void)
     SETTINGS("time_limit is NaN", "time_limit is NaN", world.settings.time_limit = NAN);
     SETTINGS("there is no search 2", "no search 2", world.settings.search = 2);
     SETTINGS("there is no search -1", "no search -1", world.settings.search = -1);
-    SETTINGS("there is no method 6", "no method 6", world.settings.method = 6);
+    SETTINGS("there is no method 60", "no method 60", world.settings.method = 60);
     SETTINGS("there is no method -1", "no method -1", world.settings.method = -1);
     SETTINGS("there is no method 1000", "no method 1000", world.settings.method = 1000);
     SETTINGS("struct_size is 0", "struct_size is 0", world.settings.struct_size = 0);

@@ -92,6 +92,14 @@ static void kinds(void)
     CHECK(signorini_problem_remark(problem)[0] == '\0');
     signorini_problem_free(problem);
 
+    const double three[6] = {0.5, 2, 1, 0.25, 1, 0};
+    CHECK_STATUS(signorini_problem_write(in_folder("cohesive"), 2, 2, K, 4, f, gap,
+                                         SIGNORINI_LAW_COHESIVE, three, NULL, NULL), 0);
+    CHECK_STATUS(signorini_problem_read(path, &problem), 0);
+    CHECK(signorini_problem_law(problem) == SIGNORINI_LAW_COHESIVE);
+    CHECK(same(signorini_problem_friction(problem), three, 6));
+    signorini_problem_free(problem);
+
     CHECK_STATUS(signorini_problem_write(in_folder("frictionless"), 2, 2, K, 4, f, gap,
                                          FRICTIONLESS, NULL, slip0, NULL),
                  0);
@@ -291,8 +299,8 @@ static void bad_files(void)
 
 static void clean(void)
 {
-    const char *names[] = {"coulomb", "tresca", "frictionless", "lcp", "empty", "case", "bad",
-                           "inner"};
+    const char *names[] = {"coulomb", "tresca", "cohesive", "frictionless", "lcp",
+                           "empty",   "case",   "bad",      "inner"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) remove(in_folder(names[i]));
     CHECK(rmdir(folder) == 0);
 }

@@ -522,6 +522,20 @@ static void what_is_not_wanted_may_be_null(void)
                                  NULL, NULL, NULL), 0);
     CHECK_NEAR(d[1], 2.5);
     CHECK_NEAR(F[1], -0.5);
+    /* The pair under the load (10, 8) on the springs 5 and 3: 3 d_t = 8 - 0.5 * 10 - 1.5. */
+    double glue[] = {0.5, 1.5, 2};
+    CHECK_STATUS(signorini_solve(2, 1, K, 2, f, gap, SIGNORINI_LAW_COHESIVE, glue, NULL, NULL, d,
+                                 F, NULL, NULL, NULL), 0);
+    CHECK_NEAR(d[1], 0.5);
+    CHECK_NEAR(F[1], -6.5);
+    /* Pulled by 12 it opens, 5 d_n = 2 - 12, and carries the tension 2 and the friction 0.5. */
+    const double pull[] = {-12, 8};
+    CHECK_STATUS(signorini_solve(2, 1, K, 2, pull, gap, SIGNORINI_LAW_COHESIVE, glue, NULL, NULL,
+                                 d, F, NULL, NULL, NULL), 0);
+    CHECK_NEAR(d[0], -2);
+    CHECK_NEAR(F[0], 2);
+    CHECK_NEAR(d[1], 2.5);
+    CHECK_NEAR(F[1], -0.5);
     const double M[] = {2}, q[] = {-1};
     double w[1], z[1];
     CHECK_STATUS(signorini_lcp_lemke(1, M, 1, q, NULL, NULL, w, z, NULL, NULL), 0);

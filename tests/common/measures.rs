@@ -4,7 +4,7 @@ use nalgebra::DMatrix;
 use signorini::Solution;
 
 use super::dense::{difference, dot, norm, product};
-use super::problems::{Case, Law};
+use super::problems::Case;
 
 /// The motion that proves that there is no equilibrium.
 pub fn motion(solution: &Solution) -> &[f64] {
@@ -19,7 +19,8 @@ pub fn force(case: &Case, d: &[f64]) -> Vec<f64> {
 /// `|e| / max(|f|, |F|)` of the natural map that the documentation of `certificate` defines,
 ///
 /// `e_n = K_nn (d_n - min(gap, d_n - F_n / K_nn))`,
-/// `e_t = K_tt (delta - shrink(delta - F_t / K_tt, g / K_tt))`, `g = mu max(0, -F_n)` or given,
+/// `e_t = K_tt (delta - shrink(delta - F_t / K_tt, g / K_tt))`, `g = mu max(0, -F_n)` or given; with
+/// cohesion `F_n - a` for `F_n` in `e_n`, and `g = mu max(-a, -F_n) + b`;
 ///
 /// case by case, so that displacements do not hide the forces in their rounding.
 pub fn eta(case: &Case, d: &[f64]) -> f64 {
@@ -28,7 +29,9 @@ pub fn eta(case: &Case, d: &[f64]) -> f64 {
     for pair in 0..case.pairs {
         let i = case.dim * pair;
         // d_n - gap or F_n / K_nn, whichever is larger.
-        residual.push((case.stiffness(i, i) * (d[i] - case.gap[pair])).max(force[i]));
+        residual.push(
+            (case.stiffness(i, i) * (d[i] - case.gap[pair])).max(force[i] - case.law.of(pair)[2]),
+        );
         let k_t = tangential_stiffness(case, pair);
         let delta: Vec<f64> = (1..case.dim).map(|c| d[i + c] - case.rest(pair, c - 1)).collect();
         let trial: Vec<f64> = (1..case.dim).map(|c| k_t * delta[c - 1] - force[i + c]).collect();
@@ -78,7 +81,8 @@ pub fn tangential_stiffness(case: &Case, pair: usize) -> f64 {
 ///
 /// It does if it strains nothing, `K r = 0`; if contact forces can only do non-negative work on
 /// it, `-r_n >= mu |r_t|` where there is an obstacle (given thresholds: `r_n <= 0`, and they do at
-/// least `-sum g |r_t|`); and if the loads drive it. Then `F . r = -f . r` is impossible.
+/// least `-sum g |r_t|`; with cohesion `F_n <= a` and `|F_t| <= mu (a - F_n) + b - mu a`, so at least
+/// `sum a r_n - (b - mu a) |r_t|`); and if the loads drive it. Then `F . r = -f . r` is impossible.
 ///
 /// Zero is anything below 1e-10 of the strain's parts: far above rounding (1e-15), far below the
 /// least stiffness in the tests (1e-6 of the largest). Work counts from 1e-12 of what the loads
@@ -95,23 +99,20 @@ pub fn flaw_of_escape(case: &Case, r: &[f64]) -> Option<String> {
     if let Some(i) = (0..n).find(|&i| strain[i].abs() > ZERO * root[i] * size) {
         return Some(format!("it strains: (K r)[{i}] = {}", strain[i]));
     }
-    let mut resisted = 0.0;
+    let (mut resisted, mut pulled) = (0.0, 0.0);
     for pair in 0..case.pairs {
         let i = case.dim * pair;
         let slide = norm(&r[i + 1..i + case.dim]);
-        let lift = match &case.law {
-            Law::Coulomb(mu) => mu[pair] * slide,
-            Law::Tresca(g) => {
-                resisted += g[pair] * slide;
-                0.0
-            }
-        };
+        let [mu, b, a] = case.law.of(pair);
+        let lift = mu * slide;
+        resisted += (b - mu * a) * slide - a * r[i];
+        pulled += size * a / root[i];
         if case.gap[pair].is_finite() && (r[i] + lift) * root[i] > ZERO * size {
             return Some(format!("contact can stop it at pair {pair}"));
         }
     }
     let work = dot(&case.f, r);
-    let parts: f64 = size * (0..n).map(|i| case.f[i].abs() / root[i]).sum::<f64>();
+    let parts: f64 = size * (0..n).map(|i| case.f[i].abs() / root[i]).sum::<f64>() + pulled;
     let driven = work - resisted > 1e-12 * parts;
     (!driven).then(|| format!("the loads do not drive it: {work} against {resisted}"))
 }

@@ -2,15 +2,23 @@
 
 #![allow(dead_code)] // Every test file uses a part.
 
+pub mod all_states;
 pub mod bare;
+pub mod blocks;
 pub mod brick;
 pub mod dense;
+pub mod edges;
+pub mod escape;
+pub mod exact;
 pub mod folder;
 pub mod half_space;
+pub mod judge;
 pub mod measures;
 pub mod mesh;
 pub mod oracle;
+pub mod plane_families;
 pub mod problems;
+pub mod quad;
 pub mod rigid_statics;
 pub mod stack;
 pub mod verdict;

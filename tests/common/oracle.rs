@@ -11,7 +11,7 @@ use signorini::State;
 
 use super::dense::{self, Elimination, best_margin, largest, norm};
 use super::measures::force;
-use super::problems::{Case, Law};
+use super::problems::Case;
 
 /// A solution is a candidate that violates no inequality by more than this part of the forces:
 /// systems of condition 1e6 are solved to 1e-10, and random inequalities rarely fall below.
@@ -82,7 +82,7 @@ pub struct Enumeration<'a> {
 }
 
 impl<'a> Enumeration<'a> {
-    /// Of a 2D problem with few pairs: at most 4 states each under Coulomb's law, 6 under Tresca's.
+    /// Of a 2D problem with few pairs: at most 4 states each under Coulomb's law, 6 under others.
     pub fn new(case: &'a Case) -> Self {
         assert_eq!(case.dim, 2);
         let options: Vec<Vec<Local>> = (0..case.pairs).map(|pair| options(case, pair)).collect();
@@ -122,10 +122,7 @@ impl<'a> Enumeration<'a> {
     pub fn identify<'s>(&'s self, d: &[f64], tolerance: f64) -> Vec<Match<'s>> {
         let case = self.case;
         let n = case.size();
-        let mu = match &case.law {
-            Law::Coulomb(mu) => largest(mu),
-            Law::Tresca(_) => 0.0,
-        };
+        let mu = (0..case.pairs).fold(0.0, |most: f64, pair| most.max(case.law.of(pair)[0]));
         let least = (0..n).fold(f64::INFINITY, |least, i| case.stiffness(i, i).min(least));
         let stiffness = norm(&case.k);
         let c = (1.0 + mu) * (1.0 + mu + 2.0 * stiffness / least);
@@ -157,22 +154,17 @@ impl<'a> Enumeration<'a> {
 }
 
 fn options(case: &Case, pair: usize) -> Vec<Local> {
-    let (bound, normals_only) = match &case.law {
-        Law::Coulomb(mu) => (mu[pair], true),
-        Law::Tresca(g) => (g[pair], false),
+    let [mu, b, a] = case.law.of(pair);
+    let motions = |resisted: bool| match resisted {
+        false => vec![Motion::Slides(0.0)],
+        true => vec![Motion::Stuck, Motion::Slides(1.0), Motion::Slides(-1.0)],
     };
-    let motions = match bound {
-        0.0 => vec![Motion::Slides(0.0)],
-        _ => vec![Motion::Stuck, Motion::Slides(1.0), Motion::Slides(-1.0)],
-    };
-    let mut options = Vec::new();
-    if normals_only {
-        options.push(Local { closed: false, motion: Motion::Slides(0.0) });
-    } else {
-        options.extend(motions.iter().map(|&motion| Local { closed: false, motion }));
-    }
+    // The rounding of `mu a` is no friction.
+    let open = motions(b > mu * a * (1.0 + 1e-12)).into_iter();
+    let mut options: Vec<Local> = open.map(|motion| Local { closed: false, motion }).collect();
     if case.gap[pair].is_finite() {
-        options.extend(motions.iter().map(|&motion| Local { closed: true, motion }));
+        let closed = motions(mu > 0.0 || b > 0.0).into_iter();
+        options.extend(closed.map(|motion| Local { closed: true, motion }));
     }
     options
 }
@@ -181,10 +173,10 @@ fn force_unit(case: &Case) -> f64 {
     let prescribed =
         case.gap.iter().filter(|gap| gap.is_finite()).chain(case.slip.iter().flatten());
     let stiffness = (0..case.size()).fold(0.0, |most: f64, i| most.max(case.stiffness(i, i)));
-    let given = match &case.law {
-        Law::Coulomb(_) => 0.0,
-        Law::Tresca(g) => largest(g),
-    };
+    let given = (0..case.pairs).fold(0.0, |most: f64, pair| {
+        let [_, b, a] = case.law.of(pair);
+        most.max(b).max(a)
+    });
     let forces = prescribed.fold(0.0, |most: f64, d| most.max(stiffness * d.abs()));
     let unit = forces.max(largest(&case.f)).max(given);
     if unit == 0.0 { 1.0 } else { unit }
@@ -196,30 +188,27 @@ fn piece(case: &Case, local: Vec<Local>) -> Option<Piece> {
     let mut rhs = vec![0.0; n];
     for (pair, now) in local.iter().enumerate() {
         let i = 2 * pair;
+        let [mu, b, a] = case.law.of(pair);
         if now.closed {
             matrix[i * n + i] = case.stiffness(i, i);
             rhs[i] = case.stiffness(i, i) * case.gap[pair];
         } else {
             (0..n).for_each(|j| matrix[i * n + j] = case.stiffness(i, j));
-            rhs[i] = case.f[i];
+            rhs[i] = case.f[i] + a;
         }
         let t = i + 1;
-        match (now.motion, &case.law) {
-            (Motion::Stuck, _) => {
+        match now.motion {
+            Motion::Stuck => {
                 matrix[t * n + t] = case.stiffness(t, t);
                 rhs[t] = case.stiffness(t, t) * case.rest(pair, 0);
             }
-            // F_t = side mu F_n with F_n <= 0: against the slip.
-            (Motion::Slides(side), Law::Coulomb(mu)) => {
-                let mu = side * mu[pair];
+            // F_t = -side (b - mu F_n), against the slip.
+            Motion::Slides(side) => {
+                let mu = side * mu;
                 (0..n).for_each(|j| {
                     matrix[t * n + j] = case.stiffness(t, j) - mu * case.stiffness(i, j);
                 });
-                rhs[t] = case.f[t] - mu * case.f[i];
-            }
-            (Motion::Slides(side), Law::Tresca(g)) => {
-                (0..n).for_each(|j| matrix[t * n + j] = case.stiffness(t, j));
-                rhs[t] = case.f[t] - side * g[pair];
+                rhs[t] = case.f[t] - mu * case.f[i] - side * b;
             }
         }
     }
@@ -259,18 +248,16 @@ fn slacks(case: &Case, local: &[Local], d: &[f64], force: &[f64]) -> Vec<f64> {
     let mut slacks = Vec::new();
     for (pair, now) in local.iter().enumerate() {
         let (i, t) = (2 * pair, 2 * pair + 1);
+        let [mu, b, a] = case.law.of(pair);
         if now.closed {
-            slacks.push(-force[i]);
+            slacks.push(a - force[i]);
         } else if case.gap[pair].is_finite() {
             slacks.push(case.stiffness(i, i) * (case.gap[pair] - d[i]));
         }
         match now.motion {
             Motion::Stuck => {
                 // Not `Case::bound`, which is not affine in the force where that pulls.
-                let bound = match &case.law {
-                    Law::Coulomb(mu) => -mu[pair] * force[i],
-                    Law::Tresca(g) => g[pair],
-                };
+                let bound = b - mu * force[i];
                 slacks.extend([bound - force[t], bound + force[t]]);
             }
             Motion::Slides(0.0) => {}

@@ -5,11 +5,39 @@ use signorini::{ContactData, ContactProblem, FrictionLaw, Method, Monitor, Setti
 
 use super::dense::{Elimination, dot, largest, norm};
 
-/// Coefficients or thresholds, one for each pair.
+/// A law with its numbers, pair by pair.
 #[derive(Clone, Debug)]
 pub enum Law {
     Coulomb(Vec<f64>),
     Tresca(Vec<f64>),
+    /// `(mu, b, a)` of each pair.
+    Cohesive(Vec<f64>),
+}
+
+impl Law {
+    pub fn values(&self) -> &[f64] {
+        match self {
+            Law::Coulomb(values) | Law::Tresca(values) | Law::Cohesive(values) => values,
+        }
+    }
+
+    /// The same law with other numbers.
+    pub fn with(&self, values: Vec<f64>) -> Law {
+        match self {
+            Law::Coulomb(_) => Law::Coulomb(values),
+            Law::Tresca(_) => Law::Tresca(values),
+            Law::Cohesive(_) => Law::Cohesive(values),
+        }
+    }
+
+    /// `(mu, b, a)` of a pair: `p >= -a`, `|F_t| <= mu p + b`.
+    pub fn of(&self, pair: usize) -> [f64; 3] {
+        match self {
+            Law::Coulomb(mu) => [mu[pair], 0.0, 0.0],
+            Law::Tresca(g) => [0.0, g[pair], 0.0],
+            Law::Cohesive(numbers) => [0, 1, 2].map(|k| numbers[3 * pair + k]),
+        }
+    }
 }
 
 /// A contact problem with its arrays.
@@ -37,6 +65,7 @@ impl Case {
             law: match &self.law {
                 Law::Coulomb(mu) => FrictionLaw::Coulomb(mu),
                 Law::Tresca(g) => FrictionLaw::Tresca(g),
+                Law::Cohesive(numbers) => FrictionLaw::Cohesive(numbers),
             },
             reference_slip: self.slip.as_deref(),
         }
@@ -55,6 +84,26 @@ impl Case {
         self.solve(&Settings { method, ..Settings::default() })
     }
 
+    /// A problem in the plane with a second tangent that nothing loads or couples, of the stiffness that
+    /// `stiffness` gives it. Its solutions are those of the plane: `k delta_2 + tau_2 = 0` and
+    /// `delta_2 tau_2 >= 0` leave zero.
+    pub fn extruded(&self, mut stiffness: impl FnMut() -> f64) -> Case {
+        let (pairs, n) = (self.pairs, 3 * self.pairs);
+        let place = |i: usize| 3 * (i / 2) + i % 2;
+        let (mut k, mut f, mut slip) = (vec![0.0; n * n], vec![0.0; n], vec![0.0; 2 * pairs]);
+        for j in 0..2 * pairs {
+            for i in 0..2 * pairs {
+                k[place(i) + n * place(j)] = self.stiffness(i, j);
+            }
+            f[place(j)] = self.f[j];
+        }
+        for pair in 0..pairs {
+            k[(3 * pair + 2) * (n + 1)] = stiffness();
+            slip[2 * pair] = self.rest(pair, 0);
+        }
+        Case { dim: 3, pairs, k, f, gap: self.gap.clone(), law: self.law.clone(), slip: Some(slip) }
+    }
+
     pub fn size(&self) -> usize {
         self.dim * self.pairs
     }
@@ -71,10 +120,8 @@ impl Case {
 
     /// Bound on the tangential force under the normal force `normal`.
     pub fn bound(&self, pair: usize, normal: f64) -> f64 {
-        match &self.law {
-            Law::Coulomb(mu) => mu[pair] * (-normal).max(0.0),
-            Law::Tresca(g) => g[pair],
-        }
+        let [mu, b, a] = self.law.of(pair);
+        mu * (-normal).max(-a) + b
     }
 }
 
@@ -251,6 +298,20 @@ pub fn coulomb(rng: &mut Rng, pairs: usize, most: f64) -> Law {
 /// Thresholds up to 1, every fifth zero.
 pub fn tresca(rng: &mut Rng, pairs: usize) -> Law {
     Law::Tresca((0..pairs).map(|_| if rng.u8(0..5) == 0 { 0.0 } else { rng.f64() }).collect())
+}
+
+/// Coefficients up to `most`, cohesion and tension up to 1, each of the three zero in every fourth pair:
+/// Coulomb's law, Tresca's, tension alone and all together.
+pub fn cohesive(rng: &mut Rng, pairs: usize, most: f64) -> Law {
+    let or_zero = |rng: &mut Rng, most: f64| match rng.u8(0..4) {
+        0 => 0.0,
+        _ => uniform(rng, 0.0, most),
+    };
+    let numbers = |_| {
+        let (mu, a, more) = (or_zero(rng, most), or_zero(rng, 1.0), or_zero(rng, 1.0));
+        [mu, mu * a + more, a]
+    };
+    Law::Cohesive((0..pairs).flat_map(numbers).collect())
 }
 
 pub fn frictionless(pairs: usize) -> Law {

@@ -28,6 +28,7 @@ C
    20 CONTINUE
 
       CALL LAWS(NFAIL)
+      CALL TRIPLE(NFAIL)
       CALL SGSOLV(4, 2, K, 4, F, GAP, SGCOUL, MU, SLIP0, 0,
      &            0D0, 0, D, R, STATE, ETA, ITER, INFO)
       CALL EXPECT('dimension', INFO, -1, NFAIL)
@@ -174,6 +175,53 @@ C     4 d_t = 1 - 0.3 (2 - d_t), with the threshold 0.3 4 d_t = 0.7.
      &               D, R, STATE, ETA, INFO)
          CALL EXPECT('moved away', INFO, SGNOSO, NFAIL)
    10 CONTINUE
+      END
+
+C     The same pair with mu = 0.3, the cohesion 0.2 and the tension 0.1:
+C     4 d_t = 1 - 0.3 (2 - d_t) - 0.2. In space, on unit springs, a pair
+C     pressed by 1 with the coefficient 0.6 along t1: d_t1 = f_t1 - 0.6.
+      SUBROUTINE TRIPLE(NFAIL)
+      INCLUDE 'signorini.inc'
+      INTEGER NFAIL, LAW, ITER, INFO, STATE(1)
+      DOUBLE PRECISION K(2, 2), F(2), GAP(1), FRIC(3, 1), SLIP0(2)
+      DOUBLE PRECISION K3(3, 3), F3(3), AXES(3, 1), D(3), R(3), ETA
+      DATA K /4D0, 1D0, 1D0, 4D0/, F /2D0, 1D0/
+      DATA FRIC /0.3D0, 0.2D0, 0.1D0/, AXES /0.6D0, 0.2D0, 0D0/
+      DATA K3 /1D0, 3*0D0, 1D0, 3*0D0, 1D0/, F3 /1D0, 1.5D0, 0D0/
+      DATA GAP /0D0/, SLIP0 /2*0D0/
+      CALL SGSOLV(2, 1, K, 2, F, GAP, SGCOHE, FRIC, SLIP0, 0, 0D0, 0,
+     &            D, R, STATE, ETA, ITER, INFO)
+      CALL EXPECT('cohesion', INFO, 0, NFAIL)
+      IF (ABS(D(2) - 0.2D0 / 3.7D0) .GT. 1D-9) THEN
+         WRITE (*, '(A, F12.9)') '   FAIL: cohesion', D(2)
+         NFAIL = NFAIL + 1
+      END IF
+      FRIC(2, 1) = 0.02D0
+      CALL SGSOLV(2, 1, K, 2, F, GAP, SGCOHE, FRIC, SLIP0, 0, 0D0, 0,
+     &            D, R, STATE, ETA, ITER, INFO)
+      CALL EXPECT('b below mu a', INFO, -8, NFAIL)
+      CALL SAYS('friction(2) (b of pair 1)', NFAIL)
+      CALL SGCERT(2, 1, K, 2, F, GAP, SGORTH, AXES, SLIP0, 0D0,
+     &            D, R, STATE, ETA, INFO)
+      CALL EXPECT('orthotropic in the plane', INFO, -7, NFAIL)
+      DO 20 LAW = SGORTH, SGORTC
+         AXES(1, 1) = 0.6D0
+         CALL SGSOLV(3, 1, K3, 3, F3, GAP, LAW, AXES, SLIP0, 0, 0D0,
+     &               0, D, R, STATE, ETA, ITER, INFO)
+         CALL EXPECT('orthotropic', INFO, 0, NFAIL)
+         IF (ABS(D(2) - 0.9D0) + ABS(D(3)) .GT. 1D-9) THEN
+            WRITE (*, '(A, 2F12.9)') '   FAIL: orthotropic', D(2), D(3)
+            NFAIL = NFAIL + 1
+         END IF
+         AXES(1, 1) = 0D0
+         CALL SGSOLV(3, 1, K3, 3, F3, GAP, LAW, AXES, SLIP0, 0, 0D0,
+     &               0, D, R, STATE, ETA, ITER, INFO)
+         CALL EXPECT('mu1 is 0', INFO, -8, NFAIL)
+         CALL SAYS('friction(1) (mu1 of pair 1) is 0', NFAIL)
+   20 CONTINUE
+      CALL SGSOLV(3, 1, K3, 3, F3, GAP, 6, AXES, SLIP0, 0, 0D0, 0,
+     &            D, R, STATE, ETA, ITER, INFO)
+      CALL EXPECT('no law 6', INFO, -7, NFAIL)
       END
 
 C     The last sentence has these words.

@@ -96,6 +96,15 @@ contains
         call contact_solve(k, f, gap, d, force, info, friction=parameter)
         call expect('Coulomb', info == 0 .and. abs(d(2) - wanted(1)) < 1e-9_dp)
         call model%release()
+        ! With the cohesion 0.2: 4 d_t = 1 - 0.3 (2 - d_t) - 0.2.
+        call contact_solve(k, f, gap, d, force, info, law=int(SIGNORINI_LAW_COHESIVE), &
+            friction=[0.3_dp, 0.2_dp, 0.1_dp])
+        call expect('cohesion', info == 0 .and. abs(d(2) - 0.2_dp/3.7_dp) < 1e-9_dp)
+        call contact_solve(k, f, gap, d, force, info, law=int(SIGNORINI_LAW_COHESIVE), friction=parameter)
+        call expect('three for each pair', info == -8)
+        call contact_solve(k, f, gap, d, force, info, law=int(SIGNORINI_LAW_ORTHOTROPIC), &
+            friction=[0.3_dp, 0.2_dp, 0.1_dp])
+        call expect('orthotropic in the plane', info == -7)
     end subroutine
 
     ! What is declared is ready to use: it is what the library fills in.

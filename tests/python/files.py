@@ -56,6 +56,24 @@ class Files(unittest.TestCase):
                 solved = signorini.solve(matrix, load, gap, **given, slip0=slip0, dim=dim)
                 self.same(solved.d, found.solve().d)
 
+    def test_laws_of_three_numbers_read_back(self):
+        rng = np.random.default_rng(5)
+        for law, dim, friction in (
+            ("cohesive", 2, [0.3, 0.7, 0.1]), ("cohesive", 3, [0.3, 0.7, 0.1]),
+            ("orthotropic", 3, [0.3, 0.7, 0.1]), ("orthotropic_collinear", 3, [0.3, 0.7, 0.1]),
+        ):
+            matrix, load = positive_definite(rng, 4 * dim), rng.normal(size=(4, dim))
+            matrix = (matrix + matrix.T) / 2
+            friction = rng.uniform(1, 1.1, size=(4, 3)) * friction
+            signorini.write(path("law.mtx"), matrix, load, 0.0, law=law, friction=friction, dim=dim)
+            found = signorini.read(path("law.mtx"))
+            self.assertEqual(found.law, signorini.Law[law.upper()])
+            self.same(friction, found.friction)
+            self.assertIsNone(found.mu)
+            self.assertIsNone(found.g)
+            solved = signorini.solve(matrix, load, 0.0, law=law, friction=friction, dim=dim)
+            self.same(solved.d, found.solve().d)
+
     def test_lcps_read_back_with_the_same_bits(self):
         rng = np.random.default_rng(4)
         matrix, q = rng.normal(size=(5, 5)), rng.normal(size=5)

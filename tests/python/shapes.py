@@ -61,6 +61,55 @@ class Refused(unittest.TestCase):
         self.refused(ValueError, ["mu and g", "mu for Coulomb", "g for given thresholds"], solve, K,
                      LOAD, 0.0, 0.3, g=1.0)
 
+    def test_numbers_of_other_laws(self):
+        solve, model = signorini.solve, signorini.Model.condensed(K)
+        for call in (lambda **law: solve(K, LOAD, 0.0, **law),
+                     lambda **law: model.solve(LOAD, 0.0, **law),
+                     lambda **law: signorini.certify(K, LOAD, 0.0, d=LOAD, **law)):
+            for friction in (np.zeros(2), np.zeros((3, 2)), np.zeros((4, 3)), 1.0, np.zeros(6)):
+                self.refused(ValueError, [f"friction has the shape {np.shape(friction)}",
+                                          "three numbers for each of the 2 pairs", "shape (2, 3)",
+                                          "(3,) for all"], call, law="cohesive", friction=friction)
+            self.refused(TypeError, ["friction is None", "cohesive"], call, law="cohesive")
+            self.refused(ValueError, "friction is given without a law", call, friction=[1, 2, 3])
+            self.refused(ValueError, ["law is 'viscous', not one of", "cohesive"], call,
+                         law="viscous", friction=[1, 2, 3])
+            self.refused(ValueError, "law is given, and mu or g", call, law="cohesive", mu=0.3,
+                         friction=[1, 2, 3])
+            self.refused(ValueError, "the law is frictionless", call, law="frictionless",
+                         friction=[1, 2, 3])
+            for law, friction, parts in (
+                ("cohesive", [0.5, 0.1, 1.0], ["friction[1] (b of pair 0) is 0.1", "mu a"]),
+                ("cohesive", [[0, 1, 1], [0, 1, -1.0]], ["friction[5] (a of pair 1) is -1"]),
+                ("orthotropic", [0.5, 0.1, 0.0], ["dim is 2", "Coulomb's law"]),
+            ):
+                self.refused(signorini.SignoriniError, parts, call, law=law, friction=friction)
+        self.refused(signorini.SignoriniError, ["friction[3] (mu1 of pair 1) is 0", "positive"],
+                     solve, np.eye(6), np.ones(6), 0.0, law="orthotropic", dim=3,
+                     friction=[[1, 1, 0], [0, 1, 0]])
+
+    def test_the_other_dimension(self):
+        """12 unknowns are 6 pairs in 2D, or 4 in 3D."""
+        flat, solve = np.ones(12), signorini.solve
+        model = {dim: signorini.Model.condensed(IDENTITY, dim=dim) for dim in (2, 3)}
+        self.refused(ValueError, ["gap has the shape (4,)", "dim=3", "f of shape (4, 3)"], solve,
+                     IDENTITY, flat, np.zeros(4), 0.3)
+        for dim, other, pairs in ((2, 3, 4), (3, 2, 6)):
+            hint = [f"the shape is that of dim={other}", f"dim is {dim}"]
+            for name, shape in (("gap", (pairs,)), ("mu", (pairs,)), ("slip0", (pairs, other - 1)),
+                                ("start", (pairs, other))):
+                given = {"gap": 0.0, "mu": 0.3, name: np.zeros(shape)}
+                self.refused(ValueError, [f"{name} has the shape {shape}", *hint], solve, IDENTITY,
+                             flat, dim=dim, **given)
+                self.refused(ValueError, [f"{name} has the shape {shape}", *hint],
+                             model[dim].solve, flat, **given)
+            self.refused(ValueError, ["f has the shape", *hint], model[dim].solve,
+                         np.ones((pairs, other)), 0.0)
+            self.refused(ValueError, ["d has the shape", *hint], model[dim].recover,
+                         np.ones((pairs, other)))
+            self.refused(ValueError, ["friction has the shape", *hint], solve, IDENTITY, flat, 0.0,
+                         dim=dim, law="cohesive", friction=np.ones((pairs, 3)))
+
     def test_nothing(self):
         model = signorini.Model.condensed(K)
         for parts, call in (
@@ -207,6 +256,19 @@ class Taken(unittest.TestCase):
         seen = signorini.solve(IDENTITY, load, 0.0, 0.3)
         np.testing.assert_array_equal(seen.F, told.F)
         self.assertEqual(signorini.solve(IDENTITY, load.ravel(), 0.0, 0.3).F.shape, (6, 2))
+
+    def test_three_numbers(self):
+        one = signorini.solve(K, LOAD, 0.0, law="cohesive", friction=[0.3, 0.2, 0.1])
+        for law in (signorini.Law.COHESIVE, 3):
+            rows = signorini.solve(K, LOAD, 0.0, law=law, friction=[[0.3, 0.2, 0.1]] * 2)
+            np.testing.assert_array_equal(rows.d, one.d)
+        plain = signorini.solve(K, LOAD, 0.0, law="cohesive", friction=[0.3, 0, 0])
+        np.testing.assert_array_equal(plain.d, signorini.solve(K, LOAD, 0.0, 0.3).d)
+        model = signorini.Model.condensed(K)
+        numbers = np.array([[[0.3, 0.2, 0.1]] * 2, [[0.3, 0, 0]] * 2])
+        cases = model.solve([LOAD, LOAD], 0.0, law="cohesive", friction=numbers)
+        for expected, result in zip((one, plain), cases):
+            np.testing.assert_array_equal(expected.d, result.d)
 
     def test_cases(self):
         model = signorini.Model.condensed(K)

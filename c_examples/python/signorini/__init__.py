@@ -13,14 +13,14 @@ For P pairs in dimension D (2 or 3), N = D * P, ordered pair by pair (n, t) or (
                                                     d_t - slip0 = -lambda F_t, lambda >= 0, on it
 
 The law of friction follows from what is given: mu, r = mu |F_n| (Coulomb); g, r = g (Tresca);
-neither, r = 0 (frictionless).
+neither, r = 0 (frictionless); law and friction, another one (see solve; signorini.h defines it).
 
 Signs: n is the outward normal of the body; d_n > 0 moves towards the obstacle, F_n < 0 presses, F
 is the force on the body. f and F are nodal forces. Units are yours, also those of the results.
-gap, mu, g and slip0 may be one number for all pairs. Vectors of N entries may have the shape
-(P, D). Any other shape is a ValueError, other kinds of numbers are a TypeError, and what the
-library refuses is a SignoriniError. signorini.h is the reference; it also says what each field of a
-report is.
+gap, mu, g and slip0 may be one number for all pairs, friction three. Vectors of N entries may have
+the shape (P, D). Any other shape is a ValueError, other kinds of numbers are a TypeError, and what
+the library refuses is a SignoriniError. signorini.h is the reference; it also says what each field
+of a report is.
 
 Settings are keywords of everything that solves: method and search (a member of Method, of Search,
 or its name in lower case), tolerance, omega, damping, max_iterations, time_limit, and progress, a

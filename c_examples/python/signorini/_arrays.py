@@ -12,12 +12,12 @@ def at(array):
     return None if array is None else array.ctypes.data
 
 
-def fit(name, values, shapes, asked, *, cases=None, scalar=False, optional=False):
+def fit(name, values, shapes, asked, *, cases=None, scalar=False, optional=False, elsewhere=None):
     """64-bit numbers of one of the shapes, which all mean the last one.
 
     asked: the shapes in words.  scalar: one number for all is fine.  cases: the result has a
     leading axis of that many; values without one are the same in every case.  optional: None for
-    None.
+    None.  elsewhere: a function of shape: the dim, another one, in which it would fit, or None.
     """
     if values is None and optional:
         return None
@@ -37,22 +37,50 @@ def fit(name, values, shapes, asked, *, cases=None, scalar=False, optional=False
             asked += f", the same for all {cases} cases, or an axis of {cases} before it"
         if array.ndim == 2 and array.shape[::-1] in shapes:
             asked += "; the transpose fits"
+        elif elsewhere is not None and (dim := elsewhere(array.shape)) is not None:
+            asked += f"; the shape is that of dim={dim}, and dim is {5 - dim}"
         raise ValueError(f"{name} has the shape {array.shape}: give {asked}")
     return doubles(array)
 
 
-def per_pair(name, values, pairs, cases=None, optional=False):
-    """One number for each pair."""
+def per_pair(name, values, pairs, dim, cases=None, optional=False):
+    """One number for each pair of a problem of dim * pairs unknowns."""
     asked = f"one number for each of the {pairs} pairs, shape {(pairs,)}, or one for all"
-    return fit(name, values, [(pairs,)], asked, cases=cases, scalar=True, optional=optional)
+    return fit(name, values, [(pairs,)], asked, cases=cases, scalar=True, optional=optional,
+               elsewhere=_elsewhere(pairs, dim, lambda pairs, dim: [(pairs,)]))
 
 
-def components(name, values, pairs, width, *, cases=None, scalar=False, optional=False):
-    """width numbers for each pair."""
-    flat, rows = (pairs * width,), (pairs, width)
+def triples(name, values, pairs, dim, cases=None):
+    """Three numbers for each pair."""
+    array = reals(name, values)
+    if array.shape == (3,):
+        array = np.broadcast_to(array, (pairs, 3))
+    asked = f"three numbers for each of the {pairs} pairs, shape {(pairs, 3)}, or (3,) for all"
+    return fit(name, array, [(pairs, 3)], asked, cases=cases,
+               elsewhere=_elsewhere(pairs, dim, lambda pairs, dim: [(pairs, 3)]))
+
+
+def components(name, values, pairs, dim, *, tangential=False, cases=None, scalar=False,
+               optional=False):
+    """dim numbers for each pair, or dim - 1 tangential ones."""
+    def shapes(pairs, dim):
+        width = dim - 1 if tangential else dim
+        return [(pairs * width,), (pairs, width)]
+
+    flat, rows = shapes(pairs, dim)
     asked = f"the numbers of the {pairs} pairs one pair after the other, shape {flat} or {rows}"
     asked += ", or one for all" if scalar else ""
-    return fit(name, values, [flat, rows], asked, cases=cases, scalar=scalar, optional=optional)
+    return fit(name, values, [flat, rows], asked, cases=cases, scalar=scalar, optional=optional,
+               elsewhere=_elsewhere(pairs, dim, shapes))
+
+
+def _elsewhere(pairs, dim, shapes):
+    """For fit: whether a shape is one of shapes(pairs, dim) of the same size in the other dim."""
+    other = 5 - dim
+    if (dim * pairs) % other:
+        return None
+    fitting = shapes(dim * pairs // other, other)
+    return lambda shape: other if shape in fitting else None
 
 
 def reals(name, values):
@@ -118,14 +146,23 @@ def pairs_of(name, array, dim):
     return len(array) // dim
 
 
-def dimension(dim, shape, size):
-    """dim; if it is None 3 for loads of the shape (P, 3), else 2.  shape: of f.  size: N."""
+def dimension(dim, shape, size, gaps):
+    """dim; if it is None 3 for loads of the shape (P, 3), else 2.
+
+    shape: of f.  size: N.  gaps: their number tells that of the pairs.
+    """
     pairs_by_width = len(shape) == 2 and shape[1] in (2, 3) and shape[0] * shape[1] == size
     if dim is None:
         if shape == (2, 3) and size == 6:
             raise ValueError("f has the shape (2, 3): say dim=3 if that is two pairs in 3D, or "
                              "give f of shape (3, 2) for three pairs in 2D")
-        return 3 if pairs_by_width and shape[1] == 3 else 2
+        if pairs_by_width:
+            return shape[1]
+        gap = () if gaps is None else reals("gap", gaps).shape
+        if len(gap) == 1 and 3 * gap[0] == size:
+            raise ValueError(f"gap has the shape {gap}, which is that of dim=3, and f has the "
+                             f"shape {shape}: say dim=3, or give f of shape {(gap[0], 3)}")
+        return 2
     if dim in (2, 3) and pairs_by_width and shape[1] != dim and size % dim == 0:
         raise ValueError(f"f has the shape {shape}, and dim is {dim}: give dim={shape[1]}, or f "
                          f"of shape {(size // dim, dim)}")

@@ -2,7 +2,7 @@
 
 from ._arrays import at, components, dimension, pairs_of, per_pair, reals, stiffness
 from ._call import Call
-from ._law import law_of
+from ._law import Friction
 from ._library import check, library
 from ._results import Output, certified
 from ._text import path_bytes, remark_bytes
@@ -11,16 +11,16 @@ from ._text import path_bytes, remark_bytes
 class _Data:
     """Data of a condensed problem in the library's layout."""
 
-    def __init__(self, K, f, gap, mu, g, slip0, dim):
-        law, name, friction = law_of(mu, g)
+    def __init__(self, K, f, gap, friction, slip0, dim):
         K, f = stiffness("K", K), reals("f", f)
-        self.dim = dimension(dim, f.shape, len(K))
-        self.pairs = pairs = pairs_of("K", K, self.dim)
-        self.K, self.law = K, law
-        self.f = components("f", f, pairs, self.dim)
-        self.gap = per_pair("gap", gap, pairs)
-        self.friction = per_pair(name, friction, pairs, optional=True)
-        self.slip0 = components("slip0", slip0, pairs, self.dim - 1, scalar=True, optional=True)
+        self.dim = dim = dimension(dim, f.shape, len(K), gap)
+        self.pairs = pairs = pairs_of("K", K, dim)
+        self.K, self.law = K, friction.law
+        self.f = components("f", f, pairs, dim)
+        self.gap = per_pair("gap", gap, pairs, dim)
+        self.friction = friction.numbers(pairs, dim)
+        self.slip0 = components("slip0", slip0, pairs, dim, tangential=True, scalar=True,
+                                optional=True)
 
     def arguments(self):
         """dim, pairs, K, ldk, f, gap, law, friction, slip0 of the C calls."""
@@ -28,18 +28,22 @@ class _Data:
                 self.law, at(self.friction), at(self.slip0)]
 
 
-def solve(K, f, gap, mu=None, *, g=None, slip0=None, dim=None, start=None, **settings):
+def solve(K, f, gap, mu=None, *, g=None, law=None, friction=None, slip0=None, dim=None,
+          start=None, **settings):
     """Solves a condensed contact problem. Returns a Result.
 
     K: stiffness, (N, N), symmetric, positive semi-definite; force / length.  f: loads, N; force.
     gap: initial gaps, P; length; infinite: no obstacle.
     mu: friction coefficients, P (Coulomb).  g: friction thresholds, P; force (Tresca).  Neither: no
     friction; both: ValueError.
+    law, friction: another law, a member of Law or its name in lower case, and its three numbers for
+    each pair, (P, 3), or (3,) for all: "cohesive", (mu, b, a); in 3D "orthotropic" and
+    "orthotropic_collinear", (mu1, mu2, angle).
     slip0: reference slip, the tangential displacement at which a sticking pair stays, P (D - 1);
     length; None: zero. The last converged d[:, 1:] gives the incremental law.
     dim: D; None: 3 if f has the shape (P, 3), else 2.  start: d to start from, N, or None.
     """
-    data = _Data(K, f, gap, mu, g, slip0, dim)
+    data = _Data(K, f, gap, Friction(mu, g, law, friction), slip0, dim)
     functions = library()
     call = Call(functions, settings, start is not None)
     start = components("start", start, data.pairs, data.dim, optional=True)
@@ -50,22 +54,24 @@ def solve(K, f, gap, mu=None, *, g=None, slip0=None, dim=None, start=None, **set
     return output.result(0, status, message, lambda d: _certify(data, d, call.settings.tolerance))
 
 
-def certify(K, f, gap, mu=None, *, d, g=None, slip0=None, dim=None, tolerance=1e-10):
+def certify(K, f, gap, mu=None, *, d, g=None, law=None, friction=None, slip0=None, dim=None,
+            tolerance=1e-10):
     """Measures displacements d of any origin, N, on the data of solve. Returns a Result.
 
     Its status is SOLVED if report.eta <= tolerance, NOT_A_SOLUTION if not; F are the forces that
     obey the law nearest to K d - f.
     """
-    data = _Data(K, f, gap, mu, g, slip0, dim)
+    data = _Data(K, f, gap, Friction(mu, g, law, friction), slip0, dim)
     return _certify(data, components("d", d, data.pairs, data.dim), tolerance)
 
 
-def write(path, K, f, gap, mu=None, *, g=None, slip0=None, dim=None, remark=None):
+def write(path, K, f, gap, mu=None, *, g=None, law=None, friction=None, slip0=None, dim=None,
+          remark=None):
     """Writes the problem of solve to a file, which read gives back with the same bits.
 
     path: the file, replaced if it exists.  remark: one line for who reads the file, or None.
     """
-    data = _Data(K, f, gap, mu, g, slip0, dim)
+    data = _Data(K, f, gap, Friction(mu, g, law, friction), slip0, dim)
     functions = library()
     check(functions, functions.problem_write(path_bytes(path), *data.arguments(),
                                              remark_bytes(remark)))

@@ -34,6 +34,9 @@ class Law(IntEnum):
     FRICTIONLESS = 0
     COULOMB = 1
     TRESCA = 2
+    COHESIVE = 3
+    ORTHOTROPIC = 4
+    ORTHOTROPIC_COLLINEAR = 5
 
 
 class Method(IntEnum):

@@ -7,24 +7,26 @@ import numpy as np
 
 from ._condensed import solve
 from ._constants import Law, Problem
+from ._law import TRIPLES
 from ._lcp import lcp_lemke, lcp_solve
 from ._library import check, library
 from ._structures import address
 from ._text import path_bytes
 
 
-class ContactProblem(namedtuple("ContactProblem", "K f gap mu g slip0 dim remark")):
+class ContactProblem(namedtuple("ContactProblem", "K f gap mu g slip0 dim remark law friction")):
     """A contact problem of a file: the arguments of solve, and the remark of who wrote it.
 
-    f: (P, D).  slip0: (P, D - 1).  mu and g: P, or None, as the law of friction is.
+    f: (P, D).  slip0: (P, D - 1).  mu and g: P, or None, as the law of friction is.  law and
+    friction: a Law and (P, 3) of a law with three numbers, or None.
     """
 
     __slots__ = ()
 
     def solve(self, **settings):
         """Solves it. Returns a Result."""
-        return solve(self.K, self.f, self.gap, self.mu, g=self.g, slip0=self.slip0, dim=self.dim,
-                     **settings)
+        return solve(self.K, self.f, self.gap, self.mu, g=self.g, law=self.law,
+                     friction=self.friction, slip0=self.slip0, dim=self.dim, **settings)
 
 
 class LcpProblem(namedtuple("LcpProblem", "M q cover remark")):
@@ -62,9 +64,11 @@ def _taken(functions, problem):
     matrix, remark = array("matrix", size, size).T, functions.problem_remark(problem).decode()
     if functions.problem_kind(problem) == Problem.LCP:
         return LcpProblem(matrix, array("rhs", size), array("cover", size), remark)
-    law, friction = functions.problem_law(problem), array("friction", pairs)
+    law = Law(functions.problem_law(problem))
+    numbers = array("friction", pairs, 3) if law in TRIPLES else array("friction", pairs)
     return ContactProblem(
         matrix, array("rhs", pairs, dim), array("gap", pairs),
-        friction if law == Law.COULOMB else None, friction if law == Law.TRESCA else None,
+        numbers if law == Law.COULOMB else None, numbers if law == Law.TRESCA else None,
         array("slip0", pairs, dim - 1), dim, remark,
+        law if law in TRIPLES else None, numbers if law in TRIPLES else None,
     )

@@ -9,7 +9,7 @@ import numpy as np
 from ._arrays import at, components, fit, pairs_of, per_pair, reals, stiffness
 from ._call import Call
 from ._constants import Status, member
-from ._law import law_of
+from ._law import Friction
 from ._library import SignoriniError, check, library
 from ._results import Output, certified
 from ._sparse import ContactPairs, Matrix, supports
@@ -53,6 +53,11 @@ class Model:
         # The host's vectors of one condensed body are those of its pairs.
         pairwise = [(self.pairs, self.dim)] if make == "model_new_condensed" else []
         self._host_shapes = [*pairwise, (self.host_size,)]
+        # A load of the other dimension, to say so: its rows are as long as that dimension.
+        other = 5 - self.dim
+        self._elsewhere = lambda shape: (
+            other if pairwise and shape == (self.host_size // other, other) else None
+        )
 
     @classmethod
     def condensed(cls, K, *, dim=2):
@@ -120,19 +125,19 @@ class Model:
         self._do("model_condensed_load", at(f), at(prescribed), at(load))
         return load
 
-    def solve(self, f, gap, mu=None, *, g=None, slip0=None, prescribed=None, start=None,
-              **settings):
+    def solve(self, f, gap, mu=None, *, g=None, law=None, friction=None, slip0=None,
+              prescribed=None, start=None, **settings):
         """Solves a load case, f of H entries: a Result; or several, f of (C, H): a list of them.
 
-        gap, mu, g, slip0, start: as for the function solve.  prescribed: values of the fixed
-        degrees of freedom, or one for all; None: zero.
+        gap, mu, g, law, friction, slip0, start: as for the function solve.  prescribed: values of
+        the fixed degrees of freedom, or one for all; None: zero.
         With several cases each may have a leading axis of C, or be the same for all. A case that is
         wrong does not stop the others: its status is negative, its numbers are NaN, its state is -1
         and its report None.
         """
         f = reals("f", f)
         cases = len(f) if f.ndim == 2 and f.shape[1] == self.host_size else None
-        data = self._case(f, gap, mu, g, slip0, prescribed, cases)
+        data = self._case(f, gap, Friction(mu, g, law, friction), slip0, prescribed, cases)
         start = components("start", start, self.pairs, self.dim, cases=cases, optional=True)
         call = Call(self._functions, settings, start is not None)
         count = 1 if cases is None else cases
@@ -155,15 +160,16 @@ class Model:
             ))
         return results[0] if cases is None else results
 
-    def certify(self, f, gap, mu=None, *, d, g=None, slip0=None, prescribed=None,
-                tolerance=1e-10):
+    def certify(self, f, gap, mu=None, *, d, g=None, law=None, friction=None, slip0=None,
+                prescribed=None, tolerance=1e-10):
         """Measures relative displacements d, N, on the data of one case of solve; see certify."""
-        case = self._case(f, gap, mu, g, slip0, prescribed)
+        case = self._case(f, gap, Friction(mu, g, law, friction), slip0, prescribed)
         return self._certify(case, components("d", d, self.pairs, self.dim), tolerance)
 
-    def write(self, path, f, gap, mu=None, *, g=None, slip0=None, prescribed=None, remark=None):
+    def write(self, path, f, gap, mu=None, *, g=None, law=None, friction=None, slip0=None,
+              prescribed=None, remark=None):
         """Writes the condensed problem of one case of solve to a file; see write."""
-        case = self._case(f, gap, mu, g, slip0, prescribed)
+        case = self._case(f, gap, Friction(mu, g, law, friction), slip0, prescribed)
         self._do("model_write", path_bytes(path), *case.arguments(), remark_bytes(remark))
 
     def recover(self, d, f=None, prescribed=None):
@@ -186,21 +192,20 @@ class Model:
         shapes, n_fixed = self._host_shapes, self._n_fixed
         asked = "one load for each degree of freedom of the host, shape "
         asked += " or ".join(str(shape) for shape in reversed(shapes))
-        f = fit("f", f, shapes, asked, cases=cases, optional=optional)
+        f = fit("f", f, shapes, asked, cases=cases, optional=optional, elsewhere=self._elsewhere)
         asked = (f"one value for each of the {n_fixed} fixed degrees of freedom, shape "
                  f"{(n_fixed,)}, or one for all")
         prescribed = fit("prescribed", prescribed, [(n_fixed,)], asked, cases=cases, scalar=True,
                          optional=True)
         return f, prescribed
 
-    def _case(self, f, gap, mu, g, slip0, prescribed, cases=None):
-        law, name, friction = law_of(mu, g)
+    def _case(self, f, gap, friction, slip0, prescribed, cases=None):
         f, prescribed = self._loads(f, prescribed, cases)
         return _Case(
-            f, prescribed, per_pair("gap", gap, self.pairs, cases), law,
-            per_pair(name, friction, self.pairs, cases, optional=True),
-            components("slip0", slip0, self.pairs, self.dim - 1, cases=cases, scalar=True,
-                       optional=True),
+            f, prescribed, per_pair("gap", gap, self.pairs, self.dim, cases), friction.law,
+            friction.numbers(self.pairs, self.dim, cases),
+            components("slip0", slip0, self.pairs, self.dim, tangential=True, cases=cases,
+                       scalar=True, optional=True),
         )
 
     def _certify(self, case, d, tolerance):

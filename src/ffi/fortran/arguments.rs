@@ -1,7 +1,7 @@
 //! Scalars by reference in both widths, settings of three scalars, and states.
 
 use super::super::guard::{self, Failure};
-use super::super::law::{SIGNORINI_LAW_FRICTIONLESS, SIGNORINI_LAW_TRESCA};
+use super::super::law::{LAST_LAW, SIGNORINI_LAW_FRICTIONLESS};
 use super::super::report::SignoriniReport;
 use super::super::settings::{SIGNORINI_METHOD_PATH, SignoriniSettings};
 use crate::problem::checked_dim;
@@ -166,8 +166,11 @@ pub(super) fn absurd<I: Integer>(position: i32, name: &str, value: i64) -> Failu
 pub(super) unsafe fn law<I: Integer>(position: i32, place: *const I) -> Result<i32, Failure> {
     // SAFETY: by the caller's contract.
     let law = unsafe { choice(position, "LAW", place)? };
-    if !(SIGNORINI_LAW_FRICTIONLESS..=SIGNORINI_LAW_TRESCA).contains(&law) {
-        let message = format!("LAW is {law}, it must be SGNOFR (0), SGCOUL (1) or SGTRSC (2)");
+    if !(SIGNORINI_LAW_FRICTIONLESS..=LAST_LAW).contains(&law) {
+        let message = format!(
+            "LAW is {law}, it must be SGNOFR (0), SGCOUL (1), SGTRSC (2), SGCOHE (3), SGORTH (4) or \
+             SGORTC (5)"
+        );
         return Err(Failure::argument(position, message));
     }
     Ok(law)

@@ -64,7 +64,7 @@ pub fn contact(
     let lower = lower_bounds(contact);
     let lcp = BoundedLcp {
         matrix: problem.stiffness(),
-        q: problem.load(),
+        q: contact.shifted_load(),
         lower: &lower,
         symmetric: true,
     };
@@ -76,7 +76,8 @@ pub fn contact(
     };
     let pivoted = solve(&lcp, settings.tolerance, start, most, &is_accurate, monitor);
     let effort = Effort { factorisations: pivoted.factorisations, ..Effort::default() };
-    let (d, force) = (opposite(&pivoted.x), opposite(&pivoted.w));
+    let (d, mut force) = (opposite(&pivoted.x), opposite(&pivoted.w));
+    contact.add_tension(&mut force);
     let mut candidate = Candidate::new(d, force, pivoted.ending, effort);
     // Of a symmetric positive definite matrix all principal minors are positive.
     candidate.orientation = 1;

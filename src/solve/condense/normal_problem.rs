@@ -2,6 +2,7 @@
 //!
 //! Tangential components, and normal ones without an obstacle, carry no contact force. Their condensation
 //! leaves an LCP in `x = -d_n` with the lower bound `-gap` and the Schur complement `M` as its matrix.
+//! The tension of pairs is a part of the load.
 //! `K` may be singular: components that depend on others through a free motion are left out of the
 //! factor, and no singular block is inverted.
 
@@ -36,7 +37,7 @@ impl<'p> NormalProblem<'p> {
             (0..contact.unknowns()).partition(|&i| is_bounded(contact, i));
         let block = FreeBlock::of_problem(problem, free).ok_or(INDEFINITE)?;
         let mut at_rest = vec![0.0; contact.unknowns()];
-        block.equilibrate(problem.load(), &mut at_rest);
+        block.equilibrate(contact.shifted_load(), &mut at_rest);
         if let Some(motion) = driven_motion(contact, &block, &at_rest) {
             return Err(Ending::Recession(motion));
         }
@@ -46,7 +47,7 @@ impl<'p> NormalProblem<'p> {
         // proves that no equilibrium exists if it is pulled.
         let (unresisted, resisted): (Vec<usize>, Vec<usize>) =
             (0..size).partition(|&k| whole[k + size * k] <= NEGLIGIBLE * problem.unit(normal[k]));
-        let force = problem.force(&at_rest);
+        let force = contact.shifted_force(&at_rest);
         for &k in &unresisted {
             let i = normal[k];
             at_rest[i] = -lower[i];
@@ -59,7 +60,7 @@ impl<'p> NormalProblem<'p> {
                 }
             }
         }
-        block.equilibrate(problem.load(), &mut at_rest);
+        block.equilibrate(contact.shifted_load(), &mut at_rest);
         let kept: Vec<usize> = resisted.iter().map(|&k| normal[k]).collect();
         let entries = resisted.iter().flat_map(|&j| resisted.iter().map(move |&i| i + size * j));
         Ok(NormalProblem {
@@ -95,7 +96,7 @@ impl<'p> NormalProblem<'p> {
         for (&i, x) in self.kept.iter().zip(x) {
             d[i] = -x;
         }
-        self.block.equilibrate(self.contact.problem().load(), &mut d);
+        self.block.equilibrate(self.contact.shifted_load(), &mut d);
         d
     }
 
@@ -115,7 +116,7 @@ impl<'p> NormalProblem<'p> {
         let free = (0..d.len()).filter(|&i| !is_stopped(self.contact, i, &d)).collect();
         let Some(block) = FreeBlock::of_problem(problem, free) else { return d };
         let mut better = d.clone();
-        block.equilibrate(problem.load(), &mut better);
+        block.equilibrate(self.contact.shifted_load(), &mut better);
         for &i in &self.kept {
             better[i] = self.contact.pairs()[i / self.contact.dim()].admissible(better[i]);
         }
@@ -133,7 +134,7 @@ pub const INDEFINITE: Ending = Ending::Stalled("K is not positive semi-definite"
 pub fn driven_motion(contact: &Contact<'_>, block: &FreeBlock<'_>, d: &[f64]) -> Option<Vec<f64>> {
     let problem = contact.problem();
     block.dependent().next()?;
-    let force = problem.force(d);
+    let force = contact.shifted_force(d);
     let mut motion = vec![0.0; contact.unknowns()];
     for i in block.dependent() {
         motion[i] = -force[i] / problem.unit(i);

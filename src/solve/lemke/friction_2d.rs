@@ -10,7 +10,8 @@
 //! v  = mu p + t                              >= 0,  b >= 0,  v b = 0
 //! ```
 //!
-//! an LCP in `(w, a, b)`. Its matrix is not copositive for `mu > 0`, and
+//! an LCP in `(w, a, b)`. With cohesion `p` is the pressure beside the tension of the pair, whose force is
+//! then a part of the load, and the bound has an offset, which is added to `u` and `v`. Its matrix is not copositive for `mu > 0`, and
 //! with the usual covering vector of ones Lemke's method fails. Here the covering vector *clamps
 //! every pair and adds cohesion*: `p` grows by `z0 s`, and the thresholds by `z0 (mu s + c)`, `s, c > 0`
 //! (`c` may differ between `u` and `v`).
@@ -26,8 +27,8 @@
 //! `0 <= P + z0 s`, and `w > 0` only where it is zero: `w.P = -z0 s.w <= 0`. Where `a > b`,
 //! complementarity gives `mu (P + z0 s) + z0 c - T = 0`, so `(a - b) T >= 0`; likewise where `a < b`.
 //! So `e.K e <= 0`, `e = 0`: `w = 0` and `a = b`, not zero for some pair. Its `u` and `v` then vanish on
-//! the whole ray, also where it begins; there their sum is `2 (mu p + c z0)` with `p >= 0`, so
-//! `z0 = 0`, and where it begins there already was a solution. ∎
+//! the whole ray, also where it begins; there their sum is `2 (mu p + offset + c z0)` with `p >= 0` and
+//! `offset >= 0`, so `z0 = 0`, and where it begins there already was a solution. ∎
 //!
 //! *Limits.* The number of steps is not bounded by a polynomial; on meshes it is about the number of
 //! pairs that open or slip. In 2D only. If `K` is symmetric and only semi-definite, a ray has
@@ -35,6 +36,9 @@
 //! equilibrium exists where it passes [`crate::certificate::is_escape`]; otherwise nothing is claimed.
 //! Rounding: `z0` ends at a small part of its start, and Newton's method polishes from the branches found
 //! there; the certificate decides.
+//!
+//! The default asks the linear path before (`solve::path`), which has the same guarantee and starts where
+//! sweeps end: here each pair that opens or slips costs a pivot of the whole tableau.
 //!
 //! The paper (section 2.2) holds that Lemke's method cannot be extended to friction; Klarbring (1986)
 //! formulates friction as linear complementarity, without this start. With given thresholds the matrix is

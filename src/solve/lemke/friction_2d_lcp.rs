@@ -81,7 +81,7 @@ impl<'p> FrictionLcp<'p> {
         for &i in &indices {
             at_rest[i] = contact.pairs()[i / 2].reference()[i % 2];
         }
-        block.equilibrate(problem.load(), &mut at_rest);
+        block.equilibrate(contact.shifted_load(), &mut at_rest);
         if let Some(motion) = driven_motion(contact, &block, &at_rest) {
             return Err(Ending::Recession(motion));
         }
@@ -97,7 +97,7 @@ impl<'p> FrictionLcp<'p> {
     /// The vectors, with the cohesion of the covering vector against slip to either side.
     pub fn vectors(&self, cohesion: [f64; 2]) -> Vectors {
         let (problem, n, m) = (self.contact.problem(), self.normal.len(), self.tangential.len());
-        let force = problem.force(&self.at_rest);
+        let force = self.contact.shifted_force(&self.at_rest);
         let root = |i: usize| problem.unit(i).sqrt();
         let mut vectors = Vectors {
             q: self.normal.iter().map(|&i| -force[i]).collect(),
@@ -127,7 +127,7 @@ impl<'p> FrictionLcp<'p> {
         for (d, motion) in d.iter_mut().zip(self.motion_of_variables(z)) {
             *d += motion;
         }
-        self.block.equilibrate(self.contact.problem().load(), &mut d);
+        self.block.equilibrate(self.contact.shifted_load(), &mut d);
         d
     }
 

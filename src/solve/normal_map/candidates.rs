@@ -59,13 +59,7 @@ pub fn solve(
         let Some(split) = split else {
             let ended = core(&whole, y, monitor);
             systems += ended.systems;
-            return candidate(
-                ended.point.d,
-                ended.point.force,
-                ended.ending,
-                systems,
-                ended.orientation,
-            );
+            return Ended { systems, ..ended }.into_candidate();
         };
         let on_kept = split.kept.iter().map(|&pair| y[pair]).collect();
         let ended = core(&split.equations(), on_kept, monitor);
@@ -178,7 +172,7 @@ impl<'w> Split<'w> {
             .filter(|&pair| !is_kept[pair])
             .flat_map(|pair| parts(&pair))
             .collect();
-        if dropped.len() < WORTHWHILE || kept.is_empty() {
+        if dropped.len() < WORTHWHILE || kept.is_empty() || !whole.symmetric {
             return None;
         }
         let (elimination, schur) = Elimination::new(whole.matrix, &dropped, &components)?;

@@ -14,6 +14,8 @@ pub struct Equations<'a> {
     pub dim: usize,
     /// `K`.
     pub matrix: Matrix<'a>,
+    /// Whether `K` is symmetric.
+    pub symmetric: bool,
     /// `f`.
     pub load: Cow<'a, [f64]>,
     /// The laws, pair by pair.
@@ -29,10 +31,12 @@ impl<'a> Equations<'a> {
     pub fn of(contact: &'a Contact<'a>) -> Self {
         let problem = contact.problem();
         let (load, laws) = (Cow::Borrowed(problem.load()), Cow::Borrowed(contact.pairs()));
-        Self::new(contact.dim(), problem.stiffness(), load, laws, norm(problem.load()))
+        let matrix = problem.stiffness();
+        let equations = Self::new(contact.dim(), matrix, load, laws, norm(problem.load()));
+        Equations { symmetric: problem.is_symmetric(), ..equations }
     }
 
-    /// The equations of `laws` with their matrix and load.
+    /// The equations of `laws` with their symmetric matrix and load.
     pub fn new(
         dim: usize,
         matrix: Matrix<'a>,
@@ -42,7 +46,7 @@ impl<'a> Equations<'a> {
     ) -> Self {
         let root = laws.iter().flat_map(|law| law.scale().into_iter().take(dim));
         let root = root.map(f64::sqrt).collect();
-        Equations { dim, matrix, load, laws, root, unit }
+        Equations { dim, matrix, symmetric: true, load, laws, root, unit }
     }
 
     /// `K d - f`.

@@ -7,7 +7,7 @@ use super::equations::{Equations, Point};
 use super::system::System;
 use crate::law::Vector;
 use crate::monitor::Monitor;
-use crate::solve::candidate::Ending;
+use crate::solve::candidate::{Candidate, Effort, Ending};
 use crate::solve::sweeps::Sweeper;
 
 /// Systems after which it is given up: it takes up to about ten where it converges.
@@ -45,6 +45,16 @@ pub struct Ended {
     pub systems: u64,
     /// Sign of the determinant of the last system, 0 if there was none.
     pub orientation: i8,
+}
+
+impl Ended {
+    /// The candidate of equations that are a whole problem's.
+    pub fn into_candidate(self) -> Candidate {
+        let effort = Effort { factorisations: self.systems, ..Effort::default() };
+        let mut candidate = Candidate::new(self.point.d, self.point.force, self.ending, effort);
+        candidate.orientation = self.orientation;
+        candidate
+    }
 }
 
 /// Solves the equations from the coordinates `y`.

@@ -3,20 +3,22 @@
 //!
 //! With `K_s = s K + (1 - s) k` (`s = 1`: the problem itself) and `dP/dy` of each pair's piece,
 //! `J dy = -H` is reduced to the normal components of open pairs and the tangential ones of pairs that
-//! slip or carry no friction. Such a pair has the unknown `x` with `dy_t = k_t x + drag dp`,
-//! `drag = dtau/dp`, so that with `T = dtau/dy_t`, `T drag = 0`,
+//! slip or carry no friction. Such a pair has the unknown `x` with `dy_t = k x + drag dp`,
+//! `drag = dtau/dp`, so that with `T = dtau/dy_t`, `T drag = 0` under every law,
 //!
 //! ```text
-//! dd_t = (1 - T) x,   dtau = drag dp + T k_t x,   dp = -(H + K_s dd + g ds)_n
-//! (K_s dd + g ds)_t - drag (K_s dd + g ds)_n + T k_t x = -H_t + drag H_n,         g = dH/ds
+//! dd_t = k⁻¹ (1 - T) k x,   dtau = drag dp + T k x,   dp = -(H + K_s dd + g ds)_n
+//! (K_s dd + g ds)_t - drag (K_s dd + g ds)_n + T k x = -H_t + drag H_n,           g = dH/ds
 //! ```
+//!
+//! `k` is a number of the pair under an isotropic law, and a symmetric matrix with an ellipse.
 //!
 //! Nothing is divided by the slip. The sign of the determinant is that of `J`, or of `J` bordered: the
 //! components that are eliminated have the pivot 1.
 
 use super::equations::Equations;
 use crate::law::piece::Piece;
-use crate::law::{Block, Vector};
+use crate::law::{Block, PairLaw, Plane, Vector, ellipse};
 use crate::linalg::factor::Factor;
 use crate::linalg::vector::dot;
 
@@ -28,32 +30,34 @@ struct Pair {
     moves_along: bool,
     /// `dtau/dp`, zero of an open pair.
     drag: [f64; 2],
-    /// `1 - T`.
-    moves: [[f64; 2]; 2],
-    /// `T k_t`.
-    turns: [[f64; 2]; 2],
-    /// `k`.
-    scale: Vector,
+    /// `k⁻¹ (1 - T) k`.
+    moves: Plane,
+    /// `T k`.
+    turns: Plane,
+    /// `k` of the normal component, and of the tangential ones.
+    normal_scale: f64,
+    scale: Plane,
 }
 
 impl Pair {
-    fn new(derivative: &Block, slips: bool, scale: Vector) -> Self {
-        let mut pair = Pair {
+    fn new(law: &PairLaw, derivative: &Block, slips: bool) -> Self {
+        let [_, [first, a, b], [second, c, d]] = *derivative;
+        let (turned, scale) = ([[a, b], [c, d]], law.tangential_scale());
+        Pair {
             closed: derivative[0][0] != 0.0,
             moves_along: slips,
-            drag: [derivative[1][0], derivative[2][0]],
-            moves: [[0.0; 2]; 2],
-            turns: [[0.0; 2]; 2],
+            drag: [first, second],
+            moves: law.moves(&turned),
+            turns: ellipse::times(&turned, &scale),
+            normal_scale: law.normal_scale(),
             scale,
-        };
-        for row in 0..2 {
-            for c in 0..2 {
-                let unit = if row == c { 1.0 } else { 0.0 };
-                pair.moves[row][c] = unit - derivative[1 + row][1 + c];
-                pair.turns[row][c] = derivative[1 + row][1 + c] * scale[1 + c];
-            }
         }
-        pair
+    }
+
+    /// `k v` of the pair's part of a vector.
+    fn scaled(&self, v: &[f64]) -> Vector {
+        let [one, two] = ellipse::product(&self.scale, tangential(v));
+        [self.normal_scale * v[0], one, two]
     }
 }
 
@@ -107,7 +111,7 @@ impl<'e> System<'e> {
         let dim = equations.dim;
         let (mut unknowns, mut pairs) = (Vec::new(), Vec::with_capacity(y.len()));
         for (at, ((law, y), &piece)) in equations.laws.iter().zip(y).zip(pieces).enumerate() {
-            let pair = Pair::new(&law.derivative_on(piece, y), piece.slips, law.scale());
+            let pair = Pair::new(law, &law.derivative_on(piece, y), piece.slips);
             if !pair.closed {
                 unknowns.push(Unknown { component: dim * at, pair: at, tangential: None });
             }
@@ -169,26 +173,28 @@ impl<'e> System<'e> {
         let dim = self.equations.dim;
         let mut moved = free.to_vec();
         for (pair, moved) in self.pairs.iter().zip(moved.chunks_exact_mut(dim)) {
-            let x = [moved[1], if dim == 2 { 0.0 } else { moved[2] }];
-            for c in 1..dim {
-                moved[c] = pair.moves[c - 1][0] * x[0] + pair.moves[c - 1][1] * x[1];
-            }
+            let along = ellipse::product(&pair.moves, tangential(moved));
+            moved[1..].copy_from_slice(&along[..dim - 1]);
         }
         // -(H + K_s dd + g ds).
         let mut reaction = vec![0.0; free.len()];
         self.equations.matrix.add_product(&moved, &mut reaction);
-        for (i, reaction) in reaction.iter_mut().enumerate() {
-            let rate = self.border.as_ref().map_or(0.0, |border| border.rate[i] * ds);
-            let scale = self.pairs[i / dim].scale[i % dim];
-            *reaction = -(lack[i] + self.s * *reaction + (1.0 - self.s) * scale * moved[i] + rate);
+        for (at, pair) in self.pairs.iter().enumerate() {
+            let n = dim * at;
+            let scaled = pair.scaled(&moved[n..n + dim]);
+            for (i, scaled) in (n..n + dim).zip(scaled) {
+                let rate = self.border.as_ref().map_or(0.0, |border| border.rate[i] * ds);
+                reaction[i] = -(lack[i] + self.s * reaction[i] + (1.0 - self.s) * scaled + rate);
+            }
         }
         let coordinates = |(at, pair): (usize, &Pair)| {
             let n = dim * at;
+            let scaled = pair.scaled(&free[n..n + dim]);
             let mut dy = [0.0; 3];
-            dy[0] = if pair.closed { reaction[n] } else { pair.scale[0] * moved[n] };
+            dy[0] = if pair.closed { reaction[n] } else { scaled[0] };
             for c in 1..dim {
                 dy[c] = match pair.moves_along {
-                    true => pair.scale[c] * free[n + c] + pair.drag[c - 1] * dy[0],
+                    true => scaled[c] + pair.drag[c - 1] * dy[0],
                     false => reaction[n + c],
                 };
             }
@@ -214,7 +220,7 @@ impl Assembly<'_> {
         let n = dim * j.pair;
         let Some(c) = j.tangential else {
             scaled(column, self.s, matrix.column(n));
-            column[n] += (1.0 - self.s) * pair.scale[0];
+            column[n] += (1.0 - self.s) * pair.normal_scale;
             return;
         };
         let moves: [f64; 2] = [pair.moves[0][c], pair.moves[1][c]];
@@ -223,8 +229,9 @@ impl Assembly<'_> {
             let (a, other) = (self.s * moves[1], matrix.column(n + 2));
             column.iter_mut().zip(other).for_each(|(sum, k)| *sum += a * k);
         }
+        let own = ellipse::product(&pair.scale, moves);
         for row in 1..dim {
-            column[n + row] += (1.0 - self.s) * pair.scale[row] * moves[row - 1];
+            column[n + row] += (1.0 - self.s) * own[row - 1];
         }
     }
 
@@ -262,9 +269,9 @@ impl Assembly<'_> {
             if let Some(unknown) = self.unknowns.get(j) {
                 self.moved(unknown, &mut column);
                 self.equations_of(unknown, &column, entries);
-                // k_t b of the unknown, less what the reactions take.
+                // k b of the unknown, less what the reactions take.
                 let (pair, c) = (unknown.pair, unknown.tangential.map_or(0, |c| c + 1));
-                let own = self.pairs[pair].scale[c] * border.normal[pair][c];
+                let own = self.pairs[pair].scaled(&border.normal[pair])[c];
                 let row = own - dot(&reactions, &column);
                 entries[n] = row_scale * row / root[unknown.component];
                 return;
@@ -298,6 +305,11 @@ impl Assembly<'_> {
         }
         reactions
     }
+}
+
+/// The tangential components of a pair's part of a vector; the second is 0 in the plane.
+fn tangential(v: &[f64]) -> [f64; 2] {
+    [v[1], v.get(2).copied().unwrap_or(0.0)]
 }
 
 fn scaled(target: &mut [f64], a: f64, source: &[f64]) {

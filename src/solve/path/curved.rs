@@ -21,6 +21,10 @@ const CAREFUL: Care = Care { deviation: 0.3 };
 /// Attempts from starts at random, of the size of the loads, where those from near a solution and from
 /// zero have failed. One failed of 10,000 random problems up to condition number 1e6 without them.
 const RANDOM_STARTS: usize = 6;
+const FAR: f64 = 1.0;
+
+/// Starts of a search for other solutions.
+const SEARCHED: u64 = 10;
 
 /// Solves from the displacements `start` (zero if `None`) by following a path.
 pub fn curved(
@@ -38,6 +42,25 @@ pub fn curved(
     })
 }
 
+/// Ends of paths from several starts, and what Newton's method makes of the starts themselves: where there
+/// are several solutions they may differ.
+pub fn ends(
+    contact: &Contact<'_>,
+    settings: &Settings,
+    monitor: &mut Monitor<'_>,
+) -> Vec<Candidate> {
+    let equations = Equations::of(contact);
+    let none = vec![[0.0; 3]; contact.pairs().len()];
+    let mut ends = Vec::new();
+    for seed in 0..SEARCHED {
+        let start = perturbed(&equations, &none, FAR, seed);
+        let newton = newton_from(&equations, start.clone(), settings.tolerance, monitor);
+        let path = follow(&equations, start, CAREFUL, settings.tolerance, monitor);
+        ends.extend([newton, path].into_iter().filter(|end| end.ending == Ending::Done));
+    }
+    ends.into_iter().map(Ended::into_candidate).collect()
+}
+
 /// Follows paths from `y`, and from other starts if one fails, to a solution of the equations.
 fn from(
     equations: &Equations<'_>,
@@ -46,42 +69,46 @@ fn from(
     monitor: &mut Monitor<'_>,
 ) -> Ended {
     let mut systems = 0;
-    let mut failed: Option<Ended> = None;
+    let mut best: Option<Ended> = None;
     let none = vec![[0.0; 3]; y.len()];
     let near = [(&y, PERTURBATION, EASY), (&none, PERTURBATION, EASY), (&y, PERTURBATION, CAREFUL)];
-    let far = [(&none, 1.0, CAREFUL); RANDOM_STARTS];
+    let far = [(&none, FAR, CAREFUL); RANDOM_STARTS];
     for (attempt, (start, by, care)) in near.into_iter().chain(far).enumerate() {
         let start = perturbed(equations, start, by, attempt as u64);
-        let homotopy = Homotopy::new(equations, &start);
-        let mut curve = Curve::new(&homotopy, Place { y: start, s: 0.0 }, care);
-        let end = curve.follow(monitor);
-        systems += curve.systems;
-        let mut ended = match end {
-            // Where pairs are on the bounds of their pieces Newton's method settles them.
-            Ok(()) => newton_from(equations, curve.place().y.clone(), tolerance, monitor),
-            Err(ending) => Ended {
-                point: Point::new(equations, curve.place().y.clone()),
-                ending,
-                systems: 0,
-                orientation: 0,
-            },
-        };
+        let ended = follow(equations, start, care, tolerance, monitor);
         systems += ended.systems;
-        ended.systems = systems;
-        match ended.ending {
-            Ending::Done | Ending::Stopped(_) => return ended,
-            _ => {
-                let better =
-                    failed.as_ref().is_none_or(|best| ended.point.merit < best.point.merit);
-                if better {
-                    failed = Some(ended);
-                }
-            }
+        let settled = matches!(ended.ending, Ending::Done | Ending::Stopped(_));
+        if settled || best.as_ref().is_none_or(|best| ended.point.merit < best.point.merit) {
+            best = Some(ended);
+        }
+        if settled {
+            break;
         }
     }
-    let mut failed = failed.expect("there is a first attempt");
-    failed.systems = systems;
-    failed
+    let mut best = best.expect("there is a first attempt");
+    best.systems = systems;
+    best
+}
+
+/// Follows one path from `start`; where it ends Newton's method brings the solution to its last digits.
+fn follow(
+    equations: &Equations<'_>,
+    start: Vec<Vector>,
+    care: Care,
+    tolerance: f64,
+    monitor: &mut Monitor<'_>,
+) -> Ended {
+    let homotopy = Homotopy::new(equations, &start);
+    let mut curve = Curve::new(&homotopy, Place { y: start, s: 0.0 }, care);
+    let mut ended = match curve.follow(monitor) {
+        Ok(()) => newton_from(equations, curve.place().y.clone(), tolerance, monitor),
+        Err(ending) => {
+            let point = Point::new(equations, curve.place().y.clone());
+            Ended { point, ending, systems: 0, orientation: 0 }
+        }
+    };
+    ended.systems += curve.systems;
+    ended
 }
 
 /// A start, moved at random by a part of the loads.
@@ -91,8 +118,8 @@ fn perturbed(equations: &Equations<'_>, y: &[Vector], by: f64, seed: u64) -> Vec
     let mut random = Perturbation::new(seed);
     let moved = |(at, y): (usize, &Vector)| {
         let mut y = *y;
-        for c in 0..dim {
-            y[c] += by * size * equations.root[dim * at + c] * random.next();
+        for (y, root) in y.iter_mut().zip(&equations.root[dim * at..dim * (at + 1)]) {
+            *y += by * size * root * random.next();
         }
         y
     };

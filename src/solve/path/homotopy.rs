@@ -5,7 +5,8 @@ use crate::law::piece::Piece;
 use crate::linalg::vector::dot;
 use crate::solve::normal_map::Equations;
 
-/// `H_s(y) = s (K d - f) + (1 - s) (k v - b) + P` on the normal map, with `b = k v + P` at the start.
+/// `H_s(y) = s (K d - f) + (1 - s) (k v - b) + P` on the normal map, with `b = k v + P` at the start. With
+/// tension `k v` and `b` both stand for themselves plus the tension.
 pub struct Homotopy<'e> {
     pub equations: &'e Equations<'e>,
     /// `b`, component by component.
@@ -100,9 +101,8 @@ impl Homotopy<'_> {
         let dim = self.equations.dim;
         let mut dual = a.clone();
         for (at, y) in dual.y.iter_mut().enumerate() {
-            for c in 0..dim {
-                let unit = self.equations.root[dim * at + c] * self.size;
-                y[c] /= unit * unit;
+            for (y, root) in y.iter_mut().zip(&self.equations.root[dim * at..dim * (at + 1)]) {
+                *y /= (root * self.size).powi(2);
             }
         }
         dual

@@ -155,7 +155,7 @@ impl Iterate for ContactIterate<'_> {
     }
 
     fn is_unloaded(&self) -> bool {
-        norm_inf(self.own.problem().load()) == 0.0
+        norm_inf(self.own.shifted_load()) == 0.0
     }
 
     fn recession(&self, drift: &[f64]) -> Option<Vec<f64>> {

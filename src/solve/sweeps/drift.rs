@@ -10,6 +10,7 @@ use crate::law::{Contact, lift};
 use crate::linalg::matrix::Matrix;
 use crate::linalg::vector::norm_inf;
 use crate::solve::condense::FreeBlock;
+use crate::solve::rigid_balance::escape;
 
 /// Looks at the iterates of sweeps 256, 512, 1024, …
 pub struct DriftDetector {
@@ -59,6 +60,10 @@ pub fn rigid_part(
 }
 
 /// A recession direction of a contact problem, from the drift of its displacements.
+///
+/// A body that slides away drifts along the slip of its friction. Where that is the slip from which
+/// friction takes the most work, the drift proves that nothing stops it. Under a collinear rule it is
+/// another one, and the balance of the rigid motions is asked.
 pub fn contact_recession(contact: &Contact<'_>, drift: &[f64]) -> Option<Vec<f64>> {
     let problem = contact.problem();
     let motion = rigid_part(problem.stiffness(), |i| problem.unit(i), drift)?;
@@ -68,6 +73,7 @@ pub fn contact_recession(contact: &Contact<'_>, drift: &[f64]) -> Option<Vec<f64
         .into_iter()
         .map(|lifts| lifted(contact.dim(), &motion, &lifts))
         .find(|motion| is_escape_of(contact, motion))
+        .or_else(|| contact.has_collinear_slip().then(|| escape(contact)).flatten())
 }
 
 /// A slip together with a lift of each pair, which makes contact forces do no negative work on it.

@@ -15,7 +15,7 @@ pub fn are_different(contact: &Contact<'_>, one: &[f64], two: &[f64]) -> bool {
     let scaled = |d: &[f64]| largest_of(d.iter().zip(&root).map(|(d, root)| d * root));
     // Scale also by the displacement that the loads can induce, so that two solutions of rounding's
     // size compare equal.
-    let loads = largest_of(problem.load().iter().zip(&root).map(|(f, root)| f / root));
+    let loads = largest_of(contact.shifted_load().iter().zip(&root).map(|(f, root)| f / root));
     let size = loads.max(scaled(one)).max(scaled(two));
     let difference: Vec<f64> = one.iter().zip(two).map(|(one, two)| one - two).collect();
     let branches = |d: &[f64]| contact.branches(d, &problem.force(d));

@@ -34,7 +34,14 @@ pub fn examine(
         solution.uniqueness = Uniqueness::Unique;
         return Ok(());
     }
-    if contact.dim() != 2 || contact.is_frictionless() {
+    if contact.is_frictionless() {
+        return Ok(());
+    }
+    if contact.dim() != 2 {
+        if let Some(second) = search::another_in_space(contact, settings, &solution.d, monitor) {
+            solution.uniqueness = Uniqueness::Several;
+            solution.second = Some(Box::new(second));
+        }
         return Ok(());
     }
     // To the last digit, and with its orientation.
@@ -74,7 +81,7 @@ fn polished(
 /// Whether no pair is where branches meet: forces and displacements are clear of all bounds.
 fn is_strict(contact: &Contact<'_>, d: &[f64]) -> bool {
     let force = contact.problem().force(d);
-    let unit = norm_inf(&force).max(norm_inf(contact.problem().load()));
+    let unit = norm_inf(&force).max(norm_inf(contact.shifted_load()));
     contact
         .each(d, &force)
         .all(|(law, d, force)| law.distance_to_kink(&law.trial(d, force)) > MARGIN * unit)

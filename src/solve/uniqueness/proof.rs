@@ -5,7 +5,13 @@
 //! `W = K⁻¹` and any diagonal `X > 0`; pressures follow with
 //! `|X⁻¹ mu (p - p')| <= sqrt(L_n) |v - v'|_K`, `L_n` that of `X⁻¹ mu K_nn mu X⁻¹`. If `L_n L_t < 1`
 //! the map `g -> mu p` is a contraction, and Coulomb's problem has one solution. With uniform `mu`
-//! and `X = 1` this is `mu < 1 / sqrt(|K_nn| |W_tt|)`.
+//! and `X = 1` this is `mu < 1 / sqrt(|K_nn| |W_tt|)`. In space `W_tt` has the two tangents of each pair,
+//! and friction discs of the radii `g` and `g'` give the same bound:
+//! `(tau - tau').(delta - delta') >= (g - g') (|delta| - |delta'|)`.
+//!
+//! Cohesion adds a constant to `g`. With an ellipse and the associated rule `|delta|` is the most work
+//! of forces of gauge 1, which is no longer than the slip (`law::ellipse`), and the same bound follows.
+//! Under the collinear rule friction is not monotone, and nothing is proved.
 
 use super::difference::MARGIN;
 use crate::law::Contact;
@@ -14,6 +20,9 @@ use crate::linalg::factor::{Factor, largest_eigenvalue};
 /// The factor of `K`, scaled to a unit diagonal, if it is positive definite.
 pub fn scaled_factor(contact: &Contact<'_>) -> Option<Factor> {
     let matrix = contact.problem().stiffness();
+    if !contact.problem().is_symmetric() {
+        return None;
+    }
     let root = contact.problem().unit_roots();
     Factor::new(matrix.size(), true, |j, column| {
         for (i, (entry, k)) in column.iter_mut().zip(matrix.column(j)).enumerate() {
@@ -23,40 +32,48 @@ pub fn scaled_factor(contact: &Contact<'_>) -> Option<Factor> {
 }
 
 /// Whether the solution is proved to be the only one: `K` is positive definite, and `g -> mu p` is
-/// constant or, in the plane, a contraction.
+/// constant or a contraction.
 pub fn is_unique(contact: &Contact<'_>) -> bool {
     let Some(mut factor) = scaled_factor(contact) else { return false };
     let laws = contact.pairs();
     let coupled: Vec<usize> = (0..laws.len()).filter(|&i| laws[i].is_coupled()).collect();
-    if coupled.is_empty() {
-        return true;
-    }
-    contact.dim() == 2 && is_contraction(contact, &mut factor, &coupled)
+    coupled.is_empty()
+        || (!contact.has_collinear_slip() && is_contraction(contact, &mut factor, &coupled))
 }
 
 fn is_contraction(contact: &Contact<'_>, factor: &mut Factor, coupled: &[usize]) -> bool {
-    let matrix = contact.problem().stiffness();
-    let (n, m) = (matrix.size(), coupled.len());
-    let mut flexibility = vec![0.0; n * m];
-    for (column, &pair) in flexibility.chunks_exact_mut(n).zip(coupled) {
-        column[2 * pair + 1] = 1.0;
+    let (matrix, dim) = (contact.problem().stiffness(), contact.dim());
+    let (n, m, tangents) = (matrix.size(), coupled.len(), dim - 1);
+    // Column `a` belongs to the tangent `a % tangents` of the pair `coupled[a / tangents]`.
+    let component = |a: usize| dim * coupled[a / tangents] + 1 + a % tangents;
+    let mut flexibility = vec![0.0; n * m * tangents];
+    for (a, column) in flexibility.chunks_exact_mut(n).enumerate() {
+        column[component(a)] = 1.0;
     }
     factor.solve(&mut flexibility);
     let root = contact.problem().unit_roots();
     let mu: Vec<f64> = coupled.iter().map(|&pair| contact.pairs()[pair].bound().slope).collect();
     let compliance = |a: usize, b: usize| {
-        let (i, j) = (2 * coupled[a] + 1, 2 * coupled[b] + 1);
+        let (i, j) = (component(a), component(b));
         flexibility[i + n * b] / (root[i] * root[j])
     };
-    let stiffness = |a: usize, b: usize| mu[a] * matrix.at(2 * coupled[a], 2 * coupled[b]) * mu[b];
+    let stiffness =
+        |a: usize, b: usize| mu[a] * matrix.at(dim * coupled[a], dim * coupled[b]) * mu[b];
+    let softest = |pair: usize| {
+        let own = (0..tangents).map(|c| compliance(tangents * pair + c, tangents * pair + c));
+        own.fold(0.0, f64::max)
+    };
     // Three diagonals X: those that scale either matrix to a unit diagonal, and the one between.
     let scales: [&dyn Fn(usize) -> f64; 3] =
-        [&|a| stiffness(a, a).sqrt(), &|a| compliance(a, a).sqrt().recip(), &|a| {
-            (stiffness(a, a) / compliance(a, a)).sqrt().sqrt()
+        [&|a| stiffness(a, a).sqrt(), &|a| softest(a).sqrt().recip(), &|a| {
+            (stiffness(a, a) / softest(a)).sqrt().sqrt()
         }];
     scales.iter().any(|x| {
-        let normal = largest_eigenvalue(m, |a, b| stiffness(a, b) / (x(a) * x(b)));
-        let tangential = largest_eigenvalue(m, |a, b| compliance(a, b) * x(a) * x(b));
+        let x: Vec<f64> = (0..m).map(x).collect();
+        let normal = largest_eigenvalue(m, |a, b| stiffness(a, b) / (x[a] * x[b]));
+        let tangential = largest_eigenvalue(m * tangents, |a, b| {
+            compliance(a, b) * x[a / tangents] * x[b / tangents]
+        });
         matches!((normal, tangential), (Some(l), Some(k)) if l * k < 1.0 - MARGIN)
     })
 }

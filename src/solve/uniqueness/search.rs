@@ -1,4 +1,4 @@
-//! The search for a second solution, in 2D.
+//! The search for a second solution.
 
 use super::difference::are_different;
 use crate::error::Error;
@@ -8,14 +8,14 @@ use crate::monitor::Monitor;
 use crate::settings::Settings;
 use crate::solve::active_set::from_branches;
 use crate::solve::candidate::{Candidate, Ending};
-use crate::solve::lemke;
 use crate::solve::outcome::SecondSolution;
+use crate::solve::{lemke, path};
 
 /// Pairs whose branch is changed, one at a time: four runs of Newton's method for each, which is what
 /// the rest of the search costs for a hundred pairs.
 const NEIGHBOURS: usize = 32;
 
-/// A solution other than `known`, if one is found: by Newton's method from all pairs sticking, open
+/// A solution other than `known` in the plane, if one is found: by Newton's method from all pairs sticking, open
 /// or slipping, by Lemke's with several starts and from where its path turns, and by Newton's from
 /// branches next to the known ones.
 pub fn another(
@@ -24,16 +24,7 @@ pub fn another(
     known: &[f64],
     monitor: &mut Monitor<'_>,
 ) -> Result<Option<SecondSolution>, Error> {
-    let accepted = |candidate: Candidate| {
-        let other = candidate.ending == Ending::Done
-            && candidate.certificate(contact).holds(settings.tolerance)
-            && are_different(contact, known, &candidate.d);
-        other.then(|| SecondSolution {
-            certificate: candidate.certificate(contact).clone(),
-            orientation: candidate.orientation,
-            d: candidate.d,
-        })
-    };
+    let accepted = |candidate: Candidate| accepted(contact, settings, known, candidate);
     for branches in starts(contact) {
         let d = vec![0.0; contact.unknowns()];
         let candidate = from_branches(contact, settings, branches, d, monitor);
@@ -53,6 +44,35 @@ pub fn another(
         }
     }
     Ok(None)
+}
+
+/// A solution other than `known` in space, if one is found: at the ends of paths from several starts.
+pub fn another_in_space(
+    contact: &Contact<'_>,
+    settings: &Settings,
+    known: &[f64],
+    monitor: &mut Monitor<'_>,
+) -> Option<SecondSolution> {
+    path::ends(contact, settings, monitor)
+        .into_iter()
+        .find_map(|candidate| accepted(contact, settings, known, candidate))
+}
+
+/// A candidate that is a solution other than `known`.
+fn accepted(
+    contact: &Contact<'_>,
+    settings: &Settings,
+    known: &[f64],
+    candidate: Candidate,
+) -> Option<SecondSolution> {
+    let other = candidate.ending == Ending::Done
+        && candidate.certificate(contact).holds(settings.tolerance)
+        && are_different(contact, known, &candidate.d);
+    other.then(|| SecondSolution {
+        certificate: candidate.certificate(contact).clone(),
+        orientation: candidate.orientation,
+        d: candidate.d,
+    })
 }
 
 /// All pairs open, all slipping to either side, all sticking.

@@ -1,0 +1,74 @@
+#include "dense.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+double *need(size_t count)
+{
+    double *memory = calloc(count > 0 ? count : 1, sizeof *memory);
+    if (memory == NULL) {
+        fprintf(stderr, "not enough memory for %zu numbers\n", count);
+        exit(EXIT_FAILURE);
+    }
+    return memory;
+}
+
+double dot(size_t n, const double *x, const double *y)
+{
+    double sum = 0.0;
+    for (size_t i = 0; i < n; i++)
+        sum += x[i] * y[i];
+    return sum;
+}
+
+
+size_t cholesky(size_t n, double *A)
+{
+    for (size_t j = 0; j < n; j++) {
+        double *column = &A[j * n];
+        const double diagonal = column[j];
+        for (size_t k = 0; k < j; k++) {
+            const double factor = A[j + k * n];
+            if (factor != 0.0) /* bodies that do not meet leave many zeros */
+                for (size_t i = j; i < n; i++)
+                    column[i] -= factor * A[i + k * n];
+        }
+        if (!(column[j] > (double)n * DBL_EPSILON * diagonal))
+            return j;
+        const double root = sqrt(column[j]);
+        for (size_t i = j; i < n; i++)
+            column[i] /= root;
+    }
+    return n;
+}
+
+void forward(size_t n, const double *L, double *x)
+{
+    for (size_t j = 0; j < n; j++) {
+        x[j] /= L[j + j * n];
+        if (x[j] != 0.0)
+            for (size_t i = j + 1; i < n; i++)
+                x[i] -= L[i + j * n] * x[j];
+    }
+}
+
+void backward(size_t n, const double *L, double *x)
+{
+    for (size_t j = n; j-- > 0;)
+        x[j] = (x[j] - dot(n - j - 1, &L[j + 1 + j * n], &x[j + 1])) / L[j + j * n];
+}
+
+void inverse(size_t n, const double *L, double *K)
+{
+    double *X = need(n * n); /* L^-1, column j zero above row j */
+    for (size_t j = 0; j < n; j++) {
+        X[j + j * n] = 1.0;
+        forward(n, L, &X[j * n]);
+    }
+    for (size_t j = 0; j < n; j++)
+        for (size_t i = j; i < n; i++)
+            K[i + j * n] = K[j + i * n] = dot(n - i, &X[i + i * n], &X[i + j * n]);
+    free(X);
+}

@@ -1,0 +1,31 @@
+/*
+ * A friction problem of FCLIB in local form, on dense arrays: u = W r + q.
+ */
+
+#ifndef LOCAL_FORM_H
+#define LOCAL_FORM_H
+
+#include <stddef.h>
+
+struct local_form {
+    const char *found; /* the form that the file has: "local" or "global" */
+    int dim;           /* 2 or 3 */
+    size_t contacts, size; /* size = dim * contacts */
+    double *W, *q;         /* W column-major, symmetric to the last bit */
+    double *mu;            /* one for each contact */
+};
+
+/* Reads the problem of a file. A global form (M v = H r + f, u = H' v + w, M definite) becomes
+ * W = H' M^-1 H, q = H' M^-1 f + w. Returns NULL, or a sentence on what is wrong. */
+const char *local_form_read(const char *path, struct local_form *form);
+void local_form_free(struct local_form *form);
+
+/* How far reactions r are from a solution of the file's own problem, relative to the largest of
+ * them: |r - P(r - u^ / W_aa)|, u^ = W r + q + mu |u_T| e_N, P the projection on the friction cone,
+ * W_aa the largest diagonal entry of the contact's block. Zero at exact solutions only. */
+double local_form_residual(const struct local_form *form, const double *r);
+
+/* Whether the file has such a group, "/solution" or "/guesses". */
+int file_has(const char *path, const char *group);
+
+#endif

@@ -1,0 +1,129 @@
+//! The pieces of the normal map in the plane, and the boundaries between them: what a path through
+//! pieces needs.
+//!
+//! On the piece of a branch `P = D y + c` with the branch's derivative `D` and `c = offset h` in the
+//! tangential component of a slip, less the tension in the normal one, and `k v = y - D y - c_t`. Boundaries, inside positive:
+//!
+//! | piece | boundary | beyond it |
+//! |---|---|---|
+//! | open | `-y_n` | closed: slip to the side of `y_t`, if friction grows with the pressure only |
+//! | closed | `y_n` | open |
+//! | stick | `g(p) - h y_t`, `h = ±1` | slip to the side `h` |
+//! | slip to the side `h` | `h y_t - g(p)` | stick |
+//!
+//! Where the bound has no offset a pair that sticks slips before it opens, because `g(p)` falls to zero
+//! with the pressure. The derivative changes by a matrix of rank one, along the boundary's gradient.
+
+use super::PairLaw;
+use super::branch::{Branch, Tangential};
+
+/// Normal and tangential coordinate of a pair.
+pub type Planar = [f64; 2];
+
+/// Where a straight way leaves a piece.
+#[derive(Clone, Copy, Debug)]
+pub struct Exit {
+    /// How far along the way; 0 if rounding has put the point beyond already.
+    pub step: f64,
+    /// Gradient of the boundary, inside positive.
+    pub gradient: Planar,
+    /// The piece beyond.
+    pub beyond: Branch,
+}
+
+/// Part of the slip of an open pair that may be kept, of what the clearance allows
+/// ([`PairLaw::sure_start`]).
+const KEPT_SLIP: f64 = 0.98;
+
+/// Part of the friction of a closed pair that is kept: enough to tell the pairs apart.
+const KEPT_FRICTION: f64 = 1e-7;
+
+impl PairLaw {
+    /// Where the way `y + step rate`, `step >= 0`, leaves the piece of `branch` first.
+    pub fn planar_exit(&self, branch: Branch, y: Planar, rate: Planar) -> Option<Exit> {
+        let mut first: Option<Exit> = None;
+        let mut look = |gradient: Planar, constant: f64, beyond: Branch| {
+            let inside = gradient[0] * y[0] + gradient[1] * y[1] + constant;
+            let change = gradient[0] * rate[0] + gradient[1] * rate[1];
+            if change < 0.0 {
+                let step = inside.max(0.0) / -change;
+                if first.is_none_or(|first| step < first.step) {
+                    first = Some(Exit { step, gradient, beyond });
+                }
+            }
+        };
+        let normal = if branch.closed { 1.0 } else { 0.0 };
+        let (slope, offset) = (self.bound.slope * normal, self.bound.offset);
+        let slips = |h: f64| Tangential::Slip { direction: [h, 0.0] };
+        match branch.tangential {
+            Tangential::Free => {}
+            Tangential::Stick => {
+                for h in [1.0, -1.0] {
+                    look([slope, -h], offset, Branch { tangential: slips(h), ..branch });
+                }
+            }
+            Tangential::Slip { direction: [h, _] } => {
+                let stick = Branch { tangential: Tangential::Stick, ..branch };
+                look([-slope, h], -offset, stick);
+            }
+        }
+        let grips = self.bound.is_cone() && self.bound.slope > 0.0;
+        let sticks = grips && branch.tangential == Tangential::Stick;
+        if self.has_obstacle() && !sticks {
+            let sign = if branch.closed { 1.0 } else { -1.0 };
+            let tangential = match branch.tangential {
+                _ if !grips => branch.tangential,
+                _ if branch.closed => Tangential::Free,
+                _ => {
+                    // Where it closes, at y_n = 0.
+                    let step = -y[0] / rate[0];
+                    slips(1.0_f64.copysign(y[1] + step * rate[1]))
+                }
+            };
+            look([sign, 0.0], 0.0, Branch { closed: !branch.closed, tangential });
+        }
+        first
+    }
+
+    /// The push that the piece of `branch` has at `y = 0`.
+    pub fn constant(&self, branch: Branch) -> Planar {
+        match branch.tangential {
+            Tangential::Slip { direction: [h, _] } => [-self.tension, h * self.bound.offset],
+            _ => [-self.tension, 0.0],
+        }
+    }
+
+    /// `dP/dy` on the piece of `branch`.
+    pub fn slopes(&self, branch: Branch) -> [Planar; 2] {
+        let normal = if branch.closed { 1.0 } else { 0.0 };
+        let tangential = match branch.tangential {
+            Tangential::Free => [0.0, 0.0],
+            Tangential::Stick => [0.0, 1.0],
+            Tangential::Slip { direction: [h, _] } => [self.bound.slope * h * normal, 0.0],
+        };
+        [[normal, 0.0], tangential]
+    }
+
+    /// Coordinates near `y` that no other coordinates share their `K v + P` with, whatever the
+    /// positive definite `K` (theorem H of the linear path): a closed pair sticks with the friction of
+    /// zero pressure at most, and an open one has slipped less than its clearance divided by the
+    /// slope.
+    pub fn sure_start(&self, y: Planar) -> Planar {
+        if self.bound.slope == 0.0 || !self.has_obstacle() {
+            return y;
+        }
+        let bound = self.bound.at(0.0);
+        if y[0] > 0.0 {
+            let most = bound + KEPT_FRICTION * self.bound.slope * y[0];
+            return [y[0], y[1].clamp(-most, most)];
+        }
+        let clearance = -y[0] / self.k_n;
+        let most = bound + KEPT_SLIP * self.k_t * clearance / self.bound.slope;
+        [y[0], y[1].clamp(-most, most)]
+    }
+
+    /// The pair pressed on its obstacle with the force `p > 0`, and stuck.
+    pub fn pressed(&self, y: Planar, p: f64) -> Planar {
+        if self.has_obstacle() { self.sure_start([p, y[1]]) } else { y }
+    }
+}

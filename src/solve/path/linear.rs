@@ -1,0 +1,274 @@
+//! The linear path in the plane: a pivoting method for friction that starts where sweeps end.
+//!
+//! With the coordinates `y` of the normal map (`law::normal_map`) contact is one equation,
+//! `H(y) = K v(y) + P(y) = r`, and in the plane `H` is linear on each piece of the law: open, stick,
+//! slip to either side. From any coordinates `y0` the loads are led in a straight line to their place,
+//!
+//! ```text
+//! K v(y) + P(y) = r_s,    r_s = (1 - s) r_0 + s r,    r_0 = H(y0),    0 <= s <= 1.
+//! ```
+//!
+//! On a piece the solution moves on a straight line; where one pair reaches the boundary of its piece,
+//! it goes on in the next one, and the derivative `J` changes by a matrix of rank one
+//! (`linear_system`). The direction of travel has `ds/dt` of the sign of `det J`.
+//!
+//! Let `x.K x >= alpha |x|²`, `alpha > 0` (`K` need not be symmetric), with any loads, gaps, reference
+//! slips, and thresholds `mu p + b`, `mu, b >= 0`. Every point of the law has `v.P >= 0`; so a solution
+//! for `r_s` has `alpha |v|² <= v.r_s`, and all of them lie in one ball. For almost all `r_0` no two pairs
+//! change at once: the solutions with `s < 1` form curves that neither end nor branch, oriented by the
+//! sign of `det J`, because a boundary multiplies it by the factor by which it changes `n.dy`.
+//!
+//! **Theorem G.** *If `y0` is the only point with `H(y0) = r_0`, the path from it leads to a solution. If
+//! it is not, the path may come back to `s = 0`, at a point with `det J < 0`.*
+//!
+//! *Proof.* The curve that begins at `(y0, 0)` is bounded, so it ends at `s = 0` or at `s = 1`. The degree
+//! of `H` is that of the identity, 1, so that `det J > 0` at a single point, and the curve begins upwards.
+//! An end at `s = 0` would be reached downwards, where `det J < 0`, so at another point. ∎
+//!
+//! With given thresholds (`mu = 0`) `det J > 0` on all pieces: every start is the only point of its
+//! loads, and `s` never falls. With friction it may not be: for one pair with `K = [2 1; 1 1]`, `mu = 2`
+//! and `r_0 = (1, F)`, `1 < F < 2`, stick, slip and open are all possible.
+//!
+//! **Theorem H.** *Let pairs `O` be open with the clearances `w > 0` and the slips `delta`,
+//! `mu |delta| <= w`, and the others closed with `p > 0`, without slip, with `|tau| <= b`. Then this is the only
+//! point of its loads, and the path from it leads to a solution.*
+//!
+//! *Proof.* Let another point of the same loads have `w', delta', p', tau'`, and let `D` be the differences.
+//! `H` is the same, so `D v.D P = -D v.K D v <= -alpha |D v|²`. But pair by pair `D v.D P >= 0`. Closed pairs
+//! give `w' p` and `delta' (tau' - tau) >= (mu p' + b) |delta'| - b |delta'| >= 0`. Open ones give `w p'` and,
+//! as `delta' tau' = (mu p' + b) |delta'|`, `delta tau = b |delta|` and `|tau| <= b`,
+//!
+//! ```text
+//! (delta' - delta) (tau' - tau) >= (mu p' + b) (|delta'| - |delta|) - b (|delta'| - |delta|)
+//!                               >= -mu p' |delta| >= -w p'.
+//! ```
+//!
+//! So `D v = 0`, then `D P = -K D v = 0`. `y0` is interior to its piece and `J` is regular there, so that the
+//! same holds for the loads near by, among which almost all are generic; then theorem G. ∎
+//!
+//! A pair without friction may be anything. So the sweeps' open pairs and their slips are kept, slips as
+//! far as the clearance allows; closed pairs start without friction and slip (`PairLaw::sure_start`).
+//! Kept friction, or kept slip of closed pairs, is what the example above forbids.
+//!
+//! **Theorem K.** *Let `K` be symmetric and semi-definite, and let every rigid motion move a closed pair of
+//! the start, in its normal component or, if it has friction, in any. The path of H ends at a solution, or
+//! on a ray `y + lambda y_e`, `lambda >= 0`, at one `s`, with a motion `e != 0`, `K e = 0`, `e_n <= 0` and
+//! `s r.e >= sum (mu p + s b) |e_t| >= 0`.*
+//!
+//! *Proof.* As for H, but now `D v.K D v = 0` only says that `D v` is rigid and `D P = 0`. Then `p' = p > 0` on
+//! the closed pairs, so `w' = 0`, and where friction is below its bound there is no slip: `D v` moves no closed
+//! pair and is zero. Along a ray the law without constants holds for `(e, P_e)`, and
+//! `e.K e + e.P_e = 0` has no negative part: `K e = 0`, and `P` does not change. Multiply the equation
+//! by `e`: `r_s.e = sum (mu p + b) |e_t|`, and `r_0.e = sum (p0 e_n + tau0 e_t) <= sum b |e_t|`. ∎
+//!
+//! So a ray is a candidate for the proof that no equilibrium exists, which
+//! [`crate::certificate::is_escape`] decides; friction may hold a body that this proof does not.
+//!
+//! *What is followed.* First from the swept start as it is, all states kept, for it is near: G without its
+//! premise; if that comes back, or takes nearly as many events as there are pairs, once more after further
+//! sweeps. Then from the sure start, H; if rounding spoils that, with factorisations at nearly every event,
+//! and from all pairs pressed on their obstacles. Starts are moved at random by 1e-7 of the loads, always by
+//! the same numbers: symmetric meshes have ties. At `s = 1` nothing is left of that, and Newton's method
+//! polishes from the pieces found there.
+//!
+//! *Limits.* The number of events is not bounded by a polynomial. On meshes it is about the number of
+//! pairs whose state differs from that of the start, a few in a hundred pairs from swept starts.
+
+use super::linear_start::{Random, Starts};
+use super::linear_walk::{End, Ground, Rules, Walk};
+use crate::law::{Contact, Planar};
+use crate::monitor::Monitor;
+use crate::settings::Settings;
+use crate::solve::active_set;
+use crate::solve::candidate::{Candidate, Effort, Ending};
+use crate::solve::rigid_balance;
+
+/// Events of a walk from the swept start, for each pair: those that arrive nearly always take fewer.
+const SHORT: f64 = 0.7;
+
+/// Events of a walk from a sure start, for each pair: those that arrived in tests took up to 4.
+const LONG: f64 = 10.0;
+
+/// Events that any walk may take.
+const LEAST: usize = 100;
+
+/// Changes after which a system is factorised again: a factorisation then costs about as much as the
+/// changes.
+const AGE: usize = 60;
+
+/// The same where rounding has spoilt a walk.
+const CAREFUL_AGE: usize = 4;
+
+/// Why there is no solution.
+const LOST: &str = "the path does not arrive";
+
+/// Where a walk starts.
+#[derive(Clone, Copy, PartialEq)]
+enum Start {
+    /// At the coordinates after the sweeps.
+    Swept,
+    /// At those that no other coordinates share their loads with.
+    Sure,
+    /// The same with all pairs closed.
+    Pressed,
+}
+
+/// A walk that is tried.
+#[derive(Clone, Copy)]
+struct Attempt {
+    /// Sweeps before it, beside those of earlier ones.
+    sweeps: usize,
+    start: Start,
+    events: f64,
+    age: usize,
+}
+
+/// A sweep costs about as much as an event. `auto` starts at the best iterate of Newton's method, where a
+/// few sweeps are enough; where the path comes back from there, more of them are a start of another kind.
+const ATTEMPTS: [Attempt; 5] = [
+    Attempt { sweeps: 20, start: Start::Swept, events: SHORT, age: AGE },
+    Attempt { sweeps: 100, start: Start::Swept, events: SHORT, age: AGE },
+    Attempt { sweeps: 0, start: Start::Sure, events: LONG, age: AGE },
+    Attempt { sweeps: 0, start: Start::Sure, events: LONG, age: CAREFUL_AGE },
+    Attempt { sweeps: 0, start: Start::Pressed, events: LONG, age: CAREFUL_AGE },
+];
+
+/// Where attempts begin that are sure.
+const SURE: usize = 2;
+
+/// Sweeps before the first of these, where none is made before.
+const SWEEPS_OF_SURE: usize = 100;
+
+/// Solves a problem in the plane, from the displacements `start` (zero if `None`). An iteration is an
+/// event: a pair that passes from one piece to the next.
+pub fn linear(
+    contact: &Contact<'_>,
+    settings: &Settings,
+    start: Option<&[f64]>,
+    monitor: &mut Monitor<'_>,
+) -> Candidate {
+    if contact.is_coupled() {
+        return solve(contact, settings, start, &ATTEMPTS, monitor);
+    }
+    // With given thresholds every start is sure.
+    let mut attempts = ATTEMPTS[SURE..].to_vec();
+    attempts[0].sweeps = SWEEPS_OF_SURE;
+    solve(contact, settings, start, &attempts, monitor)
+}
+
+fn solve(
+    contact: &Contact<'_>,
+    settings: &Settings,
+    start: Option<&[f64]>,
+    attempts: &[Attempt],
+    monitor: &mut Monitor<'_>,
+) -> Candidate {
+    let root = contact.problem().unit_roots();
+    let mut starts = Starts::new(contact, &root, start);
+    let load = starts.load.clone();
+    let ground = Ground { contact, root: &root, load: &load, size: starts.size };
+    let mut random = Random::new(0);
+    let mut best = Candidate::without_displacements(contact, Ending::Stalled(LOST));
+    let mut effort = Effort::default();
+    for attempt in attempts {
+        starts.sweep(contact, attempt.sweeps);
+        let y: Vec<Planar> = match attempt.start {
+            Start::Swept => starts.swept(contact, &mut random),
+            Start::Sure => starts.sure(contact, &mut random),
+            Start::Pressed => starts.pressed(contact, &root, &mut random),
+        };
+        let Some(mut walk) = Walk::new(&ground, &y) else { continue };
+        if !walk.begins_upwards() {
+            continue;
+        }
+        let most = LEAST.max((attempt.events * y.len() as f64) as usize);
+        let end = walk.follow(Rules { most, age: attempt.age }, monitor);
+        let mut candidate = ended(contact, settings, &walk, end, monitor);
+        effort.factorisations += walk.factorisations + candidate.effort.factorisations;
+        candidate.effort = effort;
+        if candidate.is_settled(contact, settings.tolerance) {
+            return candidate;
+        }
+        let eta = |candidate: &Candidate| candidate.certificate(contact).eta;
+        if eta(&candidate) < eta(&best) {
+            best = candidate;
+        }
+        best.effort = effort;
+    }
+    best
+}
+
+/// The candidate of a walk that has ended.
+fn ended(
+    contact: &Contact<'_>,
+    settings: &Settings,
+    walk: &Walk<'_>,
+    end: End,
+    monitor: &mut Monitor<'_>,
+) -> Candidate {
+    let d = walk.displacements();
+    let ending = match end {
+        End::Arrived => {
+            return active_set::from_branches(contact, settings, walk.branches(), d, monitor);
+        }
+        End::Lost => Ending::Stalled(LOST),
+        // If the body only lifts off, the ray itself is the proof; if it also slips, the balance of
+        // the other pairs decides.
+        End::Ray(motion) => Ending::Recession(rigid_balance::escape(contact).unwrap_or(motion)),
+        End::Stopped(stop) => Ending::Stopped(stop),
+    };
+    Candidate::of_displacements(contact, d, ending)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::problem::{ContactData, ContactProblem, FrictionLaw};
+    use crate::solve::outcome::Status;
+
+    /// `B Bᵀ` and a part of the identity, so that no two columns are alike: definite, of a condition
+    /// about 1e4 at the least part.
+    fn definite(rng: &mut fastrand::Rng, n: usize, least: f64) -> Vec<f64> {
+        let b: Vec<f64> = (0..n * n).map(|_| rng.f64() - 0.5).collect();
+        let entry = |i: usize, j: usize| -> f64 {
+            let product: f64 = (0..n).map(|k| b[i + n * k] * b[j + n * k]).sum();
+            product + if i == j { least * n as f64 } else { 0.0 }
+        };
+        (0..n * n).map(|k| entry((k % n).max(k / n), (k % n).min(k / n))).collect()
+    }
+
+    /// Theorem H: the path from the sure start arrives, without the swept one and without a second try.
+    #[test]
+    fn the_sure_start_arrives_whatever_the_coefficients() {
+        for seed in 0..400 {
+            let mut rng = fastrand::Rng::with_seed(seed);
+            let pairs = rng.usize(1..=16);
+            let mut vector = |n: usize, size: f64| -> Vec<f64> {
+                (0..n).map(|_| size * (2.0 * rng.f64() - 1.0)).collect()
+            };
+            let (load, gap, slip) =
+                (vector(2 * pairs, 1.0), vector(pairs, 0.5), vector(pairs, 0.5));
+            let least = [1e-1, 1e-3][seed as usize % 2];
+            let stiffness = definite(&mut rng, 2 * pairs, least);
+            let mu: Vec<f64> = (0..pairs).map(|_| 10.0 * rng.f64()).collect();
+            let problem = ContactProblem::new(ContactData {
+                dim: 2,
+                pairs,
+                stiffness: &stiffness,
+                ld: 2 * pairs,
+                load: &load,
+                gap: &gap,
+                law: FrictionLaw::Coulomb(&mu),
+                reference_slip: Some(&slip),
+            });
+            let problem = problem.expect("the data is valid");
+            let (contact, settings) = (Contact::new(&problem), Settings::default());
+            let mut monitor = Monitor::new(&settings, None);
+            let candidate = solve(&contact, &settings, None, &ATTEMPTS[SURE..=SURE], &mut monitor);
+            let method = crate::settings::Method::Auto;
+            let solution =
+                crate::solve::candidate::certified(&contact, &settings, method, &candidate);
+            assert_eq!(solution.status, Status::Solved, "seed {seed}: {}", solution.message);
+        }
+    }
+}

@@ -1,0 +1,105 @@
+//! Where the linear path starts: coordinates after some sweeps, moved by a little at random so that no
+//! two pairs change at once.
+
+use crate::law::{Contact, PairLaw, Planar};
+use crate::linalg::vector::NormSum;
+use crate::solve::sweeps::Sweeper;
+
+/// Random part of a start, of all loads.
+const RANDOM: f64 = 1e-7;
+
+/// The start, its randomness, and the loads of the problem.
+pub struct Starts {
+    /// `r = f - K (gap, slip0)`: the loads on the body that touches all its obstacles.
+    pub load: Vec<f64>,
+    /// Displacements after the sweeps, and their force.
+    swept: (Vec<f64>, Vec<f64>),
+    /// Size of the random part of each component.
+    unit: Vec<f64>,
+    /// Size of all forces, each in the unit that its diagonal entry of `K` gives it.
+    pub size: f64,
+}
+
+impl Starts {
+    /// Begins at the displacements `start` (zero if `None`).
+    pub fn new(contact: &Contact<'_>, root: &[f64], start: Option<&[f64]>) -> Self {
+        let zero = || vec![0.0; contact.unknowns()];
+        let d = contact.admissible(&start.map_or_else(zero, <[f64]>::to_vec));
+        let force = contact.problem().force(&d);
+        let reference: Vec<f64> =
+            contact.pairs().iter().flat_map(|law| law.reference()[..2].to_vec()).collect();
+        let load: Vec<f64> =
+            contact.problem().force(&reference).iter().map(|force| -force).collect();
+        let mut size = NormSum::default();
+        load.iter().zip(root).for_each(|(load, root)| size.add(load / root));
+        let size = size.root();
+        let part = RANDOM * size / (root.len() as f64).sqrt();
+        Starts {
+            load,
+            swept: (d, force),
+            unit: root.iter().map(|root| part * root).collect(),
+            size,
+        }
+    }
+
+    /// Sweeps on.
+    pub fn sweep(&mut self, contact: &Contact<'_>, sweeps: usize) {
+        let (sweeper, (d, force)) = (Sweeper::new(), &mut self.swept);
+        for _ in 0..sweeps {
+            sweeper.sweep(contact, (&mut *d, &mut *force), 1.0);
+        }
+    }
+
+    /// The coordinates after the sweeps, moved at random.
+    pub fn swept(&self, contact: &Contact<'_>, random: &mut Random) -> Vec<Planar> {
+        let (d, force) = &self.swept;
+        let mut units = self.unit.chunks_exact(2);
+        let moved = |(law, d, force): (&PairLaw, &[f64], &[f64])| {
+            let (y, unit) = (law.chart(d, force), units.next().expect("every pair has units"));
+            std::array::from_fn(|c| y[c] + unit[c] * random.signed())
+        };
+        contact.each(d, force).map(moved).collect()
+    }
+
+    /// The same with the pairs in the states that make the path sure to arrive.
+    pub fn sure(&self, contact: &Contact<'_>, random: &mut Random) -> Vec<Planar> {
+        let swept = self.swept(contact, random);
+        contact.pairs().iter().zip(swept).map(|(law, y)| law.sure_start(y)).collect()
+    }
+
+    /// All pairs pressed on their obstacles and stuck, by random forces of the size of the loads.
+    pub fn pressed(&self, contact: &Contact<'_>, root: &[f64], random: &mut Random) -> Vec<Planar> {
+        let swept = self.swept(contact, random);
+        let mean = self.size / (root.len() as f64).sqrt();
+        let pairs = contact.pairs().iter().zip(swept).zip(root.chunks_exact(2));
+        pairs
+            .map(|((law, y), root)| {
+                law.pressed(y, mean * root[0] * (1.0 + VARIED * random.signed()))
+            })
+            .collect()
+    }
+}
+
+/// How much the forces of [`Starts::pressed`] differ.
+const VARIED: f64 = 0.1;
+
+/// Numbers that look random, the same in every call: splitmix64 (Steele, Lea and Flood 2014).
+pub struct Random(u64);
+
+impl Random {
+    /// The sequence number `seed`.
+    pub fn new(seed: u64) -> Self {
+        Random(seed)
+    }
+
+    /// Between −1 and 1.
+    fn signed(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut bits = self.0;
+        bits = (bits ^ (bits >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        bits = (bits ^ (bits >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        bits ^= bits >> 31;
+        // The upper 53 bits are a number in [0, 2^53).
+        (bits >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    }
+}

@@ -1,0 +1,251 @@
+//! The system of the pieces on which all pairs are, `J = K V / k + D`, condensed and updated.
+//!
+//! With `D = dP/dy` of every pair, `V = 1 - D` and the forces per length `k`, `J x = b` is solved for
+//! the displacements that are free: `d = V x / k` is zero in the normal component of a closed pair and
+//! in the tangential one of a pair that sticks. Of the free components
+//!
+//! ```text
+//! (K d)_n = b_n                                open
+//! (K d)_t - slope h (K d)_n = b_t - slope h b_n        slip to the side h (slope 0 of an open pair)
+//! ```
+//!
+//! is factorised; the forces `x = b - K d` of the others follow. The sign of this determinant is that of
+//! `det J`: the rest of `J` is triangular with ones.
+//!
+//! A pair that passes a boundary with the gradient `n` changes `D` by `-u nᵀ` and `J` by `a nᵀ`,
+//! `a = (K / k - 1) u`. So with `z = J⁻¹ a` and `pivot = 1 + n.z`
+//!
+//! ```text
+//! J'⁻¹ b = J⁻¹ b - z (n.J⁻¹ b) / pivot,    det J' = pivot det J
+//! ```
+//!
+//! One solve for each change, and all later ones pass through the changes in turn.
+
+use crate::law::branch::Branch;
+use crate::law::{Contact, Exit, PairLaw, Planar};
+use crate::linalg::factor::{Factor, subtract_product};
+use crate::linalg::matrix::Matrix;
+use crate::linalg::tolerances::SINGULAR_BASIS;
+
+/// A change of one pair.
+struct Change {
+    pair: usize,
+    gradient: Planar,
+    /// `J⁻¹ a`.
+    z: Vec<f64>,
+    pivot: f64,
+}
+
+/// A change that is ready to be made.
+pub struct Flip {
+    change: Change,
+    beyond: Branch,
+}
+
+impl Flip {
+    /// `1 + n.z`, by which the determinant changes.
+    pub fn pivot(&self) -> f64 {
+        self.change.pivot
+    }
+
+    /// `J⁻¹ a`: where the pivot is zero, `J` is singular along it beyond the boundary.
+    pub fn direction(&self) -> &[f64] {
+        &self.change.z
+    }
+}
+
+/// The system of the pieces.
+pub struct PieceSystem<'p> {
+    contact: &'p Contact<'p>,
+    matrix: Matrix<'p>,
+    root: &'p [f64],
+    /// The pieces of today.
+    pub branches: Vec<Branch>,
+    /// `dP/dy` of the pieces that were factorised.
+    slopes: Vec<[Planar; 2]>,
+    /// Components that are free on them, and the others.
+    free: Vec<usize>,
+    bound: Vec<usize>,
+    factor: Factor,
+    /// Rows of `K` for the forces of the others, each with the free columns.
+    rows: Vec<f64>,
+    changes: Vec<Change>,
+}
+
+impl<'p> PieceSystem<'p> {
+    /// Factorises the system of `branches`; `root` holds the roots of the diagonal of `K`. `None` if it
+    /// is singular to the last digit.
+    pub fn new(contact: &'p Contact<'p>, root: &'p [f64], branches: Vec<Branch>) -> Option<Self> {
+        let matrix = contact.problem().stiffness();
+        let slopes: Vec<[Planar; 2]> =
+            contact.pairs().iter().zip(&branches).map(|(law, b)| law.slopes(*b)).collect();
+        let (free, bound): (Vec<usize>, Vec<usize>) =
+            (0..matrix.size()).partition(|&i| slopes[i / 2][i % 2][i % 2] == 0.0);
+        let factor = factorised(matrix, root, &slopes, &free)?;
+        let mut rows = Vec::with_capacity(free.len() * bound.len());
+        for &i in &bound {
+            let column = matrix.column(i);
+            rows.extend(free.iter().map(|&j| column[j]));
+        }
+        let changes = Vec::new();
+        Some(PieceSystem {
+            contact,
+            matrix,
+            root,
+            branches,
+            slopes,
+            free,
+            bound,
+            factor,
+            rows,
+            changes,
+        })
+    }
+
+    /// Changes since the factorisation.
+    pub fn age(&self) -> usize {
+        self.changes.len()
+    }
+
+    /// Sign of `det J`.
+    pub fn sign(&self) -> f64 {
+        let of = |sign: f64, change: &Change| sign * change.pivot.signum();
+        self.changes.iter().fold(f64::from(self.factor.sign()), of)
+    }
+
+    /// `J⁻¹ b`.
+    pub fn solve(&mut self, b: &[f64]) -> Vec<f64> {
+        let mut x = self.solve_factorised(b);
+        for change in &self.changes {
+            change.apply(&mut x);
+        }
+        x
+    }
+
+    /// `J⁻¹ b` on the pieces that were factorised.
+    fn solve_factorised(&mut self, b: &[f64]) -> Vec<f64> {
+        let mut d: Vec<f64> = self
+            .free
+            .iter()
+            .map(|&i| {
+                let coupling = coupling(&self.slopes, i);
+                (b[i] - coupling * b[i - i % 2]) / self.root[i]
+            })
+            .collect();
+        self.factor.solve(&mut d);
+        for (d, &i) in d.iter_mut().zip(&self.free) {
+            *d /= self.root[i];
+        }
+        let mut forces: Vec<f64> = self.bound.iter().map(|&i| b[i]).collect();
+        subtract_product(&mut forces, &self.rows, &d, self.free.len());
+        let mut x = vec![0.0; b.len()];
+        for (&i, force) in self.bound.iter().zip(&forces) {
+            x[i] = *force;
+        }
+        for (&i, d) in self.free.iter().zip(&d) {
+            // Normal components come before tangential ones.
+            x[i] = self.root[i] * self.root[i] * d + coupling(&self.slopes, i) * x[i - i % 2];
+        }
+        x
+    }
+
+    /// Prepares the change of `pair` that passes a boundary.
+    pub fn flip(&mut self, pair: usize, exit: &Exit) -> Flip {
+        let law = &self.contact.pairs()[pair];
+        let u = direction(law, self.branches[pair], exit);
+        let mut a = vec![0.0; self.root.len()];
+        for (c, u) in u.into_iter().enumerate().filter(|(_, u)| *u != 0.0) {
+            let i = 2 * pair + c;
+            let scaled = u / (self.root[i] * self.root[i]);
+            for (a, k) in a.iter_mut().zip(self.matrix.column(i)) {
+                *a += k * scaled;
+            }
+            a[i] -= u;
+        }
+        let z = self.solve(&a);
+        let gradient = exit.gradient;
+        let pivot = 1.0 + gradient[0] * z[2 * pair] + gradient[1] * z[2 * pair + 1];
+        Flip { change: Change { pair, gradient, z, pivot }, beyond: exit.beyond }
+    }
+
+    /// Makes a change; `x` becomes `J⁻¹ b` of the new pieces for the same `b`.
+    pub fn pass(&mut self, flip: Flip, x: &mut [f64]) {
+        flip.change.apply(x);
+        self.branches[flip.change.pair] = flip.beyond;
+        self.changes.push(flip.change);
+    }
+
+    /// The displacements along which the coordinates move when they move by `y`.
+    pub fn motion(&self, y: &[f64]) -> Vec<f64> {
+        let mut motion = Vec::with_capacity(y.len());
+        let pairs = self.contact.pairs().iter().zip(&self.branches);
+        for (pair, (law, branch)) in pairs.enumerate() {
+            let slopes = law.slopes(*branch);
+            let at = [y[2 * pair], y[2 * pair + 1]];
+            for (c, (y, row)) in at.iter().zip(&slopes).enumerate() {
+                let root = self.root[2 * pair + c];
+                motion.push((y - row[0] * at[0] - row[1] * at[1]) / (root * root));
+            }
+        }
+        motion
+    }
+}
+
+impl Change {
+    fn apply(&self, x: &mut [f64]) {
+        let at = 2 * self.pair;
+        let part = (self.gradient[0] * x[at] + self.gradient[1] * x[at + 1]) / self.pivot;
+        if part != 0.0 {
+            for (x, z) in x.iter_mut().zip(&self.z) {
+                *x -= part * z;
+            }
+        }
+    }
+}
+
+/// `slope h` of a tangential component that slips under pressure; 0 of others.
+fn coupling(slopes: &[[Planar; 2]], i: usize) -> f64 {
+    if i.is_multiple_of(2) { 0.0 } else { slopes[i / 2][1][0] }
+}
+
+/// `u` with `V' = V + u nᵀ` for the change of a pair.
+fn direction(law: &PairLaw, before: Branch, exit: &Exit) -> Planar {
+    let (before, beyond) = (law.slopes(before), law.slopes(exit.beyond));
+    let n = exit.gradient;
+    let square = n[0] * n[0] + n[1] * n[1];
+    std::array::from_fn(|r| {
+        ((before[r][0] - beyond[r][0]) * n[0] + (before[r][1] - beyond[r][1]) * n[1]) / square
+    })
+}
+
+/// The factor of the free components, rows and columns scaled; `None` if it is singular.
+fn factorised(
+    matrix: Matrix<'_>,
+    root: &[f64],
+    slopes: &[[Planar; 2]],
+    free: &[usize],
+) -> Option<Factor> {
+    let coupled: Vec<(usize, f64)> = free
+        .iter()
+        .enumerate()
+        .map(|(k, &i)| (k, coupling(slopes, i)))
+        .filter(|(_, coupling)| *coupling != 0.0)
+        .collect();
+    let fill = |j: usize, column: &mut [f64]| {
+        let source = matrix.column(free[j]);
+        let scale = root[free[j]];
+        for (column, &i) in column.iter_mut().zip(free) {
+            *column = source[i] / (root[i] * scale);
+        }
+        for &(k, coupling) in &coupled {
+            let i = free[k];
+            column[k] -= coupling * source[i - 1] / (root[i] * scale);
+        }
+    };
+    if coupled.is_empty()
+        && let Some(factor) = Factor::with_least_pivot(free.len(), true, SINGULAR_BASIS, fill)
+    {
+        return Some(factor);
+    }
+    Factor::with_least_pivot(free.len(), false, SINGULAR_BASIS, fill)
+}

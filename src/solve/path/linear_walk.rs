@@ -1,0 +1,221 @@
+//! One way along the linear path, from piece to piece.
+
+use super::linear_system::PieceSystem;
+use crate::law::branch::Branch;
+use crate::law::{Contact, Exit, Planar};
+use crate::linalg::vector::{NormSum, largest_of};
+use crate::monitor::{Monitor, Stop};
+
+/// A pivot below this part of one is taken for zero: the error of all that went through it would be as
+/// large as what is looked for.
+const SMALL_PIVOT: f64 = 1e-9;
+
+/// A step so many times longer than all coordinates may be a ray.
+const FAR: f64 = 1e6;
+
+/// How far a walk may go.
+#[derive(Clone, Copy)]
+pub struct Rules {
+    /// Events after which it is given up.
+    pub most: usize,
+    /// Events after which the system is factorised again.
+    pub age: usize,
+}
+
+/// How a walk ended.
+pub enum End {
+    /// At the loads of the problem.
+    Arrived,
+    /// At the loads of the start, or beyond all events; the system of a piece is singular; too many
+    /// events.
+    Lost,
+    /// On a ray with a rigid motion.
+    Ray(Vec<f64>),
+    /// A budget is used up, or the callback cancelled.
+    Stopped(Stop),
+}
+
+/// What all walks of a problem share.
+pub struct Ground<'p> {
+    /// The problem.
+    pub contact: &'p Contact<'p>,
+    /// Roots of the diagonal of `K`.
+    pub root: &'p [f64],
+    /// `r`.
+    pub load: &'p [f64],
+    /// `|r|`, each force in the unit that its diagonal entry of `K` gives it.
+    pub size: f64,
+}
+
+/// A walk: `K v + P = r_s` for all `s` on the way, `r_s = r_0 + s (r - r_0)`.
+pub struct Walk<'p> {
+    ground: &'p Ground<'p>,
+    system: PieceSystem<'p>,
+    /// `r_0` and `r - r_0`.
+    first: Vec<f64>,
+    change: Vec<f64>,
+    /// Coordinates, and their change with `s`.
+    y: Vec<f64>,
+    rate: Vec<f64>,
+    s: f64,
+    /// Changes of a piece so far.
+    pub events: u64,
+    /// Factorisations so far.
+    pub factorisations: u64,
+}
+
+impl<'p> Walk<'p> {
+    /// Begins at the coordinates `start`; `None` if the system there is singular.
+    pub fn new(ground: &'p Ground<'p>, start: &[Planar]) -> Option<Self> {
+        let contact = ground.contact;
+        let (mut v, mut first, mut branches) = (Vec::new(), Vec::new(), Vec::new());
+        for (law, y) in contact.pairs().iter().zip(start) {
+            let y = [y[0], y[1], 0.0];
+            let ((d, push), reference) = (law.point(&y), law.reference());
+            branches.push(law.chart_branch(&y));
+            v.extend((0..2).map(|c| d[c] - reference[c]));
+            first.extend_from_slice(&push[..2]);
+        }
+        contact.problem().stiffness().add_product(&v, &mut first);
+        let change: Vec<f64> = ground.load.iter().zip(&first).map(|(r, first)| r - first).collect();
+        let mut system = PieceSystem::new(contact, ground.root, branches)?;
+        let rate = system.solve(&change);
+        Some(Walk {
+            ground,
+            system,
+            first,
+            change,
+            y: start.concat(),
+            rate,
+            s: 0.0,
+            events: 0,
+            factorisations: 1,
+        })
+    }
+
+    /// Whether the path begins upwards in the sense of its orientation.
+    pub fn begins_upwards(&self) -> bool {
+        self.system.sign() > 0.0
+    }
+
+    /// Goes on to the end.
+    pub fn follow(&mut self, rules: Rules, monitor: &mut Monitor<'_>) -> End {
+        for _ in 0..rules.most {
+            if let Err(stop) = monitor.step() {
+                return End::Stopped(stop);
+            }
+            let sign = self.system.sign();
+            let exit = self.next_exit(sign);
+            let left = if sign > 0.0 { 1.0 - self.s } else { f64::INFINITY };
+            let step = exit.as_ref().map_or(left, |(_, exit)| exit.step.min(left));
+            if !step.is_finite() {
+                return End::Lost;
+            }
+            if step * self.length(&self.rate) > FAR * (self.length(&self.y) + self.ground.size)
+                && let Some(motion) = self.rigid(&self.rate, sign)
+            {
+                return End::Ray(motion);
+            }
+            for (y, rate) in self.y.iter_mut().zip(&self.rate) {
+                *y += sign * step * rate;
+            }
+            self.s += sign * step;
+            let Some((pair, exit)) = exit.filter(|(_, exit)| exit.step < left) else {
+                return End::Arrived;
+            };
+            if self.s < 0.0 {
+                return End::Lost;
+            }
+            if let Err(end) = self.pass(pair, &exit, rules) {
+                return end;
+            }
+        }
+        End::Lost
+    }
+
+    /// The first boundary on the way, and whose it is.
+    fn next_exit(&self, sign: f64) -> Option<(usize, Exit)> {
+        let mut first: Option<(usize, Exit)> = None;
+        let pairs = self.ground.contact.pairs().iter().zip(&self.system.branches);
+        let ways = self.y.chunks_exact(2).zip(self.rate.chunks_exact(2));
+        for (pair, ((law, branch), (y, rate))) in pairs.zip(ways).enumerate() {
+            let rate = [sign * rate[0], sign * rate[1]];
+            if let Some(exit) = law.planar_exit(*branch, [y[0], y[1]], rate)
+                && first.as_ref().is_none_or(|(_, first)| exit.step < first.step)
+            {
+                first = Some((pair, exit));
+            }
+        }
+        first
+    }
+
+    /// Passes the boundary of a pair.
+    fn pass(&mut self, pair: usize, exit: &Exit, rules: Rules) -> Result<(), End> {
+        self.events += 1;
+        let flip = self.system.flip(pair, exit);
+        let singular = flip.pivot().abs() < SMALL_PIVOT;
+        let ray = if singular { flip.direction().to_vec() } else { Vec::new() };
+        self.system.pass(flip, &mut self.rate);
+        if singular && let Some(motion) = self.rigid(&ray, 1.0) {
+            return Err(End::Ray(motion));
+        }
+        if singular || self.system.age() >= rules.age {
+            return self.refactorise().ok_or(End::Lost);
+        }
+        Ok(())
+    }
+
+    /// Factorises the system of today's pieces, and puts the coordinates back on the path.
+    fn refactorise(&mut self) -> Option<()> {
+        let contact = self.ground.contact;
+        self.factorisations += 1;
+        let branches = std::mem::take(&mut self.system.branches);
+        self.system = PieceSystem::new(contact, self.ground.root, branches)?;
+        // J y = r_s - c + K c_t / k, with P = D y + c on a piece.
+        let mut side: Vec<f64> =
+            self.first.iter().zip(&self.change).map(|(r, change)| r + self.s * change).collect();
+        let mut constant = vec![0.0; side.len()];
+        let pairs = contact.pairs().iter().zip(&self.system.branches);
+        for (pair, (law, branch)) in pairs.enumerate() {
+            let (i, push) = (2 * pair, law.constant(*branch));
+            side[i] -= push[0];
+            side[i + 1] -= push[1];
+            // A tension is no part of `k v = y - P'`.
+            constant[i + 1] = push[1] / self.ground.root[i + 1].powi(2);
+        }
+        contact.problem().stiffness().add_product(&constant, &mut side);
+        self.y = self.system.solve(&side);
+        self.rate = self.system.solve(&self.change);
+        let finite = |x: &[f64]| x.iter().all(|x| x.is_finite());
+        (finite(&self.y) && finite(&self.rate)).then_some(())
+    }
+
+    /// The motion of the coordinates' direction `sign way`, if it is rigid.
+    fn rigid(&self, way: &[f64], sign: f64) -> Option<Vec<f64>> {
+        let mut motion = self.system.motion(way);
+        motion.iter_mut().for_each(|motion| *motion *= sign);
+        let internal = self.ground.contact.problem().internal_force(&motion);
+        let pairs = || motion.iter().zip(self.ground.root);
+        let size = largest_of(pairs().map(|(motion, root)| motion * root));
+        let resisted = internal.iter().zip(self.ground.root).map(|(force, root)| force / root);
+        (size > 0.0 && largest_of(resisted) <= SMALL_PIVOT * size).then_some(motion)
+    }
+
+    /// Norm of coordinates, each in its unit.
+    fn length(&self, y: &[f64]) -> f64 {
+        let mut sum = NormSum::default();
+        y.iter().zip(self.ground.root).for_each(|(y, root)| sum.add(y / root));
+        sum.root()
+    }
+
+    /// The pieces of today.
+    pub fn branches(&self) -> Vec<Branch> {
+        self.system.branches.clone()
+    }
+
+    /// The displacements of today.
+    pub fn displacements(&self) -> Vec<f64> {
+        let pairs = self.ground.contact.pairs().iter().zip(self.y.chunks_exact(2));
+        pairs.flat_map(|(law, y)| law.point(&[y[0], y[1], 0.0]).0[..2].to_vec()).collect()
+    }
+}

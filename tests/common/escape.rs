@@ -1,0 +1,50 @@
+//! The judge of a motion that is to prove that no equilibrium exists, in twice the precision.
+
+use super::edges::Problem;
+use super::exact::{UNIT, force, quads, work};
+use super::problems::{Case, Law};
+use super::quad::norm;
+
+/// Why `r` does not prove that there is no equilibrium: how far it is from that, beside what is allowed,
+/// and a sentence. It does if `K r = 0` up to the rounding of the entries, `-r_n >= mu |r_t|` at
+/// obstacles, and `f . r > sum g |r_t|`, each up to the rounding of its terms.
+pub fn flaw_of_motion(problem: &Problem, r: &[f64]) -> Option<(f64, String)> {
+    let Problem { case, noise, .. } = problem;
+    let (n, dim) = (case.size(), case.dim);
+    let few = 4.0 * n as f64 * UNIT;
+    let unloaded = Case { f: vec![0.0; n], ..case.clone() };
+    let strain = force(&unloaded, &quads(r));
+    let root: Vec<f64> = (0..n).map(|i| case.stiffness(i, i).abs().sqrt()).collect();
+    for i in 0..n {
+        let entry = |j: usize| (few * root[i] * root[j] + noise) * r[j].abs();
+        let allowed: f64 = (0..n).map(entry).sum();
+        if strain[i].abs().value() > allowed {
+            let size = strain[i].abs().value();
+            return Some((size / allowed, format!("|(K r)[{i}]| = {size:.1e} > {allowed:.1e}")));
+        }
+    }
+    let mut resisted = 0.0;
+    for pair in 0..case.pairs {
+        let part = &r[dim * pair..dim * (pair + 1)];
+        let slide = norm(&quads(&part[1..])).value();
+        let lift = match &case.law {
+            Law::Coulomb(mu) => mu[pair] * slide,
+            Law::Tresca(g) => {
+                resisted += g[pair] * slide;
+                0.0
+            }
+            Law::Cohesive(_) => unreachable!("no problem at the edges has cohesion"),
+        };
+        let allowed = few * (part[0].abs() + lift);
+        // A motion of the size of rounding beside the largest is none.
+        let most = r.iter().fold(0.0, |most: f64, r| most.max(r.abs()));
+        let approach = part[0] + lift;
+        if case.gap[pair].is_finite() && approach > allowed + few * most {
+            let size = approach / (allowed + few * most);
+            return Some((size, format!("contact can stop it at pair {pair}: {approach:.1e}")));
+        }
+    }
+    let parts: f64 = (0..n).map(|i| (case.f[i] * r[i]).abs()).sum::<f64>() + resisted;
+    let driven = work(&case.f, r) - resisted;
+    (driven <= few * parts).then(|| (f64::INFINITY, format!("the loads do the work {driven:.1e}")))
+}

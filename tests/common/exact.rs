@@ -1,0 +1,279 @@
+//! A contact problem in twice the precision: forces, the natural residual, and solutions by Newton's
+//! method. Formulas are those of the problem's statement; nothing is shared with the library.
+
+use signorini::State;
+
+use super::problems::{Case, Law};
+use super::quad::{Quad, norm, solve};
+
+/// Half a unit in the last place of 1: the rounding of one double.
+pub const UNIT: f64 = f64::EPSILON / 2.0;
+
+/// Steps of Newton's method: it doubles the digits, from the few that an ill-conditioned answer has.
+const STEPS: usize = 40;
+
+/// A residual below this part of the sums that it comes from is zero: 30 digits, less a few for long sums.
+const ZERO: f64 = 1e-27;
+
+pub fn quads(values: &[f64]) -> Vec<Quad> {
+    values.iter().map(|&value| Quad::from(value)).collect()
+}
+
+fn dot(a: &[Quad], b: &[Quad]) -> Quad {
+    a.iter().zip(b).map(|(&a, &b)| a * b).sum()
+}
+
+/// `K d - f`.
+pub fn force(case: &Case, d: &[Quad]) -> Vec<Quad> {
+    let n = case.size();
+    let row = |i: usize| -> Quad { (0..n).map(|j| d[j] * case.stiffness(i, j)).sum() };
+    (0..n).map(|i| row(i) - Quad::from(case.f[i])).collect()
+}
+
+/// `sum |K| |d| + |f|`, row by row: the size of the sums that make `K d - f`.
+pub fn parts(case: &Case, d: &[Quad]) -> Vec<f64> {
+    let n = case.size();
+    let row = |i: usize| (0..n).map(|j| (d[j].value() * case.stiffness(i, j)).abs()).sum::<f64>();
+    (0..n).map(|i| row(i) + case.f[i].abs()).collect()
+}
+
+/// `max(|f|, |F|)`.
+pub fn scale(case: &Case, force: &[Quad]) -> Quad {
+    norm(&quads(&case.f)).max(norm(force))
+}
+
+/// `K_tt` of a pair, in 3D the largest eigenvalue of its block.
+pub fn tangential_stiffness(case: &Case, pair: usize) -> Quad {
+    let t = case.dim * pair + 1;
+    let a = Quad::from(case.stiffness(t, t));
+    if case.dim == 2 {
+        return a;
+    }
+    let (b, c) = (Quad::from(case.stiffness(t, t + 1)), Quad::from(case.stiffness(t + 1, t + 1)));
+    let half = (a - c).scaled(0.5);
+    (a + c).scaled(0.5) + (half * half + b * b).sqrt()
+}
+
+/// Slope and offset of the bound `g(p)` on the tangential force.
+fn bound(case: &Case, pair: usize) -> (f64, f64) {
+    match &case.law {
+        Law::Coulomb(mu) => (mu[pair], 0.0),
+        Law::Tresca(g) => (0.0, g[pair]),
+        Law::Cohesive(_) => unreachable!("no problem at the edges has cohesion"),
+    }
+}
+
+/// Bound on the tangential force under the normal force `normal`.
+pub fn threshold(case: &Case, pair: usize, normal: Quad) -> Quad {
+    let (slope, offset) = bound(case, pair);
+    (-normal).max(Quad::ZERO) * slope + Quad::from(offset)
+}
+
+/// One pair at a displacement and the force there.
+struct Point {
+    force: Vec<Quad>,
+    /// `d_t - slip0`.
+    slip: Vec<Quad>,
+    /// `k_t slip - F_t`, and its length.
+    trial: Vec<Quad>,
+    length: Quad,
+    threshold: Quad,
+    /// `k_n (d_n - gap)`, `None` without an obstacle.
+    penetration: Option<Quad>,
+}
+
+fn point(case: &Case, pair: usize, d: &[Quad], force: &[Quad]) -> Point {
+    let i = case.dim * pair;
+    let k_t = tangential_stiffness(case, pair);
+    let slip: Vec<Quad> =
+        (1..case.dim).map(|c| d[i + c] - Quad::from(case.rest(pair, c - 1))).collect();
+    let trial: Vec<Quad> = (1..case.dim).map(|c| slip[c - 1] * k_t - force[i + c]).collect();
+    let gap = case.gap[pair];
+    let penetration = gap.is_finite().then(|| (d[i] - Quad::from(gap)) * case.stiffness(i, i));
+    Point {
+        force: force[i..i + case.dim].to_vec(),
+        length: norm(&trial),
+        threshold: threshold(case, pair, force[i]),
+        slip,
+        trial,
+        penetration,
+    }
+}
+
+/// The natural residual `e` at `d`, a force for each component:
+/// `e_n = max(k_n (d_n - gap), F_n)`, `e_t = F_t + g h` where the trial `h |y|` is longer than the bound
+/// `g`, else `k_t (d_t - slip0)`.
+pub fn residual(case: &Case, d: &[Quad], force: &[Quad]) -> Vec<Quad> {
+    let mut residual = Vec::new();
+    for pair in 0..case.pairs {
+        let at = point(case, pair, d, force);
+        residual.push(at.penetration.map_or(at.force[0], |closed| closed.max(at.force[0])));
+        let k_t = tangential_stiffness(case, pair);
+        for c in 0..case.dim - 1 {
+            residual.push(match at.length > at.threshold {
+                true => at.force[1 + c] + at.threshold * (at.trial[c] / at.length),
+                false => k_t * at.slip[c],
+            });
+        }
+    }
+    residual
+}
+
+/// `eta` of `d`: `|e| / max(|f|, |F|)`.
+pub fn eta(case: &Case, d: &[Quad]) -> f64 {
+    let force = force(case, d);
+    let size = norm(&residual(case, d, &force));
+    if size == Quad::ZERO { 0.0 } else { (size / scale(case, &force)).value() }
+}
+
+/// By how much `eta` may change if each entry of `d` is rounded to a double, and its denominator is
+/// `scale`: with `a = u |K| |d|` the change of `F` is `a`, of `e_n` no more, and of `e_t` at most
+/// `2 a_t + mu a_n + u k_t |d_t|`, as the direction of the trial `y` turns by `|change of y| / |y|` and
+/// `g <= |y|`.
+pub fn rounding(case: &Case, d: &[Quad], scale: f64) -> f64 {
+    let n = case.size();
+    let a = |i: usize| -> f64 {
+        let row = (0..n).map(|j| (d[j].value() * case.stiffness(i, j)).abs());
+        UNIT * row.sum::<f64>()
+    };
+    let mut sum = 0.0_f64;
+    for pair in 0..case.pairs {
+        let i = case.dim * pair;
+        let k_t = tangential_stiffness(case, pair).value();
+        sum = sum.hypot(a(i));
+        for (c, d) in d.iter().enumerate().take(i + case.dim).skip(i + 1) {
+            let own = UNIT * k_t * d.value().abs();
+            sum = sum.hypot(2.0 * a(c) + bound(case, pair).0 * a(i) + own);
+        }
+    }
+    if sum == 0.0 { 0.0 } else { sum / scale }
+}
+
+/// The states of the pairs on whose branches of the natural map `d` is.
+pub fn states(case: &Case, d: &[Quad]) -> Vec<State> {
+    let force = force(case, d);
+    let state = |pair: usize| {
+        let at = point(case, pair, d, &force);
+        let open = at.penetration.is_none_or(|closed| closed < at.force[0]);
+        match at.length > at.threshold {
+            _ if open => State::Open,
+            true => State::Slip,
+            false => State::Stick,
+        }
+    };
+    (0..case.pairs).map(state).collect()
+}
+
+/// The solution of the law next to `d`, by Newton's method on the natural map. `held` holds the states
+/// of the pairs; otherwise they follow the iterate. `None` if none is reached, or a system is singular.
+pub fn refined(case: &Case, d: &[Quad], held: Option<&[State]>) -> Option<Vec<Quad>> {
+    let mut d = d.to_vec();
+    for _ in 0..STEPS {
+        let force = force(case, &d);
+        let limit = ZERO * parts(case, &d).iter().fold(0.0, |most: f64, part| most.max(*part));
+        if norm(&residual(case, &d, &force)).value() <= limit {
+            return Some(d);
+        }
+        let (matrix, rhs) = system(case, &d, &force, held);
+        let step = solve(matrix, rhs)?;
+        d.iter_mut().zip(&step).for_each(|(d, step)| *d -= *step);
+    }
+    None
+}
+
+/// Derivative and value of the equations of the states.
+fn system(
+    case: &Case,
+    d: &[Quad],
+    force: &[Quad],
+    held: Option<&[State]>,
+) -> (Vec<Vec<Quad>>, Vec<Quad>) {
+    let n = case.size();
+    let row = |i: usize| -> Vec<Quad> { (0..n).map(|j| case.stiffness(i, j).into()).collect() };
+    let (mut matrix, mut rhs) = (Vec::new(), Vec::new());
+    for pair in 0..case.pairs {
+        let (i, at) = (case.dim * pair, point(case, pair, d, force));
+        let state = held.map(|held| held[pair]);
+        let closed = at.penetration.filter(|closed| match state {
+            Some(state) if matches!(case.law, Law::Coulomb(_)) => state != State::Open,
+            _ => *closed >= at.force[0],
+        });
+        let mut unit = vec![Quad::ZERO; n];
+        unit[i] = Quad::from(case.stiffness(i, i));
+        matrix.push(if closed.is_some() { unit } else { row(i) });
+        rhs.push(closed.unwrap_or(at.force[0]));
+        let (slope, offset) = bound(case, pair);
+        let slope = if closed.is_some() { slope } else { 0.0 };
+        let threshold = (-at.force[0]) * slope + Quad::from(offset);
+        let k_t = tangential_stiffness(case, pair);
+        let sticks = match state {
+            Some(state) if matches!(case.law, Law::Coulomb(_)) => state == State::Stick,
+            _ => at.length <= threshold,
+        };
+        for c in 0..case.dim - 1 {
+            let t = i + 1 + c;
+            if sticks {
+                let mut unit = vec![Quad::ZERO; n];
+                unit[t] = k_t;
+                matrix.push(unit);
+                rhs.push(k_t * at.slip[c]);
+                continue;
+            }
+            if at.length == Quad::ZERO || threshold == Quad::ZERO {
+                matrix.push(row(t));
+                rhs.push(at.force[1 + c]);
+                continue;
+            }
+            // F_t + g h, h = y / |y|: dF_t + h dg + g (I - h h') / |y| (k_t d(d_t) - dF_t).
+            let h: Vec<Quad> = at.trial.iter().map(|&y| y / at.length).collect();
+            let mut sum = row(t);
+            for (sum, normal) in sum.iter_mut().zip(row(i)) {
+                *sum -= h[c] * normal * slope;
+            }
+            for b in 0..case.dim - 1 {
+                let one = if b == c { Quad::ONE } else { Quad::ZERO };
+                let turn = threshold / at.length * (one - h[c] * h[b]);
+                for (sum, tangential) in sum.iter_mut().zip(row(i + 1 + b)) {
+                    *sum -= turn * tangential;
+                }
+                sum[i + 1 + b] += turn * k_t;
+            }
+            matrix.push(sum);
+            rhs.push(at.force[1 + c] + threshold * h[c]);
+        }
+    }
+    (matrix, rhs)
+}
+
+/// Units of rounding in each of the `n` entries of a row that an eigenvalue is above, if rounding cannot
+/// be its cause: twice one.
+pub const BEYOND_ROUNDING: f64 = 2.0;
+
+/// Whether all eigenvalues of `K`, its diagonal scaled to 1, are above `units` of rounding in each of the
+/// `n` entries of a row; with 0: whether `K` is definite as it is given.
+pub fn is_definite(case: &Case, units: f64) -> bool {
+    let n = case.size();
+    let root: Vec<Quad> = (0..n).map(|i| Quad::from(case.stiffness(i, i)).sqrt()).collect();
+    if root.contains(&Quad::ZERO) {
+        return false;
+    }
+    let shift = Quad::from(units * n as f64 * UNIT);
+    let entry = |i: usize, j: usize| {
+        let scaled = Quad::from(case.stiffness(i, j)) / (root[i] * root[j]);
+        if i == j { scaled - shift } else { scaled }
+    };
+    super::quad::is_definite((0..n).map(|i| (0..n).map(|j| entry(i, j)).collect()).collect())
+}
+
+/// Whether two displacements differ by more than 1e-9 in some component, beside 1e-20 of the largest.
+pub fn differ(case: &Case, a: &[Quad], b: &[Quad]) -> bool {
+    let root = |i: usize| case.stiffness(i, i).abs().sqrt();
+    let size = |i: usize| root(i) * a[i].value().abs().max(b[i].value().abs());
+    let most = (0..a.len()).map(size).fold(0.0, f64::max);
+    (0..a.len()).any(|i| root(i) * (a[i] - b[i]).abs().value() > 1e-9 * size(i) + 1e-20 * most)
+}
+
+/// `a . b` of doubles.
+pub fn work(a: &[f64], b: &[f64]) -> f64 {
+    dot(&quads(a), &quads(b)).value()
+}
