@@ -440,3 +440,50 @@ fn unit_squares_on_their_corners() {
         }
     }
 }
+
+/// A right matrix is no less right for being ill-conditioned: what is held, however softly, stays bit by bit.
+/// `K = Q diag(1 .. 1/c) Qᵀ` with Householder's reflection `Q` has a diagonal of one size; springs without
+/// coupling are exact at any size.
+#[test]
+fn definite_matrices_are_taken_as_they_are() {
+    for seed in 0..200 {
+        let mut rng = Rng::with_seed(seed);
+        let (dim, pairs) = (2 + rng.usize(0..2), 2 + rng.usize(0..6));
+        let n = dim * pairs;
+        let v: Vec<f64> = (0..n).map(|_| uniform(&mut rng, -1.0, 1.0)).collect();
+        let factor = 2.0 / dot(&v, &v);
+        let q = |i: usize, k: usize| f64::from(u8::from(i == k)) - factor * v[i] * v[k];
+        let values: Vec<f64> = (0..n).map(|k| 10f64.powf(-12.0 * k as f64 / n as f64)).collect();
+        let mut rotated = vec![0.0; n * n];
+        for j in 0..n {
+            for i in 0..=j {
+                let entry = (0..n).map(|k| q(i, k) * values[k] * q(j, k)).sum();
+                (rotated[i + n * j], rotated[j + n * i]) = (entry, entry);
+            }
+        }
+        let mut springs = vec![0.0; n * n];
+        (0..n).for_each(|i| springs[i + n * i] = 10f64.powf(uniform(&mut rng, -15.0, 0.0)));
+        for k in [&rotated, &springs] {
+            let model = Model::condensed(dim, pairs, k, n).unwrap();
+            assert!(model.stiffness() == k.as_slice(), "{seed}");
+        }
+    }
+}
+
+/// A foot that a soft spring holds: `c` times the stiffness along the plane, and coupled to it as far as
+/// energies stay positive. No body condenses to less than 3e-12 but by rounding.
+#[test]
+fn softly_held_feet_stay_held() {
+    for soft in [1e-6, 1e-8, 1e-10, 1e-11] {
+        let coupling = 0.5 * f64::sqrt(soft);
+        let mut k = vec![0.0; 16];
+        for pair in 0..2 {
+            let at = 2 * pair;
+            (k[at + 4 * at], k[at + 1 + 4 * (at + 1)]) = (soft, 1.0);
+            (k[at + 1 + 4 * at], k[at + 4 * (at + 1)]) = (coupling, coupling);
+        }
+        let model = Model::condensed(2, 2, &k, 4).unwrap();
+        assert!(model.stiffness() == k.as_slice(), "{soft}");
+        assert!(Model::two_body(2, 2, (&k, 4), (&k, 4)).is_ok(), "{soft}");
+    }
+}
