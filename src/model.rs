@@ -87,7 +87,7 @@ impl Model {
         Model { dim: pairs.dim, pairs: pairs.count, reduction }.checked()
     }
 
-    /// Refuses a reduced matrix in which a relative component has no stiffness of its own.
+    /// Refuses a reduced matrix that no structure has.
     fn checked(self) -> Result<Self, Error> {
         let size = self.dim * self.pairs;
         let matrix = Matrix::new(size, self.stiffness(), size.max(1));

@@ -41,8 +41,8 @@ impl TwoBodyReduction {
     /// components for each pair.
     ///
     /// # Errors
-    /// Entries that are not finite or symmetric, diagonals that are not positive; a motion that
-    /// neither body resists, named by its largest component.
+    /// Entries that are not finite or symmetric, negative diagonals, zeros there in rows that are not zero;
+    /// a motion that neither body resists, named by its largest component.
     pub fn new(
         dim: usize,
         size: usize,
