@@ -32,7 +32,7 @@ impl PivotedCholesky {
         entry: impl Fn(usize, usize) -> f64,
     ) -> Option<Self> {
         // No pivot exceeds its diagonal entry.
-        let (rows, mut without): (Vec<usize>, Vec<usize>) =
+        let (rows, mut dependent): (Vec<usize>, Vec<usize>) =
             (0..size).partition(|&i| entry(i, i) > least);
         let n = rows.len();
         let lower_entry = |i: usize, j: usize| if i >= j { entry(rows[i], rows[j]) } else { 0.0 };
@@ -40,7 +40,7 @@ impl PivotedCholesky {
         let mut lower = fill();
         let regular = cholesky(&mut lower).is_some();
         if regular && (0..n).all(|i| lower[(i, i)].powi(2) > SUSPICIOUS_PIVOT) {
-            return Some(PivotedCholesky { lower, independent: rows, dependent: without });
+            return Some(PivotedCholesky { lower, independent: rows, dependent });
         }
         drop(lower);
         let mut lower = fill();
@@ -57,11 +57,11 @@ impl PivotedCholesky {
         );
         let Ok((info, _)) = info else { return None };
         let rank = (0..info.rank).find(|&i| lower[(i, i)].powi(2) <= least).unwrap_or(info.rank);
-        without.splice(..0, forward[rank..].iter().map(|&i| rows[i]));
+        dependent.splice(..0, forward[rank..].iter().map(|&i| rows[i]));
         Some(PivotedCholesky {
             lower: lower.as_ref().submatrix(0, 0, rank, rank).to_owned(),
             independent: forward[..rank].iter().map(|&i| rows[i]).collect(),
-            dependent: without,
+            dependent,
         })
     }
 

@@ -61,8 +61,8 @@ pub const CONDENSATION: f64 = 1e-12;
 /// single bodies and of stacks have up to 0.64 (measured).
 pub const FREE: f64 = 3.0;
 
-/// A motion is held if its energy is at least so many times the rounding of that energy: springs of 1e-12 of
-/// the stiffness of a body have about 50 (measured).
+/// A motion is held if its energy is at least so many times the rounding of that energy. Springs of 1e-12 of
+/// the stiffness of a body have about 50 (measured): they cannot be told from rounding.
 pub const HELD: f64 = 100.0;
 
 /// Below this part of the largest diagonal entry of its pair the diagonal entry of a component is no unit
