@@ -33,7 +33,7 @@ impl CondensedReduction {
 /// the rounding of its condensation; `None` if it is to be taken as it is. `name` is the host's name of
 /// the matrix.
 ///
-/// It is changed only if a diagonal entry is at most 3e-12 of the largest one of its pair and the
+/// It is changed only if a diagonal entry is at most 9e-12 of the largest one of its pair and the
 /// component is coupled to others: that may be rounding of a free body on few points. Then motions of
 /// so little energy become exactly free, and all others keep what they have. A matrix with a motion that
 /// cannot be told from rounding is taken as it is.
