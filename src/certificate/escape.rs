@@ -21,7 +21,7 @@ pub fn is_escape(problem: &ContactProblem<'_>, r: &[f64]) -> bool {
 /// [`is_escape`], on a problem whose laws are worked out.
 pub(crate) fn is_escape_of(contact: &Contact<'_>, r: &[f64]) -> bool {
     let problem = contact.problem();
-    let root = problem.stiffness().diagonal_roots();
+    let root = problem.unit_roots();
     let size = largest_of(r.iter().zip(&root).map(|(r, root)| r * root));
     // On a motion that only Kᵀ resists internal forces do work.
     if size == 0.0 || !size.is_finite() || !problem.is_symmetric() {

@@ -12,7 +12,7 @@ use super::Contact;
 pub fn gaps_within_reach(contact: &Contact<'_>, moved: &[f64], far: f64) -> Option<Vec<f64>> {
     let problem = contact.problem();
     let dim = contact.dim();
-    let root = |i: usize| problem.diagonal(i).sqrt();
+    let root = |i: usize| problem.unit(i).sqrt();
     let loads = problem.load().iter().enumerate().map(|(i, f)| f.abs() / root(i));
     let moved = moved.iter().enumerate().map(|(i, d)| d.abs() * root(i));
     let mut reach = loads.chain(moved).fold(0.0, f64::max);

@@ -1,5 +1,8 @@
 //! A view of a dense square matrix.
 
+use super::tolerances::UNRESISTED;
+use super::vector::largest_of;
+
 /// A square matrix, column-major, in the caller's memory.
 #[derive(Clone, Copy, Debug)]
 pub struct Matrix<'a> {
@@ -34,6 +37,32 @@ impl<'a> Matrix<'a> {
     /// Square roots of the diagonal, which is positive.
     pub fn diagonal_roots(&self) -> Vec<f64> {
         (0..self.size).map(|i| self.at(i, i).sqrt()).collect()
+    }
+
+    /// Largest diagonal entry.
+    pub fn largest_diagonal(&self) -> f64 {
+        largest_of((0..self.size).map(|i| self.at(i, i)))
+    }
+
+    /// The unit of component `i`, positive: its diagonal entry; where that is nothing beside the largest of
+    /// its group of `group` components, this one; `otherwise` in a group that nothing resists.
+    pub fn unit(&self, i: usize, group: usize, otherwise: f64) -> f64 {
+        let (own, unit) = (self.at(i, i), self.unit_of_group(i, group, otherwise));
+        if own > UNRESISTED * unit { own } else { unit }
+    }
+
+    /// The largest diagonal entry of the group of component `i`, or `otherwise` if that is zero.
+    pub fn unit_of_group(&self, i: usize, group: usize, otherwise: f64) -> f64 {
+        let first = i - i % group;
+        let largest = largest_of((first..first + group).map(|k| self.at(k, k)));
+        if largest > 0.0 { largest } else { otherwise }
+    }
+
+    /// The units of all components, [`Self::unit`]; those of a group that nothing resists are the largest
+    /// diagonal entry of all.
+    pub fn units(&self, group: usize) -> Vec<f64> {
+        let otherwise = self.largest_diagonal();
+        (0..self.size).map(|i| self.unit(i, group, otherwise)).collect()
     }
 
     /// Adds the product with `x` to `sum`.

@@ -4,6 +4,7 @@
 pub(crate) mod double_double;
 pub(crate) mod elimination;
 pub(crate) mod factor;
+pub(crate) mod free_motions;
 pub(crate) mod matrix;
 pub(crate) mod nnls;
 pub(crate) mod null_vector;
@@ -15,6 +16,7 @@ pub(crate) mod simd;
 pub(crate) mod sparse_matrix;
 pub(crate) mod sparse_schur;
 pub(crate) mod tolerances;
+pub(crate) mod unreduced;
 pub(crate) mod vector;
 pub(crate) mod vector3;
 pub(crate) mod workspaces;

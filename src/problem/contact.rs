@@ -59,7 +59,8 @@ impl<'a> ContactProblem<'a> {
     ///
     /// # Errors
     /// [`Error::Invalid`] names the first entry that is not finite, not symmetric beyond rounding
-    /// (1e-9 of the diagonal), on a diagonal that is not positive, or out of range.
+    /// (1e-9 of the diagonal), negative on the diagonal or zero there in a row that is not zero, or out of
+    /// range. Small entries on the diagonal are taken as they are; a [`crate::Model`] tells them from rounding.
     pub fn new(data: ContactData<'a>) -> Result<Self, Error> {
         let problem = Self::on_checked_matrix(data)?;
         symmetric_matrix::check(&problem.relation.matrix, "K", Argument::Matrix)?;
@@ -79,6 +80,11 @@ impl<'a> ContactProblem<'a> {
             return Err(Error::invalid(Argument::Dimension, message));
         }
         symmetric_matrix::check_diagonal(&problem.relation.matrix, "K", Argument::Matrix)?;
+        let matrix = problem.relation.matrix;
+        if let Some(i) = (0..matrix.size()).find(|&i| matrix.at(i, i) == 0.0) {
+            let message = format!("{} is 0, it must be positive", entry("K", [i, i]));
+            return Err(Error::invalid(Argument::Matrix, message));
+        }
         problem.relation.symmetric = false;
         Ok(problem)
     }
@@ -99,7 +105,7 @@ impl<'a> ContactProblem<'a> {
         check_finite(Argument::Load, "f", load)?;
         let matrix = Matrix::new(size, data.stiffness, data.ld);
         Self::with_relation(
-            Stiffness { matrix, load, symmetric: true },
+            Stiffness::new(matrix, load, data.dim),
             data.dim,
             data.gap,
             data.law,
@@ -125,9 +131,15 @@ impl<'a> ContactProblem<'a> {
         self.relation.matrix.column(j)
     }
 
-    /// Entry `K[i, i]`, positive.
-    pub fn diagonal(&self, i: usize) -> f64 {
-        self.relation.matrix.at(i, i)
+    /// The unit of force per length of component `i`, positive: `K[i, i]`; where nothing resists the
+    /// component, the largest diagonal entry of its pair, or of the whole.
+    pub fn unit(&self, i: usize) -> f64 {
+        self.relation.unit(i)
+    }
+
+    /// Square roots of the units of all components.
+    pub fn unit_roots(&self) -> Vec<f64> {
+        (0..self.unknowns()).map(|i| self.unit(i).sqrt()).collect()
     }
 
     /// `f`.

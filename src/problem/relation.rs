@@ -42,6 +42,23 @@ pub struct Stiffness<'a> {
     pub(super) matrix: Matrix<'a>,
     pub(super) load: &'a [f64],
     pub(super) symmetric: bool,
+    /// Components of a pair.
+    dim: usize,
+    /// Largest diagonal entry.
+    largest: f64,
+}
+
+impl<'a> Stiffness<'a> {
+    /// The relation of pairs of `dim` components, with a symmetric matrix.
+    pub(super) fn new(matrix: Matrix<'a>, load: &'a [f64], dim: usize) -> Self {
+        Stiffness { matrix, load, symmetric: true, dim, largest: matrix.largest_diagonal() }
+    }
+
+    /// The unit of force per length of component `i`, positive: `K[i, i]`, or one of the pair, or of the
+    /// whole, where nothing resists the component.
+    pub(super) fn unit(&self, i: usize) -> f64 {
+        self.matrix.unit(i, self.dim, self.largest)
+    }
 }
 
 impl Relation for Stiffness<'_> {
@@ -50,7 +67,7 @@ impl Relation for Stiffness<'_> {
     }
 
     fn block(&self, i: usize, j: usize) -> f64 {
-        self.matrix.at(i, j)
+        if i == j { self.unit(i) } else { self.matrix.at(i, j) }
     }
 
     fn load(&self) -> &[f64] {

@@ -163,7 +163,7 @@ fn solve(
     attempts: &[Attempt],
     monitor: &mut Monitor<'_>,
 ) -> Candidate {
-    let root = contact.problem().stiffness().diagonal_roots();
+    let root = contact.problem().unit_roots();
     let mut starts = Starts::new(contact, &root, start);
     let load = starts.load.clone();
     let ground = Ground { contact, root: &root, load: &load, size: starts.size };
