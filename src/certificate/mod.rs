@@ -14,15 +14,19 @@
 //! It is zero at solutions only and has no unit. On a relation in which `d` does not determine `F`, the
 //! candidate is the pair `(d, F)` and the residual of the relation counts in `|e|` too.
 //!
-//! Two facts of double precision are taken into account:
+//! Two facts of doubles are taken into account:
 //!
 //! - A closing gap or an earlier slip may translate or rotate a body rigidly. These displacements
 //!   cancel in `K d` up to rounding only, so that a residual below [`FORGIVEN`] units of their rounding
 //!   counts as zero. Displacements up to [`LEVER`] times the largest gap or slip qualify: a body that
 //!   turns about a contact moves as much more at its far end as its length exceeds the contact's.
-//! - Where the rounding of `K d` is itself comparable with the forces (`rounding >` [`ROUNDING_LIMIT`])
-//!   nothing is certified: an unconstrained body would be "solved" by moving it far enough. Without
-//!   loads there is nothing to drive such motions, and the first kind does not count.
+//! - Where rounding `d` to doubles changes `K d` by a part of the forces (`rounding >` [`ROUNDING_LIMIT`])
+//!   nothing is certified unless `K` resists `d` by more energy than rounding of its entries explains: an
+//!   unconstrained body would be "solved" by moving it far enough. Without loads there is nothing to drive
+//!   such motions, and the first kind does not count.
+//!
+//! `K d - f` and `d - gap` are evaluated in twice the precision. [`Certificate::residual`] is `eta` with
+//! nothing forgiven and with a bound on what rounding is left in its evaluation: it is not below the true one.
 
 mod escape;
 
@@ -31,7 +35,7 @@ pub(crate) use escape::{is_escape_of, lifts};
 
 use crate::law::{Contact, State, Violation};
 use crate::linalg::tolerances::NEGLIGIBLE;
-use crate::linalg::vector::{NormSum, largest_of, norm, norm_inf};
+use crate::linalg::vector::{NormSum, dot, largest_of, norm, norm_inf};
 use crate::problem::{ContactProblem, Relation};
 
 /// The measures of one candidate, forces and displacements in the units of the problem.
@@ -39,8 +43,14 @@ use crate::problem::{ContactProblem, Relation};
 pub struct Certificate {
     /// Residual of the natural map, dimensionless.
     pub eta: f64,
-    /// Rounding of `K d` relative to the forces, dimensionless.
+    /// `eta` with nothing forgiven for the rounding of rigid displacements, and with the rounding of its
+    /// own evaluation: the true one is not above.
+    pub residual: f64,
+    /// Rounding of `K d` relative to the forces, dimensionless: what rounding `d` to doubles may cost.
     pub rounding: f64,
+    /// Whether `K` resists `d` by more than rounding of its entries explains; looked at only where
+    /// `rounding` is above [`ROUNDING_LIMIT`].
+    pub is_resisted: bool,
     /// Largest `d_n - gap`, a length; 0 if none.
     pub penetration: f64,
     /// Largest tensile `F_n` of `F = K d - f` beyond the tension that the law allows, a force; 0 if none.
@@ -63,7 +73,7 @@ impl Certificate {
 
     /// Whether the displacements are so large that rounding hides the forces.
     pub fn runs_away(&self) -> bool {
-        self.rounding > ROUNDING_LIMIT
+        self.rounding > ROUNDING_LIMIT && !self.is_resisted
     }
 
     /// Number of pairs in a state.
@@ -72,9 +82,14 @@ impl Certificate {
     }
 }
 
-/// Largest relative rounding of `K d` that is certified. At the condition number `c` the rounding is
-/// about `1e-16 c`: condition numbers up to 1e10 pass.
+/// Largest relative rounding of `K d` that is certified whatever causes it. At the condition number `c` the
+/// rounding is about `1e-16 c`: condition numbers up to 1e10 pass. Above, the energy of `d` decides.
 pub const ROUNDING_LIMIT: f64 = 1e-6;
+
+/// Energy in last digits of the entries (`energy_in_digits`) from which on `K` resists a motion: twice what
+/// rounding each entry once explains. A `K` whose eigenvalues, its diagonal scaled to 1, are above
+/// `n eps` resists every motion, as `|K_ij|² <= K_ii K_jj`.
+const RESISTED: f64 = 1.0;
 
 /// Displacements of a turning body beside the gap or slip that turns it: lever arms up to 1000.
 pub const LEVER: f64 = 1e3;
@@ -83,9 +98,14 @@ pub const LEVER: f64 = 1e3;
 /// is off by about `sqrt(n)` units, and 16 cover some hundred terms.
 pub const FORGIVEN: f64 = 16.0;
 
+/// Roundings of one component of the residual, of its norm and of the quotient, relative: some ten, half
+/// a unit each.
+const ROUNDINGS_OF_NORM: f64 = 8.0 * f64::EPSILON;
+
 /// Measures displacements of any origin, on a relation in which they determine the contact forces.
 pub fn certify(problem: &ContactProblem<'_>, d: &[f64]) -> Certificate {
-    measure_pair(&Contact::new(problem), d, problem.force(d), &[])
+    let contact = Contact::new(problem);
+    measure(&contact, d, &[])
 }
 
 /// Measures a displacement and a contact force of any origin, on any relation.
@@ -95,7 +115,7 @@ pub fn certify_pair<R: Relation>(
     force: &[f64],
 ) -> Certificate {
     let residual = problem.relation().residual(d, force);
-    measure_pair(&Contact::new(problem), d, force.to_vec(), &residual)
+    measure_pair(&Contact::new(problem), (d, &[]), force.to_vec(), &residual)
 }
 
 /// Measures the candidate `(d, force)` of a solver, on a problem whose laws are worked out. Where `d`
@@ -107,15 +127,21 @@ pub(crate) fn measure<R: Relation>(
 ) -> Certificate {
     let relation = contact.problem().relation();
     match relation.force(d) {
-        Some(force) => measure_pair(contact, d, force, &[]),
-        None => measure_pair(contact, d, force.to_vec(), &relation.residual(d, force)),
+        Some(force) => measure_pair(contact, (d, &[]), force, &[]),
+        None => measure_pair(contact, (d, &[]), force.to_vec(), &relation.residual(d, force)),
     }
 }
 
-/// Measures `(d, raw)`, which lack `residual` to equilibrium, nothing if it is empty.
+/// [`measure`] of displacements `d + low` in two parts, where they determine the contact forces.
+pub(crate) fn measure_parts(contact: &Contact<'_>, d: &[f64], low: &[f64]) -> Certificate {
+    let force = contact.problem().relation().residual_of_parts(d, low);
+    measure_pair(contact, (d, low), force, &[])
+}
+
+/// Measures `(d + low, raw)`, which lack `residual` to equilibrium, nothing if it is empty; so is `low`.
 fn measure_pair<R: Relation>(
     contact: &Contact<'_, R>,
-    d: &[f64],
+    (d, low): (&[f64], &[f64]),
     raw: Vec<f64>,
     residual: &[f64],
 ) -> Certificate {
@@ -123,19 +149,31 @@ fn measure_pair<R: Relation>(
     let scale = force_scale(relation.load(), &raw);
     let (inherent, rest) = rounding(contact, d);
     let unloaded = norm_inf(contact.shifted_load()) == 0.0;
-    let size = norm(&natural_residual(contact, d, &raw)).hypot(norm(residual));
+    let v = match low {
+        [] => contact.beyond_reference(d, &vec![0.0; d.len()]),
+        _ => contact.beyond_reference(d, low),
+    };
+    let (size, doubt) = natural_residual(contact, &v, &raw);
+    let size = size.hypot(norm(residual));
     let forgiven = FORGIVEN * inherent;
     // Written so that NaN stays NaN.
     let eta = ratio(if size <= forgiven { 0.0 } else { size - forgiven }, scale);
+    // Inner products in twice the precision are off by n² units of the rounding of those in one
+    // (T. Ogita, S. M. Rump and S. Oishi, SIAM J. Sci. Comput. 26 (2005) 1955-1988).
+    let products = f64::EPSILON * ((d.len() + 2) as f64).powi(2) * (inherent + rest);
+    let upper = ratio((size + doubt + products) * (1.0 + ROUNDINGS_OF_NORM), scale);
     let rounding = ratio(if unloaded { rest } else { inherent + rest }, scale);
+    let is_resisted =
+        rounding > ROUNDING_LIMIT && residual.is_empty() && is_resisted(relation, d, &raw);
     let margin = NEGLIGIBLE * norm_inf(relation.load()).max(norm_inf(&raw));
     let dim = contact.dim();
     let mut worst = Violation::default();
     let mut admissible = Vec::with_capacity(raw.len());
     let mut states = Vec::with_capacity(contact.pairs().len());
-    for (law, d, raw) in contact.each(d, &raw) {
-        let state = law.state(d, raw, margin);
-        worst = worst.or_worse(law.violation(d, raw));
+    for (law, v, raw) in contact.each(&v, &raw) {
+        let law = law.at_its_reference();
+        let state = law.state(v, raw, margin);
+        worst = worst.or_worse(law.violation(v, raw));
         states.push(state);
         admissible.extend_from_slice(&law.admissible_force(raw, state)[..dim]);
     }
@@ -147,7 +185,9 @@ fn measure_pair<R: Relation>(
     let Violation { penetration, tension, cone_excess } = worst;
     Certificate {
         eta,
+        residual: upper,
         rounding,
+        is_resisted,
         penetration,
         tension,
         cone_excess,
@@ -175,13 +215,29 @@ pub(crate) fn eta_of(contact: &Contact<'_>, d: &[f64], raw: &[f64]) -> f64 {
     ratio(sum.root(), force_scale(contact.problem().load(), raw))
 }
 
-fn natural_residual<R: Relation>(contact: &Contact<'_, R>, d: &[f64], raw: &[f64]) -> Vec<f64> {
-    let mut residual = vec![0.0; raw.len()];
-    let parts = residual.chunks_exact_mut(contact.dim());
-    for ((law, d, raw), residual) in contact.each(d, raw).zip(parts) {
-        law.natural_residual(d, raw, residual);
+/// Norm of the natural residual at the displacements `v` beyond the references, and a bound on its rounding.
+fn natural_residual<R: Relation>(contact: &Contact<'_, R>, v: &[f64], raw: &[f64]) -> (f64, f64) {
+    let (mut sum, mut doubt) = (NormSum::default(), NormSum::default());
+    let mut residual = [0.0; 3];
+    for (law, v, raw) in contact.each(v, raw) {
+        let law = law.at_its_reference();
+        law.natural_residual(v, raw, &mut residual);
+        residual[..v.len()].iter().for_each(|&e| sum.add(e));
+        doubt.add(law.natural_rounding(v, raw));
     }
-    residual
+    (sum.root(), doubt.root())
+}
+
+/// The energy of the motion `d` under `internal` forces, `K d`, in units of what the last digits of the entries
+/// of `K` take: `d . K d / (eps |d| . |K| |d|)`. Rounding each entry once explains half a unit.
+pub(crate) fn energy_in_digits<R: Relation>(relation: &R, d: &[f64], internal: &[f64]) -> f64 {
+    let sizes: Vec<f64> = d.iter().map(|d| d.abs()).collect();
+    dot(d, internal) / (f64::EPSILON * dot(&sizes, &relation.magnitude(&sizes)))
+}
+
+fn is_resisted<R: Relation>(relation: &R, d: &[f64], raw: &[f64]) -> bool {
+    let internal: Vec<f64> = relation.load().iter().zip(raw).map(|(f, raw)| f + raw).collect();
+    energy_in_digits(relation, d, &internal) > RESISTED
 }
 
 fn force_scale(load: &[f64], raw: &[f64]) -> f64 {

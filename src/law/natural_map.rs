@@ -11,6 +11,10 @@
 
 use super::{PairLaw, State, Vector, length};
 
+/// Roundings of the residual on a slip, relative to its terms: one of each force, four of the bound, and up
+/// to seven of the direction and of the sum, half a unit each.
+const EVALUATION: f64 = 8.0 * f64::EPSILON;
+
 /// How far a pair is outside the law, in the units of the problem; 0 where it is not.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Violation {
@@ -54,6 +58,18 @@ impl PairLaw {
                 scaled[c - 1]
             };
         }
+    }
+
+    /// Bound on the rounding of [`Self::natural_residual`] where its terms cancel, from forces that are
+    /// rounded once: two forces on a slip. Elsewhere a component has one term, with a few roundings.
+    pub fn natural_rounding(&self, d: &[f64], force: &[f64]) -> f64 {
+        let threshold = self.threshold(force[0]);
+        let trial = self.trial(d, force);
+        let terms = length(&force[1..self.dim]) + threshold + self.bound.slope * self.tension;
+        let rounding = EVALUATION * terms;
+        // Next to its bound a pair that sticks may slip.
+        let slips = threshold > 0.0 && self.gauge(&trial[1..self.dim]) + rounding > threshold;
+        if slips { rounding } else { 0.0 }
     }
 
     /// The state of the active branch of the natural map. Branches closer than the force `margin` are

@@ -1,5 +1,7 @@
 //! A view of a dense square matrix.
 
+use super::simd::{Simd, axpy_twice, vectorised};
+
 /// A square matrix, column-major, in the caller's memory.
 #[derive(Clone, Copy, Debug)]
 pub struct Matrix<'a> {
@@ -52,6 +54,20 @@ impl<'a> Matrix<'a> {
         let mut product = vec![0.0; self.size];
         self.add_product(x, &mut product);
         product
+    }
+
+    /// The product with `x + x_low` less `b`, in twice the precision and rounded once.
+    pub fn residual(&self, x: &[f64], x_low: &[f64], b: &[f64]) -> Vec<f64> {
+        let mut high: Vec<f64> = b.iter().map(|b| -b).collect();
+        let mut low = vec![0.0; self.size];
+        vectorised(Simd::new(), || {
+            for (j, (&xj, &xj_low)) in x.iter().zip(x_low).enumerate() {
+                if xj != 0.0 {
+                    axpy_twice((&mut high, &mut low), (xj, xj_low), self.column(j));
+                }
+            }
+        });
+        high.iter().zip(&low).map(|(high, low)| high + low).collect()
     }
 
     /// Visits each entry below the diagonal, `lower = at(i, j)`, with the one across it,

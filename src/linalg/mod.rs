@@ -1,6 +1,7 @@
 //! Linear algebra: the only room that names faer, nalgebra and the SIMD kernels. It knows nothing of
 //! mechanics.
 
+pub(crate) mod double_double;
 pub(crate) mod elimination;
 pub(crate) mod factor;
 pub(crate) mod matrix;

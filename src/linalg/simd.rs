@@ -6,6 +6,8 @@
 
 use pulp::Arch;
 
+use super::double_double::{two_product, two_sum};
+
 /// The instruction set, detected once by the caller.
 pub type Simd = Arch;
 
@@ -28,5 +30,16 @@ pub fn axpy(y: &mut [f64], a: f64, x: &[f64]) {
 pub fn axpy2(y: &mut [f64], (a, x): (f64, &[f64]), (b, z): (f64, &[f64])) {
     for ((y, x), z) in y.iter_mut().zip(x).zip(z) {
         *y += a * x + b * z;
+    }
+}
+
+/// `high + low += (a + a_low) x`, in twice the precision; to be called inside [`vectorised`].
+#[inline(always)]
+pub fn axpy_twice((high, low): (&mut [f64], &mut [f64]), (a, a_low): (f64, f64), x: &[f64]) {
+    for ((high, low), &x) in high.iter_mut().zip(low).zip(x) {
+        let (product, error) = two_product(a, x);
+        let (sum, lost) = two_sum(*high, product);
+        *high = sum;
+        *low += (error + lost) + a_low * x;
     }
 }

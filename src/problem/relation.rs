@@ -44,6 +44,14 @@ pub struct Stiffness<'a> {
     pub(super) symmetric: bool,
 }
 
+impl Stiffness<'_> {
+    /// `K (d + low) - f`, in twice the precision and rounded once; `low` is what rounding to doubles has left
+    /// out of `d`.
+    pub(crate) fn residual_of_parts(&self, d: &[f64], low: &[f64]) -> Vec<f64> {
+        self.matrix.residual(d, low, self.load)
+    }
+}
+
 impl Relation for Stiffness<'_> {
     fn size(&self) -> usize {
         self.matrix.size()
@@ -57,11 +65,9 @@ impl Relation for Stiffness<'_> {
         self.load
     }
 
-    /// `K d - f`.
+    /// `K d - f`, in twice the precision and rounded once.
     fn force(&self, d: &[f64]) -> Option<Vec<f64>> {
-        let mut force: Vec<f64> = self.load.iter().map(|f| -f).collect();
-        self.matrix.add_product(d, &mut force);
-        Some(force)
+        Some(self.residual_of_parts(d, &vec![0.0; d.len()]))
     }
 
     /// `K d - f - F`.
