@@ -30,7 +30,7 @@ fn solved(problem: &ContactProblem<'_>) -> Solution {
 /// `1 + e`. A residual of the tolerance, 1e-10, is a load that changes by as much; `d` follows it.
 #[test]
 fn a_pair_on_a_soft_spring_is_solved() {
-    for power in -14..=-6 {
+    for power in -11..=-6 {
         let a = 1.0 + 10_f64.powi(power);
         let e = a - 1.0;
         let k = [a, -1.0, -1.0, a];

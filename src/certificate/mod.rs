@@ -34,7 +34,7 @@ pub use escape::is_escape;
 pub(crate) use escape::{is_escape_of, lifts};
 
 use crate::law::{Contact, State, Violation};
-use crate::linalg::tolerances::NEGLIGIBLE;
+use crate::linalg::tolerances::{NEGLIGIBLE, ROUNDING_OF_SUM};
 use crate::linalg::vector::{NormSum, dot, largest_of, norm, norm_inf};
 use crate::problem::{ContactProblem, Relation};
 
@@ -86,10 +86,10 @@ impl Certificate {
 /// rounding is about `1e-16 c`: condition numbers up to 1e10 pass. Above, the energy of `d` decides.
 pub const ROUNDING_LIMIT: f64 = 1e-6;
 
-/// Energy in last digits of the entries (`energy_in_digits`) from which on `K` resists a motion: twice what
-/// rounding each entry once explains. A `K` whose eigenvalues, its diagonal scaled to 1, are above
-/// `n eps` resists every motion, as `|K_ij|² <= K_ii K_jj`.
-const RESISTED: f64 = 1.0;
+/// Energy in last digits of the entries (`energy_in_digits`) from which on `K` resists a motion: what a
+/// host's condensation leaves of a zero, [`ROUNDING_OF_SUM`]. Below it the stiffness may be rounding, as of
+/// a body that turns about two points. Definite matrices of condition numbers up to 1e12 pass.
+const RESISTED: f64 = ROUNDING_OF_SUM / f64::EPSILON;
 
 /// Displacements of a turning body beside the gap or slip that turns it: lever arms up to 1000.
 pub const LEVER: f64 = 1e3;
