@@ -612,8 +612,8 @@ const char *signorini_problem_remark(const signorini_problem *problem);
 
 /**
  * The default: chooses a method, checks its result, and falls back to the next one if it fails.
- * Without friction: block pivoting, then Lemke's method. With friction: Newton's method, in 2D
- * then Lemke's. At last: sweeps.
+ * Without friction: block pivoting, then Lemke's method. With friction: Newton's method, then the
+ * path, in 2D then Lemke's method. At last: sweeps.
  */
 #define SIGNORINI_METHOD_AUTO 0
 /** Projected over-relaxed Gauss-Seidel (SOR) on a sequence of Tresca problems, g <- mu |F_n|. */

@@ -51,6 +51,14 @@ pub enum Argument {
     Pairs,
     /// Remark of a problem file.
     Remark,
+    /// Coordinates of the nodes of surfaces.
+    Coordinates,
+    /// Faces of the slave side of two surfaces.
+    SlaveFaces,
+    /// Faces of the master side of two surfaces.
+    MasterFaces,
+    /// A rigid obstacle.
+    Obstacle,
 }
 
 /// Why a call was refused. Nothing has been computed.

@@ -106,6 +106,7 @@ mod problem;
 pub mod reduce;
 mod settings;
 mod solve;
+pub mod surface;
 
 pub use error::{Argument, Error, Message};
 pub use law::State;

@@ -6,8 +6,8 @@ use crate::error::{Argument, Error};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Method {
     /// Chooses, checks and falls back: [`Method::BlockPivoting`] without friction, [`Method::Newton`] with
-    /// it, then [`Method::Path`] with friction in 2D, then [`Method::Lemke`] (not with friction in 3D),
-    /// then sweeps. The default.
+    /// it, then [`Method::Path`], then [`Method::Lemke`] (not with friction in 3D), then sweeps. The
+    /// default.
     Auto,
     /// Coulomb friction as a sequence of Tresca problems, each by projected SOR
     /// (paper, section 2.1: `g <- mu |F_n|`).

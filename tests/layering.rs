@@ -61,7 +61,7 @@ const ROOMS: [(&str, &[&str]); 13] = [
 
 /// The files and folders of `solve`: each imports from those before it only. `lcp` stands beside
 /// those that are behind `lemke`.
-const SOLVERS: [&str; 14] = [
+const SOLVERS: [&str; 15] = [
     "outcome",
     "candidate",
     "condense",
@@ -75,6 +75,7 @@ const SOLVERS: [&str; 14] = [
     "uniqueness",
     "dispatch",
     "auto",
+    "far_obstacles",
     "mod",
 ];
 

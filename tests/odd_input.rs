@@ -206,3 +206,33 @@ fn what_lies_beyond_a_bare_complementarity_problem_does_not_matter() {
     let off = [plain.z[0] + 1e-4, plain.z[1]];
     assert!(lcp.eta(&off) > 1e-5, "{}", lcp.eta(&off));
 }
+
+/// Forces in space whose sums are beyond the largest number: no method calls it solved, or returns what
+/// is no number.
+#[test]
+fn sums_in_space_that_overflow_are_said() {
+    for (k, f, gap) in
+        [([1.0, 1e-300, 1e-300], [1.0, 1e300, 1e300], 0.0), ([1.7e308; 3], [1.7e308; 3], -3.0)]
+    {
+        let stiffness: Vec<f64> = (0..9).map(|i| if i % 4 == 0 { k[i / 4] } else { 0.0 }).collect();
+        let gaps = [gap];
+        let problem = ContactProblem::new(ContactData {
+            dim: 3,
+            pairs: 1,
+            stiffness: &stiffness,
+            ld: 3,
+            load: &f,
+            gap: &gaps,
+            law: FrictionLaw::Coulomb(&[0.5]),
+            reference_slip: None,
+        });
+        let problem = problem.expect("all entries are finite");
+        for method in [Method::Auto, Method::Newton, Method::Path] {
+            let settings = Settings { method, max_iterations: 1000, ..Settings::default() };
+            let mut monitor = Monitor::new(&settings, None);
+            let solution = signorini::solve(&problem, &settings, None, &mut monitor).unwrap();
+            assert_ne!(solution.status, Status::Solved, "{method:?}");
+            assert!(solution.d.iter().all(|d| d.is_finite()), "{method:?}: {:?}", solution.d);
+        }
+    }
+}

@@ -71,6 +71,12 @@ impl Certificate {
         self.eta <= tolerance && !self.runs_away()
     }
 
+    /// The same certificate with nothing forgiven, where that meets the tolerance too.
+    pub(crate) fn unforgiving(self, tolerance: f64) -> Self {
+        let eta = if self.residual <= tolerance { self.residual } else { self.eta };
+        Certificate { eta, ..self }
+    }
+
     /// Whether the displacements are so large that rounding hides the forces.
     pub fn runs_away(&self) -> bool {
         self.rounding > ROUNDING_LIMIT && !self.is_resisted

@@ -9,8 +9,8 @@ use crate::monitor::Progress;
 use crate::settings::{Method, Search, Settings};
 
 /// The default: chooses a method, checks its result, and falls back to the next one if it fails.
-/// Without friction: block pivoting, then Lemke's method. With friction: Newton's method, in 2D
-/// then Lemke's. At last: sweeps.
+/// Without friction: block pivoting, then Lemke's method. With friction: Newton's method, then the
+/// path, in 2D then Lemke's method. At last: sweeps.
 pub const SIGNORINI_METHOD_AUTO: i32 = 0;
 /// Projected over-relaxed Gauss-Seidel (SOR) on a sequence of Tresca problems, g <- mu |F_n|.
 pub const SIGNORINI_METHOD_SOR_NESTED: i32 = 1;

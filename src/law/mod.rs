@@ -15,6 +15,7 @@
 //! | `proximal` | the step of one pair in a sweep | sweeps |
 //! | `local` | the exact solution of one pair, its block coupled | who solves pair by pair |
 //! | `complementarity` | the law as complementarity of non-negative variables | Lemke's method, block pivoting |
+//! | `reach` | which obstacles are too far away to matter | `solve::far_obstacles` |
 //! | `recession` | what a rigid motion must satisfy to prove that no equilibrium exists | certificate |
 //!
 //! Notation, for one pair: `v = d - (gap, slip0)`, so that `v_n` is the penetration (at most 0 if the
@@ -45,6 +46,7 @@ pub mod orthotropic;
 pub mod piece;
 mod planar_piece;
 mod proximal;
+mod reach;
 mod recession;
 pub mod tresca;
 
@@ -53,6 +55,7 @@ pub use contact::Contact;
 pub use ellipse::{Ellipse, Plane, Rule};
 pub use natural_map::Violation;
 pub use planar_piece::{Exit, Planar};
+pub use reach::gaps_within_reach;
 pub use recession::{Recession, lift};
 
 use crate::linalg::double_double::two_sum;

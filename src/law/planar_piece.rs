@@ -115,11 +115,11 @@ impl PairLaw {
         let bound = self.bound.at(0.0);
         if y[0] > 0.0 {
             let most = bound + KEPT_FRICTION * self.bound.slope * y[0];
-            return [y[0], y[1].clamp(-most, most)];
+            return [y[0], y[1].max(-most).min(most)];
         }
         let clearance = -y[0] / self.k_n;
         let most = bound + KEPT_SLIP * self.k_t * clearance / self.bound.slope;
-        [y[0], y[1].clamp(-most, most)]
+        [y[0], y[1].max(-most).min(most)]
     }
 
     /// The pair pressed on its obstacle with the force `p > 0`, and stuck.

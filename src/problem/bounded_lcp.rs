@@ -42,15 +42,20 @@ impl BoundedLcp<'_> {
     }
 
     /// Residual `|min(w, m (x - l))|` of `x` and its `w`, relative to `max(|q|, |w|)`, with `m` the
-    /// diagonal of `M`. Zero at solutions only, if the diagonal is positive.
+    /// diagonal of `M`. Zero at solutions only, if the diagonal is positive; infinite where the forces
+    /// overflow.
     pub fn eta(&self, x: &[f64], w: &[f64]) -> f64 {
         let mut residual = NormSum::default();
         for (i, (w, x)) in w.iter().zip(x).enumerate() {
             // m (x - l) is infinite of a free variable.
             residual.add(w.min(self.matrix.at(i, i) * (x - self.lower[i])));
         }
-        let residual = residual.root();
-        if residual == 0.0 { 0.0 } else { residual / norm(self.q).max(norm(w)) }
+        let (residual, scale) = (residual.root(), norm(self.q).max(norm(w)));
+        match residual {
+            0.0 => 0.0,
+            _ if scale.is_finite() => residual / scale,
+            _ => f64::INFINITY,
+        }
     }
 
     /// Whether the motion `r` of `x`, with a symmetric semi-definite `M`, proves that there is no

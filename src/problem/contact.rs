@@ -112,6 +112,14 @@ impl<'a> ContactProblem<'a> {
         self.relation.matrix
     }
 
+    /// The same problem with other gaps, one for each pair.
+    pub(crate) fn with_gaps<'b>(&self, gap: &'b [f64]) -> ContactProblem<'b>
+    where
+        'a: 'b,
+    {
+        ContactProblem { gap, ..*self }
+    }
+
     /// Column `j` of `K`.
     pub fn column(&self, j: usize) -> &'a [f64] {
         self.relation.matrix.column(j)

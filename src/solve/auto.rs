@@ -3,8 +3,8 @@
 //! | problem | methods, in turn, until one is certified |
 //! |---|---|
 //! | without friction | block pivoting, Lemke, sweeps |
-//! | friction in 2D | Newton, path, Lemke, sweeps (nested, diagonal) |
-//! | friction in 3D | Newton, path (from Newton's last iterate), sweeps (nested, diagonal) |
+//! | friction in 2D | Newton, path (from its best iterate), Lemke, sweeps (nested, diagonal) |
+//! | friction in 3D | Newton, path (from its last iterate), sweeps (nested, diagonal) |
 //!
 //! The path has the guarantee. In 2D it starts where sweeps end and takes far fewer events than Lemke's
 //! method takes pivots on most problems. Lemke's method is asked only where rounding spoils all its starts, or where a body without
@@ -37,8 +37,7 @@ pub fn solve(
     let mut tried = Tried::default();
     for &method in plan {
         let from = match (&tried.best, method) {
-            // In the plane sweeps from the host's start are the better one.
-            (Some((_, best)), Method::Path) if contact.dim() != 2 => Some(best.d.as_slice()),
+            (Some((_, best)), Method::Path) => Some(best.d.as_slice()),
             _ => start,
         };
         let candidate = attempt(method, contact, settings, from, monitor)?;

@@ -4,8 +4,9 @@ use super::active_set;
 use super::candidate::Ending;
 use super::lemke::{self, Care, Rules, ScaledLcp};
 use super::outcome::{Fallback, Status};
-use crate::error::{Argument, Error, Message};
-use crate::linalg::vector::normalise;
+use crate::error::{Argument, Error, Message, entry};
+use crate::linalg::tolerances::NEGLIGIBLE;
+use crate::linalg::vector::{first_not_finite, largest_of, normalise};
 use crate::monitor::Monitor;
 use crate::problem::Lcp;
 use crate::settings::{Method, Settings};
@@ -116,7 +117,8 @@ fn by_pivoting(
     let most = if chosen { u64::MAX } else { active_set::enough(n) };
     let pivoted = active_set::lcp(lcp, magnitudes, settings.tolerance, most, monitor);
     Run {
-        z: pivoted.x.iter().map(|x| x.max(0.0)).collect(),
+        // Written so that NaN stays NaN.
+        z: pivoted.x.iter().map(|&x| if x < 0.0 { 0.0 } else { x }).collect(),
         ending: pivoted.ending,
         factorisations: pivoted.factorisations,
         refactorisations: 0,
@@ -154,41 +156,44 @@ fn certified(
     run: &Run,
     iterations: u64,
 ) -> LcpSolution {
-    let (eta, product) = lcp.measure(&run.z, magnitudes);
+    let (mut eta, product) = lcp.measure(&run.z, magnitudes);
+    let w = lcp.q().iter().zip(&product).zip(&run.z);
+    let w = w.map(|((q, mz), z)| if *z > 0.0 { 0.0 } else { slack(*q, *mz) });
+    let (mut w, mut z): (Vec<f64>, Vec<f64>) = (w.collect(), run.z.clone());
+    let overflow = overflow(&w, &z);
+    if overflow.is_some() {
+        // Only numbers are returned: those of z = 0.
+        z.fill(0.0);
+        w = lcp.q().iter().map(|&q| slack(q, 0.0)).collect();
+        eta = lcp.measure(&z, magnitudes).0;
+    }
     let mut infeasible_by = None;
+    let ending = match &run.ending {
+        Ending::Recession(ray) => &Ending::Recession(without_digits(ray, magnitudes)),
+        other => other,
+    };
     let wanted = || format!("eta is {eta:.1e}, wanted {:.1e}", settings.tolerance);
-    let (status, message) = match &run.ending {
-        _ if eta <= settings.tolerance => (Status::Solved, format!("solved: eta is {eta:.1e}")),
+    let (status, message) = match ending {
+        _ if overflow.is_none() && eta <= settings.tolerance => {
+            (Status::Solved, format!("solved: eta is {eta:.1e}"))
+        }
         Ending::Recession(ray) if lcp.is_infeasible_by(ray) => {
             let mut ray = ray.clone();
             normalise(&mut ray);
             infeasible_by = Some(ray);
             (Status::NoEquilibrium, "no w, z >= 0 satisfy w = q + M z: proved".into())
         }
-        Ending::Recession(_) => (
-            Status::Stalled,
-            format!("Lemke's path ended in a ray that is no proof of infeasibility; {}", wanted()),
-        ),
         Ending::Stopped(stop) => stop.status(settings, &wanted()),
-        Ending::Singular => (
-            Status::Stalled,
-            format!(
-                "block pivoting met a singular system, or M has no positive diagonal; {}",
-                wanted()
-            ),
-        ),
-        Ending::Stalled(reason) => (Status::Stalled, format!("{reason}; {}", wanted())),
-        Ending::Done | Ending::Cycle => {
-            (Status::Stalled, format!("accuracy was lost to rounding; {}", wanted()))
+        _ if let Some(place) = overflow => {
+            (Status::Stalled, format!("{place} is beyond the largest number, {:.1e}", f64::MAX))
         }
+        other => (Status::Stalled, format!("{}; {}", reason(other), wanted())),
     };
-    let w = lcp.q().iter().zip(&product).zip(&run.z);
-    let w = w.map(|((q, mz), z)| if *z > 0.0 { 0.0 } else { (q + mz).max(0.0) }).collect();
     LcpSolution {
         status,
         message: message.into(),
         w,
-        z: run.z.clone(),
+        z,
         infeasible_by,
         eta,
         method,
@@ -196,5 +201,38 @@ fn certified(
         iterations,
         factorisations: run.factorisations,
         refactorisations: run.refactorisations,
+    }
+}
+
+/// `w` of a variable with `z = 0`: not negative, and NaN where it is not known.
+fn slack(q: f64, mz: f64) -> f64 {
+    let w = q + mz;
+    if w < 0.0 { 0.0 } else { w }
+}
+
+/// A ray without the entries that are digits which rounding has left, relative to their magnitudes.
+fn without_digits(ray: &[f64], magnitudes: &[f64]) -> Vec<f64> {
+    // Products of the roots neither overflow nor underflow.
+    let size = |(y, m): (&f64, &f64)| y.sqrt() * m.sqrt();
+    let least = DIGITS.sqrt() * largest_of(ray.iter().zip(magnitudes).map(size));
+    ray.iter().zip(magnitudes).map(|(y, m)| if size((y, m)) < least { 0.0 } else { *y }).collect()
+}
+
+/// A tenth of what counts as zero in a proof.
+const DIGITS: f64 = 0.1 * NEGLIGIBLE;
+
+/// The first entry that is not finite.
+fn overflow(w: &[f64], z: &[f64]) -> Option<String> {
+    let place = |name, values| first_not_finite(values).map(|i| entry(name, [i]));
+    place("z", z).or_else(|| place("w", w))
+}
+
+/// Why there is no solution at this end.
+fn reason(ending: &Ending) -> &'static str {
+    match ending {
+        Ending::Recession(_) => "Lemke's path ended in a ray that is no proof of infeasibility",
+        Ending::Singular => "block pivoting met a singular system, or M has no positive diagonal",
+        Ending::Stalled(reason) => reason,
+        Ending::Done | Ending::Cycle | Ending::Stopped(_) => "accuracy was lost to rounding",
     }
 }

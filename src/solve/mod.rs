@@ -2,7 +2,7 @@
 //! What is called a solution is decided in `candidate`, by the certificate alone.
 //!
 //! ```text
-//! outcome ← candidate ← condense ← rigid_balance ← sweeps ← normal_map ← active_set ← path ← lemke ← uniqueness ← dispatch ← auto ← mod
+//! outcome ← candidate ← condense ← rigid_balance ← sweeps ← normal_map ← active_set ← path ← lemke ← uniqueness ← dispatch ← auto ← far_obstacles ← mod
 //!                                                                          └──── lcp ────────────────────────┘
 //! ```
 //!
@@ -14,6 +14,7 @@ mod auto;
 mod candidate;
 mod condense;
 mod dispatch;
+mod far_obstacles;
 mod lcp;
 mod lemke;
 mod normal_map;
@@ -28,11 +29,10 @@ use crate::law::Contact;
 use crate::linalg::vector::first_not_finite;
 use crate::monitor::Monitor;
 use crate::problem::ContactProblem;
-use crate::settings::{Method, Search, Settings};
+use crate::settings::{Search, Settings};
 
 pub(crate) use candidate::NO_EQUILIBRIUM;
-use candidate::certified;
-use dispatch::{check_method, run};
+use dispatch::check_method;
 pub use lcp::{LcpSolution, solve_lcp};
 pub use outcome::{Fallback, SecondSolution, Solution, Status, Uniqueness};
 
@@ -53,13 +53,7 @@ pub fn solve(
     check_start(&contact, start)?;
     // Where d = 0 is the solution, other starts only approach it.
     let start = start.filter(|_| !contact.is_at_rest());
-    let mut solution = match settings.method {
-        Method::Auto => auto::solve(&contact, settings, start, monitor)?,
-        method => {
-            let candidate = run(method, &contact, settings, start, monitor)?;
-            certified(&contact, settings, method, &candidate)
-        }
-    };
+    let mut solution = far_obstacles::solve(&contact, settings, start, monitor)?;
     uniqueness::by_orientation(&contact, &mut solution);
     if settings.search == Search::Others {
         uniqueness::examine(&contact, settings, &mut solution, monitor)?;

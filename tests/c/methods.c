@@ -145,7 +145,7 @@ static void the_default_says_what_it_chose(void)
             CHECK_STATUS(signorini_solve(dim, c.pairs, c.K, c.n, c.f, c.gap, SIGNORINI_LAW_COULOMB,
                                          c.mu, NULL, NULL, c.d, c.F, c.state, &report, NULL),
                          SIGNORINI_STATUS_SOLVED);
-            CHECK(report.method > AUTO && report.method <= NEWTON);
+            CHECK(report.method > AUTO && report.method <= SIGNORINI_METHOD_PATH);
             /* What the header says of it. */
             const int32_t first =
                 friction ? SIGNORINI_METHOD_NEWTON : SIGNORINI_METHOD_BLOCK_PIVOTING;

@@ -21,8 +21,8 @@ use crate::solve::sweeps::Sweeper;
 /// Systems of a start after which the steps count as a cycle: nearly all that converge take fewer.
 const MOST_SYSTEMS: usize = 16;
 
-/// Sweeps from the start to the branches of a second one, after a cycle: with 20 half as many problems
-/// again are left unsolved, and 400 cost more than they save.
+/// Sweeps from the start to the branches of a second one, after a cycle. Of 332 hard problems with 257
+/// pairs 14 are left unsolved, with 50 sweeps 17 and with 30 26.
 const SWEEPS_OF_SECOND_START: u32 = 100;
 
 /// Sweeps between a solution and its branches: two carry a zone's edge far enough.

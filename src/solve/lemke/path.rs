@@ -12,13 +12,18 @@
 //! Rounding: every [`CHECK`] pivots the values are refined on the data; where they were found to
 //! have drifted, the tableau is refactorised. A caller whose certificate finds the
 //! end of a path inaccurate repeats it with [`Care::Thorough`].
+//!
+//! Rounding may also break a tie the wrong way, and then the path may cycle. So close ratios are decided in
+//! twice the precision where that is cheap beside the path, after as many pivots as there are equations of a
+//! small problem, and where a path has returned to a basis: it begins again.
 
 use super::scaled::{Entries, Scaled};
 use super::tableau::Tableau;
+use super::trail::Trail;
 use crate::error::Error;
 use crate::linalg::matrix::Matrix;
+use crate::linalg::power_of_two::{largest_exponent, times_power_of_two};
 use crate::linalg::tolerances::NEGLIGIBLE;
-use crate::linalg::vector::largest_of;
 use crate::monitor::Monitor;
 use crate::solve::candidate::Ending;
 
@@ -45,6 +50,22 @@ const CHECK: u64 = 32;
 /// Residual, relative to `q`, from which on the tableau is refactorised: ten times what a check's own
 /// refinement can mend.
 const DRIFT: f64 = 10.0 * NEGLIGIBLE;
+
+/// Pivots between two checks while close ratios are decided in twice the precision.
+const CAREFUL_CHECK: u64 = 8;
+
+/// Ratios and values that differ by less are close: far more than a tableau of that age has lost.
+const CLOSE: f64 = 1e-7;
+
+/// Up to so many equations close ratios are decided in twice the precision from the `n`-th pivot on: a
+/// decision costs about `100 n²` operations for each row, 0.1 ms here.
+const FEW: usize = 64;
+
+/// That ends after `SPAN n` pivots: longer paths are those of problems built to have them.
+const SPAN: u64 = 20;
+
+/// A path that returned to a basis although its ties were decided in twice the precision.
+const CYCLE: Ending = Ending::Stalled("rounding made Lemke's path return to a basis");
 
 /// When the tableau is refactorised.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -101,32 +122,44 @@ impl Entries for Matrix<'_> {
 pub fn follow(lcp: ScaledLcp<'_>, rules: Rules, monitor: &mut Monitor<'_>) -> Result<Run, Error> {
     let ScaledLcp { matrix, q, scale, .. } = lcp;
     let n = q.len();
-    let scaled = |values: &[f64]| -> Vec<f64> {
-        values.iter().zip(scale).map(|(value, scale)| value * scale).collect()
+    // Of size one, as the rest of the scaled problem. Powers of two: the pivots stay the same.
+    let of_size_one = |values: &[f64]| -> (Vec<f64>, i32) {
+        let first = largest_exponent(values.iter().copied()).unwrap_or(0);
+        let scaled = values.iter().zip(scale);
+        let scaled = scaled.map(|(&value, scale)| times_power_of_two(value, -first) * scale);
+        let scaled: Vec<f64> = scaled.collect();
+        let second = largest_exponent(scaled.iter().copied()).unwrap_or(0);
+        let of_size_one = scaled.iter().map(|&value| times_power_of_two(value, -second));
+        (of_size_one.collect(), first + second)
     };
-    // Of size one, as the rest of the scaled problem.
-    let covering = scaled(lcp.covering);
-    let unit = largest_of(covering.iter().copied()).log2().round().exp2();
-    let covering = covering.iter().map(|d| d / unit).collect();
-    let problem = Scaled { matrix, scale, q: scaled(q), covering };
-    let unscaled = |z: &mut dyn Iterator<Item = f64>| -> Vec<f64> {
-        z.zip(scale).map(|(z, scale)| z.max(0.0) * scale).collect()
+    let ((q, unit), (covering, _)) = (of_size_one(q), of_size_one(lcp.covering));
+    let problem = Scaled { matrix, scale, q, covering };
+    let in_unit = |z: &mut dyn Iterator<Item = f64>, unit: i32| -> Vec<f64> {
+        let unscaled = z.zip(scale).map(|(z, scale)| z.max(0.0) * scale);
+        unscaled.map(|z| times_power_of_two(z, unit)).collect()
     };
     let tableau = Tableau::new(&problem)?;
-    if !tableau.is_finite() {
-        let ending = Ending::Stalled("numbers overflow in the LCP");
+    if !tableau.is_finite() || problem.covering.contains(&0.0) {
+        let ending = Ending::Stalled("numbers overflow or underflow in the LCP");
         return Ok(Run { z: vec![0.0; n], ending, turns: Vec::new(), refactorisations: 0 });
     }
     let mut path =
         Path { problem: &problem, tableau, rules, turns: Vec::new(), refactorisations: 0 };
-    let ending = match path.run(monitor) {
+    let mut end = path.run(false, monitor);
+    if let End::Cycle = end {
+        path.tableau = Tableau::new(&problem)?;
+        path.turns.clear();
+        end = path.run(true, monitor);
+    }
+    let ending = match end {
         End::Ray(entering) => {
-            Ending::Recession(unscaled(&mut (n..2 * n).map(|z| path.tableau.rate(z, entering))))
+            Ending::Recession(in_unit(&mut (n..2 * n).map(|z| path.tableau.rate(z, entering)), 0))
         }
+        End::Cycle => CYCLE,
         End::Ended(ending) => ending,
     };
-    let turns = path.turns.iter().map(|z| unscaled(&mut z.iter().copied())).collect();
-    let z = unscaled(&mut (n..2 * n).map(|z| path.tableau.value(z)));
+    let turns = path.turns.iter().map(|z| in_unit(&mut z.iter().copied(), unit)).collect();
+    let z = in_unit(&mut (n..2 * n).map(|z| path.tableau.value(z)), unit);
     Ok(Run { z, ending, turns, refactorisations: path.refactorisations })
 }
 
@@ -144,10 +177,13 @@ enum End {
     Ended(Ending),
     /// Nothing blocks the entering variable.
     Ray(usize),
+    /// It returned to a basis.
+    Cycle,
 }
 
 impl Path<'_> {
-    fn run(&mut self, monitor: &mut Monitor<'_>) -> End {
+    /// Follows the path; `always`: with close ratios decided in twice the precision from start to end.
+    fn run(&mut self, always: bool, monitor: &mut Monitor<'_>) -> End {
         let n = self.problem.size();
         let z0 = 2 * n;
         let Some(mut row) = self.tableau.first_row() else { return End::Ended(Ending::Done) };
@@ -155,6 +191,7 @@ impl Path<'_> {
         self.tableau.choose(entering);
         let mut start = None;
         let mut pivots = 0;
+        let (mut trail, mut careful) = (Trail::new(), always);
         loop {
             if let Err(stop) = monitor.step() {
                 return End::Ended(Ending::Stopped(stop));
@@ -164,29 +201,58 @@ impl Path<'_> {
             self.tableau.pivot(row, entering);
             let limit = self.rules.end * start.unwrap_or(0.0);
             let ended = leaving == z0 || self.tableau.value(z0) <= limit;
-            if (ended || pivots % CHECK == 0) && !self.check() {
+            let interval = if careful { CAREFUL_CHECK } else { CHECK };
+            if (ended || pivots % interval == 0) && !self.check(careful) {
                 return End::Ended(BREAKDOWN);
             }
             if ended {
                 return End::Ended(Ending::Done);
             }
+            if trail.returns_by(entering, leaving) {
+                return End::Cycle;
+            }
+            careful = always || (n <= FEW && (n as u64..SPAN * n as u64).contains(&pivots));
             start.get_or_insert(self.tableau.value(z0));
             entering = if leaving < n { leaving + n } else { leaving - n };
             self.tableau.choose(entering);
             if self.turns.len() < self.rules.turns && self.tableau.rate(z0, entering) > 0.0 {
                 self.turns.push((n..2 * n).map(|z| self.tableau.value(z)).collect());
             }
-            row = match self.tableau.blocking_row(entering, z0) {
+            row = match self.blocking_row(careful, entering) {
                 Some(row) => row,
                 None => return End::Ray(entering),
             };
         }
     }
 
+    /// The row that leaves for the chosen variable `entering`; `careful`: close ratios are decided in twice
+    /// the precision, if need be from fresh factors.
+    fn blocking_row(&mut self, careful: bool, entering: usize) -> Option<usize> {
+        let z0 = 2 * self.problem.size();
+        for fresh in [false, true] {
+            if !careful || (fresh && !self.tableau.refactorise(self.problem)) {
+                break;
+            }
+            if fresh {
+                self.refactorisations += 1;
+                self.tableau.choose(entering);
+            }
+            let ties = self.tableau.ties(entering, CLOSE, CLOSE);
+            if ties.len() <= 1 {
+                return ties.first().copied();
+            }
+            let first = self.tableau.first_of_ties(self.problem, entering, z0, &ties);
+            if first.is_some() {
+                return first;
+            }
+        }
+        self.tableau.blocking_row(entering, z0)
+    }
+
     /// Refines the values, and refactorises where they have drifted; false if the basis is singular.
-    fn check(&mut self) -> bool {
+    fn check(&mut self, careful: bool) -> bool {
         let drift = self.tableau.refine(self.problem);
-        if drift <= DRIFT && self.rules.care == Care::Usual {
+        if drift <= DRIFT && self.rules.care == Care::Usual && !careful {
             return true;
         }
         self.refactorisations += 1;
@@ -197,6 +263,7 @@ impl Path<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::linalg::vector::largest_of;
 
     /// Both ways of keeping the tableau end at the one solution of a definite problem. `M = B Bᵀ / n + 1`
     /// has a condition number of about 10, so that rounding is far below 1e-10 of `z`.

@@ -123,9 +123,10 @@ impl Tableau {
         }
     }
 
-    /// The row whose basic variable reaches zero first when the chosen variable `entering` grows;
-    /// among ties that of `preferred`, then the lexicographic one. `None`: it can grow for ever.
-    pub fn blocking_row(&self, entering: usize, preferred: usize) -> Option<usize> {
+    /// The rows whose basic variables reach zero first when the chosen variable `entering` grows, as far as
+    /// ratios can be told apart that are accurate to `relative`, and values to `rounding` of the largest
+    /// one. None: it can grow for ever.
+    pub fn ties(&self, entering: usize, relative: f64, rounding: f64) -> Vec<usize> {
         let column = &self.entering;
         let largest = norm_inf(column);
         // In the column of a z the data are of size one: smaller coefficients are rounding of those.
@@ -137,8 +138,15 @@ impl Tableau {
         // The second term ties values that are zero up to rounding; divided by the largest
         // coefficient, it pushes no basic variable below zero by more than that rounding.
         let scale = norm_inf(&self.values);
-        let last = first * (1.0 + NEGLIGIBLE) + ROUNDING * scale / largest;
-        let mut ties: Vec<usize> = blocking().filter(|&row| ratio(row) <= last).collect();
+        let last = first * (1.0 + relative) + rounding * scale / largest;
+        blocking().filter(|&row| ratio(row) <= last).collect()
+    }
+
+    /// The row whose basic variable reaches zero first when the chosen variable `entering` grows;
+    /// among ties that of `preferred`, then the lexicographic one. `None`: it can grow for ever.
+    pub fn blocking_row(&self, entering: usize, preferred: usize) -> Option<usize> {
+        let (column, largest) = (&self.entering, norm_inf(&self.entering));
+        let mut ties = self.ties(entering, NEGLIGIBLE, ROUNDING);
         if let Some(&row) = ties.iter().find(|&&row| self.basic[row] == preferred) {
             return Some(row);
         }

@@ -35,6 +35,9 @@ const FEW: usize = 2;
 /// Fewer components are not worth their elimination.
 const WORTHWHILE: usize = 24;
 
+/// Why there is no start.
+const OVERFLOW: &str = "the forces are beyond the largest number";
+
 /// Steps of iterative refinement on the whole problem: each gains nearly all digits of a system.
 const REFINEMENTS: usize = 3;
 
@@ -52,6 +55,9 @@ pub fn solve(
 ) -> Candidate {
     let whole = Equations::of(contact);
     let mut y = swept(contact, &whole, start);
+    if !y.iter().flatten().all(|y| y.is_finite()) {
+        return Candidate::without_displacements(contact, Ending::Stalled(OVERFLOW));
+    }
     let mut kept = closed_with_margin(&whole, &y);
     let (mut systems, mut orientation) = (0, 0);
     loop {

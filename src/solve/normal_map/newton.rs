@@ -91,6 +91,9 @@ pub fn solve(
         let Some((step, _)) = system.step(&point.lack, 0.0) else { break Ending::Singular };
         ended.orientation = system.orientation();
         let (next, part) = line_search(equations, point, &step);
+        if !next.merit.is_finite() {
+            break Ending::Stalled("the forces are beyond the largest number");
+        }
         shortest = if part <= SHORTEST { shortest + 1 } else { 0 };
         ended.point = match part < SHORT && resweeps < MOST_RESWEEPS {
             true => swept(equations, &next),

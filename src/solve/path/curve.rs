@@ -33,6 +33,9 @@ const ON_CURVE: f64 = 1e-10;
 /// How far another pair may be outside its piece, relative to the size of the homotopy.
 const OUTSIDE: f64 = 1e-9;
 
+/// Steps are not held to their own length below it: rounding moves the corrector as far.
+const SHORTEST: f64 = 1e-9;
+
 /// First step after a boundary, as a part of the size of the place.
 const AFTER_BOUNDARY: f64 = 1e-4;
 
@@ -77,6 +80,15 @@ enum Condition {
     End,
 }
 
+/// A step along the curve.
+struct Advance {
+    place: Place,
+    /// What the place meets.
+    condition: Condition,
+    /// Length of the step along the tangent.
+    length: f64,
+}
+
 impl<'h> Curve<'h> {
     /// The curve that begins at `start`, the base of the homotopy.
     pub fn new(homotopy: &'h Homotopy<'h>, start: Place, care: Care) -> Self {
@@ -95,57 +107,61 @@ impl<'h> Curve<'h> {
         let most = LEAST_SYSTEMS.max(SYSTEMS_PER_PAIR * pairs) as u64;
         let mut border = Direction { y: vec![[0.0; 3]; pairs], s: 1.0 };
         let mut step = f64::INFINITY;
-        loop {
+        while self.systems <= most {
             let mut local = self.local(&border, monitor)?;
-            let tangent = local.tangent.clone();
             let size = 1.0 + self.size_of(&self.place);
-            step = step.min(LONGEST * size);
-            let (leave, pair, boundary) = self.exit(&tangent);
-            let end =
-                if tangent.s > 0.0 { (1.0 - self.place.s) / tangent.s } else { f64::INFINITY };
-            let mut q = step.min(leave).min(end);
-            let mut accepted = None;
-            for _ in 0..MOST_HALVINGS {
-                let predicted = self.place.along(&tangent, q);
-                let (condition, reach) = if q == end {
-                    (Condition::End, 2.0)
-                } else if q == leave {
-                    (Condition::Boundary { pair, boundary }, 2.0)
-                } else {
-                    let normal = self.homotopy.dual(&tangent);
-                    (Condition::Plane { normal, through: predicted.clone() }, 1.0)
-                };
-                let crossed = (q == leave).then_some((pair, boundary));
-                let found = self.correct(&mut local, predicted.clone(), &condition, monitor)?;
-                let near = |place: &Place| {
-                    self.homotopy.norm(&predicted.to(place))
-                        <= self.care.deviation * reach * q.max(OUTSIDE)
-                        && self.is_inside(place, crossed)
-                };
-                if let Some(place) = found.filter(near) {
-                    accepted = Some((place, condition));
-                    break;
-                }
-                q /= 2.0;
-            }
-            let Some((place, condition)) = accepted else {
-                return Err(Ending::Stalled("the path of solutions cannot be followed further"));
-            };
+            let Advance { place, condition, length } =
+                self.advance(&mut local, step.min(LONGEST * size), monitor)?;
             self.place = place;
-            border = self.homotopy.dual(&tangent);
+            border = self.homotopy.dual(&local.tangent);
             match condition {
                 Condition::End => return Ok(()),
-                Condition::Plane { .. } => step = 2.0 * q,
+                Condition::Plane { .. } => step = 2.0 * length,
                 Condition::Boundary { pair, boundary } => {
                     border = self.normal_of(pair, boundary);
                     self.pieces[pair] = self.pieces[pair].across(boundary);
-                    step = step.max(AFTER_BOUNDARY * size);
+                    step = step.min(LONGEST * size).max(AFTER_BOUNDARY * size);
                 }
             }
-            if self.systems > most {
-                return Err(Ending::Stalled("the path of solutions is too long"));
-            }
         }
+        Err(Ending::Stalled("the path of solutions is too long"))
+    }
+
+    /// The next place of the curve: at most `step` along the tangent, at the first boundary, or at the end.
+    /// Steps are halved until the corrector finds a place near by in which no other pair has left its
+    /// piece.
+    fn advance(
+        &mut self,
+        local: &mut Local<'h>,
+        step: f64,
+        monitor: &mut Monitor<'_>,
+    ) -> Result<Advance, Ending> {
+        let tangent = local.tangent.clone();
+        let (leave, pair, boundary) = self.exit(&tangent);
+        let end = if tangent.s > 0.0 { (1.0 - self.place.s) / tangent.s } else { f64::INFINITY };
+        let mut length = step.min(leave).min(end);
+        for _ in 0..MOST_HALVINGS {
+            let predicted = self.place.along(&tangent, length);
+            // Boundaries and the end may lie across the tangent.
+            let (condition, reach) = if length == end {
+                (Condition::End, 2.0)
+            } else if length == leave {
+                (Condition::Boundary { pair, boundary }, 2.0)
+            } else {
+                let normal = self.homotopy.dual(&tangent);
+                (Condition::Plane { normal, through: predicted.clone() }, 1.0)
+            };
+            let crossed = (length == leave).then_some((pair, boundary));
+            if let Some(place) = self.correct(local, predicted.clone(), &condition, monitor)? {
+                let deviation = self.homotopy.norm(&predicted.to(&place));
+                let most = self.care.deviation * reach * length.max(SHORTEST);
+                if deviation <= most && self.is_inside(&place, crossed) {
+                    return Ok(Advance { place, condition, length });
+                }
+            }
+            length /= 2.0;
+        }
+        Err(Ending::Stalled("the path of solutions cannot be followed further"))
     }
 
     /// Factorises at the place of the curve with the border `normal`, and finds the tangent.

@@ -1,0 +1,68 @@
+//! Scaling by powers of two, which is exact: how sums of products are taken whose terms would overflow or
+//! underflow as they are.
+
+/// Largest exponent that one multiplication carries; those of doubles lie between −1074 and 1023.
+const STEP: i32 = 1000;
+
+/// Exponent of two of a number that is finite and not zero: `2^e <= |x| < 2^(e + 1)`.
+pub fn exponent(x: f64) -> i32 {
+    let (x, below) = if x.is_subnormal() { (x * 2_f64.powi(STEP), STEP) } else { (x, 0) };
+    let biased = (x.to_bits() >> (f64::MANTISSA_DIGITS - 1)) & EXPONENT_BITS;
+    biased as i32 - (f64::MAX_EXP - 1) - below
+}
+
+/// The bits of an exponent, at the right end of a number.
+const EXPONENT_BITS: u64 = 0x7ff;
+
+/// Largest exponent of the numbers that are not zero, which are finite; `None` if all are zero.
+pub fn largest_exponent(values: impl IntoIterator<Item = f64>) -> Option<i32> {
+    values.into_iter().filter(|&value| value != 0.0).map(exponent).max()
+}
+
+/// `x 2^e`: exact, but for what overflows or is subnormal.
+pub fn times_power_of_two(mut x: f64, mut e: i32) -> f64 {
+    while e.abs() > STEP && x != 0.0 && x.is_finite() {
+        let step = e.clamp(-STEP, STEP);
+        x *= 2_f64.powi(step);
+        e -= step;
+    }
+    x * 2_f64.powi(e.clamp(-STEP, STEP))
+}
+
+/// Inner product of finite vectors and the sum of the sizes of its terms, in a unit of their own: the largest
+/// term is between 1 and 4, so that no term that counts overflows or underflows.
+pub fn dot_in_own_unit(a: &[f64], b: &[f64]) -> (f64, f64) {
+    let terms = || a.iter().zip(b).filter(|(a, b)| **a != 0.0 && **b != 0.0);
+    let sizes = terms().map(|(&a, &b)| exponent(a) + exponent(b));
+    let unit = sizes.max().unwrap_or(0);
+    let (mut sum, mut size) = (0.0, 0.0);
+    for (&a, &b) in terms() {
+        let (e, f) = (exponent(a), exponent(b));
+        let mantissas = times_power_of_two(a, -e) * times_power_of_two(b, -f);
+        let term = times_power_of_two(mantissas, e + f - unit);
+        (sum, size) = (sum + term, size + term.abs());
+    }
+    (sum, size)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exponents_are_exact() {
+        for e in -1074..1024 {
+            let power = times_power_of_two(1.0, e);
+            assert_eq!(exponent(power), e);
+            assert_eq!(exponent(-power), e);
+            assert_eq!(times_power_of_two(power, -e), 1.0);
+        }
+        assert_eq!(exponent(f64::MAX), 1023);
+        assert_eq!(times_power_of_two(1.5, 2000), f64::INFINITY);
+        assert_eq!(times_power_of_two(1.5, -2200), 0.0);
+        assert_eq!(largest_exponent([0.0, 5e-324, -3.0]), Some(1));
+        assert_eq!(largest_exponent([0.0]), None);
+        assert_eq!(dot_in_own_unit(&[1e308, 1.0], &[-1.5e308, 1e-320]).0.signum(), -1.0);
+        assert_eq!(dot_in_own_unit(&[0.0, 5e-324], &[1.0, 5e-324]), (1.0, 1.0));
+    }
+}

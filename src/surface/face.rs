@@ -1,0 +1,96 @@
+//! A face in space, or a line in the plane: positions, normals, area.
+
+use super::quadrature;
+use super::shape::{FaceKind, Local, MOST_NODES};
+use crate::linalg::vector3::{Vector3, unit};
+
+/// A mid node this close to the middle of its edge, relative to the edge, stands on it. What remains of
+/// the patch test is smaller by another factor of ten and more.
+const ON_EDGE: f64 = 1e-11;
+
+/// Points of the rule for areas along each direction: exact for flat faces of every kind.
+const AREA_POINTS: usize = 4;
+
+/// A face with the coordinates of its nodes.
+#[derive(Clone, Debug)]
+pub(super) struct Face<'a> {
+    pub(super) kind: FaceKind,
+    pub(super) nodes: &'a [usize],
+    pub(super) x: [Vector3; MOST_NODES],
+}
+
+impl Face<'_> {
+    /// The point at local coordinates.
+    pub(super) fn position(&self, at: Local) -> Vector3 {
+        let values = self.kind.values(at);
+        self.x.iter().zip(values).map(|(x, value)| x * value).sum()
+    }
+
+    /// The outward normal, as long as the area of a unit of local coordinates: to the right of a
+    /// line, and towards the eye that sees the corners of a face counterclockwise.
+    pub(super) fn outward(&self, at: Local) -> Vector3 {
+        let mut along = [Vector3::zeros(); 2];
+        for (x, slopes) in self.x.iter().zip(self.kind.derivatives(at)) {
+            along[0] += x * slopes[0];
+            along[1] += x * slopes[1];
+        }
+        if self.kind.is_line() {
+            return Vector3::new(along[0].y, -along[0].x, 0.0);
+        }
+        along[0].cross(&along[1])
+    }
+
+    /// The unit normal in the middle.
+    pub(super) fn middle_normal(&self) -> Option<Vector3> {
+        unit(self.outward(self.kind.centre()))
+    }
+
+    /// The longest distance of a node from the first one: a length that bounds the face.
+    pub(super) fn size(&self) -> f64 {
+        let x = &self.x[..self.kind.nodes()];
+        x.iter().map(|x| (x - self.x[0]).norm()).fold(0.0, f64::max)
+    }
+
+    /// Points of the whole face with weights of area.
+    pub(super) fn area_points(&self) -> Vec<(Local, f64)> {
+        let interval = || quadrature::on_interval(AREA_POINTS);
+        let points: Vec<(Local, f64)> = match self.kind {
+            FaceKind::Line2 | FaceKind::Line3 => {
+                interval().iter().map(|(s, w)| ([2.0 * s - 1.0, 0.0], 2.0 * w)).collect()
+            }
+            FaceKind::T3 | FaceKind::T6 => quadrature::on_triangle(AREA_POINTS)
+                .iter()
+                .map(|([_, s, t], w)| ([*s, *t], 0.5 * w))
+                .collect(),
+            _ => {
+                let (along, across) = (interval(), interval());
+                let pairs = along.iter().flat_map(|a| across.iter().map(move |b| (a, b)));
+                pairs
+                    .map(|((s, v), (t, w))| ([2.0 * s - 1.0, 2.0 * t - 1.0], 4.0 * v * w))
+                    .collect()
+            }
+        };
+        points.into_iter().map(|(at, weight)| (at, weight * self.outward(at).norm())).collect()
+    }
+
+    /// Whether the mid nodes stand in the middle of straight edges.
+    pub(super) fn is_straight(&self) -> bool {
+        self.kind.mids().all(|(mid, [a, b])| {
+            let middle = 0.5 * (self.x[a] + self.x[b]);
+            (self.x[mid] - middle).norm() <= ON_EDGE * (self.x[a] - self.x[b]).norm()
+        })
+    }
+
+    /// Whether local coordinates are linear in the position: straight edges, on a quadrilateral a
+    /// parallelogram, and the centre in the middle.
+    pub(super) fn is_affine(&self) -> bool {
+        let near = |error: Vector3| error.norm() <= ON_EDGE * self.size();
+        let [a, b, c, d] = [0, 1, 2, 3].map(|corner| self.x[corner]);
+        let parallel = self.kind.corners() != QUADRILATERAL || near(a - b + c - d);
+        let centred = |node: usize| near(self.x[node] - 0.25 * (a + b + c + d));
+        self.is_straight() && parallel && self.kind.central_node().is_none_or(centred)
+    }
+}
+
+/// Corners of a quadrilateral.
+const QUADRILATERAL: usize = 4;

@@ -1,0 +1,273 @@
+//! Two surfaces of a mesh: what the host hands over, and what is refused.
+
+use std::collections::HashMap;
+
+use super::face::Face;
+use super::shape::{FaceKind, MOST_NODES};
+use crate::error::{Argument, Error, entry, index};
+use crate::linalg::vector3::{Vector3, unit, vector};
+
+/// A face whose area, at one of its nodes, is below this part of the square of its size has none: 1e-10
+/// is a corner of a ten-thousandth of a degree, far below what a mesh for computations has.
+const LEAST_AREA: f64 = 1e-10;
+
+/// Faces as lists of nodes.
+#[derive(Clone, Copy, Debug)]
+pub struct Faces<'a> {
+    /// Start of each face in `nodes`, and the length of `nodes`: one entry more than faces.
+    pub start: &'a [usize],
+    /// Nodes, counted from 0, face after face: corners first, in order around the face, then mid nodes
+    /// (the first one between the first two corners), then the centre. Seen from outside the body the
+    /// corners of a face run counterclockwise; in the plane the body lies to the left of a line that
+    /// runs from its first node to its second.
+    pub nodes: &'a [usize],
+}
+
+/// Two surfaces that may touch.
+#[derive(Clone, Copy, Debug)]
+pub struct Surfaces<'a> {
+    /// Space dimension, 2 or 3.
+    pub dim: usize,
+    /// Coordinates of all nodes of the host, `dim` for each node.
+    pub coordinates: &'a [f64],
+    /// The side whose nodes become slaves: lines with 2 or 3 nodes in the plane; in space triangles
+    /// with 3 or 6 nodes and quadrilaterals with 4, 8 or 9, in any mixture.
+    pub slave: Faces<'a>,
+    /// The other side.
+    pub master: Faces<'a>,
+}
+
+/// One of the two sides, checked.
+#[derive(Debug)]
+pub(super) struct Side<'a> {
+    name: &'static str,
+    argument: Argument,
+    dim: usize,
+    coordinates: &'a [f64],
+    faces: Faces<'a>,
+}
+
+impl<'a> Side<'a> {
+    /// Number of faces.
+    pub(super) fn count(&self) -> usize {
+        self.faces.start.len() - 1
+    }
+
+    /// A face by its place.
+    pub(super) fn face(&self, face: usize) -> Face<'a> {
+        let nodes = self.nodes(face);
+        let mut x = [Vector3::zeros(); MOST_NODES];
+        for (x, &node) in x.iter_mut().zip(nodes) {
+            *x = self.position(node);
+        }
+        let kind = FaceKind::of(self.dim, nodes.len()).expect("the kind has been checked");
+        Face { kind, nodes, x }
+    }
+
+    /// Coordinates of a node.
+    pub(super) fn position(&self, node: usize) -> Vector3 {
+        vector(&self.coordinates[self.dim * node..self.dim * (node + 1)])
+    }
+
+    /// The nodes of all faces, each once, ascending.
+    pub(super) fn all_nodes(&self) -> Vec<usize> {
+        let mut nodes = self.faces.nodes.to_vec();
+        nodes.sort_unstable();
+        nodes.dedup();
+        nodes
+    }
+
+    fn nodes(&self, face: usize) -> &'a [usize] {
+        &self.faces.nodes[self.faces.start[face]..self.faces.start[face + 1]]
+    }
+
+    /// An error about a face.
+    pub(super) fn refuse(&self, face: usize, what: &str) -> Error {
+        Error::invalid(self.argument, format!("{} face {} {what}", self.name, index(face)))
+    }
+
+    fn check(&self) -> Result<(), Error> {
+        self.check_start()?;
+        for face in 0..self.count() {
+            self.check_nodes(face)?;
+            self.check_shape(face)?;
+        }
+        self.check_orientation()
+    }
+
+    fn check_start(&self) -> Result<(), Error> {
+        let refuse = |message: String| {
+            Err(Error::invalid(self.argument, format!("{}: {message}", self.name)))
+        };
+        let (start, nodes) = (self.faces.start, self.faces.nodes.len());
+        match start {
+            [] => return refuse("start is empty, it needs one entry more than faces".into()),
+            [first, ..] if *first != 0 => {
+                return refuse(format!("{} is {first}, it must be 0", entry("start", [0])));
+            }
+            _ => {}
+        }
+        if let Some(face) = start.windows(2).position(|ends| ends[0] > ends[1]) {
+            let (here, next) = (entry("start", [face]), entry("start", [face + 1]));
+            return refuse(format!("{next} is less than {here}, start must not descend"));
+        }
+        if start[start.len() - 1] != nodes {
+            let last = start[start.len() - 1];
+            return refuse(format!("start ends with {last}, there are {nodes} nodes in the list"));
+        }
+        Ok(())
+    }
+
+    fn check_nodes(&self, face: usize) -> Result<(), Error> {
+        let nodes = self.nodes(face);
+        if FaceKind::of(self.dim, nodes.len()).is_none() {
+            let known = if self.dim == 2 { "2 or 3" } else { "3, 4, 6, 8 or 9" };
+            let what = format!("has {} nodes, a face has {known}", nodes.len());
+            return Err(self.refuse(face, &what));
+        }
+        let count = self.coordinates.len() / self.dim;
+        for (i, &node) in nodes.iter().enumerate() {
+            if node >= count {
+                let what =
+                    format!("has node {}, the coordinates are those of {count} nodes", index(node));
+                return Err(self.refuse(face, &what));
+            }
+            if nodes[..i].contains(&node) {
+                return Err(self.refuse(face, &format!("has node {} twice", index(node))));
+            }
+            let place = self.dim * node;
+            let coordinates = &self.coordinates[place..place + self.dim];
+            if let Some(c) = coordinates.iter().position(|x| !x.is_finite()) {
+                let place = entry("coordinates", [place + c]);
+                let message = format!(
+                    "{place} of node {} in {} face {} is not finite",
+                    index(node),
+                    self.name,
+                    index(face)
+                );
+                return Err(Error::invalid(Argument::Coordinates, message));
+            }
+        }
+        Ok(())
+    }
+
+    /// Refuses a face without area, and one that turns over in itself.
+    fn check_shape(&self, at: usize) -> Result<(), Error> {
+        let face = self.face(at);
+        let size = face.size();
+        let least = LEAST_AREA * if self.dim == 2 { size } else { size * size };
+        let middle = face.outward(face.kind.centre());
+        // Written so that zero and NaN are refused.
+        if !(middle.norm() > least) {
+            return Err(self.refuse(at, "has no area: its nodes coincide or stand in one line"));
+        }
+        for (i, &place) in face.kind.places().iter().enumerate() {
+            let normal = face.outward(place);
+            if !(normal.norm() > least && normal.dot(&middle) > 0.0) {
+                let what = format!(
+                    "is folded at node {}: check the order of its nodes, and that corners are \
+                     convex and mid nodes near the middle of their edges",
+                    index(face.nodes[i])
+                );
+                return Err(self.refuse(at, &what));
+            }
+        }
+        Ok(())
+    }
+
+    /// Refuses neighbours that run along their common edge in the same direction.
+    fn check_orientation(&self) -> Result<(), Error> {
+        let mut seen: HashMap<(usize, usize), usize> = HashMap::new();
+        for face in 0..self.count() {
+            let nodes = self.nodes(face);
+            let kind = self.face(face).kind;
+            let corners = &nodes[..kind.corners()];
+            for (i, &a) in corners.iter().enumerate() {
+                let b = corners[(i + 1) % corners.len()];
+                // On a line the node and its end: 0 if it begins there, 1 if it ends there.
+                let key = if kind.is_line() { (a, i) } else { (a, b) };
+                if let Some(other) = seen.insert(key, face) {
+                    let where_ = if kind.is_line() {
+                        format!("node {}", index(a))
+                    } else {
+                        format!("the edge of nodes {} and {}", index(a), index(b))
+                    };
+                    let what = format!(
+                        "and face {} disagree at {where_}: one of them is turned over, or they lie \
+                         upon each other; turn the order of its nodes, or leave it out",
+                        index(other)
+                    );
+                    return Err(self.refuse(face, &what));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Averaged unit normals of the nodes of [`Self::all_nodes`], by node.
+    ///
+    /// # Errors
+    /// A node whose faces' normals cancel.
+    pub(super) fn node_normals(&self) -> Result<HashMap<usize, Vector3>, Error> {
+        let mut sums: HashMap<usize, (Vector3, usize)> = HashMap::new();
+        for at in 0..self.count() {
+            let face = self.face(at);
+            for (&node, &place) in face.nodes.iter().zip(face.kind.places()) {
+                let sum = sums.entry(node).or_insert((Vector3::zeros(), at));
+                sum.0 += unit(face.outward(place)).unwrap_or_default();
+            }
+        }
+        let normal = |(node, (sum, face)): (usize, (Vector3, usize))| {
+            let normal = unit(sum).filter(|_| sum.norm() > LEAST_NORMAL).ok_or_else(|| {
+                let what = format!("has node {}, where normals cancel", index(node));
+                self.refuse(face, &what)
+            });
+            normal.map(|normal| (node, normal))
+        };
+        sums.into_iter().map(normal).collect()
+    }
+}
+
+/// Unit normals whose sum is below this cancel: their mean has no direction of its own.
+const LEAST_NORMAL: f64 = 1e-6;
+
+impl<'a> Surfaces<'a> {
+    /// Checks everything and gives the two sides, slave and master.
+    pub(super) fn sides(&self) -> Result<[Side<'a>; 2], Error> {
+        let slave = self.slave_side()?;
+        let side =
+            Side { name: "master", argument: Argument::MasterFaces, faces: self.master, ..slave };
+        side.check()?;
+        let mut on_slave = vec![false; self.coordinates.len() / self.dim];
+        self.slave.nodes.iter().for_each(|&node| on_slave[node] = true);
+        for face in 0..side.count() {
+            if let Some(&node) = side.nodes(face).iter().find(|&&node| on_slave[node]) {
+                let what = format!(
+                    "has node {}, which is on the slave side too: give each side nodes of its own, \
+                     or leave out the faces around that node on one side",
+                    index(node)
+                );
+                return Err(side.refuse(face, &what));
+            }
+        }
+        Ok([slave, side])
+    }
+
+    /// Checks and gives the slave side alone.
+    pub(super) fn slave_side(&self) -> Result<Side<'a>, Error> {
+        let Surfaces { dim, coordinates, slave, .. } = *self;
+        if dim != 2 && dim != 3 {
+            let message = format!("dim is {dim}, it must be 2 or 3");
+            return Err(Error::invalid(Argument::Dimension, message));
+        }
+        if !coordinates.len().is_multiple_of(dim) {
+            let message =
+                format!("there are {} coordinates, no multiple of dim {dim}", coordinates.len());
+            return Err(Error::invalid(Argument::Coordinates, message));
+        }
+        let argument = Argument::SlaveFaces;
+        let side = Side { name: "slave", argument, dim, coordinates, faces: slave };
+        side.check()?;
+        Ok(side)
+    }
+}

@@ -1,0 +1,71 @@
+//! Contact pairs from two surfaces of a mesh, or from a surface and a rigid obstacle.
+//!
+//! In: coordinates, and the faces of two sides that may touch. Out: rows over nodes with their normals,
+//! tangents, gaps and areas, and what found no partner. Lengths are in the host's unit.
+//!
+//! ```
+//! use signorini::surface::{Faces, SurfaceSettings, Surfaces, pair_surfaces};
+//!
+//! // A line of one element, 0 to 1, stands on one of two elements.
+//! let coordinates = [0.0, 0.1, 1.0, 0.1, -1.0, 0.0, 0.5, 0.0, 2.0, 0.0];
+//! let slave = Faces { start: &[0, 2], nodes: &[0, 1] };
+//! let master = Faces { start: &[0, 2, 4], nodes: &[4, 3, 3, 2] };
+//! let surfaces = Surfaces { dim: 2, coordinates: &coordinates, slave, master };
+//! let found = pair_surfaces(&surfaces, &SurfaceSettings::default())?;
+//! assert_eq!(found.pairs.len(), 2);
+//! assert!((found.pairs[0].gap - 0.1).abs() < 1e-15);
+//! assert!((found.pairs[0].area - 0.5).abs() < 1e-15);
+//! # Ok::<(), signorini::Error>(())
+//! ```
+
+mod candidates;
+mod clip;
+mod control;
+mod face;
+mod fold;
+mod mesh;
+mod mortar;
+mod node_to_surface;
+mod obstacle;
+mod overlap;
+mod pairs;
+mod plane;
+mod projected_shapes;
+mod quadrature;
+mod row;
+mod settings;
+mod shape;
+mod tree;
+mod whole_faces;
+
+pub use mesh::{Faces, Surfaces};
+pub use obstacle::{Obstacle, pair_with_obstacle};
+pub use pairs::{PairArrays, SurfacePair, SurfacePairs, SurfaceReport, Weight};
+pub use settings::{Pairing, SurfaceSettings};
+pub use shape::FaceKind;
+
+#[cfg(doc)]
+use crate::error::Argument;
+use crate::error::Error;
+
+/// Pairs two surfaces. Surfaces that never meet give no pairs, which is no error.
+///
+/// # Errors
+/// - [`Argument::Dimension`], [`Argument::Coordinates`]: a dimension other than 2 and 3, coordinates that are
+///   not finite;
+/// - [`Argument::SlaveFaces`], [`Argument::MasterFaces`]: what is wrong with which face: number of nodes,
+///   repeated or missing nodes, no area, folded, turned over against its neighbour, nodes on both
+///   sides, master faces over each other;
+/// - [`Argument::Settings`]: a search distance that is not positive.
+pub fn pair_surfaces(
+    surfaces: &Surfaces<'_>,
+    settings: &SurfaceSettings,
+) -> Result<SurfacePairs, Error> {
+    let [slave, master] = surfaces.sides()?;
+    let largest = || (0..slave.count()).map(|face| slave.face(face).size()).fold(0.0, f64::max);
+    let reach = settings::reach(settings.search_distance, largest)?;
+    match settings.pairing {
+        Pairing::DualMortar => mortar::pairs(&slave, &master, surfaces.dim, reach),
+        Pairing::NodeToSurface => node_to_surface::pairs(&slave, &master, surfaces.dim, reach),
+    }
+}

@@ -1,0 +1,100 @@
+//! Nodes against surfaces: each slave node meets a point of a master face along its averaged normal, and
+//! the face's shape functions there are the weights.
+//!
+//! The normal of the slave decides and not the closest point: its rays do not miss the wedges that the
+//! faces of a curved master leave between their own normals. On quadratic slave faces the rows are those
+//! of control values (see `control`), without which corners would carry no area.
+
+use std::collections::BTreeMap;
+
+use super::candidates::Candidates;
+use super::mesh::Side;
+use super::pairs::{SurfacePair, SurfacePairs, SurfaceReport, Weight};
+use super::plane::Plane;
+use super::shape::{FaceKind, Local};
+use super::whole_faces::whole_rows;
+use crate::error::Error;
+use crate::linalg::vector3::Vector3;
+
+/// A point is on a face if its local coordinates are beyond it by less than this: nodes that stand on
+/// the rim by construction miss it by rounding.
+const BEYOND: f64 = 1e-9;
+
+fn is_on(kind: FaceKind, [s, t]: Local) -> bool {
+    if kind.corners() == TRIANGLE && !kind.is_line() {
+        return s >= -BEYOND && t >= -BEYOND && s + t <= 1.0 + BEYOND;
+    }
+    s.abs().max(t.abs()) <= 1.0 + BEYOND
+}
+
+/// Corners of a triangle.
+const TRIANGLE: usize = 3;
+
+/// The weights of the master point that a node meets, the nearest if there are several.
+fn meets(
+    master: &Side<'_>,
+    (x, normal): (Vector3, Vector3),
+    dim: usize,
+    (candidates, reach): (&mut Candidates, f64),
+) -> Option<Vec<Weight>> {
+    let plane = Plane::new(dim, x, normal);
+    let mut best: Option<(f64, Vec<Weight>)> = None;
+    for &at in candidates.of_point(x, normal) {
+        let face = master.face(at);
+        let flat = plane.flatten(&face);
+        let Some(local) = flat.local([0.0; 2]).filter(|local| is_on(face.kind, *local)) else {
+            continue;
+        };
+        let distance = flat.height(local).abs();
+        if distance <= reach && best.as_ref().is_none_or(|(least, _)| distance < *least) {
+            let weights = face.nodes.iter().copied().zip(face.kind.values(local)).collect();
+            best = Some((distance, weights));
+        }
+    }
+    best.map(|(_, weights)| weights)
+}
+
+/// The pairs of two sides.
+///
+/// # Errors
+/// Normals that cancel at a slave node.
+pub(super) fn pairs(
+    slave: &Side<'_>,
+    master: &Side<'_>,
+    dim: usize,
+    reach: f64,
+) -> Result<SurfacePairs, Error> {
+    let mut candidates = Candidates::new(master, reach);
+    let normals = slave.node_normals()?;
+    let mut met: BTreeMap<usize, Vec<Weight>> = BTreeMap::new();
+    for node in slave.all_nodes() {
+        let ray = (slave.position(node), normals[&node]);
+        if let Some(weights) = meets(master, ray, dim, (&mut candidates, reach)) {
+            met.insert(node, weights);
+        }
+    }
+    let mut found = SurfacePairs { dim, ..SurfacePairs::default() };
+    let mut report = SurfaceReport {
+        boxes_searched: candidates.searched,
+        not_opposed: candidates.not_opposed,
+        ..SurfaceReport::default()
+    };
+    for (node, mut row) in whole_rows(slave) {
+        report.slave_area += row.area;
+        if row.slaves.iter().any(|(node, _)| !met.contains_key(node)) {
+            found.unpaired.push(node);
+            continue;
+        }
+        for (slave, part) in &row.slaves {
+            let parts = met[slave].iter().map(|(node, weight)| (*node, part * weight));
+            row.masters.extend(parts);
+        }
+        let area = row.area;
+        let place = |node| slave.position(node);
+        let weights = row.into_weights();
+        found.pairs.push(SurfacePair::new(dim, (node, area), weights, normals[&node], place));
+        report.covered_area += area;
+    }
+    found.report = report;
+    Ok(found)
+}

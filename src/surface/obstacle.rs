@@ -1,0 +1,165 @@
+//! Rigid obstacles: planes, cylinders, spheres.
+
+use std::collections::BTreeMap;
+
+use super::mesh::{Faces, Surfaces};
+use super::pairs::{SurfacePair, SurfacePairs, SurfaceReport};
+use super::whole_faces::whole_rows;
+use crate::error::{Argument, Error};
+use crate::linalg::vector3::{Vector3, unit};
+
+/// A surface that does not deform. Vectors have their third component zero in the plane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Obstacle {
+    /// A half space, in the plane a half plane.
+    Plane {
+        /// A point of its face.
+        point: [f64; 3],
+        /// The direction out of it, of any length.
+        outward: [f64; 3],
+    },
+    /// A ball, in the plane a disc, or the space around it.
+    Sphere {
+        /// The middle.
+        centre: [f64; 3],
+        /// The radius.
+        radius: f64,
+        /// Whether the body is inside, as in a bowl.
+        hollow: bool,
+    },
+    /// A round bar of any length, or the space around it; in space only.
+    Cylinder {
+        /// A point of the axis.
+        point: [f64; 3],
+        /// The direction of the axis, of any length.
+        axis: [f64; 3],
+        /// The radius.
+        radius: f64,
+        /// Whether the body is inside, as in a bore.
+        hollow: bool,
+    },
+}
+
+/// An obstacle whose numbers have been checked.
+enum Checked {
+    Plane {
+        point: Vector3,
+        outward: Vector3,
+    },
+    /// The axis is zero for a sphere; the sign is negative if it is hollow.
+    Round {
+        point: Vector3,
+        axis: Vector3,
+        radius: f64,
+        sign: f64,
+    },
+}
+
+fn refuse<T>(message: &str) -> Result<T, Error> {
+    Err(Error::invalid(Argument::Obstacle, format!("obstacle: {message}")))
+}
+
+impl Obstacle {
+    fn check(&self, dim: usize) -> Result<Checked, Error> {
+        let direction = |name: &str, v: [f64; 3]| match unit(v.into()) {
+            Some(v) => Ok(v),
+            None => refuse(&format!("its {name} is zero or not finite")),
+        };
+        let (point, checked) = match *self {
+            Obstacle::Plane { point, outward } => {
+                let outward = direction("outward direction", outward)?;
+                (point, Checked::Plane { point: point.into(), outward })
+            }
+            Obstacle::Sphere { centre, radius, hollow } => {
+                (centre, round(centre, Vector3::zeros(), radius, hollow)?)
+            }
+            Obstacle::Cylinder { point, axis, radius, hollow } => {
+                if dim == 2 {
+                    return refuse(
+                        "a cylinder needs three dimensions: in the plane it is a sphere",
+                    );
+                }
+                (point, round(point, direction("axis", axis)?, radius, hollow)?)
+            }
+        };
+        match point.iter().all(|x| x.is_finite()) {
+            true => Ok(checked),
+            false => refuse("its point is not finite"),
+        }
+    }
+}
+
+fn round(point: [f64; 3], axis: Vector3, radius: f64, hollow: bool) -> Result<Checked, Error> {
+    // Written so that NaN is refused.
+    if !(radius > 0.0 && radius.is_finite()) {
+        return refuse(&format!("its radius is {radius}, it must be positive and finite"));
+    }
+    let sign = if hollow { -1.0 } else { 1.0 };
+    Ok(Checked::Round { point: point.into(), axis, radius, sign })
+}
+
+impl Checked {
+    /// The gap of a point, and the normal from the point into the obstacle; `None` where all normals
+    /// are as good, on the axis or in the centre.
+    fn facing(&self, x: Vector3) -> Option<(f64, Vector3)> {
+        match self {
+            Checked::Plane { point, outward } => Some((outward.dot(&(x - point)), -outward)),
+            Checked::Round { point, axis, radius, sign } => {
+                let from = x - point;
+                let across = from - from.dot(axis) * axis;
+                let outward = unit(across)?;
+                Some((sign * (across.norm() - radius), -*sign * outward))
+            }
+        }
+    }
+}
+
+/// Pairs the nodes of a surface with an obstacle, up to `search_distance` (`None`: all of them).
+///
+/// A mid node of a quadratic face has its corners beside it in its row, and the gap is that of the row.
+///
+/// # Errors
+/// What is wrong with the faces, as [`super::pair_surfaces`] says; with the obstacle
+/// ([`Argument::Obstacle`]): a direction that is zero, a radius that is not positive, a node on the axis
+/// or in the centre; a search distance that is not positive ([`Argument::Settings`]).
+pub fn pair_with_obstacle(
+    dim: usize,
+    coordinates: &[f64],
+    slave: Faces<'_>,
+    obstacle: &Obstacle,
+    search_distance: Option<f64>,
+) -> Result<SurfacePairs, Error> {
+    let none = Faces { start: &[0], nodes: &[] };
+    let side = Surfaces { dim, coordinates, slave, master: none }.slave_side()?;
+    let reach = super::settings::reach(search_distance, || f64::INFINITY)?;
+    let obstacle = obstacle.check(dim)?;
+    let mut facing = BTreeMap::new();
+    for node in side.all_nodes() {
+        let Some(met) = obstacle.facing(side.position(node)) else {
+            return refuse(&format!(
+                "node {} stands on its axis or in its centre, where it has no normal",
+                crate::error::index(node)
+            ));
+        };
+        facing.insert(node, met);
+    }
+    let rows = whole_rows(&side);
+    let mut found = SurfacePairs { dim, ..SurfacePairs::default() };
+    let mut report = SurfaceReport::default();
+    for (node, row) in rows {
+        report.slave_area += row.area;
+        let area = row.area;
+        let [slaves, masters] = row.into_weights();
+        if slaves.iter().any(|(node, _)| facing[node].0.abs() > reach) {
+            found.unpaired.push(node);
+            continue;
+        }
+        let gap = slaves.iter().map(|(node, weight)| weight * facing[node].0).sum();
+        let place = |node| side.position(node);
+        let pair = SurfacePair::new(dim, (node, area), [slaves, masters], facing[&node].1, place);
+        report.covered_area += area;
+        found.pairs.push(SurfacePair { gap, ..pair });
+    }
+    found.report = report;
+    Ok(found)
+}

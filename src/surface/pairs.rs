@@ -1,0 +1,139 @@
+//! Contact pairs from surfaces: what the caller gets.
+
+use super::plane;
+use crate::linalg::vector3::Vector3;
+
+/// A node's share in a row, and its weight.
+pub type Weight = (usize, f64);
+
+/// A contact pair as a row over nodes: `d = Σ a_i u_i - Σ w_k u_k` over the slave's nodes and the
+/// master's, in the host's axes, with `Σ a_i = 1`, and `Σ w_k = 1` unless the pair faces an obstacle.
+///
+/// Vectors have their third component zero in the plane.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SurfacePair {
+    /// The slave node that the row belongs to. No other pair belongs to it.
+    pub slave: usize,
+    /// Slave nodes of the row with their weights, by node. One node of weight 1 on linear faces that
+    /// are covered; a mid node of a quadratic face has its corners beside it, and a node that has taken
+    /// in a neighbour with little cover has that neighbour.
+    pub slaves: Vec<Weight>,
+    /// Master nodes with their weights, by node; none against an obstacle.
+    pub masters: Vec<Weight>,
+    /// Unit normal, outward from the slave's body.
+    pub normal: [f64; 3],
+    /// Unit tangents, in the plane one (the normal turned by +90 degrees) and zero.
+    pub tangents: [[f64; 3]; 2],
+    /// Initial gap: positive if open, negative if the surfaces overlap.
+    pub gap: f64,
+    /// The area that the pair carries: the pressure is the normal force of the row over it.
+    pub area: f64,
+}
+
+/// What became of the faces and nodes that have no pair of their own.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SurfaceReport {
+    /// Area of the slave faces.
+    pub slave_area: f64,
+    /// The part of it that lies over the other side: the areas of all pairs.
+    pub covered_area: f64,
+    /// Slave faces that lie over nothing.
+    pub uncovered_faces: Vec<usize>,
+    /// Nodes with little cover, each with the node whose pair has taken in its row.
+    pub folded: Vec<(usize, usize)>,
+    /// Master faces near a slave face whose normals do not oppose its own. If no pair was found and
+    /// there are many of them, one side is turned over.
+    pub not_opposed: usize,
+    /// Boxes that the search looked at: its cost.
+    pub boxes_searched: usize,
+}
+
+/// Contact pairs from two surfaces, or from a surface and an obstacle.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SurfacePairs {
+    /// Space dimension.
+    pub dim: usize,
+    /// The pairs, by slave node.
+    pub pairs: Vec<SurfacePair>,
+    /// Slave nodes without a pair: nothing lies over them, or their row went to a neighbour.
+    pub unpaired: Vec<usize>,
+    /// What else there is to say.
+    pub report: SurfaceReport,
+}
+
+/// Arrays of pairs with one slave node each, in degrees of freedom `dim * node + axis`: what
+/// [`crate::reduce::ContactPairs`] takes, with the gaps and areas that belong to them.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PairArrays {
+    /// Space dimension.
+    pub dim: usize,
+    /// Number of pairs.
+    pub count: usize,
+    /// Degrees of freedom of the slaves, `dim` for each pair.
+    pub slaves: Vec<usize>,
+    /// Start of each pair's masters; `count + 1` entries.
+    pub master_start: Vec<usize>,
+    /// Degrees of freedom of the masters, `dim` for each.
+    pub masters: Vec<usize>,
+    /// Weights of the masters.
+    pub weights: Vec<f64>,
+    /// Normals, `dim` for each pair.
+    pub normals: Vec<f64>,
+    /// First tangents, `dim` for each pair.
+    pub tangents: Vec<f64>,
+    /// Initial gaps.
+    pub gaps: Vec<f64>,
+    /// Areas: the pressure is the normal force over it.
+    pub areas: Vec<f64>,
+}
+
+impl SurfacePair {
+    /// Makes a pair; `places` gives the coordinates of nodes.
+    pub(super) fn new(
+        dim: usize,
+        (slave, area): (usize, f64),
+        [slaves, masters]: [Vec<Weight>; 2],
+        normal: Vector3,
+        places: impl Fn(usize) -> Vector3,
+    ) -> SurfacePair {
+        let sum = |weights: &[Weight]| -> Vector3 {
+            weights.iter().map(|&(node, weight)| weight * places(node)).sum()
+        };
+        let gap =
+            if masters.is_empty() { 0.0 } else { normal.dot(&(sum(&masters) - sum(&slaves))) };
+        let tangents = plane::tangents(dim, normal).map(Into::into);
+        SurfacePair { slave, slaves, masters, normal: normal.into(), tangents, gap, area }
+    }
+}
+
+impl SurfacePairs {
+    /// The pairs in the form with one slave node, `u_slave - Σ w u`, to which a row is brought by a
+    /// division by the weight `a` of its slave: gap and `d` become `1 / a` times what they were, force
+    /// and area `a` times. `None` if a row has slave nodes to which other pairs belong: the mid nodes of
+    /// quadratic faces.
+    pub fn one_slave_each(&self) -> Option<PairArrays> {
+        let dim = self.dim;
+        let mut arrays = PairArrays { dim, master_start: vec![0], ..PairArrays::default() };
+        let belongs = |node| self.pairs.binary_search_by_key(&node, |pair| pair.slave).is_ok();
+        let dofs = |node: usize| dim * node..dim * (node + 1);
+        for pair in &self.pairs {
+            let own = pair.slaves.iter().find(|(node, _)| *node == pair.slave)?.1;
+            let others = pair.slaves.iter().filter(|(node, _)| *node != pair.slave);
+            let mut masters: Vec<Weight> = others.map(|(node, a)| (*node, -a / own)).collect();
+            if masters.iter().any(|(node, _)| belongs(*node)) {
+                return None;
+            }
+            masters.extend(pair.masters.iter().map(|(node, weight)| (*node, weight / own)));
+            arrays.count += 1;
+            arrays.slaves.extend(dofs(pair.slave));
+            arrays.masters.extend(masters.iter().flat_map(|(node, _)| dofs(*node)));
+            arrays.weights.extend(masters.iter().map(|(_, weight)| weight));
+            arrays.master_start.push(arrays.weights.len());
+            arrays.normals.extend(&pair.normal[..dim]);
+            arrays.tangents.extend(&pair.tangents[0][..dim]);
+            arrays.gaps.push(pair.gap / own);
+            arrays.areas.push(pair.area * own);
+        }
+        Some(arrays)
+    }
+}

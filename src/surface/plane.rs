@@ -1,0 +1,143 @@
+//! The auxiliary plane of a slave face: both faces are projected on it along its normal, clipped and
+//! integrated there (Puso 2004). Of lines in the plane it is a straight line.
+
+use super::clip::Point;
+use super::face::Face;
+use super::shape::{FaceKind, Local, MOST_NODES};
+use crate::linalg::vector3::{Vector3, axis, unit};
+
+/// Steps of Newton's method to local coordinates. It converges by squares from the middle of a face that
+/// is convex; the rest is for faces at the limit of what is accepted.
+const STEPS: usize = 40;
+
+/// Newton's method has come to rest when its step is a few roundings of local coordinates.
+const AT_REST: f64 = 4.0 * f64::EPSILON;
+
+/// Local coordinates are found if they miss the point by less than this part of the face's size.
+const FOUND: f64 = 1e-12;
+
+/// A plane with its axes.
+#[derive(Clone, Debug)]
+pub(super) struct Plane {
+    origin: Vector3,
+    along: [Vector3; 2],
+    pub(super) normal: Vector3,
+}
+
+/// First tangent of a normal: in the plane the normal turned by +90 degrees, in space one across the
+/// axis that is most across the normal.
+pub(super) fn tangents(dim: usize, normal: Vector3) -> [Vector3; 2] {
+    if dim == 2 {
+        return [Vector3::new(-normal.y, normal.x, 0.0), Vector3::zeros()];
+    }
+    let most_across = axis(normal.iamin());
+    let first = unit(most_across - normal.dot(&most_across) * normal).unwrap_or(most_across);
+    [first, normal.cross(&first)]
+}
+
+impl Plane {
+    /// The plane through a point with a unit normal.
+    pub(super) fn new(dim: usize, origin: Vector3, normal: Vector3) -> Plane {
+        Plane { origin, along: tangents(dim, normal), normal }
+    }
+
+    /// Projects a face.
+    pub(super) fn flatten(&self, face: &Face<'_>) -> Flat {
+        let mut flat = Flat {
+            kind: face.kind,
+            points: [[0.0; 2]; MOST_NODES],
+            heights: [0.0; MOST_NODES],
+            size: face.size(),
+        };
+        for (i, x) in face.x[..face.kind.nodes()].iter().enumerate() {
+            let from = x - self.origin;
+            flat.points[i] = self.along.map(|along| along.dot(&from));
+            flat.heights[i] = self.normal.dot(&from);
+        }
+        flat
+    }
+}
+
+/// A projected face: its nodes in the axes of the plane, and their heights above it.
+#[derive(Clone, Debug)]
+pub(super) struct Flat {
+    pub(super) kind: FaceKind,
+    pub(super) points: [Point; MOST_NODES],
+    heights: [f64; MOST_NODES],
+    size: f64,
+}
+
+impl Flat {
+    /// A part of the face as a polygon that turns to the left, or an interval that ascends.
+    pub(super) fn polygon(&self, part: &[usize]) -> Vec<Point> {
+        let mut polygon: Vec<Point> = part.iter().map(|&node| self.points[node]).collect();
+        if super::clip::measure(&polygon) < 0.0 {
+            polygon.reverse();
+        }
+        polygon
+    }
+
+    /// The height above the plane.
+    pub(super) fn height(&self, at: Local) -> f64 {
+        self.kind.values(at).iter().zip(self.heights).map(|(value, height)| value * height).sum()
+    }
+
+    /// Position less `p`, and its derivatives by the local coordinates.
+    fn offset(&self, at: Local, p: Point) -> (Point, [Point; 2]) {
+        let mut from = [-p[0], -p[1]];
+        let mut by = [[0.0; 2]; 2];
+        let functions = self.kind.functions(at);
+        let nodes = self.kind.nodes();
+        for (point, [value, first, second]) in self.points[..nodes].iter().zip(functions) {
+            for c in 0..2 {
+                from[c] += value * point[c];
+                by[0][c] += first * point[c];
+                by[1][c] += second * point[c];
+            }
+        }
+        if self.kind.is_line() {
+            by[1] = [0.0, 1.0];
+        }
+        (from, by)
+    }
+
+    /// Local coordinates of the face's point above `p`, by Newton's method; `None` if it does not find
+    /// them.
+    pub(super) fn local(&self, p: Point) -> Option<Local> {
+        let p = if self.kind.is_line() { [p[0], 0.0] } else { p };
+        let mut at = self.kind.centre();
+        let mut miss = f64::INFINITY;
+        for _ in 0..STEPS {
+            let (from, [a, b]) = self.offset(at, p);
+            let determinant = a[0] * b[1] - a[1] * b[0];
+            let step = [
+                (from[0] * b[1] - from[1] * b[0]) / determinant,
+                (a[0] * from[1] - a[1] * from[0]) / determinant,
+            ];
+            at = [at[0] - step[0], if self.kind.is_line() { 0.0 } else { at[1] - step[1] }];
+            miss = from[0].abs().max(from[1].abs());
+            // The step has taken away most of what was missed before it.
+            if step[0].abs().max(step[1].abs()) <= AT_REST {
+                break;
+            }
+        }
+        (miss <= FOUND * self.size).then_some(at)
+    }
+
+    /// The area of the face over a unit of area of the plane.
+    pub(super) fn stretch(&self, at: Local) -> f64 {
+        let (_, [a, b]) = self.offset(at, [0.0; 2]);
+        let mut rise = [0.0; 2];
+        for (slopes, height) in self.kind.derivatives(at).iter().zip(self.heights) {
+            rise[0] += slopes[0] * height;
+            rise[1] += slopes[1] * height;
+        }
+        if self.kind.is_line() {
+            return (1.0 + (rise[0] / a[0]).powi(2)).sqrt();
+        }
+        let area = a[0] * b[1] - a[1] * b[0];
+        let [s, t] =
+            [(rise[0] * b[1] - rise[1] * a[1]) / area, (rise[1] * a[0] - rise[0] * b[0]) / area];
+        (1.0 + s * s + t * t).sqrt()
+    }
+}

@@ -1,0 +1,298 @@
+//! The kinds of faces: their nodes, shape functions and edges.
+//!
+//! Corners come first, in order around the face; then the mid nodes, the one between corners `i` and
+//! `i + 1` at place `i`; then the centre. Lines and quadrilaterals live on -1..1, triangles on the unit
+//! triangle.
+
+/// Most nodes of a face.
+pub(super) const MOST_NODES: usize = 9;
+
+/// A number for each node of a face; zero beyond them.
+pub(super) type Values = [f64; MOST_NODES];
+
+/// A point in a face's own coordinates. The second is zero on lines.
+pub(super) type Local = [f64; 2];
+
+/// What a face is, told by the space dimension and the number of its nodes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FaceKind {
+    /// A line with 2 nodes, in the plane.
+    Line2,
+    /// A line with 3 nodes, in the plane: ends, then the middle.
+    Line3,
+    /// A triangle with 3 nodes.
+    T3,
+    /// A triangle with 6 nodes.
+    T6,
+    /// A quadrilateral with 4 nodes.
+    Q4,
+    /// A quadrilateral with 8 nodes.
+    Q8,
+    /// A quadrilateral with 9 nodes.
+    Q9,
+}
+
+use FaceKind::{Line2, Line3, Q4, Q8, Q9, T3, T6};
+
+const LINE: [Local; 3] = [[-1.0, 0.0], [1.0, 0.0], [0.0, 0.0]];
+const TRIANGLE: [Local; 6] =
+    [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [0.5, 0.0], [0.5, 0.5], [0.0, 0.5]];
+const QUADRILATERAL: [Local; 9] = [
+    [-1.0, -1.0],
+    [1.0, -1.0],
+    [1.0, 1.0],
+    [-1.0, 1.0],
+    [0.0, -1.0],
+    [1.0, 0.0],
+    [0.0, 1.0],
+    [-1.0, 0.0],
+    [0.0, 0.0],
+];
+
+/// Exponents of the monomials that span the shape functions: of T6 the first six, of Q8 the first eight.
+const QUADRATIC: [[i32; 2]; 9] =
+    [[0, 0], [1, 0], [0, 1], [2, 0], [1, 1], [0, 2], [2, 1], [1, 2], [2, 2]];
+const BILINEAR: [[i32; 2]; 4] = [[0, 0], [1, 0], [0, 1], [1, 1]];
+const ON_LINE: [[i32; 2]; 3] = [[0, 0], [1, 0], [2, 0]];
+
+impl FaceKind {
+    /// The kind with this number of nodes.
+    pub(super) fn of(dim: usize, nodes: usize) -> Option<FaceKind> {
+        let kinds: &[FaceKind] = if dim == 2 { &[Line2, Line3] } else { &[T3, Q4, T6, Q8, Q9] };
+        kinds.iter().copied().find(|kind| kind.nodes() == nodes)
+    }
+
+    /// Number of nodes.
+    pub fn nodes(self) -> usize {
+        match self {
+            Line2 => 2,
+            Line3 | T3 => 3,
+            Q4 => 4,
+            T6 => 6,
+            Q8 => 8,
+            Q9 => 9,
+        }
+    }
+
+    /// Number of corners; of a line, its two ends.
+    pub(super) fn corners(self) -> usize {
+        match self {
+            Line2 | Line3 => 2,
+            T3 | T6 => 3,
+            Q4 | Q8 | Q9 => 4,
+        }
+    }
+
+    /// Whether it is a line of the plane.
+    pub(super) fn is_line(self) -> bool {
+        matches!(self, Line2 | Line3)
+    }
+
+    /// Highest total degree of the shape functions.
+    pub(super) fn degree(self) -> usize {
+        match self {
+            Line2 | T3 => 1,
+            Line3 | T6 | Q4 => 2,
+            Q8 => 3,
+            Q9 => 4,
+        }
+    }
+
+    /// Places of the nodes in the face's own coordinates.
+    pub(super) fn places(self) -> &'static [Local] {
+        match self {
+            Line2 | Line3 => &LINE[..self.nodes()],
+            T3 | T6 => &TRIANGLE[..self.nodes()],
+            Q4 | Q8 | Q9 => &QUADRILATERAL[..self.nodes()],
+        }
+    }
+
+    /// The middle of the face.
+    pub(super) fn centre(self) -> Local {
+        match self {
+            T3 | T6 => [1.0 / 3.0; 2],
+            _ => [0.0; 2],
+        }
+    }
+
+    /// Mid nodes on edges, each with the two corners beside it.
+    pub(super) fn mids(self) -> impl Iterator<Item = (usize, [usize; 2])> {
+        let corners = self.corners();
+        let edges = match self {
+            Line2 | T3 | Q4 => 0,
+            Line3 => 1,
+            T6 | Q8 | Q9 => corners,
+        };
+        (0..edges).map(move |edge| (corners + edge, [edge, (edge + 1) % corners]))
+    }
+
+    /// The node in the middle of a face with 9 nodes.
+    pub(super) fn central_node(self) -> Option<usize> {
+        (self == Q9).then_some(MOST_NODES - 1)
+    }
+
+    /// The flat parts into which a face with curved edges is cut, by nodes.
+    pub(super) fn parts(self) -> &'static [&'static [usize]] {
+        match self {
+            Line2 | Line3 => &[&[0, 1]],
+            T3 => &[&[0, 1, 2]],
+            Q4 => &[&[0, 1, 2, 3]],
+            T6 => &[&[0, 3, 5], &[3, 1, 4], &[5, 4, 2], &[3, 4, 5]],
+            Q8 => &[&[0, 4, 7], &[4, 1, 5], &[5, 2, 6], &[6, 3, 7], &[4, 5, 6, 7]],
+            Q9 => &[&[0, 4, 8, 7], &[4, 1, 5, 8], &[8, 5, 2, 6], &[7, 8, 6, 3]],
+        }
+    }
+
+    /// Exponents of the monomials that span the shape functions, lowest first.
+    pub(super) fn exponents(self) -> &'static [[i32; 2]] {
+        match self {
+            Line2 | Line3 => &ON_LINE[..self.nodes()],
+            T3 | T6 | Q8 | Q9 => &QUADRATIC[..self.nodes()],
+            Q4 => &BILINEAR,
+        }
+    }
+
+    /// Shape functions at a point.
+    pub(super) fn values(self, at: Local) -> Values {
+        self.functions(at).map(|[value, _, _]| value)
+    }
+
+    /// Derivatives of the shape functions at a point, by the two coordinates.
+    pub(super) fn derivatives(self, at: Local) -> [[f64; 2]; MOST_NODES] {
+        self.functions(at).map(|[_, first, second]| [first, second])
+    }
+
+    /// Shape functions, each with its derivatives by the two coordinates.
+    pub(super) fn functions(self, [s, t]: Local) -> [[f64; 3]; MOST_NODES] {
+        let mut functions = [[0.0; 3]; MOST_NODES];
+        match self {
+            Line2 => (0..2).for_each(|i| functions[i] = product(linear(s, i), ONE)),
+            Line3 => (0..3).for_each(|i| functions[i] = product(quadratic(s, i), ONE)),
+            T3 | T6 => {
+                let barycentric = [[1.0 - s - t, -1.0, -1.0], [s, 1.0, 0.0], [t, 0.0, 1.0]];
+                functions[..3].copy_from_slice(&barycentric);
+                for (mid, [a, b]) in self.mids() {
+                    functions[mid] = times(4.0, barycentric[a], barycentric[b]);
+                }
+                self.take_from_corners(&mut functions);
+            }
+            Q4 | Q8 => {
+                for (i, [a, b]) in SIDES[..4].iter().enumerate() {
+                    functions[i] = product(linear(s, *a), linear(t, *b));
+                }
+                for (mid, _) in self.mids() {
+                    let [a, b] = SIDES[mid];
+                    functions[mid] = if a == MIDDLE {
+                        product(quadratic(s, a), linear(t, b))
+                    } else {
+                        product(linear(s, a), quadratic(t, b))
+                    };
+                }
+                self.take_from_corners(&mut functions);
+            }
+            Q9 => {
+                for (i, [a, b]) in SIDES.iter().enumerate() {
+                    functions[i] = product(quadratic(s, *a), quadratic(t, *b));
+                }
+            }
+        }
+        functions
+    }
+
+    /// Makes the functions of the corners zero at the mid nodes, where they are a half.
+    fn take_from_corners(self, functions: &mut [[f64; 3]; MOST_NODES]) {
+        for (mid, corners) in self.mids() {
+            for corner in corners {
+                let half = functions[mid].map(|part| 0.5 * part);
+                functions[corner].iter_mut().zip(half).for_each(|(part, half)| *part -= half);
+            }
+        }
+    }
+}
+
+/// The middle node of a line with three.
+const MIDDLE: usize = 2;
+
+/// Of each node of a quadrilateral, its places along the two coordinates: 0 and 1 the ends, 2 the middle.
+const SIDES: [[usize; 2]; 9] =
+    [[0, 0], [1, 0], [1, 1], [0, 1], [2, 0], [1, 2], [2, 1], [0, 2], [2, 2]];
+
+const ONE: [f64; 2] = [1.0, 0.0];
+
+/// A linear function of a line with its derivative.
+fn linear(s: f64, node: usize) -> [f64; 2] {
+    let sign = if node == 0 { -1.0 } else { 1.0 };
+    [0.5 * (1.0 + sign * s), 0.5 * sign]
+}
+
+/// A quadratic function of a line with its derivative.
+fn quadratic(s: f64, node: usize) -> [f64; 2] {
+    match node {
+        0 => [0.5 * s * (s - 1.0), s - 0.5],
+        1 => [0.5 * s * (s + 1.0), s + 0.5],
+        _ => [1.0 - s * s, -2.0 * s],
+    }
+}
+
+/// `a(s) b(t)` with its derivatives.
+fn product(a: [f64; 2], b: [f64; 2]) -> [f64; 3] {
+    [a[0] * b[0], a[1] * b[0], a[0] * b[1]]
+}
+
+/// `factor a b` with its derivatives.
+fn times(factor: f64, a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [
+        factor * a[0] * b[0],
+        factor * (a[1] * b[0] + a[0] * b[1]),
+        factor * (a[2] * b[0] + a[0] * b[2]),
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::FaceKind::{Line2, Line3, Q4, Q8, Q9, T3, T6};
+
+    /// One at its own node and zero at the others; the sum is one, and the derivatives are those of
+    /// differences (step 1e-5: error 1e-10 of a cubic, rounding 1e-11).
+    #[test]
+    fn functions_are_those_of_their_nodes() {
+        for kind in [Line2, Line3, T3, T6, Q4, Q8, Q9] {
+            for (i, &place) in kind.places().iter().enumerate() {
+                let values = kind.values(place);
+                for (j, value) in values.iter().enumerate() {
+                    assert_eq!(*value, if i == j { 1.0 } else { 0.0 }, "{kind:?}, {i}, {j}");
+                }
+            }
+            let at = [0.21, if kind.is_line() { 0.0 } else { 0.37 }];
+            let sum: f64 = kind.values(at).iter().sum();
+            assert!((sum - 1.0).abs() < 1e-15, "{kind:?}");
+            for c in 0..if kind.is_line() { 1 } else { 2 } {
+                let step = |h: f64| {
+                    let mut at = at;
+                    at[c] += h;
+                    kind.values(at)
+                };
+                let (up, down) = (step(1e-5), step(-1e-5));
+                for (i, exact) in kind.derivatives(at).iter().enumerate() {
+                    let slope = (up[i] - down[i]) / 2e-5;
+                    assert!((slope - exact[c]).abs() < 1e-9, "{kind:?}, {i}, {c}");
+                }
+            }
+        }
+    }
+
+    /// Monomials of the list are combinations of the functions, with their values at the nodes.
+    #[test]
+    fn functions_span_their_monomials() {
+        for kind in [Line2, Line3, T3, T6, Q4, Q8, Q9] {
+            let at = [0.3, if kind.is_line() { 0.0 } else { 0.45 }];
+            for exponents in kind.exponents() {
+                let monomial = |p: [f64; 2]| p[0].powi(exponents[0]) * p[1].powi(exponents[1]);
+                let values = kind.values(at);
+                let sum: f64 =
+                    kind.places().iter().zip(values).map(|(&p, value)| monomial(p) * value).sum();
+                assert!((sum - monomial(at)).abs() < 1e-15, "{kind:?}, {exponents:?}");
+            }
+        }
+    }
+}

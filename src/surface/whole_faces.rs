@@ -1,0 +1,50 @@
+//! Rows of slave nodes whose faces count as covered wholly, and integrals over whole faces.
+
+use std::collections::BTreeMap;
+
+use super::control::Edges;
+use super::face::Face;
+use super::mesh::Side;
+use super::row::Row;
+use super::shape::{MOST_NODES, Values};
+
+/// The slave's part of the rows of all nodes, as if every face were covered wholly.
+pub(super) fn whole_rows(side: &Side<'_>) -> BTreeMap<usize, Row> {
+    let faces = || (0..side.count()).map(|face| side.face(face));
+    let mut edges = Edges::default();
+    faces().for_each(|face| edges.add(face.kind, face.nodes, true));
+    let mut rows: BTreeMap<usize, Row> = BTreeMap::new();
+    for face in faces() {
+        let basis = edges.basis(face.kind, face.nodes, true);
+        let areas = basis.functions(whole_integrals(&face));
+        for (node, unit) in face.nodes.iter().zip(unit_values(face.kind.nodes())) {
+            let values = basis.control_values(unit);
+            for (j, own) in face.nodes.iter().enumerate() {
+                rows.entry(*own).or_default().slaves.push((*node, areas[j] * values[j]));
+            }
+        }
+        for (node, area) in face.nodes.iter().zip(areas) {
+            rows.entry(*node).or_default().area += area;
+        }
+    }
+    rows
+}
+
+/// Nodal values that are one at a node each.
+pub(super) fn unit_values(nodes: usize) -> impl Iterator<Item = Values> {
+    (0..nodes).map(|node| {
+        let mut values = [0.0; MOST_NODES];
+        values[node] = 1.0;
+        values
+    })
+}
+
+/// Integrals of the shape functions over a whole face.
+pub(super) fn whole_integrals(face: &Face<'_>) -> Values {
+    let mut integrals = [0.0; MOST_NODES];
+    for (at, weight) in face.area_points() {
+        let values = face.kind.values(at);
+        integrals.iter_mut().zip(values).for_each(|(sum, value)| *sum += weight * value);
+    }
+    integrals
+}
