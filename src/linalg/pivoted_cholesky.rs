@@ -94,23 +94,29 @@ impl PivotedCholesky {
                 schur[i + m * j] = corner(i, j);
             }
         }
-        triangular::matmul(
-            MatMut::from_column_major_slice_mut(&mut schur, m, m),
-            BlockStructure::TriangularLower,
-            Accum::Add,
-            half.transpose(),
-            BlockStructure::Rectangular,
-            half.as_ref(),
-            BlockStructure::Rectangular,
-            -1.0,
-            Par::Seq,
-        );
-        for j in 0..m {
-            for i in 0..j {
-                schur[i + m * j] = schur[j + m * i];
-            }
-        }
+        subtract_gram(&mut schur, half.as_ref());
         schur
+    }
+}
+
+/// `C - Xᵀ X` from the lower triangle of the symmetric `C`, both triangles; column-major.
+pub fn subtract_gram(c: &mut [f64], x: MatRef<'_, f64>) {
+    let m = x.ncols();
+    triangular::matmul(
+        MatMut::from_column_major_slice_mut(c, m, m),
+        BlockStructure::TriangularLower,
+        Accum::Add,
+        x.transpose(),
+        BlockStructure::Rectangular,
+        x,
+        BlockStructure::Rectangular,
+        -1.0,
+        Par::Seq,
+    );
+    for j in 0..m {
+        for i in 0..j {
+            c[i + m * j] = c[j + m * i];
+        }
     }
 }
 
