@@ -73,6 +73,15 @@ impl PairLaw {
         if slips { rounding } else { 0.0 }
     }
 
+    /// Bound on the change of [`Self::natural_residual`] by a change of the force, relative to that change.
+    ///
+    /// With the gauge `|W t|`, friction on a slip `g y / |W y|` changes by `mu` times the change of the
+    /// normal force and, as `g <= |W y|`, by `1 + |W|` times the change of the trial force `y`.
+    pub fn sensitivity(&self) -> f64 {
+        let form = self.gauge_form();
+        2.0 + self.bound.slope + (form[0][0] + form[1][1]).sqrt()
+    }
+
     /// The state of the active branch of the natural map. Branches closer than the force `margin` are
     /// not told apart: open comes before closed, stick before slip.
     pub fn state(&self, d: &[f64], force: &[f64], margin: f64) -> State {

@@ -19,7 +19,7 @@ use super::relation::{Relation, Stiffness};
 use super::symmetric_matrix;
 use crate::error::{Argument, Error, entry};
 use crate::linalg::matrix::{Matrix, can_exist, required_length};
-use crate::linalg::vector::{self, first_not_finite};
+use crate::linalg::vector::{self, first_not_finite, sizes};
 
 /// The caller's arrays, not yet checked. Forces and displacements are in the caller's units.
 #[derive(Clone, Copy, Debug)]
@@ -144,8 +144,15 @@ impl<'a> ContactProblem<'a> {
 
     /// Internal force `K d`, in twice the precision and rounded once.
     pub fn internal_force(&self, d: &[f64]) -> Vec<f64> {
-        let zero = vec![0.0; d.len()];
-        self.relation.matrix.residual(d, &zero, &zero)
+        let terms = self.relation.matrix.magnitude(&sizes(d));
+        self.relation.matrix.residual(d, &[], &vec![0.0; d.len()], &terms)
+    }
+
+    /// `K (d + low) - f`, in twice the precision and rounded once; `low` is what rounding to doubles has
+    /// left out of `d`.
+    pub(crate) fn force_of_parts(&self, d: &[f64], low: &[f64]) -> Vec<f64> {
+        let terms = self.relation.matrix.magnitude(&sizes(d));
+        self.relation.matrix.residual(d, low, self.relation.load, &terms)
     }
 }
 

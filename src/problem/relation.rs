@@ -24,8 +24,9 @@ pub trait Relation {
     /// The loads, in the unit of force: what drives the problem, and the size of forces.
     fn load(&self) -> &[f64];
 
-    /// The contact force that `d` determines; `None` if it determines none.
-    fn force(&self, d: &[f64]) -> Option<Vec<f64>>;
+    /// The contact force that `d + low` determines, rounded once; `None` if it determines none. `low` is
+    /// empty, or what rounding to doubles has left out of `d`; `terms` is [`Self::magnitude`] of `|d|`.
+    fn force(&self, d: &[f64], low: &[f64], terms: &[f64]) -> Option<Vec<f64>>;
 
     /// How far `(d, F)` is from equilibrium, a force for each component: zero if the relation holds.
     fn residual(&self, d: &[f64], force: &[f64]) -> Vec<f64>;
@@ -44,14 +45,6 @@ pub struct Stiffness<'a> {
     pub(super) symmetric: bool,
 }
 
-impl Stiffness<'_> {
-    /// `K (d + low) - f`, in twice the precision and rounded once; `low` is what rounding to doubles has left
-    /// out of `d`.
-    pub(crate) fn residual_of_parts(&self, d: &[f64], low: &[f64]) -> Vec<f64> {
-        self.matrix.residual(d, low, self.load)
-    }
-}
-
 impl Relation for Stiffness<'_> {
     fn size(&self) -> usize {
         self.matrix.size()
@@ -65,9 +58,9 @@ impl Relation for Stiffness<'_> {
         self.load
     }
 
-    /// `K d - f`, in twice the precision and rounded once.
-    fn force(&self, d: &[f64]) -> Option<Vec<f64>> {
-        Some(self.residual_of_parts(d, &vec![0.0; d.len()]))
+    /// `K (d + low) - f`, in twice the precision and rounded once.
+    fn force(&self, d: &[f64], low: &[f64], terms: &[f64]) -> Option<Vec<f64>> {
+        Some(self.matrix.residual(d, low, self.load, terms))
     }
 
     /// `K d - f - F`.
@@ -79,14 +72,6 @@ impl Relation for Stiffness<'_> {
     }
 
     fn magnitude(&self, size: &[f64]) -> Vec<f64> {
-        let mut sum = vec![0.0; size.len()];
-        for (j, &size) in size.iter().enumerate() {
-            if size > 0.0 {
-                for (sum, k) in sum.iter_mut().zip(self.matrix.column(j)) {
-                    *sum += k.abs() * size;
-                }
-            }
-        }
-        sum
+        self.matrix.magnitude(size)
     }
 }
