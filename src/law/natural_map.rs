@@ -65,11 +65,14 @@ impl PairLaw {
     /// rounded once: two forces on a slip. Elsewhere a component has one term, with a few roundings.
     pub fn natural_rounding(&self, d: &[f64], force: &[f64]) -> f64 {
         let threshold = self.threshold(force[0]);
-        let trial = self.trial(d, force);
-        let terms = length(&force[1..self.dim]) + threshold + self.bound.slope * self.tension;
+        // Of an isotropic law the sum of sizes is above the length, and cheaper.
+        let above = |t: &[f64]| t.iter().map(|t| t.abs()).sum::<f64>();
+        let terms = above(&force[1..self.dim]) + threshold + self.bound.slope * self.tension;
         let rounding = EVALUATION * terms;
+        let trial = &self.trial(d, force)[1..self.dim];
         // Next to its bound a pair that sticks may slip.
-        let slips = threshold > 0.0 && self.gauge(&trial[1..self.dim]) + rounding > threshold;
+        let sticks = self.ellipse.is_none() && above(trial) + rounding <= threshold;
+        let slips = threshold > 0.0 && !sticks && self.gauge(trial) + rounding > threshold;
         if slips { rounding } else { 0.0 }
     }
 
