@@ -70,7 +70,8 @@ impl<'a> Matrix<'a> {
     ///
     /// Sums are taken on top of a number so large that they do not change its exponent: digits below its
     /// last one go to a second sum. With `n` columns, `u = 2^-53` and where nothing overflows or is
-    /// subnormal, row `i` is off by `16 u² (n + 2)² (terms[i] + |b[i]|)` at most before it is rounded. After
+    /// subnormal, row `i` is off by `16 u² (n + 2)² (terms[i] + |b[i]|)` at most before it is rounded. Where that sum of
+    /// sizes is above 5e306 the result is not a number. After
     /// S. M. Rump, T. Ogita and S. Oishi, *Accurate floating-point summation, part I*, SIAM J. Sci. Comput.
     /// 31 (2008) 189-224.
     pub fn residual(&self, x: &[f64], x_low: &[f64], b: &[f64], terms: &[f64]) -> Vec<f64> {
@@ -157,4 +158,53 @@ pub fn required_length(name: &str, size: usize, ld: usize) -> Result<usize, Stri
 /// Whether a square matrix of `size` rows fits the address space.
 pub fn can_exist(size: usize) -> bool {
     size.checked_mul(size).is_some_and(|entries| entries <= isize::MAX as usize / size_of::<f64>())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::linalg::double_double::{DoubleDouble, dot};
+    use crate::linalg::vector::sizes;
+
+    /// A residual that cancels to the last digits of its terms, against inner products in twice the precision,
+    /// whose own error is `(2 n)² u² sum |a_i b_i|` for `n` terms with their low parts: the bound that the
+    /// residual is documented with is above the sum of both errors and of the rounding of the result.
+    #[test]
+    fn residuals_that_cancel_are_right() {
+        const UNIT: f64 = f64::EPSILON / 2.0;
+        let mut rng = fastrand::Rng::with_seed(2);
+        for n in (1..40).chain([200]) {
+            let mut number = || (rng.f64() - 0.5) * 10_f64.powi(rng.i32(-6..6));
+            let entries: Vec<f64> = (0..n * n).map(|_| number()).collect();
+            let x: Vec<f64> = (0..n).map(|_| number()).collect();
+            let low: Vec<f64> = x.iter().map(|x| 0.3 * UNIT * x).collect();
+            let matrix = Matrix::new(n, &entries, n);
+            let (b, terms) = (matrix.product(&x), matrix.magnitude(&sizes(&x)));
+            let residual = matrix.residual(&x, &low, &b, &terms);
+            for i in 0..n {
+                let row: Vec<f64> = (0..n).map(|j| matrix.at(i, j)).collect();
+                let exact = dot(&row, &x).plus(dot(&row, &low)).plus(DoubleDouble::sum(-b[i], 0.0));
+                let error = exact.plus(DoubleDouble::sum(-residual[i], 0.0)).parts().0.abs();
+                let squared = (UNIT * (n + 2) as f64).powi(2);
+                let bound = 20.0 * squared * (terms[i] + b[i].abs()) + UNIT * residual[i].abs();
+                assert!(error <= bound, "{n}: row {i}: {error:e} > {bound:e}");
+            }
+        }
+    }
+
+    /// Powers of two are no rounding: scaled data give scaled bits, from small numbers to large ones.
+    #[test]
+    fn residuals_scale_with_their_data() {
+        let (entries, x, b) = ([3.1, -2.7, 0.3, 1e-9], [0.7, 1.3], [1.4, 0.1]);
+        let residual = |power: i32| -> Vec<f64> {
+            let by = 2_f64.powi(power);
+            let (entries, b) = (entries.map(|entry| by * entry), b.map(|b| by * b));
+            let matrix = Matrix::new(2, &entries, 2);
+            let residual = matrix.residual(&x, &[], &b, &matrix.magnitude(&x));
+            residual.iter().map(|residual| residual / by).collect()
+        };
+        for power in [-800, -60, 1, 60, 1000] {
+            assert_eq!(residual(power), residual(0), "2^{power}");
+        }
+    }
 }

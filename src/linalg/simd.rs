@@ -2,7 +2,8 @@
 //!
 //! [`vectorised`] compiles its closure a second time for AVX2 and runs that version where the
 //! processor has it; the loops are written for the vectoriser and inlined there. They multiply, then
-//! add, unfused: the result does not depend on the instruction set.
+//! add, unfused, and where they fuse they say so by `mul_add`, which rounds once everywhere: the result does
+//! not depend on the instruction set. Processors without a fused operation compute it slowly.
 
 use pulp::Arch;
 
