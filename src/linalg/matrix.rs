@@ -69,11 +69,10 @@ impl<'a> Matrix<'a> {
     /// what rounding to doubles has left out of `x`; `terms` is [`Self::magnitude`] of `|x|`.
     ///
     /// Sums are taken on top of a number so large that they do not change its exponent: digits below its
-    /// last one go to a second sum. With `n` columns, `u = 2^-53` and where nothing overflows or is
-    /// subnormal, row `i` is off by `16 u² (n + 2)² (terms[i] + |b[i]|)` at most before it is rounded. Where that sum of
-    /// sizes is above 5e306 the result is not a number. After
-    /// S. M. Rump, T. Ogita and S. Oishi, *Accurate floating-point summation, part I*, SIAM J. Sci. Comput.
-    /// 31 (2008) 189-224.
+    /// last one go to a second sum. With `n` columns, `u = 2^-53` and where nothing is subnormal, row `i` is
+    /// off by `16 u² (n + 2)² (terms[i] + |b[i]|)` at most before it is rounded; where that sum of sizes is
+    /// above 2e307 it is not a number. After S. M. Rump, T. Ogita and S. Oishi, *Accurate floating-point
+    /// summation, part I*, SIAM J. Sci. Comput. 31 (2008) 189-224.
     pub fn residual(&self, x: &[f64], x_low: &[f64], b: &[f64], terms: &[f64]) -> Vec<f64> {
         let base: Vec<f64> = terms.iter().zip(b).map(|(t, b)| base_of_sum(t + b.abs())).collect();
         let mut high: Vec<f64> = base.iter().zip(b).map(|(base, b)| base - b).collect();
