@@ -484,8 +484,10 @@ int32_t signorini_certify(int32_t dim, int64_t pairs, const double *K, int64_t l
  *
  * The file is a dense matrix in the Matrix Market format: the columns of K, f, gap, friction and
  * slip0, and comment lines that say so. It appears under its name only when it is complete: it is
- * written beside its place under a name that ends in .part, then renamed. K must be finite; its
- * symmetry and definiteness are not checked here.
+ * written beside its place under a name that ends in .part, then renamed. A file that it replaces
+ * hands on its mode; through a symbolic link the file is replaced that it names; pipes, devices and
+ * links to nothing are refused. K must be finite; its symmetry and definiteness are not checked
+ * here.
  *
  * @param path      name of the file, which is replaced if it exists; bytes as for fopen (UTF-8 on
  *                  Windows)
@@ -555,7 +557,7 @@ typedef struct signorini_problem signorini_problem;
 
 /**
  * Reads a problem from a file. Any file is safe to read: the call returns either a problem or an
- * error that names the line.
+ * error that names the line. Pipes and devices are refused at once.
  *
  * @param path     name of the file
  * @param problem  out: the problem; NULL unless 0 is returned
