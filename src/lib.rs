@@ -94,18 +94,31 @@
 //!   (1992) 691–714.
 //! - D. M. Young: *Iterative Solution of Large Linear Systems*. Academic Press, 1971.
 
+#[forbid(unsafe_code)]
 pub mod certificate;
+#[forbid(unsafe_code)]
 mod error;
+// The only room that may: pointers of C.
 mod ffi;
+#[forbid(unsafe_code)]
 pub mod file;
+#[forbid(unsafe_code)]
 pub mod law;
+#[forbid(unsafe_code)]
 mod linalg;
+#[forbid(unsafe_code)]
 mod model;
+#[forbid(unsafe_code)]
 mod monitor;
+#[forbid(unsafe_code)]
 mod problem;
+#[forbid(unsafe_code)]
 pub mod reduce;
+#[forbid(unsafe_code)]
 mod settings;
+#[forbid(unsafe_code)]
 mod solve;
+#[forbid(unsafe_code)]
 pub mod surface;
 
 pub use error::{Argument, Error, Message};
