@@ -683,6 +683,12 @@ struct signorini_settings {
     int32_t search;                 /**< SIGNORINI_SEARCH_...; default SIGNORINI_SEARCH_OFF. */
     signorini_progress_fn progress; /**< Progress callback; default NULL. */
     void *user;                     /**< Passed to progress as its first argument; default NULL. */
+    /**
+     * Nonzero: prove that the solution exists, and where: report.proof, extra.radius_d and
+     * radius_F. It costs one to three solutions. Default 0.
+     */
+    int32_t proof;
+    int32_t reserved;               /**< 0. */
 };
 
 /**
@@ -699,6 +705,20 @@ int32_t signorini_settings_default(signorini_settings *settings, uint32_t struct
 #define SIGNORINI_UNIQUENESS_NOT_KNOWN 0 /**< It is not known whether there are other solutions. */
 #define SIGNORINI_UNIQUENESS_UNIQUE 1    /**< Proved: there is no other solution. */
 #define SIGNORINI_UNIQUENESS_SEVERAL 2   /**< Proved: there are other solutions. */
+
+/* Whether a solution is proved to exist. */
+#define SIGNORINI_PROOF_NOT_ASKED 0 /**< settings.proof is 0. */
+/**
+ * Proved: the data, each double taken for the real number that it is, have a solution with these
+ * states. Of a model the data are those of its condensed problem, in doubles as the library has
+ * made them.
+ */
+#define SIGNORINI_PROOF_PROVED 1
+/**
+ * Not proved, which says nothing about whether there is a solution: a pair is at the boundary of
+ * two states, or rounding is too large beside the condition of K.
+ */
+#define SIGNORINI_PROOF_NOT_PROVED 2
 
 /* Why the first method was abandoned. */
 #define SIGNORINI_FALLBACK_NONE 0       /**< The first method succeeded. */
@@ -751,6 +771,19 @@ struct signorini_report {
      */
     int32_t orientation;
     int32_t second;           /**< 1: a second solution was found, see extra; else 0. */
+    /**
+     * Largest error of a component of d over the largest component of d, no unit. With
+     * SIGNORINI_PROOF_PROVED a proved bound. Otherwise what the contraction of the last refinement
+     * tells; -1: not known, there was none.
+     */
+    double error_d;
+    /**
+     * Largest error of a component of F over the largest component of F and f, no unit; in the
+     * same way.
+     */
+    double error_F;
+    int32_t proof;            /**< SIGNORINI_PROOF_... */
+    int32_t reserved;         /**< 0. */
 };
 
 /**
@@ -787,6 +820,12 @@ struct signorini_extra {
     double *second_F;
     /** Out: one for each pair. SIGNORINI_STATE_... of the second solution; otherwise zeros. */
     int32_t *second_state;
+    /**
+     * Out: N entries. If report.proof is SIGNORINI_PROOF_PROVED: the solution has displacements
+     * within this distance of d, component by component; length. Otherwise -1.
+     */
+    double *radius_d;
+    double *radius_F;     /**< Out: N entries. The same of the contact forces and F; force. */
 };
 
 /**

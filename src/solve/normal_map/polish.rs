@@ -14,8 +14,10 @@ use crate::certificate::eta_of;
 use crate::law::{Contact, Vector};
 use crate::linalg::double_double::two_sum;
 use crate::linalg::tolerances::NULL_VECTOR;
+use crate::linalg::vector::{largest_of, norm_inf};
 use crate::settings::Settings;
 use crate::solve::candidate::{Candidate, Ending};
+use crate::solve::outcome::Errors;
 
 /// Most steps, and those in a row that may be no better than an earlier one: pieces may change first.
 const MOST_STEPS: usize = 30;
@@ -28,6 +30,9 @@ const AIM: f64 = 0.01;
 /// and rounding may hide a solution from a method altogether: there any candidate is refined.
 const NEAR: f64 = 1e-3;
 const FEW_UNKNOWNS: usize = 64;
+
+/// Steps that become smaller by this factor or less tell the error that is left.
+const SURE: f64 = 0.5;
 
 /// The candidate, refined if its residual is above the tolerance and that helps.
 pub fn polished(contact: &Contact<'_>, settings: &Settings, candidate: Candidate) -> Candidate {
@@ -52,14 +57,18 @@ fn refined(contact: &Contact<'_>, candidate: &Candidate, aim: f64) -> Candidate 
     let (mut d, mut low) = (candidate.d.clone(), vec![0.0; candidate.d.len()]);
     let mut best = candidate.clone();
     let (mut least, mut in_vain) = (f64::INFINITY, 0);
+    let mut steps = Steps::default();
     for _ in 0..MOST_STEPS {
         let v = contact.beyond_reference(&d, &low);
         let force = relation.residual_of_parts(&d, &low);
         let eta = eta_of(&at_reference, &v, &force);
         if eta < least {
             (least, in_vain) = (eta, 0);
+            steps.arrived(&best.force, &force);
             (best.d, best.low, best.force) = (d.clone(), low.clone(), force.clone());
+            best.errors = steps.errors(&best, contact.problem().load());
         } else {
+            steps = Steps::default();
             in_vain += 1;
         }
         if !(least > aim) || in_vain >= MOST_IN_VAIN {
@@ -68,12 +77,46 @@ fn refined(contact: &Contact<'_>, candidate: &Candidate, aim: f64) -> Candidate 
         best.effort.factorisations += 1;
         let Some((step, orientation)) = step(&equations, &v, &force) else { break };
         best.orientation = orientation;
+        steps.begin(&step);
         for ((d, low), step) in d.iter_mut().zip(&mut low).zip(&step) {
             let (sum, lost) = two_sum(*d, *step);
             (*d, *low) = two_sum(sum, lost + *low);
         }
     }
     best.remeasured()
+}
+
+/// The last two steps of a refinement, as far as each was better than the one before: largest changes of a
+/// displacement and of a force.
+#[derive(Default)]
+struct Steps {
+    d: Vec<f64>,
+    force: Vec<f64>,
+}
+
+impl Steps {
+    fn begin(&mut self, step: &[f64]) {
+        self.d.push(norm_inf(step));
+    }
+
+    fn arrived(&mut self, before: &[f64], force: &[f64]) {
+        if self.d.len() > self.force.len() {
+            self.force.push(largest_of(before.iter().zip(force).map(|(before, now)| before - now)));
+        }
+    }
+
+    /// What is left after steps that become smaller by the factor of the last two, beside the rounding of the
+    /// answer itself.
+    fn errors(&self, at: &Candidate, load: &[f64]) -> Option<Errors> {
+        let left = |steps: &[f64], size: f64| {
+            let [.., before, last] = *steps else { return None };
+            let factor = last / before;
+            let part = if last > 0.0 { last * factor / (1.0 - factor) / size } else { 0.0 };
+            (factor < SURE || last == 0.0).then_some(part + f64::EPSILON)
+        };
+        let forces = norm_inf(&at.force).max(norm_inf(load));
+        Some(Errors { d: left(&self.d, norm_inf(&at.d))?, force: left(&self.force, forces)? })
+    }
 }
 
 /// The change of displacements `v` beyond their references that Newton's method wants where they need
