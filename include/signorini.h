@@ -172,6 +172,8 @@ const char *signorini_last_error(void);
  */
 #define SIGNORINI_STATUS_STALLED 5
 #define SIGNORINI_STATUS_NOT_A_SOLUTION 6    /**< Certify: the displacements are no solution. */
+/** Prove: no solution is proved to exist, which does not say that there is none. */
+#define SIGNORINI_STATUS_NOT_PROVED 7
 #define SIGNORINI_STATUS_INTERNAL -1000 /**< A caught defect of the library: results undefined. */
 #define SIGNORINI_STATUS_OUT_OF_MEMORY -1001 /**< Out of memory: nothing was written. */
 #define SIGNORINI_STATUS_FILE -1002          /**< A file cannot be read or written. */
@@ -470,6 +472,37 @@ int32_t signorini_certify(int32_t dim, int64_t pairs, const double *K, int64_t l
                           const double *gap, int32_t law, const double *friction,
                           const double *slip0, double tolerance, const double *d, double *F,
                           int32_t *state, signorini_report *report);
+
+/**
+ * Tries to prove that a condensed contact problem has a solution next to displacements of any
+ * origin, say of another solver, and bounds how far it is away.
+ *
+ * What is proved: K, f, gap, friction and slip0, each double taken for the real number that it
+ * is, have a solution with these states, each pair clear of the boundaries of its state. All
+ * rounding is bounded. It is not proved that there is no other solution.
+ *
+ * @param dim       space dimension, 2 or 3
+ * @param pairs     number of contact pairs, 0 allowed
+ * @param K         condensed stiffness, as for signorini_solve
+ * @param ldk       entries from one column of K to the next, at least max(1, N)
+ * @param f         condensed nodal loads, N
+ * @param gap       initial gaps, one for each pair
+ * @param law       SIGNORINI_LAW_..., the friction law of all pairs
+ * @param friction  parameters of the law, pair by pair; may be NULL if frictionless
+ * @param slip0     reference slip, dim - 1 for each pair; NULL: zero
+ * @param d         relative displacements, N
+ * @param state     SIGNORINI_STATE_... of each pair; NULL: those of d
+ * @param F         out: contact forces of the solution, N; may be NULL
+ * @param radius_d  out: the solution has displacements within this distance of d, component by
+ *                  component, N; length; may be NULL
+ * @param radius_F  out: the same of the contact forces and F, N; force; may be NULL
+ * @return 0: proved; SIGNORINI_STATUS_NOT_PROVED: not, which proves nothing: F holds zeros, the
+ *         radii -1; -k: the k-th argument is wrong, nothing was written
+ */
+int32_t signorini_prove(int32_t dim, int64_t pairs, const double *K, int64_t ldk, const double *f,
+                        const double *gap, int32_t law, const double *friction, const double *slip0,
+                        const double *d, const int32_t *state, double *F, double *radius_d,
+                        double *radius_F);
 
 /* ============================================================================================
  * 4  Files

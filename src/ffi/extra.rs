@@ -2,6 +2,7 @@
 
 use super::args::{Arrays, Output};
 use super::guard::{self, Failure};
+use super::prove::NO_RADIUS;
 use super::report::state_codes;
 use super::structures;
 use crate::solve::{Existence, Solution};
@@ -131,9 +132,6 @@ impl Extra {
         }
     }
 }
-
-/// A radius where nothing is proved.
-const NO_RADIUS: f64 = -1.0;
 
 /// Distances of the proved solution from what the caller receives.
 fn radii(solution: &Solution) -> (Vec<f64>, Vec<f64>) {

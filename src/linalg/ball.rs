@@ -54,11 +54,11 @@ impl Ball {
 
     /// Whether every number of the ball is positive.
     pub fn is_positive(self) -> bool {
-        self.lower() > 0.0
+        self.least() > 0.0
     }
 
     /// Not above any number of the ball.
-    pub fn lower(self) -> f64 {
+    pub fn least(self) -> f64 {
         (self.middle - self.radius).next_down()
     }
 
@@ -78,7 +78,7 @@ impl Ball {
             return Ball::new(f64::NAN, f64::INFINITY);
         }
         // |sqrt(a) - sqrt(b)| = |a - b| / (sqrt(a) + sqrt(b)).
-        let least = self.lower().sqrt().next_down();
+        let least = self.least().sqrt().next_down();
         Ball::rounded(self.middle.sqrt(), (self.radius / least).next_up())
     }
 
@@ -90,12 +90,12 @@ impl Ball {
 
 /// `a + b` of numbers that are not negative, rounded up.
 pub fn sum_up(a: f64, b: f64) -> f64 {
-    (a + b).next_up()
+    if a == 0.0 || b == 0.0 { a + b } else { (a + b).next_up() }
 }
 
 /// `a b` of numbers that are not negative, rounded up.
 pub fn product_up(a: f64, b: f64) -> f64 {
-    (a * b).next_up()
+    if a == 0.0 || b == 0.0 { a * b } else { (a * b).next_up() }
 }
 
 /// A bound on the sum of `terms` products of numbers that are not negative, of which doubles give `sum` in
@@ -109,7 +109,9 @@ impl Add for Ball {
     type Output = Ball;
 
     fn add(self, other: Ball) -> Ball {
-        Ball::rounded(self.middle + other.middle, sum_up(self.radius, other.radius))
+        let (middle, radius) = (self.middle + other.middle, sum_up(self.radius, other.radius));
+        // A sum that is zero is exact.
+        if middle == 0.0 { Ball { middle, radius } } else { Ball::rounded(middle, radius) }
     }
 }
 
@@ -183,10 +185,10 @@ mod tests {
             let (x, y) = (Ball::exact(a as f64), Ball::exact(b as f64));
             // a / b * b / a = 1, and (sqrt(a))² = a.
             let one = x / y * y / x;
-            assert!(one.distance_to(1.0) >= 0.0 && one.lower() <= 1.0 && one.size() >= 1.0);
+            assert!(one.distance_to(1.0) >= 0.0 && one.least() <= 1.0 && one.size() >= 1.0);
             assert!(one.radius() < 1e-14);
             let square = x.sqrt() * x.sqrt();
-            assert!(square.lower() <= a as f64 && square.size() >= a as f64);
+            assert!(square.least() <= a as f64 && square.size() >= a as f64);
             let difference = (x / y - Ball::exact(a as f64 / b as f64)) * y;
             // The remainder of the rounded quotient, exactly.
             let rest = (-(a as f64 / b as f64)).mul_add(b as f64, a as f64);
