@@ -105,7 +105,13 @@ impl FrozenPair {
 
     /// Whether the friction of the pair follows its normal force.
     pub fn is_dragged(&self) -> bool {
-        self.closed && matches!(self.along, Along::Side(_) | Along::Turning(_))
+        let slips = matches!(self.along, Along::Side(_) | Along::Turning(_));
+        self.closed && slips && self.law.bound.slope > 0.0
+    }
+
+    /// Whether the equations of the piece are symmetric where the stiffness is.
+    pub fn is_symmetric(&self) -> bool {
+        !self.is_dragged() && !matches!(self.along, Along::Turning(_))
     }
 
     /// What turns displacements into tangential unknowns, for scaling: the unit of `w`, else 1.

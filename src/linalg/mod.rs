@@ -3,6 +3,7 @@
 
 pub(crate) mod approximate_inverse;
 pub(crate) mod ball;
+pub(crate) mod definite;
 pub(crate) mod double_double;
 pub(crate) mod elimination;
 pub(crate) mod factor;

@@ -5,9 +5,11 @@
 //! of `|1 - R J|` for the matrices `J` of all places in the box: then `G` has a zero there (Brouwer), one only,
 //! and it is at most `z + alpha eps` from `x`, component by component (R. Krawczyk, Computing 4 (1969)
 //! 187-201; S. M. Rump, *Verification methods*, Acta Numerica 19 (2010) 287-449, section 13).
+//!
+//! Where the equations are linear and `x . J x >= l |x|²`, the zero is at most `|G(x)| / l` away.
 
-use super::forces::bound_of_product;
-use super::system::{Centre, State, System, Unknown};
+use super::forces::{bound_of_product, enclosed_force};
+use super::system::{Centre, Solver, System, Unknown};
 use crate::law::{FrozenPair, Local};
 use crate::linalg::approximate_inverse::ApproximateInverse;
 use crate::linalg::ball::{Ball, BallVector, product_up, sum_up};
@@ -26,33 +28,58 @@ pub struct Enclosure {
     pub force: Vec<BallVector>,
 }
 
-/// A solution of the frozen equations next to the centre, where `state` was measured; `None` if it is not
+/// A solution of the frozen equations next to the centre; `None` if it is not
 /// proved, or if it is not clear of the boundaries of its pieces.
-pub fn enclose(
+pub fn enclose(system: &System<'_>, solver: &Solver, centre: &Centre) -> Option<Enclosure> {
+    let v = system.beyond_reference(centre);
+    let force = enclosed_force(system.contact, (&centre.d, &centre.low), &centre.force);
+    let lack = system.lack(centre, &force);
+    match solver {
+        Solver::Definite(definite) => {
+            let radius = (length_up(&lack) / definite.least()).next_up();
+            let radii = vec![radius; system.unknowns.len()];
+            Neighbourhood::new(system, &force, &v, radius).enclosure(&v, &radii)
+        }
+        Solver::Inverse(inverse) => by_inverse(system, inverse, &lack, (&force, &v)),
+    }
+}
+
+/// A bound on the length of vectors in the balls.
+fn length_up(balls: &[Ball]) -> f64 {
+    // In the unit of the largest, so that no square overflows.
+    let most = balls.iter().fold(0.0, |most: f64, ball| most.max(ball.size()));
+    let square = |ball: &Ball| {
+        let part = if most > 0.0 { (ball.size() / most).next_up() } else { ball.size() };
+        product_up(part, part)
+    };
+    let sum = balls.iter().map(square).fold(0.0, sum_up);
+    product_up(sum.sqrt().next_up(), most)
+}
+
+fn by_inverse(
     system: &System<'_>,
     inverse: &ApproximateInverse,
-    centre: &Centre,
-    state: &State,
+    lack: &[Ball],
+    (force, v): (&[BallVector], &[BallVector]),
 ) -> Option<Enclosure> {
-    let middle: Vec<f64> = state.lack.iter().map(|lack| lack.middle()).collect();
-    let doubt: Vec<f64> = state.lack.iter().map(|lack| lack.radius()).collect();
+    let middle: Vec<f64> = lack.iter().map(|lack| lack.middle()).collect();
+    let doubt: Vec<f64> = lack.iter().map(|lack| lack.radius()).collect();
     let first = inverse.image(&middle, &doubt);
     let eps = BOX * first.iter().fold(f64::MIN_POSITIVE, |most, &z| most.max(z));
-    let v = system.beyond_reference(centre);
-    let neighbourhood = Neighbourhood::new(system, state, &v, eps);
+    let neighbourhood = Neighbourhood::new(system, force, v, eps);
     let alpha = inverse.contraction(&neighbourhood.doubts());
     let radius = |(z, alpha): (&f64, &f64)| {
         let radius = sum_up(*z, product_up(*alpha, eps));
         (*alpha < 1.0 && radius <= eps).then_some(radius)
     };
     let radii: Vec<f64> = first.iter().zip(&alpha).map(radius).collect::<Option<_>>()?;
-    neighbourhood.enclosure(&v, &radii)
+    neighbourhood.enclosure(v, &radii)
 }
 
 /// The pieces on a box of the unknowns.
 struct Neighbourhood<'s> {
     system: &'s System<'s>,
-    state: &'s State,
+    force: &'s [BallVector],
     locals: Vec<Local>,
     /// The bounds `g` on the tangential forces.
     thresholds: Vec<Ball>,
@@ -61,7 +88,7 @@ struct Neighbourhood<'s> {
 }
 
 impl<'s> Neighbourhood<'s> {
-    fn new(system: &'s System<'s>, state: &'s State, v: &[BallVector], eps: f64) -> Self {
+    fn new(system: &'s System<'s>, force: &'s [BallVector], v: &[BallVector], eps: f64) -> Self {
         let dim = system.contact.dim();
         let mut w: Vec<[Ball; 2]> =
             system.pairs.iter().zip(v).map(|(pair, v)| pair.slip_vector(v)).collect();
@@ -72,13 +99,13 @@ impl<'s> Neighbourhood<'s> {
         let locals: Vec<Local> =
             system.pairs.iter().zip(w).map(|(pair, w)| pair.local(w)).collect();
         let mut neighbourhood =
-            Neighbourhood { system, state, locals, thresholds: Vec::new(), moved: Vec::new() };
+            Neighbourhood { system, force, locals, thresholds: Vec::new(), moved: Vec::new() };
         let ones = vec![1.0; system.unknowns.len()];
         let motion = neighbourhood.displacements(&ones);
         neighbourhood.moved = bound_of_product(system.contact.problem(), &motion);
         let threshold = |(at, pair): (usize, &FrozenPair)| {
             let change = product_up(neighbourhood.moved[dim * at], eps);
-            pair.enclosed_threshold(state.force[at][0].widened(change))
+            pair.enclosed_threshold(force[at][0].widened(change))
         };
         neighbourhood.thresholds = system.pairs.iter().enumerate().map(threshold).collect();
         neighbourhood
@@ -172,14 +199,17 @@ impl<'s> Neighbourhood<'s> {
         };
         let mut forces = Vec::with_capacity(v.len());
         for (at, (pair, local)) in system.pairs.iter().zip(&self.locals).enumerate() {
-            let needed = widened(&self.state.force[at], at, &f_radius);
+            let needed = widened(&self.force[at], at, &f_radius);
             let v = widened(&v[at], at, &d_radius);
             if !pair.is_inside(local, &v, &needed) {
                 return None;
             }
             forces.push(pair.force(local, &needed));
         }
-        Some(Enclosure { d_radius, force: forces })
+        let bounded = |radius: f64| radius < f64::INFINITY;
+        let all = d_radius.iter().all(|&radius| bounded(radius))
+            && forces.iter().flatten().all(|force| bounded(force.radius()));
+        all.then_some(Enclosure { d_radius, force: forces })
     }
 }
 

@@ -10,30 +10,34 @@ pub fn bound_of_product(problem: &ContactProblem<'_>, x: &[f64]) -> Vec<f64> {
     sums.into_iter().map(|sum| sum_of_products_up(sum, x.len())).collect()
 }
 
-/// `K (d + low) - f` of each pair, enclosed.
+/// `K (d + low) - f` of each pair, enclosed, of the `computed` one.
 ///
 /// The sum is taken in twice the precision and rounded once. Of `n` terms its second part has `3 n` terms of
 /// at most one unit of the sizes' sum each, added in single precision: `4 (n + 4)² u²` bounds its rounding.
-pub fn enclosed_force(contact: &Contact<'_>, d: &[f64], low: &[f64]) -> Vec<BallVector> {
+pub fn enclosed_force(
+    contact: &Contact<'_>,
+    (d, low): (&[f64], &[f64]),
+    computed: &[f64],
+) -> Vec<BallVector> {
     let problem = contact.problem();
-    let computed = problem.relation().residual_of_parts(d, low);
     let sizes: Vec<f64> = d.iter().zip(low).map(|(d, low)| sum_up(d.abs(), low.abs())).collect();
     let terms = bound_of_product(problem, &sizes);
     let twice = 4.0 * ((d.len() + 4) as f64 * UNIT).powi(2);
     let enclosed = |i: usize| {
-        let force = computed[i];
         let size = sum_up(terms[i], problem.load()[i].abs());
-        let rounding = sum_up(product_up(twice, size), product_up(UNIT, force.abs()));
-        Ball::new(force, sum_of_products_up(rounding, d.len()))
+        let rounding = sum_up(product_up(twice, size), product_up(UNIT, computed[i].abs()));
+        Ball::new(computed[i], sum_of_products_up(rounding, d.len()))
     };
-    let dim = contact.dim();
-    let of_pair = |pair: usize| {
-        let mut force = BallVector::default();
-        force[..dim]
-            .iter_mut()
-            .enumerate()
-            .for_each(|(c, force)| *force = enclosed(dim * pair + c));
-        force
+    let balls: Vec<Ball> = (0..d.len()).map(enclosed).collect();
+    by_pairs(contact.dim(), &balls)
+}
+
+/// Components pair by pair.
+pub fn by_pairs(dim: usize, balls: &[Ball]) -> Vec<BallVector> {
+    let of_pair = |balls: &[Ball]| {
+        let mut vector = BallVector::default();
+        vector[..dim].copy_from_slice(balls);
+        vector
     };
-    (0..contact.pairs().len()).map(of_pair).collect()
+    balls.chunks_exact(dim).map(of_pair).collect()
 }

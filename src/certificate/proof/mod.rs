@@ -80,27 +80,33 @@ pub(crate) fn prove_parts(
     let pairs: Vec<FrozenPair> = pieces
         .map(|((law, v, force), state)| law.frozen(*state, v, force))
         .collect::<Option<_>>()?;
-    let mut centre = on_pieces(&pairs, contact.dim(), (d, low));
+    let mut centre = on_pieces(contact, &pairs, Centre { d: d.to_vec(), low: low.to_vec(), force });
     let system = System::new(contact, pairs, &centre);
-    let inverse = system.inverse()?;
-    let state = system.refine(&inverse, &mut centre);
-    let enclosure = enclose(&system, &inverse, &centre, &state)?;
+    let mut solver = system.solver()?;
+    system.refine(&mut solver, &mut centre);
+    let enclosure = enclose(&system, &solver, &centre)?;
     let of_parts = |part: fn(Ball) -> f64| -> Vec<f64> {
         let parts = |force: &BallVector| force[..contact.dim()].to_vec();
         enclosure.force.iter().flat_map(parts).map(part).collect()
     };
     let (force, force_radius) = (of_parts(Ball::middle), of_parts(Ball::radius));
-    let Centre { d, low: d_low } = centre;
+    let Centre { d, low: d_low, .. } = centre;
     Some(Proof { d, d_low, d_radius: enclosure.d_radius, force, force_radius })
 }
 
 /// The displacements, with those that their pieces hold where they are held.
-fn on_pieces(pairs: &[FrozenPair], dim: usize, (d, low): (&[f64], &[f64])) -> Centre {
-    let mut centre = Centre { d: d.to_vec(), low: low.to_vec() };
+fn on_pieces(contact: &Contact<'_>, pairs: &[FrozenPair], mut centre: Centre) -> Centre {
+    let dim = contact.dim();
+    let mut changed = false;
     for (at, pair) in pairs.iter().enumerate() {
         for c in (0..dim).filter(|&c| !pair.moves(c)) {
-            (centre.d[dim * at + c], centre.low[dim * at + c]) = (pair.held(c), 0.0);
+            let held = (pair.held(c), 0.0);
+            changed |= (centre.d[dim * at + c], centre.low[dim * at + c]) != held;
+            (centre.d[dim * at + c], centre.low[dim * at + c]) = held;
         }
+    }
+    if changed {
+        centre.force = contact.problem().relation().residual_of_parts(&centre.d, &centre.low);
     }
     centre
 }

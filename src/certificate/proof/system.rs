@@ -3,16 +3,21 @@
 //! A row for each component that moves, with the force `F = K d - f` that equilibrium needs:
 //! `F_n - a` of an open pair, `F_t + g A h` of a slip. Rows and unknowns are scaled by powers of two, exactly.
 
-use super::forces::enclosed_force;
+use super::forces::by_pairs;
 use crate::law::{Contact, FrozenPair, Local, Plane};
 use crate::linalg::approximate_inverse::ApproximateInverse;
 use crate::linalg::ball::{Ball, BallVector};
+use crate::linalg::definite::Definite;
 use crate::linalg::double_double::two_sum;
 use crate::linalg::power_of_two::{exponent, times_power_of_two};
+use crate::linalg::vector::{largest_of, norm_inf};
 
 /// Most steps of refinement, and by what part each must be smaller than the one before.
 const MOST_STEPS: usize = 6;
 const FALL: f64 = 0.25;
+
+/// A step that is below this part of the displacements, far below their rounding, need not be done.
+const ENOUGH: f64 = 0.01 * f64::EPSILON;
 
 /// An unknown, with the equation of the same component.
 pub struct Unknown {
@@ -32,18 +37,30 @@ pub struct Slopes {
     pub turn: Plane,
 }
 
-/// Displacements in two parts.
-#[derive(Clone)]
+/// Displacements in two parts, with the force that they need.
 pub struct Centre {
     pub d: Vec<f64>,
     pub low: Vec<f64>,
+    pub force: Vec<f64>,
 }
 
-/// The equations at a centre.
-pub struct State {
-    pub force: Vec<BallVector>,
-    /// What the scaled equations lack.
-    pub lack: Vec<Ball>,
+/// What shows that the scaled matrix is regular, and solves with it.
+pub enum Solver {
+    Definite(Definite),
+    Inverse(ApproximateInverse),
+}
+
+impl Solver {
+    /// The approximate solution of the scaled equations.
+    fn product(&mut self, mut rhs: Vec<f64>) -> Vec<f64> {
+        match self {
+            Solver::Definite(definite) => {
+                definite.solve(&mut rhs);
+                rhs
+            }
+            Solver::Inverse(inverse) => inverse.product(&rhs),
+        }
+    }
 }
 
 /// A system whose pieces are frozen.
@@ -57,34 +74,19 @@ pub struct System<'c> {
 impl<'c> System<'c> {
     /// The system of pieces at displacements.
     pub fn new(contact: &'c Contact<'c>, pairs: Vec<FrozenPair>, centre: &Centre) -> Self {
-        let dim = contact.dim();
-        let root = contact.problem().stiffness().diagonal_roots();
-        let power = |x: f64| times_power_of_two(1.0, -exponent(x));
-        let mut unknowns = Vec::new();
-        for (pair, frozen) in pairs.iter().enumerate() {
-            for component in (0..dim).filter(|&c| frozen.moves(c)) {
-                let root = root[dim * pair + component];
-                let unit = if component == 0 { 1.0 } else { frozen.unit() };
-                unknowns.push(Unknown {
-                    pair,
-                    component,
-                    row: power(root),
-                    column: power(root * unit),
-                });
-            }
-        }
+        let unknowns = unknowns(contact, &pairs);
         let mut system = System { contact, pairs, unknowns, slopes: Vec::new() };
-        let force = enclosed_force(contact, &centre.d, &centre.low);
         let locals = system.locals(centre);
-        let slopes = |((frozen, local), force): ((&FrozenPair, &Local), &BallVector)| {
-            let threshold = frozen.enclosed_threshold(force[0]).middle();
+        let slopes = |(at, (frozen, local)): (usize, (&FrozenPair, &Local))| {
+            let threshold =
+                frozen.enclosed_threshold(Ball::exact(centre.force[at * contact.dim()]));
             Slopes {
                 drag: frozen.drag(local).map(Ball::middle),
                 motion: local.motion.map(|row| row.map(Ball::middle)),
-                turn: local.turn.map(|row| row.map(|entry| threshold * entry.middle())),
+                turn: local.turn.map(|row| row.map(|entry| threshold.middle() * entry.middle())),
             }
         };
-        system.slopes = system.pairs.iter().zip(&locals).zip(&force).map(slopes).collect();
+        system.slopes = system.pairs.iter().zip(&locals).enumerate().map(slopes).collect();
         system
     }
 
@@ -99,23 +101,35 @@ impl<'c> System<'c> {
         self.pairs.iter().zip(&v).map(|(pair, v)| pair.local(pair.slip_vector(v))).collect()
     }
 
-    /// Forces and what the equations lack.
-    pub fn at(&self, centre: &Centre) -> State {
-        let force = enclosed_force(self.contact, &centre.d, &centre.low);
+    /// What the scaled equations lack at the centre with the forces that it needs.
+    pub fn lack(&self, centre: &Centre, force: &[BallVector]) -> Vec<Ball> {
         let locals = self.locals(centre);
         let lacks: Vec<BallVector> =
             (0..force.len()).map(|at| self.pairs[at].lack(&locals[at], &force[at])).collect();
         let scaled =
             |unknown: &Unknown| lacks[unknown.pair][unknown.component] * Ball::exact(unknown.row);
-        let lack = self.unknowns.iter().map(scaled).collect();
-        State { force, lack }
+        self.unknowns.iter().map(scaled).collect()
     }
 
-    /// The approximate inverse of the scaled matrix.
-    pub fn inverse(&self) -> Option<ApproximateInverse> {
+    /// What shows that the scaled matrix is regular: that it is definite, where its pieces are symmetric,
+    /// otherwise an approximate inverse.
+    pub fn solver(&self) -> Option<Solver> {
+        let size = self.unknowns.len();
+        let definite = match self.pairs.iter().all(FrozenPair::is_symmetric) {
+            true => Definite::new(size, self.columns()),
+            false => None,
+        };
+        match definite {
+            Some(definite) => Some(Solver::Definite(definite)),
+            None => ApproximateInverse::new(size, self.columns()).map(Solver::Inverse),
+        }
+    }
+
+    /// Writes columns of the scaled matrix.
+    fn columns(&self) -> impl FnMut(usize, &mut [f64]) {
         let (dim, matrix) = (self.contact.dim(), self.contact.problem().stiffness());
         let mut column = vec![0.0; matrix.size()];
-        ApproximateInverse::new(self.unknowns.len(), |j, entries| {
+        move |j, entries| {
             let unknown = &self.unknowns[j];
             let first = dim * unknown.pair;
             column.fill(0.0);
@@ -138,7 +152,7 @@ impl<'c> System<'c> {
                 }
                 *entry = equation.row * value;
             }
-        })
+        }
     }
 
     /// Displacements of the pair by a unit of the scaled unknown.
@@ -150,23 +164,30 @@ impl<'c> System<'c> {
         }
     }
 
-    /// Refines the centre by residuals in twice the precision until steps fall no further, and returns the
-    /// equations there.
-    pub fn refine(&self, inverse: &ApproximateInverse, centre: &mut Centre) -> State {
-        let mut state = self.at(centre);
+    /// Refines the centre by residuals in twice the precision until steps fall no further.
+    pub fn refine(&self, solver: &mut Solver, centre: &mut Centre) {
+        let (dim, relation) = (self.contact.dim(), self.contact.problem().relation());
         let mut last = f64::INFINITY;
         for _ in 0..MOST_STEPS {
-            let lack: Vec<f64> = state.lack.iter().map(|lack| lack.middle()).collect();
-            let step = inverse.product(&lack);
-            let size = step.iter().fold(0.0, |most: f64, step| most.max(step.abs()));
-            if !(size > 0.0 && size < FALL * last) {
+            let force: Vec<Ball> = centre.force.iter().map(|&force| Ball::exact(force)).collect();
+            let lack = self.lack(centre, &by_pairs(dim, &force));
+            let step = solver.product(lack.iter().map(|lack| lack.middle()).collect());
+            let size = norm_inf(&step);
+            if !(size > ENOUGH * self.size(centre) && size < FALL * last) {
                 break;
             }
             last = size;
             self.move_by(&step, centre);
-            state = self.at(centre);
+            centre.force = relation.residual_of_parts(&centre.d, &centre.low);
         }
-        state
+    }
+
+    /// Largest scaled displacement of an unknown.
+    fn size(&self, centre: &Centre) -> f64 {
+        let dim = self.contact.dim();
+        let scaled =
+            |unknown: &Unknown| centre.d[dim * unknown.pair + unknown.component] / unknown.row;
+        largest_of(self.unknowns.iter().map(scaled))
     }
 
     /// Subtracts a step of the scaled unknowns.
@@ -183,4 +204,25 @@ impl<'c> System<'c> {
             (*d, *low) = two_sum(sum, lost + *low);
         }
     }
+}
+
+/// The unknowns of the pieces, with scales that make the diagonal of the matrix about 1.
+fn unknowns(contact: &Contact<'_>, pairs: &[FrozenPair]) -> Vec<Unknown> {
+    let dim = contact.dim();
+    let root = contact.problem().stiffness().diagonal_roots();
+    let power = |x: f64| times_power_of_two(1.0, -exponent(x));
+    let mut unknowns = Vec::new();
+    for (pair, frozen) in pairs.iter().enumerate() {
+        for component in (0..dim).filter(|&c| frozen.moves(c)) {
+            let root = root[dim * pair + component];
+            let unit = if component == 0 { 1.0 } else { frozen.unit() };
+            unknowns.push(Unknown {
+                pair,
+                component,
+                row: power(root),
+                column: power(root * unit),
+            });
+        }
+    }
+    unknowns
 }
