@@ -233,7 +233,10 @@ impl FrozenPair {
             given[0] = Ball::exact(self.law.tension);
         }
         for c in (1..self.law.dim).filter(|&c| self.moves(c)) {
-            given[c] = -(threshold * local.push[c - 1]);
+            given[c] = match self.along {
+                Along::Free => Ball::default(),
+                _ => -(threshold * local.push[c - 1]),
+            };
         }
         given
     }

@@ -57,7 +57,7 @@ pub enum Existence {
 }
 
 /// Errors of a result, relative, without unit.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Errors {
     /// Of the displacements: the largest error of one, over the largest displacement.
     pub d: f64,
@@ -93,7 +93,7 @@ pub struct Solution {
     /// Whether the solution is proved to exist, with [`crate::Settings::proof`].
     pub existence: Existence,
     /// How far `d` and the forces are from a solution. With [`Existence::Proved`] proved bounds; otherwise
-    /// what the contraction of the last refinement tells, `None` if there was none of two steps or more.
+    /// what the contraction of the last refinement tells, no proof; `None` if there was none.
     pub errors: Option<Errors>,
     /// Sign of the determinant of the system of equations that the states select, 0 if not known.
     /// Over all solutions of a problem with positive definite `K` it adds up to +1.

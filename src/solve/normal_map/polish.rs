@@ -31,8 +31,11 @@ const AIM: f64 = 0.01;
 const NEAR: f64 = 1e-3;
 const FEW_UNKNOWNS: usize = 64;
 
-/// Steps that become smaller by this factor or less tell the error that is left.
+/// A step that makes `eta` smaller by this factor or less tells what error a residual stands for.
 const SURE: f64 = 0.5;
+
+/// Rounding of `eta`: that of forces rounded once, a few times as the steps have no rounding in mind.
+const ROUNDING_OF_ETA: f64 = 4.0 * f64::EPSILON;
 
 /// The candidate, refined if its residual is above the tolerance and that helps.
 pub fn polished(contact: &Contact<'_>, settings: &Settings, candidate: Candidate) -> Candidate {
@@ -64,11 +67,11 @@ fn refined(contact: &Contact<'_>, candidate: &Candidate, aim: f64) -> Candidate 
         let eta = eta_of(&at_reference, &v, &force);
         if eta < least {
             (least, in_vain) = (eta, 0);
-            steps.arrived(&best.force, &force);
+            steps.arrived((&best.force, &force), eta);
             (best.d, best.low, best.force) = (d.clone(), low.clone(), force.clone());
-            best.errors = steps.errors(&best, contact.problem().load());
+            best.errors = steps.errors(&best, contact.problem().load(), eta);
         } else {
-            steps = Steps::default();
+            steps.last = None;
             in_vain += 1;
         }
         if !(least > aim) || in_vain >= MOST_IN_VAIN {
@@ -77,7 +80,7 @@ fn refined(contact: &Contact<'_>, candidate: &Candidate, aim: f64) -> Candidate 
         best.effort.factorisations += 1;
         let Some((step, orientation)) = step(&equations, &v, &force) else { break };
         best.orientation = orientation;
-        steps.begin(&step);
+        steps.begin(eta, &step);
         for ((d, low), step) in d.iter_mut().zip(&mut low).zip(&step) {
             let (sum, lost) = two_sum(*d, *step);
             (*d, *low) = two_sum(sum, lost + *low);
@@ -86,36 +89,44 @@ fn refined(contact: &Contact<'_>, candidate: &Candidate, aim: f64) -> Candidate 
     best.remeasured()
 }
 
-/// The last two steps of a refinement, as far as each was better than the one before: largest changes of a
-/// displacement and of a force.
+/// What the steps of a refinement have changed, beside the residuals from which they began: how large an error
+/// a residual stands for.
 #[derive(Default)]
 struct Steps {
-    d: Vec<f64>,
-    force: Vec<f64>,
+    /// `eta` where the last step began, and its largest change of a displacement.
+    last: Option<(f64, f64)>,
+    /// The last contraction of `eta` by a step.
+    contraction: f64,
+    /// Largest changes of a displacement and of a force, over the `eta` at which the step began.
+    gain: Errors,
 }
 
 impl Steps {
-    fn begin(&mut self, step: &[f64]) {
-        self.d.push(norm_inf(step));
+    fn begin(&mut self, eta: f64, step: &[f64]) {
+        self.last = Some((eta, norm_inf(step)));
     }
 
-    fn arrived(&mut self, before: &[f64], force: &[f64]) {
-        if self.d.len() > self.force.len() {
-            self.force.push(largest_of(before.iter().zip(force).map(|(before, now)| before - now)));
-        }
+    /// The forces before the step and now, with `eta`.
+    fn arrived(&mut self, (before, now): (&[f64], &[f64]), eta: f64) {
+        let Some((from, step)) = self.last.take() else { return };
+        let change = largest_of(before.iter().zip(now).map(|(before, now)| before - now));
+        self.contraction = eta / from;
+        self.gain.d = self.gain.d.max(step / from);
+        self.gain.force = self.gain.force.max(change / from);
     }
 
-    /// What is left after steps that become smaller by the factor of the last two, beside the rounding of the
-    /// answer itself.
-    fn errors(&self, at: &Candidate, load: &[f64]) -> Option<Errors> {
-        let left = |steps: &[f64], size: f64| {
-            let [.., before, last] = *steps else { return None };
-            let factor = last / before;
-            let part = if last > 0.0 { last * factor / (1.0 - factor) / size } else { 0.0 };
-            (factor < SURE || last == 0.0).then_some(part + f64::EPSILON)
+    /// The errors that are left with the residual `eta` and its rounding, beside the rounding of the answer.
+    fn errors(&self, at: &Candidate, load: &[f64], eta: f64) -> Option<Errors> {
+        let left = (eta + ROUNDING_OF_ETA) / (1.0 - self.contraction);
+        let part = |gain: f64, size: f64| {
+            let error = if gain > 0.0 { gain * left / size } else { 0.0 };
+            error + f64::EPSILON
         };
         let forces = norm_inf(&at.force).max(norm_inf(load));
-        Some(Errors { d: left(&self.d, norm_inf(&at.d))?, force: left(&self.force, forces)? })
+        let errors =
+            Errors { d: part(self.gain.d, norm_inf(&at.d)), force: part(self.gain.force, forces) };
+        let is_known = self.contraction > 0.0 || self.gain.d > 0.0;
+        (is_known && self.contraction < SURE).then_some(errors)
     }
 }
 
