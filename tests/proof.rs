@@ -135,11 +135,11 @@ fn structures_are_proved() {
         let bar = bar_with_top(pairs - 1, 10, 1.5, 10.0, top);
         cases.extend([0.0, 0.3, 1.0, 3.0].map(|mu| Case {
             dim: 2,
-            pairs,
+            pairs: bar.pairs,
             k: bar.stiffness.clone(),
             f: bar.load.clone(),
-            gap: vec![0.0; pairs],
-            law: Law::Coulomb(vec![mu; pairs]),
+            gap: vec![0.0; bar.pairs],
+            law: Law::Coulomb(vec![mu; bar.pairs]),
             slip: None,
         }));
     }

@@ -172,7 +172,7 @@ impl FrozenPair {
             let unity = [[one, zero], [zero, one]];
             return (unity, unity, unity);
         };
-        let [[a, b], [c, d]] = self.to_disc();
+        let [[a, b], [c, d]] = self.disc();
         let determinant = a * d - b * c;
         let inverse = [[d / determinant, -b / determinant], [-c / determinant, a / determinant]];
         let transposed = |m: &BallPlane| [[m[0][0], m[1][0]], [m[0][1], m[1][1]]];
@@ -183,7 +183,7 @@ impl FrozenPair {
     }
 
     /// `W`, enclosed; 1 without an ellipse.
-    fn to_disc(&self) -> BallPlane {
+    fn disc(&self) -> BallPlane {
         let enclosed = |entry: f64| Ball::exact(entry).widened(product_up(DERIVED, entry.abs()));
         match &self.law.ellipse {
             None => [[Ball::exact(1.0), Ball::default()], [Ball::default(), Ball::exact(1.0)]],
@@ -253,7 +253,7 @@ impl FrozenPair {
         let tangential = match self.along {
             Along::Free => true,
             Along::Stick => {
-                let friction = product(&self.to_disc(), [force[1], force[2]]);
+                let friction = product(&self.disc(), [force[1], force[2]]);
                 let [first, second] = friction.map(Ball::size);
                 let square = sum_up(product_up(first, first), product_up(second, second));
                 (threshold - Ball::exact(square.sqrt().next_up())).is_positive()

@@ -133,8 +133,8 @@ fn above(matrix: &Mat<f64>, shift: f64, doubt: f64) -> Option<f64> {
     };
     let most =
         left.iter().zip(&size).map(row).fold(doubt, |most, row| sum_up(row, doubt).max(most));
-    let bound = (shift - most).next_down();
-    (bound > 0.0).then_some(bound)
+    let proved = (shift - most).next_down();
+    (proved > 0.0).then_some(proved)
 }
 
 #[cfg(test)]

@@ -13,6 +13,7 @@ use super::system::{Centre, Solver, System, Unknown};
 use crate::law::{FrozenPair, Local};
 use crate::linalg::approximate_inverse::ApproximateInverse;
 use crate::linalg::ball::{Ball, BallVector, product_up, sum_up};
+use crate::linalg::vector::first_not_finite;
 
 /// The box, in units of the first correction: `alpha` may be a half.
 const BOX: f64 = 2.0;
@@ -206,9 +207,8 @@ impl<'s> Neighbourhood<'s> {
             }
             forces.push(pair.force(local, &needed));
         }
-        let bounded = |radius: f64| radius < f64::INFINITY;
-        let all = d_radius.iter().all(|&radius| bounded(radius))
-            && forces.iter().flatten().all(|force| bounded(force.radius()));
+        let all = first_not_finite(&d_radius).is_none()
+            && forces.iter().flatten().all(|ball| ball.radius().is_finite());
         all.then_some(Enclosure { d_radius, force: forces })
     }
 }
