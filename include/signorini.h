@@ -120,7 +120,9 @@ typedef struct signorini_extra signorini_extra;
  * @param dim       space dimension, 2 or 3
  * @param pairs     number of contact pairs, 0 allowed
  * @param K         condensed stiffness, N columns of N entries, column-major, both triangles;
- *                  symmetric, positive semi-definite, positive diagonal; force / length
+ *                  symmetric, positive semi-definite; force / length. A row of zeros is a component
+ *                  that nothing resists. Small entries on the diagonal are taken as they are: of a
+ *                  free body on two or three points make a model, which knows rounding
  * @param ldk       entries from one column of K to the next, at least max(1, N)
  * @param f         condensed nodal loads, N; force
  * @param gap       initial gaps, one for each pair; length; negative: interference; +infinity:
@@ -250,7 +252,7 @@ struct signorini_pairs {
     /** Normal of each pair, dim entries, outward from the slave's body, of any length. */
     const double *normals;
     /**
-     * First tangent of each pair, dim entries; its part along the normal is removed. NULL: chosen.
+     * First tangent of each pair, dim entries, orthogonal to the normal to 1e-5. NULL: chosen.
      * 2D: the normal turned by +90 degrees. 3D: t1 = e x n with the axis e that is most across the
      * normal. In 3D always t2 = n x t1; signorini_model_frames returns all.
      */

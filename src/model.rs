@@ -45,14 +45,14 @@ impl Model {
     /// A body condensed by the host, on an obstacle: `d = u`.
     ///
     /// # Errors
-    /// As [`ContactProblem::new`] for the matrix.
+    /// As [`ContactProblem::new`] for the matrix, after it was cleaned: if a diagonal entry is at most 9e-12
+    /// of the largest one of its pair, and the component is coupled to others, motions of so little energy
+    /// are the rounding of a condensation and become exactly free. All other matrices are taken as they are.
     pub fn condensed(dim: usize, pairs: usize, k: &[f64], ld: usize) -> Result<Self, Error> {
         let size = unknowns(checked_dim(dim)?, pairs)?;
         check_length("K", (k, ld), size, (Argument::Matrix, Argument::LeadingDimension))?;
         let matrix = Matrix::new(size, k, ld);
-        symmetric_matrix::check(&matrix, "K", Argument::Matrix)?;
-        let stiffness = (0..size).flat_map(|j| matrix.column(j).iter().copied()).collect();
-        let reduction = Box::new(CondensedReduction::new(dim, size, stiffness));
+        let reduction = Box::new(CondensedReduction::new(dim, &matrix)?);
         Ok(Model { dim, pairs, reduction })
     }
 
@@ -87,7 +87,7 @@ impl Model {
         Model { dim: pairs.dim, pairs: pairs.count, reduction }.checked()
     }
 
-    /// Refuses a reduced matrix in which a relative component has no stiffness of its own.
+    /// Refuses a reduced matrix that no structure has.
     fn checked(self) -> Result<Self, Error> {
         let size = self.dim * self.pairs;
         let matrix = Matrix::new(size, self.stiffness(), size.max(1));
@@ -205,7 +205,10 @@ impl Model {
             law: case.law,
             reference_slip: slip.as_deref(),
         })?;
-        to(&problem)
+        match self.reduction.is_condensed_by_host() {
+            true => to(&problem.condensed_by_host()),
+            false => to(&problem),
+        }
     }
 
     /// Displacements of the host from the relative ones; without `load` and `prescribed` those of

@@ -170,7 +170,12 @@ fn refuses_matrices_that_no_structure_has() {
     refuses_matrix(&[(2, 2, 0.0)], &["K[2,2]", "positive"]);
     refuses_matrix(&[(1, 1, -3.0)], &["K[1,1]", "-3", "positive"]);
     let row: Vec<_> = (0..4).flat_map(|i| [(i, 3, 0.0), (3, i, 0.0)]).collect();
-    refuses_matrix(&row, &["row 3", "zero"]);
+    // A component that a free body moves without a force is no fault; without any stiffness there is no
+    // unit for displacements.
+    let k = k_with(&row);
+    assert!(ContactProblem::new(ContactData { stiffness: &k, ..GOOD }).is_ok());
+    let all: Vec<_> = (0..16).map(|k| (k % 4, k / 4, 0.0)).collect();
+    refuses_matrix(&all, &["K is zero"]);
     // Larger than its diagonal allows: K_ij² <= K_ii K_jj holds for every structure.
     refuses_matrix(&[(1, 0, 4.0), (0, 1, 4.0)], &["semi-definite", "K[1,0]"]);
     // Rounding of a host's condensation is no fault.

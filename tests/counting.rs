@@ -54,7 +54,10 @@ fn of_condensed_problems() {
     };
     k(2, 1, f64::NAN, "K[2,1] is not finite", "K(3,2) is not finite");
     k(3, 3, -1.0, "K[3,3] is -1, it", "K(4,4) is -1, it");
-    k(0, 0, 0.0, "row 0 of K is zero: component 0 has", "row 1 of K is zero: component 1 has");
+    let mut zero = changed(3, 1, 1.0);
+    (zero[5], zero[1 + 4 * 3]) = (0.0, 1.0);
+    let data = ContactData { stiffness: &zero, ..GOOD };
+    refused(data, "K[1,1] is 0, it must be positive: K[3,1] is 1", "K(2,2) is 0, it must be");
     k(3, 1, 1.0, "K[3,1] is 1, K[1,3] is 0", "K(4,2) is 1, K(2,4) is 0");
     let mut indefinite = changed(3, 1, 9.0);
     indefinite[1 + 4 * 3] = 9.0;

@@ -7,18 +7,56 @@
 mod common;
 
 use common::all_states::all_solutions;
+use common::dense::largest;
 use common::edges::{CLASSES, Problem, problem};
 use common::exact::{UNIT, differ, eta, force, quads, refined, scale, states};
 use common::judge::{Answer, FAULTS, Fault, Faults, Finding, judge};
 use common::problems::{Case, Law};
 use common::quad::Quad;
-use signorini::{ContactProblem, Monitor, Search, Settings, Solution, Status, Uniqueness};
+use signorini::{ContactProblem, Model, Monitor, Search, Settings, Solution, Status, Uniqueness};
 
 /// How many problems without the variable: 200 of each class in each dimension.
 const PROBLEMS: u64 = 4800;
 
 fn number(name: &str) -> Option<u64> {
     std::env::var(name).ok().map(|text| text.parse().expect("a number"))
+}
+
+/// The class of which a host makes models, as the header says: the flat call takes what rounding leaves on
+/// the diagonal of a free body as it is.
+const ON_FEW_POINTS: usize = 8;
+
+/// A problem whose matrix is that of a model, which knows it without the rounding of rigid motions. Without
+/// the error `E` of the given one, `(1 - V V') (K + E) (1 - V V') = K`: the change is `2 |E|` at most, and
+/// `|E|` is at most `n` times its largest entry.
+fn of_model(problem: &Problem) -> Result<Problem, String> {
+    let data = problem.case.data();
+    let model = Model::condensed(data.dim, data.pairs, data.stiffness, data.ld)
+        .map_err(|error| format!("{error:?}"))?;
+    let n = data.dim * data.pairs;
+    let error = problem.noise + UNIT * largest(data.stiffness);
+    let change = data.stiffness.iter().zip(model.stiffness()).map(|(given, k)| (given - k).abs());
+    let change = change.fold(0.0, f64::max);
+    if change > 2.0 * n as f64 * error {
+        return Err(format!("a model changes K by {change:.1e}, its error is {error:.1e}"));
+    }
+    let mut of_model = problem.clone();
+    of_model.case.k = model.stiffness().to_vec();
+    Ok(of_model)
+}
+
+/// The problem that is solved, and what is said of it.
+fn answered(problem: &Problem) -> (Problem, Result<Solution, String>) {
+    if problem.class != ON_FEW_POINTS {
+        return (problem.clone(), solve_by_default(problem));
+    }
+    match of_model(problem) {
+        Ok(of_model) => {
+            let answer = solve_by_default(&of_model);
+            (of_model, answer)
+        }
+        Err(why) => (problem.clone(), Err(why)),
+    }
 }
 
 fn solve_by_default(problem: &Problem) -> Result<Solution, String> {
@@ -53,7 +91,7 @@ const STILL_IN_THE_PLANE: Limits = [
     [0, 0, 0, 8, 0, 6, 0, 0, 0, 30, 0, 0], // soft springs beside stiff ones, to 1e-15
     [0, 0, 0, 0, 0, 0, 4, 0, 0, 0, 0, 0], // rigid motions
     [0, 0, 0, 0, 0, 0, 4, 0, 0, 0, 0, 0], // blocks, rigid motions exact
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 228, 0], // body on two or three points
+    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // body on two or three points
     [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // duplicated pairs
     [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // touching, on the cone, unloaded
     [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // gaps to 1e300 and infinite, mu to 1e3
@@ -68,7 +106,7 @@ const STILL_IN_SPACE: Limits = [
     [0, 0, 0, 6, 0, 11, 6, 0, 0, 31, 0, 0], // soft springs beside stiff ones, to 1e-15
     [0, 0, 0, 0, 0, 0, 8, 0, 0, 0, 0, 0], // rigid motions
     [0, 0, 0, 0, 0, 0, 29, 0, 0, 0, 0, 0], // blocks, rigid motions exact
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 249, 0], // body on two or three points
+    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // body on two or three points
     [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // duplicated pairs
     [0, 0, 0, 0, 0, 0, 0, 0, 4, 0, 0, 0], // touching, on the cone, unloaded
     [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // gaps to 1e300 and infinite, mu to 1e3
@@ -90,9 +128,9 @@ struct Row {
 }
 
 impl Row {
-    fn add(&mut self, seed: u64, problem: &Problem) {
-        let answer = solve_by_default(problem);
-        let faults = faults(problem, &answer);
+    fn add(&mut self, seed: u64, given: &Problem) {
+        let (problem, answer) = answered(given);
+        let faults = faults(&problem, &answer);
         self.problems += 1;
         if let Ok(Solution { status, uniqueness, .. }) = answer {
             self.solved += u64::from(status == Status::Solved);
@@ -104,7 +142,7 @@ impl Row {
             let Some(found) = faults.iter().find(|found| found.fault == *fault) else { continue };
             self.faults[at] += 1;
             if self.faults[at] == 1 || found.size > self.worst[at].0 {
-                let Problem { case, tolerance, .. } = problem;
+                let Problem { case, tolerance, .. } = &problem;
                 let what = format!("{} pairs, tolerance {tolerance:.0e}", case.pairs);
                 let line =
                     format!("SIGNORINI_JUDGED_SEED={seed}: {what}: {fault:?}: {}", found.text);
@@ -134,8 +172,7 @@ fn print(rows: &[Row]) {
 #[test]
 fn nothing_false_is_said() {
     if let Some(seed) = number("SIGNORINI_JUDGED_SEED") {
-        let problem = problem(seed);
-        let answer = solve_by_default(&problem);
+        let (problem, answer) = answered(&problem(seed));
         println!("{problem:?}\n{answer:?}\n{:?}", faults(&problem, &answer));
         return;
     }

@@ -2,23 +2,19 @@
 //! can take (a recession direction of the energy). What a pair must satisfy stands in
 //! `law::recession`.
 
-use super::energy_in_digits;
+use super::energy;
 use crate::law::{Contact, Recession};
 use crate::linalg::tolerances::{LEAST_WORK, NEGLIGIBLE};
 use crate::linalg::vector::{dot, largest_of};
 use crate::problem::ContactProblem;
 
-/// Most energy of a rigid motion, in last digits of the entries of `K` (`energy_in_digits`): rounding each
-/// entry once explains half a unit, and a host that sums a few terms to an entry rounds as often.
-const RIGID: f64 = 10.0;
-
 /// Whether the rigid motion `r` proves that no equilibrium exists.
 ///
-/// `K r = 0` up to rounding, with no more energy than rounding of the entries of `K` explains, and for every pair that has an obstacle `-r_n >= mu |r_t|`: then the
-/// contact forces can only do non-negative work `F . r >= sum |F_n| (|r_n| - mu |r_t|)`, while
-/// equilibrium asks for `F . r = -f . r`. So `f . r > 0` excludes it. With given thresholds the
-/// condition is `r_n <= 0` and `f . r > sum g |r_t|`. The tension of pairs counts as a load; for all laws
-/// see `law::recession`.
+/// `K r = 0` up to rounding, with no more energy than rounding of the entries of `K` explains, and for every
+/// pair that has an obstacle `-r_n >= mu |r_t|`: then the contact forces can only do non-negative work
+/// `F . r >= sum |F_n| (|r_n| - mu |r_t|)`, while equilibrium asks for `F . r = -f . r`. So `f . r > 0`
+/// excludes it. With given thresholds the condition is `r_n <= 0` and `f . r > sum g |r_t|`. The tension of
+/// pairs counts as a load; for all laws see `law::recession`.
 pub fn is_escape(problem: &ContactProblem<'_>, r: &[f64]) -> bool {
     is_escape_of(&Contact::new(problem), r)
 }
@@ -26,7 +22,7 @@ pub fn is_escape(problem: &ContactProblem<'_>, r: &[f64]) -> bool {
 /// [`is_escape`], on a problem whose laws are worked out.
 pub(crate) fn is_escape_of(contact: &Contact<'_>, r: &[f64]) -> bool {
     let problem = contact.problem();
-    let root = problem.stiffness().diagonal_roots();
+    let root = problem.unit_roots();
     let size = largest_of(r.iter().zip(&root).map(|(r, root)| r * root));
     // On a motion that only Kᵀ resists internal forces do work.
     if size == 0.0 || !size.is_finite() || !problem.is_symmetric() {
@@ -34,7 +30,7 @@ pub(crate) fn is_escape_of(contact: &Contact<'_>, r: &[f64]) -> bool {
     }
     let negligible = NEGLIGIBLE * size;
     let internal = problem.internal_force(r);
-    if energy_in_digits(problem.relation(), r, &internal) > RIGID {
+    if energy(problem.relation(), r, &internal) > problem.rounding_of_energy() {
         return false;
     }
     if internal.iter().zip(&root).any(|(k, root)| k.abs() > negligible * root) {

@@ -71,7 +71,7 @@ pub struct SignoriniPairs {
     pub weights: *const f64,
     /// Normal of each pair, dim entries, outward from the slave's body, of any length.
     pub normals: *const f64,
-    /// First tangent of each pair, dim entries; its part along the normal is removed. NULL: chosen.
+    /// First tangent of each pair, dim entries, orthogonal to the normal to 1e-5. NULL: chosen.
     /// 2D: the normal turned by +90 degrees. 3D: t1 = e x n with the axis e that is most across the
     /// normal. In 3D always t2 = n x t1; signorini_model_frames returns all.
     pub tangents: *const f64,

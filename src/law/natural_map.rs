@@ -41,6 +41,7 @@ impl PairLaw {
     /// The natural map at the displacement `d` and the force `force` of the pair.
     ///
     /// Branch by branch, so that a force is not lost in the rounding of a much larger `k_t delta`.
+    #[inline]
     pub fn natural_residual(&self, d: &[f64], force: &[f64], residual: &mut [f64]) {
         // max() of the two branches, so that an infinite gap leaves the force and no NaN.
         residual[0] = (self.k_n * (d[0] - self.gap)).max(force[0] - self.tension);
@@ -64,12 +65,24 @@ impl PairLaw {
     /// rounded once: two forces on a slip. Elsewhere a component has one term, with a few roundings.
     pub fn natural_rounding(&self, d: &[f64], force: &[f64]) -> f64 {
         let threshold = self.threshold(force[0]);
-        let trial = self.trial(d, force);
-        let terms = length(&force[1..self.dim]) + threshold + self.bound.slope * self.tension;
+        // Of an isotropic law the sum of sizes is above the length, and cheaper.
+        let above = |t: &[f64]| t.iter().map(|t| t.abs()).sum::<f64>();
+        let terms = above(&force[1..self.dim]) + threshold + self.bound.slope * self.tension;
         let rounding = EVALUATION * terms;
+        let trial = &self.trial(d, force)[1..self.dim];
         // Next to its bound a pair that sticks may slip.
-        let slips = threshold > 0.0 && self.gauge(&trial[1..self.dim]) + rounding > threshold;
+        let sticks = self.ellipse.is_none() && above(trial) + rounding <= threshold;
+        let slips = threshold > 0.0 && !sticks && self.gauge(trial) + rounding > threshold;
         if slips { rounding } else { 0.0 }
+    }
+
+    /// Bound on the change of [`Self::natural_residual`] by a change of the force, relative to that change.
+    ///
+    /// With the gauge `|W t|`, friction on a slip `g y / |W y|` changes by `mu` times the change of the
+    /// normal force and, as `g <= |W y|`, by `1 + |W|` times the change of the trial force `y`.
+    pub fn sensitivity(&self) -> f64 {
+        let form = self.gauge_form();
+        2.0 + self.bound.slope + (form[0][0] + form[1][1]).sqrt()
     }
 
     /// The state of the active branch of the natural map. Branches closer than the force `margin` are

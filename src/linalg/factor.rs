@@ -156,6 +156,14 @@ pub fn largest_eigenvalue(n: usize, entry: impl Fn(usize, usize) -> f64) -> Opti
     matrix.self_adjoint_eigenvalues(faer::Side::Lower).ok()?.last().copied()
 }
 
+/// Orthonormal eigenvectors of the symmetric `n x n` matrix `entry(i, j)`; `None` if they are not found.
+pub fn eigenvectors(n: usize, entry: impl Fn(usize, usize) -> f64) -> Option<Vec<Vec<f64>>> {
+    let matrix = Mat::from_fn(n, n, entry);
+    let found = matrix.self_adjoint_eigen(faer::Side::Lower).ok()?;
+    let vectors = found.U();
+    Some((0..n).map(|j| (0..n).map(|i| vectors[(i, j)]).collect()).collect())
+}
+
 /// `target - sum_k x_k y_kᵀ` for a matrix of `shape` with leading dimension `ld`; the `x_k` and the
 /// `y_k` are contiguous, one after the other.
 pub fn subtract_outer(

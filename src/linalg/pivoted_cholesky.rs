@@ -9,8 +9,9 @@ use faer::{Accum, Mat, MatMut, MatRef, Par};
 use super::factor::cholesky;
 use super::tolerances::{NEGLIGIBLE, SUSPICIOUS_PIVOT};
 
-/// Rank-revealing Cholesky factor of a positive semi-definite matrix `A` with unit diagonal:
-/// `A[p, p] = L Lᵀ` on the independent rows `p`; the other rows depend on them.
+/// Rank-revealing Cholesky factor of a positive semi-definite matrix `A` with a diagonal of size one, or
+/// less in rows that little resists: `A[p, p] = L Lᵀ` on the independent rows `p`; the other rows depend on
+/// them.
 pub struct PivotedCholesky {
     lower: Mat<f64>,
     independent: Vec<usize>,
@@ -21,12 +22,25 @@ impl PivotedCholesky {
     /// Factorises the `n x n` matrix whose lower triangle is `entry(i, j)`, `i >= j`.
     /// `None` if it is not positive semi-definite.
     pub fn new(n: usize, entry: impl Fn(usize, usize) -> f64) -> Option<Self> {
-        let fill = || Mat::from_fn(n, n, |i, j| if i >= j { entry(i, j) } else { 0.0 });
+        Self::with_least_pivot(n, NEGLIGIBLE, entry)
+    }
+
+    /// As [`Self::new`]; rows whose pivots are at most `least` depend on the others.
+    pub fn with_least_pivot(
+        size: usize,
+        least: f64,
+        entry: impl Fn(usize, usize) -> f64,
+    ) -> Option<Self> {
+        // No pivot exceeds its diagonal entry.
+        let (rows, mut dependent): (Vec<usize>, Vec<usize>) =
+            (0..size).partition(|&i| entry(i, i) > least);
+        let n = rows.len();
+        let lower_entry = |i: usize, j: usize| if i >= j { entry(rows[i], rows[j]) } else { 0.0 };
+        let fill = || Mat::from_fn(n, n, lower_entry);
         let mut lower = fill();
         let regular = cholesky(&mut lower).is_some();
         if regular && (0..n).all(|i| lower[(i, i)].powi(2) > SUSPICIOUS_PIVOT) {
-            let independent = (0..n).collect();
-            return Some(PivotedCholesky { lower, independent, dependent: Vec::new() });
+            return Some(PivotedCholesky { lower, independent: rows, dependent });
         }
         drop(lower);
         let mut lower = fill();
@@ -42,12 +56,12 @@ impl PivotedCholesky {
             faer::Spec::default(),
         );
         let Ok((info, _)) = info else { return None };
-        let rank =
-            (0..info.rank).find(|&i| lower[(i, i)].powi(2) <= NEGLIGIBLE).unwrap_or(info.rank);
+        let rank = (0..info.rank).find(|&i| lower[(i, i)].powi(2) <= least).unwrap_or(info.rank);
+        dependent.splice(..0, forward[rank..].iter().map(|&i| rows[i]));
         Some(PivotedCholesky {
             lower: lower.as_ref().submatrix(0, 0, rank, rank).to_owned(),
-            independent: forward[..rank].to_vec(),
-            dependent: forward[rank..].to_vec(),
+            independent: forward[..rank].iter().map(|&i| rows[i]).collect(),
+            dependent,
         })
     }
 
@@ -94,23 +108,29 @@ impl PivotedCholesky {
                 schur[i + m * j] = corner(i, j);
             }
         }
-        triangular::matmul(
-            MatMut::from_column_major_slice_mut(&mut schur, m, m),
-            BlockStructure::TriangularLower,
-            Accum::Add,
-            half.transpose(),
-            BlockStructure::Rectangular,
-            half.as_ref(),
-            BlockStructure::Rectangular,
-            -1.0,
-            Par::Seq,
-        );
-        for j in 0..m {
-            for i in 0..j {
-                schur[i + m * j] = schur[j + m * i];
-            }
-        }
+        subtract_gram(&mut schur, half.as_ref());
         schur
+    }
+}
+
+/// `C - Xᵀ X` from the lower triangle of the symmetric `C`, both triangles; column-major.
+pub fn subtract_gram(c: &mut [f64], x: MatRef<'_, f64>) {
+    let m = x.ncols();
+    triangular::matmul(
+        MatMut::from_column_major_slice_mut(c, m, m),
+        BlockStructure::TriangularLower,
+        Accum::Add,
+        x.transpose(),
+        BlockStructure::Rectangular,
+        x,
+        BlockStructure::Rectangular,
+        -1.0,
+        Par::Seq,
+    );
+    for j in 0..m {
+        for i in 0..j {
+            c[i + m * j] = c[j + m * i];
+        }
     }
 }
 

@@ -2,11 +2,10 @@
 //!
 //! [`vectorised`] compiles its closure a second time for AVX2 and runs that version where the
 //! processor has it; the loops are written for the vectoriser and inlined there. They multiply, then
-//! add, unfused: the result does not depend on the instruction set.
+//! add, unfused, and where they fuse they say so by `mul_add`, which rounds once everywhere: the result does
+//! not depend on the instruction set. Processors without a fused operation compute it slowly.
 
 use pulp::Arch;
-
-use super::double_double::{two_product, two_sum};
 
 /// The instruction set, detected once by the caller.
 pub type Simd = Arch;
@@ -33,13 +32,36 @@ pub fn axpy2(y: &mut [f64], (a, x): (f64, &[f64]), (b, z): (f64, &[f64])) {
     }
 }
 
-/// `high + low += (a + a_low) x`, in twice the precision; to be called inside [`vectorised`].
+/// `y += x a`, four columns in one pass over `y`, in their order; to be called inside [`vectorised`].
 #[inline(always)]
-pub fn axpy_twice((high, low): (&mut [f64], &mut [f64]), (a, a_low): (f64, f64), x: &[f64]) {
-    for ((high, low), &x) in high.iter_mut().zip(low).zip(x) {
-        let (product, error) = two_product(a, x);
-        let (sum, lost) = two_sum(*high, product);
-        *high = sum;
-        *low += (error + lost) + a_low * x;
+pub fn add_four(y: &mut [f64], a: [f64; 4], x: [&[f64]; 4]) {
+    let x = x.map(|x| &x[..y.len()]);
+    for (i, y) in y.iter_mut().enumerate() {
+        *y = (((*y + x[0][i] * a[0]) + x[1][i] * a[1]) + x[2][i] * a[2]) + x[3][i] * a[3];
+    }
+}
+
+/// [`add_four`] with the absolute values of `x`.
+#[inline(always)]
+pub fn add_four_sizes(y: &mut [f64], a: [f64; 4], x: [&[f64]; 4]) {
+    let x = x.map(|x| &x[..y.len()]);
+    for (i, y) in y.iter_mut().enumerate() {
+        let size = |c: usize| x[c][i].abs() * a[c];
+        *y = (((*y + size(0)) + size(1)) + size(2)) + size(3);
+    }
+}
+
+/// `high + low += x a`, four columns in one pass: `high` takes of each product what is a multiple of its
+/// own last digit, without error as long as its exponent stays, and `low` the rest. To be called inside
+/// [`vectorised`].
+#[inline(always)]
+pub fn add_four_twice((high, low): (&mut [f64], &mut [f64]), a: [f64; 4], x: [&[f64]; 4]) {
+    let x = x.map(|x| &x[..high.len()]);
+    for (i, (high, low)) in high.iter_mut().zip(low).enumerate() {
+        for (a, x) in a.iter().zip(x) {
+            let sum = a.mul_add(x[i], *high);
+            *low += a.mul_add(x[i], *high - sum);
+            *high = sum;
+        }
     }
 }

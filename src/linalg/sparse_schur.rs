@@ -17,11 +17,17 @@ use faer::sparse::linalg::cholesky::{
 };
 use faer::{Conj, MatMut, Par, Side, Spec};
 
+use super::free_motions::{self, Doubt, is_suspicious};
 use super::null_vector::{resistance, weakest};
 use super::pivoted_cholesky::lower_times_transpose;
 use super::sparse_matrix::{Csc, diagonal, leading_part};
 use super::tolerances::{NULL_VECTOR, REGULARISATION, SUSPICIOUS_PIVOT};
+use super::unreduced::Unreduced;
 use super::workspaces::Workspaces;
+
+/// So many rows of `C` are few beside the rigid motions of a body, which are up to six: pivots tell which of
+/// them depend on the others, at no cost. Of more rows small diagonal entries alone are looked at.
+const FEW: usize = 24;
 
 /// Why a matrix was not factorised.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,6 +36,10 @@ pub enum Failure {
     NullVector(Vec<f64>),
     /// The matrix is not positive semi-definite, as this row shows.
     Indefinite(usize),
+    /// The energy of this motion is negative, so that the matrix is not positive semi-definite.
+    Negative(Vec<f64>),
+    /// Whether the matrix resists this motion cannot be told from rounding.
+    Unclear(Vec<f64>),
     /// Not enough memory.
     OutOfMemory,
 }
@@ -88,7 +98,24 @@ impl SparseSchur {
                 return Err(Failure::NullVector(vector));
             }
         }
-        Ok(SparseSchur { factor: Some(factor), order, eliminated, tail, schur })
+        let mut found = SparseSchur { factor: Some(factor), order, eliminated, tail, schur };
+        if m <= FEW || is_suspicious(&shift, |i| found.schur[i + m * i]) {
+            for (j, shift) in (eliminated..n).zip(&shift) {
+                set_diagonal(&mut lower, j, *shift);
+            }
+            found.settle(lower, &shift)?;
+        }
+        Ok(found)
+    }
+
+    /// Makes `S` exact on the motions that nothing resists; `lower` is the whole matrix, and `units` is the
+    /// diagonal of `C`.
+    fn settle(&mut self, lower: Csc, units: &[f64]) -> Result<(), Doubt> {
+        let mut schur = std::mem::take(&mut self.schur);
+        let recover = |load: &[f64], d: &[f64]| self.recover(load, d);
+        free_motions::settle(&mut schur, units, &Unreduced::new(lower, &recover))?;
+        self.schur = schur;
+        Ok(())
     }
 
     /// `S`, column-major.
@@ -131,13 +158,26 @@ impl SparseSchur {
     }
 }
 
+impl From<Doubt> for Failure {
+    fn from(doubt: Doubt) -> Self {
+        match doubt {
+            Doubt::Indefinite(motion) => Failure::Negative(motion),
+            Doubt::Unclear(motion) => Failure::Unclear(motion),
+        }
+    }
+}
+
 /// Multiplies the diagonal entry of column `j` and returns what it was.
 fn scale_diagonal(lower: &mut Csc, j: usize, factor: f64) -> f64 {
-    let place = lower.symbolic().col_ptr()[j];
-    let entry = &mut lower.val_mut()[place];
-    let before = *entry;
-    *entry *= factor;
+    let before = diagonal(lower, j).unwrap_or_default();
+    set_diagonal(lower, j, factor * before);
     before
+}
+
+/// Sets the diagonal entry of column `j`, which is stored.
+fn set_diagonal(lower: &mut Csc, j: usize, value: f64) {
+    let place = lower.symbolic().col_ptr()[j];
+    lower.val_mut()[place] = value;
 }
 
 fn unpermuted(order: &[usize], ordered: &[f64]) -> Vec<f64> {

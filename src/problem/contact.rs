@@ -19,7 +19,8 @@ use super::relation::{Relation, Stiffness};
 use super::symmetric_matrix;
 use crate::error::{Argument, Error, entry};
 use crate::linalg::matrix::{Matrix, can_exist, required_length};
-use crate::linalg::vector::{self, first_not_finite};
+use crate::linalg::tolerances::{CONDENSATION, FREE};
+use crate::linalg::vector::{self, first_not_finite, sizes};
 
 /// The caller's arrays, not yet checked. Forces and displacements are in the caller's units.
 #[derive(Clone, Copy, Debug)]
@@ -59,7 +60,8 @@ impl<'a> ContactProblem<'a> {
     ///
     /// # Errors
     /// [`Error::Invalid`] names the first entry that is not finite, not symmetric beyond rounding
-    /// (1e-9 of the diagonal), on a diagonal that is not positive, or out of range.
+    /// (1e-9 of the diagonal), negative on the diagonal or zero there in a row that is not zero, or out of
+    /// range. Small entries on the diagonal are taken as they are; a [`crate::Model`] tells them from rounding.
     pub fn new(data: ContactData<'a>) -> Result<Self, Error> {
         let problem = Self::on_checked_matrix(data)?;
         symmetric_matrix::check(&problem.relation.matrix, "K", Argument::Matrix)?;
@@ -79,6 +81,11 @@ impl<'a> ContactProblem<'a> {
             return Err(Error::invalid(Argument::Dimension, message));
         }
         symmetric_matrix::check_diagonal(&problem.relation.matrix, "K", Argument::Matrix)?;
+        let matrix = problem.relation.matrix;
+        if let Some(i) = (0..matrix.size()).find(|&i| matrix.at(i, i) == 0.0) {
+            let message = format!("{} is 0, it must be positive", entry("K", [i, i]));
+            return Err(Error::invalid(Argument::Matrix, message));
+        }
         problem.relation.symmetric = false;
         Ok(problem)
     }
@@ -99,12 +106,24 @@ impl<'a> ContactProblem<'a> {
         check_finite(Argument::Load, "f", load)?;
         let matrix = Matrix::new(size, data.stiffness, data.ld);
         Self::with_relation(
-            Stiffness { matrix, load, symmetric: true },
+            Stiffness::new(matrix, load, data.dim),
             data.dim,
             data.gap,
             data.law,
             data.reference_slip,
         )
+    }
+
+    /// The same problem, whose matrix a host has condensed: energies of the size of that rounding resist no
+    /// motion.
+    pub(crate) fn condensed_by_host(mut self) -> Self {
+        self.relation.rounding = FREE * CONDENSATION;
+        self
+    }
+
+    /// Energy of the motion `d` that rounding of the entries of `K` explains, of `|d| . |K| |d|`.
+    pub(crate) fn rounding_of_energy(&self) -> f64 {
+        self.relation.rounding
     }
 
     /// `K`.
@@ -125,9 +144,15 @@ impl<'a> ContactProblem<'a> {
         self.relation.matrix.column(j)
     }
 
-    /// Entry `K[i, i]`, positive.
-    pub fn diagonal(&self, i: usize) -> f64 {
-        self.relation.matrix.at(i, i)
+    /// The unit of force per length of component `i`, positive: `K[i, i]`; where nothing resists the
+    /// component, the largest diagonal entry of its pair, or of the whole.
+    pub fn unit(&self, i: usize) -> f64 {
+        self.relation.unit(i)
+    }
+
+    /// Square roots of the units of all components.
+    pub fn unit_roots(&self) -> Vec<f64> {
+        (0..self.unknowns()).map(|i| self.unit(i).sqrt()).collect()
     }
 
     /// `f`.
@@ -144,8 +169,15 @@ impl<'a> ContactProblem<'a> {
 
     /// Internal force `K d`, in twice the precision and rounded once.
     pub fn internal_force(&self, d: &[f64]) -> Vec<f64> {
-        let zero = vec![0.0; d.len()];
-        self.relation.matrix.residual(d, &zero, &zero)
+        let terms = self.relation.matrix.magnitude(&sizes(d));
+        self.relation.matrix.residual(d, &[], &vec![0.0; d.len()], &terms)
+    }
+
+    /// `K (d + low) - f`, in twice the precision and rounded once; `low` is what rounding to doubles has
+    /// left out of `d`.
+    pub(crate) fn force_of_parts(&self, d: &[f64], low: &[f64]) -> Vec<f64> {
+        let terms = self.relation.matrix.magnitude(&sizes(d));
+        self.relation.matrix.residual(d, low, self.relation.load, &terms)
     }
 }
 

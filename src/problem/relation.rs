@@ -24,8 +24,9 @@ pub trait Relation {
     /// The loads, in the unit of force: what drives the problem, and the size of forces.
     fn load(&self) -> &[f64];
 
-    /// The contact force that `d` determines; `None` if it determines none.
-    fn force(&self, d: &[f64]) -> Option<Vec<f64>>;
+    /// The contact force that `d + low` determines, rounded once; `None` if it determines none. `low` is
+    /// empty, or what rounding to doubles has left out of `d`; `terms` is [`Self::magnitude`] of `|d|`.
+    fn force(&self, d: &[f64], low: &[f64], terms: &[f64]) -> Option<Vec<f64>>;
 
     /// How far `(d, F)` is from equilibrium, a force for each component: zero if the relation holds.
     fn residual(&self, d: &[f64], force: &[f64]) -> Vec<f64>;
@@ -42,13 +43,35 @@ pub struct Stiffness<'a> {
     pub(super) matrix: Matrix<'a>,
     pub(super) load: &'a [f64],
     pub(super) symmetric: bool,
+    /// Components of a pair.
+    dim: usize,
+    /// Largest diagonal entry.
+    largest: f64,
+    /// Energy of a motion that rounding of the entries explains, of `|d| . |K| |d|`.
+    pub(super) rounding: f64,
 }
 
-impl Stiffness<'_> {
-    /// `K (d + low) - f`, in twice the precision and rounded once; `low` is what rounding to doubles has left
-    /// out of `d`.
-    pub(crate) fn residual_of_parts(&self, d: &[f64], low: &[f64]) -> Vec<f64> {
-        self.matrix.residual(d, low, self.load)
+/// [`Stiffness::rounding`] of a matrix that is exact but for the last digits of its entries: rounding each
+/// of them once explains half a unit, and a host that sums a few terms to an entry rounds as often.
+const LAST_DIGITS: f64 = 10.0 * f64::EPSILON;
+
+impl<'a> Stiffness<'a> {
+    /// The relation of pairs of `dim` components, with a symmetric matrix.
+    pub(super) fn new(matrix: Matrix<'a>, load: &'a [f64], dim: usize) -> Self {
+        Stiffness {
+            matrix,
+            load,
+            symmetric: true,
+            dim,
+            largest: matrix.largest_diagonal(),
+            rounding: LAST_DIGITS,
+        }
+    }
+
+    /// The unit of force per length of component `i`, positive: `K[i, i]`, or one of the pair, or of the
+    /// whole, where nothing resists the component.
+    pub(super) fn unit(&self, i: usize) -> f64 {
+        self.matrix.unit(i, self.dim, self.largest)
     }
 }
 
@@ -58,16 +81,16 @@ impl Relation for Stiffness<'_> {
     }
 
     fn block(&self, i: usize, j: usize) -> f64 {
-        self.matrix.at(i, j)
+        if i == j { self.unit(i) } else { self.matrix.at(i, j) }
     }
 
     fn load(&self) -> &[f64] {
         self.load
     }
 
-    /// `K d - f`, in twice the precision and rounded once.
-    fn force(&self, d: &[f64]) -> Option<Vec<f64>> {
-        Some(self.residual_of_parts(d, &vec![0.0; d.len()]))
+    /// `K (d + low) - f`, in twice the precision and rounded once.
+    fn force(&self, d: &[f64], low: &[f64], terms: &[f64]) -> Option<Vec<f64>> {
+        Some(self.matrix.residual(d, low, self.load, terms))
     }
 
     /// `K d - f - F`.
@@ -79,14 +102,6 @@ impl Relation for Stiffness<'_> {
     }
 
     fn magnitude(&self, size: &[f64]) -> Vec<f64> {
-        let mut sum = vec![0.0; size.len()];
-        for (j, &size) in size.iter().enumerate() {
-            if size > 0.0 {
-                for (sum, k) in sum.iter_mut().zip(self.matrix.column(j)) {
-                    *sum += k.abs() * size;
-                }
-            }
-        }
-        sum
+        self.matrix.magnitude(size)
     }
 }

@@ -1,6 +1,6 @@
 //! Validation of a host's dense symmetric matrix.
 
-use crate::error::{Argument, Error, entry, index};
+use crate::error::{Argument, Error, entry};
 use crate::linalg::matrix::Matrix;
 use crate::linalg::vector::first_not_finite;
 
@@ -11,16 +11,23 @@ pub(crate) const SYMMETRY: f64 = 1e-9;
 /// Whether entries agree with those across the diagonal, up to rounding relative to it, which is
 /// positive.
 pub(crate) fn is_symmetric(matrix: &Matrix<'_>) -> bool {
-    let root = matrix.diagonal_roots();
+    is_symmetric_beside(matrix, &matrix.diagonal_roots())
+}
+
+/// Whether entries agree with those across the diagonal, up to rounding relative to the squares of `root`.
+pub(crate) fn is_symmetric_beside(matrix: &Matrix<'_>, root: &[f64]) -> bool {
     let compare = |i: usize, j: usize, lower: f64, upper: f64| {
         if (lower - upper).abs() <= SYMMETRY * root[i] * root[j] { Ok(()) } else { Err(()) }
     };
     matrix.pairs_across(compare).is_ok()
 }
 
-/// Refuses entries that are not finite, diagonals that are not positive, asymmetry beyond rounding,
-/// and entries that a positive semi-definite matrix cannot have. `name` is the host's name of the
-/// matrix.
+/// Refuses entries that are not finite, negative diagonals, zeros on the diagonal of rows that are not zero,
+/// a matrix of zeros, asymmetry beyond rounding, and entries that a positive semi-definite matrix
+/// cannot have. `name` is the host's name of the matrix.
+///
+/// A row of zeros is a component that a free body moves without a force: a foot along its normal, if the
+/// body stands on two feet in the plane, or on three in space.
 pub(crate) fn check(matrix: &Matrix<'_>, name: &str, argument: Argument) -> Result<(), Error> {
     check_diagonal(matrix, name, argument)?;
     let refuse = |message: String| Err(Error::invalid(argument, message));
@@ -49,7 +56,8 @@ pub(crate) fn check(matrix: &Matrix<'_>, name: &str, argument: Argument) -> Resu
     })
 }
 
-/// Refuses entries that are not finite and diagonals that are not positive.
+/// Refuses entries that are not finite, negative diagonals, zeros on the diagonal of columns that are not
+/// zero, and a matrix of zeros.
 pub(crate) fn check_diagonal(
     matrix: &Matrix<'_>,
     name: &str,
@@ -62,16 +70,25 @@ pub(crate) fn check_diagonal(
         if let Some(i) = first_not_finite(column) {
             return refuse(at(i, j) + " is not finite");
         }
-        if column[j] <= 0.0 {
-            if column.iter().all(|&k| k == 0.0) {
-                let row = index(j);
-                return refuse(format!(
-                    "row {row} of {name} is zero: component {row} has no stiffness; if the host \
-                     holds it fixed, put a positive number on the diagonal"
-                ));
-            }
+        if column[j] < 0.0 {
             return refuse(format!("{} is {}, it must be positive", at(j, j), column[j]));
         }
+        if column[j] == 0.0
+            && let Some(i) = column.iter().position(|&k| k != 0.0)
+        {
+            return refuse(format!(
+                "{} is 0, it must be positive: {} is {}",
+                at(j, j),
+                at(i, j),
+                column[i]
+            ));
+        }
+    }
+    if matrix.size() > 0 && matrix.largest_diagonal() == 0.0 {
+        return refuse(format!(
+            "{name} is zero: nothing has stiffness; if the host holds the components fixed, put \
+             positive numbers on the diagonal"
+        ));
     }
     Ok(())
 }

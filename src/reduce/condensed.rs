@@ -1,9 +1,14 @@
 //! A body that the host itself has condensed on its contact nodes, on an obstacle: `d = u`.
 
 use super::{Reduction, motion};
-use crate::error::Message;
+use crate::error::{Argument, Error, Message};
+use crate::linalg::free_motions::{Whole, settle};
+use crate::linalg::matrix::Matrix;
+use crate::linalg::tolerances::{CONDENSATION, FREE};
+use crate::linalg::vector::first_not_finite;
+use crate::problem::symmetric_matrix::{check, is_symmetric_beside};
 
-/// The host's condensed stiffness, taken as it is.
+/// The host's condensed stiffness.
 pub struct CondensedReduction {
     dim: usize,
     /// Components of `d`.
@@ -12,16 +17,107 @@ pub struct CondensedReduction {
 }
 
 impl CondensedReduction {
-    /// Keeps a checked stiffness of `size` rows, column-major with leading dimension `size`; each pair
-    /// has `dim` of them.
-    pub(crate) fn new(dim: usize, size: usize, stiffness: Vec<f64>) -> Self {
-        CondensedReduction { dim, size, stiffness }
+    /// Keeps the stiffness, checked, with `dim` rows for each pair, and without what rounding has made of
+    /// free motions.
+    ///
+    /// # Errors
+    /// As [`settled`].
+    pub(crate) fn new(dim: usize, matrix: &Matrix<'_>) -> Result<Self, Error> {
+        let settled = settled(dim, matrix, "K", Argument::Matrix)?;
+        let stiffness = settled.unwrap_or_else(|| contiguous(matrix));
+        Ok(CondensedReduction { dim, size: matrix.size(), stiffness })
+    }
+}
+
+/// Checks a host's condensed matrix, and returns it, contiguous, exact on the motions that are free up to
+/// the rounding of its condensation; `None` if it is to be taken as it is. `name` is the host's name of
+/// the matrix.
+///
+/// It is changed only if a diagonal entry is at most 9e-12 of the largest one of its pair and the
+/// component is coupled to others: that may be rounding of a free body on few points. Then motions of
+/// so little energy become exactly free, and all others keep what they have. A matrix with a motion that
+/// cannot be told from rounding is taken as it is.
+///
+/// # Errors
+/// As `check`.
+pub(super) fn settled(
+    dim: usize,
+    matrix: &Matrix<'_>,
+    name: &str,
+    argument: Argument,
+) -> Result<Option<Vec<f64>>, Error> {
+    let cleaned = without_rounding(dim, matrix);
+    check(&view(matrix, &cleaned), name, argument)?;
+    Ok(cleaned)
+}
+
+/// The matrix without rounding, if there is one, or as it was given.
+pub(super) fn view<'k>(given: &Matrix<'k>, cleaned: &'k Option<Vec<f64>>) -> Matrix<'k> {
+    let size = given.size();
+    cleaned.as_ref().map_or(*given, |cleaned| Matrix::new(size, cleaned, size.max(1)))
+}
+
+fn contiguous(matrix: &Matrix<'_>) -> Vec<f64> {
+    (0..matrix.size()).flat_map(|j| matrix.column(j).iter().copied()).collect()
+}
+
+/// The matrix without what rounding made of free motions; `None` if it is to be taken as it is.
+fn without_rounding(dim: usize, matrix: &Matrix<'_>) -> Option<Vec<f64>> {
+    let units = units(dim, matrix);
+    let is_rounding = |i: usize| matrix.at(i, i) <= FREE * CONDENSATION * units[i];
+    if !(0..matrix.size()).any(is_rounding) {
+        return None;
+    }
+    let root: Vec<f64> = units.iter().map(|unit| unit.sqrt()).collect();
+    let mut stiffness = contiguous(matrix);
+    let is_sound = units.iter().all(|&unit| unit > 0.0)
+        && first_not_finite(&stiffness).is_none()
+        && is_symmetric_beside(matrix, &root);
+    let given = Given { matrix: *matrix, units: &units };
+    // What is not sound the check names.
+    (is_sound && settle(&mut stiffness, &units, &given) == Ok(true)).then_some(stiffness)
+}
+
+/// The largest diagonal entry of each component's pair. A component that is coupled to no other one has its
+/// own: condensation leaves no such row, it is a spring of the host.
+fn units(dim: usize, matrix: &Matrix<'_>) -> Vec<f64> {
+    let otherwise = matrix.largest_diagonal();
+    let unit = |i: usize| {
+        let (own, unit) = (matrix.at(i, i), matrix.unit_of_group(i, dim, otherwise));
+        let is_small = own > 0.0 && own <= FREE * CONDENSATION * unit;
+        let is_spring = || matrix.column(i).iter().enumerate().all(|(j, &k)| j == i || k == 0.0);
+        if is_small && is_spring() { own } else { unit }
+    };
+    (0..matrix.size()).map(unit).collect()
+}
+
+/// A matrix of which nothing was eliminated here.
+struct Given<'k> {
+    matrix: Matrix<'k>,
+    units: &'k [f64],
+}
+
+impl Whole for Given<'_> {
+    fn extended(&self, kept: &[f64]) -> Vec<f64> {
+        kept.to_vec()
+    }
+
+    fn forces(&self, motion: &[f64]) -> Vec<f64> {
+        self.matrix.product(motion)
+    }
+
+    fn noise(&self, motion: &[f64]) -> f64 {
+        CONDENSATION * self.units.iter().zip(motion).map(|(unit, x)| unit * x * x).sum::<f64>()
     }
 }
 
 impl Reduction for CondensedReduction {
     fn stiffness(&self) -> &[f64] {
         &self.stiffness
+    }
+
+    fn is_condensed_by_host(&self) -> bool {
+        true
     }
 
     fn host_size(&self) -> usize {

@@ -12,12 +12,12 @@
 //! It needs only that no rigid motion is free in both bodies. The bodies may change roles; here B is
 //! the softer one, so that `K_rel` is not the small difference of large numbers.
 
+use super::condensed::{settled, view};
 use super::{Reduction, motion};
 use crate::error::{Argument, Error, Message, index};
 use crate::linalg::matrix::Matrix;
 use crate::linalg::pivoted_cholesky::PivotedCholesky;
 use crate::linalg::vector::norm_inf;
-use crate::problem::symmetric_matrix::check;
 
 /// The reduction of two bodies, kept for further load cases.
 pub struct TwoBodyReduction {
@@ -41,8 +41,8 @@ impl TwoBodyReduction {
     /// components for each pair.
     ///
     /// # Errors
-    /// Entries that are not finite or symmetric, diagonals that are not positive; a motion that
-    /// neither body resists, named by its largest component.
+    /// Entries that are not finite or symmetric, negative diagonals, zeros there in rows that are not zero;
+    /// a motion that neither body resists, named by its largest component.
     pub fn new(
         dim: usize,
         size: usize,
@@ -50,14 +50,19 @@ impl TwoBodyReduction {
         (second, second_ld): (&[f64], usize),
     ) -> Result<Self, Error> {
         let first = Matrix::new(size, first, first_ld);
-        check(&first, "K_A", Argument::Matrix)?;
+        let cleaned_first = settled(dim, &first, "K_A", Argument::Matrix)?;
         let second = Matrix::new(size, second, second_ld);
-        check(&second, "K_B", Argument::SecondMatrix)?;
+        let cleaned_second = settled(dim, &second, "K_B", Argument::SecondMatrix)?;
+        let (first, second) = (view(&first, &cleaned_first), view(&second, &cleaned_second));
         let trace = |k: &Matrix<'_>| (0..size).map(|i| k.column(i)[i]).sum::<f64>();
         let exchanged = trace(&first) < trace(&second);
         let (first, second) = if exchanged { (second, first) } else { (first, second) };
-        let scale: Vec<f64> =
-            (0..size).map(|i| (first.column(i)[i] + second.column(i)[i]).sqrt().recip()).collect();
+        let scale: Vec<f64> = first
+            .units(dim)
+            .iter()
+            .zip(second.units(dim))
+            .map(|(a, b)| (a + b).sqrt().recip())
+            .collect();
         let entry =
             |i: usize, j: usize| scale[i] * (first.column(j)[i] + second.column(j)[i]) * scale[j];
         let Some(sum) = PivotedCholesky::new(size, entry) else {
@@ -113,6 +118,10 @@ impl TwoBodyReduction {
 impl Reduction for TwoBodyReduction {
     fn stiffness(&self) -> &[f64] {
         &self.stiffness
+    }
+
+    fn is_condensed_by_host(&self) -> bool {
+        true
     }
 
     fn host_size(&self) -> usize {

@@ -17,7 +17,7 @@ use crate::law::Contact;
 use crate::linalg::nnls::{extend_basis, nearest};
 use crate::linalg::pivoted_cholesky::PivotedCholesky;
 use crate::linalg::tolerances::NEGLIGIBLE;
-use crate::linalg::vector::{dot, largest_of};
+use crate::linalg::vector::{dot, largest_of, norm};
 
 /// Negative work of a cone's force that counts, relative to the motion. Next to the limit of balance
 /// `e` is small beside the loads, and rounding of the projection is no smaller.
@@ -25,6 +25,10 @@ const NEGATIVE: f64 = 1e-9;
 
 /// Pairs whose edges join in one round.
 const JOINING: usize = 4;
+
+/// Where a round leaves more than this part of what was not balanced, a lift may make the motion a proof
+/// at once: edges that come ever nearer to each other are dependent before the negative work is gone.
+const STEADY: f64 = 0.999;
 
 /// Rounds of cutting planes: a hundred were the most where it converged.
 const MOST_ROUNDS: usize = 300;
@@ -41,21 +45,27 @@ pub fn escape(contact: &Contact<'_>) -> Option<Vec<f64>> {
         let own = law.cone_edges();
         edges.extend(own.iter().map(|edge| balance.on_pair(edge, pair)));
     }
-    let mut before = Vec::new();
+    let mut last = f64::INFINITY;
     for _ in 0..MOST_ROUNDS {
         let rest = nearest(&load, &edges)?;
         let motion = balance.motion(&rest);
         let worst = balance.worst(&motion);
-        // Edges that differ by rounding alone from those that carry are of no more use.
-        if worst.is_empty() || contact.dim() == 2 || rest == before {
-            let motion = balance.lifted(motion);
-            return is_escape_of(contact, &motion).then_some(motion);
+        let size = norm(&rest);
+        let is_last = worst.is_empty() || contact.dim() == 2 || size == last;
+        if is_last || size > STEADY * last {
+            let lifted = balance.lifted(motion.clone());
+            if is_escape_of(contact, &lifted) {
+                return Some(lifted);
+            }
+            if is_last {
+                return None;
+            }
         }
+        last = size;
         for pair in worst.into_iter().take(JOINING) {
             let own = &motion[contact.dim() * pair..contact.dim() * (pair + 1)];
             edges.push(balance.on_pair(&contact.pairs()[pair].opposing_edge(own), pair));
         }
-        before = rest;
     }
     None
 }
@@ -63,7 +73,7 @@ pub fn escape(contact: &Contact<'_>) -> Option<Vec<f64>> {
 /// The rigid motions of a problem.
 struct Balance<'c> {
     contact: &'c Contact<'c>,
-    /// Roots of the diagonal of `K`.
+    /// Roots of the units of the components.
     root: Vec<f64>,
     /// An orthonormal basis of the motions without internal force, each component times its `root`.
     basis: Vec<Vec<f64>>,
@@ -73,9 +83,9 @@ impl<'c> Balance<'c> {
     /// `None` if there are no such motions.
     fn new(contact: &'c Contact<'c>) -> Option<Self> {
         let matrix = contact.problem().stiffness();
-        let root = matrix.diagonal_roots();
+        let root = contact.problem().unit_roots();
         let mut basis = Vec::new();
-        let block = FreeBlock::new(matrix, (0..matrix.size()).collect())?;
+        let block = FreeBlock::of_problem(contact.problem(), (0..matrix.size()).collect())?;
         for mut motion in block.null_vectors() {
             motion.iter_mut().zip(&root).for_each(|(r, root)| *r *= root);
             extend_basis(&mut basis, motion);

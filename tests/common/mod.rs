@@ -19,5 +19,6 @@ pub mod oracle;
 pub mod plane_families;
 pub mod problems;
 pub mod quad;
+pub mod rigid_statics;
 pub mod stack;
 pub mod verdict;

@@ -39,8 +39,10 @@ contains
         call said('K(3,2) is 2, K(2,3) is 0', 'K[2,1] is 2, K[1,2] is 0')
         wrong = k
         wrong(4, 4) = 0
+        wrong(4, 3) = 1
+        wrong(3, 4) = 1
         call model%new_condensed(2, wrong, info)
-        call said('row 4 of K is zero: component 4 has', 'row 3 of K is zero: component 3 has')
+        call said('K(4,4) is 0, it must be positive', 'K[3,3] is 0, it must be positive')
         call contact_solve(k, [f(1:3), nan], gap, d, force, info)
         call said('f(4) is not', 'f[3] is not')
         call contact_solve(k, f, [0._dp, nan], d, force, info)

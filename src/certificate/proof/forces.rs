@@ -12,8 +12,8 @@ pub fn bound_of_product(problem: &ContactProblem<'_>, x: &[f64]) -> Vec<f64> {
 
 /// `K (d + low) - f` of each pair, enclosed, of the `computed` one.
 ///
-/// The sum is taken in twice the precision and rounded once. Of `n` terms its second part has `3 n` terms of
-/// at most one unit of the sizes' sum each, added in single precision: `4 (n + 4)² u²` bounds its rounding.
+/// The sum is taken in twice the precision, off by at most `16 u² (n + 2)²` of the sum of its sizes
+/// (`linalg::matrix::Matrix::residual`), and rounded once.
 pub fn enclosed_force(
     contact: &Contact<'_>,
     (d, low): (&[f64], &[f64]),
@@ -22,7 +22,7 @@ pub fn enclosed_force(
     let problem = contact.problem();
     let sizes: Vec<f64> = d.iter().zip(low).map(|(d, low)| sum_up(d.abs(), low.abs())).collect();
     let terms = bound_of_product(problem, &sizes);
-    let twice = 4.0 * ((d.len() + 4) as f64 * UNIT).powi(2);
+    let twice = 16.0 * ((d.len() + 4) as f64 * UNIT).powi(2);
     let enclosed = |i: usize| {
         let size = sum_up(terms[i], problem.load()[i].abs());
         let rounding = sum_up(product_up(twice, size), product_up(UNIT, computed[i].abs()));

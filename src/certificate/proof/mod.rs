@@ -75,7 +75,7 @@ pub(crate) fn prove_parts(
         return None;
     }
     let v = contact.beyond_reference(d, low);
-    let force = contact.problem().relation().residual_of_parts(d, low);
+    let force = contact.problem().force_of_parts(d, low);
     let pieces = contact.each(&v, &force).zip(states);
     let pairs: Vec<FrozenPair> = pieces
         .map(|((law, v, force), state)| law.frozen(*state, v, force))
@@ -106,7 +106,7 @@ fn on_pieces(contact: &Contact<'_>, pairs: &[FrozenPair], mut centre: Centre) ->
         }
     }
     if changed {
-        centre.force = contact.problem().relation().residual_of_parts(&centre.d, &centre.low);
+        centre.force = contact.problem().force_of_parts(&centre.d, &centre.low);
     }
     centre
 }

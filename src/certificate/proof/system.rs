@@ -166,7 +166,7 @@ impl<'c> System<'c> {
 
     /// Refines the centre by residuals in twice the precision until steps fall no further.
     pub fn refine(&self, solver: &mut Solver, centre: &mut Centre) {
-        let (dim, relation) = (self.contact.dim(), self.contact.problem().relation());
+        let (dim, problem) = (self.contact.dim(), self.contact.problem());
         let mut last = f64::INFINITY;
         for _ in 0..MOST_STEPS {
             let force: Vec<Ball> = centre.force.iter().map(|&force| Ball::exact(force)).collect();
@@ -178,7 +178,7 @@ impl<'c> System<'c> {
             }
             last = size;
             self.move_by(&step, centre);
-            centre.force = relation.residual_of_parts(&centre.d, &centre.low);
+            centre.force = problem.force_of_parts(&centre.d, &centre.low);
         }
     }
 

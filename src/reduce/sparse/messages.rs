@@ -124,6 +124,23 @@ pub(super) fn free_motion(u: &[f64]) -> String {
     format!("a motion remains that no support and no pair holds: it moves {}", motion::of_host(u))
 }
 
+/// The energy of a motion `u` of the host is negative.
+pub(super) fn negative_energy(u: &[f64]) -> String {
+    format!(
+        "K is not positive semi-definite: the energy of a motion is negative: it moves {}",
+        motion::of_host(u)
+    )
+}
+
+/// Whether anything resists a motion `u` of the host cannot be told from rounding.
+pub(super) fn unclear_motion(u: &[f64]) -> String {
+    format!(
+        "the stiffness against a motion cannot be told from the rounding of K: it moves {}: support the \
+         motion, or hold it by springs that are not so soft beside K",
+        motion::of_host(u)
+    )
+}
+
 /// A motion with the relative displacement, in the host's axes, of the pair that moves most.
 pub(super) fn with_pair(whole: &str, pair: usize, relative: &[f64]) -> String {
     format!(

@@ -153,6 +153,8 @@ fn refused(variables: &ChangeOfVariables, failure: Failure) -> Error {
     let message = match failure {
         Failure::OutOfMemory => return Error::OutOfMemory("the factor of the stiffness matrix"),
         Failure::Indefinite(row) => messages::indefinite(variables.free().get(row)),
+        Failure::Negative(x) => messages::negative_energy(&variables.host_displacements(&x, None)),
+        Failure::Unclear(x) => messages::unclear_motion(&variables.host_displacements(&x, None)),
         Failure::NullVector(x) => messages::free_motion(&variables.host_displacements(&x, None)),
     };
     Error::invalid(Argument::Matrix, message)

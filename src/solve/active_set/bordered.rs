@@ -54,14 +54,14 @@ pub struct Coefficients<'p> {
     symmetric: bool,
     /// Components of a group.
     group: usize,
-    /// `M[i, i]^-1/2`: rows and columns are scaled by it.
+    /// `unit^-1/2` of each component: rows and columns are scaled by it.
     scale: Vec<f64>,
 }
 
 impl<'p> Coefficients<'p> {
-    /// The coefficients of a matrix with a positive diagonal.
+    /// The coefficients of a matrix whose diagonal is not negative.
     pub fn new(matrix: Matrix<'p>, symmetric: bool, group: usize) -> Self {
-        let scale = (0..matrix.size()).map(|i| matrix.at(i, i).sqrt().recip()).collect();
+        let scale = matrix.units(group).iter().map(|unit| unit.sqrt().recip()).collect();
         Coefficients { matrix, symmetric, group, scale }
     }
 

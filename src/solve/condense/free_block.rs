@@ -2,9 +2,10 @@
 
 use crate::linalg::matrix::Matrix;
 use crate::linalg::pivoted_cholesky::PivotedCholesky;
+use crate::problem::ContactProblem;
 
-/// The factor of some rows and columns of a symmetric positive semi-definite matrix `K`, scaled to a
-/// unit diagonal.
+/// The factor of some rows and columns of a symmetric positive semi-definite matrix `K`, scaled by
+/// the units of its components.
 pub struct FreeBlock<'p> {
     matrix: Matrix<'p>,
     rows: Vec<usize>,
@@ -17,9 +18,15 @@ pub struct FreeBlock<'p> {
 const SOLUTIONS: usize = 2;
 
 impl<'p> FreeBlock<'p> {
-    /// Factorises the block of `rows`; `None` if it is not positive semi-definite.
-    pub fn new(matrix: Matrix<'p>, rows: Vec<usize>) -> Option<Self> {
-        let scale: Vec<f64> = rows.iter().map(|&i| matrix.at(i, i).sqrt().recip()).collect();
+    /// Factorises the block of `rows` of a problem's matrix; `None` if it is not positive semi-definite.
+    pub fn of_problem(problem: &ContactProblem<'p>, rows: Vec<usize>) -> Option<Self> {
+        Self::new(problem.stiffness(), rows, |i| problem.unit(i))
+    }
+
+    /// Factorises the block of `rows`, component `i` of which has the positive unit `unit(i)`; `None` if it
+    /// is not positive semi-definite.
+    pub fn new(matrix: Matrix<'p>, rows: Vec<usize>, unit: impl Fn(usize) -> f64) -> Option<Self> {
+        let scale: Vec<f64> = rows.iter().map(|&i| unit(i).sqrt().recip()).collect();
         let entry = |i: usize, j: usize| scale[i] * matrix.at(rows[i], rows[j]) * scale[j];
         let factor = PivotedCholesky::new(rows.len(), entry)?;
         Some(FreeBlock { matrix, rows, scale, factor })
@@ -66,12 +73,12 @@ impl<'p> FreeBlock<'p> {
         }
     }
 
-    /// A basis of the motions that `K` does not resist. Each moves one dependent component, `i`, by
-    /// `K_ii^-1/2`.
+    /// A basis of the motions that `K` does not resist. Each moves one dependent component by its
+    /// `unit^-1/2`.
     pub fn null_vectors(&self) -> impl Iterator<Item = Vec<f64>> {
-        self.dependent().map(|i| {
+        self.factor.dependent().iter().map(|&i| {
             let mut motion = vec![0.0; self.matrix.size()];
-            motion[i] = self.matrix.at(i, i).sqrt().recip();
+            motion[self.rows[i]] = self.scale[i];
             self.follow(&mut motion);
             motion
         })

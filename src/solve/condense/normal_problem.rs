@@ -35,7 +35,7 @@ impl<'p> NormalProblem<'p> {
         let lower = lower_bounds(contact);
         let (normal, free): (Vec<usize>, Vec<usize>) =
             (0..contact.unknowns()).partition(|&i| is_bounded(contact, i));
-        let block = FreeBlock::new(problem.stiffness(), free).ok_or(INDEFINITE)?;
+        let block = FreeBlock::of_problem(problem, free).ok_or(INDEFINITE)?;
         let mut at_rest = vec![0.0; contact.unknowns()];
         block.equilibrate(contact.shifted_load(), &mut at_rest);
         if let Some(motion) = driven_motion(contact, &block, &at_rest) {
@@ -45,8 +45,8 @@ impl<'p> NormalProblem<'p> {
         let size = normal.len();
         // A normal component whose motion nothing resists: its pair is closed if it is pushed, and
         // proves that no equilibrium exists if it is pulled.
-        let (unresisted, resisted): (Vec<usize>, Vec<usize>) = (0..size)
-            .partition(|&k| whole[k + size * k] <= NEGLIGIBLE * problem.diagonal(normal[k]));
+        let (unresisted, resisted): (Vec<usize>, Vec<usize>) =
+            (0..size).partition(|&k| whole[k + size * k] <= NEGLIGIBLE * problem.unit(normal[k]));
         let force = contact.shifted_force(&at_rest);
         for &k in &unresisted {
             let i = normal[k];
@@ -114,7 +114,7 @@ impl<'p> NormalProblem<'p> {
     pub fn polished(&self, d: Vec<f64>) -> Vec<f64> {
         let problem = self.contact.problem();
         let free = (0..d.len()).filter(|&i| !is_stopped(self.contact, i, &d)).collect();
-        let Some(block) = FreeBlock::new(problem.stiffness(), free) else { return d };
+        let Some(block) = FreeBlock::of_problem(problem, free) else { return d };
         let mut better = d.clone();
         block.equilibrate(self.contact.shifted_load(), &mut better);
         for &i in &self.kept {
@@ -137,7 +137,7 @@ pub fn driven_motion(contact: &Contact<'_>, block: &FreeBlock<'_>, d: &[f64]) ->
     let force = contact.shifted_force(d);
     let mut motion = vec![0.0; contact.unknowns()];
     for i in block.dependent() {
-        motion[i] = -force[i] / problem.diagonal(i);
+        motion[i] = -force[i] / problem.unit(i);
     }
     block.follow(&mut motion);
     is_escape_of(contact, &motion).then_some(motion)

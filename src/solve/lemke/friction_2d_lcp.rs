@@ -76,7 +76,7 @@ impl<'p> FrictionLcp<'p> {
         }
         let indices: Vec<usize> = normal.iter().chain(&tangential).copied().collect();
         let condenses = !free.is_empty();
-        let block = FreeBlock::new(problem.stiffness(), free).ok_or(INDEFINITE)?;
+        let block = FreeBlock::of_problem(problem, free).ok_or(INDEFINITE)?;
         let mut at_rest = vec![0.0; contact.unknowns()];
         for &i in &indices {
             at_rest[i] = contact.pairs()[i / 2].reference()[i % 2];
@@ -98,7 +98,7 @@ impl<'p> FrictionLcp<'p> {
     pub fn vectors(&self, cohesion: [f64; 2]) -> Vectors {
         let (problem, n, m) = (self.contact.problem(), self.normal.len(), self.tangential.len());
         let force = self.contact.shifted_force(&self.at_rest);
-        let root = |i: usize| problem.diagonal(i).sqrt();
+        let root = |i: usize| problem.unit(i).sqrt();
         let mut vectors = Vectors {
             q: self.normal.iter().map(|&i| -force[i]).collect(),
             covering: self.normal.iter().map(|&i| root(i)).collect(),

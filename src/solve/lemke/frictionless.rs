@@ -43,7 +43,7 @@ fn follow(
     // The clearances z = x - l, with w = (q + M l) + M z.
     let bounded = normal.lcp();
     let q = bounded.w(bounded.lower);
-    let root = normal.restrict(&contact.problem().stiffness().diagonal_roots());
+    let root = normal.restrict(&contact.problem().unit_roots());
     let scale: Vec<f64> = root.iter().map(|root| root.recip()).collect();
     let problem = ScaledLcp { matrix: &bounded.matrix, q: &q, covering: &root, scale: &scale };
     let run = path::follow(problem, Rules::usual(care), monitor)?;

@@ -1,7 +1,7 @@
 //! Newton's method on the normal map (`law::normal_map`): one equation for open, stick and slip, in the
 //! plane and in space, with the exact friction disc.
 //!
-//! Some sweeps, then the pairs that are surely open are eliminated (`candidates`), then Newton's method
+//! Some sweeps (`start`), then the pairs that are surely open are eliminated (`candidates`), then Newton's method
 //! with a line search on what is left (`newton`). In the plane the active-set method takes fewer systems
 //! and is used instead.
 
@@ -9,6 +9,7 @@ mod candidates;
 mod equations;
 mod newton;
 mod polish;
+mod start;
 mod system;
 
 pub use candidates::solve as on_candidates;

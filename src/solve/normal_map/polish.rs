@@ -54,7 +54,6 @@ pub fn polished(contact: &Contact<'_>, settings: &Settings, candidate: Candidate
 
 /// Refines until `eta` is at most `aim`, or falls no further.
 fn refined(contact: &Contact<'_>, candidate: &Candidate, aim: f64) -> Candidate {
-    let relation = contact.problem().relation();
     let at_reference = contact.at_its_reference();
     let equations = Equations::of(&at_reference);
     let (mut d, mut low) = (candidate.d.clone(), vec![0.0; candidate.d.len()]);
@@ -63,7 +62,7 @@ fn refined(contact: &Contact<'_>, candidate: &Candidate, aim: f64) -> Candidate 
     let mut steps = Steps::default();
     for _ in 0..MOST_STEPS {
         let v = contact.beyond_reference(&d, &low);
-        let force = relation.residual_of_parts(&d, &low);
+        let force = contact.problem().force_of_parts(&d, &low);
         let eta = eta_of(&at_reference, &v, &force);
         if eta < least {
             (least, in_vain) = (eta, 0);

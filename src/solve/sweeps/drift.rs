@@ -44,9 +44,13 @@ impl DriftDetector {
 }
 
 /// The part of a drift that the matrix does not resist.
-pub fn rigid_part(matrix: Matrix<'_>, drift: &[f64]) -> Option<Vec<f64>> {
+pub fn rigid_part(
+    matrix: Matrix<'_>,
+    unit: impl Fn(usize) -> f64,
+    drift: &[f64],
+) -> Option<Vec<f64>> {
     let moved = (0..drift.len()).filter(|&i| drift[i] != 0.0).collect();
-    let block = FreeBlock::new(matrix, moved)?;
+    let block = FreeBlock::new(matrix, moved, unit)?;
     let mut motion = vec![0.0; drift.len()];
     for i in block.dependent() {
         motion[i] = drift[i];
@@ -61,7 +65,8 @@ pub fn rigid_part(matrix: Matrix<'_>, drift: &[f64]) -> Option<Vec<f64>> {
 /// friction takes the most work, the drift proves that nothing stops it. Under a collinear rule it is
 /// another one, and the balance of the rigid motions is asked.
 pub fn contact_recession(contact: &Contact<'_>, drift: &[f64]) -> Option<Vec<f64>> {
-    let motion = rigid_part(contact.problem().stiffness(), drift)?;
+    let problem = contact.problem();
+    let motion = rigid_part(problem.stiffness(), |i| problem.unit(i), drift)?;
     let lifts = lifts(contact, &motion);
     let uniform = vec![norm_inf(&lifts); lifts.len()];
     [vec![0.0; lifts.len()], lifts, uniform]

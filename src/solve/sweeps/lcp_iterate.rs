@@ -78,6 +78,8 @@ impl Iterate for LcpIterate<'_> {
     }
 
     fn recession(&self, drift: &[f64]) -> Option<Vec<f64>> {
-        rigid_part(self.lcp.matrix, drift).filter(|motion| self.lcp.is_recession(motion))
+        let matrix = self.lcp.matrix;
+        rigid_part(matrix, |i| matrix.at(i, i), drift)
+            .filter(|motion| self.lcp.is_recession(motion))
     }
 }

@@ -11,7 +11,7 @@ pub const MARGIN: f64 = 1e-6;
 /// more than rounding.
 pub fn are_different(contact: &Contact<'_>, one: &[f64], two: &[f64]) -> bool {
     let problem = contact.problem();
-    let root = problem.stiffness().diagonal_roots();
+    let root = problem.unit_roots();
     let scaled = |d: &[f64]| largest_of(d.iter().zip(&root).map(|(d, root)| d * root));
     // Scale also by the displacement that the loads can induce, so that two solutions of rounding's
     // size compare equal.

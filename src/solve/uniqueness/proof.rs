@@ -23,7 +23,7 @@ pub fn scaled_factor(contact: &Contact<'_>) -> Option<Factor> {
     if !contact.problem().is_symmetric() {
         return None;
     }
-    let root = matrix.diagonal_roots();
+    let root = contact.problem().unit_roots();
     Factor::new(matrix.size(), true, |j, column| {
         for (i, (entry, k)) in column.iter_mut().zip(matrix.column(j)).enumerate() {
             *entry = k / (root[i] * root[j]);
@@ -51,7 +51,7 @@ fn is_contraction(contact: &Contact<'_>, factor: &mut Factor, coupled: &[usize])
         column[component(a)] = 1.0;
     }
     factor.solve(&mut flexibility);
-    let root = matrix.diagonal_roots();
+    let root = contact.problem().unit_roots();
     let mu: Vec<f64> = coupled.iter().map(|&pair| contact.pairs()[pair].bound().slope).collect();
     let compliance = |a: usize, b: usize| {
         let (i, j) = (component(a), component(b));

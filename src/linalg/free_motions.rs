@@ -1,0 +1,278 @@
+//! Which motions a condensed matrix does not resist, and the matrix without what rounding makes of them.
+//!
+//! A motion that nothing resists has the energy zero, and in doubles the rounding of zero. No fixed
+//! threshold tells it from a soft spring: the rounding of the condensation grows with the mesh, with
+//! slenderness, and with the ratio of the stiffnesses. So the energy of a motion `x` of the whole, before
+//! anything was eliminated, is compared with the rounding of that very energy:
+//!
+//! ```text
+//! free:  |x.A x| <= 3 e,    held:  x.A x >= 100 e,    e = 2.2e-16 |x|.|A| |x|
+//! ```
+//!
+//! Candidates are the directions with small pivots; Ritz's method parts them. What lies between cannot be
+//! told from rounding, and what is far below zero is no stiffness.
+//!
+//! The condensed matrix `S` then gets on the candidates `V` the products that the whole has: with
+//! `R = A V - S V`, and `A V = 0` for the free ones,
+//!
+//! ```text
+//! S <- S + R Vᵀ + V Rᵀ - V (VᵀR) Vᵀ
+//! ```
+//!
+//! For free motions this is the projection `(1 - V Vᵀ) S (1 - V Vᵀ)`. Components that the free motions
+//! move on their own get rows of zeros.
+
+use super::factor::eigenvectors;
+use super::pivoted_cholesky::PivotedCholesky;
+use super::tolerances::{FREE, HELD, SUSPICIOUS_PIVOT};
+use super::vector::{dot, norm};
+
+/// The matrix from which another one was condensed: of eliminated components, then of those kept.
+pub trait Whole {
+    /// Continues a motion of the kept components to all, so that no force acts on the others.
+    fn extended(&self, kept: &[f64]) -> Vec<f64>;
+
+    /// The forces that a motion of all components meets.
+    fn forces(&self, motion: &[f64]) -> Vec<f64>;
+
+    /// The rounding of the energy of a motion of all components.
+    fn noise(&self, motion: &[f64]) -> f64;
+}
+
+/// Why a matrix is no stiffness, or none that doubles can tell; with the motion that shows it.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Doubt {
+    /// The energy of the motion is negative.
+    Indefinite(Vec<f64>),
+    /// The energy of the motion cannot be told from rounding.
+    Unclear(Vec<f64>),
+}
+
+/// Steps in which a candidate loses the forces on the components that resist: each gains what the
+/// factor is worth, ten digits or more.
+const CORRECTIONS: usize = 2;
+
+/// Free motions move a component on its own if they span its unit vector up to this: far above the
+/// rounding of the motions (1e-15 to 1e-13, measured), and its square, an energy, is below rounding.
+const ALONE: f64 = 1e-11;
+
+/// Less of a component's square in the free motions need not be looked at closely.
+const NEARLY_ALONE: f64 = 0.99;
+
+/// A motion, and the forces that it meets.
+struct Motion {
+    /// All components.
+    whole: Vec<f64>,
+    forces: Vec<f64>,
+    /// The kept components times their roots, of length 1.
+    scaled: Vec<f64>,
+}
+
+/// Whether a component keeps so little of its unit that a motion may be free. A look at the diagonal costs
+/// nothing beside a factorisation. Free motions that move many components leave no such trace; where the
+/// matrix is factorised, their pivots are negligible.
+pub fn is_suspicious(units: &[f64], diagonal: impl Fn(usize) -> f64) -> bool {
+    units.iter().enumerate().any(|(i, unit)| diagonal(i) <= SUSPICIOUS_PIVOT * unit)
+}
+
+/// Settles which motions the condensed `matrix`, column-major, does not resist, and makes it exact on them.
+/// `units` are positive, of the size of the diagonal before anything was eliminated. Returns whether any
+/// motion is free.
+pub fn settle(matrix: &mut [f64], units: &[f64], whole: &dyn Whole) -> Result<bool, Doubt> {
+    let size = units.len();
+    let root: Vec<f64> = units.iter().map(|unit| unit.sqrt()).collect();
+    let entry = |i: usize, j: usize| matrix[i + size * j] / (root[i] * root[j]);
+    let Some(factor) = PivotedCholesky::with_least_pivot(size, SUSPICIOUS_PIVOT, entry) else {
+        return Ok(false);
+    };
+    if factor.dependent().is_empty() {
+        return Ok(false);
+    }
+    for j in 0..size {
+        for i in 0..size {
+            matrix[i + size * j] /= root[i] * root[j];
+        }
+    }
+    let settled = settle_scaled(matrix, &factor, &root, whole);
+    for j in 0..size {
+        for i in 0..size {
+            matrix[i + size * j] *= root[i] * root[j];
+        }
+    }
+    settled
+}
+
+fn settle_scaled(
+    matrix: &mut [f64],
+    factor: &PivotedCholesky,
+    root: &[f64],
+    whole: &dyn Whole,
+) -> Result<bool, Doubt> {
+    let size = root.len();
+    let candidates = candidates(matrix, factor, root, whole);
+    let (mut basis, mut products) = (Vec::new(), Vec::new());
+    let mut free = Vec::new();
+    for motion in parted(candidates, root, whole) {
+        let (energy, noise) = (dot(&motion.whole, &motion.forces), whole.noise(&motion.whole));
+        if energy <= -HELD * noise {
+            return Err(Doubt::Indefinite(motion.whole));
+        }
+        if energy >= HELD * noise {
+            let forces = &motion.forces[motion.forces.len() - size..];
+            products.push(forces.iter().zip(root).map(|(force, root)| force / root).collect());
+            basis.push(motion.scaled);
+        } else if energy.abs() <= FREE * noise {
+            free.push(motion.scaled);
+        } else {
+            return Err(Doubt::Unclear(motion.whole));
+        }
+    }
+    let some_free = !free.is_empty();
+    let alone = separate(&mut free, size);
+    products.extend(free.iter().map(|_| vec![0.0; size]));
+    basis.extend(free);
+    replace_products(matrix, &basis, products);
+    for &i in &alone {
+        (0..size).for_each(|j| {
+            matrix[i + size * j] = 0.0;
+            matrix[j + size * i] = 0.0;
+        });
+    }
+    Ok(some_free)
+}
+
+/// Motions of the kept components that move one dependent component each, and of the others what no force
+/// then acts on.
+fn candidates(
+    matrix: &[f64],
+    factor: &PivotedCholesky,
+    root: &[f64],
+    whole: &dyn Whole,
+) -> Vec<Vec<f64>> {
+    let size = root.len();
+    // Takes away the forces, scaled, on the independent components.
+    let correct = |scaled: &mut [f64], forces: &dyn Fn(usize) -> f64| {
+        let mut y: Vec<f64> = factor.independent().iter().map(|&i| forces(i)).collect();
+        factor.solve(&mut y);
+        factor.independent().iter().zip(&y).for_each(|(&i, y)| scaled[i] -= y);
+    };
+    let candidate = |&dependent: &usize| {
+        let mut scaled = vec![0.0; size];
+        scaled[dependent] = 1.0;
+        correct(&mut scaled, &|i| matrix[i + size * dependent]);
+        for _ in 0..CORRECTIONS {
+            let forces = whole.forces(&whole.extended(&divided(&scaled, root)));
+            let kept = &forces[forces.len() - size..];
+            correct(&mut scaled, &|i| kept[i] / root[i]);
+        }
+        scaled
+    };
+    factor.dependent().iter().map(candidate).collect()
+}
+
+/// The space of the candidates by directions of stationary energy.
+fn parted(candidates: Vec<Vec<f64>>, root: &[f64], whole: &dyn Whole) -> Vec<Motion> {
+    let count = candidates.len();
+    let motion = |scaled: Vec<f64>| {
+        let whole_motion = whole.extended(&divided(&scaled, root));
+        Motion { forces: whole.forces(&whole_motion), whole: whole_motion, scaled }
+    };
+    let given: Vec<Motion> = orthonormal(candidates, count).into_iter().map(motion).collect();
+    let energy = |i: usize, j: usize| {
+        let product = |i: usize, j: usize| dot(&given[i].whole, &given[j].forces);
+        (product(i, j) + product(j, i)) / 2.0
+    };
+    let Some(directions) = eigenvectors(count, energy) else { return given };
+    let scaled = directions.iter().map(|shares| {
+        let mut scaled = vec![0.0; root.len()];
+        for (given, share) in given.iter().zip(shares) {
+            scaled.iter_mut().zip(&given.scaled).for_each(|(sum, part)| *sum += share * part);
+        }
+        scaled
+    });
+    orthonormal(scaled.collect(), count).into_iter().map(motion).collect()
+}
+
+fn divided(scaled: &[f64], root: &[f64]) -> Vec<f64> {
+    scaled.iter().zip(root).map(|(x, root)| x / root).collect()
+}
+
+/// `count` orthonormal vectors that span the given ones, by Gram and Schmidt's process with the longest
+/// remainder first, each made orthogonal twice.
+fn orthonormal(mut vectors: Vec<Vec<f64>>, count: usize) -> Vec<Vec<f64>> {
+    let mut basis: Vec<Vec<f64>> = Vec::with_capacity(count);
+    let without = |v: &mut Vec<f64>, unit: &[f64]| {
+        let share = dot(unit, v);
+        v.iter_mut().zip(unit).for_each(|(v, unit)| *v -= share * unit);
+    };
+    while basis.len() < count {
+        let length = |v: &Vec<f64>| norm(v);
+        let Some(k) =
+            (0..vectors.len()).max_by(|&a, &b| length(&vectors[a]).total_cmp(&length(&vectors[b])))
+        else {
+            break;
+        };
+        let mut v = vectors.swap_remove(k);
+        basis.iter().for_each(|unit| without(&mut v, unit));
+        let size = norm(&v);
+        v.iter_mut().for_each(|v| *v /= size);
+        vectors.iter_mut().for_each(|other| without(other, &v));
+        basis.push(v);
+    }
+    basis
+}
+
+/// Parts the components that the free motions move on their own: returns them, and leaves of the motions
+/// those of the other components.
+fn separate(free: &mut Vec<Vec<f64>>, size: usize) -> Vec<usize> {
+    let share = |i: usize| free.iter().map(|v| v[i] * v[i]).sum::<f64>();
+    let remainder = |i: usize| {
+        let mut unit = vec![0.0; size];
+        unit[i] = 1.0;
+        for v in free.iter() {
+            unit.iter_mut().zip(v).for_each(|(unit, part)| *unit -= v[i] * part);
+        }
+        norm(&unit)
+    };
+    let alone: Vec<usize> =
+        (0..size).filter(|&i| share(i) > NEARLY_ALONE && remainder(i) <= ALONE).collect();
+    if !alone.is_empty() {
+        let left = free.len().saturating_sub(alone.len());
+        let mut rest = std::mem::take(free);
+        rest.iter_mut().for_each(|v| alone.iter().for_each(|&i| v[i] = 0.0));
+        *free = orthonormal(rest, left);
+    }
+    alone
+}
+
+/// Gives the scaled matrix the `products` with the orthonormal `basis`, and leaves it symmetric.
+fn replace_products(matrix: &mut [f64], basis: &[Vec<f64>], mut products: Vec<Vec<f64>>) {
+    for (product, v) in products.iter_mut().zip(basis) {
+        for (column, share) in matrix.chunks_exact(v.len()).zip(v) {
+            product.iter_mut().zip(column).for_each(|(product, k)| *product -= share * k);
+        }
+    }
+    // R - V (VᵀR) / 2, so that one symmetric update does.
+    let halves: Vec<Vec<f64>> = (0..basis.len())
+        .map(|j| {
+            let mut half = products[j].clone();
+            for (i, v) in basis.iter().enumerate() {
+                let share = (dot(v, &products[j]) + dot(&basis[j], &products[i])) / 4.0;
+                half.iter_mut().zip(v).for_each(|(half, v)| *half -= share * v);
+            }
+            half
+        })
+        .collect();
+    for (v, half) in basis.iter().zip(&halves) {
+        let size = v.len();
+        for j in 0..size {
+            for i in j..size {
+                let change = half[i] * v[j] + v[i] * half[j];
+                matrix[i + size * j] += change;
+                if i != j {
+                    matrix[j + size * i] += change;
+                }
+            }
+        }
+    }
+}
