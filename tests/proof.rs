@@ -6,6 +6,7 @@ mod common;
 mod generator;
 
 use common::brick::{Brick, Support};
+use common::edges::{CLASSES, problem};
 use common::exact::{force, parts, quads, refined, states};
 use common::problems::{Case, Law, decades, definite, uniform, vector};
 use common::quad::Quad;
@@ -254,6 +255,50 @@ fn ill_conditioned_problems_are_not_proved_wrongly() {
             let radius = proof.d_radius[i] + condition * JUDGE * size(&proof.d);
             assert!(off <= radius, "{number}: d[{i}] {off:e} > {radius:e}");
         }
+    }
+}
+
+/// Problems at the edges of doubles: whatever is proved holds the truth, and has its states; the ordinary classes
+/// are proved. A pair that touches without friction is said to slip, whether it moves or not.
+#[test]
+fn proofs_at_the_edges_hold_the_truth() {
+    const ORDINARY: usize = 3;
+    let mut counts = [[0; 2]; CLASSES.len()];
+    for seed in 0..2400 {
+        let at_edge = problem(seed);
+        let case = &at_edge.case;
+        let Ok(checked) = ContactProblem::new(case.data()) else { continue };
+        let solution = case.solve(&Settings { tolerance: 1e-10, ..Settings::default() });
+        if solution.status != Status::Solved {
+            continue;
+        }
+        let count = &mut counts[at_edge.class];
+        count[0] += 1;
+        let told = &solution.certificate.states;
+        let Some(proof) = prove(&checked, &solution.d, told) else { continue };
+        count[1] += 1;
+        let middle: Vec<Quad> =
+            proof.d.iter().zip(&proof.d_low).map(|(&d, &low)| Quad::sum(d, low)).collect();
+        let exact = refined(case, &middle, None).or_else(|| refined(case, &middle, Some(told)));
+        let exact = exact.unwrap_or_else(|| panic!("{seed}: nothing near"));
+        let (forces, terms) = (force(case, &exact), parts(case, &exact));
+        for i in 0..case.size() {
+            let off = (exact[i] - middle[i]).abs().value();
+            // The judge's digits less those of condition numbers up to 1e15, of a few unknowns.
+            let digits = 1e-24 * size(&proof.d);
+            assert!(off <= proof.d_radius[i] + digits, "{seed}: d[{i}] {off:e}");
+            let off = (forces[i] - Quad::from(proof.force[i])).abs().value();
+            let digits = JUDGE * (terms[i] + size(&proof.force));
+            assert!(off <= proof.force_radius[i] + digits, "{seed}: F[{i}] {off:e}");
+        }
+        for (pair, (found, told)) in states(case, &exact).iter().zip(told).enumerate() {
+            let slips = *told == State::Slip && case.law.values()[pair] == 0.0;
+            assert!(found == told || slips && *found == State::Stick, "{seed}: {found:?} {told:?}");
+        }
+    }
+    for (class, [solved, proved]) in counts.iter().enumerate() {
+        println!("{}: {proved} of {solved} proved", CLASSES[class].0);
+        assert!(class >= ORDINARY || 100 * proved >= 99 * solved);
     }
 }
 
