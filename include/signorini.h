@@ -720,7 +720,7 @@ struct signorini_settings {
     void *user;                     /**< Passed to progress as its first argument; default NULL. */
     /**
      * Nonzero: prove that the solution exists, and where: report.proof, extra.radius_d and
-     * radius_F. It costs one to three solutions. Default 0.
+     * radius_F. It costs one to three solutions, without friction up to five. Default 0.
      */
     int32_t proof;
     int32_t reserved;               /**< 0. */

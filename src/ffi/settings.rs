@@ -81,7 +81,7 @@ pub struct SignoriniSettings {
     /// Passed to progress as its first argument; default NULL.
     pub user: *mut c_void,
     /// Nonzero: prove that the solution exists, and where: report.proof, extra.radius_d and
-    /// radius_F. It costs one to three solutions. Default 0.
+    /// radius_F. It costs one to three solutions, without friction up to five. Default 0.
     pub proof: i32,
     /// 0.
     pub reserved: i32,
