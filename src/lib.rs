@@ -27,6 +27,8 @@
 //!   convergence test plays no part.
 //! - [`Status::NoEquilibrium`]: the motion in [`Solution::recession`] has passed
 //!   [`certificate::is_escape`], which tests it on the data as given.
+//! - [`Existence::Proved`], on request ([`Settings::proof`]): the data, each double taken for the real number
+//!   that it is, have a solution with these states, within the radii given. All rounding is bounded.
 //! - [`Uniqueness::Unique`] and [`Uniqueness::Several`] follow from a criterion or from a second certified
 //!   solution; otherwise it is [`Uniqueness::NotKnown`].
 //! - Changing the units of length and force changes the units of the answer and nothing else.
@@ -128,5 +130,6 @@ pub use monitor::{Monitor, Progress, ProgressFn, Stop};
 pub use problem::{ContactData, ContactProblem, FrictionLaw, Lcp, Relation, Stiffness};
 pub use settings::{Method, Search, Settings};
 pub use solve::{
-    Fallback, LcpSolution, SecondSolution, Solution, Status, Uniqueness, solve, solve_lcp,
+    Errors, Existence, Fallback, LcpSolution, SecondSolution, Solution, Status, Uniqueness, solve,
+    solve_lcp,
 };

@@ -15,6 +15,7 @@
 //! | `proximal` | the step of one pair in a sweep | sweeps |
 //! | `local` | the exact solution of one pair, its block coupled | who solves pair by pair |
 //! | `complementarity` | the law as complementarity of non-negative variables | Lemke's method, block pivoting |
+//! | `frozen` | a pair on a piece that is given, with bounds on all that is computed of it | proofs that a solution exists |
 //! | `reach` | which obstacles are too far away to matter | `solve::far_obstacles` |
 //! | `recession` | what a rigid motion must satisfy to prove that no equilibrium exists | certificate |
 //!
@@ -38,6 +39,7 @@ mod contact;
 pub mod coulomb;
 pub mod ellipse;
 pub mod frictionless;
+mod frozen;
 mod gauge;
 mod local;
 mod natural_map;
@@ -53,6 +55,7 @@ pub mod tresca;
 pub use bound::{Bound, length};
 pub use contact::Contact;
 pub use ellipse::{Ellipse, Plane, Rule};
+pub(crate) use frozen::{FrozenPair, Local};
 pub use natural_map::Violation;
 pub use planar_piece::{Exit, Planar};
 pub use reach::gaps_within_reach;

@@ -2,7 +2,7 @@
 //! What is called a solution is decided in `candidate`, by the certificate alone.
 //!
 //! ```text
-//! outcome ← candidate ← condense ← rigid_balance ← sweeps ← normal_map ← active_set ← path ← lemke ← uniqueness ← dispatch ← auto ← far_obstacles ← mod
+//! outcome ← candidate ← condense ← rigid_balance ← sweeps ← normal_map ← active_set ← path ← lemke ← uniqueness ← dispatch ← auto ← far_obstacles ← existence ← mod
 //!                                                                          └──── lcp ────────────────────────┘
 //! ```
 //!
@@ -14,6 +14,7 @@ mod auto;
 mod candidate;
 mod condense;
 mod dispatch;
+mod existence;
 mod far_obstacles;
 mod lcp;
 mod lemke;
@@ -34,7 +35,7 @@ use crate::settings::{Search, Settings};
 pub(crate) use candidate::NO_EQUILIBRIUM;
 use dispatch::check_method;
 pub use lcp::{LcpSolution, solve_lcp};
-pub use outcome::{Fallback, SecondSolution, Solution, Status, Uniqueness};
+pub use outcome::{Errors, Existence, Fallback, SecondSolution, Solution, Status, Uniqueness};
 
 /// Solves a contact problem from the displacements `start` (zero if `None`).
 ///
@@ -57,6 +58,9 @@ pub fn solve(
     uniqueness::by_orientation(&contact, &mut solution);
     if settings.search == Search::Others {
         uniqueness::examine(&contact, settings, &mut solution, monitor)?;
+    }
+    if settings.proof {
+        existence::examine(&contact, settings, &mut solution);
     }
     solution.iterations = monitor.iterations();
     Ok(solution)
