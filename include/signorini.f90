@@ -169,7 +169,7 @@ module signorini
     end type
 
     type, bind(C) :: signorini_pairs
-        integer(c_int32_t) :: struct_size = 16 + 6 * address_bytes
+        integer(c_int32_t) :: struct_size = 16 + 9 * address_bytes
         integer(c_int32_t) :: dim = 0
         integer(c_int64_t) :: count = 0
         type(c_ptr) :: slaves = c_null_ptr
@@ -178,6 +178,9 @@ module signorini
         type(c_ptr) :: weights = c_null_ptr
         type(c_ptr) :: normals = c_null_ptr
         type(c_ptr) :: tangents = c_null_ptr
+        type(c_ptr) :: row_start = c_null_ptr
+        type(c_ptr) :: row_nodes = c_null_ptr
+        type(c_ptr) :: row_weights = c_null_ptr
     end type
 
     interface

@@ -1,0 +1,290 @@
+//! Rows that depend on each other: `d = C z + o`, `K z = f + Cᵀ F`.
+//!
+//! Displacements do not determine forces here, which the other methods need. So each pair gets a soft
+//! spring in series, of stiffness `D / e`, that is stretched to the forces of the round before:
+//!
+//! ```text
+//! F = F_k + D / e (d - C z - o)
+//! ```
+//!
+//! With it the variables can be condensed, and the others solve for `d`. Round by round the springs are
+//! stretched anew, until their change and with it the error is nothing: a proximal iteration on the forces
+//! (R. T. Rockafellar: *Monotone operators and the proximal point algorithm*. SIAM Journal on Control and
+//! Optimization 14 (1976) 877–898). From `F_0 = 0` it takes, where states do not change on the way, the
+//! smallest of the forces that dependent rows leave open, in the norm of `D⁻¹`.
+//!
+//! Where the forces grow without end there is no solution near: they balance each other and wedge the bodies,
+//! or the gaps contradict each other. The second is proved by normal forces `p >= 0` with `Cᵀ p = 0` and
+//! `sum p (gap - o) < 0`.
+
+use super::far_obstacles;
+use super::outcome::{Fallback, Solution, Status, Uniqueness};
+use crate::certificate::measure;
+use crate::error::{Argument, Error, index};
+use crate::law::Contact;
+use crate::linalg::sparse_matrix::{OutOfMemory, column, from_entries, transposed};
+use crate::linalg::sparse_schur::{Failure, SparseSchur};
+use crate::linalg::tolerances::NEGLIGIBLE;
+use crate::linalg::vector::{dot, norm, norm_inf};
+use crate::monitor::Monitor;
+use crate::problem::{ContactData, ContactProblem, DependentRows, Relation};
+use crate::settings::{SMALLEST_TOLERANCE, Settings};
+
+/// `e`, the compliance of the springs beside that of the bodies. A round divides the error by the compliance
+/// of the least compliant pattern of forces over `e`; the condensed matrix loses as many digits as `e` has.
+const COMPLIANCE: f64 = 1e-4;
+
+/// Most rounds: patterns of forces with a compliance of `e` itself halve their error in each.
+const ROUNDS: usize = 60;
+
+/// So many rounds that add the same forces are enough to see that they do not end.
+const RUNAWAY_ROUNDS: usize = 8;
+
+/// Forces added by two rounds are the same if they differ by less than this part.
+const SAME: f64 = 1e-6;
+
+/// Part of the tolerance that the problem with springs is solved to.
+const INNER: f64 = 0.1;
+
+/// What a round works on.
+struct Sprung<'p> {
+    problem: &'p ContactProblem<'p, DependentRows<'p>>,
+    contact: Contact<'p, DependentRows<'p>>,
+    condensed: SparseSchur,
+}
+
+/// Solves the problem from the displacements `start`.
+pub fn solve(
+    problem: &ContactProblem<'_, DependentRows<'_>>,
+    settings: &Settings,
+    start: Option<&[f64]>,
+    monitor: &mut Monitor<'_>,
+) -> Result<Solution, Error> {
+    let condensed = condensed(problem.relation())?;
+    Sprung { problem, contact: Contact::new(problem), condensed }.solve(settings, start, monitor)
+}
+
+/// The stiffness of the variables and the springs, condensed on the displacements beyond the springs.
+fn condensed(relation: &DependentRows<'_>) -> Result<SparseSchur, Error> {
+    let memory = |_: OutOfMemory| Error::OutOfMemory("the stiffness of dependent rows");
+    let (stiffness, dependence) = (relation.stiffness(), relation.dependence());
+    let (kept, size) = (dependence.variables(), relation.size());
+    let mut entries: Vec<(usize, usize, f64)> = Vec::new();
+    for j in 0..kept {
+        let below = (j..kept).filter(|&i| i == j || stiffness.at(i, j) != 0.0);
+        entries.extend(below.map(|i| (i, j, stiffness.at(i, j))));
+    }
+    let rows = transposed(dependence.to_relative()).map_err(memory)?;
+    for i in 0..size {
+        let spring = relation.units()[i] / COMPLIANCE;
+        let (variables, coefficients) = column(&rows, i);
+        for (&j, c) in variables.iter().zip(coefficients) {
+            entries.push((kept + i, j, -spring * c));
+            let below = variables.iter().zip(coefficients).filter(|(k, _)| **k >= j);
+            entries.extend(below.map(|(&k, other)| (k, j, spring * c * other)));
+        }
+        entries.push((kept + i, kept + i, spring));
+    }
+    let all = from_entries((kept + size, kept + size), entries.into_iter()).map_err(memory)?;
+    SparseSchur::new(all, kept).map_err(|failure| match failure {
+        Failure::OutOfMemory => Error::OutOfMemory("the factor of dependent rows"),
+        _ => Error::invalid(
+            Argument::Matrix,
+            "the stiffness of the bodies between dependent pairs cannot be told from rounding",
+        ),
+    })
+}
+
+impl Sprung<'_> {
+    fn relation(&self) -> &DependentRows<'_> {
+        self.problem.relation()
+    }
+
+    fn solve(
+        &self,
+        settings: &Settings,
+        start: Option<&[f64]>,
+        monitor: &mut Monitor<'_>,
+    ) -> Result<Solution, Error> {
+        let relation = self.relation();
+        let dependence = relation.dependence();
+        let mut variables = match start {
+            Some(start) => dependence.of_relative(start),
+            None => vec![0.0; dependence.variables()],
+        };
+        let mut force = vec![0.0; relation.size()];
+        let mut growth = Growth::default();
+        let tolerance = (INNER * settings.tolerance).max(SMALLEST_TOLERANCE);
+        let inner = Settings { tolerance, ..settings.clone() };
+        let mut best: Option<Solution> = None;
+        for _ in 0..ROUNDS {
+            let d = relation.relative(&variables);
+            let round = self.round(&inner, (&variables, &d, &force), monitor)?;
+            if matches!(round.0.status, Status::Solved | Status::Stalled) {
+                let change = round.0.certificate.force.iter().zip(&force).map(|(a, b)| a - b);
+                growth.add(change.collect());
+                force.clone_from(&round.0.certificate.force);
+                variables.iter_mut().zip(&round.1).for_each(|(z, step)| *z += step);
+            }
+            let found = self.measured(round.0, &variables, &force, settings);
+            let ends = found.status != Status::Stalled || growth.is_endless();
+            if best
+                .as_ref()
+                .is_none_or(|best| found.status != Status::Stalled || is_better(&found, best))
+            {
+                best = Some(found);
+            }
+            if ends {
+                break;
+            }
+        }
+        let mut best = best.ok_or(Error::OutOfMemory("a round of dependent rows"))?;
+        if best.status == Status::Stalled {
+            best.message = self.reason(&growth, &best).into();
+        }
+        Ok(best)
+    }
+
+    /// Solves the problem with springs, from where the bodies and their forces are; returns with it the step
+    /// of the variables.
+    fn round(
+        &self,
+        settings: &Settings,
+        (variables, d, force): (&[f64], &[f64], &[f64]),
+        monitor: &mut Monitor<'_>,
+    ) -> Result<(Solution, Vec<f64>), Error> {
+        let (dim, kept) = (self.problem.dim(), variables.len());
+        let mut right = self.relation().unbalanced(variables, force);
+        right.extend(force.iter().map(|force| -force));
+        let load = self.condensed.condense(&right);
+        let gap: Vec<f64> =
+            (0..self.problem.pairs()).map(|pair| self.problem.gap(pair) - d[dim * pair]).collect();
+        let slip = |i: usize| {
+            let (pair, component) = (i / (dim - 1), i % (dim - 1));
+            self.problem.reference_slip(pair, component) - d[dim * pair + 1 + component]
+        };
+        let slip: Vec<f64> = (0..(dim - 1) * gap.len()).map(slip).collect();
+        let problem = ContactProblem::on_checked_matrix(ContactData {
+            dim,
+            pairs: gap.len(),
+            stiffness: self.condensed.schur(),
+            ld: d.len().max(1),
+            load: &load,
+            gap: &gap,
+            law: self.problem.law(),
+            reference_slip: Some(&slip),
+        })?;
+        super::dispatch::check_method(&Contact::new(&problem), settings.method)?;
+        let solution = far_obstacles::solve(&Contact::new(&problem), settings, None, monitor)?;
+        let mut step = self.condensed.recover(&right, &solution.d);
+        step.truncate(kept);
+        Ok((solution, step))
+    }
+
+    /// The result of a round as one of the problem itself.
+    fn measured(
+        &self,
+        round: Solution,
+        variables: &[f64],
+        force: &[f64],
+        settings: &Settings,
+    ) -> Solution {
+        let d = self.relation().relative(variables);
+        let certificate = measure(&self.contact, &d, force);
+        let (status, message) = match round.status {
+            Status::Solved | Status::Stalled if certificate.holds(settings.tolerance) => {
+                (Status::Solved, format!("solved: eta is {:.1e}", certificate.eta).into())
+            }
+            Status::Solved => (Status::Stalled, round.message.clone()),
+            other => (other, round.message.clone()),
+        };
+        let fallback: Option<(_, Fallback)> = None;
+        let (uniqueness, second, orientation) = (Uniqueness::NotKnown, None, 0);
+        Solution {
+            status,
+            message,
+            d,
+            certificate,
+            fallback,
+            uniqueness,
+            second,
+            orientation,
+            ..round
+        }
+    }
+
+    /// Why there is no solution.
+    fn reason(&self, growth: &Growth, found: &Solution) -> String {
+        let Some(pattern) = growth.last.as_ref().filter(|_| growth.is_endless()) else {
+            return format!(
+                "no solution was found: rows of pairs depend on each other, and their forces do not \
+                 settle (eta is {:.1e})",
+                found.certificate.eta
+            );
+        };
+        let dim = self.problem.dim();
+        let least = SAME * norm_inf(pattern);
+        let carries = |pair: &usize| norm_inf(&pattern[dim * pair..dim * (pair + 1)]) > least;
+        let pairs: Vec<usize> = (0..self.problem.pairs()).filter(carries).collect();
+        let named: Vec<String> = pairs.iter().take(MOST_NAMED).map(index).collect();
+        let more = if pairs.len() > MOST_NAMED { ", ..." } else { "" };
+        let named = format!("{}{more}", named.join(", "));
+        if self.contradicts(pattern) {
+            return format!(
+                "no solution exists: the gaps of pairs {named} contradict each other, as bodies cannot \
+                 leave one without entering another"
+            );
+        }
+        format!(
+            "no solution was found: the forces of pairs {named} grow without end and balance each other: \
+             a wedge, or gaps that contradict each other"
+        )
+    }
+
+    /// Whether normal forces alone prove that no displacements meet all gaps.
+    fn contradicts(&self, pattern: &[f64]) -> bool {
+        let (dim, offset) = (self.problem.dim(), self.relation().offset());
+        let mut normal = pattern.to_vec();
+        normal.chunks_exact_mut(dim).for_each(|pair| {
+            pair[0] = pair[0].min(0.0);
+            pair[1..].fill(0.0);
+        });
+        let works = |pair: usize| {
+            let (p, room) = (-normal[dim * pair], self.problem.gap(pair) - offset[dim * pair]);
+            if p > 0.0 { p * room } else { 0.0 }
+        };
+        let terms: Vec<f64> = (0..self.problem.pairs()).map(works).collect();
+        let size: f64 = terms.iter().map(|term| term.abs()).sum();
+        self.relation().balance_each_other(&normal, NEGLIGIBLE)
+            && terms.iter().sum::<f64>() < -SAME * size
+    }
+}
+
+/// Pairs that a message names.
+const MOST_NAMED: usize = 4;
+
+fn is_better(one: &Solution, other: &Solution) -> bool {
+    one.certificate.eta < other.certificate.eta
+}
+
+/// Whether forces grow by the same pattern round by round.
+#[derive(Default)]
+struct Growth {
+    last: Option<Vec<f64>>,
+    same: usize,
+}
+
+impl Growth {
+    fn add(&mut self, change: Vec<f64>) {
+        let is_same = |last: &Vec<f64>| {
+            let apart: Vec<f64> = last.iter().zip(&change).map(|(a, b)| a - b).collect();
+            norm(&change) > 0.0 && norm(&apart) <= SAME * dot(&change, &change).sqrt()
+        };
+        self.same = if self.last.as_ref().is_some_and(is_same) { self.same + 1 } else { 0 };
+        self.last = Some(change);
+    }
+
+    fn is_endless(&self) -> bool {
+        self.same >= RUNAWAY_ROUNDS
+    }
+}
