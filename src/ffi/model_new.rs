@@ -165,7 +165,7 @@ pub unsafe extern "C" fn signorini_model_host_size(model: *const SignoriniModel)
     unsafe { model.as_ref() }.map_or(-1, |model| model.0.host_size() as i64)
 }
 
-/// Copies the stiffness matrix in relative displacements. There is none if rows of pairs depend on each
+/// Copies the stiffness matrix in relative displacements. There is none if pairs depend on each
 /// other, such as those of a node on two planes.
 ///
 /// @param model  the model

@@ -47,7 +47,8 @@ pub unsafe extern "C" fn signorini_model_recover(
 }
 
 /// Contact forces as a nodal force vector of the host. Sparse model: F on the slaves, the opposite
-/// on the masters; general rows: F by the signed weights. Two bodies: F on both, each in its own frame. Condensed model: F itself.
+/// on the masters; general rows: F by the signed weights. Two bodies: F on both, each in its own
+/// frame. Condensed model: F itself.
 ///
 /// @param model  the model
 /// @param F      contact forces, N entries

@@ -53,10 +53,10 @@ pub struct SignoriniSparse {
 /// and set row_start, row_nodes and row_weights. Each pair is then a list of nodes with signed
 /// weights, and n d_n + t d_t = sum of row_weight * u.
 ///
-/// A node may stand in any number of pairs, as slave and as master, and may be fixed. Where slave and
-/// masters are all fixed along an axis, which is the normal or a tangent, d and F are zero along it.
-/// Pairs may depend on each other, such as those of a node on two planes, or of two surfaces that are
-/// each other's slaves: then contact forces are not unique, and the model has no
+/// A node may stand in any number of pairs, as slave and as master, and may be fixed. Where slave
+/// and masters are all fixed along an axis, which is the normal or a tangent, d and F are zero along
+/// it. Pairs may depend on each other, such as those of a node on two planes, or of two surfaces
+/// that are each other's slaves: then contact forces are not unique, and the model has no
 /// signorini_model_stiffness. The library only reads the structure during the call.
 #[repr(C)]
 #[derive(Clone, Copy)]
@@ -85,13 +85,13 @@ pub struct SignoriniPairs {
     /// normal. In 3D always t2 = n x t1; signorini_model_frames returns all.
     pub tangents: *const f64,
     /// General rows: start of each pair's nodes in row_nodes and row_weights, count + 1 entries,
-    /// counted from index_base. NULL: pairs of slaves and masters. A struct_size without this field and
-    /// the next two is right too: they are NULL then.
+    /// counted from index_base. NULL: pairs of slaves and masters. A struct_size without this field
+    /// and the next two is right too: they are NULL then.
     pub row_start: *const i64,
     /// Degrees of freedom of each node, dim for each, in the order of the axes.
     pub row_nodes: *const i64,
-    /// Weight of each node: positive on the side whose outward normal is given, negative on the other.
-    /// Those of a pair sum to 0, and against a rigid obstacle to 1.
+    /// Weight of each node: positive on the side whose outward normal is given, negative on the
+    /// other. Those of a pair sum to 0, and against a rigid obstacle to 1.
     pub row_weights: *const f64,
 }
 
