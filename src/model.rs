@@ -1,6 +1,7 @@
 //! Reduce once, solve many load cases, recover.
 
 mod arguments;
+mod surfaces;
 
 use std::path::Path;
 
@@ -78,7 +79,8 @@ impl Model {
         Model { dim, pairs, reduction }.checked()
     }
 
-    /// A whole sparse stiffness matrix with fixed degrees of freedom and pairs.
+    /// A whole sparse stiffness matrix with fixed degrees of freedom and pairs; those of
+    /// [`crate::surface`] by `ContactPairs::from(&found.rows())`.
     ///
     /// # Errors
     /// As [`SparseReduction::new`].
