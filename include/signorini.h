@@ -445,7 +445,8 @@ int32_t signorini_model_condensed_load(const signorini_model *model, const doubl
 
 /**
  * Measures relative displacements of any origin on a load case of a model, as signorini_certify
- * does on a condensed problem.
+ * does on a condensed problem. If pairs depend on each other, displacements do not tell the forces:
+ * -1 is returned.
  *
  * @param model       the model
  * @param f           nodal loads of the host, H = signorini_model_host_size entries
@@ -529,7 +530,8 @@ int32_t signorini_problem_write(const char *path, int32_t dim, int64_t pairs, co
 
 /**
  * Writes a load case of a model to a file, as signorini_problem_write does: the condensed problem
- * that signorini_model_solve solves. signorini_solve gives the same d and F for it.
+ * that signorini_model_solve solves. signorini_solve gives the same d and F for it. If pairs depend
+ * on each other there is none: -1 is returned.
  *
  * @param model       the model
  * @param path        name of the file, which is replaced if it exists

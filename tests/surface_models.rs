@@ -28,7 +28,7 @@ fn model(stiffness: &Stiffness, fixed: &[usize], arrays: &PairArrays) -> Model {
     Model::sparse(&matrix, fixed, &ContactPairs::from(arrays)).unwrap()
 }
 
-fn solve(model: &Model, load: &[f64], gaps: &[f64], mu: f64) -> Solution {
+fn solve(model: &Model, load: &[f64], gaps: &[f64], mu: f64, tolerance: f64) -> Solution {
     let mu = vec![mu; gaps.len()];
     let case = LoadCase {
         load,
@@ -37,7 +37,7 @@ fn solve(model: &Model, load: &[f64], gaps: &[f64], mu: f64) -> Solution {
         law: FrictionLaw::Coulomb(&mu),
         reference_slip: None,
     };
-    let settings = Settings { tolerance: 1e-12, ..Settings::default() };
+    let settings = Settings { tolerance, ..Settings::default() };
     model.solve(&case, &settings, None, &mut Monitor::new(&settings, None)).unwrap()
 }
 
@@ -102,7 +102,8 @@ impl Blocks {
         }
     }
 
-    /// Asserts `K u = f + Bᵀ F` but at supports, and `B u = d`, to 1e-10 of the largest.
+    /// Asserts `K u = f + Bᵀ F` but at supports, and `B u = d`, to 1e-9 of the largest: ten times the default
+    /// tolerance.
     fn assert_balanced(
         &self,
         model: &Model,
@@ -116,7 +117,7 @@ impl Blocks {
         let size = largest(&internal).max(largest(&nodal));
         for dof in (0..u.len()).filter(|dof| !fixed.contains(dof)) {
             let left = internal[dof] - self.load[dof] - nodal[dof];
-            assert!(left.abs() < 1e-10 * size, "{dof}: {left:e} of {size:e}");
+            assert!(left.abs() < 1e-9 * size, "{dof}: {left:e} of {size:e}");
         }
         let frames = model.frames().unwrap();
         for (pair, d) in solution.d.chunks(3).enumerate() {
@@ -127,7 +128,7 @@ impl Blocks {
                     let along: f64 = node.iter().zip(direction).map(|(&dof, n)| u[dof] * n).sum();
                     moved += arrays.weights[k] * along;
                 }
-                assert!((moved - d).abs() < 1e-10 * largest(&u), "pair {pair}: {moved} is not {d}");
+                assert!((moved - d).abs() < 1e-9 * largest(&u), "pair {pair}: {moved} is not {d}");
             }
         }
     }
@@ -153,7 +154,7 @@ fn quadratic_faces_pass_the_patch_test() {
             let arrays = found.rows();
             let model = model(&blocks.stiffness, &fixed, &arrays);
             assert!(model.dependent_pairs().is_empty());
-            let solution = solve(&model, &blocks.load, &arrays.gaps, 0.0);
+            let solution = solve(&model, &blocks.load, &arrays.gaps, 0.0, 1e-12);
             blocks.assert_uniform(&arrays, &solution, &format!("{cells:?}, {upper_is_slave}"));
             blocks.assert_balanced(&model, &fixed, &arrays, &solution);
         }
@@ -161,7 +162,7 @@ fn quadratic_faces_pass_the_patch_test() {
 }
 
 /// A quarter: slaves on the planes of symmetry are fixed along their normals, their masters off the planes
-/// are not. With one material for both blocks nothing slips, so that friction changes nothing.
+/// are not. With friction the field is not uniform, but forces and motions still balance.
 #[test]
 fn a_quarter_model_passes_the_patch_test() {
     for cells in CELLS {
@@ -173,14 +174,54 @@ fn a_quarter_model_passes_the_patch_test() {
             let arrays = blocks.found(upper_is_slave).rows();
             let model = model(&blocks.stiffness, &fixed, &arrays);
             let context = format!("{cells:?}, {upper_is_slave}, {:?}", model.dependent_pairs());
-            println!("{context}");
-            let solution = solve(&model, &blocks.load, &arrays.gaps, 0.0);
+            let solution = solve(&model, &blocks.load, &arrays.gaps, 0.0, 1e-12);
             blocks.assert_uniform(&arrays, &solution, &context);
             blocks.assert_balanced(&model, &fixed, &arrays, &solution);
-            for mu in [0.3] {
-                let solution = solve(&model, &blocks.load, &arrays.gaps, mu);
-                assert_eq!(solution.status, Status::Solved, "{context}: {}", solution.message);
-                blocks.assert_balanced(&model, &fixed, &arrays, &solution);
+            let solution = solve(&model, &blocks.load, &arrays.gaps, 0.3, 1e-12);
+            assert_eq!(solution.status, Status::Solved, "{context}: {}", solution.message);
+            blocks.assert_balanced(&model, &fixed, &arrays, &solution);
+        }
+    }
+}
+
+/// Each side slave of the other at once. On meshes that match each row comes twice, so that each side
+/// carries half of the pressure, with friction or without; on others the rows still depend on each other
+/// (uniform displacements), and forces and motions balance.
+#[test]
+fn both_sides_may_be_slaves() {
+    for (cells, mu) in [
+        ([[2, 2, 1], [2, 2, 1]], 0.0),
+        ([[2, 2, 1], [2, 2, 1]], 0.3),
+        ([[2, 1, 1], [1, 2, 1]], 0.0),
+        ([[2, 1, 1], [1, 2, 1]], 0.3),
+        ([[2, 2, 1], [3, 3, 1]], 0.0),
+    ] {
+        let blocks = Blocks::new(cells);
+        let mut fixed = blocks.fixed(2, |p| p[2] == -0.8);
+        for level in [-0.8, 0.6] {
+            fixed.extend(blocks.fixed(0, |p| p == [0.0, 0.0, level]));
+            fixed.extend(blocks.fixed(1, |p| p[1] == 0.0 && p[2] == level && p[0] % 1.0 == 0.0));
+        }
+        let mut twice = blocks.found(true);
+        twice.pairs.extend(blocks.found(false).pairs);
+        let arrays = twice.rows();
+        let model = model(&blocks.stiffness, &fixed, &arrays);
+        let context = format!("{cells:?}, mu {mu}, {} pairs", arrays.count);
+        assert!(!model.dependent_pairs().is_empty(), "{context}");
+        // Rows of both sides of meshes that do not match nearly depend on each other beyond the uniform
+        // displacements, which costs digits: the default tolerance is what they leave.
+        let tolerance = if cells[0] == cells[1] { 1e-12 } else { 1e-10 };
+        let solution = solve(&model, &blocks.load, &arrays.gaps, mu, tolerance);
+        assert_eq!(solution.status, Status::Solved, "{context}: {}", solution.message);
+        blocks.assert_balanced(&model, &fixed, &arrays, &solution);
+        let force = &solution.certificate.force;
+        let carried: f64 = force.iter().step_by(3).sum();
+        // Ten times the tolerance.
+        assert!((carried + PRESSURE).abs() < 1e-9 * PRESSURE, "{context}: {carried}");
+        if cells[0] == cells[1] && mu == 0.0 {
+            for (j, area) in arrays.areas.iter().enumerate() {
+                let share = -2.0 * force[3 * j] / area / PRESSURE;
+                assert!((share - 1.0).abs() < 1e-8, "{context}, pair {j}: {share}");
             }
         }
     }

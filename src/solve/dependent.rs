@@ -43,8 +43,21 @@ const RUNAWAY_ROUNDS: usize = 8;
 /// Forces added by two rounds are the same if they differ by less than this part.
 const SAME: f64 = 1e-6;
 
-/// Part of the tolerance that the problem with springs is solved to.
+/// Part of the tolerance that the problem with springs is solved to, as far as that can be had: the springs
+/// leave the first rounds fewer digits, and later ones mend it.
 const INNER: f64 = 0.1;
+
+/// Part of the error before a round that is enough for the round.
+const ROUGH: f64 = 1e-3;
+
+/// The error before the first round, where there is no measure of it: that of the springs.
+const FIRST: f64 = COMPLIANCE;
+
+/// What of the least error is left where a round has made progress.
+const HALF: f64 = 0.5;
+
+/// So many rounds that do not halve the least error show that rounding is reached.
+const IDLE_ROUNDS: usize = 12;
 
 /// What a round works on.
 struct Sprung<'p> {
@@ -114,10 +127,11 @@ impl Sprung<'_> {
         };
         let mut force = vec![0.0; relation.size()];
         let mut growth = Growth::default();
-        let tolerance = (INNER * settings.tolerance).max(SMALLEST_TOLERANCE);
-        let inner = Settings { tolerance, ..settings.clone() };
         let mut best: Option<Solution> = None;
+        let (mut last, mut least, mut idle) = (FIRST, f64::INFINITY, 0);
         for _ in 0..ROUNDS {
+            let wanted = (INNER * settings.tolerance).max(ROUGH * last.min(FIRST));
+            let inner = Settings { tolerance: wanted.max(SMALLEST_TOLERANCE), ..settings.clone() };
             let d = relation.relative(&variables);
             let round = self.round(&inner, (&variables, &d, &force), monitor)?;
             if matches!(round.0.status, Status::Solved | Status::Stalled) {
@@ -127,7 +141,11 @@ impl Sprung<'_> {
                 variables.iter_mut().zip(&round.1).for_each(|(z, step)| *z += step);
             }
             let found = self.measured(round.0, &variables, &force, settings);
-            let ends = found.status != Status::Stalled || growth.is_endless();
+            last = found.certificate.eta;
+            idle = if last < HALF * least { 0 } else { idle + 1 };
+            least = least.min(last);
+            let ends =
+                found.status != Status::Stalled || growth.is_endless() || idle >= IDLE_ROUNDS;
             if best
                 .as_ref()
                 .is_none_or(|best| found.status != Status::Stalled || is_better(&found, best))
