@@ -256,7 +256,7 @@ struct signorini_pairs {
     /** Normal of each pair, dim entries, outward from the slave's body, of any length. */
     const double *normals;
     /**
-     * First tangent of each pair, dim entries; its part along the normal is removed. NULL: chosen.
+     * First tangent of each pair, dim entries, orthogonal to the normal to 1e-5. NULL: chosen.
      * 2D: the normal turned by +90 degrees. 3D: t1 = e x n with the axis e that is most across the
      * normal. In 3D always t2 = n x t1; signorini_model_frames returns all.
      */

@@ -50,7 +50,7 @@ impl Model {
     /// A body condensed by the host, on an obstacle: `d = u`.
     ///
     /// # Errors
-    /// As [`ContactProblem::new`] for the matrix, after it was cleaned: if a diagonal entry is at most 3e-12
+    /// As [`ContactProblem::new`] for the matrix, after it was cleaned: if a diagonal entry is at most 9e-12
     /// of the largest one of its pair, and the component is coupled to others, motions of so little energy
     /// are the rounding of a condensation and become exactly free. All other matrices are taken as they are.
     pub fn condensed(dim: usize, pairs: usize, k: &[f64], ld: usize) -> Result<Self, Error> {

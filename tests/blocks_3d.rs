@@ -65,7 +65,6 @@ fn newton_solves_blocks_in_a_few_systems() {
 }
 
 #[test]
-#[ignore = "some seconds"]
 fn newton_solves_a_block_of_961_pairs() {
     let brick = block(31, Support::Clamped);
     assert_mixed(by_newton(&brick, &brick.model(), SYSTEMS));

@@ -5,11 +5,11 @@ mod common;
 #[allow(dead_code)] // Every test of rows uses a part.
 mod rows;
 
-use common::dense::{difference, largest};
+use common::dense::{difference, dot, largest};
 use common::problems::{uniform, vector};
 use fastrand::Rng;
 use rows::{Host, solved, springs};
-use signorini::{Argument, Error, FrictionLaw, LoadCase, Monitor, Settings, Status};
+use signorini::{FrictionLaw, LoadCase, Monitor, Settings, Status};
 
 /// A host with `pairs` rows of one slave each (its first node) against up to three masters; slaves are not
 /// masters.
@@ -32,7 +32,14 @@ fn slaves_and_masters(rng: &mut Rng) -> Host {
     let is_slave = |dof: &usize| order[..pairs].contains(&(dof / dim));
     let fixed = (0..dim * nodes).filter(|dof| !is_slave(dof) && rng.u8(0..5) == 0).collect();
     let normals = vector(rng, dim * pairs);
-    let tangents = rng.bool().then(|| vector(rng, dim * pairs));
+    let tangents = rng.bool().then(|| {
+        let mut tangents = vector(rng, dim * pairs);
+        for (tangent, normal) in tangents.chunks_mut(dim).zip(normals.chunks(dim)) {
+            let part = dot(tangent, normal) / dot(normal, normal);
+            tangent.iter_mut().zip(normal).for_each(|(t, n)| *t -= part * n);
+        }
+        tangents
+    });
     Host { dim, stiffness, fixed, rows, normals, tangents }
 }
 
@@ -130,4 +137,39 @@ fn any_rows_balance_in_the_host() {
         solved_cases += 1;
     }
     assert!(solved_cases > 200 && dependent > 20, "{solved_cases}, {dependent}");
+}
+
+/// A slave on a plane of symmetry x = 0 that faces an inclined obstacle: a tangent along x neither moves nor
+/// carries, and the pair has a stiffness. Tangents across the plane move by one motion, with one friction.
+#[test]
+fn tangents_along_supports_are_held() {
+    let mut stiffness = vec![0.0; 9];
+    (0..3).for_each(|i| stiffness[4 * i] = 2.0);
+    let mut host = Host {
+        dim: 3,
+        stiffness,
+        fixed: vec![0],
+        rows: vec![vec![(0, 1.0)]],
+        normals: vec![0.0, -0.6, -0.8],
+        tangents: None,
+    };
+    let held = host.model().unwrap();
+    assert!(held.dependent_pairs().is_empty());
+    host.tangents = Some(vec![1.0, 0.8, -0.6]);
+    let across = host.model().unwrap();
+    assert_eq!(across.dependent_pairs(), [0]);
+    // Pressed by 1 along the normal and pushed by 1 along the plane: mu 0.3 holds 0.3, springs the rest.
+    let load = [0.0, -0.6 + 0.8, -0.8 - 0.6];
+    for model in [held, across] {
+        let solution = solved(&model, &load, &[0.0], &[0.3]);
+        assert_eq!(solution.status, Status::Solved, "{}", solution.message);
+        let u = model.recover(Some(&load), None, &solution.d).unwrap();
+        let nodal = model.nodal_forces(&solution.certificate.force).unwrap();
+        // The friction of tangents across the plane has a part along x, which the support carries.
+        let along = [0.0, 0.8, -0.6];
+        let moved = dot(&u, &along);
+        assert!((2.0 * moved - 1.0 - dot(&nodal, &along)).abs() < 1e-10);
+        let friction = dot(&nodal, &along);
+        assert!((friction + 0.3).abs() < 1e-9, "{friction}");
+    }
 }

@@ -57,8 +57,14 @@ impl Host {
         let fixed: Vec<usize> =
             (0..n).filter(|dof| !slaves.contains(dof) && rng.u8(0..5) == 0).collect();
         let values = vector(rng, fixed.len());
-        let normals = vector(rng, dim * pairs).iter().map(|n| 3.0 * n).collect();
-        let tangents = rng.bool().then(|| vector(rng, dim * pairs));
+        let normals: Vec<f64> = vector(rng, dim * pairs).iter().map(|n| 3.0 * n).collect();
+        let across = |n: &[f64]| match *n {
+            [x, y] => vec![2.0 * y, -2.0 * x],
+            // Across (1, 2, 3) too.
+            [x, y, z] => vec![3.0 * y - 2.0 * z, z - 3.0 * x, 2.0 * x - y],
+            _ => unreachable!("2D or 3D"),
+        };
+        let tangents = rng.bool().then(|| normals.chunks(dim).flat_map(across).collect());
         Host {
             dim,
             pairs,

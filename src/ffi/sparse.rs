@@ -80,7 +80,7 @@ pub struct SignoriniPairs {
     pub weights: *const f64,
     /// Normal of each pair, dim entries, outward from the slave's body, of any length.
     pub normals: *const f64,
-    /// First tangent of each pair, dim entries; its part along the normal is removed. NULL: chosen.
+    /// First tangent of each pair, dim entries, orthogonal to the normal to 1e-5. NULL: chosen.
     /// 2D: the normal turned by +90 degrees. 3D: t1 = e x n with the axis e that is most across the
     /// normal. In 3D always t2 = n x t1; signorini_model_frames returns all.
     pub tangents: *const f64,
@@ -185,10 +185,7 @@ impl SignoriniPairs {
         }
         // SAFETY: by the caller's contract; not NULL.
         let given = unsafe { read(position, "pairs", pointer, Self::EMPTY)? };
-        let (told, ours) = (given.struct_size as usize, size_of::<Self>());
-        if told != ours && told != offset_of!(Self, row_start) {
-            return refuse(format!("pairs: struct_size is {told}, set it to sizeof ({ours})"));
-        }
+        given.check_size(position)?;
         let wrong = |error: Error| {
             Failure::argument(position, format!("pairs: {}", error.message().marked()))
         };
@@ -254,19 +251,29 @@ impl SignoriniPairs {
         row_weights: std::ptr::null(),
     };
 
+    /// Refuses a size that no version of the structure has.
+    fn check_size(&self, position: i32) -> Result<(), Failure> {
+        let (told, ours) = (self.struct_size as usize, size_of::<Self>());
+        if told == ours || told == offset_of!(Self, row_start) {
+            return Ok(());
+        }
+        let message = format!("pairs: struct_size is {told}, set it to sizeof ({ours})");
+        Err(Failure::argument(position, message))
+    }
+
     /// The nodes of the pairs in the one form or the other.
     fn nodes(&self, position: i32) -> Result<Nodes, Failure> {
         let is_general = !self.row_start.is_null();
-        let none = |pointers: [bool; 4]| pointers == [true; 4];
+        let none = |is_null: &[bool]| is_null.iter().all(|is_null| *is_null);
         let slaves = [self.slaves, self.master_start, self.masters].map(<*const i64>::is_null);
         let of_slaves = [slaves[0], slaves[1], slaves[2], self.weights.is_null()];
-        let of_rows = [self.row_nodes.is_null(), self.row_weights.is_null(), true, true];
+        let of_rows = [self.row_nodes.is_null(), self.row_weights.is_null()];
         let message = match is_general {
-            true if !none(of_slaves) => {
+            true if !none(&of_slaves) => {
                 "pairs: row_start is set, and slaves, master_start, masters or weights too: leave \
                  these four NULL, or row_start, row_nodes and row_weights"
             }
-            false if !none(of_rows) => {
+            false if !none(&of_rows) => {
                 "pairs: row_nodes or row_weights is set, but row_start is NULL: set all three, or none"
             }
             true => {

@@ -37,6 +37,7 @@ impl PairLaw {
     /// The natural map at the displacement `d` and the force `force` of the pair.
     ///
     /// Branch by branch, so that a force is not lost in the rounding of a much larger `k_t delta`.
+    #[inline]
     pub fn natural_residual(&self, d: &[f64], force: &[f64], residual: &mut [f64]) {
         // max() of the two branches, so that an infinite gap leaves the force and no NaN.
         residual[0] = (self.k_n * (d[0] - self.gap)).max(force[0] - self.tension);

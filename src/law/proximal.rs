@@ -39,9 +39,9 @@ impl PairLaw {
             for c in 0..2 {
                 friction[c] = force[1 + c] + coupling[c] * steps[0];
             }
-            change +=
-                self.relax_on(ellipse, d, friction, (self.bound.at(pressure), omega), &mut steps);
-            return (steps, change);
+            let threshold = self.bound.at(pressure);
+            let ([t1, t2], moved) = self.relax_on(ellipse, d, friction, threshold, omega);
+            return ([steps[0], t1, t2], change + moved);
         }
         let shrinkage = omega * self.bound.at(pressure) / self.k_t;
         let rate = omega / self.k_t;
@@ -65,30 +65,32 @@ impl PairLaw {
         (steps, change)
     }
 
-    /// The tangential step of a pair with an ellipse and the force `friction`, under a threshold. Returns
-    /// its squared length in the norm of `k`. Not inlined: it would slow down the isotropic step.
+    /// The tangential step of a pair with an ellipse and the force `friction`, under a threshold, and its
+    /// squared length in the norm of `k`. Not inlined, and all by value: else it would slow down the
+    /// isotropic step.
     #[inline(never)]
     fn relax_on(
         &self,
         ellipse: &Ellipse,
         d: &mut [f64],
         friction: [f64; 2],
-        (threshold, omega): (f64, f64),
-        steps: &mut Vector,
-    ) -> f64 {
+        threshold: f64,
+        omega: f64,
+    ) -> ([f64; 2], f64) {
+        let mut steps = [0.0; 2];
         let (slip, moved) = (self.slip_at(d), ellipse.unscaled(friction).map(|r| -omega * r));
         let trial = [slip[0] + moved[0], slip[1] + moved[1]];
         let gauge = ellipse.gauge(ellipse.scaled(trial)) / omega;
         for c in 0..2 {
             if gauge > threshold {
-                steps[1 + c] = moved[c] - trial[c] * (threshold / gauge);
-                d[1 + c] += steps[1 + c];
+                steps[c] = moved[c] - trial[c] * (threshold / gauge);
+                d[1 + c] += steps[c];
             } else {
-                steps[1 + c] = -slip[c];
+                steps[c] = -slip[c];
                 d[1 + c] = self.slip0[c];
             }
         }
-        let scaled = ellipse.scaled([steps[1], steps[2]]);
-        scaled[0] * steps[1] + scaled[1] * steps[2]
+        let scaled = ellipse.scaled(steps);
+        (steps, scaled[0] * steps[0] + scaled[1] * steps[1])
     }
 }

@@ -16,6 +16,12 @@ pub fn gaps_within_reach(contact: &Contact<'_>, moved: &[f64], far: f64) -> Opti
     let loads = problem.load().iter().enumerate().map(|(i, f)| f.abs() / root(i));
     let moved = moved.iter().enumerate().map(|(i, d)| d.abs() * root(i));
     let mut reach = loads.chain(moved).fold(0.0, f64::max);
+    // The reach only grows from here: nothing is far beside it if the longest gap is not.
+    let longest = contact.pairs().iter().enumerate().filter(|(_, law)| law.has_obstacle());
+    let longest = longest.map(|(pair, law)| law.gap * root(dim * pair)).fold(0.0, f64::max);
+    if longest <= far * reach {
+        return None;
+    }
     let mut gaps: Vec<f64> = Vec::with_capacity(contact.pairs().len());
     let mut lengths = Vec::with_capacity(gaps.capacity());
     for (pair, law) in contact.pairs().iter().enumerate() {

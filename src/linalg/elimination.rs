@@ -1,12 +1,12 @@
 //! Elimination of some components of a symmetric positive definite system, by faer on the calling
 //! thread.
 
-use faer::linalg::matmul::triangular::{self, BlockStructure};
 use faer::linalg::triangular_solve;
-use faer::{Accum, Mat, MatMut, MatRef, Par};
+use faer::{Mat, MatMut, MatRef, Par};
 
 use super::factor::cholesky;
 use super::matrix::Matrix;
+use super::pivoted_cholesky::subtract_gram;
 use super::tolerances::SINGULAR;
 
 /// `K_OO = L Lᵀ` of the components `O`, and `X = L⁻¹ K_OC` with the components `C` that are kept.
@@ -45,22 +45,7 @@ impl Elimination {
             target.iter_mut().zip(&kept[j..]).for_each(|(entry, &i)| *entry = column[i]);
         }
         triangular_solve::solve_lower_triangular_in_place(lower.as_ref(), half.as_mut(), Par::Seq);
-        triangular::matmul(
-            MatMut::from_column_major_slice_mut(&mut schur, c, c),
-            BlockStructure::TriangularLower,
-            Accum::Add,
-            half.transpose(),
-            BlockStructure::Rectangular,
-            half.as_ref(),
-            BlockStructure::Rectangular,
-            -1.0,
-            Par::Seq,
-        );
-        for j in 0..c {
-            for i in 0..j {
-                schur[i + c * j] = schur[j + c * i];
-            }
-        }
+        subtract_gram(&mut schur, half.as_ref());
         Some((Elimination { lower, half }, schur))
     }
 

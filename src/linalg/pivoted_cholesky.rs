@@ -32,7 +32,7 @@ impl PivotedCholesky {
         entry: impl Fn(usize, usize) -> f64,
     ) -> Option<Self> {
         // No pivot exceeds its diagonal entry.
-        let (rows, mut without): (Vec<usize>, Vec<usize>) =
+        let (rows, mut dependent): (Vec<usize>, Vec<usize>) =
             (0..size).partition(|&i| entry(i, i) > least);
         let n = rows.len();
         let lower_entry = |i: usize, j: usize| if i >= j { entry(rows[i], rows[j]) } else { 0.0 };
@@ -40,7 +40,7 @@ impl PivotedCholesky {
         let mut lower = fill();
         let regular = cholesky(&mut lower).is_some();
         if regular && (0..n).all(|i| lower[(i, i)].powi(2) > SUSPICIOUS_PIVOT) {
-            return Some(PivotedCholesky { lower, independent: rows, dependent: without });
+            return Some(PivotedCholesky { lower, independent: rows, dependent });
         }
         drop(lower);
         let mut lower = fill();
@@ -57,11 +57,11 @@ impl PivotedCholesky {
         );
         let Ok((info, _)) = info else { return None };
         let rank = (0..info.rank).find(|&i| lower[(i, i)].powi(2) <= least).unwrap_or(info.rank);
-        without.splice(..0, forward[rank..].iter().map(|&i| rows[i]));
+        dependent.splice(..0, forward[rank..].iter().map(|&i| rows[i]));
         Some(PivotedCholesky {
             lower: lower.as_ref().submatrix(0, 0, rank, rank).to_owned(),
             independent: forward[..rank].iter().map(|&i| rows[i]).collect(),
-            dependent: without,
+            dependent,
         })
     }
 
@@ -108,23 +108,29 @@ impl PivotedCholesky {
                 schur[i + m * j] = corner(i, j);
             }
         }
-        triangular::matmul(
-            MatMut::from_column_major_slice_mut(&mut schur, m, m),
-            BlockStructure::TriangularLower,
-            Accum::Add,
-            half.transpose(),
-            BlockStructure::Rectangular,
-            half.as_ref(),
-            BlockStructure::Rectangular,
-            -1.0,
-            Par::Seq,
-        );
-        for j in 0..m {
-            for i in 0..j {
-                schur[i + m * j] = schur[j + m * i];
-            }
-        }
+        subtract_gram(&mut schur, half.as_ref());
         schur
+    }
+}
+
+/// `C - Xᵀ X` from the lower triangle of the symmetric `C`, both triangles; column-major.
+pub fn subtract_gram(c: &mut [f64], x: MatRef<'_, f64>) {
+    let m = x.ncols();
+    triangular::matmul(
+        MatMut::from_column_major_slice_mut(c, m, m),
+        BlockStructure::TriangularLower,
+        Accum::Add,
+        x.transpose(),
+        BlockStructure::Rectangular,
+        x,
+        BlockStructure::Rectangular,
+        -1.0,
+        Par::Seq,
+    );
+    for j in 0..m {
+        for i in 0..j {
+            c[i + m * j] = c[j + m * i];
+        }
     }
 }
 

@@ -8,7 +8,7 @@ use crate::linalg::tolerances::{CONDENSATION, FREE};
 use crate::linalg::vector::first_not_finite;
 use crate::problem::symmetric_matrix::{check, is_symmetric_beside};
 
-/// The host's condensed stiffness, taken as it is.
+/// The host's condensed stiffness.
 pub struct CondensedReduction {
     dim: usize,
     /// Components of `d`.
@@ -33,10 +33,10 @@ impl CondensedReduction {
 /// the rounding of its condensation; `None` if it is to be taken as it is. `name` is the host's name of
 /// the matrix.
 ///
-/// It is taken so, unless a diagonal entry is at most 3e-12 of the largest one of its pair and the
+/// It is changed only if a diagonal entry is at most 9e-12 of the largest one of its pair and the
 /// component is coupled to others: that may be rounding of a free body on few points. Then motions of
-/// so little energy become exactly free, and all others keep what they have. What cannot be told from
-/// rounding is no reason to refuse a matrix.
+/// so little energy become exactly free, and all others keep what they have. A matrix with a motion that
+/// cannot be told from rounding is taken as it is.
 ///
 /// # Errors
 /// As `check`.

@@ -2,9 +2,9 @@
 
 use crate::linalg::vector3::{self, Vector3, unit};
 
-/// A tangent closer to the normal than this sine is refused: normals and tangents of seven digits
-/// have errors of 1e-6 and less, and its direction would be these errors.
-const LEAST_SINE: f64 = 1e-6;
+/// Largest cosine between a tangent and its normal: ten times what normals and tangents of seven digits
+/// leave. Above it they belong to different pairs, or are no frame at all.
+const LARGEST_COSINE: f64 = 1e-5;
 
 /// A normal or tangent is along an axis if the angle between them is smaller than this (radians): ten
 /// times the error of a normal of seven digits.
@@ -18,22 +18,24 @@ pub(super) struct Frame {
 }
 
 impl Frame {
-    /// The frame of a normal of any length and, if given, the first tangent, which is made orthogonal
-    /// to the normal. Without one it is the normal turned by +90 degrees in the plane, and in space
+    /// The frame of a normal of any length and, if given, the first tangent, which is orthogonal to the
+    /// normal but for rounding and is made so. Without one it is the normal turned by +90 degrees in the plane, and in space
     /// one across the axis that is most across the normal.
     ///
     /// # Errors
     /// What is wrong with the normal or the tangent: "normal is zero or not finite".
-    pub(super) fn new(normal: &[f64], tangent: Option<&[f64]>) -> Result<Self, &'static str> {
+    pub(super) fn new(normal: &[f64], tangent: Option<&[f64]>) -> Result<Self, String> {
         let dim = normal.len();
         let normal = unit(vector3::vector(normal)).ok_or("normal is zero or not finite")?;
         let first = match tangent {
             Some(tangent) => {
-                let given = unit(vector3::vector(tangent)).unwrap_or_default();
-                let across = given - given.dot(&normal) * normal;
-                unit(across)
-                    .filter(|_| across.norm() > LEAST_SINE)
-                    .ok_or("tangent is zero, not finite or along the normal")?
+                let given =
+                    unit(vector3::vector(tangent)).ok_or("tangent is zero or not finite")?;
+                let cosine = given.dot(&normal);
+                if cosine.abs() > LARGEST_COSINE {
+                    return Err(not_orthogonal(cosine));
+                }
+                unit(given - cosine * normal).unwrap_or(given)
             }
             None if dim == 2 => Vector3::new(-normal.y, normal.x, 0.0),
             None => {
@@ -79,6 +81,12 @@ impl Frame {
     }
 }
 
+fn not_orthogonal(cosine: f64) -> String {
+    format!(
+        "tangent is not orthogonal to its normal (cosine {cosine:.2e}): subtract its part along the normal"
+    )
+}
+
 #[cfg(test)]
 mod tests {
     use super::Frame;
@@ -87,7 +95,7 @@ mod tests {
     #[test]
     fn a_frame_is_aligned_with_an_axis() {
         let rounded = [3e-7, -0.9999999, -8e-7];
-        let mut frame = Frame::new(&rounded, Some(&[1.0, 1.0, 0.5])).unwrap();
+        let mut frame = Frame::new(&rounded, Some(&[1.0, 0.0, 0.5])).unwrap();
         assert_eq!(frame.component_along(1), Some(0));
         frame.align(0, 1);
         let directions: Vec<Vec<f64>> = frame.directions().map(<[f64]>::to_vec).collect();

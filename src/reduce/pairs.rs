@@ -32,7 +32,7 @@ pub struct ContactPairs<'a> {
     pub weights: &'a [f64],
     /// Normals, outward from the slave's body, `dim` for each pair, of any positive length.
     pub normals: &'a [f64],
-    /// First tangents, `dim` for each pair, made orthogonal to the normal; `None`: chosen.
+    /// First tangents, `dim` for each pair, orthogonal to the normal to 1e-5; `None`: chosen.
     pub tangents: Option<&'a [f64]>,
 }
 
@@ -169,7 +169,7 @@ impl ContactPairs<'_> {
     /// The frames of all pairs.
     ///
     /// # Errors
-    /// The first normal or tangent that is zero, not finite, or along the normal.
+    /// The first normal or tangent that is zero or not finite, or a tangent that is not orthogonal.
     pub(super) fn frames(&self) -> Result<Vec<Frame>, Error> {
         (0..self.count)
             .map(|pair| {

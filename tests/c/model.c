@@ -234,8 +234,10 @@ static void bad_pairs(void)
     BAD_PAIRS("normal is NaN", "normal is zero or not finite", in.normals[0] = NAN);
     BAD_PAIRS("normal is infinite", "not finite", in.normals[1] = INFINITY);
     BAD_PAIRS("tangent is zero", "tangent is zero", in.tangents[0] = 0);
-    BAD_PAIRS("tangent along the normal", "along the normal", in.tangents[0] = 0,
-              in.tangents[1] = 2);
+    BAD_PAIRS("tangent along the normal", "pair 0: its tangent is not orthogonal to its normal",
+              in.tangents[0] = 0, in.tangents[1] = 2);
+    BAD_PAIRS("tangent that is oblique", "(cosine -1.00e-3)", in.tangents[0] = 1,
+              in.tangents[1] = 1e-3);
     BAD_PAIRS("tangent is NaN", "tangent", in.tangents[1] = NAN);
 
     prepare();

@@ -50,7 +50,7 @@ static void check_frame(const double *frame, const double *normal)
 
 static void frames_are_those_of_the_pairs(void)
 {
-    const double normals[N] = {1, -2, 2, 0, 0, -7}, tangents[N] = {5, 0, 0, 1, 1, 4};
+    const double normals[N] = {1, -2, 2, 0, 0, -7}, tangents[N] = {4, 1, -1, 1, 1, 0};
     double frames[DIM * N];
     signorini_model *model = block(normals, NULL);
     CHECK(signorini_model_dim(model) == DIM && signorini_model_pairs(model) == PAIRS);
@@ -65,7 +65,7 @@ static void frames_are_those_of_the_pairs(void)
     CHECK_STATUS(signorini_model_frames(NULL, frames), -1);
     signorini_model_free(model);
 
-    /* Given tangents lose their part along the normal. */
+    /* Given tangents keep their direction. */
     model = block(normals, tangents);
     CHECK_STATUS(signorini_model_frames(model, frames), 0);
     for (int pair = 0; pair < PAIRS; pair++) check_frame(frames + 9 * pair, normals + 3 * pair);

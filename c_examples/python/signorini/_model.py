@@ -92,8 +92,8 @@ class Model:
         masters: for each pair the dof numbers of its master nodes, (k, D), none of them for a rigid
         obstacle; None: rigid obstacles.  weights: for each pair those of its masters, k, of sum 1;
         None: 1, of one master each.
-        tangents: first tangent of each pair, (P, D), or one for all; None: chosen, in 2D the normal
-        turned by +90 degrees. frames gives what the model uses.
+        tangents: first tangent of each pair, orthogonal to its normal, (P, D), or one for all; None:
+        chosen, in 2D the normal turned by +90 degrees. frames gives what the model uses.
         rows: in the place of slaves, masters and weights, for each pair (dofs, weights): the dof
         numbers of all its nodes, (k, D), and k signed weights, positive on the side whose normal is
         given; of sum 0, and 1 against a rigid obstacle. Nodes may stand in any number of pairs.

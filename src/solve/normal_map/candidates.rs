@@ -10,6 +10,7 @@ use std::borrow::Cow;
 
 use super::equations::{Equations, Point};
 use super::newton::Ended;
+use super::start::swept;
 use crate::certificate::{eta_of, measure};
 use crate::law::{Contact, Vector};
 use crate::linalg::elimination::Elimination;
@@ -17,16 +18,6 @@ use crate::linalg::matrix::Matrix;
 use crate::monitor::Monitor;
 use crate::settings::Settings;
 use crate::solve::candidate::{Candidate, Effort, Ending};
-use crate::solve::sweeps::Sweeper;
-
-/// Sweeps before the first system come in rounds, at least two, until a round leaves nearly all pairs on
-/// their pieces. A hundred sweeps cost about as much as a system of a thousand pairs, less on fewer.
-const SWEEPS: usize = 10;
-const LEAST_ROUNDS: usize = 2;
-const MOST_ROUNDS: usize = 10;
-
-/// Part of the pairs that may still change.
-const CHANGING: f64 = 0.01;
 
 /// Candidates beside the pairs that the sweeps have closed: a part of these, and a few.
 const MARGIN: f64 = 0.15;
@@ -107,32 +98,6 @@ fn candidate(
     let mut candidate = Candidate::new(d, force, ending, effort);
     candidate.orientation = orientation;
     candidate
-}
-
-/// The coordinates after some sweeps from a start.
-fn swept(contact: &Contact<'_>, whole: &Equations<'_>, start: Option<&[f64]>) -> Vec<Vector> {
-    let mut d = start.map_or_else(|| vec![0.0; contact.unknowns()], <[f64]>::to_vec);
-    for (law, normal) in contact.pairs().iter().zip(d.iter_mut().step_by(contact.dim())) {
-        *normal = law.admissible(*normal);
-    }
-    let mut force = contact.problem().force(&d);
-    let sweeper = Sweeper::new();
-    let mut y = Vec::new();
-    let mut pieces = Vec::new();
-    for round in 1..=MOST_ROUNDS {
-        for _ in 0..SWEEPS {
-            sweeper.sweep(contact, (&mut d, &mut force), 1.0);
-        }
-        y = whole.coordinates(&d, &force);
-        let now = whole.pieces(&y);
-        let changed = now.iter().zip(&pieces).filter(|(now, before)| now != before).count();
-        let settled = changed as f64 <= CHANGING * now.len() as f64;
-        pieces = now;
-        if settled && round >= LEAST_ROUNDS {
-            break;
-        }
-    }
-    y
 }
 
 /// The pairs that are closed, those next to closing, and those that carry forces when they are open.

@@ -1,13 +1,14 @@
 //! Newton's method on the normal map (`law::normal_map`): one equation for open, stick and slip, in the
 //! plane and in space, with the exact friction disc.
 //!
-//! Some sweeps, then the pairs that are surely open are eliminated (`candidates`), then Newton's method
+//! Some sweeps (`start`), then the pairs that are surely open are eliminated (`candidates`), then Newton's method
 //! with a line search on what is left (`newton`). In the plane the active-set method takes fewer systems
 //! and is used instead.
 
 mod candidates;
 mod equations;
 mod newton;
+mod start;
 mod system;
 
 pub use candidates::solve as on_candidates;
