@@ -888,7 +888,8 @@ contains
         end if
         n_fixed = 0
         if (present(fixed)) n_fixed = size(fixed)
-        held = [0_c_int64_t]
+        allocate (held(max(1_c_int64_t, n_fixed)))
+        held = 0
         if (n_fixed > 0) held = int(fixed, c_int64_t)
         call finish(signorini_model_new_sparse(matrix, n_fixed, c_loc(held), pairs, self%handle), &
             info, message, positions)

@@ -179,7 +179,7 @@ class Rows(unittest.TestCase):
             ("weights[0]", {"rows": [(row[0], [1.0])]}),
             ("rows has nodes of the shapes", {"rows": [([[0], [2]], [1.0, -1.0])]}),
         ):
-            with self.assertRaises(ValueError) as caught:
+            with self.assertRaises((ValueError, TypeError)) as caught:
                 sparse(self.springs, normals=[0.0, -1.0], **arguments)
             self.assertIn(part, str(caught.exception))
 

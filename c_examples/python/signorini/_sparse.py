@@ -58,7 +58,7 @@ class ContactPairs:
 
     def _of_slaves(self, slaves, masters, weights):
         if slaves is None:
-            raise ValueError("slaves is None: give the slave nodes, or rows")
+            raise TypeError("slaves is None: give the slave nodes, or rows")
         slaves = integers("slaves", slaves)
         if slaves.ndim != 2 or slaves.shape[1] not in (2, 3):
             raise ValueError(f"slaves has the shape {slaves.shape}: give the dof numbers of each "
