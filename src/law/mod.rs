@@ -16,6 +16,7 @@
 //! | `local` | the exact solution of one pair, its block coupled | who solves pair by pair |
 //! | `complementarity` | the law as complementarity of non-negative variables | Lemke's method, block pivoting |
 //! | `reach` | which obstacles are too far away to matter | `solve::far_obstacles` |
+//! | `contradiction` | when normal forces prove that no displacements meet all gaps | `solve::dependent` |
 //! | `recession` | what a rigid motion must satisfy to prove that no equilibrium exists | certificate |
 //!
 //! Notation, for one pair: `v = d - (gap, slip0)`, so that `v_n` is the penetration (at most 0 if the
@@ -35,6 +36,7 @@ pub mod branch;
 pub mod cohesive;
 pub mod complementarity;
 mod contact;
+mod contradiction;
 pub mod coulomb;
 pub mod ellipse;
 pub mod frictionless;
@@ -52,6 +54,7 @@ pub mod tresca;
 
 pub use bound::{Bound, length};
 pub use contact::Contact;
+pub use contradiction::{exceed_gaps, pressing, without_friction};
 pub use ellipse::{Ellipse, Plane, Rule};
 pub use natural_map::Violation;
 pub use planar_piece::{Exit, Planar};

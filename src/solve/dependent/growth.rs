@@ -1,6 +1,7 @@
 //! Contact forces that grow without end, and what they show.
 
 use crate::error::index;
+use crate::law::{exceed_gaps, pressing};
 use crate::linalg::tolerances::NEGLIGIBLE;
 use crate::linalg::vector::{norm, norm_inf};
 use crate::problem::{ContactProblem, DependentRows};
@@ -12,8 +13,7 @@ const ROUNDS: usize = 8;
 /// something at such a rate would take thousands.
 const SAME: f64 = 1e-4;
 
-/// Part of the largest force of a pattern that a pair must have to be named, and of the terms of a proof that
-/// their sum must have.
+/// Part of the largest force of a pattern that a pair must have to be named.
 const COUNTS: f64 = 1e-6;
 
 /// Pairs that a sentence names.
@@ -43,22 +43,15 @@ impl Growth {
     }
 }
 
-/// Whether the normal forces of a pattern prove that no displacements meet all gaps: `p >= 0`, `Cᵀ p = 0` and
-/// `sum p (gap - o) < 0`, where `sum p (d - o) = 0` for all that the rows allow.
+/// Whether the normal forces of a pattern prove that no displacements meet all gaps.
 pub(super) fn contradicts(
     problem: &ContactProblem<'_, DependentRows<'_>>,
     pattern: &[f64],
 ) -> bool {
-    let (dim, relation) = (problem.dim(), problem.relation());
-    let mut normal = vec![0.0; pattern.len()];
-    normal.iter_mut().zip(pattern).step_by(dim).for_each(|(p, force)| *p = force.min(0.0));
-    let work = |pair: usize| {
-        let (p, room) = (-normal[dim * pair], problem.gap(pair) - relation.offset()[dim * pair]);
-        if p > 0.0 { p * room } else { 0.0 }
-    };
-    let terms: Vec<f64> = (0..problem.pairs()).map(work).collect();
-    let size: f64 = terms.iter().map(|term| term.abs()).sum();
-    relation.balance_each_other(&normal, NEGLIGIBLE) && terms.iter().sum::<f64>() < -COUNTS * size
+    let relation = problem.relation();
+    let pressing = pressing(problem.dim(), pattern);
+    relation.balance_each_other(&pressing, NEGLIGIBLE)
+        && exceed_gaps(problem, &pressing, relation.offset())
 }
 
 /// Why there is no solution: the pattern in which forces grow, if there is one, and whether it is `proved`

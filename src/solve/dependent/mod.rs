@@ -23,11 +23,11 @@ use super::far_obstacles;
 use super::outcome::{Fallback, Solution, Status, Uniqueness};
 use crate::certificate::measure;
 use crate::error::{Argument, Error};
-use crate::law::Contact;
+use crate::law::{Contact, without_friction};
 use crate::linalg::sparse_matrix::{OutOfMemory, column, from_entries, transposed};
 use crate::linalg::sparse_schur::{Failure, SparseSchur};
 use crate::monitor::Monitor;
-use crate::problem::{ContactData, ContactProblem, DependentRows, FrictionLaw, Relation};
+use crate::problem::{ContactData, ContactProblem, DependentRows, Relation};
 use crate::settings::{Method, SMALLEST_TOLERANCE, Settings};
 use growth::{Growth, contradicts, sentence};
 
@@ -91,9 +91,7 @@ fn contradiction(
     settings: &Settings,
     monitor: &mut Monitor<'_>,
 ) -> Result<Option<Vec<f64>>, Error> {
-    let gap: Vec<f64> = (0..problem.pairs()).map(|pair| problem.gap(pair)).collect();
-    let (relation, law) = (problem.relation().clone(), FrictionLaw::Frictionless);
-    let problem = &ContactProblem::with_relation(relation, problem.dim(), &gap, law, None)?;
+    let problem = &without_friction(problem);
     let settings = Settings { method: Method::Auto, ..settings.clone() };
     let sprung = Sprung { problem, contact: Contact::new(problem), condensed };
     let (_, growth) = sprung.rounds(&settings, None, monitor)?;
