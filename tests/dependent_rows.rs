@@ -107,6 +107,7 @@ fn a_wedge_is_solved_or_said_to_be_one() {
                 lifted += 1;
             } else {
                 assert_eq!(solution.status, Status::Stalled, "{context}");
+                assert!(context.contains("pairs 0, 1 grow without end"), "{context}");
                 wedged += 1;
             }
         }
