@@ -237,7 +237,10 @@ impl Model {
             law: case.law,
             reference_slip: slip.as_deref(),
         })?;
-        to(&problem)
+        match self.reduction.is_condensed_by_host() {
+            true => to(&problem.condensed_by_host()),
+            false => to(&problem),
+        }
     }
 
     /// Hands over the problem of a load case on rows that depend on each other.

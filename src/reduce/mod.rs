@@ -40,6 +40,11 @@ pub trait Reduction: Send + Sync {
         Vec::new()
     }
 
+    /// Whether the host has condensed the stiffness, so that its rounding is not known from its entries.
+    fn is_condensed_by_host(&self) -> bool {
+        false
+    }
+
     /// Entries of a load or displacement vector of the host.
     fn host_size(&self) -> usize;
 

@@ -3,8 +3,8 @@
 
 use std::cell::OnceCell;
 
-use super::outcome::{Solution, Status, Uniqueness};
-use crate::certificate::{Certificate, is_escape_of, measure};
+use super::outcome::{Errors, Existence, Solution, Status, Uniqueness};
+use crate::certificate::{Certificate, is_escape_of, measure, measure_parts};
 use crate::error::index;
 use crate::law::Contact;
 use crate::linalg::vector::normalise;
@@ -34,6 +34,8 @@ pub enum Ending {
 pub struct Candidate {
     /// Displacements.
     pub d: Vec<f64>,
+    /// What rounding to doubles has left out of `d`; empty where nothing is known of it.
+    pub low: Vec<f64>,
     /// Contact forces that equilibrium needs at `d`, as the solver has them.
     pub force: Vec<f64>,
     /// Why the solver stopped.
@@ -42,6 +44,8 @@ pub struct Candidate {
     pub effort: Effort,
     /// Sign of the determinant of the system of its branches, 0 if not known.
     pub orientation: i8,
+    /// What a refinement tells of its errors.
+    pub errors: Option<Errors>,
     certificate: OnceCell<Certificate>,
 }
 
@@ -63,7 +67,9 @@ pub struct Effort {
 impl Candidate {
     /// A candidate with its forces.
     pub fn new(d: Vec<f64>, force: Vec<f64>, ending: Ending, effort: Effort) -> Self {
-        Candidate { d, force, ending, effort, orientation: 0, certificate: OnceCell::new() }
+        let certificate = OnceCell::new();
+        let (low, errors) = (Vec::new(), None);
+        Candidate { d, low, force, ending, effort, orientation: 0, errors, certificate }
     }
 
     /// A candidate whose forces follow from its displacements.
@@ -82,9 +88,22 @@ impl Candidate {
         Candidate { effort, ..self }
     }
 
+    /// The same candidate with another ending.
+    pub fn ended(self, ending: Ending) -> Self {
+        Candidate { ending, ..self }
+    }
+
+    /// The same candidate after a change of its displacements: its certificate is measured anew.
+    pub fn remeasured(self) -> Self {
+        Candidate { certificate: OnceCell::new(), ..self }
+    }
+
     /// The certificate, measured once.
     pub fn certificate(&self, contact: &Contact<'_>) -> &Certificate {
-        self.certificate.get_or_init(|| measure(contact, &self.d, &self.force))
+        self.certificate.get_or_init(|| match self.low.as_slice() {
+            [] => measure(contact, &self.d, &self.force),
+            low => measure_parts(contact, &self.d, low),
+        })
     }
 
     /// Whether nothing is left to try: solved, proved to have no solution, or stopped.
@@ -106,7 +125,7 @@ pub fn certified(
 ) -> Solution {
     let at_rest = at_rest(contact, settings, candidate);
     let candidate = at_rest.as_ref().unwrap_or(candidate);
-    let certificate = candidate.certificate(contact);
+    let certificate = candidate.certificate(contact).clone().unforgiving(settings.tolerance);
     let mut recession = None;
     let accuracy = format!("eta is {:.1e}", certificate.eta);
     let wanted = format!("{accuracy}, wanted {:.1e}", settings.tolerance);
@@ -127,19 +146,22 @@ pub fn certified(
     } else if let Ending::Stopped(stop) = candidate.ending {
         stop.status(settings, &wanted)
     } else {
-        (Status::Stalled, format!("{}; {wanted}", candidate.ending.reason(certificate)))
+        (Status::Stalled, format!("{}; {wanted}", candidate.ending.reason(&certificate)))
     };
     let effort = candidate.effort;
     Solution {
         status,
         message: message.into(),
         d: candidate.d.clone(),
-        certificate: certificate.clone(),
+        d_low: low_part(candidate),
+        certificate,
         recession,
         method,
         fallback: None,
         uniqueness: Uniqueness::NotKnown,
         second: None,
+        existence: Existence::NotAsked,
+        errors: candidate.errors.filter(|_| status == Status::Solved),
         orientation: if status == Status::Solved { candidate.orientation } else { 0 },
         iterations: 0,
         factorisations: effort.factorisations,
@@ -148,6 +170,11 @@ pub fn certified(
         omega: effort.omega,
         damping: effort.damping,
     }
+}
+
+/// What rounding has left out of the displacements, as far as it is known.
+pub fn low_part(candidate: &Candidate) -> Vec<f64> {
+    if candidate.low.is_empty() { vec![0.0; candidate.d.len()] } else { candidate.low.clone() }
 }
 
 /// Zero displacement, if it is the solution and the candidate is not. Without loads the scale of

@@ -45,6 +45,17 @@ pub fn run(
     if contact.pairs().is_empty() {
         return Ok(Candidate::without_displacements(contact, Ending::Done));
     }
+    let candidate = run_plainly(method, contact, settings, start, monitor)?;
+    Ok(normal_map::polished(contact, settings, candidate))
+}
+
+fn run_plainly(
+    method: Method,
+    contact: &Contact<'_>,
+    settings: &Settings,
+    start: Option<&[f64]>,
+    monitor: &mut Monitor<'_>,
+) -> Result<Candidate, Error> {
     let start_or_zero = || start.map_or_else(|| vec![0.0; contact.unknowns()], <[f64]>::to_vec);
     Ok(match (method, contact.is_frictionless()) {
         (Method::Lemke, true) => lemke::frictionless(contact, settings, monitor)?,

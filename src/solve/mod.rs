@@ -2,7 +2,7 @@
 //! What is called a solution is decided in `candidate`, by the certificate alone.
 //!
 //! ```text
-//! outcome ← candidate ← condense ← rigid_balance ← sweeps ← normal_map ← active_set ← path ← lemke ← uniqueness ← dispatch ← auto ← far_obstacles ← dependent ← mod
+//! outcome ← candidate ← condense ← rigid_balance ← sweeps ← normal_map ← active_set ← path ← lemke ← uniqueness ← dispatch ← auto ← far_obstacles ← dependent ← existence ← mod
 //!                                                                          └──── lcp ────────────────────────┘
 //! ```
 //!
@@ -15,6 +15,7 @@ mod candidate;
 mod condense;
 mod dependent;
 mod dispatch;
+mod existence;
 mod far_obstacles;
 mod lcp;
 mod lemke;
@@ -35,7 +36,7 @@ use crate::settings::{Search, Settings};
 pub(crate) use candidate::NO_EQUILIBRIUM;
 use dispatch::check_method;
 pub use lcp::{LcpSolution, solve_lcp};
-pub use outcome::{Fallback, SecondSolution, Solution, Status, Uniqueness};
+pub use outcome::{Errors, Existence, Fallback, SecondSolution, Solution, Status, Uniqueness};
 
 /// Solves a contact problem whose rows depend on each other, as [`solve()`] does another one. Contact forces
 /// are not unique then, nor is any solution called the only one.
@@ -76,6 +77,9 @@ pub fn solve(
     uniqueness::by_orientation(&contact, &mut solution);
     if settings.search == Search::Others {
         uniqueness::examine(&contact, settings, &mut solution, monitor)?;
+    }
+    if settings.proof {
+        existence::examine(&contact, settings, &mut solution);
     }
     solution.iterations = monitor.iterations();
     Ok(solution)

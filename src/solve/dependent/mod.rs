@@ -20,7 +20,7 @@
 mod growth;
 
 use super::far_obstacles;
-use super::outcome::{Fallback, Solution, Status, Uniqueness};
+use super::outcome::{Existence, Fallback, Solution, Status, Uniqueness};
 use crate::certificate::measure;
 use crate::error::{Argument, Error};
 use crate::law::{Contact, without_friction};
@@ -121,7 +121,7 @@ fn condensed(relation: &DependentRows<'_>) -> Result<SparseSchur, Error> {
         entries.push((kept + i, kept + i, spring));
     }
     let all = from_entries((kept + size, kept + size), entries.into_iter()).map_err(memory)?;
-    SparseSchur::new(all, kept).map_err(|failure| match failure {
+    SparseSchur::exact_on_free_motions(all, kept).map_err(|failure| match failure {
         Failure::OutOfMemory => Error::OutOfMemory("the factor of dependent rows"),
         _ => Error::invalid(
             Argument::Matrix,
@@ -239,10 +239,15 @@ impl Sprung<'_> {
         };
         let fallback: Option<(_, Fallback)> = None;
         let (uniqueness, second, orientation) = (Uniqueness::NotKnown, None, 0);
+        let (d_low, errors) = (vec![0.0; d.len()], None);
+        let existence = if settings.proof { Existence::NotProved } else { Existence::NotAsked };
         Solution {
             status,
             message,
             d,
+            d_low,
+            errors,
+            existence,
             certificate,
             fallback,
             uniqueness,
