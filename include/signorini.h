@@ -226,9 +226,15 @@ struct signorini_sparse {
  * u_slave = sum of weight * u_master + n d_n + t d_t (3D: + t1 d_t1 + t2 d_t2),
  * so that the gap is closed at d_n = gap.
  *
- * A node is the slave of at most one pair. No master is a slave. A slave may be fixed along an
- * axis only if its masters are fixed along it too and the axis is its normal or a tangent; along
- * this axis d and F are zero. The library only reads the structure during the call.
+ * General rows, as mortar methods make them: leave slaves, master_start, masters and weights NULL
+ * and set row_start, row_nodes and row_weights. Each pair is then a list of nodes with signed
+ * weights, and n d_n + t d_t = sum of row_weight * u.
+ *
+ * A node may stand in any number of pairs, as slave and as master, and may be fixed. Where slave
+ * and masters are all fixed along an axis, which is the normal or a tangent, d and F are zero along
+ * it. Pairs may depend on each other, such as those of a node on two planes, or of two surfaces
+ * that are each other's slaves: then contact forces are not unique, and the model has no
+ * signorini_model_stiffness. The library only reads the structure during the call.
  */
 struct signorini_pairs {
     uint32_t struct_size; /**< sizeof(signorini_pairs). */
@@ -257,6 +263,19 @@ struct signorini_pairs {
      * normal. In 3D always t2 = n x t1; signorini_model_frames returns all.
      */
     const double *tangents;
+    /**
+     * General rows: start of each pair's nodes in row_nodes and row_weights, count + 1 entries,
+     * counted from index_base. NULL: pairs of slaves and masters. A struct_size without this field
+     * and the next two is right too: they are NULL then.
+     */
+    const int64_t *row_start;
+    /** Degrees of freedom of each node, dim for each, in the order of the axes. */
+    const int64_t *row_nodes;
+    /**
+     * Weight of each node: positive on the side whose outward normal is given, negative on the
+     * other. Those of a pair sum to 0, and against a rigid obstacle to 1.
+     */
+    const double *row_weights;
 };
 
 /**
@@ -339,11 +358,12 @@ int64_t signorini_model_host_size(const signorini_model *model);
 int32_t signorini_model_frames(const signorini_model *model, double *frames);
 
 /**
- * Copies the stiffness matrix in relative displacements.
+ * Copies the stiffness matrix in relative displacements. There is none if pairs depend on each
+ * other, such as those of a node on two planes.
  *
  * @param model  the model
  * @param K      out: N = dim * pairs columns of N entries; leading dimension N
- * @return 0; -k: the k-th argument is wrong
+ * @return 0; -k: the k-th argument is wrong; -1 too: pairs depend on each other
  */
 int32_t signorini_model_stiffness(const signorini_model *model, double *K);
 
@@ -402,7 +422,8 @@ int32_t signorini_model_recover(const signorini_model *model, const double *f,
 
 /**
  * Contact forces as a nodal force vector of the host. Sparse model: F on the slaves, the opposite
- * on the masters. Two bodies: F on both, each in its own frame. Condensed model: F itself.
+ * on the masters; general rows: F by the signed weights. Two bodies: F on both, each in its own
+ * frame. Condensed model: F itself.
  *
  * @param model  the model
  * @param F      contact forces, N entries
@@ -413,7 +434,7 @@ int32_t signorini_model_nodal_forces(const signorini_model *model, const double 
 
 /**
  * Relative loads of one load case: the f that signorini_solve takes beside the matrix of
- * signorini_model_stiffness.
+ * signorini_model_stiffness. There are none if rows of pairs depend on each other.
  *
  * @param model       the model
  * @param f           nodal loads of the host, H entries
@@ -426,7 +447,8 @@ int32_t signorini_model_condensed_load(const signorini_model *model, const doubl
 
 /**
  * Measures relative displacements of any origin on a load case of a model, as signorini_certify
- * does on a condensed problem.
+ * does on a condensed problem. If pairs depend on each other, displacements do not tell the forces:
+ * -1 is returned.
  *
  * @param model       the model
  * @param f           nodal loads of the host, H = signorini_model_host_size entries
@@ -543,7 +565,8 @@ int32_t signorini_problem_write(const char *path, int32_t dim, int64_t pairs, co
 
 /**
  * Writes a load case of a model to a file, as signorini_problem_write does: the condensed problem
- * that signorini_model_solve solves. signorini_solve gives the same d and F for it.
+ * that signorini_model_solve solves. signorini_solve gives the same d and F for it. If pairs depend
+ * on each other there is none: -1 is returned.
  *
  * @param model       the model
  * @param path        name of the file, which is replaced if it exists

@@ -61,7 +61,7 @@ const ROOMS: [(&str, &[&str]); 13] = [
 
 /// The files and folders of `solve`: each imports from those before it only. `lcp` stands beside
 /// those that are behind `lemke`.
-const SOLVERS: [&str; 16] = [
+const SOLVERS: [&str; 17] = [
     "outcome",
     "candidate",
     "condense",
@@ -76,6 +76,7 @@ const SOLVERS: [&str; 16] = [
     "dispatch",
     "auto",
     "far_obstacles",
+    "dependent",
     "existence",
     "mod",
 ];

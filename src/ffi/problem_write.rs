@@ -124,7 +124,8 @@ pub unsafe extern "C" fn signorini_lcp_write(
 }
 
 /// Writes a load case of a model to a file, as signorini_problem_write does: the condensed problem
-/// that signorini_model_solve solves. signorini_solve gives the same d and F for it.
+/// that signorini_model_solve solves. signorini_solve gives the same d and F for it. If pairs depend
+/// on each other there is none: -1 is returned.
 ///
 /// @param model       the model
 /// @param path        name of the file, which is replaced if it exists

@@ -3,7 +3,7 @@
 //! | form | relation | when |
 //! |---|---|---|
 //! | stiffness ([`Stiffness`]) | `K d = f + F` | rows of independent pairs |
-//! | general rows | `(I − S) v + S P = q` | rows that depend on each other; not built in |
+//! | dependent rows | `d = C z + o`, `K z = f + Cᵀ F` | rows that depend on each other |
 //!
 //! The certificate measures a pair `(d, F)` on any form. In the stiffness form `d` determines `F`; in
 //! others it does not, so that a candidate carries both.

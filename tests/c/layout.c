@@ -124,7 +124,7 @@ FIELD(signorini_sparse, col_start, void *, 32);
 FIELD(signorini_sparse, row, void *, 40);
 FIELD(signorini_sparse, values, double *, 48);
 
-SIZE(signorini_pairs, 64);
+SIZE(signorini_pairs, 88);
 FIELD(signorini_pairs, struct_size, uint32_t, 0);
 FIELD(signorini_pairs, dim, int32_t, 4);
 FIELD(signorini_pairs, count, int64_t, 8);
@@ -134,6 +134,9 @@ FIELD(signorini_pairs, masters, int64_t *, 32);
 FIELD(signorini_pairs, weights, double *, 40);
 FIELD(signorini_pairs, normals, double *, 48);
 FIELD(signorini_pairs, tangents, double *, 56);
+FIELD(signorini_pairs, row_start, int64_t *, 64);
+FIELD(signorini_pairs, row_nodes, int64_t *, 72);
+FIELD(signorini_pairs, row_weights, double *, 80);
 
 SIZE(signorini_extra, 56);
 FIELD(signorini_extra, struct_size, uint32_t, 0);

@@ -6,6 +6,7 @@ pub mod all_states;
 pub mod bare;
 pub mod blocks;
 pub mod brick;
+pub mod brick20;
 pub mod dense;
 pub mod edges;
 pub mod escape;

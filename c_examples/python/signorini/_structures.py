@@ -80,7 +80,8 @@ class Pairs(ctypes.Structure):
     _fields_ = [
         ("struct_size", u32), ("dim", i32), ("count", i64), ("slaves", address),
         ("master_start", address), ("masters", address), ("weights", address),
-        ("normals", address), ("tangents", address),
+        ("normals", address), ("tangents", address), ("row_start", address),
+        ("row_nodes", address), ("row_weights", address),
     ]
 
 
