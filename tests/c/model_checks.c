@@ -175,7 +175,9 @@ static void the_certificate_agrees_with_the_solution(void)
         CHECK_STATUS(signorini_model_certify(model, f, NULL, gap, laws[i], parameters, slip0, 1e-10,
                                              d, measured, states, &report),
                      SIGNORINI_STATUS_SOLVED);
-        CHECK(report.eta == solved.eta && report.status == SIGNORINI_STATUS_SOLVED);
+        /* eta of a solution is that of d before it is rounded to doubles; rounding covers it. */
+        CHECK(fabs(report.eta - solved.eta) <= solved.rounding);
+        CHECK(report.status == SIGNORINI_STATUS_SOLVED);
         CHECK(memcmp(measured, F, sizeof F) == 0 && memcmp(states, state, sizeof state) == 0);
 
         d[3] += 1e-4;
