@@ -71,7 +71,8 @@ extern "C" {
 /* ============================================================================================
  * 1  One call
  *
- * signorini_solve takes a condensed problem on plain arrays. settings, report and extra may be
+ * signorini_solve takes a condensed problem on plain arrays, signorini_flexibility_solve one whose
+ * matrix turns forces into displacements. settings, report and extra may be
  * NULL; their structures stand in section 5.
  * ========================================================================================== */
 
@@ -148,6 +149,58 @@ int32_t signorini_solve(int32_t dim, int64_t pairs, const double *K, int64_t ldk
                         const double *gap, int32_t law, const double *friction, const double *slip0,
                         const signorini_settings *settings, double *d, double *F, int32_t *state,
                         signorini_report *report, const signorini_extra *extra);
+
+/**
+ * Solves a contact problem in flexibility form, as codes of rigid and multibody dynamics have it:
+ * d = W F + q takes the place of K d = f + F. Contact, friction and signs are those of the problem
+ * above.
+ *
+ * W = H M^-1 H' may be singular, as where pairs are redundant: four feet of a rigid table, a node
+ * on two planes. Contact forces are not unique then; from the start zero the smallest are returned,
+ * where the states of pairs do not change on the way. No solution is said to be the only one.
+ *
+ * Measure: report->eta is the residual of the law with the unit 1 / W_nn for the normal of a pair
+ * and one over the largest eigenvalue of its tangential block for its tangents, together with
+ * these units times d - q - W F, relative to the larger of the contact forces and the units times
+ * q. Everything is computed from your W and q.
+ *
+ * Codes that write u = W r + q with u_N >= 0 where a contact opens and r_N >= 0 where it presses
+ * (FCLIB, Siconos, most multibody codes) change all signs but those of W: hand over -q; then u = -d
+ * and r = -F. Velocities and impulses may take the places of displacements and forces.
+ *
+ * With SIGNORINI_STATUS_NO_EQUILIBRIUM the gaps are proved to contradict each other: no forces
+ * move the bodies to where every gap is kept. Whether friction wedges bodies so that no forces
+ * balance is not proved: SIGNORINI_STATUS_STALLED, and signorini_last_error() names the pairs
+ * whose forces grow.
+ *
+ * @param dim       space dimension, 2 or 3
+ * @param pairs     number of contact pairs, 0 allowed
+ * @param W         flexibility, N = dim * pairs columns of N entries, column-major, both
+ *                  triangles; symmetric, positive semi-definite, not zero; length / force. A row
+ *                  of zeros is a component that nothing moves
+ * @param ldw       entries from one column of W to the next, at least max(1, N)
+ * @param q         free displacements, N: the relative displacements without contact forces;
+ *                  length
+ * @param gap       initial gaps, one for each pair; length; negative: interference; +infinity:
+ *                  the pair never touches; NULL: zero
+ * @param law       SIGNORINI_LAW_..., the friction law of all pairs
+ * @param friction  parameters of the law, pair by pair; may be NULL if frictionless
+ * @param slip0     reference slip, dim - 1 for each pair, as in signorini_solve; length; NULL: zero
+ * @param settings  NULL: the defaults
+ * @param d         out: relative displacements W F + q, N
+ * @param F         out: contact forces, N; in: the start if settings->warm_start
+ * @param state     out: SIGNORINI_STATE_... of each pair; may be NULL
+ * @param report    out: the measures of the result; set report->struct_size before the call, as
+ *                  signorini_report_default does; may be NULL
+ * @param extra     the forces that prove SIGNORINI_STATUS_NO_EQUILIBRIUM; may be NULL
+ * @return as signorini_solve
+ */
+int32_t signorini_flexibility_solve(int32_t dim, int64_t pairs, const double *W, int64_t ldw,
+                                    const double *q, const double *gap, int32_t law,
+                                    const double *friction, const double *slip0,
+                                    const signorini_settings *settings, double *d, double *F,
+                                    int32_t *state, signorini_report *report,
+                                    const signorini_extra *extra);
 
 /**
  * What was wrong in the last call on this thread, in one sentence, such as "K[12,7] is not
@@ -868,7 +921,9 @@ struct signorini_extra {
     /**
      * Out: N entries. With SIGNORINI_STATUS_NO_EQUILIBRIUM the motion of escape r, which proves
      * the status: K r = 0, and f . r + F . r > 0 for all contact forces F that the law admits. Its
-     * largest component is 1. With every other status zeros.
+     * largest component is 1. In signorini_flexibility_solve the proof is pressing normal forces p:
+     * W p = 0, and the sum of p_n (gap - q_n) is positive, p_n < 0 where it counts; the largest
+     * is -1. With every other status zeros.
      */
     double *motion;
     /**

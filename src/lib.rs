@@ -127,9 +127,12 @@ pub use error::{Argument, Error, Message};
 pub use law::State;
 pub use model::{LoadCase, Model};
 pub use monitor::{Monitor, Progress, ProgressFn, Stop};
-pub use problem::{ContactData, ContactProblem, Dependence, FrictionLaw, Lcp, Relation, Stiffness};
+pub use problem::{
+    ContactData, ContactProblem, Dependence, Flexibility, FlexibilityData, FlexibilityProblem,
+    FrictionLaw, Lcp, Relation, Stiffness,
+};
 pub use settings::{Method, Search, Settings};
 pub use solve::{
     Errors, Existence, Fallback, LcpSolution, SecondSolution, Solution, Status, Uniqueness, solve,
-    solve_lcp,
+    solve_flexibility, solve_lcp,
 };

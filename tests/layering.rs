@@ -61,7 +61,7 @@ const ROOMS: [(&str, &[&str]); 13] = [
 
 /// The files and folders of `solve`: each imports from those before it only. `lcp` stands beside
 /// those that are behind `lemke`.
-const SOLVERS: [&str; 17] = [
+const SOLVERS: [&str; 18] = [
     "outcome",
     "candidate",
     "condense",
@@ -77,6 +77,7 @@ const SOLVERS: [&str; 17] = [
     "auto",
     "far_obstacles",
     "dependent",
+    "flexibility",
     "existence",
     "mod",
 ];

@@ -23,7 +23,6 @@ double dot(size_t n, const double *x, const double *y)
     return sum;
 }
 
-
 size_t cholesky(size_t n, double *A)
 {
     for (size_t j = 0; j < n; j++) {
@@ -52,23 +51,4 @@ void forward(size_t n, const double *L, double *x)
             for (size_t i = j + 1; i < n; i++)
                 x[i] -= L[i + j * n] * x[j];
     }
-}
-
-void backward(size_t n, const double *L, double *x)
-{
-    for (size_t j = n; j-- > 0;)
-        x[j] = (x[j] - dot(n - j - 1, &L[j + 1 + j * n], &x[j + 1])) / L[j + j * n];
-}
-
-void inverse(size_t n, const double *L, double *K)
-{
-    double *X = need(n * n); /* L^-1, column j zero above row j */
-    for (size_t j = 0; j < n; j++) {
-        X[j + j * n] = 1.0;
-        forward(n, L, &X[j * n]);
-    }
-    for (size_t j = 0; j < n; j++)
-        for (size_t i = j; i < n; i++)
-            K[i + j * n] = K[j + i * n] = dot(n - i, &X[i + i * n], &X[i + j * n]);
-    free(X);
 }

@@ -1,6 +1,6 @@
 /*
  * Dense linear algebra of this example, column-major and without a library: each is a few lines,
- * and W is needed once. For thousands of contacts take LAPACK's dpotrf and dpotri.
+ * and M is factorised once. For thousands of rows take LAPACK's dpotrf and dtrsm.
  */
 
 #ifndef DENSE_H
@@ -15,12 +15,8 @@ double *need(size_t count);
  * positive definite: what is left of its diagonal is within the rounding of its elimination. */
 size_t cholesky(size_t n, double *A);
 
-/* x = L^-1 x and x = L^-T x. */
+/* x = L^-1 x. */
 void forward(size_t n, const double *L, double *x);
-void backward(size_t n, const double *L, double *x);
-
-/* K = (L L')^-1, both triangles equal to the last bit. */
-void inverse(size_t n, const double *L, double *K);
 
 double dot(size_t n, const double *x, const double *y);
 

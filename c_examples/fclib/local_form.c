@@ -53,18 +53,19 @@ static double *copy(const double *x, size_t count)
     return y;
 }
 
-/* W of files is symmetric up to rounding. */
-static const char *make_symmetric(size_t n, double *W)
+/* Makes W its symmetric part; returns how far it was from it, relative to the diagonal. */
+static double make_symmetric(size_t n, double *W)
 {
+    double asymmetry = 0.0;
     for (size_t j = 0; j < n; j++)
         for (size_t i = j + 1; i < n; i++) {
             double *lower = &W[i + j * n], *upper = &W[j + i * n];
-            /* Single precision is the least that a program which wrote the file may have had. */
-            if (fabs(*lower - *upper) > 1e-6 * sqrt(W[i + i * n] * W[j + j * n]))
-                return "W is not symmetric: this library needs a symmetric matrix";
+            const double difference = fabs(*lower - *upper);
+            if (difference > 0.0)
+                asymmetry = fmax(asymmetry, difference / sqrt(W[i + i * n] * W[j + j * n]));
             *lower = *upper = 0.5 * (*lower + *upper);
         }
-    return NULL;
+    return asymmetry;
 }
 
 static const char *take_local(const struct fclib_local *problem, struct local_form *form)
@@ -79,7 +80,10 @@ static const char *take_local(const struct fclib_local *problem, struct local_fo
     form->q = copy(problem->q, form->size);
     form->mu = copy(problem->mu, form->contacts);
     form->W = dense(problem->W);
-    return form->W == NULL ? "an index of W is out of range" : make_symmetric(form->size, form->W);
+    if (form->W == NULL)
+        return "an index of W is out of range";
+    form->asymmetry = make_symmetric(form->size, form->W);
+    return NULL;
 }
 
 /* With M = L L' and Y = L^-1 H: W = Y' Y, q = Y' L^-1 f + w. */

@@ -11,7 +11,8 @@ struct local_form {
     const char *found; /* the form that the file has: "local" or "global" */
     int dim;           /* 2 or 3 */
     size_t contacts, size; /* size = dim * contacts */
-    double *W, *q;         /* W column-major, symmetric to the last bit */
+    double *W, *q;         /* W column-major, its symmetric part: equal across to the last bit */
+    double asymmetry;      /* how far W of the file was from it, relative to the diagonal */
     double *mu;            /* one for each contact */
 };
 

@@ -2,13 +2,9 @@
  * Solves a friction problem of the Frictional Contact Library (FCLIB): an HDF5 file that libfclib
  * reads (Debian: libfclib-dev).
  *
- *     solve_fclib FILE [SOFTNESS]
+ *     solve_fclib FILE
  *
- * SOFTNESS > 0 (such as 1e-6) times the mean diagonal entry of W is added to the diagonal of W:
- * every contact gets a spring of its own, and W is definite. Default 0: the problem as it is.
- *
- * It returns 0 if the problem is solved, 1 if it is not, 2 if the file or the arguments are wrong,
- * 3 if W is not positive definite.
+ * It returns 0 if the problem is solved, 1 if it is not, 2 if the file or the arguments are wrong.
  *
  * FCLIB's local form: reactions r and relative velocities u of contacts, m components ordered
  * contact by contact as (N, T) or (N, T, S), with
@@ -18,19 +14,19 @@
  * C the cone |r_T| <= mu r_N, C* its dual. In words: u_N >= 0, r_N >= 0, u_N r_N = 0, and
  * |r_T| <= mu r_N, with u_T = 0 or u_T = -lambda r_T, lambda >= 0, |r_T| = mu r_N.
  *
- * This library's form: K d = f + F, d_n <= gap, F_n <= 0, (d_n - gap) F_n = 0, and d_t = 0 or
- * d_t = -lambda F_t with |F_t| = mu |F_n|. FCLIB's u opens a contact where u_N > 0, our d closes it
- * where d_n > 0; r presses on the body, and so does F where F_n < 0. So all components change sign,
- * the order of components stays, and the gap is closed at d = 0:
+ * This library's flexibility form: d = W F + q', d_n <= gap, F_n <= 0, (d_n - gap) F_n = 0, and
+ * d_t = 0 or d_t = -lambda F_t with |F_t| = mu |F_n|. FCLIB's u opens a contact where u_N > 0, our d
+ * closes it where d_n > 0; r presses on the body, and so does F where F_n < 0. So all components
+ * change sign, the order of components stays, and the gap is closed at d = 0:
  *
- *     d = -u,    F = -r,    K = W^-1,    f = -K q,    gap = 0,    slip0 = 0.
+ *     d = -u,    F = -r,    W = W,    q' = -q,    gap = 0,    slip0 = 0.
  *
- * Check: K d = -K (W r + q) = -r - K q = F + f. d_n = -u_N <= 0, F_n = -r_N <= 0, and
+ * Check: W F + q' = -(W r + q) = -u = d. d_n = -u_N <= 0, F_n = -r_N <= 0, and
  * d_t = -u_T = lambda r_T = -lambda F_t. Velocities and impulses may take the place of
  * displacements and forces.
  *
- * K exists if W is positive definite. It is computed here by Cholesky's factorisation, in dense.c.
- * W of rigid bodies with more contacts than they have freedom is singular: the program says so.
+ * W of rigid bodies with more contacts than they have freedom is singular: reactions are not unique
+ * then, and another program may have found others.
  */
 
 #include "dense.h"
@@ -41,9 +37,12 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
-enum { SOLVED, NOT_SOLVED, WRONG, NOT_DEFINITE };
+enum { SOLVED, NOT_SOLVED, WRONG };
+
+/* W of files is symmetric up to rounding. Single precision is the least that a program which wrote
+ * the file may have had. */
+static const double ASYMMETRY = 1e-6;
 
 /* Reactions of another origin beside ours. */
 static void print_other(const char *what, const struct local_form *form, const double *other,
@@ -80,109 +79,60 @@ static void print_others(const char *path, const struct local_form *form, const 
     }
 }
 
-static const char *uniqueness(int32_t code)
-{
-    switch (code) {
-    case SIGNORINI_UNIQUENESS_UNIQUE: return "yes";
-    case SIGNORINI_UNIQUENESS_SEVERAL: return "no, there are others";
-    default: return "not known";
-    }
-}
-
-/* Solves K d = f + F; leaves the reactions r = -F. */
-static int32_t solve(const struct local_form *form, const double *K, const double *f, double *r)
+/* Solves d = W F - q; leaves the reactions r = -F. */
+static int32_t solve(const struct local_form *form, double *r)
 {
     const size_t n = form->size;
     const int64_t ld = n > 0 ? (int64_t)n : 1;
     struct signorini_report report = {.struct_size = sizeof report};
-    double *d = need(n), *gap = need(form->contacts);
-    const int32_t status =
-        signorini_solve(form->dim, (int64_t)form->contacts, K, ld, f, gap, SIGNORINI_LAW_COULOMB,
-                        form->mu, NULL, NULL, d, r, NULL, &report, NULL);
+    double *d = need(n), *q = need(n);
+    for (size_t i = 0; i < n; i++)
+        q[i] = -form->q[i];
+    const int32_t status = signorini_flexibility_solve(
+        form->dim, (int64_t)form->contacts, form->W, ld, q, NULL, SIGNORINI_LAW_COULOMB, form->mu,
+        NULL, NULL, d, r, NULL, &report, NULL);
     for (size_t i = 0; i < n; i++)
         r[i] = -r[i];
     free(d);
-    free(gap);
+    free(q);
 
     printf("status    %d, %s\n", (int)status, signorini_status_string(status));
     if (status != SIGNORINI_STATUS_SOLVED)
         printf("          %s\n", signorini_last_error());
     if (status >= 0) {
-        printf("eta       %.1e, rounding %.1e, %lld iterations, %lld factorisations\n", report.eta,
-               report.rounding, (long long)report.iterations, (long long)report.factorisations);
+        printf("eta       %.1e, %lld iterations, %lld factorisations\n", report.eta,
+               (long long)report.iterations, (long long)report.factorisations);
         printf("contacts  %lld open, %lld slip, %lld stick\n", (long long)report.pairs_open,
                (long long)report.pairs_slipping, (long long)report.pairs_sticking);
-        printf("the only solution: %s\n", uniqueness(report.uniqueness));
         printf("residual  %.1e, of the problem as the file has it\n",
                local_form_residual(form, r));
     }
     return status;
 }
 
-static double mean_diagonal(const struct local_form *form)
-{
-    double sum = 0.0;
-    for (size_t i = 0; i < form->size; i++)
-        sum += form->W[i * (form->size + 1)];
-    return form->size > 0 ? sum / (double)form->size : 0.0;
-}
-
-static int run(const char *path, const struct local_form *form, double softness)
-{
-    const size_t n = form->size;
-    double *L = need(n * n), *K = need(n * n), *f = need(n), *r = need(n);
-    const double mean = mean_diagonal(form);
-    int result;
-
-    memcpy(L, form->W, n * n * sizeof *L);
-    for (size_t i = 0; i < n; i++)
-        L[i * (n + 1)] += softness * mean;
-    const size_t row = cholesky(n, L);
-    if (row < n) {
-        printf("W is not positive definite (row %zu of %zu, contact %zu, counted from 0).\n"
-               "The library takes K = W^-1, which does not exist: the reactions are not determined "
-               "by u.\nModel the bodies as deformable or leave out redundant contacts; a later "
-               "version of the library takes W itself. Or soften the contacts: call this program "
-               "with a SOFTNESS such as 1e-6.\n",
-               row, n, row / (size_t)form->dim);
-        result = NOT_DEFINITE;
-    } else {
-        inverse(n, L, K);
-        for (size_t i = 0; i < n; i++)
-            f[i] = -form->q[i];
-        forward(n, L, f);
-        backward(n, L, f);
-        const int32_t status = solve(form, K, f, r);
-        if (status >= 0)
-            print_others(path, form, r);
-        result = status == SIGNORINI_STATUS_SOLVED ? SOLVED : NOT_SOLVED;
-    }
-    free(L);
-    free(K);
-    free(f);
-    free(r);
-    return result;
-}
-
 int main(int argc, char **argv)
 {
     struct local_form form;
-    double softness = 0.0;
-    char *end = "";
-    if (argc > 2)
-        softness = strtod(argv[2], &end);
-    if (argc < 2 || argc > 3 || *end != '\0' || !(softness >= 0.0)) {
-        fprintf(stderr, "usage: %s FILE [SOFTNESS], SOFTNESS >= 0\n", argv[0]);
+    if (argc != 2) {
+        fprintf(stderr, "usage: %s FILE\n", argv[0]);
         return WRONG;
     }
     const char *wrong = local_form_read(argv[1], &form);
+    if (wrong == NULL && form.asymmetry > ASYMMETRY) {
+        wrong = "W is not symmetric: this library needs a symmetric matrix";
+        local_form_free(&form);
+    }
     if (wrong != NULL) {
         fprintf(stderr, "%s: %s\n", argv[1], wrong);
         return WRONG;
     }
     printf("signorini %s\nfile      %s\nproblem   FCLIB, %s form, dim %d, %zu contacts, m = %zu\n",
            signorini_version(), argv[1], form.found, form.dim, form.contacts, form.size);
-    const int result = run(argv[1], &form, softness);
+    double *r = need(form.size);
+    const int32_t status = solve(&form, r);
+    if (status >= 0)
+        print_others(argv[1], &form, r);
+    free(r);
     local_form_free(&form);
-    return result;
+    return status == SIGNORINI_STATUS_SOLVED ? SOLVED : NOT_SOLVED;
 }

@@ -12,7 +12,8 @@
 //! For other laws see `law::natural_map`.
 //!
 //! It is zero at solutions only and has no unit. On a relation in which `d` does not determine `F`, the
-//! candidate is the pair `(d, F)` and the residual of the relation counts in `|e|` too.
+//! candidate is the pair `(d, F)` and the residual of the relation counts in `|e|` too; `|F|` is the size of
+//! the part that the relation feels ([`Relation::size_of_force`]).
 //!
 //! Two facts of doubles are taken into account:
 //!
@@ -165,7 +166,7 @@ fn measure_pair<R: Relation>(
 ) -> Certificate {
     let relation = contact.problem().relation();
     let load = norm(relation.load());
-    let scale = load.max(norm(&raw));
+    let scale = load.max(relation.size_of_force(&raw));
     let unloaded = norm_inf(contact.shifted_load()) == 0.0;
     let natural = Natural::new(contact, (d, low), &raw);
     let size = natural.size.root().hypot(norm(residual));

@@ -20,7 +20,9 @@ pub struct SignoriniExtra {
     pub reserved: i32,
     /// Out: N entries. With SIGNORINI_STATUS_NO_EQUILIBRIUM the motion of escape r, which proves
     /// the status: K r = 0, and f . r + F . r > 0 for all contact forces F that the law admits. Its
-    /// largest component is 1. With every other status zeros.
+    /// largest component is 1. In signorini_flexibility_solve the proof is pressing normal forces p:
+    /// W p = 0, and the sum of p_n (gap - q_n) is positive, p_n < 0 where it counts; the largest
+    /// is -1. With every other status zeros.
     pub motion: *mut f64,
     /// Out: N entries. If report.second is 1, the relative displacements of a second solution,
     /// certified as the first is; otherwise zeros.

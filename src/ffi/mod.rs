@@ -12,6 +12,7 @@ mod args;
 mod certify;
 mod condensed;
 mod extra;
+mod flexibility;
 mod fortran;
 mod guard;
 mod law;

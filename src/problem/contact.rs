@@ -302,7 +302,12 @@ pub(crate) fn unknowns(dim: usize, pairs: usize) -> Result<usize, Error> {
     })
 }
 
-fn check_length(argument: Argument, name: &str, given: usize, needed: usize) -> Result<(), Error> {
+pub(super) fn check_length(
+    argument: Argument,
+    name: &str,
+    given: usize,
+    needed: usize,
+) -> Result<(), Error> {
     if given >= needed {
         return Ok(());
     }
@@ -310,7 +315,7 @@ fn check_length(argument: Argument, name: &str, given: usize, needed: usize) -> 
     Err(Error::invalid(argument, message))
 }
 
-fn check_finite(argument: Argument, name: &str, values: &[f64]) -> Result<(), Error> {
+pub(super) fn check_finite(argument: Argument, name: &str, values: &[f64]) -> Result<(), Error> {
     match first_not_finite(values) {
         Some(i) => Err(Error::invalid(argument, entry(name, [i]) + " is not finite")),
         None => Ok(()),

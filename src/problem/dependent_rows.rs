@@ -9,11 +9,12 @@
 //! other. `Z` takes the variables from the displacements: `z = Z d`, `Z C = 1`, `Z o = 0`, and its rows are
 //! orthonormal. `o` comes from values of fixed degrees of freedom.
 
-use super::relation::Relation;
+use super::relation::{Redundant, Relation};
 use crate::linalg::matrix::Matrix;
 use crate::linalg::sparse_matrix::{
     Csc, OutOfMemory, column, from_entries, times, transpose_times,
 };
+use crate::linalg::tolerances::NEGLIGIBLE;
 use crate::linalg::vector::{largest_of, norm_inf};
 
 /// How displacements follow from independent variables: `C` and `Z`.
@@ -135,11 +136,6 @@ impl<'a> DependentRows<'a> {
     pub(crate) fn units(&self) -> &[f64] {
         &self.units
     }
-
-    /// `o`.
-    pub(crate) fn offset(&self) -> &'a [f64] {
-        self.offset
-    }
 }
 
 /// The diagonal of `K` in series over the variables of a row, the least of a pair for its tangents.
@@ -227,10 +223,16 @@ impl DependentRows<'_> {
         let first = i - i % self.dependence.dim;
         self.units[first].min(self.units[first + 1])
     }
+}
 
-    /// Whether forces balance each other: `Cᵀ F = 0` up to `part` of their size.
-    pub(crate) fn balance_each_other(&self, force: &[f64], part: f64) -> bool {
+impl Redundant for DependentRows<'_> {
+    fn offset(&self) -> &[f64] {
+        self.offset
+    }
+
+    /// `Cᵀ F = 0`, up to rounding of the size of the forces.
+    fn balance_each_other(&self, force: &[f64]) -> bool {
         let coefficients = largest_of(self.dependence.to_relative.val().iter().map(|c| c.abs()));
-        norm_inf(&self.dependence.forces(force)) <= part * coefficients * norm_inf(force)
+        norm_inf(&self.dependence.forces(force)) <= NEGLIGIBLE * coefficients * norm_inf(force)
     }
 }

@@ -3,6 +3,7 @@
 mod bounded_lcp;
 mod contact;
 mod dependent_rows;
+mod flexibility;
 mod friction_law;
 mod lcp;
 mod relation;
@@ -13,6 +14,8 @@ pub use contact::{ContactData, ContactProblem};
 pub(crate) use contact::{checked_dim, unknowns};
 pub use dependent_rows::Dependence;
 pub(crate) use dependent_rows::DependentRows;
+pub use flexibility::{Flexibility, FlexibilityData, FlexibilityProblem};
 pub use friction_law::FrictionLaw;
 pub use lcp::Lcp;
+pub(crate) use relation::Redundant;
 pub use relation::{Relation, Stiffness};

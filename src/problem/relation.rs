@@ -4,11 +4,13 @@
 //! |---|---|---|
 //! | stiffness ([`Stiffness`]) | `K d = f + F` | rows of independent pairs |
 //! | dependent rows | `d = C z + o`, `K z = f + Cᵀ F` | rows that depend on each other |
+//! | flexibility | `d = W F + q` | a matrix of flexibility, which may be singular |
 //!
 //! The certificate measures a pair `(d, F)` on any form. In the stiffness form `d` determines `F`; in
 //! others it does not, so that a candidate carries both.
 
 use crate::linalg::matrix::Matrix;
+use crate::linalg::vector::norm;
 
 /// A linear relation between `d` and `F`, from the host's data alone. Components are ordered pair by
 /// pair, `D` for each.
@@ -34,6 +36,22 @@ pub trait Relation {
     /// Bound on the sums of the relation in which each component of `d` has at most the given size:
     /// `|K| size`.
     fn magnitude(&self, size: &[f64]) -> Vec<f64>;
+
+    /// The size of forces, for what is measured beside them: their norm, or that of the part which the relation
+    /// feels, if that is less.
+    fn size_of_force(&self, force: &[f64]) -> f64 {
+        norm(force)
+    }
+}
+
+/// A relation in which some forces may move nothing: they balance each other.
+pub(crate) trait Redundant: Relation {
+    /// Displacements to which forces add what they cause: `p . d = p . offset` for all forces `p` that balance
+    /// each other.
+    fn offset(&self) -> &[f64];
+
+    /// Whether forces balance each other, up to rounding.
+    fn balance_each_other(&self, force: &[f64]) -> bool;
 }
 
 /// The stiffness form `K d = f + F`, with `K` dense, symmetric and positive semi-definite, or positive

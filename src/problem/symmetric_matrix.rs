@@ -30,6 +30,21 @@ pub(crate) fn is_symmetric_beside(matrix: &Matrix<'_>, root: &[f64]) -> bool {
 /// body stands on two feet in the plane, or on three in space.
 pub(crate) fn check(matrix: &Matrix<'_>, name: &str, argument: Argument) -> Result<(), Error> {
     check_diagonal(matrix, name, argument)?;
+    check_across(matrix, name, argument)
+}
+
+/// As [`check`], but a matrix of zeros passes.
+pub(crate) fn check_semi_definite(
+    matrix: &Matrix<'_>,
+    name: &str,
+    argument: Argument,
+) -> Result<(), Error> {
+    check_columns(matrix, name, argument)?;
+    check_across(matrix, name, argument)
+}
+
+/// Refuses asymmetry beyond rounding and entries that the diagonal does not allow.
+fn check_across(matrix: &Matrix<'_>, name: &str, argument: Argument) -> Result<(), Error> {
     let refuse = |message: String| Err(Error::invalid(argument, message));
     let at = |i: usize, j: usize| entry(name, [i, j]);
     let root = matrix.diagonal_roots();
@@ -63,6 +78,18 @@ pub(crate) fn check_diagonal(
     name: &str,
     argument: Argument,
 ) -> Result<(), Error> {
+    check_columns(matrix, name, argument)?;
+    if matrix.size() > 0 && matrix.largest_diagonal() == 0.0 {
+        let message = format!(
+            "{name} is zero: nothing has stiffness; if the host holds the components fixed, put \
+             positive numbers on the diagonal"
+        );
+        return Err(Error::invalid(argument, message));
+    }
+    Ok(())
+}
+
+fn check_columns(matrix: &Matrix<'_>, name: &str, argument: Argument) -> Result<(), Error> {
     let refuse = |message: String| Err(Error::invalid(argument, message));
     let at = |i: usize, j: usize| entry(name, [i, j]);
     for j in 0..matrix.size() {
@@ -83,12 +110,6 @@ pub(crate) fn check_diagonal(
                 column[i]
             ));
         }
-    }
-    if matrix.size() > 0 && matrix.largest_diagonal() == 0.0 {
-        return refuse(format!(
-            "{name} is zero: nothing has stiffness; if the host holds the components fixed, put \
-             positive numbers on the diagonal"
-        ));
     }
     Ok(())
 }

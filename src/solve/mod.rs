@@ -2,7 +2,7 @@
 //! What is called a solution is decided in `candidate`, by the certificate alone.
 //!
 //! ```text
-//! outcome ← candidate ← condense ← rigid_balance ← sweeps ← normal_map ← active_set ← path ← lemke ← uniqueness ← dispatch ← auto ← far_obstacles ← dependent ← existence ← mod
+//! outcome ← candidate ← condense ← rigid_balance ← sweeps ← normal_map ← active_set ← path ← lemke ← uniqueness ← dispatch ← auto ← far_obstacles ← dependent ← flexibility ← existence ← mod
 //!                                                                          └──── lcp ────────────────────────┘
 //! ```
 //!
@@ -17,6 +17,7 @@ mod dependent;
 mod dispatch;
 mod existence;
 mod far_obstacles;
+mod flexibility;
 mod lcp;
 mod lemke;
 mod normal_map;
@@ -30,7 +31,7 @@ use crate::error::{Argument, Error, entry};
 use crate::law::Contact;
 use crate::linalg::vector::first_not_finite;
 use crate::monitor::Monitor;
-use crate::problem::{ContactProblem, DependentRows};
+use crate::problem::{ContactProblem, DependentRows, FlexibilityProblem};
 use crate::settings::{Search, Settings};
 
 pub(crate) use candidate::NO_EQUILIBRIUM;
@@ -50,8 +51,30 @@ pub(crate) fn solve_dependent(
     monitor: &mut Monitor<'_>,
 ) -> Result<Solution, Error> {
     settings.validate()?;
-    check_start(problem.unknowns(), start)?;
+    check_start("d", problem.unknowns(), start)?;
     let mut solution = dependent::solve(problem, settings, start, monitor)?;
+    solution.iterations = monitor.iterations();
+    Ok(solution)
+}
+
+/// Solves a contact problem in flexibility form from the contact forces `start` (zero if `None`).
+///
+/// Where `W` is singular, contact forces need not be unique: from the start zero they are the smallest, where
+/// the states of pairs do not change on the way. No solution is called the only one. With
+/// [`Status::NoEquilibrium`] [`Solution::recession`] holds pressing normal forces which move nothing and prove
+/// that the gaps contradict each other.
+///
+/// # Errors
+/// As [`solve()`]; a `W` with negative eigenvalues.
+pub fn solve_flexibility(
+    problem: &FlexibilityProblem<'_>,
+    settings: &Settings,
+    start: Option<&[f64]>,
+    monitor: &mut Monitor<'_>,
+) -> Result<Solution, Error> {
+    settings.validate()?;
+    check_start("F", problem.unknowns(), start)?;
+    let mut solution = flexibility::solve(problem, settings, start, monitor)?;
     solution.iterations = monitor.iterations();
     Ok(solution)
 }
@@ -70,7 +93,7 @@ pub fn solve(
     settings.validate()?;
     let contact = Contact::new(problem);
     check_method(&contact, settings.method)?;
-    check_start(contact.unknowns(), start)?;
+    check_start("d", contact.unknowns(), start)?;
     // Where d = 0 is the solution, other starts only approach it.
     let start = start.filter(|_| !contact.is_at_rest());
     let mut solution = far_obstacles::solve(&contact, settings, start, monitor)?;
@@ -85,7 +108,7 @@ pub fn solve(
     Ok(solution)
 }
 
-fn check_start(n: usize, start: Option<&[f64]>) -> Result<(), Error> {
+fn check_start(name: &str, n: usize, start: Option<&[f64]>) -> Result<(), Error> {
     let Some(start) = start else { return Ok(()) };
     if start.len() != n {
         let message = format!("the start has {} entries, it must have {n}", start.len());
@@ -93,7 +116,7 @@ fn check_start(n: usize, start: Option<&[f64]>) -> Result<(), Error> {
     }
     match first_not_finite(start) {
         Some(i) => {
-            let message = format!("the start {} is not finite", entry("d", [i]));
+            let message = format!("the start {} is not finite", entry(name, [i]));
             Err(Error::invalid(Argument::Start, message))
         }
         None => Ok(()),

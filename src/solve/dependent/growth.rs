@@ -2,9 +2,8 @@
 
 use crate::error::index;
 use crate::law::{exceed_gaps, pressing};
-use crate::linalg::tolerances::NEGLIGIBLE;
 use crate::linalg::vector::{norm, norm_inf};
-use crate::problem::{ContactProblem, DependentRows};
+use crate::problem::{ContactProblem, Redundant};
 
 /// So many rounds that add the same forces are enough to see that they do not end.
 const ROUNDS: usize = 8;
@@ -21,14 +20,14 @@ const MOST_NAMED: usize = 4;
 
 /// Whether forces grow by the same pattern round by round.
 #[derive(Default)]
-pub(super) struct Growth {
+pub struct Growth {
     last: Option<Vec<f64>>,
     same: usize,
 }
 
 impl Growth {
     /// Takes note of the forces that a round has added.
-    pub(super) fn add(&mut self, change: Vec<f64>) {
+    pub fn add(&mut self, change: Vec<f64>) {
         let is_same = |last: &Vec<f64>| {
             let apart: Vec<f64> = last.iter().zip(&change).map(|(a, b)| a - b).collect();
             norm(&change) > 0.0 && norm(&apart) <= SAME * norm(&change)
@@ -37,35 +36,36 @@ impl Growth {
         self.last = Some(change);
     }
 
+    /// Whether the last two rounds have added the same forces.
+    pub fn is_steady(&self) -> bool {
+        self.same > 0
+    }
+
     /// The forces that each of the last rounds has added, if they go on and on.
-    pub(super) fn pattern(&self) -> Option<&[f64]> {
+    pub fn pattern(&self) -> Option<&[f64]> {
         self.last.as_deref().filter(|_| self.same >= ROUNDS)
     }
 }
 
 /// Whether the normal forces of a pattern prove that no displacements meet all gaps.
-pub(super) fn contradicts(
-    problem: &ContactProblem<'_, DependentRows<'_>>,
-    pattern: &[f64],
-) -> bool {
+pub fn contradicts<R: Redundant>(problem: &ContactProblem<'_, R>, pattern: &[f64]) -> bool {
     let relation = problem.relation();
     let pressing = pressing(problem.dim(), pattern);
-    relation.balance_each_other(&pressing, NEGLIGIBLE)
-        && exceed_gaps(problem, &pressing, relation.offset())
+    relation.balance_each_other(&pressing) && exceed_gaps(problem, &pressing, relation.offset())
 }
 
 /// Why there is no solution: the pattern in which forces grow, if there is one, and whether it is `proved`
 /// that gaps contradict each other.
-pub(super) fn sentence(
-    problem: &ContactProblem<'_, DependentRows<'_>>,
+pub fn sentence<R: Redundant>(
+    problem: &ContactProblem<'_, R>,
     pattern: Option<&[f64]>,
     proved: bool,
     eta: f64,
 ) -> String {
     let Some(pattern) = pattern else {
         return format!(
-            "no solution was found: rows of pairs depend on each other, and their forces do not settle \
-             (eta is {eta:.1e})"
+            "no solution was found: the pairs depend on each other, and their forces do not settle (eta is \
+             {eta:.1e})"
         );
     };
     let dim = problem.dim();

@@ -18,18 +18,18 @@
 //! `sum p (gap - o) < 0`.
 
 mod growth;
+mod sprung;
 
-use super::far_obstacles;
-use super::outcome::{Existence, Fallback, Solution, Status, Uniqueness};
-use crate::certificate::measure;
+use super::outcome::{Solution, Status};
 use crate::error::{Argument, Error};
 use crate::law::{Contact, without_friction};
 use crate::linalg::sparse_matrix::{OutOfMemory, column, from_entries, transposed};
 use crate::linalg::sparse_schur::{Failure, SparseSchur};
 use crate::monitor::Monitor;
-use crate::problem::{ContactData, ContactProblem, DependentRows, Relation};
+use crate::problem::{ContactProblem, DependentRows, Relation};
 use crate::settings::{Method, SMALLEST_TOLERANCE, Settings};
-use growth::{Growth, contradicts, sentence};
+pub use growth::{Growth, contradicts, sentence};
+pub use sprung::{measured, step};
 
 /// `e`, the compliance of the springs beside that of the bodies. A round divides the error by the compliance
 /// of the least compliant pattern of forces over `e`; the condensed matrix loses as many digits as `e` has.
@@ -163,7 +163,8 @@ impl Sprung<'_> {
                 force.clone_from(&round.0.certificate.force);
                 variables.iter_mut().zip(&round.1).for_each(|(z, step)| *z += step);
             }
-            let found = self.measured(round.0, &variables, &force, settings);
+            let result = (relation.relative(&variables), &force[..]);
+            let found = measured(&self.contact, round.0, result, settings);
             last = found.certificate.eta;
             idle = if last < HALF * least { 0 } else { idle + 1 };
             least = least.min(last);
@@ -192,68 +193,14 @@ impl Sprung<'_> {
         (variables, d, force): (&[f64], &[f64], &[f64]),
         monitor: &mut Monitor<'_>,
     ) -> Result<(Solution, Vec<f64>), Error> {
-        let (dim, kept) = (self.problem.dim(), variables.len());
+        let kept = variables.len();
         let mut right = self.relation().unbalanced(variables, force);
         right.extend(force.iter().map(|force| -force));
         let load = self.condensed.condense(&right);
-        let gap: Vec<f64> =
-            (0..self.problem.pairs()).map(|pair| self.problem.gap(pair) - d[dim * pair]).collect();
-        let slip = |i: usize| {
-            let (pair, component) = (i / (dim - 1), i % (dim - 1));
-            self.problem.reference_slip(pair, component) - d[dim * pair + 1 + component]
-        };
-        let slip: Vec<f64> = (0..(dim - 1) * gap.len()).map(slip).collect();
-        let problem = ContactProblem::on_checked_matrix(ContactData {
-            dim,
-            pairs: gap.len(),
-            stiffness: self.condensed.schur(),
-            ld: d.len().max(1),
-            load: &load,
-            gap: &gap,
-            law: self.problem.law(),
-            reference_slip: Some(&slip),
-        })?;
-        super::dispatch::check_method(&Contact::new(&problem), settings.method)?;
-        let solution = far_obstacles::solve(&Contact::new(&problem), settings, None, monitor)?;
+        let system = (self.condensed.schur(), &load[..]);
+        let solution = step(self.problem, system, d, settings, monitor)?;
         let mut step = self.condensed.recover(&right, &solution.d);
         step.truncate(kept);
         Ok((solution, step))
-    }
-
-    /// The result of a round as one of the problem itself.
-    fn measured(
-        &self,
-        round: Solution,
-        variables: &[f64],
-        force: &[f64],
-        settings: &Settings,
-    ) -> Solution {
-        let d = self.relation().relative(variables);
-        let certificate = measure(&self.contact, &d, force);
-        let (status, message) = match round.status {
-            Status::Solved | Status::Stalled if certificate.holds(settings.tolerance) => {
-                (Status::Solved, format!("solved: eta is {:.1e}", certificate.eta).into())
-            }
-            Status::Solved => (Status::Stalled, round.message.clone()),
-            other => (other, round.message.clone()),
-        };
-        let fallback: Option<(_, Fallback)> = None;
-        let (uniqueness, second, orientation) = (Uniqueness::NotKnown, None, 0);
-        let (d_low, errors) = (vec![0.0; d.len()], None);
-        let existence = if settings.proof { Existence::NotProved } else { Existence::NotAsked };
-        Solution {
-            status,
-            message,
-            d,
-            d_low,
-            errors,
-            existence,
-            certificate,
-            fallback,
-            uniqueness,
-            second,
-            orientation,
-            ..round
-        }
     }
 }

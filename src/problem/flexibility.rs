@@ -1,0 +1,187 @@
+//! The flexibility form, as codes of rigid and multibody dynamics have it: a matrix that turns contact forces
+//! into displacements,
+//!
+//! ```text
+//! d = W F + q
+//! ```
+//!
+//! `W` is symmetric and positive semi-definite. It may be singular: where pairs are redundant, as four feet
+//! of a rigid table, some forces move nothing and `d` does not determine `F`. `q` are the free displacements:
+//! those of the bodies without contact forces, relative to each other.
+//!
+//! Forces are compared with displacements by one unit of force per length for the normal of a pair, `1 / W_nn`,
+//! and one for its tangents, one over the largest eigenvalue of its tangential block.
+
+use super::contact::{ContactProblem, check_finite, check_length, checked_dim, unknowns};
+use super::friction_law::FrictionLaw;
+use super::relation::{Redundant, Relation};
+use super::symmetric_matrix;
+use crate::error::{Argument, Error};
+use crate::linalg::matrix::{Matrix, required_length};
+use crate::linalg::tolerances::ROUNDING_OF_SUM;
+use crate::linalg::vector::{largest_eigenvalue, largest_of, norm, sizes};
+
+/// The caller's arrays of a problem in flexibility form, not yet checked. Forces and displacements are in the
+/// caller's units; velocities and impulses may take their places.
+#[derive(Clone, Copy, Debug)]
+pub struct FlexibilityData<'a> {
+    /// Space dimension, 2 or 3.
+    pub dim: usize,
+    /// Number of contact pairs, 0 allowed.
+    pub pairs: usize,
+    /// `W`, `dim * pairs` columns of the same number of rows, column-major; length per force.
+    pub flexibility: &'a [f64],
+    /// Entries from the beginning of one column of `flexibility` to that of the next.
+    pub ld: usize,
+    /// `q`, the relative displacements without contact forces, `dim * pairs`; length.
+    pub free: &'a [f64],
+    /// Initial gaps, `pairs`; negative: interference, `+inf`: the pair never touches.
+    pub gap: &'a [f64],
+    /// The friction law.
+    pub law: FrictionLaw<'a>,
+    /// Reference slip, as in [`super::ContactData::reference_slip`].
+    pub reference_slip: Option<&'a [f64]>,
+}
+
+/// The relation `d = W F + q`: a view of the host's arrays.
+#[derive(Clone, Debug)]
+pub struct Flexibility<'a> {
+    matrix: Matrix<'a>,
+    free: &'a [f64],
+    /// Positive units of force per length, one for each component, the same for all tangents of a pair.
+    units: Vec<f64>,
+    /// Forces of the size that would undo the free displacements, pair by pair.
+    load: Vec<f64>,
+}
+
+/// A contact problem in flexibility form.
+pub type FlexibilityProblem<'a> = ContactProblem<'a, Flexibility<'a>>;
+
+impl<'a> FlexibilityProblem<'a> {
+    /// Checks the data.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] names the first entry that is not finite, not symmetric beyond rounding (1e-9 of the
+    /// diagonal), larger than its diagonal allows, negative on the diagonal or zero there in a row that is not
+    /// zero, or out of range; a `W` of zeros. Rows of zeros are allowed: nothing moves these components.
+    pub fn from_flexibility(data: FlexibilityData<'a>) -> Result<Self, Error> {
+        let size = unknowns(checked_dim(data.dim)?, data.pairs)?;
+        let entries = required_length("W", size, data.ld)
+            .map_err(|message| Error::invalid(Argument::LeadingDimension, message))?;
+        check_length(Argument::Matrix, "W", data.flexibility.len(), entries)?;
+        check_length(Argument::Load, "q", data.free.len(), size)?;
+        let free = &data.free[..size];
+        check_finite(Argument::Load, "q", free)?;
+        let matrix = Matrix::new(size, data.flexibility, data.ld);
+        symmetric_matrix::check_semi_definite(&matrix, "W", Argument::Matrix)?;
+        if size > 0 && matrix.largest_diagonal() == 0.0 {
+            let message = "W is zero: no contact force moves anything; hand over the flexibility of the bodies";
+            return Err(Error::invalid(Argument::Matrix, message));
+        }
+        let relation = Flexibility::new(data.dim, matrix, free);
+        ContactProblem::with_relation(relation, data.dim, data.gap, data.law, data.reference_slip)
+    }
+}
+
+impl<'a> Flexibility<'a> {
+    fn new(dim: usize, matrix: Matrix<'a>, free: &'a [f64]) -> Self {
+        let units = units(dim, &matrix);
+        let load = units.iter().zip(free).map(|(unit, free)| unit * free).collect();
+        Flexibility { matrix, free, units, load }
+    }
+
+    /// `W`.
+    pub(crate) fn matrix(&self) -> Matrix<'a> {
+        self.matrix
+    }
+
+    /// Units of force per length, one for each component.
+    pub(crate) fn units(&self) -> &[f64] {
+        &self.units
+    }
+
+    /// `W F + q`, in twice the precision and rounded once.
+    pub(crate) fn relative(&self, force: &[f64]) -> Vec<f64> {
+        let opposite: Vec<f64> = self.free.iter().map(|free| -free).collect();
+        self.matrix.residual(force, &[], &opposite, &self.matrix.magnitude(&sizes(force)))
+    }
+}
+
+fn units(dim: usize, matrix: &Matrix<'_>) -> Vec<f64> {
+    let otherwise = matrix.largest_diagonal();
+    let mut units = Vec::with_capacity(matrix.size());
+    for n in (0..matrix.size()).step_by(dim) {
+        units.push(1.0 / matrix.unit(n, dim, otherwise));
+        let t = n + 1;
+        let last = n + dim - 1;
+        let largest =
+            largest_eigenvalue(matrix.at(t, t), matrix.at(last, t), matrix.at(last, last));
+        let largest = if dim == 2 { matrix.at(t, t) } else { largest };
+        // A pair that only its normal force moves: its tangents have the unit of the normal.
+        let softest = largest.max(matrix.unit(t, dim, otherwise));
+        units.extend((1..dim).map(|_| 1.0 / softest));
+    }
+    units
+}
+
+impl Relation for Flexibility<'_> {
+    fn size(&self) -> usize {
+        self.units.len()
+    }
+
+    fn block(&self, i: usize, j: usize) -> f64 {
+        if i == j { self.units[i] } else { 0.0 }
+    }
+
+    fn load(&self) -> &[f64] {
+        &self.load
+    }
+
+    fn force(&self, _: &[f64], _: &[f64], _: &[f64]) -> Option<Vec<f64>> {
+        None
+    }
+
+    /// The units times `d - q - W F`, in twice the precision and rounded once.
+    fn residual(&self, d: &[f64], force: &[f64]) -> Vec<f64> {
+        let (caused, lost): (Vec<f64>, Vec<f64>) =
+            d.iter().zip(self.free).map(|(d, free)| difference(*d, *free)).unzip();
+        let terms = self.matrix.magnitude(&sizes(force));
+        let beyond = self.matrix.residual(force, &[], &caused, &terms);
+        let of = |((beyond, lost), unit): ((f64, f64), &f64)| unit * (lost - beyond);
+        beyond.into_iter().zip(lost).zip(&self.units).map(of).collect()
+    }
+
+    fn magnitude(&self, size: &[f64]) -> Vec<f64> {
+        size.iter().zip(&self.units).map(|(size, unit)| unit * size).collect()
+    }
+
+    /// Forces that move nothing may be of any size, and would hide what is left of all others. So at most
+    /// the units times `W F`.
+    fn size_of_force(&self, force: &[f64]) -> f64 {
+        let caused = self.matrix.product(force);
+        let felt: Vec<f64> = caused.iter().zip(&self.units).map(|(d, unit)| unit * d).collect();
+        norm(force).min(norm(&felt))
+    }
+}
+
+/// `a - b` rounded, and what rounding has left out.
+fn difference(a: f64, b: f64) -> (f64, f64) {
+    let rounded = a - b;
+    let part = rounded - a;
+    (rounded, (a - (rounded - part)) - (b + part))
+}
+
+impl Redundant for Flexibility<'_> {
+    fn offset(&self) -> &[f64] {
+        self.free
+    }
+
+    /// `W F = 0`, up to rounding of the terms.
+    fn balance_each_other(&self, force: &[f64]) -> bool {
+        let scaled = |values: Vec<f64>| {
+            largest_of(values.iter().zip(&self.units).map(|(value, unit)| (unit * value).abs()))
+        };
+        let terms = scaled(self.matrix.magnitude(&sizes(force)));
+        scaled(self.matrix.product(force)) <= ROUNDING_OF_SUM * terms
+    }
+}

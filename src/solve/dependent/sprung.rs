@@ -1,0 +1,74 @@
+//! A round: the problem with soft springs in series with its pairs, and its result as one of the problem itself.
+
+use crate::certificate::measure;
+use crate::error::Error;
+use crate::law::Contact;
+use crate::monitor::Monitor;
+use crate::problem::{ContactData, ContactProblem, Relation};
+use crate::settings::Settings;
+use crate::solve::dispatch::check_method;
+use crate::solve::far_obstacles;
+use crate::solve::outcome::{Existence, Solution, Status, Uniqueness};
+
+/// Solves for the step from the displacements `d`, with the `stiffness` of bodies and springs, column-major,
+/// and their `load`.
+pub fn step<R: Relation>(
+    problem: &ContactProblem<'_, R>,
+    (stiffness, load): (&[f64], &[f64]),
+    d: &[f64],
+    settings: &Settings,
+    monitor: &mut Monitor<'_>,
+) -> Result<Solution, Error> {
+    let dim = problem.dim();
+    let gap: Vec<f64> =
+        (0..problem.pairs()).map(|pair| problem.gap(pair) - d[dim * pair]).collect();
+    let slip = |i: usize| {
+        let (pair, component) = (i / (dim - 1), i % (dim - 1));
+        problem.reference_slip(pair, component) - d[dim * pair + 1 + component]
+    };
+    let slip: Vec<f64> = (0..(dim - 1) * gap.len()).map(slip).collect();
+    let problem = ContactProblem::on_checked_matrix(ContactData {
+        dim,
+        pairs: gap.len(),
+        stiffness,
+        ld: d.len().max(1),
+        load,
+        gap: &gap,
+        law: problem.law(),
+        reference_slip: Some(&slip),
+    })?;
+    let contact = Contact::new(&problem);
+    check_method(&contact, settings.method)?;
+    far_obstacles::solve(&contact, settings, None, monitor)
+}
+
+/// The result of a round as one of the problem itself, of displacements `d` and forces.
+pub fn measured<R: Relation>(
+    contact: &Contact<'_, R>,
+    round: Solution,
+    (d, force): (Vec<f64>, &[f64]),
+    settings: &Settings,
+) -> Solution {
+    let certificate = measure(contact, &d, force);
+    let (status, message) = match round.status {
+        Status::Solved | Status::Stalled if certificate.holds(settings.tolerance) => {
+            (Status::Solved, format!("solved: eta is {:.1e}", certificate.eta).into())
+        }
+        Status::Solved => (Status::Stalled, round.message.clone()),
+        other => (other, round.message.clone()),
+    };
+    Solution {
+        status,
+        message,
+        d_low: vec![0.0; d.len()],
+        d,
+        errors: None,
+        existence: if settings.proof { Existence::NotProved } else { Existence::NotAsked },
+        certificate,
+        fallback: None,
+        uniqueness: Uniqueness::NotKnown,
+        second: None,
+        orientation: 0,
+        ..round
+    }
+}
