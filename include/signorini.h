@@ -72,8 +72,8 @@ extern "C" {
  * 1  One call
  *
  * signorini_solve takes a condensed problem on plain arrays, signorini_flexibility_solve one whose
- * matrix turns forces into displacements. settings, report and extra may be
- * NULL; their structures stand in section 5.
+ * matrix turns forces into displacements. settings, report and extra may be NULL; their structures
+ * stand in section 5.
  * ========================================================================================== */
 
 typedef struct signorini_settings signorini_settings;

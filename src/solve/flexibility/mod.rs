@@ -12,7 +12,8 @@
 //! the way, the smallest of the forces that redundant pairs leave open, in the norm of `D⁻¹`.
 //!
 //! A round divides the error in a pattern of forces by its flexibility over `e`. Where that is slow, `e` is
-//! lowered; where a round fails with a small `e`, it is raised again.
+//! lowered. Where Newton's method does not solve a round, `e` is raised: a larger one is an easier problem nearer
+//! to the forces at hand. With the largest, the default method has all its means.
 
 mod springs;
 
@@ -27,7 +28,7 @@ use crate::settings::{Method, SMALLEST_TOLERANCE, Settings};
 use springs::Springs;
 
 /// Most rounds.
-const ROUNDS: usize = 60;
+const ROUNDS: usize = 100;
 
 /// Part of the tolerance that a round is solved to, as far as that can be had.
 const INNER: f64 = 0.1;
@@ -38,7 +39,7 @@ const ROUGH: f64 = 1e-3;
 /// What of the least error is left where a round has made progress.
 const HALF: f64 = 0.5;
 
-/// What of the error is left where rounds are slow, so that softer springs are tried.
+/// What of the error is left where rounds are slow, so that less compliant springs are tried.
 const SLOW: f64 = 0.1;
 
 /// So many rounds that do not halve the least error show that rounding is reached.
@@ -90,68 +91,124 @@ fn contradiction(
     Ok(pattern.map(<[f64]>::to_vec))
 }
 
-/// Whether a result takes the place of the best one before it.
-fn is_better(found: &Solution, best: &Solution) -> bool {
-    let is_solved = |result: &Solution| result.status == Status::Solved;
-    match (is_solved(found), is_solved(best)) {
-        (true, false) => true,
-        (false, true) => false,
-        _ => {
-            let stops = !matches!(found.status, Status::Solved | Status::Stalled);
-            stops || found.certificate.eta < best.certificate.eta
-        }
-    }
-}
-
-/// The best result of all rounds, one more than a solution needs as it is cheap and adds digits, and how the forces have grown.
+/// The best result of all rounds, one more than a solution needs as it is cheap and adds digits, and how the
+/// forces have grown.
 fn rounds(
     problem: &FlexibilityProblem<'_>,
     settings: &Settings,
     start: Option<&[f64]>,
     monitor: &mut Monitor<'_>,
 ) -> Result<(Solution, Growth), Error> {
-    let relation: &Flexibility<'_> = problem.relation();
-    let contact = Contact::new(problem);
-    let mut springs = Springs::new(relation).ok_or_else(|| {
+    let springs = Springs::new(problem.relation()).ok_or_else(|| {
         Error::invalid(
             Argument::Matrix,
             "W is not positive semi-definite: a force has negative flexibility",
         )
     })?;
-    let mut force = start.map_or_else(|| vec![0.0; problem.unknowns()], <[f64]>::to_vec);
-    let mut growth = Growth::default();
-    let mut best: Option<Solution> = None;
-    let (mut last, mut least, mut idle) = (springs.compliance(), f64::INFINITY, 0);
+    let mut rounds = Rounds {
+        problem,
+        contact: Contact::new(problem),
+        last: springs.compliance(),
+        springs,
+        force: start.map_or_else(|| vec![0.0; problem.unknowns()], <[f64]>::to_vec),
+        growth: Growth::default(),
+        best: None,
+        least: f64::INFINITY,
+        idle: 0,
+    };
     for _ in 0..ROUNDS {
-        let wanted = (INNER * settings.tolerance).max(ROUGH * last.min(springs.compliance()));
-        let inner = Settings { tolerance: wanted.max(SMALLEST_TOLERANCE), ..settings.clone() };
-        let load: Vec<f64> = force.iter().map(|force| -force).collect();
-        let system = (springs.stiffness(), &load[..]);
-        let round = step(problem, system, &relation.relative(&force), &inner, monitor)?;
-        if matches!(round.status, Status::Solved | Status::Stalled) {
-            let change = round.certificate.force.iter().zip(&force).map(|(a, b)| a - b);
-            growth.add(change.map(|change| springs.compliance() * change).collect());
-            force.clone_from(&round.certificate.force);
-        }
-        let failed = round.status != Status::Solved;
-        let found = measured(&contact, round, (relation.relative(&force), &force), settings);
-        let before = std::mem::replace(&mut last, found.certificate.eta);
-        idle = if last < HALF * least { 0 } else { idle + 1 };
-        least = least.min(last);
-        let was_solved = best.as_ref().is_some_and(|best| best.status == Status::Solved);
-        let stops = !matches!(found.status, Status::Solved | Status::Stalled);
-        if best.as_ref().is_none_or(|best| is_better(&found, best)) {
-            best = Some(found);
-        }
-        if was_solved || stops || growth.pattern().is_some() || idle >= IDLE_ROUNDS {
+        if rounds.ends_with_next(settings, monitor)? {
             break;
         }
-        if failed {
-            springs.stiffen(relation);
-        } else if last > SLOW * before && !growth.is_steady() {
-            springs.soften(relation);
-        }
     }
-    let best = best.ok_or(Error::OutOfMemory("a round of the flexibility form"))?;
-    Ok((best, growth))
+    let best = rounds.best.ok_or(Error::OutOfMemory("a round of the flexibility form"))?;
+    Ok((best, rounds.growth))
+}
+
+/// The iteration.
+struct Rounds<'p> {
+    problem: &'p FlexibilityProblem<'p>,
+    contact: Contact<'p, Flexibility<'p>>,
+    springs: Springs,
+    /// Contact forces of the round before.
+    force: Vec<f64>,
+    growth: Growth,
+    best: Option<Solution>,
+    /// `eta` of the round before, and the least of all.
+    last: f64,
+    least: f64,
+    /// Rounds since `least` was halved.
+    idle: usize,
+}
+
+impl Rounds<'_> {
+    /// Makes a round; whether it is the last one.
+    fn ends_with_next(
+        &mut self,
+        settings: &Settings,
+        monitor: &mut Monitor<'_>,
+    ) -> Result<bool, Error> {
+        let relation = self.problem.relation();
+        let round = self.round(settings, monitor)?;
+        let force = match round.status {
+            Status::Solved | Status::Stalled => round.certificate.force.clone(),
+            _ => self.force.clone(),
+        };
+        let failed = round.status == Status::Stalled;
+        let result = (relation.relative(&force), &force[..]);
+        let found = measured(&self.contact, round, result, settings);
+        let eta = found.certificate.eta;
+        if failed && eta >= self.last && !self.springs.are_softest() {
+            self.springs.soften(relation);
+            return Ok(false);
+        }
+        let change =
+            force.iter().zip(&self.force).map(|(a, b)| self.springs.compliance() * (a - b));
+        self.growth.add(change.collect());
+        self.force = force;
+        self.idle = if eta < HALF * self.least { 0 } else { self.idle + 1 };
+        self.least = self.least.min(eta);
+        if !failed && eta > SLOW * self.last && !self.growth.is_steady() {
+            self.springs.stiffen(relation);
+        }
+        self.last = eta;
+        Ok(self.keep(found) || self.growth.pattern().is_some() || self.idle >= IDLE_ROUNDS)
+    }
+
+    /// Solves the problem with springs. Hard ones are left to softer springs, as far as there are any.
+    fn round(&self, settings: &Settings, monitor: &mut Monitor<'_>) -> Result<Solution, Error> {
+        let rough = ROUGH * self.last.min(self.springs.compliance());
+        let tolerance = rough.max(INNER * settings.tolerance).max(SMALLEST_TOLERANCE);
+        let method = match settings.method {
+            Method::Auto if !self.springs.are_softest() => Method::Newton,
+            method => method,
+        };
+        let settings = Settings { tolerance, method, ..settings.clone() };
+        let load: Vec<f64> = self.force.iter().map(|force| -force).collect();
+        let system = (self.springs.stiffness(), &load[..]);
+        step(
+            self.problem,
+            system,
+            &self.problem.relation().relative(&self.force),
+            &settings,
+            monitor,
+        )
+    }
+
+    /// Keeps a result if it is the best; whether there will be no better one.
+    fn keep(&mut self, found: Solution) -> bool {
+        let stops = !matches!(found.status, Status::Solved | Status::Stalled);
+        let is_solved = |result: &Solution| result.status == Status::Solved;
+        let was_solved = self.best.as_ref().is_some_and(is_solved);
+        let is_better = match &self.best {
+            Some(best) if is_solved(&found) == was_solved => {
+                stops || found.certificate.eta < best.certificate.eta
+            }
+            best => best.is_none() || !was_solved,
+        };
+        if is_better {
+            self.best = Some(found);
+        }
+        was_solved || stops
+    }
 }

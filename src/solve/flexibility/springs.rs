@@ -36,13 +36,18 @@ impl Springs {
     }
 
     /// Less compliant springs, if there are any.
-    pub fn soften(&mut self, relation: &Flexibility<'_>) {
+    pub fn stiffen(&mut self, relation: &Flexibility<'_>) {
         self.change(relation, FACTOR);
     }
 
     /// More compliant springs, if there are any.
-    pub fn stiffen(&mut self, relation: &Flexibility<'_>) {
+    pub fn soften(&mut self, relation: &Flexibility<'_>) {
         self.change(relation, 1.0 / FACTOR);
+    }
+
+    /// Whether there are no softer ones.
+    pub fn are_softest(&self) -> bool {
+        self.compliance >= RANGE[1]
     }
 
     fn change(&mut self, relation: &Flexibility<'_>, by: f64) {
