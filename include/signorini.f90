@@ -11,6 +11,7 @@
 !
 ! What to call:
 !     contact_solve    a condensed problem in one call
+!     contact_solve_flexibility  the same by a matrix that turns forces into displacements
 !     contact_certify  measures displacements of any origin
 !     contact_prove    proves that a solution exists next to displacements of any origin
 !     lcp_solve        a linear complementarity problem (LCP)
@@ -256,6 +257,27 @@ module signorini
             type(c_ptr), value :: settings
             real(c_double), intent(inout) :: d(*)
             real(c_double), intent(out) :: force(*)
+            type(c_ptr), value :: state
+            type(c_ptr), value :: report
+            type(c_ptr), value :: extra
+            integer(c_int32_t) :: answer
+        end function
+        function signorini_flexibility_solve(dim, pairs, w, ldw, q, gap, law, friction, slip0, &
+            settings, d, force, state, report, extra) &
+            bind(C, name="signorini_flexibility_solve") result(answer)
+            import
+            integer(c_int32_t), value :: dim
+            integer(c_int64_t), value :: pairs
+            real(c_double), intent(in) :: w(*)
+            integer(c_int64_t), value :: ldw
+            real(c_double), intent(in) :: q(*)
+            type(c_ptr), value :: gap
+            integer(c_int32_t), value :: law
+            type(c_ptr), value :: friction
+            type(c_ptr), value :: slip0
+            type(c_ptr), value :: settings
+            real(c_double), intent(out) :: d(*)
+            real(c_double), intent(inout) :: force(*)
             type(c_ptr), value :: state
             type(c_ptr), value :: report
             type(c_ptr), value :: extra
@@ -675,7 +697,7 @@ contains
         integer :: n, pairs
         n = size(f)
         pairs = size(gap)
-        call check_data(wrong, shape(k), n, pairs)
+        call check_data(wrong, shape(k), n, pairs, 'k', 'f')
         call check_size(wrong, 4, 'd', size(d), n, 'as many as f')
         call check_size(wrong, 5, 'force', size(force), n, 'as many as f')
         call choose_law(wrong, 7, pairs, which, law, friction)
@@ -692,6 +714,53 @@ contains
             place_of_settings(10, method, settings), 4, 5, 14, 15, 16])
         if (status >= 0) call copy_states(states, state)
         if (status >= 0) call copy_states(second_states, second_state)
+        if (present(report)) report = measured
+    end subroutine
+
+    ! Solves a contact problem in flexibility form, d = W force + q with the free displacements q; W
+    ! may be singular. w(n, n), q(n), d(n), force(n), slip0(n - pairs). force is the start if settings
+    ! ask for one. motion holds the pressing forces that prove SIGNORINI_STATUS_NO_EQUILIBRIUM.
+    subroutine contact_solve_flexibility(w, q, gap, d, force, info, law, friction, slip0, method, &
+            tolerance, max_iterations, settings, state, report, motion, message)
+        real(c_double), intent(in), contiguous :: w(:, :), q(:)
+        real(c_double), intent(in), contiguous, target :: gap(:)
+        real(c_double), intent(out), contiguous :: d(:)
+        real(c_double), intent(inout), contiguous :: force(:)
+        integer, intent(out) :: info
+        integer, intent(in), optional :: law, method, max_iterations
+        real(c_double), intent(in), contiguous, target, optional :: friction(:), slip0(:)
+        real(c_double), intent(in), optional :: tolerance
+        type(signorini_settings), intent(in), optional :: settings
+        integer, intent(out), optional :: state(:)
+        type(signorini_report), intent(out), optional :: report
+        real(c_double), intent(out), contiguous, target, optional :: motion(:)
+        character(len=*), intent(out), optional :: message
+        type(signorini_settings), target :: chosen
+        type(signorini_report), target :: measured
+        type(signorini_extra), target :: extra
+        integer(c_int32_t), target :: states(size(gap)), none(size(gap))
+        type(refusal) :: wrong
+        integer(c_int32_t) :: which, status
+        integer :: n, pairs
+        n = size(q)
+        pairs = size(gap)
+        call check_data(wrong, shape(w), n, pairs, 'w', 'q')
+        call check_size(wrong, 4, 'd', size(d), n, 'as many as q')
+        call check_size(wrong, 5, 'force', size(force), n, 'as many as q')
+        call choose_law(wrong, 7, pairs, which, law, friction)
+        if (present(slip0)) call check_size(wrong, 9, 'slip0', size(slip0), n - pairs, 'dim - 1 for each pair')
+        call choose_settings(wrong, 10, chosen, method, tolerance, max_iterations, settings)
+        if (present(state)) call check_size(wrong, 14, 'state', size(state), pairs, 'one for each pair')
+        if (present(motion)) call check_size(wrong, 16, 'motion', size(motion), n, 'as many as q')
+        if (refused(wrong, info, message)) return
+        extra = address_of_extra(none, motion)
+        status = signorini_flexibility_solve(number(max(2, n / max(1, pairs))), &
+            int(pairs, c_int64_t), w, int(max(1, n), c_int64_t), q, address(gap), which, &
+            address(friction), address(slip0), c_loc(chosen), d, force, c_loc(states), &
+            c_loc(measured), c_loc(extra))
+        call finish(status, info, message, [2, 3, 1, 1, 2, 3, 7, 8, 9, &
+            place_of_settings(10, method, settings), 4, 5, 14, 15, 16])
+        if (status >= 0) call copy_states(states, state)
         if (present(report)) report = measured
     end subroutine
 
@@ -716,7 +785,7 @@ contains
         integer :: n, pairs
         n = size(f)
         pairs = size(gap)
-        call check_data(wrong, shape(k), n, pairs)
+        call check_data(wrong, shape(k), n, pairs, 'k', 'f')
         call check_size(wrong, 4, 'd', size(d), n, 'as many as f')
         call choose_law(wrong, 6, pairs, which, law, friction)
         if (present(slip0)) call check_size(wrong, 8, 'slip0', size(slip0), n - pairs, 'dim - 1 for each pair')
@@ -752,7 +821,7 @@ contains
         integer :: n, pairs
         n = size(f)
         pairs = size(gap)
-        call check_data(wrong, shape(k), n, pairs)
+        call check_data(wrong, shape(k), n, pairs, 'k', 'f')
         call check_size(wrong, 4, 'd', size(d), n, 'as many as f')
         call choose_law(wrong, 6, pairs, which, law, friction)
         if (present(slip0)) call check_size(wrong, 8, 'slip0', size(slip0), n - pairs, 'dim - 1 for each pair')
@@ -1244,12 +1313,15 @@ contains
     end subroutine
 
     ! The data of a condensed problem: k at position 1, n loads at 2, pairs at 3.
-    subroutine check_data(wrong, found, n, pairs)
+    subroutine check_data(wrong, found, n, pairs, matrix, vector)
         type(refusal), intent(inout) :: wrong
         integer, intent(in) :: found(2), n, pairs
-        if (n /= 2 * pairs .and. n /= 3 * pairs) call refuse(wrong, 2, 'f has ' // entries(n) // &
-            ' and gap ' // text(pairs) // ': f must have 2 (2D) or 3 (3D) for each of gap')
-        call check_shape(wrong, 1, 'k', found, [n, n], 'a row and a column for each entry of f')
+        character(len=*), intent(in) :: matrix, vector
+        if (n /= 2 * pairs .and. n /= 3 * pairs) call refuse(wrong, 2, vector // ' has ' // &
+            entries(n) // ' and gap ' // text(pairs) // ': ' // vector // &
+            ' must have 2 (2D) or 3 (3D) for each of gap')
+        call check_shape(wrong, 1, matrix, found, [n, n], &
+            'a row and a column for each entry of ' // vector)
     end subroutine
 
     subroutine check_model(wrong, self)

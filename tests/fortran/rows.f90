@@ -46,6 +46,20 @@ program rows
         [1._dp, 1._dp], reshape([0._dp, -1._dp], [2, 1]), info, message=message)
     call expect('starts', info == -5)
 
+    ! The same node as a flexibility of 1/2: W = B B' / 2 of floor and wall, and q = B f / 2.
+    shared = reshape([1, 0, 0, -1, 0, 1, 1, 0, 0, 1, 1, 0, -1, 0, 0, 1], [4, 4]) / 2._dp
+    call contact_solve_flexibility(shared, [1, 1, 1, -1] / 2._dp, [0._dp, 0._dp], d, force, info, &
+        friction=[0.25_dp, 0.25_dp], message=message)
+    call expect('flexibility', info == 0 .and. message == '' .and. all(abs(d) < 1e-8_dp))
+    call expect('its forces', all(abs(abs(force) - [0.8_dp, 0.2_dp, 0.8_dp, 0.2_dp]) < 1e-8_dp))
+    shared(2, 2) = -1
+    call contact_solve_flexibility(shared, [1, 1, 1, -1] / 2._dp, [0._dp, 0._dp], d, force, info, &
+        message=message)
+    call expect('no flexibility', info == -1 .and. index(message, 'W(2,2) is -1') > 0)
+    call contact_solve_flexibility(shared, [1._dp, 1._dp], [0._dp, 0._dp], d, force, info, &
+        message=message)
+    call expect('its size', info < 0 .and. index(message, 'q has 2 entries') > 0)
+
     ! Fortran 77, with the row of the beginning: SLAVE(1,1) is -1.
     first = -1
     two = reshape([1, 2, 3, 4], [2, 2])

@@ -42,6 +42,27 @@ class Proof(unittest.TestCase):
             signorini.prove(self.stiffness, self.load, 0.0, 0.5, d=[0, 0], state=[1, 2])
 
 
+class Flexibility(unittest.TestCase):
+    """A node on springs of stiffness 2, pressed by (1, -1) on floor and wall; tests/flexibility.rs."""
+
+    W = np.array([[1, 0, 0, -1], [0, 1, 1, 0], [0, 1, 1, 0], [-1, 0, 0, 1]]) / 2
+    q = np.array([1, 1, 1, -1]) / 2
+
+    def test_corner(self):
+        result = signorini.solve_flexibility(self.W, self.q, mu=0.25)
+        self.assertEqual(result.status, Status.SOLVED)
+        np.testing.assert_allclose(abs(result.F), [[0.8, 0.2], [0.8, 0.2]], atol=1e-8)
+        np.testing.assert_allclose(result.d, np.zeros((2, 2)), atol=1e-8)
+        again = signorini.solve_flexibility(self.W, self.q, mu=0.25, start=result.F)
+        np.testing.assert_allclose(again.F, result.F, atol=1e-8)
+
+    def test_refusals(self):
+        with self.assertRaisesRegex(signorini.SignoriniError, "W is zero"):
+            signorini.solve_flexibility(np.zeros((2, 2)), [0, 0])
+        with self.assertRaisesRegex(ValueError, "q"):
+            signorini.solve_flexibility(self.W, self.q[:3])
+
+
 class Klarbring(unittest.TestCase):
     """One pair with three solutions in closed form; tests/klarbring.rs has the source."""
 

@@ -39,6 +39,7 @@ from ._constants import (ABI_VERSION, Fallback, Law, Method, Proof, Search, Stat
                          Triangle, Uniqueness)
 from ._files import ContactProblem, LcpProblem, read
 from ._lcp import lcp_lemke, lcp_solve, write_lcp
+from ._flexibility import solve_flexibility
 from ._library import SignoriniError, load
 from ._model import Model
 from ._results import Enclosure, LcpResult, Progress, Result
@@ -47,5 +48,5 @@ __all__ = [
     "ABI_VERSION", "ContactProblem", "Enclosure", "Fallback", "Law", "LcpProblem", "LcpResult",
     "Method", "Model", "Progress", "Proof", "Result", "Search", "SignoriniError", "State", "Status",
     "Triangle", "Uniqueness", "certify", "lcp_lemke", "lcp_solve", "load", "prove", "read", "solve",
-    "write", "write_lcp",
+    "solve_flexibility", "write", "write_lcp",
 ]
