@@ -363,7 +363,8 @@ fn what_no_flexibility_has_is_refused() {
         let monitor = &mut Monitor::new(&settings, None);
         solve_flexibility(&problem, &settings, None, monitor).unwrap_err().message().to_string()
     };
-    let wrong: [(&dyn Fn(&mut Case), &str); 6] = [
+    type Wrong<'a> = (&'a dyn Fn(&mut Case), &'a str);
+    let wrong: [Wrong<'_>; 6] = [
         (&|case| case.w[1] = 0.3, "W is not symmetric: W[1,0] is 0.3"),
         (&|case| case.w[5] = -0.5, "W[1,1] is -0.5, it must be positive"),
         (&|case| case.w[3] = f64::NAN, "W[3,0] is not finite"),

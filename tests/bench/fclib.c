@@ -184,7 +184,8 @@ int main(int argc, char **argv)
         printf("| %s | %s | %d | %zu | %.0e |", name, form.found, form.dim, form.contacts,
                form.asymmetry);
         if (run(&form, NULL, TOLERANCE, limit, answer)) {
-            const double residual = local_form_residual(&form, answer->r);
+            const double residual =
+                answer->status < 0 ? INFINITY : local_form_residual(&form, answer->r);
             printf(" %d | %.0e | %.0e | %.4f |", answer->status, answer->eta, residual,
                    answer->seconds);
             certified += answer->status == 0;
