@@ -22,8 +22,9 @@ use crate::solve::{Status, solve_flexibility};
 ///
 /// Measure: report->eta is the residual of the law with the unit 1 / W_nn for the normal of a pair
 /// and one over the largest eigenvalue of its tangential block for its tangents, together with
-/// these units times d - q - W F, relative to the larger of the contact forces and the units times
-/// q. Everything is computed from your W and q.
+/// these units times d - q - W F. It is relative to the larger of two sizes of force: F, less what W
+/// does not feel; and the units times q. Where pairs that stay apart have free displacements far
+/// above those that forces undo, ask for a smaller tolerance. All is computed from your W and q.
 ///
 /// Codes that write u = W r + q with u_N >= 0 where a contact opens and r_N >= 0 where it presses
 /// (FCLIB, Siconos, most multibody codes) change all signs but those of W: hand over -q; then u = -d
