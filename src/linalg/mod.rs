@@ -19,4 +19,3 @@ pub(crate) mod tolerances;
 pub(crate) mod unreduced;
 pub(crate) mod vector;
 pub(crate) mod vector3;
-pub(crate) mod workspaces;

@@ -20,7 +20,7 @@ pub use host_arrays::{Indices, SparseMatrix, Triangle};
 use super::{ContactPairs, Reduction};
 use crate::error::{Argument, Error, Message};
 use crate::linalg::sparse_matrix::{Csc, OutOfMemory, times, transpose_times};
-use crate::linalg::sparse_schur::{Failure, SparseSchur};
+use crate::linalg::sparse_schur::{Failure, SparseSchur, Unwatched};
 use crate::linalg::vector::norm_inf;
 use change_of_variables::{ChangeOfVariables, contact_forces};
 use supports::FixedComponent;
@@ -64,7 +64,7 @@ impl SparseReduction {
             ChangeOfVariables::new(pairs, &frames, &places, &supports).map_err(memory)?;
         let contact_forces = contact_forces(matrix.size, pairs, &frames).map_err(memory)?;
         let (transformed, of_fixed) = variables.transform(host).map_err(memory)?;
-        let schur = SparseSchur::new(transformed, variables.free().len())
+        let schur = SparseSchur::new(transformed, variables.free().len(), None, &mut Unwatched)
             .map_err(|failure| refused(&variables, failure))?;
         Ok(SparseReduction {
             dim: pairs.dim,
@@ -152,6 +152,7 @@ impl Reduction for SparseReduction {
 fn refused(variables: &ChangeOfVariables, failure: Failure) -> Error {
     let message = match failure {
         Failure::OutOfMemory => return Error::OutOfMemory("the factor of the stiffness matrix"),
+        Failure::Stopped => unreachable!("nobody watches"),
         Failure::Indefinite(row) => messages::indefinite(variables.free().get(row)),
         Failure::Negative(x) => messages::negative_energy(&variables.host_displacements(&x, None)),
         Failure::Unclear(x) => messages::unclear_motion(&variables.host_displacements(&x, None)),
