@@ -58,6 +58,7 @@ module signorini
     integer(c_int32_t), parameter :: SIGNORINI_STATUS_NO_EQUILIBRIUM = 4
     integer(c_int32_t), parameter :: SIGNORINI_STATUS_STALLED = 5
     integer(c_int32_t), parameter :: SIGNORINI_STATUS_NOT_A_SOLUTION = 6
+    integer(c_int32_t), parameter :: SIGNORINI_STATUS_MEMORY_LIMIT = 7
     integer(c_int32_t), parameter :: SIGNORINI_STATUS_INTERNAL = -1000
     integer(c_int32_t), parameter :: SIGNORINI_STATUS_OUT_OF_MEMORY = -1001
     integer(c_int32_t), parameter :: SIGNORINI_STATUS_FILE = -1002
@@ -105,10 +106,12 @@ module signorini
         integer(c_int64_t) :: iterations = 0
         real(c_double) :: eta = 0
         real(c_double) :: elapsed = 0
+        real(c_double) :: reduced = 0
+        integer(c_int64_t) :: memory = 0
     end type
 
     type, bind(C) :: signorini_settings
-        integer(c_int32_t) :: struct_size = 56 + 2 * address_bytes
+        integer(c_int32_t) :: struct_size = 64 + 2 * address_bytes
         integer(c_int32_t) :: method = SIGNORINI_METHOD_AUTO
         real(c_double) :: tolerance = 1e-10_c_double
         real(c_double) :: omega = 0
@@ -119,6 +122,7 @@ module signorini
         integer(c_int32_t) :: search = SIGNORINI_SEARCH_OFF
         type(c_funptr) :: progress = c_null_funptr
         type(c_ptr) :: user = c_null_ptr
+        integer(c_int64_t) :: memory_limit = 0
     end type
 
     type, bind(C) :: signorini_report
@@ -157,7 +161,7 @@ module signorini
     end type
 
     type, bind(C) :: signorini_sparse
-        integer(c_int32_t) :: struct_size = 32 + 3 * address_bytes
+        integer(c_int32_t) :: struct_size = 32 + 4 * address_bytes
         integer(c_int32_t) :: index_bytes = 0
         integer(c_int32_t) :: index_base = 0
         integer(c_int32_t) :: triangle = SIGNORINI_TRIANGLE_LOWER
@@ -166,6 +170,7 @@ module signorini
         type(c_ptr) :: col_start = c_null_ptr
         type(c_ptr) :: row = c_null_ptr
         type(c_ptr) :: values = c_null_ptr
+        type(c_ptr) :: order = c_null_ptr
     end type
 
     type, bind(C) :: signorini_pairs
@@ -323,6 +328,17 @@ module signorini
             integer(c_int64_t), value :: n_fixed
             type(c_ptr), value :: fixed
             type(signorini_pairs), intent(in) :: pairs
+            type(c_ptr), intent(out) :: model
+            integer(c_int32_t) :: answer
+        end function
+        function signorini_model_new_sparse_within(k, n_fixed, fixed, pairs, settings, model) &
+            bind(C, name="signorini_model_new_sparse_within") result(answer)
+            import
+            type(signorini_sparse), intent(in) :: k
+            integer(c_int64_t), value :: n_fixed
+            type(c_ptr), value :: fixed
+            type(signorini_pairs), intent(in) :: pairs
+            type(c_ptr), value :: settings
             type(c_ptr), intent(out) :: model
             integer(c_int32_t) :: answer
         end function
@@ -777,10 +793,11 @@ contains
     ! freedom that supports hold.
     ! masters(dim, m): degrees of freedom of all master nodes, weights(m), master_start(pairs + 1):
     ! those of pair i are master_start(i) to master_start(i + 1) - 1. Without masters the obstacle
-    ! is rigid. If the library finds something wrong in the matrix, info is the position of values,
+    ! is rigid. order: the order of elimination, each degree of freedom once; absent: chosen. settings:
+    ! progress, user, time_limit and memory_limit count. If the library finds something wrong in the matrix, info is the position of values,
     ! if in the pairs, that of slaves; message tells the array.
     subroutine model_new_sparse(self, col_start, row, values, triangle, slaves, normals, info, fixed, &
-            master_start, masters, weights, tangents, message)
+            master_start, masters, weights, tangents, message, order, settings)
         class(contact_model), intent(inout) :: self
         integer, intent(in), contiguous, target :: col_start(:), row(:)
         real(c_double), intent(in), contiguous, target :: values(:)
@@ -791,6 +808,9 @@ contains
         integer, intent(in), optional :: fixed(:), master_start(:), masters(:, :)
         real(c_double), intent(in), contiguous, target, optional :: weights(:), tangents(:, :)
         character(len=*), intent(out), optional :: message
+        integer, intent(in), contiguous, target, optional :: order(:)
+        type(signorini_settings), intent(in), optional :: settings
+        type(signorini_settings), target :: chosen
         type(signorini_sparse) :: matrix
         type(signorini_pairs) :: pairs
         integer(c_int64_t), allocatable, target :: held(:), of_slaves(:), begins(:), of_masters(:)
@@ -804,6 +824,8 @@ contains
         call check_pairs(wrong, 6, 'normals', shape(normals), shape(slaves))
         call check_masters(wrong, 9, shape(slaves), master_start, masters, weights)
         if (present(tangents)) call check_pairs(wrong, 12, 'tangents', shape(tangents), shape(slaves))
+        if (present(order)) call check_size(wrong, 14, 'order', size(order), size(col_start) - 1, &
+            'as many as the matrix has columns')
         if (refused(wrong, info, message)) return
         matrix%index_bytes = storage_size(col_start) / 8
         matrix%index_base = 1
@@ -813,6 +835,10 @@ contains
         matrix%col_start = c_loc(col_start)
         if (size(row) > 0) matrix%row = c_loc(row)
         matrix%values = address(values)
+        if (present(order)) then
+            if (size(order) > 0) matrix%order = c_loc(order)
+        end if
+        if (present(settings)) chosen = settings
         pairs%dim = number(size(slaves, 1))
         pairs%count = size(slaves, 2)
         of_slaves = int([slaves], c_int64_t)
@@ -832,8 +858,8 @@ contains
         if (present(fixed)) n_fixed = size(fixed)
         held = [0_c_int64_t]
         if (n_fixed > 0) held = int(fixed, c_int64_t)
-        call finish(signorini_model_new_sparse(matrix, n_fixed, c_loc(held), pairs, self%handle), &
-            info, message, [3, 8, 8, 5])
+        call finish(signorini_model_new_sparse_within(matrix, n_fixed, c_loc(held), pairs, &
+            c_loc(chosen), self%handle), info, message, [3, 8, 8, 5, 15])
         if (info == 0) call keep_sizes(self, size(slaves, 1), size(slaves, 2), int(n_fixed))
     end subroutine
 

@@ -174,6 +174,8 @@ const char *signorini_last_error(void);
  */
 #define SIGNORINI_STATUS_STALLED 5
 #define SIGNORINI_STATUS_NOT_A_SOLUTION 6    /**< Certify: the displacements are no solution. */
+/** The reduction of a sparse matrix needs more than memory_limit: nothing was factorised. */
+#define SIGNORINI_STATUS_MEMORY_LIMIT 7
 #define SIGNORINI_STATUS_INTERNAL -1000 /**< A caught defect of the library: results undefined. */
 #define SIGNORINI_STATUS_OUT_OF_MEMORY -1001 /**< Out of memory: nothing was written. */
 #define SIGNORINI_STATUS_FILE -1002          /**< A file cannot be read or written. */
@@ -216,6 +218,12 @@ struct signorini_sparse {
     const void *col_start;
     const void *row;      /**< Row of each entry, ascending in each column; nnz entries. */
     const double *values; /**< The entries, nnz; force / length. */
+    /**
+     * Order of elimination: each degree of freedom once, the first to go first, size entries of
+     * index_bytes. NULL: chosen. Fixed degrees of freedom and slaves are passed over; those with
+     * the same neighbours, as of one node, go together.
+     */
+    const void *order;
 };
 
 /**
@@ -311,6 +319,27 @@ int32_t signorini_model_new_condensed(int32_t dim, int64_t pairs, const double *
  */
 int32_t signorini_model_new_two_body(int32_t dim, int64_t pairs, const double *K_A, int64_t lda,
                                      const double *K_B, int64_t ldb, signorini_model **model);
+
+/**
+ * As signorini_model_new_sparse, with settings of which it takes progress, user, time_limit and
+ * memory_limit. The callback is told the share that is done and, before memory is taken, how much
+ * is needed. The choice of the order, before that, asks nobody. After a call that was ended nothing
+ * is held, and your arrays are as before.
+ *
+ * @param K         the stiffness matrix of all degrees of freedom, the fixed ones too
+ * @param n_fixed   number of fixed degrees of freedom
+ * @param fixed     the fixed degrees of freedom, counted from K->index_base; may be NULL if
+ *                  n_fixed is 0
+ * @param pairs     the contact pairs
+ * @param settings  may be NULL: no callback, no limits
+ * @param model     out: the model; NULL unless 0 is returned
+ * @return 0; SIGNORINI_STATUS_CANCELLED, _TIME_LIMIT or _MEMORY_LIMIT; -k: the k-th argument is
+ *         wrong; <= -1000: out of memory or a defect
+ */
+int32_t signorini_model_new_sparse_within(const signorini_sparse *K, int64_t n_fixed,
+                                          const int64_t *fixed, const signorini_pairs *pairs,
+                                          const signorini_settings *settings,
+                                          signorini_model **model);
 
 /** Releases a model. NULL is allowed. */
 void signorini_model_free(signorini_model *model);
@@ -652,10 +681,21 @@ struct signorini_progress {
     int64_t iterations; /**< Sweeps, pivots or linear systems done. */
     double eta;         /**< Latest measured eta; infinite before the first measurement. */
     double elapsed;     /**< Seconds since the call began. */
+    /**
+     * Share of the reduction of a sparse matrix that is done, 0 to 1; 1 while a load case is
+     * solved.
+     */
+    double reduced;
+    /**
+     * Bytes that this reduction needs in all, told before they are taken; 0 before they are known
+     * and while a load case is solved.
+     */
+    int64_t memory;
 };
 
 /**
- * A progress callback: called before each sweep, pivot or linear system. A nonzero result cancels
+ * A progress callback: called before each sweep, pivot or linear system, and by
+ * signorini_model_new_sparse_within some hundred times a second. A nonzero result cancels
  * the call (SIGNORINI_STATUS_CANCELLED). It runs on the calling thread, in the default
  * floating-point environment. It must return: no longjmp, no exception; and it must not call this
  * library.
@@ -685,6 +725,8 @@ struct signorini_settings {
     int32_t search;                 /**< SIGNORINI_SEARCH_...; default SIGNORINI_SEARCH_OFF. */
     signorini_progress_fn progress; /**< Progress callback; default NULL. */
     void *user;                     /**< Passed to progress as its first argument; default NULL. */
+    /** Most bytes that signorini_model_new_sparse_within may need; default 0: no limit. */
+    int64_t memory_limit;
 };
 
 /**

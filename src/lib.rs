@@ -108,7 +108,7 @@ mod settings;
 mod solve;
 pub mod surface;
 
-pub use error::{Argument, Error, Message};
+pub use error::{Argument, Error, Limit, Message};
 pub use law::State;
 pub use model::{LoadCase, Model};
 pub use monitor::{Monitor, Progress, ProgressFn, Stop};

@@ -12,8 +12,8 @@ use crate::problem::{
     ContactData, ContactProblem, FrictionLaw, checked_dim, symmetric_matrix, unknowns,
 };
 use crate::reduce::{
-    CondensedReduction, ContactPairs, Reduction, SparseMatrix, SparseReduction, TwoBodyReduction,
-    driven_motion,
+    CondensedReduction, ContactPairs, Control, Reduction, SparseMatrix, SparseReduction,
+    TwoBodyReduction, driven_motion,
 };
 use crate::settings::Settings;
 use crate::solve::{NO_EQUILIBRIUM, Solution, Status, solve};
@@ -84,6 +84,25 @@ impl Model {
         pairs: &ContactPairs<'_>,
     ) -> Result<Self, Error> {
         let reduction = Box::new(SparseReduction::new(matrix, fixed, pairs)?);
+        Model { dim: pairs.dim, pairs: pairs.count, reduction }.checked()
+    }
+
+    /// As [`Self::sparse`], within the limits of `monitor` on memory and time, with its callback, and in the
+    /// host's `order` of elimination if there is one: each degree of freedom once, the first to be eliminated
+    /// first. Fixed ones, slaves and the contact are left out of it; degrees of freedom with the same neighbours stay together.
+    ///
+    /// # Errors
+    /// As [`Self::sparse`]; an order that is no permutation ([`Argument::Order`]); [`Error::Stopped`].
+    pub fn sparse_within(
+        matrix: &SparseMatrix<'_>,
+        fixed: &[usize],
+        pairs: &ContactPairs<'_>,
+        order: Option<&[usize]>,
+        monitor: &mut Monitor<'_>,
+    ) -> Result<Self, Error> {
+        let ask = &mut |share, memory| monitor.reducing(share, memory);
+        let made = SparseReduction::controlled(matrix, fixed, pairs, Control { order, ask })?;
+        let reduction = Box::new(made);
         Model { dim: pairs.dim, pairs: pairs.count, reduction }.checked()
     }
 

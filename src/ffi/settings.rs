@@ -42,9 +42,16 @@ pub struct SignoriniProgress {
     pub eta: f64,
     /// Seconds since the call began.
     pub elapsed: f64,
+    /// Share of the reduction of a sparse matrix that is done, 0 to 1; 1 while a load case is
+    /// solved.
+    pub reduced: f64,
+    /// Bytes that this reduction needs in all, told before they are taken; 0 before they are known
+    /// and while a load case is solved.
+    pub memory: i64,
 }
 
-/// A progress callback: called before each sweep, pivot or linear system. A nonzero result cancels
+/// A progress callback: called before each sweep, pivot or linear system, and by
+/// signorini_model_new_sparse_within some hundred times a second. A nonzero result cancels
 /// the call (SIGNORINI_STATUS_CANCELLED). It runs on the calling thread, in the default
 /// floating-point environment. It must return: no longjmp, no exception; and it must not call this
 /// library.
@@ -80,6 +87,8 @@ pub struct SignoriniSettings {
     pub progress: SignoriniProgressFn,
     /// Passed to progress as its first argument; default NULL.
     pub user: *mut c_void,
+    /// Most bytes that signorini_model_new_sparse_within may need; default 0: no limit.
+    pub memory_limit: i64,
 }
 
 /// Settings as the solvers know them, with what only the C interface has.
@@ -106,6 +115,7 @@ impl SignoriniSettings {
             search: SIGNORINI_SEARCH_OFF,
             progress: None,
             user: std::ptr::null_mut(),
+            memory_limit: 0,
         }
     }
 
@@ -138,6 +148,12 @@ impl SignoriniSettings {
             let given = self.max_iterations;
             return refuse(format!("settings: max_iterations is {given}, it must be at least 1"));
         };
+        let Ok(memory_limit) = u64::try_from(self.memory_limit) else {
+            let given = self.memory_limit;
+            return refuse(format!(
+                "settings: memory_limit is {given}, it must be 0 (none) or bytes"
+            ));
+        };
         let search = match self.search {
             SIGNORINI_SEARCH_OFF => Search::Off,
             SIGNORINI_SEARCH_OTHERS => Search::Others,
@@ -152,6 +168,7 @@ impl SignoriniSettings {
                 max_iterations,
                 time_limit: self.time_limit,
                 search,
+                memory_limit,
             },
             warm_start: self.warm_start != 0,
             progress: self.progress,
@@ -169,6 +186,8 @@ impl Received {
                 iterations: progress.iterations as i64,
                 eta: progress.eta,
                 elapsed: progress.elapsed,
+                reduced: progress.reduced,
+                memory: progress.memory as i64,
             };
             // SAFETY: the header demands a function of this type that returns normally.
             match unsafe { callback(user, &raw const progress) } {

@@ -1,10 +1,11 @@
 //! The structures by which a host hands over its sparse matrix and its contact pairs.
 
 use libc::c_void;
+use std::mem::offset_of;
 
 use super::args::{Arrays, size};
 use super::guard::Failure;
-use super::structures::whole;
+use super::structures::{checked_size, read, whole};
 use crate::error::{Error, entry};
 use crate::problem;
 use crate::reduce::{ContactPairs, Indices, SparseMatrix, Triangle};
@@ -20,6 +21,7 @@ pub const SIGNORINI_TRIANGLE_FULL: i32 = 2;
 /// transpose: its rows are the columns here, and its LOWER is UPPER. The library only reads it
 /// during the call.
 #[repr(C)]
+#[derive(Clone, Copy)]
 pub struct SignoriniSparse {
     /// sizeof(signorini_sparse).
     pub struct_size: u32,
@@ -40,6 +42,10 @@ pub struct SignoriniSparse {
     pub row: *const c_void,
     /// The entries, nnz; force / length.
     pub values: *const f64,
+    /// Order of elimination: each degree of freedom once, the first to go first, size entries of
+    /// index_bytes. NULL: chosen. Fixed degrees of freedom and slaves are passed over; those with
+    /// the same neighbours, as of one node, go together.
+    pub order: *const c_void,
 }
 
 /// Contact pairs: each has a slave node, a point that faces it on other bodies, and a normal. The
@@ -78,6 +84,64 @@ pub struct SignoriniPairs {
 }
 
 impl SignoriniSparse {
+    /// # Safety
+    /// As [`Self::read`].
+    unsafe fn copied(position: i32, pointer: *const Self) -> Result<Self, Failure> {
+        if pointer.is_null() {
+            return Err(Failure::argument(position, "K is NULL"));
+        }
+        // SAFETY: by the caller's contract; before version 0.2 was finished the structure ended
+        // with `values`.
+        let given = unsafe { checked_size(position, "K", pointer)? };
+        if given < offset_of!(Self, order) {
+            let message =
+                format!("K: struct_size is {given}, set it to sizeof ({})", size_of::<Self>());
+            return Err(Failure::argument(position, message));
+        }
+        let empty = SignoriniSparse {
+            struct_size: 0,
+            index_bytes: 0,
+            index_base: 0,
+            triangle: SIGNORINI_TRIANGLE_LOWER,
+            size: 0,
+            nnz: 0,
+            col_start: std::ptr::null(),
+            row: std::ptr::null(),
+            values: std::ptr::null(),
+            order: std::ptr::null(),
+        };
+        // SAFETY: as above.
+        unsafe { read(position, "K", pointer, empty) }
+    }
+
+    /// The order of elimination, counted from 0, if there is one.
+    ///
+    /// # Safety
+    /// The structure was read, and its arrays are as the header demands.
+    pub(super) unsafe fn order(
+        position: i32,
+        pointer: *const Self,
+    ) -> Result<Option<Vec<usize>>, Failure> {
+        // SAFETY: by the caller's contract.
+        let given = unsafe { Self::copied(position, pointer)? };
+        if given.order.is_null() {
+            return Ok(None);
+        }
+        let n = size(position, "K: size", given.size)?;
+        let base = i64::from(given.index_base);
+        let mut arrays = Arrays::default();
+        // SAFETY: an array of the length and width that the structure tells.
+        let wide: Vec<i64> = unsafe {
+            if given.index_bytes == size_of::<i32>() as i32 {
+                let order = arrays.required(position, "K: order", given.order.cast::<i32>(), n)?;
+                order.iter().map(|&i| i64::from(i)).collect()
+            } else {
+                arrays.required(position, "K: order", given.order.cast::<i64>(), n)?.to_vec()
+            }
+        };
+        shifted(position, "order", &wide, base).map(Some)
+    }
+
     /// Views the caller's matrix.
     ///
     /// # Safety
@@ -88,7 +152,7 @@ impl SignoriniSparse {
     ) -> Result<SparseMatrix<'a>, Failure> {
         let wrong = |message: String| Failure::argument(position, message);
         // SAFETY: by the caller's contract.
-        let given = unsafe { whole(position, "K", pointer)? };
+        let given = unsafe { Self::copied(position, pointer)? };
         let triangle = match given.triangle {
             SIGNORINI_TRIANGLE_LOWER => Triangle::Lower,
             SIGNORINI_TRIANGLE_UPPER => Triangle::Upper,

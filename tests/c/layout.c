@@ -22,6 +22,7 @@ VALUE(SIGNORINI_STATUS_CANCELLED, 3);
 VALUE(SIGNORINI_STATUS_NO_EQUILIBRIUM, 4);
 VALUE(SIGNORINI_STATUS_STALLED, 5);
 VALUE(SIGNORINI_STATUS_NOT_A_SOLUTION, 6);
+VALUE(SIGNORINI_STATUS_MEMORY_LIMIT, 7);
 VALUE(SIGNORINI_STATUS_INTERNAL, -1000);
 VALUE(SIGNORINI_STATUS_OUT_OF_MEMORY, -1001);
 VALUE(SIGNORINI_STATUS_FILE, -1002);
@@ -60,12 +61,14 @@ VALUE(SIGNORINI_TRIANGLE_FULL, 2);
 /* 64-bit pointers, doubles and 64-bit integers aligned to their size. */
 #if defined __LP64__ || defined _WIN64
 
-SIZE(signorini_progress, 24);
+SIZE(signorini_progress, 40);
 FIELD(signorini_progress, iterations, int64_t, 0);
 FIELD(signorini_progress, eta, double, 8);
 FIELD(signorini_progress, elapsed, double, 16);
+FIELD(signorini_progress, reduced, double, 24);
+FIELD(signorini_progress, memory, int64_t, 32);
 
-SIZE(signorini_settings, 72);
+SIZE(signorini_settings, 80);
 FIELD(signorini_settings, struct_size, uint32_t, 0);
 FIELD(signorini_settings, method, int32_t, 4);
 FIELD(signorini_settings, tolerance, double, 8);
@@ -77,6 +80,7 @@ FIELD(signorini_settings, warm_start, int32_t, 48);
 FIELD(signorini_settings, search, int32_t, 52);
 FIELD(signorini_settings, progress, signorini_progress_fn, 56);
 FIELD(signorini_settings, user, void *, 64);
+FIELD(signorini_settings, memory_limit, int64_t, 72);
 
 SIZE(signorini_report, 152);
 FIELD(signorini_report, struct_size, uint32_t, 0);
@@ -103,7 +107,7 @@ FIELD(signorini_report, fallback, int32_t, 140);
 FIELD(signorini_report, orientation, int32_t, 144);
 FIELD(signorini_report, second, int32_t, 148);
 
-SIZE(signorini_sparse, 56);
+SIZE(signorini_sparse, 64);
 FIELD(signorini_sparse, struct_size, uint32_t, 0);
 FIELD(signorini_sparse, index_bytes, int32_t, 4);
 FIELD(signorini_sparse, index_base, int32_t, 8);
@@ -113,6 +117,7 @@ FIELD(signorini_sparse, nnz, int64_t, 24);
 FIELD(signorini_sparse, col_start, void *, 32);
 FIELD(signorini_sparse, row, void *, 40);
 FIELD(signorini_sparse, values, double *, 48);
+FIELD(signorini_sparse, order, void *, 56);
 
 SIZE(signorini_pairs, 64);
 FIELD(signorini_pairs, struct_size, uint32_t, 0);

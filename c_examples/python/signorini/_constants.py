@@ -15,6 +15,7 @@ class Status(IntEnum):
     NO_EQUILIBRIUM = 4
     STALLED = 5
     NOT_A_SOLUTION = 6
+    MEMORY_LIMIT = 7
     INTERNAL = -1000
     OUT_OF_MEMORY = -1001
     FILE = -1002

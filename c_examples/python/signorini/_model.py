@@ -41,10 +41,17 @@ class Model:
     dim, pairs: D and P.  host_size: H, the entries of a load or displacement vector of the host.
     """
 
-    def __init__(self, make, n_fixed, *arguments):
+    def __init__(self, make, n_fixed, *arguments, settings=None):
         self._functions = library()
         handle = address()
-        check(self._functions, getattr(self._functions, make)(*arguments, ctypes.byref(handle)))
+        function = getattr(self._functions, make)
+        if settings is None:
+            check(self._functions, function(*arguments, ctypes.byref(handle)))
+        else:
+            call = Call(self._functions, settings)
+            status, message = call.run(function, *arguments, call.at(), ctypes.byref(handle))
+            if status != 0:
+                raise SignoriniError(message, member(Status, status))
         self._handle, self._n_fixed = handle.value, n_fixed
         weakref.finalize(self, self._functions.model_free, self._handle)
         self.dim = self._functions.model_dim(self._handle)
@@ -81,7 +88,7 @@ class Model:
 
     @classmethod
     def sparse(cls, K, slaves, normals, *, fixed=(), masters=None, weights=None, tangents=None,
-               triangle="full"):
+               triangle="full", order=None, **settings):
         """The whole stiffness matrix of the host, without supports, and contact pairs.
 
         K: a scipy.sparse matrix, or (data, indices, indptr) by columns, rows ascending; counted
@@ -94,11 +101,14 @@ class Model:
         None: 1, of one master each.
         tangents: first tangent of each pair, orthogonal to its normal, (P, D), or one for all; None:
         chosen, in 2D the normal turned by +90 degrees. frames gives what the model uses.
+        order: order of elimination, each dof number once; None: chosen.  settings: progress,
+        time_limit (seconds) and memory_limit (bytes); a limit that is passed, or a progress function
+        that cancels, raises SignoriniError.
         """
-        matrix, fixed = Matrix(K, triangle), supports(fixed)
+        matrix, fixed = Matrix(K, triangle, order), supports(fixed)
         pairs = ContactPairs(slaves, normals, masters, weights, tangents)
-        return cls("model_new_sparse", len(fixed), ctypes.byref(matrix.structure), len(fixed),
-                   at(fixed), ctypes.byref(pairs.structure))
+        return cls("model_new_sparse_within", len(fixed), ctypes.byref(matrix.structure),
+                   len(fixed), at(fixed), ctypes.byref(pairs.structure), settings=settings)
 
     @property
     def stiffness(self):

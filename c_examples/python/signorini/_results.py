@@ -11,11 +11,13 @@ from ._constants import Status
 from ._library import check
 from ._structures import Extra, Report, sized
 
-Progress = namedtuple("Progress", "iterations eta elapsed")
+Progress = namedtuple("Progress", "iterations eta elapsed reduced memory")
 Progress.__doc__ = """What a progress function is told.
 
 iterations: sweeps, pivots or linear systems done.  eta: the latest, infinite before the first.
 elapsed: seconds since the call began.
+reduced: share of the reduction of Model.sparse that is done, 0 to 1; 1 while a case is solved.
+memory: bytes that it needs in all, told before they are taken; 0 before they are known.
 """
 
 Result = namedtuple("Result", "d F state status message report motion second")

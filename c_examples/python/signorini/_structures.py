@@ -12,7 +12,9 @@ real, address = ctypes.c_double, ctypes.c_void_p
 class Told(ctypes.Structure):
     """signorini_progress"""
 
-    _fields_ = [("iterations", i64), ("eta", real), ("elapsed", real)]
+    _fields_ = [
+        ("iterations", i64), ("eta", real), ("elapsed", real), ("reduced", real), ("memory", i64),
+    ]
 
 
 Callback = ctypes.CFUNCTYPE(i32, address, ctypes.POINTER(Told))
@@ -24,7 +26,7 @@ class Settings(ctypes.Structure):
     _fields_ = [
         ("struct_size", u32), ("method", i32), ("tolerance", real), ("omega", real),
         ("damping", real), ("max_iterations", i64), ("time_limit", real), ("warm_start", i32),
-        ("search", i32), ("progress", Callback), ("user", address),
+        ("search", i32), ("progress", Callback), ("user", address), ("memory_limit", i64),
     ]
 
 
@@ -67,7 +69,7 @@ class Sparse(ctypes.Structure):
     _fields_ = [
         ("struct_size", u32), ("index_bytes", i32), ("index_base", i32), ("triangle", i32),
         ("size", i64), ("nnz", i64), ("col_start", address), ("row", address),
-        ("values", address),
+        ("values", address), ("order", address),
     ]
 
 

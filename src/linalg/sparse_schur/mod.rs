@@ -15,7 +15,7 @@ mod structure;
 mod watch;
 
 pub use failure::Failure;
-pub use watch::{Unwatched, Watch};
+pub use watch::Watch;
 
 use super::free_motions::{self, Doubt, is_suspicious};
 use super::null_vector::{resistance, weakest};
@@ -48,6 +48,9 @@ impl SparseSchur {
         rank: Option<&[usize]>,
         watch: &mut dyn Watch,
     ) -> Result<Self, Failure> {
+        if watch.step(0.0).is_break() {
+            return Err(Failure::Stopped);
+        }
         let structure = Structure::new(&lower, eliminated, rank)?;
         let panel_of = structure.panel_of_columns()?;
         let update = structure.cost(&panel_of).update;

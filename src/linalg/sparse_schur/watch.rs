@@ -11,19 +11,6 @@ pub trait Watch {
     fn step(&mut self, share: f64) -> ControlFlow<()>;
 }
 
-/// Lets everything go on.
-pub struct Unwatched;
-
-impl Watch for Unwatched {
-    fn announce(&mut self, _bytes: u64) -> ControlFlow<()> {
-        ControlFlow::Continue(())
-    }
-
-    fn step(&mut self, _share: f64) -> ControlFlow<()> {
-        ControlFlow::Continue(())
-    }
-}
-
 /// Asks after so many operations: some milliseconds.
 const OPERATIONS_BETWEEN: f64 = 3e8;
 

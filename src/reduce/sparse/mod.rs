@@ -10,19 +10,22 @@
 //! 6 % off, up to 8 % on other meshes.
 
 mod change_of_variables;
+mod control;
 mod host_arrays;
 mod host_matrix;
 mod messages;
 mod supports;
 
+pub use control::Control;
 pub use host_arrays::{Indices, SparseMatrix, Triangle};
 
 use super::{ContactPairs, Reduction};
 use crate::error::{Argument, Error, Message};
 use crate::linalg::sparse_matrix::{Csc, OutOfMemory, times, transpose_times};
-use crate::linalg::sparse_schur::{Failure, SparseSchur, Unwatched};
+use crate::linalg::sparse_schur::{Failure, SparseSchur};
 use crate::linalg::vector::norm_inf;
 use change_of_variables::{ChangeOfVariables, contact_forces};
+use control::{Asked, ranks};
 use supports::FixedComponent;
 
 /// The reduction of a whole sparse matrix, kept for further load cases.
@@ -52,11 +55,25 @@ impl SparseReduction {
         fixed: &[usize],
         pairs: &ContactPairs<'_>,
     ) -> Result<Self, Error> {
+        Self::controlled(matrix, fixed, pairs, Control { order: None, ask: &mut |_, _| Ok(()) })
+    }
+
+    /// As [`Self::new`], in an order of the host and with somebody who is asked whether to go on.
+    ///
+    /// # Errors
+    /// As [`Self::new`]; an order that is no permutation; and what `control.ask` answers.
+    pub fn controlled(
+        matrix: &SparseMatrix<'_>,
+        fixed: &[usize],
+        pairs: &ContactPairs<'_>,
+        control: Control<'_>,
+    ) -> Result<Self, Error> {
         let memory = |_: OutOfMemory| Error::OutOfMemory("the reduced stiffness matrix");
         // The matrix first: a wrong size or index base shows in the other arrays too.
         matrix.check_col_start()?;
         let places = supports::places_in_fixed(matrix.size, fixed)?;
         let host = matrix.lower_triangle(|dof| places[dof].is_some())?;
+        let rank = control.order.map(|order| ranks(matrix.size, order)).transpose()?;
         pairs.check(matrix.size)?;
         let mut frames = pairs.frames()?;
         let supports = supports::fixed_components(pairs, &mut frames, &places)?;
@@ -64,8 +81,11 @@ impl SparseReduction {
             ChangeOfVariables::new(pairs, &frames, &places, &supports).map_err(memory)?;
         let contact_forces = contact_forces(matrix.size, pairs, &frames).map_err(memory)?;
         let (transformed, of_fixed) = variables.transform(host).map_err(memory)?;
-        let schur = SparseSchur::new(transformed, variables.free().len(), None, &mut Unwatched)
-            .map_err(|failure| refused(&variables, failure))?;
+        let mut asked = Asked::new(control.ask);
+        let free = variables.free();
+        let rank: Option<Vec<usize>> = rank.map(|rank| free.iter().map(|&dof| rank[dof]).collect());
+        let schur = SparseSchur::new(transformed, free.len(), rank.as_deref(), &mut asked)
+            .map_err(|failure| asked.ended.unwrap_or_else(|| refused(&variables, failure)))?;
         Ok(SparseReduction {
             dim: pairs.dim,
             fixed_count: fixed.len(),
@@ -152,7 +172,7 @@ impl Reduction for SparseReduction {
 fn refused(variables: &ChangeOfVariables, failure: Failure) -> Error {
     let message = match failure {
         Failure::OutOfMemory => return Error::OutOfMemory("the factor of the stiffness matrix"),
-        Failure::Stopped => unreachable!("nobody watches"),
+        Failure::Stopped => unreachable!("who stops it says why"),
         Failure::Indefinite(row) => messages::indefinite(variables.free().get(row)),
         Failure::Negative(x) => messages::negative_energy(&variables.host_displacements(&x, None)),
         Failure::Unclear(x) => messages::unclear_motion(&variables.host_displacements(&x, None)),
