@@ -131,7 +131,11 @@ impl Brick {
     }
 
     pub fn model(&self) -> Model {
-        let matrix = self.stiffness();
+        self.model_of(&self.stiffness())
+    }
+
+    /// The model of [`Self::stiffness`], for who has it already.
+    pub fn model_of(&self, matrix: &Stiffness) -> Model {
         let matrix = SparseMatrix {
             size: matrix.size,
             col_start: Indices::Wide(&matrix.col_start),
