@@ -142,7 +142,7 @@ static void loads_are_condensed(void)
     const int64_t starts[] = {0, 2, 3, 4}, rows[] = {0, 2, 1, 2}, fixed[] = {2}, slaves[] = {0, 1};
     const double values[] = {3, -1.5, 4, 2}, normal[] = {1, 0}, nothing[3] = {0};
     const signorini_sparse chain = {sizeof chain, 8, 0, SIGNORINI_TRIANGLE_LOWER, 3, 4, starts,
-                                    rows, values};
+                                    rows, values, NULL};
     const signorini_pairs pair = {.struct_size = sizeof pair, .dim = 2, .count = 1,
                                   .slaves = slaves, .normals = normal};
     CHECK_STATUS(signorini_model_new_sparse(&chain, 1, fixed, &pair, &model), 0);
