@@ -7,9 +7,11 @@
 #[path = "../common/mod.rs"]
 mod common;
 
+use std::ops::ControlFlow;
+
 use common::brick::{Brick, Support};
 use common::mesh::{Mesh, Pairs, steps};
-use signorini::Model;
+use signorini::{Model, Monitor, Progress, Settings};
 
 fn main() {
     println!("case, unknowns, contact, CPU seconds, peak MB, of these the host's MB");
@@ -39,7 +41,16 @@ fn plane(case: &str, [columns, rows]: [usize; 2]) {
 fn cube(case: &str, edge: usize) {
     let brick = Brick::new([edge - 1; 3], [1.0; 3], Support::Clamped);
     let stiffness = brick.stiffness();
-    measured(case, brick.size() - 3 * brick.pairs(), || brick.model_of(&stiffness));
+    let mut announced = 0;
+    let mut progress = |now: &Progress| {
+        announced = announced.max(now.memory);
+        ControlFlow::Continue(())
+    };
+    measured(case, brick.size() - 3 * brick.pairs(), || {
+        let monitor = &mut Monitor::new(&Settings::default(), Some(&mut progress));
+        brick.model_within(&stiffness, None, monitor).expect("a valid model")
+    });
+    println!("    announced {} MB", announced / 1_000_000);
 }
 
 fn measured(case: &str, unknowns: usize, make: impl FnOnce() -> Model) {

@@ -43,7 +43,7 @@ impl SparseSchur {
     /// The first `eliminated` rows are those of `A`; `rank`, if given, orders them. `watch` is told the
     /// memory before it is taken.
     pub fn new(
-        lower: Csc,
+        mut lower: Csc,
         eliminated: usize,
         rank: Option<&[usize]>,
         watch: &mut dyn Watch,
@@ -63,9 +63,8 @@ impl SparseSchur {
             Ok(numeric) => (numeric, false),
             Err(Unfinished::Failed(failure)) => return Err(failure),
             Err(Unfinished::Pivot(_)) => {
-                let mut shifted = lower.clone();
-                (0..eliminated).for_each(|j| scale_diagonal(&mut shifted, j, 1.0 + REGULARISATION));
-                match factorised(&structure, &panel_of, &shifted, watch) {
+                (0..eliminated).for_each(|j| scale_diagonal(&mut lower, j, 1.0 + REGULARISATION));
+                match factorised(&structure, &panel_of, &lower, watch) {
                     Ok(numeric) => (numeric, true),
                     Err(Unfinished::Failed(failure)) => return Err(failure),
                     Err(Unfinished::Pivot(place)) => {

@@ -4,7 +4,7 @@
 //! degrees of the others and come last by their own. Where its factor costs much, nested dissection too,
 //! and the better of both. Or the order of the host.
 
-use std::panic::catch_unwind;
+use std::panic::{UnwindSafe, catch_unwind};
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::linalg::amd;
@@ -82,14 +82,22 @@ fn nested_dissection(graph: &Graph) -> Option<Vec<usize>> {
         }
         start.push(number(row.len())?);
     }
-    let order = catch_unwind(|| scotch_order(&CscPattern::new(inner, &start, &row)?).ok());
+    guarded(inner, || scotch_order(&CscPattern::new(inner, &start, &row)?).ok())
+}
+
+/// A permutation of `size` numbers that `work` gives; `None` if it gives none, another thing, or panics.
+fn guarded(
+    size: usize,
+    work: impl FnOnce() -> Option<Vec<i32>> + UnwindSafe,
+) -> Option<Vec<usize>> {
+    let order = catch_unwind(work).ok()??;
     let order: Vec<usize> =
-        order.ok()??.into_iter().map(usize::try_from).collect::<Result<_, _>>().ok()?;
-    is_permutation(&order, inner).then_some(order)
+        order.into_iter().map(usize::try_from).collect::<Result<_, _>>().ok()?;
+    is_permutation(&order, size).then_some(order)
 }
 
 /// Whether `order` has each of the numbers below `size` once.
-pub fn is_permutation(order: &[usize], size: usize) -> bool {
+fn is_permutation(order: &[usize], size: usize) -> bool {
     let mut missing = vec![true; size];
     let is_new = |&i: &usize| missing.get_mut(i).is_some_and(std::mem::take);
     order.len() == size && order.iter().all(is_new)
@@ -169,4 +177,70 @@ fn post_order(parent: &[isize], inner: usize) -> Vec<usize> {
         }
     }
     order
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{
+        chosen, examined, guarded, is_permutation, minimum_degree, nested_dissection, post_order,
+    };
+    use crate::linalg::sparse_matrix::{Csc, from_entries};
+    use crate::linalg::sparse_schur::graph::Graph;
+
+    /// A cube of `edge`³ nodes with `dofs` unknowns each that are coupled with those of the 26 nodes around;
+    /// the last layer is kept.
+    fn cube(edge: usize, dofs: usize) -> (Csc, usize) {
+        let nodes = edge.pow(3);
+        let place = |node: usize| [node % edge, node / edge % edge, node / edge / edge];
+        let near =
+            |a: usize, b: usize| place(a).iter().zip(place(b)).all(|(&x, y)| x.abs_diff(y) <= 1);
+        let pairs = (0..nodes).flat_map(|a| (0..=a).map(move |b| (a, b)));
+        let coupled = pairs.filter(|&(a, b)| near(a, b)).flat_map(|(a, b)| {
+            (0..dofs * dofs).map(move |k| (dofs * a + k % dofs, dofs * b + k / dofs, 1.0))
+        });
+        let entries = coupled.filter(|(i, j, _)| i >= j);
+        let size = dofs * nodes;
+        (from_entries((size, size), entries).unwrap(), size - dofs * edge * edge)
+    }
+
+    #[test]
+    fn unknowns_of_a_node_are_one_vertex() {
+        for dofs in [1, 2, 3] {
+            let (matrix, eliminated) = cube(4, dofs);
+            let graph = Graph::new(&matrix, eliminated).unwrap();
+            assert_eq!((graph.vertices(), graph.inner), (64, 48));
+            assert!((0..64).all(|v| graph.members(v).len() == dofs));
+        }
+    }
+
+    /// Whatever is chosen is an order of all inner vertices, and never dearer than minimum degree.
+    #[test]
+    fn chosen_order_is_complete_and_the_cheaper_one() {
+        for edge in [2, 5, 14] {
+            let (matrix, eliminated) = cube(edge, 3);
+            let graph = Graph::new(&matrix, eliminated).unwrap();
+            let (_, most) = examined(&graph, &minimum_degree(&graph).unwrap()).unwrap();
+            let order = chosen(&graph, None).unwrap();
+            assert!(is_permutation(&order, graph.inner));
+            assert!(nested_dissection(&graph).is_some());
+            assert!(examined(&graph, &order).unwrap().1 <= most);
+        }
+    }
+
+    #[test]
+    fn children_stand_right_before_their_parents() {
+        // Columns 5 and 6 are kept; the trees are 0, 2 -> 4 and 1 -> 3.
+        let parent = [4, 3, 4, 5, 6, 6, -1];
+        assert_eq!(post_order(&parent, 5), [1, 3, 0, 2, 4]);
+    }
+
+    #[test]
+    fn what_is_no_permutation_is_not_taken() {
+        assert_eq!(guarded(3, || Some(vec![2, 0, 1])), Some(vec![2, 0, 1]));
+        for wrong in [vec![0, 1], vec![0, 1, 1], vec![0, 1, 3], vec![0, 1, -1], vec![0, 1, 2, 3]] {
+            assert_eq!(guarded(3, || Some(wrong)), None);
+        }
+        assert_eq!(guarded(3, || None), None);
+        assert_eq!(guarded(3, || panic!("a defect of the other crate")), None);
+    }
 }
