@@ -24,6 +24,7 @@ use super::tolerances::{NULL_VECTOR, REGULARISATION, SUSPICIOUS_PIVOT};
 use super::unreduced::Unreduced;
 use numeric::{Numeric, Unfinished, factorised};
 use structure::Structure;
+use watch::answered;
 
 /// So many rows of `C` are few beside the rigid motions of a body, which are up to six: pivots tell which of
 /// them depend on the others, at no cost. Of more rows small diagonal entries alone are looked at.
@@ -48,17 +49,12 @@ impl SparseSchur {
         rank: Option<&[usize]>,
         watch: &mut dyn Watch,
     ) -> Result<Self, Failure> {
-        if watch.step(0.0).is_break() {
-            return Err(Failure::Stopped);
-        }
-        let structure = Structure::new(&lower, eliminated, rank)?;
+        let structure = Structure::new(&lower, eliminated, rank, watch)?;
         let panel_of = structure.panel_of_columns()?;
         let update = structure.cost(&panel_of).update;
         let matrix = lower.compute_nnz() * (size_of::<usize>() + size_of::<f64>());
         let bytes = numeric::bytes(&structure, &lower, update) + structure.bytes() + matrix;
-        if watch.announce(bytes as u64).is_break() {
-            return Err(Failure::Stopped);
-        }
+        answered(watch.announce(bytes as u64))?;
         let (numeric, singular) = match factorised(&structure, &panel_of, &lower, watch) {
             Ok(numeric) => (numeric, false),
             Err(Unfinished::Failed(failure)) => return Err(failure),

@@ -4,8 +4,6 @@
 //! A panel `s` gets the updates of those before it that have rows in its columns. These are found by
 //! lists: each panel stands in the list of the panel that holds its next row.
 
-use std::ops::ControlFlow;
-
 use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
 use faer::linalg::cholesky::llt::factor::cholesky_in_place_scratch;
 use faer::{Accum, MatMut, MatRef, Par, Spec};
@@ -97,7 +95,7 @@ pub fn factorised(
             let rows = links.rows_in(d, columns.end);
             let operations = update(structure, (d, values), rows.clone(), (s, panel), &mut room);
             links.put(d, rows.end);
-            ask(work.did(operations))?;
+            work.did(operations)?;
         }
         eliminate(panel, columns.len(), MemStack::new(&mut memory))
             .map_err(|place| Unfinished::Pivot(columns.start + place))?;
@@ -113,10 +111,6 @@ pub fn factorised(
     }
     mirror(&mut numeric.schur, kept);
     Ok(numeric)
-}
-
-fn ask(answer: ControlFlow<()>) -> Result<(), Failure> {
-    if answer.is_break() { Err(Failure::Stopped) } else { Ok(()) }
 }
 
 fn widest(structure: &Structure) -> StackReq {
@@ -287,7 +281,7 @@ fn subtract(
     let whole = MatRef::from_column_major_slice(panel, width + rows.len(), width);
     let (l, rows) = (whole.get(width + inner.., ..), &rows[inner..]);
     let place = |row: usize| row - structure.eliminated;
-    ask(work.did((width * width * (width + inner)) as f64))?;
+    work.did((width * width * (width + inner)) as f64)?;
     let mut first = 0;
     while first < rows.len() {
         let l = l.get(first.., ..);
@@ -308,7 +302,7 @@ fn subtract(
                 }
             }
         }
-        ask(work.did((count * many * width) as f64))?;
+        work.did((count * many * width) as f64)?;
         first += many;
     }
     Ok(())

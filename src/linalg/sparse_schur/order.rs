@@ -12,7 +12,9 @@ use faer::sparse::linalg::cholesky::simplicial;
 use faer::sparse::{SymbolicSparseColMat, SymbolicSparseColMatRef};
 use feral_scotch::{CscPattern, scotch_order};
 
+use super::failure::Failure;
 use super::graph::{Graph, filled, reserved};
+use super::watch::{Watch, go_on};
 use crate::linalg::sparse_matrix::OutOfMemory;
 
 /// Most vertices of the clique: of more, several are one. The clique has the square of it.
@@ -27,7 +29,14 @@ const OPERATIONS_PER_VERTEX: f64 = 2.0 * 2e-5 * 5e10;
 pub type Pattern = SymbolicSparseColMat<usize>;
 
 /// The inner vertices in the order of elimination.
-pub fn chosen(graph: &Graph, given: Option<&[usize]>) -> Result<Vec<usize>, OutOfMemory> {
+///
+/// # Errors
+/// No memory, or `watch` ends it.
+pub fn chosen(
+    graph: &Graph,
+    given: Option<&[usize]>,
+    watch: &mut dyn Watch,
+) -> Result<Vec<usize>, Failure> {
     if let Some(rank) = given {
         let mut order: Vec<usize> = (0..graph.inner).collect();
         let first = |v: &usize| graph.members(*v).iter().map(|&i| rank[i]).min();
@@ -38,7 +47,9 @@ pub fn chosen(graph: &Graph, given: Option<&[usize]>) -> Result<Vec<usize>, OutO
     if operations <= OPERATIONS_PER_VERTEX * graph.inner as f64 {
         return Ok(order);
     }
+    go_on(watch)?;
     let Some(dissected) = nested_dissection(graph) else { return Ok(order) };
+    go_on(watch)?;
     let (dissected, fewer) = examined(graph, &dissected)?;
     Ok(if fewer < operations { dissected } else { order })
 }
@@ -186,6 +197,19 @@ mod tests {
     };
     use crate::linalg::sparse_matrix::{Csc, from_entries};
     use crate::linalg::sparse_schur::graph::Graph;
+    use crate::linalg::sparse_schur::watch::Watch;
+
+    struct Unwatched;
+
+    impl Watch for Unwatched {
+        fn announce(&mut self, _: u64) -> std::ops::ControlFlow<()> {
+            std::ops::ControlFlow::Continue(())
+        }
+
+        fn step(&mut self, _: f64) -> std::ops::ControlFlow<()> {
+            std::ops::ControlFlow::Continue(())
+        }
+    }
 
     /// A cube of `edge`³ nodes with `dofs` unknowns each that are coupled with those of the 26 nodes around;
     /// the last layer is kept.
@@ -220,7 +244,7 @@ mod tests {
             let (matrix, eliminated) = cube(edge, 3);
             let graph = Graph::new(&matrix, eliminated).unwrap();
             let (_, most) = examined(&graph, &minimum_degree(&graph).unwrap()).unwrap();
-            let order = chosen(&graph, None).unwrap();
+            let order = chosen(&graph, None, &mut Unwatched).unwrap();
             assert!(is_permutation(&order, graph.inner));
             assert!(nested_dissection(&graph).is_some());
             assert!(examined(&graph, &order).unwrap().1 <= most);

@@ -4,8 +4,10 @@ use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::linalg::SymbolicSupernodalParams;
 use faer::sparse::linalg::cholesky::{simplicial, supernodal};
 
+use super::failure::Failure;
 use super::graph::{Graph, filled, reserved};
 use super::order::{Pattern, chosen, pattern};
+use super::watch::{Watch, go_on};
 use crate::linalg::sparse_matrix::{Csc, OutOfMemory, column};
 
 /// Most columns of a panel, into which wide supernodes are cut: so long does nothing ask whether to go on,
@@ -36,13 +38,19 @@ pub struct Structure {
 impl Structure {
     /// Of the factor of the matrix whose lower triangle is `lower`, in the best order that is found or, if
     /// `given` has the rank of each unknown, in this one.
+    ///
+    /// # Errors
+    /// No memory, or `watch`, who is asked between the parts of the work, ends it.
     pub fn new(
         lower: &Csc,
         eliminated: usize,
         given: Option<&[usize]>,
-    ) -> Result<Self, OutOfMemory> {
+        watch: &mut dyn Watch,
+    ) -> Result<Self, Failure> {
+        go_on(watch)?;
         let graph = Graph::new(lower, eliminated)?;
-        let order = chosen(&graph, given)?;
+        go_on(watch)?;
+        let order = chosen(&graph, given, watch)?;
         let pattern = pattern(&graph, &order)?;
         let symbolic = symbolic(&pattern)?;
         // Places of the unknowns of each vertex.

@@ -2,6 +2,8 @@
 
 use std::ops::ControlFlow;
 
+use super::failure::Failure;
+
 /// Is told what a factorisation needs and how far it is, and may end it.
 pub trait Watch {
     /// Before a long part that needs `bytes` of memory in all, those of its arguments included.
@@ -9,6 +11,16 @@ pub trait Watch {
 
     /// Between two steps; `share` of the work is done.
     fn step(&mut self, share: f64) -> ControlFlow<()>;
+}
+
+/// Asks before anything is known of the work.
+pub fn go_on(watch: &mut dyn Watch) -> Result<(), Failure> {
+    answered(watch.step(0.0))
+}
+
+/// An answer as a result.
+pub fn answered(answer: ControlFlow<()>) -> Result<(), Failure> {
+    if answer.is_break() { Err(Failure::Stopped) } else { Ok(()) }
 }
 
 /// Asks after so many operations: some milliseconds.
@@ -29,12 +41,12 @@ impl<'w> Work<'w> {
     }
 
     /// So many operations more are done.
-    pub fn did(&mut self, operations: f64) -> ControlFlow<()> {
+    pub fn did(&mut self, operations: f64) -> Result<(), Failure> {
         self.done += operations;
         if self.done - self.asked < OPERATIONS_BETWEEN {
-            return ControlFlow::Continue(());
+            return Ok(());
         }
         self.asked = self.done;
-        self.watch.step((self.done / self.all).min(1.0))
+        answered(self.watch.step((self.done / self.all).min(1.0)))
     }
 }
