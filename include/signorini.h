@@ -769,9 +769,10 @@ struct signorini_extra {
     uint32_t struct_size; /**< sizeof(signorini_extra). */
     int32_t reserved;     /**< 0. */
     /**
-     * Out: N entries. With SIGNORINI_STATUS_NO_EQUILIBRIUM the motion of escape r, which proves
-     * the status: K r = 0, and f . r + F . r > 0 for all contact forces F that the law admits. Its
-     * largest component is 1. With every other status zeros.
+     * Out: N entries. With SIGNORINI_STATUS_NO_EQUILIBRIUM a motion r that proves the status:
+     * K r = 0, and f . r + F . r > 0 for all contact forces F that the law admits. Its largest
+     * component is 1. With every other status zeros. With friction it lifts each slipping pair by
+     * mu times its slip, as nothing moves: draw escape.
      */
     double *motion;
     /**
@@ -783,6 +784,14 @@ struct signorini_extra {
     double *second_F;
     /** Out: one for each pair. SIGNORINI_STATE_... of the second solution; otherwise zeros. */
     int32_t *second_state;
+    /**
+     * Out: N entries. With SIGNORINI_STATUS_NO_EQUILIBRIUM the motion of escape, which you can
+     * draw: K r = 0, no pair approaches its obstacle, pairs that contact presses stay on it,
+     * friction opposes the slip, and f . r > 0. It is the motion against a viscosity in each
+     * component of the size of its diagonal entry of K, every pair of finite gap touching. Its
+     * largest component is 1. With every other status zeros.
+     */
+    double *escape;
 };
 
 /**

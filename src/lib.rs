@@ -115,5 +115,5 @@ pub use monitor::{Monitor, Progress, ProgressFn, Stop};
 pub use problem::{ContactData, ContactProblem, FrictionLaw, Lcp, Relation, Stiffness};
 pub use settings::{Method, Search, Settings};
 pub use solve::{
-    Fallback, LcpSolution, SecondSolution, Solution, Status, Uniqueness, solve, solve_lcp,
+    Escape, Fallback, LcpSolution, SecondSolution, Solution, Status, Uniqueness, solve, solve_lcp,
 };

@@ -165,9 +165,10 @@ impl Model {
         self.reduced(case, |problem| {
             let mut solution = solve(problem, settings, start, monitor)?;
             if solution.status == Status::NoEquilibrium
-                && let Some(motion) = &solution.recession
+                && let Some(escape) = &solution.escape
             {
-                let driven = driven_motion(&*self.reduction, problem.load(), motion);
+                let parts = (escape.motion.as_slice(), escape.unbalanced.as_slice());
+                let driven = driven_motion(&*self.reduction, problem.load(), parts);
                 solution.message = format!("{NO_EQUILIBRIUM}: {driven}").into();
             }
             Ok(solution)

@@ -22,6 +22,10 @@ const RESIDUAL: f64 = 1e-9;
 /// largest stiffness of the body, which is some hundred times that of a foot.
 const LAW: f64 = 1e-7;
 
+/// How far a motion of escape may go into the plane, relative to it: its accuracy is 1e-10 in the norm of the
+/// stiffness of all feet.
+const APPROACH: f64 = 1e-8;
+
 /// A body under loads on feet that stand on a plane.
 struct Body {
     dim: usize,
@@ -200,6 +204,11 @@ impl Body {
     }
 }
 
+/// How far a motion goes into the plane.
+fn largest_of_normals(dim: usize, motion: &[f64]) -> f64 {
+    motion.iter().step_by(dim).fold(0.0, |most: f64, r| most.max(*r))
+}
+
 /// What became of a body, for the counts.
 #[derive(Debug, Default, PartialEq, Eq)]
 struct Counts {
@@ -240,6 +249,11 @@ fn judged(
             }
             if !(dot(&body.load, &u) > 0.0) {
                 return Err("the loads do no work on the motion".into());
+            }
+            let escape = solution.escape.as_ref().ok_or("no escape")?;
+            let approach = largest_of_normals(body.dim, &escape.motion);
+            if !(approach <= APPROACH) {
+                return Err(format!("a foot goes into the plane by {approach:.1e}"));
             }
         }
         // On four feet elasticity shares out the pressures, and the friction of these may not balance

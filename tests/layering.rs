@@ -61,7 +61,7 @@ const ROOMS: [(&str, &[&str]); 13] = [
 
 /// The files and folders of `solve`: each imports from those before it only. `lcp` stands beside
 /// those that are behind `lemke`.
-const SOLVERS: [&str; 15] = [
+const SOLVERS: [&str; 16] = [
     "outcome",
     "candidate",
     "condense",
@@ -75,6 +75,7 @@ const SOLVERS: [&str; 15] = [
     "uniqueness",
     "dispatch",
     "auto",
+    "escape_motion",
     "far_obstacles",
     "mod",
 ];

@@ -2,7 +2,7 @@
 //! What is called a solution is decided in `candidate`, by the certificate alone.
 //!
 //! ```text
-//! outcome ← candidate ← condense ← rigid_balance ← sweeps ← normal_map ← active_set ← path ← lemke ← uniqueness ← dispatch ← auto ← far_obstacles ← mod
+//! outcome ← candidate ← condense ← rigid_balance ← sweeps ← normal_map ← active_set ← path ← lemke ← uniqueness ← dispatch ← auto ← escape_motion ← far_obstacles ← mod
 //!                                                                          └──── lcp ────────────────────────┘
 //! ```
 //!
@@ -14,6 +14,7 @@ mod auto;
 mod candidate;
 mod condense;
 mod dispatch;
+mod escape_motion;
 mod far_obstacles;
 mod lcp;
 mod lemke;
@@ -34,7 +35,7 @@ use crate::settings::{Search, Settings};
 pub(crate) use candidate::NO_EQUILIBRIUM;
 use dispatch::check_method;
 pub use lcp::{LcpSolution, solve_lcp};
-pub use outcome::{Fallback, SecondSolution, Solution, Status, Uniqueness};
+pub use outcome::{Escape, Fallback, SecondSolution, Solution, Status, Uniqueness};
 
 /// Solves a contact problem from the displacements `start` (zero if `None`).
 ///
@@ -54,6 +55,7 @@ pub fn solve(
     // Where d = 0 is the solution, other starts only approach it.
     let start = start.filter(|_| !contact.is_at_rest());
     let mut solution = far_obstacles::solve(&contact, settings, start, monitor)?;
+    escape_motion::describe(&contact, &mut solution, monitor)?;
     uniqueness::by_orientation(&contact, &mut solution);
     if settings.search == Search::Others {
         uniqueness::examine(&contact, settings, &mut solution, monitor)?;

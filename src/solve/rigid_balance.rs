@@ -18,6 +18,7 @@ use crate::linalg::nnls::{extend_basis, nearest};
 use crate::linalg::pivoted_cholesky::PivotedCholesky;
 use crate::linalg::tolerances::NEGLIGIBLE;
 use crate::linalg::vector::{dot, largest_of, norm};
+use crate::problem::ContactProblem;
 
 /// Negative work of a cone's force that counts, relative to the motion. Next to the limit of balance
 /// `e` is small beside the loads, and rounding of the projection is no smaller.
@@ -70,6 +71,19 @@ pub fn escape(contact: &Contact<'_>) -> Option<Vec<f64>> {
     None
 }
 
+/// An orthonormal basis of the motions without internal force, each component times its `root`.
+pub fn rigid_motions(problem: &ContactProblem<'_>, root: &[f64]) -> Vec<Vec<f64>> {
+    let mut basis = Vec::new();
+    let Some(block) = FreeBlock::of_problem(problem, (0..root.len()).collect()) else {
+        return basis;
+    };
+    for mut motion in block.null_vectors() {
+        motion.iter_mut().zip(root).for_each(|(r, root)| *r *= root);
+        extend_basis(&mut basis, motion);
+    }
+    basis
+}
+
 /// The rigid motions of a problem.
 struct Balance<'c> {
     contact: &'c Contact<'c>,
@@ -82,14 +96,8 @@ struct Balance<'c> {
 impl<'c> Balance<'c> {
     /// `None` if there are no such motions.
     fn new(contact: &'c Contact<'c>) -> Option<Self> {
-        let matrix = contact.problem().stiffness();
         let root = contact.problem().unit_roots();
-        let mut basis = Vec::new();
-        let block = FreeBlock::of_problem(contact.problem(), (0..matrix.size()).collect())?;
-        for mut motion in block.null_vectors() {
-            motion.iter_mut().zip(&root).for_each(|(r, root)| *r *= root);
-            extend_basis(&mut basis, motion);
-        }
+        let basis = rigid_motions(contact.problem(), &root);
         (!basis.is_empty()).then_some(Balance { contact, root, basis })
     }
 

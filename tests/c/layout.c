@@ -125,13 +125,14 @@ FIELD(signorini_pairs, weights, double *, 40);
 FIELD(signorini_pairs, normals, double *, 48);
 FIELD(signorini_pairs, tangents, double *, 56);
 
-SIZE(signorini_extra, 40);
+SIZE(signorini_extra, 48);
 FIELD(signorini_extra, struct_size, uint32_t, 0);
 FIELD(signorini_extra, reserved, int32_t, 4);
 FIELD(signorini_extra, motion, double *, 8);
 FIELD(signorini_extra, second_d, double *, 16);
 FIELD(signorini_extra, second_F, double *, 24);
 FIELD(signorini_extra, second_state, int32_t *, 32);
+FIELD(signorini_extra, escape, double *, 40);
 
 #endif
 
@@ -160,6 +161,7 @@ int main(void)
     CHECK_STATUS(signorini_extra_default(&extra, sizeof extra), 0);
     CHECK(extra.struct_size == sizeof extra && extra.reserved == 0 && extra.motion == NULL);
     CHECK(extra.second_d == NULL && extra.second_F == NULL && extra.second_state == NULL);
+    CHECK(extra.escape == NULL);
     signorini_report blank, zeros = {.struct_size = sizeof zeros};
     memset(&blank, 0xFF, sizeof blank);
     CHECK_STATUS(signorini_report_default(&blank, sizeof blank), 0);

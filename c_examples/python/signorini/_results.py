@@ -18,16 +18,18 @@ iterations: sweeps, pivots or linear systems done.  eta: the latest, infinite be
 elapsed: seconds since the call began.
 """
 
-Result = namedtuple("Result", "d F state status message report motion second")
+Result = namedtuple("Result", "d F state status message report motion second escape")
 Result.__doc__ = """What a call has found.
 
 d: relative displacements, (P, D); length.  F: contact forces, (P, D); force.  state: of each pair
 (State), (P,).  Unless status is SOLVED these are the best or last iterate.
 status: a Status.  message: the same in words.
 report: the fields of signorini_report, with members of Method, Uniqueness and Fallback.
-motion: with status NO_EQUILIBRIUM the motion of escape, (P, D), largest component 1; else None.
+motion: with status NO_EQUILIBRIUM a motion that proves it, (P, D), largest component 1; else None.
 second: a second solution, a Result whose report is measured as certify does, or None. What
 uniqueness proves needs no second solution; ask for one by search="others".
+escape: with status NO_EQUILIBRIUM the motion with which the bodies escape, (P, D), largest component
+1, without the lift that a proof needs: draw this one; else None.
 """
 
 LcpResult = namedtuple("LcpResult", "w z status message report y")
@@ -47,11 +49,13 @@ class Output:
         shape = (cases, pairs, dim)
         self.d = np.full(shape, np.nan) if start is None else np.array(start).reshape(shape)
         self.F, self.state = np.full(shape, np.nan), np.full(shape[:2], -1, np.int32)
-        self.motion, self.second_d, self.second_F = (np.zeros(shape) for _ in range(3))
+        self.motion, self.escape = np.zeros(shape), np.zeros(shape)
+        self.second_d, self.second_F = np.zeros(shape), np.zeros(shape)
         self.second_state = np.zeros(shape[:2], np.int32)
         self.report = (Report * cases)(*[sized(Report) for _ in range(cases)])
         self.extra = sized(Extra, motion=at(self.motion), second_d=at(self.second_d),
-                           second_F=at(self.second_F), second_state=at(self.second_state))
+                           second_F=at(self.second_F), second_state=at(self.second_state),
+                           escape=at(self.escape))
 
     def solution(self):
         """Arguments d, F, state."""
@@ -66,7 +70,7 @@ class Output:
 
         measure: certify, of displacements.
         """
-        motion = second = report = None
+        motion = escape = second = report = None
         if status < 0:
             self.d[case] = np.nan
         else:
@@ -77,9 +81,9 @@ class Output:
                     F=self.second_F[case], state=self.second_state[case]
                 )
             if status == Status.NO_EQUILIBRIUM:
-                motion = self.motion[case]
+                motion, escape = self.motion[case], self.escape[case]
         return Result(self.d[case], self.F[case], self.state[case], status, message, report,
-                      motion, second)
+                      motion, second, escape)
 
 
 def certified(functions, function, data, tolerance, d):
@@ -92,4 +96,4 @@ def certified(functions, function, data, tolerance, d):
     F, state, report = np.zeros_like(d), np.zeros(len(d), np.int32), sized(Report)
     status = function(*data, tolerance, at(d), at(F), at(state), ctypes.byref(report))
     status, message = check(functions, status)
-    return Result(d, F, state, status, message, report.plain(), None, None)
+    return Result(d, F, state, status, message, report.plain(), None, None, None)

@@ -57,7 +57,7 @@ class Extra(ctypes.Structure):
 
     _fields_ = [
         ("struct_size", u32), ("reserved", i32), ("motion", address), ("second_d", address),
-        ("second_F", address), ("second_state", address),
+        ("second_F", address), ("second_state", address), ("escape", address),
     ]
 
 
