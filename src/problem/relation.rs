@@ -89,12 +89,17 @@ impl Relation for Stiffness<'_> {
         residual
     }
 
+    /// A component that nothing resists counts with its unit: what it was condensed from has such stiffnesses,
+    /// whose sums are zero.
     fn magnitude(&self, size: &[f64]) -> Vec<f64> {
         let mut sum = vec![0.0; size.len()];
         for (j, &size) in size.iter().enumerate() {
             if size > 0.0 {
                 for (sum, k) in sum.iter_mut().zip(self.matrix.column(j)) {
                     *sum += k.abs() * size;
+                }
+                if self.matrix.at(j, j) == 0.0 {
+                    sum[j] += self.unit(j) * size;
                 }
             }
         }

@@ -81,6 +81,12 @@ impl Candidate {
         Candidate { effort, ..self }
     }
 
+    /// The same candidate at other displacements.
+    pub fn moved_to(self, contact: &Contact<'_>, d: Vec<f64>) -> Self {
+        let force = contact.problem().force(&d);
+        Candidate { d, force, certificate: OnceCell::new(), ..self }
+    }
+
     /// The certificate, measured once.
     pub fn certificate(&self, contact: &Contact<'_>) -> &Certificate {
         self.certificate.get_or_init(|| measure(contact, &self.d, &self.force))

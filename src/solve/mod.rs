@@ -2,7 +2,7 @@
 //! What is called a solution is decided in `candidate`, by the certificate alone.
 //!
 //! ```text
-//! outcome ← candidate ← condense ← rigid_balance ← sweeps ← normal_map ← active_set ← path ← lemke ← uniqueness ← dispatch ← auto ← escape_motion ← far_obstacles ← mod
+//! outcome ← candidate ← condense ← rigid_balance ← smallest_lift ← sweeps ← normal_map ← active_set ← path ← lemke ← uniqueness ← dispatch ← auto ← escape_motion ← far_obstacles ← mod
 //!                                                                          └──── lcp ────────────────────────┘
 //! ```
 //!
@@ -22,6 +22,7 @@ mod normal_map;
 mod outcome;
 mod path;
 mod rigid_balance;
+mod smallest_lift;
 mod sweeps;
 mod uniqueness;
 
