@@ -723,9 +723,15 @@ struct signorini_report {
     int64_t iterations;       /**< Sweeps, pivots or linear systems, of all methods tried. */
     int64_t outer_iterations; /**< Threshold updates of the nested method. */
     int64_t refactorisations; /**< How often Lemke's tableau was refactorised to regain accuracy. */
-    /** Residual of the contact law relative to the forces, no unit; 0 at exact solutions only. */
+    /**
+     * Residual of the contact law relative to the forces, no unit, before d is rounded to doubles;
+     * 0 at exact solutions only.
+     */
     double eta;
-    /** Rounding of K d relative to the forces, no unit; above 1e-6 nothing is certified. */
+    /**
+     * What rounding d to doubles may add to eta, no unit. Above 1e-6 only a d is certified that K
+     * resists by more energy than rounding of its entries explains.
+     */
     double rounding;
     double penetration;       /**< Largest d_n - gap; length; 0 if none. */
     /** Largest normal part of K d - f beyond the tension of the law, 0 but for cohesion; force. */

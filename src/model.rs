@@ -206,7 +206,10 @@ impl Model {
             law: case.law,
             reference_slip: slip.as_deref(),
         })?;
-        to(&problem)
+        match self.reduction.is_condensed_by_host() {
+            true => to(&problem.condensed_by_host()),
+            false => to(&problem),
+        }
     }
 
     /// Displacements of the host from the relative ones; without `load` and `prescribed` those of

@@ -55,9 +55,11 @@ pub struct SignoriniReport {
     pub outer_iterations: i64,
     /// How often Lemke's tableau was refactorised to regain accuracy.
     pub refactorisations: i64,
-    /// Residual of the contact law relative to the forces, no unit; 0 at exact solutions only.
+    /// Residual of the contact law relative to the forces, no unit, before d is rounded to doubles;
+    /// 0 at exact solutions only.
     pub eta: f64,
-    /// Rounding of K d relative to the forces, no unit; above 1e-6 nothing is certified.
+    /// What rounding d to doubles may add to eta, no unit. Above 1e-6 only a d is certified that K
+    /// resists by more energy than rounding of its entries explains.
     pub rounding: f64,
     /// Largest d_n - gap; length; 0 if none.
     pub penetration: f64,

@@ -58,6 +58,8 @@ pub use planar_piece::{Exit, Planar};
 pub use reach::gaps_within_reach;
 pub use recession::{Recession, lift};
 
+use crate::linalg::double_double::two_sum;
+
 /// What a contact pair does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum State {
@@ -149,6 +151,24 @@ impl PairLaw {
     /// component of a pair without an obstacle.
     pub fn reference(&self) -> Vector {
         [if self.has_obstacle() { self.gap } else { 0.0 }, self.slip0[0], self.slip0[1]]
+    }
+
+    /// `d - reference` for displacements `d + low` in two parts, `low` what rounding to doubles has left
+    /// out of `d`: nothing is lost where `d` and the reference cancel.
+    pub fn beyond_reference(&self, d: &[f64], low: &[f64]) -> Vector {
+        let reference = self.reference();
+        let mut v = [0.0; 3];
+        for c in 0..self.dim {
+            let (difference, lost) = two_sum(d[c], -reference[c]);
+            v[c] = difference + (lost + low[c]);
+        }
+        v
+    }
+
+    /// The same law for [`Self::beyond_reference`]: its gap and its reference slip are zero.
+    pub fn at_its_reference(&self) -> Self {
+        let gap = if self.has_obstacle() { 0.0 } else { self.gap };
+        PairLaw { gap, slip0: [0.0; 2], ..*self }
     }
 
     /// The normal displacement nearest to `d_n` that does not penetrate.

@@ -24,8 +24,9 @@ pub trait Relation {
     /// The loads, in the unit of force: what drives the problem, and the size of forces.
     fn load(&self) -> &[f64];
 
-    /// The contact force that `d` determines; `None` if it determines none.
-    fn force(&self, d: &[f64]) -> Option<Vec<f64>>;
+    /// The contact force that `d + low` determines, rounded once; `None` if it determines none. `low` is
+    /// empty, or what rounding to doubles has left out of `d`; `terms` is [`Self::magnitude`] of `|d|`.
+    fn force(&self, d: &[f64], low: &[f64], terms: &[f64]) -> Option<Vec<f64>>;
 
     /// How far `(d, F)` is from equilibrium, a force for each component: zero if the relation holds.
     fn residual(&self, d: &[f64], force: &[f64]) -> Vec<f64>;
@@ -46,12 +47,25 @@ pub struct Stiffness<'a> {
     dim: usize,
     /// Largest diagonal entry.
     largest: f64,
+    /// Energy of a motion that rounding of the entries explains, of `|d| . |K| |d|`.
+    pub(super) rounding: f64,
 }
+
+/// [`Stiffness::rounding`] of a matrix that is exact but for the last digits of its entries: rounding each
+/// of them once explains half a unit, and a host that sums a few terms to an entry rounds as often.
+const LAST_DIGITS: f64 = 10.0 * f64::EPSILON;
 
 impl<'a> Stiffness<'a> {
     /// The relation of pairs of `dim` components, with a symmetric matrix.
     pub(super) fn new(matrix: Matrix<'a>, load: &'a [f64], dim: usize) -> Self {
-        Stiffness { matrix, load, symmetric: true, dim, largest: matrix.largest_diagonal() }
+        Stiffness {
+            matrix,
+            load,
+            symmetric: true,
+            dim,
+            largest: matrix.largest_diagonal(),
+            rounding: LAST_DIGITS,
+        }
     }
 
     /// The unit of force per length of component `i`, positive: `K[i, i]`, or one of the pair, or of the
@@ -74,11 +88,9 @@ impl Relation for Stiffness<'_> {
         self.load
     }
 
-    /// `K d - f`.
-    fn force(&self, d: &[f64]) -> Option<Vec<f64>> {
-        let mut force: Vec<f64> = self.load.iter().map(|f| -f).collect();
-        self.matrix.add_product(d, &mut force);
-        Some(force)
+    /// `K (d + low) - f`, in twice the precision and rounded once.
+    fn force(&self, d: &[f64], low: &[f64], terms: &[f64]) -> Option<Vec<f64>> {
+        Some(self.matrix.residual(d, low, self.load, terms))
     }
 
     /// `K d - f - F`.
@@ -92,15 +104,10 @@ impl Relation for Stiffness<'_> {
     /// A component that nothing resists counts with its unit: what it was condensed from has such stiffnesses,
     /// whose sums are zero.
     fn magnitude(&self, size: &[f64]) -> Vec<f64> {
-        let mut sum = vec![0.0; size.len()];
-        for (j, &size) in size.iter().enumerate() {
-            if size > 0.0 {
-                for (sum, k) in sum.iter_mut().zip(self.matrix.column(j)) {
-                    *sum += k.abs() * size;
-                }
-                if self.matrix.at(j, j) == 0.0 {
-                    sum[j] += self.unit(j) * size;
-                }
+        let mut sum = self.matrix.magnitude(size);
+        for (j, sum) in sum.iter_mut().enumerate() {
+            if self.matrix.at(j, j) == 0.0 {
+                *sum += self.unit(j) * size[j];
             }
         }
         sum

@@ -116,6 +116,10 @@ impl Reduction for CondensedReduction {
         &self.stiffness
     }
 
+    fn is_condensed_by_host(&self) -> bool {
+        true
+    }
+
     fn host_size(&self) -> usize {
         self.size
     }

@@ -27,6 +27,11 @@ pub trait Reduction: Send + Sync {
     /// `K_rel`, column-major, square.
     fn stiffness(&self) -> &[f64];
 
+    /// Whether the host has condensed the stiffness, so that its rounding is not known from its entries.
+    fn is_condensed_by_host(&self) -> bool {
+        false
+    }
+
     /// Entries of a load or displacement vector of the host.
     fn host_size(&self) -> usize;
 

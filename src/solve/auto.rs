@@ -145,6 +145,7 @@ impl Tried {
             solution.uniqueness = Uniqueness::Several;
             solution.second = Some(Box::new(SecondSolution {
                 d: other.d,
+                d_low: other.d_low,
                 certificate: other.certificate,
                 orientation: other.orientation,
             }));

@@ -4,7 +4,7 @@
 use std::cell::OnceCell;
 
 use super::outcome::{Solution, Status, Uniqueness};
-use crate::certificate::{Certificate, is_escape_of, measure};
+use crate::certificate::{Certificate, is_escape_of, measure, measure_parts};
 use crate::law::Contact;
 use crate::linalg::vector::normalise;
 use crate::monitor::Stop;
@@ -33,6 +33,8 @@ pub enum Ending {
 pub struct Candidate {
     /// Displacements.
     pub d: Vec<f64>,
+    /// What rounding to doubles has left out of `d`; empty where nothing is known of it.
+    pub low: Vec<f64>,
     /// Contact forces that equilibrium needs at `d`, as the solver has them.
     pub force: Vec<f64>,
     /// Why the solver stopped.
@@ -62,7 +64,8 @@ pub struct Effort {
 impl Candidate {
     /// A candidate with its forces.
     pub fn new(d: Vec<f64>, force: Vec<f64>, ending: Ending, effort: Effort) -> Self {
-        Candidate { d, force, ending, effort, orientation: 0, certificate: OnceCell::new() }
+        let certificate = OnceCell::new();
+        Candidate { d, low: Vec::new(), force, ending, effort, orientation: 0, certificate }
     }
 
     /// A candidate whose forces follow from its displacements.
@@ -84,12 +87,25 @@ impl Candidate {
     /// The same candidate at other displacements.
     pub fn moved_to(self, contact: &Contact<'_>, d: Vec<f64>) -> Self {
         let force = contact.problem().force(&d);
-        Candidate { d, force, certificate: OnceCell::new(), ..self }
+        Candidate { d, low: Vec::new(), force, ..self }.remeasured()
+    }
+
+    /// The same candidate with another ending.
+    pub fn ended(self, ending: Ending) -> Self {
+        Candidate { ending, ..self }
+    }
+
+    /// The same candidate after a change of its displacements: its certificate is measured anew.
+    pub fn remeasured(self) -> Self {
+        Candidate { certificate: OnceCell::new(), ..self }
     }
 
     /// The certificate, measured once.
     pub fn certificate(&self, contact: &Contact<'_>) -> &Certificate {
-        self.certificate.get_or_init(|| measure(contact, &self.d, &self.force))
+        self.certificate.get_or_init(|| match self.low.as_slice() {
+            [] => measure(contact, &self.d, &self.force),
+            low => measure_parts(contact, &self.d, low),
+        })
     }
 
     /// Whether nothing is left to try: solved, proved to have no solution, or stopped.
@@ -111,7 +127,7 @@ pub fn certified(
 ) -> Solution {
     let at_rest = at_rest(contact, settings, candidate);
     let candidate = at_rest.as_ref().unwrap_or(candidate);
-    let certificate = candidate.certificate(contact);
+    let certificate = candidate.certificate(contact).clone().unforgiving(settings.tolerance);
     let mut recession = None;
     let accuracy = format!("eta is {:.1e}", certificate.eta);
     let wanted = format!("{accuracy}, wanted {:.1e}", settings.tolerance);
@@ -131,14 +147,15 @@ pub fn certified(
     } else if let Ending::Stopped(stop) = candidate.ending {
         stop.status(settings, &wanted)
     } else {
-        (Status::Stalled, format!("{}; {wanted}", candidate.ending.reason(certificate)))
+        (Status::Stalled, format!("{}; {wanted}", candidate.ending.reason(&certificate)))
     };
     let effort = candidate.effort;
     Solution {
         status,
         message: message.into(),
         d: candidate.d.clone(),
-        certificate: certificate.clone(),
+        d_low: low_part(candidate),
+        certificate,
         recession,
         escape: None,
         method,
@@ -153,6 +170,11 @@ pub fn certified(
         omega: effort.omega,
         damping: effort.damping,
     }
+}
+
+/// What rounding has left out of the displacements, as far as it is known.
+pub fn low_part(candidate: &Candidate) -> Vec<f64> {
+    if candidate.low.is_empty() { vec![0.0; candidate.d.len()] } else { candidate.low.clone() }
 }
 
 /// Zero displacement, if it is the solution and the candidate is not. Without loads the scale of

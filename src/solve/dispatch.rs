@@ -47,7 +47,8 @@ pub fn run(
         return Ok(Candidate::without_displacements(contact, Ending::Done));
     }
     let candidate = run_plainly(method, contact, settings, start, monitor)?;
-    Ok(without_idle_motion(contact, candidate))
+    let candidate = without_idle_motion(contact, candidate);
+    Ok(normal_map::polished(contact, settings, candidate))
 }
 
 fn run_plainly(

@@ -54,7 +54,9 @@ pub struct Solution {
     pub message: Message,
     /// Relative displacements; the best iterate where [`Self::status`] is not [`Status::Solved`].
     pub d: Vec<f64>,
-    /// The certificate of `d`: measures, contact forces, states.
+    /// What rounding to doubles has left out of [`Self::d`]: `d + d_low` is what the certificate measures.
+    pub d_low: Vec<f64>,
+    /// The certificate of `d + d_low`: measures, contact forces, states.
     pub certificate: Certificate,
     /// With [`Status::NoEquilibrium`] the recession direction that proves it, its largest component 1.
     /// With friction it lifts each slipping pair by `mu` times its slip: it proves, but no body moves so.
@@ -105,6 +107,8 @@ pub struct Escape {
 pub struct SecondSolution {
     /// Relative displacements.
     pub d: Vec<f64>,
+    /// As [`Solution::d_low`].
+    pub d_low: Vec<f64>,
     /// The certificate: measures, contact forces, states.
     pub certificate: Certificate,
     /// As [`Solution::orientation`].

@@ -7,7 +7,7 @@ use crate::law::{Contact, PairLaw};
 use crate::monitor::Monitor;
 use crate::settings::Settings;
 use crate::solve::active_set::from_branches;
-use crate::solve::candidate::{Candidate, Ending};
+use crate::solve::candidate::{Candidate, Ending, low_part};
 use crate::solve::outcome::SecondSolution;
 use crate::solve::{lemke, path};
 
@@ -71,6 +71,7 @@ fn accepted(
     other.then(|| SecondSolution {
         certificate: candidate.certificate(contact).clone(),
         orientation: candidate.orientation,
+        d_low: low_part(&candidate),
         d: candidate.d,
     })
 }

@@ -1,0 +1,107 @@
+//! Refinement of a candidate with residuals in twice the precision, its displacements carried as two
+//! doubles each.
+//!
+//! A double cannot hold displacements to the accuracy that the forces of an ill-conditioned `K` ask for:
+//! rounding `d` alone changes `K d` by `u |K| |d|`. So `d + low` is refined. With `F = K (d + low) - f`, the
+//! coordinates `y = k v - F'` on the chart of the law, and `v'` the displacement of the point there,
+//! `e = k (v - v')` is small, and computed without cancellation. The lack of equilibrium at that point is
+//! `H = e - K k⁻¹ e`, because its push is `P = e - F`. Newton's step `dy` from there on the pieces of `y`
+//! moves `v` by `-k⁻¹ e + k⁻¹ (1 - dP/dy) dy`, a small number again, which double precision gives.
+
+use super::equations::Equations;
+use super::system::System;
+use crate::certificate::eta_of;
+use crate::law::{Contact, Vector};
+use crate::linalg::double_double::two_sum;
+use crate::linalg::tolerances::NULL_VECTOR;
+use crate::settings::Settings;
+use crate::solve::candidate::{Candidate, Ending};
+
+/// Most steps, and those in a row that may be no better than an earlier one: pieces may change first.
+const MOST_STEPS: usize = 30;
+const MOST_IN_VAIN: usize = 3;
+
+/// Part of the tolerance that is aimed at.
+const AIM: f64 = 0.01;
+
+/// Where `eta` is below a candidate is next to a solution. On few unknowns systems cost next to nothing,
+/// and rounding may hide a solution from a method altogether: there any candidate is refined.
+const NEAR: f64 = 1e-3;
+const FEW_UNKNOWNS: usize = 64;
+
+/// The candidate, refined if its residual is above the tolerance and that helps.
+pub fn polished(contact: &Contact<'_>, settings: &Settings, candidate: Candidate) -> Candidate {
+    let old = candidate.certificate(contact);
+    let is_finite = candidate.d.iter().all(|d| d.is_finite());
+    let is_near = old.eta <= NEAR || contact.unknowns() <= FEW_UNKNOWNS;
+    let is_stopped = matches!(candidate.ending, Ending::Stopped(_)) || contact.is_at_rest();
+    if old.residual <= settings.tolerance || !is_finite || !is_near || is_stopped {
+        return candidate;
+    }
+    let refined = refined(contact, &candidate, AIM * settings.tolerance);
+    let new = refined.certificate(contact);
+    let helps = new.residual <= settings.tolerance && !new.runs_away();
+    if helps { refined.ended(Ending::Done) } else { candidate }
+}
+
+/// Refines until `eta` is at most `aim`, or falls no further.
+fn refined(contact: &Contact<'_>, candidate: &Candidate, aim: f64) -> Candidate {
+    let at_reference = contact.at_its_reference();
+    let equations = Equations::of(&at_reference);
+    let (mut d, mut low) = (candidate.d.clone(), vec![0.0; candidate.d.len()]);
+    let mut best = candidate.clone();
+    let (mut least, mut in_vain) = (f64::INFINITY, 0);
+    for _ in 0..MOST_STEPS {
+        let v = contact.beyond_reference(&d, &low);
+        let force = contact.problem().force_of_parts(&d, &low);
+        let eta = eta_of(&at_reference, &v, &force);
+        if eta < least {
+            (least, in_vain) = (eta, 0);
+            (best.d, best.low, best.force) = (d.clone(), low.clone(), force.clone());
+        } else {
+            in_vain += 1;
+        }
+        if !(least > aim) || in_vain >= MOST_IN_VAIN {
+            break;
+        }
+        best.effort.factorisations += 1;
+        let Some((step, orientation)) = step(&equations, &v, &force) else { break };
+        best.orientation = orientation;
+        for ((d, low), step) in d.iter_mut().zip(&mut low).zip(&step) {
+            let (sum, lost) = two_sum(*d, *step);
+            (*d, *low) = two_sum(sum, lost + *low);
+        }
+    }
+    best.remeasured()
+}
+
+/// The change of displacements `v` beyond their references that Newton's method wants where they need
+/// `force`, and the sign of the determinant; `None` if the system is singular.
+fn step(equations: &Equations<'_>, v: &[f64], force: &[f64]) -> Option<(Vec<f64>, i8)> {
+    let dim = equations.dim;
+    let y = equations.coordinates(v, force);
+    let pieces = equations.pieces(&y);
+    let parts = || v.chunks_exact(dim).zip(force.chunks_exact(dim));
+    let laws = || equations.laws.iter().zip(&pieces).zip(&y);
+    let mut distance = Vec::with_capacity(v.len());
+    let mut change = Vec::with_capacity(v.len());
+    for (((law, &piece), y), (v, force)) in laws().zip(parts()) {
+        let apart = law.distance_to_piece(piece, y, v, force);
+        distance.extend_from_slice(&apart[..dim]);
+        change.extend(law.displacement_by(&apart)[..dim].iter().map(|by| -by));
+    }
+    let mut lack = distance;
+    equations.matrix.add_product(&change, &mut lack);
+    let at = (pieces.as_slice(), y.as_slice());
+    let mut system = System::with_least_pivot(equations, at, 1.0, None, NULL_VECTOR)?;
+    let (steps, _) = system.step(&lack, 0.0)?;
+    for ((((law, &piece), y), dy), change) in laws().zip(&steps).zip(change.chunks_exact_mut(dim)) {
+        let derivative = law.derivative_on(piece, y);
+        let by: Vector = std::array::from_fn(|row| {
+            dy[row] - (0..dim).map(|column| derivative[row][column] * dy[column]).sum::<f64>()
+        });
+        let moved = law.displacement_by(&by);
+        change.iter_mut().zip(moved).for_each(|(change, moved)| *change += moved);
+    }
+    Some((change, system.orientation()))
+}
