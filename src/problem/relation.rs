@@ -52,8 +52,8 @@ pub struct Stiffness<'a> {
 }
 
 /// [`Stiffness::rounding`] of a matrix that is exact but for the last digits of its entries: rounding each
-/// of them once explains half a unit, and a host that sums a few terms to an entry rounds as often.
-const LAST_DIGITS: f64 = 10.0 * f64::EPSILON;
+/// of them once explains half a unit. A definite matrix of condition 1e15 resists with 4.5 units or more.
+const LAST_DIGITS: f64 = f64::EPSILON;
 
 impl<'a> Stiffness<'a> {
     /// The relation of pairs of `dim` components, with a symmetric matrix.

@@ -18,7 +18,7 @@
 use super::auto;
 use super::candidate::NO_EQUILIBRIUM;
 use super::outcome::{Escape, Solution, Status};
-use super::rigid_balance::rigid_motions;
+use super::rigid_balance::{rigid_motions, sharpened};
 use crate::error::{Error, index};
 use crate::law::Contact;
 use crate::linalg::vector::{dot, norm, normalise};
@@ -40,7 +40,8 @@ const RIGID: f64 = 1e-10;
 /// reading.
 const MOVING: f64 = 1e-6;
 
-/// Gives a solution that has no equilibrium its motion of escape, and says in its message what moves.
+/// Gives a solution that has no equilibrium its motion of escape, sharpens the one that proves it, and says in
+/// the message what moves.
 pub fn describe(
     contact: &Contact<'_>,
     solution: &mut Solution,
@@ -49,9 +50,12 @@ pub fn describe(
     if solution.status != Status::NoEquilibrium {
         return Ok(());
     }
-    let Some(proof) = solution.recession.as_deref() else { return Ok(()) };
-    let viscous = Viscous::new(contact, proof);
-    let escape = viscous.escape(monitor)?.unwrap_or_else(|| viscous.along(proof));
+    let Some(proof) = solution.recession.take() else { return Ok(()) };
+    let mut proof = sharpened(contact, proof);
+    normalise(&mut proof);
+    let viscous = Viscous::new(contact, &proof);
+    let escape = viscous.escape(monitor)?.unwrap_or_else(|| viscous.along(&proof));
+    solution.recession = Some(proof);
     solution.message = message(contact, &escape).into();
     solution.escape = Some(escape);
     Ok(())

@@ -16,7 +16,7 @@ use crate::certificate::is_escape_of;
 use crate::law::Contact;
 use crate::linalg::nnls::{extend_basis, nearest};
 use crate::linalg::pivoted_cholesky::PivotedCholesky;
-use crate::linalg::tolerances::NEGLIGIBLE;
+use crate::linalg::tolerances::{NEGLIGIBLE, NULL_VECTOR};
 use crate::linalg::vector::{dot, largest_of, norm};
 use crate::problem::ContactProblem;
 
@@ -69,6 +69,20 @@ pub fn escape(contact: &Contact<'_>) -> Option<Vec<f64>> {
         }
     }
     None
+}
+
+/// A motion that proves that no equilibrium exists without the rounding of the method that found it: made
+/// rigid, and lifted where contact would stop it. The given one, if that is no proof.
+pub fn sharpened(contact: &Contact<'_>, motion: Vec<f64>) -> Vec<f64> {
+    let Some(balance) = Balance::new(contact) else { return motion };
+    let scaled: Vec<f64> = motion.iter().zip(&balance.root).map(|(r, root)| r * root).collect();
+    let e: Vec<f64> = balance.basis.iter().map(|v| dot(v, &scaled)).collect();
+    let mut rigid = balance.motion(&e);
+    let size = balance.size(&rigid);
+    if balance.approaches(&rigid).into_iter().any(|approach| approach > NULL_VECTOR * size) {
+        rigid = balance.lifted(rigid);
+    }
+    if is_escape_of(contact, &rigid) { rigid } else { motion }
 }
 
 /// An orthonormal basis of the motions without internal force, each component times its `root`.
@@ -162,19 +176,29 @@ impl<'c> Balance<'c> {
         motion
     }
 
-    /// The motion nearest to `-1` in the normal components, by least squares; `None` if none has any.
+    /// The motion nearest to `-1` in the normal components, and to no slip in those tangential ones that make
+    /// a pair approach, by least squares; `None` if none has any.
     fn lift(&self) -> Option<Vec<f64>> {
         let dim = self.contact.dim();
-        let normals: Vec<Vec<f64>> =
-            self.basis.iter().map(|v| v.iter().step_by(dim).copied().collect()).collect();
-        let size: Vec<f64> = normals.iter().map(|v| dot(v, v).sqrt()).collect();
+        // What each component adds to the approach of its pair.
+        let weight = |i: usize| match i % dim {
+            0 => 1.0,
+            _ => {
+                self.contact.pairs()[i / dim].bound().slope * self.root[i - i % dim] / self.root[i]
+            }
+        };
+        let weights: Vec<f64> = (0..self.root.len()).map(weight).collect();
+        let weighted =
+            |v: &Vec<f64>| v.iter().zip(&weights).map(|(v, weight)| v * weight).collect();
+        let approaches: Vec<Vec<f64>> = self.basis.iter().map(weighted).collect();
+        let size: Vec<f64> = approaches.iter().map(|v| dot(v, v).sqrt()).collect();
         let moving: Vec<usize> = (0..size.len()).filter(|&k| size[k] > NEGLIGIBLE).collect();
         let unit = |i: usize, j: usize| {
             let (i, j) = (moving[i], moving[j]);
-            dot(&normals[i], &normals[j]) / (size[i] * size[j])
+            dot(&approaches[i], &approaches[j]) / (size[i] * size[j])
         };
         let gram = PivotedCholesky::new(moving.len(), unit)?;
-        let wanted = |k: usize| -normals[k].iter().sum::<f64>() / size[k];
+        let wanted = |k: usize| -approaches[k].iter().step_by(dim).sum::<f64>() / size[k];
         let mut x: Vec<f64> = gram.independent().iter().map(|&i| wanted(moving[i])).collect();
         gram.solve(&mut x);
         let mut e = vec![0.0; self.basis.len()];
