@@ -16,13 +16,16 @@ use crate::certificate::is_escape_of;
 use crate::law::Contact;
 use crate::linalg::nnls::{extend_basis, nearest};
 use crate::linalg::pivoted_cholesky::PivotedCholesky;
-use crate::linalg::tolerances::{NEGLIGIBLE, NULL_VECTOR};
+use crate::linalg::tolerances::NEGLIGIBLE;
 use crate::linalg::vector::{dot, largest_of, norm};
 use crate::problem::ContactProblem;
 
 /// Negative work of a cone's force that counts, relative to the motion. Next to the limit of balance
 /// `e` is small beside the loads, and rounding of the projection is no smaller.
 const NEGATIVE: f64 = 1e-9;
+
+/// Approach of a pair beside the motion that is more than its own rounding.
+const STOPPED: f64 = 2.0 * f64::EPSILON;
 
 /// Pairs whose edges join in one round.
 const JOINING: usize = 4;
@@ -79,7 +82,7 @@ pub fn sharpened(contact: &Contact<'_>, motion: Vec<f64>) -> Vec<f64> {
     let e: Vec<f64> = balance.basis.iter().map(|v| dot(v, &scaled)).collect();
     let mut rigid = balance.motion(&e);
     let size = balance.size(&rigid);
-    if balance.approaches(&rigid).into_iter().any(|approach| approach > NULL_VECTOR * size) {
+    if balance.approaches(&rigid).into_iter().any(|approach| approach > STOPPED * size) {
         rigid = balance.lifted(rigid);
     }
     if is_escape_of(contact, &rigid) { rigid } else { motion }
