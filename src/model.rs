@@ -45,7 +45,8 @@ impl Model {
     /// A body condensed by the host, on an obstacle: `d = u`.
     ///
     /// # Errors
-    /// As [`ContactProblem::new`] for the matrix, after it was cleaned: if a diagonal entry is at most 9e-12
+    /// As [`ContactProblem::new`] for the matrix, and a matrix that is not positive semi-definite, by a component;
+    /// after it was cleaned: if a diagonal entry is at most 9e-12
     /// of the largest one of its pair, and the component is coupled to others, motions of so little energy
     /// are the rounding of a condensation and become exactly free. All other matrices are taken as they are.
     pub fn condensed(dim: usize, pairs: usize, k: &[f64], ld: usize) -> Result<Self, Error> {
@@ -195,6 +196,7 @@ impl Model {
         to: impl FnOnce(&ContactProblem<'_>) -> Result<T, Error>,
     ) -> Result<T, Error> {
         let load = self.condensed_load(case.load, case.prescribed)?;
+        self.check_fixed_gaps(case.gap)?;
         let slip = case.reference_slip.map(|slip| self.allowed_slip(slip));
         let problem = ContactProblem::on_checked_matrix(ContactData {
             dim: self.dim,
@@ -248,6 +250,25 @@ impl Model {
             }
             None => Ok(()),
         }
+    }
+
+    /// Refuses a penetration that supports on both sides of a pair hold: no displacement takes it away.
+    fn check_fixed_gaps(&self, gaps: &[f64]) -> Result<(), Error> {
+        for component in self.reduction.fixed_components() {
+            let pair = component / self.dim;
+            if component % self.dim == 0
+                && let Some(&gap) = gaps.get(pair)
+                && gap < 0.0
+            {
+                let message = format!(
+                    "{} is {gap}, a penetration, but both sides of the pair are fixed along its normal: \
+                     nothing can part them: set the gap to 0, release a side, or leave the pair out",
+                    entry("gap", [pair])
+                );
+                return Err(Error::invalid(Argument::Gap, message));
+            }
+        }
+        Ok(())
     }
 
     /// The reference slip, zero where supports on both sides of a pair fix it.
