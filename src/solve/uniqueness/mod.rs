@@ -1,6 +1,6 @@
 //! Whether a solution is the only one: proofs (`proof`), and a search for a second one (`search`).
 //!
-//! *Several.* Two certified solutions that differ; or one whose orientation, the sign of the
+//! *Several.* Two certified solutions that differ (`difference`); or one whose orientation, the sign of the
 //! determinant of its system, is −1: over all solutions the signs add up to the degree of the
 //! natural map, which is +1 for positive definite `K` as it is for `mu = 0`.
 
