@@ -61,7 +61,7 @@ const ROOMS: [(&str, &[&str]); 13] = [
 
 /// The files and folders of `solve`: each imports from those before it only. `lcp` stands beside
 /// those that are behind `lemke`.
-const SOLVERS: [&str; 17] = [
+const SOLVERS: [&str; 19] = [
     "outcome",
     "candidate",
     "condense",
@@ -78,6 +78,8 @@ const SOLVERS: [&str; 17] = [
     "auto",
     "escape_motion",
     "far_obstacles",
+    "dependent",
+    "existence",
     "mod",
 ];
 

@@ -77,10 +77,6 @@ fn a_slave_held_with_its_master_is_decoupled() {
         assert_eq!(solution.d[held], 0.0, "mu {mu}");
         assert_eq!(solution.certificate.force[held], 0.0, "mu {mu}");
     }
-    // The slave alone.
-    fixed.retain(|&dof| dof != 2 * stack.lower.node(0, 2));
-    let refused = stack.mesh.stiffness().model(&fixed, &stack.pairs());
-    assert!(matches!(refused, Err(Error::Invalid { argument: Argument::Pairs, .. })));
 }
 
 /// A master of weight zero, as interpolation leaves it at the end of a segment, does not count:

@@ -75,7 +75,8 @@ pub unsafe extern "C" fn signorini_certify(
 }
 
 /// Measures relative displacements of any origin on a load case of a model, as signorini_certify
-/// does on a condensed problem.
+/// does on a condensed problem. If pairs depend on each other, displacements do not tell the forces:
+/// -1 is returned.
 ///
 /// @param model       the model
 /// @param f           nodal loads of the host, H = signorini_model_host_size entries

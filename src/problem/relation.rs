@@ -3,7 +3,7 @@
 //! | form | relation | when |
 //! |---|---|---|
 //! | stiffness ([`Stiffness`]) | `K d = f + F` | rows of independent pairs |
-//! | general rows | `(I − S) v + S P = q` | rows that depend on each other; not built in |
+//! | dependent rows | `d = C z + o`, `K z = f + Cᵀ F` | rows that depend on each other |
 //!
 //! The certificate measures a pair `(d, F)` on any form. In the stiffness form `d` determines `F`; in
 //! others it does not, so that a candidate carries both.
@@ -52,12 +52,12 @@ pub struct Stiffness<'a> {
 }
 
 /// [`Stiffness::rounding`] of a matrix that a host gives without a word on its origin, where its components
-/// are few. Rounding each entry once explains half a unit; a definite matrix of condition 1e15 resists with
-/// 4.5 units or more.
+/// are few. Rounding each entry once explains half of it; a definite matrix of condition 1e15 resists with
+/// 4.5 times as much or more. A host that sums many terms to an entry hands over a model.
 const LAST_DIGITS: f64 = f64::EPSILON;
 
-/// Components that add a unit to it: entries that a host has condensed from a mesh took as many operations
-/// (6 units on 66 components, measured).
+/// Components that add as much to it: entries that a host has condensed from a mesh took as many operations
+/// (6 times as much on 66 components, measured).
 const COMPONENTS_A_UNIT: f64 = 8.0;
 
 impl<'a> Stiffness<'a> {

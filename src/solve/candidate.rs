@@ -3,7 +3,7 @@
 
 use std::cell::OnceCell;
 
-use super::outcome::{Solution, Status, Uniqueness};
+use super::outcome::{Errors, Existence, Solution, Status, Uniqueness};
 use crate::certificate::{Certificate, is_escape_of, measure, measure_parts};
 use crate::law::Contact;
 use crate::linalg::vector::normalise;
@@ -43,6 +43,8 @@ pub struct Candidate {
     pub effort: Effort,
     /// Sign of the determinant of the system of its branches, 0 if not known.
     pub orientation: i8,
+    /// What a refinement tells of its errors.
+    pub errors: Option<Errors>,
     certificate: OnceCell<Certificate>,
 }
 
@@ -65,7 +67,8 @@ impl Candidate {
     /// A candidate with its forces.
     pub fn new(d: Vec<f64>, force: Vec<f64>, ending: Ending, effort: Effort) -> Self {
         let certificate = OnceCell::new();
-        Candidate { d, low: Vec::new(), force, ending, effort, orientation: 0, certificate }
+        let (low, errors) = (Vec::new(), None);
+        Candidate { d, low, force, ending, effort, orientation: 0, errors, certificate }
     }
 
     /// A candidate whose forces follow from its displacements.
@@ -162,6 +165,8 @@ pub fn certified(
         fallback: None,
         uniqueness: Uniqueness::NotKnown,
         second: None,
+        existence: Existence::NotAsked,
+        errors: candidate.errors.filter(|_| status == Status::Solved),
         orientation: if status == Status::Solved { candidate.orientation } else { 0 },
         iterations: 0,
         factorisations: effort.factorisations,

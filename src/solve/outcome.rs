@@ -1,6 +1,6 @@
 //! The public result of a contact problem: its status, and why the first method was abandoned.
 
-use crate::certificate::Certificate;
+use crate::certificate::{Certificate, Proof};
 use crate::error::Message;
 use crate::settings::Method;
 
@@ -45,6 +45,26 @@ pub enum Uniqueness {
     Several,
 }
 
+/// Whether it is proved that the data have a solution with the states of the result.
+#[derive(Clone, Debug)]
+pub enum Existence {
+    /// [`crate::Settings::proof`] is off.
+    NotAsked,
+    /// It is; and where the solution is.
+    Proved(Box<Proof>),
+    /// It is not, which says nothing about whether there is one.
+    NotProved,
+}
+
+/// Errors of a result, relative, without unit.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Errors {
+    /// Of the displacements: the largest error of one, over the largest displacement.
+    pub d: f64,
+    /// Of the contact forces: the largest error of one, over the largest contact force or load.
+    pub force: f64,
+}
+
 /// Result of a contact problem.
 #[derive(Clone, Debug)]
 pub struct Solution {
@@ -72,6 +92,11 @@ pub struct Solution {
     /// Another solution, if [`crate::Search::Others`] found one or the default method met an unstable
     /// one on its way.
     pub second: Option<Box<SecondSolution>>,
+    /// Whether the solution is proved to exist, with [`crate::Settings::proof`].
+    pub existence: Existence,
+    /// How far `d` and the forces are from a solution. With [`Existence::Proved`] proved bounds; otherwise
+    /// what the contraction of the last refinement tells, no proof; `None` if there was none.
+    pub errors: Option<Errors>,
     /// Sign of the determinant of the system of equations that the states select, 0 if not known.
     /// Over all solutions of a problem with positive definite `K` it adds up to +1.
     pub orientation: i8,

@@ -398,7 +398,7 @@ static void laws(void)
         c.law = SIGNORINI_LAW_ORTHOTROPIC_COLLINEAR, c.friction = world.K);
 
     BOTH("extra: struct_size is 0", -15, "extra: struct_size is 0", world.extra.struct_size = 0);
-    BOTH("extra: struct_size is too large", -15, "extra: struct_size is 56",
+    BOTH("extra: struct_size is too large", -15, "extra: struct_size is 72",
          world.extra.struct_size += 8);
     BOTH("extra is misaligned", -15, "extra is not aligned", c.extra = shifted(c.extra, 4));
     BOTH("extra: reserved is 1", -15, "reserved is 1, it must be 0", world.extra.reserved = 1);

@@ -29,6 +29,15 @@ program layer
     call contact_certify(k, f, gap, d + 1e-3_dp, info, friction=mu, message=message)
     call expect('no solution', info == SIGNORINI_STATUS_NOT_A_SOLUTION .and. message /= '')
 
+    call contact_prove(k, f, gap, d, info, friction=mu, state=state, force=other, radius_d=z, message=message)
+    call expect('proof', info == SIGNORINI_STATUS_SOLVED .and. all(abs(other - force) < 1e-12_dp))
+    call expect('its radius', all(z >= 0 .and. z < 1e-14_dp) .and. message == '')
+    state(1) = SIGNORINI_STATE_STICK
+    call contact_prove(k, f, gap, d, info, friction=mu, state=state, radius_d=z, message=message)
+    call expect('no proof', info == SIGNORINI_STATUS_NOT_PROVED .and. all(z < 0) .and. message /= '')
+    call contact_prove(k, f, gap, d, info, friction=mu, state=[1, 7], message=message)
+    call expect('no state', info == -9 .and. index(message, 'state') > 0)
+
     ! A part of a larger matrix, and every second entry of an array.
     wide = 0
     wide(1:4, 1:4) = k

@@ -7,7 +7,7 @@ from collections import namedtuple
 import numpy as np
 
 from ._arrays import at
-from ._constants import Status
+from ._constants import Proof, Status
 from ._library import check
 from ._structures import Extra, Report, sized
 
@@ -18,7 +18,8 @@ iterations: sweeps, pivots or linear systems done.  eta: the latest, infinite be
 elapsed: seconds since the call began.
 """
 
-Result = namedtuple("Result", "d F state status message report motion second escape")
+Result = namedtuple("Result", "d F state status message report motion second radius_d radius_F "
+                    "escape", defaults=(None, None, None))
 Result.__doc__ = """What a call has found.
 
 d: relative displacements, (P, D); length.  F: contact forces, (P, D); force.  state: of each pair
@@ -28,8 +29,17 @@ report: the fields of signorini_report, with members of Method, Uniqueness and F
 motion: with status NO_EQUILIBRIUM a motion that proves it, (P, D), largest component 1; else None.
 second: a second solution, a Result whose report is measured as certify does, or None. What
 uniqueness proves needs no second solution; ask for one by search="others".
+radius_d, radius_F: if report.proof is PROVED (ask for it by proof=True) a solution with these states
+exists within these distances of d and of F, (P, D); else None.
 escape: with status NO_EQUILIBRIUM the motion with which the bodies escape, (P, D), largest component
 1, without the lift that a proof needs: draw this one; else None.
+"""
+
+Enclosure = namedtuple("Enclosure", "F radius_d radius_F")
+Enclosure.__doc__ = """A solution that is proved to exist.
+
+F: its contact forces, (P, D); force.  radius_d, radius_F: it is within these distances of the
+displacements given and of F, component by component, (P, D).
 """
 
 LcpResult = namedtuple("LcpResult", "w z status message report y")
@@ -51,10 +61,12 @@ class Output:
         self.F, self.state = np.full(shape, np.nan), np.full(shape[:2], -1, np.int32)
         self.motion, self.escape = np.zeros(shape), np.zeros(shape)
         self.second_d, self.second_F = np.zeros(shape), np.zeros(shape)
+        self.radius_d, self.radius_F = np.zeros(shape), np.zeros(shape)
         self.second_state = np.zeros(shape[:2], np.int32)
         self.report = (Report * cases)(*[sized(Report) for _ in range(cases)])
         self.extra = sized(Extra, motion=at(self.motion), second_d=at(self.second_d),
                            second_F=at(self.second_F), second_state=at(self.second_state),
+                           radius_d=at(self.radius_d), radius_F=at(self.radius_F),
                            escape=at(self.escape))
 
     def solution(self):
@@ -70,7 +82,7 @@ class Output:
 
         measure: certify, of displacements.
         """
-        motion = escape = second = report = None
+        motion = escape = second = report = radius_d = radius_F = None
         if status < 0:
             self.d[case] = np.nan
         else:
@@ -82,8 +94,10 @@ class Output:
                 )
             if status == Status.NO_EQUILIBRIUM:
                 motion, escape = self.motion[case], self.escape[case]
+            if report.proof == Proof.PROVED:
+                radius_d, radius_F = self.radius_d[case], self.radius_F[case]
         return Result(self.d[case], self.F[case], self.state[case], status, message, report,
-                      motion, second, escape)
+                      motion, second, radius_d, radius_F, escape)
 
 
 def certified(functions, function, data, tolerance, d):
@@ -96,4 +110,4 @@ def certified(functions, function, data, tolerance, d):
     F, state, report = np.zeros_like(d), np.zeros(len(d), np.int32), sized(Report)
     status = function(*data, tolerance, at(d), at(F), at(state), ctypes.byref(report))
     status, message = check(functions, status)
-    return Result(d, F, state, status, message, report.plain(), None, None, None)
+    return Result(d, F, state, status, message, report.plain(), None, None)
