@@ -34,8 +34,8 @@
 !     settings  type(signorini_settings): all settings. As declared it holds the defaults.
 !     state     SIGNORINI_STATE_OPEN, _SLIP or _STICK of each pair.
 !     report    type(signorini_report): how good the result is, and how it was found.
-!     motion    if info is SIGNORINI_STATUS_NO_EQUILIBRIUM, the motion of escape, which proves it;
-!               otherwise zeros.
+!     motion    if info is SIGNORINI_STATUS_NO_EQUILIBRIUM, a motion that proves it; otherwise zeros.
+!     escape    the same as the bodies would move, without the lift that a proof needs: draw this one.
 !     second_d, second_force, second_state  a second solution if report%second is 1, otherwise
 !               zeros. Ask for it by settings%search = SIGNORINI_SEARCH_OTHERS.
 !     info      0: solved and certified. > 0: SIGNORINI_STATUS_..., results were written but are
@@ -159,7 +159,7 @@ module signorini
     end type
 
     type, bind(C) :: signorini_extra
-        integer(c_int32_t) :: struct_size = 8 + 6 * address_bytes
+        integer(c_int32_t) :: struct_size = 8 + 7 * address_bytes
         integer(c_int32_t) :: reserved = 0
         type(c_ptr) :: motion = c_null_ptr
         type(c_ptr) :: second_d = c_null_ptr
@@ -167,6 +167,7 @@ module signorini
         type(c_ptr) :: second_state = c_null_ptr
         type(c_ptr) :: radius_d = c_null_ptr
         type(c_ptr) :: radius_force = c_null_ptr
+        type(c_ptr) :: escape = c_null_ptr
     end type
 
     type, bind(C) :: signorini_sparse
@@ -653,7 +654,7 @@ contains
     ! k(n, n), f(n), gap(pairs), d(n), force(n), slip0(n - pairs).
     subroutine contact_solve(k, f, gap, d, force, info, law, friction, slip0, method, tolerance, &
             max_iterations, settings, state, report, motion, second_d, second_force, second_state, &
-            message)
+            message, escape)
         real(c_double), intent(in), contiguous :: k(:, :), f(:), gap(:)
         real(c_double), intent(inout), contiguous :: d(:)
         real(c_double), intent(out), contiguous :: force(:)
@@ -665,6 +666,7 @@ contains
         integer, intent(out), optional :: state(:), second_state(:)
         type(signorini_report), intent(out), optional :: report
         real(c_double), intent(out), contiguous, target, optional :: motion(:), second_d(:), second_force(:)
+        real(c_double), intent(out), contiguous, target, optional :: escape(:)
         character(len=*), intent(out), optional :: message
         type(signorini_settings), target :: chosen
         type(signorini_report), target :: measured
@@ -683,8 +685,9 @@ contains
         call choose_settings(wrong, 10, chosen, method, tolerance, max_iterations, settings)
         if (present(state)) call check_size(wrong, 14, 'state', size(state), pairs, 'one for each pair')
         call check_second(wrong, 16, n, pairs, motion, second_d, second_force, second_state)
+        if (present(escape)) call check_size(wrong, 21, 'escape', size(escape), n, 'as many as d')
         if (refused(wrong, info, message)) return
-        extra = address_of_extra(second_states, motion, second_d, second_force)
+        extra = address_of_extra(second_states, motion, second_d, second_force, escape)
         status = signorini_solve(number(max(2, n / max(1, pairs))), int(pairs, c_int64_t), k, &
             int(max(1, n), c_int64_t), f, gap, which, address(friction), address(slip0), &
             c_loc(chosen), d, force, c_loc(states), c_loc(measured), c_loc(extra))
@@ -1030,7 +1033,7 @@ contains
     ! absent: zeros.
     subroutine model_solve(self, f, gap, d, force, info, prescribed, law, friction, slip0, method, &
             tolerance, max_iterations, settings, state, report, motion, second_d, second_force, &
-            second_state, message)
+            second_state, message, escape)
         class(contact_model), intent(in) :: self
         real(c_double), intent(in), contiguous, target :: f(:)
         real(c_double), intent(in), contiguous :: gap(:)
@@ -1044,6 +1047,7 @@ contains
         integer, intent(out), optional :: state(:), second_state(:)
         type(signorini_report), intent(out), optional :: report
         real(c_double), intent(out), contiguous, target, optional :: motion(:), second_d(:), second_force(:)
+        real(c_double), intent(out), contiguous, target, optional :: escape(:)
         character(len=*), intent(out), optional :: message
         type(signorini_settings), target :: chosen
         type(signorini_report), target :: measured
@@ -1064,8 +1068,9 @@ contains
         call choose_settings(wrong, 10, chosen, method, tolerance, max_iterations, settings)
         if (present(state)) call check_size(wrong, 14, 'state', size(state), pairs, 'one for each pair')
         call check_second(wrong, 16, n, pairs, motion, second_d, second_force, second_state)
+        if (present(escape)) call check_size(wrong, 21, 'escape', size(escape), n, 'as many as d')
         if (refused(wrong, info, message)) return
-        extra = address_of_extra(second_states, motion, second_d, second_force)
+        extra = address_of_extra(second_states, motion, second_d, second_force, escape)
         status = signorini_model_solve(self%handle, 1_c_int64_t, address(f), address(prescribed), gap, &
             which, address(friction), address(slip0), c_loc(chosen), d, force, c_loc(states), &
             c_null_ptr, c_loc(measured), c_loc(extra))
@@ -1408,13 +1413,15 @@ contains
         if (present(state)) state = int(states)
     end subroutine
 
-    function address_of_extra(second_states, motion, second_d, second_force) result(extra)
+    function address_of_extra(second_states, motion, second_d, second_force, escape) result(extra)
         integer(c_int32_t), intent(in), target :: second_states(:)
         real(c_double), intent(in), contiguous, target, optional :: motion(:), second_d(:), second_force(:)
+        real(c_double), intent(in), contiguous, target, optional :: escape(:)
         type(signorini_extra) :: extra
         extra%motion = address(motion)
         extra%second_d = address(second_d)
         extra%second_force = address(second_force)
+        extra%escape = address(escape)
         if (size(second_states) > 0) extra%second_state = c_loc(second_states)
     end function
 

@@ -122,7 +122,8 @@ typedef struct signorini_extra signorini_extra;
  * @param K         condensed stiffness, N columns of N entries, column-major, both triangles;
  *                  symmetric, positive semi-definite; force / length. A row of zeros is a component
  *                  that nothing resists. Small entries on the diagonal are taken as they are: of a
- *                  free body on two or three points make a model, which knows rounding
+ *                  free body on two or three points make a model, which knows rounding. That K is
+ *                  positive semi-definite is checked by pairs of entries alone; models check it
  * @param ldk       entries from one column of K to the next, at least max(1, N)
  * @param f         condensed nodal loads, N; force
  * @param gap       initial gaps, one for each pair; length; negative: interference; +infinity:
@@ -866,9 +867,10 @@ struct signorini_extra {
     uint32_t struct_size; /**< sizeof(signorini_extra). */
     int32_t reserved;     /**< 0. */
     /**
-     * Out: N entries. With SIGNORINI_STATUS_NO_EQUILIBRIUM the motion of escape r, which proves
-     * the status: K r = 0, and f . r + F . r > 0 for all contact forces F that the law admits. Its
-     * largest component is 1. With every other status zeros.
+     * Out: N entries. With SIGNORINI_STATUS_NO_EQUILIBRIUM a motion r that proves the status:
+     * K r = 0, and f . r + F . r > 0 for all contact forces F that the law admits. Its largest
+     * component is 1. With every other status zeros. With friction it lifts each slipping pair by
+     * mu times its slip, as nothing moves: draw escape.
      */
     double *motion;
     /**
@@ -886,6 +888,14 @@ struct signorini_extra {
      */
     double *radius_d;
     double *radius_F;     /**< Out: N entries. The same of the contact forces and F; force. */
+    /**
+     * Out: N entries. With SIGNORINI_STATUS_NO_EQUILIBRIUM the motion of escape, which you can
+     * draw: K r = 0, no pair approaches its obstacle, pairs that contact presses stay on it,
+     * friction opposes the slip, and f . r > 0. It is the motion against a viscosity in each
+     * component of the size of its diagonal entry of K, every pair of finite gap touching. Its
+     * largest component is 1. With every other status zeros.
+     */
+    double *escape;
 };
 
 /**

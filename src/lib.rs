@@ -130,6 +130,6 @@ pub use monitor::{Monitor, Progress, ProgressFn, Stop};
 pub use problem::{ContactData, ContactProblem, Dependence, FrictionLaw, Lcp, Relation, Stiffness};
 pub use settings::{Method, Search, Settings};
 pub use solve::{
-    Errors, Existence, Fallback, LcpSolution, SecondSolution, Solution, Status, Uniqueness, solve,
-    solve_lcp,
+    Errors, Escape, Existence, Fallback, LcpSolution, SecondSolution, Solution, Status, Uniqueness,
+    solve, solve_lcp,
 };

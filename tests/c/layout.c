@@ -138,7 +138,7 @@ FIELD(signorini_pairs, row_start, int64_t *, 64);
 FIELD(signorini_pairs, row_nodes, int64_t *, 72);
 FIELD(signorini_pairs, row_weights, double *, 80);
 
-SIZE(signorini_extra, 56);
+SIZE(signorini_extra, 64);
 FIELD(signorini_extra, struct_size, uint32_t, 0);
 FIELD(signorini_extra, reserved, int32_t, 4);
 FIELD(signorini_extra, motion, double *, 8);
@@ -147,6 +147,7 @@ FIELD(signorini_extra, second_F, double *, 24);
 FIELD(signorini_extra, second_state, int32_t *, 32);
 FIELD(signorini_extra, radius_d, double *, 40);
 FIELD(signorini_extra, radius_F, double *, 48);
+FIELD(signorini_extra, escape, double *, 56);
 
 #endif
 
@@ -177,6 +178,7 @@ int main(void)
     CHECK(extra.struct_size == sizeof extra && extra.reserved == 0 && extra.motion == NULL);
     CHECK(extra.radius_d == NULL && extra.radius_F == NULL);
     CHECK(extra.second_d == NULL && extra.second_F == NULL && extra.second_state == NULL);
+    CHECK(extra.escape == NULL);
     signorini_report blank, zeros = {.struct_size = sizeof zeros};
     memset(&blank, 0xFF, sizeof blank);
     CHECK_STATUS(signorini_report_default(&blank, sizeof blank), 0);
