@@ -12,11 +12,12 @@
 ! What to call:
 !     contact_solve    a condensed problem in one call
 !     contact_certify  measures displacements of any origin
+!     contact_prove    proves that a solution exists next to displacements of any origin
 !     lcp_solve        a linear complementarity problem (LCP)
 !     contact_model    a type: a structure that is reduced once and solved for many load cases;
-!                      call model%new_condensed, %new_two_body or %new_sparse, then %solve,
-!                      %certify, %recover, %nodal_forces, %frames, %condensed_load, %stiffness,
-!                      at the end %release
+!                      call model%new_condensed, %new_two_body, %new_sparse or
+!                      %new_sparse_rows, then %solve, %certify, %recover,
+!                      %nodal_forces, %frames, %condensed_load, %stiffness, at the end %release
 ! The functions signorini_... are those of signorini.h, argument by argument: files, and whatever
 ! else is not above. That header is their reference.
 !
@@ -33,8 +34,8 @@
 !     settings  type(signorini_settings): all settings. As declared it holds the defaults.
 !     state     SIGNORINI_STATE_OPEN, _SLIP or _STICK of each pair.
 !     report    type(signorini_report): how good the result is, and how it was found.
-!     motion    if info is SIGNORINI_STATUS_NO_EQUILIBRIUM, the motion of escape, which proves it;
-!               otherwise zeros.
+!     motion    if info is SIGNORINI_STATUS_NO_EQUILIBRIUM, a motion that proves it; otherwise zeros.
+!     escape    the same as the bodies would move, without the lift that a proof needs: draw this one.
 !     second_d, second_force, second_state  a second solution if report%second is 1, otherwise
 !               zeros. Ask for it by settings%search = SIGNORINI_SEARCH_OTHERS.
 !     info      0: solved and certified. > 0: SIGNORINI_STATUS_..., results were written but are
@@ -58,7 +59,8 @@ module signorini
     integer(c_int32_t), parameter :: SIGNORINI_STATUS_NO_EQUILIBRIUM = 4
     integer(c_int32_t), parameter :: SIGNORINI_STATUS_STALLED = 5
     integer(c_int32_t), parameter :: SIGNORINI_STATUS_NOT_A_SOLUTION = 6
-    integer(c_int32_t), parameter :: SIGNORINI_STATUS_MEMORY_LIMIT = 7
+    integer(c_int32_t), parameter :: SIGNORINI_STATUS_NOT_PROVED = 7
+    integer(c_int32_t), parameter :: SIGNORINI_STATUS_MEMORY_LIMIT = 8
     integer(c_int32_t), parameter :: SIGNORINI_STATUS_INTERNAL = -1000
     integer(c_int32_t), parameter :: SIGNORINI_STATUS_OUT_OF_MEMORY = -1001
     integer(c_int32_t), parameter :: SIGNORINI_STATUS_FILE = -1002
@@ -87,6 +89,9 @@ module signorini
     integer(c_int32_t), parameter :: SIGNORINI_UNIQUENESS_NOT_KNOWN = 0
     integer(c_int32_t), parameter :: SIGNORINI_UNIQUENESS_UNIQUE = 1
     integer(c_int32_t), parameter :: SIGNORINI_UNIQUENESS_SEVERAL = 2
+    integer(c_int32_t), parameter :: SIGNORINI_PROOF_NOT_ASKED = 0
+    integer(c_int32_t), parameter :: SIGNORINI_PROOF_PROVED = 1
+    integer(c_int32_t), parameter :: SIGNORINI_PROOF_NOT_PROVED = 2
     integer(c_int32_t), parameter :: SIGNORINI_FALLBACK_NONE = 0
     integer(c_int32_t), parameter :: SIGNORINI_FALLBACK_CYCLE = 1
     integer(c_int32_t), parameter :: SIGNORINI_FALLBACK_SINGULAR = 2
@@ -122,11 +127,13 @@ module signorini
         integer(c_int32_t) :: search = SIGNORINI_SEARCH_OFF
         type(c_funptr) :: progress = c_null_funptr
         type(c_ptr) :: user = c_null_ptr
+        integer(c_int32_t) :: proof = 0
+        integer(c_int32_t) :: reserved = 0
         integer(c_int64_t) :: memory_limit = 0
     end type
 
     type, bind(C) :: signorini_report
-        integer(c_int32_t) :: struct_size = 152
+        integer(c_int32_t) :: struct_size = 176
         integer(c_int32_t) :: status = 0
         integer(c_int32_t) :: method = 0
         integer(c_int32_t) :: uniqueness = 0
@@ -149,15 +156,22 @@ module signorini
         integer(c_int32_t) :: fallback = 0
         integer(c_int32_t) :: orientation = 0
         integer(c_int32_t) :: second = 0
+        real(c_double) :: error_d = 0
+        real(c_double) :: error_force = 0
+        integer(c_int32_t) :: proof = 0
+        integer(c_int32_t) :: reserved = 0
     end type
 
     type, bind(C) :: signorini_extra
-        integer(c_int32_t) :: struct_size = 8 + 4 * address_bytes
+        integer(c_int32_t) :: struct_size = 8 + 7 * address_bytes
         integer(c_int32_t) :: reserved = 0
         type(c_ptr) :: motion = c_null_ptr
         type(c_ptr) :: second_d = c_null_ptr
         type(c_ptr) :: second_force = c_null_ptr
         type(c_ptr) :: second_state = c_null_ptr
+        type(c_ptr) :: radius_d = c_null_ptr
+        type(c_ptr) :: radius_force = c_null_ptr
+        type(c_ptr) :: escape = c_null_ptr
     end type
 
     type, bind(C) :: signorini_sparse
@@ -174,7 +188,7 @@ module signorini
     end type
 
     type, bind(C) :: signorini_pairs
-        integer(c_int32_t) :: struct_size = 16 + 6 * address_bytes
+        integer(c_int32_t) :: struct_size = 16 + 9 * address_bytes
         integer(c_int32_t) :: dim = 0
         integer(c_int64_t) :: count = 0
         type(c_ptr) :: slaves = c_null_ptr
@@ -183,6 +197,9 @@ module signorini
         type(c_ptr) :: weights = c_null_ptr
         type(c_ptr) :: normals = c_null_ptr
         type(c_ptr) :: tangents = c_null_ptr
+        type(c_ptr) :: row_start = c_null_ptr
+        type(c_ptr) :: row_nodes = c_null_ptr
+        type(c_ptr) :: row_weights = c_null_ptr
     end type
 
     interface
@@ -268,6 +285,26 @@ module signorini
             type(c_ptr), value :: force
             type(c_ptr), value :: state
             type(c_ptr), value :: report
+            integer(c_int32_t) :: answer
+        end function
+        function signorini_prove(dim, pairs, k, ldk, f, gap, law, friction, slip0, d, state, &
+            force, radius_d, radius_force) &
+            bind(C, name="signorini_prove") result(answer)
+            import
+            integer(c_int32_t), value :: dim
+            integer(c_int64_t), value :: pairs
+            real(c_double), intent(in) :: k(*)
+            integer(c_int64_t), value :: ldk
+            real(c_double), intent(in) :: f(*)
+            real(c_double), intent(in) :: gap(*)
+            integer(c_int32_t), value :: law
+            type(c_ptr), value :: friction
+            type(c_ptr), value :: slip0
+            real(c_double), intent(in) :: d(*)
+            type(c_ptr), value :: state
+            type(c_ptr), value :: force
+            type(c_ptr), value :: radius_d
+            type(c_ptr), value :: radius_force
             integer(c_int32_t) :: answer
         end function
         function signorini_lcp_solve(n, m, ldm, q, settings, w, z, y, report) &
@@ -589,6 +626,7 @@ module signorini
         procedure :: new_condensed => model_new_condensed
         procedure :: new_two_body => model_new_two_body
         procedure :: new_sparse => model_new_sparse
+        procedure :: new_sparse_rows => model_new_sparse_rows
         procedure :: host_size => model_host_size
         procedure :: stiffness => model_stiffness
         procedure :: frames => model_frames
@@ -632,7 +670,7 @@ contains
     ! k(n, n), f(n), gap(pairs), d(n), force(n), slip0(n - pairs).
     subroutine contact_solve(k, f, gap, d, force, info, law, friction, slip0, method, tolerance, &
             max_iterations, settings, state, report, motion, second_d, second_force, second_state, &
-            message)
+            message, escape)
         real(c_double), intent(in), contiguous :: k(:, :), f(:), gap(:)
         real(c_double), intent(inout), contiguous :: d(:)
         real(c_double), intent(out), contiguous :: force(:)
@@ -644,6 +682,7 @@ contains
         integer, intent(out), optional :: state(:), second_state(:)
         type(signorini_report), intent(out), optional :: report
         real(c_double), intent(out), contiguous, target, optional :: motion(:), second_d(:), second_force(:)
+        real(c_double), intent(out), contiguous, target, optional :: escape(:)
         character(len=*), intent(out), optional :: message
         type(signorini_settings), target :: chosen
         type(signorini_report), target :: measured
@@ -662,8 +701,9 @@ contains
         call choose_settings(wrong, 10, chosen, method, tolerance, max_iterations, settings)
         if (present(state)) call check_size(wrong, 14, 'state', size(state), pairs, 'one for each pair')
         call check_second(wrong, 16, n, pairs, motion, second_d, second_force, second_state)
+        if (present(escape)) call check_size(wrong, 21, 'escape', size(escape), n, 'as many as d')
         if (refused(wrong, info, message)) return
-        extra = address_of_extra(second_states, motion, second_d, second_force)
+        extra = address_of_extra(second_states, motion, second_d, second_force, escape)
         status = signorini_solve(number(max(2, n / max(1, pairs))), int(pairs, c_int64_t), k, &
             int(max(1, n), c_int64_t), f, gap, which, address(friction), address(slip0), &
             c_loc(chosen), d, force, c_loc(states), c_loc(measured), c_loc(extra))
@@ -709,6 +749,47 @@ contains
         call finish(status, info, message, [2, 3, 1, 1, 2, 3, 6, 7, 8, 9, 4, 10, 11, 12])
         if (status >= 0) call copy_states(states, state)
         if (present(report)) report = measured
+    end subroutine
+
+    ! Proves that a solution exists next to the displacements d, of any origin, with the states of the
+    ! pairs, those of d if state is absent. force(n): its contact forces; radius_d(n), radius_force(n): it
+    ! is within these distances of d and of force, component by component. info is
+    ! SIGNORINI_STATUS_NOT_PROVED if it is not proved, which does not say that there is none.
+    subroutine contact_prove(k, f, gap, d, info, law, friction, slip0, state, force, radius_d, &
+            radius_force, message)
+        real(c_double), intent(in), contiguous :: k(:, :), f(:), gap(:), d(:)
+        integer, intent(out) :: info
+        integer, intent(in), optional :: law
+        real(c_double), intent(in), contiguous, target, optional :: friction(:), slip0(:)
+        integer, intent(in), optional :: state(:)
+        real(c_double), intent(out), contiguous, target, optional :: force(:), radius_d(:), radius_force(:)
+        character(len=*), intent(out), optional :: message
+        integer(c_int32_t), target :: states(size(gap))
+        type(c_ptr) :: given
+        type(refusal) :: wrong
+        integer(c_int32_t) :: which, status
+        integer :: n, pairs
+        n = size(f)
+        pairs = size(gap)
+        call check_data(wrong, shape(k), n, pairs)
+        call check_size(wrong, 4, 'd', size(d), n, 'as many as f')
+        call choose_law(wrong, 6, pairs, which, law, friction)
+        if (present(slip0)) call check_size(wrong, 8, 'slip0', size(slip0), n - pairs, 'dim - 1 for each pair')
+        if (present(state)) call check_size(wrong, 9, 'state', size(state), pairs, 'one for each pair')
+        if (present(force)) call check_size(wrong, 10, 'force', size(force), n, 'as many as f')
+        if (present(radius_d)) call check_size(wrong, 11, 'radius_d', size(radius_d), n, 'as many as f')
+        if (present(radius_force)) &
+            call check_size(wrong, 12, 'radius_force', size(radius_force), n, 'as many as f')
+        if (refused(wrong, info, message)) return
+        given = c_null_ptr
+        if (present(state)) then
+            states = int(state, c_int32_t)
+            given = c_loc(states)
+        end if
+        status = signorini_prove(number(max(2, n / max(1, pairs))), int(pairs, c_int64_t), k, &
+            int(max(1, n), c_int64_t), f, gap, which, address(friction), address(slip0), d, given, &
+            address(force), address(radius_d), address(radius_force))
+        call finish(status, info, message, [2, 3, 1, 1, 2, 3, 6, 7, 8, 4, 9, 10, 11, 12])
     end subroutine
 
     ! An LCP: w = q + m z, w >= 0, z >= 0, w . z = 0, with m(n, n), q(n), w(n), z(n). infeasible_by(n):
@@ -810,23 +891,88 @@ contains
         character(len=*), intent(out), optional :: message
         integer, intent(in), contiguous, target, optional :: order(:)
         type(signorini_settings), intent(in), optional :: settings
-        type(signorini_settings), target :: chosen
-        type(signorini_sparse) :: matrix
         type(signorini_pairs) :: pairs
-        integer(c_int64_t), allocatable, target :: held(:), of_slaves(:), begins(:), of_masters(:)
-        integer(c_int64_t) :: n_fixed
+        integer(c_int64_t), allocatable, target :: of_slaves(:), begins(:), of_masters(:)
         type(refusal) :: wrong
         call self%release()
-        call check_size(wrong, 2, 'row', size(row), size(values), 'as many as values')
-        call check_starts(wrong, 1, 'col_start', col_start, size(values), 'values has entries')
-        if (triangle < SIGNORINI_TRIANGLE_LOWER .or. triangle > SIGNORINI_TRIANGLE_FULL) call refuse(wrong, &
-            4, 'triangle is ' // text(int(triangle)) // ', it must be SIGNORINI_TRIANGLE_LOWER, _UPPER or _FULL')
+        call check_sparse(wrong, col_start, row, values, triangle)
         call check_pairs(wrong, 6, 'normals', shape(normals), shape(slaves))
         call check_masters(wrong, 9, shape(slaves), master_start, masters, weights)
         if (present(tangents)) call check_pairs(wrong, 12, 'tangents', shape(tangents), shape(slaves))
         if (present(order)) call check_size(wrong, 14, 'order', size(order), size(col_start) - 1, &
             'as many as the matrix has columns')
         if (refused(wrong, info, message)) return
+        of_slaves = int([slaves], c_int64_t)
+        if (size(slaves) > 0) pairs%slaves = c_loc(of_slaves)
+        if (present(masters)) then
+            begins = int(master_start, c_int64_t)
+            of_masters = int([masters], c_int64_t)
+            pairs%master_start = c_loc(begins)
+            if (size(masters) > 0) pairs%masters = c_loc(of_masters)
+            pairs%weights = address(weights)
+        end if
+        call make_sparse(self, col_start, row, values, triangle, pairs, normals, tangents, fixed, &
+            info, message, [3, 8, 8, 5, 15], order, settings)
+    end subroutine
+
+    ! The same with general rows: each pair is a list of nodes with signed weights.
+    ! row_nodes(dim, m): degrees of freedom of all nodes, row_weights(m): positive on the side whose
+    ! outward normal is given, negative on the other, of sum 0 in a pair, and 1 against a rigid
+    ! obstacle; row_start(pairs + 1): those of pair i are row_start(i) to row_start(i + 1) - 1. If
+    ! the library finds something wrong in the pairs, info is the position of row_nodes.
+    subroutine model_new_sparse_rows(self, col_start, row, values, triangle, row_start, row_nodes, &
+            row_weights, normals, info, fixed, tangents, message)
+        class(contact_model), intent(inout) :: self
+        integer, intent(in), contiguous, target :: col_start(:), row(:)
+        real(c_double), intent(in), contiguous, target :: values(:)
+        integer(c_int32_t), intent(in) :: triangle
+        integer, intent(in) :: row_start(:), row_nodes(:, :)
+        real(c_double), intent(in), contiguous, target :: row_weights(:), normals(:, :)
+        integer, intent(out) :: info
+        integer, intent(in), optional :: fixed(:)
+        real(c_double), intent(in), contiguous, target, optional :: tangents(:, :)
+        character(len=*), intent(out), optional :: message
+        type(signorini_pairs) :: pairs
+        integer(c_int64_t), allocatable, target :: begins(:), of_nodes(:)
+        type(refusal) :: wrong
+        call self%release()
+        call check_sparse(wrong, col_start, row, values, triangle)
+        call check_size(wrong, 5, 'row_start', size(row_start), size(normals, 2) + 1, 'one more than pairs')
+        call check_shape(wrong, 6, 'row_nodes', shape(row_nodes), [size(normals, 1), size(row_weights)], &
+            '(dim, entries of row_weights)')
+        call check_starts(wrong, 5, 'row_start', row_start, size(row_weights), 'row_weights has entries')
+        if (present(tangents)) call check_shape(wrong, 11, 'tangents', shape(tangents), shape(normals), &
+            '(dim, pairs), as normals')
+        if (refused(wrong, info, message)) return
+        begins = int(row_start, c_int64_t)
+        of_nodes = int([row_nodes], c_int64_t)
+        pairs%row_start = c_loc(begins)
+        if (size(row_nodes) > 0) pairs%row_nodes = c_loc(of_nodes)
+        pairs%row_weights = address(row_weights)
+        call make_sparse(self, col_start, row, values, triangle, pairs, normals, tangents, fixed, &
+            info, message, [3, 10, 10, 6, 0])
+    end subroutine
+
+    ! Makes a model of a sparse matrix with pairs that have their nodes.
+    subroutine make_sparse(self, col_start, row, values, triangle, pairs, normals, tangents, fixed, &
+            info, message, positions, order, settings)
+        class(contact_model), intent(inout) :: self
+        integer, intent(in), contiguous, target :: col_start(:), row(:)
+        real(c_double), intent(in), contiguous, target :: values(:)
+        integer(c_int32_t), intent(in) :: triangle
+        type(signorini_pairs), intent(inout) :: pairs
+        real(c_double), intent(in), contiguous, target :: normals(:, :)
+        real(c_double), intent(in), contiguous, target, optional :: tangents(:, :)
+        integer, intent(in), optional :: fixed(:)
+        integer, intent(out) :: info
+        character(len=*), intent(out), optional :: message
+        integer, intent(in) :: positions(5)
+        integer, intent(in), contiguous, target, optional :: order(:)
+        type(signorini_settings), intent(in), optional :: settings
+        type(signorini_settings), target :: chosen
+        type(signorini_sparse) :: matrix
+        integer(c_int64_t), allocatable, target :: held(:)
+        integer(c_int64_t) :: n_fixed
         matrix%index_bytes = storage_size(col_start) / 8
         matrix%index_base = 1
         matrix%triangle = triangle
@@ -839,28 +985,20 @@ contains
             if (size(order) > 0) matrix%order = c_loc(order)
         end if
         if (present(settings)) chosen = settings
-        pairs%dim = number(size(slaves, 1))
-        pairs%count = size(slaves, 2)
-        of_slaves = int([slaves], c_int64_t)
-        if (size(slaves) > 0) pairs%slaves = c_loc(of_slaves)
+        pairs%dim = number(size(normals, 1))
+        pairs%count = size(normals, 2)
         if (size(normals) > 0) pairs%normals = c_loc(normals)
         if (present(tangents)) then
             if (size(tangents) > 0) pairs%tangents = c_loc(tangents)
         end if
-        if (present(masters)) then
-            begins = int(master_start, c_int64_t)
-            of_masters = int([masters], c_int64_t)
-            pairs%master_start = c_loc(begins)
-            if (size(masters) > 0) pairs%masters = c_loc(of_masters)
-            pairs%weights = address(weights)
-        end if
         n_fixed = 0
         if (present(fixed)) n_fixed = size(fixed)
-        held = [0_c_int64_t]
+        allocate (held(max(1_c_int64_t, n_fixed)))
+        held = 0
         if (n_fixed > 0) held = int(fixed, c_int64_t)
         call finish(signorini_model_new_sparse_within(matrix, n_fixed, c_loc(held), pairs, &
-            c_loc(chosen), self%handle), info, message, [3, 8, 8, 5, 15])
-        if (info == 0) call keep_sizes(self, size(slaves, 1), size(slaves, 2), int(n_fixed))
+            c_loc(chosen), self%handle), info, message, positions)
+        if (info == 0) call keep_sizes(self, size(normals, 1), size(normals, 2), int(n_fixed))
     end subroutine
 
     ! Entries of a load or displacement vector of the model's host; -1 without a model.
@@ -923,7 +1061,7 @@ contains
     ! absent: zeros.
     subroutine model_solve(self, f, gap, d, force, info, prescribed, law, friction, slip0, method, &
             tolerance, max_iterations, settings, state, report, motion, second_d, second_force, &
-            second_state, message)
+            second_state, message, escape)
         class(contact_model), intent(in) :: self
         real(c_double), intent(in), contiguous, target :: f(:)
         real(c_double), intent(in), contiguous :: gap(:)
@@ -937,6 +1075,7 @@ contains
         integer, intent(out), optional :: state(:), second_state(:)
         type(signorini_report), intent(out), optional :: report
         real(c_double), intent(out), contiguous, target, optional :: motion(:), second_d(:), second_force(:)
+        real(c_double), intent(out), contiguous, target, optional :: escape(:)
         character(len=*), intent(out), optional :: message
         type(signorini_settings), target :: chosen
         type(signorini_report), target :: measured
@@ -957,8 +1096,9 @@ contains
         call choose_settings(wrong, 10, chosen, method, tolerance, max_iterations, settings)
         if (present(state)) call check_size(wrong, 14, 'state', size(state), pairs, 'one for each pair')
         call check_second(wrong, 16, n, pairs, motion, second_d, second_force, second_state)
+        if (present(escape)) call check_size(wrong, 21, 'escape', size(escape), n, 'as many as d')
         if (refused(wrong, info, message)) return
-        extra = address_of_extra(second_states, motion, second_d, second_force)
+        extra = address_of_extra(second_states, motion, second_d, second_force, escape)
         status = signorini_model_solve(self%handle, 1_c_int64_t, address(f), address(prescribed), gap, &
             which, address(friction), address(slip0), c_loc(chosen), d, force, c_loc(states), &
             c_null_ptr, c_loc(measured), c_loc(extra))
@@ -1097,6 +1237,18 @@ contains
             tuple(found) // ', it must be ' // tuple(wanted) // ': ' // meaning)
     end subroutine
 
+    ! A sparse matrix: col_start at position 1, row, values, triangle at 4.
+    subroutine check_sparse(wrong, col_start, row, values, triangle)
+        type(refusal), intent(inout) :: wrong
+        integer, intent(in) :: col_start(:), row(:)
+        real(c_double), intent(in) :: values(:)
+        integer(c_int32_t), intent(in) :: triangle
+        call check_size(wrong, 2, 'row', size(row), size(values), 'as many as values')
+        call check_starts(wrong, 1, 'col_start', col_start, size(values), 'values has entries')
+        if (triangle < SIGNORINI_TRIANGLE_LOWER .or. triangle > SIGNORINI_TRIANGLE_FULL) call refuse(wrong, &
+            4, 'triangle is ' // text(int(triangle)) // ', it must be SIGNORINI_TRIANGLE_LOWER, _UPPER or _FULL')
+    end subroutine
+
     ! An array of vectors, one for each pair.
     subroutine check_pairs(wrong, position, name, found, wanted)
         type(refusal), intent(inout) :: wrong
@@ -1137,7 +1289,7 @@ contains
         type(refusal), intent(inout) :: wrong
         class(contact_model), intent(in) :: self
         if (.not. c_associated(self%handle)) call refuse(wrong, CONTACT_WRONG_MODEL, &
-            'there is no model: new_condensed, new_two_body or new_sparse makes one')
+            'there is no model: new_condensed, new_two_body, new_sparse or new_sparse_rows makes one')
     end subroutine
 
     ! The load of a model at position 1 and its prescribed values.
@@ -1289,13 +1441,15 @@ contains
         if (present(state)) state = int(states)
     end subroutine
 
-    function address_of_extra(second_states, motion, second_d, second_force) result(extra)
+    function address_of_extra(second_states, motion, second_d, second_force, escape) result(extra)
         integer(c_int32_t), intent(in), target :: second_states(:)
         real(c_double), intent(in), contiguous, target, optional :: motion(:), second_d(:), second_force(:)
+        real(c_double), intent(in), contiguous, target, optional :: escape(:)
         type(signorini_extra) :: extra
         extra%motion = address(motion)
         extra%second_d = address(second_d)
         extra%second_force = address(second_force)
+        extra%escape = address(escape)
         if (size(second_states) > 0) extra%second_state = c_loc(second_states)
     end function
 

@@ -122,7 +122,8 @@ typedef struct signorini_extra signorini_extra;
  * @param K         condensed stiffness, N columns of N entries, column-major, both triangles;
  *                  symmetric, positive semi-definite; force / length. A row of zeros is a component
  *                  that nothing resists. Small entries on the diagonal are taken as they are: of a
- *                  free body on two or three points make a model, which knows rounding
+ *                  free body on two or three points make a model, which knows rounding. That K is
+ *                  positive semi-definite is checked by pairs of entries alone; models check it
  * @param ldk       entries from one column of K to the next, at least max(1, N)
  * @param f         condensed nodal loads, N; force
  * @param gap       initial gaps, one for each pair; length; negative: interference; +infinity:
@@ -174,8 +175,10 @@ const char *signorini_last_error(void);
  */
 #define SIGNORINI_STATUS_STALLED 5
 #define SIGNORINI_STATUS_NOT_A_SOLUTION 6    /**< Certify: the displacements are no solution. */
+/** Prove: no solution is proved to exist, which does not say that there is none. */
+#define SIGNORINI_STATUS_NOT_PROVED 7
 /** The reduction of a sparse matrix needs more than memory_limit: nothing was factorised. */
-#define SIGNORINI_STATUS_MEMORY_LIMIT 7
+#define SIGNORINI_STATUS_MEMORY_LIMIT 8
 #define SIGNORINI_STATUS_INTERNAL -1000 /**< A caught defect of the library: results undefined. */
 #define SIGNORINI_STATUS_OUT_OF_MEMORY -1001 /**< Out of memory: nothing was written. */
 #define SIGNORINI_STATUS_FILE -1002          /**< A file cannot be read or written. */
@@ -232,9 +235,15 @@ struct signorini_sparse {
  * u_slave = sum of weight * u_master + n d_n + t d_t (3D: + t1 d_t1 + t2 d_t2),
  * so that the gap is closed at d_n = gap.
  *
- * A node is the slave of at most one pair. No master is a slave. A slave may be fixed along an
- * axis only if its masters are fixed along it too and the axis is its normal or a tangent; along
- * this axis d and F are zero. The library only reads the structure during the call.
+ * General rows, as mortar methods make them: leave slaves, master_start, masters and weights NULL
+ * and set row_start, row_nodes and row_weights. Each pair is then a list of nodes with signed
+ * weights, and n d_n + t d_t = sum of row_weight * u.
+ *
+ * A node may stand in any number of pairs, as slave and as master, and may be fixed. Where slave
+ * and masters are all fixed along an axis, which is the normal or a tangent, d and F are zero along
+ * it. Pairs may depend on each other, such as those of a node on two planes, or of two surfaces
+ * that are each other's slaves: then contact forces are not unique, and the model has no
+ * signorini_model_stiffness. The library only reads the structure during the call.
  */
 struct signorini_pairs {
     uint32_t struct_size; /**< sizeof(signorini_pairs). */
@@ -263,6 +272,19 @@ struct signorini_pairs {
      * normal. In 3D always t2 = n x t1; signorini_model_frames returns all.
      */
     const double *tangents;
+    /**
+     * General rows: start of each pair's nodes in row_nodes and row_weights, count + 1 entries,
+     * counted from index_base. NULL: pairs of slaves and masters. A struct_size without this field
+     * and the next two is right too: they are NULL then.
+     */
+    const int64_t *row_start;
+    /** Degrees of freedom of each node, dim for each, in the order of the axes. */
+    const int64_t *row_nodes;
+    /**
+     * Weight of each node: positive on the side whose outward normal is given, negative on the
+     * other. Those of a pair sum to 0, and against a rigid obstacle to 1.
+     */
+    const double *row_weights;
 };
 
 /**
@@ -366,11 +388,12 @@ int64_t signorini_model_host_size(const signorini_model *model);
 int32_t signorini_model_frames(const signorini_model *model, double *frames);
 
 /**
- * Copies the stiffness matrix in relative displacements.
+ * Copies the stiffness matrix in relative displacements. There is none if pairs depend on each
+ * other, such as those of a node on two planes.
  *
  * @param model  the model
  * @param K      out: N = dim * pairs columns of N entries; leading dimension N
- * @return 0; -k: the k-th argument is wrong
+ * @return 0; -k: the k-th argument is wrong; -1 too: pairs depend on each other
  */
 int32_t signorini_model_stiffness(const signorini_model *model, double *K);
 
@@ -429,7 +452,8 @@ int32_t signorini_model_recover(const signorini_model *model, const double *f,
 
 /**
  * Contact forces as a nodal force vector of the host. Sparse model: F on the slaves, the opposite
- * on the masters. Two bodies: F on both, each in its own frame. Condensed model: F itself.
+ * on the masters; general rows: F by the signed weights. Two bodies: F on both, each in its own
+ * frame. Condensed model: F itself.
  *
  * @param model  the model
  * @param F      contact forces, N entries
@@ -440,7 +464,7 @@ int32_t signorini_model_nodal_forces(const signorini_model *model, const double 
 
 /**
  * Relative loads of one load case: the f that signorini_solve takes beside the matrix of
- * signorini_model_stiffness.
+ * signorini_model_stiffness. There are none if rows of pairs depend on each other.
  *
  * @param model       the model
  * @param f           nodal loads of the host, H entries
@@ -453,7 +477,8 @@ int32_t signorini_model_condensed_load(const signorini_model *model, const doubl
 
 /**
  * Measures relative displacements of any origin on a load case of a model, as signorini_certify
- * does on a condensed problem.
+ * does on a condensed problem. If pairs depend on each other, displacements do not tell the forces:
+ * -1 is returned.
  *
  * @param model       the model
  * @param f           nodal loads of the host, H = signorini_model_host_size entries
@@ -502,6 +527,37 @@ int32_t signorini_certify(int32_t dim, int64_t pairs, const double *K, int64_t l
                           const double *slip0, double tolerance, const double *d, double *F,
                           int32_t *state, signorini_report *report);
 
+/**
+ * Tries to prove that a condensed contact problem has a solution next to displacements of any
+ * origin, say of another solver, and bounds how far it is away.
+ *
+ * What is proved: K, f, gap, friction and slip0, each double taken for the real number that it
+ * is, have a solution with these states, each pair clear of the boundaries of its state. All
+ * rounding is bounded. It is not proved that there is no other solution.
+ *
+ * @param dim       space dimension, 2 or 3
+ * @param pairs     number of contact pairs, 0 allowed
+ * @param K         condensed stiffness, as for signorini_solve
+ * @param ldk       entries from one column of K to the next, at least max(1, N)
+ * @param f         condensed nodal loads, N
+ * @param gap       initial gaps, one for each pair
+ * @param law       SIGNORINI_LAW_..., the friction law of all pairs
+ * @param friction  parameters of the law, pair by pair; may be NULL if frictionless
+ * @param slip0     reference slip, dim - 1 for each pair; NULL: zero
+ * @param d         relative displacements, N
+ * @param state     SIGNORINI_STATE_... of each pair; NULL: those of d
+ * @param F         out: contact forces of the solution, N; may be NULL
+ * @param radius_d  out: the solution has displacements within this distance of d, component by
+ *                  component, N; length; may be NULL
+ * @param radius_F  out: the same of the contact forces and F, N; force; may be NULL
+ * @return 0: proved; SIGNORINI_STATUS_NOT_PROVED: not, which proves nothing: F holds zeros, the
+ *         radii -1; -k: the k-th argument is wrong, nothing was written
+ */
+int32_t signorini_prove(int32_t dim, int64_t pairs, const double *K, int64_t ldk, const double *f,
+                        const double *gap, int32_t law, const double *friction, const double *slip0,
+                        const double *d, const int32_t *state, double *F, double *radius_d,
+                        double *radius_F);
+
 /* ============================================================================================
  * 4  Files
  *
@@ -513,8 +569,10 @@ int32_t signorini_certify(int32_t dim, int64_t pairs, const double *K, int64_t l
  *
  * The file is a dense matrix in the Matrix Market format: the columns of K, f, gap, friction and
  * slip0, and comment lines that say so. It appears under its name only when it is complete: it is
- * written beside its place under a name that ends in .part, then renamed. K must be finite; its
- * symmetry and definiteness are not checked here.
+ * written beside its place under a name that ends in .part, then renamed. A file that it replaces
+ * hands on its mode; through a symbolic link the file is replaced that it names; pipes, devices and
+ * links to nothing are refused. K must be finite; its symmetry and definiteness are not checked
+ * here.
  *
  * @param path      name of the file, which is replaced if it exists; bytes as for fopen (UTF-8 on
  *                  Windows)
@@ -537,7 +595,8 @@ int32_t signorini_problem_write(const char *path, int32_t dim, int64_t pairs, co
 
 /**
  * Writes a load case of a model to a file, as signorini_problem_write does: the condensed problem
- * that signorini_model_solve solves. signorini_solve gives the same d and F for it.
+ * that signorini_model_solve solves. signorini_solve gives the same d and F for it. If pairs depend
+ * on each other there is none: -1 is returned.
  *
  * @param model       the model
  * @param path        name of the file, which is replaced if it exists
@@ -584,7 +643,7 @@ typedef struct signorini_problem signorini_problem;
 
 /**
  * Reads a problem from a file. Any file is safe to read: the call returns either a problem or an
- * error that names the line.
+ * error that names the line. Pipes and devices are refused at once.
  *
  * @param path     name of the file
  * @param problem  out: the problem; NULL unless 0 is returned
@@ -725,6 +784,12 @@ struct signorini_settings {
     int32_t search;                 /**< SIGNORINI_SEARCH_...; default SIGNORINI_SEARCH_OFF. */
     signorini_progress_fn progress; /**< Progress callback; default NULL. */
     void *user;                     /**< Passed to progress as its first argument; default NULL. */
+    /**
+     * Nonzero: prove that the solution exists, and where: report.proof, extra.radius_d and
+     * radius_F. It costs one to three solutions, without friction up to five. Default 0.
+     */
+    int32_t proof;
+    int32_t reserved;               /**< 0. */
     /** Most bytes that signorini_model_new_sparse_within may need; default 0: no limit. */
     int64_t memory_limit;
 };
@@ -743,6 +808,20 @@ int32_t signorini_settings_default(signorini_settings *settings, uint32_t struct
 #define SIGNORINI_UNIQUENESS_NOT_KNOWN 0 /**< It is not known whether there are other solutions. */
 #define SIGNORINI_UNIQUENESS_UNIQUE 1    /**< Proved: there is no other solution. */
 #define SIGNORINI_UNIQUENESS_SEVERAL 2   /**< Proved: there are other solutions. */
+
+/* Whether a solution is proved to exist. */
+#define SIGNORINI_PROOF_NOT_ASKED 0 /**< settings.proof is 0. */
+/**
+ * Proved: the data, each double taken for the real number that it is, have a solution with these
+ * states. Of a model the data are those of its condensed problem, in doubles as the library has
+ * made them.
+ */
+#define SIGNORINI_PROOF_PROVED 1
+/**
+ * Not proved, which says nothing about whether there is a solution: a pair is at the boundary of
+ * two states, or rounding is too large beside the condition of K.
+ */
+#define SIGNORINI_PROOF_NOT_PROVED 2
 
 /* Why the first method was abandoned. */
 #define SIGNORINI_FALLBACK_NONE 0       /**< The first method succeeded. */
@@ -795,6 +874,19 @@ struct signorini_report {
      */
     int32_t orientation;
     int32_t second;           /**< 1: a second solution was found, see extra; else 0. */
+    /**
+     * Largest error of a component of d over the largest component of d, no unit. With
+     * SIGNORINI_PROOF_PROVED a proved bound. Otherwise what the contraction of the last refinement
+     * tells; -1: not known, there was none.
+     */
+    double error_d;
+    /**
+     * Largest error of a component of F over the largest component of F and f, no unit; in the
+     * same way.
+     */
+    double error_F;
+    int32_t proof;            /**< SIGNORINI_PROOF_... */
+    int32_t reserved;         /**< 0. */
 };
 
 /**
@@ -817,9 +909,10 @@ struct signorini_extra {
     uint32_t struct_size; /**< sizeof(signorini_extra). */
     int32_t reserved;     /**< 0. */
     /**
-     * Out: N entries. With SIGNORINI_STATUS_NO_EQUILIBRIUM the motion of escape r, which proves
-     * the status: K r = 0, and f . r + F . r > 0 for all contact forces F that the law admits. Its
-     * largest component is 1. With every other status zeros.
+     * Out: N entries. With SIGNORINI_STATUS_NO_EQUILIBRIUM a motion r that proves the status:
+     * K r = 0, and f . r + F . r > 0 for all contact forces F that the law admits. Its largest
+     * component is 1. With every other status zeros. With friction it lifts each slipping pair by
+     * mu times its slip, as nothing moves: draw escape.
      */
     double *motion;
     /**
@@ -831,6 +924,20 @@ struct signorini_extra {
     double *second_F;
     /** Out: one for each pair. SIGNORINI_STATE_... of the second solution; otherwise zeros. */
     int32_t *second_state;
+    /**
+     * Out: N entries. If report.proof is SIGNORINI_PROOF_PROVED: the solution has displacements
+     * within this distance of d, component by component; length. Otherwise -1.
+     */
+    double *radius_d;
+    double *radius_F;     /**< Out: N entries. The same of the contact forces and F; force. */
+    /**
+     * Out: N entries. With SIGNORINI_STATUS_NO_EQUILIBRIUM the motion of escape, which you can
+     * draw: K r = 0, no pair approaches its obstacle, pairs that contact presses stay on it,
+     * friction opposes the slip, and f . r > 0. It is the motion against a viscosity in each
+     * component of the size of its diagonal entry of K, every pair of finite gap touching. Its
+     * largest component is 1. With every other status zeros.
+     */
+    double *escape;
 };
 
 /**

@@ -1,22 +1,27 @@
 //! Reduce once, solve many load cases, recover.
 
+mod arguments;
+mod surfaces;
+
 use std::path::Path;
 
 use crate::certificate::{Certificate, certify};
-use crate::error::{Argument, Error, entry};
+use arguments::{check_length, check_vector};
+
+use crate::error::{Argument, Error, index};
 use crate::file;
-use crate::linalg::matrix::{Matrix, required_length};
-use crate::linalg::vector::first_not_finite;
+use crate::linalg::matrix::Matrix;
 use crate::monitor::Monitor;
 use crate::problem::{
-    ContactData, ContactProblem, FrictionLaw, checked_dim, symmetric_matrix, unknowns,
+    ContactData, ContactProblem, Dependence, DependentRows, FrictionLaw, Relation, checked_dim,
+    symmetric_matrix, unknowns,
 };
 use crate::reduce::{
     CondensedReduction, ContactPairs, Control, Reduction, SparseMatrix, SparseReduction,
-    TwoBodyReduction, driven_motion,
+    TwoBodyReduction, check_fixed_gaps, driven_motion,
 };
 use crate::settings::Settings;
-use crate::solve::{NO_EQUILIBRIUM, Solution, Status, solve};
+use crate::solve::{NO_EQUILIBRIUM, Solution, Status, solve, solve_dependent};
 
 /// A structure, reduced to its contact pairs. It does not change: several threads may use it.
 pub struct Model {
@@ -45,7 +50,8 @@ impl Model {
     /// A body condensed by the host, on an obstacle: `d = u`.
     ///
     /// # Errors
-    /// As [`ContactProblem::new`] for the matrix, after it was cleaned: if a diagonal entry is at most 9e-12
+    /// As [`ContactProblem::new`] for the matrix, and a matrix that is not positive semi-definite, by a component;
+    /// after it was cleaned: if a diagonal entry is at most 9e-12
     /// of the largest one of its pair, and the component is coupled to others, motions of so little energy
     /// are the rounding of a condensation and become exactly free. All other matrices are taken as they are.
     pub fn condensed(dim: usize, pairs: usize, k: &[f64], ld: usize) -> Result<Self, Error> {
@@ -74,7 +80,8 @@ impl Model {
         Model { dim, pairs, reduction }.checked()
     }
 
-    /// A whole sparse stiffness matrix with fixed degrees of freedom and pairs.
+    /// A whole sparse stiffness matrix with fixed degrees of freedom and pairs; those of
+    /// [`crate::surface`] by `ContactPairs::from(&found.rows())`.
     ///
     /// # Errors
     /// As [`SparseReduction::new`].
@@ -108,8 +115,9 @@ impl Model {
 
     /// Refuses a reduced matrix that no structure has.
     fn checked(self) -> Result<Self, Error> {
-        let size = self.dim * self.pairs;
-        let matrix = Matrix::new(size, self.stiffness(), size.max(1));
+        let dependence = self.reduction.dependence();
+        let size = dependence.map_or(self.dim * self.pairs, Dependence::variables);
+        let matrix = Matrix::new(size, self.reduction.stiffness(), size.max(1));
         symmetric_matrix::check(&matrix, "K_rel", Argument::Matrix)?;
         Ok(self)
     }
@@ -135,9 +143,19 @@ impl Model {
         self.reduction.fixed_count()
     }
 
-    /// `K_rel`, column-major, `dim * pairs` square.
+    /// `K_rel`, column-major, `dim * pairs` square; empty if [`Self::dependent_pairs`] names any, as there
+    /// is none then.
     pub fn stiffness(&self) -> &[f64] {
-        self.reduction.stiffness()
+        match self.reduction.dependence() {
+            None => self.reduction.stiffness(),
+            Some(_) => &[],
+        }
+    }
+
+    /// Pairs whose rows follow from those of other pairs or from supports, such as a node on two planes with
+    /// friction: contact forces are not unique then, and no stiffness in relative displacements exists.
+    pub fn dependent_pairs(&self) -> &[usize] {
+        self.reduction.dependence().map_or(&[], Dependence::dependent_pairs)
     }
 
     /// Frames of the pairs in the host's axes: of each pair the normal, then the `dim - 1` tangents,
@@ -150,12 +168,14 @@ impl Model {
     /// Loads of a load case in relative displacements, `dim * pairs`: `f` of `K_rel d = f + F`.
     ///
     /// # Errors
-    /// Loads or prescribed values of the wrong length or not finite, or that contradict the supports.
+    /// Loads or prescribed values of the wrong length or not finite, or that contradict the supports;
+    /// [`Argument::Matrix`]: pairs depend on each other ([`Self::dependent_pairs`]).
     pub fn condensed_load(
         &self,
         load: &[f64],
         prescribed: Option<&[f64]>,
     ) -> Result<Vec<f64>, Error> {
+        self.check_independent()?;
         self.check_loads(Some(load), prescribed)?;
         Ok(self.reduction.condense(load, prescribed))
     }
@@ -164,7 +184,8 @@ impl Model {
     ///
     /// # Errors
     /// As [`Self::solve`] for the load case; a `d` of the wrong length or not finite
-    /// ([`Argument::Start`]).
+    /// ([`Argument::Start`]); pairs that depend on each other ([`Argument::Matrix`]), as `d` alone does not
+    /// tell their forces.
     pub fn certify(&self, case: &LoadCase<'_>, d: &[f64]) -> Result<Certificate, Error> {
         check_vector(Argument::Start, "d", d, self.dim * self.pairs)?;
         self.reduced(case, |problem| Ok(certify(problem, d)))
@@ -181,22 +202,37 @@ impl Model {
         start: Option<&[f64]>,
         monitor: &mut Monitor<'_>,
     ) -> Result<Solution, Error> {
+        if let Some(dependence) = self.reduction.dependence() {
+            return self.on_dependent_rows(dependence, case, |problem| {
+                let solution = solve_dependent(problem, settings, start, monitor)?;
+                Ok(self.with_motion(solution, problem.relation().load()))
+            });
+        }
         self.reduced(case, |problem| {
-            let mut solution = solve(problem, settings, start, monitor)?;
-            if solution.status == Status::NoEquilibrium
-                && let Some(motion) = &solution.recession
-            {
-                let driven = driven_motion(&*self.reduction, problem.load(), motion);
-                solution.message = format!("{NO_EQUILIBRIUM}: {driven}").into();
-            }
-            Ok(solution)
+            let solution = solve(problem, settings, start, monitor)?;
+            Ok(self.with_motion(solution, problem.load()))
         })
+    }
+
+    /// The solution with a sentence on the motion that `load` drives, if there is one.
+    fn with_motion(&self, mut solution: Solution, load: &[f64]) -> Solution {
+        if solution.status == Status::NoEquilibrium
+            && let Some(motion) = &solution.recession
+        {
+            let escape = solution.escape.as_ref();
+            let parts =
+                escape.map(|escape| (escape.motion.as_slice(), escape.unbalanced.as_slice()));
+            let driven = driven_motion(&*self.reduction, load, parts.unwrap_or((motion, load)));
+            solution.message = format!("{NO_EQUILIBRIUM}: {driven}").into();
+        }
+        solution
     }
 
     /// Writes the contact problem that [`Self::solve`] solves for a load case to a file.
     ///
     /// # Errors
-    /// As [`Self::solve`] for the load case, and as [`file::write`].
+    /// As [`Self::solve`] for the load case, and as [`file::write`]; pairs that depend on each other
+    /// ([`Argument::Matrix`]), which such a file cannot hold.
     pub fn write_case(
         &self,
         path: &Path,
@@ -213,6 +249,7 @@ impl Model {
         to: impl FnOnce(&ContactProblem<'_>) -> Result<T, Error>,
     ) -> Result<T, Error> {
         let load = self.condensed_load(case.load, case.prescribed)?;
+        check_fixed_gaps(&*self.reduction, self.dim, case.gap)?;
         let slip = case.reference_slip.map(|slip| self.allowed_slip(slip));
         let problem = ContactProblem::on_checked_matrix(ContactData {
             dim: self.dim,
@@ -228,6 +265,40 @@ impl Model {
             true => to(&problem.condensed_by_host()),
             false => to(&problem),
         }
+    }
+
+    /// Hands over the problem of a load case on rows that depend on each other.
+    fn on_dependent_rows<T>(
+        &self,
+        dependence: &Dependence,
+        case: &LoadCase<'_>,
+        to: impl FnOnce(&ContactProblem<'_, DependentRows<'_>>) -> Result<T, Error>,
+    ) -> Result<T, Error> {
+        self.check_loads(Some(case.load), case.prescribed)?;
+        let load = self.reduction.condense(case.load, case.prescribed);
+        let offset = self.reduction.offset(case.prescribed);
+        let slip = case.reference_slip.map(|slip| self.allowed_slip(slip));
+        let stiffness = (self.reduction.stiffness(), &load[..]);
+        let relation = DependentRows::new(dependence, stiffness, &offset);
+        let (gap, slip) = (case.gap, slip.as_deref());
+        let problem = ContactProblem::with_relation(relation, self.dim, gap, case.law, slip)?;
+        to(&problem)
+    }
+
+    /// Refuses what needs a stiffness in relative displacements, if there is none.
+    pub(crate) fn check_independent(&self) -> Result<(), Error> {
+        let pairs = self.dependent_pairs();
+        let Some(first) = pairs.first() else { return Ok(()) };
+        let others = match pairs.len() {
+            1 => String::new(),
+            more => format!(" and of {} more", more - 1),
+        };
+        let message = format!(
+            "the rows of pair {}{others} follow from those of other pairs or from supports: no stiffness in \
+             relative displacements exists; solve load cases by the model",
+            index(first)
+        );
+        Err(Error::invalid(Argument::Matrix, message))
     }
 
     /// Displacements of the host from the relative ones; without `load` and `prescribed` those of
@@ -280,37 +351,5 @@ impl Model {
             }
         }
         slip
-    }
-}
-
-fn check_length(
-    name: &str,
-    (given, ld): (&[f64], usize),
-    size: usize,
-    (matrix, leading): (Argument, Argument),
-) -> Result<(), Error> {
-    let entries =
-        required_length(name, size, ld).map_err(|message| Error::invalid(leading, message))?;
-    if given.len() < entries {
-        let given = given.len();
-        let message = format!("{name} has {given} entries, it must have {entries}");
-        return Err(Error::invalid(matrix, message));
-    }
-    Ok(())
-}
-
-fn check_vector(
-    argument: Argument,
-    name: &str,
-    values: &[f64],
-    length: usize,
-) -> Result<(), Error> {
-    if values.len() != length {
-        let message = format!("{name} has {} entries, it must have {length}", values.len());
-        return Err(Error::invalid(argument, message));
-    }
-    match first_not_finite(values) {
-        Some(i) => Err(Error::invalid(argument, entry(name, [i]) + " is not finite")),
-        None => Ok(()),
     }
 }

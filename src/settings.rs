@@ -68,6 +68,8 @@ pub struct Settings {
     pub time_limit: f64,
     /// Whether to look for other solutions.
     pub search: Search,
+    /// Whether to prove that the solution exists, and where: [`crate::Solution::existence`].
+    pub proof: bool,
     /// Most bytes that the reduction of a sparse matrix may need; 0 means no limit.
     pub memory_limit: u64,
 }
@@ -82,6 +84,7 @@ impl Default for Settings {
             max_iterations: 200_000,
             time_limit: 0.0,
             search: Search::Off,
+            proof: false,
             memory_limit: 0,
         }
     }

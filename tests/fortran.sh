@@ -92,9 +92,12 @@ for kind in static shared; do
     runs "refusals_$kind"
     compile "counting_$kind" "$kind" -std=f2008 "$module" "$tests/counting.f90"
     runs "counting_$kind"
+    compile "rows_$kind" "$kind" "$module" "$tests/rows.f90"
+    runs "rows_$kind"
 done
-for name in layer refusals counting; do
-    compile "${name}_64" shared -fdefault-integer-8 "$module" "$tests/$name.f90"
+for name in layer refusals counting rows; do
+    # shellcheck disable=SC2086 # several options
+    compile "${name}_64" shared $wide "$module" "$tests/$name.f90"
     runs "${name}_64"
 done
 compile bar_sparse_64 shared -fdefault-integer-8 "$module" "$hosts/bar_mesh.f90" \

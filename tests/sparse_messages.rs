@@ -313,11 +313,13 @@ fn a_degree_of_freedom_without_stiffness_may_be_fixed() {
 }
 
 #[test]
-fn fixed_slaves_are_named_with_the_remedy() {
-    // Everything fixed but the frame inclined, with and without masters.
+fn pairs_that_nothing_can_move_are_named_with_the_remedy() {
+    // Everything fixed and the frame inclined, with and without masters; and a slave on itself.
     let inclined = |input: &mut Input| input.normals = vec![-1.0, -1.0];
+    let named =
+        "pair 0: its nodes are fixed along every axis, or its weights cancel: leave the pair out";
     for masters in [true, false] {
-        pairs("pair 0: its slave is fixed along every axis: leave the pair out", |input| {
+        pairs(named, |input| {
             inclined(input);
             input.fixed = vec![0, 1, 2, 3];
             if !masters {
@@ -327,30 +329,7 @@ fn fixed_slaves_are_named_with_the_remedy() {
             }
         });
     }
-    pairs(
-        "its master's degree of freedom 2 is not: exchange slave and master, or leave",
-        |input| {
-            input.fixed = vec![0, 1];
-        },
-    );
-    let parts: &[&str] = &[
-        "pair 0: its slave is fixed along y where its masters are not",
-        "degree of freedom 3, of weight 0.25, is free: fix both sides along y, or neither",
-    ];
-    refused(Argument::Pairs, parts, |input| {
-        input.fixed = vec![1, 5];
-        input.master_start = vec![0, 2];
-        input.masters = vec![4, 5, 2, 3];
-        input.weights = vec![0.75, 0.25];
-    });
-    let parts: &[&str] = &[
-        "pair 0: its slave is fixed along x, which is neither normal nor tangent",
-        "hand over a normal along or across x",
-    ];
-    refused(Argument::Pairs, parts, |input| {
-        inclined(input);
-        input.fixed = vec![0, 2];
-    });
+    pairs(named, |input| input.masters = vec![0, 1]);
     refused(Argument::Fixed, &["fixed: degree of freedom 5 is listed twice"], |input| {
         input.fixed = vec![5, 5];
     });
@@ -359,39 +338,25 @@ fn fixed_slaves_are_named_with_the_remedy() {
     });
 }
 
-/// In space a normal across the axis is not enough: the tangent must be along it.
 #[test]
-fn a_tangent_along_the_fixed_axis_is_asked_for() {
-    let start: Vec<i64> = (0..=3).collect();
-    let row: Vec<i64> = (0..3).collect();
-    let matrix = SparseMatrix {
-        size: 3,
-        col_start: Indices::Wide(&start),
-        row: Indices::Wide(&row),
-        values: &[2.0; 3],
-        index_base: 0,
-        triangle: Triangle::Lower,
-    };
-    // Across z, and neither of the chosen tangents is along z.
-    let model = |tangents: Option<&[f64]>| {
-        let pairs = ContactPairs {
-            dim: 3,
-            count: 1,
-            slaves: &[0, 1, 2],
-            master_start: &[0, 0],
-            masters: &[],
-            weights: &[],
-            normals: &[0.0, -0.6, -0.8],
-            tangents,
-        };
-        Model::sparse(&matrix, &[0], &pairs)
-    };
-    let asked = "fixed along x, which is neither normal nor tangent: hand over x as its tangent";
-    match model(Some(&[1.0, 0.8, -0.6])) {
-        Err(error) => assert!(error.to_string().contains(asked), "{error}"),
-        Ok(_) => panic!("accepted"),
+fn what_needs_a_stiffness_of_dependent_pairs_is_refused_by_their_names() {
+    // The slave is fixed along x, and the frame is inclined: one motion for two components.
+    let model = Input::with(|input| {
+        input.normals = vec![-1.0, -1.0];
+        input.fixed = vec![0, 2];
+    })
+    .model()
+    .unwrap();
+    assert_eq!(model.dependent_pairs(), [0]);
+    assert!(model.stiffness().is_empty());
+    let named =
+        "the rows of pair 0 follow from those of other pairs or from supports: no stiffness";
+    match model.condensed_load(&[0.0; 6], None) {
+        Err(Error::Invalid { argument: Argument::Matrix, message }) => {
+            assert!(message.contains(named), "{message}");
+        }
+        other => panic!("{other:?}"),
     }
-    assert!(model(Some(&[1.0, 0.0, 0.0])).is_ok());
 }
 
 /// A plane of symmetry x = 0: the slave is held along x with its masters. Weights that an inverse map
@@ -416,12 +381,6 @@ fn rounding_of_weights_and_normals_is_accepted() {
         .unwrap_or_else(|error| panic!("weight {weight}: {error}"));
         close(model.stiffness(), exact.stiffness(), 1e-12, "K_rel");
     }
-    pairs("fixed along x where its masters are not", |input| {
-        input.fixed = vec![0, 2];
-        input.master_start = vec![0, 2];
-        input.masters = vec![2, 3, 4, 5];
-        input.weights = vec![1.0, 1e-10];
-    });
     for inclination in [1e-7, -1.5e-6, 4e-6] {
         let model = Input::with(|input| {
             input.fixed = vec![0, 2];
@@ -432,19 +391,13 @@ fn rounding_of_weights_and_normals_is_accepted() {
         assert_eq!(model.stiffness(), exact.stiffness());
         assert_eq!(model.frames(), Some(&[0.0, -1.0, 1.0, 0.0][..]));
     }
-    pairs("neither normal nor tangent", |input| {
-        input.fixed = vec![0, 2];
-        input.normals = vec![1e-4, -1.0];
-    });
 }
 
 #[test]
 fn wrong_masters_are_named() {
     pairs("pair 0: its weights sum to 0.5, not to 1", |input| input.weights[0] = 0.5);
     pairs("pair 0: its weights sum to NaN", |input| input.weights[0] = f64::NAN);
-    pairs("pair 0: its master's degree of freedom 0 is a slave in pair 0", |input| {
-        input.masters[0] = 0;
-    });
+    pairs("pair 0: its slave has degree of freedom 0 twice", |input| input.slaves[1] = 0);
     pairs("master_start has 3 entries, it must have 2", |input| input.master_start.push(1));
     pairs("pair 0: its masters begin at 1", |input| input.master_start[0] = 1);
     pairs("the pairs have 2 masters, there are 1 weights", |input| input.master_start[1] = 2);

@@ -29,9 +29,12 @@
 //! nothing forgiven and with a bound on what rounding is left in its evaluation: it is not below the true one.
 
 mod escape;
+mod proof;
 
 pub use escape::is_escape;
 pub(crate) use escape::{is_escape_of, lifts};
+pub use proof::{Proof, prove};
+pub(crate) use proof::{errors, prove_parts};
 
 use crate::law::{Contact, State, Violation};
 use crate::linalg::tolerances::{NEGLIGIBLE, ROUNDING_OF_SUM};

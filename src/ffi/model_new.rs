@@ -220,11 +220,12 @@ pub unsafe extern "C" fn signorini_model_host_size(model: *const SignoriniModel)
     unsafe { model.as_ref() }.map_or(-1, |model| model.0.host_size() as i64)
 }
 
-/// Copies the stiffness matrix in relative displacements.
+/// Copies the stiffness matrix in relative displacements. There is none if pairs depend on each
+/// other, such as those of a node on two planes.
 ///
 /// @param model  the model
 /// @param K      out: N = dim * pairs columns of N entries; leading dimension N
-/// @return 0; -k: the k-th argument is wrong
+/// @return 0; -k: the k-th argument is wrong; -1 too: pairs depend on each other
 #[unsafe(no_mangle)]
 #[allow(non_snake_case)] // as above
 pub unsafe extern "C" fn signorini_model_stiffness(
@@ -234,7 +235,9 @@ pub unsafe extern "C" fn signorini_model_stiffness(
     guard::call(|| {
         // SAFETY: a model and an array as the header demands.
         unsafe {
-            let stiffness = read(model)?.stiffness();
+            let model = read(model)?;
+            model.check_independent().map_err(|error| Failure::from_error(error, |_| 1))?;
+            let stiffness = model.stiffness();
             Arrays::default().output(2, "K", K, stiffness.len())?.write(stiffness);
         }
         Ok(0)

@@ -47,7 +47,8 @@ pub unsafe extern "C" fn signorini_model_recover(
 }
 
 /// Contact forces as a nodal force vector of the host. Sparse model: F on the slaves, the opposite
-/// on the masters. Two bodies: F on both, each in its own frame. Condensed model: F itself.
+/// on the masters; general rows: F by the signed weights. Two bodies: F on both, each in its own
+/// frame. Condensed model: F itself.
 ///
 /// @param model  the model
 /// @param F      contact forces, N entries
@@ -77,7 +78,7 @@ pub unsafe extern "C" fn signorini_model_nodal_forces(
 }
 
 /// Relative loads of one load case: the f that signorini_solve takes beside the matrix of
-/// signorini_model_stiffness.
+/// signorini_model_stiffness. There are none if rows of pairs depend on each other.
 ///
 /// @param model       the model
 /// @param f           nodal loads of the host, H entries
@@ -102,6 +103,7 @@ pub unsafe extern "C" fn signorini_model_condensed_load(
             arrays.check_overlap()?;
             let condensed = model.condensed_load(given, values).map_err(|error| {
                 Failure::from_error(error, |argument| match argument {
+                    Argument::Matrix => 1,
                     Argument::Prescribed => 3,
                     _ => 2,
                 })

@@ -150,6 +150,8 @@ impl CaseArguments {
     /// is not here.
     pub(super) fn position(&self, argument: Argument, otherwise: i32) -> i32 {
         let offset = match argument {
+            // Of the model, the first argument of each call.
+            Argument::Matrix => return 1,
             Argument::Load => 0,
             Argument::Prescribed => 1,
             Argument::Gap => 2,

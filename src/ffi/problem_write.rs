@@ -16,8 +16,10 @@ use crate::problem::Lcp;
 ///
 /// The file is a dense matrix in the Matrix Market format: the columns of K, f, gap, friction and
 /// slip0, and comment lines that say so. It appears under its name only when it is complete: it is
-/// written beside its place under a name that ends in .part, then renamed. K must be finite; its
-/// symmetry and definiteness are not checked here.
+/// written beside its place under a name that ends in .part, then renamed. A file that it replaces
+/// hands on its mode; through a symbolic link the file is replaced that it names; pipes, devices and
+/// links to nothing are refused. K must be finite; its symmetry and definiteness are not checked
+/// here.
 ///
 /// @param path      name of the file, which is replaced if it exists; bytes as for fopen (UTF-8 on
 ///                  Windows)
@@ -122,7 +124,8 @@ pub unsafe extern "C" fn signorini_lcp_write(
 }
 
 /// Writes a load case of a model to a file, as signorini_problem_write does: the condensed problem
-/// that signorini_model_solve solves. signorini_solve gives the same d and F for it.
+/// that signorini_model_solve solves. signorini_solve gives the same d and F for it. If pairs depend
+/// on each other there is none: -1 is returned.
 ///
 /// @param model       the model
 /// @param path        name of the file, which is replaced if it exists

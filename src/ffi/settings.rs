@@ -87,6 +87,11 @@ pub struct SignoriniSettings {
     pub progress: SignoriniProgressFn,
     /// Passed to progress as its first argument; default NULL.
     pub user: *mut c_void,
+    /// Nonzero: prove that the solution exists, and where: report.proof, extra.radius_d and
+    /// radius_F. It costs one to three solutions, without friction up to five. Default 0.
+    pub proof: i32,
+    /// 0.
+    pub reserved: i32,
     /// Most bytes that signorini_model_new_sparse_within may need; default 0: no limit.
     pub memory_limit: i64,
 }
@@ -115,6 +120,8 @@ impl SignoriniSettings {
             search: SIGNORINI_SEARCH_OFF,
             progress: None,
             user: std::ptr::null_mut(),
+            proof: 0,
+            reserved: 0,
             memory_limit: 0,
         }
     }
@@ -159,6 +166,10 @@ impl SignoriniSettings {
             SIGNORINI_SEARCH_OTHERS => Search::Others,
             other => return refuse(format!("settings: there is no search {other}")),
         };
+        if self.reserved != 0 {
+            let given = self.reserved;
+            return refuse(format!("settings: reserved is {given}, it must be 0"));
+        }
         Ok(Received {
             settings: Settings {
                 method,
@@ -168,6 +179,7 @@ impl SignoriniSettings {
                 max_iterations,
                 time_limit: self.time_limit,
                 search,
+                proof: self.proof != 0,
                 memory_limit,
             },
             warm_start: self.warm_start != 0,

@@ -15,7 +15,9 @@
 //! | `proximal` | the step of one pair in a sweep | sweeps |
 //! | `local` | the exact solution of one pair, its block coupled | who solves pair by pair |
 //! | `complementarity` | the law as complementarity of non-negative variables | Lemke's method, block pivoting |
+//! | `frozen` | a pair on a piece that is given, with bounds on all that is computed of it | proofs that a solution exists |
 //! | `reach` | which obstacles are too far away to matter | `solve::far_obstacles` |
+//! | `contradiction` | when normal forces prove that no displacements meet all gaps | `solve::dependent` |
 //! | `recession` | what a rigid motion must satisfy to prove that no equilibrium exists | certificate |
 //!
 //! Notation, for one pair: `v = d - (gap, slip0)`, so that `v_n` is the penetration (at most 0 if the
@@ -35,9 +37,11 @@ pub mod branch;
 pub mod cohesive;
 pub mod complementarity;
 mod contact;
+mod contradiction;
 pub mod coulomb;
 pub mod ellipse;
 pub mod frictionless;
+mod frozen;
 mod gauge;
 mod local;
 mod natural_map;
@@ -52,7 +56,9 @@ pub mod tresca;
 
 pub use bound::{Bound, length};
 pub use contact::Contact;
+pub use contradiction::{exceed_gaps, pressing, without_friction};
 pub use ellipse::{Ellipse, Plane, Rule};
+pub(crate) use frozen::{FrozenPair, Local};
 pub use natural_map::Violation;
 pub use planar_piece::{Exit, Planar};
 pub use reach::gaps_within_reach;

@@ -1,6 +1,9 @@
 //! Linear algebra: the only room that names faer, nalgebra, feral-scotch and the SIMD kernels. It knows
 //! nothing of mechanics.
 
+pub(crate) mod approximate_inverse;
+pub(crate) mod ball;
+pub(crate) mod definite;
 pub(crate) mod double_double;
 pub(crate) mod elimination;
 pub(crate) mod factor;
@@ -12,6 +15,7 @@ pub(crate) mod packed;
 pub(crate) mod perturbation;
 pub(crate) mod pivoted_cholesky;
 pub(crate) mod power_of_two;
+pub(crate) mod row_elimination;
 pub(crate) mod simd;
 pub(crate) mod sparse_matrix;
 pub(crate) mod sparse_schur;

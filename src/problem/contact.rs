@@ -214,6 +214,14 @@ impl<'a, R: Relation> ContactProblem<'a, R> {
         Ok(ContactProblem { relation, dim, gap, law, reference_slip })
     }
 
+    /// The same problem with another law, whose parameters fit its pairs.
+    pub(crate) fn with_law(&self, law: FrictionLaw<'a>) -> Self
+    where
+        R: Clone,
+    {
+        ContactProblem { relation: self.relation.clone(), law, ..*self }
+    }
+
     /// The relation between displacements and contact forces.
     pub fn relation(&self) -> &R {
         &self.relation

@@ -2,6 +2,7 @@
 
 mod bounded_lcp;
 mod contact;
+mod dependent_rows;
 mod friction_law;
 mod lcp;
 mod relation;
@@ -10,6 +11,8 @@ pub(crate) mod symmetric_matrix;
 pub(crate) use bounded_lcp::BoundedLcp;
 pub use contact::{ContactData, ContactProblem};
 pub(crate) use contact::{checked_dim, unknowns};
+pub use dependent_rows::Dependence;
+pub(crate) use dependent_rows::DependentRows;
 pub use friction_law::FrictionLaw;
 pub use lcp::Lcp;
 pub use relation::{Relation, Stiffness};

@@ -3,7 +3,7 @@
 //! | form | relation | when |
 //! |---|---|---|
 //! | stiffness ([`Stiffness`]) | `K d = f + F` | rows of independent pairs |
-//! | general rows | `(I − S) v + S P = q` | rows that depend on each other; not built in |
+//! | dependent rows | `d = C z + o`, `K z = f + Cᵀ F` | rows that depend on each other |
 //!
 //! The certificate measures a pair `(d, F)` on any form. In the stiffness form `d` determines `F`; in
 //! others it does not, so that a candidate carries both.
@@ -51,9 +51,14 @@ pub struct Stiffness<'a> {
     pub(super) rounding: f64,
 }
 
-/// [`Stiffness::rounding`] of a matrix that is exact but for the last digits of its entries: rounding each
-/// of them once explains half a unit, and a host that sums a few terms to an entry rounds as often.
-const LAST_DIGITS: f64 = 10.0 * f64::EPSILON;
+/// [`Stiffness::rounding`] of a matrix that a host gives without a word on its origin, where its components
+/// are few. Rounding each entry once explains half of it; a definite matrix of condition 1e15 resists with
+/// 4.5 times as much or more. A host that sums many terms to an entry hands over a model.
+const LAST_DIGITS: f64 = f64::EPSILON;
+
+/// Components that add as much to it: entries that a host has condensed from a mesh took as many operations
+/// (6 times as much on 66 components, measured).
+const COMPONENTS_A_UNIT: f64 = 8.0;
 
 impl<'a> Stiffness<'a> {
     /// The relation of pairs of `dim` components, with a symmetric matrix.
@@ -64,7 +69,7 @@ impl<'a> Stiffness<'a> {
             symmetric: true,
             dim,
             largest: matrix.largest_diagonal(),
-            rounding: LAST_DIGITS,
+            rounding: LAST_DIGITS * (matrix.size() as f64 / COMPONENTS_A_UNIT).max(1.0),
         }
     }
 
@@ -101,7 +106,15 @@ impl Relation for Stiffness<'_> {
         residual
     }
 
+    /// A component that nothing resists counts with its unit: what it was condensed from has such stiffnesses,
+    /// whose sums are zero.
     fn magnitude(&self, size: &[f64]) -> Vec<f64> {
-        self.matrix.magnitude(size)
+        let mut sum = self.matrix.magnitude(size);
+        for (j, sum) in sum.iter_mut().enumerate() {
+            if self.matrix.at(j, j) == 0.0 {
+                *sum += self.unit(j) * size[j];
+            }
+        }
+        sum
     }
 }

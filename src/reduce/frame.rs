@@ -10,9 +10,6 @@ const LARGEST_COSINE: f64 = 1e-5;
 /// times the error of a normal of seven digits.
 const ALONG_AXIS: f64 = 1e-5;
 
-/// Names of the axes.
-pub(super) const AXES: [&str; 3] = ["x", "y", "z"];
-
 /// Orthonormal: the normal, then `dim - 1` tangents. In space `t2 = n x t1`.
 #[derive(Clone, Debug)]
 pub(super) struct Frame {
@@ -63,11 +60,6 @@ impl Frame {
             across.norm()
         };
         (0..self.dim).find(|&component| sine(&self.directions[component]) <= ALONG_AXIS)
-    }
-
-    /// Whether the normal is across an axis, to the same accuracy.
-    pub(super) fn normal_is_across(&self, axis: usize) -> bool {
-        self.directions[0][axis].abs() <= ALONG_AXIS
     }
 
     /// Turns the frame so that the direction of `component`, which is along `axis` but for rounding,

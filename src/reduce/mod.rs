@@ -16,7 +16,30 @@ pub use pairs::ContactPairs;
 pub use sparse::{Control, Indices, SparseMatrix, SparseReduction, Triangle};
 pub use two_body::TwoBodyReduction;
 
-use crate::error::{Error, Message};
+use crate::error::{Argument, Error, Message, entry};
+use crate::problem::Dependence;
+
+/// Refuses a penetration that supports on both sides of a pair hold: no displacement takes it away.
+pub(crate) fn check_fixed_gaps(
+    reduction: &dyn Reduction,
+    dim: usize,
+    gaps: &[f64],
+) -> Result<(), Error> {
+    let normals = reduction.fixed_components().iter().filter(|component| *component % dim == 0);
+    for pair in normals.map(|component| component / dim) {
+        if let Some(&gap) = gaps.get(pair)
+            && gap < 0.0
+        {
+            let message = format!(
+                "{} is {gap}, a penetration, but both sides of the pair are fixed along its normal: nothing \
+                 can part them: set the gap to 0, release a side, or leave the pair out",
+                entry("gap", [pair])
+            );
+            return Err(Error::invalid(Argument::Gap, message));
+        }
+    }
+    Ok(())
+}
 
 /// A structure reduced to its contact pairs. It does not change: several threads may use it at once.
 ///
@@ -24,8 +47,20 @@ use crate::error::{Error, Message};
 /// contact forces have `dim` entries for each pair, the normal component first. The lengths of
 /// arguments are the caller's responsibility.
 pub trait Reduction: Send + Sync {
-    /// `K_rel`, column-major, square.
+    /// `K_rel`, column-major, square; of rows that depend on each other the stiffness `K` of their
+    /// independent variables.
     fn stiffness(&self) -> &[f64];
+
+    /// How the relative displacements follow from independent variables; `None`: they are these variables.
+    fn dependence(&self) -> Option<&Dependence> {
+        None
+    }
+
+    /// With a dependence, the relative displacements that the values of the fixed degrees of freedom
+    /// (`None`: zero) add to those of the variables.
+    fn offset(&self, _prescribed: Option<&[f64]>) -> Vec<f64> {
+        Vec::new()
+    }
 
     /// Whether the host has condensed the stiffness, so that its rounding is not known from its entries.
     fn is_condensed_by_host(&self) -> bool {
@@ -40,7 +75,7 @@ pub trait Reduction: Send + Sync {
         0
     }
 
-    /// Relative loads of a load case: nodal loads and the values of the fixed degrees of freedom
+    /// Relative loads of a load case, of the variables of [`Self::stiffness`]: nodal loads and the values of the fixed degrees of freedom
     /// (`None`: zero).
     fn condense(&self, load: &[f64], prescribed: Option<&[f64]>) -> Vec<f64>;
 

@@ -7,21 +7,28 @@ use crate::error::{Argument, Error, index};
 /// doubles (1e-16) and of tables with ten digits, below anything that a gap shows.
 const SUM_OF_WEIGHTS: f64 = 1e-9;
 
-/// Pairs of slave nodes and points of other bodies, in degrees of freedom of the host.
+/// Contact pairs in degrees of freedom of the host: each a sum over nodes, `d = Rᵀ sum a_k u_k`, with `R` the
+/// pair's frame.
+///
+/// A pair of one slave against a point of other bodies has the weight 1 on its slave and, with the opposite
+/// sign, the weights of its masters. General rows, where [`Self::slaves`] is empty, list all nodes with
+/// signed weights. Nodes may stand in any number of pairs, and pairs may depend on each other.
 #[derive(Clone, Copy, Debug)]
 pub struct ContactPairs<'a> {
     /// Space dimension, 2 or 3.
     pub dim: usize,
     /// Number of pairs.
     pub count: usize,
-    /// Degrees of freedom of the slave nodes, `dim` for each pair, in the order of the axes.
+    /// Degrees of freedom of the slave nodes, `dim` for each pair, in the order of the axes. Empty: general
+    /// rows, all nodes of a pair are in `masters` with signed weights.
     pub slaves: &'a [usize],
     /// Start of each pair's masters in `weights`, and the number of all masters: `count + 1` entries.
     /// A pair without masters faces a rigid obstacle.
     pub master_start: &'a [usize],
     /// Degrees of freedom of the master nodes, `dim` for each.
     pub masters: &'a [usize],
-    /// Weight of each master node; those of a pair sum to 1.
+    /// Weight of each master node; those of a pair sum to 1. In general rows positive on the slave's side and
+    /// negative on the other; they sum to 0 between bodies and to 1 against an obstacle.
     pub weights: &'a [f64],
     /// Normals, outward from the slave's body, `dim` for each pair, of any positive length.
     pub normals: &'a [f64],
@@ -39,9 +46,14 @@ fn no_dof(pair: usize, dof: usize) -> String {
 }
 
 impl ContactPairs<'_> {
-    /// Degrees of freedom of the slave of a pair.
-    pub(super) fn slave(&self, pair: usize) -> &[usize] {
-        &self.slaves[self.dim * pair..self.dim * (pair + 1)]
+    /// Whether all nodes of a pair stand in `masters`, with signed weights.
+    fn are_general(&self) -> bool {
+        self.slaves.is_empty()
+    }
+
+    /// Degrees of freedom of the slave of a pair; `None` in general rows.
+    pub(super) fn slave(&self, pair: usize) -> Option<&[usize]> {
+        self.slaves.get(self.dim * pair..self.dim * (pair + 1))
     }
 
     /// Weight and degrees of freedom of each master of a pair.
@@ -50,16 +62,31 @@ impl ContactPairs<'_> {
             .map(|k| (self.weights[k], &self.masters[self.dim * k..self.dim * (k + 1)]))
     }
 
+    /// Signed weight and degrees of freedom of each node of a pair.
+    pub(super) fn row(&self, pair: usize) -> impl Iterator<Item = (f64, &[usize])> {
+        let sign = if self.are_general() { 1.0 } else { -1.0 };
+        let slave = self.slave(pair).map(|dofs| (1.0, dofs));
+        slave.into_iter().chain(self.masters_of(pair).map(move |(w, dofs)| (sign * w, dofs)))
+    }
+
+    /// Whether each pair has a slave that stands in no other pair.
+    pub(super) fn have_own_slaves(&self, size: usize) -> bool {
+        let mut is_slave = vec![false; size];
+        let is_new = |&dof: &usize| !std::mem::replace(&mut is_slave[dof], true);
+        !self.are_general()
+            && self.slaves.iter().all(is_new)
+            && !self.masters.iter().any(|&dof| is_slave[dof])
+    }
+
     /// Checks the arrays against a host of `size` degrees of freedom.
     ///
     /// # Errors
     /// The first array of a wrong length, start of masters that is out of order, degree of freedom
-    /// that does not exist or is used twice, and sum of weights that is not 1.
+    /// that does not exist or stands for two axes of a slave, and sum of weights that cannot be.
     pub(super) fn check(&self, size: usize) -> Result<(), Error> {
         self.check_lengths()?;
         self.check_master_start()?;
-        let pair_of_slave = self.checked_slaves(size)?;
-        (0..self.count).try_for_each(|pair| self.check_masters(pair, &pair_of_slave))
+        (0..self.count).try_for_each(|pair| self.check_row(pair, size))
     }
 
     fn check_lengths(&self) -> Result<(), Error> {
@@ -70,7 +97,7 @@ impl ContactPairs<'_> {
         }
         let masters = self.weights.len();
         let lengths = [
-            ("slaves", self.slaves.len(), dim * count),
+            ("slaves", self.slaves.len(), if self.are_general() { 0 } else { dim * count }),
             ("master_start", self.master_start.len(), count + 1),
             ("masters", self.masters.len(), dim * masters),
             ("normals", self.normals.len(), dim * count),
@@ -108,53 +135,35 @@ impl ContactPairs<'_> {
         Ok(())
     }
 
-    /// The pair in which each degree of freedom is a slave.
-    fn checked_slaves(&self, size: usize) -> Result<Vec<Option<usize>>, Error> {
-        let mut pair_of_slave = vec![None; size];
-        for pair in 0..self.count {
-            for &dof in self.slave(pair) {
-                let Some(place) = pair_of_slave.get_mut(dof) else {
-                    return refuse(no_dof(pair, dof));
-                };
-                if let Some(other) = place.replace(pair) {
-                    return refuse(format!(
-                        "degree of freedom {} is a slave in pair {} and in pair {}",
-                        index(dof),
-                        index(other),
-                        index(pair)
-                    ));
-                }
-            }
+    fn check_row(&self, pair: usize, size: usize) -> Result<(), Error> {
+        if let Some(&dof) = self.row(pair).flat_map(|(_, dofs)| dofs).find(|&&dof| dof >= size) {
+            return refuse(no_dof(pair, dof));
         }
-        Ok(pair_of_slave)
-    }
-
-    fn check_masters(&self, pair: usize, pair_of_slave: &[Option<usize>]) -> Result<(), Error> {
-        let mut sum = None;
-        for (weight, dofs) in self.masters_of(pair) {
-            *sum.get_or_insert(0.0) += weight;
-            for &dof in dofs {
-                match pair_of_slave.get(dof) {
-                    Some(None) => {}
-                    None => return refuse(no_dof(pair, dof)),
-                    Some(Some(other)) => {
-                        return refuse(format!(
-                            "pair {}: its master's degree of freedom {} is a slave in pair {}",
-                            index(pair),
-                            index(dof),
-                            index(*other)
-                        ));
-                    }
-                }
-            }
+        let slave = self.slave(pair).unwrap_or_default();
+        if let Some(i) = (1..slave.len()).find(|&i| slave[..i].contains(&slave[i])) {
+            let (dof, pair) = (index(slave[i]), index(pair));
+            return refuse(format!("pair {pair}: its slave has degree of freedom {dof} twice"));
         }
-        match sum {
-            // Written so that NaN is refused.
-            Some(sum) if !(f64::abs(sum - 1.0) <= SUM_OF_WEIGHTS) => {
-                refuse(format!("pair {}: its weights sum to {sum}, not to 1", index(pair)))
+        let weights = || self.masters_of(pair).map(|(weight, _)| weight);
+        let (sum, largest) = (weights().sum::<f64>(), weights().map(f64::abs).fold(0.0, f64::max));
+        let scale = if self.are_general() { largest.max(1.0) } else { 1.0 };
+        // Written so that NaN is refused.
+        let is = |wanted: f64| sum.is_finite() && f64::abs(sum - wanted) <= SUM_OF_WEIGHTS * scale;
+        if self.are_general() {
+            if largest == 0.0 {
+                return refuse(format!("pair {}: it has no node with a weight", index(pair)));
             }
-            _ => Ok(()),
+            if !is(0.0) && !is(1.0) {
+                return refuse(format!(
+                    "pair {}: its signed weights sum to {sum}: they must sum to 0 between bodies, to 1 \
+                     against an obstacle",
+                    index(pair)
+                ));
+            }
+        } else if self.masters_of(pair).next().is_some() && !is(1.0) {
+            return refuse(format!("pair {}: its weights sum to {sum}, not to 1", index(pair)));
         }
+        Ok(())
     }
 
     /// The frames of all pairs.

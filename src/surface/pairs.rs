@@ -61,21 +61,21 @@ pub struct SurfacePairs {
     pub report: SurfaceReport,
 }
 
-/// Arrays of pairs with one slave node each, in degrees of freedom `dim * node + axis`: what
-/// [`crate::reduce::ContactPairs`] takes, with the gaps and areas that belong to them.
+/// Arrays of pairs in degrees of freedom `dim * node + axis`: what [`crate::reduce::ContactPairs`] takes, with
+/// the gaps and areas that belong to them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PairArrays {
     /// Space dimension.
     pub dim: usize,
     /// Number of pairs.
     pub count: usize,
-    /// Degrees of freedom of the slaves, `dim` for each pair.
+    /// Degrees of freedom of the slaves, `dim` for each pair; empty in general rows.
     pub slaves: Vec<usize>,
-    /// Start of each pair's masters; `count + 1` entries.
+    /// Start of each pair's masters, in general rows of all its nodes; `count + 1` entries.
     pub master_start: Vec<usize>,
-    /// Degrees of freedom of the masters, `dim` for each.
+    /// Degrees of freedom of the masters, in general rows of all nodes, `dim` for each.
     pub masters: Vec<usize>,
-    /// Weights of the masters.
+    /// Weights of the masters, in general rows of all nodes with their signs.
     pub weights: Vec<f64>,
     /// Normals, `dim` for each pair.
     pub normals: Vec<f64>,
@@ -106,16 +106,42 @@ impl SurfacePair {
     }
 }
 
+impl PairArrays {
+    /// Adds a pair with its masters, or with all its nodes.
+    fn push(&mut self, pair: &SurfacePair, nodes: &[Weight], (gap, area): (f64, f64)) {
+        let dim = self.dim;
+        self.count += 1;
+        self.masters.extend(nodes.iter().flat_map(|(node, _)| dim * node..dim * (node + 1)));
+        self.weights.extend(nodes.iter().map(|(_, weight)| weight));
+        self.master_start.push(self.weights.len());
+        self.normals.extend(&pair.normal[..dim]);
+        self.tangents.extend(&pair.tangents[0][..dim]);
+        self.gaps.push(gap);
+        self.areas.push(area);
+    }
+}
+
 impl SurfacePairs {
+    /// The pairs as general rows: of any faces, with gaps and areas as they are.
+    pub fn rows(&self) -> PairArrays {
+        let mut arrays =
+            PairArrays { dim: self.dim, master_start: vec![0], ..PairArrays::default() };
+        for pair in &self.pairs {
+            let masters = pair.masters.iter().map(|&(node, weight)| (node, -weight));
+            let nodes: Vec<Weight> = pair.slaves.iter().copied().chain(masters).collect();
+            arrays.push(pair, &nodes, (pair.gap, pair.area));
+        }
+        arrays
+    }
+
     /// The pairs in the form with one slave node, `u_slave - Σ w u`, to which a row is brought by a
     /// division by the weight `a` of its slave: gap and `d` become `1 / a` times what they were, force
     /// and area `a` times. `None` if a row has slave nodes to which other pairs belong: the mid nodes of
-    /// quadratic faces.
+    /// quadratic faces, which [`Self::rows`] has too.
     pub fn one_slave_each(&self) -> Option<PairArrays> {
         let dim = self.dim;
         let mut arrays = PairArrays { dim, master_start: vec![0], ..PairArrays::default() };
         let belongs = |node| self.pairs.binary_search_by_key(&node, |pair| pair.slave).is_ok();
-        let dofs = |node: usize| dim * node..dim * (node + 1);
         for pair in &self.pairs {
             let own = pair.slaves.iter().find(|(node, _)| *node == pair.slave)?.1;
             let others = pair.slaves.iter().filter(|(node, _)| *node != pair.slave);
@@ -124,15 +150,8 @@ impl SurfacePairs {
                 return None;
             }
             masters.extend(pair.masters.iter().map(|(node, weight)| (*node, weight / own)));
-            arrays.count += 1;
-            arrays.slaves.extend(dofs(pair.slave));
-            arrays.masters.extend(masters.iter().flat_map(|(node, _)| dofs(*node)));
-            arrays.weights.extend(masters.iter().map(|(_, weight)| weight));
-            arrays.master_start.push(arrays.weights.len());
-            arrays.normals.extend(&pair.normal[..dim]);
-            arrays.tangents.extend(&pair.tangents[0][..dim]);
-            arrays.gaps.push(pair.gap / own);
-            arrays.areas.push(pair.area * own);
+            arrays.slaves.extend(dim * pair.slave..dim * (pair.slave + 1));
+            arrays.push(pair, &masters, (pair.gap / own, pair.area * own));
         }
         Some(arrays)
     }

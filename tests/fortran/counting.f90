@@ -92,10 +92,10 @@ contains
         slaves(2, 2) = 5
         call try([1, 2, 3, 4, 5], [1, 2, 3, 4], slaves, 1)
         call said('pair 2: there is no degree of freedom 5', 'pair 1: there is no degree of freedom 4')
-        slaves(2, 2) = 1
+        slaves(2, 2) = 3
         call try([1, 2, 3, 4, 5], [1, 2, 3, 4], slaves, 1)
-        call said('degree of freedom 1 is a slave in pair 1 and in pair 2', &
-            'degree of freedom 0 is a slave in pair 0 and in pair 1')
+        call said('pair 2: its slave has degree of freedom 3 twice', &
+            'pair 1: its slave has degree of freedom 2 twice')
     end subroutine
 
     subroutine try(start, row, slaves, fixed)

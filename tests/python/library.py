@@ -23,7 +23,7 @@ from signorini._sparse import Matrix
 CC, WORK = "cc", "."
 HEADER = "include", "signorini.h"
 FAMILIES = (signorini.Status, signorini.State, signorini.Law, signorini.Method, signorini.Search,
-            signorini.Uniqueness, signorini.Fallback, signorini.Triangle, Problem)
+            signorini.Uniqueness, signorini.Proof, signorini.Fallback, signorini.Triangle, Problem)
 STRUCTURES = {structures.Told: "progress", structures.Settings: "settings",
               structures.Report: "report", structures.Extra: "extra", structures.Sparse: "sparse",
               structures.Pairs: "pairs"}

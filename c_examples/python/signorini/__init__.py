@@ -23,7 +23,8 @@ the library refuses is a SignoriniError. signorini.h is the reference; it also s
 of a report is.
 
 Settings are keywords of everything that solves: method and search (a member of Method, of Search,
-or its name in lower case), tolerance, omega, damping, max_iterations, time_limit, and progress, a
+or its name in lower case), tolerance, omega, damping, max_iterations, time_limit, proof (true: prove
+that the solution exists, and where), and progress, a
 function of a Progress. It cancels the call by a true result, or by an exception (such as that of
 Ctrl-C), which goes on after the call. It must not call this module. Without a progress function,
 Ctrl-C waits for the end of the call.
@@ -33,18 +34,18 @@ that of ../../target/release beside this folder, or that of the system. Needs nu
 share everything here.
 """
 
-from ._condensed import certify, solve, write
-from ._constants import (ABI_VERSION, Fallback, Law, Method, Search, State, Status, Triangle,
-                         Uniqueness)
+from ._condensed import certify, prove, solve, write
+from ._constants import (ABI_VERSION, Fallback, Law, Method, Proof, Search, State, Status,
+                         Triangle, Uniqueness)
 from ._files import ContactProblem, LcpProblem, read
 from ._lcp import lcp_lemke, lcp_solve, write_lcp
 from ._library import SignoriniError, load
 from ._model import Model
-from ._results import LcpResult, Progress, Result
+from ._results import Enclosure, LcpResult, Progress, Result
 
 __all__ = [
-    "ABI_VERSION", "ContactProblem", "Fallback", "Law", "LcpProblem", "LcpResult", "Method",
-    "Model", "Progress", "Result", "Search", "SignoriniError", "State", "Status", "Triangle",
-    "Uniqueness", "certify", "lcp_lemke", "lcp_solve", "load", "read", "solve", "write",
-    "write_lcp",
+    "ABI_VERSION", "ContactProblem", "Enclosure", "Fallback", "Law", "LcpProblem", "LcpResult",
+    "Method", "Model", "Progress", "Proof", "Result", "Search", "SignoriniError", "State", "Status",
+    "Triangle", "Uniqueness", "certify", "lcp_lemke", "lcp_solve", "load", "prove", "read", "solve",
+    "write", "write_lcp",
 ]

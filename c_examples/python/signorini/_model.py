@@ -87,8 +87,8 @@ class Model:
         return cls("model_new_two_body", 0, dim, pairs, at(K_A), size, at(K_B), size)
 
     @classmethod
-    def sparse(cls, K, slaves, normals, *, fixed=(), masters=None, weights=None, tangents=None,
-               triangle="full", order=None, **settings):
+    def sparse(cls, K, slaves=None, normals=None, *, fixed=(), masters=None, weights=None,
+               tangents=None, rows=None, triangle="full", order=None, **settings):
         """The whole stiffness matrix of the host, without supports, and contact pairs.
 
         K: a scipy.sparse matrix, or (data, indices, indptr) by columns, rows ascending; counted
@@ -101,12 +101,15 @@ class Model:
         None: 1, of one master each.
         tangents: first tangent of each pair, orthogonal to its normal, (P, D), or one for all; None:
         chosen, in 2D the normal turned by +90 degrees. frames gives what the model uses.
+        rows: in the place of slaves, masters and weights, for each pair (dofs, weights): the dof
+        numbers of all its nodes, (k, D), and k signed weights, positive on the side whose normal is
+        given; of sum 0, and 1 against a rigid obstacle. Nodes may stand in any number of pairs.
         order: order of elimination, each dof number once; None: chosen.  settings: progress,
         time_limit (seconds) and memory_limit (bytes); a limit that is passed, or a progress function
         that cancels, raises SignoriniError.
         """
         matrix, fixed = Matrix(K, triangle, order), supports(fixed)
-        pairs = ContactPairs(slaves, normals, masters, weights, tangents)
+        pairs = ContactPairs(slaves, normals, masters, weights, tangents, rows)
         return cls("model_new_sparse_within", len(fixed), ctypes.byref(matrix.structure),
                    len(fixed), at(fixed), ctypes.byref(pairs.structure), settings=settings)
 

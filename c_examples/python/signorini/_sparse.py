@@ -37,26 +37,53 @@ class Matrix:
 class ContactPairs:
     """Contact pairs; structure: signorini_pairs."""
 
-    def __init__(self, slaves, normals, masters, weights, tangents):
+    def __init__(self, slaves, normals, masters, weights, tangents, rows):
+        self.slaves = self.starts = self.masters = self.weights = None
+        if rows is None:
+            names, (count, dim) = ("master_start", "masters", "weights"), self._of_slaves(
+                slaves, masters, weights)
+        else:
+            if not (slaves is None and masters is None and weights is None):
+                raise ValueError("rows is given with slaves, masters or weights: a row names all "
+                                 "nodes of its pair, leave the others out")
+            names, (count, dim) = ("row_start", "row_nodes", "row_weights"), self._of_rows(rows)
+        self.normals, self.tangents = (
+            _vectors(name, given, count, dim, name == "tangents")
+            for name, given in (("normals", normals), ("tangents", tangents))
+        )
+        nodes = dict(zip(names, (at(self.starts), at(self.masters), at(self.weights))))
+        self.structure = sized(
+            Pairs, dim=dim, count=count, slaves=at(self.slaves), normals=at(self.normals),
+            tangents=at(self.tangents), **nodes,
+        )
+
+    def _of_slaves(self, slaves, masters, weights):
+        if slaves is None:
+            raise TypeError("slaves is None: give the slave nodes, or rows")
         slaves = integers("slaves", slaves)
         if slaves.ndim != 2 or slaves.shape[1] not in (2, 3):
             raise ValueError(f"slaves has the shape {slaves.shape}: give the dof numbers of each "
                              f"slave node, shape (pairs, dim), dim 2 or 3")
         self.slaves, (count, dim) = indices(slaves), slaves.shape
-        self.normals, self.tangents = (
-            _vectors(name, given, count, dim, name == "tangents")
-            for name, given in (("normals", normals), ("tangents", tangents))
-        )
-        self.starts = self.masters = self.weights = None
         if masters is not None:
             self._take(masters, weights, count, dim)
         elif weights is not None:
             raise ValueError("weights is given without masters: give both, or neither")
-        self.structure = sized(
-            Pairs, dim=dim, count=count, slaves=at(self.slaves), master_start=at(self.starts),
-            masters=at(self.masters), weights=at(self.weights), normals=at(self.normals),
-            tangents=at(self.tangents),
-        )
+        return count, dim
+
+    def _of_rows(self, rows):
+        asked = "give (dofs, weights) for each pair: the dof numbers of its nodes, (k, D), and k weights"
+        try:
+            nodes = [dofs for dofs, _ in rows]
+            weights = [weights for _, weights in rows]
+        except (TypeError, ValueError):
+            raise ValueError(f"rows is no list of pairs: {asked}") from None
+        shapes = {np.shape(dofs)[1:] for dofs in nodes}
+        if len(shapes) != 1 or shapes not in ({(2,)}, {(3,)}):
+            raise ValueError(f"rows has nodes of the shapes {sorted(shapes)}: {asked}, D 2 or 3")
+        (dim,), count = shapes.pop(), len(nodes)
+        self._take(nodes, weights, count, dim)
+        return count, dim
 
     def _take(self, masters, weights, count, dim):
         _one_each("masters", masters, count)

@@ -194,10 +194,14 @@ struct Pairs<I> {
     tangnt: *const f64,
 }
 
+/// What `SLAVE(1,1)` is if the pairs are general rows.
+const GENERAL_ROWS: i64 = -1;
+
 /// Its sizes, and its integer arrays in the width of the entries of C.
 struct Numbers {
     dim: i32,
     pairs: i64,
+    /// Empty in general rows.
     slaves: Vec<i64>,
     /// Empty without masters, as `masters` is.
     begins: Vec<i64>,
@@ -211,7 +215,11 @@ impl<I: Integer> Pairs<I> {
         // SAFETY: by the caller's contract.
         unsafe {
             let (dim, pairs) = sizes(9, self.ndim, self.npair)?;
-            let slaves = numbers(11, "SLAVE", self.slave, pairs * i64::from(dim))?;
+            let first = numbers(11, "SLAVE", self.slave, pairs.min(1))?;
+            let slaves = match first[..] {
+                [GENERAL_ROWS] => Vec::new(),
+                _ => numbers(11, "SLAVE", self.slave, pairs * i64::from(dim))?,
+            };
             let masters = count(12, "NMAST", self.nmast)?;
             let mut begins = Vec::new();
             if masters > 0 {
@@ -240,17 +248,27 @@ impl<I: Integer> Pairs<I> {
             return Err(Failure::argument(17, message));
         }
         let null = std::ptr::null();
-        let rigid = begins.is_empty();
+        let general = slaves.is_empty() && *pairs > 0;
+        if general && begins.is_empty() {
+            let message = "SLAVE(1,1) is -1, which means general rows, but NMAST is 0: list all nodes of \
+                           the pairs in MASTER";
+            return Err(Failure::argument(12, message));
+        }
+        let rigid = begins.is_empty() || general;
+        let rows = |numbers: &Vec<i64>| if general { numbers.as_ptr() } else { std::ptr::null() };
         Ok(SignoriniPairs {
             struct_size: size_of::<SignoriniPairs>() as u32,
             dim: *dim,
             count: *pairs,
-            slaves: slaves.as_ptr(),
+            slaves: if general { std::ptr::null() } else { slaves.as_ptr() },
             master_start: if rigid { std::ptr::null() } else { begins.as_ptr() },
             masters: if rigid { std::ptr::null() } else { masters.as_ptr() },
             weights: if rigid { null } else { self.weight },
             normals: self.normal,
             tangents: if tangents == 0 { null } else { self.tangnt },
+            row_start: rows(begins),
+            row_nodes: rows(masters),
+            row_weights: if general { self.weight } else { null },
         })
     }
 }

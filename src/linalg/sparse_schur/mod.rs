@@ -15,7 +15,7 @@ mod structure;
 mod watch;
 
 pub use failure::Failure;
-pub use watch::Watch;
+pub use watch::{Unwatched, Watch};
 
 use super::free_motions::{self, Doubt, is_suspicious};
 use super::null_vector::{resistance, weakest};
@@ -29,6 +29,15 @@ use watch::answered;
 /// So many rows of `C` are few beside the rigid motions of a body, which are up to six: pivots tell which of
 /// them depend on the others, at no cost. Of more rows small diagonal entries alone are looked at.
 const FEW: usize = 24;
+
+/// When free motions are looked for.
+#[derive(Clone, Copy, PartialEq)]
+pub enum Look {
+    /// However many rows `C` has, and whatever its diagonal says.
+    Always,
+    /// If `C` has few rows, or small diagonal entries.
+    IfSuspicious,
+}
 
 /// The factor and the Schur complement.
 pub struct SparseSchur {
@@ -47,6 +56,7 @@ impl SparseSchur {
         mut lower: Csc,
         eliminated: usize,
         rank: Option<&[usize]>,
+        look: Look,
         watch: &mut dyn Watch,
     ) -> Result<Self, Failure> {
         let structure = Structure::new(&lower, eliminated, rank, watch)?;
@@ -82,7 +92,8 @@ impl SparseSchur {
         let m = found.structure.kept();
         let units: Vec<f64> =
             (eliminated..lower.ncols()).map(|j| diagonal(&lower, j).unwrap_or_default()).collect();
-        if m <= FEW || is_suspicious(&units, |i| found.schur[i + m * i]) {
+        let few = look == Look::Always || m <= FEW;
+        if few || is_suspicious(&units, |i| found.schur[i + m * i]) {
             found.settle(lower, &units)?;
         }
         Ok(found)

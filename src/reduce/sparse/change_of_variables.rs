@@ -1,8 +1,8 @@
 //! The change of variables `u = T x + P p` from the unknowns and the fixed values to the host's degrees
 //! of freedom, and what it makes of a matrix and of loads.
 //!
-//! The unknowns `x` are the free degrees of freedom that are no slaves, then the relative
-//! displacements `d`; `p` are the values of the fixed degrees of freedom. `W = [T P]` is one sparse
+//! The unknowns `x` are the free degrees of freedom that no row gives, then the relative
+//! displacements `d` (of rows that depend on each other, those of independent ones); `p` are the values of the fixed degrees of freedom. `W = [T P]` is one sparse
 //! matrix, so that `Wᵀ K W` has all that is needed: `Tᵀ K T`, and `Pᵀ K T` for the loads of the fixed values.
 //!
 //! A component of `d` that supports fix moves nothing. It gets a spring to nothing, as stiff as the
@@ -50,7 +50,7 @@ impl ChangeOfVariables {
         let mut entries: Vec<(usize, usize, f64)> =
             (0..host_size).filter_map(|dof| Some((dof, column[dof]?, 1.0))).collect();
         for (pair, frame) in frames.iter().enumerate() {
-            for (axis, &slave) in pairs.slave(pair).iter().enumerate() {
+            for (axis, &slave) in pairs.slave(pair).unwrap_or_default().iter().enumerate() {
                 if column[slave].is_some() {
                     continue;
                 }
@@ -64,9 +64,21 @@ impl ChangeOfVariables {
                 }
             }
         }
+        let fixed = (fixed, fixed_components);
+        Self::of_entries(entries, free, (unknowns, host_size), fixed)
+    }
+
+    /// The change of variables with `entries` of `T` and `P`, and springs on components that are fixed.
+    /// `size` are the numbers of unknowns and of the host's degrees of freedom.
+    pub(super) fn of_entries(
+        mut entries: Vec<(usize, usize, f64)>,
+        free: Vec<usize>,
+        (unknowns, host_size): (usize, usize),
+        (fixed, fixed_components): (usize, &[FixedComponent]),
+    ) -> Result<Self, OutOfMemory> {
         let springs = fixed_components.len();
         for (k, fixed) in fixed_components.iter().enumerate() {
-            entries.push((host_size + k, free.len() + fixed.component, 1.0));
+            entries.push((host_size + k, free.len() + fixed.variable, 1.0));
         }
         entries.retain(|(_, _, value)| *value != 0.0);
         let matrix = from_entries((host_size + springs, unknowns + fixed), entries.into_iter())?;
@@ -128,7 +140,7 @@ fn with_springs(lower: Csc, springs: usize) -> Csc {
 }
 
 /// `Bᵀ`: the nodal forces of unit contact forces. `B` gives the relative displacements,
-/// `d = Rᵀ (u_slave - sum w_k u_master,k)`.
+/// `d = Rᵀ sum a_k u_k`.
 pub(super) fn contact_forces(
     host_size: usize,
     pairs: &ContactPairs<'_>,
@@ -139,10 +151,8 @@ pub(super) fn contact_forces(
         for (component, direction) in frame.directions().enumerate() {
             let component = pairs.dim * pair + component;
             for (axis, &part) in direction.iter().enumerate() {
-                entries.push((pairs.slave(pair)[axis], component, part));
-                for (weight, master) in pairs.masters_of(pair) {
-                    entries.push((master[axis], component, -weight * part));
-                }
+                let nodes = pairs.row(pair);
+                entries.extend(nodes.map(|(weight, dofs)| (dofs[axis], component, weight * part)));
             }
         }
     }

@@ -150,40 +150,10 @@ pub(super) fn with_pair(whole: &str, pair: usize, relative: &[f64]) -> String {
     )
 }
 
-/// The slave is fixed along an axis, and a master (degree of freedom, weight) is not.
-pub(super) fn free_master(
-    pair: usize,
-    axis: &str,
-    (master, weight): (usize, f64),
-    wholly: bool,
-) -> String {
-    let (pair, master) = (index(pair), index(master));
-    if wholly {
-        return format!(
-            "pair {pair}: its slave is fixed along every axis, and its master's degree of freedom \
-             {master} is not: exchange slave and master, or leave the pair out"
-        );
-    }
+/// All nodes of a pair are fixed along all axes, or its weights cancel.
+pub(super) fn moves_nothing(pair: usize) -> String {
     format!(
-        "pair {pair}: its slave is fixed along {axis} where its masters are not: degree of freedom \
-         {master}, of weight {weight}, is free: fix both sides along {axis}, or neither"
-    )
-}
-
-/// The slave and its masters are fixed along an axis that is no direction of the pair's frame.
-pub(super) fn inclined_support(pair: usize, axis: &str, across: bool, wholly: bool) -> String {
-    let pair = index(pair);
-    if wholly {
-        return format!("pair {pair}: its slave is fixed along every axis: leave the pair out");
-    }
-    let said = format!(
-        "pair {pair}: its slave is fixed along {axis}, which is neither normal nor tangent"
-    );
-    if across {
-        return format!("{said}: hand over {axis} as its tangent");
-    }
-    format!(
-        "{said}: hand over a normal along or across {axis}, as on a plane of symmetry, or leave the \
-         pair out"
+        "pair {}: its nodes are fixed along every axis, or its weights cancel: leave the pair out",
+        index(pair)
     )
 }

@@ -1,10 +1,9 @@
 //! Supports at contact pairs: where the slave and what it faces are both fixed, a component of the
 //! relative displacement is zero.
 
-use super::messages;
 use crate::error::{Argument, Error, index};
 use crate::linalg::tolerances::ROUNDING_OF_SUM;
-use crate::reduce::frame::{AXES, Frame};
+use crate::reduce::frame::Frame;
 use crate::reduce::pairs::ContactPairs;
 
 /// Place in `fixed` of each degree of freedom.
@@ -31,8 +30,10 @@ pub(super) struct FixedComponent {
     pub(super) pair: usize,
     /// Which component of `d`.
     pub(super) component: usize,
+    /// Which of the kept variables: the same, unless rows depend on each other.
+    pub(super) variable: usize,
     /// What the fixed values give it: place in `fixed`, coefficient.
-    jump: Vec<(usize, f64)>,
+    pub(super) jump: Vec<(usize, f64)>,
 }
 
 impl FixedComponent {
@@ -55,20 +56,17 @@ impl FixedComponent {
     }
 }
 
-/// Finds the components that supports fix, and turns their directions exactly along the axes.
-///
-/// # Errors
-/// A slave that is fixed along an axis where its masters are not, or along an axis that is neither its
-/// normal nor a tangent.
+/// Finds the components that supports fix, and turns their directions exactly along the axes. `None` if a
+/// slave is fixed along an axis where its masters are not, or along one that is neither its normal nor a
+/// tangent: then the rows are general.
 pub(super) fn fixed_components(
     pairs: &ContactPairs<'_>,
     frames: &mut [Frame],
     places: &[Option<usize>],
-) -> Result<Vec<FixedComponent>, Error> {
+) -> Option<Vec<FixedComponent>> {
     let mut found = Vec::new();
     for (pair, frame) in frames.iter_mut().enumerate() {
-        let wholly = pairs.slave(pair).iter().all(|&dof| places[dof].is_some());
-        for (axis, &slave) in pairs.slave(pair).iter().enumerate() {
+        for (axis, &slave) in pairs.slave(pair)?.iter().enumerate() {
             let Some(place) = places[slave] else { continue };
             let mut jump = vec![(place, 1.0)];
             for (weight, master) in pairs.masters_of(pair) {
@@ -76,21 +74,14 @@ pub(super) fn fixed_components(
                     Some(place) => jump.push((place, -weight)),
                     // A weight of rounding's size is none.
                     None if weight.abs() <= ROUNDING_OF_SUM => {}
-                    None => {
-                        let master = (master[axis], weight);
-                        let message = messages::free_master(pair, AXES[axis], master, wholly);
-                        return Err(Error::invalid(Argument::Pairs, message));
-                    }
+                    None => return None,
                 }
             }
-            let Some(along) = frame.component_along(axis) else {
-                let across = frame.normal_is_across(axis);
-                let message = messages::inclined_support(pair, AXES[axis], across, wholly);
-                return Err(Error::invalid(Argument::Pairs, message));
-            };
+            let along = frame.component_along(axis)?;
             frame.align(along, axis);
-            found.push(FixedComponent { pair, component: pairs.dim * pair + along, jump });
+            let component = pairs.dim * pair + along;
+            found.push(FixedComponent { pair, component, variable: component, jump });
         }
     }
-    Ok(found)
+    Some(found)
 }

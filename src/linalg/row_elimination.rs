@@ -1,0 +1,254 @@
+//! Sparse linear equations `sum a_k u_k = delta_i`, solved for one unknown each: which unknown an equation
+//! gives, and which equations follow from the others.
+//!
+//! Equations with an unknown of their own come first: they change no other one. The rest is eliminated
+//! with the short equations first, and those that have become small beside what they were last, so that
+//! what an equation with little left hands on is not enlarged rounding.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::tolerances::{ROUNDING, ROUNDING_OF_SUM};
+
+/// Coefficients of unknowns, or of equations' right sides.
+pub type Terms = Vec<(usize, f64)>;
+
+/// An unknown of its own gives an equation only if its coefficient is at least this part of the largest:
+/// smaller ones enlarge rounding more than they spare work.
+const LEAST_PIVOT: f64 = 0.1;
+
+/// An equation that has less than this part of its coefficients left waits for the others.
+const WAITS: f64 = 0.1;
+
+/// An unknown in terms of others: `u = sum of unknowns + sum of right sides`.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Expression {
+    /// Unknowns that no equation gives.
+    pub unknowns: Terms,
+    /// Right sides of independent equations.
+    pub right_sides: Terms,
+}
+
+/// What equations give.
+pub struct Solved {
+    /// The unknowns that equations give, in terms of the others.
+    pub given: Vec<(usize, Expression)>,
+    /// For each equation `None` if it is independent; otherwise its right side, in terms of unknowns that
+    /// cannot be chosen and of right sides of independent equations.
+    pub dependent: Vec<Option<Expression>>,
+}
+
+/// Solves `equations` for unknowns that may be chosen; `count` is the number of all unknowns.
+pub fn solve(equations: &[Terms], count: usize, may_choose: &[bool]) -> Solved {
+    let mut state = Elimination::new(equations, count, may_choose);
+    state.take_singletons();
+    state.eliminate();
+    state.solved()
+}
+
+struct Elimination<'c> {
+    count: usize,
+    may_choose: &'c [bool],
+    /// Each equation as a sum that is zero: unknowns, then right sides from `count` on; ascending.
+    sums: Vec<Terms>,
+    /// Largest coefficient that each equation ever had.
+    scale: Vec<f64>,
+    is_open: Vec<bool>,
+    /// Open equations that have each unknown, with some that no longer have it.
+    having: Vec<Vec<usize>>,
+    /// Equations that give an unknown, in this order.
+    order: Vec<(usize, usize)>,
+}
+
+impl<'c> Elimination<'c> {
+    fn new(equations: &[Terms], count: usize, may_choose: &'c [bool]) -> Self {
+        let mut having = vec![Vec::new(); count];
+        let mut sums = Vec::with_capacity(equations.len());
+        for (i, equation) in equations.iter().enumerate() {
+            let mut sum = gathered(equation.clone());
+            sum.iter().for_each(|&(k, _)| having[k].push(i));
+            sum.push((count + i, -1.0));
+            sums.push(sum);
+        }
+        let largest = |sum: &Terms| sum.iter().map(|(_, a)| a.abs()).fold(0.0, f64::max);
+        let largest_unknown = |sum: &Terms| largest(&sum[..sum.len() - 1].to_vec());
+        let scale = sums.iter().map(largest_unknown).collect();
+        let is_open = vec![true; sums.len()];
+        Elimination { count, may_choose, sums, scale, is_open, having, order: Vec::new() }
+    }
+
+    /// Unknowns of an equation that may be chosen.
+    fn choices(&self, i: usize) -> impl Iterator<Item = (usize, f64)> {
+        let unknowns = self.sums[i].iter().copied().take_while(|(k, _)| *k < self.count);
+        unknowns.filter(|(k, _)| self.may_choose[*k])
+    }
+
+    fn largest_choice(&self, i: usize) -> f64 {
+        self.choices(i).map(|(_, a)| a.abs()).fold(0.0, f64::max)
+    }
+
+    /// Takes equations that have an unknown of their own, until there is none.
+    fn take_singletons(&mut self) {
+        let mut counts: Vec<usize> = self.having.iter().map(Vec::len).collect();
+        let mut waiting: Vec<usize> = (0..self.sums.len()).rev().collect();
+        while let Some(i) = waiting.pop() {
+            let least = LEAST_PIVOT * self.largest_choice(i);
+            let own = self.choices(i).filter(|(k, a)| counts[*k] == 1 && a.abs() >= least);
+            let best = own.max_by(|(k, a), (l, b)| a.abs().total_cmp(&b.abs()).then(l.cmp(k)));
+            let Some((unknown, _)) = best.filter(|_| self.is_open[i]) else { continue };
+            self.is_open[i] = false;
+            self.order.push((i, unknown));
+            for &(k, _) in self.sums[i].iter().take_while(|(k, _)| *k < self.count) {
+                counts[k] -= 1;
+                if counts[k] == 1 {
+                    waiting.extend(self.having[k].iter().filter(|&&other| self.is_open[other]));
+                }
+            }
+        }
+    }
+
+    /// The place of an equation in the queue: large before small, short before long.
+    fn rank(&self, i: usize) -> (bool, usize, usize) {
+        let is_small = self.largest_choice(i) <= WAITS * self.scale[i];
+        (is_small, self.sums[i].len(), i)
+    }
+
+    /// Eliminates among the equations that are left.
+    fn eliminate(&mut self) {
+        let left = (0..self.sums.len()).filter(|&i| self.is_open[i]);
+        let mut queue: BTreeSet<_> = left.map(|i| self.rank(i)).collect();
+        while let Some((_, _, i)) = queue.pop_first() {
+            self.is_open[i] = false;
+            let largest = self.largest_choice(i);
+            if largest <= ROUNDING_OF_SUM * self.scale[i] {
+                // Nothing is left but rounding.
+                let keeps = |k: &usize| *k >= self.count || !self.may_choose[*k];
+                let sum = self.sums[i].iter().copied().filter(|(k, _)| keeps(k)).collect();
+                self.sums[i] = sum;
+                continue;
+            }
+            let Some((unknown, pivot)) = self.choices(i).find(|(_, a)| a.abs() == largest) else {
+                continue;
+            };
+            self.order.push((i, unknown));
+            let row = self.sums[i].clone();
+            for other in std::mem::take(&mut self.having[unknown]) {
+                if !self.is_open[other] {
+                    continue;
+                }
+                let Ok(place) = self.sums[other].binary_search_by_key(&unknown, |(k, _)| *k) else {
+                    continue;
+                };
+                queue.remove(&self.rank(other));
+                let share = -self.sums[other][place].1 / pivot;
+                let sum = std::mem::take(&mut self.sums[other]);
+                self.sums[other] = self.added((other, &sum), &row, share, unknown);
+                queue.insert(self.rank(other));
+            }
+        }
+    }
+
+    /// The sum of an open equation plus `share` of another one, both ascending, without the unknown that
+    /// cancels. Takes note of unknowns that are new to the equation, and of its largest coefficient.
+    fn added(
+        &mut self,
+        (equation, one): (usize, &Terms),
+        other: &Terms,
+        share: f64,
+        cancelled: usize,
+    ) -> Terms {
+        let mut sum = Terms::with_capacity(one.len() + other.len());
+        let (mut p, mut q) = (0, 0);
+        while p < one.len() || q < other.len() {
+            let next = |terms: &Terms, place: usize| terms.get(place).map_or(usize::MAX, |t| t.0);
+            let (mine, theirs) = (next(one, p), next(other, q));
+            let k = mine.min(theirs);
+            let (mut a, mut size) = (0.0, 0.0);
+            if mine == k {
+                a = one[p].1;
+                size = a.abs();
+                p += 1;
+            }
+            if theirs == k {
+                let part = share * other[q].1;
+                a += part;
+                size += part.abs();
+                q += 1;
+            }
+            if k == cancelled || a.abs() <= ROUNDING * size {
+                continue;
+            }
+            sum.push((k, a));
+            if k < self.count {
+                self.scale[equation] = self.scale[equation].max(a.abs());
+                if mine != k {
+                    self.having[k].push(equation);
+                }
+            }
+        }
+        sum
+    }
+
+    /// The unknowns that equations give, from the last one back: each contains those that come later.
+    fn solved(self) -> Solved {
+        let mut found: BTreeMap<usize, Terms> = BTreeMap::new();
+        let mut given = Vec::with_capacity(self.order.len());
+        let mut dependent: Vec<Option<Terms>> = self.sums.iter().cloned().map(Some).collect();
+        for &(i, unknown) in self.order.iter().rev() {
+            dependent[i] = None;
+            let sum = &self.sums[i];
+            let own = |&&(k, _): &&(usize, f64)| k == unknown;
+            let pivot = sum.iter().find(own).map_or(1.0, |(_, a)| *a);
+            let mut terms = Terms::new();
+            for &(k, a) in sum.iter().filter(|(k, _)| *k != unknown) {
+                let share = -a / pivot;
+                match found.get(&k) {
+                    Some(expression) => {
+                        terms.extend(expression.iter().map(|(l, b)| (*l, share * b)))
+                    }
+                    None => terms.push((k, share)),
+                }
+            }
+            let terms = gathered(terms);
+            given.push((unknown, self.split(&terms)));
+            found.insert(unknown, terms);
+        }
+        let of_dependent = |(i, sum): (usize, Option<Terms>)| {
+            let own = self.count + i;
+            let terms: Terms = sum?.into_iter().filter(|(k, _)| *k != own).collect();
+            Some(self.split(&terms))
+        };
+        let dependent = dependent.into_iter().enumerate().map(of_dependent).collect();
+        Solved { given, dependent }
+    }
+
+    fn split(&self, terms: &[(usize, f64)]) -> Expression {
+        let unknowns = terms.iter().copied().filter(|(k, _)| *k < self.count).collect();
+        let right_sides = terms.iter().filter(|(k, _)| *k >= self.count);
+        let right_sides = right_sides.map(|(k, a)| (k - self.count, *a)).collect();
+        Expression { unknowns, right_sides }
+    }
+}
+
+/// Ascending, one term for each number; a sum that has cancelled but for rounding is none.
+fn gathered(mut terms: Terms) -> Terms {
+    terms.sort_by_key(|(k, _)| *k);
+    let mut sums = Terms::new();
+    let mut sizes: Vec<f64> = Vec::new();
+    for (k, a) in terms {
+        match (sums.last_mut(), sizes.last_mut()) {
+            (Some((last, sum)), Some(size)) if *last == k => {
+                *sum += a;
+                *size += a.abs();
+            }
+            _ => {
+                sums.push((k, a));
+                sizes.push(a.abs());
+            }
+        }
+    }
+    let remains = |((_, a), size): (&(usize, f64), &f64)| a.abs() > ROUNDING * size;
+    let remaining: Vec<bool> = sums.iter().zip(&sizes).map(remains).collect();
+    let mut remaining = remaining.into_iter();
+    sums.retain(|_| remaining.next() == Some(true));
+    sums
+}

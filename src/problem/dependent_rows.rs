@@ -1,0 +1,236 @@
+//! Rows that depend on each other: a node on two planes, pairs in both directions between two surfaces, a
+//! node named twice. Their relative displacements are those of independent variables `z`:
+//!
+//! ```text
+//! d = C z + o,    K z = f + Cᵀ F
+//! ```
+//!
+//! `C` has more rows than columns, and `d` does not determine `F`: forces with `Cᵀ F = 0` balance each
+//! other. `Z` takes the variables from the displacements: `z = Z d`, `Z C = 1`, `Z o = 0`, and its rows are
+//! orthonormal. `o` comes from values of fixed degrees of freedom.
+
+use super::relation::Relation;
+use crate::linalg::matrix::Matrix;
+use crate::linalg::sparse_matrix::{
+    Csc, OutOfMemory, column, from_entries, times, transpose_times,
+};
+use crate::linalg::vector::{largest_of, norm_inf};
+
+/// How displacements follow from independent variables: `C` and `Z`.
+#[derive(Clone, Debug)]
+pub struct Dependence {
+    dim: usize,
+    /// `C`.
+    to_relative: Csc,
+    /// `Zᵀ`.
+    from_relative: Csc,
+    /// Pairs whose rows follow from others.
+    dependent_pairs: Vec<usize>,
+}
+
+impl Dependence {
+    /// The dependence of pairs of `dim` components with the entries (row, column, value) of `C` and of
+    /// `Zᵀ`; `shape` has their numbers of rows and columns.
+    pub(crate) fn new(
+        dim: usize,
+        shape: (usize, usize),
+        [to_relative, from_relative]: [Vec<(usize, usize, f64)>; 2],
+        dependent_pairs: Vec<usize>,
+    ) -> Result<Self, OutOfMemory> {
+        Ok(Dependence {
+            dim,
+            to_relative: from_entries(shape, to_relative.into_iter())?,
+            from_relative: from_entries(shape, from_relative.into_iter())?,
+            dependent_pairs,
+        })
+    }
+
+    /// `C`.
+    pub(crate) fn to_relative(&self) -> &Csc {
+        &self.to_relative
+    }
+
+    /// Pairs whose rows follow from those of others, or from supports.
+    pub fn dependent_pairs(&self) -> &[usize] {
+        &self.dependent_pairs
+    }
+
+    /// Number of variables.
+    pub fn variables(&self) -> usize {
+        self.to_relative.ncols()
+    }
+
+    /// `C z`.
+    pub(crate) fn relative(&self, variables: &[f64]) -> Vec<f64> {
+        times(&self.to_relative, variables)
+    }
+
+    /// `Z d`.
+    pub(crate) fn of_relative(&self, d: &[f64]) -> Vec<f64> {
+        transpose_times(&self.from_relative, d)
+    }
+
+    /// `Cᵀ F`.
+    pub(crate) fn forces(&self, force: &[f64]) -> Vec<f64> {
+        transpose_times(&self.to_relative, force)
+    }
+}
+
+/// The relation of rows that depend on each other.
+#[derive(Clone, Debug)]
+pub struct DependentRows<'a> {
+    dependence: &'a Dependence,
+    stiffness: Matrix<'a>,
+    load: &'a [f64],
+    offset: &'a [f64],
+    /// Positive units of force per length, one for each component, the same for all tangents of a pair.
+    units: Vec<f64>,
+    /// `Zᵀ f`, and what drives the offsets.
+    relative_load: Vec<f64>,
+}
+
+impl<'a> DependentRows<'a> {
+    /// `stiffness`, column-major, and `load` are `K` and `f`; `offset` is `o`.
+    pub(crate) fn new(
+        dependence: &'a Dependence,
+        (stiffness, load): (&'a [f64], &'a [f64]),
+        offset: &'a [f64],
+    ) -> Self {
+        let size = dependence.variables();
+        let stiffness = Matrix::new(size, stiffness, size.max(1));
+        let units = units(dependence, &stiffness);
+        let mut relative_load = times(&dependence.from_relative, load);
+        let offsets = units.iter().zip(offset).map(|(unit, offset)| unit * offset);
+        relative_load.iter_mut().zip(offsets).for_each(|(load, offset)| *load += offset);
+        DependentRows { dependence, stiffness, load, offset, units, relative_load }
+    }
+
+    /// `C` and `Z`.
+    pub(crate) fn dependence(&self) -> &'a Dependence {
+        self.dependence
+    }
+
+    /// `K`.
+    pub(crate) fn stiffness(&self) -> Matrix<'a> {
+        self.stiffness
+    }
+
+    /// `C z + o`.
+    pub(crate) fn relative(&self, variables: &[f64]) -> Vec<f64> {
+        let mut d = self.dependence.relative(variables);
+        d.iter_mut().zip(self.offset).for_each(|(d, offset)| *d += offset);
+        d
+    }
+
+    /// What of `f + Cᵀ F - K z` is left: a force for each variable.
+    pub(crate) fn unbalanced(&self, variables: &[f64], force: &[f64]) -> Vec<f64> {
+        let mut left = self.dependence.forces(force);
+        left.iter_mut().zip(self.load).for_each(|(left, load)| *left += load);
+        let internal = self.stiffness.product(variables);
+        left.iter_mut().zip(internal).for_each(|(left, internal)| *left -= internal);
+        left
+    }
+
+    /// Units of force per length, one for each component.
+    pub(crate) fn units(&self) -> &[f64] {
+        &self.units
+    }
+
+    /// `o`.
+    pub(crate) fn offset(&self) -> &'a [f64] {
+        self.offset
+    }
+}
+
+/// The diagonal of `K` in series over the variables of a row, the least of a pair for its tangents.
+fn units(dependence: &Dependence, stiffness: &Matrix<'_>) -> Vec<f64> {
+    let otherwise = match stiffness.largest_diagonal() {
+        largest if largest > 0.0 => largest,
+        _ => 1.0,
+    };
+    let mut compliance = vec![0.0; dependence.to_relative.nrows()];
+    for j in 0..stiffness.size() {
+        let unit = stiffness.unit(j, 1, otherwise);
+        let (rows, values) = column(&dependence.to_relative, j);
+        rows.iter().zip(values).for_each(|(&i, c)| compliance[i] += c * c / unit);
+    }
+    let unit = |compliance: &f64| if *compliance > 0.0 { 1.0 / compliance } else { otherwise };
+    let mut units: Vec<f64> = compliance.iter().map(unit).collect();
+    for pair in units.chunks_exact_mut(dependence.dim) {
+        let least = pair[1..].iter().copied().fold(f64::INFINITY, f64::min);
+        pair[1..].fill(least);
+    }
+    units
+}
+
+impl Relation for DependentRows<'_> {
+    fn size(&self) -> usize {
+        self.units.len()
+    }
+
+    fn block(&self, i: usize, j: usize) -> f64 {
+        if i == j { self.units[i] } else { 0.0 }
+    }
+
+    fn load(&self) -> &[f64] {
+        &self.relative_load
+    }
+
+    fn force(&self, _: &[f64], _: &[f64], _: &[f64]) -> Option<Vec<f64>> {
+        None
+    }
+
+    /// `Zᵀ (K z - f - Cᵀ F)` with `z = Z d`, and the unit of the pair times `d - C z - o`, which is across it.
+    fn residual(&self, d: &[f64], force: &[f64]) -> Vec<f64> {
+        let variables = self.dependence.of_relative(d);
+        let left = self.unbalanced(&variables, force);
+        let mut residual = times(&self.dependence.from_relative, &left);
+        residual.iter_mut().for_each(|left| *left = -*left);
+        let made = self.relative(&variables);
+        for (i, residual) in residual.iter_mut().enumerate() {
+            *residual += self.unit_of_pair(i) * (d[i] - made[i]);
+        }
+        residual
+    }
+
+    fn magnitude(&self, size: &[f64]) -> Vec<f64> {
+        let absolute = |a: &Csc, x: &[f64], y: &mut [f64], transpose: bool| {
+            for j in 0..a.ncols() {
+                let (rows, values) = column(a, j);
+                for (&i, value) in rows.iter().zip(values) {
+                    let (to, from) = if transpose { (j, i) } else { (i, j) };
+                    y[to] += value.abs() * x[from];
+                }
+            }
+        };
+        let dependence = self.dependence;
+        let (variables, count) = (dependence.variables(), size.len());
+        let mut of_variables = vec![0.0; variables];
+        absolute(&dependence.from_relative, size, &mut of_variables, true);
+        let mut forces = vec![0.0; variables];
+        for (j, &size) in of_variables.iter().enumerate() {
+            let column = self.stiffness.column(j);
+            forces.iter_mut().zip(column).for_each(|(force, k)| *force += k.abs() * size);
+        }
+        let (mut sum, mut made) = (vec![0.0; count], size.to_vec());
+        absolute(&dependence.from_relative, &forces, &mut sum, false);
+        absolute(&dependence.to_relative, &of_variables, &mut made, false);
+        sum.iter_mut().zip(&made).enumerate().for_each(|(i, (sum, made))| {
+            *sum += self.unit_of_pair(i) * made;
+        });
+        sum
+    }
+}
+
+impl DependentRows<'_> {
+    fn unit_of_pair(&self, i: usize) -> f64 {
+        let first = i - i % self.dependence.dim;
+        self.units[first].min(self.units[first + 1])
+    }
+
+    /// Whether forces balance each other: `Cᵀ F = 0` up to `part` of their size.
+    pub(crate) fn balance_each_other(&self, force: &[f64], part: f64) -> bool {
+        let coefficients = largest_of(self.dependence.to_relative.val().iter().map(|c| c.abs()));
+        norm_inf(&self.dependence.forces(force)) <= part * coefficients * norm_inf(force)
+    }
+}

@@ -1,0 +1,72 @@
+! General rows: lists of nodes with signed weights, by the module and by Fortran 77.
+!
+! Node A (degrees of freedom 1, 2) and node B (3, 4), each on springs of stiffness 2.
+program rows
+    use signorini
+    implicit none
+    integer, parameter :: dp = c_double
+    integer, parameter :: starts(5) = [1, 2, 3, 4, 5], places(4) = [1, 2, 3, 4]
+    real(dp), parameter :: springs(4) = 2
+    type(contact_model) :: model
+    real(dp) :: k(2, 2), d(4), force(4), nodal(4), twice(4), shared(4, 4)
+    integer :: info, failed, first(2), two(2, 2)
+    integer(c_int64_t) :: handle
+    character(len=256) :: message
+
+    failed = 0
+    ! A on B: two springs of 2 in a row are one of 1.
+    two = reshape([1, 2, 3, 4], [2, 2])
+    call model%new_sparse_rows(starts, places, springs, SIGNORINI_TRIANGLE_LOWER, [1, 3], two, &
+        [1._dp, -1._dp], reshape([0._dp, -1._dp], [2, 1]), info, message=message)
+    call expect('row', info == 0 .and. message == '')
+    call model%stiffness(k, info)
+    call expect('stiffness', info == 0 .and. all(abs(k - reshape([1, 0, 0, 1], [2, 2])) < 1e-14_dp))
+    call model%release()
+
+    ! A on the floor and at a wall, pressed by (1, -1): the smallest forces share the load.
+    two = reshape([1, 2, 1, 2], [2, 2])
+    call model%new_sparse_rows(starts, places, springs, SIGNORINI_TRIANGLE_LOWER, [1, 2, 3], two, &
+        [1._dp, 1._dp], reshape([0._dp, -1._dp, 1._dp, 0._dp], [2, 2]), info)
+    call expect('corner', info == 0)
+    call model%solve([1._dp, -1._dp, 0._dp, 0._dp], [0._dp, 0._dp], d, force, info, &
+        friction=[0.25_dp, 0.25_dp])
+    call expect('its solution', info == 0 .and. all(abs(d) < 1e-8_dp))
+    call expect('its forces', all(abs(abs(force) - [0.8_dp, 0.2_dp, 0.8_dp, 0.2_dp]) < 1e-8_dp))
+    call model%nodal_forces(force, nodal, info)
+    call expect('nodal forces', info == 0 .and. &
+        all(abs(nodal - [-1._dp, 1._dp, 0._dp, 0._dp]) < 1e-8_dp))
+    call model%stiffness(shared, info, message)
+    call expect('no stiffness', info < 0 .and. index(message, 'the rows of pair') > 0)
+    call model%release()
+
+    call model%new_sparse_rows(starts, places, springs, SIGNORINI_TRIANGLE_LOWER, [1, 3], two, &
+        [1._dp, 1._dp], reshape([0._dp, -1._dp], [2, 1]), info, message=message)
+    call expect('weights', info == -6 .and. index(message, 'pair 1: its signed weights sum to 2') > 0)
+    call model%new_sparse_rows(starts, places, springs, SIGNORINI_TRIANGLE_LOWER, [1, 2], two, &
+        [1._dp, 1._dp], reshape([0._dp, -1._dp], [2, 1]), info, message=message)
+    call expect('starts', info == -5)
+
+    ! Fortran 77, with the row of the beginning: SLAVE(1,1) is -1.
+    first = -1
+    two = reshape([1, 2, 3, 4], [2, 2])
+    call SGSPAR(4, 4, starts, places, springs, 0, 0, first, 2, 1, first, 2, [1, 3], two, &
+        [1._dp, -1._dp], [0._dp, -1._dp], 0, [0._dp], handle, info)
+    call expect('SGSPAR', info == 0)
+    call SGNODF(handle, [-3._dp, 1._dp], twice, info)
+    call expect('SGNODF', info == 0 .and. all(abs(twice - [1, 3, -1, -3]) < 1e-14_dp))
+    call SGFREE(handle, info)
+    call SGSPAR(4, 4, starts, places, springs, 0, 0, first, 2, 1, first, 0, [1, 3], two, &
+        [1._dp, -1._dp], [0._dp, -1._dp], 0, [0._dp], handle, info)
+    call expect('no nodes', info == -12)
+
+    if (failed /= 0) stop 1
+    print '(a)', 'rows: as pairs, and in a corner'
+contains
+    subroutine expect(what, holds)
+        character(len=*), intent(in) :: what
+        logical, intent(in) :: holds
+        if (holds) return
+        failed = failed + 1
+        print '(a, ": wrong, info ", i0, " ", a)', what, info, trim(message)
+    end subroutine
+end program
