@@ -59,6 +59,10 @@ pub enum Argument {
     MasterFaces,
     /// A rigid obstacle.
     Obstacle,
+    /// A mesh that is written to a file.
+    Mesh,
+    /// Fields at the nodes of a mesh.
+    Fields,
 }
 
 /// Why a call was refused. Nothing has been computed.

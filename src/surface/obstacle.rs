@@ -145,7 +145,11 @@ pub fn pair_with_obstacle(
     }
     let rows = whole_rows(&side);
     let mut found = SurfacePairs { dim, ..SurfacePairs::default() };
-    let mut report = SurfaceReport::default();
+    let mut report = SurfaceReport {
+        search_distance: reach,
+        slave_faces: side.count(),
+        ..SurfaceReport::default()
+    };
     for (node, row) in rows {
         report.slave_area += row.area;
         let area = row.area;
