@@ -94,6 +94,11 @@ module signorini
     integer(c_int32_t), parameter :: SIGNORINI_TRIANGLE_LOWER = 0
     integer(c_int32_t), parameter :: SIGNORINI_TRIANGLE_UPPER = 1
     integer(c_int32_t), parameter :: SIGNORINI_TRIANGLE_FULL = 2
+    integer(c_int32_t), parameter :: SIGNORINI_PAIRING_DUAL_MORTAR = 0
+    integer(c_int32_t), parameter :: SIGNORINI_PAIRING_NODE_TO_SURFACE = 1
+    integer(c_int32_t), parameter :: SIGNORINI_OBSTACLE_PLANE = 0
+    integer(c_int32_t), parameter :: SIGNORINI_OBSTACLE_CYLINDER = 1
+    integer(c_int32_t), parameter :: SIGNORINI_OBSTACLE_SPHERE = 2
     integer(c_int32_t), parameter :: SIGNORINI_PROBLEM_CONTACT = 0
     integer(c_int32_t), parameter :: SIGNORINI_PROBLEM_LCP = 1
 
@@ -181,6 +186,87 @@ module signorini
         type(c_ptr) :: row_start = c_null_ptr
         type(c_ptr) :: row_nodes = c_null_ptr
         type(c_ptr) :: row_weights = c_null_ptr
+    end type
+
+    type, bind(C) :: signorini_faces
+        integer(c_int32_t) :: struct_size = 16 + 2 * address_bytes
+        integer(c_int32_t) :: face_nodes = 0
+        integer(c_int64_t) :: count = 0
+        type(c_ptr) :: start = c_null_ptr
+        type(c_ptr) :: nodes = c_null_ptr
+    end type
+
+    type, bind(C) :: signorini_obstacle
+        integer(c_int32_t) :: struct_size = 72
+        integer(c_int32_t) :: kind = 0
+        real(c_double) :: point(3) = 0
+        real(c_double) :: direction(3) = 0
+        real(c_double) :: radius = 0
+        integer(c_int32_t) :: hollow = 0
+        integer(c_int32_t) :: reserved = 0
+    end type
+
+    type, bind(C) :: signorini_surface_settings
+        integer(c_int32_t) :: struct_size = 24 + 1 * address_bytes
+        integer(c_int32_t) :: pairing = 0
+        real(c_double) :: search_distance = 0
+        integer(c_int32_t) :: index_base = 0
+        integer(c_int32_t) :: dofs_per_node = 0
+        type(c_ptr) :: node_dofs = c_null_ptr
+    end type
+
+    type, bind(C) :: signorini_surface_report
+        integer(c_int32_t) :: struct_size = 88
+        integer(c_int32_t) :: dim = 0
+        integer(c_int64_t) :: pairs = 0
+        integer(c_int64_t) :: unpaired = 0
+        integer(c_int64_t) :: folded = 0
+        integer(c_int64_t) :: slave_faces = 0
+        integer(c_int64_t) :: uncovered = 0
+        real(c_double) :: slave_area = 0
+        real(c_double) :: covered_area = 0
+        real(c_double) :: search_distance = 0
+        integer(c_int64_t) :: not_opposed = 0
+        integer(c_int64_t) :: boxes_searched = 0
+    end type
+
+    type, bind(C) :: signorini_contact_fields
+        integer(c_int32_t) :: struct_size = 8 + 5 * address_bytes
+        integer(c_int32_t) :: reserved = 0
+        type(c_ptr) :: pressure = c_null_ptr
+        type(c_ptr) :: traction = c_null_ptr
+        type(c_ptr) :: clearance = c_null_ptr
+        type(c_ptr) :: slip = c_null_ptr
+        type(c_ptr) :: state = c_null_ptr
+    end type
+
+    type, bind(C) :: signorini_resultant
+        integer(c_int32_t) :: struct_size = 72
+        integer(c_int32_t) :: reserved = 0
+        real(c_double) :: force(3) = 0
+        real(c_double) :: moment(3) = 0
+        real(c_double) :: friction_work = 0
+        real(c_double) :: pressed_area = 0
+    end type
+
+    type, bind(C) :: signorini_mesh
+        integer(c_int32_t) :: struct_size = 32 + 4 * address_bytes
+        integer(c_int32_t) :: dim = 0
+        integer(c_int64_t) :: nodes = 0
+        type(c_ptr) :: coordinates = c_null_ptr
+        integer(c_int64_t) :: cells = 0
+        integer(c_int32_t) :: index_base = 0
+        integer(c_int32_t) :: cell_type = 0
+        type(c_ptr) :: cell_types = c_null_ptr
+        type(c_ptr) :: cell_start = c_null_ptr
+        type(c_ptr) :: cell_nodes = c_null_ptr
+    end type
+
+    type, bind(C) :: signorini_field
+        integer(c_int32_t) :: struct_size = 8 + 2 * address_bytes
+        integer(c_int32_t) :: components = 0
+        type(c_ptr) :: name = c_null_ptr
+        type(c_ptr) :: values = c_null_ptr
     end type
 
     interface
@@ -430,6 +516,166 @@ module signorini
             type(c_ptr), value :: model
             real(c_double), intent(in) :: force(*)
             real(c_double), intent(out) :: nodal(*)
+            integer(c_int32_t) :: answer
+        end function
+        function signorini_surface_settings_default(settings, struct_size) &
+            bind(C, name="signorini_surface_settings_default") result(answer)
+            import
+            type(signorini_surface_settings), intent(out) :: settings
+            integer(c_int32_t), value :: struct_size
+            integer(c_int32_t) :: answer
+        end function
+        function signorini_surface_pair(dim, nodes, coordinates, slave, master, settings, &
+            contact, report) &
+            bind(C, name="signorini_surface_pair") result(answer)
+            import
+            integer(c_int32_t), value :: dim
+            integer(c_int64_t), value :: nodes
+            type(c_ptr), value :: coordinates
+            type(c_ptr), value :: slave
+            type(c_ptr), value :: master
+            type(c_ptr), value :: settings
+            type(c_ptr), intent(out) :: contact
+            type(c_ptr), value :: report
+            integer(c_int32_t) :: answer
+        end function
+        function signorini_surface_pair_obstacle(dim, nodes, coordinates, slave, obstacle, &
+            settings, contact, report) &
+            bind(C, name="signorini_surface_pair_obstacle") result(answer)
+            import
+            integer(c_int32_t), value :: dim
+            integer(c_int64_t), value :: nodes
+            type(c_ptr), value :: coordinates
+            type(c_ptr), value :: slave
+            type(c_ptr), value :: obstacle
+            type(c_ptr), value :: settings
+            type(c_ptr), intent(out) :: contact
+            type(c_ptr), value :: report
+            integer(c_int32_t) :: answer
+        end function
+        subroutine signorini_surface_free(contact) &
+            bind(C, name="signorini_surface_free")
+            import
+            type(c_ptr), value :: contact
+        end subroutine
+        function signorini_surface_count(contact) &
+            bind(C, name="signorini_surface_count") result(answer)
+            import
+            type(c_ptr), value :: contact
+            integer(c_int64_t) :: answer
+        end function
+        function signorini_surface_rows(contact) &
+            bind(C, name="signorini_surface_rows") result(answer)
+            import
+            type(c_ptr), value :: contact
+            type(c_ptr) :: answer
+        end function
+        function signorini_surface_gaps(contact) &
+            bind(C, name="signorini_surface_gaps") result(answer)
+            import
+            type(c_ptr), value :: contact
+            type(c_ptr) :: answer
+        end function
+        function signorini_surface_areas(contact) &
+            bind(C, name="signorini_surface_areas") result(answer)
+            import
+            type(c_ptr), value :: contact
+            type(c_ptr) :: answer
+        end function
+        function signorini_surface_normals(contact) &
+            bind(C, name="signorini_surface_normals") result(answer)
+            import
+            type(c_ptr), value :: contact
+            type(c_ptr) :: answer
+        end function
+        function signorini_surface_tangents(contact) &
+            bind(C, name="signorini_surface_tangents") result(answer)
+            import
+            type(c_ptr), value :: contact
+            type(c_ptr) :: answer
+        end function
+        function signorini_surface_points(contact) &
+            bind(C, name="signorini_surface_points") result(answer)
+            import
+            type(c_ptr), value :: contact
+            type(c_ptr) :: answer
+        end function
+        function signorini_surface_nodes(contact) &
+            bind(C, name="signorini_surface_nodes") result(answer)
+            import
+            type(c_ptr), value :: contact
+            type(c_ptr) :: answer
+        end function
+        function signorini_surface_unpaired(contact) &
+            bind(C, name="signorini_surface_unpaired") result(answer)
+            import
+            type(c_ptr), value :: contact
+            type(c_ptr) :: answer
+        end function
+        function signorini_surface_folded(contact) &
+            bind(C, name="signorini_surface_folded") result(answer)
+            import
+            type(c_ptr), value :: contact
+            type(c_ptr) :: answer
+        end function
+        function signorini_surface_uncovered(contact) &
+            bind(C, name="signorini_surface_uncovered") result(answer)
+            import
+            type(c_ptr), value :: contact
+            type(c_ptr) :: answer
+        end function
+        function signorini_surface_summary(contact) &
+            bind(C, name="signorini_surface_summary") result(answer)
+            import
+            type(c_ptr), value :: contact
+            type(c_ptr) :: answer
+        end function
+        function signorini_surface_fields(contact, gap, slip0, d, force, state, fields) &
+            bind(C, name="signorini_surface_fields") result(answer)
+            import
+            type(c_ptr), value :: contact
+            type(c_ptr), value :: gap
+            type(c_ptr), value :: slip0
+            type(c_ptr), value :: d
+            type(c_ptr), value :: force
+            type(c_ptr), value :: state
+            type(c_ptr), value :: fields
+            integer(c_int32_t) :: answer
+        end function
+        function signorini_surface_resultant(contact, slip0, d, force, point, resultant) &
+            bind(C, name="signorini_surface_resultant") result(answer)
+            import
+            type(c_ptr), value :: contact
+            type(c_ptr), value :: slip0
+            type(c_ptr), value :: d
+            type(c_ptr), value :: force
+            type(c_ptr), value :: point
+            type(c_ptr), value :: resultant
+            integer(c_int32_t) :: answer
+        end function
+        function signorini_surface_write(contact, path, mesh, gap, slip0, u, d, force, state) &
+            bind(C, name="signorini_surface_write") result(answer)
+            import
+            type(c_ptr), value :: contact
+            type(c_ptr), value :: path
+            type(c_ptr), value :: mesh
+            type(c_ptr), value :: gap
+            type(c_ptr), value :: slip0
+            type(c_ptr), value :: u
+            type(c_ptr), value :: d
+            type(c_ptr), value :: force
+            type(c_ptr), value :: state
+            integer(c_int32_t) :: answer
+        end function
+        function signorini_mesh_write(path, mesh, u, contact, n_fields, fields) &
+            bind(C, name="signorini_mesh_write") result(answer)
+            import
+            type(c_ptr), value :: path
+            type(c_ptr), value :: mesh
+            type(c_ptr), value :: u
+            type(c_ptr), value :: contact
+            integer(c_int64_t), value :: n_fields
+            type(c_ptr), value :: fields
             integer(c_int32_t) :: answer
         end function
         function signorini_problem_write(path, dim, pairs, k, ldk, f, gap, law, friction, &
