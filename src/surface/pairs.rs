@@ -202,10 +202,10 @@ impl SurfacePairs {
             self.report;
         let (pairs, unpaired) = (self.pairs.len(), self.unpaired.len());
         if pairs > 0 {
-            let folded = self.report.folded.len();
+            let (folded, cover) = (self.report.folded.len(), 100.0 * covered_area / slave_area);
             return format!(
-                "{pairs} pairs on {covered_area} of {slave_area} slave area; {unpaired} slave nodes \
-                 without a pair, {folded} of them in the pair of a neighbour"
+                "{pairs} pairs on {cover:.2} % of the slave area; {unpaired} slave nodes without a \
+                 pair, {folded} of them in the pair of a neighbour"
             );
         }
         if unpaired == 0 {
