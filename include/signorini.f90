@@ -1414,8 +1414,7 @@ contains
         real(c_double), intent(in), contiguous, target :: coordinates(:, :)
         integer, intent(in) :: slave(:, :), master(:, :)
         integer, intent(out) :: info
-        integer, intent(in), optional :: dofs(:, :), dofs_per_node
-        integer(c_int32_t), intent(in), optional :: pairing
+        integer, intent(in), optional :: pairing, dofs(:, :), dofs_per_node
         real(c_double), intent(in), optional :: search_distance
         character(len=*), intent(out), optional :: message
         type(signorini_surface_settings), target :: settings
@@ -1427,9 +1426,9 @@ contains
         call check_dim(wrong, 1, size(coordinates, 1))
         call settle(wrong, 6, shape(coordinates), settings, each, search_distance, dofs, dofs_per_node)
         if (present(pairing)) then
-            settings%pairing = pairing
+            settings%pairing = number(pairing)
             if (pairing /= SIGNORINI_PAIRING_DUAL_MORTAR .and. pairing /= SIGNORINI_PAIRING_NODE_TO_SURFACE) &
-                call refuse(wrong, 5, 'there is no pairing ' // text(int(pairing)))
+                call refuse(wrong, 5, 'there is no pairing ' // text(pairing))
         end if
         if (refused(wrong, info, message)) return
         call check_faces(slave, of_slave, starts, nodes)
@@ -1813,7 +1812,7 @@ contains
         type(refusal), intent(inout) :: wrong
         class(contact_model), intent(in) :: self
         if (.not. c_associated(self%handle)) call refuse(wrong, CONTACT_WRONG_MODEL, &
-            'there is no model: new_condensed, new_two_body, new_sparse or new_sparse_rows makes one')
+            'there is no model: new_condensed, new_two_body, new_sparse, new_sparse_rows or new_surfaces makes one')
     end subroutine
 
     ! The load of a model at position 1 and its prescribed values.

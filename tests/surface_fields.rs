@@ -99,7 +99,9 @@ fn a_uniform_traction_is_uniform_everywhere() {
             let results =
                 PairResults { gap: Some(&gap), reference_slip: None, d: &d, force: &force };
             let fields = pairs.fields(&results).unwrap();
-            assert_eq!(fields.nodes.len(), nodes.len(), "{shapes:?}");
+            // Slave nodes may pass a node of the master by, but no integral over its faces does.
+            let all = pairing == Pairing::DualMortar;
+            assert!(!all || fields.nodes.len() == nodes.len(), "{shapes:?}");
             // The normal is -z: t1 = x and t2 = n x t1 = -y.
             let traction = [0.5, 0.25, 3.0];
             let slip = [0.5, -0.25, 0.0];

@@ -7,12 +7,10 @@ use super::args::{self, Arrays, size};
 use super::guard::{self, Failure};
 use super::sparse::shifted;
 use super::structures;
-use super::surface_fields::{SignoriniContactFields, pair_results, read, wrong};
-use super::surface_new::SignoriniSurfacePairs;
+use super::surface_fields::SignoriniContactFields;
 use crate::error::Argument;
 use crate::file::{self, Field, Values};
 use crate::problem;
-use crate::surface::NodalFields;
 
 /// A mesh of yours, to be written to a file. Cells have the types and the order of nodes of VTK: 3
 /// line, 5 triangle, 9 quadrilateral, 10 tetrahedron, 12 hexahedron, 13 wedge, 14 pyramid; 21 to 29
@@ -88,7 +86,7 @@ pub unsafe extern "C" fn signorini_mesh_write(
                 written.push(Field { name: "displacement", values: Values::Vectors(values) });
             }
             if !contact.is_null() {
-                let given = structures::whole(4, "contact", contact)?;
+                let given = structures::whole(CONTACT, "contact", contact)?;
                 written.extend(contact_fields(&mut arrays, given, (mesh.dim, nodes))?);
             }
             let count = size(5, "n_fields", n_fields)?;
@@ -100,105 +98,9 @@ pub unsafe extern "C" fn signorini_mesh_write(
     })
 }
 
-/// Writes a mesh with the displacements and the fields of one contact zone to a file, as
-/// signorini_mesh_write does. Nodes that stand in no pair have pressure, traction, slip and
-/// clearance 0 and state -1.
-///
-/// @param contact  the pairs
-/// @param path     name of the file, which is replaced if it exists
-/// @param mesh     the mesh whose nodes were paired
-/// @param gap      gaps, one for each pair; NULL: those of the pairs
-/// @param slip0    reference slip, dim - 1 for each pair; NULL: zero
-/// @param u        displacements of all degrees of freedom, as signorini_model_recover tells them;
-///                 NULL: none
-/// @param d        relative displacements, N = dim * pairs
-/// @param F        contact forces, N
-/// @param state    SIGNORINI_STATE_... of each pair; NULL: no states
-/// @return as signorini_mesh_write
-#[unsafe(no_mangle)]
-#[allow(non_snake_case)] // the names of the mechanics, which the header shows
-pub unsafe extern "C" fn signorini_surface_write(
-    contact: *const SignoriniSurfacePairs,
-    path: *const c_char,
-    mesh: *const SignoriniMesh,
-    gap: *const f64,
-    slip0: *const f64,
-    u: *const f64,
-    d: *const f64,
-    F: *const f64,
-    state: *const i32,
-) -> i32 {
-    guard::call(|| {
-        // SAFETY: pairs, structures and arrays as the header demands.
-        unsafe {
-            let contact = read(contact)?;
-            let path = args::path(2, path)?;
-            let mesh = Mesh::read(3, mesh)?;
-            mesh.check_nodes(contact)?;
-            let mut arrays = Arrays::default();
-            let results = pair_results(&mut arrays, contact, (4, gap), (5, slip0), (7, d), (8, F))?;
-            let state = arrays.optional(9, "state", state, contact.arrays.count)?;
-            let dofs = contact.dofs();
-            let entries = dofs.iter().max().map_or(0, |last| last + 1);
-            let u = arrays.optional(6, "u", u, entries)?;
-            let u: Option<Vec<f64>> = u.map(|u| dofs.iter().map(|dof| u[*dof]).collect());
-            let zone = Zone::new(contact, &contact.found.fields(&results).map_err(wrong)?, state);
-            let displacement =
-                u.iter().map(|u| Field { name: "displacement", values: Values::Vectors(u) });
-            let fields: Vec<Field<'_>> = displacement.chain(zone.fields()).collect();
-            mesh.write(path, &fields, (3, 3))
-        }
-    })
-}
-
-/// Fields of one contact zone at all nodes.
-struct Zone {
-    scalars: [Vec<f64>; 2],
-    vectors: [Vec<f64>; 2],
-    states: Option<Vec<i32>>,
-}
-
-impl Zone {
-    fn new(contact: &SignoriniSurfacePairs, found: &NodalFields, state: Option<&[i32]>) -> Self {
-        let (nodes, dim) = (contact.nodes, contact.found.dim);
-        let spread = |values: &[f64], each: usize| {
-            let mut all = vec![0.0; each * nodes];
-            for (node, of_node) in found.nodes.iter().zip(values.chunks(each)) {
-                all[each * node..each * (node + 1)].copy_from_slice(of_node);
-            }
-            all
-        };
-        let states = state.map(|state| {
-            let mut all = vec![NO_STATE; nodes];
-            found.nodes.iter().zip(&found.pairs).for_each(|(node, pair)| all[*node] = state[*pair]);
-            all
-        });
-        Zone {
-            scalars: [spread(&found.pressure, 1), spread(&found.clearance, 1)],
-            vectors: [spread(&found.traction, dim), spread(&found.slip, dim)],
-            states,
-        }
-    }
-
-    fn fields(&self) -> impl Iterator<Item = Field<'_>> {
-        let ([pressure, clearance], [traction, slip]) = (&self.scalars, &self.vectors);
-        let reals = [
-            ("pressure", Values::Scalars(pressure)),
-            ("clearance", Values::Scalars(clearance)),
-            ("traction", Values::Vectors(traction)),
-            ("slip", Values::Vectors(slip)),
-        ];
-        let states = self.states.iter().map(|states| ("state", Values::Integers(states)));
-        reals.into_iter().chain(states).map(|(name, values)| Field { name, values })
-    }
-}
-
-/// The state of a node that stands in no pair.
-const NO_STATE: i32 = -1;
-
 /// A mesh of the caller with nodes counted from 0.
-struct Mesh<'a> {
-    dim: usize,
+pub(super) struct Mesh<'a> {
+    pub(super) dim: usize,
     coordinates: &'a [f64],
     types: Vec<u8>,
     start: Vec<usize>,
@@ -208,7 +110,10 @@ struct Mesh<'a> {
 impl<'a> Mesh<'a> {
     /// # Safety
     /// The structure and its arrays are as the header demands.
-    unsafe fn read(position: i32, pointer: *const SignoriniMesh) -> Result<Self, Failure> {
+    pub(super) unsafe fn read(
+        position: i32,
+        pointer: *const SignoriniMesh,
+    ) -> Result<Self, Failure> {
         let wrong = |message: String| Failure::argument(position, message);
         // SAFETY: by the caller's contract.
         let given = unsafe { structures::whole(position, "mesh", pointer)? };
@@ -244,25 +149,12 @@ impl<'a> Mesh<'a> {
         }
     }
 
-    fn nodes(&self) -> usize {
+    pub(super) fn nodes(&self) -> usize {
         self.coordinates.len() / self.dim
     }
 
-    /// Refuses another mesh than that of the pairs.
-    fn check_nodes(&self, contact: &SignoriniSurfacePairs) -> Result<(), Failure> {
-        let (nodes, dim) = (contact.nodes, contact.found.dim);
-        if self.dim == dim && self.nodes() == nodes {
-            return Ok(());
-        }
-        let (given, of) = (self.nodes(), self.dim);
-        let message = format!(
-            "mesh has {given} nodes of dim {of}, the pairs are of {nodes} nodes of dim {dim}"
-        );
-        Err(Failure::argument(3, message))
-    }
-
     /// Writes it; the positions are those of the mesh and the fields.
-    fn write(
+    pub(super) fn write(
         &self,
         path: &std::path::Path,
         fields: &[Field<'_>],
@@ -299,6 +191,9 @@ fn starts_of(types: &[i32]) -> Result<Vec<usize>, String> {
     Ok(start)
 }
 
+/// The position of the fields of contact.
+const CONTACT: i32 = 4;
+
 /// The fields of contact that are given.
 ///
 /// # Safety
@@ -312,16 +207,18 @@ unsafe fn contact_fields<'a>(
     // SAFETY: by the caller's contract.
     unsafe {
         for (name, pointer) in [("pressure", given.pressure), ("clearance", given.clearance)] {
-            if let Some(values) = arrays.optional(4, name, pointer.cast_const(), nodes)? {
+            if let Some(values) = arrays.optional(CONTACT, name, pointer.cast_const(), nodes)? {
                 fields.push(Field { name, values: Values::Scalars(values) });
             }
         }
         for (name, pointer) in [("traction", given.traction), ("slip", given.slip)] {
-            if let Some(values) = arrays.optional(4, name, pointer.cast_const(), dim * nodes)? {
+            if let Some(values) =
+                arrays.optional(CONTACT, name, pointer.cast_const(), dim * nodes)?
+            {
                 fields.push(Field { name, values: Values::Vectors(values) });
             }
         }
-        if let Some(values) = arrays.optional(4, "state", given.state.cast_const(), nodes)? {
+        if let Some(values) = arrays.optional(CONTACT, "state", given.state.cast_const(), nodes)? {
             fields.push(Field { name: "state", values: Values::Integers(values) });
         }
     }

@@ -34,3 +34,4 @@ mod surface;
 mod surface_access;
 mod surface_fields;
 mod surface_new;
+mod surface_write;

@@ -149,13 +149,12 @@ pub unsafe extern "C" fn signorini_surface_pair_obstacle(
             let host = Host::read(dim, nodes, coordinates, (6, settings))?;
             let slave = SignoriniFaces::read((4, "slave"), slave, host.received.base)?;
             let obstacle = SignoriniObstacle::read(5, host.dim, obstacle)?;
-            let distance = host.received.settings.search_distance;
             let found = pair_with_obstacle(
                 host.dim,
                 host.coordinates,
                 SignoriniFaces::view(&slave),
                 &obstacle,
-                distance.filter(|distance| *distance != f64::INFINITY),
+                host.received.settings.search_distance,
             );
             place.fill(host, found, |argument| match argument {
                 Argument::Dimension => 1,
