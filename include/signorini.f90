@@ -12,6 +12,7 @@
 ! What to call:
 !     contact_solve    a condensed problem in one call
 !     contact_certify  measures displacements of any origin
+!     contact_prove    proves that a solution exists next to displacements of any origin
 !     lcp_solve        a linear complementarity problem (LCP)
 !     contact_model    a type: a structure that is reduced once and solved for many load cases;
 !                      call model%new_condensed, %new_two_body, %new_sparse or
@@ -36,8 +37,8 @@
 !     settings  type(signorini_settings): all settings. As declared it holds the defaults.
 !     state     SIGNORINI_STATE_OPEN, _SLIP or _STICK of each pair.
 !     report    type(signorini_report): how good the result is, and how it was found.
-!     motion    if info is SIGNORINI_STATUS_NO_EQUILIBRIUM, the motion of escape, which proves it;
-!               otherwise zeros.
+!     motion    if info is SIGNORINI_STATUS_NO_EQUILIBRIUM, a motion that proves it; otherwise zeros.
+!     escape    the same as the bodies would move, without the lift that a proof needs: draw this one.
 !     second_d, second_force, second_state  a second solution if report%second is 1, otherwise
 !               zeros. Ask for it by settings%search = SIGNORINI_SEARCH_OTHERS.
 !     info      0: solved and certified. > 0: SIGNORINI_STATUS_..., results were written but are
@@ -61,6 +62,7 @@ module signorini
     integer(c_int32_t), parameter :: SIGNORINI_STATUS_NO_EQUILIBRIUM = 4
     integer(c_int32_t), parameter :: SIGNORINI_STATUS_STALLED = 5
     integer(c_int32_t), parameter :: SIGNORINI_STATUS_NOT_A_SOLUTION = 6
+    integer(c_int32_t), parameter :: SIGNORINI_STATUS_NOT_PROVED = 7
     integer(c_int32_t), parameter :: SIGNORINI_STATUS_INTERNAL = -1000
     integer(c_int32_t), parameter :: SIGNORINI_STATUS_OUT_OF_MEMORY = -1001
     integer(c_int32_t), parameter :: SIGNORINI_STATUS_FILE = -1002
@@ -89,6 +91,9 @@ module signorini
     integer(c_int32_t), parameter :: SIGNORINI_UNIQUENESS_NOT_KNOWN = 0
     integer(c_int32_t), parameter :: SIGNORINI_UNIQUENESS_UNIQUE = 1
     integer(c_int32_t), parameter :: SIGNORINI_UNIQUENESS_SEVERAL = 2
+    integer(c_int32_t), parameter :: SIGNORINI_PROOF_NOT_ASKED = 0
+    integer(c_int32_t), parameter :: SIGNORINI_PROOF_PROVED = 1
+    integer(c_int32_t), parameter :: SIGNORINI_PROOF_NOT_PROVED = 2
     integer(c_int32_t), parameter :: SIGNORINI_FALLBACK_NONE = 0
     integer(c_int32_t), parameter :: SIGNORINI_FALLBACK_CYCLE = 1
     integer(c_int32_t), parameter :: SIGNORINI_FALLBACK_SINGULAR = 2
@@ -116,7 +121,7 @@ module signorini
     end type
 
     type, bind(C) :: signorini_settings
-        integer(c_int32_t) :: struct_size = 56 + 2 * address_bytes
+        integer(c_int32_t) :: struct_size = 64 + 2 * address_bytes
         integer(c_int32_t) :: method = SIGNORINI_METHOD_AUTO
         real(c_double) :: tolerance = 1e-10_c_double
         real(c_double) :: omega = 0
@@ -127,10 +132,12 @@ module signorini
         integer(c_int32_t) :: search = SIGNORINI_SEARCH_OFF
         type(c_funptr) :: progress = c_null_funptr
         type(c_ptr) :: user = c_null_ptr
+        integer(c_int32_t) :: proof = 0
+        integer(c_int32_t) :: reserved = 0
     end type
 
     type, bind(C) :: signorini_report
-        integer(c_int32_t) :: struct_size = 152
+        integer(c_int32_t) :: struct_size = 176
         integer(c_int32_t) :: status = 0
         integer(c_int32_t) :: method = 0
         integer(c_int32_t) :: uniqueness = 0
@@ -153,15 +160,22 @@ module signorini
         integer(c_int32_t) :: fallback = 0
         integer(c_int32_t) :: orientation = 0
         integer(c_int32_t) :: second = 0
+        real(c_double) :: error_d = 0
+        real(c_double) :: error_force = 0
+        integer(c_int32_t) :: proof = 0
+        integer(c_int32_t) :: reserved = 0
     end type
 
     type, bind(C) :: signorini_extra
-        integer(c_int32_t) :: struct_size = 8 + 4 * address_bytes
+        integer(c_int32_t) :: struct_size = 8 + 7 * address_bytes
         integer(c_int32_t) :: reserved = 0
         type(c_ptr) :: motion = c_null_ptr
         type(c_ptr) :: second_d = c_null_ptr
         type(c_ptr) :: second_force = c_null_ptr
         type(c_ptr) :: second_state = c_null_ptr
+        type(c_ptr) :: radius_d = c_null_ptr
+        type(c_ptr) :: radius_force = c_null_ptr
+        type(c_ptr) :: escape = c_null_ptr
     end type
 
     type, bind(C) :: signorini_sparse
@@ -355,6 +369,26 @@ module signorini
             type(c_ptr), value :: force
             type(c_ptr), value :: state
             type(c_ptr), value :: report
+            integer(c_int32_t) :: answer
+        end function
+        function signorini_prove(dim, pairs, k, ldk, f, gap, law, friction, slip0, d, state, &
+            force, radius_d, radius_force) &
+            bind(C, name="signorini_prove") result(answer)
+            import
+            integer(c_int32_t), value :: dim
+            integer(c_int64_t), value :: pairs
+            real(c_double), intent(in) :: k(*)
+            integer(c_int64_t), value :: ldk
+            real(c_double), intent(in) :: f(*)
+            real(c_double), intent(in) :: gap(*)
+            integer(c_int32_t), value :: law
+            type(c_ptr), value :: friction
+            type(c_ptr), value :: slip0
+            real(c_double), intent(in) :: d(*)
+            type(c_ptr), value :: state
+            type(c_ptr), value :: force
+            type(c_ptr), value :: radius_d
+            type(c_ptr), value :: radius_force
             integer(c_int32_t) :: answer
         end function
         function signorini_lcp_solve(n, m, ldm, q, settings, w, z, y, report) &
@@ -894,7 +928,7 @@ contains
     ! k(n, n), f(n), gap(pairs), d(n), force(n), slip0(n - pairs).
     subroutine contact_solve(k, f, gap, d, force, info, law, friction, slip0, method, tolerance, &
             max_iterations, settings, state, report, motion, second_d, second_force, second_state, &
-            message)
+            message, escape)
         real(c_double), intent(in), contiguous :: k(:, :), f(:), gap(:)
         real(c_double), intent(inout), contiguous :: d(:)
         real(c_double), intent(out), contiguous :: force(:)
@@ -906,6 +940,7 @@ contains
         integer, intent(out), optional :: state(:), second_state(:)
         type(signorini_report), intent(out), optional :: report
         real(c_double), intent(out), contiguous, target, optional :: motion(:), second_d(:), second_force(:)
+        real(c_double), intent(out), contiguous, target, optional :: escape(:)
         character(len=*), intent(out), optional :: message
         type(signorini_settings), target :: chosen
         type(signorini_report), target :: measured
@@ -924,8 +959,9 @@ contains
         call choose_settings(wrong, 10, chosen, method, tolerance, max_iterations, settings)
         if (present(state)) call check_size(wrong, 14, 'state', size(state), pairs, 'one for each pair')
         call check_second(wrong, 16, n, pairs, motion, second_d, second_force, second_state)
+        if (present(escape)) call check_size(wrong, 21, 'escape', size(escape), n, 'as many as d')
         if (refused(wrong, info, message)) return
-        extra = address_of_extra(second_states, motion, second_d, second_force)
+        extra = address_of_extra(second_states, motion, second_d, second_force, escape)
         status = signorini_solve(number(max(2, n / max(1, pairs))), int(pairs, c_int64_t), k, &
             int(max(1, n), c_int64_t), f, gap, which, address(friction), address(slip0), &
             c_loc(chosen), d, force, c_loc(states), c_loc(measured), c_loc(extra))
@@ -971,6 +1007,47 @@ contains
         call finish(status, info, message, [2, 3, 1, 1, 2, 3, 6, 7, 8, 9, 4, 10, 11, 12])
         if (status >= 0) call copy_states(states, state)
         if (present(report)) report = measured
+    end subroutine
+
+    ! Proves that a solution exists next to the displacements d, of any origin, with the states of the
+    ! pairs, those of d if state is absent. force(n): its contact forces; radius_d(n), radius_force(n): it
+    ! is within these distances of d and of force, component by component. info is
+    ! SIGNORINI_STATUS_NOT_PROVED if it is not proved, which does not say that there is none.
+    subroutine contact_prove(k, f, gap, d, info, law, friction, slip0, state, force, radius_d, &
+            radius_force, message)
+        real(c_double), intent(in), contiguous :: k(:, :), f(:), gap(:), d(:)
+        integer, intent(out) :: info
+        integer, intent(in), optional :: law
+        real(c_double), intent(in), contiguous, target, optional :: friction(:), slip0(:)
+        integer, intent(in), optional :: state(:)
+        real(c_double), intent(out), contiguous, target, optional :: force(:), radius_d(:), radius_force(:)
+        character(len=*), intent(out), optional :: message
+        integer(c_int32_t), target :: states(size(gap))
+        type(c_ptr) :: given
+        type(refusal) :: wrong
+        integer(c_int32_t) :: which, status
+        integer :: n, pairs
+        n = size(f)
+        pairs = size(gap)
+        call check_data(wrong, shape(k), n, pairs)
+        call check_size(wrong, 4, 'd', size(d), n, 'as many as f')
+        call choose_law(wrong, 6, pairs, which, law, friction)
+        if (present(slip0)) call check_size(wrong, 8, 'slip0', size(slip0), n - pairs, 'dim - 1 for each pair')
+        if (present(state)) call check_size(wrong, 9, 'state', size(state), pairs, 'one for each pair')
+        if (present(force)) call check_size(wrong, 10, 'force', size(force), n, 'as many as f')
+        if (present(radius_d)) call check_size(wrong, 11, 'radius_d', size(radius_d), n, 'as many as f')
+        if (present(radius_force)) &
+            call check_size(wrong, 12, 'radius_force', size(radius_force), n, 'as many as f')
+        if (refused(wrong, info, message)) return
+        given = c_null_ptr
+        if (present(state)) then
+            states = int(state, c_int32_t)
+            given = c_loc(states)
+        end if
+        status = signorini_prove(number(max(2, n / max(1, pairs))), int(pairs, c_int64_t), k, &
+            int(max(1, n), c_int64_t), f, gap, which, address(friction), address(slip0), d, given, &
+            address(force), address(radius_d), address(radius_force))
+        call finish(status, info, message, [2, 3, 1, 1, 2, 3, 6, 7, 8, 4, 9, 10, 11, 12])
     end subroutine
 
     ! An LCP: w = q + m z, w >= 0, z >= 0, w . z = 0, with m(n, n), q(n), w(n), z(n). infeasible_by(n):
@@ -1266,7 +1343,7 @@ contains
     ! absent: zeros.
     subroutine model_solve(self, f, gap, d, force, info, prescribed, law, friction, slip0, method, &
             tolerance, max_iterations, settings, state, report, motion, second_d, second_force, &
-            second_state, message)
+            second_state, message, escape)
         class(contact_model), intent(in) :: self
         real(c_double), intent(in), contiguous, target :: f(:)
         real(c_double), intent(in), contiguous :: gap(:)
@@ -1280,6 +1357,7 @@ contains
         integer, intent(out), optional :: state(:), second_state(:)
         type(signorini_report), intent(out), optional :: report
         real(c_double), intent(out), contiguous, target, optional :: motion(:), second_d(:), second_force(:)
+        real(c_double), intent(out), contiguous, target, optional :: escape(:)
         character(len=*), intent(out), optional :: message
         type(signorini_settings), target :: chosen
         type(signorini_report), target :: measured
@@ -1300,8 +1378,9 @@ contains
         call choose_settings(wrong, 10, chosen, method, tolerance, max_iterations, settings)
         if (present(state)) call check_size(wrong, 14, 'state', size(state), pairs, 'one for each pair')
         call check_second(wrong, 16, n, pairs, motion, second_d, second_force, second_state)
+        if (present(escape)) call check_size(wrong, 21, 'escape', size(escape), n, 'as many as d')
         if (refused(wrong, info, message)) return
-        extra = address_of_extra(second_states, motion, second_d, second_force)
+        extra = address_of_extra(second_states, motion, second_d, second_force, escape)
         status = signorini_model_solve(self%handle, 1_c_int64_t, address(f), address(prescribed), gap, &
             which, address(friction), address(slip0), c_loc(chosen), d, force, c_loc(states), &
             c_null_ptr, c_loc(measured), c_loc(extra))
@@ -1964,13 +2043,15 @@ contains
         if (present(state)) state = int(states)
     end subroutine
 
-    function address_of_extra(second_states, motion, second_d, second_force) result(extra)
+    function address_of_extra(second_states, motion, second_d, second_force, escape) result(extra)
         integer(c_int32_t), intent(in), target :: second_states(:)
         real(c_double), intent(in), contiguous, target, optional :: motion(:), second_d(:), second_force(:)
+        real(c_double), intent(in), contiguous, target, optional :: escape(:)
         type(signorini_extra) :: extra
         extra%motion = address(motion)
         extra%second_d = address(second_d)
         extra%second_force = address(second_force)
+        extra%escape = address(escape)
         if (size(second_states) > 0) extra%second_state = c_loc(second_states)
     end function
 

@@ -123,7 +123,8 @@ typedef struct signorini_extra signorini_extra;
  * @param K         condensed stiffness, N columns of N entries, column-major, both triangles;
  *                  symmetric, positive semi-definite; force / length. A row of zeros is a component
  *                  that nothing resists. Small entries on the diagonal are taken as they are: of a
- *                  free body on two or three points make a model, which knows rounding
+ *                  free body on two or three points make a model, which knows rounding. That K is
+ *                  positive semi-definite is checked by pairs of entries alone; models check it
  * @param ldk       entries from one column of K to the next, at least max(1, N)
  * @param f         condensed nodal loads, N; force
  * @param gap       initial gaps, one for each pair; length; negative: interference; +infinity:
@@ -175,6 +176,8 @@ const char *signorini_last_error(void);
  */
 #define SIGNORINI_STATUS_STALLED 5
 #define SIGNORINI_STATUS_NOT_A_SOLUTION 6    /**< Certify: the displacements are no solution. */
+/** Prove: no solution is proved to exist, which does not say that there is none. */
+#define SIGNORINI_STATUS_NOT_PROVED 7
 #define SIGNORINI_STATUS_INTERNAL -1000 /**< A caught defect of the library: results undefined. */
 #define SIGNORINI_STATUS_OUT_OF_MEMORY -1001 /**< Out of memory: nothing was written. */
 #define SIGNORINI_STATUS_FILE -1002          /**< A file cannot be read or written. */
@@ -495,6 +498,37 @@ int32_t signorini_certify(int32_t dim, int64_t pairs, const double *K, int64_t l
                           const double *gap, int32_t law, const double *friction,
                           const double *slip0, double tolerance, const double *d, double *F,
                           int32_t *state, signorini_report *report);
+
+/**
+ * Tries to prove that a condensed contact problem has a solution next to displacements of any
+ * origin, say of another solver, and bounds how far it is away.
+ *
+ * What is proved: K, f, gap, friction and slip0, each double taken for the real number that it
+ * is, have a solution with these states, each pair clear of the boundaries of its state. All
+ * rounding is bounded. It is not proved that there is no other solution.
+ *
+ * @param dim       space dimension, 2 or 3
+ * @param pairs     number of contact pairs, 0 allowed
+ * @param K         condensed stiffness, as for signorini_solve
+ * @param ldk       entries from one column of K to the next, at least max(1, N)
+ * @param f         condensed nodal loads, N
+ * @param gap       initial gaps, one for each pair
+ * @param law       SIGNORINI_LAW_..., the friction law of all pairs
+ * @param friction  parameters of the law, pair by pair; may be NULL if frictionless
+ * @param slip0     reference slip, dim - 1 for each pair; NULL: zero
+ * @param d         relative displacements, N
+ * @param state     SIGNORINI_STATE_... of each pair; NULL: those of d
+ * @param F         out: contact forces of the solution, N; may be NULL
+ * @param radius_d  out: the solution has displacements within this distance of d, component by
+ *                  component, N; length; may be NULL
+ * @param radius_F  out: the same of the contact forces and F, N; force; may be NULL
+ * @return 0: proved; SIGNORINI_STATUS_NOT_PROVED: not, which proves nothing: F holds zeros, the
+ *         radii -1; -k: the k-th argument is wrong, nothing was written
+ */
+int32_t signorini_prove(int32_t dim, int64_t pairs, const double *K, int64_t ldk, const double *f,
+                        const double *gap, int32_t law, const double *friction, const double *slip0,
+                        const double *d, const int32_t *state, double *F, double *radius_d,
+                        double *radius_F);
 
 /* ============================================================================================
  * 4  Surfaces
@@ -895,8 +929,10 @@ int32_t signorini_mesh_write(const char *path, const signorini_mesh *mesh, const
  *
  * The file is a dense matrix in the Matrix Market format: the columns of K, f, gap, friction and
  * slip0, and comment lines that say so. It appears under its name only when it is complete: it is
- * written beside its place under a name that ends in .part, then renamed. K must be finite; its
- * symmetry and definiteness are not checked here.
+ * written beside its place under a name that ends in .part, then renamed. A file that it replaces
+ * hands on its mode; through a symbolic link the file is replaced that it names; pipes, devices and
+ * links to nothing are refused. K must be finite; its symmetry and definiteness are not checked
+ * here.
  *
  * @param path      name of the file, which is replaced if it exists; bytes as for fopen (UTF-8 on
  *                  Windows)
@@ -967,7 +1003,7 @@ typedef struct signorini_problem signorini_problem;
 
 /**
  * Reads a problem from a file. Any file is safe to read: the call returns either a problem or an
- * error that names the line.
+ * error that names the line. Pipes and devices are refused at once.
  *
  * @param path     name of the file
  * @param problem  out: the problem; NULL unless 0 is returned
@@ -1097,6 +1133,12 @@ struct signorini_settings {
     int32_t search;                 /**< SIGNORINI_SEARCH_...; default SIGNORINI_SEARCH_OFF. */
     signorini_progress_fn progress; /**< Progress callback; default NULL. */
     void *user;                     /**< Passed to progress as its first argument; default NULL. */
+    /**
+     * Nonzero: prove that the solution exists, and where: report.proof, extra.radius_d and
+     * radius_F. It costs one to three solutions, without friction up to five. Default 0.
+     */
+    int32_t proof;
+    int32_t reserved;               /**< 0. */
 };
 
 /**
@@ -1113,6 +1155,20 @@ int32_t signorini_settings_default(signorini_settings *settings, uint32_t struct
 #define SIGNORINI_UNIQUENESS_NOT_KNOWN 0 /**< It is not known whether there are other solutions. */
 #define SIGNORINI_UNIQUENESS_UNIQUE 1    /**< Proved: there is no other solution. */
 #define SIGNORINI_UNIQUENESS_SEVERAL 2   /**< Proved: there are other solutions. */
+
+/* Whether a solution is proved to exist. */
+#define SIGNORINI_PROOF_NOT_ASKED 0 /**< settings.proof is 0. */
+/**
+ * Proved: the data, each double taken for the real number that it is, have a solution with these
+ * states. Of a model the data are those of its condensed problem, in doubles as the library has
+ * made them.
+ */
+#define SIGNORINI_PROOF_PROVED 1
+/**
+ * Not proved, which says nothing about whether there is a solution: a pair is at the boundary of
+ * two states, or rounding is too large beside the condition of K.
+ */
+#define SIGNORINI_PROOF_NOT_PROVED 2
 
 /* Why the first method was abandoned. */
 #define SIGNORINI_FALLBACK_NONE 0       /**< The first method succeeded. */
@@ -1135,9 +1191,15 @@ struct signorini_report {
     int64_t iterations;       /**< Sweeps, pivots or linear systems, of all methods tried. */
     int64_t outer_iterations; /**< Threshold updates of the nested method. */
     int64_t refactorisations; /**< How often Lemke's tableau was refactorised to regain accuracy. */
-    /** Residual of the contact law relative to the forces, no unit; 0 at exact solutions only. */
+    /**
+     * Residual of the contact law relative to the forces, no unit, before d is rounded to doubles;
+     * 0 at exact solutions only.
+     */
     double eta;
-    /** Rounding of K d relative to the forces, no unit; above 1e-6 nothing is certified. */
+    /**
+     * What rounding d to doubles may add to eta, no unit. Above 1e-6 only a d is certified that K
+     * resists by more energy than rounding of its entries explains.
+     */
     double rounding;
     double penetration;       /**< Largest d_n - gap; length; 0 if none. */
     /** Largest normal part of K d - f beyond the tension of the law, 0 but for cohesion; force. */
@@ -1159,6 +1221,19 @@ struct signorini_report {
      */
     int32_t orientation;
     int32_t second;           /**< 1: a second solution was found, see extra; else 0. */
+    /**
+     * Largest error of a component of d over the largest component of d, no unit. With
+     * SIGNORINI_PROOF_PROVED a proved bound. Otherwise what the contraction of the last refinement
+     * tells; -1: not known, there was none.
+     */
+    double error_d;
+    /**
+     * Largest error of a component of F over the largest component of F and f, no unit; in the
+     * same way.
+     */
+    double error_F;
+    int32_t proof;            /**< SIGNORINI_PROOF_... */
+    int32_t reserved;         /**< 0. */
 };
 
 /**
@@ -1181,9 +1256,10 @@ struct signorini_extra {
     uint32_t struct_size; /**< sizeof(signorini_extra). */
     int32_t reserved;     /**< 0. */
     /**
-     * Out: N entries. With SIGNORINI_STATUS_NO_EQUILIBRIUM the motion of escape r, which proves
-     * the status: K r = 0, and f . r + F . r > 0 for all contact forces F that the law admits. Its
-     * largest component is 1. With every other status zeros.
+     * Out: N entries. With SIGNORINI_STATUS_NO_EQUILIBRIUM a motion r that proves the status:
+     * K r = 0, and f . r + F . r > 0 for all contact forces F that the law admits. Its largest
+     * component is 1. With every other status zeros. With friction it lifts each slipping pair by
+     * mu times its slip, as nothing moves: draw escape.
      */
     double *motion;
     /**
@@ -1195,6 +1271,20 @@ struct signorini_extra {
     double *second_F;
     /** Out: one for each pair. SIGNORINI_STATE_... of the second solution; otherwise zeros. */
     int32_t *second_state;
+    /**
+     * Out: N entries. If report.proof is SIGNORINI_PROOF_PROVED: the solution has displacements
+     * within this distance of d, component by component; length. Otherwise -1.
+     */
+    double *radius_d;
+    double *radius_F;     /**< Out: N entries. The same of the contact forces and F; force. */
+    /**
+     * Out: N entries. With SIGNORINI_STATUS_NO_EQUILIBRIUM the motion of escape, which you can
+     * draw: K r = 0, no pair approaches its obstacle, pairs that contact presses stay on it,
+     * friction opposes the slip, and f . r > 0. It is the motion against a viscosity in each
+     * component of the size of its diagonal entry of K, every pair of finite gap touching. Its
+     * largest component is 1. With every other status zeros.
+     */
+    double *escape;
 };
 
 /**

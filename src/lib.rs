@@ -27,6 +27,8 @@
 //!   convergence test plays no part.
 //! - [`Status::NoEquilibrium`]: the motion in [`Solution::recession`] has passed
 //!   [`certificate::is_escape`], which tests it on the data as given.
+//! - [`Existence::Proved`], on request ([`Settings::proof`]): the data, each double taken for the real number
+//!   that it is, have a solution with these states, within the radii given. All rounding is bounded.
 //! - [`Uniqueness::Unique`] and [`Uniqueness::Several`] follow from a criterion or from a second certified
 //!   solution; otherwise it is [`Uniqueness::NotKnown`].
 //! - Changing the units of length and force changes the units of the answer and nothing else.
@@ -94,26 +96,40 @@
 //!   (1992) 691–714.
 //! - D. M. Young: *Iterative Solution of Large Linear Systems*. Academic Press, 1971.
 
+#[forbid(unsafe_code)]
 pub mod certificate;
+#[forbid(unsafe_code)]
 mod error;
+// The only room that may: pointers of C.
 mod ffi;
+#[forbid(unsafe_code)]
 pub mod file;
+#[forbid(unsafe_code)]
 pub mod law;
+#[forbid(unsafe_code)]
 mod linalg;
+#[forbid(unsafe_code)]
 mod model;
+#[forbid(unsafe_code)]
 mod monitor;
+#[forbid(unsafe_code)]
 mod problem;
+#[forbid(unsafe_code)]
 pub mod reduce;
+#[forbid(unsafe_code)]
 mod settings;
+#[forbid(unsafe_code)]
 mod solve;
+#[forbid(unsafe_code)]
 pub mod surface;
 
 pub use error::{Argument, Error, Message};
 pub use law::State;
 pub use model::{LoadCase, Model};
 pub use monitor::{Monitor, Progress, ProgressFn, Stop};
-pub use problem::{ContactData, ContactProblem, FrictionLaw, Lcp, Relation, Stiffness};
+pub use problem::{ContactData, ContactProblem, Dependence, FrictionLaw, Lcp, Relation, Stiffness};
 pub use settings::{Method, Search, Settings};
 pub use solve::{
-    Fallback, LcpSolution, SecondSolution, Solution, Status, Uniqueness, solve, solve_lcp,
+    Errors, Escape, Existence, Fallback, LcpSolution, SecondSolution, Solution, Status, Uniqueness,
+    solve, solve_lcp,
 };

@@ -18,7 +18,7 @@ use crate::problem::{
 };
 use crate::reduce::{
     CondensedReduction, ContactPairs, Reduction, SparseMatrix, SparseReduction, TwoBodyReduction,
-    driven_motion,
+    check_fixed_gaps, driven_motion,
 };
 use crate::settings::Settings;
 use crate::solve::{NO_EQUILIBRIUM, Solution, Status, solve, solve_dependent};
@@ -50,7 +50,8 @@ impl Model {
     /// A body condensed by the host, on an obstacle: `d = u`.
     ///
     /// # Errors
-    /// As [`ContactProblem::new`] for the matrix, after it was cleaned: if a diagonal entry is at most 9e-12
+    /// As [`ContactProblem::new`] for the matrix, and a matrix that is not positive semi-definite, by a component;
+    /// after it was cleaned: if a diagonal entry is at most 9e-12
     /// of the largest one of its pair, and the component is coupled to others, motions of so little energy
     /// are the rounding of a condensation and become exactly free. All other matrices are taken as they are.
     pub fn condensed(dim: usize, pairs: usize, k: &[f64], ld: usize) -> Result<Self, Error> {
@@ -199,7 +200,10 @@ impl Model {
         if solution.status == Status::NoEquilibrium
             && let Some(motion) = &solution.recession
         {
-            let driven = driven_motion(&*self.reduction, load, motion);
+            let escape = solution.escape.as_ref();
+            let parts =
+                escape.map(|escape| (escape.motion.as_slice(), escape.unbalanced.as_slice()));
+            let driven = driven_motion(&*self.reduction, load, parts.unwrap_or((motion, load)));
             solution.message = format!("{NO_EQUILIBRIUM}: {driven}").into();
         }
         solution
@@ -226,6 +230,7 @@ impl Model {
         to: impl FnOnce(&ContactProblem<'_>) -> Result<T, Error>,
     ) -> Result<T, Error> {
         let load = self.condensed_load(case.load, case.prescribed)?;
+        check_fixed_gaps(&*self.reduction, self.dim, case.gap)?;
         let slip = case.reference_slip.map(|slip| self.allowed_slip(slip));
         let problem = ContactProblem::on_checked_matrix(ContactData {
             dim: self.dim,
@@ -237,7 +242,10 @@ impl Model {
             law: case.law,
             reference_slip: slip.as_deref(),
         })?;
-        to(&problem)
+        match self.reduction.is_condensed_by_host() {
+            true => to(&problem.condensed_by_host()),
+            false => to(&problem),
+        }
     }
 
     /// Hands over the problem of a load case on rows that depend on each other.

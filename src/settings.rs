@@ -68,6 +68,8 @@ pub struct Settings {
     pub time_limit: f64,
     /// Whether to look for other solutions.
     pub search: Search,
+    /// Whether to prove that the solution exists, and where: [`crate::Solution::existence`].
+    pub proof: bool,
 }
 
 impl Default for Settings {
@@ -80,6 +82,7 @@ impl Default for Settings {
             max_iterations: 200_000,
             time_limit: 0.0,
             search: Search::Off,
+            proof: false,
         }
     }
 }

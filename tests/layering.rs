@@ -61,11 +61,12 @@ const ROOMS: [(&str, &[&str]); 13] = [
 
 /// The files and folders of `solve`: each imports from those before it only. `lcp` stands beside
 /// those that are behind `lemke`.
-const SOLVERS: [&str; 16] = [
+const SOLVERS: [&str; 19] = [
     "outcome",
     "candidate",
     "condense",
     "rigid_balance",
+    "smallest_lift",
     "sweeps",
     "normal_map",
     "active_set",
@@ -75,8 +76,10 @@ const SOLVERS: [&str; 16] = [
     "uniqueness",
     "dispatch",
     "auto",
+    "escape_motion",
     "far_obstacles",
     "dependent",
+    "existence",
     "mod",
 ];
 

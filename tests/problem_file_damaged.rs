@@ -206,8 +206,82 @@ fn links_are_followed_and_devices_left_alone() {
 
     let message = file::write(Path::new("/dev/null"), &problem, None).unwrap_err().to_string();
     assert_eq!(message, "/dev/null: cannot be written: it is not a file");
-    let message = file::read(Path::new("/dev/zero")).unwrap_err().to_string();
-    assert_eq!(message, "/dev/zero: line 1: longer than 4096 bytes");
-    let message = file::read(Path::new("/dev/null")).unwrap_err().to_string();
-    assert_eq!(message, "/dev/null: line 1: the file ends, the line of the format is missing");
+    for device in ["/dev/zero", "/dev/null"] {
+        let message = file::read(Path::new(device)).unwrap_err().to_string();
+        assert_eq!(
+            message,
+            format!("{device}: cannot be read: it is a pipe or a device, not a file")
+        );
+    }
+    let nowhere = folder.0.join("nowhere");
+    std::os::unix::fs::symlink("absent", &nowhere).unwrap();
+    let message = file::write(&nowhere, &problem, None).unwrap_err().to_string();
+    assert!(message.ends_with("nowhere: cannot be written: it is a link to nothing"), "{message}");
+}
+
+/// To open a pipe for reading waits for a writer: it is refused before.
+#[cfg(unix)]
+#[test]
+fn a_pipe_is_refused_at_once() {
+    let folder = Folder::new("pipe");
+    let pipe = folder.0.join("pipe\nin two lines");
+    let made = std::process::Command::new("mkfifo").arg(&pipe).status().unwrap();
+    assert!(made.success());
+    let message = file::read(&pipe).unwrap_err().to_string();
+    let end = "pipe?in two lines: cannot be read: it is a pipe or a device, not a file";
+    assert!(message.ends_with(end), "{message}");
+}
+
+#[cfg(unix)]
+#[test]
+fn a_file_that_is_replaced_keeps_its_mode() {
+    use std::os::unix::fs::PermissionsExt;
+    let folder = Folder::new("mode");
+    fs::write(folder.file(), SMALL).unwrap();
+    let problem = file::read(&folder.file()).unwrap();
+    let problem = ContactProblem::new(problem.contact().unwrap()).unwrap();
+    for mode in [0o600, 0o640, 0o664] {
+        fs::set_permissions(folder.file(), fs::Permissions::from_mode(mode)).unwrap();
+        file::write(&folder.file(), &problem, None).unwrap();
+        let found = fs::metadata(folder.file()).unwrap().permissions().mode();
+        assert_eq!(found & 0o7777, mode);
+    }
+    // Another name of the old file keeps its contents.
+    let other = folder.0.join("other");
+    fs::hard_link(folder.file(), &other).unwrap();
+    let before = fs::read(&other).unwrap();
+    file::write(&folder.file(), &problem, Some("new")).unwrap();
+    assert_eq!(fs::read(&other).unwrap(), before);
+    assert_eq!(file::read(&folder.file()).unwrap().remark, "new");
+}
+
+/// A limit on the size of files, in a child process: the old file stays, and nothing is left beside it.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_limit_on_files_leaves_the_old_one() {
+    const FOLDER: &str = "SIGNORINI_LIMITED_FOLDER";
+    if let Some(place) = std::env::var_os(FOLDER) {
+        let path = Path::new(&place).join("problem.mtx");
+        let problem = file::read(&path).unwrap();
+        let problem = ContactProblem::new(problem.contact().unwrap()).unwrap();
+        let message = file::write(&path, &problem, None).unwrap_err().to_string();
+        assert!(message.contains("problem.mtx: cannot be written: File too large"), "{message}");
+        return;
+    }
+    let folder = Folder::new("limited");
+    fs::write(folder.file(), SMALL).unwrap();
+    // The shell ignores the signal, and so does its child, as hosts do that want the error.
+    let child = std::process::Command::new("sh")
+        .args([
+            "-c",
+            "trap '' XFSZ; ulimit -f 0; exec \"$0\" --exact a_limit_on_files_leaves_the_old_one",
+        ])
+        .arg(std::env::current_exe().unwrap())
+        .env(FOLDER, &folder.0)
+        .output()
+        .unwrap();
+    let told = String::from_utf8_lossy(&child.stdout);
+    assert!(child.status.success() && told.contains("1 passed"), "{told}");
+    assert_eq!(fs::read_to_string(folder.file()).unwrap(), SMALL);
+    assert_eq!(folder.names(), ["problem.mtx"]);
 }

@@ -226,3 +226,42 @@ fn both_sides_may_be_slaves() {
         }
     }
 }
+
+/// The upper block is held by nothing but contact. Pressed by P and pushed along the interface by H, it stays
+/// while H <= mu P, and leaves beyond: statics. The push acts low on the block, which does not tip.
+#[test]
+fn a_block_that_contact_alone_holds_obeys_statics() {
+    for cells in CELLS {
+        for upper_is_slave in [true, false] {
+            let blocks = Blocks::new(cells);
+            let mut fixed = blocks.fixed(2, |p| p[2] == -0.8);
+            fixed.extend(blocks.fixed(0, |p| p[2] == -0.8));
+            fixed.extend(blocks.fixed(1, |p| p[2] == -0.8));
+            let arrays = blocks.found(upper_is_slave).rows();
+            let model = model(&blocks.stiffness, &fixed, &arrays);
+            let first = blocks.nodes.iter().position(|p| p[2] > 0.0).unwrap();
+            let low: Vec<usize> = (first..blocks.nodes.len())
+                .filter(|&node| (blocks.nodes[node][2] - 0.3).abs() < 1e-12)
+                .collect();
+            for (share, holds) in [(0.0, true), (0.2, true), (0.29, true), (0.31, false)] {
+                let mut load = blocks.load.clone();
+                for &node in &low {
+                    load[3 * node] += share * PRESSURE / low.len() as f64;
+                }
+                let context = format!("{cells:?}, {upper_is_slave}, H {share}");
+                let solution = solve(&model, &load, &arrays.gaps, 0.3, 1e-10);
+                let expected = if holds { Status::Solved } else { Status::NoEquilibrium };
+                assert_eq!(solution.status, expected, "{context}: {}", solution.message);
+                if holds {
+                    let nodal = model.nodal_forces(&solution.certificate.force).unwrap();
+                    let upper = blocks.faces[1].concat();
+                    let upper: std::collections::BTreeSet<usize> = upper.into_iter().collect();
+                    let sum = |axis| upper.iter().map(|node| nodal[3 * node + axis]).sum::<f64>();
+                    // Ten times the tolerance.
+                    assert!((sum(2) - PRESSURE).abs() < 1e-8 * PRESSURE, "{context}: {}", sum(2));
+                    assert!((sum(0) + share * PRESSURE).abs() < 1e-8 * PRESSURE, "{context}");
+                }
+            }
+        }
+    }
+}

@@ -2,6 +2,7 @@
 //! can take (a recession direction of the energy). What a pair must satisfy stands in
 //! `law::recession`.
 
+use super::energy;
 use crate::law::{Contact, Recession};
 use crate::linalg::tolerances::{LEAST_WORK, NEGLIGIBLE};
 use crate::linalg::vector::{dot, largest_of};
@@ -9,11 +10,11 @@ use crate::problem::ContactProblem;
 
 /// Whether the rigid motion `r` proves that no equilibrium exists.
 ///
-/// `K r = 0` up to rounding, and for every pair that has an obstacle `-r_n >= mu |r_t|`: then the
-/// contact forces can only do non-negative work `F . r >= sum |F_n| (|r_n| - mu |r_t|)`, while
-/// equilibrium asks for `F . r = -f . r`. So `f . r > 0` excludes it. With given thresholds the
-/// condition is `r_n <= 0` and `f . r > sum g |r_t|`. The tension of pairs counts as a load; for all laws
-/// see `law::recession`.
+/// `K r = 0` up to rounding, with no more energy than rounding of the entries of `K` explains, and for every
+/// pair that has an obstacle `-r_n >= mu |r_t|`: then the contact forces can only do non-negative work
+/// `F . r >= sum |F_n| (|r_n| - mu |r_t|)`, while equilibrium asks for `F . r = -f . r`. So `f . r > 0`
+/// excludes it. With given thresholds the condition is `r_n <= 0` and `f . r > sum g |r_t|`. The tension of
+/// pairs counts as a load; for all laws see `law::recession`.
 pub fn is_escape(problem: &ContactProblem<'_>, r: &[f64]) -> bool {
     is_escape_of(&Contact::new(problem), r)
 }
@@ -29,7 +30,13 @@ pub(crate) fn is_escape_of(contact: &Contact<'_>, r: &[f64]) -> bool {
     }
     let negligible = NEGLIGIBLE * size;
     let internal = problem.internal_force(r);
-    if internal.iter().zip(&root).any(|(k, root)| k.abs() > negligible * root) {
+    if energy(problem.relation(), r, &internal) > problem.rounding_of_energy() {
+        return false;
+    }
+    // What rounding of the entries leaves of forces, each entry in the roots of its two units.
+    let spread: f64 = r.iter().zip(&root).map(|(r, root)| (r * root).abs()).sum();
+    let strained = negligible.max(problem.rounding_of_energy() * spread);
+    if internal.iter().zip(&root).any(|(k, root)| k.abs() > strained * root) {
         return false;
     }
     let motions = recessions(contact, r);

@@ -14,24 +14,31 @@
 //! It is zero at solutions only and has no unit. On a relation in which `d` does not determine `F`, the
 //! candidate is the pair `(d, F)` and the residual of the relation counts in `|e|` too.
 //!
-//! Two facts of double precision are taken into account:
+//! Two facts of doubles are taken into account:
 //!
 //! - A closing gap or an earlier slip may translate or rotate a body rigidly. These displacements
 //!   cancel in `K d` up to rounding only, so that a residual below [`FORGIVEN`] units of their rounding
 //!   counts as zero. Displacements up to [`LEVER`] times the largest gap or slip qualify: a body that
 //!   turns about a contact moves as much more at its far end as its length exceeds the contact's.
-//! - Where the rounding of `K d` is itself comparable with the forces (`rounding >` [`ROUNDING_LIMIT`])
-//!   nothing is certified: an unconstrained body would be "solved" by moving it far enough. Without
-//!   loads there is nothing to drive such motions, and the first kind does not count.
+//! - Where rounding `d` to doubles changes `K d` by a part of the forces (`rounding >` [`ROUNDING_LIMIT`])
+//!   nothing is certified unless `K` resists `d` by more energy than rounding of its entries explains: an
+//!   unconstrained body would be "solved" by moving it far enough. Without loads there is nothing to drive
+//!   such motions, and the first kind does not count.
+//!
+//! `K d - f` and `d - gap` are evaluated in twice the precision. [`Certificate::residual`] is `eta` with
+//! nothing forgiven and with a bound on what rounding is left in its evaluation: it is not below the true one.
 
 mod escape;
+mod proof;
 
 pub use escape::is_escape;
 pub(crate) use escape::{is_escape_of, lifts};
+pub use proof::{Proof, prove};
+pub(crate) use proof::{errors, prove_parts};
 
 use crate::law::{Contact, State, Violation};
-use crate::linalg::tolerances::NEGLIGIBLE;
-use crate::linalg::vector::{NormSum, largest_of, norm, norm_inf};
+use crate::linalg::tolerances::{NEGLIGIBLE, ROUNDING_OF_SUM};
+use crate::linalg::vector::{NormSum, dot, largest_of, norm, norm_inf, sizes};
 use crate::problem::{ContactProblem, Relation};
 
 /// The measures of one candidate, forces and displacements in the units of the problem.
@@ -39,8 +46,14 @@ use crate::problem::{ContactProblem, Relation};
 pub struct Certificate {
     /// Residual of the natural map, dimensionless.
     pub eta: f64,
-    /// Rounding of `K d` relative to the forces, dimensionless.
+    /// `eta` with nothing forgiven for the rounding of rigid displacements, and with the rounding of its
+    /// own evaluation: the true one is not above.
+    pub residual: f64,
+    /// Rounding of `K d` relative to the forces, dimensionless: what rounding `d` to doubles may cost.
     pub rounding: f64,
+    /// Whether `K` resists `d` by more than rounding of its entries explains; looked at only where
+    /// `rounding` is above [`ROUNDING_LIMIT`].
+    pub is_resisted: bool,
     /// Largest `d_n - gap`, a length; 0 if none.
     pub penetration: f64,
     /// Largest tensile `F_n` of `F = K d - f` beyond the tension that the law allows, a force; 0 if none.
@@ -61,9 +74,15 @@ impl Certificate {
         self.eta <= tolerance && !self.runs_away()
     }
 
+    /// The same certificate with nothing forgiven, where that meets the tolerance too.
+    pub(crate) fn unforgiving(self, tolerance: f64) -> Self {
+        let eta = if self.residual <= tolerance { self.residual } else { self.eta };
+        Certificate { eta, ..self }
+    }
+
     /// Whether the displacements are so large that rounding hides the forces.
     pub fn runs_away(&self) -> bool {
-        self.rounding > ROUNDING_LIMIT
+        self.rounding > ROUNDING_LIMIT && !self.is_resisted
     }
 
     /// Number of pairs in a state.
@@ -72,9 +91,14 @@ impl Certificate {
     }
 }
 
-/// Largest relative rounding of `K d` that is certified. At the condition number `c` the rounding is
-/// about `1e-16 c`: condition numbers up to 1e10 pass.
+/// Largest relative rounding of `K d` that is certified whatever causes it. At the condition number `c` the
+/// rounding is about `1e-16 c`: condition numbers up to 1e10 pass. Above, the energy of `d` decides.
 pub const ROUNDING_LIMIT: f64 = 1e-6;
+
+/// Relative energy ([`energy`]) from which on `K` resists a motion: what a host's condensation leaves of a
+/// zero. Below it the stiffness may be rounding, as of a body that turns about two points. Definite
+/// matrices of condition numbers up to 1e12 pass.
+const RESISTED: f64 = ROUNDING_OF_SUM;
 
 /// Displacements of a turning body beside the gap or slip that turns it: lever arms up to 1000.
 pub const LEVER: f64 = 1e3;
@@ -83,9 +107,14 @@ pub const LEVER: f64 = 1e3;
 /// is off by about `sqrt(n)` units, and 16 cover some hundred terms.
 pub const FORGIVEN: f64 = 16.0;
 
+/// Roundings of one component of the residual, of its norm and of the quotient, relative: some ten, half
+/// a unit each.
+const ROUNDINGS_OF_NORM: f64 = 8.0 * f64::EPSILON;
+
 /// Measures displacements of any origin, on a relation in which they determine the contact forces.
 pub fn certify(problem: &ContactProblem<'_>, d: &[f64]) -> Certificate {
-    measure_pair(&Contact::new(problem), d, problem.force(d), &[])
+    let contact = Contact::new(problem);
+    measure(&contact, d, &[])
 }
 
 /// Measures a displacement and a contact force of any origin, on any relation.
@@ -94,8 +123,10 @@ pub fn certify_pair<R: Relation>(
     d: &[f64],
     force: &[f64],
 ) -> Certificate {
+    let contact = Contact::new(problem);
     let residual = problem.relation().residual(d, force);
-    measure_pair(&Contact::new(problem), d, force.to_vec(), &residual)
+    let terms = Terms::new(&contact, d);
+    measure_pair(&contact, (d, &[]), &terms, force.to_vec(), &residual)
 }
 
 /// Measures the candidate `(d, force)` of a solver, on a problem whose laws are worked out. Where `d`
@@ -106,39 +137,51 @@ pub(crate) fn measure<R: Relation>(
     force: &[f64],
 ) -> Certificate {
     let relation = contact.problem().relation();
-    match relation.force(d) {
-        Some(force) => measure_pair(contact, d, force, &[]),
-        None => measure_pair(contact, d, force.to_vec(), &relation.residual(d, force)),
+    let terms = Terms::new(contact, d);
+    match relation.force(d, &[], &terms.each) {
+        Some(force) => measure_pair(contact, (d, &[]), &terms, force, &[]),
+        None => {
+            let residual = relation.residual(d, force);
+            measure_pair(contact, (d, &[]), &terms, force.to_vec(), &residual)
+        }
     }
 }
 
-/// Measures `(d, raw)`, which lack `residual` to equilibrium, nothing if it is empty.
+/// [`measure`] of displacements `d + low` in two parts, where they determine the contact forces.
+pub(crate) fn measure_parts(contact: &Contact<'_>, d: &[f64], low: &[f64]) -> Certificate {
+    let terms = Terms::new(contact, d);
+    let force =
+        contact.problem().stiffness().residual(d, low, contact.problem().load(), &terms.each);
+    measure_pair(contact, (d, low), &terms, force, &[])
+}
+
+/// Measures `(d + low, raw)`, which lack `residual` to equilibrium, nothing if it is empty; so is `low`.
 fn measure_pair<R: Relation>(
     contact: &Contact<'_, R>,
-    d: &[f64],
+    (d, low): (&[f64], &[f64]),
+    terms: &Terms,
     raw: Vec<f64>,
     residual: &[f64],
 ) -> Certificate {
     let relation = contact.problem().relation();
-    let scale = force_scale(relation.load(), &raw);
-    let (inherent, rest) = rounding(contact, d);
+    let load = norm(relation.load());
+    let scale = load.max(norm(&raw));
     let unloaded = norm_inf(contact.shifted_load()) == 0.0;
-    let size = norm(&natural_residual(contact, d, &raw)).hypot(norm(residual));
+    let natural = Natural::new(contact, (d, low), &raw);
+    let size = natural.size.root().hypot(norm(residual));
+    let inherent = UNIT * terms.inherent;
     let forgiven = FORGIVEN * inherent;
     // Written so that NaN stays NaN.
     let eta = ratio(if size <= forgiven { 0.0 } else { size - forgiven }, scale);
-    let rounding = ratio(if unloaded { rest } else { inherent + rest }, scale);
-    let margin = NEGLIGIBLE * norm_inf(relation.load()).max(norm_inf(&raw));
-    let dim = contact.dim();
-    let mut worst = Violation::default();
-    let mut admissible = Vec::with_capacity(raw.len());
-    let mut states = Vec::with_capacity(contact.pairs().len());
-    for (law, d, raw) in contact.each(d, &raw) {
-        let state = law.state(d, raw, margin);
-        worst = worst.or_worse(law.violation(d, raw));
-        states.push(state);
-        admissible.extend_from_slice(&law.admissible_force(raw, state)[..dim]);
-    }
+    // What products in twice the precision are off by: `Matrix::residual`.
+    let count = (d.len() + 2) as f64;
+    let products = (4.0 * UNIT * count).powi(2) * (terms.inherent + terms.rest + load);
+    let doubt = natural.doubt.root() + natural.sensitivity * products;
+    let upper = ratio((size + doubt) * (1.0 + ROUNDINGS_OF_NORM), scale);
+    let rounding = ratio(UNIT * terms.rest + if unloaded { 0.0 } else { inherent }, scale);
+    let is_resisted =
+        rounding > ROUNDING_LIMIT && residual.is_empty() && is_resisted(relation, d, &raw);
+    let Natural { worst, admissible, states, .. } = natural;
     let lacking = raw.iter().zip(&admissible).map(|(a, b)| a - b);
     let equilibrium = match residual {
         [] => largest_of(lacking),
@@ -147,7 +190,9 @@ fn measure_pair<R: Relation>(
     let Violation { penetration, tension, cone_excess } = worst;
     Certificate {
         eta,
+        residual: upper,
         rounding,
+        is_resisted,
         penetration,
         tension,
         cone_excess,
@@ -175,37 +220,103 @@ pub(crate) fn eta_of(contact: &Contact<'_>, d: &[f64], raw: &[f64]) -> f64 {
     ratio(sum.root(), force_scale(contact.problem().load(), raw))
 }
 
-fn natural_residual<R: Relation>(contact: &Contact<'_, R>, d: &[f64], raw: &[f64]) -> Vec<f64> {
-    let mut residual = vec![0.0; raw.len()];
-    let parts = residual.chunks_exact_mut(contact.dim());
-    for ((law, d, raw), residual) in contact.each(d, raw).zip(parts) {
-        law.natural_residual(d, raw, residual);
+/// What the laws of all pairs say of displacements `d + low` and forces.
+struct Natural {
+    /// Norm of the natural residual.
+    size: NormSum,
+    /// Bound on its rounding.
+    doubt: NormSum,
+    /// Largest change of it by a change of a force.
+    sensitivity: f64,
+    worst: Violation,
+    admissible: Vec<f64>,
+    states: Vec<State>,
+}
+
+impl Natural {
+    fn new<R: Relation>(contact: &Contact<'_, R>, (d, low): (&[f64], &[f64]), raw: &[f64]) -> Self {
+        let dim = contact.dim();
+        let margin = NEGLIGIBLE * norm_inf(contact.problem().relation().load()).max(norm_inf(raw));
+        let mut natural = Natural {
+            size: NormSum::default(),
+            doubt: NormSum::default(),
+            sensitivity: 0.0,
+            worst: Violation::default(),
+            admissible: Vec::with_capacity(raw.len()),
+            states: Vec::with_capacity(contact.pairs().len()),
+        };
+        let mut residual = [0.0; 3];
+        for (pair, (law, d, raw)) in contact.each(d, raw).enumerate() {
+            let low = if low.is_empty() { &[0.0; 3][..dim] } else { &low[dim * pair..][..dim] };
+            let v = &law.beyond_reference(d, low)[..dim];
+            let law = law.at_its_reference();
+            law.natural_residual(v, raw, &mut residual);
+            residual[..dim].iter().for_each(|&e| natural.size.add(e));
+            natural.doubt.add(law.natural_rounding(v, raw));
+            natural.sensitivity = natural.sensitivity.max(law.sensitivity());
+            let state = law.state(v, raw, margin);
+            natural.worst = natural.worst.or_worse(law.violation(v, raw));
+            natural.states.push(state);
+            natural.admissible.extend_from_slice(&law.admissible_force(raw, state)[..dim]);
+        }
+        natural
     }
-    residual
+}
+
+/// The energy of the motion `d` under `internal` forces, `K d`, beside its terms: `d . K d / |d| . |K| |d|`.
+pub(crate) fn energy<R: Relation>(relation: &R, d: &[f64], internal: &[f64]) -> f64 {
+    let sizes = sizes(d);
+    dot(d, internal) / dot(&sizes, &relation.magnitude(&sizes))
+}
+
+fn is_resisted<R: Relation>(relation: &R, d: &[f64], raw: &[f64]) -> bool {
+    let internal: Vec<f64> = relation.load().iter().zip(raw).map(|(f, raw)| f + raw).collect();
+    energy(relation, d, &internal) > RESISTED
 }
 
 fn force_scale(load: &[f64], raw: &[f64]) -> f64 {
     norm(load).max(norm(raw))
 }
 
-/// Norms of the rounding of `K d`: first that of displacements no larger than a body moves that
-/// closes a gap or has slipped, then the rest.
-fn rounding<R: Relation>(contact: &Contact<'_, R>, d: &[f64]) -> (f64, f64) {
-    let normals = d.iter().step_by(contact.dim());
-    let prescribed =
-        largest_of(contact.pairs().iter().zip(normals).map(|(law, &d_n)| law.prescribed(d_n)));
-    let unit = f64::EPSILON / 2.0;
-    let limit = unit * LEVER * prescribed;
-    let relation = contact.problem().relation();
-    let size = |d: &f64| unit * d.abs();
-    let part = |part: &dyn Fn(f64) -> f64| {
-        let sizes: Vec<f64> = d.iter().map(|d| part(size(d))).collect();
-        norm(&relation.magnitude(&sizes))
-    };
-    let inherent = if limit > 0.0 { part(&|size| size.min(limit)) } else { 0.0 };
-    let rest = part(&|size| size - size.min(limit));
-    // Not finite where a displacement is not: nothing is certified then.
-    if inherent.is_finite() { (inherent, rest) } else { (inherent, f64::INFINITY) }
+/// Half a unit in the last digit of 1.
+const UNIT: f64 = f64::EPSILON / 2.0;
+
+/// The terms of `K d`: `|K| |d|`, whose rounding is [`UNIT`] of it.
+struct Terms {
+    /// Component by component.
+    each: Vec<f64>,
+    /// Norm of those of displacements no larger than a body moves that closes a gap or has slipped.
+    inherent: f64,
+    /// Norm of those of the rest.
+    rest: f64,
+}
+
+impl Terms {
+    fn new<R: Relation>(contact: &Contact<'_, R>, d: &[f64]) -> Self {
+        let normals = d.iter().step_by(contact.dim());
+        let prescribed =
+            largest_of(contact.pairs().iter().zip(normals).map(|(law, &d_n)| law.prescribed(d_n)));
+        let limit = LEVER * prescribed;
+        let relation = contact.problem().relation();
+        let part = |part: &dyn Fn(f64) -> f64| {
+            let sizes: Vec<f64> = d.iter().map(|d| part(d.abs())).collect();
+            relation.magnitude(&sizes)
+        };
+        if !(limit > 0.0) {
+            let each = part(&|size| size);
+            return Terms { inherent: 0.0, rest: norm(&each), each };
+        }
+        let mut each = part(&|size| size.min(limit));
+        let inherent = norm(&each);
+        // Not finite where a displacement is not: nothing is certified then.
+        let mut rest = if inherent.is_finite() { 0.0 } else { f64::INFINITY };
+        if !d.iter().all(|d| d.abs() <= limit) {
+            let above = part(&|size| size - size.min(limit));
+            each.iter_mut().zip(&above).for_each(|(each, above)| *each += above);
+            rest += norm(&above);
+        }
+        Terms { each, inherent, rest }
+    }
 }
 
 /// `part / whole`, and infinite where a number on the way overflowed: nothing is certified then.

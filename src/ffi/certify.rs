@@ -70,7 +70,7 @@ pub unsafe extern "C" fn signorini_certify(
             return Err(Failure::argument(MEASURED, entry("d", [i]) + " is not finite"));
         }
         // SAFETY: as above.
-        Ok(unsafe { results.write(&certify(&problem, d)) })
+        Ok(unsafe { results.write(certify(&problem, d)) })
     })
 }
 
@@ -125,7 +125,7 @@ pub unsafe extern "C" fn signorini_model_certify(
             Failure::from_error(error, |argument| given.position(argument, MEASURED))
         })?;
         // SAFETY: as above.
-        Ok(unsafe { results.write(&certificate) })
+        Ok(unsafe { results.write(certificate) })
     })
 }
 
@@ -177,8 +177,10 @@ impl Results {
     ///
     /// # Safety
     /// The outputs have the lengths of the header and overlap nothing.
-    unsafe fn write(&self, certificate: &Certificate) -> i32 {
-        let (eta, tolerance) = (certificate.eta, self.tolerance);
+    unsafe fn write(&self, certificate: Certificate) -> i32 {
+        let tolerance = self.tolerance;
+        let certificate = certificate.unforgiving(tolerance);
+        let eta = certificate.eta;
         let status = if certificate.holds(tolerance) {
             SIGNORINI_STATUS_SOLVED
         } else {
@@ -189,7 +191,7 @@ impl Results {
         unsafe {
             self.force.write(&certificate.force);
             self.state.write(&state_codes(&certificate.states));
-            SignoriniReport::of_certificate(status, certificate).write(self.report);
+            SignoriniReport::of_certificate(status, &certificate).write(self.report);
         }
         status
     }

@@ -1,10 +1,11 @@
-//! Results that not every call wants: the motion of escape and a second solution.
+//! Results that not every call wants: motions where no equilibrium exists, and a second solution.
 
 use super::args::{Arrays, Output};
 use super::guard::{self, Failure};
+use super::prove::NO_RADIUS;
 use super::report::state_codes;
 use super::structures;
-use crate::solve::Solution;
+use crate::solve::{Existence, Solution};
 
 /// Results that not every call wants. Fill it by signorini_extra_default(), then set the pointers
 /// of the arrays that you want. Each pointer may be NULL. In signorini_model_solve each array has a
@@ -17,9 +18,10 @@ pub struct SignoriniExtra {
     pub struct_size: u32,
     /// 0.
     pub reserved: i32,
-    /// Out: N entries. With SIGNORINI_STATUS_NO_EQUILIBRIUM the motion of escape r, which proves
-    /// the status: K r = 0, and f . r + F . r > 0 for all contact forces F that the law admits. Its
-    /// largest component is 1. With every other status zeros.
+    /// Out: N entries. With SIGNORINI_STATUS_NO_EQUILIBRIUM a motion r that proves the status:
+    /// K r = 0, and f . r + F . r > 0 for all contact forces F that the law admits. Its largest
+    /// component is 1. With every other status zeros. With friction it lifts each slipping pair by
+    /// mu times its slip, as nothing moves: draw escape.
     pub motion: *mut f64,
     /// Out: N entries. If report.second is 1, the relative displacements of a second solution,
     /// certified as the first is; otherwise zeros.
@@ -28,6 +30,17 @@ pub struct SignoriniExtra {
     pub second_F: *mut f64,
     /// Out: one for each pair. SIGNORINI_STATE_... of the second solution; otherwise zeros.
     pub second_state: *mut i32,
+    /// Out: N entries. If report.proof is SIGNORINI_PROOF_PROVED: the solution has displacements
+    /// within this distance of d, component by component; length. Otherwise -1.
+    pub radius_d: *mut f64,
+    /// Out: N entries. The same of the contact forces and F; force.
+    pub radius_F: *mut f64,
+    /// Out: N entries. With SIGNORINI_STATUS_NO_EQUILIBRIUM the motion of escape, which you can
+    /// draw: K r = 0, no pair approaches its obstacle, pairs that contact presses stay on it,
+    /// friction opposes the slip, and f . r > 0. It is the motion against a viscosity in each
+    /// component of the size of its diagonal entry of K, every pair of finite gap touching. Its
+    /// largest component is 1. With every other status zeros.
+    pub escape: *mut f64,
 }
 
 impl SignoriniExtra {
@@ -40,6 +53,9 @@ impl SignoriniExtra {
             second_d: nothing,
             second_F: nothing,
             second_state: std::ptr::null_mut(),
+            radius_d: nothing,
+            radius_F: nothing,
+            escape: nothing,
         }
     }
 }
@@ -52,6 +68,9 @@ pub(super) struct Extra {
     second_d: Output<f64>,
     second_force: Output<f64>,
     second_state: Output<i32>,
+    radius_d: Output<f64>,
+    radius_force: Output<f64>,
+    escape: Output<f64>,
 }
 
 impl Extra {
@@ -86,6 +105,9 @@ impl Extra {
             motion: vector("extra: motion", given.motion)?,
             second_d: vector("extra: second_d", given.second_d)?,
             second_force: vector("extra: second_F", given.second_F)?,
+            radius_d: vector("extra: radius_d", given.radius_d)?,
+            radius_force: vector("extra: radius_F", given.radius_F)?,
+            escape: vector("extra: escape", given.escape)?,
             second_state: arrays.optional_output(
                 position,
                 "extra: second_state",
@@ -103,18 +125,33 @@ impl Extra {
         let (n, pairs) = (self.n, self.pairs);
         let zeros = vec![0.0; n];
         let motion = solution.recession.as_deref().unwrap_or(&zeros);
+        let escape = solution.escape.as_ref().map_or(&zeros[..], |escape| &escape.motion);
         let second = solution.second.as_deref();
         let d = second.map_or(&zeros[..], |second| &second.d);
         let force = second.map_or(&zeros[..], |second| &second.certificate.force);
         let states =
             second.map_or_else(|| vec![0; pairs], |second| state_codes(&second.certificate.states));
+        let (radius_d, radius_force) = radii(solution);
         // SAFETY: by the caller's contract.
         unsafe {
+            self.radius_d.part(n * case, n).write(&radius_d);
+            self.radius_force.part(n * case, n).write(&radius_force);
             self.motion.part(n * case, n).write(motion);
+            self.escape.part(n * case, n).write(escape);
             self.second_d.part(n * case, n).write(d);
             self.second_force.part(n * case, n).write(force);
             self.second_state.part(pairs * case, pairs).write(&states);
         }
+    }
+}
+
+/// Distances of the proved solution from what the caller receives.
+fn radii(solution: &Solution) -> (Vec<f64>, Vec<f64>) {
+    match &solution.existence {
+        Existence::Proved(proof) => {
+            (proof.radius_about(&solution.d), proof.force_radius_about(&solution.certificate.force))
+        }
+        _ => (vec![NO_RADIUS; solution.d.len()], vec![NO_RADIUS; solution.d.len()]),
     }
 }
 

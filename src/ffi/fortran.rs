@@ -46,6 +46,10 @@ entries! {
         ldk: *const I, f: *const f64, gap: *const f64, law: *const I, fric: *const f64,
         slip0: *const f64, tol: *const f64, d: *const f64, r: *mut f64, state: *mut I,
         eta: *mut f64, info: *mut I);
+    sgprov_ sgprov_64_ = super::flat::prove, (ndim: *const I, npair: *const I, k: *const f64,
+        ldk: *const I, f: *const f64, gap: *const f64, law: *const I, fric: *const f64,
+        slip0: *const f64, d: *const f64, state: *const I, r: *mut f64, radd: *mut f64,
+        radr: *mut f64, info: *mut I);
     sglcps_ sglcps_64_ = super::flat::lcp, (n: *const I, m: *const f64, ldm: *const I,
         q: *const f64, method: *const I, tol: *const f64, maxit: *const I, w: *mut f64,
         z: *mut f64, eta: *mut f64, iter: *mut I, info: *mut I);

@@ -22,6 +22,7 @@ mod model_recover;
 mod model_solve;
 mod problem_read;
 mod problem_write;
+mod prove;
 mod report;
 mod settings;
 mod solve;

@@ -23,7 +23,7 @@ pub struct SignoriniProblem {
 }
 
 /// Reads a problem from a file. Any file is safe to read: the call returns either a problem or an
-/// error that names the line.
+/// error that names the line. Pipes and devices are refused at once.
 ///
 /// @param path     name of the file
 /// @param problem  out: the problem; NULL unless 0 is returned

@@ -16,8 +16,10 @@ use crate::problem::Lcp;
 ///
 /// The file is a dense matrix in the Matrix Market format: the columns of K, f, gap, friction and
 /// slip0, and comment lines that say so. It appears under its name only when it is complete: it is
-/// written beside its place under a name that ends in .part, then renamed. K must be finite; its
-/// symmetry and definiteness are not checked here.
+/// written beside its place under a name that ends in .part, then renamed. A file that it replaces
+/// hands on its mode; through a symbolic link the file is replaced that it names; pipes, devices and
+/// links to nothing are refused. K must be finite; its symmetry and definiteness are not checked
+/// here.
 ///
 /// @param path      name of the file, which is replaced if it exists; bytes as for fopen (UTF-8 on
 ///                  Windows)

@@ -8,7 +8,7 @@ use crate::certificate::Certificate;
 use crate::error::index;
 use crate::law::State;
 use crate::settings::Method;
-use crate::solve::{Fallback, LcpSolution, Solution, Uniqueness};
+use crate::solve::{Existence, Fallback, LcpSolution, Solution, Uniqueness};
 
 /// The pair is apart: F_n = 0, with cohesion F_n = a; F_t = 0 but under Tresca's law and cohesion.
 pub const SIGNORINI_STATE_OPEN: i32 = 0;
@@ -23,6 +23,16 @@ pub const SIGNORINI_UNIQUENESS_NOT_KNOWN: i32 = 0;
 pub const SIGNORINI_UNIQUENESS_UNIQUE: i32 = 1;
 /// Proved: there are other solutions.
 pub const SIGNORINI_UNIQUENESS_SEVERAL: i32 = 2;
+
+/// settings.proof is 0.
+pub const SIGNORINI_PROOF_NOT_ASKED: i32 = 0;
+/// Proved: the data, each double taken for the real number that it is, have a solution with these
+/// states. Of a model the data are those of its condensed problem, in doubles as the library has
+/// made them.
+pub const SIGNORINI_PROOF_PROVED: i32 = 1;
+/// Not proved, which says nothing about whether there is a solution: a pair is at the boundary of
+/// two states, or rounding is too large beside the condition of K.
+pub const SIGNORINI_PROOF_NOT_PROVED: i32 = 2;
 
 /// The first method succeeded.
 pub const SIGNORINI_FALLBACK_NONE: i32 = 0;
@@ -40,6 +50,7 @@ pub const SIGNORINI_FALLBACK_INACCURATE: i32 = 4;
 /// units of the problem. K d - f is the contact force that d requires.
 #[repr(C)]
 #[derive(Clone, Copy)]
+#[allow(non_snake_case)] // the names of the mechanics, which the header shows
 pub struct SignoriniReport {
     /// sizeof(signorini_report) in your program; no more is written.
     pub struct_size: u32,
@@ -55,9 +66,11 @@ pub struct SignoriniReport {
     pub outer_iterations: i64,
     /// How often Lemke's tableau was refactorised to regain accuracy.
     pub refactorisations: i64,
-    /// Residual of the contact law relative to the forces, no unit; 0 at exact solutions only.
+    /// Residual of the contact law relative to the forces, no unit, before d is rounded to doubles;
+    /// 0 at exact solutions only.
     pub eta: f64,
-    /// Rounding of K d relative to the forces, no unit; above 1e-6 nothing is certified.
+    /// What rounding d to doubles may add to eta, no unit. Above 1e-6 only a d is certified that K
+    /// resists by more energy than rounding of its entries explains.
     pub rounding: f64,
     /// Largest d_n - gap; length; 0 if none.
     pub penetration: f64,
@@ -88,7 +101,21 @@ pub struct SignoriniReport {
     pub orientation: i32,
     /// 1: a second solution was found, see extra; else 0.
     pub second: i32,
+    /// Largest error of a component of d over the largest component of d, no unit. With
+    /// SIGNORINI_PROOF_PROVED a proved bound. Otherwise what the contraction of the last refinement
+    /// tells; -1: not known, there was none.
+    pub error_d: f64,
+    /// Largest error of a component of F over the largest component of F and f, no unit; in the
+    /// same way.
+    pub error_F: f64,
+    /// SIGNORINI_PROOF_...
+    pub proof: i32,
+    /// 0.
+    pub reserved: i32,
 }
+
+/// An error that is not known.
+const NOT_KNOWN: f64 = -1.0;
 
 impl SignoriniReport {
     /// The size that the caller set, checked; 0 for NULL, which is allowed.
@@ -129,6 +156,9 @@ impl SignoriniReport {
             fallback,
             orientation: i32::from(solution.orientation),
             second: i32::from(solution.second.is_some()),
+            error_d: solution.errors.map_or(NOT_KNOWN, |errors| errors.d),
+            error_F: solution.errors.map_or(NOT_KNOWN, |errors| errors.force),
+            proof: proof_code(&solution.existence),
             ..Self::of_certificate(status, &solution.certificate)
         }
     }
@@ -163,7 +193,7 @@ impl SignoriniReport {
 
     /// A report of no call.
     pub(super) fn blank() -> Self {
-        Self::empty(0, Method::Auto)
+        Self { error_d: 0.0, error_F: 0.0, ..Self::empty(0, Method::Auto) }
     }
 
     fn empty(status: i32, method: Method) -> Self {
@@ -191,6 +221,10 @@ impl SignoriniReport {
             fallback: SIGNORINI_FALLBACK_NONE,
             orientation: 0,
             second: 0,
+            error_d: NOT_KNOWN,
+            error_F: NOT_KNOWN,
+            proof: SIGNORINI_PROOF_NOT_ASKED,
+            reserved: 0,
         }
     }
 }
@@ -240,6 +274,14 @@ impl Reports {
         } else {
             self.first.wrapping_byte_add(self.stride * case)
         }
+    }
+}
+
+fn proof_code(existence: &Existence) -> i32 {
+    match existence {
+        Existence::NotAsked => SIGNORINI_PROOF_NOT_ASKED,
+        Existence::Proved(_) => SIGNORINI_PROOF_PROVED,
+        Existence::NotProved => SIGNORINI_PROOF_NOT_PROVED,
     }
 }
 

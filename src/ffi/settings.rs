@@ -80,6 +80,11 @@ pub struct SignoriniSettings {
     pub progress: SignoriniProgressFn,
     /// Passed to progress as its first argument; default NULL.
     pub user: *mut c_void,
+    /// Nonzero: prove that the solution exists, and where: report.proof, extra.radius_d and
+    /// radius_F. It costs one to three solutions, without friction up to five. Default 0.
+    pub proof: i32,
+    /// 0.
+    pub reserved: i32,
 }
 
 /// Settings as the solvers know them, with what only the C interface has.
@@ -106,6 +111,8 @@ impl SignoriniSettings {
             search: SIGNORINI_SEARCH_OFF,
             progress: None,
             user: std::ptr::null_mut(),
+            proof: 0,
+            reserved: 0,
         }
     }
 
@@ -143,6 +150,10 @@ impl SignoriniSettings {
             SIGNORINI_SEARCH_OTHERS => Search::Others,
             other => return refuse(format!("settings: there is no search {other}")),
         };
+        if self.reserved != 0 {
+            let given = self.reserved;
+            return refuse(format!("settings: reserved is {given}, it must be 0"));
+        }
         Ok(Received {
             settings: Settings {
                 method,
@@ -152,6 +163,7 @@ impl SignoriniSettings {
                 max_iterations,
                 time_limit: self.time_limit,
                 search,
+                proof: self.proof != 0,
             },
             warm_start: self.warm_start != 0,
             progress: self.progress,

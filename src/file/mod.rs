@@ -118,14 +118,15 @@ impl ProblemFile {
     }
 }
 
-/// An error about a file. Of a long path the end is shown, so that what is wrong stays in sight.
+/// An error about a file. Of a long path the end is shown, so that what is wrong stays in sight; control
+/// characters, which would break the line of the message, are shown as '?'.
 fn refuse(path: &Path, line: Option<u64>, what: &str) -> Error {
     const MOST: usize = 160;
-    let path = path.to_string_lossy();
+    let path = path.to_string_lossy().replace(char::is_control, "?");
     let count = path.chars().count();
     let shown: String = match count.checked_sub(MOST) {
         Some(cut) if cut > 0 => "...".chars().chain(path.chars().skip(cut)).collect(),
-        _ => path.into_owned(),
+        _ => path,
     };
     let message = match line {
         Some(line) => format!("{shown}: line {line}: {what}"),

@@ -1,6 +1,6 @@
 //! Reading a problem file.
 
-use std::fs::File;
+use std::fs::{self, File};
 use std::path::Path;
 
 use super::lines::{Lines, shown};
@@ -11,15 +11,17 @@ use crate::problem;
 /// Reads a problem file.
 ///
 /// # Errors
-/// [`Error::File`] if it cannot be read or is not a complete problem file; the message names the
-/// line and what is wrong there. [`Error::OutOfMemory`].
+/// [`Error::File`] if it is no file, cannot be read or is not a complete problem file; the message names
+/// the line and what is wrong there. [`Error::OutOfMemory`].
 pub fn read(path: &Path) -> Result<ProblemFile, Error> {
     let fail = |error| refuse(path, None, &format!("cannot be read: {error}"));
-    let file = File::open(path).map_err(fail)?;
-    let about = file.metadata().map_err(fail)?;
-    if about.is_dir() {
-        return Err(refuse(path, None, "cannot be read: it is a directory"));
+    // Before it is opened: to open a pipe waits for its writer.
+    let about = fs::metadata(path).map_err(fail)?;
+    if !about.is_file() {
+        let what = if about.is_dir() { "a directory" } else { "a pipe or a device, not a file" };
+        return Err(refuse(path, None, &format!("cannot be read: it is {what}")));
     }
+    let file = File::open(path).map_err(fail)?;
     // An entry takes two bytes at least: never allocate more than the size of the file allows.
     let most = usize::try_from(about.len() / 2).unwrap_or(usize::MAX);
     let mut lines = Lines::new(path, file);

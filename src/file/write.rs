@@ -115,7 +115,8 @@ fn check_remark(remark: Option<&str>) -> Result<(), Error> {
 }
 
 /// Writes to a temporary file, then renames it: a full disk or a crash leaves the old file, or none,
-/// under the name, never a part of the new one.
+/// under the name, never a part of the new one. A new file takes over the mode of the old one; other names
+/// (hard links) of the old one keep its contents.
 pub(super) fn replace(
     path: &Path,
     fill: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
@@ -124,16 +125,25 @@ pub(super) fn replace(
     // Through a symbolic link to the file that it names; a path that names nothing yet stays.
     let target = match fs::canonicalize(path) {
         Ok(target) => target,
-        Err(error) if error.kind() == ErrorKind::NotFound => path.to_path_buf(),
+        Err(error) if error.kind() == ErrorKind::NotFound => {
+            if fs::symlink_metadata(path).is_ok() {
+                return Err(refuse(path, None, "cannot be written: it is a link to nothing"));
+            }
+            path.to_path_buf()
+        }
         Err(error) => return Err(fail(error)),
     };
+    let old = fs::metadata(&target).ok();
     // A directory, a device or a pipe must not be replaced.
-    if fs::metadata(&target).is_ok_and(|found| !found.is_file()) {
+    if old.as_ref().is_some_and(|old| !old.is_file()) {
         return Err(refuse(path, None, "cannot be written: it is not a file"));
     }
     let (file, part) = new_part(&target).map_err(fail)?;
+    // Before there is anything to read in it.
+    let kept = old.map_or(Ok(()), |old| file.set_permissions(old.permissions()));
     let mut file = BufWriter::new(file);
-    let written = fill(&mut file)
+    let written = kept
+        .and_then(|()| fill(&mut file))
         .and_then(|()| file.flush())
         // Some file systems tell only here that they are full.
         .and_then(|()| file.get_ref().sync_all());

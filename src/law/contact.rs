@@ -106,6 +106,24 @@ impl<'p, R: Relation> Contact<'p, R> {
         self.pairs.iter().zip(parts).map(|(law, (d, force))| (law, d, force))
     }
 
+    /// The same contact with each law at its reference, for [`Self::beyond_reference`].
+    pub fn at_its_reference(&self) -> Self
+    where
+        R: Clone,
+    {
+        let pairs = self.pairs.iter().map(PairLaw::at_its_reference).collect();
+        Contact { problem: self.problem, pairs, load: self.load.clone() }
+    }
+
+    /// `d + low - reference` of each pair ([`PairLaw::beyond_reference`]).
+    pub fn beyond_reference(&self, d: &[f64], low: &[f64]) -> Vec<f64> {
+        let mut v = Vec::with_capacity(d.len());
+        for (law, d, low) in self.each(d, low) {
+            v.extend_from_slice(&law.beyond_reference(d, low)[..d.len()]);
+        }
+        v
+    }
+
     /// The branches of the law on which displacements and forces are.
     pub fn branches(&self, d: &[f64], force: &[f64]) -> Vec<Branch> {
         self.each(d, force).map(|(law, d, force)| law.branch(&law.trial(d, force))).collect()
@@ -118,6 +136,16 @@ impl<'p, R: Relation> Contact<'p, R> {
             *normal = law.admissible(*normal);
         }
         d
+    }
+
+    /// The largest part, at most 1, of a `motion` that can be taken from `d` without penetration.
+    pub fn admissible_part(&self, d: &[f64], motion: &[f64]) -> f64 {
+        let dim = self.dim();
+        let normals = d.iter().step_by(dim).zip(motion.iter().step_by(dim));
+        let part = |(law, (&d, &r)): (&PairLaw, (&f64, &f64))| {
+            if r < 0.0 { ((law.gap - d) / -r).max(0.0) } else { 1.0 }
+        };
+        self.pairs.iter().zip(normals).map(part).fold(1.0, f64::min)
     }
 
     /// Every pair that has an obstacle closed, and sticking as far as it has friction.

@@ -15,7 +15,9 @@
 //! | `proximal` | the step of one pair in a sweep | sweeps |
 //! | `local` | the exact solution of one pair, its block coupled | who solves pair by pair |
 //! | `complementarity` | the law as complementarity of non-negative variables | Lemke's method, block pivoting |
+//! | `frozen` | a pair on a piece that is given, with bounds on all that is computed of it | proofs that a solution exists |
 //! | `reach` | which obstacles are too far away to matter | `solve::far_obstacles` |
+//! | `contradiction` | when normal forces prove that no displacements meet all gaps | `solve::dependent` |
 //! | `recession` | what a rigid motion must satisfy to prove that no equilibrium exists | certificate |
 //!
 //! Notation, for one pair: `v = d - (gap, slip0)`, so that `v_n` is the penetration (at most 0 if the
@@ -35,9 +37,11 @@ pub mod branch;
 pub mod cohesive;
 pub mod complementarity;
 mod contact;
+mod contradiction;
 pub mod coulomb;
 pub mod ellipse;
 pub mod frictionless;
+mod frozen;
 mod gauge;
 mod local;
 mod natural_map;
@@ -52,11 +56,15 @@ pub mod tresca;
 
 pub use bound::{Bound, length};
 pub use contact::Contact;
+pub use contradiction::{exceed_gaps, pressing, without_friction};
 pub use ellipse::{Ellipse, Plane, Rule};
+pub(crate) use frozen::{FrozenPair, Local};
 pub use natural_map::Violation;
 pub use planar_piece::{Exit, Planar};
 pub use reach::gaps_within_reach;
 pub use recession::{Recession, lift};
+
+use crate::linalg::double_double::two_sum;
 
 /// What a contact pair does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -149,6 +157,24 @@ impl PairLaw {
     /// component of a pair without an obstacle.
     pub fn reference(&self) -> Vector {
         [if self.has_obstacle() { self.gap } else { 0.0 }, self.slip0[0], self.slip0[1]]
+    }
+
+    /// `d - reference` for displacements `d + low` in two parts, `low` what rounding to doubles has left
+    /// out of `d`: nothing is lost where `d` and the reference cancel.
+    pub fn beyond_reference(&self, d: &[f64], low: &[f64]) -> Vector {
+        let reference = self.reference();
+        let mut v = [0.0; 3];
+        for c in 0..self.dim {
+            let (difference, lost) = two_sum(d[c], -reference[c]);
+            v[c] = difference + (lost + low[c]);
+        }
+        v
+    }
+
+    /// The same law for [`Self::beyond_reference`]: its gap and its reference slip are zero.
+    pub fn at_its_reference(&self) -> Self {
+        let gap = if self.has_obstacle() { 0.0 } else { self.gap };
+        PairLaw { gap, slip0: [0.0; 2], ..*self }
     }
 
     /// The normal displacement nearest to `d_n` that does not penetrate.

@@ -11,6 +11,10 @@
 
 use super::{PairLaw, State, Vector, length};
 
+/// Roundings of the residual on a slip, relative to its terms: one of each force, four of the bound, and up
+/// to seven of the direction and of the sum, half a unit each.
+const EVALUATION: f64 = 8.0 * f64::EPSILON;
+
 /// How far a pair is outside the law, in the units of the problem; 0 where it is not.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Violation {
@@ -55,6 +59,30 @@ impl PairLaw {
                 scaled[c - 1]
             };
         }
+    }
+
+    /// Bound on the rounding of [`Self::natural_residual`] where its terms cancel, from forces that are
+    /// rounded once: two forces on a slip. Elsewhere a component has one term, with a few roundings.
+    pub fn natural_rounding(&self, d: &[f64], force: &[f64]) -> f64 {
+        let threshold = self.threshold(force[0]);
+        // Of an isotropic law the sum of sizes is above the length, and cheaper.
+        let above = |t: &[f64]| t.iter().map(|t| t.abs()).sum::<f64>();
+        let terms = above(&force[1..self.dim]) + threshold + self.bound.slope * self.tension;
+        let rounding = EVALUATION * terms;
+        let trial = &self.trial(d, force)[1..self.dim];
+        // Next to its bound a pair that sticks may slip.
+        let sticks = self.ellipse.is_none() && above(trial) + rounding <= threshold;
+        let slips = threshold > 0.0 && !sticks && self.gauge(trial) + rounding > threshold;
+        if slips { rounding } else { 0.0 }
+    }
+
+    /// Bound on the change of [`Self::natural_residual`] by a change of the force, relative to that change.
+    ///
+    /// With the gauge `|W t|`, friction on a slip `g y / |W y|` changes by `mu` times the change of the
+    /// normal force and, as `g <= |W y|`, by `1 + |W|` times the change of the trial force `y`.
+    pub fn sensitivity(&self) -> f64 {
+        let form = self.gauge_form();
+        2.0 + self.bound.slope + (form[0][0] + form[1][1]).sqrt()
     }
 
     /// The state of the active branch of the natural map. Branches closer than the force `margin` are

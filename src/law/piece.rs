@@ -76,6 +76,25 @@ impl PairLaw {
         push
     }
 
+    /// `k (v - v')` at the displacement `d` with `force` beyond its coordinates `y`, `v'` that of the point
+    /// of the piece at `y`: how far they are from the piece, a force.
+    pub fn distance_to_piece(&self, piece: Piece, y: &Vector, d: &[f64], force: &[f64]) -> Vector {
+        let push = self.push_on(piece, y);
+        let scaled = self.scaled(self.slip_at(d));
+        let mut distance = [0.0; 3];
+        distance[0] = if piece.closed { self.k_n * (d[0] - self.gap) } else { force[0] + push[0] };
+        for c in 1..self.dim {
+            distance[c] = if piece.slips { force[c] + push[c] } else { scaled[c - 1] };
+        }
+        distance
+    }
+
+    /// The change of the displacement by a change `by` of `k v`.
+    pub fn displacement_by(&self, by: &Vector) -> Vector {
+        let [first, second] = self.unscaled([by[1], by[2]]);
+        [by[0] / self.k_n, first, second]
+    }
+
     /// The displacement at `y` where the push is `push`.
     #[inline]
     pub fn displacement(&self, y: &Vector, push: &Vector) -> Vector {

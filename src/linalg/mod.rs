@@ -1,6 +1,9 @@
 //! Linear algebra: the only room that names faer, nalgebra and the SIMD kernels. It knows nothing of
 //! mechanics.
 
+pub(crate) mod approximate_inverse;
+pub(crate) mod ball;
+pub(crate) mod definite;
 pub(crate) mod double_double;
 pub(crate) mod elimination;
 pub(crate) mod factor;

@@ -140,17 +140,52 @@ impl<'c> Elimination<'c> {
                 };
                 queue.remove(&self.rank(other));
                 let share = -self.sums[other][place].1 / pivot;
-                let sum = added(&self.sums[other], &row, share, unknown);
-                for &(k, a) in sum.iter().take_while(|(k, _)| *k < self.count) {
-                    self.scale[other] = self.scale[other].max(a.abs());
-                    if !self.having[k].contains(&other) {
-                        self.having[k].push(other);
-                    }
-                }
-                self.sums[other] = sum;
+                let sum = std::mem::take(&mut self.sums[other]);
+                self.sums[other] = self.added((other, &sum), &row, share, unknown);
                 queue.insert(self.rank(other));
             }
         }
+    }
+
+    /// The sum of an open equation plus `share` of another one, both ascending, without the unknown that
+    /// cancels. Takes note of unknowns that are new to the equation, and of its largest coefficient.
+    fn added(
+        &mut self,
+        (equation, one): (usize, &Terms),
+        other: &Terms,
+        share: f64,
+        cancelled: usize,
+    ) -> Terms {
+        let mut sum = Terms::with_capacity(one.len() + other.len());
+        let (mut p, mut q) = (0, 0);
+        while p < one.len() || q < other.len() {
+            let next = |terms: &Terms, place: usize| terms.get(place).map_or(usize::MAX, |t| t.0);
+            let (mine, theirs) = (next(one, p), next(other, q));
+            let k = mine.min(theirs);
+            let (mut a, mut size) = (0.0, 0.0);
+            if mine == k {
+                a = one[p].1;
+                size = a.abs();
+                p += 1;
+            }
+            if theirs == k {
+                let part = share * other[q].1;
+                a += part;
+                size += part.abs();
+                q += 1;
+            }
+            if k == cancelled || a.abs() <= ROUNDING * size {
+                continue;
+            }
+            sum.push((k, a));
+            if k < self.count {
+                self.scale[equation] = self.scale[equation].max(a.abs());
+                if mine != k {
+                    self.having[k].push(equation);
+                }
+            }
+        }
+        sum
     }
 
     /// The unknowns that equations give, from the last one back: each contains those that come later.
@@ -216,10 +251,4 @@ fn gathered(mut terms: Terms) -> Terms {
     let mut remaining = remaining.into_iter();
     sums.retain(|_| remaining.next() == Some(true));
     sums
-}
-
-/// `one + share other`, both ascending, without the unknown that cancels.
-fn added(one: &Terms, other: &Terms, share: f64, cancelled: usize) -> Terms {
-    let scaled = other.iter().map(|(k, a)| (*k, share * a));
-    gathered(one.iter().copied().chain(scaled).filter(|(k, _)| *k != cancelled).collect())
 }

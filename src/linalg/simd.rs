@@ -2,7 +2,8 @@
 //!
 //! [`vectorised`] compiles its closure a second time for AVX2 and runs that version where the
 //! processor has it; the loops are written for the vectoriser and inlined there. They multiply, then
-//! add, unfused: the result does not depend on the instruction set.
+//! add, unfused, and where they fuse they say so by `mul_add`, which rounds once everywhere: the result does
+//! not depend on the instruction set. Processors without a fused operation compute it slowly.
 
 use pulp::Arch;
 
@@ -28,5 +29,39 @@ pub fn axpy(y: &mut [f64], a: f64, x: &[f64]) {
 pub fn axpy2(y: &mut [f64], (a, x): (f64, &[f64]), (b, z): (f64, &[f64])) {
     for ((y, x), z) in y.iter_mut().zip(x).zip(z) {
         *y += a * x + b * z;
+    }
+}
+
+/// `y += x a`, four columns in one pass over `y`, in their order; to be called inside [`vectorised`].
+#[inline(always)]
+pub fn add_four(y: &mut [f64], a: [f64; 4], x: [&[f64]; 4]) {
+    let x = x.map(|x| &x[..y.len()]);
+    for (i, y) in y.iter_mut().enumerate() {
+        *y = (((*y + x[0][i] * a[0]) + x[1][i] * a[1]) + x[2][i] * a[2]) + x[3][i] * a[3];
+    }
+}
+
+/// [`add_four`] with the absolute values of `x`.
+#[inline(always)]
+pub fn add_four_sizes(y: &mut [f64], a: [f64; 4], x: [&[f64]; 4]) {
+    let x = x.map(|x| &x[..y.len()]);
+    for (i, y) in y.iter_mut().enumerate() {
+        let size = |c: usize| x[c][i].abs() * a[c];
+        *y = (((*y + size(0)) + size(1)) + size(2)) + size(3);
+    }
+}
+
+/// `high + low += x a`, four columns in one pass: `high` takes of each product what is a multiple of its
+/// own last digit, without error as long as its exponent stays, and `low` the rest. To be called inside
+/// [`vectorised`].
+#[inline(always)]
+pub fn add_four_twice((high, low): (&mut [f64], &mut [f64]), a: [f64; 4], x: [&[f64]; 4]) {
+    let x = x.map(|x| &x[..high.len()]);
+    for (i, (high, low)) in high.iter_mut().zip(low).enumerate() {
+        for (a, x) in a.iter().zip(x) {
+            let sum = a.mul_add(x[i], *high);
+            *low += a.mul_add(x[i], *high - sum);
+            *high = sum;
+        }
     }
 }

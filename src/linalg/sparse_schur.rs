@@ -61,7 +61,16 @@ pub struct SparseSchur {
 impl SparseSchur {
     /// Factorises the symmetric matrix whose lower triangle is `lower`, every diagonal entry stored.
     /// The first `eliminated` rows are those of `A`.
-    pub fn new(mut lower: Csc, eliminated: usize) -> Result<Self, Failure> {
+    pub fn new(lower: Csc, eliminated: usize) -> Result<Self, Failure> {
+        Self::with_look(lower, eliminated, false)
+    }
+
+    /// As [`Self::new`]; free motions are looked for however many rows `C` has, and whatever its diagonal says.
+    pub fn exact_on_free_motions(lower: Csc, eliminated: usize) -> Result<Self, Failure> {
+        Self::with_look(lower, eliminated, true)
+    }
+
+    fn with_look(mut lower: Csc, eliminated: usize, always: bool) -> Result<Self, Failure> {
         let n = lower.ncols();
         if n == 0 {
             let (order, tail, schur) = (Vec::new(), Vec::new(), Vec::new());
@@ -99,7 +108,7 @@ impl SparseSchur {
             }
         }
         let mut found = SparseSchur { factor: Some(factor), order, eliminated, tail, schur };
-        if m <= FEW || is_suspicious(&shift, |i| found.schur[i + m * i]) {
+        if always || m <= FEW || is_suspicious(&shift, |i| found.schur[i + m * i]) {
             for (j, shift) in (eliminated..n).zip(&shift) {
                 set_diagonal(&mut lower, j, *shift);
             }

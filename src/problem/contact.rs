@@ -19,7 +19,8 @@ use super::relation::{Relation, Stiffness};
 use super::symmetric_matrix;
 use crate::error::{Argument, Error, entry};
 use crate::linalg::matrix::{Matrix, can_exist, required_length};
-use crate::linalg::vector::{self, first_not_finite};
+use crate::linalg::tolerances::{CONDENSATION, FREE};
+use crate::linalg::vector::{self, first_not_finite, sizes};
 
 /// The caller's arrays, not yet checked. Forces and displacements are in the caller's units.
 #[derive(Clone, Copy, Debug)]
@@ -113,6 +114,18 @@ impl<'a> ContactProblem<'a> {
         )
     }
 
+    /// The same problem, whose matrix a host has condensed: energies of the size of that rounding resist no
+    /// motion.
+    pub(crate) fn condensed_by_host(mut self) -> Self {
+        self.relation.rounding = FREE * CONDENSATION;
+        self
+    }
+
+    /// Energy of the motion `d` that rounding of the entries of `K` explains, of `|d| . |K| |d|`.
+    pub(crate) fn rounding_of_energy(&self) -> f64 {
+        self.relation.rounding
+    }
+
     /// `K`.
     pub(crate) fn stiffness(&self) -> Matrix<'a> {
         self.relation.matrix
@@ -154,9 +167,17 @@ impl<'a> ContactProblem<'a> {
         force
     }
 
-    /// Internal force `K d`.
+    /// Internal force `K d`, in twice the precision and rounded once.
     pub fn internal_force(&self, d: &[f64]) -> Vec<f64> {
-        self.relation.matrix.product(d)
+        let terms = self.relation.matrix.magnitude(&sizes(d));
+        self.relation.matrix.residual(d, &[], &vec![0.0; d.len()], &terms)
+    }
+
+    /// `K (d + low) - f`, in twice the precision and rounded once; `low` is what rounding to doubles has
+    /// left out of `d`.
+    pub(crate) fn force_of_parts(&self, d: &[f64], low: &[f64]) -> Vec<f64> {
+        let terms = self.relation.matrix.magnitude(&sizes(d));
+        self.relation.matrix.residual(d, low, self.relation.load, &terms)
     }
 }
 
@@ -191,6 +212,14 @@ impl<'a, R: Relation> ContactProblem<'a, R> {
         law.check(dim)?;
         let reference_slip = reference_slip.map(|slip| &slip[..slips]);
         Ok(ContactProblem { relation, dim, gap, law, reference_slip })
+    }
+
+    /// The same problem with another law, whose parameters fit its pairs.
+    pub(crate) fn with_law(&self, law: FrictionLaw<'a>) -> Self
+    where
+        R: Clone,
+    {
+        ContactProblem { relation: self.relation.clone(), law, ..*self }
     }
 
     /// The relation between displacements and contact forces.

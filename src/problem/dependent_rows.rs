@@ -176,7 +176,7 @@ impl Relation for DependentRows<'_> {
         &self.relative_load
     }
 
-    fn force(&self, _: &[f64]) -> Option<Vec<f64>> {
+    fn force(&self, _: &[f64], _: &[f64], _: &[f64]) -> Option<Vec<f64>> {
         None
     }
 

@@ -16,8 +16,30 @@ pub use pairs::ContactPairs;
 pub use sparse::{Indices, SparseMatrix, SparseReduction, Triangle};
 pub use two_body::TwoBodyReduction;
 
-use crate::error::{Error, Message};
+use crate::error::{Argument, Error, Message, entry};
 use crate::problem::Dependence;
+
+/// Refuses a penetration that supports on both sides of a pair hold: no displacement takes it away.
+pub(crate) fn check_fixed_gaps(
+    reduction: &dyn Reduction,
+    dim: usize,
+    gaps: &[f64],
+) -> Result<(), Error> {
+    let normals = reduction.fixed_components().iter().filter(|component| *component % dim == 0);
+    for pair in normals.map(|component| component / dim) {
+        if let Some(&gap) = gaps.get(pair)
+            && gap < 0.0
+        {
+            let message = format!(
+                "{} is {gap}, a penetration, but both sides of the pair are fixed along its normal: nothing \
+                 can part them: set the gap to 0, release a side, or leave the pair out",
+                entry("gap", [pair])
+            );
+            return Err(Error::invalid(Argument::Gap, message));
+        }
+    }
+    Ok(())
+}
 
 /// A structure reduced to its contact pairs. It does not change: several threads may use it at once.
 ///
@@ -38,6 +60,11 @@ pub trait Reduction: Send + Sync {
     /// (`None`: zero) add to those of the variables.
     fn offset(&self, _prescribed: Option<&[f64]>) -> Vec<f64> {
         Vec::new()
+    }
+
+    /// Whether the host has condensed the stiffness, so that its rounding is not known from its entries.
+    fn is_condensed_by_host(&self) -> bool {
+        false
     }
 
     /// Entries of a load or displacement vector of the host.

@@ -120,6 +120,10 @@ impl Reduction for TwoBodyReduction {
         &self.stiffness
     }
 
+    fn is_condensed_by_host(&self) -> bool {
+        true
+    }
+
     fn host_size(&self) -> usize {
         2 * self.size
     }

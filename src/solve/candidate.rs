@@ -3,9 +3,8 @@
 
 use std::cell::OnceCell;
 
-use super::outcome::{Solution, Status, Uniqueness};
-use crate::certificate::{Certificate, is_escape_of, measure};
-use crate::error::index;
+use super::outcome::{Errors, Existence, Solution, Status, Uniqueness};
+use crate::certificate::{Certificate, is_escape_of, measure, measure_parts};
 use crate::law::Contact;
 use crate::linalg::vector::normalise;
 use crate::monitor::Stop;
@@ -34,6 +33,8 @@ pub enum Ending {
 pub struct Candidate {
     /// Displacements.
     pub d: Vec<f64>,
+    /// What rounding to doubles has left out of `d`; empty where nothing is known of it.
+    pub low: Vec<f64>,
     /// Contact forces that equilibrium needs at `d`, as the solver has them.
     pub force: Vec<f64>,
     /// Why the solver stopped.
@@ -42,6 +43,8 @@ pub struct Candidate {
     pub effort: Effort,
     /// Sign of the determinant of the system of its branches, 0 if not known.
     pub orientation: i8,
+    /// What a refinement tells of its errors.
+    pub errors: Option<Errors>,
     certificate: OnceCell<Certificate>,
 }
 
@@ -63,7 +66,9 @@ pub struct Effort {
 impl Candidate {
     /// A candidate with its forces.
     pub fn new(d: Vec<f64>, force: Vec<f64>, ending: Ending, effort: Effort) -> Self {
-        Candidate { d, force, ending, effort, orientation: 0, certificate: OnceCell::new() }
+        let certificate = OnceCell::new();
+        let (low, errors) = (Vec::new(), None);
+        Candidate { d, low, force, ending, effort, orientation: 0, errors, certificate }
     }
 
     /// A candidate whose forces follow from its displacements.
@@ -82,9 +87,28 @@ impl Candidate {
         Candidate { effort, ..self }
     }
 
+    /// The same candidate at other displacements.
+    pub fn moved_to(self, contact: &Contact<'_>, d: Vec<f64>) -> Self {
+        let force = contact.problem().force(&d);
+        Candidate { d, low: Vec::new(), force, ..self }.remeasured()
+    }
+
+    /// The same candidate with another ending.
+    pub fn ended(self, ending: Ending) -> Self {
+        Candidate { ending, ..self }
+    }
+
+    /// The same candidate after a change of its displacements: its certificate is measured anew.
+    pub fn remeasured(self) -> Self {
+        Candidate { certificate: OnceCell::new(), ..self }
+    }
+
     /// The certificate, measured once.
     pub fn certificate(&self, contact: &Contact<'_>) -> &Certificate {
-        self.certificate.get_or_init(|| measure(contact, &self.d, &self.force))
+        self.certificate.get_or_init(|| match self.low.as_slice() {
+            [] => measure(contact, &self.d, &self.force),
+            low => measure_parts(contact, &self.d, low),
+        })
     }
 
     /// Whether nothing is left to try: solved, proved to have no solution, or stopped.
@@ -106,7 +130,7 @@ pub fn certified(
 ) -> Solution {
     let at_rest = at_rest(contact, settings, candidate);
     let candidate = at_rest.as_ref().unwrap_or(candidate);
-    let certificate = candidate.certificate(contact);
+    let certificate = candidate.certificate(contact).clone().unforgiving(settings.tolerance);
     let mut recession = None;
     let accuracy = format!("eta is {:.1e}", certificate.eta);
     let wanted = format!("{accuracy}, wanted {:.1e}", settings.tolerance);
@@ -121,25 +145,28 @@ pub fn certified(
     } else if let Some(motion) = motion.filter(|motion| is_escape_of(contact, motion)) {
         let mut motion = motion.clone();
         normalise(&mut motion);
-        let message = no_equilibrium(contact, &motion);
         recession = Some(motion);
-        (Status::NoEquilibrium, message)
+        (Status::NoEquilibrium, NO_EQUILIBRIUM.to_owned())
     } else if let Ending::Stopped(stop) = candidate.ending {
         stop.status(settings, &wanted)
     } else {
-        (Status::Stalled, format!("{}; {wanted}", candidate.ending.reason(certificate)))
+        (Status::Stalled, format!("{}; {wanted}", candidate.ending.reason(&certificate)))
     };
     let effort = candidate.effort;
     Solution {
         status,
         message: message.into(),
         d: candidate.d.clone(),
-        certificate: certificate.clone(),
+        d_low: low_part(candidate),
+        certificate,
         recession,
+        escape: None,
         method,
         fallback: None,
         uniqueness: Uniqueness::NotKnown,
         second: None,
+        existence: Existence::NotAsked,
+        errors: candidate.errors.filter(|_| status == Status::Solved),
         orientation: if status == Status::Solved { candidate.orientation } else { 0 },
         iterations: 0,
         factorisations: effort.factorisations,
@@ -148,6 +175,11 @@ pub fn certified(
         omega: effort.omega,
         damping: effort.damping,
     }
+}
+
+/// What rounding has left out of the displacements, as far as it is known.
+pub fn low_part(candidate: &Candidate) -> Vec<f64> {
+    if candidate.low.is_empty() { vec![0.0; candidate.d.len()] } else { candidate.low.clone() }
 }
 
 /// Zero displacement, if it is the solution and the candidate is not. Without loads the scale of
@@ -164,28 +196,6 @@ fn at_rest(contact: &Contact<'_>, settings: &Settings, other: &Candidate) -> Opt
 /// The sentence of a proof that no equilibrium exists.
 pub const NO_EQUILIBRIUM: &str =
     "no equilibrium exists: the loads drive a rigid motion that contact does not stop";
-
-/// The sentence about a proof that no equilibrium exists: which pairs move, how, and what drives them.
-fn no_equilibrium(contact: &Contact<'_>, motion: &[f64]) -> String {
-    let dim = contact.dim();
-    let most = (0..motion.len()).max_by(|&a, &b| motion[a].abs().total_cmp(&motion[b].abs()));
-    let most = most.unwrap_or(0);
-    let moving = motion.chunks_exact(dim).filter(|r| r.iter().any(|r| r.abs() > MOVING)).count();
-    let work: f64 = contact.shifted_load().iter().zip(motion).map(|(f, r)| f * r).sum();
-    let (pair, component) = (most / dim, most % dim);
-    let direction = contact.pairs()[pair].direction(component, motion[most]);
-    format!(
-        "{NO_EQUILIBRIUM}: it moves {moving} of {} pairs, most of all pair {}, {direction}, and the \
-         loads do the work {work:.3e} on it when its largest component is 1; are a support, friction, or a pair \
-         missing, or is a normal, a load or the sign of gap turned round?",
-        contact.pairs().len(),
-        index(pair)
-    )
-}
-
-/// Part of the largest component that counts as moving in a sentence: what is below is not worth
-/// reading.
-const MOVING: f64 = 1e-6;
 
 impl Ending {
     /// Why there is no solution at this end.

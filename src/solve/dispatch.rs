@@ -1,6 +1,7 @@
 //! One method on one problem: which it fits, and what runs it.
 
 use super::candidate::{Candidate, Ending};
+use super::smallest_lift::without_idle_motion;
 use super::{active_set, lemke, normal_map, path, sweeps};
 use crate::error::{Argument, Error};
 use crate::law::Contact;
@@ -45,6 +46,18 @@ pub fn run(
     if contact.pairs().is_empty() {
         return Ok(Candidate::without_displacements(contact, Ending::Done));
     }
+    let candidate = run_plainly(method, contact, settings, start, monitor)?;
+    let candidate = without_idle_motion(contact, candidate);
+    Ok(normal_map::polished(contact, settings, candidate))
+}
+
+fn run_plainly(
+    method: Method,
+    contact: &Contact<'_>,
+    settings: &Settings,
+    start: Option<&[f64]>,
+    monitor: &mut Monitor<'_>,
+) -> Result<Candidate, Error> {
     let start_or_zero = || start.map_or_else(|| vec![0.0; contact.unknowns()], <[f64]>::to_vec);
     Ok(match (method, contact.is_frictionless()) {
         (Method::Lemke, true) => lemke::frictionless(contact, settings, monitor)?,

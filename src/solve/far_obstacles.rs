@@ -9,7 +9,7 @@ use super::auto;
 use super::candidate::certified;
 use super::dispatch::run;
 use super::outcome::{Solution, Status, Uniqueness};
-use crate::certificate::measure;
+use crate::certificate::measure_parts;
 use crate::error::Error;
 use crate::law::{Contact, gaps_within_reach};
 use crate::monitor::Monitor;
@@ -70,8 +70,7 @@ fn without_obstacles(
             // The motion may end at an obstacle that was left out.
             Status::NoEquilibrium | Status::Stalled => break,
             Status::IterationLimit | Status::TimeLimit | Status::Cancelled => {
-                let force = contact.problem().force(&solution.d);
-                let certificate = measure(contact, &solution.d, &force);
+                let certificate = measure_parts(contact, &solution.d, &solution.d_low);
                 return Ok(Some(Solution { certificate, ..solution }));
             }
         }
@@ -100,14 +99,15 @@ fn on_all_obstacles(
     settings: &Settings,
     mut solution: Solution,
 ) -> Result<Solution, Vec<f64>> {
-    let certificate = |d: &[f64]| measure(contact, d, &contact.problem().force(d));
-    let own = certificate(&solution.d);
+    let certificate =
+        |d: &[f64], low: &[f64]| measure_parts(contact, d, low).unforgiving(settings.tolerance);
+    let own = certificate(&solution.d, &solution.d_low);
     if !own.holds(settings.tolerance) {
         return Err(solution.d);
     }
     solution.certificate = own;
     if let Some(second) = solution.second.as_mut() {
-        second.certificate = certificate(&second.d);
+        second.certificate = certificate(&second.d, &second.d_low);
         if !second.certificate.holds(settings.tolerance) {
             solution.second = None;
             solution.uniqueness = Uniqueness::NotKnown;

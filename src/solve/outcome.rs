@@ -1,6 +1,6 @@
 //! The public result of a contact problem: its status, and why the first method was abandoned.
 
-use crate::certificate::Certificate;
+use crate::certificate::{Certificate, Proof};
 use crate::error::Message;
 use crate::settings::Method;
 
@@ -45,6 +45,26 @@ pub enum Uniqueness {
     Several,
 }
 
+/// Whether it is proved that the data have a solution with the states of the result.
+#[derive(Clone, Debug)]
+pub enum Existence {
+    /// [`crate::Settings::proof`] is off.
+    NotAsked,
+    /// It is; and where the solution is.
+    Proved(Box<Proof>),
+    /// It is not, which says nothing about whether there is one.
+    NotProved,
+}
+
+/// Errors of a result, relative, without unit.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Errors {
+    /// Of the displacements: the largest error of one, over the largest displacement.
+    pub d: f64,
+    /// Of the contact forces: the largest error of one, over the largest contact force or load.
+    pub force: f64,
+}
+
 /// Result of a contact problem.
 #[derive(Clone, Debug)]
 pub struct Solution {
@@ -54,11 +74,15 @@ pub struct Solution {
     pub message: Message,
     /// Relative displacements; the best iterate where [`Self::status`] is not [`Status::Solved`].
     pub d: Vec<f64>,
-    /// The certificate of `d`: measures, contact forces, states.
+    /// What rounding to doubles has left out of [`Self::d`]: `d + d_low` is what the certificate measures.
+    pub d_low: Vec<f64>,
+    /// The certificate of `d + d_low`: measures, contact forces, states.
     pub certificate: Certificate,
     /// With [`Status::NoEquilibrium`] the recession direction that proves it, its largest component 1.
     /// With friction it lifts each slipping pair by `mu` times its slip: it proves, but no body moves so.
     pub recession: Option<Vec<f64>>,
+    /// With [`Status::NoEquilibrium`] the motion with which the bodies escape, as they would move.
+    pub escape: Option<Escape>,
     /// The method that ended it.
     pub method: Method,
     /// The method tried first and why it was abandoned, if another one ended it.
@@ -68,6 +92,11 @@ pub struct Solution {
     /// Another solution, if [`crate::Search::Others`] found one or the default method met an unstable
     /// one on its way.
     pub second: Option<Box<SecondSolution>>,
+    /// Whether the solution is proved to exist, with [`crate::Settings::proof`].
+    pub existence: Existence,
+    /// How far `d` and the forces are from a solution. With [`Existence::Proved`] proved bounds; otherwise
+    /// what the contraction of the last refinement tells, no proof; `None` if there was none.
+    pub errors: Option<Errors>,
     /// Sign of the determinant of the system of equations that the states select, 0 if not known.
     /// Over all solutions of a problem with positive definite `K` it adds up to +1.
     pub orientation: i8,
@@ -85,11 +114,26 @@ pub struct Solution {
     pub damping: f64,
 }
 
+/// How bodies move where no equilibrium exists.
+#[derive(Clone, Debug)]
+pub struct Escape {
+    /// A rigid motion that can be drawn, its largest component 1: no pair approaches its obstacle, pairs that
+    /// contact presses stay on it, friction opposes the slip, and the loads do work. It is the motion
+    /// against a viscosity of the size of each component's stiffness, every pair that has an obstacle
+    /// touching it. [`Solution::recession`] where that motion was not found.
+    pub motion: Vec<f64>,
+    /// What is left of loads and contact forces along the motion, spread over the components; it has the
+    /// same resultants: nothing balances it.
+    pub unbalanced: Vec<f64>,
+}
+
 /// A further solution, certified like the first.
 #[derive(Clone, Debug)]
 pub struct SecondSolution {
     /// Relative displacements.
     pub d: Vec<f64>,
+    /// As [`Solution::d_low`].
+    pub d_low: Vec<f64>,
     /// The certificate: measures, contact forces, states.
     pub certificate: Certificate,
     /// As [`Solution::orientation`].

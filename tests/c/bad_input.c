@@ -305,10 +305,6 @@ static void numbers(void)
     ALL("the asymmetric entry is named", -3, "K[2,1] is 1.5, K[1,2] is 1", column(1)[2] = 1.5);
     ALL("zero on the diagonal of K", -3, "K[1,1] is 0", column(1)[1] = 0);
     ALL("negative on the diagonal of K", -3, "K[0,0] is -2", column(0)[0] = -2);
-    ALL("a zero row of K", -3, "row 2 of K is zero",
-         column(2)[2] = column(1)[2] = column(2)[1] = 0);
-    ALL_IN(3, "a zero row of K, 3D", -3, "row 4 of K is zero",
-            column(4)[4] = column(1)[4] = column(4)[1] = 0);
     ALL("K is clearly indefinite", -3, "K is not positive semi-definite",
          column(0)[3] = column(3)[0] = 4.001);
 
@@ -398,7 +394,7 @@ static void laws(void)
         c.law = SIGNORINI_LAW_ORTHOTROPIC_COLLINEAR, c.friction = world.K);
 
     BOTH("extra: struct_size is 0", -15, "extra: struct_size is 0", world.extra.struct_size = 0);
-    BOTH("extra: struct_size is too large", -15, "extra: struct_size is 48",
+    BOTH("extra: struct_size is too large", -15, "this version of the library knows",
          world.extra.struct_size += 8);
     BOTH("extra is misaligned", -15, "extra is not aligned", c.extra = shifted(c.extra, 4));
     BOTH("extra: reserved is 1", -15, "reserved is 1, it must be 0", world.extra.reserved = 1);
@@ -500,7 +496,7 @@ static void defaults(void)
     CHECK_STATUS(signorini_report_default(NULL, sizeof report), -1);
     CHECK_TEXT(signorini_last_error(), "report is NULL");
     CHECK_STATUS(signorini_report_default(&report, sizeof report + 8), -2);
-    CHECK_TEXT(signorini_last_error(), "report: struct_size is 160");
+    CHECK_TEXT(signorini_last_error(), "this version of the library knows");
     signorini_extra extra;
     CHECK_STATUS(signorini_extra_default(NULL, sizeof extra), -1);
     CHECK_TEXT(signorini_last_error(), "extra is NULL");

@@ -22,6 +22,7 @@ VALUE(SIGNORINI_STATUS_CANCELLED, 3);
 VALUE(SIGNORINI_STATUS_NO_EQUILIBRIUM, 4);
 VALUE(SIGNORINI_STATUS_STALLED, 5);
 VALUE(SIGNORINI_STATUS_NOT_A_SOLUTION, 6);
+VALUE(SIGNORINI_STATUS_NOT_PROVED, 7);
 VALUE(SIGNORINI_STATUS_INTERNAL, -1000);
 VALUE(SIGNORINI_STATUS_OUT_OF_MEMORY, -1001);
 VALUE(SIGNORINI_STATUS_FILE, -1002);
@@ -48,6 +49,9 @@ VALUE(SIGNORINI_STATE_STICK, 2);
 VALUE(SIGNORINI_UNIQUENESS_NOT_KNOWN, 0);
 VALUE(SIGNORINI_UNIQUENESS_UNIQUE, 1);
 VALUE(SIGNORINI_UNIQUENESS_SEVERAL, 2);
+VALUE(SIGNORINI_PROOF_NOT_ASKED, 0);
+VALUE(SIGNORINI_PROOF_PROVED, 1);
+VALUE(SIGNORINI_PROOF_NOT_PROVED, 2);
 VALUE(SIGNORINI_FALLBACK_NONE, 0);
 VALUE(SIGNORINI_FALLBACK_CYCLE, 1);
 VALUE(SIGNORINI_FALLBACK_SINGULAR, 2);
@@ -70,7 +74,7 @@ FIELD(signorini_progress, iterations, int64_t, 0);
 FIELD(signorini_progress, eta, double, 8);
 FIELD(signorini_progress, elapsed, double, 16);
 
-SIZE(signorini_settings, 72);
+SIZE(signorini_settings, 80);
 FIELD(signorini_settings, struct_size, uint32_t, 0);
 FIELD(signorini_settings, method, int32_t, 4);
 FIELD(signorini_settings, tolerance, double, 8);
@@ -82,8 +86,10 @@ FIELD(signorini_settings, warm_start, int32_t, 48);
 FIELD(signorini_settings, search, int32_t, 52);
 FIELD(signorini_settings, progress, signorini_progress_fn, 56);
 FIELD(signorini_settings, user, void *, 64);
+FIELD(signorini_settings, proof, int32_t, 72);
+FIELD(signorini_settings, reserved, int32_t, 76);
 
-SIZE(signorini_report, 152);
+SIZE(signorini_report, 176);
 FIELD(signorini_report, struct_size, uint32_t, 0);
 FIELD(signorini_report, status, int32_t, 4);
 FIELD(signorini_report, method, int32_t, 8);
@@ -107,6 +113,10 @@ FIELD(signorini_report, first_method, int32_t, 136);
 FIELD(signorini_report, fallback, int32_t, 140);
 FIELD(signorini_report, orientation, int32_t, 144);
 FIELD(signorini_report, second, int32_t, 148);
+FIELD(signorini_report, error_d, double, 152);
+FIELD(signorini_report, error_F, double, 160);
+FIELD(signorini_report, proof, int32_t, 168);
+FIELD(signorini_report, reserved, int32_t, 172);
 
 SIZE(signorini_sparse, 56);
 FIELD(signorini_sparse, struct_size, uint32_t, 0);
@@ -133,13 +143,16 @@ FIELD(signorini_pairs, row_start, int64_t *, 64);
 FIELD(signorini_pairs, row_nodes, int64_t *, 72);
 FIELD(signorini_pairs, row_weights, double *, 80);
 
-SIZE(signorini_extra, 40);
+SIZE(signorini_extra, 64);
 FIELD(signorini_extra, struct_size, uint32_t, 0);
 FIELD(signorini_extra, reserved, int32_t, 4);
 FIELD(signorini_extra, motion, double *, 8);
 FIELD(signorini_extra, second_d, double *, 16);
 FIELD(signorini_extra, second_F, double *, 24);
 FIELD(signorini_extra, second_state, int32_t *, 32);
+FIELD(signorini_extra, radius_d, double *, 40);
+FIELD(signorini_extra, radius_F, double *, 48);
+FIELD(signorini_extra, escape, double *, 56);
 
 SIZE(signorini_faces, 32);
 FIELD(signorini_faces, struct_size, uint32_t, 0);
@@ -234,13 +247,16 @@ int main(void)
     CHECK(settings.search == SIGNORINI_SEARCH_OFF);
     CHECK(settings.progress == NULL);
     CHECK(settings.user == NULL);
+    CHECK(settings.proof == 0 && settings.reserved == 0);
     /* No larger structure is known to it. */
     CHECK_STATUS(signorini_settings_default(&settings, sizeof settings + 8), -2);
     signorini_extra extra;
     memset(&extra, 0xFF, sizeof extra);
     CHECK_STATUS(signorini_extra_default(&extra, sizeof extra), 0);
     CHECK(extra.struct_size == sizeof extra && extra.reserved == 0 && extra.motion == NULL);
+    CHECK(extra.radius_d == NULL && extra.radius_F == NULL);
     CHECK(extra.second_d == NULL && extra.second_F == NULL && extra.second_state == NULL);
+    CHECK(extra.escape == NULL);
     signorini_report blank, zeros = {.struct_size = sizeof zeros};
     memset(&blank, 0xFF, sizeof blank);
     CHECK_STATUS(signorini_report_default(&blank, sizeof blank), 0);
@@ -275,6 +291,45 @@ int main(void)
     CHECK(report.first_method == SIGNORINI_METHOD_SOR_NESTED);
     CHECK(report.fallback == SIGNORINI_FALLBACK_NONE);
     CHECK(report.uniqueness == SIGNORINI_UNIQUENESS_NOT_KNOWN && report.orientation == 0);
+    CHECK(report.proof == SIGNORINI_PROOF_NOT_ASKED && report.reserved == 0);
+    CHECK(report.error_d >= -1 && report.error_d < 1e-12 && report.error_F < 1e-12);
+
+    /* The same with a proof, by settings and extra of this size, and by a report of the size before. */
+    double radius_d[4], radius_F[4];
+    extra.radius_d = radius_d;
+    extra.radius_F = radius_F;
+    settings.proof = 1;
+    CHECK_STATUS(signorini_solve(2, 2, K, 4, f, gap, SIGNORINI_LAW_COULOMB, mu, NULL, &settings, d,
+                                 F, NULL, &report, &extra), 0);
+    CHECK(report.proof == SIGNORINI_PROOF_PROVED);
+    CHECK(report.error_d >= 0 && report.error_d < 1e-14 && report.error_F < 1e-14);
+    /* Pressed by 10 and pushed by 8, held by 5 of friction: d_t = 3 / 3. */
+    CHECK(d[1] - radius_d[1] <= 1 && d[1] + radius_d[1] >= 1 && radius_d[1] < 1e-14);
+    CHECK(F[1] - radius_F[1] <= -5 && F[1] + radius_F[1] >= -5 && radius_F[1] < 1e-14);
+    memset(&report, 0xFF, sizeof report);
+    report.struct_size = offsetof(signorini_report, error_d);
+    settings.struct_size = offsetof(signorini_settings, proof);
+    CHECK_STATUS(signorini_solve(2, 2, K, 4, f, gap, SIGNORINI_LAW_COULOMB, mu, NULL, &settings, d,
+                                 F, NULL, &report, &extra), 0);
+    CHECK(report.second == 0 && report.proof == -1 && radius_d[0] == -1 && radius_F[3] == -1);
+    settings.struct_size = sizeof settings;
+    settings.proof = 0;
+
+    /* Displacements of another solver, with these states and with one of them turned. */
+    int32_t state[2] = {SIGNORINI_STATE_SLIP, SIGNORINI_STATE_OPEN};
+    const double other[4] = {0, 1.001, -1, 0};
+    CHECK_STATUS(signorini_prove(2, 2, K, 4, f, gap, SIGNORINI_LAW_COULOMB, mu, NULL, other, state,
+                                 F, radius_d, radius_F), 0);
+    CHECK(radius_d[1] > 0.000999 && radius_d[1] < 0.001001 && F[1] > -5.000001 && F[1] < -4.999999);
+    CHECK_STATUS(signorini_prove(2, 2, K, 4, f, gap, SIGNORINI_LAW_COULOMB, mu, NULL, other, NULL,
+                                 NULL, NULL, NULL), 0);
+    state[0] = SIGNORINI_STATE_STICK;
+    CHECK_STATUS(signorini_prove(2, 2, K, 4, f, gap, SIGNORINI_LAW_COULOMB, mu, NULL, other, state,
+                                 F, radius_d, radius_F), SIGNORINI_STATUS_NOT_PROVED);
+    CHECK(radius_d[1] == -1 && radius_F[1] == -1 && F[1] == 0);
+    state[0] = 3;
+    CHECK_STATUS(signorini_prove(2, 2, K, 4, f, gap, SIGNORINI_LAW_COULOMB, mu, NULL, other, state,
+                                 F, radius_d, radius_F), -11);
 
     /* By Newton's method; without coupling every determinant is a product of positive entries. */
     memset(&report, 0xFF, sizeof report);

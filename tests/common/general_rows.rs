@@ -39,7 +39,7 @@ impl Relation for GeneralRows {
         &self.load
     }
 
-    fn force(&self, _: &[f64]) -> Option<Vec<f64>> {
+    fn force(&self, _: &[f64], _: &[f64], _: &[f64]) -> Option<Vec<f64>> {
         None
     }
 

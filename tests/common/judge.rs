@@ -88,16 +88,21 @@ impl<'a> Answer<'a> {
     pub fn new(solution: &'a Solution) -> Self {
         Answer {
             status: solution.status,
-            d: quads(&solution.d),
+            d: whole(&solution.d, &solution.d_low),
             force: &solution.certificate.force,
             states: &solution.certificate.states,
             eta: solution.certificate.eta,
             equilibrium: solution.certificate.equilibrium,
             uniqueness: solution.uniqueness,
-            second: solution.second.as_ref().map(|second| quads(&second.d)),
+            second: solution.second.as_ref().map(|second| whole(&second.d, &second.d_low)),
             motion: solution.recession.as_deref(),
         }
     }
+}
+
+/// `d + low`.
+fn whole(d: &[f64], low: &[f64]) -> Vec<Quad> {
+    d.iter().zip(low).map(|(&d, &low)| Quad::sum(d, low)).collect()
 }
 
 /// A fault, how bad it is beside others of its kind, and a sentence.

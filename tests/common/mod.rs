@@ -19,6 +19,7 @@ pub mod mesh;
 pub mod oracle;
 pub mod plane_families;
 pub mod problems;
+pub mod proofs;
 pub mod quad;
 pub mod rigid_statics;
 pub mod stack;

@@ -29,6 +29,15 @@ program layer
     call contact_certify(k, f, gap, d + 1e-3_dp, info, friction=mu, message=message)
     call expect('no solution', info == SIGNORINI_STATUS_NOT_A_SOLUTION .and. message /= '')
 
+    call contact_prove(k, f, gap, d, info, friction=mu, state=state, force=other, radius_d=z, message=message)
+    call expect('proof', info == SIGNORINI_STATUS_SOLVED .and. all(abs(other - force) < 1e-12_dp))
+    call expect('its radius', all(z >= 0 .and. z < 1e-14_dp) .and. message == '')
+    state(1) = SIGNORINI_STATE_STICK
+    call contact_prove(k, f, gap, d, info, friction=mu, state=state, radius_d=z, message=message)
+    call expect('no proof', info == SIGNORINI_STATUS_NOT_PROVED .and. all(z < 0) .and. message /= '')
+    call contact_prove(k, f, gap, d, info, friction=mu, state=[1, 7], message=message)
+    call expect('no state', info == -9 .and. index(message, 'state') > 0)
+
     ! A part of a larger matrix, and every second entry of an array.
     wide = 0
     wide(1:4, 1:4) = k
@@ -142,17 +151,17 @@ contains
     subroutine escape
         real(dp), parameter :: k(2, 2) = reshape([real(dp) :: 1, -1, -1, 1], [2, 2]), f(2) = -1
         real(dp), parameter :: gap(1) = 0
-        real(dp) :: d(2), force(2), motion(2)
+        real(dp) :: d(2), force(2), motion(2), drawn(2)
         type(contact_model) :: model
-        call contact_solve(k, f, gap, d, force, info, motion=motion, message=message)
+        call contact_solve(k, f, gap, d, force, info, motion=motion, message=message, escape=drawn)
         call expect('no equilibrium', info == SIGNORINI_STATUS_NO_EQUILIBRIUM .and. message /= '')
-        call expect('motion of escape', all(abs(motion + 1) < 1e-12_dp))
+        call expect('motion of escape', all(abs([motion, drawn] + 1) < 1e-12_dp))
         call model%new_condensed(2, k, info)
-        call model%solve(f, gap, d, force, info, motion=motion)
+        call model%solve(f, gap, d, force, info, motion=motion, escape=drawn)
         call expect('motion of a model', info == SIGNORINI_STATUS_NO_EQUILIBRIUM .and. &
-            all(abs(motion + 1) < 1e-12_dp))
-        call model%solve(-f, gap, d, force, info, friction=[2._dp], motion=motion)
-        call expect('no motion', info == 0 .and. maxval(abs(motion)) <= 0)
+            all(abs([motion, drawn] + 1) < 1e-12_dp))
+        call model%solve(-f, gap, d, force, info, friction=[2._dp], motion=motion, escape=drawn)
+        call expect('no motion', info == 0 .and. maxval(abs([motion, drawn])) <= 0)
         call model%release()
     end subroutine
 

@@ -14,6 +14,34 @@ import signorini
 from signorini import State, Status, Uniqueness
 
 
+class Proof(unittest.TestCase):
+    """Klarbring's pair with one solution, stuck at zero: F = -f, exactly."""
+
+    stiffness, load = np.array([[2.0, 1.0], [1.0, 1.0]]), [1.0, 0.25]
+
+    def test_of_a_result(self):
+        plain = signorini.solve(self.stiffness, self.load, 0.0, 0.5)
+        self.assertEqual(plain.report.proof, signorini.Proof.NOT_ASKED)
+        self.assertEqual((plain.radius_d, plain.radius_F), (None, None))
+        result = signorini.solve(self.stiffness, self.load, 0.0, 0.5, proof=True)
+        self.assertEqual(result.report.proof, signorini.Proof.PROVED)
+        self.assertTrue((abs(result.d) <= result.radius_d).all())
+        self.assertTrue((abs(result.F + self.load) <= result.radius_F).all())
+        self.assertLess(result.radius_F.max(), 1e-14)
+        # Friction is just enough: on the boundary of two states.
+        edge = signorini.solve(self.stiffness, [1.0, 0.5], 0.0, 0.5, proof=True)
+        self.assertEqual((edge.status, edge.report.proof),
+                         (Status.SOLVED, signorini.Proof.NOT_PROVED))
+
+    def test_of_displacements(self):
+        found = signorini.prove(self.stiffness, self.load, 0.0, 0.5, d=[0, 1e-9])
+        self.assertTrue((found.radius_d >= [0, 1e-9]).all() and found.radius_d.max() < 2e-9)
+        self.assertIsNone(signorini.prove(self.stiffness, self.load, 0.0, 0.5, d=[0, 0],
+                                          state=[State.SLIP]))
+        with self.assertRaisesRegex(ValueError, "state has the shape"):
+            signorini.prove(self.stiffness, self.load, 0.0, 0.5, d=[0, 0], state=[1, 2])
+
+
 class Klarbring(unittest.TestCase):
     """One pair with three solutions in closed form; tests/klarbring.rs has the source."""
 
@@ -83,6 +111,16 @@ class NoEquilibrium(unittest.TestCase):
         self.escapes(lifted)
         self.assertIs(pressed.status, Status.SOLVED)
         self.assertIsNone(pressed.motion)
+        self.assertIsNone(pressed.escape)
+
+    def test_a_block_that_slides_stays_on_its_plane(self):
+        # Pressed by 1 and pushed by 1 at either pair, mu 0.5: the proof lifts it, the body does not.
+        free = np.kron([[1, -1], [-1, 1]], np.eye(2))
+        for result in (signorini.solve(free, np.ones(4), 0.0, mu=0.5),
+                       signorini.Model.condensed(free).solve(np.ones(4), 0.0, 0.5)):
+            self.assertIs(result.status, Status.NO_EQUILIBRIUM)
+            np.testing.assert_allclose(result.motion, [[-0.5, 1], [-0.5, 1]], atol=1e-9)
+            np.testing.assert_allclose(result.escape, [[0, 1], [0, 1]], atol=1e-9)
 
     def test_no_obstacle_is_no_escape(self):
         result = signorini.solve(np.eye(2), [1, 0], np.inf, 0.0)

@@ -23,7 +23,8 @@ the library refuses is a SignoriniError. signorini.h is the reference; it also s
 of a report is.
 
 Settings are keywords of everything that solves: method and search (a member of Method, of Search,
-or its name in lower case), tolerance, omega, damping, max_iterations, time_limit, and progress, a
+or its name in lower case), tolerance, omega, damping, max_iterations, time_limit, proof (true: prove
+that the solution exists, and where), and progress, a
 function of a Progress. It cancels the call by a true result, or by an exception (such as that of
 Ctrl-C), which goes on after the call. It must not call this module. Without a progress function,
 Ctrl-C waits for the end of the call.
@@ -41,22 +42,22 @@ that of ../../target/release beside this folder, or that of the system. Needs nu
 share everything here.
 """
 
-from ._condensed import certify, solve, write
-from ._constants import (ABI_VERSION, Fallback, Law, Method, Pairing, Search, State, Status,
+from ._condensed import certify, prove, solve, write
+from ._constants import (ABI_VERSION, Fallback, Law, Method, Pairing, Proof, Search, State, Status,
                          Triangle, Uniqueness)
 from ._files import ContactProblem, LcpProblem, read
 from ._lcp import lcp_lemke, lcp_solve, write_lcp
 from ._library import SignoriniError, load
 from ._mesh import write_mesh
 from ._model import Model
-from ._results import LcpResult, Progress, Result
+from ._results import Enclosure, LcpResult, Progress, Result
 from ._surfaces import (Cylinder, Fields, Plane, Resultant, Sphere, SurfacePairs, pair_obstacle,
                         pair_surfaces)
 
 __all__ = [
-    "ABI_VERSION", "ContactProblem", "Cylinder", "Fallback", "Fields", "Law", "LcpProblem",
-    "LcpResult", "Method", "Model", "Pairing", "Plane", "Progress", "Result", "Resultant", "Search",
-    "SignoriniError", "Sphere", "State", "Status", "SurfacePairs", "Triangle", "Uniqueness",
-    "certify", "lcp_lemke", "lcp_solve", "load", "pair_obstacle", "pair_surfaces", "read", "solve",
-    "write", "write_lcp", "write_mesh",
+    "ABI_VERSION", "ContactProblem", "Cylinder", "Enclosure", "Fallback", "Fields", "Law",
+    "LcpProblem", "LcpResult", "Method", "Model", "Pairing", "Plane", "Progress", "Proof", "Result",
+    "Resultant", "Search", "SignoriniError", "Sphere", "State", "Status", "SurfacePairs", "Triangle",
+    "Uniqueness", "certify", "lcp_lemke", "lcp_solve", "load", "pair_obstacle", "pair_surfaces",
+    "prove", "read", "solve", "write", "write_lcp", "write_mesh",
 ]

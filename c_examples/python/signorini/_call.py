@@ -8,7 +8,8 @@ from ._constants import Method, Search, chosen
 from ._results import Progress
 from ._structures import Callback, Settings
 
-NAMES = ("method", "tolerance", "omega", "damping", "max_iterations", "time_limit", "search")
+NAMES = ("method", "tolerance", "omega", "damping", "max_iterations", "time_limit", "search",
+         "proof")
 FAMILIES = {"method": Method, "search": Search}
 
 

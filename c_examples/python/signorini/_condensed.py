@@ -1,10 +1,13 @@
 """Condensed problems: solve, certify, write."""
 
+import numpy as np
+
 from ._arrays import at, components, dimension, pairs_of, per_pair, reals, stiffness
 from ._call import Call
+from ._constants import Status
 from ._law import Friction
 from ._library import check, library
-from ._results import Output, certified
+from ._results import Enclosure, Output, certified
 from ._text import path_bytes, remark_bytes
 
 
@@ -63,6 +66,25 @@ def certify(K, f, gap, mu=None, *, d, g=None, law=None, friction=None, slip0=Non
     """
     data = _Data(K, f, gap, Friction(mu, g, law, friction), slip0, dim)
     return _certify(data, components("d", d, data.pairs, data.dim), tolerance)
+
+
+def prove(K, f, gap, mu=None, *, d, state=None, g=None, law=None, friction=None, slip0=None,
+          dim=None):
+    """Proves that a solution exists next to displacements d of any origin, N, on the data of solve.
+
+    state: its states, P; None: those of d.  Returns an Enclosure, or None: not proved, which does
+    not say that there is none.
+    """
+    data = _Data(K, f, gap, Friction(mu, g, law, friction), slip0, dim)
+    d, functions = components("d", d, data.pairs, data.dim), library()
+    if state is not None:
+        state = np.ascontiguousarray(state, np.int32)
+        if state.shape != (data.pairs,):
+            raise ValueError(f"state has the shape {state.shape}, it must be ({data.pairs},)")
+    F, radius_d, radius_F = (np.zeros_like(d) for _ in range(3))
+    status, _ = check(functions, functions.prove(*data.arguments(), at(d), at(state), at(F),
+                                                 at(radius_d), at(radius_F)))
+    return Enclosure(F, radius_d, radius_F) if status == Status.SOLVED else None
 
 
 def write(path, K, f, gap, mu=None, *, g=None, law=None, friction=None, slip0=None, dim=None,

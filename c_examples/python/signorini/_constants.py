@@ -15,6 +15,7 @@ class Status(IntEnum):
     NO_EQUILIBRIUM = 4
     STALLED = 5
     NOT_A_SOLUTION = 6
+    NOT_PROVED = 7
     INTERNAL = -1000
     OUT_OF_MEMORY = -1001
     FILE = -1002
@@ -74,6 +75,14 @@ class Fallback(IntEnum):
     SINGULAR = 2
     UNSTABLE = 3
     INACCURATE = 4
+
+
+class Proof(IntEnum):
+    """Whether a solution is proved to exist."""
+
+    NOT_ASKED = 0
+    PROVED = 1
+    NOT_PROVED = 2
 
 
 class Triangle(IntEnum):

@@ -27,6 +27,7 @@ SIGNATURES = {
     "extra_default": (i32, [address, u32]),
     "solve": (i32, [*_CONDENSED, *[address] * 6]),
     "certify": (i32, [*_CONDENSED, real, *[address] * 4]),
+    "prove": (i32, [*_CONDENSED, *[address] * 5]),
     "lcp_solve": (i32, [i64, address, i64, *[address] * 6]),
     "lcp_lemke": (i32, [i64, address, i64, *[address] * 7]),
     "model_new_condensed": (i32, [i32, i64, address, i64, address]),

@@ -3,7 +3,7 @@
 import ctypes
 from types import SimpleNamespace
 
-from ._constants import Fallback, Method, Status, Uniqueness, member
+from ._constants import Fallback, Method, Proof, Status, Uniqueness, member
 
 i32, i64, u32 = ctypes.c_int32, ctypes.c_int64, ctypes.c_uint32
 real, address = ctypes.c_double, ctypes.c_void_p
@@ -24,7 +24,8 @@ class Settings(ctypes.Structure):
     _fields_ = [
         ("struct_size", u32), ("method", i32), ("tolerance", real), ("omega", real),
         ("damping", real), ("max_iterations", i64), ("time_limit", real), ("warm_start", i32),
-        ("search", i32), ("progress", Callback), ("user", address),
+        ("search", i32), ("progress", Callback), ("user", address), ("proof", i32),
+        ("reserved", i32),
     ]
 
 
@@ -38,15 +39,16 @@ class Report(ctypes.Structure):
         ("equilibrium", real), ("omega", real), ("damping", real), ("pairs_open", i64),
         ("pairs_slipping", i64), ("pairs_sticking", i64), ("factorisations", i64),
         ("first_method", i32), ("fallback", i32), ("orientation", i32), ("second", i32),
+        ("error_d", real), ("error_F", real), ("proof", i32), ("reserved", i32),
     ]
 
     families = {"status": Status, "method": Method, "first_method": Method,
-                "uniqueness": Uniqueness, "fallback": Fallback}
+                "uniqueness": Uniqueness, "fallback": Fallback, "proof": Proof}
 
     def plain(self):
         """The fields with members of their families. What `second` tells, Result.second is."""
         values = {name: getattr(self, name) for name, _ in self._fields_}
-        del values["struct_size"], values["second"]
+        del values["struct_size"], values["second"], values["reserved"]
         for name, family in self.families.items():
             values[name] = member(family, values[name])
         return SimpleNamespace(**values)
@@ -57,7 +59,8 @@ class Extra(ctypes.Structure):
 
     _fields_ = [
         ("struct_size", u32), ("reserved", i32), ("motion", address), ("second_d", address),
-        ("second_F", address), ("second_state", address),
+        ("second_F", address), ("second_state", address), ("radius_d", address),
+        ("radius_F", address), ("escape", address),
     ]
 
 

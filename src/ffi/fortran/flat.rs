@@ -1,10 +1,11 @@
-//! SGSOLV, SGCERT, SGLCPS: everything in one call.
+//! SGSOLV, SGCERT, SGPROV, SGLCPS: everything in one call.
 
 use super::super::certify::signorini_certify;
 use super::super::lcp::signorini_lcp_solve;
+use super::super::prove::signorini_prove;
 use super::super::solve::signorini_solve;
 use super::arguments::{
-    Integer, Results, count, law as read_law, leading, read, run, settings, sizes,
+    Integer, Results, choice, count, law as read_law, leading, read, run, settings, sizes,
     tolerance_or_default,
 };
 
@@ -110,6 +111,46 @@ pub(super) unsafe fn certify<I: Integer>(
     };
     // SAFETY: by the caller's contract.
     unsafe { run(info, &[1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12], body) }
+}
+
+/// # Safety
+/// As above.
+pub(super) unsafe fn prove<I: Integer>(
+    ndim: *const I,
+    npair: *const I,
+    k: *const f64,
+    ldk: *const I,
+    f: *const f64,
+    gap: *const f64,
+    law: *const I,
+    fric: *const f64,
+    slip0: *const f64,
+    d: *const f64,
+    state: *const I,
+    r: *mut f64,
+    radd: *mut f64,
+    radr: *mut f64,
+    info: *mut I,
+) {
+    let body = || {
+        // SAFETY: by the caller's contract.
+        unsafe {
+            let (dim, pairs) = sizes(1, ndim, npair)?;
+            let ldk = leading(4, "LDK", ldk, (dim, pairs))?;
+            let law = read_law(7, law)?;
+            let mut results = Results::new(pairs)?;
+            for (i, code) in results.state.iter_mut().enumerate() {
+                let place = if state.is_null() { state } else { state.wrapping_add(i) };
+                *code = choice(11, "STATE", place)?;
+            }
+            let states = results.state.as_ptr();
+            Ok(signorini_prove(
+                dim, pairs, k, ldk, f, gap, law, fric, slip0, d, states, r, radd, radr,
+            ))
+        }
+    };
+    // SAFETY: by the caller's contract.
+    unsafe { run(info, &[1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14], body) }
 }
 
 /// # Safety

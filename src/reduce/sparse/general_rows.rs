@@ -81,12 +81,7 @@ pub(super) fn general_rows(
 }
 
 /// What equation `axis` of a pair is, if it follows from others.
-fn dependent<'s>(
-    solved: &'s Solved,
-    pair: usize,
-    dim: usize,
-    axis: usize,
-) -> Option<&'s Expression> {
+fn dependent(solved: &Solved, pair: usize, dim: usize, axis: usize) -> Option<&Expression> {
     solved.dependent[dim * pair + axis].as_ref()
 }
 

@@ -8,6 +8,8 @@
 //! components only, and a few sweeps from its solution tell nearly all pairs that open; sweeps follow
 //! each later solution too, as long as they help.
 
+use std::cell::Cell;
+
 use super::linear_system::{LinearSystem, Singular};
 use crate::law::Contact;
 use crate::law::branch::Row;
@@ -70,15 +72,23 @@ pub fn contact(
     };
     let opposite = |values: &[f64]| -> Vec<f64> { values.iter().map(|value| -value).collect() };
     let start = start.map(opposite);
+    let measured = Cell::new(None);
     let is_accurate = |x: &[f64]| {
-        let candidate = Candidate::of_displacements(contact, opposite(x), Ending::Done);
-        candidate.certificate(contact).holds(settings.tolerance)
+        let candidate = Candidate::new(opposite(x), Vec::new(), Ending::Done, Effort::default());
+        let holds = candidate.certificate(contact).holds(settings.tolerance);
+        measured.set(Some(candidate));
+        holds
     };
     let pivoted = solve(&lcp, settings.tolerance, start, most, &is_accurate, monitor);
     let effort = Effort { factorisations: pivoted.factorisations, ..Effort::default() };
-    let (d, mut force) = (opposite(&pivoted.x), opposite(&pivoted.w));
-    contact.add_tension(&mut force);
-    let mut candidate = Candidate::new(d, force, pivoted.ending, effort);
+    let d = opposite(&pivoted.x);
+    // What has been measured last is nearly always what block pivoting ends on.
+    let mut candidate = match measured.take().filter(|candidate: &Candidate| candidate.d == d) {
+        Some(candidate) => candidate.ended(pivoted.ending).with_effort(effort),
+        None => Candidate::new(d, Vec::new(), pivoted.ending, effort),
+    };
+    candidate.force = opposite(&pivoted.w);
+    contact.add_tension(&mut candidate.force);
     // Of a symmetric positive definite matrix all principal minors are positive.
     candidate.orientation = 1;
     candidate

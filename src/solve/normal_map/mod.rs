@@ -8,12 +8,14 @@
 mod candidates;
 mod equations;
 mod newton;
+mod polish;
 mod start;
 mod system;
 
 pub use candidates::solve as on_candidates;
 pub use equations::{Equations, Point};
 pub use newton::{Ended, solve as newton_from};
+pub use polish::{Sharpened, polished, sharpened};
 pub use system::{Border, System};
 
 use crate::law::Contact;

@@ -20,6 +20,7 @@ use super::equations::Equations;
 use crate::law::piece::Piece;
 use crate::law::{Block, PairLaw, Plane, Vector, ellipse};
 use crate::linalg::factor::Factor;
+use crate::linalg::tolerances::SINGULAR;
 use crate::linalg::vector::dot;
 
 /// What `dP/dy` says of a pair.
@@ -108,6 +109,17 @@ impl<'e> System<'e> {
         s: f64,
         border: Option<&Border<'_>>,
     ) -> Option<Self> {
+        Self::with_least_pivot(equations, (pieces, y), s, border, SINGULAR)
+    }
+
+    /// As [`Self::new`]; pivots below `least`, relative to the largest, make the system singular.
+    pub fn with_least_pivot(
+        equations: &'e Equations<'e>,
+        (pieces, y): (&[Piece], &[Vector]),
+        s: f64,
+        border: Option<&Border<'_>>,
+        least: f64,
+    ) -> Option<Self> {
         let dim = equations.dim;
         let (mut unknowns, mut pairs) = (Vec::new(), Vec::with_capacity(y.len()));
         for (at, ((law, y), &piece)) in equations.laws.iter().zip(y).zip(pieces).enumerate() {
@@ -124,7 +136,7 @@ impl<'e> System<'e> {
             }
             pairs.push(pair);
         }
-        let assembly = Assembly { equations, s, unknowns: &unknowns, pairs: &pairs };
+        let assembly = Assembly { equations, s, unknowns: &unknowns, pairs: &pairs, least };
         let (factor, border) = match border {
             None => (assembly.factor()?, None),
             Some(border) => {
@@ -210,6 +222,8 @@ struct Assembly<'s> {
     s: f64,
     unknowns: &'s [Unknown],
     pairs: &'s [Pair],
+    /// Least pivot of a regular system, relative to the largest.
+    least: f64,
 }
 
 impl Assembly<'_> {
@@ -254,7 +268,7 @@ impl Assembly<'_> {
 
     fn factor(&self) -> Option<Factor> {
         let mut column = vec![0.0; self.equations.root.len()];
-        Factor::new(self.unknowns.len(), false, |j, entries| {
+        Factor::with_least_pivot(self.unknowns.len(), false, self.least, |j, entries| {
             self.moved(&self.unknowns[j], &mut column);
             self.equations_of(&self.unknowns[j], &column, entries);
         })

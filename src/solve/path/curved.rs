@@ -77,7 +77,12 @@ fn from(
         let start = perturbed(equations, start, by, attempt as u64);
         let ended = follow(equations, start, care, tolerance, monitor);
         systems += ended.systems;
-        let settled = matches!(ended.ending, Ending::Done | Ending::Stopped(_));
+        // A path ends with the orientation of its beginning, +1: with another one it has changed curves.
+        let settled = match ended.ending {
+            Ending::Done => ended.orientation >= 0,
+            Ending::Stopped(_) => true,
+            _ => false,
+        };
         if settled || best.as_ref().is_none_or(|best| ended.point.merit < best.point.merit) {
             best = Some(ended);
         }

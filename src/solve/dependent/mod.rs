@@ -17,18 +17,19 @@
 //! or the gaps contradict each other. The second is proved by normal forces `p >= 0` with `Cᵀ p = 0` and
 //! `sum p (gap - o) < 0`.
 
+mod growth;
+
 use super::far_obstacles;
-use super::outcome::{Fallback, Solution, Status, Uniqueness};
+use super::outcome::{Existence, Fallback, Solution, Status, Uniqueness};
 use crate::certificate::measure;
-use crate::error::{Argument, Error, index};
-use crate::law::Contact;
+use crate::error::{Argument, Error};
+use crate::law::{Contact, without_friction};
 use crate::linalg::sparse_matrix::{OutOfMemory, column, from_entries, transposed};
 use crate::linalg::sparse_schur::{Failure, SparseSchur};
-use crate::linalg::tolerances::NEGLIGIBLE;
-use crate::linalg::vector::{dot, norm, norm_inf};
 use crate::monitor::Monitor;
 use crate::problem::{ContactData, ContactProblem, DependentRows, Relation};
-use crate::settings::{SMALLEST_TOLERANCE, Settings};
+use crate::settings::{Method, SMALLEST_TOLERANCE, Settings};
+use growth::{Growth, contradicts, sentence};
 
 /// `e`, the compliance of the springs beside that of the bodies. A round divides the error by the compliance
 /// of the least compliant pattern of forces over `e`; the condensed matrix loses as many digits as `e` has.
@@ -36,12 +37,6 @@ const COMPLIANCE: f64 = 1e-4;
 
 /// Most rounds: patterns of forces with a compliance of `e` itself halve their error in each.
 const ROUNDS: usize = 60;
-
-/// So many rounds that add the same forces are enough to see that they do not end.
-const RUNAWAY_ROUNDS: usize = 8;
-
-/// Forces added by two rounds are the same if they differ by less than this part.
-const SAME: f64 = 1e-6;
 
 /// Part of the tolerance that the problem with springs is solved to, as far as that can be had: the springs
 /// leave the first rounds fewer digits, and later ones mend it.
@@ -63,7 +58,7 @@ const IDLE_ROUNDS: usize = 12;
 struct Sprung<'p> {
     problem: &'p ContactProblem<'p, DependentRows<'p>>,
     contact: Contact<'p, DependentRows<'p>>,
-    condensed: SparseSchur,
+    condensed: &'p SparseSchur,
 }
 
 /// Solves the problem from the displacements `start`.
@@ -73,8 +68,35 @@ pub fn solve(
     start: Option<&[f64]>,
     monitor: &mut Monitor<'_>,
 ) -> Result<Solution, Error> {
-    let condensed = condensed(problem.relation())?;
-    Sprung { problem, contact: Contact::new(problem), condensed }.solve(settings, start, monitor)
+    let condensed = &condensed(problem.relation())?;
+    let sprung = Sprung { problem, contact: Contact::new(problem), condensed };
+    let (mut solution, growth) = sprung.rounds(settings, start, monitor)?;
+    if solution.status == Status::Stalled {
+        let mut pattern = growth.pattern().map(<[f64]>::to_vec);
+        let mut proved = pattern.as_deref().is_some_and(|pattern| contradicts(problem, pattern));
+        if !proved && let Some(found) = contradiction(problem, condensed, settings, monitor)? {
+            (pattern, proved) = (Some(found), true);
+        }
+        let eta = solution.certificate.eta;
+        solution.message = sentence(problem, pattern.as_deref(), proved, eta).into();
+    }
+    Ok(solution)
+}
+
+/// Normal forces which prove that the gaps contradict each other, from the problem without friction: with
+/// friction they may hide behind forces that wedge.
+fn contradiction(
+    problem: &ContactProblem<'_, DependentRows<'_>>,
+    condensed: &SparseSchur,
+    settings: &Settings,
+    monitor: &mut Monitor<'_>,
+) -> Result<Option<Vec<f64>>, Error> {
+    let problem = &without_friction(problem);
+    let settings = Settings { method: Method::Auto, ..settings.clone() };
+    let sprung = Sprung { problem, contact: Contact::new(problem), condensed };
+    let (_, growth) = sprung.rounds(&settings, None, monitor)?;
+    let pattern = growth.pattern().filter(|pattern| contradicts(problem, pattern));
+    Ok(pattern.map(<[f64]>::to_vec))
 }
 
 /// The stiffness of the variables and the springs, condensed on the displacements beyond the springs.
@@ -99,7 +121,7 @@ fn condensed(relation: &DependentRows<'_>) -> Result<SparseSchur, Error> {
         entries.push((kept + i, kept + i, spring));
     }
     let all = from_entries((kept + size, kept + size), entries.into_iter()).map_err(memory)?;
-    SparseSchur::new(all, kept).map_err(|failure| match failure {
+    SparseSchur::exact_on_free_motions(all, kept).map_err(|failure| match failure {
         Failure::OutOfMemory => Error::OutOfMemory("the factor of dependent rows"),
         _ => Error::invalid(
             Argument::Matrix,
@@ -113,12 +135,13 @@ impl Sprung<'_> {
         self.problem.relation()
     }
 
-    fn solve(
+    /// The best result of all rounds, and how the forces have grown.
+    fn rounds(
         &self,
         settings: &Settings,
         start: Option<&[f64]>,
         monitor: &mut Monitor<'_>,
-    ) -> Result<Solution, Error> {
+    ) -> Result<(Solution, Growth), Error> {
         let relation = self.relation();
         let dependence = relation.dependence();
         let mut variables = match start {
@@ -144,23 +167,21 @@ impl Sprung<'_> {
             last = found.certificate.eta;
             idle = if last < HALF * least { 0 } else { idle + 1 };
             least = least.min(last);
-            let ends =
-                found.status != Status::Stalled || growth.is_endless() || idle >= IDLE_ROUNDS;
-            if best
-                .as_ref()
-                .is_none_or(|best| found.status != Status::Stalled || is_better(&found, best))
-            {
+            let ends = found.status != Status::Stalled
+                || growth.pattern().is_some()
+                || idle >= IDLE_ROUNDS;
+            let is_best = |best: &Solution| {
+                found.status != Status::Stalled || found.certificate.eta < best.certificate.eta
+            };
+            if best.as_ref().is_none_or(is_best) {
                 best = Some(found);
             }
             if ends {
                 break;
             }
         }
-        let mut best = best.ok_or(Error::OutOfMemory("a round of dependent rows"))?;
-        if best.status == Status::Stalled {
-            best.message = self.reason(&growth, &best).into();
-        }
-        Ok(best)
+        let best = best.ok_or(Error::OutOfMemory("a round of dependent rows"))?;
+        Ok((best, growth))
     }
 
     /// Solves the problem with springs, from where the bodies and their forces are; returns with it the step
@@ -218,10 +239,15 @@ impl Sprung<'_> {
         };
         let fallback: Option<(_, Fallback)> = None;
         let (uniqueness, second, orientation) = (Uniqueness::NotKnown, None, 0);
+        let (d_low, errors) = (vec![0.0; d.len()], None);
+        let existence = if settings.proof { Existence::NotProved } else { Existence::NotAsked };
         Solution {
             status,
             message,
             d,
+            d_low,
+            errors,
+            existence,
             certificate,
             fallback,
             uniqueness,
@@ -229,80 +255,5 @@ impl Sprung<'_> {
             orientation,
             ..round
         }
-    }
-
-    /// Why there is no solution.
-    fn reason(&self, growth: &Growth, found: &Solution) -> String {
-        let Some(pattern) = growth.last.as_ref().filter(|_| growth.is_endless()) else {
-            return format!(
-                "no solution was found: rows of pairs depend on each other, and their forces do not \
-                 settle (eta is {:.1e})",
-                found.certificate.eta
-            );
-        };
-        let dim = self.problem.dim();
-        let least = SAME * norm_inf(pattern);
-        let carries = |pair: &usize| norm_inf(&pattern[dim * pair..dim * (pair + 1)]) > least;
-        let pairs: Vec<usize> = (0..self.problem.pairs()).filter(carries).collect();
-        let named: Vec<String> = pairs.iter().take(MOST_NAMED).map(index).collect();
-        let more = if pairs.len() > MOST_NAMED { ", ..." } else { "" };
-        let named = format!("{}{more}", named.join(", "));
-        if self.contradicts(pattern) {
-            return format!(
-                "no solution exists: the gaps of pairs {named} contradict each other, as bodies cannot \
-                 leave one without entering another"
-            );
-        }
-        format!(
-            "no solution was found: the forces of pairs {named} grow without end and balance each other: \
-             a wedge, or gaps that contradict each other"
-        )
-    }
-
-    /// Whether normal forces alone prove that no displacements meet all gaps.
-    fn contradicts(&self, pattern: &[f64]) -> bool {
-        let (dim, offset) = (self.problem.dim(), self.relation().offset());
-        let mut normal = pattern.to_vec();
-        normal.chunks_exact_mut(dim).for_each(|pair| {
-            pair[0] = pair[0].min(0.0);
-            pair[1..].fill(0.0);
-        });
-        let works = |pair: usize| {
-            let (p, room) = (-normal[dim * pair], self.problem.gap(pair) - offset[dim * pair]);
-            if p > 0.0 { p * room } else { 0.0 }
-        };
-        let terms: Vec<f64> = (0..self.problem.pairs()).map(works).collect();
-        let size: f64 = terms.iter().map(|term| term.abs()).sum();
-        self.relation().balance_each_other(&normal, NEGLIGIBLE)
-            && terms.iter().sum::<f64>() < -SAME * size
-    }
-}
-
-/// Pairs that a message names.
-const MOST_NAMED: usize = 4;
-
-fn is_better(one: &Solution, other: &Solution) -> bool {
-    one.certificate.eta < other.certificate.eta
-}
-
-/// Whether forces grow by the same pattern round by round.
-#[derive(Default)]
-struct Growth {
-    last: Option<Vec<f64>>,
-    same: usize,
-}
-
-impl Growth {
-    fn add(&mut self, change: Vec<f64>) {
-        let is_same = |last: &Vec<f64>| {
-            let apart: Vec<f64> = last.iter().zip(&change).map(|(a, b)| a - b).collect();
-            norm(&change) > 0.0 && norm(&apart) <= SAME * dot(&change, &change).sqrt()
-        };
-        self.same = if self.last.as_ref().is_some_and(is_same) { self.same + 1 } else { 0 };
-        self.last = Some(change);
-    }
-
-    fn is_endless(&self) -> bool {
-        self.same >= RUNAWAY_ROUNDS
     }
 }

@@ -1,0 +1,228 @@
+//! The equations of frozen pieces: the unknowns, their scales, the matrix, and Newton's steps.
+//!
+//! A row for each component that moves, with the force `F = K d - f` that equilibrium needs:
+//! `F_n - a` of an open pair, `F_t + g A h` of a slip. Rows and unknowns are scaled by powers of two, exactly.
+
+use super::forces::by_pairs;
+use crate::law::{Contact, FrozenPair, Local, Plane};
+use crate::linalg::approximate_inverse::ApproximateInverse;
+use crate::linalg::ball::{Ball, BallVector};
+use crate::linalg::definite::Definite;
+use crate::linalg::double_double::two_sum;
+use crate::linalg::power_of_two::{exponent, times_power_of_two};
+use crate::linalg::vector::{largest_of, norm_inf};
+
+/// Most steps of refinement, and by what part each must be smaller than the one before.
+const MOST_STEPS: usize = 6;
+const FALL: f64 = 0.25;
+
+/// A step that is below this part of the displacements, far below their rounding, need not be done.
+const ENOUGH: f64 = 0.01 * f64::EPSILON;
+
+/// An unknown, with the equation of the same component.
+pub struct Unknown {
+    pub pair: usize,
+    /// Component of the pair, 0 the normal one.
+    pub component: usize,
+    /// Scale of its equation, one over a force, and of the unknown itself.
+    pub row: f64,
+    pub column: f64,
+}
+
+/// The derivatives that the matrix is made of.
+#[derive(Clone, Copy, Default)]
+pub struct Slopes {
+    pub drag: [f64; 2],
+    pub motion: Plane,
+    pub turn: Plane,
+}
+
+/// Displacements in two parts, with the force that they need.
+pub struct Centre {
+    pub d: Vec<f64>,
+    pub low: Vec<f64>,
+    pub force: Vec<f64>,
+}
+
+/// What shows that the scaled matrix is regular, and solves with it.
+pub enum Solver {
+    Definite(Definite),
+    Inverse(ApproximateInverse),
+}
+
+impl Solver {
+    /// The approximate solution of the scaled equations.
+    fn product(&mut self, mut rhs: Vec<f64>) -> Vec<f64> {
+        match self {
+            Solver::Definite(definite) => {
+                definite.solve(&mut rhs);
+                rhs
+            }
+            Solver::Inverse(inverse) => inverse.product(&rhs),
+        }
+    }
+}
+
+/// A system whose pieces are frozen.
+pub struct System<'c> {
+    pub contact: &'c Contact<'c>,
+    pub pairs: Vec<FrozenPair>,
+    pub unknowns: Vec<Unknown>,
+    pub slopes: Vec<Slopes>,
+}
+
+impl<'c> System<'c> {
+    /// The system of pieces at displacements.
+    pub fn new(contact: &'c Contact<'c>, pairs: Vec<FrozenPair>, centre: &Centre) -> Self {
+        let unknowns = unknowns(contact, &pairs);
+        let mut system = System { contact, pairs, unknowns, slopes: Vec::new() };
+        let locals = system.locals(centre);
+        let slopes = |(at, (frozen, local)): (usize, (&FrozenPair, &Local))| {
+            let threshold =
+                frozen.enclosed_threshold(Ball::exact(centre.force[at * contact.dim()]));
+            Slopes {
+                drag: frozen.drag(local).map(Ball::middle),
+                motion: local.motion.map(|row| row.map(Ball::middle)),
+                turn: local.turn.map(|row| row.map(|entry| threshold.middle() * entry.middle())),
+            }
+        };
+        system.slopes = system.pairs.iter().zip(&locals).enumerate().map(slopes).collect();
+        system
+    }
+
+    /// `d - reference` of each pair.
+    pub fn beyond_reference(&self, centre: &Centre) -> Vec<BallVector> {
+        let parts = self.contact.each(&centre.d, &centre.low);
+        parts.map(|(law, d, low)| law.enclosed_beyond_reference(d, low)).collect()
+    }
+
+    fn locals(&self, centre: &Centre) -> Vec<Local> {
+        let v = self.beyond_reference(centre);
+        self.pairs.iter().zip(&v).map(|(pair, v)| pair.local(pair.slip_vector(v))).collect()
+    }
+
+    /// What the scaled equations lack at the centre with the forces that it needs.
+    pub fn lack(&self, centre: &Centre, force: &[BallVector]) -> Vec<Ball> {
+        let locals = self.locals(centre);
+        let lacks: Vec<BallVector> =
+            (0..force.len()).map(|at| self.pairs[at].lack(&locals[at], &force[at])).collect();
+        let scaled =
+            |unknown: &Unknown| lacks[unknown.pair][unknown.component] * Ball::exact(unknown.row);
+        self.unknowns.iter().map(scaled).collect()
+    }
+
+    /// What shows that the scaled matrix is regular: that it is definite, where its pieces are symmetric,
+    /// otherwise an approximate inverse.
+    pub fn solver(&self) -> Option<Solver> {
+        let size = self.unknowns.len();
+        let definite = match self.pairs.iter().all(FrozenPair::is_symmetric) {
+            true => Definite::new(size, self.columns()),
+            false => None,
+        };
+        match definite {
+            Some(definite) => Some(Solver::Definite(definite)),
+            None => ApproximateInverse::new(size, self.columns()).map(Solver::Inverse),
+        }
+    }
+
+    /// Writes columns of the scaled matrix.
+    fn columns(&self) -> impl FnMut(usize, &mut [f64]) {
+        let (dim, matrix) = (self.contact.dim(), self.contact.problem().stiffness());
+        let mut column = vec![0.0; matrix.size()];
+        move |j, entries| {
+            let unknown = &self.unknowns[j];
+            let first = dim * unknown.pair;
+            column.fill(0.0);
+            for (c, part) in self.motion_of(unknown).into_iter().enumerate().take(dim) {
+                if part != 0.0 {
+                    let source = matrix.column(first + c);
+                    column.iter_mut().zip(source).for_each(|(sum, k)| *sum += part * k);
+                }
+            }
+            for (entry, equation) in entries.iter_mut().zip(&self.unknowns) {
+                let at = dim * equation.pair;
+                let mut value = column[at + equation.component];
+                if equation.component > 0 {
+                    let slopes = &self.slopes[equation.pair];
+                    let along = equation.component - 1;
+                    value -= slopes.drag[along] * column[at];
+                    if equation.pair == unknown.pair && unknown.component > 0 {
+                        value += slopes.turn[along][unknown.component - 1] * unknown.column;
+                    }
+                }
+                *entry = equation.row * value;
+            }
+        }
+    }
+
+    /// Displacements of the pair by a unit of the scaled unknown.
+    pub fn motion_of(&self, unknown: &Unknown) -> [f64; 3] {
+        let motion = &self.slopes[unknown.pair].motion;
+        match unknown.component {
+            0 => [unknown.column, 0.0, 0.0],
+            c => [0.0, motion[0][c - 1] * unknown.column, motion[1][c - 1] * unknown.column],
+        }
+    }
+
+    /// Refines the centre by residuals in twice the precision until steps fall no further.
+    pub fn refine(&self, solver: &mut Solver, centre: &mut Centre) {
+        let (dim, problem) = (self.contact.dim(), self.contact.problem());
+        let mut last = f64::INFINITY;
+        for _ in 0..MOST_STEPS {
+            let force: Vec<Ball> = centre.force.iter().map(|&force| Ball::exact(force)).collect();
+            let lack = self.lack(centre, &by_pairs(dim, &force));
+            let step = solver.product(lack.iter().map(|lack| lack.middle()).collect());
+            let size = norm_inf(&step);
+            if !(size > ENOUGH * self.size(centre) && size < FALL * last) {
+                break;
+            }
+            last = size;
+            self.move_by(&step, centre);
+            centre.force = problem.force_of_parts(&centre.d, &centre.low);
+        }
+    }
+
+    /// Largest scaled displacement of an unknown.
+    fn size(&self, centre: &Centre) -> f64 {
+        let dim = self.contact.dim();
+        let scaled =
+            |unknown: &Unknown| centre.d[dim * unknown.pair + unknown.component] / unknown.row;
+        largest_of(self.unknowns.iter().map(scaled))
+    }
+
+    /// Subtracts a step of the scaled unknowns.
+    fn move_by(&self, step: &[f64], centre: &mut Centre) {
+        let dim = self.contact.dim();
+        let mut change = vec![0.0; centre.d.len()];
+        for (unknown, step) in self.unknowns.iter().zip(step) {
+            let parts = self.motion_of(unknown);
+            let own = &mut change[dim * unknown.pair..dim * (unknown.pair + 1)];
+            own.iter_mut().zip(parts).for_each(|(own, part)| *own -= part * step);
+        }
+        for ((d, low), change) in centre.d.iter_mut().zip(&mut centre.low).zip(change) {
+            let (sum, lost) = two_sum(*d, change);
+            (*d, *low) = two_sum(sum, lost + *low);
+        }
+    }
+}
+
+/// The unknowns of the pieces, with scales that make the diagonal of the matrix about 1.
+fn unknowns(contact: &Contact<'_>, pairs: &[FrozenPair]) -> Vec<Unknown> {
+    let dim = contact.dim();
+    let root = contact.problem().stiffness().diagonal_roots();
+    let power = |x: f64| times_power_of_two(1.0, -exponent(x));
+    let mut unknowns = Vec::new();
+    for (pair, frozen) in pairs.iter().enumerate() {
+        for component in (0..dim).filter(|&c| frozen.moves(c)) {
+            let root = root[dim * pair + component];
+            let unit = if component == 0 { 1.0 } else { frozen.unit() };
+            unknowns.push(Unknown {
+                pair,
+                component,
+                row: power(root),
+                column: power(root * unit),
+            });
+        }
+    }
+    unknowns
+}

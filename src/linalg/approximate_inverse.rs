@@ -1,0 +1,151 @@
+//! An approximate inverse of a dense matrix, with bounds that hold whatever rounding has done to it.
+//!
+//! With any `R`, a matrix `J` is regular if `|1 - R J| < 1` in a norm. Products of matrices are computed in any
+//! order of their sums, so that they are off by at most `gamma |R| |J|`, `gamma = n u / (1 - n u)`
+//! (N. J. Higham, *Accuracy and Stability of Numerical Algorithms*, SIAM 2002, section 3.5). Row sums of
+//! `|R| |J|` take a product with a vector only.
+
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::linalg::lu::partial_pivoting as lu;
+use faer::linalg::matmul::matmul;
+use faer::perm::PermRef;
+use faer::{Accum, Mat, Par};
+
+use super::ball::{product_up, sum_of_products_up, sum_up};
+
+/// Columns of `R J` that are computed at once.
+const BLOCK: usize = 64;
+
+/// A matrix and its approximate inverse.
+pub struct ApproximateInverse {
+    matrix: Mat<f64>,
+    inverse: Mat<f64>,
+}
+
+impl ApproximateInverse {
+    /// Inverts the `n x n` matrix whose columns `fill(j, column)` writes; `None` if an entry of the inverse is
+    /// not finite.
+    pub fn new(n: usize, mut fill: impl FnMut(usize, &mut [f64])) -> Option<Self> {
+        let mut matrix = Mat::zeros(n, n);
+        for j in 0..n {
+            fill(j, matrix.col_as_slice_mut(j));
+        }
+        let inverse = inverted(&matrix);
+        let finite = (0..n).all(|j| inverse.col_as_slice(j).iter().all(|entry| entry.is_finite()));
+        finite.then_some(ApproximateInverse { matrix, inverse })
+    }
+
+    /// Number of rows.
+    pub fn size(&self) -> usize {
+        self.inverse.nrows()
+    }
+
+    /// `R x`.
+    pub fn product(&self, x: &[f64]) -> Vec<f64> {
+        let mut product = vec![0.0; x.len()];
+        for (j, x) in x.iter().enumerate() {
+            let column = self.inverse.col_as_slice(j);
+            product.iter_mut().zip(column).for_each(|(sum, entry)| *sum += entry * x);
+        }
+        product
+    }
+
+    /// Bounds on the entries of `|R| x`, of an `x` that has no negative entry.
+    pub fn bound(&self, x: &[f64]) -> Vec<f64> {
+        bound_of_product(&self.inverse, x)
+    }
+
+    /// Bounds on the sizes of the entries of `R g` where each entry of `g` is at most `doubt` from that of
+    /// `middle`.
+    pub fn image(&self, middle: &[f64], doubt: &[f64]) -> Vec<f64> {
+        let n = self.size();
+        let computed = self.product(middle);
+        // The rounding of the product is below that of n terms of |R| |g|.
+        let rounding = gamma(n);
+        let wide: Vec<f64> = middle
+            .iter()
+            .zip(doubt)
+            .map(|(g, doubt)| sum_up(product_up(g.abs(), rounding), *doubt))
+            .collect();
+        let rest = self.bound(&wide);
+        computed.iter().zip(rest).map(|(g, rest)| sum_up(sum_up(g.abs(), rest), tiny(n))).collect()
+    }
+
+    /// Bounds on the row sums of `|1 - R (J + E)|` for all `E` whose absolute row sums are at most `doubt`.
+    pub fn contraction(&self, doubt: &[f64]) -> Vec<f64> {
+        let n = self.size();
+        let mut sums = vec![0.0; n];
+        let mut block = Mat::zeros(n, BLOCK.min(n));
+        for begin in (0..n).step_by(BLOCK) {
+            let width = BLOCK.min(n - begin);
+            let columns = self.matrix.get(.., begin..begin + width);
+            let part = block.get_mut(.., ..width);
+            matmul(part, Accum::Replace, &self.inverse, columns, 1.0, Par::Seq);
+            for j in 0..width {
+                block[(begin + j, j)] -= 1.0;
+                let column = block.col_as_slice(j);
+                sums.iter_mut().zip(column).for_each(|(sum, entry)| *sum += entry.abs());
+            }
+        }
+        // What is subnormal in the products stays below n of the least normal numbers in each entry.
+        let sizes = bound_of_product(&self.matrix, &vec![1.0; n]);
+        let wide: Vec<f64> = sizes
+            .iter()
+            .zip(doubt)
+            .map(|(size, doubt)| sum_up(product_up(*size, gamma(n)), *doubt))
+            .collect();
+        let rest = self.bound(&wide);
+        let tiny = tiny(n) * n as f64;
+        let total =
+            |(sum, rest): (&f64, f64)| sum_up(sum_of_products_up(*sum, n), sum_up(rest, tiny));
+        sums.iter().zip(rest).map(total).collect()
+    }
+}
+
+/// Bound on the relative rounding of inner products of `n` terms, in any order.
+fn gamma(n: usize) -> f64 {
+    (n as f64 + 4.0) * f64::EPSILON
+}
+
+/// Bound on what `n` subnormal products lose.
+fn tiny(n: usize) -> f64 {
+    n as f64 * f64::MIN_POSITIVE
+}
+
+/// Bounds on the entries of `|A| x`, of an `x` that has no negative entry.
+fn bound_of_product(matrix: &Mat<f64>, x: &[f64]) -> Vec<f64> {
+    let mut sums = vec![0.0; matrix.nrows()];
+    for (j, x) in x.iter().enumerate() {
+        let column = matrix.col_as_slice(j);
+        sums.iter_mut().zip(column).for_each(|(sum, entry)| *sum += entry.abs() * x);
+    }
+    sums.iter().map(|&sum| sum_of_products_up(sum, x.len())).collect()
+}
+
+fn inverted(matrix: &Mat<f64>) -> Mat<f64> {
+    let n = matrix.nrows();
+    let mut factors = matrix.clone();
+    let (mut forward, mut backward) = (vec![0_usize; n], vec![0; n]);
+    let spec = faer::Spec::default();
+    let mut memory =
+        MemBuffer::new(lu::factor::lu_in_place_scratch::<usize, f64>(n, n, Par::Seq, spec));
+    lu::factor::lu_in_place(
+        factors.as_mut(),
+        &mut forward,
+        &mut backward,
+        Par::Seq,
+        MemStack::new(&mut memory),
+        faer::Spec::default(),
+    );
+    let mut inverse = Mat::zeros(n, n);
+    let mut memory = MemBuffer::new(lu::inverse::inverse_scratch::<usize, f64>(n, Par::Seq));
+    lu::inverse::inverse(
+        inverse.as_mut(),
+        factors.as_ref(),
+        factors.as_ref(),
+        PermRef::new_checked(&forward, &backward, n),
+        Par::Seq,
+        MemStack::new(&mut memory),
+    );
+    inverse
+}

@@ -1,0 +1,88 @@
+//! Contact forces that grow without end, and what they show.
+
+use crate::error::index;
+use crate::law::{exceed_gaps, pressing};
+use crate::linalg::tolerances::NEGLIGIBLE;
+use crate::linalg::vector::{norm, norm_inf};
+use crate::problem::{ContactProblem, DependentRows};
+
+/// So many rounds that add the same forces are enough to see that they do not end.
+const ROUNDS: usize = 8;
+
+/// Forces added by two rounds are the same if they differ by less than this part: rounds that still tend to
+/// something at such a rate would take thousands.
+const SAME: f64 = 1e-4;
+
+/// Part of the largest force of a pattern that a pair must have to be named.
+const COUNTS: f64 = 1e-6;
+
+/// Pairs that a sentence names.
+const MOST_NAMED: usize = 4;
+
+/// Whether forces grow by the same pattern round by round.
+#[derive(Default)]
+pub(super) struct Growth {
+    last: Option<Vec<f64>>,
+    same: usize,
+}
+
+impl Growth {
+    /// Takes note of the forces that a round has added.
+    pub(super) fn add(&mut self, change: Vec<f64>) {
+        let is_same = |last: &Vec<f64>| {
+            let apart: Vec<f64> = last.iter().zip(&change).map(|(a, b)| a - b).collect();
+            norm(&change) > 0.0 && norm(&apart) <= SAME * norm(&change)
+        };
+        self.same = if self.last.as_ref().is_some_and(is_same) { self.same + 1 } else { 0 };
+        self.last = Some(change);
+    }
+
+    /// The forces that each of the last rounds has added, if they go on and on.
+    pub(super) fn pattern(&self) -> Option<&[f64]> {
+        self.last.as_deref().filter(|_| self.same >= ROUNDS)
+    }
+}
+
+/// Whether the normal forces of a pattern prove that no displacements meet all gaps.
+pub(super) fn contradicts(
+    problem: &ContactProblem<'_, DependentRows<'_>>,
+    pattern: &[f64],
+) -> bool {
+    let relation = problem.relation();
+    let pressing = pressing(problem.dim(), pattern);
+    relation.balance_each_other(&pressing, NEGLIGIBLE)
+        && exceed_gaps(problem, &pressing, relation.offset())
+}
+
+/// Why there is no solution: the pattern in which forces grow, if there is one, and whether it is `proved`
+/// that gaps contradict each other.
+pub(super) fn sentence(
+    problem: &ContactProblem<'_, DependentRows<'_>>,
+    pattern: Option<&[f64]>,
+    proved: bool,
+    eta: f64,
+) -> String {
+    let Some(pattern) = pattern else {
+        return format!(
+            "no solution was found: rows of pairs depend on each other, and their forces do not settle \
+             (eta is {eta:.1e})"
+        );
+    };
+    let dim = problem.dim();
+    let least = COUNTS * norm_inf(pattern);
+    let carries = |pair: &usize| norm_inf(&pattern[dim * pair..dim * (pair + 1)]) > least;
+    let pairs: Vec<usize> = (0..problem.pairs()).filter(carries).collect();
+    let named: Vec<String> = pairs.iter().take(MOST_NAMED).map(index).collect();
+    let more = if pairs.len() > MOST_NAMED { ", ..." } else { "" };
+    let named = format!("{}{more}", named.join(", "));
+    if proved {
+        return format!(
+            "no solution exists: the gaps of pairs {named} contradict each other, as bodies cannot leave \
+             one without entering another"
+        );
+    }
+    format!(
+        "no solution was found: the forces of pairs {named} grow without end and balance each other, as \
+         those of a wedge"
+    )
+}

@@ -1,0 +1,41 @@
+//! The proof, on request, that a solution exists where a method has found one.
+
+use super::outcome::{Errors, Existence, Solution, Status};
+use crate::certificate::{Proof, errors, measure_parts, prove_parts};
+use crate::law::Contact;
+use crate::settings::Settings;
+
+/// Tries to prove that there is a solution with the states of this one. If there is, the result becomes the
+/// middle of its enclosure.
+pub fn examine(contact: &Contact<'_>, settings: &Settings, solution: &mut Solution) {
+    solution.existence = Existence::NotProved;
+    if solution.status != Status::Solved {
+        return;
+    }
+    let parts = (solution.d.as_slice(), solution.d_low.as_slice());
+    let Some(proof) = prove_parts(contact, parts, &solution.certificate.states) else { return };
+    move_to_middle(contact, settings, solution, &proof);
+    let force = &solution.certificate.force;
+    let (d_radius, radius) = (proof.radius_about(&solution.d), proof.force_radius_about(force));
+    let load = contact.problem().load();
+    let [d, force] = errors(load, (&solution.d, &d_radius), (force, &radius));
+    solution.errors = Some(Errors { d, force });
+    solution.existence = Existence::Proved(Box::new(proof));
+}
+
+/// Replaces the displacements by those of the proof, unless their certificate, which rounds, does not agree.
+fn move_to_middle(
+    contact: &Contact<'_>,
+    settings: &Settings,
+    solution: &mut Solution,
+    proof: &Proof,
+) {
+    let certificate =
+        measure_parts(contact, &proof.d, &proof.d_low).unforgiving(settings.tolerance);
+    let same = certificate.states == solution.certificate.states;
+    if certificate.holds(settings.tolerance) && same {
+        solution.d.clone_from(&proof.d);
+        solution.d_low.clone_from(&proof.d_low);
+        solution.certificate = certificate;
+    }
+}

@@ -1,0 +1,179 @@
+//! Refinement of a candidate with residuals in twice the precision, its displacements carried as two
+//! doubles each.
+//!
+//! A double cannot hold displacements to the accuracy that the forces of an ill-conditioned `K` ask for:
+//! rounding `d` alone changes `K d` by `u |K| |d|`. So `d + low` is refined. With `F = K (d + low) - f`, the
+//! coordinates `y = k v - F'` on the chart of the law, and `v'` the displacement of the point there,
+//! `e = k (v - v')` is small, and computed without cancellation. The lack of equilibrium at that point is
+//! `H = e - K k⁻¹ e`, because its push is `P = e - F`. Newton's step `dy` from there on the pieces of `y`
+//! moves `v` by `-k⁻¹ e + k⁻¹ (1 - dP/dy) dy`, a small number again, which double precision gives.
+
+use super::equations::Equations;
+use super::system::System;
+use crate::certificate::eta_of;
+use crate::law::{Contact, Vector};
+use crate::linalg::double_double::two_sum;
+use crate::linalg::tolerances::NULL_VECTOR;
+use crate::linalg::vector::{largest_of, norm_inf};
+use crate::settings::Settings;
+use crate::solve::candidate::{Candidate, Ending};
+use crate::solve::outcome::Errors;
+
+/// Most steps, and those in a row that may be no better than an earlier one: pieces may change first.
+const MOST_STEPS: usize = 30;
+const MOST_IN_VAIN: usize = 3;
+
+/// Part of the tolerance that is aimed at.
+const AIM: f64 = 0.01;
+
+/// Where `eta` is below a candidate is next to a solution. On few unknowns systems cost next to nothing,
+/// and rounding may hide a solution from a method altogether: there any candidate is refined.
+const NEAR: f64 = 1e-3;
+const FEW_UNKNOWNS: usize = 64;
+
+/// A step that makes `eta` smaller by this factor or less tells what error a residual stands for.
+const SURE: f64 = 0.5;
+
+/// Rounding of `eta`: that of forces rounded once, a few times as the steps have no rounding in mind.
+const ROUNDING_OF_ETA: f64 = 4.0 * f64::EPSILON;
+
+/// The candidate, refined if its residual is above the tolerance and that helps.
+pub fn polished(contact: &Contact<'_>, settings: &Settings, candidate: Candidate) -> Candidate {
+    let old = candidate.certificate(contact);
+    let is_finite = candidate.d.iter().all(|d| d.is_finite());
+    let is_near = old.eta <= NEAR || contact.unknowns() <= FEW_UNKNOWNS;
+    let is_stopped = matches!(candidate.ending, Ending::Stopped(_)) || contact.is_at_rest();
+    if old.residual <= settings.tolerance || !is_finite || !is_near || is_stopped {
+        return candidate;
+    }
+    let refined = refined(contact, &candidate, AIM * settings.tolerance);
+    let new = refined.certificate(contact);
+    let helps = new.residual <= settings.tolerance && !new.runs_away();
+    if helps { refined.ended(Ending::Done) } else { candidate }
+}
+
+/// A candidate refined as far as it goes.
+pub struct Sharpened {
+    /// The candidate, with the orientation of the pieces that it is on.
+    pub candidate: Candidate,
+    /// Newton's next step: how far it is from the solution on its pieces, to first order.
+    pub error: Vec<f64>,
+}
+
+/// Refines displacements to the last digits; `None` if the system there is singular.
+pub fn sharpened(contact: &Contact<'_>, candidate: &Candidate) -> Option<Sharpened> {
+    let mut candidate = refined(contact, candidate, 0.0);
+    let at_reference = contact.at_its_reference();
+    let v = contact.beyond_reference(&candidate.d, &candidate.low);
+    let (error, orientation) = step(&Equations::of(&at_reference), &v, &candidate.force)?;
+    candidate.orientation = orientation;
+    Some(Sharpened { candidate, error })
+}
+
+/// Refines until `eta` is at most `aim`, or falls no further.
+fn refined(contact: &Contact<'_>, candidate: &Candidate, aim: f64) -> Candidate {
+    let at_reference = contact.at_its_reference();
+    let equations = Equations::of(&at_reference);
+    let (mut d, mut low) = (candidate.d.clone(), vec![0.0; candidate.d.len()]);
+    let mut best = candidate.clone();
+    let (mut least, mut in_vain) = (f64::INFINITY, 0);
+    let mut steps = Steps::default();
+    for _ in 0..MOST_STEPS {
+        let v = contact.beyond_reference(&d, &low);
+        let force = contact.problem().force_of_parts(&d, &low);
+        let eta = eta_of(&at_reference, &v, &force);
+        if eta < least {
+            (least, in_vain) = (eta, 0);
+            steps.arrived((&best.force, &force), eta);
+            (best.d, best.low, best.force) = (d.clone(), low.clone(), force.clone());
+            best.errors = steps.errors(&best, contact.problem().load(), eta);
+        } else {
+            steps.last = None;
+            in_vain += 1;
+        }
+        if !(least > aim) || in_vain >= MOST_IN_VAIN {
+            break;
+        }
+        best.effort.factorisations += 1;
+        let Some((step, orientation)) = step(&equations, &v, &force) else { break };
+        best.orientation = orientation;
+        steps.begin(eta, &step);
+        for ((d, low), step) in d.iter_mut().zip(&mut low).zip(&step) {
+            let (sum, lost) = two_sum(*d, *step);
+            (*d, *low) = two_sum(sum, lost + *low);
+        }
+    }
+    best.remeasured()
+}
+
+/// What the steps of a refinement have changed, beside the residuals from which they began: how large an error
+/// a residual stands for.
+#[derive(Default)]
+struct Steps {
+    /// `eta` where the last step began, and its largest change of a displacement.
+    last: Option<(f64, f64)>,
+    /// The last contraction of `eta` by a step.
+    contraction: f64,
+    /// Largest changes of a displacement and of a force, over the `eta` at which the step began.
+    gain: Errors,
+}
+
+impl Steps {
+    fn begin(&mut self, eta: f64, step: &[f64]) {
+        self.last = Some((eta, norm_inf(step)));
+    }
+
+    /// The forces before the step and now, with `eta`.
+    fn arrived(&mut self, (before, now): (&[f64], &[f64]), eta: f64) {
+        let Some((from, step)) = self.last.take() else { return };
+        let change = largest_of(before.iter().zip(now).map(|(before, now)| before - now));
+        self.contraction = eta / from;
+        self.gain.d = self.gain.d.max(step / from);
+        self.gain.force = self.gain.force.max(change / from);
+    }
+
+    /// The errors that are left with the residual `eta` and its rounding, beside the rounding of the answer.
+    fn errors(&self, at: &Candidate, load: &[f64], eta: f64) -> Option<Errors> {
+        let left = (eta + ROUNDING_OF_ETA) / (1.0 - self.contraction);
+        let part = |gain: f64, size: f64| {
+            let error = if gain > 0.0 { gain * left / size } else { 0.0 };
+            error + f64::EPSILON
+        };
+        let forces = norm_inf(&at.force).max(norm_inf(load));
+        let errors =
+            Errors { d: part(self.gain.d, norm_inf(&at.d)), force: part(self.gain.force, forces) };
+        let is_known = self.contraction > 0.0 || self.gain.d > 0.0;
+        (is_known && self.contraction < SURE).then_some(errors)
+    }
+}
+
+/// The change of displacements `v` beyond their references that Newton's method wants where they need
+/// `force`, and the sign of the determinant; `None` if the system is singular.
+fn step(equations: &Equations<'_>, v: &[f64], force: &[f64]) -> Option<(Vec<f64>, i8)> {
+    let dim = equations.dim;
+    let y = equations.coordinates(v, force);
+    let pieces = equations.pieces(&y);
+    let parts = || v.chunks_exact(dim).zip(force.chunks_exact(dim));
+    let laws = || equations.laws.iter().zip(&pieces).zip(&y);
+    let mut distance = Vec::with_capacity(v.len());
+    let mut change = Vec::with_capacity(v.len());
+    for (((law, &piece), y), (v, force)) in laws().zip(parts()) {
+        let apart = law.distance_to_piece(piece, y, v, force);
+        distance.extend_from_slice(&apart[..dim]);
+        change.extend(law.displacement_by(&apart)[..dim].iter().map(|by| -by));
+    }
+    let mut lack = distance;
+    equations.matrix.add_product(&change, &mut lack);
+    let at = (pieces.as_slice(), y.as_slice());
+    let mut system = System::with_least_pivot(equations, at, 1.0, None, NULL_VECTOR)?;
+    let (steps, _) = system.step(&lack, 0.0)?;
+    for ((((law, &piece), y), dy), change) in laws().zip(&steps).zip(change.chunks_exact_mut(dim)) {
+        let derivative = law.derivative_on(piece, y);
+        let by: Vector = std::array::from_fn(|row| {
+            dy[row] - (0..dim).map(|column| derivative[row][column] * dy[column]).sum::<f64>()
+        });
+        let moved = law.displacement_by(&by);
+        change.iter_mut().zip(moved).for_each(|(change, moved)| *change += moved);
+    }
+    Some((change, system.orientation()))
+}
