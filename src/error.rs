@@ -61,6 +61,10 @@ pub enum Argument {
     Obstacle,
     /// The host's order of elimination.
     Order,
+    /// A mesh that is written to a file.
+    Mesh,
+    /// Fields at the nodes of a mesh.
+    Fields,
 }
 
 /// Which limit of the settings ended a reduction.

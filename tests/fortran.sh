@@ -94,8 +94,10 @@ for kind in static shared; do
     runs "counting_$kind"
     compile "rows_$kind" "$kind" "$module" "$tests/rows.f90"
     runs "rows_$kind"
+    compile "surfaces_$kind" "$kind" -std=f2008 "$module" "$tests/surfaces.f90"
+    runs "surfaces_$kind"
 done
-for name in layer refusals counting rows; do
+for name in layer refusals counting rows surfaces; do
     # shellcheck disable=SC2086 # several options
     compile "${name}_64" shared $wide "$module" "$tests/$name.f90"
     runs "${name}_64"

@@ -299,7 +299,7 @@ impl SignoriniPairs {
     }
 
     /// What an older program, which has no general rows, leaves them.
-    const EMPTY: SignoriniPairs = SignoriniPairs {
+    pub(super) const EMPTY: SignoriniPairs = SignoriniPairs {
         struct_size: 0,
         dim: 0,
         count: 0,

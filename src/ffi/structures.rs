@@ -63,6 +63,29 @@ pub(super) unsafe fn read<T: Copy>(
     Ok(default)
 }
 
+/// The caller's structure in place, of a kind that has no older form.
+///
+/// # Safety
+/// NULL, or a structure of the caller that begins with its size.
+pub(super) unsafe fn whole<'a, T>(
+    position: i32,
+    name: &str,
+    pointer: *const T,
+) -> Result<&'a T, Failure> {
+    if pointer.is_null() {
+        return Err(Failure::argument(position, format!("{name} is NULL")));
+    }
+    // SAFETY: by the caller's contract.
+    let given = unsafe { checked_size(position, name, pointer)? };
+    if given != size_of::<T>() {
+        let message =
+            format!("{name}: struct_size is {given}, set it to sizeof ({})", size_of::<T>());
+        return Err(Failure::argument(position, message));
+    }
+    // SAFETY: not NULL, aligned and of the right size (just checked).
+    Ok(unsafe { &*pointer })
+}
+
 /// Writes as much of `value` as the caller's structure holds, and keeps its `struct_size`.
 ///
 /// # Safety

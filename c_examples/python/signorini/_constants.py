@@ -94,6 +94,21 @@ class Triangle(IntEnum):
     FULL = 2
 
 
+class Pairing(IntEnum):
+    """How surfaces are paired."""
+
+    DUAL_MORTAR = 0
+    NODE_TO_SURFACE = 1
+
+
+class Obstacle(IntEnum):
+    """Kind of a rigid obstacle."""
+
+    PLANE = 0
+    CYLINDER = 1
+    SPHERE = 2
+
+
 class Problem(IntEnum):
     """What a problem file holds."""
 

@@ -14,6 +14,7 @@ from ._library import SignoriniError, check, library
 from ._results import Output, certified
 from ._sparse import ContactPairs, Matrix, supports
 from ._structures import address
+from ._surfaces import SurfacePairs
 from ._text import path_bytes, remark_bytes
 
 _UNTOUCHED = np.iinfo(np.int32).min
@@ -37,7 +38,7 @@ class _Case(namedtuple("_Case", "f prescribed gap law friction slip0")):
 class Model:
     """A structure reduced to its contact pairs, for any number of load cases.
 
-    Made by Model.condensed, Model.two_body or Model.sparse.
+    Made by Model.condensed, Model.two_body, Model.sparse or Model.from_surfaces.
     dim, pairs: D and P.  host_size: H, the entries of a load or displacement vector of the host.
     """
 
@@ -112,6 +113,20 @@ class Model:
         pairs = ContactPairs(slaves, normals, masters, weights, tangents, rows)
         return cls("model_new_sparse_within", len(fixed), ctypes.byref(matrix.structure),
                    len(fixed), at(fixed), ctypes.byref(pairs.structure), settings=settings)
+
+    @classmethod
+    def from_surfaces(cls, K, contact, *, fixed=(), triangle="full"):
+        """The whole stiffness matrix of the host with the pairs of pair_surfaces or pair_obstacle.
+
+        K, fixed, triangle: as for sparse.  contact: SurfacePairs. Several contact zones: use sparse
+        with the rows of all of them. The gap of a load case is contact.gaps.
+        """
+        if not isinstance(contact, SurfacePairs):
+            raise TypeError(f"contact is a {type(contact).__name__}: give what pair_surfaces or "
+                            f"pair_obstacle returns")
+        matrix, fixed = Matrix(K, triangle), supports(fixed)
+        return cls("model_new_sparse", len(fixed), ctypes.byref(matrix.structure), len(fixed),
+                   at(fixed), contact.structure)
 
     @property
     def stiffness(self):

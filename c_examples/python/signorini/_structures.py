@@ -87,6 +87,79 @@ class Pairs(ctypes.Structure):
     ]
 
 
+class Faces(ctypes.Structure):
+    """signorini_faces"""
+
+    _fields_ = [
+        ("struct_size", u32), ("face_nodes", i32), ("count", i64), ("start", address),
+        ("nodes", address),
+    ]
+
+
+class RigidObstacle(ctypes.Structure):
+    """signorini_obstacle"""
+
+    _fields_ = [
+        ("struct_size", u32), ("kind", i32), ("point", real * 3), ("direction", real * 3),
+        ("radius", real), ("hollow", i32), ("reserved", i32),
+    ]
+
+
+class SurfaceSettings(ctypes.Structure):
+    """signorini_surface_settings"""
+
+    _fields_ = [
+        ("struct_size", u32), ("pairing", i32), ("search_distance", real), ("index_base", i32),
+        ("dofs_per_node", i32), ("node_dofs", address),
+    ]
+
+
+class SurfaceReport(ctypes.Structure):
+    """signorini_surface_report"""
+
+    _fields_ = [
+        ("struct_size", u32), ("dim", i32), ("pairs", i64), ("unpaired", i64), ("folded", i64),
+        ("slave_faces", i64), ("uncovered", i64), ("slave_area", real), ("covered_area", real),
+        ("search_distance", real), ("not_opposed", i64), ("boxes_searched", i64),
+    ]
+
+
+class ContactFields(ctypes.Structure):
+    """signorini_contact_fields"""
+
+    _fields_ = [
+        ("struct_size", u32), ("reserved", i32), ("pressure", address), ("traction", address),
+        ("clearance", address), ("slip", address), ("state", address),
+    ]
+
+
+class ResultantSums(ctypes.Structure):
+    """signorini_resultant"""
+
+    _fields_ = [
+        ("struct_size", u32), ("reserved", i32), ("force", real * 3), ("moment", real * 3),
+        ("friction_work", real), ("pressed_area", real),
+    ]
+
+
+class Mesh(ctypes.Structure):
+    """signorini_mesh"""
+
+    _fields_ = [
+        ("struct_size", u32), ("dim", i32), ("nodes", i64), ("coordinates", address),
+        ("cells", i64), ("index_base", i32), ("cell_type", i32), ("cell_types", address),
+        ("cell_start", address), ("cell_nodes", address),
+    ]
+
+
+class NodalField(ctypes.Structure):
+    """signorini_field"""
+
+    _fields_ = [
+        ("struct_size", u32), ("components", i32), ("name", ctypes.c_char_p), ("values", address),
+    ]
+
+
 def sized(structure, **values):
     """A structure of zeros and of these values, with its size in it."""
     return structure(struct_size=ctypes.sizeof(structure), **values)
