@@ -1,24 +1,26 @@
 //! Reduce once, solve many load cases, recover.
 
 mod arguments;
+mod load_case;
 mod surfaces;
 
 use std::path::Path;
 
-use crate::certificate::{Certificate, certify};
-use arguments::{check_length, check_vector};
+use arguments::{check_fixed_gaps, check_length, check_vector};
+pub use load_case::LoadCase;
 
+use crate::certificate::{Certificate, certify};
 use crate::error::{Argument, Error, index};
 use crate::file;
 use crate::linalg::matrix::Matrix;
 use crate::monitor::Monitor;
 use crate::problem::{
-    ContactData, ContactProblem, Dependence, DependentRows, FrictionLaw, Relation, checked_dim,
+    ContactData, ContactProblem, Dependence, DependentRows, Relation, checked_dim,
     symmetric_matrix, unknowns,
 };
 use crate::reduce::{
     CondensedReduction, ContactPairs, Control, Reduction, SparseMatrix, SparseReduction,
-    TwoBodyReduction, check_fixed_gaps, driven_motion,
+    TwoBodyReduction, driven_motion,
 };
 use crate::settings::Settings;
 use crate::solve::{NO_EQUILIBRIUM, Solution, Status, solve, solve_dependent};
@@ -28,22 +30,6 @@ pub struct Model {
     dim: usize,
     pairs: usize,
     reduction: Box<dyn Reduction>,
-}
-
-/// One load case: nodal loads of the host and the contact data of each pair.
-#[derive(Clone, Copy, Debug)]
-pub struct LoadCase<'a> {
-    /// Nodal loads, [`Model::host_size`].
-    pub load: &'a [f64],
-    /// Values of the fixed degrees of freedom, in their order; `None`: zero.
-    pub prescribed: Option<&'a [f64]>,
-    /// Gaps of the pairs.
-    pub gap: &'a [f64],
-    /// Friction of the pairs.
-    pub law: FrictionLaw<'a>,
-    /// Reference slip `d_t0`, `dim - 1` for each pair: the tangential displacement at which
-    /// a sticking pair stays. `None`: zero.
-    pub reference_slip: Option<&'a [f64]>,
 }
 
 impl Model {
@@ -96,7 +82,8 @@ impl Model {
 
     /// As [`Self::sparse`], within the limits of `monitor` on memory and time, with its callback, and in the
     /// host's `order` of elimination if there is one: each degree of freedom once, the first to be eliminated
-    /// first. Fixed ones, slaves and the contact are left out of it; degrees of freedom with the same neighbours stay together.
+    /// first. Fixed ones, slaves and the contact are left out of it; degrees of freedom with the same
+    /// neighbours stay together.
     ///
     /// # Errors
     /// As [`Self::sparse`]; an order that is no permutation ([`Argument::Order`]); [`Error::Stopped`].
@@ -249,7 +236,7 @@ impl Model {
         to: impl FnOnce(&ContactProblem<'_>) -> Result<T, Error>,
     ) -> Result<T, Error> {
         let load = self.condensed_load(case.load, case.prescribed)?;
-        check_fixed_gaps(&*self.reduction, self.dim, case.gap)?;
+        check_fixed_gaps(self.reduction.fixed_components(), self.dim, case.gap)?;
         let slip = case.reference_slip.map(|slip| self.allowed_slip(slip));
         let problem = ContactProblem::on_checked_matrix(ContactData {
             dim: self.dim,

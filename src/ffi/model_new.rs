@@ -2,8 +2,9 @@
 
 use super::args::{Arrays, matrix_length, size, sizes};
 use super::guard::{self, Failure};
+use super::pairs::SignoriniPairs;
 use super::settings::SignoriniSettings;
-use super::sparse::{SignoriniPairs, SignoriniSparse, shifted};
+use super::sparse::{SignoriniSparse, shifted};
 use crate::error::{Argument, Error};
 use crate::model::Model;
 use crate::monitor::{Monitor, ProgressFn};

@@ -3,7 +3,7 @@
 use libc::c_char;
 use std::ptr::null;
 
-use super::sparse::SignoriniPairs;
+use super::pairs::SignoriniPairs;
 use super::surface_new::SignoriniSurfacePairs;
 
 /// Number of pairs; -1 if contact is NULL.

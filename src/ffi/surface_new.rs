@@ -4,7 +4,7 @@ use std::ffi::CString;
 
 use super::args::{Arrays, size};
 use super::guard::{self, Failure};
-use super::sparse::SignoriniPairs;
+use super::pairs::SignoriniPairs;
 use super::structures;
 use super::surface::{Received, SignoriniFaces, SignoriniObstacle, SignoriniSurfaceSettings};
 use crate::error::{Argument, Error};

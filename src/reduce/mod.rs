@@ -16,30 +16,8 @@ pub use pairs::ContactPairs;
 pub use sparse::{Control, Indices, SparseMatrix, SparseReduction, Triangle};
 pub use two_body::TwoBodyReduction;
 
-use crate::error::{Argument, Error, Message, entry};
+use crate::error::{Error, Message};
 use crate::problem::Dependence;
-
-/// Refuses a penetration that supports on both sides of a pair hold: no displacement takes it away.
-pub(crate) fn check_fixed_gaps(
-    reduction: &dyn Reduction,
-    dim: usize,
-    gaps: &[f64],
-) -> Result<(), Error> {
-    let normals = reduction.fixed_components().iter().filter(|component| *component % dim == 0);
-    for pair in normals.map(|component| component / dim) {
-        if let Some(&gap) = gaps.get(pair)
-            && gap < 0.0
-        {
-            let message = format!(
-                "{} is {gap}, a penetration, but both sides of the pair are fixed along its normal: nothing \
-                 can part them: set the gap to 0, release a side, or leave the pair out",
-                entry("gap", [pair])
-            );
-            return Err(Error::invalid(Argument::Gap, message));
-        }
-    }
-    Ok(())
-}
 
 /// A structure reduced to its contact pairs. It does not change: several threads may use it at once.
 ///

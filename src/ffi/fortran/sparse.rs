@@ -3,10 +3,9 @@
 use super::super::args::Arrays;
 use super::super::guard::Failure;
 use super::super::model_new::{SignoriniModel, signorini_model_new_sparse_within};
+use super::super::pairs::SignoriniPairs;
 use super::super::settings::SignoriniSettings;
-use super::super::sparse::{
-    SIGNORINI_TRIANGLE_FULL, SIGNORINI_TRIANGLE_LOWER, SignoriniPairs, SignoriniSparse,
-};
+use super::super::sparse::{SIGNORINI_TRIANGLE_FULL, SIGNORINI_TRIANGLE_LOWER, SignoriniSparse};
 use super::arguments::{Integer, absurd, choice, count, read, run, sizes};
 use super::models::create;
 use crate::error::entry;

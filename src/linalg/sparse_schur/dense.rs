@@ -28,7 +28,8 @@ pub fn trapezoid(
         factor,
         Par::Seq,
     );
-    if lower.nrows() > 0 {
+    let below = lower.nrows();
+    if below > 0 {
         matmul(bottom, accum, lower, upper.transpose(), factor, Par::Seq);
     }
 }
