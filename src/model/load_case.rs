@@ -2,13 +2,10 @@
 
 use crate::problem::FrictionLaw;
 
-#[cfg(doc)]
-use super::Model;
-
 /// One load case: nodal loads of the host and the contact data of each pair.
 #[derive(Clone, Copy, Debug)]
 pub struct LoadCase<'a> {
-    /// Nodal loads, [`Model::host_size`].
+    /// Nodal loads, [`crate::Model::host_size`].
     pub load: &'a [f64],
     /// Values of the fixed degrees of freedom, in their order; `None`: zero.
     pub prescribed: Option<&'a [f64]>,
