@@ -124,7 +124,7 @@ module signorini
     end type
 
     type, bind(C) :: signorini_settings
-        integer(c_int32_t) :: struct_size = 64 + 2 * address_bytes
+        integer(c_int32_t) :: struct_size = 72 + 2 * address_bytes
         integer(c_int32_t) :: method = SIGNORINI_METHOD_AUTO
         real(c_double) :: tolerance = 1e-10_c_double
         real(c_double) :: omega = 0
