@@ -5,7 +5,7 @@
 #
 # Builds the library, compiles the programs against it (CC names the C compiler, default cc) and
 # runs them. With OUT, a directory, they also write OUT/two_blocks and OUT/hertz_CASE, .csv and
-# .vtk; 3d/hertz.py draws the latter. All else goes to target/.
+# .vtu; 3d/hertz.py draws the latter. All else goes to target/.
 set -eu
 
 script=3d
@@ -23,7 +23,7 @@ fi
 prepare
 bricks="3d/brick_element.c 3d/brick_mesh.c 3d/brick_contact.c 3d/brick_output.c common/checks.c"
 # shellcheck disable=SC2086 # a list of words
-compile two_blocks 3d/two_blocks.c 3d/blocks.c $bricks
+compile two_blocks 3d/two_blocks.c 3d/two_blocks_check.c 3d/blocks.c $bricks
 # shellcheck disable=SC2086
 compile hertz 3d/hertz.c 3d/hertz_study.c 3d/hertz_mesh.c 3d/hertz_theory.c $bricks
 

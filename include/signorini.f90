@@ -17,8 +17,11 @@
 !     lcp_solve        a linear complementarity problem (LCP)
 !     contact_model    a type: a structure that is reduced once and solved for many load cases;
 !                      call model%new_condensed, %new_two_body, %new_sparse or
-!                      %new_sparse_rows, then %solve, %certify, %recover,
+!                      %new_sparse_rows, %new_surfaces, then %solve, %certify, %recover,
 !                      %nodal_forces, %frames, %condensed_load, %stiffness, at the end %release
+!     contact_surfaces a type: contact pairs that the library makes from the faces of two meshes; call
+!                      %pair or %pair_obstacle, model%new_surfaces, then %fields, %resultant,
+!                      %write, at the end %release
 ! The functions signorini_... are those of signorini.h, argument by argument: files, and whatever
 ! else is not above. That header is their reference.
 !
@@ -35,8 +38,8 @@
 !     settings  type(signorini_settings): all settings. As declared it holds the defaults.
 !     state     SIGNORINI_STATE_OPEN, _SLIP or _STICK of each pair.
 !     report    type(signorini_report): how good the result is, and how it was found.
-!     motion    if info is SIGNORINI_STATUS_NO_EQUILIBRIUM, the motion of escape, which proves it;
-!               otherwise zeros.
+!     motion    if info is SIGNORINI_STATUS_NO_EQUILIBRIUM, a motion that proves it; otherwise zeros.
+!     escape    the same as the bodies would move, without the lift that a proof needs: draw this one.
 !     second_d, second_force, second_state  a second solution if report%second is 1, otherwise
 !               zeros. Ask for it by settings%search = SIGNORINI_SEARCH_OTHERS.
 !     info      0: solved and certified. > 0: SIGNORINI_STATUS_..., results were written but are
@@ -61,6 +64,7 @@ module signorini
     integer(c_int32_t), parameter :: SIGNORINI_STATUS_STALLED = 5
     integer(c_int32_t), parameter :: SIGNORINI_STATUS_NOT_A_SOLUTION = 6
     integer(c_int32_t), parameter :: SIGNORINI_STATUS_NOT_PROVED = 7
+    integer(c_int32_t), parameter :: SIGNORINI_STATUS_MEMORY_LIMIT = 8
     integer(c_int32_t), parameter :: SIGNORINI_STATUS_INTERNAL = -1000
     integer(c_int32_t), parameter :: SIGNORINI_STATUS_OUT_OF_MEMORY = -1001
     integer(c_int32_t), parameter :: SIGNORINI_STATUS_FILE = -1002
@@ -100,6 +104,11 @@ module signorini
     integer(c_int32_t), parameter :: SIGNORINI_TRIANGLE_LOWER = 0
     integer(c_int32_t), parameter :: SIGNORINI_TRIANGLE_UPPER = 1
     integer(c_int32_t), parameter :: SIGNORINI_TRIANGLE_FULL = 2
+    integer(c_int32_t), parameter :: SIGNORINI_PAIRING_DUAL_MORTAR = 0
+    integer(c_int32_t), parameter :: SIGNORINI_PAIRING_NODE_TO_SURFACE = 1
+    integer(c_int32_t), parameter :: SIGNORINI_OBSTACLE_PLANE = 0
+    integer(c_int32_t), parameter :: SIGNORINI_OBSTACLE_CYLINDER = 1
+    integer(c_int32_t), parameter :: SIGNORINI_OBSTACLE_SPHERE = 2
     integer(c_int32_t), parameter :: SIGNORINI_PROBLEM_CONTACT = 0
     integer(c_int32_t), parameter :: SIGNORINI_PROBLEM_LCP = 1
 
@@ -111,10 +120,12 @@ module signorini
         integer(c_int64_t) :: iterations = 0
         real(c_double) :: eta = 0
         real(c_double) :: elapsed = 0
+        real(c_double) :: reduced = 0
+        integer(c_int64_t) :: memory = 0
     end type
 
     type, bind(C) :: signorini_settings
-        integer(c_int32_t) :: struct_size = 64 + 2 * address_bytes
+        integer(c_int32_t) :: struct_size = 72 + 2 * address_bytes
         integer(c_int32_t) :: method = SIGNORINI_METHOD_AUTO
         real(c_double) :: tolerance = 1e-10_c_double
         real(c_double) :: omega = 0
@@ -127,6 +138,7 @@ module signorini
         type(c_ptr) :: user = c_null_ptr
         integer(c_int32_t) :: proof = 0
         integer(c_int32_t) :: reserved = 0
+        integer(c_int64_t) :: memory_limit = 0
     end type
 
     type, bind(C) :: signorini_report
@@ -160,7 +172,7 @@ module signorini
     end type
 
     type, bind(C) :: signorini_extra
-        integer(c_int32_t) :: struct_size = 8 + 6 * address_bytes
+        integer(c_int32_t) :: struct_size = 8 + 7 * address_bytes
         integer(c_int32_t) :: reserved = 0
         type(c_ptr) :: motion = c_null_ptr
         type(c_ptr) :: second_d = c_null_ptr
@@ -168,10 +180,11 @@ module signorini
         type(c_ptr) :: second_state = c_null_ptr
         type(c_ptr) :: radius_d = c_null_ptr
         type(c_ptr) :: radius_force = c_null_ptr
+        type(c_ptr) :: escape = c_null_ptr
     end type
 
     type, bind(C) :: signorini_sparse
-        integer(c_int32_t) :: struct_size = 32 + 3 * address_bytes
+        integer(c_int32_t) :: struct_size = 32 + 4 * address_bytes
         integer(c_int32_t) :: index_bytes = 0
         integer(c_int32_t) :: index_base = 0
         integer(c_int32_t) :: triangle = SIGNORINI_TRIANGLE_LOWER
@@ -180,6 +193,7 @@ module signorini
         type(c_ptr) :: col_start = c_null_ptr
         type(c_ptr) :: row = c_null_ptr
         type(c_ptr) :: values = c_null_ptr
+        type(c_ptr) :: order = c_null_ptr
     end type
 
     type, bind(C) :: signorini_pairs
@@ -195,6 +209,87 @@ module signorini
         type(c_ptr) :: row_start = c_null_ptr
         type(c_ptr) :: row_nodes = c_null_ptr
         type(c_ptr) :: row_weights = c_null_ptr
+    end type
+
+    type, bind(C) :: signorini_faces
+        integer(c_int32_t) :: struct_size = 16 + 2 * address_bytes
+        integer(c_int32_t) :: face_nodes = 0
+        integer(c_int64_t) :: count = 0
+        type(c_ptr) :: start = c_null_ptr
+        type(c_ptr) :: nodes = c_null_ptr
+    end type
+
+    type, bind(C) :: signorini_obstacle
+        integer(c_int32_t) :: struct_size = 72
+        integer(c_int32_t) :: kind = 0
+        real(c_double) :: point(3) = 0
+        real(c_double) :: direction(3) = 0
+        real(c_double) :: radius = 0
+        integer(c_int32_t) :: hollow = 0
+        integer(c_int32_t) :: reserved = 0
+    end type
+
+    type, bind(C) :: signorini_surface_settings
+        integer(c_int32_t) :: struct_size = 24 + 1 * address_bytes
+        integer(c_int32_t) :: pairing = 0
+        real(c_double) :: search_distance = 0
+        integer(c_int32_t) :: index_base = 0
+        integer(c_int32_t) :: dofs_per_node = 0
+        type(c_ptr) :: node_dofs = c_null_ptr
+    end type
+
+    type, bind(C) :: signorini_surface_report
+        integer(c_int32_t) :: struct_size = 88
+        integer(c_int32_t) :: dim = 0
+        integer(c_int64_t) :: pairs = 0
+        integer(c_int64_t) :: unpaired = 0
+        integer(c_int64_t) :: folded = 0
+        integer(c_int64_t) :: slave_faces = 0
+        integer(c_int64_t) :: uncovered = 0
+        real(c_double) :: slave_area = 0
+        real(c_double) :: covered_area = 0
+        real(c_double) :: search_distance = 0
+        integer(c_int64_t) :: not_opposed = 0
+        integer(c_int64_t) :: boxes_searched = 0
+    end type
+
+    type, bind(C) :: signorini_contact_fields
+        integer(c_int32_t) :: struct_size = 8 + 5 * address_bytes
+        integer(c_int32_t) :: reserved = 0
+        type(c_ptr) :: pressure = c_null_ptr
+        type(c_ptr) :: traction = c_null_ptr
+        type(c_ptr) :: clearance = c_null_ptr
+        type(c_ptr) :: slip = c_null_ptr
+        type(c_ptr) :: state = c_null_ptr
+    end type
+
+    type, bind(C) :: signorini_resultant
+        integer(c_int32_t) :: struct_size = 72
+        integer(c_int32_t) :: reserved = 0
+        real(c_double) :: force(3) = 0
+        real(c_double) :: moment(3) = 0
+        real(c_double) :: friction_work = 0
+        real(c_double) :: pressed_area = 0
+    end type
+
+    type, bind(C) :: signorini_mesh
+        integer(c_int32_t) :: struct_size = 32 + 4 * address_bytes
+        integer(c_int32_t) :: dim = 0
+        integer(c_int64_t) :: nodes = 0
+        type(c_ptr) :: coordinates = c_null_ptr
+        integer(c_int64_t) :: cells = 0
+        integer(c_int32_t) :: index_base = 0
+        integer(c_int32_t) :: cell_type = 0
+        type(c_ptr) :: cell_types = c_null_ptr
+        type(c_ptr) :: cell_start = c_null_ptr
+        type(c_ptr) :: cell_nodes = c_null_ptr
+    end type
+
+    type, bind(C) :: signorini_field
+        integer(c_int32_t) :: struct_size = 8 + 2 * address_bytes
+        integer(c_int32_t) :: components = 0
+        type(c_ptr) :: name = c_null_ptr
+        type(c_ptr) :: values = c_null_ptr
     end type
 
     interface
@@ -384,6 +479,17 @@ module signorini
             type(c_ptr), intent(out) :: model
             integer(c_int32_t) :: answer
         end function
+        function signorini_model_new_sparse_within(k, n_fixed, fixed, pairs, settings, model) &
+            bind(C, name="signorini_model_new_sparse_within") result(answer)
+            import
+            type(signorini_sparse), intent(in) :: k
+            integer(c_int64_t), value :: n_fixed
+            type(c_ptr), value :: fixed
+            type(signorini_pairs), intent(in) :: pairs
+            type(c_ptr), value :: settings
+            type(c_ptr), intent(out) :: model
+            integer(c_int32_t) :: answer
+        end function
         subroutine signorini_model_free(model) &
             bind(C, name="signorini_model_free")
             import
@@ -485,6 +591,166 @@ module signorini
             type(c_ptr), value :: model
             real(c_double), intent(in) :: force(*)
             real(c_double), intent(out) :: nodal(*)
+            integer(c_int32_t) :: answer
+        end function
+        function signorini_surface_settings_default(settings, struct_size) &
+            bind(C, name="signorini_surface_settings_default") result(answer)
+            import
+            type(signorini_surface_settings), intent(out) :: settings
+            integer(c_int32_t), value :: struct_size
+            integer(c_int32_t) :: answer
+        end function
+        function signorini_surface_pair(dim, nodes, coordinates, slave, master, settings, &
+            contact, report) &
+            bind(C, name="signorini_surface_pair") result(answer)
+            import
+            integer(c_int32_t), value :: dim
+            integer(c_int64_t), value :: nodes
+            type(c_ptr), value :: coordinates
+            type(c_ptr), value :: slave
+            type(c_ptr), value :: master
+            type(c_ptr), value :: settings
+            type(c_ptr), intent(out) :: contact
+            type(c_ptr), value :: report
+            integer(c_int32_t) :: answer
+        end function
+        function signorini_surface_pair_obstacle(dim, nodes, coordinates, slave, obstacle, &
+            settings, contact, report) &
+            bind(C, name="signorini_surface_pair_obstacle") result(answer)
+            import
+            integer(c_int32_t), value :: dim
+            integer(c_int64_t), value :: nodes
+            type(c_ptr), value :: coordinates
+            type(c_ptr), value :: slave
+            type(c_ptr), value :: obstacle
+            type(c_ptr), value :: settings
+            type(c_ptr), intent(out) :: contact
+            type(c_ptr), value :: report
+            integer(c_int32_t) :: answer
+        end function
+        subroutine signorini_surface_free(contact) &
+            bind(C, name="signorini_surface_free")
+            import
+            type(c_ptr), value :: contact
+        end subroutine
+        function signorini_surface_count(contact) &
+            bind(C, name="signorini_surface_count") result(answer)
+            import
+            type(c_ptr), value :: contact
+            integer(c_int64_t) :: answer
+        end function
+        function signorini_surface_rows(contact) &
+            bind(C, name="signorini_surface_rows") result(answer)
+            import
+            type(c_ptr), value :: contact
+            type(c_ptr) :: answer
+        end function
+        function signorini_surface_gaps(contact) &
+            bind(C, name="signorini_surface_gaps") result(answer)
+            import
+            type(c_ptr), value :: contact
+            type(c_ptr) :: answer
+        end function
+        function signorini_surface_areas(contact) &
+            bind(C, name="signorini_surface_areas") result(answer)
+            import
+            type(c_ptr), value :: contact
+            type(c_ptr) :: answer
+        end function
+        function signorini_surface_normals(contact) &
+            bind(C, name="signorini_surface_normals") result(answer)
+            import
+            type(c_ptr), value :: contact
+            type(c_ptr) :: answer
+        end function
+        function signorini_surface_tangents(contact) &
+            bind(C, name="signorini_surface_tangents") result(answer)
+            import
+            type(c_ptr), value :: contact
+            type(c_ptr) :: answer
+        end function
+        function signorini_surface_points(contact) &
+            bind(C, name="signorini_surface_points") result(answer)
+            import
+            type(c_ptr), value :: contact
+            type(c_ptr) :: answer
+        end function
+        function signorini_surface_nodes(contact) &
+            bind(C, name="signorini_surface_nodes") result(answer)
+            import
+            type(c_ptr), value :: contact
+            type(c_ptr) :: answer
+        end function
+        function signorini_surface_unpaired(contact) &
+            bind(C, name="signorini_surface_unpaired") result(answer)
+            import
+            type(c_ptr), value :: contact
+            type(c_ptr) :: answer
+        end function
+        function signorini_surface_folded(contact) &
+            bind(C, name="signorini_surface_folded") result(answer)
+            import
+            type(c_ptr), value :: contact
+            type(c_ptr) :: answer
+        end function
+        function signorini_surface_uncovered(contact) &
+            bind(C, name="signorini_surface_uncovered") result(answer)
+            import
+            type(c_ptr), value :: contact
+            type(c_ptr) :: answer
+        end function
+        function signorini_surface_summary(contact) &
+            bind(C, name="signorini_surface_summary") result(answer)
+            import
+            type(c_ptr), value :: contact
+            type(c_ptr) :: answer
+        end function
+        function signorini_surface_fields(contact, gap, slip0, d, force, state, fields) &
+            bind(C, name="signorini_surface_fields") result(answer)
+            import
+            type(c_ptr), value :: contact
+            type(c_ptr), value :: gap
+            type(c_ptr), value :: slip0
+            type(c_ptr), value :: d
+            type(c_ptr), value :: force
+            type(c_ptr), value :: state
+            type(c_ptr), value :: fields
+            integer(c_int32_t) :: answer
+        end function
+        function signorini_surface_resultant(contact, slip0, d, force, point, resultant) &
+            bind(C, name="signorini_surface_resultant") result(answer)
+            import
+            type(c_ptr), value :: contact
+            type(c_ptr), value :: slip0
+            type(c_ptr), value :: d
+            type(c_ptr), value :: force
+            type(c_ptr), value :: point
+            type(c_ptr), value :: resultant
+            integer(c_int32_t) :: answer
+        end function
+        function signorini_surface_write(contact, path, mesh, gap, slip0, u, d, force, state) &
+            bind(C, name="signorini_surface_write") result(answer)
+            import
+            type(c_ptr), value :: contact
+            type(c_ptr), value :: path
+            type(c_ptr), value :: mesh
+            type(c_ptr), value :: gap
+            type(c_ptr), value :: slip0
+            type(c_ptr), value :: u
+            type(c_ptr), value :: d
+            type(c_ptr), value :: force
+            type(c_ptr), value :: state
+            integer(c_int32_t) :: answer
+        end function
+        function signorini_mesh_write(path, mesh, u, contact, n_fields, fields) &
+            bind(C, name="signorini_mesh_write") result(answer)
+            import
+            type(c_ptr), value :: path
+            type(c_ptr), value :: mesh
+            type(c_ptr), value :: u
+            type(c_ptr), value :: contact
+            integer(c_int64_t), value :: n_fields
+            type(c_ptr), value :: fields
             integer(c_int32_t) :: answer
         end function
         function signorini_problem_write(path, dim, pairs, k, ldk, f, gap, law, friction, &
@@ -632,6 +898,7 @@ module signorini
         procedure :: new_two_body => model_new_two_body
         procedure :: new_sparse => model_new_sparse
         procedure :: new_sparse_rows => model_new_sparse_rows
+        procedure :: new_surfaces => model_new_surfaces
         procedure :: host_size => model_host_size
         procedure :: stiffness => model_stiffness
         procedure :: frames => model_frames
@@ -643,6 +910,29 @@ module signorini
         procedure :: release => model_release
     end type
 
+    ! Contact pairs from surfaces. Copies of it are the same pairs: release it once.
+    !     dim, pairs, nodes      dimension, number of pairs, number of nodes of the mesh
+    !     report                 what was found
+    !     node(pairs)            slave node of each pair, counted from 1
+    !     gap(pairs), area(pairs)
+    !     normal(dim, pairs), tangent(dim, pairs), point(dim, pairs): unit vectors, the first tangent,
+    !                            and where the force of each pair acts
+    type :: contact_surfaces
+        type(c_ptr) :: handle = c_null_ptr
+        integer :: dim = 0, pairs = 0, nodes = 0, dofs = 0
+        type(signorini_surface_report) :: report
+        integer, allocatable :: node(:)
+        real(c_double), allocatable :: gap(:), area(:), normal(:, :), tangent(:, :), point(:, :)
+    contains
+        procedure :: pair => surfaces_pair
+        procedure :: pair_obstacle => surfaces_pair_obstacle
+        procedure :: summary => surfaces_summary
+        procedure :: fields => surfaces_fields
+        procedure :: resultant => surfaces_resultant
+        procedure :: write => surfaces_write
+        procedure :: release => surfaces_release
+    end type
+
     ! The first argument that is wrong, and a sentence about it; position 0: none is.
     type, private :: refusal
         integer :: position = 0
@@ -652,6 +942,7 @@ module signorini
     private :: text_of, finish, refused, refuse, check_size, check_shape
     private :: check_case, check_pairs, check_square, check_dim, check_data, check_starts, check_second
     private :: check_model, check_masters, choose_law, choose_settings, place_of_settings
+    private :: check_surfaces, check_faces, check_results, settle, keep_pairs, reals_of, address2, finish_sparse
     private :: address, address_of_extra, copy_states, entries, number, text, tuple, keep_sizes
 
 contains
@@ -675,7 +966,7 @@ contains
     ! k(n, n), f(n), gap(pairs), d(n), force(n), slip0(n - pairs).
     subroutine contact_solve(k, f, gap, d, force, info, law, friction, slip0, method, tolerance, &
             max_iterations, settings, state, report, motion, second_d, second_force, second_state, &
-            message)
+            message, escape)
         real(c_double), intent(in), contiguous :: k(:, :), f(:), gap(:)
         real(c_double), intent(inout), contiguous :: d(:)
         real(c_double), intent(out), contiguous :: force(:)
@@ -687,6 +978,7 @@ contains
         integer, intent(out), optional :: state(:), second_state(:)
         type(signorini_report), intent(out), optional :: report
         real(c_double), intent(out), contiguous, target, optional :: motion(:), second_d(:), second_force(:)
+        real(c_double), intent(out), contiguous, target, optional :: escape(:)
         character(len=*), intent(out), optional :: message
         type(signorini_settings), target :: chosen
         type(signorini_report), target :: measured
@@ -705,8 +997,9 @@ contains
         call choose_settings(wrong, 10, chosen, method, tolerance, max_iterations, settings)
         if (present(state)) call check_size(wrong, 14, 'state', size(state), pairs, 'one for each pair')
         call check_second(wrong, 16, n, pairs, motion, second_d, second_force, second_state)
+        if (present(escape)) call check_size(wrong, 21, 'escape', size(escape), n, 'as many as d')
         if (refused(wrong, info, message)) return
-        extra = address_of_extra(second_states, motion, second_d, second_force)
+        extra = address_of_extra(second_states, motion, second_d, second_force, escape)
         status = signorini_solve(number(max(2, n / max(1, pairs))), int(pairs, c_int64_t), k, &
             int(max(1, n), c_int64_t), f, gap, which, address(friction), address(slip0), &
             c_loc(chosen), d, force, c_loc(states), c_loc(measured), c_loc(extra))
@@ -924,10 +1217,11 @@ contains
     ! freedom that supports hold.
     ! masters(dim, m): degrees of freedom of all master nodes, weights(m), master_start(pairs + 1):
     ! those of pair i are master_start(i) to master_start(i + 1) - 1. Without masters the obstacle
-    ! is rigid. If the library finds something wrong in the matrix, info is the position of values,
+    ! is rigid. order: the order of elimination, each degree of freedom once; absent: chosen. settings:
+    ! progress, user, time_limit and memory_limit count. If the library finds something wrong in the matrix, info is the position of values,
     ! if in the pairs, that of slaves; message tells the array.
     subroutine model_new_sparse(self, col_start, row, values, triangle, slaves, normals, info, fixed, &
-            master_start, masters, weights, tangents, message)
+            master_start, masters, weights, tangents, message, order, settings)
         class(contact_model), intent(inout) :: self
         integer, intent(in), contiguous, target :: col_start(:), row(:)
         real(c_double), intent(in), contiguous, target :: values(:)
@@ -938,6 +1232,8 @@ contains
         integer, intent(in), optional :: fixed(:), master_start(:), masters(:, :)
         real(c_double), intent(in), contiguous, target, optional :: weights(:), tangents(:, :)
         character(len=*), intent(out), optional :: message
+        integer, intent(in), contiguous, target, optional :: order(:)
+        type(signorini_settings), intent(in), optional :: settings
         type(signorini_pairs) :: pairs
         integer(c_int64_t), allocatable, target :: of_slaves(:), begins(:), of_masters(:)
         type(refusal) :: wrong
@@ -946,6 +1242,8 @@ contains
         call check_pairs(wrong, 6, 'normals', shape(normals), shape(slaves))
         call check_masters(wrong, 9, shape(slaves), master_start, masters, weights)
         if (present(tangents)) call check_pairs(wrong, 12, 'tangents', shape(tangents), shape(slaves))
+        if (present(order)) call check_size(wrong, 14, 'order', size(order), size(col_start) - 1, &
+            'as many as the matrix has columns')
         if (refused(wrong, info, message)) return
         of_slaves = int([slaves], c_int64_t)
         if (size(slaves) > 0) pairs%slaves = c_loc(of_slaves)
@@ -957,7 +1255,7 @@ contains
             pairs%weights = address(weights)
         end if
         call make_sparse(self, col_start, row, values, triangle, pairs, normals, tangents, fixed, &
-            info, message, [3, 8, 8, 5])
+            info, message, [3, 8, 8, 5, 15], order, settings)
     end subroutine
 
     ! The same with general rows: each pair is a list of nodes with signed weights.
@@ -995,12 +1293,12 @@ contains
         if (size(row_nodes) > 0) pairs%row_nodes = c_loc(of_nodes)
         pairs%row_weights = address(row_weights)
         call make_sparse(self, col_start, row, values, triangle, pairs, normals, tangents, fixed, &
-            info, message, [3, 10, 10, 6])
+            info, message, [3, 10, 10, 6, 0])
     end subroutine
 
     ! Makes a model of a sparse matrix with pairs that have their nodes.
     subroutine make_sparse(self, col_start, row, values, triangle, pairs, normals, tangents, fixed, &
-            info, message, positions)
+            info, message, positions, order, settings)
         class(contact_model), intent(inout) :: self
         integer, intent(in), contiguous, target :: col_start(:), row(:)
         real(c_double), intent(in), contiguous, target :: values(:)
@@ -1011,7 +1309,55 @@ contains
         integer, intent(in), optional :: fixed(:)
         integer, intent(out) :: info
         character(len=*), intent(out), optional :: message
-        integer, intent(in) :: positions(4)
+        integer, intent(in) :: positions(5)
+        integer, intent(in), contiguous, target, optional :: order(:)
+        type(signorini_settings), intent(in), optional :: settings
+        pairs%dim = number(size(normals, 1))
+        pairs%count = size(normals, 2)
+        pairs%normals = address2(normals)
+        pairs%tangents = address2(tangents)
+        call finish_sparse(self, col_start, row, values, triangle, pairs, fixed, info, message, &
+            positions, order, settings)
+    end subroutine
+
+    ! A model of a whole sparse matrix, as for new_sparse, with the pairs of surfaces. If the library
+    ! finds something wrong in the matrix, info is the position of values, if in the pairs, that of
+    ! surfaces. The gap of a load case is surfaces%gap.
+    subroutine model_new_surfaces(self, col_start, row, values, triangle, surfaces, info, fixed, message)
+        class(contact_model), intent(inout) :: self
+        integer, intent(in), contiguous, target :: col_start(:), row(:)
+        real(c_double), intent(in), contiguous, target :: values(:)
+        integer(c_int32_t), intent(in) :: triangle
+        class(contact_surfaces), intent(in) :: surfaces
+        integer, intent(out) :: info
+        integer, intent(in), optional :: fixed(:)
+        character(len=*), intent(out), optional :: message
+        type(signorini_pairs), pointer :: pairs
+        type(refusal) :: wrong
+        call self%release()
+        call check_sparse(wrong, col_start, row, values, triangle)
+        call check_surfaces(wrong, surfaces, 5)
+        if (refused(wrong, info, message)) return
+        call c_f_pointer(signorini_surface_rows(surfaces%handle), pairs)
+        call finish_sparse(self, col_start, row, values, triangle, pairs, fixed, info, message, &
+            [3, 7, 7, 5, 0])
+    end subroutine
+
+    ! Makes a model of a sparse matrix with pairs that are complete.
+    subroutine finish_sparse(self, col_start, row, values, triangle, pairs, fixed, info, message, &
+            positions, order, settings)
+        class(contact_model), intent(inout) :: self
+        integer, intent(in), contiguous, target :: col_start(:), row(:)
+        real(c_double), intent(in), contiguous, target :: values(:)
+        integer(c_int32_t), intent(in) :: triangle
+        type(signorini_pairs), intent(in) :: pairs
+        integer, intent(in), optional :: fixed(:)
+        integer, intent(out) :: info
+        character(len=*), intent(out), optional :: message
+        integer, intent(in) :: positions(5)
+        integer, intent(in), contiguous, target, optional :: order(:)
+        type(signorini_settings), intent(in), optional :: settings
+        type(signorini_settings), target :: chosen
         type(signorini_sparse) :: matrix
         integer(c_int64_t), allocatable, target :: held(:)
         integer(c_int64_t) :: n_fixed
@@ -1023,20 +1369,18 @@ contains
         matrix%col_start = c_loc(col_start)
         if (size(row) > 0) matrix%row = c_loc(row)
         matrix%values = address(values)
-        pairs%dim = number(size(normals, 1))
-        pairs%count = size(normals, 2)
-        if (size(normals) > 0) pairs%normals = c_loc(normals)
-        if (present(tangents)) then
-            if (size(tangents) > 0) pairs%tangents = c_loc(tangents)
+        if (present(order)) then
+            if (size(order) > 0) matrix%order = c_loc(order)
         end if
+        if (present(settings)) chosen = settings
         n_fixed = 0
         if (present(fixed)) n_fixed = size(fixed)
         allocate (held(max(1_c_int64_t, n_fixed)))
         held = 0
         if (n_fixed > 0) held = int(fixed, c_int64_t)
-        call finish(signorini_model_new_sparse(matrix, n_fixed, c_loc(held), pairs, self%handle), &
-            info, message, positions)
-        if (info == 0) call keep_sizes(self, size(normals, 1), size(normals, 2), int(n_fixed))
+        call finish(signorini_model_new_sparse_within(matrix, n_fixed, c_loc(held), pairs, &
+            c_loc(chosen), self%handle), info, message, positions)
+        if (info == 0) call keep_sizes(self, int(pairs%dim), int(pairs%count), int(n_fixed))
     end subroutine
 
     ! Entries of a load or displacement vector of the model's host; -1 without a model.
@@ -1099,7 +1443,7 @@ contains
     ! absent: zeros.
     subroutine model_solve(self, f, gap, d, force, info, prescribed, law, friction, slip0, method, &
             tolerance, max_iterations, settings, state, report, motion, second_d, second_force, &
-            second_state, message)
+            second_state, message, escape)
         class(contact_model), intent(in) :: self
         real(c_double), intent(in), contiguous, target :: f(:)
         real(c_double), intent(in), contiguous :: gap(:)
@@ -1113,6 +1457,7 @@ contains
         integer, intent(out), optional :: state(:), second_state(:)
         type(signorini_report), intent(out), optional :: report
         real(c_double), intent(out), contiguous, target, optional :: motion(:), second_d(:), second_force(:)
+        real(c_double), intent(out), contiguous, target, optional :: escape(:)
         character(len=*), intent(out), optional :: message
         type(signorini_settings), target :: chosen
         type(signorini_report), target :: measured
@@ -1133,8 +1478,9 @@ contains
         call choose_settings(wrong, 10, chosen, method, tolerance, max_iterations, settings)
         if (present(state)) call check_size(wrong, 14, 'state', size(state), pairs, 'one for each pair')
         call check_second(wrong, 16, n, pairs, motion, second_d, second_force, second_state)
+        if (present(escape)) call check_size(wrong, 21, 'escape', size(escape), n, 'as many as d')
         if (refused(wrong, info, message)) return
-        extra = address_of_extra(second_states, motion, second_d, second_force)
+        extra = address_of_extra(second_states, motion, second_d, second_force, escape)
         status = signorini_model_solve(self%handle, 1_c_int64_t, address(f), address(prescribed), gap, &
             which, address(friction), address(slip0), c_loc(chosen), d, force, c_loc(states), &
             c_null_ptr, c_loc(measured), c_loc(extra))
@@ -1235,6 +1581,326 @@ contains
         self%fixed = fixed
     end subroutine
 
+    ! Pairs two surfaces of a mesh. Surfaces that never meet are no error: there are no pairs, and
+    ! summary() says why. coordinates(dim, nodes). slave(k, faces), master(k, faces): nodes of each
+    ! face, counted from 1; a face with fewer than k nodes ends with zeros. signorini.h tells their
+    ! order. pairing: SIGNORINI_PAIRING_DUAL_MORTAR, the default, or _NODE_TO_SURFACE.
+    ! search_distance: absent: the size of the largest slave face. dofs(dim, nodes): degrees of
+    ! freedom of each node; absent: dofs_per_node * (node - 1) + axis, dofs_per_node absent: dim.
+    subroutine surfaces_pair(self, coordinates, slave, master, info, pairing, search_distance, dofs, &
+            dofs_per_node, message)
+        class(contact_surfaces), intent(inout) :: self
+        real(c_double), intent(in), contiguous, target :: coordinates(:, :)
+        integer, intent(in) :: slave(:, :), master(:, :)
+        integer, intent(out) :: info
+        integer, intent(in), optional :: pairing, dofs(:, :), dofs_per_node
+        real(c_double), intent(in), optional :: search_distance
+        character(len=*), intent(out), optional :: message
+        type(signorini_surface_settings), target :: settings
+        type(signorini_surface_report), target :: report
+        type(signorini_faces), target :: of_slave, of_master
+        integer(c_int64_t), allocatable, target :: starts(:), nodes(:), starts2(:), nodes2(:), each(:)
+        type(refusal) :: wrong
+        call self%release()
+        call check_dim(wrong, 1, size(coordinates, 1))
+        call settle(wrong, 6, shape(coordinates), settings, each, search_distance, dofs, dofs_per_node)
+        if (present(pairing)) then
+            settings%pairing = number(pairing)
+            if (pairing /= SIGNORINI_PAIRING_DUAL_MORTAR .and. pairing /= SIGNORINI_PAIRING_NODE_TO_SURFACE) &
+                call refuse(wrong, 5, 'there is no pairing ' // text(pairing))
+        end if
+        if (refused(wrong, info, message)) return
+        call check_faces(slave, of_slave, starts, nodes)
+        call check_faces(master, of_master, starts2, nodes2)
+        call finish(signorini_surface_pair(number(size(coordinates, 1)), &
+            int(size(coordinates, 2), c_int64_t), address2(coordinates), c_loc(of_slave), &
+            c_loc(of_master), c_loc(settings), self%handle, c_loc(report)), info, message, &
+            [1, 1, 1, 2, 3, 6])
+        if (info == 0) call keep_pairs(self, shape(coordinates), report, dofs, dofs_per_node)
+    end subroutine
+
+    ! Pairs a surface with a rigid obstacle; the rest as for pair. search_distance absent: no limit.
+    subroutine surfaces_pair_obstacle(self, coordinates, slave, obstacle, info, search_distance, dofs, &
+            dofs_per_node, message)
+        class(contact_surfaces), intent(inout) :: self
+        real(c_double), intent(in), contiguous, target :: coordinates(:, :)
+        integer, intent(in) :: slave(:, :)
+        type(signorini_obstacle), intent(in), target :: obstacle
+        integer, intent(out) :: info
+        real(c_double), intent(in), optional :: search_distance
+        integer, intent(in), optional :: dofs(:, :), dofs_per_node
+        character(len=*), intent(out), optional :: message
+        type(signorini_surface_settings), target :: settings
+        type(signorini_surface_report), target :: report
+        type(signorini_faces), target :: of_slave
+        integer(c_int64_t), allocatable, target :: starts(:), nodes(:), each(:)
+        type(refusal) :: wrong
+        call self%release()
+        call check_dim(wrong, 1, size(coordinates, 1))
+        call settle(wrong, 5, shape(coordinates), settings, each, search_distance, dofs, dofs_per_node)
+        if (refused(wrong, info, message)) return
+        call check_faces(slave, of_slave, starts, nodes)
+        call finish(signorini_surface_pair_obstacle(number(size(coordinates, 1)), &
+            int(size(coordinates, 2), c_int64_t), address2(coordinates), c_loc(of_slave), &
+            c_loc(obstacle), c_loc(settings), self%handle, c_loc(report)), info, message, &
+            [1, 1, 1, 2, 3, 5])
+        if (info == 0) call keep_pairs(self, shape(coordinates), report, dofs, dofs_per_node)
+    end subroutine
+
+    ! One sentence on what was found.
+    function surfaces_summary(self) result(text)
+        class(contact_surfaces), intent(in) :: self
+        character(len=:), allocatable :: text
+        text = text_of(signorini_surface_summary(self%handle))
+    end function
+
+    ! Fields at the nodes of the mesh: pressure(nodes), traction(dim, nodes), clearance(nodes),
+    ! slip(dim, nodes), and node_state(nodes), which needs the state of each pair. Nodes that stand in
+    ! no pair keep what the arrays hold. slip0: the reference slip of the step; gap: if it was not
+    ! that of the surfaces.
+    subroutine surfaces_fields(self, d, force, info, state, slip0, gap, pressure, traction, clearance, &
+            slip, node_state, message)
+        class(contact_surfaces), intent(in) :: self
+        real(c_double), intent(in), contiguous, target :: d(:), force(:)
+        integer, intent(out) :: info
+        integer, intent(in), optional :: state(:)
+        real(c_double), intent(in), contiguous, target, optional :: slip0(:), gap(:)
+        real(c_double), intent(inout), contiguous, target, optional :: pressure(:), traction(:, :), &
+            clearance(:), slip(:, :)
+        integer, intent(inout), optional :: node_state(:)
+        character(len=*), intent(out), optional :: message
+        type(signorini_contact_fields), target :: fields
+        integer(c_int32_t), allocatable, target :: states(:), node_states(:)
+        type(refusal) :: wrong
+        call check_surfaces(wrong, self, CONTACT_WRONG_MODEL)
+        call check_results(wrong, self, 1, d, force, 4, state, slip0, gap)
+        if (present(pressure)) call check_size(wrong, 7, 'pressure', size(pressure), self%nodes, 'nodes')
+        if (present(traction)) call check_shape(wrong, 8, 'traction', shape(traction), &
+            [self%dim, self%nodes], '(dim, nodes)')
+        if (present(clearance)) call check_size(wrong, 9, 'clearance', size(clearance), self%nodes, 'nodes')
+        if (present(slip)) call check_shape(wrong, 10, 'slip', shape(slip), [self%dim, self%nodes], &
+            '(dim, nodes)')
+        if (present(node_state)) call check_size(wrong, 11, 'node_state', size(node_state), self%nodes, 'nodes')
+        if (present(node_state) .and. .not. present(state)) &
+            call refuse(wrong, 4, 'state is missing: node_state needs it')
+        if (refused(wrong, info, message)) return
+        fields%pressure = address(pressure)
+        fields%traction = address2(traction)
+        fields%clearance = address(clearance)
+        fields%slip = address2(slip)
+        allocate (states(max(1, self%pairs)), node_states(max(1, self%nodes)))
+        states = 0
+        if (present(state)) states(:self%pairs) = int(state, c_int32_t)
+        if (present(node_state)) then
+            node_states(:self%nodes) = int(node_state, c_int32_t)
+            fields%state = c_loc(node_states)
+        end if
+        call finish(signorini_surface_fields(self%handle, address(gap), address(slip0), address(d), &
+            address(force), c_loc(states), c_loc(fields)), info, message, &
+            [CONTACT_WRONG_MODEL, 6, 5, 1, 2, 4, 7])
+        if (info == 0 .and. present(node_state)) node_state = int(node_states(:self%nodes))
+    end subroutine
+
+    ! Resultant of the contact forces on the slave's body, about a point(dim), absent: the origin.
+    subroutine surfaces_resultant(self, d, force, sums, info, slip0, point, message)
+        class(contact_surfaces), intent(in) :: self
+        real(c_double), intent(in), contiguous, target :: d(:), force(:)
+        type(signorini_resultant), intent(out), target :: sums
+        integer, intent(out) :: info
+        real(c_double), intent(in), contiguous, target, optional :: slip0(:), point(:)
+        character(len=*), intent(out), optional :: message
+        type(refusal) :: wrong
+        call check_surfaces(wrong, self, CONTACT_WRONG_MODEL)
+        call check_results(wrong, self, 1, d, force, 4, slip0=slip0)
+        if (present(point)) call check_size(wrong, 6, 'point', size(point), self%dim, 'dim')
+        if (refused(wrong, info, message)) return
+        call finish(signorini_surface_resultant(self%handle, address(slip0), address(d), &
+            address(force), address(point), c_loc(sums)), info, message, &
+            [CONTACT_WRONG_MODEL, 5, 1, 2, 6, 3])
+    end subroutine
+
+    ! Writes a mesh of cells of one of VTK's types, cells(k, number), with displacements u and fields
+    ! to a file .vtu, which ParaView opens. Cells of several types: signorini_surface_write.
+    subroutine surfaces_write(self, path, coordinates, cells, cell_type, d, force, info, u, state, &
+            slip0, gap, message)
+        class(contact_surfaces), intent(in) :: self
+        character(len=*), intent(in) :: path
+        real(c_double), intent(in), contiguous, target :: coordinates(:, :)
+        integer, intent(in) :: cells(:, :), cell_type
+        real(c_double), intent(in), contiguous, target :: d(:), force(:)
+        integer, intent(out) :: info
+        real(c_double), intent(in), contiguous, target, optional :: u(:), slip0(:), gap(:)
+        integer, intent(in), optional :: state(:)
+        character(len=*), intent(out), optional :: message
+        type(signorini_mesh), target :: mesh
+        character(kind=c_char), allocatable, target :: name(:)
+        integer(c_int64_t), allocatable, target :: nodes(:), starts(:)
+        integer(c_int32_t), allocatable, target :: states(:)
+        type(c_ptr) :: of_states
+        type(refusal) :: wrong
+        integer :: i
+        call check_surfaces(wrong, self, CONTACT_WRONG_MODEL)
+        call check_shape(wrong, 2, 'coordinates', shape(coordinates), [self%dim, self%nodes], '(dim, nodes)')
+        call check_results(wrong, self, 5, d, force, 9, state, slip0, gap)
+        if (present(u)) then
+            if (size(u) < self%dofs) call refuse(wrong, 8, 'u has ' // entries(size(u)) // &
+                ', it must have those of all degrees of freedom')
+        end if
+        if (refused(wrong, info, message)) return
+        allocate (name(len_trim(path) + 1))
+        do i = 1, len_trim(path)
+            name(i) = path(i:i)
+        end do
+        name(size(name)) = c_null_char
+        mesh%dim = number(self%dim)
+        mesh%nodes = self%nodes
+        mesh%coordinates = address2(coordinates)
+        mesh%cells = size(cells, 2)
+        mesh%index_base = 1
+        mesh%cell_type = number(cell_type)
+        nodes = [int([cells], c_int64_t), 0_c_int64_t]
+        starts = [(1_c_int64_t + size(cells, 1) * int(i, c_int64_t), i=0, size(cells, 2))]
+        mesh%cell_start = c_loc(starts)
+        mesh%cell_nodes = c_loc(nodes)
+        allocate (states(max(1, self%pairs)))
+        of_states = c_null_ptr
+        if (present(state)) then
+            states(:self%pairs) = int(state, c_int32_t)
+            of_states = c_loc(states)
+        end if
+        call finish(signorini_surface_write(self%handle, c_loc(name), c_loc(mesh), address(gap), &
+            address(slip0), address(u), address(d), address(force), of_states), info, message, &
+            [CONTACT_WRONG_MODEL, 1, 3, 11, 10, 8, 5, 6, 9])
+    end subroutine
+
+    subroutine surfaces_release(self)
+        class(contact_surfaces), intent(inout) :: self
+        call signorini_surface_free(self%handle)
+        self%handle = c_null_ptr
+        self%dim = 0
+        self%pairs = 0
+        self%nodes = 0
+        if (allocated(self%gap)) deallocate (self%node, self%gap, self%area, self%normal, &
+            self%tangent, self%point)
+    end subroutine
+
+    ! Copies what the library tells of new pairs.
+    subroutine keep_pairs(self, nodes, report, dofs, dofs_per_node)
+        class(contact_surfaces), intent(inout) :: self
+        integer, intent(in) :: nodes(2)
+        type(signorini_surface_report), intent(in) :: report
+        integer, intent(in), optional :: dofs(:, :), dofs_per_node
+        integer(c_int64_t), pointer :: numbers(:)
+        integer :: each
+        self%dim = nodes(1)
+        self%nodes = nodes(2)
+        self%pairs = int(report%pairs)
+        self%report = report
+        each = nodes(1)
+        if (present(dofs_per_node)) each = dofs_per_node
+        self%dofs = each * (nodes(2) - 1) + nodes(1)
+        if (present(dofs)) self%dofs = maxval(dofs)
+        allocate (self%node(self%pairs))
+        if (self%pairs > 0) then
+            call c_f_pointer(signorini_surface_nodes(self%handle), numbers, [self%pairs])
+            self%node = int(numbers)
+        end if
+        self%gap = reals_of(signorini_surface_gaps(self%handle), self%pairs)
+        self%area = reals_of(signorini_surface_areas(self%handle), self%pairs)
+        self%normal = reshape(reals_of(signorini_surface_normals(self%handle), &
+            self%dim * self%pairs), [self%dim, self%pairs])
+        self%tangent = reshape(reals_of(signorini_surface_tangents(self%handle), &
+            self%dim * self%pairs), [self%dim, self%pairs])
+        self%point = reshape(reals_of(signorini_surface_points(self%handle), &
+            self%dim * self%pairs), [self%dim, self%pairs])
+    end subroutine
+
+    ! A copy of an array of the library.
+    function reals_of(pointer, count) result(copy)
+        type(c_ptr), intent(in) :: pointer
+        integer, intent(in) :: count
+        real(c_double) :: copy(count)
+        real(c_double), pointer :: found(:)
+        if (count == 0) return
+        call c_f_pointer(pointer, found, [count])
+        copy = found
+    end function
+
+    ! The settings of a pairing; search_distance, dofs and dofs_per_node from a position on.
+    subroutine settle(wrong, first, nodes, settings, each, search_distance, dofs, dofs_per_node)
+        type(refusal), intent(inout) :: wrong
+        integer, intent(in) :: first, nodes(2)
+        type(signorini_surface_settings), intent(inout) :: settings
+        integer(c_int64_t), allocatable, target, intent(out) :: each(:)
+        real(c_double), intent(in), optional :: search_distance
+        integer, intent(in), optional :: dofs(:, :), dofs_per_node
+        settings%index_base = 1
+        if (present(search_distance)) then
+            settings%search_distance = search_distance
+            if (.not. search_distance > 0) call refuse(wrong, first, 'search_distance must be positive')
+        end if
+        if (present(dofs_per_node)) then
+            settings%dofs_per_node = number(dofs_per_node)
+            if (dofs_per_node < nodes(1)) call refuse(wrong, first + 2, 'dofs_per_node is ' // &
+                text(dofs_per_node) // ', it must be at least dim')
+        end if
+        if (present(dofs)) then
+            call check_shape(wrong, first + 1, 'dofs', shape(dofs), nodes, '(dim, nodes), as coordinates')
+            if (any(dofs < 1)) call refuse(wrong, first + 1, 'dofs must count from 1')
+            each = int([dofs], c_int64_t)
+            if (size(each) > 0) settings%node_dofs = c_loc(each)
+        end if
+    end subroutine
+
+    ! Faces, of which those with fewer nodes end with zeros.
+    subroutine check_faces(given, faces, starts, nodes)
+        integer, intent(in) :: given(:, :)
+        type(signorini_faces), intent(inout) :: faces
+        integer(c_int64_t), allocatable, target, intent(out) :: starts(:), nodes(:)
+        integer :: face, count_of
+        allocate (starts(size(given, 2) + 1), nodes(size(given) + 1))
+        nodes = 0
+        starts(1) = 1
+        do face = 1, size(given, 2)
+            count_of = size(given, 1)
+            do while (count_of > 0)
+                if (given(count_of, face) /= 0) exit
+                count_of = count_of - 1
+            end do
+            nodes(starts(face):starts(face) + count_of - 1) = int(given(:count_of, face), c_int64_t)
+            starts(face + 1) = starts(face) + count_of
+        end do
+        faces%count = size(given, 2)
+        faces%start = c_loc(starts)
+        faces%nodes = c_loc(nodes)
+    end subroutine
+
+    subroutine check_surfaces(wrong, surfaces, position)
+        type(refusal), intent(inout) :: wrong
+        class(contact_surfaces), intent(in) :: surfaces
+        integer, intent(in) :: position
+        if (.not. c_associated(surfaces%handle)) call refuse(wrong, position, &
+            'there are no pairs: pair or pair_obstacle makes them')
+    end subroutine
+
+    ! d and force from the position `first` on; state, slip0 and gap from the position `second` on.
+    subroutine check_results(wrong, self, first, d, force, second, state, slip0, gap)
+        type(refusal), intent(inout) :: wrong
+        class(contact_surfaces), intent(in) :: self
+        integer, intent(in) :: first, second
+        real(c_double), intent(in) :: d(:), force(:)
+        integer, intent(in), optional :: state(:)
+        real(c_double), intent(in), optional :: slip0(:), gap(:)
+        integer :: n
+        n = self%dim * self%pairs
+        call check_size(wrong, first, 'd', size(d), n, 'dim * pairs')
+        call check_size(wrong, first + 1, 'force', size(force), n, 'dim * pairs')
+        if (present(state)) call check_size(wrong, second, 'state', size(state), self%pairs, 'one for each pair')
+        if (present(slip0)) call check_size(wrong, second + 1, 'slip0', size(slip0), n - self%pairs, &
+            'dim - 1 for each pair')
+        if (present(gap)) call check_size(wrong, second + 2, 'gap', size(gap), self%pairs, 'one for each pair')
+    end subroutine
+
     ! Notes what is wrong, if nothing has been wrong before.
     subroutine refuse(wrong, position, sentence)
         type(refusal), intent(inout) :: wrong
@@ -1328,7 +1994,7 @@ contains
         type(refusal), intent(inout) :: wrong
         class(contact_model), intent(in) :: self
         if (.not. c_associated(self%handle)) call refuse(wrong, CONTACT_WRONG_MODEL, &
-            'there is no model: new_condensed, new_two_body, new_sparse or new_sparse_rows makes one')
+            'there is no model: new_condensed, new_two_body, new_sparse, new_sparse_rows or new_surfaces makes one')
     end subroutine
 
     ! The load of a model at position 1 and its prescribed values.
@@ -1480,19 +2146,31 @@ contains
         if (present(state)) state = int(states)
     end subroutine
 
-    function address_of_extra(second_states, motion, second_d, second_force) result(extra)
+    function address_of_extra(second_states, motion, second_d, second_force, escape) result(extra)
         integer(c_int32_t), intent(in), target :: second_states(:)
         real(c_double), intent(in), contiguous, target, optional :: motion(:), second_d(:), second_force(:)
+        real(c_double), intent(in), contiguous, target, optional :: escape(:)
         type(signorini_extra) :: extra
         extra%motion = address(motion)
         extra%second_d = address(second_d)
         extra%second_force = address(second_force)
+        extra%escape = address(escape)
         if (size(second_states) > 0) extra%second_state = c_loc(second_states)
     end function
 
     ! Of an array that may be absent, or empty.
     function address(array) result(pointer)
         real(c_double), intent(in), contiguous, target, optional :: array(:)
+        type(c_ptr) :: pointer
+        pointer = c_null_ptr
+        if (present(array)) then
+            if (size(array) > 0) pointer = c_loc(array)
+        end if
+    end function
+
+    ! The same for an array of vectors.
+    function address2(array) result(pointer)
+        real(c_double), intent(in), contiguous, target, optional :: array(:, :)
         type(c_ptr) :: pointer
         pointer = c_null_ptr
         if (present(array)) then

@@ -6,8 +6,9 @@
  *     1  One call            a matrix that you have condensed on the contact components
  *     2  Your own matrix     a whole sparse matrix with contact pairs, or two condensed bodies
  *     3  Many load cases     solve, recover, certify
- *     4  Files               problems written for bug reports and replay
- *     5  Fine tuning         settings, report, second solutions, LCPs, versions
+ *     4  Surfaces            pairs from the faces of two meshes, pressures, files for ParaView
+ *     5  Files               problems written for bug reports and replay
+ *     6  Fine tuning         settings, report, second solutions, LCPs, versions
  *
  * The problem. P pairs in dimension D (2 or 3) have N = D P unknowns: a relative displacement d and
  * a contact force F with one normal and D - 1 tangential components each, ordered pair by pair as
@@ -73,7 +74,7 @@ extern "C" {
  *
  * signorini_solve takes a condensed problem on plain arrays, signorini_flexibility_solve one whose
  * matrix turns forces into displacements. settings, report and extra may be NULL; their structures
- * stand in section 5.
+ * stand in section 6.
  * ========================================================================================== */
 
 typedef struct signorini_settings signorini_settings;
@@ -123,7 +124,8 @@ typedef struct signorini_extra signorini_extra;
  * @param K         condensed stiffness, N columns of N entries, column-major, both triangles;
  *                  symmetric, positive semi-definite; force / length. A row of zeros is a component
  *                  that nothing resists. Small entries on the diagonal are taken as they are: of a
- *                  free body on two or three points make a model, which knows rounding
+ *                  free body on two or three points make a model, which knows rounding. That K is
+ *                  positive semi-definite is checked by pairs of entries alone; models check it
  * @param ldk       entries from one column of K to the next, at least max(1, N)
  * @param f         condensed nodal loads, N; force
  * @param gap       initial gaps, one for each pair; length; negative: interference; +infinity:
@@ -230,6 +232,8 @@ const char *signorini_last_error(void);
 #define SIGNORINI_STATUS_NOT_A_SOLUTION 6    /**< Certify: the displacements are no solution. */
 /** Prove: no solution is proved to exist, which does not say that there is none. */
 #define SIGNORINI_STATUS_NOT_PROVED 7
+/** The reduction of a sparse matrix needs more than memory_limit: nothing was factorised. */
+#define SIGNORINI_STATUS_MEMORY_LIMIT 8
 #define SIGNORINI_STATUS_INTERNAL -1000 /**< A caught defect of the library: results undefined. */
 #define SIGNORINI_STATUS_OUT_OF_MEMORY -1001 /**< Out of memory: nothing was written. */
 #define SIGNORINI_STATUS_FILE -1002          /**< A file cannot be read or written. */
@@ -272,6 +276,12 @@ struct signorini_sparse {
     const void *col_start;
     const void *row;      /**< Row of each entry, ascending in each column; nnz entries. */
     const double *values; /**< The entries, nnz; force / length. */
+    /**
+     * Order of elimination: each degree of freedom once, the first to go first, size entries of
+     * index_bytes. NULL: chosen. Fixed degrees of freedom and slaves are passed over; those with
+     * the same neighbours, as of one node, go together.
+     */
+    const void *order;
 };
 
 /**
@@ -386,6 +396,27 @@ int32_t signorini_model_new_condensed(int32_t dim, int64_t pairs, const double *
  */
 int32_t signorini_model_new_two_body(int32_t dim, int64_t pairs, const double *K_A, int64_t lda,
                                      const double *K_B, int64_t ldb, signorini_model **model);
+
+/**
+ * As signorini_model_new_sparse, with settings of which it takes progress, user, time_limit and
+ * memory_limit. The callback is told the share that is done and, before memory is taken, how much
+ * is needed. The choice of the order, before that, asks nobody. After a call that was ended nothing
+ * is held, and your arrays are as before.
+ *
+ * @param K         the stiffness matrix of all degrees of freedom, the fixed ones too
+ * @param n_fixed   number of fixed degrees of freedom
+ * @param fixed     the fixed degrees of freedom, counted from K->index_base; may be NULL if
+ *                  n_fixed is 0
+ * @param pairs     the contact pairs
+ * @param settings  may be NULL: no callback, no limits
+ * @param model     out: the model; NULL unless 0 is returned
+ * @return 0; SIGNORINI_STATUS_CANCELLED, _TIME_LIMIT or _MEMORY_LIMIT; -k: the k-th argument is
+ *         wrong; <= -1000: out of memory or a defect
+ */
+int32_t signorini_model_new_sparse_within(const signorini_sparse *K, int64_t n_fixed,
+                                          const int64_t *fixed, const signorini_pairs *pairs,
+                                          const signorini_settings *settings,
+                                          signorini_model **model);
 
 /** Releases a model. NULL is allowed. */
 void signorini_model_free(signorini_model *model);
@@ -583,7 +614,395 @@ int32_t signorini_prove(int32_t dim, int64_t pairs, const double *K, int64_t ldk
                         double *radius_F);
 
 /* ============================================================================================
- * 4  Files
+ * 4  Surfaces
+ *
+ * Without a contact search of your own: hand over coordinates and faces. The library finds what
+ * lies opposite, integrates, and makes the pairs of section 2.
+ *
+ *     signorini_surface_pair(3, nodes, x, &slave, &master, NULL, &contact, NULL);
+ *     signorini_model_new_sparse(&K, n_fixed, fixed, signorini_surface_rows(contact), &model);
+ *     signorini_model_solve(model, 1, f, NULL, signorini_surface_gaps(contact), ...);
+ *     signorini_surface_write(contact, "contact.vtu", &mesh, NULL, NULL, u, d, F, state);
+ *
+ * A quadratic slave face has pairs of nodes with weights: use signorini_surface_rows as it is.
+ * Several contact zones: make pairs for each, and one signorini_pairs of all of them.
+ * ========================================================================================== */
+
+/* How surfaces are paired. */
+/** Dual mortar, the default: a uniform pressure passes between any two flat meshes. */
+#define SIGNORINI_PAIRING_DUAL_MORTAR 0
+/**
+ * Each slave node against the point that it meets along its normal. Forces and moments balance;
+ * the pressure between meshes that do not match is wrong by some percent.
+ */
+#define SIGNORINI_PAIRING_NODE_TO_SURFACE 1
+
+/* Kind of a rigid obstacle. */
+#define SIGNORINI_OBSTACLE_PLANE 0    /**< A half space, in 2D a half plane. */
+#define SIGNORINI_OBSTACLE_CYLINDER 1 /**< A round bar of any length, 3D only. */
+#define SIGNORINI_OBSTACLE_SPHERE 2   /**< A ball, in 2D a disc. */
+
+typedef struct signorini_faces signorini_faces;
+typedef struct signorini_obstacle signorini_obstacle;
+typedef struct signorini_surface_settings signorini_surface_settings;
+typedef struct signorini_surface_report signorini_surface_report;
+
+/**
+ * Faces of a surface as lists of nodes: in 2D lines of 2 or 3 nodes; in 3D triangles of 3 or 6 and
+ * quadrilaterals of 4, 8 or 9 nodes, in any mixture. Corners come first, in order around the face,
+ * then mid nodes, the first one between the first two corners, then the centre. Seen from outside
+ * the body the corners run counterclockwise; in 2D the body lies to the left of a line that runs
+ * from its first node to its second.
+ */
+struct signorini_faces {
+    uint32_t struct_size; /**< sizeof(signorini_faces). */
+    int32_t face_nodes;   /**< Number of nodes of each face, if start is NULL; else 0. */
+    int64_t count;        /**< Number of faces. */
+    /**
+     * Start of each face in nodes, count + 1 entries, counted from index_base; NULL: all faces
+     * have face_nodes nodes.
+     */
+    const int64_t *start;
+    const int64_t *nodes; /**< The nodes, counted from index_base. */
+};
+
+/** A surface that does not deform. Unused numbers are not read. */
+struct signorini_obstacle {
+    uint32_t struct_size; /**< sizeof(signorini_obstacle). */
+    int32_t kind;         /**< SIGNORINI_OBSTACLE_... */
+    /**
+     * A point of the plane or of the cylinder's axis, or the centre; in 2D two entries are read.
+     */
+    double point[3];
+    /** Plane: the direction out of the obstacle. Cylinder: its axis. Of any length. */
+    double direction[3];
+    double radius;        /**< Radius of the cylinder or the sphere. */
+    int32_t hollow;       /**< Nonzero: the body is inside, as in a bore or a bowl. */
+    int32_t reserved;     /**< 0. */
+};
+
+/**
+ * How surfaces are paired. Fill it by signorini_surface_settings_default(), then change what you
+ * like.
+ */
+struct signorini_surface_settings {
+    uint32_t struct_size; /**< sizeof(signorini_surface_settings). */
+    int32_t pairing;      /**< SIGNORINI_PAIRING_...; default SIGNORINI_PAIRING_DUAL_MORTAR. */
+    /**
+     * Largest distance along the normal at which surfaces are paired, open or overlapping; length.
+     * Default 0: the size of the largest slave face; against an obstacle no limit, as +infinity.
+     */
+    double search_distance;
+    /**
+     * 0 or 1: the number of the first node, of the first entry of start and of the first degree of
+     * freedom, here and in what the pairs tell; default 0. Take the one of your matrix.
+     */
+    int32_t index_base;
+    /**
+     * Degrees of freedom of each node, of which the first dim are its displacements, such as 6;
+     * default 0: dim. Not read if node_dofs is given.
+     */
+    int32_t dofs_per_node;
+    /**
+     * Degrees of freedom of each node, dim for each, counted from index_base; default NULL:
+     * dofs_per_node * node + axis.
+     */
+    const int64_t *node_dofs;
+};
+
+/**
+ * What became of the faces and nodes of a pairing. Set struct_size before the call; the call writes
+ * all other fields.
+ */
+struct signorini_surface_report {
+    /** sizeof(signorini_surface_report) in your program; no more is written. */
+    uint32_t struct_size;
+    int32_t dim;            /**< Space dimension. */
+    int64_t pairs;          /**< Number of pairs. */
+    int64_t unpaired;       /**< Slave nodes without a pair: signorini_surface_unpaired. */
+    /**
+     * Of these, nodes with little cover whose row is in that of a neighbour:
+     * signorini_surface_folded.
+     */
+    int64_t folded;
+    int64_t slave_faces;    /**< Slave faces. */
+    /** Slave faces that lie over nothing (dual mortar): signorini_surface_uncovered. */
+    int64_t uncovered;
+    double slave_area;      /**< Area of the slave faces. */
+    /** The part of it that lies over the other side: the areas of all pairs. */
+    double covered_area;
+    double search_distance; /**< The search distance that was used. */
+    /**
+     * How often a master face was near a slave whose normal does not oppose the slave's. If there
+     * are no pairs, and this is not 0, one side is turned over.
+     */
+    int64_t not_opposed;
+    int64_t boxes_searched; /**< Boxes that the search looked at: its cost. */
+};
+
+/**
+ * Contact pairs that the library made from surfaces, with all that belongs to them. Made by
+ * signorini_surface_pair or signorini_surface_pair_obstacle, released by signorini_surface_free.
+ * It does not change: several threads may use one at once. It holds copies: your arrays may go
+ * once it is made. The arrays that it tells live as long as it does; one without entries is NULL.
+ */
+typedef struct signorini_surface_pairs signorini_surface_pairs;
+
+/**
+ * Fills settings with their defaults and sets struct_size.
+ *
+ * @param settings     not NULL
+ * @param struct_size  sizeof(signorini_surface_settings); no more than that is written
+ * @return 0, or -1 or -2 for the argument that is wrong
+ */
+int32_t signorini_surface_settings_default(signorini_surface_settings *settings,
+                                           uint32_t struct_size);
+
+/**
+ * Makes contact pairs from two surfaces that may touch. signorini_surface_rows gives them to
+ * signorini_model_new_sparse, signorini_surface_gaps to signorini_model_solve.
+ *
+ * Surfaces that never meet are no error: there are no pairs, and signorini_surface_summary says
+ * why.
+ *
+ * @param dim          space dimension, 2 or 3
+ * @param nodes        number of nodes of your mesh
+ * @param coordinates  dim for each node, of all nodes; length
+ * @param slave        the side whose nodes become slaves; better the softer or finer one
+ * @param master       the other side; its nodes must not be on the slave side
+ * @param settings     NULL: the defaults
+ * @param contact      out: the pairs; NULL unless 0 is returned
+ * @param report       out: what was found; set report->struct_size before the call; may be NULL
+ * @return 0; -k: the k-th argument is wrong: signorini_last_error names side, face and node;
+ *         <= -1000: out of memory or a defect
+ */
+int32_t signorini_surface_pair(int32_t dim, int64_t nodes, const double *coordinates,
+                               const signorini_faces *slave, const signorini_faces *master,
+                               const signorini_surface_settings *settings,
+                               signorini_surface_pairs **contact, signorini_surface_report *report);
+
+/**
+ * Makes contact pairs from a surface and a rigid obstacle. Nodes may lie on either side of the
+ * obstacle's surface: the gap is negative inside.
+ *
+ * @param dim          space dimension, 2 or 3
+ * @param nodes        number of nodes of your mesh
+ * @param coordinates  dim for each node, of all nodes; length
+ * @param slave        the faces that may touch the obstacle
+ * @param obstacle     the obstacle
+ * @param settings     NULL: the defaults; the kind of pairing is not read
+ * @param contact      out: the pairs; NULL unless 0 is returned
+ * @param report       out: what was found; set report->struct_size before the call; may be NULL
+ * @return as signorini_surface_pair
+ */
+int32_t signorini_surface_pair_obstacle(int32_t dim, int64_t nodes, const double *coordinates,
+                                        const signorini_faces *slave,
+                                        const signorini_obstacle *obstacle,
+                                        const signorini_surface_settings *settings,
+                                        signorini_surface_pairs **contact,
+                                        signorini_surface_report *report);
+
+/** Releases pairs. NULL is allowed. */
+void signorini_surface_free(signorini_surface_pairs *contact);
+
+/** Number of pairs; -1 if contact is NULL. */
+int64_t signorini_surface_count(const signorini_surface_pairs *contact);
+
+/**
+ * The pairs for signorini_model_new_sparse, as general rows, counted from index_base. NULL if
+ * contact is NULL.
+ */
+const signorini_pairs *signorini_surface_rows(const signorini_surface_pairs *contact);
+
+/** Initial gaps, one for each pair; length: positive if open, negative if the surfaces overlap. */
+const double *signorini_surface_gaps(const signorini_surface_pairs *contact);
+
+/** Areas, one for each pair; the pressure of a pair is -F_n over its area. */
+const double *signorini_surface_areas(const signorini_surface_pairs *contact);
+
+/** Unit normals, dim for each pair, outward from the slave's body. */
+const double *signorini_surface_normals(const signorini_surface_pairs *contact);
+
+/** First unit tangents, dim for each pair; in 3D the second one is n x t1. */
+const double *signorini_surface_tangents(const signorini_surface_pairs *contact);
+
+/** Where the force of each pair acts on the slave's body, dim for each pair. */
+const double *signorini_surface_points(const signorini_surface_pairs *contact);
+
+/** The slave node of each pair, ascending, counted from index_base. */
+const int64_t *signorini_surface_nodes(const signorini_surface_pairs *contact);
+
+/**
+ * Slave nodes without a pair, report.unpaired entries: nothing lies over them, or they are folded.
+ */
+const int64_t *signorini_surface_unpaired(const signorini_surface_pairs *contact);
+
+/**
+ * Slave nodes with little cover, each with the node whose pair has taken in its row; 2 for each of
+ * report.folded.
+ */
+const int64_t *signorini_surface_folded(const signorini_surface_pairs *contact);
+
+/** Slave faces that lie over nothing, report.uncovered entries, counted from index_base. */
+const int64_t *signorini_surface_uncovered(const signorini_surface_pairs *contact);
+
+/**
+ * One sentence on what was found, ASCII text for a log. It lives as long as the pairs; empty if
+ * contact is NULL.
+ */
+const char *signorini_surface_summary(const signorini_surface_pairs *contact);
+
+/* ---- What a solution means on the surfaces ------------------------------------------------- */
+
+typedef struct signorini_contact_fields signorini_contact_fields;
+typedef struct signorini_resultant signorini_resultant;
+typedef struct signorini_mesh signorini_mesh;
+typedef struct signorini_field signorini_field;
+
+/**
+ * Fields at the nodes of your mesh. Set struct_size, and the pointers of the arrays that you want;
+ * each may be NULL. A call writes the nodes that stand in pairs of its contact, on both sides,
+ * and leaves the others as they are: set them before, and give the same arrays to the calls of all
+ * contact zones. Vectors are in the axes of the mesh.
+ *
+ * A slave node has the values of its pair; other nodes have means over the pairs that they stand
+ * in, weighted by area and the size of their weights.
+ */
+struct signorini_contact_fields {
+    uint32_t struct_size; /**< sizeof(signorini_contact_fields). */
+    int32_t reserved;     /**< 0. */
+    /** Out: contact pressure, one for each node; positive presses; force / area. */
+    double *pressure;
+    /** Out: force of the contact on the node's own body over area, dim for each node. */
+    double *traction;
+    /** Out: what is left of the gap, gap - d_n, one for each node; positive if open; length. */
+    double *clearance;
+    /**
+     * Out: motion along the surface against the other body since slip0, dim for each node; length.
+     */
+    double *slip;
+    /** Out: SIGNORINI_STATE_..., one for each node: of its pair, or that of its largest share. */
+    int32_t *state;
+};
+
+/** Sums over a contact zone. Set struct_size before the call; the call writes all other fields. */
+struct signorini_resultant {
+    uint32_t struct_size; /**< sizeof(signorini_resultant) in your program; no more is written. */
+    int32_t reserved;     /**< 0. */
+    double force[3]; /**< Force of the contact on the slave's body; in 2D the third entry is 0. */
+    double moment[3];     /**< Its moment about the given point; in 2D the third entry alone. */
+    /**
+     * Work that friction takes in the step, sum of -F_t . (d_t - slip0), with the forces of its
+     * end.
+     */
+    double friction_work;
+    double pressed_area;  /**< Area of the pairs that press. */
+};
+
+/**
+ * Pressure, traction, clearance and slip at the nodes of both sides.
+ *
+ * @param contact  the pairs
+ * @param gap      gaps, one for each pair; NULL: those of the pairs
+ * @param slip0    reference slip, dim - 1 for each pair; NULL: zero
+ * @param d        relative displacements, N = dim * pairs
+ * @param F        contact forces, N
+ * @param state    SIGNORINI_STATE_... of each pair; may be NULL if fields->state is
+ * @param fields   out: the arrays of the fields
+ * @return 0; -k: the k-th argument is wrong, nothing was written
+ */
+int32_t signorini_surface_fields(const signorini_surface_pairs *contact, const double *gap,
+                                 const double *slip0, const double *d, const double *F,
+                                 const int32_t *state, const signorini_contact_fields *fields);
+
+/**
+ * Resultant of the contact forces on the slave's body, and the work of friction.
+ *
+ * @param contact    the pairs
+ * @param slip0      reference slip, dim - 1 for each pair; NULL: zero
+ * @param d          relative displacements, N = dim * pairs
+ * @param F          contact forces, N
+ * @param point      the point of the moment, dim coordinates; NULL: the origin
+ * @param resultant  out: the sums; set resultant->struct_size before the call
+ * @return 0; -k: the k-th argument is wrong, nothing was written
+ */
+int32_t signorini_surface_resultant(const signorini_surface_pairs *contact, const double *slip0,
+                                    const double *d, const double *F, const double *point,
+                                    signorini_resultant *resultant);
+
+/**
+ * A mesh of yours, to be written to a file. Cells have the types and the order of nodes of VTK: 3
+ * line, 5 triangle, 9 quadrilateral, 10 tetrahedron, 12 hexahedron, 13 wedge, 14 pyramid; 21 to 29
+ * the quadratic ones.
+ */
+struct signorini_mesh {
+    uint32_t struct_size;      /**< sizeof(signorini_mesh). */
+    int32_t dim;               /**< Space dimension, 2 or 3. */
+    int64_t nodes;             /**< Number of nodes. */
+    const double *coordinates; /**< Coordinates, dim for each node. */
+    int64_t cells;             /**< Number of cells, 0 allowed. */
+    /** 0 or 1: the number of the first node and of the first entry of cell_start. */
+    int32_t index_base;
+    int32_t cell_type;         /**< VTK's type of all cells, if cell_types is NULL; else 0. */
+    const int32_t *cell_types; /**< VTK's type of each cell; NULL: all have cell_type. */
+    /**
+     * Start of each cell in cell_nodes, cells + 1 entries; NULL: cells have the number of nodes of
+     * their types.
+     */
+    const int64_t *cell_start;
+    const int64_t *cell_nodes; /**< Nodes of the cells. */
+};
+
+/** A field of your own at the nodes of a mesh. */
+struct signorini_field {
+    uint32_t struct_size; /**< sizeof(signorini_field). */
+    int32_t components;   /**< 1: a number for each node; dim: a vector. */
+    const char *name;     /**< Its name in the file, UTF-8. */
+    const double *values; /**< The values, components for each node. */
+};
+
+/**
+ * Writes a mesh with the displacements and the fields of one contact zone to a file, as
+ * signorini_mesh_write does. Nodes that stand in no pair have pressure, traction, slip and
+ * clearance 0 and state -1.
+ *
+ * @param contact  the pairs
+ * @param path     name of the file, which is replaced if it exists
+ * @param mesh     the mesh whose nodes were paired
+ * @param gap      gaps, one for each pair; NULL: those of the pairs
+ * @param slip0    reference slip, dim - 1 for each pair; NULL: zero
+ * @param u        displacements of all degrees of freedom, as signorini_model_recover tells them;
+ *                 NULL: none
+ * @param d        relative displacements, N = dim * pairs
+ * @param F        contact forces, N
+ * @param state    SIGNORINI_STATE_... of each pair; NULL: no states
+ * @return as signorini_mesh_write
+ */
+int32_t signorini_surface_write(const signorini_surface_pairs *contact, const char *path,
+                                const signorini_mesh *mesh, const double *gap, const double *slip0,
+                                const double *u, const double *d, const double *F,
+                                const int32_t *state);
+
+/**
+ * Writes a mesh with fields at its nodes to a file in VTK's format .vtu, which ParaView opens. The
+ * file keeps every bit, infinities too.
+ *
+ * @param path      name of the file, which is replaced if it exists
+ * @param mesh      the mesh
+ * @param u         displacements, dim for each node; NULL: none
+ * @param contact   fields of signorini_surface_fields, written under their names; those that are
+ *                  NULL are left out; NULL: none
+ * @param n_fields  number of further fields
+ * @param fields    the further fields; may be NULL if n_fields is 0
+ * @return 0; -k: the k-th argument is wrong; SIGNORINI_STATUS_FILE: the file cannot be written; an
+ *         old file is then unchanged
+ */
+int32_t signorini_mesh_write(const char *path, const signorini_mesh *mesh, const double *u,
+                             const signorini_contact_fields *contact, int64_t n_fields,
+                             const signorini_field *fields);
+
+/* ============================================================================================
+ * 5  Files
  *
  * A problem file holds one problem as text, with the same bits. Mail it with a bug report.
  * ========================================================================================== */
@@ -719,7 +1138,7 @@ const double *signorini_problem_cover(const signorini_problem *problem);
 const char *signorini_problem_remark(const signorini_problem *problem);
 
 /* ============================================================================================
- * 5  Fine tuning
+ * 6  Fine tuning
  * ========================================================================================== */
 
 /* ---- How to solve -------------------------------------------------------------------------- */
@@ -764,10 +1183,21 @@ struct signorini_progress {
     int64_t iterations; /**< Sweeps, pivots or linear systems done. */
     double eta;         /**< Latest measured eta; infinite before the first measurement. */
     double elapsed;     /**< Seconds since the call began. */
+    /**
+     * Share of the reduction of a sparse matrix that is done, 0 to 1; 1 while a load case is
+     * solved.
+     */
+    double reduced;
+    /**
+     * Bytes that this reduction needs in all, told before they are taken; 0 before they are known
+     * and while a load case is solved.
+     */
+    int64_t memory;
 };
 
 /**
- * A progress callback: called before each sweep, pivot or linear system. A nonzero result cancels
+ * A progress callback: called before each sweep, pivot or linear system, and by
+ * signorini_model_new_sparse_within some hundred times a second. A nonzero result cancels
  * the call (SIGNORINI_STATUS_CANCELLED). It runs on the calling thread, in the default
  * floating-point environment. It must return: no longjmp, no exception; and it must not call this
  * library.
@@ -803,6 +1233,8 @@ struct signorini_settings {
      */
     int32_t proof;
     int32_t reserved;               /**< 0. */
+    /** Most bytes that signorini_model_new_sparse_within may need; default 0: no limit. */
+    int64_t memory_limit;
 };
 
 /**
@@ -920,11 +1352,12 @@ struct signorini_extra {
     uint32_t struct_size; /**< sizeof(signorini_extra). */
     int32_t reserved;     /**< 0. */
     /**
-     * Out: N entries. With SIGNORINI_STATUS_NO_EQUILIBRIUM the motion of escape r, which proves
-     * the status: K r = 0, and f . r + F . r > 0 for all contact forces F that the law admits. Its
-     * largest component is 1. In signorini_flexibility_solve the proof is pressing normal forces p:
-     * W p = 0, and the sum of p_n (gap - q_n) is positive, p_n < 0 where it counts; the largest
-     * is -1. With every other status zeros.
+     * Out: N entries. With SIGNORINI_STATUS_NO_EQUILIBRIUM a motion r that proves the status:
+     * K r = 0, and f . r + F . r > 0 for all contact forces F that the law admits. Its largest
+     * component is 1. With every other status zeros. With friction it lifts each slipping pair by
+     * mu times its slip, as nothing moves: draw escape. In signorini_flexibility_solve the proof
+     * is pressing normal forces p: W p = 0, and the sum of p_n (gap - q_n) is positive, p_n < 0
+     * where it counts; the largest is -1.
      */
     double *motion;
     /**
@@ -942,6 +1375,14 @@ struct signorini_extra {
      */
     double *radius_d;
     double *radius_F;     /**< Out: N entries. The same of the contact forces and F; force. */
+    /**
+     * Out: N entries. With SIGNORINI_STATUS_NO_EQUILIBRIUM the motion of escape, which you can
+     * draw: K r = 0, no pair approaches its obstacle, pairs that contact presses stay on it,
+     * friction opposes the slip, and f . r > 0. It is the motion against a viscosity in each
+     * component of the size of its diagonal entry of K, every pair of finite gap touching. Its
+     * largest component is 1. With every other status zeros.
+     */
+    double *escape;
 };
 
 /**

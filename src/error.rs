@@ -59,6 +59,23 @@ pub enum Argument {
     MasterFaces,
     /// A rigid obstacle.
     Obstacle,
+    /// The host's order of elimination.
+    Order,
+    /// A mesh that is written to a file.
+    Mesh,
+    /// Fields at the nodes of a mesh.
+    Fields,
+}
+
+/// Which limit of the settings ended a reduction.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Limit {
+    /// It would need more memory than `memory_limit`.
+    Memory,
+    /// `time_limit` is used up.
+    Time,
+    /// The progress callback cancelled.
+    Cancelled,
 }
 
 /// Why a call was refused. Nothing has been computed.
@@ -73,6 +90,13 @@ pub enum Error {
     },
     /// The memory for the named work array could not be had.
     OutOfMemory(&'static str),
+    /// A limit of the settings, or the progress callback, has ended the reduction of a model.
+    Stopped {
+        /// Which limit.
+        limit: Limit,
+        /// One sentence with the limit and what would have been needed.
+        message: Message,
+    },
     /// A file cannot be read or written; the message names it, the line if there is one, and what
     /// is wrong.
     File(Message),
@@ -83,10 +107,16 @@ impl Error {
         Error::Invalid { argument, message: message.into() }
     }
 
+    pub(crate) fn stopped(limit: Limit, message: impl Into<Message>) -> Self {
+        Error::Stopped { limit, message: message.into() }
+    }
+
     /// The sentence.
     pub fn message(&self) -> Message {
         match self {
-            Error::Invalid { message, .. } | Error::File(message) => message.clone(),
+            Error::Invalid { message, .. }
+            | Error::Stopped { message, .. }
+            | Error::File(message) => message.clone(),
             Error::OutOfMemory(what) => format!("not enough memory for {what}").into(),
         }
     }

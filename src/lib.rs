@@ -123,7 +123,7 @@ mod solve;
 #[forbid(unsafe_code)]
 pub mod surface;
 
-pub use error::{Argument, Error, Message};
+pub use error::{Argument, Error, Limit, Message};
 pub use law::State;
 pub use model::{LoadCase, Model};
 pub use monitor::{Monitor, Progress, ProgressFn, Stop};
@@ -133,6 +133,6 @@ pub use problem::{
 };
 pub use settings::{Method, Search, Settings};
 pub use solve::{
-    Errors, Existence, Fallback, LcpSolution, SecondSolution, Solution, Status, Uniqueness, solve,
-    solve_flexibility, solve_lcp,
+    Errors, Escape, Existence, Fallback, LcpSolution, SecondSolution, Solution, Status, Uniqueness,
+    solve, solve_flexibility, solve_lcp,
 };

@@ -1,24 +1,26 @@
 //! Reduce once, solve many load cases, recover.
 
 mod arguments;
+mod load_case;
 mod surfaces;
 
 use std::path::Path;
 
-use crate::certificate::{Certificate, certify};
-use arguments::{check_length, check_vector};
+use arguments::{check_fixed_gaps, check_length, check_vector};
+pub use load_case::LoadCase;
 
+use crate::certificate::{Certificate, certify};
 use crate::error::{Argument, Error, index};
 use crate::file;
 use crate::linalg::matrix::Matrix;
 use crate::monitor::Monitor;
 use crate::problem::{
-    ContactData, ContactProblem, Dependence, DependentRows, FrictionLaw, Relation, checked_dim,
+    ContactData, ContactProblem, Dependence, DependentRows, Relation, checked_dim,
     symmetric_matrix, unknowns,
 };
 use crate::reduce::{
-    CondensedReduction, ContactPairs, Reduction, SparseMatrix, SparseReduction, TwoBodyReduction,
-    driven_motion,
+    CondensedReduction, ContactPairs, Control, Reduction, SparseMatrix, SparseReduction,
+    TwoBodyReduction, driven_motion,
 };
 use crate::settings::Settings;
 use crate::solve::{NO_EQUILIBRIUM, Solution, Status, solve, solve_dependent};
@@ -30,27 +32,12 @@ pub struct Model {
     reduction: Box<dyn Reduction>,
 }
 
-/// One load case: nodal loads of the host and the contact data of each pair.
-#[derive(Clone, Copy, Debug)]
-pub struct LoadCase<'a> {
-    /// Nodal loads, [`Model::host_size`].
-    pub load: &'a [f64],
-    /// Values of the fixed degrees of freedom, in their order; `None`: zero.
-    pub prescribed: Option<&'a [f64]>,
-    /// Gaps of the pairs.
-    pub gap: &'a [f64],
-    /// Friction of the pairs.
-    pub law: FrictionLaw<'a>,
-    /// Reference slip `d_t0`, `dim - 1` for each pair: the tangential displacement at which
-    /// a sticking pair stays. `None`: zero.
-    pub reference_slip: Option<&'a [f64]>,
-}
-
 impl Model {
     /// A body condensed by the host, on an obstacle: `d = u`.
     ///
     /// # Errors
-    /// As [`ContactProblem::new`] for the matrix, after it was cleaned: if a diagonal entry is at most 9e-12
+    /// As [`ContactProblem::new`] for the matrix, and a matrix that is not positive semi-definite, by a component;
+    /// after it was cleaned: if a diagonal entry is at most 9e-12
     /// of the largest one of its pair, and the component is coupled to others, motions of so little energy
     /// are the rounding of a condensation and become exactly free. All other matrices are taken as they are.
     pub fn condensed(dim: usize, pairs: usize, k: &[f64], ld: usize) -> Result<Self, Error> {
@@ -90,6 +77,26 @@ impl Model {
         pairs: &ContactPairs<'_>,
     ) -> Result<Self, Error> {
         let reduction = Box::new(SparseReduction::new(matrix, fixed, pairs)?);
+        Model { dim: pairs.dim, pairs: pairs.count, reduction }.checked()
+    }
+
+    /// As [`Self::sparse`], within the limits of `monitor` on memory and time, with its callback, and in the
+    /// host's `order` of elimination if there is one: each degree of freedom once, the first to be eliminated
+    /// first. Fixed ones, slaves and the contact are left out of it; degrees of freedom with the same
+    /// neighbours stay together.
+    ///
+    /// # Errors
+    /// As [`Self::sparse`]; an order that is no permutation ([`Argument::Order`]); [`Error::Stopped`].
+    pub fn sparse_within(
+        matrix: &SparseMatrix<'_>,
+        fixed: &[usize],
+        pairs: &ContactPairs<'_>,
+        order: Option<&[usize]>,
+        monitor: &mut Monitor<'_>,
+    ) -> Result<Self, Error> {
+        let ask = &mut |share, memory| monitor.reducing(share, memory);
+        let made = SparseReduction::controlled(matrix, fixed, pairs, Control { order, ask })?;
+        let reduction = Box::new(made);
         Model { dim: pairs.dim, pairs: pairs.count, reduction }.checked()
     }
 
@@ -199,7 +206,10 @@ impl Model {
         if solution.status == Status::NoEquilibrium
             && let Some(motion) = &solution.recession
         {
-            let driven = driven_motion(&*self.reduction, load, motion);
+            let escape = solution.escape.as_ref();
+            let parts =
+                escape.map(|escape| (escape.motion.as_slice(), escape.unbalanced.as_slice()));
+            let driven = driven_motion(&*self.reduction, load, parts.unwrap_or((motion, load)));
             solution.message = format!("{NO_EQUILIBRIUM}: {driven}").into();
         }
         solution
@@ -226,6 +236,7 @@ impl Model {
         to: impl FnOnce(&ContactProblem<'_>) -> Result<T, Error>,
     ) -> Result<T, Error> {
         let load = self.condensed_load(case.load, case.prescribed)?;
+        check_fixed_gaps(self.reduction.fixed_components(), self.dim, case.gap)?;
         let slip = case.reference_slip.map(|slip| self.allowed_slip(slip));
         let problem = ContactProblem::on_checked_matrix(ContactData {
             dim: self.dim,

@@ -3,6 +3,7 @@
 use std::ops::ControlFlow;
 use std::time::Instant;
 
+use crate::error::{Error, Limit};
 use crate::settings::Settings;
 
 /// What a progress callback receives.
@@ -14,6 +15,11 @@ pub struct Progress {
     pub eta: f64,
     /// Seconds since the call began.
     pub elapsed: f64,
+    /// Share of the reduction of a sparse matrix that is done, 0 to 1; 1 while a load case is solved.
+    pub reduced: f64,
+    /// Bytes that this reduction needs in all, known before they are taken; 0 before that and while a load
+    /// case is solved.
+    pub memory: u64,
 }
 
 /// Why a solver stopped before it was done.
@@ -34,6 +40,7 @@ pub type ProgressFn<'a> = dyn FnMut(&Progress) -> ControlFlow<()> + 'a;
 pub struct Monitor<'a> {
     begin: Instant,
     time_limit: f64,
+    memory_limit: u64,
     max_iterations: u64,
     iterations: u64,
     eta: f64,
@@ -50,6 +57,7 @@ impl<'a> Monitor<'a> {
             } else {
                 settings.time_limit
             },
+            memory_limit: settings.memory_limit,
             max_iterations: settings.max_iterations,
             iterations: 0,
             eta: f64::INFINITY,
@@ -88,7 +96,8 @@ impl<'a> Monitor<'a> {
             return Err(Stop::TimeLimit);
         }
         if let Some(progress) = self.progress.as_mut() {
-            let now = Progress { iterations: self.iterations, eta: self.eta, elapsed };
+            let (iterations, eta) = (self.iterations, self.eta);
+            let now = Progress { iterations, eta, elapsed, reduced: 1.0, memory: 0 };
             if progress(&now).is_break() {
                 return Err(Stop::Cancelled);
             }
@@ -96,4 +105,41 @@ impl<'a> Monitor<'a> {
         self.iterations += 1;
         Ok(())
     }
+
+    /// To be called while a matrix is reduced: `share` of the work is done, which needs `memory` bytes.
+    ///
+    /// # Errors
+    /// [`Error::Stopped`]: the limit that is passed, or the callback.
+    pub(crate) fn reducing(&mut self, share: f64, memory: u64) -> Result<(), Error> {
+        if self.memory_limit > 0 && memory > self.memory_limit {
+            let (needed, most) = (megabytes(memory), megabytes(self.memory_limit));
+            let message = format!(
+                "the reduction needs {needed:.1} MB, settings: memory_limit allows {most:.1} MB; \
+                 nothing was factorised"
+            );
+            return Err(Error::stopped(Limit::Memory, message));
+        }
+        let elapsed = self.begin.elapsed().as_secs_f64();
+        let done = 100.0 * share;
+        if elapsed > self.time_limit {
+            let message = format!(
+                "the time limit of {} s is used up with {done:.0} % of the reduction done",
+                self.time_limit
+            );
+            return Err(Error::stopped(Limit::Time, message));
+        }
+        if let Some(progress) = self.progress.as_mut() {
+            let (iterations, eta) = (self.iterations, self.eta);
+            let now = Progress { iterations, eta, elapsed, reduced: share, memory };
+            if progress(&now).is_break() {
+                let message = format!("cancelled with {done:.0} % of the reduction done");
+                return Err(Error::stopped(Limit::Cancelled, message));
+            }
+        }
+        Ok(())
+    }
+}
+
+fn megabytes(bytes: u64) -> f64 {
+    bytes as f64 / 1e6
 }

@@ -70,6 +70,8 @@ pub struct Settings {
     pub search: Search,
     /// Whether to prove that the solution exists, and where: [`crate::Solution::existence`].
     pub proof: bool,
+    /// Most bytes that the reduction of a sparse matrix may need; 0 means no limit.
+    pub memory_limit: u64,
 }
 
 impl Default for Settings {
@@ -83,6 +85,7 @@ impl Default for Settings {
             time_limit: 0.0,
             search: Search::Off,
             proof: false,
+            memory_limit: 0,
         }
     }
 }

@@ -59,7 +59,7 @@ say "signorini.f90 has the $(wc -l <"$work/wanted" | tr -d ' ') functions of the
 
 # The names for 8-byte integers.
 wide="-cpp -fdefault-integer-8"
-for name in SOLV CERT LCPS MODL TWOB SPAR FRAM CASE RECV NODF FREE MESG; do
+for name in SOLV CERT LCPS MODL TWOB SPAR SPAW FRAM CASE RECV NODF FREE MESG; do
     wide="$wide -DSG$name=SG${name}_64"
 done
 hosts=$root/c_examples/hosts/fortran
@@ -94,8 +94,10 @@ for kind in static shared; do
     runs "counting_$kind"
     compile "rows_$kind" "$kind" "$module" "$tests/rows.f90"
     runs "rows_$kind"
+    compile "surfaces_$kind" "$kind" -std=f2008 "$module" "$tests/surfaces.f90"
+    runs "surfaces_$kind"
 done
-for name in layer refusals counting rows; do
+for name in layer refusals counting rows surfaces; do
     # shellcheck disable=SC2086 # several options
     compile "${name}_64" shared $wide "$module" "$tests/$name.f90"
     runs "${name}_64"

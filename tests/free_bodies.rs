@@ -22,6 +22,10 @@ const RESIDUAL: f64 = 1e-9;
 /// largest stiffness of the body, which is some hundred times that of a foot.
 const LAW: f64 = 1e-7;
 
+/// How far a motion of escape may go into the plane, relative to it: its accuracy is 1e-10 in the norm of the
+/// stiffness of all feet.
+const APPROACH: f64 = 1e-8;
+
 /// A body under loads on feet that stand on a plane.
 struct Body {
     dim: usize,
@@ -200,6 +204,11 @@ impl Body {
     }
 }
 
+/// How far a motion goes into the plane.
+fn largest_of_normals(dim: usize, motion: &[f64]) -> f64 {
+    motion.iter().step_by(dim).fold(0.0, |most: f64, r| most.max(*r))
+}
+
 /// What became of a body, for the counts.
 #[derive(Debug, Default, PartialEq, Eq)]
 struct Counts {
@@ -240,6 +249,11 @@ fn judged(
             }
             if !(dot(&body.load, &u) > 0.0) {
                 return Err("the loads do no work on the motion".into());
+            }
+            let escape = solution.escape.as_ref().ok_or("no escape")?;
+            let approach = largest_of_normals(body.dim, &escape.motion);
+            if !(approach <= APPROACH) {
+                return Err(format!("a foot goes into the plane by {approach:.1e}"));
             }
         }
         // On four feet elasticity shares out the pressures, and the friction of these may not balance
@@ -486,4 +500,54 @@ fn softly_held_feet_stay_held() {
         assert!(model.stiffness() == k.as_slice(), "{soft}");
         assert!(Model::two_body(2, 2, (&k, 4), (&k, 4)).is_ok(), "{soft}");
     }
+}
+
+/// Loads above the line through two of three feet leave nothing for the third one but rounding, of either sign:
+/// any lift of that foot is a solution, and the answer is one that keeps the digits of the residual.
+fn on_two_of_three_feet(rng: &mut Rng) -> Body {
+    let size = [0.0; 3].map(|_| uniform(rng, 0.3, 3.0));
+    let axis = [0.0; 3].map(|_| uniform(rng, -1.0, 1.0));
+    let length = norm(&axis);
+    let turn = (axis.map(|a| a / length), uniform(rng, -3.0, 3.0));
+    let mut body = Body::in_space([1, 1, 1], size, decades(rng, 6.0), turn, 3);
+    body.mu = [0.0, 0.3, 1.0][rng.usize(0..3)];
+    // Above the first two feet.
+    for node in [4, 5] {
+        let down = rng.f64();
+        let own = body.load[3 * node..].iter_mut().zip(body.normal);
+        own.for_each(|(load, normal)| *load = down * normal);
+    }
+    body
+}
+
+#[test]
+fn a_foot_that_carries_nothing_is_not_lifted_away() {
+    let mut counts = all_right(200, on_two_of_three_feet, through_the_sparse_model);
+    assert_eq!(counts.balanced, 200);
+    counts = all_right(200, on_two_of_three_feet, through_a_condensation);
+    assert_eq!(counts.balanced, 200);
+    // A random body whose third foot has the load -3e-17.
+    let body = Body::space(&mut Rng::with_seed(100_543));
+    through_the_sparse_model(&body, &mut counts).unwrap();
+    through_a_condensation(&body, &mut counts).unwrap();
+}
+
+/// A lift of 1e9 costs the residual of a host all digits: it is no answer, though the condensed row is zero.
+#[test]
+fn lifts_that_cost_the_residual_its_digits_are_not_certified() {
+    let body = on_two_of_three_feet(&mut Rng::with_seed(1));
+    let model = body.model().unwrap();
+    let solution = body.solved(&model, &body.load).unwrap();
+    let (gap, mu) = (vec![0.0; 3], vec![body.mu; 3]);
+    let case = LoadCase {
+        load: &body.load,
+        prescribed: None,
+        gap: &gap,
+        law: FrictionLaw::Coulomb(&mu),
+        reference_slip: None,
+    };
+    let mut d = solution.d;
+    assert!(model.certify(&case, &d).unwrap().holds(1e-10));
+    d[6] -= 1e9;
+    assert!(!model.certify(&case, &d).unwrap().holds(1e-10));
 }

@@ -88,9 +88,9 @@ const STILL_IN_THE_PLANE: Limits = [
     [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // definite, thresholds
     [0, 0, 0, 0, 0, 0, 0, 0, 0, 5, 0, 0], // definite, condition 1e3 to 1e15
     [0, 0, 0, 10, 0, 0, 0, 0, 0, 0, 0, 0], // definite, stiffness 1e13 apart
-    [0, 0, 0, 8, 0, 6, 0, 0, 0, 30, 0, 0], // soft springs beside stiff ones, to 1e-15
-    [0, 0, 0, 0, 0, 0, 4, 0, 0, 0, 0, 0], // rigid motions
-    [0, 0, 0, 0, 0, 0, 4, 0, 0, 0, 0, 0], // blocks, rigid motions exact
+    [0, 0, 0, 8, 0, 0, 0, 0, 0, 30, 0, 0], // soft springs beside stiff ones, to 1e-15
+    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // rigid motions
+    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // blocks, rigid motions exact
     [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // body on two or three points
     [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // duplicated pairs
     [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // touching, on the cone, unloaded
@@ -103,12 +103,12 @@ const STILL_IN_SPACE: Limits = [
     [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // definite, thresholds
     [0, 0, 0, 0, 0, 0, 0, 0, 0, 8, 0, 0], // definite, condition 1e3 to 1e15
     [0, 0, 0, 14, 0, 0, 0, 0, 0, 0, 0, 0], // definite, stiffness 1e13 apart
-    [0, 0, 0, 6, 0, 11, 6, 0, 0, 31, 0, 0], // soft springs beside stiff ones, to 1e-15
-    [0, 0, 0, 0, 0, 0, 8, 0, 0, 0, 0, 0], // rigid motions
-    [0, 0, 0, 0, 0, 0, 29, 0, 0, 0, 0, 0], // blocks, rigid motions exact
+    [0, 0, 0, 6, 0, 0, 0, 0, 0, 31, 0, 0], // soft springs beside stiff ones, to 1e-15
+    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // rigid motions
+    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // blocks, rigid motions exact
     [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // body on two or three points
     [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // duplicated pairs
-    [0, 0, 0, 0, 0, 0, 0, 0, 4, 0, 0, 0], // touching, on the cone, unloaded
+    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // touching, on the cone, unloaded
     [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // gaps to 1e300 and infinite, mu to 1e3
 ];
 

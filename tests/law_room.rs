@@ -81,7 +81,7 @@ const ALLOWED: [(&str, &str, &str); 11] = [
     ("problem/bounded_lcp.rs", "self . lower", "the bound of an LCP's variable"),
     ("problem/symmetric_matrix.rs", "lower", "an entry below the diagonal"),
     ("linalg/", "lower [", "a lower triangular factor"),
-    ("linalg/sparse_schur.rs", "& lower", "the lower triangle"),
+    ("linalg/sparse_schur/mod.rs", "& lower", "the lower triangle"),
     ("linalg/nnls.rs", "slope", "the slope of a sum of squares"),
     ("file/", "FrictionLaw ::", "the words of a problem file"),
     ("ffi/", "FrictionLaw ::", "constants of C to laws"),

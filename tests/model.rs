@@ -5,7 +5,10 @@ mod common;
 use common::dense::{difference, largest};
 use common::mesh::{Mesh, Pairs, Stiffness, steps};
 use fastrand::Rng;
-use signorini::{FrictionLaw, LoadCase, Method, Model, Monitor, Settings, Solution, State, Status};
+use signorini::{
+    Argument, Error, FrictionLaw, LoadCase, Method, Model, Monitor, Settings, Solution, State,
+    Status,
+};
 
 const PAIRS: usize = 9;
 
@@ -179,4 +182,38 @@ fn threads_share_a_model() {
             }
         });
     }
+}
+
+/// `K = 1 - c v vᵀ`, `v` the unit vector of equal entries: the eigenvalue along `v` is `1 - c`, and each pair of
+/// entries on its own is that of a definite matrix. A model refuses `c > 1` by the component with
+/// which the energy first can be negative; `c = 1` is a free body.
+#[test]
+fn an_indefinite_matrix_is_refused_by_a_component() {
+    let n = 6;
+    let matrix = |c: f64| -> Vec<f64> {
+        let entry = |k: usize| if k / n == k % n { 1.0 } else { 0.0 } - c / n as f64;
+        (0..n * n).map(entry).collect()
+    };
+    for dim in [2, 3] {
+        let refused = |c: f64| match Model::condensed(dim, n / dim, &matrix(c), n) {
+            Err(Error::Invalid { argument: Argument::Matrix, message }) => message.to_string(),
+            _ => panic!("dim {dim}: {c} is accepted"),
+        };
+        for c in [1.0 + 1e-6, 1.04, 1.5] {
+            let message = refused(c);
+            // Of the leading m components: 1 - c m / n.
+            let last = (0..n).find(|m| c * (m + 1) as f64 > n as f64).unwrap();
+            let named = format!("components up to {last}, the last of pair {},", last / dim);
+            assert!(message.contains("semi-definite") && message.contains(&named), "{message}");
+        }
+        for c in [0.0, 0.9, 1.0 - 1e-12, 1.0] {
+            assert!(Model::condensed(dim, n / dim, &matrix(c), n).is_ok(), "dim {dim}, {c}");
+        }
+    }
+    let (sound, wrong) = (matrix(0.5), matrix(1.04));
+    let Err(Error::Invalid { argument, message }) = Model::two_body(2, 3, (&sound, n), (&wrong, n))
+    else {
+        panic!("an indefinite body is accepted");
+    };
+    assert!(argument == Argument::SecondMatrix && message.contains("K_B"), "{message}");
 }

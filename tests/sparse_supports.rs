@@ -190,3 +190,50 @@ fn the_length_of_a_normal_does_not_matter() {
         close(model.stiffness(), reference.stiffness(), 1e-14, "K_rel");
     }
 }
+
+/// Supports that hold both sides of a pair along its normal leave no displacement that could take a penetration
+/// away: it is refused with its place. A gap of 0 or more is as good as none.
+#[test]
+fn a_penetration_between_two_supports_is_refused() {
+    let stack = Stack::new([4, 4], [2000.0, 700.0]);
+    let mut fixed = components(&stack.lower.row(0), 1);
+    fixed.extend(components(&stack.lower.column(0), 0));
+    fixed.extend(components(&stack.upper.column(0), 0));
+    // The first pair is held along the normal too.
+    fixed.extend([2 * stack.upper.node(0, 0) + 1, 2 * stack.lower.column(0).last().unwrap() + 1]);
+    let model = stack.mesh.stiffness().model(&fixed, &stack.pairs()).unwrap();
+    let load = stack.load(7.0, 0.0);
+    let solve = |gap: &[f64]| {
+        let case = LoadCase {
+            load: &load,
+            prescribed: None,
+            gap,
+            law: FrictionLaw::Frictionless,
+            reference_slip: None,
+        };
+        let settings = Settings::default();
+        model.solve(&case, &settings, None, &mut Monitor::new(&settings, None))
+    };
+    let mut gap = vec![0.0; model.pairs()];
+    for open in [0.0, 1e-3, f64::INFINITY] {
+        gap[0] = open;
+        let solution = solve(&gap).unwrap();
+        // No more than rounding of the loads beside the displacements, 1e-2.
+        assert!(solution.d[0].abs() <= 1e-15, "{open}: {:e}", solution.d[0]);
+        assert_eq!(solution.certificate.force[0], 0.0, "{open}");
+    }
+    for penetration in [-1e-12, -1e-3] {
+        gap[0] = penetration;
+        let Err(Error::Invalid { argument, message }) = solve(&gap) else {
+            panic!("a penetration of {penetration} is accepted");
+        };
+        assert_eq!(argument, Argument::Gap, "{message}");
+        assert!(
+            message.contains("gap[0]") && message.contains("fixed along its normal"),
+            "{message}"
+        );
+    }
+    // Another pair may penetrate: it is free to part.
+    (gap[0], gap[1]) = (0.0, -1e-3);
+    assert!(solve(&gap).is_ok());
+}

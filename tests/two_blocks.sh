@@ -71,7 +71,8 @@ required=
 
 # shellcheck disable=SC2086 # options in CC
 ${CC:-cc} -std=c11 -O2 -Wall -Wextra -Wpedantic -Werror -I"$root/include" "$examples/two_blocks.c" \
-    "$examples/blocks.c" "$examples/brick_element.c" "$examples/brick_mesh.c" \
+    "$examples/two_blocks_check.c" "$examples/blocks.c" "$examples/brick_element.c" \
+    "$examples/brick_mesh.c" \
     "$examples/brick_contact.c" "$examples/brick_output.c" "$examples/../common/checks.c" \
     "$release/libsignorini.a" -lm -lpthread -ldl -o two_blocks_c
 runs c ./two_blocks_c

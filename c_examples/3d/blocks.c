@@ -10,28 +10,38 @@ struct brick_mesh *blocks_mesh(void)
     double wide[WIDE + 1], narrow[NARROW + 1], deep[DEEP + 1], high[HIGH + 1];
 
     for (int i = 0; i <= WIDE; i++)
-        wide[i] = CELL * (i - WIDE / 2);
+        wide[i] = COARSE * (i - WIDE / 2);
     for (int i = 0; i <= NARROW; i++)
-        narrow[i] = CELL * (i - NARROW / 2);
+        narrow[i] = FINE * (i - NARROW / 2);
     for (int i = 0; i <= DEEP; i++)
-        deep[i] = CELL * (i - DEEP);
+        deep[i] = COARSE * (i - DEEP);
     for (int i = 0; i <= HIGH; i++)
-        high[i] = CELL * i;
+        high[i] = FINE * i;
     const struct box boxes[2] = {{{WIDE, WIDE, DEEP}, {wide, wide, deep}},
                                  {{NARROW, NARROW, HIGH}, {narrow, narrow, high}}};
     return brick_mesh_new(2, boxes, steel);
 }
 
-void blocks_pairs(const struct brick_mesh *mesh, struct contact *contact)
+static signorini_faces faces_of(int64_t count, int64_t nodes[][4])
 {
-    const int rim = (WIDE - NARROW) / 2;
+    return (signorini_faces){.struct_size = sizeof(signorini_faces),
+                             .face_nodes = 4,
+                             .count = count,
+                             .nodes = nodes[0]};
+}
 
-    contact->pairs = PAIRS;
-    for (int pair = 0; pair < PAIRS; pair++) {
-        const int i = pair % LINE, j = pair / LINE;
-        contact->lower[pair] = brick_node(mesh, LOWER, i + rim, j + rim, DEEP);
-        contact->upper[pair] = brick_node(mesh, UPPER, i, j, 0);
-    }
+signorini_faces blocks_slave(const struct brick_mesh *mesh)
+{
+    static int64_t nodes[NARROW * NARROW][4];
+    const int64_t count = brick_faces(mesh, UPPER, 0, nodes);
+    return faces_of(count, nodes);
+}
+
+signorini_faces blocks_master(const struct brick_mesh *mesh)
+{
+    static int64_t nodes[WIDE * WIDE][4];
+    const int64_t count = brick_faces(mesh, LOWER, 1, nodes);
+    return faces_of(count, nodes);
 }
 
 void blocks_fixed(int64_t fixed[FIXED])
@@ -60,13 +70,5 @@ void blocks_loads(const struct brick_mesh *mesh, double twist, double f[DOFS])
         f[3 * node + 1] = twist * at[0] / squares;
         if (fabs(at[0]) <= pressed && fabs(at[1]) <= pressed)
             f[3 * node + 2] = -PRESS / inner;
-    }
-}
-
-void blocks_areas(double area[PAIRS])
-{
-    for (int pair = 0; pair < PAIRS; pair++) {
-        const int i = pair % LINE, j = pair / LINE;
-        area[pair] = CELL * CELL * (i % NARROW == 0 ? 0.5 : 1.0) * (j % NARROW == 0 ? 0.5 : 1.0);
     }
 }

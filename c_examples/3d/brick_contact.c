@@ -3,6 +3,30 @@
 #include <math.h>
 #include <stdlib.h>
 
+signorini_sparse brick_matrix(const struct brick_mesh *mesh)
+{
+    return (signorini_sparse){.struct_size = sizeof(signorini_sparse),
+                              .index_bytes = 4,
+                              .index_base = 0,
+                              .triangle = SIGNORINI_TRIANGLE_FULL,
+                              .size = mesh->dofs,
+                              .nnz = mesh->starts[mesh->dofs],
+                              .col_start = mesh->starts,
+                              .row = mesh->rows,
+                              .values = mesh->values};
+}
+
+signorini_mesh brick_cells(const struct brick_mesh *mesh)
+{
+    return (signorini_mesh){.struct_size = sizeof(signorini_mesh),
+                            .dim = 3,
+                            .nodes = mesh->nodes,
+                            .coordinates = mesh->at[0],
+                            .cells = mesh->bricks,
+                            .cell_type = 12, /* VTK_HEXAHEDRON */
+                            .cell_nodes = mesh->corners[0]};
+}
+
 int32_t contact_model(const struct brick_mesh *mesh, const struct contact *contact,
                       int64_t n_fixed, const int64_t fixed[], signorini_model **model)
 {
@@ -28,15 +52,7 @@ int32_t contact_model(const struct brick_mesh *mesh, const struct contact *conta
         }
         master_start[count] = (int64_t)count;
 
-        const signorini_sparse K = {.struct_size = sizeof K,
-                                    .index_bytes = 4,
-                                    .index_base = 0,
-                                    .triangle = SIGNORINI_TRIANGLE_FULL,
-                                    .size = mesh->dofs,
-                                    .nnz = mesh->starts[mesh->dofs],
-                                    .col_start = mesh->starts,
-                                    .row = mesh->rows,
-                                    .values = mesh->values};
+        const signorini_sparse K = brick_matrix(mesh);
         const signorini_pairs pairs = {.struct_size = sizeof pairs,
                                        .dim = 3,
                                        .count = contact->pairs,

@@ -23,6 +23,10 @@ struct answer {
     int32_t *state;
 };
 
+/* The assembled matrix and the mesh as the library takes them: they point into the mesh. */
+signorini_sparse brick_matrix(const struct brick_mesh *mesh);
+signorini_mesh brick_cells(const struct brick_mesh *mesh);
+
 /*
  * Makes the library's model of the assembled mesh. Returns what signorini_model_new_sparse returns,
  * or SIGNORINI_STATUS_OUT_OF_MEMORY.

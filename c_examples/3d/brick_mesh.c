@@ -49,6 +49,25 @@ static void place_bricks(struct brick_mesh *mesh, const struct box box[])
                                                              j + corner[c][1], k + corner[c][2]);
 }
 
+int64_t brick_faces(const struct brick_mesh *mesh, int box, int top, int64_t faces[][4])
+{
+    const int32_t *size = mesh->size[box];
+    const int k = top ? size[2] - 1 : 0;
+    int64_t count = 0;
+
+    for (int j = 0; j + 1 < size[1]; j++) {
+        for (int i = 0; i + 1 < size[0]; i++, count++) {
+            if (faces == NULL)
+                continue;
+            faces[count][0] = brick_node(mesh, box, i, j, k);
+            faces[count][1] = brick_node(mesh, box, i + top, j + !top, k);
+            faces[count][2] = brick_node(mesh, box, i + 1, j + 1, k);
+            faces[count][3] = brick_node(mesh, box, i + !top, j + top, k);
+        }
+    }
+    return count;
+}
+
 /* ---- Assembly ------------------------------------------------------------------------------ */
 
 static void connect(struct neighbours *list, int32_t node)
@@ -76,7 +95,7 @@ static int make_pattern(struct brick_mesh *mesh)
     for (int32_t brick = 0; brick < mesh->bricks; brick++)
         for (int a = 0; a < 8; a++)
             for (int b = 0; b < 8; b++)
-                connect(&lists[mesh->corners[brick][a]], mesh->corners[brick][b]);
+                connect(&lists[mesh->corners[brick][a]], (int32_t)mesh->corners[brick][b]);
     for (int32_t node = 0; node < mesh->nodes; node++)
         at += 9 * lists[node].count;
     mesh->rows = malloc((size_t)at * sizeof *mesh->rows);
@@ -112,7 +131,7 @@ static double *entry(struct brick_mesh *mesh, int32_t row, int32_t column)
 static void assemble(struct brick_mesh *mesh, struct material material)
 {
     for (int32_t brick = 0; brick < mesh->bricks; brick++) {
-        const int32_t *corners = mesh->corners[brick];
+        const int64_t *corners = mesh->corners[brick];
         double at[8][3], k[24][24];
         for (int a = 0; a < 8; a++)
             for (int axis = 0; axis < 3; axis++)
@@ -120,7 +139,8 @@ static void assemble(struct brick_mesh *mesh, struct material material)
         brick_stiffness(at, material, k);
         for (int m = 0; m < 24; m++)
             for (int n = 0; n < 24; n++)
-                *entry(mesh, 3 * corners[m / 3] + m % 3, 3 * corners[n / 3] + n % 3) += k[m][n];
+                *entry(mesh, (int32_t)(3 * corners[m / 3] + m % 3),
+                       (int32_t)(3 * corners[n / 3] + n % 3)) += k[m][n];
     }
 }
 

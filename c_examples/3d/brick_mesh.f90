@@ -1,5 +1,6 @@
 ! Two blocks of 8-node bricks: mesh and assembly, as a small stand-in for your own code. It is the mesh
-! of blocks.h: two blocks on each other, trilinear bricks of 10 mm, 2 x 2 x 2 Gauss points; mm, N, MPa.
+! of blocks.h: two blocks on each other, trilinear bricks of 10 and 7.5 mm, 2 x 2 x 2 Gauss points; mm, N,
+! MPa.
 ! Node i has the degrees of freedom 3 i - 2, 3 i - 1, 3 i: u_x, u_y, u_z. x is numbered first, z last.
 module brick_mesh
     implicit none
@@ -10,7 +11,7 @@ module brick_mesh
     integer, parameter :: below = (wide + 1)**2*(deep + 1), nodes = below + pairs*(high + 1)
     integer, parameter :: bricks = wide**2*deep + narrow**2*high
     integer, parameter :: components = 3*nodes, held = 3*(wide + 1)**2
-    real(dp), parameter :: cell = 10, young = 210000, poisson = 0.3_dp
+    real(dp), parameter :: coarse = 10, fine = 7.5_dp, young = 210000, poisson = 0.3_dp
 contains
     ! Node at the crossing of three lines, which count from 0.
     pure integer function lower_node(i, j, k)
@@ -23,20 +24,24 @@ contains
         upper_node = below + 1 + i + line*(j + line*k)
     end function
 
-    ! The nodes of each pair, row by row, x first, and those on the top of the upper block above them.
-    subroutine place_pairs(lower, upper, top)
-        integer, intent(out) :: lower(pairs), upper(pairs), top(pairs)
-        integer, parameter :: rim = (wide - narrow)/2
-        integer :: i, j, pair
-        pair = 0
-        do j = 0, narrow
-            do i = 0, narrow
-                pair = pair + 1
-                lower(pair) = lower_node(i + rim, j + rim, deep)
-                upper(pair) = upper_node(i, j, 0)
-                top(pair) = upper_node(i, j, high)
+    ! The faces that may touch, anticlockwise as seen from outside: the bottom of the upper block is the
+    ! slave, the top of the lower one the master. And the nodes on the top of the upper block.
+    subroutine place_faces(slave, master, top)
+        integer, intent(out) :: slave(4, narrow**2), master(4, wide**2), top(line**2)
+        integer :: i, j
+        do j = 0, narrow - 1
+            do i = 0, narrow - 1
+                slave(:, 1 + i + narrow*j) = [upper_node(i, j, 0), upper_node(i, j + 1, 0), &
+                    upper_node(i + 1, j + 1, 0), upper_node(i + 1, j, 0)]
             end do
         end do
+        do j = 0, wide - 1
+            do i = 0, wide - 1
+                master(:, 1 + i + wide*j) = [lower_node(i, j, deep), lower_node(i + 1, j, deep), &
+                    lower_node(i + 1, j + 1, deep), lower_node(i, j + 1, deep)]
+            end do
+        end do
+        top = [((upper_node(i, j, high), i=0, narrow), j=0, narrow)]
     end subroutine
 
     subroutine place_nodes(at)
@@ -45,14 +50,14 @@ contains
         do k = 0, deep
             do j = 0, wide
                 do i = 0, wide
-                    at(:, lower_node(i, j, k)) = cell*[i - wide/2, j - wide/2, k - deep]
+                    at(:, lower_node(i, j, k)) = coarse*[i - wide/2, j - wide/2, k - deep]
                 end do
             end do
         end do
         do k = 0, high
             do j = 0, narrow
                 do i = 0, narrow
-                    at(:, upper_node(i, j, k)) = cell*[i - narrow/2, j - narrow/2, k]
+                    at(:, upper_node(i, j, k)) = fine*[i - narrow/2, j - narrow/2, k]
                 end do
             end do
         end do
@@ -115,9 +120,11 @@ contains
         end do
         col_start(components + 1) = first(nodes + 1)
 
-        k = element() ! all bricks are the same cube
         values = 0
         do brick = 1, bricks
+            ! All bricks of a block are the same cube.
+            if (brick == 1) k = element(coarse)
+            if (brick == wide**2*deep + 1) k = element(fine)
             do a = 1, 8
                 node = corners(a, brick)
                 do b = 1, 8
@@ -144,7 +151,8 @@ contains
     end subroutine
 
     ! Stiffness of a cube.
-    function element() result(k)
+    function element(cell) result(k)
+        real(dp), intent(in) :: cell
         real(dp) :: k(24, 24), shear, cross, g(3, 8), factor(3)
         integer, parameter :: place(3, 8) = reshape([-1, -1, -1, 1, -1, -1, 1, 1, -1, -1, 1, -1, &
             -1, -1, 1, 1, -1, 1, 1, 1, 1, -1, 1, 1], [3, 8])

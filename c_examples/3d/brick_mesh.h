@@ -25,7 +25,7 @@ struct brick_mesh {
     int32_t first[MOST_BOXES + 1]; /* first node of each box; the last entry is `nodes` */
     int32_t size[MOST_BOXES][3];   /* nodes of each box along x, y, z */
     double (*at)[3];               /* coordinates of the nodes */
-    int32_t (*corners)[8];         /* nodes of the bricks, in the order of VTK_HEXAHEDRON */
+    int64_t (*corners)[8];         /* nodes of the bricks, in the order of VTK_HEXAHEDRON */
 
     /* The stiffness matrix without supports, both triangles, in compressed columns. */
     int32_t *starts, *rows;
@@ -39,6 +39,12 @@ void brick_mesh_free(struct brick_mesh *mesh);
 
 /* The node at the crossing of three lines of a box. */
 int32_t brick_node(const struct brick_mesh *mesh, int box, int i, int j, int k);
+
+/*
+ * The faces of a box at its top, or at its bottom: the nodes of each, anticlockwise as seen from
+ * outside. Returns their number; with `faces` NULL it does nothing else.
+ */
+int64_t brick_faces(const struct brick_mesh *mesh, int box, int top, int64_t faces[][4]);
 
 /* residual = K u - f, the forces that hold the nodes; `dofs` entries each. */
 void brick_residual(const struct brick_mesh *mesh, const double u[], const double f[],

@@ -2,55 +2,52 @@
 
     import brick_mesh, signorini
     blocks = brick_mesh.two_blocks()
-    model = signorini.Model.sparse(blocks.matrix, blocks.lower, [0, 0, 1], fixed=blocks.held,
-                                   masters=blocks.upper[:, None], tangents=[1, 0, 0])
-    result = model.solve(blocks.press, gap=0.0, mu=0.6)
+    contact = signorini.pair_surfaces(blocks.at, blocks.slave, blocks.master)
+    model = signorini.Model.from_surfaces(blocks.matrix, contact, fixed=blocks.held)
+    result = model.solve(blocks.press, gap=contact.gaps, mu=0.6)
 
-It is the mesh of blocks.h: two blocks on each other, trilinear bricks of 10 mm, 2 x 2 x 2 Gauss
-points; mm, N, MPa.
+It is the mesh of blocks.h: two blocks on each other, trilinear bricks of 10 and 7.5 mm, 2 x 2 x 2
+Gauss points; mm, N, MPa.
 """
 
 from collections import namedtuple
 
 import numpy as np
 
-Blocks = namedtuple("Blocks", "at matrix lower upper held press twist")
+Blocks = namedtuple("Blocks", "at bricks matrix slave master held press twist")
 Blocks.__doc__ = """Two assembled blocks of n nodes.
 
-at: coordinates of the nodes, (n, 3).  matrix: (data, indices, indptr), 3 n columns, all entries.
-lower, upper: degrees of freedom (x, y, z) of the two nodes of each pair, (P, 3).  held: those of
-the bottom.  press, twist: loads of 40000 N downwards, and of a moment of 1 N mm about z, 3 n each.
+at: coordinates of the nodes, (n, 3).  bricks: their nodes, (b, 8).  matrix: (data, indices,
+indptr), 3 n columns, all entries.  slave, master: faces of the upper and of the lower block that may
+touch, (f, 4).  held: degrees of freedom of the bottom.  press, twist: loads of 40000 N downwards, and of a moment of 1 N mm about z, 3 n each.
 """
 
 
-def two_blocks(cell=10.0, wide=10, deep=4, narrow=8, high=2, young=210000.0, poisson=0.3,
-               press=40000.0):
+def two_blocks(coarse=10.0, fine=7.5, wide=10, deep=4, narrow=8, high=2, young=210000.0,
+               poisson=0.3, press=40000.0):
     """Meshes and assembles the blocks; numbers of cells along their sides. Returns Blocks."""
-    below, bricks_below = _box(cell, wide, deep, -cell * deep)
-    above, bricks_above = _box(cell, narrow, high, 0.0)
+    below, bricks_below = _box(coarse, wide, deep, -coarse * deep)
+    above, bricks_above = _box(fine, narrow, high, 0.0)
     at = np.vstack([below, above])
     bricks = np.vstack([bricks_below, len(below) + bricks_above])
 
-    # All bricks are the same cube: entry (m, n) of its matrix goes to row m, column n of each.
+    # All bricks of a block are the same cube: entry (m, n) of its matrix goes to row m, column n.
     dof = (3 * bricks[:, :, None] + [0, 1, 2]).reshape(len(bricks), 24)
     rows, columns = np.repeat(dof, 24, axis=1).ravel(), np.tile(dof, 24).ravel()
-    values = np.tile(_element(cell, young, poisson).ravel(), len(bricks))
+    values = np.concatenate([np.tile(_element(cell, young, poisson).ravel(), len(of_block))
+                             for cell, of_block in ((coarse, bricks_below), (fine, bricks_above))])
 
-    rim, line = (wide - narrow) // 2, narrow + 1
-    node = np.arange(len(at))
-    top = node[:len(below)].reshape(deep + 1, wide + 1, wide + 1)[-1]
-    layers = node[len(below):].reshape(high + 1, line, line)
-    pairs = [top[rim:rim + line, rim:rim + line].ravel(), layers[0].ravel()]
-
-    loaded = layers[-1].ravel()
+    loaded = len(at) - np.arange((narrow + 1) ** 2)[::-1] - 1
     x, y, _ = at[loaded].T
-    inner = loaded[(abs(x) <= 2 * cell) & (abs(y) <= 2 * cell)]
+    inner = loaded[(abs(x) <= 20) & (abs(y) <= 20)]
     down, turn = np.zeros(3 * len(at)), np.zeros(3 * len(at))
     down[3 * inner + 2] = -press / len(inner)
     turn[3 * loaded], turn[3 * loaded + 1] = np.array([-y, x]) / (x @ x + y @ y)
 
-    lower, upper = (3 * nodes[:, None] + [0, 1, 2] for nodes in pairs)
-    return Blocks(at, _compress(rows, columns, values, 3 * len(at)), lower, upper,
+    # Faces anticlockwise as seen from outside: of the upper block's bottom, of the lower one's top.
+    slave = bricks[len(bricks_below):][:narrow ** 2, [0, 3, 2, 1]]
+    master = bricks_below[-wide ** 2:, 4:]
+    return Blocks(at, bricks, _compress(rows, columns, values, 3 * len(at)), slave, master,
                   np.arange(3 * (wide + 1) ** 2), down, turn)
 
 

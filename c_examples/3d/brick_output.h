@@ -1,5 +1,5 @@
 /*
- * Answers as files. Both functions return 0, or -1 with the reason in errno.
+ * Answers as files.
  */
 
 #ifndef BRICK_OUTPUT_H
@@ -7,19 +7,22 @@
 
 #include "brick_contact.h"
 
-/* A line for each pair: x and y, d and F in the axes (z, x, y) of the pair, and the state. */
+/*
+ * A line for each pair: x and y, d and F in the axes (z, x, y) of the pair, and the state. Returns 0,
+ * or -1 with the reason in errno.
+ */
 int write_csv(const char *path, const struct brick_mesh *mesh, const struct contact *contact,
               const struct answer *answer);
 
 /*
- * For ParaView or alike, in VTK's legacy format: the mesh, and at its nodes
+ * For ParaView, by signorini_mesh_write, whose status it returns: the mesh, and at its nodes
  *     displacement   u
  *     contact_force  nodal, as signorini_model_nodal_forces has it
  *     pressure       the pressing force of a pair over the area that it stands for
  *     state          0 open, 1 slip, 2 stick, -1 where there is no pair
  */
-int write_vtk(const char *path, const char *title, const struct brick_mesh *mesh,
-              const struct contact *contact, const int32_t state[], const double area[],
-              const double u[], const double nodal[]);
+int32_t write_vtu(const char *path, const struct brick_mesh *mesh, const struct contact *contact,
+                  const int32_t state[], const double area[], const double u[],
+                  const double nodal[]);
 
 #endif

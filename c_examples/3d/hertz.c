@@ -15,7 +15,7 @@
  *
  *     hertz [DIR]
  *
- * With DIR, it also writes hertz_pressed, hertz_shifted and hertz_twisted, .csv and .vtk, of the
+ * With DIR, it also writes hertz_pressed, hertz_shifted and hertz_twisted, .csv and .vtu, of the
  * finest mesh to DIR; hertz.py draws them. It returns 0 if every check passed.
  */
 
@@ -172,9 +172,9 @@ static void save(struct checks *checks, const char *directory, const struct stud
         }
         for (int32_t pair = 0; pair < contact->pairs; pair++)
             area[pair] = study->mesh.cell * study->mesh.cell;
-        snprintf(path, sizeof path, "%s/hertz_%s.vtk", directory, name[number]);
-        report_file(checks, path, write_vtk(path, "two balls; mm, N, MPa", bricks, contact,
-                                            answer.state, area, u, nodal));
+        snprintf(path, sizeof path, "%s/hertz_%s.vtu", directory, name[number]);
+        report_file(checks, path,
+                    write_vtu(path, bricks, contact, answer.state, area, u, nodal));
     }
     free(u);
     free(nodal);

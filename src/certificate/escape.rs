@@ -33,7 +33,10 @@ pub(crate) fn is_escape_of(contact: &Contact<'_>, r: &[f64]) -> bool {
     if energy(problem.relation(), r, &internal) > problem.rounding_of_energy() {
         return false;
     }
-    if internal.iter().zip(&root).any(|(k, root)| k.abs() > negligible * root) {
+    // What rounding of the entries leaves of forces, each entry in the roots of its two units.
+    let spread: f64 = r.iter().zip(&root).map(|(r, root)| (r * root).abs()).sum();
+    let strained = negligible.max(problem.rounding_of_energy() * spread);
+    if internal.iter().zip(&root).any(|(k, root)| k.abs() > strained * root) {
         return false;
     }
     let motions = recessions(contact, r);

@@ -1,4 +1,4 @@
-//! Results that not every call wants: the motion of escape and a second solution.
+//! Results that not every call wants: motions where no equilibrium exists, and a second solution.
 
 use super::args::{Arrays, Output};
 use super::guard::{self, Failure};
@@ -18,11 +18,12 @@ pub struct SignoriniExtra {
     pub struct_size: u32,
     /// 0.
     pub reserved: i32,
-    /// Out: N entries. With SIGNORINI_STATUS_NO_EQUILIBRIUM the motion of escape r, which proves
-    /// the status: K r = 0, and f . r + F . r > 0 for all contact forces F that the law admits. Its
-    /// largest component is 1. In signorini_flexibility_solve the proof is pressing normal forces p:
-    /// W p = 0, and the sum of p_n (gap - q_n) is positive, p_n < 0 where it counts; the largest
-    /// is -1. With every other status zeros.
+    /// Out: N entries. With SIGNORINI_STATUS_NO_EQUILIBRIUM a motion r that proves the status:
+    /// K r = 0, and f . r + F . r > 0 for all contact forces F that the law admits. Its largest
+    /// component is 1. With every other status zeros. With friction it lifts each slipping pair by
+    /// mu times its slip, as nothing moves: draw escape. In signorini_flexibility_solve the proof
+    /// is pressing normal forces p: W p = 0, and the sum of p_n (gap - q_n) is positive, p_n < 0
+    /// where it counts; the largest is -1.
     pub motion: *mut f64,
     /// Out: N entries. If report.second is 1, the relative displacements of a second solution,
     /// certified as the first is; otherwise zeros.
@@ -36,6 +37,12 @@ pub struct SignoriniExtra {
     pub radius_d: *mut f64,
     /// Out: N entries. The same of the contact forces and F; force.
     pub radius_F: *mut f64,
+    /// Out: N entries. With SIGNORINI_STATUS_NO_EQUILIBRIUM the motion of escape, which you can
+    /// draw: K r = 0, no pair approaches its obstacle, pairs that contact presses stay on it,
+    /// friction opposes the slip, and f . r > 0. It is the motion against a viscosity in each
+    /// component of the size of its diagonal entry of K, every pair of finite gap touching. Its
+    /// largest component is 1. With every other status zeros.
+    pub escape: *mut f64,
 }
 
 impl SignoriniExtra {
@@ -50,6 +57,7 @@ impl SignoriniExtra {
             second_state: std::ptr::null_mut(),
             radius_d: nothing,
             radius_F: nothing,
+            escape: nothing,
         }
     }
 }
@@ -64,6 +72,7 @@ pub(super) struct Extra {
     second_state: Output<i32>,
     radius_d: Output<f64>,
     radius_force: Output<f64>,
+    escape: Output<f64>,
 }
 
 impl Extra {
@@ -100,6 +109,7 @@ impl Extra {
             second_force: vector("extra: second_F", given.second_F)?,
             radius_d: vector("extra: radius_d", given.radius_d)?,
             radius_force: vector("extra: radius_F", given.radius_F)?,
+            escape: vector("extra: escape", given.escape)?,
             second_state: arrays.optional_output(
                 position,
                 "extra: second_state",
@@ -117,6 +127,7 @@ impl Extra {
         let (n, pairs) = (self.n, self.pairs);
         let zeros = vec![0.0; n];
         let motion = solution.recession.as_deref().unwrap_or(&zeros);
+        let escape = solution.escape.as_ref().map_or(&zeros[..], |escape| &escape.motion);
         let second = solution.second.as_deref();
         let d = second.map_or(&zeros[..], |second| &second.d);
         let force = second.map_or(&zeros[..], |second| &second.certificate.force);
@@ -128,6 +139,7 @@ impl Extra {
             self.radius_d.part(n * case, n).write(&radius_d);
             self.radius_force.part(n * case, n).write(&radius_force);
             self.motion.part(n * case, n).write(motion);
+            self.escape.part(n * case, n).write(escape);
             self.second_d.part(n * case, n).write(d);
             self.second_force.part(n * case, n).write(force);
             self.second_state.part(pairs * case, pairs).write(&states);

@@ -63,6 +63,12 @@ entries! {
         ndim: *const I, npair: *const I, slave: *const I, nmast: *const I, mstart: *const I,
         master: *const I, weight: *const f64, normal: *const f64, ntan: *const I,
         tangnt: *const f64, handle: *mut i64, info: *mut I);
+    sgspaw_ sgspaw_64_ = super::sparse::within, (n: *const I, nnz: *const I, colptr: *const I,
+        rowind: *const I, values: *const f64, tri: *const I, nfix: *const I, fixed: *const I,
+        ndim: *const I, npair: *const I, slave: *const I, nmast: *const I, mstart: *const I,
+        master: *const I, weight: *const f64, normal: *const f64, ntan: *const I,
+        tangnt: *const f64, nord: *const I, order: *const I, maxmem: *const f64,
+        maxsec: *const f64, handle: *mut i64, info: *mut I);
     sgcase_ sgcase_64_ = super::models::case, (handle: *const i64, f: *const f64,
         presc: *const f64, gap: *const f64, law: *const I, fric: *const f64, slip0: *const f64,
         method: *const I, tol: *const f64, maxit: *const I, d: *mut f64, r: *mut f64,

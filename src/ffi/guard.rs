@@ -5,11 +5,13 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Once, OnceLock};
 
 use super::status::{
-    SIGNORINI_STATUS_FILE, SIGNORINI_STATUS_INTERNAL, SIGNORINI_STATUS_OUT_OF_MEMORY, remember,
+    SIGNORINI_STATUS_CANCELLED, SIGNORINI_STATUS_FILE, SIGNORINI_STATUS_INTERNAL,
+    SIGNORINI_STATUS_MEMORY_LIMIT, SIGNORINI_STATUS_OUT_OF_MEMORY, SIGNORINI_STATUS_TIME_LIMIT,
+    remember,
 };
-use crate::error::{Argument, Error, Message};
+use crate::error::{Argument, Error, Limit, Message};
 
-/// Why a call returns a negative status.
+/// Why a call ends without a result.
 pub(super) struct Failure {
     code: i32,
     message: Message,
@@ -37,8 +39,17 @@ impl Failure {
         match error {
             Error::Invalid { argument, .. } => Failure { code: -position(argument), message },
             Error::OutOfMemory(_) => Failure { code: SIGNORINI_STATUS_OUT_OF_MEMORY, message },
+            Error::Stopped { limit, .. } => Failure { code: limit_code(limit), message },
             Error::File(_) => Failure { code: SIGNORINI_STATUS_FILE, message },
         }
+    }
+}
+
+fn limit_code(limit: Limit) -> i32 {
+    match limit {
+        Limit::Memory => SIGNORINI_STATUS_MEMORY_LIMIT,
+        Limit::Time => SIGNORINI_STATUS_TIME_LIMIT,
+        Limit::Cancelled => SIGNORINI_STATUS_CANCELLED,
     }
 }
 
@@ -59,7 +70,13 @@ pub(super) fn call(body: impl FnOnce() -> Result<i32, Failure>) -> i32 {
     let result = catch_unwind(AssertUnwindSafe(body));
     INSIDE.set(outside);
     match result {
-        Ok(Ok(code)) => code,
+        Ok(Ok(code)) => {
+            // A panic that was caught inside, where another way was taken, has left its sentence.
+            if code == 0 {
+                remember("");
+            }
+            code
+        }
         Ok(Err(failure)) => {
             remember(failure.message);
             failure.code

@@ -2,9 +2,12 @@
 
 use super::args::{Arrays, matrix_length, size, sizes};
 use super::guard::{self, Failure};
-use super::sparse::{SignoriniPairs, SignoriniSparse, shifted};
+use super::pairs::SignoriniPairs;
+use super::settings::SignoriniSettings;
+use super::sparse::{SignoriniSparse, shifted};
 use crate::error::{Argument, Error};
 use crate::model::Model;
+use crate::monitor::{Monitor, ProgressFn};
 
 /// A structure that is reduced to its contact pairs: what all load cases share. Made by
 /// signorini_model_new_..., released by signorini_model_free. It does not change: several threads
@@ -115,20 +118,73 @@ pub unsafe extern "C" fn signorini_model_new_sparse(
 ) -> i32 {
     guard::call(|| {
         let place = Place::new(5, model)?;
+        let settings = std::ptr::null();
         // SAFETY: the structures and arrays are those of the header.
-        let made = unsafe {
-            let matrix = SignoriniSparse::read(1, K)?;
-            let count = size(2, "n_fixed", n_fixed)?;
-            let fixed = Arrays::default().required(3, "fixed", fixed, count)?;
-            let fixed = shifted(3, "fixed", fixed, matrix.index_base)?;
-            let pairs = SignoriniPairs::read(4, pairs, matrix.index_base)?;
-            Model::sparse(&matrix, &fixed, &pairs.view())
-        };
-        place.fill(made, |argument| match argument {
-            Argument::Matrix => 1,
-            Argument::Fixed => 3,
-            _ => 4,
-        })
+        unsafe { sparse(K, (n_fixed, fixed), pairs, (5, settings), place) }
+    })
+}
+
+/// As signorini_model_new_sparse, with settings of which it takes progress, user, time_limit and
+/// memory_limit. The callback is told the share that is done and, before memory is taken, how much
+/// is needed. The choice of the order, before that, asks nobody. After a call that was ended nothing
+/// is held, and your arrays are as before.
+///
+/// @param K         the stiffness matrix of all degrees of freedom, the fixed ones too
+/// @param n_fixed   number of fixed degrees of freedom
+/// @param fixed     the fixed degrees of freedom, counted from K->index_base; may be NULL if
+///                  n_fixed is 0
+/// @param pairs     the contact pairs
+/// @param settings  may be NULL: no callback, no limits
+/// @param model     out: the model; NULL unless 0 is returned
+/// @return 0; SIGNORINI_STATUS_CANCELLED, _TIME_LIMIT or _MEMORY_LIMIT; -k: the k-th argument is
+///         wrong; <= -1000: out of memory or a defect
+#[unsafe(no_mangle)]
+#[allow(non_snake_case)] // as above
+pub unsafe extern "C" fn signorini_model_new_sparse_within(
+    K: *const SignoriniSparse,
+    n_fixed: i64,
+    fixed: *const i64,
+    pairs: *const SignoriniPairs,
+    settings: *const SignoriniSettings,
+    model: *mut *mut SignoriniModel,
+) -> i32 {
+    guard::call(|| {
+        let place = Place::new(6, model)?;
+        // SAFETY: the structures and arrays are those of the header.
+        unsafe { sparse(K, (n_fixed, fixed), pairs, (5, settings), place) }
+    })
+}
+
+/// # Safety
+/// The structures and arrays are those of the header.
+#[allow(non_snake_case)] // as above
+unsafe fn sparse(
+    K: *const SignoriniSparse,
+    (n_fixed, fixed): (i64, *const i64),
+    pairs: *const SignoriniPairs,
+    (position, settings): (i32, *const SignoriniSettings),
+    place: Place,
+) -> Result<i32, Failure> {
+    // SAFETY: by the caller's contract.
+    let made = unsafe {
+        let matrix = SignoriniSparse::read(1, K)?;
+        let order = SignoriniSparse::order(1, K)?;
+        let count = size(2, "n_fixed", n_fixed)?;
+        let fixed = Arrays::default().required(3, "fixed", fixed, count)?;
+        let fixed = shifted(3, "fixed", fixed, matrix.index_base)?;
+        let pairs = SignoriniPairs::read(4, pairs, matrix.index_base)?;
+        let received = SignoriniSettings::read(position, settings)?;
+        let wrong = |error| Failure::from_error(error, |_| position);
+        received.settings.validate().map_err(wrong)?;
+        let mut progress = received.progress();
+        let progress = progress.as_mut().map(|progress| progress as &mut ProgressFn<'_>);
+        let monitor = &mut Monitor::new(&received.settings, progress);
+        Model::sparse_within(&matrix, &fixed, &pairs.view(), order.as_deref(), monitor)
+    };
+    place.fill(made, |argument| match argument {
+        Argument::Matrix | Argument::Order => 1,
+        Argument::Fixed => 3,
+        _ => 4,
     })
 }
 

@@ -42,9 +42,16 @@ pub struct SignoriniProgress {
     pub eta: f64,
     /// Seconds since the call began.
     pub elapsed: f64,
+    /// Share of the reduction of a sparse matrix that is done, 0 to 1; 1 while a load case is
+    /// solved.
+    pub reduced: f64,
+    /// Bytes that this reduction needs in all, told before they are taken; 0 before they are known
+    /// and while a load case is solved.
+    pub memory: i64,
 }
 
-/// A progress callback: called before each sweep, pivot or linear system. A nonzero result cancels
+/// A progress callback: called before each sweep, pivot or linear system, and by
+/// signorini_model_new_sparse_within some hundred times a second. A nonzero result cancels
 /// the call (SIGNORINI_STATUS_CANCELLED). It runs on the calling thread, in the default
 /// floating-point environment. It must return: no longjmp, no exception; and it must not call this
 /// library.
@@ -85,6 +92,8 @@ pub struct SignoriniSettings {
     pub proof: i32,
     /// 0.
     pub reserved: i32,
+    /// Most bytes that signorini_model_new_sparse_within may need; default 0: no limit.
+    pub memory_limit: i64,
 }
 
 /// Settings as the solvers know them, with what only the C interface has.
@@ -113,6 +122,7 @@ impl SignoriniSettings {
             user: std::ptr::null_mut(),
             proof: 0,
             reserved: 0,
+            memory_limit: 0,
         }
     }
 
@@ -145,6 +155,12 @@ impl SignoriniSettings {
             let given = self.max_iterations;
             return refuse(format!("settings: max_iterations is {given}, it must be at least 1"));
         };
+        let Ok(memory_limit) = u64::try_from(self.memory_limit) else {
+            let given = self.memory_limit;
+            return refuse(format!(
+                "settings: memory_limit is {given}, it must be 0 (none) or bytes"
+            ));
+        };
         let search = match self.search {
             SIGNORINI_SEARCH_OFF => Search::Off,
             SIGNORINI_SEARCH_OTHERS => Search::Others,
@@ -164,6 +180,7 @@ impl SignoriniSettings {
                 time_limit: self.time_limit,
                 search,
                 proof: self.proof != 0,
+                memory_limit,
             },
             warm_start: self.warm_start != 0,
             progress: self.progress,
@@ -181,6 +198,8 @@ impl Received {
                 iterations: progress.iterations as i64,
                 eta: progress.eta,
                 elapsed: progress.elapsed,
+                reduced: progress.reduced,
+                memory: progress.memory as i64,
             };
             // SAFETY: the header demands a function of this type that returns normally.
             match unsafe { callback(user, &raw const progress) } {

@@ -19,7 +19,8 @@ use crate::solve::{Status, solve};
 /// @param K         condensed stiffness, N columns of N entries, column-major, both triangles;
 ///                  symmetric, positive semi-definite; force / length. A row of zeros is a component
 ///                  that nothing resists. Small entries on the diagonal are taken as they are: of a
-///                  free body on two or three points make a model, which knows rounding
+///                  free body on two or three points make a model, which knows rounding. That K is
+///                  positive semi-definite is checked by pairs of entries alone; models check it
 /// @param ldk       entries from one column of K to the next, at least max(1, N)
 /// @param f         condensed nodal loads, N; force
 /// @param gap       initial gaps, one for each pair; length; negative: interference; +infinity:

@@ -24,6 +24,8 @@ pub const SIGNORINI_STATUS_STALLED: i32 = 5;
 pub const SIGNORINI_STATUS_NOT_A_SOLUTION: i32 = 6;
 /// Prove: no solution is proved to exist, which does not say that there is none.
 pub const SIGNORINI_STATUS_NOT_PROVED: i32 = 7;
+/// The reduction of a sparse matrix needs more than memory_limit: nothing was factorised.
+pub const SIGNORINI_STATUS_MEMORY_LIMIT: i32 = 8;
 /// A caught defect of the library: results undefined.
 pub const SIGNORINI_STATUS_INTERNAL: i32 = -1000;
 /// Out of memory: nothing was written.
@@ -94,6 +96,7 @@ pub extern "C" fn signorini_status_string(status: i32) -> *const c_char {
         SIGNORINI_STATUS_STALLED => c"stalled",
         SIGNORINI_STATUS_NOT_A_SOLUTION => c"not a solution",
         SIGNORINI_STATUS_NOT_PROVED => c"not proved",
+        SIGNORINI_STATUS_MEMORY_LIMIT => c"memory limit reached",
         SIGNORINI_STATUS_INTERNAL => c"internal error",
         SIGNORINI_STATUS_OUT_OF_MEMORY => c"out of memory",
         SIGNORINI_STATUS_FILE => c"a file cannot be read or written",

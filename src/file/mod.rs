@@ -1,4 +1,5 @@
-//! Problem files: serialised contact problems and LCPs, for bug reports and replay.
+//! Problem files: serialised contact problems and LCPs, for bug reports and replay. Also meshes with fields
+//! for ParaView ([`write_vtu`]).
 //!
 //! A problem file is a Matrix Market file, `matrix array real general`, which every reader of that
 //! format takes for one dense matrix. Comment lines say what it is:
@@ -36,6 +37,7 @@
 mod law;
 mod lines;
 mod read;
+mod vtu;
 mod write;
 
 use std::path::Path;
@@ -45,6 +47,7 @@ use crate::problem::ContactData;
 
 pub use law::Law;
 pub use read::read;
+pub use vtu::{Field, Mesh, Values, nodes_of_type, write_vtu};
 pub use write::{write, write_lcp};
 
 /// What every problem file begins with, up to case and space.

@@ -117,7 +117,7 @@ fn check_remark(remark: Option<&str>) -> Result<(), Error> {
 /// Writes to a temporary file, then renames it: a full disk or a crash leaves the old file, or none,
 /// under the name, never a part of the new one. A new file takes over the mode of the old one; other names
 /// (hard links) of the old one keep its contents.
-fn replace(
+pub(super) fn replace(
     path: &Path,
     fill: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
 ) -> Result<(), Error> {

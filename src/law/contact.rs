@@ -138,6 +138,16 @@ impl<'p, R: Relation> Contact<'p, R> {
         d
     }
 
+    /// The largest part, at most 1, of a `motion` that can be taken from `d` without penetration.
+    pub fn admissible_part(&self, d: &[f64], motion: &[f64]) -> f64 {
+        let dim = self.dim();
+        let normals = d.iter().step_by(dim).zip(motion.iter().step_by(dim));
+        let part = |(law, (&d, &r)): (&PairLaw, (&f64, &f64))| {
+            if r < 0.0 { ((law.gap - d) / -r).max(0.0) } else { 1.0 }
+        };
+        self.pairs.iter().zip(normals).map(part).fold(1.0, f64::min)
+    }
+
     /// Every pair that has an obstacle closed, and sticking as far as it has friction.
     pub fn all_stick(&self) -> Vec<Branch> {
         self.pairs.iter().map(PairLaw::stick).collect()

@@ -38,3 +38,8 @@ pub fn without_friction<'a, R: Clone + Relation>(
 ) -> ContactProblem<'a, R> {
     problem.with_law(FrictionLaw::Frictionless)
 }
+
+/// The first of some pairs whose gap is a penetration, with its gap.
+pub fn first_penetration(gaps: &[f64], pairs: impl Iterator<Item = usize>) -> Option<(usize, f64)> {
+    pairs.filter_map(|pair| Some((pair, *gaps.get(pair)?))).find(|&(_, gap)| gap < 0.0)
+}

@@ -56,7 +56,7 @@ pub mod tresca;
 
 pub use bound::{Bound, length};
 pub use contact::Contact;
-pub use contradiction::{exceed_gaps, pressing, without_friction};
+pub use contradiction::{exceed_gaps, first_penetration, pressing, without_friction};
 pub use ellipse::{Ellipse, Plane, Rule};
 pub(crate) use frozen::{FrozenPair, Local};
 pub use natural_map::Violation;

@@ -13,7 +13,7 @@
 //! pairs counts as a part of the loads ([`super::Contact::shifted_load`]). Of a pair that has an obstacle
 //! `r_n <= 0`: tension takes the work `a |r_n|`.
 
-use super::{PairLaw, Vector};
+use super::{Contact, PairLaw, Vector};
 
 /// A motion of a pair, as its law sees it.
 #[derive(Clone, Copy, Debug)]
@@ -29,6 +29,14 @@ pub struct Recession {
 /// Lifts a pair off its obstacle: adds to its motion `r`.
 pub fn lift(r: &mut [f64], by: f64) {
     r[0] -= by;
+}
+
+impl Contact<'_> {
+    /// Gaps with which every pair that has an obstacle touches it.
+    pub fn touching_gaps(&self) -> Vec<f64> {
+        let gap = |law: &PairLaw| if law.has_obstacle() { 0.0 } else { f64::INFINITY };
+        self.pairs().iter().map(gap).collect()
+    }
 }
 
 impl PairLaw {

@@ -101,6 +101,18 @@ impl Factor {
 /// Overwrites the lower triangle of a symmetric matrix with Cholesky's factor; `None` if the matrix is not
 /// positive definite.
 pub fn cholesky(matrix: &mut Mat<f64>) -> Option<()> {
+    cholesky_to_failure(matrix).ok()
+}
+
+/// The first row with which the leading block of the symmetric `n x n` matrix, its lower triangle `entry(i, j)`,
+/// is not positive definite.
+pub fn first_not_definite(n: usize, entry: impl Fn(usize, usize) -> f64) -> Option<usize> {
+    let lower = |i: usize, j: usize| if i >= j { entry(i, j) } else { 0.0 };
+    cholesky_to_failure(&mut Mat::from_fn(n, n, lower)).err()
+}
+
+/// Cholesky's factor, or the row of the pivot that is not positive.
+fn cholesky_to_failure(matrix: &mut Mat<f64>) -> Result<(), usize> {
     let scratch = llt::factor::cholesky_in_place_scratch::<f64>(
         matrix.nrows(),
         Par::Seq,
@@ -113,8 +125,8 @@ pub fn cholesky(matrix: &mut Mat<f64>) -> Option<()> {
         MemStack::new(&mut MemBuffer::new(scratch)),
         faer::Spec::default(),
     )
-    .ok()
     .map(|_| ())
+    .map_err(|llt::factor::LltError::NonPositivePivot { index }| index)
 }
 
 fn general(matrix: &mut Mat<f64>) -> Kind {

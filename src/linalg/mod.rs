@@ -1,5 +1,5 @@
-//! Linear algebra: the only room that names faer, nalgebra and the SIMD kernels. It knows nothing of
-//! mechanics.
+//! Linear algebra: the only room that names faer, nalgebra, feral-scotch and the SIMD kernels. It knows
+//! nothing of mechanics.
 
 pub(crate) mod approximate_inverse;
 pub(crate) mod ball;
@@ -23,4 +23,3 @@ pub(crate) mod tolerances;
 pub(crate) mod unreduced;
 pub(crate) mod vector;
 pub(crate) mod vector3;
-pub(crate) mod workspaces;

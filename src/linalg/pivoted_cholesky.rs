@@ -133,21 +133,3 @@ pub fn subtract_gram(c: &mut [f64], x: MatRef<'_, f64>) {
         }
     }
 }
-
-/// `L Lᵀ` of the lower triangle `l`, `n x n` column-major.
-pub fn lower_times_transpose(l: &[f64], n: usize) -> Vec<f64> {
-    let l = MatRef::from_column_major_slice(l, n, n);
-    let mut product = vec![0.0; n * n];
-    triangular::matmul(
-        MatMut::from_column_major_slice_mut(&mut product, n, n),
-        BlockStructure::Rectangular,
-        Accum::Replace,
-        l,
-        BlockStructure::TriangularLower,
-        l.transpose(),
-        BlockStructure::TriangularUpper,
-        1.0,
-        Par::Seq,
-    );
-    product
-}

@@ -174,17 +174,3 @@ impl Columns {
         from_columns((rows, self.col_start.len() - 1), self.col_start, self.row, self.values)
     }
 }
-
-/// The first `size` rows and columns of a lower triangle.
-pub fn leading_part(lower: &Csc, size: usize) -> Result<Csc, OutOfMemory> {
-    let stored = lower.symbolic().col_ptr()[size];
-    let mut columns = Columns::with_capacity(stored)?;
-    for j in 0..size {
-        let (rows, values) = column(lower, j);
-        let inside = rows.partition_point(|&i| i < size);
-        columns.row.extend_from_slice(&rows[..inside]);
-        columns.values.extend_from_slice(&values[..inside]);
-        columns.end_column();
-    }
-    Ok(columns.matrix(size))
-}

@@ -1,6 +1,7 @@
 //! Checks of a model's arrays.
 
 use crate::error::{Argument, Error, entry};
+use crate::law::first_penetration;
 use crate::linalg::matrix::required_length;
 use crate::linalg::vector::first_not_finite;
 
@@ -36,4 +37,23 @@ pub(super) fn check_vector(
         Some(i) => Err(Error::invalid(argument, entry(name, [i]) + " is not finite")),
         None => Ok(()),
     }
+}
+
+/// Refuses a penetration that supports on both sides of a pair hold: no displacement takes it away.
+pub(super) fn check_fixed_gaps(
+    fixed_components: &[usize],
+    dim: usize,
+    gaps: &[f64],
+) -> Result<(), Error> {
+    let normals = fixed_components.iter().filter(|&component| component % dim == 0);
+    let Some((pair, gap)) = first_penetration(gaps, normals.map(|component| component / dim))
+    else {
+        return Ok(());
+    };
+    let message = format!(
+        "{} is {gap}, a penetration, but both sides of the pair are fixed along its normal: nothing can part \
+         them: set the gap to 0, release a side, or leave the pair out",
+        entry("gap", [pair])
+    );
+    Err(Error::invalid(Argument::Gap, message))
 }

@@ -69,9 +69,14 @@ pub struct Stiffness<'a> {
     pub(super) rounding: f64,
 }
 
-/// [`Stiffness::rounding`] of a matrix that is exact but for the last digits of its entries: rounding each
-/// of them once explains half of it. A host that sums many terms to an entry hands over a model.
+/// [`Stiffness::rounding`] of a matrix that a host gives without a word on its origin, where its components
+/// are few. Rounding each entry once explains half of it; a definite matrix of condition 1e15 resists with
+/// 4.5 times as much or more. A host that sums many terms to an entry hands over a model.
 const LAST_DIGITS: f64 = f64::EPSILON;
+
+/// Components that add as much to it: entries that a host has condensed from a mesh took as many operations
+/// (6 times as much on 66 components, measured).
+const COMPONENTS_A_UNIT: f64 = 8.0;
 
 impl<'a> Stiffness<'a> {
     /// The relation of pairs of `dim` components, with a symmetric matrix.
@@ -82,7 +87,7 @@ impl<'a> Stiffness<'a> {
             symmetric: true,
             dim,
             largest: matrix.largest_diagonal(),
-            rounding: LAST_DIGITS,
+            rounding: LAST_DIGITS * (matrix.size() as f64 / COMPONENTS_A_UNIT).max(1.0),
         }
     }
 
@@ -119,7 +124,15 @@ impl Relation for Stiffness<'_> {
         residual
     }
 
+    /// A component that nothing resists counts with its unit: what it was condensed from has such stiffnesses,
+    /// whose sums are zero.
     fn magnitude(&self, size: &[f64]) -> Vec<f64> {
-        self.matrix.magnitude(size)
+        let mut sum = self.matrix.magnitude(size);
+        for (j, sum) in sum.iter_mut().enumerate() {
+            if self.matrix.at(j, j) == 0.0 {
+                *sum += self.unit(j) * size[j];
+            }
+        }
+        sum
     }
 }

@@ -1,6 +1,7 @@
 //! Validation of a host's dense symmetric matrix.
 
-use crate::error::{Argument, Error, entry};
+use crate::error::{Argument, Error, entry, index};
+use crate::linalg::factor::first_not_definite;
 use crate::linalg::matrix::Matrix;
 use crate::linalg::vector::first_not_finite;
 
@@ -69,6 +70,33 @@ fn check_across(matrix: &Matrix<'_>, name: &str, argument: Argument) -> Result<(
         }
         Ok(())
     })
+}
+
+/// Refuses a checked matrix, of `dim` components for each pair, that a motion makes work: with a negative
+/// eigenvalue, scaled to a unit diagonal, that is no rounding ([`SYMMETRY`]).
+pub(crate) fn check_semidefinite(
+    matrix: &Matrix<'_>,
+    dim: usize,
+    name: &str,
+    argument: Argument,
+) -> Result<(), Error> {
+    let scale: Vec<f64> = matrix
+        .diagonal_roots()
+        .iter()
+        .map(|root| if *root > 0.0 { root.recip() } else { 0.0 })
+        .collect();
+    let entry = |i: usize, j: usize| {
+        scale[i] * matrix.at(i, j) * scale[j] + if i == j { SYMMETRY } else { 0.0 }
+    };
+    let Some(component) = first_not_definite(matrix.size(), entry) else { return Ok(()) };
+    let message = format!(
+        "{name} is not positive semi-definite: a motion of the components up to {}, the last of pair {}, has \
+         a negative energy: is {name} a stiffness, with the signs of its mixed entries in the frames of \
+         the pairs?",
+        index(component),
+        index(component / dim)
+    );
+    Err(Error::invalid(argument, message))
 }
 
 /// Refuses entries that are not finite, negative diagonals, zeros on the diagonal of columns that are not

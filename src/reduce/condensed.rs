@@ -6,7 +6,7 @@ use crate::linalg::free_motions::{Whole, settle};
 use crate::linalg::matrix::Matrix;
 use crate::linalg::tolerances::{CONDENSATION, FREE};
 use crate::linalg::vector::first_not_finite;
-use crate::problem::symmetric_matrix::{check, is_symmetric_beside};
+use crate::problem::symmetric_matrix::{check, check_semidefinite, is_symmetric_beside};
 
 /// The host's condensed stiffness.
 pub struct CondensedReduction {
@@ -39,7 +39,7 @@ impl CondensedReduction {
 /// cannot be told from rounding is taken as it is.
 ///
 /// # Errors
-/// As `check`.
+/// As `check` and `check_semidefinite`.
 pub(super) fn settled(
     dim: usize,
     matrix: &Matrix<'_>,
@@ -48,6 +48,7 @@ pub(super) fn settled(
 ) -> Result<Option<Vec<f64>>, Error> {
     let cleaned = without_rounding(dim, matrix);
     check(&view(matrix, &cleaned), name, argument)?;
+    check_semidefinite(&view(matrix, &cleaned), dim, name, argument)?;
     Ok(cleaned)
 }
 

@@ -13,7 +13,7 @@ mod two_body;
 pub use condensed::CondensedReduction;
 pub(crate) use motion::driven_motion;
 pub use pairs::ContactPairs;
-pub use sparse::{Indices, SparseMatrix, SparseReduction, Triangle};
+pub use sparse::{Control, Indices, SparseMatrix, SparseReduction, Triangle};
 pub use two_body::TwoBodyReduction;
 
 use crate::error::{Error, Message};

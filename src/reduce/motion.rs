@@ -2,6 +2,7 @@
 
 use super::Reduction;
 use crate::error::index;
+use crate::linalg::tolerances::ROUNDING_OF_SUM;
 use crate::linalg::vector::norm_inf;
 
 /// Displacements below this part of the largest one are not counted as moving: a motion comes from
@@ -11,16 +12,40 @@ const MOVING: f64 = 1e-6;
 /// How many of what moves most are named: a node's translation in space, or one point of a rotation.
 const MOST_NAMED: usize = 3;
 
-/// What moves in the recession direction `d` that relative loads drive, how much they drive it, and what
-/// to look at.
-pub(crate) fn driven_motion(reduction: &dyn Reduction, load: &[f64], d: &[f64]) -> String {
-    let work: f64 = load.iter().zip(d).map(|(f, d)| f * d).sum();
+/// What moves in the motion `d` that relative loads drive, how much they drive it, what of that nothing
+/// balances, and what to look at.
+pub(crate) fn driven_motion(
+    reduction: &dyn Reduction,
+    load: &[f64],
+    (d, unbalanced): (&[f64], &[f64]),
+) -> String {
+    let largest = norm_inf(&reduction.recover(None, None, d));
+    let along = |force: &[f64]| force.iter().zip(d).map(|(f, d)| f * d).sum::<f64>() / largest;
+    let resultant = match reduction.frames() {
+        Some(frames) => format!(", the force {} in the axes of K", force(frames, unbalanced, d)),
+        None => String::new(),
+    };
     format!(
-        "it moves {}; the resultant of the loads along it is {:.3e} (largest displacement 1). Are all \
-         normals outward from the slaves and the signs of loads right, is a support or pair missing?",
+        "it moves {}; the resultant of the loads along it is {:.3e} (largest displacement 1), and contact \
+         leaves {:.3e} of it unbalanced{resultant}. Are all normals outward from the slaves and the signs \
+         of loads right, is a support or pair missing?",
         reduction.motion_in_words(d).marked(),
-        work / norm_inf(&reduction.recover(None, None, d))
+        along(load),
+        along(unbalanced),
     )
+}
+
+/// The sum of the forces of pairs that move in the host's axes: `(1.000e0, 0.000e0)`.
+fn force(frames: &[f64], forces: &[f64], d: &[f64]) -> String {
+    let dim = frames.len() / d.len().max(1);
+    let mut sum = vec![0.0; dim];
+    for (force, direction) in forces.iter().zip(frames.chunks_exact(dim)) {
+        sum.iter_mut().zip(direction).for_each(|(sum, part)| *sum += force * part);
+    }
+    let least = ROUNDING_OF_SUM * norm_inf(forces) * forces.len() as f64;
+    let parts: Vec<String> =
+        sum.iter().map(|f| format!("{:.3e}", if f.abs() > least { *f } else { 0.0 })).collect();
+    format!("({})", parts.join(", "))
 }
 
 /// Places of the entries that move, and of those that move most, the largest first.

@@ -140,7 +140,7 @@ impl Tried {
         solution.refactorisations = self.effort.refactorisations;
         if let Some(other) = self.unstable
             && solution.status == Status::Solved
-            && uniqueness::are_different(contact, &solution.d, &other.d)
+            && uniqueness::are_two(contact, &solution, &other)
         {
             solution.uniqueness = Uniqueness::Several;
             solution.second = Some(Box::new(SecondSolution {

@@ -5,7 +5,6 @@ use std::cell::OnceCell;
 
 use super::outcome::{Errors, Existence, Solution, Status, Uniqueness};
 use crate::certificate::{Certificate, is_escape_of, measure, measure_parts};
-use crate::error::index;
 use crate::law::Contact;
 use crate::linalg::vector::normalise;
 use crate::monitor::Stop;
@@ -88,6 +87,12 @@ impl Candidate {
         Candidate { effort, ..self }
     }
 
+    /// The same candidate at other displacements.
+    pub fn moved_to(self, contact: &Contact<'_>, d: Vec<f64>) -> Self {
+        let force = contact.problem().force(&d);
+        Candidate { d, low: Vec::new(), force, ..self }.remeasured()
+    }
+
     /// The same candidate with another ending.
     pub fn ended(self, ending: Ending) -> Self {
         Candidate { ending, ..self }
@@ -140,9 +145,8 @@ pub fn certified(
     } else if let Some(motion) = motion.filter(|motion| is_escape_of(contact, motion)) {
         let mut motion = motion.clone();
         normalise(&mut motion);
-        let message = no_equilibrium(contact, &motion);
         recession = Some(motion);
-        (Status::NoEquilibrium, message)
+        (Status::NoEquilibrium, NO_EQUILIBRIUM.to_owned())
     } else if let Ending::Stopped(stop) = candidate.ending {
         stop.status(settings, &wanted)
     } else {
@@ -156,6 +160,7 @@ pub fn certified(
         d_low: low_part(candidate),
         certificate,
         recession,
+        escape: None,
         method,
         fallback: None,
         uniqueness: Uniqueness::NotKnown,
@@ -191,28 +196,6 @@ fn at_rest(contact: &Contact<'_>, settings: &Settings, other: &Candidate) -> Opt
 /// The sentence of a proof that no equilibrium exists.
 pub const NO_EQUILIBRIUM: &str =
     "no equilibrium exists: the loads drive a rigid motion that contact does not stop";
-
-/// The sentence about a proof that no equilibrium exists: which pairs move, how, and what drives them.
-fn no_equilibrium(contact: &Contact<'_>, motion: &[f64]) -> String {
-    let dim = contact.dim();
-    let most = (0..motion.len()).max_by(|&a, &b| motion[a].abs().total_cmp(&motion[b].abs()));
-    let most = most.unwrap_or(0);
-    let moving = motion.chunks_exact(dim).filter(|r| r.iter().any(|r| r.abs() > MOVING)).count();
-    let work: f64 = contact.shifted_load().iter().zip(motion).map(|(f, r)| f * r).sum();
-    let (pair, component) = (most / dim, most % dim);
-    let direction = contact.pairs()[pair].direction(component, motion[most]);
-    format!(
-        "{NO_EQUILIBRIUM}: it moves {moving} of {} pairs, most of all pair {}, {direction}, and the \
-         loads do the work {work:.3e} on it when its largest component is 1; are a support, friction, or a pair \
-         missing, or is a normal, a load or the sign of gap turned round?",
-        contact.pairs().len(),
-        index(pair)
-    )
-}
-
-/// Part of the largest component that counts as moving in a sentence: what is below is not worth
-/// reading.
-const MOVING: f64 = 1e-6;
 
 impl Ending {
     /// Why there is no solution at this end.

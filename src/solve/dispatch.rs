@@ -1,6 +1,7 @@
 //! One method on one problem: which it fits, and what runs it.
 
 use super::candidate::{Candidate, Ending};
+use super::smallest_lift::without_idle_motion;
 use super::{active_set, lemke, normal_map, path, sweeps};
 use crate::error::{Argument, Error};
 use crate::law::Contact;
@@ -46,6 +47,7 @@ pub fn run(
         return Ok(Candidate::without_displacements(contact, Ending::Done));
     }
     let candidate = run_plainly(method, contact, settings, start, monitor)?;
+    let candidate = without_idle_motion(contact, candidate);
     Ok(normal_map::polished(contact, settings, candidate))
 }
 

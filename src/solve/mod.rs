@@ -2,7 +2,7 @@
 //! What is called a solution is decided in `candidate`, by the certificate alone.
 //!
 //! ```text
-//! outcome ← candidate ← condense ← rigid_balance ← sweeps ← normal_map ← active_set ← path ← lemke ← uniqueness ← dispatch ← auto ← far_obstacles ← dependent ← flexibility ← existence ← mod
+//! outcome ← candidate ← condense ← rigid_balance ← smallest_lift ← sweeps ← normal_map ← active_set ← path ← lemke ← uniqueness ← dispatch ← auto ← escape_motion ← far_obstacles ← dependent ← flexibility ← existence ← mod
 //!                                                                          └──── lcp ────────────────────────┘
 //! ```
 //!
@@ -15,6 +15,7 @@ mod candidate;
 mod condense;
 mod dependent;
 mod dispatch;
+mod escape_motion;
 mod existence;
 mod far_obstacles;
 mod flexibility;
@@ -24,6 +25,7 @@ mod normal_map;
 mod outcome;
 mod path;
 mod rigid_balance;
+mod smallest_lift;
 mod sweeps;
 mod uniqueness;
 
@@ -37,7 +39,9 @@ use crate::settings::{Search, Settings};
 pub(crate) use candidate::NO_EQUILIBRIUM;
 use dispatch::check_method;
 pub use lcp::{LcpSolution, solve_lcp};
-pub use outcome::{Errors, Existence, Fallback, SecondSolution, Solution, Status, Uniqueness};
+pub use outcome::{
+    Errors, Escape, Existence, Fallback, SecondSolution, Solution, Status, Uniqueness,
+};
 
 /// Solves a contact problem whose rows depend on each other, as [`solve()`] does another one. Contact forces
 /// are not unique then, nor is any solution called the only one.
@@ -97,6 +101,7 @@ pub fn solve(
     // Where d = 0 is the solution, other starts only approach it.
     let start = start.filter(|_| !contact.is_at_rest());
     let mut solution = far_obstacles::solve(&contact, settings, start, monitor)?;
+    escape_motion::describe(&contact, &mut solution, monitor)?;
     uniqueness::by_orientation(&contact, &mut solution);
     if settings.search == Search::Others {
         uniqueness::examine(&contact, settings, &mut solution, monitor)?;

@@ -81,6 +81,8 @@ pub struct Solution {
     /// With [`Status::NoEquilibrium`] the recession direction that proves it, its largest component 1.
     /// With friction it lifts each slipping pair by `mu` times its slip: it proves, but no body moves so.
     pub recession: Option<Vec<f64>>,
+    /// With [`Status::NoEquilibrium`] the motion with which the bodies escape, as they would move.
+    pub escape: Option<Escape>,
     /// The method that ended it.
     pub method: Method,
     /// The method tried first and why it was abandoned, if another one ended it.
@@ -110,6 +112,19 @@ pub struct Solution {
     pub omega: f64,
     /// Damping of the threshold at the end, 0 if there is none.
     pub damping: f64,
+}
+
+/// How bodies move where no equilibrium exists.
+#[derive(Clone, Debug)]
+pub struct Escape {
+    /// A rigid motion that can be drawn, its largest component 1: no pair approaches its obstacle, pairs that
+    /// contact presses stay on it, friction opposes the slip, and the loads do work. It is the motion
+    /// against a viscosity of the size of each component's stiffness, every pair that has an obstacle
+    /// touching it. [`Solution::recession`] where that motion was not found.
+    pub motion: Vec<f64>,
+    /// What is left of loads and contact forces along the motion, spread over the components; it has the
+    /// same resultants: nothing balances it.
+    pub unbalanced: Vec<f64>,
 }
 
 /// A further solution, certified like the first.

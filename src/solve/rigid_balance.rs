@@ -18,10 +18,14 @@ use crate::linalg::nnls::{extend_basis, nearest};
 use crate::linalg::pivoted_cholesky::PivotedCholesky;
 use crate::linalg::tolerances::NEGLIGIBLE;
 use crate::linalg::vector::{dot, largest_of, norm};
+use crate::problem::ContactProblem;
 
 /// Negative work of a cone's force that counts, relative to the motion. Next to the limit of balance
 /// `e` is small beside the loads, and rounding of the projection is no smaller.
 const NEGATIVE: f64 = 1e-9;
+
+/// Approach of a pair beside the motion that is more than its own rounding.
+const STOPPED: f64 = 2.0 * f64::EPSILON;
 
 /// Pairs whose edges join in one round.
 const JOINING: usize = 4;
@@ -70,6 +74,33 @@ pub fn escape(contact: &Contact<'_>) -> Option<Vec<f64>> {
     None
 }
 
+/// A motion that proves that no equilibrium exists without the rounding of the method that found it: made
+/// rigid, and lifted where contact would stop it. The given one, if that is no proof.
+pub fn sharpened(contact: &Contact<'_>, motion: Vec<f64>) -> Vec<f64> {
+    let Some(balance) = Balance::new(contact) else { return motion };
+    let scaled: Vec<f64> = motion.iter().zip(&balance.root).map(|(r, root)| r * root).collect();
+    let e: Vec<f64> = balance.basis.iter().map(|v| dot(v, &scaled)).collect();
+    let mut rigid = balance.motion(&e);
+    let size = balance.size(&rigid);
+    if balance.approaches(&rigid).into_iter().any(|approach| approach > STOPPED * size) {
+        rigid = balance.lifted(rigid);
+    }
+    if is_escape_of(contact, &rigid) { rigid } else { motion }
+}
+
+/// An orthonormal basis of the motions without internal force, each component times its `root`.
+pub fn rigid_motions(problem: &ContactProblem<'_>, root: &[f64]) -> Vec<Vec<f64>> {
+    let mut basis = Vec::new();
+    let Some(block) = FreeBlock::of_problem(problem, (0..root.len()).collect()) else {
+        return basis;
+    };
+    for mut motion in block.null_vectors() {
+        motion.iter_mut().zip(root).for_each(|(r, root)| *r *= root);
+        extend_basis(&mut basis, motion);
+    }
+    basis
+}
+
 /// The rigid motions of a problem.
 struct Balance<'c> {
     contact: &'c Contact<'c>,
@@ -82,14 +113,8 @@ struct Balance<'c> {
 impl<'c> Balance<'c> {
     /// `None` if there are no such motions.
     fn new(contact: &'c Contact<'c>) -> Option<Self> {
-        let matrix = contact.problem().stiffness();
         let root = contact.problem().unit_roots();
-        let mut basis = Vec::new();
-        let block = FreeBlock::of_problem(contact.problem(), (0..matrix.size()).collect())?;
-        for mut motion in block.null_vectors() {
-            motion.iter_mut().zip(&root).for_each(|(r, root)| *r *= root);
-            extend_basis(&mut basis, motion);
-        }
+        let basis = rigid_motions(contact.problem(), &root);
         (!basis.is_empty()).then_some(Balance { contact, root, basis })
     }
 
@@ -154,19 +179,29 @@ impl<'c> Balance<'c> {
         motion
     }
 
-    /// The motion nearest to `-1` in the normal components, by least squares; `None` if none has any.
+    /// The motion nearest to `-1` in the normal components, and to no slip in those tangential ones that make
+    /// a pair approach, by least squares; `None` if none has any.
     fn lift(&self) -> Option<Vec<f64>> {
         let dim = self.contact.dim();
-        let normals: Vec<Vec<f64>> =
-            self.basis.iter().map(|v| v.iter().step_by(dim).copied().collect()).collect();
-        let size: Vec<f64> = normals.iter().map(|v| dot(v, v).sqrt()).collect();
+        // What each component adds to the approach of its pair.
+        let weight = |i: usize| match i % dim {
+            0 => 1.0,
+            _ => {
+                self.contact.pairs()[i / dim].bound().slope * self.root[i - i % dim] / self.root[i]
+            }
+        };
+        let weights: Vec<f64> = (0..self.root.len()).map(weight).collect();
+        let weighted =
+            |v: &Vec<f64>| v.iter().zip(&weights).map(|(v, weight)| v * weight).collect();
+        let approaches: Vec<Vec<f64>> = self.basis.iter().map(weighted).collect();
+        let size: Vec<f64> = approaches.iter().map(|v| dot(v, v).sqrt()).collect();
         let moving: Vec<usize> = (0..size.len()).filter(|&k| size[k] > NEGLIGIBLE).collect();
         let unit = |i: usize, j: usize| {
             let (i, j) = (moving[i], moving[j]);
-            dot(&normals[i], &normals[j]) / (size[i] * size[j])
+            dot(&approaches[i], &approaches[j]) / (size[i] * size[j])
         };
         let gram = PivotedCholesky::new(moving.len(), unit)?;
-        let wanted = |k: usize| -normals[k].iter().sum::<f64>() / size[k];
+        let wanted = |k: usize| -approaches[k].iter().step_by(dim).sum::<f64>() / size[k];
         let mut x: Vec<f64> = gram.independent().iter().map(|&i| wanted(moving[i])).collect();
         gram.solve(&mut x);
         let mut e = vec![0.0; self.basis.len()];

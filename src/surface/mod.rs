@@ -22,6 +22,7 @@ mod candidates;
 mod clip;
 mod control;
 mod face;
+mod fields;
 mod fold;
 mod mesh;
 mod mortar;
@@ -38,9 +39,10 @@ mod shape;
 mod tree;
 mod whole_faces;
 
+pub use fields::{NodalFields, PairResults, Resultant};
 pub use mesh::{Faces, Surfaces};
 pub use obstacle::{Obstacle, pair_with_obstacle};
-pub use pairs::{PairArrays, SurfacePair, SurfacePairs, SurfaceReport, Weight};
+pub use pairs::{NodeDofs, PairArrays, SurfacePair, SurfacePairs, SurfaceReport, Weight};
 pub use settings::{Pairing, SurfaceSettings};
 pub use shape::FaceKind;
 

@@ -46,7 +46,11 @@ pub(super) fn pairs(
     reach: f64,
 ) -> Result<SurfacePairs, Error> {
     let mut candidates = Candidates::new(master, reach);
-    let mut report = SurfaceReport::default();
+    let mut report = SurfaceReport {
+        search_distance: reach,
+        slave_faces: slave.count(),
+        ..SurfaceReport::default()
+    };
     let mut faces = Vec::new();
     for at in 0..slave.count() {
         let face = slave.face(at);

@@ -75,6 +75,8 @@ pub(super) fn pairs(
     }
     let mut found = SurfacePairs { dim, ..SurfacePairs::default() };
     let mut report = SurfaceReport {
+        search_distance: reach,
+        slave_faces: slave.count(),
         boxes_searched: candidates.searched,
         not_opposed: candidates.not_opposed,
         ..SurfaceReport::default()

@@ -114,7 +114,8 @@ impl Checked {
     }
 }
 
-/// Pairs the nodes of a surface with an obstacle, up to `search_distance` (`None`: all of them).
+/// Pairs the nodes of a surface with an obstacle, up to `search_distance` (`None` or infinite: all of
+/// them).
 ///
 /// A mid node of a quadratic face has its corners beside it in its row, and the gap is that of the row.
 ///
@@ -131,7 +132,9 @@ pub fn pair_with_obstacle(
 ) -> Result<SurfacePairs, Error> {
     let none = Faces { start: &[0], nodes: &[] };
     let side = Surfaces { dim, coordinates, slave, master: none }.slave_side()?;
-    let reach = super::settings::reach(search_distance, || f64::INFINITY)?;
+    // What is neither finite nor positive is left to be refused.
+    let limit = search_distance.filter(|distance| distance.is_finite() || !(*distance > 0.0));
+    let reach = super::settings::reach(limit, || f64::INFINITY)?;
     let obstacle = obstacle.check(dim)?;
     let mut facing = BTreeMap::new();
     for node in side.all_nodes() {
@@ -145,7 +148,11 @@ pub fn pair_with_obstacle(
     }
     let rows = whole_rows(&side);
     let mut found = SurfacePairs { dim, ..SurfacePairs::default() };
-    let mut report = SurfaceReport::default();
+    let mut report = SurfaceReport {
+        search_distance: reach,
+        slave_faces: side.count(),
+        ..SurfaceReport::default()
+    };
     for (node, row) in rows {
         report.slave_area += row.area;
         let area = row.area;

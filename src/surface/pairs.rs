@@ -20,6 +20,8 @@ pub struct SurfacePair {
     pub slaves: Vec<Weight>,
     /// Master nodes with their weights, by node; none against an obstacle.
     pub masters: Vec<Weight>,
+    /// Where the force of the pair acts on the slave's body: the slave nodes' places by their weights.
+    pub point: [f64; 3],
     /// Unit normal, outward from the slave's body.
     pub normal: [f64; 3],
     /// Unit tangents, in the plane one (the normal turned by +90 degrees) and zero.
@@ -33,6 +35,10 @@ pub struct SurfacePair {
 /// What became of the faces and nodes that have no pair of their own.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SurfaceReport {
+    /// The search distance that was used; infinite against an obstacle if none was given.
+    pub search_distance: f64,
+    /// Number of slave faces.
+    pub slave_faces: usize,
     /// Area of the slave faces.
     pub slave_area: f64,
     /// The part of it that lies over the other side: the areas of all pairs.
@@ -46,6 +52,25 @@ pub struct SurfaceReport {
     pub not_opposed: usize,
     /// Boxes that the search looked at: its cost.
     pub boxes_searched: usize,
+}
+
+/// Degrees of freedom of the host's nodes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum NodeDofs<'a> {
+    /// `per_node * node + axis`: 6 a node for shells, of which the first `dim` are displacements.
+    PerNode(usize),
+    /// `dim` for each node of the host, in the order of the axes.
+    Listed(&'a [usize]),
+}
+
+impl<'a> NodeDofs<'a> {
+    /// Those of a node, `dim` of them.
+    pub fn of(self, node: usize, dim: usize) -> impl Iterator<Item = usize> + use<'a> {
+        (0..dim).map(move |axis| match self {
+            NodeDofs::PerNode(per_node) => per_node * node + axis,
+            NodeDofs::Listed(dofs) => dofs[dim * node + axis],
+        })
+    }
 }
 
 /// Contact pairs from two surfaces, or from a surface and an obstacle.
@@ -99,19 +124,25 @@ impl SurfacePair {
         let sum = |weights: &[Weight]| -> Vector3 {
             weights.iter().map(|&(node, weight)| weight * places(node)).sum()
         };
-        let gap =
-            if masters.is_empty() { 0.0 } else { normal.dot(&(sum(&masters) - sum(&slaves))) };
+        let point = sum(&slaves);
+        let gap = if masters.is_empty() { 0.0 } else { normal.dot(&(sum(&masters) - point)) };
         let tangents = plane::tangents(dim, normal).map(Into::into);
-        SurfacePair { slave, slaves, masters, normal: normal.into(), tangents, gap, area }
+        let (point, normal) = (point.into(), normal.into());
+        SurfacePair { slave, slaves, masters, point, normal, tangents, gap, area }
     }
 }
 
 impl PairArrays {
     /// Adds a pair with its masters, or with all its nodes.
-    fn push(&mut self, pair: &SurfacePair, nodes: &[Weight], (gap, area): (f64, f64)) {
+    fn push(
+        &mut self,
+        pair: &SurfacePair,
+        (nodes, dofs): (&[Weight], NodeDofs<'_>),
+        (gap, area): (f64, f64),
+    ) {
         let dim = self.dim;
         self.count += 1;
-        self.masters.extend(nodes.iter().flat_map(|(node, _)| dim * node..dim * (node + 1)));
+        nodes.iter().for_each(|(node, _)| self.masters.extend(dofs.of(*node, dim)));
         self.weights.extend(nodes.iter().map(|(_, weight)| weight));
         self.master_start.push(self.weights.len());
         self.normals.extend(&pair.normal[..dim]);
@@ -124,12 +155,20 @@ impl PairArrays {
 impl SurfacePairs {
     /// The pairs as general rows: of any faces, with gaps and areas as they are.
     pub fn rows(&self) -> PairArrays {
+        self.rows_on(NodeDofs::PerNode(self.dim))
+    }
+
+    /// The same with degrees of freedom of the host's own.
+    ///
+    /// # Panics
+    /// If a list of degrees of freedom ends before the last node of a pair.
+    pub fn rows_on(&self, dofs: NodeDofs<'_>) -> PairArrays {
         let mut arrays =
             PairArrays { dim: self.dim, master_start: vec![0], ..PairArrays::default() };
         for pair in &self.pairs {
             let masters = pair.masters.iter().map(|&(node, weight)| (node, -weight));
             let nodes: Vec<Weight> = pair.slaves.iter().copied().chain(masters).collect();
-            arrays.push(pair, &nodes, (pair.gap, pair.area));
+            arrays.push(pair, (&nodes, dofs), (pair.gap, pair.area));
         }
         arrays
     }
@@ -151,8 +190,37 @@ impl SurfacePairs {
             }
             masters.extend(pair.masters.iter().map(|(node, weight)| (*node, weight / own)));
             arrays.slaves.extend(dim * pair.slave..dim * (pair.slave + 1));
-            arrays.push(pair, &masters, (pair.gap / own, pair.area * own));
+            let dofs = NodeDofs::PerNode(dim);
+            arrays.push(pair, (&masters, dofs), (pair.gap / own, pair.area * own));
         }
         Some(arrays)
+    }
+
+    /// One sentence on what was found: for a log, and to see why there are no pairs.
+    pub fn summary(&self) -> String {
+        let SurfaceReport { slave_area, covered_area, search_distance, not_opposed, .. } =
+            self.report;
+        let (pairs, unpaired) = (self.pairs.len(), self.unpaired.len());
+        if pairs > 0 {
+            let (folded, cover) = (self.report.folded.len(), 100.0 * covered_area / slave_area);
+            return format!(
+                "{pairs} pairs on {cover:.2} % of the slave area; {unpaired} slave nodes without a \
+                 pair, {folded} of them in the pair of a neighbour"
+            );
+        }
+        if unpaired == 0 {
+            return "no pairs: there are no slave faces".into();
+        }
+        let found = format!(
+            "no pairs: nothing lies opposite the {} slave faces within {search_distance}",
+            self.report.slave_faces
+        );
+        match not_opposed {
+            0 => format!("{found}; if it should, give a larger search distance"),
+            _ => format!(
+                "{found}, but {not_opposed} times a master face was near whose normal does not \
+                 oppose the slave's: one side is turned over, or the search distance is too small"
+            ),
+        }
     }
 }

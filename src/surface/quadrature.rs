@@ -15,36 +15,41 @@ type OnInterval = (f64, f64);
 /// Barycentric coordinates of a point of a triangle with its weight.
 type OnTriangle = ([f64; 3], f64);
 
-/// The rules, by the number of points along a direction: every face asks for them.
-static INTERVALS: LazyLock<Vec<Vec<OnInterval>>> =
-    LazyLock::new(|| (0..=MOST_POINTS).map(interval).collect());
-static TRIANGLES: LazyLock<Vec<Vec<OnTriangle>>> =
-    LazyLock::new(|| (0..=MOST_POINTS).map(triangle).collect());
+/// Most points of a rule on a triangle.
+const MOST_ON_TRIANGLE: usize = MOST_POINTS * MOST_POINTS;
+
+/// The rules, by the number of points along a direction: every face asks for them. They stand in
+/// arrays, as memory of a static would be lost when a host unloads the library.
+static INTERVALS: LazyLock<[[OnInterval; MOST_POINTS]; MOST_POINTS + 1]> =
+    LazyLock::new(|| std::array::from_fn(interval));
+static TRIANGLES: LazyLock<[[OnTriangle; MOST_ON_TRIANGLE]; MOST_POINTS + 1]> =
+    LazyLock::new(|| std::array::from_fn(triangle));
 
 /// Points of 0..1 and their weights, exact for polynomials of degree `2 n - 1`.
 pub(super) fn on_interval(n: usize) -> &'static [OnInterval] {
-    &INTERVALS[n]
+    &INTERVALS[n][..n]
 }
 
 /// Barycentric coordinates of points of a triangle and weights that sum to 1: an interval's rule in
 /// both directions, one of them collapsed to a corner. Exact for polynomials of degree `2 n - 2`.
 pub(super) fn on_triangle(n: usize) -> &'static [OnTriangle] {
-    &TRIANGLES[n]
+    &TRIANGLES[n][..n * n]
 }
 
-fn interval(n: usize) -> Vec<OnInterval> {
-    (0..n)
-        .map(|i| {
-            let order = n as f64;
-            let mut x = -(std::f64::consts::PI * (i as f64 + 0.75) / (order + 0.5)).cos();
-            for _ in 0..STEPS {
-                let (value, slope) = legendre(n, x);
-                x -= value / slope;
-            }
-            let (_, slope) = legendre(n, x);
-            (0.5 * (1.0 + x), 1.0 / ((1.0 - x * x) * slope * slope))
-        })
-        .collect()
+/// A rule of `n` points; zeros behind them.
+fn interval(n: usize) -> [OnInterval; MOST_POINTS] {
+    let mut points = [(0.0, 0.0); MOST_POINTS];
+    for (i, point) in points[..n].iter_mut().enumerate() {
+        let order = n as f64;
+        let mut x = -(std::f64::consts::PI * (i as f64 + 0.75) / (order + 0.5)).cos();
+        for _ in 0..STEPS {
+            let (value, slope) = legendre(n, x);
+            x -= value / slope;
+        }
+        let (_, slope) = legendre(n, x);
+        *point = (0.5 * (1.0 + x), 1.0 / ((1.0 - x * x) * slope * slope));
+    }
+    points
 }
 
 /// The Legendre polynomial of degree `n` with its derivative, inside of -1..1.
@@ -57,14 +62,14 @@ fn legendre(n: usize, x: f64) -> (f64, f64) {
     (value, n as f64 * (x * value - last) / (x * x - 1.0))
 }
 
-fn triangle(n: usize) -> Vec<OnTriangle> {
+/// A rule of `n * n` points; zeros behind them.
+fn triangle(n: usize) -> [OnTriangle; MOST_ON_TRIANGLE] {
     let rule = interval(n);
-    let mut points = Vec::with_capacity(n * n);
-    for &(s, a) in &rule {
-        for &(t, b) in &rule {
-            let across = (1.0 - s) * t;
-            points.push(([1.0 - s - across, s, across], 2.0 * a * b * (1.0 - s)));
-        }
+    let mut points = [([0.0; 3], 0.0); MOST_ON_TRIANGLE];
+    for (i, point) in points[..n * n].iter_mut().enumerate() {
+        let ((s, a), (t, b)) = (rule[i / n], rule[i % n]);
+        let across = (1.0 - s) * t;
+        *point = ([1.0 - s - across, s, across], 2.0 * a * b * (1.0 - s));
     }
     points
 }

@@ -23,6 +23,7 @@ VALUE(SIGNORINI_STATUS_NO_EQUILIBRIUM, 4);
 VALUE(SIGNORINI_STATUS_STALLED, 5);
 VALUE(SIGNORINI_STATUS_NOT_A_SOLUTION, 6);
 VALUE(SIGNORINI_STATUS_NOT_PROVED, 7);
+VALUE(SIGNORINI_STATUS_MEMORY_LIMIT, 8);
 VALUE(SIGNORINI_STATUS_INTERNAL, -1000);
 VALUE(SIGNORINI_STATUS_OUT_OF_MEMORY, -1001);
 VALUE(SIGNORINI_STATUS_FILE, -1002);
@@ -60,16 +61,23 @@ VALUE(SIGNORINI_FALLBACK_INACCURATE, 4);
 VALUE(SIGNORINI_TRIANGLE_LOWER, 0);
 VALUE(SIGNORINI_TRIANGLE_UPPER, 1);
 VALUE(SIGNORINI_TRIANGLE_FULL, 2);
+VALUE(SIGNORINI_PAIRING_DUAL_MORTAR, 0);
+VALUE(SIGNORINI_PAIRING_NODE_TO_SURFACE, 1);
+VALUE(SIGNORINI_OBSTACLE_PLANE, 0);
+VALUE(SIGNORINI_OBSTACLE_CYLINDER, 1);
+VALUE(SIGNORINI_OBSTACLE_SPHERE, 2);
 
 /* 64-bit pointers, doubles and 64-bit integers aligned to their size. */
 #if defined __LP64__ || defined _WIN64
 
-SIZE(signorini_progress, 24);
+SIZE(signorini_progress, 40);
 FIELD(signorini_progress, iterations, int64_t, 0);
 FIELD(signorini_progress, eta, double, 8);
 FIELD(signorini_progress, elapsed, double, 16);
+FIELD(signorini_progress, reduced, double, 24);
+FIELD(signorini_progress, memory, int64_t, 32);
 
-SIZE(signorini_settings, 80);
+SIZE(signorini_settings, 88);
 FIELD(signorini_settings, struct_size, uint32_t, 0);
 FIELD(signorini_settings, method, int32_t, 4);
 FIELD(signorini_settings, tolerance, double, 8);
@@ -83,6 +91,7 @@ FIELD(signorini_settings, progress, signorini_progress_fn, 56);
 FIELD(signorini_settings, user, void *, 64);
 FIELD(signorini_settings, proof, int32_t, 72);
 FIELD(signorini_settings, reserved, int32_t, 76);
+FIELD(signorini_settings, memory_limit, int64_t, 80);
 
 SIZE(signorini_report, 176);
 FIELD(signorini_report, struct_size, uint32_t, 0);
@@ -113,7 +122,7 @@ FIELD(signorini_report, error_F, double, 160);
 FIELD(signorini_report, proof, int32_t, 168);
 FIELD(signorini_report, reserved, int32_t, 172);
 
-SIZE(signorini_sparse, 56);
+SIZE(signorini_sparse, 64);
 FIELD(signorini_sparse, struct_size, uint32_t, 0);
 FIELD(signorini_sparse, index_bytes, int32_t, 4);
 FIELD(signorini_sparse, index_base, int32_t, 8);
@@ -123,6 +132,7 @@ FIELD(signorini_sparse, nnz, int64_t, 24);
 FIELD(signorini_sparse, col_start, void *, 32);
 FIELD(signorini_sparse, row, void *, 40);
 FIELD(signorini_sparse, values, double *, 48);
+FIELD(signorini_sparse, order, void *, 56);
 
 SIZE(signorini_pairs, 88);
 FIELD(signorini_pairs, struct_size, uint32_t, 0);
@@ -138,7 +148,7 @@ FIELD(signorini_pairs, row_start, int64_t *, 64);
 FIELD(signorini_pairs, row_nodes, int64_t *, 72);
 FIELD(signorini_pairs, row_weights, double *, 80);
 
-SIZE(signorini_extra, 56);
+SIZE(signorini_extra, 64);
 FIELD(signorini_extra, struct_size, uint32_t, 0);
 FIELD(signorini_extra, reserved, int32_t, 4);
 FIELD(signorini_extra, motion, double *, 8);
@@ -147,6 +157,80 @@ FIELD(signorini_extra, second_F, double *, 24);
 FIELD(signorini_extra, second_state, int32_t *, 32);
 FIELD(signorini_extra, radius_d, double *, 40);
 FIELD(signorini_extra, radius_F, double *, 48);
+FIELD(signorini_extra, escape, double *, 56);
+
+SIZE(signorini_faces, 32);
+FIELD(signorini_faces, struct_size, uint32_t, 0);
+FIELD(signorini_faces, face_nodes, int32_t, 4);
+FIELD(signorini_faces, count, int64_t, 8);
+FIELD(signorini_faces, start, int64_t *, 16);
+FIELD(signorini_faces, nodes, int64_t *, 24);
+
+SIZE(signorini_obstacle, 72);
+FIELD(signorini_obstacle, struct_size, uint32_t, 0);
+FIELD(signorini_obstacle, kind, int32_t, 4);
+FIELD(signorini_obstacle, point, double[3], 8);
+FIELD(signorini_obstacle, direction, double[3], 32);
+FIELD(signorini_obstacle, radius, double, 56);
+FIELD(signorini_obstacle, hollow, int32_t, 64);
+FIELD(signorini_obstacle, reserved, int32_t, 68);
+
+SIZE(signorini_surface_settings, 32);
+FIELD(signorini_surface_settings, struct_size, uint32_t, 0);
+FIELD(signorini_surface_settings, pairing, int32_t, 4);
+FIELD(signorini_surface_settings, search_distance, double, 8);
+FIELD(signorini_surface_settings, index_base, int32_t, 16);
+FIELD(signorini_surface_settings, dofs_per_node, int32_t, 20);
+FIELD(signorini_surface_settings, node_dofs, int64_t *, 24);
+
+SIZE(signorini_surface_report, 88);
+FIELD(signorini_surface_report, struct_size, uint32_t, 0);
+FIELD(signorini_surface_report, dim, int32_t, 4);
+FIELD(signorini_surface_report, pairs, int64_t, 8);
+FIELD(signorini_surface_report, unpaired, int64_t, 16);
+FIELD(signorini_surface_report, folded, int64_t, 24);
+FIELD(signorini_surface_report, slave_faces, int64_t, 32);
+FIELD(signorini_surface_report, uncovered, int64_t, 40);
+FIELD(signorini_surface_report, slave_area, double, 48);
+FIELD(signorini_surface_report, covered_area, double, 56);
+FIELD(signorini_surface_report, search_distance, double, 64);
+FIELD(signorini_surface_report, not_opposed, int64_t, 72);
+FIELD(signorini_surface_report, boxes_searched, int64_t, 80);
+
+SIZE(signorini_contact_fields, 48);
+FIELD(signorini_contact_fields, struct_size, uint32_t, 0);
+FIELD(signorini_contact_fields, reserved, int32_t, 4);
+FIELD(signorini_contact_fields, pressure, double *, 8);
+FIELD(signorini_contact_fields, traction, double *, 16);
+FIELD(signorini_contact_fields, clearance, double *, 24);
+FIELD(signorini_contact_fields, slip, double *, 32);
+FIELD(signorini_contact_fields, state, int32_t *, 40);
+
+SIZE(signorini_resultant, 72);
+FIELD(signorini_resultant, struct_size, uint32_t, 0);
+FIELD(signorini_resultant, reserved, int32_t, 4);
+FIELD(signorini_resultant, force, double[3], 8);
+FIELD(signorini_resultant, moment, double[3], 32);
+FIELD(signorini_resultant, friction_work, double, 56);
+FIELD(signorini_resultant, pressed_area, double, 64);
+
+SIZE(signorini_mesh, 64);
+FIELD(signorini_mesh, struct_size, uint32_t, 0);
+FIELD(signorini_mesh, dim, int32_t, 4);
+FIELD(signorini_mesh, nodes, int64_t, 8);
+FIELD(signorini_mesh, coordinates, double *, 16);
+FIELD(signorini_mesh, cells, int64_t, 24);
+FIELD(signorini_mesh, index_base, int32_t, 32);
+FIELD(signorini_mesh, cell_type, int32_t, 36);
+FIELD(signorini_mesh, cell_types, int32_t *, 40);
+FIELD(signorini_mesh, cell_start, int64_t *, 48);
+FIELD(signorini_mesh, cell_nodes, int64_t *, 56);
+
+SIZE(signorini_field, 24);
+FIELD(signorini_field, struct_size, uint32_t, 0);
+FIELD(signorini_field, components, int32_t, 4);
+FIELD(signorini_field, name, char *, 8);
+FIELD(signorini_field, values, double *, 16);
 
 #endif
 
@@ -177,6 +261,7 @@ int main(void)
     CHECK(extra.struct_size == sizeof extra && extra.reserved == 0 && extra.motion == NULL);
     CHECK(extra.radius_d == NULL && extra.radius_F == NULL);
     CHECK(extra.second_d == NULL && extra.second_F == NULL && extra.second_state == NULL);
+    CHECK(extra.escape == NULL);
     signorini_report blank, zeros = {.struct_size = sizeof zeros};
     memset(&blank, 0xFF, sizeof blank);
     CHECK_STATUS(signorini_report_default(&blank, sizeof blank), 0);

@@ -116,7 +116,7 @@ static void bad_matrix(void)
     BAD_K("K is misaligned", "not aligned",
           in.K_pointer = (signorini_sparse *)(void *)((char *)&in.K + 4));
     BAD_K("struct_size is 0", "struct_size is 0", in.K.struct_size = 0);
-    BAD_K("struct_size is too small", "struct_size", in.K.struct_size -= 8);
+    BAD_K("struct_size is too small", "struct_size", in.K.struct_size -= 16);
     BAD_K("struct_size is too large", "struct_size", in.K.struct_size += 8);
     BAD_K("index_bytes is 3", "index_bytes is 3", in.K.index_bytes = 3);
     BAD_K("index_bytes is 0", "index_bytes is 0", in.K.index_bytes = 0);
@@ -242,6 +242,78 @@ static void bad_pairs(void)
 
     prepare();
     CHECK_STATUS(signorini_model_new_sparse(&in.K, in.n_fixed, in.fixed, &in.pairs, NULL), -5);
+}
+
+static int32_t count_and_cancel(void *user, const signorini_progress *now)
+{
+    int *calls = user;
+    ++*calls;
+    return now->memory > 0;
+}
+
+static int32_t make_within(const signorini_settings *settings, signorini_model **model)
+{
+    return signorini_model_new_sparse_within(in.K_pointer, in.n_fixed, in.fixed_pointer,
+                                             in.pairs_pointer, settings, model);
+}
+
+/* An order of the host, limits, a callback: nothing remains of a model that was not made. */
+static void within(void)
+{
+    static const int64_t backwards[] = {5, 4, 3, 2, 1, 0};
+    static const int64_t twice[] = {0, 1, 2, 2, 4, 5};
+    static const int32_t narrow[] = {2, 3, 0, 1, 5, 4};
+    signorini_model *model;
+    double chosen[4], given[4];
+    signorini_settings settings;
+    CHECK_STATUS(signorini_settings_default(&settings, sizeof settings), 0);
+
+    model = made();
+    CHECK_STATUS(signorini_model_stiffness(model, chosen), 0);
+    signorini_model_free(model);
+    /* The structure as it was before it had an order. */
+    prepare();
+    in.K.order = twice;
+    in.K.struct_size = offsetof(signorini_sparse, order);
+    CHECK_STATUS(make(&model), 0);
+    signorini_model_free(model);
+    in.K.struct_size = sizeof in.K;
+    CHECK_STATUS(make(&model), -1);
+    CHECK(model == NULL);
+    CHECK_TEXT(signorini_last_error(), "order[3] is 2, as order[2] is");
+    in.K.order = backwards;
+    CHECK_STATUS(make_within(NULL, &model), 0);
+    CHECK_STATUS(signorini_model_stiffness(model, given), 0);
+    for (int i = 0; i < 4; i++)
+        CHECK_NEAR(given[i], chosen[i]);
+    signorini_model_free(model);
+    for (int i = 0; i <= SIZE; i++)
+        in.narrow_starts[i] = (int32_t)in.starts[i];
+    for (int i = 0; i < 8; i++)
+        in.narrow_rows[i] = (int32_t)in.rows[i];
+    in.K.index_bytes = 4;
+    in.K.col_start = in.narrow_starts;
+    in.K.row = in.narrow_rows;
+    in.K.order = narrow;
+    CHECK_STATUS(make(&model), 0);
+    signorini_model_free(model);
+
+    prepare();
+    settings.memory_limit = 1;
+    CHECK_STATUS(make_within(&settings, &model), SIGNORINI_STATUS_MEMORY_LIMIT);
+    CHECK(model == NULL);
+    CHECK_TEXT(signorini_last_error(), "memory_limit");
+    settings.memory_limit = -1;
+    CHECK_STATUS(make_within(&settings, &model), -5);
+    settings.memory_limit = 0;
+    int calls = 0;
+    settings.progress = count_and_cancel;
+    settings.user = &calls;
+    CHECK_STATUS(make_within(&settings, &model), SIGNORINI_STATUS_CANCELLED);
+    CHECK(model == NULL && calls > 1);
+    settings.progress = NULL;
+    CHECK_STATUS(make_within(&settings, &model), 0);
+    signorini_model_free(model);
 }
 
 /* Both bodies' matrices and the condensed one. */
@@ -674,6 +746,7 @@ int main(void)
     smaller_reports();
     bad_calls();
     recovered();
+    within();
     nothing();
     return check_summary("model");
 }

@@ -142,7 +142,7 @@ static void loads_are_condensed(void)
     const int64_t starts[] = {0, 2, 3, 4}, rows[] = {0, 2, 1, 2}, fixed[] = {2}, slaves[] = {0, 1};
     const double values[] = {3, -1.5, 4, 2}, normal[] = {1, 0}, nothing[3] = {0};
     const signorini_sparse chain = {sizeof chain, 8, 0, SIGNORINI_TRIANGLE_LOWER, 3, 4, starts,
-                                    rows, values};
+                                    rows, values, NULL};
     const signorini_pairs pair = {.struct_size = sizeof pair, .dim = 2, .count = 1,
                                   .slaves = slaves, .normals = normal};
     CHECK_STATUS(signorini_model_new_sparse(&chain, 1, fixed, &pair, &model), 0);
@@ -226,11 +226,13 @@ static void each_case_has_its_own_motion(void)
     const double K[4] = {1, -1, -1, 1}, f[2 * CASES] = {1, 0.1, -1, -1, 1, -0.1};
     const double gap[CASES] = {0}, mu[CASES] = {0.25, 0.25, 0.25};
     double d[2 * CASES], F[2 * CASES], motion[2 * CASES], second_d[2 * CASES];
+    double escape[2 * CASES];
     int32_t status[CASES], second_state[CASES] = {7, 7, 7};
     signorini_extra extra;
     signorini_model *model;
     CHECK_STATUS(signorini_extra_default(&extra, sizeof extra), 0);
     extra.motion = motion;
+    extra.escape = escape;
     extra.second_d = second_d;
     extra.second_state = second_state;
     CHECK_STATUS(signorini_model_new_condensed(2, 1, K, 2, &model), 0);
@@ -242,6 +244,8 @@ static void each_case_has_its_own_motion(void)
         CHECK_STATUS(status[c], c == 1 ? SIGNORINI_STATUS_NO_EQUILIBRIUM : SIGNORINI_STATUS_SOLVED);
         CHECK_NEAR(motion[2 * c], expected);
         CHECK_NEAR(motion[2 * c + 1], expected);
+        CHECK_NEAR(escape[2 * c], expected);
+        CHECK_NEAR(escape[2 * c + 1], expected);
         CHECK(second_d[2 * c] == 0 && second_d[2 * c + 1] == 0 && second_state[c] == 0);
     }
     signorini_model_free(model);

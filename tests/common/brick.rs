@@ -1,7 +1,7 @@
 //! Blocks of 8-node bricks on a plane obstacle: trilinear, 2 x 2 x 2 Gauss points, isotropic.
 
-use signorini::Model;
 use signorini::reduce::{ContactPairs, Indices, SparseMatrix, Triangle};
+use signorini::{Error, Model, Monitor, Settings};
 
 use super::dense::dot;
 use super::mesh::Stiffness;
@@ -131,7 +131,22 @@ impl Brick {
     }
 
     pub fn model(&self) -> Model {
-        let matrix = self.stiffness();
+        self.model_of(&self.stiffness())
+    }
+
+    /// The model of [`Self::stiffness`], for who has it already.
+    pub fn model_of(&self, matrix: &Stiffness) -> Model {
+        let monitor = &mut Monitor::new(&Settings::default(), None);
+        self.model_within(matrix, None, monitor).expect("the block is a model")
+    }
+
+    /// The same in an order of elimination, within the limits of a monitor.
+    pub fn model_within(
+        &self,
+        matrix: &Stiffness,
+        order: Option<&[usize]>,
+        monitor: &mut Monitor<'_>,
+    ) -> Result<Model, Error> {
         let matrix = SparseMatrix {
             size: matrix.size,
             col_start: Indices::Wide(&matrix.col_start),
@@ -152,12 +167,17 @@ impl Brick {
             normals: &vec![self.normal; count].concat(),
             tangents: tangents.as_deref(),
         };
+        Model::sparse_within(&matrix, &self.fixed(), &pairs, order, monitor)
+    }
+
+    /// Degrees of freedom that are fixed.
+    pub fn fixed(&self) -> Vec<usize> {
         let mut fixed: Vec<usize> = match self.support {
             Support::Clamped => self.top().flat_map(dofs).collect(),
             _ => Vec::new(),
         };
         fixed.extend(&self.held);
-        Model::sparse(&matrix, &fixed, &pairs).expect("the block is a model")
+        fixed
     }
 
     /// Loads and prescribed displacements by which the plate moves as `motion` says of a place: a

@@ -70,7 +70,7 @@ pub fn statics(
 }
 
 /// The edges of a cone of forces on the body.
-fn edges(dim: usize, normal: Vector, mu: f64) -> Vec<Vector> {
+pub fn edges(dim: usize, normal: Vector, mu: f64) -> Vec<Vector> {
     let up = normal.map(|n| -n);
     if mu == 0.0 {
         return vec![up];
@@ -96,7 +96,7 @@ fn edges(dim: usize, normal: Vector, mu: f64) -> Vec<Vector> {
 
 /// Distance of `-target` from the cone of the columns (Lawson and Hanson's non-negative least squares, the
 /// active columns solved by an orthogonal basis).
-fn distance(target: &[f64], columns: &[Vec<f64>]) -> f64 {
+pub fn distance(target: &[f64], columns: &[Vec<f64>]) -> f64 {
     let mut active: Vec<usize> = Vec::new();
     let mut x: Vec<f64> = Vec::new();
     let mut rest = target.to_vec();

@@ -9,12 +9,14 @@ C
       DOUBLE PRECISION ETA, NAN, V(4), RN(2), U(4), WT(1)
       INTEGER STATE(2), ITER, INFO, I, J, NFAIL
       INTEGER COLPTR(5), ROWIND(4), FIXED(1), SLAVE(2), NOT(2)
+      INTEGER ORDER(4)
       INTEGER*4 BITS(2)
       INTEGER*8 HANDLE
       EQUIVALENCE (NAN, BITS)
       DATA MU /2*0.3D0/, GAP /2*0D0/, SLIP0 /2*0D0/
       DATA F /2D0, 1.5D0, 3D0, 0.5D0/
       DATA COLPTR /1, 2, 3, 4, 5/, ROWIND /1, 2, 3, 4/, V /4*1D0/
+      DATA ORDER /4, 1, 1, 2/
       DATA FIXED /4/, SLAVE /1, 2/, RN /0D0, -1D0/, NOT /2*0/
       BITS(1) = 2146959360
       BITS(2) = 2146959360
@@ -105,6 +107,31 @@ C     Models: an index base of 0, rows and slaves out of range.
       CALL EXPECT('FIXED out of range', INFO, -8, NFAIL)
       CALL SAYS('degree of freedom 5', NFAIL)
       FIXED(1) = 4
+C     An order of elimination that names one degree of freedom twice,
+C     limits, and what is right.
+      CALL SGSPAW(4, 4, COLPTR, ROWIND, V, 0, 1, FIXED, 2, 1,
+     &            SLAVE, 0, NOT, NOT, WT, RN, 0, WT, 4, ORDER,
+     &            0D0, 0D0, HANDLE, INFO)
+      CALL EXPECT('ORDER', INFO, -5, NFAIL)
+      CALL SAYS('order(3) is 1, as order(2) is', NFAIL)
+      ORDER(3) = 3
+      CALL SGSPAW(4, 4, COLPTR, ROWIND, V, 0, 1, FIXED, 2, 1,
+     &            SLAVE, 0, NOT, NOT, WT, RN, 0, WT, 3, ORDER,
+     &            0D0, 0D0, HANDLE, INFO)
+      CALL EXPECT('NORD', INFO, -19, NFAIL)
+      CALL SGSPAW(4, 4, COLPTR, ROWIND, V, 0, 1, FIXED, 2, 1,
+     &            SLAVE, 0, NOT, NOT, WT, RN, 0, WT, 4, ORDER,
+     &            -1D0, 0D0, HANDLE, INFO)
+      CALL EXPECT('negative MAXMEM', INFO, -21, NFAIL)
+      CALL SGSPAW(4, 4, COLPTR, ROWIND, V, 0, 1, FIXED, 2, 1,
+     &            SLAVE, 0, NOT, NOT, WT, RN, 0, WT, 4, ORDER,
+     &            1D0, 0D0, HANDLE, INFO)
+      CALL EXPECT('too little memory', INFO, SGMEMO, NFAIL)
+      CALL SGSPAW(4, 4, COLPTR, ROWIND, V, 0, 1, FIXED, 2, 1,
+     &            SLAVE, 0, NOT, NOT, WT, RN, 0, WT, 4, ORDER,
+     &            1D9, 0D0, HANDLE, INFO)
+      CALL EXPECT('nothing wrong', INFO, 0, NFAIL)
+      CALL SGFREE(HANDLE, INFO)
       CALL SGSPAR(4, 4, COLPTR, ROWIND, V, 0, 1, FIXED, 2, 1,
      &            SLAVE, 0, NOT, NOT, WT, RN, 0, WT, HANDLE, INFO)
       CALL EXPECT('nothing wrong', INFO, 0, NFAIL)

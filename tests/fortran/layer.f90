@@ -151,17 +151,17 @@ contains
     subroutine escape
         real(dp), parameter :: k(2, 2) = reshape([real(dp) :: 1, -1, -1, 1], [2, 2]), f(2) = -1
         real(dp), parameter :: gap(1) = 0
-        real(dp) :: d(2), force(2), motion(2)
+        real(dp) :: d(2), force(2), motion(2), drawn(2)
         type(contact_model) :: model
-        call contact_solve(k, f, gap, d, force, info, motion=motion, message=message)
+        call contact_solve(k, f, gap, d, force, info, motion=motion, message=message, escape=drawn)
         call expect('no equilibrium', info == SIGNORINI_STATUS_NO_EQUILIBRIUM .and. message /= '')
-        call expect('motion of escape', all(abs(motion + 1) < 1e-12_dp))
+        call expect('motion of escape', all(abs([motion, drawn] + 1) < 1e-12_dp))
         call model%new_condensed(2, k, info)
-        call model%solve(f, gap, d, force, info, motion=motion)
+        call model%solve(f, gap, d, force, info, motion=motion, escape=drawn)
         call expect('motion of a model', info == SIGNORINI_STATUS_NO_EQUILIBRIUM .and. &
-            all(abs(motion + 1) < 1e-12_dp))
-        call model%solve(-f, gap, d, force, info, friction=[2._dp], motion=motion)
-        call expect('no motion', info == 0 .and. maxval(abs(motion)) <= 0)
+            all(abs([motion, drawn] + 1) < 1e-12_dp))
+        call model%solve(-f, gap, d, force, info, friction=[2._dp], motion=motion, escape=drawn)
+        call expect('no motion', info == 0 .and. maxval(abs([motion, drawn])) <= 0)
         call model%release()
     end subroutine
 

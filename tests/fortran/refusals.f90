@@ -148,6 +148,20 @@ contains
         call model%new_sparse(start, row, values, SIGNORINI_TRIANGLE_LOWER, slaves, normals, info, &
             tangents=reshape([1._dp], [1, 1]), message=message)
         call expect(-12, 'tangents has the shape (1, 1)')
+        call model%new_sparse(start, row, values, SIGNORINI_TRIANGLE_LOWER, slaves, normals, info, &
+            order=[1], message=message)
+        call expect(-14, 'order has 1 entry, it must have 2')
+        call model%new_sparse(start, row, values, SIGNORINI_TRIANGLE_LOWER, slaves, normals, info, &
+            order=[2, 2], message=message)
+        call expect(-3, 'order(2) is 2, as order(1) is')
+        settings = signorini_settings(memory_limit=-1)
+        call model%new_sparse(start, row, values, SIGNORINI_TRIANGLE_LOWER, slaves, normals, info, &
+            settings=settings, message=message)
+        call expect(-15, 'memory_limit is -1')
+        settings = signorini_settings(memory_limit=1)
+        call model%new_sparse(start, row, values, SIGNORINI_TRIANGLE_LOWER, slaves, normals, info, &
+            settings=settings, order=[2, 1], message=message)
+        call expect(int(SIGNORINI_STATUS_MEMORY_LIMIT), 'memory_limit allows')
         call try(start, row, values, slaves, normals, 0, '')
     end subroutine
 

@@ -17,16 +17,21 @@ from common import LOAD, PYTHON, ROOT, K, text
 import signorini
 from signorini import _library as library
 from signorini import _structures as structures
-from signorini._constants import Problem
+from signorini._constants import Obstacle, Problem
 from signorini._sparse import Matrix
 
 CC, WORK = "cc", "."
 HEADER = "include", "signorini.h"
 FAMILIES = (signorini.Status, signorini.State, signorini.Law, signorini.Method, signorini.Search,
-            signorini.Uniqueness, signorini.Proof, signorini.Fallback, signorini.Triangle, Problem)
+            signorini.Uniqueness, signorini.Proof, signorini.Fallback, signorini.Triangle,
+            signorini.Pairing, Obstacle, Problem)
 STRUCTURES = {structures.Told: "progress", structures.Settings: "settings",
               structures.Report: "report", structures.Extra: "extra", structures.Sparse: "sparse",
-              structures.Pairs: "pairs"}
+              structures.Pairs: "pairs", structures.Faces: "faces",
+              structures.RigidObstacle: "obstacle", structures.SurfaceSettings: "surface_settings",
+              structures.SurfaceReport: "surface_report",
+              structures.ContactFields: "contact_fields", structures.ResultantSums: "resultant",
+              structures.Mesh: "mesh", structures.NodalField: "field"}
 BUILT = os.path.join(ROOT, "target", "release", "libsignorini.so")
 
 
@@ -92,10 +97,10 @@ class Library(unittest.TestCase):
         header = re.sub(r"/\*.*?\*/", "", text(*HEADER), flags=re.S)
         kinds = {"c_int": "int32_t", "c_uint": "uint32_t", "c_long": "int64_t",
                  "c_longlong": "int64_t", "c_double": "double",
-                 "CFunctionType": "signorini_progress_fn"}
+                 "CFunctionType": "signorini_progress_fn", "c_double_Array_3": "double"}
         for structure, name in STRUCTURES.items():
             body = re.search(rf"struct signorini_{name} \{{(.*?)\}}", header, re.S)[1]
-            fields = [re.match(r"(.*?)\s*(\w+)$", " ".join(line.split())).groups()
+            fields = [re.match(r"(.*?)\s*(\w+)(?:\[\d\])?$", " ".join(line.split())).groups()
                       for line in body.split(";") if line.strip()]
             # Later versions may have more fields at the end.
             self.assertLessEqual(len(structure._fields_), len(fields))

@@ -9,8 +9,11 @@ import threading
 import time
 import unittest
 
+import numpy as np
+
 from common import chain
 
+import bar_mesh
 import signorini
 
 
@@ -29,6 +32,29 @@ class Progress(unittest.TestCase):
         self.assertEqual(len(told), 5)
         self.assertGreaterEqual(told[-1].iterations, told[0].iterations)
         self.assertGreaterEqual(told[-1].elapsed, 0)
+
+    def test_reductions_have_limits(self):
+        bar = bar_mesh.assemble()
+
+        def make(**more):
+            return signorini.Model.sparse(bar.matrix, bar.contact, [0, -1], fixed=bar.held, **more)
+
+        told = []
+        size = bar.matrix.shape[0] if hasattr(bar.matrix, "shape") else len(bar.matrix[2]) - 1
+        model = make(progress=lambda now: told.append(now), order=np.arange(size)[::-1])
+        self.assertGreater(told[-1].memory, model.stiffness.nbytes)
+        self.assertLessEqual(told[-1].reduced, 1)
+        chosen = make().stiffness
+        np.testing.assert_allclose(model.stiffness, chosen, atol=1e-12 * abs(chosen).max())
+        for more, status in (({"progress": lambda now: True}, signorini.Status.CANCELLED),
+                             ({"memory_limit": 1000}, signorini.Status.MEMORY_LIMIT)):
+            with self.assertRaises(signorini.SignoriniError) as caught:
+                make(**more)
+            self.assertIs(caught.exception.status, status)
+        with self.assertRaisesRegex(signorini.SignoriniError, "order.1. is 0, as order.0. is"):
+            make(order=np.zeros(size, int))
+        with self.assertRaisesRegex(ValueError, "order has the shape"):
+            make(order=[0])
 
     def test_exceptions_cancel_and_go_on(self):
         def fail(_):

@@ -132,6 +132,16 @@ class NoEquilibrium(unittest.TestCase):
         self.escapes(lifted)
         self.assertIs(pressed.status, Status.SOLVED)
         self.assertIsNone(pressed.motion)
+        self.assertIsNone(pressed.escape)
+
+    def test_a_block_that_slides_stays_on_its_plane(self):
+        # Pressed by 1 and pushed by 1 at either pair, mu 0.5: the proof lifts it, the body does not.
+        free = np.kron([[1, -1], [-1, 1]], np.eye(2))
+        for result in (signorini.solve(free, np.ones(4), 0.0, mu=0.5),
+                       signorini.Model.condensed(free).solve(np.ones(4), 0.0, 0.5)):
+            self.assertIs(result.status, Status.NO_EQUILIBRIUM)
+            np.testing.assert_allclose(result.motion, [[-0.5, 1], [-0.5, 1]], atol=1e-9)
+            np.testing.assert_allclose(result.escape, [[0, 1], [0, 1]], atol=1e-9)
 
     def test_no_obstacle_is_no_escape(self):
         result = signorini.solve(np.eye(2), [1, 0], np.inf, 0.0)

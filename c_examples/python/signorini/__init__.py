@@ -29,24 +29,36 @@ function of a Progress. It cancels the call by a true result, or by an exception
 Ctrl-C), which goes on after the call. It must not call this module. Without a progress function,
 Ctrl-C waits for the end of the call.
 
+From two meshes to pressures:
+
+    contact = signorini.pair_surfaces(coordinates, slave_faces, master_faces)
+    model = signorini.Model.from_surfaces(K, contact, fixed=fixed)
+    result = model.solve(f, gap=contact.gaps, mu=0.3)
+    u = model.recover(result.d, f)
+    contact.write("contact.vtu", {"hexahedron": bricks}, result, u)
+
 The shared library is the one that load() names, or the environment variable SIGNORINI_LIBRARY, or
 that of ../../target/release beside this folder, or that of the system. Needs numpy. Threads may
 share everything here.
 """
 
 from ._condensed import certify, prove, solve, write
-from ._constants import (ABI_VERSION, Fallback, Law, Method, Proof, Search, State, Status,
+from ._constants import (ABI_VERSION, Fallback, Law, Method, Pairing, Proof, Search, State, Status,
                          Triangle, Uniqueness)
 from ._files import ContactProblem, LcpProblem, read
 from ._lcp import lcp_lemke, lcp_solve, write_lcp
 from ._flexibility import solve_flexibility
 from ._library import SignoriniError, load
+from ._mesh import write_mesh
 from ._model import Model
 from ._results import Enclosure, LcpResult, Progress, Result
+from ._surfaces import (Cylinder, Fields, Plane, Resultant, Sphere, SurfacePairs, pair_obstacle,
+                        pair_surfaces)
 
 __all__ = [
-    "ABI_VERSION", "ContactProblem", "Enclosure", "Fallback", "Law", "LcpProblem", "LcpResult",
-    "Method", "Model", "Progress", "Proof", "Result", "Search", "SignoriniError", "State", "Status",
-    "Triangle", "Uniqueness", "certify", "lcp_lemke", "lcp_solve", "load", "prove", "read", "solve",
-    "solve_flexibility", "write", "write_lcp",
+    "ABI_VERSION", "ContactProblem", "Cylinder", "Enclosure", "Fallback", "Fields", "Law",
+    "LcpProblem", "LcpResult", "Method", "Model", "Pairing", "Plane", "Progress", "Proof", "Result",
+    "Resultant", "Search", "SignoriniError", "Sphere", "State", "Status", "SurfacePairs", "Triangle",
+    "Uniqueness", "certify", "lcp_lemke", "lcp_solve", "load", "pair_obstacle", "pair_surfaces",
+    "prove", "read", "solve", "solve_flexibility", "write", "write_lcp", "write_mesh",
 ]

@@ -9,7 +9,8 @@ from ._results import Progress
 from ._structures import Callback, Settings
 
 NAMES = ("method", "tolerance", "omega", "damping", "max_iterations", "time_limit", "search",
-         "proof")
+         "proof", "memory_limit")
+COUNTS = ("max_iterations", "memory_limit")
 FAMILIES = {"method": Method, "search": Search}
 
 
@@ -31,7 +32,7 @@ class Call:
             except TypeError as error:
                 raise TypeError(f"{name} is {value!r}: {error}") from None
             # ctypes keeps the last 64 bits of an integer.
-            if name == "max_iterations" and self.settings.max_iterations != value:
+            if name in COUNTS and getattr(self.settings, name) != value:
                 raise ValueError(f"{name} is {value!r}: give at most {2**63 - 1}")
         self.settings.warm_start = warm_start
         if self.progress is not None:
@@ -75,7 +76,7 @@ class Call:
                 self.inside = True
                 self._interrupt()
                 told = told.contents
-                cancel = self.progress(Progress(told.iterations, told.eta, told.elapsed))
+                cancel = self.progress(Progress(*[getattr(told, name) for name in Progress._fields]))
             finally:
                 self.inside = False
             return 1 if cancel else 0

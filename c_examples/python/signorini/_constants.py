@@ -16,6 +16,7 @@ class Status(IntEnum):
     STALLED = 5
     NOT_A_SOLUTION = 6
     NOT_PROVED = 7
+    MEMORY_LIMIT = 8
     INTERNAL = -1000
     OUT_OF_MEMORY = -1001
     FILE = -1002
@@ -91,6 +92,21 @@ class Triangle(IntEnum):
     LOWER = 0
     UPPER = 1
     FULL = 2
+
+
+class Pairing(IntEnum):
+    """How surfaces are paired."""
+
+    DUAL_MORTAR = 0
+    NODE_TO_SURFACE = 1
+
+
+class Obstacle(IntEnum):
+    """Kind of a rigid obstacle."""
+
+    PLANE = 0
+    CYLINDER = 1
+    SPHERE = 2
 
 
 class Problem(IntEnum):

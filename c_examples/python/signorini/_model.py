@@ -14,6 +14,7 @@ from ._library import SignoriniError, check, library
 from ._results import Output, certified
 from ._sparse import ContactPairs, Matrix, supports
 from ._structures import address
+from ._surfaces import SurfacePairs
 from ._text import path_bytes, remark_bytes
 
 _UNTOUCHED = np.iinfo(np.int32).min
@@ -37,14 +38,21 @@ class _Case(namedtuple("_Case", "f prescribed gap law friction slip0")):
 class Model:
     """A structure reduced to its contact pairs, for any number of load cases.
 
-    Made by Model.condensed, Model.two_body or Model.sparse.
+    Made by Model.condensed, Model.two_body, Model.sparse or Model.from_surfaces.
     dim, pairs: D and P.  host_size: H, the entries of a load or displacement vector of the host.
     """
 
-    def __init__(self, make, n_fixed, *arguments):
+    def __init__(self, make, n_fixed, *arguments, settings=None):
         self._functions = library()
         handle = address()
-        check(self._functions, getattr(self._functions, make)(*arguments, ctypes.byref(handle)))
+        function = getattr(self._functions, make)
+        if settings is None:
+            check(self._functions, function(*arguments, ctypes.byref(handle)))
+        else:
+            call = Call(self._functions, settings)
+            status, message = call.run(function, *arguments, call.at(), ctypes.byref(handle))
+            if status != 0:
+                raise SignoriniError(message, member(Status, status))
         self._handle, self._n_fixed = handle.value, n_fixed
         weakref.finalize(self, self._functions.model_free, self._handle)
         self.dim = self._functions.model_dim(self._handle)
@@ -81,7 +89,7 @@ class Model:
 
     @classmethod
     def sparse(cls, K, slaves=None, normals=None, *, fixed=(), masters=None, weights=None,
-               tangents=None, rows=None, triangle="full"):
+               tangents=None, rows=None, triangle="full", order=None, **settings):
         """The whole stiffness matrix of the host, without supports, and contact pairs.
 
         K: a scipy.sparse matrix, or (data, indices, indptr) by columns, rows ascending; counted
@@ -97,11 +105,28 @@ class Model:
         rows: in the place of slaves, masters and weights, for each pair (dofs, weights): the dof
         numbers of all its nodes, (k, D), and k signed weights, positive on the side whose normal is
         given; of sum 0, and 1 against a rigid obstacle. Nodes may stand in any number of pairs.
+        order: order of elimination, each dof number once; None: chosen.  settings: progress,
+        time_limit (seconds) and memory_limit (bytes); a limit that is passed, or a progress function
+        that cancels, raises SignoriniError.
         """
-        matrix, fixed = Matrix(K, triangle), supports(fixed)
+        matrix, fixed = Matrix(K, triangle, order), supports(fixed)
         pairs = ContactPairs(slaves, normals, masters, weights, tangents, rows)
+        return cls("model_new_sparse_within", len(fixed), ctypes.byref(matrix.structure),
+                   len(fixed), at(fixed), ctypes.byref(pairs.structure), settings=settings)
+
+    @classmethod
+    def from_surfaces(cls, K, contact, *, fixed=(), triangle="full"):
+        """The whole stiffness matrix of the host with the pairs of pair_surfaces or pair_obstacle.
+
+        K, fixed, triangle: as for sparse.  contact: SurfacePairs. Several contact zones: use sparse
+        with the rows of all of them. The gap of a load case is contact.gaps.
+        """
+        if not isinstance(contact, SurfacePairs):
+            raise TypeError(f"contact is a {type(contact).__name__}: give what pair_surfaces or "
+                            f"pair_obstacle returns")
+        matrix, fixed = Matrix(K, triangle), supports(fixed)
         return cls("model_new_sparse", len(fixed), ctypes.byref(matrix.structure), len(fixed),
-                   at(fixed), ctypes.byref(pairs.structure))
+                   at(fixed), contact.structure)
 
     @property
     def stiffness(self):

@@ -11,26 +11,30 @@ from ._constants import Proof, Status
 from ._library import check
 from ._structures import Extra, Report, sized
 
-Progress = namedtuple("Progress", "iterations eta elapsed")
+Progress = namedtuple("Progress", "iterations eta elapsed reduced memory")
 Progress.__doc__ = """What a progress function is told.
 
 iterations: sweeps, pivots or linear systems done.  eta: the latest, infinite before the first.
 elapsed: seconds since the call began.
+reduced: share of the reduction of Model.sparse that is done, 0 to 1; 1 while a case is solved.
+memory: bytes that it needs in all, told before they are taken; 0 before they are known.
 """
 
-Result = namedtuple("Result", "d F state status message report motion second radius_d radius_F",
-                    defaults=(None, None))
+Result = namedtuple("Result", "d F state status message report motion second radius_d radius_F "
+                    "escape", defaults=(None, None, None))
 Result.__doc__ = """What a call has found.
 
 d: relative displacements, (P, D); length.  F: contact forces, (P, D); force.  state: of each pair
 (State), (P,).  Unless status is SOLVED these are the best or last iterate.
 status: a Status.  message: the same in words.
 report: the fields of signorini_report, with members of Method, Uniqueness and Fallback.
-motion: with status NO_EQUILIBRIUM the motion of escape, (P, D), largest component 1; else None.
+motion: with status NO_EQUILIBRIUM a motion that proves it, (P, D), largest component 1; else None.
 second: a second solution, a Result whose report is measured as certify does, or None. What
 uniqueness proves needs no second solution; ask for one by search="others".
 radius_d, radius_F: if report.proof is PROVED (ask for it by proof=True) a solution with these states
 exists within these distances of d and of F, (P, D); else None.
+escape: with status NO_EQUILIBRIUM the motion with which the bodies escape, (P, D), largest component
+1, without the lift that a proof needs: draw this one; else None.
 """
 
 Enclosure = namedtuple("Enclosure", "F radius_d radius_F")
@@ -57,13 +61,15 @@ class Output:
         shape = (cases, pairs, dim)
         self.d = np.full(shape, np.nan) if start is None else np.array(start).reshape(shape)
         self.F, self.state = np.full(shape, np.nan), np.full(shape[:2], -1, np.int32)
-        self.motion, self.second_d, self.second_F = (np.zeros(shape) for _ in range(3))
+        self.motion, self.escape = np.zeros(shape), np.zeros(shape)
+        self.second_d, self.second_F = np.zeros(shape), np.zeros(shape)
         self.radius_d, self.radius_F = np.zeros(shape), np.zeros(shape)
         self.second_state = np.zeros(shape[:2], np.int32)
         self.report = (Report * cases)(*[sized(Report) for _ in range(cases)])
         self.extra = sized(Extra, motion=at(self.motion), second_d=at(self.second_d),
                            second_F=at(self.second_F), second_state=at(self.second_state),
-                           radius_d=at(self.radius_d), radius_F=at(self.radius_F))
+                           radius_d=at(self.radius_d), radius_F=at(self.radius_F),
+                           escape=at(self.escape))
 
     def solution(self):
         """Arguments d, F, state."""
@@ -78,7 +84,7 @@ class Output:
 
         measure: certify, of displacements.
         """
-        motion = second = report = radius_d = radius_F = None
+        motion = escape = second = report = radius_d = radius_F = None
         if status < 0:
             self.d[case] = np.nan
         else:
@@ -89,11 +95,11 @@ class Output:
                     F=self.second_F[case], state=self.second_state[case]
                 )
             if status == Status.NO_EQUILIBRIUM:
-                motion = self.motion[case]
+                motion, escape = self.motion[case], self.escape[case]
             if report.proof == Proof.PROVED:
                 radius_d, radius_F = self.radius_d[case], self.radius_F[case]
         return Result(self.d[case], self.F[case], self.state[case], status, message, report,
-                      motion, second, radius_d, radius_F)
+                      motion, second, radius_d, radius_F, escape)
 
 
 def certified(functions, function, data, tolerance, d):

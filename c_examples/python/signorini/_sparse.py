@@ -10,7 +10,7 @@ from ._structures import Pairs, Sparse, sized
 class Matrix:
     """A sparse matrix; structure: signorini_sparse."""
 
-    def __init__(self, K, triangle):
+    def __init__(self, K, triangle, order=None):
         triangle = chosen("triangle", Triangle, triangle)
         data, rows, starts = _compressed(K)
         self.values = doubles(reals("data of K", data))
@@ -26,10 +26,11 @@ class Matrix:
                              f"end it with their number")
         kind = np.int32 if rows.dtype == np.int32 else np.int64
         self.rows, self.starts = indices(rows, kind), indices(starts, kind)
+        self.order = None if order is None else _order(order, len(starts) - 1, kind)
         self.structure = sized(
             Sparse, index_bytes=self.rows.itemsize, index_base=0, triangle=triangle,
             size=len(starts) - 1, nnz=len(rows), col_start=at(self.starts), row=at(self.rows),
-            values=at(self.values),
+            values=at(self.values), order=at(self.order),
         )
 
 
@@ -112,6 +113,16 @@ def supports(fixed):
         raise ValueError(f"fixed has the shape {fixed.shape}: give the dof numbers in one list, "
                          f"shape (count,)")
     return indices(fixed)
+
+
+def _order(order, size, kind):
+    order = integers("order", order)
+    if order.shape != (size,):
+        raise ValueError(f"order has the shape {order.shape}: give each dof number once, shape "
+                         f"{(size,)}")
+    narrow = np.iinfo(kind)
+    # Numbers that do not fit are refused by the library as they would be in 64 bits.
+    return indices(np.clip(order, narrow.min, narrow.max), kind)
 
 
 def _compressed(K):

@@ -12,7 +12,9 @@ real, address = ctypes.c_double, ctypes.c_void_p
 class Told(ctypes.Structure):
     """signorini_progress"""
 
-    _fields_ = [("iterations", i64), ("eta", real), ("elapsed", real)]
+    _fields_ = [
+        ("iterations", i64), ("eta", real), ("elapsed", real), ("reduced", real), ("memory", i64),
+    ]
 
 
 Callback = ctypes.CFUNCTYPE(i32, address, ctypes.POINTER(Told))
@@ -25,7 +27,7 @@ class Settings(ctypes.Structure):
         ("struct_size", u32), ("method", i32), ("tolerance", real), ("omega", real),
         ("damping", real), ("max_iterations", i64), ("time_limit", real), ("warm_start", i32),
         ("search", i32), ("progress", Callback), ("user", address), ("proof", i32),
-        ("reserved", i32),
+        ("reserved", i32), ("memory_limit", i64),
     ]
 
 
@@ -60,7 +62,7 @@ class Extra(ctypes.Structure):
     _fields_ = [
         ("struct_size", u32), ("reserved", i32), ("motion", address), ("second_d", address),
         ("second_F", address), ("second_state", address), ("radius_d", address),
-        ("radius_F", address),
+        ("radius_F", address), ("escape", address),
     ]
 
 
@@ -70,7 +72,7 @@ class Sparse(ctypes.Structure):
     _fields_ = [
         ("struct_size", u32), ("index_bytes", i32), ("index_base", i32), ("triangle", i32),
         ("size", i64), ("nnz", i64), ("col_start", address), ("row", address),
-        ("values", address),
+        ("values", address), ("order", address),
     ]
 
 
@@ -82,6 +84,79 @@ class Pairs(ctypes.Structure):
         ("master_start", address), ("masters", address), ("weights", address),
         ("normals", address), ("tangents", address), ("row_start", address),
         ("row_nodes", address), ("row_weights", address),
+    ]
+
+
+class Faces(ctypes.Structure):
+    """signorini_faces"""
+
+    _fields_ = [
+        ("struct_size", u32), ("face_nodes", i32), ("count", i64), ("start", address),
+        ("nodes", address),
+    ]
+
+
+class RigidObstacle(ctypes.Structure):
+    """signorini_obstacle"""
+
+    _fields_ = [
+        ("struct_size", u32), ("kind", i32), ("point", real * 3), ("direction", real * 3),
+        ("radius", real), ("hollow", i32), ("reserved", i32),
+    ]
+
+
+class SurfaceSettings(ctypes.Structure):
+    """signorini_surface_settings"""
+
+    _fields_ = [
+        ("struct_size", u32), ("pairing", i32), ("search_distance", real), ("index_base", i32),
+        ("dofs_per_node", i32), ("node_dofs", address),
+    ]
+
+
+class SurfaceReport(ctypes.Structure):
+    """signorini_surface_report"""
+
+    _fields_ = [
+        ("struct_size", u32), ("dim", i32), ("pairs", i64), ("unpaired", i64), ("folded", i64),
+        ("slave_faces", i64), ("uncovered", i64), ("slave_area", real), ("covered_area", real),
+        ("search_distance", real), ("not_opposed", i64), ("boxes_searched", i64),
+    ]
+
+
+class ContactFields(ctypes.Structure):
+    """signorini_contact_fields"""
+
+    _fields_ = [
+        ("struct_size", u32), ("reserved", i32), ("pressure", address), ("traction", address),
+        ("clearance", address), ("slip", address), ("state", address),
+    ]
+
+
+class ResultantSums(ctypes.Structure):
+    """signorini_resultant"""
+
+    _fields_ = [
+        ("struct_size", u32), ("reserved", i32), ("force", real * 3), ("moment", real * 3),
+        ("friction_work", real), ("pressed_area", real),
+    ]
+
+
+class Mesh(ctypes.Structure):
+    """signorini_mesh"""
+
+    _fields_ = [
+        ("struct_size", u32), ("dim", i32), ("nodes", i64), ("coordinates", address),
+        ("cells", i64), ("index_base", i32), ("cell_type", i32), ("cell_types", address),
+        ("cell_start", address), ("cell_nodes", address),
+    ]
+
+
+class NodalField(ctypes.Structure):
+    """signorini_field"""
+
+    _fields_ = [
+        ("struct_size", u32), ("components", i32), ("name", ctypes.c_char_p), ("values", address),
     ]
 
 

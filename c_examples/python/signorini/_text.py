@@ -17,6 +17,13 @@ def remark_bytes(remark):
     return _terminated("remark", remark.encode())
 
 
+def name_bytes(name):
+    """Name of a field."""
+    if not isinstance(name, str):
+        raise TypeError(f"the field {name!r} has no name: give a text")
+    return _terminated("a name", name.encode())
+
+
 def _terminated(name, text):
     if b"\0" in text:
         raise ValueError(f"{name} holds a null character, which ends a text in C: leave it out")

@@ -1,11 +1,11 @@
-//! SGSPAR: a model of a whole sparse matrix.
+//! SGSPAR, SGSPAW: a model of a whole sparse matrix.
 
 use super::super::args::Arrays;
 use super::super::guard::Failure;
-use super::super::model_new::signorini_model_new_sparse;
-use super::super::sparse::{
-    SIGNORINI_TRIANGLE_FULL, SIGNORINI_TRIANGLE_LOWER, SignoriniPairs, SignoriniSparse,
-};
+use super::super::model_new::{SignoriniModel, signorini_model_new_sparse_within};
+use super::super::pairs::SignoriniPairs;
+use super::super::settings::SignoriniSettings;
+use super::super::sparse::{SIGNORINI_TRIANGLE_FULL, SIGNORINI_TRIANGLE_LOWER, SignoriniSparse};
 use super::arguments::{Integer, absurd, choice, count, read, run, sizes};
 use super::models::create;
 use crate::error::entry;
@@ -34,22 +34,104 @@ pub(super) unsafe fn new<I: Integer>(
     handle: *mut i64,
     info: *mut I,
 ) {
-    let matrix = Matrix { n, nnz, colptr, rowind, values, tri };
+    let order = std::ptr::null();
+    let matrix = Matrix { n, nnz, colptr, rowind, values, tri, order };
+    let pairs = Pairs { ndim, npair, slave, nmast, mstart, master, weight, normal, ntan, tangnt };
+    let settings = SignoriniSettings::default_one();
+    // Of the matrix the entry of C tells the argument, not which array of it: here its values. Of
+    // the pairs likewise: here SLAVE.
+    // SAFETY: by the caller's contract.
+    unsafe {
+        let make = |model| made(&matrix, (nfix, fixed), &pairs, &settings, model);
+        run(info, &[5, 7, 8, 11, 19], || create(19, handle, make))
+    }
+}
+
+/// SGSPAR with the host's order of elimination and limits.
+///
+/// # Safety
+/// As include/signorini.inc demands.
+pub(super) unsafe fn within<I: Integer>(
+    n: *const I,
+    nnz: *const I,
+    colptr: *const I,
+    rowind: *const I,
+    values: *const f64,
+    tri: *const I,
+    nfix: *const I,
+    fixed: *const I,
+    ndim: *const I,
+    npair: *const I,
+    slave: *const I,
+    nmast: *const I,
+    mstart: *const I,
+    master: *const I,
+    weight: *const f64,
+    normal: *const f64,
+    ntan: *const I,
+    tangnt: *const f64,
+    nord: *const I,
+    order: *const I,
+    maxmem: *const f64,
+    maxsec: *const f64,
+    handle: *mut i64,
+    info: *mut I,
+) {
     let pairs = Pairs { ndim, npair, slave, nmast, mstart, master, weight, normal, ntan, tangnt };
     // SAFETY: by the caller's contract.
     let make = |model| unsafe {
+        let (size, given) = (count(1, "N", n)?, count(19, "NORD", nord)?);
+        if given != 0 && given != size {
+            let message = format!("NORD is {given}, it must be 0 or N ({size})");
+            return Err(Failure::argument(19, message));
+        }
+        let order = if given == 0 { std::ptr::null() } else { order };
+        let matrix = Matrix { n, nnz, colptr, rowind, values, tri, order };
+        let bytes = limit(21, "MAXMEM", maxmem)?;
+        let settings = SignoriniSettings {
+            memory_limit: bytes as i64,
+            time_limit: limit(22, "MAXSEC", maxsec)?,
+            ..SignoriniSettings::default_one()
+        };
+        made(&matrix, (nfix, fixed), &pairs, &settings, model)
+    };
+    // SAFETY: by the caller's contract.
+    unsafe { run(info, &[5, 7, 8, 11, 22, 23], || create(23, handle, make)) }
+}
+
+/// A limit, 0 for none.
+///
+/// # Safety
+/// As include/signorini.inc demands.
+unsafe fn limit(position: i32, name: &str, value: *const f64) -> Result<f64, Failure> {
+    // SAFETY: by the caller's contract.
+    let value = unsafe { read(position, name, value)? };
+    if value >= 0.0 {
+        return Ok(value);
+    }
+    Err(Failure::argument(position, format!("{name} is {value}, it must be 0 (none) or more")))
+}
+
+/// # Safety
+/// As include/signorini.inc demands.
+unsafe fn made<I: Integer>(
+    matrix: &Matrix<I>,
+    (nfix, fixed): (*const I, *const I),
+    pairs: &Pairs<I>,
+    settings: &SignoriniSettings,
+    model: *mut *mut SignoriniModel,
+) -> Result<i32, Failure> {
+    // SAFETY: by the caller's contract.
+    unsafe {
         let matrix = matrix.read()?;
         let n_fixed = count(7, "NFIX", nfix)?;
         let fixed = numbers(8, "FIXED", fixed, n_fixed)?;
         let numbers = pairs.numbers()?;
         let interface = pairs.read(&numbers)?;
         let (matrix, interface) = (&raw const matrix, &raw const interface);
-        Ok(signorini_model_new_sparse(matrix, n_fixed, fixed.as_ptr(), interface, model))
-    };
-    // Of the matrix the entry of C tells the argument, not which array of it: here its values. Of
-    // the pairs likewise: here SLAVE.
-    // SAFETY: by the caller's contract.
-    unsafe { run(info, &[5, 7, 8, 11, 19], || create(19, handle, make)) }
+        let (fixed, settings) = (fixed.as_ptr(), &raw const *settings);
+        Ok(signorini_model_new_sparse_within(matrix, n_fixed, fixed, interface, settings, model))
+    }
 }
 
 /// The arguments from N to TRI, the first ones.
@@ -60,6 +142,8 @@ struct Matrix<I> {
     rowind: *const I,
     values: *const f64,
     tri: *const I,
+    /// NULL: chosen.
+    order: *const I,
 }
 
 impl<I: Integer> Matrix<I> {
@@ -90,6 +174,7 @@ impl<I: Integer> Matrix<I> {
             col_start: self.colptr.cast(),
             row: self.rowind.cast(),
             values: self.values,
+            order: self.order.cast(),
         })
     }
 }

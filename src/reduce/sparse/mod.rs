@@ -14,22 +14,25 @@
 //! 6 % off, up to 8 % on other meshes.
 
 mod change_of_variables;
+mod control;
 mod general_rows;
 mod host_arrays;
 mod host_matrix;
 mod messages;
 mod supports;
 
+pub use control::Control;
 pub use host_arrays::{Indices, SparseMatrix, Triangle};
 
 use super::{ContactPairs, Reduction};
 use crate::error::{Argument, Error, Message};
 use crate::linalg::sparse_matrix::{Csc, OutOfMemory, times, transpose_times};
-use crate::linalg::sparse_schur::{Failure, SparseSchur};
+use crate::linalg::sparse_schur::{Failure, Look, SparseSchur};
 use crate::linalg::vector::norm_inf;
 use crate::problem::Dependence;
 use crate::reduce::frame::Frame;
 use change_of_variables::{ChangeOfVariables, contact_forces};
+use control::{Asked, ranks};
 use general_rows::{Dependent, GeneralRows, general_rows};
 use supports::FixedComponent;
 
@@ -61,11 +64,25 @@ impl SparseReduction {
         fixed: &[usize],
         pairs: &ContactPairs<'_>,
     ) -> Result<Self, Error> {
+        Self::controlled(matrix, fixed, pairs, Control { order: None, ask: &mut |_, _| Ok(()) })
+    }
+
+    /// As [`Self::new`], in an order of the host and with somebody who is asked whether to go on.
+    ///
+    /// # Errors
+    /// As [`Self::new`]; an order that is no permutation; and what `control.ask` answers.
+    pub fn controlled(
+        matrix: &SparseMatrix<'_>,
+        fixed: &[usize],
+        pairs: &ContactPairs<'_>,
+        control: Control<'_>,
+    ) -> Result<Self, Error> {
         let memory = |_: OutOfMemory| Error::OutOfMemory("the reduced stiffness matrix");
         // The matrix first: a wrong size or index base shows in the other arrays too.
         matrix.check_col_start()?;
         let places = supports::places_in_fixed(matrix.size, fixed)?;
         let host = matrix.lower_triangle(|dof| places[dof].is_some())?;
+        let rank = control.order.map(|order| ranks(matrix.size, order)).transpose()?;
         pairs.check(matrix.size)?;
         let mut frames = pairs.frames()?;
         let with_own_slaves = rows_with_own_slaves(pairs, &mut frames, &places);
@@ -77,10 +94,13 @@ impl SparseReduction {
         let GeneralRows { variables, supports, dependent } = rows;
         let contact_forces = contact_forces(matrix.size, pairs, &frames).map_err(memory)?;
         let (transformed, of_fixed) = variables.transform(host).map_err(memory)?;
+        let mut asked = Asked::new(control.ask);
+        let free = variables.free();
+        let rank: Option<Vec<usize>> = rank.map(|rank| free.iter().map(|&dof| rank[dof]).collect());
         // Rows of many nodes leave more rounding on motions that are free than the entries of K_rel show.
-        let condense = if own { SparseSchur::new } else { SparseSchur::exact_on_free_motions };
-        let schur = condense(transformed, variables.free().len())
-            .map_err(|failure| refused(&variables, failure))?;
+        let look = if own { Look::IfSuspicious } else { Look::Always };
+        let schur = SparseSchur::new(transformed, free.len(), rank.as_deref(), look, &mut asked)
+            .map_err(|failure| asked.ended.unwrap_or_else(|| refused(&variables, failure)))?;
         Ok(SparseReduction {
             dim: pairs.dim,
             fixed_count: fixed.len(),
@@ -196,6 +216,7 @@ fn rows_with_own_slaves(
 fn refused(variables: &ChangeOfVariables, failure: Failure) -> Error {
     let message = match failure {
         Failure::OutOfMemory => return Error::OutOfMemory("the factor of the stiffness matrix"),
+        Failure::Stopped => unreachable!("who stops it says why"),
         Failure::Indefinite(row) => messages::indefinite(variables.free().get(row)),
         Failure::Negative(x) => messages::negative_energy(&variables.host_displacements(&x, None)),
         Failure::Unclear(x) => messages::unclear_motion(&variables.host_displacements(&x, None)),

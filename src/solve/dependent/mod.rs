@@ -24,7 +24,7 @@ use super::outcome::{Solution, Status};
 use crate::error::{Argument, Error};
 use crate::law::{Contact, without_friction};
 use crate::linalg::sparse_matrix::{OutOfMemory, column, from_entries, transposed};
-use crate::linalg::sparse_schur::{Failure, SparseSchur};
+use crate::linalg::sparse_schur::{Failure, Look, SparseSchur, Unwatched};
 use crate::monitor::Monitor;
 use crate::problem::{ContactProblem, DependentRows, Relation};
 use crate::settings::{Method, SMALLEST_TOLERANCE, Settings};
@@ -121,7 +121,8 @@ fn condensed(relation: &DependentRows<'_>) -> Result<SparseSchur, Error> {
         entries.push((kept + i, kept + i, spring));
     }
     let all = from_entries((kept + size, kept + size), entries.into_iter()).map_err(memory)?;
-    SparseSchur::exact_on_free_motions(all, kept).map_err(|failure| match failure {
+    let made = SparseSchur::new(all, kept, None, Look::Always, &mut Unwatched);
+    made.map_err(|failure| match failure {
         Failure::OutOfMemory => Error::OutOfMemory("the factor of dependent rows"),
         _ => Error::invalid(
             Argument::Matrix,

@@ -15,7 +15,7 @@ mod system;
 pub use candidates::solve as on_candidates;
 pub use equations::{Equations, Point};
 pub use newton::{Ended, solve as newton_from};
-pub use polish::polished;
+pub use polish::{Sharpened, polished, sharpened};
 pub use system::{Border, System};
 
 use crate::law::Contact;

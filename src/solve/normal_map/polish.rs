@@ -52,6 +52,24 @@ pub fn polished(contact: &Contact<'_>, settings: &Settings, candidate: Candidate
     if helps { refined.ended(Ending::Done) } else { candidate }
 }
 
+/// A candidate refined as far as it goes.
+pub struct Sharpened {
+    /// The candidate, with the orientation of the pieces that it is on.
+    pub candidate: Candidate,
+    /// Newton's next step: how far it is from the solution on its pieces, to first order.
+    pub error: Vec<f64>,
+}
+
+/// Refines displacements to the last digits; `None` if the system there is singular.
+pub fn sharpened(contact: &Contact<'_>, candidate: &Candidate) -> Option<Sharpened> {
+    let mut candidate = refined(contact, candidate, 0.0);
+    let at_reference = contact.at_its_reference();
+    let v = contact.beyond_reference(&candidate.d, &candidate.low);
+    let (error, orientation) = step(&Equations::of(&at_reference), &v, &candidate.force)?;
+    candidate.orientation = orientation;
+    Some(Sharpened { candidate, error })
+}
+
 /// Refines until `eta` is at most `aim`, or falls no further.
 fn refined(contact: &Contact<'_>, candidate: &Candidate, aim: f64) -> Candidate {
     let at_reference = contact.at_its_reference();

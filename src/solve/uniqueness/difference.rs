@@ -1,23 +1,55 @@
 //! When two solutions count as different.
+//!
+//! Whatever the tolerance, two answers are two solutions only if they are further apart than both are from the
+//! solutions next to them. So both are refined to the last digits, and Newton's next step tells how far each still
+//! is from its solution; where a system is singular nothing is said.
 
 use crate::law::Contact;
 use crate::linalg::vector::largest_of;
+use crate::solve::normal_map::Sharpened;
 
 /// What is proved must be true by more than this, relatively: the rounding of systems with condition
 /// numbers up to 1e9 or 1e10, the largest that are certified, stays below it.
 pub const MARGIN: f64 = 1e-6;
 
-/// Whether two displacements, solutions to rounding, are different ones: by their branches, and by
-/// more than rounding.
+/// How many times further apart than their errors two solutions are: the step is an estimate to first order.
+const PARTED: f64 = 1e3;
+
+/// Whether two refined answers are next to two solutions.
+pub fn are_parted(contact: &Contact<'_>, one: &Sharpened, two: &Sharpened) -> bool {
+    let (first, second) = (&one.candidate.d, &two.candidate.d);
+    let root = contact.problem().unit_roots();
+    let apart: Vec<f64> = first.iter().zip(second).map(|(one, two)| one - two).collect();
+    let error = scaled(&root, &one.error) + scaled(&root, &two.error);
+    are_different(contact, first, second) && scaled(&root, &apart) > PARTED * error
+}
+
+/// Whether a refined answer is so near to its solution that this has what the answer has by [`MARGIN`].
+pub fn is_sharp(contact: &Contact<'_>, answer: &Sharpened) -> bool {
+    let root = contact.problem().unit_roots();
+    PARTED * scaled(&root, &answer.error) <= MARGIN * size(contact, &answer.candidate.d)
+}
+
+fn scaled(root: &[f64], d: &[f64]) -> f64 {
+    largest_of(d.iter().zip(root).map(|(d, root)| d * root))
+}
+
+/// The size of displacements, at least those that the loads can induce, so that two solutions of rounding's
+/// size compare equal.
+fn size(contact: &Contact<'_>, d: &[f64]) -> f64 {
+    let root = contact.problem().unit_roots();
+    let loads = largest_of(contact.shifted_load().iter().zip(&root).map(|(f, root)| f / root));
+    loads.max(scaled(&root, d))
+}
+
+/// Whether two displacements, solutions to rounding, are different ones: by more than rounding, and in the
+/// plane by their branches. In space a branch has the direction of its slip, which rounding changes.
 pub fn are_different(contact: &Contact<'_>, one: &[f64], two: &[f64]) -> bool {
     let problem = contact.problem();
     let root = problem.unit_roots();
-    let scaled = |d: &[f64]| largest_of(d.iter().zip(&root).map(|(d, root)| d * root));
-    // Scale also by the displacement that the loads can induce, so that two solutions of rounding's
-    // size compare equal.
-    let loads = largest_of(contact.shifted_load().iter().zip(&root).map(|(f, root)| f / root));
-    let size = loads.max(scaled(one)).max(scaled(two));
+    let size = size(contact, one).max(size(contact, two));
     let difference: Vec<f64> = one.iter().zip(two).map(|(one, two)| one - two).collect();
     let branches = |d: &[f64]| contact.branches(d, &problem.force(d));
-    scaled(&difference) > MARGIN * size && branches(one) != branches(two)
+    scaled(&root, &difference) > MARGIN * size
+        && (contact.dim() > 2 || branches(one) != branches(two))
 }

@@ -1,6 +1,6 @@
 //! Whether a solution is the only one: proofs (`proof`), and a search for a second one (`search`).
 //!
-//! *Several.* Two certified solutions that differ; or one whose orientation, the sign of the
+//! *Several.* Two certified solutions that differ (`difference`); or one whose orientation, the sign of the
 //! determinant of its system, is −1: over all solutions the signs add up to the degree of the
 //! natural map, which is +1 for positive definite `K` as it is for `mu = 0`.
 
@@ -8,17 +8,18 @@ mod difference;
 mod proof;
 mod search;
 
-pub use difference::are_different;
+use difference::{are_different, are_parted};
 
 use super::active_set;
 use super::candidate::{Candidate, Ending};
+use super::normal_map::sharpened;
 use super::outcome::{Solution, Status, Uniqueness};
 use crate::error::Error;
 use crate::law::Contact;
 use crate::linalg::vector::norm_inf;
 use crate::monitor::Monitor;
 use crate::settings::Settings;
-use difference::MARGIN;
+use difference::{MARGIN, is_sharp};
 
 /// Tries to prove that `solution` is the only one, or to find a second.
 pub fn examine(
@@ -38,7 +39,8 @@ pub fn examine(
         return Ok(());
     }
     if contact.dim() != 2 {
-        if let Some(second) = search::another_in_space(contact, settings, &solution.d, monitor) {
+        let Some(first) = sharpened(contact, &given(contact, solution)) else { return Ok(()) };
+        if let Some(second) = search::another_in_space(contact, settings, &first, monitor) {
             solution.uniqueness = Uniqueness::Several;
             solution.second = Some(Box::new(second));
         }
@@ -48,7 +50,8 @@ pub fn examine(
     let Some(first) = polished(contact, settings, &solution.d, monitor) else { return Ok(()) };
     solution.orientation = first.orientation;
     by_orientation(contact, solution);
-    if let Some(second) = search::another(contact, settings, &first.d, monitor)? {
+    let Some(first) = sharpened(contact, &first) else { return Ok(()) };
+    if let Some(second) = search::another(contact, settings, &first, monitor)? {
         solution.uniqueness = Uniqueness::Several;
         solution.second = Some(Box::new(second));
     }
@@ -58,11 +61,26 @@ pub fn examine(
 /// Concludes from an orientation of −1, away from where branches meet, that there are others.
 pub fn by_orientation(contact: &Contact<'_>, solution: &mut Solution) {
     if solution.orientation < 0
-        && is_strict(contact, &solution.d)
+        && solution.status == Status::Solved
+        && let Some(sharp) = sharpened(contact, &given(contact, solution))
+        && sharp.candidate.orientation < 0
+        && is_sharp(contact, &sharp)
+        && is_strict(contact, &sharp.candidate.d)
         && proof::scaled_factor(contact).is_some()
     {
         solution.uniqueness = Uniqueness::Several;
     }
+}
+
+/// Whether two results are next to two solutions.
+pub fn are_two(contact: &Contact<'_>, one: &Solution, two: &Solution) -> bool {
+    let sharp = |solution| sharpened(contact, &given(contact, solution));
+    matches!((sharp(one), sharp(two)), (Some(one), Some(two)) if are_parted(contact, &one, &two))
+}
+
+/// A solution as a candidate that can be refined.
+fn given(contact: &Contact<'_>, solution: &Solution) -> Candidate {
+    Candidate::of_displacements(contact, solution.d.clone(), Ending::Done)
 }
 
 /// The solution on the branches of `d`, if that is `d`.

@@ -1,6 +1,6 @@
 //! The search for a second solution.
 
-use super::difference::are_different;
+use super::difference::{are_different, are_parted};
 use crate::error::Error;
 use crate::law::branch::Branch;
 use crate::law::{Contact, PairLaw};
@@ -8,6 +8,7 @@ use crate::monitor::Monitor;
 use crate::settings::Settings;
 use crate::solve::active_set::from_branches;
 use crate::solve::candidate::{Candidate, Ending, low_part};
+use crate::solve::normal_map::{Sharpened, sharpened};
 use crate::solve::outcome::SecondSolution;
 use crate::solve::{lemke, path};
 
@@ -21,7 +22,7 @@ const NEIGHBOURS: usize = 32;
 pub fn another(
     contact: &Contact<'_>,
     settings: &Settings,
-    known: &[f64],
+    known: &Sharpened,
     monitor: &mut Monitor<'_>,
 ) -> Result<Option<SecondSolution>, Error> {
     let accepted = |candidate: Candidate| accepted(contact, settings, known, candidate);
@@ -37,8 +38,9 @@ pub fn another(
             return Ok(Some(other));
         }
     }
-    for branches in neighbours(contact, known) {
-        let candidate = from_branches(contact, settings, branches, known.to_vec(), monitor);
+    for branches in neighbours(contact, &known.candidate.d) {
+        let d = known.candidate.d.clone();
+        let candidate = from_branches(contact, settings, branches, d, monitor);
         if let Some(other) = accepted(candidate) {
             return Ok(Some(other));
         }
@@ -50,7 +52,7 @@ pub fn another(
 pub fn another_in_space(
     contact: &Contact<'_>,
     settings: &Settings,
-    known: &[f64],
+    known: &Sharpened,
     monitor: &mut Monitor<'_>,
 ) -> Option<SecondSolution> {
     path::ends(contact, settings, monitor)
@@ -62,17 +64,21 @@ pub fn another_in_space(
 fn accepted(
     contact: &Contact<'_>,
     settings: &Settings,
-    known: &[f64],
+    known: &Sharpened,
     candidate: Candidate,
 ) -> Option<SecondSolution> {
-    let other = candidate.ending == Ending::Done
+    let may_be = candidate.ending == Ending::Done
         && candidate.certificate(contact).holds(settings.tolerance)
-        && are_different(contact, known, &candidate.d);
-    other.then(|| SecondSolution {
-        certificate: candidate.certificate(contact).clone(),
-        orientation: candidate.orientation,
-        d_low: low_part(&candidate),
-        d: candidate.d,
+        && are_different(contact, &known.candidate.d, &candidate.d);
+    let other = if may_be { sharpened(contact, &candidate)? } else { return None };
+    let is_other = are_parted(contact, known, &other)
+        && other.candidate.certificate(contact).holds(settings.tolerance);
+    let found = other.candidate;
+    is_other.then(|| SecondSolution {
+        certificate: found.certificate(contact).clone(),
+        orientation: found.orientation,
+        d_low: low_part(&found),
+        d: found.d,
     })
 }
 

@@ -1,0 +1,91 @@
+"""Meshes with fields to files for ParaView."""
+
+import ctypes
+
+import numpy as np
+
+from ._arrays import at, doubles, fit, indices, integers, reals
+from ._library import check, library
+from ._structures import Mesh, NodalField, sized
+from ._text import name_bytes, path_bytes
+
+# VTK's numbers of the cells that meshio names.
+TYPES = {
+    "vertex": 1, "line": 3, "triangle": 5, "quad": 9, "tetra": 10, "hexahedron": 12, "wedge": 13,
+    "pyramid": 14, "line3": 21, "triangle6": 22, "quad8": 23, "tetra10": 24, "hexahedron20": 25,
+    "wedge15": 26, "pyramid13": 27, "quad9": 28, "hexahedron27": 29,
+}
+
+
+class Cells:
+    """Nodes with cells; structure: signorini_mesh."""
+
+    def __init__(self, coordinates, cells):
+        self.coordinates = points(coordinates)
+        blocks = cells.items() if hasattr(cells, "items") else [_block(block) for block in cells]
+        types, starts, nodes = [], [np.zeros(1, np.int64)], []
+        for name, block in blocks:
+            if name not in TYPES:
+                raise ValueError(f"cells: there is no type {name!r}; types: {', '.join(TYPES)}")
+            block = integers(f"cells of the type {name}", block)
+            if block.ndim != 2:
+                raise ValueError(f"cells of the type {name} have the shape {block.shape}: give the "
+                                 f"nodes of each, shape (cells, nodes)")
+            types.append(np.full(len(block), TYPES[name], np.int32))
+            starts.append(starts[-1][-1] + block.shape[1] * np.arange(1, len(block) + 1))
+            nodes.append(block.ravel())
+            if not len(block):
+                starts.pop()
+        self.types = np.concatenate([np.zeros(0, np.int32), *types])
+        self.starts = indices(np.concatenate(starts))
+        self.nodes = indices(np.concatenate([np.zeros(0, np.int64), *nodes]))
+        count, dim = self.coordinates.shape
+        self.structure = sized(
+            Mesh, dim=dim, nodes=count, coordinates=at(self.coordinates), cells=len(self.types),
+            cell_types=at(self.types), cell_start=at(self.starts), cell_nodes=at(self.nodes),
+        )
+
+
+def write_mesh(path, coordinates, cells, fields=None):
+    """Writes a mesh with fields at its nodes to a file .vtu, which ParaView opens.
+
+    coordinates: (nodes, D).  cells: nodes of the cells by meshio's names of their types, a
+    dictionary such as {"hexahedron": (C, 8)}, or the cells of a meshio mesh; counted from 0, in
+    VTK's order.
+    fields: a dictionary of numbers, (nodes,), or vectors, (nodes, D) or nodes * D.
+    """
+    mesh, kept = Cells(coordinates, cells), []
+    count, dim = mesh.coordinates.shape
+    for name, values in (fields or {}).items():
+        asked = (f"one number for each of the {count} nodes, shape {(count,)}, or a vector for "
+                 f"each, shape {(count * dim,)} or {(count, dim)}")
+        shape = np.shape(values)
+        shapes = [(count,)] if shape == (count,) else [(count * dim,), (count, dim)]
+        kept.append((name_bytes(name), fit(f"field {name}", values, shapes, asked)))
+    given = (NodalField * max(1, len(kept)))(*[
+        sized(NodalField, components=1 if values.ndim == 1 else dim, name=name, values=at(values))
+        for name, values in kept
+    ])
+    functions = library()
+    check(functions, functions.mesh_write(path_bytes(path), ctypes.byref(mesh.structure), None,
+                                          None, len(kept), given))
+
+
+def points(coordinates):
+    """Coordinates of nodes, (nodes, D)."""
+    array = reals("coordinates", coordinates)
+    if array.ndim != 2 or array.shape[1] not in (2, 3):
+        raise ValueError(f"coordinates has the shape {array.shape}: give the nodes' places, shape "
+                         f"(nodes, dim), dim 2 or 3")
+    return doubles(array)
+
+
+def _block(block):
+    """Name and nodes of cells of one type: a tuple, or a block of meshio."""
+    if hasattr(block, "type") and hasattr(block, "data"):
+        return block.type, block.data
+    try:
+        name, nodes = block
+    except (TypeError, ValueError):
+        raise ValueError("cells: give a dictionary, or a list of (type, nodes)") from None
+    return name, nodes

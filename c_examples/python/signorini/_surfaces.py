@@ -1,0 +1,221 @@
+"""Contact pairs from surfaces, and what a solution means on them."""
+
+import ctypes
+import weakref
+from collections import namedtuple
+from types import SimpleNamespace
+
+import numpy as np
+
+from ._arrays import at, components, fit, indices, integers, per_pair, reals
+from ._constants import Obstacle, Pairing, chosen
+from ._library import check, library
+from ._mesh import Cells, points
+from ._structures import (ContactFields, Faces, ResultantSums, RigidObstacle, SurfaceReport,
+                          SurfaceSettings, address, i64, real, sized)
+from ._text import path_bytes
+
+Plane = namedtuple("Plane", "point outward")
+Plane.__doc__ = """A rigid half space, in 2D a half plane.
+
+point: of its face.  outward: the direction out of it, of any length.
+"""
+
+Sphere = namedtuple("Sphere", "centre radius hollow", defaults=[False])
+Sphere.__doc__ = """A rigid ball, in 2D a disc.  hollow: the body is inside, as in a bowl."""
+
+Cylinder = namedtuple("Cylinder", "point axis radius hollow", defaults=[False])
+Cylinder.__doc__ = """A rigid round bar of any length, in 3D.
+
+point: of its axis.  axis: its direction.  hollow: the body is inside, as in a bore.
+"""
+
+Fields = namedtuple("Fields", "pressure traction clearance slip state")
+Fields.__doc__ = """Fields at the n nodes of the mesh, in its axes. Nodes in no pair have 0, and state -1.
+
+pressure: positive presses, (n,).  traction: force of the contact on the node's own body over area,
+(n, D).  clearance: what is left of the gap, (n,).  slip: motion along the surface against the
+other body since slip0, (n, D).  state: of its pair (State), (n,).
+"""
+
+Resultant = namedtuple("Resultant", "force moment friction_work pressed_area")
+Resultant.__doc__ = """Sums over a contact zone.
+
+force: of the contact on the slave's body, (3,).  moment: about the point, (3,).  friction_work:
+what friction takes in the step.  pressed_area: of the pairs that press.
+"""
+
+
+def pair_surfaces(coordinates, slave, master, *, pairing="dual_mortar", search_distance=0.0,
+                  dofs=None, dofs_per_node=0):
+    """Pairs two surfaces of a mesh: SurfacePairs. Surfaces that never meet give no pairs.
+
+    coordinates: of all nodes, (n, D).  slave, master: nodes of each face, (F, k), or a list of
+    lists for faces of several kinds; counted from 0. In 2D lines of 2 or 3 nodes, the body to the
+    left of a line; in 3D triangles (3, 6) and quadrilaterals (4, 8, 9), counterclockwise from
+    outside; corners first, then mid nodes, then the centre.
+    pairing: "dual_mortar" or "node_to_surface".  search_distance: the largest one along the normal;
+    0: the size of the largest slave face.
+    dofs: degrees of freedom of each node, (n, D); None: dofs_per_node * node + axis, dofs_per_node
+    0: D.
+    """
+    slave, master = _Faces("slave", slave), _Faces("master", master)
+    return SurfacePairs("surface_pair", coordinates, slave, master.structure, pairing,
+                        search_distance, dofs, dofs_per_node)
+
+
+def pair_obstacle(coordinates, slave, obstacle, *, search_distance=0.0, dofs=None,
+                  dofs_per_node=0):
+    """Pairs a surface with a rigid obstacle, a Plane, Sphere or Cylinder: SurfacePairs.
+
+    The rest: as for pair_surfaces; search_distance 0: no limit.
+    """
+    return SurfacePairs("surface_pair_obstacle", coordinates, _Faces("slave", slave),
+                        _rigid(obstacle), Pairing.DUAL_MORTAR, search_distance, dofs, dofs_per_node)
+
+
+class SurfacePairs:
+    """P contact pairs from surfaces; made by pair_surfaces or pair_obstacle.
+
+    dim, pairs: D and P.  gaps, areas: (P,).  normals, tangents: unit vectors, (P, D).  points:
+    where the force of each pair acts, (P, D).  nodes: slave node of each pair, (P,).
+    unpaired: slave nodes without a pair.  folded: nodes with little cover, each with the node whose
+    pair has its row, (k, 2).  uncovered: slave faces that lie over nothing.
+    summary: one sentence.  report: the fields of signorini_surface_report.
+    """
+
+    def __init__(self, make, coordinates, slave, other, pairing, search_distance, dofs,
+                 dofs_per_node):
+        self._functions, self._coordinates = library(), points(coordinates).copy()
+        self.node_count, self.dim = self._coordinates.shape
+        settings = sized(
+            SurfaceSettings, pairing=chosen("pairing", Pairing, pairing),
+            search_distance=float(search_distance), dofs_per_node=dofs_per_node,
+        )
+        # Entries of a displacement vector that has all nodes.
+        self._least = (dofs_per_node or self.dim) * (self.node_count - 1) + self.dim
+        if dofs is not None:
+            dofs = indices(integers("dofs", dofs))
+            if dofs.shape != self._coordinates.shape:
+                raise ValueError(f"dofs has the shape {dofs.shape}: give the degrees of freedom of "
+                                 f"each node, shape {self._coordinates.shape}")
+            settings.node_dofs = at(dofs)
+            self._least = int(dofs.max(initial=-1)) + 1
+        handle, report = address(), sized(SurfaceReport)
+        check(self._functions, getattr(self._functions, make)(
+            self.dim, self.node_count, at(self._coordinates), ctypes.byref(slave.structure),
+            ctypes.byref(other), ctypes.byref(settings), ctypes.byref(handle),
+            ctypes.byref(report)))
+        self._handle = handle.value
+        weakref.finalize(self, self._functions.surface_free, self._handle)
+        self.report = SimpleNamespace(**{name: getattr(report, name) for name, _ in report._fields_
+                                         if name != "struct_size"})
+        self.pairs = report.pairs
+        self.summary = self._functions.surface_summary(self._handle).decode()
+        self._read()
+
+    def _read(self):
+        pairs, dim, report = self.pairs, self.dim, self.report
+        self.gaps, self.areas = (self._array(name, (pairs,)) for name in ("gaps", "areas"))
+        self.normals, self.tangents, self.points = (
+            self._array(name, (pairs, dim)) for name in ("normals", "tangents", "points"))
+        self.nodes = self._array("nodes", (pairs,), i64)
+        self.unpaired = self._array("unpaired", (report.unpaired,), i64)
+        self.folded = self._array("folded", (report.folded, 2), i64)
+        self.uncovered = self._array("uncovered", (report.uncovered,), i64)
+
+    @property
+    def structure(self):
+        """Address of the signorini_pairs for the library; it lives as long as this object."""
+        return self._functions.surface_rows(self._handle)
+
+    def fields(self, result, *, slip0=None, gap=None):
+        """Pressure, traction, clearance, slip and state at all nodes: Fields.
+
+        result: what Model.solve returned.  slip0: of that step.  gap: if it was not gaps.
+        """
+        count, dim = self._coordinates.shape
+        found = Fields(np.zeros(count), np.zeros((count, dim)), np.zeros(count),
+                       np.zeros((count, dim)), np.full(count, -1, np.int32))
+        gap, slip0, d, F, state = self._results(result, slip0, gap)
+        places = sized(ContactFields, **{name: at(values) for name, values in
+                                         zip(Fields._fields, found)})
+        self._do("surface_fields", at(gap), at(slip0), at(d), at(F), at(state),
+                 ctypes.byref(places))
+        return found
+
+    def resultant(self, result, point=None, *, slip0=None):
+        """Force and moment on the slave's body about a point (D,), None: the origin: Resultant."""
+        _, slip0, d, F, _ = self._results(result, slip0, None)
+        asked = f"a place, shape {(self.dim,)}"
+        point = fit("point", point, [(self.dim,)], asked, optional=True)
+        sums = sized(ResultantSums)
+        self._do("surface_resultant", at(slip0), at(d), at(F), at(point), ctypes.byref(sums))
+        return Resultant(np.array(sums.force), np.array(sums.moment), sums.friction_work,
+                         sums.pressed_area)
+
+    def write(self, path, cells, result, u=None, *, slip0=None, gap=None):
+        """Writes the mesh, displacements and fields to a file .vtu, which ParaView opens.
+
+        cells: as for write_mesh.  u: displacements of all degrees of freedom, as Model.recover
+        returns them.
+        """
+        mesh = Cells(self._coordinates, cells)
+        gap, slip0, d, F, state = self._results(result, slip0, gap)
+        u = None if u is None else np.require(reals("u", u), np.float64, ["C", "ALIGNED"])
+        if u is not None and u.size < self._least:
+            raise ValueError(f"u has the shape {u.shape}: give the displacements of all degrees of "
+                             f"freedom, at least {self._least}")
+        self._do("surface_write", path_bytes(path), ctypes.byref(mesh.structure), at(gap),
+                 at(slip0), at(u), at(d), at(F), at(state))
+
+    def _results(self, result, slip0, gap):
+        pairs, dim = self.pairs, self.dim
+        return (
+            per_pair("gap", gap, pairs, dim, optional=True),
+            components("slip0", slip0, pairs, dim, tangential=True, scalar=True, optional=True),
+            components("d", result.d, pairs, dim), components("F", result.F, pairs, dim),
+            np.require(result.state, np.int32, ["C", "ALIGNED"]),
+        )
+
+    def _array(self, name, shape, kind=real):
+        """A copy of an array of the library."""
+        found = getattr(self._functions, "surface_" + name)(self._handle)
+        if not found:
+            return np.zeros(shape, kind)
+        return np.ctypeslib.as_array(ctypes.cast(found, ctypes.POINTER(kind)), shape).copy()
+
+    def _do(self, function, *arguments):
+        check(self._functions, getattr(self._functions, function)(self._handle, *arguments))
+
+
+class _Faces:
+    """Faces of a surface; structure: signorini_faces."""
+
+    def __init__(self, name, faces):
+        if isinstance(faces, np.ndarray) and faces.ndim != 2:
+            raise ValueError(f"{name} has the shape {faces.shape}: give the nodes of each face, "
+                             f"shape (faces, nodes), or a list of lists")
+        lists = [integers(f"{name}[{face}]", nodes).ravel() for face, nodes in enumerate(faces)]
+        self.start = indices(np.cumsum([0, *map(len, lists)]))
+        self.nodes = indices(np.concatenate([np.zeros(0, np.int64), *lists]))
+        self.structure = sized(Faces, count=len(lists), start=at(self.start), nodes=at(self.nodes))
+
+
+def _rigid(obstacle):
+    """An obstacle as signorini_obstacle."""
+    def three(vector):
+        vector = [float(x) for x in vector]
+        return (real * 3)(*(vector + [0.0])[:3])
+
+    if isinstance(obstacle, Plane):
+        return sized(RigidObstacle, kind=Obstacle.PLANE, point=three(obstacle.point),
+                     direction=three(obstacle.outward))
+    if isinstance(obstacle, Sphere):
+        return sized(RigidObstacle, kind=Obstacle.SPHERE, point=three(obstacle.centre),
+                     radius=obstacle.radius, hollow=bool(obstacle.hollow))
+    if isinstance(obstacle, Cylinder):
+        return sized(RigidObstacle, kind=Obstacle.CYLINDER, point=three(obstacle.point),
+                     direction=three(obstacle.axis), radius=obstacle.radius,
+                     hollow=bool(obstacle.hollow))
+    raise TypeError(f"obstacle is {obstacle!r}: give a Plane, a Sphere or a Cylinder")

@@ -1,0 +1,258 @@
+//! Meshes with fields to files for ParaView.
+
+use libc::c_char;
+use std::ffi::CStr;
+
+use super::args::{self, Arrays, size};
+use super::guard::{self, Failure};
+use super::sparse::shifted;
+use super::structures;
+use super::surface_fields::SignoriniContactFields;
+use crate::error::Argument;
+use crate::file::{self, Field, Values};
+use crate::problem;
+
+/// A mesh of yours, to be written to a file. Cells have the types and the order of nodes of VTK: 3
+/// line, 5 triangle, 9 quadrilateral, 10 tetrahedron, 12 hexahedron, 13 wedge, 14 pyramid; 21 to 29
+/// the quadratic ones.
+#[repr(C)]
+pub struct SignoriniMesh {
+    /// sizeof(signorini_mesh).
+    pub struct_size: u32,
+    /// Space dimension, 2 or 3.
+    pub dim: i32,
+    /// Number of nodes.
+    pub nodes: i64,
+    /// Coordinates, dim for each node.
+    pub coordinates: *const f64,
+    /// Number of cells, 0 allowed.
+    pub cells: i64,
+    /// 0 or 1: the number of the first node and of the first entry of cell_start.
+    pub index_base: i32,
+    /// VTK's type of all cells, if cell_types is NULL; else 0.
+    pub cell_type: i32,
+    /// VTK's type of each cell; NULL: all have cell_type.
+    pub cell_types: *const i32,
+    /// Start of each cell in cell_nodes, cells + 1 entries; NULL: cells have the number of nodes of
+    /// their types.
+    pub cell_start: *const i64,
+    /// Nodes of the cells.
+    pub cell_nodes: *const i64,
+}
+
+/// A field of your own at the nodes of a mesh.
+#[repr(C)]
+pub struct SignoriniField {
+    /// sizeof(signorini_field).
+    pub struct_size: u32,
+    /// 1: a number for each node; dim: a vector.
+    pub components: i32,
+    /// Its name in the file, UTF-8.
+    pub name: *const c_char,
+    /// The values, components for each node.
+    pub values: *const f64,
+}
+
+/// Writes a mesh with fields at its nodes to a file in VTK's format .vtu, which ParaView opens. The
+/// file keeps every bit, infinities too.
+///
+/// @param path      name of the file, which is replaced if it exists
+/// @param mesh      the mesh
+/// @param u         displacements, dim for each node; NULL: none
+/// @param contact   fields of signorini_surface_fields, written under their names; those that are
+///                  NULL are left out; NULL: none
+/// @param n_fields  number of further fields
+/// @param fields    the further fields; may be NULL if n_fields is 0
+/// @return 0; -k: the k-th argument is wrong; SIGNORINI_STATUS_FILE: the file cannot be written; an
+///         old file is then unchanged
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn signorini_mesh_write(
+    path: *const c_char,
+    mesh: *const SignoriniMesh,
+    u: *const f64,
+    contact: *const SignoriniContactFields,
+    n_fields: i64,
+    fields: *const SignoriniField,
+) -> i32 {
+    guard::call(|| {
+        // SAFETY: structures and arrays as the header demands.
+        unsafe {
+            let path = args::path(1, path)?;
+            let mesh = Mesh::read(2, mesh)?;
+            let mut arrays = Arrays::default();
+            let nodes = mesh.nodes();
+            let mut written = Vec::new();
+            if let Some(values) = arrays.optional(3, "u", u, mesh.dim * nodes)? {
+                written.push(Field { name: "displacement", values: Values::Vectors(values) });
+            }
+            if !contact.is_null() {
+                let given = structures::whole(CONTACT, "contact", contact)?;
+                written.extend(contact_fields(&mut arrays, given, (mesh.dim, nodes))?);
+            }
+            let count = size(5, "n_fields", n_fields)?;
+            for field in arrays.required(6, "fields", fields, count)? {
+                written.push(own_field(&mut arrays, field, (mesh.dim, nodes))?);
+            }
+            mesh.write(path, &written, (2, 6))
+        }
+    })
+}
+
+/// A mesh of the caller with nodes counted from 0.
+pub(super) struct Mesh<'a> {
+    pub(super) dim: usize,
+    coordinates: &'a [f64],
+    types: Vec<u8>,
+    start: Vec<usize>,
+    cell_nodes: Vec<usize>,
+}
+
+impl<'a> Mesh<'a> {
+    /// # Safety
+    /// The structure and its arrays are as the header demands.
+    pub(super) unsafe fn read(
+        position: i32,
+        pointer: *const SignoriniMesh,
+    ) -> Result<Self, Failure> {
+        let wrong = |message: String| Failure::argument(position, message);
+        // SAFETY: by the caller's contract.
+        let given = unsafe { structures::whole(position, "mesh", pointer)? };
+        let dim = problem::checked_dim(given.dim)
+            .map_err(|error| wrong(format!("mesh: {}", error.message())))?;
+        let nodes = size(position, "mesh: nodes", given.nodes)?;
+        let cells = size(position, "mesh: cells", given.cells)?;
+        let base = i64::from(given.index_base);
+        if base != 0 && base != 1 {
+            return Err(wrong(format!("mesh: index_base is {base}, it must be 0 or 1")));
+        }
+        let (Some(length), Some(ends)) = (nodes.checked_mul(dim), cells.checked_add(1)) else {
+            return Err(wrong(format!("mesh: {nodes} nodes or {cells} cells are too many")));
+        };
+        let mut arrays = Arrays::default();
+        // SAFETY: by the caller's contract.
+        unsafe {
+            let coordinates =
+                arrays.required(position, "coordinates", given.coordinates, length)?;
+            let told = arrays.optional(position, "cell_types", given.cell_types, cells)?;
+            let types = told.map_or_else(|| vec![given.cell_type; cells], <[i32]>::to_vec);
+            let start = arrays.optional(position, "cell_start", given.cell_start, ends)?;
+            let start = match start {
+                Some(start) => shifted(position, "mesh: cell_start", start, base)?,
+                None => starts_of(&types).map_err(wrong)?,
+            };
+            let cell_nodes =
+                arrays.required(position, "cell_nodes", given.cell_nodes, start[cells])?;
+            let cell_nodes = shifted(position, "mesh: cell_nodes", cell_nodes, base)?;
+            let types: Result<Vec<u8>, _> = types.iter().map(|kind| u8::try_from(*kind)).collect();
+            let types = types.map_err(|_| wrong("mesh: a type is none of VTK's".into()))?;
+            Ok(Mesh { dim, coordinates, types, start, cell_nodes })
+        }
+    }
+
+    pub(super) fn nodes(&self) -> usize {
+        self.coordinates.len() / self.dim
+    }
+
+    /// Writes it; the positions are those of the mesh and the fields.
+    pub(super) fn write(
+        &self,
+        path: &std::path::Path,
+        fields: &[Field<'_>],
+        (at_mesh, at_fields): (i32, i32),
+    ) -> Result<i32, Failure> {
+        let mesh = file::Mesh {
+            dim: self.dim,
+            coordinates: self.coordinates,
+            types: &self.types,
+            start: &self.start,
+            nodes: &self.cell_nodes,
+        };
+        file::write_vtu(path, &mesh, fields).map_err(|error| {
+            Failure::from_error(error, |argument| match argument {
+                Argument::Fields => at_fields,
+                _ => at_mesh,
+            })
+        })?;
+        Ok(0)
+    }
+}
+
+/// Starts of cells from their types.
+fn starts_of(types: &[i32]) -> Result<Vec<usize>, String> {
+    let mut start = vec![0];
+    for kind in types {
+        let Some(nodes) = file::nodes_of_type(*kind) else {
+            return Err(format!(
+                "mesh: the number of nodes of type {kind} is not known, set cell_start"
+            ));
+        };
+        start.push(start[start.len() - 1] + nodes);
+    }
+    Ok(start)
+}
+
+/// The position of the fields of contact.
+const CONTACT: i32 = 4;
+
+/// The fields of contact that are given.
+///
+/// # Safety
+/// Pointers that are not NULL have values for all nodes.
+unsafe fn contact_fields<'a>(
+    arrays: &mut Arrays,
+    given: &SignoriniContactFields,
+    (dim, nodes): (usize, usize),
+) -> Result<Vec<Field<'a>>, Failure> {
+    let mut fields = Vec::new();
+    // SAFETY: by the caller's contract.
+    unsafe {
+        for (name, pointer) in [("pressure", given.pressure), ("clearance", given.clearance)] {
+            if let Some(values) = arrays.optional(CONTACT, name, pointer.cast_const(), nodes)? {
+                fields.push(Field { name, values: Values::Scalars(values) });
+            }
+        }
+        for (name, pointer) in [("traction", given.traction), ("slip", given.slip)] {
+            if let Some(values) =
+                arrays.optional(CONTACT, name, pointer.cast_const(), dim * nodes)?
+            {
+                fields.push(Field { name, values: Values::Vectors(values) });
+            }
+        }
+        if let Some(values) = arrays.optional(CONTACT, "state", given.state.cast_const(), nodes)? {
+            fields.push(Field { name: "state", values: Values::Integers(values) });
+        }
+    }
+    Ok(fields)
+}
+
+/// A field of the caller.
+///
+/// # Safety
+/// Its name and values are as the header demands.
+unsafe fn own_field<'a>(
+    arrays: &mut Arrays,
+    field: &'a SignoriniField,
+    (dim, nodes): (usize, usize),
+) -> Result<Field<'a>, Failure> {
+    // SAFETY: by the caller's contract.
+    let field = unsafe { structures::whole(6, "fields", field)? };
+    if field.name.is_null() {
+        return Err(Failure::argument(6, "fields: a name is NULL"));
+    }
+    // SAFETY: as above.
+    let name = unsafe { CStr::from_ptr(field.name) }.to_str();
+    let name = name.map_err(|_| Failure::argument(6, "fields: a name is not UTF-8"))?;
+    let components = usize::try_from(field.components).unwrap_or_default();
+    if components != 1 && components != dim {
+        let message =
+            format!("fields: {name} has {} components, it needs 1 or {dim}", field.components);
+        return Err(Failure::argument(6, message));
+    }
+    // SAFETY: as above.
+    let values = unsafe { arrays.required(6, "values", field.values, components * nodes)? };
+    let values = match components {
+        1 => Values::Scalars(values),
+        _ => Values::Vectors(values),
+    };
+    Ok(Field { name, values })
+}

@@ -1,0 +1,221 @@
+//! The structure by which a host hands over its contact pairs.
+
+use std::mem::offset_of;
+
+use super::args::{Arrays, size};
+use super::guard::Failure;
+use super::sparse::shifted;
+use super::structures::read;
+use crate::error::Error;
+use crate::problem;
+use crate::reduce::ContactPairs;
+
+/// Contact pairs: each has a slave node, a point that faces it on other bodies, and a normal. The
+/// point is interpolated between master nodes. The slave's displacement is
+/// u_slave = sum of weight * u_master + n d_n + t d_t (3D: + t1 d_t1 + t2 d_t2),
+/// so that the gap is closed at d_n = gap.
+///
+/// General rows, as mortar methods make them: leave slaves, master_start, masters and weights NULL
+/// and set row_start, row_nodes and row_weights. Each pair is then a list of nodes with signed
+/// weights, and n d_n + t d_t = sum of row_weight * u.
+///
+/// A node may stand in any number of pairs, as slave and as master, and may be fixed. Where slave
+/// and masters are all fixed along an axis, which is the normal or a tangent, d and F are zero along
+/// it. Pairs may depend on each other, such as those of a node on two planes, or of two surfaces
+/// that are each other's slaves: then contact forces are not unique, and the model has no
+/// signorini_model_stiffness. The library only reads the structure during the call.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct SignoriniPairs {
+    /// sizeof(signorini_pairs).
+    pub struct_size: u32,
+    /// Space dimension, 2 or 3.
+    pub dim: i32,
+    /// Number of pairs.
+    pub count: i64,
+    /// Degrees of freedom of each slave node, dim for each pair, in the order of the axes.
+    pub slaves: *const i64,
+    /// Start of each pair's masters in masters and weights, count + 1 entries, counted from
+    /// index_base. A pair without masters faces a rigid obstacle. NULL: no pair has masters;
+    /// masters and weights must be NULL too.
+    pub master_start: *const i64,
+    /// Degrees of freedom of each master node, dim for each; may be NULL if there are none.
+    pub masters: *const i64,
+    /// Weight of each master node; may be NULL if there are none. The weights of a pair sum to 1;
+    /// negative weights are allowed.
+    pub weights: *const f64,
+    /// Normal of each pair, dim entries, outward from the slave's body, of any length.
+    pub normals: *const f64,
+    /// First tangent of each pair, dim entries, orthogonal to the normal to 1e-5. NULL: chosen.
+    /// 2D: the normal turned by +90 degrees. 3D: t1 = e x n with the axis e that is most across the
+    /// normal. In 3D always t2 = n x t1; signorini_model_frames returns all.
+    pub tangents: *const f64,
+    /// General rows: start of each pair's nodes in row_nodes and row_weights, count + 1 entries,
+    /// counted from index_base. NULL: pairs of slaves and masters. A struct_size without this field
+    /// and the next two is right too: they are NULL then.
+    pub row_start: *const i64,
+    /// Degrees of freedom of each node, dim for each, in the order of the axes.
+    pub row_nodes: *const i64,
+    /// Weight of each node: positive on the side whose outward normal is given, negative on the
+    /// other. Those of a pair sum to 0, and against a rigid obstacle to 1.
+    pub row_weights: *const f64,
+}
+
+/// Pairs of the caller with degrees of freedom counted from 0.
+pub(super) struct Pairs<'a> {
+    dim: usize,
+    pairs: usize,
+    slaves: Vec<usize>,
+    master_starts: Vec<usize>,
+    masters: Vec<usize>,
+    weights: &'a [f64],
+    normals: &'a [f64],
+    tangents: Option<&'a [f64]>,
+}
+
+impl Pairs<'_> {
+    pub(super) fn view(&self) -> ContactPairs<'_> {
+        ContactPairs {
+            dim: self.dim,
+            count: self.pairs,
+            slaves: &self.slaves,
+            master_start: &self.master_starts,
+            masters: &self.masters,
+            weights: self.weights,
+            normals: self.normals,
+            tangents: self.tangents,
+        }
+    }
+}
+
+impl SignoriniPairs {
+    /// Views the caller's pairs.
+    ///
+    /// # Safety
+    /// The structure and its arrays are as the header demands and live during the call.
+    pub(super) unsafe fn read<'a>(
+        position: i32,
+        pointer: *const Self,
+        base: i64,
+    ) -> Result<Pairs<'a>, Failure> {
+        let refuse = |message: String| Err(Failure::argument(position, message));
+        if pointer.is_null() {
+            return refuse("pairs is NULL".into());
+        }
+        // SAFETY: by the caller's contract; not NULL.
+        let given = unsafe { read(position, "pairs", pointer, Self::EMPTY)? };
+        given.check_size(position)?;
+        let wrong = |error: Error| {
+            Failure::argument(position, format!("pairs: {}", error.message().marked()))
+        };
+        let dim = problem::checked_dim(given.dim).map_err(wrong)?;
+        let count = size(position, "pairs: count", given.count)?;
+        let components = problem::unknowns(dim, count).map_err(wrong)?;
+        let mut arrays = Arrays::default();
+        let nodes = given.nodes(position)?;
+        // SAFETY: arrays of the lengths that the header tells.
+        unsafe {
+            let slaves = match nodes.slaves {
+                Some(slaves) => {
+                    let slaves = arrays.required(position, "slaves", slaves, components)?;
+                    shifted(position, "slaves", slaves, base)?
+                }
+                None => Vec::new(),
+            };
+            let starts = arrays.optional(position, nodes.names[0], nodes.start, count + 1)?;
+            let master_starts = match starts {
+                Some(starts) => shifted(position, nodes.names[0], starts, base)?,
+                None if nodes.dofs.is_null() && nodes.weights.is_null() => vec![0; count + 1],
+                None => {
+                    return refuse(
+                        "pairs: master_start is NULL, but masters or weights is not: set \
+                         master_start, or all three to NULL for rigid obstacles"
+                            .into(),
+                    );
+                }
+            };
+            // The last start gives the lengths of masters and weights; Model::sparse checks the
+            // other starts.
+            let masters = master_starts[count];
+            let Some(entries) = masters.checked_mul(dim) else {
+                return refuse(format!("pairs: {masters} masters are too many"));
+            };
+            let dofs = arrays.required(position, nodes.names[1], nodes.dofs, entries)?;
+            Ok(Pairs {
+                dim,
+                pairs: count,
+                slaves,
+                master_starts,
+                masters: shifted(position, nodes.names[1], dofs, base)?,
+                weights: arrays.required(position, nodes.names[2], nodes.weights, masters)?,
+                normals: arrays.required(position, "normals", given.normals, components)?,
+                tangents: arrays.optional(position, "tangents", given.tangents, components)?,
+            })
+        }
+    }
+
+    /// What an older program, which has no general rows, leaves them.
+    pub(super) const EMPTY: SignoriniPairs = SignoriniPairs {
+        struct_size: 0,
+        dim: 0,
+        count: 0,
+        slaves: std::ptr::null(),
+        master_start: std::ptr::null(),
+        masters: std::ptr::null(),
+        weights: std::ptr::null(),
+        normals: std::ptr::null(),
+        tangents: std::ptr::null(),
+        row_start: std::ptr::null(),
+        row_nodes: std::ptr::null(),
+        row_weights: std::ptr::null(),
+    };
+
+    /// Refuses a size that no version of the structure has.
+    fn check_size(&self, position: i32) -> Result<(), Failure> {
+        let (told, ours) = (self.struct_size as usize, size_of::<Self>());
+        if told == ours || told == offset_of!(Self, row_start) {
+            return Ok(());
+        }
+        let message = format!("pairs: struct_size is {told}, set it to sizeof ({ours})");
+        Err(Failure::argument(position, message))
+    }
+
+    /// The nodes of the pairs in the one form or the other.
+    fn nodes(&self, position: i32) -> Result<Nodes, Failure> {
+        let is_general = !self.row_start.is_null();
+        let none = |is_null: &[bool]| is_null.iter().all(|is_null| *is_null);
+        let slaves = [self.slaves, self.master_start, self.masters].map(<*const i64>::is_null);
+        let of_slaves = [slaves[0], slaves[1], slaves[2], self.weights.is_null()];
+        let of_rows = [self.row_nodes.is_null(), self.row_weights.is_null()];
+        let message = match is_general {
+            true if !none(&of_slaves) => {
+                "pairs: row_start is set, and slaves, master_start, masters or weights too: leave \
+                 these four NULL, or row_start, row_nodes and row_weights"
+            }
+            false if !none(&of_rows) => {
+                "pairs: row_nodes or row_weights is set, but row_start is NULL: set all three, or none"
+            }
+            true => {
+                let names = ["row_start", "row_nodes", "row_weights"];
+                let (start, dofs, weights) = (self.row_start, self.row_nodes, self.row_weights);
+                return Ok(Nodes { slaves: None, start, dofs, weights, names });
+            }
+            false => {
+                let names = ["master_start", "masters", "weights"];
+                let (start, dofs, weights) = (self.master_start, self.masters, self.weights);
+                return Ok(Nodes { slaves: Some(self.slaves), start, dofs, weights, names });
+            }
+        };
+        Err(Failure::argument(position, message))
+    }
+}
+
+/// The arrays that say which nodes are in which pair, and their names for messages.
+struct Nodes {
+    /// `None`: general rows.
+    slaves: Option<*const i64>,
+    start: *const i64,
+    dofs: *const i64,
+    weights: *const f64,
+    names: [&'static str; 3],
+}

@@ -1,0 +1,219 @@
+//! Pressure, traction, clearance and slip of pairs from surfaces, and their resultant.
+
+use super::args::{Arrays, Output};
+use super::guard::{self, Failure};
+use super::structures;
+use super::surface_new::SignoriniSurfacePairs;
+use crate::error::Argument;
+use crate::surface::{NodalFields, PairResults};
+
+/// Fields at the nodes of your mesh. Set struct_size, and the pointers of the arrays that you want;
+/// each may be NULL. A call writes the nodes that stand in pairs of its contact, on both sides,
+/// and leaves the others as they are: set them before, and give the same arrays to the calls of all
+/// contact zones. Vectors are in the axes of the mesh.
+///
+/// A slave node has the values of its pair; other nodes have means over the pairs that they stand
+/// in, weighted by area and the size of their weights.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct SignoriniContactFields {
+    /// sizeof(signorini_contact_fields).
+    pub struct_size: u32,
+    /// 0.
+    pub reserved: i32,
+    /// Out: contact pressure, one for each node; positive presses; force / area.
+    pub pressure: *mut f64,
+    /// Out: force of the contact on the node's own body over area, dim for each node.
+    pub traction: *mut f64,
+    /// Out: what is left of the gap, gap - d_n, one for each node; positive if open; length.
+    pub clearance: *mut f64,
+    /// Out: motion along the surface against the other body since slip0, dim for each node; length.
+    pub slip: *mut f64,
+    /// Out: SIGNORINI_STATE_..., one for each node: of its pair, or that of its largest share.
+    pub state: *mut i32,
+}
+
+/// Sums over a contact zone. Set struct_size before the call; the call writes all other fields.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct SignoriniResultant {
+    /// sizeof(signorini_resultant) in your program; no more is written.
+    pub struct_size: u32,
+    /// 0.
+    pub reserved: i32,
+    /// Force of the contact on the slave's body; in 2D the third entry is 0.
+    pub force: [f64; 3],
+    /// Its moment about the given point; in 2D the third entry alone.
+    pub moment: [f64; 3],
+    /// Work that friction takes in the step, sum of -F_t . (d_t - slip0), with the forces of its
+    /// end.
+    pub friction_work: f64,
+    /// Area of the pairs that press.
+    pub pressed_area: f64,
+}
+
+/// Pressure, traction, clearance and slip at the nodes of both sides.
+///
+/// @param contact  the pairs
+/// @param gap      gaps, one for each pair; NULL: those of the pairs
+/// @param slip0    reference slip, dim - 1 for each pair; NULL: zero
+/// @param d        relative displacements, N = dim * pairs
+/// @param F        contact forces, N
+/// @param state    SIGNORINI_STATE_... of each pair; may be NULL if fields->state is
+/// @param fields   out: the arrays of the fields
+/// @return 0; -k: the k-th argument is wrong, nothing was written
+#[unsafe(no_mangle)]
+#[allow(non_snake_case)] // the names of the mechanics, which the header shows
+pub unsafe extern "C" fn signorini_surface_fields(
+    contact: *const SignoriniSurfacePairs,
+    gap: *const f64,
+    slip0: *const f64,
+    d: *const f64,
+    F: *const f64,
+    state: *const i32,
+    fields: *const SignoriniContactFields,
+) -> i32 {
+    guard::call(|| {
+        // SAFETY: pairs, arrays and a structure as the header demands.
+        unsafe {
+            let contact = read(contact)?;
+            let mut arrays = Arrays::default();
+            let results = pair_results(&mut arrays, contact, (2, gap), (3, slip0), (4, d), (5, F))?;
+            let count = contact.arrays.count;
+            let state = arrays.optional(6, "state", state, count)?;
+            let given = structures::whole(7, "fields", fields)?;
+            if given.reserved != 0 {
+                let message = format!("fields: reserved is {}, it must be 0", given.reserved);
+                return Err(Failure::argument(7, message));
+            }
+            if state.is_none() && !given.state.is_null() && count > 0 {
+                return Err(Failure::argument(6, "state is NULL, but fields->state is not"));
+            }
+            let (nodes, dim) = (contact.nodes, contact.found.dim);
+            let mut out =
+                |name, pointer, each: usize| arrays.optional_output(7, name, pointer, each * nodes);
+            let places = [
+                out("pressure", given.pressure, 1)?,
+                out("traction", given.traction, dim)?,
+                out("clearance", given.clearance, 1)?,
+                out("slip", given.slip, dim)?,
+            ];
+            let states = arrays.optional_output(7, "state", given.state, nodes)?;
+            arrays.check_overlap()?;
+            let found = contact.found.fields(&results).map_err(wrong)?;
+            let NodalFields { nodes, pairs, pressure, traction, clearance, slip } = &found;
+            for (place, values) in places.iter().zip([pressure, traction, clearance, slip]) {
+                scatter(place, nodes, values);
+            }
+            if let Some(state) = state {
+                let of_nodes: Vec<i32> = pairs.iter().map(|pair| state[*pair]).collect();
+                scatter(&states, nodes, &of_nodes);
+            }
+        }
+        Ok(0)
+    })
+}
+
+/// Resultant of the contact forces on the slave's body, and the work of friction.
+///
+/// @param contact    the pairs
+/// @param slip0      reference slip, dim - 1 for each pair; NULL: zero
+/// @param d          relative displacements, N = dim * pairs
+/// @param F          contact forces, N
+/// @param point      the point of the moment, dim coordinates; NULL: the origin
+/// @param resultant  out: the sums; set resultant->struct_size before the call
+/// @return 0; -k: the k-th argument is wrong, nothing was written
+#[unsafe(no_mangle)]
+#[allow(non_snake_case)] // as above
+pub unsafe extern "C" fn signorini_surface_resultant(
+    contact: *const SignoriniSurfacePairs,
+    slip0: *const f64,
+    d: *const f64,
+    F: *const f64,
+    point: *const f64,
+    resultant: *mut SignoriniResultant,
+) -> i32 {
+    guard::call(|| {
+        // SAFETY: pairs, arrays and a structure as the header demands.
+        unsafe {
+            let contact = read(contact)?;
+            let mut arrays = Arrays::default();
+            let no_gap = std::ptr::null();
+            let results =
+                pair_results(&mut arrays, contact, (1, no_gap), (2, slip0), (3, d), (4, F))?;
+            let dim = contact.found.dim;
+            let origin = [0.0; 3];
+            let point = arrays.optional(5, "point", point, dim)?.unwrap_or(&origin[..dim]);
+            if resultant.is_null() {
+                return Err(Failure::argument(6, "resultant is NULL"));
+            }
+            structures::checked_size(6, "resultant", resultant.cast_const())?;
+            let sums = contact.found.resultant(&results, point).map_err(wrong)?;
+            let told = SignoriniResultant {
+                struct_size: size_of::<SignoriniResultant>() as u32,
+                reserved: 0,
+                force: sums.force,
+                moment: sums.moment,
+                friction_work: sums.friction_work,
+                pressed_area: sums.pressed_area,
+            };
+            structures::write(&told, resultant);
+        }
+        Ok(0)
+    })
+}
+
+/// # Safety
+/// NULL or pairs that live during the call.
+pub(super) unsafe fn read<'a>(
+    contact: *const SignoriniSurfacePairs,
+) -> Result<&'a SignoriniSurfacePairs, Failure> {
+    // SAFETY: by the caller's contract.
+    unsafe { contact.as_ref() }.ok_or_else(|| Failure::argument(1, "contact is NULL"))
+}
+
+/// The results of a host, each with its position.
+///
+/// # Safety
+/// The arrays are as the header demands.
+pub(super) unsafe fn pair_results<'a>(
+    arrays: &mut Arrays,
+    contact: &SignoriniSurfacePairs,
+    (at_gap, gap): (i32, *const f64),
+    (at_slip0, slip0): (i32, *const f64),
+    (at_d, d): (i32, *const f64),
+    (at_force, force): (i32, *const f64),
+) -> Result<PairResults<'a>, Failure> {
+    let (pairs, dim) = (contact.arrays.count, contact.found.dim);
+    // SAFETY: by the caller's contract.
+    unsafe {
+        Ok(PairResults {
+            gap: arrays.optional(at_gap, "gap", gap, pairs)?,
+            reference_slip: arrays.optional(at_slip0, "slip0", slip0, (dim - 1) * pairs)?,
+            d: arrays.required(at_d, "d", d, dim * pairs)?,
+            force: arrays.required(at_force, "F", force, dim * pairs)?,
+        })
+    }
+}
+
+/// All lengths are those of the pairs, so that no argument is left to be wrong.
+pub(super) fn wrong(error: crate::error::Error) -> Failure {
+    Failure::from_error(error, |argument| match argument {
+        Argument::Gap => 2,
+        Argument::ReferenceSlip => 3,
+        Argument::Start => 4,
+        _ => 5,
+    })
+}
+
+/// Writes the values of some nodes to their places.
+///
+/// # Safety
+/// As for [`Output::write`].
+unsafe fn scatter<T: Copy>(place: &Output<T>, nodes: &[usize], values: &[T]) {
+    let each = values.len().checked_div(nodes.len()).unwrap_or(0);
+    for (node, of_node) in nodes.iter().zip(values.chunks(each.max(1))) {
+        // SAFETY: by the caller's contract; the place has `each` entries for every node.
+        unsafe { place.part(node * each, each).write(of_node) };
+    }
+}

@@ -1,0 +1,326 @@
+//! Contact pairs from surfaces: made, told about, released.
+
+use std::ffi::CString;
+
+use super::args::{Arrays, size};
+use super::guard::{self, Failure};
+use super::pairs::SignoriniPairs;
+use super::structures;
+use super::surface::{Received, SignoriniFaces, SignoriniObstacle, SignoriniSurfaceSettings};
+use crate::error::{Argument, Error};
+use crate::problem;
+use crate::surface::{
+    NodeDofs, PairArrays, SurfacePairs, Surfaces, pair_surfaces, pair_with_obstacle,
+};
+
+/// Contact pairs that the library made from surfaces, with all that belongs to them. Made by
+/// signorini_surface_pair or signorini_surface_pair_obstacle, released by signorini_surface_free.
+/// It does not change: several threads may use one at once. It holds copies: your arrays may go
+/// once it is made. The arrays that it tells live as long as it does; one without entries is NULL.
+pub struct SignoriniSurfacePairs {
+    pub(super) found: SurfacePairs,
+    /// Nodes of the host.
+    pub(super) nodes: usize,
+    pub(super) received: Received,
+    pub(super) arrays: PairArrays,
+    pub(super) points: Vec<f64>,
+    pub(super) slaves: Vec<i64>,
+    pub(super) unpaired: Vec<i64>,
+    pub(super) uncovered: Vec<i64>,
+    pub(super) folded: Vec<i64>,
+    pub(super) summary: CString,
+    pub(super) rows: SignoriniPairs,
+    /// What `rows` points to beside `arrays`.
+    _indices: [Vec<i64>; 2],
+}
+
+/// What became of the faces and nodes of a pairing. Set struct_size before the call; the call writes
+/// all other fields.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct SignoriniSurfaceReport {
+    /// sizeof(signorini_surface_report) in your program; no more is written.
+    pub struct_size: u32,
+    /// Space dimension.
+    pub dim: i32,
+    /// Number of pairs.
+    pub pairs: i64,
+    /// Slave nodes without a pair: signorini_surface_unpaired.
+    pub unpaired: i64,
+    /// Of these, nodes with little cover whose row is in that of a neighbour:
+    /// signorini_surface_folded.
+    pub folded: i64,
+    /// Slave faces.
+    pub slave_faces: i64,
+    /// Slave faces that lie over nothing (dual mortar): signorini_surface_uncovered.
+    pub uncovered: i64,
+    /// Area of the slave faces.
+    pub slave_area: f64,
+    /// The part of it that lies over the other side: the areas of all pairs.
+    pub covered_area: f64,
+    /// The search distance that was used.
+    pub search_distance: f64,
+    /// How often a master face was near a slave whose normal does not oppose the slave's. If there
+    /// are no pairs, and this is not 0, one side is turned over.
+    pub not_opposed: i64,
+    /// Boxes that the search looked at: its cost.
+    pub boxes_searched: i64,
+}
+
+/// Makes contact pairs from two surfaces that may touch. signorini_surface_rows gives them to
+/// signorini_model_new_sparse, signorini_surface_gaps to signorini_model_solve.
+///
+/// Surfaces that never meet are no error: there are no pairs, and signorini_surface_summary says
+/// why.
+///
+/// @param dim          space dimension, 2 or 3
+/// @param nodes        number of nodes of your mesh
+/// @param coordinates  dim for each node, of all nodes; length
+/// @param slave        the side whose nodes become slaves; better the softer or finer one
+/// @param master       the other side; its nodes must not be on the slave side
+/// @param settings     NULL: the defaults
+/// @param contact      out: the pairs; NULL unless 0 is returned
+/// @param report       out: what was found; set report->struct_size before the call; may be NULL
+/// @return 0; -k: the k-th argument is wrong: signorini_last_error names side, face and node;
+///         <= -1000: out of memory or a defect
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn signorini_surface_pair(
+    dim: i32,
+    nodes: i64,
+    coordinates: *const f64,
+    slave: *const SignoriniFaces,
+    master: *const SignoriniFaces,
+    settings: *const SignoriniSurfaceSettings,
+    contact: *mut *mut SignoriniSurfacePairs,
+    report: *mut SignoriniSurfaceReport,
+) -> i32 {
+    guard::call(|| {
+        // SAFETY: structures and arrays as the header demands.
+        unsafe {
+            let place = Place::new((7, contact), (8, report))?;
+            let host = Host::read(dim, nodes, coordinates, (6, settings))?;
+            let slave = SignoriniFaces::read((4, "slave"), slave, host.received.base)?;
+            let master = SignoriniFaces::read((5, "master"), master, host.received.base)?;
+            let surfaces = Surfaces {
+                dim: host.dim,
+                coordinates: host.coordinates,
+                slave: SignoriniFaces::view(&slave),
+                master: SignoriniFaces::view(&master),
+            };
+            let found = pair_surfaces(&surfaces, &host.received.settings);
+            place.fill(host, found, |argument| match argument {
+                Argument::Dimension => 1,
+                Argument::Coordinates => 3,
+                Argument::MasterFaces => 5,
+                Argument::Settings => 6,
+                _ => 4,
+            })
+        }
+    })
+}
+
+/// Makes contact pairs from a surface and a rigid obstacle. Nodes may lie on either side of the
+/// obstacle's surface: the gap is negative inside.
+///
+/// @param dim          space dimension, 2 or 3
+/// @param nodes        number of nodes of your mesh
+/// @param coordinates  dim for each node, of all nodes; length
+/// @param slave        the faces that may touch the obstacle
+/// @param obstacle     the obstacle
+/// @param settings     NULL: the defaults; the kind of pairing is not read
+/// @param contact      out: the pairs; NULL unless 0 is returned
+/// @param report       out: what was found; set report->struct_size before the call; may be NULL
+/// @return as signorini_surface_pair
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn signorini_surface_pair_obstacle(
+    dim: i32,
+    nodes: i64,
+    coordinates: *const f64,
+    slave: *const SignoriniFaces,
+    obstacle: *const SignoriniObstacle,
+    settings: *const SignoriniSurfaceSettings,
+    contact: *mut *mut SignoriniSurfacePairs,
+    report: *mut SignoriniSurfaceReport,
+) -> i32 {
+    guard::call(|| {
+        // SAFETY: structures and arrays as the header demands.
+        unsafe {
+            let place = Place::new((7, contact), (8, report))?;
+            let host = Host::read(dim, nodes, coordinates, (6, settings))?;
+            let slave = SignoriniFaces::read((4, "slave"), slave, host.received.base)?;
+            let obstacle = SignoriniObstacle::read(5, host.dim, obstacle)?;
+            let found = pair_with_obstacle(
+                host.dim,
+                host.coordinates,
+                SignoriniFaces::view(&slave),
+                &obstacle,
+                host.received.settings.search_distance,
+            );
+            place.fill(host, found, |argument| match argument {
+                Argument::Dimension => 1,
+                Argument::Coordinates => 3,
+                Argument::Obstacle => 5,
+                Argument::Settings => 6,
+                _ => 4,
+            })
+        }
+    })
+}
+
+/// Releases pairs. NULL is allowed.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn signorini_surface_free(contact: *mut SignoriniSurfacePairs) {
+    guard::call(|| {
+        if !contact.is_null() {
+            // SAFETY: by the header's contract it came from signorini_surface_pair..., once.
+            drop(unsafe { Box::from_raw(contact) });
+        }
+        Ok(0)
+    });
+}
+
+/// What both calls are given.
+struct Host<'a> {
+    dim: usize,
+    coordinates: &'a [f64],
+    received: Received,
+}
+
+impl<'a> Host<'a> {
+    /// # Safety
+    /// Structures and arrays are as the header demands.
+    unsafe fn read(
+        dim: i32,
+        nodes: i64,
+        coordinates: *const f64,
+        (position, settings): (i32, *const SignoriniSurfaceSettings),
+    ) -> Result<Self, Failure> {
+        let dim = problem::checked_dim(dim).map_err(|error| Failure::from_error(error, |_| 1))?;
+        let nodes = size(2, "nodes", nodes)?;
+        let Some(length) = nodes.checked_mul(dim) else {
+            return Err(Failure::argument(2, format!("nodes is {nodes}, too large")));
+        };
+        // SAFETY: by the caller's contract.
+        unsafe {
+            let coordinates = Arrays::default().required(3, "coordinates", coordinates, length)?;
+            let received = SignoriniSurfaceSettings::read(position, settings, (dim, nodes))?;
+            Ok(Host { dim, coordinates, received })
+        }
+    }
+}
+
+impl Received {
+    fn dofs(&self) -> NodeDofs<'_> {
+        match &self.listed {
+            Some(dofs) => NodeDofs::Listed(dofs),
+            None => NodeDofs::PerNode(self.per_node),
+        }
+    }
+}
+
+impl SignoriniSurfacePairs {
+    fn new(found: SurfacePairs, nodes: usize, received: Received) -> Self {
+        let base = received.base;
+        let counted = |values: &[usize]| -> Vec<i64> {
+            values.iter().map(|value| *value as i64 + base).collect()
+        };
+        let arrays = found.rows_on(received.dofs());
+        let indices = [counted(&arrays.master_start), counted(&arrays.masters)];
+        let slaves: Vec<usize> = found.pairs.iter().map(|pair| pair.slave).collect();
+        let points = found.pairs.iter().flat_map(|pair| pair.point[..found.dim].to_vec());
+        let folded: Vec<usize> =
+            found.report.folded.iter().flat_map(|(node, with)| [*node, *with]).collect();
+        let mut rows = SignoriniPairs::EMPTY;
+        rows.struct_size = size_of::<SignoriniPairs>() as u32;
+        rows.dim = found.dim as i32;
+        rows.count = found.pairs.len() as i64;
+        rows.normals = arrays.normals.as_ptr();
+        rows.tangents = arrays.tangents.as_ptr();
+        rows.row_start = indices[0].as_ptr();
+        rows.row_nodes = indices[1].as_ptr();
+        rows.row_weights = arrays.weights.as_ptr();
+        SignoriniSurfacePairs {
+            slaves: counted(&slaves),
+            unpaired: counted(&found.unpaired),
+            uncovered: counted(&found.report.uncovered_faces),
+            folded: counted(&folded),
+            points: points.collect(),
+            summary: CString::new(found.summary()).unwrap_or_default(),
+            rows,
+            _indices: indices,
+            nodes,
+            received,
+            arrays,
+            found,
+        }
+    }
+
+    /// Degrees of freedom of all nodes of the host, `dim` for each.
+    pub(super) fn dofs(&self) -> Vec<usize> {
+        let dofs = self.received.dofs();
+        (0..self.nodes).flat_map(|node| dofs.of(node, self.found.dim)).collect()
+    }
+
+    fn report(&self) -> SignoriniSurfaceReport {
+        let (found, report) = (&self.found, &self.found.report);
+        SignoriniSurfaceReport {
+            struct_size: size_of::<SignoriniSurfaceReport>() as u32,
+            dim: found.dim as i32,
+            pairs: found.pairs.len() as i64,
+            unpaired: found.unpaired.len() as i64,
+            folded: report.folded.len() as i64,
+            slave_faces: report.slave_faces as i64,
+            uncovered: report.uncovered_faces.len() as i64,
+            slave_area: report.slave_area,
+            covered_area: report.covered_area,
+            search_distance: report.search_distance,
+            not_opposed: report.not_opposed as i64,
+            boxes_searched: report.boxes_searched as i64,
+        }
+    }
+}
+
+/// Where new pairs and their report go; NULL until they exist.
+struct Place(*mut *mut SignoriniSurfacePairs, *mut SignoriniSurfaceReport);
+
+impl Place {
+    /// # Safety
+    /// Places as the header demands.
+    unsafe fn new(
+        (position, contact): (i32, *mut *mut SignoriniSurfacePairs),
+        (report_position, report): (i32, *mut SignoriniSurfaceReport),
+    ) -> Result<Self, Failure> {
+        if contact.is_null() || !contact.is_aligned() {
+            return Err(Failure::argument(position, "contact is NULL or not aligned"));
+        }
+        // SAFETY: by the caller's contract.
+        unsafe {
+            contact.write(std::ptr::null_mut());
+            if !report.is_null() {
+                structures::checked_size(report_position, "report", report.cast_const())?;
+            }
+        }
+        Ok(Place(contact, report))
+    }
+
+    /// # Safety
+    /// As for [`Self::new`].
+    unsafe fn fill(
+        self,
+        host: Host<'_>,
+        found: Result<SurfacePairs, Error>,
+        position: impl Fn(Argument) -> i32,
+    ) -> Result<i32, Failure> {
+        let found = found.map_err(|error| Failure::from_error(error, position))?;
+        let nodes = host.coordinates.len() / host.dim;
+        let made = Box::new(SignoriniSurfacePairs::new(found, nodes, host.received));
+        // SAFETY: by the caller's contract.
+        unsafe {
+            if !self.1.is_null() {
+                structures::write(&made.report(), self.1);
+            }
+            self.0.write(Box::into_raw(made));
+        }
+        Ok(0)
+    }
+}

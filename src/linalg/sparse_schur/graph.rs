@@ -1,0 +1,167 @@
+//! The graph of a sparse symmetric matrix, unknowns with the same neighbours taken together: the unknowns
+//! of one node of a mesh are one vertex, so that orderings and symbolic factorisations have a quarter or a
+//! ninth of the entries.
+
+use crate::linalg::sparse_matrix::{Csc, OutOfMemory, column};
+
+/// Vertices with their unknowns and neighbours. First stand the vertices that are eliminated.
+pub struct Graph {
+    /// Number of vertices that are eliminated.
+    pub inner: usize,
+    /// Where the neighbours of each vertex begin.
+    start: Vec<usize>,
+    /// Neighbours, ascending, without the vertex itself.
+    neighbour: Vec<usize>,
+    /// Where the unknowns of each vertex begin.
+    member_start: Vec<usize>,
+    member: Vec<usize>,
+}
+
+impl Graph {
+    /// Of the matrix whose lower triangle is `lower`; the first `eliminated` unknowns are eliminated and
+    /// share no vertex with the others.
+    pub fn new(lower: &Csc, eliminated: usize) -> Result<Self, OutOfMemory> {
+        let unknowns = Adjacency::of_unknowns(lower)?;
+        let (vertex, member_start, member) = together(&unknowns, eliminated)?;
+        let inner = member_start.partition_point(|&start| start < eliminated);
+        let count = member_start.len() - 1;
+        let mut start = reserved(count + 1)?;
+        let mut neighbour = Vec::new();
+        // The vertex that has counted a neighbour last.
+        let mut seen = filled(count, usize::MAX)?;
+        start.push(0);
+        for v in 0..count {
+            let begin = neighbour.len();
+            seen[v] = v;
+            for &i in unknowns.of(member[member_start[v]]) {
+                let other = vertex[i];
+                if seen[other] != v {
+                    seen[other] = v;
+                    neighbour.push(other);
+                }
+            }
+            neighbour[begin..].sort_unstable();
+            start.push(neighbour.len());
+        }
+        Ok(Graph { inner, start, neighbour, member_start, member })
+    }
+
+    /// Number of vertices.
+    pub fn vertices(&self) -> usize {
+        self.start.len() - 1
+    }
+
+    /// Neighbours of a vertex, ascending.
+    pub fn neighbours(&self, vertex: usize) -> &[usize] {
+        &self.neighbour[self.start[vertex]..self.start[vertex + 1]]
+    }
+
+    /// Number of pairs of neighbours, each counted twice.
+    pub fn entries(&self) -> usize {
+        self.neighbour.len()
+    }
+
+    /// Unknowns of a vertex, ascending.
+    pub fn members(&self, vertex: usize) -> &[usize] {
+        &self.member[self.member_start[vertex]..self.member_start[vertex + 1]]
+    }
+}
+
+/// Neighbours of each unknown, ascending, without itself.
+struct Adjacency {
+    start: Vec<usize>,
+    neighbour: Vec<usize>,
+}
+
+impl Adjacency {
+    fn of_unknowns(lower: &Csc) -> Result<Self, OutOfMemory> {
+        let size = lower.ncols();
+        let below = |j: usize| column(lower, j).0.iter().copied().filter(move |&i| i != j);
+        let mut start = filled(size + 1, 0)?;
+        for j in 0..size {
+            for i in below(j) {
+                start[i + 1] += 1;
+                start[j + 1] += 1;
+            }
+        }
+        (0..size).for_each(|i| start[i + 1] += start[i]);
+        let mut neighbour = filled(start[size], 0)?;
+        let mut next = start.clone();
+        let mut put = |of: usize, i: usize| {
+            neighbour[next[of]] = i;
+            next[of] += 1;
+        };
+        // First the smaller neighbours of each unknown, then the larger ones, both ascending.
+        for j in 0..size {
+            below(j).for_each(|i| put(i, j));
+        }
+        for j in 0..size {
+            below(j).for_each(|i| put(j, i));
+        }
+        Ok(Adjacency { start, neighbour })
+    }
+
+    fn of(&self, i: usize) -> &[usize] {
+        &self.neighbour[self.start[i]..self.start[i + 1]]
+    }
+
+    /// Whether two neighbours have the same other neighbours.
+    fn alike(&self, i: usize, j: usize) -> bool {
+        let others = |of: usize, but: usize| self.of(of).iter().filter(move |&&k| k != but);
+        others(i, j).eq(others(j, i))
+    }
+
+    /// A sum over an unknown and its neighbours: unknowns that are alike have the same.
+    fn signature(&self, i: usize) -> u64 {
+        const MIX: u64 = 0x9E37_79B9_7F4A_7C15;
+        let term = |k: usize| {
+            let product = (k as u64 + 1).wrapping_mul(MIX);
+            (product ^ (product >> 32)).wrapping_mul(MIX)
+        };
+        self.of(i).iter().fold(term(i), |sum, &k| sum.wrapping_add(term(k)))
+    }
+}
+
+/// The vertex of each unknown, and the unknowns of each vertex: its begins, and the unknowns.
+type Together = (Vec<usize>, Vec<usize>, Vec<usize>);
+
+fn together(unknowns: &Adjacency, eliminated: usize) -> Result<Together, OutOfMemory> {
+    let size = unknowns.start.len() - 1;
+    let mut signature = reserved(size)?;
+    signature.extend((0..size).map(|i| unknowns.signature(i)));
+    let mut vertex = filled(size, usize::MAX)?;
+    let (mut member_start, mut member) = (reserved(size + 1)?, reserved(size)?);
+    member_start.push(0);
+    for i in 0..size {
+        if vertex[i] != usize::MAX {
+            continue;
+        }
+        let new = member_start.len() - 1;
+        vertex[i] = new;
+        member.push(i);
+        for &j in unknowns.of(i).iter().filter(|&&j| j > i) {
+            let same_side = (i < eliminated) == (j < eliminated);
+            let free = vertex[j] == usize::MAX && signature[i] == signature[j];
+            if same_side && free && unknowns.alike(i, j) {
+                vertex[j] = new;
+                member.push(j);
+            }
+        }
+        member_start.push(member.len());
+    }
+    Ok((vertex, member_start, member))
+}
+
+/// An empty vector with room.
+pub fn reserved<T>(length: usize) -> Result<Vec<T>, OutOfMemory> {
+    let mut vector = Vec::new();
+    vector.try_reserve_exact(length).map_err(|_| OutOfMemory)?;
+    Ok(vector)
+}
+
+/// A vector of equal entries.
+pub fn filled<T: Clone>(length: usize, value: T) -> Result<Vec<T>, OutOfMemory> {
+    let mut vector = reserved(length)?;
+    vector.resize(length, value);
+    Ok(vector)
+}

@@ -1,0 +1,228 @@
+//! Where the entries of the factor stand, before any is computed: its supernodes, and what they cost.
+
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::sparse::linalg::SymbolicSupernodalParams;
+use faer::sparse::linalg::cholesky::{simplicial, supernodal};
+
+use super::failure::Failure;
+use super::graph::{Graph, filled, reserved};
+use super::order::{Pattern, chosen, pattern};
+use super::watch::{Watch, go_on};
+use crate::linalg::sparse_matrix::{Csc, OutOfMemory, column};
+
+/// Most columns of a panel, into which wide supernodes are cut: so long does nothing ask whether to go on,
+/// so much of the triangle above the diagonal is stored, and products are still fast.
+const PANEL: usize = 256;
+
+/// Neighbouring supernodes become one if it has at most so many vertices, of whose entries at most this
+/// share is zero.
+const RELAXATION: [(usize, f64); 4] = [(2, 1.0), (6, 0.8), (16, 0.1), (usize::MAX, 0.05)];
+
+/// Panels of the factor: consecutive columns with the same rows below them. The kept unknowns stand behind
+/// the eliminated ones, as they are.
+pub struct Structure {
+    /// Number of all unknowns.
+    pub size: usize,
+    /// Number of those that are eliminated.
+    pub eliminated: usize,
+    /// The unknown in each place.
+    pub order: Vec<usize>,
+    /// First column of each panel; at last the number of eliminated unknowns.
+    begin: Vec<usize>,
+    row_start: Vec<usize>,
+    /// Rows below the diagonal block of each panel, ascending.
+    row: Vec<usize>,
+    value_start: Vec<usize>,
+}
+
+impl Structure {
+    /// Of the factor of the matrix whose lower triangle is `lower`, in the best order that is found or, if
+    /// `given` has the rank of each unknown, in this one.
+    ///
+    /// # Errors
+    /// No memory, or `watch`, who is asked between the parts of the work, ends it.
+    pub fn new(
+        lower: &Csc,
+        eliminated: usize,
+        given: Option<&[usize]>,
+        watch: &mut dyn Watch,
+    ) -> Result<Self, Failure> {
+        go_on(watch)?;
+        let graph = Graph::new(lower, eliminated)?;
+        go_on(watch)?;
+        let order = chosen(&graph, given, watch)?;
+        let pattern = pattern(&graph, &order)?;
+        let symbolic = symbolic(&pattern)?;
+        // Places of the unknowns of each vertex.
+        let mut places = reserved(graph.vertices() + 1)?;
+        let mut unknowns = reserved(lower.ncols())?;
+        places.push(0);
+        for k in 0..graph.vertices() {
+            let vertex = order.get(k).copied().unwrap_or(k);
+            unknowns.extend_from_slice(graph.members(vertex));
+            places.push(unknowns.len());
+        }
+        let mut made = Structure {
+            size: lower.ncols(),
+            eliminated,
+            order: Vec::new(),
+            begin: vec![0],
+            row_start: vec![0],
+            row: Vec::new(),
+            value_start: vec![0],
+        };
+        for s in 0..symbolic.n_supernodes() {
+            let (first, end) = (symbolic.supernode_begin()[s], symbolic.supernode_end()[s]);
+            if first >= graph.inner {
+                break;
+            }
+            let last = end.min(graph.inner);
+            let vertices = (last..end).chain(symbolic.supernode(s).pattern().iter().copied());
+            let mut rows = Vec::new();
+            for place in vertices.flat_map(|k| places[k]..places[k + 1]) {
+                // Kept unknowns stand where they are, whatever vertices they have.
+                rows.push(if place < eliminated { place } else { unknowns[place] });
+            }
+            rows.sort_unstable();
+            made.push_supernode(places[last], &rows)?;
+        }
+        unknowns[eliminated..].iter_mut().zip(eliminated..).for_each(|(place, i)| *place = i);
+        made.order = unknowns;
+        Ok(made)
+    }
+
+    /// The columns up to `end`, in panels, over `rows`.
+    fn push_supernode(&mut self, end: usize, rows: &[usize]) -> Result<(), OutOfMemory> {
+        while self.begin[self.panels()] < end {
+            let first = self.begin[self.panels()];
+            let last = end.min(first + PANEL);
+            let below = end - last + rows.len();
+            self.row.try_reserve(below).map_err(|_| OutOfMemory)?;
+            self.row.extend(last..end);
+            self.row.extend_from_slice(rows);
+            let values = (last - first + below) * (last - first);
+            self.begin.push(last);
+            self.row_start.push(self.row.len());
+            self.value_start.push(self.value_start[self.value_start.len() - 1] + values);
+        }
+        Ok(())
+    }
+
+    /// Number of panels.
+    pub fn panels(&self) -> usize {
+        self.begin.len() - 1
+    }
+
+    /// Number of kept unknowns.
+    pub fn kept(&self) -> usize {
+        self.size - self.eliminated
+    }
+
+    /// Columns of a panel.
+    pub fn columns(&self, panel: usize) -> std::ops::Range<usize> {
+        self.begin[panel]..self.begin[panel + 1]
+    }
+
+    /// Rows below the diagonal block of a panel, ascending.
+    pub fn rows(&self, panel: usize) -> &[usize] {
+        &self.row[self.row_start[panel]..self.row_start[panel + 1]]
+    }
+
+    /// Where the values of a panel stand: column by column, the diagonal block above the rows.
+    pub fn values(&self, panel: usize) -> std::ops::Range<usize> {
+        self.value_start[panel]..self.value_start[panel + 1]
+    }
+
+    /// Number of values of all panels.
+    pub fn stored(&self) -> usize {
+        self.value_start[self.panels()]
+    }
+
+    /// The panel of each column.
+    pub fn panel_of_columns(&self) -> Result<Vec<usize>, OutOfMemory> {
+        let mut panel = reserved(self.eliminated)?;
+        for s in 0..self.panels() {
+            panel.resize(self.begin[s + 1], s);
+        }
+        Ok(panel)
+    }
+
+    /// Rows of the panel before each one that belongs to the kept unknowns.
+    pub fn inner_rows(&self, panel: usize) -> usize {
+        self.rows(panel).partition_point(|&row| row < self.eliminated)
+    }
+
+    /// What the factorisation will do and need.
+    pub fn cost(&self, panel_of: &[usize]) -> Cost {
+        let (mut operations, mut update) = (0.0, 0);
+        for d in 0..self.panels() {
+            let (rows, width) = (self.rows(d), self.columns(d).len());
+            let inner = self.inner_rows(d);
+            let mut first = 0;
+            while first < inner {
+                let end = self.columns(panel_of[rows[first]]).end;
+                let many = rows[first..inner].partition_point(|&row| row < end);
+                update = update.max((rows.len() - first) * many);
+                first += many;
+            }
+            let (below, width) = (rows.len() as f64, width as f64);
+            operations += width * (width * width / 3.0 + below * width + below * below);
+        }
+        Cost { operations, update }
+    }
+
+    /// Bytes of the structure itself.
+    pub fn bytes(&self) -> usize {
+        let numbers = self.order.len() + self.row.len() + 3 * self.begin.len();
+        numbers * size_of::<usize>()
+    }
+}
+
+/// What a factorisation costs.
+pub struct Cost {
+    /// Multiplications and additions.
+    pub operations: f64,
+    /// Entries of the largest product that is made before it is subtracted.
+    pub update: usize,
+}
+
+fn symbolic(
+    pattern: &Pattern,
+) -> Result<supernodal::SymbolicSupernodalCholesky<usize>, OutOfMemory> {
+    let size = pattern.ncols();
+    let (mut parent, mut counts) = (filled(size, 0)?, filled(size, 0)?);
+    let entries = pattern.row_idx().len();
+    let scratch = simplicial::prefactorize_symbolic_cholesky_scratch::<usize>(size, entries)
+        .or(supernodal::factorize_supernodal_symbolic_cholesky_scratch::<usize>(size));
+    let mut memory = MemBuffer::try_new(scratch).map_err(|_| OutOfMemory)?;
+    let stack = MemStack::new(&mut memory);
+    let tree = simplicial::prefactorize_symbolic_cholesky(
+        &mut parent,
+        &mut counts,
+        pattern.as_ref(),
+        stack,
+    );
+    supernodal::factorize_supernodal_symbolic_cholesky(
+        pattern.as_ref(),
+        tree,
+        &counts,
+        stack,
+        SymbolicSupernodalParams { relax: Some(&RELAXATION) },
+    )
+    .map_err(|_| OutOfMemory)
+}
+
+/// The entries of the lower triangle in the places of the order: row, column, value.
+pub fn placed<'a>(
+    lower: &'a Csc,
+    inverse: &'a [usize],
+) -> impl Iterator<Item = (usize, usize, f64)> + 'a {
+    (0..lower.ncols()).flat_map(move |j| {
+        let (rows, values) = column(lower, j);
+        let to = inverse[j];
+        rows.iter().zip(values).map(move |(&i, &value)| {
+            let other = inverse[i];
+            (to.max(other), to.min(other), value)
+        })
+    })
+}

@@ -1,0 +1,77 @@
+//! What a host may say about a reduction: its order of elimination, and whether to go on.
+
+use std::ops::ControlFlow;
+
+use crate::error::{Argument, Error, entry, index};
+use crate::linalg::sparse_schur::Watch;
+
+/// Is asked between steps whether to go on: the share of the work that is done, and the bytes that it needs
+/// in all, 0 before they are known.
+type Ask<'a> = dyn FnMut(f64, u64) -> Result<(), Error> + 'a;
+
+/// The order of elimination and who is asked.
+pub struct Control<'a> {
+    /// Each degree of freedom once, the first to be eliminated first; `None`: chosen.
+    pub order: Option<&'a [usize]>,
+    /// Asked between steps.
+    pub ask: &'a mut Ask<'a>,
+}
+
+/// Passes questions on, and keeps the answer that ended the work.
+pub(super) struct Asked<'a, 'b> {
+    ask: &'b mut Ask<'a>,
+    memory: u64,
+    pub(super) ended: Option<Error>,
+}
+
+impl<'a, 'b> Asked<'a, 'b> {
+    pub(super) fn new(ask: &'b mut Ask<'a>) -> Self {
+        Asked { ask, memory: 0, ended: None }
+    }
+}
+
+impl Watch for Asked<'_, '_> {
+    fn announce(&mut self, bytes: u64) -> ControlFlow<()> {
+        self.memory = bytes;
+        self.step(0.0)
+    }
+
+    fn step(&mut self, share: f64) -> ControlFlow<()> {
+        match (self.ask)(share, self.memory) {
+            Ok(()) => ControlFlow::Continue(()),
+            Err(error) => {
+                self.ended = Some(error);
+                ControlFlow::Break(())
+            }
+        }
+    }
+}
+
+/// The place in `order` of each of `size` degrees of freedom.
+///
+/// # Errors
+/// Not a permutation: which entry.
+pub(super) fn ranks(size: usize, order: &[usize]) -> Result<Vec<usize>, Error> {
+    let refuse = |message: String| Err(Error::invalid(Argument::Order, message));
+    if order.len() != size {
+        let given = order.len();
+        return refuse(format!(
+            "order has {given} entries, it must have one for each of {size} rows"
+        ));
+    }
+    let mut ranks = vec![usize::MAX; size];
+    for (k, &dof) in order.iter().enumerate() {
+        let (place, number) = (entry("order", [k]), index(dof));
+        let Some(rank) = ranks.get_mut(dof) else {
+            return refuse(format!("{place} is {number}, there is no such degree of freedom"));
+        };
+        if *rank != usize::MAX {
+            let before = entry("order", [*rank]);
+            return refuse(format!(
+                "{place} is {number}, as {before} is: order must have each degree of freedom once"
+            ));
+        }
+        *rank = k;
+    }
+    Ok(ranks)
+}

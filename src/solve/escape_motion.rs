@@ -1,0 +1,183 @@
+//! The motion with which bodies escape where no equilibrium exists: one that can be drawn.
+//!
+//! The motion that proves it lifts each slipping pair by `mu` times its slip; nothing moves so. A body moves
+//! as its mass or a viscosity lets it, and friction opposes the slip. Here the rigid motions `r` meet a
+//! viscosity in each component of a pair, of the size of its unit `k`, and every pair that has an obstacle
+//! touches it:
+//!
+//! ```text
+//! K r = 0,   (k r - f - F) . s = 0 for all rigid motions s,   (r, F) obeys the law with no gap and no slip
+//! ```
+//!
+//! A viscosity moves where, and only where, the forces of the law balance no rigid motion. With the
+//! projection `P` on the rigid motions, in components times the roots of their units, `r` is the limit `c -> inf`
+//! of the solutions for the definite stiffness `P + c (1 - P)`. The force that keeps the motion rigid
+//! is carried over from one solution to the next, so that a moderate `c` reaches the limit (the method of
+//! multipliers: M. R. Hestenes, J. Optim. Theory Appl. 4 (1969) 303-320).
+
+use super::auto;
+use super::candidate::NO_EQUILIBRIUM;
+use super::outcome::{Escape, Solution, Status};
+use super::rigid_balance::{rigid_motions, sharpened};
+use crate::error::{Error, index};
+use crate::law::Contact;
+use crate::linalg::vector::{dot, norm, normalise};
+use crate::monitor::Monitor;
+use crate::problem::{ContactData, ContactProblem};
+use crate::settings::Settings;
+
+/// Stiffness against strains beside the viscosity: a solution leaves this part of a strain, which the next
+/// one takes away, and the condition number stays far from rounding.
+const STIFFER: f64 = 1e4;
+
+/// Most solutions: three are usual, and ten were needed where few pairs hold a motion that all resist.
+const ROUNDS: usize = 30;
+
+/// The strain that is left, relative to the motion: too little to be seen, and taken away at last.
+const RIGID: f64 = 1e-10;
+
+/// Part of the largest component that counts as moving in a sentence: what is below is not worth
+/// reading.
+const MOVING: f64 = 1e-6;
+
+/// Gives a solution that has no equilibrium its motion of escape, sharpens the one that proves it, and says in
+/// the message what moves.
+pub fn describe(
+    contact: &Contact<'_>,
+    solution: &mut Solution,
+    monitor: &mut Monitor<'_>,
+) -> Result<(), Error> {
+    if solution.status != Status::NoEquilibrium {
+        return Ok(());
+    }
+    let Some(proof) = solution.recession.take() else { return Ok(()) };
+    let mut proof = sharpened(contact, proof);
+    normalise(&mut proof);
+    let viscous = Viscous::new(contact, &proof);
+    let escape = viscous.escape(monitor)?.unwrap_or_else(|| viscous.along(&proof));
+    solution.recession = Some(proof);
+    solution.message = message(contact, &escape).into();
+    solution.escape = Some(escape);
+    Ok(())
+}
+
+/// Rigid motions against a viscosity.
+struct Viscous<'c> {
+    contact: &'c Contact<'c>,
+    root: Vec<f64>,
+    /// An orthonormal basis of the rigid motions, each component times its `root`.
+    basis: Vec<Vec<f64>>,
+}
+
+impl<'c> Viscous<'c> {
+    fn new(contact: &'c Contact<'c>, proof: &[f64]) -> Self {
+        let root = contact.problem().unit_roots();
+        let mut basis = rigid_motions(contact.problem(), &root);
+        if basis.is_empty() {
+            let mut only: Vec<f64> = proof.iter().zip(&root).map(|(r, root)| r * root).collect();
+            let size = norm(&only);
+            only.iter_mut().for_each(|r| *r /= size);
+            basis.push(only);
+        }
+        Viscous { contact, root, basis }
+    }
+
+    /// `P d`, a displacement.
+    fn rigid_part(&self, d: &[f64]) -> Vec<f64> {
+        let scaled: Vec<f64> = d.iter().zip(&self.root).map(|(d, root)| d * root).collect();
+        let mut part = vec![0.0; d.len()];
+        for v in &self.basis {
+            let share = dot(v, &scaled);
+            part.iter_mut().zip(v).for_each(|(part, v)| *part += share * v);
+        }
+        part.iter_mut().zip(&self.root).for_each(|(part, root)| *part /= root);
+        part
+    }
+
+    /// `P + c (1 - P)` in the units of the problem, column-major.
+    fn stiffness(&self) -> Vec<f64> {
+        let n = self.root.len();
+        let mut matrix = vec![0.0; n * n];
+        for (j, column) in matrix.chunks_exact_mut(n).enumerate() {
+            column[j] = STIFFER * self.root[j] * self.root[j];
+            for v in &self.basis {
+                let own = v[j] * self.root[j];
+                let entries = column.iter_mut().zip(v.iter().zip(&self.root));
+                entries.for_each(|(k, (v, root))| *k += (1.0 - STIFFER) * (own * (v * root)));
+            }
+        }
+        matrix
+    }
+
+    /// The motion of escape; `None` if a solution was not found.
+    fn escape(&self, monitor: &mut Monitor<'_>) -> Result<Option<Escape>, Error> {
+        let problem = self.contact.problem();
+        let (matrix, gap) = (self.stiffness(), self.contact.touching_gaps());
+        let settings = Settings::default();
+        let mut load = problem.load().to_vec();
+        let mut d: Option<Vec<f64>> = None;
+        for _ in 0..ROUNDS {
+            let viscous = ContactProblem::on_checked_matrix(ContactData {
+                dim: problem.dim(),
+                pairs: problem.pairs(),
+                stiffness: &matrix,
+                ld: load.len().max(1),
+                load: &load,
+                gap: &gap,
+                law: problem.law(),
+                reference_slip: None,
+            })?;
+            let solution = auto::solve(&Contact::new(&viscous), &settings, d.as_deref(), monitor)?;
+            if solution.status != Status::Solved {
+                return Ok(None);
+            }
+            let rigid = self.rigid_part(&solution.d);
+            let mut most = 0.0;
+            for (i, (d, rigid)) in solution.d.iter().zip(&rigid).enumerate() {
+                let strain = (d - rigid) * self.root[i];
+                load[i] -= STIFFER * strain * self.root[i];
+                most = strain.abs().max(most);
+            }
+            let size = rigid.iter().zip(&self.root).map(|(r, root)| (r * root).abs());
+            if most <= RIGID * size.fold(0.0, f64::max) {
+                return Ok(Some(self.with_motion(rigid)));
+            }
+            d = Some(solution.d);
+        }
+        Ok(None)
+    }
+
+    /// The escape with a rigid motion: what moves the viscosity is not balanced.
+    fn with_motion(&self, mut motion: Vec<f64>) -> Escape {
+        let unbalanced = motion.iter().zip(&self.root).map(|(r, root)| r * root * root).collect();
+        normalise(&mut motion);
+        Escape { motion, unbalanced }
+    }
+
+    /// The escape along the motion of a proof, as fast as the loads drive it.
+    fn along(&self, proof: &[f64]) -> Escape {
+        let work = dot(self.contact.shifted_load(), proof);
+        let scaled: Vec<f64> = proof.iter().zip(&self.root).map(|(r, root)| r * root).collect();
+        let speed = work / dot(&scaled, &scaled);
+        self.with_motion(proof.iter().map(|r| speed * r).collect())
+    }
+}
+
+/// The sentence: which pairs move, how, and what drives them.
+fn message(contact: &Contact<'_>, Escape { motion, unbalanced }: &Escape) -> String {
+    let dim = contact.dim();
+    let most = (0..motion.len()).max_by(|&a, &b| motion[a].abs().total_cmp(&motion[b].abs()));
+    let most = most.unwrap_or(0);
+    let moving = motion.chunks_exact(dim).filter(|r| r.iter().any(|r| r.abs() > MOVING)).count();
+    let (pair, component) = (most / dim, most % dim);
+    let direction = contact.pairs()[pair].direction(component, motion[most]);
+    format!(
+        "{NO_EQUILIBRIUM}: it moves {moving} of {} pairs, most of all pair {}, {direction}; the resultant of \
+         the loads along it is {:.3e} (largest component 1), and contact leaves {:.3e} of it unbalanced; are \
+         a support, friction, or a pair missing, or is a normal, a load or the sign of gap turned round?",
+        contact.pairs().len(),
+        index(pair),
+        dot(contact.shifted_load(), motion),
+        dot(unbalanced, motion),
+    )
+}

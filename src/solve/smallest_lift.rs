@@ -1,0 +1,98 @@
+//! A solution that moves no further than it must.
+//!
+//! A body on few points may turn off one of them without any force: each lift is a solution, and rounding of a
+//! load decides how far a method goes. A host's residual then loses the digits that the displacements
+//! have more than the loads ask for. So where displacements are that large, the rigid motion is taken away
+//! that moves no pair with a force, and that the loads do not drive.
+
+use super::candidate::Candidate;
+use super::rigid_balance::rigid_motions;
+use crate::law::Contact;
+use crate::linalg::tolerances::{NEGLIGIBLE, ROUNDING_OF_SUM};
+use crate::linalg::vector::{dot, largest_of, norm, norm_inf};
+
+/// Displacements are large if rounding them costs this part of the forces: below, a host's residual keeps ten
+/// digits.
+const LARGE: f64 = 1e-10 / f64::EPSILON;
+
+/// The candidate without such a motion.
+pub fn without_idle_motion(contact: &Contact<'_>, candidate: Candidate) -> Candidate {
+    let problem = contact.problem();
+    let root = problem.unit_roots();
+    let scaled: Vec<f64> = candidate.d.iter().zip(&root).map(|(d, root)| d * root).collect();
+    let stiffness = |i: usize| root[i] * root[i];
+    let forces = norm_inf(contact.shifted_load()).max(norm_inf(&candidate.force));
+    let prescribed = contact.each(&candidate.d, &candidate.force).enumerate();
+    let prescribed = largest_of(
+        prescribed.map(|(i, (law, d, _))| stiffness(contact.dim() * i) * law.prescribed(d[0])),
+    );
+    let largest = largest_of(scaled.iter().zip(&root).map(|(d, root)| (d * root).abs()));
+    if !largest.is_finite() || largest <= LARGE * forces.max(prescribed) {
+        return candidate;
+    }
+    let basis = idle(contact, &candidate, rigid_motions(problem, &root), forces);
+    let mut motion = vec![0.0; root.len()];
+    for v in &basis {
+        let share = dot(v, &scaled);
+        motion.iter_mut().zip(v).for_each(|(motion, v)| *motion += share * v);
+    }
+    motion.iter_mut().zip(&root).for_each(|(motion, root)| *motion /= root);
+    let driven = dot(contact.shifted_load(), &motion).abs();
+    let could = norm_inf(contact.shifted_load()) * norm_inf(&motion);
+    if norm(&motion) == 0.0 || driven > ROUNDING_OF_SUM * could {
+        return candidate;
+    }
+    let part = contact.admissible_part(&candidate.d, &motion);
+    let d = candidate.d.iter().zip(&motion).map(|(d, motion)| d - part * motion).collect();
+    candidate.moved_to(contact, d)
+}
+
+/// Of rigid motions, each component times its `root`, an orthonormal basis of those that move no pair on
+/// which a force acts.
+fn idle(
+    contact: &Contact<'_>,
+    candidate: &Candidate,
+    rigid: Vec<Vec<f64>>,
+    forces: f64,
+) -> Vec<Vec<f64>> {
+    let dim = contact.dim();
+    let parts = candidate.force.chunks_exact(dim).enumerate();
+    let held = parts.filter(|(_, force)| norm_inf(force) > NEGLIGIBLE * forces);
+    let mut held: Vec<usize> = held.flat_map(|(pair, _)| dim * pair..dim * (pair + 1)).collect();
+    let mut basis = rigid;
+    // Each component that is held takes one motion away: the others are combined with it so that they do
+    // not move it.
+    while let Some((place, most)) = held
+        .iter()
+        .map(|&i| norm(&basis.iter().map(|v| v[i]).collect::<Vec<f64>>()))
+        .enumerate()
+        .max_by(|a, b| a.1.total_cmp(&b.1))
+        && most > HELD_STILL
+    {
+        let component = held.swap_remove(place);
+        let shares: Vec<f64> = basis.iter().map(|v| v[component] / most).collect();
+        basis = complement(&basis, &shares);
+    }
+    basis
+}
+
+/// Components below this part of a motion of length 1 are rounding.
+const HELD_STILL: f64 = 1e-8;
+
+/// The combinations of orthonormal vectors that are orthogonal to the one with the `shares`, of length 1 (a
+/// Householder reflection that turns it into the first).
+fn complement(basis: &[Vec<f64>], shares: &[f64]) -> Vec<Vec<f64>> {
+    let mut w = shares.to_vec();
+    w[0] += w[0].signum();
+    let mut along = vec![0.0; basis[0].len()];
+    for (v, w) in basis.iter().zip(&w) {
+        along.iter_mut().zip(v).for_each(|(along, v)| *along += w * v);
+    }
+    let factor = 2.0 / dot(&w, &w);
+    let reflected = basis
+        .iter()
+        .zip(&w)
+        .skip(1)
+        .map(|(v, w)| v.iter().zip(&along).map(|(v, along)| v - factor * w * along).collect());
+    reflected.collect()
+}

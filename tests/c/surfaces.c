@@ -1,0 +1,400 @@
+/*
+ * Pairs from surfaces: the patch test with blocks of bricks whose nodes do not match, fields and
+ * resultants in closed form, obstacles, the numbers of nodes and degrees of freedom, and what is
+ * refused.
+ */
+
+#include "check.h"
+
+#include "../../c_examples/3d/brick_mesh.h"
+
+#include <stdlib.h>
+
+/* ---- Patch test ---------------------------------------------------------------------------- */
+
+enum { LOWER, UPPER, MOST = 400 };
+
+#define PRESSURE 7.0
+
+/* A quarter of two blocks on the unit square: nothing moves across x = 0, y = 0 and the bottom. */
+struct blocks {
+    struct brick_mesh *mesh;
+    int64_t lower[16][4], upper[16][4], fixed[MOST];
+    signorini_faces top, bottom;
+    int64_t n_fixed;
+    double load[3 * MOST];
+};
+
+static const double x_lower[] = {0, 0.4, 0.7, 1}, x_upper[] = {0, 0.2, 0.45, 0.8, 1};
+static const double z_lower[] = {-0.8, -0.3, 0}, z_upper[] = {0, 0.4, 0.6};
+
+static signorini_faces quadrilaterals(int64_t count, const int64_t *nodes)
+{
+    return (signorini_faces){.struct_size = sizeof(signorini_faces), .face_nodes = 4,
+                             .count = count, .nodes = nodes};
+}
+
+/* Length that belongs to a node of a line: half of its cells. */
+static double share(const double *line, int cells, int node)
+{
+    return (line[node < cells ? node + 1 : cells] - line[node > 0 ? node - 1 : 0]) / 2;
+}
+
+static struct blocks *blocks_new(void)
+{
+    const struct box boxes[2] = {{{3, 3, 2}, {x_lower, x_lower, z_lower}},
+                                 {{4, 4, 2}, {x_upper, x_upper, z_upper}}};
+    struct blocks *blocks = calloc(1, sizeof *blocks);
+    blocks->mesh = brick_mesh_new(2, boxes, (struct material){1000, 0.3});
+    const struct brick_mesh *mesh = blocks->mesh;
+    blocks->top = quadrilaterals(brick_faces(mesh, LOWER, 1, blocks->lower), blocks->lower[0]);
+    blocks->bottom = quadrilaterals(brick_faces(mesh, UPPER, 0, blocks->upper), blocks->upper[0]);
+    for (int32_t node = 0; node < mesh->nodes; node++)
+        for (int axis = 0; axis < 3; axis++)
+            if (mesh->at[node][axis] == (axis < 2 ? 0.0 : -0.8))
+                blocks->fixed[blocks->n_fixed++] = 3 * node + axis;
+    for (int j = 0; j <= 4; j++)
+        for (int i = 0; i <= 4; i++)
+            blocks->load[3 * brick_node(mesh, UPPER, i, j, 2) + 2] =
+                -PRESSURE * share(x_upper, 4, i) * share(x_upper, 4, j);
+    return blocks;
+}
+
+static void blocks_free(struct blocks *blocks)
+{
+    brick_mesh_free(blocks->mesh);
+    free(blocks);
+}
+
+static signorini_sparse matrix_of(const struct brick_mesh *mesh)
+{
+    return (signorini_sparse){.struct_size = sizeof(signorini_sparse), .index_bytes = 4,
+                              .triangle = SIGNORINI_TRIANGLE_FULL, .size = mesh->dofs,
+                              .nnz = mesh->starts[mesh->dofs], .col_start = mesh->starts,
+                              .row = mesh->rows, .values = mesh->values};
+}
+
+/* Every pressure is that of the load, on both sides; nothing is open and no clearance is left. */
+static void check_fields(const struct blocks *blocks, const signorini_surface_pairs *contact,
+                         double sign, const double *d, const double *F, const int32_t *state)
+{
+    double pressure[MOST], traction[3 * MOST], clearance[MOST], slip[3 * MOST];
+    int32_t of_node[MOST];
+    const signorini_contact_fields fields = {.struct_size = sizeof fields, .pressure = pressure,
+                                             .traction = traction, .clearance = clearance,
+                                             .slip = slip, .state = of_node};
+    for (int i = 0; i < MOST; i++) {
+        pressure[i] = clearance[i] = -77;
+        of_node[i] = -1;
+    }
+    CHECK_STATUS(signorini_surface_fields(contact, NULL, NULL, d, F, state, &fields), 0);
+    for (int32_t node = 0; node < blocks->mesh->nodes; node++) {
+        if (blocks->mesh->at[node][2] != 0) {
+            CHECK(pressure[node] == -77 && clearance[node] == -77 && of_node[node] == -1);
+            continue;
+        }
+        const int lower = node < blocks->mesh->first[UPPER];
+        CHECK_NEAR(pressure[node] / PRESSURE, 1);
+        CHECK_NEAR(traction[3 * node + 2] / PRESSURE, lower ? -1 : 1);
+        CHECK_NEAR(clearance[node], 0);
+        CHECK(of_node[node] == SIGNORINI_STATE_SLIP);
+    }
+    const double about[3] = {0.5, 0, 3};
+    signorini_resultant sum = {.struct_size = sizeof sum};
+    CHECK_STATUS(signorini_surface_resultant(contact, NULL, d, F, about, &sum), 0);
+    const double down = sign * PRESSURE;
+    CHECK_NEAR(sum.force[0], 0);
+    CHECK_NEAR(sum.force[2], down);
+    /* The force acts in the middle, (0.5, 0.5, 0). */
+    CHECK_NEAR(sum.moment[0], 0.5 * down);
+    CHECK_NEAR(sum.moment[1], 0);
+    CHECK_NEAR(sum.friction_work, 0);
+    CHECK_NEAR(sum.pressed_area, 1);
+}
+
+/*
+ * Either side slave: the blocks have the same material, so that the exact solution is a uniform
+ * stress, which both meshes have. 1e-10: a thousand times the tolerance.
+ */
+static void patch(int upper_is_slave)
+{
+    struct blocks *blocks = blocks_new();
+    const struct brick_mesh *mesh = blocks->mesh;
+    const signorini_sparse K = matrix_of(mesh);
+    signorini_surface_pairs *contact = NULL;
+    signorini_surface_report told = {.struct_size = sizeof told};
+    signorini_model *model = NULL;
+    signorini_settings settings;
+    double d[3 * MOST] = {0}, F[3 * MOST] = {0}, u[3 * MOST];
+    int32_t state[MOST];
+
+    CHECK_STATUS(signorini_surface_pair(3, mesh->nodes, mesh->at[0],
+                                        upper_is_slave ? &blocks->bottom : &blocks->top,
+                                        upper_is_slave ? &blocks->top : &blocks->bottom, NULL,
+                                        &contact, &told), 0);
+    const int64_t count = signorini_surface_count(contact);
+    CHECK(count == (upper_is_slave ? 25 : 16) && told.pairs == count && told.unpaired == 0);
+    CHECK_NEAR(told.covered_area, 1);
+    CHECK_TEXT(signorini_surface_summary(contact), "pairs on");
+    CHECK_STATUS(signorini_model_new_sparse(&K, blocks->n_fixed, blocks->fixed,
+                                            signorini_surface_rows(contact), &model), 0);
+    signorini_settings_default(&settings, sizeof settings);
+    settings.tolerance = 1e-13;
+    CHECK_STATUS(signorini_model_solve(model, 1, blocks->load, NULL, signorini_surface_gaps(contact),
+                                       SIGNORINI_LAW_FRICTIONLESS, NULL, NULL, &settings, d, F,
+                                       state, NULL, NULL, NULL), 0);
+    const double *area = signorini_surface_areas(contact);
+    for (int64_t j = 0; j < count; j++)
+        CHECK(fabs(-F[3 * j] / area[j] / PRESSURE - 1) < 1e-10);
+    check_fields(blocks, contact, upper_is_slave ? 1 : -1, d, F, state);
+
+    CHECK_STATUS(signorini_model_recover(model, blocks->load, NULL, d, u), 0);
+    const signorini_mesh cells = {.struct_size = sizeof cells, .dim = 3, .nodes = mesh->nodes,
+                                  .coordinates = mesh->at[0], .cells = mesh->bricks,
+                                  .cell_type = 12, .cell_nodes = mesh->corners[0]};
+    CHECK_STATUS(signorini_surface_write(contact, "surfaces.vtu", &cells, NULL, NULL, u, d, F, state),
+                 0);
+    CHECK_STATUS(signorini_mesh_write("surfaces.vtu", &cells, u, NULL, 0, NULL), 0);
+    CHECK_STATUS(signorini_surface_write(contact, "no/folder/x.vtu", &cells, NULL, NULL, u, d, F,
+                                         state), SIGNORINI_STATUS_FILE);
+    remove("surfaces.vtu");
+    signorini_model_free(model);
+    signorini_surface_free(contact);
+    blocks_free(blocks);
+}
+
+/* ---- Small surfaces in the plane ------------------------------------------------------------ */
+
+/* A line of one element, 0 to 1, 0.1 above one of two elements, -1 to 2. */
+static const double plane_nodes[] = {0, 0.1, 1, 0.1, -1, 0, 0.5, 0, 2, 0};
+static const int64_t line[] = {0, 1}, below[] = {4, 3, 3, 2};
+
+static signorini_faces lines(int64_t count, const int64_t *nodes)
+{
+    return (signorini_faces){.struct_size = sizeof(signorini_faces), .face_nodes = 2,
+                             .count = count, .nodes = nodes};
+}
+
+static signorini_surface_settings defaults(void)
+{
+    signorini_surface_settings settings;
+    CHECK_STATUS(signorini_surface_settings_default(&settings, sizeof settings), 0);
+    return settings;
+}
+
+/* Rows, gaps, areas and frames by hand; nodes and faces counted from 1 and nodes of 6 components. */
+static void numbers(void)
+{
+    const int64_t start[] = {1, 3, 5}, line1[] = {1, 2}, below1[] = {5, 4, 4, 3};
+    const int64_t own[] = {20, 21, 18, 19, 16, 17, 14, 15, 12, 13};
+    for (int form = 0; form < 4; form++) {
+        signorini_surface_settings settings = defaults();
+        signorini_faces slave = lines(1, line), master = lines(2, below);
+        signorini_surface_pairs *contact;
+        const int base = form == 1;
+        if (form == 1) {
+            slave.nodes = line1;
+            master.nodes = below1;
+            master.start = start;
+            master.face_nodes = 0;
+            settings.index_base = 1;
+        }
+        if (form == 2) settings.dofs_per_node = 6;
+        if (form == 3) settings.node_dofs = own;
+        CHECK_STATUS(signorini_surface_pair(2, 5, plane_nodes, &slave, &master, &settings, &contact,
+                                            NULL), 0);
+        const signorini_pairs *rows = signorini_surface_rows(contact);
+        CHECK(rows->count == 2 && rows->dim == 2 && rows->row_start[0] == base);
+        for (int pair = 0; pair < 2; pair++) {
+            double sum = 0;
+            CHECK(signorini_surface_nodes(contact)[pair] == pair + base);
+            CHECK_NEAR(signorini_surface_gaps(contact)[pair], 0.1);
+            CHECK_NEAR(signorini_surface_areas(contact)[pair], 0.5);
+            CHECK_NEAR(signorini_surface_normals(contact)[2 * pair + 1], -1);
+            CHECK_NEAR(signorini_surface_tangents(contact)[2 * pair], 1);
+            CHECK_NEAR(signorini_surface_points(contact)[2 * pair], pair);
+            for (int64_t k = rows->row_start[pair] - base; k < rows->row_start[pair + 1] - base; k++) {
+                const int64_t *dof = &rows->row_nodes[2 * k];
+                CHECK(dof[1] == dof[0] + 1);
+                CHECK(form != 1 || dof[0] % 2 == 1);
+                CHECK(form != 2 || dof[0] % 6 == 0);
+                CHECK(form != 3 || (dof[0] >= 12 && dof[0] % 2 == 0));
+                sum += rows->row_weights[k];
+            }
+            CHECK_NEAR(sum, 0);
+        }
+        signorini_surface_free(contact);
+    }
+}
+
+static void obstacles(void)
+{
+    const signorini_faces slave = lines(1, line);
+    signorini_surface_settings settings = defaults();
+    signorini_obstacle floor = {.struct_size = sizeof floor, .kind = SIGNORINI_OBSTACLE_PLANE,
+                                .point = {3, -1, NAN}, .direction = {0, 4, NAN}};
+    signorini_obstacle disc = {.struct_size = sizeof disc, .kind = SIGNORINI_OBSTACLE_SPHERE,
+                               .point = {0.5, -1.1}, .radius = 1};
+    signorini_surface_pairs *contact;
+    CHECK_STATUS(signorini_surface_pair_obstacle(2, 5, plane_nodes, &slave, &floor, NULL, &contact,
+                                                 NULL), 0);
+    CHECK(signorini_surface_count(contact) == 2);
+    CHECK_NEAR(signorini_surface_gaps(contact)[1], 1.1);
+    signorini_surface_free(contact);
+    settings.search_distance = INFINITY;
+    CHECK_STATUS(signorini_surface_pair_obstacle(2, 5, plane_nodes, &slave, &disc, &settings,
+                                                 &contact, NULL), 0);
+    /* The nodes are (+-0.5, 1.2) from the centre: 1.3 away. */
+    CHECK_NEAR(signorini_surface_gaps(contact)[0], 0.3);
+    CHECK_NEAR(signorini_surface_normals(contact)[1], -12.0 / 13);
+    signorini_surface_free(contact);
+    settings.search_distance = 1;
+    CHECK_STATUS(signorini_surface_pair_obstacle(2, 5, plane_nodes, &slave, &floor, &settings,
+                                                 &contact, NULL), 0);
+    CHECK(signorini_surface_count(contact) == 0);
+    signorini_surface_free(contact);
+
+    CHECK_STATUS(signorini_surface_pair_obstacle(2, 5, plane_nodes, &slave, NULL, NULL, &contact,
+                                                 NULL), -5);
+    disc.radius = -1;
+    CHECK_STATUS(signorini_surface_pair_obstacle(2, 5, plane_nodes, &slave, &disc, NULL, &contact,
+                                                 NULL), -5);
+    CHECK_TEXT(signorini_last_error(), "radius is -1");
+    disc.kind = SIGNORINI_OBSTACLE_CYLINDER;
+    CHECK_STATUS(signorini_surface_pair_obstacle(2, 5, plane_nodes, &slave, &disc, NULL, &contact,
+                                                 NULL), -5);
+    disc.kind = 3;
+    CHECK_STATUS(signorini_surface_pair_obstacle(2, 5, plane_nodes, &slave, &disc, NULL, &contact,
+                                                 NULL), -5);
+}
+
+/* Surfaces that never meet are no error, and the sentence says why. */
+static void never_meet(void)
+{
+    const double far_nodes[] = {0, 5, 1, 5, -1, 0, 0.5, 0, 2, 0};
+    const int64_t turned[] = {1, 0};
+    const signorini_faces slave = lines(1, line), master = lines(2, below), over = lines(1, turned);
+    signorini_surface_report told = {.struct_size = sizeof told};
+    signorini_surface_pairs *contact;
+    CHECK_STATUS(signorini_surface_pair(2, 5, far_nodes, &slave, &master, NULL, &contact, &told), 0);
+    CHECK(signorini_surface_count(contact) == 0 && told.unpaired == 2 && told.uncovered == 1);
+    CHECK(signorini_surface_uncovered(contact)[0] == 0 && signorini_surface_unpaired(contact)[1] == 1);
+    CHECK(signorini_surface_gaps(contact) == NULL && signorini_surface_folded(contact) == NULL);
+    CHECK_TEXT(signorini_surface_summary(contact), "no pairs: nothing lies opposite the 1 slave");
+    signorini_surface_free(contact);
+    CHECK_STATUS(signorini_surface_pair(2, 5, plane_nodes, &over, &master, NULL, &contact, NULL), 0);
+    CHECK_TEXT(signorini_surface_summary(contact), "one side is turned over");
+    signorini_surface_free(contact);
+}
+
+/* ---- Refusals ------------------------------------------------------------------------------ */
+
+static void refused(const double *nodes, const signorini_faces *slave, const signorini_faces *master,
+                    const signorini_surface_settings *settings, int argument, const char *part)
+{
+    signorini_surface_pairs *contact = (signorini_surface_pairs *)&checks_done;
+    CHECK_STATUS(signorini_surface_pair(2, 5, nodes, slave, master, settings, &contact, NULL),
+                 -argument);
+    CHECK(contact == NULL);
+    CHECK_TEXT(signorini_last_error(), part);
+}
+
+static void refusals(void)
+{
+    const double nan_nodes[] = {0, NAN, 1, 0.1, -1, 0, 0.5, 0, 2, 0};
+    const double no_area[] = {0, 0.1, 0, 0.1, -1, 0, 0.5, 0, 2, 0};
+    const int64_t twice[] = {1, 1}, missing[] = {0, 5}, negative[] = {0, -1}, shared[] = {1, 3};
+    const int64_t descending[] = {0, 2, 1};
+    signorini_faces slave = lines(1, line), master = lines(2, below), wrong = slave;
+    signorini_surface_settings settings = defaults();
+    signorini_surface_pairs *contact;
+
+    refused(nan_nodes, &slave, &master, NULL, 3,
+            "coordinates[1] of node 0 in slave face 0 is not finite");
+    refused(no_area, &slave, &master, NULL, 4, "slave face 0 has no area");
+    wrong.nodes = twice;
+    refused(plane_nodes, &wrong, &master, NULL, 4, "slave face 0 has node 1 twice");
+    wrong.nodes = missing;
+    refused(plane_nodes, &slave, &wrong, NULL, 5, "master face 0 has node 5, the coordinates");
+    wrong.nodes = negative;
+    refused(plane_nodes, &slave, &wrong, NULL, 5, "master: nodes[1] is -1");
+    wrong.nodes = shared;
+    refused(plane_nodes, &slave, &wrong, NULL, 5, "has node 1, which is on the slave side too");
+    wrong = master;
+    wrong.start = descending;
+    refused(plane_nodes, &slave, &wrong, NULL, 5, "start is given, and face_nodes too");
+    wrong.face_nodes = 0;
+    refused(plane_nodes, &slave, &wrong, NULL, 5, "master: start[2] is less than start[1]");
+    wrong = slave;
+    wrong.face_nodes = 0;
+    refused(plane_nodes, &wrong, &master, NULL, 4, "face_nodes is 0");
+    wrong.face_nodes = 1;
+    refused(plane_nodes, &wrong, &master, NULL, 4, "slave face 0 has 1 nodes, a face has 2 or 3");
+    wrong.struct_size = 8;
+    refused(plane_nodes, &wrong, &master, NULL, 4, "struct_size is 8");
+    refused(plane_nodes, NULL, &master, NULL, 4, "slave is NULL");
+    refused(NULL, &slave, &master, NULL, 3, "coordinates is NULL");
+    settings.search_distance = -1;
+    refused(plane_nodes, &slave, &master, &settings, 6, "search_distance is -1");
+    settings = defaults();
+    settings.pairing = 2;
+    refused(plane_nodes, &slave, &master, &settings, 6, "there is no pairing 2");
+    settings = defaults();
+    settings.dofs_per_node = 1;
+    refused(plane_nodes, &slave, &master, &settings, 6, "dofs_per_node is 1");
+    settings = defaults();
+    settings.index_base = 2;
+    refused(plane_nodes, &slave, &master, &settings, 6, "index_base is 2");
+    CHECK_STATUS(signorini_surface_pair(4, 5, plane_nodes, &slave, &master, NULL, &contact, NULL), -1);
+    CHECK_STATUS(signorini_surface_pair(2, -5, plane_nodes, &slave, &master, NULL, &contact, NULL),
+                 -2);
+    CHECK_STATUS(signorini_surface_pair(2, 5, plane_nodes, &slave, &master, NULL, NULL, NULL), -7);
+    CHECK(signorini_surface_count(NULL) == -1 && signorini_surface_rows(NULL) == NULL);
+    signorini_surface_free(NULL);
+}
+
+/* What is wrong with the calls after the solution. */
+static void refused_results(void)
+{
+    const signorini_faces slave = lines(1, line), master = lines(2, below);
+    const double d[4] = {0}, F[4] = {0};
+    double pressure[5];
+    int32_t of_node[5];
+    signorini_surface_pairs *contact;
+    signorini_contact_fields fields = {.struct_size = sizeof fields, .pressure = pressure};
+    signorini_mesh mesh = {.struct_size = sizeof mesh, .dim = 2, .nodes = 5,
+                           .coordinates = plane_nodes, .cells = 2, .cell_type = 3,
+                           .cell_nodes = below};
+    CHECK_STATUS(signorini_surface_pair(2, 5, plane_nodes, &slave, &master, NULL, &contact, NULL), 0);
+    CHECK_STATUS(signorini_surface_fields(contact, NULL, NULL, d, NULL, NULL, &fields), -5);
+    CHECK_STATUS(signorini_surface_fields(contact, NULL, NULL, d, F, NULL, NULL), -7);
+    CHECK_STATUS(signorini_surface_fields(NULL, NULL, NULL, d, F, NULL, &fields), -1);
+    fields.state = of_node;
+    CHECK_STATUS(signorini_surface_fields(contact, NULL, NULL, d, F, NULL, &fields), -6);
+    CHECK_STATUS(signorini_surface_resultant(contact, NULL, d, F, NULL, NULL), -6);
+    mesh.nodes = 4;
+    CHECK_STATUS(signorini_surface_write(contact, "x.vtu", &mesh, NULL, NULL, NULL, d, F, NULL), -3);
+    CHECK_TEXT(signorini_last_error(), "mesh has 4 nodes of dim 2, the pairs are of 5");
+    CHECK_STATUS(signorini_mesh_write("x.vtu", &mesh, NULL, NULL, 0, NULL), -2);
+    CHECK_TEXT(signorini_last_error(), "cell 0 has node 4");
+    mesh.nodes = 5;
+    mesh.cell_type = 42;
+    CHECK_STATUS(signorini_mesh_write("x.vtu", &mesh, NULL, NULL, 0, NULL), -2);
+    mesh.cell_type = 3;
+    signorini_field own = {.struct_size = sizeof own, .components = 3, .name = "own", .values = d};
+    CHECK_STATUS(signorini_mesh_write("x.vtu", &mesh, NULL, NULL, 1, &own), -6);
+    CHECK_TEXT(signorini_last_error(), "own has 3 components");
+    signorini_surface_free(contact);
+}
+
+int main(void)
+{
+    patch(0);
+    patch(1);
+    numbers();
+    obstacles();
+    never_meet();
+    refusals();
+    refused_results();
+    return check_summary("surfaces");
+}

@@ -1,0 +1,101 @@
+! Pairs from surfaces by the module: rows by hand, a block on a rigid plane and on another line, and what
+! is refused.
+!
+! Nodes 1 and 2 are a line of one element, 0 to 1, 0.1 above a line of two elements, -1 to 2. Each degree of
+! freedom stands on a spring of stiffness 2.
+program surfaces_test
+    use signorini
+    implicit none
+    integer, parameter :: dp = c_double
+    real(dp), parameter :: places(2, 5) = reshape([0._dp, 0.1_dp, 1._dp, 0.1_dp, -1._dp, 0._dp, 0.5_dp, &
+        0._dp, 2._dp, 0._dp], [2, 5])
+    integer, parameter :: slave(3, 1) = reshape([1, 2, 0], [3, 1]), master(2, 2) = reshape([5, 4, 4, 3], [2, 2])
+    type(contact_surfaces) :: surfaces
+    type(contact_model) :: model
+    type(signorini_resultant) :: sums
+    type(signorini_obstacle) :: plane
+    real(dp) :: d(4), force(4), load(10), pressure(5), traction(2, 5), clearance(5), apart(2, 5), u(10)
+    integer :: info, failed, i, state(2), node_state(5), starts(11), rows(10)
+    character(len=256) :: message
+
+    failed = 0
+    starts = [(i, i=1, 11)]
+    rows = starts(:10)
+    call surfaces%pair(places, slave, master, info, message=message)
+    call expect('pair', info == 0 .and. message == '' .and. surfaces%pairs == 2 .and. surfaces%dim == 2)
+    call expect('gaps', all(abs(surfaces%gap - 0.1_dp) < 1d-15) .and. all(abs(surfaces%area - 0.5_dp) < 1d-15))
+    call expect('frames', all(abs(surfaces%normal - reshape([0, -1, 0, -1], [2, 2])) < 1d-15) .and. &
+        all(abs(surfaces%tangent - reshape([1, 0, 1, 0], [2, 2])) < 1d-15))
+    call expect('nodes', all(surfaces%node == [1, 2]) .and. all(abs(surfaces%point - places(:, :2)) < 1d-15))
+    call expect('summary', index(surfaces%summary(), '2 pairs on 100.00 %') == 1)
+
+    ! Pressed down by 1 at each node: all move by statics of springs; without friction the forces of the
+    ! contact are those that the other line has, and nothing else acts on it.
+    call model%new_surfaces(starts, rows, [(2._dp, i=1, 10)], SIGNORINI_TRIANGLE_LOWER, surfaces, info, &
+        message=message)
+    call expect('model', info == 0 .and. message == '')
+    load = 0
+    load([2, 4]) = -1
+    call model%solve(load, surfaces%gap, d, force, info, state=state)
+    call expect('solution', info == 0 .and. all(state == SIGNORINI_STATE_SLIP))
+    call surfaces%resultant(d, force, sums, info, point=[0.5_dp, 0._dp])
+    call model%recover(load, d, u, info)
+    call expect('force', info == 0 .and. abs(sums%force(2) + 2*sum(u([6, 8, 10]))) < 1d-9)
+    call expect('moment', all(abs(sums%moment) < 1d-9) .and. abs(sums%pressed_area - 1) < 1d-12)
+    pressure = -7
+    node_state = -1
+    call surfaces%fields(d, force, info, state=state, pressure=pressure, traction=traction, &
+        clearance=clearance, node_state=node_state, message=message)
+    call expect('fields', info == 0 .and. message == '' .and. &
+        all(abs(pressure(:2) + force([1, 3])/surfaces%area) < 1d-12))
+    call expect('directions', all(abs(traction(2, :2) - pressure(:2)) < 1d-12) .and. &
+        all(abs(clearance(:2)) < 1d-9) .and. all(node_state == SIGNORINI_STATE_SLIP))
+    call surfaces%write('surfaces.vtu', places, master, 3, d, force, info, u, state, message=message)
+    call expect('file', info == 0 .and. message == '')
+    open (newunit=i, file='surfaces.vtu', status='old')
+    close (i, status='delete')
+    call surfaces%write('no/folder/x.vtu', places, master, 3, d, force, info)
+    call expect('no file', info == SIGNORINI_STATUS_FILE)
+    call surfaces%fields(d(:3), force, info, message=message)
+    call expect('short d', info == -1 .and. index(message, 'd has 3 entries, it must have 4') == 1)
+    call model%release()
+    call surfaces%release()
+    call surfaces%fields(d, force, info, message=message)
+    call expect('released', info == CONTACT_WRONG_MODEL .and. index(message, 'there are no pairs') == 1)
+
+    plane%kind = SIGNORINI_OBSTACLE_PLANE
+    plane%point = [0, -1, 0]
+    plane%direction = [0, 3, 0]
+    call surfaces%pair_obstacle(places, slave, plane, info, dofs_per_node=6)
+    call expect('plane', info == 0 .and. all(abs(surfaces%gap - 1.1_dp) < 1d-15))
+    apart = places
+    apart(2, :2) = 9
+    call surfaces%pair(apart, slave, master, info)
+    call expect('never meet', info == 0 .and. surfaces%pairs == 0 .and. &
+        index(surfaces%summary(), 'no pairs: nothing lies opposite') == 1)
+
+    call surfaces%pair(places, reshape([2, 2], [2, 1]), master, info, message=message)
+    call expect('twice', info == -2 .and. message == 'slave face 1 has node 2 twice')
+    call surfaces%pair(places, slave, reshape([5, 6], [2, 1]), info, message=message)
+    call expect('missing', info == -3 .and. index(message, 'master face 1 has node 6, the') == 1)
+    call surfaces%pair(places, slave, master, info, pairing=5, message=message)
+    call expect('pairing', info == -5)
+    call surfaces%pair(places, slave, master, info, search_distance=0._dp, message=message)
+    call expect('distance', info == -6)
+    call surfaces%pair(places, slave, master, info, dofs=master, message=message)
+    call expect('dofs', info == -7)
+    plane%direction = 0
+    call surfaces%pair_obstacle(places, slave, plane, info, message=message)
+    call expect('direction', info == -3 .and. index(message, 'outward direction is zero') > 0)
+
+    if (failed /= 0) stop 1
+    print '(a)', 'surfaces: pairs, fields, obstacles, refusals'
+contains
+    subroutine expect(what, holds)
+        character(len=*), intent(in) :: what
+        logical, intent(in) :: holds
+        if (holds) return
+        failed = failed + 1
+        print '(a, ": wrong, info ", i0, " ", a)', what, info, trim(message)
+    end subroutine
+end program

@@ -1,0 +1,155 @@
+"""The Python package: pairs from surfaces, fields on them, files of meshes.
+
+    python3 tests/python/surfaces.py
+"""
+
+import base64
+import os
+import re
+import sys
+import tempfile
+import unittest
+
+import numpy as np
+
+from common import ROOT
+
+import signorini
+
+sys.path.insert(0, os.path.join(ROOT, "c_examples", "3d"))
+import brick_mesh  # noqa: E402
+
+# A line of one element, 0 to 1, 0.1 above one of two elements, -1 to 2.
+NODES = np.array([[0, 0.1], [1, 0.1], [-1, 0], [0.5, 0], [2, 0]])
+SLAVE, MASTER = [[0, 1]], [[4, 3], [3, 2]]
+
+
+def arrays_of(path):
+    """The arrays of a .vtu file by their names."""
+    with open(path, encoding="ascii") as file:
+        text = file.read()
+    kinds = {"Float64": "<f8", "Int64": "<i8", "Int32": "<i4", "UInt8": "u1"}
+    found = {}
+    pattern = r'<DataArray type="(\w+)" Name="(\w+)" NumberOfComponents="(\d)" format="binary">\n(.*)\n'
+    for kind, name, width, data in re.findall(pattern, text):
+        data = base64.b64decode(data)
+        assert int.from_bytes(data[:8], "little") == len(data) - 8
+        values = np.frombuffer(data[8:], kinds[kind])
+        found[name] = values if width == "1" else values.reshape(-1, int(width))
+    return found
+
+
+class Pairs(unittest.TestCase):
+    def test_by_hand(self):
+        contact = signorini.pair_surfaces(NODES, SLAVE, MASTER)
+        self.assertEqual((contact.dim, contact.pairs), (2, 2))
+        np.testing.assert_allclose(contact.gaps, 0.1, atol=1e-15)
+        np.testing.assert_allclose(contact.areas, 0.5, atol=1e-15)
+        np.testing.assert_allclose(contact.normals, [[0, -1]] * 2, atol=1e-15)
+        np.testing.assert_allclose(contact.points, NODES[:2], atol=1e-15)
+        self.assertEqual(contact.nodes.tolist(), [0, 1])
+        self.assertEqual(contact.report.uncovered, 0)
+        self.assertIn("2 pairs on 100.00 % of the slave area", contact.summary)
+
+    def test_faces_of_several_kinds_and_other_degrees_of_freedom(self):
+        places = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [2, 0, 0.0]])
+        floor = signorini.Plane([0, 0, -0.5], [0, 0, 1])
+        faces = [[0, 3, 2, 1], [1, 2, 4]]  # seen from below
+        for more in ({}, {"dofs_per_node": 6}, {"dofs": 7 * np.arange(5)[:, None] + [0, 1, 2]}):
+            contact = signorini.pair_obstacle(places, faces, floor, **more)
+            np.testing.assert_allclose(contact.areas.sum(), 1.5)
+            np.testing.assert_allclose(contact.gaps, 0.5)
+
+    def test_obstacles(self):
+        below = NODES - [0.5, -1.1]
+        for obstacle, gap in ((signorini.Sphere([0, 0], 1.0), 0.3),
+                              (signorini.Sphere([0, 0], 2.0, hollow=True), 0.7)):
+            slave = SLAVE if gap == 0.3 else [[1, 0]]
+            contact = signorini.pair_obstacle(below, slave, obstacle)
+            np.testing.assert_allclose(contact.gaps, gap)  # (0.5, 1.2) is 1.3 from the centre
+        with self.assertRaisesRegex(TypeError, "give a Plane, a Sphere or a Cylinder"):
+            signorini.pair_obstacle(NODES, SLAVE, "floor")
+
+    def test_never_meet(self):
+        apart = NODES + np.array([[0, 5]] * 2 + [[0, 0]] * 3)
+        contact = signorini.pair_surfaces(apart, SLAVE, MASTER)
+        self.assertEqual((contact.pairs, contact.gaps.shape), (0, (0,)))
+        self.assertEqual(contact.unpaired.tolist(), [0, 1])
+        self.assertEqual(contact.uncovered.tolist(), [0])
+        self.assertIn("nothing lies opposite", contact.summary)
+
+    def test_refusals(self):
+        for kind, part, arguments, keywords in (
+            (ValueError, r"coordinates has the shape \(10,\)", (NODES.ravel(), SLAVE, MASTER), {}),
+            (ValueError, r"slave has the shape \(2,\)", (NODES, np.array([0, 1]), MASTER), {}),
+            (TypeError, r"slave\[0\] holds float64", (NODES, [[0.0, 1.0]], MASTER), {}),
+            (ValueError, "pairing is 'mortar'", (NODES, SLAVE, MASTER), {"pairing": "mortar"}),
+            (ValueError, r"dofs has the shape", (NODES, SLAVE, MASTER), {"dofs": [1, 2]}),
+            (signorini.SignoriniError, "slave face 0 has node 1 twice", (NODES, [[1, 1]], MASTER), {}),
+            (signorini.SignoriniError, "search_distance is -1", (NODES, SLAVE, MASTER),
+             {"search_distance": -1}),
+        ):
+            with self.assertRaisesRegex(kind, part):
+                signorini.pair_surfaces(*arguments, **keywords)
+        with self.assertRaisesRegex(TypeError, "contact is a list"):
+            signorini.Model.from_surfaces((np.ones(2), np.arange(2), np.arange(3)), [])
+
+
+class Blocks(unittest.TestCase):
+    """The two blocks of c_examples/3d, whose nodes do not match."""
+
+    def test_fields_are_those_of_the_forces(self):
+        blocks = brick_mesh.two_blocks()
+        contact = signorini.pair_surfaces(blocks.at, blocks.slave, blocks.master)
+        model = signorini.Model.from_surfaces(blocks.matrix, contact, fixed=blocks.held)
+        load = blocks.press + 1e5 * blocks.twist
+        result = model.solve(load, gap=contact.gaps, mu=0.6)
+        u = model.recover(result.d, load)
+        fields = contact.fields(result)
+        np.testing.assert_allclose(fields.pressure[contact.nodes], -result.F[:, 0] / contact.areas)
+        in_global = np.einsum("pi,pij->pj", result.F, model.frames)
+        np.testing.assert_allclose(fields.traction[contact.nodes],
+                                   in_global / contact.areas[:, None], atol=1e-12)
+        # 1e-9: rounding of sums of some hundred forces, relative to the press.
+        sums = contact.resultant(result, [0, 0, 3.0])
+        np.testing.assert_allclose(sums.force, in_global.sum(axis=0), atol=1e-9 * 4e4)
+        arms = contact.points - [0, 0, 3.0]
+        np.testing.assert_allclose(sums.moment, np.cross(arms, in_global).sum(axis=0),
+                                   atol=1e-9 * 4e4 * 30)
+        self.assertGreater(sums.friction_work, 0)
+        self.assertTrue((fields.state[blocks.at[:, 2] != 0] == -1).all())
+
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "blocks.vtu")
+            contact.write(path, {"hexahedron": blocks.bricks}, result, u)
+            found = arrays_of(path)
+            self.assertTrue((found["displacement"].ravel() == u).all())
+            self.assertTrue((found["pressure"] == fields.pressure).all())
+            self.assertTrue((found["slip"] == fields.slip).all())
+            self.assertTrue((found["state"] == fields.state).all())
+            self.assertTrue((found["connectivity"] == blocks.bricks.ravel()).all())
+            self.assertTrue((found["types"] == 12).all())
+            with self.assertRaisesRegex(ValueError, "displacements of all degrees"):
+                contact.write(path, {"hexahedron": blocks.bricks}, result, u[:10])
+
+    def test_any_mesh(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "plane.vtu")
+            cells = [("triangle", [[0, 1, 2]]), ("line", SLAVE)]
+            signorini.write_mesh(path, NODES, cells, {"x": NODES, "far": [np.inf] * 5})
+            found = arrays_of(path)
+            self.assertTrue((found["x"][:, :2] == NODES).all() and (found["x"][:, 2] == 0).all())
+            self.assertTrue(np.isinf(found["far"]).all())
+            self.assertEqual(found["offsets"].tolist(), [3, 5])
+            for part, cells, fields in (
+                ("there is no type 'brick'", {"brick": [[0, 1]]}, {}),
+                ("field x has the shape", cells, {"x": [1.0]}),
+            ):
+                with self.assertRaisesRegex(ValueError, part):
+                    signorini.write_mesh(path, NODES, cells, fields)
+            with self.assertRaisesRegex(signorini.SignoriniError, "cell 0 has 2 nodes"):
+                signorini.write_mesh(path, NODES, {"triangle": SLAVE})
+
+
+if __name__ == "__main__":
+    unittest.main()
