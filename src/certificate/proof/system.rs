@@ -128,24 +128,30 @@ impl<'c> System<'c> {
     /// Writes columns of the scaled matrix.
     fn columns(&self) -> impl FnMut(usize, &mut [f64]) {
         let (dim, matrix) = (self.contact.dim(), self.contact.problem().stiffness());
-        let mut column = vec![0.0; matrix.size()];
+        let mut sum = vec![0.0; matrix.size()];
         move |j, entries| {
             let unknown = &self.unknowns[j];
             let first = dim * unknown.pair;
-            column.fill(0.0);
-            for (c, part) in self.motion_of(unknown).into_iter().enumerate().take(dim) {
-                if part != 0.0 {
-                    let source = matrix.column(first + c);
-                    column.iter_mut().zip(source).for_each(|(sum, k)| *sum += part * k);
+            let parts = self.motion_of(unknown);
+            let mut moving = (0..dim).filter(|&c| parts[c] != 0.0);
+            let (image, scale) = match (moving.next(), moving.next()) {
+                (Some(only), None) => (matrix.column(first + only), parts[only]),
+                _ => {
+                    sum.fill(0.0);
+                    for (c, part) in parts.into_iter().enumerate().take(dim) {
+                        let source = matrix.column(first + c);
+                        sum.iter_mut().zip(source).for_each(|(sum, k)| *sum += part * k);
+                    }
+                    (sum.as_slice(), 1.0)
                 }
-            }
+            };
             for (entry, equation) in entries.iter_mut().zip(&self.unknowns) {
                 let at = dim * equation.pair;
-                let mut value = column[at + equation.component];
+                let mut value = scale * image[at + equation.component];
                 if equation.component > 0 {
                     let slopes = &self.slopes[equation.pair];
                     let along = equation.component - 1;
-                    value -= slopes.drag[along] * column[at];
+                    value -= slopes.drag[along] * (scale * image[at]);
                     if equation.pair == unknown.pair && unknown.component > 0 {
                         value += slopes.turn[along][unknown.component - 1] * unknown.column;
                     }
