@@ -18,6 +18,9 @@ use signorini::{ContactProblem, Model, Monitor, Search, Settings, Solution, Stat
 /// How many problems without the variable: 200 of each class in each dimension.
 const PROBLEMS: u64 = 4800;
 
+/// Problems of a long run between two tables.
+const BETWEEN_PRINTS: u64 = 100_000;
+
 fn number(name: &str) -> Option<u64> {
     std::env::var(name).ok().map(|text| text.parse().expect("a number"))
 }
@@ -180,6 +183,10 @@ fn nothing_false_is_said() {
     let mut rows: Vec<Row> = (0..2 * CLASSES.len()).map(|_| Row::default()).collect();
     for seed in 0..long.unwrap_or(PROBLEMS) {
         rows[seed as usize % (2 * CLASSES.len())].add(seed, &problem(seed));
+        if (seed + 1) % BETWEEN_PRINTS == 0 {
+            println!("{} problems", seed + 1);
+            print(&rows);
+        }
     }
     print(&rows);
     let limits = STILL_IN_THE_PLANE.iter().chain(&STILL_IN_SPACE);
