@@ -11,6 +11,7 @@
 use super::equations::Equations;
 use super::system::System;
 use crate::certificate::eta_of;
+use crate::law::piece::Piece;
 use crate::law::{Contact, Vector};
 use crate::linalg::double_double::two_sum;
 use crate::linalg::tolerances::NULL_VECTOR;
@@ -31,6 +32,11 @@ const AIM: f64 = 0.01;
 const NEAR: f64 = 1e-3;
 const FEW_UNKNOWNS: usize = 64;
 
+/// A factor serves further steps on its pieces while each makes `eta` smaller by this factor or less, and
+/// where the derivatives of the pieces have changed by rounding only: in the plane they do not change.
+const STILL_GOOD: f64 = 0.1;
+const SAME: f64 = 8.0 * f64::EPSILON;
+
 /// A step that makes `eta` smaller by this factor or less tells what error a residual stands for.
 const SURE: f64 = 0.5;
 
@@ -46,7 +52,10 @@ pub fn polished(contact: &Contact<'_>, settings: &Settings, candidate: Candidate
     if old.residual <= settings.tolerance || !is_finite || !is_near || is_stopped {
         return candidate;
     }
-    let refined = refined(contact, &candidate, AIM * settings.tolerance);
+    let at_reference = contact.at_its_reference();
+    let equations = Equations::of(&at_reference);
+    let aim = AIM * settings.tolerance;
+    let refined = refined(contact, &candidate, aim, &mut Newton::on(&equations));
     let new = refined.certificate(contact);
     let helps = new.residual <= settings.tolerance && !new.runs_away();
     if helps { refined.ended(Ending::Done) } else { candidate }
@@ -62,18 +71,24 @@ pub struct Sharpened {
 
 /// Refines displacements to the last digits; `None` if the system there is singular.
 pub fn sharpened(contact: &Contact<'_>, candidate: &Candidate) -> Option<Sharpened> {
-    let mut candidate = refined(contact, candidate, 0.0);
     let at_reference = contact.at_its_reference();
+    let equations = Equations::of(&at_reference);
+    let mut newton = Newton::on(&equations);
+    let mut candidate = refined(contact, candidate, 0.0, &mut newton);
     let v = contact.beyond_reference(&candidate.d, &candidate.low);
-    let (error, orientation) = step(&Equations::of(&at_reference), &v, &candidate.force)?;
+    let (error, orientation) = newton.step(&v, &candidate.force)?;
     candidate.orientation = orientation;
     Some(Sharpened { candidate, error })
 }
 
 /// Refines until `eta` is at most `aim`, or falls no further.
-fn refined(contact: &Contact<'_>, candidate: &Candidate, aim: f64) -> Candidate {
+fn refined(
+    contact: &Contact<'_>,
+    candidate: &Candidate,
+    aim: f64,
+    newton: &mut Newton<'_>,
+) -> Candidate {
     let at_reference = contact.at_its_reference();
-    let equations = Equations::of(&at_reference);
     let (mut d, mut low) = (candidate.d.clone(), vec![0.0; candidate.d.len()]);
     let mut best = candidate.clone();
     let (mut least, mut in_vain) = (f64::INFINITY, 0);
@@ -94,8 +109,8 @@ fn refined(contact: &Contact<'_>, candidate: &Candidate, aim: f64) -> Candidate 
         if !(least > aim) || in_vain >= MOST_IN_VAIN {
             break;
         }
-        best.effort.factorisations += 1;
-        let Some((step, orientation)) = step(&equations, &v, &force) else { break };
+        newton.is_good = in_vain == 0 && steps.contraction <= STILL_GOOD;
+        let Some((step, orientation)) = newton.step(&v, &force) else { break };
         best.orientation = orientation;
         steps.begin(eta, &step);
         for ((d, low), step) in d.iter_mut().zip(&mut low).zip(&step) {
@@ -103,6 +118,7 @@ fn refined(contact: &Contact<'_>, candidate: &Candidate, aim: f64) -> Candidate 
             (*d, *low) = two_sum(sum, lost + *low);
         }
     }
+    best.effort.factorisations += newton.factorisations;
     best.remeasured()
 }
 
@@ -147,33 +163,82 @@ impl Steps {
     }
 }
 
-/// The change of displacements `v` beyond their references that Newton's method wants where they need
-/// `force`, and the sign of the determinant; `None` if the system is singular.
-fn step(equations: &Equations<'_>, v: &[f64], force: &[f64]) -> Option<(Vec<f64>, i8)> {
-    let dim = equations.dim;
-    let y = equations.coordinates(v, force);
-    let pieces = equations.pieces(&y);
-    let parts = || v.chunks_exact(dim).zip(force.chunks_exact(dim));
-    let laws = || equations.laws.iter().zip(&pieces).zip(&y);
-    let mut distance = Vec::with_capacity(v.len());
-    let mut change = Vec::with_capacity(v.len());
-    for (((law, &piece), y), (v, force)) in laws().zip(parts()) {
-        let apart = law.distance_to_piece(piece, y, v, force);
-        distance.extend_from_slice(&apart[..dim]);
-        change.extend(law.displacement_by(&apart)[..dim].iter().map(|by| -by));
+/// Newton's steps, whose factor is kept.
+struct Newton<'e> {
+    equations: &'e Equations<'e>,
+    kept: Option<Kept<'e>>,
+    /// Whether the last step came near enough for its factor to serve again.
+    is_good: bool,
+    factorisations: u64,
+}
+
+/// A factor, with the coordinates and their pieces at which it was made.
+struct Kept<'e> {
+    system: System<'e>,
+    pieces: Vec<Piece>,
+    y: Vec<Vector>,
+}
+
+impl<'e> Newton<'e> {
+    fn on(equations: &'e Equations<'e>) -> Self {
+        Newton { equations, kept: None, is_good: false, factorisations: 0 }
     }
-    let mut lack = distance;
-    equations.matrix.add_product(&change, &mut lack);
-    let at = (pieces.as_slice(), y.as_slice());
-    let mut system = System::with_least_pivot(equations, at, 1.0, None, NULL_VECTOR)?;
-    let (steps, _) = system.step(&lack, 0.0)?;
-    for ((((law, &piece), y), dy), change) in laws().zip(&steps).zip(change.chunks_exact_mut(dim)) {
-        let derivative = law.derivative_on(piece, y);
-        let by: Vector = std::array::from_fn(|row| {
-            dy[row] - (0..dim).map(|column| derivative[row][column] * dy[column]).sum::<f64>()
-        });
-        let moved = law.displacement_by(&by);
-        change.iter_mut().zip(moved).for_each(|(change, moved)| *change += moved);
+
+    /// The change of displacements `v` beyond their references that Newton's method wants where they need
+    /// `force`, and the sign of the determinant; `None` if the system is singular.
+    fn step(&mut self, v: &[f64], force: &[f64]) -> Option<(Vec<f64>, i8)> {
+        let (equations, dim) = (self.equations, self.equations.dim);
+        let y = equations.coordinates(v, force);
+        let pieces = equations.pieces(&y);
+        let parts = v.chunks_exact(dim).zip(force.chunks_exact(dim));
+        let mut distance = Vec::with_capacity(v.len());
+        let mut change = Vec::with_capacity(v.len());
+        for (((law, &piece), y), (v, force)) in
+            equations.laws.iter().zip(&pieces).zip(&y).zip(parts)
+        {
+            let apart = law.distance_to_piece(piece, y, v, force);
+            distance.extend_from_slice(&apart[..dim]);
+            change.extend(law.displacement_by(&apart)[..dim].iter().map(|by| -by));
+        }
+        let mut lack = distance;
+        equations.matrix.add_product(&change, &mut lack);
+        let kept = self.factor(pieces, y)?;
+        let (steps, _) = kept.system.step(&lack, 0.0)?;
+        let laws = equations.laws.iter().zip(&kept.pieces).zip(&kept.y);
+        for ((((law, &piece), y), dy), change) in laws.zip(&steps).zip(change.chunks_exact_mut(dim))
+        {
+            let derivative = law.derivative_on(piece, y);
+            let by: Vector = std::array::from_fn(|row| {
+                dy[row] - (0..dim).map(|column| derivative[row][column] * dy[column]).sum::<f64>()
+            });
+            let moved = law.displacement_by(&by);
+            change.iter_mut().zip(moved).for_each(|(change, moved)| *change += moved);
+        }
+        Some((change, kept.system.orientation()))
     }
-    Some((change, system.orientation()))
+
+    /// The kept factor if it serves at these coordinates, otherwise theirs.
+    fn factor(&mut self, pieces: Vec<Piece>, y: Vec<Vector>) -> Option<&mut Kept<'e>> {
+        let (equations, is_good) = (self.equations, self.is_good);
+        let serves = |kept: &Kept<'_>| {
+            kept.pieces == pieces && (is_good || is_same(equations, &pieces, [&kept.y, &y]))
+        };
+        if !self.kept.as_ref().is_some_and(serves) {
+            self.factorisations += 1;
+            let at = (pieces.as_slice(), y.as_slice());
+            let system = System::with_least_pivot(equations, at, 1.0, None, NULL_VECTOR)?;
+            self.kept = Some(Kept { system, pieces, y });
+        }
+        self.kept.as_mut()
+    }
+}
+
+/// Whether the derivatives of the pieces are the same at two places up to rounding.
+fn is_same(equations: &Equations<'_>, pieces: &[Piece], y: [&[Vector]; 2]) -> bool {
+    let places = equations.laws.iter().zip(pieces).zip(y[0].iter().zip(y[1]));
+    let mut entries = places.flat_map(|((law, &piece), (one, other))| {
+        let [one, other] = [one, other].map(|y| law.derivative_on(piece, y));
+        one.into_iter().flatten().zip(other.into_iter().flatten())
+    });
+    entries.all(|(one, other)| (one - other).abs() <= SAME * one.abs().max(1.0))
 }
