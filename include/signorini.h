@@ -344,10 +344,16 @@ int32_t signorini_model_new_two_body(int32_t dim, int64_t pairs, const double *K
                                      const double *K_B, int64_t ldb, signorini_model **model);
 
 /**
- * As signorini_model_new_sparse, with settings of which it takes progress, user, time_limit and
- * memory_limit. The callback is told the share that is done and, before memory is taken, how much
- * is needed. The choice of the order, before that, asks nobody. After a call that was ended nothing
- * is held, and your arrays are as before.
+ * As signorini_model_new_sparse, with settings of which it takes progress, user, time_limit,
+ * memory_limit and full_space. The callback is told the share that is done and, before memory is
+ * taken, how much is needed. The choice of the order, before that, asks nobody. After a call that
+ * was ended nothing is held, and your arrays are as before.
+ *
+ * If the condensed matrix needs more than memory_limit, or settings->full_space is set, the model
+ * is in full space: no condensed matrix is formed. Load cases are solved by Newton's method with
+ * GMRES on a sparse factor, which each load case makes anew a few times; methods AUTO and NEWTON
+ * alone, no search, no proof. signorini_model_stiffness and _write have nothing to tell then. Pairs
+ * that depend on each other are condensed all the same. K->order is not read for it.
  *
  * @param K         the stiffness matrix of all degrees of freedom, the fixed ones too
  * @param n_fixed   number of fixed degrees of freedom
@@ -390,11 +396,11 @@ int32_t signorini_model_frames(const signorini_model *model, double *frames);
 
 /**
  * Copies the stiffness matrix in relative displacements. There is none if pairs depend on each
- * other, such as those of a node on two planes.
+ * other, such as those of a node on two planes, and in full space.
  *
  * @param model  the model
  * @param K      out: N = dim * pairs columns of N entries; leading dimension N
- * @return 0; -k: the k-th argument is wrong; -1 too: pairs depend on each other
+ * @return 0; -k: the k-th argument is wrong; -1 too: there is no such matrix
  */
 int32_t signorini_model_stiffness(const signorini_model *model, double *K);
 
@@ -1181,6 +1187,12 @@ struct signorini_settings {
     int32_t reserved;               /**< 0. */
     /** Most bytes that signorini_model_new_sparse_within may need; default 0: no limit. */
     int64_t memory_limit;
+    /**
+     * Nonzero: signorini_model_new_sparse_within makes a full-space model, whatever memory_limit
+     * says. Default 0: only if the condensed matrix needs more than memory_limit.
+     */
+    int32_t full_space;
+    int32_t reserved2;              /**< 0. */
 };
 
 /**
@@ -1231,7 +1243,11 @@ struct signorini_report {
     int32_t method; /**< The method that found the result, SIGNORINI_METHOD_...; certify: 0. */
     int32_t uniqueness;       /**< SIGNORINI_UNIQUENESS_... */
     int64_t iterations;       /**< Sweeps, pivots or linear systems, of all methods tried. */
-    int64_t outer_iterations; /**< Threshold updates of the nested method. */
+    /**
+     * Threshold updates of the nested method. Where no condensed matrix is formed: solutions with a
+     * factor.
+     */
+    int64_t outer_iterations;
     int64_t refactorisations; /**< How often Lemke's tableau was refactorised to regain accuracy. */
     /**
      * Residual of the contact law relative to the forces, no unit, before d is rounded to doubles;
@@ -1254,7 +1270,8 @@ struct signorini_report {
     int64_t pairs_open;       /**< Pairs of SIGNORINI_STATE_OPEN. */
     int64_t pairs_slipping;   /**< Pairs of SIGNORINI_STATE_SLIP. */
     int64_t pairs_sticking;   /**< Pairs of SIGNORINI_STATE_STICK. */
-    int64_t factorisations;   /**< Dense factorisations by Newton's method and block pivoting. */
+    /** Dense factorisations by Newton's method and block pivoting. In full space: sparse ones. */
+    int64_t factorisations;
     int32_t first_method;     /**< The method that was tried first, SIGNORINI_METHOD_... */
     int32_t fallback;         /**< Why the first method was abandoned, SIGNORINI_FALLBACK_... */
     /**

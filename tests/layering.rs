@@ -61,7 +61,7 @@ const ROOMS: [(&str, &[&str]); 13] = [
 
 /// The files and folders of `solve`: each imports from those before it only. `lcp` stands beside
 /// those that are behind `lemke`.
-const SOLVERS: [&str; 19] = [
+const SOLVERS: [&str; 20] = [
     "outcome",
     "candidate",
     "condense",
@@ -69,6 +69,7 @@ const SOLVERS: [&str; 19] = [
     "smallest_lift",
     "sweeps",
     "normal_map",
+    "krylov",
     "active_set",
     "path",
     "lemke",
