@@ -281,10 +281,10 @@ pub unsafe extern "C" fn signorini_model_frames(
 }
 
 /// Where a new model goes; NULL until it exists.
-struct Place(*mut *mut SignoriniModel);
+pub(super) struct Place(*mut *mut SignoriniModel);
 
 impl Place {
-    fn new(position: i32, model: *mut *mut SignoriniModel) -> Result<Self, Failure> {
+    pub(super) fn new(position: i32, model: *mut *mut SignoriniModel) -> Result<Self, Failure> {
         if model.is_null() || !model.is_aligned() {
             return Err(Failure::argument(position, "model is NULL or not aligned"));
         }
@@ -293,7 +293,7 @@ impl Place {
         Ok(Place(model))
     }
 
-    fn fill(
+    pub(super) fn fill(
         self,
         made: Result<Model, Error>,
         position: impl Fn(Argument) -> i32,

@@ -124,17 +124,19 @@ pub fn symmetric_magnitude(lower: &Csc, x: &[f64]) -> Vec<f64> {
     y
 }
 
-/// `A x - b` of the symmetric matrix whose lower triangle is `lower`, in twice the precision and rounded once.
-pub fn symmetric_residual(lower: &Csc, x: &[f64], b: &[f64]) -> Vec<f64> {
-    let (mut high, mut low): (Vec<f64>, Vec<f64>) =
+/// `A (x + low) - b` of the symmetric matrix whose lower triangle is `lower`, in twice the precision and rounded
+/// once. `low` has the first entries, or all.
+pub fn symmetric_residual(lower: &Csc, (x, low): (&[f64], &[f64]), b: &[f64]) -> Vec<f64> {
+    let (mut sum, mut rest): (Vec<f64>, Vec<f64>) =
         (b.iter().map(|b| -b).collect(), vec![0.0; b.len()]);
+    let low_of = |j: usize| low.get(j).copied().unwrap_or(0.0);
     each_of_symmetric(lower, |i, j, value| {
         let (product, error) = two_product(value, x[j]);
-        let (sum, lost) = two_sum(high[i], product);
-        high[i] = sum;
-        low[i] += error + lost;
+        let (high, lost) = two_sum(sum[i], product);
+        sum[i] = high;
+        rest[i] += (error + lost) + value * low_of(j);
     });
-    high.iter().zip(&low).map(|(high, low)| high + low).collect()
+    sum.iter().zip(&rest).map(|(sum, rest)| sum + rest).collect()
 }
 
 fn as_column(x: &[f64]) -> MatRef<'_, f64> {

@@ -4,11 +4,33 @@
 use super::arguments::check_fixed_gaps;
 use super::{LoadCase, Model};
 use crate::error::{Argument, Error, index};
-use crate::problem::Bodies;
-use crate::reduce::UnformedReduction;
+use crate::problem::{Bodies, checked_dim, unknowns};
+use crate::reduce::{HostOperator, OperatorReduction, UnformedReduction};
 use crate::solve::UnformedCase;
 
 impl Model {
+    /// A structure of which the host gives products and solutions in relative displacements alone. Loads and
+    /// displacements of the host are those of the pairs, `dim * pairs`. `units` are positive, of the size of the
+    /// diagonal of `K_rel`, force per length; `None`: one for each direction, from products.
+    ///
+    /// # Errors
+    /// A dimension that is not 2 or 3; units of the wrong length; what [`OperatorReduction::new`] finds wrong with
+    /// the operator.
+    pub fn operator(
+        dim: usize,
+        pairs: usize,
+        operator: Box<dyn HostOperator>,
+        units: Option<&[f64]>,
+    ) -> Result<Self, Error> {
+        let size = unknowns(checked_dim(dim)?, pairs)?;
+        if let Some(units) = units.filter(|units| units.len() != size) {
+            let message = format!("units has {} entries, it must have {size}", units.len());
+            return Err(Error::invalid(Argument::Matrix, message));
+        }
+        let reduction = Box::new(OperatorReduction::new(operator, (dim, pairs), units)?);
+        Ok(Model { dim, pairs, reduction })
+    }
+
     /// Hands over bodies whose stiffness is not formed, with a load case.
     pub(super) fn on_bodies<T>(
         &self,
@@ -40,7 +62,7 @@ impl Model {
         if !self.is_unformed() {
             return Ok(());
         }
-        let message = "the model is in full space: no condensed matrix is formed; solve, certify and recover \
+        let message = "the model forms no condensed matrix: it is in full space, or an operator; solve, certify and recover \
                        load cases by the model";
         Err(Error::invalid(Argument::Matrix, message))
     }

@@ -50,11 +50,12 @@ pub trait Bodies {
     /// What has failed in the host, by a sentence on the matrix.
     fn product(&mut self, x: &[f64]) -> Result<Vec<f64>, Error>;
 
-    /// `A x - b`, as exactly as it can be had.
+    /// `A (x + low) - b`, as exactly as it can be had; `low` is what rounding to doubles has left out of the inner
+    /// unknowns.
     ///
     /// # Errors
     /// As [`Self::product`].
-    fn residual(&mut self, x: &[f64], load: &[f64]) -> Result<Vec<f64>, Error>;
+    fn residual(&mut self, x: &[f64], low: &[f64], load: &[f64]) -> Result<Vec<f64>, Error>;
 
     /// Bound on the sums of `A x` in which each entry of `x` has at most the given size: `|A| size`.
     fn magnitude(&self, size: &[f64]) -> Vec<f64>;

@@ -6,12 +6,14 @@
 mod condensed;
 mod frame;
 mod motion;
+mod operator;
 mod pairs;
 mod sparse;
 mod two_body;
 
 pub use condensed::CondensedReduction;
 pub(crate) use motion::driven_motion;
+pub use operator::{HostOperator, OperatorReduction};
 pub use pairs::ContactPairs;
 pub use sparse::{Control, Indices, SparseMatrix, SparseReduction, Triangle};
 pub use two_body::TwoBodyReduction;

@@ -104,7 +104,7 @@ impl FullSpace {
         let mut session = self.session();
         session.hold_all()?;
         let x = session.solve(load)?;
-        let mut residual = symmetric_residual(&self.matrix, &x, load).split_off(self.inner);
+        let mut residual = symmetric_residual(&self.matrix, (&x, &[]), load).split_off(self.inner);
         residual.iter_mut().for_each(|force| *force = -*force);
         Ok(residual)
     }
@@ -117,7 +117,7 @@ impl FullSpace {
         x.extend_from_slice(d);
         // A second step: the digits that the rounding of the first one has cost.
         for _ in 0..REFINEMENTS {
-            let residual = symmetric_residual(&self.matrix, &x, load);
+            let residual = symmetric_residual(&self.matrix, (&x, &[]), load);
             let step = session.solve(&residual)?;
             x.iter_mut().zip(&step).take(self.inner).for_each(|(x, step)| *x -= step);
         }
@@ -170,8 +170,8 @@ impl Bodies for Session<'_> {
         Ok(symmetric_times(&self.space.matrix, x))
     }
 
-    fn residual(&mut self, x: &[f64], load: &[f64]) -> Result<Vec<f64>, Error> {
-        Ok(symmetric_residual(&self.space.matrix, x, load))
+    fn residual(&mut self, x: &[f64], low: &[f64], load: &[f64]) -> Result<Vec<f64>, Error> {
+        Ok(symmetric_residual(&self.space.matrix, (x, low), load))
     }
 
     fn magnitude(&self, size: &[f64]) -> Vec<f64> {

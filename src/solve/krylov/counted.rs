@@ -39,8 +39,8 @@ impl Bodies for Counted<'_> {
         self.bodies.product(x)
     }
 
-    fn residual(&mut self, x: &[f64], load: &[f64]) -> Result<Vec<f64>, Error> {
-        self.bodies.residual(x, load)
+    fn residual(&mut self, x: &[f64], low: &[f64], load: &[f64]) -> Result<Vec<f64>, Error> {
+        self.bodies.residual(x, low, load)
     }
 
     fn magnitude(&self, size: &[f64]) -> Vec<f64> {

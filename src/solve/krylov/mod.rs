@@ -17,7 +17,7 @@ use crate::problem::{Bodies, ContactProblem, FrictionLaw, Restriction, Unformed}
 use crate::settings::{Method, Search, Settings};
 use counted::{Counted, Counts};
 use newton::Ended;
-use point::{Equations, Point};
+use point::{Displacements, Equations, Point};
 
 /// A load case on such bodies.
 pub struct Case<'a> {
@@ -62,31 +62,30 @@ pub fn solve(
     let bodies = &mut Counted::new(bodies);
     let (inner, load) = (bodies.inner(), case.load);
     let held = hold_all(bodies, case)?;
-    let zero = vec![0.0; load.len()];
-    let at_zero = in_equilibrium(bodies, load, zero)?;
-    let relative: Vec<f64> =
-        residual(bodies, &at_zero, load)?[inner..].iter().map(|f| -f).collect();
+    let (at_zero, relative) = at_zero(bodies, load)?;
     let unformed = Unformed::new(bodies, case.dim, &relative);
     let (gap, slip) = (case.gap, case.reference_slip);
     let problem = ContactProblem::with_relation(unformed, case.dim, gap, case.law, slip)?;
     let contact = Contact::new(&problem);
     let equations = Equations::new(&contact, bodies, load, &relative);
-    let mut x = at_zero;
-    let ended = match contact.is_unloaded() && rests(&contact, bodies, &x, load, settings)? {
+    let mut at = at_zero;
+    let ended = match contact.is_unloaded() && rests(&contact, bodies, &at, load, settings)? {
         true => None,
         false => {
             let stuck =
                 contact.pairs().iter().flat_map(|law| law.reference().into_iter().take(case.dim));
             match start {
-                Some(start) => x[inner..].copy_from_slice(&contact.admissible(start)),
-                None => x[inner..].iter_mut().zip(stuck).for_each(|(x, reference)| *x = reference),
+                Some(start) => at.x[inner..].copy_from_slice(&contact.admissible(start)),
+                None => {
+                    at.x[inner..].iter_mut().zip(stuck).for_each(|(x, reference)| *x = reference)
+                }
             }
-            let x = in_equilibrium(bodies, load, x.clone())?;
-            let point = equations.held_at(x, bodies)?;
+            let at = in_equilibrium(bodies, load, at.clone())?;
+            let point = equations.held_at(at, bodies)?;
             Some(newton::solve(&equations, bodies, point, held, settings.tolerance, monitor)?)
         }
     };
-    let solution = certified(&contact, bodies, (load, x), settings, ended)?;
+    let solution = certified(&contact, bodies, (load, at), settings, ended)?;
     let Counts { solutions, factorisations } = bodies.counts;
     Ok(Solution { factorisations, outer_iterations: solutions, ..solution })
 }
@@ -95,19 +94,16 @@ pub fn solve(
 pub fn certify(bodies: &mut dyn Bodies, case: &Case<'_>, d: &[f64]) -> Result<Certificate, Error> {
     let (inner, load) = (bodies.inner(), case.load);
     hold_all(bodies, case)?;
-    let at_zero = in_equilibrium(bodies, load, vec![0.0; load.len()])?;
-    let relative: Vec<f64> =
-        residual(bodies, &at_zero, load)?[inner..].iter().map(|f| -f).collect();
+    let (mut at, relative) = at_zero(bodies, load)?;
     let unformed = Unformed::new(bodies, case.dim, &relative);
     let (gap, slip) = (case.gap, case.reference_slip);
     let problem = ContactProblem::with_relation(unformed, case.dim, gap, case.law, slip)?;
-    let mut x = at_zero;
-    x[inner..].copy_from_slice(d);
+    at.x[inner..].copy_from_slice(d);
     for _ in 0..REFINEMENTS {
-        x = in_equilibrium(bodies, load, x)?;
+        at = in_equilibrium(bodies, load, at)?;
     }
-    let residual = bodies.residual(&x, load)?;
-    Ok(measure_spread(&Contact::new(&problem), bodies, &x, &residual))
+    let residual = bodies.residual(&at.x, &at.low, load)?;
+    Ok(measure_spread(&Contact::new(&problem), bodies, &at.x, &residual))
 }
 
 /// Solutions for the inner unknowns of given `d`, each with the residual of the one before.
@@ -127,50 +123,57 @@ fn hold_all(bodies: &mut dyn Bodies, case: &Case<'_>) -> Result<Option<Restricti
 fn rests(
     contact: &Contact<'_, Unformed<'_>>,
     bodies: &mut dyn Bodies,
-    x: &[f64],
+    at: &Displacements,
     load: &[f64],
     settings: &Settings,
 ) -> Result<bool, Error> {
-    let residual = bodies.residual(x, load)?;
-    Ok(measure_spread(contact, bodies, x, &residual).holds(settings.tolerance))
+    let residual = bodies.residual(&at.x, &at.low, load)?;
+    Ok(measure_spread(contact, bodies, &at.x, &residual).holds(settings.tolerance))
 }
 
-/// `x` with its inner unknowns in equilibrium; all components of the pairs are held.
+/// Displacements where those of the pairs are zero and held, and the relative loads: minus the forces there.
+fn at_zero(bodies: &mut dyn Bodies, load: &[f64]) -> Result<(Displacements, Vec<f64>), Error> {
+    let inner = bodies.inner();
+    let mut at = Displacements::new(vec![0.0; load.len()], inner);
+    if inner == 0 {
+        return Ok((at, load.to_vec()));
+    }
+    at = in_equilibrium(bodies, load, at)?;
+    let forces = bodies.residual(&at.x, &at.low, load)?;
+    let relative = forces[inner..].iter().map(|f| -f).collect();
+    Ok((at, relative))
+}
+
+/// Displacements with their inner unknowns in equilibrium; all components of the pairs are held.
 fn in_equilibrium(
     bodies: &mut dyn Bodies,
     load: &[f64],
-    mut x: Vec<f64>,
-) -> Result<Vec<f64>, Error> {
+    at: Displacements,
+) -> Result<Displacements, Error> {
     let inner = bodies.inner();
-    if inner > 0 {
-        let lack = residual(bodies, &x, load)?;
-        let step = bodies.solve(&lack)?;
-        x.iter_mut().zip(&step).take(inner).for_each(|(x, step)| *x -= step);
+    if inner == 0 {
+        return Ok(at);
     }
-    Ok(x)
-}
-
-/// `A x - b`; nothing is asked of bodies where `x` is zero.
-fn residual(bodies: &mut dyn Bodies, x: &[f64], load: &[f64]) -> Result<Vec<f64>, Error> {
-    match x.iter().all(|x| *x == 0.0) {
-        true => Ok(load.iter().map(|f| -f).collect()),
-        false => bodies.residual(x, load),
-    }
+    let lack = bodies.residual(&at.x, &at.low, load)?;
+    let mut step = bodies.solve(&lack)?;
+    step[inner..].fill(0.0);
+    Ok(at.moved(-1.0, &step))
 }
 
 /// The result, measured on the data of the bodies.
 fn certified(
     contact: &Contact<'_, Unformed<'_>>,
     bodies: &mut dyn Bodies,
-    (load, at_rest): (&[f64], Vec<f64>),
+    (load, at_rest): (&[f64], Displacements),
     settings: &Settings,
     ended: Option<Ended>,
 ) -> Result<Solution, Error> {
-    let (x, ending, systems) = match ended {
+    let (at, ending, systems) = match ended {
         None => (at_rest, Ending::Done, 0),
-        Some(Ended { point: Point { x, .. }, ending, systems }) => (x, ending, systems),
+        Some(Ended { point: Point { at, .. }, ending, systems }) => (at, ending, systems),
     };
-    let residual = bodies.residual(&x, load)?;
+    let residual = bodies.residual(&at.x, &at.low, load)?;
+    let x = at.x;
     let certificate =
         measure_spread(contact, bodies, &x, &residual).unforgiving(settings.tolerance);
     let accuracy = format!("eta is {:.1e}", certificate.eta);

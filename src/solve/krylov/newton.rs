@@ -8,7 +8,10 @@ use crate::monitor::Monitor;
 use crate::problem::{Bodies, Restriction};
 use crate::solve::candidate::Ending;
 
-/// Systems after which it is given up.
+/// Systems with full steps: where they converge they take fewer than steps with a line search.
+const FULL_STEPS: u64 = 16;
+
+/// Systems after which it is given up. With a line search nothing cycles.
 const MOST_SYSTEMS: u64 = 60;
 
 /// Part of the fall of the lack that a full step promises which a shortened one must keep (Armijo).
@@ -83,7 +86,10 @@ pub fn solve(
         let forcing = FORCING.min(FORCING_OF_ETA * eta).max(goal);
         let step = system.step(bodies, held.as_ref(), forcing)?;
         directions = step.directions;
-        let (next, part) = line_search(equations, bodies, &ended.point, &step)?;
+        let (next, part) = match ended.systems <= FULL_STEPS {
+            true => (moved(equations, bodies, &ended.point, &step, 1.0)?, 1.0),
+            false => line_search(equations, bodies, &ended.point, &step)?,
+        };
         if !next.merit.is_finite() {
             break Ending::Stalled("the forces are beyond the largest number");
         }
@@ -126,8 +132,8 @@ fn moved(
     let along = |from: &[f64], by: &[f64]| -> Vec<f64> {
         from.iter().zip(by).map(|(from, by)| from + part * by).collect()
     };
-    let x = along(&point.x, &step.z);
-    equations.point(bodies, x, y.collect(), |bodies, apart| {
+    let at = point.at.moved(part, &step.z);
+    equations.point(bodies, at, y.collect(), |bodies, apart| {
         if bodies.has_cheap_products() {
             return None;
         }

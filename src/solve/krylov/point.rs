@@ -3,6 +3,7 @@
 use crate::error::Error;
 use crate::law::piece::Piece;
 use crate::law::{Contact, Vector};
+use crate::linalg::double_double::two_sum;
 use crate::linalg::vector::{NormSum, norm};
 use crate::problem::{Bodies, Unformed};
 
@@ -53,33 +54,27 @@ impl<'a> Equations<'a> {
         sum.root() / self.unit.max(norm(raw))
     }
 
-    /// The point whose contact forces are those that hold the pairs at `d`; `x` has all unknowns, of which the
-    /// inner ones are in equilibrium.
-    pub fn held_at(&self, x: Vec<f64>, bodies: &mut dyn Bodies) -> Result<Point, Error> {
-        let residual = self.residual(bodies, &x)?;
+    /// The point whose contact forces are those that hold the pairs at displacements of which the inner ones are in
+    /// equilibrium.
+    pub fn held_at(&self, at: Displacements, bodies: &mut dyn Bodies) -> Result<Point, Error> {
+        let residual = bodies.residual(&at.x, &at.low, self.load)?;
         let forces = &residual[self.inner..];
-        let y = self.contact.each(&x[self.inner..], forces).map(|(law, d, f)| law.chart(d, f));
+        let y = self.contact.each(&at.x[self.inner..], forces).map(|(law, d, f)| law.chart(d, f));
         let y = y.collect();
-        self.point(bodies, x, y, |_, _| None)
+        self.point(bodies, at, y, |_, _| None)
     }
 
-    /// `A x - b`.
-    pub fn residual(&self, bodies: &mut dyn Bodies, x: &[f64]) -> Result<Vec<f64>, Error> {
-        let mut residual = bodies.product(x)?;
-        residual.iter_mut().zip(self.load).for_each(|(sum, b)| *sum -= b);
-        Ok(residual)
-    }
-
-    /// The point at `y`, with the inner unknowns of `x`. `known` may tell the residual where `d` differs by a vector
-    /// from the entries of `x`.
+    /// The point at `y`, with the inner unknowns of `at`. `known` may tell the residual where `d` differs by a
+    /// vector from that of `at`.
     pub fn point(
         &self,
         bodies: &mut dyn Bodies,
-        mut x: Vec<f64>,
+        mut at: Displacements,
         y: Vec<Vector>,
         known: impl FnOnce(&mut dyn Bodies, &[f64]) -> Option<Result<Vec<f64>, Error>>,
     ) -> Result<Point, Error> {
         let dim = self.contact.dim();
+        let x = &mut at.x;
         let (mut pieces, mut push) = (Vec::with_capacity(y.len()), vec![0.0; x.len()]);
         let mut apart = vec![0.0; x.len()];
         for (pair, (law, y)) in self.contact.pairs().iter().zip(&y).enumerate() {
@@ -94,11 +89,41 @@ impl<'a> Equations<'a> {
         }
         let residual = match known(bodies, &apart) {
             Some(residual) => residual?,
-            None => self.residual(bodies, &x)?,
+            None => bodies.residual(&at.x, &at.low, self.load)?,
         };
         let lack: Vec<f64> = residual.iter().zip(&push).map(|(r, p)| r + p).collect();
-        let (merit, eta) = (self.length(&lack), self.eta(&x, &residual));
-        Ok(Point { y, pieces, x, residual, lack, merit, eta })
+        let (merit, eta) = (self.length(&lack), self.eta(&at.x, &residual));
+        Ok(Point { y, pieces, at, residual, lack, merit, eta })
+    }
+}
+
+/// Displacements of all unknowns. A double cannot hold inner ones to the accuracy that forces on a fine mesh ask
+/// for, so that they have two parts.
+#[derive(Clone)]
+pub struct Displacements {
+    /// All unknowns.
+    pub x: Vec<f64>,
+    /// What rounding to doubles has left out of the inner ones.
+    pub low: Vec<f64>,
+}
+
+impl Displacements {
+    /// Of `inner` inner unknowns.
+    pub fn new(x: Vec<f64>, inner: usize) -> Self {
+        Displacements { x, low: vec![0.0; inner] }
+    }
+
+    /// A `part` of `step` further.
+    pub fn moved(&self, part: f64, step: &[f64]) -> Self {
+        let mut next = self.clone();
+        let (inner, pairs) = next.x.split_at_mut(self.low.len());
+        for ((x, low), step) in inner.iter_mut().zip(&mut next.low).zip(step) {
+            let (sum, lost) = two_sum(*x, part * step);
+            (*x, *low) = two_sum(sum, lost + *low);
+        }
+        let steps = &step[self.low.len()..];
+        pairs.iter_mut().zip(steps).for_each(|(x, step)| *x += part * step);
+        next
     }
 }
 
@@ -109,7 +134,7 @@ pub struct Point {
     /// The pieces on which they are.
     pub pieces: Vec<Piece>,
     /// Displacements of all unknowns.
-    pub x: Vec<f64>,
+    pub at: Displacements,
     /// `A x - b`.
     pub residual: Vec<f64>,
     /// `A x - b + (0, P)`, zero at solutions.

@@ -100,7 +100,7 @@ impl<'a> System<'a> {
         let root = &self.equations.root[inner..];
         let mut right = self.right();
         let least = forcing * self.equations.length(&self.point.lack);
-        let mut z = vec![0.0; self.point.x.len()];
+        let mut z = vec![0.0; self.point.residual.len()];
         let mut forces = z.clone();
         if let Some(factor) = factor {
             let lack: Vec<f64> = self.point.lack[..inner].iter().map(|h| -h).collect();
