@@ -66,6 +66,9 @@ pub trait Bodies {
     /// Whether components can be held: whether [`Self::hold`] may be called.
     fn can_hold(&self) -> bool;
 
+    /// Whether what is held has the springs of the restriction too.
+    fn has_springs(&self) -> bool;
+
     /// From now on [`Self::solve`] solves with these components held.
     ///
     /// # Errors

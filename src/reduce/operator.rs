@@ -326,6 +326,10 @@ impl Bodies for Session<'_> {
         self.operator.operator.has_held()
     }
 
+    fn has_springs(&self) -> bool {
+        false
+    }
+
     fn hold(&mut self, restriction: &Restriction) -> Result<(), Error> {
         self.held.clone_from(&restriction.held);
         Ok(())

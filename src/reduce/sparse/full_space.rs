@@ -186,6 +186,10 @@ impl Bodies for Session<'_> {
         true
     }
 
+    fn has_springs(&self) -> bool {
+        true
+    }
+
     fn hold(&mut self, restriction: &Restriction) -> Result<(), Error> {
         if self.factor.as_ref().is_some_and(|factor| factor.restriction == *restriction) {
             return Ok(());

@@ -55,6 +55,10 @@ impl Bodies for Counted<'_> {
         self.bodies.can_hold()
     }
 
+    fn has_springs(&self) -> bool {
+        self.bodies.has_springs()
+    }
+
     fn hold(&mut self, restriction: &Restriction) -> Result<(), Error> {
         self.counts.factorisations += 1;
         self.bodies.hold(restriction)

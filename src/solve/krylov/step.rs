@@ -19,6 +19,9 @@
 //!   displacement, and the forces that this asks of the others are subtracted; one that was free and is held now
 //!   keeps its force `w` as an unknown, with the equation `k z = 0`.
 //! - An inverse `W` of `A`, nothing held: its block of the free components.
+//!
+//! Where the factor has no springs, or nothing is held, `s` is multiplied to both sides of the preconditioner,
+//! `s = 1` but across the slip, where it is `(1 + C / k)^-1/2`: so are the springs there, pair by pair.
 
 use super::point::{Equations, Point};
 use crate::error::Error;
@@ -104,7 +107,7 @@ impl<'a> System<'a> {
         let mut forces = z.clone();
         if let Some(factor) = factor {
             let lack: Vec<f64> = self.point.lack[..inner].iter().map(|h| -h).collect();
-            (z, forces) = self.with_factor(bodies, factor, &lack, &right)?;
+            (z, forces) = self.moved_by(bodies, Some(factor), &lack, &right)?;
             let rows = self.rows(&right, (&z, &forces), Some(factor));
             right.iter_mut().zip(rows).for_each(|(right, row)| *right -= row);
         }
@@ -112,10 +115,7 @@ impl<'a> System<'a> {
         let mut directions: Vec<Moved> = Vec::new();
         let (shares, _) = gmres(&right, least, MOST_DIRECTIONS, |v| {
             let w: Vec<f64> = v.iter().zip(root).map(|(v, root)| v * root).collect();
-            let moved = match factor {
-                Some(factor) => self.with_factor(bodies, factor, &vec![0.0; inner], &w)?,
-                None => self.with_inverse(bodies, &w)?,
-            };
+            let moved = self.moved_by(bodies, factor, &vec![0.0; inner], &w)?;
             let mut rows = self.rows(&w, (&moved.0, &moved.1), factor);
             rows.iter_mut().zip(root).for_each(|(row, root)| *row /= root);
             directions.push(moved);
@@ -172,14 +172,54 @@ impl<'a> System<'a> {
         rows
     }
 
-    /// The displacements of forces on the inner unknowns and `w` on the pairs, by an earlier factor.
-    fn with_factor(
+    /// The displacements of forces on the inner unknowns and `w` on the pairs.
+    fn moved_by(
+        &self,
+        bodies: &mut dyn Bodies,
+        factor: Option<&Restriction>,
+        on_inner: &[f64],
+        w: &[f64],
+    ) -> Result<Moved, Error> {
+        let inner = self.equations.inner;
+        let softens = factor.is_none() || !bodies.has_springs();
+        let mut w = w.to_vec();
+        if softens {
+            self.soften(&mut w);
+        }
+        let mut z = match factor {
+            Some(factor) => self.by_factor(bodies, factor, on_inner, &w)?,
+            None => self.by_inverse(bodies, w)?,
+        };
+        if softens {
+            self.soften(&mut z[inner..]);
+        }
+        let product = bodies.product(&z)?;
+        Ok((z, product))
+    }
+
+    /// Multiplies `s` to the tangential components of slipping pairs.
+    fn soften(&self, values: &mut [f64]) {
+        let dim = self.equations.contact.dim();
+        for (at, pair) in self.pairs.iter().enumerate().filter(|(_, pair)| pair.slips) {
+            let n = dim * at;
+            let stiffness = pair.curvature[0][0] + pair.curvature[1][1];
+            if stiffness > 0.0 {
+                let unit = self.equations.root[self.equations.inner + n + 1].powi(2);
+                let taken = (1.0 - (1.0 + stiffness / unit).sqrt().recip()) / stiffness;
+                let across = ellipse::product(&pair.curvature, tangential(&values[n..n + dim]));
+                (1..dim).for_each(|c| values[n + c] -= taken * across[c - 1]);
+            }
+        }
+    }
+
+    /// By an earlier factor.
+    fn by_factor(
         &self,
         bodies: &mut dyn Bodies,
         factor: &Restriction,
         on_inner: &[f64],
         w: &[f64],
-    ) -> Result<Moved, Error> {
+    ) -> Result<Vec<f64>, Error> {
         let inner = self.equations.inner;
         let mut forces = [on_inner, w].concat();
         let mut released = vec![0.0; forces.len()];
@@ -196,22 +236,19 @@ impl<'a> System<'a> {
         }
         let mut z = bodies.solve(&forces)?;
         z.iter_mut().zip(&released).for_each(|(z, released)| *z += released);
-        let product = bodies.product(&z)?;
-        Ok((z, product))
+        Ok(z)
     }
 
-    /// The displacements of forces `w` on free components, by the block of an inverse.
-    fn with_inverse(&self, bodies: &mut dyn Bodies, w: &[f64]) -> Result<Moved, Error> {
+    /// By the block of an inverse.
+    fn by_inverse(&self, bodies: &mut dyn Bodies, mut w: Vec<f64>) -> Result<Vec<f64>, Error> {
         let free = |values: &mut Vec<f64>| {
             let held = self.restriction.held.iter();
             values.iter_mut().zip(held).for_each(|(v, held)| *v = if *held { 0.0 } else { *v });
         };
-        let mut forces = w.to_vec();
-        free(&mut forces);
-        let mut z = bodies.solve(&forces)?;
+        free(&mut w);
+        let mut z = bodies.solve(&w)?;
         free(&mut z);
-        let product = bodies.product(&z)?;
-        Ok((z, product))
+        Ok(z)
     }
 
     /// The change of the coordinates.
