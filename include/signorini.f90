@@ -125,7 +125,7 @@ module signorini
     end type
 
     type, bind(C) :: signorini_settings
-        integer(c_int32_t) :: struct_size = 72 + 2 * address_bytes
+        integer(c_int32_t) :: struct_size = 80 + 2 * address_bytes
         integer(c_int32_t) :: method = SIGNORINI_METHOD_AUTO
         real(c_double) :: tolerance = 1e-10_c_double
         real(c_double) :: omega = 0
@@ -139,6 +139,8 @@ module signorini
         integer(c_int32_t) :: proof = 0
         integer(c_int32_t) :: reserved = 0
         integer(c_int64_t) :: memory_limit = 0
+        integer(c_int32_t) :: full_space = 0
+        integer(c_int32_t) :: reserved2 = 0
     end type
 
     type, bind(C) :: signorini_report

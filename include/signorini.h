@@ -398,10 +398,16 @@ int32_t signorini_model_new_two_body(int32_t dim, int64_t pairs, const double *K
                                      const double *K_B, int64_t ldb, signorini_model **model);
 
 /**
- * As signorini_model_new_sparse, with settings of which it takes progress, user, time_limit and
- * memory_limit. The callback is told the share that is done and, before memory is taken, how much
- * is needed. The choice of the order, before that, asks nobody. After a call that was ended nothing
- * is held, and your arrays are as before.
+ * As signorini_model_new_sparse, with settings of which it takes progress, user, time_limit,
+ * memory_limit and full_space. The callback is told the share that is done and, before memory is
+ * taken, how much is needed. The choice of the order, before that, asks nobody. After a call that
+ * was ended nothing is held, and your arrays are as before.
+ *
+ * If the condensed matrix needs more than memory_limit, or settings->full_space is set, the model
+ * is in full space: no condensed matrix is formed. Load cases are solved by Newton's method with
+ * GMRES on a sparse factor, which each load case makes anew a few times; methods AUTO and NEWTON
+ * alone, no search, no proof. signorini_model_stiffness and _write have nothing to tell then. Pairs
+ * that depend on each other are condensed all the same. K->order is not read for it.
  *
  * @param K         the stiffness matrix of all degrees of freedom, the fixed ones too
  * @param n_fixed   number of fixed degrees of freedom
@@ -417,6 +423,68 @@ int32_t signorini_model_new_sparse_within(const signorini_sparse *K, int64_t n_f
                                           const int64_t *fixed, const signorini_pairs *pairs,
                                           const signorini_settings *settings,
                                           signorini_model **model);
+
+typedef struct signorini_operator signorini_operator;
+
+/**
+ * A product of the host, y = K_rel x or y = W x: x and y have N = dim * pairs entries. Returns 0;
+ * another number ends the call of the library, whose sentence tells it. It must return: no longjmp,
+ * no exception; and it must not call this library.
+ */
+typedef int32_t (*signorini_product_fn)(void *user, const double *x, double *y);
+
+/**
+ * A solution of the host with components held: y is 0 where held is nonzero, and K_rel y = x in
+ * the other components; x does not count where held is nonzero. All have N entries. changed is 0
+ * if the same components are held as in the call before on this model, so that a factor may serve
+ * again. Returns as signorini_product_fn.
+ */
+typedef int32_t (*signorini_held_fn)(void *user, const int32_t *held, int32_t changed,
+                                     const double *x, double *y);
+
+/**
+ * What a host gives in the place of a matrix: say a code on several processes, with a factor of its
+ * own. d and F are those of the pairs, as for signorini_solve, and K_rel is the K there.
+ */
+struct signorini_operator {
+    uint32_t struct_size; /**< sizeof(signorini_operator). */
+    int32_t dim;          /**< Space dimension, 2 or 3. */
+    int64_t pairs;        /**< Number of contact pairs. */
+    /** y = K_rel x; symmetric, positive semi-definite; as exact as the tolerance asks for. */
+    signorini_product_fn stiffness;
+    /**
+     * y = W x, with W close to the inverse of K_rel, symmetric and positive definite: a solution
+     * with the contact free. May be NULL if held is given, which is then used alone.
+     */
+    signorini_product_fn inverse;
+    /** A solution with components held; it saves most products. May be NULL if inverse is given. */
+    signorini_held_fn held;
+    /**
+     * Units of force per length of the components, N positive numbers of the size of the diagonal
+     * of K_rel. NULL: one for each direction, from products.
+     */
+    const double *units;
+    void *user;           /**< Passed to the functions as their first argument. */
+};
+
+/**
+ * Makes a model of which you give products and solutions alone, for structures that no one process
+ * holds: no matrix is formed. Loads and displacements of the host are the relative ones, H = N
+ * entries. Load cases are solved by Newton's method with GMRES, methods AUTO and NEWTON alone, no
+ * search, no proof: some ten products with K_rel and W for each change of the states, in all up to
+ * 110 of each in 2D and 160 in 3D; with held one for each of 16 to 60 solutions.
+ *
+ * Before it returns it asks for some products, of which the answers must be finite, linear,
+ * symmetric, positive and the same each time, to 1e-9. Later calls on the model return -1 if a
+ * function fails or gives a number that is not finite; the sentence says which one and where, and
+ * the model can be used again. Calls from several threads on one model are yours to allow: its
+ * functions are called on the threads that call the library.
+ *
+ * @param K      the functions; the structure is copied, with units
+ * @param model  out: the model; NULL unless 0 is returned
+ * @return 0; -k: the k-th argument is wrong; <= -1000: out of memory or a defect
+ */
+int32_t signorini_model_new_operator(const signorini_operator *K, signorini_model **model);
 
 /** Releases a model. NULL is allowed. */
 void signorini_model_free(signorini_model *model);
@@ -444,11 +512,11 @@ int32_t signorini_model_frames(const signorini_model *model, double *frames);
 
 /**
  * Copies the stiffness matrix in relative displacements. There is none if pairs depend on each
- * other, such as those of a node on two planes.
+ * other, such as those of a node on two planes, and in full space.
  *
  * @param model  the model
  * @param K      out: N = dim * pairs columns of N entries; leading dimension N
- * @return 0; -k: the k-th argument is wrong; -1 too: pairs depend on each other
+ * @return 0; -k: the k-th argument is wrong; -1 too: there is no such matrix
  */
 int32_t signorini_model_stiffness(const signorini_model *model, double *K);
 
@@ -1235,6 +1303,12 @@ struct signorini_settings {
     int32_t reserved;               /**< 0. */
     /** Most bytes that signorini_model_new_sparse_within may need; default 0: no limit. */
     int64_t memory_limit;
+    /**
+     * Nonzero: signorini_model_new_sparse_within makes a full-space model, whatever memory_limit
+     * says. Default 0: only if the condensed matrix needs more than memory_limit.
+     */
+    int32_t full_space;
+    int32_t reserved2;              /**< 0. */
 };
 
 /**
@@ -1285,7 +1359,11 @@ struct signorini_report {
     int32_t method; /**< The method that found the result, SIGNORINI_METHOD_...; certify: 0. */
     int32_t uniqueness;       /**< SIGNORINI_UNIQUENESS_... */
     int64_t iterations;       /**< Sweeps, pivots or linear systems, of all methods tried. */
-    int64_t outer_iterations; /**< Threshold updates of the nested method. */
+    /**
+     * Threshold updates of the nested method. Where no condensed matrix is formed: solutions with a
+     * factor.
+     */
+    int64_t outer_iterations;
     int64_t refactorisations; /**< How often Lemke's tableau was refactorised to regain accuracy. */
     /**
      * Residual of the contact law relative to the forces, no unit, before d is rounded to doubles;
@@ -1308,7 +1386,8 @@ struct signorini_report {
     int64_t pairs_open;       /**< Pairs of SIGNORINI_STATE_OPEN. */
     int64_t pairs_slipping;   /**< Pairs of SIGNORINI_STATE_SLIP. */
     int64_t pairs_sticking;   /**< Pairs of SIGNORINI_STATE_STICK. */
-    int64_t factorisations;   /**< Dense factorisations by Newton's method and block pivoting. */
+    /** Dense factorisations by Newton's method and block pivoting. In full space: sparse ones. */
+    int64_t factorisations;
     int32_t first_method;     /**< The method that was tried first, SIGNORINI_METHOD_... */
     int32_t fallback;         /**< Why the first method was abandoned, SIGNORINI_FALLBACK_... */
     /**

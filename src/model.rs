@@ -3,6 +3,7 @@
 mod arguments;
 mod load_case;
 mod surfaces;
+mod unformed;
 
 use std::path::Path;
 
@@ -10,7 +11,7 @@ use arguments::{check_fixed_gaps, check_length, check_vector};
 pub use load_case::LoadCase;
 
 use crate::certificate::{Certificate, certify};
-use crate::error::{Argument, Error, index};
+use crate::error::{Argument, Error};
 use crate::file;
 use crate::linalg::matrix::Matrix;
 use crate::monitor::Monitor;
@@ -23,7 +24,10 @@ use crate::reduce::{
     TwoBodyReduction, driven_motion,
 };
 use crate::settings::Settings;
-use crate::solve::{NO_EQUILIBRIUM, Solution, Status, solve, solve_dependent};
+use crate::solve::{
+    NO_EQUILIBRIUM, Solution, Status, certify_unformed, check_start, solve, solve_dependent,
+    solve_unformed,
+};
 
 /// A structure, reduced to its contact pairs. It does not change: several threads may use it.
 pub struct Model {
@@ -80,8 +84,10 @@ impl Model {
         Model { dim: pairs.dim, pairs: pairs.count, reduction }.checked()
     }
 
-    /// As [`Self::sparse`], within the limits of `monitor` on memory and time, with its callback, and in the
-    /// host's `order` of elimination if there is one: each degree of freedom once, the first to be eliminated
+    /// As [`Self::sparse`], within the limits of `monitor` on memory and time, with its callback. If the
+    /// condensed matrix needs more memory than is allowed, or if [`Settings::full_space`] is set, the model is in
+    /// full space: nothing is condensed, and load cases are solved by products and solutions with the sparse
+    /// matrix; pairs that depend on each other are condensed all the same. A condensation is done in the host's `order` of elimination if there is one: each degree of freedom once, the first to be eliminated
     /// first. Fixed ones, slaves and the contact are left out of it; degrees of freedom with the same
     /// neighbours stay together.
     ///
@@ -94,14 +100,19 @@ impl Model {
         order: Option<&[usize]>,
         monitor: &mut Monitor<'_>,
     ) -> Result<Self, Error> {
+        let full_space = monitor.wants_full_space();
         let ask = &mut |share, memory| monitor.reducing(share, memory);
-        let made = SparseReduction::controlled(matrix, fixed, pairs, Control { order, ask })?;
+        let control = Control { order, full_space, ask };
+        let made = SparseReduction::controlled(matrix, fixed, pairs, control)?;
         let reduction = Box::new(made);
         Model { dim: pairs.dim, pairs: pairs.count, reduction }.checked()
     }
 
     /// Refuses a reduced matrix that no structure has.
     fn checked(self) -> Result<Self, Error> {
+        if self.reduction.unformed().is_some() {
+            return Ok(self);
+        }
         let dependence = self.reduction.dependence();
         let size = dependence.map_or(self.dim * self.pairs, Dependence::variables);
         let matrix = Matrix::new(size, self.reduction.stiffness(), size.max(1));
@@ -131,7 +142,7 @@ impl Model {
     }
 
     /// `K_rel`, column-major, `dim * pairs` square; empty if [`Self::dependent_pairs`] names any, as there
-    /// is none then.
+    /// is none then, and if [`Self::is_unformed`].
     pub fn stiffness(&self) -> &[f64] {
         match self.reduction.dependence() {
             None => self.reduction.stiffness(),
@@ -164,7 +175,7 @@ impl Model {
     ) -> Result<Vec<f64>, Error> {
         self.check_independent()?;
         self.check_loads(Some(load), prescribed)?;
-        Ok(self.reduction.condense(load, prescribed))
+        self.reduction.condense(load, prescribed)
     }
 
     /// Measures relative displacements `d` of any origin on a load case.
@@ -175,6 +186,10 @@ impl Model {
     /// tell their forces.
     pub fn certify(&self, case: &LoadCase<'_>, d: &[f64]) -> Result<Certificate, Error> {
         check_vector(Argument::Start, "d", d, self.dim * self.pairs)?;
+        if let Some(unformed) = self.reduction.unformed() {
+            return self
+                .on_bodies(unformed, case, |bodies, case| certify_unformed(bodies, case, d));
+        }
         self.reduced(case, |problem| Ok(certify(problem, d)))
     }
 
@@ -189,6 +204,14 @@ impl Model {
         start: Option<&[f64]>,
         monitor: &mut Monitor<'_>,
     ) -> Result<Solution, Error> {
+        if let Some(unformed) = self.reduction.unformed() {
+            check_start(self.dim * self.pairs, start)?;
+            return self.on_bodies(unformed, case, |bodies, case| {
+                let mut solution = solve_unformed(bodies, case, settings, start, monitor)?;
+                solution.iterations = monitor.iterations();
+                Ok(solution)
+            });
+        }
         if let Some(dependence) = self.reduction.dependence() {
             return self.on_dependent_rows(dependence, case, |problem| {
                 let solution = solve_dependent(problem, settings, start, monitor)?;
@@ -235,6 +258,7 @@ impl Model {
         case: &LoadCase<'_>,
         to: impl FnOnce(&ContactProblem<'_>) -> Result<T, Error>,
     ) -> Result<T, Error> {
+        self.check_formed()?;
         let load = self.condensed_load(case.load, case.prescribed)?;
         check_fixed_gaps(self.reduction.fixed_components(), self.dim, case.gap)?;
         let slip = case.reference_slip.map(|slip| self.allowed_slip(slip));
@@ -262,7 +286,7 @@ impl Model {
         to: impl FnOnce(&ContactProblem<'_, DependentRows<'_>>) -> Result<T, Error>,
     ) -> Result<T, Error> {
         self.check_loads(Some(case.load), case.prescribed)?;
-        let load = self.reduction.condense(case.load, case.prescribed);
+        let load = self.reduction.condense(case.load, case.prescribed)?;
         let offset = self.reduction.offset(case.prescribed);
         let slip = case.reference_slip.map(|slip| self.allowed_slip(slip));
         let stiffness = (self.reduction.stiffness(), &load[..]);
@@ -270,22 +294,6 @@ impl Model {
         let (gap, slip) = (case.gap, slip.as_deref());
         let problem = ContactProblem::with_relation(relation, self.dim, gap, case.law, slip)?;
         to(&problem)
-    }
-
-    /// Refuses what needs a stiffness in relative displacements, if there is none.
-    pub(crate) fn check_independent(&self) -> Result<(), Error> {
-        let pairs = self.dependent_pairs();
-        let Some(first) = pairs.first() else { return Ok(()) };
-        let others = match pairs.len() {
-            1 => String::new(),
-            more => format!(" and of {} more", more - 1),
-        };
-        let message = format!(
-            "the rows of pair {}{others} follow from those of other pairs or from supports: no stiffness in \
-             relative displacements exists; solve load cases by the model",
-            index(first)
-        );
-        Err(Error::invalid(Argument::Matrix, message))
     }
 
     /// Displacements of the host from the relative ones; without `load` and `prescribed` those of
@@ -301,7 +309,7 @@ impl Model {
     ) -> Result<Vec<f64>, Error> {
         self.check_loads(load, prescribed)?;
         check_vector(Argument::Start, "d", d, self.dim * self.pairs)?;
-        Ok(self.reduction.recover(load, prescribed, d))
+        self.reduction.recover(load, prescribed, d)
     }
 
     /// Contact forces as a nodal force vector of the host.

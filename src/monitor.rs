@@ -41,6 +41,7 @@ pub struct Monitor<'a> {
     begin: Instant,
     time_limit: f64,
     memory_limit: u64,
+    full_space: bool,
     max_iterations: u64,
     iterations: u64,
     eta: f64,
@@ -58,11 +59,17 @@ impl<'a> Monitor<'a> {
                 settings.time_limit
             },
             memory_limit: settings.memory_limit,
+            full_space: settings.full_space,
             max_iterations: settings.max_iterations,
             iterations: 0,
             eta: f64::INFINITY,
             progress,
         }
+    }
+
+    /// Whether a sparse matrix is to be left uncondensed.
+    pub(crate) fn wants_full_space(&self) -> bool {
+        self.full_space
     }
 
     /// Sweeps, pivots or linear systems done so far.

@@ -70,8 +70,11 @@ pub struct Settings {
     pub search: Search,
     /// Whether to prove that the solution exists, and where: [`crate::Solution::existence`].
     pub proof: bool,
-    /// Most bytes that the reduction of a sparse matrix may need; 0 means no limit.
+    /// Most bytes that the reduction of a sparse matrix may need; 0 means no limit. Where the condensed matrix
+    /// would need more the model is left in full space ([`crate::Model::sparse_within`]).
     pub memory_limit: u64,
+    /// Whether a sparse matrix is left in full space whatever memory it needs.
+    pub full_space: bool,
 }
 
 impl Default for Settings {
@@ -86,6 +89,7 @@ impl Default for Settings {
             search: Search::Off,
             proof: false,
             memory_limit: 0,
+            full_space: false,
         }
     }
 }

@@ -70,7 +70,7 @@ const CHOICES: [(&str, &[&str]); 3] = [
 
 /// Where the data pass in or out, or where a name means something else: the place, what is allowed
 /// there, and why.
-const ALLOWED: [(&str, &str, &str); 11] = [
+const ALLOWED: [(&str, &str, &str); 10] = [
     ("problem/friction_law.rs", "FrictionLaw ::", "the arrays of a law: their number and range"),
     (
         "problem/friction_law.rs",
@@ -81,7 +81,6 @@ const ALLOWED: [(&str, &str, &str); 11] = [
     ("problem/bounded_lcp.rs", "self . lower", "the bound of an LCP's variable"),
     ("problem/symmetric_matrix.rs", "lower", "an entry below the diagonal"),
     ("linalg/", "lower [", "a lower triangular factor"),
-    ("linalg/sparse_schur/mod.rs", "& lower", "the lower triangle"),
     ("linalg/nnls.rs", "slope", "the slope of a sum of squares"),
     ("file/", "FrictionLaw ::", "the words of a problem file"),
     ("ffi/", "FrictionLaw ::", "constants of C to laws"),

@@ -69,6 +69,7 @@ const SOLVERS: [&str; 20] = [
     "smallest_lift",
     "sweeps",
     "normal_map",
+    "krylov",
     "active_set",
     "path",
     "lemke",

@@ -31,11 +31,13 @@
 
 mod escape;
 mod proof;
+mod spread;
 
 pub use escape::is_escape;
 pub(crate) use escape::{is_escape_of, lifts};
 pub use proof::{Proof, prove};
 pub(crate) use proof::{errors, prove_parts};
+pub(crate) use spread::measure_spread;
 
 use crate::law::{Contact, State, Violation};
 use crate::linalg::tolerances::{NEGLIGIBLE, ROUNDING_OF_SUM};
@@ -186,6 +188,8 @@ fn measure_pair<R: Relation>(
     let lacking = raw.iter().zip(&admissible).map(|(a, b)| a - b);
     let equilibrium = match residual {
         [] => largest_of(lacking),
+        // Of unknowns beside the pairs.
+        _ if residual.len() != d.len() => largest_of(lacking).max(norm_inf(residual)),
         _ => largest_of(lacking.zip(residual).map(|(lacking, residual)| lacking + residual)),
     };
     let Violation { penetration, tension, cone_excess } = worst;
@@ -294,14 +298,24 @@ struct Terms {
 
 impl Terms {
     fn new<R: Relation>(contact: &Contact<'_, R>, d: &[f64]) -> Self {
+        let relation = contact.problem().relation();
+        Self::of_all(contact, d, d, &|sizes| relation.magnitude(sizes))
+    }
+
+    /// The terms of displacements `all` of which those of the pairs are `d`, with `|A| size` of all.
+    fn of_all<R: Relation>(
+        contact: &Contact<'_, R>,
+        d: &[f64],
+        all: &[f64],
+        magnitude: &dyn Fn(&[f64]) -> Vec<f64>,
+    ) -> Self {
         let normals = d.iter().step_by(contact.dim());
         let prescribed =
             largest_of(contact.pairs().iter().zip(normals).map(|(law, &d_n)| law.prescribed(d_n)));
         let limit = LEVER * prescribed;
-        let relation = contact.problem().relation();
         let part = |part: &dyn Fn(f64) -> f64| {
-            let sizes: Vec<f64> = d.iter().map(|d| part(d.abs())).collect();
-            relation.magnitude(&sizes)
+            let sizes: Vec<f64> = all.iter().map(|d| part(d.abs())).collect();
+            magnitude(&sizes)
         };
         if !(limit > 0.0) {
             let each = part(&|size| size);
@@ -311,7 +325,7 @@ impl Terms {
         let inherent = norm(&each);
         // Not finite where a displacement is not: nothing is certified then.
         let mut rest = if inherent.is_finite() { 0.0 } else { f64::INFINITY };
-        if !d.iter().all(|d| d.abs() <= limit) {
+        if !all.iter().all(|d| d.abs() <= limit) {
             let above = part(&|size| size - size.min(limit));
             each.iter_mut().zip(&above).for_each(|(each, above)| *each += above);
             rest += norm(&above);

@@ -23,6 +23,11 @@ impl Failure {
         Failure { code: -position, message: message.into() }
     }
 
+    /// The same about another argument: the structure in which the wrong one stands.
+    pub(super) fn at(self, position: i32) -> Self {
+        Failure { code: -position, ..self }
+    }
+
     /// There is no memory for something.
     pub(super) fn out_of_memory(message: impl Into<Message>) -> Self {
         Failure { code: SIGNORINI_STATUS_OUT_OF_MEMORY, message: message.into() }

@@ -21,6 +21,7 @@ mod mesh;
 mod model_new;
 mod model_recover;
 mod model_solve;
+mod operator;
 mod pairs;
 mod problem_read;
 mod problem_write;

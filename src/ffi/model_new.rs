@@ -124,10 +124,16 @@ pub unsafe extern "C" fn signorini_model_new_sparse(
     })
 }
 
-/// As signorini_model_new_sparse, with settings of which it takes progress, user, time_limit and
-/// memory_limit. The callback is told the share that is done and, before memory is taken, how much
-/// is needed. The choice of the order, before that, asks nobody. After a call that was ended nothing
-/// is held, and your arrays are as before.
+/// As signorini_model_new_sparse, with settings of which it takes progress, user, time_limit,
+/// memory_limit and full_space. The callback is told the share that is done and, before memory is
+/// taken, how much is needed. The choice of the order, before that, asks nobody. After a call that
+/// was ended nothing is held, and your arrays are as before.
+///
+/// If the condensed matrix needs more than memory_limit, or settings->full_space is set, the model
+/// is in full space: no condensed matrix is formed. Load cases are solved by Newton's method with
+/// GMRES on a sparse factor, which each load case makes anew a few times; methods AUTO and NEWTON
+/// alone, no search, no proof. signorini_model_stiffness and _write have nothing to tell then. Pairs
+/// that depend on each other are condensed all the same. K->order is not read for it.
 ///
 /// @param K         the stiffness matrix of all degrees of freedom, the fixed ones too
 /// @param n_fixed   number of fixed degrees of freedom
@@ -222,11 +228,11 @@ pub unsafe extern "C" fn signorini_model_host_size(model: *const SignoriniModel)
 }
 
 /// Copies the stiffness matrix in relative displacements. There is none if pairs depend on each
-/// other, such as those of a node on two planes.
+/// other, such as those of a node on two planes, and in full space.
 ///
 /// @param model  the model
 /// @param K      out: N = dim * pairs columns of N entries; leading dimension N
-/// @return 0; -k: the k-th argument is wrong; -1 too: pairs depend on each other
+/// @return 0; -k: the k-th argument is wrong; -1 too: there is no such matrix
 #[unsafe(no_mangle)]
 #[allow(non_snake_case)] // as above
 pub unsafe extern "C" fn signorini_model_stiffness(
@@ -237,7 +243,9 @@ pub unsafe extern "C" fn signorini_model_stiffness(
         // SAFETY: a model and an array as the header demands.
         unsafe {
             let model = read(model)?;
-            model.check_independent().map_err(|error| Failure::from_error(error, |_| 1))?;
+            let wrong = |error| Failure::from_error(error, |_| 1);
+            model.check_independent().map_err(wrong)?;
+            model.check_formed().map_err(wrong)?;
             let stiffness = model.stiffness();
             Arrays::default().output(2, "K", K, stiffness.len())?.write(stiffness);
         }
@@ -273,10 +281,10 @@ pub unsafe extern "C" fn signorini_model_frames(
 }
 
 /// Where a new model goes; NULL until it exists.
-struct Place(*mut *mut SignoriniModel);
+pub(super) struct Place(*mut *mut SignoriniModel);
 
 impl Place {
-    fn new(position: i32, model: *mut *mut SignoriniModel) -> Result<Self, Failure> {
+    pub(super) fn new(position: i32, model: *mut *mut SignoriniModel) -> Result<Self, Failure> {
         if model.is_null() || !model.is_aligned() {
             return Err(Failure::argument(position, "model is NULL or not aligned"));
         }
@@ -285,7 +293,7 @@ impl Place {
         Ok(Place(model))
     }
 
-    fn fill(
+    pub(super) fn fill(
         self,
         made: Result<Model, Error>,
         position: impl Fn(Argument) -> i32,

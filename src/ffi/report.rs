@@ -62,7 +62,8 @@ pub struct SignoriniReport {
     pub uniqueness: i32,
     /// Sweeps, pivots or linear systems, of all methods tried.
     pub iterations: i64,
-    /// Threshold updates of the nested method.
+    /// Threshold updates of the nested method. Where no condensed matrix is formed: solutions with a
+    /// factor.
     pub outer_iterations: i64,
     /// How often Lemke's tableau was refactorised to regain accuracy.
     pub refactorisations: i64,
@@ -90,7 +91,7 @@ pub struct SignoriniReport {
     pub pairs_slipping: i64,
     /// Pairs of SIGNORINI_STATE_STICK.
     pub pairs_sticking: i64,
-    /// Dense factorisations by Newton's method and block pivoting.
+    /// Dense factorisations by Newton's method and block pivoting. In full space: sparse ones.
     pub factorisations: i64,
     /// The method that was tried first, SIGNORINI_METHOD_...
     pub first_method: i32,

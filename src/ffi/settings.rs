@@ -94,6 +94,11 @@ pub struct SignoriniSettings {
     pub reserved: i32,
     /// Most bytes that signorini_model_new_sparse_within may need; default 0: no limit.
     pub memory_limit: i64,
+    /// Nonzero: signorini_model_new_sparse_within makes a full-space model, whatever memory_limit
+    /// says. Default 0: only if the condensed matrix needs more than memory_limit.
+    pub full_space: i32,
+    /// 0.
+    pub reserved2: i32,
 }
 
 /// Settings as the solvers know them, with what only the C interface has.
@@ -123,6 +128,8 @@ impl SignoriniSettings {
             proof: 0,
             reserved: 0,
             memory_limit: 0,
+            full_space: 0,
+            reserved2: 0,
         }
     }
 
@@ -166,9 +173,10 @@ impl SignoriniSettings {
             SIGNORINI_SEARCH_OTHERS => Search::Others,
             other => return refuse(format!("settings: there is no search {other}")),
         };
-        if self.reserved != 0 {
-            let given = self.reserved;
-            return refuse(format!("settings: reserved is {given}, it must be 0"));
+        for (name, given) in [("reserved", self.reserved), ("reserved2", self.reserved2)] {
+            if given != 0 {
+                return refuse(format!("settings: {name} is {given}, it must be 0"));
+            }
         }
         Ok(Received {
             settings: Settings {
@@ -181,6 +189,7 @@ impl SignoriniSettings {
                 search,
                 proof: self.proof != 0,
                 memory_limit,
+                full_space: self.full_space != 0,
             },
             warm_start: self.warm_start != 0,
             progress: self.progress,

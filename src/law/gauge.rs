@@ -101,6 +101,19 @@ impl PairLaw {
     }
 }
 
+impl PairLaw {
+    /// `C = T (1 - T)⁻¹ k` for the tangential block `T` of `dP/dy`: how friction turns with the slip,
+    /// `dtau = drag dp + C ddelta`, a force per length. Of an isotropic law it is `g / |delta|` across the slip.
+    ///
+    /// `T` has the eigenvalue 0 along the force and one other, its trace `q = g / |y_t|`, so that
+    /// `T (1 - T)⁻¹ = T / (1 - q)`. Where a slip begins, `1 - q` is taken as the rounding of `q` at least.
+    pub fn curvature(&self, turned: &Plane) -> Plane {
+        let rest = (1.0 - turned[0][0] - turned[1][1]).max(f64::EPSILON);
+        let across = ellipse::times(turned, &self.tangential_scale());
+        across.map(|row| row.map(|entry| entry / rest))
+    }
+}
+
 /// The two components of a vector in the tangent plane.
 pub(super) fn pair_of(t: &[f64]) -> [f64; 2] {
     [t[0], t[1]]

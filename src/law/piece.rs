@@ -31,6 +31,9 @@ pub enum Boundary {
     Slip,
 }
 
+/// Part of its bound that the friction of a pair has that has just been made to stick.
+const INSIDE: f64 = 0.999;
+
 impl Piece {
     /// The piece across a boundary.
     pub fn across(self, boundary: Boundary) -> Piece {
@@ -52,6 +55,20 @@ impl PairLaw {
     /// Whether a pair that is open carries no force at all.
     pub fn is_free_when_open(&self) -> bool {
         self.bound.is_cone() && self.tension == 0.0
+    }
+
+    /// The coordinates `y`, or, where the pair slips there against the direction in which it slipped at
+    /// `before`, coordinates next to them at which it sticks: a slip that reverses passes through stick, and a
+    /// method that leaves stick out may go to and fro for ever.
+    pub fn without_reversal(&self, before: &Vector, y: Vector) -> Vector {
+        let (was, is) = (self.piece(before), self.piece(&y));
+        let along: f64 = (1..self.dim).map(|c| before[c] * y[c]).sum();
+        let threshold = self.bound.at(y[0]);
+        if !(was.slips && is.slips && was.closed && is.closed) || along >= 0.0 || threshold == 0.0 {
+            return y;
+        }
+        let keep = INSIDE * threshold / self.gauge(&y[1..self.dim]);
+        [y[0], keep * y[1], keep * y[2]]
     }
 
     /// The pressure `p'` on a piece, and the bound on the tangential force that belongs to it.

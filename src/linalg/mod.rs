@@ -8,6 +8,7 @@ pub(crate) mod double_double;
 pub(crate) mod elimination;
 pub(crate) mod factor;
 pub(crate) mod free_motions;
+pub(crate) mod gmres;
 pub(crate) mod matrix;
 pub(crate) mod nnls;
 pub(crate) mod null_vector;

@@ -4,6 +4,8 @@ use faer::sparse::linalg::matmul::{sparse_dense_matmul, sparse_sparse_matmul};
 use faer::sparse::{SparseColMat, SymbolicSparseColMat, Triplet};
 use faer::{Accum, MatMut, MatRef, Par};
 
+use super::double_double::{two_product, two_sum};
+
 /// Compressed columns, rows ascending.
 pub type Csc = SparseColMat<usize, f64>;
 
@@ -93,6 +95,48 @@ pub fn transpose_times(a: &Csc, x: &[f64]) -> Vec<f64> {
     let (target, x) = (as_column_mut(&mut y), as_column(x));
     sparse_dense_matmul(target, Accum::Replace, a.transpose(), x, 1.0, Par::Seq);
     y
+}
+
+/// Visits each entry of the symmetric matrix whose lower triangle is `lower`: row, column, value.
+pub fn each_of_symmetric(lower: &Csc, mut visit: impl FnMut(usize, usize, f64)) {
+    for j in 0..lower.ncols() {
+        let (rows, values) = column(lower, j);
+        for (&i, &value) in rows.iter().zip(values) {
+            visit(i, j, value);
+            if i != j {
+                visit(j, i, value);
+            }
+        }
+    }
+}
+
+/// `A x` of the symmetric matrix whose lower triangle is `lower`.
+pub fn symmetric_times(lower: &Csc, x: &[f64]) -> Vec<f64> {
+    let mut y = vec![0.0; x.len()];
+    each_of_symmetric(lower, |i, j, value| y[i] += value * x[j]);
+    y
+}
+
+/// `|A| x` of the symmetric matrix whose lower triangle is `lower`.
+pub fn symmetric_magnitude(lower: &Csc, x: &[f64]) -> Vec<f64> {
+    let mut y = vec![0.0; x.len()];
+    each_of_symmetric(lower, |i, j, value| y[i] += value.abs() * x[j]);
+    y
+}
+
+/// `A (x + low) - b` of the symmetric matrix whose lower triangle is `lower`, in twice the precision and rounded
+/// once. `low` has the first entries, or all.
+pub fn symmetric_residual(lower: &Csc, (x, low): (&[f64], &[f64]), b: &[f64]) -> Vec<f64> {
+    let (mut sum, mut rest): (Vec<f64>, Vec<f64>) =
+        (b.iter().map(|b| -b).collect(), vec![0.0; b.len()]);
+    let low_of = |j: usize| low.get(j).copied().unwrap_or(0.0);
+    each_of_symmetric(lower, |i, j, value| {
+        let (product, error) = two_product(value, x[j]);
+        let (high, lost) = two_sum(sum[i], product);
+        sum[i] = high;
+        rest[i] += (error + lost) + value * low_of(j);
+    });
+    sum.iter().zip(&rest).map(|(sum, rest)| sum + rest).collect()
 }
 
 fn as_column(x: &[f64]) -> MatRef<'_, f64> {

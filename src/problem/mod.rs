@@ -1,5 +1,6 @@
 //! The problems that solvers see: contact in relative displacements, and linear complementarity.
 
+mod bodies;
 mod bounded_lcp;
 mod contact;
 mod dependent_rows;
@@ -9,6 +10,7 @@ mod lcp;
 mod relation;
 pub(crate) mod symmetric_matrix;
 
+pub(crate) use bodies::{Bodies, Restriction, Unformed};
 pub(crate) use bounded_lcp::BoundedLcp;
 pub use contact::{ContactData, ContactProblem};
 pub(crate) use contact::{checked_dim, unknowns};

@@ -125,12 +125,17 @@ impl Reduction for CondensedReduction {
         self.size
     }
 
-    fn condense(&self, load: &[f64], _prescribed: Option<&[f64]>) -> Vec<f64> {
-        load.to_vec()
+    fn condense(&self, load: &[f64], _prescribed: Option<&[f64]>) -> Result<Vec<f64>, Error> {
+        Ok(load.to_vec())
     }
 
-    fn recover(&self, _load: Option<&[f64]>, _prescribed: Option<&[f64]>, d: &[f64]) -> Vec<f64> {
-        d.to_vec()
+    fn recover(
+        &self,
+        _load: Option<&[f64]>,
+        _prescribed: Option<&[f64]>,
+        d: &[f64],
+    ) -> Result<Vec<f64>, Error> {
+        Ok(d.to_vec())
     }
 
     fn nodal_forces(&self, force: &[f64]) -> Vec<f64> {

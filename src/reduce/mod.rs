@@ -6,18 +6,29 @@
 mod condensed;
 mod frame;
 mod motion;
+mod operator;
 mod pairs;
 mod sparse;
 mod two_body;
 
 pub use condensed::CondensedReduction;
 pub(crate) use motion::driven_motion;
+pub use operator::{HostOperator, OperatorReduction};
 pub use pairs::ContactPairs;
 pub use sparse::{Control, Indices, SparseMatrix, SparseReduction, Triangle};
 pub use two_body::TwoBodyReduction;
 
 use crate::error::{Error, Message};
-use crate::problem::Dependence;
+use crate::problem::{Bodies, Dependence};
+
+/// A reduction that changes variables and condenses nothing.
+pub trait UnformedReduction {
+    /// What a solver works on, for one load case at a time.
+    fn bodies(&self) -> Box<dyn Bodies + '_>;
+
+    /// Loads of all unknowns of [`Self::bodies`] in a load case.
+    fn all_loads(&self, load: &[f64], prescribed: Option<&[f64]>) -> Vec<f64>;
+}
 
 /// A structure reduced to its contact pairs. It does not change: several threads may use it at once.
 ///
@@ -28,6 +39,11 @@ pub trait Reduction: Send + Sync {
     /// `K_rel`, column-major, square; of rows that depend on each other the stiffness `K` of their
     /// independent variables.
     fn stiffness(&self) -> &[f64];
+
+    /// What is asked in the place of a stiffness that is not formed; [`Self::stiffness`] is empty then.
+    fn unformed(&self) -> Option<&dyn UnformedReduction> {
+        None
+    }
 
     /// How the relative displacements follow from independent variables; `None`: they are these variables.
     fn dependence(&self) -> Option<&Dependence> {
@@ -55,11 +71,22 @@ pub trait Reduction: Send + Sync {
 
     /// Relative loads of a load case, of the variables of [`Self::stiffness`]: nodal loads and the values of the fixed degrees of freedom
     /// (`None`: zero).
-    fn condense(&self, load: &[f64], prescribed: Option<&[f64]>) -> Vec<f64>;
+    ///
+    /// # Errors
+    /// No memory for a factor that is not kept.
+    fn condense(&self, load: &[f64], prescribed: Option<&[f64]>) -> Result<Vec<f64>, Error>;
 
     /// Displacements of the host from the loads (`None`: zero), the values of the fixed degrees of
     /// freedom (`None`: zero) and the relative displacements `d`.
-    fn recover(&self, load: Option<&[f64]>, prescribed: Option<&[f64]>, d: &[f64]) -> Vec<f64>;
+    ///
+    /// # Errors
+    /// As [`Self::condense`].
+    fn recover(
+        &self,
+        load: Option<&[f64]>,
+        prescribed: Option<&[f64]>,
+        d: &[f64],
+    ) -> Result<Vec<f64>, Error>;
 
     /// Contact forces as nodal forces of the host.
     fn nodal_forces(&self, force: &[f64]) -> Vec<f64>;

@@ -19,7 +19,7 @@ pub(crate) fn driven_motion(
     load: &[f64],
     (d, unbalanced): (&[f64], &[f64]),
 ) -> String {
-    let largest = norm_inf(&reduction.recover(None, None, d));
+    let largest = norm_inf(&reduction.recover(None, None, d).unwrap_or_default());
     let along = |force: &[f64]| force.iter().zip(d).map(|(f, d)| f * d).sum::<f64>() / largest;
     let resultant = match reduction.frames() {
         Some(frames) => format!(", the force {} in the axes of K", force(frames, unbalanced, d)),

@@ -37,6 +37,20 @@ pub struct TwoBodyReduction {
 }
 
 impl TwoBodyReduction {
+    /// Displacements of both bodies.
+    fn displacements(&self, load: Option<&[f64]>, d: &[f64]) -> Vec<f64> {
+        let mut right = self.times_second(d);
+        if let Some(load) = load {
+            let (first, second) = self.split(load);
+            for (right, (a, b)) in right.iter_mut().zip(first.iter().zip(second)) {
+                *right += a - b;
+            }
+        }
+        let stiffer = self.solve(&right);
+        let softer: Vec<f64> = d.iter().zip(&stiffer).map(|(d, u)| d - u).collect();
+        if self.exchanged { [softer, stiffer].concat() } else { [stiffer, softer].concat() }
+    }
+
     /// Reduces `K_A` and `K_B`, `size x size` column-major with leading dimensions; `size` is `dim`
     /// components for each pair.
     ///
@@ -128,24 +142,20 @@ impl Reduction for TwoBodyReduction {
         2 * self.size
     }
 
-    fn condense(&self, load: &[f64], _prescribed: Option<&[f64]>) -> Vec<f64> {
+    fn condense(&self, load: &[f64], _prescribed: Option<&[f64]>) -> Result<Vec<f64>, Error> {
         let (first, second) = self.split(load);
         let difference: Vec<f64> = first.iter().zip(second).map(|(a, b)| a - b).collect();
         let x = self.solve(&difference);
-        self.times_second(&x).iter().zip(second).map(|(carried, f)| carried + f).collect()
+        Ok(self.times_second(&x).iter().zip(second).map(|(carried, f)| carried + f).collect())
     }
 
-    fn recover(&self, load: Option<&[f64]>, _prescribed: Option<&[f64]>, d: &[f64]) -> Vec<f64> {
-        let mut right = self.times_second(d);
-        if let Some(load) = load {
-            let (first, second) = self.split(load);
-            for (right, (a, b)) in right.iter_mut().zip(first.iter().zip(second)) {
-                *right += a - b;
-            }
-        }
-        let stiffer = self.solve(&right);
-        let softer: Vec<f64> = d.iter().zip(&stiffer).map(|(d, u)| d - u).collect();
-        if self.exchanged { [softer, stiffer].concat() } else { [stiffer, softer].concat() }
+    fn recover(
+        &self,
+        load: Option<&[f64]>,
+        _prescribed: Option<&[f64]>,
+        d: &[f64],
+    ) -> Result<Vec<f64>, Error> {
+        Ok(self.displacements(load, d))
     }
 
     /// `F` acts on both bodies, each in its own outward frame.
@@ -154,7 +164,7 @@ impl Reduction for TwoBodyReduction {
     }
 
     fn motion_in_words(&self, d: &[f64]) -> Message {
-        let u = self.recover(None, None, d);
+        let u = self.displacements(None, d);
         let largest = norm_inf(&u);
         let (first, second) = u.split_at(self.size);
         let moving = |name, u: &[f64]| {

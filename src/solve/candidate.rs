@@ -199,7 +199,7 @@ pub const NO_EQUILIBRIUM: &str =
 
 impl Ending {
     /// Why there is no solution at this end.
-    fn reason(&self, certificate: &Certificate) -> &'static str {
+    pub(super) fn reason(&self, certificate: &Certificate) -> &'static str {
         match self {
             _ if certificate.runs_away() => {
                 "the displacements are so large that rounding hides the forces"

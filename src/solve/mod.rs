@@ -2,7 +2,7 @@
 //! What is called a solution is decided in `candidate`, by the certificate alone.
 //!
 //! ```text
-//! outcome ← candidate ← condense ← rigid_balance ← smallest_lift ← sweeps ← normal_map ← active_set ← path ← lemke ← uniqueness ← dispatch ← auto ← escape_motion ← far_obstacles ← dependent ← flexibility ← existence ← mod
+//! outcome ← candidate ← condense ← rigid_balance ← smallest_lift ← sweeps ← normal_map ← krylov ← active_set ← path ← lemke ← uniqueness ← dispatch ← auto ← escape_motion ← far_obstacles ← dependent ← flexibility ← existence ← mod
 //!                                                                          └──── lcp ────────────────────────┘
 //! ```
 //!
@@ -19,6 +19,7 @@ mod escape_motion;
 mod existence;
 mod far_obstacles;
 mod flexibility;
+mod krylov;
 mod lcp;
 mod lemke;
 mod normal_map;
@@ -38,6 +39,9 @@ use crate::settings::{Search, Settings};
 
 pub(crate) use candidate::NO_EQUILIBRIUM;
 use dispatch::check_method;
+pub(crate) use krylov::{
+    Case as UnformedCase, certify as certify_unformed, solve as solve_unformed,
+};
 pub use lcp::{LcpSolution, solve_lcp};
 pub use outcome::{
     Errors, Escape, Existence, Fallback, SecondSolution, Solution, Status, Uniqueness,
@@ -113,7 +117,7 @@ pub fn solve(
     Ok(solution)
 }
 
-fn check_start(name: &str, n: usize, start: Option<&[f64]>) -> Result<(), Error> {
+pub(crate) fn check_start(name: &str, n: usize, start: Option<&[f64]>) -> Result<(), Error> {
     let Some(start) = start else { return Ok(()) };
     if start.len() != n {
         let message = format!("the start has {} entries, it must have {n}", start.len());

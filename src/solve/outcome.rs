@@ -102,9 +102,10 @@ pub struct Solution {
     pub orientation: i8,
     /// Sweeps, pivots or linear systems, of all methods that were tried.
     pub iterations: u64,
-    /// Dense factorisations of Newton's method and of block pivoting.
+    /// Dense factorisations of Newton's method and of block pivoting; in full space sparse ones.
     pub factorisations: u64,
-    /// Threshold updates of [`Method::SorNested`].
+    /// Threshold updates of [`Method::SorNested`]; where no condensed matrix is formed, solutions with a
+    /// factor.
     pub outer_iterations: u64,
     /// How often Lemke's tableau was refactorised because accuracy was lost.
     pub refactorisations: u64,

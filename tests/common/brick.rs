@@ -94,11 +94,15 @@ impl Brick {
     pub fn stiffness(&self) -> Stiffness {
         let size = self.size();
         let mut columns: Vec<Vec<(usize, f64)>> = vec![Vec::new(); size];
-        // The bricks of a block are alike: one matrix serves all.
-        let mut matrix = None;
+        // The bricks of a layer are alike, and those of layers of one height: one matrix serves them.
+        let mut matrices: Vec<(f64, Vec<[f64; 24]>)> = Vec::new();
         for nodes in self.elements() {
-            let matrix =
-                matrix.get_or_insert_with(|| element(nodes.map(|n| self.nodes[n]), self.material));
+            let height = self.nodes[nodes[6]][2] - self.nodes[nodes[0]][2];
+            let alike = |(other, _): &(f64, _)| (other - height).abs() <= 1e-12 * height;
+            if !matrices.last().is_some_and(alike) {
+                matrices.push((height, element(nodes.map(|n| self.nodes[n]), self.material)));
+            }
+            let (_, matrix) = &matrices[matrices.len() - 1];
             for (a, row) in matrix.iter().enumerate() {
                 for (b, entry) in row.iter().enumerate() {
                     let (i, j) = (3 * nodes[a / 3] + a % 3, 3 * nodes[b / 3] + b % 3);

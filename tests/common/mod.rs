@@ -24,3 +24,4 @@ pub mod quad;
 pub mod rigid_statics;
 pub mod stack;
 pub mod verdict;
+pub mod wavy;

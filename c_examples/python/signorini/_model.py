@@ -106,8 +106,9 @@ class Model:
         numbers of all its nodes, (k, D), and k signed weights, positive on the side whose normal is
         given; of sum 0, and 1 against a rigid obstacle. Nodes may stand in any number of pairs.
         order: order of elimination, each dof number once; None: chosen.  settings: progress,
-        time_limit (seconds) and memory_limit (bytes); a limit that is passed, or a progress function
-        that cancels, raises SignoriniError.
+        time_limit (seconds), memory_limit (bytes) and full_space; a limit that is passed, or a
+        progress function that cancels, raises SignoriniError. With full_space, or if the condensed
+        matrix needs more than memory_limit, none is formed: there is no stiffness then.
         """
         matrix, fixed = Matrix(K, triangle, order), supports(fixed)
         pairs = ContactPairs(slaves, normals, masters, weights, tangents, rows)

@@ -5,26 +5,29 @@
 //! they are computed. Nothing of `S` is factorised, so that it may be singular. Loads `(a, c)` become
 //! `c - B' y` with `L y = a`; and `Lᵀ x = y - B'ᵀ d` gives the eliminated unknowns.
 
+mod cholesky;
 mod dense;
+mod diagnosis;
 mod failure;
 mod graph;
 mod numeric;
 mod order;
+mod plan;
 mod solve;
 mod structure;
 mod watch;
 
+pub use cholesky::{SparseCholesky, Values};
 pub use failure::Failure;
-pub use watch::{Unwatched, Watch};
+pub use plan::Plan;
+pub use watch::{Unwatched, Watch, answered};
 
 use super::free_motions::{self, Doubt, is_suspicious};
-use super::null_vector::{resistance, weakest};
 use super::sparse_matrix::{Csc, diagonal};
-use super::tolerances::{NULL_VECTOR, REGULARISATION, SUSPICIOUS_PIVOT};
 use super::unreduced::Unreduced;
-use numeric::{Numeric, Unfinished, factorised};
+use diagnosis::diagnosed;
+use numeric::Numeric;
 use structure::Structure;
-use watch::answered;
 
 /// So many rows of `C` are few beside the rigid motions of a body, which are up to six: pivots tell which of
 /// them depend on the others, at no cost. Of more rows small diagonal entries alone are looked at.
@@ -53,43 +56,28 @@ impl SparseSchur {
     /// The first `eliminated` rows are those of `A`; `rank`, if given, orders them. `watch` is told the
     /// memory before it is taken.
     pub fn new(
-        mut lower: Csc,
+        lower: Csc,
         eliminated: usize,
         rank: Option<&[usize]>,
         look: Look,
         watch: &mut dyn Watch,
     ) -> Result<Self, Failure> {
-        let structure = Structure::new(&lower, eliminated, rank, watch)?;
-        let panel_of = structure.panel_of_columns()?;
-        let update = structure.cost(&panel_of).update;
-        let matrix = lower.compute_nnz() * (size_of::<usize>() + size_of::<f64>());
-        let bytes = numeric::bytes(&structure, &lower, update) + structure.bytes() + matrix;
-        answered(watch.announce(bytes as u64))?;
-        let (numeric, singular) = match factorised(&structure, &panel_of, &lower, watch) {
-            Ok(numeric) => (numeric, false),
-            Err(Unfinished::Failed(failure)) => return Err(failure),
-            Err(Unfinished::Pivot(_)) => {
-                (0..eliminated).for_each(|j| scale_diagonal(&mut lower, j, 1.0 + REGULARISATION));
-                match factorised(&structure, &panel_of, &lower, watch) {
-                    Ok(numeric) => (numeric, true),
-                    Err(Unfinished::Failed(failure)) => return Err(failure),
-                    Err(Unfinished::Pivot(place)) => {
-                        return Err(Failure::Indefinite(structure.order[place]));
-                    }
-                }
-            }
-        };
-        let Numeric { values, schur, weakest } = numeric;
+        let plan = Plan::new(&lower, eliminated, rank, watch)?;
+        answered(watch.announce(plan.bytes()))?;
+        Self::planned(plan, lower, look, watch)
+    }
+
+    /// Factorises the matrix of which `plan` was made.
+    pub fn planned(
+        plan: Plan,
+        mut lower: Csc,
+        look: Look,
+        watch: &mut dyn Watch,
+    ) -> Result<Self, Failure> {
+        let Numeric { values, schur, .. } = diagnosed(&plan, &mut lower, watch)?;
+        let structure = plan.structure;
+        let (eliminated, m) = (structure.eliminated, structure.kept());
         let mut found = SparseSchur { structure, values, schur };
-        if let Some((place, pivot)) = weakest
-            && (singular || pivot < SUSPICIOUS_PIVOT)
-        {
-            let vector = found.weakest_motion(place);
-            if singular || resistance(&lower, &vector) <= NULL_VECTOR {
-                return Err(Failure::NullVector(vector));
-            }
-        }
-        let m = found.structure.kept();
         let units: Vec<f64> =
             (eliminated..lower.ncols()).map(|j| diagonal(&lower, j).unwrap_or_default()).collect();
         let few = look == Look::Always || m <= FEW;
@@ -97,17 +85,6 @@ impl SparseSchur {
             found.settle(lower, &units)?;
         }
         Ok(found)
-    }
-
-    /// The motion of the eliminated rows that `A` resists least, by inverse iteration from a `place`.
-    fn weakest_motion(&self, place: usize) -> Vec<f64> {
-        let structure = &self.structure;
-        let ordered = weakest(structure.size, place, |x| {
-            solve::forward(structure, &self.values, x);
-            x[structure.eliminated..].fill(0.0);
-            solve::backward(structure, &self.values, x);
-        });
-        self.unordered(&ordered)
     }
 
     /// Makes `S` exact on the motions that nothing resists; `lower` is the whole matrix, and `units` is the
@@ -136,26 +113,12 @@ impl SparseSchur {
         let mut x = self.forward(rhs);
         x[self.structure.eliminated..].copy_from_slice(d);
         solve::backward(&self.structure, &self.values, &mut x);
-        self.unordered(&x)
+        self.structure.unordered(&x)
     }
 
     fn forward(&self, rhs: &[f64]) -> Vec<f64> {
-        let mut x: Vec<f64> = self.structure.order.iter().map(|&i| rhs[i]).collect();
+        let mut x = self.structure.ordered(rhs);
         solve::forward(&self.structure, &self.values, &mut x);
         x
     }
-
-    fn unordered(&self, ordered: &[f64]) -> Vec<f64> {
-        let mut vector = vec![0.0; ordered.len()];
-        for (&i, x) in self.structure.order.iter().zip(ordered) {
-            vector[i] = *x;
-        }
-        vector
-    }
-}
-
-/// Multiplies the diagonal entry of column `j`, which is stored first.
-fn scale_diagonal(lower: &mut Csc, j: usize, factor: f64) {
-    let place = lower.symbolic().col_ptr()[j];
-    lower.val_mut()[place] *= factor;
 }

@@ -108,6 +108,20 @@ impl Structure {
         Ok(())
     }
 
+    /// A vector of all unknowns in their places.
+    pub fn ordered(&self, vector: &[f64]) -> Vec<f64> {
+        self.order.iter().map(|&i| vector[i]).collect()
+    }
+
+    /// The vector that has `ordered` in its places.
+    pub fn unordered(&self, ordered: &[f64]) -> Vec<f64> {
+        let mut vector = vec![0.0; ordered.len()];
+        for (&i, x) in self.order.iter().zip(ordered) {
+            vector[i] = *x;
+        }
+        vector
+    }
+
     /// Number of panels.
     pub fn panels(&self) -> usize {
         self.begin.len() - 1

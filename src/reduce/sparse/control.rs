@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use crate::error::{Argument, Error, entry, index};
+use crate::error::{Argument, Error, Limit, entry, index};
 use crate::linalg::sparse_schur::Watch;
 
 /// Is asked between steps whether to go on: the share of the work that is done, and the bytes that it needs
@@ -13,6 +13,8 @@ type Ask<'a> = dyn FnMut(f64, u64) -> Result<(), Error> + 'a;
 pub struct Control<'a> {
     /// Each degree of freedom once, the first to be eliminated first; `None`: chosen.
     pub order: Option<&'a [usize]>,
+    /// Whether no condensed matrix is to be formed.
+    pub full_space: bool,
     /// Asked between steps.
     pub ask: &'a mut Ask<'a>,
 }
@@ -27,6 +29,11 @@ pub(super) struct Asked<'a, 'b> {
 impl<'a, 'b> Asked<'a, 'b> {
     pub(super) fn new(ask: &'b mut Ask<'a>) -> Self {
         Asked { ask, memory: 0, ended: None }
+    }
+
+    /// Whether the answer was that memory does not suffice.
+    pub(super) fn lacks_memory(&self) -> bool {
+        matches!(self.ended, Some(Error::Stopped { limit: Limit::Memory, .. }))
     }
 }
 

@@ -15,6 +15,7 @@
 
 mod change_of_variables;
 mod control;
+mod full_space;
 mod general_rows;
 mod host_arrays;
 mod host_matrix;
@@ -24,15 +25,16 @@ mod supports;
 pub use control::Control;
 pub use host_arrays::{Indices, SparseMatrix, Triangle};
 
-use super::{ContactPairs, Reduction};
+use super::{ContactPairs, Reduction, UnformedReduction};
 use crate::error::{Argument, Error, Message};
 use crate::linalg::sparse_matrix::{Csc, OutOfMemory, times, transpose_times};
-use crate::linalg::sparse_schur::{Failure, Look, SparseSchur};
+use crate::linalg::sparse_schur::{Failure, Look, Plan, SparseSchur, Watch};
 use crate::linalg::vector::norm_inf;
-use crate::problem::Dependence;
+use crate::problem::{Bodies, Dependence};
 use crate::reduce::frame::Frame;
 use change_of_variables::{ChangeOfVariables, contact_forces};
 use control::{Asked, ranks};
+use full_space::FullSpace;
 use general_rows::{Dependent, GeneralRows, general_rows};
 use supports::FixedComponent;
 
@@ -50,7 +52,15 @@ pub struct SparseReduction {
     supports: Vec<FixedComponent>,
     fixed_components: Vec<usize>,
     dependent: Option<Dependent>,
-    schur: SparseSchur,
+    engine: Engine,
+}
+
+/// What solves for the unknowns that are not relative displacements.
+enum Engine {
+    /// They are condensed.
+    Condensed(SparseSchur),
+    /// They stay.
+    FullSpace(Box<FullSpace>),
 }
 
 impl SparseReduction {
@@ -64,7 +74,12 @@ impl SparseReduction {
         fixed: &[usize],
         pairs: &ContactPairs<'_>,
     ) -> Result<Self, Error> {
-        Self::controlled(matrix, fixed, pairs, Control { order: None, ask: &mut |_, _| Ok(()) })
+        Self::controlled(
+            matrix,
+            fixed,
+            pairs,
+            Control { order: None, full_space: false, ask: &mut |_, _| Ok(()) },
+        )
     }
 
     /// As [`Self::new`], in an order of the host and with somebody who is asked whether to go on.
@@ -99,7 +114,9 @@ impl SparseReduction {
         let rank: Option<Vec<usize>> = rank.map(|rank| free.iter().map(|&dof| rank[dof]).collect());
         // Rows of many nodes leave more rounding on motions that are free than the entries of K_rel show.
         let look = if own { Look::IfSuspicious } else { Look::Always };
-        let schur = SparseSchur::new(transformed, free.len(), rank.as_deref(), look, &mut asked)
+        let parts = Parts { inner: free.len(), dim: pairs.dim, rank: rank.as_deref(), look };
+        let choice = (control.full_space, dependent.is_none());
+        let engine = Engine::new(transformed, &parts, choice, &mut asked)
             .map_err(|failure| asked.ended.unwrap_or_else(|| refused(&variables, failure)))?;
         Ok(SparseReduction {
             dim: pairs.dim,
@@ -111,7 +128,7 @@ impl SparseReduction {
             fixed_components: supports.iter().map(|support| support.component).collect(),
             supports,
             dependent,
-            schur,
+            engine,
         })
     }
 
@@ -128,7 +145,14 @@ impl SparseReduction {
 
 impl Reduction for SparseReduction {
     fn stiffness(&self) -> &[f64] {
-        self.schur.schur()
+        match &self.engine {
+            Engine::Condensed(schur) => schur.schur(),
+            Engine::FullSpace(_) => &[],
+        }
+    }
+
+    fn unformed(&self) -> Option<&dyn UnformedReduction> {
+        matches!(self.engine, Engine::FullSpace(_)).then_some(self as &dyn UnformedReduction)
     }
 
     fn host_size(&self) -> usize {
@@ -139,16 +163,29 @@ impl Reduction for SparseReduction {
         self.fixed_count
     }
 
-    fn condense(&self, load: &[f64], prescribed: Option<&[f64]>) -> Vec<f64> {
-        self.schur.condense(&self.transformed_load(load, prescribed))
+    fn condense(&self, load: &[f64], prescribed: Option<&[f64]>) -> Result<Vec<f64>, Error> {
+        let load = self.transformed_load(load, prescribed);
+        match &self.engine {
+            Engine::Condensed(schur) => Ok(schur.condense(&load)),
+            Engine::FullSpace(space) => space.condense(&load),
+        }
     }
 
-    fn recover(&self, load: Option<&[f64]>, prescribed: Option<&[f64]>, d: &[f64]) -> Vec<f64> {
+    fn recover(
+        &self,
+        load: Option<&[f64]>,
+        prescribed: Option<&[f64]>,
+        d: &[f64],
+    ) -> Result<Vec<f64>, Error> {
         let nothing = vec![0.0; if load.is_none() { self.host_size() } else { 0 }];
         let load = self.transformed_load(load.unwrap_or(&nothing), prescribed);
         let variables = self.dependence().map(|dependence| dependence.of_relative(d));
-        let x = self.schur.recover(&load, variables.as_deref().unwrap_or(d));
-        self.variables.host_displacements(&x, prescribed)
+        let d = variables.as_deref().unwrap_or(d);
+        let x = match &self.engine {
+            Engine::Condensed(schur) => schur.recover(&load, d),
+            Engine::FullSpace(space) => space.recover(&load, d)?,
+        };
+        Ok(self.variables.host_displacements(&x, prescribed))
     }
 
     /// `Bᵀ F`: `R F` on each node by its signed weight.
@@ -179,7 +216,7 @@ impl Reduction for SparseReduction {
     }
 
     fn motion_in_words(&self, d: &[f64]) -> Message {
-        let whole = super::motion::of_host(&self.recover(None, None, d));
+        let whole = super::motion::of_host(&self.recover(None, None, d).unwrap_or_default());
         let dim = self.dim;
         let size = |pair: &usize| norm_inf(&d[dim * pair..dim * (pair + 1)]);
         let most = (0..d.len() / dim).max_by(|a, b| size(a).total_cmp(&size(b)));
@@ -192,6 +229,54 @@ impl Reduction for SparseReduction {
             relative.iter_mut().zip(direction).for_each(|(u, part)| *u += d * part);
         }
         messages::with_pair(&whole, pair, &relative).into()
+    }
+}
+
+impl UnformedReduction for SparseReduction {
+    fn bodies(&self) -> Box<dyn Bodies + '_> {
+        match &self.engine {
+            Engine::FullSpace(space) => Box::new(space.session()),
+            Engine::Condensed(_) => unreachable!("a condensed stiffness is formed"),
+        }
+    }
+
+    fn all_loads(&self, load: &[f64], prescribed: Option<&[f64]>) -> Vec<f64> {
+        self.transformed_load(load, prescribed)
+    }
+}
+
+/// How the transformed matrix is divided and eliminated.
+struct Parts<'a> {
+    /// Number of unknowns that are no relative displacements.
+    inner: usize,
+    dim: usize,
+    /// The host's order of them.
+    rank: Option<&'a [usize]>,
+    look: Look,
+}
+
+impl Engine {
+    /// Condenses `matrix`, or leaves it as it is: if that is `wanted`, or if the condensed matrix needs more
+    /// memory than is allowed and it is `possible`.
+    fn new(
+        matrix: Csc,
+        parts: &Parts<'_>,
+        (wanted, possible): (bool, bool),
+        asked: &mut Asked<'_, '_>,
+    ) -> Result<Self, Failure> {
+        if !(wanted && possible) {
+            let plan = Plan::new(&matrix, parts.inner, parts.rank, asked)?;
+            if asked.announce(plan.bytes()).is_continue() {
+                return SparseSchur::planned(plan, matrix, parts.look, asked)
+                    .map(Engine::Condensed);
+            }
+            if !(possible && asked.lacks_memory()) {
+                return Err(Failure::Stopped);
+            }
+            asked.ended = None;
+        }
+        FullSpace::new(matrix, parts.inner, parts.dim, asked)
+            .map(|space| Engine::FullSpace(Box::new(space)))
     }
 }
 

@@ -1,0 +1,139 @@
+//! Models of which the host gives products and solutions alone.
+
+use libc::c_void;
+
+use super::args::Arrays;
+use super::args::sizes;
+use super::guard::{self, Failure};
+use super::model_new::{Place, SignoriniModel};
+use super::structures;
+use crate::model::Model;
+use crate::reduce::HostOperator;
+
+/// A product of the host, y = K_rel x or y = W x: x and y have N = dim * pairs entries. Returns 0;
+/// another number ends the call of the library, whose sentence tells it. It must return: no longjmp,
+/// no exception; and it must not call this library.
+pub type SignoriniProductFn =
+    Option<unsafe extern "C" fn(user: *mut c_void, x: *const f64, y: *mut f64) -> i32>;
+
+/// A solution of the host with components held: y is 0 where held is nonzero, and K_rel y = x in
+/// the other components; x does not count where held is nonzero. All have N entries. changed is 0
+/// if the same components are held as in the call before on this model, so that a factor may serve
+/// again. Returns as signorini_product_fn.
+pub type SignoriniHeldFn = Option<
+    unsafe extern "C" fn(
+        user: *mut c_void,
+        held: *const i32,
+        changed: i32,
+        x: *const f64,
+        y: *mut f64,
+    ) -> i32,
+>;
+
+/// What a host gives in the place of a matrix: say a code on several processes, with a factor of its
+/// own. d and F are those of the pairs, as for signorini_solve, and K_rel is the K there.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct SignoriniOperator {
+    /// sizeof(signorini_operator).
+    pub struct_size: u32,
+    /// Space dimension, 2 or 3.
+    pub dim: i32,
+    /// Number of contact pairs.
+    pub pairs: i64,
+    /// y = K_rel x; symmetric, positive semi-definite; as exact as the tolerance asks for.
+    pub stiffness: SignoriniProductFn,
+    /// y = W x, with W close to the inverse of K_rel, symmetric and positive definite: a solution
+    /// with the contact free. May be NULL if held is given, which is then used alone.
+    pub inverse: SignoriniProductFn,
+    /// A solution with components held; it saves most products. May be NULL if inverse is given.
+    pub held: SignoriniHeldFn,
+    /// Units of force per length of the components, N positive numbers of the size of the diagonal
+    /// of K_rel. NULL: one for each direction, from products.
+    pub units: *const f64,
+    /// Passed to the functions as their first argument.
+    pub user: *mut c_void,
+}
+
+/// The functions of a host.
+struct Functions {
+    stiffness: unsafe extern "C" fn(*mut c_void, *const f64, *mut f64) -> i32,
+    inverse: SignoriniProductFn,
+    held: SignoriniHeldFn,
+    user: *mut c_void,
+}
+
+// SAFETY: the header demands that a host's functions may be called from the threads on which it calls the library
+// with this model.
+unsafe impl Send for Functions {}
+// SAFETY: as above.
+unsafe impl Sync for Functions {}
+
+fn answered(number: i32) -> Result<(), i32> {
+    if number == 0 { Ok(()) } else { Err(number) }
+}
+
+impl HostOperator for Functions {
+    fn stiffness(&self, x: &[f64], y: &mut [f64]) -> Result<(), i32> {
+        // SAFETY: the header demands a function of this type that returns normally and writes N entries.
+        answered(unsafe { (self.stiffness)(self.user, x.as_ptr(), y.as_mut_ptr()) })
+    }
+
+    fn has_inverse(&self) -> bool {
+        self.inverse.is_some()
+    }
+
+    fn inverse(&self, x: &[f64], y: &mut [f64]) -> Result<(), i32> {
+        let Some(inverse) = self.inverse else { return Err(-1) };
+        // SAFETY: as above.
+        answered(unsafe { inverse(self.user, x.as_ptr(), y.as_mut_ptr()) })
+    }
+
+    fn has_held(&self) -> bool {
+        self.held.is_some()
+    }
+
+    fn held(&self, held: &[bool], changed: bool, x: &[f64], y: &mut [f64]) -> Result<(), i32> {
+        let Some(solve) = self.held else { return Err(-1) };
+        let held: Vec<i32> = held.iter().map(|held| i32::from(*held)).collect();
+        let (changed, x, y) = (i32::from(changed), x.as_ptr(), y.as_mut_ptr());
+        // SAFETY: as above; `held` has N entries too.
+        answered(unsafe { solve(self.user, held.as_ptr(), changed, x, y) })
+    }
+}
+
+/// Makes a model of which you give products and solutions alone, for structures that no one process
+/// holds: no matrix is formed. Loads and displacements of the host are the relative ones, H = N
+/// entries. Load cases are solved by Newton's method with GMRES, methods AUTO and NEWTON alone, no
+/// search, no proof: some ten products with K_rel and W for each change of the states, in all up to
+/// 110 of each in 2D and 160 in 3D; with held one for each of 16 to 60 solutions.
+///
+/// Before it returns it asks for some products, of which the answers must be finite, linear,
+/// symmetric, positive and the same each time, to 1e-9. Later calls on the model return -1 if a
+/// function fails or gives a number that is not finite; the sentence says which one and where, and
+/// the model can be used again. Calls from several threads on one model are yours to allow: its
+/// functions are called on the threads that call the library.
+///
+/// @param K      the functions; the structure is copied, with units
+/// @param model  out: the model; NULL unless 0 is returned
+/// @return 0; -k: the k-th argument is wrong; <= -1000: out of memory or a defect
+#[unsafe(no_mangle)]
+#[allow(non_snake_case)] // the names of the mechanics, which the header shows
+pub unsafe extern "C" fn signorini_model_new_operator(
+    K: *const SignoriniOperator,
+    model: *mut *mut SignoriniModel,
+) -> i32 {
+    guard::call(|| {
+        let place = Place::new(2, model)?;
+        // SAFETY: NULL or a structure that begins with its size.
+        let given = unsafe { structures::whole(1, "K", K)? };
+        let wrong = |message: &str| Failure::argument(1, message.to_owned());
+        let (dim, pairs, n) = sizes(1, given.dim, given.pairs).map_err(|failure| failure.at(1))?;
+        let stiffness = given.stiffness.ok_or_else(|| wrong("K: stiffness is NULL"))?;
+        // SAFETY: NULL or N entries, by the header.
+        let units = unsafe { Arrays::default().optional(1, "units", given.units, n)? };
+        let SignoriniOperator { inverse, held, user, .. } = *given;
+        let functions = Box::new(Functions { stiffness, inverse, held, user });
+        place.fill(Model::operator(dim, pairs, functions, units), |_| 1)
+    })
+}

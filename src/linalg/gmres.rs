@@ -1,0 +1,134 @@
+//! GMRES: a linear system of which only products are known.
+//!
+//! Y. Saad and M. H. Schultz, *GMRES: a generalized minimal residual algorithm for solving nonsymmetric linear
+//! systems*, SIAM J. Sci. Stat. Comput. 7 (1986) 856-869. Modified Gram-Schmidt, twice where digits cancel;
+//! Givens rotations; no restart.
+
+use super::vector::{dot, norm};
+
+/// Where orthogonalisation leaves less of a vector than this part, it is done once more.
+const CANCELS: f64 = 0.5;
+
+/// What is left of a vector is rounding: the space of the directions is invariant.
+const ROUNDING_OF_DIRECTION: f64 = 1e-14;
+
+/// Minimises `|right - sum c_j A v_j|` over the directions `v_0 = right / |right|, v_1, ...`, until it is at
+/// most `least` or there are `most` directions. `multiply` gives `A v` of each direction in turn. Returns the
+/// coefficients, one for each direction, and the norm of the residual.
+///
+/// # Errors
+/// Those of `multiply`.
+pub fn gmres<E>(
+    right: &[f64],
+    least: f64,
+    most: usize,
+    mut multiply: impl FnMut(&[f64]) -> Result<Vec<f64>, E>,
+) -> Result<(Vec<f64>, f64), E> {
+    let size = norm(right);
+    // Columns of the triangle, rotations, and the rotated right side.
+    let (mut triangle, mut rotations) = (Vec::<Vec<f64>>::new(), Vec::<(f64, f64)>::new());
+    let mut rotated = vec![size];
+    let mut basis = vec![scaled(right, 1.0 / size)];
+    let mut residual = size;
+    while size > 0.0 && residual > least && triangle.len() < most {
+        let k = triangle.len();
+        let mut image = multiply(&basis[k])?;
+        let (mut column, left, was) = orthogonalised(&mut image, &basis);
+        for (j, &(c, s)) in rotations.iter().enumerate() {
+            (column[j], column[j + 1]) =
+                (c * column[j] + s * column[j + 1], c * column[j + 1] - s * column[j]);
+        }
+        let diagonal = column[k].hypot(left);
+        if !(diagonal > ROUNDING_OF_DIRECTION * was) {
+            break;
+        }
+        let (c, s) = (column[k] / diagonal, left / diagonal);
+        column[k] = diagonal;
+        column.truncate(k + 1);
+        triangle.push(column);
+        rotations.push((c, s));
+        let last = rotated[k];
+        rotated[k] = c * last;
+        rotated.push(-s * last);
+        residual = (s * last).abs();
+        if left <= ROUNDING_OF_DIRECTION * was {
+            break;
+        }
+        basis.push(scaled(&image, 1.0 / left));
+    }
+    let mut coefficients = rotated;
+    coefficients.truncate(triangle.len());
+    for k in (0..triangle.len()).rev() {
+        coefficients[k] /= triangle[k][k];
+        let known = coefficients[k];
+        (0..k).for_each(|j| coefficients[j] -= known * triangle[k][j]);
+    }
+    Ok((coefficients, residual))
+}
+
+/// Takes the directions of `basis` out of a vector: their coefficients, followed by a 0, what is left of its
+/// length, and its length.
+fn orthogonalised(vector: &mut [f64], basis: &[Vec<f64>]) -> (Vec<f64>, f64, f64) {
+    let mut column = vec![0.0; basis.len() + 1];
+    let was = norm(vector);
+    let (mut before, mut left) = (f64::INFINITY, was);
+    while left < CANCELS * before && left > 0.0 {
+        for (coefficient, direction) in column.iter_mut().zip(basis) {
+            let share = dot(direction, vector);
+            *coefficient += share;
+            vector.iter_mut().zip(direction).for_each(|(v, d)| *v -= share * d);
+        }
+        (before, left) = (left, norm(vector));
+    }
+    (column, left, was)
+}
+
+fn scaled(vector: &[f64], factor: f64) -> Vec<f64> {
+    vector.iter().map(|v| factor * v).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Random systems of `n` unknowns end in `n` directions at the latest (Cayley and Hamilton), with the
+    /// solution to the rounding of a matrix of condition about 10.
+    #[test]
+    fn solves_in_as_many_steps_as_unknowns() {
+        let mut rng = fastrand::Rng::with_seed(3);
+        for n in 1..20 {
+            let matrix: Vec<Vec<f64>> = (0..n)
+                .map(|i| {
+                    let row = (0..n).map(|j| if i == j { 3.0 } else { 0.0 });
+                    row.map(|d| d + (rng.f64() - 0.5) / n as f64).collect()
+                })
+                .collect();
+            let exact: Vec<f64> = (0..n).map(|_| rng.f64() - 0.5).collect();
+            let times = |x: &[f64]| -> Vec<f64> { matrix.iter().map(|row| dot(row, x)).collect() };
+            let right = times(&exact);
+            let mut directions: Vec<Vec<f64>> = Vec::new();
+            let (coefficients, _) = gmres(&right, 0.0, n, |v| {
+                directions.push(v.to_vec());
+                Ok::<_, ()>(times(v))
+            })
+            .unwrap();
+            let mut x = vec![0.0; n];
+            for (c, v) in coefficients.iter().zip(&directions) {
+                x.iter_mut().zip(v).for_each(|(x, v)| *x += c * v);
+            }
+            let error = norm(&x.iter().zip(&exact).map(|(a, b)| a - b).collect::<Vec<_>>());
+            assert!(error <= 1e-13, "{n}: {error:e}");
+        }
+    }
+
+    /// A singular system whose right side is no image: the residual is what is left of it, and nothing is divided
+    /// by zero.
+    #[test]
+    fn a_singular_system_leaves_its_residual() {
+        let times = |x: &[f64]| vec![x[0], 0.0];
+        let (coefficients, residual) =
+            gmres(&[3.0, 4.0], 0.0, 5, |v| Ok::<_, ()>(times(v))).unwrap();
+        assert!((residual - 4.0).abs() <= 1e-14 * 4.0);
+        assert!(coefficients.iter().all(|c| c.is_finite()));
+    }
+}

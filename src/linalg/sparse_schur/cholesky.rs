@@ -1,0 +1,54 @@
+//! Sparse Cholesky factorisations of matrices of one pattern: analysed once, factorised again and again.
+
+use super::diagnosis::diagnosed;
+use super::failure::Failure;
+use super::numeric::{Numeric, Unfinished, factorised};
+use super::plan::Plan;
+use super::solve::{backward, forward};
+use super::watch::Watch;
+use crate::linalg::sparse_matrix::Csc;
+use crate::linalg::tolerances::NEGLIGIBLE;
+
+/// The values of a factor.
+pub struct Values(Vec<f64>);
+
+/// The analysis of a pattern.
+pub struct SparseCholesky(Plan);
+
+impl SparseCholesky {
+    /// Analyses the pattern of `lower`, of which every diagonal entry is stored.
+    pub fn new(lower: &Csc, watch: &mut dyn Watch) -> Result<Self, Failure> {
+        Ok(SparseCholesky(Plan::new(lower, lower.ncols(), None, watch)?))
+    }
+
+    /// Bytes of a factorisation, with those of the matrix.
+    pub fn bytes(&self) -> u64 {
+        self.0.bytes()
+    }
+
+    /// Factorises a matrix of the pattern that must be definite; otherwise a motion says why it is not.
+    pub fn diagnosed(&self, mut lower: Csc, watch: &mut dyn Watch) -> Result<Values, Failure> {
+        Ok(Values(diagnosed(&self.0, &mut lower, watch)?.values))
+    }
+
+    /// Factorises a matrix of the pattern; `None` if it is not definite but for rounding.
+    pub fn factor(&self, lower: &Csc, watch: &mut dyn Watch) -> Result<Option<Values>, Failure> {
+        match factorised(&self.0.structure, &self.0.panel_of, lower, watch) {
+            Ok(Numeric { values, weakest, .. }) => {
+                let definite = weakest.is_none_or(|(_, pivot)| pivot > NEGLIGIBLE);
+                Ok(definite.then_some(Values(values)))
+            }
+            Err(Unfinished::Pivot(_)) => Ok(None),
+            Err(Unfinished::Failed(failure)) => Err(failure),
+        }
+    }
+
+    /// The solution for the right side `b`.
+    pub fn solve(&self, values: &Values, b: &[f64]) -> Vec<f64> {
+        let structure = &self.0.structure;
+        let mut x = structure.ordered(b);
+        forward(structure, &values.0, &mut x);
+        backward(structure, &values.0, &mut x);
+        structure.unordered(&x)
+    }
+}

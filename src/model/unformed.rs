@@ -1,0 +1,85 @@
+//! Models that have no stiffness in relative displacements: what they are asked in its place, and what they
+//! refuse.
+
+use super::arguments::check_fixed_gaps;
+use super::{LoadCase, Model};
+use crate::error::{Argument, Error, index};
+use crate::problem::{Bodies, checked_dim, unknowns};
+use crate::reduce::{HostOperator, OperatorReduction, UnformedReduction};
+use crate::solve::UnformedCase;
+
+impl Model {
+    /// A structure of which the host gives products and solutions in relative displacements alone. Loads and
+    /// displacements of the host are those of the pairs, `dim * pairs`. `units` are positive, of the size of the
+    /// diagonal of `K_rel`, force per length; `None`: one for each direction, from products.
+    ///
+    /// # Errors
+    /// A dimension that is not 2 or 3; units of the wrong length; what [`OperatorReduction::new`] finds wrong with
+    /// the operator.
+    pub fn operator(
+        dim: usize,
+        pairs: usize,
+        operator: Box<dyn HostOperator>,
+        units: Option<&[f64]>,
+    ) -> Result<Self, Error> {
+        let size = unknowns(checked_dim(dim)?, pairs)?;
+        if let Some(units) = units.filter(|units| units.len() != size) {
+            let message = format!("units has {} entries, it must have {size}", units.len());
+            return Err(Error::invalid(Argument::Matrix, message));
+        }
+        let reduction = Box::new(OperatorReduction::new(operator, (dim, pairs), units)?);
+        Ok(Model { dim, pairs, reduction })
+    }
+
+    /// Hands over bodies whose stiffness is not formed, with a load case.
+    pub(super) fn on_bodies<T>(
+        &self,
+        unformed: &dyn UnformedReduction,
+        case: &LoadCase<'_>,
+        to: impl FnOnce(&mut dyn Bodies, &UnformedCase<'_>) -> Result<T, Error>,
+    ) -> Result<T, Error> {
+        self.check_loads(Some(case.load), case.prescribed)?;
+        check_fixed_gaps(self.reduction.fixed_components(), self.dim, case.gap)?;
+        let slip = case.reference_slip.map(|slip| self.allowed_slip(slip));
+        let load = unformed.all_loads(case.load, case.prescribed);
+        let case = UnformedCase {
+            dim: self.dim,
+            load: &load,
+            gap: case.gap,
+            law: case.law,
+            reference_slip: slip.as_deref(),
+        };
+        to(&mut *unformed.bodies(), &case)
+    }
+
+    /// Whether the model forms no stiffness in relative displacements: it is in full space.
+    pub fn is_unformed(&self) -> bool {
+        self.reduction.unformed().is_some()
+    }
+
+    /// Refuses what needs the entries of a stiffness that is not formed.
+    pub(crate) fn check_formed(&self) -> Result<(), Error> {
+        if !self.is_unformed() {
+            return Ok(());
+        }
+        let message = "the model forms no condensed matrix: it is in full space, or an operator; solve, certify and recover \
+                       load cases by the model";
+        Err(Error::invalid(Argument::Matrix, message))
+    }
+
+    /// Refuses what needs a stiffness in relative displacements, if there is none.
+    pub(crate) fn check_independent(&self) -> Result<(), Error> {
+        let pairs = self.dependent_pairs();
+        let Some(first) = pairs.first() else { return Ok(()) };
+        let others = match pairs.len() {
+            1 => String::new(),
+            more => format!(" and of {} more", more - 1),
+        };
+        let message = format!(
+            "the rows of pair {}{others} follow from those of other pairs or from supports: no stiffness in \
+             relative displacements exists; solve load cases by the model",
+            index(first)
+        );
+        Err(Error::invalid(Argument::Matrix, message))
+    }
+}

@@ -1,0 +1,344 @@
+//! A structure of which only products and solutions are known: the host multiplies and solves by itself.
+
+use std::sync::Mutex;
+use std::sync::PoisonError;
+
+use super::{Reduction, UnformedReduction, motion};
+use crate::error::{Argument, Error, Message, entry};
+use crate::linalg::vector::{dot, first_not_finite, norm};
+use crate::problem::{Bodies, Restriction};
+
+/// What a host offers. Vectors are relative displacements and forces of the pairs. What returns `Err` has failed;
+/// its number is told.
+pub trait HostOperator: Send + Sync {
+    /// `y = K_rel x`, symmetric and positive semi-definite.
+    ///
+    /// # Errors
+    /// A number of the host.
+    fn stiffness(&self, x: &[f64], y: &mut [f64]) -> Result<(), i32>;
+
+    /// Whether there is [`Self::inverse`].
+    fn has_inverse(&self) -> bool {
+        false
+    }
+
+    /// `y = W x`, symmetric and positive definite, close to the inverse of `K_rel`.
+    ///
+    /// # Errors
+    /// A number of the host.
+    fn inverse(&self, _x: &[f64], _y: &mut [f64]) -> Result<(), i32> {
+        Err(-1)
+    }
+
+    /// Whether there is [`Self::held`].
+    fn has_held(&self) -> bool {
+        false
+    }
+
+    /// `y`, zero in components that are `held`, with `K_rel y = x` in the others. `changed`: others are held than in
+    /// the call before.
+    ///
+    /// # Errors
+    /// A number of the host.
+    fn held(&self, _held: &[bool], _changed: bool, _x: &[f64], _y: &mut [f64]) -> Result<(), i32> {
+        Err(-1)
+    }
+}
+
+/// Products of probes that should agree differ by this part of their sizes at most: what rounding of products and
+/// of the host's inner solutions leaves, and what a certificate of 1e-10 can bear.
+const AGREES: f64 = 1e-9;
+
+/// Sums of `|K| |x|` beside the units of the components: neighbours, and the far field of a half space.
+const NEIGHBOURS: f64 = 8.0;
+
+/// The operator, checked.
+pub struct OperatorReduction {
+    operator: Box<dyn HostOperator>,
+    dim: usize,
+    units: Vec<f64>,
+    /// What was held in the last call of the host.
+    held: Mutex<Vec<bool>>,
+}
+
+impl OperatorReduction {
+    /// Checks the operator of `pairs` pairs by some products. `units` are of the size of its diagonal; `None`: by
+    /// the products.
+    ///
+    /// # Errors
+    /// Which product has failed or is not finite; that the operator is not linear, symmetric, positive or
+    /// reproducible; units that are not positive.
+    pub fn new(
+        operator: Box<dyn HostOperator>,
+        (dim, pairs): (usize, usize),
+        units: Option<&[f64]>,
+    ) -> Result<Self, Error> {
+        let size = dim * pairs;
+        if !(operator.has_inverse() || operator.has_held()) {
+            return refuse("neither inverse nor held is given: give one of them".into());
+        }
+        if let Some(wrong) = units.and_then(|units| units.iter().position(|unit| !is_unit(*unit))) {
+            let place = entry("units", [wrong]);
+            return refuse(format!("{place} must be positive and finite"));
+        }
+        let held = Mutex::new(Vec::new());
+        let mut made = OperatorReduction { operator, dim, units: vec![1.0; size], held };
+        if size == 0 {
+            return Ok(made);
+        }
+        let probes = [probe(size, 1), probe(size, 2)];
+        let products = made.check("K_rel", &probes, |made, x| made.product(x))?;
+        if made.operator.has_inverse() {
+            let images = made.check("W", &probes, |made, x| made.by_inverse(x))?;
+            for (x, image) in probes.iter().zip(&images) {
+                if !(dot(x, image) > 0.0) {
+                    return refuse("W is not positive definite: x . W x is not positive".into());
+                }
+            }
+        }
+        if made.operator.has_held() {
+            let mask: Vec<bool> = (0..size).map(|i| i % 3 == 0).collect();
+            let name = "the solution with components held";
+            let images = made.check(name, &probes, |made, x| made.by_held(&mask, x))?;
+            for image in images {
+                if let Some(i) = (0..size).find(|&i| mask[i] && image[i] != 0.0) {
+                    let place = entry("y", [i]);
+                    return refuse(format!("{name}: {place} is held and is not 0"));
+                }
+            }
+        }
+        match units {
+            Some(units) => made.units.copy_from_slice(units),
+            None => made.units = measured_units(dim, &probes, &products)?,
+        }
+        Ok(made)
+    }
+
+    /// The images of two probes, if a linear, symmetric, positive semi-definite and reproducible map has them.
+    fn check(
+        &self,
+        name: &str,
+        [x, y]: &[Vec<f64>; 2],
+        image: impl Fn(&Self, &[f64]) -> Result<Vec<f64>, Error>,
+    ) -> Result<[Vec<f64>; 2], Error> {
+        let (of_x, of_y) = (image(self, x)?, image(self, y)?);
+        let apart = |a: &[f64], b: &[f64]| {
+            let difference: Vec<f64> = a.iter().zip(b).map(|(a, b)| a - b).collect();
+            norm(&difference)
+        };
+        let size = norm(&of_x) + norm(&of_y);
+        if apart(&image(self, x)?, &of_x) > AGREES * size {
+            return refuse(format!(
+                "{name} is not reproducible: the same vector gives another one"
+            ));
+        }
+        let sum = |a: &[f64], b: &[f64]| -> Vec<f64> {
+            a.iter().zip(b).map(|(a, b)| a - 2.0 * b).collect()
+        };
+        if apart(&image(self, &sum(x, y))?, &sum(&of_x, &of_y)) > AGREES * size {
+            return refuse(format!("{name} is not linear"));
+        }
+        let terms = norm(x) * norm(&of_y) + norm(y) * norm(&of_x);
+        let (one, other) = (dot(x, &of_y), dot(y, &of_x));
+        if (one - other).abs() > AGREES * terms {
+            return refuse(format!(
+                "{name} is not symmetric: x . {name} y is {one:e}, y . {name} x is {other:e}"
+            ));
+        }
+        if dot(x, &of_x).min(dot(y, &of_y)) < -AGREES * terms {
+            return refuse(format!(
+                "{name} is not positive semi-definite: x . {name} x is negative"
+            ));
+        }
+        Ok([of_x, of_y])
+    }
+
+    fn product(&self, x: &[f64]) -> Result<Vec<f64>, Error> {
+        called("K_rel x", x.len(), |y| self.operator.stiffness(x, y))
+    }
+
+    fn by_inverse(&self, x: &[f64]) -> Result<Vec<f64>, Error> {
+        called("W x", x.len(), |y| self.operator.inverse(x, y))
+    }
+
+    fn by_held(&self, held: &[bool], x: &[f64]) -> Result<Vec<f64>, Error> {
+        // One call of the host at a time, so that it knows what has changed.
+        let mut last = self.held.lock().unwrap_or_else(PoisonError::into_inner);
+        let changed = last.as_slice() != held;
+        if changed {
+            *last = held.to_vec();
+        }
+        let name = "the solution with components held";
+        called(name, x.len(), |y| self.operator.held(held, changed, x, y))
+    }
+}
+
+/// Calls the host for a vector, in which nothing may stay unwritten.
+fn called(
+    name: &str,
+    size: usize,
+    call: impl FnOnce(&mut [f64]) -> Result<(), i32>,
+) -> Result<Vec<f64>, Error> {
+    let mut y = vec![f64::NAN; size];
+    if let Err(number) = call(&mut y) {
+        return refuse(format!("the host's function for {name} has returned {number}, not 0"));
+    }
+    match first_not_finite(&y) {
+        Some(i) => refuse(format!(
+            "the host's function for {name}: {} is not finite, or was not written",
+            entry("y", [i])
+        )),
+        None => Ok(y),
+    }
+}
+
+fn refuse<T>(message: String) -> Result<T, Error> {
+    Err(Error::invalid(Argument::Matrix, message))
+}
+
+fn is_unit(unit: f64) -> bool {
+    unit > 0.0 && unit.is_finite()
+}
+
+/// A vector of signs without a pattern: the same in each run. (G. Marsaglia, *Xorshift RNGs*, J. Stat. Softw. 8
+/// (2003), number 14.)
+fn probe(size: usize, seed: u64) -> Vec<f64> {
+    let mut state = seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1;
+    let mut sign = || {
+        state ^= state << 13;
+        state ^= state >> 7;
+        state ^= state << 17;
+        if state >> 63 == 0 { 1.0 } else { -1.0 }
+    };
+    (0..size).map(|_| sign()).collect()
+}
+
+/// A unit for each direction of the pairs: the mean of the diagonal, by vectors of signs `x`, of which `x . K x` has
+/// the trace as its mean (M. F. Hutchinson, *A stochastic estimator of the trace of the influence matrix*, Commun.
+/// Stat. Simul. Comput. 19 (1990) 433-450).
+fn measured_units(
+    dim: usize,
+    probes: &[Vec<f64>; 2],
+    products: &[Vec<f64>; 2],
+) -> Result<Vec<f64>, Error> {
+    let mean = |first: usize, step: usize| {
+        let terms = probes.iter().zip(products).flat_map(|(x, product)| {
+            x.iter().zip(product).skip(first).step_by(step).map(|(x, product)| x * product)
+        });
+        let (sum, count) = terms.fold((0.0, 0.0), |(sum, count), term| (sum + term, count + 1.0));
+        sum / count
+    };
+    let all = mean(0, 1);
+    if !is_unit(all) {
+        return refuse("K_rel resists nothing: x . K_rel x is not positive: give units".into());
+    }
+    let unit = |c: usize| if is_unit(mean(c, dim)) { mean(c, dim) } else { all };
+    let of_pair: Vec<f64> = (0..dim).map(unit).collect();
+    Ok(of_pair.iter().copied().cycle().take(probes[0].len()).collect())
+}
+
+impl Reduction for OperatorReduction {
+    fn stiffness(&self) -> &[f64] {
+        &[]
+    }
+
+    fn unformed(&self) -> Option<&dyn UnformedReduction> {
+        Some(self)
+    }
+
+    fn host_size(&self) -> usize {
+        self.units.len()
+    }
+
+    fn condense(&self, load: &[f64], _prescribed: Option<&[f64]>) -> Result<Vec<f64>, Error> {
+        Ok(load.to_vec())
+    }
+
+    fn recover(
+        &self,
+        _load: Option<&[f64]>,
+        _prescribed: Option<&[f64]>,
+        d: &[f64],
+    ) -> Result<Vec<f64>, Error> {
+        Ok(d.to_vec())
+    }
+
+    fn nodal_forces(&self, force: &[f64]) -> Vec<f64> {
+        force.to_vec()
+    }
+
+    fn motion_in_words(&self, d: &[f64]) -> Message {
+        motion::of_pairs(self.dim, d).into()
+    }
+}
+
+impl UnformedReduction for OperatorReduction {
+    fn bodies(&self) -> Box<dyn Bodies + '_> {
+        Box::new(Session { operator: self, held: Vec::new() })
+    }
+
+    fn all_loads(&self, load: &[f64], _prescribed: Option<&[f64]>) -> Vec<f64> {
+        load.to_vec()
+    }
+}
+
+/// A user of the operator.
+struct Session<'a> {
+    operator: &'a OperatorReduction,
+    held: Vec<bool>,
+}
+
+impl Bodies for Session<'_> {
+    fn inner(&self) -> usize {
+        0
+    }
+
+    fn units(&self) -> &[f64] {
+        &self.operator.units
+    }
+
+    fn coupling(&self, _: usize, _: usize) -> f64 {
+        0.0
+    }
+
+    fn product(&mut self, x: &[f64]) -> Result<Vec<f64>, Error> {
+        self.operator.product(x)
+    }
+
+    fn residual(&mut self, x: &[f64], _: &[f64], load: &[f64]) -> Result<Vec<f64>, Error> {
+        let mut residual: Vec<f64> = load.iter().map(|f| -f).collect();
+        if x.iter().any(|x| *x != 0.0) {
+            let product = self.product(x)?;
+            residual.iter_mut().zip(product).for_each(|(sum, product)| *sum += product);
+        }
+        Ok(residual)
+    }
+
+    fn magnitude(&self, size: &[f64]) -> Vec<f64> {
+        size.iter().zip(&self.operator.units).map(|(size, unit)| NEIGHBOURS * size * unit).collect()
+    }
+
+    fn has_cheap_products(&self) -> bool {
+        false
+    }
+
+    fn can_hold(&self) -> bool {
+        self.operator.operator.has_held()
+    }
+
+    fn has_springs(&self) -> bool {
+        false
+    }
+
+    fn hold(&mut self, restriction: &Restriction) -> Result<(), Error> {
+        self.held.clone_from(&restriction.held);
+        Ok(())
+    }
+
+    fn solve(&mut self, forces: &[f64]) -> Result<Vec<f64>, Error> {
+        match self.can_hold() {
+            true => self.operator.by_held(&self.held, forces),
+            false => self.operator.by_inverse(forces),
+        }
+    }
+}

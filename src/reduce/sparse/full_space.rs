@@ -1,0 +1,225 @@
+//! The transformed matrix `Tᵀ K T` as it is: no condensed matrix is formed.
+//!
+//! A solution with components of `d` held is one with the matrix whose rows and columns of these components are
+//! replaced by those of a diagonal matrix. The pattern stays, so that it is analysed once. With all of them held
+//! the matrix is definite if a condensed one exists at all.
+
+use std::sync::{Mutex, PoisonError};
+
+use crate::error::Error;
+use crate::linalg::sparse_matrix::{
+    Csc, column, diagonal, symmetric_magnitude, symmetric_residual, symmetric_times,
+};
+use crate::linalg::sparse_schur::{Failure, SparseCholesky, Unwatched, Values, Watch, answered};
+use crate::problem::{Bodies, Restriction};
+
+/// Where bodies move freely with the components that are held, springs of this part of their units hold them in
+/// the factor, the first with which it exists. Solutions are approximate then.
+const SPRINGS: [f64; 4] = [1e-8, 1e-5, 1e-2, 1.0];
+
+/// The matrix with its analysis.
+pub(super) struct FullSpace {
+    /// Its lower triangle.
+    matrix: Csc,
+    inner: usize,
+    dim: usize,
+    units: Vec<f64>,
+    cholesky: SparseCholesky,
+    /// The factor that was made last, for whom needs the same one next.
+    kept: Mutex<Option<Factor>>,
+}
+
+/// A factor, and what is held in it.
+struct Factor {
+    restriction: Restriction,
+    values: Values,
+}
+
+impl FullSpace {
+    /// Of the lower triangle of the matrix, whose first `inner` unknowns are no relative displacements; pairs have
+    /// `dim` components.
+    pub(super) fn new(
+        matrix: Csc,
+        inner: usize,
+        dim: usize,
+        watch: &mut dyn Watch,
+    ) -> Result<Self, Failure> {
+        let cholesky = SparseCholesky::new(&matrix, watch)?;
+        // A second matrix with components held, and some vectors of all unknowns.
+        let entry = size_of::<usize>() + size_of::<f64>();
+        let copy = entry * matrix.compute_nnz() + VECTORS * size_of::<f64>() * matrix.ncols();
+        answered(watch.announce(cholesky.bytes() + copy as u64))?;
+        let units: Vec<f64> =
+            (0..matrix.ncols()).map(|j| diagonal(&matrix, j).unwrap_or_default()).collect();
+        let restriction = Restriction::all(dim, (matrix.ncols() - inner) / dim);
+        let mut made = FullSpace { matrix, inner, dim, units, cholesky, kept: Mutex::new(None) };
+        let values = made.cholesky.diagnosed(made.restricted(&restriction, 0.0), watch)?;
+        let largest = made.units.iter().fold(0.0_f64, |most, unit| most.max(*unit));
+        for unit in &mut made.units {
+            *unit = if *unit > 0.0 { *unit } else { largest };
+        }
+        made.kept = Mutex::new(Some(Factor { restriction, values }));
+        Ok(made)
+    }
+
+    /// The matrix with rows and columns of held components replaced, and with springs: those of the restriction,
+    /// and others of `soft` units on components of `d` that are free.
+    fn restricted(&self, restriction: &Restriction, soft: f64) -> Csc {
+        let (inner, dim) = (self.inner, self.dim);
+        let mut matrix = self.matrix.clone();
+        let held = |i: usize| i >= inner && restriction.held[i - inner];
+        for j in 0..matrix.ncols() {
+            let range = matrix.symbolic().col_range(j);
+            for place in range {
+                let i = matrix.symbolic().row_idx()[place];
+                let value = &mut matrix.val_mut()[place];
+                if i == j && held(i) {
+                    // Of a component that nothing resists too.
+                    *value = if *value > 0.0 { *value } else { 1.0 };
+                } else if held(i) || held(j) {
+                    *value = 0.0;
+                } else if j >= inner {
+                    let (pair, column) = ((j - inner) / dim, (j - inner) % dim);
+                    let row = i - (inner + dim * pair);
+                    if row < dim && row > 0 && column > 0 {
+                        *value += restriction.springs[pair][row - 1][column - 1];
+                    }
+                    if i == j {
+                        *value += soft * self.units[i];
+                    }
+                }
+            }
+        }
+        matrix
+    }
+
+    /// A new user of the matrix.
+    pub(super) fn session(&self) -> Session<'_> {
+        let factor = self.kept.lock().unwrap_or_else(PoisonError::into_inner).take();
+        Session { space: self, factor }
+    }
+
+    /// `c - B A⁻¹ a` for the load `(a, c)`: minus the forces on the components of `d`, all held.
+    pub(super) fn condense(&self, load: &[f64]) -> Result<Vec<f64>, Error> {
+        let mut session = self.session();
+        session.hold_all()?;
+        let x = session.solve(load)?;
+        let mut residual = symmetric_residual(&self.matrix, (&x, &[]), load).split_off(self.inner);
+        residual.iter_mut().for_each(|force| *force = -*force);
+        Ok(residual)
+    }
+
+    /// All unknowns of a load where those of the pairs are `d`.
+    pub(super) fn recover(&self, load: &[f64], d: &[f64]) -> Result<Vec<f64>, Error> {
+        let mut session = self.session();
+        session.hold_all()?;
+        let mut x = vec![0.0; self.inner];
+        x.extend_from_slice(d);
+        // A second step: the digits that the rounding of the first one has cost.
+        for _ in 0..REFINEMENTS {
+            let residual = symmetric_residual(&self.matrix, (&x, &[]), load);
+            let step = session.solve(&residual)?;
+            x.iter_mut().zip(&step).take(self.inner).for_each(|(x, step)| *x -= step);
+        }
+        Ok(x)
+    }
+}
+
+/// Vectors of all unknowns that a solution holds at a time, beside directions of GMRES.
+const VECTORS: usize = 16;
+
+/// Solutions for given `d`, each with the residual of the one before.
+const REFINEMENTS: usize = 2;
+
+/// A user of the matrix with a factor of its own.
+pub(super) struct Session<'a> {
+    space: &'a FullSpace,
+    factor: Option<Factor>,
+}
+
+impl Session<'_> {
+    fn hold_all(&mut self) -> Result<(), Error> {
+        let pairs = (self.space.matrix.ncols() - self.space.inner) / self.space.dim;
+        self.hold(&Restriction::all(self.space.dim, pairs))
+    }
+}
+
+impl Drop for Session<'_> {
+    fn drop(&mut self) {
+        let mut kept = self.space.kept.lock().unwrap_or_else(PoisonError::into_inner);
+        *kept = self.factor.take();
+    }
+}
+
+impl Bodies for Session<'_> {
+    fn inner(&self) -> usize {
+        self.space.inner
+    }
+
+    fn units(&self) -> &[f64] {
+        &self.space.units
+    }
+
+    fn coupling(&self, i: usize, j: usize) -> f64 {
+        let (row, place) = (self.space.inner + i.max(j), self.space.inner + i.min(j));
+        let (rows, values) = column(&self.space.matrix, place);
+        rows.binary_search(&row).map_or(0.0, |place| values[place])
+    }
+
+    fn product(&mut self, x: &[f64]) -> Result<Vec<f64>, Error> {
+        Ok(symmetric_times(&self.space.matrix, x))
+    }
+
+    fn residual(&mut self, x: &[f64], low: &[f64], load: &[f64]) -> Result<Vec<f64>, Error> {
+        Ok(symmetric_residual(&self.space.matrix, (x, low), load))
+    }
+
+    fn magnitude(&self, size: &[f64]) -> Vec<f64> {
+        symmetric_magnitude(&self.space.matrix, size)
+    }
+
+    fn has_cheap_products(&self) -> bool {
+        true
+    }
+
+    fn can_hold(&self) -> bool {
+        true
+    }
+
+    fn has_springs(&self) -> bool {
+        true
+    }
+
+    fn hold(&mut self, restriction: &Restriction) -> Result<(), Error> {
+        if self.factor.as_ref().is_some_and(|factor| factor.restriction == *restriction) {
+            return Ok(());
+        }
+        // Two factors never exist at a time.
+        self.factor = None;
+        let refused = |_: Failure| Error::OutOfMemory("the factor of the stiffness matrix");
+        for soft in std::iter::once(0.0).chain(SPRINGS) {
+            let matrix = self.space.restricted(restriction, soft);
+            let made = self.space.cholesky.factor(&matrix, &mut Unwatched).map_err(refused)?;
+            if let Some(values) = made {
+                self.factor = Some(Factor { restriction: restriction.clone(), values });
+                return Ok(());
+            }
+        }
+        Err(Error::invalid(
+            crate::error::Argument::Matrix,
+            "the bodies cannot be told from bodies that fall apart: no factor exists with springs on the pairs",
+        ))
+    }
+
+    fn solve(&mut self, forces: &[f64]) -> Result<Vec<f64>, Error> {
+        let Some(factor) = &self.factor else { unreachable!("something is held before") };
+        let inner = self.space.inner;
+        let mut right = forces.to_vec();
+        for (force, held) in right[inner..].iter_mut().zip(&factor.restriction.held) {
+            if *held {
+                *force = 0.0;
+            }
+        }
+        Ok(self.space.cholesky.solve(&factor.values, &right))
+    }
+}

@@ -1,0 +1,211 @@
+//! Contact on bodies whose stiffness `K_rel` is never formed: Newton's method on the normal map
+//! (`law::normal_map`) with products and solutions only (D. A. Knoll and D. E. Keyes, *Jacobian-free
+//! Newton-Krylov methods*, J. Comput. Phys. 193 (2004) 357-397, for the family).
+
+mod counted;
+mod newton;
+mod point;
+mod step;
+
+use super::candidate::Ending;
+use super::outcome::{Existence, Solution, Status, Uniqueness};
+use crate::certificate::{Certificate, measure_spread};
+use crate::error::{Argument, Error};
+use crate::law::Contact;
+use crate::monitor::Monitor;
+use crate::problem::{Bodies, ContactProblem, FrictionLaw, Restriction, Unformed};
+use crate::settings::{Method, Search, Settings};
+use counted::{Counted, Counts};
+use newton::Ended;
+use point::{Displacements, Equations, Point};
+
+/// A load case on such bodies.
+pub struct Case<'a> {
+    /// Components of a pair.
+    pub dim: usize,
+    /// Loads of all unknowns of the bodies.
+    pub load: &'a [f64],
+    pub gap: &'a [f64],
+    pub law: FrictionLaw<'a>,
+    pub reference_slip: Option<&'a [f64]>,
+}
+
+/// Refuses settings that need a stiffness.
+pub fn check(settings: &Settings) -> Result<(), Error> {
+    settings.validate()?;
+    let refuse = |what: &str| {
+        let message =
+            format!("settings: {what} needs the condensed matrix, which this model does not form");
+        Err(Error::invalid(Argument::Settings, message))
+    };
+    if !matches!(settings.method, Method::Auto | Method::Newton) {
+        return refuse("a method other than auto and Newton's");
+    }
+    if settings.search == Search::Others {
+        return refuse("the search for other solutions");
+    }
+    if settings.proof {
+        return refuse("a proof that the solution exists");
+    }
+    Ok(())
+}
+
+/// Solves a load case from the displacements `start` (the pairs stuck at their gaps if `None`).
+pub fn solve(
+    bodies: &mut dyn Bodies,
+    case: &Case<'_>,
+    settings: &Settings,
+    start: Option<&[f64]>,
+    monitor: &mut Monitor<'_>,
+) -> Result<Solution, Error> {
+    check(settings)?;
+    let bodies = &mut Counted::new(bodies);
+    let (inner, load) = (bodies.inner(), case.load);
+    let held = hold_all(bodies, case)?;
+    let (at_zero, relative) = at_zero(bodies, load)?;
+    let unformed = Unformed::new(bodies, case.dim, &relative);
+    let (gap, slip) = (case.gap, case.reference_slip);
+    let problem = ContactProblem::with_relation(unformed, case.dim, gap, case.law, slip)?;
+    let contact = Contact::new(&problem);
+    let equations = Equations::new(&contact, bodies, load, &relative);
+    let mut at = at_zero;
+    let ended = match contact.is_unloaded() && rests(&contact, bodies, &at, load, settings)? {
+        true => None,
+        false => {
+            let stuck =
+                contact.pairs().iter().flat_map(|law| law.reference().into_iter().take(case.dim));
+            match start {
+                Some(start) => at.x[inner..].copy_from_slice(&contact.admissible(start)),
+                None => {
+                    at.x[inner..].iter_mut().zip(stuck).for_each(|(x, reference)| *x = reference)
+                }
+            }
+            let at = in_equilibrium(bodies, load, at.clone())?;
+            let point = equations.held_at(at, bodies)?;
+            Some(newton::solve(&equations, bodies, point, held, settings.tolerance, monitor)?)
+        }
+    };
+    let solution = certified(&contact, bodies, (load, at), settings, ended)?;
+    let Counts { solutions, factorisations } = bodies.counts;
+    Ok(Solution { factorisations, outer_iterations: solutions, ..solution })
+}
+
+/// Measures displacements `d` of the pairs, of any origin, on a load case.
+pub fn certify(bodies: &mut dyn Bodies, case: &Case<'_>, d: &[f64]) -> Result<Certificate, Error> {
+    let (inner, load) = (bodies.inner(), case.load);
+    hold_all(bodies, case)?;
+    let (mut at, relative) = at_zero(bodies, load)?;
+    let unformed = Unformed::new(bodies, case.dim, &relative);
+    let (gap, slip) = (case.gap, case.reference_slip);
+    let problem = ContactProblem::with_relation(unformed, case.dim, gap, case.law, slip)?;
+    at.x[inner..].copy_from_slice(d);
+    for _ in 0..REFINEMENTS {
+        at = in_equilibrium(bodies, load, at)?;
+    }
+    let residual = bodies.residual(&at.x, &at.low, load)?;
+    Ok(measure_spread(&Contact::new(&problem), bodies, &at.x, &residual))
+}
+
+/// Solutions for the inner unknowns of given `d`, each with the residual of the one before.
+const REFINEMENTS: usize = 2;
+
+/// Holds all pairs, if bodies can hold any.
+fn hold_all(bodies: &mut dyn Bodies, case: &Case<'_>) -> Result<Option<Restriction>, Error> {
+    if !bodies.can_hold() {
+        return Ok(None);
+    }
+    let all = Restriction::all(case.dim, (case.load.len() - bodies.inner()) / case.dim);
+    bodies.hold(&all)?;
+    Ok(Some(all))
+}
+
+/// Whether no displacement at all is the solution.
+fn rests(
+    contact: &Contact<'_, Unformed<'_>>,
+    bodies: &mut dyn Bodies,
+    at: &Displacements,
+    load: &[f64],
+    settings: &Settings,
+) -> Result<bool, Error> {
+    let residual = bodies.residual(&at.x, &at.low, load)?;
+    Ok(measure_spread(contact, bodies, &at.x, &residual).holds(settings.tolerance))
+}
+
+/// Displacements where those of the pairs are zero and held, and the relative loads: minus the forces there.
+fn at_zero(bodies: &mut dyn Bodies, load: &[f64]) -> Result<(Displacements, Vec<f64>), Error> {
+    let inner = bodies.inner();
+    let mut at = Displacements::new(vec![0.0; load.len()], inner);
+    if inner == 0 {
+        return Ok((at, load.to_vec()));
+    }
+    at = in_equilibrium(bodies, load, at)?;
+    let forces = bodies.residual(&at.x, &at.low, load)?;
+    let relative = forces[inner..].iter().map(|f| -f).collect();
+    Ok((at, relative))
+}
+
+/// Displacements with their inner unknowns in equilibrium; all components of the pairs are held.
+fn in_equilibrium(
+    bodies: &mut dyn Bodies,
+    load: &[f64],
+    at: Displacements,
+) -> Result<Displacements, Error> {
+    let inner = bodies.inner();
+    if inner == 0 {
+        return Ok(at);
+    }
+    let lack = bodies.residual(&at.x, &at.low, load)?;
+    let mut step = bodies.solve(&lack)?;
+    step[inner..].fill(0.0);
+    Ok(at.moved(-1.0, &step))
+}
+
+/// The result, measured on the data of the bodies.
+fn certified(
+    contact: &Contact<'_, Unformed<'_>>,
+    bodies: &mut dyn Bodies,
+    (load, at_rest): (&[f64], Displacements),
+    settings: &Settings,
+    ended: Option<Ended>,
+) -> Result<Solution, Error> {
+    let (at, ending, systems) = match ended {
+        None => (at_rest, Ending::Done, 0),
+        Some(Ended { point: Point { at, .. }, ending, systems }) => (at, ending, systems),
+    };
+    let residual = bodies.residual(&at.x, &at.low, load)?;
+    let x = at.x;
+    let certificate =
+        measure_spread(contact, bodies, &x, &residual).unforgiving(settings.tolerance);
+    let accuracy = format!("eta is {:.1e}", certificate.eta);
+    let wanted = format!("{accuracy}, wanted {:.1e}", settings.tolerance);
+    let (status, message) = match ending {
+        _ if certificate.holds(settings.tolerance) => {
+            (Status::Solved, format!("solved: {accuracy}"))
+        }
+        Ending::Stopped(stop) => stop.status(settings, &wanted),
+        ending => (Status::Stalled, format!("{}; {wanted}", ending.reason(&certificate))),
+    };
+    let d = x[bodies.inner()..].to_vec();
+    Ok(Solution {
+        status,
+        message: message.into(),
+        d_low: vec![0.0; d.len()],
+        d,
+        certificate,
+        recession: None,
+        escape: None,
+        method: Method::Newton,
+        fallback: None,
+        uniqueness: Uniqueness::NotKnown,
+        second: None,
+        existence: Existence::NotAsked,
+        errors: None,
+        orientation: 0,
+        iterations: systems,
+        factorisations: 0,
+        outer_iterations: 0,
+        refactorisations: 0,
+        omega: 0.0,
+        damping: 0.0,
+    })
+}

@@ -1,0 +1,149 @@
+//! Newton's method on the normal map, its steps by GMRES, with a line search.
+
+use super::point::{Equations, Point};
+use super::step::{Step, System, changed};
+use crate::error::Error;
+use crate::law::Vector;
+use crate::monitor::Monitor;
+use crate::problem::{Bodies, Restriction};
+use crate::solve::candidate::Ending;
+
+/// Systems with full steps: where they converge they take fewer than steps with a line search.
+const FULL_STEPS: u64 = 16;
+
+/// Systems after which it is given up. With a line search nothing cycles.
+const MOST_SYSTEMS: u64 = 60;
+
+/// Part of the fall of the lack that a full step promises which a shortened one must keep (Armijo).
+const SUFFICIENT: f64 = 1e-4;
+
+/// Shortest step: a kink of the law may lie within any longer one.
+const SHORTEST: f64 = 1e-3;
+
+/// Shortest steps in a row after which it is given up.
+const MOST_SHORTEST: u32 = 3;
+
+/// Part of the tolerance that is aimed at.
+const AIM: f64 = 0.1;
+
+/// Where `eta` is below and falls no further, rounding is reached.
+const NEAR_ROUNDING: f64 = 1e-6;
+
+/// A linear system is solved to this part of its right side, and later to this part of `eta`, so that the last
+/// steps converge quadratically (S. C. Eisenstat and H. F. Walker, *Choosing the forcing terms in an inexact
+/// Newton method*, SIAM J. Sci. Comput. 17 (1996) 16-32).
+const FORCING: f64 = 0.05;
+const FORCING_OF_ETA: f64 = 0.3;
+
+/// A factor serves while at most this part of the pairs has changed, and GMRES needs at most so many directions.
+const CHANGED: f64 = 0.02;
+const DIRECTIONS: usize = 25;
+
+/// How it ended.
+pub struct Ended {
+    pub point: Point,
+    pub ending: Ending,
+    pub systems: u64,
+}
+
+/// Solves from a point; `held` is what is held in the factor.
+pub fn solve(
+    equations: &Equations<'_>,
+    bodies: &mut dyn Bodies,
+    point: Point,
+    mut held: Option<Restriction>,
+    tolerance: f64,
+    monitor: &mut Monitor<'_>,
+) -> Result<Ended, Error> {
+    let mut ended = Ended { point, ending: Ending::Done, systems: 0 };
+    let (mut shortest, mut directions, mut last) = (0, 0, f64::INFINITY);
+    ended.ending = loop {
+        let eta = ended.point.eta;
+        monitor.measured(eta);
+        let at_rounding = eta <= NEAR_ROUNDING && eta >= last;
+        if eta <= AIM * tolerance || at_rounding {
+            break Ending::Done;
+        }
+        last = eta;
+        if ended.systems >= MOST_SYSTEMS || shortest >= MOST_SHORTEST {
+            break Ending::Stalled("Newton's method does not converge");
+        }
+        if let Err(stop) = monitor.step() {
+            break Ending::Stopped(stop);
+        }
+        ended.systems += 1;
+        let system = System::new(equations, &ended.point);
+        if let Some(factor) = &mut held {
+            let (dim, pairs) = (equations.contact.dim(), ended.point.y.len());
+            let moved = changed(dim, factor, &system.restriction);
+            let many = moved as f64 > CHANGED * pairs as f64;
+            if (many || directions > DIRECTIONS) && *factor != system.restriction {
+                bodies.hold(&system.restriction)?;
+                *factor = system.restriction.clone();
+            }
+        }
+        let goal = FORCING_OF_ETA * AIM * tolerance / eta;
+        let forcing = FORCING.min(FORCING_OF_ETA * eta).max(goal);
+        let step = system.step(bodies, held.as_ref(), forcing)?;
+        directions = step.directions;
+        let (next, part) = match ended.systems <= FULL_STEPS {
+            true => (moved(equations, bodies, &ended.point, &step, 1.0)?, 1.0),
+            false => line_search(equations, bodies, &ended.point, &step)?,
+        };
+        if !next.merit.is_finite() {
+            break Ending::Stalled("the forces are beyond the largest number");
+        }
+        shortest = if part <= SHORTEST { shortest + 1 } else { 0 };
+        ended.point = next;
+    };
+    Ok(ended)
+}
+
+/// The first of ever shorter steps along which the lack falls enough, or the shortest; and its length.
+fn line_search(
+    equations: &Equations<'_>,
+    bodies: &mut dyn Bodies,
+    point: &Point,
+    step: &Step,
+) -> Result<(Point, f64), Error> {
+    let mut part = 1.0;
+    loop {
+        let next = moved(equations, bodies, point, step, part)?;
+        if next.merit <= (1.0 - SUFFICIENT * part) * point.merit || part <= SHORTEST {
+            return Ok((next, part));
+        }
+        part /= 2.0;
+    }
+}
+
+/// The point after a part of a step.
+fn moved(
+    equations: &Equations<'_>,
+    bodies: &mut dyn Bodies,
+    point: &Point,
+    step: &Step,
+    part: f64,
+) -> Result<Point, Error> {
+    let laws = equations.contact.pairs().iter();
+    let y = laws.zip(point.y.iter().zip(&step.dy)).map(|(law, (y, dy))| {
+        let next: Vector = std::array::from_fn(|c| y[c] + part * dy[c]);
+        law.without_reversal(y, next)
+    });
+    let along = |from: &[f64], by: &[f64]| -> Vec<f64> {
+        from.iter().zip(by).map(|(from, by)| from + part * by).collect()
+    };
+    let at = point.at.moved(part, &step.z);
+    equations.point(bodies, at, y.collect(), |bodies, apart| {
+        if bodies.has_cheap_products() {
+            return None;
+        }
+        let mut residual = along(&point.residual, &step.forces);
+        if apart.iter().any(|apart| *apart != 0.0) {
+            match bodies.product(apart) {
+                Ok(product) => residual.iter_mut().zip(product).for_each(|(sum, p)| *sum += p),
+                Err(error) => return Some(Err(error)),
+            }
+        }
+        Some(Ok(residual))
+    })
+}
