@@ -2,8 +2,8 @@
 //! gives, and which equations follow from the others.
 //!
 //! Equations with an unknown of their own come first: they change no other one. The rest is eliminated
-//! with the short equations first, and those that have become small beside what they were last, so that
-//! what an equation with little left hands on is not enlarged rounding.
+//! in the order of what is left of their coefficients, and the short ones first among equals: what an equation
+//! with little left hands on is enlarged rounding.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -15,9 +15,6 @@ pub type Terms = Vec<(usize, f64)>;
 /// An unknown of its own gives an equation only if its coefficient is at least this part of the largest:
 /// smaller ones enlarge rounding more than they spare work.
 const LEAST_PIVOT: f64 = 0.1;
-
-/// An equation that has less than this part of its coefficients left waits for the others.
-const WAITS: f64 = 0.1;
 
 /// An unknown in terms of others: `u = sum of unknowns + sum of right sides`.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -106,10 +103,13 @@ impl<'c> Elimination<'c> {
         }
     }
 
-    /// The place of an equation in the queue: large before small, short before long.
-    fn rank(&self, i: usize) -> (bool, usize, usize) {
-        let is_small = self.largest_choice(i) <= WAITS * self.scale[i];
-        (is_small, self.sums[i].len(), i)
+    /// The place of an equation in the queue: by how often the part that is left of its coefficients has
+    /// been halved, then short before long. Equations that nearly follow from others come late, and what
+    /// is divided by a small pivot is not handed on.
+    fn rank(&self, i: usize) -> (i32, usize, usize) {
+        let left = self.largest_choice(i) / self.scale[i];
+        let halvings = -left.max(f64::MIN_POSITIVE).log2().round();
+        (halvings as i32, self.sums[i].len(), i)
     }
 
     /// Eliminates among the equations that are left.

@@ -81,14 +81,13 @@ impl Face<'_> {
         })
     }
 
-    /// Whether local coordinates are linear in the position: straight edges, on a quadrilateral a
-    /// parallelogram, and the centre in the middle.
-    pub(super) fn is_affine(&self) -> bool {
-        let near = |error: Vector3| error.norm() <= ON_EDGE * self.size();
-        let [a, b, c, d] = [0, 1, 2, 3].map(|corner| self.x[corner]);
-        let parallel = self.kind.corners() != QUADRILATERAL || near(a - b + c - d);
-        let centred = |node: usize| near(self.x[node] - 0.25 * (a + b + c + d));
-        self.is_straight() && parallel && self.kind.central_node().is_none_or(centred)
+    /// Whether positions are bilinear in local coordinates: straight edges, and the centre in the middle.
+    pub(super) fn is_bilinear(&self) -> bool {
+        let centred = |node: usize| {
+            let middle: Vector3 = self.x[..QUADRILATERAL].iter().sum::<Vector3>() / 4.0;
+            (self.x[node] - middle).norm() <= ON_EDGE * self.size()
+        };
+        self.is_straight() && self.kind.central_node().is_none_or(centred)
     }
 }
 

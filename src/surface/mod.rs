@@ -18,6 +18,7 @@
 //! # Ok::<(), signorini::Error>(())
 //! ```
 
+mod bilinear;
 mod candidates;
 mod clip;
 mod control;

@@ -10,9 +10,20 @@ use super::shape::Local;
 /// edges that lie upon each other.
 const LEAST_PART: f64 = 1e-13;
 
-/// Points along each direction where local coordinates are not linear in the position, so that no rule
-/// is exact: on quadrilaterals distorted by 0.25 of their size the error is 1e-12 (measured).
-const MANY_POINTS: usize = 9;
+/// Most points along each direction: on quadrilaterals distorted by 0.25 of their size, where local
+/// coordinates are not polynomials of the position, the error is 1e-12 (measured).
+const MOST_POINTS: usize = 9;
+
+/// The error that fewer points may leave: that of the most. And the error of areas where faces are warped.
+const LEFT: f64 = 1e-12;
+const LEFT_OF_AREA: f64 = 1e-11;
+
+/// At this distortion a corner is straight, and at this slope by a warp no series of the area converges.
+const FOLDED: f64 = 1.0;
+const STEEP: f64 = 1.0;
+
+/// A face that is further from linear than this, relative to its size, is not taken for linear: rounding.
+const LINEAR: f64 = 1e-11;
 
 /// A point where a slave and a master face lie over each other.
 #[derive(Clone, Copy, Debug)]
@@ -28,7 +39,6 @@ pub(super) struct SlaveFace {
     pub(super) plane: Plane,
     flat: Flat,
     polygons: Vec<Vec<Point>>,
-    affine: bool,
     /// Area in the plane.
     pub(super) area: f64,
 }
@@ -58,7 +68,7 @@ impl SlaveFace {
         let flat = plane.flatten(face);
         let polygons = polygons(face, &flat);
         let area = polygons.iter().map(|polygon| measure(polygon)).sum();
-        SlaveFace { plane, flat, polygons, affine: face.is_affine(), area }
+        SlaveFace { plane, flat, polygons, area }
     }
 
     /// What lies over a master face, at a distance of at most `reach` along the normal.
@@ -67,6 +77,7 @@ impl SlaveFace {
     /// Newton's method fails on a face that is turned over in the projection.
     pub(super) fn overlap(&self, master: &Face<'_>, reach: f64) -> Result<Part, NotFound> {
         let flat = self.plane.flatten(master);
+        let rule = self.rule(&flat);
         let mut part = Part { points: Vec::new(), area: 0.0 };
         for window in polygons(master, &flat) {
             for polygon in &self.polygons {
@@ -75,10 +86,12 @@ impl SlaveFace {
                 if !(area > LEAST_PART * self.area) {
                     continue;
                 }
-                let (points, distance) = self.points(&flat, &common, &self.rule(master))?;
+                let before = part.points.len();
+                let distance = self.add_points(&flat, &common, &rule, &mut part.points)?;
                 if distance.abs() <= reach {
-                    part.points.extend(points);
                     part.area += area;
+                } else {
+                    part.points.truncate(before);
                 }
             }
         }
@@ -86,35 +99,59 @@ impl SlaveFace {
     }
 
     /// Barycentric points and weights for simplices of the parts: exact for products of shape
-    /// functions if both faces are affine.
-    fn rule(&self, master: &Face<'_>) -> Vec<([f64; 3], f64)> {
+    /// functions if local coordinates are linear in the position, and otherwise with so many more points
+    /// as the distance from linear asks for.
+    fn rule(&self, master: &Flat) -> Vec<([f64; 3], f64)> {
         let own = self.flat.kind.degree();
         let degree = own + own.max(master.kind.degree());
-        let many = !(self.affine && master.is_affine());
+        let further = self.further_degrees(master);
+        let points = |exact: usize| further.map_or(MOST_POINTS, |more| (exact + more).div_ceil(2));
         if self.flat.kind.is_line() {
-            let points = if many { MANY_POINTS } else { (degree + 2) / 2 };
-            let rule = quadrature::on_interval(points);
+            let rule = quadrature::on_interval(points(degree + 1).min(MOST_POINTS));
             return rule.iter().map(|(s, w)| ([1.0 - s, *s, 0.0], *w)).collect();
         }
-        let points = if many { MANY_POINTS } else { (degree + 3) / 2 };
-        quadrature::on_triangle(points).to_vec()
+        quadrature::on_triangle(points(degree + 2).min(MOST_POINTS)).to_vec()
     }
 
-    /// Points of a common part, and its mean distance along the normal.
-    fn points(
+    /// Degrees that a rule has to be exact to beyond that of products of shape functions; `None`: as
+    /// many as there are.
+    ///
+    /// With the distortion `e` of a quadrilateral, local coordinates are analytic in the position up to the
+    /// distance `1 / e` from the middle, so that what is neglected falls by `2 / e` with each degree. The
+    /// area of a face whose warp adds the slope `w` has terms `w^2k` of the degree `2 k`.
+    fn further_degrees(&self, master: &Flat) -> Option<usize> {
+        let (own, other) = (self.flat.bilinear?, master.bilinear?);
+        let terms = |ratio: f64, left: f64| (left.ln() / ratio.ln()).ceil() as usize;
+        let distortion = own.distortion().max(other.distortion());
+        let warp = own.warp();
+        if !(distortion < FOLDED && warp < STEEP) {
+            return None;
+        }
+        let of_distortion = match distortion > LINEAR {
+            true => terms(0.5 * distortion, LEFT) - 1,
+            false => 0,
+        };
+        let of_warp = match warp > LINEAR {
+            true => 2 * (terms(warp * warp, LEFT_OF_AREA) - 1),
+            false => 0,
+        };
+        Some(of_distortion.max(of_warp))
+    }
+
+    /// Adds the points of a common part, and returns its mean distance along the normal.
+    fn add_points(
         &self,
         master: &Flat,
         common: &[Point],
         rule: &[([f64; 3], f64)],
-    ) -> Result<(Vec<Meeting>, f64), NotFound> {
-        let simplices: Vec<Vec<Point>> = match common {
-            [a, b] => vec![vec![*a, *b]],
-            _ => common.windows(2).skip(1).map(|s| vec![common[0], s[0], s[1]]).collect(),
-        };
-        let mut points = Vec::with_capacity(simplices.len() * rule.len());
+        points: &mut Vec<Meeting>,
+    ) -> Result<f64, NotFound> {
         let (mut distance, mut whole) = (0.0, 0.0);
-        for simplex in &simplices {
-            let area = measure(simplex);
+        // Triangles of a fan, or the interval itself.
+        for k in 2..common.len().max(3) {
+            let last = common.get(k).unwrap_or(&common[1]);
+            let simplex = [common[0], common[k - 1], *last];
+            let area = measure(&simplex[..common.len().min(3)]);
             for (barycentric, share) in rule {
                 let mut p = [0.0; 2];
                 for (corner, part) in simplex.iter().zip(barycentric) {
@@ -130,6 +167,6 @@ impl SlaveFace {
                 points.push(Meeting { slave, master: at, weight });
             }
         }
-        Ok((points, distance / whole))
+        Ok(distance / whole)
     }
 }

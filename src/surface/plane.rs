@@ -1,6 +1,7 @@
 //! The auxiliary plane of a slave face: both faces are projected on it along its normal, clipped and
 //! integrated there (Puso 2004). Of lines in the plane it is a straight line.
 
+use super::bilinear::Bilinear;
 use super::clip::Point;
 use super::face::Face;
 use super::shape::{FaceKind, Local, MOST_NODES};
@@ -10,11 +11,8 @@ use crate::linalg::vector3::{Vector3, axis, unit};
 /// is convex; the rest is for faces at the limit of what is accepted.
 const STEPS: usize = 40;
 
-/// Newton's method has come to rest when its step is a few roundings of local coordinates.
-const AT_REST: f64 = 4.0 * f64::EPSILON;
-
-/// Local coordinates are found if they miss the point by less than this part of the face's size.
-const FOUND: f64 = 1e-12;
+/// A step of Newton's method this short is the last one: what remains is of the order of its square.
+const LAST: f64 = 4e-9;
 
 /// A plane with its axes.
 #[derive(Clone, Debug)]
@@ -47,12 +45,15 @@ impl Plane {
             kind: face.kind,
             points: [[0.0; 2]; MOST_NODES],
             heights: [0.0; MOST_NODES],
-            size: face.size(),
+            bilinear: None,
         };
         for (i, x) in face.x[..face.kind.nodes()].iter().enumerate() {
             let from = x - self.origin;
             flat.points[i] = self.along.map(|along| along.dot(&from));
             flat.heights[i] = self.normal.dot(&from);
+        }
+        if face.is_bilinear() {
+            flat.bilinear = Some(Bilinear::new(face.kind, &flat.points, &flat.heights));
         }
         flat
     }
@@ -64,7 +65,8 @@ pub(super) struct Flat {
     pub(super) kind: FaceKind,
     pub(super) points: [Point; MOST_NODES],
     heights: [f64; MOST_NODES],
-    size: f64,
+    /// Of faces with straight edges.
+    pub(super) bilinear: Option<Bilinear>,
 }
 
 impl Flat {
@@ -79,11 +81,21 @@ impl Flat {
 
     /// The height above the plane.
     pub(super) fn height(&self, at: Local) -> f64 {
+        if let Some(bilinear) = &self.bilinear {
+            return bilinear.height(at);
+        }
         self.kind.values(at).iter().zip(self.heights).map(|(value, height)| value * height).sum()
     }
 
     /// Position less `p`, and its derivatives by the local coordinates.
     fn offset(&self, at: Local, p: Point) -> (Point, [Point; 2]) {
+        if let Some(bilinear) = &self.bilinear {
+            let (point, mut by) = bilinear.point(at);
+            if self.kind.is_line() {
+                by[1] = [0.0, 1.0];
+            }
+            return ([point[0] - p[0], point[1] - p[1]], by);
+        }
         let mut from = [-p[0], -p[1]];
         let mut by = [[0.0; 2]; 2];
         let functions = self.kind.functions(at);
@@ -106,7 +118,6 @@ impl Flat {
     pub(super) fn local(&self, p: Point) -> Option<Local> {
         let p = if self.kind.is_line() { [p[0], 0.0] } else { p };
         let mut at = self.kind.centre();
-        let mut miss = f64::INFINITY;
         for _ in 0..STEPS {
             let (from, [a, b]) = self.offset(at, p);
             let determinant = a[0] * b[1] - a[1] * b[0];
@@ -115,23 +126,29 @@ impl Flat {
                 (a[0] * from[1] - a[1] * from[0]) / determinant,
             ];
             at = [at[0] - step[0], if self.kind.is_line() { 0.0 } else { at[1] - step[1] }];
-            miss = from[0].abs().max(from[1].abs());
-            // The step has taken away most of what was missed before it.
-            if step[0].abs().max(step[1].abs()) <= AT_REST {
-                break;
+            if step[0].abs().max(step[1].abs()) <= LAST {
+                return Some(at);
             }
         }
-        (miss <= FOUND * self.size).then_some(at)
+        None
     }
 
-    /// The area of the face over a unit of area of the plane.
-    pub(super) fn stretch(&self, at: Local) -> f64 {
-        let (_, [a, b]) = self.offset(at, [0.0; 2]);
+    fn rise(&self, at: Local) -> [f64; 2] {
         let mut rise = [0.0; 2];
         for (slopes, height) in self.kind.derivatives(at).iter().zip(self.heights) {
             rise[0] += slopes[0] * height;
             rise[1] += slopes[1] * height;
         }
+        rise
+    }
+
+    /// The area of the face over a unit of area of the plane.
+    pub(super) fn stretch(&self, at: Local) -> f64 {
+        let (_, [a, b]) = self.offset(at, [0.0; 2]);
+        let rise = match &self.bilinear {
+            Some(bilinear) => bilinear.rise(at),
+            None => self.rise(at),
+        };
         if self.kind.is_line() {
             return (1.0 + (rise[0] / a[0]).powi(2)).sqrt();
         }

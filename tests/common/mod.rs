@@ -22,6 +22,7 @@ pub mod problems;
 pub mod proofs;
 pub mod quad;
 pub mod rigid_statics;
+pub mod solids;
 pub mod stack;
 pub mod verdict;
 pub mod wavy;
