@@ -119,6 +119,8 @@ pub mod reduce;
 #[forbid(unsafe_code)]
 mod settings;
 #[forbid(unsafe_code)]
+mod shortage;
+#[forbid(unsafe_code)]
 mod solve;
 #[forbid(unsafe_code)]
 pub mod surface;

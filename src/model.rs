@@ -23,7 +23,7 @@ use crate::reduce::{
     TwoBodyReduction, driven_motion,
 };
 use crate::settings::Settings;
-use crate::solve::{NO_EQUILIBRIUM, Solution, Status, solve, solve_dependent};
+use crate::solve::{NO_EQUILIBRIUM, Solution, Status, memory, solve, solve_dependent};
 
 /// A structure, reduced to its contact pairs. It does not change: several threads may use it.
 pub struct Model {
@@ -165,6 +165,13 @@ impl Model {
         self.check_independent()?;
         self.check_loads(Some(load), prescribed)?;
         Ok(self.reduction.condense(load, prescribed))
+    }
+
+    /// Most bytes that [`Self::solve`] takes beside the model.
+    pub fn memory(&self, settings: &Settings) -> u64 {
+        // Dependent rows are solved with springs between bodies and contact.
+        let springs = self.reduction.dependence().map_or(0, Dependence::variables);
+        memory(self.dim * self.pairs + springs, settings)
     }
 
     /// Measures relative displacements `d` of any origin on a load case.

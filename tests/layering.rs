@@ -12,11 +12,12 @@ use modules::{Modules, cycles};
 use sources::{Source, sources};
 
 /// Rooms that each room may import. `lib.rs` passes names on and is no room.
-const ROOMS: [(&str, &[&str]); 13] = [
+const ROOMS: [(&str, &[&str]); 14] = [
     ("error", &[]),
-    ("linalg", &[]),
+    ("shortage", &[]),
+    ("linalg", &["shortage"]),
     ("settings", &["error"]),
-    ("monitor", &["error", "settings"]),
+    ("monitor", &["error", "settings", "shortage"]),
     ("problem", &["error", "linalg"]),
     ("law", &["error", "linalg", "problem"]),
     ("reduce", &["error", "linalg", "problem"]),
@@ -44,6 +45,7 @@ const ROOMS: [(&str, &[&str]); 13] = [
         "ffi",
         &[
             "error",
+            "shortage",
             "linalg",
             "settings",
             "monitor",

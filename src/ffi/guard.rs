@@ -4,12 +4,14 @@ use std::cell::Cell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Once, OnceLock};
 
+use super::reserve::{self, Held};
 use super::status::{
     SIGNORINI_STATUS_CANCELLED, SIGNORINI_STATUS_FILE, SIGNORINI_STATUS_INTERNAL,
     SIGNORINI_STATUS_MEMORY_LIMIT, SIGNORINI_STATUS_OUT_OF_MEMORY, SIGNORINI_STATUS_TIME_LIMIT,
-    remember,
+    forget, remember, remember_plain,
 };
 use crate::error::{Argument, Error, Limit, Message};
+use crate::shortage::Shortage;
 
 /// Why a call ends without a result.
 pub(super) struct Failure {
@@ -21,6 +23,16 @@ impl Failure {
     /// The `position`-th argument is wrong.
     pub(super) fn argument(position: i32, message: impl Into<Message>) -> Self {
         Failure { code: -position, message: message.into() }
+    }
+
+    /// The memory that a call holds in reserve could not be had.
+    fn no_reserve(bytes: usize) -> Self {
+        let megabytes = bytes as f64 / 1e6;
+        let message = format!(
+            "not enough memory: the call may need {megabytes:.1} MB, which the system refuses; \
+             nothing was done"
+        );
+        Failure::out_of_memory(message)
     }
 
     /// There is no memory for something.
@@ -63,8 +75,12 @@ pub(super) fn call(body: impl FnOnce() -> Result<i32, Failure>) -> i32 {
     silence_panics();
     #[cfg(all(target_os = "linux", target_env = "gnu"))]
     super::static_link::keep();
+    forget();
+    let Some(_held) = Held::begin() else {
+        remember_plain("not enough memory for a call; nothing was done");
+        return SIGNORINI_STATUS_OUT_OF_MEMORY;
+    };
     let outside = INSIDE.replace(true);
-    remember("");
     // Unwind safety: only the caller's outputs can be half-written, and they are undefined with
     // SIGNORINI_STATUS_INTERNAL.
     let result = catch_unwind(AssertUnwindSafe(body));
@@ -73,7 +89,7 @@ pub(super) fn call(body: impl FnOnce() -> Result<i32, Failure>) -> i32 {
         Ok(Ok(code)) => {
             // A panic that was caught inside, where another way was taken, has left its sentence.
             if code == 0 {
-                remember("");
+                forget();
             }
             code
         }
@@ -81,8 +97,24 @@ pub(super) fn call(body: impl FnOnce() -> Result<i32, Failure>) -> i32 {
             remember(failure.message);
             failure.code
         }
-        Err(_) => SIGNORINI_STATUS_INTERNAL,
+        Err(reason) => match reason.downcast_ref::<Shortage>() {
+            Some(Shortage { bytes }) => {
+                remember(format!("not enough memory: the system refused {bytes} bytes"));
+                SIGNORINI_STATUS_OUT_OF_MEMORY
+            }
+            None => SIGNORINI_STATUS_INTERNAL,
+        },
     }
+}
+
+/// Obtains memory for a call that may need so much, before its work begins.
+pub(super) fn reserve(bytes: usize) -> Result<(), Failure> {
+    if reserve::want(bytes) { Ok(()) } else { Err(Failure::no_reserve(bytes)) }
+}
+
+/// As [`reserve`], for what the library estimates.
+pub(super) fn reserve_estimate(bytes: u64) -> Result<(), Failure> {
+    reserve(usize::try_from(bytes).unwrap_or(usize::MAX))
 }
 
 /// The default hook prints to the host's stderr: inside the library the text goes to

@@ -8,12 +8,16 @@
 // arrays make long parameter lists.
 #![allow(clippy::missing_safety_doc, clippy::too_many_arguments)]
 
+#[cfg(feature = "c-allocator")]
+mod allocator;
 mod args;
 mod certify;
 mod condensed;
 mod extra;
 mod fortran;
 mod guard;
+#[cfg(feature = "c-allocator")]
+mod holes;
 mod law;
 mod lcp;
 mod mesh;
@@ -25,6 +29,7 @@ mod problem_read;
 mod problem_write;
 mod prove;
 mod report;
+mod reserve;
 mod settings;
 mod solve;
 mod sparse;

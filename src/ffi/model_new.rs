@@ -8,6 +8,9 @@ use super::sparse::{SignoriniSparse, shifted};
 use crate::error::{Argument, Error};
 use crate::model::Model;
 use crate::monitor::{Monitor, ProgressFn};
+use crate::settings::Settings;
+use crate::shortage;
+use crate::solve::memory;
 
 /// A structure that is reduced to its contact pairs: what all load cases share. Made by
 /// signorini_model_new_..., released by signorini_model_free. It does not change: several threads
@@ -39,7 +42,8 @@ pub unsafe extern "C" fn signorini_model_new_condensed(
         let length = matrix_length(4, "K", n, ld)?;
         let mut arrays = Arrays::default();
         // SAFETY: the length is that of the header.
-        let k = unsafe { arrays.required(3, "K", K, length)? };
+        let k = unsafe { arrays.matrix(3, "K", K, length)? };
+        guard::reserve_estimate(memory(n, &Settings::default()))?;
         place.fill(Model::condensed(dim, pairs, k, ld), |argument| match argument {
             Argument::Dimension => 1,
             Argument::Size => 2,
@@ -82,8 +86,9 @@ pub unsafe extern "C" fn signorini_model_new_two_body(
         let mut arrays = Arrays::default();
         // SAFETY: the lengths are those of the header.
         let (k_a, k_b) = unsafe {
-            (arrays.required(3, "K_A", K_A, length_a)?, arrays.required(5, "K_B", K_B, length_b)?)
+            (arrays.matrix(3, "K_A", K_A, length_a)?, arrays.matrix(5, "K_B", K_B, length_b)?)
         };
+        guard::reserve_estimate(memory(n, &Settings::default()))?;
         let made = Model::two_body(dim, pairs, (k_a, ld_a), (k_b, ld_b));
         place.fill(made, |argument| match argument {
             Argument::Dimension => 1,
@@ -173,6 +178,8 @@ unsafe fn sparse(
         let fixed = Arrays::default().required(3, "fixed", fixed, count)?;
         let fixed = shifted(3, "fixed", fixed, matrix.index_base)?;
         let pairs = SignoriniPairs::read(4, pairs, matrix.index_base)?;
+        let view = pairs.view();
+        guard::reserve_estimate(memory(view.dim * view.count, &Settings::default()))?;
         let received = SignoriniSettings::read(position, settings)?;
         let wrong = |error| Failure::from_error(error, |_| position);
         received.settings.validate().map_err(wrong)?;
@@ -239,7 +246,7 @@ pub unsafe extern "C" fn signorini_model_stiffness(
             let model = read(model)?;
             model.check_independent().map_err(|error| Failure::from_error(error, |_| 1))?;
             let stiffness = model.stiffness();
-            Arrays::default().output(2, "K", K, stiffness.len())?.write(stiffness);
+            Arrays::default().output_matrix(2, "K", K, stiffness.len())?.write(stiffness);
         }
         Ok(0)
     })
@@ -291,8 +298,11 @@ impl Place {
         position: impl Fn(Argument) -> i32,
     ) -> Result<i32, Failure> {
         let model = made.map_err(|error| Failure::from_error(error, position))?;
+        let model = Box::new(SignoriniModel(model));
+        // Nothing that lives on may stand in the reserve of the call.
+        shortage::check();
         // SAFETY: as above.
-        unsafe { self.0.write(Box::into_raw(Box::new(SignoriniModel(model)))) };
+        unsafe { self.0.write(Box::into_raw(model)) };
         Ok(0)
     }
 }

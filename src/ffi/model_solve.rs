@@ -86,6 +86,7 @@ pub unsafe extern "C" fn signorini_model_solve(
             (reports, Extra::read(&mut arrays, 15, extra, (n, pairs, cases))?)
         };
         arrays.check_overlap()?;
+        guard::reserve_estimate(model.memory(&received.settings))?;
 
         let block = Block { model, given: &given, load_cases, d, force, state, reports, extra };
         let mut first = None;

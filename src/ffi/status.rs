@@ -139,6 +139,17 @@ pub(super) fn remember(message: impl Into<Message>) {
     FROM_ONE.with_borrow_mut(|sentence| sentence.set(&message.counted_from_one()));
 }
 
+/// A sentence without indices: it needs no memory.
+pub(super) fn remember_plain(sentence: &str) {
+    LAST.with_borrow_mut(|last| last.set(sentence));
+    FROM_ONE.with_borrow_mut(|last| last.set(sentence));
+}
+
+/// Nothing happened.
+pub(super) fn forget() {
+    remember_plain("");
+}
+
 /// What the last call on this thread found, as Fortran counts.
 pub(super) fn last_counted_from_one() -> String {
     FROM_ONE.with_borrow(|sentence| {

@@ -20,6 +20,7 @@ mod existence;
 mod far_obstacles;
 mod lcp;
 mod lemke;
+mod memory;
 mod normal_map;
 mod outcome;
 mod path;
@@ -38,6 +39,7 @@ use crate::settings::{Search, Settings};
 pub(crate) use candidate::NO_EQUILIBRIUM;
 use dispatch::check_method;
 pub use lcp::{LcpSolution, solve_lcp};
+pub use memory::memory;
 pub use outcome::{
     Errors, Escape, Existence, Fallback, SecondSolution, Solution, Status, Uniqueness,
 };
