@@ -133,5 +133,5 @@ pub use problem::{ContactData, ContactProblem, Dependence, FrictionLaw, Lcp, Rel
 pub use settings::{Method, Search, Settings};
 pub use solve::{
     Errors, Escape, Existence, Fallback, LcpSolution, SecondSolution, Solution, Status, Uniqueness,
-    solve, solve_lcp,
+    memory, solve, solve_lcp,
 };

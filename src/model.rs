@@ -168,10 +168,10 @@ impl Model {
     }
 
     /// Most bytes that [`Self::solve`] takes beside the model.
-    pub fn memory(&self, settings: &Settings) -> u64 {
+    pub fn memory(&self) -> u64 {
         // Dependent rows are solved with springs between bodies and contact.
         let springs = self.reduction.dependence().map_or(0, Dependence::variables);
-        memory(self.dim * self.pairs + springs, settings)
+        memory(self.dim * self.pairs + springs)
     }
 
     /// Measures relative displacements `d` of any origin on a load case.

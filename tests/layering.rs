@@ -63,7 +63,8 @@ const ROOMS: [(&str, &[&str]); 14] = [
 
 /// The files and folders of `solve`: each imports from those before it only. `lcp` stands beside
 /// those that are behind `lemke`.
-const SOLVERS: [&str; 19] = [
+const SOLVERS: [&str; 20] = [
+    "memory",
     "outcome",
     "candidate",
     "condense",

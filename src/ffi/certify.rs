@@ -10,7 +10,7 @@ use super::status::{SIGNORINI_STATUS_NOT_A_SOLUTION, SIGNORINI_STATUS_SOLVED, re
 use crate::certificate::{Certificate, certify};
 use crate::error::entry;
 use crate::problem::ContactProblem;
-use crate::settings::{Settings, check_tolerance};
+use crate::settings::check_tolerance;
 use crate::solve::memory;
 
 /// Measures displacements of any origin, say of another solver, on the data of a condensed contact
@@ -64,7 +64,7 @@ pub unsafe extern "C" fn signorini_certify(
             (data, d, results)
         };
         arrays.check_overlap()?;
-        guard::reserve_estimate(memory(d.len(), &Settings::default()))?;
+        guard::reserve_estimate(memory(d.len()))?;
         let problem = ContactProblem::new(data).map_err(|error| {
             Failure::from_error(error, |argument| given.position(argument, MEASURED))
         })?;

@@ -11,6 +11,7 @@ use super::status::{
     forget, remember, remember_plain,
 };
 use crate::error::{Argument, Error, Limit, Message};
+use crate::linalg::products;
 use crate::shortage::Shortage;
 
 /// Why a call ends without a result.
@@ -114,7 +115,23 @@ pub(super) fn reserve(bytes: usize) -> Result<(), Failure> {
 
 /// As [`reserve`], for what the library estimates.
 pub(super) fn reserve_estimate(bytes: u64) -> Result<(), Failure> {
+    prepare_thread()?;
     reserve(usize::try_from(bytes).unwrap_or(usize::MAX))
+}
+
+/// Lets the thread obtain what it keeps for matrix products while that is held in reserve: faer obtains it at
+/// the first product of a thread, and has no way to be refused.
+pub(super) fn prepare_thread() -> Result<(), Failure> {
+    thread_local! {
+        static READY: Cell<bool> = const { Cell::new(false) };
+    }
+    if !READY.get() {
+        reserve(products::MOST)?;
+        let refused = |_| Failure::no_reserve(products::MOST);
+        products::prepare().map_err(refused)?;
+        READY.set(true);
+    }
+    Ok(())
 }
 
 /// The default hook prints to the host's stderr: inside the library the text goes to

@@ -151,7 +151,7 @@ impl Arguments {
             _ => 5 + shift,
         };
         let from_error = |error| Failure::from_error(error, position);
-        guard::reserve_estimate(memory(n, &received.settings))?;
+        guard::reserve_estimate(memory(n))?;
         let lcp = Lcp::new(n, matrix, ld, q, cover).map_err(from_error)?;
         received.settings.method = self.method.unwrap_or(received.settings.method);
         let mut progress = received.progress();

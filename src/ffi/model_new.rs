@@ -8,9 +8,8 @@ use super::sparse::{SignoriniSparse, shifted};
 use crate::error::{Argument, Error};
 use crate::model::Model;
 use crate::monitor::{Monitor, ProgressFn};
-use crate::settings::Settings;
+use crate::reduce;
 use crate::shortage;
-use crate::solve::memory;
 
 /// A structure that is reduced to its contact pairs: what all load cases share. Made by
 /// signorini_model_new_..., released by signorini_model_free. It does not change: several threads
@@ -43,7 +42,7 @@ pub unsafe extern "C" fn signorini_model_new_condensed(
         let mut arrays = Arrays::default();
         // SAFETY: the length is that of the header.
         let k = unsafe { arrays.matrix(3, "K", K, length)? };
-        guard::reserve_estimate(memory(n, &Settings::default()))?;
+        guard::reserve_estimate(reduce::memory(n))?;
         place.fill(Model::condensed(dim, pairs, k, ld), |argument| match argument {
             Argument::Dimension => 1,
             Argument::Size => 2,
@@ -88,7 +87,7 @@ pub unsafe extern "C" fn signorini_model_new_two_body(
         let (k_a, k_b) = unsafe {
             (arrays.matrix(3, "K_A", K_A, length_a)?, arrays.matrix(5, "K_B", K_B, length_b)?)
         };
-        guard::reserve_estimate(memory(n, &Settings::default()))?;
+        guard::reserve_estimate(reduce::memory(n))?;
         let made = Model::two_body(dim, pairs, (k_a, ld_a), (k_b, ld_b));
         place.fill(made, |argument| match argument {
             Argument::Dimension => 1,
@@ -179,7 +178,7 @@ unsafe fn sparse(
         let fixed = shifted(3, "fixed", fixed, matrix.index_base)?;
         let pairs = SignoriniPairs::read(4, pairs, matrix.index_base)?;
         let view = pairs.view();
-        guard::reserve_estimate(memory(view.dim * view.count, &Settings::default()))?;
+        guard::reserve_estimate(reduce::memory(view.dim * view.count))?;
         let received = SignoriniSettings::read(position, settings)?;
         let wrong = |error| Failure::from_error(error, |_| position);
         received.settings.validate().map_err(wrong)?;
@@ -310,6 +309,7 @@ impl Place {
 /// # Safety
 /// NULL or a model that lives during the call.
 pub(super) unsafe fn read<'a>(model: *const SignoriniModel) -> Result<&'a Model, Failure> {
+    guard::prepare_thread()?;
     // SAFETY: by the caller's contract.
     match unsafe { model.as_ref() } {
         Some(model) => Ok(&model.0),

@@ -86,7 +86,6 @@ pub unsafe extern "C" fn signorini_model_solve(
             (reports, Extra::read(&mut arrays, 15, extra, (n, pairs, cases))?)
         };
         arrays.check_overlap()?;
-        guard::reserve_estimate(model.memory(&received.settings))?;
 
         let block = Block { model, given: &given, load_cases, d, force, state, reports, extra };
         let mut first = None;
@@ -130,6 +129,7 @@ impl CaseArguments {
         model: &'a Model,
         cases: usize,
     ) -> Result<LoadCases<'a>, Failure> {
+        guard::reserve_estimate(model.memory())?;
         let at = |offset| self.first + offset;
         let slips = (model.dim() - 1) * model.pairs();
         let (host, fixed) = (times(cases, model.host_size())?, times(cases, model.fixed_count())?);

@@ -9,7 +9,6 @@ use crate::certificate::{certify, prove};
 use crate::error::entry;
 use crate::law::State;
 use crate::problem::ContactProblem;
-use crate::settings::Settings;
 use crate::solve::memory;
 
 /// Tries to prove that a condensed contact problem has a solution next to displacements of any
@@ -68,7 +67,7 @@ pub unsafe extern "C" fn signorini_prove(
         let radius_d = arrays.optional_output(13, "radius_d", radius_d, d.len())?;
         let radius_force = arrays.optional_output(14, "radius_F", radius_F, d.len())?;
         arrays.check_overlap()?;
-        guard::reserve_estimate(memory(d.len(), &Settings { proof: true, ..Settings::default() }))?;
+        guard::reserve_estimate(memory(d.len()))?;
         let problem = ContactProblem::new(data).map_err(|error| {
             Failure::from_error(error, |argument| given.position(argument, MEASURED))
         })?;

@@ -88,7 +88,7 @@ pub unsafe extern "C" fn signorini_solve(
                 given.position(argument, own)
             })
         };
-        guard::reserve_estimate(memory(n, &received.settings))?;
+        guard::reserve_estimate(memory(n))?;
         let problem = ContactProblem::new(data).map_err(from_error)?;
         // SAFETY: d has n entries, which the caller has filled if it asked for a warm start.
         let start = received.warm_start.then(|| unsafe { d.read() });

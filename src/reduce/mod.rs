@@ -5,12 +5,14 @@
 
 mod condensed;
 mod frame;
+mod memory;
 mod motion;
 mod pairs;
 mod sparse;
 mod two_body;
 
 pub use condensed::CondensedReduction;
+pub use memory::memory;
 pub(crate) use motion::driven_motion;
 pub use pairs::ContactPairs;
 pub use sparse::{Control, Indices, SparseMatrix, SparseReduction, Triangle};

@@ -2,8 +2,8 @@
 //! What is called a solution is decided in `candidate`, by the certificate alone.
 //!
 //! ```text
-//! outcome ← candidate ← condense ← rigid_balance ← smallest_lift ← sweeps ← normal_map ← active_set ← path ← lemke ← uniqueness ← dispatch ← auto ← escape_motion ← far_obstacles ← dependent ← existence ← mod
-//!                                                                          └──── lcp ────────────────────────┘
+//! memory ← outcome ← candidate ← condense ← rigid_balance ← smallest_lift ← sweeps ← normal_map ← active_set ← path ← lemke ← uniqueness ← dispatch ← auto ← escape_motion ← far_obstacles ← dependent ← existence ← mod
+//!                                                                                   └──── lcp ────────────────────────┘
 //! ```
 //!
 //! Each imports from those to its left only. One algorithm is one folder; what others may use of it is
@@ -39,6 +39,7 @@ use crate::settings::{Search, Settings};
 pub(crate) use candidate::NO_EQUILIBRIUM;
 use dispatch::check_method;
 pub use lcp::{LcpSolution, solve_lcp};
+use memory::check_limit;
 pub use memory::memory;
 pub use outcome::{
     Errors, Escape, Existence, Fallback, SecondSolution, Solution, Status, Uniqueness,
@@ -56,6 +57,7 @@ pub(crate) fn solve_dependent(
     monitor: &mut Monitor<'_>,
 ) -> Result<Solution, Error> {
     settings.validate()?;
+    check_limit(problem.unknowns(), settings)?;
     check_start(problem.unknowns(), start)?;
     let mut solution = dependent::solve(problem, settings, start, monitor)?;
     solution.iterations = monitor.iterations();
@@ -74,6 +76,7 @@ pub fn solve(
     monitor: &mut Monitor<'_>,
 ) -> Result<Solution, Error> {
     settings.validate()?;
+    check_limit(problem.unknowns(), settings)?;
     let contact = Contact::new(problem);
     check_method(&contact, settings.method)?;
     check_start(contact.unknowns(), start)?;
