@@ -280,12 +280,14 @@ struct Reserved;
 // SAFETY: memory comes from the system's allocator, or is a piece of a block that is nobody else's; nothing
 // unwinds.
 unsafe impl GlobalAlloc for Reserved {
+    #[inline(never)]
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         // SAFETY: the caller's.
         let memory = unsafe { System.alloc(layout) };
         if memory.is_null() { serve(layout) } else { memory }
     }
 
+    #[inline(never)]
     unsafe fn alloc_zeroed(&self, layout: Layout) -> *mut u8 {
         // SAFETY: the caller's.
         let memory = unsafe { System.alloc_zeroed(layout) };
@@ -300,6 +302,7 @@ unsafe impl GlobalAlloc for Reserved {
         piece
     }
 
+    #[inline(never)]
     unsafe fn dealloc(&self, memory: *mut u8, layout: Layout) {
         // SAFETY: the caller's; to each its own.
         unsafe {
@@ -311,6 +314,7 @@ unsafe impl GlobalAlloc for Reserved {
         }
     }
 
+    #[inline(never)]
     unsafe fn realloc(&self, memory: *mut u8, layout: Layout, size: usize) -> *mut u8 {
         if !is_served(memory) {
             // SAFETY: the caller's.

@@ -20,6 +20,7 @@ mod guard;
 mod holes;
 mod law;
 mod lcp;
+mod memory;
 mod mesh;
 mod model_new;
 mod model_recover;

@@ -16,6 +16,12 @@ use crate::shortage;
 /// may use one at once. It holds copies: your arrays may go once the model is made.
 pub struct SignoriniModel(Model);
 
+impl SignoriniModel {
+    pub(super) fn model(&self) -> &Model {
+        &self.0
+    }
+}
+
 /// Makes a model of a body that you have condensed, on a rigid obstacle: d = u. Loads and
 /// displacements of the host have H = N entries.
 ///
