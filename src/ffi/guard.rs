@@ -72,6 +72,8 @@ thread_local! {
 
 /// Runs the body of an entry. Panics become `SIGNORINI_STATUS_INTERNAL`; nothing is printed.
 pub(super) fn call(body: impl FnOnce() -> Result<i32, Failure>) -> i32 {
+    #[cfg(any(target_os = "linux", target_os = "macos"))]
+    let _uncancelled = super::cancellation::Uncancelled::new();
     let _environment = Environment::default_one();
     silence_panics();
     #[cfg(all(target_os = "linux", target_env = "gnu"))]

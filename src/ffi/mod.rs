@@ -11,6 +11,8 @@
 #[cfg(feature = "c-allocator")]
 mod allocator;
 mod args;
+#[cfg(any(target_os = "linux", target_os = "macos"))]
+mod cancellation;
 mod certify;
 mod condensed;
 mod extra;

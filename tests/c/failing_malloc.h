@@ -29,7 +29,7 @@ static struct {
 } heap;
 
 /* Watches from here on, and refuses nothing yet. */
-static void heap_watch(size_t least)
+static inline void heap_watch(size_t least)
 {
     heap.least = least;
     heap.requests = heap.refused = 0;

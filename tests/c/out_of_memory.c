@@ -59,7 +59,7 @@ static int32_t status_of(struct work *work, int fresh)
 static int outcome(struct work work, int32_t expected)
 {
     const int64_t before = heap.living;
-    const int fresh = work.scenario->fresh;
+    const int fresh = work.scenario->kind == NEW_THREAD;
     const int32_t status = status_of(&work, fresh);
     if (heap.living != before) return HOLDS_MEMORY;
     if (status != expected && status != SIGNORINI_STATUS_OUT_OF_MEMORY) {
@@ -92,7 +92,7 @@ static int64_t tried(const struct scenario *scenario, struct world *world, int64
     struct work work = {scenario, world, INT64_MAX, INT64_MAX, 0};
     /* What is made once and stays is there after the first run. */
     scenario->run(world);
-    const int32_t expected = status_of(&work, scenario->fresh);
+    const int32_t expected = status_of(&work, scenario->kind == NEW_THREAD);
     const int64_t requests = heap.requests;
     CHECK_STATUS(expected, scenario->expected);
     const int64_t step = most && requests > most ? requests / most : 1;
@@ -109,7 +109,7 @@ static int64_t tried(const struct scenario *scenario, struct world *world, int64
      * takes 40 bytes for that, and aborts if it cannot have them: refused alone, from there on, and from the
      * request before.
      */
-    CHECK(found[DIED] <= (scenario->fresh ? 3 : 0));
+    CHECK(found[DIED] <= (scenario->kind == NEW_THREAD ? 3 : 0));
     CHECK(trials == found[AS_BEFORE] + found[OUT_OF_MEMORY] + found[DIED]);
     return trials;
 }
