@@ -509,6 +509,18 @@ module signorini
             type(c_ptr), value :: model
             integer(c_int64_t) :: answer
         end function
+        function signorini_solve_memory(n) &
+            bind(C, name="signorini_solve_memory") result(answer)
+            import
+            integer(c_int64_t), value :: n
+            integer(c_int64_t) :: answer
+        end function
+        function signorini_model_memory(model) &
+            bind(C, name="signorini_model_memory") result(answer)
+            import
+            type(c_ptr), value :: model
+            integer(c_int64_t) :: answer
+        end function
         function signorini_model_host_size(model) &
             bind(C, name="signorini_model_host_size") result(answer)
             import

@@ -215,10 +215,10 @@ int32_t signorini_flexibility_solve(int32_t dim, int64_t pairs, const double *W,
 const char *signorini_last_error(void);
 
 /* What a call returns, besides -k for a wrong argument. */
-#define SIGNORINI_STATUS_SOLVED 0            /**< Solved and certified: eta <= tolerance. */
-#define SIGNORINI_STATUS_ITERATION_LIMIT 1   /**< max_iterations is used up: best iterate. */
-#define SIGNORINI_STATUS_TIME_LIMIT 2        /**< time_limit is used up: best iterate. */
-#define SIGNORINI_STATUS_CANCELLED 3         /**< The progress callback cancelled: best iterate. */
+#define SIGNORINI_STATUS_SOLVED 0          /**< Solved and certified: eta <= tolerance. */
+#define SIGNORINI_STATUS_ITERATION_LIMIT 1 /**< max_iterations is used up: best iterate. */
+#define SIGNORINI_STATUS_TIME_LIMIT 2      /**< time_limit is used up: best iterate. */
+#define SIGNORINI_STATUS_CANCELLED 3       /**< The progress callback cancelled: best iterate. */
 /**
  * Proved: no equilibrium exists (LCP: no w, z >= 0 satisfy w = q + M z). extra->motion (LCP: y) is
  * the proof. d, F, states and counts are those of the last iterate: not a solution.
@@ -229,14 +229,17 @@ const char *signorini_last_error(void);
  * iterate. With SIGNORINI_METHOD_AUTO: no method found a solution or a proof that there is none.
  */
 #define SIGNORINI_STATUS_STALLED 5
-#define SIGNORINI_STATUS_NOT_A_SOLUTION 6    /**< Certify: the displacements are no solution. */
+#define SIGNORINI_STATUS_NOT_A_SOLUTION 6  /**< Certify: the displacements are no solution. */
 /** Prove: no solution is proved to exist, which does not say that there is none. */
 #define SIGNORINI_STATUS_NOT_PROVED 7
-/** The reduction of a sparse matrix needs more than memory_limit: nothing was factorised. */
+/** The call may need more than memory_limit: nothing was solved or factorised. */
 #define SIGNORINI_STATUS_MEMORY_LIMIT 8
 #define SIGNORINI_STATUS_INTERNAL -1000 /**< A caught defect of the library: results undefined. */
-#define SIGNORINI_STATUS_OUT_OF_MEMORY -1001 /**< Out of memory: nothing was written. */
-#define SIGNORINI_STATUS_FILE -1002          /**< A file cannot be read or written. */
+/**
+ * Out of memory: no results were written, but those of earlier load cases; the call holds nothing.
+ */
+#define SIGNORINI_STATUS_OUT_OF_MEMORY -1001
+#define SIGNORINI_STATUS_FILE -1002        /**< A file cannot be read or written. */
 
 /** A short description of a status, such as "solved". Static text; never NULL, for any number. */
 const char *signorini_status_string(int32_t status);
@@ -1301,7 +1304,10 @@ struct signorini_settings {
      */
     int32_t proof;
     int32_t reserved;               /**< 0. */
-    /** Most bytes that signorini_model_new_sparse_within may need; default 0: no limit. */
+    /**
+     * Most bytes that a solution or signorini_model_new_sparse_within may need; default 0: no
+     * limit.
+     */
     int64_t memory_limit;
     /**
      * Nonzero: signorini_model_new_sparse_within makes a full-space model, whatever memory_limit
@@ -1319,6 +1325,28 @@ struct signorini_settings {
  * @return 0, or -1 or -2 for the argument that is wrong
  */
 int32_t signorini_settings_default(signorini_settings *settings, uint32_t struct_size);
+
+/**
+ * Most bytes that a call may take beside your arrays, for so many unknowns: signorini_solve,
+ * signorini_certify and signorini_prove with N = dim * pairs, and the LCP calls. It takes them for
+ * every method, law and setting, and holds as much address space in reserve; settings.memory_limit
+ * refuses a call that may need more. Each thread keeps some MiB of its own for matrix products,
+ * which are not counted.
+ *
+ * @param n  number of unknowns
+ * @return bytes; -1 if n is negative
+ */
+int64_t signorini_solve_memory(int64_t n);
+
+/**
+ * The same for a load case of a model: most bytes that signorini_model_solve may take beside the
+ * model and your arrays. Of many load cases each in turn takes them. What making a sparse model
+ * takes is told to its callback: signorini_progress.
+ *
+ * @param model  the model
+ * @return bytes; -1 if model is NULL
+ */
+int64_t signorini_model_memory(const signorini_model *model);
 
 /* ---- How good the result is ---------------------------------------------------------------- */
 

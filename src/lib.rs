@@ -119,6 +119,8 @@ pub mod reduce;
 #[forbid(unsafe_code)]
 mod settings;
 #[forbid(unsafe_code)]
+mod shortage;
+#[forbid(unsafe_code)]
 mod solve;
 #[forbid(unsafe_code)]
 pub mod surface;
@@ -134,5 +136,5 @@ pub use problem::{
 pub use settings::{Method, Search, Settings};
 pub use solve::{
     Errors, Escape, Existence, Fallback, LcpSolution, SecondSolution, Solution, Status, Uniqueness,
-    solve, solve_flexibility, solve_lcp,
+    memory, solve, solve_flexibility, solve_lcp,
 };

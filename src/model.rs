@@ -25,8 +25,8 @@ use crate::reduce::{
 };
 use crate::settings::Settings;
 use crate::solve::{
-    NO_EQUILIBRIUM, Solution, Status, certify_unformed, check_start, solve, solve_dependent,
-    solve_unformed,
+    NO_EQUILIBRIUM, Solution, Status, certify_unformed, check_start, memory, memory_unformed,
+    solve, solve_dependent, solve_unformed,
 };
 
 /// A structure, reduced to its contact pairs. It does not change: several threads may use it.
@@ -178,6 +178,17 @@ impl Model {
         self.reduction.condense(load, prescribed)
     }
 
+    /// Most bytes that [`Self::solve`] takes beside the model.
+    pub fn memory(&self) -> u64 {
+        if let Some(unformed) = self.reduction.unformed() {
+            let inner = unformed.bodies().inner();
+            return unformed.factor_bytes() + memory_unformed(inner + self.dim * self.pairs);
+        }
+        // Dependent rows are solved with springs between bodies and contact.
+        let springs = self.reduction.dependence().map_or(0, Dependence::variables);
+        memory(self.dim * self.pairs + springs)
+    }
+
     /// Measures relative displacements `d` of any origin on a load case.
     ///
     /// # Errors
@@ -205,7 +216,7 @@ impl Model {
         monitor: &mut Monitor<'_>,
     ) -> Result<Solution, Error> {
         if let Some(unformed) = self.reduction.unformed() {
-            check_start(self.dim * self.pairs, start)?;
+            check_start("d", self.dim * self.pairs, start)?;
             return self.on_bodies(unformed, case, |bodies, case| {
                 let mut solution = solve_unformed(bodies, case, settings, start, monitor)?;
                 solution.iterations = monitor.iterations();

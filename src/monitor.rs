@@ -5,6 +5,7 @@ use std::time::Instant;
 
 use crate::error::{Error, Limit};
 use crate::settings::Settings;
+use crate::shortage;
 
 /// What a progress callback receives.
 #[derive(Clone, Copy, Debug)]
@@ -94,6 +95,7 @@ impl<'a> Monitor<'a> {
 
     /// To be called before each sweep, pivot or linear system: counts it, or returns why to stop.
     pub(crate) fn step(&mut self) -> Result<(), Stop> {
+        shortage::check();
         if self.iterations >= self.max_iterations {
             return Err(Stop::IterationLimit);
         }
@@ -118,6 +120,7 @@ impl<'a> Monitor<'a> {
     /// # Errors
     /// [`Error::Stopped`]: the limit that is passed, or the callback.
     pub(crate) fn reducing(&mut self, share: f64, memory: u64) -> Result<(), Error> {
+        shortage::check();
         if self.memory_limit > 0 && memory > self.memory_limit {
             let (needed, most) = (megabytes(memory), megabytes(self.memory_limit));
             let message = format!(

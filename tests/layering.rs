@@ -12,11 +12,12 @@ use modules::{Modules, cycles};
 use sources::{Source, sources};
 
 /// Rooms that each room may import. `lib.rs` passes names on and is no room.
-const ROOMS: [(&str, &[&str]); 13] = [
+const ROOMS: [(&str, &[&str]); 14] = [
     ("error", &[]),
-    ("linalg", &[]),
+    ("shortage", &[]),
+    ("linalg", &["shortage"]),
     ("settings", &["error"]),
-    ("monitor", &["error", "settings"]),
+    ("monitor", &["error", "settings", "shortage"]),
     ("problem", &["error", "linalg"]),
     ("law", &["error", "linalg", "problem"]),
     ("reduce", &["error", "linalg", "problem"]),
@@ -44,6 +45,7 @@ const ROOMS: [(&str, &[&str]); 13] = [
         "ffi",
         &[
             "error",
+            "shortage",
             "linalg",
             "settings",
             "monitor",
@@ -61,7 +63,8 @@ const ROOMS: [(&str, &[&str]); 13] = [
 
 /// The files and folders of `solve`: each imports from those before it only. `lcp` stands beside
 /// those that are behind `lemke`.
-const SOLVERS: [&str; 20] = [
+const SOLVERS: [&str; 22] = [
+    "memory",
     "outcome",
     "candidate",
     "condense",

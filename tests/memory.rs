@@ -5,13 +5,15 @@
 //! `K`, and nothing else may be of that size. In space, blocks of bricks: what is eliminated, its Schur
 //! complement and a system of what is left make at most twice `K`.
 
+#![cfg(all(target_os = "linux", target_env = "gnu"))]
+
 mod common;
 
 #[path = "common/graded_bar.rs"]
 mod graded_bar;
 
-use std::alloc::{GlobalAlloc, Layout, System};
-use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
+#[path = "common/counted.rs"]
+mod counted;
 
 use common::blocks::{LOADINGS, block, loaded};
 use common::brick::Support;
@@ -24,48 +26,6 @@ const MOST: f64 = 3.0;
 
 /// A tolerance below the rounding of the problem: only refinement in twice the precision attains it.
 const BELOW_ROUNDING: f64 = 1e-15;
-
-/// Counts the bytes that are allocated, and the most that were.
-struct Counting;
-
-static NOW: AtomicUsize = AtomicUsize::new(0);
-static PEAK: AtomicUsize = AtomicUsize::new(0);
-
-fn grown(by: usize) {
-    PEAK.fetch_max(NOW.fetch_add(by, Relaxed) + by, Relaxed);
-}
-
-// SAFETY: all calls go to the system's allocator with the arguments that came.
-unsafe impl GlobalAlloc for Counting {
-    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        grown(layout.size());
-        // SAFETY: the caller's.
-        unsafe { System.alloc(layout) }
-    }
-
-    unsafe fn alloc_zeroed(&self, layout: Layout) -> *mut u8 {
-        grown(layout.size());
-        // SAFETY: the caller's.
-        unsafe { System.alloc_zeroed(layout) }
-    }
-
-    unsafe fn dealloc(&self, memory: *mut u8, layout: Layout) {
-        NOW.fetch_sub(layout.size(), Relaxed);
-        // SAFETY: the caller's.
-        unsafe { System.dealloc(memory, layout) }
-    }
-
-    unsafe fn realloc(&self, memory: *mut u8, layout: Layout, size: usize) -> *mut u8 {
-        // Both are there while one is copied to the other.
-        grown(size);
-        NOW.fetch_sub(layout.size(), Relaxed);
-        // SAFETY: the caller's.
-        unsafe { System.realloc(memory, layout, size) }
-    }
-}
-
-#[global_allocator]
-static COUNTING: Counting = Counting;
 
 /// Peak of what a solution allocates, as a multiple of `K`, and its iterations.
 ///
@@ -81,11 +41,9 @@ fn peak(bar: &GradedBar, method: Method, (mu, gap): (f64, &[f64]), tolerance: f6
         reference_slip: None,
     };
     let settings = Settings { method, tolerance, ..Settings::default() };
-    let before = NOW.load(Relaxed);
-    PEAK.store(before, Relaxed);
     let monitor = &mut Monitor::new(&settings, None);
-    let solution = bar.model.solve(&case, &settings, None, monitor).expect("a valid case");
-    let peak = PEAK.load(Relaxed) - before;
+    let (peak, solution) = counted::peak(|| bar.model.solve(&case, &settings, None, monitor));
+    let solution = solution.expect("a valid case");
     assert_eq!(solution.status, Status::Solved, "{}", solution.message);
     let matrix = size_of_val(bar.model.stiffness());
     (peak as f64 / matrix as f64, solution.iterations)
@@ -98,10 +56,7 @@ fn peak_in_space(method: Method, mu: f64) -> (f64, u64) {
     let mut worst = (0.0_f64, 0);
     for loading in LOADINGS {
         let case = loaded(&brick, &model, loading, mu);
-        let before = NOW.load(Relaxed);
-        PEAK.store(before, Relaxed);
-        let solution = case.solve_by(method);
-        let peak = PEAK.load(Relaxed) - before;
+        let (peak, solution) = counted::peak(|| case.solve_by(method));
         assert_eq!(solution.status, Status::Solved, "{}", solution.message);
         let peak = peak as f64 / size_of_val(&case.k[..]) as f64;
         worst = (worst.0.max(peak), worst.1.max(solution.iterations));

@@ -4,10 +4,14 @@ use libc::c_char;
 use std::ffi::CStr;
 use std::path::Path;
 
-use super::guard::Failure;
+use super::guard::{self, Failure};
 use crate::error::Argument;
 use crate::linalg::matrix;
 use crate::problem;
+
+/// Bytes that a call holds in reserve for each byte of the host's arrays: of copies, of what is worked out
+/// from them, and of holes between. For matrices, of which a call makes few copies, it counts by itself.
+const IN_RESERVE: usize = 16;
 
 /// The arrays of one call, collected to check that outputs overlap nothing.
 #[derive(Default)]
@@ -48,6 +52,23 @@ impl Arrays {
         Ok(values.unwrap_or_default())
     }
 
+    /// A matrix to read, for which the call holds memory in reserve by itself.
+    ///
+    /// # Safety
+    /// As for [`Self::required`].
+    pub(super) unsafe fn matrix<'a>(
+        &mut self,
+        position: i32,
+        name: &'static str,
+        pointer: *const f64,
+        length: usize,
+    ) -> Result<&'a [f64], Failure> {
+        refuse_null(position, name, pointer, length)?;
+        let present = self.note(position, name, pointer, length, false)?;
+        // SAFETY: as in `optional`.
+        Ok(if present { unsafe { std::slice::from_raw_parts(pointer, length) } } else { &[] })
+    }
+
     /// An array to read, `None` if it is NULL or has no elements.
     ///
     /// # Safety
@@ -74,6 +95,19 @@ impl Arrays {
     ) -> Result<Output<T>, Failure> {
         refuse_null(position, name, pointer, length)?;
         self.optional_output(position, name, pointer, length)
+    }
+
+    /// As [`Self::output`], of a matrix that is there already.
+    pub(super) fn output_matrix(
+        &mut self,
+        position: i32,
+        name: &'static str,
+        pointer: *mut f64,
+        length: usize,
+    ) -> Result<Output<f64>, Failure> {
+        refuse_null(position, name, pointer, length)?;
+        let present = self.note(position, name, pointer.cast_const(), length, true)?;
+        Ok(Output { pointer, length: if present { length } else { 0 } })
     }
 
     /// An array to write at the end; writing to NULL does nothing.
@@ -127,8 +161,24 @@ impl Arrays {
         Ok(())
     }
 
-    /// Checks and notes an array; false if there is nothing to access.
+    /// Notes an array, and holds memory in reserve for it; false if there is nothing to access.
     fn add<T>(
+        &mut self,
+        position: i32,
+        name: &'static str,
+        pointer: *const T,
+        length: usize,
+        written: bool,
+    ) -> Result<bool, Failure> {
+        let present = self.note(position, name, pointer, length, written)?;
+        if present {
+            guard::reserve(IN_RESERVE.saturating_mul(length).saturating_mul(size_of::<T>()))?;
+        }
+        Ok(present)
+    }
+
+    /// Checks and notes an array; false if there is nothing to access.
+    fn note<T>(
         &mut self,
         position: i32,
         name: &'static str,

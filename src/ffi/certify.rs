@@ -11,6 +11,7 @@ use crate::certificate::{Certificate, certify};
 use crate::error::entry;
 use crate::problem::ContactProblem;
 use crate::settings::check_tolerance;
+use crate::solve::memory;
 
 /// Measures displacements of any origin, say of another solver, on the data of a condensed contact
 /// problem. The same measure decides whether a result of this library is called solved.
@@ -63,6 +64,7 @@ pub unsafe extern "C" fn signorini_certify(
             (data, d, results)
         };
         arrays.check_overlap()?;
+        guard::reserve_estimate(memory(d.len()))?;
         let problem = ContactProblem::new(data).map_err(|error| {
             Failure::from_error(error, |argument| given.position(argument, MEASURED))
         })?;

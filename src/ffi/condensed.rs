@@ -40,7 +40,7 @@ impl CondensedArguments {
             Ok(ContactData {
                 dim,
                 pairs,
-                stiffness: arrays.required(at(2), "K", self.K, entries)?,
+                stiffness: arrays.matrix(at(2), "K", self.K, entries)?,
                 ld,
                 load: arrays.required(at(4), "f", self.f, n)?,
                 gap: arrays.required(at(5), "gap", self.gap, pairs)?,

@@ -4,12 +4,15 @@ use std::cell::Cell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Once, OnceLock};
 
+use super::reserve::{self, Held};
 use super::status::{
     SIGNORINI_STATUS_CANCELLED, SIGNORINI_STATUS_FILE, SIGNORINI_STATUS_INTERNAL,
     SIGNORINI_STATUS_MEMORY_LIMIT, SIGNORINI_STATUS_OUT_OF_MEMORY, SIGNORINI_STATUS_TIME_LIMIT,
-    remember,
+    forget, remember, remember_plain,
 };
 use crate::error::{Argument, Error, Limit, Message};
+use crate::linalg::products;
+use crate::shortage::Shortage;
 
 /// Why a call ends without a result.
 pub(super) struct Failure {
@@ -26,6 +29,16 @@ impl Failure {
     /// The same about another argument: the structure in which the wrong one stands.
     pub(super) fn at(self, position: i32) -> Self {
         Failure { code: -position, ..self }
+    }
+
+    /// The memory that a call holds in reserve could not be had.
+    fn no_reserve(bytes: usize) -> Self {
+        let megabytes = bytes as f64 / 1e6;
+        let message = format!(
+            "not enough memory: the call may need {megabytes:.1} MB, which the system refuses; \
+             nothing was done"
+        );
+        Failure::out_of_memory(message)
     }
 
     /// There is no memory for something.
@@ -64,12 +77,18 @@ thread_local! {
 
 /// Runs the body of an entry. Panics become `SIGNORINI_STATUS_INTERNAL`; nothing is printed.
 pub(super) fn call(body: impl FnOnce() -> Result<i32, Failure>) -> i32 {
+    #[cfg(any(target_os = "linux", target_os = "macos"))]
+    let _uncancelled = super::cancellation::Uncancelled::new();
     let _environment = Environment::default_one();
     silence_panics();
     #[cfg(all(target_os = "linux", target_env = "gnu"))]
     super::static_link::keep();
+    forget();
+    let Some(_held) = Held::begin() else {
+        remember_plain("not enough memory for a call; nothing was done");
+        return SIGNORINI_STATUS_OUT_OF_MEMORY;
+    };
     let outside = INSIDE.replace(true);
-    remember("");
     // Unwind safety: only the caller's outputs can be half-written, and they are undefined with
     // SIGNORINI_STATUS_INTERNAL.
     let result = catch_unwind(AssertUnwindSafe(body));
@@ -78,7 +97,7 @@ pub(super) fn call(body: impl FnOnce() -> Result<i32, Failure>) -> i32 {
         Ok(Ok(code)) => {
             // A panic that was caught inside, where another way was taken, has left its sentence.
             if code == 0 {
-                remember("");
+                forget();
             }
             code
         }
@@ -86,8 +105,40 @@ pub(super) fn call(body: impl FnOnce() -> Result<i32, Failure>) -> i32 {
             remember(failure.message);
             failure.code
         }
-        Err(_) => SIGNORINI_STATUS_INTERNAL,
+        Err(reason) => match reason.downcast_ref::<Shortage>() {
+            Some(Shortage { bytes }) => {
+                remember(format!("not enough memory: the system refused {bytes} bytes"));
+                SIGNORINI_STATUS_OUT_OF_MEMORY
+            }
+            None => SIGNORINI_STATUS_INTERNAL,
+        },
     }
+}
+
+/// Obtains memory for a call that may need so much, before its work begins.
+pub(super) fn reserve(bytes: usize) -> Result<(), Failure> {
+    if reserve::want(bytes) { Ok(()) } else { Err(Failure::no_reserve(bytes)) }
+}
+
+/// As [`reserve`], for what the library estimates.
+pub(super) fn reserve_estimate(bytes: u64) -> Result<(), Failure> {
+    prepare_thread()?;
+    reserve(usize::try_from(bytes).unwrap_or(usize::MAX))
+}
+
+/// Lets the thread obtain what it keeps for matrix products while that is held in reserve: faer obtains it at
+/// the first product of a thread, and has no way to be refused.
+pub(super) fn prepare_thread() -> Result<(), Failure> {
+    thread_local! {
+        static READY: Cell<bool> = const { Cell::new(false) };
+    }
+    if !READY.get() {
+        reserve(products::MOST)?;
+        let refused = |_| Failure::no_reserve(products::MOST);
+        products::prepare().map_err(refused)?;
+        READY.set(true);
+    }
+    Ok(())
 }
 
 /// The default hook prints to the host's stderr: inside the library the text goes to

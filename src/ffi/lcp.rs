@@ -9,7 +9,7 @@ use crate::error::Argument;
 use crate::monitor::{Monitor, ProgressFn};
 use crate::problem::Lcp;
 use crate::settings::Method;
-use crate::solve::{Status, solve_lcp};
+use crate::solve::{Status, memory, solve_lcp};
 
 /// Solves a linear complementarity problem (LCP): w = q + M z, w >= 0, z >= 0, w . z = 0.
 ///
@@ -126,7 +126,7 @@ impl Arguments {
         let (matrix, q, cover) = unsafe {
             let cover = self.cover.unwrap_or(std::ptr::null());
             (
-                arrays.required(2, "M", self.M, entries)?,
+                arrays.matrix(2, "M", self.M, entries)?,
                 arrays.required(4, "q", self.q, n)?,
                 arrays.optional(5, "cover", cover, n)?,
             )
@@ -151,6 +151,7 @@ impl Arguments {
             _ => 5 + shift,
         };
         let from_error = |error| Failure::from_error(error, position);
+        guard::reserve_estimate(memory(n))?;
         let lcp = Lcp::new(n, matrix, ld, q, cover).map_err(from_error)?;
         received.settings.method = self.method.unwrap_or(received.settings.method);
         let mut progress = received.progress();

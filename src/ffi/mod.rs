@@ -8,15 +8,22 @@
 // arrays make long parameter lists.
 #![allow(clippy::missing_safety_doc, clippy::too_many_arguments)]
 
+#[cfg(feature = "c-allocator")]
+mod allocator;
 mod args;
+#[cfg(any(target_os = "linux", target_os = "macos"))]
+mod cancellation;
 mod certify;
 mod condensed;
 mod extra;
 mod flexibility;
 mod fortran;
 mod guard;
+#[cfg(feature = "c-allocator")]
+mod holes;
 mod law;
 mod lcp;
+mod memory;
 mod mesh;
 mod model_new;
 mod model_recover;
@@ -27,6 +34,7 @@ mod problem_read;
 mod problem_write;
 mod prove;
 mod report;
+mod reserve;
 mod settings;
 mod solve;
 mod sparse;

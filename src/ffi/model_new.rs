@@ -8,11 +8,19 @@ use super::sparse::{SignoriniSparse, shifted};
 use crate::error::{Argument, Error};
 use crate::model::Model;
 use crate::monitor::{Monitor, ProgressFn};
+use crate::reduce;
+use crate::shortage;
 
 /// A structure that is reduced to its contact pairs: what all load cases share. Made by
 /// signorini_model_new_..., released by signorini_model_free. It does not change: several threads
 /// may use one at once. It holds copies: your arrays may go once the model is made.
 pub struct SignoriniModel(Model);
+
+impl SignoriniModel {
+    pub(super) fn model(&self) -> &Model {
+        &self.0
+    }
+}
 
 /// Makes a model of a body that you have condensed, on a rigid obstacle: d = u. Loads and
 /// displacements of the host have H = N entries.
@@ -39,7 +47,8 @@ pub unsafe extern "C" fn signorini_model_new_condensed(
         let length = matrix_length(4, "K", n, ld)?;
         let mut arrays = Arrays::default();
         // SAFETY: the length is that of the header.
-        let k = unsafe { arrays.required(3, "K", K, length)? };
+        let k = unsafe { arrays.matrix(3, "K", K, length)? };
+        guard::reserve_estimate(reduce::memory(n))?;
         place.fill(Model::condensed(dim, pairs, k, ld), |argument| match argument {
             Argument::Dimension => 1,
             Argument::Size => 2,
@@ -82,8 +91,9 @@ pub unsafe extern "C" fn signorini_model_new_two_body(
         let mut arrays = Arrays::default();
         // SAFETY: the lengths are those of the header.
         let (k_a, k_b) = unsafe {
-            (arrays.required(3, "K_A", K_A, length_a)?, arrays.required(5, "K_B", K_B, length_b)?)
+            (arrays.matrix(3, "K_A", K_A, length_a)?, arrays.matrix(5, "K_B", K_B, length_b)?)
         };
+        guard::reserve_estimate(reduce::memory(n))?;
         let made = Model::two_body(dim, pairs, (k_a, ld_a), (k_b, ld_b));
         place.fill(made, |argument| match argument {
             Argument::Dimension => 1,
@@ -179,6 +189,8 @@ unsafe fn sparse(
         let fixed = Arrays::default().required(3, "fixed", fixed, count)?;
         let fixed = shifted(3, "fixed", fixed, matrix.index_base)?;
         let pairs = SignoriniPairs::read(4, pairs, matrix.index_base)?;
+        let view = pairs.view();
+        guard::reserve_estimate(reduce::memory(view.dim * view.count))?;
         let received = SignoriniSettings::read(position, settings)?;
         let wrong = |error| Failure::from_error(error, |_| position);
         received.settings.validate().map_err(wrong)?;
@@ -247,7 +259,7 @@ pub unsafe extern "C" fn signorini_model_stiffness(
             model.check_independent().map_err(wrong)?;
             model.check_formed().map_err(wrong)?;
             let stiffness = model.stiffness();
-            Arrays::default().output(2, "K", K, stiffness.len())?.write(stiffness);
+            Arrays::default().output_matrix(2, "K", K, stiffness.len())?.write(stiffness);
         }
         Ok(0)
     })
@@ -299,8 +311,11 @@ impl Place {
         position: impl Fn(Argument) -> i32,
     ) -> Result<i32, Failure> {
         let model = made.map_err(|error| Failure::from_error(error, position))?;
+        let model = Box::new(SignoriniModel(model));
+        // Nothing that lives on may stand in the reserve of the call.
+        shortage::check();
         // SAFETY: as above.
-        unsafe { self.0.write(Box::into_raw(Box::new(SignoriniModel(model)))) };
+        unsafe { self.0.write(Box::into_raw(model)) };
         Ok(0)
     }
 }
@@ -308,6 +323,7 @@ impl Place {
 /// # Safety
 /// NULL or a model that lives during the call.
 pub(super) unsafe fn read<'a>(model: *const SignoriniModel) -> Result<&'a Model, Failure> {
+    guard::prepare_thread()?;
     // SAFETY: by the caller's contract.
     match unsafe { model.as_ref() } {
         Some(model) => Ok(&model.0),

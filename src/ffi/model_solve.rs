@@ -129,6 +129,7 @@ impl CaseArguments {
         model: &'a Model,
         cases: usize,
     ) -> Result<LoadCases<'a>, Failure> {
+        guard::reserve_estimate(model.memory())?;
         let at = |offset| self.first + offset;
         let slips = (model.dim() - 1) * model.pairs();
         let (host, fixed) = (times(cases, model.host_size())?, times(cases, model.fixed_count())?);

@@ -8,6 +8,7 @@ use super::args;
 use super::guard::{self, Failure};
 use super::law;
 use crate::file::{self, Kind, ProblemFile};
+use crate::shortage;
 
 /// A contact problem, of signorini_solve.
 pub const SIGNORINI_PROBLEM_CONTACT: i32 = 0;
@@ -43,13 +44,15 @@ pub unsafe extern "C" fn signorini_problem_read(
             problem.write(std::ptr::null_mut());
             args::path(1, path)?
         };
+        guard::reserve_estimate(file::memory(path))?;
         let loaded = file::read(path).map_err(|error| Failure::from_error(error, |_| 1))?;
         // Without zeros, as it has no control characters.
         let remark = CString::new(loaded.remark.as_str()).unwrap_or_default();
+        let read = Box::new(SignoriniProblem { problem: loaded, remark });
+        // Nothing that lives on may stand in the reserve of the call.
+        shortage::check();
         // SAFETY: as above.
-        unsafe {
-            problem.write(Box::into_raw(Box::new(SignoriniProblem { problem: loaded, remark })));
-        }
+        unsafe { problem.write(Box::into_raw(read)) };
         Ok(0)
     })
 }

@@ -102,7 +102,7 @@ pub unsafe extern "C" fn signorini_lcp_write(
         // SAFETY: the lengths are those of the header.
         let (matrix, q, cover) = unsafe {
             (
-                arrays.required(3, "M", M, entries)?,
+                arrays.matrix(3, "M", M, entries)?,
                 arrays.required(5, "q", q, n)?,
                 arrays.optional(6, "cover", cover, n)?,
             )

@@ -9,6 +9,7 @@ use crate::certificate::{certify, prove};
 use crate::error::entry;
 use crate::law::State;
 use crate::problem::ContactProblem;
+use crate::solve::memory;
 
 /// Tries to prove that a condensed contact problem has a solution next to displacements of any
 /// origin, say of another solver, and bounds how far it is away.
@@ -66,6 +67,7 @@ pub unsafe extern "C" fn signorini_prove(
         let radius_d = arrays.optional_output(13, "radius_d", radius_d, d.len())?;
         let radius_force = arrays.optional_output(14, "radius_F", radius_F, d.len())?;
         arrays.check_overlap()?;
+        guard::reserve_estimate(memory(d.len()))?;
         let problem = ContactProblem::new(data).map_err(|error| {
             Failure::from_error(error, |argument| given.position(argument, MEASURED))
         })?;

@@ -92,7 +92,8 @@ pub struct SignoriniSettings {
     pub proof: i32,
     /// 0.
     pub reserved: i32,
-    /// Most bytes that signorini_model_new_sparse_within may need; default 0: no limit.
+    /// Most bytes that a solution or signorini_model_new_sparse_within may need; default 0: no
+    /// limit.
     pub memory_limit: i64,
     /// Nonzero: signorini_model_new_sparse_within makes a full-space model, whatever memory_limit
     /// says. Default 0: only if the condensed matrix needs more than memory_limit.

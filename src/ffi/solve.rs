@@ -10,7 +10,7 @@ use super::status::{code, remember};
 use crate::error::Argument;
 use crate::monitor::{Monitor, ProgressFn};
 use crate::problem::ContactProblem;
-use crate::solve::{Status, solve};
+use crate::solve::{Status, memory, solve};
 
 /// Solves a contact problem that you have condensed on the N = dim * pairs contact components.
 ///
@@ -88,6 +88,7 @@ pub unsafe extern "C" fn signorini_solve(
                 given.position(argument, own)
             })
         };
+        guard::reserve_estimate(memory(n))?;
         let problem = ContactProblem::new(data).map_err(from_error)?;
         // SAFETY: d has n entries, which the caller has filled if it asked for a warm start.
         let start = received.warm_start.then(|| unsafe { d.read() });

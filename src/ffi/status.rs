@@ -24,11 +24,11 @@ pub const SIGNORINI_STATUS_STALLED: i32 = 5;
 pub const SIGNORINI_STATUS_NOT_A_SOLUTION: i32 = 6;
 /// Prove: no solution is proved to exist, which does not say that there is none.
 pub const SIGNORINI_STATUS_NOT_PROVED: i32 = 7;
-/// The reduction of a sparse matrix needs more than memory_limit: nothing was factorised.
+/// The call may need more than memory_limit: nothing was solved or factorised.
 pub const SIGNORINI_STATUS_MEMORY_LIMIT: i32 = 8;
 /// A caught defect of the library: results undefined.
 pub const SIGNORINI_STATUS_INTERNAL: i32 = -1000;
-/// Out of memory: nothing was written.
+/// Out of memory: no results were written, but those of earlier load cases; the call holds nothing.
 pub const SIGNORINI_STATUS_OUT_OF_MEMORY: i32 = -1001;
 /// A file cannot be read or written.
 pub const SIGNORINI_STATUS_FILE: i32 = -1002;
@@ -137,6 +137,17 @@ pub(super) fn remember(message: impl Into<Message>) {
     let message = message.into();
     LAST.with_borrow_mut(|sentence| sentence.set(&message));
     FROM_ONE.with_borrow_mut(|sentence| sentence.set(&message.counted_from_one()));
+}
+
+/// A sentence without indices: it needs no memory.
+pub(super) fn remember_plain(sentence: &str) {
+    LAST.with_borrow_mut(|last| last.set(sentence));
+    FROM_ONE.with_borrow_mut(|last| last.set(sentence));
+}
+
+/// Nothing happened.
+pub(super) fn forget() {
+    remember_plain("");
 }
 
 /// What the last call on this thread found, as Fortran counts.

@@ -9,6 +9,7 @@ use super::structures;
 use super::surface::{Received, SignoriniFaces, SignoriniObstacle, SignoriniSurfaceSettings};
 use crate::error::{Argument, Error};
 use crate::problem;
+use crate::shortage;
 use crate::surface::{
     NodeDofs, PairArrays, SurfacePairs, Surfaces, pair_surfaces, pair_with_obstacle,
 };
@@ -314,6 +315,8 @@ impl Place {
         let found = found.map_err(|error| Failure::from_error(error, position))?;
         let nodes = host.coordinates.len() / host.dim;
         let made = Box::new(SignoriniSurfacePairs::new(found, nodes, host.received));
+        // Nothing that lives on may stand in the reserve of the call.
+        shortage::check();
         // SAFETY: by the caller's contract.
         unsafe {
             if !self.1.is_null() {

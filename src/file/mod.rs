@@ -46,7 +46,7 @@ use crate::error::Error;
 use crate::problem::ContactData;
 
 pub use law::Law;
-pub use read::read;
+pub use read::{memory, read};
 pub use vtu::{Field, Mesh, Values, nodes_of_type, write_vtu};
 pub use write::{write, write_lcp};
 
@@ -133,4 +133,12 @@ fn refuse(path: &Path, line: Option<u64>, what: &str) -> Error {
         None => format!("{shown}: {what}"),
     };
     Error::File(message.into())
+}
+
+/// What the system says of a file that cannot be read or written.
+fn failed(path: &Path, what: &str, error: &std::io::Error) -> Error {
+    match error.kind() {
+        std::io::ErrorKind::OutOfMemory => Error::OutOfMemory("the name of a file"),
+        _ => refuse(path, None, &format!("cannot be {what}: {error}")),
+    }
 }

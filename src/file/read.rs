@@ -4,7 +4,7 @@ use std::fs::{self, File};
 use std::path::Path;
 
 use super::lines::{Lines, shown};
-use super::{BANNER, Kind, Law, OLD_VERSION, ProblemFile, TITLE, VERSION, refuse};
+use super::{BANNER, Kind, Law, OLD_VERSION, ProblemFile, TITLE, VERSION, failed, refuse};
 use crate::error::{Error, index};
 use crate::problem;
 
@@ -14,7 +14,7 @@ use crate::problem;
 /// [`Error::File`] if it is no file, cannot be read or is not a complete problem file; the message names
 /// the line and what is wrong there. [`Error::OutOfMemory`].
 pub fn read(path: &Path) -> Result<ProblemFile, Error> {
-    let fail = |error| refuse(path, None, &format!("cannot be read: {error}"));
+    let fail = |error| failed(path, "read", &error);
     // Before it is opened: to open a pipe waits for its writer.
     let about = fs::metadata(path).map_err(fail)?;
     if !about.is_file() {
@@ -27,6 +27,14 @@ pub fn read(path: &Path) -> Result<ProblemFile, Error> {
     let mut lines = Lines::new(path, file);
     let header = Header::read(&mut lines)?;
     header.columns(&mut lines, most)
+}
+
+/// Most bytes that [`read`] takes; 0 of what is no file.
+pub fn memory(path: &Path) -> u64 {
+    // An entry has two bytes or more in the file and eight in memory.
+    const LEAST: u64 = 262_144;
+    const EACH: u64 = 8;
+    fs::metadata(path).map_or(0, |about| about.len().saturating_mul(EACH).saturating_add(LEAST))
 }
 
 /// What the comment lines and the size line say.

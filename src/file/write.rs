@@ -5,7 +5,7 @@ use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use super::{BANNER, Law, MOST_REMARK, TITLE, VERSION, refuse};
+use super::{BANNER, Law, MOST_REMARK, TITLE, VERSION, failed, refuse};
 use crate::error::{Argument, Error, entry};
 use crate::problem::{ContactProblem, Lcp};
 
@@ -121,7 +121,7 @@ pub(super) fn replace(
     path: &Path,
     fill: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
 ) -> Result<(), Error> {
-    let fail = |error: io::Error| refuse(path, None, &format!("cannot be written: {error}"));
+    let fail = |error: io::Error| failed(path, "written", &error);
     // Through a symbolic link to the file that it names; a path that names nothing yet stays.
     let target = match fs::canonicalize(path) {
         Ok(target) => target,

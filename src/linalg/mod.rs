@@ -16,6 +16,7 @@ pub(crate) mod packed;
 pub(crate) mod perturbation;
 pub(crate) mod pivoted_cholesky;
 pub(crate) mod power_of_two;
+pub(crate) mod products;
 pub(crate) mod row_elimination;
 pub(crate) mod simd;
 pub(crate) mod sparse_matrix;

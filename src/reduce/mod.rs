@@ -5,6 +5,7 @@
 
 mod condensed;
 mod frame;
+mod memory;
 mod motion;
 mod operator;
 mod pairs;
@@ -12,6 +13,7 @@ mod sparse;
 mod two_body;
 
 pub use condensed::CondensedReduction;
+pub use memory::memory;
 pub(crate) use motion::driven_motion;
 pub use operator::{HostOperator, OperatorReduction};
 pub use pairs::ContactPairs;
@@ -28,6 +30,9 @@ pub trait UnformedReduction {
 
     /// Loads of all unknowns of [`Self::bodies`] in a load case.
     fn all_loads(&self, load: &[f64], prescribed: Option<&[f64]>) -> Vec<f64>;
+
+    /// Most bytes that [`Self::bodies`] take at work beside this reduction, without what the host's functions take.
+    fn factor_bytes(&self) -> u64;
 }
 
 /// A structure reduced to its contact pairs. It does not change: several threads may use it at once.

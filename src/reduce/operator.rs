@@ -280,6 +280,10 @@ impl UnformedReduction for OperatorReduction {
     fn all_loads(&self, load: &[f64], _prescribed: Option<&[f64]>) -> Vec<f64> {
         load.to_vec()
     }
+
+    fn factor_bytes(&self) -> u64 {
+        0
+    }
 }
 
 /// A user of the operator.

@@ -2,8 +2,8 @@
 //! What is called a solution is decided in `candidate`, by the certificate alone.
 //!
 //! ```text
-//! outcome ← candidate ← condense ← rigid_balance ← smallest_lift ← sweeps ← normal_map ← krylov ← active_set ← path ← lemke ← uniqueness ← dispatch ← auto ← escape_motion ← far_obstacles ← dependent ← flexibility ← existence ← mod
-//!                                                                          └──── lcp ────────────────────────┘
+//! memory ← outcome ← candidate ← condense ← rigid_balance ← smallest_lift ← sweeps ← normal_map ← krylov ← active_set ← path ← lemke ← uniqueness ← dispatch ← auto ← escape_motion ← far_obstacles ← dependent ← flexibility ← existence ← mod
+//!                                                                                   └──── lcp ────────────────────────┘
 //! ```
 //!
 //! Each imports from those to its left only. One algorithm is one folder; what others may use of it is
@@ -22,6 +22,7 @@ mod flexibility;
 mod krylov;
 mod lcp;
 mod lemke;
+mod memory;
 mod normal_map;
 mod outcome;
 mod path;
@@ -40,9 +41,12 @@ use crate::settings::{Search, Settings};
 pub(crate) use candidate::NO_EQUILIBRIUM;
 use dispatch::check_method;
 pub(crate) use krylov::{
-    Case as UnformedCase, certify as certify_unformed, solve as solve_unformed,
+    Case as UnformedCase, certify as certify_unformed, memory as memory_unformed,
+    solve as solve_unformed,
 };
 pub use lcp::{LcpSolution, solve_lcp};
+use memory::check_limit;
+pub use memory::memory;
 pub use outcome::{
     Errors, Escape, Existence, Fallback, SecondSolution, Solution, Status, Uniqueness,
 };
@@ -59,6 +63,7 @@ pub(crate) fn solve_dependent(
     monitor: &mut Monitor<'_>,
 ) -> Result<Solution, Error> {
     settings.validate()?;
+    check_limit(problem.unknowns(), settings)?;
     check_start("d", problem.unknowns(), start)?;
     let mut solution = dependent::solve(problem, settings, start, monitor)?;
     solution.iterations = monitor.iterations();
@@ -81,6 +86,7 @@ pub fn solve_flexibility(
     monitor: &mut Monitor<'_>,
 ) -> Result<Solution, Error> {
     settings.validate()?;
+    check_limit(problem.unknowns(), settings)?;
     check_start("F", problem.unknowns(), start)?;
     let mut solution = flexibility::solve(problem, settings, start, monitor)?;
     solution.iterations = monitor.iterations();
@@ -99,6 +105,7 @@ pub fn solve(
     monitor: &mut Monitor<'_>,
 ) -> Result<Solution, Error> {
     settings.validate()?;
+    check_limit(problem.unknowns(), settings)?;
     let contact = Contact::new(problem);
     check_method(&contact, settings.method)?;
     check_start("d", contact.unknowns(), start)?;

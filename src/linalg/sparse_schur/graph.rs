@@ -3,6 +3,7 @@
 //! ninth of the entries.
 
 use crate::linalg::sparse_matrix::{Csc, OutOfMemory, column};
+use crate::shortage;
 
 /// Vertices with their unknowns and neighbours. First stand the vertices that are eliminated.
 pub struct Graph {
@@ -156,7 +157,8 @@ fn together(unknowns: &Adjacency, eliminated: usize) -> Result<Together, OutOfMe
 pub fn reserved<T>(length: usize) -> Result<Vec<T>, OutOfMemory> {
     let mut vector = Vec::new();
     vector.try_reserve_exact(length).map_err(|_| OutOfMemory)?;
-    Ok(vector)
+    // The reserve of a call is not for arrays that can be refused.
+    if shortage::is_noted() { Err(OutOfMemory) } else { Ok(vector) }
 }
 
 /// A vector of equal entries.

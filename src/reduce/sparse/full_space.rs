@@ -45,10 +45,7 @@ impl FullSpace {
         watch: &mut dyn Watch,
     ) -> Result<Self, Failure> {
         let cholesky = SparseCholesky::new(&matrix, watch)?;
-        // A second matrix with components held, and some vectors of all unknowns.
-        let entry = size_of::<usize>() + size_of::<f64>();
-        let copy = entry * matrix.compute_nnz() + VECTORS * size_of::<f64>() * matrix.ncols();
-        answered(watch.announce(cholesky.bytes() + copy as u64))?;
+        answered(watch.announce(factor_bytes(&cholesky, &matrix)))?;
         let units: Vec<f64> =
             (0..matrix.ncols()).map(|j| diagonal(&matrix, j).unwrap_or_default()).collect();
         let restriction = Restriction::all(dim, (matrix.ncols() - inner) / dim);
@@ -60,6 +57,11 @@ impl FullSpace {
         }
         made.kept = Mutex::new(Some(Factor { restriction, values }));
         Ok(made)
+    }
+
+    /// Bytes of a factor with what it takes to make and to use it.
+    pub(super) fn factor_bytes(&self) -> u64 {
+        factor_bytes(&self.cholesky, &self.matrix)
     }
 
     /// The matrix with rows and columns of held components replaced, and with springs: those of the restriction,
@@ -123,6 +125,13 @@ impl FullSpace {
         }
         Ok(x)
     }
+}
+
+/// A factor, a second matrix with components held, and some vectors of all unknowns.
+fn factor_bytes(cholesky: &SparseCholesky, matrix: &Csc) -> u64 {
+    let entry = size_of::<usize>() + size_of::<f64>();
+    let copy = entry * matrix.compute_nnz() + VECTORS * size_of::<f64>() * matrix.ncols();
+    cholesky.bytes() + copy as u64
 }
 
 /// Vectors of all unknowns that a solution holds at a time, beside directions of GMRES.

@@ -243,6 +243,13 @@ impl UnformedReduction for SparseReduction {
     fn all_loads(&self, load: &[f64], prescribed: Option<&[f64]>) -> Vec<f64> {
         self.transformed_load(load, prescribed)
     }
+
+    fn factor_bytes(&self) -> u64 {
+        match &self.engine {
+            Engine::FullSpace(space) => space.factor_bytes(),
+            Engine::Condensed(_) => 0,
+        }
+    }
 }
 
 /// How the transformed matrix is divided and eliminated.

@@ -50,6 +50,17 @@ pub fn check(settings: &Settings) -> Result<(), Error> {
     Ok(())
 }
 
+/// Vectors of all unknowns that GMRES holds for each direction: a basis vector, and the direction with its product.
+const VECTORS_OF_DIRECTION: usize = 3;
+
+/// Other vectors of all unknowns.
+const VECTORS: usize = 60;
+
+/// Most bytes that [`solve`] takes for so many unknowns, beside what the bodies take.
+pub fn memory(unknowns: usize) -> u64 {
+    ((VECTORS_OF_DIRECTION * step::MOST_DIRECTIONS + VECTORS) * size_of::<f64>() * unknowns) as u64
+}
+
 /// Solves a load case from the displacements `start` (the pairs stuck at their gaps if `None`).
 pub fn solve(
     bodies: &mut dyn Bodies,

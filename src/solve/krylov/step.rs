@@ -30,7 +30,7 @@ use crate::linalg::gmres::gmres;
 use crate::problem::{Bodies, Restriction};
 
 /// Most directions of one system.
-const MOST_DIRECTIONS: usize = 100;
+pub const MOST_DIRECTIONS: usize = 100;
 
 /// What the pieces of a point say of a pair.
 struct Pair {

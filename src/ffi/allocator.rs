@@ -1,0 +1,339 @@
+//! The allocator of the library: the system's, and a reserve for what the system refuses.
+//!
+//! Stable Rust has no way to go on after a refused request: the process ends. So each call of the C interface
+//! [holds](Held) memory that it obtained before its work began, where a refusal is a status. What the system
+//! then refuses is served from there, and noted in [`crate::shortage`]; the next check ends the call, which
+//! returns everything. A call to which the system refuses nothing pays one comparison a request.
+//!
+//! Small calls hold a part of static memory. Nothing of the reserve is touched before it serves, but for
+//! its first page. A piece that outlives its call keeps its block until it is freed.
+
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::cell::{Cell, UnsafeCell};
+use std::hint::spin_loop;
+use std::ptr::null_mut;
+use std::sync::atomic::Ordering::{Acquire, Relaxed, Release};
+use std::sync::atomic::{AtomicBool, AtomicUsize};
+
+use super::holes::Holes;
+use crate::shortage;
+
+/// Static blocks: as many threads at once call without a request for their first reserve.
+const SLOTS: usize = 8;
+
+/// Size of a static block: sentences, small arrays, and all of a problem of some twenty pairs.
+const SLOT: usize = 512 << 10;
+
+const ALIGNMENT: usize = 64;
+
+#[repr(C, align(64))]
+struct Slot {
+    memory: UnsafeCell<[u8; SLOT]>,
+    taken: AtomicBool,
+}
+
+// SAFETY: the memory is used by who has set `taken`, until it is reset.
+unsafe impl Sync for Slot {}
+
+static STATIC: [Slot; SLOTS] =
+    [const { Slot { memory: UnsafeCell::new([0; SLOT]), taken: AtomicBool::new(false) } }; SLOTS];
+
+/// The beginning of a block of a reserve.
+struct Block {
+    /// Bytes from the system; 0: a static block.
+    bytes: usize,
+    /// The block that the same call obtained before.
+    before: *mut Block,
+    /// The next block that has served; its own address while it has not.
+    next: *mut Block,
+    /// Whether the call goes on.
+    open: bool,
+    holes: Holes,
+}
+
+/// What a call needs for sentences and small arrays, whatever it is given.
+const ALWAYS: usize = 128 << 10;
+
+thread_local! {
+    /// The last block of the call that this thread is in.
+    static LAST: Cell<*mut Block> = const { Cell::new(null_mut()) };
+    /// Bytes that the call wants in reserve, and those that it holds.
+    static WANTED: Cell<usize> = const { Cell::new(0) };
+    static HELD: Cell<usize> = const { Cell::new(0) };
+}
+
+/// The blocks that have served, of all threads: whoever frees a piece finds its block here.
+struct Served {
+    locked: AtomicBool,
+    count: AtomicUsize,
+    first: UnsafeCell<*mut Block>,
+}
+
+// SAFETY: `first`, and the blocks from there on, are used by who has set `locked`.
+unsafe impl Sync for Served {}
+
+static SERVED: Served = Served {
+    locked: AtomicBool::new(false),
+    count: AtomicUsize::new(0),
+    first: UnsafeCell::new(null_mut()),
+};
+
+impl Served {
+    /// Runs `work` alone. A mutex of the standard library may need memory itself.
+    fn alone<T>(&self, work: impl FnOnce(*mut *mut Block) -> T) -> T {
+        while self.locked.compare_exchange_weak(false, true, Acquire, Relaxed).is_err() {
+            spin_loop();
+        }
+        let result = work(self.first.get());
+        self.locked.store(false, Release);
+        result
+    }
+
+    /// Takes a block out of the list, and returns it to where it came from.
+    ///
+    /// # Safety
+    /// Alone; the block is in the list, and nobody uses a piece of it.
+    unsafe fn release(&self, first: *mut *mut Block, block: *mut Block) {
+        let mut link = first;
+        // SAFETY: by the caller's contract.
+        unsafe {
+            while *link != block {
+                link = &raw mut (**link).next;
+            }
+            *link = (*block).next;
+            self.count.fetch_sub(1, Relaxed);
+            return_block(block);
+        }
+    }
+}
+
+/// The memory that a call may fall back to; it ends with the outermost call of the thread.
+pub(super) struct Held {
+    outermost: bool,
+}
+
+impl Held {
+    /// `None`: the system has no memory.
+    pub(super) fn begin() -> Option<Self> {
+        let outermost = LAST.get().is_null();
+        if outermost {
+            shortage::forget();
+            WANTED.set(ALWAYS);
+            HELD.set(0);
+            if !take_slot() && !grow(SLOT) {
+                return None;
+            }
+        }
+        Some(Held { outermost })
+    }
+}
+
+impl Drop for Held {
+    fn drop(&mut self) {
+        if !self.outermost {
+            return;
+        }
+        let mut block = LAST.replace(null_mut());
+        shortage::forget();
+        while !block.is_null() {
+            // SAFETY: the blocks of this thread's call; those that have served are changed alone.
+            unsafe {
+                let before = (*block).before;
+                if (*block).next == block {
+                    return_block(block);
+                } else {
+                    SERVED.alone(|first| {
+                        (*block).open = false;
+                        if (*block).holes.living() == 0 {
+                            SERVED.release(first, block);
+                        }
+                    });
+                }
+                block = before;
+            }
+        }
+    }
+}
+
+/// The call may need `bytes` more than what it asked for before. `false`: the system refuses them.
+pub(super) fn want(bytes: usize) -> bool {
+    let wanted = WANTED.get().saturating_add(bytes);
+    WANTED.set(wanted);
+    let held = HELD.get();
+    // Arrays come one by one: not a block for each of them.
+    wanted <= held || grow((wanted - held).max(held / 2))
+}
+
+fn grow(bytes: usize) -> bool {
+    let Some(bytes) = bytes.checked_add(size_of::<Block>() + ALIGNMENT) else { return false };
+    let Ok(layout) = Layout::from_size_align(bytes, ALIGNMENT) else { return false };
+    // SAFETY: the size is not zero.
+    let memory = unsafe { System.alloc(layout) };
+    if memory.is_null() {
+        return false;
+    }
+    // SAFETY: so many bytes of this alignment.
+    unsafe { hold(memory, bytes, bytes) };
+    true
+}
+
+fn take_slot() -> bool {
+    let taken = |slot: &&Slot| !slot.taken.swap(true, Acquire);
+    let Some(slot) = STATIC.iter().find(taken) else { return false };
+    // SAFETY: the memory of the slot is ours until `taken` is reset.
+    unsafe { hold(slot.memory.get().cast(), SLOT, 0) };
+    true
+}
+
+/// Makes a block the last one of the call.
+///
+/// # Safety
+/// `memory` has `size` bytes, aligned to [`ALIGNMENT`], for the block alone.
+unsafe fn hold(memory: *mut u8, size: usize, bytes: usize) {
+    let block = memory.cast::<Block>();
+    let head = size_of::<Block>().next_multiple_of(ALIGNMENT);
+    // SAFETY: by the caller's contract; every size here is larger than the head.
+    unsafe {
+        let holes = Holes::new(memory.add(head), size - head);
+        block.write(Block { bytes, before: LAST.get(), next: block, open: true, holes });
+    }
+    LAST.set(block);
+    HELD.set(HELD.get() + size);
+}
+
+/// # Safety
+/// A block that nobody uses any more.
+unsafe fn return_block(block: *mut Block) {
+    // SAFETY: by the caller's contract; the layout is the one of `grow`.
+    unsafe {
+        match (*block).bytes {
+            0 => {
+                let slot = STATIC.iter().find(|slot| slot.memory.get().cast() == block);
+                slot.inspect(|slot| slot.taken.store(false, Release));
+            }
+            bytes => {
+                let layout = Layout::from_size_align_unchecked(bytes, ALIGNMENT);
+                System.dealloc(block.cast(), layout);
+            }
+        }
+    }
+}
+
+/// A piece of the reserve of this thread's call; NULL if it has none, or none that is large enough.
+#[cold]
+fn serve(layout: Layout) -> *mut u8 {
+    let mut block = LAST.try_with(Cell::get).unwrap_or(null_mut());
+    while !block.is_null() {
+        // SAFETY: the blocks of this thread's call, which are changed alone.
+        let piece = SERVED.alone(|first| unsafe {
+            let piece = (*block).holes.take(layout);
+            if !piece.is_null() && (*block).next == block {
+                (*block).next = first.replace(block);
+                SERVED.count.fetch_add(1, Relaxed);
+            }
+            piece
+        });
+        if !piece.is_null() {
+            shortage::note(layout.size());
+            return piece;
+        }
+        // SAFETY: as above.
+        block = unsafe { (*block).before };
+    }
+    null_mut()
+}
+
+/// Whether the piece is of a reserve. Nobody who got it from another thread can miss that a block has served.
+fn is_served(piece: *mut u8) -> bool {
+    SERVED.count.load(Relaxed) != 0 && SERVED.alone(|first| !block_of(first, piece).is_null())
+}
+
+/// The block that has served the piece, or NULL; to be asked alone.
+fn block_of(first: *mut *mut Block, piece: *mut u8) -> *mut Block {
+    // SAFETY: alone; every block of the list is there until it is taken out.
+    unsafe {
+        let mut block = *first;
+        while !block.is_null() && !(*block).holes.has(piece) {
+            block = (*block).next;
+        }
+        block
+    }
+}
+
+/// # Safety
+/// A piece of a reserve with its layout, not used any more.
+#[cold]
+unsafe fn give_back(piece: *mut u8, layout: Layout) {
+    // SAFETY: the block is in the list; by the caller's contract.
+    SERVED.alone(|first| unsafe {
+        let block = block_of(first, piece);
+        (*block).holes.give_back(piece, layout);
+        if !(*block).open && (*block).holes.living() == 0 {
+            SERVED.release(first, block);
+        }
+    });
+}
+
+/// The system's allocator with the reserve behind it.
+struct Reserved;
+
+// SAFETY: memory comes from the system's allocator, or is a piece of a block that is nobody else's; nothing
+// unwinds.
+unsafe impl GlobalAlloc for Reserved {
+    #[inline(never)]
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        // SAFETY: the caller's.
+        let memory = unsafe { System.alloc(layout) };
+        if memory.is_null() { serve(layout) } else { memory }
+    }
+
+    #[inline(never)]
+    unsafe fn alloc_zeroed(&self, layout: Layout) -> *mut u8 {
+        // SAFETY: the caller's.
+        let memory = unsafe { System.alloc_zeroed(layout) };
+        if !memory.is_null() {
+            return memory;
+        }
+        let piece = serve(layout);
+        if !piece.is_null() {
+            // SAFETY: it has so many bytes.
+            unsafe { piece.write_bytes(0, layout.size()) };
+        }
+        piece
+    }
+
+    #[inline(never)]
+    unsafe fn dealloc(&self, memory: *mut u8, layout: Layout) {
+        // SAFETY: the caller's; to each its own.
+        unsafe {
+            if is_served(memory) {
+                give_back(memory, layout);
+            } else {
+                System.dealloc(memory, layout);
+            }
+        }
+    }
+
+    #[inline(never)]
+    unsafe fn realloc(&self, memory: *mut u8, layout: Layout, size: usize) -> *mut u8 {
+        if !is_served(memory) {
+            // SAFETY: the caller's.
+            let moved = unsafe { System.realloc(memory, layout, size) };
+            if !moved.is_null() {
+                return moved;
+            }
+        }
+        // SAFETY: the caller's size is valid with this alignment; the two do not overlap.
+        unsafe {
+            let new = self.alloc(Layout::from_size_align_unchecked(size, layout.align()));
+            if !new.is_null() {
+                new.copy_from_nonoverlapping(memory, layout.size().min(size));
+                self.dealloc(memory, layout);
+            }
+            new
+        }
+    }
+}
+
+#[global_allocator]
+static RESERVED: Reserved = Reserved;

@@ -1,0 +1,40 @@
+//! Most bytes that a solution takes beside its data, known before work begins.
+//!
+//! Matrices of the size of `K` decide. Their greatest number at a time was counted over all methods, laws and
+//! questions; `tests/memory_estimate.rs` and `tests/memory.rs` count again.
+
+use crate::error::{Error, Limit};
+use crate::settings::Settings;
+
+/// Matrices of the size of `K` that a method holds at most. The tableau of Lemke's method with friction is
+/// the greatest part: 9/4.
+const MATRICES: f64 = 3.25;
+
+/// Vectors with a number for each unknown.
+const VECTORS: f64 = 100.0;
+
+/// Whatever the size.
+const ALWAYS: f64 = 262_144.0;
+
+/// Refuses what may need more than the settings allow.
+pub fn check_limit(unknowns: usize, settings: &Settings) -> Result<(), Error> {
+    let (needed, most) = (memory(unknowns), settings.memory_limit);
+    if most == 0 || needed <= most {
+        return Ok(());
+    }
+    let (needed, most) = (needed as f64 / MEGABYTE, most as f64 / MEGABYTE);
+    let message = format!(
+        "the solution may need {needed:.1} MB, settings: memory_limit allows {most:.1} MB; nothing was done"
+    );
+    Err(Error::stopped(Limit::Memory, message))
+}
+
+const MEGABYTE: f64 = 1e6;
+
+/// Most bytes that [`solve`](super::solve()) and [`solve_lcp`](super::solve_lcp()) take for so many unknowns,
+/// beside the problem itself, whatever the method, the law and the questions. The working memory of matrix
+/// products, 4 MiB that a thread keeps, is not counted.
+pub fn memory(unknowns: usize) -> u64 {
+    let n = unknowns as f64;
+    ((MATRICES * n * n + VECTORS * n) * size_of::<f64>() as f64 + ALWAYS) as u64
+}

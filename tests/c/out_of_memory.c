@@ -1,0 +1,150 @@
+/*
+ * The system refuses memory, at every request in turn: once, and from there on. A call must end as it does
+ * with memory, or with SIGNORINI_STATUS_OUT_OF_MEMORY; it must hold nothing then, and work again. Each trial
+ * is a child process, so that one that dies is counted. Linux with glibc.
+ *
+ *     out_of_memory [TRIALS [SCENARIO]]
+ *
+ * TRIALS of each scenario and kind, evenly over its requests; 0: every request.
+ */
+
+#define _POSIX_C_SOURCE 200809L
+
+#include "failing_malloc.h"
+
+#include "memory_scenarios.h"
+
+#include <pthread.h>
+#include <stdio.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+enum { AS_BEFORE, OUT_OF_MEMORY, OTHER_STATUS, HOLDS_MEMORY, UNUSABLE, DIED, OUTCOMES };
+
+static const char *const names[OUTCOMES] = {"as before", "out of memory", "other status",
+                                            "holds memory", "unusable", "died"};
+
+/* Trials of a scenario and kind if nobody says how many. */
+enum { TRIALS = 25 };
+
+/* A run that a thread of its own makes, whose first call it is. */
+struct work {
+    const struct scenario *scenario;
+    struct world *world;
+    int64_t first, last;
+    int32_t status;
+};
+
+static void *run(void *argument)
+{
+    struct work *work = argument;
+    heap_watch(1);
+    heap.first = work->first;
+    heap.last = work->last;
+    work->status = work->scenario->run(work->world);
+    heap.watching = 0;
+    return NULL;
+}
+
+/* The same on this thread, or on a new one. */
+static int32_t status_of(struct work *work, int fresh)
+{
+    pthread_t thread;
+    if (!fresh) run(work);
+    else if (pthread_create(&thread, NULL, run, work) || pthread_join(thread, NULL)) work->status = 1;
+    return work->status;
+}
+
+/* What the child finds. */
+static int outcome(struct work work, int32_t expected)
+{
+    const int64_t before = heap.living;
+    const int fresh = work.scenario->kind == NEW_THREAD;
+    const int32_t status = status_of(&work, fresh);
+    if (heap.living != before) return HOLDS_MEMORY;
+    if (status != expected && status != SIGNORINI_STATUS_OUT_OF_MEMORY) {
+        printf("%s, request %lld: status %d\n", work.scenario->name, (long long)work.first,
+               (int)status);
+        fflush(stdout);
+        return OTHER_STATUS;
+    }
+    work.first = INT64_MAX;
+    if (status_of(&work, fresh) != expected) return UNUSABLE;
+    return status == expected ? AS_BEFORE : OUT_OF_MEMORY;
+}
+
+static int trial(struct work work, int32_t expected)
+{
+    fflush(stdout);
+    const pid_t child = fork();
+    /* Rust says on stderr which request it could not go on without. */
+    if (child == 0) _exit(outcome(work, expected));
+    int status = 0;
+    if (child < 0 || waitpid(child, &status, 0) != child) return DIED;
+    return WIFEXITED(status) && WEXITSTATUS(status) < DIED ? WEXITSTATUS(status) : DIED;
+}
+
+/* Both kinds of a scenario. Returns how many trials there were. */
+static int64_t tried(const struct scenario *scenario, struct world *world, int64_t most,
+                     int64_t found[OUTCOMES])
+{
+    int64_t trials = 0;
+    struct work work = {scenario, world, INT64_MAX, INT64_MAX, 0};
+    /* What is made once and stays is there after the first run. */
+    scenario->run(world);
+    const int32_t expected = status_of(&work, scenario->kind == NEW_THREAD);
+    const int64_t requests = heap.requests;
+    CHECK_STATUS(expected, scenario->expected);
+    const int64_t step = most && requests > most ? requests / most : 1;
+    for (work.first = 1; work.first <= requests; work.first += step)
+        for (int once = 0; once < 2; once++, trials++) {
+            work.last = once ? work.first : INT64_MAX;
+            found[trial(work, expected)]++;
+        }
+    printf("%-34s %9lld %7lld", scenario->name, (long long)requests, (long long)trials);
+    for (int i = 0; i < OUTCOMES; i++) printf(" %13lld", (long long)found[i]);
+    printf("\n");
+    /*
+     * A thread's first product of matrices registers what is to be freed when the thread ends. The C library
+     * takes 40 bytes for that, and aborts if it cannot have them: refused alone, from there on, and from the
+     * request before.
+     */
+    CHECK(found[DIED] <= (scenario->kind == NEW_THREAD ? 3 : 0));
+    CHECK(trials == found[AS_BEFORE] + found[OUT_OF_MEMORY] + found[DIED]);
+    return trials;
+}
+
+/* The sentence needs no memory. */
+static void sentence(struct world *world)
+{
+    heap_watch(1);
+    heap.first = 1;
+    CHECK_STATUS(plane_lemke(world), SIGNORINI_STATUS_OUT_OF_MEMORY);
+    heap.watching = 0;
+    CHECK_TEXT(signorini_last_error(), "not enough memory");
+    CHECK_STATUS(plane_lemke(world), 0);
+    CHECK_TEXT("", signorini_last_error());
+}
+
+int main(int count, char **argument)
+{
+    const int64_t most = count > 1 ? atoll(argument[1]) : TRIALS;
+    const char *only = count > 2 ? argument[2] : NULL;
+    int64_t sums[OUTCOMES] = {0}, all = 0;
+    struct world *world = world_new();
+    printf("%-34s %9s %7s", "scenario", "requests", "tried");
+    for (int i = 0; i < OUTCOMES; i++) printf(" %13s", names[i]);
+    printf("\n");
+    for (const struct scenario *scenario = scenarios; scenario->name; scenario++) {
+        int64_t found[OUTCOMES] = {0};
+        if (only && strcmp(only, scenario->name)) continue;
+        all += tried(scenario, world, most, found);
+        for (int i = 0; i < OUTCOMES; i++) sums[i] += found[i];
+    }
+    printf("%-34s %9s %7lld", "all", "", (long long)all);
+    for (int i = 0; i < OUTCOMES; i++) printf(" %13lld", (long long)sums[i]);
+    printf("\n");
+    sentence(world);
+    world_free(world);
+    return check_summary("out_of_memory");
+}

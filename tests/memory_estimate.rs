@@ -1,0 +1,192 @@
+//! What a solution holds at most stays below what [`signorini::memory`] tells before, for every method, law
+//! and question, and is a fair part of it.
+//!
+//! Chains of nodes: each tied to the next by springs of stiffness 1 and to the ground by weak ones, pressed
+//! and dragged by loads without a pattern.
+
+#![cfg(all(target_os = "linux", target_env = "gnu"))]
+
+#[path = "common/counted.rs"]
+mod counted;
+
+use fastrand::Rng;
+use signorini::certificate::{certify, prove};
+use signorini::reduce;
+use signorini::{
+    ContactData, ContactProblem, FrictionLaw, Lcp, Method, Model, Monitor, Search, Settings,
+    memory, solve, solve_lcp,
+};
+
+/// Most that the estimate may be of what is held, where the problem is large enough that matrices decide and
+/// the call asks for all that the estimate is for.
+const MOST: f64 = 4.0;
+
+struct Chain {
+    dim: usize,
+    pairs: usize,
+    k: Vec<f64>,
+    load: Vec<f64>,
+    gap: Vec<f64>,
+    mu: Vec<f64>,
+    ellipses: Vec<f64>,
+    cohesion: Vec<f64>,
+}
+
+impl Chain {
+    fn new(dim: usize, pairs: usize, ground: f64) -> Self {
+        let mut rng = Rng::with_seed(7);
+        let n = dim * pairs;
+        let mut k = vec![0.0; n * n];
+        for i in 0..n {
+            k[i + n * i] += ground;
+            if i + dim < n {
+                let other = i - i % dim + (i + 1) % dim;
+                let (at, strain) = ([i, i + dim, other, other + dim], [-1.0, 1.0, -0.25, 0.25]);
+                for (a, x) in at.iter().zip(strain) {
+                    for (b, y) in at.iter().zip(strain) {
+                        k[a + n * b] += x * y;
+                    }
+                }
+            }
+        }
+        let mut draw = |low: f64, high: f64| low + (high - low) * rng.f64();
+        let load = (0..n).map(|i| if i % dim == 0 { draw(-0.4, 1.6) } else { draw(-0.5, 0.5) });
+        let load = load.collect();
+        let gap = (0..pairs).map(|_| draw(0.0, 0.2)).collect();
+        let mu = (0..pairs).map(|_| draw(0.0, 0.6)).collect();
+        let ellipses = (0..pairs).flat_map(|_| [0.2, 0.4, 0.3]).collect();
+        let cohesion = (0..pairs).flat_map(|_| [0.3, 0.1, 0.05]).collect();
+        Chain { dim, pairs, k, load, gap, mu, ellipses, cohesion }
+    }
+
+    fn n(&self) -> usize {
+        self.dim * self.pairs
+    }
+
+    fn problem<'a>(&'a self, law: FrictionLaw<'a>) -> ContactProblem<'a> {
+        ContactProblem::new(ContactData {
+            dim: self.dim,
+            pairs: self.pairs,
+            stiffness: &self.k,
+            ld: self.n(),
+            load: &self.load,
+            gap: &self.gap,
+            law,
+            reference_slip: None,
+        })
+        .expect("a valid problem")
+    }
+
+    fn laws(&self) -> Vec<(&'static str, FrictionLaw<'_>)> {
+        let mut laws = vec![
+            ("frictionless", FrictionLaw::Frictionless),
+            ("Coulomb", FrictionLaw::Coulomb(&self.mu)),
+            ("Tresca", FrictionLaw::Tresca(&self.mu)),
+            ("cohesive", FrictionLaw::Cohesive(&self.cohesion)),
+        ];
+        if self.dim == 3 {
+            laws.push(("orthotropic", FrictionLaw::Orthotropic(&self.ellipses)));
+        }
+        laws
+    }
+}
+
+/// What is held beside the estimate: peak over estimate, and peak over the bytes of `K`.
+struct Shares {
+    worst: f64,
+    least: f64,
+}
+
+impl Shares {
+    fn note(&mut self, what: &str, n: usize, peak: usize, estimate: u64) {
+        let share = peak as f64 / estimate as f64;
+        println!("{what}: {:.2} K, {share:.2} of the estimate", peak as f64 / (8 * n * n) as f64);
+        assert!(share <= 1.0, "{what}: {peak} bytes, estimated {estimate}");
+        self.worst = self.worst.max(share);
+        self.least = self.least.min(share);
+    }
+}
+
+const METHODS: [Method; 7] = [
+    Method::Auto,
+    Method::SorNested,
+    Method::SorDiagonal,
+    Method::Lemke,
+    Method::BlockPivoting,
+    Method::Newton,
+    Method::Path,
+];
+
+/// Every method and law, with and without the search for other solutions and a proof.
+fn solutions(chain: &Chain, shares: &mut Shares) {
+    for (name, law) in chain.laws() {
+        let problem = chain.problem(law);
+        for method in METHODS {
+            for (search, proof) in
+                [(Search::Off, false), (Search::Others, false), (Search::Off, true)]
+            {
+                // The search costs several solutions: of one method.
+                if search == Search::Others && method != Method::Auto {
+                    continue;
+                }
+                let settings =
+                    Settings { method, search, proof, max_iterations: 3000, ..Settings::default() };
+                let monitor = &mut Monitor::new(&settings, None);
+                let (peak, result) = counted::peak(|| solve(&problem, &settings, None, monitor));
+                // A method that is not for this law refuses it.
+                let Ok(solution) = result else { continue };
+                let what = format!(
+                    "{}D, {} pairs, {name}, {method:?}, {search:?}, proof {proof}, {:?}",
+                    chain.dim, chain.pairs, solution.status
+                );
+                shares.note(&what, chain.n(), peak, memory(chain.n()));
+            }
+        }
+    }
+}
+
+/// One test, since the counts are those of the whole program.
+#[test]
+fn a_call_holds_no_more_than_was_estimated() {
+    // What a thread keeps for matrix products is there after its first one.
+    let first = Chain::new(2, 40, 0.05);
+    let settings = Settings { method: Method::SorNested, ..Settings::default() };
+    let monitor = &mut Monitor::new(&settings, None);
+    let warm = solve(&first.problem(FrictionLaw::Frictionless), &settings, None, monitor);
+    assert!(warm.is_ok());
+    let mut shares = Shares { worst: 0.0, least: f64::INFINITY };
+    for (dim, pairs, ground) in
+        [(2, 3, 0.5), (2, 40, 0.05), (3, 30, 0.05), (2, 250, 0.05), (3, 150, 0.05), (2, 150, 0.0)]
+    {
+        let chain = Chain::new(dim, pairs, ground);
+        solutions(&chain, &mut shares);
+        others(&chain, &mut shares);
+    }
+    println!("shares from {:.3} to {:.3}", shares.least, shares.worst);
+    assert!(shares.worst >= 1.0 / MOST, "the estimate is {} times the most", 1.0 / shares.worst);
+}
+
+/// What is no solution of a contact problem.
+fn others(chain: &Chain, shares: &mut Shares) {
+    let n = chain.n();
+    let problem = chain.problem(FrictionLaw::Coulomb(&chain.mu));
+    let d = vec![0.01; n];
+    let estimate = memory(n);
+    let (peak, certificate) = counted::peak(|| certify(&problem, &d));
+    shares.note("certify", n, peak, estimate);
+    let (peak, _) = counted::peak(|| prove(&problem, &d, &certificate.states));
+    shares.note("prove", n, peak, estimate);
+    let lcp = Lcp::new(n, &chain.k, n, &chain.load, None).expect("a valid LCP");
+    for method in [Method::Auto, Method::BlockPivoting, Method::Lemke] {
+        let settings = Settings { method, ..Settings::default() };
+        let monitor = &mut Monitor::new(&settings, None);
+        let (peak, _) = counted::peak(|| solve_lcp(&lcp, &settings, monitor));
+        shares.note(&format!("LCP, {method:?}"), n, peak, estimate);
+    }
+    let (peak, _) = counted::peak(|| Model::condensed(chain.dim, chain.pairs, &chain.k, n).is_ok());
+    shares.note("condensed model", n, peak, reduce::memory(n));
+    let both = ((&chain.k[..], n), (&chain.k[..], n));
+    let (peak, _) =
+        counted::peak(|| Model::two_body(chain.dim, chain.pairs, both.0, both.1).is_ok());
+    shares.note("two bodies", n, peak, reduce::memory(n));
+}
