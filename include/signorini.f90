@@ -143,6 +143,18 @@ module signorini
         integer(c_int32_t) :: reserved2 = 0
     end type
 
+    ! stiffness, inverse and held are c_funloc of bind(C) functions: see the header.
+    type, bind(C) :: signorini_operator
+        integer(c_int32_t) :: struct_size = 16 + 5 * address_bytes
+        integer(c_int32_t) :: dim = 0
+        integer(c_int64_t) :: pairs = 0
+        type(c_funptr) :: stiffness = c_null_funptr
+        type(c_funptr) :: inverse = c_null_funptr
+        type(c_funptr) :: held = c_null_funptr
+        type(c_ptr) :: units = c_null_ptr
+        type(c_ptr) :: user = c_null_ptr
+    end type
+
     type, bind(C) :: signorini_report
         integer(c_int32_t) :: struct_size = 176
         integer(c_int32_t) :: status = 0
@@ -489,6 +501,13 @@ module signorini
             type(c_ptr), value :: fixed
             type(signorini_pairs), intent(in) :: pairs
             type(c_ptr), value :: settings
+            type(c_ptr), intent(out) :: model
+            integer(c_int32_t) :: answer
+        end function
+        function signorini_model_new_operator(k, model) &
+            bind(C, name="signorini_model_new_operator") result(answer)
+            import
+            type(signorini_operator), intent(in) :: k
             type(c_ptr), intent(out) :: model
             integer(c_int32_t) :: answer
         end function

@@ -6,7 +6,6 @@ use common::blocks::block;
 use common::brick::{Support, Vector};
 use common::dense::{difference, largest};
 use common::mesh::{Mesh, Pairs, steps};
-use signorini::reduce::{Indices, SparseMatrix, Triangle};
 use signorini::{FrictionLaw, LoadCase, Model, Monitor, Settings, Solution, Status};
 
 /// Settings of a model in full space.
@@ -44,17 +43,8 @@ impl Bar {
     }
 
     fn model(&self, settings: &Settings) -> Model {
-        let matrix = SparseMatrix {
-            size: self.stiffness.size,
-            col_start: Indices::Wide(&self.stiffness.col_start),
-            row: Indices::Wide(&self.stiffness.row),
-            values: &self.stiffness.values,
-            index_base: 0,
-            triangle: Triangle::Lower,
-        };
         let monitor = &mut Monitor::new(settings, None);
-        Model::sparse_within(&matrix, &self.fixed, &self.pairs.view(), None, monitor)
-            .expect("a valid model")
+        self.stiffness.model_under(&self.fixed, &self.pairs.view(), monitor).expect("a valid model")
     }
 }
 

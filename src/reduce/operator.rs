@@ -1,7 +1,6 @@
 //! A structure of which only products and solutions are known: the host multiplies and solves by itself.
 
-use std::sync::Mutex;
-use std::sync::PoisonError;
+use std::sync::{Mutex, PoisonError};
 
 use super::{Reduction, UnformedReduction, motion};
 use crate::error::{Argument, Error, Message, entry};
@@ -48,6 +47,9 @@ pub trait HostOperator: Send + Sync {
 /// Products of probes that should agree differ by this part of their sizes at most: what rounding of products and
 /// of the host's inner solutions leaves, and what a certificate of 1e-10 can bear.
 const AGREES: f64 = 1e-9;
+
+/// Every component of this number is held in the check of solutions with components held.
+const HELD_IN_CHECK: usize = 3;
 
 /// Sums of `|K| |x|` beside the units of the components: neighbours, and the far field of a half space.
 const NEIGHBOURS: f64 = 8.0;
@@ -97,7 +99,7 @@ impl OperatorReduction {
             }
         }
         if made.operator.has_held() {
-            let mask: Vec<bool> = (0..size).map(|i| i % 3 == 0).collect();
+            let mask: Vec<bool> = (0..size).map(|i| i.is_multiple_of(HELD_IN_CHECK)).collect();
             let name = "the solution with components held";
             let images = made.check(name, &probes, |made, x| made.by_held(&mask, x))?;
             for image in images {
@@ -208,7 +210,7 @@ fn probe(size: usize, seed: u64) -> Vec<f64> {
         state ^= state << 13;
         state ^= state >> 7;
         state ^= state << 17;
-        if state >> 63 == 0 { 1.0 } else { -1.0 }
+        if state.leading_zeros() == 0 { 1.0 } else { -1.0 }
     };
     (0..size).map(|_| sign()).collect()
 }

@@ -177,6 +177,15 @@ FIELD(signorini_obstacle, radius, double, 56);
 FIELD(signorini_obstacle, hollow, int32_t, 64);
 FIELD(signorini_obstacle, reserved, int32_t, 68);
 
+SIZE(signorini_operator, 56);
+FIELD(signorini_operator, struct_size, uint32_t, 0);
+FIELD(signorini_operator, dim, int32_t, 4);
+FIELD(signorini_operator, pairs, int64_t, 8);
+FIELD(signorini_operator, stiffness, signorini_product_fn, 16);
+FIELD(signorini_operator, inverse, signorini_product_fn, 24);
+FIELD(signorini_operator, held, signorini_held_fn, 32);
+FIELD(signorini_operator, units, double *, 40);
+FIELD(signorini_operator, user, void *, 48);
 SIZE(signorini_surface_settings, 32);
 FIELD(signorini_surface_settings, struct_size, uint32_t, 0);
 FIELD(signorini_surface_settings, pairing, int32_t, 4);

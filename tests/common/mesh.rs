@@ -1,7 +1,7 @@
 //! Plane-strain Q1 meshes, their stiffness as a sparse matrix, and contact pairs on them.
 
 use signorini::reduce::{ContactPairs, Indices, SparseMatrix, Triangle};
-use signorini::{Error, Model};
+use signorini::{Error, Model, Monitor};
 
 /// Elements of one material each: nodes counterclockwise, and (E, nu).
 #[derive(Clone, Debug, Default)]
@@ -209,6 +209,24 @@ impl Stiffness {
             triangle: Triangle::Lower,
         };
         Model::sparse(&matrix, fixed, &pairs.view())
+    }
+
+    /// The same under settings.
+    pub fn model_under(
+        &self,
+        fixed: &[usize],
+        pairs: &ContactPairs<'_>,
+        monitor: &mut Monitor<'_>,
+    ) -> Result<Model, Error> {
+        let matrix = SparseMatrix {
+            size: self.size,
+            col_start: Indices::Wide(&self.col_start),
+            row: Indices::Wide(&self.row),
+            values: &self.values,
+            index_base: 0,
+            triangle: Triangle::Lower,
+        };
+        Model::sparse_within(&matrix, fixed, pairs, None, monitor)
     }
 }
 

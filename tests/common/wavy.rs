@@ -1,7 +1,7 @@
 //! Blocks on a wavy obstacle, on meshes that are fine along the contact and grow away from it.
 
-use signorini::reduce::{ContactPairs, Indices, SparseMatrix, Triangle};
-use signorini::{Model, Monitor, Settings};
+use signorini::reduce::ContactPairs;
+use signorini::{Error, Model, Monitor, Settings};
 
 use super::brick::{Brick, Support};
 use super::mesh::{Mesh, Stiffness, steps};
@@ -83,14 +83,11 @@ impl Wavy {
 
     /// The model under these settings.
     pub fn model(&self, settings: &Settings) -> Model {
-        let matrix = SparseMatrix {
-            size: self.stiffness.size,
-            col_start: Indices::Wide(&self.stiffness.col_start),
-            row: Indices::Wide(&self.stiffness.row),
-            values: &self.stiffness.values,
-            index_base: 0,
-            triangle: Triangle::Lower,
-        };
+        self.try_model(&mut Monitor::new(settings, None)).expect("a valid model")
+    }
+
+    /// The same within the limits of a monitor.
+    pub fn try_model(&self, monitor: &mut Monitor<'_>) -> Result<Model, Error> {
         let count = self.gap.len();
         let pairs = ContactPairs {
             dim: self.dim,
@@ -102,7 +99,6 @@ impl Wavy {
             normals: &self.normals,
             tangents: None,
         };
-        let monitor = &mut Monitor::new(settings, None);
-        Model::sparse_within(&matrix, &self.fixed, &pairs, None, monitor).expect("a valid model")
+        self.stiffness.model_under(&self.fixed, &pairs, monitor)
     }
 }

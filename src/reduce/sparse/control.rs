@@ -31,6 +31,11 @@ impl<'a, 'b> Asked<'a, 'b> {
         Asked { ask, memory: 0, ended: None }
     }
 
+    /// Another work begins, of which nothing is known.
+    pub(super) fn begin_anew(&mut self) {
+        (self.memory, self.ended) = (0, None);
+    }
+
     /// Whether the answer was that memory does not suffice.
     pub(super) fn lacks_memory(&self) -> bool {
         matches!(self.ended, Some(Error::Stopped { limit: Limit::Memory, .. }))

@@ -280,7 +280,7 @@ impl Engine {
             if !(possible && asked.lacks_memory()) {
                 return Err(Failure::Stopped);
             }
-            asked.ended = None;
+            asked.begin_anew();
         }
         FullSpace::new(matrix, parts.inner, parts.dim, asked)
             .map(|space| Engine::FullSpace(Box::new(space)))
