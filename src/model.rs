@@ -2,6 +2,7 @@
 
 mod arguments;
 mod load_case;
+mod recovery;
 mod surfaces;
 mod unformed;
 
@@ -305,31 +306,6 @@ impl Model {
         let (gap, slip) = (case.gap, slip.as_deref());
         let problem = ContactProblem::with_relation(relation, self.dim, gap, case.law, slip)?;
         to(&problem)
-    }
-
-    /// Displacements of the host from the relative ones; without `load` and `prescribed` those of
-    /// a motion, such as that of [`crate::Status::NoEquilibrium`].
-    ///
-    /// # Errors
-    /// Arrays of the wrong length or not finite.
-    pub fn recover(
-        &self,
-        load: Option<&[f64]>,
-        prescribed: Option<&[f64]>,
-        d: &[f64],
-    ) -> Result<Vec<f64>, Error> {
-        self.check_loads(load, prescribed)?;
-        check_vector(Argument::Start, "d", d, self.dim * self.pairs)?;
-        self.reduction.recover(load, prescribed, d)
-    }
-
-    /// Contact forces as a nodal force vector of the host.
-    ///
-    /// # Errors
-    /// A force of the wrong length or not finite.
-    pub fn nodal_forces(&self, force: &[f64]) -> Result<Vec<f64>, Error> {
-        check_vector(Argument::Load, "F", force, self.dim * self.pairs)?;
-        Ok(self.reduction.nodal_forces(force))
     }
 
     fn check_loads(&self, load: Option<&[f64]>, prescribed: Option<&[f64]>) -> Result<(), Error> {
