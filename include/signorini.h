@@ -57,7 +57,16 @@
  * as nobody frees it. The library never prints, exits, reads the environment, installs handlers or
  * starts threads. It opens only the files that you name. It keeps your floating-point environment:
  * inside a call traps and flush-to-zero are off; on return they are as before. The same input gives
- * the same bits on the same machine.
+ * the same bits on the same machine. A thread that is cancelled (pthread_cancel, deferred) ends
+ * after its call. Calls need 64 KiB of stack; settings.search, settings.proof and signorini_prove
+ * need 96 KiB.
+ *
+ * Memory. A call to which the system refuses memory ends with SIGNORINI_STATUS_OUT_OF_MEMORY and
+ * holds nothing; the next call works. For that each call obtains, before its work begins, as much
+ * address space as it may need: signorini_solve_memory. It costs nothing while it is not touched,
+ * but counts where address space is limited (ulimit -v): there a call needs twice its memory. One
+ * request of the C library ends the process if it is refused: 40 bytes at the first product of
+ * matrices of each thread.
  */
 
 #ifndef SIGNORINI_H

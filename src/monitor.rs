@@ -115,6 +115,13 @@ impl<'a> Monitor<'a> {
         Ok(())
     }
 
+    /// Whether the time limit is used up, for questions about a result that is there already: they are then
+    /// left open.
+    pub(crate) fn is_late(&self) -> bool {
+        shortage::check();
+        self.time_limit.is_finite() && self.begin.elapsed().as_secs_f64() > self.time_limit
+    }
+
     /// To be called while a matrix is reduced: `share` of the work is done, which needs `memory` bytes.
     ///
     /// # Errors

@@ -19,6 +19,7 @@ pub struct Shortage {
 }
 
 /// The system has refused so many bytes, and the reserve has served them.
+#[cfg(feature = "c-allocator")]
 pub fn note(bytes: usize) {
     // At the end of a thread there may be none to tell.
     let _ = REFUSED.try_with(|refused| {
@@ -29,6 +30,7 @@ pub fn note(bytes: usize) {
 }
 
 /// Forgets what was noted: a call begins or ends.
+#[cfg(feature = "c-allocator")]
 pub fn forget() {
     REFUSED.set(0);
 }

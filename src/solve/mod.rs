@@ -114,10 +114,12 @@ pub fn solve(
     let mut solution = far_obstacles::solve(&contact, settings, start, monitor)?;
     escape_motion::describe(&contact, &mut solution, monitor)?;
     uniqueness::by_orientation(&contact, &mut solution);
-    if settings.search == Search::Others {
+    if settings.search == Search::Others && !monitor.is_late() {
         uniqueness::examine(&contact, settings, &mut solution, monitor)?;
     }
-    if settings.proof {
+    if settings.proof && monitor.is_late() {
+        solution.existence = Existence::NotProved;
+    } else if settings.proof {
         existence::examine(&contact, settings, &mut solution);
     }
     solution.iterations = monitor.iterations();

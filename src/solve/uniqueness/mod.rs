@@ -31,11 +31,11 @@ pub fn examine(
     if solution.status != Status::Solved || solution.second.is_some() {
         return Ok(());
     }
-    if proof::is_unique(contact) {
+    if proof::is_unique(contact, monitor) {
         solution.uniqueness = Uniqueness::Unique;
         return Ok(());
     }
-    if contact.is_frictionless() {
+    if contact.is_frictionless() || monitor.is_late() {
         return Ok(());
     }
     if contact.dim() != 2 {

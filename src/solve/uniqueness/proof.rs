@@ -16,6 +16,10 @@
 use super::difference::MARGIN;
 use crate::law::Contact;
 use crate::linalg::factor::{Factor, largest_eigenvalue};
+use crate::monitor::Monitor;
+
+/// Columns that are solved for between two looks at the clock.
+const BLOCK: usize = 64;
 
 /// The factor of `K`, scaled to a unit diagonal, if it is positive definite.
 pub fn scaled_factor(contact: &Contact<'_>) -> Option<Factor> {
@@ -32,16 +36,22 @@ pub fn scaled_factor(contact: &Contact<'_>) -> Option<Factor> {
 }
 
 /// Whether the solution is proved to be the only one: `K` is positive definite, and `g -> mu p` is
-/// constant or a contraction.
-pub fn is_unique(contact: &Contact<'_>) -> bool {
+/// constant or a contraction. When the time is up nothing is proved.
+pub fn is_unique(contact: &Contact<'_>, monitor: &Monitor<'_>) -> bool {
     let Some(mut factor) = scaled_factor(contact) else { return false };
     let laws = contact.pairs();
     let coupled: Vec<usize> = (0..laws.len()).filter(|&i| laws[i].is_coupled()).collect();
     coupled.is_empty()
-        || (!contact.has_collinear_slip() && is_contraction(contact, &mut factor, &coupled))
+        || (!contact.has_collinear_slip()
+            && is_contraction(contact, &mut factor, &coupled, monitor))
 }
 
-fn is_contraction(contact: &Contact<'_>, factor: &mut Factor, coupled: &[usize]) -> bool {
+fn is_contraction(
+    contact: &Contact<'_>,
+    factor: &mut Factor,
+    coupled: &[usize],
+    monitor: &Monitor<'_>,
+) -> bool {
     let (matrix, dim) = (contact.problem().stiffness(), contact.dim());
     let (n, m, tangents) = (matrix.size(), coupled.len(), dim - 1);
     // Column `a` belongs to the tangent `a % tangents` of the pair `coupled[a / tangents]`.
@@ -50,7 +60,12 @@ fn is_contraction(contact: &Contact<'_>, factor: &mut Factor, coupled: &[usize])
     for (a, column) in flexibility.chunks_exact_mut(n).enumerate() {
         column[component(a)] = 1.0;
     }
-    factor.solve(&mut flexibility);
+    for columns in flexibility.chunks_mut(n * BLOCK) {
+        if monitor.is_late() {
+            return false;
+        }
+        factor.solve(columns);
+    }
     let root = contact.problem().unit_roots();
     let mu: Vec<f64> = coupled.iter().map(|&pair| contact.pairs()[pair].bound().slope).collect();
     let compliance = |a: usize, b: usize| {
@@ -70,7 +85,13 @@ fn is_contraction(contact: &Contact<'_>, factor: &mut Factor, coupled: &[usize])
         }];
     scales.iter().any(|x| {
         let x: Vec<f64> = (0..m).map(x).collect();
+        if monitor.is_late() {
+            return false;
+        }
         let normal = largest_eigenvalue(m, |a, b| stiffness(a, b) / (x[a] * x[b]));
+        if monitor.is_late() {
+            return false;
+        }
         let tangential = largest_eigenvalue(m * tangents, |a, b| {
             compliance(a, b) * x[a / tangents] * x[b / tangents]
         });
