@@ -178,7 +178,7 @@ const char *signorini_last_error(void);
 #define SIGNORINI_STATUS_NOT_A_SOLUTION 6    /**< Certify: the displacements are no solution. */
 /** Prove: no solution is proved to exist, which does not say that there is none. */
 #define SIGNORINI_STATUS_NOT_PROVED 7
-/** The reduction of a sparse matrix needs more than memory_limit: nothing was factorised. */
+/** A sparse matrix needs more than memory_limit, in full space too: nothing was factorised. */
 #define SIGNORINI_STATUS_MEMORY_LIMIT 8
 #define SIGNORINI_STATUS_INTERNAL -1000 /**< A caught defect of the library: results undefined. */
 #define SIGNORINI_STATUS_OUT_OF_MEMORY -1001 /**< Out of memory: nothing was written. */

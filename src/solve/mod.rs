@@ -3,7 +3,7 @@
 //!
 //! ```text
 //! outcome ← candidate ← condense ← rigid_balance ← smallest_lift ← sweeps ← normal_map ← krylov ← active_set ← path ← lemke ← uniqueness ← dispatch ← auto ← escape_motion ← far_obstacles ← dependent ← existence ← mod
-//!                                                                          └──── lcp ────────────────────────┘
+//!                                                                                   └──── lcp ────────────────────────┘
 //! ```
 //!
 //! Each imports from those to its left only. One algorithm is one folder; what others may use of it is
