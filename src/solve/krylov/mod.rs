@@ -6,6 +6,7 @@ mod counted;
 mod newton;
 mod point;
 mod step;
+mod thresholds;
 
 use super::candidate::Ending;
 use super::outcome::{Existence, Solution, Status, Uniqueness};
@@ -92,13 +93,29 @@ pub fn solve(
                 }
             }
             let at = in_equilibrium(bodies, load, at.clone())?;
-            let point = equations.held_at(at, bodies)?;
-            Some(newton::solve(&equations, bodies, point, held, settings.tolerance, monitor)?)
+            Some(from(&equations, bodies, (at, held), settings.tolerance, monitor)?)
         }
     };
     let solution = certified(&contact, bodies, (load, at), settings, ended)?;
     let Counts { solutions, factorisations } = bodies.counts;
     Ok(Solution { factorisations, outer_iterations: solutions, ..solution })
+}
+
+/// Newton's method from displacements whose inner ones are in equilibrium, and what follows where it fails.
+fn from(
+    equations: &Equations<'_>,
+    bodies: &mut dyn Bodies,
+    (at, held): (Displacements, Option<Restriction>),
+    tolerance: f64,
+    monitor: &mut Monitor<'_>,
+) -> Result<Ended, Error> {
+    let point = equations.held_at(at.clone(), bodies)?;
+    let first = newton::solve(equations, bodies, point, held, tolerance, monitor)?;
+    let fails = matches!(first.ending, Ending::Stalled(_)) && equations.contact.is_coupled();
+    match fails && first.point.merit.is_finite() {
+        true => thresholds::solve(equations, bodies, at, first, tolerance, monitor),
+        false => Ok(first),
+    }
 }
 
 /// Measures displacements `d` of the pairs, of any origin, on a load case.
@@ -181,7 +198,7 @@ fn certified(
 ) -> Result<Solution, Error> {
     let (at, ending, systems) = match ended {
         None => (at_rest, Ending::Done, 0),
-        Some(Ended { point: Point { at, .. }, ending, systems }) => (at, ending, systems),
+        Some(Ended { point: Point { at, .. }, ending, systems, .. }) => (at, ending, systems),
     };
     let residual = bodies.residual(&at.x, &at.low, load)?;
     let x = at.x;

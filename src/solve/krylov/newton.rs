@@ -12,7 +12,7 @@ use crate::solve::candidate::Ending;
 const FULL_STEPS: u64 = 16;
 
 /// Systems after which it is given up. With a line search nothing cycles.
-const MOST_SYSTEMS: u64 = 60;
+const MOST_SYSTEMS: u64 = 40;
 
 /// Part of the fall of the lack that a full step promises which a shortened one must keep (Armijo).
 const SUFFICIENT: f64 = 1e-4;
@@ -44,6 +44,8 @@ pub struct Ended {
     pub point: Point,
     pub ending: Ending,
     pub systems: u64,
+    /// What is held in the last factor.
+    pub held: Option<Restriction>,
 }
 
 /// Solves from a point; `held` is what is held in the factor.
@@ -55,7 +57,7 @@ pub fn solve(
     tolerance: f64,
     monitor: &mut Monitor<'_>,
 ) -> Result<Ended, Error> {
-    let mut ended = Ended { point, ending: Ending::Done, systems: 0 };
+    let mut ended = Ended { point, ending: Ending::Done, systems: 0, held: None };
     let (mut shortest, mut directions, mut last) = (0, 0, f64::INFINITY);
     ended.ending = loop {
         let eta = ended.point.eta;
@@ -96,6 +98,7 @@ pub fn solve(
         shortest = if part <= SHORTEST { shortest + 1 } else { 0 };
         ended.point = next;
     };
+    ended.held = held;
     Ok(ended)
 }
 

@@ -34,6 +34,11 @@ impl<'a> Equations<'a> {
         Equations { contact, load, inner: bodies.inner(), root, unit: norm(relative) }
     }
 
+    /// The same with other laws on the pairs.
+    pub fn with<'b>(&'b self, contact: &'b Contact<'b, Unformed<'b>>) -> Equations<'b> {
+        Equations { contact, root: self.root.clone(), ..*self }
+    }
+
     /// Length of a vector of forces on all unknowns, each in its unit.
     pub fn length(&self, forces: &[f64]) -> f64 {
         let mut sum = NormSum::default();
