@@ -109,6 +109,7 @@ module signorini
     integer(c_int32_t), parameter :: SIGNORINI_OBSTACLE_PLANE = 0
     integer(c_int32_t), parameter :: SIGNORINI_OBSTACLE_CYLINDER = 1
     integer(c_int32_t), parameter :: SIGNORINI_OBSTACLE_SPHERE = 2
+    integer(c_int32_t), parameter :: SIGNORINI_OBSTACLE_FACES = 3
     integer(c_int32_t), parameter :: SIGNORINI_PROBLEM_CONTACT = 0
     integer(c_int32_t), parameter :: SIGNORINI_PROBLEM_LCP = 1
 
@@ -234,13 +235,16 @@ module signorini
     end type
 
     type, bind(C) :: signorini_obstacle
-        integer(c_int32_t) :: struct_size = 72
+        integer(c_int32_t) :: struct_size = 80 + 2 * address_bytes
         integer(c_int32_t) :: kind = 0
         real(c_double) :: point(3) = 0
         real(c_double) :: direction(3) = 0
         real(c_double) :: radius = 0
         integer(c_int32_t) :: hollow = 0
         integer(c_int32_t) :: reserved = 0
+        integer(c_int64_t) :: nodes = 0
+        type(c_ptr) :: coordinates = c_null_ptr
+        type(c_ptr) :: faces = c_null_ptr
     end type
 
     type, bind(C) :: signorini_surface_settings
@@ -959,6 +963,7 @@ module signorini
     contains
         procedure :: pair => surfaces_pair
         procedure :: pair_obstacle => surfaces_pair_obstacle
+        procedure :: pair_rigid => surfaces_pair_rigid
         procedure :: summary => surfaces_summary
         procedure :: fields => surfaces_fields
         procedure :: resultant => surfaces_resultant
@@ -1677,6 +1682,45 @@ contains
             int(size(coordinates, 2), c_int64_t), address2(coordinates), c_loc(of_slave), &
             c_loc(obstacle), c_loc(settings), self%handle, c_loc(report)), info, message, &
             [1, 1, 1, 2, 3, 5])
+        if (info == 0) call keep_pairs(self, shape(coordinates), report, dofs, dofs_per_node)
+    end subroutine
+
+    ! Pairs a surface with a rigid mesh: rigid_coordinates(dim, nodes) and rigid_faces(nodes of a face,
+    ! faces) in nodes of its own, counted from 1; corners counterclockwise as the body sees them. The
+    ! rest as for pair.
+    subroutine surfaces_pair_rigid(self, coordinates, slave, rigid_coordinates, rigid_faces, info, &
+            search_distance, dofs, dofs_per_node, message)
+        class(contact_surfaces), intent(inout) :: self
+        real(c_double), intent(in), contiguous, target :: coordinates(:, :)
+        integer, intent(in) :: slave(:, :)
+        real(c_double), intent(in), contiguous, target :: rigid_coordinates(:, :)
+        integer, intent(in) :: rigid_faces(:, :)
+        integer, intent(out) :: info
+        real(c_double), intent(in), optional :: search_distance
+        integer, intent(in), optional :: dofs(:, :), dofs_per_node
+        character(len=*), intent(out), optional :: message
+        type(signorini_surface_settings), target :: settings
+        type(signorini_surface_report), target :: report
+        type(signorini_obstacle), target :: obstacle
+        type(signorini_faces), target :: of_slave, of_rigid
+        integer(c_int64_t), allocatable, target :: starts(:), nodes(:), starts2(:), nodes2(:), each(:)
+        type(refusal) :: wrong
+        call self%release()
+        call check_dim(wrong, 1, size(coordinates, 1))
+        if (size(rigid_coordinates, 1) /= size(coordinates, 1)) call refuse(wrong, 3, &
+            'rigid_coordinates and coordinates differ in their first size, the dimension')
+        call settle(wrong, 6, shape(coordinates), settings, each, search_distance, dofs, dofs_per_node)
+        if (refused(wrong, info, message)) return
+        call check_faces(slave, of_slave, starts, nodes)
+        call check_faces(rigid_faces, of_rigid, starts2, nodes2)
+        obstacle%kind = SIGNORINI_OBSTACLE_FACES
+        obstacle%nodes = size(rigid_coordinates, 2)
+        obstacle%coordinates = address2(rigid_coordinates)
+        obstacle%faces = c_loc(of_rigid)
+        call finish(signorini_surface_pair_obstacle(number(size(coordinates, 1)), &
+            int(size(coordinates, 2), c_int64_t), address2(coordinates), c_loc(of_slave), &
+            c_loc(obstacle), c_loc(settings), self%handle, c_loc(report)), info, message, &
+            [1, 1, 1, 2, 4, 6])
         if (info == 0) call keep_pairs(self, shape(coordinates), report, dofs, dofs_per_node)
     end subroutine
 

@@ -721,6 +721,8 @@ int32_t signorini_prove(int32_t dim, int64_t pairs, const double *K, int64_t ldk
 #define SIGNORINI_OBSTACLE_PLANE 0    /**< A half space, in 2D a half plane. */
 #define SIGNORINI_OBSTACLE_CYLINDER 1 /**< A round bar of any length, 3D only. */
 #define SIGNORINI_OBSTACLE_SPHERE 2   /**< A ball, in 2D a disc. */
+/** A mesh of faces, such as the triangles of a drawing; in 2D lines. */
+#define SIGNORINI_OBSTACLE_FACES 3
 
 typedef struct signorini_faces signorini_faces;
 typedef struct signorini_obstacle signorini_obstacle;
@@ -748,17 +750,24 @@ struct signorini_faces {
 
 /** A surface that does not deform. Unused numbers are not read. */
 struct signorini_obstacle {
-    uint32_t struct_size; /**< sizeof(signorini_obstacle). */
-    int32_t kind;         /**< SIGNORINI_OBSTACLE_... */
+    uint32_t struct_size;      /**< sizeof(signorini_obstacle). */
+    int32_t kind;              /**< SIGNORINI_OBSTACLE_... */
     /**
      * A point of the plane or of the cylinder's axis, or the centre; in 2D two entries are read.
      */
     double point[3];
     /** Plane: the direction out of the obstacle. Cylinder: its axis. Of any length. */
     double direction[3];
-    double radius;        /**< Radius of the cylinder or the sphere. */
-    int32_t hollow;       /**< Nonzero: the body is inside, as in a bore or a bowl. */
-    int32_t reserved;     /**< 0. */
+    double radius;             /**< Radius of the cylinder or the sphere. */
+    int32_t hollow;            /**< Nonzero: the body is inside, as in a bore or a bowl. */
+    int32_t reserved;          /**< 0. */
+    int64_t nodes;             /**< Faces: number of nodes of the obstacle's own mesh. */
+    const double *coordinates; /**< Faces: dim for each node of the obstacle; length. */
+    /**
+     * Faces: in nodes of the obstacle, counted from index_base. Seen from the body that may touch
+     * them the corners run counterclockwise; in 2D the obstacle lies to the left of a line.
+     */
+    const signorini_faces *faces;
 };
 
 /**
@@ -770,7 +779,8 @@ struct signorini_surface_settings {
     int32_t pairing;      /**< SIGNORINI_PAIRING_...; default SIGNORINI_PAIRING_DUAL_MORTAR. */
     /**
      * Largest distance along the normal at which surfaces are paired, open or overlapping; length.
-     * Default 0: the size of the largest slave face; against an obstacle no limit, as +infinity.
+     * Default 0: the size of the largest slave face; against an obstacle that is not of faces no
+     * limit, as +infinity.
      */
     double search_distance;
     /**
@@ -863,14 +873,15 @@ int32_t signorini_surface_pair(int32_t dim, int64_t nodes, const double *coordin
 
 /**
  * Makes contact pairs from a surface and a rigid obstacle. Nodes may lie on either side of the
- * obstacle's surface: the gap is negative inside.
+ * obstacle's surface: the gap is negative inside. An obstacle of faces is paired as a master is,
+ * with the same search distance; its nodes are its own.
  *
  * @param dim          space dimension, 2 or 3
  * @param nodes        number of nodes of your mesh
  * @param coordinates  dim for each node, of all nodes; length
  * @param slave        the faces that may touch the obstacle
  * @param obstacle     the obstacle
- * @param settings     NULL: the defaults; the kind of pairing is not read
+ * @param settings     NULL: the defaults; the kind of pairing is read for faces alone
  * @param contact      out: the pairs; NULL unless 0 is returned
  * @param report       out: what was found; set report->struct_size before the call; may be NULL
  * @return as signorini_surface_pair

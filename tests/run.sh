@@ -195,7 +195,8 @@ step "replay of Table 1" sh c_examples/replay.sh
 step "bolted junction" sh c_examples/junction.sh
 step "three dimensions" sh c_examples/3d.sh
 step "Ctrl-C and progress" sh tests/interrupt.sh
-for name in readme fortran two_blocks scripts host_calculix host_getfem host_mumps host_octave; do
+for name in readme fortran two_blocks scripts host_calculix calculix_contact host_getfem \
+    host_mumps host_octave; do
     # shellcheck disable=SC2086 # --require or nothing
     step "$name" sh "tests/$name.sh" $hosts
 done

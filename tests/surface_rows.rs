@@ -7,7 +7,8 @@ mod surfaces;
 
 use fastrand::Rng;
 use signorini::surface::{
-    Faces, Obstacle, Pairing, SurfacePairs, SurfaceSettings, pair_with_obstacle,
+    Faces, Obstacle, Pairing, RigidSurface, SurfacePair, SurfacePairs, SurfaceSettings,
+    pair_with_obstacle, pair_with_rigid_surface,
 };
 use surfaces::{
     SHAPES, Shape, Sheet, TwoSheets, exact_loads, flat, grid, line, most_moved, nodal_forces, pair,
@@ -429,6 +430,55 @@ fn obstacles_face_nodes() {
     let flat = Obstacle::Sphere { centre: [0.0; 3], radius: 0.0, hollow: false };
     let error = pair_with_obstacle(3, &coordinates, slave, &flat, None).unwrap_err();
     assert_eq!(error.to_string(), "obstacle: its radius is 0, it must be positive and finite");
+}
+
+/// A rigid mesh gives the rows of a deformable one without its masters; a plane of triangles, inclined, has the
+/// gap of the plane along the slave's normal, and a ball of triangles that of the ball up to the square of
+/// their size: a sphere's arc of the length h is h² / 8 from its chord.
+#[test]
+fn rigid_meshes_face_nodes() {
+    let rng = &mut Rng::with_seed(9);
+    let slave = Sheet::rectangle(Shape::Q4, [3, 4], [[-0.4, 0.4]; 2], (0.25, rng))
+        .turned()
+        .mapped(|[x, y, _]| [x, y, 1.2]);
+    let coordinates = slave.nodes.concat();
+    let (start, nodes) = flat(&slave.faces);
+    let faces = Faces { start: &start, nodes: &nodes };
+    let found = |obstacle: &Sheet, pairing| {
+        let (start, nodes) = flat(&obstacle.faces);
+        let own = obstacle.nodes.concat();
+        let rigid =
+            RigidSurface { coordinates: &own, faces: Faces { start: &start, nodes: &nodes } };
+        let settings = SurfaceSettings { pairing, search_distance: Some(2.0) };
+        let found = pair_with_rigid_surface(3, &coordinates, faces, &rigid, &settings).unwrap();
+        let both = TwoSheets::new(3, slave.clone(), obstacle.clone()).pair(&settings).unwrap();
+        assert_eq!(found.pairs.len(), 20);
+        for (pair, other) in found.pairs.iter().zip(&both.pairs) {
+            let alone = SurfacePair { masters: vec![], ..other.clone() };
+            assert_eq!(*pair, alone);
+        }
+        found
+    };
+    for pairing in [Pairing::DualMortar, Pairing::NodeToSurface] {
+        let sheet = |cells, rng: &mut Rng| {
+            Sheet::rectangle(Shape::T3, [cells; 2], [[-0.6, 0.6]; 2], (0.25, rng))
+        };
+        let incline = sheet(5, rng).mapped(|[x, y, _]| [x, y, 0.3 * x - 0.2 * y]);
+        for pair in found(&incline, pairing).pairs {
+            let [x, y, z] = pair.point;
+            assert!((pair.gap - (z - 0.3 * x + 0.2 * y)).abs() < 1e-13, "{pairing:?}: {pair:?}");
+        }
+    }
+    let mut ball = Sheet::rectangle(Shape::T3, [24; 2], [[-0.6, 0.6]; 2], (0.25, rng));
+    let height = |[x, y, _]: [f64; 3]| (1.0 - x * x - y * y).sqrt();
+    ball.nodes.iter_mut().for_each(|p| p[2] = height(*p));
+    // The diagonal of a cell, half as long again by distortion; the surface curves 2.2 times as much as the
+    // ball along z at the rim.
+    let step = 1.5 * 2.0_f64.sqrt() * 1.2 / 24.0;
+    for pair in found(&ball, Pairing::NodeToSurface).pairs {
+        let error = pair.gap - (pair.point[2] - height(pair.point));
+        assert!((0.0..step * step / 8.0 * 2.2).contains(&error), "{error:e}: {pair:?}");
+    }
 }
 
 /// A uniform pressure of an obstacle loads quadratic faces as its integrals do: forces of the corners

@@ -18,6 +18,8 @@ pub const SIGNORINI_OBSTACLE_PLANE: i32 = 0;
 pub const SIGNORINI_OBSTACLE_CYLINDER: i32 = 1;
 /// A ball, in 2D a disc.
 pub const SIGNORINI_OBSTACLE_SPHERE: i32 = 2;
+/// A mesh of faces, such as the triangles of a drawing; in 2D lines.
+pub const SIGNORINI_OBSTACLE_FACES: i32 = 3;
 
 /// Faces of a surface as lists of nodes: in 2D lines of 2 or 3 nodes; in 3D triangles of 3 or 6 and
 /// quadrilaterals of 4, 8 or 9 nodes, in any mixture. Corners come first, in order around the face,
@@ -56,6 +58,20 @@ pub struct SignoriniObstacle {
     pub hollow: i32,
     /// 0.
     pub reserved: i32,
+    /// Faces: number of nodes of the obstacle's own mesh.
+    pub nodes: i64,
+    /// Faces: dim for each node of the obstacle; length.
+    pub coordinates: *const f64,
+    /// Faces: in nodes of the obstacle, counted from index_base. Seen from the body that may touch
+    /// them the corners run counterclockwise; in 2D the obstacle lies to the left of a line.
+    pub faces: *const SignoriniFaces,
+}
+
+/// An obstacle as the host gave it.
+pub(super) enum Rigid<'a> {
+    Shape(Obstacle),
+    /// Coordinates and faces.
+    Faces(&'a [f64], [Vec<usize>; 2]),
 }
 
 /// How surfaces are paired. Fill it by signorini_surface_settings_default(), then change what you
@@ -68,7 +84,8 @@ pub struct SignoriniSurfaceSettings {
     /// SIGNORINI_PAIRING_...; default SIGNORINI_PAIRING_DUAL_MORTAR.
     pub pairing: i32,
     /// Largest distance along the normal at which surfaces are paired, open or overlapping; length.
-    /// Default 0: the size of the largest slave face; against an obstacle no limit, as +infinity.
+    /// Default 0: the size of the largest slave face; against an obstacle that is not of faces no
+    /// limit, as +infinity.
     pub search_distance: f64,
     /// 0 or 1: the number of the first node, of the first entry of start and of the first degree of
     /// freedom, here and in what the pairs tell; default 0. Take the one of your matrix.
@@ -131,29 +148,53 @@ impl SignoriniFaces {
 impl SignoriniObstacle {
     /// # Safety
     /// The structure is as the header demands.
-    pub(super) unsafe fn read(
+    pub(super) unsafe fn read<'a>(
         position: i32,
         dim: usize,
+        base: i64,
         pointer: *const Self,
-    ) -> Result<Obstacle, Failure> {
+    ) -> Result<Rigid<'a>, Failure> {
         // SAFETY: by the caller's contract.
         let given = unsafe { structures::whole(position, "obstacle", pointer)? };
+        if given.kind == SIGNORINI_OBSTACLE_FACES {
+            // SAFETY: as above.
+            return unsafe { given.mesh(position, dim, base) };
+        }
         let in_dim = |mut v: [f64; 3]| {
             v[dim..].fill(0.0);
             v
         };
         let (point, direction) = (in_dim(given.point), in_dim(given.direction));
         let (radius, hollow) = (given.radius, given.hollow != 0);
-        match given.kind {
-            SIGNORINI_OBSTACLE_PLANE => Ok(Obstacle::Plane { point, outward: direction }),
+        let shape = match given.kind {
+            SIGNORINI_OBSTACLE_PLANE => Obstacle::Plane { point, outward: direction },
             SIGNORINI_OBSTACLE_CYLINDER => {
-                Ok(Obstacle::Cylinder { point, axis: direction, radius, hollow })
+                Obstacle::Cylinder { point, axis: direction, radius, hollow }
             }
-            SIGNORINI_OBSTACLE_SPHERE => Ok(Obstacle::Sphere { centre: point, radius, hollow }),
+            SIGNORINI_OBSTACLE_SPHERE => Obstacle::Sphere { centre: point, radius, hollow },
             other => {
                 let message = format!("obstacle: there is no kind {other}");
-                Err(Failure::argument(position, message))
+                return Err(Failure::argument(position, message));
             }
+        };
+        Ok(Rigid::Shape(shape))
+    }
+
+    /// # Safety
+    /// The structure's arrays are as the header demands.
+    unsafe fn mesh<'a>(&self, position: i32, dim: usize, base: i64) -> Result<Rigid<'a>, Failure> {
+        let nodes = size(position, "obstacle: nodes", self.nodes)?;
+        let Some(length) = nodes.checked_mul(dim) else {
+            let message = format!("obstacle: nodes is {nodes}, too large");
+            return Err(Failure::argument(position, message));
+        };
+        // SAFETY: by the caller's contract.
+        unsafe {
+            let name = "obstacle: coordinates";
+            let coordinates =
+                Arrays::default().required(position, name, self.coordinates, length)?;
+            let faces = SignoriniFaces::read((position, "obstacle: faces"), self.faces, base)?;
+            Ok(Rigid::Faces(coordinates, faces))
         }
     }
 }

@@ -6,12 +6,15 @@ use super::args::{Arrays, size};
 use super::guard::{self, Failure};
 use super::pairs::SignoriniPairs;
 use super::structures;
-use super::surface::{Received, SignoriniFaces, SignoriniObstacle, SignoriniSurfaceSettings};
+use super::surface::{
+    Received, Rigid, SignoriniFaces, SignoriniObstacle, SignoriniSurfaceSettings,
+};
 use crate::error::{Argument, Error};
 use crate::problem;
 use crate::shortage;
 use crate::surface::{
-    NodeDofs, PairArrays, SurfacePairs, Surfaces, pair_surfaces, pair_with_obstacle,
+    NodeDofs, PairArrays, RigidSurface, SurfacePairs, Surfaces, pair_surfaces, pair_with_obstacle,
+    pair_with_rigid_surface,
 };
 
 /// Contact pairs that the library made from surfaces, with all that belongs to them. Made by
@@ -121,14 +124,15 @@ pub unsafe extern "C" fn signorini_surface_pair(
 }
 
 /// Makes contact pairs from a surface and a rigid obstacle. Nodes may lie on either side of the
-/// obstacle's surface: the gap is negative inside.
+/// obstacle's surface: the gap is negative inside. An obstacle of faces is paired as a master is,
+/// with the same search distance; its nodes are its own.
 ///
 /// @param dim          space dimension, 2 or 3
 /// @param nodes        number of nodes of your mesh
 /// @param coordinates  dim for each node, of all nodes; length
 /// @param slave        the faces that may touch the obstacle
 /// @param obstacle     the obstacle
-/// @param settings     NULL: the defaults; the kind of pairing is not read
+/// @param settings     NULL: the defaults; the kind of pairing is read for faces alone
 /// @param contact      out: the pairs; NULL unless 0 is returned
 /// @param report       out: what was found; set report->struct_size before the call; may be NULL
 /// @return as signorini_surface_pair
@@ -149,14 +153,22 @@ pub unsafe extern "C" fn signorini_surface_pair_obstacle(
             let place = Place::new((7, contact), (8, report))?;
             let host = Host::read(dim, nodes, coordinates, (6, settings))?;
             let slave = SignoriniFaces::read((4, "slave"), slave, host.received.base)?;
-            let obstacle = SignoriniObstacle::read(5, host.dim, obstacle)?;
-            let found = pair_with_obstacle(
-                host.dim,
-                host.coordinates,
-                SignoriniFaces::view(&slave),
-                &obstacle,
-                host.received.settings.search_distance,
-            );
+            let obstacle = SignoriniObstacle::read(5, host.dim, host.received.base, obstacle)?;
+            let (slave, given) = (SignoriniFaces::view(&slave), &host.received.settings);
+            let found = match &obstacle {
+                Rigid::Shape(shape) => pair_with_obstacle(
+                    host.dim,
+                    host.coordinates,
+                    slave,
+                    shape,
+                    given.search_distance,
+                ),
+                Rigid::Faces(coordinates, faces) => {
+                    let faces = SignoriniFaces::view(faces);
+                    let rigid = RigidSurface { coordinates, faces };
+                    pair_with_rigid_surface(host.dim, host.coordinates, slave, &rigid, given)
+                }
+            };
             place.fill(host, found, |argument| match argument {
                 Argument::Dimension => 1,
                 Argument::Coordinates => 3,

@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 
 use super::face::Face;
+use super::pairs::Weight;
 use super::shape::{FaceKind, MOST_NODES};
 use crate::error::{Argument, Error, entry, index};
 use crate::linalg::vector3::{Vector3, unit, vector};
@@ -86,6 +87,36 @@ impl<'a> Side<'a> {
         Error::invalid(self.argument, format!("{} face {} {what}", self.name, index(face)))
     }
 
+    /// A side, checked. `argument` is that of its faces.
+    pub(super) fn new(
+        name: &'static str,
+        argument: Argument,
+        (dim, coordinates): (usize, &'a [f64]),
+        faces: Faces<'a>,
+    ) -> Result<Side<'a>, Error> {
+        let side = Side { name, argument, dim, coordinates, faces };
+        if !coordinates.len().is_multiple_of(dim) {
+            let message =
+                format!("there are {} coordinates, no multiple of dim {dim}", coordinates.len());
+            return Err(Error::invalid(side.of_coordinates(), message));
+        }
+        side.check()?;
+        Ok(side)
+    }
+
+    /// The argument that the coordinates are part of.
+    fn of_coordinates(&self) -> Argument {
+        match self.argument {
+            Argument::Obstacle => Argument::Obstacle,
+            _ => Argument::Coordinates,
+        }
+    }
+
+    /// Sum of places of nodes by their weights.
+    pub(super) fn point(&self, weights: &[Weight]) -> Vector3 {
+        weights.iter().map(|&(node, weight)| weight * self.position(node)).sum()
+    }
+
     fn check(&self) -> Result<(), Error> {
         self.check_start()?;
         for face in 0..self.count() {
@@ -145,7 +176,7 @@ impl<'a> Side<'a> {
                     self.name,
                     index(face)
                 );
-                return Err(Error::invalid(Argument::Coordinates, message));
+                return Err(Error::invalid(self.of_coordinates(), message));
             }
         }
         Ok(())
@@ -260,14 +291,6 @@ impl<'a> Surfaces<'a> {
             let message = format!("dim is {dim}, it must be 2 or 3");
             return Err(Error::invalid(Argument::Dimension, message));
         }
-        if !coordinates.len().is_multiple_of(dim) {
-            let message =
-                format!("there are {} coordinates, no multiple of dim {dim}", coordinates.len());
-            return Err(Error::invalid(Argument::Coordinates, message));
-        }
-        let argument = Argument::SlaveFaces;
-        let side = Side { name: "slave", argument, dim, coordinates, faces: slave };
-        side.check()?;
-        Ok(side)
+        Side::new("slave", Argument::SlaveFaces, (dim, coordinates), slave)
     }
 }

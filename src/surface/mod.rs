@@ -34,6 +34,7 @@ mod pairs;
 mod plane;
 mod projected_shapes;
 mod quadrature;
+mod rigid;
 mod row;
 mod settings;
 mod shape;
@@ -44,12 +45,14 @@ pub use fields::{NodalFields, PairResults, Resultant};
 pub use mesh::{Faces, Surfaces};
 pub use obstacle::{Obstacle, pair_with_obstacle};
 pub use pairs::{NodeDofs, PairArrays, SurfacePair, SurfacePairs, SurfaceReport, Weight};
+pub use rigid::{RigidSurface, pair_with_rigid_surface};
 pub use settings::{Pairing, SurfaceSettings};
 pub use shape::FaceKind;
 
 #[cfg(doc)]
 use crate::error::Argument;
 use crate::error::Error;
+use mesh::Side;
 
 /// Pairs two surfaces. Surfaces that never meet give no pairs, which is no error.
 ///
@@ -65,10 +68,18 @@ pub fn pair_surfaces(
     settings: &SurfaceSettings,
 ) -> Result<SurfacePairs, Error> {
     let [slave, master] = surfaces.sides()?;
+    pair_sides([&slave, &master], surfaces.dim, settings)
+}
+
+fn pair_sides(
+    [slave, master]: [&Side<'_>; 2],
+    dim: usize,
+    settings: &SurfaceSettings,
+) -> Result<SurfacePairs, Error> {
     let largest = || (0..slave.count()).map(|face| slave.face(face).size()).fold(0.0, f64::max);
     let reach = settings::reach(settings.search_distance, largest)?;
     match settings.pairing {
-        Pairing::DualMortar => mortar::pairs(&slave, &master, surfaces.dim, reach),
-        Pairing::NodeToSurface => node_to_surface::pairs(&slave, &master, surfaces.dim, reach),
+        Pairing::DualMortar => mortar::pairs(slave, master, dim, reach),
+        Pairing::NodeToSurface => node_to_surface::pairs(slave, master, dim, reach),
     }
 }

@@ -66,12 +66,13 @@ pub(super) fn pairs(
     let around = faces.iter().map(|face| face.face.nodes);
     report.folded = fold::fold(&mut rows, around, |node| slave.position(node));
     let normals = slave.node_normals()?;
-    let place = |node| slave.position(node);
     let pairs: Vec<SurfacePair> = rows
         .into_iter()
         .map(|(node, row)| {
             let area = row.area;
-            SurfacePair::new(dim, (node, area), row.into_weights(), normals[&node], place)
+            let weights = row.into_weights();
+            let points = (slave.point(&weights[0]), Some(master.point(&weights[1])));
+            SurfacePair::new(dim, (node, area), weights, normals[&node], points)
         })
         .collect();
     report.covered_area = pairs.iter().map(|pair| pair.area).sum();

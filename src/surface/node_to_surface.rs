@@ -92,9 +92,9 @@ pub(super) fn pairs(
             row.masters.extend(parts);
         }
         let area = row.area;
-        let place = |node| slave.position(node);
         let weights = row.into_weights();
-        found.pairs.push(SurfacePair::new(dim, (node, area), weights, normals[&node], place));
+        let points = (slave.point(&weights[0]), Some(master.point(&weights[1])));
+        found.pairs.push(SurfacePair::new(dim, (node, area), weights, normals[&node], points));
         report.covered_area += area;
     }
     found.report = report;

@@ -162,8 +162,8 @@ pub fn pair_with_obstacle(
             continue;
         }
         let gap = slaves.iter().map(|(node, weight)| weight * facing[node].0).sum();
-        let place = |node| side.position(node);
-        let pair = SurfacePair::new(dim, (node, area), [slaves, masters], facing[&node].1, place);
+        let points = (side.point(&slaves), None);
+        let pair = SurfacePair::new(dim, (node, area), [slaves, masters], facing[&node].1, points);
         report.covered_area += area;
         found.pairs.push(SurfacePair { gap, ..pair });
     }

@@ -113,19 +113,15 @@ pub struct PairArrays {
 }
 
 impl SurfacePair {
-    /// Makes a pair; `places` gives the coordinates of nodes.
+    /// Makes a pair that acts at `point`, against the point `opposite`, if there is one.
     pub(super) fn new(
         dim: usize,
         (slave, area): (usize, f64),
         [slaves, masters]: [Vec<Weight>; 2],
         normal: Vector3,
-        places: impl Fn(usize) -> Vector3,
+        (point, opposite): (Vector3, Option<Vector3>),
     ) -> SurfacePair {
-        let sum = |weights: &[Weight]| -> Vector3 {
-            weights.iter().map(|&(node, weight)| weight * places(node)).sum()
-        };
-        let point = sum(&slaves);
-        let gap = if masters.is_empty() { 0.0 } else { normal.dot(&(sum(&masters) - point)) };
+        let gap = opposite.map_or(0.0, |opposite| normal.dot(&(opposite - point)));
         let tangents = plane::tangents(dim, normal).map(Into::into);
         let (point, normal) = (point.into(), normal.into());
         SurfacePair { slave, slaves, masters, point, normal, tangents, gap, area }

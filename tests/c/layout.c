@@ -168,7 +168,7 @@ FIELD(signorini_faces, count, int64_t, 8);
 FIELD(signorini_faces, start, int64_t *, 16);
 FIELD(signorini_faces, nodes, int64_t *, 24);
 
-SIZE(signorini_obstacle, 72);
+SIZE(signorini_obstacle, 96);
 FIELD(signorini_obstacle, struct_size, uint32_t, 0);
 FIELD(signorini_obstacle, kind, int32_t, 4);
 FIELD(signorini_obstacle, point, double[3], 8);
@@ -176,6 +176,9 @@ FIELD(signorini_obstacle, direction, double[3], 32);
 FIELD(signorini_obstacle, radius, double, 56);
 FIELD(signorini_obstacle, hollow, int32_t, 64);
 FIELD(signorini_obstacle, reserved, int32_t, 68);
+FIELD(signorini_obstacle, nodes, int64_t, 72);
+FIELD(signorini_obstacle, coordinates, double *, 80);
+FIELD(signorini_obstacle, faces, signorini_faces *, 88);
 
 SIZE(signorini_operator, 56);
 FIELD(signorini_operator, struct_size, uint32_t, 0);

@@ -263,9 +263,56 @@ static void obstacles(void)
     disc.kind = SIGNORINI_OBSTACLE_CYLINDER;
     CHECK_STATUS(signorini_surface_pair_obstacle(2, 5, plane_nodes, &slave, &disc, NULL, &contact,
                                                  NULL), -5);
-    disc.kind = 3;
+    disc.kind = 4;
     CHECK_STATUS(signorini_surface_pair_obstacle(2, 5, plane_nodes, &slave, &disc, NULL, &contact,
                                                  NULL), -5);
+    CHECK_TEXT(signorini_last_error(), "there is no kind 4");
+}
+
+/* The lower line as a rigid one, with numbers of its own: the gaps of the two lines, no masters, and
+ * what is wrong with it is named by these numbers. */
+static void rigid_faces(void)
+{
+    const double places[] = {2, 0, 0.5, 0, -1, 0}, not_finite[] = {2, 0, 0.5, NAN, -1, 0};
+    const int64_t nodes[] = {0, 1, 1, 2}, one_based[] = {1, 2, 2, 3}, slave_one[] = {1, 2};
+    const int64_t missing[] = {0, 1, 1, 3};
+    const signorini_faces slave = lines(1, line);
+    signorini_faces faces = lines(2, nodes);
+    signorini_surface_settings settings = defaults();
+    signorini_obstacle rigid = {.struct_size = sizeof rigid, .kind = SIGNORINI_OBSTACLE_FACES,
+                                .nodes = 3, .coordinates = places, .faces = &faces};
+    signorini_surface_pairs *contact;
+    for (int base = 0; base < 2; base++) {
+        const signorini_faces own = lines(1, base == 0 ? line : slave_one);
+        settings.index_base = base;
+        faces.nodes = base == 0 ? nodes : one_based;
+        CHECK_STATUS(signorini_surface_pair_obstacle(2, 5, plane_nodes, &own, &rigid, &settings,
+                                                     &contact, NULL), 0);
+        CHECK(signorini_surface_count(contact) == 2);
+        CHECK_NEAR(signorini_surface_gaps(contact)[0], 0.1);
+        CHECK_NEAR(signorini_surface_areas(contact)[1], 0.5);
+        /* A row has the slave alone. */
+        CHECK(signorini_surface_rows(contact)->row_start[2] == 2 + base);
+        signorini_surface_free(contact);
+    }
+    faces.nodes = missing;
+    CHECK_STATUS(signorini_surface_pair_obstacle(2, 5, plane_nodes, &slave, &rigid, NULL, &contact,
+                                                 NULL), -5);
+    CHECK_TEXT(signorini_last_error(), "obstacle face 1 has node 3, the coordinates");
+    faces.nodes = nodes;
+    rigid.coordinates = not_finite;
+    CHECK_STATUS(signorini_surface_pair_obstacle(2, 5, plane_nodes, &slave, &rigid, NULL, &contact,
+                                                 NULL), -5);
+    CHECK_TEXT(signorini_last_error(), "coordinates[3] of node 1 in obstacle face 0 is not finite");
+    rigid.coordinates = NULL;
+    CHECK_STATUS(signorini_surface_pair_obstacle(2, 5, plane_nodes, &slave, &rigid, NULL, &contact,
+                                                 NULL), -5);
+    CHECK_TEXT(signorini_last_error(), "obstacle: coordinates is NULL");
+    rigid.coordinates = places;
+    rigid.faces = NULL;
+    CHECK_STATUS(signorini_surface_pair_obstacle(2, 5, plane_nodes, &slave, &rigid, NULL, &contact,
+                                                 NULL), -5);
+    CHECK_TEXT(signorini_last_error(), "obstacle: faces is NULL");
 }
 
 /* Surfaces that never meet are no error, and the sentence says why. */
@@ -393,6 +440,7 @@ int main(void)
     patch(1);
     numbers();
     obstacles();
+    rigid_faces();
     never_meet();
     refusals();
     refused_results();

@@ -68,6 +68,11 @@ program surfaces_test
     plane%direction = [0, 3, 0]
     call surfaces%pair_obstacle(places, slave, plane, info, dofs_per_node=6)
     call expect('plane', info == 0 .and. all(abs(surfaces%gap - 1.1_dp) < 1d-15))
+    call surfaces%pair_rigid(places, slave, places(:, 3:), master - 2, info, message=message)
+    call expect('rigid', info == 0 .and. message == '' .and. surfaces%pairs == 2 .and. &
+        all(abs(surfaces%gap - 0.1_dp) < 1d-15))
+    call surfaces%pair_rigid(places, slave, places(:, 3:), master, info, message=message)
+    call expect('rigid node', info == -4 .and. index(message, 'obstacle face 1 has node 5, the') == 1)
     apart = places
     apart(2, :2) = 9
     call surfaces%pair(apart, slave, master, info)

@@ -67,8 +67,16 @@ class Pairs(unittest.TestCase):
             slave = SLAVE if gap == 0.3 else [[1, 0]]
             contact = signorini.pair_obstacle(below, slave, obstacle)
             np.testing.assert_allclose(contact.gaps, gap)  # (0.5, 1.2) is 1.3 from the centre
-        with self.assertRaisesRegex(TypeError, "give a Plane, a Sphere or a Cylinder"):
+        with self.assertRaisesRegex(TypeError, "give a Plane, a Sphere, a Cylinder or Rigid"):
             signorini.pair_obstacle(NODES, SLAVE, "floor")
+
+    def test_a_rigid_mesh(self):
+        lower = [[node - 2 for node in face] for face in MASTER]
+        contact = signorini.pair_obstacle(NODES, SLAVE, signorini.RigidFaces(NODES[2:], lower))
+        both = signorini.pair_surfaces(NODES, SLAVE, MASTER)
+        np.testing.assert_array_equal(contact.gaps, both.gaps)
+        with self.assertRaisesRegex(signorini.SignoriniError, "obstacle face 0 has node 4"):
+            signorini.pair_obstacle(NODES, SLAVE, signorini.RigidFaces(NODES[2:], MASTER))
 
     def test_never_meet(self):
         apart = NODES + np.array([[0, 5]] * 2 + [[0, 0]] * 3)

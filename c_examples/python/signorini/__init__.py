@@ -52,13 +52,14 @@ from ._library import SignoriniError, load
 from ._mesh import write_mesh
 from ._model import Model
 from ._results import Enclosure, LcpResult, Progress, Result
-from ._surfaces import (Cylinder, Fields, Plane, Resultant, Sphere, SurfacePairs, pair_obstacle,
-                        pair_surfaces)
+from ._surfaces import (Cylinder, Fields, Plane, Resultant, RigidFaces, Sphere, SurfacePairs,
+                        pair_obstacle, pair_surfaces)
 
 __all__ = [
     "ABI_VERSION", "ContactProblem", "Cylinder", "Enclosure", "Fallback", "Fields", "Law",
     "LcpProblem", "LcpResult", "Method", "Model", "Pairing", "Plane", "Progress", "Proof", "Result",
-    "Resultant", "Search", "SignoriniError", "Sphere", "State", "Status", "SurfacePairs", "Triangle",
-    "Uniqueness", "certify", "lcp_lemke", "lcp_solve", "load", "pair_obstacle", "pair_surfaces",
-    "prove", "read", "solve", "solve_flexibility", "write", "write_lcp", "write_mesh",
+    "Resultant", "RigidFaces", "Search", "SignoriniError", "Sphere", "State", "Status",
+    "SurfacePairs", "Triangle", "Uniqueness", "certify", "lcp_lemke", "lcp_solve", "load",
+    "pair_obstacle", "pair_surfaces", "prove", "read", "solve", "solve_flexibility", "write",
+    "write_lcp", "write_mesh",
 ]

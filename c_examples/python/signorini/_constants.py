@@ -107,6 +107,7 @@ class Obstacle(IntEnum):
     PLANE = 0
     CYLINDER = 1
     SPHERE = 2
+    FACES = 3
 
 
 class Problem(IntEnum):

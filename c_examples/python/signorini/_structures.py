@@ -101,7 +101,8 @@ class RigidObstacle(ctypes.Structure):
 
     _fields_ = [
         ("struct_size", u32), ("kind", i32), ("point", real * 3), ("direction", real * 3),
-        ("radius", real), ("hollow", i32), ("reserved", i32),
+        ("radius", real), ("hollow", i32), ("reserved", i32), ("nodes", i64),
+        ("coordinates", address), ("faces", address),
     ]
 
 

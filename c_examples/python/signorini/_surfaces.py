@@ -30,6 +30,13 @@ Cylinder.__doc__ = """A rigid round bar of any length, in 3D.
 point: of its axis.  axis: its direction.  hollow: the body is inside, as in a bore.
 """
 
+RigidFaces = namedtuple("RigidFaces", "coordinates faces")
+RigidFaces.__doc__ = """A rigid mesh with nodes of its own, such as the triangles of a drawing.
+
+coordinates: (n, D).  faces: as slave of pair_surfaces; corners counterclockwise as the body sees
+them, in 2D the obstacle to the left of a line.
+"""
+
 Fields = namedtuple("Fields", "pressure traction clearance slip state")
 Fields.__doc__ = """Fields at the n nodes of the mesh, in its axes. Nodes in no pair have 0, and state -1.
 
@@ -66,12 +73,13 @@ def pair_surfaces(coordinates, slave, master, *, pairing="dual_mortar", search_d
 
 def pair_obstacle(coordinates, slave, obstacle, *, search_distance=0.0, dofs=None,
                   dofs_per_node=0):
-    """Pairs a surface with a rigid obstacle, a Plane, Sphere or Cylinder: SurfacePairs.
+    """Pairs a surface with a rigid Plane, Sphere, Cylinder or RigidFaces: SurfacePairs.
 
-    The rest: as for pair_surfaces; search_distance 0: no limit.
+    The rest: as for pair_surfaces; search_distance 0: no limit, and with RigidFaces as there.
     """
-    return SurfacePairs("surface_pair_obstacle", coordinates, _Faces("slave", slave),
-                        _rigid(obstacle), Pairing.DUAL_MORTAR, search_distance, dofs, dofs_per_node)
+    slave, rigid = _Faces("slave", slave), _Rigid(obstacle)
+    return SurfacePairs("surface_pair_obstacle", coordinates, slave, rigid.structure,
+                        Pairing.DUAL_MORTAR, search_distance, dofs, dofs_per_node)
 
 
 class SurfacePairs:
@@ -202,8 +210,23 @@ class _Faces:
         self.structure = sized(Faces, count=len(lists), start=at(self.start), nodes=at(self.nodes))
 
 
-def _rigid(obstacle):
-    """An obstacle as signorini_obstacle."""
+class _Rigid:
+    """An obstacle; structure: signorini_obstacle."""
+
+    def __init__(self, obstacle):
+        if isinstance(obstacle, RigidFaces):
+            self.coordinates = points(obstacle.coordinates).copy()
+            self.faces = _Faces("faces", obstacle.faces)
+            self.structure = sized(
+                RigidObstacle, kind=Obstacle.FACES, nodes=len(self.coordinates),
+                coordinates=at(self.coordinates),
+                faces=ctypes.cast(ctypes.byref(self.faces.structure), address))
+        else:
+            self.structure = _shape(obstacle)
+
+
+def _shape(obstacle):
+    """A plane, cylinder or sphere as signorini_obstacle."""
     def three(vector):
         vector = [float(x) for x in vector]
         return (real * 3)(*(vector + [0.0])[:3])
@@ -218,4 +241,4 @@ def _rigid(obstacle):
         return sized(RigidObstacle, kind=Obstacle.CYLINDER, point=three(obstacle.point),
                      direction=three(obstacle.axis), radius=obstacle.radius,
                      hollow=bool(obstacle.hollow))
-    raise TypeError(f"obstacle is {obstacle!r}: give a Plane, a Sphere or a Cylinder")
+    raise TypeError(f"obstacle is {obstacle!r}: give a Plane, a Sphere, a Cylinder or RigidFaces")

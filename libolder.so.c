@@ -1,0 +1,1 @@
+int signorini_abi_version(void) { return 2; }
