@@ -236,3 +236,23 @@ fn sums_in_space_that_overflow_are_said() {
         }
     }
 }
+
+/// A load so large that sums in twice the precision overflow: its force is no number, and displacements that
+/// leave it alone are no solution.
+#[test]
+fn a_force_that_overflows_is_not_certified() {
+    let (stiffness, load) = ([2e-14, 0.0, 0.0, 2e-14], [0.0, 1e308]);
+    let data = ContactData {
+        dim: 2,
+        pairs: 1,
+        stiffness: &stiffness,
+        ld: 2,
+        load: &load,
+        gap: &[0.0],
+        law: FrictionLaw::Frictionless,
+        reference_slip: None,
+    };
+    let problem = ContactProblem::new(data).expect("all entries are finite");
+    let certificate = signorini::certificate::certify(&problem, &[0.0, 1e-16]);
+    assert!(!certificate.holds(0.1), "{certificate:?}");
+}

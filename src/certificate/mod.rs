@@ -168,7 +168,11 @@ fn measure_pair<R: Relation>(
 ) -> Certificate {
     let relation = contact.problem().relation();
     let load = norm(relation.load());
-    let scale = load.max(relation.size_of_force(&raw));
+    // The branches of the law and `max` drop NaN, which sums in twice the precision make of an overflow.
+    let scale = match raw.iter().all(|force| force.is_finite()) {
+        true => load.max(relation.size_of_force(&raw)),
+        false => f64::INFINITY,
+    };
     let unloaded = norm_inf(contact.shifted_load()) == 0.0;
     let natural = Natural::new(contact, (d, low), &raw);
     let size = natural.size.root().hypot(norm(residual));

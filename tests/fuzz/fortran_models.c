@@ -1,0 +1,126 @@
+/* Models of Fortran 77: SGMODL, SGTWOB or SGSPAR, then SGFRAM, SGCASE, SGRECV, SGNODF and SGFREE. */
+
+#include "fortran.h"
+
+/* A chain of springs along each axis, its first node held, its last ones on an obstacle or on each other. */
+static integer sparse(int32_t dim, int64_t nodes, int64_t pairs, int64_t *handle)
+{
+    enum { MOST = 16 };
+    integer start[MOST + 1], row[2 * MOST], info = 77;
+    double values[2 * MOST];
+    const int64_t n = dim * nodes;
+    int64_t nnz = 0;
+    for (int64_t j = 0; j < n; j++) {
+        start[j] = (integer)(nnz + 1);
+        row[nnz] = (integer)(j + 1);
+        values[nnz++] = 2 + between(0, 8);
+        if (j + dim < n && !rarely(8)) {
+            row[nnz] = (integer)(j + dim + 1);
+            values[nnz++] = sane() ? -1 : number();
+        }
+    }
+    start[n] = (integer)(nnz + 1);
+    if (!sane() && rarely(4)) start[between(0, n)] += (integer)between(-2, 2);
+    if (!sane() && rarely(4)) row[between(0, nnz - 1)] += (integer)between(-3, 3);
+    integer *colptr = input((size_t)n + 1, sizeof *colptr), *rowind = input((size_t)nnz, sizeof *rowind);
+    double *entries = input((size_t)nnz, sizeof *entries);
+    memcpy(colptr, start, (size_t)(n + 1) * sizeof *colptr);
+    memcpy(rowind, row, (size_t)nnz * sizeof *rowind);
+    memcpy(entries, values, (size_t)nnz * sizeof *entries);
+    const int64_t masters = rarely(2) ? pairs : 0;
+    integer *slave = input((size_t)(dim * pairs), sizeof *slave);
+    for (int64_t i = 0; i < dim * pairs; i++)
+        slave[i] = sane() ? (integer)(n - dim * pairs + i + 1) : (integer)between(-1, n + 1);
+    integer *mstart = input(masters ? (size_t)pairs + 1 : 0, sizeof *mstart);
+    for (int64_t i = 0; masters && i <= pairs; i++) mstart[i] = (integer)(i + 1);
+    const integer *master = some(dim * masters, 1, sane() ? n : n + 1);
+    double *weight = input((size_t)masters, sizeof *weight);
+    for (int64_t i = 0; i < masters; i++) weight[i] = sane() ? 1 : number();
+    double *normal = input((size_t)(dim * pairs), sizeof *normal);
+    for (int64_t i = 0; i < dim * pairs; i++) normal[i] = sane() ? i % dim == 0 : number();
+    const integer *fixed = some(dim, 1, sane() ? dim : n + 1);
+    integer *size = number_of(n), *entry_count = number_of(nnz), *tri = number_of(0);
+    const integer *nfix = number_of(dim), *ndim = number_of(dim), *npair = number_of(pairs);
+    const integer *nmast = number_of(masters), *ntan = number_of(0);
+    const double *tangnt = real_of(0);
+    arm();
+    ENTRY(sgspar)(size, entry_count, colptr, rowind, entries, tri, nfix, fixed, ndim, npair, slave,
+                  nmast, mstart, master, weight, normal, ntan, tangnt, handle, &info);
+    check_arrays((int32_t)info);
+    return info;
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    begin(data, size);
+    int64_t handle = 99, host;
+    const int kind = (int)between(0, 2);
+    integer info = 77;
+    problem p = {.dim = (int32_t)between(2, 3), .pairs = between(1, 2)};
+    p.law = (int32_t)between(0, p.dim == 3 ? 5 : 3);
+    p.n = p.dim * p.pairs;
+    p.ld = p.n;
+    if (kind == 2) {
+        const int64_t nodes = between(p.pairs, 5);
+        host = p.dim * nodes;
+        info = sparse(p.dim, nodes, p.pairs, &handle);
+    } else {
+        int definite = 1;
+        p.K = matrix(p.n, p.ld, &p.definite);
+        const double *second = kind ? matrix(p.n, p.ld, &definite) : NULL;
+        const integer *ndim = number_of(p.dim), *ld = number_of(size_or_wrong(p.ld));
+        const integer *npair = number_of(size_or_wrong(p.pairs));
+        host = (kind + 1) * p.n;
+        arm();
+        if (kind) ENTRY(sgtwob)(ndim, npair, p.K, ld, second, ld, &handle, &info);
+        else ENTRY(sgmodl)(ndim, npair, p.K, ld, &handle, &info);
+        check_arrays((int32_t)info);
+        if (p.definite && definite && sane()) REQUIRE(info == 0);
+        /* Of 2^32 pairs narrow integers keep none: another model. */
+        if (info == 0 && *npair != p.pairs) {
+            ENTRY(sgfree)(&handle, &info);
+            return 0;
+        }
+    }
+    check_sentence(info);
+    REQUIRE(info <= 0 && (info == 0) == (handle != 0));
+    if (info != 0) return 0;
+    const int64_t made = handle;
+
+    const double *f = numbers(host), *gap = numbers(p.pairs), *friction;
+    friction = friction_numbers(p.law, p.pairs);
+    const double *slip0 = input((size_t)(p.n - p.pairs), sizeof *slip0);
+    const double *presc = input((size_t)p.dim, sizeof *presc);
+    const integer *law = number_of(p.law), *method = number_of(rarely(4) ? between(0, 6) : 0);
+    const integer *maxit = number_of(200);
+    const double *tol = real_of(0);
+    double *d = outputs(p.n), *r = outputs(p.n), *eta = outputs(1), *u = outputs(host);
+    double *nodal = outputs(host), *frames = outputs(p.dim * p.n);
+    integer *state = integers(p.pairs), *iter = integers(1);
+    arm();
+    info = 77;
+    ENTRY(sgfram)(&handle, frames, &info);
+    REQUIRE(info == (kind == 2 ? 0 : -1));
+    info = 77;
+    ENTRY(sgcase)(&handle, f, presc, gap, law, friction, slip0, method, tol, maxit, d, r, state, eta,
+                  iter, &info);
+    check_arrays(0);
+    check_sentence(info);
+    if (info == 0) {
+        p.gap = (double *)gap;
+        p.friction = (double *)friction;
+        judge_law(&p, r, narrow(state, p.pairs));
+        ENTRY(sgrecv)(&handle, f, presc, d, u, &info);
+        REQUIRE(info == 0);
+        ENTRY(sgnodf)(&handle, r, nodal, &info);
+        REQUIRE(info == 0);
+        for (int64_t i = 0; i < host; i++) REQUIRE(isfinite(u[i]) && isfinite(nodal[i]));
+    }
+    ENTRY(sgfree)(&handle, &info);
+    REQUIRE(info == 0 && handle == 0);
+    /* A handle that was freed is refused. */
+    handle = made;
+    ENTRY(sgrecv)(&handle, f, presc, d, u, &info);
+    REQUIRE(info == -1);
+    return 0;
+}
