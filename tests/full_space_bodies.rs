@@ -236,3 +236,36 @@ fn budgets_end_a_solution() {
     let solution = model.solve(&case, &full(), None, monitor).unwrap();
     assert_eq!((solution.status, solution.iterations), (Status::Cancelled, 3));
 }
+
+/// A callback is asked while a factor is made too; whenever it cancels, the model serves as before.
+#[test]
+fn a_factorisation_can_be_cancelled() {
+    let wavy = Wavy::space(17);
+    let model = wavy.try_model(&mut Monitor::new(&full(), None)).unwrap();
+    let mu = vec![0.3; model.pairs()];
+    let case = LoadCase {
+        load: &wavy.load,
+        prescribed: wavy.prescribed.as_deref(),
+        gap: &wavy.gap,
+        law: FrictionLaw::Coulomb(&mu),
+        reference_slip: None,
+    };
+    let run = |most: u64| {
+        let mut calls = 0;
+        let mut progress = |_: &Progress| {
+            calls += 1;
+            if calls > most { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        };
+        let monitor = &mut Monitor::new(&full(), Some(&mut progress));
+        let solution = model.solve(&case, &full(), None, monitor).unwrap();
+        (solution, calls)
+    };
+    let (whole, calls) = run(u64::MAX);
+    assert_eq!(whole.status, Status::Solved, "{}", whole.message);
+    assert!(calls > whole.iterations, "{calls} calls in {} systems", whole.iterations);
+    for most in 0..calls {
+        let (solution, _) = run(most);
+        assert_eq!(solution.status, Status::Cancelled, "{most}: {}", solution.message);
+    }
+    assert_eq!(run(u64::MAX).0.d, whole.d);
+}

@@ -5,7 +5,7 @@ use std::sync::{Mutex, PoisonError};
 use super::{Reduction, UnformedReduction, motion};
 use crate::error::{Argument, Error, Message, entry};
 use crate::linalg::vector::{dot, first_not_finite, norm};
-use crate::problem::{Bodies, Restriction};
+use crate::problem::{Bodies, GoesOn, Restriction};
 
 /// What a host offers. Vectors are relative displacements and forces of the pairs. What returns `Err` has failed;
 /// its number is told.
@@ -332,9 +332,9 @@ impl Bodies for Session<'_> {
         false
     }
 
-    fn hold(&mut self, restriction: &Restriction) -> Result<(), Error> {
+    fn hold(&mut self, restriction: &Restriction, _: GoesOn<'_>) -> Result<bool, Error> {
         self.held.clone_from(&restriction.held);
-        Ok(())
+        Ok(true)
     }
 
     fn solve(&mut self, forces: &[f64]) -> Result<Vec<f64>, Error> {

@@ -132,7 +132,7 @@ fn hold_all(bodies: &mut dyn Bodies, case: &Case<'_>) -> Result<Option<Restricti
         return Ok(None);
     }
     let all = Restriction::all(case.dim, (case.load.len() - bodies.inner()) / case.dim);
-    bodies.hold(&all)?;
+    bodies.hold(&all, &mut || true)?;
     Ok(Some(all))
 }
 
