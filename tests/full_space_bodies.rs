@@ -269,3 +269,33 @@ fn a_factorisation_can_be_cancelled() {
     }
     assert_eq!(run(u64::MAX).0.d, whole.d);
 }
+
+/// Obstacles that nothing can reach, and pairs without one, change nothing.
+#[test]
+fn far_obstacles_change_nothing() {
+    let wavy = Wavy::plane(32);
+    let model = wavy.try_model(&mut Monitor::new(&full(), None)).unwrap();
+    let mu = vec![0.3; 33];
+    let solve = |far: f64| {
+        let gap: Vec<f64> = wavy
+            .gap
+            .iter()
+            .enumerate()
+            .map(|(i, gap)| if i % 5 == 1 { far } else { *gap })
+            .collect();
+        let case = LoadCase {
+            load: &wavy.load,
+            prescribed: None,
+            gap: &gap,
+            law: FrictionLaw::Coulomb(&mu),
+            reference_slip: None,
+        };
+        let solution = model.solve(&case, &full(), None, &mut Monitor::new(&full(), None)).unwrap();
+        assert_eq!(solution.status, Status::Solved, "{far}: {}", solution.message);
+        solution.d
+    };
+    let without = solve(f64::INFINITY);
+    for far in [1.0, 1e8, 1e300] {
+        assert!(largest(&difference(&solve(far), &without)) <= 1e-9 * largest(&without), "{far}");
+    }
+}
