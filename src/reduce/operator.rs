@@ -276,7 +276,7 @@ impl Reduction for OperatorReduction {
 
 impl UnformedReduction for OperatorReduction {
     fn bodies(&self) -> Box<dyn Bodies + '_> {
-        Box::new(Session { operator: self, held: Vec::new() })
+        Box::new(InUse { operator: self, held: Vec::new() })
     }
 
     fn all_loads(&self, load: &[f64], _prescribed: Option<&[f64]>) -> Vec<f64> {
@@ -285,12 +285,12 @@ impl UnformedReduction for OperatorReduction {
 }
 
 /// A user of the operator.
-struct Session<'a> {
+struct InUse<'a> {
     operator: &'a OperatorReduction,
     held: Vec<bool>,
 }
 
-impl Bodies for Session<'_> {
+impl Bodies for InUse<'_> {
     fn inner(&self) -> usize {
         0
     }

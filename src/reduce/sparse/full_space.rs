@@ -95,16 +95,16 @@ impl FullSpace {
     }
 
     /// A new user of the matrix.
-    pub(super) fn session(&self) -> Session<'_> {
+    pub(super) fn in_use(&self) -> InUse<'_> {
         let factor = self.kept.lock().unwrap_or_else(PoisonError::into_inner).take();
-        Session { space: self, factor }
+        InUse { space: self, factor }
     }
 
     /// `c - B A⁻¹ a` for the load `(a, c)`: minus the forces on the components of `d`, all held.
     pub(super) fn condense(&self, load: &[f64]) -> Result<Vec<f64>, Error> {
-        let mut session = self.session();
-        session.hold_all()?;
-        let x = session.solve(load)?;
+        let mut user = self.in_use();
+        user.hold_all()?;
+        let x = user.solve(load)?;
         let mut residual = symmetric_residual(&self.matrix, (&x, &[]), load).split_off(self.inner);
         residual.iter_mut().for_each(|force| *force = -*force);
         Ok(residual)
@@ -112,14 +112,14 @@ impl FullSpace {
 
     /// All unknowns of a load where those of the pairs are `d`.
     pub(super) fn recover(&self, load: &[f64], d: &[f64]) -> Result<Vec<f64>, Error> {
-        let mut session = self.session();
-        session.hold_all()?;
+        let mut user = self.in_use();
+        user.hold_all()?;
         let mut x = vec![0.0; self.inner];
         x.extend_from_slice(d);
         // A second step: the digits that the rounding of the first one has cost.
         for _ in 0..REFINEMENTS {
             let residual = symmetric_residual(&self.matrix, (&x, &[]), load);
-            let step = session.solve(&residual)?;
+            let step = user.solve(&residual)?;
             x.iter_mut().zip(&step).take(self.inner).for_each(|(x, step)| *x -= step);
         }
         Ok(x)
@@ -146,26 +146,26 @@ impl Watch for Asking<'_> {
 }
 
 /// A user of the matrix with a factor of its own.
-pub(super) struct Session<'a> {
+pub(super) struct InUse<'a> {
     space: &'a FullSpace,
     factor: Option<Factor>,
 }
 
-impl Session<'_> {
+impl InUse<'_> {
     fn hold_all(&mut self) -> Result<(), Error> {
         let pairs = (self.space.matrix.ncols() - self.space.inner) / self.space.dim;
         self.hold(&Restriction::all(self.space.dim, pairs), &mut || true).map(drop)
     }
 }
 
-impl Drop for Session<'_> {
+impl Drop for InUse<'_> {
     fn drop(&mut self) {
         let mut kept = self.space.kept.lock().unwrap_or_else(PoisonError::into_inner);
         *kept = self.factor.take();
     }
 }
 
-impl Bodies for Session<'_> {
+impl Bodies for InUse<'_> {
     fn inner(&self) -> usize {
         self.space.inner
     }
