@@ -99,6 +99,13 @@ impl<'a> Monitor<'a> {
         if self.iterations >= self.max_iterations {
             return Err(Stop::IterationLimit);
         }
+        self.goes_on()?;
+        self.iterations += 1;
+        Ok(())
+    }
+
+    /// To be called now and then in a long one: nothing is counted.
+    pub(crate) fn goes_on(&mut self) -> Result<(), Stop> {
         let timed = self.time_limit.is_finite() || self.progress.is_some();
         let elapsed = if timed { self.begin.elapsed().as_secs_f64() } else { 0.0 };
         if elapsed > self.time_limit {
@@ -111,7 +118,6 @@ impl<'a> Monitor<'a> {
                 return Err(Stop::Cancelled);
             }
         }
-        self.iterations += 1;
         Ok(())
     }
 

@@ -236,3 +236,66 @@ fn budgets_end_a_solution() {
     let solution = model.solve(&case, &full(), None, monitor).unwrap();
     assert_eq!((solution.status, solution.iterations), (Status::Cancelled, 3));
 }
+
+/// A callback is asked while a factor is made too; whenever it cancels, the model serves as before.
+#[test]
+fn a_factorisation_can_be_cancelled() {
+    let wavy = Wavy::space(17);
+    let model = wavy.try_model(&mut Monitor::new(&full(), None)).unwrap();
+    let mu = vec![0.3; model.pairs()];
+    let case = LoadCase {
+        load: &wavy.load,
+        prescribed: wavy.prescribed.as_deref(),
+        gap: &wavy.gap,
+        law: FrictionLaw::Coulomb(&mu),
+        reference_slip: None,
+    };
+    let run = |most: u64| {
+        let mut calls = 0;
+        let mut progress = |_: &Progress| {
+            calls += 1;
+            if calls > most { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        };
+        let monitor = &mut Monitor::new(&full(), Some(&mut progress));
+        let solution = model.solve(&case, &full(), None, monitor).unwrap();
+        (solution, calls)
+    };
+    let (whole, calls) = run(u64::MAX);
+    assert_eq!(whole.status, Status::Solved, "{}", whole.message);
+    assert!(calls > whole.iterations, "{calls} calls in {} systems", whole.iterations);
+    for most in 0..calls {
+        let (solution, _) = run(most);
+        assert_eq!(solution.status, Status::Cancelled, "{most}: {}", solution.message);
+    }
+    assert_eq!(run(u64::MAX).0.d, whole.d);
+}
+
+/// Obstacles that nothing can reach, and pairs without one, change nothing.
+#[test]
+fn far_obstacles_change_nothing() {
+    let wavy = Wavy::plane(32);
+    let model = wavy.try_model(&mut Monitor::new(&full(), None)).unwrap();
+    let mu = vec![0.3; 33];
+    let solve = |far: f64| {
+        let gap: Vec<f64> = wavy
+            .gap
+            .iter()
+            .enumerate()
+            .map(|(i, gap)| if i % 5 == 1 { far } else { *gap })
+            .collect();
+        let case = LoadCase {
+            load: &wavy.load,
+            prescribed: None,
+            gap: &gap,
+            law: FrictionLaw::Coulomb(&mu),
+            reference_slip: None,
+        };
+        let solution = model.solve(&case, &full(), None, &mut Monitor::new(&full(), None)).unwrap();
+        assert_eq!(solution.status, Status::Solved, "{far}: {}", solution.message);
+        solution.d
+    };
+    let without = solve(f64::INFINITY);
+    for far in [1.0, 1e8, 1e300] {
+        assert!(largest(&difference(&solve(far), &without)) <= 1e-9 * largest(&without), "{far}");
+    }
+}

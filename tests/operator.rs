@@ -334,7 +334,7 @@ fn a_host_that_fails_ends_the_call() {
     let all = asked.products.load(Relaxed) as i64;
     for at in 0..all {
         asked.fails_in.store(at, Relaxed);
-        let message = condensed.solve(&model, 0.3).err().expect("it fails").message();
+        let message = condensed.solve(&model, 0.3).expect_err("it fails").message();
         assert!(message.contains("K_rel x has returned 7"), "{at}: {message}");
         asked.fails_in.store(-1, Relaxed);
     }

@@ -5,15 +5,20 @@
 //! it: roots of energies, whatever the units.
 
 use super::Contact;
+use crate::problem::Relation;
 
 /// The gaps, those that are out of reach `+inf`; `None` if there are none. Out of reach is what is more than
 /// `far` times longer than what loads on their own components, slips and nearer gaps make pairs move, and
 /// than `moved`, displacements that are known to occur.
-pub fn gaps_within_reach(contact: &Contact<'_>, moved: &[f64], far: f64) -> Option<Vec<f64>> {
-    let problem = contact.problem();
+pub fn gaps_within_reach<R: Relation>(
+    contact: &Contact<'_, R>,
+    moved: &[f64],
+    far: f64,
+) -> Option<Vec<f64>> {
+    let relation = contact.problem().relation();
     let dim = contact.dim();
-    let root = |i: usize| problem.unit(i).sqrt();
-    let loads = problem.load().iter().enumerate().map(|(i, f)| f.abs() / root(i));
+    let root = |i: usize| relation.block(i, i).sqrt();
+    let loads = relation.load().iter().enumerate().map(|(i, f)| f.abs() / root(i));
     let moved = moved.iter().enumerate().map(|(i, d)| d.abs() * root(i));
     let mut reach = loads.chain(moved).fold(0.0, f64::max);
     // The reach only grows from here: nothing is far beside it if the longest gap is not.

@@ -32,6 +32,9 @@ impl Restriction {
     }
 }
 
+/// Is asked whether a work goes on.
+pub type GoesOn<'a> = &'a mut dyn FnMut() -> bool;
+
 /// What a solver asks of bodies. Vectors have an entry for each unknown, the inner ones first.
 pub trait Bodies {
     /// Number of inner unknowns.
@@ -69,11 +72,12 @@ pub trait Bodies {
     /// Whether what is held has the springs of the restriction too.
     fn has_springs(&self) -> bool;
 
-    /// From now on [`Self::solve`] solves with these components held.
+    /// From now on [`Self::solve`] solves with these components held. `goes_on` is asked now and then while that
+    /// lasts; `false`: it has ended it, and nothing can be solved before another call.
     ///
     /// # Errors
     /// No memory, or what has failed in the host.
-    fn hold(&mut self, restriction: &Restriction) -> Result<(), Error>;
+    fn hold(&mut self, restriction: &Restriction, goes_on: GoesOn<'_>) -> Result<bool, Error>;
 
     /// An approximate solution `x` of `A x = forces`: with the held components zero, where forces on them do not
     /// count; without [`Self::hold`] with nothing held.

@@ -10,7 +10,7 @@ mod lcp;
 mod relation;
 pub(crate) mod symmetric_matrix;
 
-pub(crate) use bodies::{Bodies, Restriction, Unformed};
+pub(crate) use bodies::{Bodies, GoesOn, Restriction, Unformed};
 pub(crate) use bounded_lcp::BoundedLcp;
 pub use contact::{ContactData, ContactProblem};
 pub(crate) use contact::{checked_dim, unknowns};

@@ -5,7 +5,7 @@ use std::sync::{Mutex, PoisonError};
 use super::{Reduction, UnformedReduction, motion};
 use crate::error::{Argument, Error, Message, entry};
 use crate::linalg::vector::{dot, first_not_finite, norm};
-use crate::problem::{Bodies, Restriction};
+use crate::problem::{Bodies, GoesOn, Restriction};
 
 /// What a host offers. Vectors are relative displacements and forces of the pairs. What returns `Err` has failed;
 /// its number is told.
@@ -276,7 +276,7 @@ impl Reduction for OperatorReduction {
 
 impl UnformedReduction for OperatorReduction {
     fn bodies(&self) -> Box<dyn Bodies + '_> {
-        Box::new(Session { operator: self, held: Vec::new() })
+        Box::new(InUse { operator: self, held: Vec::new() })
     }
 
     fn all_loads(&self, load: &[f64], _prescribed: Option<&[f64]>) -> Vec<f64> {
@@ -289,12 +289,12 @@ impl UnformedReduction for OperatorReduction {
 }
 
 /// A user of the operator.
-struct Session<'a> {
+struct InUse<'a> {
     operator: &'a OperatorReduction,
     held: Vec<bool>,
 }
 
-impl Bodies for Session<'_> {
+impl Bodies for InUse<'_> {
     fn inner(&self) -> usize {
         0
     }
@@ -336,9 +336,9 @@ impl Bodies for Session<'_> {
         false
     }
 
-    fn hold(&mut self, restriction: &Restriction) -> Result<(), Error> {
+    fn hold(&mut self, restriction: &Restriction, _: GoesOn<'_>) -> Result<bool, Error> {
         self.held.clone_from(&restriction.held);
-        Ok(())
+        Ok(true)
     }
 
     fn solve(&mut self, forces: &[f64]) -> Result<Vec<f64>, Error> {

@@ -4,14 +4,15 @@
 //! replaced by those of a diagonal matrix. The pattern stays, so that it is analysed once. With all of them held
 //! the matrix is definite if a condensed one exists at all.
 
+use std::ops::ControlFlow;
 use std::sync::{Mutex, PoisonError};
 
-use crate::error::Error;
+use crate::error::{Argument, Error};
 use crate::linalg::sparse_matrix::{
     Csc, column, diagonal, symmetric_magnitude, symmetric_residual, symmetric_times,
 };
-use crate::linalg::sparse_schur::{Failure, SparseCholesky, Unwatched, Values, Watch, answered};
-use crate::problem::{Bodies, Restriction};
+use crate::linalg::sparse_schur::{Failure, SparseCholesky, Values, Watch, answered};
+use crate::problem::{Bodies, GoesOn, Restriction};
 
 /// Where bodies move freely with the components that are held, springs of this part of their units hold them in
 /// the factor, the first with which it exists. Solutions are approximate then.
@@ -96,16 +97,16 @@ impl FullSpace {
     }
 
     /// A new user of the matrix.
-    pub(super) fn session(&self) -> Session<'_> {
+    pub(super) fn in_use(&self) -> InUse<'_> {
         let factor = self.kept.lock().unwrap_or_else(PoisonError::into_inner).take();
-        Session { space: self, factor }
+        InUse { space: self, factor }
     }
 
     /// `c - B A⁻¹ a` for the load `(a, c)`: minus the forces on the components of `d`, all held.
     pub(super) fn condense(&self, load: &[f64]) -> Result<Vec<f64>, Error> {
-        let mut session = self.session();
-        session.hold_all()?;
-        let x = session.solve(load)?;
+        let mut user = self.in_use();
+        user.hold_all()?;
+        let x = user.solve(load)?;
         let mut residual = symmetric_residual(&self.matrix, (&x, &[]), load).split_off(self.inner);
         residual.iter_mut().for_each(|force| *force = -*force);
         Ok(residual)
@@ -113,14 +114,14 @@ impl FullSpace {
 
     /// All unknowns of a load where those of the pairs are `d`.
     pub(super) fn recover(&self, load: &[f64], d: &[f64]) -> Result<Vec<f64>, Error> {
-        let mut session = self.session();
-        session.hold_all()?;
+        let mut user = self.in_use();
+        user.hold_all()?;
         let mut x = vec![0.0; self.inner];
         x.extend_from_slice(d);
         // A second step: the digits that the rounding of the first one has cost.
         for _ in 0..REFINEMENTS {
             let residual = symmetric_residual(&self.matrix, (&x, &[]), load);
-            let step = session.solve(&residual)?;
+            let step = user.solve(&residual)?;
             x.iter_mut().zip(&step).take(self.inner).for_each(|(x, step)| *x -= step);
         }
         Ok(x)
@@ -140,27 +141,40 @@ const VECTORS: usize = 16;
 /// Solutions for given `d`, each with the residual of the one before.
 const REFINEMENTS: usize = 2;
 
+/// Asks while a factor is made.
+struct Asking<'a>(GoesOn<'a>);
+
+impl Watch for Asking<'_> {
+    fn announce(&mut self, _: u64) -> ControlFlow<()> {
+        ControlFlow::Continue(())
+    }
+
+    fn step(&mut self, _: f64) -> ControlFlow<()> {
+        if (self.0)() { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+    }
+}
+
 /// A user of the matrix with a factor of its own.
-pub(super) struct Session<'a> {
+pub(super) struct InUse<'a> {
     space: &'a FullSpace,
     factor: Option<Factor>,
 }
 
-impl Session<'_> {
+impl InUse<'_> {
     fn hold_all(&mut self) -> Result<(), Error> {
         let pairs = (self.space.matrix.ncols() - self.space.inner) / self.space.dim;
-        self.hold(&Restriction::all(self.space.dim, pairs))
+        self.hold(&Restriction::all(self.space.dim, pairs), &mut || true).map(drop)
     }
 }
 
-impl Drop for Session<'_> {
+impl Drop for InUse<'_> {
     fn drop(&mut self) {
         let mut kept = self.space.kept.lock().unwrap_or_else(PoisonError::into_inner);
         *kept = self.factor.take();
     }
 }
 
-impl Bodies for Session<'_> {
+impl Bodies for InUse<'_> {
     fn inner(&self) -> usize {
         self.space.inner
     }
@@ -199,23 +213,26 @@ impl Bodies for Session<'_> {
         true
     }
 
-    fn hold(&mut self, restriction: &Restriction) -> Result<(), Error> {
+    fn hold(&mut self, restriction: &Restriction, goes_on: GoesOn<'_>) -> Result<bool, Error> {
         if self.factor.as_ref().is_some_and(|factor| factor.restriction == *restriction) {
-            return Ok(());
+            return Ok(true);
         }
         // Two factors never exist at a time.
         self.factor = None;
-        let refused = |_: Failure| Error::OutOfMemory("the factor of the stiffness matrix");
         for soft in std::iter::once(0.0).chain(SPRINGS) {
             let matrix = self.space.restricted(restriction, soft);
-            let made = self.space.cholesky.factor(&matrix, &mut Unwatched).map_err(refused)?;
-            if let Some(values) = made {
-                self.factor = Some(Factor { restriction: restriction.clone(), values });
-                return Ok(());
+            match self.space.cholesky.factor(&matrix, &mut Asking(&mut *goes_on)) {
+                Ok(Some(values)) => {
+                    self.factor = Some(Factor { restriction: restriction.clone(), values });
+                    return Ok(true);
+                }
+                Ok(None) => {}
+                Err(Failure::Stopped) => return Ok(false),
+                Err(_) => return Err(Error::OutOfMemory("the factor of the stiffness matrix")),
             }
         }
         Err(Error::invalid(
-            crate::error::Argument::Matrix,
+            Argument::Matrix,
             "the bodies cannot be told from bodies that fall apart: no factor exists with springs on the pairs",
         ))
     }

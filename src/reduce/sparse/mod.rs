@@ -235,7 +235,7 @@ impl Reduction for SparseReduction {
 impl UnformedReduction for SparseReduction {
     fn bodies(&self) -> Box<dyn Bodies + '_> {
         match &self.engine {
-            Engine::FullSpace(space) => Box::new(space.session()),
+            Engine::FullSpace(space) => Box::new(space.in_use()),
             Engine::Condensed(_) => unreachable!("a condensed stiffness is formed"),
         }
     }

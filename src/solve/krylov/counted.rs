@@ -1,7 +1,7 @@
 //! Bodies whose solutions and factorisations are counted.
 
 use crate::error::Error;
-use crate::problem::{Bodies, Restriction};
+use crate::problem::{Bodies, GoesOn, Restriction};
 
 /// What was asked of bodies.
 #[derive(Clone, Copy, Default)]
@@ -59,9 +59,9 @@ impl Bodies for Counted<'_> {
         self.bodies.has_springs()
     }
 
-    fn hold(&mut self, restriction: &Restriction) -> Result<(), Error> {
+    fn hold(&mut self, restriction: &Restriction, goes_on: GoesOn<'_>) -> Result<bool, Error> {
         self.counts.factorisations += 1;
-        self.bodies.hold(restriction)
+        self.bodies.hold(restriction, goes_on)
     }
 
     fn solve(&mut self, forces: &[f64]) -> Result<Vec<f64>, Error> {

@@ -12,7 +12,7 @@ use super::candidate::Ending;
 use super::outcome::{Existence, Solution, Status, Uniqueness};
 use crate::certificate::{Certificate, measure_spread};
 use crate::error::{Argument, Error};
-use crate::law::Contact;
+use crate::law::{Contact, gaps_within_reach};
 use crate::monitor::Monitor;
 use crate::problem::{Bodies, ContactProblem, FrictionLaw, Restriction, Unformed};
 use crate::settings::{Method, Search, Settings};
@@ -51,6 +51,10 @@ pub fn check(settings: &Settings) -> Result<(), Error> {
     Ok(())
 }
 
+/// How many times longer than the displacements that can be expected a gap must be to be left out: beside it the
+/// loads lose their digits, as in `solve::far_obstacles`.
+const FAR: f64 = 1e6;
+
 /// Vectors of all unknowns that GMRES holds for each direction: a basis vector, and the direction with its product.
 const VECTORS_OF_DIRECTION: usize = 3;
 
@@ -72,33 +76,71 @@ pub fn solve(
 ) -> Result<Solution, Error> {
     check(settings)?;
     let bodies = &mut Counted::new(bodies);
-    let (inner, load) = (bodies.inner(), case.load);
-    let held = hold_all(bodies, case)?;
-    let (at_zero, relative) = at_zero(bodies, load)?;
+    hold_all(bodies, case)?;
+    let (at_zero, relative) = at_zero(bodies, case.load)?;
     let unformed = Unformed::new(bodies, case.dim, &relative);
-    let (gap, slip) = (case.gap, case.reference_slip);
-    let problem = ContactProblem::with_relation(unformed, case.dim, gap, case.law, slip)?;
-    let contact = Contact::new(&problem);
-    let equations = Equations::new(&contact, bodies, load, &relative);
-    let mut at = at_zero;
-    let ended = match contact.is_unloaded() && rests(&contact, bodies, &at, load, settings)? {
-        true => None,
-        false => {
-            let stuck =
-                contact.pairs().iter().flat_map(|law| law.reference().into_iter().take(case.dim));
-            match start {
-                Some(start) => at.x[inner..].copy_from_slice(&contact.admissible(start)),
-                None => {
-                    at.x[inner..].iter_mut().zip(stuck).for_each(|(x, reference)| *x = reference)
-                }
-            }
-            let at = in_equilibrium(bodies, load, at.clone())?;
-            Some(from(&equations, bodies, (at, held), settings.tolerance, monitor)?)
-        }
+    let problem = |gap| {
+        let unformed = unformed.clone();
+        ContactProblem::with_relation(unformed, case.dim, gap, case.law, case.reference_slip)
     };
-    let solution = certified(&contact, bodies, (load, at), settings, ended)?;
+    let whole = problem(case.gap)?;
+    let contact = Contact::new(&whole);
+    let work = Work { case, settings, start, at_zero: &at_zero, relative: &relative };
+    let mut solution = None;
+    let gaps = gaps_within_reach(&contact, &[], FAR);
+    if let Some(gaps) = &gaps {
+        let near = problem(gaps)?;
+        let found = work.solve(&contact, &Contact::new(&near), bodies, monitor)?;
+        solution = Some(found).filter(|found| found.status != Status::Stalled);
+    }
+    let solution = match solution {
+        Some(solution) => solution,
+        None => work.solve(&contact, &contact, bodies, monitor)?,
+    };
     let Counts { solutions, factorisations } = bodies.counts;
     Ok(Solution { factorisations, outer_iterations: solutions, ..solution })
+}
+
+/// A load case with what is known of it.
+struct Work<'a> {
+    case: &'a Case<'a>,
+    settings: &'a Settings,
+    start: Option<&'a [f64]>,
+    /// Displacements where those of the pairs are zero.
+    at_zero: &'a Displacements,
+    /// The relative loads.
+    relative: &'a [f64],
+}
+
+impl Work<'_> {
+    /// Solves the contact `near`, and measures the result on `contact`, which has further obstacles.
+    fn solve(
+        &self,
+        contact: &Contact<'_, Unformed<'_>>,
+        near: &Contact<'_, Unformed<'_>>,
+        bodies: &mut dyn Bodies,
+        monitor: &mut Monitor<'_>,
+    ) -> Result<Solution, Error> {
+        let (inner, load) = (bodies.inner(), self.case.load);
+        let mut at = self.at_zero.clone();
+        if contact.is_unloaded() && rests(contact, bodies, &at, load, self.settings)? {
+            return certified(contact, bodies, (load, at), self.settings, None);
+        }
+        let held = hold_all(bodies, self.case)?;
+        let references = near.pairs().iter().flat_map(|law| {
+            let reference = law.reference();
+            reference.into_iter().take(self.case.dim)
+        });
+        match self.start {
+            Some(start) => at.x[inner..].copy_from_slice(&near.admissible(start)),
+            None => at.x[inner..].iter_mut().zip(references).for_each(|(x, held)| *x = held),
+        }
+        let at = in_equilibrium(bodies, load, at)?;
+        let equations = Equations::new(near, bodies, load, self.relative);
+        let tolerance = self.settings.tolerance;
+        let ended = from(&equations, bodies, (at.clone(), held), tolerance, monitor)?;
+        certified(contact, bodies, (load, at), self.settings, Some(ended))
+    }
 }
 
 /// Newton's method from displacements whose inner ones are in equilibrium, and what follows where it fails.
@@ -143,7 +185,7 @@ fn hold_all(bodies: &mut dyn Bodies, case: &Case<'_>) -> Result<Option<Restricti
         return Ok(None);
     }
     let all = Restriction::all(case.dim, (case.load.len() - bodies.inner()) / case.dim);
-    bodies.hold(&all)?;
+    bodies.hold(&all, &mut || true)?;
     Ok(Some(all))
 }
 

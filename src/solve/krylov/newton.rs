@@ -4,7 +4,7 @@ use super::point::{Equations, Point};
 use super::step::{Step, System, changed};
 use crate::error::Error;
 use crate::law::Vector;
-use crate::monitor::Monitor;
+use crate::monitor::{Monitor, Stop};
 use crate::problem::{Bodies, Restriction};
 use crate::solve::candidate::Ending;
 
@@ -76,12 +76,9 @@ pub fn solve(
         ended.systems += 1;
         let system = System::new(equations, &ended.point);
         if let Some(factor) = &mut held {
-            let (dim, pairs) = (equations.contact.dim(), ended.point.y.len());
-            let moved = changed(dim, factor, &system.restriction);
-            let many = moved as f64 > CHANGED * pairs as f64;
-            if (many || directions > DIRECTIONS) && *factor != system.restriction {
-                bodies.hold(&system.restriction)?;
-                *factor = system.restriction.clone();
+            let renewed = directions > DIRECTIONS;
+            if let Some(stop) = renew(bodies, factor, &system.restriction, renewed, monitor)? {
+                break Ending::Stopped(stop);
             }
         }
         let goal = FORCING_OF_ETA * AIM * tolerance / eta;
@@ -100,6 +97,31 @@ pub fn solve(
     };
     ended.held = held;
     Ok(ended)
+}
+
+/// Factorises anew if many pairs have changed since, or if that is `wanted`. Returns why it was stopped.
+fn renew(
+    bodies: &mut dyn Bodies,
+    factor: &mut Restriction,
+    restriction: &Restriction,
+    wanted: bool,
+    monitor: &mut Monitor<'_>,
+) -> Result<Option<Stop>, Error> {
+    let pairs = restriction.springs.len();
+    let many = changed(factor, restriction) as f64 > CHANGED * pairs as f64;
+    if !(many || wanted) || factor == restriction {
+        return Ok(None);
+    }
+    let mut stop = None;
+    let mut goes_on = || {
+        stop = monitor.goes_on().err();
+        stop.is_none()
+    };
+    bodies.hold(restriction, &mut goes_on)?;
+    if stop.is_none() {
+        factor.clone_from(restriction);
+    }
+    Ok(stop)
 }
 
 /// The first of ever shorter steps along which the lack falls enough, or the shortest; and its length.

@@ -274,9 +274,10 @@ impl<'a> System<'a> {
     }
 }
 
-/// Number of pairs of which one component is held in one restriction only.
-pub fn changed(dim: usize, a: &Restriction, b: &Restriction) -> usize {
-    let pairs = a.held.chunks_exact(dim).zip(b.held.chunks_exact(dim));
+/// Number of pairs of which a component is held in one restriction only.
+pub fn changed(a: &Restriction, b: &Restriction) -> usize {
+    let dim = a.held.len() / a.springs.len().max(1);
+    let pairs = a.held.chunks_exact(dim.max(1)).zip(b.held.chunks_exact(dim.max(1)));
     pairs.filter(|(a, b)| a != b).count()
 }
 

@@ -33,6 +33,10 @@ pub fn solve(
         let given = equations.with(&contact);
         let from = given.held_at(point.at, bodies)?;
         let between = newton::solve(&given, bodies, from, held, ROUGH, monitor)?;
+        if let Ending::Stopped(_) = between.ending {
+            best.ending = between.ending;
+            break;
+        }
         point = equations.held_at(between.point.at.clone(), bodies)?;
         let from = equations.held_at(between.point.at, bodies)?;
         let next = newton::solve(equations, bodies, from, between.held, tolerance, monitor)?;
