@@ -74,6 +74,7 @@ wanted_packages() {
 host_packages() {
     have c++ || echo g++
     have valgrind || echo valgrind
+    have abidiff || echo abigail-tools
     have ccx || echo calculix-ccx
     /usr/bin/python3 -c 'import getfem' >/dev/null 2>&1 || echo python3-getfem
     python_with numpy,matplotlib,PIL >/dev/null || echo python3-numpy python3-matplotlib python3-pil
@@ -195,7 +196,8 @@ step "replay of Table 1" sh c_examples/replay.sh
 step "bolted junction" sh c_examples/junction.sh
 step "three dimensions" sh c_examples/3d.sh
 step "Ctrl-C and progress" sh tests/interrupt.sh
-for name in readme fortran two_blocks scripts host_calculix host_getfem host_mumps host_octave; do
+step "fuzzing" sh tests/fuzz/run.sh
+for name in abi readme fortran two_blocks scripts host_calculix host_getfem host_mumps host_octave; do
     # shellcheck disable=SC2086 # --require or nothing
     step "$name" sh "tests/$name.sh" $hosts
 done
