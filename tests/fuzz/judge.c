@@ -98,7 +98,7 @@ void judge_law(const problem *p, const double *F, const int32_t *state)
             const quad c = cos(of[2]), s = sin(of[2]);
             const quad along[2] = {(c * t[0] + s * t[1]) / of[0], (c * t[1] - s * t[0]) / of[1]};
             /* The rounding of the angle turns the axes. */
-            const quad turned = 8 * UNIT * length(t, 2) * (1 / (quad)of[0] + 1 / (quad)of[1]);
+            const quad turned = 64 * UNIT * length(t, 2) * (1 / (quad)of[0] + 1 / (quad)of[1]);
             REQUIRE(length(along, 2) <= pressure * (1 + 1e-12) + turned + LEAST);
         } else {
             REQUIRE(length(t, 2) <= (slope * pressure + offset) * (1 + DIGITS) + LEAST);
@@ -213,7 +213,9 @@ void judge_motion(const problem *p, const double *r)
     REQUIRE(most == 1);
     if (!is_ellipse(p->law) && p->law != SIGNORINI_LAW_TRESCA && p->law != SIGNORINI_LAW_COHESIVE)
         REQUIRE(work > 0);
+    /* Stiffnesses some 1e16 apart in one matrix are beside each other as rounding is: not judged. */
     for (int64_t i = 0; i < p->n; i++) {
+        if (!sane()) break;
         quad force = 0;
         for (int64_t j = 0; j < p->n; j++) force += (quad)p->K[i + p->ld * j] * r[j];
         if (magnitude(force) > 1e-7 * root(p->K[i + p->ld * i]) * size + LEAST)
@@ -249,7 +251,7 @@ void judge_flexibility(const problem *p, double tolerance, const double *d, cons
             rounding = larger(rounding, 8 * UNIT * parts / w);
         }
     }
-    if (worst > 8 * tolerance * size + rounding + LEAST)
+    if (worst > 8 * tolerance * size + (sane() ? 1 : 20) * rounding + LEAST)
         complain("d - W F - q is %g of the forces", (double)(worst / size));
 }
 
