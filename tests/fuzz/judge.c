@@ -195,7 +195,8 @@ void judge_solution(const problem *p, double tolerance, const double *d, const d
     if (is_ellipse(p->law)) return;
     const quad left = residual(p, d, force, parts, &rounding);
     /* Of bodies that move as far as gaps and slips tell, the certificate forgives 16 roundings of their rows. */
-    if (!(left <= size * tolerance * (1 + DIGITS) + (sane() ? 2 : 20) * rounding + LEAST))
+    const double roundings = sane() && p->definite ? 2 : 20;
+    if (!(left <= size * tolerance * (1 + DIGITS) + roundings * rounding + LEAST))
         complain("solved, eta is %g, rounding %g, tolerance %g", (double)(left / size),
                  (double)(rounding / size), tolerance);
 }
