@@ -31,6 +31,37 @@ fn no_line_is_longer_than_a_hundred_columns() {
     }
 }
 
+/// tests/c/layout.c states the size of every structure and the place of every field and the value of every number, so
+/// that a change of one of them does not compile.
+#[test]
+fn the_layout_of_every_structure_is_stated() {
+    let header = fs::read_to_string(root().join("include/signorini.h")).unwrap();
+    let stated = fs::read_to_string(root().join("tests/c/layout.c")).unwrap();
+    let (mut structure, mut fields, mut values) = (None, 0, 0);
+    let missing = |line: &str| assert!(stated.contains(line), "tests/c/layout.c lacks {line}...");
+    for line in header.lines().filter(|line| !line.trim_start().starts_with('*')) {
+        let code = line.split("/*").next().unwrap().trim_end();
+        if let Some(name) = code.strip_prefix("struct ").and_then(|code| code.strip_suffix(" {")) {
+            missing(&format!("SIZE({name}, "));
+            structure = Some(name);
+        } else if code == "};" {
+            structure = None;
+        } else if let (Some(name), Some(code)) = (structure, code.strip_suffix(';')) {
+            let field = code.rsplit([' ', '*']).next().unwrap().split('[').next().unwrap();
+            missing(&format!("FIELD({name}, {field}, "));
+            fields += 1;
+        } else if let Some(value) = code.strip_prefix("#define SIGNORINI_")
+            && let Some((name, number)) = value.split_once(' ')
+            && !name.starts_with("VERSION_")
+        {
+            missing(&format!("VALUE(SIGNORINI_{name}, {number});"));
+            values += 1;
+        }
+    }
+    // Those of the first version at least: the search finds them.
+    assert!(fields > 100 && values > 40, "{fields} fields, {values} values");
+}
+
 /// What cbindgen writes for a constant and a function.
 const TWO: &str =
     "/**\n * One.\n */\n#define ONE 1\n\n/**\n * Two.\n */\nint32_t two(int32_t n,\n double *x);\n";

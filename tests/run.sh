@@ -74,6 +74,7 @@ wanted_packages() {
 host_packages() {
     have c++ || echo g++
     have valgrind || echo valgrind
+    have abidiff || echo abigail-tools
     have ccx || echo calculix-ccx
     /usr/bin/python3 -c 'import getfem' >/dev/null 2>&1 || echo python3-getfem
     python_with numpy,matplotlib,PIL >/dev/null || echo python3-numpy python3-matplotlib python3-pil
@@ -118,6 +119,8 @@ if [ -n "$packages" ]; then
     echo "tests/run.sh: install first (names of Debian and Ubuntu): $packages"
     exit 1
 fi
+# shellcheck source=c_examples/common/build.sh
+(script=tests/run.sh && . c_examples/common/build.sh && find_cargo) || exit 1
 PYTHON=$(python_with numpy,matplotlib,PIL || python_with numpy || echo python3)
 export PYTHON
 
@@ -182,6 +185,11 @@ if cargo clippy --version >/dev/null 2>&1; then
 else
     skip "lints" "clippy is not installed"
 fi
+if cargo deny --version >/dev/null 2>&1; then
+    step "crates and licences" cargo deny --config .cargo-deny.toml check
+else
+    skip "crates and licences" "cargo-deny is not installed (cargo install cargo-deny)"
+fi
 step "Rust tests" cargo test --release --locked
 step "Rust documentation" documentation
 step "C programs: configure" c_configure
@@ -195,8 +203,9 @@ step "replay of Table 1" sh c_examples/replay.sh
 step "bolted junction" sh c_examples/junction.sh
 step "three dimensions" sh c_examples/3d.sh
 step "Ctrl-C and progress" sh tests/interrupt.sh
-for name in readme fortran two_blocks scripts host_calculix calculix_contact host_getfem \
-    host_mumps host_octave; do
+step "fuzzing" sh tests/fuzz/run.sh
+for name in abi readme fortran two_blocks scripts host_calculix calculix_contact host_getfem \
+    host_mumps host_octave release; do
     # shellcheck disable=SC2086 # --require or nothing
     step "$name" sh "tests/$name.sh" $hosts
 done

@@ -15,9 +15,15 @@ examples=$root/c_examples
 build=$root/target/c_examples
 cc=${CC:-cc}
 
-# rustup installs cargo where PATH may not lead.
+# rustup installs cargo where PATH may not lead. One that is too old is refused here, in words that help.
 find_cargo() {
     command -v cargo >/dev/null || PATH=$PATH:${CARGO_HOME:-${HOME:-/root}/.cargo}/bin
+    command -v cargo >/dev/null || return 0
+    wanted=$(sed -n 's/^rust-version = "\([0-9.]*\)".*/\1/p' "$root/Cargo.toml")
+    given=$(cargo --version | sed -n 's/^cargo \([0-9]*\.[0-9]*\).*/\1/p')
+    oldest=$(printf '%s\n%s\n' "$wanted" "$given" | sort -t . -k 1,1n -k 2,2n | head -n 1)
+    [ "$oldest" = "$wanted" ] ||
+        die "cargo ${given:-of no version} is too old, $wanted is needed: 'rustup update', or https://rustup.rs"
 }
 
 check_tools() {

@@ -73,5 +73,13 @@ END
     dpkg-deb --root-owner-group --build "$work/$1" "$out" >/dev/null
     say "$out/$1_$version-1_$architecture.deb"
 }
+# What programmers read and try goes with what they build with: the examples keep their places beside each other.
+documents=$work/$dev/usr/share/doc/$dev
+mkdir -p "$documents/examples"
+cp "$root/README.md" "$examples/GUIDE.md" "$examples/LIMITS.md" "$documents"
+for example in first bar junction 3d fclib files common hosts; do
+    cp -R "$examples/$example" "$documents/examples"
+done
+find "$documents" -type d -exec chmod 755 {} + -o -type f -exec chmod 644 {} +
 package "$run" libs "$depends" "shared library"
 package "$dev" libdevel "$run (= $version-1)" "development files"

@@ -5,6 +5,7 @@ use std::ffi::CStr;
 use std::path::Path;
 
 use super::guard::{self, Failure};
+use super::structures::checked_size;
 use crate::error::Argument;
 use crate::linalg::matrix;
 use crate::problem;
@@ -122,15 +123,23 @@ impl Arrays {
         Ok(Output { pointer, length: if present { length } else { 0 } })
     }
 
-    /// A structure of the caller, to be checked for overlap only.
-    pub(super) fn structure<T>(
+    /// A structure of the caller, to be checked for overlap only: as large as it says.
+    ///
+    /// # Safety
+    /// NULL, or a structure that begins with its size.
+    pub(super) unsafe fn structure<T>(
         &mut self,
         position: i32,
         name: &'static str,
         pointer: *const T,
         written: bool,
     ) -> Result<(), Failure> {
-        self.add(position, name, pointer, 1, written).map(drop)
+        if pointer.is_null() {
+            return Ok(());
+        }
+        // SAFETY: by the caller's contract. An older program's structure is smaller than ours.
+        let bytes = unsafe { checked_size(position, name, pointer)? };
+        self.structures(position, name, pointer, bytes, written)
     }
 
     /// An array of structures of `bytes` bytes in all.

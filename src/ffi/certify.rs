@@ -163,13 +163,11 @@ impl Measured {
         check_tolerance("tolerance", tolerance)
             .map_err(|message| Failure::argument(at(0), message))?;
         // SAFETY: by the caller's contract.
-        let d = unsafe {
-            SignoriniReport::accept(at(4), report)?;
-            arrays.required(at(1), "d", self.d, n)?
-        };
+        let d = unsafe { arrays.required(at(1), "d", self.d, n)? };
         let force = arrays.optional_output(at(2), "F", self.F, n)?;
         let state = arrays.optional_output(at(3), "state", self.state, pairs)?;
-        arrays.structure(at(4), "report", report.cast_const(), true)?;
+        // SAFETY: by the caller's contract.
+        unsafe { arrays.structure(at(4), "report", report.cast_const(), true)? };
         Ok((d, Results { tolerance, force, state, report }))
     }
 }

@@ -97,7 +97,8 @@ impl Extra {
             let message = format!("extra: reserved is {}, it must be 0", given.reserved);
             return Err(Failure::argument(position, message));
         }
-        arrays.structure(position, "extra", pointer, false)?;
+        // SAFETY: by the caller's contract.
+        unsafe { arrays.structure(position, "extra", pointer, false)? };
         // No overflow: the required arrays d and state of the call are as long.
         let (all, all_pairs) = (n * cases, pairs * cases);
         let mut vector = |name, pointer| arrays.optional_output(position, name, pointer, all);

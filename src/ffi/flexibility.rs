@@ -96,13 +96,13 @@ pub unsafe extern "C" fn signorini_flexibility_solve(
             };
             (data, SignoriniSettings::read(SETTINGS, settings)?)
         };
-        arrays.structure(SETTINGS, "settings", settings, false)?;
+        // SAFETY: as above.
+        unsafe { arrays.structure(SETTINGS, "settings", settings, false)? };
         let d = arrays.output(11, "d", d, n)?;
         let force = arrays.output(START, "F", F, n)?;
         let state = arrays.optional_output(13, "state", state, pairs)?;
         // SAFETY: as above.
         let extra = unsafe {
-            SignoriniReport::accept(14, report)?;
             arrays.structure(14, "report", report.cast_const(), true)?;
             Extra::read(&mut arrays, 15, extra, (n, pairs, 1))?
         };

@@ -137,9 +137,10 @@ impl Arguments {
         let z = arrays.output(7 + shift, "z", self.z, n)?;
         let y = arrays.optional_output(8 + shift, "y", self.y, n)?;
         // SAFETY: as above.
-        unsafe { SignoriniReport::accept(9 + shift, self.report)? };
-        arrays.structure(5 + shift, "settings", self.settings, false)?;
-        arrays.structure(9 + shift, "report", self.report.cast_const(), true)?;
+        unsafe {
+            arrays.structure(5 + shift, "settings", self.settings, false)?;
+            arrays.structure(9 + shift, "report", self.report.cast_const(), true)?;
+        }
         arrays.check_overlap()?;
 
         let position = |argument| match argument {

@@ -73,7 +73,8 @@ pub unsafe extern "C" fn signorini_model_solve(
             (given.read(&mut arrays, model, cases)?, SignoriniSettings::read(SETTINGS, settings)?)
         };
         received.settings.validate().map_err(|error| Failure::from_error(error, |_| SETTINGS))?;
-        arrays.structure(SETTINGS, "settings", settings, false)?;
+        // SAFETY: as above.
+        unsafe { arrays.structure(SETTINGS, "settings", settings, false)? };
         let (pairs, n) = (model.pairs(), model.dim() * model.pairs());
         let (all_pairs, all) = (times(cases, pairs)?, times(cases, n)?);
         let d = arrays.output(START, "d", d, all)?;

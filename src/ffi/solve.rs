@@ -70,13 +70,13 @@ pub unsafe extern "C" fn signorini_solve(
         let (data, received) =
             unsafe { (given.read(&mut arrays)?, SignoriniSettings::read(SETTINGS, settings)?) };
         let (pairs, n) = (data.pairs, data.dim * data.pairs);
-        arrays.structure(SETTINGS, "settings", settings, false)?;
+        // SAFETY: as above.
+        unsafe { arrays.structure(SETTINGS, "settings", settings, false)? };
         let d = arrays.output(START, "d", d, n)?;
         let force = arrays.output(12, "F", F, n)?;
         let state = arrays.optional_output(13, "state", state, pairs)?;
         // SAFETY: as above.
         let extra = unsafe {
-            SignoriniReport::accept(14, report)?;
             arrays.structure(14, "report", report.cast_const(), true)?;
             Extra::read(&mut arrays, 15, extra, (n, pairs, 1))?
         };

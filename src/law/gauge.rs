@@ -77,7 +77,8 @@ impl PairLaw {
     pub(super) fn bring_back(&self, t: &mut [f64], threshold: f64) {
         let gauge = self.gauge(t);
         if gauge > threshold {
-            t.iter_mut().for_each(|t| *t *= threshold / gauge);
+            // The quotient of two forces far apart may be subnormal, with few digits.
+            t.iter_mut().for_each(|t| *t = *t / gauge * threshold);
         }
     }
 

@@ -2,7 +2,7 @@
  * Runs an entry without libFuzzer: the files that are named, then inputs of a random generator with a fixed seed,
  * half of them new, half of them changed copies of earlier ones.
  *
- *     ENTRY -seconds=5 -seed=1 -found=FILE [CORPUS_FILE...]
+ *     ENTRY -seconds=5 -executions=20000 -seed=1 -found=FILE [CORPUS_FILE...]
  *
  * The last line tells the number of executions. An input that stops the program is left in FILE.
  */
@@ -122,10 +122,11 @@ static void run(void)
 int main(int argc, char **argv)
 {
     double limit = 0;
-    uint64_t seed = 1, runs = 0;
+    uint64_t seed = 1, runs = 0, most = UINT64_MAX;
     int files = 0;
     for (int i = 1; i < argc; i++) {
         if (strncmp(argv[i], "-seconds=", 9) == 0) limit = atof(argv[i] + 9);
+        else if (strncmp(argv[i], "-executions=", 12) == 0) most = strtoull(argv[i] + 12, NULL, 10);
         else if (strncmp(argv[i], "-seed=", 6) == 0) seed = strtoull(argv[i] + 6, NULL, 10);
         else if (strncmp(argv[i], "-found=", 7) == 0) found = argv[i] + 7;
     }
@@ -147,7 +148,7 @@ int main(int argc, char **argv)
     }
     const double began = seconds();
     double slowest = 0;
-    while (limit > 0 && seconds() - began < limit) {
+    while (runs < most && seconds() - began < limit) {
         for (int i = 0; i < BATCH; i++, runs++) {
             current = pool[below(POOL)];
             if (below(2)) make_new(&current);

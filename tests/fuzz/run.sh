@@ -1,7 +1,8 @@
 #!/bin/sh
 # Fuzzing of the C interface, of the entries of Fortran 77 and of problem files.
 #
-#     sh tests/fuzz/run.sh [SECONDS [SEED]]     each entry, default 5 seconds with seed 1
+#     sh tests/fuzz/run.sh                      each entry, 10,000 inputs that are always the same, or 5 seconds
+#     sh tests/fuzz/run.sh SECONDS [SEED]       each entry for a time
 #     sh tests/fuzz/run.sh --libfuzzer SECONDS  with clang's libFuzzer, AddressSanitizer on both sides
 #     sh tests/fuzz/run.sh --replay ENTRY FILE  one input
 #
@@ -28,6 +29,7 @@ die() {
 
 mode=driver
 seconds=5
+executions=10000
 seed=1
 case ${1-} in
 --libfuzzer)
@@ -42,6 +44,7 @@ case ${1-} in
 '') ;;
 *)
     seconds=$1
+    executions=1000000000
     seed=${2:-1}
     ;;
 esac
@@ -102,7 +105,7 @@ for entry in $entries; do
         ;;
     driver)
         # shellcheck disable=SC2046 # names without spaces
-        (cd "$work" && "./$entry.$mode" "-seconds=$seconds" "-seed=$seed" "-found=$work/found.$entry" \
+        (cd "$work" && "./$entry.$mode" "-seconds=$seconds" "-executions=$executions" "-seed=$seed" "-found=$work/found.$entry" \
             $(corpus "$entry")) >"$log" 2>&1
         result=$?
         count=$(sed -n 's/.* \([0-9]*\) executions in .*/\1/p' "$log")

@@ -1,0 +1,45 @@
+#!/bin/sh
+# A cargo that is too old is refused in a sentence; and with --require a release is made: the tarball builds without
+# a network, the libraries have no path of this machine, and the packages have documentation and examples.
+#
+#     sh tests/release.sh [--require]
+#
+# Without --require the release, which builds all crates once more, is skipped, and it ends with 77.
+set -eu
+LC_ALL=C
+export LC_ALL
+
+root=$(CDPATH='' cd -- "$(dirname -- "$0")/.." && pwd)
+work=$root/target/tests/release
+rm -rf -- "$work"
+mkdir -p -- "$work/bin"
+die() {
+    echo "release: $*"
+    exit 1
+}
+
+printf '#!/bin/sh\necho "cargo 1.60.0 (abcdef 2022-01-01)"\n' >"$work/bin/cargo"
+chmod 755 "$work/bin/cargo"
+for name in replay install/install install/source; do
+    if PATH=$work/bin:$PATH sh "$root/c_examples/$name.sh" >"$work/said" 2>&1; then
+        die "$name.sh takes cargo 1.60"
+    fi
+    grep -q "cargo 1.60 is too old, [0-9.]* is needed: 'rustup update'" "$work/said" ||
+        { cat "$work/said"; die "$name.sh says something else"; }
+done
+echo "release: an old cargo is refused"
+
+if [ "${1:-}" != --require ]; then
+    echo "release: SKIPPED: the release itself (--require makes it)"
+    exit 77
+fi
+sh "$root/c_examples/install/release.sh" "$work/out"
+(cd "$work/out" && sha256sum -c SHA256SUMS)
+for package in "$work"/out/libsignorini-dev_*.deb; do
+    [ -f "$package" ] || continue
+    dpkg-deb -c "$package" >"$work/contents"
+    for file in README.md GUIDE.md examples/first/sparse.c changelog.gz copyright; do
+        grep -q "/usr/share/doc/libsignorini-dev/$file" "$work/contents" || die "$package lacks $file"
+    done
+done
+echo "release: passed"
