@@ -51,6 +51,12 @@ python_with() {
     return 1
 }
 
+# The parallel MUMPS: the header alone may be that of the sequential one.
+have_parallel_mumps() {
+    [ -f /usr/include/dmumps_c.h ] || return 1
+    echo 'int main(void) { return 0; }' | mpicc -x c - -ldmumps -o /dev/null >/dev/null 2>&1
+}
+
 have_fclib() {
     pkg-config --exists fclib hdf5 2>/dev/null
 }
@@ -79,6 +85,8 @@ host_packages() {
     /usr/bin/python3 -c 'import getfem' >/dev/null 2>&1 || echo python3-getfem
     python_with numpy,matplotlib,PIL >/dev/null || echo python3-numpy python3-matplotlib python3-pil
     [ -f /usr/include/mumps_seq/mpif.h ] || echo libmumps-seq-dev
+    have mpicc && have mpirun || echo libopenmpi-dev openmpi-bin
+    have_parallel_mumps || echo libmumps-dev
     have octave-cli && have mkoctfile || echo octave octave-dev
     have_fclib || echo libfclib-dev
 }
@@ -205,7 +213,7 @@ step "three dimensions" sh c_examples/3d.sh
 step "Ctrl-C and progress" sh tests/interrupt.sh
 step "fuzzing" sh tests/fuzz/run.sh
 for name in abi readme fortran two_blocks scripts host_calculix calculix_contact host_getfem \
-    host_mumps host_octave release; do
+    host_mumps host_mpi host_octave release; do
     # shellcheck disable=SC2086 # --require or nothing
     step "$name" sh "tests/$name.sh" $hosts
 done

@@ -1,0 +1,77 @@
+#!/bin/sh
+# Hosts on two and on four processes, with MUMPS and a matrix that lies on all of them: one that
+# condenses (its Schur complement to the library), one that only multiplies and solves. Each finds
+# what the library finds by itself on the whole matrix, and displacements come back to the processes.
+#
+#     sh tests/host_mpi.sh [--require]
+#
+# Without MPI or the parallel MUMPS it is skipped and ends with 77; with --require it fails. MPICC and
+# MPIRUN name the compiler and the launcher, MUMPS the directory of dmumps_c.h, default /usr/include.
+set -eu
+LC_ALL=C
+export LC_ALL
+
+root=$(CDPATH='' cd -- "$(dirname -- "$0")/.." && pwd)
+work=$root/target/tests/host_mpi
+examples=$root/c_examples
+mpi=$examples/hosts/mpi
+mpicc=${MPICC:-mpicc}
+mpirun=${MPIRUN:-mpirun}
+mumps=${MUMPS:-/usr/include}
+
+rm -rf -- "$work"
+mkdir -p -- "$work"
+
+missing=
+command -v "$mpicc" >/dev/null 2>&1 || missing=" libopenmpi-dev"
+command -v "$mpirun" >/dev/null 2>&1 || missing="$missing openmpi-bin"
+# The sequential MUMPS has the same header, but another name of the library.
+printf 'int main(void) { return 0; }\n' >"$work/empty.c"
+[ -f "$mumps/dmumps_c.h" ] && [ -z "$missing" ] &&
+    "$mpicc" "$work/empty.c" -ldmumps -o "$work/empty" >/dev/null 2>&1 ||
+    missing="$missing libmumps-dev"
+if [ -n "$missing" ]; then
+    echo "host_mpi: SKIPPED: missing (names of Debian):$missing"
+    [ "${1-}" != --require ] || exit 1
+    exit 77
+fi
+
+command -v cargo >/dev/null || PATH=$PATH:${CARGO_HOME:-${HOME:-/root}/.cargo}/bin
+(cd "$root" && cargo build --quiet --release --locked --lib --target-dir "$root/target")
+
+# build PROGRAM SOURCE...
+build() {
+    program=$1
+    shift
+    "$mpicc" -std=c11 -O2 -Wall -Wextra -Wshadow -Wconversion -Werror -I"$root/include" -I"$mumps" \
+        "$mpi/$program.c" "$@" "$mpi/serial.c" "$mpi/factor.c" "$mpi/block.c" \
+        "$examples/3d/brick_mesh.c" "$examples/3d/brick_element.c" "$examples/common/checks.c" \
+        "$root/target/release/libsignorini.a" -ldmumps -lm -lpthread -ldl -o "$work/$program"
+}
+
+# Open MPI starts no more processes than there are cores, and none for root, unless it is told to.
+# Processes that wait shall leave the core to the others. Ten minutes are an error.
+options=
+if "$mpirun" --version 2>/dev/null | grep -q 'Open MPI'; then
+    options=--oversubscribe
+    [ "$(id -u)" != 0 ] || options="$options --allow-run-as-root"
+fi
+OMPI_MCA_mpi_yield_when_idle=1
+MPIEXEC_TIMEOUT=600
+# One thread of the BLAS and of MUMPS for each process.
+OMP_NUM_THREADS=1
+OPENBLAS_NUM_THREADS=1
+export OMPI_MCA_mpi_yield_when_idle MPIEXEC_TIMEOUT OMP_NUM_THREADS OPENBLAS_NUM_THREADS
+
+build schur
+build products "$mpi/service.c"
+for program in schur products; do
+    for processes in 2 4; do
+        # shellcheck disable=SC2086 # several options
+        "$mpirun" $options -n "$processes" "$work/$program" || {
+            echo "host_mpi: $program on $processes processes failed"
+            exit 1
+        }
+    done
+done
+echo "host_mpi: passed"
