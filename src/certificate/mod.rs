@@ -18,9 +18,10 @@
 //! Two facts of doubles are taken into account:
 //!
 //! - A closing gap or an earlier slip may translate or rotate a body rigidly. These displacements
-//!   cancel in `K d` up to rounding only, so that a residual below [`FORGIVEN`] units of their rounding
-//!   counts as zero. Displacements up to [`LEVER`] times the largest gap or slip qualify: a body that
-//!   turns about a contact moves as much more at its far end as its length exceeds the contact's.
+//!   cancel in `K d` up to rounding only, so that a method need not lower a residual below [`FORGIVEN`] units
+//!   of their rounding: `eta` takes it for zero. Displacements up to [`LEVER`] times the largest gap or slip
+//!   qualify: a body that turns about a contact moves as much more at its far end as its length exceeds the
+//!   contact's. A result is measured with nothing forgiven.
 //! - Where rounding `d` to doubles changes `K d` by a part of the forces (`rounding >` [`ROUNDING_LIMIT`])
 //!   nothing is certified unless `K` resists `d` by more energy than rounding of its entries explains: an
 //!   unconstrained body would be "solved" by moving it far enough. Without loads there is nothing to drive
@@ -72,15 +73,14 @@ pub struct Certificate {
 }
 
 impl Certificate {
-    /// Whether the candidate may be called a solution.
+    /// Whether the candidate may be called a solution: nothing is forgiven.
     pub fn holds(&self, tolerance: f64) -> bool {
-        self.eta <= tolerance && !self.runs_away()
+        self.residual <= tolerance && !self.runs_away()
     }
 
-    /// The same certificate with nothing forgiven, where that meets the tolerance too.
-    pub(crate) fn unforgiving(self, tolerance: f64) -> Self {
-        let eta = if self.residual <= tolerance { self.residual } else { self.eta };
-        Certificate { eta, ..self }
+    /// The same certificate with nothing forgiven, as it is reported.
+    pub(crate) fn unforgiving(self) -> Self {
+        Certificate { eta: self.residual, ..self }
     }
 
     /// Whether the displacements are so large that rounding hides the forces.

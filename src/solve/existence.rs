@@ -30,8 +30,7 @@ fn move_to_middle(
     solution: &mut Solution,
     proof: &Proof,
 ) {
-    let certificate =
-        measure_parts(contact, &proof.d, &proof.d_low).unforgiving(settings.tolerance);
+    let certificate = measure_parts(contact, &proof.d, &proof.d_low).unforgiving();
     let same = certificate.states == solution.certificate.states;
     if certificate.holds(settings.tolerance) && same {
         solution.d.clone_from(&proof.d);

@@ -99,8 +99,7 @@ fn on_all_obstacles(
     settings: &Settings,
     mut solution: Solution,
 ) -> Result<Solution, Vec<f64>> {
-    let certificate =
-        |d: &[f64], low: &[f64]| measure_parts(contact, d, low).unforgiving(settings.tolerance);
+    let certificate = |d: &[f64], low: &[f64]| measure_parts(contact, d, low).unforgiving();
     let own = certificate(&solution.d, &solution.d_low);
     if !own.holds(settings.tolerance) {
         return Err(solution.d);
