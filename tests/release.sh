@@ -1,6 +1,6 @@
 #!/bin/sh
 # A cargo that is too old is refused in a sentence; and with --require a release is made: the tarball builds without
-# a network, the libraries have no path of this machine, and the packages have documentation and examples.
+# a network, the shared library has no path of this machine, and the packages have documentation and examples.
 #
 #     sh tests/release.sh [--require]
 #

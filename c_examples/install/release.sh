@@ -3,7 +3,7 @@
 #
 #     sh c_examples/install/release.sh [OUT]
 #
-# All goes to OUT, by default target/release_files. No path of this machine is in the libraries: the compiler writes
+# All goes to OUT, by default target/release_files. No path of this machine is in the shared library: the compiler writes
 # signorini/ and crates/ instead. Before that: the version in Cargo.toml and its section in CHANGELOG.md agree, and
 # sh tests/run.sh --hosts has passed. MAINTAINER is as for debian.sh. To publish, tag the commit vVERSION.
 set -eu
@@ -34,12 +34,9 @@ export RUSTFLAGS CARGO_NET_OFFLINE
 unset CARGO_TARGET_DIR
 say "building without a network"
 (cd "$tree" && cargo build --quiet --release --locked --offline --lib)
-for built in "$tree"/target/release/libsignorini.*; do
-    case $built in *.d | *.rlib) continue ;; esac
-    if grep -aqF -e "$work" -e "${HOME:-/root}/" "$built"; then
-        die "a path of this machine is in ${built##*/}"
-    fi
-done
+if grep -aqF -e "$work" -e "${HOME:-/root}/" "$tree/target/release/libsignorini.so"; then
+    die "a path of this machine is in libsignorini.so"
+fi
 if command -v dpkg-deb >/dev/null && command -v dpkg-shlibdeps >/dev/null; then
     sh "$tree/c_examples/install/debian.sh" "$out"
 else

@@ -70,11 +70,11 @@ pub unsafe extern "C" fn signorini_model_solve(
         let cases = size(2, "cases", cases)?;
         // SAFETY: arrays of the lengths of the header, structures that begin with their size.
         let (load_cases, received) = unsafe {
-            (given.read(&mut arrays, model, cases)?, SignoriniSettings::read(SETTINGS, settings)?)
+            let load_cases = given.read(&mut arrays, model, cases)?;
+            arrays.structure(SETTINGS, "settings", settings, false)?;
+            (load_cases, SignoriniSettings::read(SETTINGS, settings)?)
         };
         received.settings.validate().map_err(|error| Failure::from_error(error, |_| SETTINGS))?;
-        // SAFETY: as above.
-        unsafe { arrays.structure(SETTINGS, "settings", settings, false)? };
         let (pairs, n) = (model.pairs(), model.dim() * model.pairs());
         let (all_pairs, all) = (times(cases, pairs)?, times(cases, n)?);
         let d = arrays.output(START, "d", d, all)?;
@@ -87,7 +87,6 @@ pub unsafe extern "C" fn signorini_model_solve(
             (reports, Extra::read(&mut arrays, 15, extra, (n, pairs, cases))?)
         };
         arrays.check_overlap()?;
-
         let block = Block { model, given: &given, load_cases, d, force, state, reports, extra };
         let mut first = None;
         for case in 0..cases {
