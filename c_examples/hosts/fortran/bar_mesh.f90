@@ -7,18 +7,25 @@ module bar_mesh
     integer, parameter :: dp = kind(1d0), columns = 32, rows = 5, pairs = columns + 1
     integer, parameter :: components = 2*pairs*(rows + 1), triplets = 36*columns*rows
 contains
-    subroutine bar_assemble(i, j, value, load)
-        integer, intent(out) :: i(triplets), j(triplets)
-        real(dp), intent(out) :: value(triplets), load(components)
-        integer :: row, column, a, b, t, at(8)
+    ! All of it; or the elements of some columns, first to last, with 36*rows triplets for each column,
+    ! and their shares of the loads.
+    subroutine bar_assemble(i, j, value, load, first, last)
+        integer, intent(out) :: i(:), j(:)
+        real(dp), intent(out) :: value(:), load(components)
+        integer, intent(in), optional :: first, last
+        integer :: row, column, a, b, t, at(8), from, to
         real(dp) :: k(8, 8), width, height
+        from = 1
+        to = columns
+        if (present(first)) from = first
+        if (present(last)) to = last
         load = 0
         t = 0
         width = 40d0/columns
         do row = 1, rows
             height = 40d0*1.7d0**(row - 1)*0.7d0/(1.7d0**rows - 1)
             k = element(width, height)
-            do column = 1, columns
+            do column = from, to
                 a = pairs*(row - 1) + column
                 at = [2*a - 1, 2*a, 2*a + 1, 2*a + 2, 2*(a + pairs) + 1, 2*(a + pairs) + 2, &
                       2*(a + pairs) - 1, 2*(a + pairs)]
@@ -34,6 +41,28 @@ contains
                 if (column == 1) load(at([1, 7])) = load(at([1, 7])) + 5*height
                 if (row == rows) load(at([6, 8])) = load(at([6, 8])) - 2.5d0*width
             end do
+        end do
+    end subroutine
+
+    ! Triplets to compressed columns, column by column through one that is full.
+    subroutine bar_compress(i, j, value, starts, lines, values)
+        integer, intent(in) :: i(:), j(:)
+        real(dp), intent(in) :: value(:)
+        integer, intent(out) :: starts(:)
+        integer, allocatable, intent(out) :: lines(:)
+        real(dp), allocatable, intent(out) :: values(:)
+        real(dp), allocatable :: full(:, :)
+        integer :: t, row, column
+        allocate (full(components, components))
+        full = 0
+        do t = 1, size(value)
+            full(i(t), j(t)) = full(i(t), j(t)) + value(t)
+        end do
+        lines = pack(spread([(row, row=1, components)], 2, components), full /= 0)
+        values = pack(full, full /= 0)
+        starts(1) = 1
+        do column = 1, components
+            starts(column + 1) = starts(column) + count(full(:, column) /= 0)
         end do
     end subroutine
 

@@ -15,7 +15,7 @@ program bar_sparse
     character(len=256) :: message
 
     call bar_assemble(i, j, value, load)
-    call compress(i, j, value, starts, lines, values)
+    call bar_compress(i, j, value, starts, lines, values)
     slaves = reshape([(p, p=1, 2*pairs)], [2, pairs])
     normals(1, :) = 0
     normals(2, :) = -1
@@ -44,27 +44,5 @@ contains
     subroutine give_up
         print '(a, i0, 2a)', 'info = ', info, ': ', trim(message)
         stop 1
-    end subroutine
-
-    ! Triplets to compressed columns, column by column through one that is full.
-    subroutine compress(i, j, value, starts, lines, values)
-        integer, intent(in) :: i(:), j(:)
-        real(dp), intent(in) :: value(:)
-        integer, intent(out) :: starts(:)
-        integer, allocatable, intent(out) :: lines(:)
-        real(dp), allocatable, intent(out) :: values(:)
-        real(dp), allocatable :: full(:, :)
-        integer :: t, row, column
-        allocate (full(components, components))
-        full = 0
-        do t = 1, size(value)
-            full(i(t), j(t)) = full(i(t), j(t)) + value(t)
-        end do
-        lines = pack(spread([(row, row=1, components)], 2, components), full /= 0)
-        values = pack(full, full /= 0)
-        starts(1) = 1
-        do column = 1, components
-            starts(column + 1) = starts(column) + count(full(:, column) /= 0)
-        end do
     end subroutine
 end program

@@ -6,6 +6,11 @@
 
 enum {
     BEGIN = -1, END = -2, SOLVE = 3, /* JOB */
+    /*
+     * ICNTL(14), percent beyond the estimate: of a small matrix on several processes MUMPS may
+     * estimate too little, and ends with INFOG(1) = -9.
+     */
+    MORE_MEMORY = 200,
     DISTRIBUTED_MATRIX = 3,          /* ICNTL(18) */
     DISTRIBUTED_LOAD = 10,           /* ICNTL(20) */
     DISTRIBUTED_SOLUTION = 1         /* ICNTL(21) */
@@ -72,6 +77,7 @@ int factor_begin(struct factor *factor, const struct part *part)
         return status;
     for (int i = 1; i <= 4; i++)
         mumps->ICNTL(i) = 0; /* silence */
+    mumps->ICNTL(14) = MORE_MEMORY;
     mumps->ICNTL(18) = DISTRIBUTED_MATRIX;
     mumps->n = TOTAL;
     give_pattern(factor);
