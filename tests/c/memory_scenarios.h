@@ -71,8 +71,14 @@ static void add_blocks(struct world *world)
             world->load[3 * node + 2] = -1;
             world->load[3 * node] = 0.1;
         }
-    for (int k = 0; k < MANY * mesh->dofs; k++)
-        world->loads[k] = world->load[k % mesh->dofs] * (1 + 0.01 * (k / mesh->dofs));
+    /* Cases that press the lower block against what is above it. */
+    for (int c = 0; c < MANY; c++)
+        for (int j = 0; j <= 4; j++)
+            for (int i = 0; i <= 4; i++) {
+                const int32_t node = brick_node(mesh, LOWER, i, j, 3);
+                world->loads[c * mesh->dofs + 3 * node + 2] = 1 + 0.01 * c;
+                world->loads[c * mesh->dofs + 3 * node] = 0.2;
+            }
 }
 
 static struct world *world_new(void)
