@@ -85,6 +85,7 @@ module signorini
     integer(c_int32_t), parameter :: SIGNORINI_METHOD_BLOCK_PIVOTING = 4
     integer(c_int32_t), parameter :: SIGNORINI_METHOD_NEWTON = 5
     integer(c_int32_t), parameter :: SIGNORINI_METHOD_PATH = 6
+    integer(c_int32_t), parameter :: SIGNORINI_START_PREVIOUS = 2
     integer(c_int32_t), parameter :: SIGNORINI_SEARCH_OFF = 0
     integer(c_int32_t), parameter :: SIGNORINI_SEARCH_OTHERS = 1
     integer(c_int32_t), parameter :: SIGNORINI_STATE_OPEN = 0
@@ -616,6 +617,17 @@ module signorini
             bind(C, name="signorini_model_recover") result(answer)
             import
             type(c_ptr), value :: model
+            type(c_ptr), value :: f
+            type(c_ptr), value :: prescribed
+            real(c_double), intent(in) :: d(*)
+            real(c_double), intent(out) :: u(*)
+            integer(c_int32_t) :: answer
+        end function
+        function signorini_model_recover_cases(model, cases, f, prescribed, d, u) &
+            bind(C, name="signorini_model_recover_cases") result(answer)
+            import
+            type(c_ptr), value :: model
+            integer(c_int64_t), value :: cases
             type(c_ptr), value :: f
             type(c_ptr), value :: prescribed
             real(c_double), intent(in) :: d(*)

@@ -539,7 +539,8 @@ int32_t signorini_model_stiffness(const signorini_model *model, double *K);
 /**
  * Solves load cases, one after the other. Every array has a column for each case, without space
  * between the columns. All cases have the same law. A case that is wrong or not solved does not
- * stop the others; the d, F, state, report and extra of a wrong case are not written.
+ * stop the others; the d, F, state, report and extra of a wrong case are not written. Many cases
+ * of a sparse model in one call cost less than one by one: their loads are condensed together.
  *
  * Load steps with friction: in each step hand over as slip0 the d_t of the step before, zero at
  * first. The model keeps no state.
@@ -584,6 +585,22 @@ int32_t signorini_model_solve(const signorini_model *model, int64_t cases, const
  */
 int32_t signorini_model_recover(const signorini_model *model, const double *f,
                                 const double *prescribed, const double *d, double *u);
+
+/**
+ * Displacements of the host for many load cases at once, each as by signorini_model_recover. Every
+ * array has a column for each case, without space between the columns. Of a sparse model a case
+ * costs a fraction of what it costs by itself.
+ *
+ * @param model       the model
+ * @param cases       number of load cases, 0 allowed
+ * @param f           nodal loads, H entries a case; NULL: zero
+ * @param prescribed  values of the fixed degrees of freedom; NULL: zero
+ * @param d           relative displacements, N entries a case
+ * @param u           out: displacements, H entries a case
+ * @return 0; -k: the k-th argument is wrong, in the case that signorini_last_error names
+ */
+int32_t signorini_model_recover_cases(const signorini_model *model, int64_t cases, const double *f,
+                                      const double *prescribed, const double *d, double *u);
 
 /**
  * Contact forces as a nodal force vector of the host. Sparse model: F on the slaves, the opposite
@@ -1262,6 +1279,11 @@ const char *signorini_problem_remark(const signorini_problem *problem);
  */
 #define SIGNORINI_METHOD_PATH 6
 
+/**
+ * settings.warm_start of signorini_model_solve: each case starts from the solution of the last case
+ * before that was solved, the first one as with 0; d needs no start. Other calls have one case.
+ */
+#define SIGNORINI_START_PREVIOUS 2
 /** Report only what the solution itself proves about other solutions. The default. */
 #define SIGNORINI_SEARCH_OFF 0
 /** Prove that the solution is unique, or look for a second one. It costs several solutions. */
@@ -1312,7 +1334,7 @@ struct signorini_settings {
     /**
      * Nonzero: start from what d holds (Newton in 2D, block pivoting: from its states). Default 0:
      * start from d = 0 (Newton in 2D, block pivoting: from all pairs sticking). Lemke's method has
-     * no start.
+     * no start. SIGNORINI_START_PREVIOUS: from the solution of the case before.
      */
     int32_t warm_start;
     int32_t search;                 /**< SIGNORINI_SEARCH_...; default SIGNORINI_SEARCH_OFF. */

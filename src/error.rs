@@ -111,6 +111,15 @@ impl Error {
         Error::Stopped { limit, message: message.into() }
     }
 
+    /// The same of one of several load cases.
+    pub(crate) fn in_case(self, case: usize) -> Self {
+        let message = self.message();
+        match self {
+            Error::Invalid { argument, .. } => Self::invalid(argument, message.in_case(case)),
+            other => other,
+        }
+    }
+
     /// The sentence.
     pub fn message(&self) -> Message {
         match self {
@@ -159,6 +168,11 @@ impl Message {
     /// The sentence for Fortran: `pair 12: K[12,7]` is `pair 13: K(13,8)`.
     pub fn counted_from_one(&self) -> String {
         resolve(&self.marked, 1)
+    }
+
+    /// The sentence of one of several load cases.
+    pub(crate) fn in_case(&self, case: usize) -> Self {
+        format!("case {}: {}", index(case), self.marked).into()
     }
 
     /// The sentence with its marks, to become a part of a longer one.

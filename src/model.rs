@@ -1,7 +1,9 @@
 //! Reduce once, solve many load cases, recover.
 
 mod arguments;
+mod cases;
 mod load_case;
+mod memory;
 mod recovery;
 mod surfaces;
 mod unformed;
@@ -9,6 +11,8 @@ mod unformed;
 use std::path::Path;
 
 use arguments::{check_fixed_gaps, check_length, check_vector};
+pub(crate) use cases::BLOCK;
+pub use cases::Starts;
 pub use load_case::LoadCase;
 
 use crate::certificate::{Certificate, certify};
@@ -26,8 +30,8 @@ use crate::reduce::{
 };
 use crate::settings::Settings;
 use crate::solve::{
-    NO_EQUILIBRIUM, Solution, Status, certify_unformed, check_start, memory, memory_unformed,
-    solve, solve_dependent, solve_unformed,
+    NO_EQUILIBRIUM, Solution, Status, certify_unformed, check_start, solve, solve_dependent,
+    solve_unformed,
 };
 
 /// A structure, reduced to its contact pairs. It does not change: several threads may use it.
@@ -179,17 +183,6 @@ impl Model {
         self.reduction.condense(load, prescribed)
     }
 
-    /// Most bytes that [`Self::solve`] takes beside the model.
-    pub fn memory(&self) -> u64 {
-        if let Some(unformed) = self.reduction.unformed() {
-            let inner = unformed.bodies().inner();
-            return unformed.factor_bytes() + memory_unformed(inner + self.dim * self.pairs);
-        }
-        // Dependent rows are solved with springs between bodies and contact.
-        let springs = self.reduction.dependence().map_or(0, Dependence::variables);
-        memory(self.dim * self.pairs + springs)
-    }
-
     /// Measures relative displacements `d` of any origin on a load case.
     ///
     /// # Errors
@@ -202,7 +195,7 @@ impl Model {
             return self
                 .on_bodies(unformed, case, |bodies, case| certify_unformed(bodies, case, d));
         }
-        self.reduced(case, |problem| Ok(certify(problem, d)))
+        self.reduced((case, None), |problem| Ok(certify(problem, d)))
     }
 
     /// Solves a load case from the relative displacements `start`.
@@ -216,6 +209,17 @@ impl Model {
         start: Option<&[f64]>,
         monitor: &mut Monitor<'_>,
     ) -> Result<Solution, Error> {
+        self.solve_condensed(case, None, (settings, start), monitor)
+    }
+
+    /// As [`Self::solve`]; `load` is what the loads condense to, if that is known.
+    fn solve_condensed(
+        &self,
+        case: &LoadCase<'_>,
+        load: Option<Vec<f64>>,
+        (settings, start): (&Settings, Option<&[f64]>),
+        monitor: &mut Monitor<'_>,
+    ) -> Result<Solution, Error> {
         if let Some(unformed) = self.reduction.unformed() {
             check_start("d", self.dim * self.pairs, start)?;
             return self.on_bodies(unformed, case, |bodies, case| {
@@ -225,12 +229,12 @@ impl Model {
             });
         }
         if let Some(dependence) = self.reduction.dependence() {
-            return self.on_dependent_rows(dependence, case, |problem| {
+            return self.on_dependent_rows(dependence, (case, load), |problem| {
                 let solution = solve_dependent(problem, settings, start, monitor)?;
                 Ok(self.with_motion(solution, problem.relation().load()))
             });
         }
-        self.reduced(case, |problem| {
+        self.reduced((case, load), |problem| {
             let solution = solve(problem, settings, start, monitor)?;
             Ok(self.with_motion(solution, problem.load()))
         })
@@ -261,17 +265,18 @@ impl Model {
         case: &LoadCase<'_>,
         remark: Option<&str>,
     ) -> Result<(), Error> {
-        self.reduced(case, |problem| file::write(path, problem, remark))
+        self.reduced((case, None), |problem| file::write(path, problem, remark))
     }
 
-    /// Hands over the contact problem of a load case.
+    /// Hands over the contact problem of a load case, with what its loads condense to if that is known.
     fn reduced<T>(
         &self,
-        case: &LoadCase<'_>,
+        (case, load): (&LoadCase<'_>, Option<Vec<f64>>),
         to: impl FnOnce(&ContactProblem<'_>) -> Result<T, Error>,
     ) -> Result<T, Error> {
         self.check_formed()?;
-        let load = self.condensed_load(case.load, case.prescribed)?;
+        let condensed = || self.condensed_load(case.load, case.prescribed);
+        let load = load.map_or_else(condensed, Ok)?;
         check_fixed_gaps(self.reduction.fixed_components(), self.dim, case.gap)?;
         let slip = case.reference_slip.map(|slip| self.allowed_slip(slip));
         let problem = ContactProblem::on_checked_matrix(ContactData {
@@ -294,11 +299,14 @@ impl Model {
     fn on_dependent_rows<T>(
         &self,
         dependence: &Dependence,
-        case: &LoadCase<'_>,
+        (case, load): (&LoadCase<'_>, Option<Vec<f64>>),
         to: impl FnOnce(&ContactProblem<'_, DependentRows<'_>>) -> Result<T, Error>,
     ) -> Result<T, Error> {
-        self.check_loads(Some(case.load), case.prescribed)?;
-        let load = self.reduction.condense(case.load, case.prescribed)?;
+        let condensed = || {
+            self.check_loads(Some(case.load), case.prescribed)?;
+            self.reduction.condense(case.load, case.prescribed)
+        };
+        let load = load.map_or_else(condensed, Ok)?;
         let offset = self.reduction.offset(case.prescribed);
         let slip = case.reference_slip.map(|slip| self.allowed_slip(slip));
         let stiffness = (self.reduction.stiffness(), &load[..]);

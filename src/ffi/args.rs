@@ -65,9 +65,25 @@ impl Arrays {
         length: usize,
     ) -> Result<&'a [f64], Failure> {
         refuse_null(position, name, pointer, length)?;
+        // SAFETY: by the caller's contract.
+        let values = unsafe { self.matrix_or_null(position, name, pointer, length)? };
+        Ok(values.unwrap_or_default())
+    }
+
+    /// As [`Self::matrix`], `None` if it is NULL or has no elements.
+    ///
+    /// # Safety
+    /// As for [`Self::required`].
+    pub(super) unsafe fn matrix_or_null<'a>(
+        &mut self,
+        position: i32,
+        name: &'static str,
+        pointer: *const f64,
+        length: usize,
+    ) -> Result<Option<&'a [f64]>, Failure> {
         let present = self.note(position, name, pointer, length, false)?;
         // SAFETY: as in `optional`.
-        Ok(if present { unsafe { std::slice::from_raw_parts(pointer, length) } } else { &[] })
+        Ok(present.then(|| unsafe { std::slice::from_raw_parts(pointer, length) }))
     }
 
     /// An array to read, `None` if it is NULL or has no elements.

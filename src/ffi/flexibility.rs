@@ -110,7 +110,7 @@ pub unsafe extern "C" fn signorini_flexibility_solve(
 
         let problem = FlexibilityProblem::from_flexibility(data).map_err(from_error)?;
         // SAFETY: F has n entries, which the caller has filled if it asked for a warm start.
-        let start = received.warm_start.then(|| unsafe { force.read() });
+        let start = received.starts_from_given().then(|| unsafe { force.read() });
         let mut progress = received.progress();
         let progress = progress.as_mut().map(|progress| progress as &mut ProgressFn<'_>);
         let mut monitor = Monitor::new(&received.settings, progress);

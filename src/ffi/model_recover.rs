@@ -1,10 +1,13 @@
 //! From relative displacements and contact forces back to the host, and what a load case condenses
 //! to.
 
-use super::args::Arrays;
+use super::args::{Arrays, size};
 use super::guard::{self, Failure};
 use super::model_new::{SignoriniModel, read};
+use super::model_solve::times;
 use crate::error::Argument;
+use crate::model::BLOCK;
+use crate::reduce::SolvedCase;
 
 /// Displacements of the host from the relative ones, for one load case.
 ///
@@ -44,6 +47,76 @@ pub unsafe extern "C" fn signorini_model_recover(
         }
         Ok(0)
     })
+}
+
+/// Displacements of the host for many load cases at once, each as by signorini_model_recover. Every
+/// array has a column for each case, without space between the columns. Of a sparse model a case
+/// costs a fraction of what it costs by itself.
+///
+/// @param model       the model
+/// @param cases       number of load cases, 0 allowed
+/// @param f           nodal loads, H entries a case; NULL: zero
+/// @param prescribed  values of the fixed degrees of freedom; NULL: zero
+/// @param d           relative displacements, N entries a case
+/// @param u           out: displacements, H entries a case
+/// @return 0; -k: the k-th argument is wrong, in the case that signorini_last_error names
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn signorini_model_recover_cases(
+    model: *const SignoriniModel,
+    cases: i64,
+    f: *const f64,
+    prescribed: *const f64,
+    d: *const f64,
+    u: *mut f64,
+) -> i32 {
+    guard::call(|| {
+        let mut arrays = Arrays::default();
+        // SAFETY: a model and arrays as the header demands.
+        unsafe {
+            let model = read(model)?;
+            let cases = size(2, "cases", cases)?;
+            let (host, fixed) = (model.host_size(), model.fixed_count());
+            let n = model.dim() * model.pairs();
+            let load = arrays.matrix_or_null(3, "f", f, times(cases, host)?)?;
+            let values =
+                arrays.matrix_or_null(4, "prescribed", prescribed, times(cases, fixed)?)?;
+            let d = arrays.matrix(5, "d", d, times(cases, n)?)?;
+            let out = arrays.output_matrix(6, "u", u, times(cases, host)?)?;
+            arrays.check_overlap()?;
+            guard::reserve_estimate(model.memory_of_recovery(cases))?;
+            let case = |k: usize| SolvedCase {
+                load: load.map(|load| &load[host * k..host * (k + 1)]),
+                prescribed: values.map(|values| &values[fixed * k..fixed * (k + 1)]),
+                d: &d[n * k..n * (k + 1)],
+            };
+            // Nothing is written if a case is wrong.
+            for k in 0..cases {
+                model.check_solved(&case(k)).map_err(|error| {
+                    let error = if cases == 1 { error } else { error.in_case(k) };
+                    Failure::from_error(error, position)
+                })?;
+            }
+            for begin in (0..cases).step_by(BLOCK) {
+                let many = BLOCK.min(cases - begin);
+                let block: Vec<_> = (begin..begin + many).map(case).collect();
+                let recovered = model.recover_cases(&block);
+                let recovered = recovered.map_err(|error| Failure::from_error(error, position))?;
+                for (k, u) in (begin..).zip(recovered) {
+                    out.part(host * k, host).write(&u);
+                }
+            }
+        }
+        Ok(0)
+    })
+}
+
+/// Number of the argument of [`signorini_model_recover_cases`] that an error is about.
+fn position(argument: Argument) -> i32 {
+    match argument {
+        Argument::Load => 3,
+        Argument::Prescribed => 4,
+        _ => 5,
+    }
 }
 
 /// Contact forces as a nodal force vector of the host. Sparse model: F on the slaves, the opposite

@@ -6,19 +6,21 @@ use super::guard::{self, Failure};
 use super::law;
 use super::model_new::{SignoriniModel, read};
 use super::report::{Reports, SignoriniReport, state_codes};
-use super::settings::{Received, SignoriniSettings};
+use super::settings::{Received, SignoriniSettings, WarmStart};
 use super::status::{code, remember};
-use crate::error::{Argument, Message, index};
-use crate::model::{LoadCase, Model};
-use crate::monitor::{Monitor, ProgressFn};
+use crate::error::{Argument, Error, Message};
+use crate::model::{BLOCK, LoadCase, Model, Starts};
+use crate::monitor::ProgressFn;
 use crate::problem::FrictionLaw;
+use crate::solve::{Solution, Status};
 
 const SETTINGS: i32 = 9;
 const START: i32 = 10;
 
 /// Solves load cases, one after the other. Every array has a column for each case, without space
 /// between the columns. All cases have the same law. A case that is wrong or not solved does not
-/// stop the others; the d, F, state, report and extra of a wrong case are not written.
+/// stop the others; the d, F, state, report and extra of a wrong case are not written. Many cases
+/// of a sparse model in one call cost less than one by one: their loads are condensed together.
 ///
 /// Load steps with friction: in each step hand over as slip0 the d_t of the step before, zero at
 /// first. The model keeps no state.
@@ -88,21 +90,7 @@ pub unsafe extern "C" fn signorini_model_solve(
         };
         arrays.check_overlap()?;
         let block = Block { model, given: &given, load_cases, d, force, state, reports, extra };
-        let mut first = None;
-        for case in 0..cases {
-            let (code, message) = block.solve(case, &received);
-            // SAFETY: one status for each case, as the header demands.
-            unsafe { status.part(case, 1).write(&[code]) };
-            if code != 0 && first.is_none() {
-                first = Some(code);
-                // Of one case nobody asks which.
-                match cases {
-                    1 => remember(message),
-                    _ => remember(format!("case {}: {}", index(case), message.marked())),
-                }
-            }
-        }
-        Ok(first.unwrap_or(0))
+        Ok(block.solve_all(cases, &received, &status))
     })
 }
 
@@ -130,6 +118,7 @@ impl CaseArguments {
         cases: usize,
     ) -> Result<LoadCases<'a>, Failure> {
         guard::reserve_estimate(model.memory())?;
+        guard::reserve_estimate(model.memory_of_cases(cases))?;
         let at = |offset| self.first + offset;
         let slips = (model.dim() - 1) * model.pairs();
         let (host, fixed) = (times(cases, model.host_size())?, times(cases, model.fixed_count())?);
@@ -138,7 +127,7 @@ impl CaseArguments {
         unsafe {
             Ok(LoadCases {
                 model,
-                load: arrays.required(at(0), "f", self.f, host)?,
+                load: arrays.matrix(at(0), "f", self.f, host)?,
                 prescribed: arrays.optional(at(1), "prescribed", self.prescribed, fixed)?,
                 gap: arrays.required(at(2), "gap", self.gap, pairs)?,
                 law: law::read(arrays, at(3), (self.law, self.friction), pairs)?,
@@ -192,7 +181,7 @@ impl<'a> LoadCases<'a> {
 }
 
 /// `length` for each case.
-fn times(cases: usize, length: usize) -> Result<usize, Failure> {
+pub(super) fn times(cases: usize, length: usize) -> Result<usize, Failure> {
     length
         .checked_mul(cases)
         .ok_or_else(|| Failure::argument(2, format!("cases is {cases}, too many cases")))
@@ -211,23 +200,67 @@ struct Block<'a> {
 }
 
 impl Block<'_> {
-    /// Solves a case and writes its results, unless it is wrong. Returns status and message.
-    fn solve(&self, case: usize, received: &Received) -> (i32, Message) {
-        let (pairs, n) = (self.model.pairs(), self.model.dim() * self.model.pairs());
-        let load_case = self.load_cases.case(case);
-        let d = self.d.part(n * case, n);
-        // SAFETY: d has n entries for each case, filled by a caller that wants a warm start.
-        let start = received.warm_start.then(|| unsafe { d.read() });
+    /// Solves all cases and writes their results. Returns the status of the first one that is not solved, and
+    /// remembers its message.
+    fn solve_all(&self, cases: usize, received: &Received, status: &Output<i32>) -> i32 {
+        let (mut first, mut before) = (None, None);
+        for begin in (0..cases).step_by(BLOCK) {
+            let many = BLOCK.min(cases - begin);
+            let answers = self.solve(begin, many, received, &mut before);
+            for (case, (code, message)) in (begin..).zip(answers) {
+                // SAFETY: one status for each case, as the header demands.
+                unsafe { status.part(case, 1).write(&[code]) };
+                if code != 0 && first.is_none() {
+                    first = Some(code);
+                    // Of one case nobody asks which.
+                    remember(if cases == 1 { message } else { message.in_case(case) });
+                }
+            }
+        }
+        first.unwrap_or(0)
+    }
+
+    /// Solves cases from number `begin` on and writes their results, unless they are wrong. Returns status and
+    /// message of each one. `before` is the solution before them, and then the last of them.
+    fn solve(
+        &self,
+        begin: usize,
+        many: usize,
+        received: &Received,
+        before: &mut Option<Vec<f64>>,
+    ) -> Vec<(i32, Message)> {
+        let n = self.model.dim() * self.model.pairs();
+        let cases: Vec<_> = (begin..begin + many).map(|k| self.load_cases.case(k)).collect();
+        let given;
+        let starts = match received.warm_start {
+            WarmStart::None => Starts::Cold,
+            WarmStart::Given => {
+                // SAFETY: d has n entries for each case, filled by a caller that wants a warm start.
+                given = unsafe { self.d.part(n * begin, n * many).read() };
+                Starts::Given(&given)
+            }
+            WarmStart::Previous => Starts::Previous(before.as_deref()),
+        };
         let mut progress = received.progress();
         let progress = progress.as_mut().map(|progress| progress as &mut ProgressFn<'_>);
-        let mut monitor = Monitor::new(&received.settings, progress);
-        match self.model.solve(&load_case, &received.settings, start.as_deref(), &mut monitor) {
+        let solved = self.model.solve_cases(&cases, &received.settings, starts, progress);
+        let last = solved.iter().rev().flatten().find(|found| found.status == Status::Solved);
+        if let Some(last) = last {
+            *before = Some(last.d.clone());
+        }
+        (begin..).zip(solved).map(|(case, solved)| self.write(case, solved)).collect()
+    }
+
+    /// Writes the results of a case, unless it is wrong. Returns status and message.
+    fn write(&self, case: usize, solved: Result<Solution, Error>) -> (i32, Message) {
+        let (pairs, n) = (self.model.pairs(), self.model.dim() * self.model.pairs());
+        match solved {
             Ok(solution) => {
                 let code = code(solution.status);
                 let certificate = &solution.certificate;
                 // SAFETY: the outputs have the lengths of the header and overlap nothing.
                 unsafe {
-                    d.write(&solution.d);
+                    self.d.part(n * case, n).write(&solution.d);
                     self.force.part(n * case, n).write(&certificate.force);
                     self.state.part(pairs * case, pairs).write(&state_codes(&certificate.states));
                     SignoriniReport::of(code, &solution).write(self.reports.nth(case));

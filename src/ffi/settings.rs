@@ -28,6 +28,10 @@ pub const SIGNORINI_METHOD_NEWTON: i32 = 5;
 /// definite it exists for every mu, load and gap. AUTO follows it where Newton's method fails.
 pub const SIGNORINI_METHOD_PATH: i32 = 6;
 
+/// settings.warm_start of signorini_model_solve: each case starts from the solution of the last case
+/// before that was solved, the first one as with 0; d needs no start. Other calls have one case.
+pub const SIGNORINI_START_PREVIOUS: i32 = 2;
+
 /// Report only what the solution itself proves about other solutions. The default.
 pub const SIGNORINI_SEARCH_OFF: i32 = 0;
 /// Prove that the solution is unique, or look for a second one. It costs several solutions.
@@ -79,7 +83,7 @@ pub struct SignoriniSettings {
     pub time_limit: f64,
     /// Nonzero: start from what d holds (Newton in 2D, block pivoting: from its states). Default 0:
     /// start from d = 0 (Newton in 2D, block pivoting: from all pairs sticking). Lemke's method has
-    /// no start.
+    /// no start. SIGNORINI_START_PREVIOUS: from the solution of the case before.
     pub warm_start: i32,
     /// SIGNORINI_SEARCH_...; default SIGNORINI_SEARCH_OFF.
     pub search: i32,
@@ -102,10 +106,20 @@ pub struct SignoriniSettings {
     pub reserved2: i32,
 }
 
+/// From where a solution starts.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum WarmStart {
+    None,
+    /// From the caller's d.
+    Given,
+    /// From the case before.
+    Previous,
+}
+
 /// Settings as the solvers know them, with what only the C interface has.
 pub(super) struct Received {
     pub(super) settings: Settings,
-    pub(super) warm_start: bool,
+    pub(super) warm_start: WarmStart,
     progress: SignoriniProgressFn,
     user: *mut c_void,
 }
@@ -192,7 +206,11 @@ impl SignoriniSettings {
                 memory_limit,
                 full_space: self.full_space != 0,
             },
-            warm_start: self.warm_start != 0,
+            warm_start: match self.warm_start {
+                0 => WarmStart::None,
+                SIGNORINI_START_PREVIOUS => WarmStart::Previous,
+                _ => WarmStart::Given,
+            },
             progress: self.progress,
             user: self.user,
         })
@@ -200,6 +218,11 @@ impl SignoriniSettings {
 }
 
 impl Received {
+    /// Whether a call with one case starts from what the caller gives.
+    pub(super) fn starts_from_given(&self) -> bool {
+        self.warm_start == WarmStart::Given
+    }
+
     /// The caller's callback as a closure, if there is one.
     pub(super) fn progress(&self) -> Option<impl FnMut(&Progress) -> ControlFlow<()> + use<>> {
         let (callback, user) = (self.progress?, self.user);

@@ -91,7 +91,7 @@ pub unsafe extern "C" fn signorini_solve(
         guard::reserve_estimate(memory(n))?;
         let problem = ContactProblem::new(data).map_err(from_error)?;
         // SAFETY: d has n entries, which the caller has filled if it asked for a warm start.
-        let start = received.warm_start.then(|| unsafe { d.read() });
+        let start = received.starts_from_given().then(|| unsafe { d.read() });
         let mut progress = received.progress();
         let progress = progress.as_mut().map(|progress| progress as &mut ProgressFn<'_>);
         let mut monitor = Monitor::new(&received.settings, progress);

@@ -100,3 +100,9 @@ impl NormSum {
         (self.large.sqrt() * SCALE).hypot(usual).hypot(self.small.sqrt() / SCALE)
     }
 }
+
+/// So many vectors of the same length that stand one behind the other.
+pub fn columns(all: &[f64], count: usize) -> Vec<Vec<f64>> {
+    let length = all.len() / count.max(1);
+    (0..count).map(|k| all[length * k..length * (k + 1)].to_vec()).collect()
+}

@@ -3,6 +3,7 @@
 use super::Model;
 use super::arguments::check_vector;
 use crate::error::{Argument, Error};
+use crate::reduce::SolvedCase;
 
 impl Model {
     /// Displacements of the host from the relative ones; without `load` and `prescribed` those of
@@ -16,9 +17,14 @@ impl Model {
         prescribed: Option<&[f64]>,
         d: &[f64],
     ) -> Result<Vec<f64>, Error> {
-        self.check_loads(load, prescribed)?;
-        check_vector(Argument::Start, "d", d, self.dim * self.pairs)?;
+        self.check_solved(&SolvedCase { load, prescribed, d })?;
         self.reduction.recover(load, prescribed, d)
+    }
+
+    /// Refuses arrays of the wrong length or not finite.
+    pub(crate) fn check_solved(&self, case: &SolvedCase<'_>) -> Result<(), Error> {
+        self.check_loads(case.load, case.prescribed)?;
+        check_vector(Argument::Start, "d", case.d, self.dim * self.pairs)
     }
 
     /// Contact forces as a nodal force vector of the host.

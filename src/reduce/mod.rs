@@ -35,6 +35,20 @@ pub trait UnformedReduction {
     fn factor_bytes(&self) -> u64;
 }
 
+/// Nodal loads of the host, and values of the fixed degrees of freedom (`None`: zero).
+pub type HostLoad<'a> = (&'a [f64], Option<&'a [f64]>);
+
+/// A load case of which the relative displacements are known.
+#[derive(Clone, Copy, Debug)]
+pub struct SolvedCase<'a> {
+    /// Nodal loads of the host; `None`: zero.
+    pub load: Option<&'a [f64]>,
+    /// Values of the fixed degrees of freedom; `None`: zero.
+    pub prescribed: Option<&'a [f64]>,
+    /// Relative displacements, `dim` entries for each pair.
+    pub d: &'a [f64],
+}
+
 /// A structure reduced to its contact pairs. It does not change: several threads may use it at once.
 ///
 /// Vectors of the host have [`Self::host_size`] entries; vectors of relative displacements and of
@@ -92,6 +106,22 @@ pub trait Reduction: Send + Sync {
         prescribed: Option<&[f64]>,
         d: &[f64],
     ) -> Result<Vec<f64>, Error>;
+
+    /// As [`Self::condense`], of the loads and fixed values of several load cases at once.
+    ///
+    /// # Errors
+    /// As [`Self::condense`].
+    fn condense_cases(&self, cases: &[HostLoad<'_>]) -> Result<Vec<Vec<f64>>, Error> {
+        cases.iter().map(|(load, prescribed)| self.condense(load, *prescribed)).collect()
+    }
+
+    /// As [`Self::recover`], of several load cases at once.
+    ///
+    /// # Errors
+    /// As [`Self::recover`].
+    fn recover_cases(&self, cases: &[SolvedCase<'_>]) -> Result<Vec<Vec<f64>>, Error> {
+        cases.iter().map(|case| self.recover(case.load, case.prescribed, case.d)).collect()
+    }
 
     /// Contact forces as nodal forces of the host.
     fn nodal_forces(&self, force: &[f64]) -> Vec<f64>;

@@ -14,7 +14,7 @@
 #include <stdlib.h>
 
 enum { LOWER, UPPER };
-enum { MOST_DOFS = 1500, PLANE = 60, SPACE = 30, SMALL = 6 };
+enum { MOST_DOFS = 1500, PLANE = 60, SPACE = 30, SMALL = 6, MANY = 34 };
 
 struct world {
     chain plane, space, small, loose;
@@ -24,6 +24,7 @@ struct world {
     int64_t lower[64][4], upper[64][4], fixed[MOST_DOFS];
     int64_t n_fixed;
     signorini_faces top, bottom;
+    double loads[MANY * MOST_DOFS], many[MANY * MOST_DOFS];
     double load[2 * MOST_DOFS], d[4 * MOST_DOFS], F[4 * MOST_DOFS], u[MOST_DOFS];
     double gap[2 * MOST_DOFS], mu[2 * MOST_DOFS];
     int32_t state[2 * MOST_DOFS];
@@ -70,6 +71,14 @@ static void add_blocks(struct world *world)
             world->load[3 * node + 2] = -1;
             world->load[3 * node] = 0.1;
         }
+    /* Cases that press the lower block against what is above it. */
+    for (int c = 0; c < MANY; c++)
+        for (int j = 0; j <= 4; j++)
+            for (int i = 0; i <= 4; i++) {
+                const int32_t node = brick_node(mesh, LOWER, i, j, 3);
+                world->loads[c * mesh->dofs + 3 * node + 2] = 1 + 0.01 * c;
+                world->loads[c * mesh->dofs + 3 * node] = 0.2;
+            }
 }
 
 static struct world *world_new(void)
@@ -295,8 +304,8 @@ static signorini_sparse matrix_of(const struct brick_mesh *mesh)
                               .row = mesh->rows, .values = mesh->values};
 }
 
-/* Each top node of the lower block against a plane. */
-static int32_t sparse_model(struct world *w)
+/* Each top node of the lower block against a plane; many load cases in full space or condensed. */
+static int32_t sparse_cases(struct world *w, int64_t cases, int32_t full_space)
 {
     const signorini_sparse K = matrix_of(w->mesh);
     int64_t *const slaves = w->slaves, *const fixed = w->more_fixed;
@@ -318,15 +327,32 @@ static int32_t sparse_model(struct world *w)
     const signorini_pairs pairs = {.struct_size = sizeof pairs, .dim = 3, .count = 25,
                                    .slaves = slaves, .normals = normals};
     int32_t status = signorini_settings_default(&settings, sizeof settings);
+    settings.full_space = full_space;
     if (!status)
         status = signorini_model_new_sparse_within(&K, n_fixed, fixed, &pairs, &settings, &model);
     if (!status)
-        status = signorini_model_solve(model, 1, w->load, NULL, w->gap, SIGNORINI_LAW_COULOMB, w->mu,
-                                       NULL, NULL, w->d, w->F, w->state, NULL, NULL, NULL);
+        status = signorini_model_solve(model, cases, w->loads, NULL, w->gap, SIGNORINI_LAW_COULOMB,
+                                       w->mu, NULL, NULL, w->d, w->F, w->state, NULL, NULL, NULL);
     if (!status) status = signorini_model_recover(model, w->load, NULL, w->d, w->u);
+    if (!status) status = signorini_model_recover_cases(model, cases, w->loads, NULL, w->d, w->many);
     if (!status) status = signorini_model_nodal_forces(model, w->F, w->u);
     signorini_model_free(model);
     return status;
+}
+
+static int32_t sparse_model(struct world *w)
+{
+    return sparse_cases(w, 1, 0);
+}
+
+static int32_t sparse_many(struct world *w)
+{
+    return sparse_cases(w, MANY, 0);
+}
+
+static int32_t full_space_cases(struct world *w)
+{
+    return sparse_cases(w, 2, 1);
 }
 
 /* A node on two planes: rows that depend on each other. */
@@ -445,6 +471,8 @@ static const struct scenario scenarios[] = {
     {"condensed model, three cases", condensed_model, 0, 0},
     {"two bodies", two_bodies, 0, 0},
     {"sparse model", sparse_model, 0, 0},
+    {"sparse model, many cases", sparse_many, 0, 0},
+    {"full space, two cases", full_space_cases, 0, 0},
     {"dependent rows", dependent_rows, 0, 0},
     {"mortar surfaces, .vtu", mortar_surfaces, 0, 0},
     {"node-to-surface, .vtu", node_surfaces, 0, 0},

@@ -251,6 +251,92 @@ static void each_case_has_its_own_motion(void)
     signorini_model_free(model);
 }
 
+/* ---- many cases at once ---- */
+
+enum { MANY = 70 }; /* more than two blocks */
+
+/*
+ * Two nodes touch planes across x. Case c presses the second one by 1 + c, and pulls the node behind by
+ * g = 0.1 c along x, which moves by g / 2, as its spring is 2, and presses the first node by as much, as the
+ * spring between them is -1.
+ */
+static void many_cases_at_once(void)
+{
+    static double f[MANY][SIZE], values[MANY], gap[MANY][PAIRS], mu[MANY][PAIRS], d[MANY][N];
+    static double F[MANY][N], u[MANY][SIZE], before[MANY][SIZE];
+    static int32_t status[MANY];
+    const double normals[N] = {1, 0, 0, 1, 0, 0};
+    signorini_settings settings;
+    signorini_model *model = block(normals, NULL);
+    CHECK_STATUS(signorini_settings_default(&settings, sizeof settings), 0);
+    for (int c = 0; c < MANY; c++) {
+        f[c][3] = 1 + c;
+        f[c][6] = 0.1 * c;
+        values[c] = 0.01 * c;
+        mu[c][0] = mu[c][1] = 0.3;
+    }
+    for (int start = 0; start <= SIGNORINI_START_PREVIOUS; start++) {
+        settings.warm_start = start;
+        memset(d, 0, sizeof d);
+        CHECK_STATUS(signorini_model_solve(model, MANY, f[0], values, gap[0], SIGNORINI_LAW_COULOMB,
+                                           mu[0], NULL, &settings, d[0], F[0], NULL, status, NULL,
+                                           NULL),
+                     0);
+        CHECK_STATUS(signorini_model_recover_cases(model, MANY, f[0], values, d[0], u[0]), 0);
+        for (int c = 0; c < MANY; c++) {
+            double one[SIZE];
+            CHECK_STATUS(status[c], 0);
+            /* Both nodes are held by their planes. */
+            CHECK_NEAR(d[c][0], 0);
+            CHECK_NEAR(F[c][0], -0.1 * c / 2);
+            CHECK_NEAR(F[c][3], -(1. + c));
+            CHECK_NEAR(u[c][6], 0.1 * c / 2);
+            CHECK_NEAR(u[c][3], 0);
+            CHECK_NEAR(u[c][8], 0.01 * c);
+            CHECK_STATUS(signorini_model_recover(model, f[c], values + c, d[c], one), 0);
+            for (int i = 0; i < SIZE; i++) CHECK_NEAR(u[c][i], one[i]);
+        }
+    }
+
+    /* Bad input: of each array, with the case; nothing is written. */
+    memcpy(before, u, sizeof u);
+#define RECOVER(result, part, ...)                                                                 \
+    do {                                                                                           \
+        CHECK_STATUS(signorini_model_recover_cases(__VA_ARGS__), result);                          \
+        CHECK_TEXT(signorini_last_error(), part);                                                  \
+        CHECK(memcmp(before, u, sizeof u) == 0);                                                   \
+    } while (0)
+    RECOVER(-1, "model", NULL, MANY, f[0], values, d[0], u[0]);
+    RECOVER(-2, "cases is -1", model, -1, f[0], values, d[0], u[0]);
+    RECOVER(-2, "too many", model, INT64_MAX, f[0], values, d[0], u[0]);
+    RECOVER(-5, "d is NULL", model, MANY, f[0], values, NULL, u[0]);
+    RECOVER(-6, "u is NULL", model, MANY, f[0], values, d[0], NULL);
+    RECOVER(-6, "u overlaps f", model, MANY, u[0], values, d[0], u[0]);
+    RECOVER(-6, "u overlaps d", model, MANY, f[0], values, u[MANY - 2], u[0]);
+    f[69][2] = NAN;
+    RECOVER(-3, "case 69: f[2] is not finite", model, MANY, f[0], values, d[0], u[0]);
+    values[33] = INFINITY;
+    RECOVER(-4, "case 33: prescribed[0] is not finite", model, MANY, f[0], values, d[0], u[0]);
+    d[32][1] = -NAN;
+    RECOVER(-5, "case 32: d[1] is not finite", model, MANY, f[0], values, d[0], u[0]);
+    RECOVER(-5, "d[1] is not finite", model, 1, f[0], values, d[32], u[0]);
+    CHECK_STATUS(signorini_model_recover_cases(model, 0, NULL, NULL, NULL, NULL), 0);
+    CHECK_STATUS(signorini_model_recover_cases(model, 3, NULL, NULL, d[0], u[0]), 0);
+    for (int c = 0; c < 3; c++) CHECK(u[c][8] == 0);
+
+    /* One wrong case in the second block. */
+    CHECK_STATUS(signorini_model_solve(model, 40, f[0], NULL, gap[0], SIGNORINI_LAW_COULOMB, mu[0],
+                                       NULL, &settings, d[0], F[0], NULL, status, NULL, NULL),
+                 0);
+    f[35][0] = NAN;
+    CHECK_STATUS(signorini_model_solve(model, 40, f[0], NULL, gap[0], SIGNORINI_LAW_COULOMB, mu[0],
+                                       NULL, &settings, d[0], F[0], NULL, status, NULL, NULL),
+                 -3);
+    CHECK_TEXT(signorini_last_error(), "case 35: f[0] is not finite");
+    for (int c = 0; c < 40; c++) CHECK_STATUS(status[c], c == 35 ? -3 : 0);
+    signorini_model_free(model);
+}
+
 int main(void)
 {
     frames_are_those_of_the_pairs();
@@ -260,5 +346,6 @@ int main(void)
     the_certificate_agrees_with_the_solution();
     bad_certificates();
     each_case_has_its_own_motion();
+    many_cases_at_once();
     return check_summary("model_checks");
 }

@@ -146,6 +146,26 @@ class Models(unittest.TestCase):
         np.testing.assert_array_equal(model.stiffness, K)
         self.assertEqual(model.solve(np.zeros((0, 4)), 0.0, 0.3), [])
 
+    def test_many_cases_at_once(self):
+        bar = bar_mesh.assemble()
+        model = signorini.Model.sparse(bar.matrix, bar.contact, [0, -1], fixed=bar.held)
+        loads = np.outer(np.linspace(0.5, 1.5, 40), bar.load)  # more than a block of the library
+        results = model.solve(loads, 0.0, 0.5)
+        for warm, result in zip(model.solve(loads, 0.0, 0.5, start="previous"), results):
+            self.assertEqual((warm.status, result.status), (0, 0))
+            np.testing.assert_allclose(warm.d, result.d, atol=1e-9 * abs(result.d).max())
+        d = np.array([result.d for result in results])
+        u = model.recover_cases(d, loads)
+        for c in (0, 31, 32, 39):
+            one = model.recover(d[c], loads[c])
+            np.testing.assert_allclose(u[c], one, atol=1e-12 * abs(one).max())
+        np.testing.assert_array_equal(model.recover_cases(d.reshape(40, -1), loads), u)
+        self.assertEqual(model.recover_cases(np.zeros((2, model.pairs, 2))).shape,
+                         (2, model.host_size))
+        d[33, 1, 0] = np.nan
+        with self.assertRaisesRegex(signorini.SignoriniError, r"case 33: d\[2\] is not finite"):
+            model.recover_cases(d, loads)
+
     def test_two_bodies(self):
         springs = np.diag([2.0, 3.0]), np.diag([6.0, 5.0])
         model = signorini.Model.two_body(*springs)

@@ -53,6 +53,9 @@ class Method(IntEnum):
     PATH = 6
 
 
+START_PREVIOUS = 2  # settings.warm_start: each case starts from the solution of the one before
+
+
 class Search(IntEnum):
     """What to find out about other solutions."""
 

@@ -45,6 +45,7 @@ SIGNATURES = {
     "model_solve": (i32, [address, i64, *_CASE, *[address] * 7]),
     "model_certify": (i32, [address, *_CASE, real, *[address] * 4]),
     "model_recover": (i32, [address] * 5),
+    "model_recover_cases": (i32, [address, i64] + [address] * 4),
     "model_nodal_forces": (i32, [address] * 3),
     "model_write": (i32, [address, text, *_CASE, text]),
     "surface_settings_default": (i32, [address, u32]),

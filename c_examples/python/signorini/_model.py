@@ -8,7 +8,7 @@ import numpy as np
 
 from ._arrays import at, components, fit, pairs_of, per_pair, reals, stiffness
 from ._call import Call
-from ._constants import Status, member
+from ._constants import START_PREVIOUS, Status, member
 from ._law import Friction
 from ._library import SignoriniError, check, library
 from ._results import Output, certified
@@ -162,13 +162,15 @@ class Model:
         the fixed degrees of freedom, or one for all; None: zero.
         With several cases each may have a leading axis of C, or be the same for all. A case that is
         wrong does not stop the others: its status is negative, its numbers are NaN, its state is -1
-        and its report None.
+        and its report None. start="previous": each case starts from the one before.
         """
         f = reals("f", f)
         cases = len(f) if f.ndim == 2 and f.shape[1] == self.host_size else None
         data = self._case(f, gap, Friction(mu, g, law, friction), slip0, prescribed, cases)
-        start = components("start", start, self.pairs, self.dim, cases=cases, optional=True)
-        call = Call(self._functions, settings, start is not None)
+        warm = START_PREVIOUS if isinstance(start, str) and start == "previous" else None
+        start = components("start", None if warm else start, self.pairs, self.dim, cases=cases,
+                           optional=True)
+        call = Call(self._functions, settings, warm or start is not None)
         count = 1 if cases is None else cases
         output = Output(count, self.pairs, self.dim, start)
         status = np.full(count, _UNTOUCHED, np.int32)
@@ -207,6 +209,18 @@ class Model:
         d = components("d", d, self.pairs, self.dim)
         u = np.zeros(self.host_size)
         self._do("model_recover", at(f), at(prescribed), at(d), at(u))
+        return u
+
+    def recover_cases(self, d, f=None, prescribed=None):
+        """Displacements of the host of many cases at once, (C, H): from d of (C, P, D) or (C, N).
+
+        f and prescribed may have a leading axis of C, or be the same for all cases.
+        """
+        cases = len(d)
+        f, prescribed = self._loads(f, prescribed, cases, optional=True)
+        d = components("d", d, self.pairs, self.dim, cases=cases)
+        u = np.zeros((cases, self.host_size))
+        self._do("model_recover_cases", cases, at(f), at(prescribed), at(d), at(u))
         return u
 
     def nodal_forces(self, F):

@@ -43,7 +43,7 @@ impl SparseCholesky {
         }
     }
 
-    /// The solution for the right side `b`.
+    /// The solutions for the right sides `b`, one behind the other.
     pub fn solve(&self, values: &Values, b: &[f64]) -> Vec<f64> {
         let structure = &self.0.structure;
         let mut x = structure.ordered(b);

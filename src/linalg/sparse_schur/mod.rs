@@ -102,16 +102,24 @@ impl SparseSchur {
         &self.schur
     }
 
-    /// The right side `(a, c)` after elimination of the first rows: `c - B A⁻¹ a`.
+    /// The right sides `(a, c)`, one behind the other, after elimination of the first rows: of each one
+    /// `c - B A⁻¹ a`.
     pub fn condense(&self, rhs: &[f64]) -> Vec<f64> {
-        self.forward(rhs).split_off(self.structure.eliminated)
+        let (size, eliminated) = (self.structure.size.max(1), self.structure.eliminated);
+        let x = self.forward(rhs);
+        x.chunks_exact(size).flat_map(|x| &x[eliminated..]).copied().collect()
     }
 
     /// The solution of the first rows, `A⁻¹ (a - Bᵀ d)`, followed by `d`; `rhs` is `(a, c)`, of which
-    /// `c` does not matter.
+    /// `c` does not matter. Of several, each argument has its vectors one behind the other, and so has the
+    /// result.
     pub fn recover(&self, rhs: &[f64], d: &[f64]) -> Vec<f64> {
+        let (size, eliminated) = (self.structure.size.max(1), self.structure.eliminated);
         let mut x = self.forward(rhs);
-        x[self.structure.eliminated..].copy_from_slice(d);
+        let kept = d.chunks_exact(self.structure.kept().max(1));
+        for (x, d) in x.chunks_exact_mut(size).zip(kept) {
+            x[eliminated..].copy_from_slice(d);
+        }
         solve::backward(&self.structure, &self.values, &mut x);
         self.structure.unordered(&x)
     }

@@ -8,39 +8,51 @@ use faer::{Accum, MatMut, MatRef, Par};
 
 use super::structure::Structure;
 
-/// Overwrites `x`, in the order of elimination, with `L⁻¹` of its eliminated part; the kept part `c` becomes
-/// `c - B A⁻¹ a`.
+/// Overwrites each column of `x`, in the order of elimination, with `L⁻¹` of its eliminated part; the kept
+/// part `c` becomes `c - B A⁻¹ a`. The factor is read once for all columns.
 pub fn forward(structure: &Structure, values: &[f64], x: &mut [f64]) {
+    let mut x = columns_of(structure, x);
     let mut product = Vec::new();
     for s in 0..structure.panels() {
         let (columns, rows) = (structure.columns(s), structure.rows(s));
-        let width = columns.len();
         let (top, below) = blocks(structure, values, s);
-        let mut part = MatMut::from_column_major_slice_mut(&mut x[columns], width, 1);
+        let mut part = x.as_mut().subrows_mut(columns.start, columns.len());
         solve_lower_triangular_in_place(top, part.as_mut(), Par::Seq);
+        let many = part.ncols();
         product.clear();
-        product.resize(rows.len(), 0.0);
-        let target = MatMut::from_column_major_slice_mut(&mut product, rows.len(), 1);
+        product.resize(rows.len() * many, 0.0);
+        let target = MatMut::from_column_major_slice_mut(&mut product, rows.len(), many);
         matmul(target, Accum::Replace, below, part.as_ref(), 1.0, Par::Seq);
-        rows.iter().zip(&product).for_each(|(&row, product)| x[row] -= product);
+        for (k, product) in product.chunks_exact(rows.len().max(1)).enumerate() {
+            let mut column = x.as_mut().col_mut(k);
+            rows.iter().zip(product).for_each(|(&row, product)| column[row] -= product);
+        }
     }
 }
 
-/// Overwrites the eliminated part of `x` by `L⁻ᵀ (x - B'ᵀ d)`, with `B'` the rows of the factor that are
-/// kept and `d` the kept part of `x`, which stays.
+/// Overwrites the eliminated part of each column of `x` by `L⁻ᵀ (x - B'ᵀ d)`, with `B'` the rows of the factor
+/// that are kept and `d` the kept part of the column, which stays.
 pub fn backward(structure: &Structure, values: &[f64], x: &mut [f64]) {
+    let mut x = columns_of(structure, x);
     let mut gathered = Vec::new();
     for s in (0..structure.panels()).rev() {
         let (columns, rows) = (structure.columns(s), structure.rows(s));
-        let width = columns.len();
         let (top, below) = blocks(structure, values, s);
         gathered.clear();
-        gathered.extend(rows.iter().map(|&row| x[row]));
-        let mut part = MatMut::from_column_major_slice_mut(&mut x[columns], width, 1);
-        let known = MatRef::from_column_major_slice(&gathered, rows.len(), 1);
+        for column in x.as_ref().col_iter() {
+            gathered.extend(rows.iter().map(|&row| column[row]));
+        }
+        let mut part = x.as_mut().subrows_mut(columns.start, columns.len());
+        let known = MatRef::from_column_major_slice(&gathered, rows.len(), part.ncols());
         matmul(part.as_mut(), Accum::Add, below.transpose(), known, -1.0, Par::Seq);
         solve_upper_triangular_in_place(top.transpose(), part, Par::Seq);
     }
+}
+
+/// Vectors of all unknowns that stand one behind the other, as columns.
+fn columns_of<'x>(structure: &Structure, x: &'x mut [f64]) -> MatMut<'x, f64> {
+    let many = x.len() / structure.size.max(1);
+    MatMut::from_column_major_slice_mut(x, structure.size, many)
 }
 
 /// The diagonal block of a panel, and its rows.

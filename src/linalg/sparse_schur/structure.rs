@@ -108,18 +108,23 @@ impl Structure {
         Ok(())
     }
 
-    /// A vector of all unknowns in their places.
-    pub fn ordered(&self, vector: &[f64]) -> Vec<f64> {
-        self.order.iter().map(|&i| vector[i]).collect()
+    /// Vectors of all unknowns, one behind the other, in their places.
+    pub fn ordered(&self, vectors: &[f64]) -> Vec<f64> {
+        let mut ordered = Vec::with_capacity(vectors.len());
+        for vector in vectors.chunks_exact(self.size.max(1)) {
+            ordered.extend(self.order.iter().map(|&i| vector[i]));
+        }
+        ordered
     }
 
-    /// The vector that has `ordered` in its places.
+    /// The vectors that have `ordered` in their places.
     pub fn unordered(&self, ordered: &[f64]) -> Vec<f64> {
-        let mut vector = vec![0.0; ordered.len()];
-        for (&i, x) in self.order.iter().zip(ordered) {
-            vector[i] = *x;
+        let mut vectors = vec![0.0; ordered.len()];
+        let size = self.size.max(1);
+        for (vector, ordered) in vectors.chunks_exact_mut(size).zip(ordered.chunks_exact(size)) {
+            self.order.iter().zip(ordered).for_each(|(&i, x)| vector[i] = *x);
         }
-        vector
+        vectors
     }
 
     /// Number of panels.

@@ -102,27 +102,41 @@ impl FullSpace {
         InUse { space: self, factor }
     }
 
-    /// `c - B A⁻¹ a` for the load `(a, c)`: minus the forces on the components of `d`, all held.
-    pub(super) fn condense(&self, load: &[f64]) -> Result<Vec<f64>, Error> {
+    /// `c - B A⁻¹ a` for each of the loads `(a, c)`, one behind the other: minus the forces on the components of
+    /// `d`, all held.
+    pub(super) fn condense(&self, loads: &[f64]) -> Result<Vec<f64>, Error> {
         let mut user = self.in_use();
         user.hold_all()?;
-        let x = user.solve(load)?;
-        let mut residual = symmetric_residual(&self.matrix, (&x, &[]), load).split_off(self.inner);
-        residual.iter_mut().for_each(|force| *force = -*force);
-        Ok(residual)
+        let x = user.solve(loads)?;
+        let (size, mut condensed) = (self.matrix.ncols().max(1), Vec::new());
+        for (x, load) in x.chunks_exact(size).zip(loads.chunks_exact(size)) {
+            let residual = symmetric_residual(&self.matrix, (x, &[]), load);
+            condensed.extend(residual[self.inner..].iter().map(|force| -force));
+        }
+        Ok(condensed)
     }
 
-    /// All unknowns of a load where those of the pairs are `d`.
-    pub(super) fn recover(&self, load: &[f64], d: &[f64]) -> Result<Vec<f64>, Error> {
+    /// All unknowns of loads where those of the pairs are `d`. Of several load cases, each argument has its
+    /// vectors one behind the other, and so has the result.
+    pub(super) fn recover(&self, loads: &[f64], d: &[f64]) -> Result<Vec<f64>, Error> {
         let mut user = self.in_use();
         user.hold_all()?;
-        let mut x = vec![0.0; self.inner];
-        x.extend_from_slice(d);
+        let size = self.matrix.ncols().max(1);
+        let mut x = vec![0.0; loads.len()];
+        let held = d.chunks_exact((self.matrix.ncols() - self.inner).max(1));
+        for (x, d) in x.chunks_exact_mut(size).zip(held) {
+            x[self.inner..].copy_from_slice(d);
+        }
         // A second step: the digits that the rounding of the first one has cost.
         for _ in 0..REFINEMENTS {
-            let residual = symmetric_residual(&self.matrix, (&x, &[]), load);
-            let step = user.solve(&residual)?;
-            x.iter_mut().zip(&step).take(self.inner).for_each(|(x, step)| *x -= step);
+            let mut residuals = Vec::with_capacity(x.len());
+            for (x, load) in x.chunks_exact(size).zip(loads.chunks_exact(size)) {
+                residuals.extend(symmetric_residual(&self.matrix, (x, &[]), load));
+            }
+            let steps = user.solve(&residuals)?;
+            for (x, step) in x.chunks_exact_mut(size).zip(steps.chunks_exact(size)) {
+                x.iter_mut().zip(step).take(self.inner).for_each(|(x, step)| *x -= step);
+            }
         }
         Ok(x)
     }
@@ -239,11 +253,14 @@ impl Bodies for InUse<'_> {
 
     fn solve(&mut self, forces: &[f64]) -> Result<Vec<f64>, Error> {
         let Some(factor) = &self.factor else { unreachable!("something is held before") };
-        let inner = self.space.inner;
+        let (inner, size) = (self.space.inner, self.space.matrix.ncols().max(1));
         let mut right = forces.to_vec();
-        for (force, held) in right[inner..].iter_mut().zip(&factor.restriction.held) {
-            if *held {
-                *force = 0.0;
+        // A vector, or several one behind the other.
+        for right in right.chunks_exact_mut(size) {
+            for (force, held) in right[inner..].iter_mut().zip(&factor.restriction.held) {
+                if *held {
+                    *force = 0.0;
+                }
             }
         }
         Ok(self.space.cholesky.solve(&factor.values, &right))

@@ -25,11 +25,11 @@ mod supports;
 pub use control::Control;
 pub use host_arrays::{Indices, SparseMatrix, Triangle};
 
-use super::{ContactPairs, Reduction, UnformedReduction};
+use super::{ContactPairs, HostLoad, Reduction, SolvedCase, UnformedReduction};
 use crate::error::{Argument, Error, Message};
 use crate::linalg::sparse_matrix::{Csc, OutOfMemory, times, transpose_times};
 use crate::linalg::sparse_schur::{Failure, Look, Plan, SparseSchur, Watch};
-use crate::linalg::vector::norm_inf;
+use crate::linalg::vector::{columns, norm_inf};
 use crate::problem::{Bodies, Dependence};
 use crate::reduce::frame::Frame;
 use change_of_variables::{ChangeOfVariables, contact_forces};
@@ -164,11 +164,17 @@ impl Reduction for SparseReduction {
     }
 
     fn condense(&self, load: &[f64], prescribed: Option<&[f64]>) -> Result<Vec<f64>, Error> {
-        let load = self.transformed_load(load, prescribed);
-        match &self.engine {
-            Engine::Condensed(schur) => Ok(schur.condense(&load)),
-            Engine::FullSpace(space) => space.condense(&load),
-        }
+        Ok(self.condense_cases(&[(load, prescribed)])?.concat())
+    }
+
+    fn condense_cases(&self, cases: &[HostLoad<'_>]) -> Result<Vec<Vec<f64>>, Error> {
+        let transformed = cases.iter().map(|(load, values)| self.transformed_load(load, *values));
+        let loads: Vec<f64> = transformed.flatten().collect();
+        let condensed = match &self.engine {
+            Engine::Condensed(schur) => schur.condense(&loads),
+            Engine::FullSpace(space) => space.condense(&loads)?,
+        };
+        Ok(columns(&condensed, cases.len()))
     }
 
     fn recover(
@@ -177,15 +183,28 @@ impl Reduction for SparseReduction {
         prescribed: Option<&[f64]>,
         d: &[f64],
     ) -> Result<Vec<f64>, Error> {
-        let nothing = vec![0.0; if load.is_none() { self.host_size() } else { 0 }];
-        let load = self.transformed_load(load.unwrap_or(&nothing), prescribed);
-        let variables = self.dependence().map(|dependence| dependence.of_relative(d));
-        let d = variables.as_deref().unwrap_or(d);
+        Ok(self.recover_cases(&[SolvedCase { load, prescribed, d }])?.concat())
+    }
+
+    fn recover_cases(&self, cases: &[SolvedCase<'_>]) -> Result<Vec<Vec<f64>>, Error> {
+        let (mut loads, mut variables) = (Vec::new(), Vec::new());
+        let nothing = vec![0.0; self.host_size()];
+        for case in cases {
+            let load = case.load.unwrap_or(&nothing);
+            loads.extend(self.transformed_load(load, case.prescribed));
+            match self.dependence() {
+                Some(dependence) => variables.extend(dependence.of_relative(case.d)),
+                None => variables.extend_from_slice(case.d),
+            }
+        }
         let x = match &self.engine {
-            Engine::Condensed(schur) => schur.recover(&load, d),
-            Engine::FullSpace(space) => space.recover(&load, d)?,
+            Engine::Condensed(schur) => schur.recover(&loads, &variables),
+            Engine::FullSpace(space) => space.recover(&loads, &variables)?,
         };
-        Ok(self.variables.host_displacements(&x, prescribed))
+        let of_host = |(x, case): (Vec<f64>, &SolvedCase<'_>)| {
+            self.variables.host_displacements(&x, case.prescribed)
+        };
+        Ok(columns(&x, cases.len()).into_iter().zip(cases).map(of_host).collect())
     }
 
     /// `Bᵀ F`: `R F` on each node by its signed weight.

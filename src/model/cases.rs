@@ -1,0 +1,101 @@
+//! Many load cases of a model: the factor of the reduction is read once for a block of them.
+
+use super::{LoadCase, Model};
+use crate::error::Error;
+use crate::monitor::{Monitor, Progress, ProgressFn};
+use crate::reduce::SolvedCase;
+use crate::settings::Settings;
+use crate::solve::{Solution, Status};
+
+/// Load cases of a block. A solve with one column waits for memory; from this number on it computes, and a
+/// block takes little memory beside the factor.
+pub(crate) const BLOCK: usize = 32;
+
+/// Where the solution of each load case starts.
+#[derive(Clone, Copy, Debug)]
+pub enum Starts<'a> {
+    /// At nothing.
+    Cold,
+    /// At these relative displacements, `dim * pairs` for each case.
+    Given(&'a [f64]),
+    /// At the solution of the last case before that was solved; the first cases, before there is one, here
+    /// (`None`: at nothing).
+    Previous(Option<&'a [f64]>),
+}
+
+impl Model {
+    /// Solves load cases, one after the other, each with budgets of its own. Their loads are condensed in blocks
+    /// of 32, so that a case costs less than by [`Self::solve`]. A case that is wrong or not solved does not stop
+    /// the others.
+    ///
+    /// # Errors
+    /// Of each case as [`Self::solve`].
+    pub fn solve_cases(
+        &self,
+        cases: &[LoadCase<'_>],
+        settings: &Settings,
+        starts: Starts<'_>,
+        mut progress: Option<&mut ProgressFn<'_>>,
+    ) -> Vec<Result<Solution, Error>> {
+        let (n, mut before) = (self.dim * self.pairs, None::<Vec<f64>>);
+        let mut solved = Vec::with_capacity(cases.len());
+        for block in cases.chunks(BLOCK) {
+            for (case, load) in block.iter().zip(self.condensed_loads(block)) {
+                let k = solved.len();
+                let start = match starts {
+                    Starts::Cold => None,
+                    // A start that is missing has a wrong length, which is told.
+                    Starts::Given(all) => Some(all.get(n * k..n * (k + 1)).unwrap_or_default()),
+                    Starts::Previous(first) => before.as_deref().or(first),
+                };
+                let mut told = progress.as_mut().map(|tell| |now: &Progress| tell(now));
+                let told = told.as_mut().map(|tell| tell as &mut ProgressFn<'_>);
+                let monitor = &mut Monitor::new(settings, told);
+                let solution = load
+                    .and_then(|load| self.solve_condensed(case, load, (settings, start), monitor));
+                if let (Starts::Previous(_), Ok(found)) = (starts, &solution)
+                    && found.status == Status::Solved
+                {
+                    before = Some(found.d.clone());
+                }
+                solved.push(solution);
+            }
+        }
+        solved
+    }
+
+    /// Displacements of the host of several load cases, each as by [`Self::recover`], in blocks of 32.
+    ///
+    /// # Errors
+    /// Arrays of the wrong length or not finite, with the number of the case if there are several.
+    pub fn recover_cases(&self, cases: &[SolvedCase<'_>]) -> Result<Vec<Vec<f64>>, Error> {
+        for (k, case) in cases.iter().enumerate() {
+            let checked = self.check_solved(case);
+            checked.map_err(|error| if cases.len() == 1 { error } else { error.in_case(k) })?;
+        }
+        let mut found = Vec::with_capacity(cases.len());
+        for block in cases.chunks(BLOCK) {
+            found.extend(self.reduction.recover_cases(block)?);
+        }
+        Ok(found)
+    }
+
+    /// What each load case of a block condenses to; `None` where nothing is condensed. A wrong case is left out
+    /// of what is worked out together.
+    fn condensed_loads(&self, block: &[LoadCase<'_>]) -> Vec<Result<Option<Vec<f64>>, Error>> {
+        if self.is_unformed() {
+            return block.iter().map(|_| Ok(None)).collect();
+        }
+        let checked: Vec<_> =
+            block.iter().map(|case| self.check_loads(Some(case.load), case.prescribed)).collect();
+        let sound: Vec<_> = (block.iter().zip(&checked))
+            .filter(|(_, checked)| checked.is_ok())
+            .map(|(case, _)| (case.load, case.prescribed))
+            .collect();
+        let mut loads = match self.reduction.condense_cases(&sound) {
+            Ok(loads) => loads.into_iter(),
+            Err(error) => return block.iter().map(|_| Err(error.clone())).collect(),
+        };
+        checked.into_iter().map(|checked| checked.map(|()| loads.next())).collect()
+    }
+}

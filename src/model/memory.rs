@@ -1,0 +1,35 @@
+//! Most bytes that the calls of a model take, known before work begins.
+
+use super::{BLOCK, Model};
+use crate::problem::Dependence;
+use crate::solve::{memory, memory_unformed};
+
+/// Vectors of the host's size that each load case of a block takes while it is condensed or recovered.
+const VECTORS: u64 = 10;
+
+impl Model {
+    /// Most bytes that [`Self::solve`] takes beside the model.
+    pub fn memory(&self) -> u64 {
+        if let Some(unformed) = self.reduction.unformed() {
+            let inner = unformed.bodies().inner();
+            return unformed.factor_bytes() + memory_unformed(inner + self.dim * self.pairs);
+        }
+        // Dependent rows are solved with springs between bodies and contact.
+        let springs = self.reduction.dependence().map_or(0, Dependence::variables);
+        memory(self.dim * self.pairs + springs)
+    }
+
+    /// Most bytes that condensing so many load cases takes beside the model and what the host holds.
+    pub(crate) fn memory_of_cases(&self, cases: usize) -> u64 {
+        let columns = cases.min(BLOCK) as u64;
+        let size = (self.host_size() + self.fixed_count() + self.dim * self.pairs) as u64;
+        let vectors = VECTORS.saturating_mul(columns).saturating_mul(size);
+        vectors.saturating_mul(size_of::<f64>() as u64)
+    }
+
+    /// Most bytes that recovering so many load cases takes beside the model and what the host holds.
+    pub(crate) fn memory_of_recovery(&self, cases: usize) -> u64 {
+        let factor = self.reduction.unformed().map_or(0, |unformed| unformed.factor_bytes());
+        self.memory_of_cases(cases).saturating_add(factor)
+    }
+}
