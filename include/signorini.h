@@ -448,8 +448,8 @@ typedef int32_t (*signorini_product_fn)(void *user, const double *x, double *y);
 /**
  * A solution of the host with components held: y is 0 where held is nonzero, and K_rel y = x in
  * the other components; x does not count where held is nonzero. All have N entries. changed is 0
- * if the same components are held as in the call before on this model, so that a factor may serve
- * again. Returns as signorini_product_fn.
+ * if the same components are held as in the call before on this model, and that call has not
+ * failed, so that a factor may serve again. Returns as signorini_product_fn.
  */
 typedef int32_t (*signorini_held_fn)(void *user, const int32_t *held, int32_t changed,
                                      const double *x, double *y);

@@ -35,7 +35,7 @@ pub trait HostOperator: Send + Sync {
     }
 
     /// `y`, zero in components that are `held`, with `K_rel y = x` in the others. `changed`: others are held than in
-    /// the call before.
+    /// the call before, or that call has failed.
     ///
     /// # Errors
     /// A number of the host.
@@ -59,7 +59,7 @@ pub struct OperatorReduction {
     operator: Box<dyn HostOperator>,
     dim: usize,
     units: Vec<f64>,
-    /// What was held in the last call of the host.
+    /// What was held in the last call of the host, if it has succeeded.
     held: Mutex<Vec<bool>>,
 }
 
@@ -164,14 +164,14 @@ impl OperatorReduction {
     }
 
     fn by_held(&self, held: &[bool], x: &[f64]) -> Result<Vec<f64>, Error> {
-        // One call of the host at a time, so that it knows what has changed.
+        // One call of the host at a time, so that it knows what has changed: after a failure all may have.
         let mut last = self.held.lock().unwrap_or_else(PoisonError::into_inner);
         let changed = last.as_slice() != held;
-        if changed {
-            *last = held.to_vec();
-        }
+        last.clear();
         let name = "the solution with components held";
-        called(name, x.len(), |y| self.operator.held(held, changed, x, y))
+        let y = called(name, x.len(), |y| self.operator.held(held, changed, x, y))?;
+        last.extend_from_slice(held);
+        Ok(y)
     }
 }
 

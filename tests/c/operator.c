@@ -16,8 +16,11 @@ enum wrong { RIGHT, FAILS, NOT_A_NUMBER, UNSYMMETRIC, LEAVES_OUT };
 typedef struct host {
     enum wrong wrong;
     int products, inverses, solutions, changes;
-    /* The product that fails; 0: none. */
-    int fails_at;
+    /* The product that fails, and the solution; 0: none. */
+    int fails_at, loses_at;
+    /* What the host's factor is for; whether it is lost, and how often it was asked for all the same. */
+    int32_t factor[N];
+    int lost, stale;
 } host;
 
 static double entry(int i, int j)
@@ -73,7 +76,16 @@ static int32_t held_solution(void *user, const int32_t *held, int32_t changed, c
     host *h = user;
     h->solutions++;
     h->changes += changed != 0;
-    solve(held, x, y);
+    if (h->solutions == h->loses_at) {
+        h->lost = 1;
+        return 43;
+    }
+    if (changed) {
+        memcpy(h->factor, held, sizeof h->factor);
+        h->lost = 0;
+    }
+    h->stale += h->lost;
+    solve(h->factor, x, y);
     return 0;
 }
 
@@ -185,6 +197,34 @@ static void check_failure(void)
     signorini_model_free(model);
 }
 
+/* A host that fails to factorise has no factor: the next call tells it to make one. */
+static void check_lost_factor(void)
+{
+    host h = {0};
+    signorini_operator given = of(&h);
+    given.inverse = NULL;
+    given.held = held_solution;
+    signorini_model *model = NULL;
+    double d[N], F[N], expected[N];
+    CHECK_STATUS(signorini_model_new_operator(&given, &model), 0);
+    const int before = h.solutions;
+    CHECK_STATUS(signorini_model_solve(model, 1, f, NULL, gap, SIGNORINI_LAW_COULOMB, mu, NULL, NULL,
+                                       expected, F, NULL, NULL, NULL, NULL), 0);
+    const int solutions = h.solutions - before;
+    CHECK(solutions > 0);
+    for (int at = 1; at <= solutions; at++) {
+        h.loses_at = h.solutions + at;
+        CHECK_STATUS(signorini_model_solve(model, 1, f, NULL, gap, SIGNORINI_LAW_COULOMB, mu, NULL,
+                                           NULL, d, F, NULL, NULL, NULL, NULL), -1);
+        CHECK_TEXT(signorini_last_error(), "has returned 43");
+        CHECK_STATUS(signorini_model_solve(model, 1, f, NULL, gap, SIGNORINI_LAW_COULOMB, mu, NULL,
+                                           NULL, d, F, NULL, NULL, NULL, NULL), 0);
+        CHECK(h.stale == 0);
+        for (int i = 0; i < N; i++) CHECK_NEAR(d[i], expected[i]);
+    }
+    signorini_model_free(model);
+}
+
 /* The chain as a sparse matrix, every node on the plane. */
 static void check_full_space(void)
 {
@@ -232,6 +272,7 @@ int main(void)
     check_answers();
     check_refusals();
     check_failure();
+    check_lost_factor();
     check_full_space();
     return check_summary("operator");
 }
