@@ -52,7 +52,7 @@ impl Blocks {
     fn cases(&self) -> Vec<LoadCase<'_>> {
         let case = |k: usize| LoadCase {
             load: &self.loads[k],
-            prescribed: (k % 3 > 0).then_some(&self.prescribed[k][..]),
+            prescribed: (!k.is_multiple_of(3)).then_some(&self.prescribed[k][..]),
             gap: &self.gaps[k],
             law: FrictionLaw::Coulomb(&[0.4; PAIRS]),
             reference_slip: None,

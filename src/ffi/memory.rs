@@ -18,8 +18,9 @@ pub extern "C" fn signorini_solve_memory(n: i64) -> i64 {
 }
 
 /// The same for a load case of a model: most bytes that signorini_model_solve may take beside the
-/// model and your arrays. Of many load cases each in turn takes them. What making a sparse model
-/// takes is told to its callback: signorini_progress.
+/// model and your arrays. Of many load cases each in turn takes them; up to 32 cases at a time take
+/// some vectors of H entries each besides. What making a sparse model takes is told to its callback:
+/// signorini_progress.
 ///
 /// @param model  the model
 /// @return bytes; -1 if model is NULL

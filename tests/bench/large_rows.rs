@@ -1,8 +1,11 @@
-//! What the condensation of large models costs: CPU time and peak memory of `Model::sparse`.
+//! What large models cost: CPU time and peak memory of the reduction, of the first load case, of a further one,
+//! and of a hundred further ones at once, each with its displacements.
 //!
 //! `cargo bench --bench large_rows -- bar block 26 33`: `bar` has 1000 x 50 nodes with all 1000 of its lower
 //! line in contact, `block` 224 x 224 nodes with one line in contact; a number is the nodes along an edge of a
-//! cube that is clamped above and in contact below. One thread. Times and peaks are those of Linux.
+//! cube that is clamped above and in contact below. The clamped face presses, shears and tilts, differently in
+//! each load case; the obstacle is hollow, so that some pairs open; friction .3. One thread. Times and peaks are
+//! those of Linux. `tests/bench/large.sh` makes a table of the rows; lines with # are no rows.
 
 #[path = "../common/mod.rs"]
 mod common;
@@ -11,10 +14,16 @@ use std::ops::ControlFlow;
 
 use common::brick::{Brick, Support};
 use common::mesh::{Mesh, Pairs, steps};
-use signorini::{Model, Monitor, Progress, Settings};
+use signorini::reduce::SolvedCase;
+use signorini::{
+    FrictionLaw, LoadCase, Model, Monitor, Progress, Settings, Solution, Starts, Status,
+};
+
+/// Load cases at once.
+const MANY: usize = 100;
 
 fn main() {
-    println!("case, unknowns, contact, CPU seconds, peak MB, of these the host's MB");
+    println!("case,dim,unknowns,contact_dofs,library,blas,step,cpu_s,peak_mb,eta,status");
     let wanted: Vec<String> = std::env::args().skip(1).filter(|a| !a.starts_with('-')).collect();
     let wanted = if wanted.is_empty() { vec!["block".into(), "bar".into()] } else { wanted };
     for case in &wanted {
@@ -33,37 +42,180 @@ fn plane(case: &str, [columns, rows]: [usize; 2]) {
     let stiffness = mesh.stiffness();
     let fixed: Vec<usize> = block.row(rows).iter().flat_map(|n| [2 * n, 2 * n + 1]).collect();
     let pairs = Pairs::on_obstacle(&block.row(0), [0.0, -1.0]);
-    measured(case, stiffness.size - fixed.len(), || {
-        stiffness.model(&fixed, &pairs).expect("a valid model")
-    });
+    let (length, height) = (columns as f64, rows as f64);
+    let place = |node: usize| [mesh.nodes[node][0] / length - 0.5, 0.0];
+    let study = Study {
+        case,
+        height,
+        above: block.row(rows).into_iter().map(place).collect(),
+        below: block.row(0).into_iter().map(place).collect(),
+        unknowns: stiffness.size - fixed.len(),
+    };
+    study.run(|| stiffness.model(&fixed, &pairs).expect("a valid model"));
 }
 
 fn cube(case: &str, edge: usize) {
     let brick = Brick::new([edge - 1; 3], [1.0; 3], Support::Clamped);
     let stiffness = brick.stiffness();
+    let place = |node: usize| [brick.nodes[node][0], brick.nodes[node][1]];
+    let study = Study {
+        case,
+        height: 1.0,
+        above: brick.top().map(place).collect(),
+        below: brick.contact.iter().map(|&node| place(node)).collect(),
+        unknowns: brick.size() - 3 * brick.pairs(),
+    };
     let mut announced = 0;
     let mut progress = |now: &Progress| {
         announced = announced.max(now.memory);
         ControlFlow::Continue(())
     };
-    measured(case, brick.size() - 3 * brick.pairs(), || {
+    study.run(|| {
         let monitor = &mut Monitor::new(&Settings::default(), Some(&mut progress));
         brick.model_within(&stiffness, None, monitor).expect("a valid model")
     });
-    println!("    announced {} MB", announced / 1_000_000);
+    println!("# announced {} MB", announced / 1_000_000);
 }
 
-fn measured(case: &str, unknowns: usize, make: impl FnOnce() -> Model) {
-    // Linux: the high-water mark begins anew.
-    let _ = std::fs::write("/proc/self/clear_refs", "5");
-    let (before, begin) = (peak(), cpu());
-    let model = make();
-    let (seconds, contact) = (cpu() - begin, model.dim() * model.pairs());
-    println!("{case}, {unknowns}, {contact}, {seconds:.2}, {}, {before}", peak());
-    // A number by which two versions can be compared.
-    let largest = model.stiffness().iter().fold(0.0_f64, |most, k| most.max(k.abs()));
-    let sum: f64 = model.stiffness().iter().map(|k| k * k).sum();
-    println!("    largest {largest:.15e}, norm {:.15e}", sum.sqrt());
+/// A body with its load cases. Places are along x and y, from -1/2 to 1/2.
+struct Study<'a> {
+    case: &'a str,
+    height: f64,
+    /// Where the nodes of the clamped face are.
+    above: Vec<[f64; 2]>,
+    /// Where the pairs are.
+    below: Vec<[f64; 2]>,
+    unknowns: usize,
+}
+
+/// The arrays of load cases.
+struct Cases {
+    load: Vec<f64>,
+    prescribed: Vec<Vec<f64>>,
+    gap: Vec<f64>,
+    mu: Vec<f64>,
+}
+
+impl Cases {
+    fn case(&self, k: usize) -> LoadCase<'_> {
+        LoadCase {
+            load: &self.load,
+            prescribed: Some(&self.prescribed[k]),
+            gap: &self.gap,
+            law: FrictionLaw::Coulomb(&self.mu),
+            reference_slip: None,
+        }
+    }
+
+    fn solved<'a>(&'a self, k: usize, solution: &'a Solution) -> SolvedCase<'a> {
+        let case = self.case(k);
+        SolvedCase { load: Some(case.load), prescribed: case.prescribed, d: &solution.d }
+    }
+}
+
+impl Study<'_> {
+    fn cases(&self, model: &Model) -> Cases {
+        let unit = 1e-3 * self.height;
+        let prescribed = |k: usize| {
+            let (share, angle) = (k as f64 / MANY as f64, 0.3 * k as f64);
+            let motion = |place: &[f64; 2]| {
+                let down = unit * (1.0 + 0.2 * share + 0.3 * angle.sin() * place[0]);
+                let along = 0.4 * unit * angle.cos();
+                match model.dim() {
+                    2 => vec![along, -down],
+                    _ => vec![along, 0.1 * unit * share, -down],
+                }
+            };
+            self.above.iter().flat_map(motion).collect()
+        };
+        let hollow = |place: &[f64; 2]| 4.0 * unit * (place[0].powi(2) + place[1].powi(2));
+        Cases {
+            load: vec![0.0; model.host_size()],
+            prescribed: (0..MANY + 2).map(prescribed).collect(),
+            gap: self.below.iter().map(hollow).collect(),
+            mu: vec![0.3; model.pairs()],
+        }
+    }
+
+    fn run(&self, make: impl FnOnce() -> Model) {
+        // Linux: the high-water mark begins anew.
+        let _ = std::fs::write("/proc/self/clear_refs", "5");
+        let (before, begin) = (peak(), cpu());
+        let model = make();
+        let reduced = cpu() - begin;
+        self.row(&model, "reduce", reduced, None);
+        println!("# of the peak the host's own: {before} MB");
+        // A number by which two versions can be compared.
+        let largest = model.stiffness().iter().fold(0.0_f64, |most, k| most.max(k.abs()));
+        let sum: f64 = model.stiffness().iter().map(|k| k * k).sum();
+        println!("# largest {largest:.15e}, norm {:.15e}", sum.sqrt());
+
+        let cases = self.cases(&model);
+        let first = reduced + self.one(&model, &cases, (0, "solve"));
+        let further = self.one(&model, &cases, (1, "further"));
+        println!(
+            "# a further case: {:.2} % of the first with the reduction",
+            100.0 * further / first
+        );
+        for starts in [Starts::Cold, Starts::Previous(None)] {
+            let (solved, recovered) = many(&model, &cases, starts);
+            let each = (solved + recovered) / MANY as f64;
+            println!(
+                "# {MANY} cases, {starts:?}: solved in {solved:.2} s, recovered in {recovered:.2} s, {each:.4} s \
+                 each: {:.2} % of the first with the reduction",
+                100.0 * each / first
+            );
+        }
+        let (condensed, count) = (cpu(), 10);
+        for k in 0..count {
+            let case = cases.case(k);
+            model.condensed_load(case.load, case.prescribed).expect("a valid load");
+        }
+        println!("# of a case by itself, the load: {:.4} s", (cpu() - condensed) / count as f64);
+    }
+
+    /// Solves and recovers a load case by itself. Returns the seconds.
+    fn one(&self, model: &Model, cases: &Cases, (k, step): (usize, &str)) -> f64 {
+        let begin = cpu();
+        let (case, settings) = (cases.case(k), Settings::default());
+        let monitor = &mut Monitor::new(&settings, None);
+        let solution = model.solve(&case, &settings, None, monitor).expect("a valid case");
+        let u = model.recover(Some(case.load), case.prescribed, &solution.d);
+        let seconds = cpu() - begin;
+        assert_eq!(u.expect("a valid solution").len(), model.host_size());
+        self.row(model, step, seconds, Some(&solution));
+        let (method, iterations) = (solution.method, solution.iterations);
+        println!("# {method:?}, {iterations} sweeps or systems, fallback {:?}", solution.fallback);
+        seconds
+    }
+
+    fn row(&self, model: &Model, step: &str, seconds: f64, solution: Option<&Solution>) {
+        let (dim, contact) = (model.dim(), model.dim() * model.pairs());
+        let (case, unknowns, peak) = (self.case, self.unknowns, peak());
+        let end = solution.map_or_else(
+            || ",reduced".to_owned(),
+            |found| format!("{:.1e},{:?}", found.certificate.eta, found.status),
+        );
+        println!(
+            "{case},{dim},{unknowns},{contact},signorini,faer,{step},{seconds:.4},{peak},{end}"
+        );
+    }
+}
+
+/// Seconds of a hundred load cases at once, and of their displacements.
+fn many(model: &Model, cases: &Cases, starts: Starts<'_>) -> (f64, f64) {
+    let all: Vec<_> = (2..MANY + 2).map(|k| cases.case(k)).collect();
+    let begin = cpu();
+    let solutions: Vec<Solution> = (model.solve_cases(&all, &Settings::default(), starts, None))
+        .into_iter()
+        .map(|solution| solution.expect("a valid case"))
+        .collect();
+    let solved = cpu();
+    assert!(solutions.iter().all(|solution| solution.status == Status::Solved), "all are solved");
+    let columns = (2..).zip(&solutions).map(|(k, solution)| cases.solved(k, solution));
+    let recovered = model.recover_cases(&columns.collect::<Vec<_>>()).expect("valid solutions");
+    assert_eq!(recovered.len(), MANY);
+    (solved - begin, cpu() - solved)
 }
 
 /// CPU seconds of this thread.
