@@ -113,6 +113,7 @@ pub unsafe extern "C" fn signorini_model_recover_cases(
 /// Number of the argument of [`signorini_model_recover_cases`] that an error is about.
 fn position(argument: Argument) -> i32 {
     match argument {
+        Argument::Matrix => 1,
         Argument::Load => 3,
         Argument::Prescribed => 4,
         _ => 5,
