@@ -9,8 +9,8 @@ const VECTORS: f64 = 100.0;
 /// Whatever the size.
 const ALWAYS: f64 = 262_144.0;
 
-/// Most bytes that [`CondensedReduction::new`](super::CondensedReduction::new) and
-/// [`TwoBodyReduction::new`](super::TwoBodyReduction::new) take for so many unknowns, what they return among
+/// Most bytes that [`Model::condensed`](crate::Model::condensed) and
+/// [`Model::two_body`](crate::Model::two_body) take for so many unknowns, what they return among
 /// them.
 pub fn memory(unknowns: usize) -> u64 {
     let n = unknowns as f64;
