@@ -38,7 +38,12 @@ mkdir -p "$work/$name/.cargo"
 tar cf - -T "$work/files" | tar xf - -C "$work/$name"
 
 say "copying the crates: cargo vendor"
-(cd "$work/$name" && cargo vendor --quiet --locked --versioned-dirs vendor >.cargo/config.toml)
+# It prints the configuration that names the copies; with --quiet it does not.
+(cd "$work/$name" && cargo vendor --locked --versioned-dirs vendor 2>"$work/said" >.cargo/config.toml) || {
+    cat "$work/said" >&2
+    die "cargo vendor has failed"
+}
+grep -q '^directory = "vendor"' "$work/$name/.cargo/config.toml" || die "cargo vendor names no copies"
 tar --sort=name --mtime=@0 --owner=0 --group=0 --numeric-owner -cf - -C "$work" "$name" |
     gzip -9n >"$out/$name.tar.gz.part"
 mv -f "$out/$name.tar.gz.part" "$out/$name.tar.gz"

@@ -1,1 +1,0 @@
-int signorini_abi_version(void) { return 2; }
