@@ -18,17 +18,15 @@
 //! Two facts of doubles are taken into account:
 //!
 //! - A closing gap or an earlier slip may translate or rotate a body rigidly. These displacements
-//!   cancel in `K d` up to rounding only, so that a method need not lower a residual below [`FORGIVEN`] units
-//!   of their rounding: `eta` takes it for zero. Displacements up to [`LEVER`] times the largest gap or slip
-//!   qualify: a body that turns about a contact moves as much more at its far end as its length exceeds the
-//!   contact's. A result is measured with nothing forgiven.
+//!   cancel in `K d` up to rounding only. Displacements up to [`LEVER`] times the largest gap or slip qualify: a
+//!   body that turns about a contact moves as much more at its far end as its length exceeds the contact's.
 //! - Where rounding `d` to doubles changes `K d` by a part of the forces (`rounding >` [`ROUNDING_LIMIT`])
 //!   nothing is certified unless `K` resists `d` by more energy than rounding of its entries explains: an
 //!   unconstrained body would be "solved" by moving it far enough. Without loads there is nothing to drive
 //!   such motions, and the first kind does not count.
 //!
-//! `K d - f` and `d - gap` are evaluated in twice the precision. [`Certificate::residual`] is `eta` with
-//! nothing forgiven and with a bound on what rounding is left in its evaluation: it is not below the true one.
+//! `K d - f` and `d - gap` are evaluated in twice the precision. [`Certificate::residual`] is `eta` with a bound
+//! on what rounding is left in its evaluation: it is not below the true one.
 
 mod escape;
 mod proof;
@@ -50,8 +48,7 @@ use crate::problem::{ContactProblem, Relation};
 pub struct Certificate {
     /// Residual of the natural map, dimensionless.
     pub eta: f64,
-    /// `eta` with nothing forgiven for the rounding of rigid displacements, and with the rounding of its
-    /// own evaluation: the true one is not above.
+    /// `eta` with the rounding of its own evaluation: the true one is not above.
     pub residual: f64,
     /// Rounding of `K d` relative to the forces, dimensionless: what rounding `d` to doubles may cost.
     pub rounding: f64,
@@ -73,14 +70,15 @@ pub struct Certificate {
 }
 
 impl Certificate {
-    /// Whether the candidate may be called a solution: nothing is forgiven.
+    /// Whether the candidate may be called a solution.
     pub fn holds(&self, tolerance: f64) -> bool {
-        self.residual <= tolerance && !self.runs_away()
+        self.eta <= tolerance && !self.runs_away()
     }
 
-    /// The same certificate with nothing forgiven, as it is reported.
-    pub(crate) fn unforgiving(self) -> Self {
-        Certificate { eta: self.residual, ..self }
+    /// The same certificate with the rounding of its evaluation in `eta`, where that meets the tolerance too.
+    pub(crate) fn with_rounding(self, tolerance: f64) -> Self {
+        let eta = if self.residual <= tolerance { self.residual } else { self.eta };
+        Certificate { eta, ..self }
     }
 
     /// Whether the displacements are so large that rounding hides the forces.
@@ -105,10 +103,6 @@ const RESISTED: f64 = ROUNDING_OF_SUM;
 
 /// Displacements of a turning body beside the gap or slip that turns it: lever arms up to 1000.
 pub const LEVER: f64 = 1e3;
-
-/// Units of the rounding of rigid displacements that a residual may have: a sum of `n` rounded terms
-/// is off by about `sqrt(n)` units, and 16 cover some hundred terms.
-pub const FORGIVEN: f64 = 16.0;
 
 /// Roundings of one component of the residual, of its norm and of the quotient, relative: some ten, half
 /// a unit each.
@@ -177,9 +171,7 @@ fn measure_pair<R: Relation>(
     let natural = Natural::new(contact, (d, low), &raw);
     let size = natural.size.root().hypot(norm(residual));
     let inherent = UNIT * terms.inherent;
-    let forgiven = FORGIVEN * inherent;
-    // Written so that NaN stays NaN.
-    let eta = ratio(if size <= forgiven { 0.0 } else { size - forgiven }, scale);
+    let eta = ratio(size, scale);
     // What products in twice the precision are off by: `Matrix::residual`.
     let count = (d.len() + 2) as f64;
     let products = (4.0 * UNIT * count).powi(2) * (terms.inherent + terms.rest + load);

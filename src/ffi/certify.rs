@@ -179,7 +179,7 @@ impl Results {
     /// The outputs have the lengths of the header and overlap nothing.
     unsafe fn write(&self, certificate: Certificate) -> i32 {
         let tolerance = self.tolerance;
-        let certificate = certificate.unforgiving();
+        let certificate = certificate.with_rounding(tolerance);
         let eta = certificate.eta;
         let status = if certificate.holds(tolerance) {
             SIGNORINI_STATUS_SOLVED

@@ -130,7 +130,7 @@ pub fn certified(
 ) -> Solution {
     let at_rest = at_rest(contact, settings, candidate);
     let candidate = at_rest.as_ref().unwrap_or(candidate);
-    let certificate = candidate.certificate(contact).clone().unforgiving();
+    let certificate = candidate.certificate(contact).clone().with_rounding(settings.tolerance);
     let mut recession = None;
     let accuracy = format!("eta is {:.1e}", certificate.eta);
     let wanted = format!("{accuracy}, wanted {:.1e}", settings.tolerance);

@@ -30,7 +30,8 @@ fn move_to_middle(
     solution: &mut Solution,
     proof: &Proof,
 ) {
-    let certificate = measure_parts(contact, &proof.d, &proof.d_low).unforgiving();
+    let certificate =
+        measure_parts(contact, &proof.d, &proof.d_low).with_rounding(settings.tolerance);
     let same = certificate.states == solution.certificate.states;
     if certificate.holds(settings.tolerance) && same {
         solution.d.clone_from(&proof.d);

@@ -99,7 +99,8 @@ fn on_all_obstacles(
     settings: &Settings,
     mut solution: Solution,
 ) -> Result<Solution, Vec<f64>> {
-    let certificate = |d: &[f64], low: &[f64]| measure_parts(contact, d, low).unforgiving();
+    let certificate =
+        |d: &[f64], low: &[f64]| measure_parts(contact, d, low).with_rounding(settings.tolerance);
     let own = certificate(&solution.d, &solution.d_low);
     if !own.holds(settings.tolerance) {
         return Err(solution.d);

@@ -63,8 +63,8 @@ static void cancellation(struct world *world)
 /* ---- Small stacks --------------------------------------------------------------------------- */
 
 /*
- * Bytes of a stack. The search for other solutions and proofs multiply small matrices by a part of faer that
- * has 64 KiB of numbers on the stack.
+ * Bytes of a stack. The search for other solutions, proofs and blocks of load cases multiply small matrices by
+ * a part of faer that has 64 KiB of numbers on the stack.
  */
 enum { SMALL_STACK = 64 << 10, DEEP_STACK = 96 << 10 };
 

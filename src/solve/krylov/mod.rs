@@ -244,7 +244,8 @@ fn certified(
     };
     let residual = bodies.residual(&at.x, &at.low, load)?;
     let x = at.x;
-    let certificate = measure_spread(contact, bodies, &x, &residual).unforgiving();
+    let certificate =
+        measure_spread(contact, bodies, &x, &residual).with_rounding(settings.tolerance);
     let accuracy = format!("eta is {:.1e}", certificate.eta);
     let wanted = format!("{accuracy}, wanted {:.1e}", settings.tolerance);
     let (status, message) = match ending {
