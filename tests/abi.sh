@@ -23,7 +23,9 @@ mkdir -p "$work"
 
 # A library of the functions that a header declares, each with an empty body.
 library() {
-    sed '/^typedef/!s/);$/) { __builtin_trap(); }/' "$2" >"$work/$1.c"
+    awk '/^typedef/ { type = 1 }
+        { if (!type) sub(/\);$/, ") { __builtin_trap(); }"); print }
+        /;$/ { type = 0 }' "$2" >"$work/$1.c"
     # shellcheck disable=SC2086 # options in CC
     $cc -g -shared -fPIC -w -fno-eliminate-unused-debug-types -o "$work/$1.so" "$work/$1.c"
 }
