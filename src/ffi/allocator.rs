@@ -44,8 +44,10 @@ struct Block {
     bytes: usize,
     /// The block that the same call obtained before.
     before: *mut Block,
-    /// The next block that has served; its own address while it has not.
+    /// The next block that has served. Another thread changes it when it frees the last piece of that one.
     next: *mut Block,
+    /// Whether a piece of it was served. The thread of the call alone changes it.
+    has_served: bool,
     /// Whether the call goes on.
     open: bool,
     holes: Holes,
@@ -139,7 +141,7 @@ impl Drop for Held {
             // SAFETY: the blocks of this thread's call; those that have served are changed alone.
             unsafe {
                 let before = (*block).before;
-                if (*block).next == block {
+                if !(*block).has_served {
                     return_block(block);
                 } else {
                     SERVED.alone(|first| {
@@ -195,7 +197,14 @@ unsafe fn hold(memory: *mut u8, size: usize, bytes: usize) {
     // SAFETY: by the caller's contract; every size here is larger than the head.
     unsafe {
         let holes = Holes::new(memory.add(head), size - head);
-        block.write(Block { bytes, before: LAST.get(), next: block, open: true, holes });
+        block.write(Block {
+            bytes,
+            before: LAST.get(),
+            next: null_mut(),
+            has_served: false,
+            open: true,
+            holes,
+        });
     }
     LAST.set(block);
     HELD.set(HELD.get() + size);
@@ -227,7 +236,8 @@ fn serve(layout: Layout) -> *mut u8 {
         // SAFETY: the blocks of this thread's call, which are changed alone.
         let piece = SERVED.alone(|first| unsafe {
             let piece = (*block).holes.take(layout);
-            if !piece.is_null() && (*block).next == block {
+            if !piece.is_null() && !(*block).has_served {
+                (*block).has_served = true;
                 (*block).next = first.replace(block);
                 SERVED.count.fetch_add(1, Relaxed);
             }
