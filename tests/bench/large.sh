@@ -1,6 +1,6 @@
 #!/bin/sh
 # What large models cost, in one table: CPU time and peak memory of the reduction, of the first load case, and
-# of a further one.
+# of a further one; and where MUMPS and CHOLMOD are, beside them.
 #
 #     sh tests/bench/large.sh OUT [CASE ...]
 #
@@ -10,8 +10,13 @@
 #
 # and OUT/large.txt, with what the runs say of them. A CASE is block, bar, or the nodes along an edge of
 # a cube; the default, block bar 26 33, takes a few minutes and 1.4 GB; 47 takes more than two minutes and 5.5 GB
-# by itself. Each case is a process of its own, so that peaks are those of the case. Times are those of one
-# thread; on a busy machine they are longer.
+# by itself. Each case and library is a process of its own, so that peaks are those of the case. Times are those
+# of one thread; on a busy machine they are longer.
+#
+# The libraries beside ours are compiled from large_peers.c where their headers are (names of Debian:
+# libmumps-seq-dev, libsuitesparse-dev, libopenblas-dev); CC names the compiler. They condense (MUMPS) or factor
+# (CHOLMOD) the same matrix, right after ours and with OpenBLAS on one thread: as it chooses its kernels, and, on a
+# CPU with AVX-512, with the kernels for that too, since releases of 2022 do not know newer CPUs.
 set -eu
 LC_ALL=C
 export LC_ALL
@@ -40,10 +45,50 @@ say "building"
 cargo build --release --quiet --bench large_rows || die "the build failed"
 echo "case,dim,unknowns,contact_dofs,library,blas,step,cpu_s,peak_mb,eta,status" >"$out/large.csv"
 : >"$out/large.txt"
+
+peers=
+headers=${SUITESPARSE:-/usr/include/suitesparse}
+sequential=${MUMPS_SEQ:-/usr/include/mumps_seq}
+if [ -f "$headers/cholmod.h" ] && [ -f "$sequential/mpi.h" ]; then
+    peers=target/bench/large_peers
+    mkdir -p target/bench
+    ${CC:-cc} -O2 -std=c11 -D_GNU_SOURCE -I"$headers" -I"$sequential" tests/bench/large_peers.c -o $peers \
+        -ldmumps_seq -lcholmod -lm || die "large_peers.c does not compile"
+else
+    say "ours alone: without libmumps-seq-dev and libsuitesparse-dev there is nothing beside it"
+fi
+kernels=default
+! grep -q avx512f /proc/cpuinfo 2>/dev/null || kernels="default SkylakeX"
+OMP_NUM_THREADS=1
+OPENBLAS_NUM_THREADS=1
+SIGNORINI_LARGE_MATRIX=$root/target/bench/large.matrix
+export OMP_NUM_THREADS OPENBLAS_NUM_THREADS
+[ -z "$peers" ] || export SIGNORINI_LARGE_MATRIX
+
+# Adds the rows of a run to the table.
+note() {
+    printf '%s\n' "$1" | grep -v -e '^#' -e '^case,' >>"$out/large.csv"
+    printf '%s\n' "$1" >>"$out/large.txt"
+}
+
 for case in "$@"; do
     say "$case"
     rows=$(cargo bench --quiet --bench large_rows -- "$case") || die "$case did not end"
-    printf '%s\n' "$rows" | grep -v -e '^#' -e '^case,' >>"$out/large.csv"
-    printf '%s\n' "$rows" >>"$out/large.txt"
+    note "$rows"
+    [ -n "$peers" ] || continue
+    dim=3
+    case $case in block | bar) dim=2 ;; esac
+    for library in mumps cholmod; do
+        for blas in $kernels; do
+            say "$case, $library, kernels of OpenBLAS: $blas"
+            core=
+            [ "$blas" = default ] || core=$blas
+            # OpenBLAS takes an empty name for none.
+            rows=$(OPENBLAS_CORETYPE=$core "$peers" "$SIGNORINI_LARGE_MATRIX" $library "$case" $dim "OpenBLAS-$blas") ||
+                die "$library did not end"
+            note "$rows"
+        done
+    done
+    rm -f "$SIGNORINI_LARGE_MATRIX"
 done
 say "wrote $out/large.csv and $out/large.txt"

@@ -5,15 +5,17 @@
 //! line in contact, `block` 224 x 224 nodes with one line in contact; a number is the nodes along an edge of a
 //! cube that is clamped above and in contact below. The clamped face presses, shears and tilts, differently in
 //! each load case; the obstacle is hollow, so that some pairs open; friction .3. One thread. Times and peaks are
-//! those of Linux. `tests/bench/large.sh` makes a table of the rows; lines with # are no rows.
+//! those of Linux. `tests/bench/large.sh` makes a table of the rows; lines with # are no rows. With
+//! `SIGNORINI_LARGE_MATRIX=FILE` the matrix is written for `large_peers.c`, which says how.
 
 #[path = "../common/mod.rs"]
 mod common;
 
+use std::io::Write;
 use std::ops::ControlFlow;
 
 use common::brick::{Brick, Support};
-use common::mesh::{Mesh, Pairs, steps};
+use common::mesh::{Mesh, Pairs, Stiffness, steps};
 use signorini::reduce::SolvedCase;
 use signorini::{
     FrictionLaw, LoadCase, Model, Monitor, Progress, Settings, Solution, Starts, Status,
@@ -41,6 +43,8 @@ fn plane(case: &str, [columns, rows]: [usize; 2]) {
     let block = mesh.block(&lines[0], &lines[1], (13000.0, 0.2));
     let stiffness = mesh.stiffness();
     let fixed: Vec<usize> = block.row(rows).iter().flat_map(|n| [2 * n, 2 * n + 1]).collect();
+    let contact: Vec<usize> = block.row(0).iter().flat_map(|n| [2 * n, 2 * n + 1]).collect();
+    write_matrix(&stiffness, &fixed, &contact);
     let pairs = Pairs::on_obstacle(&block.row(0), [0.0, -1.0]);
     let (length, height) = (columns as f64, rows as f64);
     let place = |node: usize| [mesh.nodes[node][0] / length - 0.5, 0.0];
@@ -57,6 +61,9 @@ fn plane(case: &str, [columns, rows]: [usize; 2]) {
 fn cube(case: &str, edge: usize) {
     let brick = Brick::new([edge - 1; 3], [1.0; 3], Support::Clamped);
     let stiffness = brick.stiffness();
+    let contact: Vec<usize> =
+        brick.contact.iter().flat_map(|n| [0, 1, 2].map(|c| 3 * n + c)).collect();
+    write_matrix(&stiffness, &brick.fixed(), &contact);
     let place = |node: usize| [brick.nodes[node][0], brick.nodes[node][1]];
     let study = Study {
         case,
@@ -75,6 +82,37 @@ fn cube(case: &str, edge: usize) {
         brick.model_within(&stiffness, None, monitor).expect("a valid model")
     });
     println!("# announced {} MB", announced / 1_000_000);
+}
+
+/// Writes what is left of the matrix without fixed unknowns, contact unknowns last, if that is asked for.
+fn write_matrix(stiffness: &Stiffness, fixed: &[usize], contact: &[usize]) {
+    let Some(path) = std::env::var_os("SIGNORINI_LARGE_MATRIX") else { return };
+    let mut is_inner = vec![true; stiffness.size];
+    fixed.iter().chain(contact).for_each(|&i| is_inner[i] = false);
+    let inner = (0..stiffness.size).filter(|&i| is_inner[i]);
+    let order: Vec<usize> = inner.chain(contact.iter().copied()).collect();
+    let mut place = vec![usize::MAX; stiffness.size];
+    order.iter().enumerate().for_each(|(to, &from)| place[from] = to);
+    let mut columns = vec![Vec::new(); order.len()];
+    for (i, j, value) in stiffness.entries() {
+        let (i, j) = (place[i].max(place[j]), place[i].min(place[j]));
+        if i < usize::MAX {
+            columns[j].push((i as i64, value));
+        }
+    }
+    let mut starts = vec![0_i64];
+    for column in &mut columns {
+        column.sort_by_key(|(i, _)| *i);
+        starts.push(starts[starts.len() - 1] + column.len() as i64);
+    }
+    let head = [order.len() as i64, contact.len() as i64, starts[order.len()]];
+    let entries = || columns.iter().flatten();
+    let numbers = head.iter().chain(&starts).chain(entries().map(|(i, _)| i));
+    let numbers = numbers.flat_map(|number| number.to_ne_bytes());
+    let values = entries().flat_map(|(_, value)| value.to_ne_bytes());
+    let bytes: Vec<u8> = numbers.chain(values).collect();
+    let mut file = std::fs::File::create(path).expect("the file can be made");
+    file.write_all(&bytes).expect("the file can be written");
 }
 
 /// A body with its load cases. Places are along x and y, from -1/2 to 1/2.
