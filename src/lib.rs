@@ -136,5 +136,5 @@ pub use problem::{
 pub use settings::{Method, Search, Settings};
 pub use solve::{
     Errors, Escape, Existence, Fallback, LcpSolution, SecondSolution, Solution, Status, Uniqueness,
-    memory, solve, solve_flexibility, solve_lcp,
+    memory, memory_flexibility, solve, solve_flexibility, solve_lcp,
 };

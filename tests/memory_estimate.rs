@@ -13,8 +13,9 @@ use fastrand::Rng;
 use signorini::certificate::{certify, prove};
 use signorini::reduce;
 use signorini::{
-    ContactData, ContactProblem, FrictionLaw, Lcp, Method, Model, Monitor, Search, Settings,
-    memory, solve, solve_lcp,
+    ContactData, ContactProblem, FlexibilityData, FlexibilityProblem, FrictionLaw, Lcp, Method,
+    Model, Monitor, Search, Settings, memory, memory_flexibility, solve, solve_flexibility,
+    solve_lcp,
 };
 
 /// Most that the estimate may be of what is held, where the problem is large enough that matrices decide and
@@ -161,6 +162,7 @@ fn a_call_holds_no_more_than_was_estimated() {
         let chain = Chain::new(dim, pairs, ground);
         solutions(&chain, &mut shares);
         others(&chain, &mut shares);
+        flexibilities(&chain, &mut shares);
     }
     println!("shares from {:.3} to {:.3}", shares.least, shares.worst);
     assert!(shares.worst >= 1.0 / MOST, "the estimate is {} times the most", 1.0 / shares.worst);
@@ -189,4 +191,35 @@ fn others(chain: &Chain, shares: &mut Shares) {
     let (peak, _) =
         counted::peak(|| Model::two_body(chain.dim, chain.pairs, both.0, both.1).is_ok());
     shares.note("two bodies", n, peak, reduce::memory(n));
+}
+
+/// The flexibility form: the matrix of the chain as `W`, every method and law.
+fn flexibilities(chain: &Chain, shares: &mut Shares) {
+    let n = chain.n();
+    for (name, law) in chain.laws() {
+        for method in METHODS {
+            let data = FlexibilityData {
+                dim: chain.dim,
+                pairs: chain.pairs,
+                flexibility: &chain.k,
+                ld: n,
+                free: &chain.load,
+                gap: &chain.gap,
+                law,
+                reference_slip: None,
+            };
+            let problem = FlexibilityProblem::from_flexibility(data).expect("a valid problem");
+            let settings = Settings { method, max_iterations: 3000, ..Settings::default() };
+            let monitor = &mut Monitor::new(&settings, None);
+            let (peak, result) =
+                counted::peak(|| solve_flexibility(&problem, &settings, None, monitor));
+            // A method that is not for this law refuses it.
+            let Ok(solution) = result else { continue };
+            let what = format!(
+                "flexibility, {}D, {} pairs, {name}, {method:?}, {:?}",
+                chain.dim, chain.pairs, solution.status
+            );
+            shares.note(&what, n, peak, memory_flexibility(n));
+        }
+    }
 }

@@ -1,16 +1,15 @@
 //! Contact problems in flexibility form, in one call on plain arrays.
 
 use super::args::{Arrays, matrix_length, size, sizes};
-use super::extra::{Extra, SignoriniExtra};
+use super::extra::SignoriniExtra;
 use super::guard::{self, Failure};
 use super::law;
-use super::report::{SignoriniReport, state_codes};
+use super::outputs::{self, OutputArguments};
+use super::report::SignoriniReport;
 use super::settings::SignoriniSettings;
-use super::status::{code, remember};
 use crate::error::{Argument, Error};
-use crate::monitor::{Monitor, ProgressFn};
 use crate::problem::{FlexibilityData, FlexibilityProblem};
-use crate::solve::{Status, solve_flexibility};
+use crate::solve::{memory_flexibility, solve_flexibility};
 
 /// Solves a contact problem in flexibility form, as codes of rigid and multibody dynamics have it:
 /// d = W F + q takes the place of K d = f + F. Contact, friction and signs are those of the problem
@@ -58,7 +57,6 @@ use crate::solve::{Status, solve_flexibility};
 /// @return as signorini_solve
 #[unsafe(no_mangle)]
 #[allow(non_snake_case)] // the names of the mechanics, which the header shows
-// long: fifteen arguments, each received at its position, in one scope of their lifetimes
 pub unsafe extern "C" fn signorini_flexibility_solve(
     dim: i32,
     pairs: i64,
@@ -76,61 +74,39 @@ pub unsafe extern "C" fn signorini_flexibility_solve(
     report: *mut SignoriniReport,
     extra: *const SignoriniExtra,
 ) -> i32 {
+    let wanted = OutputArguments { d, F, state, report, extra };
     guard::call(|| {
         let mut arrays = Arrays::default();
         let (dim, pairs, n) = sizes(1, dim, pairs)?;
         let ld = size(4, "ldw", ldw)?;
         let entries = matrix_length(4, "W", n, ld)?;
-        let closed = vec![0.0; pairs];
         // SAFETY: arrays of the lengths of the header, structures that begin with their size.
-        let (data, received) = unsafe {
-            let data = FlexibilityData {
-                dim,
-                pairs,
-                flexibility: arrays.required(3, "W", W, entries)?,
-                ld,
-                free: arrays.required(5, "q", q, n)?,
-                gap: arrays.optional(6, "gap", gap, pairs)?.unwrap_or(&closed),
-                law: law::read(&mut arrays, 7, (law, friction), pairs)?,
-                reference_slip: arrays.optional(9, "slip0", slip0, n - pairs)?,
-            };
-            (data, SignoriniSettings::read(SETTINGS, settings)?)
-        };
-        // SAFETY: as above.
-        unsafe { arrays.structure(SETTINGS, "settings", settings, false)? };
-        let d = arrays.output(11, "d", d, n)?;
-        let force = arrays.output(START, "F", F, n)?;
-        let state = arrays.optional_output(13, "state", state, pairs)?;
-        // SAFETY: as above.
-        let extra = unsafe {
-            arrays.structure(14, "report", report.cast_const(), true)?;
-            Extra::read(&mut arrays, 15, extra, (n, pairs, 1))?
+        let (matrix, free, gap, law, reference_slip, received, outputs) = unsafe {
+            let matrix = arrays.matrix(3, "W", W, entries)?;
+            let free = arrays.required(5, "q", q, n)?;
+            let gap = arrays.optional(6, "gap", gap, pairs)?;
+            let law = law::read(&mut arrays, 7, (law, friction), pairs)?;
+            let slip = arrays.optional(9, "slip0", slip0, n - pairs)?;
+            let received = SignoriniSettings::read(SETTINGS, settings)?;
+            arrays.structure(SETTINGS, "settings", settings, false)?;
+            (matrix, free, gap, law, slip, received, wanted.note(&mut arrays, (n, pairs))?)
         };
         arrays.check_overlap()?;
 
+        guard::reserve_estimate(memory_flexibility(n))?;
+        let closed = vec![0.0; pairs];
+        let gap = gap.unwrap_or(&closed);
+        let data =
+            FlexibilityData { dim, pairs, flexibility: matrix, ld, free, gap, law, reference_slip };
         let problem = FlexibilityProblem::from_flexibility(data).map_err(from_error)?;
         // SAFETY: F has n entries, which the caller has filled if it asked for a warm start.
-        let start = received.starts_from_given().then(|| unsafe { force.read() });
-        let mut progress = received.progress();
-        let progress = progress.as_mut().map(|progress| progress as &mut ProgressFn<'_>);
-        let mut monitor = Monitor::new(&received.settings, progress);
-        let solution =
-            solve_flexibility(&problem, &received.settings, start.as_deref(), &mut monitor)
-                .map_err(from_error)?;
-
-        let status = code(solution.status);
-        if solution.status != Status::Solved {
-            remember(solution.message.clone());
-        }
+        let start = received.starts_from_given().then(|| unsafe { outputs.force.read() });
+        let settings = &received.settings;
+        let solution = received
+            .monitored(|monitor| solve_flexibility(&problem, settings, start.as_deref(), monitor))
+            .map_err(from_error)?;
         // SAFETY: the outputs have the lengths of the header and overlap nothing.
-        unsafe {
-            d.write(&solution.d);
-            force.write(&solution.certificate.force);
-            state.write(&state_codes(&solution.certificate.states));
-            SignoriniReport::of(status, &solution).write(report);
-            extra.write(0, &solution);
-        }
-        Ok(status)
+        Ok(unsafe { outputs.write(&solution) })
     })
 }
 
@@ -138,7 +114,7 @@ pub unsafe extern "C" fn signorini_flexibility_solve(
 const SETTINGS: i32 = 10;
 
 /// Number of the array that holds the start.
-const START: i32 = 12;
+const START: i32 = outputs::FIRST + 1;
 
 /// A refusal, by the number of the argument that it is about.
 fn from_error(error: Error) -> Failure {

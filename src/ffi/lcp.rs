@@ -6,7 +6,6 @@ use super::report::SignoriniReport;
 use super::settings::SignoriniSettings;
 use super::status::{code, remember};
 use crate::error::Argument;
-use crate::monitor::{Monitor, ProgressFn};
 use crate::problem::Lcp;
 use crate::settings::Method;
 use crate::solve::{Status, memory, solve_lcp};
@@ -155,10 +154,9 @@ impl Arguments {
         guard::reserve_estimate(memory(n))?;
         let lcp = Lcp::new(n, matrix, ld, q, cover).map_err(from_error)?;
         received.settings.method = self.method.unwrap_or(received.settings.method);
-        let mut progress = received.progress();
-        let progress = progress.as_mut().map(|progress| progress as &mut ProgressFn<'_>);
-        let mut monitor = Monitor::new(&received.settings, progress);
-        let solution = solve_lcp(&lcp, &received.settings, &mut monitor).map_err(from_error)?;
+        let solution = received
+            .monitored(|monitor| solve_lcp(&lcp, &received.settings, monitor))
+            .map_err(from_error)?;
 
         let status = code(solution.status);
         if solution.status != Status::Solved {

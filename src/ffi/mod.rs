@@ -29,6 +29,7 @@ mod model_new;
 mod model_recover;
 mod model_solve;
 mod operator;
+mod outputs;
 mod pairs;
 mod problem_read;
 mod problem_write;

@@ -7,7 +7,6 @@ use super::settings::SignoriniSettings;
 use super::sparse::{SignoriniSparse, shifted};
 use crate::error::{Argument, Error};
 use crate::model::Model;
-use crate::monitor::{Monitor, ProgressFn};
 use crate::reduce;
 use crate::shortage;
 
@@ -194,10 +193,9 @@ unsafe fn sparse(
         let received = SignoriniSettings::read(position, settings)?;
         let wrong = |error| Failure::from_error(error, |_| position);
         received.settings.validate().map_err(wrong)?;
-        let mut progress = received.progress();
-        let progress = progress.as_mut().map(|progress| progress as &mut ProgressFn<'_>);
-        let monitor = &mut Monitor::new(&received.settings, progress);
-        Model::sparse_within(&matrix, &fixed, &pairs.view(), order.as_deref(), monitor)
+        received.monitored(|monitor| {
+            Model::sparse_within(&matrix, &fixed, &view, order.as_deref(), monitor)
+        })
     };
     place.fill(made, |argument| match argument {
         Argument::Matrix | Argument::Order => 1,

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 
 use super::guard::{self, Failure};
 use super::structures;
-use crate::monitor::Progress;
+use crate::monitor::{Monitor, Progress, ProgressFn};
 use crate::settings::{Method, Search, Settings};
 
 /// The default: chooses a method, checks its result, and falls back to the next one if it fails.
@@ -221,6 +221,13 @@ impl Received {
     /// Whether a call with one case starts from what the caller gives.
     pub(super) fn starts_from_given(&self) -> bool {
         self.warm_start == WarmStart::Given
+    }
+
+    /// Does work that the settings limit and the caller's callback watches.
+    pub(super) fn monitored<T>(&self, work: impl FnOnce(&mut Monitor<'_>) -> T) -> T {
+        let mut progress = self.progress();
+        let progress = progress.as_mut().map(|progress| progress as &mut ProgressFn<'_>);
+        work(&mut Monitor::new(&self.settings, progress))
     }
 
     /// The caller's callback as a closure, if there is one.

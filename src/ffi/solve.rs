@@ -2,15 +2,14 @@
 
 use super::args::Arrays;
 use super::condensed::CondensedArguments;
-use super::extra::{Extra, SignoriniExtra};
+use super::extra::SignoriniExtra;
 use super::guard::{self, Failure};
-use super::report::{SignoriniReport, state_codes};
+use super::outputs::{self, OutputArguments};
+use super::report::SignoriniReport;
 use super::settings::SignoriniSettings;
-use super::status::{code, remember};
 use crate::error::Argument;
-use crate::monitor::{Monitor, ProgressFn};
 use crate::problem::ContactProblem;
-use crate::solve::{Status, memory, solve};
+use crate::solve::{memory, solve};
 
 /// Solves a contact problem that you have condensed on the N = dim * pairs contact components.
 ///
@@ -43,7 +42,6 @@ use crate::solve::{Status, memory, solve};
 ///         a defect
 #[unsafe(no_mangle)]
 #[allow(non_snake_case)] // the names of the mechanics, which the header shows
-// long: fifteen arguments, each received at its position, in one scope of their lifetimes
 pub unsafe extern "C" fn signorini_solve(
     dim: i32,
     pairs: i64,
@@ -62,23 +60,18 @@ pub unsafe extern "C" fn signorini_solve(
     extra: *const SignoriniExtra,
 ) -> i32 {
     const SETTINGS: i32 = 10;
-    const START: i32 = 11;
+    const START: i32 = outputs::FIRST;
     let given = CondensedArguments { first: 1, dim, pairs, K, ldk, f, gap, law, friction, slip0 };
+    let wanted = OutputArguments { d, F, state, report, extra };
     guard::call(|| {
         let mut arrays = Arrays::default();
         // SAFETY: arrays of the lengths of the header, structures that begin with their size.
-        let (data, received) =
-            unsafe { (given.read(&mut arrays)?, SignoriniSettings::read(SETTINGS, settings)?) };
-        let (pairs, n) = (data.pairs, data.dim * data.pairs);
-        // SAFETY: as above.
-        unsafe { arrays.structure(SETTINGS, "settings", settings, false)? };
-        let d = arrays.output(START, "d", d, n)?;
-        let force = arrays.output(12, "F", F, n)?;
-        let state = arrays.optional_output(13, "state", state, pairs)?;
-        // SAFETY: as above.
-        let extra = unsafe {
-            arrays.structure(14, "report", report.cast_const(), true)?;
-            Extra::read(&mut arrays, 15, extra, (n, pairs, 1))?
+        let (data, received, outputs) = unsafe {
+            let data = given.read(&mut arrays)?;
+            let received = SignoriniSettings::read(SETTINGS, settings)?;
+            arrays.structure(SETTINGS, "settings", settings, false)?;
+            let outputs = wanted.note(&mut arrays, (data.dim * data.pairs, data.pairs))?;
+            (data, received, outputs)
         };
         arrays.check_overlap()?;
 
@@ -88,28 +81,14 @@ pub unsafe extern "C" fn signorini_solve(
                 given.position(argument, own)
             })
         };
-        guard::reserve_estimate(memory(n))?;
+        guard::reserve_estimate(memory(data.dim * data.pairs))?;
         let problem = ContactProblem::new(data).map_err(from_error)?;
         // SAFETY: d has n entries, which the caller has filled if it asked for a warm start.
-        let start = received.starts_from_given().then(|| unsafe { d.read() });
-        let mut progress = received.progress();
-        let progress = progress.as_mut().map(|progress| progress as &mut ProgressFn<'_>);
-        let mut monitor = Monitor::new(&received.settings, progress);
-        let solution = solve(&problem, &received.settings, start.as_deref(), &mut monitor)
+        let start = received.starts_from_given().then(|| unsafe { outputs.d.read() });
+        let solution = received
+            .monitored(|monitor| solve(&problem, &received.settings, start.as_deref(), monitor))
             .map_err(from_error)?;
-
-        let status = code(solution.status);
-        if solution.status != Status::Solved {
-            remember(solution.message.clone());
-        }
         // SAFETY: the outputs have the lengths of the header and overlap nothing.
-        unsafe {
-            d.write(&solution.d);
-            force.write(&solution.certificate.force);
-            state.write(&state_codes(&solution.certificate.states));
-            SignoriniReport::of(status, &solution).write(report);
-            extra.write(0, &solution);
-        }
-        Ok(status)
+        Ok(unsafe { outputs.write(&solution) })
     })
 }

@@ -3,7 +3,7 @@
 use super::active_set;
 use super::candidate::Ending;
 use super::lemke::{self, Care, Rules, ScaledLcp};
-use super::memory::check_limit;
+use super::memory::{check_limit, memory};
 use super::outcome::{Fallback, Status};
 use crate::error::{Argument, Error, Message, entry};
 use crate::linalg::tolerances::NEGLIGIBLE;
@@ -50,7 +50,7 @@ pub fn solve_lcp(
     monitor: &mut Monitor<'_>,
 ) -> Result<LcpSolution, Error> {
     settings.validate()?;
-    check_limit(lcp.size(), settings)?;
+    check_limit(memory(lcp.size()), settings)?;
     let magnitudes = lcp.magnitudes();
     let mut pivoted = None;
     match settings.method {

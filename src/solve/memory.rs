@@ -16,9 +16,9 @@ const VECTORS: f64 = 100.0;
 /// Whatever the size.
 const ALWAYS: f64 = 262_144.0;
 
-/// Refuses what may need more than the settings allow.
-pub fn check_limit(unknowns: usize, settings: &Settings) -> Result<(), Error> {
-    let (needed, most) = (memory(unknowns), settings.memory_limit);
+/// Refuses what needs more bytes than the settings allow.
+pub fn check_limit(needed: u64, settings: &Settings) -> Result<(), Error> {
+    let most = settings.memory_limit;
     if most == 0 || needed <= most {
         return Ok(());
     }
@@ -37,4 +37,11 @@ const MEGABYTE: f64 = 1e6;
 pub fn memory(unknowns: usize) -> u64 {
     let n = unknowns as f64;
     ((MATRICES * n * n + VECTORS * n) * size_of::<f64>() as f64 + ALWAYS) as u64
+}
+
+/// The same for [`solve_flexibility`](super::solve_flexibility), which holds the stiffness of bodies and springs
+/// besides.
+pub fn memory_flexibility(unknowns: usize) -> u64 {
+    let stiffness = (unknowns as f64).powi(2) * size_of::<f64>() as f64;
+    memory(unknowns) + stiffness as u64
 }

@@ -46,7 +46,7 @@ pub(crate) use krylov::{
 };
 pub use lcp::{LcpSolution, solve_lcp};
 use memory::check_limit;
-pub use memory::memory;
+pub use memory::{memory, memory_flexibility};
 pub use outcome::{
     Errors, Escape, Existence, Fallback, SecondSolution, Solution, Status, Uniqueness,
 };
@@ -62,9 +62,8 @@ pub(crate) fn solve_dependent(
     start: Option<&[f64]>,
     monitor: &mut Monitor<'_>,
 ) -> Result<Solution, Error> {
-    settings.validate()?;
-    check_limit(problem.unknowns(), settings)?;
-    check_start("d", problem.unknowns(), start)?;
+    let n = problem.unknowns();
+    check(settings, memory(n), ("d", n, start))?;
     let mut solution = dependent::solve(problem, settings, start, monitor)?;
     solution.iterations = monitor.iterations();
     Ok(solution)
@@ -85,9 +84,8 @@ pub fn solve_flexibility(
     start: Option<&[f64]>,
     monitor: &mut Monitor<'_>,
 ) -> Result<Solution, Error> {
-    settings.validate()?;
-    check_limit(problem.unknowns(), settings)?;
-    check_start("F", problem.unknowns(), start)?;
+    let n = problem.unknowns();
+    check(settings, memory_flexibility(n), ("F", n, start))?;
     let mut solution = flexibility::solve(problem, settings, start, monitor)?;
     solution.iterations = monitor.iterations();
     Ok(solution)
@@ -104,11 +102,10 @@ pub fn solve(
     start: Option<&[f64]>,
     monitor: &mut Monitor<'_>,
 ) -> Result<Solution, Error> {
-    settings.validate()?;
-    check_limit(problem.unknowns(), settings)?;
+    let n = problem.unknowns();
+    check(settings, memory(n), ("d", n, start))?;
     let contact = Contact::new(problem);
     check_method(&contact, settings.method)?;
-    check_start("d", contact.unknowns(), start)?;
     // Where d = 0 is the solution, other starts only approach it.
     let start = start.filter(|_| !contact.is_at_rest());
     let mut solution = far_obstacles::solve(&contact, settings, start, monitor)?;
@@ -124,6 +121,18 @@ pub fn solve(
     }
     solution.iterations = monitor.iterations();
     Ok(solution)
+}
+
+/// Refuses settings out of range, a call that needs more bytes than they allow, and a start of another length
+/// than `n` or with entries that are not finite.
+fn check(
+    settings: &Settings,
+    bytes: u64,
+    (name, n, start): (&str, usize, Option<&[f64]>),
+) -> Result<(), Error> {
+    settings.validate()?;
+    check_limit(bytes, settings)?;
+    check_start(name, n, start)
 }
 
 pub(crate) fn check_start(name: &str, n: usize, start: Option<&[f64]>) -> Result<(), Error> {

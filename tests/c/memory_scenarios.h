@@ -174,6 +174,14 @@ FLAT(space_others, space, SIGNORINI_METHOD_AUTO, SIGNORINI_LAW_COULOMB, w->space
 FLAT(space_proof, space, SIGNORINI_METHOD_AUTO, SIGNORINI_LAW_COULOMB, w->space.mu, 1, 0)
 FLAT(small_auto, small, SIGNORINI_METHOD_AUTO, SIGNORINI_LAW_COULOMB, w->small.mu, 0, 0)
 
+/* The matrix of the chain as flexibility. */
+static int32_t flexibility(struct world *w)
+{
+    const chain *c = &w->plane;
+    return signorini_flexibility_solve(2, c->pairs, c->K, c->n, c->f, c->gap, SIGNORINI_LAW_COULOMB,
+                                       c->mu, NULL, NULL, w->d, w->F, w->state, NULL, NULL);
+}
+
 /* A refusal, with its sentence. */
 static int32_t refusal(struct world *w)
 {
@@ -460,6 +468,7 @@ static const struct scenario scenarios[] = {
     {"space, other solutions", space_others, 0, DEEP},
     {"space, proof", space_proof, 0, DEEP},
     {"six pairs", small_auto, 0, 0},
+    {"flexibility", flexibility, 0, 0},
     {"certify", certify, 0, 0},
     {"prove", prove, 0, DEEP},
     {"LCP", lcp, 0, 0},
