@@ -8,9 +8,9 @@
 #
 #     case,dim,unknowns,contact_dofs,library,blas,step,cpu_s,peak_mb,eta,status
 #
-# and OUT/large.txt, with what the runs say of them. A CASE is block, bar, or the nodes along an edge of
-# a cube; the default, block bar 26 33, takes a few minutes and 1.4 GB; 47 takes more than two minutes and 5.5 GB
-# by itself. Each case and library is a process of its own, so that peaks are those of the case. Times are those
+# OUT/large.txt, with what the runs say of them, and the growth of time and memory: OUT/growth.md, and
+# OUT/large.png where python3 has matplotlib. A CASE is block, bar, square-NODES, or the nodes along an edge of a
+# cube; the default takes some minutes and 2 GB; 47 takes more than two minutes and 5.5 GB by itself. Each case and library is a process of its own, so that peaks are those of the case. Times are those
 # of one thread; on a busy machine they are longer.
 #
 # The libraries beside ours are compiled from large_peers.c where their headers are (names of Debian:
@@ -32,11 +32,13 @@ root=$(CDPATH='' cd -- "$(dirname -- "$0")/../.." && pwd)
 mkdir -p -- "$1" || die "cannot create the directory $1"
 out=$(CDPATH='' cd -- "$1" && pwd)
 shift
-[ $# -gt 0 ] || set -- block bar 26 33
+[ $# -gt 0 ] || set -- bar square-56 square-112 square-224 square-448 13 18 26 33
 for case in "$@"; do
     case $case in
-    block | bar) ;;
-    *[!0-9]* | '' | 0 | 1) die "$case is no case: block, bar, or a number of nodes from 2 on" ;;
+    block | bar) continue ;;
+    esac
+    case ${case#square-} in
+    *[!0-9]* | '' | 0 | 1) die "$case is no case: block, bar, square-NODES, or a number of nodes from 2 on" ;;
     esac
 done
 
@@ -77,7 +79,7 @@ for case in "$@"; do
     note "$rows"
     [ -n "$peers" ] || continue
     dim=3
-    case $case in block | bar) dim=2 ;; esac
+    case $case in block | bar | square-*) dim=2 ;; esac
     for library in mumps cholmod; do
         for blas in $kernels; do
             say "$case, $library, kernels of OpenBLAS: $blas"
@@ -91,4 +93,7 @@ for case in "$@"; do
     done
     rm -f "$SIGNORINI_LARGE_MATRIX"
 done
+if command -v python3 >/dev/null; then
+    python3 tests/bench/large_plot.py "$out/large.csv" "$out/large.png" >"$out/growth.md" || say "no growth table"
+fi
 say "wrote $out/large.csv and $out/large.txt"

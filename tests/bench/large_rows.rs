@@ -2,11 +2,12 @@
 //! and of a hundred further ones at once, each with its displacements.
 //!
 //! `cargo bench --bench large_rows -- bar block 26 33`: `bar` has 1000 x 50 nodes with all 1000 of its lower
-//! line in contact, `block` 224 x 224 nodes with one line in contact; a number is the nodes along an edge of a
-//! cube that is clamped above and in contact below. The clamped face presses, shears and tilts, differently in
-//! each load case; the obstacle is hollow, so that some pairs open; friction .3. One thread. Times and peaks are
-//! those of Linux. `tests/bench/large.sh` makes a table of the rows; lines with # are no rows. With
-//! `SIGNORINI_LARGE_MATRIX=FILE` the matrix is written for `large_peers.c`, which says how.
+//! line in contact, `block` 224 x 224 nodes with one line in contact, `square-N` N x N nodes with one line in
+//! contact; a number is the nodes along an edge of a cube that is clamped above and in contact below. The
+//! clamped face presses, shears and tilts, differently in each load case; the obstacle is hollow, so that some
+//! pairs open; friction .3. One thread. Times and peaks are those of Linux. `tests/bench/large.sh` makes a table of
+//! the rows; lines with # are no rows. With `SIGNORINI_LARGE_MATRIX=FILE` the matrix is written for
+//! `large_peers.c`, which says how.
 
 #[path = "../common/mod.rs"]
 mod common;
@@ -32,9 +33,16 @@ fn main() {
         match case.as_str() {
             "bar" => plane(case, [999, 49]),
             "block" => plane(case, [223, 223]),
-            edge => cube(case, edge.parse().expect("bar, block or a number of nodes")),
+            other => match other.strip_prefix("square-") {
+                Some(edge) => plane(case, [number(edge) - 1; 2]),
+                None => cube(case, number(other)),
+            },
         }
     }
+}
+
+fn number(nodes: &str) -> usize {
+    nodes.parse().expect("bar, block, square-NODES or a number of nodes")
 }
 
 fn plane(case: &str, [columns, rows]: [usize; 2]) {
