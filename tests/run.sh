@@ -212,7 +212,7 @@ step "bolted junction" sh c_examples/junction.sh
 step "three dimensions" sh c_examples/3d.sh
 step "Ctrl-C and progress" sh tests/interrupt.sh
 step "fuzzing" sh tests/fuzz/run.sh
-for name in abi readme fortran two_blocks scripts host_calculix calculix_contact host_getfem \
+for name in abi readme guide fortran two_blocks scripts host_calculix calculix_contact host_getfem \
     host_mumps host_mpi host_octave release; do
     # shellcheck disable=SC2086 # --require or nothing
     step "$name" sh "tests/$name.sh" $hosts
