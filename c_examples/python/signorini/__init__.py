@@ -38,8 +38,8 @@ From two meshes to pressures:
     contact.write("contact.vtu", {"hexahedron": bricks}, result, u)
 
 The shared library is the one that load() names, or the environment variable SIGNORINI_LIBRARY, or
-that of ../../target/release beside this folder, or that of the system. Needs numpy. Threads may
-share everything here.
+the one in this folder, which pip has put there, or that of ../../target/release beside this folder,
+or that of the system. Needs numpy. Threads may share everything here.
 """
 
 from ._condensed import certify, prove, solve, write
