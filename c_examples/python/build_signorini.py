@@ -1,7 +1,8 @@
-"""Builds the package signorini for pip (PEP 517): the Python files, with the shared library of cargo among them.
+"""Builds the package signorini for pip (PEP 517): Python files and the shared library of cargo.
 
-It asks for nothing but Python and cargo. In a clone the crate is two folders up; in a source distribution it is in
-crate/, beside this file. CARGO_TARGET_DIR says where cargo builds, by default in target/ of the crate.
+It asks for nothing but Python and cargo. In a clone the crate is two folders up; in a source
+distribution it is in crate/, beside this file. CARGO_TARGET_DIR says where cargo builds, by default
+in target/ of the crate.
 """
 
 import base64
@@ -75,8 +76,8 @@ def _crate():
     for place in (os.path.join(HERE, "crate"), os.path.join(HERE, os.pardir, os.pardir)):
         if os.path.isfile(os.path.join(place, "Cargo.toml")):
             return os.path.abspath(place)
-    raise SystemExit(f"signorini: there is no Cargo.toml in {HERE}/crate or two folders up: install from a whole clone, "
-                     f"with pip 21.3 or later, which builds where the sources are")
+    raise SystemExit(f"signorini: there is no Cargo.toml in {HERE}/crate or two folders up: install from "
+                     f"a whole clone, with pip 21.3 or later, which builds where the sources are")
 
 
 def _crate_files(crate):

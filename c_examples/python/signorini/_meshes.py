@@ -11,15 +11,17 @@ from ._surfaces import Cylinder, Plane, RigidFaces, Sphere, pair_obstacle, pair_
 def pair_meshes(slave, master, *, slave_faces=None, master_faces=None, **pairing):
     """Pairs the faces of two meshes that may touch: SurfacePairs.
 
-    slave, master: a mesh each, (coordinates, cells) with cells as for write_mesh, or an object with points and cells
-    as meshio reads it. Nodes count on: those of the slave's mesh, then those of the master's. The same object
-    twice: one mesh with both bodies, whose nodes count once. master may be a Plane, Sphere, Cylinder or RigidFaces.
-    slave_faces, master_faces: None, the whole skin of the mesh; the name of a set of cells or of a physical group,
-    of faces or of the cells whose skin is meant; a function of coordinates, (n, D), that tells for each node
-    whether its faces of the skin belong, which they do if all of their nodes do; or faces, as for pair_surfaces, in
-    nodes of their mesh. Faces that lie on the skin are turned to the outside.
-    Faces of the slave that lie over nothing are left out. The rest: as for pair_surfaces. Coordinates with a third column that is the same everywhere are those of a
-    plane mesh if no cell has a volume.
+    slave, master: a mesh each, (coordinates, cells) with cells as for write_mesh, or an object with
+    points and cells as meshio reads it. Nodes count on: those of the slave's mesh, then those of
+    the master's. The same object twice: one mesh with both bodies, whose nodes count once. master
+    may be a Plane, Sphere, Cylinder or RigidFaces.
+    slave_faces, master_faces: None, the whole skin of the mesh; the name of a set of cells or of a
+    physical group, of faces or of the cells whose skin is meant; a function of coordinates, (n, D),
+    that tells for each node whether its faces of the skin belong, which they do if all of their
+    nodes do; or faces, as for pair_surfaces, in nodes of their mesh. Faces that lie on the skin are
+    turned to the outside, those of the slave that lie over nothing are left out.
+    Coordinates with a third column that is the same everywhere are those of a plane mesh if no cell
+    has a volume. The rest: as for pair_surfaces.
     """
     first = _Mesh("slave", slave)
     if isinstance(master, (Plane, Sphere, Cylinder, RigidFaces)):
@@ -149,8 +151,8 @@ def _block(name, block):
     kind, nodes = (block.type, block.data) if hasattr(block, "type") else block
     nodes = integers(f"{name}: cells of the type {kind}", nodes)
     if nodes.ndim != 2:
-        raise ValueError(f"{name}: cells of the type {kind} have the shape {nodes.shape}: give the nodes of each, shape "
-                         f"(cells, nodes)")
+        raise ValueError(f"{name}: cells of the type {kind} have the shape {nodes.shape}: give the "
+                         f"nodes of each, shape (cells, nodes)")
     return kind, nodes
 
 

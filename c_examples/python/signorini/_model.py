@@ -138,8 +138,9 @@ class Model:
                     triangle="full", **pairing):
         """The whole stiffness matrix of the host, with pairs from two meshes that may touch.
 
-        K: as for sparse, or two matrices, of the slave's and of the master's mesh. Degrees of freedom are those
-        of the slave's nodes, then those of the master's.  fixed, triangle: as for sparse.
+        K: as for sparse, or two matrices, of the slave's and of the master's mesh. Degrees of
+        freedom are those of the slave's nodes, then those of the master's.  fixed, triangle: as for
+        sparse.
         slave, master, slave_faces, master_faces and the rest: as for pair_meshes.
         """
         contact = pair_meshes(slave, master, slave_faces=slave_faces, master_faces=master_faces, **pairing)
@@ -176,9 +177,8 @@ class Model:
               prescribed=None, start=None, **settings):
         """Solves a load case, f of H entries: a Result; or several, f of (C, H): a list of them.
 
-        gap, mu, g, law, friction, slip0, start: as for the function solve; gap None: those of contact.
-        prescribed: values of
-        the fixed degrees of freedom, or one for all; None: zero.
+        gap, mu, g, law, friction, slip0, start: as for the function solve; gap None: those of
+        contact.  prescribed: values of the fixed degrees of freedom, or one for all; None: zero.
         With several cases each may have a leading axis of C, or be the same for all. A case that is
         wrong does not stop the others: its status is negative, its numbers are NaN, its state is -1
         and its report None. start="previous": each case starts from the one before.

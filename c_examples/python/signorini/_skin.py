@@ -1,9 +1,9 @@
-"""The faces of cells: which ones lie on the skin of a mesh, with their nodes as the library wants them."""
+"""The faces of cells: those on the skin of a mesh, with their nodes as the library wants them."""
 
 import numpy as np
 
-# Corners and edges of the cells that have an inside, with the corners of their faces. The mid nodes of quadratic cells
-# follow their corners in the order of the edges (VTK's, and meshio's).
+# Corners and edges of the cells that have an inside, with the corners of their faces. The mid nodes
+# of quadratic cells follow their corners in the order of the edges (VTK's, and meshio's).
 _TRIANGLE = (3, ((0, 1), (1, 2), (2, 0)), ((0, 1), (1, 2), (2, 0)))
 _QUAD = (4, ((0, 1), (1, 2), (2, 3), (3, 0)), ((0, 1), (1, 2), (2, 3), (3, 0)))
 _TETRA = (4, ((0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3)), ((0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)))
@@ -50,7 +50,7 @@ def corners(face, dim):
 def skin(coordinates, blocks):
     """Faces that belong to one cell alone, as lists of nodes, seen from outside counterclockwise.
 
-    blocks: (type, nodes of the cells) with cells of the dimension of the coordinates; others are passed over.
+    blocks: (type, nodes of the cells). Cells of another dimension than the coordinates are passed over.
     """
     dim = coordinates.shape[1]
     found = {}
