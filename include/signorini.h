@@ -484,7 +484,7 @@ struct signorini_operator {
  * holds: no matrix is formed. Loads and displacements of the host are the relative ones, H = N
  * entries. Load cases are solved by Newton's method with GMRES, methods AUTO and NEWTON alone, no
  * search, no proof. It takes 20 to 110 products with K_rel and as many with W in 2D, to 160 in 3D;
- * with held 5 to 60 solutions, between which the components that are held change up to 14 times.
+ * with held 5 to 70 solutions, between which the components that are held change up to 14 times.
  *
  * Before it returns it asks for some products, of which the answers must be finite, linear,
  * symmetric, positive and the same each time, to 1e-9. Later calls on the model return -1 if a

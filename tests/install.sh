@@ -4,9 +4,9 @@
 #     sh tests/install.sh
 #
 # By CMake and by c_examples/install/install.sh; in a prefix with a space in its name, and
-# staged by DESTDIR; programs by pkg-config and by CMake, shared, static and with -static; beside other
-# Rust archives; the header in every dialect; `cargo package`. It ends at the first thing that is
-# wrong, and with 77 if it skipped anything.
+# staged by DESTDIR; programs by pkg-config and by CMake, shared, static and with -static, by CMake in
+# Fortran too; beside other Rust archives; the header in every dialect; `cargo package`. It ends at the
+# first thing that is wrong, and with 77 if it skipped anything.
 set -eu
 LC_ALL=C
 export LC_ALL
@@ -139,6 +139,22 @@ by_pkg_config() {
     say "programs by pkg-config from $prefix"
 }
 
+# The programs of tests/install/CMakeLists.txt in Fortran, where there is a compiler.
+fortran_by_cmake() {
+    if [ ! -e "$work/consumer/fortran" ]; then
+        command -v gfortran >/dev/null && die "CMake has made no program in Fortran"
+        say "Fortran by CMake: SKIPPED, there is no compiler"
+        skipped=yes
+        return
+    fi
+    grep '^pair ' "$root/README.md" >"$work/expected"
+    for name in fortran fortran_static fortran_77; do
+        "$work/consumer/$name" | diff "$work/expected" - || die "the program $name prints something else"
+    done
+    links_shared "$work/consumer/fortran" || die "the target signorini::fortran is not shared"
+    if links_shared "$work/consumer/fortran_static"; then die "signorini::fortran_static is shared"; fi
+}
+
 # by_cmake_package PREFIX LIBDIR: where CMake does not look, it is told the place of the package.
 by_cmake_package() {
     case $2 in
@@ -146,12 +162,14 @@ by_cmake_package() {
     *) where=-Dsignorini_DIR=$1/$2/cmake/signorini ;;
     esac
     rm -rf "$work/consumer"
-    quietly cmake -S "$sources" -B "$work/consumer" "$where" -DWANTED="$interface"
+    quietly cmake -S "$sources" -B "$work/consumer" "$where" -DWANTED="$interface" \
+        -DEXAMPLES="$root/c_examples"
     quietly cmake --build "$work/consumer"
     "$work/consumer/shared" >/dev/null
     "$work/consumer/static" >/dev/null
     links_shared "$work/consumer/shared" || die "the target signorini::signorini is not shared"
     if links_shared "$work/consumer/static"; then die "the target signorini::static is shared"; fi
+    fortran_by_cmake
     if [ $static_works = yes ]; then
         quietly cmake -S "$sources" -B "$work/consumer" -DCMAKE_EXE_LINKER_FLAGS=-static
         quietly cmake --build "$work/consumer" --target static

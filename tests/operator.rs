@@ -273,7 +273,7 @@ fn check_counts(condensed: &Condensed, most: u64, context: &str) {
             same(&solution, &dense, &context);
             let [products, inverses, solves, factorisations] = counts;
             assert!(products <= most && inverses <= most, "{context}");
-            assert!(solves <= 60 && factorisations <= 14, "{context}");
+            assert!(solves <= 70 && factorisations <= 14, "{context}");
         }
     }
 }
@@ -285,9 +285,11 @@ fn blocks_in_the_plane_take_few_products() {
     }
 }
 
+/// `SIGNORINI_OPERATOR_NODES=31` adds a block of 31 x 31 pairs, which takes more than a minute.
 #[test]
 fn blocks_in_space_take_few_products() {
-    for nodes in [5, 9, 13] {
+    let larger = std::env::var("SIGNORINI_OPERATOR_NODES").map(|nodes| nodes.parse().unwrap());
+    for nodes in [5, 9, 13].into_iter().chain(larger) {
         check_counts(&Condensed::space(nodes), 160, &format!("{} pairs", nodes * nodes));
     }
 }

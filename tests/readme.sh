@@ -1,7 +1,6 @@
 #!/bin/sh
-# What the README and the guide for hosts say is so: the commands from a clone to a program run as they
-# stand and print what the README says, with -static too where that can be; the C example is the file;
-# the functions of the guide compile and do what it says.
+# What the README says is so: the commands from a clone to a program run as they stand and print what the
+# README says, with -static too where that can be; the C example is the file.
 #
 #     sh tests/readme.sh [--require]
 #
@@ -80,15 +79,4 @@ if "$python" -c 'import numpy' 2>/dev/null; then
     grep -q '^solved' "$work/printed"
     echo "README, the bar in numpy: $(head -n 1 "$work/printed" | cut -c 1-30)"
 fi
-
-# The guide's blocks, one file each, and the program that calls them.
-for number in 1 2; do
-    awk -v want="$number" '$0 == "```c" { inside = ++number == want; next } $0 == "```" { inside = 0 }
-        inside' c_examples/GUIDE.md >"$work/guide_$number.h"
-done
-flags="-std=c11 -Wall -Wextra -Wpedantic -Werror -Iinclude"
-# shellcheck disable=SC2086 # several flags
-${CC:-cc} $flags -Itests/c -I"$work" tests/c/guide.c target/release/libsignorini.a \
-    -lm -lpthread -ldl -o "$work/guide"
-"$work/guide"
 [ "${skipped:-}" != yes ] || exit 77

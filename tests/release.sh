@@ -38,7 +38,7 @@ sh "$root/c_examples/install/release.sh" "$work/out"
 for package in "$work"/out/libsignorini-dev_*.deb; do
     [ -f "$package" ] || continue
     dpkg-deb -c "$package" >"$work/contents"
-    for file in README.md GUIDE.md examples/first/sparse.c changelog.gz copyright; do
+    for file in README.md guide/first.md guide/drawings/signs.svg examples/first/sparse.c changelog.gz copyright; do
         grep -q "/usr/share/doc/libsignorini-dev/$file" "$work/contents" || die "$package lacks $file"
     done
 done

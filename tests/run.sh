@@ -84,6 +84,7 @@ host_packages() {
     have ccx || echo calculix-ccx
     /usr/bin/python3 -c 'import getfem' >/dev/null 2>&1 || echo python3-getfem
     python_with numpy,matplotlib,PIL >/dev/null || echo python3-numpy python3-matplotlib python3-pil
+    /usr/bin/python3 -c 'import ensurepip, venv' >/dev/null 2>&1 || echo python3-venv
     [ -f /usr/include/mumps_seq/mpif.h ] || echo libmumps-seq-dev
     have mpicc && have mpirun || echo libopenmpi-dev openmpi-bin
     have_parallel_mumps || echo libmumps-dev
@@ -212,7 +213,7 @@ step "bolted junction" sh c_examples/junction.sh
 step "three dimensions" sh c_examples/3d.sh
 step "Ctrl-C and progress" sh tests/interrupt.sh
 step "fuzzing" sh tests/fuzz/run.sh
-for name in abi readme fortran two_blocks scripts host_calculix calculix_contact host_getfem \
+for name in abi readme guide fortran two_blocks scripts python_package host_calculix calculix_contact host_getfem \
     host_mumps host_mpi host_octave release; do
     # shellcheck disable=SC2086 # --require or nothing
     step "$name" sh "tests/$name.sh" $hosts

@@ -24,7 +24,7 @@ rm -rf -- "$work"
 mkdir -p -- "$work"
 touch -- "$work/began"
 unset SIGNORINI_LIBRARY
-for name in results shapes solutions progress surfaces; do
+for name in results shapes solutions progress surfaces meshes; do
     "$python" -B "$root/tests/python/$name.py"
 done
 "$python" -B "$root/tests/python/files.py" "$work"
@@ -36,6 +36,7 @@ if ! "$python" -c 'import matplotlib, PIL' >/dev/null 2>&1; then
     echo "scripts: pictures SKIPPED"
     exit 77
 fi
+"$python" -B "$root/tests/python/plots.py" "$work"
 # Without the files to draw: one sentence that says what to run.
 mkdir -- "$work/empty"
 for pair in bar/bar_on_plane:replay junction/bolted_junction:junction 3d/hertz:3d; do

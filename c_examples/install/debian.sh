@@ -76,7 +76,7 @@ END
 # What programmers read and try goes with what they build with: the examples keep their places beside each other.
 documents=$work/$dev/usr/share/doc/$dev
 mkdir -p "$documents/examples"
-cp "$root/README.md" "$examples/GUIDE.md" "$examples/LIMITS.md" "$documents"
+cp -R "$root/README.md" "$examples/guide" "$examples/LIMITS.md" "$documents"
 for example in first bar junction 3d fclib files common hosts; do
     cp -R "$examples/$example" "$documents/examples"
 done

@@ -1,10 +1,11 @@
 /*
- * The functions of the guide for hosts, c_examples/GUIDE.md, do what it says. They come into this
- * program as they stand there: tests/readme.sh cuts them out into guide_1.h and guide_2.h.
+ * The functions of the guide for hosts, c_examples/guide, do what it says. They come into this
+ * program as they stand there: tests/guide.sh cuts them out, each into a file with its chapter's name.
  */
 
-#include "guide_1.h"
-#include "guide_2.h"
+#include "dynamics.h"
+#include "load_steps.h"
+#include "nonlinear.h"
 
 #include "check.h"
 
@@ -93,10 +94,83 @@ static void check_three_dimensions(void)
     CHECK(fabs(F[1] + 0.9) < 1e-9 && fabs(F[2] + 1.2) < 1e-9);
 }
 
+/*
+ * A mass of 2 on springs, without contact: Newmark's method with beta = 1/4 and gamma = 1/2 turns the motion by
+ * theta in each step, cos theta = (1 - w) / (1 + w) with w = (omega dt)^2 / 4, and loses nothing.
+ */
+static void check_free_oscillation(void)
+{
+    enum { STEPS = 20 };
+    const double mass[2] = {2, 2}, none[2] = {0}, spring[2] = {18, 8}, dt = 0.1, far_away = INFINITY;
+    const double K_eff[4] = {spring[0] + 4 * mass[0] / (dt * dt), 0, 0, spring[1] + 4 * mass[1] / (dt * dt)};
+    double u[2] = {1, -0.5}, v[2] = {0}, a[2], slip0[1] = {0}, d[2], F[2], room[2];
+    signorini_model *model;
+
+    for (int i = 0; i < 2; i++)
+        a[i] = -spring[i] / mass[i] * u[i];
+    CHECK_STATUS(signorini_model_new_condensed(2, 1, K_eff, 2, &model), 0);
+    for (int step = 0; step < STEPS; step++)
+        CHECK_STATUS(newmark_step(model, dt, 0.25, 0.5, mass, none, none, &far_away, none, u, v, a, slip0, d, F, room),
+                     0);
+    for (int i = 0; i < 2; i++) {
+        const double w = spring[i] / mass[i] * dt * dt / 4;
+        const double wanted = (i == 0 ? 1 : -0.5) * cos(STEPS * acos((1 - w) / (1 + w)));
+        CHECK(fabs(u[i] - wanted) < 1e-8); /* twenty steps, each certified to 1e-10 of forces of size 1e3 */
+    }
+    signorini_model_free(model);
+}
+
+/*
+ * A free block of mass 2, pressed by 3 and pushed by 2 with mu = 0.5: it slides with the acceleration
+ * (2 - 1.5) / 2, which Newmark's method integrates exactly. A force of 1 does not move it.
+ */
+static void check_sliding_block(void)
+{
+    enum { STEPS = 8 };
+    const double mass[2] = {2, 2}, none[2] = {0}, push[2] = {3, 2}, less[2] = {3, 1}, dt = 0.25, beta = 0.3025;
+    const double K_eff[4] = {2 / (beta * dt * dt), 0, 0, 2 / (beta * dt * dt)}, closed = 0, friction = 0.5;
+    double u[2] = {0}, v[2] = {0}, a[2] = {0, 0.25}, slip0[1] = {0}, d[2], F[2], room[2];
+    const double end = STEPS * dt;
+    signorini_model *model;
+
+    CHECK_STATUS(signorini_model_new_condensed(2, 1, K_eff, 2, &model), 0);
+    for (int step = 0; step < STEPS; step++)
+        CHECK_STATUS(newmark_step(model, dt, beta, 0.6, mass, none, push, &closed, &friction, u, v, a, slip0, d, F,
+                                  room), 0);
+    CHECK(fabs(u[0]) < 1e-9 && fabs(u[1] - 0.125 * end * end) < 1e-8); /* as above */
+    CHECK(fabs(v[1] - 0.25 * end) < 1e-8 && fabs(slip0[0] - u[1]) < 1e-12);
+    CHECK(fabs(F[0] + 3) < 1e-8 && fabs(F[1] + 1.5) < 1e-8);
+
+    u[1] = v[1] = a[1] = slip0[0] = 0;
+    CHECK_STATUS(newmark_step(model, dt, beta, 0.6, mass, none, less, &closed, &friction, u, v, a, slip0, d, F, room),
+                 0);
+    CHECK(fabs(u[1]) < 1e-12 && fabs(F[1] + 1) < 1e-8);
+    signorini_model_free(model);
+}
+
+/* A damper alone, 3 against a mass of 2: v decays by (1 - x) / (1 + x) in each step, x = 3 dt / (2 * 2). */
+static void check_damping(void)
+{
+    const double mass[2] = {2, 2}, damper[2] = {3, 3}, none[2] = {0}, dt = 0.2, far_away = INFINITY;
+    const double K_eff[4] = {2 * 3 / dt + 4 * 2 / (dt * dt), 0, 0, 2 * 3 / dt + 4 * 2 / (dt * dt)};
+    double u[2] = {0}, v[2] = {1, -1}, a[2] = {-1.5, 1.5}, slip0[1] = {0}, d[2], F[2], room[2];
+    const double x = 3 * dt / 4;
+    signorini_model *model;
+
+    CHECK_STATUS(signorini_model_new_condensed(2, 1, K_eff, 2, &model), 0);
+    CHECK_STATUS(newmark_step(model, dt, 0.25, 0.5, mass, damper, none, &far_away, none, u, v, a, slip0, d, F, room),
+                 0);
+    CHECK(fabs(v[0] - (1 - x) / (1 + x)) < 1e-9 && fabs(v[1] + (1 - x) / (1 + x)) < 1e-9);
+    signorini_model_free(model);
+}
+
 int main(void)
 {
     check_load_steps();
     check_contact_iteration();
     check_three_dimensions();
+    check_free_oscillation();
+    check_sliding_block();
+    check_damping();
     return check_summary("guide");
 }

@@ -33,13 +33,18 @@ From two meshes to pressures:
 
     contact = signorini.pair_surfaces(coordinates, slave_faces, master_faces)
     model = signorini.Model.from_surfaces(K, contact, fixed=fixed)
-    result = model.solve(f, gap=contact.gaps, mu=0.3)
+    result = model.solve(f, mu=0.3)          # the gaps are those of the surfaces
     u = model.recover(result.d, f)
     contact.write("contact.vtu", {"hexahedron": bricks}, result, u)
+    result.plot()                            # with matplotlib
+
+From meshes as meshio reads them, whose faces the library finds:
+
+    model = signorini.Model.from_meshes((K_upper, K_lower), upper, lower, fixed=fixed)
 
 The shared library is the one that load() names, or the environment variable SIGNORINI_LIBRARY, or
-that of ../../target/release beside this folder, or that of the system. Needs numpy. Threads may
-share everything here.
+the one in this folder, which pip has put there, or that of ../../target/release beside this folder,
+or that of the system. Needs numpy. Threads may share everything here.
 """
 
 from ._condensed import certify, prove, solve, write
@@ -50,6 +55,7 @@ from ._lcp import lcp_lemke, lcp_solve, write_lcp
 from ._flexibility import solve_flexibility
 from ._library import SignoriniError, load
 from ._mesh import write_mesh
+from ._meshes import pair_meshes
 from ._model import Model
 from ._results import Enclosure, LcpResult, Progress, Result
 from ._surfaces import (Cylinder, Fields, Plane, Resultant, RigidFaces, Sphere, SurfacePairs,
@@ -60,6 +66,6 @@ __all__ = [
     "LcpProblem", "LcpResult", "Method", "Model", "Pairing", "Plane", "Progress", "Proof", "Result",
     "Resultant", "RigidFaces", "Search", "SignoriniError", "Sphere", "State", "Status",
     "SurfacePairs", "Triangle", "Uniqueness", "certify", "lcp_lemke", "lcp_solve", "load",
-    "pair_obstacle", "pair_surfaces", "prove", "read", "solve", "solve_flexibility", "write",
+    "pair_meshes", "pair_obstacle", "pair_surfaces", "prove", "read", "solve", "solve_flexibility", "write",
     "write_lcp", "write_mesh",
 ]

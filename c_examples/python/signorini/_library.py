@@ -124,14 +124,15 @@ def check(functions, status, message=None):
 def _open(path):
     end = {"darwin": ".dylib", "win32": ".dll"}.get(sys.platform, ".so")
     name = ("" if sys.platform == "win32" else "lib") + "signorini" + end
-    beside = os.path.join(os.path.dirname(__file__), *[os.pardir] * 3, "target", "release", name)
-    built = os.path.abspath(beside)
+    here = os.path.dirname(os.path.abspath(__file__))
+    installed = os.path.join(here, name)
+    built = os.path.abspath(os.path.join(here, *[os.pardir] * 3, "target", "release", name))
     named = path or os.environ.get("SIGNORINI_LIBRARY")
     if named:
         places = [os.path.abspath(named)]
     else:
         system = [name, f"{name}.{SONAME_VERSION}"]
-        places = ([built] if os.path.exists(built) else []) + system
+        places = [place for place in (installed, built) if os.path.exists(place)] + system
     reasons = []
     for place in places:
         try:

@@ -11,8 +11,9 @@ from ._call import Call
 from ._constants import START_PREVIOUS, Status, member
 from ._law import Friction
 from ._library import SignoriniError, check, library
+from ._meshes import pair_meshes
 from ._results import Output, certified
-from ._sparse import ContactPairs, Matrix, supports
+from ._sparse import ContactPairs, Matrix, side_by_side, supports
 from ._structures import address
 from ._surfaces import SurfacePairs
 from ._text import path_bytes, remark_bytes
@@ -38,12 +39,13 @@ class _Case(namedtuple("_Case", "f prescribed gap law friction slip0")):
 class Model:
     """A structure reduced to its contact pairs, for any number of load cases.
 
-    Made by Model.condensed, Model.two_body, Model.sparse or Model.from_surfaces.
+    Made by Model.condensed, Model.two_body, Model.sparse, Model.from_surfaces or Model.from_meshes.
     dim, pairs: D and P.  host_size: H, the entries of a load or displacement vector of the host.
+    contact: the SurfacePairs of which it was made, or None.
     """
 
     def __init__(self, make, n_fixed, *arguments, settings=None):
-        self._functions = library()
+        self._functions, self.contact = library(), None
         handle = address()
         function = getattr(self._functions, make)
         if settings is None:
@@ -120,14 +122,31 @@ class Model:
         """The whole stiffness matrix of the host with the pairs of pair_surfaces or pair_obstacle.
 
         K, fixed, triangle: as for sparse.  contact: SurfacePairs. Several contact zones: use sparse
-        with the rows of all of them. The gap of a load case is contact.gaps.
+        with the rows of all of them. The gap of a load case is contact.gaps, if it is not given.
         """
         if not isinstance(contact, SurfacePairs):
             raise TypeError(f"contact is a {type(contact).__name__}: give what pair_surfaces or "
                             f"pair_obstacle returns")
         matrix, fixed = Matrix(K, triangle), supports(fixed)
-        return cls("model_new_sparse", len(fixed), ctypes.byref(matrix.structure), len(fixed),
-                   at(fixed), contact.structure)
+        model = cls("model_new_sparse", len(fixed), ctypes.byref(matrix.structure), len(fixed),
+                    at(fixed), contact.structure)
+        model.contact = contact
+        return model
+
+    @classmethod
+    def from_meshes(cls, K, slave, master, *, slave_faces=None, master_faces=None, fixed=(),
+                    triangle="full", **pairing):
+        """The whole stiffness matrix of the host, with pairs from two meshes that may touch.
+
+        K: as for sparse, or two matrices, of the slave's and of the master's mesh. Degrees of
+        freedom are those of the slave's nodes, then those of the master's.  fixed, triangle: as for
+        sparse.
+        slave, master, slave_faces, master_faces and the rest: as for pair_meshes.
+        """
+        contact = pair_meshes(slave, master, slave_faces=slave_faces, master_faces=master_faces, **pairing)
+        if isinstance(K, (tuple, list)) and len(K) == 2:
+            K = side_by_side(K)
+        return cls.from_surfaces(K, contact, fixed=fixed, triangle=triangle)
 
     @property
     def stiffness(self):
@@ -154,12 +173,12 @@ class Model:
         self._do("model_condensed_load", at(f), at(prescribed), at(load))
         return load
 
-    def solve(self, f, gap, mu=None, *, g=None, law=None, friction=None, slip0=None,
+    def solve(self, f, gap=None, mu=None, *, g=None, law=None, friction=None, slip0=None,
               prescribed=None, start=None, **settings):
         """Solves a load case, f of H entries: a Result; or several, f of (C, H): a list of them.
 
-        gap, mu, g, law, friction, slip0, start: as for the function solve.  prescribed: values of
-        the fixed degrees of freedom, or one for all; None: zero.
+        gap, mu, g, law, friction, slip0, start: as for the function solve; gap None: those of
+        contact.  prescribed: values of the fixed degrees of freedom, or one for all; None: zero.
         With several cases each may have a leading axis of C, or be the same for all. A case that is
         wrong does not stop the others: its status is negative, its numbers are NaN, its state is -1
         and its report None. start="previous": each case starts from the one before.
@@ -188,7 +207,7 @@ class Model:
             case = data if cases is None else data.of(c)
             results.append(output.result(
                 c, code, words, lambda d, case=case: self._certify(case, d, tolerance)
-            ))
+            )._replace(contact=self.contact))
         return results[0] if cases is None else results
 
     def certify(self, f, gap, mu=None, *, d, g=None, law=None, friction=None, slip0=None,
@@ -244,6 +263,8 @@ class Model:
 
     def _case(self, f, gap, friction, slip0, prescribed, cases=None):
         f, prescribed = self._loads(f, prescribed, cases)
+        if gap is None and self.contact is not None:
+            gap = self.contact.gaps
         return _Case(
             f, prescribed, per_pair("gap", gap, self.pairs, self.dim, cases), friction.law,
             friction.numbers(self.pairs, self.dim, cases),

@@ -20,22 +20,41 @@ reduced: share of the reduction of Model.sparse that is done, 0 to 1; 1 while a 
 memory: bytes that it needs in all, told before they are taken; 0 before they are known.
 """
 
-Result = namedtuple("Result", "d F state status message report motion second radius_d radius_F "
-                    "escape", defaults=(None, None, None))
-Result.__doc__ = """What a call has found.
+_Fields = namedtuple("_Fields", "d F state status message report motion second radius_d radius_F "
+                     "escape contact", defaults=(None, None, None, None))
 
-d: relative displacements, (P, D); length.  F: contact forces, (P, D); force.  state: of each pair
-(State), (P,).  Unless status is SOLVED these are the best or last iterate.
-status: a Status.  message: the same in words.
-report: the fields of signorini_report, with members of Method, Uniqueness and Fallback.
-motion: with status NO_EQUILIBRIUM a motion that proves it, (P, D), largest component 1; else None.
-second: a second solution, a Result whose report is measured as certify does, or None. What
-uniqueness proves needs no second solution; ask for one by search="others".
-radius_d, radius_F: if report.proof is PROVED (ask for it by proof=True) a solution with these states
-exists within these distances of d and of F, (P, D); else None.
-escape: with status NO_EQUILIBRIUM the motion with which the bodies escape, (P, D), largest component
-1, without the lift that a proof needs: draw this one; else None.
-"""
+
+class Result(_Fields):
+    """What a call has found.
+
+    d: relative displacements, (P, D); length.  F: contact forces, (P, D); force.  state: of each pair
+    (State), (P,).  Unless status is SOLVED these are the best or last iterate.
+    status: a Status.  message: the same in words.
+    report: the fields of signorini_report, with members of Method, Uniqueness and Fallback.
+    motion: with status NO_EQUILIBRIUM a motion that proves it, (P, D), largest component 1; else None.
+    second: a second solution, a Result whose report is measured as certify does, or None. What
+    uniqueness proves needs no second solution; ask for one by search="others".
+    radius_d, radius_F: if report.proof is PROVED (ask for it by proof=True) a solution with these
+    states exists within these distances of d and of F, (P, D); else None.
+    escape: with status NO_EQUILIBRIUM the motion with which the bodies escape, (P, D), largest
+    component 1, without the lift that a proof needs: draw this one; else None.
+    contact: the SurfacePairs of the model, or None.
+    """
+
+    __slots__ = ()
+
+    def plot(self, axes=None, *, at=None):
+        """Draws contact forces and states by matplotlib; returns its axes, which you show or save.
+
+        With pairs from surfaces: in 2D pressure and traction along the slave's surface, in 3D the
+        pressure on the slave's faces, and tractions as arrows. With at, the places of the
+        pairs, (P, D): forces at them. Otherwise forces pair by pair.
+        axes: where to draw, in 3D axes with projection="3d"; None: new ones.
+        """
+        from ._plot import plot  # only now: matplotlib takes its time
+
+        return plot(self, axes, at)
+
 
 Enclosure = namedtuple("Enclosure", "F radius_d radius_F")
 Enclosure.__doc__ = """A solution that is proved to exist.

@@ -115,6 +115,18 @@ def supports(fixed):
     return indices(fixed)
 
 
+def side_by_side(matrices):
+    """Two matrices as one, (data, indices, indptr): the blocks of its diagonal."""
+    parts = [_compressed(K) for K in matrices]
+    before, data, rows, starts = 0, [], [], [np.zeros(1, np.int64)]
+    for values, indices_of, starts_of in parts:
+        data.append(reals("data of K", values))
+        rows.append(before + np.asarray(integers("indices of K", indices_of), np.int64))
+        starts.append(starts[-1][-1] + np.asarray(integers("indptr of K", starts_of), np.int64)[1:])
+        before += len(starts_of) - 1
+    return np.concatenate(data), np.concatenate(rows), np.concatenate(starts)
+
+
 def _order(order, size, kind):
     order = integers("order", order)
     if order.shape != (size,):

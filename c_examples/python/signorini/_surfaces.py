@@ -87,6 +87,7 @@ class SurfacePairs:
 
     dim, pairs: D and P.  gaps, areas: (P,).  normals, tangents: unit vectors, (P, D).  points:
     where the force of each pair acts, (P, D).  nodes: slave node of each pair, (P,).
+    coordinates: those given.  slave_faces: the nodes of each slave face.
     unpaired: slave nodes without a pair.  folded: nodes with little cover, each with the node whose
     pair has its row, (k, 2).  uncovered: slave faces that lie over nothing.
     summary: one sentence.  report: the fields of signorini_surface_report.
@@ -96,6 +97,7 @@ class SurfacePairs:
                  dofs_per_node):
         self._functions, self._coordinates = library(), points(coordinates).copy()
         self.node_count, self.dim = self._coordinates.shape
+        self.slave_faces, self.coordinates = slave.lists, self._coordinates
         settings = sized(
             SurfaceSettings, pairing=chosen("pairing", Pairing, pairing),
             search_distance=float(search_distance), dofs_per_node=dofs_per_node,
@@ -205,6 +207,7 @@ class _Faces:
             raise ValueError(f"{name} has the shape {faces.shape}: give the nodes of each face, "
                              f"shape (faces, nodes), or a list of lists")
         lists = [integers(f"{name}[{face}]", nodes).ravel() for face, nodes in enumerate(faces)]
+        self.lists = lists
         self.start = indices(np.cumsum([0, *map(len, lists)]))
         self.nodes = indices(np.concatenate([np.zeros(0, np.int64), *lists]))
         self.structure = sized(Faces, count=len(lists), start=at(self.start), nodes=at(self.nodes))

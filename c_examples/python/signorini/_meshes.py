@@ -1,0 +1,167 @@
+"""Contact pairs from two meshes: arrays, or objects like those of meshio."""
+
+import numpy as np
+
+from ._arrays import integers, reals
+from ._mesh import points
+from ._skin import corners, dimension, skin, turned
+from ._surfaces import Cylinder, Plane, RigidFaces, Sphere, pair_obstacle, pair_surfaces
+
+
+def pair_meshes(slave, master, *, slave_faces=None, master_faces=None, **pairing):
+    """Pairs the faces of two meshes that may touch: SurfacePairs.
+
+    slave, master: a mesh each, (coordinates, cells) with cells as for write_mesh, or an object with
+    points and cells as meshio reads it. Nodes count on: those of the slave's mesh, then those of
+    the master's. The same object twice: one mesh with both bodies, whose nodes count once. master
+    may be a Plane, Sphere, Cylinder or RigidFaces.
+    slave_faces, master_faces: None, the whole skin of the mesh; the name of a set of cells or of a
+    physical group, of faces or of the cells whose skin is meant; a function of coordinates, (n, D),
+    that tells for each node whether its faces of the skin belong, which they do if all of their
+    nodes do; or faces, as for pair_surfaces, in nodes of their mesh. Faces that lie on the skin are
+    turned to the outside, those of the slave that lie over nothing are left out.
+    Coordinates with a third column that is the same everywhere are those of a plane mesh if no cell
+    has a volume. The rest: as for pair_surfaces.
+    """
+    first = _Mesh("slave", slave)
+    if isinstance(master, (Plane, Sphere, Cylinder, RigidFaces)):
+        if master_faces is not None:
+            raise ValueError("master_faces is given, but master is an obstacle: leave it out")
+        if slave_faces is None:
+            raise ValueError("master is an obstacle, which any face may lie opposite to: give slave_faces")
+        return pair_obstacle(first.coordinates, first.faces("slave_faces", slave_faces), master, **pairing)
+    faces = first.faces("slave_faces", slave_faces)
+    if master is slave:
+        if slave_faces is None or master_faces is None:
+            raise ValueError("slave and master are one mesh: give slave_faces and master_faces")
+        others = first.faces("master_faces", master_faces)
+        return _covered(first.coordinates, faces, others, pairing)
+    second = _Mesh("master", master)
+    if second.coordinates.shape[1] != first.coordinates.shape[1]:
+        raise ValueError(f"slave has {first.coordinates.shape[1]} coordinates for each node and master "
+                         f"{second.coordinates.shape[1]}: give two meshes of one dimension")
+    before = len(first.coordinates)
+    others = [[before + node for node in face] for face in second.faces("master_faces", master_faces)]
+    return _covered(np.vstack([first.coordinates, second.coordinates]), faces, others, pairing)
+
+
+def _covered(coordinates, slave, master, pairing):
+    """Pairs without the slave faces that lie over nothing: they would bend the normals of the nodes at the rim."""
+    contact = pair_surfaces(coordinates, slave, master, **pairing)
+    if len(contact.uncovered) in (0, len(slave)):
+        return contact
+    over_nothing = set(contact.uncovered.tolist())
+    return pair_surfaces(coordinates, [face for place, face in enumerate(slave) if place not in over_nothing], master,
+                         **pairing)
+
+
+class _Mesh:
+    """Coordinates, (n, D), and blocks of cells: (type, nodes)."""
+
+    def __init__(self, name, mesh):
+        self.name, self.mesh = name, mesh
+        if hasattr(mesh, "points") and hasattr(mesh, "cells"):
+            coordinates, cells = mesh.points, mesh.cells
+        elif isinstance(mesh, tuple) and len(mesh) == 2:
+            coordinates, cells = mesh
+        else:
+            raise TypeError(f"{name} is a {type(mesh).__name__}: give (coordinates, cells), or a mesh as meshio reads "
+                            f"it")
+        blocks = cells.items() if hasattr(cells, "items") else cells
+        self.blocks = [_block(name, block) for block in blocks]
+        self.coordinates = _placed(name, points(coordinates), [kind for kind, _ in self.blocks])
+        for kind, nodes in self.blocks:
+            if nodes.size and (nodes.min() < 0 or nodes.max() >= len(self.coordinates)):
+                raise ValueError(f"{name}: a cell of the type {kind} has the node {nodes.max()}, and there are "
+                                 f"{len(self.coordinates)} nodes: count them from 0")
+        self._skin = None
+
+    @property
+    def skin(self):
+        if self._skin is None:
+            self._skin = skin(self.coordinates, self.blocks)
+        return self._skin
+
+    def faces(self, argument, wanted):
+        """Faces as lists of nodes, turned to the outside where they lie on the skin."""
+        if wanted is None:
+            return self._some(self.skin, f"{self.name} has no cells with an inside: give {argument}")
+        if isinstance(wanted, str):
+            return self._some(self._of_set(argument, wanted), f"{argument}: the set {wanted!r} has no faces")
+        if callable(wanted):
+            chosen = np.asarray(wanted(self.coordinates))
+            if chosen.dtype != bool or chosen.shape != (len(self.coordinates),):
+                raise ValueError(f"{argument} returns the shape {chosen.shape} of {chosen.dtype}: return a truth "
+                                 f"value for each of the {len(self.coordinates)} nodes")
+            return self._some([face for face in self.skin if chosen[face].all()],
+                              f"{argument} chooses no face: there is none of which all nodes are chosen")
+        return self._turned([[int(node) for node in integers(argument, face).ravel()] for face in wanted])
+
+    def _some(self, faces, sentence):
+        if not faces:
+            raise ValueError(sentence)
+        return faces
+
+    def _turned(self, faces):
+        """Faces as those of the skin with the same corners; others as they are."""
+        dim = self.coordinates.shape[1]
+        outside = {frozenset(face[:corners(face, dim)]): face for face in self.skin}
+        found = []
+        for face in faces:
+            known = outside.get(frozenset(face[:corners(face, dim)]))
+            same = known is None or _goes_as(known[:corners(known, dim)], face[:corners(face, dim)])
+            found.append(face if same else turned(face, dim))
+        return found
+
+    def _of_set(self, argument, wanted):
+        """Faces of a set of cells, or the skin of its cells with an inside."""
+        members = self._members(argument, wanted)
+        chosen = [(kind, nodes[members[place]]) for place, (kind, nodes) in enumerate(self.blocks)
+                  if members[place] is not None and len(members[place])]
+        dim = self.coordinates.shape[1]
+        inner = [block for block in chosen if dimension([block[0]]) == dim]
+        if inner:
+            return skin(self.coordinates, inner)
+        lines = ("line", "line3")
+        wanted_kinds = lines if dim == 2 else ("triangle", "triangle6", "quad", "quad8", "quad9")
+        return self._turned([face.tolist() for kind, nodes in chosen if kind in wanted_kinds for face in nodes])
+
+    def _members(self, argument, wanted):
+        """For each block the places of the cells of a set, or None."""
+        sets = getattr(self.mesh, "cell_sets", None) or {}
+        if wanted in sets:
+            return [None if of is None else np.asarray(of, int) for of in sets[wanted]]
+        groups = getattr(self.mesh, "field_data", None) or {}
+        numbers = (getattr(self.mesh, "cell_data", None) or {}).get("gmsh:physical")
+        if wanted in groups and numbers is not None:
+            return [np.flatnonzero(np.asarray(of) == int(groups[wanted][0])) for of in numbers]
+        names = ", ".join(sorted([*sets, *groups])) or "none"
+        raise ValueError(f"{argument}: {self.name} has no set {wanted!r}; sets: {names}")
+
+
+def _goes_as(one, other):
+    """Whether a line, or a face, goes through the same corners in the same direction."""
+    if len(one) == 2:
+        return one == other
+    place = other.index(one[0])
+    return other[place:] + other[:place] == one
+
+
+def _block(name, block):
+    kind, nodes = (block.type, block.data) if hasattr(block, "type") else block
+    nodes = integers(f"{name}: cells of the type {kind}", nodes)
+    if nodes.ndim != 2:
+        raise ValueError(f"{name}: cells of the type {kind} have the shape {nodes.shape}: give the "
+                         f"nodes of each, shape (cells, nodes)")
+    return kind, nodes
+
+
+def _placed(name, coordinates, types):
+    """Coordinates with as many columns as the cells have dimensions."""
+    dim = dimension(types) or coordinates.shape[1]
+    if coordinates.shape[1] == dim:
+        return coordinates
+    if dim == 2 and np.ptp(reals(name, coordinates)[:, 2]) == 0:
+        return np.ascontiguousarray(coordinates[:, :2])
+    raise ValueError(f"{name} has {coordinates.shape[1]} coordinates for each node, and cells of dimension {dim}: give "
+                     f"{dim} coordinates")

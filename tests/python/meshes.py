@@ -1,0 +1,177 @@
+"""The Python package: contact pairs from two meshes, as arrays and as meshio reads them.
+
+    python3 tests/python/meshes.py
+"""
+
+import os
+import sys
+import unittest
+from types import SimpleNamespace
+
+import numpy as np
+
+from common import ROOT
+
+import signorini
+from signorini import _skin as skins
+
+sys.path.insert(0, os.path.join(ROOT, "c_examples", "3d"))
+import brick_mesh  # noqa: E402
+
+CUBE = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1.0]])
+# One cell of each kind by its corners, and its volume (area in the plane).
+CELLS = {
+    "triangle": (CUBE[[0, 1, 3], :2], 1 / 2), "quad": (CUBE[:4, :2], 1.0), "tetra": (CUBE[[0, 1, 3, 4]], 1 / 6),
+    "hexahedron": (CUBE, 1.0), "wedge": (CUBE[[0, 1, 3, 4, 5, 7]], 1 / 2), "pyramid": (CUBE[[0, 1, 2, 3, 4]], 1 / 3),
+}
+QUADRATIC = {"triangle": ("triangle6",), "quad": ("quad8", "quad9"), "tetra": ("tetra10",),
+             "hexahedron": ("hexahedron20", "hexahedron27"), "wedge": ("wedge15",), "pyramid": ("pyramid13",)}
+
+
+def with_mid_nodes(kind, corners, name):
+    """Coordinates of a quadratic cell."""
+    _, edges, faces = skins._SHAPES[kind]
+    at = [*corners, *(corners[list(edge)].mean(axis=0) for edge in edges)]
+    if name == "hexahedron27":
+        at += [corners[list(face)].mean(axis=0) for face in faces]
+    if name in ("quad9", "hexahedron27"):
+        at.append(corners.mean(axis=0))
+    return np.array(at)
+
+
+def outward(at, face):
+    """Area vector of a plane face by its corners, and its centre."""
+    places = at[face[:skins.corners(face, at.shape[1])]]
+    if at.shape[1] == 2:
+        along = places[1] - places[0]
+        return np.array([along[1], -along[0]]), places.mean(axis=0)
+    area = sum(np.cross(places[i] - places[0], places[i + 1] - places[0]) for i in range(1, len(places) - 1)) / 2
+    return area, places.mean(axis=0)
+
+
+class Skins(unittest.TestCase):
+    def check(self, at, blocks, volume):
+        """Gauss's theorem on x: the area vectors of a closed surface sum to 0, x . a over them to D volumes."""
+        faces = skins.skin(at, blocks)
+        vectors, centres = zip(*(outward(at, face) for face in faces))
+        np.testing.assert_allclose(np.sum(vectors, axis=0), 0, atol=1e-14)
+        flux = sum(vector @ centre for vector, centre in zip(vectors, centres))
+        self.assertAlmostEqual(flux, at.shape[1] * volume, places=13)
+        return faces
+
+    def test_one_cell_of_each_kind_in_both_orientations(self):
+        mirrored = np.array([-1.0, 1, 1])
+        for kind, (corners, volume) in CELLS.items():
+            for name in (kind, *QUADRATIC[kind]):
+                at = corners if name == kind else with_mid_nodes(kind, corners, name)
+                for places in (at, at * mirrored[:at.shape[1]]):
+                    faces = self.check(places, [(name, np.arange(len(places))[None, :])], volume)
+                    for face in faces:  # mid nodes in the middle of the corners beside them
+                        count = skins.corners(face, places.shape[1])
+                        for place, mid in enumerate(face[count:2 * count]):
+                            between = face[place], face[(place + 1) % count]
+                            np.testing.assert_allclose(places[mid], places[list(between)].mean(axis=0), atol=1e-15)
+                        for centre in face[2 * count:]:
+                            np.testing.assert_allclose(places[centre], places[face[:count]].mean(axis=0), atol=1e-15)
+
+    def test_faces_between_cells_are_left_out(self):
+        blocks = brick_mesh.two_blocks(wide=3, deep=2, narrow=2, high=1)
+        faces = self.check(blocks.at, [("hexahedron", blocks.bricks)], 30 * 30 * 20 + 15 * 15 * 7.5)
+        self.assertEqual(len(faces), 2 * 9 + 4 * 6 + 2 * 4 + 4 * 2)
+
+
+class Pairs(unittest.TestCase):
+    def setUp(self):
+        self.blocks = brick_mesh.two_blocks(wide=6, deep=2, narrow=4, high=2)
+        self.below = int(self.blocks.bricks[:6 * 6 * 2].max()) + 1
+        at, bricks = self.blocks.at, self.blocks.bricks
+        cut = 6 * 6 * 2
+        self.lower = at[:self.below], {"hexahedron": bricks[:cut]}
+        self.upper = at[self.below:], {"hexahedron": bricks[cut:] - self.below}
+        self.by_faces = signorini.pair_surfaces(at, self.blocks.slave, self.blocks.master)
+
+    def same(self, contact, other=None):
+        """The same pairs, whatever the numbers of their nodes."""
+        other = other or self.by_faces
+        self.assertEqual(contact.pairs, other.pairs)
+        for name in ("points", "normals", "gaps", "areas"):
+            np.testing.assert_allclose(getattr(contact, name), getattr(other, name), atol=1e-12, err_msg=name)
+
+    def test_skins_of_two_meshes(self):
+        self.same(signorini.pair_meshes(self.upper, self.lower))
+
+    def test_one_mesh_with_sets(self):
+        cut = 6 * 6 * 2
+        mesh = SimpleNamespace(
+            points=self.blocks.at,
+            cells=[SimpleNamespace(type="hexahedron", data=self.blocks.bricks),
+                   SimpleNamespace(type="quad", data=self.blocks.slave[:, ::-1])],  # turned into the body
+            cell_sets={"upper": [np.arange(cut, len(self.blocks.bricks)), None],
+                       "lower": [np.arange(cut), np.zeros(0, int)],
+                       "sole": [None, np.arange(len(self.blocks.slave))]},
+            field_data={"floor": np.array([7, 3])},
+            cell_data={"gmsh:physical": [np.where(np.arange(len(self.blocks.bricks)) < cut, 7, 8),
+                                         np.full(len(self.blocks.slave), 9)]},
+        )
+        of_sole = np.isin(np.arange(len(self.blocks.at)), self.blocks.slave)
+        for slave in ("upper", "sole", self.blocks.slave, lambda at: of_sole):
+            for master in ("lower", "floor", self.blocks.master):
+                self.same(signorini.pair_meshes(mesh, mesh, slave_faces=slave, master_faces=master))
+        for words, arguments in (
+            ("slave_faces: slave has no set 'side'; sets: floor, lower, sole, upper", {"slave_faces": "side"}),
+            ("give slave_faces and master_faces", {}),
+            ("chooses no face", {"slave_faces": lambda at: at[:, 2] > 99}),
+            ("return a truth value", {"slave_faces": lambda at: at}),
+        ):
+            with self.assertRaisesRegex(ValueError, words):
+                signorini.pair_meshes(mesh, mesh, **{"master_faces": "lower", **arguments} if arguments else {})
+
+    def test_obstacles(self):
+        floor = signorini.Plane([0, 0, -0.25], [0, 0, 1])
+        contact = signorini.pair_meshes(self.upper, floor, slave_faces=lambda at: at[:, 2] == 0)
+        np.testing.assert_allclose(contact.gaps, 0.25, atol=1e-14)
+        self.assertAlmostEqual(contact.areas.sum(), 30.0 ** 2)
+        for arguments, words in (({}, "give slave_faces"), ({"master_faces": "x"}, "leave it out")):
+            with self.assertRaisesRegex(ValueError, words):
+                signorini.pair_meshes(self.upper, floor, **arguments)
+
+    def test_a_plane_mesh_with_three_coordinates(self):
+        square = np.column_stack([CUBE[:4, :2], np.full(4, 3.0)])
+        below = square - [0.3, 1.1, 0]
+        contact = signorini.pair_meshes((square, {"quad": [[0, 1, 2, 3]]}), (below, {"quad": [[3, 2, 1, 0]]}))
+        self.assertEqual((contact.dim, contact.pairs), (2, 2))
+        np.testing.assert_allclose(contact.normals, [[0, -1]] * 2, atol=1e-14)
+        np.testing.assert_allclose(contact.gaps, 0.1, atol=1e-14)
+        bent = square + np.array([[0, 0, 0]] * 3 + [[0, 0, 0.1]])
+        for mesh, kind, words in (
+            ((bent, {"quad": [[0, 1, 2, 3]]}), ValueError, "slave has 3 coordinates .* cells of dimension 2"),
+            ((square, {"quad": [[1, 2, 3, 4]]}), ValueError, "has the node 4, and there are 4 nodes"),
+            ((square, {"line": [[0, 1]]}), ValueError, "no cells with an inside: give slave_faces"),
+            ([1, 2, 3], TypeError, "slave is a list: give"),
+        ):
+            with self.assertRaisesRegex(kind, words):
+                signorini.pair_meshes(mesh, (below, {"quad": [[0, 1, 2, 3]]}))
+
+    def test_model(self):
+        """The two bodies apart, with a matrix each, give the forces of both in one matrix."""
+        blocks, cut = self.blocks, 3 * self.below
+        data, rows, starts = blocks.matrix
+        split = starts[cut]
+        lower = data[:split], rows[:split], starts[:cut + 1]
+        upper = data[split:], rows[split:] - cut, starts[cut:] - split
+        count = len(blocks.at) * 3 - cut
+        model = signorini.Model.from_meshes((upper, lower), self.upper, self.lower, fixed=count + blocks.held)
+        load = np.concatenate([blocks.press[cut:], blocks.press[:cut]])
+        result = model.solve(load, mu=0.6)
+        whole = signorini.Model.from_surfaces(blocks.matrix, self.by_faces, fixed=blocks.held)
+        expected = whole.solve(blocks.press, mu=0.6)
+        self.assertEqual(result.status, signorini.Status.SOLVED)
+        # Both are certified to 1e-10 of the forces; conditions are some 1e3.
+        np.testing.assert_allclose(result.F, expected.F, atol=1e-7 * abs(expected.F).max())
+        self.assertIs(result.contact, model.contact)
+        with self.assertRaisesRegex(TypeError, "gap is None"):
+            signorini.Model.condensed(np.eye(2)).solve([1, 1])
+
+
+if __name__ == "__main__":
+    unittest.main()

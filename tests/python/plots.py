@@ -1,0 +1,87 @@
+"""The Python package: results draw themselves.
+
+    python3 tests/python/plots.py WORK      WORK: a directory for the pictures
+"""
+
+import os
+import sys
+import unittest
+from unittest import mock
+
+import numpy as np
+
+import matplotlib
+
+from common import LOAD, ROOT, K
+
+import signorini
+
+matplotlib.use("Agg")
+sys.path.insert(0, os.path.join(ROOT, "c_examples", "3d"))
+import bar_mesh  # noqa: E402
+import brick_mesh  # noqa: E402
+
+WORK = "."
+
+
+def bar():
+    """The bar on the plane, paired by the library, with gaps of 0: its pairs are nodes of the lower side."""
+    bar = bar_mesh.assemble()
+    count = len(bar.contact)
+    at = np.zeros((len(bar.load) // 2, 2))
+    at[bar.contact[:, 0] // 2, 0] = np.linspace(0, 40, count)
+    nodes = bar.contact[:, 0] // 2
+    contact = signorini.pair_obstacle(at, np.column_stack([nodes[:-1], nodes[1:]]), signorini.Plane([0, 0], [0, 1]))
+    return signorini.Model.from_surfaces(bar.matrix, contact, fixed=bar.held).solve(bar.load, mu=1.0)
+
+
+class Plots(unittest.TestCase):
+    def save(self, axes, name):
+        path = os.path.join(WORK, name + ".png")
+        axes.figure.savefig(path, dpi=110)
+        self.assertGreater(os.path.getsize(path), 5000)
+        matplotlib.pyplot.close(axes.figure)
+
+    def test_in_2d_over_the_surface(self):
+        result = bar()
+        axes = result.plot()
+        x, pressure = axes.lines[0].get_data()
+        np.testing.assert_allclose(x, np.linspace(0, 40, len(x)), atol=1e-12)
+        np.testing.assert_allclose(pressure, -result.F[:, 0] / result.contact.areas)
+        states = sum(len(dots.get_offsets()) for dots in axes.collections)
+        self.assertEqual(states, len(x))
+        self.save(axes, "result_2d")
+
+    def test_in_3d_on_the_faces(self):
+        blocks = brick_mesh.two_blocks()
+        contact = signorini.pair_surfaces(blocks.at, blocks.slave, blocks.master)
+        model = signorini.Model.from_surfaces(blocks.matrix, contact, fixed=blocks.held)
+        result = model.solve(blocks.press + 3e5 * blocks.twist, mu=0.6)
+        axes = result.plot()
+        drawn = axes.collections[0]
+        pressure = contact.fields(result).pressure[blocks.slave].mean(axis=1)
+        np.testing.assert_allclose(drawn.get_array(), pressure)
+        self.save(axes, "result_3d")
+        self.save(result._replace(contact=None).plot(at=contact.points), "result_3d_places")
+
+    def test_without_a_surface(self):
+        result = signorini.solve(K, LOAD, 0, 0.3)
+        axes = result.plot()
+        np.testing.assert_array_equal(axes.lines[0].get_xdata(), [1, 2])
+        self.assertIs(result.plot(axes), axes)
+        self.save(axes, "result_pairs")
+        axes = result.plot(at=[[3, 0], [1, 0]])
+        np.testing.assert_allclose(np.diff(axes.lines[0].get_xdata()), 2)
+        self.save(axes, "result_2d_places")
+        with self.assertRaisesRegex(ValueError, r"at has the shape \(2, 3\): give the place of each pair"):
+            result.plot(at=np.zeros((2, 3)))
+
+    def test_without_matplotlib(self):
+        with mock.patch.dict(sys.modules, {"matplotlib": None, "matplotlib.pyplot": None}):
+            with self.assertRaisesRegex(ImportError, "needs matplotlib: pip install matplotlib"):
+                signorini.solve(K, LOAD, 0, 0.3).plot()
+
+
+if __name__ == "__main__":
+    WORK = sys.argv.pop(1)
+    unittest.main()
