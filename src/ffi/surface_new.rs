@@ -38,6 +38,11 @@ pub struct SignoriniSurfacePairs {
     _indices: [Vec<i64>; 2],
 }
 
+// SAFETY: the pointers of `rows` are to arrays that the pairs hold themselves and nobody changes.
+unsafe impl Send for SignoriniSurfacePairs {}
+// SAFETY: as above.
+unsafe impl Sync for SignoriniSurfacePairs {}
+
 /// What became of the faces and nodes of a pairing. Set struct_size before the call; the call writes
 /// all other fields.
 #[repr(C)]
