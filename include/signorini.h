@@ -870,7 +870,8 @@ int32_t signorini_surface_settings_default(signorini_surface_settings *settings,
  * signorini_model_new_sparse, signorini_surface_gaps to signorini_model_solve.
  *
  * Surfaces that never meet are no error: there are no pairs, and signorini_surface_summary says
- * why.
+ * why. Faces of one side that lie upon each other are refused, as their area would count twice;
+ * those of masters with SIGNORINI_PAIRING_DUAL_MORTAR alone.
  *
  * @param dim          space dimension, 2 or 3
  * @param nodes        number of nodes of your mesh

@@ -59,7 +59,8 @@ say "signorini.f90 has the $(wc -l <"$work/wanted" | tr -d ' ') functions of the
 
 # The names for 8-byte integers.
 wide="-cpp -fdefault-integer-8"
-for name in SOLV CERT LCPS MODL TWOB SPAR SPAW FRAM CASE RECV NODF FREE MESG; do
+for name in SOLV CERT LCPS MODL TWOB SPAR SPAW FRAM CASE RECV NODF FREE MESG \
+    SURF SMOD SGAP SFLD SVTU SUMM SFRE; do
     wide="$wide -DSG$name=SG${name}_64"
 done
 hosts=$root/c_examples/hosts/fortran
@@ -81,6 +82,11 @@ for kind in static shared; do
     # shellcheck disable=SC2086
     compile "bad_input_64_$kind" "$kind" $wide "$tests/bad_input.f"
     runs "bad_input_64_$kind"
+    compile "two_blocks_$kind" "$kind" "$tests/two_blocks.f"
+    runs "two_blocks_$kind"
+    # shellcheck disable=SC2086
+    compile "two_blocks_64_$kind" "$kind" $wide "$tests/two_blocks.f"
+    runs "two_blocks_64_$kind"
     compile "widths_$kind" "$kind" "$tests/widths.f90"
     runs "widths_$kind"
     compile "bar_sparse_$kind" "$kind" -std=f2008 "$module" "$hosts/bar_mesh.f90" \

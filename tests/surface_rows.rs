@@ -323,6 +323,19 @@ fn nodes_against_surfaces_move_nothing_in_a_linear_field() {
     }
 }
 
+/// A node that meets a master face has its pair, whether or not the nodes beside it meet one: a master below the
+/// left half of the slave has the nodes there and at its own rim.
+#[test]
+fn nodes_at_the_rim_of_a_master_have_their_pairs() {
+    let rng = &mut Rng::with_seed(8);
+    let slave = Sheet::rectangle(Shape::Q4, [2, 2], [[0.0, 1.0]; 2], (0.0, rng)).turned();
+    let master = Sheet::rectangle(Shape::Q4, [1, 1], [[-0.5, 0.5], [-0.5, 1.5]], (0.0, rng));
+    let settings = SurfaceSettings { pairing: Pairing::NodeToSurface, search_distance: None };
+    let found = TwoSheets::new(3, slave, master).pair(&settings).unwrap();
+    let slaves: Vec<usize> = found.pairs.iter().map(|pair| pair.slave).collect();
+    assert_eq!((slaves, found.unpaired), (vec![0, 1, 3, 4, 6, 7], vec![2, 5, 8]));
+}
+
 /// The search looks at a number of boxes that grows as `n log n`: sixteen times the faces, with a
 /// logarithm that doubles at most, cost at most 32 times as many, and all against all 256 times.
 #[test]

@@ -7,9 +7,12 @@
 
 mod arguments;
 mod flat;
+mod handles;
 mod message;
 mod models;
 mod sparse;
+mod surface_results;
+mod surfaces;
 
 /// Exports one generic function for each width of integers; `I` is the integer in the types.
 macro_rules! entries {
@@ -80,5 +83,24 @@ entries! {
     sgnodf_ sgnodf_64_ = super::models::nodal_forces, (handle: *const i64, r: *const f64,
         p: *mut f64, info: *mut I);
     sgfree_ sgfree_64_ = super::models::free, (handle: *mut i64, info: *mut I);
+    sgsurf_ sgsurf_64_ = super::surfaces::pair, (ndim: *const I, nnode: *const I,
+        x: *const f64, ndof: *const I, lsl: *const I, nsl: *const I, slave: *const I,
+        lma: *const I, nma: *const I, master: *const I, pairng: *const I, dist: *const f64,
+        hsurf: *mut i64, npair: *mut I, info: *mut I);
+    sgsmod_ sgsmod_64_ = super::surfaces::model, (n: *const I, nnz: *const I, colptr: *const I,
+        rowind: *const I, values: *const f64, tri: *const I, nfix: *const I, fixed: *const I,
+        hsurf: *const i64, handle: *mut i64, info: *mut I);
+    sgsgap_ sgsgap_64_ = super::surfaces::gaps, (hsurf: *const i64, node: *mut I,
+        gap: *mut f64, area: *mut f64, normal: *mut f64, info: *mut I);
+    sgsfld_ sgsfld_64_ = super::surface_results::fields, (hsurf: *const i64, gap: *const f64,
+        slip0: *const f64, d: *const f64, r: *const f64, press: *mut f64, tract: *mut f64,
+        clear: *mut f64, slip: *mut f64, info: *mut I);
+    sgsvtu_ sgsvtu_64_ = super::surface_results::write_vtu, (hsurf: *const i64,
+        path: *const libc::c_char, lpath: *const I, x: *const f64, vtktyp: *const I,
+        lcell: *const I, ncell: *const I, cell: *const I, gap: *const f64, slip0: *const f64,
+        u: *const f64, d: *const f64, r: *const f64, state: *const I, info: *mut I);
+    sgsumm_ sgsumm_64_ = super::surfaces::summary, (hsurf: *const i64,
+        text: *mut libc::c_char, ltext: *const I, info: *mut I);
+    sgsfre_ sgsfre_64_ = super::surfaces::free, (hsurf: *mut i64, info: *mut I);
     sgmesg_ sgmesg_64_ = super::message::copy, (text: *mut libc::c_char, ltext: *const I);
 }

@@ -38,6 +38,11 @@ pub struct SignoriniSurfacePairs {
     _indices: [Vec<i64>; 2],
 }
 
+// SAFETY: the pointers of `rows` are to arrays that the pairs hold themselves and nobody changes.
+unsafe impl Send for SignoriniSurfacePairs {}
+// SAFETY: as above.
+unsafe impl Sync for SignoriniSurfacePairs {}
+
 /// What became of the faces and nodes of a pairing. Set struct_size before the call; the call writes
 /// all other fields.
 #[repr(C)]
@@ -75,7 +80,8 @@ pub struct SignoriniSurfaceReport {
 /// signorini_model_new_sparse, signorini_surface_gaps to signorini_model_solve.
 ///
 /// Surfaces that never meet are no error: there are no pairs, and signorini_surface_summary says
-/// why.
+/// why. Faces of one side that lie upon each other are refused, as their area would count twice;
+/// those of masters with SIGNORINI_PAIRING_DUAL_MORTAR alone.
 ///
 /// @param dim          space dimension, 2 or 3
 /// @param nodes        number of nodes of your mesh

@@ -25,7 +25,8 @@ pub(super) struct Candidates {
     pub(super) not_opposed: usize,
 }
 
-fn bounds(face: &Face<'_>) -> Bounds {
+/// A box that holds a face.
+pub(super) fn bounds(face: &Face<'_>) -> Bounds {
     let bounds = Bounds::of(face.x[..face.kind.nodes()].iter().copied());
     bounds.grown(if face.is_straight() { 0.0 } else { BULGE * bounds.size() })
 }

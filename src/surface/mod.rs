@@ -36,6 +36,7 @@ mod projected_shapes;
 mod quadrature;
 mod rigid;
 mod row;
+mod self_overlap;
 mod settings;
 mod shape;
 mod tree;
@@ -61,7 +62,8 @@ use mesh::Side;
 ///   not finite;
 /// - [`Argument::SlaveFaces`], [`Argument::MasterFaces`]: what is wrong with which face: number of nodes,
 ///   repeated or missing nodes, no area, folded, turned over against its neighbour, nodes on both
-///   sides, master faces over each other;
+///   sides, faces of one side that lie upon each other, master faces over each other (of masters with
+///   [`Pairing::DualMortar`] alone: otherwise the nearest counts);
 /// - [`Argument::Settings`]: a search distance that is not positive.
 pub fn pair_surfaces(
     surfaces: &Surfaces<'_>,
@@ -78,8 +80,12 @@ fn pair_sides(
 ) -> Result<SurfacePairs, Error> {
     let largest = || (0..slave.count()).map(|face| slave.face(face).size()).fold(0.0, f64::max);
     let reach = settings::reach(settings.search_distance, largest)?;
+    self_overlap::check(slave, dim, reach)?;
     match settings.pairing {
-        Pairing::DualMortar => mortar::pairs(slave, master, dim, reach),
+        Pairing::DualMortar => {
+            self_overlap::check(master, dim, reach)?;
+            mortar::pairs(slave, master, dim, reach)
+        }
         Pairing::NodeToSurface => node_to_surface::pairs(slave, master, dim, reach),
     }
 }

@@ -136,6 +136,7 @@ pub fn pair_with_obstacle(
     let limit = search_distance.filter(|distance| distance.is_finite() || !(*distance > 0.0));
     let reach = super::settings::reach(limit, || f64::INFINITY)?;
     let obstacle = obstacle.check(dim)?;
+    super::self_overlap::check(&side, dim, reach)?;
     let mut facing = BTreeMap::new();
     for node in side.all_nodes() {
         let Some(met) = obstacle.facing(side.position(node)) else {

@@ -1,5 +1,7 @@
 //! Where a slave face and the master faces lie over each other: the parts, and points of integration.
 
+use std::cell::LazyCell;
+
 use super::clip::{Point, common_part, measure};
 use super::face::Face;
 use super::plane::{Flat, Plane};
@@ -77,7 +79,8 @@ impl SlaveFace {
     /// Newton's method fails on a face that is turned over in the projection.
     pub(super) fn overlap(&self, master: &Face<'_>, reach: f64) -> Result<Part, NotFound> {
         let flat = self.plane.flatten(master);
-        let rule = self.rule(&flat);
+        // Most faces that are near have nothing in common.
+        let rule = LazyCell::new(|| self.rule(&flat));
         let mut part = Part { points: Vec::new(), area: 0.0 };
         for window in polygons(master, &flat) {
             for polygon in &self.polygons {

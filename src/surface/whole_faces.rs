@@ -19,7 +19,8 @@ pub(super) fn whole_rows(side: &Side<'_>) -> BTreeMap<usize, Row> {
         let areas = basis.functions(whole_integrals(&face));
         for (node, unit) in face.nodes.iter().zip(unit_values(face.kind.nodes())) {
             let values = basis.control_values(unit);
-            for (j, own) in face.nodes.iter().enumerate() {
+            // A node that a row does not move is not named by it: it may face nothing.
+            for (j, own) in face.nodes.iter().enumerate().filter(|(j, _)| values[*j] != 0.0) {
                 rows.entry(*own).or_default().slaves.push((*node, areas[j] * values[j]));
             }
         }

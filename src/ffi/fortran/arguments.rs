@@ -123,11 +123,19 @@ pub(super) unsafe fn sizes<I: Integer>(
     npair: *const I,
 ) -> Result<(i32, i64), Failure> {
     // SAFETY: by the caller's contract.
-    let dim = unsafe { choice(first, "NDIM", ndim)? };
-    let wrong = |_| Failure::argument(first, format!("NDIM is {dim}, it must be 2 or 3"));
+    unsafe { Ok((dimension(first, ndim)?, count(first + 1, "NPAIR", npair)?)) }
+}
+
+/// NDIM.
+///
+/// # Safety
+/// As for [`read`].
+pub(super) unsafe fn dimension<I: Integer>(position: i32, ndim: *const I) -> Result<i32, Failure> {
+    // SAFETY: by the caller's contract.
+    let dim = unsafe { choice(position, "NDIM", ndim)? };
+    let wrong = |_| Failure::argument(position, format!("NDIM is {dim}, it must be 2 or 3"));
     checked_dim(dim).map_err(wrong)?;
-    // SAFETY: as above.
-    Ok((dim, unsafe { count(first + 1, "NPAIR", npair)? }))
+    Ok(dim)
 }
 
 /// The leading dimension of a matrix of all components of pairs.

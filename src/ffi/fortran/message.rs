@@ -13,15 +13,22 @@ use super::arguments::{Integer, read};
 pub(super) unsafe fn copy<I: Integer>(text: *mut c_char, ltext: *const I) {
     // SAFETY: by the caller's contract.
     let Ok(length) = (unsafe { read(2, "LTEXT", ltext) }) else { return };
+    // SAFETY: by the caller's contract.
+    unsafe { fill(text, length.wide(), &last_counted_from_one()) }
+}
+
+/// Puts a sentence into a CHARACTER, padded with blanks.
+///
+/// # Safety
+/// `text` is NULL or has `length` characters.
+pub(super) unsafe fn fill(text: *mut c_char, length: i64, sentence: &str) {
     // No CHARACTER for a sentence is longer: such a length is refused, not written to.
-    let Some(length) = usize::try_from(length.wide()).ok().filter(|n| *n <= i32::MAX as usize)
-    else {
+    let Some(length) = usize::try_from(length).ok().filter(|n| *n <= i32::MAX as usize) else {
         return;
     };
     if text.is_null() {
         return;
     }
-    let sentence = last_counted_from_one();
     let bytes = sentence.bytes().chain(std::iter::repeat(b' ')).take(length);
     for (i, byte) in bytes.enumerate() {
         // SAFETY: i < length.

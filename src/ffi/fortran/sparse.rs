@@ -7,7 +7,7 @@ use super::super::pairs::SignoriniPairs;
 use super::super::settings::SignoriniSettings;
 use super::super::sparse::{SIGNORINI_TRIANGLE_FULL, SIGNORINI_TRIANGLE_LOWER, SignoriniSparse};
 use super::arguments::{Integer, absurd, choice, count, read, run, sizes};
-use super::models::create;
+use super::models::MODELS;
 use crate::error::entry;
 
 /// # Safety
@@ -43,7 +43,7 @@ pub(super) unsafe fn new<I: Integer>(
     // SAFETY: by the caller's contract.
     unsafe {
         let make = |model| made(&matrix, (nfix, fixed), &pairs, &settings, model);
-        run(info, &[5, 7, 8, 11, 19], || create(19, handle, make))
+        run(info, &[5, 7, 8, 11, 19], || MODELS.create(19, handle, make))
     }
 }
 
@@ -96,7 +96,7 @@ pub(super) unsafe fn within<I: Integer>(
         made(&matrix, (nfix, fixed), &pairs, &settings, model)
     };
     // SAFETY: by the caller's contract.
-    unsafe { run(info, &[5, 7, 8, 11, 22, 23], || create(23, handle, make)) }
+    unsafe { run(info, &[5, 7, 8, 11, 22, 23], || MODELS.create(23, handle, make)) }
 }
 
 /// A limit, 0 for none.
@@ -135,21 +135,21 @@ unsafe fn made<I: Integer>(
 }
 
 /// The arguments from N to TRI, the first ones.
-struct Matrix<I> {
-    n: *const I,
-    nnz: *const I,
-    colptr: *const I,
-    rowind: *const I,
-    values: *const f64,
-    tri: *const I,
+pub(super) struct Matrix<I> {
+    pub(super) n: *const I,
+    pub(super) nnz: *const I,
+    pub(super) colptr: *const I,
+    pub(super) rowind: *const I,
+    pub(super) values: *const f64,
+    pub(super) tri: *const I,
     /// NULL: chosen.
-    order: *const I,
+    pub(super) order: *const I,
 }
 
 impl<I: Integer> Matrix<I> {
     /// # Safety
     /// As include/signorini.inc demands.
-    unsafe fn read(&self) -> Result<SignoriniSparse, Failure> {
+    pub(super) unsafe fn read(&self) -> Result<SignoriniSparse, Failure> {
         // SAFETY: by the caller's contract.
         let (size, nnz, triangle) = unsafe {
             (count(1, "N", self.n)?, read(2, "NNZ", self.nnz)?.wide(), choice(6, "TRI", self.tri)?)
@@ -298,7 +298,7 @@ unsafe fn check_begins<I: Integer>(size: i64, nnz: i64, colptr: *const I) -> Res
 ///
 /// # Safety
 /// `array` has `length` entries.
-unsafe fn numbers<I: Integer>(
+pub(super) unsafe fn numbers<I: Integer>(
     position: i32,
     name: &'static str,
     array: *const I,

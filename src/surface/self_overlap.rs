@@ -1,0 +1,81 @@
+//! Whether faces of one side lie upon each other: their area, and the pressure on it, would count twice.
+//!
+//! What is legal stays so: two sides of a plate, whose normals oppose each other; a surface folded upon
+//! itself; faces that meet in an edge or a node; layers further apart than the search reaches.
+
+use super::candidates::{bounds, middle_normal};
+use super::face::Face;
+use super::mesh::Side;
+use super::overlap::SlaveFace;
+use super::plane::Plane;
+use super::tree::Tree;
+use crate::error::{Error, index};
+use crate::linalg::vector3::Vector3;
+
+/// Faces that lie upon each other look the same way: the cosine between their normals is above this. Of
+/// two meshes of one curved surface, normals differ by the angle of a face, say 30 degrees on coarse ones.
+const SAME_WAY: f64 = 0.7;
+
+/// Faces lie upon each other up to this distance, relative to the smaller one: two meshes of a curved
+/// surface differ by `h² / 8 R`, which is 0.05 of `h` where a face turns by 23 degrees.
+const UPON: f64 = 0.05;
+
+/// More than this share of the smaller face is common. Parts of a surface whose meshes meet along a curved line
+/// overlap by segments of the circle, 0.034 of a square that turns by 23 degrees along it.
+const COMMON: f64 = 0.05;
+
+const PERCENT: f64 = 100.0;
+
+/// Refuses faces that lie upon each other within `reach`.
+///
+/// It asks the tree once for each face, so it costs `n log n`.
+///
+/// # Errors
+/// The two faces, and the share that is common.
+pub(super) fn check(side: &Side<'_>, dim: usize, reach: f64) -> Result<(), Error> {
+    let all = || (0..side.count()).map(|at| side.face(at));
+    let tree = Tree::new(all().map(|face| bounds(&face)).collect());
+    let normals: Vec<Vector3> = all().map(|face| middle_normal(&face)).collect();
+    let mut near = Vec::new();
+    for at in 0..side.count() {
+        let face = side.face(at);
+        tree.near(&bounds(&face).grown(UPON * face.size()), &mut near);
+        near.retain(|&other| other < at && normals[other].dot(&normals[at]) > SAME_WAY);
+        near.retain(|&other| !are_neighbours(&face, &side.face(other)));
+        if near.is_empty() {
+            continue;
+        }
+        let plane = Plane::new(dim, face.position(face.kind.centre()), normals[at]);
+        let in_plane = SlaveFace::new(&face, plane.clone());
+        for &other in &near {
+            let second = side.face(other);
+            let distance = reach.min(UPON * face.size().min(second.size()));
+            // Faces that cannot be projected on each other do not lie upon each other.
+            // Faces that cannot be projected on each other do not lie upon each other.
+            let common = in_plane.overlap(&second, distance).map_or(0.0, |part| part.area);
+            let smaller = || in_plane.area.min(SlaveFace::new(&second, plane.clone()).area);
+            if common > 0.0 && common > COMMON * smaller() {
+                return Err(upon(side, (at, other), common / smaller()));
+            }
+        }
+    }
+    Ok(())
+}
+
+fn upon(side: &Side<'_>, (at, other): (usize, usize), share: f64) -> Error {
+    let what = format!(
+        "lies upon face {}, with {:.0} % of the smaller one: the area would count twice; leave one of them \
+         out, or pair them in two calls if they belong to two contacts",
+        index(other),
+        PERCENT * share.min(1.0)
+    );
+    side.refuse(at, &what)
+}
+
+/// Whether two faces that look the same way share an edge, so that each lies on its own side of it.
+fn are_neighbours(a: &Face<'_>, b: &Face<'_>) -> bool {
+    let corners = |face: &Face<'_>| face.kind.corners();
+    let edges = |i: usize| (a.nodes[i], a.nodes[(i + 1) % corners(a)]);
+    let backwards = |i: usize| (b.nodes[(i + 1) % corners(b)], b.nodes[i]);
+    !a.kind.is_line() && (0..corners(a)).any(|i| (0..corners(b)).any(|j| edges(i) == backwards(j)))
+}
