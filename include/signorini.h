@@ -1136,7 +1136,8 @@ int32_t signorini_mesh_write(const char *path, const signorini_mesh *mesh, const
  * @param law       SIGNORINI_LAW_..., the friction law of all pairs
  * @param friction  parameters of the law, pair by pair; may be NULL if frictionless
  * @param slip0     reference slip, dim - 1 for each pair; NULL: zero
- * @param remark    one line of UTF-8 for the reader of the file, at most 1000 bytes; may be NULL
+ * @param remark    one line of UTF-8 for the reader of the file, at most 1000 bytes, that does not
+ *                  begin or end with a space; may be NULL
  * @return 0; -k: the k-th argument is wrong; SIGNORINI_STATUS_FILE: the file cannot be written; an
  *         old file is then unchanged
  */
@@ -1157,7 +1158,8 @@ int32_t signorini_problem_write(const char *path, int32_t dim, int64_t pairs, co
  * @param law         SIGNORINI_LAW_..., the friction law of all pairs
  * @param friction    parameters of the law, pair by pair; may be NULL if frictionless
  * @param slip0       reference slip, dim - 1 for each pair; NULL: zero
- * @param remark      one line of UTF-8 for the reader of the file, at most 1000 bytes; may be NULL
+ * @param remark      one line of UTF-8 for the reader of the file, at most 1000 bytes, that does
+ *                    not begin or end with a space; may be NULL
  * @return as signorini_problem_write
  */
 int32_t signorini_model_write(const signorini_model *model, const char *path, const double *f,
@@ -1174,7 +1176,8 @@ int32_t signorini_model_write(const signorini_model *model, const char *path, co
  * @param ldm     entries from one column of M to the next, at least max(1, n)
  * @param q       n
  * @param cover   covering vector, n positive entries; may be NULL
- * @param remark  one line of UTF-8 for the reader of the file, at most 1000 bytes; may be NULL
+ * @param remark  one line of UTF-8 for the reader of the file, at most 1000 bytes, that does not
+ *                begin or end with a space; may be NULL
  * @return as signorini_problem_write
  */
 int32_t signorini_lcp_write(const char *path, int64_t n, const double *M, int64_t ldm,

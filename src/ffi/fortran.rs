@@ -9,6 +9,7 @@ mod arguments;
 mod flat;
 mod message;
 mod models;
+mod registry;
 mod sparse;
 
 /// Exports one generic function for each width of integers; `I` is the integer in the types.

@@ -1,7 +1,6 @@
 //! SGMODL, SGTWOB, SGFRAM, SGCASE, SGRECV, SGNODF, SGFREE: models known by numbers.
 
-use std::collections::BTreeMap;
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::Arc;
 
 use super::super::guard::Failure;
 use super::super::model_new::{
@@ -13,24 +12,7 @@ use super::super::model_solve::signorini_model_solve;
 use super::arguments::{
     Integer, Results, law as read_law, leading, read, run, settings, sizes, write,
 };
-
-/// The models that live. Fortran has no pointer type of its own: an address in an INTEGER*8 would
-/// be followed whatever it holds, a number that is not here is refused.
-struct Models {
-    next: i64,
-    living: BTreeMap<i64, Arc<SignoriniModel>>,
-}
-
-/// The upper half of a handle is "SG" in ASCII, the lower half counts from 1: neither is 0, so that a
-/// handle cut to an INTEGER*4 is never one.
-const FIRST: i64 = (0x5347 << 32) + 1;
-
-static MODELS: Mutex<Models> = Mutex::new(Models { next: FIRST, living: BTreeMap::new() });
-
-fn models() -> MutexGuard<'static, Models> {
-    // The map is whole whenever a panic can happen.
-    MODELS.lock().unwrap_or_else(PoisonError::into_inner)
-}
+use super::registry::models;
 
 /// Makes a model by an entry of C and puts its number into HANDLE, 0 if there is none.
 ///
@@ -51,10 +33,7 @@ pub(super) unsafe fn create(
     if status == 0 {
         // SAFETY: a new model, which is ours alone.
         let model = Arc::from(unsafe { Box::from_raw(model) });
-        let mut models = models();
-        let number = models.next;
-        models.next += 1;
-        models.living.insert(number, model);
+        let number = models().add(model);
         // SAFETY: by the caller's contract.
         unsafe { write(handle, number) };
     }
@@ -68,7 +47,7 @@ pub(super) unsafe fn create(
 unsafe fn find(handle: *const i64) -> Result<Arc<SignoriniModel>, Failure> {
     // SAFETY: by the caller's contract.
     let number = unsafe { read(1, "HANDLE", handle)? };
-    models().living.get(&number).cloned().ok_or_else(|| unknown(number))
+    models().find(number).ok_or_else(|| unknown(number))
 }
 
 fn unknown(number: i64) -> Failure {
@@ -227,7 +206,7 @@ pub(super) unsafe fn free<I: Integer>(handle: *mut i64, info: *mut I) {
     let body = || {
         // SAFETY: by the caller's contract.
         let number = unsafe { read(1, "HANDLE", handle)? };
-        if number != 0 && models().living.remove(&number).is_none() {
+        if number != 0 && models().remove(number).is_none() {
             return Err(unknown(number));
         }
         // SAFETY: by the caller's contract.
