@@ -54,7 +54,7 @@
  * K[row,column].
  *
  * Threads. Calls from several threads at once are safe, on the same model or problem too, as long
- * as nobody frees it. The library never prints, exits, reads the environment, installs handlers or
+ * as nobody frees it. The library never prints, exits, reads the environment, handles signals or
  * starts threads. It opens only the files that you name. It keeps your floating-point environment:
  * inside a call traps and flush-to-zero are off; on return they are as before. The same input gives
  * the same bits on the same machine. A thread that is cancelled (pthread_cancel, deferred) ends
@@ -1137,7 +1137,8 @@ int32_t signorini_mesh_write(const char *path, const signorini_mesh *mesh, const
  * @param law       SIGNORINI_LAW_..., the friction law of all pairs
  * @param friction  parameters of the law, pair by pair; may be NULL if frictionless
  * @param slip0     reference slip, dim - 1 for each pair; NULL: zero
- * @param remark    one line of UTF-8 for the reader of the file, at most 1000 bytes; may be NULL
+ * @param remark    one line of UTF-8 for the reader of the file, at most 1000 bytes, that does not
+ *                  begin or end with a space; may be NULL
  * @return 0; -k: the k-th argument is wrong; SIGNORINI_STATUS_FILE: the file cannot be written; an
  *         old file is then unchanged
  */
@@ -1158,7 +1159,8 @@ int32_t signorini_problem_write(const char *path, int32_t dim, int64_t pairs, co
  * @param law         SIGNORINI_LAW_..., the friction law of all pairs
  * @param friction    parameters of the law, pair by pair; may be NULL if frictionless
  * @param slip0       reference slip, dim - 1 for each pair; NULL: zero
- * @param remark      one line of UTF-8 for the reader of the file, at most 1000 bytes; may be NULL
+ * @param remark      one line of UTF-8 for the reader of the file, at most 1000 bytes, that does
+ *                    not begin or end with a space; may be NULL
  * @return as signorini_problem_write
  */
 int32_t signorini_model_write(const signorini_model *model, const char *path, const double *f,
@@ -1175,7 +1177,8 @@ int32_t signorini_model_write(const signorini_model *model, const char *path, co
  * @param ldm     entries from one column of M to the next, at least max(1, n)
  * @param q       n
  * @param cover   covering vector, n positive entries; may be NULL
- * @param remark  one line of UTF-8 for the reader of the file, at most 1000 bytes; may be NULL
+ * @param remark  one line of UTF-8 for the reader of the file, at most 1000 bytes, that does not
+ *                begin or end with a space; may be NULL
  * @return as signorini_problem_write
  */
 int32_t signorini_lcp_write(const char *path, int64_t n, const double *M, int64_t ldm,

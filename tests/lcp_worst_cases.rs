@@ -164,3 +164,71 @@ fn rounding_does_not_prove_infeasibility() {
     assert!(lcp.is_infeasible_by(&[0.0, 1.0]) && lcp.is_infeasible_by(&[1e-17, 1.0]));
     assert!(!lcp.is_infeasible_by(&[0.0, -1.0]) && !lcp.is_infeasible_by(&[0.0, 0.0]));
 }
+
+/// With `M = I` every problem has a solution. `y = -q` satisfies `Mᵀ y <= 0` and `q . y < 0` where `q > 0`:
+/// without `y >= 0` it proves nothing, and neither does one negative entry among others.
+#[test]
+fn a_ray_with_a_negative_entry_proves_nothing() {
+    for n in 1..6 {
+        let identity: Vec<f64> =
+            (0..n * n).map(|k| f64::from(u8::from(k % (n + 1) == 0))).collect();
+        let q = vec![1.0; n];
+        let lcp = Lcp::new(n, &identity, n, &q, None).unwrap();
+        assert_eq!(lcp.eta(&vec![0.0; n]), 0.0, "z = 0 is a solution");
+        assert!(!lcp.is_infeasible_by(&vec![-1.0; n]));
+        for i in 0..n {
+            let mut y = vec![0.0; n];
+            y[i] = -1.0;
+            assert!(!lcp.is_infeasible_by(&y), "{y:?}");
+        }
+    }
+    // M = [[1, 1], [3, 2]], all positive, is feasible for every q: Mᵀ y = (-1, 0), q . y = -1.
+    let lcp = Lcp::new(2, &[1.0, 3.0, 1.0, 2.0], 2, &[-1.0, -1.0], None).unwrap();
+    assert!(!lcp.is_infeasible_by(&[2.0, -1.0]));
+}
+
+/// `eta` of candidates that are no solutions: by its formula, and the same whatever the units of `w` and of
+/// `z` (powers of two, so that nothing rounds).
+#[test]
+fn eta_has_no_unit() {
+    let mut rng = Rng::with_seed(11);
+    for _ in 0..300 {
+        let n = rng.usize(1..=5);
+        let mut random =
+            |count: usize| -> Vec<f64> { (0..count).map(|_| f64::from(rng.i32(-8..=8))).collect() };
+        let (m, q) = (random(n * n), random(n));
+        let z: Vec<f64> = random(n).iter().map(|z| z.abs()).collect();
+        let mut residual = 0.0_f64;
+        let mut product = vec![0.0; n];
+        for i in 0..n {
+            product[i] = (0..n).map(|j| m[i + j * n] * z[j]).sum::<f64>();
+            let row_and_column = (0..n).flat_map(|j| [i + j * n, j + i * n]);
+            let largest = row_and_column.fold(0.0_f64, |s, k| s.max(m[k].abs()));
+            let unit = if largest == 0.0 { 1.0 } else { largest };
+            residual = residual.hypot((q[i] + product[i]).min(unit * z[i]));
+        }
+        let norm = |x: &[f64]| x.iter().fold(0.0_f64, |s, x| s.hypot(*x));
+        let scale = norm(&q).max(norm(&product));
+        let expected = if residual == 0.0 { 0.0 } else { residual / scale };
+        let eta = |w_unit: f64, z_unit: f64| {
+            let m: Vec<f64> = m.iter().map(|m| m * w_unit / z_unit).collect();
+            let q: Vec<f64> = q.iter().map(|q| q * w_unit).collect();
+            let z: Vec<f64> = z.iter().map(|z| z * z_unit).collect();
+            Lcp::new(n, &m, n, &q, None).unwrap().eta(&z)
+        };
+        // Some ten roundings of norms of five entries.
+        let plain = eta(1.0, 1.0);
+        assert!(
+            (plain - expected).abs() <= 1e-14 * expected,
+            "{plain} {expected} {m:?} {q:?} {z:?}"
+        );
+        if m.iter().all(|m| *m == 0.0) {
+            continue;
+        }
+        for exponent in [-300, -60, -1, 3, 60, 300] {
+            let unit = 2_f64.powi(exponent);
+            assert_eq!(eta(unit, unit), plain, "2^{exponent} {m:?} {q:?} {z:?}");
+            assert_eq!(eta(unit, 1.0), plain, "2^{exponent} {m:?} {q:?} {z:?}");
+        }
+    }
+}

@@ -184,6 +184,11 @@ c_test() (
     cd "$target/c" && ctest --output-on-failure
 )
 
+# The table that the test of this name prints.
+faults() (
+    cd "$target/c" && ./faults
+)
+
 if cargo fmt --version >/dev/null 2>&1; then
     step "format" cargo fmt --check
 else
@@ -204,6 +209,7 @@ step "Rust documentation" documentation
 step "C programs: configure" c_configure
 step "C programs: build" c_build
 step "C programs: test" c_test
+[ ! -x "$target/c/faults" ] || step "faults and outcomes" faults
 have valgrind || skip "C programs under valgrind" "valgrind is not installed"
 have_fclib || skip "FCLIB files" "libfclib is not installed"
 have c++ || skip "the header in C++" "there is no C++ compiler"

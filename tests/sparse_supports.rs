@@ -4,6 +4,7 @@ mod common;
 
 use common::mesh::{Mesh, Pairs, steps};
 use common::stack::{STEEL, Stack, close, components, solved};
+use signorini::reduce::ContactPairs;
 use signorini::{Argument, Error, FrictionLaw, LoadCase, Monitor, Settings};
 
 /// A part that neither supports nor pairs hold is refused by one of its degrees of freedom.
@@ -173,6 +174,82 @@ fn supports_that_part_a_pair_are_not_overlooked() {
             let (slave, master) = (stack.upper.node(0, 0), stack.lower.node(0, 2));
             let apart = u[2 * slave] - u[2 * master];
             assert!((apart - solution.d[1]).abs() < 1e-12, "{apart} apart, d_t {}", solution.d[1]);
+        }
+    }
+}
+
+/// Supports that move both sides of a pair alike: with all other supports along that axis it is a translation of the
+/// whole, which changes no force. A motion that is linear along the interface parts no pair either, as masters
+/// interpolate it. A slave that is moved by more than its masters is refused, with the distance. In
+/// both forms of the rows.
+#[test]
+fn supports_may_move_both_sides_of_a_pair_alike() {
+    let stack = Stack::new([3, 4], [2000.0, 700.0]);
+    let (pairs, interface) = (stack.pairs(), stack.lower.row(stack.lower.rows));
+    let slaves = components(&pairs.slaves[1..3], 0);
+    let bottom = components(&stack.lower.row(0), 0);
+    let mut fixed = [bottom, components(&interface, 0), slaves].concat();
+    let along = fixed.len();
+    fixed.extend(components(&stack.lower.row(0), 1));
+    let last_slave = along - 1;
+    let place = |dof: usize| stack.mesh.nodes[dof / 2][0];
+    // The same pairs as general rows: all nodes with signed weights.
+    let view = pairs.view();
+    let (mut start, mut dofs, mut weights) = (vec![0], vec![], vec![]);
+    for (slave, masters) in pairs.slaves.iter().zip(&pairs.masters) {
+        let row = std::iter::once((*slave, 1.0)).chain(masters.iter().map(|(n, w)| (*n, -w)));
+        for (node, weight) in row {
+            dofs.extend([2 * node, 2 * node + 1]);
+            weights.push(weight);
+        }
+        start.push(weights.len());
+    }
+    let general = ContactPairs {
+        slaves: &[],
+        master_start: &start,
+        masters: &dofs,
+        weights: &weights,
+        ..view
+    };
+    let load = stack.load(7.0, 1.0);
+    for rows in [view, general] {
+        let monitor = &mut Monitor::new(&Settings::default(), None);
+        let model = stack.mesh.stiffness().model_under(&fixed, &rows, monitor).unwrap();
+        let solve = |values: &[f64]| {
+            let case = LoadCase {
+                load: &load,
+                prescribed: Some(values),
+                gap: &[0.0; 5],
+                law: FrictionLaw::Coulomb(&[0.2; 5]),
+                reference_slip: None,
+            };
+            let settings = Settings { tolerance: 1e-12, ..Settings::default() };
+            model.solve(&case, &settings, None, &mut Monitor::new(&settings, None))
+        };
+        let moved = |motion: &dyn Fn(f64) -> f64| -> Vec<f64> {
+            let value =
+                |(k, dof): (usize, &usize)| if k < along { motion(place(*dof)) } else { 0.0 };
+            fixed.iter().enumerate().map(value).collect()
+        };
+        let rest = solve(&moved(&|_| 0.0)).unwrap();
+        let translated = solve(&moved(&|_| 0.25)).unwrap();
+        // Both are solved to 1e-12; the stiffness of 2000 makes 1e-12 of the motion's internal forces.
+        let (force, other) = (&rest.certificate.force, &translated.certificate.force);
+        close(other, force, 1e-9, "forces of a translation");
+        let stretched = solve(&moved(&|x| 0.02 - 0.01 * x)).unwrap();
+        assert_eq!((stretched.d[3], stretched.d[5]), (0.0, 0.0));
+        for (motion, apart) in [(0.25, 0.125), (-0.5, -0.25)] {
+            let mut values = moved(&|_| motion);
+            values[last_slave] += apart;
+            let Err(Error::Invalid { argument, message }) = solve(&values) else {
+                panic!("a slave is moved by {apart} more than its masters");
+            };
+            assert_eq!(argument, Argument::Prescribed, "{message}");
+            let told = message.split("apart by ").nth(1).and_then(|rest| rest.split(',').next());
+            let told: f64 = told.and_then(|told| told.parse().ok()).expect("a distance");
+            // The weights, thirds of an interval, are rounded.
+            assert!((told.abs() - apart.abs()).abs() <= 1e-14, "{message}");
+            assert!(message.contains("pair 2"), "{message}");
         }
     }
 }

@@ -2,11 +2,12 @@
 //!
 //! `include/signorini.inc` is their reference. They count from 1, return nothing but their last
 //! argument INFO, and call the entries of C: what is here translates arguments and their positions;
-//! indices in sentences are counted by [`crate::error`]. Models are known by numbers, of 8 bytes in both widths, so that a
-//! wrong one is refused and not followed.
+//! indices in sentences are counted by [`crate::error`]. Models and pairs of surfaces are known by numbers, of
+//! 8 bytes in both widths, so that a wrong one is refused and not followed.
 
 mod arguments;
 mod flat;
+mod gate;
 mod handles;
 mod message;
 mod models;

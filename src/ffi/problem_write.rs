@@ -32,7 +32,8 @@ use crate::problem::Lcp;
 /// @param law       SIGNORINI_LAW_..., the friction law of all pairs
 /// @param friction  parameters of the law, pair by pair; may be NULL if frictionless
 /// @param slip0     reference slip, dim - 1 for each pair; NULL: zero
-/// @param remark    one line of UTF-8 for the reader of the file, at most 1000 bytes; may be NULL
+/// @param remark    one line of UTF-8 for the reader of the file, at most 1000 bytes, that does not
+///                  begin or end with a space; may be NULL
 /// @return 0; -k: the k-th argument is wrong; SIGNORINI_STATUS_FILE: the file cannot be written; an
 ///         old file is then unchanged
 #[unsafe(no_mangle)]
@@ -79,7 +80,8 @@ pub unsafe extern "C" fn signorini_problem_write(
 /// @param ldm     entries from one column of M to the next, at least max(1, n)
 /// @param q       n
 /// @param cover   covering vector, n positive entries; may be NULL
-/// @param remark  one line of UTF-8 for the reader of the file, at most 1000 bytes; may be NULL
+/// @param remark  one line of UTF-8 for the reader of the file, at most 1000 bytes, that does not
+///                begin or end with a space; may be NULL
 /// @return as signorini_problem_write
 #[unsafe(no_mangle)]
 #[allow(non_snake_case)] // the name of the mathematics, which the header shows
@@ -135,7 +137,8 @@ pub unsafe extern "C" fn signorini_lcp_write(
 /// @param law         SIGNORINI_LAW_..., the friction law of all pairs
 /// @param friction    parameters of the law, pair by pair; may be NULL if frictionless
 /// @param slip0       reference slip, dim - 1 for each pair; NULL: zero
-/// @param remark      one line of UTF-8 for the reader of the file, at most 1000 bytes; may be NULL
+/// @param remark      one line of UTF-8 for the reader of the file, at most 1000 bytes, that does
+///                    not begin or end with a space; may be NULL
 /// @return as signorini_problem_write
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn signorini_model_write(

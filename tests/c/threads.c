@@ -1,6 +1,6 @@
 /*
- * Calls from several threads at once get the bits of the same calls one after the other, and the
- * last error belongs to its thread.
+ * Calls from several threads at once get the bits of the same calls one after the other, also on one model, and
+ * the last error belongs to its thread. Helgrind watches this program too.
  */
 
 #define _POSIX_C_SOURCE 200809L
@@ -18,6 +18,10 @@ typedef struct job {
     int64_t bits_differ, statuses_differ, sentences_differ;
 } job;
 
+/* A model that all threads use, its load case, and the solution. */
+static signorini_model *shared;
+static chain shared_case;
+
 static pthread_barrier_t barrier;
 
 static int32_t solve(chain *c, int number)
@@ -27,6 +31,25 @@ static int32_t solve(chain *c, int number)
     settings.method = number % 2 ? SIGNORINI_METHOD_SOR_DIAGONAL : SIGNORINI_METHOD_SOR_NESTED;
     return signorini_solve(c->dim, c->pairs, c->K, c->n, c->f, c->gap, SIGNORINI_LAW_COULOMB, c->mu,
                            NULL, &settings, c->d, c->F, c->state, NULL, NULL);
+}
+
+static int32_t solve_shared(double *d, double *F)
+{
+    const chain *c = &shared_case;
+    return signorini_model_solve(shared, 1, c->f, NULL, c->gap, SIGNORINI_LAW_COULOMB, c->mu, NULL,
+                                 NULL, d, F, NULL, NULL, NULL, NULL);
+}
+
+/* The shared model once, in arrays of this thread. */
+static int shared_differs(void)
+{
+    const size_t bytes = (size_t)shared_case.n * sizeof(double);
+    double *const d = chain_numbers(shared_case.n), *const F = chain_numbers(shared_case.n);
+    const int differs = solve_shared(d, F) != SIGNORINI_STATUS_SOLVED ||
+                        memcmp(d, shared_case.d, bytes) || memcmp(F, shared_case.F, bytes);
+    free(d);
+    free(F);
+    return differs;
 }
 
 static void *work(void *argument)
@@ -43,6 +66,7 @@ static void *work(void *argument)
             memcmp(c->F, j->expected.F, (size_t)c->n * sizeof *c->F) ||
             memcmp(c->state, j->expected.state, (size_t)c->pairs * sizeof *c->state))
             j->bits_differ++;
+        if (shared_differs()) j->bits_differ++;
         /* An error of each thread's own, read after all of them have had theirs. */
         c->f[j->number] += NAN;
         if (solve(c, j->number) != -5) j->statuses_differ++;
@@ -65,6 +89,10 @@ int main(void)
         jobs[i].c = chain_new(2 + i % 2, 20 + 7 * i, 0.05, 10 + (uint64_t)i);
         CHECK_STATUS(solve(&jobs[i].expected, i), SIGNORINI_STATUS_SOLVED);
     }
+    shared_case = chain_new(2, 30, 0.05, 5);
+    CHECK_STATUS(signorini_model_new_condensed(2, shared_case.pairs, shared_case.K, shared_case.n,
+                                               &shared), 0);
+    CHECK_STATUS(solve_shared(shared_case.d, shared_case.F), SIGNORINI_STATUS_SOLVED);
     CHECK_STATUS(signorini_settings_default(NULL, 0), -1);
     CHECK(pthread_barrier_init(&barrier, NULL, THREADS) == 0);
     for (int i = 0; i < THREADS; i++)
@@ -79,5 +107,7 @@ int main(void)
         chain_free(&jobs[i].expected);
         chain_free(&jobs[i].c);
     }
+    signorini_model_free(shared);
+    chain_free(&shared_case);
     return check_summary("threads");
 }

@@ -1,5 +1,7 @@
 //! Scalars by reference in both widths, settings of three scalars, and states.
 
+use std::alloc::{Layout, alloc_zeroed};
+
 use super::super::guard::{self, Failure};
 use super::super::law::{LAST_LAW, SIGNORINI_LAW_FRICTIONLESS};
 use super::super::report::SignoriniReport;
@@ -241,13 +243,9 @@ pub(super) struct Results {
 
 impl Results {
     pub(super) fn new(pairs: i64) -> Result<Self, Failure> {
-        let mut state = Vec::new();
-        let room = usize::try_from(pairs).is_ok_and(|n| state.try_reserve_exact(n).is_ok());
-        if !room {
-            return Err(Failure::out_of_memory(format!("no memory for {pairs} states")));
-        }
-        state.resize(pairs as usize, 0);
-        Ok(Results { state, report: SignoriniReport::blank() })
+        let refused = || Failure::out_of_memory(format!("no memory for {pairs} states"));
+        let count = usize::try_from(pairs).map_err(|_| refused())?;
+        Ok(Results { state: zeros(count).ok_or_else(refused)?, report: SignoriniReport::blank() })
     }
 
     /// Hands them over, if the call of C has written them.
@@ -275,4 +273,17 @@ impl Results {
         }
         status
     }
+}
+
+/// Zeros that the system has not to write, so that a wrong number of pairs touches no memory before it is
+/// refused; `None` without memory.
+fn zeros(count: usize) -> Option<Vec<i32>> {
+    let layout = Layout::array::<i32>(count).ok()?;
+    if count == 0 {
+        return Some(Vec::new());
+    }
+    // SAFETY: the size is not zero.
+    let memory = unsafe { alloc_zeroed(layout) };
+    // SAFETY: memory of the global allocator for so many numbers, all of them zero.
+    (!memory.is_null()).then(|| unsafe { Vec::from_raw_parts(memory.cast(), count, count) })
 }

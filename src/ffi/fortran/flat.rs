@@ -1,6 +1,7 @@
 //! SGSOLV, SGCERT, SGPROV, SGLCPS: everything in one call.
 
 use super::super::certify::signorini_certify;
+use super::super::guard;
 use super::super::lcp::signorini_lcp_solve;
 use super::super::prove::signorini_prove;
 use super::super::solve::signorini_solve;
@@ -8,6 +9,7 @@ use super::arguments::{
     Integer, Results, choice, count, law as read_law, leading, read, run, settings, sizes,
     tolerance_or_default,
 };
+use crate::solve::memory;
 
 /// # Safety
 /// As include/signorini.inc demands, as for all entries.
@@ -138,6 +140,9 @@ pub(super) unsafe fn prove<I: Integer>(
             let (dim, pairs) = sizes(1, ndim, npair)?;
             let ldk = leading(4, "LDK", ldk, (dim, pairs))?;
             let law = read_law(7, law)?;
+            // Before STATE is read, which would end where NPAIR is wrong.
+            let size = usize::try_from(i64::from(dim) * pairs).unwrap_or(usize::MAX);
+            guard::reserve_estimate(memory(size))?;
             let mut results = Results::new(pairs)?;
             for (i, code) in results.state.iter_mut().enumerate() {
                 let place = if state.is_null() { state } else { state.wrapping_add(i) };

@@ -6,6 +6,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use super::super::guard::Failure;
 use super::arguments::{read, write};
+use super::gate::{self, Pass};
 
 /// The objects of one kind that live.
 pub(super) struct Handles<T> {
@@ -20,6 +21,12 @@ struct Living<T> {
     by_number: BTreeMap<i64, Arc<T>>,
 }
 
+/// What lives, for this thread alone; it is closed before the gate is.
+struct Opened<'a, T> {
+    living: MutexGuard<'a, Living<T>>,
+    _pass: Pass,
+}
+
 impl<T> Handles<T> {
     /// The upper half of a handle is `letters`, two characters of ASCII, the lower half counts from 1: neither
     /// is 0, so that a handle cut to an INTEGER*4 is never one, and kinds do not meet.
@@ -29,9 +36,11 @@ impl<T> Handles<T> {
         Handles { name, what, living: Mutex::new(living) }
     }
 
-    fn living(&self) -> MutexGuard<'_, Living<T>> {
+    fn open(&self) -> Opened<'_, T> {
+        let pass = gate::pass();
         // The map is whole whenever a panic can happen.
-        self.living.lock().unwrap_or_else(PoisonError::into_inner)
+        let living = self.living.lock().unwrap_or_else(PoisonError::into_inner);
+        Opened { living, _pass: pass }
     }
 
     /// Makes an object by an entry of C and puts its number into the handle, 0 if there is none.
@@ -54,10 +63,10 @@ impl<T> Handles<T> {
         if status == 0 {
             // SAFETY: a new object, which is ours alone.
             let made = Arc::from(unsafe { Box::from_raw(made) });
-            let mut living = self.living();
-            let number = living.next;
-            living.next += 1;
-            living.by_number.insert(number, made);
+            let mut opened = self.open();
+            let number = opened.living.next;
+            opened.living.next += 1;
+            opened.living.by_number.insert(number, made);
             // SAFETY: by the caller's contract.
             unsafe { write(handle, number) };
         }
@@ -71,7 +80,7 @@ impl<T> Handles<T> {
     pub(super) unsafe fn find(&self, position: i32, handle: *const i64) -> Result<Arc<T>, Failure> {
         // SAFETY: by the caller's contract.
         let number = unsafe { read(position, self.name, handle)? };
-        let found = self.living().by_number.get(&number).cloned();
+        let found = self.open().living.by_number.get(&number).cloned();
         found.ok_or_else(|| self.unknown(position, number))
     }
 
@@ -82,7 +91,7 @@ impl<T> Handles<T> {
     pub(super) unsafe fn free(&self, handle: *mut i64) -> Result<i32, Failure> {
         // SAFETY: by the caller's contract.
         let number = unsafe { read(1, self.name, handle)? };
-        if number != 0 && self.living().by_number.remove(&number).is_none() {
+        if number != 0 && self.open().living.by_number.remove(&number).is_none() {
             return Err(self.unknown(1, number));
         }
         // SAFETY: by the caller's contract.
