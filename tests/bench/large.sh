@@ -9,14 +9,15 @@
 #     case,dim,unknowns,contact_dofs,library,blas,step,cpu_s,peak_mb,eta,status
 #
 # OUT/large.txt, with what the runs say of them, and the growth of time and memory: OUT/growth.md, and
-# OUT/large.png where python3 has matplotlib. A CASE is block, bar, square-NODES, or the nodes along an edge of a
-# cube; the default takes some minutes and 2 GB; 47 takes more than two minutes and 5.5 GB by itself. Each case and library is a process of its own, so that peaks are those of the case. Times are those
-# of one thread; on a busy machine they are longer.
+# OUT/large.png where PYTHON, default python3, has matplotlib. A CASE is block, bar, square-NODES, or the nodes
+# along an edge of a cube; the default takes some minutes and 2 GB; 47 takes more than two minutes and 5.5 GB by
+# itself. Each case and library is a process of its own, so that peaks are those of the case. Times are those of
+# one thread; on a busy machine they are longer.
 #
 # The libraries beside ours are compiled from large_peers.c where their headers are (names of Debian:
 # libmumps-seq-dev, libsuitesparse-dev, libopenblas-dev); CC names the compiler. They condense (MUMPS) or factor
 # (CHOLMOD) the same matrix, right after ours and with OpenBLAS on one thread: as it chooses its kernels, and, on a
-# CPU with AVX-512, with the kernels for that too, since releases of 2022 do not know newer CPUs.
+# CPU with AVX-512, with the kernels for that too, as an OpenBLAS that does not know the CPU takes others.
 set -eu
 LC_ALL=C
 export LC_ALL
@@ -27,7 +28,7 @@ die() {
     exit 1
 }
 
-[ $# -ge 1 ] || die "usage: sh tests/bench/large.sh OUT [block | bar | NODES] ..."
+[ $# -ge 1 ] || die "usage: sh tests/bench/large.sh OUT [block | bar | square-NODES | NODES] ..."
 root=$(CDPATH='' cd -- "$(dirname -- "$0")/../.." && pwd)
 mkdir -p -- "$1" || die "cannot create the directory $1"
 out=$(CDPATH='' cd -- "$1" && pwd)
@@ -67,6 +68,12 @@ SIGNORINI_LARGE_MATRIX=$root/target/bench/large.matrix
 export OMP_NUM_THREADS OPENBLAS_NUM_THREADS
 [ -z "$peers" ] || export SIGNORINI_LARGE_MATRIX
 
+# The kernels of OpenBLAS.
+set_kernels() {
+    unset OPENBLAS_CORETYPE
+    [ "$1" = default ] || export OPENBLAS_CORETYPE="$1"
+}
+
 # Adds the rows of a run to the table.
 note() {
     printf '%s\n' "$1" | grep -v -e '^#' -e '^case,' >>"$out/large.csv"
@@ -83,17 +90,16 @@ for case in "$@"; do
     for library in mumps cholmod; do
         for blas in $kernels; do
             say "$case, $library, kernels of OpenBLAS: $blas"
-            core=
-            [ "$blas" = default ] || core=$blas
-            # OpenBLAS takes an empty name for none.
-            rows=$(OPENBLAS_CORETYPE=$core "$peers" "$SIGNORINI_LARGE_MATRIX" $library "$case" $dim "OpenBLAS-$blas") ||
+            set_kernels "$blas"
+            rows=$("$peers" "$SIGNORINI_LARGE_MATRIX" $library "$case" $dim "OpenBLAS-$blas") ||
                 die "$library did not end"
             note "$rows"
         done
     done
     rm -f "$SIGNORINI_LARGE_MATRIX"
 done
-if command -v python3 >/dev/null; then
-    python3 tests/bench/large_plot.py "$out/large.csv" "$out/large.png" >"$out/growth.md" || say "no growth table"
+python=${PYTHON:-python3}
+if command -v "$python" >/dev/null; then
+    "$python" tests/bench/large_plot.py "$out/large.csv" "$out/large.png" >"$out/growth.md" || say "no growth table"
 fi
 say "wrote $out/large.csv and $out/large.txt"
