@@ -17,11 +17,13 @@
 !     lcp_solve        a linear complementarity problem (LCP)
 !     contact_model    a type: a structure that is reduced once and solved for many load cases;
 !                      call model%new_condensed, %new_two_body, %new_sparse or
-!                      %new_sparse_rows, %new_surfaces, then %solve, %certify, %recover,
+!                      %new_sparse_rows, %new_surfaces, %new_operator, then %solve, %certify, %recover,
 !                      %nodal_forces, %frames, %condensed_load, %stiffness, at the end %release
 !     contact_surfaces a type: contact pairs that the library makes from the faces of two meshes; call
 !                      %pair or %pair_obstacle, model%new_surfaces, then %fields, %resultant,
 !                      %write, at the end %release
+!     contact_operator a type to extend: a host that gives products and solutions in the place of a
+!                      matrix; model%new_operator takes it
 ! The functions signorini_... are those of signorini.h, argument by argument: files, and whatever
 ! else is not above. That header is their reference.
 !
@@ -938,16 +940,49 @@ module signorini
         end subroutine
     end interface
 
+    ! A host that gives products and solutions in the place of a matrix, for model%new_operator: say a code
+    ! on several processes. Extend it; write stiffness, and inverse or held, and say which there are. x and
+    ! y have dim * pairs entries. info is 0; another number ends the call of the library, whose sentence
+    ! tells it. They must not call this library.
+    type, abstract :: contact_operator
+        logical :: has_inverse = .true., has_held = .false.
+    contains
+        ! y = K x, with the stiffness K in relative displacements; symmetric, positive semi-definite
+        procedure(operator_product), deferred :: stiffness
+        ! y = W x, with W near the inverse of K, symmetric and positive definite: the contact free
+        procedure :: inverse => operator_inverse
+        ! y = 0 where held, and K y = x elsewhere; unless changed, held is that of the call before
+        procedure :: held => operator_held
+    end type
+
+    abstract interface
+        subroutine operator_product(self, x, y, info)
+            import :: contact_operator, c_double
+            class(contact_operator), intent(inout) :: self
+            real(c_double), intent(in) :: x(:)
+            real(c_double), intent(out) :: y(:)
+            integer, intent(inout) :: info
+        end subroutine
+    end interface
+
+    ! A host where the library finds it.
+    type, private :: operator_place
+        class(contact_operator), pointer :: host => null()
+        integer :: size = 0
+    end type
+
     ! A structure, reduced to its contact pairs. Copies of it are the same model: release it once.
     type :: contact_model
         type(c_ptr) :: handle = c_null_ptr
         integer :: dim = 0, pairs = 0, fixed = 0
+        type(operator_place), pointer, private :: place => null()
     contains
         procedure :: new_condensed => model_new_condensed
         procedure :: new_two_body => model_new_two_body
         procedure :: new_sparse => model_new_sparse
         procedure :: new_sparse_rows => model_new_sparse_rows
         procedure :: new_surfaces => model_new_surfaces
+        procedure :: new_operator => model_new_operator
         procedure :: host_size => model_host_size
         procedure :: stiffness => model_stiffness
         procedure :: frames => model_frames
@@ -993,6 +1028,7 @@ module signorini
     private :: check_case, check_pairs, check_square, check_dim, check_data, check_starts, check_second
     private :: check_model, check_masters, choose_law, choose_settings, place_of_settings
     private :: check_surfaces, check_faces, check_results, settle, keep_pairs, reals_of, address2, finish_sparse
+    private :: operator_inverse, operator_held, call_stiffness, call_inverse, call_held
     private :: address, address_of_extra, copy_states, entries, number, text, tuple, keep_sizes
 
 contains
@@ -1616,10 +1652,111 @@ contains
             [CONTACT_WRONG_MODEL, 1, 2])
     end subroutine
 
+    ! A model of products and solutions of a host alone, for dim * pairs relative displacements. The host
+    ! must live as long as the model. units(dim * pairs): force per length, of the size of the diagonal
+    ! of K; absent: from products. Before it returns some products are checked.
+    subroutine model_new_operator(self, dim, pairs, host, info, units, message)
+        class(contact_model), intent(inout) :: self
+        integer, intent(in) :: dim, pairs
+        class(contact_operator), intent(inout), target :: host
+        integer, intent(out) :: info
+        real(c_double), intent(in), optional, target, contiguous :: units(:)
+        character(len=*), intent(out), optional :: message
+        type(signorini_operator) :: functions
+        type(refusal) :: wrong
+        call self%release()
+        call check_dim(wrong, 1, dim)
+        if (pairs < 0) call refuse(wrong, 2, 'pairs is ' // text(pairs) // ', it must not be negative')
+        if (present(units)) call check_size(wrong, 5, 'units', size(units), dim * pairs, 'dim for each pair')
+        if (refused(wrong, info, message)) return
+        allocate (self%place)
+        self%place%host => host
+        self%place%size = dim * pairs
+        functions%dim = number(dim)
+        functions%pairs = int(pairs, c_int64_t)
+        functions%stiffness = c_funloc(call_stiffness)
+        if (host%has_inverse) functions%inverse = c_funloc(call_inverse)
+        if (host%has_held) functions%held = c_funloc(call_held)
+        if (present(units)) then
+            if (size(units) > 0) functions%units = c_loc(units)
+        end if
+        functions%user = c_loc(self%place)
+        call finish(signorini_model_new_operator(functions, self%handle), info, message, [3, 3])
+        if (info == 0) call keep_sizes(self, dim, pairs, 0)
+        if (info /= 0) deallocate (self%place)
+    end subroutine
+
+    ! The host says that it has one, and has not written it: the call of the library ends.
+    subroutine operator_inverse(self, x, y, info)
+        class(contact_operator), intent(inout) :: self
+        real(c_double), intent(in) :: x(:)
+        real(c_double), intent(out) :: y(:)
+        integer, intent(inout) :: info
+        y = x
+        info = merge(-1, -2, self%has_inverse)
+    end subroutine
+
+    ! As operator_inverse.
+    subroutine operator_held(self, held, changed, x, y, info)
+        class(contact_operator), intent(inout) :: self
+        logical, intent(in) :: held(:), changed
+        real(c_double), intent(in) :: x(:)
+        real(c_double), intent(out) :: y(:)
+        integer, intent(inout) :: info
+        y = merge(0d0, x, held)
+        info = merge(-1, -2, changed .or. self%has_held)
+    end subroutine
+
+    function call_stiffness(user, x, y) bind(C, name="") result(answer)
+        type(c_ptr), value :: user, x, y
+        integer(c_int32_t) :: answer
+        type(operator_place), pointer :: place
+        real(c_double), pointer :: from(:), to(:)
+        integer :: info
+        call c_f_pointer(user, place)
+        call c_f_pointer(x, from, [place%size])
+        call c_f_pointer(y, to, [place%size])
+        info = 0
+        call place%host%stiffness(from, to, info)
+        answer = number(info)
+    end function
+
+    function call_inverse(user, x, y) bind(C, name="") result(answer)
+        type(c_ptr), value :: user, x, y
+        integer(c_int32_t) :: answer
+        type(operator_place), pointer :: place
+        real(c_double), pointer :: from(:), to(:)
+        integer :: info
+        call c_f_pointer(user, place)
+        call c_f_pointer(x, from, [place%size])
+        call c_f_pointer(y, to, [place%size])
+        info = 0
+        call place%host%inverse(from, to, info)
+        answer = number(info)
+    end function
+
+    function call_held(user, held, changed, x, y) bind(C, name="") result(answer)
+        type(c_ptr), value :: user, held, x, y
+        integer(c_int32_t), value :: changed
+        integer(c_int32_t) :: answer
+        type(operator_place), pointer :: place
+        integer(c_int32_t), pointer :: mask(:)
+        real(c_double), pointer :: from(:), to(:)
+        integer :: info
+        call c_f_pointer(user, place)
+        call c_f_pointer(held, mask, [place%size])
+        call c_f_pointer(x, from, [place%size])
+        call c_f_pointer(y, to, [place%size])
+        info = 0
+        call place%host%held(mask /= 0, changed /= 0, from, to, info)
+        answer = number(info)
+    end function
+
     subroutine model_release(self)
         class(contact_model), intent(inout) :: self
         call signorini_model_free(self%handle)
         self%handle = c_null_ptr
+        if (associated(self%place)) deallocate (self%place)
         call keep_sizes(self, 0, 0, 0)
     end subroutine
 
@@ -2083,7 +2220,8 @@ contains
         type(refusal), intent(inout) :: wrong
         class(contact_model), intent(in) :: self
         if (.not. c_associated(self%handle)) call refuse(wrong, CONTACT_WRONG_MODEL, &
-            'there is no model: new_condensed, new_two_body, new_sparse, new_sparse_rows or new_surfaces makes one')
+            'there is no model: new_condensed, new_two_body, new_sparse, new_sparse_rows, ' // &
+            'new_surfaces or new_operator makes one')
     end subroutine
 
     ! The load of a model at position 1 and its prescribed values.

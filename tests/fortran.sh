@@ -59,7 +59,7 @@ say "signorini.f90 has the $(wc -l <"$work/wanted" | tr -d ' ') functions of the
 
 # The names for 8-byte integers.
 wide="-cpp -fdefault-integer-8"
-for name in SOLV CERT LCPS MODL TWOB SPAR SPAW FRAM CASE RECV NODF FREE MESG \
+for name in SOLV CERT LCPS MODL TWOB OPER OPEH SPAR SPAW FRAM CASE RECV NODF FREE MESG \
     SURF SMOD SGAP SFLD SVTU SUMM SFRE; do
     wide="$wide -DSG$name=SG${name}_64"
 done
@@ -87,6 +87,11 @@ for kind in static shared; do
     # shellcheck disable=SC2086
     compile "two_blocks_64_$kind" "$kind" $wide "$tests/two_blocks.f"
     runs "two_blocks_64_$kind"
+    compile "operator_77_$kind" "$kind" "$tests/operator.f"
+    runs "operator_77_$kind"
+    # shellcheck disable=SC2086
+    compile "operator_77_64_$kind" "$kind" $wide "$tests/operator.f"
+    runs "operator_77_64_$kind"
     compile "widths_$kind" "$kind" "$tests/widths.f90"
     runs "widths_$kind"
     compile "bar_sparse_$kind" "$kind" -std=f2008 "$module" "$hosts/bar_mesh.f90" \
@@ -102,8 +107,10 @@ for kind in static shared; do
     runs "rows_$kind"
     compile "surfaces_$kind" "$kind" -std=f2008 "$module" "$tests/surfaces.f90"
     runs "surfaces_$kind"
+    compile "operator_90_$kind" "$kind" -std=f2008 "$module" "$tests/operator.f90"
+    runs "operator_90_$kind"
 done
-for name in layer refusals counting rows surfaces; do
+for name in layer refusals counting rows surfaces operator; do
     # shellcheck disable=SC2086 # several options
     compile "${name}_64" shared $wide "$module" "$tests/$name.f90"
     runs "${name}_64"

@@ -50,7 +50,8 @@ struct Host {
 #[derive(Clone, Copy, PartialEq)]
 enum Wrong {
     Nothing,
-    Unsymmetric,
+    /// One entry, in this row and column, is larger by a thousandth of the diagonal.
+    Unsymmetric(usize, usize),
     Affine,
     Irreproducible,
     Negative,
@@ -126,7 +127,7 @@ impl HostOperator for Host {
             y.iter_mut().zip(column).for_each(|(y, k)| *y += k * x);
         }
         match self.wrong {
-            Wrong::Unsymmetric => y[0] += 0.01 * self.k[0] * x[1],
+            Wrong::Unsymmetric(row, column) => y[row] += 1e-3 * self.k[0] * x[column],
             Wrong::Affine => y[0] += self.k[0],
             Wrong::Irreproducible => y[0] *= 1.0 + 1e-6 * number as f64,
             Wrong::Negative => y.iter_mut().for_each(|y| *y = -*y),
@@ -298,7 +299,7 @@ fn blocks_in_space_take_few_products() {
 fn wrong_operators_are_refused() {
     let condensed = Condensed::plane(8);
     for (wrong, holds, words) in [
-        (Wrong::Unsymmetric, false, "K_rel is not symmetric"),
+        (Wrong::Unsymmetric(0, 1), false, "K_rel is not symmetric"),
         (Wrong::Affine, false, "K_rel is not linear"),
         (Wrong::Irreproducible, false, "K_rel is not reproducible"),
         (Wrong::Negative, false, "K_rel is not positive"),
@@ -318,6 +319,20 @@ fn wrong_operators_are_refused() {
         let host = Box::new(condensed.host(false, &Asked::none()));
         let message = Model::operator(2, 9, host, Some(&units)).err().unwrap().message();
         assert!(message.contains(words), "{message}");
+    }
+}
+
+/// With few components, where two vectors may well agree in many of them.
+#[test]
+fn every_entry_that_is_not_symmetric_is_found() {
+    let condensed = Condensed::plane(1);
+    for row in 0..4 {
+        for column in (0..4).filter(|&column| column != row) {
+            let wrong = Wrong::Unsymmetric(row, column);
+            let host = Host { wrong, ..condensed.host(false, &Asked::none()) };
+            let message = condensed.operator(host).err().expect("refused").message().to_string();
+            assert!(message.contains("K_rel is not symmetric"), "{message}");
+        }
     }
 }
 

@@ -11,6 +11,7 @@ mod gate;
 mod handles;
 mod message;
 mod models;
+mod operator;
 mod sparse;
 mod surface_results;
 mod surfaces;
@@ -61,6 +62,12 @@ entries! {
         k: *const f64, ldk: *const I, handle: *mut i64, info: *mut I);
     sgtwob_ sgtwob_64_ = super::models::two_body, (ndim: *const I, npair: *const I,
         ka: *const f64, lda: *const I, kb: *const f64, ldb: *const I, handle: *mut i64,
+        info: *mut I);
+    sgoper_ sgoper_64_ = super::operator::with_inverse, (ndim: *const I, npair: *const I,
+        stiff: super::operator::Product<I>, winv: super::operator::Product<I>, handle: *mut i64,
+        info: *mut I);
+    sgopeh_ sgopeh_64_ = super::operator::with_held, (ndim: *const I, npair: *const I,
+        stiff: super::operator::Product<I>, held: super::operator::Held<I>, handle: *mut i64,
         info: *mut I);
     sgspar_ sgspar_64_ = super::sparse::new, (n: *const I, nnz: *const I, colptr: *const I,
         rowind: *const I, values: *const f64, tri: *const I, nfix: *const I, fixed: *const I,

@@ -133,6 +133,21 @@ pub unsafe extern "C" fn signorini_model_new_operator(
         let units = unsafe { Arrays::default().optional(1, "units", given.units, n)? };
         let SignoriniOperator { inverse, held, user, .. } = *given;
         let functions = Box::new(Functions { stiffness, inverse, held, user });
-        place.fill(Model::operator(dim, pairs, functions, units), |_| 1)
+        create(place, (dim, pairs), functions, units, 1)
     })
+}
+
+/// Vectors of N entries that the check of an operator takes.
+const VECTORS: usize = 32;
+
+/// Makes a model of what a host offers, the argument number `position` of the call.
+pub(super) fn create(
+    place: Place,
+    (dim, pairs): (usize, usize),
+    host: Box<dyn HostOperator>,
+    units: Option<&[f64]>,
+    position: i32,
+) -> Result<i32, Failure> {
+    guard::reserve(VECTORS.saturating_mul(dim * pairs).saturating_mul(size_of::<f64>()))?;
+    place.fill(Model::operator(dim, pairs, host, units), |_| position)
 }

@@ -9,6 +9,7 @@ mod memory;
 mod motion;
 mod operator;
 mod pairs;
+mod probes;
 mod sparse;
 mod two_body;
 

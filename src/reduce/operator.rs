@@ -2,6 +2,7 @@
 
 use std::sync::{Mutex, PoisonError};
 
+use super::probes::{is_unit, measured_units, probe};
 use super::{Reduction, UnformedReduction, motion};
 use crate::error::{Argument, Error, Message, entry};
 use crate::linalg::vector::{dot, first_not_finite, norm};
@@ -111,7 +112,14 @@ impl OperatorReduction {
         }
         match units {
             Some(units) => made.units.copy_from_slice(units),
-            None => made.units = measured_units(dim, &probes, &products)?,
+            None => match measured_units(dim, &probes, &products) {
+                Some(units) => made.units = units,
+                None => {
+                    return refuse(
+                        "K_rel resists nothing: x . K_rel x is not positive: give units".into(),
+                    );
+                }
+            },
         }
         Ok(made)
     }
@@ -196,47 +204,6 @@ fn called(
 
 fn refuse<T>(message: String) -> Result<T, Error> {
     Err(Error::invalid(Argument::Matrix, message))
-}
-
-fn is_unit(unit: f64) -> bool {
-    unit > 0.0 && unit.is_finite()
-}
-
-/// A vector of signs without a pattern: the same in each run. (G. Marsaglia, *Xorshift RNGs*, J. Stat. Softw. 8
-/// (2003), number 14.)
-fn probe(size: usize, seed: u64) -> Vec<f64> {
-    let mut state = seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1;
-    let mut sign = || {
-        state ^= state << 13;
-        state ^= state >> 7;
-        state ^= state << 17;
-        if state.leading_zeros() == 0 { 1.0 } else { -1.0 }
-    };
-    (0..size).map(|_| sign()).collect()
-}
-
-/// A unit for each direction of the pairs: the mean of the diagonal, by vectors of signs `x`, of which `x . K x` has
-/// the trace as its mean (M. F. Hutchinson, *A stochastic estimator of the trace of the influence matrix*, Commun.
-/// Stat. Simul. Comput. 19 (1990) 433-450).
-fn measured_units(
-    dim: usize,
-    probes: &[Vec<f64>; 2],
-    products: &[Vec<f64>; 2],
-) -> Result<Vec<f64>, Error> {
-    let mean = |first: usize, step: usize| {
-        let terms = probes.iter().zip(products).flat_map(|(x, product)| {
-            x.iter().zip(product).skip(first).step_by(step).map(|(x, product)| x * product)
-        });
-        let (sum, count) = terms.fold((0.0, 0.0), |(sum, count), term| (sum + term, count + 1.0));
-        sum / count
-    };
-    let all = mean(0, 1);
-    if !is_unit(all) {
-        return refuse("K_rel resists nothing: x . K_rel x is not positive: give units".into());
-    }
-    let unit = |c: usize| if is_unit(mean(c, dim)) { mean(c, dim) } else { all };
-    let of_pair: Vec<f64> = (0..dim).map(unit).collect();
-    Ok(of_pair.iter().copied().cycle().take(probes[0].len()).collect())
 }
 
 impl Reduction for OperatorReduction {

@@ -35,6 +35,7 @@ SIGNATURES = {
     "model_new_two_body": (i32, [i32, i64, address, i64, address, i64, address]),
     "model_new_sparse": (i32, [address, i64, *[address] * 3]),
     "model_new_sparse_within": (i32, [address, i64, *[address] * 4]),
+    "model_new_operator": (i32, [address] * 2),
     "model_free": (None, [address]),
     "model_dim": (i32, [address]),
     "model_pairs": (i64, [address]),

@@ -1,5 +1,6 @@
 """Models: a structure reduced to its contact pairs."""
 
+import contextlib
 import ctypes
 import weakref
 from collections import namedtuple
@@ -12,6 +13,7 @@ from ._constants import START_PREVIOUS, Status, member
 from ._law import Friction
 from ._library import SignoriniError, check, library
 from ._meshes import pair_meshes
+from ._operator import HostFunctions
 from ._results import Output, certified
 from ._sparse import ContactPairs, Matrix, side_by_side, supports
 from ._structures import address
@@ -39,13 +41,15 @@ class _Case(namedtuple("_Case", "f prescribed gap law friction slip0")):
 class Model:
     """A structure reduced to its contact pairs, for any number of load cases.
 
-    Made by Model.condensed, Model.two_body, Model.sparse, Model.from_surfaces or Model.from_meshes.
+    Made by Model.condensed, Model.two_body, Model.sparse, Model.from_surfaces, Model.from_meshes or
+    Model.operator.
     dim, pairs: D and P.  host_size: H, the entries of a load or displacement vector of the host.
     contact: the SurfacePairs of which it was made, or None.
     """
 
     def __init__(self, make, n_fixed, *arguments, settings=None):
         self._functions, self.contact = library(), None
+        self._host = contextlib.nullcontext()
         handle = address()
         function = getattr(self._functions, make)
         if settings is None:
@@ -60,8 +64,9 @@ class Model:
         self.dim = self._functions.model_dim(self._handle)
         self.pairs = self._functions.model_pairs(self._handle)
         self.host_size = self._functions.model_host_size(self._handle)
-        # The host's vectors of one condensed body are those of its pairs.
-        pairwise = [(self.pairs, self.dim)] if make == "model_new_condensed" else []
+        # The host's vectors of one condensed body, and of an operator, are those of the pairs.
+        is_pairwise = make in ("model_new_condensed", "model_new_operator")
+        pairwise = [(self.pairs, self.dim)] if is_pairwise else []
         self._host_shapes = [*pairwise, (self.host_size,)]
         # A load of the other dimension, to say so: its rows are as long as that dimension.
         other = 5 - self.dim
@@ -88,6 +93,22 @@ class Model:
             raise ValueError(f"K_B has the shape {K_B.shape}: give the shape of K_A, {K_A.shape}")
         size = max(1, len(K_A))
         return cls("model_new_two_body", 0, dim, pairs, at(K_A), size, at(K_B), size)
+
+    @classmethod
+    def operator(cls, dim, pairs, stiffness, inverse=None, *, held=None, units=None):
+        """Products and solutions of the host alone: no matrix is formed. H = N.
+
+        stiffness(x): K_rel x, N.  inverse(x): W x, N, with W close to the inverse of K_rel; may be
+        None if held is given.  held(mask, changed, x): y of N entries that is 0 where mask is True,
+        and K_rel y = x in the others; changed tells whether mask is another one than before.
+        units: force per length of the components, N; None: from products.
+        What one of the functions raises, the call of the model raises.
+        """
+        host = HostFunctions(dim, pairs, stiffness, inverse, held, units)
+        with host:
+            model = cls("model_new_operator", 0, ctypes.byref(host.structure))
+        model._host = host
+        return model
 
     @classmethod
     def sparse(cls, K, slaves=None, normals=None, *, fixed=(), masters=None, weights=None,
@@ -193,10 +214,11 @@ class Model:
         count = 1 if cases is None else cases
         output = Output(count, self.pairs, self.dim, start)
         status = np.full(count, _UNTOUCHED, np.int32)
-        first, message = call.run(
-            self._functions.model_solve, self._handle, count, *data.arguments(), call.at(),
-            *output.solution(), at(status), *output.more(),
-        )
+        with self._host:
+            first, message = call.run(
+                self._functions.model_solve, self._handle, count, *data.arguments(), call.at(),
+                *output.solution(), at(status), *output.more(),
+            )
         if first < 0 and (cases is None or _UNTOUCHED in status):
             raise SignoriniError(message.removeprefix("case 0: "), member(Status, first))
         tolerance, results, told = call.settings.tolerance, [], False
@@ -274,7 +296,11 @@ class Model:
 
     def _certify(self, case, d, tolerance):
         data = [self._handle, *case.arguments()]
-        return certified(self._functions, self._functions.model_certify, data, tolerance, d.copy())
+        certify = self._functions.model_certify
+        with self._host:
+            return certified(self._functions, certify, data, tolerance, d.copy())
 
     def _do(self, function, *arguments):
-        check(self._functions, getattr(self._functions, function)(self._handle, *arguments))
+        with self._host:
+            called = getattr(self._functions, function)
+            check(self._functions, called(self._handle, *arguments))

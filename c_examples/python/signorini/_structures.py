@@ -18,6 +18,9 @@ class Told(ctypes.Structure):
 
 
 Callback = ctypes.CFUNCTYPE(i32, address, ctypes.POINTER(Told))
+_numbers = ctypes.POINTER(real)
+ProductFunction = ctypes.CFUNCTYPE(i32, address, _numbers, _numbers)
+HeldFunction = ctypes.CFUNCTYPE(i32, address, ctypes.POINTER(i32), i32, _numbers, _numbers)
 
 
 class Settings(ctypes.Structure):
@@ -73,6 +76,16 @@ class Sparse(ctypes.Structure):
         ("struct_size", u32), ("index_bytes", i32), ("index_base", i32), ("triangle", i32),
         ("size", i64), ("nnz", i64), ("col_start", address), ("row", address),
         ("values", address), ("order", address),
+    ]
+
+
+class Operator(ctypes.Structure):
+    """signorini_operator"""
+
+    _fields_ = [
+        ("struct_size", u32), ("dim", i32), ("pairs", i64), ("stiffness", ProductFunction),
+        ("inverse", ProductFunction), ("held", HeldFunction), ("units", address),
+        ("user", address),
     ]
 
 
