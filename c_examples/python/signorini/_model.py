@@ -274,7 +274,8 @@ class Model:
 
     def _certify(self, case, d, tolerance):
         data = [self._handle, *case.arguments()]
-        return certified(self._functions, self._functions.model_certify, data, tolerance, d.copy())
+        found = certified(self._functions, self._functions.model_certify, data, tolerance, d.copy())
+        return found._replace(contact=self.contact)
 
     def _do(self, function, *arguments):
         check(self._functions, getattr(self._functions, function)(self._handle, *arguments))
