@@ -298,7 +298,8 @@ class Model:
         data = [self._handle, *case.arguments()]
         certify = self._functions.model_certify
         with self._host:
-            return certified(self._functions, certify, data, tolerance, d.copy())
+            found = certified(self._functions, certify, data, tolerance, d.copy())
+        return found._replace(contact=self.contact)
 
     def _do(self, function, *arguments):
         with self._host:
