@@ -469,7 +469,7 @@ struct signorini_operator {
      * with the contact free. May be NULL if held is given, which is then used alone.
      */
     signorini_product_fn inverse;
-    /** A solution with components held; it saves most products. May be NULL if inverse is given. */
+    /** A solution with components held, in the place of W. May be NULL if inverse is given. */
     signorini_held_fn held;
     /**
      * Units of force per length of the components, N positive numbers of the size of the diagonal
@@ -484,7 +484,8 @@ struct signorini_operator {
  * holds: no matrix is formed. Loads and displacements of the host are the relative ones, H = N
  * entries. Load cases are solved by Newton's method with GMRES, methods AUTO and NEWTON alone, no
  * search, no proof. It takes 20 to 110 products with K_rel and as many with W in 2D, to 160 in 3D;
- * with held 5 to 70 solutions, between which the components that are held change up to 14 times.
+ * with held 5 to 70 solutions take the place of those with W, between which the components that are
+ * held change up to 14 times.
  *
  * Before it returns it asks for some products, of which the answers must be finite, linear,
  * symmetric, positive and the same each time, to 1e-9. Later calls on the model return -1 if a

@@ -45,7 +45,7 @@ pub struct SignoriniOperator {
     /// y = W x, with W close to the inverse of K_rel, symmetric and positive definite: a solution
     /// with the contact free. May be NULL if held is given, which is then used alone.
     pub inverse: SignoriniProductFn,
-    /// A solution with components held; it saves most products. May be NULL if inverse is given.
+    /// A solution with components held, in the place of W. May be NULL if inverse is given.
     pub held: SignoriniHeldFn,
     /// Units of force per length of the components, N positive numbers of the size of the diagonal
     /// of K_rel. NULL: one for each direction, from products.
@@ -105,7 +105,8 @@ impl HostOperator for Functions {
 /// holds: no matrix is formed. Loads and displacements of the host are the relative ones, H = N
 /// entries. Load cases are solved by Newton's method with GMRES, methods AUTO and NEWTON alone, no
 /// search, no proof. It takes 20 to 110 products with K_rel and as many with W in 2D, to 160 in 3D;
-/// with held 5 to 70 solutions, between which the components that are held change up to 14 times.
+/// with held 5 to 70 solutions take the place of those with W, between which the components that are
+/// held change up to 14 times.
 ///
 /// Before it returns it asks for some products, of which the answers must be finite, linear,
 /// symmetric, positive and the same each time, to 1e-9. Later calls on the model return -1 if a
