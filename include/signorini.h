@@ -1335,7 +1335,11 @@ struct signorini_settings {
     double damping; /**< Damping of the threshold update, to 1; default 0: chosen likewise. */
     /** Most sweeps, pivots or linear systems, at least 1; default 200000. */
     int64_t max_iterations;
-    double time_limit; /**< Most seconds of wall time; 0 and infinity: no limit; default 0. */
+    /**
+     * Most seconds of wall time; 0 and infinity: no limit; default 0. A factorisation that would
+     * take longer is not begun: the call may end before the limit.
+     */
+    double time_limit;
     /**
      * Nonzero: start from what d holds (Newton in 2D, block pivoting: from its states). Default 0:
      * start from d = 0 (Newton in 2D, block pivoting: from all pairs sticking). Lemke's method has

@@ -37,6 +37,13 @@ pub enum Stop {
 /// A progress callback: `Break` cancels.
 pub type ProgressFn<'a> = dyn FnMut(&Progress) -> ControlFlow<()> + 'a;
 
+/// Operations of dense linear algebra in a second until a call has measured its own: what a processor with
+/// vectors of four doubles does.
+const OPERATIONS: f64 = 2e10;
+
+/// Work of so many operations tells their rate: of less the time is that of other things.
+const MEASURABLE: f64 = 1e7;
+
 /// Counts iterations, reports progress and ends a call whose budget is used up.
 pub struct Monitor<'a> {
     begin: Instant,
@@ -46,6 +53,10 @@ pub struct Monitor<'a> {
     max_iterations: u64,
     iterations: u64,
     eta: f64,
+    /// When the last long work began, and its operations.
+    work: Option<(Instant, f64)>,
+    /// Operations in a second.
+    rate: f64,
     progress: Option<&'a mut ProgressFn<'a>>,
 }
 
@@ -64,6 +75,8 @@ impl<'a> Monitor<'a> {
             max_iterations: settings.max_iterations,
             iterations: 0,
             eta: f64::INFINITY,
+            work: None,
+            rate: OPERATIONS,
             progress,
         }
     }
@@ -106,6 +119,7 @@ impl<'a> Monitor<'a> {
 
     /// To be called now and then in a long one: nothing is counted.
     pub(crate) fn goes_on(&mut self) -> Result<(), Stop> {
+        self.learn();
         let timed = self.time_limit.is_finite() || self.progress.is_some();
         let elapsed = if timed { self.begin.elapsed().as_secs_f64() } else { 0.0 };
         if elapsed > self.time_limit {
@@ -119,6 +133,34 @@ impl<'a> Monitor<'a> {
             }
         }
         Ok(())
+    }
+
+    /// To be called before so many `operations` of dense linear algebra, which nothing interrupts: why not to begin,
+    /// if they would pass the time limit. The last ones in this call tell how long they take.
+    pub(crate) fn affords(&mut self, operations: f64) -> Result<(), Stop> {
+        if !self.time_limit.is_finite() {
+            return Ok(());
+        }
+        self.learn();
+        if !self.has_time_for(operations) {
+            return Err(Stop::TimeLimit);
+        }
+        self.work = (operations >= MEASURABLE).then(|| (Instant::now(), operations));
+        Ok(())
+    }
+
+    /// The rate of the work that has ended.
+    fn learn(&mut self) {
+        if let Some((begin, operations)) = self.work.take() {
+            self.rate = operations / begin.elapsed().as_secs_f64();
+        }
+    }
+
+    /// Whether so many `operations` end within the time limit, for questions about a result that is there
+    /// already.
+    pub(crate) fn has_time_for(&self, operations: f64) -> bool {
+        let time = operations / self.rate;
+        !self.time_limit.is_finite() || self.begin.elapsed().as_secs_f64() + time <= self.time_limit
     }
 
     /// Whether the time limit is used up, for questions about a result that is there already: they are then

@@ -64,7 +64,7 @@ pub struct Settings {
     pub damping: f64,
     /// Most sweeps (SOR), pivots (Lemke) or linear systems (Newton, block pivoting), at least 1.
     pub max_iterations: u64,
-    /// Most seconds of wall time; 0 means no limit.
+    /// Most seconds of wall time; 0 means no limit. A factorisation that would take longer is not begun.
     pub time_limit: f64,
     /// Whether to look for other solutions.
     pub search: Search,

@@ -79,7 +79,8 @@ pub struct SignoriniSettings {
     pub damping: f64,
     /// Most sweeps, pivots or linear systems, at least 1; default 200000.
     pub max_iterations: i64,
-    /// Most seconds of wall time; 0 and infinity: no limit; default 0.
+    /// Most seconds of wall time; 0 and infinity: no limit; default 0. A factorisation that would
+    /// take longer is not begun: the call may end before the limit.
     pub time_limit: f64,
     /// Nonzero: start from what d holds (Newton in 2D, block pivoting: from its states). Default 0:
     /// start from d = 0 (Newton in 2D, block pivoting: from all pairs sticking). Lemke's method has

@@ -9,6 +9,16 @@ use faer::{Accum, Mat, MatMut, MatRef, Par};
 
 use super::tolerances::SINGULAR;
 
+/// Operations of a Cholesky factorisation of `n` rows.
+pub fn cholesky_work(n: usize) -> f64 {
+    (n as f64).powi(3) / 3.0
+}
+
+/// Operations of an `LU` factorisation of `n` rows.
+pub fn lu_work(n: usize) -> f64 {
+    2.0 * cholesky_work(n)
+}
+
 /// Factors of a square matrix whose entries are of size one: Cholesky's or `LU`.
 pub struct Factor {
     factors: Mat<f64>,

@@ -87,6 +87,12 @@ impl PivotedCholesky {
         triangular_solve::solve_upper_triangular_in_place(self.lower.transpose(), y, Par::Seq);
     }
 
+    /// Operations of [`Self::schur_complement`].
+    pub fn schur_work(&self, m: usize) -> f64 {
+        let (n, m) = (self.independent.len() as f64, m as f64);
+        n * m * (n + m)
+    }
+
     /// `C - Bᵀ A⁻¹ B` for `m` columns, `B = coupling(row, column)` over the independent rows
     /// named as in [`Self::independent`], `C = corner(i, j)` symmetric; column-major `m x m`.
     pub fn schur_complement(

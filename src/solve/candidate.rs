@@ -225,7 +225,10 @@ impl Stop {
             ),
             Stop::TimeLimit => (
                 Status::TimeLimit,
-                format!("time_limit ({} s) used up; {wanted}", settings.time_limit),
+                format!(
+                    "time_limit ({} s) used up, or too little left for the next step; {wanted}",
+                    settings.time_limit
+                ),
             ),
             Stop::Cancelled => {
                 (Status::Cancelled, format!("cancelled by the progress callback; {wanted}"))

@@ -48,7 +48,7 @@ pub fn run(
     }
     let candidate = run_plainly(method, contact, settings, start, monitor)?;
     let candidate = without_idle_motion(contact, candidate);
-    Ok(normal_map::polished(contact, settings, candidate))
+    Ok(normal_map::polished(contact, settings, candidate, monitor))
 }
 
 fn run_plainly(

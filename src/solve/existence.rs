@@ -3,13 +3,25 @@
 use super::outcome::{Errors, Existence, Solution, Status};
 use crate::certificate::{Proof, errors, measure_parts, prove_parts};
 use crate::law::Contact;
+use crate::linalg::factor::lu_work;
+use crate::monitor::Monitor;
 use crate::settings::Settings;
+
+/// Operations of a proof, in units of an `LU` factorisation: the approximate inverse and its products, or the
+/// factorisations of a bound on the least eigenvalue.
+const WORK: f64 = 1.0;
 
 /// Tries to prove that there is a solution with the states of this one. If there is, the result becomes the
 /// middle of its enclosure.
-pub fn examine(contact: &Contact<'_>, settings: &Settings, solution: &mut Solution) {
+pub fn examine(
+    contact: &Contact<'_>,
+    settings: &Settings,
+    solution: &mut Solution,
+    monitor: &Monitor<'_>,
+) {
     solution.existence = Existence::NotProved;
-    if solution.status != Status::Solved {
+    let in_time = monitor.has_time_for(WORK * lu_work(contact.unknowns()));
+    if solution.status != Status::Solved || !in_time {
         return;
     }
     let parts = (solution.d.as_slice(), solution.d_low.as_slice());

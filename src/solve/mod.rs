@@ -114,10 +114,8 @@ pub fn solve(
     if settings.search == Search::Others && !monitor.is_late() {
         uniqueness::examine(&contact, settings, &mut solution, monitor)?;
     }
-    if settings.proof && monitor.is_late() {
-        solution.existence = Existence::NotProved;
-    } else if settings.proof {
-        existence::examine(&contact, settings, &mut solution);
+    if settings.proof {
+        existence::examine(&contact, settings, &mut solution, monitor);
     }
     solution.iterations = monitor.iterations();
     Ok(solution)

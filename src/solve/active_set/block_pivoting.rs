@@ -139,6 +139,9 @@ fn solve(
             break Ending::Stopped(stop);
         }
         let rows = select(lcp, &basic);
+        if let Err(stop) = monitor.affords(system.work(&rows)) {
+            break Ending::Stopped(stop);
+        }
         if let Err(Singular) = system.solve(&rows) {
             break Ending::Singular;
         }

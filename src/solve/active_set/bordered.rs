@@ -12,7 +12,7 @@
 //! solve in all later systems. The sign of the determinant follows: each unit column changes it.
 
 use crate::law::branch::Row;
-use crate::linalg::factor::{Factor, subtract_product};
+use crate::linalg::factor::{Factor, cholesky_work, lu_work, subtract_product};
 use crate::linalg::matrix::Matrix;
 
 /// A factorised system.
@@ -104,6 +104,20 @@ impl<'p> Coefficients<'p> {
 }
 
 impl Bordered {
+    /// Operations of [`Self::new`].
+    pub fn work(coefficients: &Coefficients<'_>, rows: &[Row]) -> f64 {
+        let couplings = rows.iter().filter_map(|row| match *row {
+            Row::Free { coupling, .. } => Some(coupling),
+            Row::Fixed(_) => None,
+        });
+        let (count, coupled) =
+            couplings.fold((0, false), |(n, coupled), c| (n + 1, coupled || c != 0.0));
+        match coefficients.symmetric && !coupled {
+            true => cholesky_work(count),
+            false => lu_work(count),
+        }
+    }
+
     /// Factorises the system that `rows` select; `None` if it is singular.
     pub fn new(coefficients: &Coefficients<'_>, rows: &[Row]) -> Option<Self> {
         let mut place = vec![None; rows.len()];

@@ -52,6 +52,14 @@ impl<'p> LinearSystem<'p> {
         system
     }
 
+    /// Operations of the factorisation that [`Self::solve`] makes; 0 if it makes none.
+    pub fn work(&self, rows: &[Row]) -> f64 {
+        match &self.factorised {
+            Some(system) if system.is_near(rows) => 0.0,
+            _ => Bordered::work(&self.coefficients, rows),
+        }
+    }
+
     /// Moves the iterate to the solution of the system that `rows` select.
     pub fn solve(&mut self, rows: &[Row]) -> Result<(), Singular> {
         self.step.fill(0.0);

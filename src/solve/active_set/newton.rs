@@ -69,6 +69,9 @@ pub fn from_branches(
             break Ending::Stopped(stop);
         }
         select(contact, &branches, &mut rows);
+        if let Err(stop) = monitor.affords(system.work(&rows)) {
+            break Ending::Stopped(stop);
+        }
         if let Err(Singular) = system.solve(&rows) {
             break Ending::Singular;
         }
@@ -80,7 +83,7 @@ pub fn from_branches(
             best = Best::at(&system, 0.0);
             break Ending::Done;
         }
-        if let Err(ending) = history.advance(contact, &start, &system, &mut branches) {
+        if let Err(ending) = history.advance(contact, &start, &system, &mut branches, monitor) {
             // At a degenerate solution rounding may flip the active set forever.
             let solved = ending == Ending::Cycle && best.eta <= settings.tolerance;
             break if solved { Ending::Done } else { ending };
@@ -118,8 +121,9 @@ impl History {
         start: &[f64],
         system: &LinearSystem<'_>,
         branches: &mut Vec<Branch>,
+        monitor: &Monitor<'_>,
     ) -> Result<(), Ending> {
-        let mut next = swept(contact, (&system.x, &system.residual), self.sweeps);
+        let mut next = swept(contact, (&system.x, &system.residual), self.sweeps, monitor);
         self.sweeps = self.later_sweeps;
         if self.is_second_start {
             let pairs = contact.pairs().iter().zip(branches.iter());
@@ -141,7 +145,7 @@ impl History {
         self.seen.clear();
         let d = contact.admissible(start);
         let force = contact.problem().force(&d);
-        *branches = swept(contact, (&d, &force), SWEEPS_OF_SECOND_START);
+        *branches = swept(contact, (&d, &force), SWEEPS_OF_SECOND_START, monitor);
         Ok(())
     }
 }
@@ -178,11 +182,19 @@ fn select(contact: &Contact<'_>, branches: &[Branch], rows: &mut Vec<Row>) {
     }
 }
 
-/// The branches on which displacements with their force are after some sweeps.
-fn swept(contact: &Contact<'_>, (d, force): (&[f64], &[f64]), sweeps: u32) -> Vec<Branch> {
+/// The branches on which displacements with their force are after some sweeps, fewer if the time is up.
+fn swept(
+    contact: &Contact<'_>,
+    (d, force): (&[f64], &[f64]),
+    sweeps: u32,
+    monitor: &Monitor<'_>,
+) -> Vec<Branch> {
     let (mut d, mut force) = (d.to_vec(), force.to_vec());
     let sweeper = Sweeper::new();
     for _ in 0..sweeps {
+        if monitor.is_late() {
+            break;
+        }
         sweeper.sweep(contact, (&mut d, &mut force), 1.0);
     }
     contact.branches(&d, &force)

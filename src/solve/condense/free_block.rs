@@ -37,6 +37,11 @@ impl<'p> FreeBlock<'p> {
         self.factor.dependent().iter().map(|&i| self.rows[i])
     }
 
+    /// Operations of [`Self::schur_complement`] on so many rows.
+    pub fn schur_work(&self, kept: usize) -> f64 {
+        self.factor.schur_work(kept)
+    }
+
     /// Schur complement of `K` on the rows `kept`, column-major.
     pub fn schur_complement(&self, kept: &[usize]) -> Vec<f64> {
         self.factor.schur_complement(

@@ -10,8 +10,10 @@ use super::free_block::FreeBlock;
 use crate::certificate::is_escape_of;
 use crate::law::Contact;
 use crate::law::complementarity::{is_bounded, is_stopped, lower_bounds};
+use crate::linalg::factor::cholesky_work;
 use crate::linalg::matrix::Matrix;
 use crate::linalg::tolerances::NEGLIGIBLE;
+use crate::monitor::Monitor;
 use crate::problem::BoundedLcp;
 use crate::solve::candidate::{Candidate, Ending};
 
@@ -29,18 +31,20 @@ pub struct NormalProblem<'p> {
 
 impl<'p> NormalProblem<'p> {
     /// Condenses. `Err`: why the problem cannot be condensed, which may be a proof that no equilibrium
-    /// exists.
-    pub fn new(contact: &'p Contact<'p>) -> Result<Self, Ending> {
+    /// exists, or that there is no time for it.
+    pub fn new(contact: &'p Contact<'p>, monitor: &mut Monitor<'_>) -> Result<Self, Ending> {
         let problem = contact.problem();
         let lower = lower_bounds(contact);
         let (normal, free): (Vec<usize>, Vec<usize>) =
             (0..contact.unknowns()).partition(|&i| is_bounded(contact, i));
+        monitor.affords(cholesky_work(free.len())).map_err(Ending::Stopped)?;
         let block = FreeBlock::of_problem(problem, free).ok_or(INDEFINITE)?;
         let mut at_rest = vec![0.0; contact.unknowns()];
         block.equilibrate(contact.shifted_load(), &mut at_rest);
         if let Some(motion) = driven_motion(contact, &block, &at_rest) {
             return Err(Ending::Recession(motion));
         }
+        monitor.affords(block.schur_work(normal.len())).map_err(Ending::Stopped)?;
         let whole = block.schur_complement(&normal);
         let size = normal.len();
         // A normal component whose motion nothing resists: its pair is closed if it is pushed, and

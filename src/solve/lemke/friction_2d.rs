@@ -76,7 +76,7 @@ pub fn solve(
     settings: &Settings,
     monitor: &mut Monitor<'_>,
 ) -> Result<Candidate, Error> {
-    let lcp = match FrictionLcp::new(contact) {
+    let lcp = match FrictionLcp::new(contact, monitor) {
         Ok(lcp) => lcp,
         Err(why) => return Ok(Candidate::without_displacements(contact, why)),
     };
@@ -101,7 +101,7 @@ pub fn ends(
     settings: &Settings,
     monitor: &mut Monitor<'_>,
 ) -> Result<Vec<Candidate>, Error> {
-    let Ok(lcp) = FrictionLcp::new(contact) else { return Ok(Vec::new()) };
+    let Ok(lcp) = FrictionLcp::new(contact, monitor) else { return Ok(Vec::new()) };
     let mut ends = Vec::new();
     for cohesion in COHESIONS {
         let rules = Rules { care: Care::Usual, end: END, turns: TURNS };

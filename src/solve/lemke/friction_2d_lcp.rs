@@ -6,9 +6,11 @@ use std::borrow::Cow;
 use super::scaled::Entries;
 use crate::law::Contact;
 use crate::law::branch::Branch;
+use crate::linalg::factor::cholesky_work;
 use crate::linalg::matrix::Matrix;
 use crate::linalg::packed::PackedSymmetric;
 use crate::linalg::vector::norm_inf;
+use crate::monitor::Monitor;
 use crate::solve::candidate::Ending;
 use crate::solve::condense::{FreeBlock, INDEFINITE, driven_motion};
 
@@ -61,7 +63,7 @@ pub struct Vectors {
 impl<'p> FrictionLcp<'p> {
     /// Condenses what carries no contact force. `Err`: why that is impossible, which may be a proof
     /// that no equilibrium exists.
-    pub fn new(contact: &'p Contact<'p>) -> Result<Self, Ending> {
+    pub fn new(contact: &'p Contact<'p>, monitor: &mut Monitor<'_>) -> Result<Self, Ending> {
         let problem = contact.problem();
         let (mut normal, mut tangential, mut free) = (Vec::new(), Vec::new(), Vec::new());
         let mut coupling = Vec::new();
@@ -76,6 +78,7 @@ impl<'p> FrictionLcp<'p> {
         }
         let indices: Vec<usize> = normal.iter().chain(&tangential).copied().collect();
         let condenses = !free.is_empty();
+        monitor.affords(cholesky_work(free.len())).map_err(Ending::Stopped)?;
         let block = FreeBlock::of_problem(problem, free).ok_or(INDEFINITE)?;
         let mut at_rest = vec![0.0; contact.unknowns()];
         for &i in &indices {
@@ -86,6 +89,7 @@ impl<'p> FrictionLcp<'p> {
             return Err(Ending::Recession(motion));
         }
         let stiffness = if condenses {
+            monitor.affords(block.schur_work(indices.len())).map_err(Ending::Stopped)?;
             let schur = block.schur_complement(&indices);
             Stiffness::Condensed(PackedSymmetric::new(indices.len(), schur))
         } else {

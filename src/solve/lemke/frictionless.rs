@@ -17,7 +17,7 @@ pub fn frictionless(
     settings: &Settings,
     monitor: &mut Monitor<'_>,
 ) -> Result<Candidate, Error> {
-    let normal = match NormalProblem::new(contact) {
+    let normal = match NormalProblem::new(contact, monitor) {
         Ok(normal) => normal,
         Err(why) => return Ok(Candidate::without_displacements(contact, why)),
     };

@@ -24,7 +24,7 @@ use crate::error::Error;
 use crate::linalg::matrix::Matrix;
 use crate::linalg::power_of_two::{largest_exponent, times_power_of_two};
 use crate::linalg::tolerances::NEGLIGIBLE;
-use crate::monitor::Monitor;
+use crate::monitor::{Monitor, Stop};
 use crate::solve::candidate::Ending;
 
 /// Result of a run.
@@ -138,10 +138,13 @@ pub fn follow(lcp: ScaledLcp<'_>, rules: Rules, monitor: &mut Monitor<'_>) -> Re
         let unscaled = z.zip(scale).map(|(z, scale)| z.max(0.0) * scale);
         unscaled.map(|z| times_power_of_two(z, unit)).collect()
     };
+    let nothing = |ending| Run { z: vec![0.0; n], ending, turns: Vec::new(), refactorisations: 0 };
+    if let Err(stop) = monitor.affords(Tableau::work(n)) {
+        return Ok(nothing(Ending::Stopped(stop)));
+    }
     let tableau = Tableau::new(&problem)?;
     if !tableau.is_finite() || problem.covering.contains(&0.0) {
-        let ending = Ending::Stalled("numbers overflow or underflow in the LCP");
-        return Ok(Run { z: vec![0.0; n], ending, turns: Vec::new(), refactorisations: 0 });
+        return Ok(nothing(Ending::Stalled("numbers overflow or underflow in the LCP")));
     }
     let mut path =
         Path { problem: &problem, tableau, rules, turns: Vec::new(), refactorisations: 0 };
@@ -202,8 +205,12 @@ impl Path<'_> {
             let limit = self.rules.end * start.unwrap_or(0.0);
             let ended = leaving == z0 || self.tableau.value(z0) <= limit;
             let interval = if careful { CAREFUL_CHECK } else { CHECK };
-            if (ended || pivots % interval == 0) && !self.check(careful) {
-                return End::Ended(BREAKDOWN);
+            if ended || pivots % interval == 0 {
+                match self.check(careful, monitor) {
+                    Ok(true) => {}
+                    Ok(false) => return End::Ended(BREAKDOWN),
+                    Err(stop) => return End::Ended(Ending::Stopped(stop)),
+                }
             }
             if ended {
                 return End::Ended(Ending::Done);
@@ -250,13 +257,14 @@ impl Path<'_> {
     }
 
     /// Refines the values, and refactorises where they have drifted; false if the basis is singular.
-    fn check(&mut self, careful: bool) -> bool {
+    fn check(&mut self, careful: bool, monitor: &mut Monitor<'_>) -> Result<bool, Stop> {
         let drift = self.tableau.refine(self.problem);
         if drift <= DRIFT && self.rules.care == Care::Usual && !careful {
-            return true;
+            return Ok(true);
         }
+        monitor.affords(self.tableau.refactorisation_work())?;
         self.refactorisations += 1;
-        self.tableau.refactorise(self.problem)
+        Ok(self.tableau.refactorise(self.problem))
     }
 }
 

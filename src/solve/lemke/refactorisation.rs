@@ -3,7 +3,7 @@
 
 use super::scaled::Scaled;
 use super::tableau::Tableau;
-use crate::linalg::factor::{Factor, subtract_outer};
+use crate::linalg::factor::{Factor, lu_work, subtract_outer};
 use crate::linalg::simd;
 use crate::linalg::tolerances::SINGULAR_BASIS;
 use crate::linalg::vector::norm_inf;
@@ -34,6 +34,14 @@ impl Tableau {
             *value += correction;
         }
         norm_inf(&residual) / norm_inf(&problem.q)
+    }
+
+    /// Operations of [`Self::refactorise`]: a factorisation of as many rows as there are basic `z`, and for each
+    /// column a solution and a product.
+    pub fn refactorisation_work(&self) -> f64 {
+        let n = self.size;
+        let count = self.basic.iter().filter(|&&basic| basic >= n).count();
+        lu_work(count) + 2.0 * (n as f64) * (count as f64) * (n as f64)
     }
 
     /// Recomputes the tableau from the data of `problem`, in the basis it is in. False if that basis is

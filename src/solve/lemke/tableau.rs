@@ -49,7 +49,15 @@ const LARGE: usize = 160;
 /// where `n` is a power of two: one line.
 const LINE: usize = 8;
 
+/// Operations that take as long as writing an entry of new memory, which the system clears page by page.
+const WRITING: f64 = 100.0;
+
 impl Tableau {
+    /// Operations in whose time [`Self::new`] writes a tableau of `n` rows.
+    pub fn work(n: usize) -> f64 {
+        WRITING * (n as f64).powi(2)
+    }
+
     /// The tableau in which the `w` are basic.
     pub fn new(problem: &Scaled<'_>) -> Result<Self, Error> {
         let n = problem.size();

@@ -84,8 +84,11 @@ pub fn solve(
         if let Err(stop) = monitor.step() {
             break Ending::Stopped(stop);
         }
-        ended.systems += 1;
         let point = &ended.point;
+        if let Err(stop) = monitor.affords(System::work(equations, &point.pieces)) {
+            break Ending::Stopped(stop);
+        }
+        ended.systems += 1;
         let system = System::new(equations, (&point.pieces, &point.y), 1.0, None);
         let Some(mut system) = system else { break Ending::Singular };
         let Some((step, _)) = system.step(&point.lack, 0.0) else { break Ending::Singular };

@@ -16,6 +16,7 @@ use crate::law::{Contact, Vector};
 use crate::linalg::double_double::two_sum;
 use crate::linalg::tolerances::NULL_VECTOR;
 use crate::linalg::vector::{largest_of, norm_inf};
+use crate::monitor::Monitor;
 use crate::settings::Settings;
 use crate::solve::candidate::{Candidate, Ending};
 use crate::solve::outcome::Errors;
@@ -44,7 +45,12 @@ const SURE: f64 = 0.5;
 const ROUNDING_OF_ETA: f64 = 4.0 * f64::EPSILON;
 
 /// The candidate, refined if its residual is above the tolerance and that helps.
-pub fn polished(contact: &Contact<'_>, settings: &Settings, candidate: Candidate) -> Candidate {
+pub fn polished(
+    contact: &Contact<'_>,
+    settings: &Settings,
+    candidate: Candidate,
+    monitor: &Monitor<'_>,
+) -> Candidate {
     let old = candidate.certificate(contact);
     let is_finite = candidate.d.iter().all(|d| d.is_finite());
     let is_near = old.eta <= NEAR || contact.unknowns() <= FEW_UNKNOWNS;
@@ -55,7 +61,9 @@ pub fn polished(contact: &Contact<'_>, settings: &Settings, candidate: Candidate
     let at_reference = contact.at_its_reference();
     let equations = Equations::of(&at_reference);
     let aim = AIM * settings.tolerance;
-    let refined = refined(contact, &candidate, aim, &mut Newton::on(&equations));
+    let may_factorise = |work| monitor.has_time_for(work);
+    let newton = &mut Newton { may_factorise: &may_factorise, ..Newton::on(&equations) };
+    let refined = refined(contact, &candidate, aim, newton);
     let new = refined.certificate(contact);
     let helps = new.residual <= settings.tolerance && !new.runs_away();
     if helps { refined.ended(Ending::Done) } else { candidate }
@@ -170,6 +178,8 @@ struct Newton<'e> {
     /// Whether the last step came near enough for its factor to serve again.
     is_good: bool,
     factorisations: u64,
+    /// Whether there is time for a factorisation of so many operations.
+    may_factorise: &'e dyn Fn(f64) -> bool,
 }
 
 /// A factor, with the coordinates and their pieces at which it was made.
@@ -181,11 +191,12 @@ struct Kept<'e> {
 
 impl<'e> Newton<'e> {
     fn on(equations: &'e Equations<'e>) -> Self {
-        Newton { equations, kept: None, is_good: false, factorisations: 0 }
+        let may_factorise = &|_| true;
+        Newton { equations, kept: None, is_good: false, factorisations: 0, may_factorise }
     }
 
     /// The change of displacements `v` beyond their references that Newton's method wants where they need
-    /// `force`, and the sign of the determinant; `None` if the system is singular.
+    /// `force`, and the sign of the determinant; `None` if the system is singular, or there is no time.
     fn step(&mut self, v: &[f64], force: &[f64]) -> Option<(Vec<f64>, i8)> {
         let (equations, dim) = (self.equations, self.equations.dim);
         let y = equations.coordinates(v, force);
@@ -217,13 +228,16 @@ impl<'e> Newton<'e> {
         Some((change, kept.system.orientation()))
     }
 
-    /// The kept factor if it serves at these coordinates, otherwise theirs.
+    /// The kept factor if it serves at these coordinates, otherwise theirs if there is time for it.
     fn factor(&mut self, pieces: Vec<Piece>, y: Vec<Vector>) -> Option<&mut Kept<'e>> {
         let (equations, is_good) = (self.equations, self.is_good);
         let serves = |kept: &Kept<'_>| {
             kept.pieces == pieces && (is_good || is_same(equations, &pieces, [&kept.y, &y]))
         };
         if !self.kept.as_ref().is_some_and(serves) {
+            if !(self.may_factorise)(System::work(equations, &pieces)) {
+                return None;
+            }
             self.factorisations += 1;
             let at = (pieces.as_slice(), y.as_slice());
             let system = System::with_least_pivot(equations, at, 1.0, None, NULL_VECTOR)?;

@@ -19,7 +19,7 @@
 use super::equations::Equations;
 use crate::law::piece::Piece;
 use crate::law::{Block, PairLaw, Plane, Vector, ellipse};
-use crate::linalg::factor::Factor;
+use crate::linalg::factor::{Factor, lu_work};
 use crate::linalg::tolerances::SINGULAR;
 use crate::linalg::vector::dot;
 
@@ -102,6 +102,14 @@ struct Bordered {
 }
 
 impl<'e> System<'e> {
+    /// Operations of a factorisation on given pieces.
+    pub fn work(equations: &Equations<'_>, pieces: &[Piece]) -> f64 {
+        let unknowns = |piece: &Piece| {
+            usize::from(!piece.closed) + if piece.slips { equations.dim - 1 } else { 0 }
+        };
+        lu_work(pieces.iter().map(unknowns).sum())
+    }
+
     /// Factorises the system at the coordinates `y` on given pieces; `None` if it is singular.
     pub fn new(
         equations: &'e Equations<'e>,

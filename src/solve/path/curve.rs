@@ -186,6 +186,8 @@ impl<'h> Curve<'h> {
         monitor: &mut Monitor<'_>,
     ) -> Result<Option<Local<'h>>, Ending> {
         monitor.step().map_err(Ending::Stopped)?;
+        let work = System::work(self.homotopy.equations, &self.pieces);
+        monitor.affords(work).map_err(Ending::Stopped)?;
         self.systems += 1;
         let border = Border {
             rate: &value.rate,
@@ -215,6 +217,7 @@ impl<'h> Curve<'h> {
         let mut refactorisations = 0;
         let mut before = f64::INFINITY;
         for _ in 0..MOST_CORRECTIONS {
+            monitor.affords(0.0).map_err(Ending::Stopped)?;
             let value = self.homotopy.value(&self.pieces, &place);
             let (miss, normal) = self.miss(condition, &place);
             let rounding = f64::EPSILON * (value.lack.len() as f64).sqrt() * value.stretch;

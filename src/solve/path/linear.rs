@@ -173,12 +173,16 @@ fn solve(
     let mut best = Candidate::without_displacements(contact, Ending::Stalled(LOST));
     let mut effort = Effort::default();
     for attempt in attempts {
-        starts.sweep(contact, attempt.sweeps);
+        starts.sweep(contact, attempt.sweeps, monitor);
         let y: Vec<Planar> = match attempt.start {
             Start::Swept => starts.swept(contact, &mut random),
             Start::Sure => starts.sure(contact, &mut random),
             Start::Pressed => starts.pressed(contact, &root, &mut random),
         };
+        if let Err(stop) = monitor.affords(Walk::work(&ground, &y)) {
+            best.ending = Ending::Stopped(stop);
+            break;
+        }
         let Some(mut walk) = Walk::new(&ground, &y) else { continue };
         if !walk.begins_upwards() {
             continue;

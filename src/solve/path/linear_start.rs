@@ -3,6 +3,7 @@
 
 use crate::law::{Contact, PairLaw, Planar};
 use crate::linalg::vector::NormSum;
+use crate::monitor::Monitor;
 use crate::solve::sweeps::Sweeper;
 
 /// Random part of a start, of all loads.
@@ -42,10 +43,13 @@ impl Starts {
         }
     }
 
-    /// Sweeps on.
-    pub fn sweep(&mut self, contact: &Contact<'_>, sweeps: usize) {
+    /// Sweeps on while there is time.
+    pub fn sweep(&mut self, contact: &Contact<'_>, sweeps: usize, monitor: &Monitor<'_>) {
         let (sweeper, (d, force)) = (Sweeper::new(), &mut self.swept);
         for _ in 0..sweeps {
+            if monitor.is_late() {
+                return;
+            }
             sweeper.sweep(contact, (&mut *d, &mut *force), 1.0);
         }
     }

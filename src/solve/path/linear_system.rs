@@ -23,7 +23,7 @@
 
 use crate::law::branch::Branch;
 use crate::law::{Contact, Exit, PairLaw, Planar};
-use crate::linalg::factor::{Factor, subtract_product};
+use crate::linalg::factor::{Factor, lu_work, subtract_product};
 use crate::linalg::matrix::Matrix;
 use crate::linalg::tolerances::SINGULAR_BASIS;
 
@@ -73,6 +73,14 @@ pub struct PieceSystem<'p> {
 }
 
 impl<'p> PieceSystem<'p> {
+    /// Operations of [`Self::new`]: a factorisation, and another one where the matrix of pieces without
+    /// friction is not definite to the last digit.
+    pub fn work(contact: &Contact<'_>, branches: &[Branch]) -> f64 {
+        let slopes = contact.pairs().iter().zip(branches).map(|(law, b)| law.slopes(*b));
+        let free = |slopes: [Planar; 2]| (0..2).filter(|&i| slopes[i][i] == 0.0).count();
+        lu_work(slopes.map(free).sum())
+    }
+
     /// Factorises the system of `branches`; `root` holds the roots of the diagonal of `K`. `None` if it
     /// is singular to the last digit.
     pub fn new(contact: &'p Contact<'p>, root: &'p [f64], branches: Vec<Branch>) -> Option<Self> {

@@ -65,6 +65,14 @@ pub struct Walk<'p> {
 }
 
 impl<'p> Walk<'p> {
+    /// Operations of [`Self::new`].
+    pub fn work(ground: &Ground<'_>, start: &[Planar]) -> f64 {
+        let pairs = ground.contact.pairs().iter().zip(start);
+        let branches: Vec<Branch> =
+            pairs.map(|(law, y)| law.chart_branch(&[y[0], y[1], 0.0])).collect();
+        PieceSystem::work(ground.contact, &branches)
+    }
+
     /// Begins at the coordinates `start`; `None` if the system there is singular.
     pub fn new(ground: &'p Ground<'p>, start: &[Planar]) -> Option<Self> {
         let contact = ground.contact;
@@ -126,7 +134,7 @@ impl<'p> Walk<'p> {
             if self.s < 0.0 {
                 return End::Lost;
             }
-            if let Err(end) = self.pass(pair, &exit, rules) {
+            if let Err(end) = self.pass(pair, &exit, rules, monitor) {
                 return end;
             }
         }
@@ -150,7 +158,13 @@ impl<'p> Walk<'p> {
     }
 
     /// Passes the boundary of a pair.
-    fn pass(&mut self, pair: usize, exit: &Exit, rules: Rules) -> Result<(), End> {
+    fn pass(
+        &mut self,
+        pair: usize,
+        exit: &Exit,
+        rules: Rules,
+        monitor: &mut Monitor<'_>,
+    ) -> Result<(), End> {
         self.events += 1;
         let flip = self.system.flip(pair, exit);
         let singular = flip.pivot().abs() < SMALL_PIVOT;
@@ -160,6 +174,8 @@ impl<'p> Walk<'p> {
             return Err(End::Ray(motion));
         }
         if singular || self.system.age() >= rules.age {
+            let work = PieceSystem::work(self.ground.contact, &self.system.branches);
+            monitor.affords(work).map_err(End::Stopped)?;
             return self.refactorise().ok_or(End::Lost);
         }
         Ok(())

@@ -22,7 +22,7 @@ pub fn frictionless(
     start: &[f64],
     monitor: &mut Monitor<'_>,
 ) -> Candidate {
-    let normal = match NormalProblem::new(contact) {
+    let normal = match NormalProblem::new(contact, monitor) {
         Ok(normal) => normal,
         Err(why) => return Candidate::without_displacements(contact, why),
     };

@@ -16,6 +16,7 @@ use super::normal_map::sharpened;
 use super::outcome::{Solution, Status, Uniqueness};
 use crate::error::Error;
 use crate::law::Contact;
+use crate::linalg::factor::lu_work;
 use crate::linalg::vector::norm_inf;
 use crate::monitor::Monitor;
 use crate::settings::Settings;
@@ -35,7 +36,7 @@ pub fn examine(
         solution.uniqueness = Uniqueness::Unique;
         return Ok(());
     }
-    if contact.is_frictionless() || monitor.is_late() {
+    if contact.is_frictionless() || !monitor.has_time_for(lu_work(contact.unknowns())) {
         return Ok(());
     }
     if contact.dim() != 2 {

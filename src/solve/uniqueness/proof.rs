@@ -15,8 +15,14 @@
 
 use super::difference::MARGIN;
 use crate::law::Contact;
-use crate::linalg::factor::{Factor, largest_eigenvalue};
+use crate::linalg::factor::{Factor, cholesky_work, largest_eigenvalue};
 use crate::monitor::Monitor;
+
+/// Operations that take as long as the eigenvalues of a matrix of `n` rows: four thirds of `n³`, half of them at the
+/// speed of memory, some five times slower.
+fn eigenvalue_work(n: usize) -> f64 {
+    4.0 * (n as f64).powi(3)
+}
 
 /// Columns that are solved for between two looks at the clock.
 const BLOCK: usize = 64;
@@ -38,6 +44,9 @@ pub fn scaled_factor(contact: &Contact<'_>) -> Option<Factor> {
 /// Whether the solution is proved to be the only one: `K` is positive definite, and `g -> mu p` is
 /// constant or a contraction. When the time is up nothing is proved.
 pub fn is_unique(contact: &Contact<'_>, monitor: &Monitor<'_>) -> bool {
+    if !monitor.has_time_for(cholesky_work(contact.unknowns())) {
+        return false;
+    }
     let Some(mut factor) = scaled_factor(contact) else { return false };
     let laws = contact.pairs();
     let coupled: Vec<usize> = (0..laws.len()).filter(|&i| laws[i].is_coupled()).collect();
@@ -85,11 +94,11 @@ fn is_contraction(
         }];
     scales.iter().any(|x| {
         let x: Vec<f64> = (0..m).map(x).collect();
-        if monitor.is_late() {
+        if !monitor.has_time_for(eigenvalue_work(m)) {
             return false;
         }
         let normal = largest_eigenvalue(m, |a, b| stiffness(a, b) / (x[a] * x[b]));
-        if monitor.is_late() {
+        if !monitor.has_time_for(eigenvalue_work(m * tangents)) {
             return false;
         }
         let tangential = largest_eigenvalue(m * tangents, |a, b| {

@@ -1,0 +1,107 @@
+#!/bin/sh
+# Lines of src that the tests run: of all, and of each file with less than 90 %.
+#
+#     sh tests/coverage.sh
+#
+# Needs the tools of LLVM that belong to the compiler (rustup component add llvm-tools), a C compiler, and for the
+# entries of Fortran gfortran. The Rust tests, the C regression and the Fortran programs run with an instrumented
+# library in target/coverage; campaigns are short. It takes as long as a build of all tests.
+set -eu
+LC_ALL=C
+export LC_ALL
+
+root=$(CDPATH='' cd -- "$(dirname -- "$0")/.." && pwd)
+work=$root/target/coverage
+cd -- "$root"
+die() {
+    echo "coverage: $*" >&2
+    exit 1
+}
+tools=$(dirname -- "$(find "$(rustc --print sysroot)" -name llvm-profdata | head -n 1)")
+[ -x "$tools/llvm-cov" ] || die "no llvm-cov: rustup component add llvm-tools"
+mkdir -p -- "$work/profiles" "$work/programs"
+rm -f -- "$work"/profiles/*
+
+# The crate and its tests are instrumented, what they depend on is not.
+cat >"$work/wrapper" <<'END'
+#!/bin/sh
+exec "$@" -Cinstrument-coverage
+END
+chmod 755 "$work/wrapper"
+export RUSTC_WORKSPACE_WRAPPER="$work/wrapper" CARGO_TARGET_DIR="$work"
+export LLVM_PROFILE_FILE="$work/profiles/%8m.profraw"
+export SIGNORINI_JUDGED=240 SIGNORINI_PROPERTY_CASES=20 SIGNORINI_FAR_GAPS=200
+
+# ---- Rust ----
+
+cargo test --release --locked --no-run --message-format=json >"$work/built.json"
+sed -n 's/.*"executable":"\([^"]*\)".*/\1/p' "$work/built.json" | sort -u >"$work/tests"
+while read -r test; do
+    # Rules about the source, which run nothing of it.
+    case ${test##*/} in style-* | layering-* | header-* | law_room-*) continue ;; esac
+    CARGO_MANIFEST_DIR=$root "$test" --quiet >"$work/said" 2>&1 || { cat "$work/said"; die "$test failed"; }
+done <"$work/tests"
+
+# ---- C, and Fortran's entries ----
+
+release=$work/release
+[ -f "$release/libsignorini.so" ] || cargo build --release --locked --lib
+soname=$(sed -n '/^version = /{s/[^0-9]*\([0-9]*\.[0-9]*\).*/\1/p;q;}' Cargo.toml)
+ln -sf libsignorini.so "$release/libsignorini.so.$soname"
+cd -- "$work/programs"
+
+# runs NAME COMMAND...: builds a program by the rest of the command, and runs it.
+runs() {
+    name=$1
+    shift
+    "$@" -o "$name" -L"$release" -lsignorini -Wl,-rpath,"$release" -lm -lpthread -ldl ||
+        die "$name cannot be built"
+    "./$name" >"$name.out" 2>&1 || { cat "$name.out"; die "$name failed"; }
+}
+
+bricks="$root/c_examples/3d/brick_mesh.c $root/c_examples/3d/brick_element.c"
+for name in bad_input valid_input methods layout model model_checks operator rows flexibility environment \
+    threads problem_file older_program older_structures; do
+    runs "$name" "${CC:-cc}" -O1 -I"$root/include" "$root/tests/c/$name.c"
+done
+for name in surfaces out_of_memory processes faults; do
+    # shellcheck disable=SC2086 # several sources
+    runs "$name" "${CC:-cc}" -O1 -I"$root/include" "$root/tests/c/$name.c" $bricks
+done
+if command -v "${FC:-gfortran}" >/dev/null 2>&1; then
+    module=$root/include/signorini.f90
+    runs bad_input_77 "${FC:-gfortran}" -I"$root/include" "$root/tests/fortran/bad_input.f"
+    for name in layer refusals counting rows surfaces; do
+        runs "${name}_90" "${FC:-gfortran}" -I"$root/include" "$module" "$root/tests/fortran/$name.f90"
+    done
+else
+    echo "coverage: no Fortran compiler: its entries are counted by the other programs alone"
+fi
+
+# ---- the table ----
+
+cd -- "$root"
+find "$work/profiles" -name '*.profraw' >"$work/raw"
+"$tools/llvm-profdata" merge -sparse -f "$work/raw" -o "$work/all.profdata"
+set -- "$release/libsignorini.so"
+while read -r test; do
+    set -- "$@" --object "$test"
+done <"$work/tests"
+"$tools/llvm-cov" export --summary-only --instr-profile "$work/all.profdata" "$@" >"$work/summary.json"
+tr '{' '\n' <"$work/summary.json" | awk -v root="$root/src/" '
+    /"filename":/ { sub(/.*"filename":"/, ""); sub(/".*/, ""); file = $0 }
+    # "lines":{"count":C,"covered":R,"percent":P}
+    previous ~ /"lines":$/ && index(file, root) == 1 {
+        split($0, part, /[:,]/)
+        count[file] = part[2]; covered[file] = part[4]
+        all += part[2]; run += part[4]; file = ""
+    }
+    { previous = $0 }
+    END {
+        for (name in count)
+            if (covered[name] < 0.9 * count[name])
+                printf "%5.1f %% of %4d lines  %s\n", 100 * covered[name] / count[name], count[name], \
+                    substr(name, length(root) - 3) | "sort -n"
+        close("sort -n")
+        printf "%5.1f %% of %d lines of src\n", 100 * run / all, all
+    }'
