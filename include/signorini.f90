@@ -104,6 +104,9 @@ module signorini
     integer(c_int32_t), parameter :: SIGNORINI_FALLBACK_SINGULAR = 2
     integer(c_int32_t), parameter :: SIGNORINI_FALLBACK_UNSTABLE = 3
     integer(c_int32_t), parameter :: SIGNORINI_FALLBACK_INACCURATE = 4
+    integer(c_int32_t), parameter :: SIGNORINI_REMARK_GAPS_NEGATIVE = 1
+    integer(c_int32_t), parameter :: SIGNORINI_REMARK_FRICTION_LARGE = 2
+    integer(c_int32_t), parameter :: SIGNORINI_REMARK_FREE_MOTION = 4
     integer(c_int32_t), parameter :: SIGNORINI_TRIANGLE_LOWER = 0
     integer(c_int32_t), parameter :: SIGNORINI_TRIANGLE_UPPER = 1
     integer(c_int32_t), parameter :: SIGNORINI_TRIANGLE_FULL = 2
@@ -186,7 +189,7 @@ module signorini
         real(c_double) :: error_d = 0
         real(c_double) :: error_force = 0
         integer(c_int32_t) :: proof = 0
-        integer(c_int32_t) :: reserved = 0
+        integer(c_int32_t) :: remarks = 0
     end type
 
     type, bind(C) :: signorini_extra

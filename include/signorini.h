@@ -1429,6 +1429,17 @@ int64_t signorini_model_memory(const signorini_model *model);
 #define SIGNORINI_FALLBACK_UNSTABLE 3
 #define SIGNORINI_FALLBACK_INACCURATE 4 /**< The first method found no accurate solution. */
 
+/* What a report remarks. */
+/** Every finite gap is negative: interference everywhere, or the sign of gaps is turned round. */
+#define SIGNORINI_REMARK_GAPS_NEGATIVE 1
+/** A coefficient of friction is above 10: percent, or another array. */
+#define SIGNORINI_REMARK_FRICTION_LARGE 2
+/**
+ * Without friction: the bodies may move without any force, so that d is one of many; a support may
+ * be missing. Not looked for in full space, nor where pairs depend on each other.
+ */
+#define SIGNORINI_REMARK_FREE_MOTION 4
+
 /**
  * How good a result is, and how it was found. Fill it by signorini_report_default() or set
  * struct_size before the call; the call writes all other fields. Forces and lengths are in the
@@ -1489,7 +1500,8 @@ struct signorini_report {
      */
     double error_F;
     int32_t proof;            /**< SIGNORINI_PROOF_... */
-    int32_t reserved;         /**< 0. */
+    /** What is legal and often a mistake: a sum of SIGNORINI_REMARK_..., 0 if there is nothing. */
+    int32_t remarks;
 };
 
 /**

@@ -135,6 +135,6 @@ pub use problem::{
 };
 pub use settings::{Method, Search, Settings};
 pub use solve::{
-    Errors, Escape, Existence, Fallback, LcpSolution, SecondSolution, Solution, Status, Uniqueness,
-    memory, memory_flexibility, solve, solve_flexibility, solve_lcp,
+    Errors, Escape, Existence, Fallback, LcpSolution, Remarks, SecondSolution, Solution, Status,
+    Uniqueness, memory, memory_flexibility, solve, solve_flexibility, solve_lcp,
 };

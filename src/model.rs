@@ -30,8 +30,8 @@ use crate::reduce::{
 };
 use crate::settings::Settings;
 use crate::solve::{
-    NO_EQUILIBRIUM, Solution, Status, certify_unformed, check_start, solve, solve_dependent,
-    solve_unformed,
+    CAUSES, NO_EQUILIBRIUM, Solution, Status, certify_unformed, check_start, solve,
+    solve_dependent, solve_unformed,
 };
 
 /// A structure, reduced to its contact pairs. It does not change: several threads may use it.
@@ -248,8 +248,10 @@ impl Model {
             let escape = solution.escape.as_ref();
             let parts =
                 escape.map(|escape| (escape.motion.as_slice(), escape.unbalanced.as_slice()));
-            let driven = driven_motion(&*self.reduction, load, parts.unwrap_or((motion, load)));
-            solution.message = format!("{NO_EQUILIBRIUM}: {driven}").into();
+            let parts = parts.unwrap_or((motion, load));
+            let [moves, left] = driven_motion(&*self.reduction, load, parts);
+            // C cuts what is long: the force comes last.
+            solution.message = format!("{NO_EQUILIBRIUM}: {moves}; {CAUSES}{left}").into();
         }
         solution
     }

@@ -251,6 +251,6 @@ fn of_motions_of_escape() {
         "2 of the degrees of freedom 2 to 3, most of all degree of freedom",
         "2 of the degrees of freedom 3 to 4, most of all degree of freedom",
     );
-    escaped(&solution, "degree of freedom 3 by 1.000", "degree of freedom 4 by 1.000");
+    escaped(&solution, "3 by 1.000", "4 by 1.000");
     escaped(&solution, "slave of pair 1 moves along (1.000", "slave of pair 2 moves along (1.000");
 }

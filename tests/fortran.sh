@@ -101,6 +101,8 @@ for kind in static shared; do
     runs "layer_$kind"
     compile "refusals_$kind" "$kind" -std=f2008 "$module" "$tests/refusals.f90"
     runs "refusals_$kind"
+    compile "mistakes_$kind" "$kind" -std=f2008 "$module" "$tests/mistakes.f90"
+    runs "mistakes_$kind"
     compile "counting_$kind" "$kind" -std=f2008 "$module" "$tests/counting.f90"
     runs "counting_$kind"
     compile "rows_$kind" "$kind" "$module" "$tests/rows.f90"
@@ -110,7 +112,7 @@ for kind in static shared; do
     compile "operator_90_$kind" "$kind" -std=f2008 "$module" "$tests/operator.f90"
     runs "operator_90_$kind"
 done
-for name in layer refusals counting rows surfaces operator; do
+for name in layer refusals mistakes counting rows surfaces operator; do
     # shellcheck disable=SC2086 # several options
     compile "${name}_64" shared $wide "$module" "$tests/$name.f90"
     runs "${name}_64"

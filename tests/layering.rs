@@ -63,13 +63,14 @@ const ROOMS: [(&str, &[&str]); 14] = [
 
 /// The files and folders of `solve`: each imports from those before it only. `lcp` stands beside
 /// those that are behind `lemke`.
-const SOLVERS: [&str; 22] = [
+const SOLVERS: [&str; 23] = [
     "memory",
     "outcome",
     "candidate",
     "condense",
     "rigid_balance",
     "smallest_lift",
+    "remarks",
     "sweeps",
     "normal_map",
     "krylov",

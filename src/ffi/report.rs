@@ -8,7 +8,7 @@ use crate::certificate::Certificate;
 use crate::error::index;
 use crate::law::State;
 use crate::settings::Method;
-use crate::solve::{Existence, Fallback, LcpSolution, Solution, Uniqueness};
+use crate::solve::{Existence, Fallback, LcpSolution, Remarks, Solution, Uniqueness};
 
 /// The pair is apart: F_n = 0, with cohesion F_n = a; F_t = 0 but under Tresca's law and cohesion.
 pub const SIGNORINI_STATE_OPEN: i32 = 0;
@@ -44,6 +44,14 @@ pub const SIGNORINI_FALLBACK_SINGULAR: i32 = 2;
 pub const SIGNORINI_FALLBACK_UNSTABLE: i32 = 3;
 /// The first method found no accurate solution.
 pub const SIGNORINI_FALLBACK_INACCURATE: i32 = 4;
+
+/// Every finite gap is negative: interference everywhere, or the sign of gaps is turned round.
+pub const SIGNORINI_REMARK_GAPS_NEGATIVE: i32 = 1;
+/// A coefficient of friction is above 10: percent, or another array.
+pub const SIGNORINI_REMARK_FRICTION_LARGE: i32 = 2;
+/// Without friction: the bodies may move without any force, so that d is one of many; a support may
+/// be missing. Not looked for in full space, nor where pairs depend on each other.
+pub const SIGNORINI_REMARK_FREE_MOTION: i32 = 4;
 
 /// How good a result is, and how it was found. Fill it by signorini_report_default() or set
 /// struct_size before the call; the call writes all other fields. Forces and lengths are in the
@@ -111,8 +119,8 @@ pub struct SignoriniReport {
     pub error_F: f64,
     /// SIGNORINI_PROOF_...
     pub proof: i32,
-    /// 0.
-    pub reserved: i32,
+    /// What is legal and often a mistake: a sum of SIGNORINI_REMARK_..., 0 if there is nothing.
+    pub remarks: i32,
 }
 
 /// An error that is not known.
@@ -160,6 +168,7 @@ impl SignoriniReport {
             error_d: solution.errors.map_or(NOT_KNOWN, |errors| errors.d),
             error_F: solution.errors.map_or(NOT_KNOWN, |errors| errors.force),
             proof: proof_code(&solution.existence),
+            remarks: remark_codes(solution.remarks),
             ..Self::of_certificate(status, &solution.certificate)
         }
     }
@@ -225,7 +234,7 @@ impl SignoriniReport {
             error_d: NOT_KNOWN,
             error_F: NOT_KNOWN,
             proof: SIGNORINI_PROOF_NOT_ASKED,
-            reserved: 0,
+            remarks: 0,
         }
     }
 }
@@ -284,6 +293,13 @@ fn proof_code(existence: &Existence) -> i32 {
         Existence::Proved(_) => SIGNORINI_PROOF_PROVED,
         Existence::NotProved => SIGNORINI_PROOF_NOT_PROVED,
     }
+}
+
+fn remark_codes(remarks: Remarks) -> i32 {
+    let code = |said: bool, code: i32| if said { code } else { 0 };
+    code(remarks.gaps_negative, SIGNORINI_REMARK_GAPS_NEGATIVE)
+        + code(remarks.friction_large, SIGNORINI_REMARK_FRICTION_LARGE)
+        + code(remarks.free_motion, SIGNORINI_REMARK_FREE_MOTION)
 }
 
 fn uniqueness_code(uniqueness: Uniqueness) -> i32 {

@@ -19,6 +19,7 @@
 //! | `reach` | which obstacles are too far away to matter | `solve::far_obstacles` |
 //! | `contradiction` | when normal forces prove that no displacements meet all gaps | `solve::dependent` |
 //! | `recession` | what a rigid motion must satisfy to prove that no equilibrium exists | certificate |
+//! | `remarks` | data that are legal and look like a mistake; pairs that touch | `solve::remarks` |
 //!
 //! Notation, for one pair: `v = d - (gap, slip0)`, so that `v_n` is the penetration (at most 0 if the
 //! law is obeyed) and `delta = v_t` the slip; `P = -F = (p, tau)`, so that `p` is the pressure, and
@@ -52,6 +53,7 @@ mod planar_piece;
 mod proximal;
 mod reach;
 mod recession;
+mod remarks;
 pub mod tresca;
 
 pub use bound::{Bound, length};
@@ -63,6 +65,7 @@ pub use natural_map::Violation;
 pub use planar_piece::{Exit, Planar};
 pub use reach::gaps_within_reach;
 pub use recession::{Recession, lift};
+pub use remarks::{friction_is_large, gaps_are_negative, touching};
 
 use crate::linalg::double_double::two_sum;
 

@@ -12,27 +12,26 @@ const MOVING: f64 = 1e-6;
 /// How many of what moves most are named: a node's translation in space, or one point of a rotation.
 const MOST_NAMED: usize = 3;
 
-/// What moves in the motion `d` that relative loads drive, how much they drive it, what of that nothing
-/// balances, and what to look at.
+/// What moves in the motion `d` that relative loads drive, how much they drive it, and what of that nothing
+/// balances; and the force that is left, where the host's axes are known.
 pub(crate) fn driven_motion(
     reduction: &dyn Reduction,
     load: &[f64],
     (d, unbalanced): (&[f64], &[f64]),
-) -> String {
+) -> [String; 2] {
     let largest = norm_inf(&reduction.recover(None, None, d).unwrap_or_default());
     let along = |force: &[f64]| force.iter().zip(d).map(|(f, d)| f * d).sum::<f64>() / largest;
-    let resultant = match reduction.frames() {
-        Some(frames) => format!(", the force {} in the axes of K", force(frames, unbalanced, d)),
+    let left = match reduction.frames() {
+        Some(frames) => format!(" In the axes of K the force is {}", force(frames, unbalanced, d)),
         None => String::new(),
     };
-    format!(
-        "it moves {}; the resultant of the loads along it is {:.3e} (largest displacement 1), and contact \
-         leaves {:.3e} of it unbalanced{resultant}. Are all normals outward from the slaves and the signs \
-         of loads right, is a support or pair missing?",
+    let moves = format!(
+        "it moves {}; the resultant of the loads along it is {:.3e}, and contact leaves {:.3e} of it",
         reduction.motion_in_words(d).marked(),
         along(load),
         along(unbalanced),
-    )
+    );
+    [moves, left]
 }
 
 /// The sum of the forces of pairs that move in the host's axes: `(1.000e0, 0.000e0)`.
@@ -64,7 +63,7 @@ pub(super) fn rests(values: &[f64], most: f64) -> bool {
 }
 
 /// Displacements of a host's degrees of freedom: `5 of the degrees of freedom 2 to 9, most of all
-/// degree of freedom 4 by 1.000, ...`, relative to the largest.
+/// degree of freedom 4 by 1.000, 6 by 0.500, ...`, relative to the largest.
 pub(super) fn of_host(u: &[f64]) -> String {
     let (moving, most) = moving(u);
     let (Some(first), Some(last)) = (moving.first(), moving.last()) else {
@@ -72,11 +71,14 @@ pub(super) fn of_host(u: &[f64]) -> String {
     };
     let most: Vec<String> = most
         .iter()
-        .map(|&dof| format!("degree of freedom {} by {:.3}", index(dof), u[dof] / u[most[0]].abs()))
+        .map(|&dof| format!("{} by {:.3}", index(dof), u[dof] / u[most[0]].abs()))
         .collect();
     let count = moving.len();
     let (first, last) = (index(first), index(last));
-    format!("{count} of the degrees of freedom {first} to {last}, most of all {}", most.join(", "))
+    format!(
+        "{count} of the degrees of freedom {first} to {last}, most of all degree of freedom {}",
+        most.join(", ")
+    )
 }
 
 /// Displacements of contact nodes, components (n, t) or (n, t1, t2) node after node: `3 of 9 pairs, most

@@ -3,7 +3,7 @@
 
 use std::cell::OnceCell;
 
-use super::outcome::{Errors, Existence, Solution, Status, Uniqueness};
+use super::outcome::{Errors, Existence, Remarks, Solution, Status, Uniqueness};
 use crate::certificate::{Certificate, is_escape_of, measure, measure_parts};
 use crate::law::Contact;
 use crate::linalg::vector::normalise;
@@ -166,6 +166,7 @@ pub fn certified(
         uniqueness: Uniqueness::NotKnown,
         second: None,
         existence: Existence::NotAsked,
+        remarks: Remarks::default(),
         errors: candidate.errors.filter(|_| status == Status::Solved),
         orientation: if status == Status::Solved { candidate.orientation } else { 0 },
         iterations: 0,
@@ -196,6 +197,10 @@ fn at_rest(contact: &Contact<'_>, settings: &Settings, other: &Candidate) -> Opt
 /// The sentence of a proof that no equilibrium exists.
 pub const NO_EQUILIBRIUM: &str =
     "no equilibrium exists: the loads drive a rigid motion that contact does not stop";
+
+/// What a host looks at then.
+pub const CAUSES: &str = "are a support, friction, or a pair missing, or is a normal, a load or the sign of gap \
+                          turned round?";
 
 impl Ending {
     /// Why there is no solution at this end.

@@ -16,7 +16,7 @@
 //! multipliers: M. R. Hestenes, J. Optim. Theory Appl. 4 (1969) 303-320).
 
 use super::auto;
-use super::candidate::NO_EQUILIBRIUM;
+use super::candidate::{CAUSES, NO_EQUILIBRIUM};
 use super::outcome::{Escape, Solution, Status};
 use super::rigid_balance::{rigid_motions, sharpened};
 use crate::error::{Error, index};
@@ -173,8 +173,8 @@ fn message(contact: &Contact<'_>, Escape { motion, unbalanced }: &Escape) -> Str
     let direction = contact.pairs()[pair].direction(component, motion[most]);
     format!(
         "{NO_EQUILIBRIUM}: it moves {moving} of {} pairs, most of all pair {}, {direction}; the resultant of \
-         the loads along it is {:.3e} (largest component 1), and contact leaves {:.3e} of it unbalanced; are \
-         a support, friction, or a pair missing, or is a normal, a load or the sign of gap turned round?",
+         the loads along it is {:.3e} (largest component 1), and contact leaves {:.3e} of it unbalanced; \
+         {CAUSES}",
         contact.pairs().len(),
         index(pair),
         dot(contact.shifted_load(), motion),

@@ -2,7 +2,7 @@
 //! What is called a solution is decided in `candidate`, by the certificate alone.
 //!
 //! ```text
-//! memory ← outcome ← candidate ← condense ← rigid_balance ← smallest_lift ← sweeps ← normal_map ← krylov ← active_set ← path ← lemke ← uniqueness ← dispatch ← auto ← escape_motion ← far_obstacles ← dependent ← flexibility ← existence ← mod
+//! memory ← outcome ← candidate ← condense ← rigid_balance ← smallest_lift ← remarks ← sweeps ← normal_map ← krylov ← active_set ← path ← lemke ← uniqueness ← dispatch ← auto ← escape_motion ← far_obstacles ← dependent ← flexibility ← existence ← mod
 //!                                                                                   └──── lcp ────────────────────────┘
 //! ```
 //!
@@ -26,6 +26,7 @@ mod memory;
 mod normal_map;
 mod outcome;
 mod path;
+mod remarks;
 mod rigid_balance;
 mod smallest_lift;
 mod sweeps;
@@ -38,7 +39,7 @@ use crate::monitor::Monitor;
 use crate::problem::{ContactProblem, DependentRows, FlexibilityProblem};
 use crate::settings::{Search, Settings};
 
-pub(crate) use candidate::NO_EQUILIBRIUM;
+pub(crate) use candidate::{CAUSES, NO_EQUILIBRIUM};
 use dispatch::check_method;
 pub(crate) use krylov::{
     Case as UnformedCase, certify as certify_unformed, memory as memory_unformed,
@@ -48,7 +49,7 @@ pub use lcp::{LcpSolution, solve_lcp};
 use memory::check_limit;
 pub use memory::{memory, memory_flexibility};
 pub use outcome::{
-    Errors, Escape, Existence, Fallback, SecondSolution, Solution, Status, Uniqueness,
+    Errors, Escape, Existence, Fallback, Remarks, SecondSolution, Solution, Status, Uniqueness,
 };
 
 /// Solves a contact problem whose rows depend on each other, as [`solve()`] does another one. Contact forces
@@ -65,6 +66,7 @@ pub(crate) fn solve_dependent(
     let n = problem.unknowns();
     check(settings, memory(n), ("d", n, start))?;
     let mut solution = dependent::solve(problem, settings, start, monitor)?;
+    solution.remarks = remarks::of_problem(problem);
     solution.iterations = monitor.iterations();
     Ok(solution)
 }
@@ -87,6 +89,7 @@ pub fn solve_flexibility(
     let n = problem.unknowns();
     check(settings, memory_flexibility(n), ("F", n, start))?;
     let mut solution = flexibility::solve(problem, settings, start, monitor)?;
+    solution.remarks = remarks::of_problem(problem);
     solution.iterations = monitor.iterations();
     Ok(solution)
 }
@@ -117,6 +120,8 @@ pub fn solve(
     if settings.proof {
         existence::examine(&contact, settings, &mut solution, monitor);
     }
+    solution.remarks = remarks::of_solution(&contact, &solution);
+    remarks::explain_stall(&contact, &mut solution);
     solution.iterations = monitor.iterations();
     Ok(solution)
 }

@@ -65,6 +65,18 @@ pub struct Errors {
     pub force: f64,
 }
 
+/// What is legal and often a mistake of the host. The result is right all the same.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Remarks {
+    /// Every finite gap is negative: interference everywhere, or the sign of gaps is turned round.
+    pub gaps_negative: bool,
+    /// A coefficient of friction is above 10: percent, or another array.
+    pub friction_large: bool,
+    /// Without friction: the bodies may move without any force and without closing a gap, so that `d` is one
+    /// of many. A support may be missing.
+    pub free_motion: bool,
+}
+
 /// Result of a contact problem.
 #[derive(Clone, Debug)]
 pub struct Solution {
@@ -100,6 +112,8 @@ pub struct Solution {
     /// Sign of the determinant of the system of equations that the states select, 0 if not known.
     /// Over all solutions of a problem with positive definite `K` it adds up to +1.
     pub orientation: i8,
+    /// What is legal and often a mistake.
+    pub remarks: Remarks,
     /// Sweeps, pivots or linear systems, of all methods that were tried.
     pub iterations: u64,
     /// Dense factorisations of Newton's method and of block pivoting; in full space sparse ones.

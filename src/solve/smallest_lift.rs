@@ -7,7 +7,7 @@
 
 use super::candidate::Candidate;
 use super::rigid_balance::rigid_motions;
-use crate::law::Contact;
+use crate::law::{Contact, State, touching};
 use crate::linalg::tolerances::{NEGLIGIBLE, ROUNDING_OF_SUM};
 use crate::linalg::vector::{dot, largest_of, norm, norm_inf};
 
@@ -47,6 +47,15 @@ pub fn without_idle_motion(contact: &Contact<'_>, candidate: Candidate) -> Candi
     candidate.moved_to(contact, d)
 }
 
+/// Whether a frictionless solution may move by some motion without internal force: one that does not move the
+/// pairs that touch along their normals, pressed or not.
+pub fn moves_freely(contact: &Contact<'_>, d: &[f64], states: &[State]) -> bool {
+    let problem = contact.problem();
+    let rigid = rigid_motions(problem, &problem.unit_roots());
+    let held = touching(contact, d, states).map(|pair| contact.dim() * pair);
+    !not_moving(held.collect(), rigid).is_empty()
+}
+
 /// Of rigid motions, each component times its `root`, an orthonormal basis of those that move no pair on
 /// which a force acts.
 fn idle(
@@ -58,8 +67,12 @@ fn idle(
     let dim = contact.dim();
     let parts = candidate.force.chunks_exact(dim).enumerate();
     let held = parts.filter(|(_, force)| norm_inf(force) > NEGLIGIBLE * forces);
-    let mut held: Vec<usize> = held.flat_map(|(pair, _)| dim * pair..dim * (pair + 1)).collect();
-    let mut basis = rigid;
+    let held = held.flat_map(|(pair, _)| dim * pair..dim * (pair + 1)).collect();
+    not_moving(held, rigid)
+}
+
+/// Of the motions with an orthonormal `basis`, one of those that do not move the `held` components.
+fn not_moving(mut held: Vec<usize>, mut basis: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
     // Each component that is held takes one motion away: the others are combined with it so that they do
     // not move it.
     while let Some((place, most)) = held

@@ -59,6 +59,9 @@ VALUE(SIGNORINI_FALLBACK_CYCLE, 1);
 VALUE(SIGNORINI_FALLBACK_SINGULAR, 2);
 VALUE(SIGNORINI_FALLBACK_UNSTABLE, 3);
 VALUE(SIGNORINI_FALLBACK_INACCURATE, 4);
+VALUE(SIGNORINI_REMARK_GAPS_NEGATIVE, 1);
+VALUE(SIGNORINI_REMARK_FRICTION_LARGE, 2);
+VALUE(SIGNORINI_REMARK_FREE_MOTION, 4);
 VALUE(SIGNORINI_TRIANGLE_LOWER, 0);
 VALUE(SIGNORINI_TRIANGLE_UPPER, 1);
 VALUE(SIGNORINI_TRIANGLE_FULL, 2);
@@ -124,7 +127,7 @@ FIELD(signorini_report, second, int32_t, 148);
 FIELD(signorini_report, error_d, double, 152);
 FIELD(signorini_report, error_F, double, 160);
 FIELD(signorini_report, proof, int32_t, 168);
-FIELD(signorini_report, reserved, int32_t, 172);
+FIELD(signorini_report, remarks, int32_t, 172);
 
 SIZE(signorini_sparse, 64);
 FIELD(signorini_sparse, struct_size, uint32_t, 0);
@@ -313,7 +316,7 @@ int main(void)
     CHECK(report.first_method == SIGNORINI_METHOD_SOR_NESTED);
     CHECK(report.fallback == SIGNORINI_FALLBACK_NONE);
     CHECK(report.uniqueness == SIGNORINI_UNIQUENESS_NOT_KNOWN && report.orientation == 0);
-    CHECK(report.proof == SIGNORINI_PROOF_NOT_ASKED && report.reserved == 0);
+    CHECK(report.proof == SIGNORINI_PROOF_NOT_ASKED && report.remarks == 0);
     CHECK(report.error_d >= -1 && report.error_d < 1e-12 && report.error_F < 1e-12);
 
     /* The same with a proof, by settings and extra of this size, and by a report of the size before. */

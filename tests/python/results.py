@@ -160,7 +160,7 @@ class Models(unittest.TestCase):
             one = model.recover(d[c], loads[c])
             np.testing.assert_allclose(u[c], one, atol=1e-12 * abs(one).max())
         np.testing.assert_array_equal(model.recover_cases(d.reshape(40, -1), loads), u)
-        self.assertEqual(model.recover_cases(np.zeros((2, model.pairs, 2))).shape,
+        self.assertEqual(model.recover_cases(np.zeros((2, model.pairs, 2)), None).shape,
                          (2, model.host_size))
         d[33, 1, 0] = np.nan
         with self.assertRaisesRegex(signorini.SignoriniError, r"case 33: d\[2\] is not finite"):

@@ -106,7 +106,7 @@ class Refused(unittest.TestCase):
             self.refused(ValueError, ["f has the shape", *hint], model[dim].solve,
                          np.ones((pairs, other)), 0.0)
             self.refused(ValueError, ["d has the shape", *hint], model[dim].recover,
-                         np.ones((pairs, other)))
+                         np.ones((pairs, other)), None)
             self.refused(ValueError, ["friction has the shape", *hint], solve, IDENTITY, flat, 0.0,
                          dim=dim, law="cohesive", friction=np.ones((pairs, 3)))
 
@@ -118,7 +118,7 @@ class Refused(unittest.TestCase):
             (["gap is None", "each of the 2 pairs"], lambda: signorini.solve(K, LOAD, None)),
             (["d is None", "shape (4,)"], lambda: signorini.certify(K, LOAD, 0.0, d=None)),
             ("f is None", lambda: model.solve(None, 0.0)),
-            (["d is None", "shape (4,)"], lambda: model.recover(None)),
+            (["d is None", "shape (4,)"], lambda: model.recover(None, None)),
             (["q is None", "each row of M"], lambda: signorini.lcp_solve(np.eye(2), None)),
             ("slaves is None", lambda: signorini.Model.sparse(SPRINGS, None, [0, -1])),
             ("normals is None", lambda: signorini.Model.sparse(SPRINGS, [[0, 1]], None)),
@@ -214,7 +214,7 @@ class Refused(unittest.TestCase):
              lambda: solve(load, 0.0, prescribed=np.zeros(3))),
             (["F has the shape (3,)", "shape (4,) or (2, 2)"],
              lambda: model.nodal_forces(np.zeros(3))),
-            (["d has the shape (6,)", "shape (4,) or (2, 2)"], lambda: model.recover(load)),
+            (["d has the shape (6,)", "shape (4,) or (2, 2)"], lambda: model.recover(load, load)),
             (["d has the shape (6,)"], lambda: model.certify(load, 0.0, d=load)),
             (["f has the shape (4,)", "shape (6,)"], lambda: model.condensed_load(np.ones(4))),
         ):

@@ -1,6 +1,6 @@
 """The constants of signorini.h, one family each."""
 
-from enum import IntEnum
+from enum import IntEnum, IntFlag
 
 ABI_VERSION = 2  # of the signorini.h that this package is written for
 
@@ -79,6 +79,20 @@ class Fallback(IntEnum):
     SINGULAR = 2
     UNSTABLE = 3
     INACCURATE = 4
+
+
+class Remark(IntFlag):
+    """What is legal and often a mistake.
+
+    GAPS_NEGATIVE: every finite gap is negative: interference everywhere, or the sign is turned round.
+    FRICTION_LARGE: a coefficient of friction is above 10: percent, or another array.
+    FREE_MOTION: without friction the bodies may move without any force, d is one of many; a support
+    may be missing.
+    """
+
+    GAPS_NEGATIVE = 1
+    FRICTION_LARGE = 2
+    FREE_MOTION = 4
 
 
 class Proof(IntEnum):

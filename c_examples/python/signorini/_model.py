@@ -21,6 +21,7 @@ from ._surfaces import SurfacePairs
 from ._text import path_bytes, remark_bytes
 
 _UNTOUCHED = np.iinfo(np.int32).min
+_LOADS_OF_THE_CASE = object()  # what recover is given where its caller forgot f
 
 
 class _Case(namedtuple("_Case", "f prescribed gap law friction slip0")):
@@ -36,6 +37,14 @@ class _Case(namedtuple("_Case", "f prescribed gap law friction slip0")):
         """One of several cases."""
         return _Case(*[value if name == "law" or value is None else value[case]
                        for name, value in zip(self._fields, self)])
+
+
+def _given(f):
+    """The loads that a caller gave; None is none."""
+    if f is _LOADS_OF_THE_CASE:
+        raise TypeError("f is missing: give the loads with which d was solved, or None for "
+                        "displacements without loads, such as result.escape")
+    return f
 
 
 class Model:
@@ -244,21 +253,25 @@ class Model:
         case = self._case(f, gap, Friction(mu, g, law, friction), slip0, prescribed)
         self._do("model_write", path_bytes(path), *case.arguments(), remark_bytes(remark))
 
-    def recover(self, d, f=None, prescribed=None):
-        """Displacements of the host, H, of one case: from its d, N, its loads and its supports."""
-        f, prescribed = self._loads(f, prescribed, optional=True)
+    def recover(self, d, f=_LOADS_OF_THE_CASE, prescribed=None):
+        """Displacements of the host, H, of one case: from its d, N, its loads f and its supports.
+
+        f is that of the case; None for displacements without loads, such as result.escape.
+        """
+        f, prescribed = self._loads(_given(f), prescribed, optional=True)
         d = components("d", d, self.pairs, self.dim)
         u = np.zeros(self.host_size)
         self._do("model_recover", at(f), at(prescribed), at(d), at(u))
         return u
 
-    def recover_cases(self, d, f=None, prescribed=None):
+    def recover_cases(self, d, f=_LOADS_OF_THE_CASE, prescribed=None):
         """Displacements of the host of many cases at once, (C, H): from d of (C, P, D) or (C, N).
 
-        f and prescribed may have a leading axis of C, or be the same for all cases.
+        f and prescribed may have a leading axis of C, or be the same for all cases. f may be None, as in
+        recover.
         """
         cases = len(d)
-        f, prescribed = self._loads(f, prescribed, cases, optional=True)
+        f, prescribed = self._loads(_given(f), prescribed, cases, optional=True)
         d = components("d", d, self.pairs, self.dim, cases=cases)
         u = np.zeros((cases, self.host_size))
         self._do("model_recover_cases", cases, at(f), at(prescribed), at(d), at(u))

@@ -30,7 +30,7 @@ class Result(_Fields):
     d: relative displacements, (P, D); length.  F: contact forces, (P, D); force.  state: of each pair
     (State), (P,).  Unless status is SOLVED these are the best or last iterate.
     status: a Status.  message: the same in words.
-    report: the fields of signorini_report, with members of Method, Uniqueness and Fallback.
+    report: the fields of signorini_report, with members of Method, Uniqueness, Fallback and Remark.
     motion: with status NO_EQUILIBRIUM a motion that proves it, (P, D), largest component 1; else None.
     second: a second solution, a Result whose report is measured as certify does, or None. What
     uniqueness proves needs no second solution; ask for one by search="others".

@@ -3,7 +3,7 @@
 import ctypes
 from types import SimpleNamespace
 
-from ._constants import Fallback, Method, Proof, Status, Uniqueness, member
+from ._constants import Fallback, Method, Proof, Remark, Status, Uniqueness, member
 
 i32, i64, u32 = ctypes.c_int32, ctypes.c_int64, ctypes.c_uint32
 real, address = ctypes.c_double, ctypes.c_void_p
@@ -44,7 +44,7 @@ class Report(ctypes.Structure):
         ("equilibrium", real), ("omega", real), ("damping", real), ("pairs_open", i64),
         ("pairs_slipping", i64), ("pairs_sticking", i64), ("factorisations", i64),
         ("first_method", i32), ("fallback", i32), ("orientation", i32), ("second", i32),
-        ("error_d", real), ("error_F", real), ("proof", i32), ("reserved", i32),
+        ("error_d", real), ("error_F", real), ("proof", i32), ("remarks", i32),
     ]
 
     families = {"status": Status, "method": Method, "first_method": Method,
@@ -53,9 +53,10 @@ class Report(ctypes.Structure):
     def plain(self):
         """The fields with members of their families. What `second` tells, Result.second is."""
         values = {name: getattr(self, name) for name, _ in self._fields_}
-        del values["struct_size"], values["second"], values["reserved"]
+        del values["struct_size"], values["second"]
         for name, family in self.families.items():
             values[name] = member(family, values[name])
+        values["remarks"] = Remark(values["remarks"])
         return SimpleNamespace(**values)
 
 

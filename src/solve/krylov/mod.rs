@@ -10,6 +10,7 @@ mod thresholds;
 
 use super::candidate::Ending;
 use super::outcome::{Existence, Solution, Status, Uniqueness};
+use super::remarks::of_problem;
 use crate::certificate::{Certificate, measure_spread};
 use crate::error::{Argument, Error};
 use crate::law::{Contact, gaps_within_reach};
@@ -269,6 +270,7 @@ fn certified(
         uniqueness: Uniqueness::NotKnown,
         second: None,
         existence: Existence::NotAsked,
+        remarks: of_problem(contact.problem()),
         errors: None,
         orientation: 0,
         iterations: systems,

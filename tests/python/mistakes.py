@@ -1,0 +1,116 @@
+"""Mistakes that users make, and what the Python package says: a table, and whether it names them.
+
+    python3 tests/python/mistakes.py
+"""
+
+import unittest
+
+import numpy as np
+
+from common import LOAD, K
+
+import signorini
+from signorini import Model, Remark, solve
+
+# Three nodes in the plane, each degree of freedom on a spring; the first two are slaves on y = 0.
+SPRINGS = np.ones(6), np.arange(6), np.arange(7)
+SLAVES, DOWN = np.arange(4).reshape(2, 2), [0, -1]
+PRESS = np.array([0, -1, 0, -1, 0, 0.0])
+# A square of two rows of nodes, and one above it whose nodes match.
+SQUARE = np.array([[x, y] for y in (0, 1, 1, 2) for x in (0, 1)], float)
+
+
+class Scipy:
+    """What a scipy sparse matrix is known by."""
+
+    shape = (4, 4)
+    tocsc = None
+
+
+def model(**keywords):
+    return Model.sparse(SPRINGS, SLAVES, DOWN, **keywords)
+
+
+def loads(*shape):
+    return np.ones(shape)
+
+
+# Mistake, error, words of its sentence, what a user has written.
+REFUSED = (
+    ("dim forgotten: f (4, 3), dim 2", ValueError, ["f has the shape (4, 3)", "dim=3"],
+     lambda: solve(np.eye(12), loads(4, 3), 0, 0.3, dim=2)),
+    ("f of (dim, pairs)", ValueError, ["f has the shape (2, 6)", "transpose"],
+     lambda: solve(np.eye(12), loads(2, 6), 0, 0.3)),
+    ("f of the free dofs only", ValueError, ["f has the shape (6,)", "shape (12,)"],
+     lambda: solve(np.eye(12), loads(6), 0, 0.3)),
+    ("gap for each component", ValueError, ["gap has the shape (4,)", "each of the 2 pairs"],
+     lambda: solve(K, LOAD, np.zeros(4))),
+    ("a scipy matrix to solve", TypeError, ["K is a scipy sparse matrix", "Model.sparse"],
+     lambda: solve(Scipy(), LOAD, 0)),
+    ("a dense matrix to Model.sparse", TypeError, ["K is an array", "Model.condensed"],
+     lambda: Model.sparse(np.eye(6), SLAVES, DOWN)),
+    ("slaves are node numbers", ValueError, ["slaves has the shape (2,)", "dof numbers"],
+     lambda: Model.sparse(SPRINGS, [0, 1], DOWN)),
+    ("fixed is a mask", TypeError, ["fixed holds bool", "flatnonzero"],
+     lambda: model(fixed=[False] * 5 + [True])),
+    ("masters without weights", ValueError, ["weights is None", "pair 0 has 2 masters"],
+     lambda: Model.sparse(SPRINGS, [[0, 1]], DOWN, masters=[[[2, 3], [4, 5]]])),
+    ("recover without f", TypeError, ["f is missing", "with which d was solved"],
+     lambda: model().recover(np.zeros((2, 2)))),
+    ("recover of many cases without f", TypeError, ["f is missing"],
+     lambda: model().recover_cases(np.zeros((3, 2, 2)))),
+    ("one triangle to solve", ValueError, ["only its lower triangle", "K + K.T"],
+     lambda: solve(np.tril(K), LOAD, 0)),
+    ("triangle not told", signorini.SignoriniError, ["K is not symmetric"],
+     lambda: Model.sparse((np.ones(3), [0, 1, 1], [0, 2, 3]), [[0, 1]], DOWN, triangle="full")),
+    ("tol", TypeError, ["tol is not a setting", "tolerance"],
+     lambda: solve(K, LOAD, 0, tol=1e-9)),
+    ("a slave fixed along all axes", signorini.SignoriniError, ["leave the pair out"],
+     lambda: Model.sparse(SPRINGS, SLAVES, [1, -1], fixed=[0, 1])),
+    ("an unused dof", signorini.SignoriniError, ["nothing resists degree of freedom 5", "fixed"],
+     lambda: Model.sparse((np.ones(5), np.arange(5), [0, 1, 2, 3, 4, 5, 5]), SLAVES, DOWN)),
+    ("coordinates transposed", ValueError, ["coordinates has the shape", "shape (nodes, dim)"],
+     lambda: signorini.pair_surfaces(loads(3, 8), [[2, 3]], [[1, 0]])),
+    ("one face listed twice", signorini.SignoriniError, ["slave face 1 and face 0 disagree"],
+     lambda: signorini.pair_surfaces(SQUARE, [[4, 5], [4, 5]], [[3, 2]])),
+    ("a face upon another one", signorini.SignoriniError, ["slave face 1 lies upon face 0"],
+     lambda: signorini.pair_surfaces(np.vstack([SQUARE, SQUARE[4:6]]), [[4, 5], [8, 9]],
+                                     [[3, 2]])),
+    ("a node on both sides", signorini.SignoriniError, ["node 3", "on the slave side too"],
+     lambda: signorini.pair_surfaces(SQUARE, [[2, 3]], [[3, 2]])),
+)
+
+# Mistake, the remark, what a user has written: right in itself.
+REMARKED = (
+    ("right", Remark(0), lambda: solve(K, LOAD, 0, 0.3)),
+    ("gap of the wrong sign", Remark.GAPS_NEGATIVE, lambda: solve(K, LOAD, -0.1, 0.3)),
+    ("mu in percent", Remark.FRICTION_LARGE, lambda: solve(K, LOAD, 0, 30)),
+    ("both", Remark.GAPS_NEGATIVE | Remark.FRICTION_LARGE, lambda: solve(K, LOAD, -0.1, 30)),
+    ("nothing holds it along the plane", Remark.FREE_MOTION,
+     lambda: solve(np.diag([1.0, 0.0]), [1.0, 0.0], 0)),
+    ("a model of which nothing is wrong", Remark(0), lambda: model().solve(PRESS, 0)),
+)
+
+
+class Mistakes(unittest.TestCase):
+    def test_refused(self):
+        for mistake, kind, words, call in REFUSED:
+            with self.subTest(mistake), self.assertRaises(kind) as caught:
+                call()
+            sentence = str(caught.exception)
+            print(f"| {mistake} | Python | {kind.__name__} | {sentence} |")
+            for word in words:
+                self.assertIn(word, sentence)
+
+    def test_remarked(self):
+        for mistake, remark, call in REMARKED:
+            with self.subTest(mistake):
+                result = call()
+                self.assertEqual(result.status, signorini.Status.SOLVED)
+                self.assertEqual(result.report.remarks, remark)
+            print(f"| {mistake} | Python | {result.status.name} | {result.report.remarks!r} |")
+
+
+if __name__ == "__main__":
+    print("| mistake | interface | status | sentence |\n|---|---|---|---|")
+    unittest.main()
