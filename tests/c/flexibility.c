@@ -108,6 +108,21 @@ static void refusals(void)
                      cases[i].status);
         CHECK_TEXT(signorini_last_error(), cases[i].said);
     }
+    const double wrong_slip[2] = {0, NAN};
+    signorini_settings settings;
+    CHECK_STATUS(signorini_flexibility_solve(2, 2, corner, 4, q, NULL, 1, half, wrong_slip, NULL, d, F,
+                                             NULL, NULL, NULL), -9);
+    CHECK_TEXT(signorini_last_error(), "slip0[1]");
+    CHECK_STATUS(signorini_settings_default(&settings, sizeof settings), 0);
+    settings.warm_start = 1;
+    F[2] = NAN;
+    CHECK_STATUS(signorini_flexibility_solve(2, 2, corner, 4, q, NULL, 1, half, NULL, &settings, d, F,
+                                             NULL, NULL, NULL), -12);
+    CHECK_TEXT(signorini_last_error(), "F[2] is not finite");
+    settings.warm_start = 0;
+    settings.tolerance = -1;
+    CHECK_STATUS(signorini_flexibility_solve(2, 2, corner, 4, q, NULL, 1, half, NULL, &settings, d, F,
+                                             NULL, NULL, NULL), -10);
 }
 
 int main(void)
