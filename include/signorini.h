@@ -540,7 +540,9 @@ int32_t signorini_model_stiffness(const signorini_model *model, double *K);
  * Solves load cases, one after the other. Every array has a column for each case, without space
  * between the columns. All cases have the same law. A case that is wrong or not solved does not
  * stop the others; the d, F, state, report and extra of a wrong case are not written. Many cases
- * of a sparse model in one call cost less than one by one: their loads are condensed together.
+ * in one call cost less than one by one: loads of sparse models are condensed together, and with
+ * friction in 3D the elimination of pairs that stay open serves the next cases. The last digits of
+ * a result depend on the cases before it in the call. A case alone depends on itself only.
  *
  * Load steps with friction: in each step hand over as slip0 the d_t of the step before, zero at
  * first. The model keeps no state.

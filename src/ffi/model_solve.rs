@@ -9,10 +9,11 @@ use super::report::{Reports, SignoriniReport, state_codes};
 use super::settings::{Received, SignoriniSettings, WarmStart};
 use super::status::{code, remember};
 use crate::error::{Argument, Error, Message};
-use crate::model::{BLOCK, LoadCase, Model, Starts};
+use crate::linalg::elimination::Remembered;
+use crate::model::{BLOCK, LoadCase, Model, Series, Starts};
 use crate::monitor::ProgressFn;
 use crate::problem::FrictionLaw;
-use crate::solve::{Solution, Status};
+use crate::solve::Solution;
 
 const SETTINGS: i32 = 9;
 const START: i32 = 10;
@@ -20,7 +21,9 @@ const START: i32 = 10;
 /// Solves load cases, one after the other. Every array has a column for each case, without space
 /// between the columns. All cases have the same law. A case that is wrong or not solved does not
 /// stop the others; the d, F, state, report and extra of a wrong case are not written. Many cases
-/// of a sparse model in one call cost less than one by one: their loads are condensed together.
+/// in one call cost less than one by one: loads of sparse models are condensed together, and with
+/// friction in 3D the elimination of pairs that stay open serves the next cases. The last digits of
+/// a result depend on the cases before it in the call. A case alone depends on itself only.
 ///
 /// Load steps with friction: in each step hand over as slip0 the d_t of the step before, zero at
 /// first. The model keeps no state.
@@ -203,10 +206,12 @@ impl Block<'_> {
     /// Solves all cases and writes their results. Returns the status of the first one that is not solved, and
     /// remembers its message.
     fn solve_all(&self, cases: usize, received: &Received, status: &Output<i32>) -> i32 {
-        let (mut first, mut before) = (None, None);
+        let mut first = None;
+        // One case stands alone.
+        let mut series = Series::new(self.model, (cases > 1).then(Remembered::default));
         for begin in (0..cases).step_by(BLOCK) {
             let many = BLOCK.min(cases - begin);
-            let answers = self.solve(begin, many, received, &mut before);
+            let answers = self.solve(begin, many, received, &mut series);
             for (case, (code, message)) in (begin..).zip(answers) {
                 // SAFETY: one status for each case, as the header demands.
                 unsafe { status.part(case, 1).write(&[code]) };
@@ -221,13 +226,13 @@ impl Block<'_> {
     }
 
     /// Solves cases from number `begin` on and writes their results, unless they are wrong. Returns status and
-    /// message of each one. `before` is the solution before them, and then the last of them.
+    /// message of each one.
     fn solve(
         &self,
         begin: usize,
         many: usize,
         received: &Received,
-        before: &mut Option<Vec<f64>>,
+        series: &mut Series<'_>,
     ) -> Vec<(i32, Message)> {
         let n = self.model.dim() * self.model.pairs();
         let cases: Vec<_> = (begin..begin + many).map(|k| self.load_cases.case(k)).collect();
@@ -239,15 +244,11 @@ impl Block<'_> {
                 given = unsafe { self.d.part(n * begin, n * many).read() };
                 Starts::Given(&given)
             }
-            WarmStart::Previous => Starts::Previous(before.as_deref()),
+            WarmStart::Previous => Starts::Previous(None),
         };
         let mut progress = received.progress();
         let progress = progress.as_mut().map(|progress| progress as &mut ProgressFn<'_>);
-        let solved = self.model.solve_cases(&cases, &received.settings, starts, progress);
-        let last = solved.iter().rev().flatten().find(|found| found.status == Status::Solved);
-        if let Some(last) = last {
-            *before = Some(last.d.clone());
-        }
+        let solved = series.solve_cases(&cases, &received.settings, starts, progress);
         (begin..).zip(solved).map(|(case, solved)| self.write(case, solved)).collect()
     }
 

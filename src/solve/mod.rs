@@ -106,6 +106,9 @@ pub fn solve(
 ) -> Result<Solution, Error> {
     settings.validate()?;
     check_limit(problem.unknowns(), settings)?;
+    // Further questions take the memory that would be kept.
+    let more = settings.search == Search::Others || settings.proof;
+    let problem = &problem.remembering(problem.remembered().filter(|_| !more));
     let contact = Contact::new(problem);
     check_method(&contact, settings.method)?;
     check_start("d", contact.unknowns(), start)?;
