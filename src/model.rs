@@ -11,7 +11,7 @@ mod unformed;
 use std::path::Path;
 
 use arguments::{check_fixed_gaps, check_length, check_vector};
-pub(crate) use cases::BLOCK;
+pub(crate) use cases::{BLOCK, Past};
 pub use cases::{Series, Starts};
 pub use load_case::LoadCase;
 

@@ -211,3 +211,21 @@ fn bits(solution: &Solution) -> Vec<u64> {
     let force = &solution.certificate.force;
     solution.d.iter().chain(force).map(|number| number.to_bits()).collect()
 }
+
+/// What the model keeps of a load case by itself changes nothing: displacements are those of a model that has
+/// solved nothing, whatever was condensed last.
+#[test]
+fn recovery_does_not_depend_on_what_was_solved_before() {
+    let [block, fresh] = [0, 1].map(|_| Block::new(Support::Clamped));
+    let laws = Laws::new(block.model.pairs());
+    let cases = block.cases(FrictionLaw::Coulomb(&laws.coulomb));
+    let recovered = |model: &Model, k: usize, d: &[f64]| -> Vec<u64> {
+        let u = model.recover(Some(cases[k].load), cases[k].prescribed, d).unwrap();
+        u.into_iter().map(f64::to_bits).collect()
+    };
+    for [solved, asked] in [[0, 0], [1, 1], [2, 1], [3, 2], [20, 20]] {
+        let found = block.alone(&cases[solved], &settings());
+        let [one, other] = [&block.model, &fresh.model].map(|m| recovered(m, asked, &found.d));
+        assert_eq!(one, other, "{solved} solved, {asked} recovered");
+    }
+}

@@ -4,15 +4,15 @@ use super::args::{Arrays, Output, size};
 use super::extra::{Extra, SignoriniExtra};
 use super::guard::{self, Failure};
 use super::law;
-use super::model_new::{SignoriniModel, read};
+use super::model::{SignoriniModel, read_handle};
 use super::report::{Reports, SignoriniReport, state_codes};
 use super::settings::{Received, SignoriniSettings, WarmStart};
 use super::status::{code, remember};
 use crate::error::{Argument, Error, Message};
-use crate::linalg::elimination::Remembered;
-use crate::model::{BLOCK, LoadCase, Model, Series, Starts};
+use crate::model::{BLOCK, LoadCase, Model, Past, Series, Starts};
 use crate::monitor::ProgressFn;
 use crate::problem::FrictionLaw;
+use crate::shortage;
 use crate::solve::Solution;
 
 const SETTINGS: i32 = 9;
@@ -26,7 +26,7 @@ const START: i32 = 10;
 /// a result depend on the cases before it in the call. A case alone depends on itself only.
 ///
 /// Load steps with friction: in each step hand over as slip0 the d_t of the step before, zero at
-/// first. The model keeps no state.
+/// first. The model keeps no state, but with SIGNORINI_START_PREVIOUS.
 ///
 /// @param model       the model
 /// @param cases       number of load cases, 0 allowed
@@ -71,7 +71,8 @@ pub unsafe extern "C" fn signorini_model_solve(
     guard::call(|| {
         let mut arrays = Arrays::default();
         // SAFETY: a model as the header demands.
-        let model = unsafe { read(model)? };
+        let handle = unsafe { read_handle(model)? };
+        let model = handle.model();
         let cases = size(2, "cases", cases)?;
         // SAFETY: arrays of the lengths of the header, structures that begin with their size.
         let (load_cases, received) = unsafe {
@@ -93,7 +94,13 @@ pub unsafe extern "C" fn signorini_model_solve(
         };
         arrays.check_overlap()?;
         let block = Block { model, given: &given, load_cases, d, force, state, reports, extra };
-        Ok(block.solve_all(cases, &received, &status))
+        let past = handle.replace_past(None);
+        let (answer, past) = block.solve_all(cases, past, &received, &status);
+        // Nothing that lives on may stand in the reserve of the call.
+        if !shortage::is_noted() {
+            handle.replace_past(past);
+        }
+        Ok(answer)
     })
 }
 
@@ -204,11 +211,20 @@ struct Block<'a> {
 
 impl Block<'_> {
     /// Solves all cases and writes their results. Returns the status of the first one that is not solved, and
-    /// remembers its message.
-    fn solve_all(&self, cases: usize, received: &Received, status: &Output<i32>) -> i32 {
+    /// remembers its message; and what is left for further calls. `past` is what earlier ones have left.
+    fn solve_all(
+        &self,
+        cases: usize,
+        past: Option<Past>,
+        received: &Received,
+        status: &Output<i32>,
+    ) -> (i32, Option<Past>) {
         let mut first = None;
-        // One case stands alone.
-        let mut series = Series::new(self.model, (cases > 1).then(Remembered::default));
+        let goes_on = received.warm_start == WarmStart::Previous;
+        let mut series = match goes_on {
+            true => Series::after(self.model, past.unwrap_or_else(Past::of_none)),
+            false => Series::of(self.model, cases),
+        };
         for begin in (0..cases).step_by(BLOCK) {
             let many = BLOCK.min(cases - begin);
             let answers = self.solve(begin, many, received, &mut series);
@@ -222,7 +238,7 @@ impl Block<'_> {
                 }
             }
         }
-        first.unwrap_or(0)
+        (first.unwrap_or(0), goes_on.then(|| series.into_past()))
     }
 
     /// Solves cases from number `begin` on and writes their results, unless they are wrong. Returns status and

@@ -30,15 +30,39 @@ pub enum Starts<'a> {
 /// and so may the choice among several solutions; the same cases in the same order give the same bits.
 pub struct Series<'m> {
     model: &'m Model,
+    past: Past,
+}
+
+/// What the cases of a series have left for the next ones.
+#[derive(Default)]
+pub(crate) struct Past {
+    /// Of the stiffness; `None`: nothing is worked out for others.
     remembered: Option<Remembered>,
     /// The last solution.
     before: Option<Vec<f64>>,
 }
 
+impl Past {
+    /// Of a series that begins.
+    pub(crate) fn of_none() -> Self {
+        Past { remembered: Some(Remembered::default()), before: None }
+    }
+}
+
 impl<'m> Series<'m> {
-    /// A series; `None`: each case stands alone.
-    pub(crate) fn new(model: &'m Model, remembered: Option<Remembered>) -> Self {
-        Series { model, remembered, before: None }
+    /// A series that goes on after `past`.
+    pub(crate) fn after(model: &'m Model, past: Past) -> Self {
+        Series { model, past }
+    }
+
+    /// A series of so many cases; one stands alone.
+    pub(crate) fn of(model: &'m Model, cases: usize) -> Self {
+        Self::after(model, if cases > 1 { Past::of_none() } else { Past::default() })
+    }
+
+    /// What is left for further cases.
+    pub(crate) fn into_past(self) -> Past {
+        self.past
     }
 
     /// Solves the next load cases, each with budgets of its own. Their loads are condensed in blocks of 32, so that
@@ -62,19 +86,19 @@ impl<'m> Series<'m> {
                     Starts::Cold => None,
                     // A start that is missing has a wrong length, which is told.
                     Starts::Given(all) => Some(all.get(n * k..n * (k + 1)).unwrap_or_default()),
-                    Starts::Previous(first) => self.before.as_deref().or(first),
+                    Starts::Previous(first) => self.past.before.as_deref().or(first),
                 };
                 let mut told = progress.as_mut().map(|tell| |now: &Progress| tell(now));
                 let told = told.as_mut().map(|tell| tell as &mut ProgressFn<'_>);
                 let monitor = &mut Monitor::new(settings, told);
                 let solution = load.and_then(|load| {
-                    let remembered = self.remembered.as_ref();
+                    let remembered = self.past.remembered.as_ref();
                     self.model.solve_condensed((case, load), remembered, (settings, start), monitor)
                 });
                 if let Ok(found) = &solution
                     && found.status == Status::Solved
                 {
-                    self.before = Some(found.d.clone());
+                    self.past.before = Some(found.d.clone());
                 }
                 solved.push(solution);
             }
@@ -86,7 +110,7 @@ impl<'m> Series<'m> {
 impl Model {
     /// The beginning of a series of load cases.
     pub fn series(&self) -> Series<'_> {
-        Series::new(self, Some(Remembered::default()))
+        Series::after(self, Past::of_none())
     }
 
     /// Solves load cases as a [`Series`]. One case stands alone.
@@ -100,8 +124,7 @@ impl Model {
         starts: Starts<'_>,
         progress: Option<&mut ProgressFn<'_>>,
     ) -> Vec<Result<Solution, Error>> {
-        let remembered = (cases.len() > 1).then(Remembered::default);
-        Series::new(self, remembered).solve_cases(cases, settings, starts, progress)
+        Series::of(self, cases.len()).solve_cases(cases, settings, starts, progress)
     }
 
     /// Displacements of the host of several load cases, each as by [`Self::recover`], in blocks of 32.
