@@ -357,7 +357,8 @@ struct signorini_pairs {
 /**
  * A structure that is reduced to its contact pairs: what all load cases share. Made by
  * signorini_model_new_..., released by signorini_model_free. It does not change: several threads
- * may use one at once. It holds copies: your arrays may go once the model is made.
+ * may use one at once (but see SIGNORINI_START_PREVIOUS). It holds copies: your arrays may go once
+ * the model is made.
  */
 typedef struct signorini_model signorini_model;
 
@@ -541,10 +542,12 @@ int32_t signorini_model_stiffness(const signorini_model *model, double *K);
  * Solves load cases, one after the other. Every array has a column for each case, without space
  * between the columns. All cases have the same law. A case that is wrong or not solved does not
  * stop the others; the d, F, state, report and extra of a wrong case are not written. Many cases
- * of a sparse model in one call cost less than one by one: their loads are condensed together.
+ * in one call cost less than one by one: loads of sparse models are condensed together, and with
+ * friction in 3D the elimination of pairs that stay open serves the next cases. The last digits of
+ * a result depend on the cases before it in the call. A case alone depends on itself only.
  *
  * Load steps with friction: in each step hand over as slip0 the d_t of the step before, zero at
- * first. The model keeps no state.
+ * first. The model keeps no state, but with SIGNORINI_START_PREVIOUS.
  *
  * @param model       the model
  * @param cases       number of load cases, 0 allowed
@@ -1286,7 +1289,13 @@ const char *signorini_problem_remark(const signorini_problem *problem);
 
 /**
  * settings.warm_start of signorini_model_solve: each case starts from the solution of the last case
- * before that was solved, the first one as with 0; d needs no start. Other calls have one case.
+ * before that was solved, in this call and in those before it on the model with this setting; the
+ * first one as with 0; d needs no start. With friction in 3D the cases share the elimination of
+ * pairs that stay open, so that load steps, too, cost less one by one: the model keeps 8 N N bytes
+ * at most, until it is released or a call of signorini_model_solve has another start. The last
+ * digits of a result depend on these calls, and where there are several solutions which one it is:
+ * the same calls in the same order give the same bits. Leave it to one thread of those that share a
+ * model. Other calls have one case.
  */
 #define SIGNORINI_START_PREVIOUS 2
 /** Report only what the solution itself proves about other solutions. The default. */

@@ -127,7 +127,7 @@ pub mod surface;
 
 pub use error::{Argument, Error, Limit, Message};
 pub use law::State;
-pub use model::{LoadCase, Model, Starts};
+pub use model::{LoadCase, Model, Series, Starts};
 pub use monitor::{Monitor, Progress, ProgressFn, Stop};
 pub use problem::{
     ContactData, ContactProblem, Dependence, Flexibility, FlexibilityData, FlexibilityProblem,

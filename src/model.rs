@@ -11,13 +11,14 @@ mod unformed;
 use std::path::Path;
 
 use arguments::{check_fixed_gaps, check_length, check_vector};
-pub(crate) use cases::BLOCK;
-pub use cases::Starts;
+pub(crate) use cases::{BLOCK, Past};
+pub use cases::{Series, Starts};
 pub use load_case::LoadCase;
 
 use crate::certificate::{Certificate, certify};
 use crate::error::{Argument, Error};
 use crate::file;
+use crate::linalg::elimination::Remembered;
 use crate::linalg::matrix::Matrix;
 use crate::monitor::Monitor;
 use crate::problem::{
@@ -209,14 +210,15 @@ impl Model {
         start: Option<&[f64]>,
         monitor: &mut Monitor<'_>,
     ) -> Result<Solution, Error> {
-        self.solve_condensed(case, None, (settings, start), monitor)
+        self.solve_condensed((case, None), None, (settings, start), monitor)
     }
 
-    /// As [`Self::solve`]; `load` is what the loads condense to, if that is known.
+    /// As [`Self::solve`]; `load` is what the loads condense to, if that is known, and `remembered` what cases
+    /// before have left.
     fn solve_condensed(
         &self,
-        case: &LoadCase<'_>,
-        load: Option<Vec<f64>>,
+        (case, load): (&LoadCase<'_>, Option<Vec<f64>>),
+        remembered: Option<&Remembered>,
         (settings, start): (&Settings, Option<&[f64]>),
         monitor: &mut Monitor<'_>,
     ) -> Result<Solution, Error> {
@@ -235,7 +237,7 @@ impl Model {
             });
         }
         self.reduced((case, load), |problem| {
-            let solution = solve(problem, settings, start, monitor)?;
+            let solution = solve(&problem.remembering(remembered), settings, start, monitor)?;
             Ok(self.with_motion(solution, problem.load()))
         })
     }

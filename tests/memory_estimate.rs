@@ -13,9 +13,9 @@ use fastrand::Rng;
 use signorini::certificate::{certify, prove};
 use signorini::reduce;
 use signorini::{
-    ContactData, ContactProblem, FlexibilityData, FlexibilityProblem, FrictionLaw, Lcp, Method,
-    Model, Monitor, Search, Settings, memory, memory_flexibility, solve, solve_flexibility,
-    solve_lcp,
+    ContactData, ContactProblem, FlexibilityData, FlexibilityProblem, FrictionLaw, Lcp, LoadCase,
+    Method, Model, Monitor, Search, Settings, Starts, memory, memory_flexibility, solve,
+    solve_flexibility, solve_lcp,
 };
 
 /// Most that the estimate may be of what is held, where the problem is large enough that matrices decide and
@@ -187,6 +187,7 @@ fn others(chain: &Chain, shares: &mut Shares) {
     }
     let (peak, _) = counted::peak(|| Model::condensed(chain.dim, chain.pairs, &chain.k, n).is_ok());
     shares.note("condensed model", n, peak, reduce::memory(n));
+    series(chain, shares);
     let both = ((&chain.k[..], n), (&chain.k[..], n));
     let (peak, _) =
         counted::peak(|| Model::two_body(chain.dim, chain.pairs, both.0, both.1).is_ok());
@@ -221,5 +222,33 @@ fn flexibilities(chain: &Chain, shares: &mut Shares) {
             );
             shares.note(&what, n, peak, memory_flexibility(n));
         }
+    }
+}
+
+/// Load cases that share what one has worked out, a few: what they hold at a time is that of one, and their
+/// solutions.
+fn series(chain: &Chain, shares: &mut Shares) {
+    let n = chain.n();
+    let Ok(model) = Model::condensed(chain.dim, chain.pairs, &chain.k, n) else { return };
+    let loads: Vec<Vec<f64>> = [1.0, 0.8, -1.0, 1.2]
+        .iter()
+        .map(|by| chain.load.iter().map(|load| by * load).collect())
+        .collect();
+    for (search, proof) in [(Search::Off, false), (Search::Others, false), (Search::Off, true)] {
+        let settings = Settings { search, proof, max_iterations: 3000, ..Settings::default() };
+        let case = |load| LoadCase {
+            load,
+            prescribed: None,
+            gap: &chain.gap,
+            law: FrictionLaw::Coulomb(&chain.mu),
+            reference_slip: None,
+        };
+        let cases: Vec<_> = loads.iter().map(|load| case(load)).collect();
+        let (peak, found) = counted::peak(|| {
+            model.solve_cases(&cases, &settings, Starts::Previous(None), None).len()
+        });
+        assert_eq!(found, cases.len());
+        let what = format!("{}D, {} pairs, a series, {search:?}", chain.dim, chain.pairs);
+        shares.note(&what, n, peak, model.memory());
     }
 }

@@ -3,7 +3,7 @@
 use super::args::{Arrays, Output};
 use super::condensed::CondensedArguments;
 use super::guard::{self, Failure};
-use super::model_new::{SignoriniModel, read};
+use super::model::{SignoriniModel, read};
 use super::model_solve::CaseArguments;
 use super::report::{SignoriniReport, state_codes};
 use super::status::{SIGNORINI_STATUS_NOT_A_SOLUTION, SIGNORINI_STATUS_SOLVED, remember};

@@ -1,6 +1,6 @@
 //! How much memory a call may need, before it is made.
 
-use super::model_new::SignoriniModel;
+use super::model::SignoriniModel;
 use crate::solve;
 
 /// Most bytes that a call may take beside your arrays, for so many unknowns: signorini_solve,

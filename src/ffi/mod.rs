@@ -25,6 +25,7 @@ mod law;
 mod lcp;
 mod memory;
 mod mesh;
+mod model;
 mod model_new;
 mod model_recover;
 mod model_solve;

@@ -2,6 +2,7 @@
 
 use super::args::{Arrays, matrix_length, size, sizes};
 use super::guard::{self, Failure};
+use super::model::{SignoriniModel, read};
 use super::pairs::SignoriniPairs;
 use super::settings::SignoriniSettings;
 use super::sparse::{SignoriniSparse, shifted};
@@ -9,17 +10,6 @@ use crate::error::{Argument, Error};
 use crate::model::Model;
 use crate::reduce;
 use crate::shortage;
-
-/// A structure that is reduced to its contact pairs: what all load cases share. Made by
-/// signorini_model_new_..., released by signorini_model_free. It does not change: several threads
-/// may use one at once. It holds copies: your arrays may go once the model is made.
-pub struct SignoriniModel(Model);
-
-impl SignoriniModel {
-    pub(super) fn model(&self) -> &Model {
-        &self.0
-    }
-}
 
 /// Makes a model of a body that you have condensed, on a rigid obstacle: d = u. Loads and
 /// displacements of the host have H = N entries.
@@ -220,21 +210,21 @@ pub unsafe extern "C" fn signorini_model_free(model: *mut SignoriniModel) {
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn signorini_model_dim(model: *const SignoriniModel) -> i32 {
     // SAFETY: NULL or a model, by the header's contract.
-    unsafe { model.as_ref() }.map_or(-1, |model| model.0.dim() as i32)
+    unsafe { model.as_ref() }.map_or(-1, |model| model.model().dim() as i32)
 }
 
 /// Number of contact pairs; -1 if model is NULL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn signorini_model_pairs(model: *const SignoriniModel) -> i64 {
     // SAFETY: as above.
-    unsafe { model.as_ref() }.map_or(-1, |model| model.0.pairs() as i64)
+    unsafe { model.as_ref() }.map_or(-1, |model| model.model().pairs() as i64)
 }
 
 /// H, the entries of a load or displacement vector of the host; -1 if model is NULL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn signorini_model_host_size(model: *const SignoriniModel) -> i64 {
     // SAFETY: as above.
-    unsafe { model.as_ref() }.map_or(-1, |model| model.0.host_size() as i64)
+    unsafe { model.as_ref() }.map_or(-1, |model| model.model().host_size() as i64)
 }
 
 /// Copies the stiffness matrix in relative displacements. There is none if pairs depend on each
@@ -309,22 +299,11 @@ impl Place {
         position: impl Fn(Argument) -> i32,
     ) -> Result<i32, Failure> {
         let model = made.map_err(|error| Failure::from_error(error, position))?;
-        let model = Box::new(SignoriniModel(model));
+        let model = Box::new(SignoriniModel::new(model));
         // Nothing that lives on may stand in the reserve of the call.
         shortage::check();
         // SAFETY: as above.
         unsafe { self.0.write(Box::into_raw(model)) };
         Ok(0)
-    }
-}
-
-/// # Safety
-/// NULL or a model that lives during the call.
-pub(super) unsafe fn read<'a>(model: *const SignoriniModel) -> Result<&'a Model, Failure> {
-    guard::prepare_thread()?;
-    // SAFETY: by the caller's contract.
-    match unsafe { model.as_ref() } {
-        Some(model) => Ok(&model.0),
-        None => Err(Failure::argument(1, "model is NULL")),
     }
 }

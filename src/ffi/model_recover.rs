@@ -3,7 +3,7 @@
 
 use super::args::{Arrays, size};
 use super::guard::{self, Failure};
-use super::model_new::{SignoriniModel, read};
+use super::model::{SignoriniModel, read};
 use super::model_solve::times;
 use crate::error::Argument;
 use crate::model::BLOCK;

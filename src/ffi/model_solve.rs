@@ -4,15 +4,16 @@ use super::args::{Arrays, Output, size};
 use super::extra::{Extra, SignoriniExtra};
 use super::guard::{self, Failure};
 use super::law;
-use super::model_new::{SignoriniModel, read};
+use super::model::{SignoriniModel, read_handle};
 use super::report::{Reports, SignoriniReport, state_codes};
 use super::settings::{Received, SignoriniSettings, WarmStart};
 use super::status::{code, remember};
 use crate::error::{Argument, Error, Message};
-use crate::model::{BLOCK, LoadCase, Model, Starts};
+use crate::model::{BLOCK, LoadCase, Model, Past, Series, Starts};
 use crate::monitor::ProgressFn;
 use crate::problem::FrictionLaw;
-use crate::solve::{Solution, Status};
+use crate::shortage;
+use crate::solve::Solution;
 
 const SETTINGS: i32 = 9;
 const START: i32 = 10;
@@ -20,10 +21,12 @@ const START: i32 = 10;
 /// Solves load cases, one after the other. Every array has a column for each case, without space
 /// between the columns. All cases have the same law. A case that is wrong or not solved does not
 /// stop the others; the d, F, state, report and extra of a wrong case are not written. Many cases
-/// of a sparse model in one call cost less than one by one: their loads are condensed together.
+/// in one call cost less than one by one: loads of sparse models are condensed together, and with
+/// friction in 3D the elimination of pairs that stay open serves the next cases. The last digits of
+/// a result depend on the cases before it in the call. A case alone depends on itself only.
 ///
 /// Load steps with friction: in each step hand over as slip0 the d_t of the step before, zero at
-/// first. The model keeps no state.
+/// first. The model keeps no state, but with SIGNORINI_START_PREVIOUS.
 ///
 /// @param model       the model
 /// @param cases       number of load cases, 0 allowed
@@ -68,7 +71,8 @@ pub unsafe extern "C" fn signorini_model_solve(
     guard::call(|| {
         let mut arrays = Arrays::default();
         // SAFETY: a model as the header demands.
-        let model = unsafe { read(model)? };
+        let handle = unsafe { read_handle(model)? };
+        let model = handle.model();
         let cases = size(2, "cases", cases)?;
         // SAFETY: arrays of the lengths of the header, structures that begin with their size.
         let (load_cases, received) = unsafe {
@@ -90,7 +94,13 @@ pub unsafe extern "C" fn signorini_model_solve(
         };
         arrays.check_overlap()?;
         let block = Block { model, given: &given, load_cases, d, force, state, reports, extra };
-        Ok(block.solve_all(cases, &received, &status))
+        let past = handle.replace_past(None);
+        let (answer, past) = block.solve_all(cases, past, &received, &status);
+        // Nothing that lives on may stand in the reserve of the call.
+        if !shortage::is_noted() {
+            handle.replace_past(past);
+        }
+        Ok(answer)
     })
 }
 
@@ -201,12 +211,23 @@ struct Block<'a> {
 
 impl Block<'_> {
     /// Solves all cases and writes their results. Returns the status of the first one that is not solved, and
-    /// remembers its message.
-    fn solve_all(&self, cases: usize, received: &Received, status: &Output<i32>) -> i32 {
-        let (mut first, mut before) = (None, None);
+    /// remembers its message; and what is left for further calls. `past` is what earlier ones have left.
+    fn solve_all(
+        &self,
+        cases: usize,
+        past: Option<Past>,
+        received: &Received,
+        status: &Output<i32>,
+    ) -> (i32, Option<Past>) {
+        let mut first = None;
+        let goes_on = received.warm_start == WarmStart::Previous;
+        let mut series = match goes_on {
+            true => Series::after(self.model, past.unwrap_or_else(Past::of_none)),
+            false => Series::of(self.model, cases),
+        };
         for begin in (0..cases).step_by(BLOCK) {
             let many = BLOCK.min(cases - begin);
-            let answers = self.solve(begin, many, received, &mut before);
+            let answers = self.solve(begin, many, received, &mut series);
             for (case, (code, message)) in (begin..).zip(answers) {
                 // SAFETY: one status for each case, as the header demands.
                 unsafe { status.part(case, 1).write(&[code]) };
@@ -217,17 +238,17 @@ impl Block<'_> {
                 }
             }
         }
-        first.unwrap_or(0)
+        (first.unwrap_or(0), goes_on.then(|| series.into_past()))
     }
 
     /// Solves cases from number `begin` on and writes their results, unless they are wrong. Returns status and
-    /// message of each one. `before` is the solution before them, and then the last of them.
+    /// message of each one.
     fn solve(
         &self,
         begin: usize,
         many: usize,
         received: &Received,
-        before: &mut Option<Vec<f64>>,
+        series: &mut Series<'_>,
     ) -> Vec<(i32, Message)> {
         let n = self.model.dim() * self.model.pairs();
         let cases: Vec<_> = (begin..begin + many).map(|k| self.load_cases.case(k)).collect();
@@ -239,15 +260,11 @@ impl Block<'_> {
                 given = unsafe { self.d.part(n * begin, n * many).read() };
                 Starts::Given(&given)
             }
-            WarmStart::Previous => Starts::Previous(before.as_deref()),
+            WarmStart::Previous => Starts::Previous(None),
         };
         let mut progress = received.progress();
         let progress = progress.as_mut().map(|progress| progress as &mut ProgressFn<'_>);
-        let solved = self.model.solve_cases(&cases, &received.settings, starts, progress);
-        let last = solved.iter().rev().flatten().find(|found| found.status == Status::Solved);
-        if let Some(last) = last {
-            *before = Some(last.d.clone());
-        }
+        let solved = series.solve_cases(&cases, &received.settings, starts, progress);
         (begin..).zip(solved).map(|(case, solved)| self.write(case, solved)).collect()
     }
 

@@ -4,7 +4,8 @@ use libc::c_void;
 
 use super::args::{Arrays, sizes};
 use super::guard::{self, Failure};
-use super::model_new::{Place, SignoriniModel};
+use super::model::SignoriniModel;
+use super::model_new::Place;
 use super::structures;
 use crate::model::Model;
 use crate::reduce::HostOperator;

@@ -5,7 +5,7 @@ use libc::c_char;
 use super::args::{self, Arrays, matrix_length, size, text};
 use super::condensed::CondensedArguments;
 use super::guard::{self, Failure};
-use super::model_new::{SignoriniModel, read};
+use super::model::{SignoriniModel, read};
 use super::model_solve::CaseArguments;
 use crate::error::Argument;
 use crate::file;

@@ -29,7 +29,13 @@ pub const SIGNORINI_METHOD_NEWTON: i32 = 5;
 pub const SIGNORINI_METHOD_PATH: i32 = 6;
 
 /// settings.warm_start of signorini_model_solve: each case starts from the solution of the last case
-/// before that was solved, the first one as with 0; d needs no start. Other calls have one case.
+/// before that was solved, in this call and in those before it on the model with this setting; the
+/// first one as with 0; d needs no start. With friction in 3D the cases share the elimination of
+/// pairs that stay open, so that load steps, too, cost less one by one: the model keeps 8 N N bytes
+/// at most, until it is released or a call of signorini_model_solve has another start. The last
+/// digits of a result depend on these calls, and where there are several solutions which one it is:
+/// the same calls in the same order give the same bits. Leave it to one thread of those that share a
+/// model. Other calls have one case.
 pub const SIGNORINI_START_PREVIOUS: i32 = 2;
 
 /// Report only what the solution itself proves about other solutions. The default.

@@ -1,6 +1,8 @@
 //! Elimination of some components of a symmetric positive definite system, by faer on the calling
 //! thread.
 
+use std::sync::{Arc, Mutex, PoisonError};
+
 use faer::linalg::triangular_solve;
 use faer::{Mat, MatMut, MatRef, Par};
 
@@ -9,16 +11,38 @@ use super::matrix::Matrix;
 use super::pivoted_cholesky::subtract_gram;
 use super::tolerances::SINGULAR;
 
-/// `K_OO = L Lᵀ` of the components `O`, and `X = L⁻¹ K_OC` with the components `C` that are kept.
+/// `K_OO = L Lᵀ` of the components `O`, `X = L⁻¹ K_OC` with the components `C` that are kept, and their Schur
+/// complement.
+#[derive(Debug)]
 pub struct Elimination {
+    dropped: Vec<usize>,
+    kept: Vec<usize>,
     lower: Mat<f64>,
     half: Mat<f64>,
+    schur: Vec<f64>,
+}
+
+/// The last elimination of a matrix that many problems share, if there was one. It depends on the matrix and on
+/// the components alone.
+#[derive(Debug, Default)]
+pub struct Remembered(Mutex<Option<Arc<Elimination>>>);
+
+impl Remembered {
+    /// What was kept last.
+    pub fn get(&self) -> Option<Arc<Elimination>> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    }
+
+    /// Keeps `elimination`, or nothing.
+    pub fn keep(&self, elimination: Option<Arc<Elimination>>) {
+        *self.0.lock().unwrap_or_else(PoisonError::into_inner) = elimination;
+    }
 }
 
 impl Elimination {
     /// Eliminates `dropped` and keeps `kept`; `None` if `K_OO` is not positive definite to working
-    /// precision. Returns the Schur complement `K_CC - Xᵀ X` too, column-major.
-    pub fn new(matrix: Matrix<'_>, dropped: &[usize], kept: &[usize]) -> Option<(Self, Vec<f64>)> {
+    /// precision.
+    pub fn new(matrix: Matrix<'_>, dropped: Vec<usize>, kept: Vec<usize>) -> Option<Self> {
         let (o, c) = (dropped.len(), kept.len());
         let mut lower = Mat::zeros(o, o);
         for (j, &at) in dropped.iter().enumerate() {
@@ -40,13 +64,28 @@ impl Elimination {
         for (j, &at) in kept.iter().enumerate() {
             let column = matrix.column(at);
             let target = half.col_as_slice_mut(j);
-            target.iter_mut().zip(dropped).for_each(|(entry, &i)| *entry = column[i]);
+            target.iter_mut().zip(&dropped).for_each(|(entry, &i)| *entry = column[i]);
             let target = &mut schur[c * j + j..c * (j + 1)];
             target.iter_mut().zip(&kept[j..]).for_each(|(entry, &i)| *entry = column[i]);
         }
         triangular_solve::solve_lower_triangular_in_place(lower.as_ref(), half.as_mut(), Par::Seq);
         subtract_gram(&mut schur, half.as_ref());
-        Some((Elimination { lower, half }, schur))
+        Some(Elimination { dropped, kept, lower, half, schur })
+    }
+
+    /// The components that are eliminated.
+    pub fn dropped(&self) -> &[usize] {
+        &self.dropped
+    }
+
+    /// The components that are kept, in the order of [`Self::schur`].
+    pub fn kept(&self) -> &[usize] {
+        &self.kept
+    }
+
+    /// The matrix `K_CC - Xᵀ X` of what is kept.
+    pub fn schur(&self) -> Matrix<'_> {
+        Matrix::new(self.kept.len(), &self.schur, self.kept.len())
     }
 
     /// `K_OO⁻¹ b`, in place.

@@ -2,6 +2,7 @@
 
 use super::{LoadCase, Model};
 use crate::error::Error;
+use crate::linalg::elimination::Remembered;
 use crate::monitor::{Monitor, Progress, ProgressFn};
 use crate::reduce::SolvedCase;
 use crate::settings::Settings;
@@ -18,15 +19,101 @@ pub enum Starts<'a> {
     Cold,
     /// At these relative displacements, `dim * pairs` for each case.
     Given(&'a [f64]),
-    /// At the solution of the last case before that was solved; the first cases, before there is one, here
+    /// At the solution of the last case of the series that was solved; the first cases, before there is one, here
     /// (`None`: at nothing).
     Previous(Option<&'a [f64]>),
 }
 
+/// Load cases of a model, one after the other. What the solution of one has worked out of the model's
+/// stiffness, whatever the loads, serves the next ones: in space, with friction, the elimination of pairs that
+/// stay open. Each result is certified by itself. Its last digits depend on the cases before it in the series,
+/// and so may the choice among several solutions; the same cases in the same order give the same bits.
+pub struct Series<'m> {
+    model: &'m Model,
+    past: Past,
+}
+
+/// What the cases of a series have left for the next ones.
+#[derive(Default)]
+pub(crate) struct Past {
+    /// Of the stiffness; `None`: nothing is worked out for others.
+    remembered: Option<Remembered>,
+    /// The last solution.
+    before: Option<Vec<f64>>,
+}
+
+impl Past {
+    /// Of a series that begins.
+    pub(crate) fn of_none() -> Self {
+        Past { remembered: Some(Remembered::default()), before: None }
+    }
+}
+
+impl<'m> Series<'m> {
+    /// A series that goes on after `past`.
+    pub(crate) fn after(model: &'m Model, past: Past) -> Self {
+        Series { model, past }
+    }
+
+    /// A series of so many cases; one stands alone.
+    pub(crate) fn of(model: &'m Model, cases: usize) -> Self {
+        Self::after(model, if cases > 1 { Past::of_none() } else { Past::default() })
+    }
+
+    /// What is left for further cases.
+    pub(crate) fn into_past(self) -> Past {
+        self.past
+    }
+
+    /// Solves the next load cases, each with budgets of its own. Their loads are condensed in blocks of 32, so that
+    /// a case costs less than by [`Model::solve`]. A case that is wrong or not solved does not stop the others.
+    ///
+    /// # Errors
+    /// Of each case as [`Model::solve`].
+    pub fn solve_cases(
+        &mut self,
+        cases: &[LoadCase<'_>],
+        settings: &Settings,
+        starts: Starts<'_>,
+        mut progress: Option<&mut ProgressFn<'_>>,
+    ) -> Vec<Result<Solution, Error>> {
+        let n = self.model.dim * self.model.pairs;
+        let mut solved = Vec::with_capacity(cases.len());
+        for block in cases.chunks(BLOCK) {
+            for (case, load) in block.iter().zip(self.model.condensed_loads(block)) {
+                let k = solved.len();
+                let start = match starts {
+                    Starts::Cold => None,
+                    // A start that is missing has a wrong length, which is told.
+                    Starts::Given(all) => Some(all.get(n * k..n * (k + 1)).unwrap_or_default()),
+                    Starts::Previous(first) => self.past.before.as_deref().or(first),
+                };
+                let mut told = progress.as_mut().map(|tell| |now: &Progress| tell(now));
+                let told = told.as_mut().map(|tell| tell as &mut ProgressFn<'_>);
+                let monitor = &mut Monitor::new(settings, told);
+                let solution = load.and_then(|load| {
+                    let remembered = self.past.remembered.as_ref();
+                    self.model.solve_condensed((case, load), remembered, (settings, start), monitor)
+                });
+                if let Ok(found) = &solution
+                    && found.status == Status::Solved
+                {
+                    self.past.before = Some(found.d.clone());
+                }
+                solved.push(solution);
+            }
+        }
+        solved
+    }
+}
+
 impl Model {
-    /// Solves load cases, one after the other, each with budgets of its own. Their loads are condensed in blocks
-    /// of 32, so that a case costs less than by [`Self::solve`]. A case that is wrong or not solved does not stop
-    /// the others.
+    /// The beginning of a series of load cases.
+    pub fn series(&self) -> Series<'_> {
+        Series::after(self, Past::of_none())
+    }
+
+    /// Solves load cases as a [`Series`]. One case stands alone.
     ///
     /// # Errors
     /// Of each case as [`Self::solve`].
@@ -35,33 +122,9 @@ impl Model {
         cases: &[LoadCase<'_>],
         settings: &Settings,
         starts: Starts<'_>,
-        mut progress: Option<&mut ProgressFn<'_>>,
+        progress: Option<&mut ProgressFn<'_>>,
     ) -> Vec<Result<Solution, Error>> {
-        let (n, mut before) = (self.dim * self.pairs, None::<Vec<f64>>);
-        let mut solved = Vec::with_capacity(cases.len());
-        for block in cases.chunks(BLOCK) {
-            for (case, load) in block.iter().zip(self.condensed_loads(block)) {
-                let k = solved.len();
-                let start = match starts {
-                    Starts::Cold => None,
-                    // A start that is missing has a wrong length, which is told.
-                    Starts::Given(all) => Some(all.get(n * k..n * (k + 1)).unwrap_or_default()),
-                    Starts::Previous(first) => before.as_deref().or(first),
-                };
-                let mut told = progress.as_mut().map(|tell| |now: &Progress| tell(now));
-                let told = told.as_mut().map(|tell| tell as &mut ProgressFn<'_>);
-                let monitor = &mut Monitor::new(settings, told);
-                let solution = load
-                    .and_then(|load| self.solve_condensed(case, load, (settings, start), monitor));
-                if let (Starts::Previous(_), Ok(found)) = (starts, &solution)
-                    && found.status == Status::Solved
-                {
-                    before = Some(found.d.clone());
-                }
-                solved.push(solution);
-            }
-        }
-        solved
+        Series::of(self, cases.len()).solve_cases(cases, settings, starts, progress)
     }
 
     /// Displacements of the host of several load cases, each as by [`Self::recover`], in blocks of 32.

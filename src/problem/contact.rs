@@ -18,6 +18,7 @@ use super::friction_law::FrictionLaw;
 use super::relation::{Relation, Stiffness};
 use super::symmetric_matrix;
 use crate::error::{Argument, Error, entry};
+use crate::linalg::elimination::Remembered;
 use crate::linalg::matrix::{Matrix, can_exist, required_length};
 use crate::linalg::tolerances::{CONDENSATION, FREE};
 use crate::linalg::vector::{self, first_not_finite, sizes};
@@ -119,6 +120,18 @@ impl<'a> ContactProblem<'a> {
     pub(crate) fn condensed_by_host(mut self) -> Self {
         self.relation.rounding = FREE * CONDENSATION;
         self
+    }
+
+    /// The same problem as one of several with this matrix: what was worked out of the matrix for those before
+    /// serves this one, if there is something, and what this one works out is kept.
+    pub(crate) fn remembering(mut self, remembered: Option<&'a Remembered>) -> Self {
+        self.relation.remembered = remembered;
+        self
+    }
+
+    /// What problems before with this matrix have left; `None`: this one stands alone.
+    pub(crate) fn remembered(&self) -> Option<&'a Remembered> {
+        self.relation.remembered
     }
 
     /// Energy of the motion `d` that rounding of the entries of `K` explains, of `|d| . |K| |d|`.

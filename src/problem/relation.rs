@@ -9,6 +9,7 @@
 //! The certificate measures a pair `(d, F)` on any form. In the stiffness form `d` determines `F`; in
 //! others it does not, so that a candidate carries both.
 
+use crate::linalg::elimination::Remembered;
 use crate::linalg::matrix::Matrix;
 use crate::linalg::vector::norm;
 
@@ -67,6 +68,8 @@ pub struct Stiffness<'a> {
     largest: f64,
     /// Energy of a motion that rounding of the entries explains, of `|d| . |K| |d|`.
     pub(super) rounding: f64,
+    /// What earlier problems with this matrix have left.
+    pub(super) remembered: Option<&'a Remembered>,
 }
 
 /// [`Stiffness::rounding`] of a matrix that a host gives without a word on its origin, where its components
@@ -88,6 +91,7 @@ impl<'a> Stiffness<'a> {
             dim,
             largest: matrix.largest_diagonal(),
             rounding: LAST_DIGITS * (matrix.size() as f64 / COMPONENTS_A_UNIT).max(1.0),
+            remembered: None,
         }
     }
 

@@ -107,6 +107,9 @@ pub fn solve(
 ) -> Result<Solution, Error> {
     let n = problem.unknowns();
     check(settings, memory(n), ("d", n, start))?;
+    // Further questions take the memory that would be kept.
+    let more = settings.search == Search::Others || settings.proof;
+    let problem = &problem.remembering(problem.remembered().filter(|_| !more));
     let contact = Contact::new(problem);
     check_method(&contact, settings.method)?;
     // Where d = 0 is the solution, other starts only approach it.

@@ -19,11 +19,14 @@ use common::brick::{Brick, Support};
 use common::mesh::{Mesh, Pairs, Stiffness, steps};
 use signorini::reduce::SolvedCase;
 use signorini::{
-    FrictionLaw, LoadCase, Model, Monitor, Progress, Settings, Solution, Starts, Status,
+    FrictionLaw, LoadCase, Model, Monitor, Progress, Series, Settings, Solution, Starts, Status,
 };
 
 /// Load cases at once.
 const MANY: usize = 100;
+
+/// Load cases one by one in a series, from number 1 on.
+const IN_SERIES: usize = 12;
 
 fn main() {
     println!("case,dim,unknowns,contact_dofs,library,blas,step,cpu_s,peak_mb,eta,status");
@@ -197,12 +200,19 @@ impl Study<'_> {
         println!("# largest {largest:.15e}, norm {:.15e}", sum.sqrt());
 
         let cases = self.cases(&model);
-        let first = reduced + self.one(&model, &cases, (0, "solve"));
-        let further = self.one(&model, &cases, (1, "further"));
-        println!(
-            "# a further case: {:.2} % of the first with the reduction",
-            100.0 * further / first
-        );
+        let first = reduced + self.one(&model, &cases, (0, "solve"), None);
+        let further = self.one(&model, &cases, (1, "further"), None);
+        let part =
+            |seconds| format!("{:.2} % of the first with the reduction", 100.0 * seconds / first);
+        println!("# a further case: {}", part(further));
+        // Cases one by one, of which the first leaves something to the others.
+        let mut series = model.series();
+        let mut seconds: Vec<f64> = (1..IN_SERIES)
+            .map(|k| self.one(&model, &cases, (k, "in series"), Some(&mut series)))
+            .collect();
+        seconds.remove(0);
+        seconds.sort_by(f64::total_cmp);
+        println!("# a further case in a series, the median: {}", part(seconds[seconds.len() / 2]));
         for starts in [Starts::Cold, Starts::Previous(None)] {
             let (solved, recovered) = many(&model, &cases, starts);
             let each = (solved + recovered) / MANY as f64;
@@ -220,12 +230,25 @@ impl Study<'_> {
         println!("# of a case by itself, the load: {:.4} s", (cpu() - condensed) / count as f64);
     }
 
-    /// Solves and recovers a load case by itself. Returns the seconds.
-    fn one(&self, model: &Model, cases: &Cases, (k, step): (usize, &str)) -> f64 {
+    /// Solves and recovers a load case by itself, or as the next one of a series. Returns the seconds.
+    fn one(
+        &self,
+        model: &Model,
+        cases: &Cases,
+        (k, step): (usize, &str),
+        series: Option<&mut Series<'_>>,
+    ) -> f64 {
         let begin = cpu();
         let (case, settings) = (cases.case(k), Settings::default());
         let monitor = &mut Monitor::new(&settings, None);
-        let solution = model.solve(&case, &settings, None, monitor).expect("a valid case");
+        let solution = match series {
+            None => model.solve(&case, &settings, None, monitor),
+            Some(series) => {
+                let starts = Starts::Previous(None);
+                series.solve_cases(&[case], &settings, starts, None).remove(0)
+            }
+        };
+        let solution = solution.expect("a valid case");
         let u = model.recover(Some(case.load), case.prescribed, &solution.d);
         let seconds = cpu() - begin;
         assert_eq!(u.expect("a valid solution").len(), model.host_size());

@@ -298,6 +298,20 @@ static void many_cases_at_once(void)
         }
     }
 
+    /* One by one: each call goes on where the one before has ended. */
+    settings.warm_start = SIGNORINI_START_PREVIOUS;
+    for (int c = 0; c < MANY; c++) {
+        double one[N] = {NAN, NAN, NAN, NAN, NAN, NAN}, force[N];
+        CHECK_STATUS(signorini_model_solve(model, 1, f[c], values + c, gap[c],
+                                           SIGNORINI_LAW_COULOMB, mu[c], NULL, &settings, one,
+                                           force, NULL, NULL, NULL, NULL),
+                     0);
+        for (int i = 0; i < N; i++) {
+            CHECK_NEAR(one[i], d[c][i]);
+            CHECK_NEAR(force[i], F[c][i]);
+        }
+    }
+
     /* Bad input: of each array, with the case; nothing is written. */
     memcpy(before, u, sizeof u);
 #define RECOVER(result, part, ...)                                                                 \

@@ -2,9 +2,10 @@
 
 use std::sync::Arc;
 
+use super::super::model::SignoriniModel;
 use super::super::model_new::{
-    SignoriniModel, signorini_model_frames, signorini_model_new_condensed,
-    signorini_model_new_two_body, signorini_model_pairs,
+    signorini_model_frames, signorini_model_new_condensed, signorini_model_new_two_body,
+    signorini_model_pairs,
 };
 use super::super::model_recover::{signorini_model_nodal_forces, signorini_model_recover};
 use super::super::model_solve::signorini_model_solve;

@@ -2,7 +2,8 @@
 
 use super::super::args::Arrays;
 use super::super::guard::Failure;
-use super::super::model_new::{SignoriniModel, signorini_model_new_sparse_within};
+use super::super::model::SignoriniModel;
+use super::super::model_new::signorini_model_new_sparse_within;
 use super::super::pairs::SignoriniPairs;
 use super::super::settings::SignoriniSettings;
 use super::super::sparse::{SIGNORINI_TRIANGLE_FULL, SIGNORINI_TRIANGLE_LOWER, SignoriniSparse};

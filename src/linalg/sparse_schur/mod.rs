@@ -22,9 +22,12 @@ pub use failure::Failure;
 pub use plan::Plan;
 pub use watch::{Unwatched, Watch, answered};
 
+use std::sync::{Mutex, PoisonError};
+
 use super::free_motions::{self, Doubt, is_suspicious};
 use super::sparse_matrix::{Csc, diagonal};
 use super::unreduced::Unreduced;
+use crate::shortage;
 use diagnosis::diagnosed;
 use numeric::Numeric;
 use structure::Structure;
@@ -49,6 +52,9 @@ pub struct SparseSchur {
     values: Vec<f64>,
     /// `S`, column-major.
     schur: Vec<f64>,
+    /// The last right side that was condensed by itself, and what elimination has made of it: its recovery
+    /// needs it again.
+    last: Mutex<Option<[Vec<f64>; 2]>>,
 }
 
 impl SparseSchur {
@@ -77,7 +83,7 @@ impl SparseSchur {
         let Numeric { values, schur, .. } = diagnosed(&plan, &mut lower, watch)?;
         let structure = plan.structure;
         let (eliminated, m) = (structure.eliminated, structure.kept());
-        let mut found = SparseSchur { structure, values, schur };
+        let mut found = SparseSchur { structure, values, schur, last: Mutex::new(None) };
         let units: Vec<f64> =
             (eliminated..lower.ncols()).map(|j| diagonal(&lower, j).unwrap_or_default()).collect();
         let few = look == Look::Always || m <= FEW;
@@ -107,7 +113,13 @@ impl SparseSchur {
     pub fn condense(&self, rhs: &[f64]) -> Vec<f64> {
         let (size, eliminated) = (self.structure.size.max(1), self.structure.eliminated);
         let x = self.forward(rhs);
-        x.chunks_exact(size).flat_map(|x| &x[eliminated..]).copied().collect()
+        let condensed = x.chunks_exact(size).flat_map(|x| &x[eliminated..]).copied().collect();
+        // Nothing that lives on may stand in the reserve of a call.
+        if x.len() == size && !shortage::is_noted() {
+            let last = [rhs.to_vec(), x];
+            *self.last.lock().unwrap_or_else(PoisonError::into_inner) = Some(last);
+        }
+        condensed
     }
 
     /// The solution of the first rows, `A⁻¹ (a - Bᵀ d)`, followed by `d`; `rhs` is `(a, c)`, of which
@@ -115,13 +127,19 @@ impl SparseSchur {
     /// result.
     pub fn recover(&self, rhs: &[f64], d: &[f64]) -> Vec<f64> {
         let (size, eliminated) = (self.structure.size.max(1), self.structure.eliminated);
-        let mut x = self.forward(rhs);
+        let mut x = self.last_of(rhs).unwrap_or_else(|| self.forward(rhs));
         let kept = d.chunks_exact(self.structure.kept().max(1));
         for (x, d) in x.chunks_exact_mut(size).zip(kept) {
             x[eliminated..].copy_from_slice(d);
         }
         solve::backward(&self.structure, &self.values, &mut x);
         self.structure.unordered(&x)
+    }
+
+    /// What elimination makes of a right side, if it is the last one.
+    fn last_of(&self, rhs: &[f64]) -> Option<Vec<f64>> {
+        let last = self.last.lock().unwrap_or_else(PoisonError::into_inner);
+        last.as_ref().filter(|[known, _]| known == rhs).map(|[_, x]| x.clone())
     }
 
     fn forward(&self, rhs: &[f64]) -> Vec<f64> {

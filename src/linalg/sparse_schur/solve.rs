@@ -9,7 +9,8 @@ use faer::{Accum, MatMut, MatRef, Par};
 use super::structure::Structure;
 
 /// Overwrites each column of `x`, in the order of elimination, with `L⁻¹` of its eliminated part; the kept
-/// part `c` becomes `c - B A⁻¹ a`. The factor is read once for all columns.
+/// part `c` becomes `c - B A⁻¹ a`. The factor is read once for all columns, and not where they all are zero, as
+/// away from loads on few nodes.
 pub fn forward(structure: &Structure, values: &[f64], x: &mut [f64]) {
     let mut x = columns_of(structure, x);
     let mut product = Vec::new();
@@ -17,6 +18,9 @@ pub fn forward(structure: &Structure, values: &[f64], x: &mut [f64]) {
         let (columns, rows) = (structure.columns(s), structure.rows(s));
         let (top, below) = blocks(structure, values, s);
         let mut part = x.as_mut().subrows_mut(columns.start, columns.len());
+        if part.as_ref().col_iter().all(|column| column.iter().all(|entry| *entry == 0.0)) {
+            continue;
+        }
         solve_lower_triangular_in_place(top, part.as_mut(), Par::Seq);
         let many = part.ncols();
         product.clear();

@@ -58,7 +58,7 @@ pub struct SparseReduction {
 /// What solves for the unknowns that are not relative displacements.
 enum Engine {
     /// They are condensed.
-    Condensed(SparseSchur),
+    Condensed(Box<SparseSchur>),
     /// They stay.
     FullSpace(Box<FullSpace>),
 }
@@ -294,7 +294,7 @@ impl Engine {
             let plan = Plan::new(&matrix, parts.inner, parts.rank, asked)?;
             if asked.announce(plan.bytes()).is_continue() {
                 return SparseSchur::planned(plan, matrix, parts.look, asked)
-                    .map(Engine::Condensed);
+                    .map(|schur| Engine::Condensed(Box::new(schur)));
             }
             if !(possible && asked.lacks_memory()) {
                 return Err(Failure::Stopped);

@@ -7,14 +7,13 @@
 //! ends, as each pass adds pairs. The result is measured and refined on the whole problem.
 
 use std::borrow::Cow;
+use std::sync::Arc;
 
 use super::equations::{Equations, Point};
 use super::newton::Ended;
-use super::start::swept;
 use crate::certificate::{eta_of, measure};
 use crate::law::{Contact, Vector};
 use crate::linalg::elimination::Elimination;
-use crate::linalg::matrix::Matrix;
 use crate::monitor::Monitor;
 use crate::settings::Settings;
 use crate::solve::candidate::{Candidate, Effort, Ending};
@@ -35,76 +34,92 @@ const REFINEMENTS: usize = 3;
 /// A solver of equations from given coordinates to a tolerance.
 pub type Core<'c> = dyn FnMut(&Equations<'_>, Vec<Vector>, &mut Monitor<'_>) -> Ended + 'c;
 
-/// Solves a problem from the displacements `start` (zero if `None`): sweeps, then `core` on the
-/// candidates.
-pub fn solve(
-    contact: &Contact<'_>,
+/// Solves a whole problem from the coordinates `y`.
+pub(super) fn solve(
+    (contact, whole): (&Contact<'_>, &Equations<'_>),
     settings: &Settings,
-    start: Option<&[f64]>,
+    y: Vec<Vector>,
     monitor: &mut Monitor<'_>,
     core: &mut Core<'_>,
 ) -> Candidate {
-    let whole = Equations::of(contact);
-    let mut y = swept(contact, &whole, start);
     if !y.iter().flatten().all(|y| y.is_finite()) {
         return Candidate::without_displacements(contact, Ending::Stalled(OVERFLOW));
     }
-    let mut kept = closed_with_margin(&whole, &y);
+    let mut found = search(whole, y, settings.tolerance, monitor, core);
+    if let Some((split, point)) = found.parted.take() {
+        let systems = split.refine(contact, settings, (&mut found.d, &mut found.force), point);
+        found.systems += systems;
+    }
+    found.into_candidate()
+}
+
+/// Where a search has ended.
+pub(super) struct Found<'w> {
+    /// Displacements, the force that they need, and their coordinates.
+    pub(super) d: Vec<f64>,
+    pub(super) force: Vec<f64>,
+    pub(super) y: Vec<Vector>,
+    /// How it ended; its systems, and the orientation of the last one.
+    pub(super) ending: Ending,
+    pub(super) systems: u64,
+    pub(super) orientation: i8,
+    /// Where it is done and `eta` is above the tolerance: what was eliminated, and the point on the rest.
+    parted: Option<(Split<'w>, Point)>,
+}
+
+impl Found<'_> {
+    /// The candidate of equations that are a whole problem's.
+    pub(super) fn into_candidate(self) -> Candidate {
+        let effort = Effort { factorisations: self.systems, ..Effort::default() };
+        let mut candidate = Candidate::new(self.d, self.force, self.ending, effort);
+        candidate.orientation = self.orientation;
+        candidate
+    }
+}
+
+/// Solves the equations from the coordinates `y`: by `core` on the candidates there, and on more of them
+/// as long as others close.
+pub(super) fn search<'w>(
+    whole: &'w Equations<'w>,
+    mut y: Vec<Vector>,
+    tolerance: f64,
+    monitor: &mut Monitor<'_>,
+    core: &mut Core<'_>,
+) -> Found<'w> {
+    let mut kept = closed_with_margin(whole, &y, MARGIN);
     let (mut systems, mut orientation) = (0, 0);
     loop {
-        let split = Split::new(&whole, &kept);
-        let Some(split) = split else {
-            let ended = core(&whole, y, monitor);
-            systems += ended.systems;
-            return Ended { systems, ..ended }.into_candidate();
+        let Some(split) = Split::new(whole, &kept) else {
+            let Ended { point, ending, systems: last, orientation } = core(whole, y, monitor);
+            let Point { y, d, force, .. } = point;
+            let systems = systems + last;
+            return Found { d, force, y, ending, systems, orientation, parted: None };
         };
-        let on_kept = split.kept.iter().map(|&pair| y[pair]).collect();
-        let ended = core(&split.equations(), on_kept, monitor);
+        let ended = core(&split.equations(), split.of_kept(&y), monitor);
         systems += ended.systems;
         if ended.orientation != 0 {
             orientation = ended.orientation;
         }
-        let mut d = split.expand(&ended.point.d);
-        let mut force = whole.force(&d);
-        let stopped = ended.ending != Ending::Done;
-        let eta = eta_of(contact, &d, &force);
-        if !stopped && eta <= settings.tolerance {
-            return candidate(d, force, Ending::Done, systems, orientation);
-        }
-        y = whole.coordinates(&d, &force);
-        for (&pair, own) in split.kept.iter().zip(&ended.point.y) {
-            y[pair] = *own;
-        }
-        let closing = split.closing(&y);
-        if stopped || closing.is_empty() {
-            if !stopped {
-                systems += split.refine(contact, settings, &mut d, &mut force, ended.point);
-            }
-            return candidate(d, force, ended.ending, systems, orientation);
+        let Ended { point, ending, .. } = ended;
+        let (d, force);
+        (d, force, y) = split.whole_from(&point.d, &point.y);
+        let done = ending == Ending::Done;
+        let solved = done && whole.eta(&d, &force) <= tolerance;
+        let closing = if solved { Vec::new() } else { split.closing(&y) };
+        if !done || closing.is_empty() {
+            let parted = (done && !solved).then_some((split, point));
+            return Found { d, force, y, ending, systems, orientation, parted };
         }
         kept.extend(closing);
         kept.sort_unstable();
     }
 }
 
-fn candidate(
-    d: Vec<f64>,
-    force: Vec<f64>,
-    ending: Ending,
-    factorisations: u64,
-    orientation: i8,
-) -> Candidate {
-    let effort = Effort { factorisations, ..Effort::default() };
-    let mut candidate = Candidate::new(d, force, ending, effort);
-    candidate.orientation = orientation;
-    candidate
-}
-
 /// The pairs that are closed, those next to closing, and those that carry forces when they are open.
-fn closed_with_margin(whole: &Equations<'_>, y: &[Vector]) -> Vec<usize> {
+pub(super) fn closed_with_margin(whole: &Equations<'_>, y: &[Vector], margin: f64) -> Vec<usize> {
     let pieces = whole.pieces(y);
     let closed = pieces.iter().filter(|piece| piece.closed).count();
-    let wanted = closed + (MARGIN * closed as f64).ceil() as usize + FEW;
+    let wanted = closed + (margin * closed as f64).ceil() as usize + FEW;
     let mut order: Vec<usize> =
         (0..y.len()).filter(|&pair| whole.laws[pair].has_obstacle()).collect();
     order.sort_by(|&a, &b| {
@@ -119,24 +134,17 @@ fn closed_with_margin(whole: &Equations<'_>, y: &[Vector]) -> Vec<usize> {
 }
 
 /// A problem parted into candidates and open pairs.
-struct Split<'w> {
+pub(super) struct Split<'w> {
     whole: &'w Equations<'w>,
-    /// Pairs that are kept.
-    kept: Vec<usize>,
-    /// Their components, and those of the others.
-    components: Vec<usize>,
-    dropped: Vec<usize>,
-    elimination: Elimination,
-    schur: Vec<f64>,
+    elimination: Arc<Elimination>,
     load: Vec<f64>,
 }
 
 impl<'w> Split<'w> {
     /// Eliminates all pairs but `kept`; `None` if that is not worthwhile, or not possible.
-    fn new(whole: &'w Equations<'w>, kept: &[usize]) -> Option<Self> {
+    pub(super) fn new(whole: &'w Equations<'w>, kept: &[usize]) -> Option<Self> {
         let dim = whole.dim;
         let parts = |pair: &usize| dim * pair..dim * (pair + 1);
-        let components: Vec<usize> = kept.iter().flat_map(parts).collect();
         let mut is_kept = vec![false; whole.laws.len()];
         kept.iter().for_each(|&pair| is_kept[pair] = true);
         let dropped: Vec<usize> = (0..is_kept.len())
@@ -146,50 +154,85 @@ impl<'w> Split<'w> {
         if dropped.len() < WORTHWHILE || kept.is_empty() || !whole.symmetric {
             return None;
         }
-        let (elimination, schur) = Elimination::new(whole.matrix, &dropped, &components)?;
-        let on_dropped: Vec<f64> = dropped.iter().map(|&i| whole.load[i]).collect();
+        let components = kept.iter().flat_map(parts).collect();
+        let elimination = Elimination::new(whole.matrix, dropped, components)?;
+        Some(Self::by(whole, Arc::new(elimination)))
+    }
+
+    /// The problem parted by an elimination of components of its matrix.
+    pub(super) fn by(whole: &'w Equations<'w>, elimination: Arc<Elimination>) -> Self {
+        let on_dropped: Vec<f64> = elimination.dropped().iter().map(|&i| whole.load[i]).collect();
         let taken = elimination.transfer(&on_dropped);
-        let load = components.iter().zip(taken).map(|(&i, taken)| whole.load[i] - taken).collect();
-        Some(Split { whole, kept: kept.to_vec(), components, dropped, elimination, schur, load })
+        let kept = elimination.kept().iter().zip(taken);
+        let load = kept.map(|(&i, taken)| whole.load[i] - taken).collect();
+        Split { whole, elimination, load }
+    }
+
+    /// What is eliminated.
+    pub(super) fn elimination(&self) -> &Arc<Elimination> {
+        &self.elimination
+    }
+
+    /// The pairs of some components.
+    fn pairs<'s>(&'s self, components: &'s [usize]) -> impl Iterator<Item = usize> + 's {
+        components.iter().step_by(self.whole.dim).map(|i| i / self.whole.dim)
+    }
+
+    /// The candidates.
+    pub(super) fn kept(&self) -> impl Iterator<Item = usize> + '_ {
+        self.pairs(self.elimination.kept())
+    }
+
+    /// What belongs to the candidates of something that each pair has.
+    pub(super) fn of_kept(&self, y: &[Vector]) -> Vec<Vector> {
+        self.kept().map(|pair| y[pair]).collect()
     }
 
     /// The equations of the candidates.
-    fn equations(&self) -> Equations<'_> {
-        let size = self.components.len();
-        let laws = self.kept.iter().map(|&pair| self.whole.laws[pair]).collect();
-        let matrix = Matrix::new(size, &self.schur, size);
+    pub(super) fn equations(&self) -> Equations<'_> {
+        let laws = self.kept().map(|pair| self.whole.laws[pair]).collect();
         let load = Cow::Borrowed(self.load.as_slice());
+        let matrix = self.elimination.schur();
         Equations::new(self.whole.dim, matrix, load, Cow::Owned(laws), self.whole.unit)
+    }
+
+    /// All displacements, with the force that they need and the coordinates, from displacements and coordinates
+    /// of the candidates.
+    pub(super) fn whole_from(&self, d: &[f64], y: &[Vector]) -> (Vec<f64>, Vec<f64>, Vec<Vector>) {
+        let d = self.expand(d);
+        let force = self.whole.force(&d);
+        let mut all = self.whole.coordinates(&d, &force);
+        self.kept().zip(y).for_each(|(pair, own)| all[pair] = *own);
+        (d, force, all)
     }
 
     /// All displacements from those of the candidates.
     fn expand(&self, on_kept: &[f64]) -> Vec<f64> {
-        let load: Vec<f64> = self.dropped.iter().map(|&i| self.whole.load[i]).collect();
+        let (dropped, kept) = (self.elimination.dropped(), self.elimination.kept());
+        let load: Vec<f64> = dropped.iter().map(|&i| self.whole.load[i]).collect();
         let on_dropped = self.elimination.follow(&load, on_kept);
         let mut d = vec![0.0; self.whole.root.len()];
-        self.components.iter().zip(on_kept).for_each(|(&i, x)| d[i] = *x);
-        self.dropped.iter().zip(on_dropped).for_each(|(&i, x)| d[i] = x);
+        kept.iter().zip(on_kept).for_each(|(&i, x)| d[i] = *x);
+        dropped.iter().zip(on_dropped).for_each(|(&i, x)| d[i] = x);
         d
     }
 
     /// Eliminated pairs that are not open at the coordinates `y` of all pairs.
-    fn closing(&self, y: &[Vector]) -> Vec<usize> {
+    pub(super) fn closing(&self, y: &[Vector]) -> Vec<usize> {
         let pieces = self.whole.pieces(y);
-        let first = |at: usize| self.dropped[at] / self.whole.dim;
-        let dropped = (0..self.dropped.len()).step_by(self.whole.dim).map(first);
-        dropped.filter(|&pair| pieces[pair].closed).collect()
+        self.pairs(self.elimination.dropped()).filter(|&pair| pieces[pair].closed).collect()
     }
 
     /// Iterative refinement of a solution on the candidates by the residual of the whole problem.
     /// Returns the number of systems.
-    fn refine(
+    pub(super) fn refine(
         &self,
         contact: &Contact<'_>,
         settings: &Settings,
-        d: &mut Vec<f64>,
-        force: &mut Vec<f64>,
+        (d, force): (&mut Vec<f64>, &mut Vec<f64>),
         mut point: Point,
     ) -> u64 {
+        let (dropped, kept) = (self.elimination.dropped(), self.elimination.kept());
         let mut systems = 0;
         let mut best = eta_of(contact, d, force);
         for _ in 0..REFINEMENTS {
@@ -198,21 +241,21 @@ impl<'w> Split<'w> {
                 break;
             }
             let mut next = d.clone();
-            let mut lack: Vec<f64> = self.dropped.iter().map(|&i| force[i]).collect();
+            let mut lack: Vec<f64> = dropped.iter().map(|&i| force[i]).collect();
             self.elimination.solve(&mut lack);
-            self.dropped.iter().zip(&lack).for_each(|(&i, lack)| next[i] -= lack);
+            dropped.iter().zip(&lack).for_each(|(&i, lack)| next[i] -= lack);
             // A load under which the force of the candidates is that of the whole problem.
             let whole = self.whole.force(&next);
             let mut equations = self.equations();
             let mut load = equations.matrix.product(&point.d);
-            load.iter_mut().zip(&self.components).for_each(|(load, &i)| *load -= whole[i]);
+            load.iter_mut().zip(kept).for_each(|(load, &i)| *load -= whole[i]);
             equations.load = Cow::Owned(load);
             let Some(better) = super::newton::step(&equations, &point) else { break };
             systems += 1;
             let moved: Vec<f64> = better.d.iter().zip(&point.d).map(|(b, a)| b - a).collect();
-            let followed = self.elimination.follow(&vec![0.0; self.dropped.len()], &moved);
-            self.components.iter().zip(&better.d).for_each(|(&i, x)| next[i] = *x);
-            self.dropped.iter().zip(&followed).for_each(|(&i, x)| next[i] += x);
+            let followed = self.elimination.follow(&vec![0.0; dropped.len()], &moved);
+            kept.iter().zip(&better.d).for_each(|(&i, x)| next[i] = *x);
+            dropped.iter().zip(&followed).for_each(|(&i, x)| next[i] += x);
             let residual = self.whole.force(&next);
             let eta = eta_of(contact, &next, &residual);
             if !(eta < best) {

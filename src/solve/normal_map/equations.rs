@@ -95,7 +95,8 @@ impl<'a> Equations<'a> {
             law.natural_residual(d, force, &mut residual);
             residual[..self.dim].iter().for_each(|&e| sum.add(e));
         }
-        sum.root() / self.unit.max(norm(force))
+        let size = sum.root();
+        if size == 0.0 { 0.0 } else { size / self.unit.max(norm(force)) }
     }
 }
 

@@ -2,20 +2,21 @@
 //! plane and in space, with the exact friction disc.
 //!
 //! Some sweeps (`start`), then the pairs that are surely open are eliminated (`candidates`), then Newton's method
-//! with a line search on what is left (`newton`). In the plane the active-set method takes fewer systems
-//! and is used instead.
+//! with a line search on what is left (`newton`). Problems that share a matrix share what is eliminated
+//! (`series`). In the plane the active-set method takes fewer systems and is used instead.
 
 mod candidates;
 mod equations;
 mod newton;
 mod polish;
+mod series;
 mod start;
 mod system;
 
-pub use candidates::solve as on_candidates;
 pub use equations::{Equations, Point};
 pub use newton::{Ended, solve as newton_from};
 pub use polish::{Sharpened, polished, sharpened};
+pub use series::solve as on_candidates;
 pub use system::{Border, System};
 
 use crate::law::Contact;

@@ -7,8 +7,7 @@
 //! large coefficients of friction: a round that gains too little is taken back.
 
 use super::equations::Equations;
-use crate::certificate::eta_of;
-use crate::law::{Contact, Vector};
+use crate::law::Vector;
 use crate::solve::sweeps::Sweeper;
 
 /// Sweeps of a round; rounds.
@@ -28,23 +27,20 @@ const OVER_RELAXATION: f64 = 1.5;
 const WORTHWHILE: f64 = 0.7;
 
 /// The coordinates after some sweeps from the displacements `start` (zero if `None`).
-pub(super) fn swept(
-    contact: &Contact<'_>,
-    whole: &Equations<'_>,
-    start: Option<&[f64]>,
-) -> Vec<Vector> {
-    let mut d = start.map_or_else(|| vec![0.0; contact.unknowns()], <[f64]>::to_vec);
-    for (law, normal) in contact.pairs().iter().zip(d.iter_mut().step_by(contact.dim())) {
+pub(super) fn swept(whole: &Equations<'_>, start: Option<&[f64]>) -> Vec<Vector> {
+    let mut d = start.map_or_else(|| vec![0.0; whole.root.len()], <[f64]>::to_vec);
+    for (law, normal) in whole.laws.iter().zip(d.iter_mut().step_by(whole.dim)) {
         *normal = law.admissible(*normal);
     }
-    let mut force = contact.problem().force(&d);
+    let mut force = whole.force(&d);
     let sweeper = Sweeper::new();
     let round = |d: &mut Vec<f64>, force: &mut Vec<f64>, omega: f64| {
-        for _ in 1..SWEEPS {
-            sweeper.sweep(contact, (&mut *d, &mut *force), omega);
-        }
-        sweeper.sweep(contact, (&mut *d, &mut *force), 1.0);
-        eta_of(contact, d, force)
+        let mut sweep = |omega| {
+            sweeper.sweep_pairs(&whole.laws, whole.matrix, (&mut *d, &mut *force), omega);
+        };
+        (1..SWEEPS).for_each(|_| sweep(omega));
+        sweep(1.0);
+        whole.eta(d, force)
     };
     let (mut pieces, mut eta) = (Vec::new(), f64::INFINITY);
     let mut omega = OVER_RELAXATION;

@@ -1,0 +1,49 @@
+//! The handle of a model.
+
+use std::sync::{Mutex, PoisonError};
+
+use super::guard::{self, Failure};
+use crate::model::{Model, Past};
+
+/// A structure that is reduced to its contact pairs: what all load cases share. Made by
+/// signorini_model_new_..., released by signorini_model_free. It does not change: several threads
+/// may use one at once (but see SIGNORINI_START_PREVIOUS). It holds copies: your arrays may go once
+/// the model is made.
+pub struct SignoriniModel {
+    model: Model,
+    /// What calls with SIGNORINI_START_PREVIOUS have left; nothing while one is at work.
+    past: Mutex<Option<Past>>,
+}
+
+impl SignoriniModel {
+    pub(super) fn new(model: Model) -> Self {
+        SignoriniModel { model, past: Mutex::new(None) }
+    }
+
+    pub(super) fn model(&self) -> &Model {
+        &self.model
+    }
+
+    /// Puts what is left for further calls, and returns what earlier ones have left.
+    pub(super) fn replace_past(&self, past: Option<Past>) -> Option<Past> {
+        // A call that ends early, by a shortage of memory too, has nothing in hand.
+        std::mem::replace(&mut self.past.lock().unwrap_or_else(PoisonError::into_inner), past)
+    }
+}
+
+/// # Safety
+/// NULL or a model that lives during the call.
+pub(super) unsafe fn read<'a>(model: *const SignoriniModel) -> Result<&'a Model, Failure> {
+    // SAFETY: by the caller's contract.
+    unsafe { read_handle(model).map(SignoriniModel::model) }
+}
+
+/// # Safety
+/// As [`read`].
+pub(super) unsafe fn read_handle<'a>(
+    model: *const SignoriniModel,
+) -> Result<&'a SignoriniModel, Failure> {
+    guard::prepare_thread()?;
+    // SAFETY: by the caller's contract.
+    unsafe { model.as_ref() }.ok_or_else(|| Failure::argument(1, "model is NULL"))
+}
