@@ -384,6 +384,38 @@ static int32_t dependent_rows(struct world *w)
     return status;
 }
 
+/* Products with the matrix of the chain, and with the inverse of its diagonal. */
+static int32_t product(void *user, const double *x, double *y)
+{
+    const chain *c = user;
+    for (int64_t i = 0; i < c->n; i++) {
+        y[i] = 0;
+        for (int64_t j = 0; j < c->n; j++) y[i] += c->K[i + c->n * j] * x[j];
+    }
+    return 0;
+}
+
+static int32_t inverse(void *user, const double *x, double *y)
+{
+    const chain *c = user;
+    for (int64_t i = 0; i < c->n; i++) y[i] = x[i] / c->K[i + c->n * i];
+    return 0;
+}
+
+static int32_t operator_model(struct world *w)
+{
+    chain *c = &w->plane;
+    const signorini_operator K = {.struct_size = sizeof K, .dim = 2, .pairs = c->pairs,
+                                  .stiffness = product, .inverse = inverse, .user = c};
+    signorini_model *model = NULL;
+    int32_t status = signorini_model_new_operator(&K, &model);
+    if (!status)
+        status = signorini_model_solve(model, 1, c->f, NULL, c->gap, SIGNORINI_LAW_COULOMB, c->mu,
+                                       NULL, NULL, w->d, w->F, w->state, NULL, NULL, NULL);
+    signorini_model_free(model);
+    return status;
+}
+
 /* ---- Surfaces ------------------------------------------------------------------------------ */
 
 /* From two surfaces to a file for ParaView. */
@@ -483,6 +515,7 @@ static const struct scenario scenarios[] = {
     {"sparse model, many cases", sparse_many, 0, DEEP},
     {"full space, two cases", full_space_cases, 0, DEEP},
     {"dependent rows", dependent_rows, 0, 0},
+    {"operator", operator_model, 0, 0},
     {"mortar surfaces, .vtu", mortar_surfaces, 0, 0},
     {"node-to-surface, .vtu", node_surfaces, 0, 0},
     {"obstacle", obstacle, 0, 0},
