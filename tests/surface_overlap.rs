@@ -118,8 +118,8 @@ fn what_a_mesh_may_have_is_accepted() {
         let beside =
             together(sheet(shape, [2, 3], UNIT), sheet(shape, [5, 2], [[1.0, 2.0], [0.1, 1.3]]));
         assert_eq!(refused(3, &beside, None), None, "{shape:?}");
-        // Folded along x = 1/2 by 179.9 degrees.
-        let (s, c) = 3.14_f64.sin_cos();
+        // Folded along x = 1/2 by 179.3 degrees.
+        let (s, c) = 3.13_f64.sin_cos();
         let folded = sheet(shape, [4, 2], UNIT).mapped(|[x, y, z]| {
             if x > 0.5 { [0.5 + c * (x - 0.5), y, s * (x - 0.5)] } else { [x, y, z] }
         });

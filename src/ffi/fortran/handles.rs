@@ -1,4 +1,4 @@
-//! Objects known by numbers. Fortran has no pointer type of its own: an address in an INTEGER*8 would be
+//! Objects other than models known by numbers. Fortran has no pointer type of its own: an address in an INTEGER*8 would be
 //! followed whatever it holds, a number that is not here is refused.
 
 use std::collections::BTreeMap;
@@ -21,8 +21,8 @@ struct Living<T> {
 }
 
 impl<T> Handles<T> {
-    /// The upper half of a handle is `letters`, two characters of ASCII, the lower half counts from 1: neither
-    /// is 0, so that a handle cut to an INTEGER*4 is never one, and kinds do not meet.
+    /// The upper half of a handle is `letters`, two characters of ASCII other than the "SG" of models, the lower
+    /// half counts from 1: neither is 0, so that a handle cut to an INTEGER*4 is never one, and kinds do not meet.
     pub(super) const fn new(name: &'static str, what: &'static str, letters: [u8; 2]) -> Self {
         let kind = i64::from_be_bytes([0, 0, letters[0], letters[1], 0, 0, 0, 0]);
         let living = Living { next: kind + 1, by_number: BTreeMap::new() };

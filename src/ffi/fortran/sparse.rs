@@ -7,7 +7,7 @@ use super::super::pairs::SignoriniPairs;
 use super::super::settings::SignoriniSettings;
 use super::super::sparse::{SIGNORINI_TRIANGLE_FULL, SIGNORINI_TRIANGLE_LOWER, SignoriniSparse};
 use super::arguments::{Integer, absurd, choice, count, read, run, sizes};
-use super::models::MODELS;
+use super::models::create;
 use crate::error::entry;
 
 /// # Safety
@@ -43,7 +43,7 @@ pub(super) unsafe fn new<I: Integer>(
     // SAFETY: by the caller's contract.
     unsafe {
         let make = |model| made(&matrix, (nfix, fixed), &pairs, &settings, model);
-        run(info, &[5, 7, 8, 11, 19], || MODELS.create(19, handle, make))
+        run(info, &[5, 7, 8, 11, 19], || create(19, handle, make))
     }
 }
 
@@ -96,7 +96,7 @@ pub(super) unsafe fn within<I: Integer>(
         made(&matrix, (nfix, fixed), &pairs, &settings, model)
     };
     // SAFETY: by the caller's contract.
-    unsafe { run(info, &[5, 7, 8, 11, 22, 23], || MODELS.create(23, handle, make)) }
+    unsafe { run(info, &[5, 7, 8, 11, 22, 23], || create(23, handle, make)) }
 }
 
 /// A limit, 0 for none.

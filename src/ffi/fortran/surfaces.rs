@@ -13,7 +13,7 @@ use super::super::surface_new::{SignoriniSurfacePairs, signorini_surface_pair};
 use super::arguments::{Integer, choice, count, dimension, read, run, write};
 use super::handles::Handles;
 use super::message::fill;
-use super::models::MODELS;
+use super::models::create;
 use super::sparse::{Matrix, numbers};
 
 /// The pairs from surfaces that live.
@@ -166,7 +166,7 @@ pub(super) unsafe fn model<I: Integer>(
         Ok(signorini_model_new_sparse_within(matrix, n_fixed, fixed, rows, settings, model))
     };
     // SAFETY: by the caller's contract.
-    unsafe { run(info, &[5, 7, 8, 9, 10, 10], || MODELS.create(10, handle, make)) }
+    unsafe { run(info, &[5, 7, 8, 9, 10, 10], || create(10, handle, make)) }
 }
 
 /// SGSGAP: slave node, gap, area and normal of each pair.
