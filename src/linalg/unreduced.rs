@@ -30,12 +30,15 @@ impl Whole for Unreduced<'_> {
 
     fn forces(&self, motion: &[f64]) -> Vec<f64> {
         let mut forces = vec![0.0; motion.len()];
-        self.each_entry(|i, j, value| {
-            forces[i] += value * motion[j];
-            if i != j {
-                forces[j] += value * motion[i];
+        for j in 0..self.lower.ncols() {
+            let (rows, values) = column(&self.lower, j);
+            let (moved, mut own) = (motion[j], 0.0);
+            for (&i, value) in rows.iter().zip(values) {
+                forces[i] += value * moved;
+                own += if i == j { 0.0 } else { value * motion[i] };
             }
-        });
+            forces[j] += own;
+        }
         forces
     }
 

@@ -132,13 +132,20 @@ pub(super) fn negative_energy(u: &[f64]) -> String {
     )
 }
 
-/// Whether anything resists a motion `u` of the host cannot be told from rounding.
-pub(super) fn unclear_motion(u: &[f64]) -> String {
-    format!(
-        "the stiffness against a motion cannot be told from the rounding of K: it moves {}: support the \
-         motion, or hold it by springs that are not so soft beside K",
+/// Whether anything resists a motion `u` of the host cannot be told from rounding. Pairs of general rows may
+/// nearly follow from others, which enlarges it.
+pub(super) fn unclear_motion(u: &[f64], general: bool) -> String {
+    let said = format!(
+        "the stiffness against a motion cannot be told from the rounding of K: it moves {}",
         motion::of_host(u)
-    )
+    );
+    let remedy = "support the motion, or hold it by springs that are not so soft beside K";
+    match general {
+        true => format!(
+            "{said}: if two surfaces are each other's slaves, let one side be the slave; otherwise {remedy}"
+        ),
+        false => format!("{said}: {remedy}"),
+    }
 }
 
 /// A motion with the relative displacement, in the host's axes, of the pair that moves most.

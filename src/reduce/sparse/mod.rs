@@ -117,7 +117,7 @@ impl SparseReduction {
         let parts = Parts { inner: free.len(), dim: pairs.dim, rank: rank.as_deref(), look };
         let choice = (control.full_space, dependent.is_none());
         let engine = Engine::new(transformed, &parts, choice, &mut asked)
-            .map_err(|failure| asked.ended.unwrap_or_else(|| refused(&variables, failure)))?;
+            .map_err(|failure| asked.ended.unwrap_or_else(|| refused(&variables, own, failure)))?;
         Ok(SparseReduction {
             dim: pairs.dim,
             fixed_count: fixed.len(),
@@ -323,15 +323,16 @@ fn rows_with_own_slaves(
     Some(variables.map(|variables| GeneralRows { variables, supports, dependent: None }))
 }
 
-/// Why the factorisation failed, in degrees of freedom of the host.
-fn refused(variables: &ChangeOfVariables, failure: Failure) -> Error {
+/// Why the factorisation failed, in degrees of freedom of the host; `own`: each pair has a slave of its own.
+fn refused(variables: &ChangeOfVariables, own: bool, failure: Failure) -> Error {
+    let host = |x: &[f64]| variables.host_displacements(x, None);
     let message = match failure {
         Failure::OutOfMemory => return Error::OutOfMemory("the factor of the stiffness matrix"),
         Failure::Stopped => unreachable!("who stops it says why"),
         Failure::Indefinite(row) => messages::indefinite(variables.free().get(row)),
-        Failure::Negative(x) => messages::negative_energy(&variables.host_displacements(&x, None)),
-        Failure::Unclear(x) => messages::unclear_motion(&variables.host_displacements(&x, None)),
-        Failure::NullVector(x) => messages::free_motion(&variables.host_displacements(&x, None)),
+        Failure::Negative(x) => messages::negative_energy(&host(&x)),
+        Failure::Unclear(x) => messages::unclear_motion(&host(&x), !own),
+        Failure::NullVector(x) => messages::free_motion(&host(&x)),
     };
     Error::invalid(Argument::Matrix, message)
 }

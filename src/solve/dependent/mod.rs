@@ -126,7 +126,8 @@ fn condensed(relation: &DependentRows<'_>) -> Result<SparseSchur, Error> {
         Failure::OutOfMemory => Error::OutOfMemory("the factor of dependent rows"),
         _ => Error::invalid(
             Argument::Matrix,
-            "the stiffness of the bodies between dependent pairs cannot be told from rounding",
+            "the stiffness of the bodies between dependent pairs cannot be told from rounding: if two surfaces are \
+             each other's slaves, let one side be the slave",
         ),
     })
 }
