@@ -45,7 +45,7 @@ done <"$work/tests"
 # ---- C, and Fortran's entries ----
 
 release=$work/release
-[ -f "$release/libsignorini.so" ] || cargo build --release --locked --lib
+cargo build --release --locked --lib
 soname=$(sed -n '/^version = /{s/[^0-9]*\([0-9]*\.[0-9]*\).*/\1/p;q;}' Cargo.toml)
 ln -sf libsignorini.so "$release/libsignorini.so.$soname"
 cd -- "$work/programs"
