@@ -71,7 +71,7 @@ static void refusals(void)
 {
     const double q[4] = {0.5, 0.5, 0.5, -0.5}, nan_q[4] = {0.0, NAN, 0.0, 0.0}, zero[16] = {0.0};
     const double wrong_gap[2] = {0.0, NAN}, wrong_mu[2] = {0.5, -0.1};
-    double d[4], F[4], skew[16];
+    double d[4] = {0}, F[4] = {0}, skew[16];
     memcpy(skew, corner, sizeof skew);
     skew[1] = 0.25;
     const struct {

@@ -11,7 +11,9 @@
 enum { P = 5, N = 2 * P };
 
 /* What a host does wrong. */
-enum wrong { RIGHT, FAILS, NOT_A_NUMBER, UNSYMMETRIC, LEAVES_OUT };
+enum wrong {
+    RIGHT, FAILS, NOT_A_NUMBER, UNSYMMETRIC, LEAVES_OUT, RESISTS_NOTHING, INVERTS_NOTHING, MOVES_HELD
+};
 
 typedef struct host {
     enum wrong wrong;
@@ -40,6 +42,7 @@ static int32_t stiffness(void *user, const double *x, double *y)
         for (int j = 0; j < N; j++) y[i] += entry(i, j) * x[j];
     }
     if (h->wrong == NOT_A_NUMBER) y[7] = NAN;
+    if (h->wrong == RESISTS_NOTHING) memset(y, 0, N * sizeof *y);
     if (h->wrong == UNSYMMETRIC) y[0] += 0.1 * x[1];
     return 0;
 }
@@ -65,8 +68,10 @@ static void solve(const int32_t *held, const double *x, double *y)
 static int32_t inverse(void *user, const double *x, double *y)
 {
     static const int32_t none[N];
-    ((host *)user)->inverses++;
+    host *h = user;
+    h->inverses++;
     solve(none, x, y);
+    if (h->wrong == INVERTS_NOTHING) memset(y, 0, N * sizeof *y);
     return 0;
 }
 
@@ -86,6 +91,8 @@ static int32_t held_solution(void *user, const int32_t *held, int32_t changed, c
     }
     h->stale += h->lost;
     solve(h->factor, x, y);
+    /* Linear, symmetric and positive, and wrong. */
+    if (h->wrong == MOVES_HELD && held[0]) y[0] = x[0];
     return 0;
 }
 
@@ -157,8 +164,19 @@ static void check_refusals(void)
         CHECK_TEXT(signorini_last_error(), cases[k].words);
         CHECK(model == NULL);
     }
-    host h = {0};
+    host h = {.wrong = RESISTS_NOTHING};
     signorini_operator given = of(&h);
+    CHECK_STATUS(signorini_model_new_operator(&given, &model), -1);
+    CHECK_TEXT(signorini_last_error(), "K_rel resists nothing");
+    h.wrong = INVERTS_NOTHING;
+    CHECK_STATUS(signorini_model_new_operator(&given, &model), -1);
+    CHECK_TEXT(signorini_last_error(), "W is not positive definite");
+    h.wrong = MOVES_HELD;
+    given.held = held_solution;
+    CHECK_STATUS(signorini_model_new_operator(&given, &model), -1);
+    CHECK_TEXT(signorini_last_error(), "y[0] is held and is not 0");
+    h.wrong = RIGHT;
+    given = of(&h);
     given.stiffness = NULL;
     CHECK_STATUS(signorini_model_new_operator(&given, &model), -1);
     CHECK_TEXT(signorini_last_error(), "stiffness is NULL");
