@@ -21,6 +21,7 @@ mod fortran;
 mod guard;
 #[cfg(feature = "c-allocator")]
 mod holes;
+mod lane;
 mod law;
 mod lcp;
 mod memory;
@@ -31,6 +32,7 @@ mod model_recover;
 mod model_solve;
 mod operator;
 mod pairs;
+mod parallel;
 mod problem_read;
 mod problem_write;
 mod prove;
