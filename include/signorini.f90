@@ -147,7 +147,7 @@ module signorini
         integer(c_int32_t) :: reserved = 0
         integer(c_int64_t) :: memory_limit = 0
         integer(c_int32_t) :: full_space = 0
-        integer(c_int32_t) :: reserved2 = 0
+        integer(c_int32_t) :: threads = 1
     end type
 
     ! stiffness, inverse and held are c_funloc of bind(C) functions: see the header.

@@ -54,12 +54,13 @@
  * K[row,column].
  *
  * Threads. Calls from several threads at once are safe, on the same model or problem too, as long
- * as nobody frees it. The library never prints, exits, reads the environment, handles signals or
- * starts threads. It opens only the files that you name. It keeps your floating-point environment:
- * inside a call traps and flush-to-zero are off; on return they are as before. The same input gives
- * the same bits on the same machine. A thread that is cancelled (pthread_cancel, deferred) ends
- * after its call. Calls need 64 KiB of stack; settings.search, settings.proof, signorini_prove and
- * several load cases of a sparse model at once need 96 KiB.
+ * as nobody frees it. The library never prints, exits, reads the environment or handles signals, and
+ * starts threads only where settings.threads asks for them. It opens only the files that you name.
+ * It keeps your floating-point environment: inside a call traps and flush-to-zero are off; on return
+ * they are as before. The same input gives the same bits on the same machine. A thread that is
+ * cancelled (pthread_cancel, deferred) ends after its call. Calls need 64 KiB of stack;
+ * settings.search, settings.proof, signorini_prove and several load cases of a sparse model at once
+ * need 96 KiB.
  *
  * Memory. A call to which the system refuses memory ends with SIGNORINI_STATUS_OUT_OF_MEMORY and
  * holds nothing; the next call works. For that each call obtains, before its work begins, as much
@@ -1374,7 +1375,15 @@ struct signorini_settings {
      * says. Default 0: only if the condensed matrix needs more than memory_limit.
      */
     int32_t full_space;
-    int32_t reserved2;              /**< 0. */
+    /**
+     * Threads of a signorini_model_solve of several cases, each a part of them in a row; default 1,
+     * and 0: 1. Each takes the memory that signorini_model_memory tells; memory_limit is that of
+     * one. The same number gives the same bits. Threads end before the call does, and get no
+     * signals. A call with a callback or with SIGNORINI_START_PREVIOUS, and a model that forms no
+     * condensed matrix, has one thread; so have all other calls. If the system refuses memory to a
+     * thread that begins, the process may end.
+     */
+    int32_t threads;
 };
 
 /**

@@ -21,6 +21,7 @@ mod fortran;
 mod guard;
 #[cfg(feature = "c-allocator")]
 mod holes;
+mod lane;
 mod law;
 mod lcp;
 mod memory;
@@ -32,6 +33,7 @@ mod model_solve;
 mod operator;
 mod outputs;
 mod pairs;
+mod parallel;
 mod problem_read;
 mod problem_write;
 mod prove;

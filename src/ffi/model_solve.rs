@@ -1,15 +1,19 @@
 //! Load cases of a model.
 
+use std::sync::{Mutex, PoisonError};
+
 use super::args::{Arrays, Output, size};
 use super::extra::{Extra, SignoriniExtra};
 use super::guard::{self, Failure};
+use super::lane::{Lane, Solved, Start, Work, stopped};
 use super::law;
 use super::model::{SignoriniModel, read_handle};
+use super::parallel;
 use super::report::{Reports, SignoriniReport, state_codes};
 use super::settings::{Received, SignoriniSettings, WarmStart};
 use super::status::{code, remember};
 use crate::error::{Argument, Error, Message};
-use crate::model::{BLOCK, LoadCase, Model, Past, Series, Starts};
+use crate::model::{BLOCK, LoadCase, Model, Past, Series};
 use crate::monitor::ProgressFn;
 use crate::problem::FrictionLaw;
 use crate::shortage;
@@ -219,53 +223,88 @@ impl Block<'_> {
         received: &Received,
         status: &Output<i32>,
     ) -> (i32, Option<Past>) {
-        let mut first = None;
         let goes_on = received.warm_start == WarmStart::Previous;
-        let mut series = match goes_on {
-            true => Series::after(self.model, past.unwrap_or_else(Past::of_none)),
-            false => Series::of(self.model, cases),
-        };
-        for begin in (0..cases).step_by(BLOCK) {
-            let many = BLOCK.min(cases - begin);
-            let answers = self.solve(begin, many, received, &mut series);
-            for (case, (code, message)) in (begin..).zip(answers) {
+        let mut lanes = self.lanes(cases, past, received);
+        let mut first: Option<(usize, i32, Message)> = None;
+        while lanes.iter().any(|lane| !lane.left.is_empty()) {
+            for (case, solved) in self.next_of(&mut lanes, received) {
+                let (code, message) =
+                    solved.map_or_else(stopped, |solved| self.write(case, solved));
                 // SAFETY: one status for each case, as the header demands.
                 unsafe { status.part(case, 1).write(&[code]) };
-                if code != 0 && first.is_none() {
-                    first = Some(code);
-                    // Of one case nobody asks which.
-                    remember(if cases == 1 { message } else { message.in_case(case) });
+                if code != 0 && first.as_ref().is_none_or(|(earlier, ..)| case < *earlier) {
+                    first = Some((case, code, message));
                 }
             }
         }
-        (first.unwrap_or(0), goes_on.then(|| series.into_past()))
+        let past = lanes.pop().filter(|_| goes_on).map(|lane| lane.series.into_past());
+        let Some((case, code, message)) = first else { return (0, past) };
+        // Of one case nobody asks which.
+        remember(if cases == 1 { message } else { message.in_case(case) });
+        (code, past)
     }
 
-    /// Solves cases from number `begin` on and writes their results, unless they are wrong. Returns status and
-    /// message of each one.
-    fn solve(
-        &self,
-        begin: usize,
-        many: usize,
-        received: &Received,
-        series: &mut Series<'_>,
-    ) -> Vec<(i32, Message)> {
+    /// The cases in as many parts as there are threads. One thread has them all where each starts from the one
+    /// before, where a callback waits on the calling thread, and where the host's own functions are called.
+    fn lanes(&self, cases: usize, past: Option<Past>, received: &Received) -> Vec<Lane<'_>> {
+        let model = self.model;
+        if received.warm_start == WarmStart::Previous {
+            let series = Series::after(model, past.unwrap_or_else(Past::of_none));
+            return vec![Lane { left: 0..cases, series }];
+        }
+        let alone = received.has_callback() || model.is_unformed();
+        let count = if alone { 1 } else { received.threads.min(cases) };
+        let begin = |lane: usize| lane * cases / count;
+        (0..count)
+            .map(|lane| begin(lane)..begin(lane + 1))
+            .map(|left| Lane { series: Series::of(model, left.len()), left })
+            .collect()
+    }
+
+    /// Solves the next block of each lane. Returns what each case has come to, by its number.
+    fn next_of(&self, lanes: &mut [Lane<'_>], received: &Received) -> Vec<(usize, Solved)> {
+        if let [lane] = lanes {
+            let work = self.next_work(lane, received);
+            let mut progress = received.progress();
+            let progress = progress.as_mut().map(|progress| progress as &mut ProgressFn<'_>);
+            let solved = work.solve(&mut lane.series, &received.settings, progress);
+            return (work.begin..).zip(solved.into_iter().map(Ok)).collect();
+        }
+        let work: Vec<_> = lanes.iter_mut().map(|lane| self.next_work(lane, received)).collect();
+        let series: Vec<_> = lanes.iter_mut().map(|lane| Mutex::new(&mut lane.series)).collect();
+        let (model, settings) = (self.model, &received.settings);
+        let solved = parallel::each(work.len(), &|lane| {
+            guard::reserve_estimate(model.memory())?;
+            guard::reserve_estimate(model.memory_of_cases(BLOCK))?;
+            let mut series = series[lane].lock().unwrap_or_else(PoisonError::into_inner);
+            Ok(work[lane].solve(&mut series, settings, None))
+        });
+        let mut all = Vec::new();
+        for (work, solved) in work.iter().zip(solved) {
+            let many = work.cases.len();
+            let each = solved.map_or_else(
+                |code| (0..many).map(|_| Err(code)).collect(),
+                |solved| solved.into_iter().map(Ok).collect::<Vec<_>>(),
+            );
+            all.extend((work.begin..).zip(each));
+        }
+        all
+    }
+
+    /// Takes the next block of a lane.
+    fn next_work(&self, lane: &mut Lane<'_>, received: &Received) -> Work<'_> {
         let n = self.model.dim() * self.model.pairs();
-        let cases: Vec<_> = (begin..begin + many).map(|k| self.load_cases.case(k)).collect();
-        let given;
-        let starts = match received.warm_start {
-            WarmStart::None => Starts::Cold,
-            WarmStart::Given => {
-                // SAFETY: d has n entries for each case, filled by a caller that wants a warm start.
-                given = unsafe { self.d.part(n * begin, n * many).read() };
-                Starts::Given(&given)
-            }
-            WarmStart::Previous => Starts::Previous(None),
+        let begin = lane.left.start;
+        let many = BLOCK.min(lane.left.len());
+        lane.left.start += many;
+        let cases = (begin..begin + many).map(|k| self.load_cases.case(k)).collect();
+        let start = match received.warm_start {
+            WarmStart::None => Start::Cold,
+            // SAFETY: d has n entries for each case, filled by a caller that wants a warm start.
+            WarmStart::Given => Start::Given(unsafe { self.d.part(n * begin, n * many).read() }),
+            WarmStart::Previous => Start::Previous,
         };
-        let mut progress = received.progress();
-        let progress = progress.as_mut().map(|progress| progress as &mut ProgressFn<'_>);
-        let solved = series.solve_cases(&cases, &received.settings, starts, progress);
-        (begin..).zip(solved).map(|(case, solved)| self.write(case, solved)).collect()
+        Work { begin, cases, start }
     }
 
     /// Writes the results of a case, unless it is wrong. Returns status and message.

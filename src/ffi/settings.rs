@@ -109,8 +109,13 @@ pub struct SignoriniSettings {
     /// Nonzero: signorini_model_new_sparse_within makes a full-space model, whatever memory_limit
     /// says. Default 0: only if the condensed matrix needs more than memory_limit.
     pub full_space: i32,
-    /// 0.
-    pub reserved2: i32,
+    /// Threads of a signorini_model_solve of several cases, each a part of them in a row; default 1,
+    /// and 0: 1. Each takes the memory that signorini_model_memory tells; memory_limit is that of
+    /// one. The same number gives the same bits. Threads end before the call does, and get no
+    /// signals. A call with a callback or with SIGNORINI_START_PREVIOUS, and a model that forms no
+    /// condensed matrix, has one thread; so have all other calls. If the system refuses memory to a
+    /// thread that begins, the process may end.
+    pub threads: i32,
 }
 
 /// From where a solution starts.
@@ -127,6 +132,8 @@ pub(super) enum WarmStart {
 pub(super) struct Received {
     pub(super) settings: Settings,
     pub(super) warm_start: WarmStart,
+    /// At least 1.
+    pub(super) threads: usize,
     progress: SignoriniProgressFn,
     user: *mut c_void,
 }
@@ -151,7 +158,7 @@ impl SignoriniSettings {
             reserved: 0,
             memory_limit: 0,
             full_space: 0,
-            reserved2: 0,
+            threads: 1,
         }
     }
 
@@ -195,11 +202,13 @@ impl SignoriniSettings {
             SIGNORINI_SEARCH_OTHERS => Search::Others,
             other => return refuse(format!("settings: there is no search {other}")),
         };
-        for (name, given) in [("reserved", self.reserved), ("reserved2", self.reserved2)] {
-            if given != 0 {
-                return refuse(format!("settings: {name} is {given}, it must be 0"));
-            }
+        if self.reserved != 0 {
+            return refuse(format!("settings: reserved is {}, it must be 0", self.reserved));
         }
+        let Ok(threads) = usize::try_from(self.threads) else {
+            let given = self.threads;
+            return refuse(format!("settings: threads is {given}, it must be at least 1"));
+        };
         Ok(Received {
             settings: Settings {
                 method,
@@ -218,6 +227,7 @@ impl SignoriniSettings {
                 SIGNORINI_START_PREVIOUS => WarmStart::Previous,
                 _ => WarmStart::Given,
             },
+            threads: threads.max(1),
             progress: self.progress,
             user: self.user,
         })
@@ -225,6 +235,11 @@ impl SignoriniSettings {
 }
 
 impl Received {
+    /// Whether the caller wants to be told of progress.
+    pub(super) fn has_callback(&self) -> bool {
+        self.progress.is_some()
+    }
+
     /// Whether a call with one case starts from what the caller gives.
     pub(super) fn starts_from_given(&self) -> bool {
         self.warm_start == WarmStart::Given

@@ -14,6 +14,7 @@ mod common;
 
 use std::io::Write;
 use std::ops::ControlFlow;
+use std::time::Instant;
 
 use common::brick::{Brick, Support};
 use common::mesh::{Mesh, Pairs, Stiffness, steps};
@@ -163,7 +164,8 @@ impl Cases {
 }
 
 impl Study<'_> {
-    fn cases(&self, model: &Model) -> Cases {
+    /// Load cases on an obstacle whose lowest point is at `lowest` along x.
+    fn cases(&self, model: &Model, lowest: f64) -> Cases {
         let unit = 1e-3 * self.height;
         let prescribed = |k: usize| {
             let (share, angle) = (k as f64 / MANY as f64, 0.3 * k as f64);
@@ -177,7 +179,8 @@ impl Study<'_> {
             };
             self.above.iter().flat_map(motion).collect()
         };
-        let hollow = |place: &[f64; 2]| 4.0 * unit * (place[0].powi(2) + place[1].powi(2));
+        let hollow =
+            |place: &[f64; 2]| 4.0 * unit * ((place[0] - lowest).powi(2) + place[1].powi(2));
         Cases {
             load: vec![0.0; model.host_size()],
             prescribed: (0..MANY + 2).map(prescribed).collect(),
@@ -199,7 +202,7 @@ impl Study<'_> {
         let sum: f64 = model.stiffness().iter().map(|k| k * k).sum();
         println!("# largest {largest:.15e}, norm {:.15e}", sum.sqrt());
 
-        let cases = self.cases(&model);
+        let cases = self.cases(&model, 0.0);
         let first = reduced + self.one(&model, &cases, (0, "solve"), None);
         let further = self.one(&model, &cases, (1, "further"), None);
         let part =
@@ -222,12 +225,38 @@ impl Study<'_> {
                 100.0 * each / first
             );
         }
+        self.moving(&model);
+        two_threads(&model, &cases);
         let (condensed, count) = (cpu(), 10);
         for k in 0..count {
             let case = cases.case(k);
             model.condensed_load(case.load, case.prescribed).expect("a valid load");
         }
         println!("# of a case by itself, the load: {:.4} s", (cpu() - condensed) / count as f64);
+    }
+
+    /// Cases that press in turn at either end, by themselves and in a series.
+    fn moving(&self, model: &Model) {
+        let ends = [-0.45, 0.45].map(|lowest| self.cases(model, lowest));
+        let all: Vec<_> = (0..IN_SERIES).map(|k| ends[k % 2].case(k)).collect();
+        let settings = Settings::default();
+        let begin = cpu();
+        for case in &all {
+            let monitor = &mut Monitor::new(&settings, None);
+            let found = model.solve(case, &settings, None, monitor).expect("a valid case");
+            assert_eq!(found.status, Status::Solved);
+        }
+        let alone = cpu();
+        let mut series = model.series();
+        for case in &all {
+            let found = series.solve_cases(&[*case], &settings, Starts::Cold, None).remove(0);
+            assert_eq!(found.expect("a valid case").status, Status::Solved);
+        }
+        println!(
+            "# {IN_SERIES} cases at either end in turn: {:.3} s by themselves, {:.3} s in a series",
+            alone - begin,
+            cpu() - alone
+        );
     }
 
     /// Solves and recovers a load case by itself, or as the next one of a series. Returns the seconds.
@@ -269,6 +298,30 @@ impl Study<'_> {
             "{case},{dim},{unknowns},{contact},signorini,faer,{step},{seconds:.4},{peak},{end}"
         );
     }
+}
+
+/// A hundred load cases on one thread, and on two that have a half each: CPU seconds of the busier thread, which
+/// are those of an idle machine, and seconds on the clock.
+fn two_threads(model: &Model, cases: &Cases) {
+    let all: Vec<_> = (2..MANY + 2).map(|k| cases.case(k)).collect();
+    let solved = |cases: &[LoadCase<'_>]| {
+        let begin = cpu();
+        let found = model.solve_cases(cases, &Settings::default(), Starts::Cold, None);
+        assert!(found.into_iter().all(|found| found.is_ok_and(|f| f.status == Status::Solved)));
+        cpu() - begin
+    };
+    let begin = Instant::now();
+    let (one, clock) = (solved(&all), begin.elapsed().as_secs_f64());
+    let (first, second) = all.split_at(MANY / 2);
+    let begin = Instant::now();
+    let two = std::thread::scope(|scope| {
+        let other = scope.spawn(|| solved(second));
+        solved(first).max(other.join().expect("solved"))
+    });
+    println!(
+        "# {MANY} cases: on one thread {one:.2} s ({clock:.2} s on the clock), on two {two:.2} s ({:.2} s)",
+        begin.elapsed().as_secs_f64()
+    );
 }
 
 /// Seconds of a hundred load cases at once, and of their displacements.

@@ -98,7 +98,7 @@ FIELD(signorini_settings, proof, int32_t, 72);
 FIELD(signorini_settings, reserved, int32_t, 76);
 FIELD(signorini_settings, memory_limit, int64_t, 80);
 FIELD(signorini_settings, full_space, int32_t, 88);
-FIELD(signorini_settings, reserved2, int32_t, 92);
+FIELD(signorini_settings, threads, int32_t, 92);
 
 SIZE(signorini_report, 176);
 FIELD(signorini_report, struct_size, uint32_t, 0);
@@ -272,7 +272,7 @@ int main(void)
     CHECK(settings.progress == NULL);
     CHECK(settings.user == NULL);
     CHECK(settings.proof == 0 && settings.reserved == 0);
-    CHECK(settings.full_space == 0 && settings.reserved2 == 0);
+    CHECK(settings.full_space == 0 && settings.threads == 1);
     /* No larger structure is known to it. */
     CHECK_STATUS(signorini_settings_default(&settings, sizeof settings + 8), -2);
     signorini_extra extra;

@@ -304,6 +304,25 @@ static int32_t two_bodies(struct world *w)
     return status;
 }
 
+/* Calls that are one series, in which every second pair stays open. */
+static int32_t series(struct world *w)
+{
+    static double gap[64];
+    chain *c = &w->space;
+    signorini_model *model = NULL;
+    signorini_settings settings;
+    for (int64_t pair = 0; pair < c->pairs && pair < 64; pair++)
+        gap[pair] = pair % 2 ? 10 : c->gap[pair];
+    int32_t status = signorini_settings_default(&settings, sizeof settings);
+    settings.warm_start = SIGNORINI_START_PREVIOUS;
+    if (!status) status = signorini_model_new_condensed(c->dim, c->pairs, c->K, c->n, &model);
+    for (int step = 0; step < 3 && !status; step++)
+        status = signorini_model_solve(model, 1, c->f, NULL, gap, SIGNORINI_LAW_COULOMB, c->mu, NULL,
+                                       &settings, w->d, w->F, w->state, NULL, NULL, NULL);
+    signorini_model_free(model);
+    return status;
+}
+
 static signorini_sparse matrix_of(const struct brick_mesh *mesh)
 {
     return (signorini_sparse){.struct_size = sizeof(signorini_sparse), .index_bytes = 4,
@@ -510,6 +529,7 @@ static const struct scenario scenarios[] = {
     {"write and read an LCP", lcp_files, 0, 0},
     {"absent file", absent_file, SIGNORINI_STATUS_FILE, 0},
     {"condensed model, three cases", condensed_model, 0, 0},
+    {"load steps in a series", series, 0, 0},
     {"two bodies", two_bodies, 0, 0},
     {"sparse model", sparse_model, 0, 0},
     {"sparse model, many cases", sparse_many, 0, DEEP},

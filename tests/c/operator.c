@@ -279,10 +279,10 @@ static void check_full_space(void)
         CHECK_NEAR(d[1][i], d[0][i]);
         CHECK_NEAR(F[1][i], F[0][i]);
     }
-    settings.reserved2 = 1;
+    settings.reserved = 1;
     signorini_model *model = NULL;
     CHECK_STATUS(signorini_model_new_sparse_within(&K, 0, NULL, &pairs, &settings, &model), -5);
-    CHECK_TEXT(signorini_last_error(), "reserved2 is 1");
+    CHECK_TEXT(signorini_last_error(), "reserved is 1");
 }
 
 int main(void)

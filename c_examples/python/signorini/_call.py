@@ -9,8 +9,8 @@ from ._results import Progress
 from ._structures import Callback, Settings
 
 NAMES = ("method", "tolerance", "omega", "damping", "max_iterations", "time_limit", "search",
-         "proof", "memory_limit", "full_space")
-COUNTS = ("max_iterations", "memory_limit")
+         "proof", "memory_limit", "full_space", "threads")
+COUNTS = ("max_iterations", "memory_limit", "threads")
 FAMILIES = {"method": Method, "search": Search}
 
 

@@ -30,7 +30,7 @@ class Settings(ctypes.Structure):
         ("struct_size", u32), ("method", i32), ("tolerance", real), ("omega", real),
         ("damping", real), ("max_iterations", i64), ("time_limit", real), ("warm_start", i32),
         ("search", i32), ("progress", Callback), ("user", address), ("proof", i32),
-        ("reserved", i32), ("memory_limit", i64), ("full_space", i32), ("reserved2", i32),
+        ("reserved", i32), ("memory_limit", i64), ("full_space", i32), ("threads", i32),
     ]
 
 
