@@ -137,6 +137,9 @@ static void refusals(void)
     other = mesh;
     other.nodes = INT64_MAX;
     refused(-2, "coordinates cannot have", &other, NULL, NULL);
+    /* 2^63 bytes, half of all addresses. */
+    other.nodes = INT64_C(1) << 59;
+    refused(-2, "coordinates cannot have", &other, NULL, NULL);
     other = mesh;
     other.cell_types = NULL;
     other.cell_type = 99;
