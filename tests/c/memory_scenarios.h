@@ -519,7 +519,7 @@ static const struct scenario scenarios[] = {
     {"space, other solutions", space_others, 0, DEEP},
     {"space, proof", space_proof, 0, DEEP},
     {"six pairs", small_auto, 0, 0},
-    {"flexibility", flexibility, 0, 0},
+    {"flexibility", flexibility, 0, DEEP},
     {"certify", certify, 0, 0},
     {"prove", prove, 0, DEEP},
     {"LCP", lcp, 0, 0},
