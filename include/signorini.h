@@ -56,9 +56,9 @@
  * Threads. Calls from several threads at once are safe, on the same model or problem too, as long
  * as nobody frees it. The library never prints, exits, reads the environment or handles signals.
  * It starts threads only where settings.threads asks for them. It opens only the files that you
- * name. It keeps your floating-point environment: inside a call traps and flush-to-zero are off; on return
- * they are as before. The same input gives the same bits on the same machine. A thread that is
- * cancelled (pthread_cancel, deferred) ends after its call. Calls need 64 KiB of stack;
+ * name. It keeps your floating-point environment: inside a call traps and flush-to-zero are off;
+ * on return they are as before. The same input gives the same bits on the same machine. A thread
+ * that is cancelled (pthread_cancel, deferred) ends after its call. Calls need 64 KiB of stack;
  * settings.search, settings.proof, signorini_prove, signorini_flexibility_solve and several load
  * cases of a sparse model at once need 96 KiB.
  *
