@@ -1031,7 +1031,7 @@ module signorini
     private :: check_case, check_pairs, check_square, check_dim, check_data, check_starts, check_second
     private :: check_model, check_masters, choose_law, choose_settings, place_of_settings
     private :: check_surfaces, check_faces, check_results, settle, keep_pairs, reals_of, address2, finish_sparse
-    private :: operator_inverse, operator_held, call_stiffness, call_inverse, call_held
+    private :: operator_inverse, operator_held, received, call_stiffness, call_inverse, call_held
     private :: address, address_of_extra, copy_states, entries, number, text, tuple, keep_sizes
 
 contains
@@ -1710,15 +1710,23 @@ contains
         info = merge(-1, -2, changed .or. self%has_held)
     end subroutine
 
+    ! The host of a call, and the vectors of it.
+    subroutine received(user, x, y, place, from, to)
+        type(c_ptr), intent(in) :: user, x, y
+        type(operator_place), pointer, intent(out) :: place
+        real(c_double), pointer, intent(out) :: from(:), to(:)
+        call c_f_pointer(user, place)
+        call c_f_pointer(x, from, [place%size])
+        call c_f_pointer(y, to, [place%size])
+    end subroutine
+
     function call_stiffness(user, x, y) bind(C, name="") result(answer)
         type(c_ptr), value :: user, x, y
         integer(c_int32_t) :: answer
         type(operator_place), pointer :: place
         real(c_double), pointer :: from(:), to(:)
         integer :: info
-        call c_f_pointer(user, place)
-        call c_f_pointer(x, from, [place%size])
-        call c_f_pointer(y, to, [place%size])
+        call received(user, x, y, place, from, to)
         info = 0
         call place%host%stiffness(from, to, info)
         answer = number(info)
@@ -1730,9 +1738,7 @@ contains
         type(operator_place), pointer :: place
         real(c_double), pointer :: from(:), to(:)
         integer :: info
-        call c_f_pointer(user, place)
-        call c_f_pointer(x, from, [place%size])
-        call c_f_pointer(y, to, [place%size])
+        call received(user, x, y, place, from, to)
         info = 0
         call place%host%inverse(from, to, info)
         answer = number(info)
@@ -1746,10 +1752,8 @@ contains
         integer(c_int32_t), pointer :: mask(:)
         real(c_double), pointer :: from(:), to(:)
         integer :: info
-        call c_f_pointer(user, place)
+        call received(user, x, y, place, from, to)
         call c_f_pointer(held, mask, [place%size])
-        call c_f_pointer(x, from, [place%size])
-        call c_f_pointer(y, to, [place%size])
         info = 0
         call place%host%held(mask /= 0, changed /= 0, from, to, info)
         answer = number(info)
