@@ -25,6 +25,7 @@ impl SignoriniModel {
     }
 
     /// Puts what is left for further calls, and returns what earlier ones have left.
+    #[inline(never)] // tests/c/helgrind.supp names it
     pub(super) fn replace_past(&self, past: Option<Past>) -> Option<Past> {
         // A call that ends early, by a shortage of memory too, has nothing in hand.
         std::mem::replace(&mut self.past.lock().unwrap_or_else(PoisonError::into_inner), past)
