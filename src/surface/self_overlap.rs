@@ -51,7 +51,6 @@ pub(super) fn check(side: &Side<'_>, dim: usize, reach: f64) -> Result<(), Error
             let second = side.face(other);
             let distance = reach.min(UPON * face.size().min(second.size()));
             // Faces that cannot be projected on each other do not lie upon each other.
-            // Faces that cannot be projected on each other do not lie upon each other.
             let common = in_plane.overlap(&second, distance).map_or(0.0, |part| part.area);
             let smaller = || in_plane.area.min(SlaveFace::new(&second, plane.clone()).area);
             if common > 0.0 && common > COMMON * smaller() {
