@@ -115,6 +115,9 @@ C     What is refused.
       CALL SGSVTU(HSURF, 'x.vtu', 5, X, 12, 4, 14, CELL, GAP,
      &            SLIP0, U, D, R, STATE, INFO)
       CALL EXPECT('another cell', INFO, -8, NFAIL)
+      CALL SGSVTU(HSURF, 'x.vtu', 5, X, 9, 0, 2000000000, CELL, GAP,
+     &            SLIP0, U, D, R, STATE, INFO)
+      CALL EXPECT('cells without nodes', INFO, -6, NFAIL)
       CALL SGSFLD(HANDLE, GAP, SLIP0, D, R, PRESS, TRACT, CLEAR,
      &            SLIP, INFO)
       CALL EXPECT('a model as pairs', INFO, -1, NFAIL)

@@ -76,6 +76,9 @@ pub(super) unsafe fn write_vtu<I: Integer>(
         let cell_type = choice(5, "VTKTYP", vtktyp)?;
         let each = count(6, "LCELL", lcell)?;
         let cells = count(7, "NCELL", ncell)?;
+        if each == 0 && cells > 0 {
+            return Err(Failure::argument(6, "LCELL is 0, it must be the nodes of a cell"));
+        }
         let cell_nodes = numbers(8, "CELL", cell, each * cells)?;
         // A type with another number of nodes is refused by its own name.
         let starts: Vec<i64> = (0..=cells).map(|k| 1 + each * k).collect();

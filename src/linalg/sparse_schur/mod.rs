@@ -22,7 +22,7 @@ pub use failure::Failure;
 pub use plan::Plan;
 pub use watch::{Unwatched, Watch, answered};
 
-use std::sync::{Mutex, PoisonError};
+use std::sync::Mutex;
 
 use super::free_motions::{self, Doubt, is_suspicious};
 use super::sparse_matrix::{Csc, diagonal};
@@ -117,7 +117,9 @@ impl SparseSchur {
         // Nothing that lives on may stand in the reserve of a call.
         if x.len() == size && !shortage::is_noted() {
             let last = [rhs.to_vec(), x];
-            *self.last.lock().unwrap_or_else(PoisonError::into_inner) = Some(last);
+            if let Ok(mut place) = self.last.try_lock() {
+                *place = Some(last);
+            }
         }
         condensed
     }
@@ -136,9 +138,10 @@ impl SparseSchur {
         self.structure.unordered(&x)
     }
 
-    /// What elimination makes of a right side, if it is the last one.
+    /// What elimination makes of a right side, if it is the last one. Nobody waits for the lock: after a fork it
+    /// may belong to a thread that is not there.
     fn last_of(&self, rhs: &[f64]) -> Option<Vec<f64>> {
-        let last = self.last.lock().unwrap_or_else(PoisonError::into_inner);
+        let last = self.last.try_lock().ok()?;
         last.as_ref().filter(|[known, _]| known == rhs).map(|[_, x]| x.clone())
     }
 
