@@ -109,9 +109,10 @@ typedef struct signorini_extra signorini_extra;
 #define SIGNORINI_LAW_COHESIVE 3
 /**
  * Orthotropic, 3D only: (F_1 / mu1)^2 + (F_2 / mu2)^2 <= F_n^2, an ellipse. friction holds three
- * numbers for each pair, (mu1, mu2, angle): the coefficients along axis 1 and 2, both > 0, and the
- * angle of axis 1 from t1 towards t2 in radians. The pair slips along the normal of the ellipse at
- * -F_t (associated rule): of all forces in the ellipse F_t takes the most work from the slip.
+ * numbers for each pair, (mu1, mu2, angle): the coefficients along axis 1 and 2, both > 0 and at
+ * most 1e6 times apart, and the angle of axis 1 from t1 towards t2 in radians. The pair slips along
+ * the normal of the ellipse at -F_t (associated rule): of all forces in the ellipse F_t takes the
+ * most work from the slip.
  */
 #define SIGNORINI_LAW_ORTHOTROPIC 4
 /** The same ellipse and numbers; the pair slips opposite to F_t (collinear rule). */
@@ -119,7 +120,8 @@ typedef struct signorini_extra signorini_extra;
 
 /* State of a pair. */
 /**
- * The pair is apart: F_n = 0, with cohesion F_n = a; F_t = 0 but under Tresca's law and cohesion.
+ * The pair is apart: F_n = 0, with cohesion F_n = a; F_t = 0 but under Tresca's law and cohesion. A
+ * pressure below 1e-11 of the largest load or contact force counts as none.
  */
 #define SIGNORINI_STATE_OPEN 0
 /** The pair touches and slips: |F_t| is at its bound. Frictionless: every pair that touches. */
@@ -602,7 +604,8 @@ int32_t signorini_model_recover(const signorini_model *model, const double *f,
  * @param prescribed  values of the fixed degrees of freedom; NULL: zero
  * @param d           relative displacements, N entries a case
  * @param u           out: displacements, H entries a case
- * @return 0; -k: the k-th argument is wrong, in the case that signorini_last_error names
+ * @return 0; -k: the k-th argument is wrong, in the case that signorini_last_error names. Numbers
+ *         so large that u overflows are found on the way: cases before may be written then
  */
 int32_t signorini_model_recover_cases(const signorini_model *model, int64_t cases, const double *f,
                                       const double *prescribed, const double *d, double *u);

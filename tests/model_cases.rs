@@ -5,7 +5,7 @@ mod common;
 use common::dense::{difference, largest};
 use common::mesh::{Mesh, Pairs, steps};
 use fastrand::Rng;
-use signorini::reduce::SolvedCase;
+use signorini::reduce::{ContactPairs, Indices, SolvedCase, SparseMatrix, Triangle};
 use signorini::{
     Argument, Error, FrictionLaw, LoadCase, Method, Model, Monitor, Settings, Solution, Starts,
     Status,
@@ -251,4 +251,47 @@ fn columns_under_many_pressures() {
             mesh.nodes.iter().flat_map(|node| [0.0, -p * node[1] / young]).collect();
         same(u, &exact, &format!("u of case {k}"));
     }
+}
+
+/// Two nodes on springs of stiffness 1, but for one of 0.1: a load of 1e307 on it moves its node by 1e308, which is
+/// a double; one of 1e308 by 1e309, which is none.
+#[test]
+fn displacements_that_overflow_are_refused() {
+    let matrix = SparseMatrix {
+        size: 4,
+        col_start: Indices::Wide(&[0, 1, 2, 3, 4]),
+        row: Indices::Wide(&[0, 1, 2, 3]),
+        values: &[1.0, 1.0, 0.1, 1.0],
+        index_base: 0,
+        triangle: Triangle::Lower,
+    };
+    let pairs = ContactPairs {
+        dim: 2,
+        count: 1,
+        slaves: &[0, 1],
+        master_start: &[0, 0],
+        masters: &[],
+        weights: &[],
+        normals: &[1.0, 1.0],
+        tangents: None,
+    };
+    let model = Model::sparse(&matrix, &[], &pairs).unwrap();
+    let (small, large) = ([0.0, 0.0, 1e307, 0.0], [0.0, 0.0, 1e308, 0.0]);
+    let case = |load| SolvedCase { load: Some(load), prescribed: None, d: &[0.0, 0.0] };
+    let moved = model.recover(Some(&small), None, &[0.0, 0.0]).unwrap()[2];
+    // One division.
+    assert!((moved / 1e308 - 1.0).abs() <= f64::EPSILON);
+    let told = |error: Error| match error {
+        Error::Invalid { argument, message } => (argument, message.to_string()),
+        other => panic!("{other}"),
+    };
+    let (argument, message) = told(model.recover(Some(&large), None, &[0.0, 0.0]).unwrap_err());
+    assert!(argument == Argument::Start && message.starts_with("u[2] overflows"), "{message}");
+    let cases: Vec<_> =
+        (0..40).map(|k| case(if k == 35 { &large[..] } else { &small[..] })).collect();
+    let (_, message) = told(model.recover_cases(&cases).unwrap_err());
+    assert!(message.starts_with("case 35: u[2] overflows"), "{message}");
+    // Along the axes, at 45 degrees to the pair's frame, the components of a force add up to 2.4e308.
+    let (argument, message) = told(model.nodal_forces(&[1.7e308, 1.7e308]).unwrap_err());
+    assert!(argument == Argument::Load && message.contains("overflows"), "{message}");
 }

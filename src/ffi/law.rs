@@ -19,9 +19,10 @@ pub const SIGNORINI_LAW_TRESCA: i32 = 2;
 /// after it opened.
 pub const SIGNORINI_LAW_COHESIVE: i32 = 3;
 /// Orthotropic, 3D only: (F_1 / mu1)^2 + (F_2 / mu2)^2 <= F_n^2, an ellipse. friction holds three
-/// numbers for each pair, (mu1, mu2, angle): the coefficients along axis 1 and 2, both > 0, and the
-/// angle of axis 1 from t1 towards t2 in radians. The pair slips along the normal of the ellipse at
-/// -F_t (associated rule): of all forces in the ellipse F_t takes the most work from the slip.
+/// numbers for each pair, (mu1, mu2, angle): the coefficients along axis 1 and 2, both > 0 and at
+/// most 1e6 times apart, and the angle of axis 1 from t1 towards t2 in radians. The pair slips along
+/// the normal of the ellipse at -F_t (associated rule): of all forces in the ellipse F_t takes the
+/// most work from the slip.
 pub const SIGNORINI_LAW_ORTHOTROPIC: i32 = 4;
 /// The same ellipse and numbers; the pair slips opposite to F_t (collinear rule).
 pub const SIGNORINI_LAW_ORTHOTROPIC_COLLINEAR: i32 = 5;

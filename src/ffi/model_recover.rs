@@ -59,7 +59,8 @@ pub unsafe extern "C" fn signorini_model_recover(
 /// @param prescribed  values of the fixed degrees of freedom; NULL: zero
 /// @param d           relative displacements, N entries a case
 /// @param u           out: displacements, H entries a case
-/// @return 0; -k: the k-th argument is wrong, in the case that signorini_last_error names
+/// @return 0; -k: the k-th argument is wrong, in the case that signorini_last_error names. Numbers
+///         so large that u overflows are found on the way: cases before may be written then
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn signorini_model_recover_cases(
     model: *const SignoriniModel,
@@ -90,17 +91,13 @@ pub unsafe extern "C" fn signorini_model_recover_cases(
                 d: &d[n * k..n * (k + 1)],
             };
             // Nothing is written if a case is wrong.
+            let refused = |error| Failure::from_error(error, position);
             for k in 0..cases {
-                model.check_solved(&case(k)).map_err(|error| {
-                    let error = if cases == 1 { error } else { error.in_case(k) };
-                    Failure::from_error(error, position)
-                })?;
+                model.check_case(&case(k), k, cases).map_err(refused)?;
             }
             for begin in (0..cases).step_by(BLOCK) {
-                let many = BLOCK.min(cases - begin);
-                let block: Vec<_> = (begin..begin + many).map(case).collect();
-                let recovered = model.recover_cases(&block);
-                let recovered = recovered.map_err(|error| Failure::from_error(error, position))?;
+                let block: Vec<_> = (begin..cases.min(begin + BLOCK)).map(case).collect();
+                let recovered = model.recover_block(&block, begin, cases).map_err(refused)?;
                 for (k, u) in (begin..).zip(recovered) {
                     out.part(host * k, host).write(&u);
                 }

@@ -4,7 +4,6 @@ use super::{LoadCase, Model};
 use crate::error::Error;
 use crate::linalg::elimination::Remembered;
 use crate::monitor::{Monitor, Progress, ProgressFn};
-use crate::reduce::SolvedCase;
 use crate::settings::Settings;
 use crate::solve::{Solution, Status};
 
@@ -125,22 +124,6 @@ impl Model {
         progress: Option<&mut ProgressFn<'_>>,
     ) -> Vec<Result<Solution, Error>> {
         Series::of(self, cases.len()).solve_cases(cases, settings, starts, progress)
-    }
-
-    /// Displacements of the host of several load cases, each as by [`Self::recover`], in blocks of 32.
-    ///
-    /// # Errors
-    /// Arrays of the wrong length or not finite, with the number of the case if there are several.
-    pub fn recover_cases(&self, cases: &[SolvedCase<'_>]) -> Result<Vec<Vec<f64>>, Error> {
-        for (k, case) in cases.iter().enumerate() {
-            let checked = self.check_solved(case);
-            checked.map_err(|error| if cases.len() == 1 { error } else { error.in_case(k) })?;
-        }
-        let mut found = Vec::with_capacity(cases.len());
-        for block in cases.chunks(BLOCK) {
-            found.extend(self.reduction.recover_cases(block)?);
-        }
-        Ok(found)
     }
 
     /// What each load case of a block condenses to; `None` where nothing is condensed. A wrong case is left out

@@ -18,7 +18,8 @@ pub enum FrictionLaw<'a> {
     /// open in an earlier load step.
     Cohesive(&'a [f64]),
     /// Orthotropic friction in 3D: `(F_1 / mu1)² + (F_2 / mu2)² <= F_n²` along axes of which the first is
-    /// at `angle` (radians) from t1 towards t2. Three numbers a pair, `mu1 > 0`, `mu2 > 0` and `angle`.
+    /// at `angle` (radians) from t1 towards t2. Three numbers a pair, `mu1 > 0`, `mu2 > 0`, up to 1e6 times
+    /// apart, and `angle`.
     /// The slip is along the inward normal of the ellipse at the force (associated rule).
     Orthotropic(&'a [f64]),
     /// As [`FrictionLaw::Orthotropic`], with the slip opposite to the force (collinear rule).
@@ -31,6 +32,10 @@ const ORTHOTROPIC: [&str; 3] = ["mu1", "mu2", ANGLE];
 
 /// The parameter that may have either sign.
 const ANGLE: &str = "angle";
+
+/// How far apart both coefficients of an ellipse may be: slips are scaled by the squares of their quotient, of which
+/// a few digits must be left.
+const FLATTEST: f64 = 1e6;
 
 /// Units in the last place by which `b` may fall below `mu a`: the host has rounded a product.
 const ROUNDED: f64 = 4.0 * f64::EPSILON;
@@ -135,6 +140,18 @@ impl<'a> FrictionLaw<'a> {
             if value < 0.0 {
                 return Err(format!("{} is {value}, it must not be negative", place()));
             }
+        }
+        if self.is_orthotropic()
+            && let [first, second, _] = numbers
+            && first.max(*second) > FLATTEST * first.min(*second)
+        {
+            let place = self.place(pair, usize::from(second < first));
+            return Err(format!(
+                "{place} is {:e}, and the other coefficient {:e}: they may be {FLATTEST:e} times apart: \
+                 raise it, the friction of so small a coefficient is lost beside the other",
+                first.min(*second),
+                first.max(*second)
+            ));
         }
         if let (FrictionLaw::Cohesive(_), [mu, b, a]) = (self, numbers)
             && *b < mu * a * (1.0 - ROUNDED)

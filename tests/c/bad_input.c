@@ -386,6 +386,8 @@ static void laws(void)
         0, 0.5, 1, 1);
     LAW(3, ORTHOTROPIC_COLLINEAR, "mu2 < 0", "friction[4] (mu2 of pair 1) is -1", 1, 1, 0, 0.5, -1,
         1);
+    LAW(3, ORTHOTROPIC, "mu2 is no friction beside mu1",
+        "friction[1] (mu2 of pair 0) is 1e-10, and the other coefficient 3e-1", 0.3, 1e-10, 0, 1, 1, 0);
     LAW(3, ORTHOTROPIC, "angle is infinite", "friction[5] (angle of pair 1) is not finite", 1, 1,
         0, 0.5, 1, INFINITY);
     BAD(2, SOLVE, "orthotropic in the plane", -7, "dim is 2", c.law = SIGNORINI_LAW_ORTHOTROPIC,

@@ -251,12 +251,15 @@ void judge_flexibility(const problem *p, double tolerance, const double *d, cons
             const quad undone = magnitude(p->f[i]) / w;
             size = larger(size, undone);
             if (undone > 0 && undone < least) least = undone;
-            rounding = larger(rounding, 8 * UNIT * parts / w);
+            /* A product that underflows is off by a subnormal number. */
+            const quad lost = UNIT * parts + (quad)DBL_TRUE_MIN * (p->n + 1);
+            rounding = larger(rounding, 8 * lost / w);
         }
     }
     /* Free displacements some 1e10 apart: those that are small beside the others are not judged. */
     if (size > 1e10 * least) return;
-    if (worst > 8 * tolerance * size + (sane() ? 1 : 20) * rounding + LEAST)
+    /* Forces below 1e-11 of the largest are those of an open pair, and 0: signorini.h, SIGNORINI_STATE_OPEN. */
+    if (worst > 8 * fmax(tolerance, 1e-11) * size + (sane() ? 1 : 20) * rounding + LEAST)
         complain("d - W F - q is %g of the forces", (double)(worst / size));
 }
 
