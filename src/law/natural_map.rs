@@ -86,11 +86,12 @@ impl PairLaw {
     }
 
     /// The state of the active branch of the natural map. Branches closer than the force `margin` are
-    /// not told apart: open comes before closed, stick before slip.
+    /// not told apart: open comes before closed, stick before slip. A pair that is open has no friction, so that
+    /// friction under its pressure is below `margin` too.
     pub fn state(&self, d: &[f64], force: &[f64], margin: f64) -> State {
         let trial = self.trial(d, force);
         let threshold = self.threshold(force[0]);
-        if trial[0] <= margin {
+        if trial[0] * self.bound.slope.max(1.0) <= margin {
             State::Open
         } else if threshold > 0.0 && self.gauge(&trial[1..self.dim]) <= threshold + margin {
             State::Stick

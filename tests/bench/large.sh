@@ -14,10 +14,11 @@
 # itself. Each case and library is a process of its own, so that peaks are those of the case. Times are those of
 # one thread; on a busy machine they are longer.
 #
-# The libraries beside ours are compiled from large_peers.c where their headers are (names of Debian:
-# libmumps-seq-dev, libsuitesparse-dev, libopenblas-dev); CC names the compiler. They condense (MUMPS) or factor
-# (CHOLMOD) the same matrix, right after ours and with OpenBLAS on one thread: as it chooses its kernels, and, on a
-# CPU with AVX-512, with the kernels for that too, as an OpenBLAS that does not know the CPU takes others.
+# The libraries beside ours are compiled from large_peers.c and large_petsc.c where their headers are (names of Debian:
+# libmumps-seq-dev, libsuitesparse-dev, libopenblas-dev, petsc-dev); CC names the compiler. They condense (MUMPS),
+# factor (CHOLMOD), or solve without friction (PETSc's SNESVI) on the same matrix, right after ours and with OpenBLAS
+# on one thread: as it chooses its kernels, and, on a CPU with AVX-512, with the kernels for that too, as an OpenBLAS
+# that does not know the CPU takes others. Beside PETSc's time stands ours of `reduce` and `without friction`.
 set -eu
 LC_ALL=C
 export LC_ALL
@@ -58,7 +59,17 @@ if [ -f "$headers/cholmod.h" ] && [ -f "$sequential/mpi.h" ]; then
     ${CC:-cc} -O2 -std=c11 -D_GNU_SOURCE -I"$headers" -I"$sequential" tests/bench/large_peers.c -o $peers \
         -ldmumps_seq -lcholmod -lm || die "large_peers.c does not compile"
 else
-    say "ours alone: without libmumps-seq-dev and libsuitesparse-dev there is nothing beside it"
+    say "without libmumps-seq-dev and libsuitesparse-dev there is nothing beside the condensation"
+fi
+petsc=
+if command -v mpicc >/dev/null && pkg-config --exists petsc 2>/dev/null; then
+    petsc=target/bench/large_petsc
+    mkdir -p target/bench
+    # shellcheck disable=SC2046 # options
+    OMPI_CC=${CC:-cc} mpicc -O2 -std=c11 -D_GNU_SOURCE $(pkg-config --cflags petsc) tests/bench/large_petsc.c -o $petsc \
+        $(pkg-config --libs petsc) -lm || die "large_petsc.c does not compile"
+else
+    say "without petsc-dev there is nothing beside the solution without friction"
 fi
 kernels=default
 ! grep -q avx512f /proc/cpuinfo 2>/dev/null || kernels="default SkylakeX"
@@ -66,7 +77,7 @@ OMP_NUM_THREADS=1
 OPENBLAS_NUM_THREADS=1
 SIGNORINI_LARGE_MATRIX=$root/target/bench/large.matrix
 export OMP_NUM_THREADS OPENBLAS_NUM_THREADS
-[ -z "$peers" ] || export SIGNORINI_LARGE_MATRIX
+[ -z "$peers$petsc" ] || export SIGNORINI_LARGE_MATRIX
 
 # The kernels of OpenBLAS.
 set_kernels() {
@@ -80,19 +91,25 @@ note() {
     printf '%s\n' "$1" >>"$out/large.txt"
 }
 
+# beside LIBRARY BLAS: the case by another library.
+beside() {
+    case $1 in
+    petsc) "$petsc" "$SIGNORINI_LARGE_MATRIX" "$case" $dim "$2" ;;
+    *) "$peers" "$SIGNORINI_LARGE_MATRIX" "$1" "$case" $dim "$2" ;;
+    esac
+}
+
 for case in "$@"; do
     say "$case"
     rows=$(cargo bench --quiet --bench large_rows -- "$case") || die "$case did not end"
     note "$rows"
-    [ -n "$peers" ] || continue
     dim=3
     case $case in block | bar | square-*) dim=2 ;; esac
-    for library in mumps cholmod; do
+    for library in ${peers:+mumps cholmod} ${petsc:+petsc}; do
         for blas in $kernels; do
             say "$case, $library, kernels of OpenBLAS: $blas"
             set_kernels "$blas"
-            rows=$("$peers" "$SIGNORINI_LARGE_MATRIX" $library "$case" $dim "OpenBLAS-$blas") ||
-                die "$library did not end"
+            rows=$(beside $library "OpenBLAS-$blas") || die "$library did not end"
             note "$rows"
         done
     done

@@ -5,9 +5,8 @@
  *     large_peers MATRIX cholmod CASE DIM BLAS    Cholesky factor by CHOLMOD, contact unknowns last: a part of
  *                                                 the condensation, which has to make the product besides
  *
- * Prints one row of large.csv, and the norm of the Schur complement as a line with #. The file holds three
- * int64, unknowns, contact unknowns and entries, then column starts and rows (int64, from 0) and values of the
- * lower triangle. The contact unknowns are the last ones. CPU seconds of the process, from the matrix on.
+ * Prints one row of large.csv, and the norm of the Schur complement as a line with #. The file is that of
+ * large_problem.rs; its loads and gaps are not read. CPU seconds of the process, from the matrix on.
  */
 
 #include <cholmod.h>

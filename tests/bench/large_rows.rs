@@ -11,9 +11,10 @@
 
 #[path = "../common/mod.rs"]
 mod common;
+mod large_problem;
 
-use std::io::Write;
 use std::ops::ControlFlow;
+use std::path::Path;
 use std::time::Instant;
 
 use common::brick::{Brick, Support};
@@ -56,7 +57,6 @@ fn plane(case: &str, [columns, rows]: [usize; 2]) {
     let stiffness = mesh.stiffness();
     let fixed: Vec<usize> = block.row(rows).iter().flat_map(|n| [2 * n, 2 * n + 1]).collect();
     let contact: Vec<usize> = block.row(0).iter().flat_map(|n| [2 * n, 2 * n + 1]).collect();
-    write_matrix(&stiffness, &fixed, &contact);
     let pairs = Pairs::on_obstacle(&block.row(0), [0.0, -1.0]);
     let (length, height) = (columns as f64, rows as f64);
     let place = |node: usize| [mesh.nodes[node][0] / length - 0.5, 0.0];
@@ -66,7 +66,9 @@ fn plane(case: &str, [columns, rows]: [usize; 2]) {
         above: block.row(rows).into_iter().map(place).collect(),
         below: block.row(0).into_iter().map(place).collect(),
         unknowns: stiffness.size - fixed.len(),
+        dim: 2,
     };
+    study.write_problem(&stiffness, &fixed, &contact);
     study.run(|| stiffness.model(&fixed, &pairs).expect("a valid model"));
 }
 
@@ -75,7 +77,6 @@ fn cube(case: &str, edge: usize) {
     let stiffness = brick.stiffness();
     let contact: Vec<usize> =
         brick.contact.iter().flat_map(|n| [0, 1, 2].map(|c| 3 * n + c)).collect();
-    write_matrix(&stiffness, &brick.fixed(), &contact);
     let place = |node: usize| [brick.nodes[node][0], brick.nodes[node][1]];
     let study = Study {
         case,
@@ -83,7 +84,9 @@ fn cube(case: &str, edge: usize) {
         above: brick.top().map(place).collect(),
         below: brick.contact.iter().map(|&node| place(node)).collect(),
         unknowns: brick.size() - 3 * brick.pairs(),
+        dim: 3,
     };
+    study.write_problem(&stiffness, &brick.fixed(), &contact);
     let mut announced = 0;
     let mut progress = |now: &Progress| {
         announced = announced.max(now.memory);
@@ -96,37 +99,6 @@ fn cube(case: &str, edge: usize) {
     println!("# announced {} MB", announced / 1_000_000);
 }
 
-/// Writes what is left of the matrix without fixed unknowns, contact unknowns last, if that is asked for.
-fn write_matrix(stiffness: &Stiffness, fixed: &[usize], contact: &[usize]) {
-    let Some(path) = std::env::var_os("SIGNORINI_LARGE_MATRIX") else { return };
-    let mut is_inner = vec![true; stiffness.size];
-    fixed.iter().chain(contact).for_each(|&i| is_inner[i] = false);
-    let inner = (0..stiffness.size).filter(|&i| is_inner[i]);
-    let order: Vec<usize> = inner.chain(contact.iter().copied()).collect();
-    let mut place = vec![usize::MAX; stiffness.size];
-    order.iter().enumerate().for_each(|(to, &from)| place[from] = to);
-    let mut columns = vec![Vec::new(); order.len()];
-    for (i, j, value) in stiffness.entries() {
-        let (i, j) = (place[i].max(place[j]), place[i].min(place[j]));
-        if i < usize::MAX {
-            columns[j].push((i as i64, value));
-        }
-    }
-    let mut starts = vec![0_i64];
-    for column in &mut columns {
-        column.sort_by_key(|(i, _)| *i);
-        starts.push(starts[starts.len() - 1] + column.len() as i64);
-    }
-    let head = [order.len() as i64, contact.len() as i64, starts[order.len()]];
-    let entries = || columns.iter().flatten();
-    let numbers = head.iter().chain(&starts).chain(entries().map(|(i, _)| i));
-    let numbers = numbers.flat_map(|number| number.to_ne_bytes());
-    let values = entries().flat_map(|(_, value)| value.to_ne_bytes());
-    let bytes: Vec<u8> = numbers.chain(values).collect();
-    let mut file = std::fs::File::create(path).expect("the file can be made");
-    file.write_all(&bytes).expect("the file can be written");
-}
-
 /// A body with its load cases. Places are along x and y, from -1/2 to 1/2.
 struct Study<'a> {
     case: &'a str,
@@ -136,6 +108,7 @@ struct Study<'a> {
     /// Where the pairs are.
     below: Vec<[f64; 2]>,
     unknowns: usize,
+    dim: usize,
 }
 
 /// The arrays of load cases.
@@ -166,26 +139,46 @@ impl Cases {
 impl Study<'_> {
     /// Load cases on an obstacle whose lowest point is at `lowest` along x.
     fn cases(&self, model: &Model, lowest: f64) -> Cases {
-        let unit = 1e-3 * self.height;
-        let prescribed = |k: usize| {
-            let (share, angle) = (k as f64 / MANY as f64, 0.3 * k as f64);
-            let motion = |place: &[f64; 2]| {
-                let down = unit * (1.0 + 0.2 * share + 0.3 * angle.sin() * place[0]);
-                let along = 0.4 * unit * angle.cos();
-                match model.dim() {
-                    2 => vec![along, -down],
-                    _ => vec![along, 0.1 * unit * share, -down],
-                }
-            };
-            self.above.iter().flat_map(motion).collect()
-        };
-        let hollow =
-            |place: &[f64; 2]| 4.0 * unit * ((place[0] - lowest).powi(2) + place[1].powi(2));
         Cases {
             load: vec![0.0; model.host_size()],
-            prescribed: (0..MANY + 2).map(prescribed).collect(),
-            gap: self.below.iter().map(hollow).collect(),
+            prescribed: (0..MANY + 2).map(|k| self.prescribed(k)).collect(),
+            gap: self.gaps(lowest),
             mu: vec![0.3; model.pairs()],
+        }
+    }
+
+    /// The motion of the clamped face in a case, node by node.
+    fn prescribed(&self, k: usize) -> Vec<f64> {
+        let unit = self.unit();
+        let (share, angle) = (k as f64 / MANY as f64, 0.3 * k as f64);
+        let motion = |place: &[f64; 2]| {
+            let down = unit * (1.0 + 0.2 * share + 0.3 * angle.sin() * place[0]);
+            let along = 0.4 * unit * angle.cos();
+            match self.dim {
+                2 => vec![along, -down],
+                _ => vec![along, 0.1 * unit * share, -down],
+            }
+        };
+        self.above.iter().flat_map(motion).collect()
+    }
+
+    /// Gaps of the hollow obstacle.
+    fn gaps(&self, lowest: f64) -> Vec<f64> {
+        let unit = 4.0 * self.unit();
+        let hollow = |place: &[f64; 2]| unit * ((place[0] - lowest).powi(2) + place[1].powi(2));
+        self.below.iter().map(hollow).collect()
+    }
+
+    fn unit(&self) -> f64 {
+        1e-3 * self.height
+    }
+
+    /// Writes the first case for other libraries, if that is asked for.
+    fn write_problem(&self, stiffness: &Stiffness, fixed: &[usize], contact: &[usize]) {
+        if let Some(path) = std::env::var_os("SIGNORINI_LARGE_MATRIX") {
+            let problem =
+                (stiffness, (fixed, &self.prescribed(0)[..]), contact, &self.gaps(0.0)[..]);
+            large_problem::write(Path::new(&path), problem);
         }
     }
 
@@ -205,6 +198,7 @@ impl Study<'_> {
         let cases = self.cases(&model, 0.0);
         let first = reduced + self.one(&model, &cases, (0, "solve"), None);
         let further = self.one(&model, &cases, (1, "further"), None);
+        self.without_friction(&model, &cases);
         let part =
             |seconds| format!("{:.2} % of the first with the reduction", 100.0 * seconds / first);
         println!("# a further case: {}", part(further));
@@ -233,6 +227,22 @@ impl Study<'_> {
             model.condensed_load(case.load, case.prescribed).expect("a valid load");
         }
         println!("# of a case by itself, the load: {:.4} s", (cpu() - condensed) / count as f64);
+    }
+
+    /// The first case without friction, as libraries for inequalities alone solve it.
+    fn without_friction(&self, model: &Model, cases: &Cases) {
+        let begin = cpu();
+        let case = LoadCase { law: FrictionLaw::Frictionless, ..cases.case(0) };
+        let settings = Settings::default();
+        let found = model.solve(&case, &settings, None, &mut Monitor::new(&settings, None));
+        let found = found.expect("a valid case");
+        let u = model.recover(Some(case.load), case.prescribed, &found.d).expect("a solution");
+        self.row(model, "without friction", cpu() - begin, Some(&found));
+        let pressure: f64 = found.certificate.force.iter().step_by(self.dim).sum();
+        let largest = u.iter().fold(0.0_f64, |most, u| most.max(u.abs()));
+        println!(
+            "# without friction: pressure {pressure:.12e}, largest displacement {largest:.12e}"
+        );
     }
 
     /// Cases that press in turn at either end, by themselves and in a series.

@@ -203,13 +203,16 @@ void judge_solution(const problem *p, double tolerance, const double *d, const d
 
 void judge_motion(const problem *p, const double *r)
 {
-    quad most = 0, work = 0, size = 0;
+    quad most = 0, work = 0, size = 0, stiffest = 0;
+    for (int64_t i = 0; i < p->n; i++) stiffest = larger(stiffest, p->K[i + p->ld * i]);
     if (p->definite) complain("no equilibrium of a definite matrix");
     for (int64_t i = 0; i < p->n; i++) {
         REQUIRE(isfinite(r[i]));
         most = larger(most, magnitude(r[i]));
         work += (quad)p->f[i] * r[i];
-        size = larger(size, root(p->K[i + p->ld * i]) * magnitude(r[i]));
+        /* What nothing resists has the unit of the stiffest component. */
+        const quad own = p->K[i + p->ld * i];
+        size = larger(size, root(own > 0 ? own : stiffest) * magnitude(r[i]));
     }
     REQUIRE(most == 1);
     if (!is_ellipse(p->law) && p->law != SIGNORINI_LAW_TRESCA && p->law != SIGNORINI_LAW_COHESIVE)
