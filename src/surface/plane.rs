@@ -113,9 +113,16 @@ impl Flat {
         (from, by)
     }
 
-    /// Local coordinates of the face's point above `p`, by Newton's method; `None` if it does not find
-    /// them.
+    /// Local coordinates of the face's point above `p`, in closed form if its edges are straight and by Newton's
+    /// method otherwise; `None` if there are none.
     pub(super) fn local(&self, p: Point) -> Option<Local> {
+        match &self.bilinear {
+            Some(bilinear) => bilinear.local(p),
+            None => self.newton(p),
+        }
+    }
+
+    fn newton(&self, p: Point) -> Option<Local> {
         let p = if self.kind.is_line() { [p[0], 0.0] } else { p };
         let mut at = self.kind.centre();
         for _ in 0..STEPS {
