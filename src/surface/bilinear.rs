@@ -12,11 +12,14 @@ const ZERO: f64 = 16.0 * f64::EPSILON;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Bilinear {
     x: [[f64; 4]; 3],
-    /// What a step in the plane is of `c1` and of `c2`: two rows. Of a line the first component of `c1` alone.
+    /// What a step in the plane is of `c1` and of `c2`: two rows.
     inverse: [Point; 2],
     /// The same of `c3`: `c3 = bend[0] c1 + bend[1] c2`. Zero of parallelograms, triangles and lines.
     bend: [f64; 2],
 }
+
+/// What lines have as second coordinate: their own, which is zero on them.
+const ACROSS: [f64; 4] = [0.0, 0.0, 1.0, 0.0];
 
 /// Coefficients of corner values.
 fn coefficients(kind: FaceKind, corner: impl Fn(usize) -> f64) -> [f64; 4] {
@@ -34,10 +37,8 @@ impl Bilinear {
     /// Through corners with these points and heights.
     pub(super) fn new(kind: FaceKind, points: &[Point], heights: &[f64]) -> Bilinear {
         let along = |c: usize| coefficients(kind, |corner| points[corner][c]);
-        let x = [along(0), along(1), coefficients(kind, |corner| heights[corner])];
-        if kind.is_line() {
-            return Bilinear { x, inverse: [[1.0 / x[0][1], 0.0], [0.0; 2]], bend: [0.0; 2] };
-        }
+        let across = if kind.is_line() { ACROSS } else { along(1) };
+        let x = [along(0), across, coefficients(kind, |corner| heights[corner])];
         let [[_, x1, x2, x3], [_, y1, y2, y3], _] = x;
         let area = x1 * y2 - x2 * y1;
         let inverse = [[y2 / area, -x2 / area], [-y1 / area, x1 / area]];
@@ -76,7 +77,8 @@ impl Bilinear {
     }
 
     /// Position in the plane, and its derivatives by `s` and by `t`.
-    pub(super) fn point(&self, at: Local) -> (Point, [Point; 2]) {
+    #[cfg(test)]
+    fn point(&self, at: Local) -> (Point, [Point; 2]) {
         let [a, b] = [self.slopes(0, at), self.slopes(1, at)];
         ([self.value(0, at), self.value(1, at)], [[a[0], b[0]], [a[1], b[1]]])
     }
@@ -86,9 +88,14 @@ impl Bilinear {
         self.value(2, at)
     }
 
-    /// Derivatives of the height by `s` and by `t`.
-    pub(super) fn rise(&self, at: Local) -> [f64; 2] {
-        self.slopes(2, at)
+    /// The area of the face over a unit of area of the plane. The slopes of the height by the two coordinates of
+    /// the plane are those by `s` and `t` times the inverse of the Jacobian.
+    pub(super) fn stretch(&self, at: Local) -> f64 {
+        let [x, y, rise] = [0, 1, 2].map(|c| self.slopes(c, at));
+        let area = x[0] * y[1] - x[1] * y[0];
+        let slopes = [rise[0] * y[1] - rise[1] * y[0], rise[1] * x[0] - rise[0] * x[1]];
+        let [s, t] = slopes.map(|slope| slope / area);
+        (1.0 + s * s + t * t).sqrt()
     }
 
     /// How much the area of a unit of local coordinates changes from the middle to a corner, relative to that
