@@ -152,7 +152,7 @@ fn rows(faces: &[CoveredFace<'_>]) -> BTreeMap<usize, Row> {
         edges.add(*kind, nodes, *wholly);
     }
     let mut rows: BTreeMap<usize, Row> = BTreeMap::new();
-    let (mut masters, mut own): (Vec<(usize, Values)>, Vec<(usize, Values)>) = Default::default();
+    let (mut masters, mut own) = (Vec::new(), Vec::new());
     for CoveredFace { kind, nodes, covered, whole, wholly } in faces {
         let basis = edges.basis(*kind, nodes, *wholly);
         let areas = basis.functions(covered.integrals);
