@@ -438,7 +438,7 @@ fn paraboloid_of_quadratic_elements_on_a_flat_body() {
 /// The long tables, with bricks of 20 nodes too: without nodes in faces a corner's pressure is a mean over wide
 /// functions, and the rim less sharp.
 #[test]
-#[ignore = "some minutes and some GB"]
+#[ignore = "four minutes and 6 GB"]
 fn paraboloids_on_fine_meshes() {
     check(3, Order::Linear, &[6.5, 12.5, 24.5, 32.5]);
     check(3, Order::Edges, &[6.5, 12.5, 24.5]);
