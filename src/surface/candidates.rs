@@ -13,11 +13,28 @@ const OPPOSED: f64 = -0.2;
 /// circle bulges by 0.1 of its chord, between nodes by less.
 const BULGE: f64 = 0.1;
 
+/// The faces of a side as a search needs them.
+pub(super) struct SearchFaces {
+    pub(super) tree: Tree,
+    /// Unit normals in the middle of the faces.
+    pub(super) normals: Vec<Vector3>,
+}
+
+impl SearchFaces {
+    pub(super) fn new(side: &Side<'_>) -> SearchFaces {
+        let faces = || (0..side.count()).map(|face| side.face(face));
+        SearchFaces {
+            tree: Tree::new(faces().map(|face| bounds(&face)).collect()),
+            normals: faces().map(|face| middle_normal(&face)).collect(),
+        }
+    }
+}
+
 /// The master faces, to be asked for those near a slave face.
 pub(super) struct Candidates {
-    tree: Tree,
-    normals: Vec<Vector3>,
-    reach: f64,
+    master: SearchFaces,
+    /// The search distance.
+    pub(super) reach: f64,
     found: Vec<usize>,
     /// Boxes looked at so far.
     pub(super) searched: usize,
@@ -37,21 +54,13 @@ pub(super) fn middle_normal(face: &Face<'_>) -> Vector3 {
 }
 
 impl Candidates {
-    pub(super) fn new(master: &Side<'_>, reach: f64) -> Candidates {
-        let faces = || (0..master.count()).map(|face| master.face(face));
-        Candidates {
-            tree: Tree::new(faces().map(|face| bounds(&face)).collect()),
-            normals: faces().map(|face| middle_normal(&face)).collect(),
-            reach,
-            found: Vec::new(),
-            searched: 0,
-            not_opposed: 0,
-        }
+    pub(super) fn new(master: SearchFaces, reach: f64) -> Candidates {
+        Candidates { master, reach, found: Vec::new(), searched: 0, not_opposed: 0 }
     }
 
     /// Master faces within reach of a slave face whose normals oppose its own.
-    pub(super) fn of_face(&mut self, face: &Face<'_>) -> &[usize] {
-        self.near(bounds(face), middle_normal(face))
+    pub(super) fn of_face(&mut self, face: &Face<'_>, normal: Vector3) -> &[usize] {
+        self.near(bounds(face), normal)
     }
 
     /// Master faces within reach of a point, opposed to a normal.
@@ -60,9 +69,9 @@ impl Candidates {
     }
 
     fn near(&mut self, bounds: Bounds, normal: Vector3) -> &[usize] {
-        self.searched += self.tree.near(&bounds.grown(self.reach), &mut self.found);
+        self.searched += self.master.tree.near(&bounds.grown(self.reach), &mut self.found);
         let before = self.found.len();
-        self.found.retain(|&face| self.normals[face].dot(&normal) < OPPOSED);
+        self.found.retain(|&face| self.master.normals[face].dot(&normal) < OPPOSED);
         self.not_opposed += before - self.found.len();
         &self.found
     }

@@ -17,48 +17,67 @@ pub(super) fn measure(polygon: &[Point]) -> f64 {
     fan.map(|side| 0.5 * turn(polygon[0], side[0], side[1])).sum()
 }
 
-/// The common part of two convex polygons that turn to the left (Sutherland and Hodgman 1974), or of
-/// two intervals that ascend. It is empty if they touch in an
-/// edge or a point.
-pub(super) fn common_part(subject: &[Point], window: &[Point]) -> Vec<Point> {
-    if let ([a, b], [c, d]) = (subject, window) {
-        let ends = [a[0].max(c[0]), b[0].min(d[0])];
-        let some = ends[0] < ends[1];
-        return if some { ends.map(|s| [s, 0.0]).to_vec() } else { Vec::new() };
-    }
-    let mut polygon = subject.to_vec();
-    for (i, &from) in window.iter().enumerate() {
-        let to = window[(i + 1) % window.len()];
-        polygon = left_of(&polygon, from, to);
-    }
-    // Two corners are a common edge, and would be taken for an interval.
-    if polygon.len() > 2 { polygon } else { Vec::new() }
+/// The common part of two polygons, in memory that the next one uses again.
+#[derive(Debug, Default)]
+pub(super) struct Clipper {
+    polygon: Vec<Point>,
+    left: Vec<Point>,
 }
 
-/// The part of a convex polygon to the left of a line.
-fn left_of(polygon: &[Point], from: Point, to: Point) -> Vec<Point> {
-    let mut left = Vec::with_capacity(polygon.len() + 1);
-    for (i, &b) in polygon.iter().enumerate() {
-        let a = polygon[(i + polygon.len() - 1) % polygon.len()];
-        let (before, here) = (turn(from, to, a), turn(from, to, b));
-        if (before > 0.0 && here < 0.0) || (before < 0.0 && here > 0.0) {
-            let part = before / (before - here);
-            left.push([a[0] + part * (b[0] - a[0]), a[1] + part * (b[1] - a[1])]);
+impl Clipper {
+    /// The common part of two convex polygons that turn to the left (Sutherland and Hodgman 1974), or of
+    /// two intervals that ascend. It is empty if they touch in an
+    /// edge or a point.
+    pub(super) fn common_part(&mut self, subject: &[Point], window: &[Point]) -> &[Point] {
+        self.polygon.clear();
+        if let ([a, b], [c, d]) = (subject, window) {
+            let ends = [a[0].max(c[0]), b[0].min(d[0])];
+            if ends[0] < ends[1] {
+                self.polygon.extend(ends.map(|s| [s, 0.0]));
+            }
+            return &self.polygon;
         }
-        if here >= 0.0 {
-            left.push(b);
+        self.polygon.extend(subject);
+        let mut from = window[window.len() - 1];
+        for &to in window {
+            self.keep_left_of(from, to);
+            from = to;
         }
+        // Two corners are a common edge, and would be taken for an interval.
+        if self.polygon.len() > 2 { &self.polygon } else { &[] }
     }
-    left
+
+    /// Keeps the part of the polygon to the left of a line.
+    fn keep_left_of(&mut self, from: Point, to: Point) {
+        let Some(&last) = self.polygon.last() else {
+            return;
+        };
+        self.left.clear();
+        let (mut a, mut before) = (last, turn(from, to, last));
+        for &b in &self.polygon {
+            let here = turn(from, to, b);
+            if (before > 0.0 && here < 0.0) || (before < 0.0 && here > 0.0) {
+                let part = before / (before - here);
+                self.left.push([a[0] + part * (b[0] - a[0]), a[1] + part * (b[1] - a[1])]);
+            }
+            if here >= 0.0 {
+                self.left.push(b);
+            }
+            (a, before) = (b, here);
+        }
+        std::mem::swap(&mut self.polygon, &mut self.left);
+    }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{common_part, measure};
+    use super::{Clipper, Point, measure};
 
     /// Squares shifted along both axes and turned: areas by elementary geometry.
     #[test]
     fn areas_of_common_parts() {
+        let clipper = &mut Clipper::default();
+        let mut common_part = |a: &[Point], b: &[Point]| clipper.common_part(a, b).to_vec();
         let square = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
         for shift in [[0.25, 0.5], [-0.25, 0.125], [0.0, 0.0], [1.5, 0.0], [0.0, 1.0]] {
             let other = square.map(|p| [p[0] + shift[0], p[1] + shift[1]]);

@@ -1,7 +1,7 @@
 //! A face in space, or a line in the plane: positions, normals, area.
 
 use super::quadrature;
-use super::shape::{FaceKind, Local, MOST_NODES};
+use super::shape::{FaceKind, Local, MOST_NODES, Values};
 use crate::linalg::vector3::{Vector3, unit};
 
 /// A mid node this close to the middle of its edge, relative to the edge, stands on it. What remains of
@@ -30,7 +30,8 @@ impl Face<'_> {
     /// line, and towards the eye that sees the corners of a face counterclockwise.
     pub(super) fn outward(&self, at: Local) -> Vector3 {
         let mut along = [Vector3::zeros(); 2];
-        for (x, slopes) in self.x.iter().zip(self.kind.derivatives(at)) {
+        let nodes = &self.x[..self.kind.nodes()];
+        for (x, slopes) in nodes.iter().zip(self.kind.derivatives(at)) {
             along[0] += x * slopes[0];
             along[1] += x * slopes[1];
         }
@@ -51,26 +52,32 @@ impl Face<'_> {
         x.iter().map(|x| (x - self.x[0]).norm()).fold(0.0, f64::max)
     }
 
-    /// Points of the whole face with weights of area.
-    pub(super) fn area_points(&self) -> Vec<(Local, f64)> {
-        let interval = || quadrature::on_interval(AREA_POINTS);
-        let points: Vec<(Local, f64)> = match self.kind {
-            FaceKind::Line2 | FaceKind::Line3 => {
-                interval().iter().map(|(s, w)| ([2.0 * s - 1.0, 0.0], 2.0 * w)).collect()
-            }
-            FaceKind::T3 | FaceKind::T6 => quadrature::on_triangle(AREA_POINTS)
-                .iter()
-                .map(|([_, s, t], w)| ([*s, *t], 0.5 * w))
-                .collect(),
-            _ => {
-                let (along, across) = (interval(), interval());
-                let pairs = along.iter().flat_map(|a| across.iter().map(move |b| (a, b)));
-                pairs
-                    .map(|((s, v), (t, w))| ([2.0 * s - 1.0, 2.0 * t - 1.0], 4.0 * v * w))
-                    .collect()
-            }
+    /// Integrals of the shape functions over the whole face; their sum is its area.
+    pub(super) fn integrals(&self) -> Values {
+        let mut integrals = [0.0; MOST_NODES];
+        let mut add = |at: Local, weight: f64| {
+            let area = weight * self.outward(at).norm();
+            let values = self.kind.values(at);
+            integrals.iter_mut().zip(values).for_each(|(sum, value)| *sum += area * value);
         };
-        points.into_iter().map(|(at, weight)| (at, weight * self.outward(at).norm())).collect()
+        let line = quadrature::on_interval(AREA_POINTS);
+        match self.kind {
+            FaceKind::Line2 | FaceKind::Line3 => {
+                line.iter().for_each(|([_, s, _], w)| add([2.0 * s - 1.0, 0.0], 2.0 * w));
+            }
+            FaceKind::T3 | FaceKind::T6 => {
+                let triangle = quadrature::on_triangle(AREA_POINTS);
+                triangle.iter().for_each(|([_, s, t], w)| add([*s, *t], 0.5 * w));
+            }
+            FaceKind::Q4 | FaceKind::Q8 | FaceKind::Q9 => {
+                for ([_, s, _], v) in line {
+                    for ([_, t, _], w) in line {
+                        add([2.0 * s - 1.0, 2.0 * t - 1.0], 4.0 * v * w);
+                    }
+                }
+            }
+        }
+        integrals
     }
 
     /// Whether the mid nodes stand in the middle of straight edges.

@@ -61,8 +61,7 @@ impl<'a> Side<'a> {
         for (x, &node) in x.iter_mut().zip(nodes) {
             *x = self.position(node);
         }
-        let kind = FaceKind::of(self.dim, nodes.len()).expect("the kind has been checked");
-        Face { kind, nodes, x }
+        Face { kind: self.kind(nodes), nodes, x }
     }
 
     /// Coordinates of a node.
@@ -80,6 +79,17 @@ impl<'a> Side<'a> {
 
     fn nodes(&self, face: usize) -> &'a [usize] {
         &self.faces.nodes[self.faces.start[face]..self.faces.start[face + 1]]
+    }
+
+    /// Corners of a face.
+    pub(super) fn corners(&self, face: usize) -> &'a [usize] {
+        let nodes = self.nodes(face);
+        &nodes[..self.kind(nodes).corners()]
+    }
+
+    /// The kind of a face with these nodes.
+    fn kind(&self, nodes: &[usize]) -> FaceKind {
+        FaceKind::of(self.dim, nodes.len()).expect("the kind has been checked")
     }
 
     /// An error about a face.
@@ -208,17 +218,16 @@ impl<'a> Side<'a> {
 
     /// Refuses neighbours that run along their common edge in the same direction.
     fn check_orientation(&self) -> Result<(), Error> {
-        let mut seen: HashMap<(usize, usize), usize> = HashMap::new();
+        let mut seen: HashMap<(usize, usize), usize> =
+            HashMap::with_capacity(self.faces.nodes.len());
         for face in 0..self.count() {
-            let nodes = self.nodes(face);
-            let kind = self.face(face).kind;
-            let corners = &nodes[..kind.corners()];
+            let corners = self.corners(face);
             for (i, &a) in corners.iter().enumerate() {
                 let b = corners[(i + 1) % corners.len()];
                 // On a line the node and its end: 0 if it begins there, 1 if it ends there.
-                let key = if kind.is_line() { (a, i) } else { (a, b) };
+                let key = if self.dim == 2 { (a, i) } else { (a, b) };
                 if let Some(other) = seen.insert(key, face) {
-                    let where_ = if kind.is_line() {
+                    let where_ = if self.dim == 2 {
                         format!("node {}", index(a))
                     } else {
                         format!("the edge of nodes {} and {}", index(a), index(b))

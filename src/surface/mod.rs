@@ -53,6 +53,7 @@ pub use shape::FaceKind;
 #[cfg(doc)]
 use crate::error::Argument;
 use crate::error::Error;
+use candidates::{Candidates, SearchFaces};
 use mesh::Side;
 
 /// Pairs two surfaces. Surfaces that never meet give no pairs, which is no error.
@@ -80,12 +81,14 @@ fn pair_sides(
 ) -> Result<SurfacePairs, Error> {
     let largest = || (0..slave.count()).map(|face| slave.face(face).size()).fold(0.0, f64::max);
     let reach = settings::reach(settings.search_distance, largest)?;
-    self_overlap::check(slave, dim, reach)?;
+    self_overlap::check(slave, &SearchFaces::new(slave), dim, reach)?;
+    let opposite = SearchFaces::new(master);
+    if settings.pairing == Pairing::DualMortar {
+        self_overlap::check(master, &opposite, dim, reach)?;
+    }
+    let candidates = Candidates::new(opposite, reach);
     match settings.pairing {
-        Pairing::DualMortar => {
-            self_overlap::check(master, dim, reach)?;
-            mortar::pairs(slave, master, dim, reach)
-        }
-        Pairing::NodeToSurface => node_to_surface::pairs(slave, master, dim, reach),
+        Pairing::DualMortar => mortar::pairs(slave, master, dim, candidates),
+        Pairing::NodeToSurface => node_to_surface::pairs(slave, master, dim, candidates),
     }
 }

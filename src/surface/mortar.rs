@@ -14,13 +14,13 @@ use super::control::Edges;
 use super::face::Face;
 use super::fold;
 use super::mesh::Side;
-use super::overlap::SlaveFace;
-use super::pairs::{SurfacePair, SurfacePairs, SurfaceReport, Weight};
+use super::overlap::{Overlaps, SlaveFace};
+use super::pairs::{SurfacePair, SurfacePairs, SurfaceReport};
 use super::plane::Plane;
-use super::projected_shapes::{Covered, project};
+use super::projected_shapes::{Covered, Opposite, Polynomials};
 use super::row::Row;
-use super::shape::Values;
-use super::whole_faces::{unit_values, whole_integrals};
+use super::shape::{FaceKind, Values};
+use super::whole_faces::unit_values;
 use crate::error::{Error, index};
 
 /// A face that lacks less than this share of cover is covered wholly, and one that has more than all of
@@ -29,9 +29,19 @@ const COVER: f64 = 1e-6;
 
 /// A slave face that lies over master faces.
 struct CoveredFace<'a> {
-    face: Face<'a>,
+    kind: FaceKind,
+    nodes: &'a [usize],
     covered: Covered,
+    /// Integrals of its shape functions over the whole face.
+    whole: Values,
     wholly: bool,
+}
+
+/// What is at work from face to face.
+struct Search {
+    candidates: Candidates,
+    overlaps: Overlaps,
+    polynomials: Polynomials,
 }
 
 /// The pairs of two sides.
@@ -43,27 +53,32 @@ pub(super) fn pairs(
     slave: &Side<'_>,
     master: &Side<'_>,
     dim: usize,
-    reach: f64,
+    candidates: Candidates,
 ) -> Result<SurfacePairs, Error> {
-    let mut candidates = Candidates::new(master, reach);
     let mut report = SurfaceReport {
-        search_distance: reach,
+        search_distance: candidates.reach,
         slave_faces: slave.count(),
         ..SurfaceReport::default()
     };
+    let (overlaps, polynomials) = (Overlaps::default(), Polynomials::default());
+    let search = &mut Search { candidates, overlaps, polynomials };
     let mut faces = Vec::new();
     for at in 0..slave.count() {
         let face = slave.face(at);
-        report.slave_area += face.area_points().iter().map(|(_, weight)| weight).sum::<f64>();
-        match cover(slave, master, (at, face), dim, (&mut candidates, reach))? {
-            Some(face) => faces.push(face),
+        let whole = face.integrals();
+        report.slave_area += whole.iter().sum::<f64>();
+        match cover([slave, master], (at, &face), dim, search)? {
+            Some((covered, wholly)) => {
+                let Face { kind, nodes, .. } = face;
+                faces.push(CoveredFace { kind, nodes, covered, whole, wholly });
+            }
             None => report.uncovered_faces.push(at),
         }
     }
-    report.boxes_searched = candidates.searched;
-    report.not_opposed = candidates.not_opposed;
+    report.boxes_searched = search.candidates.searched;
+    report.not_opposed = search.candidates.not_opposed;
     let mut rows = rows(&faces);
-    let around = faces.iter().map(|face| face.face.nodes);
+    let around = faces.iter().map(|face| face.nodes);
     report.folded = fold::fold(&mut rows, around, |node| slave.position(node));
     let normals = slave.node_normals()?;
     let pairs: Vec<SurfacePair> = rows
@@ -81,21 +96,25 @@ pub(super) fn pairs(
     Ok(SurfacePairs { dim, pairs, unpaired, report })
 }
 
-/// What a slave face lies over.
-fn cover<'a>(
-    slave: &Side<'_>,
-    master: &Side<'_>,
-    (at, face): (usize, Face<'a>),
+/// What a slave face lies over, and whether that is all of it.
+fn cover(
+    [slave, master]: [&Side<'_>; 2],
+    (at, face): (usize, &Face<'_>),
     dim: usize,
-    (candidates, reach): (&mut Candidates, f64),
-) -> Result<Option<CoveredFace<'a>>, Error> {
-    let plane = Plane::new(dim, face.position(face.kind.centre()), middle_normal(&face));
-    let in_plane = SlaveFace::new(&face, plane);
+    search: &mut Search,
+) -> Result<Option<(Covered, bool)>, Error> {
+    let normal = middle_normal(face);
+    let plane = Plane::new(dim, face.position(face.kind.centre()), normal);
+    let in_plane = SlaveFace::new(face, plane);
+    let Search { candidates, overlaps, polynomials } = search;
+    overlaps.points.clear();
+    let reach = candidates.reach;
     let mut parts = Vec::new();
     let (mut area, mut over) = (0.0, Vec::new());
-    for &opposite in candidates.of_face(&face) {
+    for &opposite in candidates.of_face(face, normal) {
         let other = master.face(opposite);
-        let part = in_plane.overlap(&other, reach).map_err(|_| {
+        let before = overlaps.points.len();
+        area += in_plane.overlap(&other, reach, overlaps).map_err(|_| {
             let opposite = index(opposite);
             let what = format!(
                 "cannot be projected on master face {opposite}: one of them is turned over or \
@@ -103,10 +122,10 @@ fn cover<'a>(
             );
             slave.refuse(at, &what)
         })?;
-        if !part.points.is_empty() {
-            area += part.area;
+        let points = before..overlaps.points.len();
+        if !points.is_empty() {
             over.push(opposite);
-            parts.push((other.kind, other.nodes, part));
+            parts.push(Opposite { kind: other.kind, nodes: other.nodes, points });
         }
     }
     if parts.is_empty() {
@@ -122,37 +141,34 @@ fn cover<'a>(
         );
         return Err(slave.refuse(at, &what));
     }
-    let covered = project(face.kind, &parts);
-    Ok(Some(CoveredFace { face, covered, wholly: cover >= 1.0 - COVER }))
+    let covered = polynomials.project(face.kind, &overlaps.points, &parts);
+    Ok(Some((covered, cover >= 1.0 - COVER)))
 }
 
 /// The rows of all nodes with cover, by node.
 fn rows(faces: &[CoveredFace<'_>]) -> BTreeMap<usize, Row> {
     let mut edges = Edges::default();
-    for CoveredFace { face, wholly, .. } in faces {
-        edges.add(face.kind, face.nodes, *wholly);
+    for CoveredFace { kind, nodes, wholly, .. } in faces {
+        edges.add(*kind, nodes, *wholly);
     }
     let mut rows: BTreeMap<usize, Row> = BTreeMap::new();
-    for CoveredFace { face, covered, wholly } in faces {
-        let basis = edges.basis(face.kind, face.nodes, *wholly);
+    let (mut masters, mut own) = (Vec::new(), Vec::new());
+    for CoveredFace { kind, nodes, covered, whole, wholly } in faces {
+        let basis = edges.basis(*kind, nodes, *wholly);
         let areas = basis.functions(covered.integrals);
-        let whole = basis.functions(whole_integrals(face));
-        let masters: Vec<(usize, Values)> = covered
-            .masters
-            .iter()
-            .map(|(node, values)| (*node, basis.control_values(*values)))
-            .collect();
-        let own = unit_values(face.kind.nodes()).map(|unit| basis.control_values(unit));
-        let own: Vec<(usize, Values)> = face.nodes.iter().copied().zip(own).collect();
-        for (j, &node) in face.nodes.iter().enumerate() {
-            let scaled = |values: &[(usize, Values)]| -> Vec<Weight> {
-                values.iter().map(|(node, values)| (*node, areas[j] * values[j])).collect()
-            };
+        let whole = basis.functions(*whole);
+        let control = |(node, values)| (node, basis.control_values(values));
+        masters.clear();
+        masters.extend(covered.weights().map(control));
+        own.clear();
+        own.extend(nodes.iter().copied().zip(unit_values(kind.nodes())).map(control));
+        for (j, &node) in nodes.iter().enumerate() {
+            let scaled = |(node, values): &(usize, Values)| (*node, areas[j] * values[j]);
             let row = rows.entry(node).or_default();
             row.area += areas[j];
             row.whole += whole[j];
-            row.slaves.extend(scaled(&own));
-            row.masters.extend(scaled(&masters));
+            row.slaves.extend(own.iter().map(scaled).filter(|(_, weight)| *weight != 0.0));
+            row.masters.extend(masters.iter().map(scaled));
         }
     }
     rows

@@ -35,9 +35,10 @@ fn meets(
     master: &Side<'_>,
     (x, normal): (Vector3, Vector3),
     dim: usize,
-    (candidates, reach): (&mut Candidates, f64),
+    candidates: &mut Candidates,
 ) -> Option<Vec<Weight>> {
     let plane = Plane::new(dim, x, normal);
+    let reach = candidates.reach;
     let mut best: Option<(f64, Vec<Weight>)> = None;
     for &at in candidates.of_point(x, normal) {
         let face = master.face(at);
@@ -62,20 +63,19 @@ pub(super) fn pairs(
     slave: &Side<'_>,
     master: &Side<'_>,
     dim: usize,
-    reach: f64,
+    mut candidates: Candidates,
 ) -> Result<SurfacePairs, Error> {
-    let mut candidates = Candidates::new(master, reach);
     let normals = slave.node_normals()?;
     let mut met: BTreeMap<usize, Vec<Weight>> = BTreeMap::new();
     for node in slave.all_nodes() {
         let ray = (slave.position(node), normals[&node]);
-        if let Some(weights) = meets(master, ray, dim, (&mut candidates, reach)) {
+        if let Some(weights) = meets(master, ray, dim, &mut candidates) {
             met.insert(node, weights);
         }
     }
     let mut found = SurfacePairs { dim, ..SurfacePairs::default() };
     let mut report = SurfaceReport {
-        search_distance: reach,
+        search_distance: candidates.reach,
         slave_faces: slave.count(),
         boxes_searched: candidates.searched,
         not_opposed: candidates.not_opposed,

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use super::candidates::SearchFaces;
 use super::mesh::{Faces, Surfaces};
 use super::pairs::{SurfacePair, SurfacePairs, SurfaceReport};
 use super::whole_faces::whole_rows;
@@ -136,7 +137,7 @@ pub fn pair_with_obstacle(
     let limit = search_distance.filter(|distance| distance.is_finite() || !(*distance > 0.0));
     let reach = super::settings::reach(limit, || f64::INFINITY)?;
     let obstacle = obstacle.check(dim)?;
-    super::self_overlap::check(&side, dim, reach)?;
+    super::self_overlap::check(&side, &SearchFaces::new(&side), dim, reach)?;
     let mut facing = BTreeMap::new();
     for node in side.all_nodes() {
         let Some(met) = obstacle.facing(side.position(node)) else {

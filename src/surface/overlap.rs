@@ -2,10 +2,10 @@
 
 use std::cell::LazyCell;
 
-use super::clip::{Point, common_part, measure};
+use super::clip::{Clipper, Point, measure};
 use super::face::Face;
-use super::plane::{Flat, Plane};
-use super::quadrature;
+use super::plane::{Flat, Plane, Polygon};
+use super::quadrature::{self, RulePoint};
 use super::shape::Local;
 
 /// Parts smaller than this share of the slave face are left out on both sides: they are the rounding of
@@ -40,16 +40,17 @@ pub(super) struct Meeting {
 pub(super) struct SlaveFace {
     pub(super) plane: Plane,
     flat: Flat,
-    polygons: Vec<Vec<Point>>,
+    polygons: Vec<Polygon>,
     /// Area in the plane.
     pub(super) area: f64,
 }
 
-/// What a master face has in common with a slave face.
-pub(super) struct Part {
+/// What a slave face has in common with master faces, in memory that the next one uses again.
+#[derive(Debug, Default)]
+pub(super) struct Overlaps {
+    /// The points, master face after master face.
     pub(super) points: Vec<Meeting>,
-    /// Area in the auxiliary plane.
-    pub(super) area: f64,
+    clipper: Clipper,
 }
 
 /// A part of a face whose local coordinates were not found.
@@ -57,63 +58,66 @@ pub(super) struct Part {
 pub(super) struct NotFound;
 
 /// The polygons of a projected face: its own, or those of its flat parts if its edges are curved.
-fn polygons(face: &Face<'_>, flat: &Flat) -> Vec<Vec<Point>> {
-    if face.is_straight() || face.kind.is_line() {
-        let corners: Vec<usize> = (0..face.kind.corners()).collect();
-        return vec![flat.polygon(&corners)];
-    }
-    face.kind.parts().iter().map(|part| flat.polygon(part)).collect()
+fn polygons(face: &Face<'_>, flat: &Flat) -> impl Iterator<Item = Polygon> {
+    let whole = face.is_straight() || face.kind.is_line();
+    let parts = if whole { face.kind.outline() } else { face.kind.parts() };
+    parts.iter().map(|part| flat.polygon(part))
 }
 
 impl SlaveFace {
     pub(super) fn new(face: &Face<'_>, plane: Plane) -> SlaveFace {
         let flat = plane.flatten(face);
-        let polygons = polygons(face, &flat);
-        let area = polygons.iter().map(|polygon| measure(polygon)).sum();
+        let polygons: Vec<Polygon> = polygons(face, &flat).collect();
+        let area = polygons.iter().map(|polygon| measure(polygon.corners())).sum();
         SlaveFace { plane, flat, polygons, area }
     }
 
-    /// What lies over a master face, at a distance of at most `reach` along the normal.
+    /// Adds the points of what lies over a master face, at a distance of at most `reach` along the normal, and
+    /// returns its area in the auxiliary plane.
     ///
     /// # Errors
-    /// Newton's method fails on a face that is turned over in the projection.
-    pub(super) fn overlap(&self, master: &Face<'_>, reach: f64) -> Result<Part, NotFound> {
+    /// A face that is turned over in the projection has no local coordinates.
+    pub(super) fn overlap(
+        &self,
+        master: &Face<'_>,
+        reach: f64,
+        found: &mut Overlaps,
+    ) -> Result<f64, NotFound> {
         let flat = self.plane.flatten(master);
         // Most faces that are near have nothing in common.
         let rule = LazyCell::new(|| self.rule(&flat));
-        let mut part = Part { points: Vec::new(), area: 0.0 };
+        let mut whole = 0.0;
         for window in polygons(master, &flat) {
             for polygon in &self.polygons {
-                let common = common_part(polygon, &window);
-                let area = measure(&common);
+                let common = found.clipper.common_part(polygon.corners(), window.corners());
+                let area = measure(common);
                 if !(area > LEAST_PART * self.area) {
                     continue;
                 }
-                let before = part.points.len();
-                let distance = self.add_points(&flat, &common, &rule, &mut part.points)?;
+                let before = found.points.len();
+                let distance = self.add_points(&flat, common, &rule, &mut found.points)?;
                 if distance.abs() <= reach {
-                    part.area += area;
+                    whole += area;
                 } else {
-                    part.points.truncate(before);
+                    found.points.truncate(before);
                 }
             }
         }
-        Ok(part)
+        Ok(whole)
     }
 
     /// Barycentric points and weights for simplices of the parts: exact for products of shape
     /// functions if local coordinates are linear in the position, and otherwise with so many more points
     /// as the distance from linear asks for.
-    fn rule(&self, master: &Flat) -> Vec<([f64; 3], f64)> {
+    fn rule(&self, master: &Flat) -> &'static [RulePoint] {
         let own = self.flat.kind.degree();
         let degree = own + own.max(master.kind.degree());
         let further = self.further_degrees(master);
         let points = |exact: usize| further.map_or(MOST_POINTS, |more| (exact + more).div_ceil(2));
         if self.flat.kind.is_line() {
-            let rule = quadrature::on_interval(points(degree + 1).min(MOST_POINTS));
-            return rule.iter().map(|(s, w)| ([1.0 - s, *s, 0.0], *w)).collect();
+            return quadrature::on_interval(points(degree + 1).min(MOST_POINTS));
         }
-        quadrature::on_triangle(points(degree + 2).min(MOST_POINTS)).to_vec()
+        quadrature::on_triangle(points(degree + 2).min(MOST_POINTS))
     }
 
     /// Degrees that a rule has to be exact to beyond that of products of shape functions; `None`: as
@@ -146,7 +150,7 @@ impl SlaveFace {
         &self,
         master: &Flat,
         common: &[Point],
-        rule: &[([f64; 3], f64)],
+        rule: &[RulePoint],
         points: &mut Vec<Meeting>,
     ) -> Result<f64, NotFound> {
         let (mut distance, mut whole) = (0.0, 0.0);

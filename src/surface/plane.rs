@@ -59,6 +59,23 @@ impl Plane {
     }
 }
 
+/// Most corners of a part of a face.
+const MOST_CORNERS: usize = 4;
+
+/// A projected part of a face.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Polygon {
+    corners: [Point; MOST_CORNERS],
+    count: usize,
+}
+
+impl Polygon {
+    /// Its corners in turn.
+    pub(super) fn corners(&self) -> &[Point] {
+        &self.corners[..self.count]
+    }
+}
+
 /// A projected face: its nodes in the axes of the plane, and their heights above it.
 #[derive(Clone, Debug)]
 pub(super) struct Flat {
@@ -71,10 +88,13 @@ pub(super) struct Flat {
 
 impl Flat {
     /// A part of the face as a polygon that turns to the left, or an interval that ascends.
-    pub(super) fn polygon(&self, part: &[usize]) -> Vec<Point> {
-        let mut polygon: Vec<Point> = part.iter().map(|&node| self.points[node]).collect();
-        if super::clip::measure(&polygon) < 0.0 {
-            polygon.reverse();
+    pub(super) fn polygon(&self, part: &[usize]) -> Polygon {
+        let mut polygon = Polygon { corners: [[0.0; 2]; MOST_CORNERS], count: part.len() };
+        for (corner, &node) in polygon.corners.iter_mut().zip(part) {
+            *corner = self.points[node];
+        }
+        if super::clip::measure(polygon.corners()) < 0.0 {
+            polygon.corners[..part.len()].reverse();
         }
         polygon
     }
@@ -89,13 +109,6 @@ impl Flat {
 
     /// Position less `p`, and its derivatives by the local coordinates.
     fn offset(&self, at: Local, p: Point) -> (Point, [Point; 2]) {
-        if let Some(bilinear) = &self.bilinear {
-            let (point, mut by) = bilinear.point(at);
-            if self.kind.is_line() {
-                by[1] = [0.0, 1.0];
-            }
-            return ([point[0] - p[0], point[1] - p[1]], by);
-        }
         let mut from = [-p[0], -p[1]];
         let mut by = [[0.0; 2]; 2];
         let functions = self.kind.functions(at);
@@ -113,9 +126,16 @@ impl Flat {
         (from, by)
     }
 
-    /// Local coordinates of the face's point above `p`, by Newton's method; `None` if it does not find
-    /// them.
+    /// Local coordinates of the face's point above `p`, in closed form if its edges are straight and by Newton's
+    /// method otherwise; `None` if there are none.
     pub(super) fn local(&self, p: Point) -> Option<Local> {
+        match &self.bilinear {
+            Some(bilinear) => bilinear.local(p),
+            None => self.newton(p),
+        }
+    }
+
+    fn newton(&self, p: Point) -> Option<Local> {
         let p = if self.kind.is_line() { [p[0], 0.0] } else { p };
         let mut at = self.kind.centre();
         for _ in 0..STEPS {
@@ -144,11 +164,11 @@ impl Flat {
 
     /// The area of the face over a unit of area of the plane.
     pub(super) fn stretch(&self, at: Local) -> f64 {
+        if let Some(bilinear) = &self.bilinear {
+            return bilinear.stretch(at);
+        }
         let (_, [a, b]) = self.offset(at, [0.0; 2]);
-        let rise = match &self.bilinear {
-            Some(bilinear) => bilinear.rise(at),
-            None => self.rise(at),
-        };
+        let rise = self.rise(at);
         if self.kind.is_line() {
             return (1.0 + (rise[0] / a[0]).powi(2)).sqrt();
         }

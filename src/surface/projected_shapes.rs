@@ -6,7 +6,9 @@
 //! monomials, centred on the covered part and scaled to it, are made orthonormal there, and the
 //! polynomials that result are evaluated at the face's nodes, where they are the coefficients.
 
-use super::overlap::{Meeting, Part};
+use std::ops::Range;
+
+use super::overlap::Meeting;
 use super::shape::{FaceKind, Local, MOST_NODES, Values};
 
 /// A monomial that is this close to a combination of those before it adds nothing: the covered part has
@@ -16,52 +18,70 @@ const DEPENDENT: f64 = 1e-10;
 /// Passes of orthogonalisation: the second removes what rounding left of the first.
 const PASSES: usize = 2;
 
+/// Sums that run beside each other: a processor adds several numbers at a time.
+const LANES: usize = 4;
+
+/// The part of a slave face over one master face.
+#[derive(Clone, Debug)]
+pub(super) struct Opposite<'a> {
+    pub(super) kind: FaceKind,
+    pub(super) nodes: &'a [usize],
+    /// Places of its points among those of the slave face.
+    pub(super) points: Range<usize>,
+}
+
 /// What one slave face gets from the masters that it lies over.
 #[derive(Clone, Debug)]
 pub(super) struct Covered {
     /// Integrals of the slave's shape functions over the covered part.
     pub(super) integrals: Values,
+    /// Number of the slave's nodes.
+    slaves: usize,
+    masters: Vec<usize>,
+    /// Of each master the coefficients of its shape functions at the slave's nodes.
+    coefficients: Vec<f64>,
+}
+
+impl Covered {
     /// Master nodes with the coefficients of their shape functions at the slave's nodes.
-    pub(super) masters: Vec<(usize, Values)>,
+    pub(super) fn weights(&self) -> impl Iterator<Item = (usize, Values)> {
+        let coefficients = self.coefficients.chunks_exact(self.slaves);
+        self.masters.iter().copied().zip(coefficients.map(|part| {
+            let mut values = [0.0; MOST_NODES];
+            values[..part.len()].copy_from_slice(part);
+            values
+        }))
+    }
 }
 
-/// A polynomial of an orthonormal set: at the points, and at the slave's nodes.
-struct Polynomial {
+/// Polynomials that span the shape functions of a face, orthonormal over its points, in memory that the
+/// next face uses again.
+#[derive(Debug, Default)]
+pub(super) struct Polynomials {
+    /// Number of points.
+    points: usize,
+    /// At the slave's nodes.
+    at_nodes: Vec<Values>,
+    /// At the points, polynomial after polynomial.
     at_points: Vec<f64>,
-    at_nodes: Values,
+    /// The same times the weights of the points.
+    weighted: Vec<f64>,
+    /// The one that is made, at the points.
+    next: Vec<f64>,
 }
 
-/// Integrates over the parts that belong to master faces of the given kinds and nodes.
-pub(super) fn project(slave: FaceKind, parts: &[(FaceKind, &[usize], Part)]) -> Covered {
-    let points: Vec<Meeting> =
-        parts.iter().flat_map(|(_, _, part)| part.points.iter().copied()).collect();
-    let basis = orthonormal(slave, &points);
-    let mut integrals = [0.0; MOST_NODES];
-    for point in &points {
-        let values = slave.values(point.slave);
-        integrals.iter_mut().zip(values).for_each(|(sum, value)| *sum += point.weight * value);
-    }
-    let mut masters: Vec<(usize, Values)> = Vec::new();
-    let mut first = 0;
-    for (kind, nodes, part) in parts {
-        let shapes: Vec<Values> = part.points.iter().map(|p| kind.values(p.master)).collect();
-        for (k, &node) in nodes.iter().enumerate() {
-            let place = masters.iter().position(|(other, _)| *other == node).unwrap_or_else(|| {
-                masters.push((node, [0.0; MOST_NODES]));
-                masters.len() - 1
-            });
-            for polynomial in &basis {
-                let at = &polynomial.at_points[first..first + shapes.len()];
-                let terms = part.points.iter().zip(at).zip(&shapes);
-                let moment: f64 =
-                    terms.map(|((point, p), shape)| point.weight * p * shape[k]).sum();
-                let coefficients = masters[place].1.iter_mut().zip(&polynomial.at_nodes);
-                coefficients.for_each(|(sum, at_node)| *sum += moment * at_node);
-            }
+/// The sum of products.
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    let mut sums = [0.0; LANES];
+    let (parts, others) = (a.chunks_exact(LANES), b.chunks_exact(LANES));
+    let ends = parts.remainder().iter().zip(others.remainder());
+    let end: f64 = ends.map(|(a, b)| a * b).sum();
+    for (a, b) in parts.zip(others) {
+        for (sum, (a, b)) in sums.iter_mut().zip(a.iter().zip(b)) {
+            *sum += a * b;
         }
-        first += shapes.len();
     }
-    Covered { integrals, masters }
+    sums.iter().sum::<f64>() + end
 }
 
 /// Middle and half width of the points along each local coordinate.
@@ -75,38 +95,101 @@ fn centre_and_scale(points: &[Meeting]) -> [(f64, f64); 2] {
     })
 }
 
-/// Polynomials that span the shape functions, orthonormal over the points.
-fn orthonormal(kind: FaceKind, points: &[Meeting]) -> Vec<Polynomial> {
-    let [s, t] = centre_and_scale(points);
-    let scaled = |at: Local| [(at[0] - s.0) / s.1, (at[1] - t.0) / t.1];
-    let product = |a: &[f64], b: &[f64]| -> f64 {
-        points.iter().zip(a).zip(b).map(|((point, a), b)| point.weight * a * b).sum()
-    };
-    let mut basis: Vec<Polynomial> = Vec::new();
-    for [i, j] in kind.exponents() {
-        let monomial = |at: Local| {
-            let [s, t] = scaled(at);
-            s.powi(*i) * t.powi(*j)
+impl Polynomials {
+    /// Makes the polynomials of a face with these points.
+    fn span(&mut self, kind: FaceKind, points: &[Meeting]) {
+        self.points = points.len();
+        self.at_nodes.clear();
+        self.at_points.clear();
+        self.weighted.clear();
+        let [s, t] = centre_and_scale(points);
+        for [i, j] in kind.exponents() {
+            let monomial = |at: Local| {
+                let power = |x: f64, exponent: i32| [1.0, x, x * x][exponent as usize];
+                power((at[0] - s.0) / s.1, *i) * power((at[1] - t.0) / t.1, *j)
+            };
+            self.next.clear();
+            self.next.extend(points.iter().map(|point| monomial(point.slave)));
+            let mut at_nodes = [0.0; MOST_NODES];
+            at_nodes.iter_mut().zip(kind.places()).for_each(|(p, &place)| *p = monomial(place));
+            self.add(at_nodes, points);
+        }
+    }
+
+    /// Makes `next` orthonormal to what is there, and adds it.
+    fn add(&mut self, mut at_nodes: Values, points: &[Meeting]) {
+        let norm = |values: &[f64]| -> f64 {
+            values.iter().zip(points).map(|(p, point)| point.weight * p * p).sum::<f64>().sqrt()
         };
-        let mut at_points: Vec<f64> = points.iter().map(|point| monomial(point.slave)).collect();
-        let mut at_nodes = [0.0; MOST_NODES];
-        at_nodes.iter_mut().zip(kind.places()).for_each(|(p, &place)| *p = monomial(place));
-        let before = product(&at_points, &at_points).sqrt();
+        let before = norm(&self.next);
         for _ in 0..PASSES {
-            for other in &basis {
-                let part = product(&other.at_points, &at_points);
-                let pairs = at_points.iter_mut().zip(&other.at_points);
+            for (other, other_at_nodes) in self.at_nodes.iter().enumerate() {
+                let range = other * self.points..(other + 1) * self.points;
+                let part = dot(&self.weighted[range.clone()], &self.next);
+                let pairs = self.next.iter_mut().zip(&self.at_points[range]);
                 pairs.for_each(|(p, other)| *p -= part * other);
-                let pairs = at_nodes.iter_mut().zip(&other.at_nodes);
+                let pairs = at_nodes.iter_mut().zip(other_at_nodes);
                 pairs.for_each(|(p, other)| *p -= part * other);
             }
         }
-        let norm = product(&at_points, &at_points).sqrt();
+        let norm = norm(&self.next);
         if norm > DEPENDENT * before {
-            at_points.iter_mut().for_each(|p| *p /= norm);
             at_nodes.iter_mut().for_each(|p| *p /= norm);
-            basis.push(Polynomial { at_points, at_nodes });
+            self.at_nodes.push(at_nodes);
+            self.at_points.extend(self.next.iter().map(|p| p / norm));
+            let made = &self.at_points[self.weighted.len()..];
+            self.weighted.extend(made.iter().zip(points).map(|(p, point)| point.weight * p));
         }
     }
-    basis
+
+    /// Adds what one master face has to the coefficients of its nodes.
+    fn add_moments(&self, opposite: &Opposite<'_>, points: &[Meeting], covered: &mut Covered) {
+        let (nodes, count) = (covered.slaves, opposite.nodes.len());
+        let mut moments = [[0.0; MOST_NODES]; MOST_NODES];
+        for at in opposite.points.clone() {
+            let shape = opposite.kind.values(points[at].master);
+            for (k, moments) in moments[..self.at_nodes.len()].iter_mut().enumerate() {
+                let p = self.weighted[k * self.points + at];
+                let sums = moments[..count].iter_mut().zip(&shape);
+                sums.for_each(|(sum, value)| *sum += p * value);
+            }
+        }
+        for (k, &node) in opposite.nodes.iter().enumerate() {
+            let place = covered.masters.iter().position(|other| *other == node);
+            let place = place.unwrap_or_else(|| {
+                covered.masters.push(node);
+                covered.coefficients.resize(nodes * covered.masters.len(), 0.0);
+                covered.masters.len() - 1
+            });
+            let coefficients = &mut covered.coefficients[nodes * place..nodes * (place + 1)];
+            for (at_nodes, moments) in self.at_nodes.iter().zip(&moments) {
+                let sums = coefficients.iter_mut().zip(at_nodes);
+                sums.for_each(|(sum, at_node)| *sum += moments[k] * at_node);
+            }
+        }
+    }
+
+    /// Integrates over the points of a slave face that belong to master faces.
+    pub(super) fn project(
+        &mut self,
+        slave: FaceKind,
+        points: &[Meeting],
+        parts: &[Opposite<'_>],
+    ) -> Covered {
+        self.span(slave, points);
+        let mut integrals = [0.0; MOST_NODES];
+        for point in points {
+            let values = slave.values(point.slave);
+            integrals.iter_mut().zip(values).for_each(|(sum, value)| *sum += point.weight * value);
+        }
+        let slaves = slave.nodes();
+        let mut covered =
+            Covered { integrals, slaves, masters: Vec::new(), coefficients: Vec::new() };
+        for opposite in parts {
+            self.add_moments(opposite, points, &mut covered);
+        }
+        covered.masters.shrink_to_fit();
+        covered.coefficients.shrink_to_fit();
+        covered
+    }
 }

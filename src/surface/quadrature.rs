@@ -9,36 +9,34 @@ const STEPS: usize = 8;
 /// Most points of a rule along a direction.
 const MOST_POINTS: usize = 9;
 
-/// A point of 0..1 with its weight.
-type OnInterval = (f64, f64);
-
-/// Barycentric coordinates of a point of a triangle with its weight.
-type OnTriangle = ([f64; 3], f64);
+/// Barycentric coordinates of a point with its weight. On an interval the third is zero, and the second is
+/// the place in 0..1.
+pub(super) type RulePoint = ([f64; 3], f64);
 
 /// Most points of a rule on a triangle.
 const MOST_ON_TRIANGLE: usize = MOST_POINTS * MOST_POINTS;
 
 /// The rules, by the number of points along a direction: every face asks for them. They stand in
 /// arrays, as memory of a static would be lost when a host unloads the library.
-static INTERVALS: LazyLock<[[OnInterval; MOST_POINTS]; MOST_POINTS + 1]> =
+static INTERVALS: LazyLock<[[RulePoint; MOST_POINTS]; MOST_POINTS + 1]> =
     LazyLock::new(|| std::array::from_fn(interval));
-static TRIANGLES: LazyLock<[[OnTriangle; MOST_ON_TRIANGLE]; MOST_POINTS + 1]> =
+static TRIANGLES: LazyLock<[[RulePoint; MOST_ON_TRIANGLE]; MOST_POINTS + 1]> =
     LazyLock::new(|| std::array::from_fn(triangle));
 
-/// Points of 0..1 and their weights, exact for polynomials of degree `2 n - 1`.
-pub(super) fn on_interval(n: usize) -> &'static [OnInterval] {
+/// Points of 0..1 and weights that sum to 1, exact for polynomials of degree `2 n - 1`.
+pub(super) fn on_interval(n: usize) -> &'static [RulePoint] {
     &INTERVALS[n][..n]
 }
 
 /// Barycentric coordinates of points of a triangle and weights that sum to 1: an interval's rule in
 /// both directions, one of them collapsed to a corner. Exact for polynomials of degree `2 n - 2`.
-pub(super) fn on_triangle(n: usize) -> &'static [OnTriangle] {
+pub(super) fn on_triangle(n: usize) -> &'static [RulePoint] {
     &TRIANGLES[n][..n * n]
 }
 
 /// A rule of `n` points; zeros behind them.
-fn interval(n: usize) -> [OnInterval; MOST_POINTS] {
-    let mut points = [(0.0, 0.0); MOST_POINTS];
+fn interval(n: usize) -> [RulePoint; MOST_POINTS] {
+    let mut points = [([0.0; 3], 0.0); MOST_POINTS];
     for (i, point) in points[..n].iter_mut().enumerate() {
         let order = n as f64;
         let mut x = -(std::f64::consts::PI * (i as f64 + 0.75) / (order + 0.5)).cos();
@@ -47,7 +45,8 @@ fn interval(n: usize) -> [OnInterval; MOST_POINTS] {
             x -= value / slope;
         }
         let (_, slope) = legendre(n, x);
-        *point = (0.5 * (1.0 + x), 1.0 / ((1.0 - x * x) * slope * slope));
+        let place = 0.5 * (1.0 + x);
+        *point = ([1.0 - place, place, 0.0], 1.0 / ((1.0 - x * x) * slope * slope));
     }
     points
 }
@@ -63,11 +62,11 @@ fn legendre(n: usize, x: f64) -> (f64, f64) {
 }
 
 /// A rule of `n * n` points; zeros behind them.
-fn triangle(n: usize) -> [OnTriangle; MOST_ON_TRIANGLE] {
+fn triangle(n: usize) -> [RulePoint; MOST_ON_TRIANGLE] {
     let rule = interval(n);
     let mut points = [([0.0; 3], 0.0); MOST_ON_TRIANGLE];
     for (i, point) in points[..n * n].iter_mut().enumerate() {
-        let ((s, a), (t, b)) = (rule[i / n], rule[i % n]);
+        let (([_, s, _], a), ([_, t, _], b)) = (rule[i / n], rule[i % n]);
         let across = (1.0 - s) * t;
         *point = ([1.0 - s - across, s, across], 2.0 * a * b * (1.0 - s));
     }
@@ -85,7 +84,8 @@ mod tests {
         let factorial = |n: usize| (1..=n).map(|k| k as f64).product::<f64>();
         for n in 1..=9 {
             for k in 0..2 * n {
-                let sum: f64 = on_interval(n).iter().map(|(x, w)| w * x.powi(k as i32)).sum();
+                let sum: f64 =
+                    on_interval(n).iter().map(|([_, x, _], w)| w * x.powi(k as i32)).sum();
                 assert!((sum - 1.0 / (k as f64 + 1.0)).abs() < 1e-15, "{n}, {k}");
             }
             for i in 0..2 * n - 1 {

@@ -3,14 +3,11 @@
 //! What is legal stays so: two sides of a plate, whose normals oppose each other; a surface folded upon
 //! itself; faces that meet in an edge or a node; layers further apart than the search reaches.
 
-use super::candidates::{bounds, middle_normal};
-use super::face::Face;
+use super::candidates::{SearchFaces, bounds};
 use super::mesh::Side;
-use super::overlap::SlaveFace;
+use super::overlap::{Overlaps, SlaveFace};
 use super::plane::Plane;
-use super::tree::Tree;
 use crate::error::{Error, index};
-use crate::linalg::vector3::Vector3;
 
 /// Faces that lie upon each other look the same way: the cosine between their normals is above this. Of
 /// two meshes of one curved surface, normals differ by the angle of a face, say 30 degrees on coarse ones.
@@ -32,16 +29,19 @@ const PERCENT: f64 = 100.0;
 ///
 /// # Errors
 /// The two faces, and the share that is common.
-pub(super) fn check(side: &Side<'_>, dim: usize, reach: f64) -> Result<(), Error> {
-    let all = || (0..side.count()).map(|at| side.face(at));
-    let tree = Tree::new(all().map(|face| bounds(&face)).collect());
-    let normals: Vec<Vector3> = all().map(|face| middle_normal(&face)).collect();
-    let mut near = Vec::new();
+pub(super) fn check(
+    side: &Side<'_>,
+    faces: &SearchFaces,
+    dim: usize,
+    reach: f64,
+) -> Result<(), Error> {
+    let SearchFaces { tree, normals } = faces;
+    let (mut near, mut overlaps) = (Vec::new(), Overlaps::default());
     for at in 0..side.count() {
         let face = side.face(at);
         tree.near(&bounds(&face).grown(UPON * face.size()), &mut near);
         near.retain(|&other| other < at && normals[other].dot(&normals[at]) > SAME_WAY);
-        near.retain(|&other| !are_neighbours(&face, &side.face(other)));
+        near.retain(|&other| dim == 2 || !are_neighbours(side.corners(at), side.corners(other)));
         if near.is_empty() {
             continue;
         }
@@ -51,7 +51,8 @@ pub(super) fn check(side: &Side<'_>, dim: usize, reach: f64) -> Result<(), Error
             let second = side.face(other);
             let distance = reach.min(UPON * face.size().min(second.size()));
             // Faces that cannot be projected on each other do not lie upon each other.
-            let common = in_plane.overlap(&second, distance).map_or(0.0, |part| part.area);
+            let common = in_plane.overlap(&second, distance, &mut overlaps).unwrap_or(0.0);
+            overlaps.points.clear();
             let smaller = || in_plane.area.min(SlaveFace::new(&second, plane.clone()).area);
             if common > 0.0 && common > COMMON * smaller() {
                 return Err(upon(side, (at, other), common / smaller()));
@@ -71,10 +72,13 @@ fn upon(side: &Side<'_>, (at, other): (usize, usize), share: f64) -> Error {
     side.refuse(at, &what)
 }
 
-/// Whether two faces that look the same way share an edge, so that each lies on its own side of it.
-fn are_neighbours(a: &Face<'_>, b: &Face<'_>) -> bool {
-    let corners = |face: &Face<'_>| face.kind.corners();
-    let edges = |i: usize| (a.nodes[i], a.nodes[(i + 1) % corners(a)]);
-    let backwards = |i: usize| (b.nodes[(i + 1) % corners(b)], b.nodes[i]);
-    !a.kind.is_line() && (0..corners(a)).any(|i| (0..corners(b)).any(|j| edges(i) == backwards(j)))
+/// Whether two faces that look the same way share an edge, so that each lies on its own side of it: by
+/// their corners in turn.
+fn are_neighbours(a: &[usize], b: &[usize]) -> bool {
+    edges(a).any(|(from, to)| edges(b).any(|edge| edge == (to, from)))
+}
+
+fn edges(corners: &[usize]) -> impl Iterator<Item = (usize, usize)> {
+    let before = corners.last().into_iter().chain(corners);
+    before.copied().zip(corners.iter().copied())
 }

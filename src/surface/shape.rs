@@ -131,6 +131,15 @@ impl FaceKind {
         (self == Q9).then_some(MOST_NODES - 1)
     }
 
+    /// The part that a face with straight edges is, by nodes: its corners.
+    pub(super) fn outline(self) -> &'static [&'static [usize]] {
+        match self {
+            Line2 | Line3 => Line2.parts(),
+            T3 | T6 => T3.parts(),
+            Q4 | Q8 | Q9 => Q4.parts(),
+        }
+    }
+
     /// The flat parts into which a face with curved edges is cut, by nodes.
     pub(super) fn parts(self) -> &'static [&'static [usize]] {
         match self {
@@ -154,7 +163,18 @@ impl FaceKind {
 
     /// Shape functions at a point.
     pub(super) fn values(self, at: Local) -> Values {
-        self.functions(at).map(|[value, _, _]| value)
+        let [s, t] = at;
+        let mut values = [0.0; MOST_NODES];
+        match self {
+            // Those that most meshes have, without their derivatives.
+            T3 => values[..3].copy_from_slice(&[1.0 - s - t, s, t]),
+            Q4 => {
+                let [(a, b), (c, d)] = at.map(|s| (0.5 * (1.0 - s), 0.5 * (1.0 + s)));
+                values[..4].copy_from_slice(&[a * c, b * c, b * d, a * d]);
+            }
+            _ => values = self.functions(at).map(|[value, _, _]| value),
+        }
+        values
     }
 
     /// Derivatives of the shape functions at a point, by the two coordinates.
@@ -278,6 +298,7 @@ mod tests {
                     assert!((slope - exact[c]).abs() < 1e-9, "{kind:?}, {i}, {c}");
                 }
             }
+            assert_eq!(kind.values(at), kind.functions(at).map(|[value, _, _]| value));
         }
     }
 

@@ -103,24 +103,22 @@ impl Tree {
     /// were looked at.
     pub(super) fn near(&self, bounds: &Bounds, found: &mut Vec<usize>) -> usize {
         found.clear();
-        let mut looked = 0;
-        let mut open: Vec<usize> = if self.branches.is_empty() { vec![] } else { vec![0] };
-        while let Some(place) = open.pop() {
-            let branch = &self.branches[place];
-            looked += 1;
-            if !branch.bounds.meets(bounds) {
-                continue;
-            }
-            match branch.halves {
-                Some(halves) => open.extend(halves),
-                None => {
-                    let faces = &self.order[branch.faces.clone()];
-                    looked += faces.len();
-                    found.extend(faces.iter().filter(|&&face| self.boxes[face].meets(bounds)));
-                }
-            }
-        }
+        let looked = if self.branches.is_empty() { 0 } else { self.collect(0, bounds, found) };
         found.sort_unstable();
         looked
+    }
+
+    /// The same of one branch, in any order.
+    fn collect(&self, place: usize, bounds: &Bounds, found: &mut Vec<usize>) -> usize {
+        let branch = &self.branches[place];
+        if !branch.bounds.meets(bounds) {
+            return 1;
+        }
+        let Some(halves) = branch.halves else {
+            let faces = &self.order[branch.faces.clone()];
+            found.extend(faces.iter().filter(|&&face| self.boxes[face].meets(bounds)));
+            return 1 + faces.len();
+        };
+        1 + halves.map(|half| self.collect(half, bounds, found)).iter().sum::<usize>()
     }
 }

@@ -3,7 +3,6 @@
 use std::collections::BTreeMap;
 
 use super::control::Edges;
-use super::face::Face;
 use super::mesh::Side;
 use super::row::Row;
 use super::shape::{MOST_NODES, Values};
@@ -16,7 +15,7 @@ pub(super) fn whole_rows(side: &Side<'_>) -> BTreeMap<usize, Row> {
     let mut rows: BTreeMap<usize, Row> = BTreeMap::new();
     for face in faces() {
         let basis = edges.basis(face.kind, face.nodes, true);
-        let areas = basis.functions(whole_integrals(&face));
+        let areas = basis.functions(face.integrals());
         for (node, unit) in face.nodes.iter().zip(unit_values(face.kind.nodes())) {
             let values = basis.control_values(unit);
             // A node that a row does not move is not named by it: it may face nothing.
@@ -38,14 +37,4 @@ pub(super) fn unit_values(nodes: usize) -> impl Iterator<Item = Values> {
         values[node] = 1.0;
         values
     })
-}
-
-/// Integrals of the shape functions over a whole face.
-pub(super) fn whole_integrals(face: &Face<'_>) -> Values {
-    let mut integrals = [0.0; MOST_NODES];
-    for (at, weight) in face.area_points() {
-        let values = face.kind.values(at);
-        integrals.iter_mut().zip(values).for_each(|(sum, value)| *sum += weight * value);
-    }
-    integrals
 }
