@@ -5,7 +5,7 @@
 use super::energy;
 use crate::law::{Contact, Recession};
 use crate::linalg::tolerances::{LEAST_WORK, NEGLIGIBLE};
-use crate::linalg::vector::{dot, largest_of};
+use crate::linalg::vector::{dot, largest_of, norm_inf};
 use crate::problem::ContactProblem;
 
 /// Whether the rigid motion `r` proves that no equilibrium exists.
@@ -22,15 +22,22 @@ pub fn is_escape(problem: &ContactProblem<'_>, r: &[f64]) -> bool {
 /// [`is_escape`], on a problem whose laws are worked out.
 pub(crate) fn is_escape_of(contact: &Contact<'_>, r: &[f64]) -> bool {
     let problem = contact.problem();
+    let largest = norm_inf(r);
+    // On a motion that only Kᵀ resists internal forces do work.
+    if largest == 0.0 || !largest.is_finite() || !problem.is_symmetric() {
+        return false;
+    }
+    // The length of a motion says nothing; products of it might overflow, or vanish and with them its energy.
+    let r = &r.iter().map(|r| r / largest).collect::<Vec<f64>>()[..];
     let root = problem.unit_roots();
     let size = largest_of(r.iter().zip(&root).map(|(r, root)| r * root));
-    // On a motion that only Kᵀ resists internal forces do work.
-    if size == 0.0 || !size.is_finite() || !problem.is_symmetric() {
+    if size == 0.0 || !size.is_finite() {
         return false;
     }
     let negligible = NEGLIGIBLE * size;
     let internal = problem.internal_force(r);
-    if energy(problem.relation(), r, &internal) > problem.rounding_of_energy() {
+    let is_free = energy(problem.relation(), r, &internal) <= problem.rounding_of_energy();
+    if !is_free {
         return false;
     }
     // What rounding of the entries leaves of forces, each entry in the roots of its two units.

@@ -264,10 +264,12 @@ impl Natural {
     }
 }
 
-/// The energy of the motion `d` under `internal` forces, `K d`, beside its terms: `d . K d / |d| . |K| |d|`.
+/// The energy of the motion `d` under `internal` forces, `K d`, beside its terms: `d . K d / |d| . |K| |d|`; 0 if
+/// nothing resists it.
 pub(crate) fn energy<R: Relation>(relation: &R, d: &[f64], internal: &[f64]) -> f64 {
     let sizes = sizes(d);
-    dot(d, internal) / dot(&sizes, &relation.magnitude(&sizes))
+    let terms = dot(&sizes, &relation.magnitude(&sizes));
+    if terms == 0.0 { 0.0 } else { dot(d, internal) / terms }
 }
 
 fn is_resisted<R: Relation>(relation: &R, d: &[f64], raw: &[f64]) -> bool {
