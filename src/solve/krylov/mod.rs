@@ -3,6 +3,7 @@
 //! Newton-Krylov methods*, J. Comput. Phys. 193 (2004) 357-397, for the family).
 
 mod counted;
+mod directions;
 mod newton;
 mod point;
 mod step;
@@ -56,7 +57,8 @@ pub fn check(settings: &Settings) -> Result<(), Error> {
 /// loads lose their digits, as in `solve::far_obstacles`.
 const FAR: f64 = 1e6;
 
-/// Vectors of all unknowns that GMRES holds for each direction: a basis vector, and the direction with its product.
+/// Vectors of all unknowns that GMRES holds for each direction: a basis vector, or an image, and the direction with
+/// its product.
 const VECTORS_OF_DIRECTION: usize = 3;
 
 /// Other vectors of all unknowns.
@@ -64,7 +66,8 @@ const VECTORS: usize = 60;
 
 /// Most bytes that [`solve`] takes for so many unknowns, beside what the bodies take.
 pub fn memory(unknowns: usize) -> u64 {
-    ((VECTORS_OF_DIRECTION * step::MOST_DIRECTIONS + VECTORS) * size_of::<f64>() * unknowns) as u64
+    let directions = step::MOST_DIRECTIONS + directions::MOST_KEPT;
+    ((VECTORS_OF_DIRECTION * directions + VECTORS) * size_of::<f64>() * unknowns) as u64
 }
 
 /// Solves a load case from the displacements `start` (the pairs stuck at their gaps if `None`).

@@ -15,21 +15,25 @@
 //! (measured: 2 to 11). It works on forces `w` on the pairs alone: the inner unknowns are in equilibrium in all
 //! directions. Two preconditioners:
 //!
-//! - A factor of an earlier `M`. A component that was held in it and is free now gets `w / k` as its
-//!   displacement, and the forces that this asks of the others are subtracted; one that was free and is held now
-//!   keeps its force `w` as an unknown, with the equation `k z = 0`.
-//! - An inverse `W` of `A`, nothing held: its block of the free components.
+//! - A factor of an earlier `M`. A component that was held in it gets `w / k` as its displacement, and the forces
+//!   that this asks of the others are subtracted; one that was free and is held now keeps its force `w` as an
+//!   unknown.
+//! - An inverse `W` of `A`, nothing held: its block of the free components, and `w / k` for the held ones.
+//!
+//! Held components have the equation `k z = 0`. Directions of earlier systems come before those of GMRES, which
+//! then works on what they leave (`directions`).
 //!
 //! Where the factor has no springs, or nothing is held, `s` is multiplied to both sides of the preconditioner,
 //! `s = 1` but across the slip, where it is `(1 + C / k)^-1/2`: so are the springs there, pair by pair.
 
+use super::directions::{Directions, Images, Moved};
 use super::point::{Equations, Point};
 use crate::error::Error;
 use crate::law::{Plane, Vector, ellipse};
 use crate::linalg::gmres::gmres;
 use crate::problem::{Bodies, Restriction};
 
-/// Most directions of one system.
+/// Most new directions of one system.
 pub const MOST_DIRECTIONS: usize = 100;
 
 /// What the pieces of a point say of a pair.
@@ -53,17 +57,12 @@ pub struct System<'a> {
 
 /// A step, to first order.
 pub struct Step {
-    /// Change of all unknowns, and `A` times it.
-    pub z: Vec<f64>,
-    pub forces: Vec<f64>,
+    pub moved: Moved,
     /// Change of the coordinates.
     pub dy: Vec<Vector>,
-    /// Directions of GMRES.
+    /// New directions of GMRES.
     pub directions: usize,
 }
-
-/// A direction and its product.
-type Moved = (Vec<f64>, Vec<f64>);
 
 impl<'a> System<'a> {
     pub fn new(equations: &'a Equations<'a>, point: &'a Point) -> Self {
@@ -93,40 +92,51 @@ impl<'a> System<'a> {
     }
 
     /// The step to a residual of the part `forcing`, with the factor of `factor`, or, without one, the inverse.
+    /// `known` directions are used, and new ones added.
     pub fn step(
         &self,
         bodies: &mut dyn Bodies,
         factor: Option<&Restriction>,
         forcing: f64,
+        known: &mut Directions,
     ) -> Result<Step, Error> {
         let inner = self.equations.inner;
         let root = &self.equations.root[inner..];
         let mut right = self.right();
         let least = forcing * self.equations.length(&self.point.lack);
-        let mut z = vec![0.0; self.point.residual.len()];
-        let mut forces = z.clone();
+        let none = || vec![0.0; self.point.residual.len()];
+        let mut sum = Moved { z: none(), forces: none() };
         if let Some(factor) = factor {
             let lack: Vec<f64> = self.point.lack[..inner].iter().map(|h| -h).collect();
-            (z, forces) = self.moved_by(bodies, Some(factor), &lack, &right)?;
-            let rows = self.rows(&right, (&z, &forces), Some(factor));
+            sum = self.moved_by(bodies, Some(factor), &lack, &right)?;
+            let rows = self.rows(&sum);
             right.iter_mut().zip(rows).for_each(|(right, row)| *right -= row);
         }
         right.iter_mut().zip(root).for_each(|(right, root)| *right /= root);
-        let mut directions: Vec<Moved> = Vec::new();
+        let image = |moved: &Moved| -> Vec<f64> {
+            self.rows(moved).iter().zip(root).map(|(row, root)| row / root).collect()
+        };
+        let images = Images::new(known.iter().map(image));
+        let (before, mut by_known) = (known.count(), images.take_out(&mut right));
+        let mut taken_out = Vec::new();
         let (shares, _) = gmres(&right, least, MOST_DIRECTIONS, |v| {
             let w: Vec<f64> = v.iter().zip(root).map(|(v, root)| v * root).collect();
             let moved = self.moved_by(bodies, factor, &vec![0.0; inner], &w)?;
-            let mut rows = self.rows(&w, (&moved.0, &moved.1), factor);
-            rows.iter_mut().zip(root).for_each(|(row, root)| *row /= root);
-            directions.push(moved);
-            Ok::<_, Error>(rows)
+            let mut row = image(&moved);
+            taken_out.push(images.take_out(&mut row));
+            known.add(moved);
+            Ok::<_, Error>(row)
         })?;
-        for (share, (direction, product)) in shares.iter().zip(&directions) {
-            z.iter_mut().zip(direction).for_each(|(sum, part)| *sum += share * part);
-            forces.iter_mut().zip(product).for_each(|(sum, part)| *sum += share * part);
+        for (share, taken_out) in shares.iter().zip(&taken_out) {
+            by_known.iter_mut().zip(taken_out).for_each(|(sum, part)| *sum -= share * part);
         }
-        let dy = self.coordinates(&z[inner..], &forces[inner..]);
-        Ok(Step { z, forces, dy, directions: directions.len() })
+        let mut all = images.of_directions(by_known);
+        all.extend(shares);
+        known.add_shares(&all, &mut sum);
+        let dy = self.coordinates(&sum.z[inner..], &sum.forces[inner..]);
+        let directions = known.count() - before;
+        known.forget();
+        Ok(Step { moved: sum, dy, directions })
     }
 
     /// The right sides of all components, zero of held ones.
@@ -145,16 +155,11 @@ impl<'a> System<'a> {
         right
     }
 
-    /// The left sides for the displacements `z` of all unknowns with `A z`, where the forces are `w`.
-    fn rows(
-        &self,
-        w: &[f64],
-        (z, product): (&[f64], &[f64]),
-        factor: Option<&Restriction>,
-    ) -> Vec<f64> {
+    /// The left sides for a change of all unknowns.
+    fn rows(&self, Moved { z, forces }: &Moved) -> Vec<f64> {
         let (dim, inner) = (self.equations.contact.dim(), self.equations.inner);
-        let units = &self.equations.root[inner..];
-        let (z, product) = (&z[inner..], &product[inner..]);
+        let root = &self.equations.root[inner..];
+        let (z, product) = (&z[inner..], &forces[inner..]);
         let mut rows = product.to_vec();
         for (at, pair) in self.pairs.iter().enumerate() {
             let n = dim * at;
@@ -165,8 +170,7 @@ impl<'a> System<'a> {
         }
         for (i, row) in rows.iter_mut().enumerate() {
             if self.restriction.held[i] {
-                let was_held = factor.is_none_or(|factor| factor.held[i]);
-                *row = if was_held { w[i] } else { units[i].powi(2) * z[i] };
+                *row = root[i].powi(2) * z[i];
             }
         }
         rows
@@ -193,8 +197,8 @@ impl<'a> System<'a> {
         if softens {
             self.soften(&mut z[inner..]);
         }
-        let product = bodies.product(&z)?;
-        Ok((z, product))
+        let forces = bodies.product(&z)?;
+        Ok(Moved { z, forces })
     }
 
     /// Multiplies `s` to the tangential components of slipping pairs.
@@ -225,7 +229,7 @@ impl<'a> System<'a> {
         let mut released = vec![0.0; forces.len()];
         let mut any = false;
         for (i, w) in w.iter().enumerate() {
-            if factor.held[i] && !self.restriction.held[i] && *w != 0.0 {
+            if factor.held[i] && *w != 0.0 {
                 released[inner + i] = w / self.equations.root[inner + i].powi(2);
                 any = true;
             }
@@ -241,13 +245,14 @@ impl<'a> System<'a> {
 
     /// By the block of an inverse.
     fn by_inverse(&self, bodies: &mut dyn Bodies, mut w: Vec<f64>) -> Result<Vec<f64>, Error> {
-        let free = |values: &mut Vec<f64>| {
-            let held = self.restriction.held.iter();
-            values.iter_mut().zip(held).for_each(|(v, held)| *v = if *held { 0.0 } else { *v });
-        };
-        free(&mut w);
+        let held = self.restriction.held.iter().zip(&self.equations.root).enumerate();
+        let held = held.filter(|(_, (held, _))| **held);
+        let mut own = Vec::new();
+        for (i, (_, root)) in held {
+            own.push((i, std::mem::take(&mut w[i]) / root.powi(2)));
+        }
         let mut z = bodies.solve(&w)?;
-        free(&mut z);
+        own.iter().for_each(|(i, displacement)| z[*i] = *displacement);
         Ok(z)
     }
 
