@@ -12,7 +12,8 @@ pub const MOST_KEPT: usize = 50;
 /// others.
 const ROUNDING_OF_IMAGE: f64 = 1e-8;
 
-/// A change of all unknowns with the inner ones in equilibrium, and `A` times it. It is one whatever is held.
+/// A change of all unknowns with the inner ones in equilibrium, and the forces on the pairs that it asks for, of
+/// `A` times it. It is one whatever is held.
 pub struct Moved {
     pub z: Vec<f64>,
     pub forces: Vec<f64>,

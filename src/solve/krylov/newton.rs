@@ -2,7 +2,7 @@
 
 use super::directions::Directions;
 use super::point::{Equations, Point};
-use super::step::{Step, System, changed};
+use super::step::{MOST_DIRECTIONS, Step, System, changed};
 use crate::error::Error;
 use crate::law::Vector;
 use crate::monitor::{Monitor, Stop};
@@ -37,7 +37,8 @@ const NEAR_ROUNDING: f64 = 1e-6;
 const FORCING: f64 = 0.01;
 const FORCING_OF_ETA: f64 = 0.3;
 
-/// A factor serves while at most this part of the pairs has changed, and GMRES needs at most so many directions.
+/// A factor serves while at most this part of the pairs has changed, and so many directions leave the part
+/// [`FORCING`] at most; if they do not, they serve the system with the new factor.
 const CHANGED: f64 = 0.02;
 const DIRECTIONS: usize = 25;
 
@@ -60,7 +61,7 @@ pub fn solve(
     monitor: &mut Monitor<'_>,
 ) -> Result<Ended, Error> {
     let mut ended = Ended { point, ending: Ending::Done, systems: 0, held: None };
-    let (mut shortest, mut directions, mut last) = (0, 0, f64::INFINITY);
+    let (mut shortest, mut last) = (0, f64::INFINITY);
     let mut known = Directions::default();
     ended.ending = loop {
         let eta = ended.point.eta;
@@ -77,19 +78,13 @@ pub fn solve(
             break Ending::Stopped(stop);
         }
         ended.systems += 1;
-        let system = System::new(equations, &ended.point);
-        if let Some(factor) = &mut held {
-            let renewed = directions > DIRECTIONS;
-            match renew(bodies, factor, &system.restriction, renewed, monitor)? {
-                Renewed::Kept => {}
-                Renewed::New => known.clear(),
-                Renewed::Stopped(stop) => break Ending::Stopped(stop),
-            }
-        }
+        let system = System::new(equations, &ended.point, bodies.has_springs());
         let goal = FORCING_OF_ETA * AIM * tolerance / eta;
         let forcing = FORCING.min(FORCING_OF_ETA * eta).max(goal);
-        let step = system.step(bodies, held.as_ref(), forcing, &mut known)?;
-        directions = step.directions;
+        let step = match solved(&system, bodies, &mut held, forcing, &mut known, monitor)? {
+            Ok(step) => step,
+            Err(stop) => break Ending::Stopped(stop),
+        };
         let (next, part) = match ended.systems <= FULL_STEPS {
             true => (moved(equations, bodies, &ended.point, &step, 1.0)?, 1.0),
             false => line_search(equations, bodies, &ended.point, &step)?,
@@ -104,26 +99,39 @@ pub fn solve(
     Ok(ended)
 }
 
-/// What has become of the factor.
-enum Renewed {
-    Kept,
-    New,
-    Stopped(Stop),
+/// The step of a system, with a new factor where the old one does not serve, or why it was stopped.
+fn solved(
+    system: &System<'_>,
+    bodies: &mut dyn Bodies,
+    held: &mut Option<Restriction>,
+    forcing: f64,
+    known: &mut Directions,
+    monitor: &mut Monitor<'_>,
+) -> Result<Result<Step, Stop>, Error> {
+    if let Some(factor) = held.as_mut().filter(|factor| **factor != system.restriction) {
+        let pairs = factor.springs.len();
+        if changed(factor, &system.restriction) as f64 <= CHANGED * pairs as f64 {
+            let step = system.step(bodies, Some(factor), (forcing, DIRECTIONS), known)?;
+            if step.left <= FORCING {
+                return Ok(Ok(step));
+            }
+        } else {
+            known.clear();
+        }
+        if let Err(stop) = renew(bodies, factor, &system.restriction, monitor)? {
+            return Ok(Err(stop));
+        }
+    }
+    system.step(bodies, held.as_ref(), (forcing, MOST_DIRECTIONS), known).map(Ok)
 }
 
-/// Factorises anew if many pairs have changed since, or if that is `wanted`.
+/// Factorises anew.
 fn renew(
     bodies: &mut dyn Bodies,
     factor: &mut Restriction,
     restriction: &Restriction,
-    wanted: bool,
     monitor: &mut Monitor<'_>,
-) -> Result<Renewed, Error> {
-    let pairs = restriction.springs.len();
-    let many = changed(factor, restriction) as f64 > CHANGED * pairs as f64;
-    if !(many || wanted) || factor == restriction {
-        return Ok(Renewed::Kept);
-    }
+) -> Result<Result<(), Stop>, Error> {
     let mut stop = None;
     let mut goes_on = || {
         stop = monitor.goes_on().err();
@@ -131,10 +139,10 @@ fn renew(
     };
     bodies.hold(restriction, &mut goes_on)?;
     if let Some(stop) = stop {
-        return Ok(Renewed::Stopped(stop));
+        return Ok(Err(stop));
     }
     factor.clone_from(restriction);
-    Ok(Renewed::New)
+    Ok(Ok(()))
 }
 
 /// The first of ever shorter steps along which the lack falls enough, or the shortest; and its length.
@@ -172,7 +180,7 @@ fn moved(
     };
     let at = point.at.moved(part, &step.moved.z);
     equations.point(bodies, at, y.collect(), |bodies, apart| {
-        if bodies.has_cheap_products() {
+        if bodies.has_cheap_products() || bodies.inner() > 0 {
             return None;
         }
         let mut residual = along(&point.residual, &step.moved.forces);

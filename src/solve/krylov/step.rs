@@ -15,8 +15,8 @@
 //! (measured: 2 to 11). It works on forces `w` on the pairs alone: the inner unknowns are in equilibrium in all
 //! directions. Two preconditioners:
 //!
-//! - A factor of an earlier `M`. A component that was held in it gets `w / k` as its displacement, and the forces
-//!   that this asks of the others are subtracted; one that was free and is held now keeps its force `w` as an
+//! - A factor of an earlier `M`. A component that was held in it gets `w / k` as its displacement, with the springs of
+//!   the pair, and the forces that this asks of the others are subtracted; one that was free and is held now keeps its force `w` as an
 //!   unknown.
 //! - An inverse `W` of `A`, nothing held: its block of the free components, and `w / k` for the held ones.
 //!
@@ -32,6 +32,9 @@ use crate::error::Error;
 use crate::law::{Plane, Vector, ellipse};
 use crate::linalg::gmres::gmres;
 use crate::problem::{Bodies, Restriction};
+
+/// Components of a pair in space.
+const SPACE: usize = 3;
 
 /// Most new directions of one system.
 pub const MOST_DIRECTIONS: usize = 100;
@@ -60,12 +63,13 @@ pub struct Step {
     pub moved: Moved,
     /// Change of the coordinates.
     pub dy: Vec<Vector>,
-    /// New directions of GMRES.
-    pub directions: usize,
+    /// The part of the residual that is left for want of directions.
+    pub left: f64,
 }
 
 impl<'a> System<'a> {
-    pub fn new(equations: &'a Equations<'a>, point: &'a Point) -> Self {
+    /// Of a point; with springs in the restriction only if it `has_springs`.
+    pub fn new(equations: &'a Equations<'a>, point: &'a Point, has_springs: bool) -> Self {
         let dim = equations.contact.dim();
         let mut restriction = Restriction::all(dim, point.y.len());
         let laws = equations.contact.pairs().iter();
@@ -76,7 +80,7 @@ impl<'a> System<'a> {
             let held = &mut restriction.held[dim * at..dim * (at + 1)];
             held[0] = piece.closed;
             held[1..].fill(!piece.slips);
-            if piece.slips {
+            if piece.slips && has_springs {
                 restriction.springs[at] = symmetric(&curvature);
             }
             pairs.push(Pair {
@@ -91,24 +95,24 @@ impl<'a> System<'a> {
         System { equations, point, pairs, restriction }
     }
 
-    /// The step to a residual of the part `forcing`, with the factor of `factor`, or, without one, the inverse.
-    /// `known` directions are used, and new ones added.
+    /// The step to a residual of the part `forcing`, with at most so many new directions, with the factor of `factor`,
+    /// or, without one, the inverse. `known` directions are used, and new ones added.
     pub fn step(
         &self,
         bodies: &mut dyn Bodies,
         factor: Option<&Restriction>,
-        forcing: f64,
+        (forcing, most): (f64, usize),
         known: &mut Directions,
     ) -> Result<Step, Error> {
         let inner = self.equations.inner;
         let root = &self.equations.root[inner..];
         let mut right = self.right();
-        let least = forcing * self.equations.length(&self.point.lack);
-        let none = || vec![0.0; self.point.residual.len()];
-        let mut sum = Moved { z: none(), forces: none() };
+        let lack = self.equations.length(&self.point.lack);
+        let mut sum =
+            Moved { z: vec![0.0; self.point.residual.len()], forces: vec![0.0; right.len()] };
         if let Some(factor) = factor {
-            let lack: Vec<f64> = self.point.lack[..inner].iter().map(|h| -h).collect();
-            sum = self.moved_by(bodies, Some(factor), &lack, &right)?;
+            let on_inner: Vec<f64> = self.point.lack[..inner].iter().map(|h| -h).collect();
+            sum = self.moved_by(bodies, Some(factor), &on_inner, &right)?;
             let rows = self.rows(&sum);
             right.iter_mut().zip(rows).for_each(|(right, row)| *right -= row);
         }
@@ -119,7 +123,7 @@ impl<'a> System<'a> {
         let images = Images::new(known.iter().map(image));
         let (before, mut by_known) = (known.count(), images.take_out(&mut right));
         let mut taken_out = Vec::new();
-        let (shares, _) = gmres(&right, least, MOST_DIRECTIONS, |v| {
+        let (shares, left) = gmres(&right, forcing * lack, most, |v| {
             let w: Vec<f64> = v.iter().zip(root).map(|(v, root)| v * root).collect();
             let moved = self.moved_by(bodies, factor, &vec![0.0; inner], &w)?;
             let mut row = image(&moved);
@@ -133,10 +137,10 @@ impl<'a> System<'a> {
         let mut all = images.of_directions(by_known);
         all.extend(shares);
         known.add_shares(&all, &mut sum);
-        let dy = self.coordinates(&sum.z[inner..], &sum.forces[inner..]);
-        let directions = known.count() - before;
+        let dy = self.coordinates(&sum.z[inner..], &sum.forces);
+        let left = if known.count() - before < most { 0.0 } else { left / lack };
         known.forget();
-        Ok(Step { moved: sum, dy, directions })
+        Ok(Step { moved: sum, dy, left })
     }
 
     /// The right sides of all components, zero of held ones.
@@ -159,13 +163,13 @@ impl<'a> System<'a> {
     fn rows(&self, Moved { z, forces }: &Moved) -> Vec<f64> {
         let (dim, inner) = (self.equations.contact.dim(), self.equations.inner);
         let root = &self.equations.root[inner..];
-        let (z, product) = (&z[inner..], &forces[inner..]);
-        let mut rows = product.to_vec();
+        let z = &z[inner..];
+        let mut rows = forces.clone();
         for (at, pair) in self.pairs.iter().enumerate() {
             let n = dim * at;
             let turned = ellipse::product(&pair.curvature, tangential(&z[n..n + dim]));
             for c in 1..dim {
-                rows[n + c] += turned[c - 1] - pair.drag[c - 1] * product[n];
+                rows[n + c] += turned[c - 1] - pair.drag[c - 1] * forces[n];
             }
         }
         for (i, row) in rows.iter_mut().enumerate() {
@@ -197,7 +201,7 @@ impl<'a> System<'a> {
         if softens {
             self.soften(&mut z[inner..]);
         }
-        let forces = bodies.product(&z)?;
+        let forces = bodies.product(&z)?.split_off(inner);
         Ok(Moved { z, forces })
     }
 
@@ -224,23 +228,37 @@ impl<'a> System<'a> {
         on_inner: &[f64],
         w: &[f64],
     ) -> Result<Vec<f64>, Error> {
-        let inner = self.equations.inner;
         let mut forces = [on_inner, w].concat();
         let mut released = vec![0.0; forces.len()];
-        let mut any = false;
-        for (i, w) in w.iter().enumerate() {
-            if factor.held[i] && *w != 0.0 {
-                released[inner + i] = w / self.equations.root[inner + i].powi(2);
-                any = true;
-            }
-        }
-        if any {
+        if self.release(factor, w, &mut released[self.equations.inner..]) {
             let asked = bodies.product(&released)?;
             forces.iter_mut().zip(asked).for_each(|(force, asked)| *force -= asked);
         }
         let mut z = bodies.solve(&forces)?;
         z.iter_mut().zip(&released).for_each(|(z, released)| *z += released);
         Ok(z)
+    }
+
+    /// The displacements of components that are held in a factor under forces `w`, each pair for itself: on springs
+    /// of its units, and on those that it has across its slip. Returns whether there are any.
+    fn release(&self, factor: &Restriction, w: &[f64], released: &mut [f64]) -> bool {
+        let dim = self.equations.contact.dim();
+        let units: Vec<f64> =
+            self.equations.root[self.equations.inner..].iter().map(|root| root * root).collect();
+        for (at, (pair, springs)) in self.pairs.iter().zip(&self.restriction.springs).enumerate() {
+            let n = dim * at;
+            for i in (n..n + dim).filter(|&i| factor.held[i]) {
+                released[i] = w[i] / units[i];
+            }
+            if pair.slips && dim == SPACE && factor.held[n + 1] {
+                let [[a, b], [_, c]] = *springs;
+                let (a, c) = (a + units[n + 1], c + units[n + 2]);
+                let determinant = a * c - b * b;
+                released[n + 1] = (c * w[n + 1] - b * w[n + 2]) / determinant;
+                released[n + 2] = (a * w[n + 2] - b * w[n + 1]) / determinant;
+            }
+        }
+        released.iter().any(|z| *z != 0.0)
     }
 
     /// By the block of an inverse.
