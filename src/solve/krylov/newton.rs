@@ -13,7 +13,7 @@ use crate::solve::candidate::Ending;
 const FULL_STEPS: u64 = 16;
 
 /// Systems after which it is given up. With a line search nothing cycles.
-const MOST_SYSTEMS: u64 = 40;
+pub const MOST_SYSTEMS: u64 = 40;
 
 /// Part of the fall of the lack that a full step promises which a shortened one must keep (Armijo).
 const SUFFICIENT: f64 = 1e-4;
@@ -37,10 +37,17 @@ const NEAR_ROUNDING: f64 = 1e-6;
 const FORCING: f64 = 0.01;
 const FORCING_OF_ETA: f64 = 0.3;
 
-/// A factor serves while at most this part of the pairs has changed, and so many directions leave the part
-/// [`FORCING`] at most; if they do not, they serve the system with the new factor.
+/// A factor serves while at most this part of the pairs has changed, and so many directions leave little
+/// enough; if they do not, they serve the system with the new factor.
 const CHANGED: f64 = 0.02;
 const DIRECTIONS: usize = 25;
+
+/// What is wanted, and the systems after which it is given up.
+#[derive(Clone, Copy)]
+pub struct Goal {
+    pub tolerance: f64,
+    pub systems: u64,
+}
 
 /// How it ended.
 pub struct Ended {
@@ -57,7 +64,7 @@ pub fn solve(
     bodies: &mut dyn Bodies,
     point: Point,
     mut held: Option<Restriction>,
-    tolerance: f64,
+    Goal { tolerance, systems: most }: Goal,
     monitor: &mut Monitor<'_>,
 ) -> Result<Ended, Error> {
     let mut ended = Ended { point, ending: Ending::Done, systems: 0, held: None };
@@ -71,7 +78,7 @@ pub fn solve(
             break Ending::Done;
         }
         last = eta;
-        if ended.systems >= MOST_SYSTEMS || shortest >= MOST_SHORTEST {
+        if ended.systems >= most || shortest >= MOST_SHORTEST {
             break Ending::Stalled("Newton's method does not converge");
         }
         if let Err(stop) = monitor.step() {
@@ -81,7 +88,8 @@ pub fn solve(
         let system = System::new(equations, &ended.point, bodies.has_springs());
         let goal = FORCING_OF_ETA * AIM * tolerance / eta;
         let forcing = FORCING.min(FORCING_OF_ETA * eta).max(goal);
-        let step = match solved(&system, bodies, &mut held, forcing, &mut known, monitor)? {
+        let parts = (forcing, FORCING);
+        let step = match solved(&system, bodies, &mut held, parts, &mut known, monitor)? {
             Ok(step) => step,
             Err(stop) => break Ending::Stopped(stop),
         };
@@ -99,12 +107,13 @@ pub fn solve(
     Ok(ended)
 }
 
-/// The step of a system, with a new factor where the old one does not serve, or why it was stopped.
-fn solved(
+/// The step of a system to a residual of the part `forcing`, with a new factor where the old one does not leave the
+/// part `enough` at most, or why it was stopped.
+pub fn solved(
     system: &System<'_>,
     bodies: &mut dyn Bodies,
     held: &mut Option<Restriction>,
-    forcing: f64,
+    (forcing, enough): (f64, f64),
     known: &mut Directions,
     monitor: &mut Monitor<'_>,
 ) -> Result<Result<Step, Stop>, Error> {
@@ -112,7 +121,7 @@ fn solved(
         let pairs = factor.springs.len();
         if changed(factor, &system.restriction) as f64 <= CHANGED * pairs as f64 {
             let step = system.step(bodies, Some(factor), (forcing, DIRECTIONS), known)?;
-            if step.left <= FORCING {
+            if step.left <= enough {
                 return Ok(Ok(step));
             }
         } else {

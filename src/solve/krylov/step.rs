@@ -29,6 +29,7 @@
 use super::directions::{Directions, Images, Moved};
 use super::point::{Equations, Point};
 use crate::error::Error;
+use crate::law::branch::Branch;
 use crate::law::{Plane, Vector, ellipse};
 use crate::linalg::gmres::gmres;
 use crate::problem::{Bodies, Restriction};
@@ -52,7 +53,8 @@ struct Pair {
 /// Newton's system at a point.
 pub struct System<'a> {
     equations: &'a Equations<'a>,
-    point: &'a Point,
+    /// What is to be taken away.
+    lack: &'a [f64],
     pairs: Vec<Pair>,
     /// What is held on the pieces of the point.
     pub restriction: Restriction,
@@ -92,7 +94,29 @@ impl<'a> System<'a> {
                 scale: law.tangential_scale(),
             });
         }
-        System { equations, point, pairs, restriction }
+        System { equations, lack: &point.lack, pairs, restriction }
+    }
+
+    /// In the plane, on pieces that are given, for a lack.
+    pub fn on_branches(equations: &'a Equations<'a>, lack: &'a [f64], branches: &[Branch]) -> Self {
+        let dim = equations.contact.dim();
+        let mut restriction = Restriction::all(dim, branches.len());
+        let laws = equations.contact.pairs().iter();
+        let mut pairs = Vec::with_capacity(branches.len());
+        for (at, (law, branch)) in laws.zip(branches).enumerate() {
+            let [[normal, _], [drag, tangential]] = law.slopes(*branch);
+            let (closed, slips) = (normal > 0.0, tangential == 0.0);
+            (restriction.held[dim * at], restriction.held[dim * at + 1]) = (closed, !slips);
+            pairs.push(Pair {
+                closed,
+                slips,
+                drag: [drag, 0.0],
+                curvature: [[0.0; 2]; 2],
+                normal_scale: law.normal_scale(),
+                scale: law.tangential_scale(),
+            });
+        }
+        System { equations, lack, pairs, restriction }
     }
 
     /// The step to a residual of the part `forcing`, with at most so many new directions, with the factor of `factor`,
@@ -107,11 +131,10 @@ impl<'a> System<'a> {
         let inner = self.equations.inner;
         let root = &self.equations.root[inner..];
         let mut right = self.right();
-        let lack = self.equations.length(&self.point.lack);
-        let mut sum =
-            Moved { z: vec![0.0; self.point.residual.len()], forces: vec![0.0; right.len()] };
+        let lack = self.equations.length(self.lack);
+        let mut sum = Moved { z: vec![0.0; self.lack.len()], forces: vec![0.0; right.len()] };
         if let Some(factor) = factor {
-            let on_inner: Vec<f64> = self.point.lack[..inner].iter().map(|h| -h).collect();
+            let on_inner: Vec<f64> = self.lack[..inner].iter().map(|h| -h).collect();
             sum = self.moved_by(bodies, Some(factor), &on_inner, &right)?;
             let rows = self.rows(&sum);
             right.iter_mut().zip(rows).for_each(|(right, row)| *right -= row);
@@ -145,7 +168,7 @@ impl<'a> System<'a> {
 
     /// The right sides of all components, zero of held ones.
     fn right(&self) -> Vec<f64> {
-        let (dim, lack) = (self.equations.contact.dim(), &self.point.lack[self.equations.inner..]);
+        let (dim, lack) = (self.equations.contact.dim(), &self.lack[self.equations.inner..]);
         let mut right = vec![0.0; lack.len()];
         for (at, pair) in self.pairs.iter().enumerate() {
             let n = dim * at;
@@ -276,7 +299,7 @@ impl<'a> System<'a> {
 
     /// The change of the coordinates.
     fn coordinates(&self, z: &[f64], product: &[f64]) -> Vec<Vector> {
-        let (dim, lack) = (self.equations.contact.dim(), &self.point.lack[self.equations.inner..]);
+        let (dim, lack) = (self.equations.contact.dim(), &self.lack[self.equations.inner..]);
         let coordinates = |(at, pair): (usize, &Pair)| {
             let n = dim * at;
             let reaction = |c: usize| -(lack[n + c] + product[n + c]);
