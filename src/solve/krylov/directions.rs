@@ -8,9 +8,9 @@ use crate::linalg::gmres::orthogonalised;
 /// Most directions that are kept, the latest ones.
 pub const MOST_KEPT: usize = 50;
 
-/// What is left of an image when the others are taken out of it is rounding: a direction for which there are
-/// others.
-const ROUNDING_OF_IMAGE: f64 = 1e-8;
+/// Where less than this part of an image is left when the others are taken out of it, its direction is left out: the
+/// shares of such directions are large, and their sum loses these digits.
+const LEAST_OF_IMAGE: f64 = 1e-4;
 
 /// A change of all unknowns with the inner ones in equilibrium, and the forces on the pairs that it asks for, of
 /// `A` times it. It is one whatever is held.
@@ -72,7 +72,7 @@ impl Images {
         let mut made = Images::default();
         for mut image in images {
             let (mut column, left, was) = orthogonalised(&mut image, &made.basis);
-            if left > ROUNDING_OF_IMAGE * was {
+            if left > LEAST_OF_IMAGE * was {
                 image.iter_mut().for_each(|v| *v /= left);
                 column.pop();
                 column.push(left);
