@@ -15,7 +15,7 @@
 use super::directions::Directions;
 use super::newton::{self, Ended, Goal, solved};
 use super::point::{Displacements, Equations, Point};
-use super::step::System;
+use super::step::{Step, System};
 use crate::error::Error;
 use crate::law::branch::Branch;
 use crate::law::{Exit, Vector};
@@ -149,8 +149,8 @@ impl<'a> Walk<'a> {
                 return Ok(End::Stopped(stop));
             }
             let first = self.first.clone();
-            let (rate, z) = match self.moved_by(&first, bodies, monitor)? {
-                Ok(moved) => moved,
+            let Step { dy: rate, moved, .. } = match self.moved_by(&first, bodies, monitor)? {
+                Ok(step) => step,
                 Err(stop) => return Ok(End::Stopped(stop)),
             };
             let sign = passed.as_ref().map_or(1.0, |(pair, Exit { gradient, .. })| {
@@ -163,7 +163,7 @@ impl<'a> Walk<'a> {
             if !step.is_finite() {
                 return Ok(End::Lost);
             }
-            self.move_by(sign * step, &rate, &z);
+            self.move_by(sign * step, &rate, &moved.z);
             self.s += sign * step;
             let Some((pair, exit)) = exit.filter(|(_, exit)| exit.step < left) else {
                 return Ok(End::Arrived);
@@ -177,17 +177,16 @@ impl<'a> Walk<'a> {
         Ok(End::Lost)
     }
 
-    /// The changes of the coordinates and of all unknowns that take a lack away on the pieces of today.
+    /// The step that takes a lack away on the pieces of today.
     fn moved_by(
         &mut self,
         lack: &[f64],
         bodies: &mut dyn Bodies,
         monitor: &mut Monitor<'_>,
-    ) -> Result<Result<(Vec<Vector>, Vec<f64>), Stop>, Error> {
+    ) -> Result<Result<Step, Stop>, Error> {
         let system = System::on_branches(self.equations, lack, &self.branches);
         let exact = (FORCING, FORCING);
-        let step = solved(&system, bodies, &mut self.held, exact, &mut self.known, monitor)?;
-        Ok(step.map(|step| (step.dy, step.moved.z)))
+        solved(&system, bodies, &mut self.held, exact, &mut self.known, monitor)
     }
 
     fn move_by(&mut self, part: f64, rate: &[Vector], z: &[f64]) {
@@ -209,8 +208,8 @@ impl<'a> Walk<'a> {
             point.lack.iter().zip(on_path).map(|(lack, path)| lack - path).collect();
         self.at = point.at;
         Ok(match self.moved_by(&off, bodies, monitor)? {
-            Ok((dy, z)) => {
-                self.move_by(1.0, &dy, &z);
+            Ok(Step { dy, moved, .. }) => {
+                self.move_by(1.0, &dy, &moved.z);
                 Ok(())
             }
             Err(stop) => Err(stop),
