@@ -10,6 +10,7 @@ use common::blocks::block;
 use common::brick::{Support, Vector};
 use common::dense::{difference, largest};
 use common::mesh::{Mesh, Pairs, steps};
+use common::problems::{Law, definite, loaded, uniform};
 use signorini::reduce::HostOperator;
 use signorini::{FrictionLaw, LoadCase, Model, Monitor, Settings, Solution, Status};
 
@@ -284,6 +285,45 @@ fn blocks_in_the_plane_take_few_products() {
     for columns in [32, 128, 400] {
         check_counts(&Condensed::plane(columns), 110, &format!("{} pairs", columns + 1));
     }
+}
+
+/// Random definite problems in the plane with friction up to 20, of which theory promises that each has a solution: the
+/// path behind Newton's method finds one with components held, and nearly always with products and `W` alone: GMRES is
+/// ill conditioned where a part of `W` is no inverse of the part of `K`.
+#[test]
+fn hard_friction_in_the_plane_is_solved() {
+    let asked = Asked::none();
+    let mut unsolved = [0, 0];
+    for condition in [1e2, 1e4] {
+        for seed in 0..60 {
+            let mut rng = fastrand::Rng::with_seed(seed);
+            let pairs = rng.usize(1..=16);
+            let k = definite(&mut rng, 2 * pairs, condition);
+            let mu = uniform(&mut rng, 0.1_f64.ln(), 20_f64.ln()).exp();
+            let law = Law::Coulomb(vec![mu; pairs]);
+            let problem = loaded(&mut rng, 2, k, law);
+            for holds in [false, true] {
+                let host = Host::new(&problem.k, 2 * pairs, holds, &asked);
+                let model = Model::operator(2, pairs, Box::new(host), None).unwrap();
+                let case = LoadCase {
+                    load: &problem.f,
+                    prescribed: None,
+                    gap: &problem.gap,
+                    law: FrictionLaw::Coulomb(&vec![mu; pairs]),
+                    reference_slip: problem.slip.as_deref(),
+                };
+                let settings = Settings::default();
+                let monitor = &mut Monitor::new(&settings, None);
+                let solution = model.solve(&case, &settings, None, monitor).unwrap();
+                let context = format!("condition {condition:e}, seed {seed}, mu {mu}, {holds}");
+                if solution.status != Status::Solved {
+                    println!("{context}: {}", solution.message);
+                    unsolved[usize::from(holds)] += 1;
+                }
+            }
+        }
+    }
+    assert!(unsolved[0] <= 2 && unsolved[1] == 0, "{unsolved:?} of 120");
 }
 
 /// `SIGNORINI_OPERATOR_NODES=31` adds a block of 31 x 31 pairs, which takes more than a minute.

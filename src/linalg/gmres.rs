@@ -68,7 +68,7 @@ pub fn gmres<E>(
 
 /// Takes the directions of `basis` out of a vector: their coefficients, followed by a 0, what is left of its
 /// length, and its length.
-fn orthogonalised(vector: &mut [f64], basis: &[Vec<f64>]) -> (Vec<f64>, f64, f64) {
+pub fn orthogonalised(vector: &mut [f64], basis: &[Vec<f64>]) -> (Vec<f64>, f64, f64) {
     let mut column = vec![0.0; basis.len() + 1];
     let was = norm(vector);
     let (mut before, mut left) = (f64::INFINITY, was);

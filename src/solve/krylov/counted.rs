@@ -14,11 +14,13 @@ pub struct Counts {
 pub struct Counted<'b> {
     bodies: &'b mut dyn Bodies,
     pub counts: Counts,
+    /// What is held: the same again costs nothing.
+    held: Option<Restriction>,
 }
 
 impl<'b> Counted<'b> {
     pub fn new(bodies: &'b mut dyn Bodies) -> Self {
-        Counted { bodies, counts: Counts::default() }
+        Counted { bodies, counts: Counts::default(), held: None }
     }
 }
 
@@ -60,8 +62,14 @@ impl Bodies for Counted<'_> {
     }
 
     fn hold(&mut self, restriction: &Restriction, goes_on: GoesOn<'_>) -> Result<bool, Error> {
+        if self.held.as_ref() == Some(restriction) {
+            return Ok(true);
+        }
+        self.held = None;
         self.counts.factorisations += 1;
-        self.bodies.hold(restriction, goes_on)
+        let held = self.bodies.hold(restriction, goes_on)?;
+        self.held = held.then(|| restriction.clone());
+        Ok(held)
     }
 
     fn solve(&mut self, forces: &[f64]) -> Result<Vec<f64>, Error> {

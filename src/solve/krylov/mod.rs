@@ -3,10 +3,12 @@
 //! Newton-Krylov methods*, J. Comput. Phys. 193 (2004) 357-397, for the family).
 
 mod counted;
+mod directions;
 mod newton;
 mod point;
 mod step;
 mod thresholds;
+mod walk;
 
 use super::candidate::Ending;
 use super::outcome::{Existence, Solution, Status, Uniqueness};
@@ -18,7 +20,7 @@ use crate::monitor::Monitor;
 use crate::problem::{Bodies, ContactProblem, FrictionLaw, Restriction, Unformed};
 use crate::settings::{Method, Search, Settings};
 use counted::{Counted, Counts};
-use newton::Ended;
+use newton::{Ended, Goal};
 use point::{Displacements, Equations, Point};
 
 /// A load case on such bodies.
@@ -56,7 +58,8 @@ pub fn check(settings: &Settings) -> Result<(), Error> {
 /// loads lose their digits, as in `solve::far_obstacles`.
 const FAR: f64 = 1e6;
 
-/// Vectors of all unknowns that GMRES holds for each direction: a basis vector, and the direction with its product.
+/// Vectors of all unknowns that GMRES holds for each direction: a basis vector, or an image, and the direction with
+/// its product.
 const VECTORS_OF_DIRECTION: usize = 3;
 
 /// Other vectors of all unknowns.
@@ -64,7 +67,8 @@ const VECTORS: usize = 60;
 
 /// Most bytes that [`solve`] takes for so many unknowns, beside what the bodies take.
 pub fn memory(unknowns: usize) -> u64 {
-    ((VECTORS_OF_DIRECTION * step::MOST_DIRECTIONS + VECTORS) * size_of::<f64>() * unknowns) as u64
+    let directions = step::MOST_DIRECTIONS + directions::MOST_KEPT;
+    ((VECTORS_OF_DIRECTION * directions + VECTORS) * size_of::<f64>() * unknowns) as u64
 }
 
 /// Solves a load case from the displacements `start` (the pairs stuck at their gaps if `None`).
@@ -136,28 +140,34 @@ impl Work<'_> {
             Some(start) => at.x[inner..].copy_from_slice(&near.admissible(start)),
             None => at.x[inner..].iter_mut().zip(references).for_each(|(x, held)| *x = held),
         }
-        let at = in_equilibrium(bodies, load, at)?;
+        let at = at.in_equilibrium(bodies, load)?;
         let equations = Equations::new(near, bodies, load, self.relative);
-        let tolerance = self.settings.tolerance;
-        let ended = from(&equations, bodies, (at.clone(), held), tolerance, monitor)?;
+        let goal = Goal { tolerance: self.settings.tolerance, systems: newton::MOST_SYSTEMS };
+        let ended = from(&equations, bodies, (at.clone(), held), goal, monitor)?;
         certified(contact, bodies, (load, at), self.settings, Some(ended))
     }
 }
+
+/// Components of a pair in the plane.
+const PLANE: usize = 2;
 
 /// Newton's method from displacements whose inner ones are in equilibrium, and what follows where it fails.
 fn from(
     equations: &Equations<'_>,
     bodies: &mut dyn Bodies,
     (at, held): (Displacements, Option<Restriction>),
-    tolerance: f64,
+    goal: Goal,
     monitor: &mut Monitor<'_>,
 ) -> Result<Ended, Error> {
+    let fails = |ended: &Ended| matches!(ended.ending, Ending::Stalled(_));
     let point = equations.held_at(at.clone(), bodies)?;
-    let first = newton::solve(equations, bodies, point, held, tolerance, monitor)?;
-    let fails = matches!(first.ending, Ending::Stalled(_)) && equations.contact.is_coupled();
-    match fails && first.point.merit.is_finite() {
-        true => thresholds::solve(equations, bodies, at, first, tolerance, monitor),
-        false => Ok(first),
+    let mut best = newton::solve(equations, bodies, point, held, goal, monitor)?;
+    if fails(&best) && best.point.merit.is_finite() && equations.contact.is_coupled() {
+        best = thresholds::solve(equations, bodies, at, best, goal, monitor)?;
+    }
+    match fails(&best) && best.point.merit.is_finite() && equations.contact.dim() == PLANE {
+        true => walk::solve(equations, bodies, best, goal, monitor),
+        false => Ok(best),
     }
 }
 
@@ -171,7 +181,7 @@ pub fn certify(bodies: &mut dyn Bodies, case: &Case<'_>, d: &[f64]) -> Result<Ce
     let problem = ContactProblem::with_relation(unformed, case.dim, gap, case.law, slip)?;
     at.x[inner..].copy_from_slice(d);
     for _ in 0..REFINEMENTS {
-        at = in_equilibrium(bodies, load, at)?;
+        at = at.in_equilibrium(bodies, load)?;
     }
     let residual = bodies.residual(&at.x, &at.low, load)?;
     Ok(measure_spread(&Contact::new(&problem), bodies, &at.x, &residual))
@@ -209,26 +219,10 @@ fn at_zero(bodies: &mut dyn Bodies, load: &[f64]) -> Result<(Displacements, Vec<
     if inner == 0 {
         return Ok((at, load.to_vec()));
     }
-    at = in_equilibrium(bodies, load, at)?;
+    at = at.in_equilibrium(bodies, load)?;
     let forces = bodies.residual(&at.x, &at.low, load)?;
     let relative = forces[inner..].iter().map(|f| -f).collect();
     Ok((at, relative))
-}
-
-/// Displacements with their inner unknowns in equilibrium; all components of the pairs are held.
-fn in_equilibrium(
-    bodies: &mut dyn Bodies,
-    load: &[f64],
-    at: Displacements,
-) -> Result<Displacements, Error> {
-    let inner = bodies.inner();
-    if inner == 0 {
-        return Ok(at);
-    }
-    let lack = bodies.residual(&at.x, &at.low, load)?;
-    let mut step = bodies.solve(&lack)?;
-    step[inner..].fill(0.0);
-    Ok(at.moved(-1.0, &step))
 }
 
 /// The result, measured on the data of the bodies.

@@ -118,6 +118,18 @@ impl Displacements {
         Displacements { x, low: vec![0.0; inner] }
     }
 
+    /// With their inner unknowns in equilibrium; all components of the pairs are held.
+    pub fn in_equilibrium(self, bodies: &mut dyn Bodies, load: &[f64]) -> Result<Self, Error> {
+        let inner = self.low.len();
+        if inner == 0 {
+            return Ok(self);
+        }
+        let lack = bodies.residual(&self.x, &self.low, load)?;
+        let mut step = bodies.solve(&lack)?;
+        step[inner..].fill(0.0);
+        Ok(self.moved(-1.0, &step))
+    }
+
     /// A `part` of `step` further.
     pub fn moved(&self, part: f64, step: &[f64]) -> Self {
         let mut next = self.clone();

@@ -15,21 +15,29 @@
 //! (measured: 2 to 11). It works on forces `w` on the pairs alone: the inner unknowns are in equilibrium in all
 //! directions. Two preconditioners:
 //!
-//! - A factor of an earlier `M`. A component that was held in it and is free now gets `w / k` as its
-//!   displacement, and the forces that this asks of the others are subtracted; one that was free and is held now
-//!   keeps its force `w` as an unknown, with the equation `k z = 0`.
-//! - An inverse `W` of `A`, nothing held: its block of the free components.
+//! - A factor of an earlier `M`. A component that was held in it gets `w / k` as its displacement, with the springs of
+//!   the pair, and the forces that this asks of the others are subtracted; one that was free and is held now keeps its force `w` as an
+//!   unknown.
+//! - An inverse `W` of `A`, nothing held: its block of the free components, and `w / k` for the held ones.
+//!
+//! Held components have the equation `k z = 0`. Directions of earlier systems come before those of GMRES, which
+//! then works on what they leave (`directions`).
 //!
 //! Where the factor has no springs, or nothing is held, `s` is multiplied to both sides of the preconditioner,
 //! `s = 1` but across the slip, where it is `(1 + C / k)^-1/2`: so are the springs there, pair by pair.
 
+use super::directions::{Directions, Images, Moved};
 use super::point::{Equations, Point};
 use crate::error::Error;
+use crate::law::branch::Branch;
 use crate::law::{Plane, Vector, ellipse};
 use crate::linalg::gmres::gmres;
 use crate::problem::{Bodies, Restriction};
 
-/// Most directions of one system.
+/// Components of a pair in space.
+const SPACE: usize = 3;
+
+/// Most new directions of one system.
 pub const MOST_DIRECTIONS: usize = 100;
 
 /// What the pieces of a point say of a pair.
@@ -45,7 +53,8 @@ struct Pair {
 /// Newton's system at a point.
 pub struct System<'a> {
     equations: &'a Equations<'a>,
-    point: &'a Point,
+    /// What is to be taken away.
+    lack: &'a [f64],
     pairs: Vec<Pair>,
     /// What is held on the pieces of the point.
     pub restriction: Restriction,
@@ -53,20 +62,16 @@ pub struct System<'a> {
 
 /// A step, to first order.
 pub struct Step {
-    /// Change of all unknowns, and `A` times it.
-    pub z: Vec<f64>,
-    pub forces: Vec<f64>,
+    pub moved: Moved,
     /// Change of the coordinates.
     pub dy: Vec<Vector>,
-    /// Directions of GMRES.
-    pub directions: usize,
+    /// The part of the residual that is left for want of directions.
+    pub left: f64,
 }
 
-/// A direction and its product.
-type Moved = (Vec<f64>, Vec<f64>);
-
 impl<'a> System<'a> {
-    pub fn new(equations: &'a Equations<'a>, point: &'a Point) -> Self {
+    /// Of a point; with springs in the restriction only if it `has_springs`.
+    pub fn new(equations: &'a Equations<'a>, point: &'a Point, has_springs: bool) -> Self {
         let dim = equations.contact.dim();
         let mut restriction = Restriction::all(dim, point.y.len());
         let laws = equations.contact.pairs().iter();
@@ -77,7 +82,7 @@ impl<'a> System<'a> {
             let held = &mut restriction.held[dim * at..dim * (at + 1)];
             held[0] = piece.closed;
             held[1..].fill(!piece.slips);
-            if piece.slips {
+            if piece.slips && has_springs {
                 restriction.springs[at] = symmetric(&curvature);
             }
             pairs.push(Pair {
@@ -89,49 +94,81 @@ impl<'a> System<'a> {
                 scale: law.tangential_scale(),
             });
         }
-        System { equations, point, pairs, restriction }
+        System { equations, lack: &point.lack, pairs, restriction }
     }
 
-    /// The step to a residual of the part `forcing`, with the factor of `factor`, or, without one, the inverse.
+    /// In the plane, on pieces that are given, for a lack.
+    pub fn on_branches(equations: &'a Equations<'a>, lack: &'a [f64], branches: &[Branch]) -> Self {
+        let dim = equations.contact.dim();
+        let mut restriction = Restriction::all(dim, branches.len());
+        let laws = equations.contact.pairs().iter();
+        let mut pairs = Vec::with_capacity(branches.len());
+        for (at, (law, branch)) in laws.zip(branches).enumerate() {
+            let [[normal, _], [drag, tangential]] = law.slopes(*branch);
+            let (closed, slips) = (normal > 0.0, tangential == 0.0);
+            (restriction.held[dim * at], restriction.held[dim * at + 1]) = (closed, !slips);
+            pairs.push(Pair {
+                closed,
+                slips,
+                drag: [drag, 0.0],
+                curvature: [[0.0; 2]; 2],
+                normal_scale: law.normal_scale(),
+                scale: law.tangential_scale(),
+            });
+        }
+        System { equations, lack, pairs, restriction }
+    }
+
+    /// The step to a residual of the part `forcing`, with at most so many new directions, with the factor of `factor`,
+    /// or, without one, the inverse. `known` directions are used, and new ones added.
     pub fn step(
         &self,
         bodies: &mut dyn Bodies,
         factor: Option<&Restriction>,
-        forcing: f64,
+        (forcing, most): (f64, usize),
+        known: &mut Directions,
     ) -> Result<Step, Error> {
         let inner = self.equations.inner;
         let root = &self.equations.root[inner..];
         let mut right = self.right();
-        let least = forcing * self.equations.length(&self.point.lack);
-        let mut z = vec![0.0; self.point.residual.len()];
-        let mut forces = z.clone();
+        let lack = self.equations.length(self.lack);
+        let mut sum = Moved { z: vec![0.0; self.lack.len()], forces: vec![0.0; right.len()] };
         if let Some(factor) = factor {
-            let lack: Vec<f64> = self.point.lack[..inner].iter().map(|h| -h).collect();
-            (z, forces) = self.moved_by(bodies, Some(factor), &lack, &right)?;
-            let rows = self.rows(&right, (&z, &forces), Some(factor));
+            let on_inner: Vec<f64> = self.lack[..inner].iter().map(|h| -h).collect();
+            sum = self.moved_by(bodies, Some(factor), &on_inner, &right)?;
+            let rows = self.rows(&sum);
             right.iter_mut().zip(rows).for_each(|(right, row)| *right -= row);
         }
         right.iter_mut().zip(root).for_each(|(right, root)| *right /= root);
-        let mut directions: Vec<Moved> = Vec::new();
-        let (shares, _) = gmres(&right, least, MOST_DIRECTIONS, |v| {
+        let image = |moved: &Moved| -> Vec<f64> {
+            self.rows(moved).iter().zip(root).map(|(row, root)| row / root).collect()
+        };
+        let images = Images::new(known.iter().map(image));
+        let (before, mut by_known) = (known.count(), images.take_out(&mut right));
+        let mut taken_out = Vec::new();
+        let (shares, left) = gmres(&right, forcing * lack, most, |v| {
             let w: Vec<f64> = v.iter().zip(root).map(|(v, root)| v * root).collect();
             let moved = self.moved_by(bodies, factor, &vec![0.0; inner], &w)?;
-            let mut rows = self.rows(&w, (&moved.0, &moved.1), factor);
-            rows.iter_mut().zip(root).for_each(|(row, root)| *row /= root);
-            directions.push(moved);
-            Ok::<_, Error>(rows)
+            let mut row = image(&moved);
+            taken_out.push(images.take_out(&mut row));
+            known.add(moved);
+            Ok::<_, Error>(row)
         })?;
-        for (share, (direction, product)) in shares.iter().zip(&directions) {
-            z.iter_mut().zip(direction).for_each(|(sum, part)| *sum += share * part);
-            forces.iter_mut().zip(product).for_each(|(sum, part)| *sum += share * part);
+        for (share, taken_out) in shares.iter().zip(&taken_out) {
+            by_known.iter_mut().zip(taken_out).for_each(|(sum, part)| *sum -= share * part);
         }
-        let dy = self.coordinates(&z[inner..], &forces[inner..]);
-        Ok(Step { z, forces, dy, directions: directions.len() })
+        let mut all = images.of_directions(by_known);
+        all.extend(shares);
+        known.add_shares(&all, &mut sum);
+        let dy = self.coordinates(&sum.z[inner..], &sum.forces);
+        let left = if known.count() - before < most { 0.0 } else { left / lack };
+        known.forget();
+        Ok(Step { moved: sum, dy, left })
     }
 
     /// The right sides of all components, zero of held ones.
     fn right(&self) -> Vec<f64> {
-        let (dim, lack) = (self.equations.contact.dim(), &self.point.lack[self.equations.inner..]);
+        let (dim, lack) = (self.equations.contact.dim(), &self.lack[self.equations.inner..]);
         let mut right = vec![0.0; lack.len()];
         for (at, pair) in self.pairs.iter().enumerate() {
             let n = dim * at;
@@ -145,28 +182,22 @@ impl<'a> System<'a> {
         right
     }
 
-    /// The left sides for the displacements `z` of all unknowns with `A z`, where the forces are `w`.
-    fn rows(
-        &self,
-        w: &[f64],
-        (z, product): (&[f64], &[f64]),
-        factor: Option<&Restriction>,
-    ) -> Vec<f64> {
+    /// The left sides for a change of all unknowns.
+    fn rows(&self, Moved { z, forces }: &Moved) -> Vec<f64> {
         let (dim, inner) = (self.equations.contact.dim(), self.equations.inner);
-        let units = &self.equations.root[inner..];
-        let (z, product) = (&z[inner..], &product[inner..]);
-        let mut rows = product.to_vec();
+        let root = &self.equations.root[inner..];
+        let z = &z[inner..];
+        let mut rows = forces.clone();
         for (at, pair) in self.pairs.iter().enumerate() {
             let n = dim * at;
             let turned = ellipse::product(&pair.curvature, tangential(&z[n..n + dim]));
             for c in 1..dim {
-                rows[n + c] += turned[c - 1] - pair.drag[c - 1] * product[n];
+                rows[n + c] += turned[c - 1] - pair.drag[c - 1] * forces[n];
             }
         }
         for (i, row) in rows.iter_mut().enumerate() {
             if self.restriction.held[i] {
-                let was_held = factor.is_none_or(|factor| factor.held[i]);
-                *row = if was_held { w[i] } else { units[i].powi(2) * z[i] };
+                *row = root[i].powi(2) * z[i];
             }
         }
         rows
@@ -193,8 +224,8 @@ impl<'a> System<'a> {
         if softens {
             self.soften(&mut z[inner..]);
         }
-        let product = bodies.product(&z)?;
-        Ok((z, product))
+        let forces = bodies.product(&z)?.split_off(inner);
+        Ok(Moved { z, forces })
     }
 
     /// Multiplies `s` to the tangential components of slipping pairs.
@@ -220,17 +251,9 @@ impl<'a> System<'a> {
         on_inner: &[f64],
         w: &[f64],
     ) -> Result<Vec<f64>, Error> {
-        let inner = self.equations.inner;
         let mut forces = [on_inner, w].concat();
         let mut released = vec![0.0; forces.len()];
-        let mut any = false;
-        for (i, w) in w.iter().enumerate() {
-            if factor.held[i] && !self.restriction.held[i] && *w != 0.0 {
-                released[inner + i] = w / self.equations.root[inner + i].powi(2);
-                any = true;
-            }
-        }
-        if any {
+        if self.release(factor, w, &mut released[self.equations.inner..]) {
             let asked = bodies.product(&released)?;
             forces.iter_mut().zip(asked).for_each(|(force, asked)| *force -= asked);
         }
@@ -239,21 +262,44 @@ impl<'a> System<'a> {
         Ok(z)
     }
 
+    /// The displacements of components that are held in a factor under forces `w`, each pair for itself: on springs
+    /// of its units, and on those that it has across its slip. Returns whether there are any.
+    fn release(&self, factor: &Restriction, w: &[f64], released: &mut [f64]) -> bool {
+        let dim = self.equations.contact.dim();
+        let units: Vec<f64> =
+            self.equations.root[self.equations.inner..].iter().map(|root| root * root).collect();
+        for (at, (pair, springs)) in self.pairs.iter().zip(&self.restriction.springs).enumerate() {
+            let n = dim * at;
+            for i in (n..n + dim).filter(|&i| factor.held[i]) {
+                released[i] = w[i] / units[i];
+            }
+            if pair.slips && dim == SPACE && factor.held[n + 1] {
+                let [[a, b], [_, c]] = *springs;
+                let (a, c) = (a + units[n + 1], c + units[n + 2]);
+                let determinant = a * c - b * b;
+                released[n + 1] = (c * w[n + 1] - b * w[n + 2]) / determinant;
+                released[n + 2] = (a * w[n + 2] - b * w[n + 1]) / determinant;
+            }
+        }
+        released.iter().any(|z| *z != 0.0)
+    }
+
     /// By the block of an inverse.
     fn by_inverse(&self, bodies: &mut dyn Bodies, mut w: Vec<f64>) -> Result<Vec<f64>, Error> {
-        let free = |values: &mut Vec<f64>| {
-            let held = self.restriction.held.iter();
-            values.iter_mut().zip(held).for_each(|(v, held)| *v = if *held { 0.0 } else { *v });
-        };
-        free(&mut w);
+        let held = self.restriction.held.iter().zip(&self.equations.root).enumerate();
+        let held = held.filter(|(_, (held, _))| **held);
+        let mut own = Vec::new();
+        for (i, (_, root)) in held {
+            own.push((i, std::mem::take(&mut w[i]) / root.powi(2)));
+        }
         let mut z = bodies.solve(&w)?;
-        free(&mut z);
+        own.iter().for_each(|(i, displacement)| z[*i] = *displacement);
         Ok(z)
     }
 
     /// The change of the coordinates.
     fn coordinates(&self, z: &[f64], product: &[f64]) -> Vec<Vector> {
-        let (dim, lack) = (self.equations.contact.dim(), &self.point.lack[self.equations.inner..]);
+        let (dim, lack) = (self.equations.contact.dim(), &self.lack[self.equations.inner..]);
         let coordinates = |(at, pair): (usize, &Pair)| {
             let n = dim * at;
             let reaction = |c: usize| -(lack[n + c] + product[n + c]);

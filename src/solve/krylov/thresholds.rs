@@ -2,7 +2,7 @@
 //! `g <- mu |F_n|`), each by Newton's method, which has one solution to find then, and Newton's method for the law
 //! itself from where each of them ends.
 
-use super::newton::{self, Ended};
+use super::newton::{self, Ended, Goal};
 use super::point::{Displacements, Equations, Point};
 use crate::error::Error;
 use crate::law::Contact;
@@ -13,8 +13,8 @@ use crate::solve::candidate::Ending;
 /// Most problems with given thresholds.
 const ROUNDS: usize = 4;
 
-/// The tolerance of one: its solution is a start alone.
-const ROUGH: f64 = 1e-3;
+/// What is asked of one: its solution is a start alone.
+const ROUGH: Goal = Goal { tolerance: 1e-3, systems: newton::MOST_SYSTEMS };
 
 /// Goes on from a first try that has failed; `start` has its inner unknowns in equilibrium.
 pub fn solve(
@@ -22,7 +22,7 @@ pub fn solve(
     bodies: &mut dyn Bodies,
     start: Displacements,
     mut best: Ended,
-    tolerance: f64,
+    goal: Goal,
     monitor: &mut Monitor<'_>,
 ) -> Result<Ended, Error> {
     let mut point = equations.held_at(start, bodies)?;
@@ -39,7 +39,7 @@ pub fn solve(
         }
         point = equations.held_at(between.point.at.clone(), bodies)?;
         let from = equations.held_at(between.point.at, bodies)?;
-        let next = newton::solve(equations, bodies, from, between.held, tolerance, monitor)?;
+        let next = newton::solve(equations, bodies, from, between.held, goal, monitor)?;
         held = next.held.clone();
         let is_settled = !matches!(next.ending, Ending::Stalled(_));
         if is_settled || next.point.eta < best.point.eta {
