@@ -196,7 +196,8 @@ impl Path<'_> {
         let mut pivots = 0;
         let (mut trail, mut careful) = (Trail::new(), always);
         loop {
-            if let Err(stop) = monitor.step() {
+            let work = self.tableau.pivot_work();
+            if let Err(stop) = monitor.step().and_then(|()| monitor.affords(work)) {
                 return End::Ended(Ending::Stopped(stop));
             }
             pivots += 1;
@@ -258,6 +259,7 @@ impl Path<'_> {
 
     /// Refines the values, and refactorises where they have drifted; false if the basis is singular.
     fn check(&mut self, careful: bool, monitor: &mut Monitor<'_>) -> Result<bool, Stop> {
+        monitor.affords(self.tableau.refinement_work())?;
         let drift = self.tableau.refine(self.problem);
         if drift <= DRIFT && self.rules.care == Care::Usual && !careful {
             return Ok(true);

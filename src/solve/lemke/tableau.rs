@@ -194,6 +194,12 @@ impl Tableau {
             .filter(|_| first < 0.0)
     }
 
+    /// Operations of the next [`Self::pivot`]: those of the changes that it makes in the tableau.
+    pub fn pivot_work(&self) -> f64 {
+        let made = self.delay == 1 || self.kept.count() + 1 == self.delay;
+        if made { 2.0 * self.delay as f64 * (self.size as f64).powi(2) } else { 0.0 }
+    }
+
     /// Exchanges the basic variable of `row` with the chosen variable `entering`.
     pub fn pivot(&mut self, row: usize, entering: usize) {
         let c = self.place[entering] - self.size;
