@@ -311,7 +311,7 @@ impl Model {
             self.reduction.condense(case.load, case.prescribed)
         };
         let load = load.map_or_else(condensed, Ok)?;
-        let offset = self.reduction.offset(case.prescribed);
+        let offset = dependence.offset(case.prescribed);
         let slip = case.reference_slip.map(|slip| self.allowed_slip(slip));
         let stiffness = (self.reduction.stiffness(), &load[..]);
         let relation = DependentRows::new(dependence, stiffness, &offset);

@@ -11,7 +11,7 @@ use common::dense::{difference, largest};
 use common::problems::{uniform, vector};
 use fastrand::Rng;
 use rows::{Host, solved, springs};
-use signorini::{FrictionLaw, LoadCase, Solution, State, Status, Uniqueness};
+use signorini::{FrictionLaw, LoadCase, Monitor, Settings, Solution, State, Status, Uniqueness};
 
 /// A node on springs of stiffness 2 along each axis, against rigid planes with these outward normals.
 fn node_on_planes(normals: &[[f64; 2]]) -> Host {
@@ -43,6 +43,22 @@ fn checked(host: &Host, load: &[f64], gap: &[f64], mu: f64) -> Solution {
 
 /// Floor below (normal -y), wall at the right (normal +x), no gaps.
 const CORNER: [[f64; 2]; 2] = [[0.0, -1.0], [1.0, 0.0]];
+
+/// A call that has no time to condense ends where it starts, certified: without displacements nothing carries the
+/// load.
+#[test]
+fn a_call_without_time_ends_where_it_starts() {
+    let model = node_on_planes(&CORNER).model().unwrap();
+    let law = FrictionLaw::Coulomb(&[0.3; 2]);
+    let load = &[1.0, -1.0];
+    let case = LoadCase { load, prescribed: None, gap: &[0.0; 2], law, reference_slip: None };
+    let settings = Settings { time_limit: f64::MIN_POSITIVE, ..Settings::default() };
+    let mut monitor = Monitor::new(&settings, None);
+    let solution = model.solve(&case, &settings, None, &mut monitor).unwrap();
+    assert_eq!(solution.status, Status::TimeLimit, "{}", solution.message);
+    assert_eq!(solution.d, [0.0; 4]);
+    assert!(solution.certificate.eta > 0.1, "{:e}", solution.certificate.eta);
+}
 
 /// Pressed into the corner by (1, -1) nothing moves. Normal and tangential forces of either plane share
 /// the load: N + T = 1 with N of one plane and T of the other. The smallest forces are N = T = 1/2, where

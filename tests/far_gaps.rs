@@ -124,3 +124,22 @@ fn a_falling_body_ends_on_a_far_obstacle() {
         assert!((solution.certificate.force[0] + 1.0).abs() <= 1e-8, "{:?}", solution.certificate);
     }
 }
+
+/// Two pairs that do not know of each other, `K = 1`, one pressed on its obstacle with 1, the other pulled
+/// away from one that is far: a call that ends before it begins is measured with all obstacles, at rest.
+/// What is lacking is the load on the first pair, and the pull on the second.
+#[test]
+fn a_limit_beside_a_far_obstacle_leaves_a_measured_iterate() {
+    let mut k = vec![0.0; 16];
+    (0..4).for_each(|i| k[5 * i] = 1.0);
+    let law = Law::Coulomb(vec![0.0; 2]);
+    let (f, gap) = (vec![1.0, 0.0, -2.0, 0.0], vec![0.5, 1e9]);
+    let case = Case { dim: 2, pairs: 2, k, f, gap, law, slip: None };
+    let limit = Settings { time_limit: f64::MIN_POSITIVE, ..Settings::default() };
+    let solution = case.solve(&limit);
+    assert_eq!(solution.status, Status::TimeLimit, "{}", solution.message);
+    assert!(solution.d.iter().all(|d| *d == 0.0), "{:?}", solution.d);
+    assert_eq!(solution.certificate.states[1], State::Open);
+    let error = (solution.certificate.eta - eta(&case, &solution.d)).abs();
+    assert!(error <= 1e-14, "{error:e}");
+}

@@ -213,6 +213,22 @@ fn a_corner_node_presses_on_floor_and_wall() {
     }
 }
 
+/// A call that has no time for the first springs ends where it starts, certified: at the free displacements, for
+/// `d = W F + q` and there is no force.
+#[test]
+fn a_call_without_time_ends_where_it_starts() {
+    let case = node_on_planes(&[[0.0, -1.0], [1.0, 0.0]], [1.0, -1.0], 0.3);
+    let problem = FlexibilityProblem::from_flexibility(case.data()).expect("valid data");
+    let settings = Settings { time_limit: f64::MIN_POSITIVE, ..Settings::default() };
+    let monitor = &mut Monitor::new(&settings, None);
+    let solution = solve_flexibility(&problem, &settings, None, monitor).expect("valid data");
+    assert_eq!(solution.status, Status::TimeLimit, "{}", solution.message);
+    assert!(solution.message.contains("time_limit"), "{}", solution.message);
+    assert_eq!(solution.d, case.q);
+    // The planes press on nobody where the node has entered both.
+    assert!(solution.certificate.eta > 0.1, "{:e}", solution.certificate.eta);
+}
+
 /// A node in a groove of half angle a whose walls both overlap it by h, as in `dependent_rows.rs`:
 /// `2 N (sin a - mu cos a) = k h / sin a`, and with `tan a <= mu` no N does this.
 #[test]

@@ -70,7 +70,7 @@ fn components_far_apart_are_no_rigid_motion() {
         let (dim, pairs) = (rng.usize(2..=3), rng.usize(1..=3));
         let n = dim * pairs;
         let soft = 10_f64.powf(-[4.0, 8.0, 25.0, 72.0, 145.0][rng.usize(..5)]);
-        let is_soft = |i: usize| (i % dim == 0) == (round % 2 == 0);
+        let is_soft = |i: usize| i.is_multiple_of(dim) == (round % 2 == 0);
         let scale: Vec<f64> = (0..n).map(|i| if is_soft(i) { soft } else { 1.0 }).collect();
         let mut k = definite(&mut rng, n, 100.0);
         for (i, k) in k.iter_mut().enumerate() {

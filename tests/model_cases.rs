@@ -295,3 +295,22 @@ fn displacements_that_overflow_are_refused() {
     let (argument, message) = told(model.nodal_forces(&[1.7e308, 1.7e308]).unwrap_err());
     assert!(argument == Argument::Load && message.contains("overflows"), "{message}");
 }
+
+/// A model of a condensed matrix holds nothing fixed, so that an empty array of fixed values says as much as none,
+/// and its displacements are those of the host: several cases come back as they are.
+#[test]
+fn a_condensed_model_gives_the_displacements_of_its_cases_back() {
+    let model = Model::condensed(2, 1, &[2.0, 0.0, 0.0, 1.0], 2).unwrap();
+    let law = FrictionLaw::Coulomb(&[0.5]);
+    let load = &[1.0, 0.25];
+    let solve = |prescribed| {
+        let case = LoadCase { load, prescribed, gap: &[0.0], law, reference_slip: None };
+        model.solve(&case, &settings(), None, &mut Monitor::new(&settings(), None)).unwrap()
+    };
+    let (none, empty) = (solve(None), solve(Some(&[])));
+    assert_eq!(none.status, Status::Solved, "{}", none.message);
+    assert_eq!(empty.d, none.d);
+    let d = [[0.0, 0.25], [-1.0, 3.0]];
+    let cases = d.each_ref().map(|d| SolvedCase { load: Some(load), prescribed: None, d });
+    assert_eq!(model.recover_cases(&cases).unwrap(), d.map(Vec::from));
+}

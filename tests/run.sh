@@ -219,6 +219,11 @@ step "bolted junction" sh c_examples/junction.sh
 step "three dimensions" sh c_examples/3d.sh
 step "Ctrl-C and progress" sh tests/interrupt.sh
 step "fuzzing" sh tests/fuzz/run.sh
+if [ -n "${SIGNORINI_THREAD_SANITIZER:-}" ]; then
+    step "ThreadSanitizer" sh tests/thread_sanitizer.sh
+else
+    skip "ThreadSanitizer" "it builds all anew with Rust's nightly compiler: set SIGNORINI_THREAD_SANITIZER=1"
+fi
 for name in abi readme guide fortran two_blocks scripts python_package host_calculix calculix_contact host_getfem \
     host_mumps host_mpi host_octave release; do
     # shellcheck disable=SC2086 # --require or nothing

@@ -51,13 +51,10 @@ impl CondensedArguments {
     }
 
     /// Number of the argument that an error is about; `otherwise` of an argument of the call that
-    /// is not here.
+    /// is not here. The sizes were checked when they were read.
     pub(super) fn position(&self, argument: Argument, otherwise: i32) -> i32 {
         let offset = match argument {
-            Argument::Dimension => 0,
-            Argument::Size => 1,
             Argument::Matrix => 2,
-            Argument::LeadingDimension => 3,
             Argument::Load => 4,
             Argument::Gap => 5,
             Argument::LawChoice => 6,

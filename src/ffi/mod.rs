@@ -51,3 +51,4 @@ mod surface_access;
 mod surface_fields;
 mod surface_new;
 mod surface_write;
+mod thread;

@@ -1,9 +1,10 @@
 //! Threads of a call that asks for them: each has its own reserve and barrier, and all end before the call does.
 
-use std::thread::{Builder, Scope, ScopedJoinHandle, scope};
+use std::sync::{Barrier, Mutex, PoisonError};
 
 use super::guard::{self, Failure};
 use super::status::SIGNORINI_STATUS_INTERNAL;
+use super::thread::{Run, Thread};
 use crate::shortage;
 
 /// Runs `work(0)`, …, `work(count - 1)`, the first on the calling thread and each other one on a thread of its own, or
@@ -12,19 +13,67 @@ pub(super) fn each<T: Send>(
     count: usize,
     work: &(dyn Fn(usize) -> Result<T, Failure> + Sync),
 ) -> Vec<Result<T, i32>> {
-    let job = |lane: usize| move || guarded(|| work(lane));
-    scope(|scope| {
-        let others: Vec<_> = (1..count).map(|lane| start(scope, job(lane))).collect();
-        let mut results = vec![guarded(|| work(0))];
-        for (lane, thread) in (1..).zip(others) {
-            results.push(match thread {
-                // Waits until the thread is gone, with what it kept for itself.
-                Some(thread) => thread.join().unwrap_or(Err(SIGNORINI_STATUS_INTERNAL)),
-                None => guarded(|| work(lane)),
-            });
+    let jobs: Vec<Job<'_, T>> = (1..count).map(|lane| Job::new(lane, work)).collect();
+    // Room for all beforehand: nothing unwinds while there are threads.
+    let (mut threads, mut results) = (Vec::with_capacity(count), Vec::with_capacity(count));
+    for job in &jobs {
+        // SAFETY: the jobs live until all threads are joined below, and nothing in between unwinds.
+        let thread = unsafe { Thread::start(job) };
+        if thread.is_some() {
+            job.ready.wait();
         }
-        results
-    })
+        threads.push(thread);
+    }
+    results.push(guarded(|| work(0)));
+    for (job, thread) in jobs.iter().zip(threads) {
+        match thread {
+            // Waits until the thread is gone, with what it kept for itself.
+            Some(thread) => thread.join(),
+            None => job.work(),
+        }
+        results.push(job.result());
+    }
+    results
+}
+
+/// What a further thread does.
+struct Job<'w, T> {
+    lane: usize,
+    work: &'w (dyn Fn(usize) -> Result<T, Failure> + Sync),
+    /// Where the caller waits until the thread has what it keeps for itself. The C library ends the process if it has
+    /// no memory to note that: nobody else asks for memory meanwhile.
+    ready: Barrier,
+    result: Mutex<Option<Result<T, i32>>>,
+}
+
+impl<'w, T> Job<'w, T> {
+    fn new(lane: usize, work: &'w (dyn Fn(usize) -> Result<T, Failure> + Sync)) -> Self {
+        Job { lane, work, ready: Barrier::new(2), result: Mutex::new(None) }
+    }
+
+    fn work(&self) {
+        self.keep(guarded(|| (self.work)(self.lane)));
+    }
+
+    fn keep(&self, result: Result<T, i32>) {
+        *self.result.lock().unwrap_or_else(PoisonError::into_inner) = Some(result);
+    }
+
+    fn result(&self) -> Result<T, i32> {
+        let result = self.result.lock().unwrap_or_else(PoisonError::into_inner).take();
+        result.unwrap_or(Err(SIGNORINI_STATUS_INTERNAL))
+    }
+}
+
+impl<T: Send> Run for Job<'_, T> {
+    fn run(&self) {
+        let prepared = guarded(guard::prepare_thread);
+        self.ready.wait();
+        match prepared {
+            Ok(()) => self.work(),
+            Err(code) => self.keep(Err(code)),
+        }
+    }
 }
 
 /// What an entry does around its body.
@@ -39,42 +88,5 @@ fn guarded<T>(body: impl FnOnce() -> Result<T, Failure>) -> Result<T, i32> {
     match result {
         Some(result) if code == 0 => Ok(result),
         _ => Err(code),
-    }
-}
-
-/// Starts a thread that gets no signals: they are the host's.
-fn start<'s, T: Send + 's>(
-    scope: &'s Scope<'s, '_>,
-    job: impl FnOnce() -> T + Send + 's,
-) -> Option<ScopedJoinHandle<'s, T>> {
-    #[cfg(any(target_os = "linux", target_os = "macos"))]
-    let _masked = Masked::new();
-    Builder::new().spawn_scoped(scope, job).ok()
-}
-
-/// The calling thread, and those that it starts, get no signals until it is dropped.
-#[cfg(any(target_os = "linux", target_os = "macos"))]
-struct Masked(libc::sigset_t);
-
-#[cfg(any(target_os = "linux", target_os = "macos"))]
-impl Masked {
-    fn new() -> Self {
-        // SAFETY: sets of signals, filled before they are read.
-        unsafe {
-            let (mut all, mut before) = (std::mem::zeroed(), std::mem::zeroed());
-            libc::sigfillset(&raw mut all);
-            libc::pthread_sigmask(libc::SIG_SETMASK, &raw const all, &raw mut before);
-            Masked(before)
-        }
-    }
-}
-
-#[cfg(any(target_os = "linux", target_os = "macos"))]
-impl Drop for Masked {
-    fn drop(&mut self) {
-        // SAFETY: the set that `new` has read.
-        unsafe {
-            libc::pthread_sigmask(libc::SIG_SETMASK, &raw const self.0, std::ptr::null_mut());
-        }
     }
 }

@@ -44,17 +44,12 @@ pub const SIGNORINI_ABI_VERSION: i32 = 2;
 
 // The header's numbers are written out for C; here they are held to the package's version.
 const _: () = {
-    const fn number(text: &str) -> i32 {
-        let (text, mut value, mut i) = (text.as_bytes(), 0, 0);
-        while i < text.len() {
-            value = 10 * value + (text[i] - b'0') as i32;
-            i += 1;
-        }
-        value
-    }
-    assert!(SIGNORINI_VERSION_MAJOR == number(env!("CARGO_PKG_VERSION_MAJOR")));
-    assert!(SIGNORINI_VERSION_MINOR == number(env!("CARGO_PKG_VERSION_MINOR")));
-    assert!(SIGNORINI_VERSION_PATCH == number(env!("CARGO_PKG_VERSION_PATCH")));
+    let major = i32::from_str_radix(env!("CARGO_PKG_VERSION_MAJOR"), 10);
+    let minor = i32::from_str_radix(env!("CARGO_PKG_VERSION_MINOR"), 10);
+    let patch = i32::from_str_radix(env!("CARGO_PKG_VERSION_PATCH"), 10);
+    assert!(matches!(major, Ok(SIGNORINI_VERSION_MAJOR)));
+    assert!(matches!(minor, Ok(SIGNORINI_VERSION_MINOR)));
+    assert!(matches!(patch, Ok(SIGNORINI_VERSION_PATCH)));
 };
 
 pub(super) fn code(status: Status) -> i32 {

@@ -6,7 +6,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use faer::linalg::triangular_solve;
 use faer::{Mat, MatMut, MatRef, Par};
 
-use super::factor::cholesky;
+use super::factor::{cholesky, cholesky_work};
 use super::matrix::Matrix;
 use super::pivoted_cholesky::subtract_gram;
 use super::tolerances::SINGULAR;
@@ -40,6 +40,12 @@ impl Remembered {
 }
 
 impl Elimination {
+    /// Operations of [`Self::new`] for so many components that are eliminated, and kept.
+    pub fn work(dropped: usize, kept: usize) -> f64 {
+        let (o, c) = (dropped as f64, kept as f64);
+        cholesky_work(dropped) + o * c * (o + c)
+    }
+
     /// Eliminates `dropped` and keeps `kept`; `None` if `K_OO` is not positive definite to working
     /// precision.
     pub fn new(matrix: Matrix<'_>, dropped: Vec<usize>, kept: Vec<usize>) -> Option<Self> {

@@ -6,8 +6,14 @@ use faer::linalg::matmul::triangular::{self, BlockStructure};
 use faer::linalg::triangular_solve;
 use faer::{Accum, Mat, MatMut, MatRef, Par};
 
-use super::factor::cholesky;
+use super::factor::{cholesky, cholesky_work};
 use super::tolerances::{NEGLIGIBLE, SUSPICIOUS_PIVOT};
+
+/// Operations in whose time a factorisation of `n` rows is made: at first without pivots, and if rows may depend on
+/// others once more with them, half of it at the speed of memory.
+pub fn pivoted_cholesky_work(n: usize) -> f64 {
+    3.0 * cholesky_work(n)
+}
 
 /// Rank-revealing Cholesky factor of a positive semi-definite matrix `A` with a diagonal of size one, or
 /// less in rows that little resists: `A[p, p] = L Lᵀ` on the independent rows `p`; the other rows depend on

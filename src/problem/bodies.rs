@@ -140,3 +140,24 @@ impl Relation for Unformed<'_> {
         vec![f64::INFINITY; size.len()]
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What is not formed is not known: no force follows from displacements, and every bound is infinite, so that
+    /// nothing is certified by it.
+    #[test]
+    fn a_relation_that_is_not_formed_certifies_nothing() {
+        let (units, couplings) = (vec![2.0, 3.0, 3.0], vec![0.5]);
+        let unformed = Unformed { units, couplings, dim: 3, load: &[1.0, 0.0, 0.0] };
+        let d = [0.1, 0.2, 0.3];
+        assert_eq!(unformed.force(&d, &[], &d), None);
+        assert_eq!(unformed.residual(&d, &d), [f64::INFINITY; 3]);
+        assert_eq!(unformed.magnitude(&d), [f64::INFINITY; 3]);
+        assert_eq!(
+            (unformed.block(0, 0), unformed.block(0, 1), unformed.block(1, 2)),
+            (2.0, 0.0, 0.5)
+        );
+    }
+}

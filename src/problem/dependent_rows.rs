@@ -17,7 +17,7 @@ use crate::linalg::sparse_matrix::{
 use crate::linalg::tolerances::NEGLIGIBLE;
 use crate::linalg::vector::{largest_of, norm_inf};
 
-/// How displacements follow from independent variables: `C` and `Z`.
+/// How displacements follow from independent variables, `C` and `Z`, and from values of fixed degrees of freedom.
 #[derive(Clone, Debug)]
 pub struct Dependence {
     dim: usize,
@@ -25,23 +25,28 @@ pub struct Dependence {
     to_relative: Csc,
     /// `Zᵀ`.
     from_relative: Csc,
+    /// A row for each displacement, a column for each fixed degree of freedom.
+    of_fixed: Csc,
     /// Pairs whose rows follow from others.
     dependent_pairs: Vec<usize>,
 }
 
 impl Dependence {
     /// The dependence of pairs of `dim` components with the entries (row, column, value) of `C` and of
-    /// `Zᵀ`; `shape` has their numbers of rows and columns.
+    /// `Zᵀ`; `shape` has their numbers of rows and columns. `of_fixed` has the entries for so many fixed degrees of
+    /// freedom.
     pub(crate) fn new(
         dim: usize,
         shape: (usize, usize),
         [to_relative, from_relative]: [Vec<(usize, usize, f64)>; 2],
+        (fixed, of_fixed): (usize, Vec<(usize, usize, f64)>),
         dependent_pairs: Vec<usize>,
     ) -> Result<Self, OutOfMemory> {
         Ok(Dependence {
             dim,
             to_relative: from_entries(shape, to_relative.into_iter())?,
             from_relative: from_entries(shape, from_relative.into_iter())?,
+            of_fixed: from_entries((shape.0, fixed), of_fixed.into_iter())?,
             dependent_pairs,
         })
     }
@@ -69,6 +74,14 @@ impl Dependence {
     /// `Z d`.
     pub(crate) fn of_relative(&self, d: &[f64]) -> Vec<f64> {
         transpose_times(&self.from_relative, d)
+    }
+
+    /// The displacements that values of the fixed degrees of freedom (`None`: zero) add to those of the variables.
+    pub(crate) fn offset(&self, prescribed: Option<&[f64]>) -> Vec<f64> {
+        match prescribed {
+            Some(values) => times(&self.of_fixed, values),
+            None => vec![0.0; self.of_fixed.nrows()],
+        }
     }
 
     /// `Cᵀ F`.

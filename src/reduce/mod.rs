@@ -70,12 +70,6 @@ pub trait Reduction: Send + Sync {
         None
     }
 
-    /// With a dependence, the relative displacements that the values of the fixed degrees of freedom
-    /// (`None`: zero) add to those of the variables.
-    fn offset(&self, _prescribed: Option<&[f64]>) -> Vec<f64> {
-        Vec::new()
-    }
-
     /// Whether the host has condensed the stiffness, so that its rounding is not known from its entries.
     fn is_condensed_by_host(&self) -> bool {
         false

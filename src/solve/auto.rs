@@ -48,7 +48,9 @@ pub fn solve(
             Status::Solved if solution.orientation < 0 && tried.unstable.is_none() => {
                 tried.unstable = Some(solution);
             }
-            Status::Solved | Status::NoEquilibrium => return Ok(tried.ended(contact, solution)),
+            Status::Solved | Status::NoEquilibrium => {
+                return Ok(tried.ended(contact, solution, monitor));
+            }
             _ => tried.keep(contact, method, candidate),
         }
         tried.first.get_or_insert((plan[0], why));
@@ -57,11 +59,11 @@ pub fn solve(
         }
     }
     if let Some(solution) = tried.unstable.take() {
-        return Ok(tried.ended(contact, solution));
+        return Ok(tried.ended(contact, solution, monitor));
     }
     let (method, candidate) = tried.best.take().expect("a plan has a method");
     let solution = certified(contact, settings, method, &candidate);
-    Ok(tried.ended(contact, solution))
+    Ok(tried.ended(contact, solution, monitor))
 }
 
 /// Runs a method; sweeps after an exact method only for a while.
@@ -134,13 +136,18 @@ impl Tried {
         }
     }
 
-    fn ended(self, contact: &Contact<'_>, mut solution: Solution) -> Solution {
+    fn ended(
+        self,
+        contact: &Contact<'_>,
+        mut solution: Solution,
+        monitor: &Monitor<'_>,
+    ) -> Solution {
         solution.fallback = self.first;
         solution.factorisations = self.effort.factorisations;
         solution.refactorisations = self.effort.refactorisations;
         if let Some(other) = self.unstable
             && solution.status == Status::Solved
-            && uniqueness::are_two(contact, &solution, &other)
+            && uniqueness::are_two(contact, &solution, &other, monitor)
         {
             solution.uniqueness = Uniqueness::Several;
             solution.second = Some(Box::new(SecondSolution {

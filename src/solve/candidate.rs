@@ -3,7 +3,7 @@
 
 use std::cell::OnceCell;
 
-use super::outcome::{Errors, Existence, Remarks, Solution, Status, Uniqueness};
+use super::outcome::{Errors, Solution, Status};
 use crate::certificate::{Certificate, is_escape_of, measure, measure_parts};
 use crate::law::Contact;
 use crate::linalg::vector::normalise;
@@ -154,27 +154,16 @@ pub fn certified(
     };
     let effort = candidate.effort;
     Solution {
-        status,
-        message: message.into(),
-        d: candidate.d.clone(),
         d_low: low_part(candidate),
-        certificate,
         recession,
-        escape: None,
-        method,
-        fallback: None,
-        uniqueness: Uniqueness::NotKnown,
-        second: None,
-        existence: Existence::NotAsked,
-        remarks: Remarks::default(),
         errors: candidate.errors.filter(|_| status == Status::Solved),
         orientation: if status == Status::Solved { candidate.orientation } else { 0 },
-        iterations: 0,
         factorisations: effort.factorisations,
         outer_iterations: effort.outer_iterations,
         refactorisations: effort.refactorisations,
         omega: effort.omega,
         damping: effort.damping,
+        ..Solution::of(method, (status, message), candidate.d.clone(), certificate)
     }
 }
 

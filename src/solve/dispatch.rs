@@ -47,7 +47,7 @@ pub fn run(
         return Ok(Candidate::without_displacements(contact, Ending::Done));
     }
     let candidate = run_plainly(method, contact, settings, start, monitor)?;
-    let candidate = without_idle_motion(contact, candidate);
+    let candidate = without_idle_motion(contact, candidate, monitor);
     Ok(normal_map::polished(contact, settings, candidate, monitor))
 }
 

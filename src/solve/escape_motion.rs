@@ -51,9 +51,9 @@ pub fn describe(
         return Ok(());
     }
     let Some(proof) = solution.recession.take() else { return Ok(()) };
-    let mut proof = sharpened(contact, proof);
+    let mut proof = sharpened(contact, proof, monitor);
     normalise(&mut proof);
-    let viscous = Viscous::new(contact, &proof);
+    let viscous = Viscous::new(contact, &proof, monitor);
     let escape = viscous.escape(monitor)?.unwrap_or_else(|| viscous.along(&proof));
     solution.recession = Some(proof);
     solution.message = message(contact, &escape).into();
@@ -70,9 +70,10 @@ struct Viscous<'c> {
 }
 
 impl<'c> Viscous<'c> {
-    fn new(contact: &'c Contact<'c>, proof: &[f64]) -> Self {
+    /// On all rigid motions; on that of the proof alone, if others are not found in time.
+    fn new(contact: &'c Contact<'c>, proof: &[f64], monitor: &Monitor<'_>) -> Self {
         let root = contact.problem().unit_roots();
-        let mut basis = rigid_motions(contact.problem(), &root);
+        let mut basis = rigid_motions(contact.problem(), &root, monitor);
         if basis.is_empty() {
             let mut only: Vec<f64> = proof.iter().zip(&root).map(|(r, root)| r * root).collect();
             let size = norm(&only);

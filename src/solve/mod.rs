@@ -116,15 +116,15 @@ pub fn solve(
     let start = start.filter(|_| !contact.is_at_rest());
     let mut solution = far_obstacles::solve(&contact, settings, start, monitor)?;
     escape_motion::describe(&contact, &mut solution, monitor)?;
-    uniqueness::by_orientation(&contact, &mut solution);
+    uniqueness::by_orientation(&contact, &mut solution, monitor);
     if settings.search == Search::Others && !monitor.is_late() {
         uniqueness::examine(&contact, settings, &mut solution, monitor)?;
     }
     if settings.proof {
         existence::examine(&contact, settings, &mut solution, monitor);
     }
-    solution.remarks = remarks::of_solution(&contact, &solution);
-    remarks::explain_stall(&contact, &mut solution);
+    solution.remarks = remarks::of_solution(&contact, &solution, monitor);
+    remarks::explain_stall(&contact, &mut solution, monitor);
     solution.iterations = monitor.iterations();
     Ok(solution)
 }

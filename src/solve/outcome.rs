@@ -129,6 +129,40 @@ pub struct Solution {
     pub damping: f64,
 }
 
+impl Solution {
+    /// What a method has found, and nothing beside it.
+    pub(super) fn of(
+        method: Method,
+        (status, message): (Status, String),
+        d: Vec<f64>,
+        certificate: Certificate,
+    ) -> Self {
+        Solution {
+            status,
+            message: message.into(),
+            d_low: vec![0.0; d.len()],
+            d,
+            certificate,
+            recession: None,
+            escape: None,
+            method,
+            fallback: None,
+            uniqueness: Uniqueness::NotKnown,
+            second: None,
+            existence: Existence::NotAsked,
+            remarks: Remarks::default(),
+            errors: None,
+            orientation: 0,
+            iterations: 0,
+            factorisations: 0,
+            outer_iterations: 0,
+            refactorisations: 0,
+            omega: 0.0,
+            damping: 0.0,
+        }
+    }
+}
+
 /// How bodies move where no equilibrium exists.
 #[derive(Clone, Debug)]
 pub struct Escape {

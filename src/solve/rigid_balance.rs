@@ -15,9 +15,10 @@ use super::condense::FreeBlock;
 use crate::certificate::is_escape_of;
 use crate::law::Contact;
 use crate::linalg::nnls::{extend_basis, nearest};
-use crate::linalg::pivoted_cholesky::PivotedCholesky;
+use crate::linalg::pivoted_cholesky::{PivotedCholesky, pivoted_cholesky_work};
 use crate::linalg::tolerances::NEGLIGIBLE;
 use crate::linalg::vector::{dot, largest_of, norm};
+use crate::monitor::Monitor;
 use crate::problem::ContactProblem;
 
 /// Negative work of a cone's force that counts, relative to the motion. Next to the limit of balance
@@ -37,12 +38,13 @@ const STEADY: f64 = 0.999;
 /// Rounds of cutting planes: a hundred were the most where it converged.
 const MOST_ROUNDS: usize = 300;
 
-/// A recession direction that the loads drive, where the admissible forces are cones.
-pub fn escape(contact: &Contact<'_>) -> Option<Vec<f64>> {
+/// A recession direction that the loads drive, where the admissible forces are cones; `None` also if there is
+/// no time to look for it.
+pub fn escape(contact: &Contact<'_>, monitor: &Monitor<'_>) -> Option<Vec<f64>> {
     if !contact.bounds().all(|bound| bound.is_cone()) || !contact.problem().is_symmetric() {
         return None;
     }
-    let balance = Balance::new(contact)?;
+    let balance = Balance::new(contact, monitor)?;
     let load = balance.on_motions(contact.shifted_load(), 0);
     let mut edges = Vec::new();
     for (pair, law) in contact.pairs().iter().enumerate() {
@@ -75,9 +77,9 @@ pub fn escape(contact: &Contact<'_>) -> Option<Vec<f64>> {
 }
 
 /// A motion that proves that no equilibrium exists without the rounding of the method that found it: made
-/// rigid, and lifted where contact would stop it. The given one, if that is no proof.
-pub fn sharpened(contact: &Contact<'_>, motion: Vec<f64>) -> Vec<f64> {
-    let Some(balance) = Balance::new(contact) else { return motion };
+/// rigid, and lifted where contact would stop it. The given one, if that is no proof, or if there is no time.
+pub fn sharpened(contact: &Contact<'_>, motion: Vec<f64>, monitor: &Monitor<'_>) -> Vec<f64> {
+    let Some(balance) = Balance::new(contact, monitor) else { return motion };
     let scaled: Vec<f64> = motion.iter().zip(&balance.root).map(|(r, root)| r * root).collect();
     let e: Vec<f64> = balance.basis.iter().map(|v| dot(v, &scaled)).collect();
     let mut rigid = balance.motion(&e);
@@ -88,9 +90,17 @@ pub fn sharpened(contact: &Contact<'_>, motion: Vec<f64>) -> Vec<f64> {
     if is_escape_of(contact, &rigid) { rigid } else { motion }
 }
 
-/// An orthonormal basis of the motions without internal force, each component times its `root`.
-pub fn rigid_motions(problem: &ContactProblem<'_>, root: &[f64]) -> Vec<Vec<f64>> {
+/// An orthonormal basis of the motions without internal force, each component times its `root`; none if there is
+/// no time to find them.
+pub fn rigid_motions(
+    problem: &ContactProblem<'_>,
+    root: &[f64],
+    monitor: &Monitor<'_>,
+) -> Vec<Vec<f64>> {
     let mut basis = Vec::new();
+    if !monitor.has_time_for(pivoted_cholesky_work(root.len())) {
+        return basis;
+    }
     let Some(block) = FreeBlock::of_problem(problem, (0..root.len()).collect()) else {
         return basis;
     };
@@ -111,10 +121,10 @@ struct Balance<'c> {
 }
 
 impl<'c> Balance<'c> {
-    /// `None` if there are no such motions.
-    fn new(contact: &'c Contact<'c>) -> Option<Self> {
+    /// `None` if there are no such motions, or if there is no time to find them.
+    fn new(contact: &'c Contact<'c>, monitor: &Monitor<'_>) -> Option<Self> {
         let root = contact.problem().unit_roots();
-        let basis = rigid_motions(contact.problem(), &root);
+        let basis = rigid_motions(contact.problem(), &root, monitor);
         (!basis.is_empty()).then_some(Balance { contact, root, basis })
     }
 

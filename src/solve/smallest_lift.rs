@@ -10,13 +10,18 @@ use super::rigid_balance::rigid_motions;
 use crate::law::{Contact, State, touching};
 use crate::linalg::tolerances::{NEGLIGIBLE, ROUNDING_OF_SUM};
 use crate::linalg::vector::{dot, largest_of, norm, norm_inf};
+use crate::monitor::Monitor;
 
 /// Displacements are large if rounding them costs this part of the forces: below, a host's residual keeps ten
 /// digits.
 const LARGE: f64 = 1e-10 / f64::EPSILON;
 
-/// The candidate without such a motion.
-pub fn without_idle_motion(contact: &Contact<'_>, candidate: Candidate) -> Candidate {
+/// The candidate without such a motion, if there is time to find it.
+pub fn without_idle_motion(
+    contact: &Contact<'_>,
+    candidate: Candidate,
+    monitor: &Monitor<'_>,
+) -> Candidate {
     let problem = contact.problem();
     let root = problem.unit_roots();
     let scaled: Vec<f64> = candidate.d.iter().zip(&root).map(|(d, root)| d * root).collect();
@@ -30,7 +35,7 @@ pub fn without_idle_motion(contact: &Contact<'_>, candidate: Candidate) -> Candi
     if !largest.is_finite() || largest <= LARGE * forces.max(prescribed) {
         return candidate;
     }
-    let basis = idle(contact, &candidate, rigid_motions(problem, &root), forces);
+    let basis = idle(contact, &candidate, rigid_motions(problem, &root, monitor), forces);
     let mut motion = vec![0.0; root.len()];
     for v in &basis {
         let share = dot(v, &scaled);
@@ -48,10 +53,15 @@ pub fn without_idle_motion(contact: &Contact<'_>, candidate: Candidate) -> Candi
 }
 
 /// Whether a frictionless solution may move by some motion without internal force: one that does not move the
-/// pairs that touch along their normals, pressed or not.
-pub fn moves_freely(contact: &Contact<'_>, d: &[f64], states: &[State]) -> bool {
+/// pairs that touch along their normals, pressed or not. No, if there is no time for the question.
+pub fn moves_freely(
+    contact: &Contact<'_>,
+    d: &[f64],
+    states: &[State],
+    monitor: &Monitor<'_>,
+) -> bool {
     let problem = contact.problem();
-    let rigid = rigid_motions(problem, &problem.unit_roots());
+    let rigid = rigid_motions(problem, &problem.unit_roots(), monitor);
     let held = touching(contact, d, states).map(|pair| contact.dim() * pair);
     !not_moving(held.collect(), rigid).is_empty()
 }

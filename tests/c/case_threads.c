@@ -1,7 +1,7 @@
 /*
  * settings.threads: load cases of a call on several threads have the results of one, and the same bits each
- * time. Helgrind does not watch this program: it does not know the atomic numbers by which the standard
- * library of Rust starts and ends threads.
+ * time. Helgrind does not watch this program, as it does not know the atomic numbers by which Rust's threads wait
+ * for each other; ThreadSanitizer does: tests/thread_sanitizer.sh.
  */
 
 #include "chains.h"

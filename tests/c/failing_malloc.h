@@ -1,6 +1,6 @@
 /*
  * malloc and its relatives of a whole program, the shared libraries included, over those of glibc: counted,
- * and refused on demand. To be included by one source of the program.
+ * and refused on demand, on all threads. To be included by one source of the program.
  */
 
 #ifndef FAILING_MALLOC_H
@@ -40,16 +40,21 @@ static inline void heap_watch(size_t least)
 static int heap_refuses(size_t size)
 {
     if (!heap.watching || size < heap.least) return 0;
-    heap.requests++;
-    if (heap.requests < heap.first || heap.requests > heap.last) return 0;
-    heap.refused++;
+    const int64_t number = __atomic_add_fetch(&heap.requests, 1, __ATOMIC_RELAXED);
+    if (number < heap.first || number > heap.last) return 0;
+    __atomic_add_fetch(&heap.refused, 1, __ATOMIC_RELAXED);
     errno = ENOMEM;
     return 1;
 }
 
+static void heap_lives(int64_t more)
+{
+    __atomic_add_fetch(&heap.living, more, __ATOMIC_RELAXED);
+}
+
 static void *heap_noted(void *memory)
 {
-    if (memory) heap.living++;
+    if (memory) heap_lives(1);
     return memory;
 }
 
@@ -68,8 +73,8 @@ void *realloc(void *old, size_t size)
 {
     if (heap_refuses(size)) return NULL;
     void *memory = __libc_realloc(old, size);
-    if (!old && memory) heap.living++;
-    if (old && !memory && !size) heap.living--;
+    if (!old && memory) heap_lives(1);
+    if (old && !memory && !size) heap_lives(-1);
     return memory;
 }
 
@@ -94,7 +99,7 @@ int posix_memalign(void **memory, size_t alignment, size_t size)
 void free(void *memory)
 {
     if (!memory) return;
-    heap.living--;
+    heap_lives(-1);
     __libc_free(memory);
 }
 

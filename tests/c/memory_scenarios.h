@@ -40,8 +40,11 @@ struct scenario {
     int kind;
 };
 
-/* A scenario on a thread whose first call it is; one that needs a deeper stack than the others. */
-enum { NEW_THREAD = 1, DEEP = 2 };
+/*
+ * A scenario on a thread whose first call it is; one that needs a deeper stack than the others; one whose call
+ * starts a thread.
+ */
+enum { NEW_THREAD = 1, DEEP = 2, TWO_THREADS = 3 };
 
 /* ---- Data ---------------------------------------------------------------------------------- */
 
@@ -291,6 +294,29 @@ static int32_t condensed_model(struct world *w)
     return status;
 }
 
+/* Load cases of one call on two threads, three on each. */
+static int32_t two_threads(struct world *w)
+{
+    enum { CASES = 6 };
+    chain *c = &w->small;
+    double loads[CASES * 2 * SMALL], gaps[CASES * SMALL], d[CASES * 2 * SMALL], F[CASES * 2 * SMALL];
+    int32_t state[CASES * SMALL], status_of_case[CASES];
+    signorini_model *model = NULL;
+    signorini_settings settings;
+    for (int k = 0; k < CASES; k++) {
+        for (int i = 0; i < 2 * SMALL; i++) loads[2 * SMALL * k + i] = (1 + 0.1 * k) * c->f[i];
+        memcpy(gaps + SMALL * k, c->gap, SMALL * sizeof *gaps);
+    }
+    int32_t status = signorini_settings_default(&settings, sizeof settings);
+    settings.threads = 2;
+    if (!status) status = signorini_model_new_condensed(c->dim, c->pairs, c->K, c->n, &model);
+    if (!status)
+        status = signorini_model_solve(model, CASES, loads, NULL, gaps, SIGNORINI_LAW_COULOMB, w->mu,
+                                       NULL, &settings, d, F, state, status_of_case, NULL, NULL);
+    signorini_model_free(model);
+    return status;
+}
+
 static int32_t two_bodies(struct world *w)
 {
     chain *c = &w->space;
@@ -530,6 +556,7 @@ static const struct scenario scenarios[] = {
     {"absent file", absent_file, SIGNORINI_STATUS_FILE, 0},
     {"condensed model, three cases", condensed_model, 0, 0},
     {"load steps in a series", series, 0, 0},
+    {"load cases on two threads", two_threads, 0, TWO_THREADS},
     {"two bodies", two_bodies, 0, 0},
     {"sparse model", sparse_model, 0, 0},
     {"sparse model, many cases", sparse_many, 0, DEEP},

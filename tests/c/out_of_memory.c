@@ -107,11 +107,37 @@ static int64_t tried(const struct scenario *scenario, struct world *world, int64
     /*
      * A thread's first product of matrices registers what is to be freed when the thread ends. The C library
      * takes 40 bytes for that, and aborts if it cannot have them: refused alone, from there on, and from the
-     * request before.
+     * request before. A thread that a call starts does so before anything else, and the others wait.
      */
-    CHECK(found[DIED] <= (scenario->kind == NEW_THREAD ? 3 : 0));
+    const int begins = scenario->kind == NEW_THREAD || scenario->kind == TWO_THREADS;
+    CHECK(found[DIED] <= (begins ? 3 : 0));
     CHECK(trials == found[AS_BEFORE] + found[OUT_OF_MEMORY] + found[DIED]);
     return trials;
+}
+
+/* Calls of one process, a request refused in each, and all from it on: what one leaves does not reach the next. */
+static void one_after_the_other(struct world *world)
+{
+    int32_t (*const calls[])(struct world *) = {plane_lemke, space_newton, sparse_model, lcp};
+    for (size_t i = 0; i < sizeof calls / sizeof *calls; i++) {
+        CHECK_STATUS(calls[i](world), 0);
+        const int64_t before = heap.living;
+        heap_watch(1);
+        CHECK_STATUS(calls[i](world), 0);
+        heap.watching = 0;
+        const int64_t requests = heap.requests, step = requests > TRIALS ? requests / TRIALS : 1;
+        for (int64_t first = 1; first <= requests; first += step)
+            for (int once = 0; once < 2; once++) {
+                heap_watch(1);
+                heap.first = first;
+                heap.last = once ? first : INT64_MAX;
+                const int32_t status = calls[i](world);
+                heap.watching = 0;
+                CHECK(status == 0 || status == SIGNORINI_STATUS_OUT_OF_MEMORY);
+                CHECK(heap.living == before);
+            }
+        CHECK_STATUS(calls[i](world), 0);
+    }
 }
 
 /* The sentence needs no memory. */
@@ -144,6 +170,7 @@ int main(int count, char **argument)
     printf("%-34s %9s %7lld", "all", "", (long long)all);
     for (int i = 0; i < OUTCOMES; i++) printf(" %13lld", (long long)sums[i]);
     printf("\n");
+    one_after_the_other(world);
     sentence(world);
     world_free(world);
     return check_summary("out_of_memory");

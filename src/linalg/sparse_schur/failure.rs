@@ -34,3 +34,16 @@ impl From<OutOfMemory> for Failure {
         Failure::OutOfMemory
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_doubt_keeps_its_motion() {
+        let motion = || vec![1.0, -1.0];
+        assert_eq!(Failure::from(Doubt::Indefinite(motion())), Failure::Negative(motion()));
+        assert_eq!(Failure::from(Doubt::Unclear(motion())), Failure::Unclear(motion()));
+        assert_eq!(Failure::from(OutOfMemory), Failure::OutOfMemory);
+    }
+}

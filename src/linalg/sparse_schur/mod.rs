@@ -20,7 +20,7 @@ mod watch;
 pub use cholesky::{SparseCholesky, Values};
 pub use failure::Failure;
 pub use plan::Plan;
-pub use watch::{Unwatched, Watch, answered};
+pub use watch::{Watch, answered};
 
 use std::sync::Mutex;
 

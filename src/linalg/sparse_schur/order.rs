@@ -196,8 +196,22 @@ mod tests {
         chosen, examined, guarded, is_permutation, minimum_degree, nested_dissection, post_order,
     };
     use crate::linalg::sparse_matrix::{Csc, from_entries};
-    use crate::linalg::sparse_schur::Unwatched;
     use crate::linalg::sparse_schur::graph::Graph;
+    use crate::linalg::sparse_schur::watch::Watch;
+    use std::ops::ControlFlow;
+
+    /// Nobody is asked.
+    struct Unwatched;
+
+    impl Watch for Unwatched {
+        fn announce(&mut self, _: u64) -> ControlFlow<()> {
+            ControlFlow::Continue(())
+        }
+
+        fn step(&mut self, _: f64) -> ControlFlow<()> {
+            ControlFlow::Continue(())
+        }
+    }
 
     /// A cube of `edge`³ nodes with `dofs` unknowns each that are coupled with those of the 26 nodes around;
     /// the last layer is kept.

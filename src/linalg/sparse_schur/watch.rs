@@ -13,19 +13,6 @@ pub trait Watch {
     fn step(&mut self, share: f64) -> ControlFlow<()>;
 }
 
-/// Nobody is asked.
-pub struct Unwatched;
-
-impl Watch for Unwatched {
-    fn announce(&mut self, _: u64) -> ControlFlow<()> {
-        ControlFlow::Continue(())
-    }
-
-    fn step(&mut self, _: f64) -> ControlFlow<()> {
-        ControlFlow::Continue(())
-    }
-}
-
 /// Asks before anything is known of the work.
 pub fn go_on(watch: &mut dyn Watch) -> Result<(), Failure> {
     answered(watch.step(0.0))

@@ -15,7 +15,7 @@ use super::messages;
 use super::supports::FixedComponent;
 use crate::error::{Argument, Error};
 use crate::linalg::row_elimination::{Expression, Solved, Terms, solve};
-use crate::linalg::sparse_matrix::{Csc, OutOfMemory, from_entries};
+use crate::linalg::sparse_matrix::OutOfMemory;
 use crate::problem::Dependence;
 use crate::reduce::frame::Frame;
 use crate::reduce::pairs::ContactPairs;
@@ -27,14 +27,7 @@ pub(super) struct GeneralRows {
     pub(super) variables: ChangeOfVariables,
     pub(super) supports: Vec<FixedComponent>,
     /// `None` if no row depends on others: the kept variables are `d`.
-    pub(super) dependent: Option<Dependent>,
-}
-
-/// How `d` follows from the variables and from the values of fixed degrees of freedom.
-pub(super) struct Dependent {
-    pub(super) dependence: Dependence,
-    /// A row for each component of `d`, a column for each fixed degree of freedom.
-    pub(super) of_fixed: Csc,
+    pub(super) dependent: Option<Dependence>,
 }
 
 /// A pair's place among the variables.
@@ -208,7 +201,7 @@ impl<'r> Rows<'r> {
     }
 
     /// `d` of the variables and of fixed values.
-    fn dependence(&self, solved: &Solved, fixed: usize) -> Result<Dependent, OutOfMemory> {
+    fn dependence(&self, solved: &Solved, fixed: usize) -> Result<Dependence, OutOfMemory> {
         let (mut to_relative, mut from_relative, mut of_fixed) = (vec![], vec![], vec![]);
         let mut dependent_pairs = Vec::new();
         for (pair, place) in self.places.iter().enumerate() {
@@ -246,7 +239,6 @@ impl<'r> Rows<'r> {
         let count = self.dim * self.places.len();
         let matrices = [to_relative, from_relative];
         let shape = (count, self.kept);
-        let dependence = Dependence::new(self.dim, shape, matrices, dependent_pairs)?;
-        Ok(Dependent { dependence, of_fixed: from_entries((count, fixed), of_fixed.into_iter())? })
+        Dependence::new(self.dim, shape, matrices, (fixed, of_fixed), dependent_pairs)
     }
 }

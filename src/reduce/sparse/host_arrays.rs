@@ -22,16 +22,11 @@ pub enum Indices<'a> {
 
 impl Indices<'_> {
     /// Number of entries.
-    pub fn len(&self) -> usize {
+    pub(super) fn len(&self) -> usize {
         match self {
             Indices::Narrow(values) => values.len(),
             Indices::Wide(values) => values.len(),
         }
-    }
-
-    /// Whether there are none.
-    pub fn is_empty(&self) -> bool {
-        self.len() == 0
     }
 
     /// Entry `i` as the host has it.

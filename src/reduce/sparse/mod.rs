@@ -35,7 +35,7 @@ use crate::reduce::frame::Frame;
 use change_of_variables::{ChangeOfVariables, contact_forces};
 use control::{Asked, ranks};
 use full_space::FullSpace;
-use general_rows::{Dependent, GeneralRows, general_rows};
+use general_rows::{GeneralRows, general_rows};
 use supports::FixedComponent;
 
 /// The reduction of a whole sparse matrix, kept for further load cases.
@@ -51,7 +51,7 @@ pub struct SparseReduction {
     frames: Vec<f64>,
     supports: Vec<FixedComponent>,
     fixed_components: Vec<usize>,
-    dependent: Option<Dependent>,
+    dependent: Option<Dependence>,
     engine: Engine,
 }
 
@@ -213,13 +213,7 @@ impl Reduction for SparseReduction {
     }
 
     fn dependence(&self) -> Option<&Dependence> {
-        self.dependent.as_ref().map(|dependent| &dependent.dependence)
-    }
-
-    fn offset(&self, prescribed: Option<&[f64]>) -> Vec<f64> {
-        let nothing = vec![0.0; self.fixed_count];
-        let offset = |rows: &Dependent| times(&rows.of_fixed, prescribed.unwrap_or(&nothing));
-        self.dependent.as_ref().map(offset).unwrap_or_default()
+        self.dependent.as_ref()
     }
 
     fn check_prescribed(&self, values: &[f64]) -> Result<(), Error> {

@@ -152,9 +152,10 @@ fn solve(
         }
         let next = active_set(lcp, &system.x, &system.residual);
         if next == basic {
-            system.refine(&rows, |x, w| lcp.eta(x, w), |x, _| is_accurate(x));
+            let refined =
+                system.refine(&rows, |x, w| lcp.eta(x, w), |x, _| is_accurate(x), monitor);
             best = (0.0, std::mem::take(&mut system.x), std::mem::take(&mut system.residual));
-            break Ending::Done;
+            break refined.map_or_else(Ending::Stopped, |()| Ending::Done);
         }
         let progress = exchange.choose(lcp, &system, &mut basic, next);
         if !progress && best.0 <= tolerance && is_accurate(&best.1) {

@@ -176,6 +176,22 @@ impl Bordered {
         count == 0 || (size >= SMALL && count as f64 <= MOST_BORDERS * size as f64)
     }
 
+    /// Operations of [`Self::solve`] where few rows have changed: a solution for each border that is new, and what
+    /// all borders take from the step.
+    pub fn border_work(&self, rows: &[Row]) -> f64 {
+        let n = self.free.len() as f64;
+        let (mut count, mut fresh) = (0.0, 0.0);
+        for border in self.borders(rows) {
+            let known = match border.base {
+                Some(k) => self.column_of_row[k],
+                None => self.column_of_unknown[border.unknown],
+            };
+            count += 1.0;
+            fresh += f64::from(u8::from(known.is_none()));
+        }
+        2.0 * n * (n * fresh + count * count)
+    }
+
     /// The step that makes the equations hold, and the sign of the determinant.
     pub fn solve(
         &mut self,

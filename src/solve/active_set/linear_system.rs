@@ -4,6 +4,7 @@
 use super::bordered::{Bordered, Coefficients};
 use crate::law::branch::Row;
 use crate::linalg::matrix::Matrix;
+use crate::monitor::{Monitor, Stop};
 
 /// The system is singular to working precision.
 #[derive(Debug)]
@@ -52,10 +53,10 @@ impl<'p> LinearSystem<'p> {
         system
     }
 
-    /// Operations of the factorisation that [`Self::solve`] makes; 0 if it makes none.
+    /// Operations of [`Self::solve`]: a factorisation, or borders.
     pub fn work(&self, rows: &[Row]) -> f64 {
         match &self.factorised {
-            Some(system) if system.is_near(rows) => 0.0,
+            Some(system) if system.is_near(rows) => system.border_work(rows),
             _ => Bordered::work(&self.coefficients, rows),
         }
     }
@@ -100,31 +101,35 @@ impl<'p> LinearSystem<'p> {
     }
 
     /// Brings the solution of the last system to the accuracy that `is_accurate` asks for, if rounding
-    /// has left less: iterative refinement. `eta` is watched on the way.
+    /// has left less: iterative refinement. `eta` is watched on the way. `Err`: there is no time for more of
+    /// it.
     pub fn refine(
         &mut self,
         rows: &[Row],
         eta: impl Fn(&[f64], &[f64]) -> f64,
         is_accurate: impl Fn(&[f64], f64) -> bool,
-    ) {
+        monitor: &mut Monitor<'_>,
+    ) -> Result<(), Stop> {
         let mut best = f64::INFINITY;
         for _ in 0..=REFINEMENTS {
             self.refresh();
             let eta = eta(&self.x, &self.residual);
             if is_accurate(&self.x, eta) {
-                return;
+                return Ok(());
             }
             if eta >= best {
                 // Bordering loses accuracy that a fresh factor has.
                 self.forget_factor();
             }
             best = best.min(eta);
+            monitor.affords(self.work(rows))?;
             let before = self.x.clone();
             if self.solve(rows).is_err() {
                 self.x = before;
-                return;
+                return Ok(());
             }
         }
+        Ok(())
     }
 }
 

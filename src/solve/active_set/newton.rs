@@ -13,7 +13,7 @@ use super::linear_system::{LinearSystem, Singular};
 use crate::certificate::{eta_of, measure};
 use crate::law::Contact;
 use crate::law::branch::{Branch, Row};
-use crate::monitor::Monitor;
+use crate::monitor::{Monitor, Stop};
 use crate::settings::Settings;
 use crate::solve::candidate::{Candidate, Effort, Ending};
 use crate::solve::sweeps::Sweeper;
@@ -79,9 +79,9 @@ pub fn from_branches(
         monitor.measured(eta);
         best.keep(&system, eta);
         if contact.branches(&system.x, &system.residual) == branches {
-            refine(&mut system, contact, &rows, settings.tolerance);
+            let refined = refine(&mut system, contact, &rows, settings.tolerance, monitor);
             best = Best::at(&system, 0.0);
-            break Ending::Done;
+            break refined.map_or_else(Ending::Stopped, |()| Ending::Done);
         }
         if let Err(ending) = history.advance(contact, &start, &system, &mut branches, monitor) {
             // At a degenerate solution rounding may flip the active set forever.
@@ -200,12 +200,19 @@ fn swept(
     contact.branches(&d, &force)
 }
 
-/// Brings the solution of the last system to `tolerance` where rounding has not.
-fn refine(system: &mut LinearSystem<'_>, contact: &Contact<'_>, rows: &[Row], tolerance: f64) {
+/// Brings the solution of the last system to `tolerance` where rounding has not. `Err`: there is no time for it.
+fn refine(
+    system: &mut LinearSystem<'_>,
+    contact: &Contact<'_>,
+    rows: &[Row],
+    tolerance: f64,
+    monitor: &mut Monitor<'_>,
+) -> Result<(), Stop> {
     system.refine(
         rows,
         |d, force| eta_of(contact, d, force),
         // The certificate also allows for the rounding of prescribed displacements.
         |d, eta| eta <= tolerance || measure(contact, d, &[]).holds(tolerance),
-    );
+        monitor,
+    )
 }

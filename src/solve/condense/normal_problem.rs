@@ -114,10 +114,14 @@ impl<'p> NormalProblem<'p> {
         motion
     }
 
-    /// Re-solves equilibrium directly with the closed pairs of `d` fixed, and keeps the better.
-    pub fn polished(&self, d: Vec<f64>) -> Vec<f64> {
+    /// Re-solves equilibrium directly with the closed pairs of `d` fixed, if there is time, and keeps the
+    /// better.
+    pub fn polished(&self, d: Vec<f64>, monitor: &Monitor<'_>) -> Vec<f64> {
         let problem = self.contact.problem();
-        let free = (0..d.len()).filter(|&i| !is_stopped(self.contact, i, &d)).collect();
+        let free: Vec<usize> = (0..d.len()).filter(|&i| !is_stopped(self.contact, i, &d)).collect();
+        if !monitor.has_time_for(cholesky_work(free.len())) {
+            return d;
+        }
         let Some(block) = FreeBlock::of_problem(problem, free) else { return d };
         let mut better = d.clone();
         block.equilibrate(self.contact.shifted_load(), &mut better);

@@ -20,16 +20,18 @@
 mod growth;
 mod sprung;
 
+use std::ops::ControlFlow;
+
 use super::outcome::{Solution, Status};
 use crate::error::{Argument, Error};
 use crate::law::{Contact, without_friction};
 use crate::linalg::sparse_matrix::{OutOfMemory, column, from_entries, transposed};
-use crate::linalg::sparse_schur::{Failure, Look, SparseSchur, Unwatched};
-use crate::monitor::Monitor;
+use crate::linalg::sparse_schur::{Failure, Look, SparseSchur, Watch};
+use crate::monitor::{Monitor, Stop};
 use crate::problem::{ContactProblem, DependentRows, Relation};
 use crate::settings::{Method, SMALLEST_TOLERANCE, Settings};
 pub use growth::{Growth, contradicts, sentence};
-pub use sprung::{measured, step};
+pub use sprung::{measured, step, stopped};
 
 /// `e`, the compliance of the springs beside that of the bodies. A round divides the error by the compliance
 /// of the least compliant pattern of forces over `e`; the condensed matrix loses as many digits as `e` has.
@@ -68,7 +70,14 @@ pub fn solve(
     start: Option<&[f64]>,
     monitor: &mut Monitor<'_>,
 ) -> Result<Solution, Error> {
-    let condensed = &condensed(problem.relation())?;
+    let condensed = &match condensed(problem.relation(), monitor)? {
+        Ok(condensed) => condensed,
+        Err(stop) => {
+            let d = problem.relation().relative(&begun(problem.relation(), start));
+            let force = vec![0.0; d.len()];
+            return Ok(stopped(&Contact::new(problem), (d, &force), settings, stop));
+        }
+    };
     let sprung = Sprung { problem, contact: Contact::new(problem), condensed };
     let (mut solution, growth) = sprung.rounds(settings, start, monitor)?;
     if solution.status == Status::Stalled {
@@ -99,8 +108,29 @@ fn contradiction(
     Ok(pattern.map(<[f64]>::to_vec))
 }
 
-/// The stiffness of the variables and the springs, condensed on the displacements beyond the springs.
-fn condensed(relation: &DependentRows<'_>) -> Result<SparseSchur, Error> {
+/// Ends a factorisation when the time is up or the callback cancels.
+struct Watched<'m, 'c> {
+    monitor: &'m mut Monitor<'c>,
+    stop: Option<Stop>,
+}
+
+impl Watch for Watched<'_, '_> {
+    fn announce(&mut self, _: u64) -> ControlFlow<()> {
+        ControlFlow::Continue(())
+    }
+
+    fn step(&mut self, _: f64) -> ControlFlow<()> {
+        self.stop = self.monitor.goes_on().err();
+        if self.stop.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    }
+}
+
+/// The stiffness of the variables and the springs, condensed on the displacements beyond the springs, or why that
+/// was stopped.
+fn condensed(
+    relation: &DependentRows<'_>,
+    monitor: &mut Monitor<'_>,
+) -> Result<Result<SparseSchur, Stop>, Error> {
     let memory = |_: OutOfMemory| Error::OutOfMemory("the stiffness of dependent rows");
     let (stiffness, dependence) = (relation.stiffness(), relation.dependence());
     let (kept, size) = (dependence.variables(), relation.size());
@@ -121,15 +151,26 @@ fn condensed(relation: &DependentRows<'_>) -> Result<SparseSchur, Error> {
         entries.push((kept + i, kept + i, spring));
     }
     let all = from_entries((kept + size, kept + size), entries.into_iter()).map_err(memory)?;
-    let made = SparseSchur::new(all, kept, None, Look::Always, &mut Unwatched);
-    made.map_err(|failure| match failure {
-        Failure::OutOfMemory => Error::OutOfMemory("the factor of dependent rows"),
-        _ => Error::invalid(
+    let mut watched = Watched { monitor, stop: None };
+    let made = SparseSchur::new(all, kept, None, Look::Always, &mut watched);
+    match (made, watched.stop) {
+        (Ok(made), _) => Ok(Ok(made)),
+        (Err(_), Some(stop)) => Ok(Err(stop)),
+        (Err(Failure::OutOfMemory), None) => {
+            Err(Error::OutOfMemory("the factor of dependent rows"))
+        }
+        (Err(_), None) => Err(Error::invalid(
             Argument::Matrix,
             "the stiffness of the bodies between dependent pairs cannot be told from rounding: if two surfaces are \
              each other's slaves, let one side be the slave",
-        ),
-    })
+        )),
+    }
+}
+
+/// The variables of the displacements `start`.
+fn begun(relation: &DependentRows<'_>, start: Option<&[f64]>) -> Vec<f64> {
+    let dependence = relation.dependence();
+    start.map_or_else(|| vec![0.0; dependence.variables()], |start| dependence.of_relative(start))
 }
 
 impl Sprung<'_> {
@@ -145,11 +186,7 @@ impl Sprung<'_> {
         monitor: &mut Monitor<'_>,
     ) -> Result<(Solution, Growth), Error> {
         let relation = self.relation();
-        let dependence = relation.dependence();
-        let mut variables = match start {
-            Some(start) => dependence.of_relative(start),
-            None => vec![0.0; dependence.variables()],
-        };
+        let mut variables = begun(relation, start);
         let mut force = vec![0.0; relation.size()];
         let mut growth = Growth::default();
         let mut best: Option<Solution> = None;

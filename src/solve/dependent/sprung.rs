@@ -3,7 +3,7 @@
 use crate::certificate::measure;
 use crate::error::Error;
 use crate::law::Contact;
-use crate::monitor::Monitor;
+use crate::monitor::{Monitor, Stop};
 use crate::problem::{ContactData, ContactProblem, Relation};
 use crate::settings::Settings;
 use crate::solve::dispatch::check_method;
@@ -40,6 +40,25 @@ pub fn step<R: Relation>(
     let contact = Contact::new(&problem);
     check_method(&contact, settings.method)?;
     far_obstacles::solve(&contact, settings, None, monitor)
+}
+
+/// The result of a call that has ended before the first round, at displacements `d` and forces.
+pub fn stopped<R: Relation>(
+    contact: &Contact<'_, R>,
+    (d, force): (Vec<f64>, &[f64]),
+    settings: &Settings,
+    stop: Stop,
+) -> Solution {
+    let certificate = measure(contact, &d, force);
+    let eta = certificate.eta;
+    let ending = match certificate.holds(settings.tolerance) {
+        true => (Status::Solved, format!("solved: eta is {eta:.1e}")),
+        false => {
+            stop.status(settings, &format!("eta is {eta:.1e}, wanted {:.1e}", settings.tolerance))
+        }
+    };
+    let existence = if settings.proof { Existence::NotProved } else { Existence::NotAsked };
+    Solution { existence, ..Solution::of(settings.method, ending, d, certificate) }
 }
 
 /// The result of a round as one of the problem itself, of displacements `d` and forces.

@@ -17,7 +17,7 @@
 
 mod springs;
 
-use super::dependent::{Growth, contradicts, measured, sentence, step};
+use super::dependent::{Growth, contradicts, measured, sentence, step, stopped};
 use super::outcome::{Solution, Status};
 use crate::error::{Argument, Error};
 use crate::law::{Contact, pressing, without_friction};
@@ -99,18 +99,27 @@ fn rounds(
     start: Option<&[f64]>,
     monitor: &mut Monitor<'_>,
 ) -> Result<(Solution, Growth), Error> {
-    let springs = Springs::new(problem.relation()).ok_or_else(|| {
-        Error::invalid(
-            Argument::Matrix,
-            "W is not positive semi-definite: a force has negative flexibility",
-        )
-    })?;
+    let contact = Contact::new(problem);
+    let force = start.map_or_else(|| vec![0.0; problem.unknowns()], <[f64]>::to_vec);
+    let springs = match Springs::new(problem.relation(), monitor) {
+        Ok(springs) => springs.ok_or_else(|| {
+            Error::invalid(
+                Argument::Matrix,
+                "W is not positive semi-definite: a force has negative flexibility",
+            )
+        })?,
+        Err(stop) => {
+            let d = problem.relation().relative(&force);
+            let stopped = stopped(&contact, (d, &force), settings, stop);
+            return Ok((stopped, Growth::default()));
+        }
+    };
     let mut rounds = Rounds {
         problem,
-        contact: Contact::new(problem),
+        contact,
         last: springs.compliance(),
         springs,
-        force: start.map_or_else(|| vec![0.0; problem.unknowns()], <[f64]>::to_vec),
+        force,
         growth: Growth::default(),
         best: None,
         least: f64::INFINITY,
@@ -159,7 +168,7 @@ impl Rounds<'_> {
         let found = measured(&self.contact, round, result, settings);
         let eta = found.certificate.eta;
         if failed && eta >= self.last && !self.springs.are_softest() {
-            self.springs.soften(relation);
+            self.springs.soften(relation, monitor);
             return Ok(false);
         }
         let change =
@@ -169,7 +178,7 @@ impl Rounds<'_> {
         self.idle = if eta < HALF * self.least { 0 } else { self.idle + 1 };
         self.least = self.least.min(eta);
         if !failed && eta > SLOW * self.last && !self.growth.is_steady() {
-            self.springs.stiffen(relation);
+            self.springs.stiffen(relation, monitor);
         }
         self.last = eta;
         Ok(self.keep(found) || self.growth.pattern().is_some() || self.idle >= IDLE_ROUNDS)

@@ -1,6 +1,7 @@
 //! The stiffness of bodies and springs in series, `(W + e D⁻¹)⁻¹`.
 
-use crate::linalg::factor::Factor;
+use crate::linalg::factor::{Factor, cholesky_work};
+use crate::monitor::{Monitor, Stop};
 use crate::problem::{Flexibility, Relation};
 
 /// `e` of the first rounds, beside flexibilities of size one: the stiffness loses as many digits as `e` has.
@@ -19,10 +20,13 @@ pub struct Springs {
 }
 
 impl Springs {
-    /// The first springs; `None` if `W` has negative eigenvalues.
-    pub fn new(relation: &Flexibility<'_>) -> Option<Self> {
-        let stiffness = stiffness(relation, FIRST)?;
-        Some(Springs { compliance: FIRST, stiffness })
+    /// The first springs; `None` if `W` has negative eigenvalues. `Err`: there is no time for them.
+    pub fn new(
+        relation: &Flexibility<'_>,
+        monitor: &mut Monitor<'_>,
+    ) -> Result<Option<Self>, Stop> {
+        let stiffness = stiffness(relation, FIRST, monitor)?;
+        Ok(stiffness.map(|stiffness| Springs { compliance: FIRST, stiffness }))
     }
 
     /// `e`.
@@ -35,14 +39,14 @@ impl Springs {
         &self.stiffness
     }
 
-    /// Less compliant springs, if there are any.
-    pub fn stiffen(&mut self, relation: &Flexibility<'_>) {
-        self.change(relation, FACTOR);
+    /// Less compliant springs, if there are any, and time for them.
+    pub fn stiffen(&mut self, relation: &Flexibility<'_>, monitor: &mut Monitor<'_>) {
+        self.change(relation, FACTOR, monitor);
     }
 
-    /// More compliant springs, if there are any.
-    pub fn soften(&mut self, relation: &Flexibility<'_>) {
-        self.change(relation, 1.0 / FACTOR);
+    /// More compliant springs, if there are any, and time for them.
+    pub fn soften(&mut self, relation: &Flexibility<'_>, monitor: &mut Monitor<'_>) {
+        self.change(relation, 1.0 / FACTOR, monitor);
     }
 
     /// Whether there are no softer ones.
@@ -50,30 +54,42 @@ impl Springs {
         self.compliance >= RANGE[1]
     }
 
-    fn change(&mut self, relation: &Flexibility<'_>, by: f64) {
+    fn change(&mut self, relation: &Flexibility<'_>, by: f64, monitor: &mut Monitor<'_>) {
         let compliance = (by * self.compliance).clamp(RANGE[0], RANGE[1]);
         if compliance != self.compliance
-            && let Some(stiffness) = stiffness(relation, compliance)
+            && let Ok(Some(stiffness)) = stiffness(relation, compliance, monitor)
         {
             *self = Springs { compliance, stiffness };
         }
     }
 }
 
-/// The inverse of the scaled `D^½ W D^½ + e`, scaled back.
-fn stiffness(relation: &Flexibility<'_>, compliance: f64) -> Option<Vec<f64>> {
+/// Columns of the inverse that are solved for between two looks at the clock.
+const BLOCK: usize = 64;
+
+/// The inverse of the scaled `D^½ W D^½ + e`, scaled back; `None` if there is none. `Err`: there is no time for it.
+fn stiffness(
+    relation: &Flexibility<'_>,
+    compliance: f64,
+    monitor: &mut Monitor<'_>,
+) -> Result<Option<Vec<f64>>, Stop> {
     let n = relation.size();
     let root: Vec<f64> = relation.units().iter().map(|unit| unit.sqrt()).collect();
     let matrix = relation.matrix();
-    let mut factor = Factor::new(n, true, |j, column| {
+    monitor.affords(cholesky_work(n))?;
+    let factor = Factor::new(n, true, |j, column| {
         for i in j..n {
             column[i] = root[i] * matrix.at(i, j) * root[j];
         }
         column[j] += compliance;
-    })?;
+    });
+    let Some(mut factor) = factor else { return Ok(None) };
     let mut inverse = vec![0.0; n * n];
     inverse.iter_mut().step_by(n + 1).for_each(|entry| *entry = 1.0);
-    factor.solve(&mut inverse);
+    for columns in inverse.chunks_mut((BLOCK * n).max(1)) {
+        monitor.affords(2.0 * (n * columns.len()) as f64)?;
+        factor.solve(columns);
+    }
     for j in 0..n {
         for i in j..n {
             let mean = 0.5 * (inverse[i + n * j] + inverse[j + n * i]);
@@ -81,5 +97,5 @@ fn stiffness(relation: &Flexibility<'_>, compliance: f64) -> Option<Vec<f64>> {
             (inverse[i + n * j], inverse[j + n * i]) = (scaled, scaled);
         }
     }
-    inverse.iter().all(|entry| entry.is_finite()).then_some(inverse)
+    Ok(inverse.iter().all(|entry| entry.is_finite()).then_some(inverse))
 }

@@ -104,6 +104,9 @@ pub fn ends(
     let Ok(lcp) = FrictionLcp::new(contact, monitor) else { return Ok(Vec::new()) };
     let mut ends = Vec::new();
     for cohesion in COHESIONS {
+        if monitor.is_late() {
+            break;
+        }
         let rules = Rules { care: Care::Usual, end: END, turns: TURNS };
         let run = run(&lcp, rules, cohesion, monitor)?;
         for z in run.turns.iter().chain((run.ending == Ending::Done).then_some(&run.z)) {
@@ -129,7 +132,8 @@ fn follow(
         // If the body only lifts off, the ray itself is the proof; if it also slips, the balance of
         // the other pairs decides.
         Ending::Recession(ray) => {
-            Ending::Recession(rigid_balance::escape(contact).unwrap_or_else(|| lcp.motion(&ray)))
+            let balanced = rigid_balance::escape(contact, monitor);
+            Ending::Recession(balanced.unwrap_or_else(|| lcp.motion(&ray)))
         }
         other => other,
     };

@@ -30,7 +30,8 @@ pub fn frictionless(
         return Ok(thorough);
     }
     let effort = thorough.effort;
-    let polished = Candidate::of_displacements(contact, normal.polished(thorough.d), Ending::Done);
+    let polished =
+        Candidate::of_displacements(contact, normal.polished(thorough.d, monitor), Ending::Done);
     Ok(polished.with_effort(effort))
 }
 

@@ -142,7 +142,10 @@ pub fn follow(lcp: ScaledLcp<'_>, rules: Rules, monitor: &mut Monitor<'_>) -> Re
     if let Err(stop) = monitor.affords(Tableau::work(n)) {
         return Ok(nothing(Ending::Stopped(stop)));
     }
-    let tableau = Tableau::new(&problem)?;
+    let tableau = match Tableau::new(&problem, monitor)? {
+        Ok(tableau) => tableau,
+        Err(stop) => return Ok(nothing(Ending::Stopped(stop))),
+    };
     if !tableau.is_finite() || problem.covering.contains(&0.0) {
         return Ok(nothing(Ending::Stalled("numbers overflow or underflow in the LCP")));
     }
@@ -150,9 +153,14 @@ pub fn follow(lcp: ScaledLcp<'_>, rules: Rules, monitor: &mut Monitor<'_>) -> Re
         Path { problem: &problem, tableau, rules, turns: Vec::new(), refactorisations: 0 };
     let mut end = path.run(false, monitor);
     if let End::Cycle = end {
-        path.tableau = Tableau::new(&problem)?;
-        path.turns.clear();
-        end = path.run(true, monitor);
+        end = match Tableau::new(&problem, monitor)? {
+            Ok(tableau) => {
+                path.tableau = tableau;
+                path.turns.clear();
+                path.run(true, monitor)
+            }
+            Err(stop) => End::Ended(Ending::Stopped(stop)),
+        };
     }
     let ending = match end {
         End::Ray(entering) => {
@@ -196,7 +204,8 @@ impl Path<'_> {
         let mut pivots = 0;
         let (mut trail, mut careful) = (Trail::new(), always);
         loop {
-            if let Err(stop) = monitor.step() {
+            let work = self.tableau.pivot_work();
+            if let Err(stop) = monitor.step().and_then(|()| monitor.affords(work)) {
                 return End::Ended(Ending::Stopped(stop));
             }
             pivots += 1;
@@ -258,6 +267,7 @@ impl Path<'_> {
 
     /// Refines the values, and refactorises where they have drifted; false if the basis is singular.
     fn check(&mut self, careful: bool, monitor: &mut Monitor<'_>) -> Result<bool, Stop> {
+        monitor.affords(self.tableau.refinement_work())?;
         let drift = self.tableau.refine(self.problem);
         if drift <= DRIFT && self.rules.care == Care::Usual && !careful {
             return Ok(true);

@@ -8,10 +8,19 @@ use crate::linalg::simd;
 use crate::linalg::tolerances::SINGULAR_BASIS;
 use crate::linalg::vector::norm_inf;
 
+/// Operations that take as long as making an entry of the problem and reading one of the tableau, at the speed of
+/// memory.
+const READING: f64 = 40.0;
+
 /// Columns that are recomputed together: a block of them stays in the cache.
 const PANEL: usize = 64;
 
 impl Tableau {
+    /// Operations in whose time [`Self::refine`] reads the data and the tableau, and makes the changes that are kept.
+    pub fn refinement_work(&self) -> f64 {
+        (READING + 2.0 * self.kept.count() as f64) * (self.size as f64).powi(2)
+    }
+
     /// Corrects the values by one step of iterative refinement on the data of `problem`, with the
     /// tableau itself as the inverse of the basis. Returns the residual of `w - M z - d z0 = q`
     /// before, relative to `q`.

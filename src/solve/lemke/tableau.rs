@@ -16,6 +16,7 @@ use crate::error::Error;
 use crate::linalg::simd::{self, Simd};
 use crate::linalg::tolerances::{NEGLIGIBLE, ROUNDING};
 use crate::linalg::vector::norm_inf;
+use crate::monitor::{Monitor, Stop};
 
 /// The tableau in a basis.
 pub struct Tableau {
@@ -49,6 +50,9 @@ const LARGE: usize = 160;
 /// where `n` is a power of two: one line.
 const LINE: usize = 8;
 
+/// Columns that are written between two looks at the clock.
+const BLOCK: usize = 64;
+
 /// Operations that take as long as writing an entry of new memory, which the system clears page by page.
 const WRITING: f64 = 100.0;
 
@@ -58,18 +62,32 @@ impl Tableau {
         WRITING * (n as f64).powi(2)
     }
 
-    /// The tableau in which the `w` are basic.
-    pub fn new(problem: &Scaled<'_>) -> Result<Self, Error> {
+    /// The tableau in which the `w` are basic; `Ok(Err)`: the time is up.
+    pub fn new(
+        problem: &Scaled<'_>,
+        monitor: &mut Monitor<'_>,
+    ) -> Result<Result<Self, Stop>, Error> {
         let n = problem.size();
         let stride = n.next_multiple_of(LINE) + LINE;
         let mut entries = Vec::new();
         entries
             .try_reserve_exact(stride * (n + 1))
             .map_err(|_| Error::OutOfMemory("the tableau of Lemke's method"))?;
+        for j in 0..n {
+            if j % BLOCK == 0
+                && let Err(stop) = monitor.affords(0.0)
+            {
+                return Ok(Err(stop));
+            }
+            // New memory is cleared where it is written next.
+            entries.resize(stride * (j + 1), 0.0);
+            problem.write_column(j, &mut entries[stride * j..stride * j + n]);
+        }
+        entries.extend_from_slice(&problem.covering);
         entries.resize(stride * (n + 1), 0.0);
         let simd = Simd::new();
         let delay = if n < LARGE { 1 } else { DELAY };
-        let mut tableau = Tableau {
+        Ok(Ok(Tableau {
             size: n,
             stride,
             entries,
@@ -81,12 +99,7 @@ impl Tableau {
             kept: RankOneUpdates::new(n, n + 1, if delay == 1 { 0 } else { delay }, simd),
             delay,
             simd,
-        };
-        for j in 0..n {
-            problem.write_column(j, tableau.column_mut(j));
-        }
-        tableau.column_mut(n).copy_from_slice(&problem.covering);
-        Ok(tableau)
+        }))
     }
 
     /// Whether all entries and values are.
@@ -192,6 +205,12 @@ impl Tableau {
             .rev()
             .find(|&row| ratio(row) <= first * (1.0 - NEGLIGIBLE))
             .filter(|_| first < 0.0)
+    }
+
+    /// Operations of the next [`Self::pivot`]: those of the changes that it makes in the tableau.
+    pub fn pivot_work(&self) -> f64 {
+        let made = self.delay == 1 || self.kept.count() + 1 == self.delay;
+        if made { 2.0 * self.delay as f64 * (self.size as f64).powi(2) } else { 0.0 }
     }
 
     /// Exchanges the basic variable of `row` with the chosen variable `entering`.

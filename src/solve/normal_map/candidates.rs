@@ -11,10 +11,11 @@ use std::sync::Arc;
 
 use super::equations::{Equations, Point};
 use super::newton::Ended;
+use super::system::System;
 use crate::certificate::{eta_of, measure};
 use crate::law::{Contact, Vector};
 use crate::linalg::elimination::Elimination;
-use crate::monitor::Monitor;
+use crate::monitor::{Monitor, Stop};
 use crate::settings::Settings;
 use crate::solve::candidate::{Candidate, Effort, Ending};
 
@@ -47,7 +48,8 @@ pub(super) fn solve(
     }
     let mut found = search(whole, y, settings.tolerance, monitor, core);
     if let Some((split, point)) = found.parted.take() {
-        let systems = split.refine(contact, settings, (&mut found.d, &mut found.force), point);
+        let parts = (&mut found.d, &mut found.force);
+        let systems = split.refine(contact, settings, parts, point, monitor);
         found.systems += systems;
     }
     found.into_candidate()
@@ -68,6 +70,12 @@ pub(super) struct Found<'w> {
 }
 
 impl Found<'_> {
+    /// The end at a point of the whole problem, after so many systems, with the orientation of the last one.
+    pub(super) fn at(point: Point, ending: Ending, (systems, orientation): (u64, i8)) -> Self {
+        let Point { y, d, force, .. } = point;
+        Found { d, force, y, ending, systems, orientation, parted: None }
+    }
+
     /// The candidate of equations that are a whole problem's.
     pub(super) fn into_candidate(self) -> Candidate {
         let effort = Effort { factorisations: self.systems, ..Effort::default() };
@@ -89,11 +97,16 @@ pub(super) fn search<'w>(
     let mut kept = closed_with_margin(whole, &y, MARGIN);
     let (mut systems, mut orientation) = (0, 0);
     loop {
-        let Some(split) = Split::new(whole, &kept) else {
-            let Ended { point, ending, systems: last, orientation } = core(whole, y, monitor);
-            let Point { y, d, force, .. } = point;
-            let systems = systems + last;
-            return Found { d, force, y, ending, systems, orientation, parted: None };
+        let split = match Split::new(whole, &kept, monitor) {
+            Ok(Some(split)) => split,
+            Ok(None) => {
+                let Ended { point, ending, systems: last, orientation } = core(whole, y, monitor);
+                return Found::at(point, ending, (systems + last, orientation));
+            }
+            Err(stop) => {
+                let point = Point::new(whole, y);
+                return Found::at(point, Ending::Stopped(stop), (systems, orientation));
+            }
         };
         let ended = core(&split.equations(), split.of_kept(&y), monitor);
         systems += ended.systems;
@@ -141,8 +154,13 @@ pub(super) struct Split<'w> {
 }
 
 impl<'w> Split<'w> {
-    /// Eliminates all pairs but `kept`; `None` if that is not worthwhile, or not possible.
-    pub(super) fn new(whole: &'w Equations<'w>, kept: &[usize]) -> Option<Self> {
+    /// Eliminates all pairs but `kept`; `None` if that is not worthwhile, or not possible. `Err`: there is no time
+    /// for it.
+    pub(super) fn new(
+        whole: &'w Equations<'w>,
+        kept: &[usize],
+        monitor: &mut Monitor<'_>,
+    ) -> Result<Option<Self>, Stop> {
         let dim = whole.dim;
         let parts = |pair: &usize| dim * pair..dim * (pair + 1);
         let mut is_kept = vec![false; whole.laws.len()];
@@ -152,11 +170,12 @@ impl<'w> Split<'w> {
             .flat_map(|pair| parts(&pair))
             .collect();
         if dropped.len() < WORTHWHILE || kept.is_empty() || !whole.symmetric {
-            return None;
+            return Ok(None);
         }
-        let components = kept.iter().flat_map(parts).collect();
-        let elimination = Elimination::new(whole.matrix, dropped, components)?;
-        Some(Self::by(whole, Arc::new(elimination)))
+        let components: Vec<usize> = kept.iter().flat_map(parts).collect();
+        monitor.affords(Elimination::work(dropped.len(), components.len()))?;
+        let elimination = Elimination::new(whole.matrix, dropped, components);
+        Ok(elimination.map(|elimination| Self::by(whole, Arc::new(elimination))))
     }
 
     /// The problem parted by an elimination of components of its matrix.
@@ -223,14 +242,15 @@ impl<'w> Split<'w> {
         self.pairs(self.elimination.dropped()).filter(|&pair| pieces[pair].closed).collect()
     }
 
-    /// Iterative refinement of a solution on the candidates by the residual of the whole problem.
-    /// Returns the number of systems.
+    /// Iterative refinement of a solution on the candidates by the residual of the whole problem, as long as there
+    /// is time. Returns the number of systems.
     pub(super) fn refine(
         &self,
         contact: &Contact<'_>,
         settings: &Settings,
         (d, force): (&mut Vec<f64>, &mut Vec<f64>),
         mut point: Point,
+        monitor: &mut Monitor<'_>,
     ) -> u64 {
         let (dropped, kept) = (self.elimination.dropped(), self.elimination.kept());
         let mut systems = 0;
@@ -250,6 +270,9 @@ impl<'w> Split<'w> {
             let mut load = equations.matrix.product(&point.d);
             load.iter_mut().zip(kept).for_each(|(load, &i)| *load -= whole[i]);
             equations.load = Cow::Owned(load);
+            if monitor.affords(System::work(&equations, &point.pieces)).is_err() {
+                break;
+            }
             let Some(better) = super::newton::step(&equations, &point) else { break };
             systems += 1;
             let moved: Vec<f64> = better.d.iter().zip(&point.d).map(|(b, a)| b - a).collect();

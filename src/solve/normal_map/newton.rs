@@ -99,7 +99,7 @@ pub fn solve(
         }
         shortest = if part <= SHORTEST { shortest + 1 } else { 0 };
         ended.point = match part < SHORT && resweeps < MOST_RESWEEPS {
-            true => swept(equations, &next),
+            true => swept(equations, &next, monitor),
             false => next,
         };
         resweeps += u32::from(part < SHORT);
@@ -107,11 +107,14 @@ pub fn solve(
     ended
 }
 
-/// The point after some sweeps.
-fn swept(equations: &Equations<'_>, point: &Point) -> Point {
+/// The point after some sweeps, fewer if the time is up.
+fn swept(equations: &Equations<'_>, point: &Point, monitor: &Monitor<'_>) -> Point {
     let sweeper = Sweeper::new();
     let (mut d, mut force) = (point.d.clone(), point.force.clone());
     for _ in 0..RESWEEPS {
+        if monitor.is_late() {
+            break;
+        }
         sweeper.sweep_pairs(&equations.laws, equations.matrix, (&mut d, &mut force), 1.0);
     }
     Point::new(equations, equations.coordinates(&d, &force))

@@ -16,7 +16,7 @@ use crate::law::{Contact, Vector};
 use crate::linalg::double_double::two_sum;
 use crate::linalg::tolerances::NULL_VECTOR;
 use crate::linalg::vector::{largest_of, norm_inf};
-use crate::monitor::Monitor;
+use crate::monitor::{Monitor, Stop};
 use crate::settings::Settings;
 use crate::solve::candidate::{Candidate, Ending};
 use crate::solve::outcome::Errors;
@@ -44,7 +44,8 @@ const SURE: f64 = 0.5;
 /// Rounding of `eta`: that of forces rounded once, a few times as the steps have no rounding in mind.
 const ROUNDING_OF_ETA: f64 = 4.0 * f64::EPSILON;
 
-/// The candidate, refined if its residual is above the tolerance and that helps.
+/// The candidate, refined if its residual is above the tolerance and that helps. Where it was done and there was no
+/// time to see, it is stopped.
 pub fn polished(
     contact: &Contact<'_>,
     settings: &Settings,
@@ -61,12 +62,17 @@ pub fn polished(
     let at_reference = contact.at_its_reference();
     let equations = Equations::of(&at_reference);
     let aim = AIM * settings.tolerance;
-    let may_factorise = |work| monitor.has_time_for(work);
-    let newton = &mut Newton { may_factorise: &may_factorise, ..Newton::on(&equations) };
-    let refined = refined(contact, &candidate, aim, newton);
+    let mut newton = Newton::on(&equations, monitor);
+    let refined = refined(contact, &candidate, aim, &mut newton);
     let new = refined.certificate(contact);
     let helps = new.residual <= settings.tolerance && !new.runs_away();
-    if helps { refined.ended(Ending::Done) } else { candidate }
+    match helps {
+        true => refined.ended(Ending::Done),
+        false if newton.is_stopped && candidate.ending == Ending::Done => {
+            candidate.ended(Ending::Stopped(Stop::TimeLimit))
+        }
+        false => candidate,
+    }
 }
 
 /// A candidate refined as far as it goes.
@@ -77,24 +83,31 @@ pub struct Sharpened {
     pub error: Vec<f64>,
 }
 
-/// Refines displacements to the last digits; `None` if the system there is singular.
-pub fn sharpened(contact: &Contact<'_>, candidate: &Candidate) -> Option<Sharpened> {
+/// Refines displacements to the last digits; `None` if the system there is singular, or if there is no time.
+pub fn sharpened(
+    contact: &Contact<'_>,
+    candidate: &Candidate,
+    monitor: &Monitor<'_>,
+) -> Option<Sharpened> {
     let at_reference = contact.at_its_reference();
     let equations = Equations::of(&at_reference);
-    let mut newton = Newton::on(&equations);
+    let mut newton = Newton::on(&equations, monitor);
     let mut candidate = refined(contact, candidate, 0.0, &mut newton);
+    if newton.is_stopped {
+        return None;
+    }
     let v = contact.beyond_reference(&candidate.d, &candidate.low);
     let (error, orientation) = newton.step(&v, &candidate.force)?;
     candidate.orientation = orientation;
     Some(Sharpened { candidate, error })
 }
 
-/// Refines until `eta` is at most `aim`, or falls no further.
+/// Refines until `eta` is at most `aim`, falls no further, or the time is up.
 fn refined(
     contact: &Contact<'_>,
     candidate: &Candidate,
     aim: f64,
-    newton: &mut Newton<'_>,
+    newton: &mut Newton<'_, '_>,
 ) -> Candidate {
     let at_reference = contact.at_its_reference();
     let (mut d, mut low) = (candidate.d.clone(), vec![0.0; candidate.d.len()]);
@@ -102,6 +115,10 @@ fn refined(
     let (mut least, mut in_vain) = (f64::INFINITY, 0);
     let mut steps = Steps::default();
     for _ in 0..MOST_STEPS {
+        if newton.monitor.is_late() {
+            newton.is_stopped = true;
+            break;
+        }
         let v = contact.beyond_reference(&d, &low);
         let force = contact.problem().force_of_parts(&d, &low);
         let eta = eta_of(&at_reference, &v, &force);
@@ -172,14 +189,15 @@ impl Steps {
 }
 
 /// Newton's steps, whose factor is kept.
-struct Newton<'e> {
+struct Newton<'e, 'm> {
     equations: &'e Equations<'e>,
     kept: Option<Kept<'e>>,
     /// Whether the last step came near enough for its factor to serve again.
     is_good: bool,
     factorisations: u64,
-    /// Whether there is time for a factorisation of so many operations.
-    may_factorise: &'e dyn Fn(f64) -> bool,
+    /// Whether a factorisation or a step was left out as there was no time for it.
+    is_stopped: bool,
+    monitor: &'e Monitor<'m>,
 }
 
 /// A factor, with the coordinates and their pieces at which it was made.
@@ -189,10 +207,10 @@ struct Kept<'e> {
     y: Vec<Vector>,
 }
 
-impl<'e> Newton<'e> {
-    fn on(equations: &'e Equations<'e>) -> Self {
-        let may_factorise = &|_| true;
-        Newton { equations, kept: None, is_good: false, factorisations: 0, may_factorise }
+impl<'e, 'm> Newton<'e, 'm> {
+    fn on(equations: &'e Equations<'e>, monitor: &'e Monitor<'m>) -> Self {
+        let (kept, is_good, is_stopped) = (None, false, false);
+        Newton { equations, kept, is_good, factorisations: 0, is_stopped, monitor }
     }
 
     /// The change of displacements `v` beyond their references that Newton's method wants where they need
@@ -235,7 +253,8 @@ impl<'e> Newton<'e> {
             kept.pieces == pieces && (is_good || is_same(equations, &pieces, [&kept.y, &y]))
         };
         if !self.kept.as_ref().is_some_and(serves) {
-            if !(self.may_factorise)(System::work(equations, &pieces)) {
+            if !self.monitor.has_time_for(System::work(equations, &pieces)) {
+                self.is_stopped = true;
                 return None;
             }
             self.factorisations += 1;

@@ -9,12 +9,12 @@
 
 use std::sync::Arc;
 
-use super::candidates::{self, Core, Split, closed_with_margin, search};
+use super::candidates::{self, Core, Found, Split, closed_with_margin, search};
 use super::equations::{Equations, Point};
 use super::start::swept;
 use crate::law::{Contact, Vector};
 use crate::linalg::elimination::{Elimination, Remembered};
-use crate::monitor::Monitor;
+use crate::monitor::{Monitor, Stop};
 use crate::settings::Settings;
 use crate::solve::candidate::{Candidate, Ending};
 
@@ -46,7 +46,7 @@ pub fn solve(
             Err(alone) => alone,
         }
     }
-    let y = alone.y.unwrap_or_else(|| swept(&whole, start));
+    let y = alone.y.unwrap_or_else(|| swept(&whole, start, monitor));
     let mut candidate = candidates::solve((contact, &whole), settings, y, monitor, core);
     candidate.effort.factorisations += alone.systems;
     candidate
@@ -80,8 +80,11 @@ impl<'w> Series<'w> {
         // Nothing is kept while others may need the memory, and nothing of a problem that is not solved.
         let before = self.remembered.get();
         self.remembered.keep(None);
-        let begun = before.and_then(|before| self.begun(before, start));
-        let (mut split, mut y) = begun.map_or_else(|| self.begin(start), Ok)?;
+        let begun = before.and_then(|before| self.begun(before, start, monitor));
+        let (mut split, mut y) = match begun {
+            Some(begun) => begun,
+            None => self.begin(start, monitor)?,
+        };
         let mut systems = 0;
         loop {
             let equations = split.equations();
@@ -100,15 +103,24 @@ impl<'w> Series<'w> {
                 if done && !solved {
                     let point = Point::new(&equations, found.y);
                     let (contact, settings) = (self.contact, self.settings);
-                    systems += split.refine(contact, settings, (&mut d, &mut force), point);
+                    let parts = (&mut d, &mut force);
+                    systems += split.refine(contact, settings, parts, point, monitor);
                 }
                 self.remembered.keep(Some(Arc::clone(split.elimination())));
                 (found.d, found.force, found.y, found.systems) = (d, force, y, systems);
                 return Ok(found.into_candidate());
             }
+            let orientation = found.orientation;
             drop(found);
             drop(equations);
-            split = self.wider(split, &closing, &y).ok_or(Alone { systems, y: None })?;
+            split = match self.wider(split, &closing, &y, monitor) {
+                Ok(wider) => wider.ok_or(Alone { systems, y: None })?,
+                Err(stop) => {
+                    let point = Point::new(self.whole, y);
+                    let found = Found::at(point, Ending::Stopped(stop), (systems, orientation));
+                    return Ok(found.into_candidate());
+                }
+            };
             y = split.of_kept(&y);
         }
     }
@@ -119,6 +131,7 @@ impl<'w> Series<'w> {
         &self,
         before: Arc<Elimination>,
         start: Option<&[f64]>,
+        monitor: &Monitor<'_>,
     ) -> Option<(Split<'w>, Vec<Vector>)> {
         let dim = self.whole.dim;
         let mut components = before.dropped().iter();
@@ -129,7 +142,7 @@ impl<'w> Series<'w> {
             start.map(|start| before.kept().iter().map(|&i| start[i]).collect());
         let split = Split::by(self.whole, before);
         let equations = split.equations();
-        let y = swept(&equations, start.as_deref());
+        let y = swept(&equations, start.as_deref(), monitor);
         let needed = closed_with_margin(&equations, &y, MARGIN).len();
         let fits = is_finite(&y) && y.len() as f64 <= TOO_MANY * needed as f64;
         drop(equations);
@@ -137,21 +150,32 @@ impl<'w> Series<'w> {
     }
 
     /// The same of a problem that follows none.
-    fn begin(&self, start: Option<&[f64]>) -> Result<(Split<'w>, Vec<Vector>), Alone> {
-        let y = swept(self.whole, start);
+    fn begin(
+        &self,
+        start: Option<&[f64]>,
+        monitor: &mut Monitor<'_>,
+    ) -> Result<(Split<'w>, Vec<Vector>), Alone> {
+        let y = swept(self.whole, start, monitor);
         let kept = is_finite(&y).then(|| closed_with_margin(self.whole, &y, MARGIN));
-        let Some(split) = kept.and_then(|kept| Split::new(self.whole, &kept)) else {
-            return Err(Alone { systems: 0, y: Some(y) });
-        };
+        // Without time for it the problem alone has none either, and ends there.
+        let split = kept.and_then(|kept| Split::new(self.whole, &kept, monitor).ok().flatten());
+        let Some(split) = split else { return Err(Alone { systems: 0, y: Some(y) }) };
         let on_kept = split.of_kept(&y);
         Ok((split, on_kept))
     }
 
     /// The problem parted anew after some pairs outside of the candidates have closed at the coordinates `y`.
-    fn wider(&self, split: Split<'w>, closing: &[usize], y: &[Vector]) -> Option<Split<'w>> {
+    /// `Err`: there is no time for it.
+    fn wider(
+        &self,
+        split: Split<'w>,
+        closing: &[usize],
+        y: &[Vector],
+        monitor: &mut Monitor<'_>,
+    ) -> Result<Option<Split<'w>>, Stop> {
         let mut kept: Vec<usize> = split.kept().collect();
         if closing.len() as f64 > FEW_CLOSING * kept.len() as f64 {
-            return None;
+            return Ok(None);
         }
         drop(split);
         let needed = closed_with_margin(self.whole, y, MARGIN);
@@ -159,7 +183,7 @@ impl<'w> Series<'w> {
         kept.sort_unstable();
         kept.dedup();
         let too_many = kept.len() as f64 > TOO_MANY * needed.len() as f64;
-        Split::new(self.whole, if too_many { &needed } else { &kept })
+        Split::new(self.whole, if too_many { &needed } else { &kept }, monitor)
     }
 }
 

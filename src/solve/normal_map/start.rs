@@ -8,6 +8,7 @@
 
 use super::equations::Equations;
 use crate::law::Vector;
+use crate::monitor::Monitor;
 use crate::solve::sweeps::Sweeper;
 
 /// Sweeps of a round; rounds.
@@ -26,8 +27,12 @@ const OVER_RELAXATION: f64 = 1.5;
 /// Part of `eta` that an over-relaxed round may leave.
 const WORTHWHILE: f64 = 0.7;
 
-/// The coordinates after some sweeps from the displacements `start` (zero if `None`).
-pub(super) fn swept(whole: &Equations<'_>, start: Option<&[f64]>) -> Vec<Vector> {
+/// The coordinates after some sweeps from the displacements `start` (zero if `None`), fewer if the time is up.
+pub(super) fn swept(
+    whole: &Equations<'_>,
+    start: Option<&[f64]>,
+    monitor: &Monitor<'_>,
+) -> Vec<Vector> {
     let mut d = start.map_or_else(|| vec![0.0; whole.root.len()], <[f64]>::to_vec);
     for (law, normal) in whole.laws.iter().zip(d.iter_mut().step_by(whole.dim)) {
         *normal = law.admissible(*normal);
@@ -36,6 +41,9 @@ pub(super) fn swept(whole: &Equations<'_>, start: Option<&[f64]>) -> Vec<Vector>
     let sweeper = Sweeper::new();
     let round = |d: &mut Vec<f64>, force: &mut Vec<f64>, omega: f64| {
         let mut sweep = |omega| {
+            if monitor.is_late() {
+                return;
+            }
             sweeper.sweep_pairs(&whole.laws, whole.matrix, (&mut *d, &mut *force), omega);
         };
         (1..SWEEPS).for_each(|_| sweep(omega));
@@ -62,7 +70,7 @@ pub(super) fn swept(whole: &Equations<'_>, start: Option<&[f64]>) -> Vec<Vector>
         let changed = now.iter().zip(&pieces).filter(|(now, before)| now != before).count();
         let settled = changed as f64 <= CHANGING * now.len() as f64 && eta <= NEAR;
         pieces = now;
-        if settled && number >= LEAST_ROUNDS {
+        if (settled && number >= LEAST_ROUNDS) || monitor.is_late() {
             break;
         }
     }

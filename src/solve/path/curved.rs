@@ -34,7 +34,7 @@ pub fn curved(
     monitor: &mut Monitor<'_>,
 ) -> Candidate {
     // Without an equilibrium the path runs away slowly: what can be proved at once is.
-    if let Some(motion) = rigid_balance::escape(contact) {
+    if let Some(motion) = rigid_balance::escape(contact, monitor) {
         return Candidate::without_displacements(contact, Ending::Recession(motion));
     }
     on_candidates(contact, settings, start, monitor, &mut |equations, y, monitor| {
@@ -53,6 +53,9 @@ pub fn ends(
     let none = vec![[0.0; 3]; contact.pairs().len()];
     let mut ends = Vec::new();
     for seed in 0..SEARCHED {
+        if monitor.is_late() {
+            break;
+        }
         let start = perturbed(&equations, &none, FAR, seed);
         let newton = newton_from(&equations, start.clone(), settings.tolerance, monitor);
         let path = follow(&equations, start, CAREFUL, settings.tolerance, monitor);

@@ -220,7 +220,9 @@ fn ended(
         End::Lost => Ending::Stalled(LOST),
         // If the body only lifts off, the ray itself is the proof; if it also slips, the balance of
         // the other pairs decides.
-        End::Ray(motion) => Ending::Recession(rigid_balance::escape(contact).unwrap_or(motion)),
+        End::Ray(motion) => {
+            Ending::Recession(rigid_balance::escape(contact, monitor).unwrap_or(motion))
+        }
         End::Stopped(stop) => Ending::Stopped(stop),
     };
     Candidate::of_displacements(contact, d, ending)

@@ -11,6 +11,7 @@ use crate::law::{Contact, PairLaw};
 use crate::linalg::matrix::Matrix;
 use crate::linalg::simd::{self, Simd};
 use crate::linalg::vector::norm_inf;
+use crate::monitor::Monitor;
 
 /// The sweeps of a law, without an iterate of their own.
 pub struct Sweeper {
@@ -158,7 +159,7 @@ impl Iterate for ContactIterate<'_> {
         norm_inf(self.own.shifted_load()) == 0.0
     }
 
-    fn recession(&self, drift: &[f64]) -> Option<Vec<f64>> {
-        contact_recession(self.own, drift)
+    fn recession(&self, drift: &[f64], monitor: &Monitor<'_>) -> Option<Vec<f64>> {
+        contact_recession(self.own, drift, monitor)
     }
 }

@@ -8,7 +8,9 @@ use super::Iterate;
 use crate::certificate::{is_escape_of, lifts};
 use crate::law::{Contact, lift};
 use crate::linalg::matrix::Matrix;
+use crate::linalg::pivoted_cholesky::pivoted_cholesky_work;
 use crate::linalg::vector::norm_inf;
+use crate::monitor::Monitor;
 use crate::solve::condense::FreeBlock;
 use crate::solve::rigid_balance::escape;
 
@@ -30,7 +32,7 @@ impl DriftDetector {
     }
 
     /// Counts a sweep; returns a recession direction once one is found.
-    pub fn observe(&mut self, iterate: &impl Iterate) -> Option<Vec<f64>> {
+    pub fn observe(&mut self, iterate: &impl Iterate, monitor: &Monitor<'_>) -> Option<Vec<f64>> {
         self.sweeps += 1;
         if self.sweeps < self.next {
             return None;
@@ -39,17 +41,21 @@ impl DriftDetector {
         let x = iterate.unknowns();
         let drift: Vec<f64> = x.iter().zip(&self.before).map(|(x, before)| x - before).collect();
         self.before.copy_from_slice(x);
-        iterate.recession(&drift)
+        iterate.recession(&drift, monitor)
     }
 }
 
-/// The part of a drift that the matrix does not resist.
+/// The part of a drift that the matrix does not resist; `None` if there is no time for a look.
 pub fn rigid_part(
     matrix: Matrix<'_>,
     unit: impl Fn(usize) -> f64,
     drift: &[f64],
+    monitor: &Monitor<'_>,
 ) -> Option<Vec<f64>> {
-    let moved = (0..drift.len()).filter(|&i| drift[i] != 0.0).collect();
+    let moved: Vec<usize> = (0..drift.len()).filter(|&i| drift[i] != 0.0).collect();
+    if !monitor.has_time_for(pivoted_cholesky_work(moved.len())) {
+        return None;
+    }
     let block = FreeBlock::new(matrix, moved, unit)?;
     let mut motion = vec![0.0; drift.len()];
     for i in block.dependent() {
@@ -64,16 +70,20 @@ pub fn rigid_part(
 /// A body that slides away drifts along the slip of its friction. Where that is the slip from which
 /// friction takes the most work, the drift proves that nothing stops it. Under a collinear rule it is
 /// another one, and the balance of the rigid motions is asked.
-pub fn contact_recession(contact: &Contact<'_>, drift: &[f64]) -> Option<Vec<f64>> {
+pub fn contact_recession(
+    contact: &Contact<'_>,
+    drift: &[f64],
+    monitor: &Monitor<'_>,
+) -> Option<Vec<f64>> {
     let problem = contact.problem();
-    let motion = rigid_part(problem.stiffness(), |i| problem.unit(i), drift)?;
+    let motion = rigid_part(problem.stiffness(), |i| problem.unit(i), drift, monitor)?;
     let lifts = lifts(contact, &motion);
     let uniform = vec![norm_inf(&lifts); lifts.len()];
     [vec![0.0; lifts.len()], lifts, uniform]
         .into_iter()
         .map(|lifts| lifted(contact.dim(), &motion, &lifts))
         .find(|motion| is_escape_of(contact, motion))
-        .or_else(|| contact.has_collinear_slip().then(|| escape(contact)).flatten())
+        .or_else(|| contact.has_collinear_slip().then(|| escape(contact, monitor)).flatten())
 }
 
 /// A slip together with a lift of each pair, which makes contact forces do no negative work on it.

@@ -116,7 +116,7 @@ impl<'m, 'c, I: Iterate> Driver<'m, 'c, I> {
             self.monitor.step().map_err(Ending::Stopped)?;
             change = self.iterate.sweep(self.relaxation.omega());
             self.relaxation.observe(change);
-            if let Some(motion) = self.drift.observe(&self.iterate) {
+            if let Some(motion) = self.drift.observe(&self.iterate, self.monitor) {
                 return Err(Ending::Recession(motion));
             }
             if sweep % MEASURE == 0 || change == 0.0 {

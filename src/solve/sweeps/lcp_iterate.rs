@@ -4,6 +4,7 @@ use super::Iterate;
 use super::drift::rigid_part;
 use crate::linalg::simd::{self, Simd};
 use crate::linalg::vector::norm_inf;
+use crate::monitor::Monitor;
 use crate::problem::BoundedLcp;
 
 /// One sweep over all variables of `lcp`, whose matrix is symmetric, on `x` and `w = q + M x`. Returns
@@ -77,9 +78,9 @@ impl Iterate for LcpIterate<'_> {
         norm_inf(self.lcp.q) == 0.0
     }
 
-    fn recession(&self, drift: &[f64]) -> Option<Vec<f64>> {
+    fn recession(&self, drift: &[f64], monitor: &Monitor<'_>) -> Option<Vec<f64>> {
         let matrix = self.lcp.matrix;
-        rigid_part(matrix, |i| matrix.at(i, i), drift)
+        rigid_part(matrix, |i| matrix.at(i, i), drift, monitor)
             .filter(|motion| self.lcp.is_recession(motion))
     }
 }

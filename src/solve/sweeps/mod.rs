@@ -13,6 +13,8 @@ pub use fixed_point::{nested, single};
 pub use frictionless::frictionless;
 pub use lcp_iterate::sweep as sweep_lcp;
 
+use crate::monitor::Monitor;
+
 /// What the driver of the sweeps iterates on.
 pub trait Iterate {
     /// One sweep with the over-relaxation factor `omega`. Returns the change in the norm of the
@@ -37,6 +39,6 @@ pub trait Iterate {
     /// Whether there are no loads.
     fn is_unloaded(&self) -> bool;
 
-    /// A recession direction, found in the change of the unknowns between two looks.
-    fn recession(&self, drift: &[f64]) -> Option<Vec<f64>>;
+    /// A recession direction, found in the change of the unknowns between two looks if there is time.
+    fn recession(&self, drift: &[f64], monitor: &Monitor<'_>) -> Option<Vec<f64>>;
 }

@@ -16,7 +16,7 @@ use super::normal_map::sharpened;
 use super::outcome::{Solution, Status, Uniqueness};
 use crate::error::Error;
 use crate::law::Contact;
-use crate::linalg::factor::lu_work;
+use crate::linalg::factor::{cholesky_work, lu_work};
 use crate::linalg::vector::norm_inf;
 use crate::monitor::Monitor;
 use crate::settings::Settings;
@@ -40,7 +40,9 @@ pub fn examine(
         return Ok(());
     }
     if contact.dim() != 2 {
-        let Some(first) = sharpened(contact, &given(contact, solution)) else { return Ok(()) };
+        let Some(first) = sharpened(contact, &given(contact, solution), monitor) else {
+            return Ok(());
+        };
         if let Some(second) = search::another_in_space(contact, settings, &first, monitor) {
             solution.uniqueness = Uniqueness::Several;
             solution.second = Some(Box::new(second));
@@ -50,8 +52,8 @@ pub fn examine(
     // To the last digit, and with its orientation.
     let Some(first) = polished(contact, settings, &solution.d, monitor) else { return Ok(()) };
     solution.orientation = first.orientation;
-    by_orientation(contact, solution);
-    let Some(first) = sharpened(contact, &first) else { return Ok(()) };
+    by_orientation(contact, solution, monitor);
+    let Some(first) = sharpened(contact, &first, monitor) else { return Ok(()) };
     if let Some(second) = search::another(contact, settings, &first, monitor)? {
         solution.uniqueness = Uniqueness::Several;
         solution.second = Some(Box::new(second));
@@ -59,23 +61,30 @@ pub fn examine(
     Ok(())
 }
 
-/// Concludes from an orientation of −1, away from where branches meet, that there are others.
-pub fn by_orientation(contact: &Contact<'_>, solution: &mut Solution) {
+/// Concludes from an orientation of −1, away from where branches meet, that there are others; nothing if there is no
+/// time.
+pub fn by_orientation(contact: &Contact<'_>, solution: &mut Solution, monitor: &Monitor<'_>) {
     if solution.orientation < 0
         && solution.status == Status::Solved
-        && let Some(sharp) = sharpened(contact, &given(contact, solution))
+        && let Some(sharp) = sharpened(contact, &given(contact, solution), monitor)
         && sharp.candidate.orientation < 0
         && is_sharp(contact, &sharp)
         && is_strict(contact, &sharp.candidate.d)
+        && monitor.has_time_for(cholesky_work(contact.unknowns()))
         && proof::scaled_factor(contact).is_some()
     {
         solution.uniqueness = Uniqueness::Several;
     }
 }
 
-/// Whether two results are next to two solutions.
-pub fn are_two(contact: &Contact<'_>, one: &Solution, two: &Solution) -> bool {
-    let sharp = |solution| sharpened(contact, &given(contact, solution));
+/// Whether two results are next to two solutions; no, if there is no time for the question.
+pub fn are_two(
+    contact: &Contact<'_>,
+    one: &Solution,
+    two: &Solution,
+    monitor: &Monitor<'_>,
+) -> bool {
+    let sharp = |solution| sharpened(contact, &given(contact, solution), monitor);
     matches!((sharp(one), sharp(two)), (Some(one), Some(two)) if are_parted(contact, &one, &two))
 }
 

@@ -25,23 +25,30 @@ pub fn another(
     known: &Sharpened,
     monitor: &mut Monitor<'_>,
 ) -> Result<Option<SecondSolution>, Error> {
-    let accepted = |candidate: Candidate| accepted(contact, settings, known, candidate);
+    let accepted =
+        |candidate, monitor: &Monitor<'_>| accepted(contact, settings, known, candidate, monitor);
     for branches in starts(contact) {
+        if monitor.is_late() {
+            return Ok(None);
+        }
         let d = vec![0.0; contact.unknowns()];
         let candidate = from_branches(contact, settings, branches, d, monitor);
-        if let Some(other) = accepted(candidate) {
+        if let Some(other) = accepted(candidate, monitor) {
             return Ok(Some(other));
         }
     }
     for candidate in lemke::ends(contact, settings, monitor)? {
-        if let Some(other) = accepted(candidate) {
+        if let Some(other) = accepted(candidate, monitor) {
             return Ok(Some(other));
         }
     }
     for branches in neighbours(contact, &known.candidate.d) {
+        if monitor.is_late() {
+            break;
+        }
         let d = known.candidate.d.clone();
         let candidate = from_branches(contact, settings, branches, d, monitor);
-        if let Some(other) = accepted(candidate) {
+        if let Some(other) = accepted(candidate, monitor) {
             return Ok(Some(other));
         }
     }
@@ -57,7 +64,7 @@ pub fn another_in_space(
 ) -> Option<SecondSolution> {
     path::ends(contact, settings, monitor)
         .into_iter()
-        .find_map(|candidate| accepted(contact, settings, known, candidate))
+        .find_map(|candidate| accepted(contact, settings, known, candidate, monitor))
 }
 
 /// A candidate that is a solution other than `known`.
@@ -66,11 +73,12 @@ fn accepted(
     settings: &Settings,
     known: &Sharpened,
     candidate: Candidate,
+    monitor: &Monitor<'_>,
 ) -> Option<SecondSolution> {
     let may_be = candidate.ending == Ending::Done
         && candidate.certificate(contact).holds(settings.tolerance)
         && are_different(contact, &known.candidate.d, &candidate.d);
-    let other = if may_be { sharpened(contact, &candidate)? } else { return None };
+    let other = if may_be { sharpened(contact, &candidate, monitor)? } else { return None };
     let is_other = are_parted(contact, known, &other)
         && other.candidate.certificate(contact).holds(settings.tolerance);
     let found = other.candidate;
