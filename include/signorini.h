@@ -120,9 +120,8 @@ typedef struct signorini_extra signorini_extra;
 
 /* State of a pair. */
 /**
- * The pair is apart: F_n = 0, with cohesion F_n = a; F_t = 0 but under Tresca's law and cohesion. A
- * pressure counts as none if it, and the friction under it, are below 1e-11 of the largest load or
- * contact force.
+ * The pair is apart: F_n = 0, with cohesion F_n = a; F_t = 0 but under Tresca's law and cohesion.
+ * Pressure counts as none if it and its friction are below 1e-11 of the largest load or force.
  */
 #define SIGNORINI_STATE_OPEN 0
 /** The pair touches and slips: |F_t| is at its bound. Frictionless: every pair that touches. */

@@ -5,8 +5,18 @@
 
 use crate::linalg::gmres::orthogonalised;
 
-/// Most directions that are kept, the latest ones.
-pub const MOST_KEPT: usize = 50;
+/// Most directions that are kept, the latest ones, and most bytes of their vectors: with a million pairs taking them
+/// out of each new one costs more than the products that they save.
+const MOST_KEPT: usize = 50;
+const MOST_BYTES: usize = 1 << 29;
+
+/// Vectors of all unknowns that a direction takes: itself, its product, and its image.
+pub const VECTORS: usize = 3;
+
+/// Most directions that are kept of so many unknowns.
+pub fn most_kept(unknowns: usize) -> usize {
+    MOST_KEPT.min(MOST_BYTES / (VECTORS * size_of::<f64>() * unknowns.max(1)))
+}
 
 /// Where less than this part of an image is left when the others are taken out of it, its direction is left out: the
 /// shares of such directions are large, and their sum loses these digits.
@@ -42,7 +52,8 @@ impl Directions {
 
     /// Forgets the oldest ones.
     pub fn forget(&mut self) {
-        self.0.drain(..self.0.len().saturating_sub(MOST_KEPT));
+        let most = self.0.first().map_or(0, |moved| most_kept(moved.z.len()));
+        self.0.drain(..self.0.len().saturating_sub(most));
     }
 
     /// Adds a share of each of them to a change of all unknowns.

@@ -58,17 +58,13 @@ pub fn check(settings: &Settings) -> Result<(), Error> {
 /// loads lose their digits, as in `solve::far_obstacles`.
 const FAR: f64 = 1e6;
 
-/// Vectors of all unknowns that GMRES holds for each direction: a basis vector, or an image, and the direction with
-/// its product.
-const VECTORS_OF_DIRECTION: usize = 3;
-
 /// Other vectors of all unknowns.
 const VECTORS: usize = 60;
 
 /// Most bytes that [`solve`] takes for so many unknowns, beside what the bodies take.
 pub fn memory(unknowns: usize) -> u64 {
-    let directions = step::MOST_DIRECTIONS + directions::MOST_KEPT;
-    ((VECTORS_OF_DIRECTION * directions + VECTORS) * size_of::<f64>() * unknowns) as u64
+    let directions = step::MOST_DIRECTIONS + directions::most_kept(unknowns);
+    ((directions::VECTORS * directions + VECTORS) * size_of::<f64>() * unknowns) as u64
 }
 
 /// Solves a load case from the displacements `start` (the pairs stuck at their gaps if `None`).
