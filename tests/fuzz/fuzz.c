@@ -335,3 +335,10 @@ void check_status(int32_t status, int arguments)
         if ((unsigned char)*sentence < ' ') complain("a line feed in the sentence");
     }
 }
+
+void check_recovered(int32_t status, const double *values, int64_t count)
+{
+    if (status != 0 && !sane()) return;
+    REQUIRE(status == 0);
+    for (int64_t i = 0; i < count; i++) REQUIRE(isfinite(values[i]));
+}

@@ -102,6 +102,11 @@ signorini_extra *an_extra(int64_t n, int64_t pairs, int64_t cases);
 /* The statuses that a call may return. */
 void check_status(int32_t status, int arguments);
 
+/*
+ * What was recovered, 0 the status, is finite. Numbers that no structure has may overflow, which is refused.
+ */
+void check_recovered(int32_t status, const double *values, int64_t count);
+
 /* ---- judges, in quadruple precision ---- */
 
 /* A result of status 0 on the data of a condensed problem. */
