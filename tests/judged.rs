@@ -204,6 +204,16 @@ fn nothing_false_is_said() {
     assert!(wrong.is_empty(), "{wrong:#?}");
 }
 
+/// Problems of the long run of which "several" was said at a coarse tolerance, with a second answer that is next to no
+/// solution.
+#[test]
+fn answers_next_to_no_solution_are_no_second_one() {
+    for seed in [230_271, 414_145] {
+        let (problem, answer) = answered(&problem(seed));
+        assert!(faults(&problem, &answer).is_empty(), "seed {seed}: {answer:?}");
+    }
+}
+
 /// Sums, products, quotients and roots of twice the precision against integers of 100 bits, which are
 /// exact.
 #[test]

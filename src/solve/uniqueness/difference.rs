@@ -15,8 +15,16 @@ pub const MARGIN: f64 = 1e-6;
 /// How many times further apart than their errors two solutions are: the step is an estimate to first order.
 const PARTED: f64 = 1e3;
 
+/// Largest `eta` of a refined answer next to a solution: far above what rounding leaves where anything can be
+/// certified. At a coarse tolerance an answer may be next to none, on pieces whose solution is not on them.
+const AT_SOLUTION: f64 = 1e-8;
+
 /// Whether two refined answers are next to two solutions.
 pub fn are_parted(contact: &Contact<'_>, one: &Sharpened, two: &Sharpened) -> bool {
+    let is_solution = |answer: &Sharpened| answer.candidate.certificate(contact).holds(AT_SOLUTION);
+    if !is_solution(one) || !is_solution(two) {
+        return false;
+    }
     let (first, second) = (&one.candidate.d, &two.candidate.d);
     let root = contact.problem().unit_roots();
     let apart: Vec<f64> = first.iter().zip(second).map(|(one, two)| one - two).collect();
