@@ -14,6 +14,7 @@
 //! | `planar_piece` | the boundaries between the pieces in the plane | the linear path |
 //! | `proximal` | the step of one pair in a sweep | sweeps |
 //! | `local` | the exact solution of one pair, its block coupled | who solves pair by pair |
+//! | `held` | which states can be taken for decided, and how such a pair is held | `solve::undecided` |
 //! | `complementarity` | the law as complementarity of non-negative variables | Lemke's method, block pivoting |
 //! | `frozen` | a pair on a piece that is given, with bounds on all that is computed of it | proofs that a solution exists |
 //! | `reach` | which obstacles are too far away to matter | `solve::far_obstacles` |
@@ -44,6 +45,7 @@ pub mod ellipse;
 pub mod frictionless;
 mod frozen;
 mod gauge;
+mod held;
 mod local;
 mod natural_map;
 mod normal_map;
@@ -61,6 +63,7 @@ pub use contact::Contact;
 pub use contradiction::{exceed_gaps, first_penetration, pressing, without_friction};
 pub use ellipse::{Ellipse, Plane, Rule};
 pub(crate) use frozen::{FrozenPair, Local};
+pub use held::Held;
 pub use natural_map::Violation;
 pub use planar_piece::{Exit, Planar};
 pub use reach::gaps_within_reach;

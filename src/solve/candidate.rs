@@ -63,6 +63,13 @@ pub struct Effort {
     pub damping: f64,
 }
 
+impl Effort {
+    /// The effort of so many linear systems.
+    pub fn of_systems(factorisations: u64) -> Self {
+        Effort { factorisations, ..Effort::default() }
+    }
+}
+
 impl Candidate {
     /// A candidate with its forces.
     pub fn new(d: Vec<f64>, force: Vec<f64>, ending: Ending, effort: Effort) -> Self {

@@ -80,7 +80,7 @@ pub fn contact(
         holds
     };
     let pivoted = solve(&lcp, settings.tolerance, start, most, &is_accurate, monitor);
-    let effort = Effort { factorisations: pivoted.factorisations, ..Effort::default() };
+    let effort = Effort::of_systems(pivoted.factorisations);
     let d = opposite(&pivoted.x);
     // What has been measured last is nearly always what block pivoting ends on.
     let mut candidate = match measured.take().filter(|candidate: &Candidate| candidate.d == d) {

@@ -5,9 +5,11 @@
 //! to rounding. A few sweeps between a solution and its branches carry a zone's edge over many pairs,
 //! where Newton's step alone moves it by one: 3 to 11 systems on the bar on the plane up to 513 pairs,
 //! 5 to 24 without. There is no merit function: the steps may cycle, which is detected by the branches
-//! that were there before. Most cycles are slips that turn back from one system to the next. So there
-//! is a second start then: more sweeps before it, none between its systems, and a pair whose slip would
-//! turn back sticks first. On problems that need no second start these rules would only cost systems.
+//! that were there before, or by systems that no longer change fewer pairs. Most cycles are slips that turn back
+//! from one system to the next. So there are further starts then: more sweeps before them, none between their
+//! systems, and a pair whose slip would turn back sticks first. They are made on the pairs in question
+//! ([`crate::solve::undecided`]), or on all where these are not few. On problems that need no further start
+//! these rules would only cost systems.
 
 use super::linear_system::{LinearSystem, Singular};
 use crate::certificate::{eta_of, measure};
@@ -17,13 +19,21 @@ use crate::monitor::{Monitor, Stop};
 use crate::settings::Settings;
 use crate::solve::candidate::{Candidate, Effort, Ending};
 use crate::solve::sweeps::Sweeper;
+use crate::solve::undecided::{self, Ended};
 
 /// Systems of a start after which the steps count as a cycle: nearly all that converge take fewer.
 const MOST_SYSTEMS: usize = 16;
 
-/// Sweeps from the start to the branches of a second one, after a cycle. Of 332 hard problems with 257
+/// Systems without one that changes the branches of fewer pairs than all before, after which the steps count as a
+/// cycle: of 813 first starts on hard problems that converge 4 take more.
+const PATIENCE: usize = 4;
+
+/// Sweeps from the start to the branches of a second one. Of 332 hard problems with 257
 /// pairs 14 are left unsolved, with 50 sweeps 17 and with 30 26.
 const SWEEPS_OF_SECOND_START: u32 = 100;
+
+/// Sweeps before each start on the pairs in question.
+const SWEEPS_ON_UNDECIDED: [u32; 3] = [3, 20, 100];
 
 /// Sweeps between a solution and its branches: two carry a zone's edge far enough.
 const SWEEPS: u32 = 2;
@@ -46,24 +56,90 @@ pub fn solve(
         None => (contact.all_stick(), vec![0.0; contact.unknowns()]),
         Some(d) => (contact.branches(d, &contact.problem().force(d)), d.to_vec()),
     };
-    from_branches(contact, settings, branches, d, monitor)
+    let first = from_branches(contact, settings, branches, d.clone(), monitor);
+    if !matches!(first.ending, Ending::Cycle | Ending::Stalled(_)) {
+        return first;
+    }
+    let mut core = |part: &Contact<'_>, d: &[f64], monitor: &mut Monitor<'_>| {
+        on_undecided(part, settings, d, monitor)
+    };
+    let (ended, systems) = undecided::solve(contact, settings, &first.d, monitor, &mut core);
+    let systems = systems + first.effort.factorisations;
+    let further = match ended {
+        Ended::Settled(branches, d) => from_branches(contact, settings, branches, d, monitor),
+        Ended::Undivided => after_sweeps(contact, settings, &d, SWEEPS_OF_SECOND_START, monitor),
+        Ended::Lost | Ended::Stopped(_) => {
+            let mut first = first.with_effort(Effort::of_systems(systems));
+            if let Ended::Stopped(stop) = ended {
+                first.ending = Ending::Stopped(stop);
+            }
+            return first;
+        }
+    };
+    let systems = systems + further.effort.factorisations;
+    further.with_effort(Effort::of_systems(systems))
+}
+
+/// Solves the problem of some pairs from the displacements `d`, by several starts.
+fn on_undecided(
+    part: &Contact<'_>,
+    settings: &Settings,
+    d: &[f64],
+    monitor: &mut Monitor<'_>,
+) -> Candidate {
+    let mut systems = 0;
+    let mut candidate = None;
+    for sweeps in SWEEPS_ON_UNDECIDED {
+        let mut next = after_sweeps(part, settings, d, sweeps, monitor);
+        systems += next.effort.factorisations;
+        next.effort.factorisations = systems;
+        let ended = matches!(next.ending, Ending::Done | Ending::Stopped(_));
+        candidate = Some(next);
+        if ended {
+            break;
+        }
+    }
+    candidate.expect("there is a start")
 }
 
 /// Solves from given branches; `d` is returned unchanged if no system could be solved.
 pub fn from_branches(
     contact: &Contact<'_>,
     settings: &Settings,
-    mut branches: Vec<Branch>,
+    branches: Vec<Branch>,
     d: Vec<f64>,
     monitor: &mut Monitor<'_>,
 ) -> Candidate {
+    run(contact, settings, (branches, d), History::first(contact.unknowns()), monitor)
+}
+
+/// Solves from the branches on which the displacements `d` are after so many sweeps.
+fn after_sweeps(
+    contact: &Contact<'_>,
+    settings: &Settings,
+    d: &[f64],
+    sweeps: u32,
+    monitor: &mut Monitor<'_>,
+) -> Candidate {
+    let admissible = contact.admissible(d);
+    let force = contact.problem().force(&admissible);
+    let branches = swept(contact, (&admissible, &force), sweeps, monitor);
+    run(contact, settings, (branches, d.to_vec()), History::further(), monitor)
+}
+
+/// Goes on from branches by the rules of a start; `d` is returned unchanged if no system could be solved.
+fn run(
+    contact: &Contact<'_>,
+    settings: &Settings,
+    (mut branches, d): (Vec<Branch>, Vec<f64>),
+    mut history: History,
+    monitor: &mut Monitor<'_>,
+) -> Candidate {
     let problem = contact.problem();
-    let start = d.clone();
     let constant = problem.load().iter().map(|f| -f).collect();
     let mut system = LinearSystem::new(problem.stiffness(), true, contact.dim(), constant, d);
     let mut best = Best::at(&system, f64::INFINITY);
     let mut rows = Vec::with_capacity(contact.unknowns());
-    let mut history = History::new(contact.unknowns());
     let ending = loop {
         if let Err(stop) = monitor.step() {
             break Ending::Stopped(stop);
@@ -83,13 +159,13 @@ pub fn from_branches(
             best = Best::at(&system, 0.0);
             break refined.map_or_else(Ending::Stopped, |()| Ending::Done);
         }
-        if let Err(ending) = history.advance(contact, &start, &system, &mut branches, monitor) {
+        if let Err(ending) = history.advance(contact, &system, &mut branches, monitor) {
             // At a degenerate solution rounding may flip the active set forever.
             let solved = ending == Ending::Cycle && best.eta <= settings.tolerance;
             break if solved { Ending::Done } else { ending };
         }
     };
-    let effort = Effort { factorisations: system.factorisations, ..Effort::default() };
+    let effort = Effort::of_systems(system.factorisations);
     let mut candidate = Candidate::new(best.d, best.force, ending, effort);
     candidate.orientation = best.orientation;
     candidate
@@ -102,50 +178,56 @@ struct History {
     sweeps: u32,
     /// Sweeps after all systems but the first.
     later_sweeps: u32,
-    is_second_start: bool,
+    /// Whether a pair whose slip would turn back sticks first.
+    sticks_first: bool,
+    /// Fewest pairs whose branch a system has changed, and which system that was.
+    fewest: (usize, usize),
 }
 
 impl History {
-    fn new(unknowns: usize) -> Self {
+    /// Of a first start.
+    fn first(unknowns: usize) -> Self {
         let (sweeps, later_sweeps) = match unknowns <= FEW_UNKNOWNS {
             true => (FIRST_SWEEPS_OF_FEW, SWEEPS_OF_FEW),
             false => (SWEEPS, SWEEPS),
         };
-        History { seen: Vec::new(), sweeps, later_sweeps, is_second_start: false }
+        let fewest = (usize::MAX, 0);
+        History { seen: Vec::new(), sweeps, later_sweeps, sticks_first: false, fewest }
     }
 
-    /// Goes on to the branches that the solution of the last system selects, or to a second start.
+    /// Of a further one.
+    fn further() -> Self {
+        History { sweeps: 0, later_sweeps: 0, sticks_first: true, ..Self::first(0) }
+    }
+
+    /// Goes on to the branches that the solution of the last system selects.
     fn advance(
         &mut self,
         contact: &Contact<'_>,
-        start: &[f64],
         system: &LinearSystem<'_>,
         branches: &mut Vec<Branch>,
         monitor: &Monitor<'_>,
     ) -> Result<(), Ending> {
         let mut next = swept(contact, (&system.x, &system.residual), self.sweeps, monitor);
         self.sweeps = self.later_sweeps;
-        if self.is_second_start {
+        if self.sticks_first {
             let pairs = contact.pairs().iter().zip(branches.iter());
             for (next, (law, before)) in next.iter_mut().zip(pairs) {
                 *next = before.without_reversal(law, *next);
             }
         }
+        let changed = branches.iter().zip(&next).filter(|(before, next)| before != next).count();
+        let systems = self.seen.len();
+        if changed < self.fewest.0 {
+            self.fewest = (changed, systems);
+        }
         self.seen.push(std::mem::replace(branches, next));
-        let repeats = self.seen.contains(branches);
-        if !repeats && self.seen.len() < MOST_SYSTEMS {
-            return Ok(());
+        if self.seen.contains(branches) {
+            return Err(Ending::Cycle);
         }
-        if self.is_second_start {
-            let slow = Ending::Stalled("Newton's method does not converge");
-            return Err(if repeats { Ending::Cycle } else { slow });
+        if self.seen.len() >= MOST_SYSTEMS || systems >= self.fewest.1 + PATIENCE {
+            return Err(Ending::Stalled("Newton's method does not converge"));
         }
-        (self.sweeps, self.later_sweeps) = (0, 0);
-        self.is_second_start = true;
-        self.seen.clear();
-        let d = contact.admissible(start);
-        let force = contact.problem().force(&d);
-        *branches = swept(contact, (&d, &force), SWEEPS_OF_SECOND_START, monitor);
         Ok(())
     }
 }

@@ -78,7 +78,7 @@ impl Found<'_> {
 
     /// The candidate of equations that are a whole problem's.
     pub(super) fn into_candidate(self) -> Candidate {
-        let effort = Effort { factorisations: self.systems, ..Effort::default() };
+        let effort = Effort::of_systems(self.systems);
         let mut candidate = Candidate::new(self.d, self.force, self.ending, effort);
         candidate.orientation = self.orientation;
         candidate

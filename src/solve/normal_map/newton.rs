@@ -50,7 +50,7 @@ pub struct Ended {
 impl Ended {
     /// The candidate of equations that are a whole problem's.
     pub fn into_candidate(self) -> Candidate {
-        let effort = Effort { factorisations: self.systems, ..Effort::default() };
+        let effort = Effort::of_systems(self.systems);
         let mut candidate = Candidate::new(self.point.d, self.point.force, self.ending, effort);
         candidate.orientation = self.orientation;
         candidate

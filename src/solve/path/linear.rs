@@ -82,6 +82,7 @@ use crate::settings::Settings;
 use crate::solve::active_set;
 use crate::solve::candidate::{Candidate, Effort, Ending};
 use crate::solve::rigid_balance;
+use crate::solve::undecided::{self, Ended};
 
 /// Events of a walk from the swept start, for each pair: those that arrive nearly always take fewer, at most
 /// 42 on the hard families with 257 pairs.
@@ -135,6 +136,17 @@ const ATTEMPTS: [Attempt; 5] = [
     Attempt { sweeps: 0, start: Start::Pressed, events: LONG, age: CAREFUL_AGE },
 ];
 
+/// The same on the pairs in question, where each costs little: short walks from several starts end sooner than a
+/// long one.
+const ON_UNDECIDED: [Attempt; 6] = [
+    Attempt { sweeps: 3, start: Start::Swept, events: SHORT, age: AGE },
+    Attempt { sweeps: 20, start: Start::Swept, events: SHORT, age: AGE },
+    Attempt { sweeps: 80, start: Start::Swept, events: SHORT, age: AGE },
+    Attempt { sweeps: 200, start: Start::Swept, events: SHORT, age: AGE },
+    Attempt { sweeps: 0, start: Start::Sure, events: LONG, age: AGE },
+    Attempt { sweeps: 0, start: Start::Sure, events: LONG, age: CAREFUL_AGE },
+];
+
 /// Where attempts begin that are sure.
 const SURE: usize = 2;
 
@@ -150,12 +162,41 @@ pub fn linear(
     monitor: &mut Monitor<'_>,
 ) -> Candidate {
     if contact.is_coupled() {
-        return solve(contact, settings, start, &ATTEMPTS, monitor);
+        let candidate = on_undecided(contact, settings, start, monitor);
+        let is_settled = |candidate: &Candidate| candidate.is_settled(contact, settings.tolerance);
+        return match candidate {
+            Some(candidate) if is_settled(&candidate) => candidate,
+            _ => solve(contact, settings, start, &ATTEMPTS, monitor),
+        };
     }
     // With given thresholds every start is sure.
     let mut attempts = ATTEMPTS[SURE..].to_vec();
     attempts[0].sweeps = SWEEPS_OF_SURE;
     solve(contact, settings, start, &attempts, monitor)
+}
+
+/// Solves by walks on the pairs in question; `None` if these are not few, or if no walk arrives.
+fn on_undecided(
+    contact: &Contact<'_>,
+    settings: &Settings,
+    start: Option<&[f64]>,
+    monitor: &mut Monitor<'_>,
+) -> Option<Candidate> {
+    let zero = || vec![0.0; contact.unknowns()];
+    let d = start.map_or_else(zero, <[f64]>::to_vec);
+    let mut core = |part: &Contact<'_>, d: &[f64], monitor: &mut Monitor<'_>| {
+        solve(part, settings, Some(d), &ON_UNDECIDED, monitor)
+    };
+    let (ended, systems) = undecided::solve(contact, settings, &d, monitor, &mut core);
+    let mut candidate = match ended {
+        Ended::Settled(branches, d) => {
+            active_set::from_branches(contact, settings, branches, d, monitor)
+        }
+        Ended::Stopped(stop) => Candidate::of_displacements(contact, d, Ending::Stopped(stop)),
+        Ended::Undivided | Ended::Lost => return None,
+    };
+    candidate.effort.factorisations += systems;
+    Some(candidate)
 }
 
 fn solve(

@@ -1,0 +1,117 @@
+//! A problem parted into pairs whose state is decided and pairs whose state is in question.
+
+use super::InQuestion;
+use crate::law::{Contact, Held};
+use crate::linalg::elimination::Elimination;
+use crate::monitor::{Monitor, Stop};
+use crate::problem::ContactProblem;
+
+/// The contact problem of the pairs in question: open ones are eliminated, stuck ones are at their reference.
+pub struct Parted<'c> {
+    contact: &'c Contact<'c>,
+    elimination: Elimination,
+    /// Displacements of the stuck pairs, zero of others.
+    stuck: Vec<f64>,
+    /// Loads on the open pairs, and what is left on those in question.
+    on_open: Vec<f64>,
+    load: Vec<f64>,
+    gap: Vec<f64>,
+    parameters: Vec<f64>,
+    slip: Vec<f64>,
+}
+
+impl<'c> Parted<'c> {
+    /// Parts a problem by how each pair is held; `None` if the matrix of the open ones is not definite. `Err`: there
+    /// is no time for it.
+    pub fn new(
+        contact: &'c Contact<'c>,
+        held: &[Option<Held>],
+        monitor: &mut Monitor<'_>,
+    ) -> Result<Option<Self>, Stop> {
+        let (problem, dim) = (contact.problem(), contact.dim());
+        let (mut pairs, mut stuck) = (Vec::new(), vec![0.0; contact.unknowns()]);
+        let (mut open, mut kept) = (Vec::new(), Vec::new());
+        for (pair, held) in held.iter().enumerate() {
+            let components = dim * pair..dim * (pair + 1);
+            match held {
+                Some(Held::Open) => open.extend(components),
+                Some(Held::Stuck) => {
+                    stuck[components].copy_from_slice(&contact.pairs()[pair].reference()[..dim]);
+                }
+                None => {
+                    pairs.push(pair);
+                    kept.extend(components);
+                }
+            }
+        }
+        monitor.affords(Elimination::work(open.len(), kept.len()))?;
+        let lack = problem.force(&stuck);
+        let Some(elimination) = Elimination::new(problem.stiffness(), open, kept) else {
+            return Ok(None);
+        };
+        let on_open: Vec<f64> = elimination.dropped().iter().map(|&i| -lack[i]).collect();
+        let taken = elimination.transfer(&on_open);
+        let load =
+            elimination.kept().iter().zip(taken).map(|(&i, taken)| -lack[i] - taken).collect();
+        let of = |pair: &usize| problem.law().of_pair(*pair).iter().copied();
+        let slips = |&pair: &usize| (0..dim - 1).map(move |c| problem.reference_slip(pair, c));
+        Ok(Some(Parted {
+            load,
+            gap: pairs.iter().map(|&pair| problem.gap(pair)).collect(),
+            parameters: pairs.iter().flat_map(of).collect(),
+            slip: pairs.iter().flat_map(slips).collect(),
+            contact,
+            elimination,
+            stuck,
+            on_open,
+        }))
+    }
+
+    /// The problem of the pairs in question; `None` if its numbers are beyond the largest one.
+    pub fn problem(&self) -> Option<ContactProblem<'_>> {
+        let whole = self.contact.problem();
+        whole
+            .of_some_pairs(
+                (self.elimination.schur(), &self.load),
+                &self.gap,
+                whole.law().with_values(&self.parameters),
+                &self.slip,
+            )
+            .ok()
+    }
+
+    /// The components that belong to the pairs in question, of any vector of all components.
+    pub fn restrict(&self, values: &[f64]) -> Vec<f64> {
+        self.elimination.kept().iter().map(|&i| values[i]).collect()
+    }
+
+    /// All displacements from those of the pairs in question.
+    pub fn expand(&self, x: &[f64]) -> Vec<f64> {
+        let mut d = self.stuck.clone();
+        let on_open = self.elimination.follow(&self.on_open, x);
+        self.elimination.kept().iter().zip(x).for_each(|(&i, x)| d[i] = *x);
+        self.elimination.dropped().iter().zip(on_open).for_each(|(&i, x)| d[i] = x);
+        d
+    }
+
+    /// Puts the pairs that the displacements `d` contradict, held as they are, and the pairs next to them in
+    /// question; whether there are any. Branches of all pairs become those at `d`.
+    pub fn contradicted(&self, d: &[f64], question: &mut InQuestion) -> bool {
+        let next = self.contact.branches(d, &self.contact.problem().force(d));
+        let laws = self.contact.pairs().iter();
+        let wrong: Vec<usize> = laws
+            .zip(question.branches.iter().zip(&next))
+            .enumerate()
+            .filter(|(pair, (law, (before, after)))| {
+                !question.pairs[*pair] && law.held(**before) != law.held(**after)
+            })
+            .map(|(pair, _)| pair)
+            .collect();
+        let last = next.len() - 1;
+        for &pair in &wrong {
+            question.pairs[pair.saturating_sub(1)..=(pair + 1).min(last)].fill(true);
+        }
+        question.branches = next;
+        !wrong.is_empty()
+    }
+}
