@@ -63,7 +63,7 @@ const ROOMS: [(&str, &[&str]); 14] = [
 
 /// The files and folders of `solve`: each imports from those before it only. `lcp` stands beside
 /// those that are behind `lemke`.
-const SOLVERS: [&str; 23] = [
+const SOLVERS: [&str; 24] = [
     "memory",
     "outcome",
     "candidate",
@@ -72,6 +72,7 @@ const SOLVERS: [&str; 23] = [
     "smallest_lift",
     "remarks",
     "sweeps",
+    "undecided",
     "normal_map",
     "krylov",
     "active_set",

@@ -33,7 +33,7 @@ const PATIENCE: usize = 4;
 const SWEEPS_OF_SECOND_START: u32 = 100;
 
 /// Sweeps before each start on the pairs in question.
-const SWEEPS_ON_UNDECIDED: [u32; 3] = [3, 20, 100];
+const SWEEPS_ON_UNDECIDED: [u32; 2] = [3, 20];
 
 /// Sweeps between a solution and its branches: two carry a zone's edge far enough.
 const SWEEPS: u32 = 2;

@@ -74,6 +74,7 @@
 //! *Limits.* The number of events is not bounded by a polynomial. On meshes it is about the number of
 //! pairs whose state differs from that of the start, a few in a hundred pairs from swept starts.
 
+use super::linear_attempts::{ATTEMPTS, Attempt, ON_UNDECIDED, SURE, Start};
 use super::linear_start::{Random, Starts};
 use super::linear_walk::{End, Ground, Rules, Walk};
 use crate::law::{Contact, Planar};
@@ -84,71 +85,11 @@ use crate::solve::candidate::{Candidate, Effort, Ending};
 use crate::solve::rigid_balance;
 use crate::solve::undecided::{self, Ended};
 
-/// Events of a walk from the swept start, for each pair: those that arrive nearly always take fewer, at most
-/// 42 on the hard families with 257 pairs.
-const SHORT: f64 = 0.3;
-
-/// Events of a walk from a sure start, for each pair: those that arrived in tests took up to 4.
-const LONG: f64 = 10.0;
-
 /// Events that any walk may take.
 const LEAST: usize = 100;
 
-/// Changes after which a system is factorised again: a factorisation then costs about as much as the
-/// changes.
-const AGE: usize = 60;
-
-/// The same where rounding has spoilt a walk.
-const CAREFUL_AGE: usize = 4;
-
 /// Why there is no solution.
 const LOST: &str = "the path does not arrive";
-
-/// Where a walk starts.
-#[derive(Clone, Copy, PartialEq)]
-enum Start {
-    /// At the coordinates after the sweeps.
-    Swept,
-    /// At those that no other coordinates share their loads with.
-    Sure,
-    /// The same with all pairs closed.
-    Pressed,
-}
-
-/// A walk that is tried.
-#[derive(Clone, Copy)]
-struct Attempt {
-    /// Sweeps before it, beside those of earlier ones.
-    sweeps: usize,
-    start: Start,
-    events: f64,
-    age: usize,
-}
-
-/// A sweep costs a third of an event. `auto` starts at the best iterate of Newton's method, where a few
-/// sweeps are enough; where the path comes back from there, more of them are a start of another kind.
-/// Further ones spare the sure start a third of its events.
-const ATTEMPTS: [Attempt; 5] = [
-    Attempt { sweeps: 20, start: Start::Swept, events: SHORT, age: AGE },
-    Attempt { sweeps: 100, start: Start::Swept, events: SHORT, age: AGE },
-    Attempt { sweeps: 200, start: Start::Sure, events: LONG, age: AGE },
-    Attempt { sweeps: 0, start: Start::Sure, events: LONG, age: CAREFUL_AGE },
-    Attempt { sweeps: 0, start: Start::Pressed, events: LONG, age: CAREFUL_AGE },
-];
-
-/// The same on the pairs in question, where each costs little: short walks from several starts end sooner than a
-/// long one.
-const ON_UNDECIDED: [Attempt; 6] = [
-    Attempt { sweeps: 3, start: Start::Swept, events: SHORT, age: AGE },
-    Attempt { sweeps: 20, start: Start::Swept, events: SHORT, age: AGE },
-    Attempt { sweeps: 80, start: Start::Swept, events: SHORT, age: AGE },
-    Attempt { sweeps: 200, start: Start::Swept, events: SHORT, age: AGE },
-    Attempt { sweeps: 0, start: Start::Sure, events: LONG, age: AGE },
-    Attempt { sweeps: 0, start: Start::Sure, events: LONG, age: CAREFUL_AGE },
-];
-
-/// Where attempts begin that are sure.
-const SURE: usize = 2;
 
 /// Sweeps before the first of these, where none is made before.
 const SWEEPS_OF_SURE: usize = 100;

@@ -74,6 +74,7 @@ mod curve;
 mod curved;
 mod homotopy;
 mod linear;
+mod linear_attempts;
 mod linear_start;
 mod linear_system;
 mod linear_walk;

@@ -15,27 +15,20 @@
 //! are in question too, and the problem is solved again from there: this ends, as pairs only join.
 
 mod parted;
+mod question;
 
 use crate::law::Contact;
 use crate::law::branch::Branch;
 use crate::monitor::{Monitor, Stop};
 use crate::settings::Settings;
 use crate::solve::candidate::{Candidate, Ending};
-use crate::solve::sweeps::Sweeper;
 use parted::Parted;
-
-/// Sweeps before pairs are watched, and sweeps in which they are: a pair whose branch changes in these is in
-/// question.
-const SWEEPS: usize = 10;
-const WATCHED: usize = 10;
+use question::InQuestion;
 
 /// Largest part of the pairs that may be in question at first, and later: beyond it the whole problem costs no
 /// more.
 const MOST_AT_FIRST: f64 = 0.6;
 const MOST: f64 = 0.75;
-
-/// Fewer pairs that are decided are not worth their elimination.
-const WORTHWHILE: usize = 12;
 
 /// Only the states of the pairs are taken from a solution of the pairs in question; the last system of the whole
 /// problem finds the digits.
@@ -54,12 +47,6 @@ pub enum Ended {
     Lost,
     /// A budget is used up, or the callback cancelled.
     Stopped(Stop),
-}
-
-/// Which pairs are in question, and the branches of all.
-pub struct InQuestion {
-    pairs: Vec<bool>,
-    branches: Vec<Branch>,
 }
 
 /// Solves a problem from the displacements `d`, by `core` on the pairs in question. Returns the linear systems of
@@ -92,53 +79,9 @@ pub fn solve(
             _ if !candidate.is_settled(&part, settings.tolerance.max(ENOUGH)) => break,
             _ => d = parted.expand(&candidate.d),
         }
-        if !parted.contradicted(&d, &mut question) {
+        if !question.join_contradicted(contact, &d) {
             return (Ended::Settled(question.branches, d), systems);
         }
     }
     (Ended::Lost, systems)
-}
-
-impl InQuestion {
-    /// The pairs whose branch changes in sweeps from `d`, or that are not held on it; and the displacements after
-    /// the sweeps.
-    fn after_sweeps(contact: &Contact<'_>, d: &[f64], monitor: &Monitor<'_>) -> (Vec<f64>, Self) {
-        let mut d = contact.admissible(d);
-        let mut force = contact.problem().force(&d);
-        let sweeper = Sweeper::new();
-        let mut sweep = |d: &mut Vec<f64>| {
-            if !monitor.is_late() {
-                sweeper.sweep(contact, (&mut *d, &mut force), 1.0);
-            }
-            contact.branches(d, &force)
-        };
-        let mut branches = Vec::new();
-        for _ in 0..SWEEPS {
-            branches = sweep(&mut d);
-        }
-        let mut pairs = vec![false; branches.len()];
-        for _ in 0..WATCHED {
-            let next = sweep(&mut d);
-            for (is_in, (before, after)) in pairs.iter_mut().zip(branches.iter().zip(&next)) {
-                *is_in |= before != after;
-            }
-            branches = next;
-        }
-        for (is_in, (law, branch)) in pairs.iter_mut().zip(contact.pairs().iter().zip(&branches)) {
-            *is_in |= law.held(*branch).is_none();
-        }
-        (d, InQuestion { pairs, branches })
-    }
-
-    /// Whether at most `part` of the pairs is in question, not none, and enough are decided.
-    fn is_fewer_than(&self, part: f64) -> bool {
-        let (count, all) = (self.pairs.iter().filter(|is_in| **is_in).count(), self.pairs.len());
-        count > 0 && count as f64 <= part * all as f64 && all - count >= WORTHWHILE
-    }
-
-    /// How each pair is held; `None` of those in question.
-    fn held(&self, contact: &Contact<'_>) -> Vec<Option<crate::law::Held>> {
-        let pairs = contact.pairs().iter().zip(self.pairs.iter().zip(&self.branches));
-        pairs.map(|(law, (is_in, branch))| if *is_in { None } else { law.held(*branch) }).collect()
-    }
 }

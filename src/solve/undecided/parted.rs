@@ -1,6 +1,5 @@
 //! A problem parted into pairs whose state is decided and pairs whose state is in question.
 
-use super::InQuestion;
 use crate::law::{Contact, Held};
 use crate::linalg::elimination::Elimination;
 use crate::monitor::{Monitor, Stop};
@@ -92,26 +91,5 @@ impl<'c> Parted<'c> {
         self.elimination.kept().iter().zip(x).for_each(|(&i, x)| d[i] = *x);
         self.elimination.dropped().iter().zip(on_open).for_each(|(&i, x)| d[i] = x);
         d
-    }
-
-    /// Puts the pairs that the displacements `d` contradict, held as they are, and the pairs next to them in
-    /// question; whether there are any. Branches of all pairs become those at `d`.
-    pub fn contradicted(&self, d: &[f64], question: &mut InQuestion) -> bool {
-        let next = self.contact.branches(d, &self.contact.problem().force(d));
-        let laws = self.contact.pairs().iter();
-        let wrong: Vec<usize> = laws
-            .zip(question.branches.iter().zip(&next))
-            .enumerate()
-            .filter(|(pair, (law, (before, after)))| {
-                !question.pairs[*pair] && law.held(**before) != law.held(**after)
-            })
-            .map(|(pair, _)| pair)
-            .collect();
-        let last = next.len() - 1;
-        for &pair in &wrong {
-            question.pairs[pair.saturating_sub(1)..=(pair + 1).min(last)].fill(true);
-        }
-        question.branches = next;
-        !wrong.is_empty()
     }
 }
