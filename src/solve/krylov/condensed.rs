@@ -11,24 +11,20 @@
 //! take one solution with `C` held, and one product, for each component. Where nothing can be held `C` are all pairs,
 //! and products alone are taken. Pairs that penetrate then join `C`. Newton's method goes on from where the path ends.
 
-use std::borrow::Cow;
-
 use super::newton::{self, Ended, Goal};
 use super::point::{Displacements, Equations, Point};
 use crate::error::Error;
-use crate::linalg::matrix::Matrix;
+use crate::law::Contact;
 use crate::monitor::{Monitor, Stop};
-use crate::problem::{Bodies, Restriction};
-use crate::solve::candidate::Ending;
-use crate::solve::normal_map::Equations as DenseEquations;
-use crate::solve::path::curved_from;
+use crate::problem::{Bodies, ContactData, ContactProblem, Restriction};
+use crate::settings::Settings;
+use crate::solve::candidate::{Candidate, Ending};
+use crate::solve::memory::memory as memory_of_path;
+use crate::solve::path;
 
 /// Pairs beside those that are closed: a part of these, and a few.
 const MARGIN: f64 = 0.15;
 const FEW: usize = 2;
-
-/// Square matrices of the components of `C`: `S`, and the factors of two systems.
-const MATRICES: usize = 3;
 
 /// Bytes that are little beside what any program takes.
 const LITTLE: u64 = 1 << 25;
@@ -36,16 +32,17 @@ const LITTLE: u64 = 1 << 25;
 /// Solutions with the residual of the one before.
 const REFINEMENTS: usize = 2;
 
-/// Most components of `C` where `room` bytes are free.
-fn most_components(room: u64) -> usize {
-    let entry = (MATRICES * size_of::<f64>()) as u64;
-    (room / entry).isqrt() as usize
+/// Components of a pair in the plane.
+const PLANE: usize = 2;
+
+/// Bytes that so many components of `C` take.
+fn memory_of(components: usize) -> u64 {
+    (components as u64).pow(2) * size_of::<f64>() as u64 + memory_of_path(components)
 }
 
-/// Most bytes that are taken for so many unknowns where there is room for `room` bytes in any case.
+/// Most bytes that are taken for so many unknowns where there are `room` bytes in any case.
 pub fn memory(unknowns: usize, room: u64) -> u64 {
-    let all = (MATRICES * size_of::<f64>()) as u64 * (unknowns as u64).pow(2);
-    room.max(LITTLE.min(all))
+    room.max(LITTLE.min(memory_of(unknowns)))
 }
 
 /// Goes on from tries that have failed, `best` among them; `room` is the memory of what they took.
@@ -57,32 +54,28 @@ pub fn solve(
     goal: Goal,
     monitor: &mut Monitor<'_>,
 ) -> Result<Ended, Error> {
-    let most = most_components(memory(equations.load.len(), room));
+    let most = memory(equations.load.len(), room);
     let mut chosen = touching(equations, &best.point, bodies.can_hold());
-    let mut y = best.point.y.clone();
-    loop {
-        if chosen.len() * equations.contact.dim() > most {
-            return Ok(best);
-        }
-        let condensed = match Condensed::new(equations, bodies, &chosen, &best.point, monitor)? {
+    let mut start = best.point.at.clone();
+    while memory_of(chosen.len() * equations.contact.dim()) <= most {
+        let condensed = match Condensed::new(equations, bodies, &chosen, start, monitor)? {
             Ok(condensed) => condensed,
             Err(stop) => {
                 best.ending = Ending::Stopped(stop);
                 return Ok(best);
             }
         };
-        let own = chosen.iter().map(|&pair| y[pair]).collect();
-        let ended = curved_from(&condensed.equations(equations), own, goal.tolerance, monitor);
-        best.systems += ended.systems;
-        match ended.ending {
+        let Some(found) = condensed.by_path(equations, goal, monitor) else { break };
+        best.systems += found.effort.factorisations;
+        match found.ending {
             Ending::Done => {}
             Ending::Stopped(_) => {
-                best.ending = ended.ending;
-                return Ok(best);
+                best.ending = found.ending;
+                break;
             }
-            _ => return Ok(best),
+            _ => break,
         }
-        let at = condensed.with(equations, bodies, &ended.point.d)?;
+        let at = condensed.with(equations, bodies, &found.d)?;
         let point = equations.held_at(at, bodies)?;
         let closing: Vec<usize> = (0..point.pieces.len())
             .filter(|pair| point.pieces[*pair].closed && chosen.binary_search(pair).is_err())
@@ -91,14 +84,14 @@ pub fn solve(
             let held = Some(condensed.restriction).filter(|_| bodies.can_hold());
             let mut last = newton::solve(equations, bodies, point, held, goal, monitor)?;
             last.systems += best.systems;
-            let is_better =
-                !matches!(last.ending, Ending::Stalled(_)) || last.point.eta < best.point.eta;
-            return Ok(if is_better { last } else { best });
+            let is_settled = !matches!(last.ending, Ending::Stalled(_));
+            return Ok(if is_settled || last.point.eta < best.point.eta { last } else { best });
         }
-        y = point.y;
+        start = point.at;
         chosen.extend(closing);
         chosen.sort_unstable();
     }
+    Ok(best)
 }
 
 /// The pairs that are closed at a point, those next to closing, and those that carry forces when they are open; all
@@ -129,19 +122,19 @@ struct Condensed<'c> {
     /// Where their components are among all unknowns.
     places: Vec<usize>,
     restriction: Restriction,
-    /// All unknowns where these components are zero and the others without contact forces.
-    at: Displacements,
+    /// Displacements of all unknowns, from which it begins.
+    start: Displacements,
     matrix: Vec<f64>,
     load: Vec<f64>,
 }
 
 impl<'c> Condensed<'c> {
-    /// On `pairs`, from displacements near by; or why that was stopped.
+    /// On `pairs`, to begin from displacements of all unknowns; or why that was stopped.
     fn new(
         equations: &Equations<'_>,
         bodies: &mut dyn Bodies,
         pairs: &'c [usize],
-        near: &Point,
+        start: Displacements,
         monitor: &mut Monitor<'_>,
     ) -> Result<Result<Self, Stop>, Error> {
         let (dim, inner) = (equations.contact.dim(), equations.inner);
@@ -160,13 +153,12 @@ impl<'c> Condensed<'c> {
             return Ok(Err(stop));
         }
         let places: Vec<usize> = own.iter().map(|i| inner + i).collect();
-        let (at, matrix, load) = (near.at.clone(), Vec::new(), Vec::new());
-        let mut made = Condensed { pairs, places, restriction, at, matrix, load };
-        let size = made.places.len();
-        made.at = made.with(equations, bodies, &vec![0.0; size])?;
-        let forces = bodies.residual(&made.at.x, &made.at.low, equations.load)?;
+        let size = places.len();
+        let (matrix, load) = (vec![0.0; size * size], Vec::new());
+        let mut made = Condensed { pairs, places, restriction, start, matrix, load };
+        let at = made.with(equations, bodies, &vec![0.0; size])?;
+        let forces = bodies.residual(&at.x, &at.low, equations.load)?;
         made.load = made.places.iter().map(|&i| -forces[i]).collect();
-        made.matrix = vec![0.0; size * size];
         for j in 0..size {
             if let Err(stop) = monitor.goes_on() {
                 return Ok(Err(stop));
@@ -180,12 +172,12 @@ impl<'c> Condensed<'c> {
 
     /// Whether there are other unknowns.
     fn has_others(&self) -> bool {
-        self.places.len() < self.at.x.len()
+        self.places.len() < self.start.x.len()
     }
 
     /// The forces on the components where component `j` is moved by one.
     fn column(&self, bodies: &mut dyn Bodies, j: usize) -> Result<Vec<f64>, Error> {
-        let mut x = vec![0.0; self.at.x.len()];
+        let mut x = vec![0.0; self.start.x.len()];
         x[self.places[j]] = 1.0;
         let mut forces = bodies.product(&x)?;
         if self.has_others() {
@@ -204,7 +196,7 @@ impl<'c> Condensed<'c> {
         bodies: &mut dyn Bodies,
         d: &[f64],
     ) -> Result<Displacements, Error> {
-        let mut at = self.at.clone();
+        let mut at = self.start.clone();
         self.places.iter().zip(d).for_each(|(&i, d)| at.x[i] = *d);
         if self.has_others() {
             for _ in 0..=REFINEMENTS {
@@ -217,14 +209,46 @@ impl<'c> Condensed<'c> {
         Ok(at)
     }
 
-    /// The equations of the pairs.
-    fn equations(&self, whole: &Equations<'_>) -> DenseEquations<'_> {
-        let dim = whole.contact.dim();
-        let laws = self.pairs.iter().map(|&pair| whole.contact.pairs()[pair]).collect();
-        let size = self.places.len();
-        let matrix = Matrix::new(size, &self.matrix, size);
-        let load = Cow::Borrowed(self.load.as_slice());
-        DenseEquations::new(dim, matrix, load, Cow::Owned(laws), whole.unit)
+    /// The end of a path in the problem of the pairs; `None` if its data are none, as where rounding has left a
+    /// stiffness that is not positive.
+    fn by_path(
+        &self,
+        whole: &Equations<'_>,
+        goal: Goal,
+        monitor: &mut Monitor<'_>,
+    ) -> Option<Candidate> {
+        let problem = whole.contact.problem();
+        let (dim, law) = (problem.dim(), problem.law());
+        let gap: Vec<f64> = self.pairs.iter().map(|&pair| problem.gap(pair)).collect();
+        let each = law.parameters();
+        let of_law =
+            self.pairs.iter().flat_map(|pair| &law.values()[each * pair..each * (pair + 1)]);
+        let of_law: Vec<f64> = of_law.copied().collect();
+        let slips = self
+            .pairs
+            .iter()
+            .flat_map(|&pair| (0..dim - 1).map(move |c| problem.reference_slip(pair, c)));
+        let slips: Vec<f64> = slips.collect();
+        let data = ContactData {
+            dim,
+            pairs: self.pairs.len(),
+            stiffness: &self.matrix,
+            ld: self.places.len(),
+            load: &self.load,
+            gap: &gap,
+            law: law.with_values(&of_law),
+            reference_slip: Some(&slips),
+        };
+        let problem = ContactProblem::new(data).ok()?;
+        let (contact, start) = (Contact::new(&problem), self.start_of_pairs());
+        let settings = Settings { tolerance: goal.tolerance, ..Settings::default() };
+        let follow = if dim == PLANE { path::linear } else { path::curved };
+        Some(follow(&contact, &settings, Some(&start), monitor))
+    }
+
+    /// Where the pairs begin.
+    fn start_of_pairs(&self) -> Vec<f64> {
+        self.places.iter().map(|&i| self.start.x[i]).collect()
     }
 }
 

@@ -65,7 +65,7 @@ pub fn ends(
 }
 
 /// Follows paths from `y`, and from other starts if one fails, to a solution of the equations.
-pub fn from(
+fn from(
     equations: &Equations<'_>,
     y: Vec<Vector>,
     tolerance: f64,

@@ -78,5 +78,5 @@ mod linear_start;
 mod linear_system;
 mod linear_walk;
 
-pub use curved::{curved, ends, from as curved_from};
+pub use curved::{curved, ends};
 pub use linear::linear;
