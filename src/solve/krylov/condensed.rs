@@ -29,6 +29,9 @@ const FEW: usize = 2;
 /// Bytes that are little beside what any program takes.
 const LITTLE: u64 = 1 << 25;
 
+/// Most components of `C`: a system of the path takes a second, and it may take a thousand of them.
+const MOST_COMPONENTS: usize = 3000;
+
 /// Solutions with the residual of the one before.
 const REFINEMENTS: usize = 2;
 
@@ -55,9 +58,13 @@ pub fn solve(
     monitor: &mut Monitor<'_>,
 ) -> Result<Ended, Error> {
     let most = memory(equations.load.len(), room);
+    let fits = |pairs: &[usize]| {
+        let components = pairs.len() * equations.contact.dim();
+        components <= MOST_COMPONENTS && memory_of(components) <= most
+    };
     let mut chosen = touching(equations, &best.point, bodies.can_hold());
     let mut start = best.point.at.clone();
-    while memory_of(chosen.len() * equations.contact.dim()) <= most {
+    while fits(&chosen) {
         let condensed = match Condensed::new(equations, bodies, &chosen, start, monitor)? {
             Ok(condensed) => condensed,
             Err(stop) => {
