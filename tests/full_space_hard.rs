@@ -1,11 +1,12 @@
 //! Problems that are hard for Newton's method, in full space: friction up to 20, random stiffness, bodies that contact
-//! alone holds. All in the plane are solved, and nearly all in space.
+//! alone holds. All are solved.
 //!
 //! Theory: with a definite stiffness there is a solution for all coefficients, loads, gaps and previous slips, so that
 //! there is no share of failures that would be right; what is counted as solved is certified.
 
 mod common;
 
+use common::measures::{eta, rounding};
 use common::mesh::Stiffness;
 use common::plane_families::{SUPPORTS, Structure};
 use common::problems::{Case, Law, definite, loaded, uniform};
@@ -13,8 +14,9 @@ use fastrand::Rng;
 use signorini::reduce::ContactPairs;
 use signorini::{FrictionLaw, LoadCase, Model, Monitor, Settings, Solution, Status};
 
-/// A condensed stiffness as a sparse matrix without zeros: unknowns are the relative displacements.
-fn model(dim: usize, k: &[f64], settings: &Settings) -> Model {
+/// A stiffness as a sparse matrix without zeros: its first unknowns are the displacements of the pairs to fixed
+/// obstacles.
+fn model(dim: usize, count: usize, k: &[f64], settings: &Settings) -> Model {
     let size = k.len().isqrt();
     let mut sparse = Stiffness { size, col_start: vec![0], row: Vec::new(), values: Vec::new() };
     for j in 0..size {
@@ -24,14 +26,14 @@ fn model(dim: usize, k: &[f64], settings: &Settings) -> Model {
         }
         sparse.col_start.push(sparse.row.len() as i64);
     }
-    let count = size / dim;
+    let own = dim * count;
     let unit =
-        |c: usize| -> Vec<f64> { (0..size).map(|i| f64::from(u8::from(i % dim == c))).collect() };
+        |c: usize| -> Vec<f64> { (0..own).map(|i| f64::from(u8::from(i % dim == c))).collect() };
     let (normals, tangents) = (unit(0), unit(1));
     let pairs = ContactPairs {
         dim,
         count,
-        slaves: &(0..size).collect::<Vec<_>>(),
+        slaves: &(0..own).collect::<Vec<_>>(),
         master_start: &vec![0; count + 1],
         masters: &[],
         weights: &[],
@@ -43,7 +45,7 @@ fn model(dim: usize, k: &[f64], settings: &Settings) -> Model {
 
 fn solved(dim: usize, k: &[f64], case: &LoadCase<'_>, full_space: bool) -> Solution {
     let settings = Settings { full_space, ..Settings::default() };
-    let model = model(dim, k, &settings);
+    let model = model(dim, case.gap.len(), k, &settings);
     assert_eq!(model.is_unformed(), full_space);
     model.solve(case, &settings, None, &mut Monitor::new(&settings, None)).expect("a case")
 }
@@ -113,9 +115,6 @@ fn hard_families_in_the_plane() {
     assert_eq!(total.full, total.all, "problems in the plane that are not solved");
 }
 
-/// How many of 100 problems in space may end unsolved; 5 do with friction up to 20, none up to 1.
-const UNSOLVED: u64 = 7;
-
 /// A random definite problem of `dim` components.
 fn random(rng: &mut Rng, dim: usize, most: f64, condition: f64) -> Case {
     let pairs = rng.usize(1..=20);
@@ -145,10 +144,66 @@ fn random_stiffness() {
                     count.add(&dense, &full, &format!("{dim} {condition:e} {most} seed {seed}"));
                 }
                 count.told(&format!("random {dim}D, condition {condition:e}, mu to {most}"));
-                // In space no path stands behind Newton's method.
-                let unsolved = if dim == 2 { 0 } else { UNSOLVED };
-                assert!(count.all - count.full <= unsolved, "{} of {}", count.full, count.all);
+                assert_eq!(count.full, count.all, "problems that are not solved");
             }
         }
+    }
+}
+
+/// How many problems of each size in space. `SIGNORINI_HARD_SPACE` in the environment chooses another number.
+const IN_SPACE: u64 = 40;
+
+/// Pairs and nodes without contact, condition number, and friction of families where Newton's method alone ends
+/// without a solution in a part of the problems, or in nearly all of them.
+const FAMILIES: [(usize, usize, f64, f64); 4] =
+    [(12, 5, 1e4, 20.0), (20, 0, 1e4, 20.0), (8, 8, 1e6, 3.0), (30, 4, 1e2, 20.0)];
+
+/// All nodes with loads, the first ones with pairs too: solved in full space, and measured here on the matrix and the
+/// load that the condensed model has. Up to condition 1e4 the residual is what was asked for, and beyond it the
+/// rounding of the condensed matrix, `eps` times the condition number, may be added.
+#[test]
+fn hard_friction_in_space_is_solved() {
+    let count = std::env::var("SIGNORINI_HARD_SPACE");
+    let count = count.map_or(IN_SPACE, |count| count.parse().expect("a number of problems"));
+    for (pairs, others, condition, mu) in FAMILIES {
+        let (mut right, mut systems, mut solves) = (0, 0, 0);
+        for seed in 0..count {
+            let mut rng = Rng::with_seed(seed);
+            let k = definite(&mut rng, 3 * (pairs + others), condition);
+            let all = loaded(&mut rng, 3, k, Law::Coulomb(vec![mu; pairs + others]));
+            let friction = vec![mu; pairs];
+            let slip = all.slip.as_ref().map(|slip| slip[..2 * pairs].to_vec());
+            let case = LoadCase {
+                load: &all.f,
+                prescribed: None,
+                gap: &all.gap[..pairs],
+                law: FrictionLaw::Coulomb(&friction),
+                reference_slip: slip.as_deref(),
+            };
+            let full = solved(3, &all.k, &case, true);
+            let condensed = model(3, pairs, &all.k, &Settings::default());
+            let judge = Case {
+                dim: 3,
+                pairs,
+                k: condensed.stiffness().to_vec(),
+                f: condensed.condensed_load(&all.f, None).expect("a load"),
+                gap: all.gap[..pairs].to_vec(),
+                law: Law::Coulomb(friction.clone()),
+                slip: slip.clone(),
+            };
+            let allowed = 1e-10 + rounding(&judge, &full.d) + f64::EPSILON * condition;
+            let is_solved = full.status == Status::Solved && eta(&judge, &full.d) <= allowed;
+            if !is_solved {
+                println!("{pairs} pairs, seed {seed}: {}", full.message);
+            }
+            right += u64::from(is_solved);
+            systems += full.iterations;
+            solves += full.outer_iterations;
+        }
+        println!(
+            "{pairs} pairs, {others} other nodes, condition {condition:e}, mu {mu}: {right} of {count} solved; \
+             {systems} systems, {solves} solves"
+        );
+        assert_eq!(right, count);
     }
 }

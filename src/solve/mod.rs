@@ -2,7 +2,7 @@
 //! What is called a solution is decided in `candidate`, by the certificate alone.
 //!
 //! ```text
-//! memory ← outcome ← candidate ← condense ← rigid_balance ← smallest_lift ← remarks ← sweeps ← undecided ← normal_map ← krylov ← active_set ← path ← lemke ← uniqueness ← dispatch ← auto ← escape_motion ← far_obstacles ← dependent ← flexibility ← existence ← mod
+//! memory ← outcome ← candidate ← condense ← rigid_balance ← smallest_lift ← remarks ← sweeps ← undecided ← normal_map ← active_set ← path ← krylov ← lemke ← uniqueness ← dispatch ← auto ← escape_motion ← far_obstacles ← dependent ← flexibility ← existence ← mod
 //!                                                                                   └──── lcp ────────────────────────┘
 //! ```
 //!

@@ -2,6 +2,7 @@
 //! (`law::normal_map`) with products and solutions only (D. A. Knoll and D. E. Keyes, *Jacobian-free
 //! Newton-Krylov methods*, J. Comput. Phys. 193 (2004) 357-397, for the family).
 
+mod condensed;
 mod counted;
 mod directions;
 mod newton;
@@ -63,8 +64,17 @@ const VECTORS: usize = 60;
 
 /// Most bytes that [`solve`] takes for so many unknowns, beside what the bodies take.
 pub fn memory(unknowns: usize) -> u64 {
+    condensed::memory(unknowns, memory_of_steps(unknowns)) + vectors(VECTORS, unknowns)
+}
+
+/// Most bytes of the directions of a step, which later ways to a solution have for themselves.
+fn memory_of_steps(unknowns: usize) -> u64 {
     let directions = step::MOST_DIRECTIONS + directions::most_kept(unknowns);
-    ((directions::VECTORS * directions + VECTORS) * size_of::<f64>() * unknowns) as u64
+    vectors(directions::VECTORS * directions, unknowns)
+}
+
+fn vectors(count: usize, unknowns: usize) -> u64 {
+    (count * size_of::<f64>() * unknowns) as u64
 }
 
 /// Solves a load case from the displacements `start` (the pairs stuck at their gaps if `None`).
@@ -161,8 +171,14 @@ fn from(
     if fails(&best) && best.point.merit.is_finite() && equations.contact.is_coupled() {
         best = thresholds::solve(equations, bodies, at, best, goal, monitor)?;
     }
-    match fails(&best) && best.point.merit.is_finite() && equations.contact.dim() == PLANE {
-        true => walk::solve(equations, bodies, best, goal, monitor),
+    if fails(&best) && best.point.merit.is_finite() && equations.contact.dim() == PLANE {
+        best = walk::solve(equations, bodies, best, goal, monitor)?;
+    }
+    match fails(&best) && best.point.merit.is_finite() {
+        true => {
+            let room = memory_of_steps(equations.load.len());
+            condensed::solve(equations, bodies, best, room, goal, monitor)
+        }
         false => Ok(best),
     }
 }
@@ -229,12 +245,15 @@ fn certified(
     settings: &Settings,
     ended: Option<Ended>,
 ) -> Result<Solution, Error> {
-    let (at, ending, systems) = match ended {
-        None => (at_rest, Ending::Done, 0),
-        Some(Ended { point: Point { at, .. }, ending, systems, .. }) => (at, ending, systems),
+    let (x, residual, ending, systems) = match ended {
+        None => {
+            let residual = bodies.residual(&at_rest.x, &at_rest.low, load)?;
+            (at_rest.x, residual, Ending::Done, 0)
+        }
+        Some(Ended { point: Point { at, residual, .. }, ending, systems, .. }) => {
+            (at.x, residual, ending, systems)
+        }
     };
-    let residual = bodies.residual(&at.x, &at.low, load)?;
-    let x = at.x;
     let certificate =
         measure_spread(contact, bodies, &x, &residual).with_rounding(settings.tolerance);
     let accuracy = format!("eta is {:.1e}", certificate.eta);

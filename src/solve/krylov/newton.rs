@@ -42,6 +42,9 @@ const FORCING_OF_ETA: f64 = 0.3;
 const CHANGED: f64 = 0.02;
 const DIRECTIONS: usize = 25;
 
+/// How often it goes on from a residual that is measured.
+const MOST_RENEWALS: u32 = 3;
+
 /// What is wanted, and the systems after which it is given up.
 #[derive(Clone, Copy)]
 pub struct Goal {
@@ -58,8 +61,37 @@ pub struct Ended {
     pub held: Option<Restriction>,
 }
 
-/// Solves from a point; `held` is what is held in the factor.
+/// Solves from a point; `held` is what is held in the factor. The residual of the last point is measured: where
+/// products are dear it is followed from step to step, has the rounding of all of them, and may hide what is left.
 pub fn solve(
+    equations: &Equations<'_>,
+    bodies: &mut dyn Bodies,
+    point: Point,
+    held: Option<Restriction>,
+    goal: Goal,
+    monitor: &mut Monitor<'_>,
+) -> Result<Ended, Error> {
+    let mut ended = follow(equations, bodies, point, held, goal, monitor)?;
+    if !is_followed(bodies) {
+        return Ok(ended);
+    }
+    let (mut before, mut renewals) = (f64::INFINITY, 0);
+    loop {
+        let Point { at, y, .. } = ended.point;
+        ended.point = equations.point(bodies, at, y, |_, _| None)?;
+        let eta = ended.point.eta;
+        let is_left = ended.ending == Ending::Done && eta > goal.tolerance && eta < before;
+        if !is_left || renewals == MOST_RENEWALS {
+            return Ok(ended);
+        }
+        (before, renewals) = (eta, renewals + 1);
+        let next = follow(equations, bodies, ended.point, ended.held, goal, monitor)?;
+        ended = Ended { systems: ended.systems + next.systems, ..next };
+    }
+}
+
+/// The same from a point whose residual is measured.
+fn follow(
     equations: &Equations<'_>,
     bodies: &mut dyn Bodies,
     point: Point,
@@ -105,6 +137,11 @@ pub fn solve(
     };
     ended.held = held;
     Ok(ended)
+}
+
+/// Whether residuals follow from those of the point before, without products.
+fn is_followed(bodies: &dyn Bodies) -> bool {
+    !bodies.has_cheap_products() && bodies.inner() == 0
 }
 
 /// The step of a system to a residual of the part `forcing`, with a new factor where the old one does not leave the
@@ -189,7 +226,7 @@ fn moved(
     };
     let at = point.at.moved(part, &step.moved.z);
     equations.point(bodies, at, y.collect(), |bodies, apart| {
-        if bodies.has_cheap_products() || bodies.inner() > 0 {
+        if !is_followed(bodies) {
             return None;
         }
         let mut residual = along(&point.residual, &step.moved.forces);

@@ -15,8 +15,8 @@ use crate::solve::rigid_balance;
 const PERTURBATION: f64 = 1e-7;
 
 /// How closely curves are followed, first and where that has failed.
-const EASY: Care = Care { deviation: 1.0 };
-const CAREFUL: Care = Care { deviation: 0.3 };
+const EASY: Care = Care { deviation: 0.3 };
+const CAREFUL: Care = Care { deviation: 0.1 };
 
 /// Attempts from starts at random, of the size of the loads, where those from near a solution and from
 /// zero have failed. One failed of 10,000 random problems up to condition number 1e6 without them.
