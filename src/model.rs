@@ -93,9 +93,10 @@ impl Model {
     /// As [`Self::sparse`], within the limits of `monitor` on memory and time, with its callback. If the
     /// condensed matrix needs more memory than is allowed, or if [`Settings::full_space`] is set, the model is in
     /// full space: nothing is condensed, and load cases are solved by products and solutions with the sparse
-    /// matrix; pairs that depend on each other are condensed all the same. A condensation is done in the host's `order` of elimination if there is one: each degree of freedom once, the first to be eliminated
-    /// first. Fixed ones, slaves and the contact are left out of it; degrees of freedom with the same
-    /// neighbours stay together.
+    /// matrix; pairs that depend on each other are condensed all the same. A condensation is done in the host's
+    /// `order` of elimination if there is one: each degree of freedom once, the first to be eliminated first. Fixed
+    /// ones, slaves and the contact are left out of it; degrees of freedom with the same neighbours stay together.
+    /// The [`crate::Workers`] of `monitor` share the factorisation.
     ///
     /// # Errors
     /// As [`Self::sparse`]; an order that is no permutation ([`Argument::Order`]); [`Error::Stopped`].
@@ -106,9 +107,9 @@ impl Model {
         order: Option<&[usize]>,
         monitor: &mut Monitor<'_>,
     ) -> Result<Self, Error> {
-        let full_space = monitor.wants_full_space();
+        let (full_space, workers) = (monitor.wants_full_space(), monitor.workers());
         let ask = &mut |share, memory| monitor.reducing(share, memory);
-        let control = Control { order, full_space, ask };
+        let control = Control { order, full_space, workers, ask };
         let made = SparseReduction::controlled(matrix, fixed, pairs, control)?;
         let reduction = Box::new(made);
         Model { dim: pairs.dim, pairs: pairs.count, reduction }.checked()
