@@ -40,6 +40,7 @@ const ROOMS: [(&str, &[&str]); 15] = [
             "file",
             "certificate",
             "solve",
+            "workers",
         ],
     ),
     (

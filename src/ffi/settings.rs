@@ -114,11 +114,10 @@ pub struct SignoriniSettings {
     /// signals. If the system refuses memory to a thread that begins, the process may end.
     /// signorini_model_solve of several cases: each thread has a part of them in a row, and takes
     /// the memory that signorini_model_memory tells; memory_limit is that of one. The same number
-    /// gives the same bits. A call with a callback or with SIGNORINI_START_PREVIOUS, and a model
-    /// that forms no condensed matrix, has one thread.
-    /// signorini_model_new_sparse_within: the threads, of which 64 are the most, share the
-    /// factorisation. Any number gives the same bits. Each takes 8 bytes for each unknown and up to
-    /// 1 MB more. All other calls have one thread.
+    /// gives the same bits. A call with a callback or with SIGNORINI_START_PREVIOUS has one thread.
+    /// signorini_model_new_sparse_within, and signorini_model_solve on a model in full space: the
+    /// threads, of which 64 are the most, share each factorisation. Any number gives the same bits.
+    /// Each takes 8 bytes for each unknown and up to 1 MB more. All other calls have one thread.
     pub threads: i32,
 }
 

@@ -1,6 +1,6 @@
 /*
- * settings.threads in the reduction of a sparse matrix: the same bits on any number of threads, and a callback, on the
- * calling thread, that ends it in the middle. Helgrind does not watch this program, as it does not know the atomic
+ * settings.threads in the factorisations of a sparse matrix: the same bits on any number of threads, and a callback, on
+ * the calling thread, that ends a reduction in the middle. Helgrind does not watch this program, as it does not know the atomic
  * numbers by which Rust's threads wait for each other; ThreadSanitizer does: tests/thread_sanitizer.sh.
  */
 
@@ -71,6 +71,28 @@ static void same_bits(const lattice *l)
     }
 }
 
+/* In full space each load case factorises anew. */
+static void full_space(const lattice *l)
+{
+    static answer one, other;
+    for (int32_t threads = 1; threads <= 3; threads++) {
+        answer *a = threads == 1 ? &one : &other;
+        signorini_model *model = NULL;
+        signorini_settings settings;
+        CHECK_STATUS(signorini_settings_default(&settings, sizeof settings), 0);
+        settings.threads = threads;
+        settings.full_space = 1;
+        CHECK_STATUS(signorini_model_new_sparse_within(&l->K, l->n_fixed, l->fixed, &l->pairs,
+                                                       &settings, &model), 0);
+        CHECK_STATUS(signorini_model_solve(model, 1, l->load, NULL, l->gap, SIGNORINI_LAW_COULOMB,
+                                           l->mu, NULL, &settings, a->d, a->F, a->state, NULL, NULL,
+                                           NULL), 0);
+        CHECK_STATUS(signorini_model_recover(model, l->load, NULL, a->d, a->u), 0);
+        signorini_model_free(model);
+        CHECK(memcmp(&one, a, sizeof one) == 0);
+    }
+}
+
 static void ended(const lattice *l)
 {
     const double shares[] = {1e-9, 0.3, 0.6, 2};
@@ -110,6 +132,7 @@ int main(void)
 {
     lattice l = lattice_new(EDGE);
     same_bits(&l);
+    full_space(&l);
     ended(&l);
     indefinite(&l);
     lattice_free(&l);

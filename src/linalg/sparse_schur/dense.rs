@@ -56,8 +56,9 @@ pub fn scattered(
     square: bool,
 ) {
     for (j, product) in product.chunks_exact(count).enumerate() {
-        let mut target = target.as_mut().col_mut(column(j));
         let first = if square { j } else { 0 };
+        let target = target.as_mut().col_mut(column(j)).try_as_col_major_mut();
+        let target = target.expect("columns are contiguous").as_slice_mut();
         for (i, product) in product.iter().enumerate().skip(first) {
             target[row(i)] -= product;
         }

@@ -248,9 +248,9 @@ impl Reduction for SparseReduction {
 }
 
 impl UnformedReduction for SparseReduction {
-    fn bodies(&self) -> Box<dyn Bodies + '_> {
+    fn bodies<'a>(&'a self, workers: &'a dyn Workers) -> Box<dyn Bodies + 'a> {
         match &self.engine {
-            Engine::FullSpace(space) => Box::new(space.in_use()),
+            Engine::FullSpace(space) => Box::new(space.in_use(workers)),
             Engine::Condensed(_) => unreachable!("a condensed stiffness is formed"),
         }
     }
@@ -298,7 +298,7 @@ impl Engine {
             }
             asked.begin_anew();
         }
-        FullSpace::new(matrix, parts.inner, parts.dim, asked)
+        FullSpace::new(matrix, parts.inner, parts.dim, parts.workers, asked)
             .map(|space| Engine::FullSpace(Box::new(space)))
     }
 }
