@@ -415,9 +415,9 @@ int32_t signorini_model_new_two_body(int32_t dim, int64_t pairs, const double *K
 
 /**
  * As signorini_model_new_sparse, with settings of which it takes progress, user, time_limit,
- * memory_limit and full_space. The callback is told the share that is done and, before memory is
- * taken, how much is needed. The choice of the order, before that, asks nobody. After a call that
- * was ended nothing is held, and your arrays are as before.
+ * memory_limit, full_space and threads. The callback is told the share that is done and, before
+ * memory is taken, how much is needed. The choice of the order, before that, asks nobody. After a
+ * call that was ended nothing is held, and your arrays are as before.
  *
  * If the condensed matrix needs more than memory_limit, or settings->full_space is set, the model
  * is in full space: no condensed matrix is formed. Load cases are solved by Newton's method with
@@ -1379,12 +1379,14 @@ struct signorini_settings {
      */
     int32_t full_space;
     /**
-     * Threads of a signorini_model_solve of several cases, each a part of them in a row; default 1,
-     * and 0: 1. Each takes the memory that signorini_model_memory tells; memory_limit is that of
-     * one. The same number gives the same bits. Threads end before the call does, and get no
-     * signals. A call with a callback or with SIGNORINI_START_PREVIOUS, and a model that forms no
-     * condensed matrix, has one thread; so have all other calls. If the system refuses memory to a
-     * thread that begins, the process may end.
+     * Most threads of a call; default 1, and 0: 1. Threads end before the call does, and get no
+     * signals. If the system refuses memory to a thread that begins, the process may end.
+     * signorini_model_solve of several cases: each thread has a part of them in a row, and takes
+     * the memory that signorini_model_memory tells; memory_limit is that of one. The same number
+     * gives the same bits. A call with a callback or with SIGNORINI_START_PREVIOUS has one thread.
+     * signorini_model_new_sparse_within, and signorini_model_solve on a model in full space: the
+     * threads, of which 64 are the most, share each factorisation. Any number gives the same bits.
+     * Each takes 8 bytes for each unknown and up to 1 MB more. All other calls have one thread.
      */
     int32_t threads;
 };

@@ -124,6 +124,8 @@ mod shortage;
 mod solve;
 #[forbid(unsafe_code)]
 pub mod surface;
+#[forbid(unsafe_code)]
+mod workers;
 
 pub use error::{Argument, Error, Limit, Message};
 pub use law::State;
@@ -138,3 +140,4 @@ pub use solve::{
     Errors, Escape, Existence, Fallback, LcpSolution, Remarks, SecondSolution, Solution, Status,
     Uniqueness, memory, memory_flexibility, solve, solve_flexibility, solve_lcp,
 };
+pub use workers::{Alone, Workers};

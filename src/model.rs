@@ -34,6 +34,7 @@ use crate::solve::{
     CAUSES, NO_EQUILIBRIUM, Solution, Status, certify_unformed, check_start, solve,
     solve_dependent, solve_unformed,
 };
+use crate::workers::Alone;
 
 /// A structure, reduced to its contact pairs. It does not change: several threads may use it.
 pub struct Model {
@@ -90,12 +91,12 @@ impl Model {
         Model { dim: pairs.dim, pairs: pairs.count, reduction }.checked()
     }
 
-    /// As [`Self::sparse`], within the limits of `monitor` on memory and time, with its callback. If the
-    /// condensed matrix needs more memory than is allowed, or if [`Settings::full_space`] is set, the model is in
+    /// As [`Self::sparse`], within the limits of `monitor` on memory and time, with its callback and its threads. If
+    /// the condensed matrix needs more memory than is allowed, or if [`Settings::full_space`] is set, the model is in
     /// full space: nothing is condensed, and load cases are solved by products and solutions with the sparse
-    /// matrix; pairs that depend on each other are condensed all the same. A condensation is done in the host's `order` of elimination if there is one: each degree of freedom once, the first to be eliminated
-    /// first. Fixed ones, slaves and the contact are left out of it; degrees of freedom with the same
-    /// neighbours stay together.
+    /// matrix; pairs that depend on each other are condensed all the same. A condensation is done in the host's
+    /// `order` of elimination if there is one: each degree of freedom once, the first to be eliminated first. Fixed
+    /// ones, slaves and contact are left out; those with the same neighbours stay together.
     ///
     /// # Errors
     /// As [`Self::sparse`]; an order that is no permutation ([`Argument::Order`]); [`Error::Stopped`].
@@ -106,11 +107,10 @@ impl Model {
         order: Option<&[usize]>,
         monitor: &mut Monitor<'_>,
     ) -> Result<Self, Error> {
-        let full_space = monitor.wants_full_space();
+        let (full_space, workers) = (monitor.wants_full_space(), monitor.workers());
         let ask = &mut |share, memory| monitor.reducing(share, memory);
-        let control = Control { order, full_space, ask };
-        let made = SparseReduction::controlled(matrix, fixed, pairs, control)?;
-        let reduction = Box::new(made);
+        let control = Control { order, full_space, workers, ask };
+        let reduction = Box::new(SparseReduction::controlled(matrix, fixed, pairs, control)?);
         Model { dim: pairs.dim, pairs: pairs.count, reduction }.checked()
     }
 
@@ -193,8 +193,8 @@ impl Model {
     pub fn certify(&self, case: &LoadCase<'_>, d: &[f64]) -> Result<Certificate, Error> {
         check_vector(Argument::Start, "d", d, self.dim * self.pairs)?;
         if let Some(unformed) = self.reduction.unformed() {
-            return self
-                .on_bodies(unformed, case, |bodies, case| certify_unformed(bodies, case, d));
+            let by = (unformed, &Alone as _);
+            return self.on_bodies(by, case, |bodies, case| certify_unformed(bodies, case, d));
         }
         self.reduced((case, None), |problem| Ok(certify(problem, d)))
     }
@@ -224,7 +224,8 @@ impl Model {
     ) -> Result<Solution, Error> {
         if let Some(unformed) = self.reduction.unformed() {
             check_start("d", self.dim * self.pairs, start)?;
-            return self.on_bodies(unformed, case, |bodies, case| {
+            let by = (unformed, monitor.workers());
+            return self.on_bodies(by, case, |bodies, case| {
                 let mut solution = solve_unformed(bodies, case, settings, start, monitor)?;
                 solution.iterations = monitor.iterations();
                 Ok(solution)

@@ -6,6 +6,7 @@ use std::time::Instant;
 use crate::error::{Error, Limit};
 use crate::settings::Settings;
 use crate::shortage;
+use crate::workers::{Alone, Workers};
 
 /// What a progress callback receives.
 #[derive(Clone, Copy, Debug)]
@@ -58,6 +59,7 @@ pub struct Monitor<'a> {
     /// Operations in a second.
     rate: f64,
     progress: Option<&'a mut ProgressFn<'a>>,
+    workers: &'a dyn Workers,
 }
 
 impl<'a> Monitor<'a> {
@@ -78,7 +80,18 @@ impl<'a> Monitor<'a> {
             work: None,
             rate: OPERATIONS,
             progress,
+            workers: &Alone,
         }
+    }
+
+    /// The same with threads that share the reduction of a sparse matrix.
+    pub fn with_workers(self, workers: &'a dyn Workers) -> Self {
+        Monitor { workers, ..self }
+    }
+
+    /// Who shares work.
+    pub(crate) fn workers(&self) -> &'a dyn Workers {
+        self.workers
     }
 
     /// Whether a sparse matrix is to be left uncondensed.

@@ -12,15 +12,16 @@ use modules::{Modules, cycles};
 use sources::{Source, sources};
 
 /// Rooms that each room may import. `lib.rs` passes names on and is no room.
-const ROOMS: [(&str, &[&str]); 14] = [
+const ROOMS: [(&str, &[&str]); 15] = [
     ("error", &[]),
     ("shortage", &[]),
-    ("linalg", &["shortage"]),
+    ("workers", &[]),
+    ("linalg", &["shortage", "workers"]),
     ("settings", &["error"]),
-    ("monitor", &["error", "settings", "shortage"]),
+    ("monitor", &["error", "settings", "shortage", "workers"]),
     ("problem", &["error", "linalg"]),
     ("law", &["error", "linalg", "problem"]),
-    ("reduce", &["error", "linalg", "problem"]),
+    ("reduce", &["error", "linalg", "problem", "workers"]),
     ("surface", &["error", "linalg", "problem"]),
     ("file", &["error", "problem"]),
     ("certificate", &["error", "linalg", "problem", "law"]),
@@ -39,6 +40,7 @@ const ROOMS: [(&str, &[&str]); 14] = [
             "file",
             "certificate",
             "solve",
+            "workers",
         ],
     ),
     (
@@ -46,6 +48,7 @@ const ROOMS: [(&str, &[&str]); 14] = [
         &[
             "error",
             "shortage",
+            "workers",
             "linalg",
             "settings",
             "monitor",

@@ -52,7 +52,7 @@ if runs data_race || ! grep -q 'ThreadSanitizer: data race' "$work/data_race.out
     cat "$work/data_race.out"
     die "the race of tests/c/data_race.c was not found"
 fi
-for name in threads case_threads; do
+for name in threads case_threads reduction_threads; do
     runs "$name" || { cat "$work/$name.out"; die "$name failed"; }
     tail -n 1 "$work/$name.out"
 done

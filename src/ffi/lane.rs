@@ -8,6 +8,7 @@ use crate::model::{LoadCase, Series, Starts};
 use crate::monitor::ProgressFn;
 use crate::settings::Settings;
 use crate::solve::Solution;
+use crate::workers::Workers;
 
 /// Load cases that one thread solves, one after the other.
 pub(super) struct Lane<'m> {
@@ -42,10 +43,11 @@ pub(super) enum Start {
 }
 
 impl Work<'_> {
-    /// Solves them as the next ones of a series.
+    /// Solves them as the next ones of a series; `workers` share what is factorised in full space.
     pub(super) fn solve(
         &self,
         series: &mut Series<'_>,
+        workers: &dyn Workers,
         settings: &Settings,
         progress: Option<&mut ProgressFn<'_>>,
     ) -> Vec<Result<Solution, Error>> {
@@ -54,6 +56,6 @@ impl Work<'_> {
             Start::Given(given) => Starts::Given(given),
             Start::Previous => Starts::Previous(None),
         };
-        series.solve_cases(&self.cases, settings, starts, progress)
+        series.solve_cases_with(workers, &self.cases, settings, starts, progress)
     }
 }

@@ -15,6 +15,7 @@ mod args;
 mod cancellation;
 mod certify;
 mod condensed;
+mod crew;
 mod extra;
 mod flexibility;
 mod fortran;

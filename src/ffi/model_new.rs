@@ -124,9 +124,9 @@ pub unsafe extern "C" fn signorini_model_new_sparse(
 }
 
 /// As signorini_model_new_sparse, with settings of which it takes progress, user, time_limit,
-/// memory_limit and full_space. The callback is told the share that is done and, before memory is
-/// taken, how much is needed. The choice of the order, before that, asks nobody. After a call that
-/// was ended nothing is held, and your arrays are as before.
+/// memory_limit, full_space and threads. The callback is told the share that is done and, before
+/// memory is taken, how much is needed. The choice of the order, before that, asks nobody. After a
+/// call that was ended nothing is held, and your arrays are as before.
 ///
 /// If the condensed matrix needs more than memory_limit, or settings->full_space is set, the model
 /// is in full space: no condensed matrix is formed. Load cases are solved by Newton's method with

@@ -3,6 +3,7 @@
 use std::sync::{Mutex, PoisonError};
 
 use super::args::{Arrays, Output, size};
+use super::crew;
 use super::extra::{Extra, SignoriniExtra};
 use super::guard::{self, Failure};
 use super::lane::{Lane, Solved, Start, Work, stopped};
@@ -18,6 +19,7 @@ use crate::monitor::ProgressFn;
 use crate::problem::FrictionLaw;
 use crate::shortage;
 use crate::solve::Solution;
+use crate::workers::Alone;
 
 const SETTINGS: i32 = 9;
 const START: i32 = 10;
@@ -265,9 +267,12 @@ impl Block<'_> {
     fn next_of(&self, lanes: &mut [Lane<'_>], received: &Received) -> Vec<(usize, Solved)> {
         if let [lane] = lanes {
             let work = self.next_work(lane, received);
-            let mut progress = received.progress();
-            let progress = progress.as_mut().map(|progress| progress as &mut ProgressFn<'_>);
-            let solved = work.solve(&mut lane.series, &received.settings, progress);
+            let threads = if self.model.is_unformed() { received.threads } else { 1 };
+            let solved = crew::with(threads, |workers| {
+                let mut progress = received.progress();
+                let progress = progress.as_mut().map(|progress| progress as &mut ProgressFn<'_>);
+                work.solve(&mut lane.series, workers, &received.settings, progress)
+            });
             return (work.begin..).zip(solved.into_iter().map(Ok)).collect();
         }
         let work: Vec<_> = lanes.iter_mut().map(|lane| self.next_work(lane, received)).collect();
@@ -277,7 +282,7 @@ impl Block<'_> {
             guard::reserve_estimate(model.memory())?;
             guard::reserve_estimate(model.memory_of_cases(BLOCK))?;
             let mut series = series[lane].lock().unwrap_or_else(PoisonError::into_inner);
-            Ok(work[lane].solve(&mut series, settings, None))
+            Ok(work[lane].solve(&mut series, &Alone, settings, None))
         });
         let mut all = Vec::new();
         for (work, solved) in work.iter().zip(solved) {

@@ -3,6 +3,7 @@
 use libc::c_void;
 use std::ops::ControlFlow;
 
+use super::crew;
 use super::guard::{self, Failure};
 use super::structures;
 use crate::monitor::{Monitor, Progress, ProgressFn};
@@ -109,12 +110,14 @@ pub struct SignoriniSettings {
     /// Nonzero: signorini_model_new_sparse_within makes a full-space model, whatever memory_limit
     /// says. Default 0: only if the condensed matrix needs more than memory_limit.
     pub full_space: i32,
-    /// Threads of a signorini_model_solve of several cases, each a part of them in a row; default 1,
-    /// and 0: 1. Each takes the memory that signorini_model_memory tells; memory_limit is that of
-    /// one. The same number gives the same bits. Threads end before the call does, and get no
-    /// signals. A call with a callback or with SIGNORINI_START_PREVIOUS, and a model that forms no
-    /// condensed matrix, has one thread; so have all other calls. If the system refuses memory to a
-    /// thread that begins, the process may end.
+    /// Most threads of a call; default 1, and 0: 1. Threads end before the call does, and get no
+    /// signals. If the system refuses memory to a thread that begins, the process may end.
+    /// signorini_model_solve of several cases: each thread has a part of them in a row, and takes
+    /// the memory that signorini_model_memory tells; memory_limit is that of one. The same number
+    /// gives the same bits. A call with a callback or with SIGNORINI_START_PREVIOUS has one thread.
+    /// signorini_model_new_sparse_within, and signorini_model_solve on a model in full space: the
+    /// threads, of which 64 are the most, share each factorisation. Any number gives the same bits.
+    /// Each takes 8 bytes for each unknown and up to 1 MB more. All other calls have one thread.
     pub threads: i32,
 }
 
@@ -245,11 +248,13 @@ impl Received {
         self.warm_start == WarmStart::Given
     }
 
-    /// Does work that the settings limit and the caller's callback watches.
+    /// Does work that the settings limit, the caller's callback watches, and the caller's number of threads share.
     pub(super) fn monitored<T>(&self, work: impl FnOnce(&mut Monitor<'_>) -> T) -> T {
-        let mut progress = self.progress();
-        let progress = progress.as_mut().map(|progress| progress as &mut ProgressFn<'_>);
-        work(&mut Monitor::new(&self.settings, progress))
+        crew::with(self.threads, |workers| {
+            let mut progress = self.progress();
+            let progress = progress.as_mut().map(|progress| progress as &mut ProgressFn<'_>);
+            work(&mut Monitor::new(&self.settings, progress).with_workers(workers))
+        })
     }
 
     /// The caller's callback as a closure, if there is one.

@@ -4,6 +4,9 @@ use super::simd::{Simd, add_four, add_four_sizes, add_four_twice, vectorised};
 use super::tolerances::UNRESISTED;
 use super::vector::largest_of;
 
+/// Rows and columns of a square tile: what stands across its diagonal is read from cache.
+const TILE: usize = 32;
+
 /// A square matrix, column-major, in the caller's memory.
 #[derive(Clone, Copy, Debug)]
 pub struct Matrix<'a> {
@@ -136,14 +139,51 @@ impl<'a> Matrix<'a> {
         );
     }
 
+    /// Whether each entry below the diagonal is of size `most` at most and differs by `apart` at most from the one
+    /// across it, both times `root[i] root[j]`.
+    pub fn agrees_across(&self, root: &[f64], apart: f64, most: f64) -> bool {
+        vectorised(
+            Simd::new(),
+            #[inline(always)]
+            || self.tiles_agree(root, apart, most),
+        )
+    }
+
+    #[inline(always)]
+    fn tiles_agree(&self, root: &[f64], apart: f64, most: f64) -> bool {
+        let mut across = [[0.0; TILE]; TILE];
+        for j0 in (0..self.size).step_by(TILE) {
+            let columns = j0..self.size.min(j0 + TILE);
+            for i0 in (j0..self.size).step_by(TILE) {
+                let rows = i0..self.size.min(i0 + TILE);
+                for (k, i) in rows.clone().enumerate() {
+                    let upper = &self.column(i)[columns.clone()];
+                    upper.iter().zip(&mut across).for_each(|(upper, across)| across[k] = *upper);
+                }
+                for (j, across) in columns.clone().zip(&across) {
+                    let begin = i0.max(j + 1).min(rows.end);
+                    let lower = self.column(j)[begin..rows.end].iter();
+                    let both = lower.zip(&across[begin - i0..]).zip(&root[begin..]);
+                    let agree = both.fold(true, |agree, ((lower, upper), other)| {
+                        let scale = other * root[j];
+                        let near = (lower - upper).abs() <= apart * scale;
+                        agree & near & (lower.abs() <= most * scale)
+                    });
+                    if !agree {
+                        return false;
+                    }
+                }
+            }
+        }
+        true
+    }
+
     /// Visits each entry below the diagonal, `lower = at(i, j)`, with the one across it,
     /// `upper = at(j, i)`, until an error.
     pub fn pairs_across<E>(
         &self,
         visit: impl Fn(usize, usize, f64, f64) -> Result<(), E>,
     ) -> Result<(), E> {
-        // Square tiles: the transposed entry is read from cache.
-        const TILE: usize = 32;
         let n = self.size;
         for j0 in (0..n).step_by(TILE) {
             for i0 in (j0..n).step_by(TILE) {

@@ -6,6 +6,7 @@ use crate::linalg::elimination::Remembered;
 use crate::monitor::{Monitor, Progress, ProgressFn};
 use crate::settings::Settings;
 use crate::solve::{Solution, Status};
+use crate::workers::{Alone, Workers};
 
 /// Load cases of a block. A solve with one column waits for memory; from this number on it computes, and a
 /// block takes little memory beside the factor.
@@ -74,6 +75,18 @@ impl<'m> Series<'m> {
         cases: &[LoadCase<'_>],
         settings: &Settings,
         starts: Starts<'_>,
+        progress: Option<&mut ProgressFn<'_>>,
+    ) -> Vec<Result<Solution, Error>> {
+        self.solve_cases_with(&Alone, cases, settings, starts, progress)
+    }
+
+    /// As [`Self::solve_cases`], on threads that share what a model in full space factorises.
+    pub(crate) fn solve_cases_with(
+        &mut self,
+        workers: &dyn Workers,
+        cases: &[LoadCase<'_>],
+        settings: &Settings,
+        starts: Starts<'_>,
         mut progress: Option<&mut ProgressFn<'_>>,
     ) -> Vec<Result<Solution, Error>> {
         let n = self.model.dim * self.model.pairs;
@@ -89,7 +102,7 @@ impl<'m> Series<'m> {
                 };
                 let mut told = progress.as_mut().map(|tell| |now: &Progress| tell(now));
                 let told = told.as_mut().map(|tell| tell as &mut ProgressFn<'_>);
-                let monitor = &mut Monitor::new(settings, told);
+                let monitor = &mut Monitor::new(settings, told).with_workers(workers);
                 let solution = load.and_then(|load| {
                     let remembered = self.past.remembered.as_ref();
                     self.model.solve_condensed((case, load), remembered, (settings, start), monitor)

@@ -3,6 +3,7 @@
 use super::{BLOCK, Model};
 use crate::problem::Dependence;
 use crate::solve::{memory, memory_unformed};
+use crate::workers::Alone;
 
 /// Vectors of the host's size that each load case of a block takes while it is condensed or recovered.
 const VECTORS: u64 = 10;
@@ -11,7 +12,7 @@ impl Model {
     /// Most bytes that [`Self::solve`] takes beside the model.
     pub fn memory(&self) -> u64 {
         if let Some(unformed) = self.reduction.unformed() {
-            let inner = unformed.bodies().inner();
+            let inner = unformed.bodies(&Alone).inner();
             return unformed.factor_bytes() + memory_unformed(inner + self.dim * self.pairs);
         }
         // Dependent rows are solved with springs between bodies and contact.

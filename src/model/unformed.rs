@@ -7,6 +7,7 @@ use crate::error::{Argument, Error, index};
 use crate::problem::{Bodies, checked_dim, unknowns};
 use crate::reduce::{HostOperator, OperatorReduction, UnformedReduction};
 use crate::solve::UnformedCase;
+use crate::workers::Workers;
 
 impl Model {
     /// A structure of which the host gives products and solutions in relative displacements alone. Loads and
@@ -31,10 +32,10 @@ impl Model {
         Ok(Model { dim, pairs, reduction })
     }
 
-    /// Hands over bodies whose stiffness is not formed, with a load case.
+    /// Hands over bodies whose stiffness is not formed, and whose factorisations `workers` share, with a load case.
     pub(super) fn on_bodies<T>(
         &self,
-        unformed: &dyn UnformedReduction,
+        (unformed, workers): (&dyn UnformedReduction, &dyn Workers),
         case: &LoadCase<'_>,
         to: impl FnOnce(&mut dyn Bodies, &UnformedCase<'_>) -> Result<T, Error>,
     ) -> Result<T, Error> {
@@ -49,7 +50,7 @@ impl Model {
             law: case.law,
             reference_slip: slip.as_deref(),
         };
-        to(&mut *unformed.bodies(), &case)
+        to(&mut *unformed.bodies(workers), &case)
     }
 
     /// Whether the model forms no stiffness in relative displacements: it is in full space.

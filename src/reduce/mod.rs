@@ -23,11 +23,12 @@ pub use two_body::TwoBodyReduction;
 
 use crate::error::{Error, Message};
 use crate::problem::{Bodies, Dependence};
+use crate::workers::Workers;
 
 /// A reduction that changes variables and condenses nothing.
 pub trait UnformedReduction {
-    /// What a solver works on, for one load case at a time.
-    fn bodies(&self) -> Box<dyn Bodies + '_>;
+    /// What a solver works on, for one load case at a time. `workers` share its factorisations.
+    fn bodies<'a>(&'a self, workers: &'a dyn Workers) -> Box<dyn Bodies + 'a>;
 
     /// Loads of all unknowns of [`Self::bodies`] in a load case.
     fn all_loads(&self, load: &[f64], prescribed: Option<&[f64]>) -> Vec<f64>;

@@ -7,6 +7,7 @@ use super::{Reduction, UnformedReduction, motion};
 use crate::error::{Argument, Error, Message, entry};
 use crate::linalg::vector::{dot, first_not_finite, norm};
 use crate::problem::{Bodies, GoesOn, Restriction};
+use crate::workers::Workers;
 
 /// What a host offers. Vectors are relative displacements and forces of the pairs. What returns `Err` has failed;
 /// its number is told.
@@ -242,7 +243,7 @@ impl Reduction for OperatorReduction {
 }
 
 impl UnformedReduction for OperatorReduction {
-    fn bodies(&self) -> Box<dyn Bodies + '_> {
+    fn bodies<'a>(&'a self, _workers: &'a dyn Workers) -> Box<dyn Bodies + 'a> {
         Box::new(InUse { operator: self, held: Vec::new() })
     }
 

@@ -6,8 +6,10 @@
 //! that moves no pair with a force, and that the loads do not drive.
 
 use super::candidate::Candidate;
+use super::condense::FreeBlock;
 use super::rigid_balance::rigid_motions;
 use crate::law::{Contact, State, touching};
+use crate::linalg::pivoted_cholesky::pivoted_cholesky_work;
 use crate::linalg::tolerances::{NEGLIGIBLE, ROUNDING_OF_SUM};
 use crate::linalg::vector::{dot, largest_of, norm, norm_inf};
 use crate::monitor::Monitor;
@@ -54,16 +56,23 @@ pub fn without_idle_motion(
 
 /// Whether a frictionless solution may move by some motion without internal force: one that does not move the
 /// pairs that touch along their normals, pressed or not. No, if there is no time for the question.
+///
+/// Such a motion is one that the block of all other components does not resist, as `r . K r = 0` means `K r = 0`. That
+/// block is smaller than `K`, and what is held makes it regular where nothing moves freely.
 pub fn moves_freely(
     contact: &Contact<'_>,
     d: &[f64],
     states: &[State],
     monitor: &Monitor<'_>,
 ) -> bool {
-    let problem = contact.problem();
-    let rigid = rigid_motions(problem, &problem.unit_roots(), monitor);
-    let held = touching(contact, d, states).map(|pair| contact.dim() * pair);
-    !not_moving(held.collect(), rigid).is_empty()
+    let mut is_held = vec![false; contact.unknowns()];
+    touching(contact, d, states).for_each(|pair| is_held[contact.dim() * pair] = true);
+    let others: Vec<usize> = (0..is_held.len()).filter(|&i| !is_held[i]).collect();
+    if !monitor.has_time_for(pivoted_cholesky_work(others.len())) {
+        return false;
+    }
+    let block = FreeBlock::of_problem(contact.problem(), others);
+    block.is_some_and(|block| block.dependent().next().is_some())
 }
 
 /// Of rigid motions, each component times its `root`, an orthonormal basis of those that move no pair on

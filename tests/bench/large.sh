@@ -8,7 +8,8 @@
 #
 #     case,dim,unknowns,contact_dofs,library,blas,step,cpu_s,peak_mb,eta,status
 #
-# OUT/large.txt, with what the runs say of them, and the growth of time and memory: OUT/growth.md, and
+# OUT/threads.csv, the reduction on one and on two threads, as large_threads.c says; OUT/large.txt, with what the runs
+# say of them; and the growth of time and memory: OUT/growth.md, and
 # OUT/large.png where PYTHON, default python3, has matplotlib. A CASE is block, bar, square-NODES, or the nodes
 # along an edge of a cube; the default takes some minutes and 2 GB; 47 takes more than two minutes and 5.5 GB by
 # itself. Each case and library is a process of its own, so that peaks are those of the case. Times are those of
@@ -47,6 +48,11 @@ done
 cd "$root"
 say "building"
 cargo build --release --quiet --bench large_rows || die "the build failed"
+cargo build --release --quiet || die "the build failed"
+mkdir -p target/bench
+${CC:-cc} -O2 -std=c11 -D_GNU_SOURCE -Iinclude tests/bench/large_threads.c target/release/libsignorini.a \
+    -o target/bench/large_threads -lm -lpthread -ldl || die "large_threads.c does not compile"
+echo "case,dim,unknowns,contact_dofs,threads,wall_s,cpu_s,caller_cpu_s,bits" >"$out/threads.csv"
 echo "case,dim,unknowns,contact_dofs,library,blas,step,cpu_s,peak_mb,eta,status" >"$out/large.csv"
 : >"$out/large.txt"
 
@@ -55,7 +61,6 @@ headers=${SUITESPARSE:-/usr/include/suitesparse}
 sequential=${MUMPS_SEQ:-/usr/include/mumps_seq}
 if [ -f "$headers/cholmod.h" ] && [ -f "$sequential/mpi.h" ]; then
     peers=target/bench/large_peers
-    mkdir -p target/bench
     ${CC:-cc} -O2 -std=c11 -D_GNU_SOURCE -I"$headers" -I"$sequential" tests/bench/large_peers.c -o $peers \
         -ldmumps_seq -lcholmod -lm || die "large_peers.c does not compile"
 else
@@ -64,7 +69,6 @@ fi
 petsc=
 if command -v mpicc >/dev/null && pkg-config --exists petsc 2>/dev/null; then
     petsc=target/bench/large_petsc
-    mkdir -p target/bench
     # shellcheck disable=SC2046 # options
     OMPI_CC=${CC:-cc} mpicc -O2 -std=c11 -D_GNU_SOURCE $(pkg-config --cflags petsc) tests/bench/large_petsc.c -o $petsc \
         $(pkg-config --libs petsc) -lm || die "large_petsc.c does not compile"
@@ -76,8 +80,7 @@ kernels=default
 OMP_NUM_THREADS=1
 OPENBLAS_NUM_THREADS=1
 SIGNORINI_LARGE_MATRIX=$root/target/bench/large.matrix
-export OMP_NUM_THREADS OPENBLAS_NUM_THREADS
-[ -z "$peers$petsc" ] || export SIGNORINI_LARGE_MATRIX
+export OMP_NUM_THREADS OPENBLAS_NUM_THREADS SIGNORINI_LARGE_MATRIX
 
 # The kernels of OpenBLAS.
 set_kernels() {
@@ -105,6 +108,8 @@ for case in "$@"; do
     note "$rows"
     dim=3
     case $case in block | bar | square-*) dim=2 ;; esac
+    target/bench/large_threads "$SIGNORINI_LARGE_MATRIX" "$case" $dim 1 2 >>"$out/threads.csv" ||
+        die "$case on two threads did not end"
     for library in ${peers:+mumps cholmod} ${petsc:+petsc}; do
         for blas in $kernels; do
             say "$case, $library, kernels of OpenBLAS: $blas"

@@ -8,16 +8,18 @@
 
 #include "chains.h"
 #include "check.h"
+#include "lattice.h"
 
 #include "../../c_examples/3d/brick_mesh.h"
 
 #include <stdlib.h>
 
 enum { LOWER, UPPER };
-enum { MOST_DOFS = 1500, PLANE = 60, SPACE = 30, SMALL = 6, MANY = 34 };
+enum { MOST_DOFS = 1500, PLANE = 60, SPACE = 30, SMALL = 6, MANY = 34, CUBE = 8 };
 
 struct world {
     chain plane, space, small, loose;
+    lattice cube;
     double *ellipses, *cohesion, *more;
     double *lcp, q[2 * PLANE], w[2 * PLANE], z[2 * PLANE];
     struct brick_mesh *mesh;
@@ -115,6 +117,7 @@ static struct world *world_new(void)
     }
     for (int i = 0; i < 2 * PLANE; i++) world->q[i] = i % 3 ? -1 : 0.5;
     add_blocks(world);
+    world->cube = lattice_new(CUBE);
     return world;
 }
 
@@ -127,6 +130,7 @@ static void world_free(struct world *world)
     free(world->ellipses);
     free(world->cohesion);
     free(world->more);
+    lattice_free(&world->cube);
     brick_mesh_free(world->mesh);
     free(world);
 }
@@ -313,6 +317,21 @@ static int32_t two_threads(struct world *w)
     if (!status)
         status = signorini_model_solve(model, CASES, loads, NULL, gaps, SIGNORINI_LAW_COULOMB, w->mu,
                                        NULL, &settings, d, F, state, status_of_case, NULL, NULL);
+    signorini_model_free(model);
+    return status;
+}
+
+/* A reduction that two threads share. */
+static int32_t shared_reduction(struct world *w)
+{
+    const lattice *l = &w->cube;
+    signorini_model *model = NULL;
+    signorini_settings settings;
+    int32_t status = signorini_settings_default(&settings, sizeof settings);
+    settings.threads = 2;
+    if (!status)
+        status = signorini_model_new_sparse_within(&l->K, l->n_fixed, l->fixed, &l->pairs, &settings,
+                                                   &model);
     signorini_model_free(model);
     return status;
 }
@@ -557,6 +576,7 @@ static const struct scenario scenarios[] = {
     {"condensed model, three cases", condensed_model, 0, 0},
     {"load steps in a series", series, 0, 0},
     {"load cases on two threads", two_threads, 0, TWO_THREADS},
+    {"reduction on two threads", shared_reduction, 0, TWO_THREADS},
     {"two bodies", two_bodies, 0, 0},
     {"sparse model", sparse_model, 0, 0},
     {"sparse model, many cases", sparse_many, 0, DEEP},

@@ -8,6 +8,7 @@ use super::solve::{backward, forward};
 use super::watch::Watch;
 use crate::linalg::sparse_matrix::Csc;
 use crate::linalg::tolerances::NEGLIGIBLE;
+use crate::workers::Workers;
 
 /// The values of a factor.
 pub struct Values(Vec<f64>);
@@ -17,8 +18,8 @@ pub struct SparseCholesky(Plan);
 
 impl SparseCholesky {
     /// Analyses the pattern of `lower`, of which every diagonal entry is stored.
-    pub fn new(lower: &Csc, watch: &mut dyn Watch) -> Result<Self, Failure> {
-        Ok(SparseCholesky(Plan::new(lower, lower.ncols(), None, watch)?))
+    pub fn new(lower: &Csc, workers: &dyn Workers, watch: &mut dyn Watch) -> Result<Self, Failure> {
+        Ok(SparseCholesky(Plan::new(lower, lower.ncols(), None, workers, watch)?))
     }
 
     /// Bytes of a factorisation, with those of the matrix.
@@ -27,13 +28,23 @@ impl SparseCholesky {
     }
 
     /// Factorises a matrix of the pattern that must be definite; otherwise a motion says why it is not.
-    pub fn diagnosed(&self, mut lower: Csc, watch: &mut dyn Watch) -> Result<Values, Failure> {
-        Ok(Values(diagnosed(&self.0, &mut lower, watch)?.values))
+    pub fn diagnosed(
+        &self,
+        mut lower: Csc,
+        workers: &dyn Workers,
+        watch: &mut dyn Watch,
+    ) -> Result<Values, Failure> {
+        Ok(Values(diagnosed(&self.0, &mut lower, workers, watch)?.values))
     }
 
     /// Factorises a matrix of the pattern; `None` if it is not definite but for rounding.
-    pub fn factor(&self, lower: &Csc, watch: &mut dyn Watch) -> Result<Option<Values>, Failure> {
-        match factorised(&self.0.structure, &self.0.panel_of, lower, watch) {
+    pub fn factor(
+        &self,
+        lower: &Csc,
+        workers: &dyn Workers,
+        watch: &mut dyn Watch,
+    ) -> Result<Option<Values>, Failure> {
+        match factorised((&self.0.structure, &self.0.schedule), lower, workers, watch) {
             Ok(Numeric { values, weakest, .. }) => {
                 let definite = weakest.is_none_or(|(_, pivot)| pivot > NEGLIGIBLE);
                 Ok(definite.then_some(Values(values)))

@@ -1,52 +1,87 @@
 //! Dense kernels of the factorisation.
 
-use faer::dyn_stack::MemStack;
-use faer::linalg::cholesky::llt::factor::{LltError, LltRegularization, cholesky_in_place};
+use faer::dyn_stack::{MemStack, StackReq};
+use faer::linalg::cholesky::llt::factor::{
+    LltError, LltRegularization, cholesky_in_place, cholesky_in_place_scratch,
+};
 use faer::linalg::matmul::matmul;
 use faer::linalg::matmul::triangular::{self, BlockStructure};
 use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
 use faer::{Accum, MatMut, MatRef, Par, Spec};
 
-/// The first `many` columns of `factor * L Lᵀ` on and below the diagonal.
-pub fn trapezoid(
-    target: MatMut<'_, f64>,
-    accum: Accum,
-    l: MatRef<'_, f64>,
-    many: usize,
-    factor: f64,
-) {
-    let (top, bottom) = target.split_at_row_mut(many);
-    let (upper, lower) = l.split_at_row(many);
+/// Writes `a bᵀ`, column-major.
+pub fn product(target: &mut [f64], a: MatRef<'_, f64>, b: MatRef<'_, f64>) {
+    let target = MatMut::from_column_major_slice_mut(target, a.nrows(), b.nrows());
+    matmul(target, Accum::Replace, a, b.transpose(), 1.0, Par::Seq);
+}
+
+/// Subtracts `a bᵀ`.
+pub fn subtract_product(target: MatMut<'_, f64>, a: MatRef<'_, f64>, b: MatRef<'_, f64>) {
+    matmul(target, Accum::Add, a, b.transpose(), -1.0, Par::Seq);
+}
+
+/// Writes the lower triangle of `l lᵀ`, column-major.
+pub fn square(target: &mut [f64], l: MatRef<'_, f64>) {
+    let target = MatMut::from_column_major_slice_mut(target, l.nrows(), l.nrows());
+    lower_square(target, Accum::Replace, l, 1.0);
+}
+
+/// Subtracts the lower triangle of `l lᵀ`.
+pub fn subtract_square(target: MatMut<'_, f64>, l: MatRef<'_, f64>) {
+    lower_square(target, Accum::Add, l, -1.0);
+}
+
+fn lower_square(target: MatMut<'_, f64>, accum: Accum, l: MatRef<'_, f64>, factor: f64) {
     triangular::matmul(
-        top,
+        target,
         BlockStructure::TriangularLower,
         accum,
-        upper,
+        l,
         BlockStructure::Rectangular,
-        upper.transpose(),
+        l.transpose(),
         BlockStructure::Rectangular,
         factor,
         Par::Seq,
     );
-    let below = lower.nrows();
-    if below > 0 {
-        matmul(bottom, accum, lower, upper.transpose(), factor, Par::Seq);
+}
+
+/// Subtracts a product, column-major with `count` rows, from the entries `(row(i), column(j))` of a matrix; of a
+/// `square` one the lower triangle.
+pub fn scattered(
+    mut target: MatMut<'_, f64>,
+    product: &[f64],
+    count: usize,
+    row: impl Fn(usize) -> usize,
+    column: impl Fn(usize) -> usize,
+    square: bool,
+) {
+    for (j, product) in product.chunks_exact(count).enumerate() {
+        let first = if square { j } else { 0 };
+        let target = target.as_mut().col_mut(column(j)).try_as_col_major_mut();
+        let target = target.expect("columns are contiguous").as_slice_mut();
+        for (i, product) in product.iter().enumerate().skip(first) {
+            target[row(i)] -= product;
+        }
     }
 }
 
-/// Factorises the diagonal block of a panel and divides its rows by it. Returns the column of a pivot that
-/// is not positive.
-pub fn eliminate(panel: &mut [f64], width: usize, stack: &mut MemStack) -> Result<(), usize> {
-    let stride = panel.len() / width;
-    let panel = MatMut::from_column_major_slice_mut(panel, stride, width);
-    let (mut top, mut rows) = panel.split_at_row_mut(width);
+/// Working memory of [`root`].
+pub fn scratch(width: usize) -> StackReq {
+    cholesky_in_place_scratch::<f64>(width, Par::Seq, Spec::default())
+}
+
+/// Factorises a diagonal block. Returns the column of a pivot that is not positive.
+pub fn root(block: MatMut<'_, f64>, stack: &mut MemStack) -> Result<(), usize> {
     let regularization = LltRegularization::default();
-    match cholesky_in_place(top.as_mut(), regularization, Par::Seq, stack, Spec::default()) {
-        Ok(_) => {}
-        Err(LltError::NonPositivePivot { index }) => return Err(index),
+    match cholesky_in_place(block, regularization, Par::Seq, stack, Spec::default()) {
+        Ok(_) => Ok(()),
+        Err(LltError::NonPositivePivot { index }) => Err(index),
     }
-    solve_lower_triangular_in_place(top.as_ref(), rows.as_mut().transpose_mut(), Par::Seq);
-    Ok(())
+}
+
+/// Divides rows by the factor of their diagonal block.
+pub fn divide(factor: MatRef<'_, f64>, rows: MatMut<'_, f64>) {
+    solve_lower_triangular_in_place(factor, rows.transpose_mut(), Par::Seq);
 }
 
 /// Copies the lower triangle to the upper one.

@@ -9,17 +9,24 @@ use super::watch::Watch;
 use crate::linalg::null_vector::{resistance, weakest};
 use crate::linalg::sparse_matrix::Csc;
 use crate::linalg::tolerances::{NULL_VECTOR, REGULARISATION, SUSPICIOUS_PIVOT};
+use crate::workers::Workers;
 
 /// Factorises `matrix`, which stays as it is; or says what motion of the eliminated rows nothing resists, and
 /// leaves it with a larger diagonal.
-pub fn diagnosed(plan: &Plan, matrix: &mut Csc, watch: &mut dyn Watch) -> Result<Numeric, Failure> {
+pub fn diagnosed(
+    plan: &Plan,
+    matrix: &mut Csc,
+    workers: &dyn Workers,
+    watch: &mut dyn Watch,
+) -> Result<Numeric, Failure> {
     let structure = &plan.structure;
-    let (numeric, singular) = match factorised(structure, &plan.panel_of, matrix, watch) {
+    let parts = (structure, &plan.schedule);
+    let (numeric, singular) = match factorised(parts, matrix, workers, watch) {
         Ok(numeric) => (numeric, false),
         Err(Unfinished::Failed(failure)) => return Err(failure),
         Err(Unfinished::Pivot(_)) => {
             (0..structure.eliminated).for_each(|j| scale_diagonal(matrix, j, 1.0 + REGULARISATION));
-            match factorised(structure, &plan.panel_of, matrix, watch) {
+            match factorised(parts, matrix, workers, watch) {
                 Ok(numeric) => (numeric, true),
                 Err(Unfinished::Failed(failure)) => return Err(failure),
                 Err(Unfinished::Pivot(place)) => {

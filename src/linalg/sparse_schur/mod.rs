@@ -1,20 +1,25 @@
 //! Sparse Cholesky factorisation of `[A Bᵀ; B C]` that ends before the columns of `C`, and the Schur
-//! complement `S = C - B A⁻¹ Bᵀ`, on the calling thread.
+//! complement `S = C - B A⁻¹ Bᵀ`, on the threads of `Workers`, with the same bits on any number of them.
 //!
-//! With `A = L Lᵀ` the factor has the rows `B' = B L⁻ᵀ`, and `S = C - B' B'ᵀ` is accumulated in place while
-//! they are computed. Nothing of `S` is factorised, so that it may be singular. Loads `(a, c)` become
+//! With `A = L Lᵀ` the factor has the rows `B' = B L⁻ᵀ`, and `S = C - B' B'ᵀ` is accumulated in place. Nothing of `S` is factorised, so that it may be singular. Loads `(a, c)` become
 //! `c - B' y` with `L y = a`; and `Lᵀ x = y - B'ᵀ d` gives the eliminated unknowns.
 
 mod cholesky;
 mod dense;
 mod diagnosis;
+mod entries;
 mod failure;
 mod graph;
+mod making;
 mod numeric;
 mod order;
+mod outer;
+mod panel;
 mod plan;
+mod schedule;
 mod solve;
 mod structure;
+mod team;
 mod watch;
 
 pub use cholesky::{SparseCholesky, Values};
@@ -28,6 +33,7 @@ use super::free_motions::{self, Doubt, is_suspicious};
 use super::sparse_matrix::{Csc, diagonal};
 use super::unreduced::Unreduced;
 use crate::shortage;
+use crate::workers::Workers;
 use diagnosis::diagnosed;
 use numeric::Numeric;
 use structure::Structure;
@@ -66,11 +72,12 @@ impl SparseSchur {
         eliminated: usize,
         rank: Option<&[usize]>,
         look: Look,
+        workers: &dyn Workers,
         watch: &mut dyn Watch,
     ) -> Result<Self, Failure> {
-        let plan = Plan::new(&lower, eliminated, rank, watch)?;
+        let plan = Plan::new(&lower, eliminated, rank, workers, watch)?;
         answered(watch.announce(plan.bytes()))?;
-        Self::planned(plan, lower, look, watch)
+        Self::planned(plan, lower, look, workers, watch)
     }
 
     /// Factorises the matrix of which `plan` was made.
@@ -78,9 +85,10 @@ impl SparseSchur {
         plan: Plan,
         mut lower: Csc,
         look: Look,
+        workers: &dyn Workers,
         watch: &mut dyn Watch,
     ) -> Result<Self, Failure> {
-        let Numeric { values, schur, .. } = diagnosed(&plan, &mut lower, watch)?;
+        let Numeric { values, schur, .. } = diagnosed(&plan, &mut lower, workers, watch)?;
         let structure = plan.structure;
         let (eliminated, m) = (structure.eliminated, structure.kept());
         let mut found = SparseSchur { structure, values, schur, last: Mutex::new(None) };

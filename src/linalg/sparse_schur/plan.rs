@@ -2,32 +2,35 @@
 
 use super::failure::Failure;
 use super::numeric;
+use super::schedule::Schedule;
 use super::structure::Structure;
 use super::watch::Watch;
 use crate::linalg::sparse_matrix::Csc;
+use crate::workers::Workers;
 
 /// The order of elimination, the places of the entries, and the memory that they need.
 pub struct Plan {
     pub(super) structure: Structure,
-    pub(super) panel_of: Vec<usize>,
+    pub(super) schedule: Schedule,
     bytes: u64,
 }
 
 impl Plan {
     /// Of the symmetric matrix whose lower triangle is `lower`, of which the first rows are eliminated; `rank`, if
-    /// given, orders them.
+    /// given, orders them. `workers` will factorise.
     pub fn new(
         lower: &Csc,
         eliminated: usize,
         rank: Option<&[usize]>,
+        workers: &dyn Workers,
         watch: &mut dyn Watch,
     ) -> Result<Self, Failure> {
         let structure = Structure::new(lower, eliminated, rank, watch)?;
-        let panel_of = structure.panel_of_columns()?;
-        let update = structure.cost(&panel_of).update;
+        let schedule = Schedule::new(&structure)?;
         let matrix = lower.compute_nnz() * (size_of::<usize>() + size_of::<f64>());
-        let bytes = numeric::bytes(&structure, lower, update) + structure.bytes() + matrix;
-        Ok(Plan { structure, panel_of, bytes: bytes as u64 })
+        let numeric = numeric::bytes(&structure, lower, workers.lanes());
+        let bytes = numeric + structure.bytes() + schedule.bytes() + matrix;
+        Ok(Plan { structure, schedule, bytes: bytes as u64 })
     }
 
     /// Bytes of the factorisation, with those of the matrix.

@@ -171,38 +171,11 @@ impl Structure {
         self.rows(panel).partition_point(|&row| row < self.eliminated)
     }
 
-    /// What the factorisation will do and need.
-    pub fn cost(&self, panel_of: &[usize]) -> Cost {
-        let (mut operations, mut update) = (0.0, 0);
-        for d in 0..self.panels() {
-            let (rows, width) = (self.rows(d), self.columns(d).len());
-            let inner = self.inner_rows(d);
-            let mut first = 0;
-            while first < inner {
-                let end = self.columns(panel_of[rows[first]]).end;
-                let many = rows[first..inner].partition_point(|&row| row < end);
-                update = update.max((rows.len() - first) * many);
-                first += many;
-            }
-            let (below, width) = (rows.len() as f64, width as f64);
-            operations += width * (width * width / 3.0 + below * width + below * below);
-        }
-        Cost { operations, update }
-    }
-
     /// Bytes of the structure itself.
     pub fn bytes(&self) -> usize {
         let numbers = self.order.len() + self.row.len() + 3 * self.begin.len();
         numbers * size_of::<usize>()
     }
-}
-
-/// What a factorisation costs.
-pub struct Cost {
-    /// Multiplications and additions.
-    pub operations: f64,
-    /// Entries of the largest product that is made before it is subtracted.
-    pub update: usize,
 }
 
 fn symbolic(

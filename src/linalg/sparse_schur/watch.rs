@@ -22,31 +22,3 @@ pub fn go_on(watch: &mut dyn Watch) -> Result<(), Failure> {
 pub fn answered(answer: ControlFlow<()>) -> Result<(), Failure> {
     if answer.is_break() { Err(Failure::Stopped) } else { Ok(()) }
 }
-
-/// Asks after so many operations: some milliseconds.
-const OPERATIONS_BETWEEN: f64 = 3e8;
-
-/// Counts operations, and asks now and then.
-pub struct Work<'w> {
-    watch: &'w mut dyn Watch,
-    all: f64,
-    done: f64,
-    asked: f64,
-}
-
-impl<'w> Work<'w> {
-    /// Nothing is done of `all` operations.
-    pub fn new(watch: &'w mut dyn Watch, all: f64) -> Self {
-        Work { watch, all: all.max(1.0), done: 0.0, asked: 0.0 }
-    }
-
-    /// So many operations more are done.
-    pub fn did(&mut self, operations: f64) -> Result<(), Failure> {
-        self.done += operations;
-        if self.done - self.asked < OPERATIONS_BETWEEN {
-            return Ok(());
-        }
-        self.asked = self.done;
-        answered(self.watch.step((self.done / self.all).min(1.0)))
-    }
-}

@@ -1,20 +1,23 @@
-//! What a host may say about a reduction: its order of elimination, and whether to go on.
+//! What a host may say about a reduction: its order of elimination, its threads, and whether to go on.
 
 use std::ops::ControlFlow;
 
 use crate::error::{Argument, Error, Limit, entry, index};
 use crate::linalg::sparse_schur::Watch;
+use crate::workers::Workers;
 
 /// Is asked between steps whether to go on: the share of the work that is done, and the bytes that it needs
 /// in all, 0 before they are known.
 type Ask<'a> = dyn FnMut(f64, u64) -> Result<(), Error> + 'a;
 
-/// The order of elimination and who is asked.
+/// The order of elimination, who works and who is asked.
 pub struct Control<'a> {
     /// Each degree of freedom once, the first to be eliminated first; `None`: chosen.
     pub order: Option<&'a [usize]>,
     /// Whether no condensed matrix is to be formed.
     pub full_space: bool,
+    /// Who factorises.
+    pub workers: &'a dyn Workers,
     /// Asked between steps.
     pub ask: &'a mut Ask<'a>,
 }

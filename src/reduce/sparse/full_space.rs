@@ -13,6 +13,7 @@ use crate::linalg::sparse_matrix::{
 };
 use crate::linalg::sparse_schur::{Failure, SparseCholesky, Values, Watch, answered};
 use crate::problem::{Bodies, GoesOn, Restriction};
+use crate::workers::{Alone, Workers};
 
 /// Where bodies move freely with the components that are held, springs of this part of their units hold them in
 /// the factor, the first with which it exists. Solutions are approximate then.
@@ -43,15 +44,16 @@ impl FullSpace {
         matrix: Csc,
         inner: usize,
         dim: usize,
+        workers: &dyn Workers,
         watch: &mut dyn Watch,
     ) -> Result<Self, Failure> {
-        let cholesky = SparseCholesky::new(&matrix, watch)?;
+        let cholesky = SparseCholesky::new(&matrix, workers, watch)?;
         answered(watch.announce(factor_bytes(&cholesky, &matrix)))?;
         let units: Vec<f64> =
             (0..matrix.ncols()).map(|j| diagonal(&matrix, j).unwrap_or_default()).collect();
         let restriction = Restriction::all(dim, (matrix.ncols() - inner) / dim);
         let mut made = FullSpace { matrix, inner, dim, units, cholesky, kept: Mutex::new(None) };
-        let values = made.cholesky.diagnosed(made.restricted(&restriction, 0.0), watch)?;
+        let values = made.cholesky.diagnosed(made.restricted(&restriction, 0.0), workers, watch)?;
         let largest = made.units.iter().fold(0.0_f64, |most, unit| most.max(*unit));
         for unit in &mut made.units {
             *unit = if *unit > 0.0 { *unit } else { largest };
@@ -96,16 +98,16 @@ impl FullSpace {
         matrix
     }
 
-    /// A new user of the matrix.
-    pub(super) fn in_use(&self) -> InUse<'_> {
+    /// A new user of the matrix, whose factors `workers` share.
+    pub(super) fn in_use<'a>(&'a self, workers: &'a dyn Workers) -> InUse<'a> {
         let factor = self.kept.lock().unwrap_or_else(PoisonError::into_inner).take();
-        InUse { space: self, factor }
+        InUse { space: self, factor, workers }
     }
 
     /// `c - B A⁻¹ a` for each of the loads `(a, c)`, one behind the other: minus the forces on the components of
     /// `d`, all held.
     pub(super) fn condense(&self, loads: &[f64]) -> Result<Vec<f64>, Error> {
-        let mut user = self.in_use();
+        let mut user = self.in_use(&Alone);
         user.hold_all()?;
         let x = user.solve(loads)?;
         let (size, mut condensed) = (self.matrix.ncols().max(1), Vec::new());
@@ -119,7 +121,7 @@ impl FullSpace {
     /// All unknowns of loads where those of the pairs are `d`. Of several load cases, each argument has its
     /// vectors one behind the other, and so has the result.
     pub(super) fn recover(&self, loads: &[f64], d: &[f64]) -> Result<Vec<f64>, Error> {
-        let mut user = self.in_use();
+        let mut user = self.in_use(&Alone);
         user.hold_all()?;
         let size = self.matrix.ncols().max(1);
         let mut x = vec![0.0; loads.len()];
@@ -172,6 +174,7 @@ impl Watch for Asking<'_> {
 pub(super) struct InUse<'a> {
     space: &'a FullSpace,
     factor: Option<Factor>,
+    workers: &'a dyn Workers,
 }
 
 impl InUse<'_> {
@@ -235,7 +238,8 @@ impl Bodies for InUse<'_> {
         self.factor = None;
         for soft in std::iter::once(0.0).chain(SPRINGS) {
             let matrix = self.space.restricted(restriction, soft);
-            match self.space.cholesky.factor(&matrix, &mut Asking(&mut *goes_on)) {
+            let (cholesky, asking) = (&self.space.cholesky, &mut Asking(&mut *goes_on));
+            match cholesky.factor(&matrix, self.workers, asking) {
                 Ok(Some(values)) => {
                     self.factor = Some(Factor { restriction: restriction.clone(), values });
                     return Ok(true);

@@ -32,6 +32,7 @@ use crate::linalg::sparse_schur::{Failure, Look, Plan, SparseSchur, Watch};
 use crate::linalg::vector::{columns, norm_inf};
 use crate::problem::{Bodies, Dependence};
 use crate::reduce::frame::Frame;
+use crate::workers::{Alone, Workers};
 use change_of_variables::{ChangeOfVariables, contact_forces};
 use control::{Asked, ranks};
 use full_space::FullSpace;
@@ -78,7 +79,7 @@ impl SparseReduction {
             matrix,
             fixed,
             pairs,
-            Control { order: None, full_space: false, ask: &mut |_, _| Ok(()) },
+            Control { order: None, full_space: false, workers: &Alone, ask: &mut |_, _| Ok(()) },
         )
     }
 
@@ -114,7 +115,8 @@ impl SparseReduction {
         let rank: Option<Vec<usize>> = rank.map(|rank| free.iter().map(|&dof| rank[dof]).collect());
         // Rows of many nodes leave more rounding on motions that are free than the entries of K_rel show.
         let look = if own { Look::IfSuspicious } else { Look::Always };
-        let parts = Parts { inner: free.len(), dim: pairs.dim, rank: rank.as_deref(), look };
+        let (rank, workers) = (rank.as_deref(), control.workers);
+        let parts = Parts { inner: free.len(), dim: pairs.dim, rank, look, workers };
         let choice = (control.full_space, dependent.is_none());
         let engine = Engine::new(transformed, &parts, choice, &mut asked)
             .map_err(|failure| asked.ended.unwrap_or_else(|| refused(&variables, own, failure)))?;
@@ -246,9 +248,9 @@ impl Reduction for SparseReduction {
 }
 
 impl UnformedReduction for SparseReduction {
-    fn bodies(&self) -> Box<dyn Bodies + '_> {
+    fn bodies<'a>(&'a self, workers: &'a dyn Workers) -> Box<dyn Bodies + 'a> {
         match &self.engine {
-            Engine::FullSpace(space) => Box::new(space.in_use()),
+            Engine::FullSpace(space) => Box::new(space.in_use(workers)),
             Engine::Condensed(_) => unreachable!("a condensed stiffness is formed"),
         }
     }
@@ -265,7 +267,7 @@ impl UnformedReduction for SparseReduction {
     }
 }
 
-/// How the transformed matrix is divided and eliminated.
+/// How the transformed matrix is divided and eliminated, and by whom.
 struct Parts<'a> {
     /// Number of unknowns that are no relative displacements.
     inner: usize,
@@ -273,6 +275,7 @@ struct Parts<'a> {
     /// The host's order of them.
     rank: Option<&'a [usize]>,
     look: Look,
+    workers: &'a dyn Workers,
 }
 
 impl Engine {
@@ -285,9 +288,9 @@ impl Engine {
         asked: &mut Asked<'_, '_>,
     ) -> Result<Self, Failure> {
         if !(wanted && possible) {
-            let plan = Plan::new(&matrix, parts.inner, parts.rank, asked)?;
+            let plan = Plan::new(&matrix, parts.inner, parts.rank, parts.workers, asked)?;
             if asked.announce(plan.bytes()).is_continue() {
-                return SparseSchur::planned(plan, matrix, parts.look, asked)
+                return SparseSchur::planned(plan, matrix, parts.look, parts.workers, asked)
                     .map(|schur| Engine::Condensed(Box::new(schur)));
             }
             if !(possible && asked.lacks_memory()) {
@@ -295,7 +298,7 @@ impl Engine {
             }
             asked.begin_anew();
         }
-        FullSpace::new(matrix, parts.inner, parts.dim, asked)
+        FullSpace::new(matrix, parts.inner, parts.dim, parts.workers, asked)
             .map(|space| Engine::FullSpace(Box::new(space)))
     }
 }

@@ -151,8 +151,9 @@ fn condensed(
         entries.push((kept + i, kept + i, spring));
     }
     let all = from_entries((kept + size, kept + size), entries.into_iter()).map_err(memory)?;
+    let workers = monitor.workers();
     let mut watched = Watched { monitor, stop: None };
-    let made = SparseSchur::new(all, kept, None, Look::Always, &mut watched);
+    let made = SparseSchur::new(all, kept, None, Look::Always, workers, &mut watched);
     match (made, watched.stop) {
         (Ok(made), _) => Ok(Ok(made)),
         (Err(_), Some(stop)) => Ok(Err(stop)),

@@ -1,0 +1,255 @@
+//! Threads of a call that share the parts of one work after another. They begin with the first work and end with the
+//! call; each has a reserve and a barrier of its own, as in `parallel.rs`.
+
+use std::cell::RefCell;
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Barrier, Condvar, Mutex, MutexGuard, PoisonError};
+
+use super::guard;
+use super::thread::{Run, Thread};
+use crate::shortage::{self, Shortage};
+use crate::workers::{Alone, Workers};
+
+/// Most threads of a crew: each has working memory, and of more than these none has enough to do.
+const MOST: usize = 64;
+
+/// Does `body` with so many threads, the calling one among them.
+pub(super) fn with<T>(threads: usize, body: impl FnOnce(&dyn Workers) -> T) -> T {
+    if threads <= 1 {
+        return body(&Alone);
+    }
+    let lanes = threads.min(MOST);
+    let board = Board::new(lanes);
+    let jobs: Vec<Job<'_>> = (1..lanes).map(|lane| Job::new(lane, &board)).collect();
+    let started = RefCell::new(Vec::with_capacity(jobs.len()));
+    body(&Crew { board: &board, jobs: &jobs, started })
+}
+
+/// A work whose parts are done.
+type Work = dyn Fn(usize, usize) + Sync;
+
+/// A work, as threads see it while they share it.
+#[derive(Clone, Copy)]
+struct Posted {
+    work: *const Work,
+    parts: usize,
+}
+
+// SAFETY: what stands behind the pointer may be used by several threads, and lives until all of them have said that
+// they are done with it.
+unsafe impl Send for Posted {}
+
+/// What the calling thread tells the others, and they tell it.
+struct Board {
+    lanes: usize,
+    notes: Mutex<Notes>,
+    /// There is another work, or none any more.
+    posted: Condvar,
+    /// The last thread is done with its work.
+    ended: Condvar,
+    /// The next part.
+    next: AtomicUsize,
+}
+
+#[derive(Default)]
+struct Notes {
+    work: Option<Posted>,
+    /// Works so far.
+    count: u64,
+    /// Threads that wait for the next work or are at this one.
+    present: usize,
+    /// Those that have not ended this work.
+    busy: usize,
+    is_over: bool,
+    failure: Option<Collapse>,
+}
+
+/// Why a thread has ended its part otherwise than by doing it.
+enum Collapse {
+    /// It was refused so many bytes.
+    Memory(usize),
+    Panic,
+}
+
+impl Board {
+    fn new(lanes: usize) -> Self {
+        Board {
+            lanes,
+            notes: Mutex::default(),
+            posted: Condvar::new(),
+            ended: Condvar::new(),
+            next: AtomicUsize::new(0),
+        }
+    }
+
+    fn notes(&self) -> MutexGuard<'_, Notes> {
+        self.notes.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Waits while `condition` holds.
+    fn wait<'n>(
+        &self,
+        signal: &Condvar,
+        notes: MutexGuard<'n, Notes>,
+        condition: impl Fn(&Notes) -> bool,
+    ) -> MutexGuard<'n, Notes> {
+        let condition = |notes: &mut Notes| condition(notes);
+        signal.wait_while(notes, condition).unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Does parts of each work that is posted, until there is none any more.
+    fn serve(&self, lane: usize) {
+        let mut seen = 0;
+        loop {
+            let notes = self.notes();
+            let notes = self.wait(&self.posted, notes, |now| now.count == seen && !now.is_over);
+            let Some(Posted { work, parts }) = notes.work.filter(|_| notes.count != seen) else {
+                return;
+            };
+            seen = notes.count;
+            drop(notes);
+            // SAFETY: the calling thread keeps the work until this one has said below that it is done.
+            let work = unsafe { &*work };
+            let result = catch_unwind(AssertUnwindSafe(|| {
+                self.share(parts, &|part| work(lane, part), &mut || true);
+                shortage::check();
+            }));
+            let mut notes = self.notes();
+            if let Err(reason) = result {
+                self.next.store(parts, Ordering::Relaxed);
+                notes.failure = Some(match reason.downcast_ref::<Shortage>() {
+                    Some(Shortage { bytes }) => Collapse::Memory(*bytes),
+                    None => Collapse::Panic,
+                });
+            }
+            notes.busy -= 1;
+            if notes.busy == 0 {
+                self.ended.notify_one();
+            }
+        }
+    }
+
+    /// Does parts that nobody has begun.
+    fn share(&self, parts: usize, work: &dyn Fn(usize), go_on: &mut dyn FnMut() -> bool) {
+        while go_on() {
+            let part = self.next.fetch_add(1, Ordering::Relaxed);
+            if part >= parts {
+                return;
+            }
+            work(part);
+        }
+        self.next.store(parts, Ordering::Relaxed);
+    }
+}
+
+/// What a further thread does.
+struct Job<'b> {
+    lane: usize,
+    board: &'b Board,
+    /// Where the caller waits until the thread has what it keeps for itself, as in `parallel.rs`.
+    ready: Barrier,
+}
+
+impl<'b> Job<'b> {
+    fn new(lane: usize, board: &'b Board) -> Self {
+        Job { lane, board, ready: Barrier::new(2) }
+    }
+}
+
+impl Run for Job<'_> {
+    fn run(&self) {
+        let mut has_memory = false;
+        guard::call(|| {
+            guard::prepare_thread()?;
+            has_memory = true;
+            Ok(0)
+        });
+        if has_memory {
+            self.board.notes().present += 1;
+        }
+        self.ready.wait();
+        // Without memory the others do its parts.
+        if has_memory {
+            guard::call(|| {
+                self.board.serve(self.lane);
+                Ok(0)
+            });
+        }
+    }
+}
+
+/// The calling thread and the others.
+struct Crew<'b> {
+    board: &'b Board,
+    jobs: &'b [Job<'b>],
+    started: RefCell<Vec<Thread>>,
+}
+
+impl Crew<'_> {
+    fn start(&self) {
+        let mut started = self.started.borrow_mut();
+        if !started.is_empty() {
+            return;
+        }
+        for job in self.jobs {
+            // SAFETY: the jobs live longer than the crew, which joins the thread when it is dropped.
+            let Some(thread) = (unsafe { Thread::start(job) }) else { return };
+            job.ready.wait();
+            started.push(thread);
+        }
+    }
+}
+
+impl Workers for Crew<'_> {
+    fn lanes(&self) -> usize {
+        self.board.lanes
+    }
+
+    fn run(
+        &self,
+        parts: usize,
+        work: &(dyn Fn(usize, usize) + Sync),
+        go_on: &mut dyn FnMut() -> bool,
+    ) {
+        self.start();
+        let board = self.board;
+        // SAFETY: only the lifetime changes; no thread uses the work when this function ends, however it does.
+        let lasting = unsafe {
+            std::mem::transmute::<*const (dyn Fn(usize, usize) + Sync + '_), *const Work>(work)
+        };
+        let mut notes = board.notes();
+        board.next.store(0, Ordering::Relaxed);
+        notes.work = Some(Posted { work: lasting, parts });
+        notes.count += 1;
+        notes.busy = notes.present;
+        drop(notes);
+        board.posted.notify_all();
+        let own =
+            catch_unwind(AssertUnwindSafe(|| board.share(parts, &|part| work(0, part), go_on)));
+        board.next.store(parts, Ordering::Relaxed);
+        let notes = board.notes();
+        let mut notes = board.wait(&board.ended, notes, |now| now.busy > 0);
+        notes.work = None;
+        let failure = notes.failure.take();
+        drop(notes);
+        if let Err(reason) = own {
+            resume_unwind(reason);
+        }
+        match failure {
+            Some(Collapse::Memory(bytes)) => resume_unwind(Box::new(Shortage { bytes })),
+            Some(Collapse::Panic) => panic!("a further thread of the call has failed"),
+            None => {}
+        }
+    }
+}
+
+impl Drop for Crew<'_> {
+    fn drop(&mut self) {
+        self.board.notes().is_over = true;
+        self.board.posted.notify_all();
+        for thread in self.started.get_mut().drain(..) {
+            thread.join();
+        }
+    }
+}

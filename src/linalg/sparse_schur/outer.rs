@@ -1,0 +1,137 @@
+//! The Schur complement, from which the products of all panels are subtracted, block by block.
+
+use std::ops::Range;
+use std::sync::Mutex;
+
+use faer::{MatMut, MatRef};
+
+use super::dense::{self, scattered};
+use super::failure::Failure;
+use super::panel::{COLUMNS, ROWS, Room, is_dense};
+use super::structure::Structure;
+use super::team::{Done, Team, locked};
+
+/// A block of the lower triangle.
+struct Block<'a> {
+    rows: Range<usize>,
+    columns: Range<usize>,
+    values: MatMut<'a, f64>,
+}
+
+/// The rows of a panel that are kept.
+struct Kept<'a> {
+    rows: &'a [usize],
+    l: MatRef<'a, f64>,
+}
+
+impl<'a> Kept<'a> {
+    /// Those of a panel, if it has any.
+    fn of(structure: &'a Structure, values: &'a [f64], panel: usize) -> Option<Self> {
+        let (width, inner) = (structure.columns(panel).len(), structure.inner_rows(panel));
+        let rows = structure.rows(panel);
+        let values = &values[structure.values(panel)];
+        let all = MatRef::from_column_major_slice(values, width + rows.len(), width);
+        let kept = Kept { rows: &rows[inner..], l: all.split_at_row(width + inner).1 };
+        (inner < rows.len()).then_some(kept)
+    }
+
+    /// Those of its rows that are in a range.
+    fn within(&self, range: &Range<usize>) -> (&'a [usize], MatRef<'a, f64>) {
+        let begin = self.rows.partition_point(|&row| row < range.start);
+        let count = self.rows[begin..].partition_point(|&row| row < range.end);
+        (&self.rows[begin..begin + count], self.l.subrows(begin, count))
+    }
+
+    fn reaches(&self, range: &Range<usize>) -> bool {
+        self.rows[0] < range.end && range.start <= self.rows[self.rows.len() - 1]
+    }
+}
+
+/// Subtracts the products of the kept rows of all panels, whose values are there, from `schur`, of which the lower
+/// triangle matters.
+pub fn subtract(
+    structure: &Structure,
+    values: &[f64],
+    schur: &mut [f64],
+    done: &Done,
+    (rooms, team): (&[Mutex<Room>], &mut Team<'_>),
+) -> Result<(), Failure> {
+    let panels: Vec<Kept<'_>> =
+        (0..structure.panels()).filter_map(|s| Kept::of(structure, values, s)).collect();
+    let operations: f64 = panels.iter().map(|kept| cost(kept.l.ncols(), kept.rows.len())).sum();
+    let blocks = blocks(structure, schur);
+    team.share(blocks.len(), operations, &|lane, part| {
+        let (block, room) = (&mut *locked(&blocks[part]), &mut *locked(&rooms[lane]));
+        for kept in &panels {
+            if kept.reaches(&block.rows) && kept.reaches(&block.columns) {
+                block.change(kept, &mut room.product, done);
+            }
+        }
+    })
+}
+
+/// Multiplications of the lower triangle of a product.
+fn cost(width: usize, rows: usize) -> f64 {
+    (width * rows * rows) as f64 / 2.0
+}
+
+/// The blocks of the lower triangle: those on the diagonal are square.
+fn blocks<'a>(structure: &Structure, schur: &'a mut [f64]) -> Vec<Mutex<Block<'a>>> {
+    let (first, kept) = (structure.eliminated, structure.kept());
+    let mut rest = MatMut::from_column_major_slice_mut(schur, kept, kept);
+    let mut blocks = Vec::new();
+    let mut push = |rows: Range<usize>, columns: &Range<usize>, values| {
+        let numbers = |range: &Range<usize>| first + range.start..first + range.end;
+        blocks.push(Mutex::new(Block { rows: numbers(&rows), columns: numbers(columns), values }));
+    };
+    for begin in (0..kept).step_by(COLUMNS) {
+        let columns = begin..kept.min(begin + COLUMNS);
+        let (strip, right) = rest.split_at_col_mut(columns.len());
+        let (_, strip) = strip.split_at_row_mut(begin);
+        let (square, mut below) = strip.split_at_row_mut(columns.len());
+        push(columns.clone(), &columns, square);
+        for top in (columns.end..kept).step_by(ROWS) {
+            let rows = top..kept.min(top + ROWS);
+            let (block, rest) = below.split_at_row_mut(rows.len());
+            push(rows, &columns, block);
+            below = rest;
+        }
+        rest = right;
+    }
+    blocks
+}
+
+impl Block<'_> {
+    /// Subtracts the product of the rows of a panel.
+    fn change(&mut self, kept: &Kept<'_>, product: &mut [f64], done: &Done) {
+        let (columns, upper) = kept.within(&self.columns);
+        let (rows, lower) = kept.within(&self.rows);
+        if columns.is_empty() || rows.is_empty() {
+            return;
+        }
+        let (first_row, first_column) = (self.rows.start, self.columns.start);
+        let on_diagonal = first_row == first_column;
+        let row = |k: usize| rows[k] - first_row;
+        let column = |k: usize| columns[k] - first_column;
+        if is_dense(rows) && is_dense(columns) {
+            let target = self.values.as_mut();
+            let target = target.submatrix_mut(row(0), column(0), rows.len(), columns.len());
+            if on_diagonal {
+                dense::subtract_square(target, lower);
+            } else {
+                dense::subtract_product(target, lower, upper);
+            }
+        } else {
+            let product = &mut product[..rows.len() * columns.len()];
+            if on_diagonal {
+                dense::square(product, lower);
+            } else {
+                dense::product(product, lower, upper);
+            }
+            let target = self.values.as_mut();
+            scattered(target, product, rows.len(), row, column, on_diagonal);
+        }
+        let operations = lower.ncols() * rows.len() * columns.len();
+        done.add(if on_diagonal { operations / 2 } else { operations });
+    }
+}

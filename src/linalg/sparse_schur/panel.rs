@@ -1,0 +1,225 @@
+//! The values of a panel: what those before it change in them, and its elimination, a block of rows at a time.
+//!
+//! Each entry gets the same sums in the same order, whoever computes its block.
+
+use std::ops::Range;
+
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::{MatMut, MatRef};
+
+use super::dense::{self, scattered};
+use super::entries::Entries;
+use super::failure::Failure;
+use super::graph::filled;
+use super::schedule::{Change, Schedule};
+use super::structure::Structure;
+use super::team::Done;
+
+/// Rows of a block: products of it are fast, and what changes it stays in the cache.
+pub const ROWS: usize = 512;
+
+/// Columns of a block of the Schur complement.
+pub const COLUMNS: usize = 256;
+
+/// The pivot that is smallest relative to the diagonal: its place, and this ratio.
+pub type Weakest = Option<(usize, f64)>;
+
+/// The weaker one, of equal ones the first.
+pub fn weaker(first: Weakest, second: Weakest) -> Weakest {
+    match (first, second) {
+        (Some((_, least)), Some((_, pivot))) if pivot < least => second,
+        (None, _) => second,
+        _ => first,
+    }
+}
+
+/// Of what panels are made.
+#[derive(Clone, Copy)]
+pub struct Source<'a> {
+    pub structure: &'a Structure,
+    pub schedule: &'a Schedule,
+    pub entries: &'a Entries,
+    pub done: &'a Done,
+}
+
+/// Values of panels from one on, up to the one that is made.
+#[derive(Clone, Copy)]
+pub struct Before<'a> {
+    pub values: &'a [f64],
+    /// Where those of the first one begin.
+    pub start: usize,
+}
+
+/// Working memory of a thread.
+pub struct Room {
+    /// Where each row stands in the panel of which it is one.
+    pub place: Vec<usize>,
+    /// A product that is then subtracted.
+    pub product: Vec<f64>,
+    pub memory: MemBuffer,
+}
+
+impl Room {
+    /// For any panel.
+    pub fn new(structure: &Structure) -> Result<Self, Failure> {
+        Ok(Room {
+            place: filled(structure.size, 0)?,
+            product: filled(largest_product(structure), 0.0)?,
+            memory: MemBuffer::try_new(dense::scratch(widest(structure)))
+                .map_err(|_| Failure::OutOfMemory)?,
+        })
+    }
+
+    /// Its bytes, but for those of the factorisation of a diagonal block.
+    pub fn bytes(structure: &Structure) -> usize {
+        structure.size * size_of::<usize>() + largest_product(structure) * size_of::<f64>()
+    }
+}
+
+fn widest(structure: &Structure) -> usize {
+    (0..structure.panels()).map(|s| structure.columns(s).len()).max().unwrap_or(0)
+}
+
+/// Entries of the largest product of blocks.
+fn largest_product(structure: &Structure) -> usize {
+    let rows = (0..structure.panels()).map(|s| structure.rows(s).len()).max().unwrap_or(0);
+    let columns = widest(structure).max(structure.kept().min(COLUMNS));
+    columns * rows.max(columns).min(ROWS)
+}
+
+/// A panel in the making.
+pub struct Panel<'a> {
+    pub source: Source<'a>,
+    pub number: usize,
+    pub before: Before<'a>,
+    /// Where each of its rows stands in it.
+    pub place: &'a [usize],
+}
+
+/// Writes the entries of the matrix into a panel, and the places of its rows.
+pub fn fill(source: Source<'_>, number: usize, place: &mut [usize], values: &mut [f64]) {
+    let (columns, rows) = (source.structure.columns(number), source.structure.rows(number));
+    let stride = columns.len() + rows.len();
+    columns.clone().chain(rows.iter().copied()).enumerate().for_each(|(k, row)| place[row] = k);
+    for (k, j) in columns.enumerate() {
+        for &(row, value) in source.entries.of(j) {
+            values[place[row] + stride * k] += value;
+        }
+    }
+}
+
+/// The weakest pivot of a panel that is made.
+pub fn weakest(source: Source<'_>, number: usize, values: &[f64]) -> Weakest {
+    let columns = source.structure.columns(number);
+    let stride = columns.len() + source.structure.rows(number).len();
+    columns.enumerate().fold(None, |weakest, (k, j)| {
+        let pivot = values[k + stride * k].powi(2) / source.entries.diagonal(j);
+        weaker(weakest, Some((j, pivot)))
+    })
+}
+
+impl Panel<'_> {
+    /// The diagonal block, and the rows below it.
+    pub fn divided<'v>(&self, values: &'v mut [f64]) -> (MatMut<'v, f64>, MatMut<'v, f64>) {
+        let (width, rows) = (self.width(), self.rows().len());
+        MatMut::from_column_major_slice_mut(values, width + rows, width).split_at_row_mut(width)
+    }
+
+    /// The blocks of its rows.
+    pub fn blocks(&self) -> impl Iterator<Item = Range<usize>> + use<> {
+        let count = self.rows().len();
+        (0..count).step_by(ROWS).map(move |begin| begin..count.min(begin + ROWS))
+    }
+
+    fn width(&self) -> usize {
+        self.source.structure.columns(self.number).len()
+    }
+
+    fn rows(&self) -> &[usize] {
+        self.source.structure.rows(self.number)
+    }
+
+    fn changes(&self) -> &[Change] {
+        self.source.schedule.changes(self.number)
+    }
+
+    /// An earlier panel: its rows by number, and their values.
+    fn earlier(&self, by: usize) -> (&[usize], MatRef<'_, f64>) {
+        let structure = self.source.structure;
+        let (width, rows, place) =
+            (structure.columns(by).len(), structure.rows(by), structure.values(by));
+        let values = &self.before.values[place.start - self.before.start..][..place.len()];
+        let all = MatRef::from_column_major_slice(values, width + rows.len(), width);
+        (rows, all.split_at_row(width).1)
+    }
+
+    /// Subtracts from the lower triangle of the diagonal block what the panels before give.
+    pub fn change_top(&self, mut top: MatMut<'_, f64>, product: &mut [f64]) {
+        for &Change { by, first, end } in self.changes() {
+            let (rows, l) = self.earlier(by);
+            let (rows, l) = (&rows[first..end], l.subrows(first, end - first));
+            let place = |k: usize| self.place[rows[k]];
+            if is_dense(rows) {
+                let target = top.as_mut().submatrix_mut(place(0), place(0), rows.len(), rows.len());
+                dense::subtract_square(target, l);
+            } else {
+                let product = &mut product[..rows.len() * rows.len()];
+                dense::square(product, l);
+                scattered(top.as_mut(), product, rows.len(), place, place, true);
+            }
+            self.source.done.add(l.ncols() * rows.len() * rows.len() / 2);
+        }
+    }
+
+    /// Subtracts from a block of rows what the panels before give.
+    pub fn change_block(
+        &self,
+        block: Range<usize>,
+        mut target: MatMut<'_, f64>,
+        product: &mut [f64],
+    ) {
+        let (lowest, highest) = (self.rows()[block.start], self.rows()[block.end - 1]);
+        let above = self.width() + block.start;
+        for &Change { by, first, end } in self.changes() {
+            let (rows, l) = self.earlier(by);
+            let begin = end + rows[end..].partition_point(|&row| row < lowest);
+            let count = rows[begin..].partition_point(|&row| row <= highest);
+            if count == 0 {
+                continue;
+            }
+            let (columns, rows) = (&rows[first..end], &rows[begin..begin + count]);
+            let (upper, lower) = (l.subrows(first, columns.len()), l.subrows(begin, count));
+            let column = |k: usize| self.place[columns[k]];
+            let row = |k: usize| self.place[rows[k]] - above;
+            if is_dense(columns) && row(count - 1) + 1 - row(0) == count {
+                let target = target.as_mut();
+                let target = target.submatrix_mut(row(0), column(0), count, columns.len());
+                dense::subtract_product(target, lower, upper);
+            } else {
+                let product = &mut product[..count * columns.len()];
+                dense::product(product, lower, upper);
+                scattered(target.as_mut(), product, count, row, column, false);
+            }
+            self.source.done.add(l.ncols() * count * columns.len());
+        }
+    }
+
+    /// Factorises the diagonal block. Returns the place of a pivot that is not positive.
+    pub fn eliminate(&self, top: MatMut<'_, f64>, memory: &mut MemBuffer) -> Result<(), usize> {
+        let width = self.width();
+        self.source.done.add(width * width * width / 3);
+        let first = self.source.structure.columns(self.number).start;
+        dense::root(top, MemStack::new(memory)).map_err(|column| first + column)
+    }
+
+    /// Divides a block of rows by the factor of the diagonal block.
+    pub fn divide(&self, top: MatRef<'_, f64>, block: MatMut<'_, f64>) {
+        self.source.done.add(top.ncols() * top.ncols() * block.nrows());
+        dense::divide(top, block);
+    }
+}
+
+/// Whether ascending numbers follow each other.
+pub fn is_dense(rows: &[usize]) -> bool {
+    rows.last().is_none_or(|last| last + 1 - rows[0] == rows.len())
+}

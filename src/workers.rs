@@ -1,0 +1,42 @@
+//! Who does work that is cut into parts: one thread, or several that the C interface starts.
+
+/// Threads that share the parts of a work. The results of the library do not depend on them: each part does the same,
+/// whoever does it.
+pub trait Workers {
+    /// Most parts that are done at once, at least 1.
+    fn lanes(&self) -> usize;
+
+    /// Does `work(lane, part)` for each part from 0 to `parts - 1`, once each, and returns when all that began have
+    /// ended. Parts that are done at once have different lanes, each below [`Self::lanes`]. `go_on` is asked on the
+    /// calling thread between parts; once it says `false` no further part begins.
+    fn run(
+        &self,
+        parts: usize,
+        work: &(dyn Fn(usize, usize) + Sync),
+        go_on: &mut dyn FnMut() -> bool,
+    );
+}
+
+/// The calling thread, which does one part after the other.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Alone;
+
+impl Workers for Alone {
+    fn lanes(&self) -> usize {
+        1
+    }
+
+    fn run(
+        &self,
+        parts: usize,
+        work: &(dyn Fn(usize, usize) + Sync),
+        go_on: &mut dyn FnMut() -> bool,
+    ) {
+        for part in 0..parts {
+            if !go_on() {
+                return;
+            }
+            work(0, part);
+        }
+    }
+}
