@@ -119,6 +119,19 @@ while read -r file; do
     esac
     shown "$file" "$language" | diff - "$file" || die "what is shown as $file is another text"
 done <"$work/files"
+# At most thirty lines, but for comments and empty ones: what somebody reads first.
+code() {
+    case $1 in
+    *.c) sed -e '/^ *\/\*.*\*\/$/d' -e '/^ *\/\*/,/\*\//d' "$1" ;;
+    *.f) grep -v '^C' "$1" ;;
+    *.f90) grep -v '^ *!' "$1" ;;
+    *) sed '/^"""/,/^"""/d' "$1" | grep -v '^#' ;;
+    esac
+}
+while read -r file; do
+    lines=$(code "$file" | grep -c .)
+    [ "$lines" -le 30 ] || die "$file has $lines lines of code"
+done <"$work/files"
 say "$(wc -l <"$work/files" | tr -d ' ') programs are the files that they are said to be"
 
 # The commands of a language in the first chapter, as they stand.
