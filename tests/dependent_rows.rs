@@ -131,6 +131,22 @@ fn a_wedge_is_solved_or_said_to_be_one() {
     assert_eq!((lifted, wedged), (12, 4));
 }
 
+/// Pressed down by 1 into a groove that it just touches: it rests, whatever the friction, and the walls carry the load.
+#[test]
+fn a_node_pressed_into_a_groove_rests() {
+    for degrees in [10.0_f64, 20.0, 45.0, 70.0] {
+        let (sin, cos) = degrees.to_radians().sin_cos();
+        let host = node_on_planes(&[[cos, -sin], [-cos, -sin]]);
+        for mu in [0.0, 0.1, 0.3, 1.1, 3.0] {
+            let solution = checked(&host, &[0.0, -1.0], &[0.0; 2], mu);
+            let context = format!("{degrees} degrees, mu {mu}: {}", solution.message);
+            assert_eq!(solution.status, Status::Solved, "{context}");
+            // The tolerance is 1e-12 of forces of at most 3 on springs of 2.
+            assert!(largest(&solution.d) < 1e-10, "{context}: {:?}", solution.d);
+        }
+    }
+}
+
 /// Walls closer than the body: whatever it does, it enters one of them.
 #[test]
 fn gaps_that_contradict_each_other_are_named() {
@@ -197,11 +213,8 @@ fn copies_of_pairs_share_their_forces() {
     assert!(friction > 50);
 }
 
-/// A cube of bricks that nothing but three walls holds, pressed into their corner: the walls' forces balance
-/// the loads, and it rests. Pulled out of the corner, it leaves: no equilibrium, as long as friction cannot
-/// jam it. Three walls can: N (1 - sqrt(2) mu) (1, 1, 1) pulls inwards from mu = 0.71 on.
-#[test]
-fn a_free_cube_rests_in_a_corner() {
+/// A cube of bricks that nothing holds but walls at these sides of it: axis and place.
+fn free_cube(sides: &[(usize, f64)]) -> Host {
     let brick = Brick::new([2, 2, 2], [1.0; 3], Support::Free);
     let n = brick.size();
     let mut stiffness = vec![0.0; n * n];
@@ -210,19 +223,72 @@ fn a_free_cube_rests_in_a_corner() {
         stiffness[j + n * i] = value;
     }
     let (mut rows, mut normals) = (vec![], vec![]);
-    for (axis, side) in [(0, -0.5), (1, -0.5), (2, 0.0)] {
+    for &(axis, side) in sides {
         for node in (0..brick.nodes.len()).filter(|&node| brick.nodes[node][axis] == side) {
             rows.push(vec![(node, 1.0)]);
             normals.extend((0..3).map(|c| if c == axis { -1.0 } else { 0.0 }));
         }
     }
-    let gap = vec![0.0; rows.len()];
-    let host = Host { dim: 3, stiffness, fixed: vec![], rows, normals, tangents: None };
+    Host { dim: 3, stiffness, fixed: vec![], rows, normals, tangents: None }
+}
+
+/// A load of this sum, the same on each node.
+fn weight_of(host: &Host, sum: [f64; 3]) -> Vec<f64> {
+    let nodes = host.size() / 3;
+    (0..host.size()).map(|dof| sum[dof % 3] / nodes as f64).collect()
+}
+
+/// Two walls hold a cube along the third axis by friction alone, which carries a twentieth of what presses. Pushed along
+/// it by 8 the cube leaves: by friction from each other the walls press by `1 / (1 - mu)` at most, and hold
+/// `2 mu / (1 - mu)`. From mu = 1 on they jam.
+#[test]
+fn a_free_cube_rests_at_two_walls() {
+    let host = free_cube(&[(0, -0.5), (2, 0.0)]);
+    let gap = vec![0.0; host.rows.len()];
+    for mu in [0.3, 1.0, 3.0] {
+        let solution = checked(&host, &weight_of(&host, [-1.0, -0.1, -1.0]), &gap, mu);
+        assert_eq!(solution.status, Status::Solved, "mu {mu}: {}", solution.message);
+        if mu < 1.0 {
+            let leaves = checked(&host, &weight_of(&host, [-1.0, -8.0, -1.0]), &gap, mu);
+            assert_eq!(leaves.status, Status::NoEquilibrium, "mu {mu}: {}", leaves.message);
+        }
+    }
+}
+
+/// Each pair of the cube in the corner two or five times, and a second time with a wall further away, which
+/// nothing reaches: it rests, and the walls that it touches balance the loads.
+#[test]
+fn walls_that_are_named_again_change_nothing() {
+    let host = free_cube(&[(0, -0.5), (1, -0.5), (2, 0.0)]);
+    let (pairs, load) = (host.rows.len(), weight_of(&host, [-1.0, -0.8, -1.2]));
+    for (copies, further) in [(2, 0.0), (5, 0.0), (2, 0.05)] {
+        let mut several = host.clone();
+        several.rows = vec![host.rows.clone(); copies].concat();
+        several.normals = host.normals.repeat(copies);
+        let mut gap = vec![0.0; copies * pairs];
+        gap[pairs..].fill(further);
+        for mu in [0.3, 1.0, 3.0] {
+            let context = format!("{copies} copies at {further}, mu {mu}");
+            let solution = checked(&several, &load, &gap, mu);
+            assert_eq!(solution.status, Status::Solved, "{context}: {}", solution.message);
+            if further > 0.0 {
+                let states = &solution.certificate.states[pairs..];
+                assert!(states.iter().all(|state| *state == State::Open), "{context}");
+            }
+        }
+    }
+}
+
+/// A cube of bricks that nothing but three walls holds, pressed into their corner: the walls' forces balance
+/// the loads, and it rests. Pulled out of the corner, it leaves: no equilibrium, as long as friction cannot
+/// jam it. Three walls can: N (1 - sqrt(2) mu) (1, 1, 1) pulls inwards from mu = 0.71 on.
+#[test]
+fn a_free_cube_rests_in_a_corner() {
+    let host = free_cube(&[(0, -0.5), (1, -0.5), (2, 0.0)]);
+    let gap = vec![0.0; host.rows.len()];
     assert!(!host.model().unwrap().dependent_pairs().is_empty());
     let weight = [-1.0, -0.8, -1.2];
-    let load = |sign: f64| -> Vec<f64> {
-        (0..n).map(|dof| sign * weight[dof % 3] / brick.nodes.len() as f64).collect()
-    };
+    let load = |sign: f64| weight_of(&host, weight.map(|force| sign * force));
     for mu in [0.0, 0.3, 1.0, 3.0] {
         let solution = checked(&host, &load(1.0), &gap, mu);
         assert_eq!(solution.status, Status::Solved, "mu {mu}: {}", solution.message);

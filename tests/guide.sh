@@ -119,6 +119,19 @@ while read -r file; do
     esac
     shown "$file" "$language" | diff - "$file" || die "what is shown as $file is another text"
 done <"$work/files"
+# At most thirty lines, but for comments and empty ones: what somebody reads first.
+code() {
+    case $1 in
+    *.c) sed -e '/^ *\/\*.*\*\/$/d' -e '/^ *\/\*/,/\*\//d' "$1" ;;
+    *.f) grep -v '^C' "$1" ;;
+    *.f90) grep -v '^ *!' "$1" ;;
+    *) sed '/^"""/,/^"""/d' "$1" | grep -v '^#' ;;
+    esac
+}
+while read -r file; do
+    lines=$(code "$file" | grep -c .)
+    [ "$lines" -le 30 ] || die "$file has $lines lines of code"
+done <"$work/files"
 say "$(wc -l <"$work/files" | tr -d ' ') programs are the files that they are said to be"
 
 # The commands of a language in the first chapter, as they stand.
@@ -162,6 +175,13 @@ if "$python" -c 'import numpy' 2>/dev/null; then
     awk '$0 == "```python" { inside = 1; next }
         $0 == "```" { inside = 0 } inside' "$guide/large_sliding.md" >"$work/large_sliding.py"
     "$python" -B tests/python/guide.py "$work"
+    # Beside its mesh and matrix a host has 15 lines at most, and friction holds the twist: statics.
+    two_meshes=c_examples/3d/two_meshes.py
+    [ "$(code "$two_meshes" | grep -c .)" -le 15 ] || die "$two_meshes is too long"
+    (cd "$work" && PYTHONPATH=$root/c_examples/3d:$root/c_examples/python "$python" -B "$root/$two_meshes") >"$work/printed"
+    awk '$2 + 0 != $7 + 0 { wrong = 1 } END { exit wrong || NR != 5 }' "$work/printed" || { cat "$work/printed"; die "$two_meshes"; }
+    [ -s "$work/two_meshes.vtu" ] || die "$two_meshes has written no file"
+    say "$two_meshes: friction holds the twist in $(wc -l <"$work/printed" | tr -d ' ') steps"
 else
     skip "Python" "'$python' has no numpy (python3-numpy in Debian)"
 fi

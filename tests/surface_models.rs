@@ -66,8 +66,13 @@ struct Blocks {
 
 impl Blocks {
     fn new(cells: [[usize; 3]; 2]) -> Blocks {
-        let lower = Brick20::new(cells[0], [0.0, 0.0, -0.8], [1.0, 1.0, 0.0], (2000.0, 0.3));
-        let upper = Brick20::new(cells[1], [0.0; 3], [1.0, 1.0, 0.6], (500.0, 0.2));
+        Blocks::of(cells, [2000.0, 500.0])
+    }
+
+    /// With Young's moduli of the lower and the upper block.
+    fn of(cells: [[usize; 3]; 2], young: [f64; 2]) -> Blocks {
+        let lower = Brick20::new(cells[0], [0.0, 0.0, -0.8], [1.0, 1.0, 0.0], (young[0], 0.3));
+        let upper = Brick20::new(cells[1], [0.0; 3], [1.0, 1.0, 0.6], (young[1], 0.2));
         let first = lower.nodes.len();
         let stiffness = both(&lower.stiffness(), &upper.stiffness());
         let mut load = vec![0.0; stiffness.size];
@@ -223,6 +228,33 @@ fn both_sides_may_be_slaves() {
                 let share = -2.0 * force[3 * j] / area / PRESSURE;
                 assert!((share - 1.0).abs() < 1e-8, "{context}, pair {j}: {share}");
             }
+        }
+    }
+}
+
+/// Both sides slaves of matching meshes, one body far stiffer than the other: solved, and the pairs carry the
+/// pressure, to 1e-8: a hundred times the tolerance, and the rounding of `K u` where a body that is a million times as
+/// stiff floats on a soft one, 1e-9.
+#[test]
+fn both_sides_may_be_slaves_whatever_their_stiffness() {
+    for ratio in [1e-6, 1e-3, 1.0, 1e3, 1e6] {
+        for mu in [0.0, 0.3] {
+            let blocks = Blocks::of([[2, 2, 1], [2, 2, 1]], [1000.0, 1000.0 * ratio]);
+            let mut fixed = blocks.fixed(2, |p| p[2] == -0.8);
+            for level in [-0.8, 0.6] {
+                let is_level = |p: [f64; 3]| p[2] == level;
+                fixed.extend(blocks.fixed(0, |p| is_level(p) && p[0] == 0.0 && p[1] == 0.0));
+                fixed.extend(blocks.fixed(1, |p| is_level(p) && p[1] == 0.0 && p[0] % 1.0 == 0.0));
+            }
+            let mut twice = blocks.found(true);
+            twice.pairs.extend(blocks.found(false).pairs);
+            let arrays = twice.rows();
+            let model = model(&blocks.stiffness, &fixed, &arrays);
+            let solution = solve(&model, &blocks.load, &arrays.gaps, mu, 1e-10);
+            let context = format!("ratio {ratio}, mu {mu}");
+            assert_eq!(solution.status, Status::Solved, "{context}: {}", solution.message);
+            let carried: f64 = solution.certificate.force.iter().step_by(3).sum();
+            assert!((carried / PRESSURE + 1.0).abs() < 1e-8, "{context}: {carried}");
         }
     }
 }

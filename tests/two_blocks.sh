@@ -69,6 +69,10 @@ same() {
 required=
 [ "${1-}" != --require ] || required=yes
 
+# What contact adds to a host stands in this file: at most 60 lines after the comment at its top.
+lines=$(sed '1,/^ \*\/$/d' "$examples/two_blocks.c" | grep -c '')
+[ "$lines" -le 60 ] || { echo "two_blocks: two_blocks.c has $lines lines"; exit 1; }
+echo "two_blocks: $lines lines of C"
 # shellcheck disable=SC2086 # options in CC
 ${CC:-cc} -std=c11 -O2 -Wall -Wextra -Wpedantic -Werror -I"$root/include" "$examples/two_blocks.c" \
     "$examples/two_blocks_check.c" "$examples/blocks.c" "$examples/brick_element.c" \

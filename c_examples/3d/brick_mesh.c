@@ -178,6 +178,17 @@ struct brick_mesh *brick_mesh_new(int boxes, const struct box box[], struct mate
     return NULL;
 }
 
+void brick_mesh_move(struct brick_mesh *mesh, struct material material,
+                     void (*move)(int box, double at[3]))
+{
+    for (int box = 0; box < mesh->boxes; box++)
+        for (int32_t node = mesh->first[box]; node < mesh->first[box + 1]; node++)
+            move(box, mesh->at[node]);
+    for (int32_t entry = 0; entry < mesh->starts[mesh->dofs]; entry++)
+        mesh->values[entry] = 0.0;
+    assemble(mesh, material);
+}
+
 void brick_mesh_free(struct brick_mesh *mesh)
 {
     if (mesh == NULL)

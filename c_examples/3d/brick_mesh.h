@@ -35,6 +35,10 @@ struct brick_mesh {
 /* Meshes and assembles boxes of one material. NULL if there is not enough memory. */
 struct brick_mesh *brick_mesh_new(int boxes, const struct box box[], struct material material);
 
+/* Moves all nodes, as to curved surfaces, and assembles anew. */
+void brick_mesh_move(struct brick_mesh *mesh, struct material material,
+                     void (*move)(int box, double at[3]));
+
 void brick_mesh_free(struct brick_mesh *mesh);
 
 /* The node at the crossing of three lines of a box. */

@@ -31,7 +31,7 @@ pub enum Order {
     Linear,
     /// Quadratic with nodes on edges alone: Q8, H20, T6, T10, W15.
     Edges,
-    /// Quadratic with nodes in faces and in the middle too: Q9, H27.
+    /// Quadratic with nodes in faces of four corners and in the middle of cubes too: Q9, H27, W18.
     Full,
 }
 
@@ -91,6 +91,14 @@ impl Kind {
         let mut means: Vec<Vec<usize>> = (0..corners.len()).map(|corner| vec![corner]).collect();
         if order != Order::Linear {
             means.extend(edges(dim, cell, &corners));
+            if order == Order::Full && cell == Cell::Wedge {
+                // The sides x = 0, y = 0 and x + y = 1.
+                let on = |side: [f64; 3]| {
+                    let at = |p: Point| side[0] * p[0] + side[1] * p[1] + side[2];
+                    (0..corners.len()).filter(|&k| at(corners[k]) == 0.0).collect::<Vec<usize>>()
+                };
+                means.extend([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, -1.0]].map(on));
+            }
             if order == Order::Full && cell == Cell::Box && dim > 1 {
                 let all = (0..corners.len()).collect();
                 let side = |c: usize, end: f64| {
@@ -187,7 +195,7 @@ fn powers(dim: usize, cell: Cell, order: Order) -> Vec<[i32; 3]> {
                 Cell::Box if order == Order::Edges => (0..3).map(beyond).sum::<i32>() <= 2,
                 Cell::Box => true,
                 Cell::Simplex => p.iter().sum::<i32>() <= most,
-                Cell::Wedge if p[2] == 2 => p[0] + p[1] <= 1,
+                Cell::Wedge if p[2] == 2 && order == Order::Edges => p[0] + p[1] <= 1,
                 Cell::Wedge => p[0] + p[1] <= most,
             }
     };

@@ -22,17 +22,30 @@ pub enum Shape {
     Linear,
     /// T6 and Q8 by turns.
     Quadratic,
+    /// T6 and Q9 by turns.
+    Full,
+    /// Q8 and Q9 by turns.
+    Eight,
 }
 
 impl Shape {
     /// Whether all faces are quadrilaterals.
     pub fn is_quadrilateral(self) -> bool {
-        matches!(self, Shape::Q4 | Shape::Q8 | Shape::Q9)
+        matches!(self, Shape::Q4 | Shape::Q8 | Shape::Q9 | Shape::Eight)
     }
 }
 
-pub const SHAPES: [Shape; 7] =
-    [Shape::T3, Shape::Q4, Shape::T6, Shape::Q8, Shape::Q9, Shape::Linear, Shape::Quadratic];
+pub const SHAPES: [Shape; 9] = [
+    Shape::T3,
+    Shape::Q4,
+    Shape::T6,
+    Shape::Q8,
+    Shape::Q9,
+    Shape::Linear,
+    Shape::Quadratic,
+    Shape::Full,
+    Shape::Eight,
+];
 
 impl Sheet {
     /// A rectangle in the plane z = 0 with its normal upwards: `cells` squares, or twice as many
@@ -63,8 +76,8 @@ impl Sheet {
                 let [a, b, c, d] = [node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)];
                 let even = (i + j) % 2 == 0;
                 match shape {
-                    Shape::Q4 | Shape::Q8 | Shape::Q9 => sheet.faces.push(vec![a, b, c, d]),
-                    Shape::Linear | Shape::Quadratic if even => {
+                    shape if shape.is_quadrilateral() => sheet.faces.push(vec![a, b, c, d]),
+                    Shape::Linear | Shape::Quadratic | Shape::Full if even => {
                         sheet.faces.push(vec![a, b, c, d]);
                     }
                     _ if even => sheet.faces.extend([vec![a, b, c], vec![a, c, d]]),
@@ -81,7 +94,7 @@ impl Sheet {
             return;
         }
         let mut mids = std::collections::HashMap::new();
-        for face in &mut self.faces {
+        for (place, face) in self.faces.iter_mut().enumerate() {
             let corners = face.clone();
             for (i, &a) in corners.iter().enumerate() {
                 let b = corners[(i + 1) % corners.len()];
@@ -91,7 +104,13 @@ impl Sheet {
                 });
                 face.push(mid);
             }
-            if shape == Shape::Q9 {
+            let has_centre = match shape {
+                Shape::Q9 => true,
+                Shape::Full => corners.len() == 4,
+                Shape::Eight => place % 2 == 1,
+                _ => false,
+            };
+            if has_centre {
                 let corners: Vec<[f64; 3]> = corners.iter().map(|&node| self.nodes[node]).collect();
                 self.nodes.push(mean(&corners));
                 face.push(self.nodes.len() - 1);

@@ -132,6 +132,10 @@ pub(super) fn negative_energy(u: &[f64]) -> String {
     )
 }
 
+/// Why rows of surfaces nearly depend on each other, and what to do.
+const NEARLY_DEPENDENT: &str = "if two surfaces are each other's slaves, let one side be the slave; if slaves along a \
+     plane of symmetry are finer than what they face, let the other side be the slave";
+
 /// Whether anything resists a motion `u` of the host cannot be told from rounding. Pairs of general rows may
 /// nearly follow from others, which enlarges it.
 pub(super) fn unclear_motion(u: &[f64], general: bool) -> String {
@@ -141,9 +145,7 @@ pub(super) fn unclear_motion(u: &[f64], general: bool) -> String {
     );
     let remedy = "support the motion, or hold it by springs that are not so soft beside K";
     match general {
-        true => format!(
-            "{said}: if two surfaces are each other's slaves, let one side be the slave; otherwise {remedy}"
-        ),
+        true => format!("{said}: {NEARLY_DEPENDENT}; otherwise {remedy}"),
         false => format!("{said}: {remedy}"),
     }
 }

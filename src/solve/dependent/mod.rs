@@ -163,7 +163,8 @@ fn condensed(
         (Err(_), None) => Err(Error::invalid(
             Argument::Matrix,
             "the stiffness of the bodies between dependent pairs cannot be told from rounding: if two surfaces are \
-             each other's slaves, let one side be the slave",
+             each other's slaves, let one side be the slave; if slaves along a plane of symmetry are finer than what \
+             they face, let the other side be the slave",
         )),
     }
 }
