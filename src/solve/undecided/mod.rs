@@ -28,7 +28,11 @@ use question::InQuestion;
 /// Largest part of the pairs that may be in question at first, and later: beyond it the whole problem costs no
 /// more.
 const MOST_AT_FIRST: f64 = 0.6;
-const MOST: f64 = 0.75;
+const MOST: f64 = 0.9;
+
+/// Iterations, for each pair, after which the pairs in question are given up: more of them do not end sooner than the
+/// whole problem.
+const PATIENCE: f64 = 2.0;
 
 /// Only the states of the pairs are taken from a solution of the pairs in question; the last system of the whole
 /// problem finds the digits.
@@ -63,7 +67,8 @@ pub fn solve(
     if !question.is_fewer_than(MOST_AT_FIRST) {
         return (Ended::Undivided, systems);
     }
-    while question.is_fewer_than(MOST) {
+    let last = monitor.iterations() + (PATIENCE * contact.pairs().len() as f64) as u64;
+    while question.is_fewer_than(MOST) && monitor.iterations() <= last {
         let parted = match Parted::new(contact, &question.held(contact), monitor) {
             Ok(Some(parted)) => parted,
             Ok(None) => return (Ended::Undivided, systems),
