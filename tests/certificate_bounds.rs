@@ -8,6 +8,7 @@ use common::problems::{Case, Law, coulomb, decades, definite, frictionless, load
 use fastrand::Rng;
 use signorini::State::{Open, Slip, Stick};
 use signorini::certificate::{certify, certify_pair};
+use signorini::{Settings, Status};
 
 /// Half a unit in the last digit of 1.
 const UNIT: f64 = f64::EPSILON / 2.0;
@@ -23,7 +24,12 @@ fn the_residual_is_a_close_bound() {
         let condition = decades(&mut rng, 3.0);
         let k = definite(&mut rng, dim * pairs, condition);
         let law = if rng.bool() { coulomb(&mut rng, pairs, 1.0) } else { frictionless(pairs) };
-        let case = loaded(&mut rng, dim, k, law);
+        let mut case = loaded(&mut rng, dim, k, law);
+        if rng.bool() {
+            // Displacements are far larger than what contact prescribes.
+            case.gap.iter_mut().for_each(|gap| *gap *= 1e-6);
+            case.slip = None;
+        }
         let d = vector(&mut rng, case.size());
         let eta = exact::eta(&case, &quads(&d));
         let certificate = certify(&case.problem(), &d);
@@ -69,6 +75,9 @@ fn rounding_is_that_of_the_product_without_what_contact_prescribes() {
             check(displaced(gap, slip, 1500.0, load), [&[own, 1500.0], &[]]);
             check(displaced(gap, slip, 5000.0, load), [&[own, 2000.0], &[3000.0]]);
         }
+        // Every component beyond what the gap prescribes, which is penetrated.
+        let (case, d) = displaced(1.0, 0.0, 5000.0, load);
+        check((case, vec![5000.0; d.len()]), [&[1000.0; 4], &[4000.0; 4]]);
     }
 }
 
@@ -116,17 +125,63 @@ fn contact_forces_do_not_resist_a_motion() {
     }
 }
 
-/// What the margin between states is relative to: the largest load or force. Two pairs on unit stiffness; the
-/// second carries `small` beside 1, which is nothing below 1e-11.
+/// Where displacements do not determine the forces, `K d` is not known and no energy of it resists a motion: parts
+/// that `e` of 2^-36 holds are a solution by the energy of their stiffness, and none without it.
+#[test]
+fn only_a_stiffness_resists_a_motion() {
+    let e = 2_f64.powi(-36);
+    let mut k = vec![0.0; 16];
+    (k[0], k[2], k[8], k[10]) = (1.0, -1.0, -1.0, 1.0 + e);
+    (k[5], k[15]) = (1.0, 1.0);
+    let (f, gap) = (vec![0.0, 0.0, 1.0, 0.0], vec![f64::INFINITY; 2]);
+    let law = Law::Coulomb(vec![0.0; 2]);
+    let case = Case { dim: 2, pairs: 2, k, f, gap, law, slip: None };
+    let d = [1.0 / e, 0.0, 1.0 / e, 0.0];
+    assert!(certify(&case.problem(), &d).holds(1e-14));
+    let certificate = certify_pair(&case.problem(), &d, &[0.0; 4]);
+    assert_eq!(certificate.eta, 0.0);
+    assert!(!certificate.holds(1e-2), "{certificate:?}");
+}
+
+/// What a solution reports as `eta` counts the rounding of its evaluation, which is far below the tolerance here.
+#[test]
+fn what_is_reported_counts_rounding() {
+    let mut above = 0;
+    for seed in 0..100 {
+        let mut rng = Rng::with_seed(seed);
+        let (dim, pairs) = (rng.usize(2..=3), rng.usize(1..=4));
+        let k = definite(&mut rng, dim * pairs, 10.0);
+        let law = coulomb(&mut rng, pairs, 0.5);
+        let case = loaded(&mut rng, dim, k, law);
+        let solution = case.solve(&Settings::default());
+        assert_eq!(solution.status, Status::Solved, "seed {seed}: {}", solution.message);
+        let (eta, residual) = (solution.certificate.eta, solution.certificate.residual);
+        assert_eq!(eta, residual, "seed {seed}");
+        above += usize::from(eta > certify(&case.problem(), &solution.d).eta);
+    }
+    assert!(above > 10, "{above} with rounding");
+}
+
+/// The margin between states is 1e-11 of the largest load or force. Two pairs on unit stiffness; the second carries
+/// `small` beside 1. Where friction under that pressure is above the margin, with a coefficient of 1024, it
+/// is no open pair.
 #[test]
 fn forces_below_the_margin_tell_no_states() {
-    for (exponent, expected) in [(-34, Slip), (-36, Slip), (-37, Open), (-40, Open)] {
+    for (exponent, mu, expected) in [
+        (-34, 0.0, Slip),
+        (-36, 0.0, Slip),
+        (-37, 0.0, Open),
+        (-40, 0.0, Open),
+        (-40, 1024.0, Stick),
+        (-46, 1024.0, Stick),
+        (-47, 1024.0, Open),
+    ] {
         let small = 2_f64.powi(exponent);
         let k = (0..16).map(|i| if i % 5 == 0 { 1.0 } else { 0.0 }).collect();
         let f = vec![1.0, 0.0, small, 0.0];
-        let law = Law::Coulomb(vec![1.0, 0.0]);
+        let law = Law::Coulomb(vec![1.0, mu]);
         let case = Case { dim: 2, pairs: 2, k, f, gap: vec![0.0; 2], law, slip: None };
         let certificate = certify(&case.problem(), &[0.0; 4]);
-        assert_eq!(certificate.states, [Stick, expected], "2^{exponent}");
+        assert_eq!(certificate.states, [Stick, expected], "2^{exponent}, {mu}");
     }
 }
