@@ -8,7 +8,7 @@ use fastrand::Rng;
 use laws::{Numbers, norm, uniform};
 use signorini::law::branch::{Branch, Row, Tangential};
 use signorini::law::piece::{Boundary, Piece};
-use signorini::law::{Vector, first_penetration};
+use signorini::law::{Bound, PairLaw, Vector, first_penetration};
 
 const POINTS: usize = 5000;
 
@@ -193,4 +193,60 @@ fn the_first_penetration_is_found() {
     assert_eq!(first_penetration(&gaps, [0, 2, 3, 1].into_iter()), Some((3, -3.0)));
     assert_eq!(first_penetration(&gaps, 0..5), Some((1, -2.0)));
     assert_eq!(first_penetration(&gaps, [0, 2, 4, 9].into_iter()), None);
+}
+
+/// The chart holds every point of the law, of pairs without an obstacle too, whose normal displacement is free: a
+/// displacement and a force that obey the law come back.
+#[test]
+fn the_chart_gives_back_its_points() {
+    let rng = &mut Rng::with_seed(7);
+    for _ in 0..POINTS {
+        let numbers = Numbers::random(rng);
+        let law = numbers.law();
+        let (v, p) = numbers.point(rng, 0.0);
+        let (mut d, force) = numbers.of_host(&v, &p);
+        if !numbers.has_obstacle() {
+            d[0] = uniform(rng, -2.0, 2.0);
+        }
+        let (back, push) = law.point(&law.chart(&d, &force));
+        for c in 0..numbers.dim {
+            assert!((back[c] - d[c]).abs() <= 1e-10, "{numbers:?}: {d:?} {back:?}");
+            assert!((push[c] + force[c]).abs() <= 1e-10, "{numbers:?}: {force:?} {push:?}");
+        }
+    }
+}
+
+/// A pair meets its obstacle if there is one, and slips beside sticking where its bound is not zero.
+#[test]
+fn pieces_have_the_boundaries_of_their_bounds() {
+    let rng = &mut Rng::with_seed(8);
+    for _ in 0..POINTS {
+        let numbers = Numbers::random(rng);
+        let law = numbers.law();
+        for (closed, slips) in [(false, false), (false, true), (true, false), (true, true)] {
+            let piece = Piece { closed, slips };
+            let has = |boundary| law.has_boundary(piece, boundary);
+            assert_eq!(has(Boundary::Contact), numbers.has_obstacle());
+            if closed && !numbers.has_obstacle() {
+                continue;
+            }
+            let Bound { slope, offset } = numbers.bound;
+            let expected = offset > 0.0 || (closed && slope > 0.0);
+            assert_eq!(has(Boundary::Slip), expected, "{numbers:?} {piece:?}");
+        }
+    }
+}
+
+/// Where a motion goes is said with the sign and the name of its axis.
+#[test]
+fn a_direction_has_a_name() {
+    let bound = Bound { slope: 0.0, offset: 0.0 };
+    let [plane, space] =
+        [2, 3].map(|dim| PairLaw::new(dim, f64::INFINITY, [0.0; 2], bound, (1.0, 1.0)));
+    assert_eq!(plane.direction(1, 2.0), "along +t");
+    assert_eq!(plane.direction(1, -2.0), "along -t");
+    assert_eq!(space.direction(1, 2.0), "along +t1");
+    assert_eq!(space.direction(2, -2.0), "along -t2");
+    assert!(space.direction(0, -1.0).contains("away from"));
+    assert!(space.direction(0, 1.0).contains("towards"));
 }
