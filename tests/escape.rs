@@ -6,6 +6,7 @@ mod common;
 use common::problems::{Case, Law, block, uniform};
 use fastrand::Rng;
 use signorini::certificate::is_escape;
+use signorini::{ContactData, ContactProblem, FrictionLaw};
 
 /// A block of four pairs on a plane.
 fn standing(press: f64, push: f64, law: Law) -> Case {
@@ -140,5 +141,31 @@ fn thresholds_of_the_proof_have_no_units() {
                 assert_eq!(is_escape(&case.problem(), &motion), proves, "approach 2^{exponent}");
             }
         }
+    }
+}
+
+/// Where a matrix is not symmetric, internal forces do work on a motion that strains nothing, and nothing is proved.
+/// With the symmetric matrix of the body the same motion is a proof.
+#[test]
+fn nothing_is_proved_of_a_matrix_that_is_not_symmetric() {
+    let (gap, motion) = ([f64::INFINITY; 2], [1.0, 0.0, 0.0, 1.0, 0.0, 0.0]);
+    for (back, expected) in [(1.0, true), (0.5, false)] {
+        let mut k = vec![0.0; 36];
+        for c in 0..3 {
+            (k[7 * c], k[7 * c + 3], k[7 * c + 18], k[7 * c + 21]) = (1.0, -back, -1.0, back);
+        }
+        let data = ContactData {
+            dim: 3,
+            pairs: 2,
+            stiffness: &k,
+            ld: 6,
+            load: &motion,
+            gap: &gap,
+            law: FrictionLaw::Frictionless,
+            reference_slip: None,
+        };
+        let problem =
+            if expected { ContactProblem::new(data) } else { ContactProblem::unsymmetric(data) };
+        assert_eq!(is_escape(&problem.expect("the data are valid"), &motion), expected);
     }
 }

@@ -13,7 +13,6 @@
 //! | `branch` | which smooth piece of the law a point is on, with the derivative there | active-set methods, uniqueness |
 //! | `planar_piece` | the boundaries between the pieces in the plane | the linear path |
 //! | `proximal` | the step of one pair in a sweep | sweeps |
-//! | `local` | the exact solution of one pair, its block coupled | who solves pair by pair |
 //! | `complementarity` | the law as complementarity of non-negative variables | Lemke's method, block pivoting |
 //! | `frozen` | a pair on a piece that is given, with bounds on all that is computed of it | proofs that a solution exists |
 //! | `reach` | which obstacles are too far away to matter | `solve::far_obstacles` |
@@ -44,7 +43,6 @@ pub mod ellipse;
 pub mod frictionless;
 mod frozen;
 mod gauge;
-mod local;
 mod natural_map;
 mod normal_map;
 pub mod orthotropic;
