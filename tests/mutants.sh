@@ -3,8 +3,8 @@
 #
 #     sh tests/mutants.sh [FILE | PATTERN]...
 #
-# Without a word: certificate, law, reduce and ffi/args.rs, some 2800 mutants and days of work on one core. A file
-# (src/law/gauge.rs) takes an hour or two. Of a room a random part may do: MUTANTS_SHARD=3/10 takes the
+# Without a word: certificate, law, reduce and ffi/args.rs, some 2800 mutants and a day or two on one core. A file
+# (src/law/gauge.rs) takes half an hour. Of a room a random part may do: MUTANTS_SHARD=3/10 takes the
 # fourth tenth. MUTANTS_TESTS names the tests, default those that bear on all rooms and are quick.
 #
 # Needs cargo-mutants (cargo install --locked cargo-mutants). It writes to target/mutants, where
