@@ -6,6 +6,7 @@ mod common;
 use common::problems::{Case, Law, block, uniform};
 use fastrand::Rng;
 use signorini::certificate::is_escape;
+use signorini::{ContactData, ContactProblem, FrictionLaw};
 
 /// A block of four pairs on a plane.
 fn standing(press: f64, push: f64, law: Law) -> Case {
@@ -105,4 +106,66 @@ fn work_of_rounding_proves_nothing() {
     case.f[2] = 10.0;
     let r = [0.0, -1.0, 1e-17, -1.0, 0.0, -1.0, 0.0, -1.0];
     assert!(!is_escape(&case.problem(), &r));
+}
+
+/// A body of two pairs that nothing holds, of the stiffness `a` in each direction, under `load`.
+fn body(a: f64, unit: f64, load: [f64; 4], gap: f64) -> Case {
+    let mut k = vec![0.0; 16];
+    for c in 0..2 {
+        (k[5 * c], k[5 * c + 2], k[5 * c + 8], k[5 * c + 10]) = (a, -a, -a, a);
+    }
+    let (f, law) = (load.map(|f| unit * f).to_vec(), Law::Coulomb(vec![0.0; 2]));
+    Case { dim: 2, pairs: 2, k, f, gap: vec![gap; 2], law, slip: None }
+}
+
+/// The thresholds, each from both sides and in all units: problems in powers of two, exact but for the length of
+/// the motion. Work counts from 1e-9 on of what the loads could do, here 2; strain from 1e-11 on of the stiffness,
+/// and an approach to an obstacle from 1e-11 on of the motion.
+#[test]
+fn thresholds_of_the_proof_have_no_units() {
+    for stiffness in [-80, 0, 80].map(|exponent| 2_f64.powi(exponent)) {
+        for unit in [-70, 0, 70].map(|exponent| 2_f64.powi(exponent)) {
+            for (exponent, proves) in [(-27, true), (-28, true), (-29, false), (-31, false)] {
+                let load = [1.0 + 2_f64.powi(exponent), 0.0, -1.0, 0.0];
+                let case = body(stiffness, unit, load, f64::INFINITY);
+                let motion = [1.0, 0.0, 1.0, 0.0];
+                assert_eq!(is_escape(&case.problem(), &motion), proves, "work 2^{exponent}");
+            }
+            for (exponent, proves) in [(-35, false), (-36, false), (-37, true), (-39, true)] {
+                let small = 2_f64.powi(exponent);
+                let case = body(stiffness, unit, [1.0, 0.0, 1.0, 0.0], f64::INFINITY);
+                let motion = [1.0, 0.0, 1.0 + small, 0.0];
+                assert_eq!(is_escape(&case.problem(), &motion), proves, "strain 2^{exponent}");
+                let case = body(stiffness, unit, [0.0, 1.0, 0.0, 1.0], 0.0);
+                let motion = [small, 1.0, small, 1.0];
+                assert_eq!(is_escape(&case.problem(), &motion), proves, "approach 2^{exponent}");
+            }
+        }
+    }
+}
+
+/// Where a matrix is not symmetric, internal forces do work on a motion that strains nothing, and nothing is proved.
+/// With the symmetric matrix of the body the same motion is a proof.
+#[test]
+fn nothing_is_proved_of_a_matrix_that_is_not_symmetric() {
+    let (gap, motion) = ([f64::INFINITY; 2], [1.0, 0.0, 0.0, 1.0, 0.0, 0.0]);
+    for (back, expected) in [(1.0, true), (0.5, false)] {
+        let mut k = vec![0.0; 36];
+        for c in 0..3 {
+            (k[7 * c], k[7 * c + 3], k[7 * c + 18], k[7 * c + 21]) = (1.0, -back, -1.0, back);
+        }
+        let data = ContactData {
+            dim: 3,
+            pairs: 2,
+            stiffness: &k,
+            ld: 6,
+            load: &motion,
+            gap: &gap,
+            law: FrictionLaw::Frictionless,
+            reference_slip: None,
+        };
+        let problem =
+            if expected { ContactProblem::new(data) } else { ContactProblem::unsymmetric(data) };
+        assert_eq!(is_escape(&problem.expect("the data are valid"), &motion), expected);
+    }
 }

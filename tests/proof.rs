@@ -177,3 +177,20 @@ fn what_is_singular_is_not_proved() {
         assert!(prove(&case.problem(), &[0.0; 4], &states).is_none());
     }
 }
+
+/// Friction along a slip, not against it: a pair on unit stiffness with the bound 0.3 under a load 0.1 would slip
+/// by -0.2, and is in equilibrium with the force -0.3. It sticks. Under the load 0.5 it slips by 0.2.
+#[test]
+fn friction_along_its_slip_is_no_solution() {
+    for dim in [2, 3] {
+        let k = (0..dim * dim).map(|i| if i % (dim + 1) == 0 { 1.0 } else { 0.0 }).collect();
+        let vector = |[n, t]: [f64; 2]| [&[n, t], &[0.0][..dim - 2]].concat();
+        let (gap, law) = (vec![0.0], Law::Coulomb(vec![0.3]));
+        let mut case = Case { dim, pairs: 1, k, f: vector([1.0, 0.1]), gap, law, slip: None };
+        let backwards = prove(&case.problem(), &vector([0.0, -0.2]), &[State::Slip]);
+        assert!(backwards.is_none(), "{dim}: {backwards:?}");
+        assert!(prove(&case.problem(), &vector([0.0, 0.0]), &[State::Stick]).is_some());
+        case.f = vector([1.0, 0.5]);
+        assert!(prove(&case.problem(), &vector([0.0, 0.2]), &[State::Slip]).is_some());
+    }
+}

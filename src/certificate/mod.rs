@@ -38,6 +38,8 @@ pub use proof::{Proof, prove};
 pub(crate) use proof::{errors, prove_parts};
 pub(crate) use spread::measure_spread;
 
+use std::iter::repeat;
+
 use crate::law::{Contact, State, Violation};
 use crate::linalg::tolerances::{NEGLIGIBLE, ROUNDING_OF_SUM};
 use crate::linalg::vector::{NormSum, dot, largest_of, norm, norm_inf, sizes};
@@ -123,7 +125,7 @@ pub fn certify_pair<R: Relation>(
     let contact = Contact::new(problem);
     let residual = problem.relation().residual(d, force);
     let terms = Terms::new(&contact, d);
-    measure_pair(&contact, (d, &[]), &terms, force.to_vec(), &residual)
+    measure_pair(&contact, (d, &[]), &terms, force.to_vec(), (&residual, &[]))
 }
 
 /// Measures the candidate `(d, force)` of a solver, on a problem whose laws are worked out. Where `d`
@@ -136,10 +138,10 @@ pub(crate) fn measure<R: Relation>(
     let relation = contact.problem().relation();
     let terms = Terms::new(contact, d);
     match relation.force(d, &[], &terms.each) {
-        Some(force) => measure_pair(contact, (d, &[]), &terms, force, &[]),
+        Some(force) => measure_pair(contact, (d, &[]), &terms, force, NOTHING),
         None => {
             let residual = relation.residual(d, force);
-            measure_pair(contact, (d, &[]), &terms, force.to_vec(), &residual)
+            measure_pair(contact, (d, &[]), &terms, force.to_vec(), (&residual, &[]))
         }
     }
 }
@@ -149,16 +151,20 @@ pub(crate) fn measure_parts(contact: &Contact<'_>, d: &[f64], low: &[f64]) -> Ce
     let terms = Terms::new(contact, d);
     let force =
         contact.problem().stiffness().residual(d, low, contact.problem().load(), &terms.each);
-    measure_pair(contact, (d, low), &terms, force, &[])
+    measure_pair(contact, (d, low), &terms, force, NOTHING)
 }
 
-/// Measures `(d + low, raw)`, which lack `residual` to equilibrium, nothing if it is empty; so is `low`.
+/// No residual: the displacements determine the forces.
+const NOTHING: (&[f64], &[f64]) = (&[], &[]);
+
+/// Measures `(d + low, raw)`, `low` nothing if it is empty, which lack `residual` to equilibrium at the pairs, and
+/// `inner` at unknowns beside them.
 fn measure_pair<R: Relation>(
     contact: &Contact<'_, R>,
     (d, low): (&[f64], &[f64]),
     terms: &Terms,
     raw: Vec<f64>,
-    residual: &[f64],
+    (residual, inner): (&[f64], &[f64]),
 ) -> Certificate {
     let relation = contact.problem().relation();
     let load = norm(relation.load());
@@ -169,7 +175,7 @@ fn measure_pair<R: Relation>(
     };
     let unloaded = norm_inf(contact.shifted_load()) == 0.0;
     let natural = Natural::new(contact, (d, low), &raw);
-    let size = natural.size.root().hypot(norm(residual));
+    let size = natural.size.root().hypot(norm(residual)).hypot(norm(inner));
     let inherent = UNIT * terms.inherent;
     let eta = ratio(size, scale);
     // What products in twice the precision are off by: `Matrix::residual`.
@@ -178,16 +184,12 @@ fn measure_pair<R: Relation>(
     let doubt = natural.doubt.root() + natural.sensitivity * products;
     let upper = ratio((size + doubt) * (1.0 + ROUNDINGS_OF_NORM), scale);
     let rounding = ratio(UNIT * terms.rest + if unloaded { 0.0 } else { inherent }, scale);
-    let is_resisted =
-        rounding > ROUNDING_LIMIT && residual.is_empty() && is_resisted(relation, d, &raw);
+    let determines = residual.is_empty() && inner.is_empty();
+    let is_resisted = rounding > ROUNDING_LIMIT && determines && is_resisted(relation, d, &raw);
     let Natural { worst, admissible, states, .. } = natural;
-    let lacking = raw.iter().zip(&admissible).map(|(a, b)| a - b);
-    let equilibrium = match residual {
-        [] => largest_of(lacking),
-        // Of unknowns beside the pairs.
-        _ if residual.len() != d.len() => largest_of(lacking).max(norm_inf(residual)),
-        _ => largest_of(lacking.zip(residual).map(|(lacking, residual)| lacking + residual)),
-    };
+    let at_pairs = residual.iter().copied().chain(repeat(0.0));
+    let lacking = raw.iter().zip(&admissible).zip(at_pairs).map(|((a, b), r)| a - b + r);
+    let equilibrium = largest_of(lacking).max(norm_inf(inner));
     let Violation { penetration, tension, cone_excess } = worst;
     Certificate {
         eta,

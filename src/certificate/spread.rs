@@ -15,5 +15,5 @@ pub(crate) fn measure_spread(
     let d = &x[bodies.inner()..];
     let (inner, raw) = residual.split_at(bodies.inner());
     let terms = Terms::of_all(contact, d, x, &|size| bodies.magnitude(size));
-    measure_pair(contact, (d, &[]), &terms, raw.to_vec(), inner)
+    measure_pair(contact, (d, &[]), &terms, raw.to_vec(), (&[], inner))
 }

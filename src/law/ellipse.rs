@@ -77,16 +77,6 @@ impl Ellipse {
         product(&inverse(&self.to_disc), t)
     }
 
-    /// `Wᵀ delta`: a slip in the variables of the disc to the slip.
-    pub fn slip_from_disc(&self, delta: [f64; 2]) -> [f64; 2] {
-        product(&transposed(&self.to_disc), delta)
-    }
-
-    /// `W a Wᵀ`: a stiffness in the variables of the disc.
-    pub fn block_to_disc(&self, a: &Plane) -> Plane {
-        conjugate(&self.to_disc, a)
-    }
-
     /// `|W t|`.
     pub fn gauge(&self, t: [f64; 2]) -> f64 {
         let [a, b] = self.to_disc(t);

@@ -13,7 +13,6 @@
 //! | `branch` | which smooth piece of the law a point is on, with the derivative there | active-set methods, uniqueness |
 //! | `planar_piece` | the boundaries between the pieces in the plane | the linear path |
 //! | `proximal` | the step of one pair in a sweep | sweeps |
-//! | `local` | the exact solution of one pair, its block coupled | who solves pair by pair |
 //! | `held` | which states can be taken for decided, and how such a pair is held | `solve::undecided` |
 //! | `complementarity` | the law as complementarity of non-negative variables | Lemke's method, block pivoting |
 //! | `frozen` | a pair on a piece that is given, with bounds on all that is computed of it | proofs that a solution exists |
@@ -46,7 +45,6 @@ pub mod frictionless;
 mod frozen;
 mod gauge;
 mod held;
-mod local;
 mod natural_map;
 mod normal_map;
 pub mod orthotropic;

@@ -1,0 +1,252 @@
+//! Branches and pieces of the law's map, against the map itself and their definitions.
+
+#[path = "common/laws.rs"]
+#[allow(dead_code)] // Every test of the law uses a part.
+mod laws;
+
+use fastrand::Rng;
+use laws::{Numbers, norm, uniform};
+use signorini::law::branch::{Branch, Row, Tangential};
+use signorini::law::piece::{Boundary, Piece};
+use signorini::law::{Bound, PairLaw, Vector, first_penetration};
+
+const POINTS: usize = 5000;
+
+/// Rounding of a few operations on numbers up to about 100.
+const ROUNDING: f64 = 1e-12;
+
+fn near(a: f64, b: f64) -> bool {
+    a == b || (a - b).abs() <= ROUNDING
+}
+
+fn coordinates(rng: &mut Rng, law: &Numbers) -> Vector {
+    let mut y = [0.0; 3];
+    y[..law.dim].iter_mut().for_each(|y| *y = uniform(rng, -3.0, 3.0));
+    if !law.has_obstacle() {
+        y[0] = f64::NEG_INFINITY;
+    }
+    y
+}
+
+/// The point of the map at any coordinates obeys the equations of its branch there.
+#[test]
+fn a_point_obeys_the_equations_of_its_branch() {
+    let rng = &mut Rng::with_seed(1);
+    for _ in 0..POINTS {
+        let numbers = Numbers::random(rng);
+        let (law, y) = (numbers.law(), coordinates(rng, &numbers));
+        let ((v, p), reference) = (law.normal_map(&y), law.reference());
+        let force = p.map(|p| -p);
+        for (c, row) in law.branch(&y).rows(&law)[..numbers.dim].iter().enumerate() {
+            let lack = match *row {
+                Row::Fixed(value) => v[c] + reference[c] - value,
+                Row::Free { coupling, offset } => force[c] + coupling * force[0] + offset,
+            };
+            assert!(lack.abs() <= ROUNDING, "{numbers:?} at {y:?}, {c}: {lack:e}");
+        }
+    }
+}
+
+/// In the plane the map is linear on a branch: its constant and its slopes give every push.
+#[test]
+fn the_push_of_a_branch_is_its_constant_and_its_slopes() {
+    let rng = &mut Rng::with_seed(2);
+    for _ in 0..POINTS {
+        let numbers = Numbers::random_in(rng, 2);
+        let law = numbers.law();
+        let mut y = coordinates(rng, &numbers);
+        let (branch, (_, p)) = (law.branch(&y), law.normal_map(&y));
+        if !numbers.has_obstacle() {
+            y[0] = -1.0;
+        }
+        let (constant, slopes) = (law.constant(branch), law.slopes(branch));
+        for c in 0..2 {
+            let push = constant[c] + slopes[c][0] * y[0] + slopes[c][1] * y[1];
+            assert!(near(push, p[c]), "{numbers:?} at {y:?}: {push:e}, {p:?}");
+        }
+    }
+}
+
+/// The four branches in the plane are those on which points are: open, stick, and slip to both sides.
+#[test]
+fn the_branches_in_the_plane_are_all() {
+    let rng = &mut Rng::with_seed(3);
+    for _ in 0..POINTS {
+        let numbers = Numbers::random_in(rng, 2);
+        let (law, y) = (numbers.law(), coordinates(rng, &numbers));
+        let branch = law.branch(&y);
+        // Under a bound that is no cone an open pair has friction: those branches are not among them.
+        if branch.closed || law.is_free_when_open() {
+            assert!(law.planar_branches().contains(&branch), "{numbers:?} at {y:?}");
+        }
+    }
+}
+
+/// A closed pair that slips and then would slip against that direction sticks first; nothing else changes.
+#[test]
+fn a_slip_that_reverses_passes_through_stick() {
+    let rng = &mut Rng::with_seed(4);
+    let mut reversed = [0; 2];
+    for _ in 0..POINTS {
+        let numbers = Numbers::random(rng);
+        let law = numbers.law();
+        let (before, after) = (coordinates(rng, &numbers), coordinates(rng, &numbers));
+        let along: f64 = (1..numbers.dim).map(|c| before[c] * after[c]).sum();
+        let (was, is) = (law.branch(&before), law.branch(&after));
+        let slips = |branch: &Branch| matches!(branch.tangential, Tangential::Slip { .. });
+        let reverses = slips(&was) && slips(&is) && is.closed && along < 0.0;
+        let expected = if reverses { law.stick() } else { is };
+        assert_eq!(was.without_reversal(&law, is), expected, "{numbers:?} {before:?} {after:?}");
+        // The same of coordinates, of a pair that was closed too: they stick, and keep pressure and direction.
+        let y = law.without_reversal(&before, after);
+        if reverses && was.closed {
+            assert_eq!(law.branch(&y).tangential, Tangential::Stick, "{numbers:?} {after:?}");
+            assert!(y[0] == after[0] && norm(&y) > 0.0 && near(y[1] * after[2], y[2] * after[1]));
+            assert!(y[1] * after[1] >= 0.0 && y[2] * after[2] >= 0.0);
+        } else {
+            assert_eq!(y, after, "{numbers:?} {before:?}");
+        }
+        reversed[usize::from(reverses)] += 1;
+    }
+    assert!(reversed.iter().all(|&count| count > POINTS / 20), "{reversed:?}");
+}
+
+/// Across one boundary and back is the same piece, and across both are four.
+#[test]
+fn a_boundary_has_two_sides() {
+    for (closed, slips) in [(false, false), (false, true), (true, false), (true, true)] {
+        let piece = Piece { closed, slips };
+        let [contact, slip] = [Boundary::Contact, Boundary::Slip].map(|side| piece.across(side));
+        assert_eq!(contact, Piece { closed: !closed, slips });
+        assert_eq!(slip, Piece { closed, slips: !slips });
+    }
+}
+
+/// The distance of the point at `y` from its own piece is zero; with another displacement, or another force, it
+/// is what is added to the component that the piece gives.
+#[test]
+fn the_distance_to_a_piece_is_what_was_added() {
+    let rng = &mut Rng::with_seed(5);
+    for _ in 0..POINTS {
+        let numbers = Numbers::random(rng);
+        if !numbers.has_obstacle() {
+            continue;
+        }
+        let (law, y) = (numbers.law(), coordinates(rng, &numbers));
+        let piece = law.piece(&y);
+        let ((v, p), dim) = (law.normal_map(&y), numbers.dim);
+        let (mut d, mut force) = numbers.of_host(&v, &p);
+        let distance = law.distance_to_piece(piece, &y, &d, &force);
+        assert!(norm(&distance) <= 10.0 * ROUNDING, "{numbers:?} at {y:?}: {distance:?}");
+        let (more, push) = (uniform(rng, 0.5, 1.0), uniform(rng, 0.5, 1.0));
+        (d[0], force[0]) = (d[0] + more, force[0] + push);
+        force[dim - 1] += push;
+        let distance = law.distance_to_piece(piece, &y, &d, &force);
+        let normal = if piece.closed { numbers.k.0 * more } else { push };
+        let tangential = if piece.slips { push } else { 0.0 };
+        assert!((distance[0] - normal).abs() <= 1e-10, "{numbers:?} at {y:?}: {distance:?}");
+        assert!((distance[dim - 1] - tangential).abs() <= 1e-10, "{numbers:?}: {distance:?}");
+    }
+}
+
+/// Coordinates from which the linear path in the plane may start: a closed pair sticks with the friction of no
+/// pressure, up to a small part, and an open one has slipped less than its clearance over the slope. What is
+/// well inside stays, and pressures and clearances do.
+#[test]
+fn a_sure_start_slips_less_than_its_clearance_allows() {
+    let rng = &mut Rng::with_seed(6);
+    let mut cut = [0; 2];
+    for _ in 0..POINTS {
+        let numbers = Numbers::random_in(rng, 2);
+        let law = numbers.law();
+        let mut y = coordinates(rng, &numbers);
+        // Clearances and pressures over four decades.
+        y[0] *= 10_f64.powf(uniform(rng, -4.0, 0.0));
+        let start = law.sure_start([y[0], y[1]]);
+        assert_eq!(start[0], y[0]);
+        let (slope, offset) = (numbers.bound.slope, numbers.bound.offset);
+        if slope == 0.0 || !numbers.has_obstacle() {
+            assert_eq!(start[1], y[1]);
+            continue;
+        }
+        let most =
+            if y[0] > 0.0 { offset } else { offset + numbers.k.1 * (-y[0] / numbers.k.0) / slope };
+        let small = if y[0] > 0.0 { 1e-6 * slope * y[0] } else { 0.0 };
+        assert!(start[1].abs() <= most + small + ROUNDING, "{numbers:?} at {y:?}: {start:?}");
+        let kept = if y[0] > 0.0 { most } else { 0.9 * most };
+        let expected = if y[1].abs() <= kept { y[1] } else { start[1] };
+        assert!(near(start[1], expected), "{numbers:?} at {y:?}: {start:?}");
+        if y[1].abs() > kept {
+            cut[usize::from(y[0] > 0.0)] += 1;
+            let least = if y[0] > 0.0 { most + 1e-9 * slope * y[0] } else { 0.9 * most };
+            assert!(start[1].abs() >= least.min(y[1].abs()) - ROUNDING, "{numbers:?} at {y:?}");
+            assert!(start[1] * y[1] >= 0.0);
+        }
+    }
+    assert!(cut.iter().all(|&count| count > POINTS / 50), "{cut:?}");
+}
+
+/// The first of the pairs asked for that is closer than its obstacle, with its gap.
+#[test]
+fn the_first_penetration_is_found() {
+    let gaps = [1.0, -2.0, 0.0, -3.0, f64::INFINITY];
+    assert_eq!(first_penetration(&gaps, [0, 2, 3, 1].into_iter()), Some((3, -3.0)));
+    assert_eq!(first_penetration(&gaps, 0..5), Some((1, -2.0)));
+    assert_eq!(first_penetration(&gaps, [0, 2, 4, 9].into_iter()), None);
+}
+
+/// The chart holds every point of the law, of pairs without an obstacle too, whose normal displacement is free: a
+/// displacement and a force that obey the law come back.
+#[test]
+fn the_chart_gives_back_its_points() {
+    let rng = &mut Rng::with_seed(7);
+    for _ in 0..POINTS {
+        let numbers = Numbers::random(rng);
+        let law = numbers.law();
+        let (v, p) = numbers.point(rng, 0.0);
+        let (mut d, force) = numbers.of_host(&v, &p);
+        if !numbers.has_obstacle() {
+            d[0] = uniform(rng, -2.0, 2.0);
+        }
+        let (back, push) = law.point(&law.chart(&d, &force));
+        for c in 0..numbers.dim {
+            assert!((back[c] - d[c]).abs() <= 1e-10, "{numbers:?}: {d:?} {back:?}");
+            assert!((push[c] + force[c]).abs() <= 1e-10, "{numbers:?}: {force:?} {push:?}");
+        }
+    }
+}
+
+/// A pair meets its obstacle if there is one, and slips beside sticking where its bound is not zero.
+#[test]
+fn pieces_have_the_boundaries_of_their_bounds() {
+    let rng = &mut Rng::with_seed(8);
+    for _ in 0..POINTS {
+        let numbers = Numbers::random(rng);
+        let law = numbers.law();
+        for (closed, slips) in [(false, false), (false, true), (true, false), (true, true)] {
+            let piece = Piece { closed, slips };
+            let has = |boundary| law.has_boundary(piece, boundary);
+            assert_eq!(has(Boundary::Contact), numbers.has_obstacle());
+            if closed && !numbers.has_obstacle() {
+                continue;
+            }
+            let Bound { slope, offset } = numbers.bound;
+            let expected = offset > 0.0 || (closed && slope > 0.0);
+            assert_eq!(has(Boundary::Slip), expected, "{numbers:?} {piece:?}");
+        }
+    }
+}
+
+/// Where a motion goes is said with the sign and the name of its axis.
+#[test]
+fn a_direction_has_a_name() {
+    let bound = Bound { slope: 0.0, offset: 0.0 };
+    let [plane, space] =
+        [2, 3].map(|dim| PairLaw::new(dim, f64::INFINITY, [0.0; 2], bound, (1.0, 1.0)));
+    assert_eq!(plane.direction(1, 2.0), "along +t");
+    assert_eq!(plane.direction(1, -2.0), "along -t");
+    assert_eq!(space.direction(1, 2.0), "along +t1");
+    assert_eq!(space.direction(2, -2.0), "along -t2");
+    assert!(space.direction(0, -1.0).contains("away from"));
+    assert!(space.direction(0, 1.0).contains("towards"));
+}
