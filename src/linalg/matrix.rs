@@ -164,10 +164,10 @@ impl<'a> Matrix<'a> {
                     let begin = i0.max(j + 1).min(rows.end);
                     let lower = self.column(j)[begin..rows.end].iter();
                     let both = lower.zip(&across[begin - i0..]).zip(&root[begin..]);
-                    let agree = both.fold(true, |agree, ((lower, upper), other)| {
+                    let agree = both.fold(true, |agree, ((below, above), other)| {
                         let scale = other * root[j];
-                        let near = (lower - upper).abs() <= apart * scale;
-                        agree & near & (lower.abs() <= most * scale)
+                        let near = (below - above).abs() <= apart * scale;
+                        agree & near & (below.abs() <= most * scale)
                     });
                     if !agree {
                         return false;

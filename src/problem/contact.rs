@@ -152,22 +152,6 @@ impl<'a> ContactProblem<'a> {
         ContactProblem { gap, ..*self }
     }
 
-    /// A problem of some of the pairs, with their matrix and load, gaps, law and reference slips.
-    ///
-    /// # Errors
-    /// Numbers that are not finite.
-    pub(crate) fn of_some_pairs<'b>(
-        &self,
-        (matrix, load): (Matrix<'b>, &'b [f64]),
-        gap: &'b [f64],
-        law: FrictionLaw<'b>,
-        slip: &'b [f64],
-    ) -> Result<ContactProblem<'b>, Error> {
-        let relation = Stiffness::new(matrix, load, self.dim);
-        check_finite(Argument::Load, "f", load)?;
-        ContactProblem::with_relation(relation, self.dim, gap, law, Some(slip))
-    }
-
     /// Column `j` of `K`.
     pub fn column(&self, j: usize) -> &'a [f64] {
         self.relation.matrix.column(j)

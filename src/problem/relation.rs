@@ -83,7 +83,7 @@ const COMPONENTS_A_UNIT: f64 = 8.0;
 
 impl<'a> Stiffness<'a> {
     /// The relation of pairs of `dim` components, with a symmetric matrix.
-    pub(super) fn new(matrix: Matrix<'a>, load: &'a [f64], dim: usize) -> Self {
+    pub(crate) fn new(matrix: Matrix<'a>, load: &'a [f64], dim: usize) -> Self {
         Stiffness {
             matrix,
             load,

@@ -3,7 +3,7 @@
 use crate::law::{Contact, Held};
 use crate::linalg::elimination::Elimination;
 use crate::monitor::{Monitor, Stop};
-use crate::problem::ContactProblem;
+use crate::problem::{ContactProblem, Stiffness};
 
 /// The contact problem of the pairs in question: open ones are eliminated, stuck ones are at their reference.
 pub struct Parted<'c> {
@@ -68,15 +68,13 @@ impl<'c> Parted<'c> {
 
     /// The problem of the pairs in question; `None` if its numbers are beyond the largest one.
     pub fn problem(&self) -> Option<ContactProblem<'_>> {
-        let whole = self.contact.problem();
-        whole
-            .of_some_pairs(
-                (self.elimination.schur(), &self.load),
-                &self.gap,
-                whole.law().with_values(&self.parameters),
-                &self.slip,
-            )
-            .ok()
+        let (whole, dim) = (self.contact.problem(), self.contact.dim());
+        let relation = Stiffness::new(self.elimination.schur(), &self.load, dim);
+        let law = whole.law().with_values(&self.parameters);
+        let is_finite = self.load.iter().all(|load| load.is_finite());
+        let part =
+            ContactProblem::with_relation(relation, dim, &self.gap, law, Some(&self.slip)).ok();
+        part.filter(|_| is_finite)
     }
 
     /// The components that belong to the pairs in question, of any vector of all components.
