@@ -6,6 +6,7 @@
 //! | friction in 2D | Newton, path (from its best iterate), Lemke, sweeps (nested, diagonal) |
 //! | friction in 3D | Newton, path (from its last iterate), sweeps (nested, diagonal) |
 //!
+//! In 2D Newton's method and the path go to the pairs in question first (`undecided`), and then to the whole.
 //! The path has the guarantee. In 2D it starts where sweeps end and takes far fewer events than Lemke's
 //! method takes pivots on most problems. Lemke's method is asked only where rounding spoils all its starts, or where a body without
 //! supports leaves it on a ray that proves nothing: another path may end elsewhere.
