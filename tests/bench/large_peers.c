@@ -6,78 +6,17 @@
  *                                                 the condensation, which has to make the product besides
  *
  * Prints one row of large.csv, and the norm of the Schur complement as a line with #. The file is that of
- * large_problem.rs; its loads and gaps are not read. CPU seconds of the process, from the matrix on.
+ * large_problem.rs. CPU seconds of the process, from the matrix on.
  */
 
 #include <cholmod.h>
 #include <dmumps_c.h>
 
 #include <math.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
-struct matrix {
-    int64_t size, contact, entries;
-    int64_t *starts, *rows;
-    double *values;
-};
-
-static void die(const char *what)
-{
-    fprintf(stderr, "large_peers: %s\n", what);
-    exit(1);
-}
-
-static void *memory(size_t count, size_t size)
-{
-    void *pointer = calloc(count, size);
-    if (!pointer) die("out of memory");
-    return pointer;
-}
-
-static void *array(FILE *file, int64_t count, size_t size)
-{
-    void *pointer = memory((size_t)count, size);
-    if (fread(pointer, size, (size_t)count, file) != (size_t)count) die("the matrix is cut off");
-    return pointer;
-}
-
-static struct matrix read_matrix(const char *path)
-{
-    struct matrix matrix;
-    int64_t head[3];
-    FILE *file = fopen(path, "rb");
-    if (!file || fread(head, sizeof *head, 3, file) != 3) die("the matrix cannot be read");
-    matrix.size = head[0];
-    matrix.contact = head[1];
-    matrix.entries = head[2];
-    matrix.starts = array(file, matrix.size + 1, sizeof(int64_t));
-    matrix.rows = array(file, matrix.entries, sizeof(int64_t));
-    matrix.values = array(file, matrix.entries, sizeof(double));
-    fclose(file);
-    return matrix;
-}
-
-static double seconds(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
-/* Peak resident memory in MB. */
-static long peak(void)
-{
-    char line[256];
-    long kilobytes = 0;
-    FILE *status = fopen("/proc/self/status", "r");
-    while (status && fgets(line, sizeof line, status)) sscanf(line, "VmHWM: %ld", &kilobytes);
-    if (status) fclose(status);
-    return kilobytes / 1000;
-}
+#define PROGRAM "large_peers"
+#include "large_problem.h"
 
 /* ---- MUMPS --------------------------------------------------------------------------------- */
 
@@ -93,7 +32,7 @@ static void check(const DMUMPS_STRUC_C *mumps)
 }
 
 /* The Schur complement, of which MUMPS fills the lower triangle, by rows. */
-static void schur(const struct matrix *matrix)
+static void schur(const struct problem *matrix)
 {
     DMUMPS_STRUC_C mumps;
     const int64_t contact = matrix->contact, inner = matrix->size - contact;
@@ -145,7 +84,7 @@ static void schur(const struct matrix *matrix)
 /* ---- CHOLMOD ------------------------------------------------------------------------------- */
 
 /* An order with the contact last: by CAMD in 2D, by METIS of the rest in 3D, as suits each. */
-static void order_contact_last(cholmod_sparse *A, const struct matrix *matrix, int dim,
+static void order_contact_last(cholmod_sparse *A, const struct problem *matrix, int dim,
                                SuiteSparse_long *order, cholmod_common *common)
 {
     const int64_t inner = matrix->size - matrix->contact;
@@ -168,7 +107,7 @@ static void order_contact_last(cholmod_sparse *A, const struct matrix *matrix, i
     free(set);
 }
 
-static void factor(const struct matrix *matrix, int dim)
+static void factor(const struct problem *matrix, int dim)
 {
     cholmod_common common;
     SuiteSparse_long *order = memory((size_t)matrix->size, sizeof *order);
@@ -192,17 +131,18 @@ static void factor(const struct matrix *matrix, int dim)
 int main(int count, char **words)
 {
     if (count != 6) die("usage: large_peers MATRIX mumps|cholmod CASE DIM BLAS");
-    const struct matrix matrix = read_matrix(words[1]);
     const char *library = words[2], *name = words[3], *blas = words[5];
-    const int dim = atoi(words[4]), is_mumps = !strcmp(library, "mumps");
-    const double begin = seconds();
+    const int dim = atoi(words[4]);
+    const struct problem matrix = read_problem(words[1], dim);
+    const int is_mumps = !strcmp(library, "mumps");
+    const double begin = seconds(CLOCK_PROCESS_CPUTIME_ID);
     if (is_mumps)
         schur(&matrix);
     else
         factor(&matrix, dim);
     printf("%s,%d,%lld,%lld,%s,%s,%s,%.4f,%ld,,%s\n", name, dim, (long long)matrix.size,
            (long long)matrix.contact, library, blas, is_mumps ? "reduce" : "factor",
-           seconds() - begin, peak(), is_mumps ? "reduced" : "factorised");
+           seconds(CLOCK_PROCESS_CPUTIME_ID) - begin, peak(), is_mumps ? "reduced" : "factorised");
     free(matrix.starts);
     free(matrix.rows);
     free(matrix.values);

@@ -16,66 +16,9 @@
 #include <petscsnes.h>
 
 #include <math.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <time.h>
 
-struct problem {
-    int64_t size, contact, entries;
-    int64_t *starts, *rows;
-    double *values, *load, *gap;
-};
-
-static void die(const char *what)
-{
-    fprintf(stderr, "large_petsc: %s\n", what);
-    exit(1);
-}
-
-static void *array(FILE *file, int64_t count, size_t size)
-{
-    void *pointer = calloc((size_t)count, size);
-    if (!pointer) die("out of memory");
-    if (fread(pointer, size, (size_t)count, file) != (size_t)count) die("the problem is cut off");
-    return pointer;
-}
-
-static struct problem read_problem(const char *path, int dim)
-{
-    struct problem p;
-    int64_t head[3];
-    FILE *file = fopen(path, "rb");
-    if (!file || fread(head, sizeof *head, 3, file) != 3) die("the problem cannot be read");
-    p.size = head[0];
-    p.contact = head[1];
-    p.entries = head[2];
-    p.starts = array(file, p.size + 1, sizeof(int64_t));
-    p.rows = array(file, p.entries, sizeof(int64_t));
-    p.values = array(file, p.entries, sizeof(double));
-    p.load = array(file, p.size, sizeof(double));
-    p.gap = array(file, p.contact / dim, sizeof(double));
-    fclose(file);
-    return p;
-}
-
-static double seconds(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
-/* Peak resident memory in MB. */
-static long peak(void)
-{
-    char line[256];
-    long kilobytes = 0;
-    FILE *status = fopen("/proc/self/status", "r");
-    while (status && fgets(line, sizeof line, status)) sscanf(line, "VmHWM: %ld", &kilobytes);
-    if (status) fclose(status);
-    return kilobytes / 1000;
-}
+#define PROGRAM "large_petsc"
+#include "large_problem.h"
 
 /* Both triangles by rows. */
 static PetscErrorCode assemble(const struct problem *p, Mat *K)
@@ -170,7 +113,7 @@ int main(int count, char **words)
     double *at, *bound, *contact, pressure = 0, lacking = 0, forces = 0, loads = 0;
 
     PetscCall(PetscInitializeNoArguments());
-    const double begin = seconds();
+    const double begin = seconds(CLOCK_PROCESS_CPUTIME_ID);
     PetscCall(assemble(&p, &context.K));
     PetscCall(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, (PetscInt)p.size, p.load, &context.load));
     PetscCall(VecDuplicate(context.load, &u));
@@ -182,7 +125,7 @@ int main(int count, char **words)
         bound[p.size - p.contact + dim * pair + dim - 1] = -p.gap[pair];
     PetscCall(VecRestoreArray(lower, &bound));
     PetscCall(solve(&context, u, lower));
-    const double spent = seconds() - begin;
+    const double spent = seconds(CLOCK_PROCESS_CPUTIME_ID) - begin;
 
     PetscCall(residual(NULL, u, force, &context));
     PetscCall(VecGetArray(u, &at));

@@ -9,66 +9,33 @@
  *
  * each time the least of RUNS runs in turn: of the clock on the wall, of all threads, and of the calling thread, which
  * is what a machine without other work would need; and whether every condensed matrix has the same bits. The file is
- * that of large_problem.rs; its loads and gaps are not read.
+ * that of large_problem.rs.
  */
 
 #include <signorini.h>
 
-#include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
-#include <time.h>
+
+#define PROGRAM "large_threads"
+#include "large_problem.h"
 
 enum { RUNS = 3, MOST = 16, CLOCKS = 3 };
 
-static void die(const char *what)
-{
-    fprintf(stderr, "large_threads: %s\n", what);
-    exit(1);
-}
-
-static void *memory(size_t bytes)
-{
-    void *pointer = malloc(bytes ? bytes : 1);
-    if (!pointer) die("out of memory");
-    return pointer;
-}
-
-static int64_t *numbers(FILE *file, int64_t count)
-{
-    int64_t *array = memory((size_t)count * sizeof *array);
-    if (fread(array, sizeof *array, (size_t)count, file) != (size_t)count) die("the matrix is cut off");
-    return array;
-}
-
-static double now(clockid_t which)
-{
-    struct timespec time;
-    clock_gettime(which, &time);
-    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
-}
-
 int main(int argc, char **argv)
 {
-    FILE *file = argc > 4 && argc - 4 <= MOST ? fopen(argv[1], "rb") : NULL;
-    if (!file) die("usage: large_threads MATRIX CASE DIM THREADS ...; or the matrix cannot be read");
+    if (argc < 5 || argc - 4 > MOST) die("usage: large_threads MATRIX CASE DIM THREADS ...");
     const int dim = atoi(argv[3]), counts = argc - 4;
-    int64_t *head = numbers(file, 3);
-    const int64_t size = head[0], contact = head[1], pairs = contact / dim;
-    signorini_sparse K = {.struct_size = sizeof K, .size = size, .nnz = head[2], .index_bytes = 8};
+    const struct problem p = read_problem(argv[1], dim);
+    const int64_t size = p.size, contact = p.contact, pairs = contact / dim;
+    signorini_sparse K = {.struct_size = sizeof K, .size = size, .nnz = p.entries, .index_bytes = 8};
     K.triangle = SIGNORINI_TRIANGLE_LOWER;
-    K.col_start = numbers(file, size + 1);
-    K.row = numbers(file, K.nnz);
-    double *values = memory((size_t)K.nnz * sizeof *values);
-    if (fread(values, sizeof *values, (size_t)K.nnz, file) != (size_t)K.nnz) die("no values");
-    K.values = values;
-    fclose(file);
+    K.col_start = p.starts;
+    K.row = p.rows;
+    K.values = p.values;
 
-    int64_t *slave = memory((size_t)contact * sizeof *slave);
-    int64_t *start = calloc((size_t)pairs + 1, sizeof *start);
-    double *normal = calloc((size_t)contact, sizeof *normal);
-    if (!start || !normal) die("out of memory");
+    int64_t *slave = memory((size_t)contact, sizeof *slave);
+    int64_t *start = memory((size_t)pairs + 1, sizeof *start);
+    double *normal = memory((size_t)contact, sizeof *normal);
     for (int64_t i = 0; i < contact; i++) slave[i] = size - contact + i;
     for (int64_t i = 0; i < pairs; i++) normal[dim * i + dim - 1] = -1;
     signorini_pairs rows = {.struct_size = sizeof rows, .dim = dim, .count = pairs};
@@ -76,8 +43,8 @@ int main(int argc, char **argv)
     rows.master_start = start;
     rows.normals = normal;
 
-    const size_t bytes = (size_t)(contact * contact) * sizeof(double);
-    double *first = memory(bytes), *other = memory(bytes);
+    const size_t entries = (size_t)(contact * contact), bytes = entries * sizeof(double);
+    double *first = memory(entries, sizeof *first), *other = memory(entries, sizeof *other);
     const clockid_t clocks[CLOCKS] = {CLOCK_MONOTONIC, CLOCK_PROCESS_CPUTIME_ID,
                                       CLOCK_THREAD_CPUTIME_ID};
     double least[MOST][CLOCKS];
@@ -89,11 +56,11 @@ int main(int argc, char **argv)
             signorini_settings_default(&settings, sizeof settings);
             settings.threads = atoi(argv[4 + k]);
             double begin[CLOCKS];
-            for (int c = 0; c < CLOCKS; c++) begin[c] = now(clocks[c]);
+            for (int c = 0; c < CLOCKS; c++) begin[c] = seconds(clocks[c]);
             if (signorini_model_new_sparse_within(&K, 0, NULL, &rows, &settings, &model) != 0)
                 die(signorini_last_error());
             for (int c = 0; c < CLOCKS; c++) {
-                const double took = now(clocks[c]) - begin[c];
+                const double took = seconds(clocks[c]) - begin[c];
                 if (run == 0 || took < least[k][c]) least[k][c] = took;
             }
             if (signorini_model_stiffness(model, run + k ? other : first) != 0)

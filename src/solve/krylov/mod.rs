@@ -12,7 +12,7 @@ mod thresholds;
 mod walk;
 
 use super::candidate::Ending;
-use super::outcome::{Existence, Solution, Status, Uniqueness};
+use super::outcome::{Solution, Status};
 use super::remarks::of_problem;
 use crate::certificate::{Certificate, measure_spread};
 use crate::error::{Argument, Error};
@@ -267,26 +267,8 @@ fn certified(
     };
     let d = x[bodies.inner()..].to_vec();
     Ok(Solution {
-        status,
-        message: message.into(),
-        d_low: vec![0.0; d.len()],
-        d,
-        certificate,
-        recession: None,
-        escape: None,
-        method: Method::Newton,
-        fallback: None,
-        uniqueness: Uniqueness::NotKnown,
-        second: None,
-        existence: Existence::NotAsked,
         remarks: of_problem(contact.problem()),
-        errors: None,
-        orientation: 0,
         iterations: systems,
-        factorisations: 0,
-        outer_iterations: 0,
-        refactorisations: 0,
-        omega: 0.0,
-        damping: 0.0,
+        ..Solution::of(Method::Newton, (status, message), d, certificate)
     })
 }
