@@ -65,10 +65,10 @@
 //! [`crate::certificate::is_escape`] decides; friction may hold a body that this proof does not.
 //!
 //! *What is followed.* First on the pairs in question alone ([`crate::solve::undecided`]), where an event costs
-//! little: their matrix is definite too. Then on all pairs, from the swept start as it is, all states kept, for it is near: G without its
-//! premise; if that comes back, or takes more events than a third of the pairs, once more after further
-//! sweeps. Then from the sure start, H; if rounding spoils that, with factorisations at nearly every event,
-//! and from all pairs pressed on their obstacles. Starts are moved at random by 1e-7 of the loads, always by
+//! little: their matrix is definite too. Then on all pairs, from the swept start as it is, all states kept, for it
+//! is near: G without its premise; if that comes back, or takes more events than a third of the pairs, once more
+//! after further sweeps. Then from the sure start, H; if rounding spoils that, with factorisations at nearly every
+//! event, and from all pairs pressed on their obstacles. Starts are moved at random by 1e-7 of the loads, always by
 //! the same numbers: symmetric meshes have ties. At `s = 1` nothing is left of that, and Newton's method
 //! polishes from the pieces found there.
 //!
