@@ -822,8 +822,11 @@ static void budgets_end_a_call_with_results(void)
             seen = (watch){.in_order = 1, .last = -1, .cancel_at = at};
             const int32_t ended = limited(&c, &settings, &report);
             CHECK(seen.in_order && seen.calls == at && report.iterations == at - 1);
-            /* The path may stand on a solution that waits for its last system. */
-            if (method == PATH && ended == SIGNORINI_STATUS_SOLVED) continue;
+            /* Before its last system the path stands on a solution. */
+            if (method == PATH && at == calls && ended == SIGNORINI_STATUS_SOLVED) {
+                CHECK(report.eta <= 1e-10);
+                continue;
+            }
             CHECK_STATUS(ended, SIGNORINI_STATUS_CANCELLED);
             CHECK_TEXT(signorini_last_error(), "cancelled");
         }

@@ -228,6 +228,27 @@ mod tests {
         (0..n * n).map(|k| entry((k % n).max(k / n), (k % n).min(k / n))).collect()
     }
 
+    /// A problem with Coulomb's law.
+    fn coulomb<'a>(
+        stiffness: &'a [f64],
+        load: &'a [f64],
+        gap: &'a [f64],
+        mu: &'a [f64],
+        slip: &'a [f64],
+    ) -> ContactProblem<'a> {
+        let problem = ContactProblem::new(ContactData {
+            dim: 2,
+            pairs: gap.len(),
+            stiffness,
+            ld: load.len(),
+            load,
+            gap,
+            law: FrictionLaw::Coulomb(mu),
+            reference_slip: Some(slip),
+        });
+        problem.expect("the data is valid")
+    }
+
     /// Theorem H: the path from the sure start arrives, without the swept one and without a second try.
     #[test]
     fn the_sure_start_arrives_whatever_the_coefficients() {
@@ -242,17 +263,7 @@ mod tests {
             let least = [1e-1, 1e-3][seed as usize % 2];
             let stiffness = definite(&mut rng, 2 * pairs, least);
             let mu: Vec<f64> = (0..pairs).map(|_| 10.0 * rng.f64()).collect();
-            let problem = ContactProblem::new(ContactData {
-                dim: 2,
-                pairs,
-                stiffness: &stiffness,
-                ld: 2 * pairs,
-                load: &load,
-                gap: &gap,
-                law: FrictionLaw::Coulomb(&mu),
-                reference_slip: Some(&slip),
-            });
-            let problem = problem.expect("the data is valid");
+            let problem = coulomb(&stiffness, &load, &gap, &mu, &slip);
             let (contact, settings) = (Contact::new(&problem), Settings::default());
             let mut monitor = Monitor::new(&settings, None);
             let candidate = solve(&contact, &settings, None, &ATTEMPTS[SURE..=SURE], &mut monitor);
@@ -291,17 +302,7 @@ mod tests {
             };
             let (load, gap, slip) = (vector(n, 1.0), vector(PAIRS, 0.3), vector(PAIRS, 0.3));
             let mu: Vec<f64> = vector(PAIRS, 3.0).iter().map(|mu| mu.abs()).collect();
-            let problem = ContactProblem::new(ContactData {
-                dim: 2,
-                pairs: PAIRS,
-                stiffness: &stiffness,
-                ld: n,
-                load: &load,
-                gap: &gap,
-                law: FrictionLaw::Coulomb(&mu),
-                reference_slip: Some(&slip),
-            });
-            let problem = problem.expect("the data is valid");
+            let problem = coulomb(&stiffness, &load, &gap, &mu, &slip);
             let (contact, settings) = (Contact::new(&problem), Settings::default());
             let mut monitor = Monitor::new(&settings, None);
             if let Some(candidate) = on_undecided(&contact, &settings, None, &mut monitor) {
