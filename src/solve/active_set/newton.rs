@@ -67,8 +67,8 @@ pub fn solve(
     let systems = systems + first.effort.factorisations;
     let further = match ended {
         Ended::Settled(branches, d) => from_branches(contact, settings, branches, d, monitor),
-        Ended::Undivided => after_sweeps(contact, settings, &d, SWEEPS_OF_SECOND_START, monitor),
-        Ended::Lost | Ended::Stopped(_) => {
+        Ended::Undivided(_) => after_sweeps(contact, settings, &d, SWEEPS_OF_SECOND_START, monitor),
+        Ended::Lost(_) | Ended::Stopped(_) => {
             let mut first = first.with_effort(Effort::of_systems(systems));
             if let Ended::Stopped(stop) = ended {
                 first.ending = Ending::Stopped(stop);

@@ -65,19 +65,19 @@
 //! [`crate::certificate::is_escape`] decides; friction may hold a body that this proof does not.
 //!
 //! *What is followed.* First on the pairs in question alone ([`crate::solve::undecided`]), where an event costs
-//! little: their matrix is definite too. Then on all pairs, from the swept start as it is, all states kept, for it
+//! little: their matrix is definite too. Then on all pairs, from where these have come to, all states kept, for it
 //! is near: G without its premise; if that comes back, or takes more events than a third of the pairs, once more
-//! after further sweeps. Then from the sure start, H; if rounding spoils that, with factorisations at nearly every
-//! event, and from all pairs pressed on their obstacles. Starts are moved at random by 1e-7 of the loads, always by
-//! the same numbers: symmetric meshes have ties. At `s = 1` nothing is left of that, and Newton's method
-//! polishes from the pieces found there.
+//! after some sweeps. Then from the sure start, H, after more and more sweeps; if rounding spoils that, with
+//! factorisations at nearly every event, and from all pairs pressed on their obstacles. Starts are moved at random
+//! by 1e-7 of the loads, always by the same numbers: symmetric meshes have ties. At `s = 1` nothing is left of
+//! that, and Newton's method polishes from the pieces found there.
 //!
 //! *Limits.* The number of events is not bounded by a polynomial. On meshes it is about the number of
 //! pairs whose state differs from that of the start, a few in a hundred pairs from swept starts.
 
 use super::linear_attempts::{ATTEMPTS, Attempt, ON_UNDECIDED, SURE, Start};
 use super::linear_start::{Random, Starts};
-use super::linear_walk::{End, Ground, Rules, Walk};
+use super::linear_walk::{End, Ground, Walk};
 use crate::law::{Contact, Planar};
 use crate::monitor::Monitor;
 use crate::settings::Settings;
@@ -85,9 +85,6 @@ use crate::solve::active_set;
 use crate::solve::candidate::{Candidate, Effort, Ending};
 use crate::solve::rigid_balance;
 use crate::solve::undecided::{self, Ended};
-
-/// Events that any walk may take.
-const LEAST: usize = 100;
 
 /// Why there is no solution.
 const LOST: &str = "the path does not arrive";
@@ -104,11 +101,11 @@ pub fn linear(
     monitor: &mut Monitor<'_>,
 ) -> Candidate {
     if contact.is_coupled() {
-        let candidate = on_undecided(contact, settings, start, monitor);
-        let is_settled = |candidate: &Candidate| candidate.is_settled(contact, settings.tolerance);
-        return match candidate {
-            Some(candidate) if is_settled(&candidate) => candidate,
-            _ => solve(contact, settings, start, &ATTEMPTS, monitor),
+        return match on_undecided(contact, settings, start, monitor) {
+            Ok(candidate) if candidate.is_settled(contact, settings.tolerance) => candidate,
+            Ok(Candidate { d, .. }) | Err(d) => {
+                solve(contact, settings, Some(&d), &ATTEMPTS, monitor)
+            }
         };
     }
     // With given thresholds every start is sure.
@@ -117,13 +114,14 @@ pub fn linear(
     solve(contact, settings, start, &attempts, monitor)
 }
 
-/// Solves by walks on the pairs in question; `None` if these are not few, or if no walk arrives.
+/// Solves by walks on the pairs in question. `Err`: these are not few, or no walk arrives; how far the
+/// displacements have come.
 fn on_undecided(
     contact: &Contact<'_>,
     settings: &Settings,
     start: Option<&[f64]>,
     monitor: &mut Monitor<'_>,
-) -> Option<Candidate> {
+) -> Result<Candidate, Vec<f64>> {
     let zero = || vec![0.0; contact.unknowns()];
     let d = start.map_or_else(zero, <[f64]>::to_vec);
     let mut core = |part: &Contact<'_>, d: &[f64], monitor: &mut Monitor<'_>| {
@@ -135,10 +133,10 @@ fn on_undecided(
             active_set::from_branches(contact, settings, branches, d, monitor)
         }
         Ended::Stopped(stop) => Candidate::of_displacements(contact, d, Ending::Stopped(stop)),
-        Ended::Undivided | Ended::Lost => return None,
+        Ended::Undivided(d) | Ended::Lost(d) => return Err(d),
     };
     candidate.effort.factorisations += systems;
-    Some(candidate)
+    Ok(candidate)
 }
 
 fn solve(
@@ -170,8 +168,7 @@ fn solve(
         if !walk.begins_upwards() {
             continue;
         }
-        let most = LEAST.max((attempt.events * y.len() as f64) as usize);
-        let end = walk.follow(Rules { most, age: attempt.age }, monitor);
+        let end = walk.follow(attempt.rules(y.len()), monitor);
         let mut candidate = ended(contact, settings, &walk, end, monitor);
         effort.factorisations += walk.factorisations + candidate.effort.factorisations;
         candidate.effort = effort;
@@ -305,7 +302,7 @@ mod tests {
             let problem = coulomb(&stiffness, &load, &gap, &mu, &slip);
             let (contact, settings) = (Contact::new(&problem), Settings::default());
             let mut monitor = Monitor::new(&settings, None);
-            if let Some(candidate) = on_undecided(&contact, &settings, None, &mut monitor) {
+            if let Ok(candidate) = on_undecided(&contact, &settings, None, &mut monitor) {
                 assert!(candidate.is_settled(&contact, settings.tolerance), "seed {seed}");
                 settled += 1;
             }

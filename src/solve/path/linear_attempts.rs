@@ -1,5 +1,10 @@
 //! The walks along the linear path that are tried, in turn.
 
+use super::linear_walk::Rules;
+
+/// Events that any walk may take.
+const LEAST: usize = 100;
+
 /// Events of a walk from the swept start, for each pair: those that arrive nearly always take fewer, at most
 /// 42 on the hard families with 257 pairs.
 const SHORT: f64 = 0.3;
@@ -7,14 +12,16 @@ const SHORT: f64 = 0.3;
 /// Events of a walk from a sure start, for each pair: those that arrived in tests took up to 4.
 const LONG: f64 = 10.0;
 
-/// The same on the pairs in question: those that arrived took up to 2.8.
+/// The same on the pairs in question, where those that arrived took up to 2.8, and from the first sure starts on all
+/// pairs: another start is rarely as long as one that has not ended by then.
 const ENOUGH: f64 = 3.0;
 
-/// Changes after which a system is factorised again: a factorisation then costs about as much as the
-/// changes.
-const AGE: usize = 60;
+/// Changes after which a system is factorised again, and the same for each pair: a factorisation then costs about as
+/// much as the changes.
+const LEAST_AGE: usize = 60;
+const AGE: f64 = 0.3;
 
-/// The same where rounding has spoilt a walk.
+/// Changes after which a system is factorised again where rounding has spoilt a walk.
 const CAREFUL_AGE: usize = 4;
 
 /// Where a walk starts.
@@ -36,29 +43,40 @@ pub struct Attempt {
     pub start: Start,
     /// Events after which it is given up, for each pair.
     pub events: f64,
-    /// Events after which a system is factorised again.
-    pub age: usize,
+    /// Whether rounding has spoilt the walks before.
+    pub careful: bool,
 }
 
-/// A sweep costs a third of an event. `auto` starts at the best iterate of Newton's method, where a few
-/// sweeps are enough; where the path comes back from there, more of them are a start of another kind.
-/// Further ones spare the sure start a third of its events.
-pub const ATTEMPTS: [Attempt; 5] = [
-    Attempt { sweeps: 20, start: Start::Swept, events: SHORT, age: AGE },
-    Attempt { sweeps: 100, start: Start::Swept, events: SHORT, age: AGE },
-    Attempt { sweeps: 200, start: Start::Sure, events: LONG, age: AGE },
-    Attempt { sweeps: 0, start: Start::Sure, events: LONG, age: CAREFUL_AGE },
-    Attempt { sweeps: 0, start: Start::Pressed, events: LONG, age: CAREFUL_AGE },
+impl Attempt {
+    /// How far the walk may go with so many pairs.
+    pub fn rules(&self, pairs: usize) -> Rules {
+        let of = |part: f64| (part * pairs as f64) as usize;
+        let age = if self.careful { CAREFUL_AGE } else { LEAST_AGE.max(of(AGE)) };
+        Rules { most: LEAST.max(of(self.events)), age }
+    }
+}
+
+/// The start is the best iterate of Newton's method after a few sweeps, or what walks on the pairs in question have come
+/// to. How many events a sure start takes varies much with the sweeps before it: from 1100 to more than 9000 on the
+/// hardest problem with 1025 pairs. So there are several of them.
+pub const ATTEMPTS: [Attempt; 7] = [
+    Attempt { sweeps: 0, start: Start::Swept, events: SHORT, careful: false },
+    Attempt { sweeps: 20, start: Start::Swept, events: SHORT, careful: false },
+    Attempt { sweeps: 30, start: Start::Sure, events: ENOUGH, careful: false },
+    Attempt { sweeps: 100, start: Start::Sure, events: ENOUGH, careful: false },
+    Attempt { sweeps: 200, start: Start::Sure, events: LONG, careful: false },
+    Attempt { sweeps: 0, start: Start::Sure, events: LONG, careful: true },
+    Attempt { sweeps: 0, start: Start::Pressed, events: LONG, careful: true },
 ];
 
 /// The same on the pairs in question, where each costs little: short walks from several starts end sooner than a
 /// long one.
 pub const ON_UNDECIDED: [Attempt; 5] = [
-    Attempt { sweeps: 3, start: Start::Swept, events: SHORT, age: AGE },
-    Attempt { sweeps: 20, start: Start::Swept, events: SHORT, age: AGE },
-    Attempt { sweeps: 80, start: Start::Swept, events: SHORT, age: AGE },
-    Attempt { sweeps: 200, start: Start::Swept, events: SHORT, age: AGE },
-    Attempt { sweeps: 0, start: Start::Sure, events: ENOUGH, age: AGE },
+    Attempt { sweeps: 3, start: Start::Swept, events: SHORT, careful: false },
+    Attempt { sweeps: 20, start: Start::Swept, events: SHORT, careful: false },
+    Attempt { sweeps: 80, start: Start::Swept, events: SHORT, careful: false },
+    Attempt { sweeps: 200, start: Start::Swept, events: SHORT, careful: false },
+    Attempt { sweeps: 0, start: Start::Sure, events: ENOUGH, careful: false },
 ];
 
 /// Where attempts begin that are sure.

@@ -19,8 +19,10 @@
 //! J'⁻¹ b = J⁻¹ b - z (n.J⁻¹ b) / pivot,    det J' = pivot det J
 //! ```
 //!
-//! One solve for each change, and all later ones pass through the changes in turn.
+//! `z` is one column of `J⁻¹ (K / k - 1)` or two, of the pieces that were factorised (`linear_columns`), which pass
+//! through the changes since then in turn, as all solutions do.
 
+use super::linear_columns::Columns;
 use crate::law::branch::Branch;
 use crate::law::{Contact, Exit, PairLaw, Planar};
 use crate::linalg::factor::{Factor, lu_work, subtract_product};
@@ -69,6 +71,8 @@ pub struct PieceSystem<'p> {
     factor: Factor,
     /// Rows of `K` for the forces of the others, each with the free columns.
     rows: Vec<f64>,
+    /// Columns for changes.
+    columns: Columns,
     changes: Vec<Change>,
 }
 
@@ -106,6 +110,7 @@ impl<'p> PieceSystem<'p> {
             bound,
             factor,
             rows,
+            columns: Columns::none(root.len()),
             changes,
         })
     }
@@ -130,47 +135,80 @@ impl<'p> PieceSystem<'p> {
         x
     }
 
-    /// `J⁻¹ b` on the pieces that were factorised.
+    /// `J⁻¹ b` on the pieces that were factorised, for each column of `b`.
     fn solve_factorised(&mut self, b: &[f64]) -> Vec<f64> {
-        let mut d: Vec<f64> = self
-            .free
-            .iter()
-            .map(|&i| {
+        let (size, free, bound) = (self.root.len(), self.free.len(), self.bound.len());
+        let mut d = Vec::with_capacity(b.len() / size * free);
+        let mut forces = Vec::with_capacity(b.len() / size * bound);
+        for b in b.chunks_exact(size) {
+            d.extend(self.free.iter().map(|&i| {
                 let coupling = coupling(&self.slopes, i);
                 (b[i] - coupling * b[i - i % 2]) / self.root[i]
-            })
-            .collect();
+            }));
+            forces.extend(self.bound.iter().map(|&i| b[i]));
+        }
         self.factor.solve(&mut d);
-        for (d, &i) in d.iter_mut().zip(&self.free) {
-            *d /= self.root[i];
+        for d in d.chunks_exact_mut(free.max(1)) {
+            d.iter_mut().zip(&self.free).for_each(|(d, &i)| *d /= self.root[i]);
         }
-        let mut forces: Vec<f64> = self.bound.iter().map(|&i| b[i]).collect();
-        subtract_product(&mut forces, &self.rows, &d, self.free.len());
+        subtract_product(&mut forces, &self.rows, &d, free);
         let mut x = vec![0.0; b.len()];
-        for (&i, force) in self.bound.iter().zip(&forces) {
-            x[i] = *force;
-        }
-        for (&i, d) in self.free.iter().zip(&d) {
-            // Normal components come before tangential ones.
-            x[i] = self.root[i] * self.root[i] * d + coupling(&self.slopes, i) * x[i - i % 2];
+        for (column, x) in x.chunks_exact_mut(size).enumerate() {
+            let forces = &forces[bound * column..];
+            for (&i, force) in self.bound.iter().zip(forces) {
+                x[i] = *force;
+            }
+            for (&i, d) in self.free.iter().zip(&d[free * column..]) {
+                // Normal components come before tangential ones.
+                x[i] = self.root[i] * self.root[i] * d + coupling(&self.slopes, i) * x[i - i % 2];
+            }
         }
         x
     }
 
-    /// Prepares the change of `pair` that passes a boundary.
+    /// Whether the columns for the change of `pair` are known.
+    pub fn is_ready(&self, pair: usize, exit: &Exit) -> bool {
+        self.components(pair, exit).all(|i| self.columns.of(i).is_some())
+    }
+
+    /// Components of `pair` that take part in its change.
+    fn components(&self, pair: usize, exit: &Exit) -> impl Iterator<Item = usize> + use<> {
+        let u = direction(&self.contact.pairs()[pair], self.branches[pair], exit);
+        (0..2).filter(move |&c| u[c] != 0.0).map(move |c| 2 * pair + c)
+    }
+
+    /// Makes the columns for changes of pairs, the most likely ones first, so far as they are not known.
+    pub fn prepare(&mut self, likely: &[(usize, Exit)]) {
+        let block = self.columns.next_block();
+        let components: Vec<usize> = likely
+            .iter()
+            .flat_map(|(pair, exit)| self.components(*pair, exit))
+            .filter(|&i| self.columns.of(i).is_none())
+            .take(block)
+            .collect();
+        let mut sides = Vec::with_capacity(components.len() * self.root.len());
+        for &i in &components {
+            let scale = self.root[i].powi(2).recip();
+            let begin = sides.len();
+            sides.extend(self.matrix.column(i).iter().map(|k| k * scale));
+            sides[begin + i] -= 1.0;
+        }
+        let columns = self.solve_factorised(&sides);
+        self.columns.add(&components, &columns);
+    }
+
+    /// The change of `pair` that passes a boundary; its columns are ready.
     pub fn flip(&mut self, pair: usize, exit: &Exit) -> Flip {
         let law = &self.contact.pairs()[pair];
         let u = direction(law, self.branches[pair], exit);
-        let mut a = vec![0.0; self.root.len()];
+        let mut z = vec![0.0; self.root.len()];
         for (c, u) in u.into_iter().enumerate().filter(|(_, u)| *u != 0.0) {
-            let i = 2 * pair + c;
-            let scaled = u / (self.root[i] * self.root[i]);
-            for (a, k) in a.iter_mut().zip(self.matrix.column(i)) {
-                *a += k * scaled;
-            }
-            a[i] -= u;
+            let column = self.columns.of(2 * pair + c).expect("the caller has prepared it");
+            z.iter_mut().zip(column).for_each(|(z, column)| *z += u * column);
         }
-        let z = self.solve(&a);
+        for change in &self.changes {
+            change.apply(&mut z);
+        }
         let gradient = exit.gradient;
         let pivot = 1.0 + gradient[0] * z[2 * pair] + gradient[1] * z[2 * pair + 1];
         Flip { change: Change { pair, gradient, z, pivot }, beyond: exit.beyond }

@@ -143,18 +143,17 @@ impl<'p> Walk<'p> {
 
     /// The first boundary on the way, and whose it is.
     fn next_exit(&self, sign: f64) -> Option<(usize, Exit)> {
-        let mut first: Option<(usize, Exit)> = None;
+        self.exits(sign).min_by(|a, b| a.1.step.total_cmp(&b.1.step))
+    }
+
+    /// The next boundary of each pair that comes to one on the way.
+    fn exits(&self, sign: f64) -> impl Iterator<Item = (usize, Exit)> {
         let pairs = self.ground.contact.pairs().iter().zip(&self.system.branches);
         let ways = self.y.chunks_exact(2).zip(self.rate.chunks_exact(2));
-        for (pair, ((law, branch), (y, rate))) in pairs.zip(ways).enumerate() {
+        pairs.zip(ways).enumerate().filter_map(move |(pair, ((law, branch), (y, rate)))| {
             let rate = [sign * rate[0], sign * rate[1]];
-            if let Some(exit) = law.planar_exit(*branch, [y[0], y[1]], rate)
-                && first.as_ref().is_none_or(|(_, first)| exit.step < first.step)
-            {
-                first = Some((pair, exit));
-            }
-        }
-        first
+            law.planar_exit(*branch, [y[0], y[1]], rate).map(|exit| (pair, exit))
+        })
     }
 
     /// Passes the boundary of a pair.
@@ -166,6 +165,13 @@ impl<'p> Walk<'p> {
         monitor: &mut Monitor<'_>,
     ) -> Result<(), End> {
         self.events += 1;
+        if !self.system.is_ready(pair, exit) {
+            let others = self.exits(self.system.sign()).filter(|(other, _)| *other != pair);
+            let mut likely: Vec<(usize, Exit)> = others.collect();
+            likely.sort_by(|a, b| a.1.step.total_cmp(&b.1.step));
+            likely.insert(0, (pair, *exit));
+            self.system.prepare(&likely);
+        }
         let flip = self.system.flip(pair, exit);
         let singular = flip.pivot().abs() < SMALL_PIVOT;
         let ray = if singular { flip.direction().to_vec() } else { Vec::new() };

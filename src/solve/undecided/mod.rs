@@ -45,10 +45,10 @@ pub type Core<'c> = dyn FnMut(&Contact<'_>, &[f64], &mut Monitor<'_>) -> Candida
 pub enum Ended {
     /// The branches of a solution of the whole problem, and its displacements to some digits.
     Settled(Vec<Branch>, Vec<f64>),
-    /// Too many pairs are in question, or too few are decided.
-    Undivided,
-    /// The core has found no solution.
-    Lost,
+    /// Too many pairs are in question, or too few are decided; the displacements after some sweeps.
+    Undivided(Vec<f64>),
+    /// The core has found no solution; how far the displacements have come.
+    Lost(Vec<f64>),
     /// A budget is used up, or the callback cancelled.
     Stopped(Stop),
 }
@@ -65,13 +65,13 @@ pub fn solve(
     let (mut d, mut question) = InQuestion::after_sweeps(contact, d, monitor);
     let mut systems = 0;
     if !question.is_fewer_than(MOST_AT_FIRST) {
-        return (Ended::Undivided, systems);
+        return (Ended::Undivided(d), systems);
     }
     let last = monitor.iterations() + (PATIENCE * contact.pairs().len() as f64) as u64;
     while question.is_fewer_than(MOST) && monitor.iterations() <= last {
         let parted = match Parted::new(contact, &question.held(contact), monitor) {
             Ok(Some(parted)) => parted,
-            Ok(None) => return (Ended::Undivided, systems),
+            Ok(None) => return (Ended::Undivided(d), systems),
             Err(stop) => return (Ended::Stopped(stop), systems),
         };
         let Some(problem) = parted.problem() else { break };
@@ -88,5 +88,5 @@ pub fn solve(
             return (Ended::Settled(question.branches, d), systems);
         }
     }
-    (Ended::Lost, systems)
+    (Ended::Lost(d), systems)
 }
