@@ -70,8 +70,10 @@ for name in surfaces out_of_memory processes faults; do
 done
 if command -v "${FC:-gfortran}" >/dev/null 2>&1; then
     module=$root/include/signorini.f90
-    runs bad_input_77 "${FC:-gfortran}" -I"$root/include" "$root/tests/fortran/bad_input.f"
-    for name in layer refusals counting rows surfaces; do
+    for name in bad_input two_blocks operator; do
+        runs "${name}_77" "${FC:-gfortran}" -I"$root/include" "$root/tests/fortran/$name.f"
+    done
+    for name in layer refusals mistakes counting rows surfaces operator; do
         runs "${name}_90" "${FC:-gfortran}" -I"$root/include" "$module" "$root/tests/fortran/$name.f90"
     done
 else

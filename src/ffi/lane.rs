@@ -59,3 +59,21 @@ impl Work<'_> {
         series.solve_cases_with(workers, &self.cases, settings, starts, progress)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::status::SIGNORINI_STATUS_INTERNAL;
+    use super::*;
+
+    /// The status that a thread ended with is told, and the sentence fits it.
+    #[test]
+    fn a_thread_that_ends_says_why() {
+        for (code, word) in
+            [(SIGNORINI_STATUS_OUT_OF_MEMORY, "memory"), (SIGNORINI_STATUS_INTERNAL, "internal")]
+        {
+            let (told, message) = stopped(code);
+            assert_eq!(told, code);
+            assert!(message.contains(word), "{message:?}");
+        }
+    }
+}
