@@ -164,7 +164,7 @@ fn condensed(
             Argument::Matrix,
             "the stiffness of the bodies between dependent pairs cannot be told from rounding: if two surfaces are \
              each other's slaves, let one side be the slave; if slaves along a plane of symmetry are finer than what \
-             they face, let the other side be the slave",
+             they face, name the plane where they are paired, or let the other side be the slave",
         )),
     }
 }
