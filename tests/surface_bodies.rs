@@ -22,7 +22,7 @@ const PRESSURE: f64 = 7.0;
 
 /// Points along each direction for integrals over cut faces. On distorted quadrilaterals the functions
 /// are not polynomials of the position: the rule has an error of rounding there, as more points show.
-const POINTS: usize = 16;
+const POINTS: usize = 24;
 
 /// What the blocks are.
 #[derive(Clone, Copy, Debug)]
@@ -481,9 +481,7 @@ fn quarter_models_whose_planes_are_named_pass_the_patch_test() {
                 let setting = Setting {
                     dim: 3,
                     kinds: [lower, upper],
-                    // A fifth: with a quarter the rules on such small quadrilaterals leave 3e-10, in whole
-                    // models too.
-                    distortion: if (i + j) % 4 == 0 { 0.0 } else { 0.2 },
+                    distortion: if (i + j) % 4 == 0 { 0.0 } else { 0.25 },
                     overhang: OVERHANGS[(i + 2 * j + k) % OVERHANGS.len()],
                     quarter: true,
                     named: true,
