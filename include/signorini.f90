@@ -254,16 +254,19 @@ module signorini
     end type
 
     type, bind(C) :: signorini_surface_settings
-        integer(c_int32_t) :: struct_size = 24 + 1 * address_bytes
+        integer(c_int32_t) :: struct_size = 32 + 3 * address_bytes
         integer(c_int32_t) :: pairing = 0
         real(c_double) :: search_distance = 0
         integer(c_int32_t) :: index_base = 0
         integer(c_int32_t) :: dofs_per_node = 0
         type(c_ptr) :: node_dofs = c_null_ptr
+        integer(c_int64_t) :: symmetry_planes = 0
+        type(c_ptr) :: symmetry_axes = c_null_ptr
+        type(c_ptr) :: symmetry_at = c_null_ptr
     end type
 
     type, bind(C) :: signorini_surface_report
-        integer(c_int32_t) :: struct_size = 88
+        integer(c_int32_t) :: struct_size = 96
         integer(c_int32_t) :: dim = 0
         integer(c_int64_t) :: pairs = 0
         integer(c_int64_t) :: unpaired = 0
@@ -275,6 +278,7 @@ module signorini
         real(c_double) :: search_distance = 0
         integer(c_int64_t) :: not_opposed = 0
         integer(c_int64_t) :: boxes_searched = 0
+        integer(c_int64_t) :: on_symmetry = 0
     end type
 
     type, bind(C) :: signorini_contact_fields
@@ -1025,6 +1029,12 @@ module signorini
     type, private :: refusal
         integer :: position = 0
         character(len=512) :: sentence = ''
+    end type
+
+    ! Planes of symmetry while surfaces are paired.
+    type, private :: planes_of_symmetry
+        integer(c_int32_t), allocatable :: axes(:)
+        real(c_double), allocatable :: at(:)
     end type
 
     private :: text_of, finish, refused, refuse, check_size, check_shape
@@ -1781,16 +1791,19 @@ contains
     ! order. pairing: SIGNORINI_PAIRING_DUAL_MORTAR, the default, or _NODE_TO_SURFACE.
     ! search_distance: absent: the size of the largest slave face. dofs(dim, nodes): degrees of
     ! freedom of each node; absent: dofs_per_node * (node - 1) + axis, dofs_per_node absent: dim.
+    ! symmetry_axes, symmetry_at: planes of symmetry of half and quarter models, the axis across each
+    ! of them (1, 2, 3) and where it stands along that axis: pairs on one do not slip across it.
     subroutine surfaces_pair(self, coordinates, slave, master, info, pairing, search_distance, dofs, &
-            dofs_per_node, message)
+            dofs_per_node, symmetry_axes, symmetry_at, message)
         class(contact_surfaces), intent(inout) :: self
         real(c_double), intent(in), contiguous, target :: coordinates(:, :)
         integer, intent(in) :: slave(:, :), master(:, :)
         integer, intent(out) :: info
-        integer, intent(in), optional :: pairing, dofs(:, :), dofs_per_node
-        real(c_double), intent(in), optional :: search_distance
+        integer, intent(in), optional :: pairing, dofs(:, :), dofs_per_node, symmetry_axes(:)
+        real(c_double), intent(in), optional :: search_distance, symmetry_at(:)
         character(len=*), intent(out), optional :: message
         type(signorini_surface_settings), target :: settings
+        type(planes_of_symmetry), target :: planes
         type(signorini_surface_report), target :: report
         type(signorini_faces), target :: of_slave, of_master
         integer(c_int64_t), allocatable, target :: starts(:), nodes(:), starts2(:), nodes2(:), each(:)
@@ -1798,6 +1811,7 @@ contains
         call self%release()
         call check_dim(wrong, 1, size(coordinates, 1))
         call settle(wrong, 6, shape(coordinates), settings, each, search_distance, dofs, dofs_per_node)
+        call settle_symmetry(wrong, 9, settings, planes, symmetry_axes, symmetry_at)
         if (present(pairing)) then
             settings%pairing = number(pairing)
             if (pairing /= SIGNORINI_PAIRING_DUAL_MORTAR .and. pairing /= SIGNORINI_PAIRING_NODE_TO_SURFACE) &
@@ -1815,16 +1829,17 @@ contains
 
     ! Pairs a surface with a rigid obstacle; the rest as for pair. search_distance absent: no limit.
     subroutine surfaces_pair_obstacle(self, coordinates, slave, obstacle, info, search_distance, dofs, &
-            dofs_per_node, message)
+            dofs_per_node, symmetry_axes, symmetry_at, message)
         class(contact_surfaces), intent(inout) :: self
         real(c_double), intent(in), contiguous, target :: coordinates(:, :)
         integer, intent(in) :: slave(:, :)
         type(signorini_obstacle), intent(in), target :: obstacle
         integer, intent(out) :: info
-        real(c_double), intent(in), optional :: search_distance
-        integer, intent(in), optional :: dofs(:, :), dofs_per_node
+        real(c_double), intent(in), optional :: search_distance, symmetry_at(:)
+        integer, intent(in), optional :: dofs(:, :), dofs_per_node, symmetry_axes(:)
         character(len=*), intent(out), optional :: message
         type(signorini_surface_settings), target :: settings
+        type(planes_of_symmetry), target :: planes
         type(signorini_surface_report), target :: report
         type(signorini_faces), target :: of_slave
         integer(c_int64_t), allocatable, target :: starts(:), nodes(:), each(:)
@@ -1832,6 +1847,7 @@ contains
         call self%release()
         call check_dim(wrong, 1, size(coordinates, 1))
         call settle(wrong, 5, shape(coordinates), settings, each, search_distance, dofs, dofs_per_node)
+        call settle_symmetry(wrong, 8, settings, planes, symmetry_axes, symmetry_at)
         if (refused(wrong, info, message)) return
         call check_faces(slave, of_slave, starts, nodes)
         call finish(signorini_surface_pair_obstacle(number(size(coordinates, 1)), &
@@ -1845,17 +1861,18 @@ contains
     ! faces) in nodes of its own, counted from 1; corners counterclockwise as the body sees them. The
     ! rest as for pair.
     subroutine surfaces_pair_rigid(self, coordinates, slave, rigid_coordinates, rigid_faces, info, &
-            search_distance, dofs, dofs_per_node, message)
+            search_distance, dofs, dofs_per_node, symmetry_axes, symmetry_at, message)
         class(contact_surfaces), intent(inout) :: self
         real(c_double), intent(in), contiguous, target :: coordinates(:, :)
         integer, intent(in) :: slave(:, :)
         real(c_double), intent(in), contiguous, target :: rigid_coordinates(:, :)
         integer, intent(in) :: rigid_faces(:, :)
         integer, intent(out) :: info
-        real(c_double), intent(in), optional :: search_distance
-        integer, intent(in), optional :: dofs(:, :), dofs_per_node
+        real(c_double), intent(in), optional :: search_distance, symmetry_at(:)
+        integer, intent(in), optional :: dofs(:, :), dofs_per_node, symmetry_axes(:)
         character(len=*), intent(out), optional :: message
         type(signorini_surface_settings), target :: settings
+        type(planes_of_symmetry), target :: planes
         type(signorini_surface_report), target :: report
         type(signorini_obstacle), target :: obstacle
         type(signorini_faces), target :: of_slave, of_rigid
@@ -1866,6 +1883,7 @@ contains
         if (size(rigid_coordinates, 1) /= size(coordinates, 1)) call refuse(wrong, 3, &
             'rigid_coordinates and coordinates differ in their first size, the dimension')
         call settle(wrong, 6, shape(coordinates), settings, each, search_distance, dofs, dofs_per_node)
+        call settle_symmetry(wrong, 9, settings, planes, symmetry_axes, symmetry_at)
         if (refused(wrong, info, message)) return
         call check_faces(slave, of_slave, starts, nodes)
         call check_faces(rigid_faces, of_rigid, starts2, nodes2)
@@ -2083,6 +2101,29 @@ contains
             each = int([dofs], c_int64_t)
             if (size(each) > 0) settings%node_dofs = c_loc(each)
         end if
+    end subroutine
+
+    ! Planes of symmetry; symmetry_axes and symmetry_at from a position on.
+    subroutine settle_symmetry(wrong, first, settings, planes, symmetry_axes, symmetry_at)
+        type(refusal), intent(inout) :: wrong
+        integer, intent(in) :: first
+        type(signorini_surface_settings), intent(inout) :: settings
+        type(planes_of_symmetry), target, intent(out) :: planes
+        integer, intent(in), optional :: symmetry_axes(:)
+        real(c_double), intent(in), optional :: symmetry_at(:)
+        integer :: axes, places
+        axes = 0
+        places = 0
+        if (present(symmetry_axes)) axes = size(symmetry_axes)
+        if (present(symmetry_at)) places = size(symmetry_at)
+        if (axes /= places) call refuse(wrong, first + 1, 'symmetry_axes has ' // text(axes) // &
+            ' entries and symmetry_at ' // text(places) // ': give both for each plane')
+        if (axes == 0 .or. axes /= places) return
+        planes%axes = int([symmetry_axes], c_int32_t)
+        planes%at = [symmetry_at]
+        settings%symmetry_planes = axes
+        settings%symmetry_axes = c_loc(planes%axes)
+        settings%symmetry_at = c_loc(planes%at)
     end subroutine
 
     ! Faces, of which those with fewer nodes end with zeros.

@@ -800,8 +800,8 @@ struct signorini_obstacle {
  * like.
  */
 struct signorini_surface_settings {
-    uint32_t struct_size; /**< sizeof(signorini_surface_settings). */
-    int32_t pairing;      /**< SIGNORINI_PAIRING_...; default SIGNORINI_PAIRING_DUAL_MORTAR. */
+    uint32_t struct_size;         /**< sizeof(signorini_surface_settings). */
+    int32_t pairing; /**< SIGNORINI_PAIRING_...; default SIGNORINI_PAIRING_DUAL_MORTAR. */
     /**
      * Largest distance along the normal at which surfaces are paired, open or overlapping; length.
      * Default 0: the size of the largest slave face; against an obstacle that is not of faces no
@@ -823,6 +823,14 @@ struct signorini_surface_settings {
      * dofs_per_node * node + axis.
      */
     const int64_t *node_dofs;
+    /**
+     * Number of planes of symmetry of a half or quarter model; default 0. A pair whose slave node
+     * stands on one neither moves nor carries a force across it, as in the whole body, and its
+     * normal is in the plane. Fix the nodes on the plane across it as without contact.
+     */
+    int64_t symmetry_planes;
+    const int32_t *symmetry_axes; /**< The axis across each plane, counted from index_base. */
+    const double *symmetry_at;    /**< Where each plane stands along its axis; length. */
 };
 
 /**
@@ -853,6 +861,7 @@ struct signorini_surface_report {
      */
     int64_t not_opposed;
     int64_t boxes_searched; /**< Boxes that the search looked at: its cost. */
+    int64_t on_symmetry;    /**< Pairs whose slave node stands on a plane of symmetry. */
 };
 
 /**
@@ -907,7 +916,7 @@ int32_t signorini_surface_pair(int32_t dim, int64_t nodes, const double *coordin
  * @param coordinates  dim for each node, of all nodes; length
  * @param slave        the faces that may touch the obstacle
  * @param obstacle     the obstacle
- * @param settings     NULL: the defaults; the kind of pairing is read for faces alone
+ * @param settings     NULL: the defaults; pairing and symmetry_... are read for faces alone
  * @param contact      out: the pairs; NULL unless 0 is returned
  * @param report       out: what was found; set report->struct_size before the call; may be NULL
  * @return as signorini_surface_pair

@@ -31,7 +31,11 @@ fn together(mut first: Sheet, second: Sheet) -> Sheet {
 
 /// Why a sheet is refused as the slave side, alone; `None` if it is not.
 fn refused(dim: usize, sheet: &Sheet, search_distance: Option<f64>) -> Option<String> {
-    let settings = SurfaceSettings { search_distance, pairing: Pairing::NodeToSurface };
+    let settings = SurfaceSettings {
+        search_distance,
+        pairing: Pairing::NodeToSurface,
+        ..SurfaceSettings::default()
+    };
     let error = pair(dim, &sheet.nodes, [&sheet.faces, &[]], &settings).err()?;
     let signorini::Error::Invalid { argument, message } = error else { panic!("{error}") };
     assert_eq!(argument, Argument::SlaveFaces, "{message}");

@@ -284,7 +284,8 @@ fn gapped(cells: usize, height: f64) -> TwoSheets {
 #[test]
 fn parallel_surfaces_have_their_distance_as_gap() {
     for pairing in [Pairing::DualMortar, Pairing::NodeToSurface] {
-        let settings = SurfaceSettings { pairing, search_distance: Some(0.2) };
+        let settings =
+            SurfaceSettings { pairing, search_distance: Some(0.2), ..SurfaceSettings::default() };
         for height in [0.1, 0.0, -0.15] {
             let sheets = gapped(4, height);
             let found = sheets.pair(&settings).unwrap();
@@ -307,7 +308,11 @@ fn parallel_surfaces_have_their_distance_as_gap() {
 #[test]
 fn nodes_against_surfaces_move_nothing_in_a_linear_field() {
     let mut rng = Rng::with_seed(5);
-    let settings = SurfaceSettings { pairing: Pairing::NodeToSurface, search_distance: None };
+    let settings = SurfaceSettings {
+        pairing: Pairing::NodeToSurface,
+        search_distance: None,
+        ..SurfaceSettings::default()
+    };
     for slave in SHAPES {
         for master in SHAPES {
             let above = Sheet::rectangle(slave, [2, 3], [[0.0, 1.0]; 2], (0.25, &mut rng));
@@ -330,7 +335,11 @@ fn nodes_at_the_rim_of_a_master_have_their_pairs() {
     let rng = &mut Rng::with_seed(8);
     let slave = Sheet::rectangle(Shape::Q4, [2, 2], [[0.0, 1.0]; 2], (0.0, rng)).turned();
     let master = Sheet::rectangle(Shape::Q4, [1, 1], [[-0.5, 0.5], [-0.5, 1.5]], (0.0, rng));
-    let settings = SurfaceSettings { pairing: Pairing::NodeToSurface, search_distance: None };
+    let settings = SurfaceSettings {
+        pairing: Pairing::NodeToSurface,
+        search_distance: None,
+        ..SurfaceSettings::default()
+    };
     let found = TwoSheets::new(3, slave, master).pair(&settings).unwrap();
     let slaves: Vec<usize> = found.pairs.iter().map(|pair| pair.slave).collect();
     assert_eq!((slaves, found.unpaired), (vec![0, 1, 3, 4, 6, 7], vec![2, 5, 8]));
@@ -462,7 +471,8 @@ fn rigid_meshes_face_nodes() {
         let own = obstacle.nodes.concat();
         let rigid =
             RigidSurface { coordinates: &own, faces: Faces { start: &start, nodes: &nodes } };
-        let settings = SurfaceSettings { pairing, search_distance: Some(2.0) };
+        let settings =
+            SurfaceSettings { pairing, search_distance: Some(2.0), ..SurfaceSettings::default() };
         let found = pair_with_rigid_surface(3, &coordinates, faces, &rigid, &settings).unwrap();
         let both = TwoSheets::new(3, slave.clone(), obstacle.clone()).pair(&settings).unwrap();
         assert_eq!(found.pairs.len(), 20);
@@ -571,7 +581,11 @@ fn gaps_of_curved_surfaces_converge() {
             let error = |cells| {
                 let master = cap(shape, 2 * cells - 1, 1.02, 0.6).turned();
                 let sheets = TwoSheets::new(3, cap(shape, cells, 1.0, 0.4), master);
-                let settings = SurfaceSettings { pairing, search_distance: None };
+                let settings = SurfaceSettings {
+                    pairing,
+                    search_distance: None,
+                    ..SurfaceSettings::default()
+                };
                 let found = sheets.pair(&settings).unwrap();
                 assert!(found.unpaired.is_empty(), "{shape:?}, {pairing:?}");
                 found.pairs.iter().map(|pair| (pair.gap - 0.02).abs()).fold(0.0, f64::max)

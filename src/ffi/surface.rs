@@ -4,7 +4,7 @@ use super::args::{Arrays, size};
 use super::guard::{self, Failure};
 use super::sparse::shifted;
 use super::structures;
-use crate::surface::{Faces, Obstacle, Pairing, SurfaceSettings};
+use crate::surface::{Faces, Obstacle, Pairing, SurfaceSettings, SymmetryPlane};
 
 /// Dual mortar, the default: a uniform pressure passes between any two flat meshes.
 pub const SIGNORINI_PAIRING_DUAL_MORTAR: i32 = 0;
@@ -96,6 +96,14 @@ pub struct SignoriniSurfaceSettings {
     /// Degrees of freedom of each node, dim for each, counted from index_base; default NULL:
     /// dofs_per_node * node + axis.
     pub node_dofs: *const i64,
+    /// Number of planes of symmetry of a half or quarter model; default 0. A pair whose slave node
+    /// stands on one neither moves nor carries a force across it, as in the whole body, and its
+    /// normal is in the plane. Fix the nodes on the plane across it as without contact.
+    pub symmetry_planes: i64,
+    /// The axis across each plane, counted from index_base.
+    pub symmetry_axes: *const i32,
+    /// Where each plane stands along its axis; length.
+    pub symmetry_at: *const f64,
 }
 
 impl SignoriniFaces {
@@ -218,6 +226,9 @@ impl SignoriniSurfaceSettings {
             index_base: 0,
             dofs_per_node: 0,
             node_dofs: std::ptr::null(),
+            symmetry_planes: 0,
+            symmetry_axes: std::ptr::null(),
+            symmetry_at: std::ptr::null(),
         }
     }
 
@@ -264,8 +275,35 @@ impl SignoriniSurfaceSettings {
             None => None,
         };
         let search_distance = Some(given.search_distance).filter(|distance| *distance != 0.0);
-        let settings = SurfaceSettings { pairing, search_distance };
+        // SAFETY: arrays of as many entries as there are planes, by contract.
+        let symmetry = unsafe { given.symmetry(position)? };
+        let settings = SurfaceSettings { pairing, search_distance, symmetry };
         Ok(Received { settings, base, per_node, listed })
+    }
+
+    /// The planes of symmetry.
+    ///
+    /// # Safety
+    /// The structure's arrays are as the header demands.
+    unsafe fn symmetry(&self, position: i32) -> Result<Vec<SymmetryPlane>, Failure> {
+        let count = size(position, "settings: symmetry_planes", self.symmetry_planes)?;
+        let mut arrays = Arrays::default();
+        // SAFETY: by the caller's contract.
+        let (axes, places) = unsafe {
+            let name = "settings: symmetry_axes";
+            let axes = arrays.required(position, name, self.symmetry_axes, count)?;
+            let name = "settings: symmetry_at";
+            (axes, arrays.required(position, name, self.symmetry_at, count)?)
+        };
+        let plane = |(&axis, &at): (&i32, &f64)| {
+            let counted = i64::from(axis) - i64::from(self.index_base);
+            let Ok(axis) = usize::try_from(counted) else {
+                let message = format!("settings: symmetry_axes has {axis}, there is no such axis");
+                return Err(Failure::argument(position, message));
+            };
+            Ok(SymmetryPlane { axis, at })
+        };
+        axes.iter().zip(places).map(plane).collect()
     }
 }
 

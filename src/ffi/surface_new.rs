@@ -74,6 +74,8 @@ pub struct SignoriniSurfaceReport {
     pub not_opposed: i64,
     /// Boxes that the search looked at: its cost.
     pub boxes_searched: i64,
+    /// Pairs whose slave node stands on a plane of symmetry.
+    pub on_symmetry: i64,
 }
 
 /// Makes contact pairs from two surfaces that may touch. signorini_surface_rows gives them to
@@ -138,7 +140,7 @@ pub unsafe extern "C" fn signorini_surface_pair(
 /// @param coordinates  dim for each node, of all nodes; length
 /// @param slave        the faces that may touch the obstacle
 /// @param obstacle     the obstacle
-/// @param settings     NULL: the defaults; the kind of pairing is read for faces alone
+/// @param settings     NULL: the defaults; pairing and symmetry_... are read for faces alone
 /// @param contact      out: the pairs; NULL unless 0 is returned
 /// @param report       out: what was found; set report->struct_size before the call; may be NULL
 /// @return as signorini_surface_pair
@@ -295,6 +297,7 @@ impl SignoriniSurfacePairs {
             search_distance: report.search_distance,
             not_opposed: report.not_opposed as i64,
             boxes_searched: report.boxes_searched as i64,
+            on_symmetry: found.on_symmetry().count() as i64,
         }
     }
 }

@@ -39,6 +39,7 @@ mod row;
 mod self_overlap;
 mod settings;
 mod shape;
+mod symmetry;
 mod tree;
 mod whole_faces;
 
@@ -49,12 +50,14 @@ pub use pairs::{NodeDofs, PairArrays, SurfacePair, SurfacePairs, SurfaceReport, 
 pub use rigid::{RigidSurface, pair_with_rigid_surface};
 pub use settings::{Pairing, SurfaceSettings};
 pub use shape::FaceKind;
+pub use symmetry::SymmetryPlane;
 
 #[cfg(doc)]
 use crate::error::Argument;
 use crate::error::Error;
 use candidates::{Candidates, SearchFaces};
 use mesh::Side;
+use symmetry::OnPlanes;
 
 /// Pairs two surfaces. Surfaces that never meet give no pairs, which is no error.
 ///
@@ -65,7 +68,8 @@ use mesh::Side;
 ///   repeated or missing nodes, no area, folded, turned over against its neighbour, nodes on both
 ///   sides, faces of one side that lie upon each other, master faces over each other (of masters with
 ///   [`Pairing::DualMortar`] alone: otherwise the nearest counts);
-/// - [`Argument::Settings`]: a search distance that is not positive.
+/// - [`Argument::Settings`]: a search distance that is not positive; a plane of symmetry across no axis of the space,
+///   with slave nodes on both sides, or with slave faces in it.
 pub fn pair_surfaces(
     surfaces: &Surfaces<'_>,
     settings: &SurfaceSettings,
@@ -81,14 +85,16 @@ fn pair_sides(
 ) -> Result<SurfacePairs, Error> {
     let largest = || (0..slave.count()).map(|face| slave.face(face).size()).fold(0.0, f64::max);
     let reach = settings::reach(settings.search_distance, largest)?;
+    let planes = OnPlanes::new(slave, dim, &settings.symmetry)?;
     self_overlap::check(slave, &SearchFaces::new(slave), dim, reach)?;
     let opposite = SearchFaces::new(master);
     if settings.pairing == Pairing::DualMortar {
         self_overlap::check(master, &opposite, dim, reach)?;
     }
     let candidates = Candidates::new(opposite, reach);
+    let sides = [slave, master];
     match settings.pairing {
-        Pairing::DualMortar => mortar::pairs(slave, master, dim, candidates),
-        Pairing::NodeToSurface => node_to_surface::pairs(slave, master, dim, candidates),
+        Pairing::DualMortar => mortar::pairs(sides, dim, &planes, candidates),
+        Pairing::NodeToSurface => node_to_surface::pairs(sides, dim, &planes, candidates),
     }
 }

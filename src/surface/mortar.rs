@@ -20,6 +20,7 @@ use super::plane::Plane;
 use super::projected_shapes::{Covered, Opposite, Polynomials};
 use super::row::Row;
 use super::shape::{FaceKind, Values};
+use super::symmetry::OnPlanes;
 use super::whole_faces::unit_values;
 use crate::error::{Error, index};
 
@@ -48,11 +49,11 @@ struct Search {
 ///
 /// # Errors
 /// Master faces that lie over each other; faces that are turned over in the projection; normals that
-/// cancel at a slave node.
+/// cancel at a slave node, or that are across a plane of symmetry.
 pub(super) fn pairs(
-    slave: &Side<'_>,
-    master: &Side<'_>,
+    [slave, master]: [&Side<'_>; 2],
     dim: usize,
+    planes: &OnPlanes,
     candidates: Candidates,
 ) -> Result<SurfacePairs, Error> {
     let mut report = SurfaceReport {
@@ -80,16 +81,17 @@ pub(super) fn pairs(
     let mut rows = rows(&faces);
     let around = faces.iter().map(|face| face.nodes);
     report.folded = fold::fold(&mut rows, around, |node| slave.position(node));
-    let normals = slave.node_normals()?;
+    let normals = slave.node_normals_on(planes)?;
     let pairs: Vec<SurfacePair> = rows
         .into_iter()
         .map(|(node, row)| {
             let area = row.area;
             let weights = row.into_weights();
             let points = (slave.point(&weights[0]), Some(master.point(&weights[1])));
-            SurfacePair::new(dim, (node, area), weights, normals[&node], points)
+            let pair = SurfacePair::new(dim, (node, area), weights, normals[&node], points);
+            planes.hold(pair)
         })
-        .collect();
+        .collect::<Result<_, Error>>()?;
     report.covered_area = pairs.iter().map(|pair| pair.area).sum();
     let has_pair = |node: &usize| pairs.binary_search_by_key(node, |pair| pair.slave).is_ok();
     let unpaired = slave.all_nodes().into_iter().filter(|node| !has_pair(node)).collect();

@@ -12,6 +12,7 @@ use super::mesh::Side;
 use super::pairs::{SurfacePair, SurfacePairs, SurfaceReport, Weight};
 use super::plane::Plane;
 use super::shape::{FaceKind, Local};
+use super::symmetry::OnPlanes;
 use super::whole_faces::whole_rows;
 use crate::error::Error;
 use crate::linalg::vector3::Vector3;
@@ -58,14 +59,14 @@ fn meets(
 /// The pairs of two sides.
 ///
 /// # Errors
-/// Normals that cancel at a slave node.
+/// Normals that cancel at a slave node, or that are across a plane of symmetry.
 pub(super) fn pairs(
-    slave: &Side<'_>,
-    master: &Side<'_>,
+    [slave, master]: [&Side<'_>; 2],
     dim: usize,
+    planes: &OnPlanes,
     mut candidates: Candidates,
 ) -> Result<SurfacePairs, Error> {
-    let normals = slave.node_normals()?;
+    let normals = slave.node_normals_on(planes)?;
     let mut met: BTreeMap<usize, Vec<Weight>> = BTreeMap::new();
     for node in slave.all_nodes() {
         let ray = (slave.position(node), normals[&node]);
@@ -94,7 +95,8 @@ pub(super) fn pairs(
         let area = row.area;
         let weights = row.into_weights();
         let points = (slave.point(&weights[0]), Some(master.point(&weights[1])));
-        found.pairs.push(SurfacePair::new(dim, (node, area), weights, normals[&node], points));
+        let pair = SurfacePair::new(dim, (node, area), weights, normals[&node], points);
+        found.pairs.push(planes.hold(pair)?);
         report.covered_area += area;
     }
     found.report = report;

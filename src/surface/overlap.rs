@@ -12,9 +12,12 @@ use super::shape::Local;
 /// edges that lie upon each other.
 const LEAST_PART: f64 = 1e-13;
 
-/// Most points along each direction: on quadrilaterals distorted by 0.25 of their size, where local
-/// coordinates are not polynomials of the position, the error is 1e-12 (measured).
+/// Most points along each direction. Where quadrilaterals are so distorted that they ask for more, triangles are
+/// quartered.
 const MOST_POINTS: usize = 9;
+
+/// The size of a part of a quartered triangle beside it.
+const HALF: f64 = 0.5;
 
 /// The error that fewer points may leave: that of the most. And the error of areas where faces are warped.
 const LEFT: f64 = 1e-12;
@@ -51,6 +54,13 @@ pub(super) struct Overlaps {
     /// The points, master face after master face.
     pub(super) points: Vec<Meeting>,
     clipper: Clipper,
+}
+
+/// Points of a triangle or an interval, and whether a triangle is quartered first.
+#[derive(Clone, Copy)]
+struct Rule {
+    points: &'static [RulePoint],
+    quartered: bool,
 }
 
 /// A part of a face whose local coordinates were not found.
@@ -109,24 +119,30 @@ impl SlaveFace {
     /// Barycentric points and weights for simplices of the parts: exact for products of shape
     /// functions if local coordinates are linear in the position, and otherwise with so many more points
     /// as the distance from linear asks for.
-    fn rule(&self, master: &Flat) -> &'static [RulePoint] {
+    fn rule(&self, master: &Flat) -> Rule {
         let own = self.flat.kind.degree();
         let degree = own + own.max(master.kind.degree());
-        let further = self.further_degrees(master);
-        let points = |exact: usize| further.map_or(MOST_POINTS, |more| (exact + more).div_ceil(2));
+        let count = |exact: usize, size: f64| {
+            let further = self.further_degrees(master, size);
+            further.map_or(MOST_POINTS, |more| (exact + more).div_ceil(2))
+        };
         if self.flat.kind.is_line() {
-            return quadrature::on_interval(points(degree + 1).min(MOST_POINTS));
+            let points = quadrature::on_interval(count(degree + 1, 1.0).min(MOST_POINTS));
+            return Rule { points, quartered: false };
         }
-        quadrature::on_triangle(points(degree + 2).min(MOST_POINTS))
+        let whole = count(degree + 2, 1.0);
+        let quartered = whole > MOST_POINTS;
+        let needed = if quartered { count(degree + 2, HALF) } else { whole };
+        Rule { points: quadrature::on_triangle(needed.min(MOST_POINTS)), quartered }
     }
 
-    /// Degrees that a rule has to be exact to beyond that of products of shape functions; `None`: as
-    /// many as there are.
+    /// Degrees that a rule has to be exact to beyond that of products of shape functions, on parts of the given
+    /// size beside the face's; `None`: as many as there are.
     ///
     /// With the distortion `e` of a quadrilateral, local coordinates are analytic in the position up to the
     /// distance `1 / e` from the middle, so that what is neglected falls by `2 / e` with each degree. The
     /// area of a face whose warp adds the slope `w` has terms `w^2k` of the degree `2 k`.
-    fn further_degrees(&self, master: &Flat) -> Option<usize> {
+    fn further_degrees(&self, master: &Flat, size: f64) -> Option<usize> {
         let (own, other) = (self.flat.bilinear?, master.bilinear?);
         let terms = |ratio: f64, left: f64| (left.ln() / ratio.ln()).ceil() as usize;
         let distortion = own.distortion().max(other.distortion());
@@ -135,11 +151,11 @@ impl SlaveFace {
             return None;
         }
         let of_distortion = match distortion > LINEAR {
-            true => terms(0.5 * distortion, LEFT) - 1,
+            true => terms(0.5 * size * distortion, LEFT) - 1,
             false => 0,
         };
         let of_warp = match warp > LINEAR {
-            true => 2 * (terms(warp * warp, LEFT_OF_AREA) - 1),
+            true => 2 * (terms(size * size * warp * warp, LEFT_OF_AREA) - 1),
             false => 0,
         };
         Some(of_distortion.max(of_warp))
@@ -150,16 +166,19 @@ impl SlaveFace {
         &self,
         master: &Flat,
         common: &[Point],
-        rule: &[RulePoint],
+        rule: &Rule,
         points: &mut Vec<Meeting>,
     ) -> Result<f64, NotFound> {
         let (mut distance, mut whole) = (0.0, 0.0);
         // Triangles of a fan, or the interval itself.
-        for k in 2..common.len().max(3) {
+        let simplices = (2..common.len().max(3)).flat_map(|k| {
             let last = common.get(k).unwrap_or(&common[1]);
             let simplex = [common[0], common[k - 1], *last];
+            if rule.quartered { quarters(simplex) } else { [Some(simplex), None, None, None] }
+        });
+        for simplex in simplices.flatten() {
             let area = measure(&simplex[..common.len().min(3)]);
-            for (barycentric, share) in rule {
+            for (barycentric, share) in rule.points {
                 let mut p = [0.0; 2];
                 for (corner, part) in simplex.iter().zip(barycentric) {
                     p[0] += part * corner[0];
@@ -176,4 +195,11 @@ impl SlaveFace {
         }
         Ok(distance / whole)
     }
+}
+
+/// The four triangles that the middles of its sides make of one.
+fn quarters([a, b, c]: [Point; 3]) -> [Option<[Point; 3]>; 4] {
+    let middle = |p: Point, q: Point| [0, 1].map(|i| HALF * (p[i] + q[i]));
+    let (ab, bc, ca) = (middle(a, b), middle(b, c), middle(c, a));
+    [[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]].map(Some)
 }

@@ -30,6 +30,9 @@ pub struct SurfacePair {
     pub gap: f64,
     /// The area that the pair carries: the pressure is the normal force of the row over it.
     pub area: f64,
+    /// The axes across which the slave node stands on a plane of symmetry: along them the pair neither moves nor
+    /// carries a force, and the rows that are handed out say so.
+    pub held: [bool; 3],
 }
 
 /// What became of the faces and nodes that have no pair of their own.
@@ -124,12 +127,14 @@ impl SurfacePair {
         let gap = opposite.map_or(0.0, |opposite| normal.dot(&(opposite - point)));
         let tangents = plane::tangents(dim, normal).map(Into::into);
         let (point, normal) = (point.into(), normal.into());
-        SurfacePair { slave, slaves, masters, point, normal, tangents, gap, area }
+        let held = [false; 3];
+        SurfacePair { slave, slaves, masters, point, normal, tangents, gap, area, held }
     }
 }
 
 impl PairArrays {
-    /// Adds a pair with its masters, or with all its nodes.
+    /// Adds a pair with its masters, or with all its nodes. Along an axis across a plane of symmetry all of them
+    /// have the degree of freedom of the pair's slave, from which the weights cancel: an equation `0 = d`.
     fn push(
         &mut self,
         pair: &SurfacePair,
@@ -138,7 +143,12 @@ impl PairArrays {
     ) {
         let dim = self.dim;
         self.count += 1;
-        nodes.iter().for_each(|(node, _)| self.masters.extend(dofs.of(*node, dim)));
+        for (node, _) in nodes {
+            let both = dofs.of(*node, dim).zip(dofs.of(pair.slave, dim));
+            let of_row =
+                both.zip(pair.held).map(|((own, slave), held)| if held { slave } else { own });
+            self.masters.extend(of_row);
+        }
         self.weights.extend(nodes.iter().map(|(_, weight)| weight));
         self.master_start.push(self.weights.len());
         self.normals.extend(&pair.normal[..dim]);
@@ -192,6 +202,11 @@ impl SurfacePairs {
         Some(arrays)
     }
 
+    /// The pairs whose slave node stands on a plane of symmetry.
+    pub fn on_symmetry(&self) -> impl Iterator<Item = usize> {
+        (0..self.pairs.len()).filter(|&pair| self.pairs[pair].held.contains(&true))
+    }
+
     /// One sentence on what was found: for a log, and to see why there are no pairs.
     pub fn summary(&self) -> String {
         let SurfaceReport { slave_area, covered_area, search_distance, not_opposed, .. } =
@@ -199,10 +214,14 @@ impl SurfacePairs {
         let (pairs, unpaired) = (self.pairs.len(), self.unpaired.len());
         if pairs > 0 {
             let (folded, cover) = (self.report.folded.len(), 100.0 * covered_area / slave_area);
-            return format!(
+            let found = format!(
                 "{pairs} pairs on {cover:.2} % of the slave area; {unpaired} slave nodes without a \
                  pair, {folded} of them in the pair of a neighbour"
             );
+            return match self.on_symmetry().count() {
+                0 => found,
+                on => format!("{found}; {on} of the pairs on planes of symmetry"),
+            };
         }
         if unpaired == 0 {
             return "no pairs: there are no slave faces".into();

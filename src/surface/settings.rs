@@ -1,5 +1,6 @@
 //! Settings of the pairing.
 
+use super::symmetry::SymmetryPlane;
 use crate::error::{Argument, Error};
 
 /// How the rows are made.
@@ -15,13 +16,16 @@ pub enum Pairing {
 }
 
 /// Settings of the pairing.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct SurfaceSettings {
     /// How the rows are made.
     pub pairing: Pairing,
     /// The largest distance along the normal at which surfaces are paired, open or overlapping; `None`:
     /// the size of the largest slave face.
     pub search_distance: Option<f64>,
+    /// Planes of symmetry of half and quarter models. A pair whose slave node stands on one neither moves nor carries
+    /// a force across it, as in the whole body, and its normal is in the plane.
+    pub symmetry: Vec<SymmetryPlane>,
 }
 
 /// The search distance, if it is one, or another one if it is not given.

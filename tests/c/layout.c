@@ -194,15 +194,18 @@ FIELD(signorini_operator, inverse, signorini_product_fn, 24);
 FIELD(signorini_operator, held, signorini_held_fn, 32);
 FIELD(signorini_operator, units, double *, 40);
 FIELD(signorini_operator, user, void *, 48);
-SIZE(signorini_surface_settings, 32);
+SIZE(signorini_surface_settings, 56);
 FIELD(signorini_surface_settings, struct_size, uint32_t, 0);
 FIELD(signorini_surface_settings, pairing, int32_t, 4);
 FIELD(signorini_surface_settings, search_distance, double, 8);
 FIELD(signorini_surface_settings, index_base, int32_t, 16);
 FIELD(signorini_surface_settings, dofs_per_node, int32_t, 20);
 FIELD(signorini_surface_settings, node_dofs, int64_t *, 24);
+FIELD(signorini_surface_settings, symmetry_planes, int64_t, 32);
+FIELD(signorini_surface_settings, symmetry_axes, int32_t *, 40);
+FIELD(signorini_surface_settings, symmetry_at, double *, 48);
 
-SIZE(signorini_surface_report, 88);
+SIZE(signorini_surface_report, 96);
 FIELD(signorini_surface_report, struct_size, uint32_t, 0);
 FIELD(signorini_surface_report, dim, int32_t, 4);
 FIELD(signorini_surface_report, pairs, int64_t, 8);
@@ -215,6 +218,7 @@ FIELD(signorini_surface_report, covered_area, double, 56);
 FIELD(signorini_surface_report, search_distance, double, 64);
 FIELD(signorini_surface_report, not_opposed, int64_t, 72);
 FIELD(signorini_surface_report, boxes_searched, int64_t, 80);
+FIELD(signorini_surface_report, on_symmetry, int64_t, 88);
 
 SIZE(signorini_contact_fields, 48);
 FIELD(signorini_contact_fields, struct_size, uint32_t, 0);

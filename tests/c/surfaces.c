@@ -125,15 +125,24 @@ static void patch(int upper_is_slave)
     signorini_surface_report told = {.struct_size = sizeof told};
     signorini_model *model = NULL;
     signorini_settings settings;
+    /* The finer side as slave: rows on the planes of symmetry give up the axis across them. */
+    const int32_t axes[] = {0, 1};
+    const double places[] = {0, 0};
+    signorini_surface_settings planes;
+    signorini_surface_settings_default(&planes, sizeof planes);
+    planes.symmetry_planes = upper_is_slave ? 2 : 0;
+    planes.symmetry_axes = axes;
+    planes.symmetry_at = places;
     double d[3 * MOST] = {0}, F[3 * MOST] = {0}, u[3 * MOST];
     int32_t state[MOST];
 
     CHECK_STATUS(signorini_surface_pair(3, mesh->nodes, mesh->at[0],
                                         upper_is_slave ? &blocks->bottom : &blocks->top,
-                                        upper_is_slave ? &blocks->top : &blocks->bottom, NULL,
+                                        upper_is_slave ? &blocks->top : &blocks->bottom, &planes,
                                         &contact, &told), 0);
     const int64_t count = signorini_surface_count(contact);
     CHECK(count == (upper_is_slave ? 25 : 16) && told.pairs == count && told.unpaired == 0);
+    CHECK(told.on_symmetry == (upper_is_slave ? 9 : 0));
     CHECK_NEAR(told.covered_area, 1);
     CHECK_TEXT(signorini_surface_summary(contact), "pairs on");
     CHECK_STATUS(signorini_model_new_sparse(&K, blocks->n_fixed, blocks->fixed,
@@ -392,6 +401,19 @@ static void refusals(void)
     settings = defaults();
     settings.index_base = 2;
     refused(plane_nodes, &slave, &master, &settings, 6, "index_base is 2");
+    const int32_t axes[] = {0, 2};
+    const double places[] = {0, 0};
+    settings = defaults();
+    settings.symmetry_planes = -1;
+    refused(plane_nodes, &slave, &master, &settings, 6, "symmetry_planes is -1");
+    settings.symmetry_planes = 2;
+    refused(plane_nodes, &slave, &master, &settings, 6, "symmetry_axes is NULL");
+    settings.symmetry_axes = axes;
+    refused(plane_nodes, &slave, &master, &settings, 6, "symmetry_at is NULL");
+    settings.symmetry_at = places;
+    refused(plane_nodes, &slave, &master, &settings, 6, "plane of symmetry 1: there is no axis 2");
+    settings.index_base = 1;
+    refused(plane_nodes, &slave, &master, &settings, 6, "symmetry_axes has 0, there is no such axis");
     CHECK_STATUS(signorini_surface_pair(4, 5, plane_nodes, &slave, &master, NULL, &contact, NULL), -1);
     CHECK_STATUS(signorini_surface_pair(2, -5, plane_nodes, &slave, &master, NULL, &contact, NULL),
                  -2);

@@ -73,6 +73,19 @@ program surfaces_test
         all(abs(surfaces%gap - 0.1_dp) < 1d-15))
     call surfaces%pair_rigid(places, slave, places(:, 3:), master, info, message=message)
     call expect('rigid node', info == -4 .and. index(message, 'obstacle face 1 has node 5, the') == 1)
+    ! Node 1 stands on the line x = 0: its pair has no friction across it, that of node 2 has.
+    call surfaces%pair(places, slave, master, info, symmetry_axes=[1], symmetry_at=[0._dp], message=message)
+    call expect('symmetry', info == 0 .and. message == '' .and. surfaces%report%on_symmetry == 1)
+    call model%new_surfaces(starts, rows, [(2._dp, i=1, 10)], SIGNORINI_TRIANGLE_LOWER, surfaces, info, &
+        fixed=[1], message=message)
+    load = 0
+    load([2, 3, 4]) = [-1._dp, 0.1_dp, -1._dp]
+    call model%solve(load, surfaces%gap, d, force, info, friction=[0.3_dp, 0.3_dp], message=message)
+    call expect('no slip', info == 0 .and. d(2) == 0 .and. force(2) == 0 .and. abs(force(4)) > 0)
+    call surfaces%pair(places, slave, master, info, symmetry_axes=[3], symmetry_at=[0._dp], message=message)
+    call expect('axis', info == -6 .and. index(message, 'there is no axis 3, the last one is 2') > 0)
+    call surfaces%pair(places, slave, master, info, symmetry_axes=[1, 2], symmetry_at=[0._dp], message=message)
+    call expect('both', info == -10 .and. index(message, 'symmetry_axes has 2 entries and symmetry_at 1') == 1)
     apart = places
     apart(2, :2) = 9
     call surfaces%pair(apart, slave, master, info)

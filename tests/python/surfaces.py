@@ -78,6 +78,19 @@ class Pairs(unittest.TestCase):
         with self.assertRaisesRegex(signorini.SignoriniError, "obstacle face 0 has node 4"):
             signorini.pair_obstacle(NODES, SLAVE, signorini.RigidFaces(NODES[2:], MASTER))
 
+    def test_planes_of_symmetry(self):
+        # Node 0 stands on the line x = 0: it is all that its row names across it.
+        contact = signorini.pair_surfaces(NODES, SLAVE, MASTER, symmetry=[(0, 0.0)])
+        self.assertEqual(contact.report.on_symmetry, 1)
+        self.assertIn("1 of the pairs on planes of symmetry", contact.summary)
+        self.assertEqual(signorini.pair_surfaces(NODES, SLAVE, MASTER).report.on_symmetry, 0)
+        model = signorini.Model.from_surfaces((np.full(10, 2.0), np.arange(10), np.arange(11)), contact, fixed=[0])
+        load = np.zeros(10)
+        load[[1, 3, 2]] = -1, -1, 0.1
+        result = model.solve(load, gap=contact.gaps, mu=0.3)
+        self.assertEqual((result.d[0, 1], result.F[0, 1]), (0, 0))
+        self.assertNotEqual(result.F[1, 1], 0)
+
     def test_never_meet(self):
         apart = NODES + np.array([[0, 5]] * 2 + [[0, 0]] * 3)
         contact = signorini.pair_surfaces(apart, SLAVE, MASTER)
@@ -96,6 +109,11 @@ class Pairs(unittest.TestCase):
             (signorini.SignoriniError, "slave face 0 has node 1 twice", (NODES, [[1, 1]], MASTER), {}),
             (signorini.SignoriniError, "search_distance is -1", (NODES, SLAVE, MASTER),
              {"search_distance": -1}),
+            (ValueError, "symmetry names the axes", (NODES, SLAVE, MASTER), {"symmetry": [(0.5, 0.0)]}),
+            (signorini.SignoriniError, "there is no axis 2, the last one is 1", (NODES, SLAVE, MASTER),
+             {"symmetry": [(2, 0.0)]}),
+            (signorini.SignoriniError, "axis 0 at 0.5, has slave nodes on both sides, 0 and 1",
+             (NODES, SLAVE, MASTER), {"symmetry": [(0, 0.5)]}),
         ):
             with self.assertRaisesRegex(kind, part):
                 signorini.pair_surfaces(*arguments, **keywords)

@@ -7,7 +7,7 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from ._arrays import at, components, fit, indices, integers, per_pair, reals
+from ._arrays import at, components, doubles, fit, indices, integers, per_pair, reals
 from ._constants import Obstacle, Pairing, chosen
 from ._library import check, library
 from ._mesh import Cells, points
@@ -54,7 +54,7 @@ what friction takes in the step.  pressed_area: of the pairs that press.
 
 
 def pair_surfaces(coordinates, slave, master, *, pairing="dual_mortar", search_distance=0.0,
-                  dofs=None, dofs_per_node=0):
+                  dofs=None, dofs_per_node=0, symmetry=()):
     """Pairs two surfaces of a mesh: SurfacePairs. Surfaces that never meet give no pairs.
 
     coordinates: of all nodes, (n, D).  slave, master: nodes of each face, (F, k), or a list of
@@ -65,21 +65,23 @@ def pair_surfaces(coordinates, slave, master, *, pairing="dual_mortar", search_d
     0: the size of the largest slave face.
     dofs: degrees of freedom of each node, (n, D); None: dofs_per_node * node + axis, dofs_per_node
     0: D.
+    symmetry: planes of symmetry of a half or quarter model, pairs of the axis across each and where
+    it stands along it: [(0, 0.0), (1, 0.0)]. Pairs on one neither move nor carry a force across it.
     """
     slave, master = _Faces("slave", slave), _Faces("master", master)
     return SurfacePairs("surface_pair", coordinates, slave, master.structure, pairing,
-                        search_distance, dofs, dofs_per_node)
+                        search_distance, dofs, dofs_per_node, symmetry)
 
 
 def pair_obstacle(coordinates, slave, obstacle, *, search_distance=0.0, dofs=None,
-                  dofs_per_node=0):
+                  dofs_per_node=0, symmetry=()):
     """Pairs a surface with a rigid Plane, Sphere, Cylinder or RigidFaces: SurfacePairs.
 
     The rest: as for pair_surfaces; search_distance 0: no limit, and with RigidFaces as there.
     """
     slave, rigid = _Faces("slave", slave), _Rigid(obstacle)
     return SurfacePairs("surface_pair_obstacle", coordinates, slave, rigid.structure,
-                        Pairing.DUAL_MORTAR, search_distance, dofs, dofs_per_node)
+                        Pairing.DUAL_MORTAR, search_distance, dofs, dofs_per_node, symmetry)
 
 
 class SurfacePairs:
@@ -94,7 +96,7 @@ class SurfacePairs:
     """
 
     def __init__(self, make, coordinates, slave, other, pairing, search_distance, dofs,
-                 dofs_per_node):
+                 dofs_per_node, symmetry):
         self._functions, self._coordinates = library(), points(coordinates).copy()
         self.node_count, self.dim = self._coordinates.shape
         self.slave_faces, self.coordinates = slave.lists, self._coordinates
@@ -102,6 +104,9 @@ class SurfacePairs:
             SurfaceSettings, pairing=chosen("pairing", Pairing, pairing),
             search_distance=float(search_distance), dofs_per_node=dofs_per_node,
         )
+        axes, places = _planes(symmetry)
+        settings.symmetry_planes = len(axes)
+        settings.symmetry_axes, settings.symmetry_at = at(axes), at(places)
         # Entries of a displacement vector that has all nodes.
         self._least = (dofs_per_node or self.dim) * (self.node_count - 1) + self.dim
         if dofs is not None:
@@ -245,3 +250,12 @@ def _shape(obstacle):
                      direction=three(obstacle.axis), radius=obstacle.radius,
                      hollow=bool(obstacle.hollow))
     raise TypeError(f"obstacle is {obstacle!r}: give a Plane, a Sphere, a Cylinder or RigidFaces")
+
+
+def _planes(symmetry):
+    """Axes and places of planes of symmetry."""
+    planes = reals("symmetry", symmetry).reshape(-1, 2) if len(symmetry) else np.zeros((0, 2))
+    axes = planes[:, 0].astype(np.int32)
+    if np.any(axes != planes[:, 0]):
+        raise ValueError(f"symmetry names the axes {planes[:, 0]}: give 0, 1 or 2 and where the plane stands")
+    return indices(axes, np.int32), doubles(planes[:, 1])

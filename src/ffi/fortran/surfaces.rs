@@ -56,6 +56,9 @@ pub(super) unsafe fn pair<I: Integer>(
             index_base: 1,
             dofs_per_node: dofs as i32,
             node_dofs: std::ptr::null(),
+            symmetry_planes: 0,
+            symmetry_axes: std::ptr::null(),
+            symmetry_at: std::ptr::null(),
         };
         let (slave, master) = (slave.view(), master.view());
         let (slave, master) = (&raw const slave, &raw const master);

@@ -134,7 +134,8 @@ pub(super) fn negative_energy(u: &[f64]) -> String {
 
 /// Why rows of surfaces nearly depend on each other, and what to do.
 const NEARLY_DEPENDENT: &str = "if two surfaces are each other's slaves, let one side be the slave; if slaves along a \
-     plane of symmetry are finer than what they face, let the other side be the slave";
+     plane of symmetry are finer than what they face, name the plane where they are paired, or let the other side be \
+     the slave";
 
 /// Whether anything resists a motion `u` of the host cannot be told from rounding. Pairs of general rows may
 /// nearly follow from others, which enlarges it.

@@ -27,6 +27,7 @@ use crate::error::{Argument, Error};
 use crate::law::{Contact, without_friction};
 use crate::linalg::sparse_matrix::{OutOfMemory, column, from_entries, transposed};
 use crate::linalg::sparse_schur::{Failure, Look, SparseSchur, Watch};
+use crate::linalg::vector::norm_inf;
 use crate::monitor::{Monitor, Stop};
 use crate::problem::{ContactProblem, DependentRows, Relation};
 use crate::settings::{Method, SMALLEST_TOLERANCE, Settings};
@@ -55,6 +56,10 @@ const HALF: f64 = 0.5;
 
 /// So many rounds that do not halve the least error show that rounding is reached.
 const IDLE_ROUNDS: usize = 12;
+
+/// Most rounds after the first solution, until the forces settle. Rows that nearly depend on each other enlarge
+/// the loads on their variables, and `eta`, which is relative to these, is small before the forces are right.
+const LAST_ROUNDS: usize = 4;
 
 /// What a round works on.
 struct Sprung<'p> {
@@ -164,9 +169,15 @@ fn condensed(
             Argument::Matrix,
             "the stiffness of the bodies between dependent pairs cannot be told from rounding: if two surfaces are \
              each other's slaves, let one side be the slave; if slaves along a plane of symmetry are finer than what \
-             they face, let the other side be the slave",
+             they face, name the plane where they are paired, or let the other side be the slave",
         )),
     }
+}
+
+/// Whether forces whose last two changes are `changes` will change by no more than `allowed`: each change is the
+/// same part of the one before.
+fn settles([before, last]: [f64; 2], allowed: f64) -> bool {
+    last <= allowed || last < before && before.is_finite() && last * (last / before) <= allowed
 }
 
 /// The variables of the displacements `start`.
@@ -193,6 +204,7 @@ impl Sprung<'_> {
         let mut growth = Growth::default();
         let mut best: Option<Solution> = None;
         let (mut last, mut least, mut idle) = (FIRST, f64::INFINITY, 0);
+        let (mut changes, mut solved) = ([f64::INFINITY; 2], 0);
         for _ in 0..ROUNDS {
             let wanted = (INNER * settings.tolerance).max(ROUGH * last.min(FIRST));
             let inner = Settings { tolerance: wanted.max(SMALLEST_TOLERANCE), ..settings.clone() };
@@ -200,7 +212,9 @@ impl Sprung<'_> {
             let round = self.round(&inner, (&variables, &d, &force), monitor)?;
             if matches!(round.0.status, Status::Solved | Status::Stalled) {
                 let change = round.0.certificate.force.iter().zip(&force).map(|(a, b)| a - b);
-                growth.add(change.collect());
+                let change: Vec<f64> = change.collect();
+                changes = [changes[1], norm_inf(&change)];
+                growth.add(change);
                 force.clone_from(&round.0.certificate.force);
                 variables.iter_mut().zip(&round.1).for_each(|(z, step)| *z += step);
             }
@@ -209,11 +223,18 @@ impl Sprung<'_> {
             last = found.certificate.eta;
             idle = if last < HALF * least { 0 } else { idle + 1 };
             least = least.min(last);
-            let ends = found.status != Status::Stalled
-                || growth.pattern().is_some()
-                || idle >= IDLE_ROUNDS;
-            let is_best = |best: &Solution| {
-                found.status != Status::Stalled || found.certificate.eta < best.certificate.eta
+            let is_solved = found.status == Status::Solved;
+            solved += usize::from(is_solved || solved > 0);
+            let ends = match found.status {
+                Status::Solved => settles(changes, settings.tolerance * norm_inf(&force)),
+                Status::Stalled => growth.pattern().is_some() || idle >= IDLE_ROUNDS,
+                _ => true,
+            } || solved > LAST_ROUNDS;
+            let is_best = |best: &Solution| match best.status {
+                Status::Solved => is_solved,
+                _ => {
+                    found.status != Status::Stalled || found.certificate.eta < best.certificate.eta
+                }
             };
             if best.as_ref().is_none_or(is_best) {
                 best = Some(found);

@@ -1,0 +1,137 @@
+//! Planes of symmetry of half and quarter models: what a pair is whose slave node stands on one.
+//!
+//! In the whole body the row of such a node reaches as far to the other side. What it tells along the axis across
+//! the plane cancels against its mirror image, so that the pair neither moves nor carries a force along it. Half
+//! of the row, as the half model has it, would not cancel: it holds masters alone, of which there may be fewer
+//! than such rows, and its force would be one that the whole body does not have. So that axis of the row is given up,
+//! as other programs give up the multiplier of such a node along it. The mean normal of the faces around the
+//! node is that of the whole body too: without a part across the plane.
+
+use std::collections::{BTreeMap, HashMap};
+
+use super::mesh::Side;
+use super::pairs::SurfacePair;
+use crate::error::{Argument, Error, index};
+use crate::linalg::vector3::{Vector3, unit};
+
+/// A plane of symmetry across an axis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SymmetryPlane {
+    /// The axis that it is orthogonal to: 0, 1 or 2.
+    pub axis: usize,
+    /// Where it stands along that axis; length.
+    pub at: f64,
+}
+
+/// A node is on a plane if it is nearer than this part of the size of the slave side: ten times the error of
+/// coordinates with seven digits.
+const ON_PLANE: f64 = 1e-6;
+
+/// What is left of a unit normal that lies across a plane but for rounding.
+const LEAST_NORMAL: f64 = 1e-6;
+
+/// The slave nodes that stand on planes of symmetry.
+#[derive(Debug, Default)]
+pub(super) struct OnPlanes {
+    /// The axes across which each of them stands on a plane.
+    axes: BTreeMap<usize, [bool; 3]>,
+}
+
+impl OnPlanes {
+    /// # Errors
+    /// A plane across an axis that is none, or at no finite place; a slave side on both sides of a plane.
+    pub(super) fn new(
+        slave: &Side<'_>,
+        dim: usize,
+        planes: &[SymmetryPlane],
+    ) -> Result<Self, Error> {
+        let refuse = |message: String| Err(Error::invalid(Argument::Settings, message));
+        let mut found = OnPlanes::default();
+        if planes.is_empty() {
+            return Ok(found);
+        }
+        let nodes = slave.all_nodes();
+        let near = ON_PLANE * extent(slave, &nodes);
+        for (k, &SymmetryPlane { axis, at }) in planes.iter().enumerate() {
+            let plane = format!("plane of symmetry {}", index(k));
+            if axis >= dim {
+                let (axis, last) = (index(axis), index(dim - 1));
+                return refuse(format!("{plane}: there is no axis {axis}, the last one is {last}"));
+            }
+            if !at.is_finite() {
+                return refuse(format!("{plane}: it stands at {at}, which is not finite"));
+            }
+            let mut beyond = [None; 2];
+            for &node in &nodes {
+                let height = slave.position(node)[axis] - at;
+                if height.abs() <= near {
+                    found.axes.entry(node).or_default()[axis] = true;
+                } else {
+                    beyond[usize::from(height > 0.0)] = Some(node);
+                }
+            }
+            if let [Some(below), Some(above)] = beyond {
+                let (axis, below, above) = (index(axis), index(below), index(above));
+                return refuse(format!(
+                    "{plane}, across axis {axis} at {at}, has slave nodes on both sides, {below} and \
+                     {above}: model one side alone, or leave the plane out"
+                ));
+            }
+        }
+        Ok(found)
+    }
+
+    /// Takes from the normals of slave nodes what is across their planes. One that is across its plane, as in a face
+    /// that lies in it, stays.
+    fn turn(&self, normals: &mut HashMap<usize, Vector3>) {
+        for (node, axes) in &self.axes {
+            let Some(normal) = normals.get_mut(node) else { continue };
+            let mut along = *normal;
+            (0..3).filter(|&axis| axes[axis]).for_each(|axis| along[axis] = 0.0);
+            if along.norm() > LEAST_NORMAL {
+                *normal = unit(along).unwrap_or(*normal);
+            }
+        }
+    }
+
+    /// The pair, held across the planes on which its slave node stands.
+    ///
+    /// # Errors
+    /// Its normal is across one.
+    pub(super) fn hold(&self, pair: SurfacePair) -> Result<SurfacePair, Error> {
+        let Some(&held) = self.axes.get(&pair.slave) else { return Ok(pair) };
+        let is_across = |(held, part): (bool, f64)| held && part != 0.0;
+        if held.into_iter().zip(pair.normal).any(is_across) {
+            let message = format!(
+                "a plane of symmetry has slave faces in it, at node {}: leave these faces out, or the plane",
+                index(pair.slave)
+            );
+            return Err(Error::invalid(Argument::Settings, message));
+        }
+        Ok(SurfacePair { held, ..pair })
+    }
+}
+
+impl Side<'_> {
+    /// The mean normals of the nodes, in the planes of symmetry on which they stand.
+    ///
+    /// # Errors
+    /// Normals that cancel.
+    pub(super) fn node_normals_on(
+        &self,
+        planes: &OnPlanes,
+    ) -> Result<HashMap<usize, Vector3>, Error> {
+        let mut normals = self.node_normals()?;
+        planes.turn(&mut normals);
+        Ok(normals)
+    }
+}
+
+/// The largest extent of a side along an axis.
+fn extent(side: &Side<'_>, nodes: &[usize]) -> f64 {
+    let along = |axis: usize| {
+        let places = || nodes.iter().map(|&node| side.position(node)[axis]);
+        places().fold(f64::MIN, f64::max) - places().fold(f64::MAX, f64::min)
+    };
+    (0..3).map(along).fold(0.0, f64::max)
+}
