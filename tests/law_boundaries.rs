@@ -8,7 +8,7 @@ mod laws;
 use fastrand::Rng;
 use laws::{Numbers, uniform};
 use signorini::law::piece::{Boundary, Piece};
-use signorini::law::{Bound, PairLaw, Rule, Vector};
+use signorini::law::{Bound, PairLaw, Rule, State, Vector};
 
 const POINTS: usize = 3000;
 
@@ -203,6 +203,61 @@ fn friction_turns_with_the_slip() {
                 let found = scale[0] * moves[0][column] + scale[1] * moves[1][column];
                 assert!((found - expected).abs() <= 1e2 * ROUNDING, "{numbers:?}: {moves:?}");
             }
+        }
+    }
+}
+
+/// At the centre of the chart, where nothing slips and nothing pushes along the obstacle, all that the law gives are
+/// numbers: no friction, no step, no way out along a way that goes nowhere.
+#[test]
+fn where_nothing_slips_the_law_gives_numbers() {
+    let rng = &mut Rng::with_seed(5);
+    for _ in 0..POINTS {
+        let numbers = Numbers::random(rng);
+        let (law, dim) = (numbers.law(), numbers.dim);
+        let y = [if numbers.has_obstacle() { uniform(rng, -1.0, 1.0) } else { -1.0 }, 0.0, 0.0];
+        let piece = law.piece(&y);
+        let push = law.push_on(piece, &y);
+        assert_eq!(push, [y[0].max(0.0) - numbers.tension, 0.0, 0.0], "{numbers:?}");
+        let derivative = law.derivative_on(piece, &y);
+        assert!(derivative.iter().flatten().all(|entry| entry.is_finite()), "{numbers:?}");
+        assert_eq!(law.opposing_edge(&[1.0, 0.0, 0.0][..dim]), [-1.0, 0.0, 0.0]);
+        if dim == 2 {
+            let exit = law.planar_exit(law.chart_branch(&y), [y[0], y[1]], [0.0; 2]);
+            assert!(exit.is_none(), "{numbers:?}: {exit:?}");
+        }
+        // The pair hangs free of its obstacle, without a force beside its tension.
+        let (v, p) = ([f64::min(y[0], 0.0), 0.0, 0.0], [-numbers.tension, 0.0, 0.0]);
+        let (mut d, force) = numbers.of_host(&v, &p);
+        let before = d.clone();
+        let (steps, change) = law.relax(&mut d, &force, &[0.0; 2], 1.0);
+        assert_eq!((steps, change, d), ([0.0; 3], 0.0, before), "{numbers:?}");
+    }
+}
+
+/// Pieces closer than the margin are not told apart: open comes before closed, stick before slip.
+#[test]
+fn states_next_to_a_boundary_are_open_and_stick() {
+    let rng = &mut Rng::with_seed(6);
+    for _ in 0..POINTS {
+        let numbers = Numbers::random(rng);
+        if !numbers.has_obstacle() {
+            continue;
+        }
+        let (law, margin) = (numbers.law(), 1e-3);
+        let slope = numbers.bound.slope.max(1.0);
+        let at = |pressure: f64, beyond: f64| {
+            let p_n = pressure - numbers.tension;
+            let size = numbers.threshold(p_n) + beyond;
+            let t = [size / numbers.size(&[1.0, 0.0][..numbers.dim - 1]), 0.0];
+            let (d, force) = numbers.of_host(&[0.0; 3], &[p_n, t[0], t[1]]);
+            law.state(&d, &force, margin)
+        };
+        assert_eq!(at(0.9 * margin / slope, 0.0), State::Open, "{numbers:?}");
+        assert_ne!(at(1.1 * margin / slope, 0.0), State::Open, "{numbers:?}");
+        if numbers.threshold(1.0 - numbers.tension) > 0.0 {
+            assert_eq!(at(1.0, 0.9 * margin), State::Stick, "{numbers:?}");
+            assert_eq!(at(1.0, 1.1 * margin), State::Slip, "{numbers:?}");
         }
     }
 }

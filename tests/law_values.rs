@@ -10,9 +10,12 @@ use common::dense::product;
 use common::problems::{Case, Law, decades, definite, loaded, uniform, vector};
 use fastrand::Rng;
 use laws::Numbers;
+use signorini::FrictionLaw;
 use signorini::law::branch::Tangential;
+use signorini::law::complementarity::{is_bounded, is_stopped, lower_bounds};
 use signorini::law::{
-    Bound, Contact, Held, PairLaw, Rule, exceed_gaps, gaps_within_reach, pressing,
+    Bound, Contact, Held, PairLaw, Rule, State, exceed_gaps, friction_is_large, gaps_within_reach,
+    pressing, touching,
 };
 
 /// An obstacle is within reach if its gap is at most `far` times what moves some component: a load over the root
@@ -279,4 +282,72 @@ fn collinear_slip_is_that_of_its_rule() {
         seen += usize::from(collinear);
     }
     assert!(seen > 50, "{seen}");
+}
+
+/// An obstacle stops the normal component of its pair, from its gap on. A pair touches there, within 1e-11 of the
+/// largest displacement, and wherever its state is not open.
+#[test]
+fn obstacles_stop_normal_components_at_their_gaps() {
+    for seed in 0..500 {
+        let mut rng = Rng::with_seed(seed);
+        let (dim, pairs) = (rng.usize(2..=3), rng.usize(1..=4));
+        let k = definite(&mut rng, dim * pairs, 10.0);
+        let mut case = loaded(&mut rng, dim, k, Law::Coulomb(vec![0.3; pairs]));
+        for gap in &mut case.gap {
+            *gap = [1.0, -1.0, 0.5, f64::INFINITY][rng.usize(0..4)];
+        }
+        let mut d: Vec<f64> = (0..case.size()).map(|_| uniform(&mut rng, -2.0, 2.0)).collect();
+        let largest = d.iter().fold(0.0_f64, |most, d| most.max(d.abs()));
+        let mut states = Vec::new();
+        let mut expected = Vec::new();
+        for pair in 0..pairs {
+            let gap = case.gap[pair];
+            let kind = rng.usize(0..4);
+            if gap.is_finite() {
+                let off = [0.0, 1e-13, 1e-9, -0.5][kind];
+                d[dim * pair] = gap - off * largest;
+            }
+            states.push([State::Open, State::Slip, State::Stick][rng.usize(0..3)]);
+            let near = gap.is_finite() && kind != 2;
+            if near || states[pair] != State::Open {
+                expected.push(pair);
+            }
+        }
+        let problem = case.problem();
+        let contact = Contact::new(&problem);
+        let found: Vec<usize> = touching(&contact, &d, &states).collect();
+        assert_eq!(found, expected, "seed {seed}: {case:?} {d:?}");
+        let lower = lower_bounds(&contact);
+        for i in 0..case.size() {
+            let bounded = i % dim == 0 && case.gap[i / dim].is_finite();
+            assert_eq!(is_bounded(&contact, i), bounded);
+            let stopped = bounded && d[i] >= case.gap[i / dim];
+            assert_eq!(is_stopped(&contact, i, &d), stopped, "seed {seed}, {i}: {d:?}");
+            let bound = if bounded { -case.gap[i / dim] } else { f64::NEG_INFINITY };
+            assert_eq!(lower[i], bound);
+        }
+    }
+}
+
+/// A coefficient above 10 is large; an angle, a cohesion and a tension are no coefficients.
+#[test]
+fn only_coefficients_are_large_friction() {
+    let large = friction_is_large;
+    assert!(large(FrictionLaw::Coulomb(&[0.1, 10.5])) && !large(FrictionLaw::Coulomb(&[10.0])));
+    assert!(!large(FrictionLaw::Tresca(&[11.0])) && !large(FrictionLaw::Frictionless));
+    let cohesive = |numbers: [f64; 3]| large(FrictionLaw::Cohesive(&numbers));
+    assert!(cohesive([11.0, 400.0, 20.0]) && !cohesive([0.3, 400.0, 20.0]));
+    for (numbers, expected) in
+        [([0.3, 0.3, 30.0], false), ([0.3, 11.0, 0.0], true), ([11.0, 0.3, 0.0], true)]
+    {
+        assert_eq!(large(FrictionLaw::Orthotropic(&numbers)), expected, "{numbers:?}");
+        assert_eq!(large(FrictionLaw::OrthotropicCollinear(&numbers)), expected, "{numbers:?}");
+    }
+}
+
+/// A normal force beside the tension pulls if it is positive.
+#[test]
+fn a_positive_normal_force_pulls() {
+    let law = PairLaw::new(2, 0.0, [0.0; 2], Bound { slope: 0.3, offset: 0.0 }, (1.0, 1.0));
+    assert!(law.is_tensile(1.0) && !law.is_tensile(-1.0) && !law.is_tensile(0.0));
 }
