@@ -261,3 +261,31 @@ fn states_next_to_a_boundary_are_open_and_stick() {
         }
     }
 }
+
+/// A way along which the bound grows as the friction does, or nearly so: it meets its boundary at a place that is
+/// exact, on a cone of slope 1, and is found to some roundings.
+#[test]
+fn a_way_nearly_along_a_boundary_leaves_at_its_exact_place() {
+    let law = PairLaw::new(2, 0.0, [0.0; 2], Bound { slope: 1.0, offset: 0.0 }, (1.0, 1.0));
+    let (slip, stick) = (Piece { closed: true, slips: true }, Piece { closed: true, slips: false });
+    let exit = |piece, y: [f64; 2], t: [f64; 2]| {
+        law.exit(piece, Boundary::Slip, &[y[0], y[1], 0.0], &[t[0], t[1], 0.0])
+    };
+    for side in [1.0, -1.0] {
+        // 3 - q = 1 + q, and 1 + q = 3 - q.
+        assert_eq!(exit(slip, [1.0, side * 3.0], [1.0, -side]), 1.0);
+        assert_eq!(exit(stick, [3.0, side], [-1.0, side]), 1.0);
+        // 1 + q and 2 + q never meet.
+        assert_eq!(exit(stick, [2.0, side], [1.0, side]), f64::INFINITY);
+        for exponent in [-40, -30, -20, -10] {
+            let e = 2_f64.powi(exponent);
+            // 1 + q = (1 + e) q + 1/2: after 1 / (2 e). 2 + q (1 - e) = 1 + q: after 1 / e.
+            let far = exit(stick, [1.0, side * 0.5], [1.0, side * (1.0 + e)]);
+            assert!((2.0 * e * far - 1.0).abs() <= 1e-14 / e.min(1e-2), "{e:e}: {far:e}");
+            // 2 - q (1 - e) = 1 + q.
+            let near = exit(slip, [1.0, side * 2.0], [1.0, -side * (1.0 - e)]);
+            let expected = 1.0 / (2.0 - e);
+            assert!((near - expected).abs() <= 1e-15, "{e:e}: {near:e}");
+        }
+    }
+}

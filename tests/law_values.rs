@@ -10,13 +10,13 @@ use common::dense::product;
 use common::problems::{Case, Law, decades, definite, loaded, uniform, vector};
 use fastrand::Rng;
 use laws::Numbers;
-use signorini::FrictionLaw;
 use signorini::law::branch::Tangential;
 use signorini::law::complementarity::{is_bounded, is_stopped, lower_bounds};
 use signorini::law::{
     Bound, Contact, Held, PairLaw, Rule, State, exceed_gaps, friction_is_large, gaps_within_reach,
     pressing, touching,
 };
+use signorini::{ContactData, ContactProblem, FrictionLaw};
 
 /// An obstacle is within reach if its gap is at most `far` times what moves some component: a load over the root
 /// of its stiffness, and times that root a known displacement, a slip, an interference, and the gap of an
@@ -121,7 +121,8 @@ fn the_admissible_part_of_a_motion_ends_at_an_obstacle() {
         let problem = case.problem();
         let contact = Contact::new(&problem);
         let d = contact.admissible(&vector(&mut rng, case.size()));
-        let motion = vector(&mut rng, case.size());
+        let mut motion = vector(&mut rng, case.size());
+        motion.iter_mut().filter(|_| rng.u8(0..3) == 0).for_each(|r| *r = 0.0);
         let part = contact.admissible_part(&d, &motion);
         let clearance = |part: f64| {
             let normal = |pair: usize| d[dim * pair] - part * motion[dim * pair];
@@ -132,6 +133,8 @@ fn the_admissible_part_of_a_motion_ends_at_an_obstacle() {
         if part < 1.0 {
             less += 1;
             assert!(clearance(part) <= 1e-15, "seed {seed}: {part}");
+            // No larger part of it can be taken.
+            assert!(clearance(part + 1e-3) < 0.0, "seed {seed}: {part}");
         }
     }
     assert!(less > 300, "{less}");
@@ -279,9 +282,21 @@ fn collinear_slip_is_that_of_its_rule() {
         let collinear = numbers.axes.is_some_and(|axes| axes.rule == Rule::Collinear);
         assert_eq!(numbers.law().is_collinear(), collinear, "{numbers:?}");
         assert!(!matches!(numbers.law().stick().tangential, Tangential::Slip { .. }));
+        let coupled = numbers.has_obstacle() && numbers.bound.slope > 0.0;
+        assert_eq!(numbers.law().is_coupled(), coupled, "{numbers:?}");
         seen += usize::from(collinear);
     }
     assert!(seen > 50, "{seen}");
+    let case =
+        loaded(rng, 3, definite(&mut Rng::with_seed(9), 6, 10.0), Law::Coulomb(vec![0.3; 2]));
+    let numbers = [0.3, 0.5, 0.1, 0.2, 0.4, 0.0];
+    for (law, expected) in [
+        (FrictionLaw::Orthotropic(&numbers), false),
+        (FrictionLaw::OrthotropicCollinear(&numbers), true),
+    ] {
+        let problem = ContactProblem::new(ContactData { law, ..case.data() }).unwrap();
+        assert_eq!(Contact::new(&problem).has_collinear_slip(), expected);
+    }
 }
 
 /// An obstacle stops the normal component of its pair, from its gap on. A pair touches there, within 1e-11 of the
@@ -293,10 +308,12 @@ fn obstacles_stop_normal_components_at_their_gaps() {
         let (dim, pairs) = (rng.usize(2..=3), rng.usize(1..=4));
         let k = definite(&mut rng, dim * pairs, 10.0);
         let mut case = loaded(&mut rng, dim, k, Law::Coulomb(vec![0.3; pairs]));
+        let unit = [1e-6, 1.0, 1e6][rng.usize(0..3)];
         for gap in &mut case.gap {
-            *gap = [1.0, -1.0, 0.5, f64::INFINITY][rng.usize(0..4)];
+            *gap = [1.0, -1.0, 0.5, f64::INFINITY][rng.usize(0..4)] * unit;
         }
-        let mut d: Vec<f64> = (0..case.size()).map(|_| uniform(&mut rng, -2.0, 2.0)).collect();
+        let mut d: Vec<f64> =
+            (0..case.size()).map(|_| unit * uniform(&mut rng, -2.0, 2.0)).collect();
         let largest = d.iter().fold(0.0_f64, |most, d| most.max(d.abs()));
         let mut states = Vec::new();
         let mut expected = Vec::new();
