@@ -164,6 +164,13 @@ fn a_sure_start_slips_less_than_its_clearance_allows() {
         y[0] *= 10_f64.powf(uniform(rng, -4.0, 0.0));
         let start = law.sure_start([y[0], y[1]]);
         assert_eq!(start[0], y[0]);
+        // Pressed on its obstacle, if it has one, it is stuck up to the same small part.
+        let force = uniform(rng, 0.1, 2.0);
+        let pressed = law.pressed([y[0], y[1]], force);
+        match numbers.has_obstacle() {
+            true => assert_eq!(pressed, law.sure_start([force, y[1]])),
+            false => assert_eq!(pressed, [y[0], y[1]]),
+        }
         let (slope, offset) = (numbers.bound.slope, numbers.bound.offset);
         if slope == 0.0 || !numbers.has_obstacle() {
             assert_eq!(start[1], y[1]);

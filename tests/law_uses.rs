@@ -213,8 +213,16 @@ fn edges_lie_on_the_friction_cone() {
             assert_eq!(edge[0], -1.0);
             assert!((law.size(&edge[1..law.dim]) - mu).abs() <= ROUNDING, "{law:?} {edge:?}");
         }
-        if law.dim == 2 && expected == 2 {
-            assert!((edges[0][1] + edges[1][1]).abs() <= ROUNDING, "{edges:?}");
+        // They stand on both sides of the normal, and in space no two of them on one line but those.
+        if expected > 1 {
+            for edge in edges.chunks_exact(2) {
+                assert!((edge[0][1] + edge[1][1]).abs() <= ROUNDING, "{edges:?}");
+                assert!((edge[0][2] + edge[1][2]).abs() <= ROUNDING, "{edges:?}");
+            }
+        }
+        if expected == 4 {
+            let across = edges[0][1] * edges[2][2] - edges[0][2] * edges[2][1];
+            assert!(across.abs() > 0.0, "{law:?} {edges:?}");
         }
     }
 }
