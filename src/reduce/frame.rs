@@ -109,4 +109,53 @@ mod tests {
         let inclined = Frame::new(&[1e-4, -1.0], None).unwrap();
         assert_eq!(inclined.component_along(1), None);
     }
+
+    /// Any direction of a frame may be along any axis, up or down: it is then exactly so, the frame is orthonormal
+    /// and turned the same way round, and no direction has changed by more than the rounding.
+    #[test]
+    fn every_direction_is_aligned_with_every_axis() {
+        let near = 3e-7;
+        for dim in [2, 3] {
+            for (axis, sign) in (0..dim).flat_map(|axis| [(axis, 1.0), (axis, -1.0)]) {
+                for turn in [0.4, 2.0, 3.5, 5.5] {
+                    let mut along = [0.0; 3];
+                    along[axis] = sign;
+                    along[(axis + 1) % dim] += near;
+                    let mut across = [0.0; 3];
+                    across[(axis + 1) % dim] = f64::cos(turn);
+                    if dim == 3 {
+                        across[(axis + 2) % 3] = f64::sin(turn);
+                        along[(axis + 2) % 3] = -near;
+                    }
+                    let frames = [
+                        Frame::new(&along[..dim], None).unwrap(),
+                        Frame::new(&across[..dim], Some(&along[..dim])).unwrap(),
+                        Frame::new(&across[..dim], None).unwrap(),
+                    ];
+                    for frame in frames {
+                        check(frame, axis, 4.0 * near);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Of frames that have a direction along the axis.
+    fn check(frame: Frame, axis: usize, near: f64) {
+        let Some(component) = frame.component_along(axis) else { return };
+        let of =
+            |frame: &Frame| -> Vec<Vec<f64>> { frame.directions().map(<[f64]>::to_vec).collect() };
+        let mut aligned = frame.clone();
+        aligned.align(component, axis);
+        let (before, after) = (of(&frame), of(&aligned));
+        assert_eq!(after[component][axis].abs(), 1.0);
+        for (i, one) in after.iter().enumerate() {
+            assert!(one.iter().zip(&before[i]).all(|(a, b)| (a - b).abs() <= near), "{after:?}");
+            assert!(i == component || one[axis] == 0.0, "{after:?}");
+            for (j, other) in after.iter().enumerate() {
+                let dot: f64 = one.iter().zip(other).map(|(a, b)| a * b).sum();
+                assert!((dot - f64::from(u8::from(i == j))).abs() <= 1e-15, "{after:?}");
+            }
+        }
+    }
 }

@@ -218,3 +218,6 @@ impl<'s> Neighbourhood<'s> {
 fn difference(ball: Ball, used: f64) -> f64 {
     sum_up(ball.distance_to(used), product_up(ASSEMBLY, used.abs()))
 }
+
+#[cfg(test)]
+mod tests;

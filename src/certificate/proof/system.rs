@@ -126,7 +126,7 @@ impl<'c> System<'c> {
     }
 
     /// Writes columns of the scaled matrix.
-    fn columns(&self) -> impl FnMut(usize, &mut [f64]) {
+    pub fn columns(&self) -> impl FnMut(usize, &mut [f64]) {
         let (dim, matrix) = (self.contact.dim(), self.contact.problem().stiffness());
         let mut sum = vec![0.0; matrix.size()];
         move |j, entries| {
