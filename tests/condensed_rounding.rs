@@ -82,6 +82,17 @@ fn what_looks_sound_is_taken_as_it_is() {
     }
 }
 
+/// Nor does a component that nothing resists, coupled to nothing, keep the motion of another pair from becoming free.
+#[test]
+fn what_nothing_resists_hides_nothing() {
+    for unit in UNITS {
+        let k = blocks(&[[unit, 0.0, 0.0], [unit, SMALL, 2e-12]]);
+        let cleaned = stiffness(&k, 2);
+        assert_eq!(cleaned[..8], k[..8]);
+        assert!(energy(&cleaned, 4, 1, SMALL).abs() <= 1e-15 * unit);
+    }
+}
+
 /// A matrix with an entry of rounding is refused as any other: not symmetric, not finite.
 #[test]
 fn rounding_does_not_hide_what_is_wrong() {

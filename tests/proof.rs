@@ -11,8 +11,8 @@ use common::problems::{Case, Law, decades};
 use common::proofs::{assert_holds, proof_of, random, size, solved};
 use fastrand::Rng;
 use generator::{Top, bar_with_top};
-use signorini::State;
-use signorini::certificate::prove;
+use signorini::certificate::{Proof, prove};
+use signorini::{Settings, State};
 
 const STATES: [State; 3] = [State::Open, State::Slip, State::Stick];
 
@@ -193,4 +193,62 @@ fn friction_along_its_slip_is_no_solution() {
         case.f = vector([1.0, 0.5]);
         assert!(prove(&case.problem(), &vector([0.0, 0.2]), &[State::Slip]).is_some());
     }
+}
+
+/// The distance to other displacements counts what rounding has left out of the proved ones.
+#[test]
+fn a_radius_about_other_displacements_counts_both_parts() {
+    let (unit, low) = (2_f64.powi(-53), 2_f64.powi(-54));
+    let proof = Proof {
+        d: vec![1.0; 3],
+        d_low: vec![low, low, -low],
+        d_radius: vec![unit, 0.0, 0.0],
+        force: vec![0.0; 3],
+        force_radius: vec![0.0; 3],
+    };
+    let about = proof.radius_about(&[1.0, 1.0 - unit, 1.0 - unit]);
+    // A radius is rounded up by some units in its last digit.
+    for (radius, exact) in about.iter().zip([unit + low, unit + low, unit - low]) {
+        assert!(*radius >= exact && *radius <= exact * (1.0 + 1e-12), "{about:?}");
+    }
+}
+
+/// Errors are relative: lengths and forces in other units do not change them.
+#[test]
+fn proved_errors_have_no_unit() {
+    let mut rng = Rng::with_seed(14);
+    let mut proved = 0;
+    for number in 0..50 {
+        let dim = rng.usize(2..4);
+        let case = random(&mut rng, dim, 1e2, 0.5);
+        let errors = |length: f64, unit: f64| {
+            let by = |values: &[f64], unit: f64| values.iter().map(|v| v * unit).collect();
+            let other = Case {
+                k: by(&case.k, unit / length),
+                f: by(&case.f, unit),
+                gap: by(&case.gap, length),
+                slip: case.slip.as_ref().map(|slip| by(slip, length)),
+                law: match case.law {
+                    Law::Tresca(_) => case.law.with(by(case.law.values(), unit)),
+                    _ => case.law.clone(),
+                },
+                ..case.clone()
+            };
+            let solution = other.solve(&Settings { proof: true, ..Settings::default() });
+            solution.errors.map(|errors| [errors.d, errors.force])
+        };
+        let Some(one) = errors(1.0, 1.0) else { continue };
+        proved += 1;
+        for (length, unit) in [(2_f64.powi(30), 2_f64.powi(-20)), (2_f64.powi(-40), 2_f64.powi(50))]
+        {
+            let other = errors(length, unit).unwrap_or_else(|| panic!("{number}: not proved"));
+            // Powers of two change no digit, but units of unknowns are roots of stiffnesses.
+            for (one, other) in one.iter().zip(other) {
+                // Next to nothing where all pairs stick and the answer is exact.
+                let (one, other) = (one.max(1e-300), other.max(1e-300));
+                assert!(other <= 4.0 * one && one <= 4.0 * other, "{number}: {one:e} {other:e}");
+            }
+        }
+    }
+    assert!(proved > 40, "{proved}");
 }

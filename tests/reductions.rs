@@ -92,6 +92,62 @@ fn pairs_on_springs_stick_at_their_reference_slip() {
     assert!(Held(vec![]).inverse(&[], &mut []).is_err());
 }
 
+/// The rounding that a certificate states is half a unit of the sizes of all terms of `K u`, relative to the larger
+/// of loads and forces: of an operator eight units of its components stand for the terms.
+#[test]
+fn rounding_is_half_a_unit_of_all_terms() {
+    let norm = |values: &[f64]| values.iter().map(|v| v * v).sum::<f64>().sqrt();
+    let check = |solution: &Solution, load: &[f64], terms: &[f64]| {
+        let scale = norm(load).max(norm(&solution.certificate.force));
+        let expected = f64::EPSILON / 2.0 * norm(terms) / scale;
+        let error = (solution.certificate.rounding - expected).abs();
+        assert!(error <= 1e-9 * expected, "{expected:e}: {:?}", solution.certificate);
+    };
+    let k = [2.0, 3e3, 5e-3, 7.0];
+    let load = [-1.0, 4e3, -0.03, 2.0];
+    let model = Model::operator(2, 2, Box::new(Springs(k.to_vec())), Some(&k)).unwrap();
+    let solution = solve(&model, &load, None, 0.0);
+    let terms: Vec<f64> = k.iter().zip(&solution.d).map(|(k, d)| 8.0 * k * d).collect();
+    check(&solution, &load, &terms);
+
+    // A node on an obstacle at y = 0 below it, tied to another node by springs of 1 and 2.
+    let values = [3.0, -1.0, 5.0, -2.0, 4.0, 6.0];
+    let matrix = SparseMatrix {
+        size: 4,
+        col_start: Indices::Wide(&[0, 2, 4, 5, 6]),
+        row: Indices::Wide(&[0, 2, 1, 3, 2, 3]),
+        values: &values,
+        index_base: 0,
+        triangle: Triangle::Lower,
+    };
+    let pairs = ContactPairs {
+        dim: 2,
+        count: 1,
+        slaves: &[0, 1],
+        master_start: &[0, 0],
+        masters: &[],
+        weights: &[],
+        normals: &[0.0, -1.0],
+        tangents: None,
+    };
+    let settings = Settings { full_space: true, ..Settings::default() };
+    let monitor = &mut Monitor::new(&settings, None);
+    let model = Model::sparse_within(&matrix, &[], &pairs, None, monitor).unwrap();
+    assert!(model.stiffness().is_empty());
+    for load in [[2.0, 3.0, 0.0, 0.0], [-0.5, -3.0, 0.0, 0.0]] {
+        let solution = solve(&model, &load, None, 0.0);
+        let mut u = model.recover(Some(&load), None, &solution.d).unwrap();
+        u.iter_mut().for_each(|u| *u = u.abs());
+        let terms = [
+            3.0 * u[0] + u[2],
+            5.0 * u[1] + 2.0 * u[3],
+            u[0] + 4.0 * u[2],
+            2.0 * u[1] + 6.0 * u[3],
+        ];
+        check(&solution, &load, &terms);
+    }
+}
+
 /// Nodes in the plane on springs along their axes; pairs of one slave and one master, normal -y.
 struct Nodes<'a> {
     springs: &'a [f64],
@@ -266,14 +322,18 @@ fn operators_are_judged_alike_in_all_units() {
         unit: f64,
         unsymmetric: f64,
         affine: f64,
+        irreproducible: f64,
+        calls: std::sync::atomic::AtomicU32,
     }
     impl HostOperator for Faulty {
         fn stiffness(&self, x: &[f64], y: &mut [f64]) -> Result<(), i32> {
+            let call = self.calls.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
             for (i, y) in y.iter_mut().enumerate() {
                 *y = self.unit
                     * (2.0 * x[i] + x[(i + 1) % x.len()] + x[(i + x.len() - 1) % x.len()]);
             }
-            y[0] += self.unit * (self.unsymmetric * x[1] + self.affine);
+            let moved = self.irreproducible * f64::from(call % 5);
+            y[0] += self.unit * (self.unsymmetric * x[1] + self.affine + moved);
             Ok(())
         }
 
@@ -287,12 +347,18 @@ fn operators_are_judged_alike_in_all_units() {
         }
     }
     for unit in [1e-12, 1.0, 1e12] {
-        let model = |unsymmetric: f64, affine: f64| {
-            Model::operator(2, 3, Box::new(Faulty { unit, unsymmetric, affine }), None)
+        let model = |[unsymmetric, affine, irreproducible]: [f64; 3]| {
+            let faulty =
+                Faulty { unit, unsymmetric, affine, irreproducible, calls: Default::default() };
+            Model::operator(2, 3, Box::new(faulty), None)
         };
-        assert!(model(0.0, 0.0).is_ok() && model(1e-13, 1e-13).is_ok(), "{unit:e}");
-        for (made, part) in [(model(1e-6, 0.0), "not symmetric"), (model(0.0, 1e-6), "not linear")]
-        {
+        // What rounding of a host's products may leave.
+        assert!(model([0.0; 3]).is_ok() && model([1e-13; 3]).is_ok(), "{unit:e}");
+        for (made, part) in [
+            (model([1e-6, 0.0, 0.0]), "not symmetric"),
+            (model([0.0, 1e-6, 0.0]), "not linear"),
+            (model([0.0, 0.0, 1e-6]), "not reproducible"),
+        ] {
             match made {
                 Err(Error::Invalid { argument: Argument::Matrix, message }) => {
                     assert!(message.contains(part), "{unit:e}: {message}");
@@ -300,5 +366,85 @@ fn operators_are_judged_alike_in_all_units() {
                 other => panic!("{unit:e}: {part}: {:?}", other.map(|_| "accepted")),
             }
         }
+    }
+}
+
+/// A node on an obstacle, tied to another one by a spring of 1 along each axis; `ground` holds the other along x.
+fn tied(ground: f64, general: bool) -> Result<Model, Error> {
+    let values = [1.0, -1.0, 1.0, -1.0, 1.0 + ground, 2.0];
+    let matrix = SparseMatrix {
+        size: 4,
+        col_start: Indices::Wide(&[0, 2, 4, 5, 6]),
+        row: Indices::Wide(&[0, 2, 1, 3, 2, 3]),
+        values: &values,
+        index_base: 0,
+        triangle: Triangle::Lower,
+    };
+    let slave = [0, 1];
+    let pairs = ContactPairs {
+        dim: 2,
+        count: 1,
+        slaves: if general { &[] } else { &slave },
+        master_start: if general { &[0, 1] } else { &[0, 0] },
+        masters: if general { &slave } else { &[] },
+        weights: if general { &[1.0] } else { &[] },
+        normals: &[0.0, -1.0],
+        tangents: None,
+    };
+    Model::sparse(&matrix, &[], &pairs)
+}
+
+/// Springs of 1 that hold each other leave a rounding of 4 halves of 2.2e-16 in the energy of their common motion:
+/// from 3 to 100 times as much is unclear, below it is free, and a negative energy as large as that is refused.
+#[test]
+fn a_motion_is_free_held_unclear_or_refused() {
+    for general in [false, true] {
+        let message = |ground: f64| match tied(ground, general) {
+            Err(Error::Invalid { argument: Argument::Matrix, message }) => message.to_string(),
+            other => panic!("{ground:e}: {:?}", other.map(|_| "accepted")),
+        };
+        assert!(tied(0.0, general).is_ok() && tied(1e-12, general).is_ok());
+        let moves = "it moves 2 of the degrees of freedom 0 to 2, most of all degree of freedom";
+        let unclear = message(2e-14);
+        let told = "the stiffness against a motion cannot be told from the rounding of K";
+        assert!(unclear.contains(told) && unclear.contains(moves), "{unclear}");
+        // Rows of general pairs may follow from others nearly.
+        assert_eq!(unclear.contains("each other's slaves"), general, "{unclear}");
+        let negative = message(-1e-12);
+        assert!(negative.contains("the energy of a motion is negative"), "{negative}");
+        assert!(negative.contains(moves), "{negative}");
+    }
+}
+
+/// Signed weights of 1e6 sum to zero up to their rounding, or are refused.
+#[test]
+fn weights_sum_up_to_their_rounding() {
+    let build = |other: f64| {
+        let matrix = SparseMatrix {
+            size: 4,
+            col_start: Indices::Wide(&[0, 1, 2, 3, 4]),
+            row: Indices::Wide(&[0, 1, 2, 3]),
+            values: &[1.0; 4],
+            index_base: 0,
+            triangle: Triangle::Lower,
+        };
+        let pairs = ContactPairs {
+            dim: 2,
+            count: 1,
+            slaves: &[],
+            master_start: &[0, 2],
+            masters: &[0, 1, 2, 3],
+            weights: &[1e6, other],
+            normals: &[0.0, -1.0],
+            tangents: None,
+        };
+        Model::sparse(&matrix, &[], &pairs)
+    };
+    assert!(build(-1e6).is_ok() && build(-1e6 * (1.0 + 1e-12)).is_ok());
+    match build(-1e6 * (1.0 + 1e-8)) {
+        Err(Error::Invalid { argument: Argument::Pairs, message }) => {
+            assert!(message.contains("pair 0: its signed weights sum to"), "{message}");
+        }
+        other => panic!("{:?}", other.map(|_| "accepted")),
     }
 }

@@ -359,3 +359,33 @@ fn the_body_that_flies_off_is_named() {
         assert!(solution.message.contains(resultant), "{}", solution.message);
     }
 }
+
+/// What holds a body by less than a host's condensation leaves of nothing (1e-12 of its stiffness) does not hold it:
+/// pulled off, it has no equilibrium, alone and on another body.
+#[test]
+fn a_body_that_rounding_holds_flies_off() {
+    for exponent in [-46, -42] {
+        let (mut held, mut stiff) = (vec![0.0; 16], vec![0.0; 16]);
+        for i in 0..4 {
+            held[5 * i] = 1.0;
+            stiff[5 * i] = 1024.0;
+        }
+        (held[2], held[8], held[10]) = (-1.0, -1.0, 1.0 + 2_f64.powi(exponent));
+        let pull = [-1.0, 0.0, -1.0, 0.0];
+        let two = Model::two_body(2, 2, (&held, 4), (&stiff, 4)).unwrap();
+        let one = Model::condensed(2, 2, &held, 4).unwrap();
+        for (model, load) in [(two, [pull, [0.0; 4]].concat()), (one, pull.to_vec())] {
+            let case = LoadCase {
+                load: &load,
+                prescribed: None,
+                gap: &[0.0; 2],
+                law: FrictionLaw::Coulomb(&[0.5; 2]),
+                reference_slip: None,
+            };
+            let settings = Settings::default();
+            let monitor = &mut Monitor::new(&settings, None);
+            let solution = model.solve(&case, &settings, None, monitor).unwrap();
+            assert_eq!(solution.status, Status::NoEquilibrium, "{}", solution.message);
+        }
+    }
+}
