@@ -22,16 +22,18 @@ cargo mutants --version >/dev/null 2>&1 || {
     echo "mutants: skipped: no cargo-mutants: cargo install --locked cargo-mutants"
     exit 77
 }
-tests=${MUTANTS_TESTS:-certificate certificate_bounds thresholds escape law law_values law_uses relation \
-    friction_laws properties far_gaps proof model_cases dependent_rows flexibility two_body general_rows \
-    sparse_messages sparse_supports sparse_condensation operator counting bad_input}
+tests=${MUTANTS_TESTS:-certificate certificate_bounds thresholds escape law law_values law_uses law_pieces \
+    law_boundaries law_rounding relation friction_laws properties far_gaps proof model_cases dependent_rows \
+    flexibility two_body general_rows reductions condensed_rounding motion_words sparse_messages \
+    sparse_supports sparse_condensation full_space_bodies operator free_bodies counting bad_input}
 
 [ $# -gt 0 ] || set -- 'src/certificate/**' 'src/law/**' 'src/reduce/**' src/ffi/args.rs
 for file in "$@"; do
     shift
     set -- "$@" --file "$file"
 done
-# The library is built again for each mutant, and these tests are linked.
+# The library is built again for each mutant, and these tests are linked, with those inside the library.
+set -- "$@" --cargo-arg=--lib
 for test in $tests; do
     set -- "$@" --cargo-arg="--test=$test"
 done
