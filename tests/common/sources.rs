@@ -41,6 +41,9 @@ const MARKS: [&str; 19] = [
     "/=", "%=", "^=", "|=",
 ];
 
+/// Unit tests that fill a file of their own, beside the module that they test.
+const UNIT_TESTS: &str = "tests.rs";
+
 /// All files below `src`, but the build script.
 pub fn sources() -> Vec<Source> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
@@ -71,7 +74,11 @@ fn source(root: &Path, file: &PathBuf) -> Source {
         module.pop();
     }
     let lines = text.lines().map(str::to_owned).collect();
-    Source { path: parts.join("/"), module, lines, tokens: without_tests(tokens(&text)) }
+    let tokens = match file.ends_with(UNIT_TESTS) {
+        true => Vec::new(),
+        false => without_tests(tokens(&text)),
+    };
+    Source { path: parts.join("/"), module, lines, tokens }
 }
 
 impl Source {
