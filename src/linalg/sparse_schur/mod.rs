@@ -7,6 +7,7 @@
 mod cholesky;
 mod dense;
 mod diagnosis;
+mod dissection;
 mod entries;
 mod failure;
 mod graph;
@@ -20,6 +21,7 @@ mod schedule;
 mod solve;
 mod structure;
 mod team;
+mod vertex_cut;
 mod watch;
 
 pub use cholesky::{SparseCholesky, Values};
