@@ -4,7 +4,7 @@
 //! Menger's theorem as many paths that share no vertex cross the band as a smallest separator in it has vertices.
 //! Dinic's method: shortest paths, all those of one length together.
 
-/// A vertex of no path.
+/// Of a vertex on no path, or a place that is not reached.
 const NONE: usize = usize::MAX;
 
 /// The flow comes from the side of the source.
@@ -36,33 +36,33 @@ pub enum Side {
     Separator,
 }
 
-/// Makes the separator the smallest one nearby, in a band that has at most so many vertices of each side. The larger side
-/// becomes smaller where there is a choice.
+/// Makes the separator the smallest one nearby, in a band that has at most `most` vertices of each side, and of equal
+/// ones one that leaves sides of about the same size.
 pub fn shrink(links: Links<'_>, side: &mut [Side], most: usize) {
-    let count = |which: Side| side.iter().filter(|&&s| s == which).count();
-    let (from, to) = match count(Side::First) >= count(Side::Second) {
-        true => (Side::First, Side::Second),
-        false => (Side::Second, Side::First),
-    };
     let mut is_band: Vec<bool> = side.iter().map(|&s| s == Side::Separator).collect();
-    for which in [from, to] {
+    for which in [Side::First, Side::Second] {
         grow(links, side, which, most, &mut is_band);
     }
-    shrink_in(links, side, (from, to), is_band);
+    shrink_in(links, side, is_band);
 }
 
-/// Makes the separator the smallest one in the band, near the side that the flow comes from where there is a choice.
-fn shrink_in(links: Links<'_>, side: &mut [Side], (from, to): (Side, Side), is_band: Vec<bool>) {
-    let Some(mut flow) = Flow::new(links, side, (from, to), is_band) else { return };
+/// The same in a band.
+fn shrink_in(links: Links<'_>, side: &mut [Side], is_band: Vec<bool>) {
+    let outside = |which: Side| {
+        side.iter().zip(&is_band).filter(|&(&s, &is_band)| s == which && !is_band).count()
+    };
+    let (first, second) = (outside(Side::First), outside(Side::Second));
+    let Some(mut flow) = Flow::new(links, side, is_band) else { return };
     while flow.levels() {
         flow.augment();
     }
-    // Levels are now those of all places that the source still reaches.
+    flow.balance(first, second);
+    // Levels are now those of all places on the side of the source.
     for &v in &flow.band {
         side[v] = match (flow.level[2 * v] != NONE, flow.level[2 * v + 1] != NONE) {
-            (_, true) => from,
+            (_, true) => Side::First,
             (true, false) => Side::Separator,
-            (false, false) => to,
+            (false, false) => Side::Second,
         };
     }
 }
@@ -86,12 +86,7 @@ struct Flow<'a> {
 
 impl<'a> Flow<'a> {
     /// None where a side has no vertex outside the band.
-    fn new(
-        links: Links<'a>,
-        side: &[Side],
-        (from, to): (Side, Side),
-        is_band: Vec<bool>,
-    ) -> Option<Self> {
+    fn new(links: Links<'a>, side: &[Side], is_band: Vec<bool>) -> Option<Self> {
         let size = side.len();
         let band: Vec<usize> = (0..size).filter(|&v| is_band[v]).collect();
         let beyond = |which: Side| {
@@ -101,7 +96,7 @@ impl<'a> Flow<'a> {
             }
             touches
         };
-        let (inlet, outlet) = (beyond(from), beyond(to));
+        let (inlet, outlet) = (beyond(Side::First), beyond(Side::Second));
         let serves = |door: &[bool]| door.iter().any(|&is_door| is_door);
         (serves(&inlet) && serves(&outlet)).then(|| Flow {
             links,
@@ -138,6 +133,80 @@ impl<'a> Flow<'a> {
             }
         }
         arrives
+    }
+
+    /// Moves the separator away from the source, as long as it is a smallest one, until the sides are of one size.
+    /// Outside the band stand `first` and `second` vertices.
+    fn balance(&mut self, first: usize, second: usize) {
+        let leads_out = self.leading_out();
+        let reached = |level: &[usize], v: usize| (level[2 * v] != NONE, level[2 * v + 1] != NONE);
+        let passed = self.band.iter().filter(|&&v| self.level[2 * v + 1] != NONE).count();
+        let mut queue: Vec<usize> = self
+            .band
+            .iter()
+            .copied()
+            .filter(|&v| reached(&self.level, v) == (true, false))
+            .collect();
+        let (width, mut nearer) = (queue.len(), first + passed);
+        let all = first + second + self.band.len() - width;
+        let mut done = 0;
+        while let Some(&v) = queue.get(done) {
+            done += 1;
+            if 2 * nearer >= all {
+                return;
+            }
+            if self.level[2 * v + 1] != NONE || leads_out[2 * v + 1] {
+                continue;
+            }
+            self.level[2 * v + 1] = 0;
+            nearer += 1;
+            let mut open = vec![2 * v + 1];
+            while let Some(place) = open.pop() {
+                for k in 0..self.ways(place) {
+                    if let Some(to) = self.way(place, k)
+                        && self.level[to] == NONE
+                    {
+                        self.level[to] = 0;
+                        nearer += to % 2;
+                        open.push(to);
+                        queue.push(to / 2);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Whether the sink can be reached from each place.
+    fn leading_out(&self) -> Vec<bool> {
+        let mut after = vec![NONE; self.before.len()];
+        for &v in &self.band {
+            if self.before[v] < SOURCE {
+                after[self.before[v]] = v;
+            }
+        }
+        let mut leads = vec![false; self.level.len()];
+        let mut open: Vec<usize> =
+            self.band.iter().filter(|&&v| self.outlet[v]).map(|&v| 2 * v + 1).collect();
+        open.iter().for_each(|&place| leads[place] = true);
+        while let Some(place) = open.pop() {
+            let v = place / 2;
+            let is_idle = self.before[v] == NONE;
+            let mut from: Vec<usize> = Vec::new();
+            if place % 2 == 1 {
+                from.extend(is_idle.then_some(2 * v));
+                from.extend((after[v] != NONE).then(|| 2 * after[v]));
+            } else {
+                from.extend((!is_idle).then_some(2 * v + 1));
+                from.extend(self.links.of(v).filter(|&w| self.is_band[w]).map(|w| 2 * w + 1));
+            }
+            for place in from {
+                if !leads[place] {
+                    leads[place] = true;
+                    open.push(place);
+                }
+            }
+        }
+        leads
     }
 
     /// How many ways lead from a place, at most.
@@ -323,7 +392,7 @@ mod tests {
             let mut side = of_set(around).expect("the ends are no neighbours");
             let is_band = (0..count).map(|v| v > 1).collect();
             let links = Links { start: &graph.0, neighbour: &graph.1 };
-            shrink_in(links, &mut side, (Side::First, Side::Second), is_band);
+            shrink_in(links, &mut side, is_band);
             assert!(separates(&graph, &side));
             assert_eq!((side[0], side[1]), (Side::First, Side::Second));
             assert_eq!(size(&side), least.expect("all others together separate") as usize);
