@@ -19,7 +19,8 @@ use feral_metis::internals::separator::construct_separator;
 use feral_scotch::{CscPattern, scotch_order};
 
 use super::failure::Failure;
-use super::vertex_cut::{Links, Side, shrink};
+use super::sides::{Links, Side};
+use super::vertex_cut::shrink;
 use super::watch::{Watch, go_on};
 
 /// Pieces of fewer vertices are left to feral-scotch: their share of the cost is small.

@@ -18,6 +18,7 @@ mod outer;
 mod panel;
 mod plan;
 mod schedule;
+mod sides;
 mod solve;
 mod structure;
 mod team;

@@ -4,45 +4,18 @@
 //! Menger's theorem as many paths that share no vertex cross the band as a smallest separator in it has vertices.
 //! Dinic's method: shortest paths, all those of one length together.
 
+use super::sides::{Links, Side, band};
+
 /// Of a vertex on no path, or a place that is not reached.
 const NONE: usize = usize::MAX;
 
 /// The flow comes from the side of the source.
 const SOURCE: usize = usize::MAX - 1;
 
-/// A graph: where the neighbours of each vertex begin, and the neighbours.
-#[derive(Clone, Copy)]
-pub struct Links<'a> {
-    pub start: &'a [i32],
-    pub neighbour: &'a [i32],
-}
-
-impl<'a> Links<'a> {
-    /// Neighbours of a vertex.
-    pub fn of(self, vertex: usize) -> impl Iterator<Item = usize> + 'a {
-        self.range(vertex).map(move |k| self.neighbour[k] as usize)
-    }
-
-    fn range(self, vertex: usize) -> std::ops::Range<usize> {
-        self.start[vertex] as usize..self.start[vertex + 1] as usize
-    }
-}
-
-/// Where a vertex is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Side {
-    First,
-    Second,
-    Separator,
-}
-
 /// Makes the separator the smallest one nearby, in a band that has at most `most` vertices of each side, and of equal
 /// ones one that leaves sides of about the same size.
 pub fn shrink(links: Links<'_>, side: &mut [Side], most: usize) {
-    let mut is_band: Vec<bool> = side.iter().map(|&s| s == Side::Separator).collect();
-    for which in [Side::First, Side::Second] {
-        grow(links, side, which, most, &mut is_band);
-    }
+    let is_band = band(links, side, most);
     shrink_in(links, side, is_band);
 }
 
@@ -139,14 +112,10 @@ impl<'a> Flow<'a> {
     /// Outside the band stand `first` and `second` vertices.
     fn balance(&mut self, first: usize, second: usize) {
         let leads_out = self.leading_out();
-        let reached = |level: &[usize], v: usize| (level[2 * v] != NONE, level[2 * v + 1] != NONE);
-        let passed = self.band.iter().filter(|&&v| self.level[2 * v + 1] != NONE).count();
-        let mut queue: Vec<usize> = self
-            .band
-            .iter()
-            .copied()
-            .filter(|&v| reached(&self.level, v) == (true, false))
-            .collect();
+        let is_passed = |v: &usize| self.level[2 * v + 1] != NONE;
+        let is_cut = |v: &usize| self.level[2 * v] != NONE && !is_passed(v);
+        let passed = self.band.iter().filter(|v| is_passed(v)).count();
+        let mut queue: Vec<usize> = self.band.iter().copied().filter(is_cut).collect();
         let (width, mut nearer) = (queue.len(), first + passed);
         let all = first + second + self.band.len() - width;
         let mut done = 0;
@@ -285,32 +254,10 @@ impl<'a> Flow<'a> {
     }
 }
 
-/// Puts the vertices of a side that are near the separator into the band, layer by layer, at most so many.
-fn grow(links: Links<'_>, side: &[Side], which: Side, most: usize, is_band: &mut [bool]) {
-    let mut layer: Vec<usize> = (0..side.len()).filter(|&v| side[v] == Side::Separator).collect();
-    let mut count = 0;
-    while !layer.is_empty() {
-        let mut further = Vec::new();
-        for &v in &layer {
-            for w in links.of(v).filter(|&w| side[w] == which) {
-                if !is_band[w] {
-                    is_band[w] = true;
-                    further.push(w);
-                }
-            }
-        }
-        count += further.len();
-        if count > most {
-            further.iter().for_each(|&w| is_band[w] = false);
-            return;
-        }
-        layer = further;
-    }
-}
-
 #[cfg(test)]
 mod tests {
-    use super::{Links, Side, shrink, shrink_in};
+    use super::{shrink, shrink_in};
+    use crate::linalg::sparse_schur::sides::{Links, Side};
 
     /// Neighbours of each vertex, one after the other.
     type Lists = (Vec<i32>, Vec<i32>);
