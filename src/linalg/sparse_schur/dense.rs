@@ -9,10 +9,10 @@ use faer::linalg::matmul::triangular::{self, BlockStructure};
 use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
 use faer::{Accum, MatMut, MatRef, Par, Spec};
 
-/// Writes `a bᵀ`, column-major.
-pub fn product(target: &mut [f64], a: MatRef<'_, f64>, b: MatRef<'_, f64>) {
+/// Writes `a bᵀ`, column-major, or adds it.
+pub fn product(target: &mut [f64], accum: Accum, a: MatRef<'_, f64>, b: MatRef<'_, f64>) {
     let target = MatMut::from_column_major_slice_mut(target, a.nrows(), b.nrows());
-    matmul(target, Accum::Replace, a, b.transpose(), 1.0, Par::Seq);
+    matmul(target, accum, a, b.transpose(), 1.0, Par::Seq);
 }
 
 /// Subtracts `a bᵀ`.
@@ -20,10 +20,10 @@ pub fn subtract_product(target: MatMut<'_, f64>, a: MatRef<'_, f64>, b: MatRef<'
     matmul(target, Accum::Add, a, b.transpose(), -1.0, Par::Seq);
 }
 
-/// Writes the lower triangle of `l lᵀ`, column-major.
-pub fn square(target: &mut [f64], l: MatRef<'_, f64>) {
+/// Writes the lower triangle of `l lᵀ`, column-major, or adds it.
+pub fn square(target: &mut [f64], accum: Accum, l: MatRef<'_, f64>) {
     let target = MatMut::from_column_major_slice_mut(target, l.nrows(), l.nrows());
-    lower_square(target, Accum::Replace, l, 1.0);
+    lower_square(target, accum, l, 1.0);
 }
 
 /// Subtracts the lower triangle of `l lᵀ`.
@@ -46,7 +46,7 @@ fn lower_square(target: MatMut<'_, f64>, accum: Accum, l: MatRef<'_, f64>, facto
 }
 
 /// Subtracts a product, column-major with `count` rows, from the entries `(row(i), column(j))` of a matrix; of a
-/// `square` one the lower triangle.
+/// `square` one the lower triangle. Rows ascend.
 pub fn scattered(
     mut target: MatMut<'_, f64>,
     product: &[f64],
@@ -55,14 +55,35 @@ pub fn scattered(
     column: impl Fn(usize) -> usize,
     square: bool,
 ) {
+    let runs = runs(count, row);
     for (j, product) in product.chunks_exact(count).enumerate() {
         let first = if square { j } else { 0 };
         let target = target.as_mut().col_mut(column(j)).try_as_col_major_mut();
         let target = target.expect("columns are contiguous").as_slice_mut();
-        for (i, product) in product.iter().enumerate().skip(first) {
-            target[row(i)] -= product;
+        for Run { from, end, to } in &runs[runs.partition_point(|run| run.end <= first)..] {
+            let begin = first.max(*from);
+            let target = &mut target[to + begin - from..to + end - from];
+            target.iter_mut().zip(&product[begin..*end]).for_each(|(t, product)| *t -= product);
         }
     }
+}
+
+/// Consecutive rows of a product, up to `end`, that go to consecutive ones from `to` on.
+struct Run {
+    from: usize,
+    end: usize,
+    to: usize,
+}
+
+fn runs(count: usize, row: impl Fn(usize) -> usize) -> Vec<Run> {
+    let mut runs: Vec<Run> = Vec::new();
+    for i in 0..count {
+        match runs.last_mut() {
+            Some(run) if row(i) == run.to + i - run.from => run.end = i + 1,
+            _ => runs.push(Run { from: i, end: i + 1, to: row(i) }),
+        }
+    }
+    runs
 }
 
 /// Working memory of [`root`].

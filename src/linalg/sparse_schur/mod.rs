@@ -7,6 +7,7 @@
 mod cholesky;
 mod dense;
 mod diagnosis;
+mod dissection;
 mod entries;
 mod failure;
 mod graph;
@@ -17,9 +18,11 @@ mod outer;
 mod panel;
 mod plan;
 mod schedule;
+mod sides;
 mod solve;
 mod structure;
 mod team;
+mod vertex_cut;
 mod watch;
 
 pub use cholesky::{SparseCholesky, Values};

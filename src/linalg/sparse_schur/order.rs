@@ -4,14 +4,12 @@
 //! degrees of the others and come last by their own. Where its factor costs much, nested dissection too,
 //! and the better of both. Or the order of the host.
 
-use std::panic::{UnwindSafe, catch_unwind};
-
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::linalg::amd;
 use faer::sparse::linalg::cholesky::simplicial;
 use faer::sparse::{SymbolicSparseColMat, SymbolicSparseColMatRef};
-use feral_scotch::{CscPattern, scotch_order};
 
+use super::dissection::dissected;
 use super::failure::Failure;
 use super::graph::{Graph, filled, reserved};
 use super::watch::{Watch, go_on};
@@ -21,9 +19,9 @@ use crate::linalg::sparse_matrix::OutOfMemory;
 const LARGEST_CLIQUE: usize = 2000;
 
 /// Nested dissection must save what it costs: so many operations of the factorisation take as long as one
-/// vertex of nested dissection (2e-5 s at 5e10 operations in a second, measured), twice, because it saves
+/// vertex of nested dissection (2.5e-5 s at 5e10 operations in a second, measured), twice, because it saves
 /// about half.
-const OPERATIONS_PER_VERTEX: f64 = 2.0 * 2e-5 * 5e10;
+const OPERATIONS_PER_VERTEX: f64 = 2.0 * 2.5e-5 * 5e10;
 
 /// The upper triangle of the graph's matrix in an order, the diagonal left out.
 pub type Pattern = SymbolicSparseColMat<usize>;
@@ -47,8 +45,7 @@ pub fn chosen(
     if operations <= OPERATIONS_PER_VERTEX * graph.inner as f64 {
         return Ok(order);
     }
-    go_on(watch)?;
-    let Some(dissected) = nested_dissection(graph) else { return Ok(order) };
+    let Some(dissected) = nested_dissection(graph, watch)? else { return Ok(order) };
     go_on(watch)?;
     let (dissected, fewer) = examined(graph, &dissected)?;
     Ok(if fewer < operations { dissected } else { order })
@@ -83,28 +80,30 @@ fn minimum_degree(graph: &Graph) -> Result<Vec<usize>, OutOfMemory> {
 }
 
 /// `None` if it fails in any way: the other order serves.
-fn nested_dissection(graph: &Graph) -> Option<Vec<usize>> {
-    let inner = graph.inner;
-    let number = |i: usize| i32::try_from(i).ok();
-    let (mut start, mut row) = (vec![0], Vec::new());
-    for v in 0..inner {
-        for &w in graph.neighbours(v).iter().filter(|&&w| w < inner) {
-            row.push(number(w)?);
-        }
-        start.push(number(row.len())?);
-    }
-    guarded(inner, || scotch_order(&CscPattern::new(inner, &start, &row)?).ok())
+fn nested_dissection(graph: &Graph, watch: &mut dyn Watch) -> Result<Option<Vec<usize>>, Failure> {
+    let Some((start, neighbour)) = inner_links(graph) else { return Ok(None) };
+    let order = dissected(start, neighbour, watch)?;
+    Ok(order.and_then(|order| permutation(&order, graph.inner)))
 }
 
-/// A permutation of `size` numbers that `work` gives; `None` if it gives none, another thing, or panics.
-fn guarded(
-    size: usize,
-    work: impl FnOnce() -> Option<Vec<i32>> + UnwindSafe,
-) -> Option<Vec<usize>> {
-    let order = catch_unwind(work).ok()??;
-    let order: Vec<usize> =
-        order.into_iter().map(usize::try_from).collect::<Result<_, _>>().ok()?;
-    is_permutation(&order, size).then_some(order)
+/// Where the neighbours of each inner vertex begin among those of all, and these, without kept vertices; `None` if
+/// there are too many.
+fn inner_links(graph: &Graph) -> Option<(Vec<i32>, Vec<i32>)> {
+    let number = |i: usize| i32::try_from(i).ok();
+    let (mut start, mut neighbour) = (vec![0], Vec::new());
+    for v in 0..graph.inner {
+        for &w in graph.neighbours(v).iter().filter(|&&w| w < graph.inner) {
+            neighbour.push(number(w)?);
+        }
+        start.push(number(neighbour.len())?);
+    }
+    Some((start, neighbour))
+}
+
+/// `order`, if it is one of `size` numbers.
+fn permutation(order: &[i32], size: usize) -> Option<Vec<usize>> {
+    let order: Option<Vec<usize>> = order.iter().map(|&v| usize::try_from(v).ok()).collect();
+    order.filter(|order| is_permutation(order, size))
 }
 
 /// Whether `order` has each of the numbers below `size` once.
@@ -193,7 +192,8 @@ fn post_order(parent: &[isize], inner: usize) -> Vec<usize> {
 #[cfg(test)]
 mod tests {
     use super::{
-        chosen, examined, guarded, is_permutation, minimum_degree, nested_dissection, post_order,
+        chosen, examined, is_permutation, minimum_degree, nested_dissection, permutation,
+        post_order,
     };
     use crate::linalg::sparse_matrix::{Csc, from_entries};
     use crate::linalg::sparse_schur::graph::Graph;
@@ -248,7 +248,7 @@ mod tests {
             let (_, most) = examined(&graph, &minimum_degree(&graph).unwrap()).unwrap();
             let order = chosen(&graph, None, &mut Unwatched).unwrap();
             assert!(is_permutation(&order, graph.inner));
-            assert!(nested_dissection(&graph).is_some());
+            assert!(nested_dissection(&graph, &mut Unwatched).unwrap().is_some());
             assert!(examined(&graph, &order).unwrap().1 <= most);
         }
     }
@@ -262,11 +262,9 @@ mod tests {
 
     #[test]
     fn what_is_no_permutation_is_not_taken() {
-        assert_eq!(guarded(3, || Some(vec![2, 0, 1])), Some(vec![2, 0, 1]));
+        assert_eq!(permutation(&[2, 0, 1], 3), Some(vec![2, 0, 1]));
         for wrong in [vec![0, 1], vec![0, 1, 1], vec![0, 1, 3], vec![0, 1, -1], vec![0, 1, 2, 3]] {
-            assert_eq!(guarded(3, || Some(wrong)), None);
+            assert_eq!(permutation(&wrong, 3), None);
         }
-        assert_eq!(guarded(3, || None), None);
-        assert_eq!(guarded(3, || panic!("a defect of the other crate")), None);
     }
 }

@@ -7,7 +7,7 @@ use faer::{MatMut, MatRef};
 
 use super::dense::{self, scattered};
 use super::failure::Failure;
-use super::panel::{COLUMNS, ROWS, Room, is_dense};
+use super::panel::{COLUMNS, ROWS, Room, accumulated, is_dense};
 use super::structure::Structure;
 use super::team::{Done, Team, locked};
 
@@ -59,12 +59,14 @@ pub fn subtract(
     let panels: Vec<Kept<'_>> =
         (0..structure.panels()).filter_map(|s| Kept::of(structure, values, s)).collect();
     let operations: f64 = panels.iter().map(|kept| cost(kept.l.ncols(), kept.rows.len())).sum();
+    // Panels with the same rows change the same entries.
+    let chains: Vec<&[Kept<'_>]> = panels.chunk_by(|one, other| one.rows == other.rows).collect();
     let blocks = blocks(structure, schur);
     team.share(blocks.len(), operations, &|lane, part| {
         let (block, room) = (&mut *locked(&blocks[part]), &mut *locked(&rooms[lane]));
-        for kept in &panels {
-            if kept.reaches(&block.rows) && kept.reaches(&block.columns) {
-                block.change(kept, &mut room.product, done);
+        for chain in &chains {
+            if chain[0].reaches(&block.rows) && chain[0].reaches(&block.columns) {
+                block.change(chain, &mut room.product, done);
             }
         }
     })
@@ -102,10 +104,10 @@ fn blocks<'a>(structure: &Structure, schur: &'a mut [f64]) -> Vec<Mutex<Block<'a
 }
 
 impl Block<'_> {
-    /// Subtracts the product of the rows of a panel.
-    fn change(&mut self, kept: &Kept<'_>, product: &mut [f64], done: &Done) {
-        let (columns, upper) = kept.within(&self.columns);
-        let (rows, lower) = kept.within(&self.rows);
+    /// Subtracts the products of the rows of panels that have the same ones.
+    fn change(&mut self, chain: &[Kept<'_>], product: &mut [f64], done: &Done) {
+        let (columns, _) = chain[0].within(&self.columns);
+        let (rows, _) = chain[0].within(&self.rows);
         if columns.is_empty() || rows.is_empty() {
             return;
         }
@@ -113,25 +115,25 @@ impl Block<'_> {
         let on_diagonal = first_row == first_column;
         let row = |k: usize| rows[k] - first_row;
         let column = |k: usize| columns[k] - first_column;
+        let each = chain.iter().map(|kept| {
+            let operations = kept.l.ncols() * rows.len() * columns.len();
+            done.add(if on_diagonal { operations / 2 } else { operations });
+            (kept.within(&self.rows).1, kept.within(&self.columns).1)
+        });
+        let mut target = self.values.as_mut();
         if is_dense(rows) && is_dense(columns) {
-            let target = self.values.as_mut();
-            let target = target.submatrix_mut(row(0), column(0), rows.len(), columns.len());
-            if on_diagonal {
-                dense::subtract_square(target, lower);
-            } else {
-                dense::subtract_product(target, lower, upper);
-            }
+            let mut target = target.submatrix_mut(row(0), column(0), rows.len(), columns.len());
+            each.for_each(|(lower, upper)| match on_diagonal {
+                true => dense::subtract_square(target.as_mut(), lower),
+                false => dense::subtract_product(target.as_mut(), lower, upper),
+            });
         } else {
             let product = &mut product[..rows.len() * columns.len()];
-            if on_diagonal {
-                dense::square(product, lower);
-            } else {
-                dense::product(product, lower, upper);
-            }
-            let target = self.values.as_mut();
-            scattered(target, product, rows.len(), row, column, on_diagonal);
+            accumulated(each, |accum, (lower, upper)| match on_diagonal {
+                true => dense::square(product, accum, lower),
+                false => dense::product(product, accum, lower, upper),
+            });
+            scattered(target.as_mut(), product, rows.len(), row, column, on_diagonal);
         }
-        let operations = lower.ncols() * rows.len() * columns.len();
-        done.add(if on_diagonal { operations / 2 } else { operations });
     }
 }

@@ -5,7 +5,7 @@
 use std::ops::Range;
 
 use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::{MatMut, MatRef};
+use faer::{Accum, MatMut, MatRef};
 
 use super::dense::{self, scattered};
 use super::entries::Entries;
@@ -153,22 +153,42 @@ impl Panel<'_> {
         (rows, all.split_at_row(width).1)
     }
 
+    /// The panels before it that change it, those together that change the same entries.
+    fn chains(&self) -> impl Iterator<Item = &[Change]> {
+        let structure = self.source.structure;
+        self.changes().chunk_by(|one, other| {
+            let count = |change: &Change| structure.rows(change.by).len() - change.first;
+            // Rows of a panel are columns or rows of the one with its first row as a column.
+            let is_next = structure.columns(other.by).contains(&structure.rows(one.by)[0]);
+            is_next && count(one) == count(other)
+        })
+    }
+
     /// Subtracts from the lower triangle of the diagonal block what the panels before give.
     pub fn change_top(&self, mut top: MatMut<'_, f64>, product: &mut [f64]) {
-        for &Change { by, first, end } in self.changes() {
-            let (rows, l) = self.earlier(by);
-            let (rows, l) = (&rows[first..end], l.subrows(first, end - first));
-            let place = |k: usize| self.place[rows[k]];
-            if is_dense(rows) {
-                let target = top.as_mut().submatrix_mut(place(0), place(0), rows.len(), rows.len());
-                dense::subtract_square(target, l);
+        for chain in self.chains() {
+            let columns = self.columns_of(&chain[0]);
+            let count = columns.len();
+            let place = |k: usize| self.place[columns[k]];
+            let each = chain.iter().map(|change| {
+                let l = self.earlier(change.by).1.subrows(change.first, count);
+                self.source.done.add(l.ncols() * count * count / 2);
+                l
+            });
+            if is_dense(columns) {
+                let mut target = top.as_mut().submatrix_mut(place(0), place(0), count, count);
+                each.for_each(|l| dense::subtract_square(target.as_mut(), l));
             } else {
-                let product = &mut product[..rows.len() * rows.len()];
-                dense::square(product, l);
-                scattered(top.as_mut(), product, rows.len(), place, place, true);
+                let product = &mut product[..count * count];
+                accumulated(each, |accum, l| dense::square(product, accum, l));
+                scattered(top.as_mut(), product, count, place, place, true);
             }
-            self.source.done.add(l.ncols() * rows.len() * rows.len() / 2);
         }
+    }
+
+    /// Those of its columns that a panel before it changes.
+    fn columns_of(&self, change: &Change) -> &[usize] {
+        &self.earlier(change.by).0[change.first..change.end]
     }
 
     /// Subtracts from a block of rows what the panels before give.
@@ -180,27 +200,31 @@ impl Panel<'_> {
     ) {
         let (lowest, highest) = (self.rows()[block.start], self.rows()[block.end - 1]);
         let above = self.width() + block.start;
-        for &Change { by, first, end } in self.changes() {
-            let (rows, l) = self.earlier(by);
-            let begin = end + rows[end..].partition_point(|&row| row < lowest);
-            let count = rows[begin..].partition_point(|&row| row <= highest);
+        for chain in self.chains() {
+            let columns = self.columns_of(&chain[0]);
+            let (width, below) = (columns.len(), &self.earlier(chain[0].by).0[chain[0].end..]);
+            let begin = below.partition_point(|&row| row < lowest);
+            let rows = &below[begin..];
+            let rows = &rows[..rows.partition_point(|&row| row <= highest)];
+            let count = rows.len();
             if count == 0 {
                 continue;
             }
-            let (columns, rows) = (&rows[first..end], &rows[begin..begin + count]);
-            let (upper, lower) = (l.subrows(first, columns.len()), l.subrows(begin, count));
+            let each = chain.iter().map(|change| {
+                let l = self.earlier(change.by).1;
+                self.source.done.add(l.ncols() * count * width);
+                (l.subrows(change.end + begin, count), l.subrows(change.first, width))
+            });
             let column = |k: usize| self.place[columns[k]];
             let row = |k: usize| self.place[rows[k]] - above;
             if is_dense(columns) && row(count - 1) + 1 - row(0) == count {
-                let target = target.as_mut();
-                let target = target.submatrix_mut(row(0), column(0), count, columns.len());
-                dense::subtract_product(target, lower, upper);
+                let mut target = target.as_mut().submatrix_mut(row(0), column(0), count, width);
+                each.for_each(|(l, upper)| dense::subtract_product(target.as_mut(), l, upper));
             } else {
-                let product = &mut product[..count * columns.len()];
-                dense::product(product, lower, upper);
+                let product = &mut product[..count * width];
+                accumulated(each, |accum, (l, upper)| dense::product(product, accum, l, upper));
                 scattered(target.as_mut(), product, count, row, column, false);
             }
-            self.source.done.add(l.ncols() * count * columns.len());
         }
     }
 
@@ -217,6 +241,13 @@ impl Panel<'_> {
         self.source.done.add(top.ncols() * top.ncols() * block.nrows());
         dense::divide(top, block);
     }
+}
+
+/// Writes the first of several products, and adds the others.
+pub fn accumulated<T>(each: impl Iterator<Item = T>, mut product: impl FnMut(Accum, T)) {
+    each.enumerate().for_each(|(k, factors)| {
+        product(if k == 0 { Accum::Replace } else { Accum::Add }, factors);
+    });
 }
 
 /// Whether ascending numbers follow each other.
