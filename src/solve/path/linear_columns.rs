@@ -1,14 +1,15 @@
 //! Columns of `J⁻¹ (K / k - 1)` on the pieces that were factorised, kept for the changes of pairs.
 //!
-//! A change needs one or two of them. Many right-hand sides together take a tenth of the time that they take one after
-//! the other, because the factor is read once. So columns are made in blocks: with those of a change those of the
-//! pairs whose boundaries are the next ones on the way. Most of these change before the system is factorised again,
-//! many of them more than once.
+//! A change needs one or two of them. Where the factor does not stay in a cache, many right-hand sides together take
+//! a tenth of the time that they take one after the other, because the factor is read once. There columns are made in
+//! blocks: with those of a change those of the pairs whose boundaries are the next ones on the way. Most of these change
+//! before the system is factorised again, many of them more than once.
 
-/// Columns that are made together: a part of all, more of them where the factor does not stay in a cache.
-const PART: usize = 16;
-const LEAST: usize = 4;
-const MOST: usize = 48;
+/// Columns that are made together.
+const BLOCK: usize = 48;
+
+/// Up to so many components the factor stays in a cache, and no columns are kept.
+const IN_CACHE: usize = 400;
 
 /// Most columns that are kept, as a part of all: they take memory.
 const KEPT: f64 = 0.25;
@@ -33,16 +34,20 @@ impl Columns {
         self.place[component].map(|place| &self.values[size * place..size * (place + 1)])
     }
 
+    /// Whether columns are kept.
+    pub fn are_kept(&self) -> bool {
+        self.place.len() > IN_CACHE
+    }
+
     /// How many columns the next block has. Forgets all that are known if there is no room for it.
     pub fn next_block(&mut self) -> usize {
         let size = self.place.len();
-        let block = (size / PART).clamp(LEAST, MOST);
         let known = self.values.len() / size;
-        if known > 0 && (known + block) as f64 > KEPT * size as f64 {
+        if known > 0 && (known + BLOCK) as f64 > KEPT * size as f64 {
             self.place.fill(None);
             self.values.clear();
         }
-        block
+        BLOCK
     }
 
     /// Takes in the columns of `components`.

@@ -166,9 +166,9 @@ impl<'p> PieceSystem<'p> {
         x
     }
 
-    /// Whether the columns for the change of `pair` are known.
-    pub fn is_ready(&self, pair: usize, exit: &Exit) -> bool {
-        self.components(pair, exit).all(|i| self.columns.of(i).is_some())
+    /// Whether the change of `pair` needs columns that are not known.
+    pub fn lacks_columns(&self, pair: usize, exit: &Exit) -> bool {
+        self.columns.are_kept() && self.components(pair, exit).any(|i| self.columns.of(i).is_none())
     }
 
     /// Components of `pair` that take part in its change.
@@ -203,8 +203,18 @@ impl<'p> PieceSystem<'p> {
         let u = direction(law, self.branches[pair], exit);
         let mut z = vec![0.0; self.root.len()];
         for (c, u) in u.into_iter().enumerate().filter(|(_, u)| *u != 0.0) {
-            let column = self.columns.of(2 * pair + c).expect("the caller has prepared it");
-            z.iter_mut().zip(column).for_each(|(z, column)| *z += u * column);
+            let i = 2 * pair + c;
+            if self.columns.are_kept() {
+                let column = self.columns.of(i).expect("the caller has prepared it");
+                z.iter_mut().zip(column).for_each(|(z, column)| *z += u * column);
+            } else {
+                let scaled = u / self.root[i].powi(2);
+                z.iter_mut().zip(self.matrix.column(i)).for_each(|(z, k)| *z += k * scaled);
+                z[i] -= u;
+            }
+        }
+        if !self.columns.are_kept() {
+            z = self.solve_factorised(&z);
         }
         for change in &self.changes {
             change.apply(&mut z);

@@ -165,7 +165,7 @@ impl<'p> Walk<'p> {
         monitor: &mut Monitor<'_>,
     ) -> Result<(), End> {
         self.events += 1;
-        if !self.system.is_ready(pair, exit) {
+        if self.system.lacks_columns(pair, exit) {
             let others = self.exits(self.system.sign()).filter(|(other, _)| *other != pair);
             let mut likely: Vec<(usize, Exit)> = others.collect();
             likely.sort_by(|a, b| a.1.step.total_cmp(&b.1.step));
