@@ -6,7 +6,7 @@
 //! before the system is factorised again, many of them more than once.
 
 /// Columns that are made together.
-const BLOCK: usize = 48;
+pub const BLOCK: usize = 48;
 
 /// Up to so many components the factor stays in a cache, and no columns are kept.
 const IN_CACHE: usize = 400;
@@ -39,15 +39,14 @@ impl Columns {
         self.place.len() > IN_CACHE
     }
 
-    /// How many columns the next block has. Forgets all that are known if there is no room for it.
-    pub fn next_block(&mut self) -> usize {
+    /// Forgets all columns if there is no room for a further block.
+    pub fn make_room(&mut self) {
         let size = self.place.len();
         let known = self.values.len() / size;
         if known > 0 && (known + BLOCK) as f64 > KEPT * size as f64 {
             self.place.fill(None);
             self.values.clear();
         }
-        BLOCK
     }
 
     /// Takes in the columns of `components`.

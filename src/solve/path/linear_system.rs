@@ -22,7 +22,7 @@
 //! `z` is one column of `J⁻¹ (K / k - 1)` or two, of the pieces that were factorised (`linear_columns`), which pass
 //! through the changes since then in turn, as all solutions do.
 
-use super::linear_columns::Columns;
+use super::linear_columns::{BLOCK, Columns};
 use crate::law::branch::Branch;
 use crate::law::{Contact, Exit, PairLaw, Planar};
 use crate::linalg::factor::{Factor, lu_work, subtract_product};
@@ -179,12 +179,12 @@ impl<'p> PieceSystem<'p> {
 
     /// Makes the columns for changes of pairs, the most likely ones first, so far as they are not known.
     pub fn prepare(&mut self, likely: &[(usize, Exit)]) {
-        let block = self.columns.next_block();
+        self.columns.make_room();
         let components: Vec<usize> = likely
             .iter()
             .flat_map(|(pair, exit)| self.components(*pair, exit))
             .filter(|&i| self.columns.of(i).is_none())
-            .take(block)
+            .take(BLOCK)
             .collect();
         let mut sides = Vec::with_capacity(components.len() * self.root.len());
         for &i in &components {
@@ -197,7 +197,7 @@ impl<'p> PieceSystem<'p> {
         self.columns.add(&components, &columns);
     }
 
-    /// The change of `pair` that passes a boundary; its columns are ready.
+    /// The change of `pair` that passes a boundary; no columns that it needs are lacking.
     pub fn flip(&mut self, pair: usize, exit: &Exit) -> Flip {
         let law = &self.contact.pairs()[pair];
         let u = direction(law, self.branches[pair], exit);
