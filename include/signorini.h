@@ -58,9 +58,7 @@
  * It starts threads only where settings.threads asks for them. It opens only the files that you
  * name. It keeps your floating-point environment: inside a call traps and flush-to-zero are off;
  * on return they are as before. The same input gives the same bits on the same machine. A thread
- * that is cancelled (pthread_cancel, deferred) ends after its call. Calls need 64 KiB of stack;
- * settings.search, settings.proof, signorini_prove, signorini_flexibility_solve and several load
- * cases of a sparse model at once need 96 KiB.
+ * that is cancelled (pthread_cancel, deferred) ends after its call. Calls need 64 KiB of stack.
  *
  * Memory. A call to which the system refuses memory ends with SIGNORINI_STATUS_OUT_OF_MEMORY and
  * holds nothing; the next call works. For that each call obtains, before its work begins, as much

@@ -8,7 +8,10 @@
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::lu::partial_pivoting as lu;
 use faer::linalg::matmul::matmul;
-use faer::perm::PermRef;
+use faer::linalg::triangular_solve::{
+    solve_unit_lower_triangular_in_place, solve_upper_triangular_in_place,
+};
+use faer::perm::{PermRef, permute_cols_in_place, permute_cols_in_place_scratch};
 use faer::{Accum, Mat, Par};
 
 use super::ball::{product_up, sum_of_products_up, sum_up};
@@ -122,30 +125,36 @@ fn bound_of_product(matrix: &Mat<f64>, x: &[f64]) -> Vec<f64> {
     sums.iter().map(|&sum| sum_of_products_up(sum, x.len())).collect()
 }
 
+/// By the factors of the transpose: right-hand sides by rows need no deep stack (`small_products.rs`), and the inverse
+/// comes out by columns.
 fn inverted(matrix: &Mat<f64>) -> Mat<f64> {
     let n = matrix.nrows();
-    let mut factors = matrix.clone();
+    let mut factors = matrix.transpose().to_owned();
     let (mut forward, mut backward) = (vec![0_usize; n], vec![0; n]);
     let spec = faer::Spec::default();
-    let mut memory =
-        MemBuffer::new(lu::factor::lu_in_place_scratch::<usize, f64>(n, n, Par::Seq, spec));
+    let request = lu::factor::lu_in_place_scratch::<usize, f64>(n, n, Par::Seq, spec)
+        .or(permute_cols_in_place_scratch::<usize, f64>(n, n));
+    let mut memory = MemBuffer::new(request);
     lu::factor::lu_in_place(
         factors.as_mut(),
         &mut forward,
         &mut backward,
         Par::Seq,
         MemStack::new(&mut memory),
-        faer::Spec::default(),
+        spec,
     );
-    let mut inverse = Mat::zeros(n, n);
-    let mut memory = MemBuffer::new(lu::inverse::inverse_scratch::<usize, f64>(n, Par::Seq));
-    lu::inverse::inverse(
-        inverse.as_mut(),
-        factors.as_ref(),
-        factors.as_ref(),
-        PermRef::new_checked(&forward, &backward, n),
-        Par::Seq,
-        MemStack::new(&mut memory),
-    );
+    let mut inverse = Mat::identity(n, n);
+    let mut columns = inverse.transpose_mut();
+    for begin in (0..n).step_by(BLOCK) {
+        let end = n.min(begin + BLOCK);
+        solve_unit_lower_triangular_in_place(
+            factors.get(begin.., begin..),
+            columns.as_mut().get_mut(begin.., begin..end),
+            Par::Seq,
+        );
+    }
+    solve_upper_triangular_in_place(factors.as_ref(), columns.as_mut(), Par::Seq);
+    let order = PermRef::new_checked(&forward, &backward, n);
+    permute_cols_in_place(columns, order.inverse(), MemStack::new(&mut memory));
     inverse
 }

@@ -11,7 +11,7 @@ use super::matrix::Matrix;
 use super::pivoted_cholesky::subtract_gram;
 use super::tolerances::SINGULAR;
 
-/// `K_OO = L Lᵀ` of the components `O`, `X = L⁻¹ K_OC` with the components `C` that are kept, and their Schur
+/// `K_OO = L Lᵀ` of the components `O`, `X = K_CO L⁻ᵀ` with the components `C` that are kept, and their Schur
 /// complement.
 #[derive(Debug)]
 pub struct Elimination {
@@ -65,16 +65,20 @@ impl Elimination {
         if !regular {
             return None;
         }
-        let mut half = Mat::zeros(o, c);
+        let mut half = Mat::zeros(c, o);
+        for (j, &at) in dropped.iter().enumerate() {
+            let column = matrix.column(at);
+            let target = half.col_as_slice_mut(j);
+            target.iter_mut().zip(&kept).for_each(|(entry, &i)| *entry = column[i]);
+        }
         let mut schur = vec![0.0; c * c];
         for (j, &at) in kept.iter().enumerate() {
             let column = matrix.column(at);
-            let target = half.col_as_slice_mut(j);
-            target.iter_mut().zip(&dropped).for_each(|(entry, &i)| *entry = column[i]);
             let target = &mut schur[c * j + j..c * (j + 1)];
             target.iter_mut().zip(&kept[j..]).for_each(|(entry, &i)| *entry = column[i]);
         }
-        triangular_solve::solve_lower_triangular_in_place(lower.as_ref(), half.as_mut(), Par::Seq);
+        let rows = half.transpose_mut();
+        triangular_solve::solve_lower_triangular_in_place(lower.as_ref(), rows, Par::Seq);
         subtract_gram(&mut schur, half.as_ref());
         Some(Elimination { dropped, kept, lower, half, schur })
     }
@@ -89,7 +93,7 @@ impl Elimination {
         &self.kept
     }
 
-    /// The matrix `K_CC - Xᵀ X` of what is kept.
+    /// The matrix `K_CC - X Xᵀ` of what is kept.
     pub fn schur(&self) -> Matrix<'_> {
         Matrix::new(self.kept.len(), &self.schur, self.kept.len())
     }
@@ -100,11 +104,11 @@ impl Elimination {
         self.solve_other_half(b);
     }
 
-    /// `Xᵀ L⁻¹ b`: what a load `b` on the components `O` takes from the load on `C`.
+    /// `X L⁻¹ b`: what a load `b` on the components `O` takes from the load on `C`.
     pub fn transfer(&self, b: &[f64]) -> Vec<f64> {
         let mut half = b.to_vec();
         self.solve_half(&mut half);
-        let product = self.half.transpose() * as_column(&half);
+        let product = &self.half * as_column(&half);
         product.col_as_slice(0).to_vec()
     }
 
@@ -112,7 +116,7 @@ impl Elimination {
     pub fn follow(&self, b: &[f64], x: &[f64]) -> Vec<f64> {
         let mut half = b.to_vec();
         self.solve_half(&mut half);
-        let taken = &self.half * as_column(x);
+        let taken = self.half.transpose() * as_column(x);
         half.iter_mut().zip(taken.col_as_slice(0)).for_each(|(half, taken)| *half -= taken);
         self.solve_other_half(&mut half);
         half

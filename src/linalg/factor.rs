@@ -7,7 +7,9 @@ use faer::linalg::matmul::matmul;
 use faer::perm::PermRef;
 use faer::{Accum, Mat, MatMut, MatRef, Par};
 
+use super::small_products::{SMALL_PRODUCT, by_rows};
 use super::tolerances::SINGULAR;
+use super::vector::dot;
 
 /// Operations of a Cholesky factorisation of `n` rows.
 pub fn cholesky_work(n: usize) -> f64 {
@@ -26,6 +28,8 @@ pub struct Factor {
     /// Scratch memory of [`Self::solve`], and for how many right-hand sides it is large enough.
     memory: MemBuffer,
     room: usize,
+    /// Working memory of [`by_rows`].
+    rows: Vec<f64>,
 }
 
 enum Kind {
@@ -64,7 +68,13 @@ impl Factor {
         let largest = (0..n).map(pivot).fold(0.0, f64::max);
         // Written so that NaN is singular too.
         let regular = (0..n).all(|i| pivot(i) > least * largest);
-        regular.then(|| Factor { factors, kind, memory: MemBuffer::new(StackReq::EMPTY), room: 0 })
+        regular.then(|| Factor {
+            factors,
+            kind,
+            memory: MemBuffer::new(StackReq::EMPTY),
+            room: 0,
+            rows: Vec::new(),
+        })
     }
 
     /// Number of rows.
@@ -92,7 +102,9 @@ impl Factor {
         let factors = self.factors.as_ref();
         let stack = MemStack::new(&mut self.memory);
         match &self.kind {
-            Kind::Cholesky => llt::solve::solve_in_place(factors, rhs, Par::Seq, stack),
+            Kind::Cholesky => by_rows(rhs, &mut self.rows, |rhs| {
+                llt::solve::solve_in_place(factors, rhs, Par::Seq, stack);
+            }),
             Kind::Lu { forward, inverse, .. } => {
                 let order = PermRef::new_checked(forward, inverse, n);
                 lu::solve::solve_in_place(factors, factors, order, rhs, Par::Seq, stack);
@@ -162,6 +174,12 @@ pub fn subtract_product(target: &mut [f64], a: &[f64], b: &[f64], n: usize) {
         return;
     }
     let (rows, columns) = (a.len() / n, b.len() / n);
+    if rows * columns * n <= SMALL_PRODUCT {
+        for (target, b) in target.chunks_exact_mut(rows).zip(b.chunks_exact(n)) {
+            target.iter_mut().zip(a.chunks_exact(n)).for_each(|(entry, a)| *entry -= dot(a, b));
+        }
+        return;
+    }
     matmul(
         MatMut::from_column_major_slice_mut(target, rows, columns),
         Accum::Add,
@@ -170,20 +188,6 @@ pub fn subtract_product(target: &mut [f64], a: &[f64], b: &[f64], n: usize) {
         -1.0,
         Par::Seq,
     );
-}
-
-/// Largest eigenvalue of the symmetric `n x n` matrix `entry(i, j)`; `None` if it is not found.
-pub fn largest_eigenvalue(n: usize, entry: impl Fn(usize, usize) -> f64) -> Option<f64> {
-    let matrix = Mat::from_fn(n, n, entry);
-    matrix.self_adjoint_eigenvalues(faer::Side::Lower).ok()?.last().copied()
-}
-
-/// Orthonormal eigenvectors of the symmetric `n x n` matrix `entry(i, j)`; `None` if they are not found.
-pub fn eigenvectors(n: usize, entry: impl Fn(usize, usize) -> f64) -> Option<Vec<Vec<f64>>> {
-    let matrix = Mat::from_fn(n, n, entry);
-    let found = matrix.self_adjoint_eigen(faer::Side::Lower).ok()?;
-    let vectors = found.U();
-    Some((0..n).map(|j| (0..n).map(|i| vectors[(i, j)]).collect()).collect())
 }
 
 /// `target - sum_k x_k y_kᵀ` for a matrix of `shape` with leading dimension `ld`; the `x_k` and the

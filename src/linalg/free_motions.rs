@@ -22,7 +22,7 @@
 //! For free motions this is the projection `(1 - V Vᵀ) S (1 - V Vᵀ)`. Components that the free motions
 //! move on their own get rows of zeros.
 
-use super::factor::eigenvectors;
+use super::eigen::eigenvectors;
 use super::pivoted_cholesky::PivotedCholesky;
 use super::tolerances::{FREE, HELD, SUSPICIOUS_PIVOT};
 use super::vector::{dot, norm};

@@ -107,11 +107,11 @@ impl PivotedCholesky {
         coupling: impl Fn(usize, usize) -> f64,
         corner: impl Fn(usize, usize) -> f64,
     ) -> Vec<f64> {
-        let mut half =
-            Mat::from_fn(self.independent.len(), m, |i, j| coupling(self.independent[i], j));
+        let n = self.independent.len();
+        let mut half = Mat::from_fn(m, n, |j, i| coupling(self.independent[i], j));
         triangular_solve::solve_lower_triangular_in_place(
             self.lower.as_ref(),
-            half.as_mut(),
+            half.transpose_mut(),
             Par::Seq,
         );
         let mut schur = vec![0.0; m * m];
@@ -125,16 +125,16 @@ impl PivotedCholesky {
     }
 }
 
-/// `C - Xᵀ X` from the lower triangle of the symmetric `C`, both triangles; column-major.
+/// `C - X Xᵀ` from the lower triangle of the symmetric `C`, both triangles; column-major.
 pub fn subtract_gram(c: &mut [f64], x: MatRef<'_, f64>) {
-    let m = x.ncols();
+    let m = x.nrows();
     triangular::matmul(
         MatMut::from_column_major_slice_mut(c, m, m),
         BlockStructure::TriangularLower,
         Accum::Add,
-        x.transpose(),
-        BlockStructure::Rectangular,
         x,
+        BlockStructure::Rectangular,
+        x.transpose(),
         BlockStructure::Rectangular,
         -1.0,
         Par::Seq,

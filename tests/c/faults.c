@@ -419,7 +419,7 @@ static int on_a_stack(void *argument)
     struct run *work = argument;
     pthread_attr_t attributes;
     pthread_t thread;
-    if (pthread_attr_init(&attributes) || pthread_attr_setstacksize(&attributes, 96 << 10) ||
+    if (pthread_attr_init(&attributes) || pthread_attr_setstacksize(&attributes, 64 << 10) ||
         pthread_create(&thread, &attributes, run, work) || pthread_join(thread, NULL))
         return 2;
     return work->status != 0;
@@ -506,7 +506,7 @@ static void threads(struct world *w)
     row("a thread is cancelled while it solves", "the call ends as always, then the thread",
         in_child(ends_after_its_call, &solving) == 0);
     struct run searching = {w, plane_others, -77, 0};
-    row("a search for other solutions on a stack of 96 KiB", "solved", in_child(on_a_stack, &searching) == 0);
+    row("a search for other solutions on a stack of 64 KiB", "solved", in_child(on_a_stack, &searching) == 0);
     handles_and_forks();
     released_handles();
 }

@@ -42,11 +42,8 @@ struct scenario {
     int kind;
 };
 
-/*
- * A scenario on a thread whose first call it is; one that needs a deeper stack than the others; one whose call
- * starts a thread.
- */
-enum { NEW_THREAD = 1, DEEP = 2, TWO_THREADS = 3 };
+/* A scenario on a thread whose first call it is; one whose call starts a thread. */
+enum { NEW_THREAD = 1, TWO_THREADS = 2 };
 
 /* ---- Data ---------------------------------------------------------------------------------- */
 
@@ -552,8 +549,8 @@ static const struct scenario scenarios[] = {
     {"plane, path", plane_path, 0, 0},
     {"plane, Tresca", plane_tresca, 0, 0},
     {"plane, cohesion", plane_cohesive, 0, 0},
-    {"plane, other solutions", plane_others, 0, DEEP},
-    {"plane, proof", plane_proof, 0, DEEP},
+    {"plane, other solutions", plane_others, 0, 0},
+    {"plane, proof", plane_proof, 0, 0},
     {"space, auto", space_auto, 0, 0},
     {"space, no friction", space_smooth, 0, 0},
     {"space, nested sweeps", space_nested, 0, 0},
@@ -561,12 +558,12 @@ static const struct scenario scenarios[] = {
     {"space, path", space_path, 0, 0},
     {"space, ellipse", space_ellipse, 0, 0},
     {"space, ellipse, collinear", space_collinear, 0, 0},
-    {"space, other solutions", space_others, 0, DEEP},
-    {"space, proof", space_proof, 0, DEEP},
+    {"space, other solutions", space_others, 0, 0},
+    {"space, proof", space_proof, 0, 0},
     {"six pairs", small_auto, 0, 0},
-    {"flexibility", flexibility, 0, DEEP},
+    {"flexibility", flexibility, 0, 0},
     {"certify", certify, 0, 0},
-    {"prove", prove, 0, DEEP},
+    {"prove", prove, 0, 0},
     {"LCP", lcp, 0, 0},
     {"refusal", refusal, -3, 0},
     {"no equilibrium, escape", escape, SIGNORINI_STATUS_NO_EQUILIBRIUM, 0},
@@ -579,8 +576,8 @@ static const struct scenario scenarios[] = {
     {"reduction on two threads", shared_reduction, 0, TWO_THREADS},
     {"two bodies", two_bodies, 0, 0},
     {"sparse model", sparse_model, 0, 0},
-    {"sparse model, many cases", sparse_many, 0, DEEP},
-    {"full space, two cases", full_space_cases, 0, DEEP},
+    {"sparse model, many cases", sparse_many, 0, 0},
+    {"full space, two cases", full_space_cases, 0, 0},
     {"dependent rows", dependent_rows, 0, 0},
     {"operator", operator_model, 0, 0},
     {"mortar surfaces, .vtu", mortar_surfaces, 0, 0},

@@ -62,13 +62,10 @@ static void cancellation(struct world *world)
 
 /* ---- Small stacks --------------------------------------------------------------------------- */
 
-/*
- * Bytes of a stack. The search for other solutions, proofs and blocks of load cases multiply small matrices by
- * a part of faer that has 64 KiB of numbers on the stack.
- */
-enum { SMALL_STACK = 64 << 10, DEEP_STACK = 96 << 10 };
+/* Bytes. */
+enum { SMALL_STACK = 64 << 10 };
 
-static void small_stack(struct world *world, const struct scenario *scenario, size_t bytes)
+static void small_stack(struct world *world, const struct scenario *scenario)
 {
     /* A stack that is too small ends the process: the child's. */
     fflush(stdout);
@@ -77,7 +74,7 @@ static void small_stack(struct world *world, const struct scenario *scenario, si
         struct run work = {scenario, world, -77};
         pthread_attr_t attributes;
         pthread_t thread;
-        if (pthread_attr_init(&attributes) || pthread_attr_setstacksize(&attributes, bytes) ||
+        if (pthread_attr_init(&attributes) || pthread_attr_setstacksize(&attributes, SMALL_STACK) ||
             pthread_create(&thread, &attributes, run, &work))
             _exit(2);
         pthread_join(thread, NULL);
@@ -86,14 +83,14 @@ static void small_stack(struct world *world, const struct scenario *scenario, si
     int status = -1;
     CHECK(child > 0 && waitpid(child, &status, 0) == child);
     if (!check_result(__FILE__, __LINE__, status == 0))
-        printf("%s: status %x with a stack of %zu KiB\n", scenario->name, (unsigned)status,
-               bytes >> 10);
+        printf("%s: status %x with a stack of %d KiB\n", scenario->name, (unsigned)status,
+               SMALL_STACK >> 10);
 }
 
 static void small_stacks(struct world *world)
 {
     for (const struct scenario *scenario = scenarios; scenario->name; scenario++)
-        small_stack(world, scenario, scenario->kind == DEEP ? DEEP_STACK : SMALL_STACK);
+        small_stack(world, scenario);
 }
 
 /* ---- Fork ----------------------------------------------------------------------------------- */

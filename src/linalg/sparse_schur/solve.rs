@@ -6,6 +6,7 @@ use faer::linalg::triangular_solve::{
 };
 use faer::{Accum, MatMut, MatRef, Par};
 
+use super::super::small_products::by_rows;
 use super::structure::Structure;
 
 /// Overwrites each column of `x`, in the order of elimination, with `L⁻¹` of its eliminated part; the kept
@@ -38,18 +39,20 @@ pub fn forward(structure: &Structure, values: &[f64], x: &mut [f64]) {
 /// that are kept and `d` the kept part of the column, which stays.
 pub fn backward(structure: &Structure, values: &[f64], x: &mut [f64]) {
     let mut x = columns_of(structure, x);
-    let mut gathered = Vec::new();
+    let (mut gathered, mut work): (Vec<f64>, _) = (Vec::new(), Vec::new());
     for s in (0..structure.panels()).rev() {
         let (columns, rows) = (structure.columns(s), structure.rows(s));
         let (top, below) = blocks(structure, values, s);
         gathered.clear();
-        for column in x.as_ref().col_iter() {
-            gathered.extend(rows.iter().map(|&row| column[row]));
+        for &row in rows {
+            gathered.extend(x.as_ref().row(row).iter());
         }
-        let mut part = x.as_mut().subrows_mut(columns.start, columns.len());
-        let known = MatRef::from_column_major_slice(&gathered, rows.len(), part.ncols());
-        matmul(part.as_mut(), Accum::Add, below.transpose(), known, -1.0, Par::Seq);
-        solve_upper_triangular_in_place(top.transpose(), part, Par::Seq);
+        let part = x.as_mut().subrows_mut(columns.start, columns.len());
+        let known = MatRef::from_row_major_slice(&gathered, rows.len(), part.ncols());
+        by_rows(part, &mut work, |mut part| {
+            matmul(part.as_mut(), Accum::Add, below.transpose(), known, -1.0, Par::Seq);
+            solve_upper_triangular_in_place(top.transpose(), part, Par::Seq);
+        });
     }
 }
 

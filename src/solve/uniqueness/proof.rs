@@ -15,7 +15,8 @@
 
 use super::difference::MARGIN;
 use crate::law::Contact;
-use crate::linalg::factor::{Factor, cholesky_work, largest_eigenvalue};
+use crate::linalg::eigen::largest_eigenvalue;
+use crate::linalg::factor::{Factor, cholesky_work};
 use crate::monitor::Monitor;
 
 /// Operations that take as long as the eigenvalues of a matrix of `n` rows: four thirds of `n³`, half of them at the
