@@ -242,7 +242,10 @@ const char *signorini_last_error(void);
 #define SIGNORINI_STATUS_NOT_A_SOLUTION 6  /**< Certify: the displacements are no solution. */
 /** Prove: no solution is proved to exist, which does not say that there is none. */
 #define SIGNORINI_STATUS_NOT_PROVED 7
-/** The call may need more than memory_limit: nothing was solved or factorised. */
+/**
+ * The call may need more than memory_limit: nothing was solved or factorised, no results were
+ * written.
+ */
 #define SIGNORINI_STATUS_MEMORY_LIMIT 8
 #define SIGNORINI_STATUS_INTERNAL -1000 /**< A caught defect of the library: results undefined. */
 /**

@@ -24,7 +24,8 @@ pub const SIGNORINI_STATUS_STALLED: i32 = 5;
 pub const SIGNORINI_STATUS_NOT_A_SOLUTION: i32 = 6;
 /// Prove: no solution is proved to exist, which does not say that there is none.
 pub const SIGNORINI_STATUS_NOT_PROVED: i32 = 7;
-/// The call may need more than memory_limit: nothing was solved or factorised.
+/// The call may need more than memory_limit: nothing was solved or factorised, no results were
+/// written.
 pub const SIGNORINI_STATUS_MEMORY_LIMIT: i32 = 8;
 /// A caught defect of the library: results undefined.
 pub const SIGNORINI_STATUS_INTERNAL: i32 = -1000;

@@ -186,7 +186,8 @@ void check_arrays(int32_t status)
         for (size_t k = 0; k < zone; k++) {
             if (beside[k] != ZONE_BYTE) complain("array %d: written outside of it", i);
         }
-        if ((!s->written || status < 0) && memcmp(s->copy, s->array, s->bytes) != 0)
+        const int refused = status < 0 || status == SIGNORINI_STATUS_MEMORY_LIMIT;
+        if ((!s->written || refused) && memcmp(s->copy, s->array, s->bytes) != 0)
             complain("array %d of %zu bytes: an %s was written, status %d", i, s->bytes,
                      s->written ? "output of a refused call" : "input", (int)status);
     }

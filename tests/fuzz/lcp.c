@@ -20,7 +20,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
               : signorini_lcp_solve(given, M, leading, q, settings, w, z, y, report);
     check_arrays(status);
     check_status(status, 10);
-    if (status < 0 || given != n || leading != ld) return 0;
+    if (status < 0 || status == SIGNORINI_STATUS_MEMORY_LIMIT || given != n || leading != ld) return 0;
     if (status == SIGNORINI_STATUS_SOLVED)
         judge_lcp(n, M, ld, q, tolerance_of(settings), w, z);
     if (status == SIGNORINI_STATUS_NO_EQUILIBRIUM) {
