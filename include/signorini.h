@@ -81,13 +81,15 @@ extern "C" {
  * 1  One call
  *
  * signorini_solve takes a condensed problem on plain arrays, signorini_flexibility_solve one whose
- * matrix turns forces into displacements. settings, report and extra may be NULL; their structures
- * stand in section 6.
+ * matrix turns forces into displacements, signorini_flexibility_solve_sparse the same with a sparse
+ * matrix (its structure stands in section 2). settings, report and extra may be NULL; their
+ * structures stand in section 6.
  * ========================================================================================== */
 
 typedef struct signorini_settings signorini_settings;
 typedef struct signorini_report signorini_report;
 typedef struct signorini_extra signorini_extra;
+typedef struct signorini_sparse signorini_sparse;
 
 /* Friction law: how large |F_t| may be. */
 /** No friction: F_t = 0. friction may be NULL and is not read. */
@@ -216,6 +218,48 @@ int32_t signorini_flexibility_solve(int32_t dim, int64_t pairs, const double *W,
                                     const signorini_extra *extra);
 
 /**
+ * Solves a contact problem in flexibility form, d = W F + q, with a sparse W: as
+ * signorini_flexibility_solve, of which all else is said there.
+ *
+ * Pairs that no entry of W ties to each other are islands, such as heaps of bodies that do not
+ * touch. Each is solved by itself as a dense problem of its size, to settings->tolerance beside its
+ * own forces; the result is measured as a whole on your sparse W. So the time is the sum of those
+ * of the islands, and the memory that of the largest: signorini_solve_memory. Where
+ * settings->memory_limit allows less, the call ends with SIGNORINI_STATUS_MEMORY_LIMIT before its
+ * work begins, and signorini_last_error() names the largest island.
+ *
+ * The status is that of the worst island. SIGNORINI_STATUS_NO_EQUILIBRIUM of one proves that the
+ * whole has none; the other islands are solved all the same. At a limit of time or iterations, or
+ * where the callback cancels, islands that are still to come keep the start. report->method, omega
+ * and damping are those of the largest island with the status; counts are sums over all islands.
+ *
+ * @param dim       space dimension, 2 or 3
+ * @param pairs     number of contact pairs, 0 allowed
+ * @param W         flexibility, W->size = dim * pairs; symmetric, positive semi-definite, not zero;
+ *                  length / force. A component that nothing moves has a row of zeros, which need
+ *                  not be stored; stored zeros tie nothing. W->order is not looked at
+ * @param q         free displacements, N = dim * pairs; length
+ * @param gap       initial gaps, one for each pair; length; NULL: zero
+ * @param law       SIGNORINI_LAW_..., the friction law of all pairs
+ * @param friction  parameters of the law, pair by pair; may be NULL if frictionless
+ * @param slip0     reference slip, dim - 1 for each pair; length; NULL: zero
+ * @param settings  NULL: the defaults
+ * @param d         out: relative displacements W F + q, N
+ * @param F         out: contact forces, N; in: the start if settings->warm_start
+ * @param state     out: SIGNORINI_STATE_... of each pair; may be NULL
+ * @param report    out: the measures of the result; may be NULL
+ * @param extra     the forces that prove SIGNORINI_STATUS_NO_EQUILIBRIUM, of one island; may be
+ *                  NULL
+ * @return as signorini_solve; SIGNORINI_STATUS_MEMORY_LIMIT
+ */
+int32_t signorini_flexibility_solve_sparse(int32_t dim, int64_t pairs, const signorini_sparse *W,
+                                           const double *q, const double *gap, int32_t law,
+                                           const double *friction, const double *slip0,
+                                           const signorini_settings *settings, double *d, double *F,
+                                           int32_t *state, signorini_report *report,
+                                           const signorini_extra *extra);
+
+/**
  * What was wrong in the last call on this thread, in one sentence, such as "K[12,7] is not
  * finite". Empty after a call that returned 0.
  *
@@ -269,13 +313,12 @@ const char *signorini_status_string(int32_t status);
 #define SIGNORINI_TRIANGLE_UPPER 1 /**< Stored are the entries with row <= column. */
 #define SIGNORINI_TRIANGLE_FULL 2  /**< All entries are stored. */
 
-typedef struct signorini_sparse signorini_sparse;
 typedef struct signorini_pairs signorini_pairs;
 
 /**
- * A sparse symmetric stiffness matrix by columns (CSC). Hand over a matrix by rows (CSR) as its
- * transpose: its rows are the columns here, and its LOWER is UPPER. The library only reads it
- * during the call.
+ * A sparse symmetric matrix by columns (CSC), stiffness or flexibility. Hand over a matrix by rows
+ * (CSR) as its transpose: its rows are the columns here, and its LOWER is UPPER. The library only
+ * reads it during the call.
  */
 struct signorini_sparse {
     uint32_t struct_size; /**< sizeof(signorini_sparse). */
@@ -291,11 +334,11 @@ struct signorini_sparse {
     /** Start of each column in row and values, size + 1 entries; the last is index_base + nnz. */
     const void *col_start;
     const void *row;      /**< Row of each entry, ascending in each column; nnz entries. */
-    const double *values; /**< The entries, nnz; force / length. */
+    const double *values; /**< The entries, nnz; a stiffness: force / length. */
     /**
      * Order of elimination: each degree of freedom once, the first to go first, size entries of
      * index_bytes. NULL: chosen. Fixed degrees of freedom and slaves are passed over; those with
-     * the same neighbours, as of one node, go together.
+     * the same neighbours, as of one node, go together. A flexibility has none: not looked at.
      */
     const void *order;
 };
@@ -1413,7 +1456,9 @@ int32_t signorini_settings_default(signorini_settings *settings, uint32_t struct
 /**
  * Most bytes that a call may take beside your arrays, for so many unknowns: signorini_solve,
  * signorini_certify and signorini_prove with N = dim * pairs, and the LCP calls.
- * signorini_flexibility_solve may take 8 N^2 bytes more. A call takes them for every method, law
+ * signorini_flexibility_solve may take 8 N^2 bytes more; signorini_flexibility_solve_sparse 16 N^2
+ * more, with the N of its largest island, and 256 bytes for each unknown and 16 for each stored
+ * entry of W. A call takes them for every method, law
  * and setting, and holds as much address space in reserve; settings.memory_limit refuses a call
  * that may need more. Each thread keeps some MiB of its own for matrix products, which are not
  * counted.

@@ -133,11 +133,12 @@ pub use model::{LoadCase, Model, Series, Starts};
 pub use monitor::{Monitor, Progress, ProgressFn, Stop};
 pub use problem::{
     ContactData, ContactProblem, Dependence, Flexibility, FlexibilityData, FlexibilityProblem,
-    FrictionLaw, Lcp, Relation, Stiffness,
+    FrictionLaw, Lcp, Relation, SparseFlexibilityProblem, Stiffness,
 };
 pub use settings::{Method, Search, Settings};
 pub use solve::{
     Errors, Escape, Existence, Fallback, LcpSolution, Remarks, SecondSolution, Solution, Status,
-    Uniqueness, memory, memory_flexibility, solve, solve_flexibility, solve_lcp,
+    Uniqueness, memory, memory_flexibility, memory_flexibility_sparse, solve, solve_flexibility,
+    solve_flexibility_sparse, solve_lcp,
 };
 pub use workers::{Alone, Workers};

@@ -4,7 +4,7 @@ use super::args::{Arrays, matrix_length, size, sizes};
 use super::extra::SignoriniExtra;
 use super::guard::{self, Failure};
 use super::law;
-use super::outputs::{self, OutputArguments};
+use super::outputs::OutputArguments;
 use super::report::SignoriniReport;
 use super::settings::SignoriniSettings;
 use crate::error::{Argument, Error};
@@ -89,7 +89,7 @@ pub unsafe extern "C" fn signorini_flexibility_solve(
             let slip = arrays.optional(9, "slip0", slip0, n - pairs)?;
             let received = SignoriniSettings::read(SETTINGS, settings)?;
             arrays.structure(SETTINGS, "settings", settings, false)?;
-            (matrix, free, gap, law, slip, received, wanted.note(&mut arrays, (n, pairs))?)
+            (matrix, free, gap, law, slip, received, wanted.note(&mut arrays, FIRST, (n, pairs))?)
         };
         arrays.check_overlap()?;
 
@@ -113,8 +113,11 @@ pub unsafe extern "C" fn signorini_flexibility_solve(
 /// Number of `settings` among the arguments.
 const SETTINGS: i32 = 10;
 
+/// Number of the first result.
+const FIRST: i32 = 11;
+
 /// Number of the array that holds the start.
-const START: i32 = outputs::FIRST + 1;
+const START: i32 = FIRST + 1;
 
 /// A refusal, by the number of the argument that it is about.
 fn from_error(error: Error) -> Failure {

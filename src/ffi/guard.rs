@@ -31,6 +31,12 @@ impl Failure {
         Failure { code: -position, ..self }
     }
 
+    /// The same with what explains it.
+    pub(super) fn explained(self, why: &str) -> Self {
+        let message = format!("{}: {why}", self.message.marked());
+        Failure { message: message.into(), ..self }
+    }
+
     /// The memory that a call holds in reserve could not be had.
     fn no_reserve(bytes: usize) -> Self {
         let megabytes = bytes as f64 / 1e6;

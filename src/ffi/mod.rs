@@ -18,6 +18,7 @@ mod condensed;
 mod crew;
 mod extra;
 mod flexibility;
+mod flexibility_sparse;
 mod fortran;
 mod guard;
 #[cfg(feature = "c-allocator")]

@@ -5,7 +5,7 @@ use super::guard::{self, Failure};
 use super::model::{SignoriniModel, read};
 use super::pairs::SignoriniPairs;
 use super::settings::SignoriniSettings;
-use super::sparse::{SignoriniSparse, shifted};
+use super::sparse::{STIFFNESS, SignoriniSparse, shifted};
 use crate::error::{Argument, Error};
 use crate::model::Model;
 use crate::reduce;
@@ -172,7 +172,7 @@ unsafe fn sparse(
 ) -> Result<i32, Failure> {
     // SAFETY: by the caller's contract.
     let made = unsafe {
-        let matrix = SignoriniSparse::read(1, K)?;
+        let matrix = SignoriniSparse::read(&mut Arrays::default(), 1, &STIFFNESS, K)?;
         let order = SignoriniSparse::order(1, K)?;
         let count = size(2, "n_fixed", n_fixed)?;
         let fixed = Arrays::default().required(3, "fixed", fixed, count)?;

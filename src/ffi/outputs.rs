@@ -7,7 +7,7 @@ use super::report::{SignoriniReport, state_codes};
 use super::status::{code, remember};
 use crate::solve::{Solution, Status};
 
-/// The pointers of the arguments from number [`FIRST`] on.
+/// The pointers of the last arguments of a call, in their order.
 #[allow(non_snake_case)] // the names of the mechanics, which the header shows
 pub(super) struct OutputArguments {
     pub(super) d: *mut f64,
@@ -16,9 +16,6 @@ pub(super) struct OutputArguments {
     pub(super) report: *mut SignoriniReport,
     pub(super) extra: *const SignoriniExtra,
 }
-
-/// Number of `d` among the arguments; the others follow it.
-pub(super) const FIRST: i32 = 11;
 
 /// Where the results of the call go.
 pub(super) struct Outputs {
@@ -30,22 +27,23 @@ pub(super) struct Outputs {
 }
 
 impl OutputArguments {
-    /// Notes the arrays of `n` unknowns of `pairs` pairs.
+    /// Notes the arrays of `n` unknowns of `pairs` pairs. `first` is the number of `d` among the arguments.
     ///
     /// # Safety
     /// Every pointer is NULL or has the length that the header demands.
     pub(super) unsafe fn note(
         &self,
         arrays: &mut Arrays,
+        first: i32,
         (n, pairs): (usize, usize),
     ) -> Result<Outputs, Failure> {
-        let d = arrays.output(FIRST, "d", self.d, n)?;
-        let force = arrays.output(FIRST + 1, "F", self.F, n)?;
-        let state = arrays.optional_output(FIRST + 2, "state", self.state, pairs)?;
+        let d = arrays.output(first, "d", self.d, n)?;
+        let force = arrays.output(first + 1, "F", self.F, n)?;
+        let state = arrays.optional_output(first + 2, "state", self.state, pairs)?;
         // SAFETY: by the caller's contract.
         let extra = unsafe {
-            arrays.structure(FIRST + 3, "report", self.report.cast_const(), true)?;
-            Extra::read(arrays, FIRST + 4, self.extra, (n, pairs, 1))?
+            arrays.structure(first + 3, "report", self.report.cast_const(), true)?;
+            Extra::read(arrays, first + 4, self.extra, (n, pairs, 1))?
         };
         Ok(Outputs { d, force, state, report: self.report, extra })
     }

@@ -4,7 +4,7 @@ use super::args::Arrays;
 use super::condensed::CondensedArguments;
 use super::extra::SignoriniExtra;
 use super::guard::{self, Failure};
-use super::outputs::{self, OutputArguments};
+use super::outputs::OutputArguments;
 use super::report::SignoriniReport;
 use super::settings::SignoriniSettings;
 use crate::error::Argument;
@@ -60,7 +60,7 @@ pub unsafe extern "C" fn signorini_solve(
     extra: *const SignoriniExtra,
 ) -> i32 {
     const SETTINGS: i32 = 10;
-    const START: i32 = outputs::FIRST;
+    const START: i32 = 11;
     let given = CondensedArguments { first: 1, dim, pairs, K, ldk, f, gap, law, friction, slip0 };
     let wanted = OutputArguments { d, F, state, report, extra };
     guard::call(|| {
@@ -70,7 +70,7 @@ pub unsafe extern "C" fn signorini_solve(
             let data = given.read(&mut arrays)?;
             let received = SignoriniSettings::read(SETTINGS, settings)?;
             arrays.structure(SETTINGS, "settings", settings, false)?;
-            let outputs = wanted.note(&mut arrays, (data.dim * data.pairs, data.pairs))?;
+            let outputs = wanted.note(&mut arrays, START, (data.dim * data.pairs, data.pairs))?;
             (data, received, outputs)
         };
         arrays.check_overlap()?;

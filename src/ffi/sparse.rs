@@ -17,9 +17,9 @@ pub const SIGNORINI_TRIANGLE_UPPER: i32 = 1;
 /// All entries are stored.
 pub const SIGNORINI_TRIANGLE_FULL: i32 = 2;
 
-/// A sparse symmetric stiffness matrix by columns (CSC). Hand over a matrix by rows (CSR) as its
-/// transpose: its rows are the columns here, and its LOWER is UPPER. The library only reads it
-/// during the call.
+/// A sparse symmetric matrix by columns (CSC), stiffness or flexibility. Hand over a matrix by rows
+/// (CSR) as its transpose: its rows are the columns here, and its LOWER is UPPER. The library only
+/// reads it during the call.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct SignoriniSparse {
@@ -40,27 +40,43 @@ pub struct SignoriniSparse {
     pub col_start: *const c_void,
     /// Row of each entry, ascending in each column; nnz entries.
     pub row: *const c_void,
-    /// The entries, nnz; force / length.
+    /// The entries, nnz; a stiffness: force / length.
     pub values: *const f64,
     /// Order of elimination: each degree of freedom once, the first to go first, size entries of
     /// index_bytes. NULL: chosen. Fixed degrees of freedom and slaves are passed over; those with
-    /// the same neighbours, as of one node, go together.
+    /// the same neighbours, as of one node, go together. A flexibility has none: not looked at.
     pub order: *const c_void,
 }
+
+/// What a sparse matrix and its arrays are called.
+pub(super) struct Names {
+    matrix: &'static str,
+    col_start: &'static str,
+    row: &'static str,
+    values: &'static str,
+}
+
+/// The names of a stiffness.
+pub(super) const STIFFNESS: Names =
+    Names { matrix: "K", col_start: "K: col_start", row: "K: row", values: "K: values" };
+
+/// The names of a flexibility.
+pub(super) const FLEXIBILITY: Names =
+    Names { matrix: "W", col_start: "W: col_start", row: "W: row", values: "W: values" };
 
 impl SignoriniSparse {
     /// # Safety
     /// As [`Self::read`].
-    unsafe fn copied(position: i32, pointer: *const Self) -> Result<Self, Failure> {
+    unsafe fn copied(position: i32, name: &str, pointer: *const Self) -> Result<Self, Failure> {
         if pointer.is_null() {
-            return Err(Failure::argument(position, "K is NULL"));
+            return Err(Failure::argument(position, format!("{name} is NULL")));
         }
         // SAFETY: by the caller's contract; before version 0.2 was finished the structure ended
         // with `values`.
-        let given = unsafe { checked_size(position, "K", pointer)? };
+        let given = unsafe { checked_size(position, name, pointer)? };
         if given < offset_of!(Self, order) {
             let message =
-                format!("K: struct_size is {given}, set it to sizeof ({})", size_of::<Self>());
+                format!("{name}: struct_size is {given}, set it to sizeof ({})", size_of::<Self>());
             return Err(Failure::argument(position, message));
         }
         let empty = SignoriniSparse {
@@ -76,7 +92,7 @@ impl SignoriniSparse {
             order: std::ptr::null(),
         };
         // SAFETY: as above.
-        unsafe { read(position, "K", pointer, empty) }
+        unsafe { read(position, name, pointer, empty) }
     }
 
     /// The order of elimination, counted from 0, if there is one.
@@ -88,7 +104,7 @@ impl SignoriniSparse {
         pointer: *const Self,
     ) -> Result<Option<Vec<usize>>, Failure> {
         // SAFETY: by the caller's contract.
-        let given = unsafe { Self::copied(position, pointer)? };
+        let given = unsafe { Self::copied(position, STIFFNESS.matrix, pointer)? };
         if given.order.is_null() {
             return Ok(None);
         }
@@ -107,43 +123,51 @@ impl SignoriniSparse {
         shifted(position, "order", &wide, base).map(Some)
     }
 
-    /// Views the caller's matrix.
+    /// Views the caller's matrix, and notes its structure and arrays.
     ///
     /// # Safety
     /// The structure and its arrays are as the header demands and live during the call.
     pub(super) unsafe fn read<'a>(
+        arrays: &mut Arrays,
         position: i32,
+        names: &Names,
         pointer: *const Self,
     ) -> Result<SparseMatrix<'a>, Failure> {
+        let name = names.matrix;
         let wrong = |message: String| Failure::argument(position, message);
+        let count = |what: &str, value| size(position, &format!("{name}: {what}"), value);
         // SAFETY: by the caller's contract.
-        let given = unsafe { Self::copied(position, pointer)? };
+        let given = unsafe { Self::copied(position, name, pointer)? };
+        // SAFETY: as above.
+        unsafe { arrays.structure(position, name, pointer, false)? };
         let triangle = match given.triangle {
             SIGNORINI_TRIANGLE_LOWER => Triangle::Lower,
             SIGNORINI_TRIANGLE_UPPER => Triangle::Upper,
             SIGNORINI_TRIANGLE_FULL => Triangle::Full,
-            other => return Err(wrong(format!("K: there is no triangle {other}"))),
+            other => return Err(wrong(format!("{name}: there is no triangle {other}"))),
         };
         let base = i64::from(given.index_base);
         if base != 0 && base != 1 {
-            return Err(wrong(format!("K: index_base is {base}, it must be 0 or 1")));
+            return Err(wrong(format!("{name}: index_base is {base}, it must be 0 or 1")));
         }
-        let n = size(position, "K: size", given.size)?;
-        let nnz = size(position, "K: nnz", given.nnz)?;
+        let n = count("size", given.size)?;
+        let nnz = count("nnz", given.nnz)?;
         let Some(columns) = n.checked_add(1) else {
-            return Err(wrong(format!("K: size is {n}, too large")));
+            return Err(wrong(format!("{name}: size is {n}, too large")));
         };
-        let mut arrays = Arrays::default();
         // SAFETY: arrays of the lengths and the width that the structure tells.
         unsafe {
-            let values = arrays.required(position, "K: values", given.values, nnz)?;
+            let values = arrays.required(position, names.values, given.values, nnz)?;
             let mut indices = |name, pointer: *const c_void, length| match given.index_bytes {
                 4 => arrays.required(position, name, pointer.cast(), length).map(Indices::Narrow),
                 8 => arrays.required(position, name, pointer.cast(), length).map(Indices::Wide),
-                other => Err(wrong(format!("K: index_bytes is {other}, it must be 4 or 8"))),
+                other => {
+                    let name = names.matrix;
+                    Err(wrong(format!("{name}: index_bytes is {other}, it must be 4 or 8")))
+                }
             };
-            let col_start = indices("K: col_start", given.col_start, columns)?;
-            let row = indices("K: row", given.row, nnz)?;
+            let col_start = indices(names.col_start, given.col_start, columns)?;
+            let row = indices(names.row, given.row, nnz)?;
             let matrix =
                 SparseMatrix { size: n, col_start, row, values, index_base: base, triangle };
             // Before other indices: a wrong index base is most likely that of all of them.

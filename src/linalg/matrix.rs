@@ -38,6 +38,11 @@ impl<'a> Matrix<'a> {
         self.entries[j * self.ld + i]
     }
 
+    /// The block of `size` rows and columns on the diagonal, from component `first` on.
+    pub fn block(&self, first: usize, size: usize) -> Matrix<'a> {
+        Matrix { size, entries: &self.entries[first * (self.ld + 1)..], ld: self.ld }
+    }
+
     /// Square roots of the diagonal, which is positive.
     pub fn diagonal_roots(&self) -> Vec<f64> {
         (0..self.size).map(|i| self.at(i, i).sqrt()).collect()

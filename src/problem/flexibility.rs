@@ -12,6 +12,8 @@
 //! Forces are compared with displacements by one unit of force per length for the normal of a pair, `1 / W_nn`,
 //! and one for its tangents, one over the largest eigenvalue of its tangential block.
 
+use std::iter::{once, repeat_n};
+
 use super::contact::{ContactProblem, check_finite, check_length, checked_dim, unknowns};
 use super::friction_law::FrictionLaw;
 use super::relation::{Redundant, Relation};
@@ -20,6 +22,10 @@ use crate::error::{Argument, Error};
 use crate::linalg::matrix::{Matrix, required_length};
 use crate::linalg::tolerances::ROUNDING_OF_SUM;
 use crate::linalg::vector::{largest_eigenvalue, largest_of, norm, sizes};
+
+/// Why a matrix of zeros is refused.
+pub(super) const ZERO: &str =
+    "W is zero: no contact force moves anything; hand over the flexibility of the bodies";
 
 /// The caller's arrays of a problem in flexibility form, not yet checked. Forces and displacements are in the
 /// caller's units; velocities and impulses may take their places.
@@ -43,10 +49,29 @@ pub struct FlexibilityData<'a> {
     pub reference_slip: Option<&'a [f64]>,
 }
 
-/// The relation `d = W F + q`: a view of the host's arrays.
+/// The matrix `W`, as much as the relation needs of it.
+pub trait FlexibilityMatrix {
+    /// `W F`.
+    fn times(&self, force: &[f64]) -> Vec<f64>;
+
+    /// `W F - d`, in twice the precision and rounded once.
+    fn times_less(&self, force: &[f64], d: &[f64]) -> Vec<f64>;
+}
+
+impl FlexibilityMatrix for Matrix<'_> {
+    fn times(&self, force: &[f64]) -> Vec<f64> {
+        self.product(force)
+    }
+
+    fn times_less(&self, force: &[f64], d: &[f64]) -> Vec<f64> {
+        self.residual(force, &[], d, &self.magnitude(&sizes(force)))
+    }
+}
+
+/// The relation `d = W F + q`: a view of the host's arrays. `W` is dense, or of another form that multiplies.
 #[derive(Clone, Debug)]
-pub struct Flexibility<'a> {
-    matrix: Matrix<'a>,
+pub struct Flexibility<'a, M = Matrix<'a>> {
+    matrix: M,
     free: &'a [f64],
     /// Positive units of force per length, one for each component, the same for all tangents of a pair.
     units: Vec<f64>,
@@ -75,24 +100,36 @@ impl<'a> FlexibilityProblem<'a> {
         let matrix = Matrix::new(size, data.flexibility, data.ld);
         symmetric_matrix::check_semi_definite(&matrix, "W", Argument::Matrix)?;
         if size > 0 && matrix.largest_diagonal() == 0.0 {
-            let message = "W is zero: no contact force moves anything; hand over the flexibility of the bodies";
-            return Err(Error::invalid(Argument::Matrix, message));
+            return Err(Error::invalid(Argument::Matrix, ZERO));
         }
-        let relation = Flexibility::new(data.dim, matrix, free);
+        let relation = Flexibility::new(matrix, free, units(data.dim, &matrix));
         ContactProblem::with_relation(relation, data.dim, data.gap, data.law, data.reference_slip)
     }
 }
 
 impl<'a> Flexibility<'a> {
-    fn new(dim: usize, matrix: Matrix<'a>, free: &'a [f64]) -> Self {
-        let units = units(dim, &matrix);
+    /// `W`.
+    pub(crate) fn matrix(&self) -> Matrix<'a> {
+        self.matrix
+    }
+}
+
+impl<'a, M: FlexibilityMatrix> Flexibility<'a, M> {
+    /// The relation with a checked matrix, free displacements and units of force per length, which must be those
+    /// of the components of the matrix, or of a larger one that this is a part of.
+    pub(crate) fn new(matrix: M, free: &'a [f64], units: Vec<f64>) -> Self {
         let load = units.iter().zip(free).map(|(unit, free)| unit * free).collect();
         Flexibility { matrix, free, units, load }
     }
 
-    /// `W`.
-    pub(crate) fn matrix(&self) -> Matrix<'a> {
-        self.matrix
+    /// `W`, of any form.
+    pub(crate) fn form(&self) -> &M {
+        &self.matrix
+    }
+
+    /// `q`.
+    pub(crate) fn free(&self) -> &'a [f64] {
+        self.free
     }
 
     /// Units of force per length, one for each component.
@@ -103,28 +140,35 @@ impl<'a> Flexibility<'a> {
     /// `W F + q`, in twice the precision and rounded once.
     pub(crate) fn relative(&self, force: &[f64]) -> Vec<f64> {
         let opposite: Vec<f64> = self.free.iter().map(|free| -free).collect();
-        self.matrix.residual(force, &[], &opposite, &self.matrix.magnitude(&sizes(force)))
+        self.matrix.times_less(force, &opposite)
     }
 }
 
 fn units(dim: usize, matrix: &Matrix<'_>) -> Vec<f64> {
     let otherwise = matrix.largest_diagonal();
-    let mut units = Vec::with_capacity(matrix.size());
-    for n in (0..matrix.size()).step_by(dim) {
-        units.push(1.0 / matrix.unit(n, dim, otherwise));
-        let t = n + 1;
-        let last = n + dim - 1;
-        let largest =
-            largest_eigenvalue(matrix.at(t, t), matrix.at(last, t), matrix.at(last, last));
-        let largest = if dim == 2 { matrix.at(t, t) } else { largest };
-        // A pair that only its normal force moves: its tangents have the unit of the normal.
-        let softest = largest.max(matrix.unit(t, dim, otherwise));
-        units.extend((1..dim).map(|_| 1.0 / softest));
-    }
-    units
+    let firsts = (0..matrix.size()).step_by(dim);
+    let blocks = firsts.map(|first| matrix.block(first, dim));
+    units_of_pairs(dim, blocks.map(|block| units_of_pair(&block, otherwise)))
 }
 
-impl Relation for Flexibility<'_> {
+/// The units of all components, from those of the normal and of the tangents of each pair.
+pub(super) fn units_of_pairs(dim: usize, each: impl Iterator<Item = [f64; 2]>) -> Vec<f64> {
+    each.flat_map(|[normal, tangent]| once(normal).chain(repeat_n(tangent, dim - 1))).collect()
+}
+
+/// The units of the normal and of the tangents of a pair with this block of `W`: `1 / W_nn`, and one over the
+/// largest eigenvalue of the tangents. `otherwise` is the flexibility of a pair that nothing moves.
+pub(super) fn units_of_pair(block: &Matrix<'_>, otherwise: f64) -> [f64; 2] {
+    let (dim, t) = (block.size(), 1);
+    let last = dim - 1;
+    let largest = largest_eigenvalue(block.at(t, t), block.at(last, t), block.at(last, last));
+    let largest = if dim == 2 { block.at(t, t) } else { largest };
+    // A pair that only its normal force moves: its tangents have the unit of the normal.
+    let softest = largest.max(block.unit(t, dim, otherwise));
+    [1.0 / block.unit(0, dim, otherwise), 1.0 / softest]
+}
+
+impl<M: FlexibilityMatrix> Relation for Flexibility<'_, M> {
     fn size(&self) -> usize {
         self.units.len()
     }
@@ -145,8 +189,7 @@ impl Relation for Flexibility<'_> {
     fn residual(&self, d: &[f64], force: &[f64]) -> Vec<f64> {
         let (caused, lost): (Vec<f64>, Vec<f64>) =
             d.iter().zip(self.free).map(|(d, free)| difference(*d, *free)).unzip();
-        let terms = self.matrix.magnitude(&sizes(force));
-        let beyond = self.matrix.residual(force, &[], &caused, &terms);
+        let beyond = self.matrix.times_less(force, &caused);
         let of = |((beyond, lost), unit): ((f64, f64), &f64)| unit * (lost - beyond);
         beyond.into_iter().zip(lost).zip(&self.units).map(of).collect()
     }
@@ -158,7 +201,7 @@ impl Relation for Flexibility<'_> {
     /// Forces that move nothing may be of any size, and would hide what is left of all others. So at most
     /// the units times `W F`.
     fn size_of_force(&self, force: &[f64]) -> f64 {
-        let caused = self.matrix.product(force);
+        let caused = self.matrix.times(force);
         let felt: Vec<f64> = caused.iter().zip(&self.units).map(|(d, unit)| unit * d).collect();
         norm(force).min(norm(&felt))
     }

@@ -6,8 +6,10 @@ mod contact;
 mod dependent_rows;
 mod flexibility;
 mod friction_law;
+mod islands;
 mod lcp;
 mod relation;
+mod sparse_flexibility;
 pub(crate) mod symmetric_matrix;
 
 pub(crate) use bodies::{Bodies, GoesOn, Restriction, Unformed};
@@ -21,3 +23,4 @@ pub use friction_law::FrictionLaw;
 pub use lcp::Lcp;
 pub(crate) use relation::Redundant;
 pub use relation::{Relation, Stiffness};
+pub use sparse_flexibility::SparseFlexibilityProblem;

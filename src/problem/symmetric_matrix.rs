@@ -76,14 +76,23 @@ fn check_across(matrix: &Matrix<'_>, name: &str, argument: Argument) -> Result<(
             ));
         }
         if lower.abs() > (1.0 + SYMMETRY) * scale {
-            return refuse(format!(
-                "{name} is not positive semi-definite: {} is {lower}, more than its diagonal \
-                 allows ({scale})",
-                at(i, j)
-            ));
+            return refuse(beyond_diagonal(name, (i, j), lower, scale));
         }
         Ok(())
     })
+}
+
+/// Why an entry is refused that is larger than `scale`, which the diagonal allows.
+pub(crate) fn beyond_diagonal(
+    name: &str,
+    (i, j): (usize, usize),
+    value: f64,
+    scale: f64,
+) -> String {
+    let place = entry(name, [i, j]);
+    format!(
+        "{name} is not positive semi-definite: {place} is {value}, more than its diagonal allows ({scale})"
+    )
 }
 
 /// Refuses a checked matrix, of `dim` components for each pair, that a motion makes work: with a negative

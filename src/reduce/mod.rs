@@ -18,7 +18,9 @@ pub use memory::memory;
 pub(crate) use motion::driven_motion;
 pub use operator::{HostOperator, OperatorReduction};
 pub use pairs::ContactPairs;
-pub use sparse::{Control, Indices, SparseMatrix, SparseReduction, Triangle};
+pub use sparse::{
+    Control, Indices, SparseFlexibilityData, SparseMatrix, SparseReduction, Triangle,
+};
 pub use two_body::TwoBodyReduction;
 
 use crate::error::{Error, Message};

@@ -4,6 +4,7 @@
 //! questions; `tests/memory_estimate.rs` and `tests/memory.rs` count again.
 
 use crate::error::{Error, Limit};
+use crate::problem::SparseFlexibilityProblem;
 use crate::settings::Settings;
 
 /// Matrices of the size of `K` that a method holds at most. The tableau of Lemke's method with friction is
@@ -12,6 +13,9 @@ const MATRICES: f64 = 3.25;
 
 /// Vectors with a number for each unknown.
 const VECTORS: f64 = 100.0;
+
+/// Vectors with a number for each unknown of all islands.
+const VECTORS_OF_WHOLE: f64 = 32.0;
 
 /// Whatever the size.
 const ALWAYS: f64 = 262_144.0;
@@ -44,4 +48,13 @@ pub fn memory(unknowns: usize) -> u64 {
 pub fn memory_flexibility(unknowns: usize) -> u64 {
     let stiffness = (unknowns as f64).powi(2) * size_of::<f64>() as f64;
     memory(unknowns) + stiffness as u64
+}
+
+/// The same for [`solve_flexibility_sparse`](super::solve_flexibility_sparse): its largest island as a dense
+/// problem, of which it makes the matrix, and vectors of the whole, beside the problem itself.
+pub fn memory_flexibility_sparse(problem: &SparseFlexibilityProblem<'_>) -> u64 {
+    let largest = problem.dim() * problem.relation().form().islands().largest().len();
+    let matrix = (largest as f64).powi(2) * size_of::<f64>() as f64;
+    let vectors = VECTORS_OF_WHOLE * (problem.unknowns() * size_of::<f64>()) as f64;
+    memory_flexibility(largest) + (matrix + vectors) as u64
 }

@@ -33,22 +33,23 @@ mod sweeps;
 mod undecided;
 mod uniqueness;
 
-use crate::error::{Argument, Error, entry};
+use crate::error::{Argument, Error, Limit, entry};
 use crate::law::Contact;
 use crate::linalg::vector::first_not_finite;
 use crate::monitor::Monitor;
-use crate::problem::{ContactProblem, DependentRows, FlexibilityProblem};
+use crate::problem::{ContactProblem, DependentRows, FlexibilityProblem, SparseFlexibilityProblem};
 use crate::settings::{Search, Settings};
 
 pub(crate) use candidate::{CAUSES, NO_EQUILIBRIUM};
 use dispatch::check_method;
+pub(crate) use flexibility::largest_island;
 pub(crate) use krylov::{
     Case as UnformedCase, certify as certify_unformed, memory as memory_unformed,
     solve as solve_unformed,
 };
 pub use lcp::{LcpSolution, solve_lcp};
 use memory::check_limit;
-pub use memory::{memory, memory_flexibility};
+pub use memory::{memory, memory_flexibility, memory_flexibility_sparse};
 pub use outcome::{
     Errors, Escape, Existence, Fallback, Remarks, SecondSolution, Solution, Status, Uniqueness,
 };
@@ -89,10 +90,49 @@ pub fn solve_flexibility(
 ) -> Result<Solution, Error> {
     let n = problem.unknowns();
     check(settings, memory_flexibility(n), ("F", n, start))?;
-    let mut solution = flexibility::solve(problem, settings, start, monitor)?;
+    let mut solution = flexibility::solve(problem, settings, start, &|pair| pair, monitor)?;
     solution.remarks = remarks::of_problem(problem);
     solution.iterations = monitor.iterations();
     Ok(solution)
+}
+
+/// Solves a contact problem in flexibility form with a sparse `W`, as [`solve_flexibility`] does one with a dense
+/// one.
+///
+/// Pairs that no entry of `W` ties to each other are islands, each solved by itself to the tolerance: time and memory
+/// are those of dense problems of their sizes, the memory that of the largest. What was found is certified as a
+/// whole. The status is that of the worst island: a proof that one has no equilibrium is one for the whole, and
+/// islands behind one at which a limit ended the call are left as they were at the start. [`Solution::method`] is
+/// that of the largest island with that status, and so are [`Solution::omega`] and [`Solution::damping`].
+///
+/// # Errors
+/// As [`solve_flexibility`]; where the largest island would need more memory than the settings allow it is named.
+pub fn solve_flexibility_sparse(
+    problem: &SparseFlexibilityProblem<'_>,
+    settings: &Settings,
+    start: Option<&[f64]>,
+    monitor: &mut Monitor<'_>,
+) -> Result<Solution, Error> {
+    check_flexibility_sparse(problem, settings)?;
+    check_start("F", problem.unknowns(), start)?;
+    let mut solution = flexibility::solve_islands(problem, settings, start, monitor)?;
+    solution.remarks = remarks::of_problem(problem);
+    solution.iterations = monitor.iterations();
+    Ok(solution)
+}
+
+/// Refuses settings out of range, and islands that need more bytes than they allow. Returns these bytes.
+pub(crate) fn check_flexibility_sparse(
+    problem: &SparseFlexibilityProblem<'_>,
+    settings: &Settings,
+) -> Result<u64, Error> {
+    settings.validate()?;
+    let bytes = memory_flexibility_sparse(problem);
+    check_limit(bytes, settings).map_err(|error| {
+        let message = format!("{}: {}", error.message().marked(), largest_island(problem));
+        Error::stopped(Limit::Memory, message)
+    })?;
+    Ok(bytes)
 }
 
 /// Solves a contact problem from the displacements `start` (zero if `None`).

@@ -11,6 +11,7 @@ pub mod dense;
 pub mod edges;
 pub mod escape;
 pub mod exact;
+pub mod flexible;
 pub mod folder;
 pub mod half_space;
 pub mod judge;

@@ -21,26 +21,30 @@ impl SparseMatrix<'_> {
     }
 
     /// Checks the arrays and copies the lower triangle. The diagonal entry of a degree of freedom that
-    /// `is_fixed` may be zero or not stored.
+    /// `is_fixed` may be zero or not stored, if its row is zero. `name` is the host's name of the matrix.
     ///
     /// # Errors
     /// The first start of a column that is out of order or range; the first row that is out of range,
     /// not ascending, listed twice or in the wrong triangle; the first value that is not finite; the
     /// first pair of entries that are not symmetric; the first diagonal entry that is not positive.
-    pub(super) fn lower_triangle(&self, is_fixed: impl Fn(usize) -> bool) -> Result<Csc, Error> {
-        let memory = |_: OutOfMemory| Error::OutOfMemory("a copy of the stiffness matrix");
+    pub(super) fn lower_triangle(
+        &self,
+        name: &str,
+        is_fixed: impl Fn(usize) -> bool,
+    ) -> Result<Csc, Error> {
+        let memory = |_: OutOfMemory| Error::OutOfMemory("a copy of the sparse matrix");
         let col_start = self.checked_col_start()?;
         let columns = Columns::with_capacity(self.values.len()).map_err(memory)?;
-        let stored = self.checked_columns(&col_start, columns)?;
+        let stored = self.checked_columns(name, &col_start, columns)?;
         let lower = match self.triangle {
             Triangle::Lower => stored,
             Triangle::Upper => transposed(&stored).map_err(memory)?,
             Triangle::Full => {
-                check_symmetry(&stored, &transposed(&stored).map_err(memory)?)?;
+                check_symmetry(name, &stored, &transposed(&stored).map_err(memory)?)?;
                 lower_part(&stored).map_err(memory)?
             }
         };
-        check_diagonal(&lower, is_fixed)?;
+        check_diagonal(name, &lower, is_fixed)?;
         Ok(lower)
     }
 
@@ -75,7 +79,12 @@ impl SparseMatrix<'_> {
     }
 
     /// Copies the stored entries to `columns`.
-    fn checked_columns(&self, col_start: &[usize], mut columns: Columns) -> Result<Csc, Error> {
+    fn checked_columns(
+        &self,
+        name: &str,
+        col_start: &[usize],
+        mut columns: Columns,
+    ) -> Result<Csc, Error> {
         for (j, ends) in col_start.windows(2).enumerate() {
             for k in ends[0]..ends[1] {
                 let i = self.row.get(k).checked_sub(self.index_base);
@@ -85,7 +94,7 @@ impl SparseMatrix<'_> {
                     return refuse(messages::row_out_of_order(k, j, (columns.row[k - 1], i)));
                 }
                 if !self.values[k].is_finite() {
-                    return refuse(entry("K", [i, j]) + " is not finite");
+                    return refuse(entry(name, [i, j]) + " is not finite");
                 }
                 let in_place = match self.triangle {
                     Triangle::Lower => i >= j,
@@ -93,7 +102,7 @@ impl SparseMatrix<'_> {
                     Triangle::Full => true,
                 };
                 if !in_place {
-                    let place = entry("K", [i, j]);
+                    let place = entry(name, [i, j]);
                     return refuse(place + " is not in the triangle that was named");
                 }
                 columns.row.push(i);
@@ -107,14 +116,14 @@ impl SparseMatrix<'_> {
 
 /// Compares a matrix with its transpose. Their patterns may differ: an assembly that drops zeros keeps
 /// the rounding of one entry and not that of its mirror image.
-fn check_symmetry(full: &Csc, transposed: &Csc) -> Result<(), Error> {
+fn check_symmetry(name: &str, full: &Csc, transposed: &Csc) -> Result<(), Error> {
     let root: Vec<f64> =
         (0..full.ncols()).map(|i| full.get(i, i).copied().unwrap_or_default().sqrt()).collect();
     for j in 0..full.ncols() {
         for (i, below, above) in both(full, transposed, j, j + 1) {
             let scale = root[i] * root[j];
             if (below - above).abs() > SYMMETRY * scale {
-                return refuse(messages::not_symmetric((i, j), (below, above), scale));
+                return refuse(messages::not_symmetric(name, (i, j), (below, above), scale));
             }
         }
     }
@@ -136,14 +145,14 @@ fn lower_part(full: &Csc) -> Result<Csc, OutOfMemory> {
 
 /// Refuses diagonal entries that are not positive. One of a fixed degree of freedom may be zero, if its
 /// row is.
-fn check_diagonal(lower: &Csc, is_fixed: impl Fn(usize) -> bool) -> Result<(), Error> {
+fn check_diagonal(name: &str, lower: &Csc, is_fixed: impl Fn(usize) -> bool) -> Result<(), Error> {
     let size = lower.ncols();
     let mut without = vec![false; size];
     for (j, without) in without.iter_mut().enumerate() {
         match diagonal(lower, j) {
             Some(value) if value > 0.0 => {}
             Some(value) if value < 0.0 => {
-                let place = entry("K", [j, j]);
+                let place = entry(name, [j, j]);
                 return refuse(format!("{place} is {value}, it must be positive"));
             }
             _ => *without = true,
@@ -158,9 +167,9 @@ fn check_diagonal(lower: &Csc, is_fixed: impl Fn(usize) -> bool) -> Result<(), E
             if let Some(dof) = [i, j].into_iter().find(|&dof| without[dof]) {
                 return refuse(format!(
                     "{} is {}, it must be positive: {} is {value}",
-                    entry("K", [dof, dof]),
+                    entry(name, [dof, dof]),
                     is(dof),
-                    entry("K", [i, j])
+                    entry(name, [i, j])
                 ));
             }
         }

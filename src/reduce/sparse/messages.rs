@@ -90,14 +90,15 @@ pub(super) fn row_out_of_order(k: usize, j: usize, (last, i): (usize, usize)) ->
 
 /// Two entries that mirror each other differ; `scale` is what the diagonal allows them to be.
 pub(super) fn not_symmetric(
+    name: &str,
     (i, j): (usize, usize),
     (below, above): (f64, f64),
     scale: f64,
 ) -> String {
     let remedy = "hand over one triangle (SIGNORINI_TRIANGLE_LOWER), or average the two";
     let difference = symmetric_matrix::difference((below - above).abs() / scale, remedy);
-    let (lower, upper) = (entry("K", [i, j]), entry("K", [j, i]));
-    format!("K is not symmetric: {lower} is {below}, {upper} is {above}: {difference}")
+    let (lower, upper) = (entry(name, [i, j]), entry(name, [j, i]));
+    format!("{name} is not symmetric: {lower} is {below}, {upper} is {above}: {difference}")
 }
 
 /// The row of a degree of freedom that is not fixed is zero; its diagonal entry `is` so.

@@ -15,6 +15,7 @@
 
 mod change_of_variables;
 mod control;
+mod flexibility;
 mod full_space;
 mod general_rows;
 mod host_arrays;
@@ -23,6 +24,7 @@ mod messages;
 mod supports;
 
 pub use control::Control;
+pub use flexibility::SparseFlexibilityData;
 pub use host_arrays::{Indices, SparseMatrix, Triangle};
 
 use super::{ContactPairs, HostLoad, Reduction, SolvedCase, UnformedReduction};
@@ -97,7 +99,7 @@ impl SparseReduction {
         // The matrix first: a wrong size or index base shows in the other arrays too.
         matrix.check_col_start()?;
         let places = supports::places_in_fixed(matrix.size, fixed)?;
-        let host = matrix.lower_triangle(|dof| places[dof].is_some())?;
+        let host = matrix.lower_triangle("K", |dof| places[dof].is_some())?;
         let rank = control.order.map(|order| ranks(matrix.size, order)).transpose()?;
         pairs.check(matrix.size)?;
         let mut frames = pairs.frames()?;

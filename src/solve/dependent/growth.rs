@@ -55,12 +55,13 @@ pub fn contradicts<R: Redundant>(problem: &ContactProblem<'_, R>, pattern: &[f64
 }
 
 /// Why there is no solution: the pattern in which forces grow, if there is one, and whether it is `proved`
-/// that gaps contradict each other.
+/// that gaps contradict each other. `number` tells which pair of the host a pair is.
 pub fn sentence<R: Redundant>(
     problem: &ContactProblem<'_, R>,
     pattern: Option<&[f64]>,
     proved: bool,
     eta: f64,
+    number: &dyn Fn(usize) -> usize,
 ) -> String {
     let Some(pattern) = pattern else {
         return format!(
@@ -71,10 +72,8 @@ pub fn sentence<R: Redundant>(
     let dim = problem.dim();
     let least = COUNTS * norm_inf(pattern);
     let carries = |pair: &usize| norm_inf(&pattern[dim * pair..dim * (pair + 1)]) > least;
-    let pairs: Vec<usize> = (0..problem.pairs()).filter(carries).collect();
-    let named: Vec<String> = pairs.iter().take(MOST_NAMED).map(index).collect();
-    let more = if pairs.len() > MOST_NAMED { ", ..." } else { "" };
-    let named = format!("{}{more}", named.join(", "));
+    let pairs: Vec<usize> = (0..problem.pairs()).filter(carries).map(number).collect();
+    let named = named(&pairs);
     if proved {
         return format!(
             "no solution exists: the gaps of pairs {named} contradict each other, as bodies cannot leave \
@@ -85,4 +84,11 @@ pub fn sentence<R: Redundant>(
         "no solution was found: the forces of pairs {named} grow without end and balance each other, as \
          those of a wedge"
     )
+}
+
+/// The numbers of the first few pairs.
+pub fn named(pairs: &[usize]) -> String {
+    let named: Vec<String> = pairs.iter().take(MOST_NAMED).map(index).collect();
+    let more = if pairs.len() > MOST_NAMED { ", ..." } else { "" };
+    format!("{}{more}", named.join(", "))
 }

@@ -31,7 +31,7 @@ use crate::linalg::vector::norm_inf;
 use crate::monitor::{Monitor, Stop};
 use crate::problem::{ContactProblem, DependentRows, Relation};
 use crate::settings::{Method, SMALLEST_TOLERANCE, Settings};
-pub use growth::{Growth, contradicts, sentence};
+pub use growth::{Growth, contradicts, named, sentence};
 pub use sprung::{measured, step, stopped};
 
 /// `e`, the compliance of the springs beside that of the bodies. A round divides the error by the compliance
@@ -92,7 +92,7 @@ pub fn solve(
             (pattern, proved) = (Some(found), true);
         }
         let eta = solution.certificate.eta;
-        solution.message = sentence(problem, pattern.as_deref(), proved, eta).into();
+        solution.message = sentence(problem, pattern.as_deref(), proved, eta, &|pair| pair).into();
     }
     Ok(solution)
 }

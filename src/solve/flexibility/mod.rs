@@ -15,9 +15,10 @@
 //! lowered. Where Newton's method does not solve a round, `e` is raised: a larger one is an easier problem nearer
 //! to the forces at hand. With the largest, the default method has all its means.
 
+mod islands;
 mod springs;
 
-use super::dependent::{Growth, contradicts, measured, sentence, step, stopped};
+use super::dependent::{Growth, contradicts, measured, named, sentence, step, stopped};
 use super::outcome::{Solution, Status};
 use crate::error::{Argument, Error};
 use crate::law::{Contact, pressing, without_friction};
@@ -25,6 +26,7 @@ use crate::linalg::vector::norm_inf;
 use crate::monitor::Monitor;
 use crate::problem::{Flexibility, FlexibilityProblem};
 use crate::settings::{Method, SMALLEST_TOLERANCE, Settings};
+pub use islands::{largest_island, solve as solve_islands};
 use springs::Springs;
 
 /// Most rounds.
@@ -45,11 +47,12 @@ const SLOW: f64 = 0.1;
 /// So many rounds that do not halve the least error show that rounding is reached.
 const IDLE_ROUNDS: usize = 12;
 
-/// Solves the problem; `start` are contact forces.
+/// Solves the problem; `start` are contact forces, `number` tells which pair of the host a pair is.
 pub fn solve(
     problem: &FlexibilityProblem<'_>,
     settings: &Settings,
     start: Option<&[f64]>,
+    number: &dyn Fn(usize) -> usize,
     monitor: &mut Monitor<'_>,
 ) -> Result<Solution, Error> {
     let (mut solution, growth) = rounds(problem, settings, start, monitor)?;
@@ -60,7 +63,7 @@ pub fn solve(
             (pattern, proved) = (Some(found), true);
         }
         let eta = solution.certificate.eta;
-        solution.message = sentence(problem, pattern.as_deref(), proved, eta).into();
+        solution.message = sentence(problem, pattern.as_deref(), proved, eta, number).into();
         if proved {
             solution.status = Status::NoEquilibrium;
             solution.recession = pattern.map(|pattern| proof(problem.dim(), &pattern));

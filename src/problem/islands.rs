@@ -1,0 +1,91 @@
+//! Islands: the pairs of a sparse matrix in groups that no entry ties to each other, connected components of its
+//! graph over the pairs.
+
+use std::ops::Range;
+
+/// A partition of pairs. Islands are in the order of their first pairs.
+#[derive(Clone, Debug)]
+pub struct Islands {
+    /// Begin of each island in `members`, and the end of the last one.
+    starts: Vec<usize>,
+    /// The pairs of each island, ascending.
+    members: Vec<usize>,
+}
+
+impl Islands {
+    /// The islands of so many pairs, which `ties` connect: each two pairs at a time.
+    pub fn new(pairs: usize, ties: impl Iterator<Item = (usize, usize)>) -> Self {
+        let mut forest = Forest { parents: (0..pairs).collect() };
+        ties.for_each(|(one, other)| forest.unite(one, other));
+        // A root is the least of its tree, so it is met before all others.
+        let mut island = vec![0; pairs];
+        let mut starts = vec![0];
+        for pair in 0..pairs {
+            let root = forest.root(pair);
+            if root == pair {
+                island[pair] = starts.len() - 1;
+                starts.push(0);
+            } else {
+                island[pair] = island[root];
+            }
+            starts[island[pair] + 1] += 1;
+        }
+        for i in 1..starts.len() {
+            starts[i] += starts[i - 1];
+        }
+        let mut next = starts.clone();
+        let mut members = vec![0; pairs];
+        for (pair, &island) in island.iter().enumerate() {
+            members[next[island]] = pair;
+            next[island] += 1;
+        }
+        Islands { starts, members }
+    }
+
+    /// Number of islands.
+    pub fn len(&self) -> usize {
+        self.starts.len() - 1
+    }
+
+    /// The pairs of an island, ascending.
+    pub fn pairs(&self, island: usize) -> &[usize] {
+        &self.members[self.range(island)]
+    }
+
+    /// The pairs of each island.
+    pub fn each(&self) -> impl Iterator<Item = &[usize]> {
+        (0..self.len()).map(|island| self.pairs(island))
+    }
+
+    /// The pairs of the largest island, the first of those; nothing if there is none.
+    pub fn largest(&self) -> &[usize] {
+        let sizes = self.each().map(<[usize]>::len).enumerate();
+        let first = sizes.max_by_key(|&(island, size)| (size, std::cmp::Reverse(island)));
+        first.map_or(&[], |(island, _)| self.pairs(island))
+    }
+
+    fn range(&self, island: usize) -> Range<usize> {
+        self.starts[island]..self.starts[island + 1]
+    }
+}
+
+/// Trees of pairs, one for each island; the root of each is its least pair.
+struct Forest {
+    parents: Vec<usize>,
+}
+
+impl Forest {
+    fn unite(&mut self, one: usize, other: usize) {
+        let (one, other) = (self.root(one), self.root(other));
+        self.parents[one.max(other)] = one.min(other);
+    }
+
+    /// The root of a pair; the way there is halved.
+    fn root(&mut self, mut pair: usize) -> usize {
+        while self.parents[pair] != pair {
+            self.parents[pair] = self.parents[self.parents[pair]];
+            pair = self.parents[pair];
+        }
+        pair
+    }
+}

@@ -1,0 +1,119 @@
+//! The flexibility form with a sparse `W`. Pairs that no entry of it ties to each other are islands: each is a
+//! problem of its own.
+
+use super::contact::{ContactProblem, check_finite, check_length};
+use super::flexibility::{Flexibility, FlexibilityMatrix, units_of_pair, units_of_pairs};
+use super::friction_law::FrictionLaw;
+use super::islands::Islands;
+use crate::error::{Argument, Error};
+use crate::linalg::matrix::Matrix;
+use crate::linalg::sparse_matrix::{Csc, column, diagonal, symmetric_residual, symmetric_times};
+use crate::linalg::vector::largest_of;
+
+/// A sparse symmetric `W` of pairs, and its islands.
+#[derive(Clone, Debug)]
+pub struct SparseW {
+    lower: Csc,
+    dim: usize,
+    islands: Islands,
+}
+
+/// A contact problem in flexibility form with a sparse `W`, of which it has a copy; a view of the host's other
+/// arrays.
+pub type SparseFlexibilityProblem<'a> = ContactProblem<'a, Flexibility<'a, SparseW>>;
+
+impl<'a> SparseFlexibilityProblem<'a> {
+    /// A problem with the lower triangle of a checked `W`, `dim` rows for each pair; other arguments as in
+    /// [`super::FlexibilityData`].
+    ///
+    /// # Errors
+    /// [`Error::Invalid`]: a `W` of zeros; the first entry of another array that is out of range.
+    pub(crate) fn of_lower_triangle(
+        (dim, lower): (usize, Csc),
+        free: &'a [f64],
+        gap: &'a [f64],
+        law: FrictionLaw<'a>,
+        reference_slip: Option<&'a [f64]>,
+    ) -> Result<Self, Error> {
+        let size = lower.ncols();
+        check_length(Argument::Load, "q", free.len(), size)?;
+        let free = &free[..size];
+        check_finite(Argument::Load, "q", free)?;
+        let largest = largest_of((0..size).map(|j| diagonal(&lower, j).unwrap_or(0.0)));
+        if size > 0 && largest == 0.0 {
+            return Err(Error::invalid(Argument::Matrix, super::flexibility::ZERO));
+        }
+        let each = (0..size).step_by(dim).map(|first| {
+            let block = block(&lower, first, dim);
+            units_of_pair(&Matrix::new(dim, &block, dim), largest)
+        });
+        let units = units_of_pairs(dim, each);
+        let matrix = SparseW { islands: islands(&lower, dim), lower, dim };
+        let relation = Flexibility::new(matrix, free, units);
+        ContactProblem::with_relation(relation, dim, gap, law, reference_slip)
+    }
+}
+
+/// The diagonal block from component `first` on, column-major.
+fn block(lower: &Csc, first: usize, dim: usize) -> Vec<f64> {
+    let mut block = vec![0.0; dim * dim];
+    for j in 0..dim {
+        let (rows, values) = column(lower, first + j);
+        for (&i, &value) in rows.iter().zip(values).take_while(|(i, _)| **i < first + dim) {
+            (block[i - first + dim * j], block[j + dim * (i - first)]) = (value, value);
+        }
+    }
+    block
+}
+
+/// Pairs with an entry that is not zero are of one island.
+fn islands(lower: &Csc, dim: usize) -> Islands {
+    let ties = (0..lower.ncols()).flat_map(|j| {
+        let (rows, values) = column(lower, j);
+        let entries = rows.iter().zip(values).filter(|(_, value)| **value != 0.0);
+        entries.map(move |(i, _)| (i / dim, j / dim))
+    });
+    Islands::new(lower.ncols() / dim, ties)
+}
+
+impl SparseW {
+    /// The islands of its pairs.
+    pub fn islands(&self) -> &Islands {
+        &self.islands
+    }
+
+    /// Number of stored entries of a triangle.
+    pub fn entries(&self) -> usize {
+        self.lower.compute_nnz()
+    }
+
+    /// The part of `W` of the pairs of an island, dense and column-major.
+    pub fn part(&self, pairs: &[usize]) -> Vec<f64> {
+        let (dim, n) = (self.dim, self.dim * pairs.len());
+        let mut part = vec![0.0; n * n];
+        for (place, &pair) in pairs.iter().enumerate() {
+            for component in 0..dim {
+                let j = dim * place + component;
+                let (rows, values) = column(&self.lower, dim * pair + component);
+                // Rows ascend, and so do the pairs: places are found from the last one on.
+                let mut at = place;
+                for (&row, &value) in rows.iter().zip(values).filter(|(_, value)| **value != 0.0) {
+                    at += pairs[at..].partition_point(|&pair| pair < row / dim);
+                    let i = dim * at + row % dim;
+                    (part[i + n * j], part[j + n * i]) = (value, value);
+                }
+            }
+        }
+        part
+    }
+}
+
+impl FlexibilityMatrix for SparseW {
+    fn times(&self, force: &[f64]) -> Vec<f64> {
+        symmetric_times(&self.lower, force)
+    }
+
+    fn times_less(&self, force: &[f64], d: &[f64]) -> Vec<f64> {
+        symmetric_residual(&self.lower, (force, &[]), d)
+    }
+}

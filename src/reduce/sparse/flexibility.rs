@@ -1,0 +1,68 @@
+//! A host's sparse flexibility matrix: checked as a stiffness matrix is, and by what no semi-definite matrix has.
+
+use super::host_arrays::SparseMatrix;
+use super::host_matrix::refuse;
+use crate::error::Error;
+use crate::linalg::sparse_matrix::{Csc, column, diagonal};
+use crate::problem::symmetric_matrix::{SYMMETRY, beyond_diagonal};
+use crate::problem::{FrictionLaw, SparseFlexibilityProblem, checked_dim, unknowns};
+
+/// The caller's arrays of a problem in flexibility form with a sparse `W`, not yet checked. Units as in
+/// [`crate::FlexibilityData`].
+#[derive(Clone, Copy, Debug)]
+pub struct SparseFlexibilityData<'a> {
+    /// Space dimension, 2 or 3.
+    pub dim: usize,
+    /// Number of contact pairs, 0 allowed.
+    pub pairs: usize,
+    /// `W`, of `dim * pairs` rows; length per force. Rows of zeros need not be stored.
+    pub flexibility: SparseMatrix<'a>,
+    /// `q`, the relative displacements without contact forces, `dim * pairs`; length.
+    pub free: &'a [f64],
+    /// Initial gaps, `pairs`; negative: interference, `+inf`: the pair never touches.
+    pub gap: &'a [f64],
+    /// The friction law.
+    pub law: FrictionLaw<'a>,
+    /// Reference slip, as in [`crate::ContactData::reference_slip`].
+    pub reference_slip: Option<&'a [f64]>,
+}
+
+impl<'a> SparseFlexibilityProblem<'a> {
+    /// Checks the data and copies `W`.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] names the first entry of the matrix that is out of range or order, listed twice, in the
+    /// wrong triangle, not finite, not symmetric beyond rounding (1e-9 of the diagonal), larger than its diagonal
+    /// allows, negative on the diagonal or zero there in a row that is not zero; a `W` of another size or of
+    /// zeros; the first entry of another array that is out of range. [`Error::OutOfMemory`]: no memory for the copy.
+    pub fn from_sparse(data: SparseFlexibilityData<'a>) -> Result<Self, Error> {
+        let size = unknowns(checked_dim(data.dim)?, data.pairs)?;
+        let matrix = &data.flexibility;
+        if matrix.size != size {
+            return refuse(format!(
+                "W: size is {}, it must be dim * pairs, which is {size}",
+                matrix.size
+            ));
+        }
+        let lower = matrix.lower_triangle("W", |_| true)?;
+        check_entries(&lower)?;
+        let matrix = (data.dim, lower);
+        Self::of_lower_triangle(matrix, data.free, data.gap, data.law, data.reference_slip)
+    }
+}
+
+/// Refuses entries that the diagonal does not allow.
+fn check_entries(lower: &Csc) -> Result<(), Error> {
+    let root: Vec<f64> =
+        (0..lower.ncols()).map(|j| diagonal(lower, j).unwrap_or(0.0).sqrt()).collect();
+    for j in 0..lower.ncols() {
+        let (rows, values) = column(lower, j);
+        for (&i, &value) in rows.iter().zip(values).filter(|(i, _)| **i != j) {
+            let scale = root[i] * root[j];
+            if value.abs() > (1.0 + SYMMETRY) * scale {
+                return refuse(beyond_diagonal("W", (i, j), value, scale));
+            }
+        }
+    }
+    Ok(())
+}

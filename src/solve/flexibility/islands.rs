@@ -1,0 +1,232 @@
+//! The flexibility form with a sparse `W`, island by island: each is a dense problem of its own, and what was
+//! found is certified as a whole on the host's sparse data.
+//!
+//! The squares of the residuals add up, and so do those of loads and forces, the larger of which is the scale of an
+//! island. So islands with `eta <= t` make a whole with `eta <= t √2`.
+
+use super::named;
+use crate::certificate::{Certificate, measure};
+use crate::error::{Argument, Error};
+use crate::law::Contact;
+use crate::linalg::matrix::Matrix;
+use crate::monitor::{Monitor, Stop};
+use crate::problem::{
+    ContactProblem, Flexibility, FlexibilityProblem, FrictionLaw, SparseFlexibilityProblem,
+};
+use crate::settings::{SMALLEST_TOLERANCE, Settings};
+use crate::solve::outcome::{Existence, Solution, Status};
+
+/// Solves the problem; `start` are contact forces. Islands behind one at which the call is stopped keep theirs.
+pub fn solve(
+    problem: &SparseFlexibilityProblem<'_>,
+    settings: &Settings,
+    start: Option<&[f64]>,
+    monitor: &mut Monitor<'_>,
+) -> Result<Solution, Error> {
+    let islands = problem.relation().form().islands();
+    let several = islands.len() > 1;
+    let mut own = settings.clone();
+    if several {
+        let share = settings.tolerance / std::f64::consts::SQRT_2;
+        own.tolerance = share.max(SMALLEST_TOLERANCE);
+    }
+    let mut found = Found {
+        force: start.map_or_else(|| vec![0.0; problem.unknowns()], <[f64]>::to_vec),
+        worst: None,
+        solved: 0,
+        factorisations: 0,
+        outer_iterations: 0,
+        refactorisations: 0,
+    };
+    for pairs in islands.each() {
+        let island = Island::new(problem, pairs);
+        let begin = start.is_some().then(|| gathered(&found.force, pairs, problem.dim()));
+        let solution = island
+            .solve(pairs, &own, begin.as_deref(), monitor)
+            .map_err(|error| if several { in_island(error, pairs) } else { error })?;
+        let stops = stop(solution.status).is_some();
+        found.add(pairs, problem.dim(), solution);
+        if stops {
+            break;
+        }
+    }
+    Ok(found.solution(problem, settings))
+}
+
+/// The largest island, in words.
+pub fn largest_island(problem: &SparseFlexibilityProblem<'_>) -> String {
+    let pairs = problem.relation().form().islands().largest();
+    format!("the largest island has {} pairs: {}", pairs.len(), named(pairs))
+}
+
+/// The data of an island.
+struct Island<'a> {
+    dim: usize,
+    matrix: Vec<f64>,
+    units: Vec<f64>,
+    free: Vec<f64>,
+    gap: Vec<f64>,
+    law: FrictionLaw<'a>,
+    friction: Vec<f64>,
+    slip: Vec<f64>,
+}
+
+impl<'a> Island<'a> {
+    fn new(problem: &SparseFlexibilityProblem<'a>, pairs: &[usize]) -> Self {
+        let (relation, dim) = (problem.relation(), problem.dim());
+        let slips = |pair: &usize| {
+            let pair = *pair;
+            (0..dim - 1).map(move |component| problem.reference_slip(pair, component))
+        };
+        Island {
+            dim,
+            matrix: relation.form().part(pairs),
+            units: gathered(relation.units(), pairs, dim),
+            free: gathered(relation.free(), pairs, dim),
+            gap: pairs.iter().map(|&pair| problem.gap(pair)).collect(),
+            law: problem.law(),
+            friction: gathered(problem.law().values(), pairs, problem.law().parameters()),
+            slip: pairs.iter().flat_map(slips).collect(),
+        }
+    }
+
+    /// The solution, with the numbers of `pairs` in its sentence.
+    fn solve(
+        &self,
+        pairs: &[usize],
+        settings: &Settings,
+        start: Option<&[f64]>,
+        monitor: &mut Monitor<'_>,
+    ) -> Result<Solution, Error> {
+        let n = self.free.len();
+        let matrix = Matrix::new(n, &self.matrix, n.max(1));
+        let relation = Flexibility::new(matrix, &self.free, self.units.clone());
+        let law = self.law.with_values(&self.friction);
+        let problem: FlexibilityProblem<'_> =
+            ContactProblem::with_relation(relation, self.dim, &self.gap, law, Some(&self.slip))?;
+        super::solve(&problem, settings, start, &|pair| pairs[pair], monitor)
+    }
+}
+
+/// What of `values`, `each` for every pair, belongs to `pairs`.
+fn gathered(values: &[f64], pairs: &[usize], each: usize) -> Vec<f64> {
+    pairs.iter().flat_map(|pair| &values[each * pair..each * (pair + 1)]).copied().collect()
+}
+
+/// Puts the values of `pairs`, `each` for every pair, where they belong in `whole`.
+fn scatter(values: &[f64], pairs: &[usize], each: usize, whole: &mut [f64]) {
+    for (values, pair) in values.chunks_exact(each).zip(pairs) {
+        whole[each * pair..each * (pair + 1)].copy_from_slice(values);
+    }
+}
+
+/// The same error, about the matrix of an island.
+fn in_island(error: Error, pairs: &[usize]) -> Error {
+    match error {
+        Error::Invalid { argument: Argument::Matrix, message } => {
+            let message = format!("{} (island of pairs {})", message.marked(), named(pairs));
+            Error::invalid(Argument::Matrix, message)
+        }
+        other => other,
+    }
+}
+
+/// The results of the islands so far.
+struct Found {
+    force: Vec<f64>,
+    /// The pairs and the result of the worst one: of equals the largest.
+    worst: Option<(Vec<usize>, Solution)>,
+    solved: usize,
+    factorisations: u64,
+    outer_iterations: u64,
+    refactorisations: u64,
+}
+
+impl Found {
+    fn add(&mut self, pairs: &[usize], dim: usize, solution: Solution) {
+        scatter(&solution.certificate.force, pairs, dim, &mut self.force);
+        self.solved += usize::from(solution.status == Status::Solved);
+        self.factorisations += solution.factorisations;
+        self.outer_iterations += solution.outer_iterations;
+        self.refactorisations += solution.refactorisations;
+        let rank = (rank(solution.status), pairs.len());
+        let is_worse = |(pairs, worst): &(Vec<usize>, Solution)| {
+            rank > (self::rank(worst.status), pairs.len())
+        };
+        if self.worst.as_ref().is_none_or(is_worse) {
+            self.worst = Some((pairs.to_vec(), solution));
+        }
+    }
+
+    /// The result of the whole.
+    fn solution(self, problem: &SparseFlexibilityProblem<'_>, settings: &Settings) -> Solution {
+        let d = problem.relation().relative(&self.force);
+        let certificate = measure(&Contact::new(problem), &d, &self.force);
+        let ending = self.ending(problem, settings, &certificate);
+        let existence = if settings.proof { Existence::NotProved } else { Existence::NotAsked };
+        let mut whole = Solution {
+            existence,
+            factorisations: self.factorisations,
+            outer_iterations: self.outer_iterations,
+            refactorisations: self.refactorisations,
+            ..Solution::of(settings.method, ending, d, certificate)
+        };
+        if let Some((pairs, worst)) = self.worst {
+            (whole.method, whole.omega, whole.damping) = (worst.method, worst.omega, worst.damping);
+            whole.recession = worst.recession.map(|proof| {
+                let mut forces = vec![0.0; problem.unknowns()];
+                scatter(&proof, &pairs, problem.dim(), &mut forces);
+                forces
+            });
+        }
+        whole
+    }
+
+    /// The status, that of the worst island, and its sentence.
+    fn ending(
+        &self,
+        problem: &SparseFlexibilityProblem<'_>,
+        settings: &Settings,
+        certificate: &Certificate,
+    ) -> (Status, String) {
+        let accuracy = format!("eta is {:.1e}", certificate.eta);
+        let wanted = format!("{accuracy}, wanted {:.1e}", settings.tolerance);
+        let holds = certificate.holds(settings.tolerance);
+        let islands = problem.relation().form().islands().len();
+        let failed = self.worst.as_ref().filter(|(_, worst)| worst.status != Status::Solved);
+        let stop = failed.and_then(|(_, worst)| stop(worst.status));
+        match (failed, stop) {
+            (Some((pairs, worst)), None) => {
+                let said = worst.message.marked();
+                let place = format!("{said} (island of pairs {})", named(pairs));
+                (worst.status, if islands > 1 { place } else { said.to_owned() })
+            }
+            _ if holds => (Status::Solved, format!("solved: {accuracy}")),
+            (_, Some(stop)) => {
+                let done = format!("{wanted}; {} of {islands} islands are solved", self.solved);
+                stop.status(settings, if islands > 1 { &done } else { &wanted })
+            }
+            (None, None) => (Status::Stalled, format!("accuracy was lost to rounding; {wanted}")),
+        }
+    }
+}
+
+/// How bad a status is. A proof about an island is one about the whole.
+fn rank(status: Status) -> u8 {
+    match status {
+        Status::Solved => 0,
+        Status::Stalled => 1,
+        Status::IterationLimit | Status::TimeLimit | Status::Cancelled => 2,
+        Status::NoEquilibrium => 3,
+    }
+}
+
+/// What has stopped a call with this status, if something has.
+fn stop(status: Status) -> Option<Stop> {
+    match status {
+        Status::IterationLimit => Some(Stop::IterationLimit),
+        Status::TimeLimit => Some(Stop::TimeLimit),
+        Status::Cancelled => Some(Stop::Cancelled),
+        Status::Solved | Status::Stalled | Status::NoEquilibrium => None,
+    }
+}
