@@ -24,7 +24,7 @@ cargo mutants --version >/dev/null 2>&1 || {
 }
 tests=${MUTANTS_TESTS:-certificate certificate_bounds thresholds escape law law_values law_uses law_pieces \
     law_boundaries law_rounding relation friction_laws properties far_gaps proof model_cases dependent_rows \
-    flexibility two_body general_rows reductions condensed_rounding motion_words sparse_messages \
+    flexibility flexibility_sparse two_body general_rows reductions condensed_rounding motion_words sparse_messages \
     sparse_supports sparse_condensation full_space_bodies operator free_bodies counting bad_input}
 
 [ $# -gt 0 ] || set -- 'src/certificate/**' 'src/law/**' 'src/reduce/**' src/ffi/args.rs

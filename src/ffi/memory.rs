@@ -6,11 +6,10 @@ use crate::solve;
 /// Most bytes that a call may take beside your arrays, for so many unknowns: signorini_solve,
 /// signorini_certify and signorini_prove with N = dim * pairs, and the LCP calls.
 /// signorini_flexibility_solve may take 8 N^2 bytes more; signorini_flexibility_solve_sparse 16 N^2
-/// more, with the N of its largest island, and 256 bytes for each unknown and 16 for each stored
-/// entry of W. A call takes them for every method, law
-/// and setting, and holds as much address space in reserve; settings.memory_limit refuses a call
-/// that may need more. Each thread keeps some MiB of its own for matrix products, which are not
-/// counted.
+/// more with the N of its largest island, and 256 bytes for each of all unknowns and 48 for each
+/// stored entry of W. A call takes them for every method, law and setting, and holds as much address
+/// space in reserve; settings.memory_limit refuses a call that may need more. Each thread keeps some
+/// MiB of its own for matrix products, which are not counted.
 ///
 /// @param n  number of unknowns
 /// @return bytes; -1 if n is negative

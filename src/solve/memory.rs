@@ -51,10 +51,12 @@ pub fn memory_flexibility(unknowns: usize) -> u64 {
 }
 
 /// The same for [`solve_flexibility_sparse`](super::solve_flexibility_sparse): its largest island as a dense
-/// problem, of which it makes the matrix, and vectors of the whole, beside the problem itself.
+/// problem, of which it makes the matrix, and the problem itself, which has a copy of the host's matrix.
 pub fn memory_flexibility_sparse(problem: &SparseFlexibilityProblem<'_>) -> u64 {
-    let largest = problem.dim() * problem.relation().form().islands().largest().len();
-    let matrix = (largest as f64).powi(2) * size_of::<f64>() as f64;
+    let matrix = problem.relation().form();
+    let largest = problem.dim() * matrix.islands().largest().len();
+    let dense = (largest as f64).powi(2) * size_of::<f64>() as f64;
     let vectors = VECTORS_OF_WHOLE * (problem.unknowns() * size_of::<f64>()) as f64;
-    memory_flexibility(largest) + (matrix + vectors) as u64
+    let copy = matrix.entries() as f64 * (size_of::<usize>() + size_of::<f64>()) as f64;
+    memory_flexibility(largest) + (dense + vectors + copy) as u64
 }

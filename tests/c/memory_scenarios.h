@@ -33,6 +33,7 @@ struct world {
     /* Arrays of one call, off the stack. */
     double K[4 * PLANE * PLANE], short_load[2 * PLANE], radius[3 * SPACE], normals[3 * 25];
     int64_t slaves[3 * 25], more_fixed[MOST_DOFS];
+    int64_t W_start[2 * PLANE + 1], W_row[4 * PLANE * PLANE];
 };
 
 struct scenario {
@@ -184,6 +185,26 @@ static int32_t flexibility(struct world *w)
     const chain *c = &w->plane;
     return signorini_flexibility_solve(2, c->pairs, c->K, c->n, c->f, c->gap, SIGNORINI_LAW_COULOMB,
                                        c->mu, NULL, NULL, w->d, w->F, w->state, NULL, NULL);
+}
+
+/* The same sparse, cut into two islands: parts on the diagonal of a definite matrix are definite. */
+static int32_t flexibility_sparse(struct world *w)
+{
+    const chain *c = &w->plane;
+    signorini_sparse W = {.struct_size = sizeof W, .index_bytes = 8, .size = c->n,
+                          .col_start = w->W_start, .row = w->W_row, .values = w->K};
+    const int64_t cut = 2 * (PLANE / 3);
+    for (int64_t j = 0; j < c->n; j++) {
+        w->W_start[j] = W.nnz;
+        for (int64_t i = j; i < c->n; i++) {
+            if (c->K[i + c->n * j] == 0 || (i < cut) != (j < cut)) continue;
+            w->W_row[W.nnz] = i;
+            w->K[W.nnz++] = c->K[i + c->n * j];
+        }
+    }
+    w->W_start[c->n] = W.nnz;
+    return signorini_flexibility_solve_sparse(2, c->pairs, &W, c->f, c->gap, SIGNORINI_LAW_COULOMB,
+                                              c->mu, NULL, NULL, w->d, w->F, w->state, NULL, NULL);
 }
 
 /* A refusal, with its sentence. */
@@ -562,6 +583,7 @@ static const struct scenario scenarios[] = {
     {"space, proof", space_proof, 0, 0},
     {"six pairs", small_auto, 0, 0},
     {"flexibility", flexibility, 0, 0},
+    {"sparse flexibility", flexibility_sparse, 0, 0},
     {"certify", certify, 0, 0},
     {"prove", prove, 0, 0},
     {"LCP", lcp, 0, 0},
