@@ -102,6 +102,29 @@ fn a_block_on_redundant_feet_is_carried_by_the_smallest_forces() {
     }
 }
 
+/// A body of flexibility 1 on two feet of their own small flexibilities `a` and `b`, pressed down by 1: they share the
+/// load as `b` to `a`, however small both are, and not evenly as redundant ones.
+#[test]
+fn nearly_redundant_feet_share_by_their_own_flexibility() {
+    for exponent in 1..=6 {
+        for (one, other) in [(1.0, 2.0), (1.0, 0.0), (1.0, 10.0)] {
+            let small = 10_f64.powi(-exponent);
+            let mut w = vec![0.0; 16];
+            (w[0], w[2], w[8], w[10]) = (1.0 + one * small, 1.0, 1.0, 1.0 + other * small);
+            (w[5], w[15]) = (1.0, 1.0);
+            // As the entries have them: the differences are exact.
+            let (a, b) = (w[0] - 1.0, w[10] - 1.0);
+            let solution = Case::new(2, w, vec![1.0, 0.0, 1.0, 0.0], 0.0).solved();
+            let all = a + b + a * b;
+            // Rounding of W F, 1e-16, changes the shares by 1e-16 / 1e-6; the tolerance is 1e-10.
+            for (force, exact) in solution.certificate.force.iter().step_by(2).zip([b, a]) {
+                let apart = (force + exact / all).abs();
+                assert!(apart <= 1e-9, "1e-{exponent}, {one} and {other}: {apart:e}");
+            }
+        }
+    }
+}
+
 /// As of the node in [`node_on_planes`] under (1, -1): `N + T = 1`, smallest with `N = 1 / (1 + min(mu, 1))`.
 #[test]
 fn a_corner_node_presses_on_floor_and_wall() {

@@ -176,7 +176,7 @@ fn condensed(
 
 /// Whether forces whose last two changes are `changes` will change by no more than `allowed`: each change is the
 /// same part of the one before.
-fn settles([before, last]: [f64; 2], allowed: f64) -> bool {
+pub fn settles([before, last]: [f64; 2], allowed: f64) -> bool {
     last <= allowed || last < before && before.is_finite() && last * (last / before) <= allowed
 }
 

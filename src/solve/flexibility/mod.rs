@@ -12,13 +12,13 @@
 //! the way, the smallest of the forces that redundant pairs leave open, in the norm of `D⁻¹`.
 //!
 //! A round divides the error in a pattern of forces by its flexibility over `e`. Where that is slow, `e` is
-//! lowered. Where Newton's method does not solve a round, `e` is raised: a larger one is an easier problem nearer
+//! lowered, and after the first solution rounds go on until forces settle. Where Newton's method does not solve a round, `e` is raised: a larger one is an easier problem nearer
 //! to the forces at hand. With the largest, the default method has all its means.
 
 mod islands;
 mod springs;
 
-use super::dependent::{Growth, contradicts, measured, named, sentence, step, stopped};
+use super::dependent::{Growth, contradicts, measured, named, sentence, settles, step, stopped};
 use super::outcome::{Solution, Status};
 use crate::error::{Argument, Error};
 use crate::law::{Contact, pressing, without_friction};
@@ -46,6 +46,11 @@ const SLOW: f64 = 0.1;
 
 /// So many rounds that do not halve the least error show that rounding is reached.
 const IDLE_ROUNDS: usize = 12;
+
+/// Most rounds after the first solution, until the forces settle: `eta` feels an error in a pattern of forces by its
+/// flexibility alone, and is small before forces of nearly redundant pairs are right. A flexibility of `1e-8` beside
+/// that of the pairs takes five.
+const LAST_ROUNDS: usize = 8;
 
 /// Solves the problem; `start` are contact forces, `number` tells which pair of the host a pair is.
 pub fn solve(
@@ -94,8 +99,8 @@ fn contradiction(
     Ok(pattern.map(<[f64]>::to_vec))
 }
 
-/// The best result of all rounds, one more than a solution needs as it is cheap and adds digits, and how the
-/// forces have grown.
+/// The best result of all rounds, at least one more than a solution needs as it is cheap and adds digits, and how
+/// the forces have grown.
 fn rounds(
     problem: &FlexibilityProblem<'_>,
     settings: &Settings,
@@ -123,10 +128,12 @@ fn rounds(
         last: springs.compliance(),
         springs,
         force,
+        changes: [f64::INFINITY; 2],
         growth: Growth::default(),
         best: None,
         least: f64::INFINITY,
         idle: 0,
+        solved: 0,
     };
     for _ in 0..ROUNDS {
         if rounds.ends_with_next(settings, monitor)? {
@@ -144,6 +151,8 @@ struct Rounds<'p> {
     springs: Springs,
     /// Contact forces of the round before.
     force: Vec<f64>,
+    /// The largest changes of a force by the last two rounds.
+    changes: [f64; 2],
     growth: Growth,
     best: Option<Solution>,
     /// `eta` of the round before, and the least of all.
@@ -151,6 +160,8 @@ struct Rounds<'p> {
     least: f64,
     /// Rounds since `least` was halved.
     idle: usize,
+    /// Rounds since the first solution.
+    solved: usize,
 }
 
 impl Rounds<'_> {
@@ -174,17 +185,23 @@ impl Rounds<'_> {
             self.springs.soften(relation, monitor);
             return Ok(false);
         }
-        let change =
-            force.iter().zip(&self.force).map(|(a, b)| self.springs.compliance() * (a - b));
-        self.growth.add(change.collect());
+        let change: Vec<f64> = force.iter().zip(&self.force).map(|(a, b)| a - b).collect();
+        self.changes = [self.changes[1], norm_inf(&change)];
+        self.growth.add(change.iter().map(|change| self.springs.compliance() * change).collect());
         self.force = force;
         self.idle = if eta < HALF * self.least { 0 } else { self.idle + 1 };
         self.least = self.least.min(eta);
-        if !failed && eta > SLOW * self.last && !self.growth.is_steady() {
+        let is_slow = match found.status {
+            Status::Solved => self.changes[1] > SLOW * self.changes[0],
+            _ => eta > SLOW * self.last && !self.growth.is_steady(),
+        };
+        let settled = settles(self.changes, settings.tolerance * norm_inf(&self.force));
+        if !failed && is_slow && !settled {
             self.springs.stiffen(relation, monitor);
         }
         self.last = eta;
-        Ok(self.keep(found) || self.growth.pattern().is_some() || self.idle >= IDLE_ROUNDS)
+        let ends = self.keep(found, settled);
+        Ok(ends || self.growth.pattern().is_some() || self.idle >= IDLE_ROUNDS)
     }
 
     /// Solves the problem with springs. Hard ones are left to softer springs, as far as there are any.
@@ -207,20 +224,23 @@ impl Rounds<'_> {
         )
     }
 
-    /// Keeps a result if it is the best; whether there will be no better one.
-    fn keep(&mut self, found: Solution) -> bool {
+    /// Keeps a result if it is the best, of solutions the last one until the forces are `settled`; whether there
+    /// will be no better one.
+    fn keep(&mut self, found: Solution, settled: bool) -> bool {
         let stops = !matches!(found.status, Status::Solved | Status::Stalled);
         let is_solved = |result: &Solution| result.status == Status::Solved;
         let was_solved = self.best.as_ref().is_some_and(is_solved);
         let is_better = match &self.best {
             Some(best) if is_solved(&found) == was_solved => {
-                stops || found.certificate.eta < best.certificate.eta
+                let unsettled = was_solved && !settled;
+                stops || unsettled || found.certificate.eta < best.certificate.eta
             }
             best => best.is_none() || !was_solved,
         };
         if is_better {
             self.best = Some(found);
         }
-        was_solved || stops
+        self.solved += usize::from(was_solved);
+        stops || was_solved && (settled || self.solved >= LAST_ROUNDS)
     }
 }
