@@ -12,6 +12,7 @@
 ! What to call:
 !     contact_solve    a condensed problem in one call
 !     contact_solve_flexibility  the same by a matrix that turns forces into displacements
+!     contact_solve_flexibility_sparse  the same by a sparse one
 !     contact_certify  measures displacements of any origin
 !     contact_prove    proves that a solution exists next to displacements of any origin
 !     lcp_solve        a linear complementarity problem (LCP)
@@ -393,6 +394,26 @@ module signorini
             integer(c_int64_t), value :: pairs
             real(c_double), intent(in) :: w(*)
             integer(c_int64_t), value :: ldw
+            real(c_double), intent(in) :: q(*)
+            type(c_ptr), value :: gap
+            integer(c_int32_t), value :: law
+            type(c_ptr), value :: friction
+            type(c_ptr), value :: slip0
+            type(c_ptr), value :: settings
+            real(c_double), intent(out) :: d(*)
+            real(c_double), intent(inout) :: force(*)
+            type(c_ptr), value :: state
+            type(c_ptr), value :: report
+            type(c_ptr), value :: extra
+            integer(c_int32_t) :: answer
+        end function
+        function signorini_flexibility_solve_sparse(dim, pairs, w, q, gap, law, friction, slip0, &
+            settings, d, force, state, report, extra) &
+            bind(C, name="signorini_flexibility_solve_sparse") result(answer)
+            import
+            integer(c_int32_t), value :: dim
+            integer(c_int64_t), value :: pairs
+            type(signorini_sparse), intent(in) :: w
             real(c_double), intent(in) :: q(*)
             type(c_ptr), value :: gap
             integer(c_int32_t), value :: law
@@ -1041,6 +1062,7 @@ module signorini
     private :: check_case, check_pairs, check_square, check_dim, check_data, check_starts, check_second
     private :: check_model, check_masters, choose_law, choose_settings, place_of_settings
     private :: check_surfaces, check_faces, check_results, settle, keep_pairs, reals_of, address2, finish_sparse
+    private :: sparse_matrix, check_components
     private :: operator_inverse, operator_held, received, call_stiffness, call_inverse, call_held
     private :: address, address_of_extra, copy_states, entries, number, text, tuple, keep_sizes
 
@@ -1152,6 +1174,60 @@ contains
             c_loc(measured), c_loc(extra))
         call finish(status, info, message, [2, 3, 1, 1, 2, 3, 7, 8, 9, &
             place_of_settings(10, method, settings), 4, 5, 14, 15, 16])
+        if (status >= 0) call copy_states(states, state)
+        if (present(report)) report = measured
+    end subroutine
+
+    ! The same with a sparse W, stored by columns as for new_sparse: col_start(n + 1), row(nnz) ascending
+    ! in each column and counted from 1, values(nnz), triangle: which entries are stored. Pairs that no
+    ! entry ties to each other are solved by themselves. If the library finds something wrong in the
+    ! matrix, info is the position of values; message tells the array.
+    subroutine contact_solve_flexibility_sparse(col_start, row, values, triangle, q, gap, d, force, info, &
+            law, friction, slip0, method, tolerance, max_iterations, settings, state, report, motion, &
+            message)
+        integer, intent(in), contiguous, target :: col_start(:), row(:)
+        real(c_double), intent(in), contiguous, target :: values(:)
+        integer(c_int32_t), intent(in) :: triangle
+        real(c_double), intent(in), contiguous :: q(:)
+        real(c_double), intent(in), contiguous, target :: gap(:)
+        real(c_double), intent(out), contiguous :: d(:)
+        real(c_double), intent(inout), contiguous :: force(:)
+        integer, intent(out) :: info
+        integer, intent(in), optional :: law, method, max_iterations
+        real(c_double), intent(in), contiguous, target, optional :: friction(:), slip0(:)
+        real(c_double), intent(in), optional :: tolerance
+        type(signorini_settings), intent(in), optional :: settings
+        integer, intent(out), optional :: state(:)
+        type(signorini_report), intent(out), optional :: report
+        real(c_double), intent(out), contiguous, target, optional :: motion(:)
+        character(len=*), intent(out), optional :: message
+        type(signorini_settings), target :: chosen
+        type(signorini_report), target :: measured
+        type(signorini_extra), target :: extra
+        integer(c_int32_t), target :: states(size(gap)), none(size(gap))
+        type(refusal) :: wrong
+        integer(c_int32_t) :: which, status
+        integer :: n, pairs
+        n = size(q)
+        pairs = size(gap)
+        call check_sparse(wrong, col_start, row, values, triangle)
+        call check_components(wrong, 5, n, pairs, 'q')
+        call check_size(wrong, 1, 'col_start', size(col_start), n + 1, 'one more than q')
+        call check_size(wrong, 7, 'd', size(d), n, 'as many as q')
+        call check_size(wrong, 8, 'force', size(force), n, 'as many as q')
+        call choose_law(wrong, 10, pairs, which, law, friction)
+        if (present(slip0)) call check_size(wrong, 12, 'slip0', size(slip0), n - pairs, 'dim - 1 for each pair')
+        call choose_settings(wrong, 13, chosen, method, tolerance, max_iterations, settings)
+        if (present(state)) call check_size(wrong, 17, 'state', size(state), pairs, 'one for each pair')
+        if (present(motion)) call check_size(wrong, 19, 'motion', size(motion), n, 'as many as q')
+        if (refused(wrong, info, message)) return
+        extra = address_of_extra(none, motion)
+        status = signorini_flexibility_solve_sparse(number(max(2, n / max(1, pairs))), &
+            int(pairs, c_int64_t), sparse_matrix(col_start, row, values, triangle), q, address(gap), &
+            which, address(friction), address(slip0), c_loc(chosen), d, force, c_loc(states), &
+            c_loc(measured), c_loc(extra))
+        call finish(status, info, message, [5, 6, 3, 5, 6, 10, 11, 12, &
+            place_of_settings(13, method, settings), 7, 8, 17, 18, 19])
         if (status >= 0) call copy_states(states, state)
         if (present(report)) report = measured
     end subroutine
@@ -1460,14 +1536,7 @@ contains
         type(signorini_sparse) :: matrix
         integer(c_int64_t), allocatable, target :: held(:)
         integer(c_int64_t) :: n_fixed
-        matrix%index_bytes = storage_size(col_start) / 8
-        matrix%index_base = 1
-        matrix%triangle = triangle
-        matrix%size = size(col_start) - 1
-        matrix%nnz = size(values)
-        matrix%col_start = c_loc(col_start)
-        if (size(row) > 0) matrix%row = c_loc(row)
-        matrix%values = address(values)
+        matrix = sparse_matrix(col_start, row, values, triangle)
         if (present(order)) then
             if (size(order) > 0) matrix%order = c_loc(order)
         end if
@@ -2213,6 +2282,22 @@ contains
             tuple(found) // ', it must be ' // tuple(wanted) // ': ' // meaning)
     end subroutine
 
+    ! The structure of a sparse matrix whose arrays were checked.
+    function sparse_matrix(col_start, row, values, triangle) result(matrix)
+        integer, intent(in), contiguous, target :: col_start(:), row(:)
+        real(c_double), intent(in), contiguous, target :: values(:)
+        integer(c_int32_t), intent(in) :: triangle
+        type(signorini_sparse) :: matrix
+        matrix%index_bytes = storage_size(col_start) / 8
+        matrix%index_base = 1
+        matrix%triangle = triangle
+        matrix%size = size(col_start) - 1
+        matrix%nnz = size(values)
+        matrix%col_start = c_loc(col_start)
+        if (size(row) > 0) matrix%row = c_loc(row)
+        matrix%values = address(values)
+    end function
+
     ! A sparse matrix: col_start at position 1, row, values, triangle at 4.
     subroutine check_sparse(wrong, col_start, row, values, triangle)
         type(refusal), intent(inout) :: wrong
@@ -2257,11 +2342,19 @@ contains
         type(refusal), intent(inout) :: wrong
         integer, intent(in) :: found(2), n, pairs
         character(len=*), intent(in) :: matrix, vector
-        if (n /= 2 * pairs .and. n /= 3 * pairs) call refuse(wrong, 2, vector // ' has ' // &
-            entries(n) // ' and gap ' // text(pairs) // ': ' // vector // &
-            ' must have 2 (2D) or 3 (3D) for each of gap')
+        call check_components(wrong, 2, n, pairs, vector)
         call check_shape(wrong, 1, matrix, found, [n, n], &
             'a row and a column for each entry of ' // vector)
+    end subroutine
+
+    ! A vector of n entries for all components of pairs.
+    subroutine check_components(wrong, position, n, pairs, vector)
+        type(refusal), intent(inout) :: wrong
+        integer, intent(in) :: position, n, pairs
+        character(len=*), intent(in) :: vector
+        if (n /= 2 * pairs .and. n /= 3 * pairs) call refuse(wrong, position, vector // ' has ' // &
+            entries(n) // ' and gap ' // text(pairs) // ': ' // vector // &
+            ' must have 2 (2D) or 3 (3D) for each of gap')
     end subroutine
 
     subroutine check_model(wrong, self)

@@ -11,11 +11,12 @@ mod counted;
 
 use fastrand::Rng;
 use signorini::certificate::{certify, prove};
-use signorini::reduce;
+use signorini::reduce::{self, Indices, SparseFlexibilityData, SparseMatrix, Triangle};
 use signorini::{
     ContactData, ContactProblem, FlexibilityData, FlexibilityProblem, FrictionLaw, Lcp, LoadCase,
-    Method, Model, Monitor, Search, Settings, Starts, memory, memory_flexibility, solve,
-    solve_flexibility, solve_lcp,
+    Method, Model, Monitor, Search, Settings, SparseFlexibilityProblem, Starts, memory,
+    memory_flexibility, memory_flexibility_sparse, solve, solve_flexibility,
+    solve_flexibility_sparse, solve_lcp,
 };
 
 /// Most that the estimate may be of what is held, where the problem is large enough that matrices decide and
@@ -163,6 +164,7 @@ fn a_call_holds_no_more_than_was_estimated() {
         solutions(&chain, &mut shares);
         others(&chain, &mut shares);
         flexibilities(&chain, &mut shares);
+        sparse_flexibility(&chain, &mut shares);
     }
     println!("shares from {:.3} to {:.3}", shares.least, shares.worst);
     assert!(shares.worst >= 1.0 / MOST, "the estimate is {} times the most", 1.0 / shares.worst);
@@ -222,6 +224,49 @@ fn flexibilities(chain: &Chain, shares: &mut Shares) {
             );
             shares.note(&what, n, peak, memory_flexibility(n));
         }
+    }
+}
+
+/// The matrix of the chain as a sparse `W` that is cut behind a third of the pairs, beside the host's arrays.
+fn sparse_flexibility(chain: &Chain, shares: &mut Shares) {
+    let (n, cut) = (chain.n(), chain.dim * (chain.pairs / 3));
+    let (mut col_start, mut row, mut values) = (vec![0_i64], vec![], vec![]);
+    for j in 0..n {
+        for i in (j..n).filter(|i| (*i < cut) == (j < cut)) {
+            if chain.k[i + n * j] != 0.0 {
+                row.push(i as i64);
+                values.push(chain.k[i + n * j]);
+            }
+        }
+        col_start.push(row.len() as i64);
+    }
+    for (name, law) in chain.laws() {
+        let data = SparseFlexibilityData {
+            dim: chain.dim,
+            pairs: chain.pairs,
+            flexibility: SparseMatrix {
+                size: n,
+                col_start: Indices::Wide(&col_start),
+                row: Indices::Wide(&row),
+                values: &values,
+                index_base: 0,
+                triangle: Triangle::Lower,
+            },
+            free: &chain.load,
+            gap: &chain.gap,
+            law,
+            reference_slip: None,
+        };
+        let mut estimate = 0;
+        let (peak, _) = counted::peak(|| {
+            let problem = SparseFlexibilityProblem::from_sparse(data).expect("a valid problem");
+            estimate = memory_flexibility_sparse(&problem);
+            let settings = Settings { max_iterations: 3000, ..Settings::default() };
+            let monitor = &mut Monitor::new(&settings, None);
+            solve_flexibility_sparse(&problem, &settings, None, monitor).expect("valid settings")
+        });
+        let what = format!("sparse flexibility, {}D, {} pairs, {name}", chain.dim, chain.pairs);
+        shares.note(&what, n, peak, estimate);
     }
 }
 

@@ -52,6 +52,20 @@ program rows
         friction=[0.25_dp, 0.25_dp], message=message)
     call expect('flexibility', info == 0 .and. message == '' .and. all(abs(d) < 1e-8_dp))
     call expect('its forces', all(abs(abs(force) - [0.8_dp, 0.2_dp, 0.8_dp, 0.2_dp]) < 1e-8_dp))
+    ! By columns, its lower triangle.
+    call contact_solve_flexibility_sparse([1, 3, 5, 6, 7], [1, 4, 2, 3, 3, 4], &
+        [1, -1, 1, 1, 1, 1] / 2._dp, SIGNORINI_TRIANGLE_LOWER, [1, 1, 1, -1] / 2._dp, [0._dp, 0._dp], &
+        d, force, info, friction=[0.25_dp, 0.25_dp], message=message)
+    call expect('sparse flexibility', info == 0 .and. message == '' .and. all(abs(d) < 1e-8_dp))
+    call expect('forces of it', all(abs(abs(force) - [0.8_dp, 0.2_dp, 0.8_dp, 0.2_dp]) < 1e-8_dp))
+    call contact_solve_flexibility_sparse([1, 3, 5, 6, 7], [1, 4, 2, 3, 3, 4], &
+        [1, -1, 1, 1, -1, 1] / 2._dp, SIGNORINI_TRIANGLE_LOWER, [1, 1, 1, -1] / 2._dp, [0._dp, 0._dp], &
+        d, force, info, message=message)
+    call expect('no sparse one', info == -3 .and. index(message, 'W(3,3) is -0.5') > 0)
+    call contact_solve_flexibility_sparse([1, 3, 5, 6], [1, 4, 2, 3, 3], &
+        [1, -1, 1, 1, 1] / 2._dp, SIGNORINI_TRIANGLE_LOWER, [1, 1, 1, -1] / 2._dp, [0._dp, 0._dp], &
+        d, force, info, message=message)
+    call expect('size of it', info == -1 .and. index(message, 'col_start has 4 entries') > 0)
     shared(2, 2) = -1
     call contact_solve_flexibility(shared, [1, 1, 1, -1] / 2._dp, [0._dp, 0._dp], d, force, info, &
         message=message)

@@ -1,4 +1,4 @@
-/* signorini_flexibility_solve, and with half of the inputs signorini_flexibility_solve_sparse. */
+/* signorini_flexibility_solve, and with some of the inputs signorini_flexibility_solve_sparse. */
 
 #include "fuzz.h"
 

@@ -56,6 +56,20 @@ class Flexibility(unittest.TestCase):
         again = signorini.solve_flexibility(self.W, self.q, mu=0.25, start=result.F)
         np.testing.assert_allclose(again.F, result.F, atol=1e-8)
 
+    def test_sparse(self):
+        lower = ([0.5, -0.5, 0.5, 0.5, 0.5, 0.5], [0, 3, 1, 2, 2, 3], [0, 2, 4, 5, 6])
+        result = signorini.solve_flexibility(lower, self.q, mu=0.25, triangle="lower")
+        self.assertEqual(result.status, Status.SOLVED)
+        np.testing.assert_allclose(abs(result.F), [[0.8, 0.2], [0.8, 0.2]], atol=1e-8)
+        again = signorini.solve_flexibility(lower, self.q, mu=0.25, triangle="lower", start=result.F)
+        np.testing.assert_allclose(again.F, result.F, atol=1e-8)
+        with self.assertRaisesRegex(signorini.SignoriniError, "not in the triangle"):
+            signorini.solve_flexibility(lower, self.q, mu=0.25, triangle="upper")
+        with self.assertRaisesRegex(ValueError, "indptr of W ends with 6"):
+            signorini.solve_flexibility((lower[0][:5], lower[1][:5], lower[2]), self.q)
+        with self.assertRaisesRegex(signorini.SignoriniError, "W is zero"):
+            signorini.solve_flexibility(([], [], [0] * 5), self.q)
+
     def test_refusals(self):
         with self.assertRaisesRegex(signorini.SignoriniError, "W is zero"):
             signorini.solve_flexibility(np.zeros((2, 2)), [0, 0])

@@ -27,6 +27,7 @@ SIGNATURES = {
     "extra_default": (i32, [address, u32]),
     "solve": (i32, [*_CONDENSED, *[address] * 6]),
     "flexibility_solve": (i32, [*_CONDENSED, *[address] * 6]),
+    "flexibility_solve_sparse": (i32, [i32, i64, *[address] * 3, *_LAW, *[address] * 6]),
     "certify": (i32, [*_CONDENSED, real, *[address] * 4]),
     "prove": (i32, [*_CONDENSED, *[address] * 5]),
     "lcp_solve": (i32, [i64, address, i64, *[address] * 6]),

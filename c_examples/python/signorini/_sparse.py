@@ -1,4 +1,4 @@
-"""The arguments of Model.sparse: a sparse matrix, supports, contact pairs."""
+"""Sparse matrices, and the other arguments of Model.sparse: supports, contact pairs."""
 
 import numpy as np
 
@@ -10,20 +10,20 @@ from ._structures import Pairs, Sparse, sized
 class Matrix:
     """A sparse matrix; structure: signorini_sparse."""
 
-    def __init__(self, K, triangle, order=None):
+    def __init__(self, K, triangle, order=None, name="K"):
         triangle = chosen("triangle", Triangle, triangle)
-        data, rows, starts = _compressed(K)
-        self.values = doubles(reals("data of K", data))
-        rows, starts = integers("indices of K", rows), integers("indptr of K", starts)
+        data, rows, starts = _compressed(name, K)
+        self.values = doubles(reals(f"data of {name}", data))
+        rows, starts = integers(f"indices of {name}", rows), integers(f"indptr of {name}", starts)
         if self.values.ndim != 1 or rows.shape != self.values.shape:
-            raise ValueError(f"data and indices of K have the shapes {self.values.shape} and "
+            raise ValueError(f"data and indices of {name} have the shapes {self.values.shape} and "
                              f"{rows.shape}: give one value and one row for each entry")
         if starts.ndim != 1 or not len(starts):
-            raise ValueError(f"indptr of K has the shape {starts.shape}: give the begin of each "
+            raise ValueError(f"indptr of {name} has the shape {starts.shape}: give the begin of each "
                              f"column and the end of the last one, shape (columns + 1,)")
         if starts[-1] != len(rows):
-            raise ValueError(f"indptr of K ends with {starts[-1]}, but K has {len(rows)} entries: "
-                             f"end it with their number")
+            raise ValueError(f"indptr of {name} ends with {starts[-1]}, but {name} has {len(rows)} "
+                             f"entries: end it with their number")
         kind = np.int32 if rows.dtype == np.int32 else np.int64
         self.rows, self.starts = indices(rows, kind), indices(starts, kind)
         self.order = None if order is None else _order(order, len(starts) - 1, kind)
@@ -32,6 +32,10 @@ class Matrix:
             size=len(starts) - 1, nnz=len(rows), col_start=at(self.starts), row=at(self.rows),
             values=at(self.values), order=at(self.order),
         )
+        self.shape = (len(self), len(self))
+
+    def __len__(self):
+        return len(self.starts) - 1
 
 
 class ContactPairs:
@@ -117,7 +121,7 @@ def supports(fixed):
 
 def side_by_side(matrices):
     """Two matrices as one, (data, indices, indptr): the blocks of its diagonal."""
-    parts = [_compressed(K) for K in matrices]
+    parts = [_compressed("K", K) for K in matrices]
     before, data, rows, starts = 0, [], [], [np.zeros(1, np.int64)]
     for values, indices_of, starts_of in parts:
         data.append(reals("data of K", values))
@@ -137,15 +141,20 @@ def _order(order, size, kind):
     return indices(np.clip(order, narrow.min, narrow.max), kind)
 
 
-def _compressed(K):
+def is_sparse(matrix):
+    """Whether a matrix is of scipy.sparse, or (data, indices, indptr)."""
+    return hasattr(matrix, "tocsc") or isinstance(matrix, tuple) and len(matrix) == 3
+
+
+def _compressed(name, K):
     if hasattr(K, "tocsc"):
         if K.shape[0] != K.shape[1]:
-            raise ValueError(f"K has the shape {K.shape}: give a square matrix, one row for each "
-                             f"degree of freedom")
+            raise ValueError(f"{name} has the shape {K.shape}: give a square matrix, one row for "
+                             f"each degree of freedom")
         K = K.tocsc(copy=True)
         K.sum_duplicates()  # which sorts the rows, too
         return K.data, K.indices, K.indptr
-    if isinstance(K, tuple) and len(K) == 3:
+    if is_sparse(K):
         return K
     given = f"an array of the shape {K.shape}" if hasattr(K, "shape") else f"a {type(K).__name__}"
     raise TypeError(f"K is {given}: give a scipy sparse matrix or a tuple (data, indices, indptr); "
