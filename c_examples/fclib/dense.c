@@ -5,14 +5,24 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-double *need(size_t count)
+static void *cleared(size_t count, size_t bytes)
 {
-    double *memory = calloc(count > 0 ? count : 1, sizeof *memory);
+    void *memory = calloc(count > 0 ? count : 1, bytes);
     if (memory == NULL) {
         fprintf(stderr, "not enough memory for %zu numbers\n", count);
         exit(EXIT_FAILURE);
     }
     return memory;
+}
+
+double *need(size_t count)
+{
+    return cleared(count, sizeof(double));
+}
+
+int64_t *need_integers(size_t count)
+{
+    return cleared(count, sizeof(int64_t));
 }
 
 double dot(size_t n, const double *x, const double *y)

@@ -7,9 +7,11 @@
 #define DENSE_H
 
 #include <stddef.h>
+#include <stdint.h>
 
 /* Memory set to zero, or the end of the program. */
 double *need(size_t count);
+int64_t *need_integers(size_t count);
 
 /* A = L L': L replaces the lower triangle of A, n x n. Returns n, or the row at which A is not
  * positive definite: what is left of its diagonal is within the rounding of its elimination. */

@@ -171,6 +171,35 @@ void local_form_free(struct local_form *form)
     form->W = form->q = form->mu = NULL;
 }
 
+struct triangle lower_triangle(const struct local_form *form)
+{
+    const size_t n = form->size;
+    int64_t count = 0;
+    for (size_t j = 0; j < n; j++)
+        for (size_t i = j; i < n; i++)
+            count += form->W[i + j * n] != 0.0;
+    struct triangle lower = {need_integers(n + 1), need_integers((size_t)count),
+                             need((size_t)count)};
+    count = 0;
+    for (size_t j = 0; j < n; j++) {
+        for (size_t i = j; i < n; i++) {
+            if (form->W[i + j * n] == 0.0)
+                continue;
+            lower.row[count] = (int64_t)i;
+            lower.values[count++] = form->W[i + j * n];
+        }
+        lower.col_start[j + 1] = count;
+    }
+    return lower;
+}
+
+void triangle_free(struct triangle *lower)
+{
+    free(lower->col_start);
+    free(lower->row);
+    free(lower->values);
+}
+
 /* |r - P(z)| of one contact, z = r - rho u^. */
 static double distance(size_t dim, double mu, const double *r, const double *z)
 {

@@ -6,6 +6,7 @@
 #define LOCAL_FORM_H
 
 #include <stddef.h>
+#include <stdint.h>
 
 struct local_form {
     const char *found; /* the form that the file has: "local" or "global" */
@@ -20,6 +21,15 @@ struct local_form {
  * W = H' M^-1 H, q = H' M^-1 f + w. Returns NULL, or a sentence on what is wrong. */
 const char *local_form_read(const char *path, struct local_form *form);
 void local_form_free(struct local_form *form);
+
+/* The lower triangle of W by columns, without its zeros, for signorini_flexibility_solve_sparse:
+ * contacts of bodies that do not touch each other are apart in it. */
+struct triangle {
+    int64_t *col_start, *row; /* col_start[size] is the number of entries */
+    double *values;
+};
+struct triangle lower_triangle(const struct local_form *form);
+void triangle_free(struct triangle *lower);
 
 /* How far reactions r are from a solution of the file's own problem, relative to the largest of
  * them: |r - P(r - u^ / W_aa)|, u^ = W r + q + mu |u_T| e_N, P the projection on the friction cone,

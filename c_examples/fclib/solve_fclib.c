@@ -25,6 +25,7 @@
  * d_t = -u_T = lambda r_T = -lambda F_t. Velocities and impulses may take the place of
  * displacements and forces.
  *
+ * W is handed over sparse: contacts that no entry ties to each other are solved by themselves.
  * W of rigid bodies with more contacts than they have freedom is singular: reactions are not unique
  * then, and another program may have found others.
  */
@@ -83,14 +84,19 @@ static void print_others(const char *path, const struct local_form *form, const 
 static int32_t solve(const struct local_form *form, double *r)
 {
     const size_t n = form->size;
-    const int64_t ld = n > 0 ? (int64_t)n : 1;
     struct signorini_report report = {.struct_size = sizeof report};
     double *d = need(n), *q = need(n);
     for (size_t i = 0; i < n; i++)
         q[i] = -form->q[i];
-    const int32_t status = signorini_flexibility_solve(
-        form->dim, (int64_t)form->contacts, form->W, ld, q, NULL, SIGNORINI_LAW_COULOMB, form->mu,
-        NULL, NULL, d, r, NULL, &report, NULL);
+    struct triangle lower = lower_triangle(form);
+    const signorini_sparse W = {.struct_size = sizeof W,
+        .index_bytes = sizeof *lower.row, .triangle = SIGNORINI_TRIANGLE_LOWER, .size = (int64_t)n,
+        .nnz = lower.col_start[n], .col_start = lower.col_start, .row = lower.row,
+        .values = lower.values};
+    const int32_t status = signorini_flexibility_solve_sparse(
+        form->dim, (int64_t)form->contacts, &W, q, NULL, SIGNORINI_LAW_COULOMB, form->mu, NULL,
+        NULL, d, r, NULL, &report, NULL);
+    triangle_free(&lower);
     for (size_t i = 0; i < n; i++)
         r[i] = -r[i];
     free(d);

@@ -1,6 +1,6 @@
 /*
- * Files of the Frictional Contact Library, solved in flexibility form by this library and by
- * Siconos: `sh tests/bench/fclib.sh FOLDER` builds and runs it.
+ * Files of the Frictional Contact Library, solved in flexibility form by this library, which takes
+ * W sparse, and by Siconos: `sh tests/bench/fclib.sh FOLDER` builds and runs it.
  *
  *     fclib SECONDS FILE...
  *
@@ -71,18 +71,24 @@ static void ours(const struct local_form *form, struct answer *answer)
     double *d = calloc(n + 1, sizeof *d), *q = calloc(n + 1, sizeof *q);
     if (d == NULL || q == NULL)
         return;
+    struct triangle lower = lower_triangle(form);
+    const signorini_sparse W = {.struct_size = sizeof W,
+        .index_bytes = sizeof *lower.row, .triangle = SIGNORINI_TRIANGLE_LOWER, .size = (int64_t)n,
+        .nnz = lower.col_start[n], .col_start = lower.col_start, .row = lower.row,
+        .values = lower.values};
     for (size_t i = 0; i < n; i++)
         q[i] = -form->q[i];
     signorini_settings_default(&settings, sizeof settings);
     settings.tolerance = TOLERANCE;
-    answer->status = signorini_flexibility_solve(
-        form->dim, (int64_t)form->contacts, form->W, (int64_t)n, q, NULL, SIGNORINI_LAW_COULOMB,
-        form->mu, NULL, &settings, d, answer->r, NULL, &report, NULL);
+    answer->status = signorini_flexibility_solve_sparse(
+        form->dim, (int64_t)form->contacts, &W, q, NULL, SIGNORINI_LAW_COULOMB, form->mu, NULL,
+        &settings, d, answer->r, NULL, &report, NULL);
     if (answer->status != 0)
         fprintf(stderr, "    %s\n", signorini_last_error());
     answer->eta = report.eta;
     for (size_t i = 0; i < n; i++)
         answer->r[i] = -answer->r[i];
+    triangle_free(&lower);
     free(d);
     free(q);
 }
