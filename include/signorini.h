@@ -229,9 +229,10 @@ int32_t signorini_flexibility_solve(int32_t dim, int64_t pairs, const double *W,
  * work begins, and signorini_last_error() names the largest island.
  *
  * The status is that of the worst island. SIGNORINI_STATUS_NO_EQUILIBRIUM of one proves that the
- * whole has none; the other islands are solved all the same. At a limit of time or iterations, or
- * where the callback cancels, islands that are still to come keep the start. report->method, omega
- * and damping are those of the largest island with the status; counts are sums over all islands.
+ * whole has none; the other islands are solved all the same, from the smallest to the largest. At
+ * a limit of time or iterations, or where the callback cancels, those that are still to come keep
+ * the start. report->method, omega and damping are those of the largest island with the status;
+ * counts are sums over all islands.
  *
  * @param dim       space dimension, 2 or 3
  * @param pairs     number of contact pairs, 0 allowed

@@ -101,8 +101,9 @@ pub fn solve_flexibility(
 ///
 /// Pairs that no entry of `W` ties to each other are islands, each solved by itself to the tolerance: time and memory
 /// are those of dense problems of their sizes, the memory that of the largest. What was found is certified as a
-/// whole. The status is that of the worst island: a proof that one has no equilibrium is one for the whole, and
-/// islands behind one at which a limit ended the call are left as they were at the start. [`Solution::method`] is
+/// whole. The status is that of the worst island: a proof that one has no equilibrium is one for the whole. They are
+/// solved from the smallest to the largest, and those behind one at which a limit ended the call are left as they
+/// were at the start. [`Solution::method`] is
 /// that of the largest island with that status, and so are [`Solution::omega`] and [`Solution::damping`].
 ///
 /// # Errors

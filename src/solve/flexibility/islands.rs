@@ -16,7 +16,8 @@ use crate::problem::{
 use crate::settings::{SMALLEST_TOLERANCE, Settings};
 use crate::solve::outcome::{Existence, Solution, Status};
 
-/// Solves the problem; `start` are contact forces. Islands behind one at which the call is stopped keep theirs.
+/// Solves the problem; `start` are contact forces. Islands behind one at which the call is stopped, as large ones or
+/// larger, keep theirs.
 pub fn solve(
     problem: &SparseFlexibilityProblem<'_>,
     settings: &Settings,
@@ -38,7 +39,10 @@ pub fn solve(
         outer_iterations: 0,
         refactorisations: 0,
     };
-    for pairs in islands.each() {
+    // The smallest first: what ends the call, most likely the largest, leaves the fewest.
+    let mut in_turn: Vec<&[usize]> = islands.each().collect();
+    in_turn.sort_by_key(|pairs| pairs.len());
+    for pairs in in_turn {
         let island = Island::new(problem, pairs);
         let begin = start.is_some().then(|| gathered(&found.force, pairs, problem.dim()));
         let solution = island

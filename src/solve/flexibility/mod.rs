@@ -12,8 +12,9 @@
 //! the way, the smallest of the forces that redundant pairs leave open, in the norm of `D⁻¹`.
 //!
 //! A round divides the error in a pattern of forces by its flexibility over `e`. Where that is slow, `e` is
-//! lowered, and after the first solution rounds go on until forces settle. Where Newton's method does not solve a round, `e` is raised: a larger one is an easier problem nearer
-//! to the forces at hand. With the largest, the default method has all its means.
+//! lowered, and after the first solution rounds go on until forces settle. Where Newton's method does not solve a
+//! round, `e` is raised: a larger one is an easier problem nearer to the forces at hand. With the largest, the
+//! default method has all its means.
 
 mod islands;
 mod springs;
