@@ -269,6 +269,31 @@ fn an_island_without_equilibrium_is_named_and_the_others_are_solved() {
     }
 }
 
+/// A node in a groove of half angle 20 degrees whose walls overlap it, as in `flexibility.rs`: with `tan a <= mu` no
+/// forces lift it out. Nothing is proved, and the other islands are solved.
+#[test]
+fn an_island_that_wedges_is_named_and_the_others_are_solved() {
+    let rng = &mut Rng::with_seed(10);
+    let (sin, cos) = 20.0_f64.to_radians().sin_cos();
+    let rows = [[cos, -sin], [sin, cos], [-cos, -sin], [sin, -cos]].map(|row| row.to_vec());
+    let mut wedge = Case::new(2, gram(&rows), vec![0.0; 4], 1.1);
+    wedge.gap.fill(-0.1);
+    let mut case = full(rng, 2, 3, 0.0);
+    case.mu.fill(0.0);
+    let alone = case.solved();
+    let whole = together(&[case, wedge], &[4, 1, 2, 3, 0]);
+    let solution = solve(&whole);
+    assert_eq!(solution.status, Status::Stalled, "{}", solution.message);
+    let said = "pairs 0, 3 grow without end";
+    assert!(solution.message.contains(said), "{}", solution.message);
+    assert!(solution.message.contains("island of pairs 0, 3"), "{}", solution.message);
+    for (k, place) in [4, 1, 2].into_iter().enumerate() {
+        let forces = (&solution.certificate.force, &alone.certificate.force);
+        let apart = difference(&forces.0[2 * place..2 * place + 2], &forces.1[2 * k..2 * k + 2]);
+        assert!(largest(&apart) <= 1e-9 * largest(forces.1).max(1.0), "pair {place}: {apart:?}");
+    }
+}
+
 /// Every way to store the matrix gives the same bits; stored zeros tie nothing.
 #[test]
 fn all_forms_of_the_matrix_are_one() {
