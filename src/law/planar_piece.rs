@@ -35,6 +35,9 @@ pub struct Exit {
 /// ([`PairLaw::sure_start`]).
 const KEPT_SLIP: f64 = 0.98;
 
+/// Clearance of a pair that is lifted, of what its slip demands: more than `1 / KEPT_SLIP`.
+const LIFTED: f64 = 1.05;
+
 /// Part of the friction of a closed pair that is kept: enough to tell the pairs apart.
 const KEPT_FRICTION: f64 = 1e-7;
 
@@ -120,6 +123,18 @@ impl PairLaw {
         let clearance = -y[0] / self.k_n;
         let most = bound + KEPT_SLIP * self.k_t * clearance / self.bound.slope;
         [y[0], y[1].max(-most).min(most)]
+    }
+
+    /// The pair open, as far as theorem H demands it for its slip at `y`, and by `least` at least.
+    pub fn lifted(&self, y: Planar, least: f64) -> Planar {
+        if !self.has_obstacle() {
+            return y;
+        }
+        let (d, _) = self.point(&[y[0], y[1], 0.0]);
+        let slip = d[1] - self.reference()[1];
+        let clearance = LIFTED * self.bound.slope * slip.abs();
+        let normal = -(self.k_n * clearance).max(-y[0]).max(least);
+        self.sure_start([normal, self.k_t * slip + self.bound.at(0.0) * slip.signum()])
     }
 
     /// The pair pressed on its obstacle with the force `p > 0`, and stuck.

@@ -41,6 +41,28 @@ pub fn add_four(y: &mut [f64], a: [f64; 4], x: [&[f64]; 4]) {
     }
 }
 
+/// `y -= A x`, for contiguous columns of `A` as long as `y`.
+pub fn subtract_columns(y: &mut [f64], columns: &[f64], x: &[f64]) {
+    let size = y.len();
+    vectorised(
+        Simd::new(),
+        #[inline(always)]
+        || {
+            let fours = x.chunks_exact(4);
+            let left = fours.remainder();
+            let (whole, rest) = columns.split_at(size * (x.len() - left.len()));
+            for (x, columns) in fours.zip(whole.chunks_exact(4 * size)) {
+                let column = |c: usize| &columns[c * size..(c + 1) * size];
+                let factors = [-x[0], -x[1], -x[2], -x[3]];
+                add_four(y, factors, [column(0), column(1), column(2), column(3)]);
+            }
+            for (x, column) in left.iter().zip(rest.chunks_exact(size)) {
+                axpy(y, -x, column);
+            }
+        },
+    );
+}
+
 /// [`add_four`] with the absolute values of `x`.
 #[inline(always)]
 pub fn add_four_sizes(y: &mut [f64], a: [f64; 4], x: [&[f64]; 4]) {

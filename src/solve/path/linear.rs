@@ -46,9 +46,12 @@
 //! So `D v = 0`, then `D P = -K D v = 0`. `y0` is interior to its piece and `J` is regular there, so that the
 //! same holds for the loads near by, among which almost all are generic; then theorem G. ∎
 //!
-//! A pair without friction may be anything. So the sweeps' open pairs and their slips are kept, slips as
-//! far as the clearance allows; closed pairs start without friction and slip (`PairLaw::sure_start`).
-//! Kept friction, or kept slip of closed pairs, is what the example above forbids.
+//! A pair without friction may be anything. So there are two kinds of sure starts. The lifted one keeps the slips after
+//! the sweeps, and opens every pair as far as its slip demands, but for the one of the largest pressure, which holds a
+//! body that has no support in the direction of its obstacles (`PairLaw::lifted`). The path from it closes the pairs
+//! again: about one event for each pair. The other keeps the sweeps' open pairs and their slips, slips as far as the
+//! clearance allows; closed pairs start without friction and slip (`PairLaw::sure_start`). Kept friction, or kept
+//! slip of closed pairs, is what the example above forbids.
 //!
 //! **Theorem K.** *Let `K` be symmetric and semi-definite, and let every rigid motion move a closed pair of
 //! the start, in its normal component or, if it has friction, in any. The path of H ends at a solution, or
@@ -67,7 +70,7 @@
 //! *What is followed.* First on the pairs in question alone ([`crate::solve::undecided`]), where an event costs
 //! little: their matrix is definite too. Then on all pairs, from where these have come to, all states kept, for it
 //! is near: G without its premise; if that comes back, or takes more events than a third of the pairs, once more
-//! after some sweeps. Then from the sure start, H, after more and more sweeps; if rounding spoils that, with
+//! after some sweeps. Then from the sure starts, H, after more and more sweeps; if rounding spoils that, with
 //! factorisations at nearly every event, and from all pairs pressed on their obstacles. Starts are moved at random
 //! by 1e-7 of the loads, always by the same numbers: symmetric meshes have ties. At `s = 1` nothing is left of
 //! that, and Newton's method polishes from the pieces found there.
@@ -75,7 +78,7 @@
 //! *Limits.* The number of events is not bounded by a polynomial. On meshes it is about the number of
 //! pairs whose state differs from that of the start, a few in a hundred pairs from swept starts.
 
-use super::linear_attempts::{ATTEMPTS, Attempt, ON_UNDECIDED, SURE, Start};
+use super::linear_attempts::{ATTEMPTS, Attempt, ON_UNDECIDED, Start, WITH_STATES};
 use super::linear_start::{Random, Starts};
 use super::linear_walk::{End, Ground, Walk};
 use crate::law::{Contact, Planar};
@@ -109,7 +112,7 @@ pub fn linear(
         };
     }
     // With given thresholds every start is sure.
-    let mut attempts = ATTEMPTS[SURE..].to_vec();
+    let mut attempts = ATTEMPTS[WITH_STATES..].to_vec();
     attempts[0].sweeps = SWEEPS_OF_SURE;
     solve(contact, settings, start, &attempts, monitor)
 }
@@ -157,6 +160,7 @@ fn solve(
         starts.sweep(contact, attempt.sweeps, monitor);
         let y: Vec<Planar> = match attempt.start {
             Start::Swept => starts.swept(contact, &mut random),
+            Start::Lifted => starts.lifted(contact, &mut random),
             Start::Sure => starts.sure(contact, &mut random),
             Start::Pressed => starts.pressed(contact, &root, &mut random),
         };
@@ -246,7 +250,8 @@ mod tests {
         problem.expect("the data is valid")
     }
 
-    /// Theorem H: the path from the sure start arrives, without the swept one and without a second try.
+    /// Theorem H: the path from a sure start arrives, with all pairs lifted or in their states, without the swept one
+    /// and without a second try.
     #[test]
     fn the_sure_start_arrives_whatever_the_coefficients() {
         for seed in 0..400 {
@@ -263,11 +268,15 @@ mod tests {
             let problem = coulomb(&stiffness, &load, &gap, &mu, &slip);
             let (contact, settings) = (Contact::new(&problem), Settings::default());
             let mut monitor = Monitor::new(&settings, None);
-            let candidate = solve(&contact, &settings, None, &ATTEMPTS[SURE..=SURE], &mut monitor);
-            let method = crate::settings::Method::Auto;
-            let solution =
-                crate::solve::candidate::certified(&contact, &settings, method, &candidate);
-            assert_eq!(solution.status, Status::Solved, "seed {seed}: {}", solution.message);
+            // The first begins with all pairs lifted, the second with all of them in their states.
+            for attempt in &ATTEMPTS[WITH_STATES - 1..=WITH_STATES] {
+                let attempt = std::slice::from_ref(attempt);
+                let candidate = solve(&contact, &settings, None, attempt, &mut monitor);
+                let method = crate::settings::Method::Auto;
+                let solution =
+                    crate::solve::candidate::certified(&contact, &settings, method, &candidate);
+                assert_eq!(solution.status, Status::Solved, "seed {seed}: {}", solution.message);
+            }
         }
     }
 

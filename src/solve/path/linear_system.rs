@@ -27,20 +27,24 @@ use crate::law::branch::Branch;
 use crate::law::{Contact, Exit, PairLaw, Planar};
 use crate::linalg::factor::{Factor, lu_work, subtract_product};
 use crate::linalg::matrix::Matrix;
+use crate::linalg::simd::subtract_columns;
 use crate::linalg::tolerances::SINGULAR_BASIS;
+use crate::linalg::vector::dot;
 
 /// A change of one pair.
 struct Change {
     pair: usize,
     gradient: Planar,
-    /// `J⁻¹ a`.
-    z: Vec<f64>,
     pivot: f64,
+    /// `n.z` of the changes before it.
+    before: Vec<f64>,
 }
 
 /// A change that is ready to be made.
 pub struct Flip {
     change: Change,
+    /// `J⁻¹ a`.
+    z: Vec<f64>,
     beyond: Branch,
 }
 
@@ -52,7 +56,7 @@ impl Flip {
 
     /// `J⁻¹ a`: where the pivot is zero, `J` is singular along it beyond the boundary.
     pub fn direction(&self) -> &[f64] {
-        &self.change.z
+        &self.z
     }
 }
 
@@ -74,6 +78,8 @@ pub struct PieceSystem<'p> {
     /// Columns for changes.
     columns: Columns,
     changes: Vec<Change>,
+    /// `J⁻¹ a` of each change, contiguous.
+    directions: Vec<f64>,
 }
 
 impl<'p> PieceSystem<'p> {
@@ -112,6 +118,7 @@ impl<'p> PieceSystem<'p> {
             rows,
             columns: Columns::none(root.len()),
             changes,
+            directions: Vec::new(),
         })
     }
 
@@ -129,9 +136,7 @@ impl<'p> PieceSystem<'p> {
     /// `J⁻¹ b`.
     pub fn solve(&mut self, b: &[f64]) -> Vec<f64> {
         let mut x = self.solve_factorised(b);
-        for change in &self.changes {
-            change.apply(&mut x);
-        }
+        self.apply_changes(&mut x);
         x
     }
 
@@ -216,19 +221,32 @@ impl<'p> PieceSystem<'p> {
         if !self.columns.are_kept() {
             z = self.solve_factorised(&z);
         }
-        for change in &self.changes {
-            change.apply(&mut z);
-        }
-        let gradient = exit.gradient;
-        let pivot = 1.0 + gradient[0] * z[2 * pair] + gradient[1] * z[2 * pair + 1];
-        Flip { change: Change { pair, gradient, z, pivot }, beyond: exit.beyond }
+        self.apply_changes(&mut z);
+        let mut change = Change { pair, gradient: exit.gradient, pivot: 1.0, before: Vec::new() };
+        change.before =
+            self.directions.chunks_exact(self.root.len()).map(|z| change.along(z)).collect();
+        change.pivot += change.along(&z);
+        Flip { change, z, beyond: exit.beyond }
     }
 
     /// Makes a change; `x` becomes `J⁻¹ b` of the new pieces for the same `b`.
     pub fn pass(&mut self, flip: Flip, x: &mut [f64]) {
-        flip.change.apply(x);
+        let part = flip.change.along(x) / flip.change.pivot;
+        subtract_columns(x, &flip.z, &[part]);
         self.branches[flip.change.pair] = flip.beyond;
+        self.directions.extend_from_slice(&flip.z);
         self.changes.push(flip.change);
+    }
+
+    /// Takes `J⁻¹ b` of the pieces that were factorised to that of the pieces of today. What each change subtracts
+    /// depends on those before it through a few numbers, so that all directions are read once.
+    fn apply_changes(&self, x: &mut [f64]) {
+        let mut parts = Vec::with_capacity(self.changes.len());
+        for change in &self.changes {
+            let part = (change.along(x) - dot(&change.before, &parts)) / change.pivot;
+            parts.push(part);
+        }
+        subtract_columns(x, &self.directions, &parts);
     }
 
     /// The displacements along which the coordinates move when they move by `y`.
@@ -248,14 +266,10 @@ impl<'p> PieceSystem<'p> {
 }
 
 impl Change {
-    fn apply(&self, x: &mut [f64]) {
+    /// `n.x`.
+    fn along(&self, x: &[f64]) -> f64 {
         let at = 2 * self.pair;
-        let part = (self.gradient[0] * x[at] + self.gradient[1] * x[at + 1]) / self.pivot;
-        if part != 0.0 {
-            for (x, z) in x.iter_mut().zip(&self.z) {
-                *x -= part * z;
-            }
-        }
+        self.gradient[0] * x[at] + self.gradient[1] * x[at + 1]
     }
 }
 
