@@ -16,6 +16,9 @@ const LONG: f64 = 10.0;
 /// The same where another start follows, which is rarely as long as one that has not ended by then.
 const ENOUGH: f64 = 3.0;
 
+/// The same on the pairs in question.
+const ENOUGH_ON_UNDECIDED: f64 = 2.0;
+
 /// Changes after which a system is factorised again, and the same for each pair: a factorisation then costs about as
 /// much as the changes.
 const LEAST_AGE: usize = 60;
@@ -74,11 +77,10 @@ pub const ATTEMPTS: [Attempt; 7] = [
 
 /// The same on the pairs in question, where each costs little: short walks from several starts end sooner than a
 /// long one.
-pub const ON_UNDECIDED: [Attempt; 4] = [
+pub const ON_UNDECIDED: [Attempt; 3] = [
     Attempt { sweeps: 3, start: Start::Swept, events: SHORT, careful: false },
     Attempt { sweeps: 20, start: Start::Swept, events: SHORT, careful: false },
-    Attempt { sweeps: 30, start: Start::Lifted, events: ENOUGH, careful: false },
-    Attempt { sweeps: 0, start: Start::Sure, events: ENOUGH, careful: false },
+    Attempt { sweeps: 30, start: Start::Lifted, events: ENOUGH_ON_UNDECIDED, careful: false },
 ];
 
 /// Where attempts begin that are sure with all pairs in their states.

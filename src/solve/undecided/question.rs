@@ -13,8 +13,9 @@ const WATCHED: usize = 10;
 /// Fewer pairs that are decided are not worth their elimination.
 const WORTHWHILE: usize = 12;
 
-/// Part of all pairs that a pair takes along to either side when it joins, beside its neighbours: what contradicts one
-/// by one takes many rounds.
+/// Pairs that a pair takes along to either side when it joins, beside its neighbour: so many, and a part of all. What
+/// joins one by one takes many rounds.
+const LEAST_BESIDE: usize = 3;
 const BESIDE: f64 = 0.005;
 
 /// Which pairs are in question, and the branches of all.
@@ -81,7 +82,7 @@ impl InQuestion {
         let others: Vec<bool> = laws.map(is_other).collect();
         let joining: Vec<usize> =
             (0..others.len()).filter(|&pair| others[pair] && !self.pairs[pair]).collect();
-        let beside = (BESIDE * self.pairs.len() as f64) as usize;
+        let beside = LEAST_BESIDE.max((BESIDE * self.pairs.len() as f64) as usize);
         for &pair in &joining {
             let end = (pair + beside + 2).min(self.pairs.len());
             self.pairs[pair.saturating_sub(beside + 1)..end].fill(true);
