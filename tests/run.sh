@@ -84,6 +84,7 @@ host_packages() {
     have ccx || echo calculix-ccx
     /usr/bin/python3 -c 'import getfem' >/dev/null 2>&1 || echo python3-getfem
     python_with numpy,matplotlib,PIL >/dev/null || echo python3-numpy python3-matplotlib python3-pil
+    /usr/bin/python3 -c 'import hypothesis' >/dev/null 2>&1 || echo python3-hypothesis
     /usr/bin/python3 -c 'import ensurepip, venv' >/dev/null 2>&1 || echo python3-venv
     [ -f /usr/include/mumps_seq/mpif.h ] || echo libmumps-seq-dev
     have mpicc && have mpirun || echo libopenmpi-dev openmpi-bin

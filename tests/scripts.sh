@@ -29,6 +29,12 @@ for name in results shapes mistakes solutions operators progress surfaces meshes
 done
 "$python" -B "$root/tests/python/files.py" "$work"
 "$python" -B "$root/tests/python/library.py" "${CC:-cc}" "$work"
+if "$python" -c 'import hypothesis' >/dev/null 2>&1; then
+    "$python" -B "$root/tests/python/arrays.py"
+else
+    echo "scripts: '$python' has no hypothesis (python3-hypothesis in Debian): arrays of any kind SKIPPED"
+    [ "${1-}" != --require ] || exit 1
+fi
 
 if ! "$python" -c 'import matplotlib, PIL' >/dev/null 2>&1; then
     echo "scripts: '$python' has no matplotlib (python3-matplotlib in Debian)"
