@@ -98,40 +98,44 @@ pub unsafe extern "C" fn signorini_flexibility_solve(
         let gap = gap.unwrap_or(&closed);
         let data =
             FlexibilityData { dim, pairs, flexibility: matrix, ld, free, gap, law, reference_slip };
-        let problem = FlexibilityProblem::from_flexibility(data).map_err(from_error)?;
+        let problem =
+            FlexibilityProblem::from_flexibility(data).map_err(|error| from_error(error, FREE))?;
         // SAFETY: F has n entries, which the caller has filled if it asked for a warm start.
         let start = received.starts_from_given().then(|| unsafe { outputs.force.read() });
         let settings = &received.settings;
         let solution = received
             .monitored(|monitor| solve_flexibility(&problem, settings, start.as_deref(), monitor))
-            .map_err(from_error)?;
+            .map_err(|error| from_error(error, FREE))?;
         // SAFETY: the outputs have the lengths of the header and overlap nothing.
         Ok(unsafe { outputs.write(&solution) })
     })
 }
 
-/// Number of `settings` among the arguments.
-const SETTINGS: i32 = 10;
+/// Number of `q` among the arguments.
+const FREE: i32 = 5;
 
-/// Number of the first result.
-const FIRST: i32 = 11;
+/// Numbers of `settings`, of the first result and of the array that holds the start, with that of `q`.
+pub(super) const fn last_positions(free: i32) -> (i32, i32, i32) {
+    (free + 5, free + 6, free + 7)
+}
 
-/// Number of the array that holds the start.
-const START: i32 = FIRST + 1;
+const SETTINGS: i32 = last_positions(FREE).0;
+const FIRST: i32 = last_positions(FREE).1;
 
-/// A refusal, by the number of the argument that it is about.
-fn from_error(error: Error) -> Failure {
+/// A refusal, by the number of the argument that it is about; `free` is that of `q`.
+pub(super) fn from_error(error: Error, free: i32) -> Failure {
+    let (settings, _, start) = last_positions(free);
     Failure::from_error(error, |argument| match argument {
         Argument::Dimension => 1,
         Argument::Size => 2,
         Argument::Matrix => 3,
         Argument::LeadingDimension => 4,
-        Argument::Load => 5,
-        Argument::Gap => 6,
-        Argument::LawChoice => 7,
-        Argument::Law => 8,
-        Argument::ReferenceSlip => 9,
-        Argument::Start => START,
-        _ => SETTINGS,
+        Argument::Load => free,
+        Argument::Gap => free + 1,
+        Argument::LawChoice => free + 2,
+        Argument::Law => free + 3,
+        Argument::ReferenceSlip => free + 4,
+        Argument::Start => start,
+        _ => settings,
     })
 }

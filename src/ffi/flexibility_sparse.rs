@@ -2,13 +2,13 @@
 
 use super::args::{Arrays, sizes};
 use super::extra::SignoriniExtra;
-use super::guard::{self, Failure};
+use super::flexibility::{from_error, last_positions};
+use super::guard;
 use super::law;
 use super::outputs::OutputArguments;
 use super::report::SignoriniReport;
 use super::settings::SignoriniSettings;
 use super::sparse::{FLEXIBILITY, SignoriniSparse};
-use crate::error::{Argument, Error};
 use crate::problem::SparseFlexibilityProblem;
 use crate::reduce::SparseFlexibilityData;
 use crate::solve::{check_flexibility_sparse, largest_island, solve_flexibility_sparse};
@@ -67,6 +67,7 @@ pub unsafe extern "C" fn signorini_flexibility_solve_sparse(
 ) -> i32 {
     let wanted = OutputArguments { d, F, state, report, extra };
     guard::call(|| {
+        let refused = |error| from_error(error, FREE);
         let mut arrays = Arrays::default();
         let (dim, pairs, n) = sizes(1, dim, pairs)?;
         // SAFETY: arrays of the lengths of the header, structures that begin with their size.
@@ -87,9 +88,9 @@ pub unsafe extern "C" fn signorini_flexibility_solve_sparse(
         let gap = gap.unwrap_or(&closed);
         let data =
             SparseFlexibilityData { dim, pairs, flexibility, free, gap, law, reference_slip };
-        let problem = SparseFlexibilityProblem::from_sparse(data).map_err(from_error)?;
+        let problem = SparseFlexibilityProblem::from_sparse(data).map_err(refused)?;
         let settings = &received.settings;
-        let bytes = check_flexibility_sparse(&problem, settings).map_err(from_error)?;
+        let bytes = check_flexibility_sparse(&problem, settings).map_err(refused)?;
         guard::reserve_estimate(bytes)
             .map_err(|failure| failure.explained(&largest_island(&problem)))?;
         // SAFETY: F has n entries, which the caller has filled if it asked for a warm start.
@@ -98,33 +99,14 @@ pub unsafe extern "C" fn signorini_flexibility_solve_sparse(
             .monitored(|monitor| {
                 solve_flexibility_sparse(&problem, settings, start.as_deref(), monitor)
             })
-            .map_err(from_error)?;
+            .map_err(refused)?;
         // SAFETY: the outputs have the lengths of the header and overlap nothing.
         Ok(unsafe { outputs.write(&solution) })
     })
 }
 
-/// Number of `settings` among the arguments.
-const SETTINGS: i32 = 9;
+/// Number of `q` among the arguments.
+const FREE: i32 = 4;
 
-/// Number of the first result.
-const FIRST: i32 = 10;
-
-/// Number of the array that holds the start.
-const START: i32 = FIRST + 1;
-
-/// A refusal, by the number of the argument that it is about.
-fn from_error(error: Error) -> Failure {
-    Failure::from_error(error, |argument| match argument {
-        Argument::Dimension => 1,
-        Argument::Size => 2,
-        Argument::Matrix => 3,
-        Argument::Load => 4,
-        Argument::Gap => 5,
-        Argument::LawChoice => 6,
-        Argument::Law => 7,
-        Argument::ReferenceSlip => 8,
-        Argument::Start => START,
-        _ => SETTINGS,
-    })
-}
+const SETTINGS: i32 = last_positions(FREE).0;
+const FIRST: i32 = last_positions(FREE).1;

@@ -134,7 +134,13 @@ impl PairLaw {
         let slip = d[1] - self.reference()[1];
         let clearance = LIFTED * self.bound.slope * slip.abs();
         let normal = -(self.k_n * clearance).max(-y[0]).max(least);
-        self.sure_start([normal, self.k_t * slip + self.bound.at(0.0) * slip.signum()])
+        let bound = self.bound.at(0.0);
+        let tangential = if slip == 0.0 {
+            y[1].max(-bound).min(bound)
+        } else {
+            self.k_t * slip + bound * slip.signum()
+        };
+        self.sure_start([normal, tangential])
     }
 
     /// The pair pressed on its obstacle with the force `p > 0`, and stuck.
