@@ -44,6 +44,9 @@ pub fn add_four(y: &mut [f64], a: [f64; 4], x: [&[f64]; 4]) {
 /// `y -= A x`, for contiguous columns of `A` as long as `y`.
 pub fn subtract_columns(y: &mut [f64], columns: &[f64], x: &[f64]) {
     let size = y.len();
+    if size == 0 {
+        return;
+    }
     vectorised(
         Simd::new(),
         #[inline(always)]

@@ -5,16 +5,6 @@
 /* Unknowns of a problem at most. */
 enum { MOST = 12 };
 
-static void *indices(int64_t count, int bytes, const int64_t *values)
-{
-    void *array = input((size_t)count, (size_t)bytes);
-    for (int64_t i = 0; i < count; i++) {
-        if (bytes == 4) ((int32_t *)array)[i] = (int32_t)values[i];
-        else ((int64_t *)array)[i] = values[i];
-    }
-    return array;
-}
-
 /* The matrix of the problem by columns, or one that no call takes. A triangle stands for both; of a matrix in
  * islands entries between pairs of even and odd number are zero. What the judge reads follows. */
 static signorini_sparse *a_sparse(problem *p)

@@ -136,6 +136,16 @@ void *input(size_t count, size_t bytes)
     return take(count, bytes, 0);
 }
 
+void *indices(int64_t count, int bytes, const int64_t *values)
+{
+    void *array = input((size_t)count, (size_t)bytes);
+    for (int64_t i = 0; i < count; i++) {
+        if (bytes == 4) ((int32_t *)array)[i] = (int32_t)values[i];
+        else ((int64_t *)array)[i] = values[i];
+    }
+    return array;
+}
+
 void *output(size_t count, size_t bytes)
 {
     return take(count, bytes, 1);

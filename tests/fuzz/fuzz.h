@@ -49,6 +49,9 @@ const uint8_t *rest(size_t *size);
 /* An array of the call, to be filled before it; the library only reads it. */
 void *input(size_t count, size_t bytes);
 
+/* An input of indices, of 4 or 8 bytes each. */
+void *indices(int64_t count, int bytes, const int64_t *values);
+
 /* An array that the call writes. It is full of one odd byte. */
 void *output(size_t count, size_t bytes);
 

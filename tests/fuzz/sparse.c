@@ -5,16 +5,6 @@
 /* Degrees of freedom of the matrix at most. */
 enum { MOST = 14 };
 
-static void *indices(int64_t count, int bytes, const int64_t *values)
-{
-    void *array = input((size_t)count, (size_t)bytes);
-    for (int64_t i = 0; i < count; i++) {
-        if (bytes == 4) ((int32_t *)array)[i] = (int32_t)values[i];
-        else ((int64_t *)array)[i] = values[i];
-    }
-    return array;
-}
-
 /* A chain of springs, or any entries. */
 static signorini_sparse *a_matrix(int64_t n, int base)
 {
