@@ -46,7 +46,8 @@
  * Status. Every call that computes returns an int32_t:
  *
  *     0          solved and certified on your data: report.eta <= settings.tolerance
- *     > 0        the results are written but are not a solution: SIGNORINI_STATUS_...
+ *     > 0        the results are written but are not a solution: SIGNORINI_STATUS_...; with
+ *                SIGNORINI_STATUS_MEMORY_LIMIT nothing was written
  *     -k         the k-th argument is wrong; nothing was written
  *     <= -1000   out of memory, a file that cannot be read or written, a caught defect
  *

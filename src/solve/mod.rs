@@ -103,8 +103,8 @@ pub fn solve_flexibility(
 /// are those of dense problems of their sizes, the memory that of the largest. What was found is certified as a
 /// whole. The status is that of the worst island: a proof that one has no equilibrium is one for the whole. They are
 /// solved from the smallest to the largest, and those behind one at which a limit ended the call are left as they
-/// were at the start. [`Solution::method`] is
-/// that of the largest island with that status, and so are [`Solution::omega`] and [`Solution::damping`].
+/// were at the start. [`Solution::method`] is that of the largest island with that status, and so are
+/// [`Solution::omega`] and [`Solution::damping`].
 ///
 /// # Errors
 /// As [`solve_flexibility`]; where the largest island would need more memory than the settings allow it is named.
