@@ -6,7 +6,7 @@
 use super::equations::{Equations, Point};
 use super::system::System;
 use crate::law::Vector;
-use crate::monitor::Monitor;
+use crate::monitor::{Monitor, Stop};
 use crate::solve::candidate::{Candidate, Effort, Ending};
 use crate::solve::sweeps::Sweeper;
 
@@ -15,6 +15,10 @@ const MOST_SYSTEMS: u64 = 20;
 
 /// Part of the fall of `|H|` that a full step promises which a shortened one must keep (Armijo).
 const SUFFICIENT: f64 = 1e-4;
+
+/// Part of `|H|` that a step with the system of an earlier point may leave. Such a step costs a solve, a small part
+/// of a factorisation.
+const CHORD: f64 = 0.1;
 
 /// Shortest step: a kink of the law may lie within any longer one.
 const SHORTEST: f64 = 1e-3;
@@ -69,7 +73,13 @@ pub fn solve(
     let mut shortest = 0;
     let mut resweeps = 0;
     let mut last = f64::INFINITY;
+    let mut kept = None;
     ended.ending = loop {
+        if let Some(system) = kept.take()
+            && let Err(stop) = chords(equations, system, &mut ended.point, monitor)
+        {
+            break Ending::Stopped(stop);
+        }
         let eta = equations.eta(&ended.point.d, &ended.point.force);
         monitor.measured(eta);
         // One system at least: it finds the digits that sweeps have not, and the orientation.
@@ -98,6 +108,7 @@ pub fn solve(
             break Ending::Stalled("the forces are beyond the largest number");
         }
         shortest = if part <= SHORTEST { shortest + 1 } else { 0 };
+        kept = (part == 1.0).then_some(system);
         ended.point = match part < SHORT && resweeps < MOST_RESWEEPS {
             true => swept(equations, &next, monitor),
             false => next,
@@ -105,6 +116,34 @@ pub fn solve(
         resweeps += u32::from(part < SHORT);
     };
     ended
+}
+
+/// Steps with the system `A` of an earlier point, as long as `|H|` falls nearly as after one with a new system `J`.
+/// Takes the system: two factors never stand side by side.
+///
+/// The orientation stays that of `A`. If that of `J` differed, `A⁻¹ J` would have a negative eigenvalue, and what
+/// lies along its vector would grow with each step.
+fn chords(
+    equations: &Equations<'_>,
+    mut system: System<'_>,
+    point: &mut Point,
+    monitor: &mut Monitor<'_>,
+) -> Result<(), Stop> {
+    loop {
+        monitor.goes_on()?;
+        let Some((step, _)) = system.step(&point.lack, 0.0) else { return Ok(()) };
+        let next = Point::new(equations, moved(&point.y, &step, 1.0));
+        if !(next.merit < CHORD * point.merit) {
+            return Ok(());
+        }
+        *point = next;
+    }
+}
+
+/// `y + part dy`.
+fn moved(y: &[Vector], step: &[Vector], part: f64) -> Vec<Vector> {
+    let each = |(y, dy): (&Vector, &Vector)| std::array::from_fn(|c| y[c] + part * dy[c]);
+    y.iter().zip(step).map(each).collect()
 }
 
 /// The point after some sweeps, fewer if the time is up.
@@ -124,9 +163,7 @@ fn swept(equations: &Equations<'_>, point: &Point, monitor: &Monitor<'_>) -> Poi
 fn line_search(equations: &Equations<'_>, point: &Point, step: &[Vector]) -> (Point, f64) {
     let mut part = 1.0;
     loop {
-        let y = point.y.iter().zip(step);
-        let y = y.map(|(y, dy)| std::array::from_fn(|c| y[c] + part * dy[c])).collect();
-        let next = Point::new(equations, y);
+        let next = Point::new(equations, moved(&point.y, step, part));
         if next.merit <= (1.0 - SUFFICIENT * part) * point.merit || part <= SHORTEST {
             return (next, part);
         }
@@ -138,6 +175,5 @@ fn line_search(equations: &Equations<'_>, point: &Point, step: &[Vector]) -> (Po
 pub fn step(equations: &Equations<'_>, point: &Point) -> Option<Point> {
     let mut system = System::new(equations, (&point.pieces, &point.y), 1.0, None)?;
     let (step, _) = system.step(&point.lack, 0.0)?;
-    let y = point.y.iter().zip(&step).map(|(y, dy)| std::array::from_fn(|c| y[c] + dy[c]));
-    Some(Point::new(equations, y.collect()))
+    Some(Point::new(equations, moved(&point.y, &step, 1.0)))
 }
