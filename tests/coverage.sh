@@ -19,8 +19,9 @@ die() {
 }
 tools=$(dirname -- "$(find "$(rustc --print sysroot)" -name llvm-profdata | head -n 1)")
 [ -x "$tools/llvm-cov" ] || die "no llvm-cov: rustup component add llvm-tools"
+rm -rf -- "$work/profiles"
 mkdir -p -- "$work/profiles" "$work/programs"
-rm -f -- "$work"/profiles/*
+: >"$work/lines"
 
 # The crate and its tests are instrumented, what they depend on is not.
 cat >"$work/wrapper" <<'END'
@@ -29,23 +30,42 @@ exec "$@" -Cinstrument-coverage
 END
 chmod 755 "$work/wrapper"
 export RUSTC_WORKSPACE_WRAPPER="$work/wrapper" CARGO_TARGET_DIR="$work"
-export LLVM_PROFILE_FILE="$work/profiles/%8m.profraw"
 export SIGNORINI_PROPERTY_CASES=20 SIGNORINI_FAR_GAPS=200
+
+# Programs that run from now on leave their profiles in a directory.
+profiles_in() {
+    mkdir -p -- "$1"
+    LLVM_PROFILE_FILE=$1/%8m.profraw
+    export LLVM_PROFILE_FILE
+}
+
+# Adds what a program or library has run by the profiles of a directory. Each is read by itself: two programs hold
+# the same function in different forms, whose counts do not add.
+add_lines() {
+    "$tools/llvm-profdata" merge -sparse "$1"/*.profraw -o "$1/merged" 2>/dev/null
+    "$tools/llvm-cov" export --format=lcov --instr-profile "$1/merged" "$2" 2>/dev/null |
+        grep -E '^(SF|DA):' >>"$work/lines"
+}
 
 # ---- Rust ----
 
+profiles_in "$work/profiles/build"
 cargo test --release --locked --no-run --message-format=json >"$work/built.json"
 sed -n 's/.*"executable":"\([^"]*\)".*/\1/p' "$work/built.json" | sort -u >"$work/tests"
 while read -r test; do
     # Rules about the source, which run nothing of it.
     case ${test##*/} in style-* | layering-* | header-* | law_room-*) continue ;; esac
+    profiles_in "$work/profiles/${test##*/}"
     CARGO_MANIFEST_DIR=$root "$test" --quiet >"$work/said" 2>&1 || { cat "$work/said"; die "$test failed"; }
+    add_lines "$work/profiles/${test##*/}" "$test"
 done <"$work/tests"
 
 # ---- C, and Fortran's entries ----
 
 release=$work/release
+profiles_in "$work/profiles/build"
 cargo build --release --locked --lib
+profiles_in "$work/profiles/programs"
 soname=$(sed -n '/^version = /{s/[^0-9]*\([0-9]*\.[0-9]*\).*/\1/p;q;}' Cargo.toml)
 ln -sf libsignorini.so "$release/libsignorini.so.$soname"
 cd -- "$work/programs"
@@ -82,23 +102,15 @@ fi
 
 # ---- the table ----
 
-cd -- "$root"
-find "$work/profiles" -name '*.profraw' >"$work/raw"
-"$tools/llvm-profdata" merge -sparse -f "$work/raw" -o "$work/all.profdata"
-set -- "$release/libsignorini.so"
-while read -r test; do
-    set -- "$@" --object "$test"
-done <"$work/tests"
-"$tools/llvm-cov" export --summary-only --instr-profile "$work/all.profdata" "$@" >"$work/summary.json"
-tr '{' '\n' <"$work/summary.json" | awk -v root="$root/src/" '
-    /"filename":/ { sub(/.*"filename":"/, ""); sub(/".*/, ""); file = $0 }
-    # "lines":{"count":C,"covered":R,"percent":P}
-    previous ~ /"lines":$/ && index(file, root) == 1 {
-        split($0, part, /[:,]/)
-        count[file] = part[2]; covered[file] = part[4]
-        all += part[2]; run += part[4]; file = ""
+add_lines "$work/profiles/programs" "$release/libsignorini.so"
+awk -v root="$root/src/" '
+    /^SF:/ { file = substr($0, 4); next }
+    index(file, root) == 1 {
+        split(substr($0, 4), part, ",")
+        line = file ":" part[1]
+        if (!(line in seen)) { seen[line]; count[file]++; all++ }
+        if (part[2] > 0 && !(line in reached)) { reached[line]; covered[file]++; run++ }
     }
-    { previous = $0 }
     END {
         for (name in count)
             if (covered[name] < 0.9 * count[name])
@@ -106,4 +118,4 @@ tr '{' '\n' <"$work/summary.json" | awk -v root="$root/src/" '
                     substr(name, length(root) - 3) | "sort -n"
         close("sort -n")
         printf "%5.1f %% of %d lines of src\n", 100 * run / all, all
-    }'
+    }' "$work/lines"

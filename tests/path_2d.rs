@@ -128,6 +128,8 @@ fn solves_all_on_meshes(method: Method, pairs: usize, seeds: std::ops::Range<u64
 fn the_path_alone_solves_problems_on_meshes() {
     solves_all_on_meshes(Method::Path, 33, 0..60);
     solves_all_on_meshes(Method::Path, 65, 60..90);
+    // Above 200 pairs the walk keeps columns of its changes.
+    solves_all_on_meshes(Method::Path, 257, 90..92);
 }
 
 #[test]
