@@ -75,9 +75,10 @@ fn the_path_alone_solves_problems_with_cohesion() {
 /// Given thresholds: one solution, and `s` never turns back.
 #[test]
 fn the_path_alone_solves_problems_with_given_thresholds() {
-    for seed in 0..300 {
+    for seed in 0..302 {
         let mut rng = Rng::with_seed(seed);
-        let pairs = rng.usize(1..=30);
+        // Above 200 pairs the walk keeps columns for the changes to come.
+        let pairs = if seed < 300 { rng.usize(1..=30) } else { 220 };
         let k = definite(&mut rng, 2 * pairs, 1e4);
         let law = tresca(&mut rng, pairs);
         let case = loaded(&mut rng, 2, k, law);
@@ -128,8 +129,6 @@ fn solves_all_on_meshes(method: Method, pairs: usize, seeds: std::ops::Range<u64
 fn the_path_alone_solves_problems_on_meshes() {
     solves_all_on_meshes(Method::Path, 33, 0..60);
     solves_all_on_meshes(Method::Path, 65, 60..90);
-    // Above 200 pairs the walk keeps columns of its changes.
-    solves_all_on_meshes(Method::Path, 257, 90..92);
 }
 
 #[test]
