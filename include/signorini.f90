@@ -113,6 +113,11 @@ module signorini
     integer(c_int32_t), parameter :: SIGNORINI_TRIANGLE_FULL = 2
     integer(c_int32_t), parameter :: SIGNORINI_PAIRING_DUAL_MORTAR = 0
     integer(c_int32_t), parameter :: SIGNORINI_PAIRING_NODE_TO_SURFACE = 1
+    integer(c_int32_t), parameter :: SIGNORINI_NORMALS_AVERAGED = 0
+    integer(c_int32_t), parameter :: SIGNORINI_NORMALS_FACES = 1
+    integer(c_int32_t), parameter :: SIGNORINI_RIMS_FOLD = 0
+    integer(c_int32_t), parameter :: SIGNORINI_RIMS_KEEP = 1
+    integer(c_int32_t), parameter :: SIGNORINI_RIMS_DROP = 2
     integer(c_int32_t), parameter :: SIGNORINI_OBSTACLE_PLANE = 0
     integer(c_int32_t), parameter :: SIGNORINI_OBSTACLE_CYLINDER = 1
     integer(c_int32_t), parameter :: SIGNORINI_OBSTACLE_SPHERE = 2
@@ -255,7 +260,7 @@ module signorini
     end type
 
     type, bind(C) :: signorini_surface_settings
-        integer(c_int32_t) :: struct_size = 32 + 3 * address_bytes
+        integer(c_int32_t) :: struct_size = 40 + 3 * address_bytes
         integer(c_int32_t) :: pairing = 0
         real(c_double) :: search_distance = 0
         integer(c_int32_t) :: index_base = 0
@@ -264,10 +269,12 @@ module signorini
         integer(c_int64_t) :: symmetry_planes = 0
         type(c_ptr) :: symmetry_axes = c_null_ptr
         type(c_ptr) :: symmetry_at = c_null_ptr
+        integer(c_int32_t) :: normals = 0
+        integer(c_int32_t) :: rims = 0
     end type
 
     type, bind(C) :: signorini_surface_report
-        integer(c_int32_t) :: struct_size = 96
+        integer(c_int32_t) :: struct_size = 104
         integer(c_int32_t) :: dim = 0
         integer(c_int64_t) :: pairs = 0
         integer(c_int64_t) :: unpaired = 0
@@ -280,6 +287,7 @@ module signorini
         integer(c_int64_t) :: not_opposed = 0
         integer(c_int64_t) :: boxes_searched = 0
         integer(c_int64_t) :: on_symmetry = 0
+        integer(c_int64_t) :: dropped = 0
     end type
 
     type, bind(C) :: signorini_contact_fields
@@ -1862,13 +1870,15 @@ contains
     ! freedom of each node; absent: dofs_per_node * (node - 1) + axis, dofs_per_node absent: dim.
     ! symmetry_axes, symmetry_at: planes of symmetry of half and quarter models, the axis across each
     ! of them (1, 2, 3) and where it stands along that axis: pairs on one do not slip across it.
+    ! normals: SIGNORINI_NORMALS_AVERAGED, the default, or _FACES. rims: SIGNORINI_RIMS_FOLD, the default,
+    ! _KEEP or _DROP.
     subroutine surfaces_pair(self, coordinates, slave, master, info, pairing, search_distance, dofs, &
-            dofs_per_node, symmetry_axes, symmetry_at, message)
+            dofs_per_node, symmetry_axes, symmetry_at, normals, rims, message)
         class(contact_surfaces), intent(inout) :: self
         real(c_double), intent(in), contiguous, target :: coordinates(:, :)
         integer, intent(in) :: slave(:, :), master(:, :)
         integer, intent(out) :: info
-        integer, intent(in), optional :: pairing, dofs(:, :), dofs_per_node, symmetry_axes(:)
+        integer, intent(in), optional :: pairing, dofs(:, :), dofs_per_node, symmetry_axes(:), normals, rims
         real(c_double), intent(in), optional :: search_distance, symmetry_at(:)
         character(len=*), intent(out), optional :: message
         type(signorini_surface_settings), target :: settings
@@ -1886,6 +1896,7 @@ contains
             if (pairing /= SIGNORINI_PAIRING_DUAL_MORTAR .and. pairing /= SIGNORINI_PAIRING_NODE_TO_SURFACE) &
                 call refuse(wrong, 5, 'there is no pairing ' // text(pairing))
         end if
+        call settle_choices(wrong, 11, settings, normals, rims)
         if (refused(wrong, info, message)) return
         call check_faces(slave, of_slave, starts, nodes)
         call check_faces(master, of_master, starts2, nodes2)
@@ -1930,7 +1941,7 @@ contains
     ! faces) in nodes of its own, counted from 1; corners counterclockwise as the body sees them. The
     ! rest as for pair.
     subroutine surfaces_pair_rigid(self, coordinates, slave, rigid_coordinates, rigid_faces, info, &
-            search_distance, dofs, dofs_per_node, symmetry_axes, symmetry_at, message)
+            search_distance, dofs, dofs_per_node, symmetry_axes, symmetry_at, normals, rims, message)
         class(contact_surfaces), intent(inout) :: self
         real(c_double), intent(in), contiguous, target :: coordinates(:, :)
         integer, intent(in) :: slave(:, :)
@@ -1938,7 +1949,7 @@ contains
         integer, intent(in) :: rigid_faces(:, :)
         integer, intent(out) :: info
         real(c_double), intent(in), optional :: search_distance, symmetry_at(:)
-        integer, intent(in), optional :: dofs(:, :), dofs_per_node, symmetry_axes(:)
+        integer, intent(in), optional :: dofs(:, :), dofs_per_node, symmetry_axes(:), normals, rims
         character(len=*), intent(out), optional :: message
         type(signorini_surface_settings), target :: settings
         type(planes_of_symmetry), target :: planes
@@ -1953,6 +1964,7 @@ contains
             'rigid_coordinates and coordinates differ in their first size, the dimension')
         call settle(wrong, 6, shape(coordinates), settings, each, search_distance, dofs, dofs_per_node)
         call settle_symmetry(wrong, 9, settings, planes, symmetry_axes, symmetry_at)
+        call settle_choices(wrong, 11, settings, normals, rims)
         if (refused(wrong, info, message)) return
         call check_faces(slave, of_slave, starts, nodes)
         call check_faces(rigid_faces, of_rigid, starts2, nodes2)
@@ -2169,6 +2181,24 @@ contains
             if (any(dofs < 1)) call refuse(wrong, first + 1, 'dofs must count from 1')
             each = int([dofs], c_int64_t)
             if (size(each) > 0) settings%node_dofs = c_loc(each)
+        end if
+    end subroutine
+
+    ! Normals and what becomes of nodes at rims; normals and rims from a position on.
+    subroutine settle_choices(wrong, first, settings, normals, rims)
+        type(refusal), intent(inout) :: wrong
+        integer, intent(in) :: first
+        type(signorini_surface_settings), intent(inout) :: settings
+        integer, intent(in), optional :: normals, rims
+        if (present(normals)) then
+            settings%normals = number(normals)
+            if (normals < SIGNORINI_NORMALS_AVERAGED .or. normals > SIGNORINI_NORMALS_FACES) &
+                call refuse(wrong, first, 'there is no choice of normals ' // text(normals))
+        end if
+        if (present(rims)) then
+            settings%rims = number(rims)
+            if (rims < SIGNORINI_RIMS_FOLD .or. rims > SIGNORINI_RIMS_DROP) &
+                call refuse(wrong, first + 1, 'there is no choice of rims ' // text(rims))
         end if
     end subroutine
 

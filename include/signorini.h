@@ -788,6 +788,34 @@ int32_t signorini_prove(int32_t dim, int64_t pairs, const double *K, int64_t ldk
  */
 #define SIGNORINI_PAIRING_NODE_TO_SURFACE 1
 
+/* Normals of pairs from surfaces. */
+/** The default: the mean of the unit normals of all slave faces at the slave node. */
+#define SIGNORINI_NORMALS_AVERAGED 0
+/**
+ * Normals of the faces in contact. Dual mortar: the mean of the slave faces' normals over the part
+ * of them that lies over the master, by the node's share; faces around a sharp edge that face
+ * nothing do not turn it. Nodes against surfaces: opposite to the normal of the nearest master
+ * face, at the foot of the perpendicular on it; above an edge without one, of the face that the
+ * averaged normal meets. Which nodes have pairs does not depend on it.
+ */
+#define SIGNORINI_NORMALS_FACES 1
+
+/* What becomes of slave nodes at rims, with little of the master over them. */
+/**
+ * Slave nodes of which less than a tenth of the area lies over the master, the default: their rows
+ * are added to that of a neighbour, and uniform pressure stays exact. The choice is for dual
+ * mortar: nodes against surfaces have no cover, and take the default alone.
+ */
+#define SIGNORINI_RIMS_FOLD 0
+/**
+ * They keep pairs of their own with small areas. Uniform pressure stays exact; under others their
+ * pressures may be large, as their rows hold points in the air. With less than a millionth they are
+ * folded all the same.
+ */
+#define SIGNORINI_RIMS_KEEP 1
+/** They get no pair, and their area is left out: uniform pressure is not exact around them. */
+#define SIGNORINI_RIMS_DROP 2
+
 /* Kind of a rigid obstacle. */
 #define SIGNORINI_OBSTACLE_PLANE 0    /**< A half space, in 2D a half plane. */
 #define SIGNORINI_OBSTACLE_CYLINDER 1 /**< A round bar of any length, 3D only. */
@@ -877,6 +905,8 @@ struct signorini_surface_settings {
     int64_t symmetry_planes;
     const int32_t *symmetry_axes; /**< The axis across each plane, counted from index_base. */
     const double *symmetry_at;    /**< Where each plane stands along its axis; length. */
+    int32_t normals;              /**< SIGNORINI_NORMALS_...; default SIGNORINI_NORMALS_AVERAGED. */
+    int32_t rims;                 /**< SIGNORINI_RIMS_...; default SIGNORINI_RIMS_FOLD. */
 };
 
 /**
@@ -908,6 +938,8 @@ struct signorini_surface_report {
     int64_t not_opposed;
     int64_t boxes_searched; /**< Boxes that the search looked at: its cost. */
     int64_t on_symmetry;    /**< Pairs whose slave node stands on a plane of symmetry. */
+    /** Of the unpaired nodes those with little cover that SIGNORINI_RIMS_DROP has left out. */
+    int64_t dropped;
 };
 
 /**
@@ -962,7 +994,8 @@ int32_t signorini_surface_pair(int32_t dim, int64_t nodes, const double *coordin
  * @param coordinates  dim for each node, of all nodes; length
  * @param slave        the faces that may touch the obstacle
  * @param obstacle     the obstacle
- * @param settings     NULL: the defaults; pairing and symmetry_... are read for faces alone
+ * @param settings     NULL: the defaults; pairing, normals, rims and symmetry_... are
+ *                     read for faces alone
  * @param contact      out: the pairs; NULL unless 0 is returned
  * @param report       out: what was found; set report->struct_size before the call; may be NULL
  * @return as signorini_surface_pair

@@ -14,7 +14,7 @@ use common::mesh::Stiffness;
 use common::solids::{Cells, Order, Point, Solid};
 use fastrand::Rng;
 use signorini::reduce::{ContactPairs, Indices, SparseMatrix, Triangle};
-use signorini::surface::{Pairing, SurfacePairs, SurfaceSettings, SymmetryPlane};
+use signorini::surface::{Normals, Pairing, Rims, SurfacePairs, SurfaceSettings, SymmetryPlane};
 use signorini::{FrictionLaw, LoadCase, Model, Monitor, Settings, State, Status};
 use surfaces::{SHAPES, Shape, Sheet, TwoSheets, grid, pair};
 
@@ -301,9 +301,16 @@ fn normals_and_gaps_are_those_of_the_whole_surface() {
         let faces = [sheets.slave, sheets.master];
         let part = Bodies { dim: 3, nodes: sheets.nodes, entries: vec![], faces };
         let whole = part.reflected(0).reflected(1);
-        for pairing in [Pairing::DualMortar, Pairing::NodeToSurface] {
+        for (pairing, normals) in [
+            (Pairing::DualMortar, Normals::Averaged),
+            (Pairing::DualMortar, Normals::Faces),
+            (Pairing::NodeToSurface, Normals::Averaged),
+            (Pairing::NodeToSurface, Normals::Faces),
+        ] {
             let found = |bodies: &Bodies, symmetry| {
-                let settings = SurfaceSettings { pairing, search_distance: Some(1.0), symmetry };
+                let (search_distance, rims) = (Some(1.0), Rims::Fold);
+                let settings =
+                    SurfaceSettings { pairing, search_distance, symmetry, normals, rims };
                 pair(3, &bodies.nodes, bodies.faces.each_ref().map(|faces| &faces[..]), &settings)
                     .unwrap()
             };
@@ -314,7 +321,7 @@ fn normals_and_gaps_are_those_of_the_whole_surface() {
                 let at =
                     of_whole.pairs.binary_search_by_key(&pair.slave, |pair| pair.slave).unwrap();
                 let same = &of_whole.pairs[at];
-                let context = format!("{shape:?}, {pairing:?}, node {}", pair.slave);
+                let context = format!("{shape:?}, {pairing:?}, {normals:?}, node {}", pair.slave);
                 let on = pair.held.iter().filter(|held| **held).count();
                 let place = part.nodes[pair.slave];
                 assert_eq!(pair.held, [place[0] == 0.0, place[1] == 0.0, false], "{context}");

@@ -52,5 +52,7 @@ mod surface;
 mod surface_access;
 mod surface_fields;
 mod surface_new;
+mod surface_report;
+mod surface_settings;
 mod surface_write;
 mod thread;

@@ -6,9 +6,9 @@ use super::args::{Arrays, size};
 use super::guard::{self, Failure};
 use super::pairs::SignoriniPairs;
 use super::structures;
-use super::surface::{
-    Received, Rigid, SignoriniFaces, SignoriniObstacle, SignoriniSurfaceSettings,
-};
+use super::surface::{Rigid, SignoriniFaces, SignoriniObstacle};
+use super::surface_report::SignoriniSurfaceReport;
+use super::surface_settings::{Received, SignoriniSurfaceSettings};
 use crate::error::{Argument, Error};
 use crate::problem;
 use crate::shortage;
@@ -42,41 +42,6 @@ pub struct SignoriniSurfacePairs {
 unsafe impl Send for SignoriniSurfacePairs {}
 // SAFETY: as above.
 unsafe impl Sync for SignoriniSurfacePairs {}
-
-/// What became of the faces and nodes of a pairing. Set struct_size before the call; the call writes
-/// all other fields.
-#[repr(C)]
-#[derive(Clone, Copy)]
-pub struct SignoriniSurfaceReport {
-    /// sizeof(signorini_surface_report) in your program; no more is written.
-    pub struct_size: u32,
-    /// Space dimension.
-    pub dim: i32,
-    /// Number of pairs.
-    pub pairs: i64,
-    /// Slave nodes without a pair: signorini_surface_unpaired.
-    pub unpaired: i64,
-    /// Of these, nodes with little cover whose row is in that of a neighbour:
-    /// signorini_surface_folded.
-    pub folded: i64,
-    /// Slave faces.
-    pub slave_faces: i64,
-    /// Slave faces that lie over nothing (dual mortar): signorini_surface_uncovered.
-    pub uncovered: i64,
-    /// Area of the slave faces.
-    pub slave_area: f64,
-    /// The part of it that lies over the other side: the areas of all pairs.
-    pub covered_area: f64,
-    /// The search distance that was used.
-    pub search_distance: f64,
-    /// How often a master face was near a slave whose normal does not oppose the slave's. If there
-    /// are no pairs, and this is not 0, one side is turned over.
-    pub not_opposed: i64,
-    /// Boxes that the search looked at: its cost.
-    pub boxes_searched: i64,
-    /// Pairs whose slave node stands on a plane of symmetry.
-    pub on_symmetry: i64,
-}
 
 /// Makes contact pairs from two surfaces that may touch. signorini_surface_rows gives them to
 /// signorini_model_new_sparse, signorini_surface_gaps to signorini_model_solve.
@@ -140,7 +105,8 @@ pub unsafe extern "C" fn signorini_surface_pair(
 /// @param coordinates  dim for each node, of all nodes; length
 /// @param slave        the faces that may touch the obstacle
 /// @param obstacle     the obstacle
-/// @param settings     NULL: the defaults; pairing and symmetry_... are read for faces alone
+/// @param settings     NULL: the defaults; pairing, normals, rims and symmetry_... are
+///                     read for faces alone
 /// @param contact      out: the pairs; NULL unless 0 is returned
 /// @param report       out: what was found; set report->struct_size before the call; may be NULL
 /// @return as signorini_surface_pair
@@ -281,25 +247,6 @@ impl SignoriniSurfacePairs {
         let dofs = self.received.dofs();
         (0..self.nodes).flat_map(|node| dofs.of(node, self.found.dim)).collect()
     }
-
-    fn report(&self) -> SignoriniSurfaceReport {
-        let (found, report) = (&self.found, &self.found.report);
-        SignoriniSurfaceReport {
-            struct_size: size_of::<SignoriniSurfaceReport>() as u32,
-            dim: found.dim as i32,
-            pairs: found.pairs.len() as i64,
-            unpaired: found.unpaired.len() as i64,
-            folded: report.folded.len() as i64,
-            slave_faces: report.slave_faces as i64,
-            uncovered: report.uncovered_faces.len() as i64,
-            slave_area: report.slave_area,
-            covered_area: report.covered_area,
-            search_distance: report.search_distance,
-            not_opposed: report.not_opposed as i64,
-            boxes_searched: report.boxes_searched as i64,
-            on_symmetry: found.on_symmetry().count() as i64,
-        }
-    }
 }
 
 /// Where new pairs and their report go; NULL until they exist.
@@ -341,7 +288,7 @@ impl Place {
         // SAFETY: by the caller's contract.
         unsafe {
             if !self.1.is_null() {
-                structures::write(&made.report(), self.1);
+                structures::write(&SignoriniSurfaceReport::of(&made.found), self.1);
             }
             self.0.write(Box::into_raw(made));
         }

@@ -24,10 +24,10 @@ mod clip;
 mod control;
 mod face;
 mod fields;
-mod fold;
 mod mesh;
 mod mortar;
 mod node_to_surface;
+mod normals;
 mod obstacle;
 mod overlap;
 mod pairs;
@@ -35,6 +35,7 @@ mod plane;
 mod projected_shapes;
 mod quadrature;
 mod rigid;
+mod rims;
 mod row;
 mod self_overlap;
 mod settings;
@@ -48,7 +49,7 @@ pub use mesh::{Faces, Surfaces};
 pub use obstacle::{Obstacle, pair_with_obstacle};
 pub use pairs::{NodeDofs, PairArrays, SurfacePair, SurfacePairs, SurfaceReport, Weight};
 pub use rigid::{RigidSurface, pair_with_rigid_surface};
-pub use settings::{Pairing, SurfaceSettings};
+pub use settings::{Normals, Pairing, Rims, SurfaceSettings};
 pub use shape::FaceKind;
 pub use symmetry::SymmetryPlane;
 
@@ -69,7 +70,8 @@ use symmetry::OnPlanes;
 ///   sides, faces of one side that lie upon each other, master faces over each other (of masters with
 ///   [`Pairing::DualMortar`] alone: otherwise the nearest counts);
 /// - [`Argument::Settings`]: a search distance that is not positive; a plane of symmetry across no axis of the space,
-///   with slave nodes on both sides, or with slave faces in it.
+///   with slave nodes on both sides, or with slave faces in it; a choice for rims with
+///   [`Pairing::NodeToSurface`].
 pub fn pair_surfaces(
     surfaces: &Surfaces<'_>,
     settings: &SurfaceSettings,
@@ -83,6 +85,7 @@ fn pair_sides(
     dim: usize,
     settings: &SurfaceSettings,
 ) -> Result<SurfacePairs, Error> {
+    settings.check()?;
     let largest = || (0..slave.count()).map(|face| slave.face(face).size()).fold(0.0, f64::max);
     let reach = settings::reach(settings.search_distance, largest)?;
     let planes = OnPlanes::new(slave, dim, &settings.symmetry)?;
@@ -94,7 +97,9 @@ fn pair_sides(
     let candidates = Candidates::new(opposite, reach);
     let sides = [slave, master];
     match settings.pairing {
-        Pairing::DualMortar => mortar::pairs(sides, dim, &planes, candidates),
-        Pairing::NodeToSurface => node_to_surface::pairs(sides, dim, &planes, candidates),
+        Pairing::DualMortar => mortar::pairs(sides, dim, &planes, candidates, settings),
+        Pairing::NodeToSurface => {
+            node_to_surface::pairs(sides, dim, &planes, candidates, settings.normals)
+        }
     }
 }

@@ -12,17 +12,20 @@ use std::collections::BTreeMap;
 use super::candidates::{Candidates, middle_normal};
 use super::control::Edges;
 use super::face::Face;
-use super::fold;
 use super::mesh::Side;
+use super::normals::{at_nodes, direction};
 use super::overlap::{Overlaps, SlaveFace};
 use super::pairs::{SurfacePair, SurfacePairs, SurfaceReport};
 use super::plane::Plane;
 use super::projected_shapes::{Covered, Opposite, Polynomials};
+use super::rims;
 use super::row::Row;
+use super::settings::{Normals, SurfaceSettings};
 use super::shape::{FaceKind, Values};
 use super::symmetry::OnPlanes;
 use super::whole_faces::unit_values;
-use crate::error::{Error, index};
+use crate::error::{Argument, Error, index};
+use crate::linalg::vector3::Vector3;
 
 /// A face that lacks less than this share of cover is covered wholly, and one that has more than all of
 /// it by more than this share lies under two faces: far above the rounding of edges.
@@ -30,6 +33,8 @@ const COVER: f64 = 1e-6;
 
 /// A slave face that lies over master faces.
 struct CoveredFace<'a> {
+    /// Its place among the slave faces.
+    at: usize,
     kind: FaceKind,
     nodes: &'a [usize],
     covered: Covered,
@@ -55,6 +60,7 @@ pub(super) fn pairs(
     dim: usize,
     planes: &OnPlanes,
     candidates: Candidates,
+    settings: &SurfaceSettings,
 ) -> Result<SurfacePairs, Error> {
     let mut report = SurfaceReport {
         search_distance: candidates.reach,
@@ -62,34 +68,39 @@ pub(super) fn pairs(
         ..SurfaceReport::default()
     };
     let (overlaps, polynomials) = (Overlaps::default(), Polynomials::default());
+    let SurfaceSettings { normals, rims, .. } = *settings;
     let search = &mut Search { candidates, overlaps, polynomials };
     let mut faces = Vec::new();
     for at in 0..slave.count() {
         let face = slave.face(at);
         let whole = face.integrals();
         report.slave_area += whole.iter().sum::<f64>();
-        match cover([slave, master], (at, &face), dim, search)? {
-            Some((covered, wholly)) => {
-                let Face { kind, nodes, .. } = face;
-                faces.push(CoveredFace { kind, nodes, covered, whole, wholly });
-            }
+        match cover([slave, master], (at, &face, whole), dim, search)? {
+            Some(face) => faces.push(face),
             None => report.uncovered_faces.push(at),
         }
     }
     report.boxes_searched = search.candidates.searched;
     report.not_opposed = search.candidates.not_opposed;
-    let mut rows = rows(&faces);
+    let mut rows = rows(slave, &faces, normals);
     let around = faces.iter().map(|face| face.nodes);
-    report.folded = fold::fold(&mut rows, around, |node| slave.position(node));
-    let normals = slave.node_normals_on(planes)?;
+    let little = rims::settle(rims, &mut rows, around, |node| slave.position(node));
+    (report.folded, report.dropped) = (little.folded, little.dropped);
+    let averaged = match normals {
+        Normals::Averaged => Some(slave.node_normals_on(planes)?),
+        Normals::Faces => None,
+    };
     let pairs: Vec<SurfacePair> = rows
         .into_iter()
         .map(|(node, row)| {
             let area = row.area;
+            let normal = match &averaged {
+                Some(normals) => normals[&node],
+                None => planes.turned(node, normal_of_faces(node, &row)?),
+            };
             let weights = row.into_weights();
             let points = (slave.point(&weights[0]), Some(master.point(&weights[1])));
-            let pair = SurfacePair::new(dim, (node, area), weights, normals[&node], points);
-            planes.hold(pair)
+            planes.hold(SurfacePair::new(dim, (node, area), weights, normal, points))
         })
         .collect::<Result<_, Error>>()?;
     report.covered_area = pairs.iter().map(|pair| pair.area).sum();
@@ -98,13 +109,21 @@ pub(super) fn pairs(
     Ok(SurfacePairs { dim, pairs, unpaired, report })
 }
 
-/// What a slave face lies over, and whether that is all of it.
-fn cover(
-    [slave, master]: [&Side<'_>; 2],
-    (at, face): (usize, &Face<'_>),
+/// The normal of a row from those of the faces in contact.
+fn normal_of_faces(node: usize, row: &Row) -> Result<Vector3, Error> {
+    direction(row.normal, row.area).ok_or_else(|| {
+        let message = format!("the normals of the slave faces at node {} cancel", index(node));
+        Error::invalid(Argument::SlaveFaces, message)
+    })
+}
+
+/// What a slave face lies over. `whole` are the integrals of its shape functions over all of it.
+fn cover<'a>(
+    [slave, master]: [&Side<'a>; 2],
+    (at, face, whole): (usize, &Face<'a>, Values),
     dim: usize,
     search: &mut Search,
-) -> Result<Option<(Covered, bool)>, Error> {
+) -> Result<Option<CoveredFace<'a>>, Error> {
     let normal = middle_normal(face);
     let plane = Plane::new(dim, face.position(face.kind.centre()), normal);
     let in_plane = SlaveFace::new(face, plane);
@@ -144,19 +163,24 @@ fn cover(
         return Err(slave.refuse(at, &what));
     }
     let covered = polynomials.project(face.kind, &overlaps.points, &parts);
-    Ok(Some((covered, cover >= 1.0 - COVER)))
+    let (kind, nodes, wholly) = (face.kind, face.nodes, cover >= 1.0 - COVER);
+    Ok(Some(CoveredFace { at, kind, nodes, covered, whole, wholly }))
 }
 
-/// The rows of all nodes with cover, by node.
-fn rows(faces: &[CoveredFace<'_>]) -> BTreeMap<usize, Row> {
+/// The rows of all nodes with cover, by node. `whose` are the normals that they have.
+fn rows(slave: &Side<'_>, faces: &[CoveredFace<'_>], whose: Normals) -> BTreeMap<usize, Row> {
     let mut edges = Edges::default();
     for CoveredFace { kind, nodes, wholly, .. } in faces {
         edges.add(*kind, nodes, *wholly);
     }
     let mut rows: BTreeMap<usize, Row> = BTreeMap::new();
     let (mut masters, mut own) = (Vec::new(), Vec::new());
-    for CoveredFace { kind, nodes, covered, whole, wholly } in faces {
+    for CoveredFace { at, kind, nodes, covered, whole, wholly } in faces {
         let basis = edges.basis(*kind, nodes, *wholly);
+        let normals = match whose {
+            Normals::Averaged => Default::default(),
+            Normals::Faces => at_nodes(&slave.face(*at)),
+        };
         let areas = basis.functions(covered.integrals);
         let whole = basis.functions(*whole);
         let control = |(node, values)| (node, basis.control_values(values));
@@ -171,6 +195,7 @@ fn rows(faces: &[CoveredFace<'_>]) -> BTreeMap<usize, Row> {
             row.whole += whole[j];
             row.slaves.extend(own.iter().map(scaled).filter(|(_, weight)| *weight != 0.0));
             row.masters.extend(masters.iter().map(scaled));
+            row.normal += areas[j] * normals[j];
         }
     }
     rows

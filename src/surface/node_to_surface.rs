@@ -2,20 +2,25 @@
 //! the face's shape functions there are the weights.
 //!
 //! The normal of the slave decides and not the closest point: its rays do not miss the wedges that the
-//! faces of a curved master leave between their own normals. On quadratic slave faces the rows are those
+//! faces of a curved master leave between their own normals. If pairs shall have the normals of master faces, the
+//! point is the foot of the nearest perpendicular on one, so that forces still balance moments; only in a wedge
+//! it is the point that the ray meets. On quadratic slave faces the rows are those
 //! of control values (see `control`), without which corners would carry no area.
 
 use std::collections::BTreeMap;
 
 use super::candidates::Candidates;
+use super::face::Face;
 use super::mesh::Side;
+use super::normals::foot;
 use super::pairs::{SurfacePair, SurfacePairs, SurfaceReport, Weight};
 use super::plane::Plane;
+use super::settings::Normals;
 use super::shape::{FaceKind, Local};
 use super::symmetry::OnPlanes;
 use super::whole_faces::whole_rows;
 use crate::error::Error;
-use crate::linalg::vector3::Vector3;
+use crate::linalg::vector3::{Vector3, unit};
 
 /// A point is on a face if its local coordinates are beyond it by less than this: nodes that stand on
 /// the rim by construction miss it by rounding.
@@ -31,29 +36,63 @@ fn is_on(kind: FaceKind, [s, t]: Local) -> bool {
 /// Corners of a triangle.
 const TRIANGLE: usize = 3;
 
-/// The weights of the master point that a node meets, the nearest if there are several.
+/// A point of a master face that a slave node meets.
+struct Meeting {
+    distance: f64,
+    /// The face's nodes with its shape functions there.
+    weights: Vec<Weight>,
+    /// The unit normal of the pair, outward from the slave's body.
+    normal: Vector3,
+}
+
+impl Meeting {
+    /// The point at local coordinates, if it is on the face and within reach.
+    fn new(
+        face: &Face<'_>,
+        (at, normal): (Local, Vector3),
+        (distance, reach): (f64, f64),
+    ) -> Option<Meeting> {
+        let weights = || face.nodes.iter().copied().zip(face.kind.values(at)).collect();
+        let meets = is_on(face.kind, at) && distance <= reach;
+        meets.then(|| Meeting { distance, weights: weights(), normal })
+    }
+}
+
+/// The nearest meeting; of several the first one.
+fn nearest(meetings: impl Iterator<Item = Meeting>) -> Option<Meeting> {
+    meetings.min_by(|a, b| a.distance.total_cmp(&b.distance))
+}
+
+/// The master point that a node with an averaged normal meets, the nearest if there are several.
 fn meets(
     master: &Side<'_>,
-    (x, normal): (Vector3, Vector3),
-    dim: usize,
+    (x, averaged): (Vector3, Vector3),
+    (dim, normals): (usize, Normals),
     candidates: &mut Candidates,
-) -> Option<Vec<Weight>> {
-    let plane = Plane::new(dim, x, normal);
+) -> Option<Meeting> {
+    let plane = Plane::new(dim, x, averaged);
     let reach = candidates.reach;
-    let mut best: Option<(f64, Vec<Weight>)> = None;
-    for &at in candidates.of_point(x, normal) {
-        let face = master.face(at);
+    let found = candidates.of_point(x, averaged);
+    let faces = || found.iter().map(|&at| master.face(at));
+    let along_ray = nearest(faces().filter_map(|face| {
         let flat = plane.flatten(&face);
-        let Some(local) = flat.local([0.0; 2]).filter(|local| is_on(face.kind, *local)) else {
-            continue;
+        let at = flat.local([0.0; 2])?;
+        let normal = match normals {
+            Normals::Averaged => averaged,
+            Normals::Faces => -unit(face.outward(at))?,
         };
-        let distance = flat.height(local).abs();
-        if distance <= reach && best.as_ref().is_none_or(|(least, _)| distance < *least) {
-            let weights = face.nodes.iter().copied().zip(face.kind.values(local)).collect();
-            best = Some((distance, weights));
-        }
+        Meeting::new(&face, (at, normal), (flat.height(at).abs(), reach))
+    }))?;
+    if normals == Normals::Averaged {
+        return Some(along_ray);
     }
-    best.map(|(_, weights)| weights)
+    // On the face that the ray meets it is no further; another one further away is no neighbour.
+    let reach = (1.0 + BEYOND) * along_ray.distance;
+    let perpendicular = faces().filter_map(|face| {
+        let (at, outward) = foot(&face, x, dim)?;
+        Meeting::new(&face, (at, -outward), ((face.position(at) - x).norm(), reach))
+    });
+    Some(nearest(perpendicular).unwrap_or(along_ray))
 }
 
 /// The pairs of two sides.
@@ -65,13 +104,14 @@ pub(super) fn pairs(
     dim: usize,
     planes: &OnPlanes,
     mut candidates: Candidates,
+    normals: Normals,
 ) -> Result<SurfacePairs, Error> {
-    let normals = slave.node_normals_on(planes)?;
-    let mut met: BTreeMap<usize, Vec<Weight>> = BTreeMap::new();
+    let averaged = slave.node_normals_on(planes)?;
+    let mut met: BTreeMap<usize, Meeting> = BTreeMap::new();
     for node in slave.all_nodes() {
-        let ray = (slave.position(node), normals[&node]);
-        if let Some(weights) = meets(master, ray, dim, &mut candidates) {
-            met.insert(node, weights);
+        let ray = (slave.position(node), averaged[&node]);
+        if let Some(meeting) = meets(master, ray, (dim, normals), &mut candidates) {
+            met.insert(node, meeting);
         }
     }
     let mut found = SurfacePairs { dim, ..SurfacePairs::default() };
@@ -89,13 +129,14 @@ pub(super) fn pairs(
             continue;
         }
         for (slave, part) in &row.slaves {
-            let parts = met[slave].iter().map(|(node, weight)| (*node, part * weight));
+            let parts = met[slave].weights.iter().map(|(node, weight)| (*node, part * weight));
             row.masters.extend(parts);
         }
         let area = row.area;
         let weights = row.into_weights();
         let points = (slave.point(&weights[0]), Some(master.point(&weights[1])));
-        let pair = SurfacePair::new(dim, (node, area), weights, normals[&node], points);
+        let normal = planes.turned(node, met[&node].normal);
+        let pair = SurfacePair::new(dim, (node, area), weights, normal, points);
         found.pairs.push(planes.hold(pair)?);
         report.covered_area += area;
     }

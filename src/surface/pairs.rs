@@ -50,6 +50,8 @@ pub struct SurfaceReport {
     pub uncovered_faces: Vec<usize>,
     /// Nodes with little cover, each with the node whose pair has taken in its row.
     pub folded: Vec<(usize, usize)>,
+    /// Nodes with little cover that were left out, by [`Rims::Drop`](super::Rims::Drop).
+    pub dropped: Vec<usize>,
     /// Master faces near a slave face whose normals do not oppose its own. If no pair was found and
     /// there are many of them, one side is turned over.
     pub not_opposed: usize,
@@ -83,7 +85,7 @@ pub struct SurfacePairs {
     pub dim: usize,
     /// The pairs, by slave node.
     pub pairs: Vec<SurfacePair>,
-    /// Slave nodes without a pair: nothing lies over them, or their row went to a neighbour.
+    /// Slave nodes without a pair: nothing lies over them, or they have little cover and were folded or dropped.
     pub unpaired: Vec<usize>,
     /// What else there is to say.
     pub report: SurfaceReport,
@@ -212,12 +214,17 @@ impl SurfacePairs {
         let SurfaceReport { slave_area, covered_area, search_distance, not_opposed, .. } =
             self.report;
         let (pairs, unpaired) = (self.pairs.len(), self.unpaired.len());
+        let dropped = self.report.dropped.len();
         if pairs > 0 {
             let (folded, cover) = (self.report.folded.len(), 100.0 * covered_area / slave_area);
             let found = format!(
                 "{pairs} pairs on {cover:.2} % of the slave area; {unpaired} slave nodes without a \
                  pair, {folded} of them in the pair of a neighbour"
             );
+            let found = match dropped {
+                0 => found,
+                _ => format!("{found}, {dropped} of them dropped with little cover"),
+            };
             return match self.on_symmetry().count() {
                 0 => found,
                 on => format!("{found}; {on} of the pairs on planes of symmetry"),
@@ -225,6 +232,12 @@ impl SurfacePairs {
         }
         if unpaired == 0 {
             return "no pairs: there are no slave faces".into();
+        }
+        if dropped > 0 {
+            return format!(
+                "no pairs: all {dropped} slave nodes over the other side have little cover, and \
+                            such nodes are dropped"
+            );
         }
         let found = format!(
             "no pairs: nothing lies opposite the {} slave faces within {search_distance}",

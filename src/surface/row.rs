@@ -2,6 +2,7 @@
 
 use super::pairs::Weight;
 use crate::linalg::tolerances::ROUNDING;
+use crate::linalg::vector3::Vector3;
 
 /// `D_j` times the row of a node: `D_j û_j - Σ_k M_jk u_k`.
 #[derive(Clone, Debug, Default)]
@@ -14,6 +15,9 @@ pub(super) struct Row {
     pub(super) slaves: Vec<Weight>,
     /// Master nodes likewise.
     pub(super) masters: Vec<Weight>,
+    /// The faces' unit normals at the node times its areas on them, of length `D_j` if they agree; zero if
+    /// nobody asks for it.
+    pub(super) normal: Vector3,
 }
 
 impl Row {
@@ -26,6 +30,7 @@ impl Row {
     pub(super) fn take_in(&mut self, other: Row) {
         self.area += other.area;
         self.whole += other.whole;
+        self.normal += other.normal;
         self.slaves.extend(other.slaves);
         self.masters.extend(other.masters);
     }

@@ -15,6 +15,38 @@ pub enum Pairing {
     NodeToSurface,
 }
 
+/// The normal of a pair.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Normals {
+    /// The mean of the unit normals of all slave faces at the slave node: it varies smoothly over meshes of
+    /// curved surfaces.
+    #[default]
+    Averaged,
+    /// Of the faces in contact. By dual mortar the mean of the unit normals at the node of the slave faces that
+    /// lie over the master, by the node's share of the area that does: faces around a sharp edge that face
+    /// nothing do not turn it. Nodes against surfaces: opposite to the normal of the master face that the node stands
+    /// nearest to, at the foot of the perpendicular; beyond an edge of the master, where there is no foot,
+    /// that of the face which the averaged normal meets, where it meets it. Which nodes have pairs does not
+    /// depend on it.
+    Faces,
+}
+
+/// What becomes of slave nodes at rims: those of which less than a tenth of their share of the slave faces'
+/// area lies over the master. Of dual mortar; nodes against surfaces have no cover.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Rims {
+    /// Their rows are added to that of a neighbour: uniform pressure stays exact.
+    #[default]
+    Fold,
+    /// They keep pairs of their own, with small areas. Uniform pressure stays exact, but under others the
+    /// pressures of these nodes may be large, and their rows hold points in the air by masters beside them. With
+    /// less than a millionth of cover, where a row would be rounding, they are folded all the same.
+    Keep,
+    /// They get no pair, and the area that they would carry is left out: uniform pressure is not exact
+    /// around them.
+    Drop,
+}
+
 /// Settings of the pairing.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SurfaceSettings {
@@ -26,6 +58,23 @@ pub struct SurfaceSettings {
     /// Planes of symmetry of half and quarter models. A pair whose slave node stands on one neither moves nor carries
     /// a force across it, as in the whole body, and its normal is in the plane.
     pub symmetry: Vec<SymmetryPlane>,
+    /// Normals of the pairs.
+    pub normals: Normals,
+    /// What becomes of nodes with little cover.
+    pub rims: Rims,
+}
+
+impl SurfaceSettings {
+    /// # Errors
+    /// A choice for rims where nodes have no cover.
+    pub(super) fn check(&self) -> Result<(), Error> {
+        if self.pairing == Pairing::NodeToSurface && self.rims != Rims::Fold {
+            let message = "rims: nodes against surfaces have no cover that a rim could be told by: leave the \
+                           default, or pair by dual mortar";
+            return Err(Error::invalid(Argument::Settings, message));
+        }
+        Ok(())
+    }
 }
 
 /// The search distance, if it is one, or another one if it is not given.

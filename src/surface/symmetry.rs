@@ -81,17 +81,13 @@ impl OnPlanes {
         Ok(found)
     }
 
-    /// Takes from the normals of slave nodes what is across their planes. One that is across its plane, as in a face
-    /// that lies in it, stays.
-    fn turn(&self, normals: &mut HashMap<usize, Vector3>) {
-        for (node, axes) in &self.axes {
-            let Some(normal) = normals.get_mut(node) else { continue };
-            let mut along = *normal;
-            (0..3).filter(|&axis| axes[axis]).for_each(|axis| along[axis] = 0.0);
-            if along.norm() > LEAST_NORMAL {
-                *normal = unit(along).unwrap_or(*normal);
-            }
-        }
+    /// The unit normal of a slave node without what is across its planes, as the mean with its mirror images is. One
+    /// that is across its plane, as in a face that lies in it, stays.
+    pub(super) fn turned(&self, node: usize, normal: Vector3) -> Vector3 {
+        let Some(axes) = self.axes.get(&node) else { return normal };
+        let mut along = normal;
+        (0..3).filter(|&axis| axes[axis]).for_each(|axis| along[axis] = 0.0);
+        if along.norm() > LEAST_NORMAL { unit(along).unwrap_or(normal) } else { normal }
     }
 
     /// The pair, held across the planes on which its slave node stands.
@@ -122,7 +118,7 @@ impl Side<'_> {
         planes: &OnPlanes,
     ) -> Result<HashMap<usize, Vector3>, Error> {
         let mut normals = self.node_normals()?;
-        planes.turn(&mut normals);
+        normals.iter_mut().for_each(|(node, normal)| *normal = planes.turned(*node, *normal));
         Ok(normals)
     }
 }

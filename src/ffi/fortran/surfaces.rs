@@ -5,11 +5,11 @@ use libc::c_char;
 use super::super::guard::Failure;
 use super::super::model_new::signorini_model_new_sparse_within;
 use super::super::settings::SignoriniSettings;
-use super::super::surface::{
-    SIGNORINI_PAIRING_DUAL_MORTAR, SIGNORINI_PAIRING_NODE_TO_SURFACE, SignoriniFaces,
-    SignoriniSurfaceSettings,
-};
+use super::super::surface::SignoriniFaces;
 use super::super::surface_new::{SignoriniSurfacePairs, signorini_surface_pair};
+use super::super::surface_settings::{
+    SIGNORINI_PAIRING_DUAL_MORTAR, SIGNORINI_PAIRING_NODE_TO_SURFACE, SignoriniSurfaceSettings,
+};
 use super::arguments::{Integer, choice, count, dimension, read, run, write};
 use super::handles::Handles;
 use super::message::fill;
@@ -50,15 +50,11 @@ pub(super) unsafe fn pair<I: Integer>(
         let slave = Faces::read((5, "LSL"), lsl, (6, "NSL"), nsl, (7, "SLAVE"), slave)?;
         let master = Faces::read((8, "LMA"), lma, (9, "NMA"), nma, (10, "MASTER"), master)?;
         let settings = SignoriniSurfaceSettings {
-            struct_size: size_of::<SignoriniSurfaceSettings>() as u32,
             pairing: pairing(pairng)?,
             search_distance: read(12, "DIST", dist)?,
             index_base: 1,
             dofs_per_node: dofs as i32,
-            node_dofs: std::ptr::null(),
-            symmetry_planes: 0,
-            symmetry_axes: std::ptr::null(),
-            symmetry_at: std::ptr::null(),
+            ..SignoriniSurfaceSettings::default_one()
         };
         let (slave, master) = (slave.view(), master.view());
         let (slave, master) = (&raw const slave, &raw const master);

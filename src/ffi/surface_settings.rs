@@ -1,0 +1,209 @@
+//! How a host wants surfaces to be paired.
+
+use super::args::{Arrays, size};
+use super::guard::{self, Failure};
+use super::sparse::shifted;
+use super::structures;
+use crate::surface::{Normals, Pairing, Rims, SurfaceSettings, SymmetryPlane};
+
+/// Dual mortar, the default: a uniform pressure passes between any two flat meshes.
+pub const SIGNORINI_PAIRING_DUAL_MORTAR: i32 = 0;
+/// Each slave node against the point that it meets along its normal. Forces and moments balance;
+/// the pressure between meshes that do not match is wrong by some percent.
+pub const SIGNORINI_PAIRING_NODE_TO_SURFACE: i32 = 1;
+
+/// The default: the mean of the unit normals of all slave faces at the slave node.
+pub const SIGNORINI_NORMALS_AVERAGED: i32 = 0;
+/// Normals of the faces in contact. Dual mortar: the mean at the slave node over those faces that lie
+/// over the master, by the node's share of the area that does; faces around a sharp edge that face
+/// nothing do not turn it. Nodes against surfaces: opposite to the normal of the nearest master
+/// face, at the foot of the perpendicular on it; above an edge without one, of the face that the
+/// averaged normal meets. Which nodes have pairs does not depend on it.
+pub const SIGNORINI_NORMALS_FACES: i32 = 1;
+
+/// Slave nodes of which less than a tenth of the area lies over the master, the default: their rows
+/// are added to that of a neighbour, and uniform pressure stays exact. The choice is for dual
+/// mortar: nodes against surfaces have no cover, and take the default alone.
+pub const SIGNORINI_RIMS_FOLD: i32 = 0;
+/// They keep pairs of their own with small areas. Uniform pressure stays exact; under others their
+/// pressures may be large, as their rows hold points in the air. With less than a millionth they are
+/// folded all the same.
+pub const SIGNORINI_RIMS_KEEP: i32 = 1;
+/// They get no pair, and their area is left out: uniform pressure is not exact around them.
+pub const SIGNORINI_RIMS_DROP: i32 = 2;
+
+/// How surfaces are paired. Fill it by signorini_surface_settings_default(), then change what you
+/// like.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct SignoriniSurfaceSettings {
+    /// sizeof(signorini_surface_settings).
+    pub struct_size: u32,
+    /// SIGNORINI_PAIRING_...; default SIGNORINI_PAIRING_DUAL_MORTAR.
+    pub pairing: i32,
+    /// Largest distance along the normal at which surfaces are paired, open or overlapping; length.
+    /// Default 0: the size of the largest slave face; against an obstacle that is not of faces no
+    /// limit, as +infinity.
+    pub search_distance: f64,
+    /// 0 or 1: the number of the first node, of the first entry of start and of the first degree of
+    /// freedom, here and in what the pairs tell; default 0. Take the one of your matrix.
+    pub index_base: i32,
+    /// Degrees of freedom of each node, of which the first dim are its displacements, such as 6;
+    /// default 0: dim. Not read if node_dofs is given.
+    pub dofs_per_node: i32,
+    /// Degrees of freedom of each node, dim for each, counted from index_base; default NULL:
+    /// dofs_per_node * node + axis.
+    pub node_dofs: *const i64,
+    /// Number of planes of symmetry of a half or quarter model; default 0. A pair whose slave node
+    /// stands on one neither moves nor carries a force across it, as in the whole body, and its
+    /// normal is in the plane. Fix the nodes on the plane across it as without contact.
+    pub symmetry_planes: i64,
+    /// The axis across each plane, counted from index_base.
+    pub symmetry_axes: *const i32,
+    /// Where each plane stands along its axis; length.
+    pub symmetry_at: *const f64,
+    /// SIGNORINI_NORMALS_...; default SIGNORINI_NORMALS_AVERAGED.
+    pub normals: i32,
+    /// SIGNORINI_RIMS_...; default SIGNORINI_RIMS_FOLD.
+    pub rims: i32,
+}
+
+/// Settings of a pairing as the host gave them.
+pub(super) struct Received {
+    pub(super) settings: SurfaceSettings,
+    pub(super) base: i64,
+    /// Degrees of freedom of each node if they are in order.
+    pub(super) per_node: usize,
+    /// Or all of them.
+    pub(super) listed: Option<Vec<usize>>,
+}
+
+impl SignoriniSurfaceSettings {
+    pub(super) fn default_one() -> Self {
+        SignoriniSurfaceSettings {
+            struct_size: size_of::<Self>() as u32,
+            pairing: SIGNORINI_PAIRING_DUAL_MORTAR,
+            search_distance: 0.0,
+            index_base: 0,
+            dofs_per_node: 0,
+            node_dofs: std::ptr::null(),
+            symmetry_planes: 0,
+            symmetry_axes: std::ptr::null(),
+            symmetry_at: std::ptr::null(),
+            normals: SIGNORINI_NORMALS_AVERAGED,
+            rims: SIGNORINI_RIMS_FOLD,
+        }
+    }
+
+    /// Reads the caller's structure, NULL for the defaults, for `nodes` nodes of `dim` coordinates.
+    ///
+    /// # Safety
+    /// The structure and its array are as the header demands.
+    pub(super) unsafe fn read(
+        position: i32,
+        pointer: *const Self,
+        (dim, nodes): (usize, usize),
+    ) -> Result<Received, Failure> {
+        let refuse = |message: String| Err(Failure::argument(position, message));
+        let mut given = Self::default_one();
+        if !pointer.is_null() {
+            // SAFETY: by the caller's contract.
+            given = unsafe { structures::read(position, "settings", pointer, given)? };
+        }
+        let (pairing, normals, rims) = given.choices(position)?;
+        let base = i64::from(given.index_base);
+        if base != 0 && base != 1 {
+            return refuse(format!("settings: index_base is {base}, it must be 0 or 1"));
+        }
+        let per_node = match given.dofs_per_node {
+            0 => dim,
+            other => usize::try_from(other).unwrap_or_default(),
+        };
+        if per_node < dim {
+            let told = given.dofs_per_node;
+            return refuse(format!(
+                "settings: dofs_per_node is {told}, it must be 0 or at least dim {dim}"
+            ));
+        }
+        // SAFETY: an array of `dim` for each node by contract; the coordinates have as many.
+        let dofs = unsafe {
+            Arrays::default().optional(position, "node_dofs", given.node_dofs, dim * nodes)?
+        };
+        let listed = match dofs {
+            Some(dofs) => Some(shifted(position, "settings: node_dofs", dofs, base)?),
+            None => None,
+        };
+        let search_distance = Some(given.search_distance).filter(|distance| *distance != 0.0);
+        // SAFETY: arrays of as many entries as there are planes, by contract.
+        let symmetry = unsafe { given.symmetry(position)? };
+        let settings = SurfaceSettings { pairing, search_distance, symmetry, normals, rims };
+        Ok(Received { settings, base, per_node, listed })
+    }
+
+    /// How pairs are made, their normals, and what becomes of nodes at rims.
+    fn choices(&self, position: i32) -> Result<(Pairing, Normals, Rims), Failure> {
+        let none = |kind: &str, number: i32| {
+            Err(Failure::argument(position, format!("settings: there is no {kind} {number}")))
+        };
+        let pairing = match self.pairing {
+            SIGNORINI_PAIRING_DUAL_MORTAR => Pairing::DualMortar,
+            SIGNORINI_PAIRING_NODE_TO_SURFACE => Pairing::NodeToSurface,
+            other => return none("pairing", other),
+        };
+        let normals = match self.normals {
+            SIGNORINI_NORMALS_AVERAGED => Normals::Averaged,
+            SIGNORINI_NORMALS_FACES => Normals::Faces,
+            other => return none("choice of normals", other),
+        };
+        let rims = match self.rims {
+            SIGNORINI_RIMS_FOLD => Rims::Fold,
+            SIGNORINI_RIMS_KEEP => Rims::Keep,
+            SIGNORINI_RIMS_DROP => Rims::Drop,
+            other => return none("choice of rims", other),
+        };
+        Ok((pairing, normals, rims))
+    }
+
+    /// The planes of symmetry.
+    ///
+    /// # Safety
+    /// The structure's arrays are as the header demands.
+    unsafe fn symmetry(&self, position: i32) -> Result<Vec<SymmetryPlane>, Failure> {
+        let count = size(position, "settings: symmetry_planes", self.symmetry_planes)?;
+        let mut arrays = Arrays::default();
+        // SAFETY: by the caller's contract.
+        let (axes, places) = unsafe {
+            let name = "settings: symmetry_axes";
+            let axes = arrays.required(position, name, self.symmetry_axes, count)?;
+            let name = "settings: symmetry_at";
+            (axes, arrays.required(position, name, self.symmetry_at, count)?)
+        };
+        let plane = |(&axis, &at): (&i32, &f64)| {
+            let counted = i64::from(axis) - i64::from(self.index_base);
+            let Ok(axis) = usize::try_from(counted) else {
+                let message = format!("settings: symmetry_axes has {axis}, there is no such axis");
+                return Err(Failure::argument(position, message));
+            };
+            Ok(SymmetryPlane { axis, at })
+        };
+        axes.iter().zip(places).map(plane).collect()
+    }
+}
+
+/// Fills settings with their defaults and sets struct_size.
+///
+/// @param settings     not NULL
+/// @param struct_size  sizeof(signorini_surface_settings); no more than that is written
+/// @return 0, or -1 or -2 for the argument that is wrong
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn signorini_surface_settings_default(
+    settings: *mut SignoriniSurfaceSettings,
+    struct_size: u32,
+) -> i32 {
+    guard::call(|| {
+        let default = SignoriniSurfaceSettings::default_one();
+        // SAFETY: the caller's structure has `struct_size` bytes, as the header demands.
+        unsafe { structures::fill("settings", settings, struct_size, &default)? };
+        Ok(0)
+    })
+}

@@ -1,0 +1,46 @@
+//! Normals of faces, where a pair has those and not the mean at its slave node.
+
+use super::face::Face;
+use super::plane::Plane;
+use super::shape::{Local, MOST_NODES};
+use crate::linalg::vector3::{Vector3, unit};
+
+/// Steps to the foot of a perpendicular. Each reduces the error by the distance over the radius of curvature; from
+/// half of that radius this many reach the last digits.
+const STEPS: usize = 60;
+
+/// A change of the unit normal this small is rounding.
+const LAST: f64 = 1e-14;
+
+/// A sum of unit normals this small beside their area has no direction of its own.
+const LEAST_NORMAL: f64 = 1e-6;
+
+/// Unit normals of a face at its nodes.
+pub(super) fn at_nodes(face: &Face<'_>) -> [Vector3; MOST_NODES] {
+    let mut normals = [Vector3::zeros(); MOST_NODES];
+    for (normal, &place) in normals.iter_mut().zip(face.kind.places()) {
+        *normal = unit(face.outward(place)).unwrap_or_default();
+    }
+    normals
+}
+
+/// The direction of a sum of unit normals times areas; `None` if they cancel. `area` is the sum of the areas.
+pub(super) fn direction(sum: Vector3, area: f64) -> Option<Vector3> {
+    unit(sum).filter(|_| sum.norm() > LEAST_NORMAL * area)
+}
+
+/// The point of a face, or of its continuation, from which the perpendicular leads to `x`: local coordinates
+/// and the face's unit normal there. `None` if steps along normals do not lead to one.
+pub(super) fn foot(face: &Face<'_>, x: Vector3, dim: usize) -> Option<(Local, Vector3)> {
+    let mut normal = face.middle_normal()?;
+    for _ in 0..STEPS {
+        let at = Plane::new(dim, x, normal).flatten(face).local([0.0; 2])?;
+        let next = unit(face.outward(at))?;
+        let change = (next - normal).norm();
+        normal = next;
+        if change <= LAST {
+            return Some((at, normal));
+        }
+    }
+    None
+}
