@@ -246,6 +246,31 @@ static void structures_of_a_surface(void)
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) drop(all[i]);
 }
 
+/* Settings and reports of surfaces of each size: what a program does not know has its default, and is not written. */
+static void surfaces_of_each_size(void)
+{
+    const double x[] = {0, 0, 1, 0, -1, 0, 0.9, 0};
+    const int64_t line[2] = {0, 1}, floor[2] = {3, 2};
+    const signorini_faces slave = {.struct_size = sizeof slave, .face_nodes = 2, .count = 1, .nodes = line};
+    signorini_faces master = slave;
+    master.nodes = floor;
+    for (uint32_t size = 16; size <= sizeof(signorini_surface_settings); size += 8) {
+        signorini_surface_settings *settings = at_the_end(size);
+        CHECK_STATUS(signorini_surface_settings_default(settings, size), 0);
+        only_read(settings);
+        for (uint32_t told = 16; told <= sizeof(signorini_surface_report); told += 8) {
+            signorini_surface_report *report = at_the_end(told);
+            signorini_surface_pairs *contact = NULL;
+            report->struct_size = told;
+            CHECK_STATUS(signorini_surface_pair(2, 4, x, &slave, &master, settings, &contact, report), 0);
+            CHECK(report->pairs == 2 && signorini_surface_count(contact) == 2);
+            signorini_surface_free(contact);
+            drop(report);
+        }
+        drop(settings);
+    }
+}
+
 int main(void)
 {
     page = (size_t)sysconf(_SC_PAGESIZE);
@@ -256,5 +281,6 @@ int main(void)
     sizes_that_are_refused();
     structures_of_a_sparse_model();
     structures_of_a_surface();
+    surfaces_of_each_size();
     return check_summary("older_structures");
 }

@@ -236,6 +236,54 @@ static void numbers(void)
     }
 }
 
+/* The side and the bottom of a block, a sharp edge between them at node 1, over a floor that ends under the last
+ * face of the bottom, from x = 1 to 1.2. */
+static void choices(void)
+{
+    const double places[] = {0, 1.1, 0, 0.1, 1, 0.1, 1.2, 0.1, -1, 0, 1.1, 0};
+    const int64_t sides[] = {0, 1, 1, 2, 2, 3}, floor[] = {5, 4};
+    const signorini_faces slave = lines(3, sides), master = lines(1, floor);
+    signorini_surface_pairs *contact;
+    signorini_surface_report report = {.struct_size = sizeof report};
+    for (int32_t pairing = 0; pairing < 2; pairing++) {
+        signorini_surface_settings settings = defaults();
+        CHECK(settings.normals == SIGNORINI_NORMALS_AVERAGED && settings.rims == SIGNORINI_RIMS_FOLD);
+        settings.pairing = pairing;
+        settings.search_distance = 0.5;
+        for (settings.normals = 0; settings.normals < 2; settings.normals++) {
+            CHECK_STATUS(signorini_surface_pair(2, 6, places, &slave, &master, &settings, &contact, NULL), 0);
+            const double *normal = signorini_surface_normals(contact);
+            CHECK(signorini_surface_nodes(contact)[0] == 1);
+            const int of_face = settings.normals == SIGNORINI_NORMALS_FACES;
+            CHECK_NEAR(normal[0], of_face ? 0 : -sqrt(0.5));
+            CHECK_NEAR(normal[1], of_face ? -1 : -sqrt(0.5));
+            signorini_surface_free(contact);
+        }
+    }
+    /* A half of the last face is covered, and a quarter of the node at its end; a tenth, and a hundredth. */
+    const double ends[] = {1.1, 1.02};
+    double moved[12];
+    memcpy(moved, places, sizeof moved);
+    for (int little = 0; little < 2; little++) {
+        moved[10] = ends[little];
+        for (int32_t rims = 0; rims < 3; rims++) {
+            signorini_surface_settings settings = defaults();
+            settings.search_distance = 0.5;
+            settings.rims = rims;
+            CHECK_STATUS(signorini_surface_pair(2, 6, moved, &slave, &master, &settings, &contact, &report), 0);
+            const int gone = little && rims != SIGNORINI_RIMS_KEEP;
+            CHECK(report.pairs == (gone ? 2 : 3) && report.unpaired == (gone ? 2 : 1));
+            CHECK(report.folded == (gone && rims == SIGNORINI_RIMS_FOLD));
+            CHECK(report.dropped == (gone && rims == SIGNORINI_RIMS_DROP));
+            if (gone) CHECK(signorini_surface_unpaired(contact)[1] == 3);
+            const double c = little ? 0.1 : 0.5, area = 0.1 * c * c;
+            CHECK_NEAR(report.covered_area, 1 + 0.2 * c - (report.dropped ? area : 0));
+            if (!gone) CHECK_NEAR(signorini_surface_areas(contact)[2], area);
+            signorini_surface_free(contact);
+        }
+    }
+}
+
 static void obstacles(void)
 {
     const signorini_faces slave = lines(1, line);
@@ -396,6 +444,15 @@ static void refusals(void)
     settings.pairing = 2;
     refused(plane_nodes, &slave, &master, &settings, 6, "there is no pairing 2");
     settings = defaults();
+    settings.normals = 2;
+    refused(plane_nodes, &slave, &master, &settings, 6, "there is no choice of normals 2");
+    settings = defaults();
+    settings.rims = -1;
+    refused(plane_nodes, &slave, &master, &settings, 6, "there is no choice of rims -1");
+    settings.rims = SIGNORINI_RIMS_DROP;
+    settings.pairing = SIGNORINI_PAIRING_NODE_TO_SURFACE;
+    refused(plane_nodes, &slave, &master, &settings, 6, "rims: nodes against surfaces have no cover");
+    settings = defaults();
     settings.dofs_per_node = 1;
     refused(plane_nodes, &slave, &master, &settings, 6, "dofs_per_node is 1");
     settings = defaults();
@@ -461,6 +518,7 @@ int main(void)
     patch(0);
     patch(1);
     numbers();
+    choices();
     obstacles();
     rigid_faces();
     never_meet();
