@@ -1070,7 +1070,7 @@ module signorini
     private :: check_case, check_pairs, check_square, check_dim, check_data, check_starts, check_second
     private :: check_model, check_masters, choose_law, choose_settings, place_of_settings
     private :: check_surfaces, check_faces, check_results, settle, keep_pairs, reals_of, address2, finish_sparse
-    private :: sparse_matrix, check_components
+    private :: sparse_matrix, check_components, settle_symmetry, settle_choices
     private :: operator_inverse, operator_held, received, call_stiffness, call_inverse, call_held
     private :: address, address_of_extra, copy_states, entries, number, text, tuple, keep_sizes
 

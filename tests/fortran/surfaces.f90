@@ -86,6 +86,7 @@ program surfaces_test
     call expect('axis', info == -6 .and. index(message, 'there is no axis 3, the last one is 2') > 0)
     call surfaces%pair(places, slave, master, info, symmetry_axes=[1, 2], symmetry_at=[0._dp], message=message)
     call expect('both', info == -10 .and. index(message, 'symmetry_axes has 2 entries and symmetry_at 1') == 1)
+    call the_choices()
     apart = places
     apart(2, :2) = 9
     call surfaces%pair(apart, slave, master, info)
@@ -109,6 +110,39 @@ program surfaces_test
     if (failed /= 0) stop 1
     print '(a)', 'surfaces: pairs, fields, obstacles, refusals'
 contains
+    ! The side and the bottom of a block, a sharp edge at node 2, over a floor that ends under a tenth of the last face.
+    subroutine the_choices()
+        real(dp), parameter :: around(2, 6) = reshape([0._dp, 1.1_dp, 0._dp, 0.1_dp, 1._dp, 0.1_dp, 1.2_dp, &
+            0.1_dp, -1._dp, 0._dp, 1.02_dp, 0._dp], [2, 6])
+        integer, parameter :: sides(2, 3) = reshape([1, 2, 2, 3, 3, 4], [2, 3])
+        integer, parameter :: floor(2, 1) = reshape([6, 5], [2, 1])
+        integer :: pairing, rims
+        do pairing = SIGNORINI_PAIRING_DUAL_MORTAR, SIGNORINI_PAIRING_NODE_TO_SURFACE
+            call surfaces%pair(around, sides, floor, info, pairing=pairing, search_distance=0.5_dp, &
+                normals=int(SIGNORINI_NORMALS_AVERAGED), message=message)
+            call expect('averaged', info == 0 .and. all(abs(surfaces%normal(:, 1) + sqrt(0.5_dp)) < 1d-15))
+            call surfaces%pair(around, sides, floor, info, pairing=pairing, search_distance=0.5_dp, &
+                normals=int(SIGNORINI_NORMALS_FACES), message=message)
+            call expect('of faces', info == 0 .and. all(abs(surfaces%normal(:, 1) - [0, -1]) < 1d-15))
+        end do
+        do rims = SIGNORINI_RIMS_FOLD, SIGNORINI_RIMS_DROP
+            call surfaces%pair(around, sides, floor, info, search_distance=0.5_dp, rims=rims, message=message)
+            call expect('rims', info == 0 .and. surfaces%pairs == merge(3, 2, rims == SIGNORINI_RIMS_KEEP))
+            call expect('folded', surfaces%report%folded == merge(1, 0, rims == SIGNORINI_RIMS_FOLD))
+            call expect('dropped', surfaces%report%dropped == merge(1, 0, rims == SIGNORINI_RIMS_DROP))
+        end do
+        call surfaces%pair_rigid(around(:, :4), sides, around(:, 5:), floor - 4, info, search_distance=0.5_dp, &
+            normals=int(SIGNORINI_NORMALS_FACES), rims=int(SIGNORINI_RIMS_DROP), message=message)
+        call expect('rigid choices', info == 0 .and. surfaces%report%dropped == 1 .and. surfaces%pairs == 2)
+        call surfaces%pair(around, sides, floor, info, normals=2, message=message)
+        call expect('normals', info == -11 .and. message == 'there is no choice of normals 2')
+        call surfaces%pair(around, sides, floor, info, rims=-1, message=message)
+        call expect('no rims', info == -12 .and. message == 'there is no choice of rims -1')
+        call surfaces%pair(around, sides, floor, info, pairing=int(SIGNORINI_PAIRING_NODE_TO_SURFACE), &
+            rims=int(SIGNORINI_RIMS_KEEP), message=message)
+        call expect('no cover', info == -6 .and. index(message, 'rims: nodes against surfaces have no cover') == 1)
+    end subroutine
+
     subroutine expect(what, holds)
         character(len=*), intent(in) :: what
         logical, intent(in) :: holds

@@ -24,7 +24,7 @@ CC, WORK = "cc", "."
 HEADER = "include", "signorini.h"
 FAMILIES = (signorini.Status, signorini.State, signorini.Law, signorini.Method, signorini.Search,
             signorini.Uniqueness, signorini.Proof, signorini.Fallback, signorini.Remark,
-            signorini.Triangle, signorini.Pairing, Obstacle, Problem)
+            signorini.Triangle, signorini.Pairing, signorini.Normals, signorini.Rims, Obstacle, Problem)
 STRUCTURES = {structures.Told: "progress", structures.Settings: "settings",
               structures.Report: "report", structures.Extra: "extra", structures.Sparse: "sparse",
               structures.Pairs: "pairs", structures.Faces: "faces",

@@ -91,6 +91,24 @@ class Pairs(unittest.TestCase):
         self.assertEqual((result.d[0, 1], result.F[0, 1]), (0, 0))
         self.assertNotEqual(result.F[1, 1], 0)
 
+    def test_choices(self):
+        # The side and the bottom of a block, a sharp edge at node 1; a tenth of the last face is covered.
+        nodes = np.array([[0, 1.1], [0, 0.1], [1, 0.1], [1.2, 0.1], [-1, 0], [1.02, 0]])
+        sides, floor = [[0, 1], [1, 2], [2, 3]], [[5, 4]]
+        for pairing in signorini.Pairing:
+            for normals, normal in (("averaged", [-np.sqrt(0.5)] * 2), (signorini.Normals.FACES, [0, -1])):
+                contact = signorini.pair_surfaces(nodes, sides, floor, pairing=pairing, normals=normals,
+                                                  search_distance=0.5)
+                np.testing.assert_allclose(contact.normals[0], normal, atol=1e-15)
+        for rims, numbers in (("fold", (2, 1, 0)), ("keep", (3, 0, 0)), (signorini.Rims.DROP, (2, 0, 1))):
+            contact = signorini.pair_surfaces(nodes, sides, floor, rims=rims, search_distance=0.5)
+            report = contact.report
+            self.assertEqual((report.pairs, report.folded, report.dropped), numbers)
+            self.assertEqual(contact.unpaired.tolist(), [0, 3] if report.pairs == 2 else [0])
+        rigid = signorini.pair_obstacle(nodes[:4], sides, signorini.RigidFaces(nodes[4:], [[1, 0]]),
+                                        normals="faces", rims="drop", search_distance=0.5)
+        np.testing.assert_allclose(rigid.normals, [[0, -1]] * 2, atol=1e-15)
+
     def test_never_meet(self):
         apart = NODES + np.array([[0, 5]] * 2 + [[0, 0]] * 3)
         contact = signorini.pair_surfaces(apart, SLAVE, MASTER)
@@ -105,6 +123,10 @@ class Pairs(unittest.TestCase):
             (ValueError, r"slave has the shape \(2,\)", (NODES, np.array([0, 1]), MASTER), {}),
             (TypeError, r"slave\[0\] holds float64", (NODES, [[0.0, 1.0]], MASTER), {}),
             (ValueError, "pairing is 'mortar'", (NODES, SLAVE, MASTER), {"pairing": "mortar"}),
+            (ValueError, "normals is 'mean'", (NODES, SLAVE, MASTER), {"normals": "mean"}),
+            (ValueError, "rims is 'cut'", (NODES, SLAVE, MASTER), {"rims": "cut"}),
+            (signorini.SignoriniError, "rims: nodes against surfaces have no cover", (NODES, SLAVE, MASTER),
+             {"pairing": "node_to_surface", "rims": "keep"}),
             (ValueError, r"dofs has the shape", (NODES, SLAVE, MASTER), {"dofs": [1, 2]}),
             (signorini.SignoriniError, "slave face 0 has node 1 twice", (NODES, [[1, 1]], MASTER), {}),
             (signorini.SignoriniError, "search_distance is -1", (NODES, SLAVE, MASTER),

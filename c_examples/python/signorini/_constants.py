@@ -118,6 +118,21 @@ class Pairing(IntEnum):
     NODE_TO_SURFACE = 1
 
 
+class Normals(IntEnum):
+    """Whose normals pairs from surfaces have."""
+
+    AVERAGED = 0
+    FACES = 1
+
+
+class Rims(IntEnum):
+    """What becomes of slave nodes with little of the master over them."""
+
+    FOLD = 0
+    KEEP = 1
+    DROP = 2
+
+
 class Obstacle(IntEnum):
     """Kind of a rigid obstacle."""
 

@@ -126,7 +126,7 @@ class SurfaceSettings(ctypes.Structure):
     _fields_ = [
         ("struct_size", u32), ("pairing", i32), ("search_distance", real), ("index_base", i32),
         ("dofs_per_node", i32), ("node_dofs", address), ("symmetry_planes", i64),
-        ("symmetry_axes", address), ("symmetry_at", address),
+        ("symmetry_axes", address), ("symmetry_at", address), ("normals", i32), ("rims", i32),
     ]
 
 
@@ -137,7 +137,7 @@ class SurfaceReport(ctypes.Structure):
         ("struct_size", u32), ("dim", i32), ("pairs", i64), ("unpaired", i64), ("folded", i64),
         ("slave_faces", i64), ("uncovered", i64), ("slave_area", real), ("covered_area", real),
         ("search_distance", real), ("not_opposed", i64), ("boxes_searched", i64),
-        ("on_symmetry", i64),
+        ("on_symmetry", i64), ("dropped", i64),
     ]
 
 

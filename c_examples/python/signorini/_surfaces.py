@@ -8,7 +8,7 @@ from types import SimpleNamespace
 import numpy as np
 
 from ._arrays import at, components, doubles, fit, indices, integers, per_pair, reals
-from ._constants import Obstacle, Pairing, chosen
+from ._constants import Normals, Obstacle, Pairing, Rims, chosen
 from ._library import check, library
 from ._mesh import Cells, points
 from ._structures import (ContactFields, Faces, ResultantSums, RigidObstacle, SurfaceReport,
@@ -54,7 +54,7 @@ what friction takes in the step.  pressed_area: of the pairs that press.
 
 
 def pair_surfaces(coordinates, slave, master, *, pairing="dual_mortar", search_distance=0.0,
-                  dofs=None, dofs_per_node=0, symmetry=()):
+                  dofs=None, dofs_per_node=0, symmetry=(), normals="averaged", rims="fold"):
     """Pairs two surfaces of a mesh: SurfacePairs. Surfaces that never meet give no pairs.
 
     coordinates: of all nodes, (n, D).  slave, master: nodes of each face, (F, k), or a list of
@@ -67,21 +67,27 @@ def pair_surfaces(coordinates, slave, master, *, pairing="dual_mortar", search_d
     0: D.
     symmetry: planes of symmetry of a half or quarter model, pairs of the axis across each and where
     it stands along it: [(0, 0.0), (1, 0.0)]. Pairs on one neither move nor carry a force across it.
+    normals: "averaged" over all slave faces at a node, or of the "faces" in contact: slave faces over
+    the master by dual mortar, the nearest master face by "node_to_surface".
+    rims: slave nodes with less than a tenth of their area over the master "fold" into a neighbour,
+    "keep" pairs of their own, or "drop" out; by "node_to_surface" the default alone.
     """
     slave, master = _Faces("slave", slave), _Faces("master", master)
     return SurfacePairs("surface_pair", coordinates, slave, master.structure, pairing,
-                        search_distance, dofs, dofs_per_node, symmetry)
+                        search_distance, dofs, dofs_per_node, symmetry, normals, rims)
 
 
 def pair_obstacle(coordinates, slave, obstacle, *, search_distance=0.0, dofs=None,
-                  dofs_per_node=0, symmetry=()):
+                  dofs_per_node=0, symmetry=(), normals="averaged", rims="fold"):
     """Pairs a surface with a rigid Plane, Sphere, Cylinder or RigidFaces: SurfacePairs.
 
     The rest: as for pair_surfaces; search_distance 0: no limit, and with RigidFaces as there.
+    symmetry, normals and rims are read for RigidFaces alone: a shape has normals of its own.
     """
     slave, rigid = _Faces("slave", slave), _Rigid(obstacle)
     return SurfacePairs("surface_pair_obstacle", coordinates, slave, rigid.structure,
-                        Pairing.DUAL_MORTAR, search_distance, dofs, dofs_per_node, symmetry)
+                        Pairing.DUAL_MORTAR, search_distance, dofs, dofs_per_node, symmetry, normals,
+                        rims)
 
 
 class SurfacePairs:
@@ -96,13 +102,14 @@ class SurfacePairs:
     """
 
     def __init__(self, make, coordinates, slave, other, pairing, search_distance, dofs,
-                 dofs_per_node, symmetry):
+                 dofs_per_node, symmetry, normals, rims):
         self._functions, self._coordinates = library(), points(coordinates).copy()
         self.node_count, self.dim = self._coordinates.shape
         self.slave_faces, self.coordinates = slave.lists, self._coordinates
         settings = sized(
             SurfaceSettings, pairing=chosen("pairing", Pairing, pairing),
             search_distance=float(search_distance), dofs_per_node=dofs_per_node,
+            normals=chosen("normals", Normals, normals), rims=chosen("rims", Rims, rims),
         )
         axes, places = _planes(symmetry)
         settings.symmetry_planes = len(axes)
