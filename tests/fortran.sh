@@ -60,7 +60,7 @@ say "signorini.f90 has the $(wc -l <"$work/wanted" | tr -d ' ') functions of the
 # The names for 8-byte integers.
 wide="-cpp -fdefault-integer-8"
 for name in SOLV CERT LCPS MODL TWOB OPER OPEH SPAR SPAW FRAM CASE RECV NODF FREE MESG \
-    SURF SMOD SGAP SFLD SVTU SUMM SFRE; do
+    SURF SURC SMOD SGAP SFLD SVTU SUMM SFRE; do
     wide="$wide -DSG$name=SG${name}_64"
 done
 hosts=$root/c_examples/hosts/fortran

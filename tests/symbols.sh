@@ -42,7 +42,7 @@ declared=$(code | grep -o 'signorini_[a-z0-9_]*(' | tr -d '(' | sort -u)
 [ -n "$declared" ] || fail "no function found in $header"
 # Those of Fortran 77, which include/signorini.inc documents.
 for name in sgsolv sgcert sgprov sglcps sgmodl sgtwob sgoper sgopeh sgspar sgspaw sgfram sgcase sgrecv sgnodf sgfree sgmesg \
-    sgsurf sgsmod sgsgap sgsfld sgsvtu sgsumm sgsfre; do
+    sgsurf sgsurc sgsmod sgsgap sgsfld sgsvtu sgsumm sgsfre; do
     declared="$declared
 ${name}_
 ${name}_64_"

@@ -12,6 +12,7 @@ mod handles;
 mod message;
 mod models;
 mod operator;
+mod pairing;
 mod sparse;
 mod surface_results;
 mod surfaces;
@@ -91,9 +92,14 @@ entries! {
     sgnodf_ sgnodf_64_ = super::models::nodal_forces, (handle: *const i64, r: *const f64,
         p: *mut f64, info: *mut I);
     sgfree_ sgfree_64_ = super::models::free, (handle: *mut i64, info: *mut I);
-    sgsurf_ sgsurf_64_ = super::surfaces::pair, (ndim: *const I, nnode: *const I,
+    sgsurf_ sgsurf_64_ = super::pairing::pair, (ndim: *const I, nnode: *const I,
         x: *const f64, ndof: *const I, lsl: *const I, nsl: *const I, slave: *const I,
         lma: *const I, nma: *const I, master: *const I, pairng: *const I, dist: *const f64,
+        hsurf: *mut i64, npair: *mut I, info: *mut I);
+    sgsurc_ sgsurc_64_ = super::pairing::pair_chosen, (ndim: *const I, nnode: *const I,
+        x: *const f64, ndof: *const I, lsl: *const I, nsl: *const I, slave: *const I,
+        lma: *const I, nma: *const I, master: *const I, pairng: *const I, dist: *const f64,
+        nplane: *const I, axis: *const I, place: *const f64, normls: *const I, rims: *const I,
         hsurf: *mut i64, npair: *mut I, info: *mut I);
     sgsmod_ sgsmod_64_ = super::surfaces::model, (n: *const I, nnz: *const I, colptr: *const I,
         rowind: *const I, values: *const f64, tri: *const I, nfix: *const I, fixed: *const I,
