@@ -792,8 +792,8 @@ int32_t signorini_prove(int32_t dim, int64_t pairs, const double *K, int64_t ldk
 /** The default: the mean of the unit normals of all slave faces at the slave node. */
 #define SIGNORINI_NORMALS_AVERAGED 0
 /**
- * Normals of the faces in contact. Dual mortar: the mean of the slave faces' normals over the part
- * of them that lies over the master, by the node's share; faces around a sharp edge that face
+ * Normals of the faces in contact. Dual mortar: the mean at the slave node over those faces that lie
+ * over the master, by the node's share of the area that does; faces around a sharp edge that face
  * nothing do not turn it. Nodes against surfaces: opposite to the normal of the nearest master
  * face, at the foot of the perpendicular on it; above an edge without one, of the face that the
  * averaged normal meets. Which nodes have pairs does not depend on it.
@@ -802,9 +802,10 @@ int32_t signorini_prove(int32_t dim, int64_t pairs, const double *K, int64_t ldk
 
 /* What becomes of slave nodes at rims, with little of the master over them. */
 /**
- * Slave nodes of which less than a tenth of the area lies over the master, the default: their rows
- * are added to that of a neighbour, and uniform pressure stays exact. The choice is for dual
- * mortar: nodes against surfaces have no cover, and take the default alone.
+ * Slave nodes with less than a tenth of their area over the master, counted on the faces of
+ * which any part lies over it. By default their rows are added to that of a neighbour, and
+ * uniform pressure stays exact. The choice is for dual mortar: nodes against surfaces have no
+ * cover, and take the default alone.
  */
 #define SIGNORINI_RIMS_FOLD 0
 /**

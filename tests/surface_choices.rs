@@ -263,6 +263,15 @@ fn rims_are_told_by_their_cover() {
     }
 }
 
+/// Cover is counted on the faces of which a part lies over the master: the node between a face that is covered to a
+/// third and one that is not has a ninth of it, and with 0.3 less than a tenth.
+#[test]
+fn cover_is_counted_on_faces_that_have_some() {
+    for (end, dropped) in [(1.0 / 3.0, vec![]), (0.3, vec![2])] {
+        assert_eq!(over_the_rim(1.0 + end, Rims::Drop).report.dropped, dropped, "{end}");
+    }
+}
+
 /// A surface all of whose nodes have little cover: kept, or folded into one of them, it has its area; dropped it has no
 /// pairs, which is said.
 #[test]

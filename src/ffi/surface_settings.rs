@@ -14,16 +14,17 @@ pub const SIGNORINI_PAIRING_NODE_TO_SURFACE: i32 = 1;
 
 /// The default: the mean of the unit normals of all slave faces at the slave node.
 pub const SIGNORINI_NORMALS_AVERAGED: i32 = 0;
-/// Normals of the faces in contact. Dual mortar: the mean at the slave node over those faces that lie
-/// over the master, by the node's share of the area that does; faces around a sharp edge that face
-/// nothing do not turn it. Nodes against surfaces: opposite to the normal of the nearest master
+/// Normals of the faces in contact. Dual mortar: the mean at the slave node over those faces that
+/// lie over the master, by the node's share of the area that does; faces around a sharp edge that
+/// face nothing do not turn it. Nodes against surfaces: opposite to the normal of the nearest master
 /// face, at the foot of the perpendicular on it; above an edge without one, of the face that the
 /// averaged normal meets. Which nodes have pairs does not depend on it.
 pub const SIGNORINI_NORMALS_FACES: i32 = 1;
 
-/// Slave nodes of which less than a tenth of the area lies over the master, the default: their rows
-/// are added to that of a neighbour, and uniform pressure stays exact. The choice is for dual
-/// mortar: nodes against surfaces have no cover, and take the default alone.
+/// Slave nodes with less than a tenth of their area over the master, counted on the faces of
+/// which any part lies over it. By default their rows are added to that of a neighbour, and
+/// uniform pressure stays exact. The choice is for dual mortar: nodes against surfaces have no
+/// cover, and take the default alone.
 pub const SIGNORINI_RIMS_FOLD: i32 = 0;
 /// They keep pairs of their own with small areas. Uniform pressure stays exact; under others their
 /// pressures may be large, as their rows hold points in the air. With less than a millionth they are

@@ -31,8 +31,8 @@ pub enum Normals {
     Faces,
 }
 
-/// What becomes of slave nodes at rims: those of which less than a tenth of their share of the slave faces'
-/// area lies over the master. Of dual mortar; nodes against surfaces have no cover.
+/// What becomes of slave nodes at rims: those that have less than a tenth of their area over the master, counted
+/// on the faces of which any part lies over it. Of dual mortar; nodes against surfaces have no cover.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Rims {
     /// Their rows are added to that of a neighbour: uniform pressure stays exact.

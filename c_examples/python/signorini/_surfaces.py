@@ -69,8 +69,9 @@ def pair_surfaces(coordinates, slave, master, *, pairing="dual_mortar", search_d
     it stands along it: [(0, 0.0), (1, 0.0)]. Pairs on one neither move nor carry a force across it.
     normals: "averaged" over all slave faces at a node, or of the "faces" in contact: slave faces over
     the master by dual mortar, the nearest master face by "node_to_surface".
-    rims: slave nodes with less than a tenth of their area over the master "fold" into a neighbour,
-    "keep" pairs of their own, or "drop" out; by "node_to_surface" the default alone.
+    rims: slave nodes with less than a tenth of their area over the master (on the faces of which any
+    part is) "fold" into a neighbour, "keep" pairs of their own, or "drop" out; by "node_to_surface"
+    the default alone.
     """
     slave, master = _Faces("slave", slave), _Faces("master", master)
     return SurfacePairs("surface_pair", coordinates, slave, master.structure, pairing,
