@@ -792,9 +792,9 @@ int32_t signorini_prove(int32_t dim, int64_t pairs, const double *K, int64_t ldk
 /** The default: the mean of the unit normals of all slave faces at the slave node. */
 #define SIGNORINI_NORMALS_AVERAGED 0
 /**
- * Normals of the faces in contact. Dual mortar: the mean at the slave node over those faces that lie
- * over the master, by the node's share of the area that does; faces around a sharp edge that face
- * nothing do not turn it. Nodes against surfaces: opposite to the normal of the nearest master
+ * Normals of the faces in contact. Dual mortar: the mean at the slave node over those faces that
+ * lie over the master, by the node's share of the area that does; faces around a sharp edge that
+ * face nothing do not turn it. Nodes against surfaces: opposite to the normal of the nearest master
  * face, at the foot of the perpendicular on it; above an edge without one, of the face that the
  * averaged normal meets. Which nodes have pairs does not depend on it.
  */
