@@ -16,8 +16,8 @@ int file_has(const char *path, const char *group)
     return found;
 }
 
-/* M is factorised as a dense matrix here: this many rows take a quarter of a gigabyte. */
-enum { MOST_FREEDOMS = 6000 };
+/* M is factorised as a dense matrix here: this many rows take 800 megabytes. */
+enum { MOST_FREEDOMS = 10000 };
 
 enum storage { TRIPLETS = 0, BY_COLUMNS = -1, BY_ROWS = -2 }; /* fclib_matrix.nz; >= 0: triplets */
 
@@ -68,12 +68,13 @@ static double make_symmetric(size_t n, double *W)
     return asymmetry;
 }
 
-static const char *take_local(const struct fclib_local *problem, struct local_form *form)
+const char *local_form_of_local(const struct fclib_local *problem, struct local_form *form)
 {
     if (problem->V != NULL && problem->V->n > 0)
         return "the problem has equality constraints (V, R): eliminate lambda first";
     if (problem->W->m != problem->W->n || problem->W->m % problem->spacedim != 0)
         return "W is not square, or its size is not a multiple of the space dimension";
+    form->found = "local";
     form->dim = problem->spacedim;
     form->size = (size_t)problem->W->m;
     form->contacts = form->size / (size_t)form->dim;
@@ -104,7 +105,7 @@ static void condense(size_t n, const double *L, double *H, const struct fclib_gl
     free(load);
 }
 
-static const char *take_global(const struct fclib_global *problem, struct local_form *form)
+const char *local_form_of_global(const struct fclib_global *problem, struct local_form *form)
 {
     const char *wrong = NULL;
     const size_t n = (size_t)problem->M->m;
@@ -114,7 +115,8 @@ static const char *take_global(const struct fclib_global *problem, struct local_
         problem->H->n % problem->spacedim != 0)
         return "the sizes of M and H do not match each other or the space dimension";
     if (problem->M->m > MOST_FREEDOMS)
-        return "M has more than 6000 rows: condense it by a sparse factorisation first";
+        return "M has more than 10000 rows: condense it by a sparse factorisation first";
+    form->found = "global";
     form->dim = problem->spacedim;
     form->size = (size_t)problem->H->n;
     form->contacts = form->size / (size_t)form->dim;
@@ -135,7 +137,7 @@ static const char *take_global(const struct fclib_global *problem, struct local_
 const char *local_form_read(const char *path, struct local_form *form)
 {
     const char *wrong;
-    *form = (struct local_form){.found = "local"};
+    *form = (struct local_form){0};
     H5Eset_auto2(H5E_DEFAULT, NULL, NULL); /* what is wrong is said once, here */
     if (H5Fis_hdf5(path) <= 0)
         return "no HDF5 file of this name can be read";
@@ -143,15 +145,14 @@ const char *local_form_read(const char *path, struct local_form *form)
         struct fclib_local *problem = fclib_read_local(path);
         if (problem == NULL)
             return "FCLIB cannot read /fclib_local";
-        wrong = take_local(problem, form);
+        wrong = local_form_of_local(problem, form);
         fclib_delete_local(problem);
         free(problem);
     } else if (file_has(path, "/fclib_global")) {
         struct fclib_global *problem = fclib_read_global(path);
         if (problem == NULL)
             return "FCLIB cannot read /fclib_global";
-        form->found = "global";
-        wrong = take_global(problem, form);
+        wrong = local_form_of_global(problem, form);
         fclib_delete_global(problem);
         free(problem);
     } else {

@@ -20,6 +20,12 @@ struct local_form {
 /* Reads the problem of a file. A global form (M v = H r + f, u = H' v + w, M definite) becomes
  * W = H' M^-1 H, q = H' M^-1 f + w. Returns NULL, or a sentence on what is wrong. */
 const char *local_form_read(const char *path, struct local_form *form);
+
+/* The same from FCLIB's own structs. After a sentence the form may hold a part: free it. */
+struct fclib_local;
+struct fclib_global;
+const char *local_form_of_local(const struct fclib_local *problem, struct local_form *form);
+const char *local_form_of_global(const struct fclib_global *problem, struct local_form *form);
 void local_form_free(struct local_form *form);
 
 /* The lower triangle of W by columns, without its zeros, for signorini_flexibility_solve_sparse:
