@@ -33,6 +33,20 @@ double dot(size_t n, const double *x, const double *y)
     return sum;
 }
 
+double make_symmetric(size_t n, double *A)
+{
+    double asymmetry = 0.0;
+    for (size_t j = 0; j < n; j++)
+        for (size_t i = j + 1; i < n; i++) {
+            double *lower = &A[i + j * n], *upper = &A[j + i * n];
+            const double difference = fabs(*lower - *upper);
+            if (difference > 0.0)
+                asymmetry = fmax(asymmetry, difference / sqrt(A[i + i * n] * A[j + j * n]));
+            *lower = *upper = 0.5 * (*lower + *upper);
+        }
+    return asymmetry;
+}
+
 size_t cholesky(size_t n, double *A)
 {
     for (size_t j = 0; j < n; j++) {

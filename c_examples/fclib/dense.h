@@ -13,6 +13,9 @@
 double *need(size_t count);
 int64_t *need_integers(size_t count);
 
+/* Makes A its symmetric part; returns how far it was from it, relative to the diagonal. */
+double make_symmetric(size_t n, double *A);
+
 /* A = L L': L replaces the lower triangle of A, n x n. Returns n, or the row at which A is not
  * positive definite: what is left of its diagonal is within the rounding of its elimination. */
 size_t cholesky(size_t n, double *A);

@@ -1,4 +1,5 @@
 #include "local_form.h"
+#include "bodies.h"
 #include "dense.h"
 
 #include <fclib.h>
@@ -16,20 +17,18 @@ int file_has(const char *path, const char *group)
     return found;
 }
 
-/* M is factorised as a dense matrix here: this many rows take 800 megabytes. */
-enum { MOST_FREEDOMS = 10000 };
-
 enum storage { TRIPLETS = 0, BY_COLUMNS = -1, BY_ROWS = -2 }; /* fclib_matrix.nz; >= 0: triplets */
 
-/* The matrix as a dense one, or NULL if an index is out of range. Of triplets p has the columns and
- * i the rows, as in CSparse: FCLIB's header says the reverse, but files that Siconos has written
- * have it so. */
-static double *dense(const struct fclib_matrix *matrix)
+/* The entries of the matrix; 0 if an index is out of range. Of triplets p has the columns and i the
+ * rows, as in CSparse: FCLIB's header says the reverse, but files that Siconos has written have it
+ * so. */
+static int take_entries(const struct fclib_matrix *matrix, struct entries *entries)
 {
     const int rows = matrix->m, columns = matrix->n;
     const int outer = matrix->nz == BY_ROWS ? rows : columns;
     const int count = matrix->nz >= TRIPLETS ? matrix->nz : matrix->p[outer];
-    double *A = need((size_t)rows * (size_t)columns);
+    const size_t room = (size_t)(count > 0 ? count : 0);
+    *entries = (struct entries){room, need_integers(room), need_integers(room), need(room)};
     for (int k = 0, at = 0; k < count; k++) {
         if (matrix->nz < TRIPLETS)
             while (at < outer && matrix->p[at + 1] <= k)
@@ -37,12 +36,33 @@ static double *dense(const struct fclib_matrix *matrix)
         const int first = matrix->nz < TRIPLETS ? at : matrix->p[k], second = matrix->i[k];
         const int row = matrix->nz == BY_ROWS ? first : second;
         const int column = matrix->nz == BY_ROWS ? second : first;
-        if (row < 0 || row >= rows || column < 0 || column >= columns) {
-            free(A);
-            return NULL;
-        }
-        A[(size_t)row + (size_t)column * (size_t)rows] += matrix->x[k];
+        if (row < 0 || row >= rows || column < 0 || column >= columns)
+            return 0;
+        entries->row[k] = row;
+        entries->column[k] = column;
+        entries->value[k] = matrix->x[k];
     }
+    return 1;
+}
+
+static void entries_free(struct entries *entries)
+{
+    free(entries->row);
+    free(entries->column);
+    free(entries->value);
+}
+
+/* The matrix as a dense one, or NULL if an index is out of range. */
+static double *dense(const struct fclib_matrix *matrix)
+{
+    struct entries entries;
+    double *A = NULL;
+    if (take_entries(matrix, &entries)) {
+        A = need((size_t)matrix->m * (size_t)matrix->n);
+        for (size_t k = 0; k < entries.count; k++)
+            A[entries.row[k] + entries.column[k] * matrix->m] += entries.value[k];
+    }
+    entries_free(&entries);
     return A;
 }
 
@@ -51,21 +71,6 @@ static double *copy(const double *x, size_t count)
     double *y = need(count);
     memcpy(y, x, count * sizeof *y);
     return y;
-}
-
-/* Makes W its symmetric part; returns how far it was from it, relative to the diagonal. */
-static double make_symmetric(size_t n, double *W)
-{
-    double asymmetry = 0.0;
-    for (size_t j = 0; j < n; j++)
-        for (size_t i = j + 1; i < n; i++) {
-            double *lower = &W[i + j * n], *upper = &W[j + i * n];
-            const double difference = fabs(*lower - *upper);
-            if (difference > 0.0)
-                asymmetry = fmax(asymmetry, difference / sqrt(W[i + i * n] * W[j + j * n]));
-            *lower = *upper = 0.5 * (*lower + *upper);
-        }
-    return asymmetry;
 }
 
 const char *local_form_of_local(const struct fclib_local *problem, struct local_form *form)
@@ -87,49 +92,32 @@ const char *local_form_of_local(const struct fclib_local *problem, struct local_
     return NULL;
 }
 
-/* With M = L L' and Y = L^-1 H: W = Y' Y, q = Y' L^-1 f + w. */
-static void condense(size_t n, const double *L, double *H, const struct fclib_global *problem,
-                     struct local_form *form)
-{
-    const size_t m = form->size;
-    double *load = copy(problem->f, n);
-    forward(n, L, load);
-    for (size_t j = 0; j < m; j++)
-        forward(n, L, &H[j * n]);
-    form->W = need(m * m);
-    for (size_t j = 0; j < m; j++) {
-        form->q[j] += dot(n, &H[j * n], load);
-        for (size_t i = j; i < m; i++)
-            form->W[i + j * m] = form->W[j + i * m] = dot(n, &H[i * n], &H[j * n]);
-    }
-    free(load);
-}
-
 const char *local_form_of_global(const struct fclib_global *problem, struct local_form *form)
 {
     const char *wrong = NULL;
-    const size_t n = (size_t)problem->M->m;
     if (problem->G != NULL && problem->G->n > 0)
         return "the problem has equality constraints (G): eliminate lambda first";
     if (problem->M->n != problem->M->m || problem->H->m != problem->M->m ||
         problem->H->n % problem->spacedim != 0)
         return "the sizes of M and H do not match each other or the space dimension";
-    if (problem->M->m > MOST_FREEDOMS)
-        return "M has more than 10000 rows: condense it by a sparse factorisation first";
     form->found = "global";
     form->dim = problem->spacedim;
     form->size = (size_t)problem->H->n;
     form->contacts = form->size / (size_t)form->dim;
     form->q = copy(problem->w, form->size);
     form->mu = copy(problem->mu, form->contacts);
-    double *L = dense(problem->M), *H = dense(problem->H);
-    if (L == NULL || H == NULL)
+    struct entries M;
+    double *H = dense(problem->H);
+    if (!take_entries(problem->M, &M) || H == NULL) {
         wrong = "an index of M or H is out of range";
-    else if (cholesky(n, L) < n)
-        wrong = "M is not positive definite: this example cannot condense it";
-    else
-        condense(n, L, H, problem, form);
-    free(L);
+    } else {
+        struct bodies bodies = bodies_of((size_t)problem->M->m, &M);
+        form->W = need(form->size * form->size);
+        wrong = condense(&bodies, &M, form->size, H, problem->f, form->W, form->q,
+                         &form->asymmetry);
+        bodies_free(&bodies);
+    }
+    entries_free(&M);
     free(H);
     return wrong;
 }

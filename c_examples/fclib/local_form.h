@@ -13,7 +13,7 @@ struct local_form {
     int dim;           /* 2 or 3 */
     size_t contacts, size; /* size = dim * contacts */
     double *W, *q;         /* W column-major, its symmetric part: equal across to the last bit */
-    double asymmetry;      /* how far W of the file was from it, relative to the diagonal */
+    double asymmetry;      /* how far W, or M of a global form, was from it, beside its diagonal */
     double *mu;            /* one for each contact */
 };
 

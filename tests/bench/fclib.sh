@@ -44,7 +44,8 @@ mkdir -p "$build"
         -I "$root/include" -I "$root/c_examples/fclib" -isystem "$headers" \
         -isystem "$headers/numerics" $(pkg-config --cflags fclib hdf5) -o "$build/fclib" fclib.c fclib_dat.c \
         fclib_siconos.c \
-        "$root/c_examples/fclib/local_form.c" "$root/c_examples/fclib/dense.c" \
+        "$root/c_examples/fclib/local_form.c" "$root/c_examples/fclib/bodies.c" \
+        "$root/c_examples/fclib/dense.c" \
         "$root/target/release/libsignorini.a" $(pkg-config --libs fclib hdf5) \
         -lsiconos_numerics -l:libopenblas.so.0 -lm -lpthread -ldl)
 

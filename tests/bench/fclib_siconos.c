@@ -1,3 +1,5 @@
+#define _GNU_SOURCE
+
 #include "fclib_siconos.h"
 #include "dense.h"
 
@@ -9,8 +11,10 @@
 #include <NumericsSparseMatrix.h>
 #include <SolverOptions.h>
 #include <SparseBlockMatrix.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/time.h>
 #include <time.h>
 
 #define SPACE(name, id, blocks, iterations) \
@@ -47,6 +51,14 @@ double seconds_used(void)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
+void limit_time(double seconds)
+{
+    const double whole = floor(seconds);
+    const struct itimerval limit = {.it_value = {.tv_sec = (time_t)whole,
+        .tv_usec = (suseconds_t)(1e6 * (seconds - whole))}};
+    setitimer(ITIMER_PROF, &limit, NULL);
+}
+
 /* W in blocks of a contact each, without those that are zero. */
 static NumericsMatrix *in_blocks(const struct local_form *form)
 {
@@ -74,7 +86,7 @@ static NumericsMatrix *dense(const struct local_form *form)
 }
 
 double siconos_solve(const struct siconos_solver *solver, const struct local_form *form,
-                     double tolerance, double *r)
+                     double tolerance, double limit, double *r)
 {
     NumericsMatrix *M = solver->blocks ? in_blocks(form) : dense(form);
     FrictionContactProblem data = {.dimension = form->dim,
@@ -88,6 +100,7 @@ double siconos_solve(const struct siconos_solver *solver, const struct local_for
         solver_options_update_internal(options, 0, solver->local);
     memset(r, 0, form->size * sizeof *r);
 
+    limit_time(limit);
     const double began = seconds_used();
     if (form->dim == 2)
         fc2d_driver(&data, r, u, options);

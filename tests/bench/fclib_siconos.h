@@ -19,11 +19,15 @@ struct siconos_solver {
 extern const struct siconos_solver siconos_solvers[];
 extern const size_t siconos_solver_count;
 
-/* Solves the problem, from r = 0; returns the seconds of processor time of the driver alone. */
+/* Solves the problem, from r = 0; returns the seconds of processor time of the driver alone, to
+ * which limit applies. */
 double siconos_solve(const struct siconos_solver *solver, const struct local_form *form,
-                     double tolerance, double *r);
+                     double tolerance, double limit, double *r);
 
 /* Processor time of this thread. */
 double seconds_used(void);
+
+/* SIGPROF ends the process after so much processor time from now on. */
+void limit_time(double seconds);
 
 #endif

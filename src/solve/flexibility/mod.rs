@@ -15,6 +15,11 @@
 //! lowered, and after the first solution rounds go on until forces settle. Where Newton's method does not solve a
 //! round, `e` is raised: a larger one is an easier problem nearer to the forces at hand. With the largest, the
 //! default method has all its means.
+//!
+//! Slip makes the flexibility that forces feel unsymmetric, and it may be negative in a pattern of them: rounds with
+//! an `e` of its size run away from the solution, and harder springs may leave Newton's method without one. Where
+//! rounds come to rest without a solution, they begin again at the best forces, and the default method has all its
+//! means with harder springs too.
 
 mod islands;
 mod springs;
@@ -28,7 +33,7 @@ use crate::monitor::Monitor;
 use crate::problem::{Flexibility, FlexibilityProblem};
 use crate::settings::{Method, SMALLEST_TOLERANCE, Settings};
 pub use islands::{largest_island, solve as solve_islands};
-use springs::Springs;
+use springs::{Springs, is_indefinite};
 
 /// Most rounds.
 const ROUNDS: usize = 100;
@@ -48,10 +53,18 @@ const SLOW: f64 = 0.1;
 /// So many rounds that do not halve the least error show that rounding is reached.
 const IDLE_ROUNDS: usize = 12;
 
+/// Least `e` with which the default method has all its means where rounds begin again: a path with harder springs
+/// takes hundreds of times as long, and rounds that come so near to a solution leave it to Newton's method.
+const ALL_MEANS: f64 = 5e-6;
+
 /// Most rounds after the first solution, until the forces settle: `eta` feels an error in a pattern of forces by its
 /// flexibility alone, and is small before forces of nearly redundant pairs are right. A flexibility of `1e-8` beside
 /// that of the pairs takes five.
 const LAST_ROUNDS: usize = 8;
+
+/// Of a `W` that the first springs make definite.
+const INDEFINITE: &str = "no solution was found: W is not positive semi-definite, its negative eigenvalues are \
+                          larger than rounding";
 
 /// Solves the problem; `start` are contact forces, `number` tells which pair of the host a pair is.
 pub fn solve(
@@ -69,7 +82,11 @@ pub fn solve(
             (pattern, proved) = (Some(found), true);
         }
         let eta = solution.certificate.eta;
-        solution.message = sentence(problem, pattern.as_deref(), proved, eta, number).into();
+        solution.message = if pattern.is_none() && is_indefinite(problem.relation(), monitor) {
+            format!("{INDEFINITE}, and forces do not settle (eta is {eta:.1e})").into()
+        } else {
+            sentence(problem, pattern.as_deref(), proved, eta, number).into()
+        };
         if proved {
             solution.status = Status::NoEquilibrium;
             solution.recession = pattern.map(|pattern| proof(problem.dim(), &pattern));
@@ -135,9 +152,10 @@ fn rounds(
         least: f64::INFINITY,
         idle: 0,
         solved: 0,
+        again: false,
     };
     for _ in 0..ROUNDS {
-        if rounds.ends_with_next(settings, monitor)? {
+        if rounds.ends_with_next(settings, monitor)? && !rounds.begin_again(settings, monitor) {
             break;
         }
     }
@@ -163,6 +181,8 @@ struct Rounds<'p> {
     idle: usize,
     /// Rounds since the first solution.
     solved: usize,
+    /// Whether they have begun again.
+    again: bool,
 }
 
 impl Rounds<'_> {
@@ -205,11 +225,29 @@ impl Rounds<'_> {
         Ok(ends || self.growth.pattern().is_some() || self.idle >= IDLE_ROUNDS)
     }
 
+    /// Begins again at the best forces, once and where that may help; whether it does.
+    fn begin_again(&mut self, settings: &Settings, monitor: &mut Monitor<'_>) -> bool {
+        let Some(best) = self.best.as_ref().filter(|best| best.status == Status::Stalled) else {
+            return false;
+        };
+        if self.again || settings.method != Method::Auto || self.growth.pattern().is_some() {
+            return false;
+        }
+        self.force.clone_from(&best.certificate.force);
+        self.last = best.certificate.eta;
+        self.changes = [f64::INFINITY; 2];
+        self.growth = Growth::default();
+        (self.idle, self.again) = (0, true);
+        self.springs.begin_again(self.problem.relation(), monitor);
+        true
+    }
+
     /// Solves the problem with springs. Hard ones are left to softer springs, as far as there are any.
     fn round(&self, settings: &Settings, monitor: &mut Monitor<'_>) -> Result<Solution, Error> {
         let rough = ROUGH * self.last.min(self.springs.compliance());
         let tolerance = rough.max(INNER * settings.tolerance).max(SMALLEST_TOLERANCE);
         let method = match settings.method {
+            Method::Auto if self.again && self.springs.compliance() >= ALL_MEANS => Method::Auto,
             Method::Auto if !self.springs.are_softest() => Method::Newton,
             method => method,
         };

@@ -49,6 +49,11 @@ impl Springs {
         self.change(relation, 1.0 / FACTOR, monitor);
     }
 
+    /// The first springs again, if there is time for them.
+    pub fn begin_again(&mut self, relation: &Flexibility<'_>, monitor: &mut Monitor<'_>) {
+        self.change(relation, FIRST / self.compliance, monitor);
+    }
+
     /// Whether there are no softer ones.
     pub fn are_softest(&self) -> bool {
         self.compliance >= RANGE[1]
@@ -67,6 +72,38 @@ impl Springs {
 /// Columns of the inverse that are solved for between two looks at the clock.
 const BLOCK: usize = 64;
 
+/// Beside flexibilities of size one: of an eigenvalue below `-NEGATIVE` the rounding of `W` is not the reason, which
+/// is of the order of its size times `2e-16`.
+const NEGATIVE: f64 = 1e-9;
+
+/// Whether `W` has an eigenvalue below zero that is not due to rounding; if there is no time to see it, it has not.
+pub fn is_indefinite(relation: &Flexibility<'_>, monitor: &mut Monitor<'_>) -> bool {
+    matches!(factor(relation, NEGATIVE, monitor), Ok(None))
+}
+
+/// The factor of the scaled `D^½ W D^½ + e`; `None` if there is none. `Err`: there is no time for it.
+fn factor(
+    relation: &Flexibility<'_>,
+    compliance: f64,
+    monitor: &mut Monitor<'_>,
+) -> Result<Option<Factor>, Stop> {
+    let n = relation.size();
+    let root = roots(relation);
+    let matrix = relation.matrix();
+    monitor.affords(cholesky_work(n))?;
+    Ok(Factor::new(n, true, |j, column| {
+        for i in j..n {
+            column[i] = root[i] * matrix.at(i, j) * root[j];
+        }
+        column[j] += compliance;
+    }))
+}
+
+/// `D^½`.
+fn roots(relation: &Flexibility<'_>) -> Vec<f64> {
+    relation.units().iter().map(|unit| unit.sqrt()).collect()
+}
+
 /// The inverse of the scaled `D^½ W D^½ + e`, scaled back; `None` if there is none. `Err`: there is no time for it.
 fn stiffness(
     relation: &Flexibility<'_>,
@@ -74,16 +111,8 @@ fn stiffness(
     monitor: &mut Monitor<'_>,
 ) -> Result<Option<Vec<f64>>, Stop> {
     let n = relation.size();
-    let root: Vec<f64> = relation.units().iter().map(|unit| unit.sqrt()).collect();
-    let matrix = relation.matrix();
-    monitor.affords(cholesky_work(n))?;
-    let factor = Factor::new(n, true, |j, column| {
-        for i in j..n {
-            column[i] = root[i] * matrix.at(i, j) * root[j];
-        }
-        column[j] += compliance;
-    });
-    let Some(mut factor) = factor else { return Ok(None) };
+    let root = roots(relation);
+    let Some(mut factor) = factor(relation, compliance, monitor)? else { return Ok(None) };
     let mut inverse = vec![0.0; n * n];
     inverse.iter_mut().step_by(n + 1).for_each(|entry| *entry = 1.0);
     for columns in inverse.chunks_mut((BLOCK * n).max(1)) {
