@@ -52,12 +52,42 @@ static void entries_free(struct entries *entries)
     free(entries->value);
 }
 
+static void append(struct entries *entries, int64_t row, int64_t column, double value)
+{
+    entries->row[entries->count] = row;
+    entries->column[entries->count] = column;
+    entries->value[entries->count++] = value;
+}
+
+/* The entries of a matrix that is symmetric, of which some files have one triangle alone. */
+static int take_symmetric(const struct fclib_matrix *matrix, struct entries *whole)
+{
+    struct entries stored;
+    const int found = take_entries(matrix, &stored);
+    size_t below = 0, above = 0;
+    for (size_t k = 0; found && k < stored.count; k++) {
+        below += stored.value[k] != 0.0 && stored.row[k] > stored.column[k];
+        above += stored.value[k] != 0.0 && stored.row[k] < stored.column[k];
+    }
+    const int is_half = (below == 0) != (above == 0);
+    const size_t room = 2 * stored.count;
+    *whole = (struct entries){0, need_integers(room), need_integers(room), need(room)};
+    for (size_t k = 0; found && k < stored.count; k++) {
+        const int64_t row = stored.row[k], column = stored.column[k];
+        append(whole, row, column, stored.value[k]);
+        if (is_half && row != column)
+            append(whole, column, row, stored.value[k]);
+    }
+    entries_free(&stored);
+    return found;
+}
+
 /* The matrix as a dense one, or NULL if an index is out of range. */
-static double *dense(const struct fclib_matrix *matrix)
+static double *dense(const struct fclib_matrix *matrix, int is_symmetric)
 {
     struct entries entries;
     double *A = NULL;
-    if (take_entries(matrix, &entries)) {
+    if (is_symmetric ? take_symmetric(matrix, &entries) : take_entries(matrix, &entries)) {
         A = need((size_t)matrix->m * (size_t)matrix->n);
         for (size_t k = 0; k < entries.count; k++)
             A[entries.row[k] + entries.column[k] * matrix->m] += entries.value[k];
@@ -85,7 +115,7 @@ const char *local_form_of_local(const struct fclib_local *problem, struct local_
     form->contacts = form->size / (size_t)form->dim;
     form->q = copy(problem->q, form->size);
     form->mu = copy(problem->mu, form->contacts);
-    form->W = dense(problem->W);
+    form->W = dense(problem->W, 1);
     if (form->W == NULL)
         return "an index of W is out of range";
     form->asymmetry = make_symmetric(form->size, form->W);
@@ -107,8 +137,8 @@ const char *local_form_of_global(const struct fclib_global *problem, struct loca
     form->q = copy(problem->w, form->size);
     form->mu = copy(problem->mu, form->contacts);
     struct entries M;
-    double *H = dense(problem->H);
-    if (!take_entries(problem->M, &M) || H == NULL) {
+    double *H = dense(problem->H, 0);
+    if (!take_symmetric(problem->M, &M) || H == NULL) {
         wrong = "an index of M or H is out of range";
     } else {
         struct bodies bodies = bodies_of((size_t)problem->M->m, &M);

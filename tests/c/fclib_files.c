@@ -89,14 +89,21 @@ static double lever(int row, int column)
     return row == SIZE - column ? 1.0 : 0.0;
 }
 
-static int write_global(const char *path, int nz)
+/* The half of a symmetric matrix that stands for the whole. */
+static double upper(int i, int j)
+{
+    return i <= j ? entry(i, j) : 0.0;
+}
+
+/* M is stored as the matrix that is given. */
+static int write_global(const char *path, int nz, double (*stored)(int, int))
 {
     int p[2][FREEDOMS * FREEDOMS], i[2][FREEDOMS * FREEDOMS];
     double x[2][FREEDOMS * FREEDOMS], f[FREEDOMS], w[SIZE], v[FREEDOMS] = {1.0};
     struct fclib_matrix M, H;
     struct fclib_global problem = {
         .M = &M, .H = &H, .mu = mu, .f = f, .w = w, .spacedim = 3};
-    fill(&M, FREEDOMS, FREEDOMS, nz, p[0], i[0], x[0], entry);
+    fill(&M, FREEDOMS, FREEDOMS, nz, p[0], i[0], x[0], stored);
     fill(&H, FREEDOMS, SIZE, nz, p[1], i[1], x[1], lever);
     /* u = H' v + w and M v = H r + f. */
     for (int a = 0; a < SIZE; a++) {
@@ -150,9 +157,10 @@ int main(int argc, char **argv)
     const char *in = argv[1];
     const int written = write_local(place(in, "triplets"), 0, entry) &&
         write_local(place(in, "columns"), -1, entry) && write_local(place(in, "rows"), -2, entry) &&
-        write_global(place(in, "global_triplets"), 0) &&
-        write_global(place(in, "global_columns"), -1) &&
-        write_global(place(in, "global_rows"), -2) && write_plane(place(in, "plane")) &&
+        write_global(place(in, "global_triplets"), 0, entry) &&
+        write_global(place(in, "global_columns"), -1, entry) &&
+        write_global(place(in, "global_rows"), -2, entry) &&
+        write_global(place(in, "global_half"), 0, upper) && write_plane(place(in, "plane")) &&
         write_local(place(in, "singular"), -1, twice) &&
         write_local(place(in, "lopsided"), -1, lopsided);
     return written ? 0 : 1;
