@@ -171,7 +171,10 @@ static void compare(const char *name, const struct local_form *form, double limi
     if (run(form, NULL, TOLERANCE, limit, answer)) {
         const double residual =
             answer->status < 0 ? INFINITY : local_form_residual(form, answer->r);
-        printf(" %d | %.0e | %.3g |", answer->status, residual, 1e3 * answer->seconds);
+        if (answer->status < 0) /* refused */
+            printf(" %d | | |", answer->status);
+        else
+            printf(" %d | %.0e | %.3g |", answer->status, residual, 1e3 * answer->seconds);
         counts->certified += answer->status == 0 && residual <= SOLVED;
         counts->solved += residual <= SOLVED;
         if (residual <= SOLVED)

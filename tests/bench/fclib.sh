@@ -42,8 +42,8 @@ mkdir -p "$build"
 (cd "$root/tests/bench" &&
     $cc -std=c11 -O2 -Wall -Wextra -Wpedantic -Wshadow -Werror -D_DEFAULT_SOURCE \
         -I "$root/include" -I "$root/c_examples/fclib" -isystem "$headers" \
-        -isystem "$headers/numerics" $(pkg-config --cflags fclib hdf5) -o "$build/fclib" fclib.c fclib_dat.c \
-        fclib_siconos.c \
+        -isystem "$headers/numerics" $(pkg-config --cflags fclib hdf5) \
+        -o "$build/fclib" fclib.c fclib_dat.c fclib_siconos.c \
         "$root/c_examples/fclib/local_form.c" "$root/c_examples/fclib/bodies.c" \
         "$root/c_examples/fclib/dense.c" \
         "$root/target/release/libsignorini.a" $(pkg-config --libs fclib hdf5) \
