@@ -193,6 +193,41 @@ fn a_sure_start_slips_less_than_its_clearance_allows() {
     assert!(cut.iter().all(|&count| count > POINTS / 50), "{cut:?}");
 }
 
+/// A pair that the linear path lifts stands open by `least` at least, and no lower than before. It keeps its slip, whose
+/// product with the slope is less than its clearance, by a tenth at most. Its friction is that of no pressure along the
+/// slip; without a slip it stays, as far as no pressure holds it.
+#[test]
+fn a_lifted_pair_keeps_its_slip_and_has_room_for_it() {
+    let rng = &mut Rng::with_seed(7);
+    let mut counts = [0; 2];
+    for _ in 0..POINTS {
+        let numbers = Numbers::random_in(rng, 2);
+        let (law, y) = (numbers.law(), coordinates(rng, &numbers));
+        let least = uniform(rng, 1e-3, 1.0);
+        let lifted = law.lifted([y[0], y[1]], least);
+        if !numbers.has_obstacle() {
+            assert_eq!(lifted, [y[0], y[1]]);
+            continue;
+        }
+        let at = |y0, y1| {
+            let (d, push) = law.point(&[y0, y1, 0.0]);
+            (d[1] - law.reference()[1], push[1])
+        };
+        let ((before, _), (slip, friction)) = (at(y[0], y[1]), at(lifted[0], lifted[1]));
+        assert!(near(slip, before), "{numbers:?} at {y:?}: {slip}, {before}");
+        let needed = numbers.k.0 * numbers.bound.slope * slip.abs();
+        let (height, others) = (-lifted[0], least.max(-y[0]));
+        assert!(height >= others.max(needed) - ROUNDING, "{numbers:?} at {y:?}: {height}");
+        assert!(height <= others.max(1.1 * needed) + ROUNDING, "{numbers:?} at {y:?}: {height}");
+        let offset = numbers.bound.offset;
+        let expected =
+            if before == 0.0 { y[1].max(-offset).min(offset) } else { offset * before.signum() };
+        assert!(near(friction, expected), "{numbers:?} at {y:?}: {friction}, {expected}");
+        counts[usize::from(needed > others)] += 1;
+    }
+    assert!(counts.iter().all(|&count| count > POINTS / 50), "{counts:?}");
+}
+
 /// The first of the pairs asked for that is closer than its obstacle, with its gap.
 #[test]
 fn the_first_penetration_is_found() {
