@@ -80,8 +80,9 @@ runs() {
 }
 
 bricks="$root/c_examples/3d/brick_mesh.c $root/c_examples/3d/brick_element.c"
-for name in bad_input valid_input methods layout model model_checks operator rows flexibility flexibility_sparse environment \
-    threads reduction_threads problem_file older_program older_structures fortran_entries mesh_fields memory_told; do
+for name in bad_input valid_input methods layout model model_checks operator rows flexibility flexibility_sparse piles \
+    environment threads reduction_threads problem_file older_program older_structures fortran_entries mesh_fields \
+    memory_told; do
     runs "$name" "${CC:-cc}" -O1 -I"$root/include" "$root/tests/c/$name.c"
 done
 for name in surfaces out_of_memory processes faults; do
