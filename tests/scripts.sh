@@ -30,7 +30,7 @@ done
 "$python" -B "$root/tests/python/files.py" "$work"
 "$python" -B "$root/tests/python/library.py" "${CC:-cc}" "$work"
 if "$python" -c 'import hypothesis' >/dev/null 2>&1; then
-    "$python" -B "$root/tests/python/arrays.py"
+    HYPOTHESIS_STORAGE_DIRECTORY=$work/hypothesis "$python" -B "$root/tests/python/arrays.py"
 else
     echo "scripts: '$python' has no hypothesis (python3-hypothesis in Debian): arrays of any kind SKIPPED"
     [ "${1-}" != --require ] || exit 1
