@@ -131,7 +131,11 @@ impl PairLaw {
             return y;
         }
         let (d, _) = self.point(&[y[0], y[1], 0.0]);
-        let slip = d[1] - self.reference()[1];
+        self.opened(y, d[1] - self.reference()[1], least)
+    }
+
+    /// The same with a given slip.
+    fn opened(&self, y: Planar, slip: f64, least: f64) -> Planar {
         let clearance = LIFTED * self.bound.slope * slip.abs();
         let normal = -(self.k_n * clearance).max(-y[0]).max(least);
         let bound = self.bound.at(0.0);
@@ -141,6 +145,31 @@ impl PairLaw {
             self.k_t * slip + bound * slip.signum()
         };
         self.sure_start([normal, tangential])
+    }
+
+    /// Coordinates from which a path goes on where the pair was held open, or stuck, at the displacements `d` with their
+    /// `force`, whatever the law says to that. The law knows no pair that penetrates: it is open, as far as
+    /// [`Self::lifted`], with its slip. One that sticks in tension, or with too much friction, sticks with what the law
+    /// allows. `J` keeps its sign in both. What obeys the law keeps its coordinates. Forces of the size `least` are
+    /// rounding.
+    pub fn released(&self, d: &[f64], force: &[f64], least: f64) -> Planar {
+        let y = self.chart(d, force);
+        let (y, reference) = ([y[0], y[1]], self.reference());
+        if !self.has_obstacle() {
+            return y;
+        }
+        let slip = d[1] - reference[1];
+        let inside = self.k_n * (d[0] - reference[0]);
+        if inside > least {
+            return self.opened(y, slip, least);
+        }
+        let sticks = inside.abs() <= least && self.k_t * slip.abs() <= least;
+        if sticks && (y[0] <= 0.0 || y[1].abs() > self.bound.at(y[0])) {
+            let pressure = y[0].max(least);
+            let most = KEPT_SLIP * self.bound.at(pressure);
+            return [pressure, y[1].max(-most).min(most)];
+        }
+        y
     }
 
     /// The pair pressed on its obstacle with the force `p > 0`, and stuck.

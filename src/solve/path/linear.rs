@@ -25,6 +25,16 @@
 //! of `H` is that of the identity, 1, so that `det J > 0` at a single point, and the curve begins upwards.
 //! An end at `s = 0` would be reached downwards, where `det J < 0`, so at another point. ∎
 //!
+//! **Theorem I.** *If the loads `r_s` have one point for all `s` far below zero, the path from any `y0`, followed with
+//! the sign of `det J` whatever `s` is, is closed or leads to a solution.*
+//!
+//! *Proof.* At each `s` the signs of `det J` add up to 1. Curves that neither end nor branch come from `s = -∞` or `∞`
+//! and go there. The one that is at `s = -∞` has `det J > 0`: it comes from there. So none goes there, and the path from
+//! `y0` goes to `s = ∞`. ∎
+//!
+//! So a path that comes back to `s = 0` goes on below, and one may begin where `det J < 0`. Without the premise it may
+//! sink for ever.
+//!
 //! With given thresholds (`mu = 0`) `det J > 0` on all pieces: every start is the only point of its
 //! loads, and `s` never falls. With friction it may not be: for one pair with `K = [2 1; 1 1]`, `mu = 2`
 //! and `r_0 = (1, F)`, `1 < F < 2`, stick, slip and open are all possible.
@@ -68,17 +78,17 @@
 //! [`crate::certificate::is_escape`] decides; friction may hold a body that this proof does not.
 //!
 //! *What is followed.* First on the pairs in question alone ([`crate::solve::undecided`]), where an event costs
-//! little: their matrix is definite too. Then on all pairs, from where these have come to, all states kept, for it
-//! is near: G without its premise; if that comes back, or takes more events than a third of the pairs, once more
-//! after some sweeps. Then from the sure starts, H, after more and more sweeps; if rounding spoils that, with
-//! factorisations at nearly every event, and from all pairs pressed on their obstacles. Starts are moved at random
-//! by 1e-7 of the loads, always by the same numbers: symmetric meshes have ties. At `s = 1` nothing is left of
-//! that, and Newton's method polishes from the pieces found there.
+//! little: their matrix is definite too. Swept starts are near a solution, and most of their walks are short, so that
+//! several are tried, after more and more sweeps: by theorem I without its premise. Between them come sure starts, H,
+//! whose walks take about one event a pair: with all pairs in their states, and lifted. Then the same on all pairs, from
+//! where those in question have come to; if rounding spoils that, with factorisations at nearly every event, and from
+//! all pairs pressed on their obstacles (`linear_attempts`). Starts are moved at random by 1e-7 of the loads, always by
+//! the same numbers: symmetric meshes have ties. At `s = 1` nothing is left of that, and Newton's method polishes from
+//! the pieces found there.
 //!
-//! *Limits.* The number of events is not bounded by a polynomial. On meshes it is about the number of
-//! pairs whose state differs from that of the start, a few in a hundred pairs from swept starts.
+//! *Limits.* The number of events is not bounded by a polynomial.
 
-use super::linear_attempts::{ATTEMPTS, Attempt, ON_UNDECIDED, Start, WITH_STATES};
+use super::linear_attempts::{ATTEMPTS, Attempt, FIRST_ON_UNDECIDED, LAST, ON_UNDECIDED, Start};
 use super::linear_start::{Random, Starts};
 use super::linear_walk::{End, Ground, Walk};
 use crate::law::{Contact, Planar};
@@ -112,7 +122,7 @@ pub fn linear(
         };
     }
     // With given thresholds every start is sure.
-    let mut attempts = ATTEMPTS[WITH_STATES..].to_vec();
+    let mut attempts = ATTEMPTS[LAST..].to_vec();
     attempts[0].sweeps = SWEEPS_OF_SURE;
     solve(contact, settings, start, &attempts, monitor)
 }
@@ -127,8 +137,10 @@ fn on_undecided(
 ) -> Result<Candidate, Vec<f64>> {
     let zero = || vec![0.0; contact.unknowns()];
     let d = start.map_or_else(zero, <[f64]>::to_vec);
+    let mut skipped = FIRST_ON_UNDECIDED;
     let mut core = |part: &Contact<'_>, d: &[f64], monitor: &mut Monitor<'_>| {
-        solve(part, settings, Some(d), &ON_UNDECIDED, monitor)
+        let attempts = &ON_UNDECIDED[std::mem::take(&mut skipped)..];
+        solve(part, settings, Some(d), attempts, monitor)
     };
     let (ended, systems) = undecided::solve(contact, settings, &d, monitor, &mut core);
     let mut candidate = match ended {
@@ -169,9 +181,6 @@ fn solve(
             break;
         }
         let Some(mut walk) = Walk::new(&ground, &y) else { continue };
-        if !walk.begins_upwards() {
-            continue;
-        }
         let end = walk.follow(attempt.rules(y.len()), monitor);
         let mut candidate = ended(contact, settings, &walk, end, monitor);
         effort.factorisations += walk.factorisations + candidate.effort.factorisations;
@@ -268,10 +277,9 @@ mod tests {
             let problem = coulomb(&stiffness, &load, &gap, &mu, &slip);
             let (contact, settings) = (Contact::new(&problem), Settings::default());
             let mut monitor = Monitor::new(&settings, None);
-            // The first begins with all pairs lifted, the second with all of them in their states.
-            for attempt in &ATTEMPTS[WITH_STATES - 1..=WITH_STATES] {
-                let attempt = std::slice::from_ref(attempt);
-                let candidate = solve(&contact, &settings, None, attempt, &mut monitor);
+            for start in [Start::Lifted, Start::Sure] {
+                let attempt = [Attempt { sweeps: 30, start, events: 10.0, careful: false }];
+                let candidate = solve(&contact, &settings, None, &attempt, &mut monitor);
                 let method = crate::settings::Method::Auto;
                 let solution =
                     crate::solve::candidate::certified(&contact, &settings, method, &candidate);

@@ -13,7 +13,7 @@ const RANDOM: f64 = 1e-7;
 pub struct Starts {
     /// `r = f - K (gap, slip0)`: the loads on the body that touches all its obstacles.
     pub load: Vec<f64>,
-    /// Displacements after the sweeps, and their force.
+    /// Displacements after the sweeps, and their force; at first those of the start, which may break the law.
     swept: (Vec<f64>, Vec<f64>),
     /// Size of the random part of each component.
     unit: Vec<f64>,
@@ -25,7 +25,7 @@ impl Starts {
     /// Begins at the displacements `start` (zero if `None`).
     pub fn new(contact: &Contact<'_>, root: &[f64], start: Option<&[f64]>) -> Self {
         let zero = || vec![0.0; contact.unknowns()];
-        let d = contact.admissible(&start.map_or_else(zero, <[f64]>::to_vec));
+        let d = start.map_or_else(zero, <[f64]>::to_vec);
         let force = contact.problem().force(&d);
         let reference: Vec<f64> =
             contact.pairs().iter().flat_map(|law| law.reference()[..2].to_vec()).collect();
@@ -46,6 +46,10 @@ impl Starts {
     /// Sweeps on while there is time.
     pub fn sweep(&mut self, contact: &Contact<'_>, sweeps: usize, monitor: &Monitor<'_>) {
         let (sweeper, (d, force)) = (Sweeper::new(), &mut self.swept);
+        if sweeps > 0 {
+            *d = contact.admissible(d);
+            *force = contact.problem().force(d);
+        }
         for _ in 0..sweeps {
             if monitor.is_late() {
                 return;
@@ -59,7 +63,8 @@ impl Starts {
         let (d, force) = &self.swept;
         let mut units = self.unit.chunks_exact(2);
         let moved = |(law, d, force): (&PairLaw, &[f64], &[f64])| {
-            let (y, unit) = (law.chart(d, force), units.next().expect("every pair has units"));
+            let unit = units.next().expect("every pair has units");
+            let y = law.released(d, force, unit[0] * (2.0 + random.signed()));
             std::array::from_fn(|c| y[c] + unit[c] * random.signed())
         };
         contact.each(d, force).map(moved).collect()

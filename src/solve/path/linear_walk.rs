@@ -26,8 +26,7 @@ pub struct Rules {
 pub enum End {
     /// At the loads of the problem.
     Arrived,
-    /// At the loads of the start, or beyond all events; the system of a piece is singular; too many
-    /// events.
+    /// Below the loads of the start for ever; the system of a piece is singular; too many events.
     Lost,
     /// On a ray with a rigid motion.
     Ray(Vec<f64>),
@@ -101,12 +100,8 @@ impl<'p> Walk<'p> {
         })
     }
 
-    /// Whether the path begins upwards in the sense of its orientation.
-    pub fn begins_upwards(&self) -> bool {
-        self.system.sign() > 0.0
-    }
-
-    /// Goes on to the end.
+    /// Goes on to the end, with the sign of `det J`: downwards at first where that is negative, and below the loads of the
+    /// start if the way leads there.
     pub fn follow(&mut self, rules: Rules, monitor: &mut Monitor<'_>) -> End {
         for _ in 0..rules.most {
             if let Err(stop) = monitor.step() {
@@ -131,9 +126,6 @@ impl<'p> Walk<'p> {
             let Some((pair, exit)) = exit.filter(|(_, exit)| exit.step < left) else {
                 return End::Arrived;
             };
-            if self.s < 0.0 {
-                return End::Lost;
-            }
             if let Err(end) = self.pass(pair, &exit, rules, monitor) {
                 return end;
             }
@@ -212,8 +204,12 @@ impl<'p> Walk<'p> {
         (finite(&self.y) && finite(&self.rate)).then_some(())
     }
 
-    /// The motion of the coordinates' direction `sign way`, if it is rigid.
+    /// The motion of the coordinates' direction `sign way`, if it is rigid. Below the start a ray says nothing of the
+    /// loads of the problem.
     fn rigid(&self, way: &[f64], sign: f64) -> Option<Vec<f64>> {
+        if self.s < 0.0 {
+            return None;
+        }
         let mut motion = self.system.motion(way);
         motion.iter_mut().for_each(|motion| *motion *= sign);
         let internal = self.ground.contact.problem().internal_force(&motion);
@@ -239,5 +235,48 @@ impl<'p> Walk<'p> {
     pub fn displacements(&self) -> Vec<f64> {
         let pairs = self.ground.contact.pairs().iter().zip(self.y.chunks_exact(2));
         pairs.flat_map(|(law, y)| law.point(&[y[0], y[1], 0.0]).0[..2].to_vec()).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::problem::{ContactData, ContactProblem, FrictionLaw};
+    use crate::settings::Settings;
+
+    /// One pair with `K = [2 1; 1 1]` and `mu = 2`. The loads (1, 1.5) hold it stuck with the pressure 1 and the friction
+    /// 1.5, slipping by 0.5 under the pressure 0.5, and open at `K⁻¹ (1, 1.5) = (-0.5, 2)`; the loads (-1, 0) only open,
+    /// at (-1, 1). On the line between them the stuck point ends where the friction is twice the pressure, the slipping one
+    /// there and where both are equal, below (1, 1.5): paths from all three points arrive (theorem I).
+    #[test]
+    fn a_path_goes_on_below_its_start() {
+        let (stiffness, load) = ([2.0, 1.0, 1.0, 1.0], [-1.0, 0.0]);
+        let problem = ContactProblem::new(ContactData {
+            dim: 2,
+            pairs: 1,
+            stiffness: &stiffness,
+            ld: 2,
+            load: &load,
+            gap: &[0.0],
+            law: FrictionLaw::Coulomb(&[2.0]),
+            reference_slip: None,
+        });
+        let problem = problem.expect("the data is valid");
+        let (contact, settings) = (Contact::new(&problem), Settings::default());
+        let root = problem.unit_roots();
+        let ground = Ground { contact: &contact, root: &root, load: &load, size: 1.0 };
+        let (stuck, slipping, open) = ([1.0, 1.5], [0.5, 1.5], [-1.0, 2.0]);
+        for (start, sign, events) in [(stuck, 1.0, 2), (slipping, -1.0, 1), (open, 1.0, 0)] {
+            let mut monitor = Monitor::new(&settings, None);
+            let mut walk = Walk::new(&ground, &[start]).expect("each piece is regular");
+            // K v + P is (1, 1.5) at all three; powers of two and few digits leave no rounding.
+            assert_eq!(walk.first, [1.0, 1.5]);
+            assert_eq!(walk.system.sign(), sign);
+            let end = walk.follow(Rules { most: 10, age: 60 }, &mut monitor);
+            assert!(matches!(end, End::Arrived), "from {start:?}");
+            assert_eq!(walk.events, events, "from {start:?}");
+            let d = walk.displacements();
+            assert!((d[0] + 1.0).abs() < 1e-14 && (d[1] - 1.0).abs() < 1e-14, "{d:?}");
+        }
     }
 }
