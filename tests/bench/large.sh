@@ -10,8 +10,8 @@
 #
 # OUT/threads.csv, the reduction on one and on two threads, as large_threads.c says; OUT/large.txt, with what the runs
 # say of them; and the growth of time and memory: OUT/growth.md, and
-# OUT/large.png where PYTHON, default python3, has matplotlib. A CASE is block, bar, square-NODES, or the nodes
-# along an edge of a cube; the default takes some minutes and 2 GB; 47 takes more than two minutes and 5.5 GB by
+# OUT/large.png where PYTHON, default python3, has matplotlib. A CASE is block, bar, square-NODES, the nodes
+# along an edge of a cube, or these with the number of pairs, as in 26-67; the default takes some minutes and 2 GB; 47 takes more than two minutes and 5.5 GB by
 # itself. Each case and library is a process of its own, so that peaks are those of the case. Times are those of
 # one thread; on a busy machine they are longer.
 #
@@ -30,18 +30,22 @@ die() {
     exit 1
 }
 
-[ $# -ge 1 ] || die "usage: sh tests/bench/large.sh OUT [block | bar | square-NODES | NODES] ..."
+[ $# -ge 1 ] || die "usage: sh tests/bench/large.sh OUT [block | bar | square-NODES | NODES | NODES-PAIRS] ..."
 root=$(CDPATH='' cd -- "$(dirname -- "$0")/../.." && pwd)
 mkdir -p -- "$1" || die "cannot create the directory $1"
 out=$(CDPATH='' cd -- "$1" && pwd)
 shift
-[ $# -gt 0 ] || set -- bar square-56 square-112 square-224 square-448 13 18 26 33
+[ $# -gt 0 ] || set -- bar square-56 square-112 square-224 square-448 13 18 26-67 26-333 26 33
 for case in "$@"; do
     case $case in
     block | bar) continue ;;
     esac
-    case ${case#square-} in
-    *[!0-9]* | '' | 0 | 1) die "$case is no case: block, bar, square-NODES, or a number of nodes from 2 on" ;;
+    edge=${case#square-}
+    case ${edge%-*} in
+    *[!0-9]* | '' | 0 | 1) die "$case is no case: block, bar, square-NODES, NODES or NODES-PAIRS, with 2 nodes or more" ;;
+    esac
+    case ${edge##*-} in
+    *[!0-9]* | '' | 0) die "$case is no case: PAIRS is a number from 1 on" ;;
     esac
 done
 

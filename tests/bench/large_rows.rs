@@ -3,7 +3,8 @@
 //!
 //! `cargo bench --bench large_rows -- bar block 26 33`: `bar` has 1000 x 50 nodes with all 1000 of its lower
 //! line in contact, `block` 224 x 224 nodes with one line in contact, `square-N` N x N nodes with one line in
-//! contact; a number is the nodes along an edge of a cube that is clamped above and in contact below. The
+//! contact; a number is the nodes along an edge of a cube that is clamped above and in contact below, `26-67` such a
+//! cube with only the 67 pairs in contact that are nearest to the middle of its face. The
 //! clamped face presses, shears and tilts, differently in each load case; the obstacle is hollow, so that some
 //! pairs open; friction .3. One thread. Times and peaks are those of Linux. `tests/bench/large.sh` makes a table of
 //! the rows; lines with # are no rows. With `SIGNORINI_LARGE_MATRIX=FILE` the matrix is written for
@@ -40,14 +41,17 @@ fn main() {
             "block" => plane(case, [223, 223]),
             other => match other.strip_prefix("square-") {
                 Some(edge) => plane(case, [number(edge) - 1; 2]),
-                None => cube(case, number(other)),
+                None => match other.split_once('-') {
+                    Some((edge, pairs)) => cube(case, number(edge), number(pairs)),
+                    None => cube(case, number(other), usize::MAX),
+                },
             },
         }
     }
 }
 
 fn number(nodes: &str) -> usize {
-    nodes.parse().expect("bar, block, square-NODES or a number of nodes")
+    nodes.parse().expect("bar, block, square-NODES, NODES or NODES-PAIRS")
 }
 
 fn plane(case: &str, [columns, rows]: [usize; 2]) {
@@ -72,8 +76,15 @@ fn plane(case: &str, [columns, rows]: [usize; 2]) {
     study.run(|| stiffness.model(&fixed, &pairs).expect("a valid model"));
 }
 
-fn cube(case: &str, edge: usize) {
-    let brick = Brick::new([edge - 1; 3], [1.0; 3], Support::Clamped);
+fn cube(case: &str, edge: usize, pairs: usize) {
+    let mut brick = Brick::new([edge - 1; 3], [1.0; 3], Support::Clamped);
+    if pairs < brick.pairs() {
+        let from_middle = |node: &usize| brick.nodes[*node][0].hypot(brick.nodes[*node][1]);
+        let mut contact = brick.contact.clone();
+        contact.sort_by(|a, b| from_middle(a).total_cmp(&from_middle(b)));
+        contact.truncate(pairs);
+        (brick.contact, brick.tangents) = (contact, None);
+    }
     let stiffness = brick.stiffness();
     let contact: Vec<usize> =
         brick.contact.iter().flat_map(|n| [0, 1, 2].map(|c| 3 * n + c)).collect();
@@ -83,7 +94,7 @@ fn cube(case: &str, edge: usize) {
         height: 1.0,
         above: brick.top().map(place).collect(),
         below: brick.contact.iter().map(|&node| place(node)).collect(),
-        unknowns: brick.size() - 3 * brick.pairs(),
+        unknowns: brick.size() - brick.fixed().len(),
         dim: 3,
     };
     study.write_problem(&stiffness, &brick.fixed(), &contact);

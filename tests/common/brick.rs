@@ -73,7 +73,8 @@ impl Brick {
 
     /// Nodes of the upper face.
     pub fn top(&self) -> std::ops::Range<usize> {
-        self.nodes.len() - self.pairs()..self.nodes.len()
+        let [nx, ny, _] = self.cells;
+        self.nodes.len() - (nx + 1) * (ny + 1)..self.nodes.len()
     }
 
     /// The position of a pair's node.
