@@ -74,7 +74,8 @@ const fn walk(sweeps: usize, start: Start, events: f64) -> Attempt {
 /// to. How long a walk is varies much with the sweeps before it, and the next one may be ten times as long: so that short
 /// walks from several starts end sooner than a long one. A walk with all pairs in their states does not need the
 /// supports, without which a lifted body is free.
-pub const ATTEMPTS: [Attempt; 13] = [
+pub const ATTEMPTS: [Attempt; 14] = [
+    walk(0, Start::Swept, SHORT),
     walk(30, Start::Swept, SHORT),
     walk(70, Start::Swept, SHORT),
     walk(100, Start::Swept, SHORT),
@@ -91,7 +92,7 @@ pub const ATTEMPTS: [Attempt; 13] = [
 ];
 
 /// Where the last ones begin, which are given all the events that they need.
-pub const LAST: usize = 10;
+pub const LAST: usize = 11;
 
 /// The same on the pairs in question, where each costs less.
 pub const ON_UNDECIDED: [Attempt; 8] = [
