@@ -12,7 +12,7 @@ use common::mesh::{self, Mesh, steps};
 use common::problems::{decades, uniform};
 use common::rigid_statics::{Statics, statics};
 use fastrand::Rng;
-use signorini::reduce::{ContactPairs, Indices, SparseMatrix, Triangle};
+use signorini::reduce::ContactPairs;
 use signorini::{Error, FrictionLaw, LoadCase, Model, Monitor, Settings, Solution, Status};
 
 /// The residual of the whole structure, relative to the loads.
@@ -139,14 +139,6 @@ impl Body {
 
     fn model(&self) -> Result<Model, Error> {
         let count = self.feet.len();
-        let matrix = SparseMatrix {
-            size: self.stiffness.size,
-            col_start: Indices::Wide(&self.stiffness.col_start),
-            row: Indices::Wide(&self.stiffness.row),
-            values: &self.stiffness.values,
-            index_base: 0,
-            triangle: Triangle::Lower,
-        };
         let dofs = |&foot: &usize| self.dim * foot..self.dim * (foot + 1);
         let pairs = ContactPairs {
             dim: self.dim,
@@ -158,7 +150,7 @@ impl Body {
             normals: &vec![&self.normal[..self.dim]; count].concat(),
             tangents: None,
         };
-        Model::sparse(&matrix, &[], &pairs)
+        Model::sparse(&self.stiffness.view(), &[], &pairs)
     }
 
     fn solved(&self, model: &Model, load: &[f64]) -> Result<Solution, Error> {

@@ -15,9 +15,9 @@ use common::dense::{difference, largest};
 use common::mesh::Stiffness;
 use common::solids::{Cells, Order, Point, Solid};
 use fastrand::Rng;
-use signorini::reduce::{ContactPairs, Indices, SparseMatrix, Triangle};
+use signorini::reduce::ContactPairs;
 use signorini::surface::{PairArrays, SurfaceSettings};
-use signorini::{FrictionLaw, LoadCase, Model, Monitor, Settings, Solution, Status};
+use signorini::{FrictionLaw, LoadCase, Monitor, Settings, Solution, Status};
 use surfaces::{pair, steps};
 
 /// Weight of the upper block, and the force that pushes it aside: below the friction of [`FRICTION`], and too small to
@@ -66,25 +66,13 @@ impl Cubes {
         Cubes { stiffness: Solid::stiffness(&solids.each_ref()), fixed, arrays, load }
     }
 
-    fn model(&self, settings: &Settings) -> Model {
-        let matrix = SparseMatrix {
-            size: self.stiffness.size,
-            col_start: Indices::Wide(&self.stiffness.col_start),
-            row: Indices::Wide(&self.stiffness.row),
-            values: &self.stiffness.values,
-            index_base: 0,
-            triangle: Triangle::Lower,
-        };
-        let pairs = ContactPairs::from(&self.arrays);
-        let monitor = &mut Monitor::new(settings, None);
-        Model::sparse_within(&matrix, &self.fixed, &pairs, None, monitor).unwrap()
-    }
-
     /// The solution, and the displacements of all nodes.
     fn solved(&self, full_space: bool) -> (Solution, Vec<f64>) {
         let settings = Settings { full_space, ..Settings::default() };
         let begin = Instant::now();
-        let model = self.model(&settings);
+        let (pairs, monitor) =
+            (ContactPairs::from(&self.arrays), &mut Monitor::new(&settings, None));
+        let model = self.stiffness.model_under(&self.fixed, &pairs, monitor).unwrap();
         assert_eq!(model.is_unformed(), full_space);
         let friction = vec![FRICTION; model.pairs()];
         let case = LoadCase {

@@ -13,7 +13,7 @@ mod surfaces;
 use common::dense::largest;
 use common::solids::{Cell, Cells, Kind, Order, Point, Solid, gauss, on_triangle};
 use fastrand::Rng;
-use signorini::reduce::{ContactPairs, Indices, SparseMatrix, Triangle};
+use signorini::reduce::ContactPairs;
 use signorini::surface::{PairArrays, SurfaceSettings, SymmetryPlane};
 use signorini::{Error, FrictionLaw, LoadCase, Model, Monitor, Settings, Solution, State, Status};
 use surfaces::{grid, pair, steps};
@@ -134,15 +134,7 @@ impl Blocks {
             SurfaceSettings { symmetry: self.setting.planes(), ..SurfaceSettings::default() };
         let arrays = pair(dim, &self.nodes, sides, &settings).unwrap().rows();
         let stiffness = Solid::stiffness(&self.solids.each_ref());
-        let matrix = SparseMatrix {
-            size: stiffness.size,
-            col_start: Indices::Wide(&stiffness.col_start),
-            row: Indices::Wide(&stiffness.row),
-            values: &stiffness.values,
-            index_base: 0,
-            triangle: Triangle::Lower,
-        };
-        let model = Model::sparse(&matrix, &self.fixed, &ContactPairs::from(&arrays))?;
+        let model = Model::sparse(&stiffness.view(), &self.fixed, &ContactPairs::from(&arrays))?;
         let load = self.load(&stiffness);
         let prescribed: Vec<f64> = self.fixed.iter().map(|&dof| self.exact[dof]).collect();
         let case = LoadCase {

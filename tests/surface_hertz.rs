@@ -21,7 +21,7 @@ use std::f64::consts::PI;
 
 use common::solids::{Cell, Cells, Kind, Order, Solid, gauss};
 use fastrand::Rng;
-use signorini::reduce::{ContactPairs, Indices, SparseMatrix, Triangle};
+use signorini::reduce::ContactPairs;
 use signorini::surface::SurfaceSettings;
 use signorini::{FrictionLaw, LoadCase, Model, Monitor, Settings, Status};
 use surfaces::pair;
@@ -206,15 +206,8 @@ impl Contact {
         let found = pair(dim, &nodes, sides, &SurfaceSettings::default()).unwrap();
         let arrays = found.rows();
         let stiffness = Solid::stiffness(&self.solids.each_ref());
-        let matrix = SparseMatrix {
-            size: stiffness.size,
-            col_start: Indices::Wide(&stiffness.col_start),
-            row: Indices::Wide(&stiffness.row),
-            values: &stiffness.values,
-            index_base: 0,
-            triangle: Triangle::Lower,
-        };
-        let model = Model::sparse(&matrix, &self.fixed(), &ContactPairs::from(&arrays)).unwrap();
+        let model =
+            Model::sparse(&stiffness.view(), &self.fixed(), &ContactPairs::from(&arrays)).unwrap();
         let case = LoadCase {
             load: &self.load(),
             prescribed: None,

@@ -9,7 +9,7 @@ mod surfaces;
 use common::brick20::Brick20;
 use common::dense::largest;
 use common::mesh::Stiffness;
-use signorini::reduce::{ContactPairs, Indices, SparseMatrix, Triangle};
+use signorini::reduce::ContactPairs;
 use signorini::surface::{PairArrays, SurfacePairs, SurfaceSettings};
 use signorini::{Error, FrictionLaw, LoadCase, Model, Monitor, Settings, Solution, State, Status};
 use surfaces::pair;
@@ -17,15 +17,7 @@ use surfaces::pair;
 const PRESSURE: f64 = 7.0;
 
 fn model(stiffness: &Stiffness, fixed: &[usize], arrays: &PairArrays) -> Model {
-    let matrix = SparseMatrix {
-        size: stiffness.size,
-        col_start: Indices::Wide(&stiffness.col_start),
-        row: Indices::Wide(&stiffness.row),
-        values: &stiffness.values,
-        index_base: 0,
-        triangle: Triangle::Lower,
-    };
-    Model::sparse(&matrix, fixed, &ContactPairs::from(arrays)).unwrap()
+    Model::sparse(&stiffness.view(), fixed, &ContactPairs::from(arrays)).unwrap()
 }
 
 fn solve(model: &Model, load: &[f64], gaps: &[f64], mu: f64, tolerance: f64) -> Solution {

@@ -9,7 +9,7 @@ use common::brick::{Brick, Support};
 use common::mesh::{Block, Mesh, Stiffness, steps};
 use common::stack::components;
 use fastrand::Rng;
-use signorini::reduce::{ContactPairs, Indices, SparseMatrix, Triangle};
+use signorini::reduce::ContactPairs;
 use signorini::surface::{PairArrays, Rims, SurfaceSettings};
 use signorini::{FrictionLaw, LoadCase, Model, Monitor, Settings, Solution, State, Status};
 use surfaces::{exact_loads, grid, pair};
@@ -26,15 +26,7 @@ fn solve(stiffness: &Stiffness, fixed: &[usize], arrays: &PairArrays, load: &[f6
         normals: &arrays.normals,
         tangents: Some(&arrays.tangents),
     };
-    let matrix = SparseMatrix {
-        size: stiffness.size,
-        col_start: Indices::Wide(&stiffness.col_start),
-        row: Indices::Wide(&stiffness.row),
-        values: &stiffness.values,
-        index_base: 0,
-        triangle: Triangle::Lower,
-    };
-    let model = Model::sparse(&matrix, fixed, &pairs).unwrap();
+    let model = Model::sparse(&stiffness.view(), fixed, &pairs).unwrap();
     let case = LoadCase {
         load,
         prescribed: None,

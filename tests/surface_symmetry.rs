@@ -13,7 +13,7 @@ use common::dense::largest;
 use common::mesh::Stiffness;
 use common::solids::{Cells, Order, Point, Solid};
 use fastrand::Rng;
-use signorini::reduce::{ContactPairs, Indices, SparseMatrix, Triangle};
+use signorini::reduce::ContactPairs;
 use signorini::surface::{Normals, Pairing, Rims, SurfacePairs, SurfaceSettings, SymmetryPlane};
 use signorini::{FrictionLaw, LoadCase, Model, Monitor, Settings, State, Status};
 use surfaces::{SHAPES, Shape, Sheet, TwoSheets, grid, pair};
@@ -151,16 +151,8 @@ impl Bodies {
             }
         }
         let stiffness = self.stiffness();
-        let matrix = SparseMatrix {
-            size: stiffness.size,
-            col_start: Indices::Wide(&stiffness.col_start),
-            row: Indices::Wide(&stiffness.row),
-            values: &stiffness.values,
-            index_base: 0,
-            triangle: Triangle::Lower,
-        };
         let arrays = found.rows();
-        let model = Model::sparse(&matrix, &fixed, &ContactPairs::from(&arrays)).unwrap();
+        let model = Model::sparse(&stiffness.view(), &fixed, &ContactPairs::from(&arrays)).unwrap();
         let load = vec![0.0; stiffness.size];
         let mu = vec![0.2; arrays.count];
         let case = LoadCase {

@@ -1,6 +1,6 @@
 //! Blocks of 8-node bricks on a plane obstacle: trilinear, 2 x 2 x 2 Gauss points, isotropic.
 
-use signorini::reduce::{ContactPairs, Indices, SparseMatrix, Triangle};
+use signorini::reduce::ContactPairs;
 use signorini::{Error, Model, Monitor, Settings};
 
 use super::dense::dot;
@@ -152,14 +152,6 @@ impl Brick {
         order: Option<&[usize]>,
         monitor: &mut Monitor<'_>,
     ) -> Result<Model, Error> {
-        let matrix = SparseMatrix {
-            size: matrix.size,
-            col_start: Indices::Wide(&matrix.col_start),
-            row: Indices::Wide(&matrix.row),
-            values: &matrix.values,
-            index_base: 0,
-            triangle: Triangle::Lower,
-        };
         let count = self.pairs();
         let tangents = self.tangents.as_ref().map(|tangents| tangents.concat());
         let pairs = ContactPairs {
@@ -172,7 +164,7 @@ impl Brick {
             normals: &vec![self.normal; count].concat(),
             tangents: tangents.as_deref(),
         };
-        Model::sparse_within(&matrix, &self.fixed(), &pairs, order, monitor)
+        Model::sparse_within(&matrix.view(), &self.fixed(), &pairs, order, monitor)
     }
 
     /// Degrees of freedom that are fixed.

@@ -199,16 +199,20 @@ impl Stiffness {
         stored
     }
 
-    pub fn model(&self, fixed: &[usize], pairs: &Pairs) -> Result<Model, Error> {
-        let matrix = SparseMatrix {
+    /// As the library takes it.
+    pub fn view(&self) -> SparseMatrix<'_> {
+        SparseMatrix {
             size: self.size,
             col_start: Indices::Wide(&self.col_start),
             row: Indices::Wide(&self.row),
             values: &self.values,
             index_base: 0,
             triangle: Triangle::Lower,
-        };
-        Model::sparse(&matrix, fixed, &pairs.view())
+        }
+    }
+
+    pub fn model(&self, fixed: &[usize], pairs: &Pairs) -> Result<Model, Error> {
+        Model::sparse(&self.view(), fixed, &pairs.view())
     }
 
     /// The same under settings.
@@ -218,15 +222,7 @@ impl Stiffness {
         pairs: &ContactPairs<'_>,
         monitor: &mut Monitor<'_>,
     ) -> Result<Model, Error> {
-        let matrix = SparseMatrix {
-            size: self.size,
-            col_start: Indices::Wide(&self.col_start),
-            row: Indices::Wide(&self.row),
-            values: &self.values,
-            index_base: 0,
-            triangle: Triangle::Lower,
-        };
-        Model::sparse_within(&matrix, fixed, pairs, None, monitor)
+        Model::sparse_within(&self.view(), fixed, pairs, None, monitor)
     }
 }
 

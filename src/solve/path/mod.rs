@@ -1,6 +1,6 @@
-//! Paths of solutions that lead from any start to a solution, for every `mu`.
+//! Paths of solutions that lead to a solution of the problem, for every `mu`: in space from any start.
 //!
-//! In the plane the path is piecewise linear: `linear`, with theorems of its own (G, H, K), which moves the
+//! In the plane the path is piecewise linear: `linear`, with theorems of its own (G to K), which moves the
 //! load alone. In space it is piecewise analytic: `curved`, with its homotopy, and `curve`, which follows it.
 //!
 //! # What is proved
