@@ -1375,7 +1375,7 @@ const char *signorini_problem_remark(const signorini_problem *problem);
  */
 #define SIGNORINI_METHOD_NEWTON 5
 /**
- * A path of solutions from the start to one of the problem, with friction. If K is positive
+ * A path of solutions that leads to one of the problem, with friction. If K is positive
  * definite it exists for every mu, load and gap. AUTO follows it where Newton's method fails.
  */
 #define SIGNORINI_METHOD_PATH 6

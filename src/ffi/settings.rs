@@ -25,7 +25,7 @@ pub const SIGNORINI_METHOD_BLOCK_PIVOTING: i32 = 4;
 /// Newton's method, on the states of the pairs (2D) or the normal map (3D). It may fail; the status
 /// says so.
 pub const SIGNORINI_METHOD_NEWTON: i32 = 5;
-/// A path of solutions from the start to one of the problem, with friction. If K is positive
+/// A path of solutions that leads to one of the problem, with friction. If K is positive
 /// definite it exists for every mu, load and gap. AUTO follows it where Newton's method fails.
 pub const SIGNORINI_METHOD_PATH: i32 = 6;
 
