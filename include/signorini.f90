@@ -9,7 +9,7 @@
 ! body's outward normal is n, force(n) < 0 presses. The problem, the signs and the units are those
 ! of signorini.h.
 !
-! What to call:
+! Calls and types:
 !     contact_solve    a condensed problem in one call
 !     contact_solve_flexibility  the same by a matrix that turns forces into displacements
 !     contact_solve_flexibility_sparse  the same by a sparse one
@@ -17,16 +17,18 @@
 !     contact_prove    proves that a solution exists next to displacements of any origin
 !     lcp_solve        a linear complementarity problem (LCP)
 !     contact_model    a type: a structure that is reduced once and solved for many load cases;
-!                      call model%new_condensed, %new_two_body, %new_sparse or
-!                      %new_sparse_rows, %new_surfaces, %new_operator, then %solve, %certify, %recover,
-!                      %nodal_forces, %frames, %condensed_load, %stiffness, at the end %release
+!                      call model%new_condensed, %new_two_body, %new_flexibility or
+!                      %new_flexibility_sparse, %new_sparse or %new_sparse_rows, %new_surfaces,
+!                      %new_operator, then %solve, %certify, %prove, %recover, %nodal_forces, %frames,
+!                      %condensed_load, %stiffness, %view, at the end %release
 !     contact_surfaces a type: contact pairs that the library makes from the faces of two meshes; call
 !                      %pair or %pair_obstacle, model%new_surfaces, then %fields, %resultant,
 !                      %write, at the end %release
 !     contact_operator a type to extend: a host that gives products and solutions in the place of a
 !                      matrix; model%new_operator takes it
-! The functions signorini_... are those of signorini.h, argument by argument: files, and whatever
-! else is not above. That header is their reference.
+! The functions signorini_... are those of signorini.h, signorini_surface.h and signorini_file.h,
+! argument by argument: files, and whatever else is not above. These headers are their reference;
+! what they have behind SIGNORINI_UNSTABLE may still change here too.
 !
 ! Arguments that many calls have:
 !     friction  the law's parameters, pair by pair. Without it there is no friction.
@@ -59,6 +61,15 @@ module signorini
     ! The model has not been made, has been released, or has not what is asked for.
     integer, parameter :: CONTACT_WRONG_MODEL = -99
 
+    ! Friction laws, and how many numbers of friction each has for each pair (tests/sources/bindings.rs)
+    integer(c_int32_t), parameter :: SIGNORINI_LAW_FRICTIONLESS = 0
+    integer(c_int32_t), parameter :: SIGNORINI_LAW_COULOMB = 1
+    integer(c_int32_t), parameter :: SIGNORINI_LAW_TRESCA = 2
+    integer(c_int32_t), parameter :: SIGNORINI_LAW_COHESIVE = 3
+    integer(c_int32_t), parameter :: SIGNORINI_LAW_ORTHOTROPIC = 4
+    integer(c_int32_t), parameter :: SIGNORINI_LAW_ORTHOTROPIC_COLLINEAR = 5
+    integer, parameter, private :: law_numbers(0:5) = [0, 1, 1, 3, 3, 3]
+
     integer(c_int32_t), parameter :: SIGNORINI_STATUS_SOLVED = 0
     integer(c_int32_t), parameter :: SIGNORINI_STATUS_ITERATION_LIMIT = 1
     integer(c_int32_t), parameter :: SIGNORINI_STATUS_TIME_LIMIT = 2
@@ -71,16 +82,9 @@ module signorini
     integer(c_int32_t), parameter :: SIGNORINI_STATUS_INTERNAL = -1000
     integer(c_int32_t), parameter :: SIGNORINI_STATUS_OUT_OF_MEMORY = -1001
     integer(c_int32_t), parameter :: SIGNORINI_STATUS_FILE = -1002
-    integer(c_int32_t), parameter :: SIGNORINI_VERSION_MAJOR = 0
-    integer(c_int32_t), parameter :: SIGNORINI_VERSION_MINOR = 2
-    integer(c_int32_t), parameter :: SIGNORINI_VERSION_PATCH = 0
-    integer(c_int32_t), parameter :: SIGNORINI_ABI_VERSION = 2
-    integer(c_int32_t), parameter :: SIGNORINI_LAW_FRICTIONLESS = 0
-    integer(c_int32_t), parameter :: SIGNORINI_LAW_COULOMB = 1
-    integer(c_int32_t), parameter :: SIGNORINI_LAW_TRESCA = 2
-    integer(c_int32_t), parameter :: SIGNORINI_LAW_COHESIVE = 3
-    integer(c_int32_t), parameter :: SIGNORINI_LAW_ORTHOTROPIC = 4
-    integer(c_int32_t), parameter :: SIGNORINI_LAW_ORTHOTROPIC_COLLINEAR = 5
+    integer(c_int32_t), parameter :: SIGNORINI_STATE_OPEN = 0
+    integer(c_int32_t), parameter :: SIGNORINI_STATE_SLIP = 1
+    integer(c_int32_t), parameter :: SIGNORINI_STATE_STICK = 2
     integer(c_int32_t), parameter :: SIGNORINI_METHOD_AUTO = 0
     integer(c_int32_t), parameter :: SIGNORINI_METHOD_SOR_NESTED = 1
     integer(c_int32_t), parameter :: SIGNORINI_METHOD_SOR_DIAGONAL = 2
@@ -91,9 +95,6 @@ module signorini
     integer(c_int32_t), parameter :: SIGNORINI_START_PREVIOUS = 2
     integer(c_int32_t), parameter :: SIGNORINI_SEARCH_OFF = 0
     integer(c_int32_t), parameter :: SIGNORINI_SEARCH_OTHERS = 1
-    integer(c_int32_t), parameter :: SIGNORINI_STATE_OPEN = 0
-    integer(c_int32_t), parameter :: SIGNORINI_STATE_SLIP = 1
-    integer(c_int32_t), parameter :: SIGNORINI_STATE_STICK = 2
     integer(c_int32_t), parameter :: SIGNORINI_UNIQUENESS_NOT_KNOWN = 0
     integer(c_int32_t), parameter :: SIGNORINI_UNIQUENESS_UNIQUE = 1
     integer(c_int32_t), parameter :: SIGNORINI_UNIQUENESS_SEVERAL = 2
@@ -111,6 +112,10 @@ module signorini
     integer(c_int32_t), parameter :: SIGNORINI_TRIANGLE_LOWER = 0
     integer(c_int32_t), parameter :: SIGNORINI_TRIANGLE_UPPER = 1
     integer(c_int32_t), parameter :: SIGNORINI_TRIANGLE_FULL = 2
+    integer(c_int32_t), parameter :: SIGNORINI_MODEL_STIFFNESS = 0
+    integer(c_int32_t), parameter :: SIGNORINI_MODEL_FULL_SPACE = 1
+    integer(c_int32_t), parameter :: SIGNORINI_MODEL_OPERATOR = 2
+    integer(c_int32_t), parameter :: SIGNORINI_MODEL_FLEXIBILITY = 3
     integer(c_int32_t), parameter :: SIGNORINI_PAIRING_DUAL_MORTAR = 0
     integer(c_int32_t), parameter :: SIGNORINI_PAIRING_NODE_TO_SURFACE = 1
     integer(c_int32_t), parameter :: SIGNORINI_NORMALS_AVERAGED = 0
@@ -124,6 +129,10 @@ module signorini
     integer(c_int32_t), parameter :: SIGNORINI_OBSTACLE_FACES = 3
     integer(c_int32_t), parameter :: SIGNORINI_PROBLEM_CONTACT = 0
     integer(c_int32_t), parameter :: SIGNORINI_PROBLEM_LCP = 1
+    integer(c_int32_t), parameter :: SIGNORINI_VERSION_MAJOR = 0
+    integer(c_int32_t), parameter :: SIGNORINI_VERSION_MINOR = 2
+    integer(c_int32_t), parameter :: SIGNORINI_VERSION_PATCH = 0
+    integer(c_int32_t), parameter :: SIGNORINI_ABI_VERSION = 3
 
     ! A variable of these types is ready to use: struct_size is that of the structure, settings have
     ! their defaults, and all pointers are null.
@@ -238,6 +247,19 @@ module signorini
         type(c_ptr) :: row_weights = c_null_ptr
     end type
 
+    type, bind(C) :: signorini_model_data
+        integer(c_int32_t) :: struct_size = 48 + 2 * address_bytes
+        integer(c_int32_t) :: dim = 0
+        integer(c_int64_t) :: pairs = 0
+        integer(c_int64_t) :: host_size = -1
+        integer(c_int64_t) :: fixed = 0
+        integer(c_int64_t) :: memory = -1
+        integer(c_int32_t) :: kind = 0
+        integer(c_int32_t) :: dependent = 0
+        type(c_ptr) :: k = c_null_ptr
+        type(c_ptr) :: frames = c_null_ptr
+    end type
+
     type, bind(C) :: signorini_faces
         integer(c_int32_t) :: struct_size = 16 + 2 * address_bytes
         integer(c_int32_t) :: face_nodes = 0
@@ -273,14 +295,26 @@ module signorini
         integer(c_int32_t) :: rims = 0
     end type
 
-    type, bind(C) :: signorini_surface_report
-        integer(c_int32_t) :: struct_size = 104
+    ! The arrays belong to the pairs; contact_surfaces has copies of those that hosts use most.
+    type, bind(C) :: signorini_surface_data
+        integer(c_int32_t) :: struct_size = 104 + 11 * address_bytes
         integer(c_int32_t) :: dim = 0
         integer(c_int64_t) :: pairs = 0
-        integer(c_int64_t) :: unpaired = 0
-        integer(c_int64_t) :: folded = 0
+        type(c_ptr) :: rows = c_null_ptr
+        type(c_ptr) :: gaps = c_null_ptr
+        type(c_ptr) :: areas = c_null_ptr
+        type(c_ptr) :: normals = c_null_ptr
+        type(c_ptr) :: tangents = c_null_ptr
+        type(c_ptr) :: points = c_null_ptr
+        type(c_ptr) :: nodes = c_null_ptr
+        integer(c_int64_t) :: n_unpaired = 0
+        type(c_ptr) :: unpaired = c_null_ptr
+        integer(c_int64_t) :: n_folded = 0
+        type(c_ptr) :: folded = c_null_ptr
+        integer(c_int64_t) :: n_uncovered = 0
+        type(c_ptr) :: uncovered = c_null_ptr
+        type(c_ptr) :: summary = c_null_ptr
         integer(c_int64_t) :: slave_faces = 0
-        integer(c_int64_t) :: uncovered = 0
         real(c_double) :: slave_area = 0
         real(c_double) :: covered_area = 0
         real(c_double) :: search_distance = 0
@@ -322,6 +356,17 @@ module signorini
         type(c_ptr) :: cell_nodes = c_null_ptr
     end type
 
+    type, bind(C) :: signorini_zone
+        integer(c_int32_t) :: struct_size = 8 + 6 * address_bytes
+        integer(c_int32_t) :: reserved = 0
+        type(c_ptr) :: contact = c_null_ptr
+        type(c_ptr) :: gap = c_null_ptr
+        type(c_ptr) :: slip0 = c_null_ptr
+        type(c_ptr) :: d = c_null_ptr
+        type(c_ptr) :: force = c_null_ptr
+        type(c_ptr) :: state = c_null_ptr
+    end type
+
     type, bind(C) :: signorini_field
         integer(c_int32_t) :: struct_size = 8 + 2 * address_bytes
         integer(c_int32_t) :: components = 0
@@ -329,644 +374,255 @@ module signorini
         type(c_ptr) :: values = c_null_ptr
     end type
 
+    type, bind(C) :: signorini_problem_data
+        integer(c_int32_t) :: struct_size = 32 + 7 * address_bytes
+        integer(c_int32_t) :: kind = 0
+        integer(c_int32_t) :: law = 0
+        integer(c_int32_t) :: dim = 0
+        integer(c_int64_t) :: pairs = 0
+        integer(c_int64_t) :: size = 0
+        type(c_ptr) :: matrix = c_null_ptr
+        type(c_ptr) :: rhs = c_null_ptr
+        type(c_ptr) :: gap = c_null_ptr
+        type(c_ptr) :: friction = c_null_ptr
+        type(c_ptr) :: slip0 = c_null_ptr
+        type(c_ptr) :: cover = c_null_ptr
+        type(c_ptr) :: remark = c_null_ptr
+    end type
+
     interface
-        function signorini_version() &
-            bind(C, name="signorini_version") result(answer)
+        integer(c_int32_t) function signorini_solve(dim, pairs, k, ldk, f, gap, law, friction, slip0, &
+            settings, d, force, state, report, extra) bind(C)
             import
-            type(c_ptr) :: answer
-        end function
-        ! Fortran knows no upper case: the name of C is that of the constant.
-        function signorini_library_abi_version() &
-            bind(C, name="signorini_abi_version") result(answer)
-            import
-            integer(c_int32_t) :: answer
-        end function
-        function signorini_status_string(status) &
-            bind(C, name="signorini_status_string") result(answer)
-            import
-            integer(c_int32_t), value :: status
-            type(c_ptr) :: answer
-        end function
-        function signorini_last_error() &
-            bind(C, name="signorini_last_error") result(answer)
-            import
-            type(c_ptr) :: answer
-        end function
-        function signorini_settings_default(settings, struct_size) &
-            bind(C, name="signorini_settings_default") result(answer)
-            import
-            type(signorini_settings), intent(inout) :: settings
-            integer(c_int32_t), value :: struct_size
-            integer(c_int32_t) :: answer
-        end function
-        function signorini_report_default(report, struct_size) &
-            bind(C, name="signorini_report_default") result(answer)
-            import
-            type(signorini_report), intent(inout) :: report
-            integer(c_int32_t), value :: struct_size
-            integer(c_int32_t) :: answer
-        end function
-        function signorini_extra_default(extra, struct_size) &
-            bind(C, name="signorini_extra_default") result(answer)
-            import
-            type(signorini_extra), intent(inout) :: extra
-            integer(c_int32_t), value :: struct_size
-            integer(c_int32_t) :: answer
-        end function
-        function signorini_solve(dim, pairs, k, ldk, f, gap, law, friction, slip0, settings, d, &
-            force, state, report, extra) &
-            bind(C, name="signorini_solve") result(answer)
-            import
-            integer(c_int32_t), value :: dim
-            integer(c_int64_t), value :: pairs
-            real(c_double), intent(in) :: k(*)
-            integer(c_int64_t), value :: ldk
-            real(c_double), intent(in) :: f(*)
-            real(c_double), intent(in) :: gap(*)
-            integer(c_int32_t), value :: law
-            type(c_ptr), value :: friction
-            type(c_ptr), value :: slip0
-            type(c_ptr), value :: settings
+            integer(c_int32_t), value :: dim, law
+            integer(c_int64_t), value :: pairs, ldk
+            real(c_double), intent(in) :: k(*), f(*), gap(*)
+            type(c_ptr), value :: friction, slip0, settings, state, report, extra
             real(c_double), intent(inout) :: d(*)
             real(c_double), intent(out) :: force(*)
-            type(c_ptr), value :: state
-            type(c_ptr), value :: report
-            type(c_ptr), value :: extra
-            integer(c_int32_t) :: answer
         end function
-        function signorini_flexibility_solve(dim, pairs, w, ldw, q, gap, law, friction, slip0, &
-            settings, d, force, state, report, extra) &
-            bind(C, name="signorini_flexibility_solve") result(answer)
+        type(c_ptr) function signorini_last_error() bind(C)
+            import
+        end function
+        type(c_ptr) function signorini_status_string(status) bind(C)
+            import
+            integer(c_int32_t), value :: status
+        end function
+        integer(c_int32_t) function signorini_model_new_sparse(k, n_fixed, fixed, pairs, settings, model) &
+            bind(C)
+            import
+            type(signorini_sparse), intent(in) :: k
+            integer(c_int64_t), value :: n_fixed
+            type(c_ptr), value :: fixed, settings
+            type(signorini_pairs), intent(in) :: pairs
+            type(c_ptr), intent(out) :: model
+        end function
+        integer(c_int32_t) function signorini_model_new_condensed(dim, pairs, k, ldk, model) bind(C)
             import
             integer(c_int32_t), value :: dim
-            integer(c_int64_t), value :: pairs
-            real(c_double), intent(in) :: w(*)
-            integer(c_int64_t), value :: ldw
-            real(c_double), intent(in) :: q(*)
-            type(c_ptr), value :: gap
-            integer(c_int32_t), value :: law
-            type(c_ptr), value :: friction
-            type(c_ptr), value :: slip0
-            type(c_ptr), value :: settings
-            real(c_double), intent(out) :: d(*)
-            real(c_double), intent(inout) :: force(*)
-            type(c_ptr), value :: state
-            type(c_ptr), value :: report
-            type(c_ptr), value :: extra
-            integer(c_int32_t) :: answer
+            integer(c_int64_t), value :: pairs, ldk
+            real(c_double), intent(in) :: k(*)
+            type(c_ptr), intent(out) :: model
         end function
-        function signorini_flexibility_solve_sparse(dim, pairs, w, q, gap, law, friction, slip0, &
-            settings, d, force, state, report, extra) &
-            bind(C, name="signorini_flexibility_solve_sparse") result(answer)
+        integer(c_int32_t) function signorini_model_new_two_body(dim, pairs, k_a, lda, k_b, ldb, model) &
+            bind(C)
+            import
+            integer(c_int32_t), value :: dim
+            integer(c_int64_t), value :: pairs, lda, ldb
+            real(c_double), intent(in) :: k_a(*), k_b(*)
+            type(c_ptr), intent(out) :: model
+        end function
+        integer(c_int32_t) function signorini_model_new_flexibility(dim, pairs, w, ldw, model) bind(C)
+            import
+            integer(c_int32_t), value :: dim
+            integer(c_int64_t), value :: pairs, ldw
+            real(c_double), intent(in) :: w(*)
+            type(c_ptr), intent(out) :: model
+        end function
+        integer(c_int32_t) function signorini_model_new_flexibility_sparse(dim, pairs, w, model) bind(C)
             import
             integer(c_int32_t), value :: dim
             integer(c_int64_t), value :: pairs
             type(signorini_sparse), intent(in) :: w
-            real(c_double), intent(in) :: q(*)
-            type(c_ptr), value :: gap
-            integer(c_int32_t), value :: law
-            type(c_ptr), value :: friction
-            type(c_ptr), value :: slip0
-            type(c_ptr), value :: settings
-            real(c_double), intent(out) :: d(*)
-            real(c_double), intent(inout) :: force(*)
-            type(c_ptr), value :: state
-            type(c_ptr), value :: report
-            type(c_ptr), value :: extra
-            integer(c_int32_t) :: answer
-        end function
-        function signorini_certify(dim, pairs, k, ldk, f, gap, law, friction, slip0, tolerance, &
-            d, force, state, report) &
-            bind(C, name="signorini_certify") result(answer)
-            import
-            integer(c_int32_t), value :: dim
-            integer(c_int64_t), value :: pairs
-            real(c_double), intent(in) :: k(*)
-            integer(c_int64_t), value :: ldk
-            real(c_double), intent(in) :: f(*)
-            real(c_double), intent(in) :: gap(*)
-            integer(c_int32_t), value :: law
-            type(c_ptr), value :: friction
-            type(c_ptr), value :: slip0
-            real(c_double), value :: tolerance
-            real(c_double), intent(in) :: d(*)
-            type(c_ptr), value :: force
-            type(c_ptr), value :: state
-            type(c_ptr), value :: report
-            integer(c_int32_t) :: answer
-        end function
-        function signorini_prove(dim, pairs, k, ldk, f, gap, law, friction, slip0, d, state, &
-            force, radius_d, radius_force) &
-            bind(C, name="signorini_prove") result(answer)
-            import
-            integer(c_int32_t), value :: dim
-            integer(c_int64_t), value :: pairs
-            real(c_double), intent(in) :: k(*)
-            integer(c_int64_t), value :: ldk
-            real(c_double), intent(in) :: f(*)
-            real(c_double), intent(in) :: gap(*)
-            integer(c_int32_t), value :: law
-            type(c_ptr), value :: friction
-            type(c_ptr), value :: slip0
-            real(c_double), intent(in) :: d(*)
-            type(c_ptr), value :: state
-            type(c_ptr), value :: force
-            type(c_ptr), value :: radius_d
-            type(c_ptr), value :: radius_force
-            integer(c_int32_t) :: answer
-        end function
-        function signorini_lcp_solve(n, m, ldm, q, settings, w, z, y, report) &
-            bind(C, name="signorini_lcp_solve") result(answer)
-            import
-            integer(c_int64_t), value :: n
-            real(c_double), intent(in) :: m(*)
-            integer(c_int64_t), value :: ldm
-            real(c_double), intent(in) :: q(*)
-            type(c_ptr), value :: settings
-            real(c_double), intent(out) :: w(*)
-            real(c_double), intent(out) :: z(*)
-            type(c_ptr), value :: y
-            type(c_ptr), value :: report
-            integer(c_int32_t) :: answer
-        end function
-        function signorini_lcp_lemke(n, m, ldm, q, cover, settings, w, z, y, report) &
-            bind(C, name="signorini_lcp_lemke") result(answer)
-            import
-            integer(c_int64_t), value :: n
-            real(c_double), intent(in) :: m(*)
-            integer(c_int64_t), value :: ldm
-            real(c_double), intent(in) :: q(*)
-            type(c_ptr), value :: cover
-            type(c_ptr), value :: settings
-            real(c_double), intent(out) :: w(*)
-            real(c_double), intent(out) :: z(*)
-            type(c_ptr), value :: y
-            type(c_ptr), value :: report
-            integer(c_int32_t) :: answer
-        end function
-        function signorini_model_new_condensed(dim, pairs, k, ldk, model) &
-            bind(C, name="signorini_model_new_condensed") result(answer)
-            import
-            integer(c_int32_t), value :: dim
-            integer(c_int64_t), value :: pairs
-            real(c_double), intent(in) :: k(*)
-            integer(c_int64_t), value :: ldk
             type(c_ptr), intent(out) :: model
-            integer(c_int32_t) :: answer
         end function
-        function signorini_model_new_two_body(dim, pairs, k_a, lda, k_b, ldb, model) &
-            bind(C, name="signorini_model_new_two_body") result(answer)
-            import
-            integer(c_int32_t), value :: dim
-            integer(c_int64_t), value :: pairs
-            real(c_double), intent(in) :: k_a(*)
-            integer(c_int64_t), value :: lda
-            real(c_double), intent(in) :: k_b(*)
-            integer(c_int64_t), value :: ldb
-            type(c_ptr), intent(out) :: model
-            integer(c_int32_t) :: answer
-        end function
-        function signorini_model_new_sparse(k, n_fixed, fixed, pairs, model) &
-            bind(C, name="signorini_model_new_sparse") result(answer)
-            import
-            type(signorini_sparse), intent(in) :: k
-            integer(c_int64_t), value :: n_fixed
-            type(c_ptr), value :: fixed
-            type(signorini_pairs), intent(in) :: pairs
-            type(c_ptr), intent(out) :: model
-            integer(c_int32_t) :: answer
-        end function
-        function signorini_model_new_sparse_within(k, n_fixed, fixed, pairs, settings, model) &
-            bind(C, name="signorini_model_new_sparse_within") result(answer)
-            import
-            type(signorini_sparse), intent(in) :: k
-            integer(c_int64_t), value :: n_fixed
-            type(c_ptr), value :: fixed
-            type(signorini_pairs), intent(in) :: pairs
-            type(c_ptr), value :: settings
-            type(c_ptr), intent(out) :: model
-            integer(c_int32_t) :: answer
-        end function
-        function signorini_model_new_operator(k, model) &
-            bind(C, name="signorini_model_new_operator") result(answer)
-            import
-            type(signorini_operator), intent(in) :: k
-            type(c_ptr), intent(out) :: model
-            integer(c_int32_t) :: answer
-        end function
-        subroutine signorini_model_free(model) &
-            bind(C, name="signorini_model_free")
+        subroutine signorini_model_free(model) bind(C)
             import
             type(c_ptr), value :: model
         end subroutine
-        function signorini_model_dim(model) &
-            bind(C, name="signorini_model_dim") result(answer)
+        integer(c_int32_t) function signorini_model_view(model, data) bind(C)
             import
             type(c_ptr), value :: model
-            integer(c_int32_t) :: answer
+            type(signorini_model_data), intent(inout) :: data
         end function
-        function signorini_model_pairs(model) &
-            bind(C, name="signorini_model_pairs") result(answer)
+        integer(c_int32_t) function signorini_model_solve(model, cases, f, prescribed, gap, law, friction, &
+            slip0, settings, d, force, state, status, report, extra) bind(C)
             import
-            type(c_ptr), value :: model
-            integer(c_int64_t) :: answer
-        end function
-        function signorini_solve_memory(n) &
-            bind(C, name="signorini_solve_memory") result(answer)
-            import
-            integer(c_int64_t), value :: n
-            integer(c_int64_t) :: answer
-        end function
-        function signorini_model_memory(model) &
-            bind(C, name="signorini_model_memory") result(answer)
-            import
-            type(c_ptr), value :: model
-            integer(c_int64_t) :: answer
-        end function
-        function signorini_model_host_size(model) &
-            bind(C, name="signorini_model_host_size") result(answer)
-            import
-            type(c_ptr), value :: model
-            integer(c_int64_t) :: answer
-        end function
-        function signorini_model_stiffness(model, k) &
-            bind(C, name="signorini_model_stiffness") result(answer)
-            import
-            type(c_ptr), value :: model
-            real(c_double), intent(out) :: k(*)
-            integer(c_int32_t) :: answer
-        end function
-        function signorini_model_frames(model, frames) &
-            bind(C, name="signorini_model_frames") result(answer)
-            import
-            type(c_ptr), value :: model
-            real(c_double), intent(out) :: frames(*)
-            integer(c_int32_t) :: answer
-        end function
-        function signorini_model_condensed_load(model, f, prescribed, load) &
-            bind(C, name="signorini_model_condensed_load") result(answer)
-            import
-            type(c_ptr), value :: model
-            type(c_ptr), value :: f
-            type(c_ptr), value :: prescribed
-            real(c_double), intent(out) :: load(*)
-            integer(c_int32_t) :: answer
-        end function
-        function signorini_model_solve(model, cases, f, prescribed, gap, law, friction, slip0, &
-            settings, d, force, state, status, report, extra) &
-            bind(C, name="signorini_model_solve") result(answer)
-            import
-            type(c_ptr), value :: model
+            type(c_ptr), value :: model, f, prescribed, friction, slip0, settings, state, status, report, extra
             integer(c_int64_t), value :: cases
-            type(c_ptr), value :: f
-            type(c_ptr), value :: prescribed
             real(c_double), intent(in) :: gap(*)
             integer(c_int32_t), value :: law
-            type(c_ptr), value :: friction
-            type(c_ptr), value :: slip0
-            type(c_ptr), value :: settings
-            real(c_double), intent(inout) :: d(*)
-            real(c_double), intent(out) :: force(*)
-            type(c_ptr), value :: state
-            type(c_ptr), value :: status
-            type(c_ptr), value :: report
-            type(c_ptr), value :: extra
-            integer(c_int32_t) :: answer
+            real(c_double), intent(inout) :: d(*), force(*)
         end function
-        function signorini_model_certify(model, f, prescribed, gap, law, friction, slip0, &
-            tolerance, d, force, state, report) &
-            bind(C, name="signorini_model_certify") result(answer)
+        integer(c_int32_t) function signorini_model_recover(model, cases, f, prescribed, d, u) bind(C)
             import
-            type(c_ptr), value :: model
-            type(c_ptr), value :: f
-            type(c_ptr), value :: prescribed
-            real(c_double), intent(in) :: gap(*)
-            integer(c_int32_t), value :: law
-            type(c_ptr), value :: friction
-            type(c_ptr), value :: slip0
-            real(c_double), value :: tolerance
-            real(c_double), intent(in) :: d(*)
-            type(c_ptr), value :: force
-            type(c_ptr), value :: state
-            type(c_ptr), value :: report
-            integer(c_int32_t) :: answer
-        end function
-        function signorini_model_recover(model, f, prescribed, d, u) &
-            bind(C, name="signorini_model_recover") result(answer)
-            import
-            type(c_ptr), value :: model
-            type(c_ptr), value :: f
-            type(c_ptr), value :: prescribed
-            real(c_double), intent(in) :: d(*)
-            real(c_double), intent(out) :: u(*)
-            integer(c_int32_t) :: answer
-        end function
-        function signorini_model_recover_cases(model, cases, f, prescribed, d, u) &
-            bind(C, name="signorini_model_recover_cases") result(answer)
-            import
-            type(c_ptr), value :: model
+            type(c_ptr), value :: model, f, prescribed
             integer(c_int64_t), value :: cases
-            type(c_ptr), value :: f
-            type(c_ptr), value :: prescribed
             real(c_double), intent(in) :: d(*)
             real(c_double), intent(out) :: u(*)
-            integer(c_int32_t) :: answer
         end function
-        function signorini_model_nodal_forces(model, force, nodal) &
-            bind(C, name="signorini_model_nodal_forces") result(answer)
+        integer(c_int32_t) function signorini_model_nodal_forces(model, force, nodal) bind(C)
             import
             type(c_ptr), value :: model
             real(c_double), intent(in) :: force(*)
             real(c_double), intent(out) :: nodal(*)
-            integer(c_int32_t) :: answer
         end function
-        function signorini_surface_settings_default(settings, struct_size) &
-            bind(C, name="signorini_surface_settings_default") result(answer)
+        integer(c_int32_t) function signorini_model_condensed_load(model, f, prescribed, load) bind(C)
+            import
+            type(c_ptr), value :: model, f, prescribed
+            real(c_double), intent(out) :: load(*)
+        end function
+        integer(c_int32_t) function signorini_model_certify(model, f, prescribed, gap, law, friction, &
+            slip0, tolerance, d, force, state, report) bind(C)
+            import
+            type(c_ptr), value :: model, f, prescribed, friction, slip0, force, state, report
+            real(c_double), intent(in) :: gap(*), d(*)
+            integer(c_int32_t), value :: law
+            real(c_double), value :: tolerance
+        end function
+        integer(c_int32_t) function signorini_settings_default(settings, struct_size) bind(C)
+            import
+            type(signorini_settings), intent(inout) :: settings
+            integer(c_int32_t), value :: struct_size
+        end function
+        integer(c_int64_t) function signorini_solve_memory(n) bind(C)
+            import
+            integer(c_int64_t), value :: n
+        end function
+        type(c_ptr) function signorini_remark_string(remark) bind(C)
+            import
+            integer(c_int32_t), value :: remark
+        end function
+        integer(c_int32_t) function signorini_report_default(report, struct_size) bind(C)
+            import
+            type(signorini_report), intent(inout) :: report
+            integer(c_int32_t), value :: struct_size
+        end function
+        integer(c_int32_t) function signorini_extra_default(extra, struct_size) bind(C)
+            import
+            type(signorini_extra), intent(inout) :: extra
+            integer(c_int32_t), value :: struct_size
+        end function
+        integer(c_int32_t) function signorini_lcp_solve(n, m, ldm, q, cover, settings, w, z, y, report) &
+            bind(C)
+            import
+            integer(c_int64_t), value :: n, ldm
+            real(c_double), intent(in) :: m(*), q(*)
+            type(c_ptr), value :: cover, settings, y, report
+            real(c_double), intent(out) :: w(*), z(*)
+        end function
+        type(c_ptr) function signorini_version() bind(C)
+            import
+        end function
+        ! Fortran knows no upper case: the name of C is that of the constant.
+        integer(c_int32_t) function signorini_library_abi_version() bind(C, name="signorini_abi_version")
+            import
+        end function
+        integer(c_int32_t) function signorini_model_new_operator(k, model) bind(C)
+            import
+            type(signorini_operator), intent(in) :: k
+            type(c_ptr), intent(out) :: model
+        end function
+        integer(c_int32_t) function signorini_model_prove(model, f, prescribed, gap, law, friction, slip0, &
+            d, state, force, radius_d, radius_force) bind(C)
+            import
+            type(c_ptr), value :: model, f, prescribed, friction, slip0, state, force, radius_d, radius_force
+            real(c_double), intent(in) :: gap(*), d(*)
+            integer(c_int32_t), value :: law
+        end function
+        integer(c_int32_t) function signorini_surface_settings_default(settings, struct_size) bind(C)
             import
             type(signorini_surface_settings), intent(out) :: settings
             integer(c_int32_t), value :: struct_size
-            integer(c_int32_t) :: answer
         end function
-        function signorini_surface_pair(dim, nodes, coordinates, slave, master, settings, &
-            contact, report) &
-            bind(C, name="signorini_surface_pair") result(answer)
+        integer(c_int32_t) function signorini_surface_pair(dim, nodes, coordinates, slave, master, &
+            settings, contact) bind(C)
             import
             integer(c_int32_t), value :: dim
             integer(c_int64_t), value :: nodes
-            type(c_ptr), value :: coordinates
-            type(c_ptr), value :: slave
-            type(c_ptr), value :: master
-            type(c_ptr), value :: settings
+            type(c_ptr), value :: coordinates, slave, master, settings
             type(c_ptr), intent(out) :: contact
-            type(c_ptr), value :: report
-            integer(c_int32_t) :: answer
         end function
-        function signorini_surface_pair_obstacle(dim, nodes, coordinates, slave, obstacle, &
-            settings, contact, report) &
-            bind(C, name="signorini_surface_pair_obstacle") result(answer)
+        integer(c_int32_t) function signorini_surface_pair_obstacle(dim, nodes, coordinates, slave, &
+            obstacle, settings, contact) bind(C)
             import
             integer(c_int32_t), value :: dim
             integer(c_int64_t), value :: nodes
-            type(c_ptr), value :: coordinates
-            type(c_ptr), value :: slave
-            type(c_ptr), value :: obstacle
-            type(c_ptr), value :: settings
+            type(c_ptr), value :: coordinates, slave, obstacle, settings
             type(c_ptr), intent(out) :: contact
-            type(c_ptr), value :: report
-            integer(c_int32_t) :: answer
         end function
-        subroutine signorini_surface_free(contact) &
-            bind(C, name="signorini_surface_free")
+        subroutine signorini_surface_free(contact) bind(C)
             import
             type(c_ptr), value :: contact
         end subroutine
-        function signorini_surface_count(contact) &
-            bind(C, name="signorini_surface_count") result(answer)
+        integer(c_int32_t) function signorini_surface_view(contact, data) bind(C)
             import
             type(c_ptr), value :: contact
-            integer(c_int64_t) :: answer
+            type(signorini_surface_data), intent(inout) :: data
         end function
-        function signorini_surface_rows(contact) &
-            bind(C, name="signorini_surface_rows") result(answer)
+        integer(c_int32_t) function signorini_surface_fields(contact, gap, slip0, d, force, state, fields) &
+            bind(C)
             import
-            type(c_ptr), value :: contact
-            type(c_ptr) :: answer
+            type(c_ptr), value :: contact, gap, slip0, d, force, state, fields
         end function
-        function signorini_surface_gaps(contact) &
-            bind(C, name="signorini_surface_gaps") result(answer)
+        integer(c_int32_t) function signorini_surface_resultant(contact, slip0, d, force, point, &
+            resultant) bind(C)
             import
-            type(c_ptr), value :: contact
-            type(c_ptr) :: answer
+            type(c_ptr), value :: contact, slip0, d, force, point, resultant
         end function
-        function signorini_surface_areas(contact) &
-            bind(C, name="signorini_surface_areas") result(answer)
+        integer(c_int32_t) function signorini_mesh_write(path, mesh, u, n_zones, zones, n_fields, fields) &
+            bind(C)
             import
-            type(c_ptr), value :: contact
-            type(c_ptr) :: answer
+            type(c_ptr), value :: path, mesh, u, zones, fields
+            integer(c_int64_t), value :: n_zones, n_fields
         end function
-        function signorini_surface_normals(contact) &
-            bind(C, name="signorini_surface_normals") result(answer)
-            import
-            type(c_ptr), value :: contact
-            type(c_ptr) :: answer
-        end function
-        function signorini_surface_tangents(contact) &
-            bind(C, name="signorini_surface_tangents") result(answer)
-            import
-            type(c_ptr), value :: contact
-            type(c_ptr) :: answer
-        end function
-        function signorini_surface_points(contact) &
-            bind(C, name="signorini_surface_points") result(answer)
-            import
-            type(c_ptr), value :: contact
-            type(c_ptr) :: answer
-        end function
-        function signorini_surface_nodes(contact) &
-            bind(C, name="signorini_surface_nodes") result(answer)
-            import
-            type(c_ptr), value :: contact
-            type(c_ptr) :: answer
-        end function
-        function signorini_surface_unpaired(contact) &
-            bind(C, name="signorini_surface_unpaired") result(answer)
-            import
-            type(c_ptr), value :: contact
-            type(c_ptr) :: answer
-        end function
-        function signorini_surface_folded(contact) &
-            bind(C, name="signorini_surface_folded") result(answer)
-            import
-            type(c_ptr), value :: contact
-            type(c_ptr) :: answer
-        end function
-        function signorini_surface_uncovered(contact) &
-            bind(C, name="signorini_surface_uncovered") result(answer)
-            import
-            type(c_ptr), value :: contact
-            type(c_ptr) :: answer
-        end function
-        function signorini_surface_summary(contact) &
-            bind(C, name="signorini_surface_summary") result(answer)
-            import
-            type(c_ptr), value :: contact
-            type(c_ptr) :: answer
-        end function
-        function signorini_surface_fields(contact, gap, slip0, d, force, state, fields) &
-            bind(C, name="signorini_surface_fields") result(answer)
-            import
-            type(c_ptr), value :: contact
-            type(c_ptr), value :: gap
-            type(c_ptr), value :: slip0
-            type(c_ptr), value :: d
-            type(c_ptr), value :: force
-            type(c_ptr), value :: state
-            type(c_ptr), value :: fields
-            integer(c_int32_t) :: answer
-        end function
-        function signorini_surface_resultant(contact, slip0, d, force, point, resultant) &
-            bind(C, name="signorini_surface_resultant") result(answer)
-            import
-            type(c_ptr), value :: contact
-            type(c_ptr), value :: slip0
-            type(c_ptr), value :: d
-            type(c_ptr), value :: force
-            type(c_ptr), value :: point
-            type(c_ptr), value :: resultant
-            integer(c_int32_t) :: answer
-        end function
-        function signorini_surface_write(contact, path, mesh, gap, slip0, u, d, force, state) &
-            bind(C, name="signorini_surface_write") result(answer)
-            import
-            type(c_ptr), value :: contact
-            type(c_ptr), value :: path
-            type(c_ptr), value :: mesh
-            type(c_ptr), value :: gap
-            type(c_ptr), value :: slip0
-            type(c_ptr), value :: u
-            type(c_ptr), value :: d
-            type(c_ptr), value :: force
-            type(c_ptr), value :: state
-            integer(c_int32_t) :: answer
-        end function
-        function signorini_mesh_write(path, mesh, u, contact, n_fields, fields) &
-            bind(C, name="signorini_mesh_write") result(answer)
-            import
-            type(c_ptr), value :: path
-            type(c_ptr), value :: mesh
-            type(c_ptr), value :: u
-            type(c_ptr), value :: contact
-            integer(c_int64_t), value :: n_fields
-            type(c_ptr), value :: fields
-            integer(c_int32_t) :: answer
-        end function
-        function signorini_problem_write(path, dim, pairs, k, ldk, f, gap, law, friction, &
-            slip0, remark) &
-            bind(C, name="signorini_problem_write") result(answer)
+        integer(c_int32_t) function signorini_problem_write(path, dim, pairs, k, ldk, f, gap, law, &
+            friction, slip0, remark) bind(C)
             import
             character(kind=c_char), intent(in) :: path(*)
-            integer(c_int32_t), value :: dim
-            integer(c_int64_t), value :: pairs
-            real(c_double), intent(in) :: k(*)
-            integer(c_int64_t), value :: ldk
-            real(c_double), intent(in) :: f(*)
+            integer(c_int32_t), value :: dim, law
+            integer(c_int64_t), value :: pairs, ldk
+            real(c_double), intent(in) :: k(*), f(*), gap(*)
+            type(c_ptr), value :: friction, slip0, remark
+        end function
+        integer(c_int32_t) function signorini_model_write(model, path, f, prescribed, gap, law, friction, &
+            slip0, remark) bind(C)
+            import
+            type(c_ptr), value :: model, f, prescribed, friction, slip0, remark
+            character(kind=c_char), intent(in) :: path(*)
             real(c_double), intent(in) :: gap(*)
             integer(c_int32_t), value :: law
-            type(c_ptr), value :: friction
-            type(c_ptr), value :: slip0
-            type(c_ptr), value :: remark
-            integer(c_int32_t) :: answer
         end function
-        function signorini_lcp_write(path, n, m, ldm, q, cover, remark) &
-            bind(C, name="signorini_lcp_write") result(answer)
+        integer(c_int32_t) function signorini_lcp_write(path, n, m, ldm, q, cover, remark) bind(C)
             import
             character(kind=c_char), intent(in) :: path(*)
-            integer(c_int64_t), value :: n
-            real(c_double), intent(in) :: m(*)
-            integer(c_int64_t), value :: ldm
-            real(c_double), intent(in) :: q(*)
-            type(c_ptr), value :: cover
-            type(c_ptr), value :: remark
-            integer(c_int32_t) :: answer
+            integer(c_int64_t), value :: n, ldm
+            real(c_double), intent(in) :: m(*), q(*)
+            type(c_ptr), value :: cover, remark
         end function
-        function signorini_model_write(model, path, f, prescribed, gap, law, friction, slip0, &
-            remark) &
-            bind(C, name="signorini_model_write") result(answer)
-            import
-            type(c_ptr), value :: model
-            character(kind=c_char), intent(in) :: path(*)
-            type(c_ptr), value :: f
-            type(c_ptr), value :: prescribed
-            real(c_double), intent(in) :: gap(*)
-            integer(c_int32_t), value :: law
-            type(c_ptr), value :: friction
-            type(c_ptr), value :: slip0
-            type(c_ptr), value :: remark
-            integer(c_int32_t) :: answer
-        end function
-        function signorini_problem_read(path, problem) &
-            bind(C, name="signorini_problem_read") result(answer)
+        integer(c_int32_t) function signorini_problem_read(path, problem) bind(C)
             import
             character(kind=c_char), intent(in) :: path(*)
             type(c_ptr), intent(out) :: problem
-            integer(c_int32_t) :: answer
         end function
-        subroutine signorini_problem_free(problem) &
-            bind(C, name="signorini_problem_free")
+        subroutine signorini_problem_free(problem) bind(C)
             import
             type(c_ptr), value :: problem
         end subroutine
-        function signorini_problem_kind(problem) &
-            bind(C, name="signorini_problem_kind") result(answer)
+        integer(c_int32_t) function signorini_problem_view(problem, data) bind(C)
             import
             type(c_ptr), value :: problem
-            integer(c_int32_t) :: answer
-        end function
-        function signorini_problem_law(problem) &
-            bind(C, name="signorini_problem_law") result(answer)
-            import
-            type(c_ptr), value :: problem
-            integer(c_int32_t) :: answer
-        end function
-        function signorini_problem_dim(problem) &
-            bind(C, name="signorini_problem_dim") result(answer)
-            import
-            type(c_ptr), value :: problem
-            integer(c_int32_t) :: answer
-        end function
-        function signorini_problem_pairs(problem) &
-            bind(C, name="signorini_problem_pairs") result(answer)
-            import
-            type(c_ptr), value :: problem
-            integer(c_int64_t) :: answer
-        end function
-        function signorini_problem_size(problem) &
-            bind(C, name="signorini_problem_size") result(answer)
-            import
-            type(c_ptr), value :: problem
-            integer(c_int64_t) :: answer
-        end function
-        function signorini_problem_matrix(problem) &
-            bind(C, name="signorini_problem_matrix") result(answer)
-            import
-            type(c_ptr), value :: problem
-            type(c_ptr) :: answer
-        end function
-        function signorini_problem_rhs(problem) &
-            bind(C, name="signorini_problem_rhs") result(answer)
-            import
-            type(c_ptr), value :: problem
-            type(c_ptr) :: answer
-        end function
-        function signorini_problem_gap(problem) &
-            bind(C, name="signorini_problem_gap") result(answer)
-            import
-            type(c_ptr), value :: problem
-            type(c_ptr) :: answer
-        end function
-        function signorini_problem_friction(problem) &
-            bind(C, name="signorini_problem_friction") result(answer)
-            import
-            type(c_ptr), value :: problem
-            type(c_ptr) :: answer
-        end function
-        function signorini_problem_slip0(problem) &
-            bind(C, name="signorini_problem_slip0") result(answer)
-            import
-            type(c_ptr), value :: problem
-            type(c_ptr) :: answer
-        end function
-        function signorini_problem_cover(problem) &
-            bind(C, name="signorini_problem_cover") result(answer)
-            import
-            type(c_ptr), value :: problem
-            type(c_ptr) :: answer
-        end function
-        function signorini_problem_remark(problem) &
-            bind(C, name="signorini_problem_remark") result(answer)
-            import
-            type(c_ptr), value :: problem
-            type(c_ptr) :: answer
+            type(signorini_problem_data), intent(inout) :: data
         end function
         ! The sentence of signorini_last_error with indices that count from 1, of Fortran 77.
         subroutine sgmesg(text, ltext) bind(C, name="sgmesg_")
@@ -1013,18 +669,22 @@ module signorini
         integer :: dim = 0, pairs = 0, fixed = 0
         type(operator_place), pointer, private :: place => null()
     contains
+        procedure :: new_flexibility => model_new_flexibility
+        procedure :: new_flexibility_sparse => model_new_flexibility_sparse
         procedure :: new_condensed => model_new_condensed
         procedure :: new_two_body => model_new_two_body
         procedure :: new_sparse => model_new_sparse
         procedure :: new_sparse_rows => model_new_sparse_rows
         procedure :: new_surfaces => model_new_surfaces
         procedure :: new_operator => model_new_operator
+        procedure :: view => model_view
         procedure :: host_size => model_host_size
         procedure :: stiffness => model_stiffness
         procedure :: frames => model_frames
         procedure :: condensed_load => model_condensed_load
         procedure :: solve => model_solve
         procedure :: certify => model_certify
+        procedure :: prove => model_prove
         procedure :: recover => model_recover
         procedure :: nodal_forces => model_nodal_forces
         procedure :: release => model_release
@@ -1032,7 +692,8 @@ module signorini
 
     ! Contact pairs from surfaces. Copies of it are the same pairs: release it once.
     !     dim, pairs, nodes      dimension, number of pairs, number of nodes of the mesh
-    !     report                 what was found
+    !     data                   what was found, with n_folded, on_symmetry and so on, as signorini_surface.h
+    !                            has it
     !     node(pairs)            slave node of each pair, counted from 1
     !     gap(pairs), area(pairs)
     !     normal(dim, pairs), tangent(dim, pairs), point(dim, pairs): unit vectors, the first tangent,
@@ -1040,7 +701,7 @@ module signorini
     type :: contact_surfaces
         type(c_ptr) :: handle = c_null_ptr
         integer :: dim = 0, pairs = 0, nodes = 0, dofs = 0
-        type(signorini_surface_report) :: report
+        type(signorini_surface_data) :: data
         integer, allocatable :: node(:)
         real(c_double), allocatable :: gap(:), area(:), normal(:, :), tangent(:, :), point(:, :)
     contains
@@ -1060,17 +721,26 @@ module signorini
         character(len=512) :: sentence = ''
     end type
 
-    ! Planes of symmetry while surfaces are paired.
-    type, private :: planes_of_symmetry
+    ! Faces in the form of C.
+    type, private :: face_lists
+        type(signorini_faces) :: faces
+        integer(c_int64_t), allocatable :: starts(:), nodes(:)
+    end type
+
+    ! The arguments of a pairing, with the arrays that its structures point to.
+    type, private :: preparation
+        type(signorini_surface_settings) :: settings
         integer(c_int32_t), allocatable :: axes(:)
         real(c_double), allocatable :: at(:)
+        integer(c_int64_t), allocatable :: dofs(:)
+        type(face_lists) :: slave, other
     end type
 
     private :: text_of, finish, refused, refuse, check_size, check_shape
     private :: check_case, check_pairs, check_square, check_dim, check_data, check_starts, check_second
     private :: check_model, check_masters, choose_law, choose_settings, place_of_settings
-    private :: check_surfaces, check_faces, check_results, settle, keep_pairs, reals_of, address2, finish_sparse
-    private :: sparse_matrix, check_components, settle_symmetry, settle_choices
+    private :: check_surfaces, list_faces, check_results, prepare, keep_pairs, reals_of, address2, finish_sparse
+    private :: sparse_matrix, check_components, flat_position, dimension_of, check_found, no_stiffness
     private :: operator_inverse, operator_held, received, call_stiffness, call_inverse, call_held
     private :: address, address_of_extra, copy_states, entries, number, text, tuple, keep_sizes
 
@@ -1129,7 +799,7 @@ contains
         if (present(escape)) call check_size(wrong, 21, 'escape', size(escape), n, 'as many as d')
         if (refused(wrong, info, message)) return
         extra = address_of_extra(second_states, motion, second_d, second_force, escape)
-        status = signorini_solve(number(max(2, n / max(1, pairs))), int(pairs, c_int64_t), k, &
+        status = signorini_solve(number(dimension_of(n, pairs)), int(pairs, c_int64_t), k, &
             int(max(1, n), c_int64_t), f, gap, which, address(friction), address(slip0), &
             c_loc(chosen), d, force, c_loc(states), c_loc(measured), c_loc(extra))
         call finish(status, info, message, [2, 3, 1, 1, 2, 3, 7, 8, 9, &
@@ -1144,10 +814,8 @@ contains
     ! ask for one. motion holds the pressing forces that prove SIGNORINI_STATUS_NO_EQUILIBRIUM.
     subroutine contact_solve_flexibility(w, q, gap, d, force, info, law, friction, slip0, method, &
             tolerance, max_iterations, settings, state, report, motion, message)
-        real(c_double), intent(in), contiguous :: w(:, :), q(:)
-        real(c_double), intent(in), contiguous, target :: gap(:)
-        real(c_double), intent(out), contiguous :: d(:)
-        real(c_double), intent(inout), contiguous :: force(:)
+        real(c_double), intent(in), contiguous :: w(:, :), q(:), gap(:)
+        real(c_double), intent(inout), contiguous :: d(:), force(:)
         integer, intent(out) :: info
         integer, intent(in), optional :: law, method, max_iterations
         real(c_double), intent(in), contiguous, target, optional :: friction(:), slip0(:)
@@ -1157,36 +825,21 @@ contains
         type(signorini_report), intent(out), optional :: report
         real(c_double), intent(out), contiguous, target, optional :: motion(:)
         character(len=*), intent(out), optional :: message
-        type(signorini_settings), target :: chosen
-        type(signorini_report), target :: measured
-        type(signorini_extra), target :: extra
-        integer(c_int32_t), target :: states(size(gap)), none(size(gap))
+        type(contact_model) :: model
         type(refusal) :: wrong
-        integer(c_int32_t) :: which, status
-        integer :: n, pairs
-        n = size(q)
-        pairs = size(gap)
-        call check_data(wrong, shape(w), n, pairs, 'w', 'q')
-        call check_size(wrong, 4, 'd', size(d), n, 'as many as q')
-        call check_size(wrong, 5, 'force', size(force), n, 'as many as q')
-        call choose_law(wrong, 7, pairs, which, law, friction)
-        if (present(slip0)) call check_size(wrong, 9, 'slip0', size(slip0), n - pairs, 'dim - 1 for each pair')
-        call choose_settings(wrong, 10, chosen, method, tolerance, max_iterations, settings)
-        if (present(state)) call check_size(wrong, 14, 'state', size(state), pairs, 'one for each pair')
-        if (present(motion)) call check_size(wrong, 16, 'motion', size(motion), n, 'as many as q')
+        call check_data(wrong, shape(w), size(q), size(gap), 'w', 'q')
         if (refused(wrong, info, message)) return
-        extra = address_of_extra(none, motion)
-        status = signorini_flexibility_solve(number(max(2, n / max(1, pairs))), &
-            int(pairs, c_int64_t), w, int(max(1, n), c_int64_t), q, address(gap), which, &
-            address(friction), address(slip0), c_loc(chosen), d, force, c_loc(states), &
-            c_loc(measured), c_loc(extra))
-        call finish(status, info, message, [2, 3, 1, 1, 2, 3, 7, 8, 9, &
-            place_of_settings(10, method, settings), 4, 5, 14, 15, 16])
-        if (status >= 0) call copy_states(states, state)
-        if (present(report)) report = measured
+        call model%new_flexibility(dimension_of(size(q), size(gap)), w, info, message)
+        info = flat_position(info, -1, -1)
+        if (info /= 0) return
+        call model%solve(q, gap, d, force, info, law=law, friction=friction, slip0=slip0, method=method, &
+            tolerance=tolerance, max_iterations=max_iterations, settings=settings, state=state, &
+            report=report, motion=motion, message=message)
+        info = flat_position(info, 1, 0)
+        call model%release()
     end subroutine
 
-    ! The same with a sparse W, stored by columns as for new_sparse: col_start(n + 1), row(nnz) ascending
+    ! contact_solve_flexibility with a sparse W, stored by columns as for new_sparse: col_start(n + 1), row(nnz) ascending
     ! in each column and counted from 1, values(nnz), triangle: which entries are stored. Pairs that no
     ! entry ties to each other are solved by themselves. If the library finds something wrong in the
     ! matrix, info is the position of values; message tells the array.
@@ -1196,10 +849,8 @@ contains
         integer, intent(in), contiguous, target :: col_start(:), row(:)
         real(c_double), intent(in), contiguous, target :: values(:)
         integer(c_int32_t), intent(in) :: triangle
-        real(c_double), intent(in), contiguous :: q(:)
-        real(c_double), intent(in), contiguous, target :: gap(:)
-        real(c_double), intent(out), contiguous :: d(:)
-        real(c_double), intent(inout), contiguous :: force(:)
+        real(c_double), intent(in), contiguous :: q(:), gap(:)
+        real(c_double), intent(inout), contiguous :: d(:), force(:)
         integer, intent(out) :: info
         integer, intent(in), optional :: law, method, max_iterations
         real(c_double), intent(in), contiguous, target, optional :: friction(:), slip0(:)
@@ -1209,35 +860,20 @@ contains
         type(signorini_report), intent(out), optional :: report
         real(c_double), intent(out), contiguous, target, optional :: motion(:)
         character(len=*), intent(out), optional :: message
-        type(signorini_settings), target :: chosen
-        type(signorini_report), target :: measured
-        type(signorini_extra), target :: extra
-        integer(c_int32_t), target :: states(size(gap)), none(size(gap))
+        type(contact_model) :: model
         type(refusal) :: wrong
-        integer(c_int32_t) :: which, status
-        integer :: n, pairs
-        n = size(q)
-        pairs = size(gap)
-        call check_sparse(wrong, col_start, row, values, triangle)
-        call check_components(wrong, 5, n, pairs, 'q')
-        call check_size(wrong, 1, 'col_start', size(col_start), n + 1, 'one more than q')
-        call check_size(wrong, 7, 'd', size(d), n, 'as many as q')
-        call check_size(wrong, 8, 'force', size(force), n, 'as many as q')
-        call choose_law(wrong, 10, pairs, which, law, friction)
-        if (present(slip0)) call check_size(wrong, 12, 'slip0', size(slip0), n - pairs, 'dim - 1 for each pair')
-        call choose_settings(wrong, 13, chosen, method, tolerance, max_iterations, settings)
-        if (present(state)) call check_size(wrong, 17, 'state', size(state), pairs, 'one for each pair')
-        if (present(motion)) call check_size(wrong, 19, 'motion', size(motion), n, 'as many as q')
+        call check_components(wrong, 5, size(q), size(gap), 'q')
+        call check_size(wrong, 1, 'col_start', size(col_start), size(q) + 1, 'one more than q')
         if (refused(wrong, info, message)) return
-        extra = address_of_extra(none, motion)
-        status = signorini_flexibility_solve_sparse(number(max(2, n / max(1, pairs))), &
-            int(pairs, c_int64_t), sparse_matrix(col_start, row, values, triangle), q, address(gap), &
-            which, address(friction), address(slip0), c_loc(chosen), d, force, c_loc(states), &
-            c_loc(measured), c_loc(extra))
-        call finish(status, info, message, [5, 6, 3, 5, 6, 10, 11, 12, &
-            place_of_settings(13, method, settings), 7, 8, 17, 18, 19])
-        if (status >= 0) call copy_states(states, state)
-        if (present(report)) report = measured
+        call model%new_flexibility_sparse(dimension_of(size(q), size(gap)), col_start, row, values, &
+            triangle, info, message)
+        info = flat_position(info, -1, -1)
+        if (info /= 0) return
+        call model%solve(q, gap, d, force, info, law=law, friction=friction, slip0=slip0, method=method, &
+            tolerance=tolerance, max_iterations=max_iterations, settings=settings, state=state, &
+            report=report, motion=motion, message=message)
+        info = flat_position(info, 4, 3)
+        call model%release()
     end subroutine
 
     ! Measures displacements d of any origin on the data of a condensed problem. info is 0 if they
@@ -1249,38 +885,25 @@ contains
         integer, intent(in), optional :: law
         real(c_double), intent(in), contiguous, target, optional :: friction(:), slip0(:)
         real(c_double), intent(in), optional :: tolerance
-        real(c_double), intent(out), contiguous, target, optional :: force(:)
+        real(c_double), intent(inout), contiguous, target, optional :: force(:)
         integer, intent(out), optional :: state(:)
         type(signorini_report), intent(out), optional :: report
         character(len=*), intent(out), optional :: message
-        type(signorini_settings) :: chosen
-        type(signorini_report), target :: measured
-        integer(c_int32_t), target :: states(size(gap))
+        type(contact_model) :: model
         type(refusal) :: wrong
-        integer(c_int32_t) :: which, status
-        integer :: n, pairs
-        n = size(f)
-        pairs = size(gap)
-        call check_data(wrong, shape(k), n, pairs, 'k', 'f')
-        call check_size(wrong, 4, 'd', size(d), n, 'as many as f')
-        call choose_law(wrong, 6, pairs, which, law, friction)
-        if (present(slip0)) call check_size(wrong, 8, 'slip0', size(slip0), n - pairs, 'dim - 1 for each pair')
-        if (present(force)) call check_size(wrong, 10, 'force', size(force), n, 'as many as f')
-        if (present(state)) call check_size(wrong, 11, 'state', size(state), pairs, 'one for each pair')
+        call check_data(wrong, shape(k), size(f), size(gap), 'k', 'f')
         if (refused(wrong, info, message)) return
-        if (present(tolerance)) chosen%tolerance = tolerance
-        status = signorini_certify(number(max(2, n / max(1, pairs))), int(pairs, c_int64_t), k, &
-            int(max(1, n), c_int64_t), f, gap, which, address(friction), address(slip0), &
-            chosen%tolerance, d, address(force), c_loc(states), c_loc(measured))
-        call finish(status, info, message, [2, 3, 1, 1, 2, 3, 6, 7, 8, 9, 4, 10, 11, 12])
-        if (status >= 0) call copy_states(states, state)
-        if (present(report)) report = measured
+        call model%new_condensed(dimension_of(size(f), size(gap)), k, info, message)
+        info = flat_position(info, -1, -1)
+        if (info /= 0) return
+        call model%certify(f, gap, d, info, law=law, friction=friction, slip0=slip0, tolerance=tolerance, &
+            force=force, state=state, report=report, message=message)
+        info = flat_position(info, 1, 0)
+        call model%release()
     end subroutine
 
-    ! Proves that a solution exists next to the displacements d, of any origin, with the states of the
-    ! pairs, those of d if state is absent. force(n): its contact forces; radius_d(n), radius_force(n): it
-    ! is within these distances of d and of force, component by component. info is
-    ! SIGNORINI_STATUS_NOT_PROVED if it is not proved, which does not say that there is none.
+    ! Proves that a solution exists next to the displacements d, of any origin: model%prove for the data
+    ! of a condensed problem.
     subroutine contact_prove(k, f, gap, d, info, law, friction, slip0, state, force, radius_d, &
             radius_force, message)
         real(c_double), intent(in), contiguous :: k(:, :), f(:), gap(:), d(:)
@@ -1290,40 +913,42 @@ contains
         integer, intent(in), optional :: state(:)
         real(c_double), intent(out), contiguous, target, optional :: force(:), radius_d(:), radius_force(:)
         character(len=*), intent(out), optional :: message
-        integer(c_int32_t), target :: states(size(gap))
-        type(c_ptr) :: given
+        type(contact_model) :: model
         type(refusal) :: wrong
-        integer(c_int32_t) :: which, status
-        integer :: n, pairs
-        n = size(f)
-        pairs = size(gap)
-        call check_data(wrong, shape(k), n, pairs, 'k', 'f')
-        call check_size(wrong, 4, 'd', size(d), n, 'as many as f')
-        call choose_law(wrong, 6, pairs, which, law, friction)
-        if (present(slip0)) call check_size(wrong, 8, 'slip0', size(slip0), n - pairs, 'dim - 1 for each pair')
-        if (present(state)) call check_size(wrong, 9, 'state', size(state), pairs, 'one for each pair')
-        if (present(force)) call check_size(wrong, 10, 'force', size(force), n, 'as many as f')
-        if (present(radius_d)) call check_size(wrong, 11, 'radius_d', size(radius_d), n, 'as many as f')
-        if (present(radius_force)) &
-            call check_size(wrong, 12, 'radius_force', size(radius_force), n, 'as many as f')
+        call check_data(wrong, shape(k), size(f), size(gap), 'k', 'f')
         if (refused(wrong, info, message)) return
-        given = c_null_ptr
-        if (present(state)) then
-            states = int(state, c_int32_t)
-            given = c_loc(states)
-        end if
-        status = signorini_prove(number(max(2, n / max(1, pairs))), int(pairs, c_int64_t), k, &
-            int(max(1, n), c_int64_t), f, gap, which, address(friction), address(slip0), d, given, &
-            address(force), address(radius_d), address(radius_force))
-        call finish(status, info, message, [2, 3, 1, 1, 2, 3, 6, 7, 8, 4, 9, 10, 11, 12])
+        call model%new_condensed(dimension_of(size(f), size(gap)), k, info, message)
+        info = flat_position(info, -1, -1)
+        if (info /= 0) return
+        call model%prove(f, gap, d, info, law=law, friction=friction, slip0=slip0, state=state, &
+            force=force, radius_d=radius_d, radius_force=radius_force, message=message)
+        info = flat_position(info, 1, 0)
+        call model%release()
     end subroutine
+
+    ! The position in a flat call of an argument of the model's call, info < 0: the first four, which are
+    ! the case's own data, stand `early` places further on, the optional ones `late`.
+    pure function flat_position(info, early, late) result(moved)
+        integer, intent(in) :: info, early, late
+        integer :: moved
+        moved = info
+        if (info < 0 .and. info > CONTACT_WRONG_MODEL) moved = info - merge(early, late, info >= -4)
+    end function
+
+    pure function dimension_of(n, pairs) result(dim)
+        integer, intent(in) :: n, pairs
+        integer :: dim
+        dim = max(2, n / max(1, pairs))
+    end function
 
     ! An LCP: w = q + m z, w >= 0, z >= 0, w . z = 0, with m(n, n), q(n), w(n), z(n). infeasible_by(n):
     ! if info is SIGNORINI_STATUS_NO_EQUILIBRIUM, y >= 0 with m^T y <= 0 and q . y < 0, which proves
-    ! that no w >= 0 and z >= 0 satisfy w = q + m z; otherwise zeros.
+    ! that no w >= 0 and z >= 0 satisfy w = q + m z; otherwise zeros. cover(n): the covering vector of
+    ! Lemke's method, positive; absent: chosen.
     subroutine lcp_solve(m, q, w, z, info, method, tolerance, max_iterations, settings, &
-            infeasible_by, report, message)
+            infeasible_by, report, message, cover)
         real(c_double), intent(in), contiguous :: m(:, :), q(:)
+        real(c_double), intent(in), contiguous, target, optional :: cover(:)
         real(c_double), intent(out), contiguous :: w(:), z(:)
         integer, intent(out) :: info
         integer, intent(in), optional :: method, max_iterations
@@ -1343,10 +968,11 @@ contains
         call choose_settings(wrong, 6, chosen, method, tolerance, max_iterations, settings)
         if (present(infeasible_by)) &
             call check_size(wrong, 10, 'infeasible_by', size(infeasible_by), n, 'as many as q')
+        if (present(cover)) call check_size(wrong, 13, 'cover', size(cover), n, 'as many as q')
         if (refused(wrong, info, message)) return
         call finish(signorini_lcp_solve(int(n, c_int64_t), m, int(max(1, n), c_int64_t), q, &
-            c_loc(chosen), w, z, address(infeasible_by), c_loc(measured)), info, message, &
-            [2, 1, 1, 2, place_of_settings(6, method, settings), 3, 4, 10, 11])
+            address(cover), c_loc(chosen), w, z, address(infeasible_by), c_loc(measured)), info, message, &
+            [2, 1, 1, 2, 13, place_of_settings(6, method, settings), 3, 4, 10, 11])
         if (present(report)) report = measured
     end subroutine
 
@@ -1366,7 +992,7 @@ contains
         pairs = size(k, 2) / dim
         call finish(signorini_model_new_condensed(number(dim), int(pairs, c_int64_t), k, &
             int(max(1, size(k, 1)), c_int64_t), self%handle), info, message, [1, 2, 2, 2])
-        if (info == 0) call keep_sizes(self, dim, pairs, 0)
+        call keep_sizes(self)
     end subroutine
 
     ! A model of two bodies that face each other in the same frames: k_a(n, n) and k_b(n, n),
@@ -1388,7 +1014,50 @@ contains
         call finish(signorini_model_new_two_body(number(dim), int(pairs, c_int64_t), k_a, &
             int(max(1, size(k_a, 1)), c_int64_t), k_b, int(max(1, size(k_b, 1)), c_int64_t), &
             self%handle), info, message, [1, 2, 2, 2, 3, 3])
-        if (info == 0) call keep_sizes(self, dim, pairs, 0)
+        call keep_sizes(self)
+    end subroutine
+
+    ! A model in flexibility form, d = W force + q: w(n, n), n = dim * pairs, may be singular. The f of its
+    ! load cases are the free displacements q. In %solve force is the start if settings ask for one, and
+    ! motion holds the pressing forces that prove SIGNORINI_STATUS_NO_EQUILIBRIUM; in %certify force is
+    ! needed and not changed.
+    subroutine model_new_flexibility(self, dim, w, info, message)
+        class(contact_model), intent(inout) :: self
+        integer, intent(in) :: dim
+        real(c_double), intent(in), contiguous :: w(:, :)
+        integer, intent(out) :: info
+        character(len=*), intent(out), optional :: message
+        type(refusal) :: wrong
+        call self%release()
+        call check_dim(wrong, 1, dim)
+        call check_square(wrong, 2, 'w', shape(w), dim)
+        if (refused(wrong, info, message)) return
+        call finish(signorini_model_new_flexibility(number(dim), int(size(w, 2) / dim, c_int64_t), w, &
+            int(max(1, size(w, 1)), c_int64_t), self%handle), info, message, [1, 2, 2, 2])
+        call keep_sizes(self)
+    end subroutine
+
+    ! new_flexibility with a sparse w, stored as for new_sparse.
+    subroutine model_new_flexibility_sparse(self, dim, col_start, row, values, triangle, info, message)
+        class(contact_model), intent(inout) :: self
+        integer, intent(in) :: dim
+        integer, intent(in), contiguous, target :: col_start(:), row(:)
+        real(c_double), intent(in), contiguous, target :: values(:)
+        integer(c_int32_t), intent(in) :: triangle
+        integer, intent(out) :: info
+        character(len=*), intent(out), optional :: message
+        type(refusal) :: wrong
+        integer :: n
+        call self%release()
+        call check_dim(wrong, 1, dim)
+        call check_sparse(wrong, 2, col_start, row, values, triangle)
+        n = size(col_start) - 1
+        if (wrong%position == 0 .and. mod(n, max(1, dim)) /= 0) call refuse(wrong, 2, 'col_start has ' // &
+            entries(n + 1) // ', it must have 1 more than a multiple of dim (' // text(dim) // ')')
+        if (refused(wrong, info, message)) return
+        call finish(signorini_model_new_flexibility_sparse(number(dim), int(n / dim, c_int64_t), &
+            sparse_matrix(col_start, row, values, triangle), self%handle), info, message, [1, 4, 4])
+        call keep_sizes(self)
     end subroutine
 
     ! A model of a whole sparse symmetric matrix of n rows by columns, whose indices count from 1:
@@ -1401,8 +1070,9 @@ contains
     ! masters(dim, m): degrees of freedom of all master nodes, weights(m), master_start(pairs + 1):
     ! those of pair i are master_start(i) to master_start(i + 1) - 1. Without masters the obstacle
     ! is rigid. order: the order of elimination, each degree of freedom once; absent: chosen. settings:
-    ! progress, user, time_limit and memory_limit count. If the library finds something wrong in the matrix, info is the position of values,
-    ! if in the pairs, that of slaves; message tells the array.
+    ! progress, user, time_limit, memory_limit, full_space and threads count. If the library finds something
+    ! wrong in the matrix, info is the position of values, if in the pairs, that of slaves; message tells the
+    ! array.
     subroutine model_new_sparse(self, col_start, row, values, triangle, slaves, normals, info, fixed, &
             master_start, masters, weights, tangents, message, order, settings)
         class(contact_model), intent(inout) :: self
@@ -1421,7 +1091,7 @@ contains
         integer(c_int64_t), allocatable, target :: of_slaves(:), begins(:), of_masters(:)
         type(refusal) :: wrong
         call self%release()
-        call check_sparse(wrong, col_start, row, values, triangle)
+        call check_sparse(wrong, 1, col_start, row, values, triangle)
         call check_pairs(wrong, 6, 'normals', shape(normals), shape(slaves))
         call check_masters(wrong, 9, shape(slaves), master_start, masters, weights)
         if (present(tangents)) call check_pairs(wrong, 12, 'tangents', shape(tangents), shape(slaves))
@@ -1441,7 +1111,7 @@ contains
             info, message, [3, 8, 8, 5, 15], order, settings)
     end subroutine
 
-    ! The same with general rows: each pair is a list of nodes with signed weights.
+    ! new_sparse with general rows: each pair is a list of nodes with signed weights.
     ! row_nodes(dim, m): degrees of freedom of all nodes, row_weights(m): positive on the side whose
     ! outward normal is given, negative on the other, of sum 0 in a pair, and 1 against a rigid
     ! obstacle; row_start(pairs + 1): those of pair i are row_start(i) to row_start(i + 1) - 1. If
@@ -1462,7 +1132,7 @@ contains
         integer(c_int64_t), allocatable, target :: begins(:), of_nodes(:)
         type(refusal) :: wrong
         call self%release()
-        call check_sparse(wrong, col_start, row, values, triangle)
+        call check_sparse(wrong, 1, col_start, row, values, triangle)
         call check_size(wrong, 5, 'row_start', size(row_start), size(normals, 2) + 1, 'one more than pairs')
         call check_shape(wrong, 6, 'row_nodes', shape(row_nodes), [size(normals, 1), size(row_weights)], &
             '(dim, entries of row_weights)')
@@ -1518,10 +1188,10 @@ contains
         type(signorini_pairs), pointer :: pairs
         type(refusal) :: wrong
         call self%release()
-        call check_sparse(wrong, col_start, row, values, triangle)
+        call check_sparse(wrong, 1, col_start, row, values, triangle)
         call check_surfaces(wrong, surfaces, 5)
         if (refused(wrong, info, message)) return
-        call c_f_pointer(signorini_surface_rows(surfaces%handle), pairs)
+        call c_f_pointer(surfaces%data%rows, pairs)
         call finish_sparse(self, col_start, row, values, triangle, pairs, fixed, info, message, &
             [3, 7, 7, 5, 0])
     end subroutine
@@ -1554,16 +1224,28 @@ contains
         allocate (held(max(1_c_int64_t, n_fixed)))
         held = 0
         if (n_fixed > 0) held = int(fixed, c_int64_t)
-        call finish(signorini_model_new_sparse_within(matrix, n_fixed, c_loc(held), pairs, &
+        call finish(signorini_model_new_sparse(matrix, n_fixed, c_loc(held), pairs, &
             c_loc(chosen), self%handle), info, message, positions)
-        if (info == 0) call keep_sizes(self, int(pairs%dim), int(pairs%count), int(n_fixed))
+        call keep_sizes(self)
     end subroutine
+
+    ! Its sizes, the memory that a load case takes, and how load cases are solved: see signorini.h.
+    function model_view(self) result(data)
+        class(contact_model), intent(in) :: self
+        type(signorini_model_data) :: data
+        integer(c_int32_t) :: status
+        if (.not. c_associated(self%handle)) return
+        status = signorini_model_view(self%handle, data)
+        if (status /= 0) data = signorini_model_data()
+    end function
 
     ! Entries of a load or displacement vector of the model's host; -1 without a model.
     function model_host_size(self) result(entries)
         class(contact_model), intent(in) :: self
         integer :: entries
-        entries = int(signorini_model_host_size(self%handle))
+        type(signorini_model_data) :: data
+        data = self%view()
+        entries = int(data%host_size)
     end function
 
     ! The condensed stiffness k(n, n), n = dim * pairs.
@@ -1572,13 +1254,21 @@ contains
         real(c_double), intent(out), contiguous :: k(:, :)
         integer, intent(out) :: info
         character(len=*), intent(out), optional :: message
+        type(signorini_model_data) :: data
+        real(c_double), pointer :: found(:, :)
         type(refusal) :: wrong
         integer :: n
         n = self%dim * self%pairs
+        data = self%view()
         call check_model(wrong, self)
         call check_shape(wrong, 1, 'k', shape(k), [n, n], 'dim * pairs rows and columns')
+        call check_found(wrong, data%k, n, no_stiffness(data))
         if (refused(wrong, info, message)) return
-        call finish(signorini_model_stiffness(self%handle, k), info, message, [CONTACT_WRONG_MODEL, 1])
+        info = 0
+        if (present(message)) message = ''
+        if (n == 0) return
+        call c_f_pointer(data%k, found, [n, n])
+        k = found
     end subroutine
 
     ! The frames that the model uses, frames(dim, dim, pairs): frames(:, 1, i) is the normal of pair
@@ -1590,13 +1280,48 @@ contains
         real(c_double), intent(out), contiguous :: frames(:, :, :)
         integer, intent(out) :: info
         character(len=*), intent(out), optional :: message
+        type(signorini_model_data) :: data
+        real(c_double), pointer :: found(:, :, :)
         type(refusal) :: wrong
+        data = self%view()
         call check_model(wrong, self)
         call check_shape(wrong, 1, 'frames', shape(frames), [self%dim, self%dim, self%pairs], &
             '(dim, dim, pairs)')
+        call check_found(wrong, data%frames, self%pairs, &
+            'the model knows no frames: its matrix was condensed in frames of your own')
         if (refused(wrong, info, message)) return
-        call finish(signorini_model_frames(self%handle, frames), info, message, [CONTACT_WRONG_MODEL, 1])
+        info = 0
+        if (present(message)) message = ''
+        if (self%pairs == 0) return
+        call c_f_pointer(data%frames, found, shape(frames))
+        frames = found
     end subroutine
+
+    ! An array of a model, of so many entries or more, that may not be there.
+    subroutine check_found(wrong, array, count, sentence)
+        type(refusal), intent(inout) :: wrong
+        type(c_ptr), intent(in) :: array
+        integer, intent(in) :: count
+        character(len=*), intent(in) :: sentence
+        if (count > 0 .and. .not. c_associated(array)) call refuse(wrong, CONTACT_WRONG_MODEL, sentence)
+    end subroutine
+
+    ! The reason why a model has no stiffness matrix.
+    function no_stiffness(data) result(sentence)
+        type(signorini_model_data), intent(in) :: data
+        character(len=:), allocatable :: sentence
+        select case (data%kind)
+        case (SIGNORINI_MODEL_FULL_SPACE)
+            sentence = 'there is no stiffness matrix: the model is solved in full space'
+        case (SIGNORINI_MODEL_OPERATOR)
+            sentence = 'there is no stiffness matrix: the model has products of the host'
+        case (SIGNORINI_MODEL_FLEXIBILITY)
+            sentence = 'there is no stiffness matrix: the model has a flexibility'
+        case default
+            sentence = 'there is no stiffness matrix: the rows of pairs (' // &
+                text(int(data%dependent)) // ' of them) follow from those of other pairs or from supports'
+        end select
+    end function
 
     ! The load of a case on the contact components, load(dim * pairs): the f of contact_solve.
     subroutine model_condensed_load(self, f, load, info, prescribed, message)
@@ -1623,8 +1348,7 @@ contains
         class(contact_model), intent(in) :: self
         real(c_double), intent(in), contiguous, target :: f(:)
         real(c_double), intent(in), contiguous :: gap(:)
-        real(c_double), intent(inout), contiguous :: d(:)
-        real(c_double), intent(out), contiguous :: force(:)
+        real(c_double), intent(inout), contiguous :: d(:), force(:)
         integer, intent(out) :: info
         real(c_double), intent(in), contiguous, target, optional :: prescribed(:), friction(:), slip0(:)
         integer, intent(in), optional :: law, method, max_iterations
@@ -1667,7 +1391,8 @@ contains
         if (present(report)) report = measured
     end subroutine
 
-    ! Measures displacements d of any origin on a load case of the model.
+    ! Measures displacements d of any origin on a load case of the model. force is set; of a model in
+    ! flexibility form, and where pairs depend on each other, it is needed and not changed.
     subroutine model_certify(self, f, gap, d, info, prescribed, law, friction, slip0, tolerance, &
             force, state, report, message)
         class(contact_model), intent(in) :: self
@@ -1677,7 +1402,7 @@ contains
         real(c_double), intent(in), contiguous, target, optional :: prescribed(:), friction(:), slip0(:)
         integer, intent(in), optional :: law
         real(c_double), intent(in), optional :: tolerance
-        real(c_double), intent(out), contiguous, target, optional :: force(:)
+        real(c_double), intent(inout), contiguous, target, optional :: force(:)
         integer, intent(out), optional :: state(:)
         type(signorini_report), intent(out), optional :: report
         character(len=*), intent(out), optional :: message
@@ -1707,6 +1432,50 @@ contains
         if (present(report)) report = measured
     end subroutine
 
+    ! Proves that a solution exists next to the displacements d, of any origin, with the states of the
+    ! pairs, those of d if state is absent. force(n): its contact forces; radius_d(n), radius_force(n): it
+    ! is within these distances of d and of force, component by component. info is
+    ! SIGNORINI_STATUS_NOT_PROVED if it is not proved, which does not say that there is none.
+    subroutine model_prove(self, f, gap, d, info, prescribed, law, friction, slip0, state, force, &
+            radius_d, radius_force, message)
+        class(contact_model), intent(in) :: self
+        real(c_double), intent(in), contiguous, target :: f(:)
+        real(c_double), intent(in), contiguous :: gap(:), d(:)
+        integer, intent(out) :: info
+        real(c_double), intent(in), contiguous, target, optional :: prescribed(:), friction(:), slip0(:)
+        integer, intent(in), optional :: law, state(:)
+        real(c_double), intent(out), contiguous, target, optional :: force(:), radius_d(:), radius_force(:)
+        character(len=*), intent(out), optional :: message
+        integer(c_int32_t), target :: states(self%pairs)
+        type(c_ptr) :: given
+        type(refusal) :: wrong
+        integer(c_int32_t) :: which, status
+        integer :: n, pairs
+        pairs = self%pairs
+        n = self%dim * pairs
+        call check_model(wrong, self)
+        call check_case(wrong, self, size(f), 5, prescribed)
+        call check_size(wrong, 2, 'gap', size(gap), pairs, 'one for each pair')
+        call check_size(wrong, 3, 'd', size(d), n, 'dim * pairs')
+        call choose_law(wrong, 6, pairs, which, law, friction)
+        if (present(slip0)) call check_size(wrong, 8, 'slip0', size(slip0), n - pairs, 'dim - 1 for each pair')
+        if (present(state)) call check_size(wrong, 9, 'state', size(state), pairs, 'one for each pair')
+        if (present(force)) call check_size(wrong, 10, 'force', size(force), n, 'dim * pairs')
+        if (present(radius_d)) call check_size(wrong, 11, 'radius_d', size(radius_d), n, 'dim * pairs')
+        if (present(radius_force)) &
+            call check_size(wrong, 12, 'radius_force', size(radius_force), n, 'dim * pairs')
+        if (refused(wrong, info, message)) return
+        given = c_null_ptr
+        if (present(state)) then
+            states = int(state, c_int32_t)
+            given = c_loc(states)
+        end if
+        status = signorini_model_prove(self%handle, address(f), address(prescribed), gap, which, &
+            address(friction), address(slip0), d, given, address(force), address(radius_d), &
+            address(radius_force))
+        call finish(status, info, message, [CONTACT_WRONG_MODEL, 1, 5, 2, 6, 7, 8, 3, 9, 10, 11, 12])
+    end subroutine
+
     ! Displacements u(host_size()) of the host that belong to d.
     subroutine model_recover(self, f, d, u, info, prescribed, message)
         class(contact_model), intent(in) :: self
@@ -1722,8 +1491,8 @@ contains
         call check_size(wrong, 2, 'd', size(d), self%dim * self%pairs, 'dim * pairs')
         call check_size(wrong, 3, 'u', size(u), self%host_size(), 'as many as f')
         if (refused(wrong, info, message)) return
-        call finish(signorini_model_recover(self%handle, address(f), address(prescribed), d, u), &
-            info, message, [CONTACT_WRONG_MODEL, 1, 5, 2, 3])
+        call finish(signorini_model_recover(self%handle, 1_c_int64_t, address(f), address(prescribed), &
+            d, u), info, message, [CONTACT_WRONG_MODEL, 1, 1, 5, 2, 3])
     end subroutine
 
     ! Contact forces as a nodal force vector nodal(host_size()) of the host.
@@ -1772,7 +1541,7 @@ contains
         end if
         functions%user = c_loc(self%place)
         call finish(signorini_model_new_operator(functions, self%handle), info, message, [3, 3])
-        if (info == 0) call keep_sizes(self, dim, pairs, 0)
+        call keep_sizes(self)
         if (info /= 0) deallocate (self%place)
     end subroutine
 
@@ -1851,20 +1620,21 @@ contains
         call signorini_model_free(self%handle)
         self%handle = c_null_ptr
         if (associated(self%place)) deallocate (self%place)
-        call keep_sizes(self, 0, 0, 0)
+        call keep_sizes(self)
     end subroutine
 
-    subroutine keep_sizes(self, dim, pairs, fixed)
+    subroutine keep_sizes(self)
         class(contact_model), intent(inout) :: self
-        integer, intent(in) :: dim, pairs, fixed
-        self%dim = dim
-        self%pairs = pairs
-        self%fixed = fixed
+        type(signorini_model_data) :: data
+        data = self%view()
+        self%dim = int(data%dim)
+        self%pairs = int(data%pairs)
+        self%fixed = int(data%fixed)
     end subroutine
 
     ! Pairs two surfaces of a mesh. Surfaces that never meet are no error: there are no pairs, and
     ! summary() says why. coordinates(dim, nodes). slave(k, faces), master(k, faces): nodes of each
-    ! face, counted from 1; a face with fewer than k nodes ends with zeros. signorini.h tells their
+    ! face, counted from 1; a face with fewer than k nodes ends with zeros. signorini_surface.h tells their
     ! order. pairing: SIGNORINI_PAIRING_DUAL_MORTAR, the default, or _NODE_TO_SURFACE.
     ! search_distance: absent: the size of the largest slave face. dofs(dim, nodes): degrees of
     ! freedom of each node; absent: dofs_per_node * (node - 1) + axis, dofs_per_node absent: dim.
@@ -1881,30 +1651,22 @@ contains
         integer, intent(in), optional :: pairing, dofs(:, :), dofs_per_node, symmetry_axes(:), normals, rims
         real(c_double), intent(in), optional :: search_distance, symmetry_at(:)
         character(len=*), intent(out), optional :: message
-        type(signorini_surface_settings), target :: settings
-        type(planes_of_symmetry), target :: planes
-        type(signorini_surface_report), target :: report
-        type(signorini_faces), target :: of_slave, of_master
-        integer(c_int64_t), allocatable, target :: starts(:), nodes(:), starts2(:), nodes2(:), each(:)
+        type(preparation), target :: told
         type(refusal) :: wrong
         call self%release()
-        call check_dim(wrong, 1, size(coordinates, 1))
-        call settle(wrong, 6, shape(coordinates), settings, each, search_distance, dofs, dofs_per_node)
-        call settle_symmetry(wrong, 9, settings, planes, symmetry_axes, symmetry_at)
+        call prepare(wrong, 6, told, shape(coordinates), slave, search_distance, dofs, dofs_per_node, &
+            symmetry_axes, symmetry_at, normals, rims)
         if (present(pairing)) then
-            settings%pairing = number(pairing)
+            told%settings%pairing = number(pairing)
             if (pairing /= SIGNORINI_PAIRING_DUAL_MORTAR .and. pairing /= SIGNORINI_PAIRING_NODE_TO_SURFACE) &
                 call refuse(wrong, 5, 'there is no pairing ' // text(pairing))
         end if
-        call settle_choices(wrong, 11, settings, normals, rims)
         if (refused(wrong, info, message)) return
-        call check_faces(slave, of_slave, starts, nodes)
-        call check_faces(master, of_master, starts2, nodes2)
+        call list_faces(master, told%other)
         call finish(signorini_surface_pair(number(size(coordinates, 1)), &
-            int(size(coordinates, 2), c_int64_t), address2(coordinates), c_loc(of_slave), &
-            c_loc(of_master), c_loc(settings), self%handle, c_loc(report)), info, message, &
-            [1, 1, 1, 2, 3, 6])
-        if (info == 0) call keep_pairs(self, shape(coordinates), report, dofs, dofs_per_node)
+            int(size(coordinates, 2), c_int64_t), address2(coordinates), c_loc(told%slave%faces), &
+            c_loc(told%other%faces), c_loc(told%settings), self%handle), info, message, [1, 1, 1, 2, 3, 6])
+        if (info == 0) call keep_pairs(self, shape(coordinates), told)
     end subroutine
 
     ! Pairs a surface with a rigid obstacle; the rest as for pair. search_distance absent: no limit.
@@ -1918,23 +1680,16 @@ contains
         real(c_double), intent(in), optional :: search_distance, symmetry_at(:)
         integer, intent(in), optional :: dofs(:, :), dofs_per_node, symmetry_axes(:)
         character(len=*), intent(out), optional :: message
-        type(signorini_surface_settings), target :: settings
-        type(planes_of_symmetry), target :: planes
-        type(signorini_surface_report), target :: report
-        type(signorini_faces), target :: of_slave
-        integer(c_int64_t), allocatable, target :: starts(:), nodes(:), each(:)
+        type(preparation), target :: told
         type(refusal) :: wrong
         call self%release()
-        call check_dim(wrong, 1, size(coordinates, 1))
-        call settle(wrong, 5, shape(coordinates), settings, each, search_distance, dofs, dofs_per_node)
-        call settle_symmetry(wrong, 8, settings, planes, symmetry_axes, symmetry_at)
+        call prepare(wrong, 5, told, shape(coordinates), slave, search_distance, dofs, dofs_per_node, &
+            symmetry_axes, symmetry_at)
         if (refused(wrong, info, message)) return
-        call check_faces(slave, of_slave, starts, nodes)
         call finish(signorini_surface_pair_obstacle(number(size(coordinates, 1)), &
-            int(size(coordinates, 2), c_int64_t), address2(coordinates), c_loc(of_slave), &
-            c_loc(obstacle), c_loc(settings), self%handle, c_loc(report)), info, message, &
-            [1, 1, 1, 2, 3, 5])
-        if (info == 0) call keep_pairs(self, shape(coordinates), report, dofs, dofs_per_node)
+            int(size(coordinates, 2), c_int64_t), address2(coordinates), c_loc(told%slave%faces), &
+            c_loc(obstacle), c_loc(told%settings), self%handle), info, message, [1, 1, 1, 2, 3, 5])
+        if (info == 0) call keep_pairs(self, shape(coordinates), told)
     end subroutine
 
     ! Pairs a surface with a rigid mesh: rigid_coordinates(dim, nodes) and rigid_faces(nodes of a face,
@@ -1951,39 +1706,32 @@ contains
         real(c_double), intent(in), optional :: search_distance, symmetry_at(:)
         integer, intent(in), optional :: dofs(:, :), dofs_per_node, symmetry_axes(:), normals, rims
         character(len=*), intent(out), optional :: message
-        type(signorini_surface_settings), target :: settings
-        type(planes_of_symmetry), target :: planes
-        type(signorini_surface_report), target :: report
         type(signorini_obstacle), target :: obstacle
-        type(signorini_faces), target :: of_slave, of_rigid
-        integer(c_int64_t), allocatable, target :: starts(:), nodes(:), starts2(:), nodes2(:), each(:)
+        type(preparation), target :: told
         type(refusal) :: wrong
         call self%release()
-        call check_dim(wrong, 1, size(coordinates, 1))
         if (size(rigid_coordinates, 1) /= size(coordinates, 1)) call refuse(wrong, 3, &
             'rigid_coordinates and coordinates differ in their first size, the dimension')
-        call settle(wrong, 6, shape(coordinates), settings, each, search_distance, dofs, dofs_per_node)
-        call settle_symmetry(wrong, 9, settings, planes, symmetry_axes, symmetry_at)
-        call settle_choices(wrong, 11, settings, normals, rims)
+        call prepare(wrong, 6, told, shape(coordinates), slave, search_distance, dofs, dofs_per_node, &
+            symmetry_axes, symmetry_at, normals, rims)
         if (refused(wrong, info, message)) return
-        call check_faces(slave, of_slave, starts, nodes)
-        call check_faces(rigid_faces, of_rigid, starts2, nodes2)
+        call list_faces(rigid_faces, told%other)
         obstacle%kind = SIGNORINI_OBSTACLE_FACES
         obstacle%nodes = size(rigid_coordinates, 2)
         obstacle%coordinates = address2(rigid_coordinates)
-        obstacle%faces = c_loc(of_rigid)
+        obstacle%faces = c_loc(told%other%faces)
         call finish(signorini_surface_pair_obstacle(number(size(coordinates, 1)), &
-            int(size(coordinates, 2), c_int64_t), address2(coordinates), c_loc(of_slave), &
-            c_loc(obstacle), c_loc(settings), self%handle, c_loc(report)), info, message, &
-            [1, 1, 1, 2, 4, 6])
-        if (info == 0) call keep_pairs(self, shape(coordinates), report, dofs, dofs_per_node)
+            int(size(coordinates, 2), c_int64_t), address2(coordinates), c_loc(told%slave%faces), &
+            c_loc(obstacle), c_loc(told%settings), self%handle), info, message, [1, 1, 1, 2, 4, 6])
+        if (info == 0) call keep_pairs(self, shape(coordinates), told)
     end subroutine
 
     ! One sentence on what was found.
     function surfaces_summary(self) result(text)
         class(contact_surfaces), intent(in) :: self
         character(len=:), allocatable :: text
-        text = text_of(signorini_surface_summary(self%handle))
+        text = ''
+        if (c_associated(self%data%summary)) text = text_of(self%data%summary)
     end function
 
     ! Fields at the nodes of the mesh: pressure(nodes), traction(dim, nodes), clearance(nodes),
@@ -2052,7 +1800,7 @@ contains
     end subroutine
 
     ! Writes a mesh of cells of one of VTK's types, cells(k, number), with displacements u and fields
-    ! to a file .vtu, which ParaView opens. Cells of several types: signorini_surface_write.
+    ! to a file .vtu, which ParaView opens. Cells of several types, several zones: signorini_mesh_write.
     subroutine surfaces_write(self, path, coordinates, cells, cell_type, d, force, info, u, state, &
             slip0, gap, message)
         class(contact_surfaces), intent(in) :: self
@@ -2065,10 +1813,10 @@ contains
         integer, intent(in), optional :: state(:)
         character(len=*), intent(out), optional :: message
         type(signorini_mesh), target :: mesh
+        type(signorini_zone), target :: zone
         character(kind=c_char), allocatable, target :: name(:)
         integer(c_int64_t), allocatable, target :: nodes(:), starts(:)
         integer(c_int32_t), allocatable, target :: states(:)
-        type(c_ptr) :: of_states
         type(refusal) :: wrong
         integer :: i
         call check_surfaces(wrong, self, CONTACT_WRONG_MODEL)
@@ -2094,15 +1842,18 @@ contains
         starts = [(1_c_int64_t + size(cells, 1) * int(i, c_int64_t), i=0, size(cells, 2))]
         mesh%cell_start = c_loc(starts)
         mesh%cell_nodes = c_loc(nodes)
+        zone%contact = self%handle
+        zone%gap = address(gap)
+        zone%slip0 = address(slip0)
+        zone%d = address(d)
+        zone%force = address(force)
         allocate (states(max(1, self%pairs)))
-        of_states = c_null_ptr
         if (present(state)) then
             states(:self%pairs) = int(state, c_int32_t)
-            of_states = c_loc(states)
+            zone%state = c_loc(states)
         end if
-        call finish(signorini_surface_write(self%handle, c_loc(name), c_loc(mesh), address(gap), &
-            address(slip0), address(u), address(d), address(force), of_states), info, message, &
-            [CONTACT_WRONG_MODEL, 1, 3, 11, 10, 8, 5, 6, 9])
+        call finish(signorini_mesh_write(c_loc(name), c_loc(mesh), address(u), 1_c_int64_t, c_loc(zone), &
+            0_c_int64_t, c_null_ptr), info, message, [1, 3, 8, 5, 5])
     end subroutine
 
     subroutine surfaces_release(self)
@@ -2112,39 +1863,36 @@ contains
         self%dim = 0
         self%pairs = 0
         self%nodes = 0
+        self%data = signorini_surface_data()
         if (allocated(self%gap)) deallocate (self%node, self%gap, self%area, self%normal, &
             self%tangent, self%point)
     end subroutine
 
     ! Copies what the library tells of new pairs.
-    subroutine keep_pairs(self, nodes, report, dofs, dofs_per_node)
+    subroutine keep_pairs(self, nodes, told)
         class(contact_surfaces), intent(inout) :: self
         integer, intent(in) :: nodes(2)
-        type(signorini_surface_report), intent(in) :: report
-        integer, intent(in), optional :: dofs(:, :), dofs_per_node
+        type(preparation), intent(in) :: told
         integer(c_int64_t), pointer :: numbers(:)
-        integer :: each
+        integer(c_int32_t) :: status
+        integer :: n
+        status = signorini_surface_view(self%handle, self%data)
         self%dim = nodes(1)
         self%nodes = nodes(2)
-        self%pairs = int(report%pairs)
-        self%report = report
-        each = nodes(1)
-        if (present(dofs_per_node)) each = dofs_per_node
-        self%dofs = each * (nodes(2) - 1) + nodes(1)
-        if (present(dofs)) self%dofs = maxval(dofs)
+        self%pairs = int(self%data%pairs)
+        self%dofs = max(nodes(1), int(told%settings%dofs_per_node)) * (nodes(2) - 1) + nodes(1)
+        if (allocated(told%dofs)) self%dofs = int(maxval(told%dofs))
         allocate (self%node(self%pairs))
         if (self%pairs > 0) then
-            call c_f_pointer(signorini_surface_nodes(self%handle), numbers, [self%pairs])
+            call c_f_pointer(self%data%nodes, numbers, [self%pairs])
             self%node = int(numbers)
         end if
-        self%gap = reals_of(signorini_surface_gaps(self%handle), self%pairs)
-        self%area = reals_of(signorini_surface_areas(self%handle), self%pairs)
-        self%normal = reshape(reals_of(signorini_surface_normals(self%handle), &
-            self%dim * self%pairs), [self%dim, self%pairs])
-        self%tangent = reshape(reals_of(signorini_surface_tangents(self%handle), &
-            self%dim * self%pairs), [self%dim, self%pairs])
-        self%point = reshape(reals_of(signorini_surface_points(self%handle), &
-            self%dim * self%pairs), [self%dim, self%pairs])
+        n = self%dim * self%pairs
+        self%gap = reals_of(self%data%gaps, self%pairs)
+        self%area = reals_of(self%data%areas, self%pairs)
+        self%normal = reshape(reals_of(self%data%normals, n), [self%dim, self%pairs])
+        self%tangent = reshape(reals_of(self%data%tangents, n), [self%dim, self%pairs])
+        self%point = reshape(reals_of(self%data%points, n), [self%dim, self%pairs])
     end subroutine
 
     ! A copy of an array of the library.
@@ -2158,94 +1906,79 @@ contains
         copy = found
     end function
 
-    ! The settings of a pairing; search_distance, dofs and dofs_per_node from a position on.
-    subroutine settle(wrong, first, nodes, settings, each, search_distance, dofs, dofs_per_node)
+    ! The slave and the settings of a pairing; search_distance at the position `first`, the others behind it.
+    subroutine prepare(wrong, first, told, nodes, slave, search_distance, dofs, dofs_per_node, &
+            symmetry_axes, symmetry_at, normals, rims)
         type(refusal), intent(inout) :: wrong
-        integer, intent(in) :: first, nodes(2)
-        type(signorini_surface_settings), intent(inout) :: settings
-        integer(c_int64_t), allocatable, target, intent(out) :: each(:)
-        real(c_double), intent(in), optional :: search_distance
-        integer, intent(in), optional :: dofs(:, :), dofs_per_node
-        settings%index_base = 1
+        integer, intent(in) :: first, nodes(2), slave(:, :)
+        type(preparation), intent(inout), target :: told
+        real(c_double), intent(in), optional :: search_distance, symmetry_at(:)
+        integer, intent(in), optional :: dofs(:, :), dofs_per_node, symmetry_axes(:), normals, rims
+        integer :: axes, places
+        call check_dim(wrong, 1, nodes(1))
+        call list_faces(slave, told%slave)
+        told%settings%index_base = 1
         if (present(search_distance)) then
-            settings%search_distance = search_distance
+            told%settings%search_distance = search_distance
             if (.not. search_distance > 0) call refuse(wrong, first, 'search_distance must be positive')
         end if
         if (present(dofs_per_node)) then
-            settings%dofs_per_node = number(dofs_per_node)
+            told%settings%dofs_per_node = number(dofs_per_node)
             if (dofs_per_node < nodes(1)) call refuse(wrong, first + 2, 'dofs_per_node is ' // &
                 text(dofs_per_node) // ', it must be at least dim')
         end if
         if (present(dofs)) then
             call check_shape(wrong, first + 1, 'dofs', shape(dofs), nodes, '(dim, nodes), as coordinates')
             if (any(dofs < 1)) call refuse(wrong, first + 1, 'dofs must count from 1')
-            each = int([dofs], c_int64_t)
-            if (size(each) > 0) settings%node_dofs = c_loc(each)
+            told%dofs = int([dofs], c_int64_t)
+            if (size(told%dofs) > 0) told%settings%node_dofs = c_loc(told%dofs)
         end if
-    end subroutine
-
-    ! Normals and what becomes of nodes at rims; normals and rims from a position on.
-    subroutine settle_choices(wrong, first, settings, normals, rims)
-        type(refusal), intent(inout) :: wrong
-        integer, intent(in) :: first
-        type(signorini_surface_settings), intent(inout) :: settings
-        integer, intent(in), optional :: normals, rims
-        if (present(normals)) then
-            settings%normals = number(normals)
-            if (normals < SIGNORINI_NORMALS_AVERAGED .or. normals > SIGNORINI_NORMALS_FACES) &
-                call refuse(wrong, first, 'there is no choice of normals ' // text(normals))
-        end if
-        if (present(rims)) then
-            settings%rims = number(rims)
-            if (rims < SIGNORINI_RIMS_FOLD .or. rims > SIGNORINI_RIMS_DROP) &
-                call refuse(wrong, first + 1, 'there is no choice of rims ' // text(rims))
-        end if
-    end subroutine
-
-    ! Planes of symmetry; symmetry_axes and symmetry_at from a position on.
-    subroutine settle_symmetry(wrong, first, settings, planes, symmetry_axes, symmetry_at)
-        type(refusal), intent(inout) :: wrong
-        integer, intent(in) :: first
-        type(signorini_surface_settings), intent(inout) :: settings
-        type(planes_of_symmetry), target, intent(out) :: planes
-        integer, intent(in), optional :: symmetry_axes(:)
-        real(c_double), intent(in), optional :: symmetry_at(:)
-        integer :: axes, places
         axes = 0
         places = 0
         if (present(symmetry_axes)) axes = size(symmetry_axes)
         if (present(symmetry_at)) places = size(symmetry_at)
-        if (axes /= places) call refuse(wrong, first + 1, 'symmetry_axes has ' // text(axes) // &
+        if (axes /= places) call refuse(wrong, first + 4, 'symmetry_axes has ' // text(axes) // &
             ' entries and symmetry_at ' // text(places) // ': give both for each plane')
-        if (axes == 0 .or. axes /= places) return
-        planes%axes = int([symmetry_axes], c_int32_t)
-        planes%at = [symmetry_at]
-        settings%symmetry_planes = axes
-        settings%symmetry_axes = c_loc(planes%axes)
-        settings%symmetry_at = c_loc(planes%at)
+        if (axes > 0 .and. axes == places) then
+            told%axes = int([symmetry_axes], c_int32_t)
+            told%at = [symmetry_at]
+            told%settings%symmetry_planes = axes
+            told%settings%symmetry_axes = c_loc(told%axes)
+            told%settings%symmetry_at = c_loc(told%at)
+        end if
+        if (present(normals)) then
+            told%settings%normals = number(normals)
+            if (normals < SIGNORINI_NORMALS_AVERAGED .or. normals > SIGNORINI_NORMALS_FACES) &
+                call refuse(wrong, first + 5, 'there is no choice of normals ' // text(normals))
+        end if
+        if (present(rims)) then
+            told%settings%rims = number(rims)
+            if (rims < SIGNORINI_RIMS_FOLD .or. rims > SIGNORINI_RIMS_DROP) &
+                call refuse(wrong, first + 6, 'there is no choice of rims ' // text(rims))
+        end if
     end subroutine
 
     ! Faces, of which those with fewer nodes end with zeros.
-    subroutine check_faces(given, faces, starts, nodes)
+    subroutine list_faces(given, list)
         integer, intent(in) :: given(:, :)
-        type(signorini_faces), intent(inout) :: faces
-        integer(c_int64_t), allocatable, target, intent(out) :: starts(:), nodes(:)
+        type(face_lists), intent(inout), target :: list
         integer :: face, count_of
-        allocate (starts(size(given, 2) + 1), nodes(size(given) + 1))
-        nodes = 0
-        starts(1) = 1
+        allocate (list%starts(size(given, 2) + 1), list%nodes(size(given) + 1))
+        list%nodes = 0
+        list%starts(1) = 1
         do face = 1, size(given, 2)
             count_of = size(given, 1)
             do while (count_of > 0)
                 if (given(count_of, face) /= 0) exit
                 count_of = count_of - 1
             end do
-            nodes(starts(face):starts(face) + count_of - 1) = int(given(:count_of, face), c_int64_t)
-            starts(face + 1) = starts(face) + count_of
+            list%nodes(list%starts(face):list%starts(face) + count_of - 1) = &
+                int(given(:count_of, face), c_int64_t)
+            list%starts(face + 1) = list%starts(face) + count_of
         end do
-        faces%count = size(given, 2)
-        faces%start = c_loc(starts)
-        faces%nodes = c_loc(nodes)
+        list%faces%count = size(given, 2)
+        list%faces%start = c_loc(list%starts)
+        list%faces%nodes = c_loc(list%nodes)
     end subroutine
 
     subroutine check_surfaces(wrong, surfaces, position)
@@ -2328,16 +2061,16 @@ contains
         matrix%values = address(values)
     end function
 
-    ! A sparse matrix: col_start at position 1, row, values, triangle at 4.
-    subroutine check_sparse(wrong, col_start, row, values, triangle)
+    ! A sparse matrix: col_start at the position `first`, then row, values, triangle.
+    subroutine check_sparse(wrong, first, col_start, row, values, triangle)
         type(refusal), intent(inout) :: wrong
-        integer, intent(in) :: col_start(:), row(:)
+        integer, intent(in) :: first, col_start(:), row(:)
         real(c_double), intent(in) :: values(:)
         integer(c_int32_t), intent(in) :: triangle
-        call check_size(wrong, 2, 'row', size(row), size(values), 'as many as values')
-        call check_starts(wrong, 1, 'col_start', col_start, size(values), 'values has entries')
+        call check_size(wrong, first + 1, 'row', size(row), size(values), 'as many as values')
+        call check_starts(wrong, first, 'col_start', col_start, size(values), 'values has entries')
         if (triangle < SIGNORINI_TRIANGLE_LOWER .or. triangle > SIGNORINI_TRIANGLE_FULL) call refuse(wrong, &
-            4, 'triangle is ' // text(int(triangle)) // ', it must be SIGNORINI_TRIANGLE_LOWER, _UPPER or _FULL')
+            first + 3, 'triangle is ' // text(int(triangle)) // ', it must be SIGNORINI_TRIANGLE_LOWER, _UPPER or _FULL')
     end subroutine
 
     ! An array of vectors, one for each pair.
@@ -2391,8 +2124,8 @@ contains
         type(refusal), intent(inout) :: wrong
         class(contact_model), intent(in) :: self
         if (.not. c_associated(self%handle)) call refuse(wrong, CONTACT_WRONG_MODEL, &
-            'there is no model: new_condensed, new_two_body, new_sparse, new_sparse_rows, ' // &
-            'new_surfaces or new_operator makes one')
+            'there is no model: new_condensed, new_two_body, new_flexibility, ' // &
+            'new_flexibility_sparse, new_sparse, new_sparse_rows, new_surfaces or new_operator makes one')
     end subroutine
 
     ! The load of a model at position 1 and its prescribed values.
@@ -2466,16 +2199,11 @@ contains
         chosen = SIGNORINI_LAW_FRICTIONLESS
         if (present(friction)) chosen = SIGNORINI_LAW_COULOMB
         if (present(law)) chosen = number(law)
-        select case (chosen)
-        case (SIGNORINI_LAW_COULOMB, SIGNORINI_LAW_TRESCA)
-            numbers = 1
-            asked = 'one for each pair'
-        case (SIGNORINI_LAW_COHESIVE, SIGNORINI_LAW_ORTHOTROPIC, SIGNORINI_LAW_ORTHOTROPIC_COLLINEAR)
-            numbers = 3
-            asked = 'three for each pair'
-        case default
-            return
-        end select
+        if (chosen < lbound(law_numbers, 1) .or. chosen > ubound(law_numbers, 1)) return
+        numbers = law_numbers(chosen)
+        if (numbers == 0) return
+        asked = text(numbers) // ' for each pair'
+        if (numbers == 1) asked = 'one for each pair'
         if (.not. present(friction)) call refuse(wrong, position + 1, 'friction is missing: the law ' &
             // text(int(chosen)) // ' has parameters, ' // asked)
         if (present(friction)) call check_size(wrong, position + 1, 'friction', size(friction), &
@@ -2511,7 +2239,7 @@ contains
             tried = one
             m = 0
             q = 0
-            status = signorini_lcp_solve(0_c_int64_t, m, 1_c_int64_t, q, c_loc(tried), w, z, &
+            status = signorini_lcp_solve(0_c_int64_t, m, 1_c_int64_t, q, c_null_ptr, c_loc(tried), w, z, &
                 c_null_ptr, c_null_ptr)
             if (status < 0) call refuse(wrong, position, signorini_message())
         end subroutine
@@ -2556,7 +2284,7 @@ contains
         if (size(second_states) > 0) extra%second_state = c_loc(second_states)
     end function
 
-    ! Of an array that may be absent, or empty.
+    ! Address of an array that may be absent, or empty.
     function address(array) result(pointer)
         real(c_double), intent(in), contiguous, target, optional :: array(:)
         type(c_ptr) :: pointer
@@ -2566,7 +2294,7 @@ contains
         end if
     end function
 
-    ! The same for an array of vectors.
+    ! Address of an array of vectors.
     function address2(array) result(pointer)
         real(c_double), intent(in), contiguous, target, optional :: array(:, :)
         type(c_ptr) :: pointer

@@ -4,11 +4,13 @@
  * Sections of this header, in the order of need:
  *
  *     1  One call            a matrix that you have condensed on the contact components
- *     2  Your own matrix     a whole sparse matrix with contact pairs, or two condensed bodies
+ *     2  Your own matrix     a whole sparse matrix with contact pairs, two bodies, a flexibility
  *     3  Many load cases     solve, recover, certify
- *     4  Surfaces            pairs from the faces of two meshes, pressures, files for ParaView
- *     5  Files               problems written for bug reports and replay
- *     6  Fine tuning         settings, report, second solutions, LCPs, versions
+ *     4  Fine tuning         settings, report, second solutions, LCPs, versions
+ *     5  What may change     behind SIGNORINI_UNSTABLE
+ *
+ * signorini_surface.h makes the contact pairs from the faces of two meshes and writes files for
+ * ParaView; signorini_file.h writes and reads problems, for bug reports.
  *
  * The problem. P pairs in dimension D (2 or 3) have N = D P unknowns: a relative displacement d and
  * a contact force F with one normal and D - 1 tangential components each, ordered pair by pair as
@@ -22,26 +24,23 @@
  *
  * K is the stiffness matrix condensed on the contact components: symmetric, positive definite or
  * semi-definite (bodies supported by nothing but contact). slip0 is the reference slip: the d_t at
- * which a sticking pair stays. Other laws put another bound on |F_t|, or let a pair carry tension:
- * SIGNORINI_LAW_... below.
+ * which a sticking pair stays. SIGNORINI_LAW_... lists the other friction laws.
  *
  * Signs. n is the outward normal of the body: d_n > 0 moves towards the obstacle, F_n < 0 presses.
  * F is the force of the contact on the body. f and F are nodal forces, not stresses. Example: above
  * a plane, with n = (0, -1) and t = (1, 0), d_n = -u_y and d_t = u_x. Transform f in the same way;
  * the mixed entries K_nt change their sign.
  *
- * Units are yours: any consistent set. Results scale with them.
+ * Units are yours: any consistent set.
  *
  * A component that you hold fixed stays in a condensed matrix as a decoupled row: zero off the
  * diagonal, positive on the diagonal, zero load.
  *
  * Arguments have one order in all functions: the model or file that the call works on; sizes; the
  * problem (K, ldk, f, prescribed, gap, law, friction, slip0); settings or tolerance; results (d, F,
- * state, status); report; extra. A matrix is followed by its leading dimension.
- *
- * Arrays are plain and 64-bit floating point; matrices are column-major with a leading dimension.
- * An argument may be NULL where its description says so, and where the array has no entries. An
- * array that a call writes must not overlap another array of the call.
+ * state, status); report; extra. Matrices are column-major, each followed by its leading dimension.
+ * Numbers are 64-bit. An argument may be NULL where its description says so, and where the array
+ * has no entries. An array that a call writes must not overlap another array of the call.
  *
  * Status. Every call that computes returns an int32_t:
  *
@@ -54,8 +53,13 @@
  * signorini_last_error() says in a sentence what is wrong and where. Entries count from 0:
  * K[row,column].
  *
+ * Structures begin with struct_size, which you set to sizeof: ..._default does, and so does
+ * signorini_model_data data = {sizeof data}. A program and a library of different versions work
+ * together: fields that one of them does not know are zero or keep their defaults. A field that
+ * asks for what the library does not have is refused.
+ *
  * Threads. Calls from several threads at once are safe, on the same model or problem too, as long
- * as nobody frees it. The library never prints, exits, reads the environment or handles signals.
+ * as no thread frees it. The library never prints, exits, reads the environment or handles signals.
  * It starts threads only where settings.threads asks for them. It opens only the files that you
  * name. It keeps your floating-point environment: inside a call traps and flush-to-zero are off;
  * on return they are as before. The same input gives the same bits on the same machine. A thread
@@ -81,16 +85,13 @@ extern "C" {
 /* ============================================================================================
  * 1  One call
  *
- * signorini_solve takes a condensed problem on plain arrays, signorini_flexibility_solve one whose
- * matrix turns forces into displacements, signorini_flexibility_solve_sparse the same with a sparse
- * matrix (its structure stands in section 2). settings, report and extra may be NULL; their
- * structures stand in section 6.
+ * signorini_solve takes a condensed problem on plain arrays. settings, report and extra may be
+ * NULL; their structures stand in section 4.
  * ========================================================================================== */
 
 typedef struct signorini_settings signorini_settings;
 typedef struct signorini_report signorini_report;
 typedef struct signorini_extra signorini_extra;
-typedef struct signorini_sparse signorini_sparse;
 
 /* Friction law: how large |F_t| may be. */
 /** No friction: F_t = 0. friction may be NULL and is not read. */
@@ -116,7 +117,7 @@ typedef struct signorini_sparse signorini_sparse;
  * most work from the slip.
  */
 #define SIGNORINI_LAW_ORTHOTROPIC 4
-/** The same ellipse and numbers; the pair slips opposite to F_t (collinear rule). */
+/** As SIGNORINI_LAW_ORTHOTROPIC, but the pair slips opposite to F_t (collinear rule). */
 #define SIGNORINI_LAW_ORTHOTROPIC_COLLINEAR 5
 
 /* State of a pair. */
@@ -166,104 +167,8 @@ int32_t signorini_solve(int32_t dim, int64_t pairs, const double *K, int64_t ldk
                         signorini_report *report, const signorini_extra *extra);
 
 /**
- * Solves a contact problem in flexibility form, as codes of rigid and multibody dynamics have it:
- * d = W F + q takes the place of K d = f + F. Contact, friction and signs are those of the problem
- * above.
- *
- * W = H M^-1 H' may be singular, as where pairs are redundant: four feet of a rigid table, a node
- * on two planes. Contact forces are not unique then; from the start zero the smallest are returned,
- * where the states of pairs do not change on the way. No solution is said to be the only one.
- *
- * Measure: report->eta is the residual of the law with the unit 1 / W_nn for the normal of a pair
- * and one over the largest eigenvalue of its tangential block for its tangents, together with
- * these units times d - q - W F. It is relative to the larger of two sizes of force: F, less what W
- * does not feel; and the units times q. Where pairs that stay apart have free displacements far
- * above those that forces undo, ask for a smaller tolerance. All is computed from your W and q.
- *
- * Codes that write u = W r + q with u_N >= 0 where a contact opens and r_N >= 0 where it presses
- * (FCLIB, Siconos, most multibody codes) change all signs but those of W: hand over -q; then u = -d
- * and r = -F. Velocities and impulses may take the places of displacements and forces.
- *
- * With SIGNORINI_STATUS_NO_EQUILIBRIUM the gaps are proved to contradict each other: no forces
- * move the bodies to where every gap is kept. Whether friction wedges bodies so that no forces
- * balance is not proved: SIGNORINI_STATUS_STALLED, and signorini_last_error() names the pairs
- * whose forces grow.
- *
- * @param dim       space dimension, 2 or 3
- * @param pairs     number of contact pairs, 0 allowed
- * @param W         flexibility, N = dim * pairs columns of N entries, column-major, both
- *                  triangles; symmetric, positive semi-definite, not zero; length / force. A row
- *                  of zeros is a component that nothing moves
- * @param ldw       entries from one column of W to the next, at least max(1, N)
- * @param q         free displacements, N: the relative displacements without contact forces;
- *                  length
- * @param gap       initial gaps, one for each pair; length; negative: interference; +infinity:
- *                  the pair never touches; NULL: zero
- * @param law       SIGNORINI_LAW_..., the friction law of all pairs
- * @param friction  parameters of the law, pair by pair; may be NULL if frictionless
- * @param slip0     reference slip, dim - 1 for each pair, as in signorini_solve; length; NULL: zero
- * @param settings  NULL: the defaults
- * @param d         out: relative displacements W F + q, N
- * @param F         out: contact forces, N; in: the start if settings->warm_start
- * @param state     out: SIGNORINI_STATE_... of each pair; may be NULL
- * @param report    out: the measures of the result; set report->struct_size before the call, as
- *                  signorini_report_default does; may be NULL
- * @param extra     the forces that prove SIGNORINI_STATUS_NO_EQUILIBRIUM; may be NULL
- * @return as signorini_solve
- */
-int32_t signorini_flexibility_solve(int32_t dim, int64_t pairs, const double *W, int64_t ldw,
-                                    const double *q, const double *gap, int32_t law,
-                                    const double *friction, const double *slip0,
-                                    const signorini_settings *settings, double *d, double *F,
-                                    int32_t *state, signorini_report *report,
-                                    const signorini_extra *extra);
-
-/**
- * Solves a contact problem in flexibility form, d = W F + q, with a sparse W: as
- * signorini_flexibility_solve, of which all else is said there.
- *
- * Pairs that no entry of W ties to each other are islands, such as heaps of bodies that do not
- * touch. Each is solved by itself as a dense problem of its size, to settings->tolerance beside its
- * own forces; the result is measured as a whole on your sparse W. So the time is the sum of those
- * of the islands, and the memory that of the largest: signorini_solve_memory. Where
- * settings->memory_limit allows less, the call ends with SIGNORINI_STATUS_MEMORY_LIMIT before its
- * work begins, and signorini_last_error() names the largest island.
- *
- * The status is that of the worst island. SIGNORINI_STATUS_NO_EQUILIBRIUM of one proves that the
- * whole has none; the other islands are solved all the same, from the smallest to the largest. At
- * a limit of time or iterations, or where the callback cancels, those that are still to come keep
- * the start. report->method, omega and damping are those of the largest island with the status;
- * counts are sums over all islands.
- *
- * @param dim       space dimension, 2 or 3
- * @param pairs     number of contact pairs, 0 allowed
- * @param W         flexibility, W->size = dim * pairs; symmetric, positive semi-definite, not zero;
- *                  length / force. A component that nothing moves has a row of zeros, which need
- *                  not be stored; stored zeros tie nothing. W->order is not looked at
- * @param q         free displacements, N = dim * pairs; length
- * @param gap       initial gaps, one for each pair; length; NULL: zero
- * @param law       SIGNORINI_LAW_..., the friction law of all pairs
- * @param friction  parameters of the law, pair by pair; may be NULL if frictionless
- * @param slip0     reference slip, dim - 1 for each pair; length; NULL: zero
- * @param settings  NULL: the defaults
- * @param d         out: relative displacements W F + q, N
- * @param F         out: contact forces, N; in: the start if settings->warm_start
- * @param state     out: SIGNORINI_STATE_... of each pair; may be NULL
- * @param report    out: the measures of the result; may be NULL
- * @param extra     the forces that prove SIGNORINI_STATUS_NO_EQUILIBRIUM, of one island; may be
- *                  NULL
- * @return as signorini_solve; SIGNORINI_STATUS_MEMORY_LIMIT
- */
-int32_t signorini_flexibility_solve_sparse(int32_t dim, int64_t pairs, const signorini_sparse *W,
-                                           const double *q, const double *gap, int32_t law,
-                                           const double *friction, const double *slip0,
-                                           const signorini_settings *settings, double *d, double *F,
-                                           int32_t *state, signorini_report *report,
-                                           const signorini_extra *extra);
-
-/**
- * What was wrong in the last call on this thread, in one sentence, such as "K[12,7] is not
- * finite". Empty after a call that returned 0.
+ * Says what was wrong in the last call on this thread, in one sentence, such as "K[12,7] is not
+ * finite". Empty after a call that returned 0; a call that releases leaves the sentence.
  *
  * @return UTF-8 text of at most 511 bytes, never NULL. It belongs to the calling thread; the next
  *         call of the library on this thread overwrites it.
@@ -307,7 +212,7 @@ const char *signorini_status_string(int32_t status);
  * 2  Your own matrix
  *
  * A model reduces what you have to the contact pairs, once: your whole sparse matrix, a condensed
- * matrix, or two of them. Section 3 solves load cases with it.
+ * matrix, two of them, or a flexibility. Section 3 solves load cases with it.
  * ========================================================================================== */
 
 /* Which entries of a sparse symmetric matrix are stored. */
@@ -315,7 +220,9 @@ const char *signorini_status_string(int32_t status);
 #define SIGNORINI_TRIANGLE_UPPER 1 /**< Stored are the entries with row <= column. */
 #define SIGNORINI_TRIANGLE_FULL 2  /**< All entries are stored. */
 
+typedef struct signorini_sparse signorini_sparse;
 typedef struct signorini_pairs signorini_pairs;
+typedef struct signorini_model_data signorini_model_data;
 
 /**
  * A sparse symmetric matrix by columns (CSC), stiffness or flexibility. Hand over a matrix by rows
@@ -416,16 +323,29 @@ typedef struct signorini_model signorini_model;
  * and contact zones. Bodies that only contact supports are allowed. Loads and displacements of the
  * host have H = K->size entries.
  *
- * @param K        the stiffness matrix of all degrees of freedom, the fixed ones too
- * @param n_fixed  number of fixed degrees of freedom
- * @param fixed    the fixed degrees of freedom, counted from K->index_base; may be NULL if n_fixed
- *                 is 0
- * @param pairs    the contact pairs
- * @param model    out: the model; NULL unless 0 is returned
- * @return 0; -k: the k-th argument is wrong; <= -1000: out of memory or a defect
+ * The call takes progress, user, time_limit, memory_limit, threads and full_space of the settings.
+ * The callback is told the share that is done and, before memory is taken, how much is needed. It
+ * is not called while the order of elimination is chosen (2 s for 1e5 nodes). A call that was ended
+ * holds nothing.
+ *
+ * If the condensed matrix needs more than memory_limit, the model is in full space: no condensed
+ * matrix is formed. Load cases are solved by Newton's method with GMRES on a sparse factor, which
+ * each load case makes anew a few times; methods AUTO and NEWTON alone, no search, no proof. Pairs
+ * that depend on each other are condensed all the same. K->order is not read for it.
+ *
+ * @param K         the stiffness matrix of all degrees of freedom, the fixed ones too
+ * @param n_fixed   number of fixed degrees of freedom
+ * @param fixed     the fixed degrees of freedom, counted from K->index_base; may be NULL if n_fixed
+ *                  is 0
+ * @param pairs     the contact pairs
+ * @param settings  NULL: no callback, no limits, one thread
+ * @param model     out: the model; NULL unless 0 is returned
+ * @return 0; SIGNORINI_STATUS_CANCELLED, _TIME_LIMIT or _MEMORY_LIMIT; -k: the k-th argument is
+ *         wrong; <= -1000: out of memory or a defect
  */
 int32_t signorini_model_new_sparse(const signorini_sparse *K, int64_t n_fixed, const int64_t *fixed,
-                                   const signorini_pairs *pairs, signorini_model **model);
+                                   const signorini_pairs *pairs, const signorini_settings *settings,
+                                   signorini_model **model);
 
 /**
  * Makes a model of a body that you have condensed, on a rigid obstacle: d = u. Loads and
@@ -460,128 +380,116 @@ int32_t signorini_model_new_two_body(int32_t dim, int64_t pairs, const double *K
                                      const double *K_B, int64_t ldb, signorini_model **model);
 
 /**
- * As signorini_model_new_sparse, with settings of which it takes progress, user, time_limit,
- * memory_limit, full_space and threads. The callback is told the share that is done and, before
- * memory is taken, how much is needed. The choice of the order, before that, asks nobody. After a
- * call that was ended nothing is held, and your arrays are as before.
+ * Makes a model in flexibility form, as codes of rigid and multibody dynamics have it: d = W F + q
+ * takes the place of K d = f + F. Contact, friction and signs stay. In the load cases of
+ * signorini_model_solve f holds the free displacements q, the relative displacements without
+ * contact forces; F holds the start if settings.warm_start is set. Loads and displacements of the
+ * host have H = N entries.
  *
- * If the condensed matrix needs more than memory_limit, or settings->full_space is set, the model
- * is in full space: no condensed matrix is formed. Load cases are solved by Newton's method with
- * GMRES on a sparse factor, which each load case makes anew a few times; methods AUTO and NEWTON
- * alone, no search, no proof. signorini_model_stiffness and _write have nothing to tell then. Pairs
- * that depend on each other are condensed all the same. K->order is not read for it.
+ * W = H M^-1 H' may be singular, as where pairs are redundant: four feet of a rigid table, a node
+ * on two planes. Contact forces are not unique then. From the start zero the smallest ones are
+ * returned, if states of pairs do not change during the iteration. No solution is said to be the
+ * only one.
  *
- * @param K         the stiffness matrix of all degrees of freedom, the fixed ones too
- * @param n_fixed   number of fixed degrees of freedom
- * @param fixed     the fixed degrees of freedom, counted from K->index_base; may be NULL if
- *                  n_fixed is 0
- * @param pairs     the contact pairs
- * @param settings  may be NULL: no callback, no limits
- * @param model     out: the model; NULL unless 0 is returned
- * @return 0; SIGNORINI_STATUS_CANCELLED, _TIME_LIMIT or _MEMORY_LIMIT; -k: the k-th argument is
- *         wrong; <= -1000: out of memory or a defect
- */
-int32_t signorini_model_new_sparse_within(const signorini_sparse *K, int64_t n_fixed,
-                                          const int64_t *fixed, const signorini_pairs *pairs,
-                                          const signorini_settings *settings,
-                                          signorini_model **model);
-
-typedef struct signorini_operator signorini_operator;
-
-/**
- * A product of the host, y = K_rel x or y = W x: x and y have N = dim * pairs entries. Returns 0;
- * another number ends the call of the library, whose sentence tells it. It must return: no longjmp,
- * no exception; and it must not call this library.
- */
-typedef int32_t (*signorini_product_fn)(void *user, const double *x, double *y);
-
-/**
- * A solution of the host with components held: y is 0 where held is nonzero, and K_rel y = x in
- * the other components; x does not count where held is nonzero. All have N entries. changed is 0
- * if the same components are held as in the call before on this model, and that call has not
- * failed, so that a factor may serve again. Returns as signorini_product_fn.
- */
-typedef int32_t (*signorini_held_fn)(void *user, const int32_t *held, int32_t changed,
-                                     const double *x, double *y);
-
-/**
- * What a host gives in the place of a matrix: say a code on several processes, with a factor of its
- * own. d and F are those of the pairs, as for signorini_solve, and K_rel is the K there.
- */
-struct signorini_operator {
-    uint32_t struct_size; /**< sizeof(signorini_operator). */
-    int32_t dim;          /**< Space dimension, 2 or 3. */
-    int64_t pairs;        /**< Number of contact pairs. */
-    /** y = K_rel x; symmetric, positive semi-definite; as exact as the tolerance asks for. */
-    signorini_product_fn stiffness;
-    /**
-     * y = W x, with W close to the inverse of K_rel, symmetric and positive definite: a solution
-     * with the contact free. May be NULL if held is given, which is then used alone.
-     */
-    signorini_product_fn inverse;
-    /** A solution with components held, in the place of W. May be NULL if inverse is given. */
-    signorini_held_fn held;
-    /**
-     * Units of force per length of the components, N positive numbers of the size of the diagonal
-     * of K_rel. NULL: one for each direction, from products.
-     */
-    const double *units;
-    void *user;           /**< Passed to the functions as their first argument. */
-};
-
-/**
- * Makes a model of which you give products and solutions alone, for structures that no one process
- * holds: no matrix is formed. Loads and displacements of the host are the relative ones, H = N
- * entries. Load cases are solved by Newton's method with GMRES, methods AUTO and NEWTON alone, no
- * search, no proof. It takes 20 to 110 products with K_rel and as many with W in 2D, to 160 in 3D;
- * with held 5 to 70 solutions take the place of those with W, between which the components that are
- * held change up to 14 times.
+ * report.eta is the residual of the law and of d - q - W F, in the units 1 / W_nn for the normal of
+ * a pair and one over the largest eigenvalue of its tangential block for its tangents. It is
+ * relative to the larger of F, less the part that moves nothing, and the units times q. Where pairs
+ * that stay apart have free displacements far above those that forces undo, ask for a smaller
+ * tolerance.
  *
- * Before it returns it asks for some products, of which the answers must be finite, linear,
- * symmetric, positive and the same each time, to 1e-9. Later calls on the model return -1 if a
- * function fails or gives a number that is not finite; the sentence says which one and where, and
- * the model can be used again. Calls from several threads on one model are yours to allow: its
- * functions are called on the threads that call the library.
+ * Codes that write u = W r + q with u_N >= 0 where a contact opens and r_N >= 0 where it presses
+ * (FCLIB, Siconos, most multibody codes) change all signs but those of W: hand over -q; then u = -d
+ * and r = -F. Velocities and impulses may take the places of displacements and forces.
  *
- * @param K      the functions; the structure is copied, with units
+ * SIGNORINI_STATUS_NO_EQUILIBRIUM proves that the gaps contradict each other: no forces move the
+ * bodies to where every gap is kept. Bodies that friction wedges are not proved: the status is
+ * SIGNORINI_STATUS_STALLED, and signorini_last_error names the pairs whose forces grow.
+ *
+ * @param dim    space dimension, 2 or 3
+ * @param pairs  number of contact pairs, 0 allowed
+ * @param W      flexibility, N = dim * pairs columns of N entries, column-major, both triangles;
+ *               symmetric, positive semi-definite, not zero; length / force. A row of zeros is a
+ *               component that nothing moves
+ * @param ldw    entries from one column of W to the next, at least max(1, N)
  * @param model  out: the model; NULL unless 0 is returned
  * @return 0; -k: the k-th argument is wrong; <= -1000: out of memory or a defect
  */
-int32_t signorini_model_new_operator(const signorini_operator *K, signorini_model **model);
+int32_t signorini_model_new_flexibility(int32_t dim, int64_t pairs, const double *W, int64_t ldw,
+                                        signorini_model **model);
+
+/**
+ * Makes a model in flexibility form of a sparse matrix.
+ *
+ * Pairs that no entry of W ties to each other are islands, such as heaps of bodies that do not
+ * touch. Each is solved by itself as a dense problem of its size; the result is measured as a whole
+ * on W. So the time is the sum of those of the islands, and the memory that of the largest. Where
+ * settings.memory_limit allows less, a load case ends with SIGNORINI_STATUS_MEMORY_LIMIT before its
+ * work begins, and signorini_last_error names the largest island.
+ *
+ * The status is that of the worst island. SIGNORINI_STATUS_NO_EQUILIBRIUM of one proves that the
+ * whole has none; the other islands are solved all the same, from the smallest to the largest. At a
+ * limit, or where the callback cancels, the islands that are left keep the start. report.method,
+ * omega and damping are those of the largest island with the status; counts are sums over all
+ * islands.
+ *
+ * @param dim    space dimension, 2 or 3
+ * @param pairs  number of contact pairs, 0 allowed
+ * @param W      flexibility, W->size = dim * pairs; symmetric, positive semi-definite, not zero;
+ *               length / force. A component that nothing moves has a row of zeros, which need not
+ *               be stored; stored zeros tie nothing. W->order is not read
+ * @param model  out: the model; NULL unless 0 is returned
+ * @return 0; -k: the k-th argument is wrong; <= -1000: out of memory or a defect
+ */
+int32_t signorini_model_new_flexibility_sparse(int32_t dim, int64_t pairs,
+                                               const signorini_sparse *W, signorini_model **model);
 
 /** Releases a model. NULL is allowed. */
 void signorini_model_free(signorini_model *model);
 
-/** Space dimension, 2 or 3; -1 if model is NULL. */
-int32_t signorini_model_dim(const signorini_model *model);
+/* How a model solves its load cases: data.kind. */
+#define SIGNORINI_MODEL_STIFFNESS 0   /**< A condensed stiffness matrix K. */
+/** Factors of the sparse stiffness matrix: no condensed matrix is formed. */
+#define SIGNORINI_MODEL_FULL_SPACE 1
+#define SIGNORINI_MODEL_OPERATOR 2    /**< Products and solutions of the host. */
+#define SIGNORINI_MODEL_FLEXIBILITY 3 /**< The flexibility form, d = W F + q. */
 
-/** Number of contact pairs; -1 if model is NULL. */
-int64_t signorini_model_pairs(const signorini_model *model);
-
-/** H, the entries of a load or displacement vector of the host; -1 if model is NULL. */
-int64_t signorini_model_host_size(const signorini_model *model);
+/** The content of a model. Arrays live as long as the model. */
+struct signorini_model_data {
+    uint32_t struct_size; /**< sizeof(signorini_model_data) in your program; no more is written. */
+    int32_t dim;          /**< Space dimension, 2 or 3. */
+    int64_t pairs;        /**< Number of contact pairs. */
+    int64_t host_size;    /**< H, the entries of a load or displacement vector of the host. */
+    int64_t fixed;        /**< Number of fixed degrees of freedom: the entries of prescribed. */
+    /**
+     * Most bytes that a load case of signorini_model_solve may take beside the model and your
+     * arrays. Many load cases take them in turn; up to 32 at a time take some vectors of H entries
+     * each besides.
+     */
+    int64_t memory;
+    int32_t kind;         /**< SIGNORINI_MODEL_..., by which load cases are solved. */
+    /** Number of pairs whose rows follow from those of other pairs or from supports. */
+    int32_t dependent;
+    /**
+     * The stiffness matrix in relative displacements, N columns of N entries; leading dimension N.
+     * NULL: there is none, as the kind is another or pairs depend on each other.
+     */
+    const double *K;
+    /**
+     * The frames of the pairs, to turn d and F to global axes: for each pair the normal, then the
+     * tangents, each a unit vector of dim entries; vector = n d_n + t d_t (2D) or
+     * n d_n + t1 d_t1 + t2 d_t2 (3D). NULL: the matrix was condensed in frames of your own.
+     */
+    const double *frames;
+};
 
 /**
- * Copies the frames of the pairs of a sparse model, to turn d and F to global axes:
- * vector = n d_n + t d_t (2D) or n d_n + t1 d_t1 + t2 d_t2 (3D). Other models have no frames: they
- * were condensed in frames of your own.
- *
- * @param model   a model of signorini_model_new_sparse
- * @param frames  out: for each pair the normal, then the tangents, each a unit vector of dim
- *                entries; dim * dim entries a pair
- * @return 0; -k: the k-th argument is wrong; -1 too: the model has no frames
- */
-int32_t signorini_model_frames(const signorini_model *model, double *frames);
-
-/**
- * Copies the stiffness matrix in relative displacements. There is none if pairs depend on each
- * other, such as those of a node on two planes, and in full space.
+ * Shows a model: fills data, whose arrays live as long as the model.
  *
  * @param model  the model
- * @param K      out: N = dim * pairs columns of N entries; leading dimension N
- * @return 0; -k: the k-th argument is wrong; -1 too: there is no such matrix
+ * @param data   out: set data->struct_size before the call
+ * @return 0; -k: the k-th argument is wrong
  */
-int32_t signorini_model_stiffness(const signorini_model *model, double *K);
+int32_t signorini_model_view(const signorini_model *model, signorini_model_data *data);
 
 /* ============================================================================================
  * 3  Many load cases
@@ -627,34 +535,21 @@ int32_t signorini_model_solve(const signorini_model *model, int64_t cases, const
                               const signorini_extra *extra);
 
 /**
- * Displacements of the host from the relative ones, for one load case.
- *
- * @param model       the model
- * @param f           nodal loads of the case, H entries; NULL: zero, for the motion of escape
- * @param prescribed  values of the fixed degrees of freedom; NULL: zero
- * @param d           relative displacements, N entries
- * @param u           out: displacements, H entries
- * @return 0; -k: the k-th argument is wrong
- */
-int32_t signorini_model_recover(const signorini_model *model, const double *f,
-                                const double *prescribed, const double *d, double *u);
-
-/**
- * Displacements of the host for many load cases at once, each as by signorini_model_recover. Every
- * array has a column for each case, without space between the columns. Of a sparse model a case
- * costs a fraction of what it costs by itself.
+ * Displacements of the host from the relative ones. Every array has a column for each case, without
+ * space between the columns. Of a sparse model many cases at once cost a fraction of what they cost
+ * one by one.
  *
  * @param model       the model
  * @param cases       number of load cases, 0 allowed
- * @param f           nodal loads, H entries a case; NULL: zero
+ * @param f           nodal loads, H entries a case; NULL: zero, as for a motion of escape
  * @param prescribed  values of the fixed degrees of freedom; NULL: zero
  * @param d           relative displacements, N entries a case
  * @param u           out: displacements, H entries a case
  * @return 0; -k: the k-th argument is wrong, in the case that signorini_last_error names. Numbers
  *         so large that u overflows are found on the way: cases before may be written then
  */
-int32_t signorini_model_recover_cases(const signorini_model *model, int64_t cases, const double *f,
-                                      const double *prescribed, const double *d, double *u);
+int32_t signorini_model_recover(const signorini_model *model, int64_t cases, const double *f,
+                                const double *prescribed, const double *d, double *u);
 
 /**
  * Contact forces as a nodal force vector of the host. Sparse model: F on the slaves, the opposite
@@ -682,12 +577,11 @@ int32_t signorini_model_condensed_load(const signorini_model *model, const doubl
                                        const double *prescribed, double *load);
 
 /**
- * Measures relative displacements of any origin on a load case of a model, as signorini_certify
- * does on a condensed problem. If pairs depend on each other, displacements do not tell the forces:
- * -1 is returned.
+ * Measures relative displacements of any origin, say of another solver, on a load case of a model.
+ * This measure also decides whether a result of this library is called solved.
  *
  * @param model       the model
- * @param f           nodal loads of the host, H = signorini_model_host_size entries
+ * @param f           nodal loads of the host, H entries
  * @param prescribed  values of the fixed degrees of freedom, in the order of fixed; NULL: zero
  * @param gap         gaps, one for each pair
  * @param law         SIGNORINI_LAW_..., the friction law of all pairs
@@ -695,10 +589,14 @@ int32_t signorini_model_condensed_load(const signorini_model *model, const doubl
  * @param slip0       reference slip, dim - 1 for each pair; NULL: zero
  * @param tolerance   largest eta of a solution, 1e-15 to 0.1
  * @param d           relative displacements to be measured, N
- * @param F           out: contact forces, N, as in signorini_certify; may be NULL
+ * @param F           out: the contact forces that obey the contact law and are nearest to K d - f,
+ *                    N; may be NULL. Where d does not determine the forces, in flexibility form and
+ *                    where pairs depend on each other, in: the forces to be measured with d, which
+ *                    stay as they are
  * @param state       out: SIGNORINI_STATE_... of each pair; may be NULL
  * @param report      out: the measures; set report->struct_size before the call; may be NULL
- * @return as signorini_certify
+ * @return 0: a solution, report->eta <= tolerance; SIGNORINI_STATUS_NOT_A_SOLUTION: none; -k: the
+ *         k-th argument is wrong, nothing was written
  */
 int32_t signorini_model_certify(const signorini_model *model, const double *f,
                                 const double *prescribed, const double *gap, int32_t law,
@@ -706,648 +604,8 @@ int32_t signorini_model_certify(const signorini_model *model, const double *f,
                                 const double *d, double *F, int32_t *state,
                                 signorini_report *report);
 
-/**
- * Measures displacements of any origin, say of another solver, on the data of a condensed contact
- * problem. The same measure decides whether a result of this library is called solved.
- *
- * @param dim        space dimension, 2 or 3
- * @param pairs      number of contact pairs, 0 allowed
- * @param K          condensed stiffness, as for signorini_solve
- * @param ldk        entries from one column of K to the next, at least max(1, N)
- * @param f          condensed nodal loads, N
- * @param gap        initial gaps, one for each pair
- * @param law        SIGNORINI_LAW_..., the friction law of all pairs
- * @param friction   parameters of the law, pair by pair; may be NULL if frictionless
- * @param slip0      reference slip, dim - 1 for each pair; NULL: zero
- * @param tolerance  largest eta of a solution, 1e-15 to 0.1
- * @param d          relative displacements to be measured, N
- * @param F          out: the contact forces that obey the contact law and are nearest to K d - f,
- *                   N; may be NULL
- * @param state      out: SIGNORINI_STATE_... of each pair; may be NULL
- * @param report     out: the measures; set report->struct_size before the call; may be NULL
- * @return 0: d is a solution, report->eta <= tolerance; SIGNORINI_STATUS_NOT_A_SOLUTION: it is
- *         not; -k: the k-th argument is wrong, nothing was written
- */
-int32_t signorini_certify(int32_t dim, int64_t pairs, const double *K, int64_t ldk, const double *f,
-                          const double *gap, int32_t law, const double *friction,
-                          const double *slip0, double tolerance, const double *d, double *F,
-                          int32_t *state, signorini_report *report);
-
-/**
- * Tries to prove that a condensed contact problem has a solution next to displacements of any
- * origin, say of another solver, and bounds how far it is away.
- *
- * What is proved: K, f, gap, friction and slip0, each double taken for the real number that it
- * is, have a solution with these states, each pair clear of the boundaries of its state. All
- * rounding is bounded. It is not proved that there is no other solution.
- *
- * @param dim       space dimension, 2 or 3
- * @param pairs     number of contact pairs, 0 allowed
- * @param K         condensed stiffness, as for signorini_solve
- * @param ldk       entries from one column of K to the next, at least max(1, N)
- * @param f         condensed nodal loads, N
- * @param gap       initial gaps, one for each pair
- * @param law       SIGNORINI_LAW_..., the friction law of all pairs
- * @param friction  parameters of the law, pair by pair; may be NULL if frictionless
- * @param slip0     reference slip, dim - 1 for each pair; NULL: zero
- * @param d         relative displacements, N
- * @param state     SIGNORINI_STATE_... of each pair; NULL: those of d
- * @param F         out: contact forces of the solution, N; may be NULL
- * @param radius_d  out: the solution has displacements within this distance of d, component by
- *                  component, N; length; may be NULL
- * @param radius_F  out: the same of the contact forces and F, N; force; may be NULL
- * @return 0: proved; SIGNORINI_STATUS_NOT_PROVED: not, which proves nothing: F holds zeros, the
- *         radii -1; -k: the k-th argument is wrong, nothing was written
- */
-int32_t signorini_prove(int32_t dim, int64_t pairs, const double *K, int64_t ldk, const double *f,
-                        const double *gap, int32_t law, const double *friction, const double *slip0,
-                        const double *d, const int32_t *state, double *F, double *radius_d,
-                        double *radius_F);
-
 /* ============================================================================================
- * 4  Surfaces
- *
- * Without a contact search of your own: hand over coordinates and faces. The library finds what
- * lies opposite, integrates, and makes the pairs of section 2.
- *
- *     signorini_surface_pair(3, nodes, x, &slave, &master, NULL, &contact, NULL);
- *     signorini_model_new_sparse(&K, n_fixed, fixed, signorini_surface_rows(contact), &model);
- *     signorini_model_solve(model, 1, f, NULL, signorini_surface_gaps(contact), ...);
- *     signorini_surface_write(contact, "contact.vtu", &mesh, NULL, NULL, u, d, F, state);
- *
- * A quadratic slave face has pairs of nodes with weights: use signorini_surface_rows as it is.
- * Several contact zones: make pairs for each, and one signorini_pairs of all of them.
- * ========================================================================================== */
-
-/* How surfaces are paired. */
-/** Dual mortar, the default: a uniform pressure passes between any two flat meshes. */
-#define SIGNORINI_PAIRING_DUAL_MORTAR 0
-/**
- * Each slave node against the point that it meets along its normal. Forces and moments balance;
- * the pressure between meshes that do not match is wrong by some percent.
- */
-#define SIGNORINI_PAIRING_NODE_TO_SURFACE 1
-
-/* Normals of pairs from surfaces. */
-/** The default: the mean of the unit normals of all slave faces at the slave node. */
-#define SIGNORINI_NORMALS_AVERAGED 0
-/**
- * Normals of the faces in contact. Dual mortar: the mean at the slave node over those faces that
- * lie over the master, by the node's share of the area that does; faces around a sharp edge that
- * face nothing do not turn it. Nodes against surfaces: opposite to the normal of the nearest master
- * face, at the foot of the perpendicular on it; above an edge without one, of the face that the
- * averaged normal meets. Which nodes have pairs does not depend on it.
- */
-#define SIGNORINI_NORMALS_FACES 1
-
-/* What becomes of slave nodes at rims, with little of the master over them. */
-/**
- * Slave nodes with less than a tenth of their area over the master, counted on the faces of
- * which any part lies over it. By default their rows are added to that of a neighbour, and
- * uniform pressure stays exact. The choice is for dual mortar: nodes against surfaces have no
- * cover, and take the default alone.
- */
-#define SIGNORINI_RIMS_FOLD 0
-/**
- * They keep pairs of their own with small areas. Uniform pressure stays exact; under others their
- * pressures may be large, as their rows hold points in the air. With less than a millionth they are
- * folded all the same.
- */
-#define SIGNORINI_RIMS_KEEP 1
-/** They get no pair, and their area is left out: uniform pressure is not exact around them. */
-#define SIGNORINI_RIMS_DROP 2
-
-/* Kind of a rigid obstacle. */
-#define SIGNORINI_OBSTACLE_PLANE 0    /**< A half space, in 2D a half plane. */
-#define SIGNORINI_OBSTACLE_CYLINDER 1 /**< A round bar of any length, 3D only. */
-#define SIGNORINI_OBSTACLE_SPHERE 2   /**< A ball, in 2D a disc. */
-/** A mesh of faces, such as the triangles of a drawing; in 2D lines. */
-#define SIGNORINI_OBSTACLE_FACES 3
-
-typedef struct signorini_faces signorini_faces;
-typedef struct signorini_obstacle signorini_obstacle;
-typedef struct signorini_surface_settings signorini_surface_settings;
-typedef struct signorini_surface_report signorini_surface_report;
-
-/**
- * Faces of a surface as lists of nodes: in 2D lines of 2 or 3 nodes; in 3D triangles of 3 or 6 and
- * quadrilaterals of 4, 8 or 9 nodes, in any mixture. Corners come first, in order around the face,
- * then mid nodes, the first one between the first two corners, then the centre. Seen from outside
- * the body the corners run counterclockwise; in 2D the body lies to the left of a line that runs
- * from its first node to its second.
- */
-struct signorini_faces {
-    uint32_t struct_size; /**< sizeof(signorini_faces). */
-    int32_t face_nodes;   /**< Number of nodes of each face, if start is NULL; else 0. */
-    int64_t count;        /**< Number of faces. */
-    /**
-     * Start of each face in nodes, count + 1 entries, counted from index_base; NULL: all faces
-     * have face_nodes nodes.
-     */
-    const int64_t *start;
-    const int64_t *nodes; /**< The nodes, counted from index_base. */
-};
-
-/** A surface that does not deform. Unused numbers are not read. */
-struct signorini_obstacle {
-    uint32_t struct_size;      /**< sizeof(signorini_obstacle). */
-    int32_t kind;              /**< SIGNORINI_OBSTACLE_... */
-    /**
-     * A point of the plane or of the cylinder's axis, or the centre; in 2D two entries are read.
-     */
-    double point[3];
-    /** Plane: the direction out of the obstacle. Cylinder: its axis. Of any length. */
-    double direction[3];
-    double radius;             /**< Radius of the cylinder or the sphere. */
-    int32_t hollow;            /**< Nonzero: the body is inside, as in a bore or a bowl. */
-    int32_t reserved;          /**< 0. */
-    int64_t nodes;             /**< Faces: number of nodes of the obstacle's own mesh. */
-    const double *coordinates; /**< Faces: dim for each node of the obstacle; length. */
-    /**
-     * Faces: in nodes of the obstacle, counted from index_base. Seen from the body that may touch
-     * them the corners run counterclockwise; in 2D the obstacle lies to the left of a line.
-     */
-    const signorini_faces *faces;
-};
-
-/**
- * How surfaces are paired. Fill it by signorini_surface_settings_default(), then change what you
- * like.
- */
-struct signorini_surface_settings {
-    uint32_t struct_size;         /**< sizeof(signorini_surface_settings). */
-    int32_t pairing; /**< SIGNORINI_PAIRING_...; default SIGNORINI_PAIRING_DUAL_MORTAR. */
-    /**
-     * Largest distance along the normal at which surfaces are paired, open or overlapping; length.
-     * Default 0: the size of the largest slave face; against an obstacle that is not of faces no
-     * limit, as +infinity.
-     */
-    double search_distance;
-    /**
-     * 0 or 1: the number of the first node, of the first entry of start and of the first degree of
-     * freedom, here and in what the pairs tell; default 0. Take the one of your matrix.
-     */
-    int32_t index_base;
-    /**
-     * Degrees of freedom of each node, of which the first dim are its displacements, such as 6;
-     * default 0: dim. Not read if node_dofs is given.
-     */
-    int32_t dofs_per_node;
-    /**
-     * Degrees of freedom of each node, dim for each, counted from index_base; default NULL:
-     * dofs_per_node * node + axis.
-     */
-    const int64_t *node_dofs;
-    /**
-     * Number of planes of symmetry of a half or quarter model; default 0. A pair whose slave node
-     * stands on one neither moves nor carries a force across it, as in the whole body, and its
-     * normal is in the plane. Fix the nodes on the plane across it as without contact.
-     */
-    int64_t symmetry_planes;
-    const int32_t *symmetry_axes; /**< The axis across each plane, counted from index_base. */
-    const double *symmetry_at;    /**< Where each plane stands along its axis; length. */
-    int32_t normals;              /**< SIGNORINI_NORMALS_...; default SIGNORINI_NORMALS_AVERAGED. */
-    int32_t rims;                 /**< SIGNORINI_RIMS_...; default SIGNORINI_RIMS_FOLD. */
-};
-
-/**
- * What became of the faces and nodes of a pairing. Set struct_size before the call; the call writes
- * all other fields.
- */
-struct signorini_surface_report {
-    /** sizeof(signorini_surface_report) in your program; no more is written. */
-    uint32_t struct_size;
-    int32_t dim;            /**< Space dimension. */
-    int64_t pairs;          /**< Number of pairs. */
-    int64_t unpaired;       /**< Slave nodes without a pair: signorini_surface_unpaired. */
-    /**
-     * Of these, nodes with little cover whose row is in that of a neighbour:
-     * signorini_surface_folded.
-     */
-    int64_t folded;
-    int64_t slave_faces;    /**< Slave faces. */
-    /** Slave faces that lie over nothing (dual mortar): signorini_surface_uncovered. */
-    int64_t uncovered;
-    double slave_area;      /**< Area of the slave faces. */
-    /** The part of it that lies over the other side: the areas of all pairs. */
-    double covered_area;
-    double search_distance; /**< The search distance that was used. */
-    /**
-     * How often a master face was near a slave whose normal does not oppose the slave's. If there
-     * are no pairs, and this is not 0, one side is turned over.
-     */
-    int64_t not_opposed;
-    int64_t boxes_searched; /**< Boxes that the search looked at: its cost. */
-    int64_t on_symmetry;    /**< Pairs whose slave node stands on a plane of symmetry. */
-    /** Of the unpaired nodes those with little cover that SIGNORINI_RIMS_DROP has left out. */
-    int64_t dropped;
-};
-
-/**
- * Contact pairs that the library made from surfaces, with all that belongs to them. Made by
- * signorini_surface_pair or signorini_surface_pair_obstacle, released by signorini_surface_free.
- * It does not change: several threads may use one at once. It holds copies: your arrays may go
- * once it is made. The arrays that it tells live as long as it does; one without entries is NULL.
- */
-typedef struct signorini_surface_pairs signorini_surface_pairs;
-
-/**
- * Fills settings with their defaults and sets struct_size.
- *
- * @param settings     not NULL
- * @param struct_size  sizeof(signorini_surface_settings); no more than that is written
- * @return 0, or -1 or -2 for the argument that is wrong
- */
-int32_t signorini_surface_settings_default(signorini_surface_settings *settings,
-                                           uint32_t struct_size);
-
-/**
- * Makes contact pairs from two surfaces that may touch. signorini_surface_rows gives them to
- * signorini_model_new_sparse, signorini_surface_gaps to signorini_model_solve.
- *
- * Surfaces that never meet are no error: there are no pairs, and signorini_surface_summary says
- * why. Faces of one side that lie upon each other are refused, as their area would count twice;
- * those of masters with SIGNORINI_PAIRING_DUAL_MORTAR alone.
- *
- * @param dim          space dimension, 2 or 3
- * @param nodes        number of nodes of your mesh
- * @param coordinates  dim for each node, of all nodes; length
- * @param slave        the side whose nodes become slaves; better the softer or finer one
- * @param master       the other side; its nodes must not be on the slave side
- * @param settings     NULL: the defaults
- * @param contact      out: the pairs; NULL unless 0 is returned
- * @param report       out: what was found; set report->struct_size before the call; may be NULL
- * @return 0; -k: the k-th argument is wrong: signorini_last_error names side, face and node;
- *         <= -1000: out of memory or a defect
- */
-int32_t signorini_surface_pair(int32_t dim, int64_t nodes, const double *coordinates,
-                               const signorini_faces *slave, const signorini_faces *master,
-                               const signorini_surface_settings *settings,
-                               signorini_surface_pairs **contact, signorini_surface_report *report);
-
-/**
- * Makes contact pairs from a surface and a rigid obstacle. Nodes may lie on either side of the
- * obstacle's surface: the gap is negative inside. An obstacle of faces is paired as a master is,
- * with the same search distance; its nodes are its own.
- *
- * @param dim          space dimension, 2 or 3
- * @param nodes        number of nodes of your mesh
- * @param coordinates  dim for each node, of all nodes; length
- * @param slave        the faces that may touch the obstacle
- * @param obstacle     the obstacle
- * @param settings     NULL: the defaults; pairing, normals, rims and symmetry_... are
- *                     read for faces alone
- * @param contact      out: the pairs; NULL unless 0 is returned
- * @param report       out: what was found; set report->struct_size before the call; may be NULL
- * @return as signorini_surface_pair
- */
-int32_t signorini_surface_pair_obstacle(int32_t dim, int64_t nodes, const double *coordinates,
-                                        const signorini_faces *slave,
-                                        const signorini_obstacle *obstacle,
-                                        const signorini_surface_settings *settings,
-                                        signorini_surface_pairs **contact,
-                                        signorini_surface_report *report);
-
-/** Releases pairs. NULL is allowed. */
-void signorini_surface_free(signorini_surface_pairs *contact);
-
-/** Number of pairs; -1 if contact is NULL. */
-int64_t signorini_surface_count(const signorini_surface_pairs *contact);
-
-/**
- * The pairs for signorini_model_new_sparse, as general rows, counted from index_base. NULL if
- * contact is NULL.
- */
-const signorini_pairs *signorini_surface_rows(const signorini_surface_pairs *contact);
-
-/** Initial gaps, one for each pair; length: positive if open, negative if the surfaces overlap. */
-const double *signorini_surface_gaps(const signorini_surface_pairs *contact);
-
-/** Areas, one for each pair; the pressure of a pair is -F_n over its area. */
-const double *signorini_surface_areas(const signorini_surface_pairs *contact);
-
-/** Unit normals, dim for each pair, outward from the slave's body. */
-const double *signorini_surface_normals(const signorini_surface_pairs *contact);
-
-/** First unit tangents, dim for each pair; in 3D the second one is n x t1. */
-const double *signorini_surface_tangents(const signorini_surface_pairs *contact);
-
-/** Where the force of each pair acts on the slave's body, dim for each pair. */
-const double *signorini_surface_points(const signorini_surface_pairs *contact);
-
-/** The slave node of each pair, ascending, counted from index_base. */
-const int64_t *signorini_surface_nodes(const signorini_surface_pairs *contact);
-
-/**
- * Slave nodes without a pair, report.unpaired entries: nothing lies over them, or they are folded.
- */
-const int64_t *signorini_surface_unpaired(const signorini_surface_pairs *contact);
-
-/**
- * Slave nodes with little cover, each with the node whose pair has taken in its row; 2 for each of
- * report.folded.
- */
-const int64_t *signorini_surface_folded(const signorini_surface_pairs *contact);
-
-/** Slave faces that lie over nothing, report.uncovered entries, counted from index_base. */
-const int64_t *signorini_surface_uncovered(const signorini_surface_pairs *contact);
-
-/**
- * One sentence on what was found, ASCII text for a log. It lives as long as the pairs; empty if
- * contact is NULL.
- */
-const char *signorini_surface_summary(const signorini_surface_pairs *contact);
-
-/* ---- What a solution means on the surfaces ------------------------------------------------- */
-
-typedef struct signorini_contact_fields signorini_contact_fields;
-typedef struct signorini_resultant signorini_resultant;
-typedef struct signorini_mesh signorini_mesh;
-typedef struct signorini_field signorini_field;
-
-/**
- * Fields at the nodes of your mesh. Set struct_size, and the pointers of the arrays that you want;
- * each may be NULL. A call writes the nodes that stand in pairs of its contact, on both sides,
- * and leaves the others as they are: set them before, and give the same arrays to the calls of all
- * contact zones. Vectors are in the axes of the mesh.
- *
- * A slave node has the values of its pair; other nodes have means over the pairs that they stand
- * in, weighted by area and the size of their weights.
- */
-struct signorini_contact_fields {
-    uint32_t struct_size; /**< sizeof(signorini_contact_fields). */
-    int32_t reserved;     /**< 0. */
-    /** Out: contact pressure, one for each node; positive presses; force / area. */
-    double *pressure;
-    /** Out: force of the contact on the node's own body over area, dim for each node. */
-    double *traction;
-    /** Out: what is left of the gap, gap - d_n, one for each node; positive if open; length. */
-    double *clearance;
-    /**
-     * Out: motion along the surface against the other body since slip0, dim for each node; length.
-     */
-    double *slip;
-    /** Out: SIGNORINI_STATE_..., one for each node: of its pair, or that of its largest share. */
-    int32_t *state;
-};
-
-/** Sums over a contact zone. Set struct_size before the call; the call writes all other fields. */
-struct signorini_resultant {
-    uint32_t struct_size; /**< sizeof(signorini_resultant) in your program; no more is written. */
-    int32_t reserved;     /**< 0. */
-    double force[3]; /**< Force of the contact on the slave's body; in 2D the third entry is 0. */
-    double moment[3];     /**< Its moment about the given point; in 2D the third entry alone. */
-    /**
-     * Work that friction takes in the step, sum of -F_t . (d_t - slip0), with the forces of its
-     * end.
-     */
-    double friction_work;
-    double pressed_area;  /**< Area of the pairs that press. */
-};
-
-/**
- * Pressure, traction, clearance and slip at the nodes of both sides.
- *
- * @param contact  the pairs
- * @param gap      gaps, one for each pair; NULL: those of the pairs
- * @param slip0    reference slip, dim - 1 for each pair; NULL: zero
- * @param d        relative displacements, N = dim * pairs
- * @param F        contact forces, N
- * @param state    SIGNORINI_STATE_... of each pair; may be NULL if fields->state is
- * @param fields   out: the arrays of the fields
- * @return 0; -k: the k-th argument is wrong, nothing was written
- */
-int32_t signorini_surface_fields(const signorini_surface_pairs *contact, const double *gap,
-                                 const double *slip0, const double *d, const double *F,
-                                 const int32_t *state, const signorini_contact_fields *fields);
-
-/**
- * Resultant of the contact forces on the slave's body, and the work of friction.
- *
- * @param contact    the pairs
- * @param slip0      reference slip, dim - 1 for each pair; NULL: zero
- * @param d          relative displacements, N = dim * pairs
- * @param F          contact forces, N
- * @param point      the point of the moment, dim coordinates; NULL: the origin
- * @param resultant  out: the sums; set resultant->struct_size before the call
- * @return 0; -k: the k-th argument is wrong, nothing was written
- */
-int32_t signorini_surface_resultant(const signorini_surface_pairs *contact, const double *slip0,
-                                    const double *d, const double *F, const double *point,
-                                    signorini_resultant *resultant);
-
-/**
- * A mesh of yours, to be written to a file. Cells have the types and the order of nodes of VTK: 3
- * line, 5 triangle, 9 quadrilateral, 10 tetrahedron, 12 hexahedron, 13 wedge, 14 pyramid; 21 to 29
- * the quadratic ones.
- */
-struct signorini_mesh {
-    uint32_t struct_size;      /**< sizeof(signorini_mesh). */
-    int32_t dim;               /**< Space dimension, 2 or 3. */
-    int64_t nodes;             /**< Number of nodes. */
-    const double *coordinates; /**< Coordinates, dim for each node. */
-    int64_t cells;             /**< Number of cells, 0 allowed. */
-    /** 0 or 1: the number of the first node and of the first entry of cell_start. */
-    int32_t index_base;
-    int32_t cell_type;         /**< VTK's type of all cells, if cell_types is NULL; else 0. */
-    const int32_t *cell_types; /**< VTK's type of each cell; NULL: all have cell_type. */
-    /**
-     * Start of each cell in cell_nodes, cells + 1 entries; NULL: cells have the number of nodes of
-     * their types.
-     */
-    const int64_t *cell_start;
-    const int64_t *cell_nodes; /**< Nodes of the cells. */
-};
-
-/** A field of your own at the nodes of a mesh. */
-struct signorini_field {
-    uint32_t struct_size; /**< sizeof(signorini_field). */
-    int32_t components;   /**< 1: a number for each node; dim: a vector. */
-    const char *name;     /**< Its name in the file, UTF-8. */
-    const double *values; /**< The values, components for each node. */
-};
-
-/**
- * Writes a mesh with the displacements and the fields of one contact zone to a file, as
- * signorini_mesh_write does. Nodes that stand in no pair have pressure, traction, slip and
- * clearance 0 and state -1.
- *
- * @param contact  the pairs
- * @param path     name of the file, which is replaced if it exists
- * @param mesh     the mesh whose nodes were paired
- * @param gap      gaps, one for each pair; NULL: those of the pairs
- * @param slip0    reference slip, dim - 1 for each pair; NULL: zero
- * @param u        displacements of all degrees of freedom, as signorini_model_recover tells them;
- *                 NULL: none
- * @param d        relative displacements, N = dim * pairs
- * @param F        contact forces, N
- * @param state    SIGNORINI_STATE_... of each pair; NULL: no states
- * @return as signorini_mesh_write
- */
-int32_t signorini_surface_write(const signorini_surface_pairs *contact, const char *path,
-                                const signorini_mesh *mesh, const double *gap, const double *slip0,
-                                const double *u, const double *d, const double *F,
-                                const int32_t *state);
-
-/**
- * Writes a mesh with fields at its nodes to a file in VTK's format .vtu, which ParaView opens. The
- * file keeps every bit, infinities too.
- *
- * @param path      name of the file, which is replaced if it exists
- * @param mesh      the mesh
- * @param u         displacements, dim for each node; NULL: none
- * @param contact   fields of signorini_surface_fields, written under their names; those that are
- *                  NULL are left out; NULL: none
- * @param n_fields  number of further fields
- * @param fields    the further fields; may be NULL if n_fields is 0
- * @return 0; -k: the k-th argument is wrong; SIGNORINI_STATUS_FILE: the file cannot be written; an
- *         old file is then unchanged
- */
-int32_t signorini_mesh_write(const char *path, const signorini_mesh *mesh, const double *u,
-                             const signorini_contact_fields *contact, int64_t n_fields,
-                             const signorini_field *fields);
-
-/* ============================================================================================
- * 5  Files
- *
- * A problem file holds one problem as text, with the same bits. Mail it with a bug report.
- * ========================================================================================== */
-
-/**
- * Writes the problem of signorini_solve to a file, as text that keeps every bit.
- *
- * The file is a dense matrix in the Matrix Market format: the columns of K, f, gap, friction and
- * slip0, and comment lines that say so. It appears under its name only when it is complete: it is
- * written beside its place under a name that ends in .part, then renamed. A file that it replaces
- * hands on its mode; through a symbolic link the file is replaced that it names; pipes, devices and
- * links to nothing are refused. K must be finite; its symmetry and definiteness are not checked
- * here.
- *
- * @param path      name of the file, which is replaced if it exists; bytes as for fopen (UTF-8 on
- *                  Windows)
- * @param dim       space dimension, 2 or 3
- * @param pairs     number of contact pairs, 0 allowed
- * @param K         condensed stiffness, as for signorini_solve
- * @param ldk       entries from one column of K to the next, at least max(1, N)
- * @param f         condensed nodal loads, N
- * @param gap       initial gaps, one for each pair
- * @param law       SIGNORINI_LAW_..., the friction law of all pairs
- * @param friction  parameters of the law, pair by pair; may be NULL if frictionless
- * @param slip0     reference slip, dim - 1 for each pair; NULL: zero
- * @param remark    one line of UTF-8 for the reader of the file, at most 1000 bytes, that does not
- *                  begin or end with a space; may be NULL
- * @return 0; -k: the k-th argument is wrong; SIGNORINI_STATUS_FILE: the file cannot be written; an
- *         old file is then unchanged
- */
-int32_t signorini_problem_write(const char *path, int32_t dim, int64_t pairs, const double *K,
-                                int64_t ldk, const double *f, const double *gap, int32_t law,
-                                const double *friction, const double *slip0, const char *remark);
-
-/**
- * Writes a load case of a model to a file, as signorini_problem_write does: the condensed problem
- * that signorini_model_solve solves. signorini_solve gives the same d and F for it. If pairs depend
- * on each other there is none: -1 is returned.
- *
- * @param model       the model
- * @param path        name of the file, which is replaced if it exists
- * @param f           nodal loads of the host, H = signorini_model_host_size entries
- * @param prescribed  values of the fixed degrees of freedom, in the order of fixed; NULL: zero
- * @param gap         gaps, one for each pair
- * @param law         SIGNORINI_LAW_..., the friction law of all pairs
- * @param friction    parameters of the law, pair by pair; may be NULL if frictionless
- * @param slip0       reference slip, dim - 1 for each pair; NULL: zero
- * @param remark      one line of UTF-8 for the reader of the file, at most 1000 bytes, that does
- *                    not begin or end with a space; may be NULL
- * @return as signorini_problem_write
- */
-int32_t signorini_model_write(const signorini_model *model, const char *path, const double *f,
-                              const double *prescribed, const double *gap, int32_t law,
-                              const double *friction, const double *slip0, const char *remark);
-
-/**
- * Writes an LCP, the problem of signorini_lcp_solve or signorini_lcp_lemke, to a file, as
- * signorini_problem_write does: the columns of M, q and, if given, cover.
- *
- * @param path    name of the file, which is replaced if it exists
- * @param n       number of unknowns, 0 allowed
- * @param M       n columns of n entries, column-major
- * @param ldm     entries from one column of M to the next, at least max(1, n)
- * @param q       n
- * @param cover   covering vector, n positive entries; may be NULL
- * @param remark  one line of UTF-8 for the reader of the file, at most 1000 bytes, that does not
- *                begin or end with a space; may be NULL
- * @return as signorini_problem_write
- */
-int32_t signorini_lcp_write(const char *path, int64_t n, const double *M, int64_t ldm,
-                            const double *q, const double *cover, const char *remark);
-
-/* Kind of a problem. */
-#define SIGNORINI_PROBLEM_CONTACT 0 /**< A contact problem, of signorini_solve. */
-/** An LCP, of signorini_lcp_solve or, if it has a covering vector, signorini_lcp_lemke. */
-#define SIGNORINI_PROBLEM_LCP 1
-
-/**
- * A problem that was read from a file by signorini_problem_read; released by
- * signorini_problem_free. It does not change: several threads may use one at once. Its arrays live
- * as long as it does; an array without entries is NULL.
- */
-typedef struct signorini_problem signorini_problem;
-
-/**
- * Reads a problem from a file. Any file is safe to read: the call returns either a problem or an
- * error that names the line. Pipes and devices are refused at once.
- *
- * @param path     name of the file
- * @param problem  out: the problem; NULL unless 0 is returned
- * @return 0; -k: the k-th argument is wrong; SIGNORINI_STATUS_FILE: the file cannot be read, or is
- *         not a complete problem file; SIGNORINI_STATUS_OUT_OF_MEMORY
- */
-int32_t signorini_problem_read(const char *path, signorini_problem **problem);
-
-/** Releases a problem. NULL is allowed. */
-void signorini_problem_free(signorini_problem *problem);
-
-/** SIGNORINI_PROBLEM_..., the kind of the problem; -1 if problem is NULL. */
-int32_t signorini_problem_kind(const signorini_problem *problem);
-
-/** SIGNORINI_LAW_..., the friction law; -1 of an LCP or if problem is NULL. */
-int32_t signorini_problem_law(const signorini_problem *problem);
-
-/** Space dimension, 2 or 3; 0 of an LCP; -1 if problem is NULL. */
-int32_t signorini_problem_dim(const signorini_problem *problem);
-
-/** Number of contact pairs; 0 of an LCP; -1 if problem is NULL. */
-int64_t signorini_problem_pairs(const signorini_problem *problem);
-
-/** Number of unknowns, N = dim * pairs or n; -1 if problem is NULL. */
-int64_t signorini_problem_size(const signorini_problem *problem);
-
-/** K or M, column-major; its leading dimension is the number of unknowns. */
-const double *signorini_problem_matrix(const signorini_problem *problem);
-
-/** Right-hand side: f or q, one entry for each unknown. */
-const double *signorini_problem_rhs(const signorini_problem *problem);
-
-/** Gaps, one for each pair. */
-const double *signorini_problem_gap(const signorini_problem *problem);
-
-/** Parameters of the friction law, pair by pair; NULL if frictionless. */
-const double *signorini_problem_friction(const signorini_problem *problem);
-
-/** Reference slip, dim - 1 for each pair. */
-const double *signorini_problem_slip0(const signorini_problem *problem);
-
-/** Covering vector of an LCP; NULL if the file has none. */
-const double *signorini_problem_cover(const signorini_problem *problem);
-
-/**
- * The remark of the file, UTF-8; empty if there is none or problem is NULL. It lives as long as
- * the problem.
- */
-const char *signorini_problem_remark(const signorini_problem *problem);
-
-/* ============================================================================================
- * 6  Fine tuning
+ * 4  Fine tuning
  * ========================================================================================== */
 
 /* ---- How to solve -------------------------------------------------------------------------- */
@@ -1360,7 +618,7 @@ const char *signorini_problem_remark(const signorini_problem *problem);
 #define SIGNORINI_METHOD_AUTO 0
 /** Projected over-relaxed Gauss-Seidel (SOR) on a sequence of Tresca problems, g <- mu |F_n|. */
 #define SIGNORINI_METHOD_SOR_NESTED 1
-/** The same with the threshold updated inside the sweep; not for Tresca's law. */
+/** Sweeps that update the threshold after each pair; not for Tresca's law. */
 #define SIGNORINI_METHOD_SOR_DIAGONAL 2
 /**
  * Lemke's method, without friction, or with friction in 2D. It ends at a solution for every mu if
@@ -1380,17 +638,6 @@ const char *signorini_problem_remark(const signorini_problem *problem);
  */
 #define SIGNORINI_METHOD_PATH 6
 
-/**
- * settings.warm_start of signorini_model_solve: each case starts from the solution of the last case
- * before that was solved, in this call and in those before it on the model with this setting; the
- * first one as with 0; d needs no start. With friction in 3D the cases share the elimination of
- * pairs that stay open, so that load steps, too, cost less one by one: the model keeps 8 N N bytes
- * at most, until it is released or a call of signorini_model_solve has another start. The last
- * digits of a result depend on these calls, and where there are several solutions which one it is:
- * the same calls in the same order give the same bits. Leave it to one thread of those that share a
- * model. Other calls have one case.
- */
-#define SIGNORINI_START_PREVIOUS 2
 /** Report only what the solution itself proves about other solutions. The default. */
 #define SIGNORINI_SEARCH_OFF 0
 /** Prove that the solution is unique, or look for a second one. It costs several solutions. */
@@ -1398,7 +645,7 @@ const char *signorini_problem_remark(const signorini_problem *problem);
 
 typedef struct signorini_progress signorini_progress;
 
-/** What a progress callback receives. Later versions may add fields at the end. */
+/** A progress callback receives it. Later versions may add fields at the end. */
 struct signorini_progress {
     int64_t iterations; /**< Sweeps, pivots or linear systems done. */
     double eta;         /**< Latest measured eta; infinite before the first measurement. */
@@ -1490,29 +737,16 @@ struct signorini_settings {
 int32_t signorini_settings_default(signorini_settings *settings, uint32_t struct_size);
 
 /**
- * Most bytes that a call may take beside your arrays, for so many unknowns: signorini_solve,
- * signorini_certify and signorini_prove with N = dim * pairs, and the LCP calls.
- * signorini_flexibility_solve may take 8 N^2 bytes more; signorini_flexibility_solve_sparse 16 N^2
- * more with the N of its largest island, and 256 bytes for each of all unknowns and 48 for each
- * stored entry of W. A call takes them for every method, law and setting, and holds as much address
- * space in reserve; settings.memory_limit refuses a call that may need more. Each thread keeps some
- * MiB of its own for matrix products, which are not counted.
+ * Most bytes that a call may take beside your arrays, for so many unknowns: signorini_solve with N
+ * = dim * pairs, and signorini_lcp_solve. A load case of a model: signorini_model_view. A call
+ * takes them for every method, law and setting, and holds as much address space in reserve;
+ * settings.memory_limit refuses a call that may need more. Each thread keeps some MiB of its own
+ * for matrix products, which are not counted.
  *
  * @param n  number of unknowns
  * @return bytes; -1 if n is negative
  */
 int64_t signorini_solve_memory(int64_t n);
-
-/**
- * The same for a load case of a model: most bytes that signorini_model_solve may take beside the
- * model and your arrays. Of many load cases each in turn takes them; up to 32 cases at a time take
- * some vectors of H entries each besides. What making a sparse model takes is told to its callback:
- * signorini_progress.
- *
- * @param model  the model
- * @return bytes; -1 if model is NULL
- */
-int64_t signorini_model_memory(const signorini_model *model);
 
 /* ---- How good the result is ---------------------------------------------------------------- */
 
@@ -1520,7 +754,7 @@ int64_t signorini_model_memory(const signorini_model *model);
 #define SIGNORINI_UNIQUENESS_UNIQUE 1    /**< Proved: there is no other solution. */
 #define SIGNORINI_UNIQUENESS_SEVERAL 2   /**< Proved: there are other solutions. */
 
-/* Whether a solution is proved to exist. */
+/* Is a solution proved to exist? */
 #define SIGNORINI_PROOF_NOT_ASKED 0 /**< settings.proof is 0. */
 /**
  * Proved: the data, each double taken for the real number that it is, have a solution with these
@@ -1542,7 +776,7 @@ int64_t signorini_model_memory(const signorini_model *model);
 #define SIGNORINI_FALLBACK_UNSTABLE 3
 #define SIGNORINI_FALLBACK_INACCURATE 4 /**< The first method found no accurate solution. */
 
-/* What a report remarks. */
+/* Remarks: what is legal and often a mistake. */
 /** Every finite gap is negative: interference everywhere, or the sign of gaps is turned round. */
 #define SIGNORINI_REMARK_GAPS_NEGATIVE 1
 /** A coefficient of friction is above 10: percent, or another array. */
@@ -1552,6 +786,12 @@ int64_t signorini_model_memory(const signorini_model *model);
  * be missing. Not looked for in full space, nor where pairs depend on each other.
  */
 #define SIGNORINI_REMARK_FREE_MOTION 4
+
+/**
+ * A short description of one remark, such as "every gap is negative". Static text; never NULL, for
+ * any number.
+ */
+const char *signorini_remark_string(int32_t remark);
 
 /**
  * How good a result is, and how it was found. Fill it by signorini_report_default() or set
@@ -1576,8 +816,8 @@ struct signorini_report {
      */
     double eta;
     /**
-     * What rounding d to doubles may add to eta, no unit. Above 1e-6 only a d is certified that K
-     * resists by more energy than rounding of its entries explains.
+     * Rounding of d to doubles may add so much to eta, no unit. Above 1e-6 only a d is certified
+     * that K resists by more energy than rounding of its entries explains.
      */
     double rounding;
     double penetration;       /**< Largest d_n - gap; length; 0 if none. */
@@ -1613,7 +853,7 @@ struct signorini_report {
      */
     double error_F;
     int32_t proof;            /**< SIGNORINI_PROOF_... */
-    /** What is legal and often a mistake: a sum of SIGNORINI_REMARK_..., 0 if there is nothing. */
+    /** Sum of SIGNORINI_REMARK_...: data that are legal and often a mistake; 0: none. */
     int32_t remarks;
 };
 
@@ -1684,47 +924,27 @@ int32_t signorini_extra_default(signorini_extra *extra, uint32_t struct_size);
 /**
  * Solves a linear complementarity problem (LCP): w = q + M z, w >= 0, z >= 0, w . z = 0.
  *
- * The default method is block principal pivoting, then Lemke's method.
+ * SIGNORINI_METHOD_AUTO is block principal pivoting, then Lemke's method (lexicographic: it never
+ * cycles). M positive definite or a P-matrix: the problem is solved. M positive semi-definite or
+ * copositive-plus: it is solved, or proved infeasible (SIGNORINI_STATUS_NO_EQUILIBRIUM). Any other
+ * M: the call may also end in a ray that proves nothing (SIGNORINI_STATUS_STALLED).
  *
  * @param n         number of unknowns, 0 allowed
  * @param M         any matrix, n columns of n entries, column-major
  * @param ldm       entries from one column of M to the next, at least max(1, n)
  * @param q         n
+ * @param cover     covering vector of Lemke's method, n positive entries; NULL: ones
  * @param settings  NULL: the defaults; method is SIGNORINI_METHOD_AUTO, _BLOCK_PIVOTING or _LEMKE;
  *                  omega, damping, warm_start and search are checked and have no effect
  * @param w         out: n
  * @param z         out: n
- * @param y         out: n; with SIGNORINI_STATUS_NO_EQUILIBRIUM the proof that no w, z >= 0
- *                  satisfy w = q + M z: y >= 0, M' y <= 0, q . y < 0; with every other status
- *                  zeros; may be NULL
+ * @param y         out: n; with SIGNORINI_STATUS_NO_EQUILIBRIUM the proof that no w, z >= 0 satisfy
+ *                  w = q + M z: y >= 0, M' y <= 0, q . y < 0; with every other status zeros; may be
+ *                  NULL
  * @param report    out: set report->struct_size before the call; may be NULL
  * @return as signorini_solve
  */
 int32_t signorini_lcp_solve(int64_t n, const double *M, int64_t ldm, const double *q,
-                            const signorini_settings *settings, double *w, double *z, double *y,
-                            signorini_report *report);
-
-/**
- * Solves an LCP by Lemke's method (lexicographic: it never cycles).
- *
- * M positive definite or a P-matrix: the problem is solved. M positive semi-definite or
- * copositive-plus: it is solved, or proved infeasible (SIGNORINI_STATUS_NO_EQUILIBRIUM). Any other
- * M: the method may also end in a ray that proves nothing (SIGNORINI_STATUS_STALLED).
- *
- * @param n         number of unknowns, 0 allowed
- * @param M         any matrix, n columns of n entries, column-major
- * @param ldm       entries from one column of M to the next, at least max(1, n)
- * @param q         n
- * @param cover     covering vector, n positive entries; NULL: ones
- * @param settings  NULL: the defaults; method, omega, damping, warm_start and search are checked
- *                  and have no effect
- * @param w         out: n
- * @param z         out: n
- * @param y         out: n; the proof of infeasibility, as in signorini_lcp_solve; may be NULL
- * @param report    out: set report->struct_size before the call; may be NULL
- * @return as signorini_solve
- */
-int32_t signorini_lcp_lemke(int64_t n, const double *M, int64_t ldm, const double *q,
                             const double *cover, const signorini_settings *settings, double *w,
                             double *z, double *y, signorini_report *report);
 
@@ -1734,7 +954,7 @@ int32_t signorini_lcp_lemke(int64_t n, const double *M, int64_t ldm, const doubl
 #define SIGNORINI_VERSION_MINOR 2 /**< Minor version of this header. */
 #define SIGNORINI_VERSION_PATCH 0 /**< Patch version of this header. */
 /** Binary interface of this header; compare it with signorini_abi_version() after dlopen. */
-#define SIGNORINI_ABI_VERSION 2
+#define SIGNORINI_ABI_VERSION 3
 
 /** Version of the library, such as "0.2.0". Static text; never NULL. */
 const char *signorini_version(void);
@@ -1744,6 +964,121 @@ const char *signorini_version(void);
  * program was compiled, the two are incompatible.
  */
 int32_t signorini_abi_version(void);
+
+/* ============================================================================================
+ * 5  What may still change
+ *
+ * Define SIGNORINI_UNSTABLE before you include this header, and link a library of the same version.
+ * ========================================================================================== */
+
+#ifdef SIGNORINI_UNSTABLE
+
+/**
+ * settings.warm_start of signorini_model_solve: each case starts from the solution of the last case
+ * before that was solved, in this call and in those before it on the model with this setting; the
+ * first one as with 0; d needs no start. With friction in 3D the cases share the elimination of
+ * pairs that stay open, so that load steps, too, cost less one by one: the model keeps 8 N N bytes
+ * at most, until it is released or a call of signorini_model_solve has another start. The last
+ * digits of a result depend on these calls, and where there are several solutions which one it is:
+ * the same calls in the same order give the same bits. Leave it to one thread of those that share a
+ * model. Other calls have one case.
+ */
+#define SIGNORINI_START_PREVIOUS 2
+
+typedef struct signorini_operator signorini_operator;
+
+/**
+ * A product of the host, y = K_rel x or y = W x: x and y have N = dim * pairs entries. Returns 0;
+ * another number ends the call of the library, whose sentence tells it. It must return: no longjmp,
+ * no exception; and it must not call this library.
+ */
+typedef int32_t (*signorini_product_fn)(void *user, const double *x, double *y);
+
+/**
+ * A solution of the host with components held: y is 0 where held is nonzero, and K_rel y = x in
+ * the other components; x does not count where held is nonzero. All have N entries. changed is 0
+ * if the same components are held as in the call before on this model, and that call has not
+ * failed, so that a factor may serve again. Returns as signorini_product_fn.
+ */
+typedef int32_t (*signorini_held_fn)(void *user, const int32_t *held, int32_t changed,
+                                     const double *x, double *y);
+
+/**
+ * Functions of a host in the place of a matrix: say of a code on several processes, with a factor
+ * of its own. d and F are those of the pairs, as for signorini_solve, and K_rel is the K there.
+ */
+struct signorini_operator {
+    uint32_t struct_size; /**< sizeof(signorini_operator). */
+    int32_t dim;          /**< Space dimension, 2 or 3. */
+    int64_t pairs;        /**< Number of contact pairs. */
+    /** y = K_rel x; symmetric, positive semi-definite; as exact as the tolerance asks for. */
+    signorini_product_fn stiffness;
+    /**
+     * y = W x, with W close to the inverse of K_rel, symmetric and positive definite: a solution
+     * with the contact free. May be NULL if held is given, which is then used alone.
+     */
+    signorini_product_fn inverse;
+    /** A solution with components held, in the place of W. May be NULL if inverse is given. */
+    signorini_held_fn held;
+    /**
+     * Units of force per length of the components, N positive numbers of the size of the diagonal
+     * of K_rel. NULL: one for each direction, from products.
+     */
+    const double *units;
+    void *user;           /**< Passed to the functions as their first argument. */
+};
+
+/**
+ * Makes a model of which you give products and solutions alone, for structures that no one process
+ * holds: no matrix is formed. Loads and displacements of the host are the relative ones, H = N
+ * entries. Load cases are solved by Newton's method with GMRES, methods AUTO and NEWTON alone, no
+ * search, no proof. It takes 20 to 110 products with K_rel and as many with W in 2D, to 160 in 3D;
+ * with held 5 to 70 solutions take the place of those with W, between which the components that are
+ * held change up to 14 times.
+ *
+ * Before it returns it asks for some products, of which the answers must be finite, linear,
+ * symmetric, positive and the same each time, to 1e-9. Later calls on the model return -1 if a
+ * function fails or gives a number that is not finite; the sentence says which one and where, and
+ * the model can be used again. Calls from several threads on one model are yours to allow: its
+ * functions are called on the threads that call the library.
+ *
+ * @param K      the functions; the structure is copied, with units
+ * @param model  out: the model; NULL unless 0 is returned
+ * @return 0; -k: the k-th argument is wrong; <= -1000: out of memory or a defect
+ */
+int32_t signorini_model_new_operator(const signorini_operator *K, signorini_model **model);
+
+/**
+ * Tries to prove that a load case of a model has a solution next to displacements of any origin,
+ * say of another solver, and bounds how far it is away.
+ *
+ * The proof is about the condensed problem: its K, f, gap, friction and slip0, each double taken
+ * for the real number that it is, have a solution with these states, each pair clear of the
+ * boundaries of its state. All rounding is bounded. It is not proved that there is no other
+ * solution.
+ *
+ * @param model       a model with a condensed matrix
+ * @param f           nodal loads of the host, H entries
+ * @param prescribed  values of the fixed degrees of freedom; NULL: zero
+ * @param gap         gaps, one for each pair
+ * @param law         SIGNORINI_LAW_..., the friction law of all pairs
+ * @param friction    parameters of the law, pair by pair; may be NULL if frictionless
+ * @param slip0       reference slip, dim - 1 for each pair; NULL: zero
+ * @param d           relative displacements, N
+ * @param state       SIGNORINI_STATE_... of each pair; NULL: those of d
+ * @param F           out: contact forces of the solution, N; may be NULL
+ * @param radius_d    out: the solution has displacements within this distance of d, component by
+ *                    component, N; length; may be NULL
+ * @param radius_F    out: the same of the contact forces and F, N; force; may be NULL
+ * @return 0: proved; SIGNORINI_STATUS_NOT_PROVED: not, which proves nothing: F holds zeros, the
+ *         radii -1; -k: the k-th argument is wrong, nothing was written
+ */
+int32_t signorini_model_prove(const signorini_model *model, const double *f,
+                              const double *prescribed, const double *gap, int32_t law,
+                              const double *friction, const double *slip0, const double *d,
+                              const int32_t *state, double *F, double *radius_d, double *radius_F);
+
+#endif /* SIGNORINI_UNSTABLE */
 
 #ifdef __cplusplus
 } /* extern "C" */

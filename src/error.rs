@@ -1,4 +1,4 @@
-//! What can be wrong with a call, named by the argument at fault, and sentences that know which of
+//! Errors of a call, named by the argument at fault, and sentences that know which of
 //! their numbers are indices.
 //!
 //! C and Rust count from 0 and write `K[12,7]`; Fortran counts from 1 and writes `K(13,8)`. So a
@@ -39,6 +39,8 @@ pub enum Argument {
     Settings,
     /// Displacements to start from.
     Start,
+    /// Contact forces that are measured.
+    Force,
     /// Stiffness matrix of the second body.
     SecondMatrix,
     /// Leading dimension of the second body's matrix.
@@ -111,7 +113,7 @@ impl Error {
         Error::Stopped { limit, message: message.into() }
     }
 
-    /// The same of one of several load cases.
+    /// Names the load case, one of several, in the error.
     pub(crate) fn in_case(self, case: usize) -> Self {
         let message = self.message();
         match self {

@@ -98,6 +98,10 @@
 
 #[forbid(unsafe_code)]
 pub mod certificate;
+#[cfg(not(feature = "counters"))]
+mod counters;
+#[cfg(feature = "counters")]
+pub mod counters;
 #[forbid(unsafe_code)]
 mod error;
 // The only room that may: pointers of C.
@@ -129,7 +133,7 @@ mod workers;
 
 pub use error::{Argument, Error, Limit, Message};
 pub use law::State;
-pub use model::{LoadCase, Model, Series, Starts};
+pub use model::{LoadCase, Model, ModelKind, Series, Starts};
 pub use monitor::{Monitor, Progress, ProgressFn, Stop};
 pub use problem::{
     ContactData, ContactProblem, Dependence, Flexibility, FlexibilityData, FlexibilityProblem,
@@ -141,4 +145,4 @@ pub use solve::{
     Uniqueness, memory, memory_flexibility, memory_flexibility_sparse, solve, solve_flexibility,
     solve_flexibility_sparse, solve_lcp,
 };
-pub use workers::{Alone, Workers};
+pub use workers::{SingleThread, Workers};

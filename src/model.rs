@@ -2,28 +2,31 @@
 
 mod arguments;
 mod cases;
+mod flexibility;
+mod kind;
 mod load_case;
+mod matrix_free;
+mod measures;
 mod memory;
 mod recovery;
 mod surfaces;
-mod unformed;
 
 use std::path::Path;
 
-use arguments::{check_fixed_gaps, check_length, check_vector};
+use arguments::{check_fixed_gaps, check_vector};
 pub(crate) use cases::{BLOCK, Past};
 pub use cases::{Series, Starts};
+pub use kind::ModelKind;
 pub use load_case::LoadCase;
 
-use crate::certificate::{Certificate, certify};
 use crate::error::{Argument, Error};
 use crate::file;
 use crate::linalg::elimination::Remembered;
 use crate::linalg::matrix::Matrix;
 use crate::monitor::Monitor;
 use crate::problem::{
-    ContactData, ContactProblem, Dependence, DependentRows, Relation, checked_dim,
-    symmetric_matrix, unknowns,
+    ContactData, ContactProblem, Dependence, DependentRows, OF_MATRIX, Relation, checked_dim,
+    dense, symmetric_matrix, unknowns,
 };
 use crate::reduce::{
     CondensedReduction, ContactPairs, Control, Reduction, SparseMatrix, SparseReduction,
@@ -31,10 +34,9 @@ use crate::reduce::{
 };
 use crate::settings::Settings;
 use crate::solve::{
-    CAUSES, NO_EQUILIBRIUM, Solution, Status, certify_unformed, check_start, solve,
-    solve_dependent, solve_unformed,
+    CAUSES, NO_EQUILIBRIUM, Solution, Status, check_start, solve, solve_dependent,
+    solve_matrix_free,
 };
-use crate::workers::Alone;
 
 /// A structure, reduced to its contact pairs. It does not change: several threads may use it.
 pub struct Model {
@@ -53,8 +55,7 @@ impl Model {
     /// are the rounding of a condensation and become exactly free. All other matrices are taken as they are.
     pub fn condensed(dim: usize, pairs: usize, k: &[f64], ld: usize) -> Result<Self, Error> {
         let size = unknowns(checked_dim(dim)?, pairs)?;
-        check_length("K", (k, ld), size, (Argument::Matrix, Argument::LeadingDimension))?;
-        let matrix = Matrix::new(size, k, ld);
+        let matrix = dense("K", (k, ld), size, OF_MATRIX)?;
         let reduction = Box::new(CondensedReduction::new(dim, &matrix)?);
         Ok(Model { dim, pairs, reduction })
     }
@@ -70,10 +71,10 @@ impl Model {
         second: (&[f64], usize),
     ) -> Result<Self, Error> {
         let size = unknowns(checked_dim(dim)?, pairs)?;
-        check_length("K_A", first, size, (Argument::Matrix, Argument::LeadingDimension))?;
-        let names = (Argument::SecondMatrix, Argument::SecondLeadingDimension);
-        check_length("K_B", second, size, names)?;
-        let reduction = Box::new(TwoBodyReduction::new(dim, size, first, second)?);
+        let first = dense("K_A", first, size, OF_MATRIX)?;
+        let arguments = (Argument::SecondMatrix, Argument::SecondLeadingDimension);
+        let second = dense("K_B", second, size, arguments)?;
+        let reduction = Box::new(TwoBodyReduction::new(dim, first, second)?);
         Model { dim, pairs, reduction }.checked()
     }
 
@@ -116,7 +117,7 @@ impl Model {
 
     /// Refuses a reduced matrix that no structure has.
     fn checked(self) -> Result<Self, Error> {
-        if self.reduction.unformed().is_some() {
+        if self.reduction.matrix_free().is_some() {
             return Ok(self);
         }
         let dependence = self.reduction.dependence();
@@ -148,7 +149,7 @@ impl Model {
     }
 
     /// `K_rel`, column-major, `dim * pairs` square; empty if [`Self::dependent_pairs`] names any, as there
-    /// is none then, and if [`Self::is_unformed`].
+    /// is none then, and if [`Self::is_matrix_free`].
     pub fn stiffness(&self) -> &[f64] {
         match self.reduction.dependence() {
             None => self.reduction.stiffness(),
@@ -180,26 +181,12 @@ impl Model {
         prescribed: Option<&[f64]>,
     ) -> Result<Vec<f64>, Error> {
         self.check_independent()?;
+        self.check_stiffness_form()?;
         self.check_loads(Some(load), prescribed)?;
         self.reduction.condense(load, prescribed)
     }
 
-    /// Measures relative displacements `d` of any origin on a load case.
-    ///
-    /// # Errors
-    /// As [`Self::solve`] for the load case; a `d` of the wrong length or not finite
-    /// ([`Argument::Start`]); pairs that depend on each other ([`Argument::Matrix`]), as `d` alone does not
-    /// tell their forces.
-    pub fn certify(&self, case: &LoadCase<'_>, d: &[f64]) -> Result<Certificate, Error> {
-        check_vector(Argument::Start, "d", d, self.dim * self.pairs)?;
-        if let Some(unformed) = self.reduction.unformed() {
-            let by = (unformed, &Alone as _);
-            return self.on_bodies(by, case, |bodies, case| certify_unformed(bodies, case, d));
-        }
-        self.reduced((case, None), |problem| Ok(certify(problem, d)))
-    }
-
-    /// Solves a load case from the relative displacements `start`.
+    /// Solves a load case from the relative displacements `start`, or in flexibility form from contact forces.
     ///
     /// # Errors
     /// As [`solve()`], and loads or prescribed values of the wrong length or not finite.
@@ -222,11 +209,15 @@ impl Model {
         (settings, start): (&Settings, Option<&[f64]>),
         monitor: &mut Monitor<'_>,
     ) -> Result<Solution, Error> {
-        if let Some(unformed) = self.reduction.unformed() {
+        if let Some(form) = self.reduction.flexibility() {
+            self.check_loads(Some(case.load), case.prescribed)?;
+            return self.solve_flexibility(form, case, (settings, start), monitor);
+        }
+        if let Some(matrix_free) = self.reduction.matrix_free() {
             check_start("d", self.dim * self.pairs, start)?;
-            let by = (unformed, monitor.workers());
+            let by = (matrix_free, monitor.workers());
             return self.on_bodies(by, case, |bodies, case| {
-                let mut solution = solve_unformed(bodies, case, settings, start, monitor)?;
+                let mut solution = solve_matrix_free(bodies, case, settings, start, monitor)?;
                 solution.iterations = monitor.iterations();
                 Ok(solution)
             });

@@ -6,9 +6,9 @@ use std::time::Instant;
 use crate::error::{Error, Limit};
 use crate::settings::Settings;
 use crate::shortage;
-use crate::workers::{Alone, Workers};
+use crate::workers::{SingleThread, Workers};
 
-/// What a progress callback receives.
+/// The argument of a progress callback.
 #[derive(Clone, Copy, Debug)]
 pub struct Progress {
     /// Sweeps, pivots or linear systems done.
@@ -42,7 +42,7 @@ pub type ProgressFn<'a> = dyn FnMut(&Progress) -> ControlFlow<()> + 'a;
 /// vectors of four doubles does.
 const OPERATIONS: f64 = 2e10;
 
-/// Work of so many operations tells their rate: of less the time is that of other things.
+/// Work of fewer operations does not tell their rate: other things take most of its time.
 const MEASURABLE: f64 = 1e7;
 
 /// Counts iterations, reports progress and ends a call whose budget is used up.
@@ -80,11 +80,11 @@ impl<'a> Monitor<'a> {
             work: None,
             rate: OPERATIONS,
             progress,
-            workers: &Alone,
+            workers: &SingleThread,
         }
     }
 
-    /// The same with threads that share the reduction of a sparse matrix.
+    /// This monitor with threads that share the reduction of a sparse matrix.
     pub fn with_workers(self, workers: &'a dyn Workers) -> Self {
         Monitor { workers, ..self }
     }
@@ -94,7 +94,7 @@ impl<'a> Monitor<'a> {
         self.workers
     }
 
-    /// Whether a sparse matrix is to be left uncondensed.
+    /// `true` if a sparse matrix is to be left uncondensed.
     pub(crate) fn wants_full_space(&self) -> bool {
         self.full_space
     }
@@ -169,14 +169,14 @@ impl<'a> Monitor<'a> {
         }
     }
 
-    /// Whether so many `operations` end within the time limit, for questions about a result that is there
+    /// `true` if so many `operations` end within the time limit, for questions about a result that is there
     /// already.
     pub(crate) fn has_time_for(&self, operations: f64) -> bool {
         let time = operations / self.rate;
         !self.time_limit.is_finite() || self.begin.elapsed().as_secs_f64() + time <= self.time_limit
     }
 
-    /// Whether the time limit is used up, for questions about a result that is there already: they are then
+    /// `true` if the time limit is used up, for questions about a result that is there already: they are then
     /// left open.
     pub(crate) fn is_late(&self) -> bool {
         shortage::check();

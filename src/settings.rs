@@ -24,7 +24,7 @@ pub enum Method {
     Path,
 }
 
-/// Whether to look for other solutions.
+/// The search for other solutions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Search {
     /// Report only what the solution itself proves.
@@ -66,14 +66,14 @@ pub struct Settings {
     pub max_iterations: u64,
     /// Most seconds of wall time; 0 means no limit. A factorisation that would take longer is not begun.
     pub time_limit: f64,
-    /// Whether to look for other solutions.
+    /// The search for other solutions.
     pub search: Search,
-    /// Whether to prove that the solution exists, and where: [`crate::Solution::existence`].
+    /// `true`: a proof is tried that the solution exists, and where: [`crate::Solution::existence`].
     pub proof: bool,
     /// Most bytes that the reduction of a sparse matrix may need; 0 means no limit. Where the condensed matrix
     /// would need more the model is left in full space ([`crate::Model::sparse_within`]).
     pub memory_limit: u64,
-    /// Whether a sparse matrix is left in full space whatever memory it needs.
+    /// `true`: a sparse matrix is left in full space whatever memory it needs.
     pub full_space: bool,
 }
 

@@ -12,14 +12,14 @@ thread_local! {
     static REFUSED: Cell<usize> = const { Cell::new(0) };
 }
 
-/// What a call unwinds with that has no memory to go on.
+/// The reason with which a call unwinds that has no memory to go on.
 pub struct Shortage {
     /// Bytes of the first request that the system refused.
     pub bytes: usize,
 }
 
 /// The system has refused so many bytes, and the reserve has served them.
-#[cfg(feature = "c-allocator")]
+#[cfg(c_library)]
 pub fn note(bytes: usize) {
     // At the end of a thread there may be none to tell.
     let _ = REFUSED.try_with(|refused| {
@@ -30,12 +30,12 @@ pub fn note(bytes: usize) {
 }
 
 /// Forgets what was noted: a call begins or ends.
-#[cfg(feature = "c-allocator")]
+#[cfg(c_library)]
 pub fn forget() {
     REFUSED.set(0);
 }
 
-/// Whether the reserve has served the call.
+/// `true` if the reserve has served the call.
 pub fn is_noted() -> bool {
     REFUSED.get() != 0
 }

@@ -1,13 +1,13 @@
-//! Who does work that is cut into parts: one thread, or several that the C interface starts.
+//! Threads that do the parts of a work: the calling one, or several that the C interface starts.
 
-/// Threads that share the parts of a work. The results of the library do not depend on them: each part does the same,
-/// whoever does it.
+/// Threads that share the parts of a work. The results of the library do not depend on them: a part does the same on
+/// any thread.
 pub trait Workers {
     /// Most parts that are done at once, at least 1.
-    fn lanes(&self) -> usize;
+    fn threads(&self) -> usize;
 
-    /// Does `work(lane, part)` for each part from 0 to `parts - 1`, once each, and returns when all that began have
-    /// ended. Parts that are done at once have different lanes, each below [`Self::lanes`]. `go_on` is asked on the
+    /// Does `work(thread, part)` for each part from 0 to `parts - 1`, once each, and returns when all that began have
+    /// ended. Parts that are done at once have different threads, each below [`Self::threads`]. `go_on` is asked on the
     /// calling thread between parts; once it says `false` no further part begins.
     fn run(
         &self,
@@ -19,10 +19,10 @@ pub trait Workers {
 
 /// The calling thread, which does one part after the other.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Alone;
+pub struct SingleThread;
 
-impl Workers for Alone {
-    fn lanes(&self) -> usize {
+impl Workers for SingleThread {
+    fn threads(&self) -> usize {
         1
     }
 

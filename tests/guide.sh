@@ -1,5 +1,5 @@
 #!/bin/sh
-# What the guide in c_examples/guide says is so: links lead somewhere, names are those of the header, programs are the files
+# What the guide in c_examples/guide says is so: links lead somewhere, names are those of the headers, programs are the files
 # that they are said to be and print what the guide says, functions compile and do what it says, and mdBook builds it.
 #
 #     sh tests/guide.sh [--require]
@@ -13,7 +13,7 @@ export LC_ALL
 root=$(CDPATH='' cd -- "$(dirname -- "$0")/.." && pwd)
 work=$root/target/tests/guide
 guide=c_examples/guide
-header=include/signorini.h
+headers="include/signorini.h include/signorini_surface.h include/signorini_file.h"
 python=${PYTHON:-python3}
 rm -rf "$work"
 mkdir -p "$work"
@@ -92,14 +92,14 @@ grep -ohE '(signorini|SIGNORINI)_[A-Za-z0-9_]*' "$guide"/*.md | sort -u >"$work/
 while read -r name; do
     case $name in
     signorini_bench*) ;;
-    *_) grep -q "\\b$name" "$header" || die "no name of the header begins with $name" ;;
-    *) grep -qw -- "$name" "$header" || die "the header has no $name" ;;
+    *_) grep -q "\\b$name" $headers || die "no name of the header begins with $name" ;;
+    *) grep -qw -- "$name" $headers || die "the header has no $name" ;;
     esac
 done <"$work/names"
 # Fields of structures, as settings.search: a line of the structure ends with the name.
 grep -ohE '\b(settings|report|extra)\.[A-Za-z_0-9]+' "$guide"/*.md | sort -u >"$work/fields"
 while read -r field; do
-    grep -qE "^    [a-z].*[ *]${field#*.};" "$header" || die "the header has no field $field"
+    grep -qE "^    [a-z].*[ *]${field#*.};" $headers || die "the header has no field $field"
 done <"$work/fields"
 say "$(wc -l <"$work/names" | tr -d ' ') names and $(wc -l <"$work/fields" | tr -d ' ') fields of the header"
 

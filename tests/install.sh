@@ -5,8 +5,8 @@
 #
 # By CMake and by c_examples/install/install.sh; in a prefix with a space in its name, and
 # staged by DESTDIR; programs by pkg-config and by CMake, shared, static and with -static, by CMake in
-# Fortran too; beside other Rust archives; the header in every dialect; `cargo package`. It ends at the
-# first thing that is wrong, and with 77 if it skipped anything.
+# Fortran too; beside other Rust archives; the header in every dialect; `cargo package`; a Rust program that
+# depends on the crate. It ends at the first thing that is wrong, and with 77 if it skipped anything.
 set -eu
 LC_ALL=C
 export LC_ALL
@@ -263,4 +263,29 @@ fi
 quietly env CARGO_PROFILE_DEV_DEBUG=0 cargo package --allow-dirty --offline
 if grep '^warning' "$work/log"; then die "cargo package warns"; fi
 say "cargo package"
+
+# ---- a Rust program ----
+
+# dependent NAME FEATURES: a program that depends on the crate, with its own allocator and panic hook.
+dependent() {
+    mkdir -p "$work/$1/src"
+    cp "$sources/dependent.rs" "$work/$1/src/main.rs"
+    cp "$root/Cargo.lock" "$work/$1"
+    printf '[package]\nname = "%s"\nversion = "1.0.0"\nedition = "2024"\n\n[workspace]\n
+[dependencies]\nsignorini = { path = "%s", %s }\n' "$1" "$root" "$2" >"$work/$1/Cargo.toml"
+    CARGO_PROFILE_DEV_DEBUG=0 cargo run --offline --manifest-path "$work/$1/Cargo.toml" \
+        >"$work/log" 2>&1
+}
+dependent plain_dependent 'features = []' || {
+    cat "$work/log"
+    die "a Rust program with its own allocator and panic hook does not keep them"
+}
+if dependent asking_dependent 'features = ["c-allocator"]'; then
+    die "a Rust program that asks for the allocator does not get it"
+fi
+grep -q 'global_allocator.*conflicts' "$work/log" || {
+    cat "$work/log"
+    die "a program with two allocators fails, but not for that"
+}
+say "a Rust program keeps its allocator and its panic hook unless it asks"
 [ "${skipped:-}" != yes ] || exit 77

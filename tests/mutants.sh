@@ -43,5 +43,5 @@ mkdir -p -- "$work"
 # What is left of an earlier run is the library of its last mutant.
 rm -rf -- "$work"/target/mutants/.fingerprint/signorini-*
 export CARGO_TARGET_DIR="$work/target" SIGNORINI_PROPERTY_CASES=600 SIGNORINI_FAR_GAPS=1000
-exec cargo mutants --profile mutants --cargo-arg=--locked --jobs 1 --output "$work" --no-shuffle \
+exec cargo mutants --profile daily --cargo-arg=--locked --jobs 1 --output "$work" --no-shuffle \
     --minimum-test-timeout 60 "$@"

@@ -1,5 +1,5 @@
 #!/bin/sh
-# The shared library exports the functions of include/signorini.h and nothing else, has the name of
+# The shared library exports the functions of the headers in include/ and nothing else, has the name of
 # its interface, and does not call what a library must not call. The static library of an
 # installation shows the same functions and no others.
 #
@@ -11,7 +11,8 @@ export LC_ALL
 
 library=${1:?usage: sh tests/symbols.sh LIBRARY [ARCHIVE]}
 archive=${2:-}
-header=$(dirname "$0")/../include/signorini.h
+headers=$(dirname "$0")/../include
+header=$headers/signorini.h
 failed=0
 
 fail() {
@@ -36,13 +37,12 @@ code() {
             line = substr(line, begin + 2)
             inside = 1
         }
-    }' "$header"
+    }' "$headers"/signorini.h "$headers"/signorini_surface.h "$headers"/signorini_file.h
 }
 declared=$(code | grep -o 'signorini_[a-z0-9_]*(' | tr -d '(' | sort -u)
 [ -n "$declared" ] || fail "no function found in $header"
 # Those of Fortran 77, which include/signorini.inc documents.
-for name in sgsolv sgcert sgprov sglcps sgmodl sgtwob sgoper sgopeh sgspar sgspaw sgfram sgcase sgrecv sgnodf sgfree sgmesg \
-    sgsurf sgsurc sgsmod sgsgap sgsfld sgsvtu sgsumm sgsfre; do
+for name in sgsolv sglcps sgspar sgcase sgrecv sgfree sgmesg sgsurf sgsmod sgsgap sgsfld sgsumm sgsfre; do
     declared="$declared
 ${name}_
 ${name}_64_"
@@ -70,7 +70,7 @@ done
 # exit and its kin, printing through stdio, signal handlers. (_exit, write and signal come with Rust's
 # standard library, which uses them in child processes and for its own last words; sigaltstack is called on
 # threads of programs that are Rust's own. Threads are started where settings.threads asks for them alone:
-# tests/layering.rs.)
+# tests/sources/layering.rs.)
 for name in exit _Exit quick_exit atexit on_exit printf fprintf vfprintf puts fputs putchar perror \
     sigaction longjmp __longjmp_chk; do
     echo "$imported" | grep -qx "$name" && fail "it calls $name"

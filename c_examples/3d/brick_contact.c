@@ -62,7 +62,7 @@ int32_t contact_model(const struct brick_mesh *mesh, const struct contact *conta
                                        .weights = weights,
                                        .normals = normals,
                                        .tangents = tangents};
-        status = signorini_model_new_sparse(&K, n_fixed, fixed, &pairs, model);
+        status = signorini_model_new_sparse(&K, n_fixed, fixed, &pairs, NULL, model);
     }
     free(numbers);
     free(reals);

@@ -10,7 +10,7 @@
 #define BRICK_CONTACT_H
 
 #include "brick_mesh.h"
-#include "signorini.h"
+#include "signorini_surface.h"
 
 struct contact {
     int32_t pairs;

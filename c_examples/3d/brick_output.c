@@ -29,15 +29,15 @@ int32_t write_vtu(const char *path, const struct brick_mesh *mesh, const struct 
                   const double nodal[])
 {
     double *pressure = calloc((size_t)mesh->nodes, sizeof *pressure);
-    int32_t *states = malloc((size_t)mesh->nodes * sizeof *states);
+    double *states = malloc((size_t)mesh->nodes * sizeof *states);
     int32_t status = SIGNORINI_STATUS_OUT_OF_MEMORY;
 
     if (pressure != NULL && states != NULL) {
         const signorini_mesh cells = brick_cells(mesh);
-        const signorini_contact_fields fields = {
-            .struct_size = sizeof fields, .pressure = pressure, .state = states};
-        const signorini_field force = {.struct_size = sizeof force, .components = 3,
-                                       .name = "contact_force", .values = nodal};
+        const signorini_field fields[] = {
+            {.struct_size = sizeof *fields, .components = 1, .name = "pressure", .values = pressure},
+            {.struct_size = sizeof *fields, .components = 1, .name = "state", .values = states},
+            {.struct_size = sizeof *fields, .components = 3, .name = "contact_force", .values = nodal}};
 
         for (int32_t node = 0; node < mesh->nodes; node++)
             states[node] = -1;
@@ -46,7 +46,7 @@ int32_t write_vtu(const char *path, const struct brick_mesh *mesh, const struct 
             pressure[lower] = pressure[upper] = nodal[3 * upper + 2] / area[pair];
             states[lower] = states[upper] = state[pair];
         }
-        status = signorini_mesh_write(path, &cells, u, &fields, 1, &force);
+        status = signorini_mesh_write(path, &cells, u, 0, NULL, 3, fields);
     }
     free(pressure);
     free(states);

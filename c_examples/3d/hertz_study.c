@@ -62,7 +62,7 @@ int32_t study_recover(const struct study *study, int number, double u[], double 
 {
     const struct answer answer = study_answer(study, number);
     const int32_t status = signorini_model_recover(
-        study->model, study->f, &study->prescribed[number * study->mesh.n_fixed], answer.d, u);
+        study->model, 1, study->f, &study->prescribed[number * study->mesh.n_fixed], answer.d, u);
     return status != 0 ? status : signorini_model_nodal_forces(study->model, answer.F, nodal);
 }
 

@@ -51,14 +51,14 @@ struct slide {
 
 /* The slip of the step so far along the tangents of the pairs, with the opposite sign: slips count
  * from there. */
-static void carry_over(const struct slide *slide, const signorini_surface_pairs *contact,
+static void carry_over(const struct slide *slide, const signorini_surface_data *pairs,
                        double slip0[])
 {
-    const int64_t *node = signorini_surface_nodes(contact);
-    const double *normal = signorini_surface_normals(contact);
-    const double *tangent = signorini_surface_tangents(contact);
+    const int64_t *node = pairs->nodes;
+    const double *normal = pairs->normals;
+    const double *tangent = pairs->tangents;
 
-    for (int64_t pair = 0; pair < signorini_surface_count(contact); pair++) {
+    for (int64_t pair = 0; pair < pairs->pairs; pair++) {
         const double *n = &normal[3 * pair], *t = &tangent[3 * pair];
         const double *slip = &slide->slip[3 * node[pair]];
         slip0[2 * pair] = slip0[2 * pair + 1] = 0.0;
@@ -71,7 +71,8 @@ static void carry_over(const struct slide *slide, const signorini_surface_pairs 
 }
 
 /* Solves for an increment on these pairs; supports move by `move`. Returns the status. */
-static int32_t increment(struct slide *slide, const signorini_surface_pairs *contact, double move)
+static int32_t increment(struct slide *slide, const signorini_surface_pairs *contact,
+                         const signorini_surface_data *pairs, double move)
 {
     static double out_of_balance[DOFS], by[DOFS], du[DOFS], friction[LAYER];
     const struct brick_mesh *mesh = slide->mesh;
@@ -86,16 +87,16 @@ static int32_t increment(struct slide *slide, const signorini_surface_pairs *con
         by[i] = move * slide->moves[i];
     for (int pair = 0; pair < LAYER; pair++)
         friction[pair] = MU;
-    carry_over(slide, contact, slide->slip0);
+    carry_over(slide, pairs, slide->slip0);
     int32_t status = signorini_model_new_sparse(&K, slide->n_fixed, slide->fixed,
-                                                signorini_surface_rows(contact), &model);
+                                                pairs->rows, NULL, &model);
     if (status != 0)
         return status;
-    status = signorini_model_solve(model, 1, out_of_balance, by, signorini_surface_gaps(contact),
+    status = signorini_model_solve(model, 1, out_of_balance, by, pairs->gaps,
                                    SIGNORINI_LAW_COULOMB, friction, slide->slip0, NULL, slide->d,
                                    slide->F, slide->state, NULL, NULL, NULL);
     if (status == 0)
-        status = signorini_model_recover(model, out_of_balance, by, slide->d, du);
+        status = signorini_model_recover(model, 1, out_of_balance, by, slide->d, du);
     if (status == 0)
         status = signorini_surface_fields(contact, NULL, slide->slip0, slide->d, slide->F, NULL,
                                           &at_nodes);
@@ -109,12 +110,12 @@ static int32_t increment(struct slide *slide, const signorini_surface_pairs *con
 }
 
 /* Adds the slips of the step to the paths of what is pressed. */
-static void wear(struct slide *slide, const signorini_surface_pairs *contact)
+static void wear(struct slide *slide, const signorini_surface_data *pairs)
 {
-    const int64_t *node = signorini_surface_nodes(contact);
+    const int64_t *node = pairs->nodes;
 
     slide->work = 0.0;
-    for (int64_t pair = 0; pair < signorini_surface_count(contact); pair++) {
+    for (int64_t pair = 0; pair < pairs->pairs; pair++) {
         const double *slip = &slide->slip[3 * node[pair]], press = -slide->F[3 * pair];
         const double length = sqrt(slip[0] * slip[0] + slip[1] * slip[1] + slip[2] * slip[2]);
         if (press <= 0.0)
@@ -136,19 +137,22 @@ static int32_t make_step(struct slide *slide, double move, const char *path)
         slide->slip[i] = 0.0;
     for (int pass = 0; pass < 2 && status == 0; pass++) {
         signorini_surface_pairs *contact;
+        signorini_surface_data pairs = {.struct_size = sizeof pairs};
         for (int i = 0; i < DOFS; i++)
             at[i] = mesh->at[i / 3][i % 3] + slide->u[i];
-        status = signorini_surface_pair(3, NODES, at, &slide->slave, &slide->master, NULL, &contact,
-                                        NULL);
+        status = signorini_surface_pair(3, NODES, at, &slide->slave, &slide->master, NULL, &contact);
         if (status != 0)
             break;
-        status = increment(slide, contact, pass == 0 ? move : 0.0);
+        status = signorini_surface_view(contact, &pairs);
+        if (status == 0)
+            status = increment(slide, contact, &pairs, pass == 0 ? move : 0.0);
         if (status == 0 && pass == 1) {
-            wear(slide, contact);
+            wear(slide, &pairs);
             if (path != NULL) {
                 const signorini_mesh cells = brick_cells(mesh);
-                status = signorini_surface_write(contact, path, &cells, NULL, slide->slip0,
-                                                 slide->u, slide->d, slide->F, slide->state);
+                const signorini_zone zone = {.struct_size = sizeof zone, .contact = contact,
+                    .slip0 = slide->slip0, .d = slide->d, .F = slide->F, .state = slide->state};
+                status = signorini_mesh_write(path, &cells, slide->u, 1, &zone, 0, NULL);
             }
         }
         signorini_surface_free(contact);

@@ -41,10 +41,12 @@ int main(int argc, char **argv)
 
     const signorini_faces slave = blocks_slave(mesh), master = blocks_master(mesh);
     int32_t status = signorini_surface_pair(3, mesh->nodes, mesh->at[0], &slave, &master, NULL,
-                                            &contact, NULL);
+                                            &contact);
     if (status != 0) return failed("pairs", status);
+    signorini_surface_data pairs = {.struct_size = sizeof pairs};
+    signorini_surface_view(contact, &pairs);
     const signorini_sparse K = brick_matrix(mesh);
-    status = signorini_model_new_sparse(&K, FIXED, fixed, signorini_surface_rows(contact), &model);
+    status = signorini_model_new_sparse(&K, FIXED, fixed, pairs.rows, NULL, &model);
     if (status != 0) return failed("model", status);
     signorini_settings_default(&settings, sizeof settings);
     signorini_report_default(&report, sizeof report);
@@ -54,7 +56,7 @@ int main(int argc, char **argv)
     struct check check = check_begin(mesh, contact, model);
     for (int step = 0; step < STEPS; step++) {
         blocks_loads(mesh, twist[step], f);
-        status = signorini_model_solve(model, 1, f, NULL, signorini_surface_gaps(contact),
+        status = signorini_model_solve(model, 1, f, NULL, pairs.gaps,
                                        SIGNORINI_LAW_COULOMB, friction, slip0, &settings, d, F,
                                        state, NULL, &report, NULL);
         if (status != 0) return failed("load step", status);
@@ -62,7 +64,7 @@ int main(int argc, char **argv)
         for (int i = 0; i < 2 * PAIRS; i++) /* friction remembers: (n, t1, t2) a pair */
             slip0[i] = d[3 * (i / 2) + 1 + i % 2];
     }
-    status = signorini_model_recover(model, f, NULL, d, u);
+    status = signorini_model_recover(model, 1, f, NULL, d, u);
     if (status != 0) return failed("displacements", status);
     check_end(&check, f, u, F, state, slip0);
     if (argc == 2)

@@ -64,7 +64,7 @@ static double turned_apart(const double F[SIZE])
 /* Radius of the slipping pair that is nearest to the middle. */
 static double innermost_slip(const struct check *check, const int32_t state[PAIRS])
 {
-    const double *at = signorini_surface_points(check->contact);
+    const double *at = check->pairs.points;
     double radius = HUGE_VAL;
 
     for (int pair = 0; pair < PAIRS; pair++)
@@ -76,12 +76,14 @@ static double innermost_slip(const struct check *check, const int32_t state[PAIR
 struct check check_begin(const struct brick_mesh *mesh, const signorini_surface_pairs *contact,
                          const signorini_model *model)
 {
-    struct check check = {.mesh = mesh, .contact = contact, .model = model};
+    struct check check = {.mesh = mesh, .contact = contact, .model = model,
+                          .pairs = {.struct_size = sizeof check.pairs}};
+    signorini_surface_view(contact, &check.pairs);
 
     printf("signorini %s\n\n%d nodes, %d bricks, mu = %.1f, pressed by %.0f N\n%s\n\n",
            signorini_version(), (int)mesh->nodes, (int)mesh->bricks, MU, PRESS,
-           signorini_surface_summary(contact));
-    judge(&check.checks, signorini_surface_count(contact) == PAIRS);
+           check.pairs.summary);
+    judge(&check.checks, check.pairs.pairs == PAIRS);
     printf("a pair for each node of the upper block's bottom\n\n");
     puts("        pairs         slip from   loads            contact forces on the upper block\n"
          "   open slip stick      r, mm     F_z, N  M_z, N m     F_z, N  M_z, N m  friction, J"
@@ -145,7 +147,7 @@ static void check_limit(struct check *check, const double slip0[2 * PAIRS])
         friction[pair] = MU;
     blocks_loads(check->mesh, 1.01 * limit, f);
     const int32_t status = signorini_model_solve(
-        check->model, 1, f, NULL, signorini_surface_gaps(check->contact), SIGNORINI_LAW_COULOMB,
+        check->model, 1, f, NULL, check->pairs.gaps, SIGNORINI_LAW_COULOMB,
         friction, slip0, NULL, d, F, NULL, NULL, NULL, NULL);
     judge(&check->checks, status == SIGNORINI_STATUS_NO_EQUILIBRIUM);
     printf("twist of %.0f N m, 1 %% more than friction can hold: status %d, %s\n", 1.01e-3 * limit,
@@ -179,7 +181,7 @@ static void say(struct check *check, const char *path, int written, const char *
 static int write_pairs(const struct check *check, const char *path, const double d[SIZE],
                        const double F[SIZE], const int32_t state[PAIRS])
 {
-    const double *at = signorini_surface_points(check->contact);
+    const double *at = check->pairs.points;
     FILE *file = fopen(path, "w");
 
     if (file == NULL)
@@ -205,7 +207,8 @@ void check_files(struct check *check, const char *directory, const double slip0[
     snprintf(path, sizeof path, "%s/two_blocks.csv", directory);
     say(check, path, write_pairs(check, path, d, F, state), "an error of the system");
     snprintf(path, sizeof path, "%s/two_blocks.vtu", directory);
-    const int32_t status = signorini_surface_write(check->contact, path, &cells, NULL, slip0, u, d,
-                                                   F, state);
+    const signorini_zone zone = {.struct_size = sizeof zone, .contact = check->contact,
+                                 .slip0 = slip0, .d = d, .F = F, .state = state};
+    const int32_t status = signorini_mesh_write(path, &cells, u, 1, &zone, 0, NULL);
     say(check, path, status == 0, signorini_last_error());
 }

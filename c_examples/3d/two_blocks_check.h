@@ -19,6 +19,7 @@ struct check {
     struct checks checks;
     const struct brick_mesh *mesh;
     const signorini_surface_pairs *contact;
+    signorini_surface_data pairs; /* what contact holds */
     const signorini_model *model;
     double off, excess, turned, least_work; /* of all steps */
 };

@@ -183,13 +183,13 @@ static const char *solve_sparse(const struct sparse_bar *bar, struct solution *s
     settings.tolerance = 1e-13;
 
     status =
-        signorini_model_new_sparse(&matrix, (int64_t)bar->held_count, bar->held, &pairs, &model);
+        signorini_model_new_sparse(&matrix, (int64_t)bar->held_count, bar->held, &pairs, NULL, &model);
     if (status == 0)
         status = signorini_model_solve(model, 1, bar->load, NULL, gap, SIGNORINI_LAW_COULOMB, mu,
                                        NULL, &settings, solution->d, solution->F, solution->state,
                                        NULL, NULL, NULL);
     if (status == 0)
-        status = signorini_model_recover(model, bar->load, NULL, solution->d, u);
+        status = signorini_model_recover(model, 1, bar->load, NULL, solution->d, u);
     /* Before signorini_model_free: each call of the library has a sentence of its own. */
     snprintf(problem, sizeof problem, "%s", signorini_last_error());
     signorini_model_free(model);

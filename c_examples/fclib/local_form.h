@@ -28,7 +28,7 @@ const char *local_form_of_local(const struct fclib_local *problem, struct local_
 const char *local_form_of_global(const struct fclib_global *problem, struct local_form *form);
 void local_form_free(struct local_form *form);
 
-/* The lower triangle of W by columns, without its zeros, for signorini_flexibility_solve_sparse:
+/* The lower triangle of W by columns, without its zeros, for signorini_model_new_flexibility_sparse:
  * contacts of bodies that do not touch each other are apart in it. */
 struct triangle {
     int64_t *col_start, *row; /* col_start[size] is the number of entries */

@@ -85,7 +85,10 @@ static int32_t solve(const struct local_form *form, double *r)
 {
     const size_t n = form->size;
     struct signorini_report report = {.struct_size = sizeof report};
-    double *d = need(n), *q = need(n);
+    double *d = need(n), *q = need(n), *gap = need(form->contacts);
+    signorini_model *model = NULL;
+    for (size_t i = 0; i < form->contacts; i++)
+        gap[i] = 0;
     for (size_t i = 0; i < n; i++)
         q[i] = -form->q[i];
     struct triangle lower = lower_triangle(form);
@@ -93,14 +96,18 @@ static int32_t solve(const struct local_form *form, double *r)
         .index_bytes = sizeof *lower.row, .triangle = SIGNORINI_TRIANGLE_LOWER, .size = (int64_t)n,
         .nnz = lower.col_start[n], .col_start = lower.col_start, .row = lower.row,
         .values = lower.values};
-    const int32_t status = signorini_flexibility_solve_sparse(
-        form->dim, (int64_t)form->contacts, &W, q, NULL, SIGNORINI_LAW_COULOMB, form->mu, NULL,
-        NULL, d, r, NULL, &report, NULL);
+    int32_t status = signorini_model_new_flexibility_sparse(form->dim, (int64_t)form->contacts, &W,
+                                                            &model);
+    if (status == 0)
+        status = signorini_model_solve(model, 1, q, NULL, gap, SIGNORINI_LAW_COULOMB, form->mu, NULL,
+                                       NULL, d, r, NULL, NULL, &report, NULL);
+    signorini_model_free(model);
     triangle_free(&lower);
     for (size_t i = 0; i < n; i++)
         r[i] = -r[i];
     free(d);
     free(q);
+    free(gap);
 
     printf("status    %d, %s\n", (int)status, signorini_status_string(status));
     if (status != SIGNORINI_STATUS_SOLVED)

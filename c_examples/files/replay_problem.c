@@ -8,7 +8,7 @@
  * problem is solved, 1 if it is not, 2 if the file or the arguments are wrong, 130 after Ctrl-C.
  */
 
-#include "signorini.h"
+#include "signorini_file.h"
 #include "../common/watch.h"
 
 #include <stdio.h>
@@ -47,50 +47,39 @@ static const char *law_name(int32_t law)
     }
 }
 
-static int print_problem(const struct signorini_problem *problem, const char *path)
+static int print_problem(const struct signorini_problem_data *problem, const char *path)
 {
-    const int32_t kind = signorini_problem_kind(problem);
-
     printf("signorini %s\nfile      %s\n", signorini_version(), path);
-    if (*signorini_problem_remark(problem) != '\0')
-        printf("remark    %s\n", signorini_problem_remark(problem));
-    switch (kind) {
+    if (*problem->remark != '\0')
+        printf("remark    %s\n", problem->remark);
+    switch (problem->kind) {
     case SIGNORINI_PROBLEM_CONTACT:
         printf("problem   contact, %s, dim %d, %lld pairs, N = %lld\n",
-               law_name(signorini_problem_law(problem)), (int)signorini_problem_dim(problem),
-               (long long)signorini_problem_pairs(problem),
-               (long long)signorini_problem_size(problem));
+               law_name(problem->law), (int)problem->dim,
+               (long long)problem->pairs,
+               (long long)problem->size);
         return 1;
     case SIGNORINI_PROBLEM_LCP:
         printf("problem   linear complementarity (LCP), n = %lld%s\n",
-               (long long)signorini_problem_size(problem),
-               signorini_problem_cover(problem) != NULL ? ", with a covering vector" : "");
+               (long long)problem->size,
+               problem->cover != NULL ? ", with a covering vector" : "");
         return 1;
     default: printf("problem   of a kind that this program does not know\n"); return 0;
     }
 }
 
-/* Only Lemke's method looks at the covering vector of an LCP. */
-static int32_t solve(const struct signorini_problem *problem,
+static int32_t solve(const struct signorini_problem_data *problem,
                      const struct signorini_settings *settings, double *x, double *y,
                      struct signorini_report *report)
 {
-    const int32_t kind = signorini_problem_kind(problem), dim = signorini_problem_dim(problem);
-    const int64_t n = signorini_problem_size(problem), pairs = signorini_problem_pairs(problem);
-    const int64_t ld = n > 0 ? n : 1;
-    const double *matrix = signorini_problem_matrix(problem);
-    const double *rhs = signorini_problem_rhs(problem);
-    const double *gap = signorini_problem_gap(problem);
-    const double *friction = signorini_problem_friction(problem);
-    const double *slip0 = signorini_problem_slip0(problem);
+    const int64_t n = problem->size, ld = n > 0 ? n : 1;
 
-    if (kind == SIGNORINI_PROBLEM_CONTACT)
-        return signorini_solve(dim, pairs, matrix, ld, rhs, gap, signorini_problem_law(problem),
-                               friction, slip0, settings, x, y, NULL, report, NULL);
-    if (settings->method == SIGNORINI_METHOD_LEMKE)
-        return signorini_lcp_lemke(n, matrix, ld, rhs, signorini_problem_cover(problem),
-                                   settings, x, y, NULL, report);
-    return signorini_lcp_solve(n, matrix, ld, rhs, settings, x, y, NULL, report);
+    if (problem->kind == SIGNORINI_PROBLEM_CONTACT)
+        return signorini_solve(problem->dim, problem->pairs, problem->matrix, ld, problem->rhs,
+                               problem->gap, problem->law, problem->friction, problem->slip0,
+                               settings, x, y, NULL, report, NULL);
+    return signorini_lcp_solve(n, problem->matrix, ld, problem->rhs, problem->cover, settings, x, y,
+                               NULL, report);
 }
 
 static void print_report(const struct signorini_report *report, int contact)
@@ -110,12 +99,15 @@ static void print_report(const struct signorini_report *report, int contact)
     printf("pairs     %lld open, %lld slip, %lld stick\n", (long long)report->pairs_open,
            (long long)report->pairs_slipping, (long long)report->pairs_sticking);
     printf("the only solution: %s\n", uniqueness(report->uniqueness));
+    for (int32_t remark = 1; remark <= report->remarks; remark *= 2)
+        if (report->remarks & remark)
+            printf("remark    %s\n", signorini_remark_string(remark));
 }
 
-static int replay(const struct signorini_problem *problem,
+static int replay(const struct signorini_problem_data *problem,
                   const struct signorini_settings *settings)
 {
-    const size_t size = (size_t)signorini_problem_size(problem) + 1;
+    const size_t size = (size_t)problem->size + 1;
     struct signorini_report report = {.struct_size = sizeof report};
     double *x = malloc(size * sizeof *x), *y = malloc(size * sizeof *y);
     int32_t status;
@@ -137,7 +129,7 @@ static int replay(const struct signorini_problem *problem,
     if (status != SIGNORINI_STATUS_SOLVED)
         printf("          %s\n", signorini_last_error());
     if (status >= 0)
-        print_report(&report, signorini_problem_kind(problem) != SIGNORINI_PROBLEM_LCP);
+        print_report(&report, problem->kind != SIGNORINI_PROBLEM_LCP);
     if (status == SIGNORINI_STATUS_CANCELLED)
         return watch_end();
     return status == SIGNORINI_STATUS_SOLVED ? SOLVED : NOT_SOLVED;
@@ -166,6 +158,7 @@ static int choose(int argc, char **argv, struct signorini_settings *settings)
 int main(int argc, char **argv)
 {
     struct signorini_problem *problem;
+    struct signorini_problem_data data = {.struct_size = sizeof data};
     struct signorini_settings settings;
     int result = WRONG;
 
@@ -177,14 +170,15 @@ int main(int argc, char **argv)
         fputs("\n", stderr);
         return WRONG;
     }
-    if (signorini_problem_read(argv[1], &problem) != 0) {
+    if (signorini_problem_read(argv[1], &problem) != 0 ||
+        signorini_problem_view(problem, &data) != 0) {
         fprintf(stderr, "%s\n", signorini_last_error());
         return WRONG;
     }
     watch_begin();
     watch_calls(&settings);
-    if (print_problem(problem, argv[1]))
-        result = replay(problem, &settings);
+    if (print_problem(&data, argv[1]))
+        result = replay(&data, &settings);
     signorini_problem_free(problem);
     return result;
 }

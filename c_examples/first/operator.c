@@ -3,6 +3,7 @@
  * of a rough inverse. The host of a real case multiplies by a matrix that lies on many processes,
  * and W is a solution with its own factor, the contact free.
  */
+#define SIGNORINI_UNSTABLE /* for operators, which may still change */
 #include <signorini.h>
 #include <stdio.h>
 

@@ -25,12 +25,12 @@ int main(void)
     double d[2], F[2], u[8];
     signorini_model *model = NULL;
 
-    int32_t status = signorini_model_new_sparse(&K, 4, fixed, &pair, &model);
+    int32_t status = signorini_model_new_sparse(&K, 4, fixed, &pair, NULL, &model);
     if (status == 0)
         status = signorini_model_solve(model, 1, f, NULL, &gap, SIGNORINI_LAW_COULOMB, &mu, NULL,
                                        NULL, d, F, NULL, NULL, NULL, NULL);
     if (status == 0)
-        status = signorini_model_recover(model, f, NULL, d, u);
+        status = signorini_model_recover(model, 1, f, NULL, d, u);
     if (status == 0)
         printf("F_n %.4f F_t %.4f  node 1 %.4f %.4f  node 2 %.4f %.4f\n", F[0], F[1], u[2], u[3],
                u[4], u[5]);

@@ -7,7 +7,8 @@ include(CMakePackageConfigHelpers)
 set(libdir "${CMAKE_INSTALL_LIBDIR}")
 set(includedir "${CMAKE_INSTALL_INCLUDEDIR}")
 
-install(FILES "${root}/include/signorini.h" DESTINATION "${includedir}")
+install(FILES "${root}/include/signorini.h" "${root}/include/signorini_file.h"
+    "${root}/include/signorini_surface.h" DESTINATION "${includedir}")
 install(FILES "${root}/include/signorini.f90" "${root}/include/signorini.inc"
     DESTINATION "${includedir}")
 install(FILES "${static}" DESTINATION "${libdir}")

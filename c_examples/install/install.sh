@@ -103,7 +103,8 @@ END
 to=${DESTDIR:-}$prefix
 say "installing to $to"
 install -d "$to/include" "$to/$libdir/pkgconfig" "$to/$package"
-install -m 644 "$root/include/signorini.h" "$to/include"
+install -m 644 "$root/include/signorini.h" "$root/include/signorini_file.h" \
+    "$root/include/signorini_surface.h" "$to/include"
 install -m 644 "$root/include/signorini.f90" "$root/include/signorini.inc" "$to/include"
 install -m 644 "$work/libsignorini.a" "$to/$libdir"
 install -m 755 "$root/target/release/$built" "$to/$libdir/$shared_name"

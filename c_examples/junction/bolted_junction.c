@@ -81,7 +81,7 @@ static int32_t new_model(const struct junction *junction, struct signorini_model
         weights[i] = 1.0;
     }
     master_starts[PAIRS] = PAIRS;
-    return signorini_model_new_sparse(&K, FIXED, junction->fixed, &pairs, model);
+    return signorini_model_new_sparse(&K, FIXED, junction->fixed, &pairs, NULL, model);
 }
 
 /* All steps, for all friction coefficients of the history side by side. */
@@ -162,7 +162,7 @@ static void check_host(struct checks *checks, const struct junction *junction,
         for (size_t i = 0; i < history->cases; i++) {
             const double *d = history->d[s][i];
             junction_loads(junction, closing_pressure, steps[s].inner, f);
-            computed = computed && signorini_model_recover(model, f, NULL, d, u) == 0 &&
+            computed = computed && signorini_model_recover(model, 1, f, NULL, d, u) == 0 &&
                        signorini_model_nodal_forces(model, history->F[s][i], contact) == 0;
             for (size_t k = 0; k < DOFS; k++) {
                 largest_load = fmax(largest_load, fabs(f[k]));
@@ -222,7 +222,7 @@ static void save(struct checks *checks, const char *directory, const struct junc
         path = path_to(directory, name, buffer);
         report_file(checks, path,
                     path != NULL &&
-                        signorini_model_recover(model, f, NULL, history->d[s][drawn], u) == 0 &&
+                        signorini_model_recover(model, 1, f, NULL, history->d[s][drawn], u) == 0 &&
                         write_junction_vtk(path, title, junction, u) == 0);
     }
 }

@@ -18,7 +18,7 @@ import zipfile
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 PACKAGE = "signorini"
-# What the crate is built from, below its top.
+# Files and folders that the crate is built from, below its top.
 CRATE_FILES = ("Cargo.toml", "Cargo.lock", "README.md", "CHANGELOG.md", "LICENSE-MIT", "LICENSE-APACHE")
 CRATE_FOLDERS = {"src": "", "include": "", os.path.join("tests", "bench"): ".rs"}  # and the ends of names
 LICENCES = ("LICENSE-MIT", "LICENSE-APACHE")

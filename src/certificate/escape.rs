@@ -2,13 +2,13 @@
 //! can take (a recession direction of the energy). What a pair must satisfy stands in
 //! `law::recession`.
 
-use super::energy;
+use super::measure::energy;
 use crate::law::{Contact, Recession};
 use crate::linalg::tolerances::{LEAST_WORK, NEGLIGIBLE};
 use crate::linalg::vector::{dot, largest_of, norm_inf};
 use crate::problem::ContactProblem;
 
-/// Whether the rigid motion `r` proves that no equilibrium exists.
+/// True if the rigid motion `r` proves that no equilibrium exists.
 ///
 /// `K r = 0` up to rounding, with no more energy than rounding of the entries of `K` explains, and for every
 /// pair that has an obstacle `-r_n >= mu |r_t|`: then the contact forces can only do non-negative work
@@ -40,7 +40,7 @@ pub(crate) fn is_escape_of(contact: &Contact<'_>, r: &[f64]) -> bool {
     if !is_free {
         return false;
     }
-    // What rounding of the entries leaves of forces, each entry in the roots of its two units.
+    // Forces that rounding of the entries leaves, each entry in the roots of its two units.
     let spread: f64 = r.iter().zip(&root).map(|(r, root)| (r * root).abs()).sum();
     let strained = negligible.max(problem.rounding_of_energy() * spread);
     if internal.iter().zip(&root).any(|(k, root)| k.abs() > strained * root) {
@@ -52,7 +52,7 @@ pub(crate) fn is_escape_of(contact: &Contact<'_>, r: &[f64]) -> bool {
         return false;
     }
     let resisted: f64 = motions.iter().map(|motion| motion.resisted).sum();
-    let load = contact.shifted_load();
+    let load = contact.load_with_tension();
     let scale: f64 = load.iter().zip(&root).map(|(f, root)| size * (f / root).abs()).sum();
     dot(load, r) - resisted > LEAST_WORK * scale
 }

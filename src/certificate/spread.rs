@@ -1,14 +1,14 @@
 //! The measure of bodies whose stiffness is not condensed: displacements of all unknowns.
 
-use super::{Certificate, Terms, measure_pair};
+use super::measure::{Certificate, Terms, measure_pair};
 use crate::law::Contact;
-use crate::problem::{Bodies, Unformed};
+use crate::problem::{MatrixFree, StiffnessOperator};
 
 /// Measures the displacements `x` of all unknowns of `bodies`, whose residual `A x - b` is given. What the
 /// inner unknowns lack to equilibrium counts in `eta` as a force.
 pub(crate) fn measure_spread(
-    contact: &Contact<'_, Unformed<'_>>,
-    bodies: &dyn Bodies,
+    contact: &Contact<'_, MatrixFree<'_>>,
+    bodies: &dyn StiffnessOperator,
     x: &[f64],
     residual: &[f64],
 ) -> Certificate {

@@ -46,14 +46,14 @@ struct Block {
     before: *mut Block,
     /// The next block that has served. Another thread changes it when it frees the last piece of that one.
     next: *mut Block,
-    /// Whether a piece of it was served. The thread of the call alone changes it.
+    /// `true` once a piece of it was served. The thread of the call alone changes it.
     has_served: bool,
-    /// Whether the call goes on.
+    /// `true` while the call goes on.
     open: bool,
     holes: Holes,
 }
 
-/// What a call needs for sentences and small arrays, whatever it is given.
+/// Bytes that a call needs for sentences and small arrays, whatever it is given.
 const ALWAYS: usize = 128 << 10;
 
 thread_local! {
@@ -253,7 +253,8 @@ fn serve(layout: Layout) -> *mut u8 {
     null_mut()
 }
 
-/// Whether the piece is of a reserve. Nobody who got it from another thread can miss that a block has served.
+/// `true` if a reserve has served the piece. A thread that got the piece from another one sees the count that was
+/// raised when its block served.
 fn is_served(piece: *mut u8) -> bool {
     SERVED.count.load(Relaxed) != 0 && SERVED.alone(|first| !block_of(first, piece).is_null())
 }
@@ -287,7 +288,7 @@ unsafe fn give_back(piece: *mut u8, layout: Layout) {
 /// The system's allocator with the reserve behind it.
 struct Reserved;
 
-// SAFETY: memory comes from the system's allocator, or is a piece of a block that is nobody else's; nothing
+// SAFETY: memory comes from the system's allocator, or it is a piece of a block that no other owner has; no function
 // unwinds.
 unsafe impl GlobalAlloc for Reserved {
     #[inline(never)]
@@ -314,7 +315,7 @@ unsafe impl GlobalAlloc for Reserved {
 
     #[inline(never)]
     unsafe fn dealloc(&self, memory: *mut u8, layout: Layout) {
-        // SAFETY: the caller's; to each its own.
+        // SAFETY: by the caller's contract; the memory goes back to the allocator from which it came.
         unsafe {
             if is_served(memory) {
                 give_back(memory, layout);

@@ -10,8 +10,9 @@ use crate::error::Argument;
 use crate::linalg::matrix;
 use crate::problem;
 
-/// Bytes that a call holds in reserve for each byte of the host's arrays: of copies, of what is worked out
-/// from them, and of holes between. For matrices, of which a call makes few copies, it counts by itself.
+/// Bytes that a call holds in reserve for each byte of the host's arrays: of copies, of what is
+/// worked out from them, and of holes between. For matrices, of which a call makes few copies, it
+/// counts by itself.
 const IN_RESERVE: usize = 16;
 
 /// The arrays of one call, collected to check that outputs overlap nothing.

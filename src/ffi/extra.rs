@@ -2,7 +2,6 @@
 
 use super::args::{Arrays, Output};
 use super::guard::{self, Failure};
-use super::prove::NO_RADIUS;
 use super::report::state_codes;
 use super::structures;
 use crate::solve::{Existence, Solution};
@@ -44,6 +43,9 @@ pub struct SignoriniExtra {
     /// largest component is 1. With every other status zeros.
     pub escape: *mut f64,
 }
+
+/// A radius where nothing is proved.
+pub(super) const NO_RADIUS: f64 = -1.0;
 
 impl SignoriniExtra {
     fn default_one() -> Self {
@@ -171,7 +173,6 @@ pub unsafe extern "C" fn signorini_extra_default(
     guard::call(|| {
         let default = SignoriniExtra::default_one();
         // SAFETY: the caller's structure has `struct_size` bytes, as the header demands.
-        unsafe { structures::fill("extra", extra, struct_size, &default)? };
-        Ok(0)
+        unsafe { structures::fill("extra", extra, struct_size, &default) }
     })
 }

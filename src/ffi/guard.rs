@@ -1,9 +1,8 @@
-//! What surrounds every call: the floating-point environment and the panic barrier.
+//! The surroundings of every call: the floating-point environment and the panic barrier.
 
 use std::cell::Cell;
-use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::{Once, OnceLock};
 
+use super::panic_sentence::caught;
 use super::reserve::{self, Held};
 use super::status::{
     SIGNORINI_STATUS_CANCELLED, SIGNORINI_STATUS_FILE, SIGNORINI_STATUS_INTERNAL,
@@ -26,12 +25,12 @@ impl Failure {
         Failure { code: -position, message: message.into() }
     }
 
-    /// The same about another argument: the structure in which the wrong one stands.
+    /// This failure about another argument: the structure in which the wrong one stands.
     pub(super) fn at(self, position: i32) -> Self {
         Failure { code: -position, ..self }
     }
 
-    /// The same with what explains it.
+    /// This failure with an explanation.
     pub(super) fn explained(self, why: &str) -> Self {
         let message = format!("{}: {why}", self.message.marked());
         Failure { message: message.into(), ..self }
@@ -77,16 +76,11 @@ fn limit_code(limit: Limit) -> i32 {
     }
 }
 
-thread_local! {
-    static INSIDE: Cell<bool> = const { Cell::new(false) };
-}
-
-/// Runs the body of an entry. Panics become `SIGNORINI_STATUS_INTERNAL`; nothing is printed.
+/// Runs the body of an entry. Panics become `SIGNORINI_STATUS_INTERNAL`; the C library prints none of them.
 pub(super) fn call(body: impl FnOnce() -> Result<i32, Failure>) -> i32 {
     #[cfg(any(target_os = "linux", target_os = "macos"))]
     let _uncancelled = super::cancellation::Uncancelled::new();
     let _environment = Environment::default_one();
-    silence_panics();
     #[cfg(all(target_os = "linux", target_env = "gnu"))]
     super::static_link::keep();
     forget();
@@ -94,12 +88,7 @@ pub(super) fn call(body: impl FnOnce() -> Result<i32, Failure>) -> i32 {
         remember_plain("not enough memory for a call; nothing was done");
         return SIGNORINI_STATUS_OUT_OF_MEMORY;
     };
-    let outside = INSIDE.replace(true);
-    // Unwind safety: only the caller's outputs can be half-written, and they are undefined with
-    // SIGNORINI_STATUS_INTERNAL.
-    let result = catch_unwind(AssertUnwindSafe(body));
-    INSIDE.set(outside);
-    match result {
+    match caught(body) {
         Ok(Ok(code)) => {
             // A panic that was caught inside, where another way was taken, has left its sentence.
             if code == 0 {
@@ -146,26 +135,6 @@ pub(super) fn prepare_thread() -> Result<(), Failure> {
     }
     Ok(())
 }
-
-/// The default hook prints to the host's stderr: inside the library the text goes to
-/// `signorini_last_error` instead. Panics elsewhere in a Rust host keep their own hook.
-fn silence_panics() {
-    static ONCE: Once = Once::new();
-    static OUTER: OnceLock<Hook> = OnceLock::new();
-    ONCE.call_once(|| {
-        // A hook without captures: it takes no memory that dlclose would lose.
-        OUTER.get_or_init(std::panic::take_hook);
-        std::panic::set_hook(Box::new(|panic| {
-            if INSIDE.get() {
-                remember(format!("internal error: {panic}"));
-            } else if let Some(outer) = OUTER.get() {
-                outer(panic);
-            }
-        }));
-    });
-}
-
-type Hook = Box<dyn Fn(&std::panic::PanicHookInfo<'_>) + Sync + Send + 'static>;
 
 /// Keeps the host's floating-point environment (traps, rounding, flush-to-zero) and sets the
 /// default one until it is dropped. Nothing is raised on the way back.
@@ -243,7 +212,6 @@ mod tests {
         // SAFETY: the library's own zero-terminated buffer.
         let text = unsafe { std::ffi::CStr::from_ptr(signorini_last_error()) };
         assert!(text.to_str().unwrap().contains("bug number 7"), "{text:?}");
-        assert!(!INSIDE.get());
     }
 
     #[test]

@@ -42,7 +42,7 @@ impl Holes {
         self.living
     }
 
-    /// Whether the block has this address.
+    /// `true` if the block has this address.
     pub(super) fn has(&self, piece: *const u8) -> bool {
         piece.addr().wrapping_sub(self.begin.addr()) < self.size
     }

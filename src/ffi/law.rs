@@ -2,8 +2,7 @@
 
 use super::args::Arrays;
 use super::guard::Failure;
-use crate::file::Law;
-use crate::problem::FrictionLaw;
+use crate::problem::{FrictionLaw, Law};
 
 /// No friction: F_t = 0. friction may be NULL and is not read.
 pub const SIGNORINI_LAW_FRICTIONLESS: i32 = 0;
@@ -24,11 +23,21 @@ pub const SIGNORINI_LAW_COHESIVE: i32 = 3;
 /// the normal of the ellipse at -F_t (associated rule): of all forces in the ellipse F_t takes the
 /// most work from the slip.
 pub const SIGNORINI_LAW_ORTHOTROPIC: i32 = 4;
-/// The same ellipse and numbers; the pair slips opposite to F_t (collinear rule).
+/// As SIGNORINI_LAW_ORTHOTROPIC, but the pair slips opposite to F_t (collinear rule).
 pub const SIGNORINI_LAW_ORTHOTROPIC_COLLINEAR: i32 = 5;
 
-/// The last of the laws, which are numbered without gaps.
-pub(super) const LAST_LAW: i32 = SIGNORINI_LAW_ORTHOTROPIC_COLLINEAR;
+/// The laws, in the order of [`Law`]; numbered without gaps.
+const NUMBERS: [i32; Law::ALL.len()] = [
+    SIGNORINI_LAW_FRICTIONLESS,
+    SIGNORINI_LAW_COULOMB,
+    SIGNORINI_LAW_TRESCA,
+    SIGNORINI_LAW_COHESIVE,
+    SIGNORINI_LAW_ORTHOTROPIC,
+    SIGNORINI_LAW_ORTHOTROPIC_COLLINEAR,
+];
+
+/// The last of the laws.
+pub(super) const LAST_LAW: i32 = NUMBERS[NUMBERS.len() - 1];
 
 /// The arguments `law`, number `position`, and `friction`, the next one, for `pairs` pairs.
 ///
@@ -40,42 +49,31 @@ pub(super) unsafe fn read<'a>(
     (law, friction): (i32, *const f64),
     pairs: usize,
 ) -> Result<FrictionLaw<'a>, Failure> {
-    let (name, of): (_, fn(&'a [f64]) -> FrictionLaw<'a>) = match law {
-        SIGNORINI_LAW_FRICTIONLESS => return Ok(FrictionLaw::Frictionless),
-        SIGNORINI_LAW_COULOMB => ("Coulomb's law: mu", FrictionLaw::Coulomb),
-        SIGNORINI_LAW_TRESCA => ("Tresca's law: g", FrictionLaw::Tresca),
-        SIGNORINI_LAW_COHESIVE => ("the cohesive law: mu, b, a", FrictionLaw::Cohesive),
-        SIGNORINI_LAW_ORTHOTROPIC => {
-            ("the orthotropic law: mu1, mu2, angle", FrictionLaw::Orthotropic)
-        }
-        SIGNORINI_LAW_ORTHOTROPIC_COLLINEAR => {
-            ("the orthotropic law: mu1, mu2, angle", FrictionLaw::OrthotropicCollinear)
-        }
-        other => {
-            let message = format!(
-                "law is {other}, it must be SIGNORINI_LAW_FRICTIONLESS (0), _COULOMB (1), \
-                 _TRESCA (2), _COHESIVE (3), _ORTHOTROPIC (4) or _ORTHOTROPIC_COLLINEAR (5)"
-            );
-            return Err(Failure::argument(position, message));
-        }
+    let Some(law) = Law::ALL.into_iter().find(|known| code(*known) == law) else {
+        let known = Law::ALL.map(|law| {
+            let name = law.name().to_uppercase().replace('-', "_");
+            format!("_{name} ({})", code(law))
+        });
+        let known = known.join(", ");
+        let message = format!("law is {law}, it must be SIGNORINI_LAW{known}");
+        return Err(Failure::argument(position, message));
     };
+    let parameters = law.parameters().len();
+    if parameters == 0 {
+        return Ok(law.with(&[]));
+    }
     if friction.is_null() && pairs > 0 {
+        let title = law.title();
         let message =
-            format!("friction is NULL, it must hold the parameters of {name} of each pair");
+            format!("friction is NULL, it must hold the parameters of {title} of each pair");
         return Err(Failure::argument(position + 1, message));
     }
-    let count = pairs.saturating_mul(of(&[]).parameters());
+    let count = pairs.saturating_mul(parameters);
     // SAFETY: by the caller's contract.
-    Ok(of(unsafe { arrays.required(position + 1, "friction", friction, count)? }))
+    Ok(law.with(unsafe { arrays.required(position + 1, "friction", friction, count)? }))
 }
 
+/// The number of a law.
 pub(super) fn code(law: Law) -> i32 {
-    match law {
-        Law::Frictionless => SIGNORINI_LAW_FRICTIONLESS,
-        Law::Coulomb => SIGNORINI_LAW_COULOMB,
-        Law::Tresca => SIGNORINI_LAW_TRESCA,
-        Law::Cohesive => SIGNORINI_LAW_COHESIVE,
-        Law::Orthotropic => SIGNORINI_LAW_ORTHOTROPIC,
-        Law::OrthotropicCollinear => SIGNORINI_LAW_ORTHOTROPIC_COLLINEAR,
-    }
+    NUMBERS[law as usize]
 }

@@ -7,7 +7,7 @@ use super::args::{self, Arrays, size};
 use super::guard::{self, Failure};
 use super::sparse::shifted;
 use super::structures;
-use super::surface_fields::SignoriniContactFields;
+use super::zones::{SignoriniZone, Zones};
 use crate::error::Argument;
 use crate::file::{self, Field, Values};
 use crate::problem;
@@ -54,15 +54,19 @@ pub struct SignoriniField {
 }
 
 /// Writes a mesh with fields at its nodes to a file in VTK's format .vtu, which ParaView opens. The
-/// file keeps every bit, infinities too.
+/// file keeps every bit, infinities too. With contact zones it has pressure, traction, clearance and
+/// slip, as signorini_surface_fields gives them, and state where each zone has it. Nodes that stand
+/// in no pair have 0 there, and state -1; of a node in several zones the last one counts.
 ///
 /// @param path      name of the file, which is replaced if it exists
-/// @param mesh      the mesh
-/// @param u         displacements, dim for each node; NULL: none
-/// @param contact   fields of signorini_surface_fields, written under their names; those that are
-///                  NULL are left out; NULL: none
-/// @param n_fields  number of further fields
-/// @param fields    the further fields; may be NULL if n_fields is 0
+/// @param mesh      the mesh; with zones that whose nodes were paired
+/// @param u         displacements of all degrees of freedom, as signorini_model_recover gives them;
+///                  without zones dim for each node; NULL: none
+/// @param n_zones   number of contact zones, 0 allowed
+/// @param zones     the zones, whose pairs number degrees of freedom alike; may be NULL if n_zones
+///                  is 0
+/// @param n_fields  number of fields of your own, 0 allowed
+/// @param fields    these fields; may be NULL if n_fields is 0
 /// @return 0; -k: the k-th argument is wrong; SIGNORINI_STATUS_FILE: the file cannot be written; an
 ///         old file is then unchanged
 #[unsafe(no_mangle)]
@@ -70,7 +74,8 @@ pub unsafe extern "C" fn signorini_mesh_write(
     path: *const c_char,
     mesh: *const SignoriniMesh,
     u: *const f64,
-    contact: *const SignoriniContactFields,
+    n_zones: i64,
+    zones: *const SignoriniZone,
     n_fields: i64,
     fields: *const SignoriniField,
 ) -> i32 {
@@ -79,21 +84,22 @@ pub unsafe extern "C" fn signorini_mesh_write(
         unsafe {
             let path = args::path(1, path)?;
             let mesh = Mesh::read(2, mesh)?;
+            let size_of_mesh = (mesh.dim, mesh.nodes());
             let mut arrays = Arrays::default();
-            let nodes = mesh.nodes();
-            let mut written = Vec::new();
-            if let Some(values) = arrays.optional(3, "u", u, mesh.dim * nodes)? {
-                written.push(Field { name: "displacement", values: Values::Vectors(values) });
+            let zones = Zones::read(&mut arrays, (n_zones, zones), size_of_mesh)?;
+            let displacement = match &zones {
+                Some(zones) => zones.displacement(&mut arrays, u)?,
+                None => arrays.optional(3, "u", u, mesh.dim * mesh.nodes())?.map(<[f64]>::to_vec),
+            };
+            let displacement = displacement.iter();
+            let displacement =
+                displacement.map(|u| Field { name: "displacement", values: Values::Vectors(u) });
+            let of_zones = zones.iter().flat_map(Zones::fields);
+            let mut written: Vec<Field<'_>> = displacement.chain(of_zones).collect();
+            for field in structures::all(7, "fields", fields, size(6, "n_fields", n_fields)?)? {
+                written.push(own_field(&mut arrays, field, size_of_mesh)?);
             }
-            if !contact.is_null() {
-                let given = structures::whole(CONTACT, "contact", contact)?;
-                written.extend(contact_fields(&mut arrays, given, (mesh.dim, nodes))?);
-            }
-            let count = size(5, "n_fields", n_fields)?;
-            for field in arrays.required(6, "fields", fields, count)? {
-                written.push(own_field(&mut arrays, field, (mesh.dim, nodes))?);
-            }
-            mesh.write(path, &written, (2, 6))
+            mesh.write(path, &written, (2, 7))
         }
     })
 }
@@ -191,40 +197,6 @@ fn starts_of(types: &[i32]) -> Result<Vec<usize>, String> {
     Ok(start)
 }
 
-/// The position of the fields of contact.
-const CONTACT: i32 = 4;
-
-/// The fields of contact that are given.
-///
-/// # Safety
-/// Pointers that are not NULL have values for all nodes.
-unsafe fn contact_fields<'a>(
-    arrays: &mut Arrays,
-    given: &SignoriniContactFields,
-    (dim, nodes): (usize, usize),
-) -> Result<Vec<Field<'a>>, Failure> {
-    let mut fields = Vec::new();
-    // SAFETY: by the caller's contract.
-    unsafe {
-        for (name, pointer) in [("pressure", given.pressure), ("clearance", given.clearance)] {
-            if let Some(values) = arrays.optional(CONTACT, name, pointer.cast_const(), nodes)? {
-                fields.push(Field { name, values: Values::Scalars(values) });
-            }
-        }
-        for (name, pointer) in [("traction", given.traction), ("slip", given.slip)] {
-            if let Some(values) =
-                arrays.optional(CONTACT, name, pointer.cast_const(), dim * nodes)?
-            {
-                fields.push(Field { name, values: Values::Vectors(values) });
-            }
-        }
-        if let Some(values) = arrays.optional(CONTACT, "state", given.state.cast_const(), nodes)? {
-            fields.push(Field { name: "state", values: Values::Integers(values) });
-        }
-    }
-    Ok(fields)
-}
-
 /// A field of the caller.
 ///
 /// # Safety
@@ -234,22 +206,20 @@ unsafe fn own_field<'a>(
     field: &'a SignoriniField,
     (dim, nodes): (usize, usize),
 ) -> Result<Field<'a>, Failure> {
-    // SAFETY: by the caller's contract.
-    let field = unsafe { structures::whole(6, "fields", field)? };
     if field.name.is_null() {
-        return Err(Failure::argument(6, "fields: a name is NULL"));
+        return Err(Failure::argument(7, "fields: a name is NULL"));
     }
-    // SAFETY: as above.
+    // SAFETY: by the caller's contract.
     let name = unsafe { CStr::from_ptr(field.name) }.to_str();
-    let name = name.map_err(|_| Failure::argument(6, "fields: a name is not UTF-8"))?;
+    let name = name.map_err(|_| Failure::argument(7, "fields: a name is not UTF-8"))?;
     let components = usize::try_from(field.components).unwrap_or_default();
     if components != 1 && components != dim {
         let message =
             format!("fields: {name} has {} components, it needs 1 or {dim}", field.components);
-        return Err(Failure::argument(6, message));
+        return Err(Failure::argument(7, message));
     }
     // SAFETY: as above.
-    let values = unsafe { arrays.required(6, "values", field.values, components * nodes)? };
+    let values = unsafe { arrays.required(7, "values", field.values, components * nodes)? };
     let values = match components {
         1 => Values::Scalars(values),
         _ => Values::Vectors(values),

@@ -8,22 +8,19 @@
 // arrays make long parameter lists.
 #![allow(clippy::missing_safety_doc, clippy::too_many_arguments)]
 
-#[cfg(feature = "c-allocator")]
+#[cfg(c_library)]
 mod allocator;
 mod args;
 #[cfg(any(target_os = "linux", target_os = "macos"))]
 mod cancellation;
+mod case_arguments;
 mod certify;
 mod condensed;
-mod crew;
 mod extra;
-mod flexibility;
-mod flexibility_sparse;
 mod fortran;
 mod guard;
-#[cfg(feature = "c-allocator")]
+#[cfg(c_library)]
 mod holes;
-mod lane;
 mod law;
 mod lcp;
 mod memory;
@@ -32,13 +29,15 @@ mod model;
 mod model_new;
 mod model_recover;
 mod model_solve;
+mod model_view;
 mod operator;
 mod outputs;
 mod pairs;
-mod parallel;
+mod panic_sentence;
 mod problem_read;
 mod problem_write;
 mod prove;
+mod release;
 mod report;
 mod reserve;
 mod settings;
@@ -49,10 +48,9 @@ mod static_link;
 mod status;
 mod structures;
 mod surface;
-mod surface_access;
 mod surface_fields;
 mod surface_new;
-mod surface_report;
 mod surface_settings;
-mod surface_write;
-mod thread;
+mod surface_view;
+mod threads;
+mod zones;

@@ -11,7 +11,7 @@ use crate::model::{Model, Past};
 /// the model is made.
 pub struct SignoriniModel {
     model: Model,
-    /// What calls with SIGNORINI_START_PREVIOUS have left; nothing while one is at work.
+    /// The result that calls with SIGNORINI_START_PREVIOUS have left; nothing while one is at work.
     past: Mutex<Option<Past>>,
 }
 

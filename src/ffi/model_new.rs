@@ -2,10 +2,11 @@
 
 use super::args::{Arrays, matrix_length, size, sizes};
 use super::guard::{self, Failure};
-use super::model::{SignoriniModel, read};
+use super::model::SignoriniModel;
 use super::pairs::SignoriniPairs;
+use super::release::release;
 use super::settings::SignoriniSettings;
-use super::sparse::{STIFFNESS, SignoriniSparse, shifted};
+use super::sparse::{FLEXIBILITY, STIFFNESS, SignoriniSparse, shifted};
 use crate::error::{Argument, Error};
 use crate::model::Model;
 use crate::reduce;
@@ -99,13 +100,25 @@ pub unsafe extern "C" fn signorini_model_new_two_body(
 /// and contact zones. Bodies that only contact supports are allowed. Loads and displacements of the
 /// host have H = K->size entries.
 ///
-/// @param K        the stiffness matrix of all degrees of freedom, the fixed ones too
-/// @param n_fixed  number of fixed degrees of freedom
-/// @param fixed    the fixed degrees of freedom, counted from K->index_base; may be NULL if n_fixed
-///                 is 0
-/// @param pairs    the contact pairs
-/// @param model    out: the model; NULL unless 0 is returned
-/// @return 0; -k: the k-th argument is wrong; <= -1000: out of memory or a defect
+/// The call takes progress, user, time_limit, memory_limit, threads and full_space of the settings.
+/// The callback is told the share that is done and, before memory is taken, how much is needed. It
+/// is not called while the order of elimination is chosen (2 s for 1e5 nodes). A call that was ended
+/// holds nothing.
+///
+/// If the condensed matrix needs more than memory_limit, the model is in full space: no condensed
+/// matrix is formed. Load cases are solved by Newton's method with GMRES on a sparse factor, which
+/// each load case makes anew a few times; methods AUTO and NEWTON alone, no search, no proof. Pairs
+/// that depend on each other are condensed all the same. K->order is not read for it.
+///
+/// @param K         the stiffness matrix of all degrees of freedom, the fixed ones too
+/// @param n_fixed   number of fixed degrees of freedom
+/// @param fixed     the fixed degrees of freedom, counted from K->index_base; may be NULL if n_fixed
+///                  is 0
+/// @param pairs     the contact pairs
+/// @param settings  NULL: no callback, no limits, one thread
+/// @param model     out: the model; NULL unless 0 is returned
+/// @return 0; SIGNORINI_STATUS_CANCELLED, _TIME_LIMIT or _MEMORY_LIMIT; -k: the k-th argument is
+///         wrong; <= -1000: out of memory or a defect
 #[unsafe(no_mangle)]
 #[allow(non_snake_case)] // as above
 pub unsafe extern "C" fn signorini_model_new_sparse(
@@ -113,171 +126,137 @@ pub unsafe extern "C" fn signorini_model_new_sparse(
     n_fixed: i64,
     fixed: *const i64,
     pairs: *const SignoriniPairs,
+    settings: *const SignoriniSettings,
+    model: *mut *mut SignoriniModel,
+) -> i32 {
+    const SETTINGS: i32 = 5;
+    guard::call(|| {
+        let place = Place::new(6, model)?;
+        // SAFETY: the structures and arrays are those of the header.
+        let made = unsafe {
+            let matrix = SignoriniSparse::read(&mut Arrays::default(), 1, &STIFFNESS, K)?;
+            let order = SignoriniSparse::order(1, K)?;
+            let count = size(2, "n_fixed", n_fixed)?;
+            let fixed = Arrays::default().required(3, "fixed", fixed, count)?;
+            let fixed = shifted(3, "fixed", fixed, matrix.index_base)?;
+            let pairs = SignoriniPairs::read(4, pairs, matrix.index_base)?;
+            let view = pairs.view();
+            guard::reserve_estimate(reduce::memory(view.dim * view.count))?;
+            let received = SignoriniSettings::read(SETTINGS, settings)?;
+            let wrong = |error| Failure::from_error(error, |_| SETTINGS);
+            received.settings.validate().map_err(wrong)?;
+            received.monitored(|monitor| {
+                Model::sparse_within(&matrix, &fixed, &view, order.as_deref(), monitor)
+            })
+        };
+        place.fill(made, |argument| match argument {
+            Argument::Matrix | Argument::Order => 1,
+            Argument::Fixed => 3,
+            _ => 4,
+        })
+    })
+}
+
+/// Makes a model in flexibility form, as codes of rigid and multibody dynamics have it: d = W F + q
+/// takes the place of K d = f + F. Contact, friction and signs stay. In the load cases of
+/// signorini_model_solve f holds the free displacements q, the relative displacements without
+/// contact forces; F holds the start if settings.warm_start is set. Loads and displacements of the
+/// host have H = N entries.
+///
+/// W = H M^-1 H' may be singular, as where pairs are redundant: four feet of a rigid table, a node
+/// on two planes. Contact forces are not unique then. From the start zero the smallest ones are
+/// returned, if states of pairs do not change during the iteration. No solution is said to be the
+/// only one.
+///
+/// report.eta is the residual of the law and of d - q - W F, in the units 1 / W_nn for the normal of
+/// a pair and one over the largest eigenvalue of its tangential block for its tangents. It is
+/// relative to the larger of F, less the part that moves nothing, and the units times q. Where pairs
+/// that stay apart have free displacements far above those that forces undo, ask for a smaller
+/// tolerance.
+///
+/// Codes that write u = W r + q with u_N >= 0 where a contact opens and r_N >= 0 where it presses
+/// (FCLIB, Siconos, most multibody codes) change all signs but those of W: hand over -q; then u = -d
+/// and r = -F. Velocities and impulses may take the places of displacements and forces.
+///
+/// SIGNORINI_STATUS_NO_EQUILIBRIUM proves that the gaps contradict each other: no forces move the
+/// bodies to where every gap is kept. Bodies that friction wedges are not proved: the status is
+/// SIGNORINI_STATUS_STALLED, and signorini_last_error names the pairs whose forces grow.
+///
+/// @param dim    space dimension, 2 or 3
+/// @param pairs  number of contact pairs, 0 allowed
+/// @param W      flexibility, N = dim * pairs columns of N entries, column-major, both triangles;
+///               symmetric, positive semi-definite, not zero; length / force. A row of zeros is a
+///               component that nothing moves
+/// @param ldw    entries from one column of W to the next, at least max(1, N)
+/// @param model  out: the model; NULL unless 0 is returned
+/// @return 0; -k: the k-th argument is wrong; <= -1000: out of memory or a defect
+#[unsafe(no_mangle)]
+#[allow(non_snake_case)] // as above
+pub unsafe extern "C" fn signorini_model_new_flexibility(
+    dim: i32,
+    pairs: i64,
+    W: *const f64,
+    ldw: i64,
     model: *mut *mut SignoriniModel,
 ) -> i32 {
     guard::call(|| {
         let place = Place::new(5, model)?;
-        let settings = std::ptr::null();
-        // SAFETY: the structures and arrays are those of the header.
-        unsafe { sparse(K, (n_fixed, fixed), pairs, (5, settings), place) }
+        let (dim, pairs, n) = sizes(1, dim, pairs)?;
+        let ld = size(4, "ldw", ldw)?;
+        let length = matrix_length(4, "W", n, ld)?;
+        // SAFETY: the length is that of the header.
+        let w = unsafe { Arrays::default().matrix(3, "W", W, length)? };
+        guard::reserve(n.saturating_mul(n).saturating_mul(size_of::<f64>()))?;
+        place.fill(Model::flexibility(dim, pairs, w, ld), |argument| match argument {
+            Argument::LeadingDimension => 4,
+            _ => 3,
+        })
     })
 }
 
-/// As signorini_model_new_sparse, with settings of which it takes progress, user, time_limit,
-/// memory_limit, full_space and threads. The callback is told the share that is done and, before
-/// memory is taken, how much is needed. The choice of the order, before that, asks nobody. After a
-/// call that was ended nothing is held, and your arrays are as before.
+/// Makes a model in flexibility form of a sparse matrix.
 ///
-/// If the condensed matrix needs more than memory_limit, or settings->full_space is set, the model
-/// is in full space: no condensed matrix is formed. Load cases are solved by Newton's method with
-/// GMRES on a sparse factor, which each load case makes anew a few times; methods AUTO and NEWTON
-/// alone, no search, no proof. signorini_model_stiffness and _write have nothing to tell then. Pairs
-/// that depend on each other are condensed all the same. K->order is not read for it.
+/// Pairs that no entry of W ties to each other are islands, such as heaps of bodies that do not
+/// touch. Each is solved by itself as a dense problem of its size; the result is measured as a whole
+/// on W. So the time is the sum of those of the islands, and the memory that of the largest. Where
+/// settings.memory_limit allows less, a load case ends with SIGNORINI_STATUS_MEMORY_LIMIT before its
+/// work begins, and signorini_last_error names the largest island.
 ///
-/// @param K         the stiffness matrix of all degrees of freedom, the fixed ones too
-/// @param n_fixed   number of fixed degrees of freedom
-/// @param fixed     the fixed degrees of freedom, counted from K->index_base; may be NULL if
-///                  n_fixed is 0
-/// @param pairs     the contact pairs
-/// @param settings  may be NULL: no callback, no limits
-/// @param model     out: the model; NULL unless 0 is returned
-/// @return 0; SIGNORINI_STATUS_CANCELLED, _TIME_LIMIT or _MEMORY_LIMIT; -k: the k-th argument is
-///         wrong; <= -1000: out of memory or a defect
+/// The status is that of the worst island. SIGNORINI_STATUS_NO_EQUILIBRIUM of one proves that the
+/// whole has none; the other islands are solved all the same, from the smallest to the largest. At a
+/// limit, or where the callback cancels, the islands that are left keep the start. report.method,
+/// omega and damping are those of the largest island with the status; counts are sums over all
+/// islands.
+///
+/// @param dim    space dimension, 2 or 3
+/// @param pairs  number of contact pairs, 0 allowed
+/// @param W      flexibility, W->size = dim * pairs; symmetric, positive semi-definite, not zero;
+///               length / force. A component that nothing moves has a row of zeros, which need not
+///               be stored; stored zeros tie nothing. W->order is not read
+/// @param model  out: the model; NULL unless 0 is returned
+/// @return 0; -k: the k-th argument is wrong; <= -1000: out of memory or a defect
 #[unsafe(no_mangle)]
 #[allow(non_snake_case)] // as above
-pub unsafe extern "C" fn signorini_model_new_sparse_within(
-    K: *const SignoriniSparse,
-    n_fixed: i64,
-    fixed: *const i64,
-    pairs: *const SignoriniPairs,
-    settings: *const SignoriniSettings,
+pub unsafe extern "C" fn signorini_model_new_flexibility_sparse(
+    dim: i32,
+    pairs: i64,
+    W: *const SignoriniSparse,
     model: *mut *mut SignoriniModel,
 ) -> i32 {
     guard::call(|| {
-        let place = Place::new(6, model)?;
-        // SAFETY: the structures and arrays are those of the header.
-        unsafe { sparse(K, (n_fixed, fixed), pairs, (5, settings), place) }
-    })
-}
-
-/// # Safety
-/// The structures and arrays are those of the header.
-#[allow(non_snake_case)] // as above
-unsafe fn sparse(
-    K: *const SignoriniSparse,
-    (n_fixed, fixed): (i64, *const i64),
-    pairs: *const SignoriniPairs,
-    (position, settings): (i32, *const SignoriniSettings),
-    place: Place,
-) -> Result<i32, Failure> {
-    // SAFETY: by the caller's contract.
-    let made = unsafe {
-        let matrix = SignoriniSparse::read(&mut Arrays::default(), 1, &STIFFNESS, K)?;
-        let order = SignoriniSparse::order(1, K)?;
-        let count = size(2, "n_fixed", n_fixed)?;
-        let fixed = Arrays::default().required(3, "fixed", fixed, count)?;
-        let fixed = shifted(3, "fixed", fixed, matrix.index_base)?;
-        let pairs = SignoriniPairs::read(4, pairs, matrix.index_base)?;
-        let view = pairs.view();
-        guard::reserve_estimate(reduce::memory(view.dim * view.count))?;
-        let received = SignoriniSettings::read(position, settings)?;
-        let wrong = |error| Failure::from_error(error, |_| position);
-        received.settings.validate().map_err(wrong)?;
-        received.monitored(|monitor| {
-            Model::sparse_within(&matrix, &fixed, &view, order.as_deref(), monitor)
-        })
-    };
-    place.fill(made, |argument| match argument {
-        Argument::Matrix | Argument::Order => 1,
-        Argument::Fixed => 3,
-        _ => 4,
+        let place = Place::new(4, model)?;
+        let (dim, pairs, _) = sizes(1, dim, pairs)?;
+        // SAFETY: the structure and its arrays are those of the header.
+        let w = unsafe { SignoriniSparse::read(&mut Arrays::default(), 3, &FLEXIBILITY, W)? };
+        place.fill(Model::flexibility_sparse(dim, pairs, &w), |_| 3)
     })
 }
 
 /// Releases a model. NULL is allowed.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn signorini_model_free(model: *mut SignoriniModel) {
-    guard::call(|| {
-        if !model.is_null() {
-            // SAFETY: by the header's contract it came from signorini_model_new_..., once.
-            drop(unsafe { Box::from_raw(model) });
-        }
-        Ok(0)
-    });
-}
-
-/// Space dimension, 2 or 3; -1 if model is NULL.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn signorini_model_dim(model: *const SignoriniModel) -> i32 {
-    // SAFETY: NULL or a model, by the header's contract.
-    unsafe { model.as_ref() }.map_or(-1, |model| model.model().dim() as i32)
-}
-
-/// Number of contact pairs; -1 if model is NULL.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn signorini_model_pairs(model: *const SignoriniModel) -> i64 {
-    // SAFETY: as above.
-    unsafe { model.as_ref() }.map_or(-1, |model| model.model().pairs() as i64)
-}
-
-/// H, the entries of a load or displacement vector of the host; -1 if model is NULL.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn signorini_model_host_size(model: *const SignoriniModel) -> i64 {
-    // SAFETY: as above.
-    unsafe { model.as_ref() }.map_or(-1, |model| model.model().host_size() as i64)
-}
-
-/// Copies the stiffness matrix in relative displacements. There is none if pairs depend on each
-/// other, such as those of a node on two planes, and in full space.
-///
-/// @param model  the model
-/// @param K      out: N = dim * pairs columns of N entries; leading dimension N
-/// @return 0; -k: the k-th argument is wrong; -1 too: there is no such matrix
-#[unsafe(no_mangle)]
-#[allow(non_snake_case)] // as above
-pub unsafe extern "C" fn signorini_model_stiffness(
-    model: *const SignoriniModel,
-    K: *mut f64,
-) -> i32 {
-    guard::call(|| {
-        // SAFETY: a model and an array as the header demands.
-        unsafe {
-            let model = read(model)?;
-            let wrong = |error| Failure::from_error(error, |_| 1);
-            model.check_independent().map_err(wrong)?;
-            model.check_formed().map_err(wrong)?;
-            let stiffness = model.stiffness();
-            Arrays::default().output_matrix(2, "K", K, stiffness.len())?.write(stiffness);
-        }
-        Ok(0)
-    })
-}
-
-/// Copies the frames of the pairs of a sparse model, to turn d and F to global axes:
-/// vector = n d_n + t d_t (2D) or n d_n + t1 d_t1 + t2 d_t2 (3D). Other models have no frames: they
-/// were condensed in frames of your own.
-///
-/// @param model   a model of signorini_model_new_sparse
-/// @param frames  out: for each pair the normal, then the tangents, each a unit vector of dim
-///                entries; dim * dim entries a pair
-/// @return 0; -k: the k-th argument is wrong; -1 too: the model has no frames
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn signorini_model_frames(
-    model: *const SignoriniModel,
-    frames: *mut f64,
-) -> i32 {
-    guard::call(|| {
-        // SAFETY: a model and an array as the header demands.
-        unsafe {
-            let Some(given) = read(model)?.frames() else {
-                let message = "this model has no frames: its matrix was condensed by the host, in \
-                               frames that only the host knows";
-                return Err(Failure::argument(1, message));
-            };
-            Arrays::default().output(2, "frames", frames, given.len())?.write(given);
-        }
-        Ok(0)
-    })
+    // SAFETY: NULL, or by the header's contract it came from signorini_model_new_..., once.
+    unsafe { release(model) }
 }
 
 /// Where a new model goes; NULL until it exists.

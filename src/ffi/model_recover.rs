@@ -2,67 +2,27 @@
 //! to.
 
 use super::args::{Arrays, size};
+use super::case_arguments::times;
 use super::guard::{self, Failure};
 use super::model::{SignoriniModel, read};
-use super::model_solve::times;
 use crate::error::Argument;
 use crate::model::BLOCK;
 use crate::reduce::SolvedCase;
 
-/// Displacements of the host from the relative ones, for one load case.
-///
-/// @param model       the model
-/// @param f           nodal loads of the case, H entries; NULL: zero, for the motion of escape
-/// @param prescribed  values of the fixed degrees of freedom; NULL: zero
-/// @param d           relative displacements, N entries
-/// @param u           out: displacements, H entries
-/// @return 0; -k: the k-th argument is wrong
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn signorini_model_recover(
-    model: *const SignoriniModel,
-    f: *const f64,
-    prescribed: *const f64,
-    d: *const f64,
-    u: *mut f64,
-) -> i32 {
-    guard::call(|| {
-        let mut arrays = Arrays::default();
-        // SAFETY: a model and arrays as the header demands.
-        unsafe {
-            let model = read(model)?;
-            let (host, n) = (model.host_size(), model.dim() * model.pairs());
-            let load = arrays.optional(2, "f", f, host)?;
-            let values = arrays.optional(3, "prescribed", prescribed, model.fixed_count())?;
-            let d = arrays.required(4, "d", d, n)?;
-            let out = arrays.output(5, "u", u, host)?;
-            arrays.check_overlap()?;
-            let recovered = model.recover(load, values, d).map_err(|error| {
-                Failure::from_error(error, |argument| match argument {
-                    Argument::Load => 2,
-                    Argument::Prescribed => 3,
-                    _ => 4,
-                })
-            })?;
-            out.write(&recovered);
-        }
-        Ok(0)
-    })
-}
-
-/// Displacements of the host for many load cases at once, each as by signorini_model_recover. Every
-/// array has a column for each case, without space between the columns. Of a sparse model a case
-/// costs a fraction of what it costs by itself.
+/// Displacements of the host from the relative ones. Every array has a column for each case, without
+/// space between the columns. Of a sparse model many cases at once cost a fraction of what they cost
+/// one by one.
 ///
 /// @param model       the model
 /// @param cases       number of load cases, 0 allowed
-/// @param f           nodal loads, H entries a case; NULL: zero
+/// @param f           nodal loads, H entries a case; NULL: zero, as for a motion of escape
 /// @param prescribed  values of the fixed degrees of freedom; NULL: zero
 /// @param d           relative displacements, N entries a case
 /// @param u           out: displacements, H entries a case
 /// @return 0; -k: the k-th argument is wrong, in the case that signorini_last_error names. Numbers
 ///         so large that u overflows are found on the way: cases before may be written then
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn signorini_model_recover_cases(
+pub unsafe extern "C" fn signorini_model_recover(
     model: *const SignoriniModel,
     cases: i64,
     f: *const f64,
@@ -107,7 +67,7 @@ pub unsafe extern "C" fn signorini_model_recover_cases(
     })
 }
 
-/// Number of the argument of [`signorini_model_recover_cases`] that an error is about.
+/// Number of the argument of [`signorini_model_recover`] that an error is about.
 fn position(argument: Argument) -> i32 {
     match argument {
         Argument::Matrix => 1,

@@ -3,23 +3,20 @@
 use std::sync::{Mutex, PoisonError};
 
 use super::args::{Arrays, Output, size};
-use super::crew;
+use super::case_arguments::{CaseArguments, LoadCases, times};
 use super::extra::{Extra, SignoriniExtra};
 use super::guard::{self, Failure};
-use super::lane::{Lane, Solved, Start, Work, stopped};
-use super::law;
 use super::model::{SignoriniModel, read_handle};
-use super::parallel;
 use super::report::{Reports, SignoriniReport, state_codes};
 use super::settings::{Received, SignoriniSettings, WarmStart};
 use super::status::{code, remember};
+use super::threads::{LoadCaseChunk, Solved, Start, ThreadCases, on_each, stopped, with_workers};
 use crate::error::{Argument, Error, Message};
-use crate::model::{BLOCK, LoadCase, Model, Past, Series};
+use crate::model::{BLOCK, Model, Past, Series};
 use crate::monitor::ProgressFn;
-use crate::problem::FrictionLaw;
 use crate::shortage;
 use crate::solve::Solution;
-use crate::workers::Alone;
+use crate::workers::SingleThread;
 
 const SETTINGS: i32 = 9;
 const START: i32 = 10;
@@ -82,9 +79,11 @@ pub unsafe extern "C" fn signorini_model_solve(
         let cases = size(2, "cases", cases)?;
         // SAFETY: arrays of the lengths of the header, structures that begin with their size.
         let (load_cases, received) = unsafe {
-            let load_cases = given.read(&mut arrays, model, cases)?;
+            let received = SignoriniSettings::read(SETTINGS, settings)?;
+            let limit = received.settings.memory_limit;
+            let load_cases = given.read(&mut arrays, model, cases, limit)?;
             arrays.structure(SETTINGS, "settings", settings, false)?;
-            (load_cases, SignoriniSettings::read(SETTINGS, settings)?)
+            (load_cases, received)
         };
         received.settings.validate().map_err(|error| Failure::from_error(error, |_| SETTINGS))?;
         let (pairs, n) = (model.pairs(), model.dim() * model.pairs());
@@ -110,99 +109,6 @@ pub unsafe extern "C" fn signorini_model_solve(
     })
 }
 
-/// The arguments from `f` to `slip0` of a load case, as the host hands them over.
-pub(super) struct CaseArguments {
-    /// Number of `f` among the arguments of the call; the others follow it.
-    pub(super) first: i32,
-    pub(super) f: *const f64,
-    pub(super) prescribed: *const f64,
-    pub(super) gap: *const f64,
-    pub(super) law: i32,
-    pub(super) friction: *const f64,
-    pub(super) slip0: *const f64,
-}
-
-impl CaseArguments {
-    /// The arrays of `cases` load cases as slices, noted in `arrays`.
-    ///
-    /// # Safety
-    /// Every pointer is NULL or has the length that the header demands.
-    pub(super) unsafe fn read<'a>(
-        &self,
-        arrays: &mut Arrays,
-        model: &'a Model,
-        cases: usize,
-    ) -> Result<LoadCases<'a>, Failure> {
-        guard::reserve_estimate(model.memory())?;
-        guard::reserve_estimate(model.memory_of_cases(cases))?;
-        let at = |offset| self.first + offset;
-        let slips = (model.dim() - 1) * model.pairs();
-        let (host, fixed) = (times(cases, model.host_size())?, times(cases, model.fixed_count())?);
-        let (pairs, slips) = (times(cases, model.pairs())?, times(cases, slips)?);
-        // SAFETY: the lengths are those of the header.
-        unsafe {
-            Ok(LoadCases {
-                model,
-                load: arrays.matrix(at(0), "f", self.f, host)?,
-                prescribed: arrays.optional(at(1), "prescribed", self.prescribed, fixed)?,
-                gap: arrays.required(at(2), "gap", self.gap, pairs)?,
-                law: law::read(arrays, at(3), (self.law, self.friction), pairs)?,
-                slip0: arrays.optional(at(5), "slip0", self.slip0, slips)?,
-            })
-        }
-    }
-
-    /// Number of the argument that an error is about; `otherwise` of an argument of the call that
-    /// is not here.
-    pub(super) fn position(&self, argument: Argument, otherwise: i32) -> i32 {
-        let offset = match argument {
-            // Of the model, the first argument of each call.
-            Argument::Matrix => return 1,
-            Argument::Load => 0,
-            Argument::Prescribed => 1,
-            Argument::Gap => 2,
-            Argument::LawChoice => 3,
-            Argument::Law => 4,
-            Argument::ReferenceSlip => 5,
-            _ => return otherwise,
-        };
-        self.first + offset
-    }
-}
-
-/// The data of several load cases, a column for each.
-pub(super) struct LoadCases<'a> {
-    model: &'a Model,
-    load: &'a [f64],
-    prescribed: Option<&'a [f64]>,
-    gap: &'a [f64],
-    law: FrictionLaw<'a>,
-    slip0: Option<&'a [f64]>,
-}
-
-impl<'a> LoadCases<'a> {
-    /// The load case number `case`.
-    pub(super) fn case(&self, case: usize) -> LoadCase<'a> {
-        let (pairs, fixed) = (self.model.pairs(), self.model.fixed_count());
-        let slips = (self.model.dim() - 1) * pairs;
-        let column = |array: &'a [f64], length: usize| &array[length * case..length * (case + 1)];
-        LoadCase {
-            load: column(self.load, self.model.host_size()),
-            prescribed: self.prescribed.map(|values| column(values, fixed)),
-            gap: column(self.gap, pairs),
-            law: self.law.with_values(column(self.law.values(), self.law.parameters() * pairs)),
-            reference_slip: self.slip0.map(|slip0| column(slip0, slips)),
-        }
-    }
-}
-
-/// `length` for each case.
-pub(super) fn times(cases: usize, length: usize) -> Result<usize, Failure> {
-    length
-        .checked_mul(cases)
-        .ok_or_else(|| Failure::argument(2, format!("cases is {cases}, too many cases")))
-}
-
 /// A block of load cases and where their results go.
 struct Block<'a> {
     model: &'a Model,
@@ -216,8 +122,9 @@ struct Block<'a> {
 }
 
 impl Block<'_> {
-    /// Solves all cases and writes their results. Returns the status of the first one that is not solved, and
-    /// remembers its message; and what is left for further calls. `past` is what earlier ones have left.
+    /// Solves all cases and writes their results. Returns the status of the first one that is not
+    /// solved, and remembers its message; and what is left for further calls. `past` is what earlier
+    /// ones have left.
     fn solve_all(
         &self,
         cases: usize,
@@ -241,34 +148,35 @@ impl Block<'_> {
         }
         let past = lanes.pop().filter(|_| goes_on).map(|lane| lane.series.into_past());
         let Some((case, code, message)) = first else { return (0, past) };
-        // Of one case nobody asks which.
+        // A call with one case needs no number of it.
         remember(if cases == 1 { message } else { message.in_case(case) });
         (code, past)
     }
 
-    /// The cases in as many parts as there are threads. One thread has them all where each starts from the one
-    /// before, where a callback waits on the calling thread, and where the host's own functions are called.
-    fn lanes(&self, cases: usize, past: Option<Past>, received: &Received) -> Vec<Lane<'_>> {
+    /// The cases in as many parts as there are threads. One thread has them all where each starts
+    /// from the one before, where a callback waits on the calling thread, and where the host's own
+    /// functions are called.
+    fn lanes(&self, cases: usize, past: Option<Past>, received: &Received) -> Vec<ThreadCases<'_>> {
         let model = self.model;
         if received.warm_start == WarmStart::Previous {
             let series = Series::after(model, past.unwrap_or_else(Past::of_none));
-            return vec![Lane { left: 0..cases, series }];
+            return vec![ThreadCases { left: 0..cases, series }];
         }
-        let alone = received.has_callback() || model.is_unformed();
+        let alone = received.has_callback() || model.is_matrix_free();
         let count = if alone { 1 } else { received.threads.min(cases) };
         let begin = |lane: usize| lane * cases / count;
         (0..count)
             .map(|lane| begin(lane)..begin(lane + 1))
-            .map(|left| Lane { series: Series::of(model, left.len()), left })
+            .map(|left| ThreadCases { series: Series::of(model, left.len()), left })
             .collect()
     }
 
     /// Solves the next block of each lane. Returns what each case has come to, by its number.
-    fn next_of(&self, lanes: &mut [Lane<'_>], received: &Received) -> Vec<(usize, Solved)> {
+    fn next_of(&self, lanes: &mut [ThreadCases<'_>], received: &Received) -> Vec<(usize, Solved)> {
         if let [lane] = lanes {
             let work = self.next_work(lane, received);
-            let threads = if self.model.is_unformed() { received.threads } else { 1 };
-            let solved = crew::with(threads, |workers| {
+            let threads = if self.model.is_matrix_free() { received.threads } else { 1 };
+            let solved = with_workers(threads, |workers| {
                 let mut progress = received.progress();
                 let progress = progress.as_mut().map(|progress| progress as &mut ProgressFn<'_>);
                 work.solve(&mut lane.series, workers, &received.settings, progress)
@@ -278,11 +186,11 @@ impl Block<'_> {
         let work: Vec<_> = lanes.iter_mut().map(|lane| self.next_work(lane, received)).collect();
         let series: Vec<_> = lanes.iter_mut().map(|lane| Mutex::new(&mut lane.series)).collect();
         let (model, settings) = (self.model, &received.settings);
-        let solved = parallel::each(work.len(), &|lane| {
+        let solved = on_each(work.len(), &|lane| {
             guard::reserve_estimate(model.memory())?;
             guard::reserve_estimate(model.memory_of_cases(BLOCK))?;
             let mut series = series[lane].lock().unwrap_or_else(PoisonError::into_inner);
-            Ok(work[lane].solve(&mut series, &Alone, settings, None))
+            Ok(work[lane].solve(&mut series, &SingleThread, settings, None))
         });
         let mut all = Vec::new();
         for (work, solved) in work.iter().zip(solved) {
@@ -297,7 +205,7 @@ impl Block<'_> {
     }
 
     /// Takes the next block of a lane.
-    fn next_work(&self, lane: &mut Lane<'_>, received: &Received) -> Work<'_> {
+    fn next_work(&self, lane: &mut ThreadCases<'_>, received: &Received) -> LoadCaseChunk<'_> {
         let n = self.model.dim() * self.model.pairs();
         let begin = lane.left.start;
         let many = BLOCK.min(lane.left.len());
@@ -305,11 +213,15 @@ impl Block<'_> {
         let cases = (begin..begin + many).map(|k| self.load_cases.case(k)).collect();
         let start = match received.warm_start {
             WarmStart::None => Start::Cold,
-            // SAFETY: d has n entries for each case, filled by a caller that wants a warm start.
-            WarmStart::Given => Start::Given(unsafe { self.d.part(n * begin, n * many).read() }),
+            WarmStart::Given => {
+                let forces = self.model.starts_from_forces();
+                let place = if forces { &self.force } else { &self.d };
+                // SAFETY: n entries for each case, filled by a caller that wants a warm start.
+                Start::Given(unsafe { place.part(n * begin, n * many).read() })
+            }
             WarmStart::Previous => Start::Previous,
         };
-        Work { begin, cases, start }
+        LoadCaseChunk { begin, cases, start }
     }
 
     /// Writes the results of a case, unless it is wrong. Returns status and message.
@@ -332,7 +244,8 @@ impl Block<'_> {
             Err(error) => {
                 let message = error.message();
                 let position = |argument| {
-                    let own = if argument == Argument::Start { START } else { SETTINGS };
+                    let forces = i32::from(self.model.starts_from_forces());
+                    let own = if argument == Argument::Start { START + forces } else { SETTINGS };
                     self.given.position(argument, own)
                 };
                 (Failure::from_error(error, position).code(), message)

@@ -30,8 +30,8 @@ pub type SignoriniHeldFn = Option<
     ) -> i32,
 >;
 
-/// What a host gives in the place of a matrix: say a code on several processes, with a factor of its
-/// own. d and F are those of the pairs, as for signorini_solve, and K_rel is the K there.
+/// Functions of a host in the place of a matrix: say of a code on several processes, with a factor
+/// of its own. d and F are those of the pairs, as for signorini_solve, and K_rel is the K there.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct SignoriniOperator {

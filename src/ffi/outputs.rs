@@ -27,10 +27,10 @@ pub(super) struct Outputs {
 }
 
 impl OutputArguments {
-    /// Notes the arrays of `n` unknowns of `pairs` pairs. `first` is the number of `d` among the arguments.
+    /// Notes the arrays of `n` unknowns of `pairs` pairs. `first` is the number of `d` among the
+    /// arguments.
     ///
-    /// # Safety
-    /// Every pointer is NULL or has the length that the header demands.
+    /// # Safety Every pointer is NULL or has the length that the header demands.
     pub(super) unsafe fn note(
         &self,
         arrays: &mut Arrays,

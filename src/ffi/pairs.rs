@@ -154,7 +154,7 @@ impl SignoriniPairs {
         }
     }
 
-    /// What an older program, which has no general rows, leaves them.
+    /// The values of an older program, which has no general rows.
     pub(super) const EMPTY: SignoriniPairs = SignoriniPairs {
         struct_size: 0,
         dim: 0,

@@ -2,25 +2,57 @@
 
 use libc::c_char;
 use std::ffi::CString;
-use std::ptr::null;
 
 use super::args;
 use super::guard::{self, Failure};
 use super::law;
+use super::release::release;
+use super::structures::{address, show};
 use crate::file::{self, Kind, ProblemFile};
 use crate::shortage;
 
 /// A contact problem, of signorini_solve.
 pub const SIGNORINI_PROBLEM_CONTACT: i32 = 0;
-/// An LCP, of signorini_lcp_solve or, if it has a covering vector, signorini_lcp_lemke.
+/// An LCP, of signorini_lcp_solve.
 pub const SIGNORINI_PROBLEM_LCP: i32 = 1;
 
 /// A problem that was read from a file by signorini_problem_read; released by
-/// signorini_problem_free. It does not change: several threads may use one at once. Its arrays live
-/// as long as it does; an array without entries is NULL.
+/// signorini_problem_free. It does not change: several threads may use one at once.
 pub struct SignoriniProblem {
     problem: ProblemFile,
     remark: CString,
+}
+
+/// The content of a problem. Arrays live as long as the problem; one without entries is NULL.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct SignoriniProblemData {
+    /// sizeof(signorini_problem_data) in your program; no more is written.
+    pub struct_size: u32,
+    /// SIGNORINI_PROBLEM_..., the kind of the problem.
+    pub kind: i32,
+    /// SIGNORINI_LAW_..., the friction law; -1 of an LCP.
+    pub law: i32,
+    /// Space dimension, 2 or 3; 0 of an LCP.
+    pub dim: i32,
+    /// Number of contact pairs; 0 of an LCP.
+    pub pairs: i64,
+    /// Number of unknowns, N = dim * pairs or n.
+    pub size: i64,
+    /// K or M, column-major; its leading dimension is size.
+    pub matrix: *const f64,
+    /// Right-hand side: f or q, size entries.
+    pub rhs: *const f64,
+    /// Gaps, one for each pair.
+    pub gap: *const f64,
+    /// Parameters of the friction law, pair by pair; NULL if frictionless.
+    pub friction: *const f64,
+    /// Reference slip, dim - 1 for each pair.
+    pub slip0: *const f64,
+    /// Covering vector of an LCP; NULL if the file has none.
+    pub cover: *const f64,
+    /// The remark of the file, UTF-8; empty if there is none.
+    pub remark: *const c_char,
 }
 
 /// Reads a problem from a file. Any file is safe to read: the call returns either a problem or an
@@ -60,118 +92,43 @@ pub unsafe extern "C" fn signorini_problem_read(
 /// Releases a problem. NULL is allowed.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn signorini_problem_free(problem: *mut SignoriniProblem) {
-    guard::call(|| {
-        if !problem.is_null() {
-            // SAFETY: by the header's contract it came from signorini_problem_read, once.
-            drop(unsafe { Box::from_raw(problem) });
+    // SAFETY: NULL, or by the header's contract it came from signorini_problem_read, once.
+    unsafe { release(problem) }
+}
+
+/// Shows the problem: fills data, whose arrays live as long as the problem.
+///
+/// @param problem  the problem
+/// @param data     out: set data->struct_size before the call
+/// @return 0; -k: the k-th argument is wrong
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn signorini_problem_view(
+    problem: *const SignoriniProblem,
+    data: *mut SignoriniProblemData,
+) -> i32 {
+    // SAFETY: NULL or a problem, and NULL or a structure that begins with its size, by the header's contract.
+    unsafe { show("problem", problem, data, SignoriniProblem::shown) }
+}
+
+impl SignoriniProblem {
+    fn shown(&self) -> SignoriniProblemData {
+        let SignoriniProblem { problem, remark } = self;
+        SignoriniProblemData {
+            struct_size: size_of::<SignoriniProblemData>() as u32,
+            kind: kind_code(problem.kind),
+            law: law_code(problem.kind),
+            dim: problem.dim as i32,
+            pairs: problem.pairs as i64,
+            size: problem.size as i64,
+            matrix: address(&problem.matrix),
+            rhs: address(&problem.load),
+            gap: address(&problem.gap),
+            friction: address(&problem.friction),
+            slip0: address(&problem.reference_slip),
+            cover: problem.covering.as_deref().map_or(std::ptr::null(), address),
+            remark: remark.as_ptr(),
         }
-        Ok(0)
-    });
-}
-
-/// SIGNORINI_PROBLEM_..., the kind of the problem; -1 if problem is NULL.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn signorini_problem_kind(problem: *const SignoriniProblem) -> i32 {
-    // SAFETY: NULL or a problem, by the header's contract.
-    unsafe { look(problem, -1, |problem| kind_code(problem.kind)) }
-}
-
-/// SIGNORINI_LAW_..., the friction law; -1 of an LCP or if problem is NULL.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn signorini_problem_law(problem: *const SignoriniProblem) -> i32 {
-    // SAFETY: NULL or a problem, by the header's contract.
-    unsafe { look(problem, -1, |problem| law_code(problem.kind)) }
-}
-
-/// Space dimension, 2 or 3; 0 of an LCP; -1 if problem is NULL.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn signorini_problem_dim(problem: *const SignoriniProblem) -> i32 {
-    // SAFETY: NULL or a problem, by the header's contract.
-    unsafe { look(problem, -1, |problem| problem.dim as i32) }
-}
-
-/// Number of contact pairs; 0 of an LCP; -1 if problem is NULL.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn signorini_problem_pairs(problem: *const SignoriniProblem) -> i64 {
-    // SAFETY: NULL or a problem, by the header's contract.
-    unsafe { look(problem, -1, |problem| problem.pairs as i64) }
-}
-
-/// Number of unknowns, N = dim * pairs or n; -1 if problem is NULL.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn signorini_problem_size(problem: *const SignoriniProblem) -> i64 {
-    // SAFETY: NULL or a problem, by the header's contract.
-    unsafe { look(problem, -1, |problem| problem.size as i64) }
-}
-
-/// K or M, column-major; its leading dimension is the number of unknowns.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn signorini_problem_matrix(problem: *const SignoriniProblem) -> *const f64 {
-    // SAFETY: NULL or a problem, by the header's contract.
-    unsafe { look(problem, null(), |problem| array(&problem.matrix)) }
-}
-
-/// Right-hand side: f or q, one entry for each unknown.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn signorini_problem_rhs(problem: *const SignoriniProblem) -> *const f64 {
-    // SAFETY: NULL or a problem, by the header's contract.
-    unsafe { look(problem, null(), |problem| array(&problem.load)) }
-}
-
-/// Gaps, one for each pair.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn signorini_problem_gap(problem: *const SignoriniProblem) -> *const f64 {
-    // SAFETY: NULL or a problem, by the header's contract.
-    unsafe { look(problem, null(), |problem| array(&problem.gap)) }
-}
-
-/// Parameters of the friction law, pair by pair; NULL if frictionless.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn signorini_problem_friction(
-    problem: *const SignoriniProblem,
-) -> *const f64 {
-    // SAFETY: NULL or a problem, by the header's contract.
-    unsafe { look(problem, null(), |problem| array(&problem.friction)) }
-}
-
-/// Reference slip, dim - 1 for each pair.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn signorini_problem_slip0(problem: *const SignoriniProblem) -> *const f64 {
-    // SAFETY: NULL or a problem, by the header's contract.
-    unsafe { look(problem, null(), |problem| array(&problem.reference_slip)) }
-}
-
-/// Covering vector of an LCP; NULL if the file has none.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn signorini_problem_cover(problem: *const SignoriniProblem) -> *const f64 {
-    let cover = |problem: &ProblemFile| problem.covering.as_deref().map_or(null(), array);
-    // SAFETY: NULL or a problem, by the header's contract.
-    unsafe { look(problem, null(), cover) }
-}
-
-/// The remark of the file, UTF-8; empty if there is none or problem is NULL. It lives as long as
-/// the problem.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn signorini_problem_remark(
-    problem: *const SignoriniProblem,
-) -> *const c_char {
-    // SAFETY: NULL or a problem, by the header's contract.
-    unsafe { problem.as_ref() }.map_or(c"".as_ptr(), |problem| problem.remark.as_ptr())
-}
-
-/// # Safety
-/// NULL or a problem that lives during the call.
-unsafe fn look<T>(
-    problem: *const SignoriniProblem,
-    otherwise: T,
-    at: impl FnOnce(&ProblemFile) -> T,
-) -> T {
-    // SAFETY: by the caller's contract.
-    unsafe { problem.as_ref() }.map_or(otherwise, |problem| at(&problem.problem))
-}
-
-fn array(values: &[f64]) -> *const f64 {
-    if values.is_empty() { null() } else { values.as_ptr() }
+    }
 }
 
 fn kind_code(kind: Kind) -> i32 {

@@ -3,10 +3,10 @@
 use libc::c_char;
 
 use super::args::{self, Arrays, matrix_length, size, text};
+use super::case_arguments::CaseArguments;
 use super::condensed::CondensedArguments;
 use super::guard::{self, Failure};
 use super::model::{SignoriniModel, read};
-use super::model_solve::CaseArguments;
 use crate::error::Argument;
 use crate::file;
 use crate::problem::ContactProblem;
@@ -71,8 +71,8 @@ pub unsafe extern "C" fn signorini_problem_write(
     })
 }
 
-/// Writes an LCP, the problem of signorini_lcp_solve or signorini_lcp_lemke, to a file, as
-/// signorini_problem_write does: the columns of M, q and, if given, cover.
+/// Writes an LCP, the problem of signorini_lcp_solve, to a file, as signorini_problem_write does:
+/// the columns of M, q and, if given, cover.
 ///
 /// @param path    name of the file, which is replaced if it exists
 /// @param n       number of unknowns, 0 allowed
@@ -159,7 +159,7 @@ pub unsafe extern "C" fn signorini_model_write(
         let (model, path, case, remark) = unsafe {
             let model = read(model)?;
             let path = args::path(2, path)?;
-            let case = given.read(&mut Arrays::default(), model, 1)?.case(0);
+            let case = given.read(&mut Arrays::default(), model, 1, 0)?.case(0);
             (model, path, case, text(REMARK, "remark", remark)?)
         };
         model.write_case(path, &case, remark).map_err(|error| {

@@ -1,48 +1,44 @@
 //! The proof that a solution exists next to displacements from any origin.
 
 use super::args::Arrays;
-use super::condensed::CondensedArguments;
+use super::case_arguments::CaseArguments;
+use super::extra::NO_RADIUS;
 use super::guard::{self, Failure};
+use super::model::{SignoriniModel, read};
 use super::report::{SIGNORINI_STATE_OPEN, SIGNORINI_STATE_SLIP, SIGNORINI_STATE_STICK};
 use super::status::{SIGNORINI_STATUS_NOT_PROVED, SIGNORINI_STATUS_SOLVED, remember};
-use crate::certificate::{certify, prove};
 use crate::error::entry;
 use crate::law::State;
-use crate::problem::ContactProblem;
-use crate::solve::memory;
 
-/// Tries to prove that a condensed contact problem has a solution next to displacements of any
-/// origin, say of another solver, and bounds how far it is away.
+/// Tries to prove that a load case of a model has a solution next to displacements of any origin,
+/// say of another solver, and bounds how far it is away.
 ///
-/// What is proved: K, f, gap, friction and slip0, each double taken for the real number that it
-/// is, have a solution with these states, each pair clear of the boundaries of its state. All
-/// rounding is bounded. It is not proved that there is no other solution.
+/// The proof is about the condensed problem: its K, f, gap, friction and slip0, each double taken
+/// for the real number that it is, have a solution with these states, each pair clear of the
+/// boundaries of its state. All rounding is bounded. It is not proved that there is no other
+/// solution.
 ///
-/// @param dim       space dimension, 2 or 3
-/// @param pairs     number of contact pairs, 0 allowed
-/// @param K         condensed stiffness, as for signorini_solve
-/// @param ldk       entries from one column of K to the next, at least max(1, N)
-/// @param f         condensed nodal loads, N
-/// @param gap       initial gaps, one for each pair
-/// @param law       SIGNORINI_LAW_..., the friction law of all pairs
-/// @param friction  parameters of the law, pair by pair; may be NULL if frictionless
-/// @param slip0     reference slip, dim - 1 for each pair; NULL: zero
-/// @param d         relative displacements, N
-/// @param state     SIGNORINI_STATE_... of each pair; NULL: those of d
-/// @param F         out: contact forces of the solution, N; may be NULL
-/// @param radius_d  out: the solution has displacements within this distance of d, component by
-///                  component, N; length; may be NULL
-/// @param radius_F  out: the same of the contact forces and F, N; force; may be NULL
+/// @param model       a model with a condensed matrix
+/// @param f           nodal loads of the host, H entries
+/// @param prescribed  values of the fixed degrees of freedom; NULL: zero
+/// @param gap         gaps, one for each pair
+/// @param law         SIGNORINI_LAW_..., the friction law of all pairs
+/// @param friction    parameters of the law, pair by pair; may be NULL if frictionless
+/// @param slip0       reference slip, dim - 1 for each pair; NULL: zero
+/// @param d           relative displacements, N
+/// @param state       SIGNORINI_STATE_... of each pair; NULL: those of d
+/// @param F           out: contact forces of the solution, N; may be NULL
+/// @param radius_d    out: the solution has displacements within this distance of d, component by
+///                    component, N; length; may be NULL
+/// @param radius_F    out: the same of the contact forces and F, N; force; may be NULL
 /// @return 0: proved; SIGNORINI_STATUS_NOT_PROVED: not, which proves nothing: F holds zeros, the
 ///         radii -1; -k: the k-th argument is wrong, nothing was written
 #[unsafe(no_mangle)]
 #[allow(non_snake_case)] // the names of the mechanics, which the header shows
-pub unsafe extern "C" fn signorini_prove(
-    dim: i32,
-    pairs: i64,
-    K: *const f64,
-    ldk: i64,
+pub unsafe extern "C" fn signorini_model_prove(
+    model: *const SignoriniModel,
     f: *const f64,
+    prescribed: *const f64,
     gap: *const f64,
     law: i32,
     friction: *const f64,
@@ -53,32 +49,25 @@ pub unsafe extern "C" fn signorini_prove(
     radius_d: *mut f64,
     radius_F: *mut f64,
 ) -> i32 {
-    const MEASURED: i32 = 10;
-    let given = CondensedArguments { first: 1, dim, pairs, K, ldk, f, gap, law, friction, slip0 };
+    const MEASURED: i32 = 8;
+    let given = CaseArguments { first: 2, f, prescribed, gap, law, friction, slip0 };
     guard::call(|| {
         let mut arrays = Arrays::default();
-        // SAFETY: arrays of the lengths of the header.
-        let (data, d, state) = unsafe {
-            let data = given.read(&mut arrays)?;
-            let d = arrays.required(MEASURED, "d", d, data.dim * data.pairs)?;
-            (data, d, arrays.optional(11, "state", state, data.pairs)?)
+        // SAFETY: a model and arrays as the header demands.
+        let (model, case, d, state) = unsafe {
+            let model = read(model)?;
+            let case = given.read(&mut arrays, model, 1, 0)?.case(0);
+            let d = arrays.required(MEASURED, "d", d, model.dim() * model.pairs())?;
+            (model, case, d, arrays.optional(STATE, "state", state, model.pairs())?)
         };
-        let force = arrays.optional_output(12, "F", F, d.len())?;
-        let radius_d = arrays.optional_output(13, "radius_d", radius_d, d.len())?;
-        let radius_force = arrays.optional_output(14, "radius_F", radius_F, d.len())?;
+        let force = arrays.optional_output(10, "F", F, d.len())?;
+        let radius_d = arrays.optional_output(11, "radius_d", radius_d, d.len())?;
+        let radius_force = arrays.optional_output(12, "radius_F", radius_F, d.len())?;
         arrays.check_overlap()?;
-        guard::reserve_estimate(memory(d.len()))?;
-        let problem = ContactProblem::new(data).map_err(|error| {
+        let states = state.map(states).transpose()?;
+        let proof = model.prove(&case, d, states.as_deref()).map_err(|error| {
             Failure::from_error(error, |argument| given.position(argument, MEASURED))
         })?;
-        if let Some(i) = d.iter().position(|d| !d.is_finite()) {
-            return Err(Failure::argument(MEASURED, entry("d", [i]) + " is not finite"));
-        }
-        let states = match state {
-            Some(codes) => states(codes)?,
-            None => certify(&problem, d).states,
-        };
-        let proof = prove(&problem, d, &states);
         let nothing = vec![NO_RADIUS; d.len()];
         let about_d = proof.as_ref().map_or(nothing.clone(), |proof| proof.radius_about(d));
         // SAFETY: the outputs have the lengths of the header and overlap nothing.
@@ -95,8 +84,8 @@ pub unsafe extern "C" fn signorini_prove(
     })
 }
 
-/// A radius where nothing is proved.
-pub(super) const NO_RADIUS: f64 = -1.0;
+/// Number of `state` among the arguments.
+const STATE: i32 = 9;
 
 fn states(codes: &[i32]) -> Result<Vec<State>, Failure> {
     let state = |(pair, code): (usize, &i32)| match *code {
@@ -105,7 +94,7 @@ fn states(codes: &[i32]) -> Result<Vec<State>, Failure> {
         SIGNORINI_STATE_STICK => Ok(State::Stick),
         other => {
             let place = entry("state", [pair]);
-            Err(Failure::argument(11, place + &format!(" is {other}, it must be 0, 1 or 2")))
+            Err(Failure::argument(STATE, place + &format!(" is {other}, it must be 0, 1 or 2")))
         }
     };
     codes.iter().enumerate().map(state).collect()

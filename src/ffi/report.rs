@@ -1,11 +1,12 @@
 //! The report of the C interface, led by its size, and the states of pairs.
 
+use libc::c_char;
+
 use super::args::Arrays;
 use super::guard::{self, Failure};
 use super::settings::method_code;
-use super::structures::{self, checked_size};
+use super::structures;
 use crate::certificate::Certificate;
-use crate::error::index;
 use crate::law::State;
 use crate::settings::Method;
 use crate::solve::{Existence, Fallback, LcpSolution, Remarks, Solution, Uniqueness};
@@ -79,8 +80,8 @@ pub struct SignoriniReport {
     /// Residual of the contact law relative to the forces, no unit, before d is rounded to doubles;
     /// 0 at exact solutions only.
     pub eta: f64,
-    /// What rounding d to doubles may add to eta, no unit. Above 1e-6 only a d is certified that K
-    /// resists by more energy than rounding of its entries explains.
+    /// Rounding of d to doubles may add so much to eta, no unit. Above 1e-6 only a d is certified
+    /// that K resists by more energy than rounding of its entries explains.
     pub rounding: f64,
     /// Largest d_n - gap; length; 0 if none.
     pub penetration: f64,
@@ -120,7 +121,7 @@ pub struct SignoriniReport {
     pub error_F: f64,
     /// SIGNORINI_PROOF_...
     pub proof: i32,
-    /// What is legal and often a mistake: a sum of SIGNORINI_REMARK_..., 0 if there is nothing.
+    /// Sum of SIGNORINI_REMARK_...: data that are legal and often a mistake; 0: none.
     pub remarks: i32,
 }
 
@@ -128,18 +129,6 @@ pub struct SignoriniReport {
 const NOT_KNOWN: f64 = -1.0;
 
 impl SignoriniReport {
-    /// The size that the caller set, checked; 0 for NULL, which is allowed.
-    ///
-    /// # Safety
-    /// A pointer that is not NULL has at least 4 readable bytes.
-    pub(super) unsafe fn accept(position: i32, pointer: *mut Self) -> Result<usize, Failure> {
-        if pointer.is_null() {
-            return Ok(0);
-        }
-        // SAFETY: by the caller's contract.
-        unsafe { checked_size::<Self>(position, "report", pointer.cast_const()) }
-    }
-
     /// Writes as much of the report as the caller's structure holds; nothing to NULL.
     ///
     /// # Safety
@@ -260,18 +249,9 @@ impl Reports {
         if first.is_null() || cases == 0 {
             return Ok(Reports { first: std::ptr::null_mut(), stride: 0 });
         }
-        // SAFETY: by the caller's contract, as in the loop.
-        let stride = unsafe { SignoriniReport::accept(position, first)? };
+        // SAFETY: by the caller's contract.
+        let stride = unsafe { structures::stride(position, "report", first.cast_const(), cases)? };
         let reports = Reports { first, stride };
-        for case in 1..cases {
-            // SAFETY: as above.
-            let size = unsafe { SignoriniReport::accept(position, reports.nth(case))? };
-            if size != stride {
-                let message =
-                    format!("report {}: struct_size is {size}, not {stride}", index(case));
-                return Err(Failure::argument(position, message));
-            }
-        }
         // An overflow is refused with the array, which cannot have so many entries.
         let bytes = stride.saturating_mul(cases);
         arrays.structures(position, "report", first.cast_const(), bytes, true)?;
@@ -344,7 +324,19 @@ pub unsafe extern "C" fn signorini_report_default(
 ) -> i32 {
     guard::call(|| {
         // SAFETY: the caller's structure has `struct_size` bytes, as the header demands.
-        unsafe { structures::fill("report", report, struct_size, &SignoriniReport::blank())? };
-        Ok(0)
+        unsafe { structures::fill("report", report, struct_size, &SignoriniReport::blank()) }
     })
+}
+
+/// A short description of one remark, such as "every gap is negative". Static text; never NULL, for
+/// any number.
+#[unsafe(no_mangle)]
+pub extern "C" fn signorini_remark_string(remark: i32) -> *const c_char {
+    let text = match remark {
+        SIGNORINI_REMARK_GAPS_NEGATIVE => c"every gap is negative",
+        SIGNORINI_REMARK_FRICTION_LARGE => c"a coefficient of friction is above 10",
+        SIGNORINI_REMARK_FREE_MOTION => c"the bodies may move without any force",
+        _ => c"unknown remark",
+    };
+    text.as_ptr()
 }

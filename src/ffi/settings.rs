@@ -3,9 +3,9 @@
 use libc::c_void;
 use std::ops::ControlFlow;
 
-use super::crew;
 use super::guard::{self, Failure};
 use super::structures;
+use super::threads;
 use crate::monitor::{Monitor, Progress, ProgressFn};
 use crate::settings::{Method, Search, Settings};
 
@@ -15,7 +15,7 @@ use crate::settings::{Method, Search, Settings};
 pub const SIGNORINI_METHOD_AUTO: i32 = 0;
 /// Projected over-relaxed Gauss-Seidel (SOR) on a sequence of Tresca problems, g <- mu |F_n|.
 pub const SIGNORINI_METHOD_SOR_NESTED: i32 = 1;
-/// The same with the threshold updated inside the sweep; not for Tresca's law.
+/// Sweeps that update the threshold after each pair; not for Tresca's law.
 pub const SIGNORINI_METHOD_SOR_DIAGONAL: i32 = 2;
 /// Lemke's method, without friction, or with friction in 2D. It ends at a solution for every mu if
 /// K is positive definite.
@@ -44,7 +44,7 @@ pub const SIGNORINI_SEARCH_OFF: i32 = 0;
 /// Prove that the solution is unique, or look for a second one. It costs several solutions.
 pub const SIGNORINI_SEARCH_OTHERS: i32 = 1;
 
-/// What a progress callback receives. Later versions may add fields at the end.
+/// A progress callback receives it. Later versions may add fields at the end.
 #[repr(C)]
 pub struct SignoriniProgress {
     /// Sweeps, pivots or linear systems done.
@@ -210,7 +210,9 @@ impl SignoriniSettings {
         }
         let Ok(threads) = usize::try_from(self.threads) else {
             let given = self.threads;
-            return refuse(format!("settings: threads is {given}, it must be at least 1"));
+            return refuse(format!(
+                "settings: threads is {given}, it must be 0 (one thread) or more"
+            ));
         };
         Ok(Received {
             settings: Settings {
@@ -238,19 +240,20 @@ impl SignoriniSettings {
 }
 
 impl Received {
-    /// Whether the caller wants to be told of progress.
+    /// True if the caller wants to be told of progress.
     pub(super) fn has_callback(&self) -> bool {
         self.progress.is_some()
     }
 
-    /// Whether a call with one case starts from what the caller gives.
+    /// True if a call with one case starts from what the caller gives.
     pub(super) fn starts_from_given(&self) -> bool {
         self.warm_start == WarmStart::Given
     }
 
-    /// Does work that the settings limit, the caller's callback watches, and the caller's number of threads share.
+    /// Does work that the settings limit, the caller's callback watches, and the caller's number of
+    /// threads share.
     pub(super) fn monitored<T>(&self, work: impl FnOnce(&mut Monitor<'_>) -> T) -> T {
-        crew::with(self.threads, |workers| {
+        threads::with_workers(self.threads, |workers| {
             let mut progress = self.progress();
             let progress = progress.as_mut().map(|progress| progress as &mut ProgressFn<'_>);
             work(&mut Monitor::new(&self.settings, progress).with_workers(workers))
@@ -302,7 +305,6 @@ pub unsafe extern "C" fn signorini_settings_default(
     guard::call(|| {
         let default = SignoriniSettings::default_one();
         // SAFETY: the caller's structure has `struct_size` bytes, as the header demands.
-        unsafe { structures::fill("settings", settings, struct_size, &default)? };
-        Ok(0)
+        unsafe { structures::fill("settings", settings, struct_size, &default) }
     })
 }

@@ -48,7 +48,7 @@ pub struct SignoriniSparse {
     pub order: *const c_void,
 }
 
-/// What a sparse matrix and its arrays are called.
+/// Names of a sparse matrix and of its arrays in sentences.
 pub(super) struct Names {
     matrix: &'static str,
     col_start: &'static str,

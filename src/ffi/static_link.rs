@@ -1,4 +1,4 @@
-//! What a statically linked Fortran program needs of the C library.
+//! Functions of the C library that a statically linked Fortran program needs.
 //!
 //! libgfortran refers to the functions of threads weakly, and calls them where one of them is
 //! there. In a program linked with `-static` Rust's standard library brings that one, but weak

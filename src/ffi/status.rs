@@ -41,7 +41,7 @@ pub const SIGNORINI_VERSION_MINOR: i32 = 2;
 /// Patch version of this header.
 pub const SIGNORINI_VERSION_PATCH: i32 = 0;
 /// Binary interface of this header; compare it with signorini_abi_version() after dlopen.
-pub const SIGNORINI_ABI_VERSION: i32 = 2;
+pub const SIGNORINI_ABI_VERSION: i32 = 3;
 
 // The header's numbers are written out for C; here they are held to the package's version.
 const _: () = {
@@ -107,10 +107,11 @@ const CAPACITY: usize = 512;
 thread_local! {
     // A fixed buffer: a pointer to it stays valid while a later call in the same printf writes.
     static LAST: RefCell<Sentence> = const { RefCell::new(Sentence::EMPTY) };
-    // The same for Fortran.
+    // The sentence as Fortran counts.
     static FROM_ONE: RefCell<Sentence> = const { RefCell::new(Sentence::EMPTY) };
 }
 
+#[derive(Clone, Copy)]
 struct Sentence {
     text: [u8; CAPACITY],
     used: usize,
@@ -119,7 +120,7 @@ struct Sentence {
 impl Sentence {
     const EMPTY: Self = Sentence { text: [0; CAPACITY], used: 0 };
 
-    /// What does not fit is cut.
+    /// Text that does not fit is cut.
     fn set(&mut self, text: &str) {
         let cut = (0..=text.len().min(CAPACITY - 1)).rev().find(|&i| text.is_char_boundary(i));
         self.used = cut.unwrap_or(0);
@@ -141,20 +142,29 @@ pub(super) fn remember_plain(sentence: &str) {
     FROM_ONE.with_borrow_mut(|last| last.set(sentence));
 }
 
+/// Does work that leaves the sentence of the call before as it is.
+pub(super) fn keeping_sentence(work: impl FnOnce()) {
+    let kept = [&LAST, &FROM_ONE].map(|place| place.with_borrow(|sentence| *sentence));
+    work();
+    for (place, sentence) in [&LAST, &FROM_ONE].into_iter().zip(kept) {
+        place.set(sentence);
+    }
+}
+
 /// Nothing happened.
 pub(super) fn forget() {
     remember_plain("");
 }
 
-/// What the last call on this thread found, as Fortran counts.
+/// The sentence of the last call on this thread, as Fortran counts.
 pub(super) fn last_counted_from_one() -> String {
     FROM_ONE.with_borrow(|sentence| {
         String::from_utf8_lossy(&sentence.text[..sentence.used]).into_owned()
     })
 }
 
-/// What was wrong in the last call on this thread, in one sentence, such as "K[12,7] is not
-/// finite". Empty after a call that returned 0.
+/// Says what was wrong in the last call on this thread, in one sentence, such as "K[12,7] is not
+/// finite". Empty after a call that returned 0; a call that releases leaves the sentence.
 ///
 /// @return UTF-8 text of at most 511 bytes, never NULL. It belongs to the calling thread; the next
 ///         call of the library on this thread overwrites it.

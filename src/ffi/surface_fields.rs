@@ -4,12 +4,13 @@ use super::args::{Arrays, Output};
 use super::guard::{self, Failure};
 use super::structures;
 use super::surface_new::SignoriniSurfacePairs;
+use super::surface_view::read;
 use crate::error::Argument;
 use crate::surface::{NodalFields, PairResults};
 
 /// Fields at the nodes of your mesh. Set struct_size, and the pointers of the arrays that you want;
-/// each may be NULL. A call writes the nodes that stand in pairs of its contact, on both sides,
-/// and leaves the others as they are: set them before, and give the same arrays to the calls of all
+/// each may be NULL. A call writes the nodes that stand in pairs of its contact, on both sides. It
+/// leaves the others as they are: set them before, and give the same arrays to the calls of all
 /// contact zones. Vectors are in the axes of the mesh.
 ///
 /// A slave node has the values of its pair; other nodes have means over the pairs that they stand
@@ -161,15 +162,6 @@ pub unsafe extern "C" fn signorini_surface_resultant(
         }
         Ok(0)
     })
-}
-
-/// # Safety
-/// NULL or pairs that live during the call.
-pub(super) unsafe fn read<'a>(
-    contact: *const SignoriniSurfacePairs,
-) -> Result<&'a SignoriniSurfacePairs, Failure> {
-    // SAFETY: by the caller's contract.
-    unsafe { contact.as_ref() }.ok_or_else(|| Failure::argument(1, "contact is NULL"))
 }
 
 /// The results of a host, each with its position.

@@ -5,9 +5,8 @@ use std::ffi::CString;
 use super::args::{Arrays, size};
 use super::guard::{self, Failure};
 use super::pairs::SignoriniPairs;
-use super::structures;
+use super::release::release;
 use super::surface::{Rigid, SignoriniFaces, SignoriniObstacle};
-use super::surface_report::SignoriniSurfaceReport;
 use super::surface_settings::{Received, SignoriniSurfaceSettings};
 use crate::error::{Argument, Error};
 use crate::problem;
@@ -20,7 +19,7 @@ use crate::surface::{
 /// Contact pairs that the library made from surfaces, with all that belongs to them. Made by
 /// signorini_surface_pair or signorini_surface_pair_obstacle, released by signorini_surface_free.
 /// It does not change: several threads may use one at once. It holds copies: your arrays may go
-/// once it is made. The arrays that it tells live as long as it does; one without entries is NULL.
+/// once it is made.
 pub struct SignoriniSurfacePairs {
     pub(super) found: SurfacePairs,
     /// Nodes of the host.
@@ -34,7 +33,7 @@ pub struct SignoriniSurfacePairs {
     pub(super) folded: Vec<i64>,
     pub(super) summary: CString,
     pub(super) rows: SignoriniPairs,
-    /// What `rows` points to beside `arrays`.
+    /// Memory that `rows` points to beside `arrays`.
     _indices: [Vec<i64>; 2],
 }
 
@@ -43,12 +42,11 @@ unsafe impl Send for SignoriniSurfacePairs {}
 // SAFETY: as above.
 unsafe impl Sync for SignoriniSurfacePairs {}
 
-/// Makes contact pairs from two surfaces that may touch. signorini_surface_rows gives them to
-/// signorini_model_new_sparse, signorini_surface_gaps to signorini_model_solve.
+/// Makes contact pairs from two surfaces that may touch. signorini_surface_view shows them.
 ///
-/// Surfaces that never meet are no error: there are no pairs, and signorini_surface_summary says
-/// why. Faces of one side that lie upon each other are refused, as their area would count twice;
-/// those of masters with SIGNORINI_PAIRING_DUAL_MORTAR alone.
+/// Surfaces that never meet are no error: there are no pairs, and data.summary says why. Faces of
+/// one side that lie upon each other are refused, as their area would count twice; those of masters
+/// with SIGNORINI_PAIRING_DUAL_MORTAR alone.
 ///
 /// @param dim          space dimension, 2 or 3
 /// @param nodes        number of nodes of your mesh
@@ -57,9 +55,8 @@ unsafe impl Sync for SignoriniSurfacePairs {}
 /// @param master       the other side; its nodes must not be on the slave side
 /// @param settings     NULL: the defaults
 /// @param contact      out: the pairs; NULL unless 0 is returned
-/// @param report       out: what was found; set report->struct_size before the call; may be NULL
-/// @return 0; -k: the k-th argument is wrong: signorini_last_error names side, face and node;
-///         <= -1000: out of memory or a defect
+/// @return 0; -k: the k-th argument is wrong: signorini_last_error names side, face and node; <=
+///         -1000: out of memory or a defect
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn signorini_surface_pair(
     dim: i32,
@@ -69,12 +66,11 @@ pub unsafe extern "C" fn signorini_surface_pair(
     master: *const SignoriniFaces,
     settings: *const SignoriniSurfaceSettings,
     contact: *mut *mut SignoriniSurfacePairs,
-    report: *mut SignoriniSurfaceReport,
 ) -> i32 {
     guard::call(|| {
         // SAFETY: structures and arrays as the header demands.
         unsafe {
-            let place = Place::new((7, contact), (8, report))?;
+            let place = Place::new(contact)?;
             let host = Host::read(dim, nodes, coordinates, (6, settings))?;
             let slave = SignoriniFaces::read((4, "slave"), slave, host.received.base)?;
             let master = SignoriniFaces::read((5, "master"), master, host.received.base)?;
@@ -108,7 +104,6 @@ pub unsafe extern "C" fn signorini_surface_pair(
 /// @param settings     NULL: the defaults; pairing, normals, rims and symmetry_... are
 ///                     read for faces alone
 /// @param contact      out: the pairs; NULL unless 0 is returned
-/// @param report       out: what was found; set report->struct_size before the call; may be NULL
 /// @return as signorini_surface_pair
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn signorini_surface_pair_obstacle(
@@ -119,12 +114,11 @@ pub unsafe extern "C" fn signorini_surface_pair_obstacle(
     obstacle: *const SignoriniObstacle,
     settings: *const SignoriniSurfaceSettings,
     contact: *mut *mut SignoriniSurfacePairs,
-    report: *mut SignoriniSurfaceReport,
 ) -> i32 {
     guard::call(|| {
         // SAFETY: structures and arrays as the header demands.
         unsafe {
-            let place = Place::new((7, contact), (8, report))?;
+            let place = Place::new(contact)?;
             let host = Host::read(dim, nodes, coordinates, (6, settings))?;
             let slave = SignoriniFaces::read((4, "slave"), slave, host.received.base)?;
             let obstacle = SignoriniObstacle::read(5, host.dim, host.received.base, obstacle)?;
@@ -157,16 +151,11 @@ pub unsafe extern "C" fn signorini_surface_pair_obstacle(
 /// Releases pairs. NULL is allowed.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn signorini_surface_free(contact: *mut SignoriniSurfacePairs) {
-    guard::call(|| {
-        if !contact.is_null() {
-            // SAFETY: by the header's contract it came from signorini_surface_pair..., once.
-            drop(unsafe { Box::from_raw(contact) });
-        }
-        Ok(0)
-    });
+    // SAFETY: NULL, or by the header's contract it came from signorini_surface_pair..., once.
+    unsafe { release(contact) }
 }
 
-/// What both calls are given.
+/// Arguments that both calls have.
 struct Host<'a> {
     dim: usize,
     coordinates: &'a [f64],
@@ -249,27 +238,19 @@ impl SignoriniSurfacePairs {
     }
 }
 
-/// Where new pairs and their report go; NULL until they exist.
-struct Place(*mut *mut SignoriniSurfacePairs, *mut SignoriniSurfaceReport);
+/// Where new pairs go, the seventh argument; NULL until they exist.
+struct Place(*mut *mut SignoriniSurfacePairs);
 
 impl Place {
     /// # Safety
-    /// Places as the header demands.
-    unsafe fn new(
-        (position, contact): (i32, *mut *mut SignoriniSurfacePairs),
-        (report_position, report): (i32, *mut SignoriniSurfaceReport),
-    ) -> Result<Self, Failure> {
+    /// A place as the header demands.
+    unsafe fn new(contact: *mut *mut SignoriniSurfacePairs) -> Result<Self, Failure> {
         if contact.is_null() || !contact.is_aligned() {
-            return Err(Failure::argument(position, "contact is NULL or not aligned"));
+            return Err(Failure::argument(7, "contact is NULL or not aligned"));
         }
         // SAFETY: by the caller's contract.
-        unsafe {
-            contact.write(std::ptr::null_mut());
-            if !report.is_null() {
-                structures::checked_size(report_position, "report", report.cast_const())?;
-            }
-        }
-        Ok(Place(contact, report))
+        unsafe { contact.write(std::ptr::null_mut()) };
+        Ok(Place(contact))
     }
 
     /// # Safety
@@ -286,12 +267,7 @@ impl Place {
         // Nothing that lives on may stand in the reserve of the call.
         shortage::check();
         // SAFETY: by the caller's contract.
-        unsafe {
-            if !self.1.is_null() {
-                structures::write(&SignoriniSurfaceReport::of(&made.found), self.1);
-            }
-            self.0.write(Box::into_raw(made));
-        }
+        unsafe { self.0.write(Box::into_raw(made)) };
         Ok(0)
     }
 }

@@ -204,7 +204,6 @@ pub unsafe extern "C" fn signorini_surface_settings_default(
     guard::call(|| {
         let default = SignoriniSurfaceSettings::default_one();
         // SAFETY: the caller's structure has `struct_size` bytes, as the header demands.
-        unsafe { structures::fill("settings", settings, struct_size, &default)? };
-        Ok(0)
+        unsafe { structures::fill("settings", settings, struct_size, &default) }
     })
 }

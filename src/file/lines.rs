@@ -5,7 +5,7 @@ use std::fs::File;
 use std::io::{BufRead, BufReader, Read};
 use std::path::Path;
 
-use super::refuse;
+use super::errors::refuse;
 use crate::error::{Error, entry, index};
 
 /// Most bytes of a line, its end included.
@@ -60,12 +60,12 @@ impl<'a> Lines<'a> {
         self.number
     }
 
-    /// What is wrong with this line.
+    /// An error in this line.
     pub(super) fn refuse(&self, what: &str) -> Error {
         self.refuse_at(self.number, what)
     }
 
-    /// What is wrong with another line.
+    /// An error in another line.
     pub(super) fn refuse_at(&self, number: u64, what: &str) -> Error {
         refuse(self.path, Some(number), what)
     }

@@ -3,8 +3,10 @@
 use std::fs::{self, File};
 use std::path::Path;
 
+use super::errors::{failed, refuse};
+use super::format::{BANNER, OLD_VERSION, TITLE, VERSION};
 use super::lines::{Lines, shown};
-use super::{BANNER, Kind, Law, OLD_VERSION, ProblemFile, TITLE, VERSION, failed, refuse};
+use super::{Kind, Law, ProblemFile};
 use crate::error::{Error, index};
 use crate::problem;
 
@@ -25,8 +27,9 @@ pub fn read(path: &Path) -> Result<ProblemFile, Error> {
     // An entry takes two bytes at least: never allocate more than the size of the file allows.
     let most = usize::try_from(about.len() / 2).unwrap_or(usize::MAX);
     let mut lines = Lines::new(path, file);
-    let header = Header::read(&mut lines)?;
-    header.columns(&mut lines, most)
+    let (mut problem, has_covering) = read_header(&mut lines)?;
+    read_columns(&mut problem, has_covering, &mut lines, most)?;
+    Ok(problem)
 }
 
 /// Most bytes that [`read`] takes; 0 of what is no file.
@@ -35,16 +38,6 @@ pub fn memory(path: &Path) -> u64 {
     const LEAST: u64 = 262_144;
     const EACH: u64 = 8;
     fs::metadata(path).map_or(0, |about| about.len().saturating_mul(EACH).saturating_add(LEAST))
-}
-
-/// What the comment lines and the size line say.
-struct Header {
-    kind: Kind,
-    dim: usize,
-    pairs: usize,
-    size: usize,
-    covering: bool,
-    remark: String,
 }
 
 /// The value of a comment `% key: value` and its line.
@@ -103,106 +96,105 @@ impl Comments {
 /// reference slips.
 const CONTACT_COLUMNS: usize = 3;
 
-impl Header {
-    fn read(lines: &mut Lines<'_>) -> Result<Self, Error> {
-        lines.require(|| "the line of the format".into())?;
-        let words = |text: &str| -> Vec<String> {
-            text.split_ascii_whitespace().map(str::to_ascii_lowercase).collect()
-        };
-        if words(&lines.text()) != words(BANNER) {
-            let what = format!("not a problem file, which begins with '{BANNER}'");
-            return Err(lines.refuse(&what));
-        }
-        let comments = Comments::read(lines)?;
-        let kind = read_kind(lines, comments.version, &comments.kind, &comments.law)?;
-        let mut header = match kind {
-            Kind::Lcp => Self::lcp(lines)?,
-            Kind::Contact(law) => Self::contact(lines, law, &comments)?,
-        };
-        // It may be shown on a terminal, which control characters command.
-        let remark = comments.remark.map_or_else(String::new, |(_, remark)| remark);
-        header.remark = remark.replace(char::is_control, " ");
-        Ok(header)
+/// The problem of the comment lines and the size line, still without its arrays; and whether a covering vector
+/// follows.
+fn read_header(lines: &mut Lines<'_>) -> Result<(ProblemFile, bool), Error> {
+    lines.require(|| "the line of the format".into())?;
+    let words = |text: &str| -> Vec<String> {
+        text.split_ascii_whitespace().map(str::to_ascii_lowercase).collect()
+    };
+    if words(&lines.text()) != words(BANNER) {
+        let what = format!("not a problem file, which begins with '{BANNER}'");
+        return Err(lines.refuse(&what));
     }
+    let comments = Comments::read(lines)?;
+    let kind = read_kind(lines, comments.version, &comments.kind, &comments.law)?;
+    let mut problem = ProblemFile::empty(kind);
+    let has_covering = match kind {
+        Kind::Lcp => read_lcp_size(&mut problem, lines)?,
+        Kind::Contact(law) => read_contact_size(&mut problem, lines, law, &comments)?,
+    };
+    check_memory(lines, problem.size)?;
+    // It may be shown on a terminal, which control characters command.
+    let remark = comments.remark.map_or_else(String::new, |(_, remark)| remark);
+    problem.remark = remark.replace(char::is_control, " ");
+    Ok((problem, has_covering))
+}
 
-    /// Of an LCP, at its size line.
-    fn lcp(lines: &Lines<'_>) -> Result<Self, Error> {
-        let (size, columns) = sizes(lines)?;
-        let covering = columns.checked_sub(2) == Some(size);
-        if !covering && columns.checked_sub(1) != Some(size) {
+/// Takes the size of an LCP; `true` if it has a covering vector.
+fn read_lcp_size(problem: &mut ProblemFile, lines: &Lines<'_>) -> Result<bool, Error> {
+    let (size, columns) = sizes(lines)?;
+    problem.size = size;
+    match columns.checked_sub(size) {
+        Some(more @ (1 | 2)) => Ok(more == 2),
+        _ => {
             let what = format!("{size} rows ask for 1 or 2 columns more, not for {columns}");
+            Err(lines.refuse(&what))
+        }
+    }
+}
+
+/// Takes the size of a contact problem, which has no covering vector.
+fn read_contact_size(
+    problem: &mut ProblemFile,
+    lines: &Lines<'_>,
+    law: Law,
+    comments: &Comments,
+) -> Result<bool, Error> {
+    let dim = number(lines, "dim", &comments.dim)?;
+    problem::checked_dim(dim).map_err(|error| lines.refuse(&format!("above, {error}")))?;
+    let pairs = number(lines, "pairs", &comments.pairs)?;
+    let (size, columns) = sizes(lines)?;
+    let more = CONTACT_COLUMNS + law.parameters().len();
+    if dim.checked_mul(pairs) != Some(size) || columns.checked_sub(more) != Some(size) {
+        let what = format!(
+            "{size} rows and {columns} columns: with dim {dim}, {pairs} pairs and the law \
+             '{}' there must be dim * pairs rows and {more} columns more",
+            law.name()
+        );
+        return Err(lines.refuse(&what));
+    }
+    (problem.dim, problem.pairs, problem.size) = (dim, pairs, size);
+    Ok(false)
+}
+
+/// Reads the columns; nothing may follow them.
+fn read_columns(
+    problem: &mut ProblemFile,
+    has_covering: bool,
+    lines: &mut Lines<'_>,
+    most: usize,
+) -> Result<(), Error> {
+    let (dim, size) = (problem.dim, problem.size);
+    let (matrix_name, load_name) = match problem.kind {
+        Kind::Contact(_) => ("K", "f"),
+        Kind::Lcp => ("M", "q"),
+    };
+    problem.matrix = lines.entries(matrix_name, (size, size * size), most)?;
+    let mut column = |name| lines.entries(name, (size, size), most);
+    problem.load = column(load_name)?;
+    match problem.kind {
+        Kind::Lcp => problem.covering = has_covering.then(|| column("cover")).transpose()?,
+        Kind::Contact(law) => {
+            problem.gap = rows(lines, "gap", (size, most), |i| i % dim == 0)?;
+            let names = law.names();
+            // Columns of the file, of which the pairs are the rows.
+            problem.friction = vec![0.0; problem.pairs * names.len()];
+            for (k, name) in names.iter().enumerate() {
+                let column = rows(lines, name, (size, most), |i| i % dim == 0)?;
+                let places = problem.friction.iter_mut().skip(k).step_by(names.len());
+                places.zip(column).for_each(|(place, value)| *place = value);
+            }
+            problem.reference_slip = rows(lines, "slip0", (size, most), |i| i % dim != 0)?;
+        }
+    }
+    while lines.advance()? {
+        if !lines.text().is_empty() {
+            let what = format!("the problem ends above, what is {}", shown(&lines.text()));
             return Err(lines.refuse(&what));
         }
-        check_memory(lines, size)?;
-        let remark = String::new();
-        Ok(Header { kind: Kind::Lcp, dim: 0, pairs: 0, size, covering, remark })
     }
-
-    /// Of a contact problem, at its size line.
-    fn contact(lines: &Lines<'_>, law: Law, comments: &Comments) -> Result<Self, Error> {
-        let dim = number(lines, "dim", &comments.dim)?;
-        problem::checked_dim(dim).map_err(|error| lines.refuse(&format!("above, {error}")))?;
-        let pairs = number(lines, "pairs", &comments.pairs)?;
-        let (size, columns) = sizes(lines)?;
-        let more = CONTACT_COLUMNS + law.parameters().len();
-        if dim.checked_mul(pairs) != Some(size) || columns.checked_sub(more) != Some(size) {
-            let what = format!(
-                "{size} rows and {columns} columns: with dim {dim}, {pairs} pairs and the law \
-                 '{}' there must be dim * pairs rows and {more} columns more",
-                law.name()
-            );
-            return Err(lines.refuse(&what));
-        }
-        check_memory(lines, size)?;
-        let (kind, remark) = (Kind::Contact(law), String::new());
-        Ok(Header { kind, dim, pairs, size, covering: false, remark })
-    }
-
-    /// Reads the columns and what follows them: nothing.
-    fn columns(self, lines: &mut Lines<'_>, most: usize) -> Result<ProblemFile, Error> {
-        let Header { kind, dim, pairs, size, covering, remark } = self;
-        let (matrix_name, load_name) = match kind {
-            Kind::Contact(_) => ("K", "f"),
-            Kind::Lcp => ("M", "q"),
-        };
-        let matrix = lines.entries(matrix_name, (size, size * size), most)?;
-        let mut column = |name| lines.entries(name, (size, size), most);
-        let mut problem = ProblemFile {
-            kind,
-            dim,
-            pairs,
-            size,
-            matrix,
-            load: column(load_name)?,
-            gap: Vec::new(),
-            friction: Vec::new(),
-            reference_slip: Vec::new(),
-            covering: None,
-            remark,
-        };
-        match kind {
-            Kind::Lcp => problem.covering = covering.then(|| column("cover")).transpose()?,
-            Kind::Contact(law) => {
-                problem.gap = rows(lines, "gap", (size, most), |i| i % dim == 0)?;
-                let names = law.parameters();
-                // Columns of the file, of which the pairs are the rows.
-                problem.friction = vec![0.0; pairs * names.len()];
-                for (k, name) in names.iter().enumerate() {
-                    let column = rows(lines, name, (size, most), |i| i % dim == 0)?;
-                    let places = problem.friction.iter_mut().skip(k).step_by(names.len());
-                    places.zip(column).for_each(|(place, value)| *place = value);
-                }
-                problem.reference_slip = rows(lines, "slip0", (size, most), |i| i % dim != 0)?;
-            }
-        }
-        while lines.advance()? {
-            if !lines.text().is_empty() {
-                let what = format!("the problem ends above, what is {}", shown(&lines.text()));
-                return Err(lines.refuse(&what));
-            }
-        }
-        Ok(problem)
-    }
+    Ok(())
 }
 
 /// The laws that version 1 of the format has.

@@ -31,7 +31,7 @@ pub struct Mesh<'a> {
 /// Values at the nodes of a mesh.
 #[derive(Clone, Debug)]
 pub struct Field<'a> {
-    /// What ParaView calls it.
+    /// The name of the field in ParaView.
     pub name: &'a str,
     /// The numbers.
     pub values: Values<'a>,

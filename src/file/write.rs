@@ -5,7 +5,8 @@ use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use super::{BANNER, Law, MOST_REMARK, TITLE, VERSION, failed, refuse};
+use super::errors::{failed, refuse};
+use super::format::{BANNER, MOST_REMARK, TITLE, VERSION};
 use crate::error::{Argument, Error, entry};
 use crate::problem::{ContactProblem, Lcp};
 
@@ -24,13 +25,13 @@ pub fn write(path: &Path, problem: &ContactProblem<'_>, remark: Option<&str>) ->
             return Err(Error::invalid(Argument::Matrix, entry("K", [i, j]) + " is not finite"));
         }
     }
-    let (law, given) = (Law::of(&problem.law()), problem.law());
+    let (law, given) = (problem.law().law(), problem.law());
     let gap: Vec<f64> = (0..problem.pairs()).map(|pair| problem.gap(pair)).collect();
     let pairs = problem.pairs();
     replace(path, |file| {
         let lines = format!("contact\n% law: {}\n% dim: {dim}\n% pairs: {pairs}", law.name());
         head(file, &lines, remark)?;
-        let names = listed(&[&["gap"], law.parameters()].concat());
+        let names = listed(&[&["gap"], &law.names()[..]].concat());
         writeln!(file, "K ({n}), f, {names} in normal rows, slip0 in tangential rows.")?;
         writeln!(file, "{n} {}", n + 3 + law.parameters().len())?;
         for j in 0..n {

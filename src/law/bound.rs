@@ -18,7 +18,7 @@ impl Bound {
         self.slope * pressure + self.offset
     }
 
-    /// Whether the admissible forces are a cone: then they are known by their edges.
+    /// Returns `true` if the admissible forces are a cone: then they are known by their edges.
     pub fn is_cone(&self) -> bool {
         self.offset == 0.0
     }

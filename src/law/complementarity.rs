@@ -9,11 +9,10 @@
 //! ```
 //!
 //! with the pressure `p'` beside the tension that the pair may carry: that of equilibrium under
-//! [`Contact::shifted_load`]. Without friction only the first line is left. In `x = -d_n` it is an LCP
+//! [`Contact::load_with_tension`]. Without friction only the first line is left. In `x = -d_n` it is an LCP
 //! with the lower bound `-gap`, and `w`, the variable that the bound is complementary to, is `p'`.
 
-use super::branch::{Branch, Tangential};
-use super::{Contact, PairLaw};
+use super::{Contact, PairLaw, Piece, Tangential};
 use crate::problem::Relation;
 
 /// Which variables a pair has in the plane.
@@ -32,27 +31,27 @@ impl PairLaw {
         Variables { clearance, slips: clearance || self.has_friction() }
     }
 
-    /// The branch on which the values of the pair's variables are; those that it has not are 0.
-    pub fn branch_of_variables(&self, w: f64, a: f64, b: f64) -> Branch {
+    /// The piece on which the values of the pair's variables are; those that it has not are 0.
+    pub fn piece_of_variables(&self, w: f64, a: f64, b: f64) -> Piece {
         let closed = self.has_obstacle() && w == 0.0;
         let acts = self.bound.at(if closed { 1.0 } else { 0.0 }) > 0.0;
-        let slip = |side: f64| Tangential::Slip { direction: [side, 0.0] };
+        let slip = |side| Tangential::Slip { side };
         let tangential = match (a, b) {
             _ if !acts => Tangential::Free,
-            (a, b) if a > b => slip(1.0),
-            (a, b) if a < b => slip(-1.0),
+            (a, b) if a > b => slip(1),
+            (a, b) if a < b => slip(-1),
             _ => Tangential::Stick,
         };
-        Branch { closed, tangential }
+        Piece { closed, tangential }
     }
 }
 
-/// Whether an obstacle can stop component `i`: the normal one of a pair that has one.
+/// Returns `true` if an obstacle can stop component `i`: the normal one of a pair that has one.
 pub fn is_bounded<R: Relation>(contact: &Contact<'_, R>, i: usize) -> bool {
     i.is_multiple_of(contact.dim()) && contact.pairs()[i / contact.dim()].has_obstacle()
 }
 
-/// Whether component `i` is stopped by an obstacle at the displacements `d`.
+/// Returns `true` if component `i` is stopped by an obstacle at the displacements `d`.
 pub fn is_stopped<R: Relation>(contact: &Contact<'_, R>, i: usize, d: &[f64]) -> bool {
     is_bounded(contact, i) && contact.pairs()[i / contact.dim()].touches(d[i])
 }

@@ -2,10 +2,9 @@
 
 use std::borrow::Cow;
 
-use super::branch::Branch;
-use super::{Bound, Ellipse, PairLaw, Rule, cohesive, coulomb, frictionless, orthotropic, tresca};
+use super::{Bound, PairLaw, Piece};
 use crate::linalg::vector::norm_inf;
-use crate::problem::{ContactProblem, FrictionLaw, Relation, Stiffness};
+use crate::problem::{ContactProblem, Relation, Stiffness};
 
 /// A problem and the laws of its pairs.
 #[derive(Clone, Debug)]
@@ -18,7 +17,7 @@ pub struct Contact<'p, R = Stiffness<'p>> {
 
 impl Contact<'_> {
     /// The force `F - a` that equilibrium at `d` needs beside the tension of the pairs: `K d - (f + a)`.
-    pub fn shifted_force(&self, d: &[f64]) -> Vec<f64> {
+    pub fn force_without_tension(&self, d: &[f64]) -> Vec<f64> {
         let mut force: Vec<f64> = self.load.iter().map(|f| -f).collect();
         self.problem.stiffness().add_product(d, &mut force);
         force
@@ -34,25 +33,12 @@ impl<'p, R: Relation> Contact<'p, R> {
                 *slip0 = problem.reference_slip(pair, component);
             }
             let stiffness = (problem.normal_stiffness(pair), problem.tangential_stiffness(pair));
-            let law =
-                |bound| PairLaw::new(problem.dim(), problem.gap(pair), slip0, bound, stiffness);
-            let elliptic = |numbers: &[f64], rule| {
-                let (mu, angle) = ([numbers[0], numbers[1]], numbers[2]);
-                let block = problem.tangential_block(pair);
-                law(orthotropic::bound(mu)).with_ellipse(Ellipse::new(mu, angle, rule, &block))
-            };
-            let numbers = problem.law().of_pair(pair);
-            match problem.law() {
-                FrictionLaw::Frictionless => law(frictionless::bound()),
-                FrictionLaw::Coulomb(_) => law(coulomb::bound(numbers[0])),
-                FrictionLaw::Tresca(_) => law(tresca::bound(numbers[0])),
-                FrictionLaw::Cohesive(_) => {
-                    let (mu, b, a) = (numbers[0], numbers[1], numbers[2]);
-                    law(cohesive::bound(mu, b, a)).with_tension(a)
-                }
-                FrictionLaw::Orthotropic(_) => elliptic(numbers, Rule::Associated),
-                FrictionLaw::OrthotropicCollinear(_) => elliptic(numbers, Rule::Collinear),
-            }
+            let (dim, gap) = (problem.dim(), problem.gap(pair));
+            PairLaw::new(dim, gap, slip0, Bound::FRICTIONLESS, stiffness).with_friction(
+                problem.law(),
+                problem.law().of_pair(pair),
+                || problem.tangential_block(pair),
+            )
         };
         let pairs: Vec<PairLaw> = (0..problem.pairs()).map(pair).collect();
         let mut load = Cow::Borrowed(problem.relation().load());
@@ -64,7 +50,7 @@ impl<'p, R: Relation> Contact<'p, R> {
 
     /// `f` with the tension of each pair added to its normal component. Under this load the law has no
     /// tension: `K d = (f + a) + (F - a)`, and `F_n - a <= 0`.
-    pub fn shifted_load(&self) -> &[f64] {
+    pub fn load_with_tension(&self) -> &[f64] {
         &self.load
     }
 
@@ -106,7 +92,7 @@ impl<'p, R: Relation> Contact<'p, R> {
         self.pairs.iter().zip(parts).map(|(law, (d, force))| (law, d, force))
     }
 
-    /// The same contact with each law at its reference, for [`Self::beyond_reference`].
+    /// Copies the contact with each law at its reference, for [`Self::beyond_reference`].
     pub fn at_its_reference(&self) -> Self
     where
         R: Clone,
@@ -124,9 +110,9 @@ impl<'p, R: Relation> Contact<'p, R> {
         v
     }
 
-    /// The branches of the law on which displacements and forces are.
-    pub fn branches(&self, d: &[f64], force: &[f64]) -> Vec<Branch> {
-        self.each(d, force).map(|(law, d, force)| law.branch(&law.trial(d, force))).collect()
+    /// The pieces of the normal map on which displacements and forces are.
+    pub fn pieces(&self, d: &[f64], force: &[f64]) -> Vec<Piece> {
+        self.each(d, force).map(|(law, d, force)| law.piece(&law.trial(d, force))).collect()
     }
 
     /// The displacements nearest to `d` that do not penetrate.
@@ -148,29 +134,24 @@ impl<'p, R: Relation> Contact<'p, R> {
         self.pairs.iter().zip(normals).map(part).fold(1.0, f64::min)
     }
 
-    /// Every pair that has an obstacle closed, and sticking as far as it has friction.
-    pub fn all_stick(&self) -> Vec<Branch> {
-        self.pairs.iter().map(PairLaw::stick).collect()
-    }
-
     /// Gives the pairs thresholds in the place of their own bounds: a Tresca problem.
     pub fn set_thresholds(&mut self, thresholds: &[f64]) {
         for (law, &threshold) in self.pairs.iter_mut().zip(thresholds) {
-            *law = law.with_bound(tresca::bound(threshold));
+            *law = law.with_bound(Bound::tresca(threshold));
         }
     }
 
-    /// Whether no pair can carry a tangential force.
+    /// Returns `true` if no pair can carry a tangential force.
     pub fn is_frictionless(&self) -> bool {
         !self.pairs.iter().any(PairLaw::has_friction)
     }
 
-    /// Whether the bound of some pair depends on its pressure.
+    /// Returns `true` if the bound of some pair depends on its pressure.
     pub fn is_coupled(&self) -> bool {
         self.bounds().any(|bound| bound.slope > 0.0)
     }
 
-    /// Whether some pair slips along a friction that does not take the most work from its slip.
+    /// Returns `true` if some pair slips along a friction that does not take the most work from its slip.
     pub fn has_collinear_slip(&self) -> bool {
         self.pairs.iter().any(PairLaw::is_collinear)
     }
@@ -180,13 +161,13 @@ impl<'p, R: Relation> Contact<'p, R> {
         self.pairs.iter().map(PairLaw::bound)
     }
 
-    /// Whether nothing but a reference slip can cause forces.
+    /// Returns `true` if nothing but a reference slip can cause forces.
     pub fn is_unloaded(&self) -> bool {
         norm_inf(self.problem.relation().load()) == 0.0
             && self.pairs.iter().all(PairLaw::admits_zero)
     }
 
-    /// Whether zero displacement is the solution: no load, no interference, no reference slip.
+    /// Returns `true` if zero displacement is the solution: no load, no interference, no reference slip.
     pub fn is_at_rest(&self) -> bool {
         let no_slip = |law: &PairLaw| law.reference()[1..] == [0.0; 2];
         self.is_unloaded() && self.pairs.iter().all(no_slip)

@@ -15,7 +15,7 @@ pub fn pressing(dim: usize, pattern: &[f64]) -> Vec<f64> {
     pattern.iter().enumerate().map(part).collect()
 }
 
-/// Whether pressing forces that balance each other prove that the gaps contradict each other; `offset` is `o`.
+/// Returns `true` if pressing forces that balance each other prove that the gaps contradict each other; `offset` is `o`.
 pub fn exceed_gaps<R: Relation>(
     problem: &ContactProblem<'_, R>,
     pressing: &[f64],
@@ -32,7 +32,7 @@ pub fn exceed_gaps<R: Relation>(
     sum < -LEAST * size
 }
 
-/// The same problem without friction.
+/// Copies the problem without its friction.
 pub fn without_friction<'a, R: Clone + Relation>(
     problem: &ContactProblem<'a, R>,
 ) -> ContactProblem<'a, R> {

@@ -68,7 +68,7 @@ impl PairLaw {
         }
     }
 
-    /// Whether the pair has an ellipse and slips along its friction all the same.
+    /// Returns `true` if the pair has an ellipse and slips along its friction all the same.
     pub fn is_collinear(&self) -> bool {
         self.ellipse.as_ref().is_some_and(|ellipse| ellipse.rule() == Rule::Collinear)
     }

@@ -40,10 +40,10 @@ impl Violation {
 impl PairLaw {
     /// The natural map at the displacement `d` and the force `force` of the pair.
     ///
-    /// Branch by branch, so that a force is not lost in the rounding of a much larger `k_t delta`.
+    /// Piece by piece, so that a force is not lost in the rounding of a much larger `k_t delta`.
     #[inline]
     pub fn natural_residual(&self, d: &[f64], force: &[f64], residual: &mut [f64]) {
-        // max() of the two branches, so that an infinite gap leaves the force and no NaN.
+        // max() of both pieces, so that an infinite gap leaves the force and no NaN.
         residual[0] = (self.k_n * (d[0] - self.gap)).max(force[0] - self.tension);
         let threshold = self.threshold(force[0]);
         let scaled = self.scaled(self.slip_at(d));
@@ -65,7 +65,7 @@ impl PairLaw {
     /// rounded once: two forces on a slip. Elsewhere a component has one term, with a few roundings.
     pub fn natural_rounding(&self, d: &[f64], force: &[f64]) -> f64 {
         let threshold = self.threshold(force[0]);
-        // Of an isotropic law the sum of sizes is above the length, and cheaper.
+        // For an isotropic law the sum of sizes is above the length, and cheaper.
         let above = |t: &[f64]| t.iter().map(|t| t.abs()).sum::<f64>();
         let terms = above(&force[1..self.dim]) + threshold + self.bound.slope * self.tension;
         let rounding = EVALUATION * terms;
@@ -85,7 +85,7 @@ impl PairLaw {
         2.0 + self.bound.slope + (form[0][0] + form[1][1]).sqrt()
     }
 
-    /// The state of the active branch of the natural map. Branches closer than the force `margin` are
+    /// The state of the active piece of the natural map. Pieces closer than the force `margin` are
     /// not told apart: open comes before closed, stick before slip. A pair that is open has no friction, so that
     /// friction under its pressure is below `margin` too.
     pub fn state(&self, d: &[f64], force: &[f64], margin: f64) -> State {

@@ -7,9 +7,8 @@
 //!
 //! `(v, P)` obeys the law if and only if it is of this form, with `y = P' + k v`, and `y` is then unique
 //! (Robinson, *Normal maps induced by linear transformations*, 1992). It has no kink but where
-//! branches meet, and no singularity where a slip begins.
+//! pieces meet, and no singularity where a slip begins.
 
-use super::branch::{Branch, Tangential};
 use super::{PairLaw, Vector};
 
 impl PairLaw {
@@ -47,25 +46,6 @@ impl PairLaw {
         ([v_n, delta[0], delta[1]], p)
     }
 
-    /// The branch of the normal map at `y`.
-    pub fn branch(&self, y: &Vector) -> Branch {
-        let closed = y[0] > 0.0;
-        let threshold = self.bound.at(y[0].max(0.0));
-        let size = self.gauge(&y[1..self.dim]);
-        let tangential = if threshold == 0.0 {
-            Tangential::Free
-        } else if size > threshold {
-            let mut direction = [0.0; 2];
-            for c in 1..self.dim {
-                direction[c - 1] = y[c] / size;
-            }
-            Tangential::Slip { direction }
-        } else {
-            Tangential::Stick
-        };
-        Branch { closed, tangential }
-    }
-
     /// The coordinates `y = P' + k (d - reference)` of a displacement and a force on the chart that
     /// [`Self::point`] reads; of a pair without an obstacle `y_n` is `k_n d_n`.
     pub fn chart(&self, d: &[f64], force: &[f64]) -> Vector {
@@ -88,11 +68,6 @@ impl PairLaw {
             v[c] += reference[c];
         }
         (v, p)
-    }
-
-    /// The branch of the law at the coordinates `y`.
-    pub fn chart_branch(&self, y: &Vector) -> Branch {
-        self.branch(&self.without_obstacle(y))
     }
 
     /// `y` with the normal coordinate that the normal map has for an infinite gap.

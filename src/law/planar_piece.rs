@@ -1,7 +1,7 @@
 //! The pieces of the normal map in the plane, and the boundaries between them: what a path through
 //! pieces needs.
 //!
-//! On the piece of a branch `P = D y + c` with the branch's derivative `D` and `c = offset h` in the
+//! On a piece `P = D y + c` with its derivative `D` and `c = offset h` in the
 //! tangential component of a slip, less the tension in the normal one, and `k v = y - D y - c_t`. Boundaries, inside positive:
 //!
 //! | piece | boundary | beyond it |
@@ -14,8 +14,7 @@
 //! Where the bound has no offset a pair that sticks slips before it opens, because `g(p)` falls to zero
 //! with the pressure. The derivative changes by a matrix of rank one, along the boundary's gradient.
 
-use super::PairLaw;
-use super::branch::{Branch, Tangential};
+use super::{PairLaw, Piece, Tangential};
 
 /// Normal and tangential coordinate of a pair.
 pub type Planar = [f64; 2];
@@ -28,24 +27,24 @@ pub struct Exit {
     /// Gradient of the boundary, inside positive.
     pub gradient: Planar,
     /// The piece beyond.
-    pub beyond: Branch,
+    pub beyond: Piece,
 }
 
 /// Part of the slip of an open pair that may be kept, of what the clearance allows
 /// ([`PairLaw::sure_start`]).
 const KEPT_SLIP: f64 = 0.98;
 
-/// Clearance of a pair that is lifted, of what its slip demands: more than `1 / KEPT_SLIP`.
-const LIFTED: f64 = 1.05;
+/// Clearance of a pair that is opened, of what its slip demands: more than `1 / KEPT_SLIP`.
+const OPENED: f64 = 1.05;
 
 /// Part of the friction of a closed pair that is kept: enough to tell the pairs apart.
 const KEPT_FRICTION: f64 = 1e-7;
 
 impl PairLaw {
-    /// Where the way `y + step rate`, `step >= 0`, leaves the piece of `branch` first.
-    pub fn planar_exit(&self, branch: Branch, y: Planar, rate: Planar) -> Option<Exit> {
+    /// Where the way `y + step rate`, `step >= 0`, leaves `piece` first.
+    pub fn planar_exit(&self, piece: Piece, y: Planar, rate: Planar) -> Option<Exit> {
         let mut first: Option<Exit> = None;
-        let mut look = |gradient: Planar, constant: f64, beyond: Branch| {
+        let mut look = |gradient: Planar, constant: f64, beyond: Piece| {
             let inside = gradient[0] * y[0] + gradient[1] * y[1] + constant;
             let change = gradient[0] * rate[0] + gradient[1] * rate[1];
             if change < 0.0 {
@@ -55,54 +54,55 @@ impl PairLaw {
                 }
             }
         };
-        let normal = if branch.closed { 1.0 } else { 0.0 };
+        let normal = if piece.closed { 1.0 } else { 0.0 };
         let (slope, offset) = (self.bound.slope * normal, self.bound.offset);
-        let slips = |h: f64| Tangential::Slip { direction: [h, 0.0] };
-        match branch.tangential {
+        let slips = |side| Tangential::Slip { side };
+        match piece.tangential {
             Tangential::Free => {}
             Tangential::Stick => {
-                for h in [1.0, -1.0] {
-                    look([slope, -h], offset, Branch { tangential: slips(h), ..branch });
+                for side in [1, -1] {
+                    let beyond = Piece { tangential: slips(side), ..piece };
+                    look([slope, -f64::from(side)], offset, beyond);
                 }
             }
-            Tangential::Slip { direction: [h, _] } => {
-                let stick = Branch { tangential: Tangential::Stick, ..branch };
-                look([-slope, h], -offset, stick);
+            Tangential::Slip { side } => {
+                let stick = Piece { tangential: Tangential::Stick, ..piece };
+                look([-slope, f64::from(side)], -offset, stick);
             }
         }
         let grips = self.bound.is_cone() && self.bound.slope > 0.0;
-        let sticks = grips && branch.tangential == Tangential::Stick;
+        let sticks = grips && piece.tangential == Tangential::Stick;
         if self.has_obstacle() && !sticks {
-            let sign = if branch.closed { 1.0 } else { -1.0 };
-            let tangential = match branch.tangential {
-                _ if !grips => branch.tangential,
-                _ if branch.closed => Tangential::Free,
+            let sign = if piece.closed { 1.0 } else { -1.0 };
+            let tangential = match piece.tangential {
+                _ if !grips => piece.tangential,
+                _ if piece.closed => Tangential::Free,
                 _ => {
                     // Where it closes, at y_n = 0.
                     let step = -y[0] / rate[0];
-                    slips(1.0_f64.copysign(y[1] + step * rate[1]))
+                    self.slip_along(y[1] + step * rate[1])
                 }
             };
-            look([sign, 0.0], 0.0, Branch { closed: !branch.closed, tangential });
+            look([sign, 0.0], 0.0, Piece { closed: !piece.closed, tangential });
         }
         first
     }
 
-    /// The push that the piece of `branch` has at `y = 0`.
-    pub fn constant(&self, branch: Branch) -> Planar {
-        match branch.tangential {
-            Tangential::Slip { direction: [h, _] } => [-self.tension, h * self.bound.offset],
+    /// The push that `piece` has at `y = 0`.
+    pub fn constant(&self, piece: Piece) -> Planar {
+        match piece.tangential {
+            Tangential::Slip { side } => [-self.tension, f64::from(side) * self.bound.offset],
             _ => [-self.tension, 0.0],
         }
     }
 
-    /// `dP/dy` on the piece of `branch`.
-    pub fn slopes(&self, branch: Branch) -> [Planar; 2] {
-        let normal = if branch.closed { 1.0 } else { 0.0 };
-        let tangential = match branch.tangential {
+    /// `dP/dy` on `piece`.
+    pub fn slopes(&self, piece: Piece) -> [Planar; 2] {
+        let normal = if piece.closed { 1.0 } else { 0.0 };
+        let tangential = match piece.tangential {
             Tangential::Free => [0.0, 0.0],
             Tangential::Stick => [0.0, 1.0],
-            Tangential::Slip { direction: [h, _] } => [self.bound.slope * h * normal, 0.0],
+            Tangential::Slip { side } => [self.bound.slope * f64::from(side) * normal, 0.0],
         };
         [[normal, 0.0], tangential]
     }
@@ -125,18 +125,9 @@ impl PairLaw {
         [y[0], y[1].max(-most).min(most)]
     }
 
-    /// The pair open, as far as theorem H demands it for its slip at `y`, and by `least` at least.
-    pub fn lifted(&self, y: Planar, least: f64) -> Planar {
-        if !self.has_obstacle() {
-            return y;
-        }
-        let (d, _) = self.point(&[y[0], y[1], 0.0]);
-        self.opened(y, d[1] - self.reference()[1], least)
-    }
-
-    /// The same with a given slip.
+    /// The pair open, as far as theorem H demands it for the given slip, and by `least` at least.
     fn opened(&self, y: Planar, slip: f64, least: f64) -> Planar {
-        let clearance = LIFTED * self.bound.slope * slip.abs();
+        let clearance = OPENED * self.bound.slope * slip.abs();
         let normal = -(self.k_n * clearance).max(-y[0]).max(least);
         let bound = self.bound.at(0.0);
         let tangential = if slip == 0.0 {
@@ -147,11 +138,10 @@ impl PairLaw {
         self.sure_start([normal, tangential])
     }
 
-    /// Coordinates from which a path goes on where the pair was held open, or stuck, at the displacements `d` with their
-    /// `force`, whatever the law says to that. The law knows no pair that penetrates: it is open, as far as
-    /// [`Self::lifted`], with its slip. One that sticks in tension, or with too much friction, sticks with what the law
-    /// allows. `J` keeps its sign in both. What obeys the law keeps its coordinates. Forces of the size `least` are
-    /// rounding.
+    /// Coordinates from which a path goes on at the displacements `d` with their `force`, where the pair was held
+    /// open, or stuck. Coordinates that the law does not allow are replaced: a pair that penetrates is opened as far
+    /// as its slip demands, and one that sticks in tension, or with too much friction, sticks
+    /// with forces that the law allows. `J` keeps its sign in both. Forces of the size `least` are rounding.
     pub fn released(&self, d: &[f64], force: &[f64], least: f64) -> Planar {
         let y = self.chart(d, force);
         let (y, reference) = ([y[0], y[1]], self.reference());

@@ -1,4 +1,4 @@
-//! What a motion must satisfy to prove that no equilibrium exists.
+//! The conditions under which a motion proves that no equilibrium exists.
 //!
 //! Let `|r_t|*` be the largest work of tangential forces of gauge 1 on `r_t`; of an isotropic law it is
 //! the length. With `p' = p + a >= 0`, and `p' = 0` without an obstacle, an admissible force does the work
@@ -10,7 +10,7 @@
 //! on a motion `r`. A rigid motion (`K r = 0`) with `r_n + slope |r_t|* <= 0` at every pair that has an
 //! obstacle is a recession direction: `F . r >= sum (a r_n - offset |r_t|*)`, while equilibrium asks for
 //! `F . r = -f . r`. So `f . r + sum a r_n > sum offset |r_t|*` excludes equilibrium: the tension of the
-//! pairs counts as a part of the loads ([`super::Contact::shifted_load`]). Of a pair that has an obstacle
+//! pairs counts as a part of the loads ([`super::Contact::load_with_tension`]). Of a pair that has an obstacle
 //! `r_n <= 0`: tension takes the work `a |r_n|`.
 
 use super::{Contact, PairLaw, Vector};
@@ -96,7 +96,7 @@ impl PairLaw {
         edge
     }
 
-    /// Whether the pair would have to pull more than its tension with the normal force `f_n - a`.
+    /// Returns `true` if the pair would have to pull more than its tension with the normal force `f_n - a`.
     pub fn is_tensile(&self, shifted: f64) -> bool {
         shifted > 0.0
     }

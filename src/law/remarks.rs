@@ -1,33 +1,27 @@
-//! What is legal and looks like a mistake of the host, and which pairs touch.
+//! Data that are legal and look like a mistake of the host; pairs that touch.
 
 use super::{Contact, State};
 use crate::linalg::tolerances::NEGLIGIBLE;
 use crate::linalg::vector::norm_inf;
-use crate::problem::{ContactProblem, FrictionLaw, Relation};
+use crate::problem::{ContactProblem, FrictionLaw, Parameter, Relation};
 
 /// Coefficients of friction above this are rather percent, or another array: rubber on dry concrete has
 /// about 1.
 const LARGE_FRICTION: f64 = 10.0;
 
-/// Whether every finite gap is negative, and there is one.
+/// Returns `true` if every finite gap is negative, and there is one.
 pub fn gaps_are_negative<R: Relation>(problem: &ContactProblem<'_, R>) -> bool {
     let gaps = (0..problem.pairs()).map(|pair| problem.gap(pair)).filter(|gap| gap.is_finite());
     let mut gaps = gaps.peekable();
     gaps.peek().is_some() && gaps.all(|gap| gap < 0.0)
 }
 
-/// Whether a coefficient of friction is large.
+/// Returns `true` if a coefficient of friction is large.
 pub fn friction_is_large(law: FrictionLaw<'_>) -> bool {
-    let each = law.parameters();
-    let is_large = |mu: &f64| *mu > LARGE_FRICTION;
-    match law {
-        FrictionLaw::Frictionless | FrictionLaw::Tresca(_) => false,
-        FrictionLaw::Coulomb(mu) => mu.iter().any(is_large),
-        FrictionLaw::Cohesive(numbers) => numbers.iter().step_by(each).any(is_large),
-        FrictionLaw::Orthotropic(numbers) | FrictionLaw::OrthotropicCollinear(numbers) => {
-            numbers.chunks_exact(each).any(|own| own[..each - 1].iter().any(is_large))
-        }
-    }
+    let meanings = law.law().parameters().iter().cycle();
+    meanings.zip(law.values()).any(|((_, meaning), value)| {
+        matches!(meaning, Parameter::Coefficient | Parameter::Axis) && *value > LARGE_FRICTION
+    })
 }
 
 /// The pairs that touch at `d`, whether they press or not.

@@ -90,7 +90,7 @@ impl ApproximateInverse {
                 sums.iter_mut().zip(column).for_each(|(sum, entry)| *sum += entry.abs());
             }
         }
-        // What is subnormal in the products stays below n of the least normal numbers in each entry.
+        // Subnormal parts of the products stay below n of the least normal numbers in each entry.
         let sizes = bound_of_product(&self.matrix, &vec![1.0; n]);
         let wide: Vec<f64> = sizes
             .iter()

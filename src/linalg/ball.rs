@@ -47,12 +47,12 @@ impl Ball {
         self.radius
     }
 
-    /// The same middle with a radius that is larger by `by >= 0`.
+    /// A ball with this middle and a radius that is larger by `by >= 0`.
     pub fn widened(self, by: f64) -> Self {
         Ball { radius: sum_up(self.radius, by), ..self }
     }
 
-    /// Whether every number of the ball is positive.
+    /// `true` if every number of the ball is positive.
     pub fn is_positive(self) -> bool {
         self.least() > 0.0
     }

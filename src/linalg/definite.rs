@@ -11,6 +11,7 @@ use faer::Mat;
 
 use super::ball::{product_up, sum_of_products_up, sum_up};
 use super::factor::{Factor, cholesky};
+use super::matrix::TILE;
 use super::vector::{norm, norm_inf};
 
 /// Steps of inverse iteration: the shift may be half of the eigenvalue, and need not be exact.
@@ -21,9 +22,6 @@ const SHIFTS: [f64; 2] = [0.5, 0.05];
 
 /// Rounding of the entries as they are given, and of the shift, relative.
 const GIVEN: f64 = 8.0 * f64::EPSILON;
-
-/// Columns and rows of the tiles in which a matrix is compared with its transpose: two tiles fit a cache.
-const TILE: usize = 32;
 
 /// Roundings of an entry of the factor beside those of the theorem: the shift, and a pivot whose inverse
 /// multiplies. [`f64::EPSILON`] is twice the rounding `u`, which covers the rest.

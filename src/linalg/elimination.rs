@@ -28,7 +28,7 @@ pub struct Elimination {
 pub struct Remembered(Mutex<Option<Arc<Elimination>>>);
 
 impl Remembered {
-    /// What was kept last.
+    /// The elimination that was kept last.
     pub fn get(&self) -> Option<Arc<Elimination>> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }

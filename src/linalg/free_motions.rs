@@ -1,4 +1,5 @@
-//! Which motions a condensed matrix does not resist, and the matrix without what rounding makes of them.
+//! The motions that a condensed matrix does not resist, and the matrix made exact on them: their products, which
+//! only rounding fills, become zero.
 //!
 //! A motion that nothing resists has the energy zero, and in doubles the rounding of zero. No fixed
 //! threshold tells it from a soft spring: the rounding of the condensation grows with the mesh, with
@@ -24,7 +25,7 @@
 
 use super::eigen::eigenvectors;
 use super::pivoted_cholesky::PivotedCholesky;
-use super::tolerances::{FREE, HELD, SUSPICIOUS_PIVOT};
+use super::tolerances::{FREE, HELD, NEGLIGIBLE, SUSPICIOUS_PIVOT};
 use super::vector::{dot, norm};
 
 /// The matrix from which another one was condensed: of eliminated components, then of those kept.
@@ -41,7 +42,7 @@ pub trait Whole {
 
 /// Why a matrix is no stiffness, or none that doubles can tell; with the motion that shows it.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Doubt {
+pub enum StiffnessDefect {
     /// The energy of the motion is negative.
     Indefinite(Vec<f64>),
     /// The energy of the motion cannot be told from rounding.
@@ -52,13 +53,6 @@ pub enum Doubt {
 /// factor is worth, ten digits or more.
 const CORRECTIONS: usize = 2;
 
-/// Free motions move a component on its own if they span its unit vector up to this: far above the
-/// rounding of the motions (1e-15 to 1e-13, measured), and its square, an energy, is below rounding.
-const ALONE: f64 = 1e-11;
-
-/// Less of a component's square in the free motions need not be looked at closely.
-const NEARLY_ALONE: f64 = 0.99;
-
 /// A motion, and the forces that it meets.
 struct Motion {
     /// All components.
@@ -68,7 +62,7 @@ struct Motion {
     scaled: Vec<f64>,
 }
 
-/// Whether a component keeps so little of its unit that a motion may be free. A look at the diagonal costs
+/// `true` if a component keeps so little of its unit that a motion may be free. A look at the diagonal costs
 /// nothing beside a factorisation. Free motions that move many components leave no such trace; where the
 /// matrix is factorised, their pivots are negligible.
 pub fn is_suspicious(units: &[f64], diagonal: impl Fn(usize) -> f64) -> bool {
@@ -78,7 +72,11 @@ pub fn is_suspicious(units: &[f64], diagonal: impl Fn(usize) -> f64) -> bool {
 /// Settles which motions the condensed `matrix`, column-major, does not resist, and makes it exact on them.
 /// `units` are positive, of the size of the diagonal before anything was eliminated. Returns whether any
 /// motion is free.
-pub fn settle(matrix: &mut [f64], units: &[f64], whole: &dyn Whole) -> Result<bool, Doubt> {
+pub fn settle(
+    matrix: &mut [f64],
+    units: &[f64],
+    whole: &dyn Whole,
+) -> Result<bool, StiffnessDefect> {
     let size = units.len();
     let root: Vec<f64> = units.iter().map(|unit| unit.sqrt()).collect();
     let entry = |i: usize, j: usize| matrix[i + size * j] / (root[i] * root[j]);
@@ -107,7 +105,7 @@ fn settle_scaled(
     factor: &PivotedCholesky,
     root: &[f64],
     whole: &dyn Whole,
-) -> Result<bool, Doubt> {
+) -> Result<bool, StiffnessDefect> {
     let size = root.len();
     let candidates = candidates(matrix, factor, root, whole);
     let (mut basis, mut products) = (Vec::new(), Vec::new());
@@ -115,7 +113,7 @@ fn settle_scaled(
     for motion in parted(candidates, root, whole) {
         let (energy, noise) = (dot(&motion.whole, &motion.forces), whole.noise(&motion.whole));
         if energy <= -HELD * noise {
-            return Err(Doubt::Indefinite(motion.whole));
+            return Err(StiffnessDefect::Indefinite(motion.whole));
         }
         if energy >= HELD * noise {
             let forces = &motion.forces[motion.forces.len() - size..];
@@ -124,7 +122,7 @@ fn settle_scaled(
         } else if energy.abs() <= FREE * noise {
             free.push(motion.scaled);
         } else {
-            return Err(Doubt::Unclear(motion.whole));
+            return Err(StiffnessDefect::Unclear(motion.whole));
         }
     }
     let some_free = !free.is_empty();
@@ -223,7 +221,9 @@ fn orthonormal(mut vectors: Vec<Vec<f64>>, count: usize) -> Vec<Vec<f64>> {
 }
 
 /// Parts the components that the free motions move on their own: returns them, and leaves of the motions
-/// those of the other components.
+/// those of the other components. Free motions move a component on its own if they span its unit vector up to
+/// [`NEGLIGIBLE`]: far above the rounding of the motions (1e-15 to 1e-13, measured), and its square, an energy, is below
+/// rounding. The square of its share, which costs less, tells first.
 fn separate(free: &mut Vec<Vec<f64>>, size: usize) -> Vec<usize> {
     let share = |i: usize| free.iter().map(|v| v[i] * v[i]).sum::<f64>();
     let remainder = |i: usize| {
@@ -235,7 +235,7 @@ fn separate(free: &mut Vec<Vec<f64>>, size: usize) -> Vec<usize> {
         norm(&unit)
     };
     let alone: Vec<usize> =
-        (0..size).filter(|&i| share(i) > NEARLY_ALONE && remainder(i) <= ALONE).collect();
+        (0..size).filter(|&i| share(i) > 1.0 - NEGLIGIBLE && remainder(i) <= NEGLIGIBLE).collect();
     if !alone.is_empty() {
         let left = free.len().saturating_sub(alone.len());
         let mut rest = std::mem::take(free);

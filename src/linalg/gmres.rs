@@ -4,13 +4,11 @@
 //! systems*, SIAM J. Sci. Stat. Comput. 7 (1986) 856-869. Modified Gram-Schmidt, twice where digits cancel;
 //! Givens rotations; no restart.
 
+use super::tolerances::ROUNDING;
 use super::vector::{dot, norm};
 
 /// Where orthogonalisation leaves less of a vector than this part, it is done once more.
 const CANCELS: f64 = 0.5;
-
-/// What is left of a vector is rounding: the space of the directions is invariant.
-const ROUNDING_OF_DIRECTION: f64 = 1e-14;
 
 /// Minimises `|right - sum c_j A v_j|` over the directions `v_0 = right / |right|, v_1, ...`, until it is at
 /// most `least` or there are `most` directions. `multiply` gives `A v` of each direction in turn. Returns the
@@ -39,7 +37,8 @@ pub fn gmres<E>(
                 (c * column[j] + s * column[j + 1], c * column[j + 1] - s * column[j]);
         }
         let diagonal = column[k].hypot(left);
-        if !(diagonal > ROUNDING_OF_DIRECTION * was) {
+        // Less is rounding: the space of the directions is invariant.
+        if !(diagonal > ROUNDING * was) {
             break;
         }
         let (c, s) = (column[k] / diagonal, left / diagonal);
@@ -51,7 +50,7 @@ pub fn gmres<E>(
         rotated[k] = c * last;
         rotated.push(-s * last);
         residual = (s * last).abs();
-        if left <= ROUNDING_OF_DIRECTION * was {
+        if left <= ROUNDING * was {
             break;
         }
         basis.push(scaled(&image, 1.0 / left));

@@ -5,7 +5,7 @@ use super::tolerances::UNRESISTED;
 use super::vector::largest_of;
 
 /// Rows and columns of a square tile: what stands across its diagonal is read from cache.
-const TILE: usize = 32;
+pub const TILE: usize = 32;
 
 /// A square matrix, column-major, in the caller's memory.
 #[derive(Clone, Copy, Debug)]
@@ -144,7 +144,7 @@ impl<'a> Matrix<'a> {
         );
     }
 
-    /// Whether each entry below the diagonal is of size `most` at most and differs by `apart` at most from the one
+    /// `true` if each entry below the diagonal is of size `most` at most and differs by `apart` at most from the one
     /// across it, both times `root[i] root[j]`.
     pub fn agrees_across(&self, root: &[f64], apart: f64, most: f64) -> bool {
         vectorised(
@@ -227,7 +227,7 @@ pub fn required_length(name: &str, size: usize, ld: usize) -> Result<usize, Stri
         .ok_or_else(|| format!("the leading dimension of {name} is {ld}: the matrix cannot exist"))
 }
 
-/// Whether a square matrix of `size` rows fits the address space.
+/// `true` if a square matrix of `size` rows fits the address space.
 pub fn can_exist(size: usize) -> bool {
     size.checked_mul(size).is_some_and(|entries| entries <= isize::MAX as usize / size_of::<f64>())
 }

@@ -2,6 +2,7 @@
 //! and orthonormal bases.
 
 use super::factor::Factor;
+use super::gmres::orthogonalised;
 use super::vector::dot;
 
 /// Slopes above this part of the length of the target would still lower the distance: ten times the
@@ -83,19 +84,9 @@ fn least_squares(target: &[f64], columns: &[Vec<f64>], active: &[usize]) -> Opti
     Some(x.iter().zip(active).map(|(x, &j)| x / length(j)).collect())
 }
 
-/// Gram and Schmidt's process, done twice for each vector: "twice is enough" (Kahan, in Parlett, *The
-/// Symmetric Eigenvalue Problem*, 6-9).
-const PASSES: usize = 2;
-
 /// Adds to an orthonormal `basis` the part of `v` that is orthogonal to it, normalised.
 pub fn extend_basis(basis: &mut Vec<Vec<f64>>, mut v: Vec<f64>) {
-    for _ in 0..PASSES {
-        for known in basis.iter() {
-            let share = dot(known, &v);
-            v.iter_mut().zip(known).for_each(|(v, known)| *v -= share * known);
-        }
-        let size = dot(&v, &v).sqrt();
-        v.iter_mut().for_each(|v| *v /= size);
-    }
+    let (_, size, _) = orthogonalised(&mut v, basis);
+    v.iter_mut().for_each(|v| *v /= size);
     basis.push(v);
 }

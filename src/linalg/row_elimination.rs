@@ -25,7 +25,7 @@ pub struct Expression {
     pub right_sides: Terms,
 }
 
-/// What equations give.
+/// The outcome of equations.
 pub struct Solved {
     /// The unknowns that equations give, in terms of the others.
     pub given: Vec<(usize, Expression)>,

@@ -21,19 +21,20 @@
 //! condition number 1e10, the largest that can be certified, have pivots of 1e-10 and slightly less.
 //! [`SINGULAR_BASIS`] lies at the last digit because iterative refinement on the data follows.
 
-/// What rounding leaves of a sum that should be zero, relative to its terms: about 50 units of double
+/// Rounding that is left of a sum that should be zero, relative to its terms: about 50 units of double
 /// precision.
 pub const ROUNDING: f64 = 1e-14;
 
-/// What rounding leaves of a zero after a factorisation, relative to the largest entry: 100 times the
-/// 1e-13 that a host's condensation leaves, and below the stiffness of anything that can be certified.
+/// An entry of a factorised matrix that should be zero, relative to the largest entry. A host's condensation leaves
+/// 1e-13 of it: the limit is 100 times that, and below the stiffness of anything that can be certified.
 pub const NEGLIGIBLE: f64 = 1e-11;
 
 /// Pivots below this part of the largest make a matrix singular: well above what rounding leaves of
 /// a zero, so that units do not decide, and below those of anything certifiable.
 pub const SINGULAR: f64 = 1e-12;
 
-/// The same for a basis of Lemke's method: only one that is singular to the last digit is lost.
+/// Pivots below this part of the largest make a basis of Lemke's method singular: only one that is singular to the last
+/// digit is lost.
 pub const SINGULAR_BASIS: f64 = f64::EPSILON;
 
 /// Least work of a motion in a proof, relative to what a motion of its size could do: 100 times the

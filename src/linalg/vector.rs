@@ -67,11 +67,9 @@ pub struct NormSum {
     small: f64,
 }
 
-/// Entries above are large: the squares of 1e26 entries below do not overflow.
+/// Entries above are large: the squares of 1e26 entries below do not overflow. Entries below its inverse are small:
+/// squares of those above are normal numbers.
 const LARGE: f64 = 1e140;
-
-/// Entries below are small: squares of those above are normal numbers.
-const SMALL: f64 = 1e-140;
 
 /// Large entries are divided by it and small ones multiplied: what comes out has normal squares.
 const SCALE: f64 = 1e200;
@@ -83,7 +81,7 @@ impl NormSum {
         let size = value.abs();
         if size > LARGE {
             self.large += (size / SCALE).powi(2);
-        } else if size < SMALL {
+        } else if size < 1.0 / LARGE {
             self.small += (size * SCALE).powi(2);
         } else {
             self.usual += size * size;

@@ -6,7 +6,7 @@ use crate::linalg::elimination::Remembered;
 use crate::monitor::{Monitor, Progress, ProgressFn};
 use crate::settings::Settings;
 use crate::solve::{Solution, Status};
-use crate::workers::{Alone, Workers};
+use crate::workers::{SingleThread, Workers};
 
 /// Load cases of a block. A solve with one column waits for memory; from this number on it computes, and a
 /// block takes little memory beside the factor.
@@ -33,17 +33,17 @@ pub struct Series<'m> {
     past: Past,
 }
 
-/// What the cases of a series have left for the next ones.
+/// The results that the cases of a series leave for the next ones.
 #[derive(Default)]
 pub(crate) struct Past {
-    /// Of the stiffness; `None`: nothing is worked out for others.
+    /// Factors of the stiffness; `None`: they are not kept for other cases.
     remembered: Option<Remembered>,
     /// The last solution.
     before: Option<Vec<f64>>,
 }
 
 impl Past {
-    /// Of a series that begins.
+    /// The past of a series that begins: no case has been solved.
     pub(crate) fn of_none() -> Self {
         Past { remembered: Some(Remembered::default()), before: None }
     }
@@ -60,7 +60,7 @@ impl<'m> Series<'m> {
         Self::after(model, if cases > 1 { Past::of_none() } else { Past::default() })
     }
 
-    /// What is left for further cases.
+    /// The results that further cases may use.
     pub(crate) fn into_past(self) -> Past {
         self.past
     }
@@ -69,7 +69,7 @@ impl<'m> Series<'m> {
     /// a case costs less than by [`Model::solve`]. A case that is wrong or not solved does not stop the others.
     ///
     /// # Errors
-    /// Of each case as [`Model::solve`].
+    /// For each case as [`Model::solve`].
     pub fn solve_cases(
         &mut self,
         cases: &[LoadCase<'_>],
@@ -77,7 +77,7 @@ impl<'m> Series<'m> {
         starts: Starts<'_>,
         progress: Option<&mut ProgressFn<'_>>,
     ) -> Vec<Result<Solution, Error>> {
-        self.solve_cases_with(&Alone, cases, settings, starts, progress)
+        self.solve_cases_with(&SingleThread, cases, settings, starts, progress)
     }
 
     /// As [`Self::solve_cases`], on threads that share what a model in full space factorises.
@@ -96,7 +96,7 @@ impl<'m> Series<'m> {
                 let k = solved.len();
                 let start = match starts {
                     Starts::Cold => None,
-                    // A start that is missing has a wrong length, which is told.
+                    // Where the array is too short, the empty start is refused for its length.
                     Starts::Given(all) => Some(all.get(n * k..n * (k + 1)).unwrap_or_default()),
                     Starts::Previous(first) => self.past.before.as_deref().or(first),
                 };
@@ -110,7 +110,9 @@ impl<'m> Series<'m> {
                 if let Ok(found) = &solution
                     && found.status == Status::Solved
                 {
-                    self.past.before = Some(found.d.clone());
+                    let forces = self.model.starts_from_forces();
+                    self.past.before =
+                        Some(if forces { &found.certificate.force } else { &found.d }.clone());
                 }
                 solved.push(solution);
             }
@@ -128,7 +130,7 @@ impl Model {
     /// Solves load cases as a [`Series`]. One case stands alone.
     ///
     /// # Errors
-    /// Of each case as [`Self::solve`].
+    /// For each case as [`Self::solve`].
     pub fn solve_cases(
         &self,
         cases: &[LoadCase<'_>],
@@ -139,10 +141,10 @@ impl Model {
         Series::of(self, cases.len()).solve_cases(cases, settings, starts, progress)
     }
 
-    /// What each load case of a block condenses to; `None` where nothing is condensed. A wrong case is left out
+    /// The condensed loads of each case of a block; `None` where nothing is condensed. A wrong case is left out
     /// of what is worked out together.
     fn condensed_loads(&self, block: &[LoadCase<'_>]) -> Vec<Result<Option<Vec<f64>>, Error>> {
-        if self.is_unformed() {
+        if self.is_matrix_free() {
             return block.iter().map(|_| Ok(None)).collect();
         }
         let checked: Vec<_> =

@@ -1,4 +1,4 @@
-//! What changes from load case to load case.
+//! The data that change from load case to load case.
 
 use crate::problem::FrictionLaw;
 

@@ -2,8 +2,8 @@
 
 use super::{BLOCK, Model};
 use crate::problem::Dependence;
-use crate::solve::{memory, memory_unformed};
-use crate::workers::Alone;
+use crate::solve::{memory, memory_matrix_free};
+use crate::workers::SingleThread;
 
 /// Vectors of the host's size that each load case of a block takes while it is condensed or recovered.
 const VECTORS: u64 = 10;
@@ -11,9 +11,12 @@ const VECTORS: u64 = 10;
 impl Model {
     /// Most bytes that [`Self::solve`] takes beside the model.
     pub fn memory(&self) -> u64 {
-        if let Some(unformed) = self.reduction.unformed() {
-            let inner = unformed.bodies(&Alone).inner();
-            return unformed.factor_bytes() + memory_unformed(inner + self.dim * self.pairs);
+        if let Some(form) = self.reduction.flexibility() {
+            return self.memory_of_flexibility(form);
+        }
+        if let Some(matrix_free) = self.reduction.matrix_free() {
+            let inner = matrix_free.bodies(&SingleThread).inner();
+            return matrix_free.factor_bytes() + memory_matrix_free(inner + self.dim * self.pairs);
         }
         // Dependent rows are solved with springs between bodies and contact.
         let springs = self.reduction.dependence().map_or(0, Dependence::variables);
@@ -30,7 +33,8 @@ impl Model {
 
     /// Most bytes that recovering so many load cases takes beside the model and what the host holds.
     pub(crate) fn memory_of_recovery(&self, cases: usize) -> u64 {
-        let factor = self.reduction.unformed().map_or(0, |unformed| unformed.factor_bytes());
+        let factor =
+            self.reduction.matrix_free().map_or(0, |matrix_free| matrix_free.factor_bytes());
         self.memory_of_cases(cases).saturating_add(factor)
     }
 }

@@ -83,7 +83,7 @@ fn of_case(error: Error, k: usize, all: usize) -> Error {
     if all == 1 { error } else { error.in_case(k) }
 }
 
-/// What came out, if it is finite: finite numbers went in.
+/// The values, if they are finite: they were made of finite numbers.
 fn not_overflown(argument: Argument, name: &str, values: Vec<f64>) -> Result<Vec<f64>, Error> {
     let Some(i) = first_not_finite(&values) else { return Ok(values) };
     let place = entry(name, [i]);

@@ -17,7 +17,7 @@ pub struct BoundedLcp<'a> {
     pub q: &'a [f64],
     /// `l`, `-inf` for a free variable.
     pub lower: &'a [f64],
-    /// Whether `M` is symmetric, as far as rounding goes.
+    /// `true` if `M` is symmetric, as far as rounding goes.
     pub symmetric: bool,
 }
 
@@ -29,7 +29,7 @@ impl BoundedLcp<'_> {
         w
     }
 
-    /// Whether variable `i` has no bound.
+    /// Returns `true` if variable `i` has no bound.
     #[inline(always)]
     pub fn is_free(&self, i: usize) -> bool {
         self.lower[i] == f64::NEG_INFINITY
@@ -58,7 +58,7 @@ impl BoundedLcp<'_> {
         }
     }
 
-    /// Whether the motion `r` of `x`, with a symmetric semi-definite `M`, proves that there is no
+    /// Returns `true` if the motion `r` of `x`, with a symmetric semi-definite `M`, proves that there is no
     /// solution: `M r = 0`, `r >= 0` where there is a bound, and `q . r < 0`, while `w . r >= 0` for
     /// every admissible `w`.
     pub fn is_recession(&self, r: &[f64]) -> bool {
@@ -72,7 +72,7 @@ impl BoundedLcp<'_> {
         is_free && is_admissible && dot(self.q, r) < -LEAST_WORK * scale
     }
 
-    /// Whether variable `i` is off its bound on the branch of `min(w, m (x - l))` that `x` and `w` are
+    /// Returns `true` if variable `i` is off its bound on the branch of `min(w, m (x - l))` that `x` and `w` are
     /// on: `w = 0` holds there, otherwise `x = l`.
     pub fn is_basic(&self, i: usize, x: &[f64], w: &[f64]) -> bool {
         self.is_free(i) || self.matrix.at(i, i) * (x[i] - self.lower[i]) >= w[i]

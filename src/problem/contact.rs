@@ -14,14 +14,15 @@
 
 use std::fmt::Display;
 
+use super::arguments::{OF_MATRIX, check_length, dense, vector};
 use super::friction_law::FrictionLaw;
 use super::relation::{Relation, Stiffness};
 use super::symmetric_matrix;
 use crate::error::{Argument, Error, entry};
 use crate::linalg::elimination::Remembered;
-use crate::linalg::matrix::{Matrix, can_exist, required_length};
+use crate::linalg::matrix::{Matrix, can_exist};
 use crate::linalg::tolerances::{CONDENSATION, FREE};
-use crate::linalg::vector::{self, first_not_finite, sizes};
+use crate::linalg::vector::{largest_eigenvalue, sizes};
 
 /// The caller's arrays, not yet checked. Forces and displacements are in the caller's units.
 #[derive(Clone, Copy, Debug)]
@@ -91,7 +92,7 @@ impl<'a> ContactProblem<'a> {
         Ok(problem)
     }
 
-    /// Whether `K` is symmetric.
+    /// Returns `true` if `K` is symmetric.
     pub(crate) fn is_symmetric(&self) -> bool {
         self.relation.symmetric
     }
@@ -99,13 +100,8 @@ impl<'a> ContactProblem<'a> {
     /// Checks everything but the entries of the matrix, which a model has checked once.
     pub(crate) fn on_checked_matrix(data: ContactData<'a>) -> Result<Self, Error> {
         let size = unknowns(checked_dim(data.dim)?, data.pairs)?;
-        let entries = required_length("K", size, data.ld)
-            .map_err(|message| Error::invalid(Argument::LeadingDimension, message))?;
-        check_length(Argument::Matrix, "K", data.stiffness.len(), entries)?;
-        check_length(Argument::Load, "f", data.load.len(), size)?;
-        let load = &data.load[..size];
-        check_finite(Argument::Load, "f", load)?;
-        let matrix = Matrix::new(size, data.stiffness, data.ld);
+        let matrix = dense("K", (data.stiffness, data.ld), size, OF_MATRIX)?;
+        let load = vector(Argument::Load, "f", data.load, size)?;
         Self::with_relation(
             Stiffness::new(matrix, load, data.dim),
             data.dim,
@@ -115,21 +111,21 @@ impl<'a> ContactProblem<'a> {
         )
     }
 
-    /// The same problem, whose matrix a host has condensed: energies of the size of that rounding resist no
-    /// motion.
+    /// Tells the problem that a host has condensed its matrix: an energy of the size of that rounding counts as
+    /// no resistance.
     pub(crate) fn condensed_by_host(mut self) -> Self {
         self.relation.rounding = FREE * CONDENSATION;
         self
     }
 
-    /// The same problem as one of several with this matrix: what was worked out of the matrix for those before
-    /// serves this one, if there is something, and what this one works out is kept.
+    /// Makes the problem one of several with this matrix. It uses the factors that earlier problems have left, and
+    /// leaves its own.
     pub(crate) fn remembering(mut self, remembered: Option<&'a Remembered>) -> Self {
         self.relation.remembered = remembered;
         self
     }
 
-    /// What problems before with this matrix have left; `None`: this one stands alone.
+    /// The factors that earlier problems with this matrix have left; `None`: this problem stands alone.
     pub(crate) fn remembered(&self) -> Option<&'a Remembered> {
         self.relation.remembered
     }
@@ -144,7 +140,16 @@ impl<'a> ContactProblem<'a> {
         self.relation.matrix
     }
 
-    /// The same problem with other gaps, one for each pair.
+    /// Copies the problem with another symmetric stiffness of the same size.
+    pub(crate) fn with_stiffness<'b>(&self, matrix: Matrix<'b>) -> ContactProblem<'b>
+    where
+        'a: 'b,
+    {
+        let relation = Stiffness::new(matrix, self.relation.load, self.dim);
+        ContactProblem { relation, ..*self }
+    }
+
+    /// Copies the problem with other gaps, one for each pair.
     pub(crate) fn with_gaps<'b>(&self, gap: &'b [f64]) -> ContactProblem<'b>
     where
         'a: 'b,
@@ -216,18 +221,16 @@ impl<'a, R: Relation> ContactProblem<'a, R> {
         check_length(Argument::Gap, "gap", gap.len(), pairs)?;
         check_length(Argument::Law, "friction", law.values().len(), law.parameters() * pairs)?;
         let slips = (dim - 1) * pairs;
-        if let Some(slip) = reference_slip {
-            check_length(Argument::ReferenceSlip, "slip0", slip.len(), slips)?;
-            check_finite(Argument::ReferenceSlip, "slip0", &slip[..slips])?;
-        }
+        let reference_slip = reference_slip
+            .map(|slip| vector(Argument::ReferenceSlip, "slip0", slip, slips))
+            .transpose()?;
         let (gap, law) = (&gap[..pairs], law.truncated(pairs));
         check_gaps(gap)?;
         law.check(dim)?;
-        let reference_slip = reference_slip.map(|slip| &slip[..slips]);
         Ok(ContactProblem { relation, dim, gap, law, reference_slip })
     }
 
-    /// The same problem with another law, whose parameters fit its pairs.
+    /// Copies the problem with another law, whose parameters fit its pairs.
     pub(crate) fn with_law(&self, law: FrictionLaw<'a>) -> Self
     where
         R: Clone,
@@ -265,7 +268,7 @@ impl<'a, R: Relation> ContactProblem<'a, R> {
         let block = self.tangential_block(pair);
         match self.dim {
             2 => block[0][0],
-            _ => vector::largest_eigenvalue(block[0][0], block[1][0], block[1][1]),
+            _ => largest_eigenvalue(block[0][0], block[1][0], block[1][1]),
         }
     }
 
@@ -313,26 +316,6 @@ pub(crate) fn unknowns(dim: usize, pairs: usize) -> Result<usize, Error> {
     dim.checked_mul(pairs).filter(|&size| can_exist(size)).ok_or_else(|| {
         Error::invalid(Argument::Size, format!("pairs is {pairs}: the matrix cannot exist"))
     })
-}
-
-pub(super) fn check_length(
-    argument: Argument,
-    name: &str,
-    given: usize,
-    needed: usize,
-) -> Result<(), Error> {
-    if given >= needed {
-        return Ok(());
-    }
-    let message = format!("{name} has {given} entries, it must have {needed}");
-    Err(Error::invalid(argument, message))
-}
-
-pub(super) fn check_finite(argument: Argument, name: &str, values: &[f64]) -> Result<(), Error> {
-    match first_not_finite(values) {
-        Some(i) => Err(Error::invalid(argument, entry(name, [i]) + " is not finite")),
-        None => Ok(()),
-    }
 }
 
 fn check_gaps(gap: &[f64]) -> Result<(), Error> {

@@ -136,7 +136,7 @@ impl<'a> DependentRows<'a> {
         d
     }
 
-    /// What of `f + Cᵀ F - K z` is left: a force for each variable.
+    /// The unbalanced part `f + Cᵀ F - K z`: a force for each variable.
     pub(crate) fn unbalanced(&self, variables: &[f64], force: &[f64]) -> Vec<f64> {
         let mut left = self.dependence.forces(force);
         left.iter_mut().zip(self.load).for_each(|(left, load)| *left += load);
@@ -195,9 +195,9 @@ impl Relation for DependentRows<'_> {
         let left = self.unbalanced(&variables, force);
         let mut residual = times(&self.dependence.from_relative, &left);
         residual.iter_mut().for_each(|left| *left = -*left);
-        let made = self.relative(&variables);
+        let relative = self.relative(&variables);
         for (i, residual) in residual.iter_mut().enumerate() {
-            *residual += self.unit_of_pair(i) * (d[i] - made[i]);
+            *residual += self.unit_of_pair(i) * (d[i] - relative[i]);
         }
         residual
     }
@@ -221,11 +221,11 @@ impl Relation for DependentRows<'_> {
             let column = self.stiffness.column(j);
             forces.iter_mut().zip(column).for_each(|(force, k)| *force += k.abs() * size);
         }
-        let (mut sum, mut made) = (vec![0.0; count], size.to_vec());
+        let (mut sum, mut relative) = (vec![0.0; count], size.to_vec());
         absolute(&dependence.from_relative, &forces, &mut sum, false);
-        absolute(&dependence.to_relative, &of_variables, &mut made, false);
-        sum.iter_mut().zip(&made).enumerate().for_each(|(i, (sum, made))| {
-            *sum += self.unit_of_pair(i) * made;
+        absolute(&dependence.to_relative, &of_variables, &mut relative, false);
+        sum.iter_mut().zip(&relative).enumerate().for_each(|(i, (sum, relative))| {
+            *sum += self.unit_of_pair(i) * relative;
         });
         sum
     }

@@ -14,12 +14,13 @@
 
 use std::iter::{once, repeat_n};
 
-use super::contact::{ContactProblem, check_finite, check_length, checked_dim, unknowns};
+use super::arguments::{OF_MATRIX, dense, vector};
+use super::contact::{ContactProblem, checked_dim, unknowns};
 use super::friction_law::FrictionLaw;
 use super::relation::{Redundant, Relation};
 use super::symmetric_matrix;
 use crate::error::{Argument, Error};
-use crate::linalg::matrix::{Matrix, required_length};
+use crate::linalg::matrix::Matrix;
 use crate::linalg::tolerances::ROUNDING_OF_SUM;
 use crate::linalg::vector::{largest_eigenvalue, largest_of, norm, sizes};
 
@@ -91,23 +92,31 @@ impl<'a> FlexibilityProblem<'a> {
     /// zero, or out of range; a `W` of zeros. Rows of zeros are allowed: nothing moves these components.
     pub fn from_flexibility(data: FlexibilityData<'a>) -> Result<Self, Error> {
         let size = unknowns(checked_dim(data.dim)?, data.pairs)?;
-        let entries = required_length("W", size, data.ld)
-            .map_err(|message| Error::invalid(Argument::LeadingDimension, message))?;
-        check_length(Argument::Matrix, "W", data.flexibility.len(), entries)?;
-        check_length(Argument::Load, "q", data.free.len(), size)?;
-        let free = &data.free[..size];
-        check_finite(Argument::Load, "q", free)?;
-        let matrix = Matrix::new(size, data.flexibility, data.ld);
-        symmetric_matrix::check_semi_definite(&matrix, "W", Argument::Matrix)?;
-        if size > 0 && matrix.largest_diagonal() == 0.0 {
-            return Err(Error::invalid(Argument::Matrix, ZERO));
-        }
+        let matrix = Flexibility::checked_matrix(size, data.flexibility, data.ld)?;
+        let free = vector(Argument::Load, "q", data.free, size)?;
         let relation = Flexibility::new(matrix, free, units(data.dim, &matrix));
         ContactProblem::with_relation(relation, data.dim, data.gap, data.law, data.reference_slip)
     }
 }
 
 impl<'a> Flexibility<'a> {
+    /// A dense `W` of so many rows.
+    ///
+    /// # Errors
+    /// As [`FlexibilityProblem::from_flexibility`] of the matrix.
+    pub(crate) fn checked_matrix(
+        size: usize,
+        w: &'a [f64],
+        ld: usize,
+    ) -> Result<Matrix<'a>, Error> {
+        let matrix = dense("W", (w, ld), size, OF_MATRIX)?;
+        symmetric_matrix::check_semi_definite(&matrix, "W", Argument::Matrix)?;
+        if size > 0 && matrix.largest_diagonal() == 0.0 {
+            return Err(Error::invalid(Argument::Matrix, ZERO));
+        }
+        Ok(matrix)
+    }
+
     /// `W`.
     pub(crate) fn matrix(&self) -> Matrix<'a> {
         self.matrix

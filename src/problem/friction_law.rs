@@ -1,4 +1,4 @@
-//! The friction laws with their parameters, as the host gives them.
+//! The friction laws with their parameters, as the host gives them, and a table with what is said of each.
 
 use crate::error::{Argument, Error, entry, index};
 
@@ -26,12 +26,96 @@ pub enum FrictionLaw<'a> {
     OrthotropicCollinear(&'a [f64]),
 }
 
-/// Names of the parameters.
-const COHESIVE: [&str; 3] = ["mu", "b", "a"];
-const ORTHOTROPIC: [&str; 3] = ["mu1", "mu2", ANGLE];
+/// A friction law without its parameters. Its place is its number in the C interface.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Law {
+    /// No friction.
+    Frictionless,
+    /// Coulomb friction.
+    Coulomb,
+    /// Tresca friction: given thresholds.
+    Tresca,
+    /// Coulomb friction with cohesion and a tension cut-off.
+    Cohesive,
+    /// Orthotropic friction, associated rule.
+    Orthotropic,
+    /// Orthotropic friction, collinear rule.
+    OrthotropicCollinear,
+}
 
-/// The parameter that may have either sign.
-const ANGLE: &str = "angle";
+/// The meaning of a parameter, with the values that it may have.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Parameter {
+    /// A coefficient of friction, at least 0.
+    Coefficient,
+    /// A coefficient along an axis of an ellipse, positive.
+    Axis,
+    /// A force, at least 0.
+    Force,
+    /// An angle of either sign.
+    Angle,
+}
+
+/// A row of the table of laws.
+struct Statement {
+    /// The law in a problem file.
+    name: &'static str,
+    /// The law in a message.
+    title: &'static str,
+    /// The parameters of each pair, in their order.
+    parameters: &'static [(&'static str, Parameter)],
+    /// When the law is none of friction, in words.
+    frictionless_if: &'static str,
+    /// The check of a pair's parameters against each other: the parameter at fault, and why.
+    check: fn(&[f64]) -> Option<(usize, String)>,
+}
+
+/// The laws, in the order of [`Law`].
+const LAWS: [Statement; Law::ALL.len()] = [
+    Statement {
+        name: "frictionless",
+        title: "no friction",
+        parameters: &[],
+        frictionless_if: "always",
+        check: |_| None,
+    },
+    Statement {
+        name: "coulomb",
+        title: "Coulomb's law",
+        parameters: &[("mu", Parameter::Coefficient)],
+        frictionless_if: "every mu must be 0",
+        check: |_| None,
+    },
+    Statement {
+        name: "tresca",
+        title: "Tresca's law",
+        parameters: &[("g", Parameter::Force)],
+        frictionless_if: "every g must be 0",
+        check: |_| None,
+    },
+    Statement {
+        name: "cohesive",
+        title: "the cohesive law",
+        parameters: &[
+            ("mu", Parameter::Coefficient),
+            ("b", Parameter::Force),
+            ("a", Parameter::Force),
+        ],
+        frictionless_if: "every mu and every b must be 0",
+        check: cohesion,
+    },
+    Statement { name: "orthotropic", ..ELLIPTIC },
+    Statement { name: "orthotropic-collinear", ..ELLIPTIC },
+];
+
+/// The statement of both laws with an ellipse, which exist in space alone.
+const ELLIPTIC: Statement = Statement {
+    name: "",
+    title: "the orthotropic law",
+    parameters: &[("mu1", Parameter::Axis), ("mu2", Parameter::Axis), ("angle", Parameter::Angle)],
+    frictionless_if: "Coulomb's with every mu 0",
+    check: flatness,
+};
 
 /// How far apart both coefficients of an ellipse may be: slips are scaled by the squares of their quotient, of which
 /// a few digits must be left.
@@ -40,45 +124,116 @@ const FLATTEST: f64 = 1e6;
 /// Units in the last place by which `b` may fall below `mu a`: the host has rounded a product.
 const ROUNDED: f64 = 4.0 * f64::EPSILON;
 
-impl<'a> FrictionLaw<'a> {
-    /// The parameters, pair by pair.
-    pub fn values(&self) -> &'a [f64] {
-        match *self {
-            FrictionLaw::Frictionless => &[],
-            FrictionLaw::Coulomb(values)
-            | FrictionLaw::Tresca(values)
-            | FrictionLaw::Cohesive(values)
-            | FrictionLaw::Orthotropic(values)
-            | FrictionLaw::OrthotropicCollinear(values) => values,
+/// Refuses a cohesion below what the tension asks for.
+fn cohesion(numbers: &[f64]) -> Option<(usize, String)> {
+    let &[mu, b, a] = numbers else { return None };
+    let least = mu * a;
+    (b < least * (1.0 - ROUNDED)).then(|| {
+        let what = format!(
+            " is {b}, it must be at least mu a = {mu} * {a} = {least}: friction would be negative under \
+             the tension a"
+        );
+        (1, what)
+    })
+}
+
+/// Refuses an ellipse that is too flat.
+fn flatness(numbers: &[f64]) -> Option<(usize, String)> {
+    let &[first, second, _] = numbers else { return None };
+    let (small, large) = (first.min(second), first.max(second));
+    (large > FLATTEST * small).then(|| {
+        let what = format!(
+            " is {small:e}, and the other coefficient {large:e}: they may be {FLATTEST:e} times apart: \
+             raise it, the friction of so small a coefficient is lost beside the other"
+        );
+        (usize::from(second < first), what)
+    })
+}
+
+impl Law {
+    /// All of them, in the order of their numbers.
+    pub const ALL: [Law; 6] = [
+        Law::Frictionless,
+        Law::Coulomb,
+        Law::Tresca,
+        Law::Cohesive,
+        Law::Orthotropic,
+        Law::OrthotropicCollinear,
+    ];
+
+    fn statement(self) -> &'static Statement {
+        &LAWS[self as usize]
+    }
+
+    /// The law with its parameters, pair by pair.
+    pub fn with(self, values: &[f64]) -> FrictionLaw<'_> {
+        match self {
+            Law::Frictionless => FrictionLaw::Frictionless,
+            Law::Coulomb => FrictionLaw::Coulomb(values),
+            Law::Tresca => FrictionLaw::Tresca(values),
+            Law::Cohesive => FrictionLaw::Cohesive(values),
+            Law::Orthotropic => FrictionLaw::Orthotropic(values),
+            Law::OrthotropicCollinear => FrictionLaw::OrthotropicCollinear(values),
         }
     }
 
-    /// The same law with other parameters.
-    pub fn with_values(self, values: &'a [f64]) -> Self {
-        match self {
-            FrictionLaw::Frictionless => self,
-            FrictionLaw::Coulomb(_) => FrictionLaw::Coulomb(values),
-            FrictionLaw::Tresca(_) => FrictionLaw::Tresca(values),
-            FrictionLaw::Cohesive(_) => FrictionLaw::Cohesive(values),
-            FrictionLaw::Orthotropic(_) => FrictionLaw::Orthotropic(values),
-            FrictionLaw::OrthotropicCollinear(_) => FrictionLaw::OrthotropicCollinear(values),
-        }
+    /// Its name in a problem file.
+    pub fn name(self) -> &'static str {
+        self.statement().name
+    }
+
+    /// Its name in a message, with those of its parameters.
+    pub(crate) fn title(self) -> String {
+        format!("{}: {}", self.statement().title, self.names().join(", "))
+    }
+
+    /// Names and meanings of the parameters of each pair, in their order.
+    pub fn parameters(self) -> &'static [(&'static str, Parameter)] {
+        self.statement().parameters
     }
 
     /// Names of the parameters of each pair, in their order.
-    pub fn names(&self) -> &'static [&'static str] {
+    pub(crate) fn names(self) -> Vec<&'static str> {
+        self.parameters().iter().map(|(name, _)| *name).collect()
+    }
+
+    /// Returns `true` if the law depends on the direction in the tangent plane.
+    fn is_orthotropic(self) -> bool {
+        self.parameters().iter().any(|(_, meaning)| *meaning == Parameter::Axis)
+    }
+}
+
+impl<'a> FrictionLaw<'a> {
+    /// The law without its parameters, and these, pair by pair.
+    fn parts(self) -> (Law, &'a [f64]) {
         match self {
-            FrictionLaw::Frictionless => &[],
-            FrictionLaw::Coulomb(_) => &["mu"],
-            FrictionLaw::Tresca(_) => &["g"],
-            FrictionLaw::Cohesive(_) => &COHESIVE,
-            FrictionLaw::Orthotropic(_) | FrictionLaw::OrthotropicCollinear(_) => &ORTHOTROPIC,
+            FrictionLaw::Frictionless => (Law::Frictionless, &[]),
+            FrictionLaw::Coulomb(values) => (Law::Coulomb, values),
+            FrictionLaw::Tresca(values) => (Law::Tresca, values),
+            FrictionLaw::Cohesive(values) => (Law::Cohesive, values),
+            FrictionLaw::Orthotropic(values) => (Law::Orthotropic, values),
+            FrictionLaw::OrthotropicCollinear(values) => (Law::OrthotropicCollinear, values),
         }
+    }
+
+    /// The law without its parameters.
+    pub fn law(&self) -> Law {
+        self.parts().0
+    }
+
+    /// The parameters, pair by pair.
+    pub fn values(&self) -> &'a [f64] {
+        self.parts().1
+    }
+
+    /// Copies the law with other parameters.
+    pub fn with_values(self, values: &'a [f64]) -> Self {
+        self.law().with(values)
     }
 
     /// Number of parameters of each pair.
     pub fn parameters(&self) -> usize {
-        self.names().len()
+        self.law().parameters().len()
     }
 
     /// The parameters of a pair.
@@ -87,88 +242,50 @@ impl<'a> FrictionLaw<'a> {
         &self.values()[count * pair..count * (pair + 1)]
     }
 
-    /// Whether the law depends on the direction in the tangent plane.
-    pub fn is_orthotropic(&self) -> bool {
-        matches!(self, FrictionLaw::Orthotropic(_) | FrictionLaw::OrthotropicCollinear(_))
-    }
-
     /// When the law is none of friction, in words.
     pub fn frictionless_if(&self) -> &'static str {
-        match self {
-            FrictionLaw::Frictionless => "always",
-            FrictionLaw::Coulomb(_) => "every mu must be 0",
-            FrictionLaw::Tresca(_) => "every g must be 0",
-            FrictionLaw::Cohesive(_) => "every mu and every b must be 0",
-            FrictionLaw::Orthotropic(_) | FrictionLaw::OrthotropicCollinear(_) => {
-                "Coulomb's with every mu 0"
-            }
-        }
+        self.law().statement().frictionless_if
     }
 
-    /// The same law of the first `pairs` pairs.
+    /// Copies the law of the first `pairs` pairs.
     pub(super) fn truncated(self, pairs: usize) -> Self {
         self.with_values(&self.values()[..self.parameters() * pairs])
     }
 
     /// Refuses parameters that are out of range.
     pub(super) fn check(self, dim: usize) -> Result<(), Error> {
-        if self.is_orthotropic() && dim == 2 {
+        if self.law().is_orthotropic() && dim == 2 {
             let message = "the law is orthotropic, and dim is 2: a pair in the plane has one tangent, \
                            use Coulomb's law";
             return Err(Error::invalid(Argument::LawChoice, message));
         }
         let pairs = self.values().len().checked_div(self.parameters());
         for pair in 0..pairs.unwrap_or(0) {
-            self.check_pair(pair).map_err(|message| Error::invalid(Argument::Law, message))?;
+            self.check_pair(pair).map_err(|(parameter, what)| {
+                Error::invalid(Argument::Law, self.place(pair, parameter) + &what)
+            })?;
         }
         Ok(())
     }
 
-    fn check_pair(&self, pair: usize) -> Result<(), String> {
+    /// Refuses parameters of a pair: which one, and what is wrong with it.
+    fn check_pair(&self, pair: usize) -> Result<(), (usize, String)> {
         let numbers = self.of_pair(pair);
-        for (k, (&name, &value)) in self.names().iter().zip(numbers).enumerate() {
-            let place = || self.place(pair, k);
-            if !value.is_finite() {
-                return Err(place() + " is not finite");
-            }
-            if name == ANGLE {
-                continue;
-            }
-            if self.is_orthotropic() && value <= 0.0 {
-                return Err(format!("{} is {value}, it must be positive", place()));
-            }
-            if value < 0.0 {
-                return Err(format!("{} is {value}, it must not be negative", place()));
-            }
+        for (k, ((_, meaning), &value)) in self.law().parameters().iter().zip(numbers).enumerate() {
+            let must = match meaning {
+                _ if !value.is_finite() => return Err((k, " is not finite".into())),
+                Parameter::Axis if value <= 0.0 => "be positive",
+                Parameter::Coefficient | Parameter::Force if value < 0.0 => "not be negative",
+                _ => continue,
+            };
+            return Err((k, format!(" is {value}, it must {must}")));
         }
-        if self.is_orthotropic()
-            && let [first, second, _] = numbers
-            && first.max(*second) > FLATTEST * first.min(*second)
-        {
-            let place = self.place(pair, usize::from(second < first));
-            return Err(format!(
-                "{place} is {:e}, and the other coefficient {:e}: they may be {FLATTEST:e} times apart: \
-                 raise it, the friction of so small a coefficient is lost beside the other",
-                first.min(*second),
-                first.max(*second)
-            ));
-        }
-        if let (FrictionLaw::Cohesive(_), [mu, b, a]) = (self, numbers)
-            && *b < mu * a * (1.0 - ROUNDED)
-        {
-            let place = self.place(pair, 1);
-            let least = mu * a;
-            return Err(format!(
-                "{place} is {b}, it must be at least mu a = {mu} * {a} = {least}: friction would be \
-                 negative under the tension a"
-            ));
-        }
-        Ok(())
+        (self.law().statement().check)(numbers).map_or(Ok(()), Err)
     }
 
     /// A parameter in words: `mu[3]`, or `friction[10], b of pair 3,` of a law with several.
     fn place(&self, pair: usize, parameter: usize) -> String {
-        let name = self.names()[parameter];
+        let name = self.law().names()[parameter];
         match self.parameters() {
             1 => entry(name, [pair]),
             count => {

@@ -1,7 +1,8 @@
 //! The linear complementarity problem (LCP) `w = q + M z`, `w >= 0`, `z >= 0`, `w . z = 0`.
 
+use super::arguments::{OF_MATRIX, check_finite, check_length, dense};
 use crate::error::{Argument, Error, entry};
-use crate::linalg::matrix::{Matrix, required_length};
+use crate::linalg::matrix::Matrix;
 use crate::linalg::power_of_two::{
     dot_in_own_unit, exponent, largest_exponent, times_power_of_two,
 };
@@ -29,41 +30,26 @@ impl<'a> Lcp<'a> {
         q: &'a [f64],
         covering: Option<&'a [f64]>,
     ) -> Result<Self, Error> {
-        let refuse = |argument, message| Err(Error::invalid(argument, message));
-        let entries = required_length("M", size, ld)
-            .map_err(|message| Error::invalid(Argument::LeadingDimension, message))?;
-        if matrix.len() < entries {
-            let given = matrix.len();
-            return refuse(
-                Argument::Matrix,
-                format!("M has {given} entries, it must have {entries}"),
-            );
-        }
-        if q.len() < size {
-            return refuse(
-                Argument::Load,
-                format!("q has {} entries, it must have {size}", q.len()),
-            );
-        }
-        if covering.is_some_and(|covering| covering.len() < size) {
-            return refuse(Argument::Covering, format!("cover must have {size} entries"));
-        }
+        let matrix = dense("M", (matrix, ld), size, OF_MATRIX)?;
+        check_length(Argument::Load, "q", q.len(), size)?;
+        check_length(Argument::Covering, "cover", covering.map_or(size, <[f64]>::len), size)?;
         let (q, covering) = (&q[..size], covering.map(|covering| &covering[..size]));
-        let lcp = Lcp { matrix: Matrix::new(size, matrix, ld), q, covering };
+        let lcp = Lcp { matrix, q, covering };
         for j in 0..size {
             if let Some(i) = first_not_finite(lcp.column(j)) {
-                return refuse(Argument::Matrix, entry("M", [i, j]) + " is not finite");
+                return Err(Error::invalid(
+                    Argument::Matrix,
+                    entry("M", [i, j]) + " is not finite",
+                ));
             }
         }
-        if let Some(i) = first_not_finite(q) {
-            return refuse(Argument::Load, entry("q", [i]) + " is not finite");
-        }
+        check_finite(Argument::Load, "q", q)?;
         if let Some(covering) = covering
             && let Some(i) = covering.iter().position(|&d| !(d > 0.0 && d.is_finite()))
         {
             let message =
                 format!("{} is {}, it must be positive", entry("cover", [i]), covering[i]);
-            return refuse(Argument::Covering, message);
+            return Err(Error::invalid(Argument::Covering, message));
         }
         Ok(lcp)
     }
@@ -175,7 +161,7 @@ impl<'a> Lcp<'a> {
         (if residual == 0.0 { 0.0 } else { residual / scale }, product)
     }
 
-    /// Whether `y` proves that no `w, z >= 0` satisfy `w = q + M z`:
+    /// Returns `true` if `y` proves that no `w, z >= 0` satisfy `w = q + M z`:
     /// `y >= 0`, `Mᵀ y <= 0`, `q . y < 0` (Farkas).
     pub fn is_infeasible_by(&self, y: &[f64]) -> bool {
         if y.iter().any(|&y| y < 0.0) || first_not_finite(y).is_some() {

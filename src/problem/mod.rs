@@ -1,26 +1,30 @@
 //! The problems that solvers see: contact in relative displacements, and linear complementarity.
 
-mod bodies;
+mod arguments;
 mod bounded_lcp;
 mod contact;
 mod dependent_rows;
 mod flexibility;
+mod flexibility_form;
 mod friction_law;
 mod islands;
 mod lcp;
 mod relation;
 mod sparse_flexibility;
+mod stiffness_operator;
 pub(crate) mod symmetric_matrix;
 
-pub(crate) use bodies::{Bodies, GoesOn, Restriction, Unformed};
+pub(crate) use arguments::{OF_MATRIX, check_finite, dense};
 pub(crate) use bounded_lcp::BoundedLcp;
 pub use contact::{ContactData, ContactProblem};
 pub(crate) use contact::{checked_dim, unknowns};
 pub use dependent_rows::Dependence;
 pub(crate) use dependent_rows::DependentRows;
 pub use flexibility::{Flexibility, FlexibilityData, FlexibilityProblem};
-pub use friction_law::FrictionLaw;
+pub use flexibility_form::FlexibilityForm;
+pub use friction_law::{FrictionLaw, Law, Parameter};
 pub use lcp::Lcp;
 pub(crate) use relation::Redundant;
 pub use relation::{Relation, Stiffness};
-pub use sparse_flexibility::SparseFlexibilityProblem;
+pub use sparse_flexibility::{SparseFlexibilityProblem, SparseW};
+pub(crate) use stiffness_operator::{GoesOn, HeldSet, MatrixFree, StiffnessOperator};

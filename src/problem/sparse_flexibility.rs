@@ -1,7 +1,8 @@
 //! The flexibility form with a sparse `W`. Pairs that no entry of it ties to each other are islands: each is a
 //! problem of its own.
 
-use super::contact::{ContactProblem, check_finite, check_length};
+use super::arguments::vector;
+use super::contact::ContactProblem;
 use super::flexibility::{Flexibility, FlexibilityMatrix, units_of_pair, units_of_pairs};
 use super::friction_law::FrictionLaw;
 use super::islands::Islands;
@@ -23,32 +24,25 @@ pub struct SparseW {
 pub type SparseFlexibilityProblem<'a> = ContactProblem<'a, Flexibility<'a, SparseW>>;
 
 impl<'a> SparseFlexibilityProblem<'a> {
-    /// A problem with the lower triangle of a checked `W`, `dim` rows for each pair; other arguments as in
-    /// [`super::FlexibilityData`].
+    /// A problem with a checked `W`; other arguments as in [`super::FlexibilityData`].
     ///
     /// # Errors
-    /// [`Error::Invalid`]: a `W` of zeros; the first entry of another array that is out of range.
-    pub(crate) fn of_lower_triangle(
-        (dim, lower): (usize, Csc),
+    /// [`Error::Invalid`]: the first entry of an array that is out of range.
+    pub(crate) fn with_matrix(
+        matrix: SparseW,
         free: &'a [f64],
         gap: &'a [f64],
         law: FrictionLaw<'a>,
         reference_slip: Option<&'a [f64]>,
     ) -> Result<Self, Error> {
-        let size = lower.ncols();
-        check_length(Argument::Load, "q", free.len(), size)?;
-        let free = &free[..size];
-        check_finite(Argument::Load, "q", free)?;
-        let largest = largest_of((0..size).map(|j| diagonal(&lower, j).unwrap_or(0.0)));
-        if size > 0 && largest == 0.0 {
-            return Err(Error::invalid(Argument::Matrix, super::flexibility::ZERO));
-        }
+        let (dim, size) = (matrix.dim, matrix.lower.ncols());
+        let free = vector(Argument::Load, "q", free, size)?;
+        let largest = matrix.largest_diagonal();
         let each = (0..size).step_by(dim).map(|first| {
-            let block = block(&lower, first, dim);
+            let block = block(&matrix.lower, first, dim);
             units_of_pair(&Matrix::new(dim, &block, dim), largest)
         });
         let units = units_of_pairs(dim, each);
-        let matrix = SparseW { islands: islands(&lower, dim), lower, dim };
         let relation = Flexibility::new(matrix, free, units);
         ContactProblem::with_relation(relation, dim, gap, law, reference_slip)
     }
@@ -77,6 +71,34 @@ fn islands(lower: &Csc, dim: usize) -> Islands {
 }
 
 impl SparseW {
+    /// The lower triangle of a checked `W`, `dim` rows for each pair.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`]: a `W` of zeros.
+    pub(crate) fn new(dim: usize, lower: Csc) -> Result<Self, Error> {
+        let matrix = SparseW { islands: islands(&lower, dim), lower, dim };
+        let (size, largest) = (matrix.size(), matrix.largest_diagonal());
+        if size > 0 && largest == 0.0 {
+            return Err(Error::invalid(Argument::Matrix, super::flexibility::ZERO));
+        }
+        Ok(matrix)
+    }
+
+    fn largest_diagonal(&self) -> f64 {
+        let each = (0..self.lower.ncols()).map(|j| diagonal(&self.lower, j).unwrap_or(0.0));
+        largest_of(each)
+    }
+
+    /// Number of rows.
+    pub fn size(&self) -> usize {
+        self.lower.ncols()
+    }
+
+    /// Rows of a pair.
+    pub fn dim(&self) -> usize {
+        self.dim
+    }
+
     /// The islands of its pairs.
     pub fn islands(&self) -> &Islands {
         &self.islands

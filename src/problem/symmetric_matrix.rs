@@ -9,13 +9,13 @@ use crate::linalg::vector::first_not_finite;
 /// (measured 1e-13 from CalculiX and MUMPS), far below a slip of indices.
 pub(crate) const SYMMETRY: f64 = 1e-9;
 
-/// Whether entries agree with those across the diagonal, up to rounding relative to it, which is
+/// Returns `true` if entries agree with those across the diagonal, up to rounding relative to it, which is
 /// positive.
 pub(crate) fn is_symmetric(matrix: &Matrix<'_>) -> bool {
     is_symmetric_beside(matrix, &matrix.diagonal_roots())
 }
 
-/// Whether entries agree with those across the diagonal, up to rounding relative to the squares of `root`.
+/// Returns `true` if entries agree with those across the diagonal, up to rounding relative to the squares of `root`.
 pub(crate) fn is_symmetric_beside(matrix: &Matrix<'_>, root: &[f64]) -> bool {
     let compare = |i: usize, j: usize, lower: f64, upper: f64| {
         if (lower - upper).abs() <= SYMMETRY * root[i] * root[j] { Ok(()) } else { Err(()) }
@@ -50,7 +50,7 @@ pub(crate) fn check_semi_definite(
     check_across(matrix, name, argument)
 }
 
-/// Whether [`check_columns`] and [`check_across`] find nothing, in one pass over the matrix: entries that are not
+/// Returns `true` if [`check_columns`] and [`check_across`] find nothing, in one pass over the matrix: entries that are not
 /// finite agree with nothing. They find what is wrong where it is.
 fn is_plainly_semi_definite(matrix: &Matrix<'_>) -> bool {
     let root = matrix.diagonal_roots();

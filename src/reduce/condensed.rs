@@ -74,8 +74,8 @@ fn without_rounding(dim: usize, matrix: &Matrix<'_>) -> Option<Vec<f64>> {
     let is_sound = units.iter().all(|&unit| unit > 0.0)
         && first_not_finite(&stiffness).is_none()
         && is_symmetric_beside(matrix, &root);
-    let given = Given { matrix: *matrix, units: &units };
-    // What is not sound the check names.
+    let given = HostMatrix { matrix: *matrix, units: &units };
+    // A matrix that is not sound is refused by the check.
     (is_sound && settle(&mut stiffness, &units, &given) == Ok(true)).then_some(stiffness)
 }
 
@@ -93,12 +93,12 @@ fn units(dim: usize, matrix: &Matrix<'_>) -> Vec<f64> {
 }
 
 /// A matrix of which nothing was eliminated here.
-struct Given<'k> {
+struct HostMatrix<'k> {
     matrix: Matrix<'k>,
     units: &'k [f64],
 }
 
-impl Whole for Given<'_> {
+impl Whole for HostMatrix<'_> {
     fn extended(&self, kept: &[f64]) -> Vec<f64> {
         kept.to_vec()
     }
@@ -123,23 +123,6 @@ impl Reduction for CondensedReduction {
 
     fn host_size(&self) -> usize {
         self.size
-    }
-
-    fn condense(&self, load: &[f64], _prescribed: Option<&[f64]>) -> Result<Vec<f64>, Error> {
-        Ok(load.to_vec())
-    }
-
-    fn recover(
-        &self,
-        _load: Option<&[f64]>,
-        _prescribed: Option<&[f64]>,
-        d: &[f64],
-    ) -> Result<Vec<f64>, Error> {
-        Ok(d.to_vec())
-    }
-
-    fn nodal_forces(&self, force: &[f64]) -> Vec<f64> {
-        force.to_vec()
     }
 
     fn motion_in_words(&self, d: &[f64]) -> Message {

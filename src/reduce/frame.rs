@@ -2,13 +2,9 @@
 
 use crate::linalg::vector3::{self, Vector3, unit};
 
-/// Largest cosine between a tangent and its normal: ten times what normals and tangents of seven digits
-/// leave. Above it they belong to different pairs, or are no frame at all.
-const LARGEST_COSINE: f64 = 1e-5;
-
-/// A normal or tangent is along an axis if the angle between them is smaller than this (radians): ten
-/// times the error of a normal of seven digits.
-const ALONG_AXIS: f64 = 1e-5;
+/// Directions of seven digits are known up to a tenth of this (radians). A tangent that is further from orthogonal to
+/// its normal belongs to another pair, or to no frame at all; one that is nearer to an axis is along it.
+const ERROR_OF_DIRECTION: f64 = 1e-5;
 
 /// Orthonormal: the normal, then `dim - 1` tangents. In space `t2 = n x t1`.
 #[derive(Clone, Debug)]
@@ -23,7 +19,7 @@ impl Frame {
     /// one across the axis that is most across the normal.
     ///
     /// # Errors
-    /// What is wrong with the normal or the tangent: "normal is zero or not finite".
+    /// A sentence on the normal or the tangent: "normal is zero or not finite".
     pub(super) fn new(normal: &[f64], tangent: Option<&[f64]>) -> Result<Self, String> {
         let dim = normal.len();
         let normal = unit(vector3::vector(normal)).ok_or("normal is zero or not finite")?;
@@ -32,7 +28,7 @@ impl Frame {
                 let given =
                     unit(vector3::vector(tangent)).ok_or("tangent is zero or not finite")?;
                 let cosine = given.dot(&normal);
-                if cosine.abs() > LARGEST_COSINE {
+                if cosine.abs() > ERROR_OF_DIRECTION {
                     return Err(not_orthogonal(cosine));
                 }
                 unit(given - cosine * normal).unwrap_or(given)
@@ -59,7 +55,7 @@ impl Frame {
             across[axis] = 0.0;
             across.norm()
         };
-        (0..self.dim).find(|&component| sine(&self.directions[component]) <= ALONG_AXIS)
+        (0..self.dim).find(|&component| sine(&self.directions[component]) <= ERROR_OF_DIRECTION)
     }
 
     /// Turns the frame so that the direction of `component`, which is along `axis` but for rounding,
@@ -140,7 +136,7 @@ mod tests {
         }
     }
 
-    /// Of frames that have a direction along the axis.
+    /// Checks frames that have a direction along the axis.
     fn check(frame: Frame, axis: usize, near: f64) {
         let Some(component) = frame.component_along(axis) else { return };
         let of =

@@ -1,4 +1,4 @@
-//! Most bytes that a dense reduction takes, known before work begins. `tests/memory_estimate.rs` counts.
+//! Most bytes that a dense reduction takes, known before work begins. `tests/memory/estimate.rs` counts.
 
 /// Matrices of the size of `K`: the one that is kept, and those of two bodies while they are worked out.
 const MATRICES: f64 = 4.5;

@@ -12,8 +12,8 @@ const MOVING: f64 = 1e-6;
 /// How many of what moves most are named: a node's translation in space, or one point of a rotation.
 const MOST_NAMED: usize = 3;
 
-/// What moves in the motion `d` that relative loads drive, how much they drive it, and what of that nothing
-/// balances; and the force that is left, where the host's axes are known.
+/// The motion `d` that relative loads drive, in words: the parts that move, the resultant of the loads along it,
+/// and the part of it that nothing balances; then the force that is left, where the host's axes are known.
 pub(crate) fn driven_motion(
     reduction: &dyn Reduction,
     load: &[f64],
@@ -57,7 +57,7 @@ pub(super) fn moving(values: &[f64]) -> (Vec<usize>, Vec<usize>) {
     (moving, most)
 }
 
-/// Whether displacements are none beside the largest one of all.
+/// Returns `true` if displacements are none beside the largest one of all.
 pub(super) fn rests(values: &[f64], most: f64) -> bool {
     norm_inf(values) <= MOVING * most
 }

@@ -3,14 +3,14 @@
 use std::sync::{Mutex, PoisonError};
 
 use super::probes::{is_unit, measured_units, probe};
-use super::{Reduction, UnformedReduction, motion};
+use super::{MatrixFreeReduction, Reduction, motion};
 use crate::error::{Argument, Error, Message, entry};
 use crate::linalg::vector::{dot, first_not_finite, norm};
-use crate::problem::{Bodies, GoesOn, Restriction};
+use crate::problem::{GoesOn, HeldSet, StiffnessOperator};
 use crate::workers::Workers;
 
-/// What a host offers. Vectors are relative displacements and forces of the pairs. What returns `Err` has failed;
-/// its number is told.
+/// The functions of a host. Vectors are relative displacements and forces of the pairs. A function that returns
+/// `Err` has failed; the message names its number.
 pub trait HostOperator: Send + Sync {
     /// `y = K_rel x`, symmetric and positive semi-definite.
     ///
@@ -18,7 +18,7 @@ pub trait HostOperator: Send + Sync {
     /// A number of the host.
     fn stiffness(&self, x: &[f64], y: &mut [f64]) -> Result<(), i32>;
 
-    /// Whether there is [`Self::inverse`].
+    /// Returns `true` if there is [`Self::inverse`].
     fn has_inverse(&self) -> bool {
         false
     }
@@ -31,7 +31,7 @@ pub trait HostOperator: Send + Sync {
         Err(-1)
     }
 
-    /// Whether there is [`Self::held`].
+    /// Returns `true` if there is [`Self::held`].
     fn has_held(&self) -> bool {
         false
     }
@@ -61,7 +61,7 @@ pub struct OperatorReduction {
     operator: Box<dyn HostOperator>,
     dim: usize,
     units: Vec<f64>,
-    /// What was held in the last call of the host, if it has succeeded.
+    /// The components that were held in the last call of the host, if it has succeeded.
     held: Mutex<Vec<bool>>,
 }
 
@@ -86,24 +86,25 @@ impl OperatorReduction {
             return refuse(format!("{place} must be positive and finite"));
         }
         let held = Mutex::new(Vec::new());
-        let mut made = OperatorReduction { operator, dim, units: vec![1.0; size], held };
+        let mut reduction = OperatorReduction { operator, dim, units: vec![1.0; size], held };
         if size == 0 {
-            return Ok(made);
+            return Ok(reduction);
         }
         let probes = [probe(size, 1), probe(size, 2)];
-        let products = made.check("K_rel", &probes, |made, x| made.product(x))?;
-        if made.operator.has_inverse() {
-            let images = made.check("W", &probes, |made, x| made.by_inverse(x))?;
+        let products = reduction.check("K_rel", &probes, |reduction, x| reduction.product(x))?;
+        if reduction.operator.has_inverse() {
+            let images = reduction.check("W", &probes, |reduction, x| reduction.by_inverse(x))?;
             for (x, image) in probes.iter().zip(&images) {
                 if !(dot(x, image) > 0.0) {
                     return refuse("W is not positive definite: x . W x is not positive".into());
                 }
             }
         }
-        if made.operator.has_held() {
+        if reduction.operator.has_held() {
             let mask: Vec<bool> = (0..size).map(|i| i.is_multiple_of(HELD_IN_CHECK)).collect();
             let name = "the solution with components held";
-            let images = made.check(name, &probes, |made, x| made.by_held(&mask, x))?;
+            let images =
+                reduction.check(name, &probes, |reduction, x| reduction.by_held(&mask, x))?;
             for image in images {
                 if let Some(i) = (0..size).find(|&i| mask[i] && image[i] != 0.0) {
                     let place = entry("y", [i]);
@@ -112,9 +113,9 @@ impl OperatorReduction {
             }
         }
         match units {
-            Some(units) => made.units.copy_from_slice(units),
+            Some(units) => reduction.units.copy_from_slice(units),
             None => match measured_units(dim, &probes, &products) {
-                Some(units) => made.units = units,
+                Some(units) => reduction.units = units,
                 None => {
                     return refuse(
                         "K_rel resists nothing: x . K_rel x is not positive: give units".into(),
@@ -122,7 +123,7 @@ impl OperatorReduction {
                 }
             },
         }
-        Ok(made)
+        Ok(reduction)
     }
 
     /// The images of two probes, if a linear, symmetric, positive semi-definite and reproducible map has them.
@@ -212,7 +213,7 @@ impl Reduction for OperatorReduction {
         &[]
     }
 
-    fn unformed(&self) -> Option<&dyn UnformedReduction> {
+    fn matrix_free(&self) -> Option<&dyn MatrixFreeReduction> {
         Some(self)
     }
 
@@ -220,39 +221,14 @@ impl Reduction for OperatorReduction {
         self.units.len()
     }
 
-    fn condense(&self, load: &[f64], _prescribed: Option<&[f64]>) -> Result<Vec<f64>, Error> {
-        Ok(load.to_vec())
-    }
-
-    fn recover(
-        &self,
-        _load: Option<&[f64]>,
-        _prescribed: Option<&[f64]>,
-        d: &[f64],
-    ) -> Result<Vec<f64>, Error> {
-        Ok(d.to_vec())
-    }
-
-    fn nodal_forces(&self, force: &[f64]) -> Vec<f64> {
-        force.to_vec()
-    }
-
     fn motion_in_words(&self, d: &[f64]) -> Message {
         motion::of_pairs(self.dim, d).into()
     }
 }
 
-impl UnformedReduction for OperatorReduction {
-    fn bodies<'a>(&'a self, _workers: &'a dyn Workers) -> Box<dyn Bodies + 'a> {
+impl MatrixFreeReduction for OperatorReduction {
+    fn bodies<'a>(&'a self, _workers: &'a dyn Workers) -> Box<dyn StiffnessOperator + 'a> {
         Box::new(InUse { operator: self, held: Vec::new() })
-    }
-
-    fn all_loads(&self, load: &[f64], _prescribed: Option<&[f64]>) -> Vec<f64> {
-        load.to_vec()
-    }
-
-    fn factor_bytes(&self) -> u64 {
-        0
     }
 }
 
@@ -262,7 +238,7 @@ struct InUse<'a> {
     held: Vec<bool>,
 }
 
-impl Bodies for InUse<'_> {
+impl StiffnessOperator for InUse<'_> {
     fn inner(&self) -> usize {
         0
     }
@@ -304,8 +280,8 @@ impl Bodies for InUse<'_> {
         false
     }
 
-    fn hold(&mut self, restriction: &Restriction, _: GoesOn<'_>) -> Result<bool, Error> {
-        self.held.clone_from(&restriction.held);
+    fn hold(&mut self, held_set: &HeldSet, _: GoesOn<'_>) -> Result<bool, Error> {
+        self.held.clone_from(&held_set.held);
         Ok(true)
     }
 

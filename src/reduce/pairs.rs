@@ -2,6 +2,7 @@
 
 use super::frame::Frame;
 use crate::error::{Argument, Error, index};
+use crate::problem::checked_dim;
 
 /// The weights of a pair's masters sum to 1 up to this: far above the rounding of shape functions in
 /// doubles (1e-16) and of tables with ten digits, below anything that a gap shows.
@@ -46,7 +47,7 @@ fn no_dof(pair: usize, dof: usize) -> String {
 }
 
 impl ContactPairs<'_> {
-    /// Whether all nodes of a pair stand in `masters`, with signed weights.
+    /// Returns `true` if all nodes of a pair stand in `masters`, with signed weights.
     fn are_general(&self) -> bool {
         self.slaves.is_empty()
     }
@@ -69,7 +70,7 @@ impl ContactPairs<'_> {
         slave.into_iter().chain(self.masters_of(pair).map(move |(w, dofs)| (sign * w, dofs)))
     }
 
-    /// Whether each pair has a slave that stands in no other pair.
+    /// Returns `true` if each pair has a slave that stands in no other pair.
     pub(super) fn have_own_slaves(&self, size: usize) -> bool {
         let mut is_slave = vec![false; size];
         let is_new = |&dof: &usize| !std::mem::replace(&mut is_slave[dof], true);
@@ -91,10 +92,7 @@ impl ContactPairs<'_> {
 
     fn check_lengths(&self) -> Result<(), Error> {
         let (dim, count) = (self.dim, self.count);
-        if dim != 2 && dim != 3 {
-            let message = format!("dim is {dim}, it must be 2 or 3");
-            return Err(Error::invalid(Argument::Dimension, message));
-        }
+        checked_dim(dim)?;
         let masters = self.weights.len();
         let lengths = [
             ("slaves", self.slaves.len(), if self.are_general() { 0 } else { dim * count }),

@@ -73,7 +73,7 @@ mod tests {
         }
     }
 
-    /// Of springs that are the same in each direction the units are the springs; where one direction resists
+    /// If springs are the same in each direction, the units are the springs; where one direction resists
     /// nothing, it has the mean of all.
     #[test]
     fn units_are_means_of_the_diagonal() {

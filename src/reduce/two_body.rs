@@ -24,11 +24,11 @@ pub struct TwoBodyReduction {
     dim: usize,
     /// Components of `d`, and of the displacements of each body.
     size: usize,
-    /// Whether the host's first body is the softer one.
+    /// `true` if the host's first body is the softer one.
     exchanged: bool,
     /// The softer body's matrix.
     second: Vec<f64>,
-    /// Of each component the root of the diagonal of `K_A + K_B`, inverted.
+    /// For each component the root of the diagonal of `K_A + K_B`, inverted.
     scale: Vec<f64>,
     /// Factor of `K_A + K_B`, scaled to a unit diagonal.
     sum: PivotedCholesky,
@@ -51,21 +51,14 @@ impl TwoBodyReduction {
         if self.exchanged { [softer, stiffer].concat() } else { [stiffer, softer].concat() }
     }
 
-    /// Reduces `K_A` and `K_B`, `size x size` column-major with leading dimensions; `size` is `dim`
-    /// components for each pair.
+    /// Reduces `K_A` and `K_B`, each with `dim` components for each pair.
     ///
     /// # Errors
     /// Entries that are not finite or symmetric, negative diagonals, zeros there in rows that are not zero;
     /// a motion that neither body resists, named by its largest component.
-    pub fn new(
-        dim: usize,
-        size: usize,
-        (first, first_ld): (&[f64], usize),
-        (second, second_ld): (&[f64], usize),
-    ) -> Result<Self, Error> {
-        let first = Matrix::new(size, first, first_ld);
+    pub(crate) fn new(dim: usize, first: Matrix<'_>, second: Matrix<'_>) -> Result<Self, Error> {
+        let size = first.size();
         let cleaned_first = settled(dim, &first, "K_A", Argument::Matrix)?;
-        let second = Matrix::new(size, second, second_ld);
         let cleaned_second = settled(dim, &second, "K_B", Argument::SecondMatrix)?;
         let (first, second) = (view(&first, &cleaned_first), view(&second, &cleaned_second));
         let trace = |k: &Matrix<'_>| (0..size).map(|i| k.column(i)[i]).sum::<f64>();
@@ -118,13 +111,7 @@ impl TwoBodyReduction {
 
     /// `K_B x`.
     fn times_second(&self, x: &[f64]) -> Vec<f64> {
-        let mut y = vec![0.0; self.size];
-        for (column, x) in self.second.chunks_exact(self.size.max(1)).zip(x) {
-            for (y, k) in y.iter_mut().zip(column) {
-                *y += k * x;
-            }
-        }
-        y
+        Matrix::new(self.size, &self.second, self.size.max(1)).product(x)
     }
 }
 

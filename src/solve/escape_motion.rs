@@ -15,9 +15,9 @@
 //! is carried over from one solution to the next, so that a moderate `c` reaches the limit (the method of
 //! multipliers: M. R. Hestenes, J. Optim. Theory Appl. 4 (1969) 303-320).
 
-use super::auto;
-use super::candidate::{CAUSES, NO_EQUILIBRIUM};
-use super::outcome::{Escape, Solution, Status};
+use super::plan;
+use super::result::{CAUSES, NO_EQUILIBRIUM};
+use super::result::{Escape, Solution, Status};
 use super::rigid_balance::{rigid_motions, sharpened};
 use crate::error::{Error, index};
 use crate::law::Contact;
@@ -128,7 +128,7 @@ impl<'c> Viscous<'c> {
                 law: problem.law(),
                 reference_slip: None,
             })?;
-            let solution = auto::solve(&Contact::new(&viscous), &settings, d.as_deref(), monitor)?;
+            let solution = plan::auto(&Contact::new(&viscous), &settings, d.as_deref(), monitor)?;
             if solution.status != Status::Solved {
                 return Ok(None);
             }
@@ -157,7 +157,7 @@ impl<'c> Viscous<'c> {
 
     /// The escape along the motion of a proof, as fast as the loads drive it.
     fn along(&self, proof: &[f64]) -> Escape {
-        let work = dot(self.contact.shifted_load(), proof);
+        let work = dot(self.contact.load_with_tension(), proof);
         let scaled: Vec<f64> = proof.iter().zip(&self.root).map(|(r, root)| r * root).collect();
         let speed = work / dot(&scaled, &scaled);
         self.with_motion(proof.iter().map(|r| speed * r).collect())
@@ -178,7 +178,7 @@ fn message(contact: &Contact<'_>, Escape { motion, unbalanced }: &Escape) -> Str
          {CAUSES}",
         contact.pairs().len(),
         index(pair),
-        dot(contact.shifted_load(), motion),
+        dot(contact.load_with_tension(), motion),
         dot(unbalanced, motion),
     )
 }

@@ -1,36 +1,28 @@
 //! Solvers: each a plain function of (problem, settings, start, monitor) that returns a candidate.
-//! What is called a solution is decided in `candidate`, by the certificate alone.
+//! The certificate alone decides in `result` which candidate is a solution.
 //!
 //! ```text
-//! memory ← outcome ← candidate ← condense ← rigid_balance ← smallest_lift ← remarks ← sweeps ← undecided ← normal_map ← active_set ← path ← krylov ← lemke ← uniqueness ← dispatch ← auto ← escape_motion ← far_obstacles ← dependent ← flexibility ← existence ← mod
-//!                                                                                   └──── lcp ────────────────────────┘
+//! result ← pieces ← part ← rigid_balance ← smallest_lift ← sweeps ← newton ← path ← proximal ← lcp ← uniqueness ← plan ← operator ← escape_motion ← dependent ← flexibility ← mod
 //! ```
 //!
-//! Each imports from those to its left only. One algorithm is one folder; what others may use of it is
-//! what its `mod.rs` names.
+//! Each imports from those to its left only. One algorithm is one folder; others may use the names that its
+//! `mod.rs` passes on.
 
-mod active_set;
-mod auto;
-mod candidate;
-mod condense;
 mod dependent;
-mod dispatch;
 mod escape_motion;
-mod existence;
-mod far_obstacles;
 mod flexibility;
-mod krylov;
 mod lcp;
-mod lemke;
-mod memory;
-mod normal_map;
-mod outcome;
+mod newton;
+mod operator;
+mod part;
 mod path;
-mod remarks;
+mod pieces;
+mod plan;
+mod proximal;
+mod result;
 mod rigid_balance;
 mod smallest_lift;
 mod sweeps;
-mod undecided;
 mod uniqueness;
 
 use crate::error::{Argument, Error, Limit, entry};
@@ -40,18 +32,17 @@ use crate::monitor::Monitor;
 use crate::problem::{ContactProblem, DependentRows, FlexibilityProblem, SparseFlexibilityProblem};
 use crate::settings::{Search, Settings};
 
-pub(crate) use candidate::{CAUSES, NO_EQUILIBRIUM};
-use dispatch::check_method;
 pub(crate) use flexibility::largest_island;
-pub(crate) use krylov::{
-    Case as UnformedCase, certify as certify_unformed, memory as memory_unformed,
-    solve as solve_unformed,
-};
 pub use lcp::{LcpSolution, solve_lcp};
-use memory::check_limit;
-pub use memory::{memory, memory_flexibility, memory_flexibility_sparse};
-pub use outcome::{
+pub(crate) use operator::{
+    Case as MatrixFreeCase, certify as certify_matrix_free, memory as memory_matrix_free,
+    solve as solve_matrix_free,
+};
+use result::check_limit;
+pub(crate) use result::{CAUSES, NO_EQUILIBRIUM, memory_of_islands};
+pub use result::{
     Errors, Escape, Existence, Fallback, Remarks, SecondSolution, Solution, Status, Uniqueness,
+    memory, memory_flexibility, memory_flexibility_sparse,
 };
 
 /// Solves a contact problem whose rows depend on each other, as [`solve()`] does another one. Contact forces
@@ -68,7 +59,7 @@ pub(crate) fn solve_dependent(
     let n = problem.unknowns();
     check(settings, memory(n), ("d", n, start))?;
     let mut solution = dependent::solve(problem, settings, start, monitor)?;
-    solution.remarks = remarks::of_problem(problem);
+    solution.remarks = result::of_problem(problem);
     solution.iterations = monitor.iterations();
     Ok(solution)
 }
@@ -91,7 +82,7 @@ pub fn solve_flexibility(
     let n = problem.unknowns();
     check(settings, memory_flexibility(n), ("F", n, start))?;
     let mut solution = flexibility::solve(problem, settings, start, &|pair| pair, monitor)?;
-    solution.remarks = remarks::of_problem(problem);
+    solution.remarks = result::of_problem(problem);
     solution.iterations = monitor.iterations();
     Ok(solution)
 }
@@ -114,26 +105,17 @@ pub fn solve_flexibility_sparse(
     start: Option<&[f64]>,
     monitor: &mut Monitor<'_>,
 ) -> Result<Solution, Error> {
-    check_flexibility_sparse(problem, settings)?;
-    check_start("F", problem.unknowns(), start)?;
-    let mut solution = flexibility::solve_islands(problem, settings, start, monitor)?;
-    solution.remarks = remarks::of_problem(problem);
-    solution.iterations = monitor.iterations();
-    Ok(solution)
-}
-
-/// Refuses settings out of range, and islands that need more bytes than they allow. Returns these bytes.
-pub(crate) fn check_flexibility_sparse(
-    problem: &SparseFlexibilityProblem<'_>,
-    settings: &Settings,
-) -> Result<u64, Error> {
     settings.validate()?;
-    let bytes = memory_flexibility_sparse(problem);
-    check_limit(bytes, settings).map_err(|error| {
-        let message = format!("{}: {}", error.message().marked(), largest_island(problem));
+    let matrix = problem.relation().form();
+    check_limit(memory_of_islands(matrix), settings).map_err(|error| {
+        let message = format!("{}: {}", error.message().marked(), largest_island(matrix));
         Error::stopped(Limit::Memory, message)
     })?;
-    Ok(bytes)
+    check_start("F", problem.unknowns(), start)?;
+    let mut solution = flexibility::solve_islands(problem, settings, start, monitor)?;
+    solution.remarks = result::of_problem(problem);
+    solution.iterations = monitor.iterations();
+    Ok(solution)
 }
 
 /// Solves a contact problem from the displacements `start` (zero if `None`).
@@ -153,20 +135,20 @@ pub fn solve(
     let more = settings.search == Search::Others || settings.proof;
     let problem = &problem.remembering(problem.remembered().filter(|_| !more));
     let contact = Contact::new(problem);
-    check_method(&contact, settings.method)?;
+    plan::check_method(&contact, settings.method)?;
     // Where d = 0 is the solution, other starts only approach it.
     let start = start.filter(|_| !contact.is_at_rest());
-    let mut solution = far_obstacles::solve(&contact, settings, start, monitor)?;
+    let mut solution = plan::solve(&contact, settings, start, monitor)?;
     escape_motion::describe(&contact, &mut solution, monitor)?;
     uniqueness::by_orientation(&contact, &mut solution, monitor);
     if settings.search == Search::Others && !monitor.is_late() {
         uniqueness::examine(&contact, settings, &mut solution, monitor)?;
     }
     if settings.proof {
-        existence::examine(&contact, settings, &mut solution, monitor);
+        uniqueness::prove(&contact, settings, &mut solution, monitor);
     }
-    solution.remarks = remarks::of_solution(&contact, &solution, monitor);
-    remarks::explain_stall(&contact, &mut solution, monitor);
+    solution.remarks = plan::of_solution(&contact, &solution, monitor);
+    plan::explain_stall(&contact, &mut solution, monitor);
     solution.iterations = monitor.iterations();
     Ok(solution)
 }

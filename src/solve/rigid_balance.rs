@@ -1,4 +1,4 @@
-//! Whether contact forces can balance the loads on the rigid motions at all, whatever the
+//! True if contact forces can balance the loads on the rigid motions at all, whatever the
 //! displacements.
 //!
 //! With a basis `N` of the motions that `K` does not resist, balance is `Nᵀ (f + F) = 0` for forces
@@ -11,7 +11,7 @@
 //! the projection is repeated (cutting planes, on the exact disc). What is left of negative work within
 //! the tolerance is taken away by a motion that lifts all pairs.
 
-use super::condense::FreeBlock;
+use super::part::FreeBlock;
 use crate::certificate::is_escape_of;
 use crate::law::Contact;
 use crate::linalg::nnls::{extend_basis, nearest};
@@ -41,39 +41,7 @@ const MOST_ROUNDS: usize = 300;
 /// A recession direction that the loads drive, where the admissible forces are cones; `None` also if there is
 /// no time to look for it.
 pub fn escape(contact: &Contact<'_>, monitor: &Monitor<'_>) -> Option<Vec<f64>> {
-    if !contact.bounds().all(|bound| bound.is_cone()) || !contact.problem().is_symmetric() {
-        return None;
-    }
-    let balance = Balance::new(contact, monitor)?;
-    let load = balance.on_motions(contact.shifted_load(), 0);
-    let mut edges = Vec::new();
-    for (pair, law) in contact.pairs().iter().enumerate() {
-        let own = law.cone_edges();
-        edges.extend(own.iter().map(|edge| balance.on_pair(edge, pair)));
-    }
-    let mut last = f64::INFINITY;
-    for _ in 0..MOST_ROUNDS {
-        let rest = nearest(&load, &edges)?;
-        let motion = balance.motion(&rest);
-        let worst = balance.worst(&motion);
-        let size = norm(&rest);
-        let is_last = worst.is_empty() || contact.dim() == 2 || size == last;
-        if is_last || size > STEADY * last {
-            let lifted = balance.lifted(motion.clone());
-            if is_escape_of(contact, &lifted) {
-                return Some(lifted);
-            }
-            if is_last {
-                return None;
-            }
-        }
-        last = size;
-        for pair in worst.into_iter().take(JOINING) {
-            let own = &motion[contact.dim() * pair..contact.dim() * (pair + 1)];
-            edges.push(balance.on_pair(&contact.pairs()[pair].opposing_edge(own), pair));
-        }
-    }
-    None
+    Balance::new(contact, monitor)?.escape()
 }
 
 /// A motion that proves that no equilibrium exists without the rounding of the method that found it: made
@@ -112,7 +80,7 @@ pub fn rigid_motions(
 }
 
 /// The rigid motions of a problem.
-struct Balance<'c> {
+pub struct Balance<'c> {
     contact: &'c Contact<'c>,
     /// Roots of the units of the components.
     root: Vec<f64>,
@@ -122,10 +90,47 @@ struct Balance<'c> {
 
 impl<'c> Balance<'c> {
     /// `None` if there are no such motions, or if there is no time to find them.
-    fn new(contact: &'c Contact<'c>, monitor: &Monitor<'_>) -> Option<Self> {
+    pub fn new(contact: &'c Contact<'c>, monitor: &Monitor<'_>) -> Option<Self> {
         let root = contact.problem().unit_roots();
         let basis = rigid_motions(contact.problem(), &root, monitor);
         (!basis.is_empty()).then_some(Balance { contact, root, basis })
+    }
+
+    /// A recession direction that the loads drive, where the admissible forces are cones.
+    pub fn escape(&self) -> Option<Vec<f64>> {
+        let contact = self.contact;
+        if !contact.bounds().all(|bound| bound.is_cone()) || !contact.problem().is_symmetric() {
+            return None;
+        }
+        let load = self.on_motions(contact.load_with_tension(), 0);
+        let mut edges = Vec::new();
+        for (pair, law) in contact.pairs().iter().enumerate() {
+            let own = law.cone_edges();
+            edges.extend(own.iter().map(|edge| self.on_pair(edge, pair)));
+        }
+        let mut last = f64::INFINITY;
+        for _ in 0..MOST_ROUNDS {
+            let rest = nearest(&load, &edges)?;
+            let motion = self.motion(&rest);
+            let worst = self.worst(&motion);
+            let size = norm(&rest);
+            let is_last = worst.is_empty() || contact.dim() == 2 || size == last;
+            if is_last || size > STEADY * last {
+                let lifted = self.lifted(motion.clone());
+                if is_escape_of(contact, &lifted) {
+                    return Some(lifted);
+                }
+                if is_last {
+                    return None;
+                }
+            }
+            last = size;
+            for pair in worst.into_iter().take(JOINING) {
+                let own = &motion[contact.dim() * pair..contact.dim() * (pair + 1)];
+                edges.push(self.on_pair(&contact.pairs()[pair].opposing_edge(own), pair));
+            }
+        }
+        None
     }
 
     /// Work on each motion of forces whose first component is `first`.

@@ -5,8 +5,8 @@
 //! have more than the loads ask for. So where displacements are that large, the rigid motion is taken away
 //! that moves no pair with a force, and that the loads do not drive.
 
-use super::candidate::Candidate;
-use super::condense::FreeBlock;
+use super::part::FreeBlock;
+use super::result::Candidate;
 use super::rigid_balance::rigid_motions;
 use crate::law::{Contact, State, touching};
 use crate::linalg::pivoted_cholesky::pivoted_cholesky_work;
@@ -26,10 +26,10 @@ pub fn without_idle_motion(
 ) -> Candidate {
     let problem = contact.problem();
     let root = problem.unit_roots();
-    let scaled: Vec<f64> = candidate.d.iter().zip(&root).map(|(d, root)| d * root).collect();
+    let scaled: Vec<f64> = candidate.d().iter().zip(&root).map(|(d, root)| d * root).collect();
     let stiffness = |i: usize| root[i] * root[i];
-    let forces = norm_inf(contact.shifted_load()).max(norm_inf(&candidate.force));
-    let prescribed = contact.each(&candidate.d, &candidate.force).enumerate();
+    let forces = norm_inf(contact.load_with_tension()).max(norm_inf(candidate.force()));
+    let prescribed = contact.each(candidate.d(), candidate.force()).enumerate();
     let prescribed = largest_of(
         prescribed.map(|(i, (law, d, _))| stiffness(contact.dim() * i) * law.prescribed(d[0])),
     );
@@ -44,17 +44,17 @@ pub fn without_idle_motion(
         motion.iter_mut().zip(v).for_each(|(motion, v)| *motion += share * v);
     }
     motion.iter_mut().zip(&root).for_each(|(motion, root)| *motion /= root);
-    let driven = dot(contact.shifted_load(), &motion).abs();
-    let could = norm_inf(contact.shifted_load()) * norm_inf(&motion);
+    let driven = dot(contact.load_with_tension(), &motion).abs();
+    let could = norm_inf(contact.load_with_tension()) * norm_inf(&motion);
     if norm(&motion) == 0.0 || driven > ROUNDING_OF_SUM * could {
         return candidate;
     }
-    let part = contact.admissible_part(&candidate.d, &motion);
-    let d = candidate.d.iter().zip(&motion).map(|(d, motion)| d - part * motion).collect();
+    let part = contact.admissible_part(candidate.d(), &motion);
+    let d = candidate.d().iter().zip(&motion).map(|(d, motion)| d - part * motion).collect();
     candidate.moved_to(contact, d)
 }
 
-/// Whether a frictionless solution may move by some motion without internal force: one that does not move the
+/// True if a frictionless solution may move by some motion without internal force: one that does not move the
 /// pairs that touch along their normals, pressed or not. No, if there is no time for the question.
 ///
 /// Such a motion is one that the block of all other components does not resist, as `r . K r = 0` means `K r = 0`. That
@@ -84,7 +84,7 @@ fn idle(
     forces: f64,
 ) -> Vec<Vec<f64>> {
     let dim = contact.dim();
-    let parts = candidate.force.chunks_exact(dim).enumerate();
+    let parts = candidate.force().chunks_exact(dim).enumerate();
     let held = parts.filter(|(_, force)| norm_inf(force) > NEGLIGIBLE * forces);
     let held = held.flat_map(|(pair, _)| dim * pair..dim * (pair + 1)).collect();
     not_moving(held, rigid)

@@ -12,13 +12,13 @@ const ZERO: f64 = 16.0 * f64::EPSILON;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Bilinear {
     x: [[f64; 4]; 3],
-    /// What a step in the plane is of `c1` and of `c2`: two rows.
+    /// The parts of `c1` and of `c2` in a step in the plane: two rows.
     inverse: [Point; 2],
-    /// The same of `c3`: `c3 = bend[0] c1 + bend[1] c2`. Zero of parallelograms, triangles and lines.
+    /// The parts in `c3`: `c3 = bend[0] c1 + bend[1] c2`. Zero of parallelograms, triangles and lines.
     bend: [f64; 2],
 }
 
-/// What lines have as second coordinate: their own, which is zero on them.
+/// The second coordinate of lines: their own, which is zero on them.
 const ACROSS: [f64; 4] = [0.0, 0.0, 1.0, 0.0];
 
 /// Coefficients of corner values.
@@ -59,7 +59,7 @@ impl Bilinear {
         let (along, across) = (self.bend[0] * t, self.bend[1] * s);
         let skew = across - along;
         let square = (1.0 + skew) * (1.0 + skew) + 4.0 * along;
-        // Of a corner that is straight it is zero but for rounding.
+        // At a corner that is straight it is zero but for rounding.
         let least = -ZERO * (1.0 + skew * skew);
         let jacobian = if square < 0.0 && square >= least { 0.0 } else { square.sqrt() };
         let at = [2.0 * s / (1.0 - skew + jacobian), 2.0 * t / (1.0 + skew + jacobian)];

@@ -1,4 +1,4 @@
-//! What two convex polygons of a plane, or two intervals of a line, have in common.
+//! The common part of two convex polygons of a plane, or of two intervals of a line.
 
 /// A point of the auxiliary plane; on a line the second coordinate is zero.
 pub(super) type Point = [f64; 2];

@@ -21,7 +21,7 @@ use super::shape::{FaceKind, Values};
 /// Share of the centre's function that each corner takes, and each mid node.
 const TO_CORNER: f64 = 1.0 / 16.0;
 const TO_MID: f64 = 1.0 / 8.0;
-/// What remains at the centre.
+/// The share that remains at the centre.
 const REMAINS: f64 = 0.25;
 
 /// `α` of a face's edges, if it is covered wholly or in part.
@@ -62,9 +62,9 @@ impl Edges {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Basis {
     kind: FaceKind,
-    /// Of each edge.
+    /// `α` of each edge.
     alpha: [f64; 4],
-    /// Whether the centre spreads.
+    /// `true` if the centre spreads.
     spreads: bool,
 }
 

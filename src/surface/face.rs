@@ -4,9 +4,9 @@ use super::quadrature;
 use super::shape::{FaceKind, Local, MOST_NODES, Values};
 use crate::linalg::vector3::{Vector3, unit};
 
-/// A mid node this close to the middle of its edge, relative to the edge, stands on it. What remains of
-/// the patch test is smaller by another factor of ten and more.
-const ON_EDGE: f64 = 1e-11;
+/// A mid node this close to the middle of its edge, relative to the edge, stands on it, and a face this close to
+/// linear is linear. What remains of the patch test is smaller by another factor of ten and more.
+pub(super) const ON_EDGE: f64 = 1e-11;
 
 /// Points of the rule for areas along each direction: exact for flat faces of every kind.
 const AREA_POINTS: usize = 4;
@@ -80,7 +80,7 @@ impl Face<'_> {
         integrals
     }
 
-    /// Whether the mid nodes stand in the middle of straight edges.
+    /// Returns `true` if the mid nodes stand in the middle of straight edges.
     pub(super) fn is_straight(&self) -> bool {
         self.kind.mids().all(|(mid, [a, b])| {
             let middle = 0.5 * (self.x[a] + self.x[b]);
@@ -88,15 +88,13 @@ impl Face<'_> {
         })
     }
 
-    /// Whether positions are bilinear in local coordinates: straight edges, and the centre in the middle.
+    /// Returns `true` if positions are bilinear in local coordinates: straight edges, and the centre in the middle.
     pub(super) fn is_bilinear(&self) -> bool {
+        let corners = self.kind.corners();
         let centred = |node: usize| {
-            let middle: Vector3 = self.x[..QUADRILATERAL].iter().sum::<Vector3>() / 4.0;
+            let middle: Vector3 = self.x[..corners].iter().sum::<Vector3>() / corners as f64;
             (self.x[node] - middle).norm() <= ON_EDGE * self.size()
         };
         self.is_straight() && self.kind.central_node().is_none_or(centred)
     }
 }
-
-/// Corners of a quadrilateral.
-const QUADRILATERAL: usize = 4;

@@ -1,4 +1,4 @@
-//! What a solution means on the surfaces: pressure, traction, clearance and slip at nodes, and the
+//! A solution as fields on the surfaces: pressure, traction, clearance and slip at nodes, and the
 //! resultant of a contact zone.
 //!
 //! A node that has a pair of its own gets the values of that pair. Other nodes of the rows, the master's
@@ -12,7 +12,7 @@ use super::pairs::{SurfacePair, SurfacePairs};
 use crate::error::{Argument, Error};
 use crate::linalg::vector3::{Vector3, vector};
 
-/// What was solved for pairs, in their frames: normal and tangents of each.
+/// The solution for pairs, in their frames: normal and tangents of each.
 #[derive(Clone, Copy, Debug)]
 pub struct PairResults<'a> {
     /// Gaps, one for each pair; `None`: those of the pairs.
@@ -37,7 +37,7 @@ pub struct NodalFields {
     pub pressure: Vec<f64>,
     /// Contact force on the node's own body over area.
     pub traction: Vec<f64>,
-    /// What is left of the gap, `gap - d_n`: positive if open.
+    /// The part of the gap that is left, `gap - d_n`: positive if open.
     pub clearance: Vec<f64>,
     /// Motion along the surface against the other body since the reference slip.
     pub slip: Vec<f64>,

@@ -3,10 +3,12 @@
 use std::collections::HashMap;
 
 use super::face::Face;
+use super::normals::LEAST_NORMAL;
 use super::pairs::Weight;
 use super::shape::{FaceKind, MOST_NODES};
 use crate::error::{Argument, Error, entry, index};
 use crate::linalg::vector3::{Vector3, unit, vector};
+use crate::problem::checked_dim;
 
 /// A face whose area, at one of its nodes, is below this part of the square of its size has none: 1e-10
 /// is a corner of a ten-thousandth of a degree, far below what a mesh for computations has.
@@ -268,9 +270,6 @@ impl<'a> Side<'a> {
     }
 }
 
-/// Unit normals whose sum is below this cancel: their mean has no direction of its own.
-const LEAST_NORMAL: f64 = 1e-6;
-
 impl<'a> Surfaces<'a> {
     /// Checks everything and gives the two sides, slave and master.
     pub(super) fn sides(&self) -> Result<[Side<'a>; 2], Error> {
@@ -296,10 +295,7 @@ impl<'a> Surfaces<'a> {
     /// Checks and gives the slave side alone.
     pub(super) fn slave_side(&self) -> Result<Side<'a>, Error> {
         let Surfaces { dim, coordinates, slave, .. } = *self;
-        if dim != 2 && dim != 3 {
-            let message = format!("dim is {dim}, it must be 2 or 3");
-            return Err(Error::invalid(Argument::Dimension, message));
-        }
+        checked_dim(dim)?;
         Side::new("slave", Argument::SlaveFaces, (dim, coordinates), slave)
     }
 }

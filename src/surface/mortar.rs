@@ -18,7 +18,7 @@ use super::overlap::{Overlaps, SlaveFace};
 use super::pairs::{SurfacePair, SurfacePairs, SurfaceReport};
 use super::plane::Plane;
 use super::projected_shapes::{Covered, Opposite, Polynomials};
-use super::rims;
+use super::rims::{self, SAME_COVER};
 use super::row::Row;
 use super::settings::{Normals, SurfaceSettings};
 use super::shape::{FaceKind, Values};
@@ -26,10 +26,6 @@ use super::symmetry::OnPlanes;
 use super::whole_faces::unit_values;
 use crate::error::{Argument, Error, index};
 use crate::linalg::vector3::Vector3;
-
-/// A face that lacks less than this share of cover is covered wholly, and one that has more than all of
-/// it by more than this share lies under two faces: far above the rounding of edges.
-const COVER: f64 = 1e-6;
 
 /// A slave face that lies over master faces.
 struct CoveredFace<'a> {
@@ -43,7 +39,7 @@ struct CoveredFace<'a> {
     wholly: bool,
 }
 
-/// What is at work from face to face.
+/// The memory that the search uses from face to face.
 struct Search {
     candidates: Candidates,
     overlaps: Overlaps,
@@ -117,7 +113,7 @@ fn normal_of_faces(node: usize, row: &Row) -> Result<Vector3, Error> {
     })
 }
 
-/// What a slave face lies over. `whole` are the integrals of its shape functions over all of it.
+/// The part of the master that a slave face lies over. `whole` are the integrals of its shape functions over all of it.
 fn cover<'a>(
     [slave, master]: [&Side<'a>; 2],
     (at, face, whole): (usize, &Face<'a>, Values),
@@ -153,7 +149,7 @@ fn cover<'a>(
         return Ok(None);
     }
     let cover = area / in_plane.area;
-    if cover > 1.0 + COVER {
+    if cover > 1.0 + SAME_COVER {
         let over: Vec<String> = over.iter().map(index).collect();
         let what = format!(
             "lies under master faces that lie over each other, among {}: leave the hidden ones out, or \
@@ -163,7 +159,7 @@ fn cover<'a>(
         return Err(slave.refuse(at, &what));
     }
     let covered = polynomials.project(face.kind, &overlaps.points, &parts);
-    let (kind, nodes, wholly) = (face.kind, face.nodes, cover >= 1.0 - COVER);
+    let (kind, nodes, wholly) = (face.kind, face.nodes, cover >= 1.0 - SAME_COVER);
     Ok(Some(CoveredFace { at, kind, nodes, covered, whole, wholly }))
 }
 

@@ -18,7 +18,7 @@ use super::plane::Plane;
 use super::settings::Normals;
 use super::shape::{FaceKind, Local};
 use super::symmetry::OnPlanes;
-use super::whole_faces::whole_rows;
+use super::whole_faces::paired;
 use crate::error::Error;
 use crate::linalg::vector3::{Vector3, unit};
 
@@ -27,14 +27,11 @@ use crate::linalg::vector3::{Vector3, unit};
 const BEYOND: f64 = 1e-9;
 
 fn is_on(kind: FaceKind, [s, t]: Local) -> bool {
-    if kind.corners() == TRIANGLE && !kind.is_line() {
+    if kind.is_triangle() {
         return s >= -BEYOND && t >= -BEYOND && s + t <= 1.0 + BEYOND;
     }
     s.abs().max(t.abs()) <= 1.0 + BEYOND
 }
-
-/// Corners of a triangle.
-const TRIANGLE: usize = 3;
 
 /// A point of a master face that a slave node meets.
 struct Meeting {
@@ -114,20 +111,15 @@ pub(super) fn pairs(
             met.insert(node, meeting);
         }
     }
-    let mut found = SurfacePairs { dim, ..SurfacePairs::default() };
-    let mut report = SurfaceReport {
+    let report = SurfaceReport {
         search_distance: candidates.reach,
         slave_faces: slave.count(),
         boxes_searched: candidates.searched,
         not_opposed: candidates.not_opposed,
         ..SurfaceReport::default()
     };
-    for (node, mut row) in whole_rows(slave) {
-        report.slave_area += row.area;
-        if row.slaves.iter().any(|(node, _)| !met.contains_key(node)) {
-            found.unpaired.push(node);
-            continue;
-        }
+    let meets = |node: usize| met.contains_key(&node);
+    paired((slave, dim), report, meets, |node, mut row| {
         for (slave, part) in &row.slaves {
             let parts = met[slave].weights.iter().map(|(node, weight)| (*node, part * weight));
             row.masters.extend(parts);
@@ -136,10 +128,6 @@ pub(super) fn pairs(
         let weights = row.into_weights();
         let points = (slave.point(&weights[0]), Some(master.point(&weights[1])));
         let normal = planes.turned(node, met[&node].normal);
-        let pair = SurfacePair::new(dim, (node, area), weights, normal, points);
-        found.pairs.push(planes.hold(pair)?);
-        report.covered_area += area;
-    }
-    found.report = report;
-    Ok(found)
+        planes.hold(SurfacePair::new(dim, (node, area), weights, normal, points))
+    })
 }

@@ -12,8 +12,9 @@ const STEPS: usize = 60;
 /// A change of the unit normal this small is rounding.
 const LAST: f64 = 1e-14;
 
-/// A sum of unit normals this small beside their area has no direction of its own.
-const LEAST_NORMAL: f64 = 1e-6;
+/// A sum of unit normals this small beside their number or area, or the rest of one that lies across a plane, has no
+/// direction of its own.
+pub(super) const LEAST_NORMAL: f64 = 1e-6;
 
 /// Unit normals of a face at its nodes.
 pub(super) fn at_nodes(face: &Face<'_>) -> [Vector3; MOST_NODES] {

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::candidates::SearchFaces;
 use super::mesh::{Faces, Surfaces};
 use super::pairs::{SurfacePair, SurfacePairs, SurfaceReport};
-use super::whole_faces::whole_rows;
+use super::whole_faces::paired;
 use crate::error::{Argument, Error};
 use crate::linalg::vector3::{Vector3, unit};
 
@@ -25,7 +25,7 @@ pub enum Obstacle {
         centre: [f64; 3],
         /// The radius.
         radius: f64,
-        /// Whether the body is inside, as in a bowl.
+        /// `true` if the body is inside, as in a bowl.
         hollow: bool,
     },
     /// A round bar of any length, or the space around it; in space only.
@@ -36,7 +36,7 @@ pub enum Obstacle {
         axis: [f64; 3],
         /// The radius.
         radius: f64,
-        /// Whether the body is inside, as in a bore.
+        /// `true` if the body is inside, as in a bore.
         hollow: bool,
     },
 }
@@ -121,7 +121,7 @@ impl Checked {
 /// A mid node of a quadratic face has its corners beside it in its row, and the gap is that of the row.
 ///
 /// # Errors
-/// What is wrong with the faces, as [`super::pair_surfaces`] says; with the obstacle
+/// Faces that are wrong, as [`super::pair_surfaces`] says; an obstacle that is wrong
 /// ([`Argument::Obstacle`]): a direction that is zero, a radius that is not positive, a node on the axis
 /// or in the centre; a search distance that is not positive ([`Argument::Settings`]).
 pub fn pair_with_obstacle(
@@ -133,7 +133,7 @@ pub fn pair_with_obstacle(
 ) -> Result<SurfacePairs, Error> {
     let none = Faces { start: &[0], nodes: &[] };
     let side = Surfaces { dim, coordinates, slave, master: none }.slave_side()?;
-    // What is neither finite nor positive is left to be refused.
+    // A distance that is neither finite nor positive is refused below.
     let limit = search_distance.filter(|distance| distance.is_finite() || !(*distance > 0.0));
     let reach = super::settings::reach(limit, || f64::INFINITY)?;
     let obstacle = obstacle.check(dim)?;
@@ -148,27 +148,18 @@ pub fn pair_with_obstacle(
         };
         facing.insert(node, met);
     }
-    let rows = whole_rows(&side);
-    let mut found = SurfacePairs { dim, ..SurfacePairs::default() };
-    let mut report = SurfaceReport {
+    let report = SurfaceReport {
         search_distance: reach,
         slave_faces: side.count(),
         ..SurfaceReport::default()
     };
-    for (node, row) in rows {
-        report.slave_area += row.area;
+    let meets = |node: usize| facing[&node].0.abs() <= reach;
+    paired((&side, dim), report, meets, |node, row| {
         let area = row.area;
         let [slaves, masters] = row.into_weights();
-        if slaves.iter().any(|(node, _)| facing[node].0.abs() > reach) {
-            found.unpaired.push(node);
-            continue;
-        }
         let gap = slaves.iter().map(|(node, weight)| weight * facing[node].0).sum();
         let points = (side.point(&slaves), None);
         let pair = SurfacePair::new(dim, (node, area), [slaves, masters], facing[&node].1, points);
-        report.covered_area += area;
-        found.pairs.push(SurfacePair { gap, ..pair });
-    }
-    found.report = report;
-    Ok(found)
+        Ok(SurfacePair { gap, ..pair })
+    })
 }

@@ -3,21 +3,14 @@
 use std::cell::LazyCell;
 
 use super::clip::{Clipper, Point, measure};
-use super::face::Face;
+use super::face::{Face, ON_EDGE};
 use super::plane::{Flat, Plane, Polygon};
-use super::quadrature::{self, RulePoint};
+use super::quadrature::{self, MOST_POINTS, RulePoint};
 use super::shape::Local;
 
 /// Parts smaller than this share of the slave face are left out on both sides: they are the rounding of
 /// edges that lie upon each other.
 const LEAST_PART: f64 = 1e-13;
-
-/// Most points along each direction. Where quadrilaterals are so distorted that they ask for more, triangles are
-/// quartered.
-const MOST_POINTS: usize = 9;
-
-/// The size of a part of a quartered triangle beside it.
-const HALF: f64 = 0.5;
 
 /// The error that fewer points may leave: that of the most. And the error of areas where faces are warped.
 const LEFT: f64 = 1e-12;
@@ -25,10 +18,6 @@ const LEFT_OF_AREA: f64 = 1e-11;
 
 /// At this distortion a corner is straight, and at this slope by a warp no series of the area converges.
 const FOLDED: f64 = 1.0;
-const STEEP: f64 = 1.0;
-
-/// A face that is further from linear than this, relative to its size, is not taken for linear: rounding.
-const LINEAR: f64 = 1e-11;
 
 /// A point where a slave and a master face lie over each other.
 #[derive(Clone, Copy, Debug)]
@@ -48,7 +37,7 @@ pub(super) struct SlaveFace {
     pub(super) area: f64,
 }
 
-/// What a slave face has in common with master faces, in memory that the next one uses again.
+/// The common parts of a slave face and master faces, in memory that the next one uses again.
 #[derive(Debug, Default)]
 pub(super) struct Overlaps {
     /// The points, master face after master face.
@@ -130,9 +119,10 @@ impl SlaveFace {
             let points = quadrature::on_interval(count(degree + 1, 1.0).min(MOST_POINTS));
             return Rule { points, quartered: false };
         }
+        // Where quadrilaterals are so distorted that they ask for more points, triangles are quartered.
         let whole = count(degree + 2, 1.0);
         let quartered = whole > MOST_POINTS;
-        let needed = if quartered { count(degree + 2, HALF) } else { whole };
+        let needed = if quartered { count(degree + 2, 0.5) } else { whole };
         Rule { points: quadrature::on_triangle(needed.min(MOST_POINTS)), quartered }
     }
 
@@ -147,14 +137,14 @@ impl SlaveFace {
         let terms = |ratio: f64, left: f64| (left.ln() / ratio.ln()).ceil() as usize;
         let distortion = own.distortion().max(other.distortion());
         let warp = own.warp();
-        if !(distortion < FOLDED && warp < STEEP) {
+        if !(distortion < FOLDED && warp < FOLDED) {
             return None;
         }
-        let of_distortion = match distortion > LINEAR {
+        let of_distortion = match distortion > ON_EDGE {
             true => terms(0.5 * size * distortion, LEFT) - 1,
             false => 0,
         };
-        let of_warp = match warp > LINEAR {
+        let of_warp = match warp > ON_EDGE {
             true => 2 * (terms(size * size * warp * warp, LEFT_OF_AREA) - 1),
             false => 0,
         };
@@ -199,7 +189,7 @@ impl SlaveFace {
 
 /// The four triangles that the middles of its sides make of one.
 fn quarters([a, b, c]: [Point; 3]) -> [Option<[Point; 3]>; 4] {
-    let middle = |p: Point, q: Point| [0, 1].map(|i| HALF * (p[i] + q[i]));
+    let middle = |p: Point, q: Point| [0, 1].map(|i| 0.5 * (p[i] + q[i]));
     let (ab, bc, ca) = (middle(a, b), middle(b, c), middle(c, a));
     [[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]].map(Some)
 }

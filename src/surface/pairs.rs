@@ -35,7 +35,7 @@ pub struct SurfacePair {
     pub held: [bool; 3],
 }
 
-/// What became of the faces and nodes that have no pair of their own.
+/// A report on the faces and nodes that have no pair of their own.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SurfaceReport {
     /// The search distance that was used; infinite against an obstacle if none was given.
@@ -87,7 +87,7 @@ pub struct SurfacePairs {
     pub pairs: Vec<SurfacePair>,
     /// Slave nodes without a pair: nothing lies over them, or they have little cover and were folded or dropped.
     pub unpaired: Vec<usize>,
-    /// What else there is to say.
+    /// The report on the pairing.
     pub report: SurfaceReport,
 }
 
@@ -166,7 +166,7 @@ impl SurfacePairs {
         self.rows_on(NodeDofs::PerNode(self.dim))
     }
 
-    /// The same with degrees of freedom of the host's own.
+    /// [`Self::rows`] with the host's own degrees of freedom.
     ///
     /// # Panics
     /// If a list of degrees of freedom ends before the last node of a pair.

@@ -82,7 +82,7 @@ pub(super) struct Flat {
     pub(super) kind: FaceKind,
     pub(super) points: [Point; MOST_NODES],
     heights: [f64; MOST_NODES],
-    /// Of faces with straight edges.
+    /// The closed form of faces with straight edges.
     pub(super) bilinear: Option<Bilinear>,
 }
 

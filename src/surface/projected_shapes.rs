@@ -30,7 +30,7 @@ pub(super) struct Opposite<'a> {
     pub(super) points: Range<usize>,
 }
 
-/// What one slave face gets from the masters that it lies over.
+/// The weights of one slave face for the masters that it lies over.
 #[derive(Clone, Debug)]
 pub(super) struct Covered {
     /// Integrals of the slave's shape functions over the covered part.
@@ -38,7 +38,7 @@ pub(super) struct Covered {
     /// Number of the slave's nodes.
     slaves: usize,
     masters: Vec<usize>,
-    /// Of each master the coefficients of its shape functions at the slave's nodes.
+    /// For each master the coefficients of its shape functions at the slave's nodes.
     coefficients: Vec<f64>,
 }
 
@@ -64,7 +64,7 @@ pub(super) struct Polynomials {
     at_nodes: Vec<Values>,
     /// At the points, polynomial after polynomial.
     at_points: Vec<f64>,
-    /// The same times the weights of the points.
+    /// `at_points` times the weights of the points.
     weighted: Vec<f64>,
     /// The one that is made, at the points.
     next: Vec<f64>,

@@ -7,20 +7,20 @@ use std::sync::LazyLock;
 const STEPS: usize = 8;
 
 /// Most points of a rule along a direction.
-const MOST_POINTS: usize = 9;
+pub(super) const MOST_POINTS: usize = 9;
 
 /// Barycentric coordinates of a point with its weight. On an interval the third is zero, and the second is
 /// the place in 0..1.
 pub(super) type RulePoint = ([f64; 3], f64);
 
-/// Most points of a rule on a triangle.
-const MOST_ON_TRIANGLE: usize = MOST_POINTS * MOST_POINTS;
+/// A rule on a triangle; zeros behind its points.
+type OnTriangle = [RulePoint; MOST_POINTS * MOST_POINTS];
 
 /// The rules, by the number of points along a direction: every face asks for them. They stand in
 /// arrays, as memory of a static would be lost when a host unloads the library.
 static INTERVALS: LazyLock<[[RulePoint; MOST_POINTS]; MOST_POINTS + 1]> =
     LazyLock::new(|| std::array::from_fn(interval));
-static TRIANGLES: LazyLock<[[RulePoint; MOST_ON_TRIANGLE]; MOST_POINTS + 1]> =
+static TRIANGLES: LazyLock<[OnTriangle; MOST_POINTS + 1]> =
     LazyLock::new(|| std::array::from_fn(triangle));
 
 /// Points of 0..1 and weights that sum to 1, exact for polynomials of degree `2 n - 1`.
@@ -62,9 +62,9 @@ fn legendre(n: usize, x: f64) -> (f64, f64) {
 }
 
 /// A rule of `n * n` points; zeros behind them.
-fn triangle(n: usize) -> [RulePoint; MOST_ON_TRIANGLE] {
+fn triangle(n: usize) -> OnTriangle {
     let rule = interval(n);
-    let mut points = [([0.0; 3], 0.0); MOST_ON_TRIANGLE];
+    let mut points = [([0.0; 3], 0.0); MOST_POINTS * MOST_POINTS];
     for (i, point) in points[..n * n].iter_mut().enumerate() {
         let (([_, s, _], a), ([_, t, _], b)) = (rule[i / n], rule[i % n]);
         let across = (1.0 - s) * t;

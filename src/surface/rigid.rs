@@ -2,6 +2,7 @@
 //! rows, as it does not move.
 
 use super::mesh::{Faces, Side, Surfaces};
+use super::pair_surfaces::pair_sides;
 use super::pairs::SurfacePairs;
 use super::settings::SurfaceSettings;
 use crate::error::{Argument, Error};
@@ -32,7 +33,7 @@ pub fn pair_with_rigid_surface(
     let none = Faces { start: &[0], nodes: &[] };
     let slave = Surfaces { dim, coordinates, slave, master: none }.slave_side()?;
     let obstacle = Side::obstacle(dim, rigid.coordinates, rigid.faces)?;
-    let mut found = super::pair_sides([&slave, &obstacle], dim, settings)?;
+    let mut found = pair_sides([&slave, &obstacle], dim, settings)?;
     found.pairs.iter_mut().for_each(|pair| pair.masters.clear());
     Ok(found)
 }

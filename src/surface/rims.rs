@@ -15,13 +15,12 @@ use crate::linalg::vector3::Vector3;
 /// twentieth and a fifth; with a hundredth it loses a digit.
 const LEAST_COVER: f64 = 0.1;
 
-/// Below this share a node does not keep a row even if it shall: six digits of its area would be rounding.
-const LEAST_KEPT: f64 = 1e-6;
+/// Shares of cover that differ by less are the same, far above the rounding of edges: a face that lacks less is
+/// covered wholly, one that has more than all of it by more lies under two faces, and of two nodes the nearer is
+/// chosen. With less than this a node does not keep a row even if it shall: six digits of its area would be rounding.
+pub(super) const SAME_COVER: f64 = 1e-6;
 
-/// Shares of cover that differ by less are the same, and the nearer node is chosen.
-const SAME_COVER: f64 = 1e-6;
-
-/// What became of nodes with little cover.
+/// The nodes with little cover, folded or dropped.
 pub(super) struct Little {
     /// Each folded one with the node that has its row.
     pub(super) folded: Vec<(usize, usize)>,
@@ -38,7 +37,7 @@ pub(super) fn settle<'a>(
 ) -> Little {
     let least = match rims {
         Rims::Fold => LEAST_COVER,
-        Rims::Keep => LEAST_KEPT,
+        Rims::Keep => SAME_COVER,
         Rims::Drop => {
             let all: Vec<usize> = rows.keys().copied().collect();
             rows.retain(|_, row| row.cover() >= LEAST_COVER);

@@ -9,7 +9,7 @@ use crate::linalg::vector3::Vector3;
 pub(super) struct Row {
     /// `D_j`: the area of the node on the covered part.
     pub(super) area: f64,
-    /// What it would be on the whole of the faces of which a part is covered.
+    /// The area that the node would have on the whole of the faces of which a part is covered.
     pub(super) whole: f64,
     /// Slave nodes with weights whose sum is `D_j`; nodes may repeat.
     pub(super) slaves: Vec<Weight>,

@@ -1,6 +1,6 @@
-//! Whether faces of one side lie upon each other: their area, and the pressure on it, would count twice.
+//! Faces of one side that lie upon each other are refused: their area, and the pressure on it, would count twice.
 //!
-//! What is legal stays so: two sides of a plate, whose normals oppose each other; a surface folded upon
+//! Legal surfaces pass: two sides of a plate, whose normals oppose each other; a surface folded upon
 //! itself; faces that meet in an edge or a node; layers further apart than the search reaches.
 
 use super::candidates::{SearchFaces, bounds};
@@ -20,8 +20,6 @@ const UPON: f64 = 0.05;
 /// More than this share of the smaller face is common. Parts of a surface whose meshes meet along a curved line
 /// overlap by segments of the circle, 0.034 of a square that turns by 23 degrees along it.
 const COMMON: f64 = 0.05;
-
-const PERCENT: f64 = 100.0;
 
 /// Refuses faces that lie upon each other within `reach`.
 ///
@@ -67,12 +65,12 @@ fn upon(side: &Side<'_>, (at, other): (usize, usize), share: f64) -> Error {
         "lies upon face {}, with {:.0} % of the smaller one: the area would count twice; leave one of them \
          out, or pair them in two calls if they belong to two contacts",
         index(other),
-        PERCENT * share.min(1.0)
+        100.0 * share.min(1.0)
     );
     side.refuse(at, &what)
 }
 
-/// Whether two faces that look the same way share an edge, so that each lies on its own side of it: by
+/// Returns `true` if two faces that look the same way share an edge, so that each lies on its own side of it: by
 /// their corners in turn.
 fn are_neighbours(a: &[usize], b: &[usize]) -> bool {
     edges(a).any(|(from, to)| edges(b).any(|edge| edge == (to, from)))

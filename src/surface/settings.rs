@@ -22,7 +22,7 @@ pub enum Normals {
     /// curved surfaces.
     #[default]
     Averaged,
-    /// Of the faces in contact. By dual mortar the mean of the unit normals at the node of the slave faces that
+    /// The normal of the faces in contact. By dual mortar the mean of the unit normals at the node of the slave faces that
     /// lie over the master, by the node's share of the area that does: faces around a sharp edge that face
     /// nothing do not turn it. Nodes against surfaces: opposite to the normal of the master face that the node stands
     /// nearest to, at the foot of the perpendicular; beyond an edge of the master, where there is no foot,
@@ -31,7 +31,7 @@ pub enum Normals {
     Faces,
 }
 
-/// What becomes of slave nodes at rims: those that have less than a tenth of their area over the master, counted
+/// The treatment of slave nodes at rims: those that have less than a tenth of their area over the master, counted
 /// on the faces of which any part lies over it. Of dual mortar; nodes against surfaces have no cover.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Rims {
@@ -60,7 +60,7 @@ pub struct SurfaceSettings {
     pub symmetry: Vec<SymmetryPlane>,
     /// Normals of the pairs.
     pub normals: Normals,
-    /// What becomes of nodes with little cover.
+    /// The treatment of nodes with little cover.
     pub rims: Rims,
 }
 

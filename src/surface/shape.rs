@@ -13,7 +13,7 @@ pub(super) type Values = [f64; MOST_NODES];
 /// A point in a face's own coordinates. The second is zero on lines.
 pub(super) type Local = [f64; 2];
 
-/// What a face is, told by the space dimension and the number of its nodes.
+/// The kind of a face, told by the space dimension and the number of its nodes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FaceKind {
     /// A line with 2 nodes, in the plane.
@@ -83,9 +83,14 @@ impl FaceKind {
         }
     }
 
-    /// Whether it is a line of the plane.
+    /// Returns `true` if it is a line of the plane.
     pub(super) fn is_line(self) -> bool {
         matches!(self, Line2 | Line3)
+    }
+
+    /// Returns `true` if it is a triangle.
+    pub(super) fn is_triangle(self) -> bool {
+        matches!(self, T3 | T6)
     }
 
     /// Highest total degree of the shape functions.
@@ -233,7 +238,7 @@ impl FaceKind {
 /// The middle node of a line with three.
 const MIDDLE: usize = 2;
 
-/// Of each node of a quadrilateral, its places along the two coordinates: 0 and 1 the ends, 2 the middle.
+/// For each node of a quadrilateral, its places along the two coordinates: 0 and 1 the ends, 2 the middle.
 const SIDES: [[usize; 2]; 9] =
     [[0, 0], [1, 0], [1, 1], [0, 1], [2, 0], [1, 2], [2, 1], [0, 2], [2, 2]];
 

@@ -1,4 +1,4 @@
-//! Planes of symmetry of half and quarter models: what a pair is whose slave node stands on one.
+//! Planes of symmetry of half and quarter models, and the pairs whose slave nodes stand on them.
 //!
 //! In the whole body the row of such a node reaches as far to the other side. What it tells along the axis across
 //! the plane cancels against its mirror image, so that the pair neither moves nor carries a force along it. Half
@@ -10,6 +10,7 @@
 use std::collections::{BTreeMap, HashMap};
 
 use super::mesh::Side;
+use super::normals::LEAST_NORMAL;
 use super::pairs::SurfacePair;
 use crate::error::{Argument, Error, index};
 use crate::linalg::vector3::{Vector3, unit};
@@ -26,9 +27,6 @@ pub struct SymmetryPlane {
 /// A node is on a plane if it is nearer than this part of the size of the slave side: ten times the error of
 /// coordinates with seven digits.
 const ON_PLANE: f64 = 1e-6;
-
-/// What is left of a unit normal that lies across a plane but for rounding.
-const LEAST_NORMAL: f64 = 1e-6;
 
 /// The slave nodes that stand on planes of symmetry.
 #[derive(Debug, Default)]

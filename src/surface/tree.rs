@@ -108,7 +108,7 @@ impl Tree {
         looked
     }
 
-    /// The same of one branch, in any order.
+    /// Collects the faces of one branch, in any order.
     fn collect(&self, place: usize, bounds: &Bounds, found: &mut Vec<usize>) -> usize {
         let branch = &self.branches[place];
         if !branch.bounds.meets(bounds) {

@@ -4,11 +4,13 @@ use std::collections::BTreeMap;
 
 use super::control::Edges;
 use super::mesh::Side;
+use super::pairs::{SurfacePair, SurfacePairs, SurfaceReport};
 use super::row::Row;
 use super::shape::{MOST_NODES, Values};
+use crate::error::Error;
 
 /// The slave's part of the rows of all nodes, as if every face were covered wholly.
-pub(super) fn whole_rows(side: &Side<'_>) -> BTreeMap<usize, Row> {
+fn whole_rows(side: &Side<'_>) -> BTreeMap<usize, Row> {
     let faces = || (0..side.count()).map(|face| side.face(face));
     let mut edges = Edges::default();
     faces().for_each(|face| edges.add(face.kind, face.nodes, true));
@@ -28,6 +30,29 @@ pub(super) fn whole_rows(side: &Side<'_>) -> BTreeMap<usize, Row> {
         }
     }
     rows
+}
+
+/// The pairs of rows all of whose slave nodes meet something; other nodes are unpaired. Areas are added to the report.
+///
+/// # Errors
+/// Those of `pair`, which makes a pair of a node and its row.
+pub(super) fn paired(
+    (side, dim): (&Side<'_>, usize),
+    mut report: SurfaceReport,
+    meets: impl Fn(usize) -> bool,
+    pair: impl Fn(usize, Row) -> Result<SurfacePair, Error>,
+) -> Result<SurfacePairs, Error> {
+    let mut found = SurfacePairs { dim, ..SurfacePairs::default() };
+    for (node, row) in whole_rows(side) {
+        report.slave_area += row.area;
+        if row.slaves.iter().all(|(node, _)| meets(*node)) {
+            report.covered_area += row.area;
+            found.pairs.push(pair(node, row)?);
+        } else {
+            found.unpaired.push(node);
+        }
+    }
+    Ok(SurfacePairs { report, ..found })
 }
 
 /// Nodal values that are one at a node each.

@@ -20,7 +20,7 @@
 #include "fclib_dat.h"
 #include "fclib_siconos.h"
 #include "local_form.h"
-#include "signorini.h"
+#include "../c/everything.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -61,7 +61,7 @@ static double ours(const struct local_form *form, double limit, double *r, int *
     settings.tolerance = TOLERANCE;
     limit_time(limit);
     const double began = seconds_used();
-    *status = signorini_flexibility_solve_sparse(form->dim, (int64_t)form->contacts, &W, q, NULL,
+    *status = solve_flexibility_sparse(form->dim, (int64_t)form->contacts, &W, q, NULL,
         SIGNORINI_LAW_COULOMB, form->mu, NULL, &settings, d, r, NULL, &report, NULL);
     const double took = seconds_used() - began;
     for (size_t i = 0; i < n; i++)

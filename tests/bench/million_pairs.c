@@ -5,7 +5,7 @@
  *     million_pairs SIDE      SIDE x SIDE pairs; prints a row of a table
  */
 #define _GNU_SOURCE
-#include <signorini.h>
+#include "../c/everything.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -99,7 +99,7 @@ int main(int count, char **words)
     printf("| %lld | %lld | %lld + %lld | %.0f %% | %.1f s | %.1f GB | %.1f GB |\n", (long long)pairs,
            (long long)report.iterations, (long long)grid.products, (long long)grid.inverses,
            100.0 * (double)report.pairs_sticking / (double)pairs, seconds, (double)usage.ru_maxrss / 1e6,
-           (double)signorini_model_memory(model) / 1e9);
+           (double)model_data(model).memory / 1e9);
     signorini_model_free(model);
     free(f);
     free(d);

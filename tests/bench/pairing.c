@@ -13,7 +13,7 @@
 #include <sys/resource.h>
 #include <time.h>
 
-#include "signorini.h"
+#include "../c/everything.h"
 
 struct side {
     int64_t faces, *nodes;
@@ -71,7 +71,6 @@ int main(int argc, char **argv)
     const int64_t grid = (cells + 1) * (cells + 1);
     double *x = malloc(sizeof(double) * (size_t)(6 * grid));
     signorini_surface_pairs *contact;
-    signorini_surface_report told = {.struct_size = sizeof told};
     signorini_surface_settings settings;
 
     if (cells < 1 || (kind != 3 && kind != 4) || x == NULL) {
@@ -90,14 +89,14 @@ int main(int argc, char **argv)
 
     const double memory = megabytes(), begin = seconds();
     const int32_t status =
-        signorini_surface_pair(3, 2 * grid, x, &slave, &master, &settings, &contact, &told);
+        signorini_surface_pair(3, 2 * grid, x, &slave, &master, &settings, &contact);
     const double took = seconds() - begin;
     if (status != 0) {
         fprintf(stderr, "pairing: %s\n", signorini_last_error());
         return EXIT_FAILURE;
     }
     printf("| %d | %lld | %lld | %.2f | %.2f | %.0f | %.2f |\n", kind, (long long)above.faces,
-           (long long)told.pairs, took, 1e6 * took / (double)above.faces, megabytes() - memory,
+           (long long)surface_data(contact).pairs, took, 1e6 * took / (double)above.faces, megabytes() - memory,
            1024.0 * (megabytes() - memory) / (double)above.faces);
     signorini_surface_free(contact);
     free(above.nodes);

@@ -14,7 +14,7 @@
 #include <limits.h>
 #include <math.h>
 #include <malloc.h>
-#include <signorini.h>
+#include "../c/everything.h"
 #include <stdlib.h>
 #include <string.h>
 

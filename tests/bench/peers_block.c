@@ -1,7 +1,7 @@
 #include "peers_block.h"
 
 #include <math.h>
-#include <signorini.h>
+#include "../c/everything.h"
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
@@ -155,9 +155,9 @@ static int32_t condense(struct block *block, struct contact *contact)
     const signorini_pairs pairs = {.struct_size = sizeof pairs, .dim = 3, .count = (int64_t)n,
         .slaves = slaves, .normals = normals, .tangents = tangents};
     int32_t status =
-        signorini_model_new_sparse(&K, (int64_t)held, fixed, &pairs, &block->model);
+        signorini_model_new_sparse(&K, (int64_t)held, fixed, &pairs, NULL, &block->model);
     if (status == 0)
-        status = signorini_model_stiffness(block->model, contact->K);
+        status = copy_stiffness(block->model, contact->K);
     free(slaves);
     free(fixed);
     free(normals);

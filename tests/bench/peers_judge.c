@@ -1,7 +1,7 @@
 #include "peers_judge.h"
 
 #include <math.h>
-#include <signorini.h>
+#include "../c/everything.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -80,7 +80,7 @@ static double eta_of_displacements(const struct problem *problem, const double *
     const int64_t n = (int64_t)contact->pairs, dim = (int64_t)contact->dim;
     signorini_report report = {.struct_size = sizeof report};
     const int32_t status =
-        signorini_certify((int32_t)dim, n, contact->K, dim * n, contact->f, contact->gap,
+        certify_condensed((int32_t)dim, n, contact->K, dim * n, contact->f, contact->gap,
                           SIGNORINI_LAW_COULOMB, problem->mu_of, NULL, SOLVED_ETA, d, F, NULL,
                           &report);
     return status >= 0 ? report.eta : NAN;

@@ -1,7 +1,7 @@
 #include "peers_mesh.h"
 
 #include <math.h>
-#include <signorini.h>
+#include "../c/everything.h"
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -201,7 +201,7 @@ static int32_t condensed_load(const struct mesh *mesh, const signorini_model *mo
 {
     double *zero = need(2 * contact->pairs, sizeof *zero);
     double *u = need(mesh->size, sizeof *u);
-    int32_t status = signorini_model_recover(model, mesh->load, mesh->prescribed, zero, u);
+    int32_t status = signorini_model_recover(model, 1, mesh->load, mesh->prescribed, zero, u);
     for (size_t i = 0; status == 0 && i < 2 * contact->pairs; i++) {
         const size_t at = (size_t)slaves[i];
         double force = mesh->load[at];
@@ -249,9 +249,9 @@ static int32_t condense(const struct mesh *mesh, struct contact *contact)
     }
     signorini_model *model;
     int32_t status =
-        signorini_model_new_sparse(&K, (int64_t)mesh->held, mesh->held_dofs, &pairs, &model);
+        signorini_model_new_sparse(&K, (int64_t)mesh->held, mesh->held_dofs, &pairs, NULL, &model);
     if (status == 0)
-        status = signorini_model_stiffness(model, contact->K);
+        status = copy_stiffness(model, contact->K);
     if (status == 0)
         status = condensed_load(mesh, model, slaves, contact);
     signorini_model_free(model);

@@ -4,7 +4,7 @@
 
 #include "peers_solvers.h"
 
-#include <signorini.h>
+#include "../c/everything.h"
 
 enum { LCP_AUTO, LCP_LEMKE, CONTACT };
 
@@ -25,11 +25,11 @@ static void call(const struct solver *solver, const struct problem *problem, dou
     const double begin = thread_seconds();
     switch (solver->id) {
     case LCP_AUTO:
-        code = signorini_lcp_solve(n, lcp->M, n, lcp->q, &settings, outcome->y, outcome->x, NULL,
+        code = signorini_lcp_solve(n, lcp->M, n, lcp->q, NULL, &settings, outcome->y, outcome->x, NULL,
                                    &report);
         break;
     case LCP_LEMKE:
-        code = signorini_lcp_lemke(n, lcp->M, n, lcp->q, NULL, &settings, outcome->y, outcome->x,
+        code = lemke(n, lcp->M, n, lcp->q, NULL, &settings, outcome->y, outcome->x,
                                    NULL, &report);
         break;
     case CONTACT:

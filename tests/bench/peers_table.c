@@ -6,7 +6,7 @@
 #include <string.h>
 #include <time.h>
 
-#include <signorini.h>
+#include "../c/everything.h"
 
 const char *family_name(enum family family)
 {

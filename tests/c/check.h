@@ -3,7 +3,7 @@
 #ifndef CHECK_H
 #define CHECK_H
 
-#include "signorini.h"
+#include "everything.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -117,10 +117,10 @@ static void all_calls(const char *when)
 
     const double M[] = {2, 1, 1, 2}, q[] = {-5, -6}, infinite[] = {-INFINITY, 0}, none[] = {0};
     double w[2], z[2];
-    CHECK_STATUS(signorini_lcp_lemke(2, M, 2, q, NULL, NULL, w, z, NULL, NULL),
+    CHECK_STATUS(lemke(2, M, 2, q, NULL, NULL, w, z, NULL, NULL),
                  SIGNORINI_STATUS_SOLVED);
-    CHECK_STATUS(signorini_lcp_lemke(2, M, 2, infinite, NULL, NULL, w, z, NULL, NULL), -4);
-    CHECK_STATUS(signorini_lcp_lemke(1, none, 1, q, NULL, NULL, w, z, NULL, NULL),
+    CHECK_STATUS(lemke(2, M, 2, infinite, NULL, NULL, w, z, NULL, NULL), -4);
+    CHECK_STATUS(lemke(1, none, 1, q, NULL, NULL, w, z, NULL, NULL),
                  SIGNORINI_STATUS_NO_EQUILIBRIUM);
     check_same(when, before, look());
     chain_free(&c);

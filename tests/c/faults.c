@@ -108,7 +108,7 @@ static int has_remark(const char *path, const char *remark)
 {
     signorini_problem *problem = NULL;
     const int32_t status = signorini_problem_read(path, &problem);
-    const int same = status == 0 && strcmp(signorini_problem_remark(problem), remark) == 0;
+    const int same = status == 0 && strcmp(problem_data(problem).remark, remark) == 0;
     signorini_problem_free(problem);
     return same;
 }
@@ -291,13 +291,13 @@ void sgsolv_(const int32_t *ndim, const int32_t *npair, const double *k, const i
              const double *load, const double *gaps, const int32_t *law, const double *fric,
              const double *slip0, const int32_t *method, const double *tol, const int32_t *maxit,
              double *d, double *r, int32_t *state, double *eta, int32_t *iter, int32_t *info);
-void sgprov_(const int32_t *ndim, const int32_t *npair, const double *k, const int32_t *ldk,
-             const double *load, const double *gaps, const int32_t *law, const double *fric,
-             const double *slip0, const double *d, const int32_t *state, double *r, double *radd,
-             double *radr, int32_t *info);
-void sgmodl_(const int32_t *ndim, const int32_t *npair, const double *k, const int32_t *ldk,
-             int64_t *handle, int32_t *info);
-void sgfram_(const int64_t *handle, double *frames, int32_t *info);
+void sgspar_(const int32_t *n, const int32_t *nnz, const int32_t *colptr, const int32_t *rowind,
+             const double *values, const int32_t *tri, const int32_t *nfix, const int32_t *fixed,
+             const int32_t *ndim, const int32_t *npair, const int32_t *slave, const int32_t *nmast,
+             const int32_t *mstart, const int32_t *master, const double *weight, const double *normal,
+             const int32_t *ntan, const double *tangnt, int64_t *handle, int32_t *info);
+void sgrecv_(const int64_t *handle, const double *load, const double *presc, const double *d, double *u,
+             int32_t *info);
 void sgfree_(int64_t *handle, int32_t *info);
 
 /* 400,000,000 pairs, of which no array exists: neither it nor the library touches memory. */
@@ -316,11 +316,8 @@ static int absurd_number_of_pairs(void *argument)
     getrusage(RUSAGE_SELF, &before);
     sgsolv_(&two, &pairs, K, &wrong, f, gap, &law, mu, gap, &zero, &tolerance, &zero, d, r, state,
             &eta, &iter, &info);
-    int32_t of_proof = 0;
-    double radius = 0;
-    sgprov_(&two, &pairs, K, &wrong, f, gap, &law, mu, gap, d, state, r, &radius, &radius, &of_proof);
     getrusage(RUSAGE_SELF, &after);
-    if (info >= 0 || of_proof >= 0 || mincore(state, bytes, resident)) return 3;
+    if (info >= 0 || mincore(state, bytes, resident)) return 3;
     for (size_t i = 0; i < bytes / page; i++)
         if (resident[i] & 1) return 4;
     /* Kilobytes. */
@@ -351,7 +348,7 @@ static void memory(struct world *w)
         "a negative status, with its sentence", in_child(only_refusal, &refusing) == 0);
     row("a call may need more than settings.memory_limit",
         "SIGNORINI_STATUS_MEMORY_LIMIT, nothing is done", beyond_its_budget(w));
-    row("NPAIR of SGSOLV or SGPROV is 400,000,000 by mistake", "a negative INFO, no memory is touched",
+    row("NPAIR of SGSOLV is 400,000,000 by mistake", "a negative INFO, no memory is touched",
         in_child(absurd_number_of_pairs, NULL) == 0);
 }
 
@@ -425,16 +422,25 @@ static int on_a_stack(void *argument)
     return work->status != 0;
 }
 
+/* The number of a model of one node on springs, before a floor below it. */
+static int32_t new_handle(int64_t *handle)
+{
+    static const int32_t start[] = {1, 2, 3}, dofs[] = {1, 2}, two = 2, one = 1, none = 0;
+    static const double springs[] = {2, 2}, up[] = {0, -1};
+    int32_t info = -77;
+    sgspar_(&two, &two, start, dofs, springs, &none, &none, NULL, &two, &one, dofs, &none, NULL, NULL, NULL, up,
+            &none, NULL, handle, &info);
+    return info;
+}
+
 static volatile int ends;
 
 static void *makes_handles(void *argument)
 {
     (void)argument;
-    const int32_t two = 2, one = 1;
     while (!ends) {
         int64_t handle = 0;
-        int32_t info = 0;
-        sgmodl_(&two, &one, K, &two, &handle, &info);
+        int32_t info = new_handle(&handle);
         sgfree_(&handle, &info);
     }
     return NULL;
@@ -442,11 +448,9 @@ static void *makes_handles(void *argument)
 
 static int makes_a_handle(void *argument)
 {
-    const int32_t two = 2, one = 1;
     int64_t handle = 0;
-    int32_t info = -77;
+    int32_t info = new_handle(&handle);
     (void)argument;
-    sgmodl_(&two, &one, K, &two, &handle, &info);
     if (info) return 1;
     sgfree_(&handle, &info);
     return info != 0;
@@ -470,23 +474,22 @@ static void handles_and_forks(void)
 /* A handle that is released is refused for ever, also after others were made. */
 static void released_handles(void)
 {
-    const int32_t two = 2, one = 1;
     int64_t old[8], now[8];
     int32_t info = 0;
-    double frames[4];
+    double u[2];
     int refused = 1;
     for (int i = 0; i < 8; i++) {
         int64_t handle = 0;
-        sgmodl_(&two, &one, K, &two, &handle, &info);
+        info = new_handle(&handle);
         refused &= info == 0 && handle != 0;
         old[i] = handle;
         sgfree_(&handle, &info);
         refused &= info == 0 && handle == 0;
     }
-    for (int i = 0; i < 8; i++) sgmodl_(&two, &one, K, &two, &now[i], &info);
+    for (int i = 0; i < 8; i++) refused &= new_handle(&now[i]) == 0;
     for (int i = 0; i < 8; i++) {
         int64_t handle = old[i];
-        sgfram_(&handle, frames, &info);
+        sgrecv_(&handle, f, NULL, f, u, &info);
         refused &= info == -1 && strstr(signorini_last_error(), "there is no such model") != NULL;
         sgfree_(&handle, &info);
         refused &= info == -1;
@@ -544,12 +547,12 @@ static int reduction_ends(struct world *w, double seconds, int cancel, int32_t e
     signorini_settings settings;
     CHECK_STATUS(signorini_settings_default(&settings, sizeof settings), 0);
     CHECK_STATUS(signorini_surface_pair(3, w->mesh->nodes, w->mesh->at[0], &w->bottom, &w->top, NULL,
-                                        &contact, NULL), 0);
+                                        &contact), 0);
     settings.time_limit = seconds;
     settings.progress = cancel ? at_once : NULL;
     const int64_t before = heap.living;
-    const int32_t status = signorini_model_new_sparse_within(
-        &matrix, w->n_fixed, w->fixed, signorini_surface_rows(contact), &settings, &model);
+    const int32_t status = signorini_model_new_sparse(
+        &matrix, w->n_fixed, w->fixed, surface_data(contact).rows, &settings, &model);
     const int ended = status == expected && model == NULL && heap.living == before;
     signorini_surface_free(contact);
     return ended;

@@ -1,9 +1,9 @@
 /*
- * signorini_flexibility_solve: closed forms, NULL where it is allowed, refusals.
+ * Models in flexibility form: closed forms, certificates, refusals.
  */
 
 #include "check.h"
-#include "signorini.h"
+#include "everything.h"
 
 #include <math.h>
 #include <string.h>
@@ -28,7 +28,7 @@ static void corner_node(void)
     int32_t state[2];
     signorini_report report;
     signorini_report_default(&report, sizeof report);
-    CHECK_STATUS(signorini_flexibility_solve(2, 2, corner, 4, q, NULL, SIGNORINI_LAW_COULOMB, half,
+    CHECK_STATUS(solve_flexibility(2, 2, corner, 4, q, NULL, SIGNORINI_LAW_COULOMB, half,
                                              NULL, NULL, d, F, state, &report, NULL),
                  0);
     for (int pair = 0; pair < 2; pair++) {
@@ -37,7 +37,7 @@ static void corner_node(void)
         CHECK(fabs(d[2 * pair]) < 1e-9 && fabs(d[2 * pair + 1]) < 1e-9);
     }
     CHECK(report.eta <= 1e-10 && report.uniqueness == SIGNORINI_UNIQUENESS_NOT_KNOWN);
-    CHECK_STATUS(signorini_flexibility_solve(2, 2, corner, 4, q, gaps, SIGNORINI_LAW_COULOMB, half,
+    CHECK_STATUS(solve_flexibility(2, 2, corner, 4, q, gaps, SIGNORINI_LAW_COULOMB, half,
                                              NULL, NULL, d, same, NULL, NULL, NULL),
                  0);
     CHECK(memcmp(F, same, sizeof F) == 0);
@@ -52,7 +52,7 @@ static void walls_too_close(void)
     signorini_extra extra;
     signorini_extra_default(&extra, sizeof extra);
     extra.motion = motion;
-    CHECK_STATUS(signorini_flexibility_solve(2, 2, W, 4, q, gap, SIGNORINI_LAW_COULOMB, half, NULL,
+    CHECK_STATUS(solve_flexibility(2, 2, W, 4, q, gap, SIGNORINI_LAW_COULOMB, half, NULL,
                                              NULL, d, F, NULL, NULL, &extra),
                  SIGNORINI_STATUS_NO_EQUILIBRIUM);
     CHECK_TEXT(signorini_last_error(), "contradict each other");
@@ -60,9 +60,48 @@ static void walls_too_close(void)
     CHECK(motion[1] == 0.0 && motion[3] == 0.0);
 }
 
+/* d and F of a solution are measured together: neither tells the other. */
+static void certified(void)
+{
+    const double q[4] = {0.5, 0.5, 0.5, -0.5}, gap[2] = {0, 0};
+    double d[4], F[4], K[16], load[4];
+    int32_t state[2] = {7, 7};
+    signorini_report report;
+    signorini_model *model = NULL;
+    signorini_report_default(&report, sizeof report);
+    CHECK_STATUS(signorini_model_new_flexibility(2, 2, corner, 4, &model), 0);
+    CHECK(model_data(model).kind == SIGNORINI_MODEL_FLEXIBILITY && model_data(model).host_size == 4);
+    CHECK(!model_data(model).K && !model_data(model).frames && model_data(model).fixed == 0);
+    CHECK_STATUS(signorini_model_solve(model, 1, q, NULL, gap, SIGNORINI_LAW_COULOMB, half, NULL, NULL, d, F,
+                                       NULL, NULL, NULL, NULL), 0);
+    CHECK_STATUS(signorini_model_certify(model, q, NULL, gap, SIGNORINI_LAW_COULOMB, half, NULL, 1e-10, d, F,
+                                         state, &report), 0);
+    CHECK(report.eta <= 1e-10 && state[0] != 7 && state[1] != 7);
+    d[0] += 1e-3;
+    CHECK_STATUS(signorini_model_certify(model, q, NULL, gap, SIGNORINI_LAW_COULOMB, half, NULL, 1e-10, d, F,
+                                         NULL, NULL), SIGNORINI_STATUS_NOT_A_SOLUTION);
+    d[0] -= 1e-3;
+    F[0] = NAN;
+    CHECK_STATUS(signorini_model_certify(model, q, NULL, gap, SIGNORINI_LAW_COULOMB, half, NULL, 1e-10, d, F,
+                                         NULL, NULL), -10);
+    CHECK_TEXT(signorini_last_error(), "F[0] is not finite");
+    CHECK_STATUS(signorini_model_certify(model, q, NULL, gap, SIGNORINI_LAW_COULOMB, half, NULL, 1e-10, d, NULL,
+                                         NULL, NULL), -10);
+    CHECK_STATUS(copy_stiffness(model, K), -1);
+    CHECK_STATUS(signorini_model_condensed_load(model, q, NULL, load), -1);
+    CHECK_TEXT(signorini_last_error(), "flexibility form");
+    CHECK_STATUS(signorini_model_prove(model, q, NULL, gap, SIGNORINI_LAW_COULOMB, half, NULL, d, NULL, NULL,
+                                       NULL, NULL), -1);
+    CHECK_STATUS(signorini_model_write(model, "not_written", q, NULL, gap, SIGNORINI_LAW_COULOMB, half, NULL,
+                                       NULL), -1);
+    CHECK_STATUS(signorini_model_recover(model, 1, q, NULL, d, load), 0);
+    CHECK(memcmp(load, d, sizeof d) == 0);
+    signorini_model_free(model);
+}
+
 static void nothing_to_do(void)
 {
-    CHECK_STATUS(signorini_flexibility_solve(3, 0, NULL, 1, NULL, NULL, SIGNORINI_LAW_COULOMB, NULL,
+    CHECK_STATUS(solve_flexibility(3, 0, NULL, 1, NULL, NULL, SIGNORINI_LAW_COULOMB, NULL,
                                              NULL, NULL, NULL, NULL, NULL, NULL, NULL),
                  0);
 }
@@ -92,16 +131,16 @@ static void refusals(void)
         {2, 2, skew, 4, q, NULL, 1, half, d, F, -3, "W is not symmetric"},
         {2, 2, zero, 4, q, NULL, 1, half, d, F, -3, "W is zero"},
         {2, 2, corner, 3, q, NULL, 1, half, d, F, -4, "leading dimension of W is 3"},
-        {2, 2, corner, 4, nan_q, NULL, 1, half, d, F, -5, "q[1] is not finite"},
-        {2, 2, corner, 4, q, wrong_gap, 1, half, d, F, -6, "gap[1]"},
-        {2, 2, corner, 4, q, NULL, 77, half, d, F, -7, "law"},
-        {2, 2, corner, 4, q, NULL, 1, wrong_mu, d, F, -8, "[1]"},
-        {2, 2, corner, 4, q, NULL, 1, half, NULL, F, -11, "d is NULL"},
-        {2, 2, corner, 4, q, NULL, 1, half, d, NULL, -12, "F is NULL"},
-        {2, 2, corner, 4, q, NULL, 1, half, d, d, -12, "overlap"},
+        {2, 2, corner, 4, nan_q, NULL, 1, half, d, F, -3, "f[1] is not finite"},
+        {2, 2, corner, 4, q, wrong_gap, 1, half, d, F, -5, "gap[1]"},
+        {2, 2, corner, 4, q, NULL, 77, half, d, F, -6, "law"},
+        {2, 2, corner, 4, q, NULL, 1, wrong_mu, d, F, -7, "[1]"},
+        {2, 2, corner, 4, q, NULL, 1, half, NULL, F, -10, "d is NULL"},
+        {2, 2, corner, 4, q, NULL, 1, half, d, NULL, -11, "F is NULL"},
+        {2, 2, corner, 4, q, NULL, 1, half, d, d, -11, "overlap"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        CHECK_STATUS(signorini_flexibility_solve(cases[i].dim, cases[i].pairs, cases[i].W,
+        CHECK_STATUS(solve_flexibility(cases[i].dim, cases[i].pairs, cases[i].W,
                                                  cases[i].ldw, cases[i].q, cases[i].gap,
                                                  cases[i].law, cases[i].mu, NULL, NULL, cases[i].d,
                                                  cases[i].F, NULL, NULL, NULL),
@@ -110,25 +149,26 @@ static void refusals(void)
     }
     const double wrong_slip[2] = {0, NAN};
     signorini_settings settings;
-    CHECK_STATUS(signorini_flexibility_solve(2, 2, corner, 4, q, NULL, 1, half, wrong_slip, NULL, d, F,
-                                             NULL, NULL, NULL), -9);
+    CHECK_STATUS(solve_flexibility(2, 2, corner, 4, q, NULL, 1, half, wrong_slip, NULL, d, F,
+                                             NULL, NULL, NULL), -8);
     CHECK_TEXT(signorini_last_error(), "slip0[1]");
     CHECK_STATUS(signorini_settings_default(&settings, sizeof settings), 0);
     settings.warm_start = 1;
     F[2] = NAN;
-    CHECK_STATUS(signorini_flexibility_solve(2, 2, corner, 4, q, NULL, 1, half, NULL, &settings, d, F,
-                                             NULL, NULL, NULL), -12);
+    CHECK_STATUS(solve_flexibility(2, 2, corner, 4, q, NULL, 1, half, NULL, &settings, d, F,
+                                             NULL, NULL, NULL), -11);
     CHECK_TEXT(signorini_last_error(), "F[2] is not finite");
     settings.warm_start = 0;
     settings.tolerance = -1;
-    CHECK_STATUS(signorini_flexibility_solve(2, 2, corner, 4, q, NULL, 1, half, NULL, &settings, d, F,
-                                             NULL, NULL, NULL), -10);
+    CHECK_STATUS(solve_flexibility(2, 2, corner, 4, q, NULL, 1, half, NULL, &settings, d, F,
+                                             NULL, NULL, NULL), -9);
 }
 
 int main(void)
 {
     corner_node();
     walls_too_close();
+    certified();
     nothing_to_do();
     refusals();
     return check_summary("flexibility");

@@ -1,9 +1,9 @@
 /*
- * signorini_flexibility_solve_sparse: closed forms island by island, the dense entry, refusals.
+ * Models in flexibility form of a sparse matrix: closed forms island by island, the dense form, refusals.
  */
 
 #include "check.h"
-#include "signorini.h"
+#include "everything.h"
 
 #include <math.h>
 #include <string.h>
@@ -34,7 +34,7 @@ static void two_corners(void)
     int32_t state[4];
     signorini_report report;
     signorini_report_default(&report, sizeof report);
-    CHECK_STATUS(signorini_flexibility_solve_sparse(2, 4, &W, q, NULL, SIGNORINI_LAW_COULOMB, half,
+    CHECK_STATUS(solve_flexibility_sparse(2, 4, &W, q, NULL, SIGNORINI_LAW_COULOMB, half,
                                                     NULL, NULL, d, F, state, &report, NULL),
                  0);
     for (int pair = 0; pair < 4; pair++) {
@@ -56,7 +56,7 @@ static void other_forms(void)
     for (int j = 0; j < 8; j++)
         for (int k = col_start[j]; k < col_start[j + 1]; k++)
             all[row[k] + 8 * j] = all[j + 8 * row[k]] = values[k];
-    CHECK_STATUS(signorini_flexibility_solve(2, 4, all, 8, q, NULL, SIGNORINI_LAW_COULOMB, half, NULL,
+    CHECK_STATUS(solve_flexibility(2, 4, all, 8, q, NULL, SIGNORINI_LAW_COULOMB, half, NULL,
                                              NULL, d_dense, dense, NULL, NULL, NULL),
                  0);
     for (int j = 0; j < 8; j++) {
@@ -75,7 +75,7 @@ static void other_forms(void)
     W.col_start = start;
     W.row = rows;
     W.values = full;
-    CHECK_STATUS(signorini_flexibility_solve_sparse(2, 4, &W, q, NULL, SIGNORINI_LAW_COULOMB, half,
+    CHECK_STATUS(solve_flexibility_sparse(2, 4, &W, q, NULL, SIGNORINI_LAW_COULOMB, half,
                                                     NULL, NULL, d, F, NULL, NULL, NULL),
                  0);
     for (int i = 0; i < 8; i++) CHECK(fabs(F[i] - dense[i]) < 1e-9 && fabs(d[i] - d_dense[i]) < 1e-9);
@@ -97,7 +97,7 @@ static void one_contradicts(void)
     W.col_start = start;
     W.row = rows;
     W.values = walls;
-    CHECK_STATUS(signorini_flexibility_solve_sparse(2, 4, &W, free, gap, SIGNORINI_LAW_COULOMB, half,
+    CHECK_STATUS(solve_flexibility_sparse(2, 4, &W, free, gap, SIGNORINI_LAW_COULOMB, half,
                                                     NULL, NULL, d, F, NULL, NULL, &extra),
                  SIGNORINI_STATUS_NO_EQUILIBRIUM);
     CHECK_TEXT(signorini_last_error(), "the gaps of pairs 1, 3 contradict each other");
@@ -118,25 +118,25 @@ static void settings_count(void)
     signorini_report_default(&report, sizeof report);
     signorini_report_default(&second, sizeof second);
     CHECK_STATUS(signorini_settings_default(&settings, sizeof settings), 0);
-    CHECK_STATUS(signorini_flexibility_solve_sparse(2, 4, &W, q, NULL, SIGNORINI_LAW_COULOMB, half,
+    CHECK_STATUS(solve_flexibility_sparse(2, 4, &W, q, NULL, SIGNORINI_LAW_COULOMB, half,
                                                     NULL, &settings, d, F, NULL, &report, NULL),
                  0);
     memcpy(again, F, sizeof F);
     settings.warm_start = 1;
-    CHECK_STATUS(signorini_flexibility_solve_sparse(2, 4, &W, q, NULL, SIGNORINI_LAW_COULOMB, half,
+    CHECK_STATUS(solve_flexibility_sparse(2, 4, &W, q, NULL, SIGNORINI_LAW_COULOMB, half,
                                                     NULL, &settings, d, again, NULL, &second, NULL),
                  0);
     CHECK(second.iterations <= report.iterations);
     for (int i = 0; i < 8; i++) CHECK(fabs(F[i] - again[i]) < 1e-9);
     settings.warm_start = 0;
     settings.memory_limit = 1000;
-    CHECK_STATUS(signorini_flexibility_solve_sparse(2, 4, &W, q, NULL, SIGNORINI_LAW_COULOMB, half,
+    CHECK_STATUS(solve_flexibility_sparse(2, 4, &W, q, NULL, SIGNORINI_LAW_COULOMB, half,
                                                     NULL, &settings, d, F, NULL, &report, NULL),
                  SIGNORINI_STATUS_MEMORY_LIMIT);
     CHECK_TEXT(signorini_last_error(), "the largest island has 2 pairs: 0, 2");
     settings.memory_limit = 0;
     settings.max_iterations = 1;
-    CHECK_STATUS(signorini_flexibility_solve_sparse(2, 4, &W, q, NULL, SIGNORINI_LAW_COULOMB, half,
+    CHECK_STATUS(solve_flexibility_sparse(2, 4, &W, q, NULL, SIGNORINI_LAW_COULOMB, half,
                                                     NULL, &settings, d, F, NULL, &report, NULL),
                  SIGNORINI_STATUS_ITERATION_LIMIT);
     CHECK_TEXT(signorini_last_error(), "of 2 islands are solved");
@@ -146,7 +146,7 @@ static void nothing_to_do(void)
 {
     const int32_t start[1] = {0};
     const signorini_sparse W = {.struct_size = sizeof W, .index_bytes = 4, .col_start = start};
-    CHECK_STATUS(signorini_flexibility_solve_sparse(3, 0, &W, NULL, NULL, SIGNORINI_LAW_COULOMB, NULL,
+    CHECK_STATUS(solve_flexibility_sparse(3, 0, &W, NULL, NULL, SIGNORINI_LAW_COULOMB, NULL,
                                                     NULL, NULL, NULL, NULL, NULL, NULL, NULL),
                  0);
 }
@@ -159,7 +159,7 @@ static void refusals(void)
     int32_t rows[12];
     signorini_sparse sound = corners(), size = sound, base = sound, width = sound, short_row = sound;
     signorini_sparse nan = sound, large = sound, zero = sound, outside = sound, twice = sound;
-    signorini_sparse upper = sound, no_values = sound, small = sound, skew = sound, over = sound;
+    signorini_sparse upper = sound, no_values = sound, small = sound, skew = sound;
     size.size = 7;
     base.index_base = 1;
     width.index_bytes = 2;
@@ -186,10 +186,6 @@ static void refusals(void)
     skew.col_start = skew_start;
     skew.row = skew_row;
     skew.values = skew_values;
-    over.values = d;
-    over.nnz = 8;
-    const int32_t diagonal[9] = {0, 1, 2, 3, 4, 5, 6, 7, 8};
-    over.col_start = over.row = diagonal;
     const struct {
         int32_t dim;
         int64_t pairs;
@@ -218,18 +214,17 @@ static void refusals(void)
         {2, 4, &outside, q, NULL, 1, half, d, F, -3, "row[11], in column 7, is 8"},
         {2, 4, &twice, q, NULL, 1, half, d, F, -3, "row 0 is listed twice"},
         {2, 4, &skew, q, NULL, 1, half, d, F, -3, "W is not symmetric: W[1,0] is 0.25"},
-        {2, 4, &sound, nan_q, NULL, 1, half, d, F, -4, "q[1] is not finite"},
-        {2, 4, &sound, NULL, NULL, 1, half, d, F, -4, "q is NULL"},
+        {2, 4, &sound, nan_q, NULL, 1, half, d, F, -3, "f[1] is not finite"},
+        {2, 4, &sound, NULL, NULL, 1, half, d, F, -3, "f is NULL"},
         {2, 4, &sound, q, wrong_gap, 1, half, d, F, -5, "gap[1]"},
         {2, 4, &sound, q, NULL, 77, half, d, F, -6, "law"},
         {2, 4, &sound, q, NULL, 1, wrong_mu, d, F, -7, "[1]"},
         {2, 4, &sound, q, NULL, 1, half, NULL, F, -10, "d is NULL"},
         {2, 4, &sound, q, NULL, 1, half, d, NULL, -11, "F is NULL"},
         {2, 4, &sound, q, NULL, 1, half, d, d, -11, "overlap"},
-        {2, 4, &over, q, NULL, 1, half, d, F, -10, "d overlaps W: values"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        CHECK_STATUS(signorini_flexibility_solve_sparse(
+        CHECK_STATUS(solve_flexibility_sparse(
                          cases[i].dim, cases[i].pairs, cases[i].W, cases[i].q, cases[i].gap,
                          cases[i].law, cases[i].mu, NULL, NULL, cases[i].d, cases[i].F, NULL, NULL, NULL),
                      cases[i].status);
@@ -237,17 +232,17 @@ static void refusals(void)
     }
     const double wrong_slip[4] = {0, NAN};
     signorini_settings settings;
-    CHECK_STATUS(signorini_flexibility_solve_sparse(2, 4, &sound, q, NULL, 1, half, wrong_slip, NULL, d,
+    CHECK_STATUS(solve_flexibility_sparse(2, 4, &sound, q, NULL, 1, half, wrong_slip, NULL, d,
                                                     F, NULL, NULL, NULL), -8);
     CHECK_TEXT(signorini_last_error(), "slip0[1]");
     CHECK_STATUS(signorini_settings_default(&settings, sizeof settings), 0);
     settings.tolerance = -1;
-    CHECK_STATUS(signorini_flexibility_solve_sparse(2, 4, &sound, q, NULL, 1, half, NULL, &settings, d,
+    CHECK_STATUS(solve_flexibility_sparse(2, 4, &sound, q, NULL, 1, half, NULL, &settings, d,
                                                     F, NULL, NULL, NULL), -9);
     CHECK_STATUS(signorini_settings_default(&settings, sizeof settings), 0);
     settings.warm_start = 1;
     F[2] = NAN;
-    CHECK_STATUS(signorini_flexibility_solve_sparse(2, 4, &sound, q, NULL, 1, half, NULL, &settings, d,
+    CHECK_STATUS(solve_flexibility_sparse(2, 4, &sound, q, NULL, 1, half, NULL, &settings, d,
                                                     F, NULL, NULL, NULL), -11);
     CHECK_TEXT(signorini_last_error(), "F[2] is not finite");
 }

@@ -22,15 +22,19 @@ static const double loads[4] = {2, 1.5, 3, 0.5}, gaps[2] = {0, 0}, mus[2] = {0.3
 static void the_other_width(void)
 {
     const int32_t dim[2] = {2, 2}, pairs[2] = {1, 1}, ld[2] = {2, 2};
-    int64_t wide[3], handle = 7, info = 7;
+    const int64_t two = 2, none = 0;
+    const double standard = 0;
+    double d[2], r[2], eta;
+    int64_t wide[3], state, iterations, info = 7;
     memcpy(wide, dim, sizeof dim);
     memcpy(wide + 1, pairs, sizeof pairs);
     memcpy(wide + 2, ld, sizeof ld);
-    sgmodl_64_(wide, wide + 1, K, wide + 2, &handle, &info);
+    sgsolv_64_(wide, wide + 1, K, wide + 2, f, gap, &none, mu, slip0, &none, &standard, &none, d, r, &state, &eta,
+               &iterations, &info);
     CHECK(info == -1);
     CHECK_TEXT(signorini_last_error(), "this entry takes integers of 8 bytes");
-    const int64_t two = 2;
-    sgmodl_64_(&two, wide + 1, K, wide + 2, &handle, &info);
+    sgsolv_64_(&two, wide + 1, K, wide + 2, f, gap, &none, mu, slip0, &none, &standard, &none, d, r, &state, &eta,
+               &iterations, &info);
     CHECK(info == -2);
 }
 

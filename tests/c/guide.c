@@ -3,11 +3,11 @@
  * program as they stand there: tests/guide.sh cuts them out, each into a file with its chapter's name.
  */
 
+#include "check.h" /* first: what may still change */
+
 #include "dynamics.h"
 #include "load_steps.h"
 #include "nonlinear.h"
-
-#include "check.h"
 
 #include <math.h>
 

@@ -209,7 +209,7 @@ static void solve(struct meshes *m, const signorini_pairs *rows, const double *g
     signorini_settings_default(&settings, sizeof settings);
     settings.tolerance = 1e-12;
     answer->pairs = rows->count;
-    CHECK_STATUS(signorini_model_new_sparse(&K, m->n_fixed, m->fixed, rows, &model), 0);
+    CHECK_STATUS(signorini_model_new_sparse(&K, m->n_fixed, m->fixed, rows, NULL, &model), 0);
     for (int i = 0; i < FRICTIONS && model != NULL; i++) {
         double mu[MOST_PAIRS], slip[MOST_PAIRS] = {0};
         for (int64_t pair = 0; pair < rows->count; pair++) mu[pair] = friction[i];
@@ -261,12 +261,11 @@ static signorini_surface_pairs *by_surfaces(struct meshes *m, struct answer *ans
                                     .count = m->n_master, .nodes = m->master[0]};
     signorini_surface_pairs *contact;
     int zone[MOST_PAIRS] = {0};
-    CHECK_STATUS(signorini_surface_pair(2, m->nodes, m->places[0], &slave, &master, NULL, &contact,
-                                        NULL), 0);
-    const double *points = signorini_surface_points(contact);
-    for (int64_t pair = 0; pair < signorini_surface_count(contact); pair++)
+    CHECK_STATUS(signorini_surface_pair(2, m->nodes, m->places[0], &slave, &master, NULL, &contact), 0);
+    const double *points = surface_data(contact).points;
+    for (int64_t pair = 0; pair < surface_data(contact).pairs; pair++)
         zone[pair] = points[2 * pair + 1] < 135 ? 1 : points[2 * pair] < 95 ? 2 : 3;
-    solve(m, signorini_surface_rows(contact), signorini_surface_gaps(contact), zone, answer);
+    solve(m, surface_data(contact).rows, surface_data(contact).gaps, zone, answer);
     return contact;
 }
 
@@ -285,7 +284,7 @@ int main(void)
     double off = 0, most = 0;
     for (int pair = 0; pair < PAIRS; pair++) {
         int64_t other = 0;
-        const double *at = junction->r, *point = &signorini_surface_points(contact)[2 * pair];
+        const double *at = junction->r, *point = &surface_data(contact).points[2 * pair];
         while (other < PAIRS && (fabs(at[junction->lower[other]] - point[0]) > 1e-9 ||
                                  fabs(junction->z[junction->lower[other]] - point[1]) > 1e-9))
             other++;

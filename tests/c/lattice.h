@@ -7,7 +7,7 @@
 #ifndef LATTICE_H
 #define LATTICE_H
 
-#include "signorini.h"
+#include "everything.h"
 
 #include <stdlib.h>
 

@@ -183,7 +183,7 @@ FLAT(small_auto, small, SIGNORINI_METHOD_AUTO, SIGNORINI_LAW_COULOMB, w->small.m
 static int32_t flexibility(struct world *w)
 {
     const chain *c = &w->plane;
-    return signorini_flexibility_solve(2, c->pairs, c->K, c->n, c->f, c->gap, SIGNORINI_LAW_COULOMB,
+    return solve_flexibility(2, c->pairs, c->K, c->n, c->f, c->gap, SIGNORINI_LAW_COULOMB,
                                        c->mu, NULL, NULL, w->d, w->F, w->state, NULL, NULL);
 }
 
@@ -203,7 +203,7 @@ static int32_t flexibility_sparse(struct world *w)
         }
     }
     w->W_start[c->n] = W.nnz;
-    return signorini_flexibility_solve_sparse(2, c->pairs, &W, c->f, c->gap, SIGNORINI_LAW_COULOMB,
+    return solve_flexibility_sparse(2, c->pairs, &W, c->f, c->gap, SIGNORINI_LAW_COULOMB,
                                               c->mu, NULL, NULL, w->d, w->F, w->state, NULL, NULL);
 }
 
@@ -231,30 +231,30 @@ static int32_t escape(struct world *w)
                            NULL, NULL, c->d, c->F, c->state, NULL, &extra);
 }
 
-static int32_t certify(struct world *w)
+static int32_t certified(struct world *w)
 {
     chain *c = &w->space;
     const int32_t status = space_auto(w);
     if (status) return status;
-    return signorini_certify(c->dim, c->pairs, c->K, c->n, c->f, c->gap, SIGNORINI_LAW_COULOMB, c->mu,
+    return certify_condensed(c->dim, c->pairs, c->K, c->n, c->f, c->gap, SIGNORINI_LAW_COULOMB, c->mu,
                              NULL, 1e-8, c->d, c->F, c->state, NULL);
 }
 
-static int32_t prove(struct world *w)
+static int32_t proved(struct world *w)
 {
     chain *c = &w->space;
     const int32_t status = space_auto(w);
     if (status) return status;
-    return signorini_prove(c->dim, c->pairs, c->K, c->n, c->f, c->gap, SIGNORINI_LAW_COULOMB, c->mu,
+    return prove_condensed(c->dim, c->pairs, c->K, c->n, c->f, c->gap, SIGNORINI_LAW_COULOMB, c->mu,
                            NULL, c->d, NULL, c->F, w->radius, NULL);
 }
 
 static int32_t lcp(struct world *w)
 {
-    int32_t status = signorini_lcp_solve(w->plane.n, w->plane.K, w->plane.n, w->q, NULL, w->w, w->z,
+    int32_t status = signorini_lcp_solve(w->plane.n, w->plane.K, w->plane.n, w->q, NULL, NULL, w->w, w->z,
                                          NULL, NULL);
     if (status) return status;
-    return signorini_lcp_lemke(w->plane.n, w->plane.K, w->plane.n, w->q, NULL, NULL, w->w, w->z,
+    return lemke(w->plane.n, w->plane.K, w->plane.n, w->q, NULL, NULL, w->w, w->z,
                                NULL, NULL);
 }
 
@@ -301,9 +301,9 @@ static int32_t condensed_model(struct world *w)
     if (!status)
         status = signorini_model_solve(model, 3, w->more, NULL, w->gap, SIGNORINI_LAW_COULOMB, w->mu,
                                        NULL, NULL, w->d, w->F, w->state, NULL, NULL, NULL);
-    if (!status) status = signorini_model_stiffness(model, w->K);
+    if (!status) status = copy_stiffness(model, w->K);
     if (!status) status = signorini_model_condensed_load(model, w->more, NULL, w->short_load);
-    if (!status) status = signorini_model_recover(model, w->more, NULL, w->d, w->u);
+    if (!status) status = signorini_model_recover(model, 1, w->more, NULL, w->d, w->u);
     if (!status) status = signorini_model_nodal_forces(model, w->F, w->u);
     if (!status)
         status = signorini_model_certify(model, w->more, NULL, w->gap, SIGNORINI_LAW_COULOMB, w->mu,
@@ -348,7 +348,7 @@ static int32_t shared_reduction(struct world *w)
     int32_t status = signorini_settings_default(&settings, sizeof settings);
     settings.threads = 2;
     if (!status)
-        status = signorini_model_new_sparse_within(&l->K, l->n_fixed, l->fixed, &l->pairs, &settings,
+        status = signorini_model_new_sparse(&l->K, l->n_fixed, l->fixed, &l->pairs, &settings,
                                                    &model);
     signorini_model_free(model);
     return status;
@@ -362,7 +362,7 @@ static int32_t two_bodies(struct world *w)
     if (!status)
         status = signorini_model_solve(model, 1, w->load, NULL, w->gap, SIGNORINI_LAW_COULOMB, w->mu,
                                        NULL, NULL, w->d, w->F, w->state, NULL, NULL, NULL);
-    if (!status) status = signorini_model_recover(model, w->load, NULL, w->d, w->u);
+    if (!status) status = signorini_model_recover(model, 1, w->load, NULL, w->d, w->u);
     signorini_model_free(model);
     return status;
 }
@@ -419,12 +419,12 @@ static int32_t sparse_cases(struct world *w, int64_t cases, int32_t full_space)
     int32_t status = signorini_settings_default(&settings, sizeof settings);
     settings.full_space = full_space;
     if (!status)
-        status = signorini_model_new_sparse_within(&K, n_fixed, fixed, &pairs, &settings, &model);
+        status = signorini_model_new_sparse(&K, n_fixed, fixed, &pairs, &settings, &model);
     if (!status)
         status = signorini_model_solve(model, cases, w->loads, NULL, w->gap, SIGNORINI_LAW_COULOMB,
                                        w->mu, NULL, NULL, w->d, w->F, w->state, NULL, NULL, NULL);
-    if (!status) status = signorini_model_recover(model, w->load, NULL, w->d, w->u);
-    if (!status) status = signorini_model_recover_cases(model, cases, w->loads, NULL, w->d, w->many);
+    if (!status) status = signorini_model_recover(model, 1, w->load, NULL, w->d, w->u);
+    if (!status) status = signorini_model_recover(model, cases, w->loads, NULL, w->d, w->many);
     if (!status) status = signorini_model_nodal_forces(model, w->F, w->u);
     signorini_model_free(model);
     return status;
@@ -458,7 +458,7 @@ static int32_t dependent_rows(struct world *w)
     const signorini_pairs pairs = {.struct_size = sizeof pairs, .dim = 2, .count = 2,
                                    .slaves = twice, .normals = planes};
     signorini_model *model = NULL;
-    int32_t status = signorini_model_new_sparse(&K, 0, NULL, &pairs, &model);
+    int32_t status = signorini_model_new_sparse(&K, 0, NULL, &pairs, NULL, &model);
     if (!status)
         status = signorini_model_solve(model, 1, load, NULL, gap, SIGNORINI_LAW_COULOMB, w->mu, NULL,
                                        NULL, w->d, w->F, NULL, NULL, NULL, NULL);
@@ -516,21 +516,21 @@ static int32_t surfaces_by(struct world *w, int32_t pairing)
     settings.pairing = pairing;
     if (!status)
         status = signorini_surface_pair(3, mesh->nodes, mesh->at[0], &w->bottom, &w->top, &settings,
-                                        &contact, NULL);
+                                        &contact);
     if (!status)
-        status = signorini_model_new_sparse(&K, w->n_fixed, w->fixed, signorini_surface_rows(contact),
+        status = signorini_model_new_sparse(&K, w->n_fixed, w->fixed, surface_data(contact).rows, NULL,
                                             &model);
     if (!status)
-        status = signorini_model_solve(model, 1, w->load, NULL, signorini_surface_gaps(contact),
+        status = signorini_model_solve(model, 1, w->load, NULL, surface_data(contact).gaps,
                                        SIGNORINI_LAW_COULOMB, w->mu, NULL, NULL, w->d, w->F,
                                        w->state, NULL, NULL, NULL);
-    if (!status) status = signorini_model_recover(model, w->load, NULL, w->d, w->u);
+    if (!status) status = signorini_model_recover(model, 1, w->load, NULL, w->d, w->u);
     if (!status)
         status = signorini_surface_resultant(contact, NULL, w->d, w->F, NULL, &sum);
-    if (!status)
-        status = signorini_surface_write(contact, "out_of_memory.vtu", &cells, NULL, NULL, w->u, w->d,
-                                         w->F, w->state);
-    if (!status) status = signorini_mesh_write("out_of_memory.vtu", &cells, w->u, NULL, 0, NULL);
+    const signorini_zone zone = {.struct_size = sizeof zone, .contact = contact, .d = w->d, .F = w->F,
+                                 .state = w->state};
+    if (!status) status = signorini_mesh_write("out_of_memory.vtu", &cells, w->u, 1, &zone, 0, NULL);
+    if (!status) status = signorini_mesh_write("out_of_memory.vtu", &cells, w->u, 0, NULL, 0, NULL);
     remove("out_of_memory.vtu");
     signorini_model_free(model);
     signorini_surface_free(contact);
@@ -554,7 +554,7 @@ static int32_t obstacle(struct world *w)
                                       .direction = {0, 0, -1}};
     signorini_surface_pairs *contact = NULL;
     const int32_t status = signorini_surface_pair_obstacle(3, mesh->nodes, mesh->at[0], &w->top,
-                                                           &plane, NULL, &contact, NULL);
+                                                           &plane, NULL, &contact);
     signorini_surface_free(contact);
     return status;
 }
@@ -584,8 +584,8 @@ static const struct scenario scenarios[] = {
     {"six pairs", small_auto, 0, 0},
     {"flexibility", flexibility, 0, 0},
     {"sparse flexibility", flexibility_sparse, 0, 0},
-    {"certify", certify, 0, 0},
-    {"prove", prove, 0, 0},
+    {"certify", certified, 0, 0},
+    {"prove", proved, 0, 0},
     {"LCP", lcp, 0, 0},
     {"refusal", refusal, -3, 0},
     {"no equilibrium, escape", escape, SIGNORINI_STATUS_NO_EQUILIBRIUM, 0},

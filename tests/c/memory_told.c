@@ -29,7 +29,7 @@ static int32_t solve_lcp(chain *c, int64_t limit)
     signorini_settings settings;
     CHECK_STATUS(signorini_settings_default(&settings, sizeof settings), 0);
     settings.memory_limit = limit;
-    return signorini_lcp_solve(c->n, c->K, c->n, c->f, &settings, c->F, c->d, NULL, NULL);
+    return signorini_lcp_solve(c->n, c->K, c->n, c->f, NULL, &settings, c->F, c->d, NULL, NULL);
 }
 
 static void limits(int64_t pairs)
@@ -47,7 +47,7 @@ static void limits(int64_t pairs)
     CHECK_STATUS(solve_lcp(&c, bytes), SIGNORINI_STATUS_SOLVED);
     CHECK_STATUS(solve_lcp(&c, bytes - 1), SIGNORINI_STATUS_MEMORY_LIMIT);
     CHECK_STATUS(signorini_model_new_condensed(2, c.pairs, c.K, c.n, &model), 0);
-    const int64_t of_case = signorini_model_memory(model);
+    const int64_t of_case = model_data(model).memory;
     CHECK_STATUS(solve_case(model, &c, of_case), SIGNORINI_STATUS_SOLVED);
     CHECK_STATUS(solve_case(model, &c, of_case - 1), SIGNORINI_STATUS_MEMORY_LIMIT);
     signorini_model_free(model);
@@ -57,7 +57,7 @@ static void limits(int64_t pairs)
 int main(void)
 {
     CHECK(signorini_solve_memory(-1) == -1 && signorini_solve_memory(INT64_MIN) == -1);
-    CHECK(signorini_model_memory(NULL) == -1);
+    CHECK_STATUS(signorini_model_view(NULL, &(signorini_model_data){.struct_size = sizeof(signorini_model_data)}), -1);
     CHECK(signorini_solve_memory(0) > 0);
     for (int64_t n = 1; n < INT64_MAX / 4; n *= 3)
         CHECK(signorini_solve_memory(n) >= signorini_solve_memory(n / 3));

@@ -167,7 +167,7 @@ static void displacements_of_any_origin_are_measured(void)
     double F[4];
     int32_t state[2];
     signorini_report report = blank_report();
-    CHECK_STATUS(signorini_certify(2, 2, K, 4, f, gap, SIGNORINI_LAW_COULOMB, mu, NULL, 1e-15, d, F,
+    CHECK_STATUS(certify_condensed(2, 2, K, 4, f, gap, SIGNORINI_LAW_COULOMB, mu, NULL, 1e-15, d, F,
                                    state, &report),
                  SIGNORINI_STATUS_SOLVED);
     CHECK(signorini_last_error()[0] == '\0');
@@ -182,7 +182,7 @@ static void displacements_of_any_origin_are_measured(void)
     /* 0.25 into the obstacle, pulled at by 5 * 0.25 too little, and not slid far enough. */
     const double off[4] = {0.25, 0.5, -1, 0};
     report = blank_report();
-    CHECK_STATUS(signorini_certify(2, 2, K, 4, f, gap, SIGNORINI_LAW_COULOMB, mu, NULL, 0.1, off, F,
+    CHECK_STATUS(certify_condensed(2, 2, K, 4, f, gap, SIGNORINI_LAW_COULOMB, mu, NULL, 0.1, off, F,
                                    state, &report),
                  SIGNORINI_STATUS_NOT_A_SOLUTION);
     CHECK_TEXT(signorini_last_error(), "not a solution");
@@ -200,25 +200,25 @@ static void displacements_of_any_origin_are_measured(void)
     /* Pulled. */
     const double pulled[4] = {3, 1, -1, 0}, far_gap[2] = {3, 0.5};
     report = blank_report();
-    CHECK_STATUS(signorini_certify(2, 2, K, 4, f, far_gap, SIGNORINI_LAW_COULOMB, mu, NULL, 0.1,
+    CHECK_STATUS(certify_condensed(2, 2, K, 4, f, far_gap, SIGNORINI_LAW_COULOMB, mu, NULL, 0.1,
                                    pulled, NULL, NULL, &report),
                  SIGNORINI_STATUS_NOT_A_SOLUTION);
     CHECK_NEAR(report.tension, 5);
     /* What is not wanted may be NULL, and inputs may be one array. */
-    CHECK_STATUS(signorini_certify(2, 2, K, 4, f, gap, SIGNORINI_LAW_COULOMB, mu, NULL, 1e-10, d,
+    CHECK_STATUS(certify_condensed(2, 2, K, 4, f, gap, SIGNORINI_LAW_COULOMB, mu, NULL, 1e-10, d,
                                    NULL, NULL, NULL), 0);
-    CHECK_STATUS(signorini_certify(2, 2, K, 4, f, f, SIGNORINI_LAW_COULOMB, mu, NULL, 1e-10, f,
+    CHECK_STATUS(certify_condensed(2, 2, K, 4, f, f, SIGNORINI_LAW_COULOMB, mu, NULL, 1e-10, f,
                                    NULL, NULL, NULL),
                  SIGNORINI_STATUS_NOT_A_SOLUTION);
-    CHECK_STATUS(signorini_certify(2, 0, NULL, 1, NULL, NULL, SIGNORINI_LAW_COULOMB, NULL, NULL,
+    CHECK_STATUS(certify_condensed(2, 0, NULL, 1, NULL, NULL, SIGNORINI_LAW_COULOMB, NULL, NULL,
                                    0.1, NULL, NULL, NULL, NULL),
                  SIGNORINI_STATUS_SOLVED);
     /* The tolerance decides. */
     const double near_it[4] = {0, 1 + 1e-6, -1, 0};
-    CHECK_STATUS(signorini_certify(2, 2, K, 4, f, gap, SIGNORINI_LAW_COULOMB, mu, NULL, 1e-5,
+    CHECK_STATUS(certify_condensed(2, 2, K, 4, f, gap, SIGNORINI_LAW_COULOMB, mu, NULL, 1e-5,
                                    near_it, NULL, NULL, NULL),
                  SIGNORINI_STATUS_SOLVED);
-    CHECK_STATUS(signorini_certify(2, 2, K, 4, f, gap, SIGNORINI_LAW_COULOMB, mu, NULL, 1e-8,
+    CHECK_STATUS(certify_condensed(2, 2, K, 4, f, gap, SIGNORINI_LAW_COULOMB, mu, NULL, 1e-8,
                                    near_it, NULL, NULL, NULL),
                  SIGNORINI_STATUS_NOT_A_SOLUTION);
 }
@@ -235,7 +235,7 @@ static void what_is_solved_is_certified(void)
         CHECK_STATUS(signorini_solve(dim, c.pairs, c.K, c.n, c.f, c.gap, SIGNORINI_LAW_COULOMB,
                                      c.mu, slip, NULL, c.d, c.F, c.state, &solved, NULL),
                      SIGNORINI_STATUS_SOLVED);
-        CHECK_STATUS(signorini_certify(dim, c.pairs, c.K, c.n, c.f, c.gap, SIGNORINI_LAW_COULOMB,
+        CHECK_STATUS(certify_condensed(dim, c.pairs, c.K, c.n, c.f, c.gap, SIGNORINI_LAW_COULOMB,
                                        c.mu, slip, 1e-10, c.d, F, state, &measured),
                      SIGNORINI_STATUS_SOLVED);
         /* eta of a solution is that of d before it is rounded to doubles; rounding covers it. */
@@ -261,7 +261,7 @@ static int32_t lcp(int32_t method, int64_t n, const double *M, const double *q, 
     const signorini_settings settings = settings_for(method);
     signorini_report report = blank_report();
     const int32_t status =
-        signorini_lcp_solve(n, M, n > 1 ? n : 1, q, &settings, w, z, y, &report);
+        signorini_lcp_solve(n, M, n > 1 ? n : 1, q, NULL, &settings, w, z, y, &report);
     CHECK_STATUS(report.status, status);
     CHECK(method == AUTO ? report.method == BLOCK_PIVOTING || report.method == LEMKE
                          : report.method == method);
@@ -299,7 +299,7 @@ static void lcps_in_closed_form(void)
     }
     /* Padding is not looked at; what is not wanted may be NULL. */
     const double padded[] = {2, 1, NAN, NAN, 1, 2};
-    CHECK_STATUS(signorini_lcp_solve(2, padded, 4, q, NULL, w, z, NULL, NULL),
+    CHECK_STATUS(signorini_lcp_solve(2, padded, 4, q, NULL, NULL, w, z, NULL, NULL),
                  SIGNORINI_STATUS_SOLVED);
     CHECK_NEAR(z[1], 7.0 / 3);
 }
@@ -341,7 +341,7 @@ static void budgets_of_lcps(void)
         signorini_report report = blank_report();
         settings.progress = cancel;
         settings.user = &calls;
-        CHECK_STATUS(signorini_lcp_solve(2, M, 2, q, &settings, w, z, NULL, &report),
+        CHECK_STATUS(signorini_lcp_solve(2, M, 2, q, NULL, &settings, w, z, NULL, &report),
                      SIGNORINI_STATUS_CANCELLED);
         CHECK(calls == 1 && report.iterations == 0);
         CHECK(w[0] >= 0 && w[1] >= 0 && z[0] >= 0 && z[1] >= 0);

@@ -11,12 +11,12 @@
 #include <string.h>
 
 /* The sizes of then. */
-_Static_assert(sizeof(signorini_settings) == 72, "settings");
-_Static_assert(sizeof(signorini_report) == 152, "report");
-_Static_assert(sizeof(signorini_extra) == 40, "extra");
-_Static_assert(sizeof(signorini_sparse) == 56, "sparse");
-_Static_assert(sizeof(signorini_pairs) == 64, "pairs");
-_Static_assert(sizeof(signorini_progress) == 24, "progress");
+_Static_assert(sizeof(signorini_settings) == 96, "settings");
+_Static_assert(sizeof(signorini_report) == 176, "report");
+_Static_assert(sizeof(signorini_extra) == 64, "extra");
+_Static_assert(sizeof(signorini_sparse) == 64, "sparse");
+_Static_assert(sizeof(signorini_pairs) == 88, "pairs");
+_Static_assert(sizeof(signorini_progress) == 40, "progress");
 
 static int failed;
 
@@ -65,8 +65,11 @@ static void one_call(void)
     CHECK(near(out.d[0], 0) && near(out.d[1], 1) && near(out.F[0], -10) && near(out.F[1], -5));
     CHECK(out.report.status == 0 && out.report.eta <= 1e-10 && out.report.pairs_slipping == 1);
     CHECK(out.report.second == 0 && motion[0] == 0 && motion[1] == 0 && calls > 0);
-    CHECK(signorini_certify(2, 1, K, 2, f, gap, SIGNORINI_LAW_COULOMB, mu, NULL, 1e-9, out.d, NULL,
-                            NULL, &out.report) == 0);
+    signorini_model *model = NULL;
+    CHECK(signorini_model_new_condensed(2, 1, K, 2, &model) == 0);
+    CHECK(signorini_model_certify(model, f, NULL, gap, SIGNORINI_LAW_COULOMB, mu, NULL, 1e-9, out.d, NULL,
+                                  NULL, &out.report) == 0);
+    signorini_model_free(model);
 }
 
 /* Two bars in a row: closing the gap takes (30 / 100 - 0.1) / (1 / 100 + 1 / 100) = 10 and friction 2 of the 6. */
@@ -93,11 +96,16 @@ static void sparse_matrix(void)
     int32_t status[1];
     signorini_model *model = NULL;
     signorini_report report = {.struct_size = sizeof report};
-    CHECK(signorini_model_new_sparse(&matrix.K, 4, fixed, &contact.pairs, &model) == 0);
+    CHECK(signorini_model_new_sparse(&matrix.K, 4, fixed, &contact.pairs, NULL, &model) == 0);
     CHECK(signorini_model_solve(model, 1, f, NULL, gap, SIGNORINI_LAW_COULOMB, mu, NULL, NULL, d, F,
                                 NULL, status, &report, NULL) == 0);
-    CHECK(signorini_model_recover(model, f, NULL, d, u) == 0);
+    CHECK(signorini_model_recover(model, 1, f, NULL, d, u) == 0);
     CHECK(near(F[0], -10) && near(F[1], -2) && near(u[2], 0.2) && near(u[4], 0.1));
+    struct { signorini_model_data data; unsigned char own[64]; } shown;
+    memset(&shown, 0xEE, sizeof shown);
+    shown.data.struct_size = sizeof shown.data;
+    CHECK(signorini_model_view(model, &shown.data) == 0);
+    CHECK(shown.data.host_size == H && shown.data.pairs == 1 && shown.data.K && shown.own[0] == 0xEE);
     signorini_model_free(model);
 }
 

@@ -120,8 +120,8 @@ static void check_answers(void)
         if (with_held) given.held = held_solution;
         signorini_model *model = NULL;
         CHECK_STATUS(signorini_model_new_operator(&given, &model), 0);
-        CHECK(signorini_model_dim(model) == 2 && signorini_model_pairs(model) == P);
-        CHECK(signorini_model_host_size(model) == N);
+        CHECK(model_data(model).dim == 2 && model_data(model).pairs == P);
+        CHECK(model_data(model).host_size == N);
         signorini_report report;
         CHECK_STATUS(signorini_report_default(&report, sizeof report), 0);
         CHECK_STATUS(signorini_model_solve(model, 1, f, NULL, gap, SIGNORINI_LAW_COULOMB, mu, NULL,
@@ -134,9 +134,12 @@ static void check_answers(void)
         }
         CHECK_STATUS(signorini_model_certify(model, f, NULL, gap, SIGNORINI_LAW_COULOMB, mu, NULL,
                                              1e-10, d, NULL, NULL, NULL), 0);
-        CHECK_STATUS(signorini_model_recover(model, f, NULL, d, u), 0);
+        CHECK_STATUS(signorini_model_recover(model, 1, f, NULL, d, u), 0);
         CHECK(memcmp(u, d, sizeof u) == 0);
-        CHECK_STATUS(signorini_model_stiffness(model, K), -1);
+        CHECK_STATUS(copy_stiffness(model, K), -1);
+        CHECK(model_data(model).kind == SIGNORINI_MODEL_OPERATOR);
+        CHECK_STATUS(signorini_model_prove(model, f, NULL, gap, SIGNORINI_LAW_COULOMB, mu, NULL, d, NULL, NULL,
+                                           NULL, NULL), -1);
         CHECK_TEXT(signorini_last_error(), "no condensed matrix");
         signorini_settings settings;
         signorini_settings_default(&settings, sizeof settings);
@@ -268,11 +271,11 @@ static void check_full_space(void)
     for (int full = 0; full <= 1; full++) {
         settings.full_space = full;
         signorini_model *model = NULL;
-        CHECK_STATUS(signorini_model_new_sparse_within(&K, 0, NULL, &pairs, &settings, &model), 0);
+        CHECK_STATUS(signorini_model_new_sparse(&K, 0, NULL, &pairs, &settings, &model), 0);
         CHECK_STATUS(signorini_model_solve(model, 1, f, NULL, gap, SIGNORINI_LAW_COULOMB, mu, NULL,
                                            NULL, d[full], F[full], NULL, NULL, NULL, NULL), 0);
         double matrix[N * N];
-        CHECK_STATUS(signorini_model_stiffness(model, matrix), full ? -1 : 0);
+        CHECK_STATUS(copy_stiffness(model, matrix), full ? -1 : 0);
         signorini_model_free(model);
     }
     for (int i = 0; i < N; i++) {
@@ -281,7 +284,7 @@ static void check_full_space(void)
     }
     settings.reserved = 1;
     signorini_model *model = NULL;
-    CHECK_STATUS(signorini_model_new_sparse_within(&K, 0, NULL, &pairs, &settings, &model), -5);
+    CHECK_STATUS(signorini_model_new_sparse(&K, 0, NULL, &pairs, &settings, &model), -5);
     CHECK_TEXT(signorini_last_error(), "reserved is 1");
 }
 

@@ -104,7 +104,7 @@ static int solve(uint64_t seed)
     }
     for (int i = 0; i < n / 3; i++)
         mu[i] = 1.0;
-    return signorini_flexibility_solve(3, n / 3, W, n, q, gap, SIGNORINI_LAW_COULOMB, mu, NULL,
+    return solve_flexibility(3, n / 3, W, n, q, gap, SIGNORINI_LAW_COULOMB, mu, NULL,
                                        NULL, d, F, NULL, NULL, NULL);
 }
 

@@ -69,64 +69,64 @@ static void kinds(void)
 
     CHECK_STATUS(write_problem("coulomb", "M\xC3\xBCller's crane"), 0);
     CHECK_STATUS(signorini_problem_read(path, &problem), 0);
-    CHECK(signorini_problem_kind(problem) == SIGNORINI_PROBLEM_CONTACT);
-    CHECK(signorini_problem_law(problem) == COULOMB);
-    CHECK(signorini_problem_dim(problem) == 2 && signorini_problem_pairs(problem) == 2);
-    CHECK(signorini_problem_size(problem) == 4);
-    CHECK(same(signorini_problem_matrix(problem), K, 16));
-    CHECK(same(signorini_problem_rhs(problem), f, 4));
-    CHECK(same(signorini_problem_gap(problem), gap, 2));
-    CHECK(same(signorini_problem_friction(problem), mu, 2));
-    CHECK(same(signorini_problem_slip0(problem), slip0, 2));
-    CHECK(signorini_problem_cover(problem) == NULL);
-    CHECK(strcmp(signorini_problem_remark(problem), "M\xC3\xBCller's crane") == 0);
+    CHECK(problem_data(problem).kind == SIGNORINI_PROBLEM_CONTACT);
+    CHECK(problem_data(problem).law == COULOMB);
+    CHECK(problem_data(problem).dim == 2 && problem_data(problem).pairs == 2);
+    CHECK(problem_data(problem).size == 4);
+    CHECK(same(problem_data(problem).matrix, K, 16));
+    CHECK(same(problem_data(problem).rhs, f, 4));
+    CHECK(same(problem_data(problem).gap, gap, 2));
+    CHECK(same(problem_data(problem).friction, mu, 2));
+    CHECK(same(problem_data(problem).slip0, slip0, 2));
+    CHECK(problem_data(problem).cover == NULL);
+    CHECK(strcmp(problem_data(problem).remark, "M\xC3\xBCller's crane") == 0);
     signorini_problem_free(problem);
 
     CHECK_STATUS(signorini_problem_write(in_folder("tresca"), 2, 2, K, 4, f, gap, TRESCA, mu, NULL,
                                          NULL), 0);
     CHECK_STATUS(signorini_problem_read(path, &problem), 0);
-    CHECK(signorini_problem_kind(problem) == SIGNORINI_PROBLEM_CONTACT);
-    CHECK(signorini_problem_law(problem) == TRESCA);
-    CHECK(same(signorini_problem_friction(problem), mu, 2));
-    CHECK(signorini_problem_slip0(problem)[0] == 0 && signorini_problem_slip0(problem)[1] == 0);
-    CHECK(signorini_problem_remark(problem)[0] == '\0');
+    CHECK(problem_data(problem).kind == SIGNORINI_PROBLEM_CONTACT);
+    CHECK(problem_data(problem).law == TRESCA);
+    CHECK(same(problem_data(problem).friction, mu, 2));
+    CHECK(problem_data(problem).slip0[0] == 0 && problem_data(problem).slip0[1] == 0);
+    CHECK(problem_data(problem).remark[0] == '\0');
     signorini_problem_free(problem);
 
     const double three[6] = {0.5, 2, 1, 0.25, 1, 0};
     CHECK_STATUS(signorini_problem_write(in_folder("cohesive"), 2, 2, K, 4, f, gap,
                                          SIGNORINI_LAW_COHESIVE, three, NULL, NULL), 0);
     CHECK_STATUS(signorini_problem_read(path, &problem), 0);
-    CHECK(signorini_problem_law(problem) == SIGNORINI_LAW_COHESIVE);
-    CHECK(same(signorini_problem_friction(problem), three, 6));
+    CHECK(problem_data(problem).law == SIGNORINI_LAW_COHESIVE);
+    CHECK(same(problem_data(problem).friction, three, 6));
     signorini_problem_free(problem);
 
     CHECK_STATUS(signorini_problem_write(in_folder("frictionless"), 2, 2, K, 4, f, gap,
                                          FRICTIONLESS, NULL, slip0, NULL),
                  0);
     CHECK_STATUS(signorini_problem_read(path, &problem), 0);
-    CHECK(signorini_problem_kind(problem) == SIGNORINI_PROBLEM_CONTACT);
-    CHECK(signorini_problem_law(problem) == FRICTIONLESS);
-    CHECK(signorini_problem_friction(problem) == NULL);
-    CHECK(same(signorini_problem_slip0(problem), slip0, 2));
+    CHECK(problem_data(problem).kind == SIGNORINI_PROBLEM_CONTACT);
+    CHECK(problem_data(problem).law == FRICTIONLESS);
+    CHECK(problem_data(problem).friction == NULL);
+    CHECK(same(problem_data(problem).slip0, slip0, 2));
     signorini_problem_free(problem);
 
     CHECK_STATUS(signorini_lcp_write(in_folder("lcp"), 4, K, 4, f, cover, "bare"), 0);
     CHECK_STATUS(signorini_problem_read(path, &problem), 0);
-    CHECK(signorini_problem_kind(problem) == SIGNORINI_PROBLEM_LCP);
-    CHECK(signorini_problem_law(problem) == -1);
-    CHECK(signorini_problem_dim(problem) == 0 && signorini_problem_pairs(problem) == 0);
-    CHECK(signorini_problem_size(problem) == 4);
-    CHECK(same(signorini_problem_matrix(problem), K, 16));
-    CHECK(same(signorini_problem_rhs(problem), f, 4));
-    CHECK(same(signorini_problem_cover(problem), cover, 4));
-    CHECK(signorini_problem_gap(problem) == NULL && signorini_problem_slip0(problem) == NULL);
+    CHECK(problem_data(problem).kind == SIGNORINI_PROBLEM_LCP);
+    CHECK(problem_data(problem).law == -1);
+    CHECK(problem_data(problem).dim == 0 && problem_data(problem).pairs == 0);
+    CHECK(problem_data(problem).size == 4);
+    CHECK(same(problem_data(problem).matrix, K, 16));
+    CHECK(same(problem_data(problem).rhs, f, 4));
+    CHECK(same(problem_data(problem).cover, cover, 4));
+    CHECK(problem_data(problem).gap == NULL && problem_data(problem).slip0 == NULL);
     signorini_problem_free(problem);
 
     CHECK_STATUS(signorini_problem_write(in_folder("empty"), 3, 0, NULL, 1, NULL, NULL, COULOMB,
                                          NULL, NULL, ""), 0);
     CHECK_STATUS(signorini_problem_read(path, &problem), 0);
-    CHECK(signorini_problem_dim(problem) == 3 && signorini_problem_size(problem) == 0);
-    CHECK(signorini_problem_matrix(problem) == NULL);
+    CHECK(problem_data(problem).dim == 3 && problem_data(problem).size == 0);
+    CHECK(problem_data(problem).matrix == NULL);
     signorini_problem_free(problem);
 }
 
@@ -143,11 +143,11 @@ static void model_case(void)
     CHECK_STATUS(signorini_model_write(model, in_folder("case"), f, NULL, gap, COULOMB, mu, slip0,
                                        "step 1"), 0);
     CHECK_STATUS(signorini_problem_read(path, &problem), 0);
-    CHECK_STATUS(signorini_solve(signorini_problem_dim(problem), signorini_problem_pairs(problem),
-                                 signorini_problem_matrix(problem), 4,
-                                 signorini_problem_rhs(problem), signorini_problem_gap(problem),
-                                 COULOMB, signorini_problem_friction(problem),
-                                 signorini_problem_slip0(problem), NULL, d_again, F_again, NULL,
+    CHECK_STATUS(signorini_solve(problem_data(problem).dim, problem_data(problem).pairs,
+                                 problem_data(problem).matrix, 4,
+                                 problem_data(problem).rhs, problem_data(problem).gap,
+                                 COULOMB, problem_data(problem).friction,
+                                 problem_data(problem).slip0, NULL, d_again, F_again, NULL,
                                  NULL, NULL), 0);
     CHECK(same(d_again, d, 4) && same(F_again, F, 4));
     signorini_problem_free(problem);
@@ -213,13 +213,9 @@ static void bad_arguments(void)
     CHECK(problem == NULL);
 
     signorini_problem_free(NULL);
-    CHECK(signorini_problem_law(NULL) == -1);
-    CHECK(signorini_problem_kind(NULL) == -1 && signorini_problem_dim(NULL) == -1);
-    CHECK(signorini_problem_pairs(NULL) == -1 && signorini_problem_size(NULL) == -1);
-    CHECK(signorini_problem_matrix(NULL) == NULL && signorini_problem_rhs(NULL) == NULL);
-    CHECK(signorini_problem_gap(NULL) == NULL && signorini_problem_friction(NULL) == NULL);
-    CHECK(signorini_problem_slip0(NULL) == NULL && signorini_problem_cover(NULL) == NULL);
-    CHECK(signorini_problem_remark(NULL)[0] == '\0');
+    signorini_problem_data data = {.struct_size = sizeof data};
+    BAD(-1, "problem is NULL", signorini_problem_view(NULL, &data));
+    CHECK(data.matrix == NULL && data.remark == NULL && data.size == 0);
     CHECK(files() == before);
 }
 
@@ -245,7 +241,7 @@ static void bad_paths(void)
     CHECK_STATUS(signorini_problem_write("\xFF\xFE.mtx", 2, 2, K, 4, f, gap, COULOMB, mu, slip0,
                                          NULL), 0);
     CHECK_STATUS(signorini_problem_read("\xFF\xFE.mtx", &problem), 0);
-    CHECK(same(signorini_problem_matrix(problem), K, 16));
+    CHECK(same(problem_data(problem).matrix, K, 16));
     signorini_problem_free(problem);
     CHECK(remove("\xFF\xFE.mtx") == 0 && files() == before);
 #endif
@@ -270,7 +266,7 @@ static void full_disk(void)
     CHECK_TEXT(signorini_last_error(), "unwritten: cannot be written: ");
     CHECK(files() == before);
     CHECK_STATUS(signorini_problem_read(in_folder("coulomb"), &problem), 0);
-    CHECK_TEXT(signorini_problem_remark(problem), "crane");
+    CHECK_TEXT(problem_data(problem).remark, "crane");
     signorini_problem_free(problem);
 }
 

@@ -112,8 +112,8 @@ static int use_and_release(struct world *w, signorini_model *model, signorini_su
     int32_t status = signorini_model_solve(model, 1, w->more, NULL, w->gap, SIGNORINI_LAW_COULOMB,
                                            w->mu, NULL, NULL, w->d, w->F, w->state, NULL, NULL, NULL);
     if (!status) status = plane_auto(w);
-    if (!status) status = signorini_surface_count(contact) > 0 ? 0 : 1;
-    if (!status) status = signorini_problem_size(problem) == c->n ? 0 : 1;
+    if (!status) status = surface_data(contact).pairs > 0 ? 0 : 1;
+    if (!status) status = problem_data(problem).size == c->n ? 0 : 1;
     signorini_model_free(model);
     signorini_surface_free(contact);
     signorini_problem_free(problem);
@@ -132,7 +132,7 @@ static void forks(struct world *w, struct world *other)
         const char *const path = "processes.mtx";
         CHECK_STATUS(signorini_model_new_condensed(c->dim, c->pairs, c->K, c->n, &model), 0);
         CHECK_STATUS(signorini_surface_pair(3, w->mesh->nodes, w->mesh->at[0], &w->bottom, &w->top,
-                                            NULL, &contact, NULL), 0);
+                                            NULL, &contact), 0);
         CHECK_STATUS(signorini_problem_write(path, c->dim, c->pairs, c->K, c->n, c->f, c->gap,
                                              SIGNORINI_LAW_COULOMB, c->mu, NULL, NULL), 0);
         CHECK_STATUS(signorini_problem_read(path, &problem), 0);
@@ -202,7 +202,7 @@ static void cancelled_reductions(struct world *w)
     const signorini_sparse K = matrix_of(w->mesh);
     signorini_surface_pairs *contact = NULL;
     CHECK_STATUS(signorini_surface_pair(3, w->mesh->nodes, w->mesh->at[0], &w->bottom, &w->top, NULL,
-                                        &contact, NULL), 0);
+                                        &contact), 0);
     for (int64_t most = 0; most < 12; most++) {
         struct patience patience = {0, most, answers[most % 4]};
         signorini_model *model = NULL;
@@ -211,8 +211,8 @@ static void cancelled_reductions(struct world *w)
         settings.progress = impatient;
         settings.user = &patience;
         const int64_t before = heap.living;
-        const int32_t status = signorini_model_new_sparse_within(
-            &K, w->n_fixed, w->fixed, signorini_surface_rows(contact), &settings, &model);
+        const int32_t status = signorini_model_new_sparse(
+            &K, w->n_fixed, w->fixed, surface_data(contact).rows, &settings, &model);
         CHECK_STATUS(status, patience.calls > most ? SIGNORINI_STATUS_CANCELLED : 0);
         CHECK((model == NULL) == (status != 0));
         signorini_model_free(model);

@@ -44,15 +44,15 @@ static int32_t reduced(const lattice *l, int32_t threads, limit *limit, double s
     settings.time_limit = seconds;
     settings.progress = limit ? told : NULL;
     settings.user = limit;
-    return signorini_model_new_sparse_within(&l->K, l->n_fixed, l->fixed, &l->pairs, &settings, model);
+    return signorini_model_new_sparse(&l->K, l->n_fixed, l->fixed, &l->pairs, &settings, model);
 }
 
 static void answers(const lattice *l, signorini_model *model, answer *a)
 {
-    CHECK_STATUS(signorini_model_stiffness(model, a->K), 0);
+    CHECK_STATUS(copy_stiffness(model, a->K), 0);
     CHECK_STATUS(signorini_model_solve(model, 1, l->load, NULL, l->gap, SIGNORINI_LAW_COULOMB, l->mu,
                                        NULL, NULL, a->d, a->F, a->state, NULL, NULL, NULL), 0);
-    CHECK_STATUS(signorini_model_recover(model, l->load, NULL, a->d, a->u), 0);
+    CHECK_STATUS(signorini_model_recover(model, 1, l->load, NULL, a->d, a->u), 0);
     signorini_model_free(model);
 }
 
@@ -61,7 +61,7 @@ static void same_bits(const lattice *l)
 {
     static answer one, other;
     signorini_model *model = NULL;
-    CHECK_STATUS(signorini_model_new_sparse(&l->K, l->n_fixed, l->fixed, &l->pairs, &model), 0);
+    CHECK_STATUS(signorini_model_new_sparse(&l->K, l->n_fixed, l->fixed, &l->pairs, NULL, &model), 0);
     answers(l, model, &one);
     const int32_t counts[] = {0, 1, 2, 3, 2, 3, 1000};
     for (int i = 0; i < 7; i++) {
@@ -82,12 +82,12 @@ static void full_space(const lattice *l)
         CHECK_STATUS(signorini_settings_default(&settings, sizeof settings), 0);
         settings.threads = threads;
         settings.full_space = 1;
-        CHECK_STATUS(signorini_model_new_sparse_within(&l->K, l->n_fixed, l->fixed, &l->pairs,
+        CHECK_STATUS(signorini_model_new_sparse(&l->K, l->n_fixed, l->fixed, &l->pairs,
                                                        &settings, &model), 0);
         CHECK_STATUS(signorini_model_solve(model, 1, l->load, NULL, l->gap, SIGNORINI_LAW_COULOMB,
                                            l->mu, NULL, &settings, a->d, a->F, a->state, NULL, NULL,
                                            NULL), 0);
-        CHECK_STATUS(signorini_model_recover(model, l->load, NULL, a->d, a->u), 0);
+        CHECK_STATUS(signorini_model_recover(model, 1, l->load, NULL, a->d, a->u), 0);
         signorini_model_free(model);
         CHECK(memcmp(&one, a, sizeof one) == 0);
     }

@@ -39,14 +39,14 @@ static signorini_pairs listed(void)
 static signorini_model *made(const signorini_pairs *pairs)
 {
     signorini_model *model = NULL;
-    CHECK_STATUS(signorini_model_new_sparse(&K, 0, NULL, pairs, &model), 0);
+    CHECK_STATUS(signorini_model_new_sparse(&K, 0, NULL, pairs, NULL, &model), 0);
     return model;
 }
 
 static void refused(const signorini_pairs *pairs, const char *part)
 {
     signorini_model *model;
-    CHECK_STATUS(signorini_model_new_sparse(&K, 0, NULL, pairs, &model), -4);
+    CHECK_STATUS(signorini_model_new_sparse(&K, 0, NULL, pairs, NULL, &model), -4);
     CHECK(model == NULL);
     if (!check_result(__FILE__, __LINE__, strstr(signorini_last_error(), part) != NULL))
         printf("\"%s\" does not contain \"%s\"\n", signorini_last_error(), part);
@@ -62,7 +62,7 @@ static void a_row_is_a_pair(void)
         signorini_model *model = made(&forms[form]);
         double stiffness[4], nodal[SIZE];
         const double force[2] = {-3, 1};
-        CHECK_STATUS(signorini_model_stiffness(model, stiffness), 0);
+        CHECK_STATUS(copy_stiffness(model, stiffness), 0);
         for (int i = 0; i < 4; i++) CHECK_NEAR(stiffness[i], i % 3 == 0);
         /* n = (0, -1), t = (1, 0). */
         CHECK_STATUS(signorini_model_nodal_forces(model, force, nodal), 0);
@@ -100,13 +100,22 @@ static void a_node_on_two_planes(void)
         CHECK(fabs(F[0] + 0.8) < 1e-8 && fabs(F[2] + 0.8) < 1e-8);
         CHECK(fabs(fabs(F[1]) - 0.2) < 1e-8 && fabs(fabs(F[3]) - 0.2) < 1e-8);
         CHECK(report.uniqueness == SIGNORINI_UNIQUENESS_NOT_KNOWN);
-        CHECK_STATUS(signorini_model_recover(model, load, NULL, d, u), 0);
+        CHECK_STATUS(signorini_model_recover(model, 1, load, NULL, d, u), 0);
         for (int i = 0; i < SIZE; i++) CHECK(fabs(u[i]) < 1e-8);
-        CHECK_STATUS(signorini_model_stiffness(model, stiffness), -1);
-        CHECK(strstr(signorini_last_error(), "follow from those of other pairs") != NULL);
+        CHECK_STATUS(copy_stiffness(model, stiffness), -1);
+        CHECK(model_data(model).kind == SIGNORINI_MODEL_STIFFNESS && model_data(model).dependent > 0);
         CHECK_STATUS(signorini_model_condensed_load(model, load, NULL, condensed), -1);
+        CHECK(strstr(signorini_last_error(), "follow from those of other pairs") != NULL);
+        /* d does not tell the forces: they are measured with it. */
         CHECK_STATUS(signorini_model_certify(model, load, NULL, gap, SIGNORINI_LAW_COULOMB, mu, NULL,
-                                             1e-10, d, NULL, NULL, NULL), -1);
+                                             1e-10, d, F, NULL, NULL), 0);
+        CHECK_STATUS(signorini_model_certify(model, load, NULL, gap, SIGNORINI_LAW_COULOMB, mu, NULL,
+                                             1e-10, d, NULL, NULL, NULL), -10);
+        const double kept = F[0];
+        F[0] -= 1e-3;
+        CHECK_STATUS(signorini_model_certify(model, load, NULL, gap, SIGNORINI_LAW_COULOMB, mu, NULL,
+                                             1e-10, d, F, NULL, NULL), SIGNORINI_STATUS_NOT_A_SOLUTION);
+        F[0] = kept;
         CHECK_STATUS(signorini_model_write(model, "not_written", load, NULL, gap,
                                            SIGNORINI_LAW_COULOMB, mu, NULL, NULL), -1);
         signorini_model_free(model);

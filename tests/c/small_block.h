@@ -8,7 +8,7 @@
 #ifndef SMALL_BLOCK_H
 #define SMALL_BLOCK_H
 
-#include "signorini.h"
+#include "everything.h"
 
 #include <string.h>
 
@@ -111,13 +111,13 @@ static int32_t small_block_run(void)
 {
     signorini_model *model;
     int32_t status =
-        signorini_model_new_sparse(&block.K, block.n_fixed, block.fixed, &block.pairs, &model);
+        signorini_model_new_sparse(&block.K, block.n_fixed, block.fixed, &block.pairs, NULL, &model);
     strcpy(block.sentence, signorini_last_error());
     if (status != 0) return status;
     status = signorini_model_solve(model, 1, block.f, NULL, block.gap, SIGNORINI_LAW_COULOMB,
                                    block.mu, NULL, NULL, block.d, block.F, NULL, NULL,
                                    &block.report, NULL);
-    if (status == 0) status = signorini_model_recover(model, block.f, NULL, block.d, block.u);
+    if (status == 0) status = signorini_model_recover(model, 1, block.f, NULL, block.d, block.u);
     strcpy(block.sentence, signorini_last_error());
     signorini_model_free(model);
     return status;

@@ -122,7 +122,6 @@ static void patch(int upper_is_slave)
     const struct brick_mesh *mesh = blocks->mesh;
     const signorini_sparse K = matrix_of(mesh);
     signorini_surface_pairs *contact = NULL;
-    signorini_surface_report told = {.struct_size = sizeof told};
     signorini_model *model = NULL;
     signorini_settings settings;
     /* The finer side as slave: rows on the planes of symmetry give up the axis across them. */
@@ -139,33 +138,35 @@ static void patch(int upper_is_slave)
     CHECK_STATUS(signorini_surface_pair(3, mesh->nodes, mesh->at[0],
                                         upper_is_slave ? &blocks->bottom : &blocks->top,
                                         upper_is_slave ? &blocks->top : &blocks->bottom, &planes,
-                                        &contact, &told), 0);
-    const int64_t count = signorini_surface_count(contact);
-    CHECK(count == (upper_is_slave ? 25 : 16) && told.pairs == count && told.unpaired == 0);
+                                        &contact), 0);
+    const signorini_surface_data told = surface_data(contact);
+    const int64_t count = surface_data(contact).pairs;
+    CHECK(count == (upper_is_slave ? 25 : 16) && told.pairs == count && told.n_unpaired == 0);
     CHECK(told.on_symmetry == (upper_is_slave ? 9 : 0));
     CHECK_NEAR(told.covered_area, 1);
-    CHECK_TEXT(signorini_surface_summary(contact), "pairs on");
+    CHECK_TEXT(surface_data(contact).summary, "pairs on");
     CHECK_STATUS(signorini_model_new_sparse(&K, blocks->n_fixed, blocks->fixed,
-                                            signorini_surface_rows(contact), &model), 0);
+                                            surface_data(contact).rows, NULL, &model), 0);
     signorini_settings_default(&settings, sizeof settings);
     settings.tolerance = 1e-13;
-    CHECK_STATUS(signorini_model_solve(model, 1, blocks->load, NULL, signorini_surface_gaps(contact),
+    CHECK_STATUS(signorini_model_solve(model, 1, blocks->load, NULL, surface_data(contact).gaps,
                                        SIGNORINI_LAW_FRICTIONLESS, NULL, NULL, &settings, d, F,
                                        state, NULL, NULL, NULL), 0);
-    const double *area = signorini_surface_areas(contact);
+    const double *area = surface_data(contact).areas;
     for (int64_t j = 0; j < count; j++)
         CHECK(fabs(-F[3 * j] / area[j] / PRESSURE - 1) < 1e-10);
     check_fields(blocks, contact, upper_is_slave ? 1 : -1, d, F, state);
 
-    CHECK_STATUS(signorini_model_recover(model, blocks->load, NULL, d, u), 0);
+    CHECK_STATUS(signorini_model_recover(model, 1, blocks->load, NULL, d, u), 0);
     const signorini_mesh cells = {.struct_size = sizeof cells, .dim = 3, .nodes = mesh->nodes,
                                   .coordinates = mesh->at[0], .cells = mesh->bricks,
                                   .cell_type = 12, .cell_nodes = mesh->corners[0]};
-    CHECK_STATUS(signorini_surface_write(contact, "surfaces.vtu", &cells, NULL, NULL, u, d, F, state),
-                 0);
-    CHECK_STATUS(signorini_mesh_write("surfaces.vtu", &cells, u, NULL, 0, NULL), 0);
-    CHECK_STATUS(signorini_surface_write(contact, "no/folder/x.vtu", &cells, NULL, NULL, u, d, F,
-                                         state), SIGNORINI_STATUS_FILE);
+    const signorini_zone zone = {.struct_size = sizeof zone, .contact = contact, .d = d, .F = F,
+                                 .state = state};
+    CHECK_STATUS(signorini_mesh_write("surfaces.vtu", &cells, u, 1, &zone, 0, NULL), 0);
+    CHECK_STATUS(signorini_mesh_write("surfaces.vtu", &cells, u, 0, NULL, 0, NULL), 0);
+    CHECK_STATUS(signorini_mesh_write("no/folder/x.vtu", &cells, u, 1, &zone, 0, NULL),
+                 SIGNORINI_STATUS_FILE);
     remove("surfaces.vtu");
     signorini_model_free(model);
     signorini_surface_free(contact);
@@ -210,18 +211,17 @@ static void numbers(void)
         }
         if (form == 2) settings.dofs_per_node = 6;
         if (form == 3) settings.node_dofs = own;
-        CHECK_STATUS(signorini_surface_pair(2, 5, plane_nodes, &slave, &master, &settings, &contact,
-                                            NULL), 0);
-        const signorini_pairs *rows = signorini_surface_rows(contact);
+        CHECK_STATUS(signorini_surface_pair(2, 5, plane_nodes, &slave, &master, &settings, &contact), 0);
+        const signorini_pairs *rows = surface_data(contact).rows;
         CHECK(rows->count == 2 && rows->dim == 2 && rows->row_start[0] == base);
         for (int pair = 0; pair < 2; pair++) {
             double sum = 0;
-            CHECK(signorini_surface_nodes(contact)[pair] == pair + base);
-            CHECK_NEAR(signorini_surface_gaps(contact)[pair], 0.1);
-            CHECK_NEAR(signorini_surface_areas(contact)[pair], 0.5);
-            CHECK_NEAR(signorini_surface_normals(contact)[2 * pair + 1], -1);
-            CHECK_NEAR(signorini_surface_tangents(contact)[2 * pair], 1);
-            CHECK_NEAR(signorini_surface_points(contact)[2 * pair], pair);
+            CHECK(surface_data(contact).nodes[pair] == pair + base);
+            CHECK_NEAR(surface_data(contact).gaps[pair], 0.1);
+            CHECK_NEAR(surface_data(contact).areas[pair], 0.5);
+            CHECK_NEAR(surface_data(contact).normals[2 * pair + 1], -1);
+            CHECK_NEAR(surface_data(contact).tangents[2 * pair], 1);
+            CHECK_NEAR(surface_data(contact).points[2 * pair], pair);
             for (int64_t k = rows->row_start[pair] - base; k < rows->row_start[pair + 1] - base; k++) {
                 const int64_t *dof = &rows->row_nodes[2 * k];
                 CHECK(dof[1] == dof[0] + 1);
@@ -244,16 +244,15 @@ static void choices(void)
     const int64_t sides[] = {0, 1, 1, 2, 2, 3}, floor[] = {5, 4};
     const signorini_faces slave = lines(3, sides), master = lines(1, floor);
     signorini_surface_pairs *contact;
-    signorini_surface_report report = {.struct_size = sizeof report};
     for (int32_t pairing = 0; pairing < 2; pairing++) {
         signorini_surface_settings settings = defaults();
         CHECK(settings.normals == SIGNORINI_NORMALS_AVERAGED && settings.rims == SIGNORINI_RIMS_FOLD);
         settings.pairing = pairing;
         settings.search_distance = 0.5;
         for (settings.normals = 0; settings.normals < 2; settings.normals++) {
-            CHECK_STATUS(signorini_surface_pair(2, 6, places, &slave, &master, &settings, &contact, NULL), 0);
-            const double *normal = signorini_surface_normals(contact);
-            CHECK(signorini_surface_nodes(contact)[0] == 1);
+            CHECK_STATUS(signorini_surface_pair(2, 6, places, &slave, &master, &settings, &contact), 0);
+            const double *normal = surface_data(contact).normals;
+            CHECK(surface_data(contact).nodes[0] == 1);
             const int of_face = settings.normals == SIGNORINI_NORMALS_FACES;
             CHECK_NEAR(normal[0], of_face ? 0 : -sqrt(0.5));
             CHECK_NEAR(normal[1], of_face ? -1 : -sqrt(0.5));
@@ -270,15 +269,16 @@ static void choices(void)
             signorini_surface_settings settings = defaults();
             settings.search_distance = 0.5;
             settings.rims = rims;
-            CHECK_STATUS(signorini_surface_pair(2, 6, moved, &slave, &master, &settings, &contact, &report), 0);
+            CHECK_STATUS(signorini_surface_pair(2, 6, moved, &slave, &master, &settings, &contact), 0);
+            const signorini_surface_data report = surface_data(contact);
             const int gone = little && rims != SIGNORINI_RIMS_KEEP;
-            CHECK(report.pairs == (gone ? 2 : 3) && report.unpaired == (gone ? 2 : 1));
-            CHECK(report.folded == (gone && rims == SIGNORINI_RIMS_FOLD));
+            CHECK(report.pairs == (gone ? 2 : 3) && report.n_unpaired == (gone ? 2 : 1));
+            CHECK(report.n_folded == (gone && rims == SIGNORINI_RIMS_FOLD));
             CHECK(report.dropped == (gone && rims == SIGNORINI_RIMS_DROP));
-            if (gone) CHECK(signorini_surface_unpaired(contact)[1] == 3);
+            if (gone) CHECK(surface_data(contact).unpaired[1] == 3);
             const double c = little ? 0.1 : 0.5, area = 0.1 * c * c;
             CHECK_NEAR(report.covered_area, 1 + 0.2 * c - (report.dropped ? area : 0));
-            if (!gone) CHECK_NEAR(signorini_surface_areas(contact)[2], area);
+            if (!gone) CHECK_NEAR(surface_data(contact).areas[2], area);
             signorini_surface_free(contact);
         }
     }
@@ -293,36 +293,31 @@ static void obstacles(void)
     signorini_obstacle disc = {.struct_size = sizeof disc, .kind = SIGNORINI_OBSTACLE_SPHERE,
                                .point = {0.5, -1.1}, .radius = 1};
     signorini_surface_pairs *contact;
-    CHECK_STATUS(signorini_surface_pair_obstacle(2, 5, plane_nodes, &slave, &floor, NULL, &contact,
-                                                 NULL), 0);
-    CHECK(signorini_surface_count(contact) == 2);
-    CHECK_NEAR(signorini_surface_gaps(contact)[1], 1.1);
+    CHECK_STATUS(signorini_surface_pair_obstacle(2, 5, plane_nodes, &slave, &floor, NULL, &contact), 0);
+    CHECK(surface_data(contact).pairs == 2);
+    CHECK_NEAR(surface_data(contact).gaps[1], 1.1);
     signorini_surface_free(contact);
     settings.search_distance = INFINITY;
     CHECK_STATUS(signorini_surface_pair_obstacle(2, 5, plane_nodes, &slave, &disc, &settings,
-                                                 &contact, NULL), 0);
+                                                 &contact), 0);
     /* The nodes are (+-0.5, 1.2) from the centre: 1.3 away. */
-    CHECK_NEAR(signorini_surface_gaps(contact)[0], 0.3);
-    CHECK_NEAR(signorini_surface_normals(contact)[1], -12.0 / 13);
+    CHECK_NEAR(surface_data(contact).gaps[0], 0.3);
+    CHECK_NEAR(surface_data(contact).normals[1], -12.0 / 13);
     signorini_surface_free(contact);
     settings.search_distance = 1;
     CHECK_STATUS(signorini_surface_pair_obstacle(2, 5, plane_nodes, &slave, &floor, &settings,
-                                                 &contact, NULL), 0);
-    CHECK(signorini_surface_count(contact) == 0);
+                                                 &contact), 0);
+    CHECK(surface_data(contact).pairs == 0);
     signorini_surface_free(contact);
 
-    CHECK_STATUS(signorini_surface_pair_obstacle(2, 5, plane_nodes, &slave, NULL, NULL, &contact,
-                                                 NULL), -5);
+    CHECK_STATUS(signorini_surface_pair_obstacle(2, 5, plane_nodes, &slave, NULL, NULL, &contact), -5);
     disc.radius = -1;
-    CHECK_STATUS(signorini_surface_pair_obstacle(2, 5, plane_nodes, &slave, &disc, NULL, &contact,
-                                                 NULL), -5);
+    CHECK_STATUS(signorini_surface_pair_obstacle(2, 5, plane_nodes, &slave, &disc, NULL, &contact), -5);
     CHECK_TEXT(signorini_last_error(), "radius is -1");
     disc.kind = SIGNORINI_OBSTACLE_CYLINDER;
-    CHECK_STATUS(signorini_surface_pair_obstacle(2, 5, plane_nodes, &slave, &disc, NULL, &contact,
-                                                 NULL), -5);
+    CHECK_STATUS(signorini_surface_pair_obstacle(2, 5, plane_nodes, &slave, &disc, NULL, &contact), -5);
     disc.kind = 4;
-    CHECK_STATUS(signorini_surface_pair_obstacle(2, 5, plane_nodes, &slave, &disc, NULL, &contact,
-                                                 NULL), -5);
+    CHECK_STATUS(signorini_surface_pair_obstacle(2, 5, plane_nodes, &slave, &disc, NULL, &contact), -5);
     CHECK_TEXT(signorini_last_error(), "there is no kind 4");
 }
 
@@ -344,31 +339,27 @@ static void rigid_faces(void)
         settings.index_base = base;
         faces.nodes = base == 0 ? nodes : one_based;
         CHECK_STATUS(signorini_surface_pair_obstacle(2, 5, plane_nodes, &own, &rigid, &settings,
-                                                     &contact, NULL), 0);
-        CHECK(signorini_surface_count(contact) == 2);
-        CHECK_NEAR(signorini_surface_gaps(contact)[0], 0.1);
-        CHECK_NEAR(signorini_surface_areas(contact)[1], 0.5);
+                                                     &contact), 0);
+        CHECK(surface_data(contact).pairs == 2);
+        CHECK_NEAR(surface_data(contact).gaps[0], 0.1);
+        CHECK_NEAR(surface_data(contact).areas[1], 0.5);
         /* A row has the slave alone. */
-        CHECK(signorini_surface_rows(contact)->row_start[2] == 2 + base);
+        CHECK(surface_data(contact).rows->row_start[2] == 2 + base);
         signorini_surface_free(contact);
     }
     faces.nodes = missing;
-    CHECK_STATUS(signorini_surface_pair_obstacle(2, 5, plane_nodes, &slave, &rigid, NULL, &contact,
-                                                 NULL), -5);
+    CHECK_STATUS(signorini_surface_pair_obstacle(2, 5, plane_nodes, &slave, &rigid, NULL, &contact), -5);
     CHECK_TEXT(signorini_last_error(), "obstacle face 1 has node 3, the coordinates");
     faces.nodes = nodes;
     rigid.coordinates = not_finite;
-    CHECK_STATUS(signorini_surface_pair_obstacle(2, 5, plane_nodes, &slave, &rigid, NULL, &contact,
-                                                 NULL), -5);
+    CHECK_STATUS(signorini_surface_pair_obstacle(2, 5, plane_nodes, &slave, &rigid, NULL, &contact), -5);
     CHECK_TEXT(signorini_last_error(), "coordinates[3] of node 1 in obstacle face 0 is not finite");
     rigid.coordinates = NULL;
-    CHECK_STATUS(signorini_surface_pair_obstacle(2, 5, plane_nodes, &slave, &rigid, NULL, &contact,
-                                                 NULL), -5);
+    CHECK_STATUS(signorini_surface_pair_obstacle(2, 5, plane_nodes, &slave, &rigid, NULL, &contact), -5);
     CHECK_TEXT(signorini_last_error(), "obstacle: coordinates is NULL");
     rigid.coordinates = places;
     rigid.faces = NULL;
-    CHECK_STATUS(signorini_surface_pair_obstacle(2, 5, plane_nodes, &slave, &rigid, NULL, &contact,
-                                                 NULL), -5);
+    CHECK_STATUS(signorini_surface_pair_obstacle(2, 5, plane_nodes, &slave, &rigid, NULL, &contact), -5);
     CHECK_TEXT(signorini_last_error(), "obstacle: faces is NULL");
 }
 
@@ -378,16 +369,16 @@ static void never_meet(void)
     const double far_nodes[] = {0, 5, 1, 5, -1, 0, 0.5, 0, 2, 0};
     const int64_t turned[] = {1, 0};
     const signorini_faces slave = lines(1, line), master = lines(2, below), over = lines(1, turned);
-    signorini_surface_report told = {.struct_size = sizeof told};
     signorini_surface_pairs *contact;
-    CHECK_STATUS(signorini_surface_pair(2, 5, far_nodes, &slave, &master, NULL, &contact, &told), 0);
-    CHECK(signorini_surface_count(contact) == 0 && told.unpaired == 2 && told.uncovered == 1);
-    CHECK(signorini_surface_uncovered(contact)[0] == 0 && signorini_surface_unpaired(contact)[1] == 1);
-    CHECK(signorini_surface_gaps(contact) == NULL && signorini_surface_folded(contact) == NULL);
-    CHECK_TEXT(signorini_surface_summary(contact), "no pairs: nothing lies opposite the 1 slave");
+    CHECK_STATUS(signorini_surface_pair(2, 5, far_nodes, &slave, &master, NULL, &contact), 0);
+    const signorini_surface_data told = surface_data(contact);
+    CHECK(surface_data(contact).pairs == 0 && told.n_unpaired == 2 && told.n_uncovered == 1);
+    CHECK(surface_data(contact).uncovered[0] == 0 && surface_data(contact).unpaired[1] == 1);
+    CHECK(surface_data(contact).gaps == NULL && surface_data(contact).folded == NULL);
+    CHECK_TEXT(surface_data(contact).summary, "no pairs: nothing lies opposite the 1 slave");
     signorini_surface_free(contact);
-    CHECK_STATUS(signorini_surface_pair(2, 5, plane_nodes, &over, &master, NULL, &contact, NULL), 0);
-    CHECK_TEXT(signorini_surface_summary(contact), "one side is turned over");
+    CHECK_STATUS(signorini_surface_pair(2, 5, plane_nodes, &over, &master, NULL, &contact), 0);
+    CHECK_TEXT(surface_data(contact).summary, "one side is turned over");
     signorini_surface_free(contact);
 }
 
@@ -397,7 +388,7 @@ static void refused(const double *nodes, const signorini_faces *slave, const sig
                     const signorini_surface_settings *settings, int argument, const char *part)
 {
     signorini_surface_pairs *contact = (signorini_surface_pairs *)&checks_done;
-    CHECK_STATUS(signorini_surface_pair(2, 5, nodes, slave, master, settings, &contact, NULL),
+    CHECK_STATUS(signorini_surface_pair(2, 5, nodes, slave, master, settings, &contact),
                  -argument);
     CHECK(contact == NULL);
     CHECK_TEXT(signorini_last_error(), part);
@@ -471,11 +462,14 @@ static void refusals(void)
     refused(plane_nodes, &slave, &master, &settings, 6, "plane of symmetry 1: there is no axis 2");
     settings.index_base = 1;
     refused(plane_nodes, &slave, &master, &settings, 6, "symmetry_axes has 0, there is no such axis");
-    CHECK_STATUS(signorini_surface_pair(4, 5, plane_nodes, &slave, &master, NULL, &contact, NULL), -1);
-    CHECK_STATUS(signorini_surface_pair(2, -5, plane_nodes, &slave, &master, NULL, &contact, NULL),
+    CHECK_STATUS(signorini_surface_pair(4, 5, plane_nodes, &slave, &master, NULL, &contact), -1);
+    CHECK_STATUS(signorini_surface_pair(2, -5, plane_nodes, &slave, &master, NULL, &contact),
                  -2);
-    CHECK_STATUS(signorini_surface_pair(2, 5, plane_nodes, &slave, &master, NULL, NULL, NULL), -7);
-    CHECK(signorini_surface_count(NULL) == -1 && signorini_surface_rows(NULL) == NULL);
+    CHECK_STATUS(signorini_surface_pair(2, 5, plane_nodes, &slave, &master, NULL, NULL), -7);
+    signorini_surface_data data = {.struct_size = sizeof data};
+    CHECK_STATUS(signorini_surface_view(NULL, &data), -1);
+    CHECK_TEXT(signorini_last_error(), "contact is NULL");
+    CHECK(data.pairs == 0 && data.rows == NULL);
     signorini_surface_free(NULL);
 }
 
@@ -491,7 +485,7 @@ static void refused_results(void)
     signorini_mesh mesh = {.struct_size = sizeof mesh, .dim = 2, .nodes = 5,
                            .coordinates = plane_nodes, .cells = 2, .cell_type = 3,
                            .cell_nodes = below};
-    CHECK_STATUS(signorini_surface_pair(2, 5, plane_nodes, &slave, &master, NULL, &contact, NULL), 0);
+    CHECK_STATUS(signorini_surface_pair(2, 5, plane_nodes, &slave, &master, NULL, &contact), 0);
     CHECK_STATUS(signorini_surface_fields(contact, NULL, NULL, d, NULL, NULL, &fields), -5);
     CHECK_STATUS(signorini_surface_fields(contact, NULL, NULL, d, F, NULL, NULL), -7);
     CHECK_STATUS(signorini_surface_fields(NULL, NULL, NULL, d, F, NULL, &fields), -1);
@@ -499,16 +493,17 @@ static void refused_results(void)
     CHECK_STATUS(signorini_surface_fields(contact, NULL, NULL, d, F, NULL, &fields), -6);
     CHECK_STATUS(signorini_surface_resultant(contact, NULL, d, F, NULL, NULL), -6);
     mesh.nodes = 4;
-    CHECK_STATUS(signorini_surface_write(contact, "x.vtu", &mesh, NULL, NULL, NULL, d, F, NULL), -3);
-    CHECK_TEXT(signorini_last_error(), "mesh has 4 nodes of dim 2, the pairs are of 5");
-    CHECK_STATUS(signorini_mesh_write("x.vtu", &mesh, NULL, NULL, 0, NULL), -2);
+    const signorini_zone zone = {.struct_size = sizeof zone, .contact = contact, .d = d, .F = F};
+    CHECK_STATUS(signorini_mesh_write("x.vtu", &mesh, NULL, 1, &zone, 0, NULL), -5);
+    CHECK_TEXT(signorini_last_error(), "pairs are of 5 nodes of dim 2, the mesh has 4 nodes");
+    CHECK_STATUS(signorini_mesh_write("x.vtu", &mesh, NULL, 0, NULL, 0, NULL), -2);
     CHECK_TEXT(signorini_last_error(), "cell 0 has node 4");
     mesh.nodes = 5;
     mesh.cell_type = 42;
-    CHECK_STATUS(signorini_mesh_write("x.vtu", &mesh, NULL, NULL, 0, NULL), -2);
+    CHECK_STATUS(signorini_mesh_write("x.vtu", &mesh, NULL, 0, NULL, 0, NULL), -2);
     mesh.cell_type = 3;
     signorini_field own = {.struct_size = sizeof own, .components = 3, .name = "own", .values = d};
-    CHECK_STATUS(signorini_mesh_write("x.vtu", &mesh, NULL, NULL, 1, &own), -6);
+    CHECK_STATUS(signorini_mesh_write("x.vtu", &mesh, NULL, 0, NULL, 1, &own), -7);
     CHECK_TEXT(signorini_last_error(), "own has 3 components");
     signorini_surface_free(contact);
 }

@@ -415,7 +415,7 @@ static int32_t lcp(int64_t n, const double *M, const double *q, const double *co
     signorini_report report;
     memset(&report, 0xFF, sizeof report);
     report.struct_size = sizeof report;
-    const int32_t status = signorini_lcp_lemke(n, M, leading(n), q, cover, NULL, w, z, NULL,
+    const int32_t status = lemke(n, M, leading(n), q, cover, NULL, w, z, NULL,
                                                &report);
     check_report(&report, status, 0);
     CHECK(report.method == LEMKE);
@@ -450,7 +450,7 @@ static void complementarity_in_closed_form(void)
     CHECK_STATUS(lcp(0, NULL, NULL, NULL, NULL, NULL), SIGNORINI_STATUS_SOLVED);
     /* Padding is not looked at. */
     const double padded[] = {2, 1, NAN, NAN, 1, 2};
-    CHECK_STATUS(signorini_lcp_lemke(2, padded, 4, q, NULL, NULL, w, z, NULL, NULL),
+    CHECK_STATUS(lemke(2, padded, 4, q, NULL, NULL, w, z, NULL, NULL),
                  SIGNORINI_STATUS_SOLVED);
     CHECK_NEAR(z[1], 7.0 / 3);
 }
@@ -462,7 +462,7 @@ static void complementarity_without_solution(void)
     const double skew[] = {0, 1, -1, 0}, q[] = {-1, 3};
     CHECK_STATUS(lcp(2, skew, q, NULL, w, z), SIGNORINI_STATUS_NO_EQUILIBRIUM);
     CHECK(w[0] >= 0 && w[1] >= 0 && z[0] >= 0 && z[1] >= 0);
-    CHECK_STATUS(signorini_lcp_lemke(2, skew, 2, q, NULL, NULL, w, z, y, NULL),
+    CHECK_STATUS(lemke(2, skew, 2, q, NULL, NULL, w, z, y, NULL),
                  SIGNORINI_STATUS_NO_EQUILIBRIUM);
     CHECK(y[0] >= 0 && y[1] >= 0 && fmax(y[0], y[1]) == 1);
     CHECK(skew[0] * y[0] + skew[1] * y[1] <= 1e-12 && skew[2] * y[0] + skew[3] * y[1] <= 1e-12);
@@ -482,7 +482,7 @@ static void the_contact_settings_do_not_matter_to_it(void)
     settings.omega = 1.9;
     settings.damping = 0.5;
     settings.warm_start = 1;
-    CHECK_STATUS(signorini_lcp_lemke(2, M, 2, q, NULL, &settings, w, z, NULL, NULL),
+    CHECK_STATUS(lemke(2, M, 2, q, NULL, &settings, w, z, NULL, NULL),
                  SIGNORINI_STATUS_SOLVED);
     CHECK_NEAR(z[0], 4.0 / 3);
 }
@@ -539,7 +539,7 @@ static void what_is_not_wanted_may_be_null(void)
     CHECK_NEAR(F[1], -0.5);
     const double M[] = {2}, q[] = {-1};
     double w[1], z[1];
-    CHECK_STATUS(signorini_lcp_lemke(1, M, 1, q, NULL, NULL, w, z, NULL, NULL), 0);
+    CHECK_STATUS(lemke(1, M, 1, q, NULL, NULL, w, z, NULL, NULL), 0);
     CHECK_NEAR(z[0], 0.5);
 }
 
@@ -642,7 +642,7 @@ static void a_warm_start_leads_to_the_same_answer(void)
 {
     for (int32_t method = AUTO; method <= PATH; method++) {
         if (method == LEMKE || method == BLOCK_PIVOTING) continue; /* No start; no friction. */
-        chain cold = chain_new(2, 20, 0.5, 4), warm = chain_new(2, 20, 0.5, 4);
+        chain cold = chain_new(2, 20, 0.02, 4), warm = chain_new(2, 20, 0.02, 4);
         signorini_settings settings = settings_for(method);
         signorini_report first = {.struct_size = sizeof first}, again = first;
         settings.tolerance = 1e-13;
@@ -786,7 +786,7 @@ static int32_t limited(chain *c, const signorini_settings *settings, signorini_r
 static void budgets_end_a_call_with_results(void)
 {
     for (int32_t method = AUTO; method <= PATH; method++) {
-        chain c = chain_new(2, 20, 1e-3, 6);
+        chain c = chain_new(2, 20, 1e-3, 8);
         if (!fits(method, 2, 1))
             for (int64_t i = 0; i < c.pairs; i++) c.mu[i] = 0;
         signorini_report report;
@@ -814,7 +814,9 @@ static void budgets_end_a_call_with_results(void)
         settings.progress = on_progress;
         settings.user = &seen;
         CHECK_STATUS(limited(&c, &settings, &report), SIGNORINI_STATUS_SOLVED);
-        CHECK(seen.in_order && seen.started_at_infinity);
+        /* Newton's method measures the point to which sweeps have led before its first system. */
+        const int measured = method == AUTO || method == NEWTON;
+        CHECK(seen.in_order && (measured || seen.started_at_infinity));
         CHECK(seen.calls == report.iterations && seen.calls >= 1);
         const int calls = seen.calls;
 
@@ -841,7 +843,7 @@ static void budgets_of_the_bare_problem(void)
     signorini_report report = {.struct_size = sizeof report};
     signorini_settings settings = settings_for(LEMKE);
     settings.max_iterations = 1;
-    CHECK_STATUS(signorini_lcp_lemke(2, M, 2, q, NULL, &settings, w, z, NULL, &report),
+    CHECK_STATUS(lemke(2, M, 2, q, NULL, &settings, w, z, NULL, &report),
                  SIGNORINI_STATUS_ITERATION_LIMIT);
     check_report(&report, SIGNORINI_STATUS_ITERATION_LIMIT, 0);
     CHECK(report.iterations == 1);
@@ -850,7 +852,7 @@ static void budgets_of_the_bare_problem(void)
     settings = settings_for(LEMKE);
     settings.progress = on_progress;
     settings.user = &seen;
-    CHECK_STATUS(signorini_lcp_lemke(2, M, 2, q, NULL, &settings, w, z, NULL, &report),
+    CHECK_STATUS(lemke(2, M, 2, q, NULL, &settings, w, z, NULL, &report),
                  SIGNORINI_STATUS_CANCELLED);
     CHECK(seen.calls == 2 && seen.in_order);
     CHECK(w[0] >= 0 && w[1] >= 0 && z[0] >= 0 && z[1] >= 0);
@@ -974,14 +976,14 @@ static void the_last_error_is_that_of_the_last_call(void)
     const double M[] = {2}, q[] = {-1};
     double w[1], z[1];
     signorini_settings settings;
-    CHECK_STATUS(signorini_lcp_lemke(-1, M, 1, q, NULL, NULL, w, z, NULL, NULL), -1);
+    CHECK_STATUS(lemke(-1, M, 1, q, NULL, NULL, w, z, NULL, NULL), -1);
     CHECK(signorini_last_error()[0] != '\0');
     /* Asking does not clear it, nor does any call that computes nothing. */
     signorini_status_string(-1);
     signorini_version();
     signorini_abi_version();
     CHECK_TEXT(signorini_last_error(), "n is -1");
-    CHECK_STATUS(signorini_lcp_lemke(1, M, 1, q, NULL, NULL, w, z, NULL, NULL), 0);
+    CHECK_STATUS(lemke(1, M, 1, q, NULL, NULL, w, z, NULL, NULL), 0);
     CHECK(signorini_last_error()[0] == '\0');
     CHECK_STATUS(signorini_settings_default(NULL, sizeof settings), -1);
     CHECK(signorini_last_error()[0] != '\0');

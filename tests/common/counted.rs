@@ -3,9 +3,17 @@
 
 use std::ffi::{c_int, c_void};
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 static NOW: AtomicUsize = AtomicUsize::new(0);
 static PEAK: AtomicUsize = AtomicUsize::new(0);
+
+static ALONE: Mutex<()> = Mutex::new(());
+
+/// Keeps other tests of the program waiting: the counts are those of all its threads.
+pub fn alone() -> MutexGuard<'static, ()> {
+    ALONE.lock().unwrap_or_else(PoisonError::into_inner)
+}
 
 /// The most bytes that were held at a time while `work` ran, beside those held before, and its result.
 pub fn peak<T>(work: impl FnOnce() -> T) -> (usize, T) {

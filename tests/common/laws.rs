@@ -1,10 +1,7 @@
 //! Random laws of a pair, points that obey them, and the law itself, stated without the library.
 
 use fastrand::Rng;
-use signorini::law::{
-    Bound, Ellipse, PairLaw, Plane, Rule, Vector, cohesive, coulomb, frictionless, orthotropic,
-    tresca,
-};
+use signorini::law::{Bound, Ellipse, PairLaw, Plane, Rule, Vector};
 
 /// A law with its numbers.
 #[derive(Clone, Copy, Debug)]
@@ -105,23 +102,23 @@ impl Numbers {
     pub fn random_in(rng: &mut Rng, dim: usize) -> Numbers {
         let (mut tension, mut axes) = (0.0, None);
         let bound = match rng.u8(0..10) {
-            0 => frictionless::bound(),
-            1 | 2 => coulomb::bound(uniform(rng, 0.01, 3.0)),
-            3 | 4 => tresca::bound(uniform(rng, 0.01, 2.0)),
+            0 => Bound::FRICTIONLESS,
+            1 | 2 => Bound::coulomb(uniform(rng, 0.01, 3.0)),
+            3 | 4 => Bound::tresca(uniform(rng, 0.01, 2.0)),
             5 => Bound { slope: uniform(rng, 0.0, 2.0), offset: uniform(rng, 0.0, 1.0) },
             6 | 7 => {
                 let mu = if rng.bool() { 0.0 } else { uniform(rng, 0.0, 2.0) };
                 tension = uniform(rng, 0.01, 2.0);
                 let more = if rng.bool() { 0.0 } else { uniform(rng, 0.01, 2.0) };
-                cohesive::bound(mu, mu * tension + more, tension)
+                Bound::cohesive(mu, mu * tension + more, tension)
             }
-            _ if dim == 2 => coulomb::bound(uniform(rng, 0.01, 3.0)),
+            _ if dim == 2 => Bound::coulomb(uniform(rng, 0.01, 3.0)),
             kind => {
                 let drawn = Axes::random(rng);
                 axes = Some(drawn);
                 match kind {
-                    8 => orthotropic::bound(drawn.mu),
-                    _ => tresca::bound(uniform(rng, 0.01, 2.0)),
+                    8 => Bound::orthotropic(drawn.mu),
+                    _ => Bound::tresca(uniform(rng, 0.01, 2.0)),
                 }
             }
         };

@@ -23,6 +23,7 @@ pub mod problems;
 pub mod proofs;
 pub mod quad;
 pub mod rigid_statics;
+pub mod rolling;
 pub mod solids;
 pub mod stack;
 pub mod verdict;

@@ -183,7 +183,10 @@ fn named(source: &Source) -> Vec<Named> {
             .chain(inline.iter().map(|(name, _)| name.clone()))
             .collect();
         let is = |at: usize, text: &str| tokens.get(at).is_some_and(|token| token.text == text);
-        if is(at, "mod") && is(at + 2, "{") {
+        if is(at, "macro_rules") && is(at + 3, "{") {
+            // Its modules stand where it is used, so that their paths are not those of this file.
+            at = closing(tokens, at + 3) + 1;
+        } else if is(at, "mod") && is(at + 2, "{") {
             inline.push((tokens[at + 1].text.clone(), closing(tokens, at + 2)));
             at += 3;
         } else if is_import(tokens, at) {

@@ -63,6 +63,9 @@ program layer
     call expect('condensed model', info == 0 .and. model%host_size() == 4)
     call model%solve(f, gap, other, force, info, friction=mu, state=state)
     call expect('its case', info == 0 .and. all(abs(other - d) < 1e-9_dp))
+    call model%prove(f, gap, d, info, friction=mu, force=other, radius_d=z, message=message)
+    call expect('proof of a model', info == SIGNORINI_STATUS_SOLVED .and. all(abs(other - force) < 1e-9_dp) .and. &
+        all(z >= 0 .and. z < 1e-8_dp) .and. message == '')
     call model%stiffness(wide(1:4, 1:4), info)
     call expect('its stiffness', info == 0 .and. all(wide(1:4, 1:4) == k))
     call model%new_two_body(2, k, k, info)
@@ -74,6 +77,7 @@ program layer
     call model%release()
     call expect('released', model%host_size() == -1)
     call oblique
+    call flexibility
 
     if (failed /= 0) stop 1
     print '(a)', 'the layer of the module: all as expected'
@@ -116,13 +120,25 @@ contains
         call expect('orthotropic in the plane', info == -7)
     end subroutine
 
-    ! What is declared is ready to use: it is what the library fills in.
+    ! A variable as declared is ready to use: it holds the numbers that the library fills in.
     subroutine structures
         type(signorini_settings) :: settings, wanted
         type(signorini_report) :: report, blank
         type(signorini_extra) :: extra, nothing
         type(signorini_sparse) :: sparse
         type(signorini_pairs) :: pairs
+        type(signorini_operator) :: operator
+        type(signorini_model_data) :: model
+        type(signorini_faces) :: faces
+        type(signorini_obstacle) :: obstacle
+        type(signorini_surface_settings) :: choices
+        type(signorini_surface_data) :: surface
+        type(signorini_contact_fields) :: fields
+        type(signorini_resultant) :: sums
+        type(signorini_mesh) :: mesh
+        type(signorini_zone) :: zone
+        type(signorini_field) :: field
+        type(signorini_problem_data) :: problem
         integer(c_int32_t) :: status(3)
         status(1) = signorini_settings_default(wanted, int(c_sizeof(wanted), c_int32_t))
         status(2) = signorini_report_default(blank, int(c_sizeof(blank), c_int32_t))
@@ -130,8 +146,16 @@ contains
         call expect('initialisers', all(status == 0))
         call expect('sizes', settings%struct_size == wanted%struct_size .and. &
             report%struct_size == blank%struct_size .and. extra%struct_size == nothing%struct_size)
-        call expect('sizes of the matrix and the pairs', &
-            sparse%struct_size == c_sizeof(sparse) .and. pairs%struct_size == c_sizeof(pairs))
+        call expect('sizes of what a model is made of', sparse%struct_size == c_sizeof(sparse) .and. &
+            pairs%struct_size == c_sizeof(pairs) .and. operator%struct_size == c_sizeof(operator) .and. &
+            model%struct_size == c_sizeof(model))
+        call expect('sizes of surfaces', faces%struct_size == c_sizeof(faces) .and. &
+            obstacle%struct_size == c_sizeof(obstacle) .and. choices%struct_size == c_sizeof(choices) .and. &
+            surface%struct_size == c_sizeof(surface) .and. fields%struct_size == c_sizeof(fields) .and. &
+            sums%struct_size == c_sizeof(sums))
+        call expect('sizes for files', mesh%struct_size == c_sizeof(mesh) .and. &
+            zone%struct_size == c_sizeof(zone) .and. field%struct_size == c_sizeof(field) .and. &
+            problem%struct_size == c_sizeof(problem))
         call expect('settings', settings%method == wanted%method .and. &
             same(settings%tolerance, wanted%tolerance) .and. same(settings%omega, wanted%omega) .and. &
             same(settings%damping, wanted%damping) .and. settings%max_iterations == wanted%max_iterations)
@@ -194,6 +218,34 @@ contains
         m = 0
         call lcp_solve(m, [-1._dp], w, z, info, infeasible_by=y)
         call expect('infeasible LCP', info == SIGNORINI_STATUS_NO_EQUILIBRIUM .and. y(1) > 0)
+    end subroutine
+
+    ! The pair of `laws` by its flexibility W = inverse(4 1; 1 4), with the free displacements W f.
+    subroutine flexibility
+        real(dp), parameter :: w(2, 2) = reshape([real(dp) :: 4, -1, -1, 4], [2, 2])/15
+        real(dp), parameter :: free(2) = [7, 2]/15._dp, gap(1) = 0, mu(1) = 0.3_dp
+        real(dp) :: d(2), force(2), none(2, 2)
+        type(signorini_model_data) :: data
+        call model%new_flexibility(2, w, info, message)
+        call expect('flexibility', info == 0 .and. model%host_size() == 2 .and. model%pairs == 1)
+        data = model%view()
+        call expect('its view', data%kind == SIGNORINI_MODEL_FLEXIBILITY .and. data%memory > 0 .and. &
+            .not. c_associated(data%k))
+        call model%solve(free, gap, d, force, info, friction=mu, state=state(1:1))
+        call expect('case of a flexibility', info == 0 .and. abs(d(2) - 0.4_dp/3.7_dp) < 1e-9_dp .and. &
+            abs(force(2) - 0.3_dp*force(1)) < 1e-9_dp .and. state(1) == SIGNORINI_STATE_SLIP)
+        call model%certify(free, gap, d, info, friction=mu, force=force, message=message)
+        call expect('its certificate', info == 0 .and. message == '')
+        call model%certify(free, gap, d + 1, info, friction=mu, force=force)
+        call expect('no solution of it', info == SIGNORINI_STATUS_NOT_A_SOLUTION)
+        call model%stiffness(none, info, message)
+        call expect('no stiffness', info == CONTACT_WRONG_MODEL .and. index(message, 'flexibility') > 0)
+        call model%release()
+        call model%new_flexibility(2, reshape([1._dp, 0._dp], [2, 1]), info, message)
+        call expect('square', info == -2 .and. index(message, 'w has the shape (2, 1)') == 1)
+        call model%new_flexibility_sparse(2, [1, 2, 3, 4], [1, 2, 3], [1._dp, 1._dp, 1._dp], &
+            SIGNORINI_TRIANGLE_LOWER, info, message)
+        call expect('whole pairs', info == -2 .and. index(message, 'col_start has 4 entries') == 1)
     end subroutine
 
     ! A point on springs of stiffness 2 before a rigid wall, in 3D, with an oblique normal.

@@ -1,4 +1,4 @@
-! What the layer of the module refuses: info is the position in the call, message names the array.
+! Refusals of the module's layer: info is the position in the call, message names the array.
 program refusals
     use signorini
     implicit none
@@ -53,7 +53,7 @@ program refusals
     call expect(-18, 'second_force')
     call contact_solve(k, f, gap, d, force, info, friction=mu, second_state=state(1:1), message=message)
     call expect(-19, 'second_state has 1 entry, it must have 2')
-    ! What the library finds has the position here too, and counts from 1.
+    ! Refusals of the library have the position here too, and count from 1.
     k(3, 2) = nan
     call contact_solve(k, f, gap, d, force, info, friction=mu, message=message)
     call expect(-1, 'K(3,2)')

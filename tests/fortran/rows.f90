@@ -8,8 +8,8 @@ program rows
     integer, parameter :: starts(5) = [1, 2, 3, 4, 5], places(4) = [1, 2, 3, 4]
     real(dp), parameter :: springs(4) = 2
     type(contact_model) :: model
-    real(dp) :: k(2, 2), d(4), force(4), nodal(4), twice(4), shared(4, 4)
-    integer :: info, failed, first(2), two(2, 2)
+    real(dp) :: k(2, 2), d(4), force(4), nodal(4), shared(4, 4), none(4), eta
+    integer :: info, failed, first(2), two(2, 2), state(1), sweeps
     integer(c_int64_t) :: handle
     character(len=256) :: message
 
@@ -32,6 +32,13 @@ program rows
         friction=[0.25_dp, 0.25_dp])
     call expect('its solution', info == 0 .and. all(abs(d) < 1e-8_dp))
     call expect('its forces', all(abs(abs(force) - [0.8_dp, 0.2_dp, 0.8_dp, 0.2_dp]) < 1e-8_dp))
+    call model%certify([1._dp, -1._dp, 0._dp, 0._dp], [0._dp, 0._dp], d, info, friction=[0.25_dp, 0.25_dp], &
+        force=force)
+    call expect('certificate of d and forces', info == 0)
+    none = 0
+    call model%certify([1._dp, -1._dp, 0._dp, 0._dp], [0._dp, 0._dp], d, info, friction=[0.25_dp, 0.25_dp], &
+        force=none)
+    call expect('other forces', info == SIGNORINI_STATUS_NOT_A_SOLUTION)
     call model%nodal_forces(force, nodal, info)
     call expect('nodal forces', info == 0 .and. &
         all(abs(nodal - [-1._dp, 1._dp, 0._dp, 0._dp]) < 1e-8_dp))
@@ -46,7 +53,7 @@ program rows
         [1._dp, 1._dp], reshape([0._dp, -1._dp], [2, 1]), info, message=message)
     call expect('starts', info == -5)
 
-    ! The same node as a flexibility of 1/2: W = B B' / 2 of floor and wall, and q = B f / 2.
+    ! That node as a flexibility of 1/2: W = B B' / 2 of floor and wall, and q = B f / 2.
     shared = reshape([1, 0, 0, -1, 0, 1, 1, 0, 0, 1, 1, 0, -1, 0, 0, 1], [4, 4]) / 2._dp
     call contact_solve_flexibility(shared, [1, 1, 1, -1] / 2._dp, [0._dp, 0._dp], d, force, info, &
         friction=[0.25_dp, 0.25_dp], message=message)
@@ -80,8 +87,12 @@ program rows
     call SGSPAR(4, 4, starts, places, springs, 0, 0, first, 2, 1, first, 2, [1, 3], two, &
         [1._dp, -1._dp], [0._dp, -1._dp], 0, [0._dp], handle, info)
     call expect('SGSPAR', info == 0)
-    call SGNODF(handle, [-3._dp, 1._dp], twice, info)
-    call expect('SGNODF', info == 0 .and. all(abs(twice - [1, 3, -1, -3]) < 1e-14_dp))
+    ! A pressed on B by 4: both springs take 2 each, and yield by 1.
+    call SGCASE(handle, [0._dp, -4._dp, 0._dp, 0._dp], [0._dp], [0._dp], 0, [0._dp], [0._dp], 0, 0._dp, 0, &
+        d, force, state, eta, sweeps, info)
+    call expect('SGCASE', info == 0 .and. all(abs(force(:2) - [-2, 0]) < 1e-9_dp) .and. eta <= 1e-10_dp)
+    call SGRECV(handle, [0._dp, -4._dp, 0._dp, 0._dp], [0._dp], d, nodal, info)
+    call expect('SGRECV', info == 0 .and. all(abs(nodal - [0, -1, 0, -1]) < 1e-9_dp))
     call SGFREE(handle, info)
     call SGSPAR(4, 4, starts, places, springs, 0, 0, first, 2, 1, first, 0, [1, 3], two, &
         [1._dp, -1._dp], [0._dp, -1._dp], 0, [0._dp], handle, info)

@@ -75,7 +75,7 @@ program surfaces_test
     call expect('rigid node', info == -4 .and. index(message, 'obstacle face 1 has node 5, the') == 1)
     ! Node 1 stands on the line x = 0: its pair has no friction across it, that of node 2 has.
     call surfaces%pair(places, slave, master, info, symmetry_axes=[1], symmetry_at=[0._dp], message=message)
-    call expect('symmetry', info == 0 .and. message == '' .and. surfaces%report%on_symmetry == 1)
+    call expect('symmetry', info == 0 .and. message == '' .and. surfaces%data%on_symmetry == 1)
     call model%new_surfaces(starts, rows, [(2._dp, i=1, 10)], SIGNORINI_TRIANGLE_LOWER, surfaces, info, &
         fixed=[1], message=message)
     load = 0
@@ -128,12 +128,12 @@ contains
         do rims = SIGNORINI_RIMS_FOLD, SIGNORINI_RIMS_DROP
             call surfaces%pair(around, sides, floor, info, search_distance=0.5_dp, rims=rims, message=message)
             call expect('rims', info == 0 .and. surfaces%pairs == merge(3, 2, rims == SIGNORINI_RIMS_KEEP))
-            call expect('folded', surfaces%report%folded == merge(1, 0, rims == SIGNORINI_RIMS_FOLD))
-            call expect('dropped', surfaces%report%dropped == merge(1, 0, rims == SIGNORINI_RIMS_DROP))
+            call expect('folded', surfaces%data%n_folded == merge(1, 0, rims == SIGNORINI_RIMS_FOLD))
+            call expect('dropped', surfaces%data%dropped == merge(1, 0, rims == SIGNORINI_RIMS_DROP))
         end do
         call surfaces%pair_rigid(around(:, :4), sides, around(:, 5:), floor - 4, info, search_distance=0.5_dp, &
             normals=int(SIGNORINI_NORMALS_FACES), rims=int(SIGNORINI_RIMS_DROP), message=message)
-        call expect('rigid choices', info == 0 .and. surfaces%report%dropped == 1 .and. surfaces%pairs == 2)
+        call expect('rigid choices', info == 0 .and. surfaces%data%dropped == 1 .and. surfaces%pairs == 2)
         call surfaces%pair(around, sides, floor, info, normals=2, message=message)
         call expect('normals', info == -11 .and. message == 'there is no choice of normals 2')
         call surfaces%pair(around, sides, floor, info, rims=-1, message=message)

@@ -1,6 +1,5 @@
 C     Two blocks whose nodes do not match, in Fortran 77: pairs from
-C     their faces, a model, a solution, fields and a file; and what is
-C     refused.
+C     their faces, a model, a solution and fields; and what is refused.
 C
 C     The lower block is 3 by 1, of 3 by 2 elements with 4 nodes, the
 C     upper one likewise of 4 by 2. Plane strain, E = 1000, nu = 0.3,
@@ -100,28 +99,7 @@ C     Nodes 9 to 17 are those of the two faces; the others keep theirs.
       CALL NEAR('pressure on both sides', OFF, NFAIL)
       CALL HOLDS('others', PRESS(8) .EQ. -7D0 .AND. PRESS(18) .EQ. -7D0,
      &           NFAIL)
-      CALL SGSVTU(HSURF, 'two_blocks_77.vtu   ', 20, X, 9, 4, 14,
-     &            CELL, GAP, SLIP0, U, D, R, STATE, INFO)
-      CALL EXPECT('file', INFO, 0, NFAIL)
-      OPEN (7, FILE = 'two_blocks_77.vtu', STATUS = 'OLD')
-      READ (7, '(A)') TEXT
-      CALL HOLDS('XML', TEXT(1:5) .EQ. '<?xml', NFAIL)
-      CLOSE (7, STATUS = 'DELETE')
-
-      CALL CHOICE(NN, X, MASTER, NFAIL)
-      CALL PLANES(NN, X, SLAVE, MASTER, ND, NNZ, COLPTR, ROWIND, V,
-     &            NFIX, FIXED, F, NFAIL)
-
-C     What is refused.
-      CALL SGSVTU(HSURF, 'no/folder/x.vtu', 15, X, 9, 4, 14, CELL,
-     &            GAP, SLIP0, U, D, R, STATE, INFO)
-      CALL EXPECT('no folder', INFO, -1002, NFAIL)
-      CALL SGSVTU(HSURF, 'x.vtu', 5, X, 12, 4, 14, CELL, GAP,
-     &            SLIP0, U, D, R, STATE, INFO)
-      CALL EXPECT('another cell', INFO, -8, NFAIL)
-      CALL SGSVTU(HSURF, 'x.vtu', 5, X, 9, 0, 2000000000, CELL, GAP,
-     &            SLIP0, U, D, R, STATE, INFO)
-      CALL EXPECT('cells without nodes', INFO, -6, NFAIL)
+C     Refusals.
       CALL SGSFLD(HANDLE, GAP, SLIP0, D, R, PRESS, TRACT, CLEAR,
      &            SLIP, INFO)
       CALL EXPECT('a model as pairs', INFO, -1, NFAIL)
@@ -171,128 +149,6 @@ C     What is refused.
       CALL EXPECT('released again', INFO, 0, NFAIL)
       IF (NFAIL .NE. 0) STOP 1
       WRITE (*, '(A)') 'two blocks: uniform pressure between meshes'
-      END
-
-C     The plane x = 0 is named: node 13 on it neither slips nor carries
-C     friction along x, exactly, and the pressure is P = 2 as before.
-      SUBROUTINE PLANES(NN, X, SLAVE, MASTER, ND, NNZ, COLPTR, ROWIND,
-     &                  V, NFIX, FIXED, F, NFAIL)
-      INCLUDE 'signorini.inc'
-      INTEGER NN, SLAVE(2, 4), MASTER(3, 3), ND, NNZ, COLPTR(*)
-      INTEGER ROWIND(*), NFIX, FIXED(*), NFAIL
-      DOUBLE PRECISION X(2, NN), V(*), F(*)
-      INTEGER AXIS(2), NODE(5), STATE(5), I, NPAIR, ITER, INFO
-      INTEGER*8 HSURF, HANDLE
-      DOUBLE PRECISION PLACE(2), GAP(5), AREA(5), NORMAL(2, 5), MU(5)
-      DOUBLE PRECISION SLIP0(5), D(10), R(10), PRESC(10), ETA, OFF
-      CHARACTER*160 TEXT
-      DATA AXIS /1, 3/, PLACE /2*0D0/, MU /5*0.3D0/, SLIP0 /5*0D0/
-      DATA PRESC /10*0D0/
-      CALL SGSURC(2, NN, X, 0, 2, 4, SLAVE, 3, 3, MASTER, SGMORT,
-     &            0D0, 1, AXIS, PLACE, SGAVER, SGFOLD, HSURF, NPAIR,
-     &            INFO)
-      CALL EXPECT('planes', INFO, 0, NFAIL)
-      CALL SGSUMM(HSURF, TEXT, 160, INFO)
-      CALL HOLDS('one on the plane', INDEX(TEXT,
-     &           '1 of the pairs on planes of symmetry') .GT. 0, NFAIL)
-      CALL SGSGAP(HSURF, NODE, GAP, AREA, NORMAL, INFO)
-      CALL SGSMOD(ND, NNZ, COLPTR, ROWIND, V, 0, NFIX, FIXED, HSURF,
-     &            HANDLE, INFO)
-      CALL EXPECT('its model', INFO, 0, NFAIL)
-      CALL SGCASE(HANDLE, F, PRESC, GAP, SGCOUL, MU, SLIP0, 0,
-     &            0D0, 0, D, R, STATE, ETA, ITER, INFO)
-      CALL EXPECT('its solution', INFO, 0, NFAIL)
-      CALL HOLDS('no slip', NODE(1) .EQ. 13 .AND. D(2) .EQ. 0D0 .AND.
-     &           R(2) .EQ. 0D0, NFAIL)
-      OFF = 0D0
-      DO 10 I = 1, 5
-         OFF = MAX(OFF, ABS(R(2*I - 1) / AREA(I) + 2D0))
-   10 CONTINUE
-      CALL NEAR('its pressure', OFF, NFAIL)
-      CALL SGFREE(HANDLE, INFO)
-      CALL SGSFRE(HSURF, INFO)
-      CALL SGSURC(2, NN, X, 0, 2, 4, SLAVE, 3, 3, MASTER, SGMORT,
-     &            0D0, 2, AXIS, PLACE, SGAVER, SGFOLD, HSURF, NPAIR,
-     &            INFO)
-      CALL EXPECT('no axis 3', INFO, -14, NFAIL)
-      CALL SAYS('plane of symmetry 2: there is no axis 3', NFAIL)
-      CALL SGSURC(2, NN, X, 0, 2, 4, SLAVE, 3, 3, MASTER, SGMORT,
-     &            0D0, -1, AXIS, PLACE, SGAVER, SGFOLD, HSURF, NPAIR,
-     &            INFO)
-      CALL EXPECT('NPLANE', INFO, -13, NFAIL)
-      PLACE(1) = 1D0
-      CALL SGSURC(2, NN, X, 0, 2, 4, SLAVE, 3, 3, MASTER, SGMORT,
-     &            0D0, 1, AXIS, PLACE, SGAVER, SGFOLD, HSURF, NPAIR,
-     &            INFO)
-      CALL EXPECT('both sides', INFO, -14, NFAIL)
-      CALL SAYS('has slave nodes on both sides', NFAIL)
-      END
-
-C     Choices: the slave has the left side of the upper block too, a
-C     sharp edge at node 13. The master of the rims is the lower block
-C     from 0 to 0.9. A fifth of the bottom's second face, from 0.75 to
-C     1.5, lies over it, and a fifth of a fifth of that face's share of
-C     node 15.
-      SUBROUTINE CHOICE(NN, X, MASTER, NFAIL)
-      INCLUDE 'signorini.inc'
-      INTEGER NN, MASTER(3, 3), NFAIL, SLAVE(2, 5), NODE(6), RIMS, I
-      INTEGER NPAIR, INFO, AXIS(1)
-      INTEGER*8 HSURF
-      DOUBLE PRECISION X(2, NN), GAP(6), AREA(6), NORMAL(2, 6), OFF
-      DOUBLE PRECISION PLACE(1)
-      CHARACTER*160 TEXT
-      DATA SLAVE /18, 13, 13, 14, 14, 15, 15, 16, 16, 17/
-      DATA AXIS /0/, PLACE /0D0/
-      DO 10 I = SGAVER, SGFACE
-         CALL SGSURC(2, NN, X, 0, 2, 5, SLAVE, 3, 3, MASTER, SGMORT,
-     &               0.1D0, 0, AXIS, PLACE, I, SGFOLD, HSURF, NPAIR,
-     &               INFO)
-         CALL EXPECT('normals', INFO, 0, NFAIL)
-         CALL SGSGAP(HSURF, NODE, GAP, AREA, NORMAL, INFO)
-         OFF = NORMAL(2, 1) + 1D0
-         IF (I .EQ. SGAVER) OFF = NORMAL(2, 1) + SQRT(0.5D0)
-         CALL HOLDS('the edge', NODE(1) .EQ. 13, NFAIL)
-         CALL NEAR('normal at the edge', OFF, NFAIL)
-         CALL SGSFRE(HSURF, INFO)
-   10 CONTINUE
-      X(1, 10) = 0.9D0
-      DO 20 RIMS = SGFOLD, SGDROP
-         CALL SGSURC(2, NN, X, 0, 2, 4, SLAVE(1, 2), 3, 1,
-     &               MASTER(1, 3), SGMORT, 0D0, 0, AXIS, PLACE, SGAVER,
-     &               RIMS, HSURF, NPAIR, INFO)
-         CALL EXPECT('rims', INFO, 0, NFAIL)
-         I = 2
-         IF (RIMS .EQ. SGKEEP) I = 3
-         CALL HOLDS('pairs at rims', NPAIR .EQ. I, NFAIL)
-         CALL SGSGAP(HSURF, NODE, GAP, AREA, NORMAL, INFO)
-         OFF = 0D0
-         DO 15 I = 1, NPAIR
-            OFF = OFF + AREA(I)
-   15    CONTINUE
-         IF (RIMS .EQ. SGDROP) OFF = OFF + 0.375D0 / 25D0
-         CALL NEAR('area at rims', OFF - 0.9D0, NFAIL)
-         CALL SGSUMM(HSURF, TEXT, 160, INFO)
-         CALL HOLDS('what is dropped', INDEX(TEXT, '1 of them dropped')
-     &              .GT. 0 .EQV. RIMS .EQ. SGDROP, NFAIL)
-         CALL SGSFRE(HSURF, INFO)
-   20 CONTINUE
-      X(1, 10) = 1D0
-      CALL SGSURC(2, NN, X, 0, 2, 5, SLAVE, 3, 3, MASTER, SGMORT,
-     &            0D0, 0, AXIS, PLACE, 2, SGFOLD, HSURF, NPAIR, INFO)
-      CALL EXPECT('NORMLS', INFO, -16, NFAIL)
-      CALL SGSURC(2, NN, X, 0, 2, 5, SLAVE, 3, 3, MASTER, SGMORT,
-     &            0D0, 0, AXIS, PLACE, SGAVER, 3, HSURF, NPAIR, INFO)
-      CALL EXPECT('RIMS', INFO, -17, NFAIL)
-      CALL SGSURC(2, NN, X, 0, 2, 5, SLAVE, 3, 3, MASTER, SGNTOS,
-     &            0D0, 0, AXIS, PLACE, SGAVER, SGKEEP, HSURF, NPAIR,
-     &            INFO)
-      CALL EXPECT('RIMS of nodes', INFO, -17, NFAIL)
-      CALL SAYS('nodes against surfaces have no cover', NFAIL)
-      CALL SGSURC(2, NN, X, 0, 2, 5, SLAVE, 3, 3, MASTER, SGMORT,
-     &            -1D0, 0, AXIS, PLACE, SGAVER, SGFOLD, HSURF, NPAIR,
-     &            INFO)
-      CALL EXPECT('DIST again', INFO, -12, NFAIL)
-      CALL HOLDS('no pairs', HSURF .EQ. 0, NFAIL)
       END
 
 C     Nodes and elements of a block 3 by 1 with NX nodes along x and

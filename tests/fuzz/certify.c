@@ -1,4 +1,4 @@
-/* signorini_certify and signorini_prove of any displacements, and files of the same problem. */
+/* signorini_model_certify and signorini_model_prove of any displacements. */
 
 #include "fuzz.h"
 
@@ -17,7 +17,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     const double tolerance = sane() ? 1e-8 : number();
     const int64_t pairs = size_or_wrong(p.pairs), ld = size_or_wrong(p.ld);
     arm();
-    int32_t status = signorini_certify(p.dim, pairs, p.K, ld, p.f, p.gap, p.law, p.friction, p.slip0,
+    int32_t status = certify_condensed(p.dim, pairs, p.K, ld, p.f, p.gap, p.law, p.friction, p.slip0,
                                        tolerance, d, F, state, report);
     check_arrays(status);
     check_status(status, 14);
@@ -27,7 +27,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     if (report) as_input(report);
     double *force = outputs(p.n);
     arm();
-    status = signorini_prove(p.dim, pairs, p.K, ld, p.f, p.gap, p.law, p.friction, p.slip0, d, given,
+    status = prove_condensed(p.dim, pairs, p.K, ld, p.f, p.gap, p.law, p.friction, p.slip0, d, given,
                              force, radius_d, radius_F);
     check_arrays(status);
     check_status(status, 14);

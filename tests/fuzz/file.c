@@ -82,26 +82,26 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     REQUIRE((status == 0) == (problem != NULL));
     REQUIRE(status == 0 || status == SIGNORINI_STATUS_FILE);
     if (!problem) return 0;
-    const int64_t n = signorini_problem_size(problem), pairs = signorini_problem_pairs(problem);
-    const double *K = signorini_problem_matrix(problem), *f = signorini_problem_rhs(problem);
-    const int lcp = signorini_problem_kind(problem) == SIGNORINI_PROBLEM_LCP;
-    const char *remark = signorini_problem_remark(problem);
+    const int64_t n = problem_data(problem).size, pairs = problem_data(problem).pairs;
+    const double *K = problem_data(problem).matrix, *f = problem_data(problem).rhs;
+    const int lcp = problem_data(problem).kind == SIGNORINI_PROBLEM_LCP;
+    const char *remark = problem_data(problem).remark;
     if (lcp)
         status = signorini_lcp_write(path_again, n, K, n > 1 ? n : 1, f,
-                                     signorini_problem_cover(problem), remark);
+                                     problem_data(problem).cover, remark);
     else
-        status = signorini_problem_write(path_again, signorini_problem_dim(problem), pairs, K,
-                                         n > 1 ? n : 1, f, signorini_problem_gap(problem),
-                                         signorini_problem_law(problem),
-                                         signorini_problem_friction(problem),
-                                         signorini_problem_slip0(problem), remark);
+        status = signorini_problem_write(path_again, problem_data(problem).dim, pairs, K,
+                                         n > 1 ? n : 1, f, problem_data(problem).gap,
+                                         problem_data(problem).law,
+                                         problem_data(problem).friction,
+                                         problem_data(problem).slip0, remark);
     check_status(status, 11);
     /* What a file may hold that a problem may not is refused here. */
     if (status == 0) {
         REQUIRE(signorini_problem_read(path_again, &again) == 0);
-        REQUIRE(signorini_problem_size(again) == n);
-        REQUIRE(n == 0 || memcmp(signorini_problem_matrix(again), K, (size_t)(n * n) * sizeof *K) == 0);
-        REQUIRE(n == 0 || memcmp(signorini_problem_rhs(again), f, (size_t)n * sizeof *f) == 0);
+        REQUIRE(problem_data(again).size == n);
+        REQUIRE(n == 0 || memcmp(problem_data(again).matrix, K, (size_t)(n * n) * sizeof *K) == 0);
+        REQUIRE(n == 0 || memcmp(problem_data(again).rhs, f, (size_t)n * sizeof *f) == 0);
         signorini_problem_free(again);
     }
     signorini_problem_free(problem);

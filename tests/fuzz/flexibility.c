@@ -1,4 +1,4 @@
-/* signorini_flexibility_solve, and with some of the inputs signorini_flexibility_solve_sparse. */
+/* A load case of a model in flexibility form, dense or with some of the inputs sparse. */
 
 #include "fuzz.h"
 
@@ -61,12 +61,12 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     const signorini_sparse *W = is_sparse ? a_sparse(&p) : NULL;
     arm();
     const int32_t status =
-        is_sparse ? signorini_flexibility_solve_sparse(p.dim, pairs, W, p.f, gap, p.law, p.friction,
+        is_sparse ? solve_flexibility_sparse(p.dim, pairs, W, p.f, gap, p.law, p.friction,
                                                        p.slip0, settings, d, F, state, report, extra)
-                  : signorini_flexibility_solve(p.dim, pairs, p.K, ld, p.f, gap, p.law, p.friction,
+                  : solve_flexibility(p.dim, pairs, p.K, ld, p.f, gap, p.law, p.friction,
                                                 p.slip0, settings, d, F, state, report, extra);
     check_arrays(status);
-    check_status(status, 15 - is_sparse);
+    check_status(status, 15);
     if (status < 0 || pairs != p.pairs || (!is_sparse && ld != p.ld)) return 0;
     p.gap = gap;
     if (status == SIGNORINI_STATUS_SOLVED)

@@ -1,4 +1,4 @@
-/* SGSOLV, SGCERT, SGPROV and SGLCPS, of both widths of integers. */
+/* SGSOLV and SGLCPS, of both widths of integers. */
 
 #include "fortran.h"
 
@@ -14,8 +14,7 @@ static void contact(void)
     const integer *maxit = number_of(sane() || !rarely(8) ? 200 : between(-3, 3));
     const double *tol = real_of(sane() || !rarely(8) ? wanted : number());
     double *d = output((size_t)p.n, sizeof *d), *r = output((size_t)p.n, sizeof *r);
-    double *eta = outputs(1), *radd = output((size_t)p.n, sizeof *radd);
-    double *radr = output((size_t)p.n, sizeof *radr);
+    double *eta = outputs(1);
     integer *state = integers(p.pairs), *iter = integers(1), info = 77;
     const int right = *ndim == p.dim && *npair == p.pairs && *ldk == p.ld && *tol == wanted;
     arm();
@@ -27,22 +26,6 @@ static void contact(void)
     if (info != 0 || !right) return;
     judge_solution(&p, tolerance, d, r, narrow(state, p.pairs), NULL);
     REQUIRE(*eta >= 0 && *eta <= tolerance);
-    as_input(d);
-    as_input(state);
-    arm();
-    info = 77;
-    ENTRY(sgprov)(ndim, npair, p.K, ldk, p.f, p.gap, law, p.friction, p.slip0, d, state, r, radd,
-                  radr, &info);
-    check_arrays((int32_t)info);
-    REQUIRE(info == 0 || info == SIGNORINI_STATUS_NOT_PROVED);
-    double *measured = output((size_t)p.n, sizeof *measured);
-    integer *states_of_d = integers(p.pairs);
-    arm();
-    info = 77;
-    ENTRY(sgcert)(ndim, npair, p.K, ldk, p.f, p.gap, law, p.friction, p.slip0, tol, d, measured,
-                  states_of_d, eta, &info);
-    check_arrays((int32_t)info);
-    REQUIRE(info == 0 || info == SIGNORINI_STATUS_NOT_A_SOLUTION);
 }
 
 static void complementarity(void)

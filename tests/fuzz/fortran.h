@@ -19,26 +19,15 @@ typedef const double *reals;
 void ENTRY(sgsolv)(in ndim, in npair, reals k, in ldk, reals f, reals gap, in law, reals fric,
                    reals slip0, in method, reals tol, in maxit, double *d, double *r,
                    integer *state, double *eta, integer *iter, integer *info);
-void ENTRY(sgcert)(in ndim, in npair, reals k, in ldk, reals f, reals gap, in law, reals fric,
-                   reals slip0, reals tol, reals d, double *r, integer *state, double *eta,
-                   integer *info);
-void ENTRY(sgprov)(in ndim, in npair, reals k, in ldk, reals f, reals gap, in law, reals fric,
-                   reals slip0, reals d, in state, double *r, double *radd, double *radr,
-                   integer *info);
 void ENTRY(sglcps)(in n, reals m, in ldm, reals q, in method, reals tol, in maxit, double *w,
                    double *z, double *eta, integer *iter, integer *info);
-void ENTRY(sgmodl)(in ndim, in npair, reals k, in ldk, int64_t *handle, integer *info);
-void ENTRY(sgtwob)(in ndim, in npair, reals ka, in lda, reals kb, in ldb, int64_t *handle,
-                   integer *info);
 void ENTRY(sgspar)(in n, in nnz, in colptr, in rowind, reals values, in tri, in nfix, in fixed,
                    in ndim, in npair, in slave, in nmast, in mstart, in master, reals weight,
                    reals normal, in ntan, reals tangnt, int64_t *handle, integer *info);
-void ENTRY(sgfram)(const int64_t *handle, double *frames, integer *info);
 void ENTRY(sgcase)(const int64_t *handle, reals f, reals presc, reals gap, in law, reals fric,
                    reals slip0, in method, reals tol, in maxit, double *d, double *r,
                    integer *state, double *eta, integer *iter, integer *info);
 void ENTRY(sgrecv)(const int64_t *handle, reals f, reals presc, reals d, double *u, integer *info);
-void ENTRY(sgnodf)(const int64_t *handle, reals r, double *p, integer *info);
 void ENTRY(sgfree)(int64_t *handle, integer *info);
 void ENTRY(sgmesg)(char *text, in ltext);
 

@@ -1,4 +1,4 @@
-/* Models of Fortran 77: SGMODL, SGTWOB or SGSPAR, then SGFRAM, SGCASE, SGRECV, SGNODF and SGFREE. */
+/* Models of Fortran 77: SGSPAR, then SGCASE, SGRECV and SGFREE. */
 
 #include "fortran.h"
 
@@ -53,35 +53,13 @@ static integer sparse(int32_t dim, int64_t nodes, int64_t pairs, int64_t *handle
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     begin(data, size);
-    int64_t handle = 99, host;
-    const int kind = (int)between(0, 2);
-    integer info = 77;
+    int64_t handle = 99;
     problem p = {.dim = (int32_t)between(2, 3), .pairs = between(1, 2)};
     p.law = (int32_t)between(0, p.dim == 3 ? 5 : 3);
     p.n = p.dim * p.pairs;
     p.ld = p.n;
-    if (kind == 2) {
-        const int64_t nodes = between(p.pairs, 5);
-        host = p.dim * nodes;
-        info = sparse(p.dim, nodes, p.pairs, &handle);
-    } else {
-        int definite = 1;
-        p.K = matrix(p.n, p.ld, &p.definite);
-        const double *second = kind ? matrix(p.n, p.ld, &definite) : NULL;
-        const integer *ndim = number_of(p.dim), *ld = number_of(size_or_wrong(p.ld));
-        const integer *npair = number_of(size_or_wrong(p.pairs));
-        host = (kind + 1) * p.n;
-        arm();
-        if (kind) ENTRY(sgtwob)(ndim, npair, p.K, ld, second, ld, &handle, &info);
-        else ENTRY(sgmodl)(ndim, npair, p.K, ld, &handle, &info);
-        check_arrays((int32_t)info);
-        if (p.definite && definite && sane()) REQUIRE(info == 0);
-        /* Of 2^32 pairs narrow integers keep none: another model. */
-        if (info == 0 && *npair != p.pairs) {
-            ENTRY(sgfree)(&handle, &info);
-            return 0;
-        }
-    }
+    const int64_t nodes = between(p.pairs, 5), host = p.dim * nodes;
+    integer info = sparse(p.dim, nodes, p.pairs, &handle);
     check_sentence(info);
     REQUIRE(info <= 0 && (info == 0) == (handle != 0));
     if (info != 0) return 0;
@@ -95,12 +73,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     const integer *maxit = number_of(200);
     const double *tol = real_of(0);
     double *d = outputs(p.n), *r = outputs(p.n), *eta = outputs(1), *u = outputs(host);
-    double *nodal = outputs(host), *frames = outputs(p.dim * p.n);
     integer *state = integers(p.pairs), *iter = integers(1);
     arm();
-    info = 77;
-    ENTRY(sgfram)(&handle, frames, &info);
-    REQUIRE(info == (kind == 2 ? 0 : -1));
     info = 77;
     ENTRY(sgcase)(&handle, f, presc, gap, law, friction, slip0, method, tol, maxit, d, r, state, eta,
                   iter, &info);
@@ -112,8 +86,6 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         judge_law(&p, r, narrow(state, p.pairs));
         ENTRY(sgrecv)(&handle, f, presc, d, u, &info);
         check_recovered((int32_t)info, u, host);
-        ENTRY(sgnodf)(&handle, r, nodal, &info);
-        check_recovered((int32_t)info, nodal, host);
     }
     ENTRY(sgfree)(&handle, &info);
     REQUIRE(info == 0 && handle == 0);

@@ -9,7 +9,7 @@
 #ifndef FUZZ_H
 #define FUZZ_H
 
-#include "signorini.h"
+#include "../c/everything.h"
 
 #include <math.h>
 #include <stddef.h>

@@ -1,4 +1,4 @@
-/* signorini_lcp_solve and signorini_lcp_lemke. */
+/* signorini_lcp_solve, with some of the inputs by Lemke's method. */
 
 #include "fuzz.h"
 
@@ -13,11 +13,11 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     double *w = outputs(n), *z = outputs(n), *y = or_null(outputs(n), 8);
     signorini_report *report = or_null(a_report(), 8);
     const int64_t given = size_or_wrong(n), leading = size_or_wrong(ld);
-    const int lemke = rarely(2);
+    const int by_lemke = rarely(2);
     arm();
     const int32_t status =
-        lemke ? signorini_lcp_lemke(given, M, leading, q, cover, settings, w, z, y, report)
-              : signorini_lcp_solve(given, M, leading, q, settings, w, z, y, report);
+        by_lemke ? lemke(given, M, leading, q, cover, settings, w, z, y, report)
+                 : signorini_lcp_solve(given, M, leading, q, cover, settings, w, z, y, report);
     check_arrays(status);
     check_status(status, 10);
     if (status < 0 || status == SIGNORINI_STATUS_MEMORY_LIMIT || given != n || leading != ld) return 0;

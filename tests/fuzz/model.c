@@ -23,12 +23,12 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     REQUIRE((status == 0) == (model != NULL));
     if (p.definite && definite && sane()) REQUIRE(status == 0);
     if (!model) return 0;
-    REQUIRE(signorini_model_dim(model) == p.dim && signorini_model_pairs(model) == p.pairs);
-    REQUIRE(signorini_model_host_size(model) == host);
+    REQUIRE(model_data(model).dim == p.dim && model_data(model).pairs == p.pairs);
+    REQUIRE(model_data(model).host_size == host);
 
     double *K = outputs(p.n * p.n), *load = outputs(p.n);
     arm();
-    REQUIRE(signorini_model_stiffness(model, K) == 0);
+    REQUIRE(copy_stiffness(model, K) == 0);
     status = signorini_model_condensed_load(model, f, NULL, load);
     check_arrays(0);
     check_status(status, 4);
@@ -56,7 +56,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         double *u = outputs(host), *nodal = outputs(host);
         as_input(d);
         as_input(F);
-        check_recovered(signorini_model_recover(model, f, NULL, d, u), u, host);
+        check_recovered(signorini_model_recover(model, 1, f, NULL, d, u), u, host);
         check_recovered(signorini_model_nodal_forces(model, F, nodal), nodal, host);
         double *force = outputs(p.n);
         status = signorini_model_certify(model, f, NULL, gap, p.law, friction, slip0, 0.1, d, force,

@@ -1,4 +1,4 @@
-/* signorini_solve, then signorini_certify, signorini_prove and a warm start on what it found. */
+/* signorini_solve, then a warm start, and signorini_model_certify and signorini_model_prove on what it found. */
 
 #include "fuzz.h"
 
@@ -54,14 +54,16 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     double *force = outputs(p.n), *radius_d = outputs(p.n), *radius_F = outputs(p.n);
     signorini_report *measured = a_report();
     arm();
-    const int32_t certified = signorini_certify(p.dim, p.pairs, p.K, p.ld, p.f, p.gap, p.law,
+    const int32_t certified = certify_condensed(p.dim, p.pairs, p.K, p.ld, p.f, p.gap, p.law,
                                                 p.friction, p.slip0, 0.1, d, force, NULL, measured);
     check_arrays(certified);
     check_status(certified, 14);
+    /* A model refuses a matrix that is not positive semi-definite, which signorini_solve does not find. */
+    if (certified == -3) return 0;
     REQUIRE(certified == 0 || certified == SIGNORINI_STATUS_NOT_A_SOLUTION);
     if (sane()) judge_law(&p, force, NULL);
     arm();
-    const int32_t proved = signorini_prove(p.dim, p.pairs, p.K, p.ld, p.f, p.gap, p.law, p.friction,
+    const int32_t proved = prove_condensed(p.dim, p.pairs, p.K, p.ld, p.f, p.gap, p.law, p.friction,
                                            p.slip0, d, state, force, radius_d, radius_F);
     check_arrays(proved);
     check_status(proved, 14);

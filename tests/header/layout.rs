@@ -1,6 +1,6 @@
-//! The header from `include/layout.txt` and the items that it names.
+//! The headers from `include/layout.txt` and the items that it names.
 //!
-//! Lines of the layout that begin with `@` are replaced by the items that they name; all others are
+//! `@file` begins a header. Lines of the layout that begin with `@` are replaced by the items that they name; all others are
 //! copied. Lines with `@` that follow each other form one block; its constants form a table. `@forward` declares structures whose definitions
 //! follow later.
 
@@ -12,16 +12,21 @@ use super::items::{Item, Kind};
 /// Longest line of the header.
 const WIDTH: usize = 100;
 
-/// Puts the items where the layout wants them.
+/// Puts the items where the layout wants them. Returns the names and texts of the headers.
 ///
 /// # Panics
 /// If the layout misses an item, names one twice, or names one that does not exist.
-pub fn arrange(layout: &str, items: Vec<Item>) -> String {
+pub fn arrange(layout: &str, items: Vec<Item>) -> Vec<(String, String)> {
     let mut left: BTreeMap<String, Item> =
         items.into_iter().map(|item| (item.name.clone(), item)).collect();
-    let mut header = String::new();
+    let mut headers = Vec::new();
     let mut lines = layout.lines().peekable();
     while let Some(line) = lines.next() {
+        if let Some(name) = line.strip_prefix("@file ") {
+            headers.push((name.to_owned(), String::new()));
+            continue;
+        }
+        let (_, header) = headers.last_mut().expect("the layout begins with @file");
         if let Some(names) = line.strip_prefix("@forward ") {
             for name in names.split_whitespace() {
                 writeln!(header, "typedef struct {name} {name};").unwrap();
@@ -43,7 +48,7 @@ pub fn arrange(layout: &str, items: Vec<Item>) -> String {
     }
     let left: Vec<_> = left.keys().collect();
     assert!(left.is_empty(), "include/layout.txt does not name {left:?}");
-    header
+    headers
 }
 
 /// The items of a line of the layout.

@@ -14,7 +14,7 @@ import common  # noqa: F401, where the package is found
 
 import signorini
 
-# The same examples in every run.
+# Every run has the same examples.
 EXAMPLES = settings(max_examples=400, deadline=None, derandomize=True)
 SIXTEENTHS = some.integers(-64, 64).map(lambda n: n / 16)  # exact in single precision too
 

@@ -1,4 +1,4 @@
-"""What the tests of the Python package share: the package itself, and small problems."""
+"""Parts that the tests of the Python package share: the package itself, and small problems."""
 
 import os
 import sys

@@ -19,7 +19,7 @@ MU = 0.3
 
 
 class Matrix:
-    """What the function asks of a matrix of scipy: columns, and products."""
+    """A matrix with all that the function asks of one of scipy: columns, and products."""
 
     def __init__(self, compressed):
         self.data, self.indices, self.indptr = compressed
@@ -63,7 +63,7 @@ class Sliding(unittest.TestCase):
         # All pairs slip along x. Normals turn with the faces of now, by the strains: 1e-2 mm in 35 mm.
         np.testing.assert_allclose(-forces[1:, 0] / pressed, MU, rtol=1e-3)
         np.testing.assert_allclose(forces[:, 1], 0, atol=1e-8 * pressed.mean())
-        # What the chapter says; the force of the first step has no friction in it.
+        # The chapter says so; the force of the first step has no friction in it.
         np.testing.assert_allclose(pressed, pressed.mean(), rtol=0.015)
 
     def test_friction_remembers_without_a_reference_slip(self):

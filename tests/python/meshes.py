@@ -91,7 +91,7 @@ class Pairs(unittest.TestCase):
         self.by_faces = signorini.pair_surfaces(at, self.blocks.slave, self.blocks.master)
 
     def same(self, contact, other=None):
-        """The same pairs, whatever the numbers of their nodes."""
+        """Both have equal pairs, whatever the numbers of their nodes."""
         other = other or self.by_faces
         self.assertEqual(contact.pairs, other.pairs)
         for name in ("points", "normals", "gaps", "areas"):

@@ -21,7 +21,7 @@ SQUARE = np.array([[x, y] for y in (0, 1, 1, 2) for x in (0, 1)], float)
 
 
 class Scipy:
-    """What a scipy sparse matrix is known by."""
+    """A scipy sparse matrix is known by this."""
 
     shape = (4, 4)
     tocsc = None

@@ -26,7 +26,7 @@ def with_held(changes):
 
 
 class Operators(unittest.TestCase):
-    """The same pairs as by the matrix. Both residuals are below 1e-12 of forces of size 1, and K is well
+    """A model of functions has the solution of the matrix itself. Both residuals are below 1e-12 of forces of size 1, and K is well
     conditioned: displacements and forces agree to 1e-10."""
 
     def setUp(self):

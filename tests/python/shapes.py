@@ -147,7 +147,7 @@ class Refused(unittest.TestCase):
 
     def test_sparse_and_dense(self):
         class Sparse:
-            """What a scipy sparse matrix is known by."""
+            """A scipy sparse matrix is known by this."""
 
             shape = (4, 4)
             tocsc = None
@@ -241,7 +241,7 @@ class Refused(unittest.TestCase):
 
 
 class Taken(unittest.TestCase):
-    """What the sentences ask for is taken."""
+    """Arguments that the sentences ask for are taken."""
 
     def test_both_shapes_of_a_vector(self):
         expected = signorini.solve(K, LOAD, 0.0, 0.3, slip0=[0.1, 0.2])

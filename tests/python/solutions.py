@@ -40,10 +40,15 @@ class Proof(unittest.TestCase):
                                           state=[State.SLIP]))
         with self.assertRaisesRegex(ValueError, "state has the shape"):
             signorini.prove(self.stiffness, self.load, 0.0, 0.5, d=[0, 0], state=[1, 2])
+        model = signorini.Model.condensed(self.stiffness)
+        again = model.prove(self.load, 0.0, 0.5, d=[0, 1e-9])
+        for one, other in zip(again, found):
+            np.testing.assert_array_equal(one, other)
+        self.assertIsNone(model.prove(self.load, 0.0, 0.5, d=[0, 0], state=[State.SLIP]))
 
 
 class Flexibility(unittest.TestCase):
-    """A node on springs of stiffness 2, pressed by (1, -1) on floor and wall; tests/flexibility.rs."""
+    """A node on springs of stiffness 2, pressed by (1, -1) on floor and wall; tests/flexibility/closed_forms.rs."""
 
     W = np.array([[1, 0, 0, -1], [0, 1, 1, 0], [0, 1, 1, 0], [-1, 0, 0, 1]]) / 2
     q = np.array([1, 1, 1, -1]) / 2
@@ -76,9 +81,30 @@ class Flexibility(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "q"):
             signorini.solve_flexibility(self.W, self.q[:3])
 
+    def test_model(self):
+        model = signorini.Model.flexibility(self.W)
+        self.assertEqual((model.kind, model.pairs, model.host_size), (signorini.ModelKind.FLEXIBILITY, 2, 4))
+        self.assertGreater(model.memory, 0)
+        results = model.solve([self.q, 2 * self.q], 0.0, 0.25)
+        for factor, result in enumerate(results, 1):
+            self.assertEqual(result.status, Status.SOLVED)
+            np.testing.assert_allclose(abs(result.F), factor * np.array([[0.8, 0.2], [0.8, 0.2]]), atol=1e-8)
+        found = model.certify(self.q, 0.0, 0.25, d=results[0].d, F=results[0].F)
+        self.assertEqual(found.status, Status.SOLVED)
+        np.testing.assert_array_equal(found.F, results[0].F)
+        wrong = model.certify(self.q, 0.0, 0.25, d=results[0].d, F=2 * results[0].F)
+        self.assertEqual(wrong.status, Status.NOT_A_SOLUTION)
+        # Forces that d does not tell are asked for; a missing matrix is named.
+        with self.assertRaisesRegex(TypeError, "F is None: give the forces too"):
+            model.certify(self.q, 0.0, 0.25, d=results[0].d)
+        with self.assertRaisesRegex(signorini.SignoriniError, "the model has a flexibility"):
+            model.stiffness  # pylint: disable=pointless-statement
+        with self.assertRaisesRegex(ValueError, "W has the shape"):
+            signorini.Model.flexibility(self.W, dim=3)
+
 
 class Klarbring(unittest.TestCase):
-    """One pair with three solutions in closed form; tests/klarbring.rs has the source."""
+    """One pair with three solutions in closed form; tests/solve/klarbring.rs has the source."""
 
     stiffness = np.array([[2.0, 1.0], [1.0, 1.0]])
 
@@ -242,6 +268,11 @@ class Rows(unittest.TestCase):
         np.testing.assert_allclose(np.abs(result.F), [[0.8, 0.2], [0.8, 0.2]], atol=1e-8)
         with self.assertRaisesRegex(signorini.SignoriniError, "follow from those of other pairs"):
             model.stiffness  # pylint: disable=pointless-statement
+        case = [1.0, -1.0, 0.0, 0.0], 0.0, 0.25
+        self.assertEqual(model.certify(*case, d=result.d, F=result.F).status, Status.SOLVED)
+        self.assertEqual(model.certify(*case, d=result.d, F=0 * result.F).status, Status.NOT_A_SOLUTION)
+        with self.assertRaisesRegex(TypeError, "F is None"):
+            model.certify(*case, d=result.d)
 
     def test_refusals(self):
         sparse, row = signorini.Model.sparse, ([[0, 1], [2, 3]], [1.0, -1.0])

@@ -104,7 +104,7 @@ static const char *solve(const struct matrix_files *matrix, const double *load,
     signorini_settings_default(&settings, sizeof settings);
     settings.tolerance = 1e-12;
 
-    status = signorini_model_new_sparse(&view, fixed, held, &pairs, &model);
+    status = signorini_model_new_sparse(&view, fixed, held, &pairs, NULL, &model);
     if (status == SIGNORINI_STATUS_SOLVED)
         status = signorini_model_solve(model, 1, load, NULL, gap, SIGNORINI_LAW_COULOMB, mu, NULL,
                                        &settings, solution->d, solution->F, solution->state, NULL,

@@ -33,7 +33,7 @@ program mumps_schur_mpi
     id%job = -1
     call dmumps(id)
     id%icntl(1:4) = 0
-    id%icntl(14) = 200 ! Of a small matrix on several processes MUMPS estimates too little memory.
+    id%icntl(14) = 200 ! MUMPS estimates too little memory for a small matrix on several processes.
     call give_matrix
     call condense
     if (rank == 0) call solve_contact

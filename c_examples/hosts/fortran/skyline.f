@@ -1,13 +1,13 @@
 C     The bar on the plane by a program with a skyline solver of its own.
 C
-C     What your program has: a mesh, equation numbers, assembly under a
+C     Your program has: a mesh, equation numbers, assembly under a
 C     skyline, the factors L D L' of it. What it adds for contact: the
 C     components of the contact side are no equations; their couplings
 C     are columns that its own solver condenses (CONDNS), and SGSOLV
 C     finds the contact forces. It prints d_n, d_t, F_n, F_t of each node
 C     of the contact side, in mm and daN.
 C
-C     The same source serves both widths of integers: for 8 bytes it is
+C     One source serves both widths of integers: for 8 bytes it is
 C     compiled with -fdefault-integer-8 and -DSGSOLV=SGSOLV_64, likewise
 C     for the other names.
 C
@@ -52,11 +52,6 @@ C     the library thinks fit.
          WRITE (*, '(A, I3, I2, 1P, 4E20.12)') 'node', I, STATE(I),
      &      D(2*I-1), D(2*I), R(2*I-1), R(2*I)
    20 CONTINUE
-
-C     The certificate of what was found, on the same data.
-      CALL SGCERT(2, NPAIR, KC, NC, FC, GAP, SGCOUL, MU, SLIP0,
-     &            1D-13, D, R, STATE, ETA, INFO)
-      IF (INFO .NE. 0) STOP 2
       END
 
 C     Nodes row by row from the contact side, y = 0; rows grow by 1.7.

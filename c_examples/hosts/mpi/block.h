@@ -20,6 +20,7 @@
 #define BLOCK_H
 
 #include "../../3d/brick_mesh.h"
+#define SIGNORINI_UNSTABLE /* for operators, which may still change */
 #include "signorini.h"
 
 enum {

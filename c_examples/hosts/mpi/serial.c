@@ -52,7 +52,7 @@ static signorini_model *serial_model(const struct part *whole)
                                 .values = mesh->values};
     const signorini_pairs pairs = {.struct_size = sizeof pairs, .dim = 3, .count = PAIRS,
                                    .slaves = slaves, .normals = normals, .tangents = tangents};
-    insist("serial model", signorini_model_new_sparse(&K, HELD, held, &pairs, &model));
+    insist("serial model", signorini_model_new_sparse(&K, HELD, held, &pairs, NULL, &model));
     return model;
 }
 
@@ -68,7 +68,7 @@ static void solve_serially(struct found *found, double u[TOTAL])
     insist("serial solution",
            signorini_model_solve(model, 1, whole.load, NULL, gap, SIGNORINI_LAW_COULOMB, mu, NULL,
                                  &settings, found->d, found->F, found->state, NULL, NULL, NULL));
-    insist("serial displacements", signorini_model_recover(model, whole.load, NULL, found->d, u));
+    insist("serial displacements", signorini_model_recover(model, 1, whole.load, NULL, found->d, u));
     signorini_model_free(model);
     part_free(&whole);
 }

@@ -48,8 +48,8 @@ or that of the system. Needs numpy. Threads may share everything here.
 """
 
 from ._condensed import certify, prove, solve, write
-from ._constants import (ABI_VERSION, Fallback, Law, Method, Normals, Pairing, Proof, Remark, Rims,
-                         Search, State, Status, Triangle, Uniqueness)
+from ._constants import (ABI_VERSION, Fallback, Law, Method, ModelKind, Normals, Pairing, Proof, Remark,
+                         Rims, Search, State, Status, Triangle, Uniqueness)
 from ._files import ContactProblem, LcpProblem, read
 from ._lcp import lcp_lemke, lcp_solve, write_lcp
 from ._flexibility import solve_flexibility
@@ -63,7 +63,7 @@ from ._surfaces import (Cylinder, Fields, Plane, Resultant, RigidFaces, Sphere, 
 
 __all__ = [
     "ABI_VERSION", "ContactProblem", "Cylinder", "Enclosure", "Fallback", "Fields", "Law",
-    "LcpProblem", "LcpResult", "Method", "Model", "Normals", "Pairing", "Plane", "Progress", "Proof",
+    "LcpProblem", "LcpResult", "Method", "Model", "ModelKind", "Normals", "Pairing", "Plane", "Progress", "Proof",
     "Remark", "Result", "Resultant", "RigidFaces", "Rims", "Search", "SignoriniError", "Sphere", "State", "Status",
     "SurfacePairs", "Triangle", "Uniqueness", "certify", "lcp_lemke", "lcp_solve", "load",
     "pair_meshes", "pair_obstacle", "pair_surfaces", "prove", "read", "solve", "solve_flexibility", "write",

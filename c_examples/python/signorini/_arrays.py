@@ -4,12 +4,21 @@ A shape is compared, never guessed: what does not fit is refused in a sentence t
 argument, its shape, and the shape that is asked.
 """
 
+import ctypes
+
 import numpy as np
 
 
 def at(array):
     """Address of an array; None for None."""
     return None if array is None else array.ctypes.data
+
+
+def copied(pointer, shape, kind=ctypes.c_double):
+    """A copy of an array of the library; None for NULL."""
+    if not pointer:
+        return None
+    return np.ctypeslib.as_array(ctypes.cast(pointer, ctypes.POINTER(kind)), shape).copy()
 
 
 def fit(name, values, shapes, asked, *, cases=None, scalar=False, optional=False, elsewhere=None):

@@ -1,13 +1,11 @@
-"""Condensed problems: solve, certify, write."""
-
-import numpy as np
+"""Condensed problems: solve, certify, prove, write."""
 
 from ._arrays import at, components, dimension, pairs_of, per_pair, reals, stiffness
 from ._call import Call
-from ._constants import Status
 from ._law import Friction
 from ._library import check, library
-from ._results import Enclosure, Output, certified
+from ._model import Case, Model
+from ._results import Output
 from ._text import path_bytes, remark_bytes
 
 
@@ -18,17 +16,21 @@ class _Data:
         K, f = stiffness("K", K), reals("f", f)
         self.dim = dim = dimension(dim, f.shape, len(K), gap)
         self.pairs = pairs = pairs_of("K", K, dim)
-        self.K, self.law = K, friction.law
-        self.f = components("f", f, pairs, dim)
-        self.gap = per_pair("gap", gap, pairs, dim)
-        self.friction = friction.numbers(pairs, dim)
-        self.slip0 = components("slip0", slip0, pairs, dim, tangential=True, scalar=True,
-                                optional=True)
+        self.K = K
+        self.case = Case(
+            components("f", f, pairs, dim), None, per_pair("gap", gap, pairs, dim), friction.law,
+            friction.numbers(pairs, dim),
+            components("slip0", slip0, pairs, dim, tangential=True, scalar=True, optional=True),
+        )
 
     def arguments(self):
         """dim, pairs, K, ldk, f, gap, law, friction, slip0 of the C calls."""
-        return [self.dim, self.pairs, at(self.K), max(1, len(self.K)), at(self.f), at(self.gap),
-                self.law, at(self.friction), at(self.slip0)]
+        f, _, *others = self.case.arguments()
+        return [self.dim, self.pairs, at(self.K), max(1, len(self.K)), f, *others]
+
+    def model(self):
+        """A model of the matrix."""
+        return Model.condensed(self.K, dim=self.dim)
 
 
 def solve(K, f, gap, mu=None, *, g=None, law=None, friction=None, slip0=None, dim=None,
@@ -54,7 +56,8 @@ def solve(K, f, gap, mu=None, *, g=None, law=None, friction=None, slip0=None, di
     status, message = check(functions, *call.run(
         functions.solve, *data.arguments(), call.at(), *output.solution(), *output.more()
     ))
-    return output.result(0, status, message, lambda d: _certify(data, d, call.settings.tolerance))
+    return output.result(0, status, message, lambda d: data.model().certify_case(
+        data.case, d, call.settings.tolerance))
 
 
 def certify(K, f, gap, mu=None, *, d, g=None, law=None, friction=None, slip0=None, dim=None,
@@ -65,7 +68,8 @@ def certify(K, f, gap, mu=None, *, d, g=None, law=None, friction=None, slip0=Non
     obey the law nearest to K d - f.
     """
     data = _Data(K, f, gap, Friction(mu, g, law, friction), slip0, dim)
-    return _certify(data, components("d", d, data.pairs, data.dim), tolerance)
+    d = components("d", d, data.pairs, data.dim)
+    return data.model().certify_case(data.case, d, tolerance)
 
 
 def prove(K, f, gap, mu=None, *, d, state=None, g=None, law=None, friction=None, slip0=None,
@@ -76,15 +80,7 @@ def prove(K, f, gap, mu=None, *, d, state=None, g=None, law=None, friction=None,
     not say that there is none.
     """
     data = _Data(K, f, gap, Friction(mu, g, law, friction), slip0, dim)
-    d, functions = components("d", d, data.pairs, data.dim), library()
-    if state is not None:
-        state = np.ascontiguousarray(state, np.int32)
-        if state.shape != (data.pairs,):
-            raise ValueError(f"state has the shape {state.shape}, it must be ({data.pairs},)")
-    F, radius_d, radius_F = (np.zeros_like(d) for _ in range(3))
-    status, _ = check(functions, functions.prove(*data.arguments(), at(d), at(state), at(F),
-                                                 at(radius_d), at(radius_F)))
-    return Enclosure(F, radius_d, radius_F) if status == Status.SOLVED else None
+    return data.model().prove_case(data.case, components("d", d, data.pairs, data.dim), state)
 
 
 def write(path, K, f, gap, mu=None, *, g=None, law=None, friction=None, slip0=None, dim=None,
@@ -97,8 +93,3 @@ def write(path, K, f, gap, mu=None, *, g=None, law=None, friction=None, slip0=No
     functions = library()
     check(functions, functions.problem_write(path_bytes(path), *data.arguments(),
                                              remark_bytes(remark)))
-
-
-def _certify(data, d, tolerance):
-    functions = library()
-    return certified(functions, functions.certify, data.arguments(), tolerance, d.copy())

@@ -2,11 +2,11 @@
 
 from enum import IntEnum, IntFlag
 
-ABI_VERSION = 2  # of the signorini.h that this package is written for
+ABI_VERSION = 3  # of the signorini.h that this package is written for
 
 
 class Status(IntEnum):
-    """What a call returned. Below 0 it is an error; -k: the k-th argument of the C call."""
+    """Status that a call returned. Below 0 it is an error; -k: the k-th argument of the C call."""
 
     SOLVED = 0
     ITERATION_LIMIT = 1
@@ -31,14 +31,20 @@ class State(IntEnum):
 
 
 class Law(IntEnum):
-    """Law of friction."""
+    """Law of friction.  numbers: how many it has for each pair."""
 
-    FRICTIONLESS = 0
-    COULOMB = 1
-    TRESCA = 2
-    COHESIVE = 3
-    ORTHOTROPIC = 4
-    ORTHOTROPIC_COLLINEAR = 5
+    def __new__(cls, value, numbers):
+        member = int.__new__(cls, value)
+        member._value_, member.numbers = value, numbers
+        return member
+
+    # From the table of the library (tests/sources/bindings.rs)
+    FRICTIONLESS = 0, 0
+    COULOMB = 1, 1
+    TRESCA = 2, 1
+    COHESIVE = 3, 3
+    ORTHOTROPIC = 4, 3
+    ORTHOTROPIC_COLLINEAR = 5, 3
 
 
 class Method(IntEnum):
@@ -57,14 +63,14 @@ START_PREVIOUS = 2  # settings.warm_start: each case starts from the solution of
 
 
 class Search(IntEnum):
-    """What to find out about other solutions."""
+    """Search for other solutions."""
 
     OFF = 0
     OTHERS = 1
 
 
 class Uniqueness(IntEnum):
-    """What is known about other solutions."""
+    """Knowledge about other solutions."""
 
     NOT_KNOWN = 0
     UNIQUE = 1
@@ -82,7 +88,7 @@ class Fallback(IntEnum):
 
 
 class Remark(IntFlag):
-    """What is legal and often a mistake.
+    """Remark on data that are legal and often a mistake.
 
     GAPS_NEGATIVE: every finite gap is negative: interference everywhere, or the sign is turned round.
     FRICTION_LARGE: a coefficient of friction is above 10: percent, or another array.
@@ -96,7 +102,7 @@ class Remark(IntFlag):
 
 
 class Proof(IntEnum):
-    """Whether a solution is proved to exist."""
+    """Is a solution proved to exist?"""
 
     NOT_ASKED = 0
     PROVED = 1
@@ -109,6 +115,15 @@ class Triangle(IntEnum):
     LOWER = 0
     UPPER = 1
     FULL = 2
+
+
+class ModelKind(IntEnum):
+    """How a model solves its load cases."""
+
+    STIFFNESS = 0
+    FULL_SPACE = 1
+    OPERATOR = 2
+    FLEXIBILITY = 3
 
 
 class Pairing(IntEnum):
@@ -126,7 +141,7 @@ class Normals(IntEnum):
 
 
 class Rims(IntEnum):
-    """What becomes of slave nodes with little of the master over them."""
+    """Fate of slave nodes with little of the master over them."""
 
     FOLD = 0
     KEEP = 1
@@ -143,7 +158,7 @@ class Obstacle(IntEnum):
 
 
 class Problem(IntEnum):
-    """What a problem file holds."""
+    """Kind of the problem in a file."""
 
     CONTACT = 0
     LCP = 1

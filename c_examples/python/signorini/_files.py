@@ -5,12 +5,12 @@ from collections import namedtuple
 
 import numpy as np
 
+from ._arrays import copied
 from ._condensed import solve
 from ._constants import Law, Problem
-from ._law import TRIPLES
 from ._lcp import lcp_lemke, lcp_solve
 from ._library import check, library
-from ._structures import address
+from ._structures import ProblemData, address, sized
 from ._text import path_bytes
 
 
@@ -51,24 +51,24 @@ def read(path):
         functions.problem_free(handle)
 
 
-def _taken(functions, problem):
-    dim, pairs = functions.problem_dim(problem), functions.problem_pairs(problem)
-    size = functions.problem_size(problem)
+def _taken(functions, handle):
+    problem = sized(ProblemData)
+    check(functions, functions.problem_view(handle, ctypes.byref(problem)))
+    dim, pairs, size = problem.dim, problem.pairs, problem.size
 
     def array(name, *shape):
-        pointer = getattr(functions, "problem_" + name)(problem)
-        if not pointer:
-            return None if np.prod(shape) else np.zeros(shape)
-        return np.ctypeslib.as_array(pointer, shape).copy()
+        found = copied(getattr(problem, name), shape)
+        return np.zeros(shape) if found is None and not np.prod(shape) else found
 
-    matrix, remark = array("matrix", size, size).T, functions.problem_remark(problem).decode()
-    if functions.problem_kind(problem) == Problem.LCP:
+    matrix, remark = array("matrix", size, size).T, problem.remark.decode()
+    if problem.kind == Problem.LCP:
         return LcpProblem(matrix, array("rhs", size), array("cover", size), remark)
-    law = Law(functions.problem_law(problem))
-    numbers = array("friction", pairs, 3) if law in TRIPLES else array("friction", pairs)
+    law = Law(problem.law)
+    triple = law.numbers == 3
+    numbers = array("friction", pairs, 3) if triple else array("friction", pairs)
     return ContactProblem(
         matrix, array("rhs", pairs, dim), array("gap", pairs),
         numbers if law == Law.COULOMB else None, numbers if law == Law.TRESCA else None,
         array("slip0", pairs, dim - 1), dim, remark,
-        law if law in TRIPLES else None, numbers if law in TRIPLES else None,
+        law if triple else None, numbers if triple else None,
     )

@@ -1,15 +1,7 @@
 """Problems in flexibility form: d = W F + q."""
 
-import ctypes
-
-import numpy as np
-
-from ._arrays import at, components, dimension, pairs_of, per_pair, reals, stiffness
-from ._call import Call
-from ._law import Friction
-from ._library import check, library
-from ._results import Output
-from ._sparse import Matrix, is_sparse
+from ._arrays import components, dimension, pairs_of, reals
+from ._model import Model, flexibility
 
 
 def solve_flexibility(W, q, gap=0.0, mu=None, *, g=None, law=None, friction=None, slip0=None,
@@ -26,27 +18,8 @@ def solve_flexibility(W, q, gap=0.0, mu=None, *, g=None, law=None, friction=None
     Where W is singular forces need not be unique. With Status.NO_EQUILIBRIUM motion holds pressing
     forces that move nothing: they prove that the gaps contradict each other.
     """
-    sparse = Matrix(W, triangle, name="W") if is_sparse(W) else None
-    W = stiffness("W", W) if sparse is None else sparse
-    q = reals("q", q)
+    W, q = flexibility(W, triangle), reals("q", q)
     dim = dimension(dim, q.shape, len(W), gap)
-    pairs = pairs_of("W", W, dim)
-    chosen = Friction(mu, g, law, friction)
-    q, gap = components("q", q, pairs, dim), per_pair("gap", gap, pairs, dim)
-    numbers = chosen.numbers(pairs, dim)
-    slip0 = components("slip0", slip0, pairs, dim, tangential=True, scalar=True, optional=True)
-    functions = library()
-    call = Call(functions, settings, start is not None)
-    output = Output(1, pairs, dim)
-    if start is not None:
-        output.F[0] = np.asarray(components("start", start, pairs, dim)).reshape(pairs, dim)
-    if sparse is None:
-        function, matrix = functions.flexibility_solve, (at(W), max(1, len(W)))
-    else:
-        function, matrix = functions.flexibility_solve_sparse, (ctypes.byref(sparse.structure),)
-    status, message = check(functions, *call.run(
-        function, dim, pairs, *matrix, at(q), at(gap), chosen.law, at(numbers), at(slip0),
-        call.at(), *output.solution(), *output.more()
-    ))
-    # No second solution is looked for: there is none to measure.
-    return output.result(0, status, message, None)
+    q = components("q", q, pairs_of("W", W, dim), dim)
+    return Model.flexibility(W, dim=dim).solve(q, gap, mu, g=g, law=law, friction=friction, slip0=slip0,
+                                               start=start, **settings)

@@ -3,8 +3,6 @@
 from ._arrays import per_pair, triples
 from ._constants import Law, chosen
 
-TRIPLES = (Law.COHESIVE, Law.ORTHOTROPIC, Law.ORTHOTROPIC_COLLINEAR)
-
 
 class Friction:
     """The Law, and the name and the numbers that the caller gives for it."""
@@ -32,6 +30,6 @@ class Friction:
 
     def numbers(self, pairs, dim, cases=None):
         """The numbers in the library's layout; None without friction."""
-        if self.law in TRIPLES:
+        if self.law.numbers == 3:
             return triples(self.name, self.values, pairs, dim, cases)
         return per_pair(self.name, self.values, pairs, dim, cases, optional=True)

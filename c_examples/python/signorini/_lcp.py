@@ -6,7 +6,7 @@ import numpy as np
 
 from ._arrays import at, fit, square
 from ._call import Call
-from ._constants import Status
+from ._constants import Method, Status
 from ._library import check, library
 from ._results import LcpResult
 from ._structures import Report, sized
@@ -19,13 +19,13 @@ def lcp_solve(M, q, **settings):
     M: (n, n).  q: n.  method is "auto", "block_pivoting" or "lemke".
     """
     M, q, _ = _data(M, q)
-    return _solve("lcp_solve", M, q, [], settings)
+    return _solve(M, q, None, settings)
 
 
 def lcp_lemke(M, q, cover=None, **settings):
     """Solves the same by Lemke's method. cover: covering vector, n positive numbers; None: ones."""
     M, q, cover = _data(M, q, cover)
-    return _solve("lcp_lemke", M, q, [at(cover)], settings)
+    return _solve(M, q, cover, {**settings, "method": Method.LEMKE})
 
 
 def write_lcp(path, M, q, cover=None, *, remark=None):
@@ -44,13 +44,13 @@ def _data(M, q, cover=None):
     return M, fit("q", q, [shape], asked), cover
 
 
-def _solve(function, M, q, cover, settings):
+def _solve(M, q, cover, settings):
     functions = library()
     call, size = Call(functions, settings), len(M)
     w, z, y, report = np.zeros(size), np.zeros(size), np.zeros(size), sized(Report)
     status, message = check(functions, *call.run(
-        getattr(functions, function), size, at(M), max(1, size), at(q), *cover, call.at(), at(w),
-        at(z), at(y), ctypes.byref(report),
+        functions.lcp_solve, size, at(M), max(1, size), at(q), at(cover), call.at(), at(w), at(z),
+        at(y), ctypes.byref(report),
     ))
     proof = y if status == Status.NO_EQUILIBRIUM else None
     return LcpResult(w, z, status, message, report.plain(), proof)

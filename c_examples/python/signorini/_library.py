@@ -9,9 +9,9 @@ from ._constants import ABI_VERSION, Status, member
 from ._structures import address, i32, i64, real, u32
 
 SONAME_VERSION = "0.2"  # of libsignorini.so.0.2
-numbers, text = ctypes.POINTER(real), ctypes.c_char_p
+text = ctypes.c_char_p
 
-# What friction looks like in every call: law, its parameters, reference slip.
+# Friction in every call: law, its parameters, reference slip.
 _LAW = [i32, address, address]
 # dim, pairs, K, ldk, f, gap and the law.
 _CONDENSED = [i32, i64, address, i64, address, address, *_LAW]
@@ -26,60 +26,35 @@ SIGNATURES = {
     "report_default": (i32, [address, u32]),
     "extra_default": (i32, [address, u32]),
     "solve": (i32, [*_CONDENSED, *[address] * 6]),
-    "flexibility_solve": (i32, [*_CONDENSED, *[address] * 6]),
-    "flexibility_solve_sparse": (i32, [i32, i64, *[address] * 3, *_LAW, *[address] * 6]),
-    "certify": (i32, [*_CONDENSED, real, *[address] * 4]),
-    "prove": (i32, [*_CONDENSED, *[address] * 5]),
-    "lcp_solve": (i32, [i64, address, i64, *[address] * 6]),
-    "lcp_lemke": (i32, [i64, address, i64, *[address] * 7]),
+    "lcp_solve": (i32, [i64, address, i64, *[address] * 7]),
     "model_new_condensed": (i32, [i32, i64, address, i64, address]),
     "model_new_two_body": (i32, [i32, i64, address, i64, address, i64, address]),
-    "model_new_sparse": (i32, [address, i64, *[address] * 3]),
-    "model_new_sparse_within": (i32, [address, i64, *[address] * 4]),
+    "model_new_flexibility": (i32, [i32, i64, address, i64, address]),
+    "model_new_flexibility_sparse": (i32, [i32, i64, address, address]),
+    "model_new_sparse": (i32, [address, i64, *[address] * 4]),
     "model_new_operator": (i32, [address] * 2),
     "model_free": (None, [address]),
-    "model_dim": (i32, [address]),
-    "model_pairs": (i64, [address]),
-    "model_host_size": (i64, [address]),
-    "model_stiffness": (i32, [address] * 2),
-    "model_frames": (i32, [address] * 2),
-    "model_condensed_load": (i32, [address] * 4),
+    "model_view": (i32, [address] * 2),
     "model_solve": (i32, [address, i64, *_CASE, *[address] * 7]),
     "model_certify": (i32, [address, *_CASE, real, *[address] * 4]),
-    "model_recover": (i32, [address] * 5),
-    "model_recover_cases": (i32, [address, i64] + [address] * 4),
+    "model_prove": (i32, [address, *_CASE, *[address] * 5]),
+    "model_condensed_load": (i32, [address] * 4),
+    "model_recover": (i32, [address, i64, *[address] * 4]),
     "model_nodal_forces": (i32, [address] * 3),
     "model_write": (i32, [address, text, *_CASE, text]),
     "surface_settings_default": (i32, [address, u32]),
-    "surface_pair": (i32, [i32, i64, *[address] * 6]),
-    "surface_pair_obstacle": (i32, [i32, i64, *[address] * 6]),
+    "surface_pair": (i32, [i32, i64, *[address] * 5]),
+    "surface_pair_obstacle": (i32, [i32, i64, *[address] * 5]),
     "surface_free": (None, [address]),
-    "surface_count": (i64, [address]),
-    "surface_rows": (address, [address]),
-    "surface_summary": (text, [address]),
-    **{f"surface_{name}": (address, [address]) for name in (
-        "gaps", "areas", "normals", "tangents", "points", "nodes", "unpaired", "folded",
-        "uncovered")},
+    "surface_view": (i32, [address] * 2),
     "surface_fields": (i32, [address] * 7),
     "surface_resultant": (i32, [address] * 6),
-    "surface_write": (i32, [address, text, *[address] * 7]),
-    "mesh_write": (i32, [text, address, address, address, i64, address]),
+    "mesh_write": (i32, [text, address, address, i64, address, i64, address]),
     "problem_write": (i32, [text, *_CONDENSED, text]),
     "lcp_write": (i32, [text, i64, address, i64, address, address, text]),
     "problem_read": (i32, [text, address]),
     "problem_free": (None, [address]),
-    "problem_kind": (i32, [address]),
-    "problem_law": (i32, [address]),
-    "problem_dim": (i32, [address]),
-    "problem_pairs": (i64, [address]),
-    "problem_size": (i64, [address]),
-    "problem_matrix": (numbers, [address]),
-    "problem_rhs": (numbers, [address]),
-    "problem_gap": (numbers, [address]),
-    "problem_friction": (numbers, [address]),
-    "problem_slip0": (numbers, [address]),
-    "problem_cover": (numbers, [address]),
-    "problem_remark": (text, [address]),
+    "problem_view": (i32, [address] * 2),
 }
 _loaded = None
 

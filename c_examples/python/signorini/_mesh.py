@@ -6,7 +6,7 @@ import numpy as np
 
 from ._arrays import at, doubles, fit, indices, integers, reals
 from ._library import check, library
-from ._structures import Mesh, NodalField, sized
+from ._structures import Mesh, NodalField, Zone, sized
 from ._text import name_bytes, path_bytes
 
 # VTK's numbers of the cells that meshio names.
@@ -45,6 +45,13 @@ class Cells:
             cell_types=at(self.types), cell_start=at(self.starts), cell_nodes=at(self.nodes),
         )
 
+    def write(self, path, u=None, zones=(), fields=()):
+        """Writes them to a file, with displacements, zones and fields."""
+        functions = library()
+        zones, fields = (Zone * len(zones))(*zones), (NodalField * len(fields))(*fields)
+        check(functions, functions.mesh_write(path_bytes(path), ctypes.byref(self.structure), at(u),
+                                              len(zones), zones, len(fields), fields))
+
 
 def write_mesh(path, coordinates, cells, fields=None):
     """Writes a mesh with fields at its nodes to a file .vtu, which ParaView opens.
@@ -62,13 +69,9 @@ def write_mesh(path, coordinates, cells, fields=None):
         shape = np.shape(values)
         shapes = [(count,)] if shape == (count,) else [(count * dim,), (count, dim)]
         kept.append((name_bytes(name), fit(f"field {name}", values, shapes, asked)))
-    given = (NodalField * max(1, len(kept)))(*[
-        sized(NodalField, components=1 if values.ndim == 1 else dim, name=name, values=at(values))
-        for name, values in kept
-    ])
-    functions = library()
-    check(functions, functions.mesh_write(path_bytes(path), ctypes.byref(mesh.structure), None,
-                                          None, len(kept), given))
+    given = [sized(NodalField, components=1 if values.ndim == 1 else dim, name=name, values=at(values))
+             for name, values in kept]
+    mesh.write(path, fields=given)
 
 
 def points(coordinates):

@@ -140,7 +140,7 @@ class _Mesh:
 
 
 def _goes_as(one, other):
-    """Whether a line, or a face, goes through the same corners in the same direction."""
+    """Does a line, or a face, go through the same corners in the same direction?"""
     if len(one) == 2:
         return one == other
     place = other.index(one[0])

@@ -7,24 +7,30 @@ from collections import namedtuple
 
 import numpy as np
 
-from ._arrays import at, components, fit, pairs_of, per_pair, reals, stiffness
+from ._arrays import at, components, copied, fit, pairs_of, per_pair, reals, stiffness
 from ._call import Call
-from ._constants import START_PREVIOUS, Status, member
+from ._constants import START_PREVIOUS, ModelKind, Status, member
 from ._law import Friction
 from ._library import SignoriniError, check, library
 from ._meshes import pair_meshes
 from ._operator import HostFunctions
-from ._results import Output, certified
-from ._sparse import ContactPairs, Matrix, side_by_side, supports
-from ._structures import address
+from ._results import Enclosure, Output, certified
+from ._sparse import ContactPairs, Matrix, is_sparse, side_by_side, supports
+from ._structures import ModelData, address, sized
 from ._surfaces import SurfacePairs
 from ._text import path_bytes, remark_bytes
 
 _UNTOUCHED = np.iinfo(np.int32).min
 _LOADS_OF_THE_CASE = object()  # what recover is given where its caller forgot f
+_NO_STIFFNESS = {
+    ModelKind.STIFFNESS: "the rows of pairs ({dependent} of them) follow from those of other pairs or from supports",
+    ModelKind.FULL_SPACE: "the model is solved in full space",
+    ModelKind.OPERATOR: "the model has products of the host",
+    ModelKind.FLEXIBILITY: "the model has a flexibility",
+}
 
 
-class _Case(namedtuple("_Case", "f prescribed gap law friction slip0")):
+class Case(namedtuple("Case", "f prescribed gap law friction slip0")):
     """Loads and data of one case or several, in the library's layout."""
 
     __slots__ = ()
@@ -35,7 +41,7 @@ class _Case(namedtuple("_Case", "f prescribed gap law friction slip0")):
 
     def of(self, case):
         """One of several cases."""
-        return _Case(*[value if name == "law" or value is None else value[case]
+        return Case(*[value if name == "law" or value is None else value[case]
                        for name, value in zip(self._fields, self)])
 
 
@@ -47,16 +53,22 @@ def _given(f):
     return f
 
 
+def flexibility(W, triangle):
+    """W of a problem in flexibility form: an array by columns, or a Matrix."""
+    return Matrix(W, triangle, name="W") if is_sparse(W) else stiffness("W", W)
+
+
 class Model:
     """A structure reduced to its contact pairs, for any number of load cases.
 
-    Made by Model.condensed, Model.two_body, Model.sparse, Model.from_surfaces, Model.from_meshes or
-    Model.operator.
+    Made by Model.condensed, Model.two_body, Model.flexibility, Model.sparse, Model.from_surfaces,
+    Model.from_meshes or Model.operator.
     dim, pairs: D and P.  host_size: H, the entries of a load or displacement vector of the host.
+    kind: a ModelKind.  memory: most bytes that a load case may take beside the model.
     contact: the SurfacePairs of which it was made, or None.
     """
 
-    def __init__(self, make, n_fixed, *arguments, settings=None):
+    def __init__(self, make, *arguments, settings=None):
         self._functions, self.contact = library(), None
         self._host = contextlib.nullcontext()
         handle = address()
@@ -68,13 +80,14 @@ class Model:
             status, message = call.run(function, *arguments, call.at(), ctypes.byref(handle))
             if status != 0:
                 raise SignoriniError(message, member(Status, status))
-        self._handle, self._n_fixed = handle.value, n_fixed
+        self._handle, self._data = handle.value, sized(ModelData)
         weakref.finalize(self, self._functions.model_free, self._handle)
-        self.dim = self._functions.model_dim(self._handle)
-        self.pairs = self._functions.model_pairs(self._handle)
-        self.host_size = self._functions.model_host_size(self._handle)
-        # The host's vectors of one condensed body, and of an operator, are those of the pairs.
-        is_pairwise = make in ("model_new_condensed", "model_new_operator")
+        self._do("model_view", ctypes.byref(self._data))
+        self.dim, self.pairs = self._data.dim, self._data.pairs
+        self.host_size, self._n_fixed = self._data.host_size, self._data.fixed
+        self.kind, self.memory = member(ModelKind, self._data.kind), self._data.memory
+        # The host's vectors are those of the pairs, but for two bodies and of a whole matrix.
+        is_pairwise = make not in ("model_new_two_body", "model_new_sparse")
         pairwise = [(self.pairs, self.dim)] if is_pairwise else []
         self._host_shapes = [*pairwise, (self.host_size,)]
         # A load of the other dimension, to say so: its rows are as long as that dimension.
@@ -88,7 +101,7 @@ class Model:
         """One body on an obstacle. K: condensed stiffness, (N, N). H = N."""
         K = stiffness("K", K)
         pairs = pairs_of("K", K, dim)
-        return cls("model_new_condensed", 0, dim, pairs, at(K), max(1, len(K)))
+        return cls("model_new_condensed", dim, pairs, at(K), max(1, len(K)))
 
     @classmethod
     def two_body(cls, K_A, K_B, *, dim=2):
@@ -101,7 +114,20 @@ class Model:
         if K_B.shape != K_A.shape:
             raise ValueError(f"K_B has the shape {K_B.shape}: give the shape of K_A, {K_A.shape}")
         size = max(1, len(K_A))
-        return cls("model_new_two_body", 0, dim, pairs, at(K_A), size, at(K_B), size)
+        return cls("model_new_two_body", dim, pairs, at(K_A), size, at(K_B), size)
+
+    @classmethod
+    def flexibility(cls, W, *, dim=2, triangle="full"):
+        """A flexibility: d = W F + q. W, triangle: as for solve_flexibility. H = N.
+
+        The f of a load case are its free displacements q, and start is a force to start from. d does
+        not determine F: certify is given both.
+        """
+        W = W if isinstance(W, Matrix) else flexibility(W, triangle)
+        pairs = pairs_of("W", W, dim)
+        if isinstance(W, Matrix):
+            return cls("model_new_flexibility_sparse", dim, pairs, ctypes.byref(W.structure))
+        return cls("model_new_flexibility", dim, pairs, at(W), max(1, len(W)))
 
     @classmethod
     def operator(cls, dim, pairs, stiffness, inverse=None, *, held=None, units=None):
@@ -115,7 +141,7 @@ class Model:
         """
         host = HostFunctions(dim, pairs, stiffness, inverse, held, units)
         with host:
-            model = cls("model_new_operator", 0, ctypes.byref(host.structure))
+            model = cls("model_new_operator", ctypes.byref(host.structure))
         model._host = host
         return model
 
@@ -144,22 +170,22 @@ class Model:
         """
         matrix, fixed = Matrix(K, triangle, order), supports(fixed)
         pairs = ContactPairs(slaves, normals, masters, weights, tangents, rows)
-        return cls("model_new_sparse_within", len(fixed), ctypes.byref(matrix.structure),
-                   len(fixed), at(fixed), ctypes.byref(pairs.structure), settings=settings)
+        return cls("model_new_sparse", ctypes.byref(matrix.structure), len(fixed), at(fixed),
+                   ctypes.byref(pairs.structure), settings=settings)
 
     @classmethod
-    def from_surfaces(cls, K, contact, *, fixed=(), triangle="full"):
+    def from_surfaces(cls, K, contact, *, fixed=(), triangle="full", order=None, **settings):
         """The whole stiffness matrix of the host with the pairs of pair_surfaces or pair_obstacle.
 
-        K, fixed, triangle: as for sparse.  contact: SurfacePairs. Several contact zones: use sparse
+        K, fixed, triangle, order, settings: as for sparse.  contact: SurfacePairs. Several contact zones: use sparse
         with the rows of all of them. The gap of a load case is contact.gaps, if it is not given.
         """
         if not isinstance(contact, SurfacePairs):
             raise TypeError(f"contact is a {type(contact).__name__}: give what pair_surfaces or "
                             f"pair_obstacle returns")
-        matrix, fixed = Matrix(K, triangle), supports(fixed)
-        model = cls("model_new_sparse", len(fixed), ctypes.byref(matrix.structure), len(fixed),
-                    at(fixed), contact.structure)
+        matrix, fixed = Matrix(K, triangle, order), supports(fixed)
+        model = cls("model_new_sparse", ctypes.byref(matrix.structure), len(fixed), at(fixed),
+                    contact.structure, settings=settings)
         model.contact = contact
         return model
 
@@ -181,9 +207,12 @@ class Model:
     @property
     def stiffness(self):
         """K_rel, the stiffness in relative displacements, (N, N)."""
-        K = np.zeros((self.dim * self.pairs,) * 2, order="F")
-        self._do("model_stiffness", at(K))
-        return K
+        size = self.dim * self.pairs
+        K = copied(self._data.K, (size, size))
+        if K is None and size:
+            why = _NO_STIFFNESS[self.kind].format(dependent=self._data.dependent)
+            raise SignoriniError(f"there is no stiffness: {why}", -1)
+        return np.zeros((0, 0)) if K is None else K.T
 
     @property
     def frames(self):
@@ -192,9 +221,10 @@ class Model:
         numpy.einsum("pi,pij->pj", result.F, model.frames) are the forces in these axes. A model
         that the host condensed in frames of its own raises SignoriniError.
         """
-        frames = np.zeros((self.pairs, self.dim, self.dim))
-        self._do("model_frames", at(frames))
-        return frames
+        frames = copied(self._data.frames, (self.pairs, self.dim, self.dim))
+        if frames is None and self.pairs:
+            raise SignoriniError("the frames are not known: the host condensed in its own", -1)
+        return np.zeros((0, self.dim, self.dim)) if frames is None else frames
 
     def condensed_load(self, f, prescribed=None):
         """Loads of a case on the relative displacements, (P, D). f, prescribed: as for solve."""
@@ -222,6 +252,8 @@ class Model:
         call = Call(self._functions, settings, warm or start is not None)
         count = 1 if cases is None else cases
         output = Output(count, self.pairs, self.dim, start)
+        if start is not None and self.kind == ModelKind.FLEXIBILITY:
+            output.F[:] = output.d
         status = np.full(count, _UNTOUCHED, np.int32)
         with self._host:
             first, message = call.run(
@@ -237,15 +269,28 @@ class Model:
                 words, told = message.removeprefix(f"case {c}: "), True
             case = data if cases is None else data.of(c)
             results.append(output.result(
-                c, code, words, lambda d, case=case: self._certify(case, d, tolerance)
+                c, code, words, lambda d, case=case: self.certify_case(case, d, tolerance)
             )._replace(contact=self.contact))
         return results[0] if cases is None else results
 
-    def certify(self, f, gap, mu=None, *, d, g=None, law=None, friction=None, slip0=None,
+    def certify(self, f, gap, mu=None, *, d, F=None, g=None, law=None, friction=None, slip0=None,
                 prescribed=None, tolerance=1e-10):
-        """Measures relative displacements d, N, on the data of one case of solve; see certify."""
+        """Measures relative displacements d, N, on the data of one case of solve; see certify.
+
+        F: the forces, N, where d does not determine them: of a model in flexibility form, and where
+        the rows of pairs follow from those of others. Elsewhere it is not looked at.
+        """
         case = self._case(f, gap, Friction(mu, g, law, friction), slip0, prescribed)
-        return self._certify(case, components("d", d, self.pairs, self.dim), tolerance)
+        F = components("F", F, self.pairs, self.dim, optional=True)
+        if F is None and (self.kind == ModelKind.FLEXIBILITY or self._data.dependent):
+            raise TypeError("F is None: give the forces too, d does not determine them")
+        return self.certify_case(case, components("d", d, self.pairs, self.dim), tolerance, F)
+
+    def prove(self, f, gap, mu=None, *, d, state=None, g=None, law=None, friction=None, slip0=None,
+              prescribed=None):
+        """Proves that a solution exists next to d, N, on the data of one case of solve; see prove."""
+        case = self._case(f, gap, Friction(mu, g, law, friction), slip0, prescribed)
+        return self.prove_case(case, components("d", d, self.pairs, self.dim), state)
 
     def write(self, path, f, gap, mu=None, *, g=None, law=None, friction=None, slip0=None,
               prescribed=None, remark=None):
@@ -261,7 +306,7 @@ class Model:
         f, prescribed = self._loads(_given(f), prescribed, optional=True)
         d = components("d", d, self.pairs, self.dim)
         u = np.zeros(self.host_size)
-        self._do("model_recover", at(f), at(prescribed), at(d), at(u))
+        self._do("model_recover", 1, at(f), at(prescribed), at(d), at(u))
         return u
 
     def recover_cases(self, d, f=_LOADS_OF_THE_CASE, prescribed=None):
@@ -274,7 +319,7 @@ class Model:
         f, prescribed = self._loads(_given(f), prescribed, cases, optional=True)
         d = components("d", d, self.pairs, self.dim, cases=cases)
         u = np.zeros((cases, self.host_size))
-        self._do("model_recover_cases", cases, at(f), at(prescribed), at(d), at(u))
+        self._do("model_recover", cases, at(f), at(prescribed), at(d), at(u))
         return u
 
     def nodal_forces(self, F):
@@ -300,21 +345,31 @@ class Model:
         f, prescribed = self._loads(f, prescribed, cases)
         if gap is None and self.contact is not None:
             gap = self.contact.gaps
-        return _Case(
+        return Case(
             f, prescribed, per_pair("gap", gap, self.pairs, self.dim, cases), friction.law,
             friction.numbers(self.pairs, self.dim, cases),
             components("slip0", slip0, self.pairs, self.dim, tangential=True, cases=cases,
                        scalar=True, optional=True),
         )
 
-    def _certify(self, case, d, tolerance):
-        data = [self._handle, *case.arguments()]
-        certify = self._functions.model_certify
+    def certify_case(self, case, d, tolerance, F=None):
+        """Result of certify, of a Case and d in the library's layout."""
         with self._host:
-            found = certified(self._functions, certify, data, tolerance, d.copy())
+            found = certified(self._functions, [self._handle, *case.arguments()], tolerance, d.copy(), F)
         return found._replace(contact=self.contact)
+
+    def prove_case(self, case, d, state):
+        """Result of prove, of a Case and d in the library's layout."""
+        if state is not None:
+            state = np.ascontiguousarray(state, np.int32)
+            if state.shape != (self.pairs,):
+                raise ValueError(f"state has the shape {state.shape}, it must be ({self.pairs},)")
+        F, radius_d, radius_F = (np.zeros_like(d) for _ in range(3))
+        status = self._do("model_prove", *case.arguments(), at(d), at(state), at(F), at(radius_d),
+                          at(radius_F))
+        return Enclosure(F, radius_d, radius_F) if status == Status.SOLVED else None
 
     def _do(self, function, *arguments):
         with self._host:
             called = getattr(self._functions, function)
-            check(self._functions, called(self._handle, *arguments))
+            return check(self._functions, called(self._handle, *arguments))[0]

@@ -1,4 +1,4 @@
-"""What calls return."""
+"""Results of the calls."""
 
 import ctypes
 import numbers
@@ -12,7 +12,7 @@ from ._library import check
 from ._structures import Extra, Report, sized
 
 Progress = namedtuple("Progress", "iterations eta elapsed reduced memory")
-Progress.__doc__ = """What a progress function is told.
+Progress.__doc__ = """Progress of a call, as its progress function is told.
 
 iterations: sweeps, pivots or linear systems done.  eta: the latest, infinite before the first.
 elapsed: seconds since the call began.
@@ -25,7 +25,7 @@ _Fields = namedtuple("_Fields", "d F state status message report motion second r
 
 
 class Result(_Fields):
-    """What a call has found.
+    """Solution of a contact problem, or the last iterate.
 
     d: relative displacements, (P, D); length.  F: contact forces, (P, D); force.  state: of each pair
     (State), (P,).  Unless status is SOLVED these are the best or last iterate.
@@ -64,7 +64,7 @@ displacements given and of F, component by component, (P, D).
 """
 
 LcpResult = namedtuple("LcpResult", "w z status message report y")
-LcpResult.__doc__ = """What a call on an LCP has found.
+LcpResult.__doc__ = """Solution of an LCP, or the last iterate.
 
 w, z: n.  Unless status is SOLVED these are the best or last iterate.
 status: a Status.  message: the same in words.  report: as that of a Result.
@@ -121,14 +121,15 @@ class Output:
                       motion, second, radius_d, radius_F, escape)
 
 
-def certified(functions, function, data, tolerance, d):
-    """Result of signorini_certify or signorini_model_certify.
+def certified(functions, data, tolerance, d, F=None):
+    """Result of signorini_model_certify.
 
-    data: the arguments before the tolerance.  d: (P, D).
+    data: the arguments before the tolerance.  d: (P, D).  F: where d does not determine the forces.
     """
     if not isinstance(tolerance, numbers.Real):
         raise TypeError(f"tolerance is {tolerance!r}: give a number")
-    F, state, report = np.zeros_like(d), np.zeros(len(d), np.int32), sized(Report)
-    status = function(*data, tolerance, at(d), at(F), at(state), ctypes.byref(report))
+    F = np.zeros_like(d) if F is None else F.copy()
+    state, report = np.zeros(len(d), np.int32), sized(Report)
+    status = functions.model_certify(*data, tolerance, at(d), at(F), at(state), ctypes.byref(report))
     status, message = check(functions, status)
     return Result(d, F, state, status, message, report.plain(), None, None)

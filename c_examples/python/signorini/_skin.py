@@ -65,7 +65,7 @@ def skin(coordinates, blocks):
 
 
 def turned(face, dim):
-    """The same face seen from the other side."""
+    """A face seen from its other side."""
     count = corners(face, dim)
     first, mids, centre = face[:count], face[count:2 * count], face[2 * count:]
     if dim == 2:

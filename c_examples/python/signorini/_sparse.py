@@ -142,7 +142,7 @@ def _order(order, size, kind):
 
 
 def is_sparse(matrix):
-    """Whether a matrix is of scipy.sparse, or (data, indices, indptr)."""
+    """Is a matrix of scipy.sparse, or (data, indices, indptr)?"""
     return hasattr(matrix, "tocsc") or isinstance(matrix, tuple) and len(matrix) == 3
 
 

@@ -1,4 +1,4 @@
-"""The structures of signorini.h. The tests compare them with the header and with the library."""
+"""The structures of the headers. The tests compare them with the header and with the library."""
 
 import ctypes
 from types import SimpleNamespace
@@ -101,6 +101,15 @@ class Pairs(ctypes.Structure):
     ]
 
 
+class ModelData(ctypes.Structure):
+    """signorini_model_data"""
+
+    _fields_ = [
+        ("struct_size", u32), ("dim", i32), ("pairs", i64), ("host_size", i64), ("fixed", i64),
+        ("memory", i64), ("kind", i32), ("dependent", i32), ("K", address), ("frames", address),
+    ]
+
+
 class Faces(ctypes.Structure):
     """signorini_faces"""
 
@@ -130,14 +139,17 @@ class SurfaceSettings(ctypes.Structure):
     ]
 
 
-class SurfaceReport(ctypes.Structure):
-    """signorini_surface_report"""
+class SurfaceData(ctypes.Structure):
+    """signorini_surface_data"""
 
     _fields_ = [
-        ("struct_size", u32), ("dim", i32), ("pairs", i64), ("unpaired", i64), ("folded", i64),
-        ("slave_faces", i64), ("uncovered", i64), ("slave_area", real), ("covered_area", real),
-        ("search_distance", real), ("not_opposed", i64), ("boxes_searched", i64),
-        ("on_symmetry", i64), ("dropped", i64),
+        ("struct_size", u32), ("dim", i32), ("pairs", i64), ("rows", address), ("gaps", address),
+        ("areas", address), ("normals", address), ("tangents", address), ("points", address),
+        ("nodes", address), ("n_unpaired", i64), ("unpaired", address), ("n_folded", i64),
+        ("folded", address), ("n_uncovered", i64), ("uncovered", address),
+        ("summary", ctypes.c_char_p), ("slave_faces", i64), ("slave_area", real),
+        ("covered_area", real), ("search_distance", real), ("not_opposed", i64),
+        ("boxes_searched", i64), ("on_symmetry", i64), ("dropped", i64),
     ]
 
 
@@ -169,11 +181,31 @@ class Mesh(ctypes.Structure):
     ]
 
 
+class Zone(ctypes.Structure):
+    """signorini_zone"""
+
+    _fields_ = [
+        ("struct_size", u32), ("reserved", i32), ("contact", address), ("gap", address),
+        ("slip0", address), ("d", address), ("F", address), ("state", address),
+    ]
+
+
 class NodalField(ctypes.Structure):
     """signorini_field"""
 
     _fields_ = [
         ("struct_size", u32), ("components", i32), ("name", ctypes.c_char_p), ("values", address),
+    ]
+
+
+class ProblemData(ctypes.Structure):
+    """signorini_problem_data"""
+
+    _fields_ = [
+        ("struct_size", u32), ("kind", i32), ("law", i32), ("dim", i32), ("pairs", i64),
+        ("size", i64), ("matrix", address), ("rhs", address), ("gap", address),
+        ("friction", address), ("slip0", address), ("cover", address),
+        ("remark", ctypes.c_char_p),
     ]
 
 

@@ -7,13 +7,12 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from ._arrays import at, components, doubles, fit, indices, integers, per_pair, reals
+from ._arrays import at, components, copied, doubles, fit, indices, integers, per_pair, reals
 from ._constants import Normals, Obstacle, Pairing, Rims, chosen
 from ._library import check, library
 from ._mesh import Cells, points
-from ._structures import (ContactFields, Faces, ResultantSums, RigidObstacle, SurfaceReport,
-                          SurfaceSettings, address, i64, real, sized)
-from ._text import path_bytes
+from ._structures import (ContactFields, Faces, ResultantSums, RigidObstacle, SurfaceData,
+                          SurfaceSettings, Zone, address, i32, i64, real, sized)
 
 Plane = namedtuple("Plane", "point outward")
 Plane.__doc__ = """A rigid half space, in 2D a half plane.
@@ -99,7 +98,8 @@ class SurfacePairs:
     coordinates: those given.  slave_faces: the nodes of each slave face.
     unpaired: slave nodes without a pair.  folded: nodes with little cover, each with the node whose
     pair has its row, (k, 2).  uncovered: slave faces that lie over nothing.
-    summary: one sentence.  report: the fields of signorini_surface_report.
+    summary: one sentence.  report: numbers and areas of signorini_surface_data, n_unpaired as
+    unpaired and so on.
     """
 
     def __init__(self, make, coordinates, slave, other, pairing, search_distance, dofs,
@@ -124,33 +124,34 @@ class SurfacePairs:
                                  f"each node, shape {self._coordinates.shape}")
             settings.node_dofs = at(dofs)
             self._least = int(dofs.max(initial=-1)) + 1
-        handle, report = address(), sized(SurfaceReport)
+        handle, data = address(), sized(SurfaceData)
         check(self._functions, getattr(self._functions, make)(
             self.dim, self.node_count, at(self._coordinates), ctypes.byref(slave.structure),
-            ctypes.byref(other), ctypes.byref(settings), ctypes.byref(handle),
-            ctypes.byref(report)))
+            ctypes.byref(other), ctypes.byref(settings), ctypes.byref(handle)))
         self._handle = handle.value
         weakref.finalize(self, self._functions.surface_free, self._handle)
-        self.report = SimpleNamespace(**{name: getattr(report, name) for name, _ in report._fields_
-                                         if name != "struct_size"})
-        self.pairs = report.pairs
-        self.summary = self._functions.surface_summary(self._handle).decode()
-        self._read()
+        self._do("surface_view", ctypes.byref(data))
+        self.report = SimpleNamespace(**{name.removeprefix("n_"): getattr(data, name)
+                                         for name, kind in data._fields_ if kind in (i32, i64, real)})
+        self.pairs, self.summary = data.pairs, data.summary.decode()
+        # Address of the signorini_pairs for the library; it lives as long as this object.
+        self.structure = data.rows
+        self._read(data)
 
-    def _read(self):
-        pairs, dim, report = self.pairs, self.dim, self.report
-        self.gaps, self.areas = (self._array(name, (pairs,)) for name in ("gaps", "areas"))
+    def _read(self, data):
+        """Copies the arrays."""
+        def array(name, shape, kind=real):
+            found = copied(getattr(data, name), shape, kind)
+            return np.zeros(shape, kind) if found is None else found
+
+        pairs, dim = self.pairs, self.dim
+        self.gaps, self.areas = (array(name, (pairs,)) for name in ("gaps", "areas"))
         self.normals, self.tangents, self.points = (
-            self._array(name, (pairs, dim)) for name in ("normals", "tangents", "points"))
-        self.nodes = self._array("nodes", (pairs,), i64)
-        self.unpaired = self._array("unpaired", (report.unpaired,), i64)
-        self.folded = self._array("folded", (report.folded, 2), i64)
-        self.uncovered = self._array("uncovered", (report.uncovered,), i64)
-
-    @property
-    def structure(self):
-        """Address of the signorini_pairs for the library; it lives as long as this object."""
-        return self._functions.surface_rows(self._handle)
+            array(name, (pairs, dim)) for name in ("normals", "tangents", "points"))
+        self.nodes = array("nodes", (pairs,), i64)
+        self.unpaired = array("unpaired", (data.n_unpaired,), i64)
+        self.folded = array("folded", (data.n_folded, 2), i64)
+        self.uncovered = array("uncovered", (data.n_uncovered,), i64)
 
     def fields(self, result, *, slip0=None, gap=None):
         """Pressure, traction, clearance, slip and state at all nodes: Fields.
@@ -189,8 +190,8 @@ class SurfacePairs:
         if u is not None and u.size < self._least:
             raise ValueError(f"u has the shape {u.shape}: give the displacements of all degrees of "
                              f"freedom, at least {self._least}")
-        self._do("surface_write", path_bytes(path), ctypes.byref(mesh.structure), at(gap),
-                 at(slip0), at(u), at(d), at(F), at(state))
+        mesh.write(path, u, [sized(Zone, contact=self._handle, gap=at(gap), slip0=at(slip0), d=at(d),
+                                   F=at(F), state=at(state))])
 
     def _results(self, result, slip0, gap):
         pairs, dim = self.pairs, self.dim
@@ -200,13 +201,6 @@ class SurfacePairs:
             components("d", result.d, pairs, dim), components("F", result.F, pairs, dim),
             np.require(result.state, np.int32, ["C", "ALIGNED"]),
         )
-
-    def _array(self, name, shape, kind=real):
-        """A copy of an array of the library."""
-        found = getattr(self._functions, "surface_" + name)(self._handle)
-        if not found:
-            return np.zeros(shape, kind)
-        return np.ctypeslib.as_array(ctypes.cast(found, ctypes.POINTER(kind)), shape).copy()
 
     def _do(self, function, *arguments):
         check(self._functions, getattr(self._functions, function)(self._handle, *arguments))

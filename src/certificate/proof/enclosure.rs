@@ -9,8 +9,8 @@
 //! Where the equations are linear and `x . J x >= l |x|²`, the zero is at most `|G(x)| / l` away.
 
 use super::forces::{bound_of_product, enclosed_force};
-use super::system::{Centre, Solver, System, Unknown};
-use crate::law::{FrozenPair, Local};
+use super::system::{Centre, Solver, System};
+use crate::law::{EnclosedPiece, Local, Unknown};
 use crate::linalg::approximate_inverse::ApproximateInverse;
 use crate::linalg::ball::{Ball, BallVector, product_up, sum_up};
 use crate::linalg::vector::first_not_finite;
@@ -21,7 +21,7 @@ const BOX: f64 = 2.0;
 /// Rounding of an entry of the matrix, relative to its terms: six operations at most.
 const ASSEMBLY: f64 = 4.0 * f64::EPSILON;
 
-/// What is known of a solution.
+/// A box that holds a solution.
 pub struct Enclosure {
     /// Bounds on the distance of its displacements from the centre.
     pub d_radius: Vec<f64>,
@@ -104,7 +104,7 @@ impl<'s> Neighbourhood<'s> {
         let ones = vec![1.0; system.unknowns.len()];
         let motion = neighbourhood.displacements(&ones);
         neighbourhood.moved = bound_of_product(system.contact.problem(), &motion);
-        let threshold = |(at, pair): (usize, &FrozenPair)| {
+        let threshold = |(at, pair): (usize, &EnclosedPiece)| {
             let change = product_up(neighbourhood.moved[dim * at], eps);
             pair.enclosed_threshold(force[at][0].widened(change))
         };
@@ -172,7 +172,7 @@ impl<'s> Neighbourhood<'s> {
         .collect()
     }
 
-    /// The same of the part of a row by which the friction of its pair turns.
+    /// The bound for the part of a row by which the friction of its pair turns.
     fn turned(&self, row: &Unknown) -> f64 {
         if row.component == 0 {
             return 0.0;

@@ -4,7 +4,7 @@
 //! `F_n - a` of an open pair, `F_t + g A h` of a slip. Rows and unknowns are scaled by powers of two, exactly.
 
 use super::forces::by_pairs;
-use crate::law::{Contact, FrozenPair, Local, Plane};
+use crate::law::{Assembly, Contact, EnclosedPiece, Local, Slopes, Unknown};
 use crate::linalg::approximate_inverse::ApproximateInverse;
 use crate::linalg::ball::{Ball, BallVector};
 use crate::linalg::definite::Definite;
@@ -19,24 +19,6 @@ const FALL: f64 = 0.25;
 /// A step that is below this part of the displacements, far below their rounding, need not be done.
 const ENOUGH: f64 = 0.01 * f64::EPSILON;
 
-/// An unknown, with the equation of the same component.
-pub struct Unknown {
-    pub pair: usize,
-    /// Component of the pair, 0 the normal one.
-    pub component: usize,
-    /// Scale of its equation, one over a force, and of the unknown itself.
-    pub row: f64,
-    pub column: f64,
-}
-
-/// The derivatives that the matrix is made of.
-#[derive(Clone, Copy, Default)]
-pub struct Slopes {
-    pub drag: [f64; 2],
-    pub motion: Plane,
-    pub turn: Plane,
-}
-
 /// Displacements in two parts, with the force that they need.
 pub struct Centre {
     pub d: Vec<f64>,
@@ -44,7 +26,7 @@ pub struct Centre {
     pub force: Vec<f64>,
 }
 
-/// What shows that the scaled matrix is regular, and solves with it.
+/// The proof that the scaled matrix is regular, which solves with it too.
 pub enum Solver {
     Definite(Definite),
     Inverse(ApproximateInverse),
@@ -66,18 +48,18 @@ impl Solver {
 /// A system whose pieces are frozen.
 pub struct System<'c> {
     pub contact: &'c Contact<'c>,
-    pub pairs: Vec<FrozenPair>,
+    pub pairs: Vec<EnclosedPiece>,
     pub unknowns: Vec<Unknown>,
     pub slopes: Vec<Slopes>,
 }
 
 impl<'c> System<'c> {
     /// The system of pieces at displacements.
-    pub fn new(contact: &'c Contact<'c>, pairs: Vec<FrozenPair>, centre: &Centre) -> Self {
+    pub fn new(contact: &'c Contact<'c>, pairs: Vec<EnclosedPiece>, centre: &Centre) -> Self {
         let unknowns = unknowns(contact, &pairs);
         let mut system = System { contact, pairs, unknowns, slopes: Vec::new() };
         let locals = system.locals(centre);
-        let slopes = |(at, (frozen, local)): (usize, (&FrozenPair, &Local))| {
+        let slopes = |(at, (frozen, local)): (usize, (&EnclosedPiece, &Local))| {
             let threshold =
                 frozen.enclosed_threshold(Ball::exact(centre.force[at * contact.dim()]));
             Slopes {
@@ -101,7 +83,7 @@ impl<'c> System<'c> {
         self.pairs.iter().zip(&v).map(|(pair, v)| pair.local(pair.slip_vector(v))).collect()
     }
 
-    /// What the scaled equations lack at the centre with the forces that it needs.
+    /// The residual of the scaled equations at the centre with the forces that it needs.
     pub fn lack(&self, centre: &Centre, force: &[BallVector]) -> Vec<Ball> {
         let locals = self.locals(centre);
         let lacks: Vec<BallVector> =
@@ -111,11 +93,11 @@ impl<'c> System<'c> {
         self.unknowns.iter().map(scaled).collect()
     }
 
-    /// What shows that the scaled matrix is regular: that it is definite, where its pieces are symmetric,
+    /// The proof that the scaled matrix is regular: it is definite, where its pieces are symmetric,
     /// otherwise an approximate inverse.
     pub fn solver(&self) -> Option<Solver> {
         let size = self.unknowns.len();
-        let definite = match self.pairs.iter().all(FrozenPair::is_symmetric) {
+        let definite = match self.pairs.iter().all(EnclosedPiece::is_symmetric) {
             true => Definite::new(size, self.columns()),
             false => None,
         };
@@ -125,49 +107,25 @@ impl<'c> System<'c> {
         }
     }
 
+    /// The coefficients of the scaled matrix.
+    fn assembly(&self) -> Assembly<'_> {
+        let (dim, matrix) = (self.contact.dim(), self.contact.problem().stiffness());
+        Assembly { dim, matrix, unknowns: &self.unknowns, slopes: &self.slopes }
+    }
+
     /// Writes columns of the scaled matrix.
     pub fn columns(&self) -> impl FnMut(usize, &mut [f64]) {
-        let (dim, matrix) = (self.contact.dim(), self.contact.problem().stiffness());
-        let mut sum = vec![0.0; matrix.size()];
+        let assembly = self.assembly();
+        let mut image = vec![0.0; assembly.matrix.size()];
         move |j, entries| {
-            let unknown = &self.unknowns[j];
-            let first = dim * unknown.pair;
-            let parts = self.motion_of(unknown);
-            let mut moving = (0..dim).filter(|&c| parts[c] != 0.0);
-            let (image, scale) = match (moving.next(), moving.next()) {
-                (Some(only), None) => (matrix.column(first + only), parts[only]),
-                _ => {
-                    sum.fill(0.0);
-                    for (c, part) in parts.into_iter().enumerate().take(dim) {
-                        let source = matrix.column(first + c);
-                        sum.iter_mut().zip(source).for_each(|(sum, k)| *sum += part * k);
-                    }
-                    (sum.as_slice(), 1.0)
-                }
-            };
-            for (entry, equation) in entries.iter_mut().zip(&self.unknowns) {
-                let at = dim * equation.pair;
-                let mut value = scale * image[at + equation.component];
-                if equation.component > 0 {
-                    let slopes = &self.slopes[equation.pair];
-                    let along = equation.component - 1;
-                    value -= slopes.drag[along] * (scale * image[at]);
-                    if equation.pair == unknown.pair && unknown.component > 0 {
-                        value += slopes.turn[along][unknown.component - 1] * unknown.column;
-                    }
-                }
-                *entry = equation.row * value;
-            }
+            assembly.image(j, &mut image);
+            assembly.coefficients(j, &image, entries);
         }
     }
 
     /// Displacements of the pair by a unit of the scaled unknown.
     pub fn motion_of(&self, unknown: &Unknown) -> [f64; 3] {
-        let motion = &self.slopes[unknown.pair].motion;
-        match unknown.component {
-            0 => [unknown.column, 0.0, 0.0],
-            c => [0.0, motion[0][c - 1] * unknown.column, motion[1][c - 1] * unknown.column],
-        }
+        self.assembly().motion_of(unknown)
     }
 
     /// Refines the centre by residuals in twice the precision until steps fall no further.
@@ -213,7 +171,7 @@ impl<'c> System<'c> {
 }
 
 /// The unknowns of the pieces, with scales that make the diagonal of the matrix about 1.
-fn unknowns(contact: &Contact<'_>, pairs: &[FrozenPair]) -> Vec<Unknown> {
+fn unknowns(contact: &Contact<'_>, pairs: &[EnclosedPiece]) -> Vec<Unknown> {
     let dim = contact.dim();
     let root = contact.problem().stiffness().diagonal_roots();
     let power = |x: f64| times_power_of_two(1.0, -exponent(x));

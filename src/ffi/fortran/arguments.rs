@@ -1,13 +1,11 @@
-//! Scalars by reference in both widths, settings of three scalars, and states.
+//! Scalars and arrays by reference in both widths, settings of three scalars, and states.
 
-use std::alloc::{Layout, alloc_zeroed};
-
+use super::super::args::Arrays;
 use super::super::guard::{self, Failure};
 use super::super::law::{LAST_LAW, SIGNORINI_LAW_FRICTIONLESS};
-use super::super::report::SignoriniReport;
 use super::super::settings::{SIGNORINI_METHOD_PATH, SignoriniSettings};
 use crate::problem::checked_dim;
-use crate::settings::{Settings, check_tolerance};
+use crate::settings::check_tolerance;
 
 /// A Fortran INTEGER.
 pub(super) trait Integer: Copy {
@@ -39,7 +37,7 @@ impl Integer for i64 {
 }
 
 /// Runs an entry and puts its status into INFO. `positions[k - 1]` is the Fortran position of the
-/// k-th argument of the entry of C that `body` calls; refusals of `body` itself have theirs.
+/// k-th argument of the function of C that `body` calls; refusals of `body` itself have theirs.
 ///
 /// # Safety
 /// `info` is NULL or an integer of the caller.
@@ -64,6 +62,24 @@ pub(super) unsafe fn write<T>(place: *mut T, value: T) {
     if !place.is_null() {
         // SAFETY: by the caller's contract.
         unsafe { place.write_unaligned(value) };
+    }
+}
+
+/// Widens the states of the pairs in their place, where a function of C has put numbers of 4 bytes.
+///
+/// # Safety
+/// NULL, or as many integers of the caller.
+pub(super) unsafe fn widen<I: Integer>(state: *mut I, pairs: i64) {
+    if state.is_null() || I::BYTES == i32::BYTES {
+        return;
+    }
+    // From the last one: each is read before its place is written to.
+    for i in (0..pairs as usize).rev() {
+        // SAFETY: by the caller's contract.
+        unsafe {
+            let narrow = state.cast::<i32>().add(i).read_unaligned();
+            write(state.add(i), I::nearest(i64::from(narrow)));
+        }
     }
 }
 
@@ -140,22 +156,21 @@ pub(super) unsafe fn dimension<I: Integer>(position: i32, ndim: *const I) -> Res
     Ok(dim)
 }
 
-/// The leading dimension of a matrix of all components of pairs.
+/// LDK, the leading dimension of a matrix of all components of pairs.
 ///
 /// # Safety
 /// As for [`read`].
 pub(super) unsafe fn leading<I: Integer>(
     position: i32,
-    name: &str,
     place: *const I,
     (dim, pairs): (i32, i64),
 ) -> Result<i64, Failure> {
     // SAFETY: by the caller's contract.
-    let leading = unsafe { count(position, name, place)? };
+    let leading = unsafe { count(position, "LDK", place)? };
     let n = i64::from(dim) * pairs;
     if leading < n.max(1) {
         let message = format!(
-            "{name} is {leading}, it must be at least NDIM * NPAIR, which is {n}; NPAIR counts pairs"
+            "LDK is {leading}, it must be at least NDIM * NPAIR, which is {n}; NPAIR counts pairs"
         );
         return Err(Failure::argument(position, message));
     }
@@ -169,6 +184,21 @@ pub(super) fn absurd<I: Integer>(position: i32, name: &str, value: i64) -> Failu
     Failure::argument(position, message)
 }
 
+/// A copy of an integer array in the width of the functions of C.
+///
+/// # Safety
+/// `array` has `length` entries.
+pub(super) unsafe fn numbers<I: Integer>(
+    position: i32,
+    name: &'static str,
+    array: *const I,
+    length: i64,
+) -> Result<Vec<i64>, Failure> {
+    // SAFETY: by the caller's contract.
+    let values = unsafe { Arrays::default().required(position, name, array, length as usize)? };
+    Ok(values.iter().map(|value| value.wide()).collect())
+}
+
 /// LAW.
 ///
 /// # Safety
@@ -178,8 +208,7 @@ pub(super) unsafe fn law<I: Integer>(position: i32, place: *const I) -> Result<i
     let law = unsafe { choice(position, "LAW", place)? };
     if !(SIGNORINI_LAW_FRICTIONLESS..=LAST_LAW).contains(&law) {
         let message = format!(
-            "LAW is {law}, it must be SGNOFR (0), SGCOUL (1), SGTRSC (2), SGCOHE (3), SGORTH (4) or \
-             SGORTC (5)"
+            "LAW is {law}, it must be a law of signorini.inc, from SGNOFR ({SIGNORINI_LAW_FRICTIONLESS}) to {LAST_LAW}"
         );
         return Err(Failure::argument(position, message));
     }
@@ -214,76 +243,16 @@ pub(super) unsafe fn settings<I: Integer>(
     }
     let mut settings = SignoriniSettings::default_one();
     settings.method = method;
-    settings.tolerance = tolerance_or_default(first + 1, tolerance)?;
+    if tolerance != 0.0 {
+        let wrong = |message| {
+            let rest = "or be 0 (the default); is it DOUBLE PRECISION, 1D-10 and not 1E-10?";
+            Failure::argument(first + 1, format!("{message}, {rest}"))
+        };
+        check_tolerance("TOL", tolerance).map_err(wrong)?;
+        settings.tolerance = tolerance;
+    }
     if most > 0 {
         settings.max_iterations = most;
     }
     Ok(settings)
-}
-
-/// TOL, 0 for the default.
-pub(super) fn tolerance_or_default(position: i32, tolerance: f64) -> Result<f64, Failure> {
-    if tolerance == 0.0 {
-        Ok(Settings::default().tolerance)
-    } else {
-        let wrong = |message| {
-            let rest = "or be 0 (the default); is it DOUBLE PRECISION, 1D-10 and not 1E-10?";
-            Failure::argument(position, format!("{message}, {rest}"))
-        };
-        check_tolerance("TOL", tolerance).map_err(wrong)?;
-        Ok(tolerance)
-    }
-}
-
-/// What an entry of C fills in and Fortran has otherwise: states of 4 bytes, and a report.
-pub(super) struct Results {
-    pub(super) state: Vec<i32>,
-    pub(super) report: SignoriniReport,
-}
-
-impl Results {
-    pub(super) fn new(pairs: i64) -> Result<Self, Failure> {
-        let refused = || Failure::out_of_memory(format!("no memory for {pairs} states"));
-        let count = usize::try_from(pairs).map_err(|_| refused())?;
-        Ok(Results { state: zeros(count).ok_or_else(refused)?, report: SignoriniReport::blank() })
-    }
-
-    /// Hands them over, if the call of C has written them.
-    ///
-    /// # Safety
-    /// Places of the caller: one state for each pair, a number, and an integer that may be NULL.
-    pub(super) unsafe fn send<I: Integer>(
-        &self,
-        status: i32,
-        state: *mut I,
-        eta: *mut f64,
-        iter: *mut I,
-    ) -> i32 {
-        if status >= 0 {
-            // SAFETY: by the caller's contract.
-            unsafe {
-                if !state.is_null() {
-                    for (i, &value) in self.state.iter().enumerate() {
-                        write(state.wrapping_add(i), I::nearest(i64::from(value)));
-                    }
-                }
-                write(eta, self.report.eta);
-                write(iter, I::nearest(self.report.iterations));
-            }
-        }
-        status
-    }
-}
-
-/// Zeros that the system has not to write, so that a wrong number of pairs touches no memory before it is
-/// refused; `None` without memory.
-fn zeros(count: usize) -> Option<Vec<i32>> {
-    let layout = Layout::array::<i32>(count).ok()?;
-    if count == 0 {
-        return Some(Vec::new());
-    }
-    // SAFETY: the size is not zero.
-    let memory = unsafe { alloc_zeroed(layout) };
-    // SAFETY: memory of the global allocator for so many numbers, all of them zero.
-    (!memory.is_null()).then(|| unsafe { Vec::from_raw_parts(memory.cast(), count, count) })
 }

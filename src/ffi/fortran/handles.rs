@@ -1,106 +1,165 @@
 //! Objects known by numbers. Fortran has no pointer type of its own: an address in an INTEGER*8 would be
 //! followed whatever it holds, a number that is not here is refused.
 
+use std::any::Any;
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use super::super::guard::Failure;
+use super::super::model::SignoriniModel;
+use super::super::surface_new::SignoriniSurfacePairs;
 use super::arguments::{read, write};
-use super::gate::{self, Pass};
 
-/// The objects of one kind that live.
-pub(super) struct Handles<T> {
-    /// The name of the argument, and what it stands for.
-    name: &'static str,
-    what: &'static str,
-    living: Mutex<Living<T>>,
+/// A kind of objects.
+pub(super) trait Kind: Any + Send + Sync {
+    /// The argument that holds a number of one.
+    const NAME: &'static str;
+    /// The sentence on a number that is not here goes on so.
+    const NONE: &'static str;
 }
 
-struct Living<T> {
-    next: i64,
-    by_number: BTreeMap<i64, Arc<T>>,
+impl Kind for SignoriniModel {
+    const NAME: &'static str = "HANDLE";
+    const NONE: &'static str = "there is no such model";
 }
 
-/// What lives, for this thread alone; it is closed before the gate is.
-struct Opened<'a, T> {
-    living: MutexGuard<'a, Living<T>>,
-    _pass: Pass,
+impl Kind for SignoriniSurfacePairs {
+    const NAME: &'static str = "HSURF";
+    const NONE: &'static str = "there are no such pairs";
 }
 
-impl<T> Handles<T> {
-    /// The upper half of a handle is `letters`, two characters of ASCII, the lower half counts from 1: neither
-    /// is 0, so that a handle cut to an INTEGER*4 is never one, and kinds do not meet.
-    pub(super) const fn new(name: &'static str, what: &'static str, letters: [u8; 2]) -> Self {
-        let kind = i64::from_be_bytes([0, 0, letters[0], letters[1], 0, 0, 0, 0]);
-        let living = Living { next: kind + 1, by_number: BTreeMap::new() };
-        Handles { name, what, living: Mutex::new(living) }
+/// The objects that live, and the last number. No number is used twice.
+struct Living {
+    last: i64,
+    by_number: BTreeMap<i64, Arc<dyn Any + Send + Sync>>,
+}
+
+/// The upper half of a number is not 0, so that one cut to an INTEGER*4 is never one.
+const BEFORE_THE_FIRST: i64 = i64::from_be_bytes(*b"\0\0SG\0\0\0\0");
+
+static LIVING: Mutex<Living> =
+    Mutex::new(Living { last: BEFORE_THE_FIRST, by_number: BTreeMap::new() });
+
+type Opened = MutexGuard<'static, Living>;
+
+/// The objects, for this thread alone.
+fn open() -> Opened {
+    #[cfg(any(target_os = "linux", target_os = "macos"))]
+    fork::guard();
+    locked()
+}
+
+fn locked() -> Opened {
+    // The map is whole whenever a panic can happen.
+    LIVING.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Makes an object by a function of C and puts its number into the handle, 0 if there is none.
+///
+/// # Safety
+/// `handle` is NULL or a place of the caller; `make` puts a boxed object where it is told, if it returns 0.
+pub(super) unsafe fn create<T: Kind>(
+    position: i32,
+    handle: *mut i64,
+    make: impl FnOnce(*mut *mut T) -> Result<i32, Failure>,
+) -> Result<i32, Failure> {
+    if handle.is_null() {
+        return Err(Failure::argument(position, format!("{} is NULL", T::NAME)));
+    }
+    // SAFETY: by the caller's contract.
+    unsafe { write(handle, 0) };
+    let mut made = std::ptr::null_mut();
+    let status = make(&raw mut made)?;
+    if status == 0 {
+        // SAFETY: a new object, which is ours alone.
+        let made: Arc<T> = Arc::from(unsafe { Box::from_raw(made) });
+        let mut opened = open();
+        opened.last += 1;
+        let number = opened.last;
+        opened.by_number.insert(number, made);
+        // SAFETY: by the caller's contract.
+        unsafe { write(handle, number) };
+    }
+    Ok(status)
+}
+
+/// The object of a handle, which lives on during the call even if another thread releases it.
+///
+/// # Safety
+/// `handle` is NULL or a number of the caller.
+pub(super) unsafe fn find<T: Kind>(position: i32, handle: *const i64) -> Result<Arc<T>, Failure> {
+    // SAFETY: by the caller's contract.
+    let number = unsafe { read(position, T::NAME, handle)? };
+    let found = open().by_number.get(&number).cloned();
+    let of_this_kind = found.and_then(|found| found.downcast().ok());
+    of_this_kind.ok_or_else(|| unknown::<T>(position, number))
+}
+
+/// Releases the object of a handle, the first argument, which becomes 0. A handle of 0 is allowed.
+///
+/// # Safety
+/// `handle` is NULL or a number of the caller.
+pub(super) unsafe fn free<T: Kind>(handle: *mut i64) -> Result<i32, Failure> {
+    // SAFETY: by the caller's contract.
+    let number = unsafe { read(1, T::NAME, handle)? };
+    if number != 0 {
+        // SAFETY: as above.
+        unsafe { find::<T>(1, handle)? };
+        let released = open().by_number.remove(&number);
+        drop(released.ok_or_else(|| unknown::<T>(1, number))?);
+    }
+    // SAFETY: by the caller's contract.
+    unsafe { write(handle, 0) };
+    Ok(0)
+}
+
+fn unknown<T: Kind>(position: i32, number: i64) -> Failure {
+    let message = format!("{} is {number}, {}; is it INTEGER*8?", T::NAME, T::NONE);
+    Failure::argument(position, message)
+}
+
+/// A child of a fork begins with one thread, and would wait for ever for a lock that another thread of its parent held.
+#[cfg(any(target_os = "linux", target_os = "macos"))]
+mod fork {
+    use libc::c_int;
+    use std::cell::UnsafeCell;
+    use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
+
+    use super::{Opened, locked};
+
+    type Handler = Option<unsafe extern "C" fn()>;
+
+    unsafe extern "C" {
+        fn pthread_atfork(before: Handler, in_parent: Handler, in_child: Handler) -> c_int;
     }
 
-    fn open(&self) -> Opened<'_, T> {
-        let pass = gate::pass();
-        // The map is whole whenever a panic can happen.
-        let living = self.living.lock().unwrap_or_else(PoisonError::into_inner);
-        Opened { living, _pass: pass }
+    /// The lock, from before a fork to after it.
+    struct Kept(UnsafeCell<Option<Opened>>);
+
+    // SAFETY: it is used by the thread that has the lock.
+    unsafe impl Sync for Kept {}
+
+    static KEPT: Kept = Kept(UnsafeCell::new(None));
+
+    unsafe extern "C" fn lock() {
+        let opened = locked();
+        // SAFETY: this thread has the lock.
+        unsafe { *KEPT.0.get() = Some(opened) };
     }
 
-    /// Makes an object by an entry of C and puts its number into the handle, 0 if there is none.
-    ///
-    /// # Safety
-    /// `handle` is NULL or a place of the caller; `make` puts a boxed object where it is told, if it returns 0.
-    pub(super) unsafe fn create(
-        &self,
-        position: i32,
-        handle: *mut i64,
-        make: impl FnOnce(*mut *mut T) -> Result<i32, Failure>,
-    ) -> Result<i32, Failure> {
-        if handle.is_null() {
-            return Err(Failure::argument(position, format!("{} is NULL", self.name)));
+    unsafe extern "C" fn unlock() {
+        // SAFETY: this thread has the lock since before the fork; it is open when the cell is empty.
+        let opened = unsafe { (*KEPT.0.get()).take() };
+        drop(opened);
+    }
+
+    /// From now on a fork waits for the lock, and both processes have it open. Without memory for that it is
+    /// as before.
+    pub(super) fn guard() {
+        static DONE: AtomicBool = AtomicBool::new(false);
+        if !DONE.swap(true, Relaxed) {
+            // SAFETY: handlers that live as long as this library: the C library forgets them with it.
+            unsafe { pthread_atfork(Some(lock), Some(unlock), Some(unlock)) };
         }
-        // SAFETY: by the caller's contract.
-        unsafe { write(handle, 0) };
-        let mut made = std::ptr::null_mut();
-        let status = make(&raw mut made)?;
-        if status == 0 {
-            // SAFETY: a new object, which is ours alone.
-            let made = Arc::from(unsafe { Box::from_raw(made) });
-            let mut opened = self.open();
-            let number = opened.living.next;
-            opened.living.next += 1;
-            opened.living.by_number.insert(number, made);
-            // SAFETY: by the caller's contract.
-            unsafe { write(handle, number) };
-        }
-        Ok(status)
-    }
-
-    /// The object of a handle, which lives on during the call even if another thread releases it.
-    ///
-    /// # Safety
-    /// `handle` is NULL or a number of the caller.
-    pub(super) unsafe fn find(&self, position: i32, handle: *const i64) -> Result<Arc<T>, Failure> {
-        // SAFETY: by the caller's contract.
-        let number = unsafe { read(position, self.name, handle)? };
-        let found = self.open().living.by_number.get(&number).cloned();
-        found.ok_or_else(|| self.unknown(position, number))
-    }
-
-    /// Releases the object of a handle, the first argument, which becomes 0. A handle of 0 is allowed.
-    ///
-    /// # Safety
-    /// `handle` is NULL or a number of the caller.
-    pub(super) unsafe fn free(&self, handle: *mut i64) -> Result<i32, Failure> {
-        // SAFETY: by the caller's contract.
-        let number = unsafe { read(1, self.name, handle)? };
-        if number != 0 && self.open().living.by_number.remove(&number).is_none() {
-            return Err(self.unknown(1, number));
-        }
-        // SAFETY: by the caller's contract.
-        unsafe { write(handle, 0) };
-        Ok(0)
-    }
-
-    fn unknown(&self, position: i32, number: i64) -> Failure {
-        let Handles { name, what, .. } = self;
-        Failure::argument(position, format!("{name} is {number}, there {what}; is it INTEGER*8?"))
     }
 }

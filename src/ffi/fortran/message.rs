@@ -5,16 +5,14 @@ use libc::c_char;
 use super::super::status::last_counted_from_one;
 use super::arguments::{Integer, read};
 
-/// SGMESG. Its length is an argument, so that it does not matter how, and whether, a compiler
-/// hands over the length of a CHARACTER on its own.
-///
-/// # Safety
-/// `text` has `ltext` characters.
-pub(super) unsafe fn copy<I: Integer>(text: *mut c_char, ltext: *const I) {
-    // SAFETY: by the caller's contract.
-    let Ok(length) = (unsafe { read(2, "LTEXT", ltext) }) else { return };
-    // SAFETY: by the caller's contract.
-    unsafe { fill(text, length.wide(), &last_counted_from_one()) }
+export! {
+    // Its length is an argument, so that it does not matter how, and whether, a compiler hands over the length of a
+    // CHARACTER on its own.
+    sgmesg_ sgmesg_64_ (text: *mut c_char, ltext: *const I) {
+        if let Ok(length) = read(2, "LTEXT", ltext) {
+            fill(text, length.wide(), &last_counted_from_one());
+        }
+    }
 }
 
 /// Puts a sentence into a CHARACTER, padded with blanks.

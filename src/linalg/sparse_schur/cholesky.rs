@@ -1,11 +1,11 @@
 //! Sparse Cholesky factorisations of matrices of one pattern: analysed once, factorised again and again.
 
 use super::diagnosis::diagnosed;
+use super::factor_progress::FactorProgress;
 use super::failure::Failure;
 use super::numeric::{Numeric, Unfinished, factorised};
 use super::plan::Plan;
 use super::solve::{backward, forward};
-use super::watch::Watch;
 use crate::linalg::sparse_matrix::Csc;
 use crate::linalg::tolerances::NEGLIGIBLE;
 use crate::workers::Workers;
@@ -18,8 +18,12 @@ pub struct SparseCholesky(Plan);
 
 impl SparseCholesky {
     /// Analyses the pattern of `lower`, of which every diagonal entry is stored.
-    pub fn new(lower: &Csc, workers: &dyn Workers, watch: &mut dyn Watch) -> Result<Self, Failure> {
-        Ok(SparseCholesky(Plan::new(lower, lower.ncols(), None, workers, watch)?))
+    pub fn new(
+        lower: &Csc,
+        workers: &dyn Workers,
+        progress: &mut dyn FactorProgress,
+    ) -> Result<Self, Failure> {
+        Ok(SparseCholesky(Plan::new(lower, lower.ncols(), None, workers, progress)?))
     }
 
     /// Bytes of a factorisation, with those of the matrix.
@@ -32,9 +36,9 @@ impl SparseCholesky {
         &self,
         mut lower: Csc,
         workers: &dyn Workers,
-        watch: &mut dyn Watch,
+        progress: &mut dyn FactorProgress,
     ) -> Result<Values, Failure> {
-        Ok(Values(diagnosed(&self.0, &mut lower, workers, watch)?.values))
+        Ok(Values(diagnosed(&self.0, &mut lower, workers, progress)?.values))
     }
 
     /// Factorises a matrix of the pattern; `None` if it is not definite but for rounding.
@@ -42,9 +46,9 @@ impl SparseCholesky {
         &self,
         lower: &Csc,
         workers: &dyn Workers,
-        watch: &mut dyn Watch,
+        progress: &mut dyn FactorProgress,
     ) -> Result<Option<Values>, Failure> {
-        match factorised((&self.0.structure, &self.0.schedule), lower, workers, watch) {
+        match factorised((&self.0.structure, &self.0.schedule), lower, workers, progress) {
             Ok(Numeric { values, weakest, .. }) => {
                 let definite = weakest.is_none_or(|(_, pivot)| pivot > NEGLIGIBLE);
                 Ok(definite.then_some(Values(values)))

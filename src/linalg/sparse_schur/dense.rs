@@ -9,6 +9,8 @@ use faer::linalg::matmul::triangular::{self, BlockStructure};
 use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
 use faer::{Accum, MatMut, MatRef, Par, Spec};
 
+use crate::linalg::matrix::TILE;
+
 /// Writes `a bᵀ`, column-major, or adds it.
 pub fn product(target: &mut [f64], accum: Accum, a: MatRef<'_, f64>, b: MatRef<'_, f64>) {
     let target = MatMut::from_column_major_slice_mut(target, a.nrows(), b.nrows());
@@ -107,12 +109,10 @@ pub fn divide(factor: MatRef<'_, f64>, rows: MatMut<'_, f64>) {
 
 /// Copies the lower triangle to the upper one.
 pub fn mirror(matrix: &mut [f64], size: usize) {
-    /// Columns and rows of a block: both triangles of it stay in the cache.
-    const BLOCK: usize = 32;
-    for begin in (0..size).step_by(BLOCK) {
-        for across in (begin..size).step_by(BLOCK) {
-            for j in begin..size.min(begin + BLOCK) {
-                for i in across.max(j + 1)..size.min(across + BLOCK) {
+    for begin in (0..size).step_by(TILE) {
+        for across in (begin..size).step_by(TILE) {
+            for j in begin..size.min(begin + TILE) {
+                for i in across.max(j + 1)..size.min(across + TILE) {
                     matrix[j + size * i] = matrix[i + size * j];
                 }
             }

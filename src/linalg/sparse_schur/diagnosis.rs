@@ -1,11 +1,11 @@
 //! A factorisation that names the motion which makes it fail.
 
+use super::factor_progress::FactorProgress;
 use super::failure::Failure;
 use super::numeric::{Numeric, Unfinished, factorised};
 use super::plan::Plan;
 use super::solve;
 use super::structure::Structure;
-use super::watch::Watch;
 use crate::linalg::null_vector::{resistance, weakest};
 use crate::linalg::sparse_matrix::Csc;
 use crate::linalg::tolerances::{NULL_VECTOR, REGULARISATION, SUSPICIOUS_PIVOT};
@@ -17,16 +17,16 @@ pub fn diagnosed(
     plan: &Plan,
     matrix: &mut Csc,
     workers: &dyn Workers,
-    watch: &mut dyn Watch,
+    progress: &mut dyn FactorProgress,
 ) -> Result<Numeric, Failure> {
     let structure = &plan.structure;
     let parts = (structure, &plan.schedule);
-    let (numeric, singular) = match factorised(parts, matrix, workers, watch) {
+    let (numeric, singular) = match factorised(parts, matrix, workers, progress) {
         Ok(numeric) => (numeric, false),
         Err(Unfinished::Failed(failure)) => return Err(failure),
         Err(Unfinished::Pivot(_)) => {
             (0..structure.eliminated).for_each(|j| scale_diagonal(matrix, j, 1.0 + REGULARISATION));
-            match factorised(parts, matrix, workers, watch) {
+            match factorised(parts, matrix, workers, progress) {
                 Ok(numeric) => (numeric, true),
                 Err(Unfinished::Failed(failure)) => return Err(failure),
                 Err(Unfinished::Pivot(place)) => {

@@ -15,7 +15,7 @@ pub struct Entries {
 }
 
 impl Entries {
-    /// Of the matrix whose lower triangle is `lower`. Puts the entries of kept unknowns into the lower triangle of
+    /// Sorts those of the matrix whose lower triangle is `lower`. Puts the entries of kept unknowns into the lower triangle of
     /// `schur`.
     pub fn new(structure: &Structure, lower: &Csc, schur: &mut [f64]) -> Result<Self, Failure> {
         let (eliminated, kept) = (structure.eliminated, structure.kept());

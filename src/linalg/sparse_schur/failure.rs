@@ -1,6 +1,7 @@
 //! How a factorisation fails.
 
-use crate::linalg::free_motions::Doubt;
+use super::factor_progress::Stopped;
+use crate::linalg::free_motions::StiffnessDefect;
 use crate::linalg::sparse_matrix::OutOfMemory;
 
 /// Why a matrix was not factorised.
@@ -12,20 +13,26 @@ pub enum Failure {
     Indefinite(usize),
     /// The energy of this motion is negative, so that the matrix is not positive semi-definite.
     Negative(Vec<f64>),
-    /// Whether the matrix resists this motion cannot be told from rounding.
+    /// The resistance of the matrix to this motion cannot be told from rounding.
     Unclear(Vec<f64>),
     /// Not enough memory.
     OutOfMemory,
-    /// The watch has ended it.
+    /// The caller has ended it.
     Stopped,
 }
 
-impl From<Doubt> for Failure {
-    fn from(doubt: Doubt) -> Self {
-        match doubt {
-            Doubt::Indefinite(motion) => Failure::Negative(motion),
-            Doubt::Unclear(motion) => Failure::Unclear(motion),
+impl From<StiffnessDefect> for Failure {
+    fn from(defect: StiffnessDefect) -> Self {
+        match defect {
+            StiffnessDefect::Indefinite(motion) => Failure::Negative(motion),
+            StiffnessDefect::Unclear(motion) => Failure::Unclear(motion),
         }
+    }
+}
+
+impl From<Stopped> for Failure {
+    fn from(_: Stopped) -> Self {
+        Failure::Stopped
     }
 }
 
@@ -40,10 +47,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_doubt_keeps_its_motion() {
+    fn a_defect_keeps_its_motion() {
         let motion = || vec![1.0, -1.0];
-        assert_eq!(Failure::from(Doubt::Indefinite(motion())), Failure::Negative(motion()));
-        assert_eq!(Failure::from(Doubt::Unclear(motion())), Failure::Unclear(motion()));
+        assert_eq!(
+            Failure::from(StiffnessDefect::Indefinite(motion())),
+            Failure::Negative(motion())
+        );
+        assert_eq!(Failure::from(StiffnessDefect::Unclear(motion())), Failure::Unclear(motion()));
         assert_eq!(Failure::from(OutOfMemory), Failure::OutOfMemory);
     }
 }

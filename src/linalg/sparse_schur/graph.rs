@@ -19,7 +19,7 @@ pub struct Graph {
 }
 
 impl Graph {
-    /// Of the matrix whose lower triangle is `lower`; the first `eliminated` unknowns are eliminated and
+    /// Makes the graph of the matrix whose lower triangle is `lower`; the first `eliminated` unknowns are eliminated and
     /// share no vertex with the others.
     pub fn new(lower: &Csc, eliminated: usize) -> Result<Self, OutOfMemory> {
         let unknowns = Adjacency::of_unknowns(lower)?;
@@ -106,7 +106,7 @@ impl Adjacency {
         &self.neighbour[self.start[i]..self.start[i + 1]]
     }
 
-    /// Whether two neighbours have the same other neighbours.
+    /// `true` if two neighbours have the same other neighbours.
     fn alike(&self, i: usize, j: usize) -> bool {
         let others = |of: usize, but: usize| self.of(of).iter().filter(move |&&k| k != but);
         others(i, j).eq(others(j, i))

@@ -9,19 +9,20 @@ use std::sync::Mutex;
 
 use super::dense::mirror;
 use super::entries::Entries;
+use super::factor_progress::FactorProgress;
 use super::failure::Failure;
 use super::graph::filled;
-use super::making;
-use super::outer;
-use super::panel::{Before, Room, Source, Weakest, weaker};
+use super::panel::{Before, Source, Weakest, weaker};
+use super::panel_assembly::{by_all_threads, by_one_thread};
+use super::parallel::{Done, Parallel, locked};
 use super::schedule::Schedule;
+use super::schur_update;
 use super::structure::Structure;
-use super::team::{Done, Team, locked};
-use super::watch::Watch;
+use super::workspace::Workspace;
 use crate::linalg::sparse_matrix::Csc;
 use crate::workers::Workers;
 
-/// What a factorisation computes.
+/// The results of a factorisation.
 pub struct Numeric {
     /// Values of the panels.
     pub values: Vec<f64>,
@@ -46,10 +47,10 @@ impl<E: Into<Failure>> From<E> for Unfinished {
 }
 
 /// Bytes that a factorisation on so many threads holds beside its arguments.
-pub fn bytes(structure: &Structure, lower: &Csc, lanes: usize) -> usize {
+pub fn bytes(structure: &Structure, lower: &Csc, threads: usize) -> usize {
     let numbers = structure.stored() + structure.kept() * structure.kept();
     let places = structure.size * size_of::<usize>();
-    let room = lanes * Room::bytes(structure) + places;
+    let room = threads * Workspace::bytes(structure) + places;
     numbers * size_of::<f64>() + Entries::bytes(structure, lower) + room
 }
 
@@ -58,20 +59,18 @@ pub fn factorised(
     (structure, schedule): (&Structure, &Schedule),
     lower: &Csc,
     workers: &dyn Workers,
-    watch: &mut dyn Watch,
+    progress: &mut dyn FactorProgress,
 ) -> Result<Numeric, Unfinished> {
     let kept = structure.kept();
     let mut values = filled(structure.stored(), 0.0)?;
     let mut schur = filled(kept * kept, 0.0)?;
     let entries = &Entries::new(structure, lower, &mut schur)?;
-    let rooms = (0..workers.lanes()).map(|_| Room::new(structure).map(Mutex::new));
-    let rooms = rooms.collect::<Result<Vec<_>, _>>()?;
     let done = &Done::default();
-    let team = &mut Team::new(workers, watch, done, schedule.operations);
+    let parallel = &mut Parallel::new(structure, (workers, progress), done, schedule.operations)?;
     let source = Source { structure, schedule, entries, done };
-    let below = subtrees(source, &mut values, (&rooms, team))?;
-    let above = above(source, &mut values, (&rooms, team))?;
-    outer::subtract(structure, &values, &mut schur, done, (&rooms, team))?;
+    let below = subtrees(source, &mut values, parallel)?;
+    let above = above(source, &mut values, parallel)?;
+    schur_update::subtract(structure, &values, &mut schur, done, parallel)?;
     mirror(&mut schur, kept);
     let weakest = weaker(below, above);
     Ok(Numeric { values, schur, weakest })
@@ -88,7 +87,7 @@ struct Subtree<'v> {
 fn subtrees(
     source: Source<'_>,
     values: &mut [f64],
-    (rooms, team): (&[Mutex<Room>], &mut Team<'_>),
+    parallel: &mut Parallel<'_>,
 ) -> Result<Weakest, Unfinished> {
     let Schedule { subtrees, .. } = source.schedule;
     let (mut all, mut rest, mut at) = (Vec::new(), values, 0);
@@ -102,8 +101,8 @@ fn subtrees(
         all.push(Mutex::new(Subtree { panels: panels.clone(), values, made: Ok(None) }));
         (rest, at) = (after, end);
     }
-    team.share(all.len(), operations, &|lane, part| {
-        locked(&all[part]).make(source, &mut locked(&rooms[lane]));
+    parallel.share(all.len(), operations, &|workspace, part| {
+        locked(&all[part]).make(source, workspace);
     })?;
     // The first one in the order of the panels, whoever came to it first.
     all.iter().try_fold(None, |weakest, subtree| match locked(subtree).made {
@@ -113,13 +112,13 @@ fn subtrees(
 }
 
 impl Subtree<'_> {
-    fn make(&mut self, source: Source<'_>, room: &mut Room) {
+    fn make(&mut self, source: Source<'_>, workspace: &mut Workspace) {
         let start = source.structure.values(self.panels.start).start;
         for s in self.panels.clone() {
             let place = source.structure.values(s);
             let (before, rest) = self.values.split_at_mut(place.start - start);
             let before = Before { values: before, start };
-            match making::alone(source, s, before, &mut rest[..place.len()], room) {
+            match by_one_thread(source, s, before, &mut rest[..place.len()], workspace) {
                 Ok(weakest) => self.made = self.made.map(|made| weaker(made, weakest)),
                 Err(place) => {
                     self.made = Err(place);
@@ -134,7 +133,7 @@ impl Subtree<'_> {
 fn above(
     source: Source<'_>,
     values: &mut [f64],
-    (rooms, team): (&[Mutex<Room>], &mut Team<'_>),
+    parallel: &mut Parallel<'_>,
 ) -> Result<Weakest, Unfinished> {
     let mut places = filled(source.structure.size, 0)?;
     let mut weakest = None;
@@ -142,7 +141,7 @@ fn above(
         let own = source.structure.values(s);
         let (before, rest) = values.split_at_mut(own.start);
         let (before, panel) = (Before { values: before, start: 0 }, &mut rest[..own.len()]);
-        let made = making::together(source, s, before, panel, &mut places, (rooms, team))?;
+        let made = by_all_threads(source, s, before, panel, &mut places, parallel)?;
         weakest = weaker(weakest, made.map_err(Unfinished::Pivot)?);
     }
     Ok(weakest)

@@ -10,9 +10,9 @@ use faer::sparse::linalg::cholesky::simplicial;
 use faer::sparse::{SymbolicSparseColMat, SymbolicSparseColMatRef};
 
 use super::dissection::dissected;
+use super::factor_progress::FactorProgress;
 use super::failure::Failure;
 use super::graph::{Graph, filled, reserved};
-use super::watch::{Watch, go_on};
 use crate::linalg::sparse_matrix::OutOfMemory;
 
 /// Most vertices of the clique: of more, several are one. The clique has the square of it.
@@ -29,11 +29,11 @@ pub type Pattern = SymbolicSparseColMat<usize>;
 /// The inner vertices in the order of elimination.
 ///
 /// # Errors
-/// No memory, or `watch` ends it.
+/// No memory, or `progress` ends it.
 pub fn chosen(
     graph: &Graph,
     given: Option<&[usize]>,
-    watch: &mut dyn Watch,
+    progress: &mut dyn FactorProgress,
 ) -> Result<Vec<usize>, Failure> {
     if let Some(rank) = given {
         let mut order: Vec<usize> = (0..graph.inner).collect();
@@ -45,8 +45,8 @@ pub fn chosen(
     if operations <= OPERATIONS_PER_VERTEX * graph.inner as f64 {
         return Ok(order);
     }
-    let Some(dissected) = nested_dissection(graph, watch)? else { return Ok(order) };
-    go_on(watch)?;
+    let Some(dissected) = nested_dissection(graph, progress)? else { return Ok(order) };
+    progress.has_done(0.0)?;
     let (dissected, fewer) = examined(graph, &dissected)?;
     Ok(if fewer < operations { dissected } else { order })
 }
@@ -80,9 +80,12 @@ fn minimum_degree(graph: &Graph) -> Result<Vec<usize>, OutOfMemory> {
 }
 
 /// `None` if it fails in any way: the other order serves.
-fn nested_dissection(graph: &Graph, watch: &mut dyn Watch) -> Result<Option<Vec<usize>>, Failure> {
+fn nested_dissection(
+    graph: &Graph,
+    progress: &mut dyn FactorProgress,
+) -> Result<Option<Vec<usize>>, Failure> {
     let Some((start, neighbour)) = inner_links(graph) else { return Ok(None) };
-    let order = dissected(start, neighbour, watch)?;
+    let order = dissected(start, neighbour, progress)?;
     Ok(order.and_then(|order| permutation(&order, graph.inner)))
 }
 
@@ -106,7 +109,7 @@ fn permutation(order: &[i32], size: usize) -> Option<Vec<usize>> {
     order.filter(|order| is_permutation(order, size))
 }
 
-/// Whether `order` has each of the numbers below `size` once.
+/// `true` if `order` has each of the numbers below `size` once.
 fn is_permutation(order: &[usize], size: usize) -> bool {
     let mut missing = vec![true; size];
     let is_new = |&i: &usize| missing.get_mut(i).is_some_and(std::mem::take);
@@ -196,22 +199,8 @@ mod tests {
         post_order,
     };
     use crate::linalg::sparse_matrix::{Csc, from_entries};
+    use crate::linalg::sparse_schur::factor_progress::tests::Unwatched;
     use crate::linalg::sparse_schur::graph::Graph;
-    use crate::linalg::sparse_schur::watch::Watch;
-    use std::ops::ControlFlow;
-
-    /// Nobody is asked.
-    struct Unwatched;
-
-    impl Watch for Unwatched {
-        fn announce(&mut self, _: u64) -> ControlFlow<()> {
-            ControlFlow::Continue(())
-        }
-
-        fn step(&mut self, _: f64) -> ControlFlow<()> {
-            ControlFlow::Continue(())
-        }
-    }
 
     /// A cube of `edge`³ nodes with `dofs` unknowns each that are coupled with those of the 26 nodes around;
     /// the last layer is kept.

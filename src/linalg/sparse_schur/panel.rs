@@ -1,4 +1,4 @@
-//! The values of a panel: what those before it change in them, and its elimination, a block of rows at a time.
+//! The values of a panel: the changes by the panels before it, and its elimination, a block of rows at a time.
 //!
 //! Each entry gets the same sums in the same order, whoever computes its block.
 
@@ -9,17 +9,10 @@ use faer::{Accum, MatMut, MatRef};
 
 use super::dense::{self, scattered};
 use super::entries::Entries;
-use super::failure::Failure;
-use super::graph::filled;
+use super::parallel::Done;
 use super::schedule::{Change, Schedule};
 use super::structure::Structure;
-use super::team::Done;
-
-/// Rows of a block: products of it are fast, and what changes it stays in the cache.
-pub const ROWS: usize = 512;
-
-/// Columns of a block of the Schur complement.
-pub const COLUMNS: usize = 256;
+use super::workspace::ROWS;
 
 /// The pivot that is smallest relative to the diagonal: its place, and this ratio.
 pub type Weakest = Option<(usize, f64)>;
@@ -33,7 +26,7 @@ pub fn weaker(first: Weakest, second: Weakest) -> Weakest {
     }
 }
 
-/// Of what panels are made.
+/// The parts of a matrix and of its factor from which panels are made.
 #[derive(Clone, Copy)]
 pub struct Source<'a> {
     pub structure: &'a Structure,
@@ -48,43 +41,6 @@ pub struct Before<'a> {
     pub values: &'a [f64],
     /// Where those of the first one begin.
     pub start: usize,
-}
-
-/// Working memory of a thread.
-pub struct Room {
-    /// Where each row stands in the panel of which it is one.
-    pub place: Vec<usize>,
-    /// A product that is then subtracted.
-    pub product: Vec<f64>,
-    pub memory: MemBuffer,
-}
-
-impl Room {
-    /// For any panel.
-    pub fn new(structure: &Structure) -> Result<Self, Failure> {
-        Ok(Room {
-            place: filled(structure.size, 0)?,
-            product: filled(largest_product(structure), 0.0)?,
-            memory: MemBuffer::try_new(dense::scratch(widest(structure)))
-                .map_err(|_| Failure::OutOfMemory)?,
-        })
-    }
-
-    /// Its bytes, but for those of the factorisation of a diagonal block.
-    pub fn bytes(structure: &Structure) -> usize {
-        structure.size * size_of::<usize>() + largest_product(structure) * size_of::<f64>()
-    }
-}
-
-fn widest(structure: &Structure) -> usize {
-    (0..structure.panels()).map(|s| structure.columns(s).len()).max().unwrap_or(0)
-}
-
-/// Entries of the largest product of blocks.
-fn largest_product(structure: &Structure) -> usize {
-    let rows = (0..structure.panels()).map(|s| structure.rows(s).len()).max().unwrap_or(0);
-    let columns = widest(structure).max(structure.kept().min(COLUMNS));
-    columns * rows.max(columns).min(ROWS)
 }
 
 /// A panel in the making.
@@ -250,7 +206,7 @@ pub fn accumulated<T>(each: impl Iterator<Item = T>, mut product: impl FnMut(Acc
     });
 }
 
-/// Whether ascending numbers follow each other.
+/// `true` if ascending numbers follow each other.
 pub fn is_dense(rows: &[usize]) -> bool {
     rows.last().is_none_or(|last| last + 1 - rows[0] == rows.len())
 }

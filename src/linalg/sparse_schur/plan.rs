@@ -1,10 +1,10 @@
-//! What a factorisation will do, before a number is computed.
+//! The steps and the memory of a factorisation, before a number is computed.
 
+use super::factor_progress::FactorProgress;
 use super::failure::Failure;
 use super::numeric;
 use super::schedule::Schedule;
 use super::structure::Structure;
-use super::watch::Watch;
 use crate::linalg::sparse_matrix::Csc;
 use crate::workers::Workers;
 
@@ -16,19 +16,19 @@ pub struct Plan {
 }
 
 impl Plan {
-    /// Of the symmetric matrix whose lower triangle is `lower`, of which the first rows are eliminated; `rank`, if
+    /// Plans the factorisation of the symmetric matrix whose lower triangle is `lower`, of which the first rows are eliminated; `rank`, if
     /// given, orders them. `workers` will factorise.
     pub fn new(
         lower: &Csc,
         eliminated: usize,
         rank: Option<&[usize]>,
         workers: &dyn Workers,
-        watch: &mut dyn Watch,
+        progress: &mut dyn FactorProgress,
     ) -> Result<Self, Failure> {
-        let structure = Structure::new(lower, eliminated, rank, watch)?;
+        let structure = Structure::new(lower, eliminated, rank, progress)?;
         let schedule = Schedule::new(&structure)?;
         let matrix = lower.compute_nnz() * (size_of::<usize>() + size_of::<f64>());
-        let numeric = numeric::bytes(&structure, lower, workers.lanes());
+        let numeric = numeric::bytes(&structure, lower, workers.threads());
         let bytes = numeric + structure.bytes() + schedule.bytes() + matrix;
         Ok(Plan { structure, schedule, bytes: bytes as u64 })
     }

@@ -1,4 +1,4 @@
-//! Which panels change each panel, and in what order panels are made.
+//! The panels that change each panel, and the order in which panels are made.
 //!
 //! The panels of a small subtree of the elimination tree stand in a row and need no others: each subtree is the work
 //! of one thread. The panels above come one after the other, and threads share the rows of each. What is a subtree
@@ -16,7 +16,7 @@ const SHARE: f64 = 1.0 / 64.0;
 /// And at most so many: some hundredths of a second, in which nothing asks whether to go on.
 const LARGEST_SUBTREE: f64 = 1e9;
 
-/// Which panels change each panel, and in what order.
+/// The panels that change each panel, and the order.
 pub struct Schedule {
     start: Vec<usize>,
     changes: Vec<Change>,
@@ -30,7 +30,7 @@ pub struct Schedule {
     pub above: Vec<usize>,
 }
 
-/// What a panel changes in another one.
+/// The change of a panel by an earlier one.
 #[derive(Clone, Copy)]
 pub struct Change {
     /// The earlier panel.
@@ -41,7 +41,7 @@ pub struct Change {
 }
 
 impl Schedule {
-    /// Of the panels of a factor.
+    /// Finds the changes and the order of the panels of a factor.
     pub fn new(structure: &Structure) -> Result<Self, OutOfMemory> {
         let panels = structure.panels();
         let panel_of = structure.panel_of_columns()?;
@@ -77,7 +77,7 @@ impl Schedule {
     /// Finds the subtrees.
     fn part(&mut self, structure: &Structure, panel_of: &[usize]) -> Result<(), OutOfMemory> {
         let (panels, most) = (self.of_panel.len(), (SHARE * self.operations).min(LARGEST_SUBTREE));
-        // Of each subtree its operations, the first of its panels, and how many it has.
+        // The operations of each subtree, the first of its panels, and how many it has.
         let mut work: Vec<f64> = reserved(panels)?;
         work.extend_from_slice(&self.of_panel);
         let (mut first, mut count) = (filled(panels, 0)?, filled(panels, 1)?);

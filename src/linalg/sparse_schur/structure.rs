@@ -4,15 +4,15 @@ use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::linalg::SymbolicSupernodalParams;
 use faer::sparse::linalg::cholesky::{simplicial, supernodal};
 
+use super::factor_progress::FactorProgress;
 use super::failure::Failure;
 use super::graph::{Graph, filled, reserved};
 use super::order::{Pattern, chosen, pattern};
-use super::watch::{Watch, go_on};
 use crate::linalg::sparse_matrix::{Csc, OutOfMemory, column};
 
-/// Most columns of a panel, into which wide supernodes are cut: so long does nothing ask whether to go on,
-/// so much of the triangle above the diagonal is stored, and products are still fast.
-const PANEL: usize = 256;
+/// Most columns of a panel, into which wide supernodes are cut, and of a block of the Schur complement. Products with so
+/// many are fast; more would delay the question whether to go on, and store more of the triangle above the diagonal.
+pub const PANEL: usize = 256;
 
 /// Neighbouring supernodes become one if it has at most so many vertices, of whose entries at most this
 /// share is zero. Of one with all kept vertices a small share is much: where these are most of the rows, a
@@ -38,21 +38,21 @@ pub struct Structure {
 }
 
 impl Structure {
-    /// Of the factor of the matrix whose lower triangle is `lower`, in the best order that is found or, if
-    /// `given` has the rank of each unknown, in this one.
+    /// Finds the panels of the factor of the matrix whose lower triangle is `lower`, in the best order that is found or,
+    /// if `given` has the rank of each unknown, in this one.
     ///
     /// # Errors
-    /// No memory, or `watch`, who is asked between the parts of the work, ends it.
+    /// No memory, or `progress`, who is asked between the parts of the work, ends it.
     pub fn new(
         lower: &Csc,
         eliminated: usize,
         given: Option<&[usize]>,
-        watch: &mut dyn Watch,
+        progress: &mut dyn FactorProgress,
     ) -> Result<Self, Failure> {
-        go_on(watch)?;
+        progress.has_done(0.0)?;
         let graph = Graph::new(lower, eliminated)?;
-        go_on(watch)?;
-        let order = chosen(&graph, given, watch)?;
+        progress.has_done(0.0)?;
+        let order = chosen(&graph, given, progress)?;
         let pattern = pattern(&graph, &order)?;
         let symbolic = symbolic(&pattern)?;
         // Places of the unknowns of each vertex.

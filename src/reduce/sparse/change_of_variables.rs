@@ -27,6 +27,40 @@ pub(super) struct ChangeOfVariables {
     free: Vec<usize>,
 }
 
+/// The columns of `W`, and its entries as they are gathered.
+pub(super) struct VariableColumns {
+    /// The host's degree of freedom of each free unknown.
+    pub(super) free: Vec<usize>,
+    unknowns: usize,
+    /// Number of fixed degrees of freedom.
+    pub(super) fixed: usize,
+    /// The column of each degree of freedom that is an unknown or fixed.
+    pub(super) of_dof: Vec<Option<usize>>,
+    pub(super) entries: Vec<(usize, usize, f64)>,
+}
+
+impl VariableColumns {
+    /// The columns where rows give the degrees of freedom `given` in so many `kept` variables; `places` are the places
+    /// in `fixed` of the host's degrees of freedom. Entries are those of degrees of freedom with a column.
+    pub(super) fn new(
+        places: &[Option<usize>],
+        given: impl Iterator<Item = usize>,
+        kept: usize,
+    ) -> Self {
+        let mut is_free: Vec<bool> = places.iter().map(Option::is_none).collect();
+        given.for_each(|dof| is_free[dof] = false);
+        let free: Vec<usize> = (0..places.len()).filter(|&dof| is_free[dof]).collect();
+        let unknowns = free.len() + kept;
+        let mut of_dof: Vec<Option<usize>> =
+            places.iter().map(|place| place.map(|k| unknowns + k)).collect();
+        free.iter().enumerate().for_each(|(k, &dof)| of_dof[dof] = Some(k));
+        let entries = of_dof.iter().enumerate();
+        let entries = entries.filter_map(|(dof, column)| Some((dof, (*column)?, 1.0))).collect();
+        let fixed = places.iter().flatten().count();
+        VariableColumns { free, unknowns, fixed, of_dof, entries }
+    }
+}
+
 impl ChangeOfVariables {
     /// `places` are the places in `fixed` of the host's degrees of freedom.
     pub(super) fn new(
@@ -35,20 +69,9 @@ impl ChangeOfVariables {
         places: &[Option<usize>],
         fixed_components: &[FixedComponent],
     ) -> Result<Self, OutOfMemory> {
-        let host_size = places.len();
-        let mut is_slave = vec![false; host_size];
-        pairs.slaves.iter().for_each(|&dof| is_slave[dof] = true);
-        let free: Vec<usize> =
-            (0..host_size).filter(|&dof| places[dof].is_none() && !is_slave[dof]).collect();
-        let unknowns = free.len() + pairs.dim * pairs.count;
-        let fixed = places.iter().flatten().count();
-        // The column of each degree of freedom that is an unknown or fixed.
-        let mut column: Vec<Option<usize>> =
-            places.iter().map(|place| place.map(|k| unknowns + k)).collect();
-        free.iter().enumerate().for_each(|(k, &dof)| column[dof] = Some(k));
-
-        let mut entries: Vec<(usize, usize, f64)> =
-            (0..host_size).filter_map(|dof| Some((dof, column[dof]?, 1.0))).collect();
+        let slaves = pairs.slaves.iter().copied();
+        let mut columns = VariableColumns::new(places, slaves, pairs.dim * pairs.count);
+        let VariableColumns { free, of_dof: column, entries, .. } = &mut columns;
         for (pair, frame) in frames.iter().enumerate() {
             for (axis, &slave) in pairs.slave(pair).unwrap_or_default().iter().enumerate() {
                 if column[slave].is_some() {
@@ -64,19 +87,16 @@ impl ChangeOfVariables {
                 }
             }
         }
-        let fixed = (fixed, fixed_components);
-        Self::of_entries(entries, free, (unknowns, host_size), fixed)
+        Self::of_columns(columns, fixed_components)
     }
 
-    /// The change of variables with `entries` of `T` and `P`, and springs on components that are fixed.
-    /// `size` are the numbers of unknowns and of the host's degrees of freedom.
-    pub(super) fn of_entries(
-        mut entries: Vec<(usize, usize, f64)>,
-        free: Vec<usize>,
-        (unknowns, host_size): (usize, usize),
-        (fixed, fixed_components): (usize, &[FixedComponent]),
+    /// The change of variables with all entries of `T` and `P`, and springs on components that are fixed.
+    pub(super) fn of_columns(
+        columns: VariableColumns,
+        fixed_components: &[FixedComponent],
     ) -> Result<Self, OutOfMemory> {
-        let springs = fixed_components.len();
+        let VariableColumns { free, unknowns, fixed, of_dof, mut entries } = columns;
+        let (host_size, springs) = (of_dof.len(), fixed_components.len());
         for (k, fixed) in fixed_components.iter().enumerate() {
             entries.push((host_size + k, free.len() + fixed.variable, 1.0));
         }

@@ -1,9 +1,7 @@
-//! What a host may say about a reduction: its order of elimination, its threads, and whether to go on.
-
-use std::ops::ControlFlow;
+//! The choices of a host for a reduction: its order of elimination, its threads, and whether to go on.
 
 use crate::error::{Argument, Error, Limit, entry, index};
-use crate::linalg::sparse_schur::Watch;
+use crate::linalg::sparse_schur::{FactorProgress, Stopped};
 use crate::workers::Workers;
 
 /// Is asked between steps whether to go on: the share of the work that is done, and the bytes that it needs
@@ -14,7 +12,7 @@ type Ask<'a> = dyn FnMut(f64, u64) -> Result<(), Error> + 'a;
 pub struct Control<'a> {
     /// Each degree of freedom once, the first to be eliminated first; `None`: chosen.
     pub order: Option<&'a [usize]>,
-    /// Whether no condensed matrix is to be formed.
+    /// `true`: no condensed matrix is formed.
     pub full_space: bool,
     /// Who factorises.
     pub workers: &'a dyn Workers,
@@ -39,26 +37,23 @@ impl<'a, 'b> Asked<'a, 'b> {
         (self.memory, self.ended) = (0, None);
     }
 
-    /// Whether the answer was that memory does not suffice.
+    /// `true` if the answer was that memory does not suffice.
     pub(super) fn lacks_memory(&self) -> bool {
         matches!(self.ended, Some(Error::Stopped { limit: Limit::Memory, .. }))
     }
 }
 
-impl Watch for Asked<'_, '_> {
-    fn announce(&mut self, bytes: u64) -> ControlFlow<()> {
+impl FactorProgress for Asked<'_, '_> {
+    fn needs(&mut self, bytes: u64) -> Result<(), Stopped> {
         self.memory = bytes;
-        self.step(0.0)
+        self.has_done(0.0)
     }
 
-    fn step(&mut self, share: f64) -> ControlFlow<()> {
-        match (self.ask)(share, self.memory) {
-            Ok(()) => ControlFlow::Continue(()),
-            Err(error) => {
-                self.ended = Some(error);
-                ControlFlow::Break(())
-            }
-        }
+    fn has_done(&mut self, share: f64) -> Result<(), Stopped> {
+        (self.ask)(share, self.memory).map_err(|error| {
+            self.ended = Some(error);
+            Stopped
+        })
     }
 }
 

@@ -5,7 +5,7 @@ use super::host_matrix::refuse;
 use crate::error::Error;
 use crate::linalg::sparse_matrix::{Csc, column, diagonal};
 use crate::problem::symmetric_matrix::{SYMMETRY, beyond_diagonal};
-use crate::problem::{FrictionLaw, SparseFlexibilityProblem, checked_dim, unknowns};
+use crate::problem::{FrictionLaw, SparseFlexibilityProblem, SparseW, checked_dim, unknowns};
 
 /// The caller's arrays of a problem in flexibility form with a sparse `W`, not yet checked. Units as in
 /// [`crate::FlexibilityData`].
@@ -36,8 +36,22 @@ impl<'a> SparseFlexibilityProblem<'a> {
     /// allows, negative on the diagonal or zero there in a row that is not zero; a `W` of another size or of
     /// zeros; the first entry of another array that is out of range. [`Error::OutOfMemory`]: no memory for the copy.
     pub fn from_sparse(data: SparseFlexibilityData<'a>) -> Result<Self, Error> {
-        let size = unknowns(checked_dim(data.dim)?, data.pairs)?;
-        let matrix = &data.flexibility;
+        let matrix = SparseW::from_sparse(data.dim, data.pairs, &data.flexibility)?;
+        Self::with_matrix(matrix, data.free, data.gap, data.law, data.reference_slip)
+    }
+}
+
+impl SparseW {
+    /// A checked copy of a host's matrix of so many pairs.
+    ///
+    /// # Errors
+    /// As [`SparseFlexibilityProblem::from_sparse`] of the matrix.
+    pub(crate) fn from_sparse(
+        dim: usize,
+        pairs: usize,
+        matrix: &SparseMatrix<'_>,
+    ) -> Result<Self, Error> {
+        let size = unknowns(checked_dim(dim)?, pairs)?;
         if matrix.size != size {
             return refuse(format!(
                 "W: size is {}, it must be dim * pairs, which is {size}",
@@ -46,8 +60,7 @@ impl<'a> SparseFlexibilityProblem<'a> {
         }
         let lower = matrix.lower_triangle("W", |_| true)?;
         check_entries(&lower)?;
-        let matrix = (data.dim, lower);
-        Self::of_lower_triangle(matrix, data.free, data.gap, data.law, data.reference_slip)
+        SparseW::new(dim, lower)
     }
 }
 

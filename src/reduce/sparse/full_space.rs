@@ -4,16 +4,15 @@
 //! replaced by those of a diagonal matrix. The pattern stays, so that it is analysed once. With all of them held
 //! the matrix is definite if a condensed one exists at all.
 
-use std::ops::ControlFlow;
 use std::sync::{Mutex, PoisonError};
 
 use crate::error::{Argument, Error};
 use crate::linalg::sparse_matrix::{
     Csc, column, diagonal, symmetric_magnitude, symmetric_residual, symmetric_times,
 };
-use crate::linalg::sparse_schur::{Failure, SparseCholesky, Values, Watch, answered};
-use crate::problem::{Bodies, GoesOn, Restriction};
-use crate::workers::{Alone, Workers};
+use crate::linalg::sparse_schur::{FactorProgress, Failure, SparseCholesky, Stopped, Values};
+use crate::problem::{GoesOn, HeldSet, StiffnessOperator};
+use crate::workers::{SingleThread, Workers};
 
 /// Where bodies move freely with the components that are held, springs of this part of their units hold them in
 /// the factor, the first with which it exists. Solutions are approximate then.
@@ -33,33 +32,34 @@ pub(super) struct FullSpace {
 
 /// A factor, and what is held in it.
 struct Factor {
-    restriction: Restriction,
+    held_set: HeldSet,
     values: Values,
 }
 
 impl FullSpace {
-    /// Of the lower triangle of the matrix, whose first `inner` unknowns are no relative displacements; pairs have
+    /// Takes the lower triangle of the matrix, whose first `inner` unknowns are no relative displacements; pairs have
     /// `dim` components.
     pub(super) fn new(
         matrix: Csc,
         inner: usize,
         dim: usize,
         workers: &dyn Workers,
-        watch: &mut dyn Watch,
+        progress: &mut dyn FactorProgress,
     ) -> Result<Self, Failure> {
-        let cholesky = SparseCholesky::new(&matrix, workers, watch)?;
-        answered(watch.announce(factor_bytes(&cholesky, &matrix)))?;
+        let cholesky = SparseCholesky::new(&matrix, workers, progress)?;
+        progress.needs(factor_bytes(&cholesky, &matrix))?;
         let units: Vec<f64> =
             (0..matrix.ncols()).map(|j| diagonal(&matrix, j).unwrap_or_default()).collect();
-        let restriction = Restriction::all(dim, (matrix.ncols() - inner) / dim);
-        let mut made = FullSpace { matrix, inner, dim, units, cholesky, kept: Mutex::new(None) };
-        let values = made.cholesky.diagnosed(made.restricted(&restriction, 0.0), workers, watch)?;
-        let largest = made.units.iter().fold(0.0_f64, |most, unit| most.max(*unit));
-        for unit in &mut made.units {
+        let held_set = HeldSet::all(dim, (matrix.ncols() - inner) / dim);
+        let mut space = FullSpace { matrix, inner, dim, units, cholesky, kept: Mutex::new(None) };
+        let values =
+            space.cholesky.diagnosed(space.restricted(&held_set, 0.0), workers, progress)?;
+        let largest = space.units.iter().fold(0.0_f64, |most, unit| most.max(*unit));
+        for unit in &mut space.units {
             *unit = if *unit > 0.0 { *unit } else { largest };
         }
-        made.kept = Mutex::new(Some(Factor { restriction, values }));
-        Ok(made)
+        space.kept = Mutex::new(Some(Factor { held_set, values }));
+        Ok(space)
     }
 
     /// Bytes of a factor with what it takes to make and to use it.
@@ -67,19 +67,19 @@ impl FullSpace {
         factor_bytes(&self.cholesky, &self.matrix)
     }
 
-    /// The matrix with rows and columns of held components replaced, and with springs: those of the restriction,
+    /// The matrix with rows and columns of held components replaced, and with springs: those of the held set,
     /// and others of `soft` units on components of `d` that are free.
-    fn restricted(&self, restriction: &Restriction, soft: f64) -> Csc {
+    fn restricted(&self, held_set: &HeldSet, soft: f64) -> Csc {
         let (inner, dim) = (self.inner, self.dim);
         let mut matrix = self.matrix.clone();
-        let held = |i: usize| i >= inner && restriction.held[i - inner];
+        let held = |i: usize| i >= inner && held_set.held[i - inner];
         for j in 0..matrix.ncols() {
             let range = matrix.symbolic().col_range(j);
             for place in range {
                 let i = matrix.symbolic().row_idx()[place];
                 let value = &mut matrix.val_mut()[place];
                 if i == j && held(i) {
-                    // Of a component that nothing resists too.
+                    // A component that nothing resists is held too.
                     *value = if *value > 0.0 { *value } else { 1.0 };
                 } else if held(i) || held(j) {
                     *value = 0.0;
@@ -87,7 +87,7 @@ impl FullSpace {
                     let (pair, column) = ((j - inner) / dim, (j - inner) % dim);
                     let row = i - (inner + dim * pair);
                     if row < dim && row > 0 && column > 0 {
-                        *value += restriction.springs[pair][row - 1][column - 1];
+                        *value += held_set.springs[pair][row - 1][column - 1];
                     }
                     if i == j {
                         *value += soft * self.units[i];
@@ -107,7 +107,7 @@ impl FullSpace {
     /// `c - B A⁻¹ a` for each of the loads `(a, c)`, one behind the other: minus the forces on the components of
     /// `d`, all held.
     pub(super) fn condense(&self, loads: &[f64]) -> Result<Vec<f64>, Error> {
-        let mut user = self.in_use(&Alone);
+        let mut user = self.in_use(&SingleThread);
         user.hold_all()?;
         let x = user.solve(loads)?;
         let (size, mut condensed) = (self.matrix.ncols().max(1), Vec::new());
@@ -121,7 +121,7 @@ impl FullSpace {
     /// All unknowns of loads where those of the pairs are `d`. Of several load cases, each argument has its
     /// vectors one behind the other, and so has the result.
     pub(super) fn recover(&self, loads: &[f64], d: &[f64]) -> Result<Vec<f64>, Error> {
-        let mut user = self.in_use(&Alone);
+        let mut user = self.in_use(&SingleThread);
         user.hold_all()?;
         let size = self.matrix.ncols().max(1);
         let mut x = vec![0.0; loads.len()];
@@ -157,16 +157,12 @@ const VECTORS: usize = 16;
 /// Solutions for given `d`, each with the residual of the one before.
 const REFINEMENTS: usize = 2;
 
-/// Asks while a factor is made.
+/// Asks while a factor is space.
 struct Asking<'a>(GoesOn<'a>);
 
-impl Watch for Asking<'_> {
-    fn announce(&mut self, _: u64) -> ControlFlow<()> {
-        ControlFlow::Continue(())
-    }
-
-    fn step(&mut self, _: f64) -> ControlFlow<()> {
-        if (self.0)() { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+impl FactorProgress for Asking<'_> {
+    fn has_done(&mut self, _: f64) -> Result<(), Stopped> {
+        if (self.0)() { Ok(()) } else { Err(Stopped) }
     }
 }
 
@@ -180,7 +176,7 @@ pub(super) struct InUse<'a> {
 impl InUse<'_> {
     fn hold_all(&mut self) -> Result<(), Error> {
         let pairs = (self.space.matrix.ncols() - self.space.inner) / self.space.dim;
-        self.hold(&Restriction::all(self.space.dim, pairs), &mut || true).map(drop)
+        self.hold(&HeldSet::all(self.space.dim, pairs), &mut || true).map(drop)
     }
 }
 
@@ -191,7 +187,7 @@ impl Drop for InUse<'_> {
     }
 }
 
-impl Bodies for InUse<'_> {
+impl StiffnessOperator for InUse<'_> {
     fn inner(&self) -> usize {
         self.space.inner
     }
@@ -230,18 +226,18 @@ impl Bodies for InUse<'_> {
         true
     }
 
-    fn hold(&mut self, restriction: &Restriction, goes_on: GoesOn<'_>) -> Result<bool, Error> {
-        if self.factor.as_ref().is_some_and(|factor| factor.restriction == *restriction) {
+    fn hold(&mut self, held_set: &HeldSet, goes_on: GoesOn<'_>) -> Result<bool, Error> {
+        if self.factor.as_ref().is_some_and(|factor| factor.held_set == *held_set) {
             return Ok(true);
         }
         // Two factors never exist at a time.
         self.factor = None;
         for soft in std::iter::once(0.0).chain(SPRINGS) {
-            let matrix = self.space.restricted(restriction, soft);
+            let matrix = self.space.restricted(held_set, soft);
             let (cholesky, asking) = (&self.space.cholesky, &mut Asking(&mut *goes_on));
             match cholesky.factor(&matrix, self.workers, asking) {
                 Ok(Some(values)) => {
-                    self.factor = Some(Factor { restriction: restriction.clone(), values });
+                    self.factor = Some(Factor { held_set: held_set.clone(), values });
                     return Ok(true);
                 }
                 Ok(None) => {}
@@ -261,7 +257,7 @@ impl Bodies for InUse<'_> {
         let mut right = forces.to_vec();
         // A vector, or several one behind the other.
         for right in right.chunks_exact_mut(size) {
-            for (force, held) in right[inner..].iter_mut().zip(&factor.restriction.held) {
+            for (force, held) in right[inner..].iter_mut().zip(&factor.held_set.held) {
                 if *held {
                     *force = 0.0;
                 }

@@ -10,7 +10,7 @@
 //! along a direction of its frame, and the independent `delta` of other pairs. If there are others, rows
 //! depend on each other.
 
-use super::change_of_variables::ChangeOfVariables;
+use super::change_of_variables::{ChangeOfVariables, VariableColumns};
 use super::messages;
 use super::supports::FixedComponent;
 use crate::error::{Argument, Error};
@@ -20,9 +20,7 @@ use crate::problem::Dependence;
 use crate::reduce::frame::Frame;
 use crate::reduce::pairs::ContactPairs;
 
-type Entries = Vec<(usize, usize, f64)>;
-
-/// What general rows make of the host's degrees of freedom.
+/// The host's degrees of freedom, solved for general rows.
 pub(super) struct GeneralRows {
     pub(super) variables: ChangeOfVariables,
     pub(super) supports: Vec<FixedComponent>,
@@ -31,20 +29,20 @@ pub(super) struct GeneralRows {
 }
 
 /// A pair's place among the variables.
-enum Place {
+enum RowPlace {
     /// `dim` variables from this one on: its components in its frame.
     Frame(usize),
     /// One for each axis that is independent.
     Axes(Vec<Option<usize>>),
 }
 
-/// What the parts share.
+/// The data that the parts share.
 struct Rows<'r> {
     dim: usize,
     frames: &'r [Frame],
-    /// Place in `fixed` of each degree of freedom.
+    /// RowPlace in `fixed` of each degree of freedom.
     fixed: &'r [Option<usize>],
-    places: Vec<Place>,
+    places: Vec<RowPlace>,
     kept: usize,
 }
 
@@ -73,7 +71,7 @@ pub(super) fn general_rows(
         .map_err(|_| Error::OutOfMemory("the contact rows, solved for degrees of freedom"))
 }
 
-/// What equation `axis` of a pair is, if it follows from others.
+/// Equation `axis` of a pair in terms of others, if it follows from them.
 fn dependent(solved: &Solved, pair: usize, dim: usize, axis: usize) -> Option<&Expression> {
     solved.dependent[dim * pair + axis].as_ref()
 }
@@ -127,21 +125,23 @@ impl<'r> Rows<'r> {
             kept += 1;
             kept - 1
         };
-        let places: Vec<Place> = (0..frames.len())
+        let places: Vec<RowPlace> = (0..frames.len())
             .map(|pair| {
                 let is_independent = |axis: usize| dependent(solved, pair, dim, axis).is_none();
                 let independent = (0..dim).filter(|&axis| is_independent(axis)).count();
                 if independent + held[pair] == dim {
                     let first = next();
                     (1..dim).for_each(|_| _ = next());
-                    Place::Frame(first)
+                    RowPlace::Frame(first)
                 } else {
-                    Place::Axes((0..dim).map(|axis| is_independent(axis).then(&mut next)).collect())
+                    RowPlace::Axes(
+                        (0..dim).map(|axis| is_independent(axis).then(&mut next)).collect(),
+                    )
                 }
             })
             .collect();
         for support in supports {
-            if let Place::Frame(first) = places[support.pair] {
+            if let RowPlace::Frame(first) = places[support.pair] {
                 support.variable = first + support.component % dim;
             }
         }
@@ -152,13 +152,13 @@ impl<'r> Rows<'r> {
     fn right_side(&self, equation: usize) -> Terms {
         let (pair, axis) = (equation / self.dim, equation % self.dim);
         match &self.places[pair] {
-            Place::Frame(first) => {
+            RowPlace::Frame(first) => {
                 let directions = self.frames[pair].directions().enumerate();
                 directions
                     .map(|(component, direction)| (first + component, direction[axis]))
                     .collect()
             }
-            Place::Axes(places) => places[axis].map(|place| (place, 1.0)).into_iter().collect(),
+            RowPlace::Axes(places) => places[axis].map(|place| (place, 1.0)).into_iter().collect(),
         }
     }
 
@@ -174,18 +174,9 @@ impl<'r> Rows<'r> {
         solved: &Solved,
         supports: Vec<FixedComponent>,
     ) -> Result<GeneralRows, OutOfMemory> {
-        let host_size = self.fixed.len();
-        let mut is_given = vec![false; host_size];
-        solved.given.iter().for_each(|&(dof, _)| is_given[dof] = true);
-        let is_free = |dof: &usize| self.fixed[*dof].is_none() && !is_given[*dof];
-        let free: Vec<usize> = (0..host_size).filter(is_free).collect();
-        let unknowns = free.len() + self.kept;
-        let fixed = self.fixed.iter().flatten().count();
-        let mut column: Vec<Option<usize>> =
-            self.fixed.iter().map(|place| place.map(|k| unknowns + k)).collect();
-        free.iter().enumerate().for_each(|(k, &dof)| column[dof] = Some(k));
-        let mut entries: Entries =
-            (0..host_size).filter_map(|dof| Some((dof, column[dof]?, 1.0))).collect();
+        let given = solved.given.iter().map(|(dof, _)| *dof);
+        let mut columns = VariableColumns::new(self.fixed, given, self.kept);
+        let VariableColumns { free, of_dof: column, entries, .. } = &mut columns;
         for (dof, expression) in &solved.given {
             // Unknowns that no equation gives have a column.
             let unknowns = expression.unknowns.iter();
@@ -193,9 +184,9 @@ impl<'r> Rows<'r> {
             let sides = self.right_sides(&expression.right_sides);
             entries.extend(sides.into_iter().map(|(k, a)| (*dof, free.len() + k, a)));
         }
-        let (size, supported) = ((unknowns, host_size), (fixed, &supports[..]));
-        let variables = ChangeOfVariables::of_entries(entries, free, size, supported)?;
-        let depends = self.places.iter().any(|place| matches!(place, Place::Axes(_)));
+        let fixed = columns.fixed;
+        let variables = ChangeOfVariables::of_columns(columns, &supports)?;
+        let depends = self.places.iter().any(|place| matches!(place, RowPlace::Axes(_)));
         let dependent = if depends { Some(self.dependence(solved, fixed)?) } else { None };
         Ok(GeneralRows { variables, supports, dependent })
     }
@@ -206,13 +197,13 @@ impl<'r> Rows<'r> {
         let mut dependent_pairs = Vec::new();
         for (pair, place) in self.places.iter().enumerate() {
             let places = match place {
-                Place::Frame(first) => {
+                RowPlace::Frame(first) => {
                     let same = (0..self.dim).map(|i| (self.dim * pair + i, first + i, 1.0));
                     to_relative.extend(same.clone());
                     from_relative.extend(same);
                     continue;
                 }
-                Place::Axes(places) => places,
+                RowPlace::Axes(places) => places,
             };
             dependent_pairs.push(pair);
             for (component, direction) in self.frames[pair].directions().enumerate() {

@@ -1,4 +1,4 @@
-//! What is wrong with a host's sparse matrix, its supports and pairs, in sentences: what, where, and
+//! Sentences about errors in a host's sparse matrix, its supports and pairs: what is wrong, where, and
 //! what to do.
 
 use super::host_arrays::{Indices, SparseMatrix};
@@ -138,7 +138,7 @@ const NEARLY_DEPENDENT: &str = "if two surfaces are each other's slaves, let one
      plane of symmetry are finer than what they face, name the plane where they are paired, or let the other side be \
      the slave";
 
-/// Whether anything resists a motion `u` of the host cannot be told from rounding. Pairs of general rows may
+/// The stiffness against a motion `u` of the host cannot be told from rounding. Pairs of general rows may
 /// nearly follow from others, which enlarges it.
 pub(super) fn unclear_motion(u: &[f64], general: bool) -> String {
     let said = format!(

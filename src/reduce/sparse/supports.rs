@@ -32,7 +32,7 @@ pub(super) struct FixedComponent {
     pub(super) component: usize,
     /// Which of the kept variables: the same, unless rows depend on each other.
     pub(super) variable: usize,
-    /// What the fixed values give it: place in `fixed`, coefficient.
+    /// The terms that fixed values give it: place in `fixed`, coefficient.
     pub(super) jump: Vec<(usize, f64)>,
 }
 

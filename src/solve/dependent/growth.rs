@@ -18,7 +18,7 @@ const COUNTS: f64 = 1e-6;
 /// Pairs that a sentence names.
 const MOST_NAMED: usize = 4;
 
-/// Whether forces grow by the same pattern round by round.
+/// True if forces grow by the same pattern round by round.
 #[derive(Default)]
 pub struct Growth {
     last: Option<Vec<f64>>,
@@ -36,7 +36,7 @@ impl Growth {
         self.last = Some(change);
     }
 
-    /// Whether the last two rounds have added the same forces.
+    /// True if the last two rounds have added the same forces.
     pub fn is_steady(&self) -> bool {
         self.same > 0
     }
@@ -47,7 +47,7 @@ impl Growth {
     }
 }
 
-/// Whether the normal forces of a pattern prove that no displacements meet all gaps.
+/// True if the normal forces of a pattern prove that no displacements meet all gaps.
 pub fn contradicts<R: Redundant>(problem: &ContactProblem<'_, R>, pattern: &[f64]) -> bool {
     let relation = problem.relation();
     let pressing = pressing(problem.dim(), pattern);

@@ -20,13 +20,11 @@
 mod growth;
 mod sprung;
 
-use std::ops::ControlFlow;
-
-use super::outcome::{Solution, Status};
+use super::result::{Solution, Status};
 use crate::error::{Argument, Error};
 use crate::law::{Contact, without_friction};
 use crate::linalg::sparse_matrix::{OutOfMemory, column, from_entries, transposed};
-use crate::linalg::sparse_schur::{Failure, Look, SparseSchur, Watch};
+use crate::linalg::sparse_schur::{FactorProgress, Failure, RigidModeCheck, SparseSchur, Stopped};
 use crate::linalg::vector::norm_inf;
 use crate::monitor::{Monitor, Stop};
 use crate::problem::{ContactProblem, DependentRows, Relation};
@@ -51,7 +49,7 @@ const ROUGH: f64 = 1e-3;
 /// The error before the first round, where there is no measure of it: that of the springs.
 const FIRST: f64 = COMPLIANCE;
 
-/// What of the least error is left where a round has made progress.
+/// Part of the least error that is left where a round has made progress.
 const HALF: f64 = 0.5;
 
 /// So many rounds that do not halve the least error show that rounding is reached.
@@ -61,7 +59,7 @@ const IDLE_ROUNDS: usize = 12;
 /// the loads on their variables, and `eta`, which is relative to these, is small before the forces are right.
 const LAST_ROUNDS: usize = 4;
 
-/// What a round works on.
+/// The problem that a round works on.
 struct Sprung<'p> {
     problem: &'p ContactProblem<'p, DependentRows<'p>>,
     contact: Contact<'p, DependentRows<'p>>,
@@ -119,14 +117,12 @@ struct Watched<'m, 'c> {
     stop: Option<Stop>,
 }
 
-impl Watch for Watched<'_, '_> {
-    fn announce(&mut self, _: u64) -> ControlFlow<()> {
-        ControlFlow::Continue(())
-    }
-
-    fn step(&mut self, _: f64) -> ControlFlow<()> {
-        self.stop = self.monitor.goes_on().err();
-        if self.stop.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+impl FactorProgress for Watched<'_, '_> {
+    fn has_done(&mut self, _: f64) -> Result<(), Stopped> {
+        self.monitor.goes_on().map_err(|stop| {
+            self.stop = Some(stop);
+            Stopped
+        })
     }
 }
 
@@ -158,7 +154,7 @@ fn condensed(
     let all = from_entries((kept + size, kept + size), entries.into_iter()).map_err(memory)?;
     let workers = monitor.workers();
     let mut watched = Watched { monitor, stop: None };
-    let made = SparseSchur::new(all, kept, None, Look::Always, workers, &mut watched);
+    let made = SparseSchur::new(all, kept, None, RigidModeCheck::Always, workers, &mut watched);
     match (made, watched.stop) {
         (Ok(made), _) => Ok(Ok(made)),
         (Err(_), Some(stop)) => Ok(Err(stop)),
@@ -174,7 +170,7 @@ fn condensed(
     }
 }
 
-/// Whether forces whose last two changes are `changes` will change by no more than `allowed`: each change is the
+/// True if forces whose last two changes are `changes` will change by no more than `allowed`: each change is the
 /// same part of the one before.
 pub fn settles([before, last]: [f64; 2], allowed: f64) -> bool {
     last <= allowed || last < before && before.is_finite() && last * (last / before) <= allowed

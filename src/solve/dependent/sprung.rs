@@ -6,9 +6,8 @@ use crate::law::Contact;
 use crate::monitor::{Monitor, Stop};
 use crate::problem::{ContactData, ContactProblem, Relation};
 use crate::settings::Settings;
-use crate::solve::dispatch::check_method;
-use crate::solve::far_obstacles;
-use crate::solve::outcome::{Existence, Solution, Status, Uniqueness};
+use crate::solve::plan::{self, check_method};
+use crate::solve::result::{Existence, Solution, Status, Uniqueness};
 
 /// Solves for the step from the displacements `d`, with the `stiffness` of bodies and springs, column-major,
 /// and their `load`.
@@ -39,7 +38,7 @@ pub fn step<R: Relation>(
     })?;
     let contact = Contact::new(&problem);
     check_method(&contact, settings.method)?;
-    far_obstacles::solve(&contact, settings, None, monitor)
+    plan::solve(&contact, settings, None, monitor)
 }
 
 /// The result of a call that has ended before the first round, at displacements `d` and forces.

@@ -11,10 +11,10 @@ use crate::law::Contact;
 use crate::linalg::matrix::Matrix;
 use crate::monitor::{Monitor, Stop};
 use crate::problem::{
-    ContactProblem, Flexibility, FlexibilityProblem, FrictionLaw, SparseFlexibilityProblem,
+    ContactProblem, Flexibility, FlexibilityProblem, FrictionLaw, SparseFlexibilityProblem, SparseW,
 };
 use crate::settings::{SMALLEST_TOLERANCE, Settings};
-use crate::solve::outcome::{Existence, Solution, Status};
+use crate::solve::result::{Existence, Solution, Status};
 
 /// Solves the problem; `start` are contact forces. Islands behind one at which the call is stopped, as large ones or
 /// larger, keep theirs.
@@ -58,8 +58,8 @@ pub fn solve(
 }
 
 /// The largest island, in words.
-pub fn largest_island(problem: &SparseFlexibilityProblem<'_>) -> String {
-    let pairs = problem.relation().form().islands().largest();
+pub fn largest_island(matrix: &SparseW) -> String {
+    let pairs = matrix.islands().largest();
     format!("the largest island has {} pairs: {}", pairs.len(), named(pairs))
 }
 
@@ -112,7 +112,7 @@ impl<'a> Island<'a> {
     }
 }
 
-/// What of `values`, `each` for every pair, belongs to `pairs`.
+/// The entries of `values`, `each` for every pair, that belong to `pairs`.
 fn gathered(values: &[f64], pairs: &[usize], each: usize) -> Vec<f64> {
     pairs.iter().flat_map(|pair| &values[each * pair..each * (pair + 1)]).copied().collect()
 }
@@ -124,7 +124,7 @@ fn scatter(values: &[f64], pairs: &[usize], each: usize, whole: &mut [f64]) {
     }
 }
 
-/// The same error, about the matrix of an island.
+/// The error in the words of the whole matrix, for an error about the matrix of an island.
 fn in_island(error: Error, pairs: &[usize]) -> Error {
     match error {
         Error::Invalid { argument: Argument::Matrix, message } => {
@@ -225,7 +225,7 @@ fn rank(status: Status) -> u8 {
     }
 }
 
-/// What has stopped a call with this status, if something has.
+/// The limit that has stopped a call with this status, if one has.
 fn stop(status: Status) -> Option<Stop> {
     match status {
         Status::IterationLimit => Some(Stop::IterationLimit),

@@ -25,7 +25,7 @@ mod islands;
 mod springs;
 
 use super::dependent::{Growth, contradicts, measured, named, sentence, settles, step, stopped};
-use super::outcome::{Solution, Status};
+use super::result::{Solution, Status};
 use crate::error::{Argument, Error};
 use crate::law::{Contact, pressing, without_friction};
 use crate::linalg::vector::norm_inf;
@@ -44,10 +44,10 @@ const INNER: f64 = 0.1;
 /// Part of the error before a round that is enough for the round.
 const ROUGH: f64 = 1e-3;
 
-/// What of the least error is left where a round has made progress.
+/// Part of the least error that is left where a round has made progress.
 const HALF: f64 = 0.5;
 
-/// What of the error is left where rounds are slow, so that less compliant springs are tried.
+/// Part of the error that is left where rounds are slow, so that less compliant springs are tried.
 const SLOW: f64 = 0.1;
 
 /// So many rounds that do not halve the least error show that rounding is reached.
@@ -62,7 +62,7 @@ const ALL_MEANS: f64 = 5e-6;
 /// that of the pairs takes five.
 const LAST_ROUNDS: usize = 8;
 
-/// Of a `W` that the first springs make definite.
+/// The sentence on a `W` that the first springs make definite.
 const INDEFINITE: &str = "no solution was found: W is not positive semi-definite, its negative eigenvalues are \
                           larger than rounding";
 
@@ -181,7 +181,7 @@ struct Rounds<'p> {
     idle: usize,
     /// Rounds since the first solution.
     solved: usize,
-    /// Whether they have begun again.
+    /// True if they have begun again.
     again: bool,
 }
 

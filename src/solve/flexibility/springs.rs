@@ -54,7 +54,7 @@ impl Springs {
         self.change(relation, FIRST / self.compliance, monitor);
     }
 
-    /// Whether there are no softer ones.
+    /// True if there are no softer ones.
     pub fn are_softest(&self) -> bool {
         self.compliance >= RANGE[1]
     }
@@ -76,7 +76,7 @@ const BLOCK: usize = 64;
 /// is of the order of its size times `2e-16`.
 const NEGATIVE: f64 = 1e-9;
 
-/// Whether `W` has an eigenvalue below zero that is not due to rounding; if there is no time to see it, it has not.
+/// True if `W` has an eigenvalue below zero that is not due to rounding; if there is no time to see it, it has not.
 pub fn is_indefinite(relation: &Flexibility<'_>, monitor: &mut Monitor<'_>) -> bool {
     matches!(factor(relation, NEGATIVE, monitor), Ok(None))
 }

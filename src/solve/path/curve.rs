@@ -1,7 +1,7 @@
 //! The curve of zeros of a homotopy, followed piece by piece.
 //!
 //! The piece of every pair is a state of the method. On frozen pieces `H` is analytic and is evaluated
-//! beyond their boundaries, so that a corrector cannot change branches by itself. One boundary is
+//! beyond their boundaries, so that a corrector cannot change pieces by itself. One boundary is
 //! crossed at a time: the corrector lands on it, the piece of that one pair changes, and the tangent in
 //! the new piece has the orientation of the old one, that of `det [dH; t'] > 0`.
 //!
@@ -14,10 +14,10 @@
 //! follow a boundary; the products with the stiffness in corrections take the most.
 
 use super::homotopy::{Direction, Homotopy, Place, Value};
-use crate::law::piece::{Boundary, Piece};
+use crate::law::{Boundary, Piece};
 use crate::monitor::Monitor;
-use crate::solve::candidate::Ending;
-use crate::solve::normal_map::{Border, System};
+use crate::solve::pieces::{Border, System};
+use crate::solve::result::Ending;
 
 /// Longest step, as a part of the size of the place, which begins near one.
 const LONGEST: f64 = 0.5;
@@ -89,7 +89,7 @@ enum Condition {
 /// A step along the curve.
 struct Advance {
     place: Place,
-    /// What the place meets.
+    /// The condition that the place meets.
     condition: Condition,
     /// Length of the step along the tangent.
     length: f64,
@@ -125,7 +125,8 @@ impl<'h> Curve<'h> {
                 Condition::Plane { .. } => step = 2.0 * length,
                 Condition::Boundary { pair, boundary } => {
                     border = self.normal_of(pair, boundary);
-                    self.pieces[pair] = self.pieces[pair].across(boundary);
+                    self.pieces[pair] =
+                        self.homotopy.equations.laws[pair].across(self.pieces[pair], boundary);
                     step = step.min(LONGEST * size).max(AFTER_BOUNDARY * size);
                 }
             }
@@ -300,7 +301,7 @@ impl<'h> Curve<'h> {
         nearest
     }
 
-    /// Whether all pairs but one that is on a boundary are in their pieces.
+    /// True if all pairs but one that is on a boundary are in their pieces.
     fn is_inside(&self, place: &Place, crossed: Option<(usize, Boundary)>) -> bool {
         self.homotopy.equations.laws.iter().enumerate().all(|(pair, law)| {
             [Boundary::Contact, Boundary::Slip].into_iter().all(|boundary| {

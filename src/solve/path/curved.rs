@@ -2,13 +2,16 @@
 
 use super::curve::{Care, Curve};
 use super::homotopy::{Homotopy, Place};
+use crate::counters::count;
 use crate::law::{Contact, Vector};
 use crate::linalg::perturbation::Perturbation;
 use crate::monitor::Monitor;
 use crate::settings::Settings;
-use crate::solve::candidate::{Candidate, Ending};
-use crate::solve::normal_map::{Ended, Equations, Point, newton_from, on_candidates};
+use crate::solve::newton::{Ended, newton_from, on_candidates, polished};
+use crate::solve::pieces::{Equations, Point};
+use crate::solve::result::{Candidate, Effort, Ending};
 use crate::solve::rigid_balance;
+use crate::solve::smallest_lift::without_idle_motion;
 
 /// Size of the perturbation of a start beside the loads: symmetric meshes have ties, and on a generic
 /// start no two pairs reach their boundaries at once.
@@ -18,9 +21,7 @@ const PERTURBATION: f64 = 1e-7;
 const EASY: Care = Care { deviation: 0.3 };
 const CAREFUL: Care = Care { deviation: 0.1 };
 
-/// Attempts from starts at random, of the size of the loads, where those from near a solution and from
-/// zero have failed. One failed of 10,000 random problems up to condition number 1e6 without them.
-const RANDOM_STARTS: usize = 6;
+/// Random part of the starts of a search for other solutions, of the loads.
 const FAR: f64 = 1.0;
 
 /// Starts of a search for other solutions.
@@ -38,7 +39,7 @@ pub fn curved(
         return Candidate::without_displacements(contact, Ending::Recession(motion));
     }
     on_candidates(contact, settings, start, monitor, &mut |equations, y, monitor| {
-        from(equations, y, settings.tolerance, monitor)
+        from((contact, settings), equations, y, monitor)
     })
 }
 
@@ -66,26 +67,27 @@ pub fn ends(
 
 /// Follows paths from `y`, and from other starts if one fails, to a solution of the equations.
 fn from(
+    (contact, settings): (&Contact<'_>, &Settings),
     equations: &Equations<'_>,
     y: Vec<Vector>,
-    tolerance: f64,
     monitor: &mut Monitor<'_>,
 ) -> Ended {
     let mut systems = 0;
     let mut best: Option<Ended> = None;
     let none = vec![[0.0; 3]; y.len()];
-    let near = [(&y, PERTURBATION, EASY), (&none, PERTURBATION, EASY), (&y, PERTURBATION, CAREFUL)];
-    let far = [(&none, FAR, CAREFUL); RANDOM_STARTS];
-    for (attempt, (start, by, care)) in near.into_iter().chain(far).enumerate() {
-        let start = perturbed(equations, start, by, attempt as u64);
-        let ended = follow(equations, start, care, tolerance, monitor);
+    let starts = [(&y, EASY), (&none, EASY), (&y, CAREFUL)];
+    for (attempt, (start, care)) in starts.into_iter().enumerate() {
+        let start = perturbed(equations, start, PERTURBATION, attempt as u64);
+        let ended = follow(equations, start, care, settings.tolerance, monitor);
         systems += ended.systems;
         // A path ends with the orientation of its beginning, +1: with another one it has changed curves.
         let settled = match ended.ending {
-            Ending::Done => ended.orientation >= 0,
             Ending::Stopped(_) => true,
-            _ => false,
+            _ => {
+                ended.orientation >= 0 && is_solution(contact, settings, equations, &ended, monitor)
+            }
         };
+        count("path in space", attempt, settled);
         if settled || best.as_ref().is_none_or(|best| ended.point.merit < best.point.merit) {
             best = Some(ended);
         }
@@ -96,6 +98,28 @@ fn from(
     let mut best = best.expect("there is a first attempt");
     best.systems = systems;
     best
+}
+
+/// True if the end of a path is a solution: by the certificate of the problem, or on a part of the pairs by the
+/// residual of theirs; or Newton's method has come to the rounding of that part, and the rest is found on the whole.
+fn is_solution(
+    contact: &Contact<'_>,
+    settings: &Settings,
+    equations: &Equations<'_>,
+    ended: &Ended,
+    monitor: &Monitor<'_>,
+) -> bool {
+    let (d, force) = (&ended.point.d, &ended.point.force);
+    if ended.ending == Ending::Done || equations.eta(d, force) <= settings.tolerance {
+        return true;
+    }
+    if d.len() != contact.unknowns() {
+        return false;
+    }
+    let candidate =
+        Candidate::new(d.clone(), force.clone(), ended.ending.clone(), Effort::default());
+    let candidate = without_idle_motion(contact, candidate, monitor);
+    polished(contact, settings, candidate, monitor).is_settled(contact, settings.tolerance)
 }
 
 /// Follows one path from `start`; where it ends Newton's method brings the solution to its last digits.

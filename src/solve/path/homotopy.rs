@@ -1,9 +1,9 @@
 //! The homotopy from any point to the contact problem, and its values on given pieces.
 
+use crate::law::Piece;
 use crate::law::Vector;
-use crate::law::piece::Piece;
 use crate::linalg::vector::dot;
-use crate::solve::normal_map::Equations;
+use crate::solve::pieces::Equations;
 
 /// `H_s(y) = s (K d - f) + (1 - s) (k v - b) + P` on the normal map, with `b = k v + P` at the start. With
 /// tension `k v` and `b` both stand for themselves plus the tension.

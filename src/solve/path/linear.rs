@@ -10,7 +10,7 @@
 //!
 //! On a piece the solution moves on a straight line; where one pair reaches the boundary of its piece,
 //! it goes on in the next one, and the derivative `J` changes by a matrix of rank one
-//! (`linear_system`). The direction of travel has `ds/dt` of the sign of `det J`.
+//! (`pieces::Updated`). The direction of travel has `ds/dt` of the sign of `det J`.
 //!
 //! Let `x.K x >= alpha |x|²`, `alpha > 0` (`K` need not be symmetric), with any loads, gaps, reference
 //! slips, and thresholds `mu p + b`, `mu, b >= 0`. Every point of the law has `v.P >= 0`; so a solution
@@ -56,12 +56,9 @@
 //! So `D v = 0`, then `D P = -K D v = 0`. `y0` is interior to its piece and `J` is regular there, so that the
 //! same holds for the loads near by, among which almost all are generic; then theorem G. ∎
 //!
-//! A pair without friction may be anything. So there are two kinds of sure starts. The lifted one keeps the slips after
-//! the sweeps, and opens every pair as far as its slip demands, but for the one of the largest pressure, which holds a
-//! body that has no support in the direction of its obstacles (`PairLaw::lifted`). The path from it closes the pairs
-//! again: about one event for each pair. The other keeps the sweeps' open pairs and their slips, slips as far as the
-//! clearance allows; closed pairs start without friction and slip (`PairLaw::sure_start`). Kept friction, or kept
-//! slip of closed pairs, is what the example above forbids.
+//! A pair without friction may be anything. So there are sure starts: they keep the sweeps' open pairs and their slips,
+//! slips as far as the clearance allows; closed pairs start without friction and slip (`PairLaw::sure_start`). Kept
+//! friction, or kept slip of closed pairs, is what the example above forbids.
 //!
 //! **Theorem K.** *Let `K` be symmetric and semi-definite, and let every rigid motion move a closed pair of
 //! the start, in its normal component or, if it has friction, in any. The path of H ends at a solution, or
@@ -77,13 +74,13 @@
 //! So a ray is a candidate for the proof that no equilibrium exists, which
 //! [`crate::certificate::is_escape`] decides; friction may hold a body that this proof does not.
 //!
-//! *What is followed.* First on the pairs in question alone ([`crate::solve::undecided`]), where an event costs
+//! *The walks.* First on the pairs in question alone (`newton::undecided`), where an event costs
 //! little: their matrix is definite too. Swept starts are near a solution, and most of their walks are short, so that
-//! several are tried, after more and more sweeps: by theorem I without its premise. Between them come sure starts, H,
-//! whose walks take about one event a pair: with all pairs in their states, and lifted. Then the same on all pairs, from
-//! where those in question have come to; if rounding spoils that, with factorisations at nearly every event, and from
+//! several are tried, after more and more sweeps: by theorem I without its premise. Then walks on all pairs, from
+//! where those in question have come to: from swept starts and from sure ones, H, which take about one event a pair; if
+//! rounding spoils them, with factorisations at nearly every event, and from
 //! all pairs pressed on their obstacles (`linear_attempts`). Starts are moved at random by 1e-7 of the loads, always by
-//! the same numbers: symmetric meshes have ties. At `s = 1` nothing is left of that, and Newton's method polishes from
+//! the same numbers: symmetric meshes have ties. At `s = 1` nothing is left of that, and Newton's method refines from
 //! the pieces found there.
 //!
 //! *Limits.* The number of events is not bounded by a polynomial.
@@ -91,13 +88,14 @@
 use super::linear_attempts::{ATTEMPTS, Attempt, FIRST_ON_UNDECIDED, LAST, ON_UNDECIDED, Start};
 use super::linear_start::{Random, Starts};
 use super::linear_walk::{End, Ground, Walk};
+use crate::counters::count;
 use crate::law::{Contact, Planar};
 use crate::monitor::Monitor;
 use crate::settings::Settings;
-use crate::solve::active_set;
-use crate::solve::candidate::{Candidate, Effort, Ending};
+use crate::solve::newton::{PartOutcome, from_pieces, solve_part};
+use crate::solve::pieces::Equations;
+use crate::solve::result::{Candidate, Effort, Ending};
 use crate::solve::rigid_balance;
-use crate::solve::undecided::{self, Ended};
 
 /// Why there is no solution.
 const LOST: &str = "the path does not arrive";
@@ -116,9 +114,8 @@ pub fn linear(
     if contact.is_coupled() {
         return match on_undecided(contact, settings, start, monitor) {
             Ok(candidate) if candidate.is_settled(contact, settings.tolerance) => candidate,
-            Ok(Candidate { d, .. }) | Err(d) => {
-                solve(contact, settings, Some(&d), &ATTEMPTS, monitor)
-            }
+            Ok(candidate) => solve(contact, settings, Some(candidate.d()), &ATTEMPTS, monitor),
+            Err(d) => solve(contact, settings, Some(&d), &ATTEMPTS, monitor),
         };
     }
     // With given thresholds every start is sure.
@@ -142,13 +139,13 @@ fn on_undecided(
         let attempts = &ON_UNDECIDED[std::mem::take(&mut skipped)..];
         solve(part, settings, Some(d), attempts, monitor)
     };
-    let (ended, systems) = undecided::solve(contact, settings, &d, monitor, &mut core);
+    let (ended, systems) = solve_part(contact, settings, &d, monitor, &mut core);
     let mut candidate = match ended {
-        Ended::Settled(branches, d) => {
-            active_set::from_branches(contact, settings, branches, d, monitor)
+        PartOutcome::Settled(pieces, d) => from_pieces(contact, settings, &pieces, &d, monitor),
+        PartOutcome::Stopped(stop) => {
+            Candidate::of_displacements(contact, d, Ending::Stopped(stop))
         }
-        Ended::Stopped(stop) => Candidate::of_displacements(contact, d, Ending::Stopped(stop)),
-        Ended::Undivided(d) | Ended::Lost(d) => return Err(d),
+        PartOutcome::Undivided(d) | PartOutcome::Lost(d) => return Err(d),
     };
     candidate.effort.factorisations += systems;
     Ok(candidate)
@@ -164,15 +161,16 @@ fn solve(
     let root = contact.problem().unit_roots();
     let mut starts = Starts::new(contact, &root, start);
     let load = starts.load.clone();
-    let ground = Ground { contact, root: &root, load: &load, size: starts.size };
+    let equations = Equations::of(contact);
+    let ground =
+        Ground { contact, equations: &equations, root: &root, load: &load, size: starts.size };
     let mut random = Random::new(0);
     let mut best = Candidate::without_displacements(contact, Ending::Stalled(LOST));
     let mut effort = Effort::default();
-    for attempt in attempts {
+    for (number, attempt) in attempts.iter().enumerate() {
         starts.sweep(contact, attempt.sweeps, monitor);
         let y: Vec<Planar> = match attempt.start {
             Start::Swept => starts.swept(contact, &mut random),
-            Start::Lifted => starts.lifted(contact, &mut random),
             Start::Sure => starts.sure(contact, &mut random),
             Start::Pressed => starts.pressed(contact, &root, &mut random),
         };
@@ -185,7 +183,13 @@ fn solve(
         let mut candidate = ended(contact, settings, &walk, end, monitor);
         effort.factorisations += walk.factorisations + candidate.effort.factorisations;
         candidate.effort = effort;
-        if candidate.is_settled(contact, settings.tolerance) {
+        let settled = candidate.is_settled(contact, settings.tolerance);
+        count(
+            "path in the plane",
+            20 * usize::from(attempts.len() <= ON_UNDECIDED.len()) + number,
+            settled,
+        );
+        if settled {
             return candidate;
         }
         let eta = |candidate: &Candidate| candidate.certificate(contact).eta;
@@ -208,7 +212,7 @@ fn ended(
     let d = walk.displacements();
     let ending = match end {
         End::Arrived => {
-            return active_set::from_branches(contact, settings, walk.branches(), d, monitor);
+            return from_pieces(contact, settings, walk.pieces(), &d, monitor);
         }
         End::Lost => Ending::Stalled(LOST),
         // If the body only lifts off, the ray itself is the proof; if it also slips, the balance of
@@ -225,7 +229,6 @@ fn ended(
 mod tests {
     use super::*;
     use crate::problem::{ContactData, ContactProblem, FrictionLaw};
-    use crate::solve::outcome::Status;
 
     /// `B Bᵀ` and a part of the identity, so that no two columns are alike: definite, of a condition
     /// about 1e4 at the least part.
@@ -259,8 +262,7 @@ mod tests {
         problem.expect("the data is valid")
     }
 
-    /// Theorem H: the path from a sure start arrives, with all pairs lifted or in their states, without the swept one
-    /// and without a second try.
+    /// Theorem H: the path from a sure start arrives, without the swept one and without a second try.
     #[test]
     fn the_sure_start_arrives_whatever_the_coefficients() {
         for seed in 0..400 {
@@ -277,14 +279,11 @@ mod tests {
             let problem = coulomb(&stiffness, &load, &gap, &mu, &slip);
             let (contact, settings) = (Contact::new(&problem), Settings::default());
             let mut monitor = Monitor::new(&settings, None);
-            for start in [Start::Lifted, Start::Sure] {
-                let attempt = [Attempt { sweeps: 30, start, events: 10.0, careful: false }];
-                let candidate = solve(&contact, &settings, None, &attempt, &mut monitor);
-                let method = crate::settings::Method::Auto;
-                let solution =
-                    crate::solve::candidate::certified(&contact, &settings, method, &candidate);
-                assert_eq!(solution.status, Status::Solved, "seed {seed}: {}", solution.message);
-            }
+            let attempt =
+                [Attempt { sweeps: 30, start: Start::Sure, events: 10.0, careful: false }];
+            let candidate = solve(&contact, &settings, None, &attempt, &mut monitor);
+            let holds = candidate.certificate(&contact).holds(settings.tolerance);
+            assert!(holds, "seed {seed}: {:?}", candidate.ending);
         }
     }
 

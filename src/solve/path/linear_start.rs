@@ -70,26 +70,10 @@ impl Starts {
         contact.each(d, force).map(moved).collect()
     }
 
-    /// The same with the pairs in the states that make the path sure to arrive.
+    /// Coordinates after the sweeps with the pairs in the states that make the path sure to arrive.
     pub fn sure(&self, contact: &Contact<'_>, random: &mut Random) -> Vec<Planar> {
         let swept = self.swept(contact, random);
         contact.pairs().iter().zip(swept).map(|(law, y)| law.sure_start(y)).collect()
-    }
-
-    /// All pairs open with the slips that they have after the sweeps, but for the one of the largest pressure.
-    pub fn lifted(&self, contact: &Contact<'_>, random: &mut Random) -> Vec<Planar> {
-        let mut y = self.swept(contact, random);
-        let pressure = |a: &usize, b: &usize| y[*a][0].total_cmp(&y[*b][0]);
-        let holds = (0..y.len()).max_by(pressure);
-        let units = self.unit.chunks_exact(2);
-        for (pair, ((law, y), unit)) in contact.pairs().iter().zip(&mut y).zip(units).enumerate() {
-            *y = if Some(pair) == holds {
-                law.sure_start(*y)
-            } else {
-                law.lifted(*y, unit[0] * (2.0 + random.signed()))
-            };
-        }
-        y
     }
 
     /// All pairs pressed on their obstacles and stuck, by random forces of the size of the loads.

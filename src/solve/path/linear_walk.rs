@@ -1,10 +1,11 @@
 //! One way along the linear path, from piece to piece.
 
-use super::linear_system::PieceSystem;
-use crate::law::branch::Branch;
-use crate::law::{Contact, Exit, Planar};
+use crate::law::Piece;
+use crate::law::{Contact, Exit, Linearised, Planar};
+use crate::linalg::tolerances::SINGULAR_BASIS;
 use crate::linalg::vector::{NormSum, largest_of};
 use crate::monitor::{Monitor, Stop};
+use crate::solve::pieces::{Equations, Updated};
 
 /// A pivot below this part of one is taken for zero: the error of all that went through it would be as
 /// large as what is looked for.
@@ -12,6 +13,14 @@ const SMALL_PIVOT: f64 = 1e-9;
 
 /// A step so many times longer than all coordinates may be a ray.
 const FAR: f64 = 1e6;
+
+/// Where the factor does not stay in a cache, columns are made in blocks of so many: with those of a change those of the
+/// pairs whose boundaries are the next ones on the way. Most of these change before the system is factorised again, many of
+/// them more than once.
+const BLOCK: usize = 48;
+
+/// Up to so many components the factor stays in a cache.
+const IN_CACHE: usize = 400;
 
 /// How far a walk may go.
 #[derive(Clone, Copy)]
@@ -34,10 +43,12 @@ pub enum End {
     Stopped(Stop),
 }
 
-/// What all walks of a problem share.
+/// The data that all walks of a problem share.
 pub struct Ground<'p> {
     /// The problem.
     pub contact: &'p Contact<'p>,
+    /// Its equations.
+    pub equations: &'p Equations<'p>,
     /// Roots of the diagonal of `K`.
     pub root: &'p [f64],
     /// `r`.
@@ -49,7 +60,9 @@ pub struct Ground<'p> {
 /// A walk: `K v + P = r_s` for all `s` on the way, `r_s = r_0 + s (r - r_0)`.
 pub struct Walk<'p> {
     ground: &'p Ground<'p>,
-    system: PieceSystem<'p>,
+    system: Updated<'p>,
+    /// The pieces of today.
+    pieces: Vec<Piece>,
     /// `r_0` and `r - r_0`.
     first: Vec<f64>,
     change: Vec<f64>,
@@ -67,29 +80,30 @@ impl<'p> Walk<'p> {
     /// Operations of [`Self::new`].
     pub fn work(ground: &Ground<'_>, start: &[Planar]) -> f64 {
         let pairs = ground.contact.pairs().iter().zip(start);
-        let branches: Vec<Branch> =
-            pairs.map(|(law, y)| law.chart_branch(&[y[0], y[1], 0.0])).collect();
-        PieceSystem::work(ground.contact, &branches)
+        let pieces: Vec<Piece> = pairs.map(|(law, y)| law.piece(&[y[0], y[1], 0.0])).collect();
+        Updated::work(&linearised(ground.contact, &pieces))
     }
 
     /// Begins at the coordinates `start`; `None` if the system there is singular.
     pub fn new(ground: &'p Ground<'p>, start: &[Planar]) -> Option<Self> {
         let contact = ground.contact;
-        let (mut v, mut first, mut branches) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut v, mut first, mut pieces) = (Vec::new(), Vec::new(), Vec::new());
         for (law, y) in contact.pairs().iter().zip(start) {
             let y = [y[0], y[1], 0.0];
             let ((d, push), reference) = (law.point(&y), law.reference());
-            branches.push(law.chart_branch(&y));
+            pieces.push(law.piece(&y));
             v.extend((0..2).map(|c| d[c] - reference[c]));
             first.extend_from_slice(&push[..2]);
         }
         contact.problem().stiffness().add_product(&v, &mut first);
         let change: Vec<f64> = ground.load.iter().zip(&first).map(|(r, first)| r - first).collect();
-        let mut system = PieceSystem::new(contact, ground.root, branches)?;
+        let pairs = linearised(contact, &pieces);
+        let mut system = Updated::new(ground.equations, pairs, SINGULAR_BASIS)?;
         let rate = system.solve(&change);
         Some(Walk {
             ground,
             system,
+            pieces,
             first,
             change,
             y: start.concat(),
@@ -107,7 +121,7 @@ impl<'p> Walk<'p> {
             if let Err(stop) = monitor.step() {
                 return End::Stopped(stop);
             }
-            let sign = self.system.sign();
+            let sign = f64::from(self.system.sign());
             let exit = self.next_exit(sign);
             let left = if sign > 0.0 { 1.0 - self.s } else { f64::INFINITY };
             let step = exit.as_ref().map_or(left, |(_, exit)| exit.step.min(left));
@@ -140,11 +154,11 @@ impl<'p> Walk<'p> {
 
     /// The next boundary of each pair that comes to one on the way.
     fn exits(&self, sign: f64) -> impl Iterator<Item = (usize, Exit)> {
-        let pairs = self.ground.contact.pairs().iter().zip(&self.system.branches);
+        let pairs = self.ground.contact.pairs().iter().zip(&self.pieces);
         let ways = self.y.chunks_exact(2).zip(self.rate.chunks_exact(2));
-        pairs.zip(ways).enumerate().filter_map(move |(pair, ((law, branch), (y, rate)))| {
+        pairs.zip(ways).enumerate().filter_map(move |(pair, ((law, piece), (y, rate)))| {
             let rate = [sign * rate[0], sign * rate[1]];
-            law.planar_exit(*branch, [y[0], y[1]], rate).map(|exit| (pair, exit))
+            law.planar_exit(*piece, [y[0], y[1]], rate).map(|exit| (pair, exit))
         })
     }
 
@@ -157,22 +171,28 @@ impl<'p> Walk<'p> {
         monitor: &mut Monitor<'_>,
     ) -> Result<(), End> {
         self.events += 1;
-        if self.system.lacks_columns(pair, exit) {
-            let others = self.exits(self.system.sign()).filter(|(other, _)| *other != pair);
+        let laws = self.ground.contact.pairs();
+        let beyond = |(pair, exit): (usize, Exit)| (pair, laws[pair].linearised_on(exit.beyond));
+        let change = [beyond((pair, *exit))];
+        if self.y.len() > IN_CACHE && self.system.lacks_columns(&change) {
+            let others =
+                self.exits(f64::from(self.system.sign())).filter(|(other, _)| *other != pair);
             let mut likely: Vec<(usize, Exit)> = others.collect();
             likely.sort_by(|a, b| a.1.step.total_cmp(&b.1.step));
             likely.insert(0, (pair, *exit));
-            self.system.prepare(&likely);
+            let likely: Vec<(usize, Linearised)> = likely.into_iter().map(beyond).collect();
+            self.system.prepare(&likely, BLOCK);
         }
-        let flip = self.system.flip(pair, exit);
-        let singular = flip.pivot().abs() < SMALL_PIVOT;
-        let ray = if singular { flip.direction().to_vec() } else { Vec::new() };
-        self.system.pass(flip, &mut self.rate);
+        let change = self.system.change(&change);
+        self.pieces[pair] = exit.beyond;
+        let singular = change.pivot().abs() < SMALL_PIVOT;
+        let ray = if singular { change.direction().to_vec() } else { Vec::new() };
+        let made = self.system.make(change, &mut self.rate);
         if singular && let Some(motion) = self.rigid(&ray, 1.0) {
             return Err(End::Ray(motion));
         }
-        if singular || self.system.age() >= rules.age {
-            let work = PieceSystem::work(self.ground.contact, &self.system.branches);
+        if singular || made.is_none() || self.system.age() >= rules.age {
+            let work = Updated::work(&linearised(self.ground.contact, &self.pieces));
             monitor.affords(work).map_err(End::Stopped)?;
             return self.refactorise().ok_or(End::Lost);
         }
@@ -183,15 +203,15 @@ impl<'p> Walk<'p> {
     fn refactorise(&mut self) -> Option<()> {
         let contact = self.ground.contact;
         self.factorisations += 1;
-        let branches = std::mem::take(&mut self.system.branches);
-        self.system = PieceSystem::new(contact, self.ground.root, branches)?;
+        let pairs = linearised(contact, &self.pieces);
+        self.system = Updated::new(self.ground.equations, pairs, SINGULAR_BASIS)?;
         // J y = r_s - c + K c_t / k, with P = D y + c on a piece.
         let mut side: Vec<f64> =
             self.first.iter().zip(&self.change).map(|(r, change)| r + self.s * change).collect();
         let mut constant = vec![0.0; side.len()];
-        let pairs = contact.pairs().iter().zip(&self.system.branches);
-        for (pair, (law, branch)) in pairs.enumerate() {
-            let (i, push) = (2 * pair, law.constant(*branch));
+        let pairs = contact.pairs().iter().zip(&self.pieces);
+        for (pair, (law, piece)) in pairs.enumerate() {
+            let (i, push) = (2 * pair, law.constant(*piece));
             side[i] -= push[0];
             side[i + 1] -= push[1];
             // A tension is no part of `k v = y - P'`.
@@ -227,8 +247,8 @@ impl<'p> Walk<'p> {
     }
 
     /// The pieces of today.
-    pub fn branches(&self) -> Vec<Branch> {
-        self.system.branches.clone()
+    pub fn pieces(&self) -> &[Piece] {
+        &self.pieces
     }
 
     /// The displacements of today.
@@ -236,6 +256,11 @@ impl<'p> Walk<'p> {
         let pairs = self.ground.contact.pairs().iter().zip(self.y.chunks_exact(2));
         pairs.flat_map(|(law, y)| law.point(&[y[0], y[1], 0.0]).0[..2].to_vec()).collect()
     }
+}
+
+/// The pairs on their pieces, to first order.
+fn linearised(contact: &Contact<'_>, pieces: &[Piece]) -> Vec<Linearised> {
+    contact.pairs().iter().zip(pieces).map(|(law, b)| law.linearised_on(*b)).collect()
 }
 
 #[cfg(test)]
@@ -264,14 +289,21 @@ mod tests {
         let problem = problem.expect("the data is valid");
         let (contact, settings) = (Contact::new(&problem), Settings::default());
         let root = problem.unit_roots();
-        let ground = Ground { contact: &contact, root: &root, load: &load, size: 1.0 };
+        let equations = Equations::of(&contact);
+        let ground = Ground {
+            contact: &contact,
+            equations: &equations,
+            root: &root,
+            load: &load,
+            size: 1.0,
+        };
         let (stuck, slipping, open) = ([1.0, 1.5], [0.5, 1.5], [-1.0, 2.0]);
         for (start, sign, events) in [(stuck, 1.0, 2), (slipping, -1.0, 1), (open, 1.0, 0)] {
             let mut monitor = Monitor::new(&settings, None);
             let mut walk = Walk::new(&ground, &[start]).expect("each piece is regular");
             // K v + P is (1, 1.5) at all three; powers of two and few digits leave no rounding.
             assert_eq!(walk.first, [1.0, 1.5]);
-            assert_eq!(walk.system.sign(), sign);
+            assert_eq!(f64::from(walk.system.sign()), sign);
             let end = walk.follow(Rules { most: 10, age: 60 }, &mut monitor);
             assert!(matches!(end, End::Arrived), "from {start:?}");
             assert_eq!(walk.events, events, "from {start:?}");

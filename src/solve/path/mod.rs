@@ -75,9 +75,7 @@ mod curved;
 mod homotopy;
 mod linear;
 mod linear_attempts;
-mod linear_columns;
 mod linear_start;
-mod linear_system;
 mod linear_walk;
 
 pub use curved::{curved, ends};

@@ -156,7 +156,7 @@ impl Iterate for ContactIterate<'_> {
     }
 
     fn is_unloaded(&self) -> bool {
-        norm_inf(self.own.shifted_load()) == 0.0
+        norm_inf(self.own.load_with_tension()) == 0.0
     }
 
     fn recession(&self, drift: &[f64], monitor: &Monitor<'_>) -> Option<Vec<f64>> {

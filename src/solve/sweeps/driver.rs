@@ -6,7 +6,7 @@ use super::relaxation::Relaxation;
 use crate::linalg::tolerances::{NEGLIGIBLE, ROUNDING};
 use crate::monitor::Monitor;
 use crate::settings::Settings;
-use crate::solve::candidate::Ending;
+use crate::solve::result::Ending;
 
 /// The driver of projected SOR.
 pub struct Driver<'m, 'c, I> {

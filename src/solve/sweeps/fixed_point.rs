@@ -15,7 +15,7 @@ use crate::law::Contact;
 use crate::linalg::vector::{largest_of, norm};
 use crate::monitor::Monitor;
 use crate::settings::Settings;
-use crate::solve::candidate::{Candidate, Effort, Ending};
+use crate::solve::result::{Candidate, Effort, Ending};
 
 /// Accuracy of an inner problem relative to that of the threshold.
 const INNER: f64 = 0.1;

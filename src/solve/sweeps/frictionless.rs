@@ -5,8 +5,8 @@ use super::lcp_iterate::LcpIterate;
 use crate::law::Contact;
 use crate::monitor::Monitor;
 use crate::settings::Settings;
-use crate::solve::candidate::{Candidate, Effort, Ending};
-use crate::solve::condense::NormalProblem;
+use crate::solve::part::NormalProblem;
+use crate::solve::result::{Candidate, Effort, Ending};
 
 /// The condensed problem has another scale of forces than the whole one, whose certificate decides: the
 /// target is tightened by this factor until that holds, ...

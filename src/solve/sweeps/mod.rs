@@ -15,7 +15,7 @@ pub use lcp_iterate::sweep as sweep_lcp;
 
 use crate::monitor::Monitor;
 
-/// What the driver of the sweeps iterates on.
+/// The iterate that the driver of the sweeps improves.
 pub trait Iterate {
     /// One sweep with the over-relaxation factor `omega`. Returns the change in the norm of the
     /// diagonal.
@@ -36,7 +36,7 @@ pub trait Iterate {
     /// Size of the largest force.
     fn largest_force(&self) -> f64;
 
-    /// Whether there are no loads.
+    /// True if there are no loads.
     fn is_unloaded(&self) -> bool;
 
     /// A recession direction, found in the change of the unknowns between two looks if there is time.

@@ -23,7 +23,7 @@ pub struct Relaxation {
 const PATIENCE: usize = 80;
 const PATIENCE_PER_UNKNOWN: f64 = 0.4;
 
-/// What is left of `omega - 1` after the factor was found too large.
+/// The part of `omega - 1` that stays after the factor was found too large.
 const REDUCTION: f64 = 0.6;
 
 /// The exponent on `omega - 1` above which a measured rate counts as that of a factor below the best:

@@ -6,9 +6,9 @@
 
 use crate::law::Contact;
 use crate::linalg::vector::largest_of;
-use crate::solve::normal_map::Sharpened;
+use crate::solve::newton::Sharpened;
 
-/// What is proved must be true by more than this, relatively: the rounding of systems with condition
+/// Relative margin by which a statement must be true to count as proved: the rounding of systems with condition
 /// numbers up to 1e9 or 1e10, the largest that are certified, stays below it.
 pub const MARGIN: f64 = 1e-6;
 
@@ -20,23 +20,23 @@ const PARTED: f64 = 1e3;
 /// force of the softest spring: 7e-13 of the loads was seen, 1.5e-16 at solutions.
 const AT_SOLUTION: f64 = 4.0 * f64::EPSILON;
 
-/// Whether two refined answers are next to two solutions.
+/// True if two refined answers are next to two solutions.
 pub fn are_parted(contact: &Contact<'_>, one: &Sharpened, two: &Sharpened) -> bool {
     let is_solution = |answer: &Sharpened| answer.candidate.certificate(contact).holds(AT_SOLUTION);
     if !is_solution(one) || !is_solution(two) {
         return false;
     }
-    let (first, second) = (&one.candidate.d, &two.candidate.d);
+    let (first, second) = (one.candidate.d(), two.candidate.d());
     let root = contact.problem().unit_roots();
     let apart: Vec<f64> = first.iter().zip(second).map(|(one, two)| one - two).collect();
     let error = scaled(&root, &one.error) + scaled(&root, &two.error);
     are_different(contact, first, second) && scaled(&root, &apart) > PARTED * error
 }
 
-/// Whether a refined answer is so near to its solution that this has what the answer has by [`MARGIN`].
+/// True if a refined answer is so near to its solution that this has what the answer has by [`MARGIN`].
 pub fn is_sharp(contact: &Contact<'_>, answer: &Sharpened) -> bool {
     let root = contact.problem().unit_roots();
-    PARTED * scaled(&root, &answer.error) <= MARGIN * size(contact, &answer.candidate.d)
+    PARTED * scaled(&root, &answer.error) <= MARGIN * size(contact, answer.candidate.d())
 }
 
 fn scaled(root: &[f64], d: &[f64]) -> f64 {
@@ -47,18 +47,17 @@ fn scaled(root: &[f64], d: &[f64]) -> f64 {
 /// size compare equal.
 fn size(contact: &Contact<'_>, d: &[f64]) -> f64 {
     let root = contact.problem().unit_roots();
-    let loads = largest_of(contact.shifted_load().iter().zip(&root).map(|(f, root)| f / root));
+    let loads = largest_of(contact.load_with_tension().iter().zip(&root).map(|(f, root)| f / root));
     loads.max(scaled(&root, d))
 }
 
-/// Whether two displacements, solutions to rounding, are different ones: by more than rounding, and in the
-/// plane by their branches. In space a branch has the direction of its slip, which rounding changes.
+/// True if two displacements, solutions to rounding, are different ones: by more than rounding, and in the
+/// plane by their pieces. In space a piece has the direction of its slip, which rounding changes.
 pub fn are_different(contact: &Contact<'_>, one: &[f64], two: &[f64]) -> bool {
     let problem = contact.problem();
     let root = problem.unit_roots();
     let size = size(contact, one).max(size(contact, two));
     let difference: Vec<f64> = one.iter().zip(two).map(|(one, two)| one - two).collect();
-    let branches = |d: &[f64]| contact.branches(d, &problem.force(d));
-    scaled(&root, &difference) > MARGIN * size
-        && (contact.dim() > 2 || branches(one) != branches(two))
+    let pieces = |d: &[f64]| contact.pieces(d, &problem.force(d));
+    scaled(&root, &difference) > MARGIN * size && (contact.dim() > 2 || pieces(one) != pieces(two))
 }

@@ -1,19 +1,19 @@
-//! Whether a solution is the only one: proofs (`proof`), and a search for a second one (`search`).
+//! Uniqueness of a solution: proofs (`proof`), and a search for a second one (`search`).
 //!
 //! *Several.* Two certified solutions that differ (`difference`); or one whose orientation, the sign of the
 //! determinant of its system, is −1: over all solutions the signs add up to the degree of the
 //! natural map, which is +1 for positive definite `K` as it is for `mu = 0`.
 
 mod difference;
+mod existence;
 mod proof;
 mod search;
 
 use difference::{are_different, are_parted};
 
-use super::active_set;
-use super::candidate::{Candidate, Ending};
-use super::normal_map::sharpened;
-use super::outcome::{Solution, Status, Uniqueness};
+use super::newton::{from_pieces, sharpened};
+use super::result::{Candidate, Ending};
+use super::result::{Solution, Status, Uniqueness};
 use crate::error::Error;
 use crate::law::Contact;
 use crate::linalg::factor::{cholesky_work, lu_work};
@@ -21,6 +21,7 @@ use crate::linalg::vector::norm_inf;
 use crate::monitor::Monitor;
 use crate::settings::Settings;
 use difference::{MARGIN, is_sharp};
+pub use existence::examine as prove;
 
 /// Tries to prove that `solution` is the only one, or to find a second.
 pub fn examine(
@@ -61,7 +62,7 @@ pub fn examine(
     Ok(())
 }
 
-/// Concludes from an orientation of −1, away from where branches meet, that there are others; nothing if there is no
+/// Concludes from an orientation of −1, away from where pieces meet, that there are others; nothing if there is no
 /// time.
 pub fn by_orientation(contact: &Contact<'_>, solution: &mut Solution, monitor: &Monitor<'_>) {
     if solution.orientation < 0
@@ -69,7 +70,7 @@ pub fn by_orientation(contact: &Contact<'_>, solution: &mut Solution, monitor: &
         && let Some(sharp) = sharpened(contact, &given(contact, solution), monitor)
         && sharp.candidate.orientation < 0
         && is_sharp(contact, &sharp)
-        && is_strict(contact, &sharp.candidate.d)
+        && is_strict(contact, sharp.candidate.d())
         && monitor.has_time_for(cholesky_work(contact.unknowns()))
         && proof::scaled_factor(contact).is_some()
     {
@@ -77,7 +78,7 @@ pub fn by_orientation(contact: &Contact<'_>, solution: &mut Solution, monitor: &
     }
 }
 
-/// Whether two results are next to two solutions; no, if there is no time for the question.
+/// True if two results are next to two solutions; no, if there is no time for the question.
 pub fn are_two(
     contact: &Contact<'_>,
     one: &Solution,
@@ -93,23 +94,23 @@ fn given(contact: &Contact<'_>, solution: &Solution) -> Candidate {
     Candidate::of_displacements(contact, solution.d.clone(), Ending::Done)
 }
 
-/// The solution on the branches of `d`, if that is `d`.
+/// The solution on the pieces of `d`, if that is `d`.
 fn polished(
     contact: &Contact<'_>,
     settings: &Settings,
     d: &[f64],
     monitor: &mut Monitor<'_>,
 ) -> Option<Candidate> {
-    let branches = contact.branches(d, &contact.problem().force(d));
-    let candidate = active_set::from_branches(contact, settings, branches, d.to_vec(), monitor);
-    let same = candidate.ending == Ending::Done && !are_different(contact, d, &candidate.d);
+    let pieces = contact.pieces(d, &contact.problem().force(d));
+    let candidate = from_pieces(contact, settings, &pieces, d, monitor);
+    let same = candidate.ending == Ending::Done && !are_different(contact, d, candidate.d());
     same.then_some(candidate)
 }
 
-/// Whether no pair is where branches meet: forces and displacements are clear of all bounds.
+/// True if no pair is where pieces meet: forces and displacements are clear of all bounds.
 fn is_strict(contact: &Contact<'_>, d: &[f64]) -> bool {
     let force = contact.problem().force(d);
-    let unit = norm_inf(&force).max(norm_inf(contact.shifted_load()));
+    let unit = norm_inf(&force).max(norm_inf(contact.load_with_tension()));
     contact
         .each(d, &force)
         .all(|(law, d, force)| law.distance_to_kink(&law.trial(d, force)) > MARGIN * unit)

@@ -42,7 +42,7 @@ pub fn scaled_factor(contact: &Contact<'_>) -> Option<Factor> {
     })
 }
 
-/// Whether the solution is proved to be the only one: `K` is positive definite, and `g -> mu p` is
+/// True if the solution is proved to be the only one: `K` is positive definite, and `g -> mu p` is
 /// constant or a contraction. When the time is up nothing is proved.
 pub fn is_unique(contact: &Contact<'_>, monitor: &Monitor<'_>) -> bool {
     if !monitor.has_time_for(cholesky_work(contact.unknowns())) {

@@ -23,7 +23,7 @@ const ROUNDING: f64 = 1e-12;
 const CORNERS: usize = 20;
 const INSIDE: f64 = 0.999;
 
-/// What equations lack, from 1e-6 on.
+/// The residuals of the equations, from 1e-6 on.
 const LACKS: i32 = 140;
 const GROWTH: f64 = 1.1;
 
@@ -77,7 +77,7 @@ fn random(rng: &mut Rng, dim: usize) -> (Vec<f64>, Vec<State>) {
     (k, (0..PAIRS).map(|_| state()).collect())
 }
 
-/// What is said of a system at a random place where the states are possible, whether it is a solution or not.
+/// A statement on a system at a random place where the states are possible, whether it is a solution or not.
 fn of_system<T>(
     rng: &mut Rng,
     dim: usize,
@@ -111,8 +111,9 @@ fn of_system<T>(
     let low = vec![0.0; n];
     let centre = Centre { force: problem.force_of_parts(&d, &low), d, low };
     let frozen = contact.each(&centre.d, &centre.force).zip(states);
-    let pairs =
-        frozen.map(|((law, v, force), state)| law.frozen(*state, v, force).unwrap()).collect();
+    let pairs = frozen
+        .map(|((law, v, force), state)| law.enclosed_piece(*state, v, force).unwrap())
+        .collect();
     let system = System::new(&contact, pairs, &centre);
     said(&system, &centre)
 }
@@ -163,7 +164,7 @@ fn matrices_in_a_box_differ_by_the_doubts_at_most() {
     }
 }
 
-/// The same of one pair that slips in space where the turn of the friction decides, as nearly nothing resists one
+/// The statement for one pair that slips in space where the turn of the friction decides, as nearly nothing resists one
 /// direction, and where its drag does, as the coefficient is large.
 #[test]
 fn doubts_hold_where_friction_turns_and_drags() {

@@ -1,0 +1,305 @@
+//! The measures of a candidate.
+
+use std::iter::repeat;
+
+use crate::law::{Contact, State, Violation};
+use crate::linalg::tolerances::{NEGLIGIBLE, ROUNDING_OF_SUM};
+use crate::linalg::vector::{NormSum, dot, largest_of, norm, norm_inf, sizes};
+use crate::problem::{ContactProblem, Relation};
+
+/// The measures of one candidate, forces and displacements in the units of the problem.
+#[derive(Clone, Debug)]
+pub struct Certificate {
+    /// Residual of the natural map, dimensionless.
+    pub eta: f64,
+    /// `eta` with the rounding of its own evaluation: the true one is not above.
+    pub residual: f64,
+    /// Rounding of `K d` relative to the forces, dimensionless: what rounding `d` to doubles may cost.
+    pub rounding: f64,
+    /// `true` if `K` resists `d` by more than rounding of its entries explains; looked at only where
+    /// `rounding` is above [`ROUNDING_LIMIT`].
+    pub is_resisted: bool,
+    /// Largest `d_n - gap`, a length; 0 if none.
+    pub penetration: f64,
+    /// Largest tensile `F_n` of `F = K d - f` beyond the tension that the law allows, a force; 0 if none.
+    pub tension: f64,
+    /// Largest `|F_t|` beyond its bound, a force; 0 if none.
+    pub cone_excess: f64,
+    /// Largest `|K d - f - F|` with the `F` returned here, a force.
+    pub equilibrium: f64,
+    /// Contact forces that obey the law: `K d - f`, projected.
+    pub force: Vec<f64>,
+    /// State of each pair.
+    pub states: Vec<State>,
+}
+
+impl Certificate {
+    /// Returns `true` if the candidate may be called a solution.
+    pub fn holds(&self, tolerance: f64) -> bool {
+        self.eta <= tolerance && !self.runs_away()
+    }
+
+    /// Copies the certificate with the rounding of its evaluation in `eta`, where that meets the tolerance too.
+    pub(crate) fn with_rounding(self, tolerance: f64) -> Self {
+        let eta = if self.residual <= tolerance { self.residual } else { self.eta };
+        Certificate { eta, ..self }
+    }
+
+    /// Returns `true` if the displacements are so large that rounding hides the forces.
+    pub fn runs_away(&self) -> bool {
+        self.rounding > ROUNDING_LIMIT && !self.is_resisted
+    }
+
+    /// Number of pairs in a state.
+    pub fn count(&self, state: State) -> usize {
+        self.states.iter().filter(|&&other| other == state).count()
+    }
+}
+
+/// Largest relative rounding of `K d` that is certified whatever causes it. At the condition number `c` the
+/// rounding is about `1e-16 c`: condition numbers up to 1e10 pass. Above, the energy of `d` decides.
+pub const ROUNDING_LIMIT: f64 = 1e-6;
+
+/// Displacements of a turning body beside the gap or slip that turns it: lever arms up to 1000.
+pub const LEVER: f64 = 1e3;
+
+/// Roundings of one component of the residual, of its norm and of the quotient, relative: some ten, half
+/// a unit each.
+const ROUNDINGS_OF_NORM: f64 = 8.0 * f64::EPSILON;
+
+/// Measures displacements of any origin, on a relation in which they determine the contact forces.
+pub fn certify(problem: &ContactProblem<'_>, d: &[f64]) -> Certificate {
+    let contact = Contact::new(problem);
+    measure(&contact, d, &[])
+}
+
+/// Measures a displacement and a contact force of any origin, on any relation.
+pub fn certify_pair<R: Relation>(
+    problem: &ContactProblem<'_, R>,
+    d: &[f64],
+    force: &[f64],
+) -> Certificate {
+    let contact = Contact::new(problem);
+    let residual = problem.relation().residual(d, force);
+    let terms = Terms::new(&contact, d);
+    measure_pair(&contact, (d, &[]), &terms, force.to_vec(), (&residual, &[]))
+}
+
+/// Measures the candidate `(d, force)` of a solver, on a problem whose laws are worked out. Where `d`
+/// determines the contact forces they are taken from the host's data, not from the solver.
+pub(crate) fn measure<R: Relation>(
+    contact: &Contact<'_, R>,
+    d: &[f64],
+    force: &[f64],
+) -> Certificate {
+    let relation = contact.problem().relation();
+    let terms = Terms::new(contact, d);
+    match relation.force(d, &[], &terms.each) {
+        Some(force) => measure_pair(contact, (d, &[]), &terms, force, NOTHING),
+        None => {
+            let residual = relation.residual(d, force);
+            measure_pair(contact, (d, &[]), &terms, force.to_vec(), (&residual, &[]))
+        }
+    }
+}
+
+/// [`measure`] of displacements `d + low` in two parts, where they determine the contact forces.
+pub(crate) fn measure_parts(contact: &Contact<'_>, d: &[f64], low: &[f64]) -> Certificate {
+    let terms = Terms::new(contact, d);
+    let force =
+        contact.problem().stiffness().residual(d, low, contact.problem().load(), &terms.each);
+    measure_pair(contact, (d, low), &terms, force, NOTHING)
+}
+
+/// No residual: the displacements determine the forces.
+const NOTHING: (&[f64], &[f64]) = (&[], &[]);
+
+/// Measures `(d + low, raw)`, `low` nothing if it is empty, which lack `residual` to equilibrium at the pairs, and
+/// `inner` at unknowns beside them.
+pub(super) fn measure_pair<R: Relation>(
+    contact: &Contact<'_, R>,
+    (d, low): (&[f64], &[f64]),
+    terms: &Terms,
+    raw: Vec<f64>,
+    (residual, inner): (&[f64], &[f64]),
+) -> Certificate {
+    let relation = contact.problem().relation();
+    let load = norm(relation.load());
+    // The branches of the law and `max` drop NaN, which sums in twice the precision make of an overflow.
+    let scale = match raw.iter().all(|force| force.is_finite()) {
+        true => load.max(relation.size_of_force(&raw)),
+        false => f64::INFINITY,
+    };
+    let unloaded = norm_inf(contact.load_with_tension()) == 0.0;
+    let natural = Natural::new(contact, (d, low), &raw);
+    let size = natural.size.root().hypot(norm(residual)).hypot(norm(inner));
+    let inherent = UNIT * terms.inherent;
+    let eta = ratio(size, scale);
+    // The error of products in twice the precision: `Matrix::residual`.
+    let count = (d.len() + 2) as f64;
+    let products = (4.0 * UNIT * count).powi(2) * (terms.inherent + terms.rest + load);
+    let doubt = natural.doubt.root() + natural.sensitivity * products;
+    let upper = ratio((size + doubt) * (1.0 + ROUNDINGS_OF_NORM), scale);
+    let rounding = ratio(UNIT * terms.rest + if unloaded { 0.0 } else { inherent }, scale);
+    let determines = residual.is_empty() && inner.is_empty();
+    let is_resisted = rounding > ROUNDING_LIMIT && determines && is_resisted(relation, d, &raw);
+    let Natural { worst, admissible, states, .. } = natural;
+    let at_pairs = residual.iter().copied().chain(repeat(0.0));
+    let lacking = raw.iter().zip(&admissible).zip(at_pairs).map(|((a, b), r)| a - b + r);
+    let equilibrium = largest_of(lacking).max(norm_inf(inner));
+    let Violation { penetration, tension, cone_excess } = worst;
+    Certificate {
+        eta,
+        residual: upper,
+        rounding,
+        is_resisted,
+        penetration,
+        tension,
+        cone_excess,
+        equilibrium,
+        force: admissible,
+        states,
+    }
+}
+
+/// `eta` of `d` when `raw = K d - f` is at hand, without the rounding that only a full product
+/// can tell: what a solver watches between two certificates.
+pub fn eta(problem: &ContactProblem<'_>, d: &[f64], raw: &[f64]) -> f64 {
+    eta_of(&Contact::new(problem), d, raw)
+}
+
+/// [`eta`], on a problem whose laws are worked out.
+pub(crate) fn eta_of(contact: &Contact<'_>, d: &[f64], raw: &[f64]) -> f64 {
+    // Nothing is stored: this runs once for each linear system, and every few sweeps.
+    let mut sum = NormSum::default();
+    let mut residual = [0.0; 3];
+    for (law, d, raw) in contact.each(d, raw) {
+        law.natural_residual(d, raw, &mut residual);
+        residual[..d.len()].iter().for_each(|&e| sum.add(e));
+    }
+    ratio(sum.root(), force_scale(contact.problem().load(), raw))
+}
+
+/// The measures by the laws of all pairs for displacements `d + low` and forces.
+struct Natural {
+    /// Norm of the natural residual.
+    size: NormSum,
+    /// Bound on its rounding.
+    doubt: NormSum,
+    /// Largest change of it by a change of a force.
+    sensitivity: f64,
+    worst: Violation,
+    admissible: Vec<f64>,
+    states: Vec<State>,
+}
+
+impl Natural {
+    fn new<R: Relation>(contact: &Contact<'_, R>, (d, low): (&[f64], &[f64]), raw: &[f64]) -> Self {
+        let dim = contact.dim();
+        let margin = NEGLIGIBLE * norm_inf(contact.problem().relation().load()).max(norm_inf(raw));
+        let mut natural = Natural {
+            size: NormSum::default(),
+            doubt: NormSum::default(),
+            sensitivity: 0.0,
+            worst: Violation::default(),
+            admissible: Vec::with_capacity(raw.len()),
+            states: Vec::with_capacity(contact.pairs().len()),
+        };
+        let mut residual = [0.0; 3];
+        for (pair, (law, d, raw)) in contact.each(d, raw).enumerate() {
+            let low = if low.is_empty() { &[0.0; 3][..dim] } else { &low[dim * pair..][..dim] };
+            let v = &law.beyond_reference(d, low)[..dim];
+            let law = law.at_its_reference();
+            law.natural_residual(v, raw, &mut residual);
+            residual[..dim].iter().for_each(|&e| natural.size.add(e));
+            natural.doubt.add(law.natural_rounding(v, raw));
+            natural.sensitivity = natural.sensitivity.max(law.sensitivity());
+            let state = law.state(v, raw, margin);
+            natural.worst = natural.worst.or_worse(law.violation(v, raw));
+            natural.states.push(state);
+            natural.admissible.extend_from_slice(&law.admissible_force(raw, state)[..dim]);
+        }
+        natural
+    }
+}
+
+/// The energy of the motion `d` under `internal` forces, `K d`, beside its terms: `d . K d / |d| . |K| |d|`; 0 if
+/// nothing resists it.
+pub(crate) fn energy<R: Relation>(relation: &R, d: &[f64], internal: &[f64]) -> f64 {
+    let sizes = sizes(d);
+    let terms = dot(&sizes, &relation.magnitude(&sizes));
+    if terms == 0.0 { 0.0 } else { dot(d, internal) / terms }
+}
+
+fn is_resisted<R: Relation>(relation: &R, d: &[f64], raw: &[f64]) -> bool {
+    let internal: Vec<f64> = relation.load().iter().zip(raw).map(|(f, raw)| f + raw).collect();
+    // More than a host's condensation leaves of a zero: below it the stiffness may be rounding, as of a body that
+    // turns about two points. Definite matrices of condition numbers up to 1e12 pass.
+    energy(relation, d, &internal) > ROUNDING_OF_SUM
+}
+
+fn force_scale(load: &[f64], raw: &[f64]) -> f64 {
+    norm(load).max(norm(raw))
+}
+
+/// Half a unit in the last digit of 1.
+const UNIT: f64 = f64::EPSILON / 2.0;
+
+/// The terms of `K d`: `|K| |d|`, whose rounding is [`UNIT`] of it.
+pub(super) struct Terms {
+    /// Component by component.
+    each: Vec<f64>,
+    /// Norm of those of displacements no larger than a body moves that closes a gap or has slipped.
+    inherent: f64,
+    /// Norm of those of the rest.
+    rest: f64,
+}
+
+impl Terms {
+    fn new<R: Relation>(contact: &Contact<'_, R>, d: &[f64]) -> Self {
+        let relation = contact.problem().relation();
+        Self::of_all(contact, d, d, &|sizes| relation.magnitude(sizes))
+    }
+
+    /// The terms of displacements `all` of which those of the pairs are `d`, with `|A| size` of all.
+    pub(super) fn of_all<R: Relation>(
+        contact: &Contact<'_, R>,
+        d: &[f64],
+        all: &[f64],
+        magnitude: &dyn Fn(&[f64]) -> Vec<f64>,
+    ) -> Self {
+        let normals = d.iter().step_by(contact.dim());
+        let prescribed =
+            largest_of(contact.pairs().iter().zip(normals).map(|(law, &d_n)| law.prescribed(d_n)));
+        let limit = LEVER * prescribed;
+        let part = |part: &dyn Fn(f64) -> f64| {
+            let sizes: Vec<f64> = all.iter().map(|d| part(d.abs())).collect();
+            magnitude(&sizes)
+        };
+        if !(limit > 0.0) {
+            let each = part(&|size| size);
+            return Terms { inherent: 0.0, rest: norm(&each), each };
+        }
+        let mut each = part(&|size| size.min(limit));
+        let inherent = norm(&each);
+        // Not finite where a displacement is not: nothing is certified then.
+        let mut rest = if inherent.is_finite() { 0.0 } else { f64::INFINITY };
+        if !all.iter().all(|d| d.abs() <= limit) {
+            let above = part(&|size| size - size.min(limit));
+            each.iter_mut().zip(&above).for_each(|(each, above)| *each += above);
+            rest += norm(&above);
+        }
+        Terms { each, inherent, rest }
+    }
+}
+
+/// `part / whole`, and infinite where a number on the way overflowed: nothing is certified then.
+fn ratio(part: f64, whole: f64) -> f64 {
+    if !part.is_finite() || !whole.is_finite() {
+        f64::INFINITY
+    } else if part == 0.0 {
+        0.0
+    } else {
+        part / whole
+    }
+}

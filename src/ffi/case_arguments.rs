@@ -1,0 +1,110 @@
+//! The data of load cases of a model, which several calls receive in the same order.
+
+use super::args::Arrays;
+use super::guard::{self, Failure};
+use super::law;
+use crate::error::Argument;
+use crate::model::{LoadCase, Model};
+use crate::problem::FrictionLaw;
+
+/// The arguments from `f` to `slip0` of a load case, as the host hands them over.
+pub(super) struct CaseArguments {
+    /// Number of `f` among the arguments of the call; the others follow it.
+    pub(super) first: i32,
+    pub(super) f: *const f64,
+    pub(super) prescribed: *const f64,
+    pub(super) gap: *const f64,
+    pub(super) law: i32,
+    pub(super) friction: *const f64,
+    pub(super) slip0: *const f64,
+}
+
+impl CaseArguments {
+    /// The arrays of `cases` load cases as slices, noted in `arrays`. `memory_limit` is that of the
+    /// settings, 0: none.
+    ///
+    /// # Safety Every pointer is NULL or has the length that the header demands.
+    pub(super) unsafe fn read<'a>(
+        &self,
+        arrays: &mut Arrays,
+        model: &'a Model,
+        cases: usize,
+        memory_limit: u64,
+    ) -> Result<LoadCases<'a>, Failure> {
+        let bytes = model.memory();
+        // A case that may need more is refused before it takes anything.
+        if memory_limit == 0 || bytes <= memory_limit {
+            let explained = |failure: Failure| match model.largest_part() {
+                Some(part) => failure.explained(&part),
+                None => failure,
+            };
+            guard::reserve_estimate(bytes).map_err(explained)?;
+        }
+        guard::reserve_estimate(model.memory_of_cases(cases))?;
+        let at = |offset| self.first + offset;
+        let slips = (model.dim() - 1) * model.pairs();
+        let (host, fixed) = (times(cases, model.host_size())?, times(cases, model.fixed_count())?);
+        let (pairs, slips) = (times(cases, model.pairs())?, times(cases, slips)?);
+        // SAFETY: the lengths are those of the header.
+        unsafe {
+            Ok(LoadCases {
+                model,
+                load: arrays.matrix(at(0), "f", self.f, host)?,
+                prescribed: arrays.optional(at(1), "prescribed", self.prescribed, fixed)?,
+                gap: arrays.required(at(2), "gap", self.gap, pairs)?,
+                law: law::read(arrays, at(3), (self.law, self.friction), pairs)?,
+                slip0: arrays.optional(at(5), "slip0", self.slip0, slips)?,
+            })
+        }
+    }
+
+    /// Number of the argument that an error is about; `otherwise` of an argument of the call that
+    /// is not here.
+    pub(super) fn position(&self, argument: Argument, otherwise: i32) -> i32 {
+        let offset = match argument {
+            // The model is the first argument of each call.
+            Argument::Matrix => return 1,
+            Argument::Load => 0,
+            Argument::Prescribed => 1,
+            Argument::Gap => 2,
+            Argument::LawChoice => 3,
+            Argument::Law => 4,
+            Argument::ReferenceSlip => 5,
+            _ => return otherwise,
+        };
+        self.first + offset
+    }
+}
+
+/// The data of several load cases, a column for each.
+pub(super) struct LoadCases<'a> {
+    model: &'a Model,
+    load: &'a [f64],
+    prescribed: Option<&'a [f64]>,
+    gap: &'a [f64],
+    law: FrictionLaw<'a>,
+    slip0: Option<&'a [f64]>,
+}
+
+impl<'a> LoadCases<'a> {
+    /// The load case number `case`.
+    pub(super) fn case(&self, case: usize) -> LoadCase<'a> {
+        let (pairs, fixed) = (self.model.pairs(), self.model.fixed_count());
+        let slips = (self.model.dim() - 1) * pairs;
+        let column = |array: &'a [f64], length: usize| &array[length * case..length * (case + 1)];
+        LoadCase {
+            load: column(self.load, self.model.host_size()),
+            prescribed: self.prescribed.map(|values| column(values, fixed)),
+            gap: column(self.gap, pairs),
+            law: self.law.with_values(column(self.law.values(), self.law.parameters() * pairs)),
+            reference_slip: self.slip0.map(|slip0| column(slip0, slips)),
+        }
+    }
+}
+
+/// `length` for each case.
+pub(super) fn times(cases: usize, length: usize) -> Result<usize, Failure> {
+    length
+        .checked_mul(cases)
+        .ok_or_else(|| Failure::argument(2, format!("cases is {cases}, too many cases")))
+}

@@ -1,0 +1,122 @@
+//! The content of pairs from surfaces, as one structure.
+
+use libc::c_char;
+
+use super::guard::Failure;
+use super::pairs::SignoriniPairs;
+use super::structures::{address, show};
+use super::surface_new::SignoriniSurfacePairs;
+
+/// Pairs from surfaces, and what became of faces and nodes. Arrays live as long as the pairs; one
+/// without entries is NULL. Nodes and faces are counted from index_base.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct SignoriniSurfaceData {
+    /// sizeof(signorini_surface_data) in your program; no more is written.
+    pub struct_size: u32,
+    /// Space dimension.
+    pub dim: i32,
+    /// Number of pairs.
+    pub pairs: i64,
+    /// The pairs for signorini_model_new_sparse, as general rows.
+    pub rows: *const SignoriniPairs,
+    /// Initial gaps, one for each pair; length: positive if open, negative if the surfaces overlap.
+    pub gaps: *const f64,
+    /// Areas, one for each pair; the pressure of a pair is -F_n over its area.
+    pub areas: *const f64,
+    /// Unit normals, dim for each pair, outward from the slave's body.
+    pub normals: *const f64,
+    /// First unit tangents, dim for each pair; in 3D the second one is n x t1.
+    pub tangents: *const f64,
+    /// Where the force of each pair acts on the slave's body, dim for each pair.
+    pub points: *const f64,
+    /// The slave node of each pair, ascending.
+    pub nodes: *const i64,
+    /// Number of slave nodes without a pair: nothing lies over them, or they are folded.
+    pub n_unpaired: i64,
+    /// These nodes.
+    pub unpaired: *const i64,
+    /// How many of them have little cover, and their row in the pair of a neighbour.
+    pub n_folded: i64,
+    /// Each of these nodes with that neighbour: 2 entries for each.
+    pub folded: *const i64,
+    /// Number of slave faces that lie over nothing (dual mortar).
+    pub n_uncovered: i64,
+    /// These faces.
+    pub uncovered: *const i64,
+    /// One sentence on what was found, ASCII text for a log.
+    pub summary: *const c_char,
+    /// Number of slave faces.
+    pub slave_faces: i64,
+    /// Area of the slave faces.
+    pub slave_area: f64,
+    /// The part of it that lies over the other side: the areas of all pairs.
+    pub covered_area: f64,
+    /// The search distance that was used.
+    pub search_distance: f64,
+    /// How often a master face was near a slave whose normal does not oppose the slave's. If there
+    /// are no pairs, and this is not 0, one side is turned over.
+    pub not_opposed: i64,
+    /// Boxes that the search looked at: its cost.
+    pub boxes_searched: i64,
+    /// Pairs whose slave node stands on a plane of symmetry.
+    pub on_symmetry: i64,
+    /// Number of unpaired nodes that SIGNORINI_RIMS_DROP has left out for little cover.
+    pub dropped: i64,
+}
+
+/// Shows pairs from surfaces: fills data, whose arrays live as long as the pairs.
+///
+/// @param contact  the pairs
+/// @param data     out: set data->struct_size before the call
+/// @return 0; -k: the k-th argument is wrong
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn signorini_surface_view(
+    contact: *const SignoriniSurfacePairs,
+    data: *mut SignoriniSurfaceData,
+) -> i32 {
+    // SAFETY: NULL or pairs, and NULL or a structure that begins with its size, by the header's contract.
+    unsafe { show("contact", contact, data, SignoriniSurfacePairs::shown) }
+}
+
+/// # Safety
+/// NULL or pairs that live during the call.
+pub(super) unsafe fn read<'a>(
+    contact: *const SignoriniSurfacePairs,
+) -> Result<&'a SignoriniSurfacePairs, Failure> {
+    // SAFETY: by the caller's contract.
+    unsafe { contact.as_ref() }.ok_or_else(|| Failure::argument(1, "contact is NULL"))
+}
+
+impl SignoriniSurfacePairs {
+    fn shown(&self) -> SignoriniSurfaceData {
+        let (arrays, report) = (&self.arrays, &self.found.report);
+        SignoriniSurfaceData {
+            struct_size: size_of::<SignoriniSurfaceData>() as u32,
+            dim: self.found.dim as i32,
+            pairs: arrays.count as i64,
+            rows: &raw const self.rows,
+            gaps: address(&arrays.gaps),
+            areas: address(&arrays.areas),
+            normals: address(&arrays.normals),
+            tangents: address(&arrays.tangents),
+            points: address(&self.points),
+            nodes: address(&self.slaves),
+            n_unpaired: self.unpaired.len() as i64,
+            unpaired: address(&self.unpaired),
+            n_folded: report.folded.len() as i64,
+            folded: address(&self.folded),
+            n_uncovered: self.uncovered.len() as i64,
+            uncovered: address(&self.uncovered),
+            summary: self.summary.as_ptr(),
+            slave_faces: report.slave_faces as i64,
+            slave_area: report.slave_area,
+            covered_area: report.covered_area,
+            search_distance: report.search_distance,
+            not_opposed: report.not_opposed as i64,
+            boxes_searched: report.boxes_searched as i64,
+            on_symmetry: self.found.on_symmetry().count() as i64,
+            dropped: report.dropped.len() as i64,
+        }
+    }
+}

@@ -1,0 +1,166 @@
+//! A thread of the system, with a reserve of its own. Threads of the standard library obtain memory in ways that end the process where it is
+//! refused, which no reserve can serve.
+
+use std::sync::Barrier;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use crate::ffi::guard::{self, Failure};
+use crate::shortage;
+
+/// The work of a further thread; it does not unwind.
+pub(super) trait Run: Sync {
+    /// Does the work; `prepared` is the status if the thread has no memory to keep for itself.
+    fn run(&self, prepared: Result<(), i32>);
+}
+
+/// A work and its thread's beginning.
+pub(super) struct Job<R> {
+    pub(super) work: R,
+    is_prepared: AtomicBool,
+    /// Where the caller waits until the thread has what it keeps for itself. The C library ends the process if it has
+    /// no memory to note that: nobody else asks for memory meanwhile.
+    ready: Barrier,
+}
+
+impl<R: Run> Job<R> {
+    /// A job for a thread.
+    pub(super) fn new(work: R) -> Self {
+        Job { work, is_prepared: AtomicBool::new(false), ready: Barrier::new(2) }
+    }
+
+    /// `true` if its thread has what it keeps for itself.
+    pub(super) fn is_prepared(&self) -> bool {
+        self.is_prepared.load(Ordering::Relaxed)
+    }
+
+    fn run(&self) {
+        let prepared = guarded(guard::prepare_thread);
+        self.is_prepared.store(prepared.is_ok(), Ordering::Relaxed);
+        self.ready.wait();
+        self.work.run(prepared);
+    }
+}
+
+/// Runs `body` as an entry of the C interface runs its own.
+pub(super) fn guarded<T>(body: impl FnOnce() -> Result<T, Failure>) -> Result<T, i32> {
+    let mut result = None;
+    let code = guard::call(|| {
+        result = Some(body()?);
+        // Nothing that lives on may stand in the reserve of the thread.
+        shortage::check();
+        Ok(0)
+    });
+    match result {
+        Some(result) if code == 0 => Ok(result),
+        _ => Err(code),
+    }
+}
+
+/// A thread that runs, and that must be joined.
+pub(super) struct Thread(own::Handle);
+
+impl Thread {
+    /// Starts a thread that gets no signals, which are the host's, and waits until it is prepared. `None`: the system
+    /// has no more of them.
+    ///
+    /// # Safety
+    /// `job` lives until the thread is joined.
+    pub(super) unsafe fn start<R: Run>(job: &Job<R>) -> Option<Self> {
+        #[cfg(unix)]
+        let masked = own::Masked::new();
+        // SAFETY: by the caller's contract.
+        let handle = unsafe { own::start(job) }?;
+        #[cfg(unix)]
+        drop(masked);
+        job.ready.wait();
+        Some(Thread(handle))
+    }
+
+    /// Waits until the thread is gone.
+    pub(super) fn join(self) {
+        own::join(self.0);
+    }
+}
+
+#[cfg(unix)]
+mod own {
+    use std::ffi::c_void;
+    use std::mem::{MaybeUninit, zeroed};
+    use std::ptr::null_mut;
+
+    use super::{Job, Run};
+
+    /// Stack of a thread, in bytes: that of the threads of Rust's standard library.
+    const STACK: usize = 2 << 20;
+
+    pub(super) type Handle = libc::pthread_t;
+
+    pub(super) unsafe fn start<R: Run>(job: &Job<R>) -> Option<Handle> {
+        extern "C" fn begin<R: Run>(job: *mut c_void) -> *mut c_void {
+            // SAFETY: the job of `start`, which lives until the thread is joined.
+            unsafe { (*job.cast::<Job<R>>()).run() };
+            null_mut()
+        }
+        let (mut attributes, mut thread) = (MaybeUninit::uninit(), MaybeUninit::uninit());
+        // SAFETY: attributes are initialised before they are used, the handle is written where the thread begins.
+        unsafe {
+            if libc::pthread_attr_init(attributes.as_mut_ptr()) != 0 {
+                return None;
+            }
+            libc::pthread_attr_setstacksize(attributes.as_mut_ptr(), STACK);
+            let job = std::ptr::from_ref(job).cast_mut().cast();
+            let refused =
+                libc::pthread_create(thread.as_mut_ptr(), attributes.as_ptr(), begin::<R>, job);
+            libc::pthread_attr_destroy(attributes.as_mut_ptr());
+            (refused == 0).then(|| thread.assume_init())
+        }
+    }
+
+    pub(super) fn join(thread: Handle) {
+        // SAFETY: a thread of `start`, joined once.
+        unsafe { libc::pthread_join(thread, null_mut()) };
+    }
+
+    /// The calling thread, and those that it starts, get no signals until it is dropped.
+    pub(super) struct Masked(libc::sigset_t);
+
+    impl Masked {
+        pub(super) fn new() -> Self {
+            // SAFETY: sets of signals, filled before they are read.
+            unsafe {
+                let (mut all, mut before) = (zeroed(), zeroed());
+                libc::sigfillset(&raw mut all);
+                libc::pthread_sigmask(libc::SIG_SETMASK, &raw const all, &raw mut before);
+                Masked(before)
+            }
+        }
+    }
+
+    impl Drop for Masked {
+        fn drop(&mut self) {
+            // SAFETY: the set that `new` has read.
+            unsafe {
+                libc::pthread_sigmask(libc::SIG_SETMASK, &raw const self.0, null_mut());
+            }
+        }
+    }
+}
+
+#[cfg(not(unix))]
+mod own {
+    use std::thread::{Builder, JoinHandle};
+
+    use super::{Job, Run};
+
+    pub(super) type Handle = JoinHandle<()>;
+
+    pub(super) unsafe fn start<R: Run>(job: &Job<R>) -> Option<Handle> {
+        // SAFETY: by the caller's contract the job lives until the thread is joined.
+        unsafe { Builder::new().spawn_unchecked(|| job.run()) }.ok()
+    }
+
+    pub(super) fn join(thread: Handle) {
+        // The job does not unwind.
+        let _ = thread.join();
+    }
+}

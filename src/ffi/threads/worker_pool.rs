@@ -1,0 +1,236 @@
+//! Threads that share the parts of one work after another. They begin with the first work and end with the call.
+
+use std::cell::RefCell;
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
+
+use super::system_thread::{Job, Run, Thread, guarded};
+use crate::shortage::{self, Shortage};
+use crate::workers::{SingleThread, Workers};
+
+/// Most threads: each has working memory, and of more than these none has enough to do.
+const MOST: usize = 64;
+
+/// Does `body` with so many threads, the calling one among them.
+pub(in crate::ffi) fn with_workers<T>(threads: usize, body: impl FnOnce(&dyn Workers) -> T) -> T {
+    if threads <= 1 {
+        return body(&SingleThread);
+    }
+    let threads = threads.min(MOST);
+    let board = Board::new(threads);
+    let member = |number| Job::new(Member { number, board: &board });
+    let jobs: Vec<_> = (1..threads).map(member).collect();
+    let started = RefCell::new(Vec::with_capacity(jobs.len()));
+    body(&WorkerPool { board: &board, jobs: &jobs, started })
+}
+
+/// A work whose parts are done.
+type Work = dyn Fn(usize, usize) + Sync;
+
+/// A work, as threads see it while they share it.
+#[derive(Clone, Copy)]
+struct Posted {
+    work: *const Work,
+    parts: usize,
+}
+
+// SAFETY: several threads may use the work behind the pointer, and it lives until all of them have said that they are
+// done with it.
+unsafe impl Send for Posted {}
+
+/// Messages of the calling thread to the others, and of these to it.
+struct Board {
+    threads: usize,
+    notes: Mutex<Notes>,
+    /// There is another work, or none any more.
+    posted: Condvar,
+    /// The last thread is done with its work.
+    ended: Condvar,
+    /// The next part.
+    next: AtomicUsize,
+}
+
+#[derive(Default)]
+struct Notes {
+    work: Option<Posted>,
+    /// Works so far.
+    count: u64,
+    /// Threads that wait for the next work or are at this one.
+    present: usize,
+    /// Those that have not ended this work.
+    busy: usize,
+    is_over: bool,
+    failure: Option<Collapse>,
+}
+
+/// Why a thread has ended its part otherwise than by doing it.
+enum Collapse {
+    /// It was refused so many bytes.
+    Memory(usize),
+    Panic,
+}
+
+impl Board {
+    fn new(threads: usize) -> Self {
+        Board {
+            threads,
+            notes: Mutex::default(),
+            posted: Condvar::new(),
+            ended: Condvar::new(),
+            next: AtomicUsize::new(0),
+        }
+    }
+
+    fn notes(&self) -> MutexGuard<'_, Notes> {
+        self.notes.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Waits while `condition` holds.
+    fn wait<'n>(
+        &self,
+        signal: &Condvar,
+        notes: MutexGuard<'n, Notes>,
+        condition: impl Fn(&Notes) -> bool,
+    ) -> MutexGuard<'n, Notes> {
+        let condition = |notes: &mut Notes| condition(notes);
+        signal.wait_while(notes, condition).unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Does parts of each work that is posted, until there is none any more.
+    fn serve(&self, thread: usize) {
+        let mut seen = 0;
+        loop {
+            let notes = self.notes();
+            let notes = self.wait(&self.posted, notes, |now| now.count == seen && !now.is_over);
+            let Some(Posted { work, parts }) = notes.work.filter(|_| notes.count != seen) else {
+                return;
+            };
+            seen = notes.count;
+            drop(notes);
+            // SAFETY: the calling thread keeps the work until this one has said below that it is done.
+            let work = unsafe { &*work };
+            let result = catch_unwind(AssertUnwindSafe(|| {
+                self.share(parts, &|part| work(thread, part), &mut || true);
+                shortage::check();
+            }));
+            let mut notes = self.notes();
+            if let Err(reason) = result {
+                self.next.store(parts, Ordering::Relaxed);
+                notes.failure = Some(match reason.downcast_ref::<Shortage>() {
+                    Some(Shortage { bytes }) => Collapse::Memory(*bytes),
+                    None => Collapse::Panic,
+                });
+            }
+            notes.busy -= 1;
+            if notes.busy == 0 {
+                self.ended.notify_one();
+            }
+        }
+    }
+
+    /// Does parts that nobody has begun.
+    fn share(&self, parts: usize, work: &dyn Fn(usize), go_on: &mut dyn FnMut() -> bool) {
+        while go_on() {
+            let part = self.next.fetch_add(1, Ordering::Relaxed);
+            if part >= parts {
+                return;
+            }
+            work(part);
+        }
+        self.next.store(parts, Ordering::Relaxed);
+    }
+}
+
+/// A further thread, which serves the board.
+struct Member<'b> {
+    number: usize,
+    board: &'b Board,
+}
+
+impl Run for Member<'_> {
+    fn run(&self, prepared: Result<(), i32>) {
+        // Without memory the others do its parts, and the failure of a part is on the board.
+        if prepared.is_ok() {
+            let _ = guarded(|| {
+                self.board.serve(self.number);
+                Ok(())
+            });
+        }
+    }
+}
+
+/// The calling thread and the others.
+struct WorkerPool<'b> {
+    board: &'b Board,
+    jobs: &'b [Job<Member<'b>>],
+    started: RefCell<Vec<Thread>>,
+}
+
+impl WorkerPool<'_> {
+    fn start(&self) {
+        let mut started = self.started.borrow_mut();
+        if !started.is_empty() {
+            return;
+        }
+        for job in self.jobs {
+            // SAFETY: the jobs live longer than the pool, which joins the thread when it is dropped.
+            let Some(thread) = (unsafe { Thread::start(job) }) else { return };
+            started.push(thread);
+            self.board.notes().present += usize::from(job.is_prepared());
+        }
+    }
+}
+
+impl Workers for WorkerPool<'_> {
+    fn threads(&self) -> usize {
+        self.board.threads
+    }
+
+    fn run(
+        &self,
+        parts: usize,
+        work: &(dyn Fn(usize, usize) + Sync),
+        go_on: &mut dyn FnMut() -> bool,
+    ) {
+        self.start();
+        let board = self.board;
+        // SAFETY: only the lifetime changes; no thread uses the work when this function ends, however it does.
+        let lasting = unsafe {
+            std::mem::transmute::<*const (dyn Fn(usize, usize) + Sync + '_), *const Work>(work)
+        };
+        let mut notes = board.notes();
+        board.next.store(0, Ordering::Relaxed);
+        notes.work = Some(Posted { work: lasting, parts });
+        notes.count += 1;
+        notes.busy = notes.present;
+        drop(notes);
+        board.posted.notify_all();
+        let own =
+            catch_unwind(AssertUnwindSafe(|| board.share(parts, &|part| work(0, part), go_on)));
+        board.next.store(parts, Ordering::Relaxed);
+        let notes = board.notes();
+        let mut notes = board.wait(&board.ended, notes, |now| now.busy > 0);
+        notes.work = None;
+        let failure = notes.failure.take();
+        drop(notes);
+        if let Err(reason) = own {
+            resume_unwind(reason);
+        }
+        match failure {
+            Some(Collapse::Memory(bytes)) => resume_unwind(Box::new(Shortage { bytes })),
+            Some(Collapse::Panic) => panic!("a further thread of the call has failed"),
+            None => {}
+        }
+    }
+}
+
+impl Drop for WorkerPool<'_> {
+    fn drop(&mut self) {
+        self.board.notes().is_over = true;
+        self.board.posted.notify_all();
+        for thread in self.started.get_mut().drain(..) {
+            thread.join();
+        }
+    }
+}

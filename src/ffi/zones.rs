@@ -1,0 +1,172 @@
+//! Contact zones with their solutions, as fields at all nodes of a mesh.
+
+use super::args::{Arrays, size};
+use super::guard::Failure;
+use super::structures;
+use super::surface_fields::pair_results;
+use super::surface_new::SignoriniSurfacePairs;
+use crate::error::index;
+use crate::file::{Field, Values};
+
+/// A contact zone with its solution, for signorini_mesh_write.
+#[repr(C)]
+#[derive(Clone, Copy)]
+#[allow(non_snake_case)] // the names of the mechanics, which the header shows
+pub struct SignoriniZone {
+    /// sizeof(signorini_zone).
+    pub struct_size: u32,
+    /// 0.
+    pub reserved: i32,
+    /// The pairs.
+    pub contact: *const SignoriniSurfacePairs,
+    /// Gaps, one for each pair; NULL: those of the pairs.
+    pub gap: *const f64,
+    /// Reference slip, dim - 1 for each pair; NULL: zero.
+    pub slip0: *const f64,
+    /// Relative displacements, N = dim * pairs.
+    pub d: *const f64,
+    /// Contact forces, N.
+    pub F: *const f64,
+    /// SIGNORINI_STATE_... of each pair; NULL: no states.
+    pub state: *const i32,
+}
+
+/// Number of the zones among the arguments.
+const ZONES: i32 = 5;
+
+/// The state of a node that stands in no pair.
+const NO_STATE: i32 = -1;
+
+/// Fields of the zones at all nodes.
+pub(super) struct Zones {
+    dim: usize,
+    /// Degrees of freedom of all nodes.
+    dofs: Vec<usize>,
+    /// Pressure and clearance.
+    scalars: [Vec<f64>; 2],
+    /// Traction and slip.
+    vectors: [Vec<f64>; 2],
+    states: Vec<i32>,
+    has_states: bool,
+}
+
+impl Zones {
+    /// The fields of the caller's zones on a mesh of so many dimensions and nodes; `None` of no
+    /// zones.
+    ///
+    /// # Safety The structures and their arrays are as the header demands.
+    pub(super) unsafe fn read(
+        arrays: &mut Arrays,
+        (count, zones): (i64, *const SignoriniZone),
+        (dim, nodes): (usize, usize),
+    ) -> Result<Option<Self>, Failure> {
+        let count = size(ZONES - 1, "n_zones", count)?;
+        // SAFETY: by the caller's contract.
+        let given = unsafe { structures::all(ZONES, "zones", zones, count)? };
+        let mut all: Option<Zones> = None;
+        for (number, zone) in given.into_iter().enumerate() {
+            let refuse = |message: &str| {
+                Err(Failure::argument(ZONES, format!("zones {}: {message}", index(number))))
+            };
+            if zone.reserved != 0 {
+                return refuse("reserved must be 0");
+            }
+            // SAFETY: as above.
+            let Some(contact) = (unsafe { zone.contact.as_ref() }) else {
+                return refuse("contact is NULL");
+            };
+            let of = (contact.found.dim, contact.nodes);
+            if of != (dim, nodes) {
+                let (of_dim, of_nodes) = of;
+                return refuse(&format!(
+                    "its pairs are of {of_nodes} nodes of dim {of_dim}, the mesh has {nodes} nodes of dim {dim}"
+                ));
+            }
+            let all = all.get_or_insert_with(|| Zones::empty(contact));
+            if contact.dofs() != all.dofs {
+                return refuse("it numbers degrees of freedom otherwise than the first zone");
+            }
+            // SAFETY: as above.
+            unsafe { all.add(arrays, contact, zone)? };
+        }
+        Ok(all)
+    }
+
+    fn empty(contact: &SignoriniSurfacePairs) -> Self {
+        let (nodes, dim) = (contact.nodes, contact.found.dim);
+        Zones {
+            dim,
+            dofs: contact.dofs(),
+            scalars: [vec![0.0; nodes], vec![0.0; nodes]],
+            vectors: [vec![0.0; dim * nodes], vec![0.0; dim * nodes]],
+            states: vec![NO_STATE; nodes],
+            has_states: true,
+        }
+    }
+
+    /// Adds the fields of a zone.
+    ///
+    /// # Safety
+    /// Its arrays are as the header demands.
+    unsafe fn add(
+        &mut self,
+        arrays: &mut Arrays,
+        contact: &SignoriniSurfacePairs,
+        zone: &SignoriniZone,
+    ) -> Result<(), Failure> {
+        let [gap, slip0, d, force] = [zone.gap, zone.slip0, zone.d, zone.F];
+        let at = |array| (ZONES, array);
+        // SAFETY: by the caller's contract.
+        let (results, state) = unsafe {
+            let results = pair_results(arrays, contact, at(gap), at(slip0), at(d), at(force))?;
+            (results, arrays.optional(ZONES, "state", zone.state, contact.arrays.count)?)
+        };
+        let found = contact.found.fields(&results);
+        let found = found.map_err(|error| Failure::from_error(error, |_| ZONES))?;
+        let spread = |all: &mut [f64], values: &[f64], each: usize| {
+            for (node, of_node) in found.nodes.iter().zip(values.chunks(each)) {
+                all[each * node..each * (node + 1)].copy_from_slice(of_node);
+            }
+        };
+        let ([pressure, clearance], [traction, slip]) = (&mut self.scalars, &mut self.vectors);
+        spread(pressure, &found.pressure, 1);
+        spread(clearance, &found.clearance, 1);
+        spread(traction, &found.traction, self.dim);
+        spread(slip, &found.slip, self.dim);
+        // A zone without pairs has no states to give.
+        self.has_states &= !zone.state.is_null() || contact.arrays.count == 0;
+        if let Some(state) = state {
+            let each = found.nodes.iter().zip(&found.pairs);
+            each.for_each(|(node, pair)| self.states[*node] = state[*pair]);
+        }
+        Ok(())
+    }
+
+    /// Displacements of all nodes, from those of the host's degrees of freedom.
+    ///
+    /// # Safety
+    /// NULL or an array as the header demands.
+    pub(super) unsafe fn displacement(
+        &self,
+        arrays: &mut Arrays,
+        u: *const f64,
+    ) -> Result<Option<Vec<f64>>, Failure> {
+        let entries = self.dofs.iter().max().map_or(0, |last| last + 1);
+        // SAFETY: by the caller's contract.
+        let u = unsafe { arrays.optional(3, "u", u, entries)? };
+        Ok(u.map(|u| self.dofs.iter().map(|dof| u[*dof]).collect()))
+    }
+
+    /// The fields under their names.
+    pub(super) fn fields(&self) -> impl Iterator<Item = Field<'_>> {
+        let ([pressure, clearance], [traction, slip]) = (&self.scalars, &self.vectors);
+        let reals = [
+            ("pressure", Values::Scalars(pressure)),
+            ("clearance", Values::Scalars(clearance)),
+            ("traction", Values::Vectors(traction)),
+            ("slip", Values::Vectors(slip)),
+        ];
+        let states = self.has_states.then_some(("state", Values::Integers(&self.states)));
+        reals.into_iter().chain(states).map(|(name, values)| Field { name, values })
+    }
+}

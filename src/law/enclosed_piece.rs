@@ -1,0 +1,277 @@
+//! A pair whose piece of the law is frozen, with bounds on all that is computed of it: what a proof needs.
+//!
+//! The unknowns of a pair are the normal displacement if it is open, the tangential one if it slips or no
+//! friction can act, and in space of a slip the vector `w`, which has no unit:
+//!
+//! ```text
+//! h = w / |w|,   F_t = -g A h,   delta = unit B (1 - 1 / |w|) w,   |w| > 1           g = slope (a - F_n) + offset
+//! ```
+//!
+//! `w` is the trial force divided by `g`, so that nothing is divided by the slip. `A` and `B` are 1 under an
+//! isotropic law; with an ellipse ([`super::ellipse`]) `A = W⁻¹`, and `B = Wᵀ` of the associated rule, `W⁻¹` of
+//! the collinear one. `unit`, a length, is any positive number.
+//!
+//! | piece | equations | inside |
+//! |---|---|---|
+//! | open | `F_n = a` | `v_n < 0` |
+//! | closed | `v_n = 0` | `F_n < a` |
+//! | stick | `delta = 0` | `gauge(F_t) < g` |
+//! | slip to the side `h` in the plane | `F_t = -g h` | `h delta > 0`, `g > 0` |
+//! | slip in space | `F_t = -g A h` | `\|w\| > 1`, `g > 0` |
+//! | no friction | `F_t = 0` | |
+
+use super::{PairLaw, Rule, State};
+use crate::linalg::ball::{
+    Ball, BallPlane, BallVector, length, product, product_up, sum_of_parts, sum_up,
+};
+use crate::linalg::double_double::two_sum;
+
+/// Rounding of the offset `b - mu a` and of the entries of an ellipse, relative to their terms: a few
+/// operations, a cosine, and what a host may have rounded of `b`.
+const DERIVED: f64 = 8.0 * f64::EPSILON;
+
+/// The tangential part of an enclosed piece.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Along {
+    Free,
+    Stick,
+    /// In the plane, to the side +1 or −1.
+    Side(f64),
+    /// In space, with the unit of the slip.
+    Turning(f64),
+}
+
+/// A pair on a piece that is given.
+#[derive(Clone, Copy, Debug)]
+pub struct EnclosedPiece {
+    law: PairLaw,
+    closed: bool,
+    along: Along,
+}
+
+/// The numbers of a piece at a place, or on a neighbourhood of it.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Local {
+    /// `A h`: `F_t = -g A h`.
+    pub push: [Ball; 2],
+    /// Derivative of the tangential displacement by its unknowns.
+    pub motion: BallPlane,
+    /// Derivative of `A h`.
+    pub turn: BallPlane,
+    /// `|w|`.
+    reach: Ball,
+}
+
+impl PairLaw {
+    /// The pair on the piece of `state`; of the pieces of an open pair that may carry friction, and of the
+    /// sides of a slip, the one at the displacement `v` beyond the reference and the force. `None` if the law
+    /// has no such piece.
+    pub fn enclosed_piece(&self, state: State, v: &[f64], force: &[f64]) -> Option<EnclosedPiece> {
+        let closed = state != State::Open;
+        if closed && !self.has_obstacle() {
+            return None;
+        }
+        let threshold = if closed { self.threshold(force[0]) } else { self.bound.at(0.0) };
+        let acts = self.bound.offset > 0.0 || (closed && self.bound.slope > 0.0);
+        let trial = self.at_its_reference().trial(v, force);
+        let gauge = self.gauge(&trial[1..self.dim]);
+        let along = match state {
+            State::Stick => acts.then_some(Along::Stick)?,
+            _ if !acts => Along::Free,
+            State::Open if !(gauge > threshold) => Along::Stick,
+            _ if self.dim == 2 => (gauge > 0.0).then_some(Along::Side(trial[1].signum()))?,
+            _ => (threshold > 0.0).then_some(Along::Turning(threshold / self.k_t))?,
+        };
+        Some(EnclosedPiece { law: *self, closed, along })
+    }
+
+    /// `d + low - reference`, enclosed.
+    pub fn enclosed_beyond_reference(&self, d: &[f64], low: &[f64]) -> BallVector {
+        let reference = self.reference();
+        let mut v = BallVector::default();
+        for c in 0..self.dim {
+            let (difference, lost) = two_sum(d[c], -reference[c]);
+            v[c] = sum_of_parts(difference, lost, low[c]);
+        }
+        v
+    }
+}
+
+impl EnclosedPiece {
+    /// Returns `true` if component `c` moves: its displacement is unknown, and its force is given.
+    pub fn moves(&self, c: usize) -> bool {
+        if c == 0 { !self.closed } else { self.along != Along::Stick }
+    }
+
+    /// Returns `true` if the friction of the pair follows its normal force.
+    pub fn is_dragged(&self) -> bool {
+        let slips = matches!(self.along, Along::Side(_) | Along::Turning(_));
+        self.closed && slips && self.law.bound.slope > 0.0
+    }
+
+    /// Returns `true` if the equations of the piece are symmetric where the stiffness is.
+    pub fn is_symmetric(&self) -> bool {
+        !self.is_dragged() && !matches!(self.along, Along::Turning(_))
+    }
+
+    /// The unit that turns displacements into tangential unknowns, for scaling: that of `w`, else 1.
+    pub fn unit(&self) -> f64 {
+        if let Along::Turning(unit) = self.along { unit } else { 1.0 }
+    }
+
+    /// The displacement of a component that does not move.
+    pub fn held(&self, c: usize) -> f64 {
+        self.law.reference()[c]
+    }
+
+    /// `w` at the displacement `v` beyond the reference; zero but for a slip in space.
+    pub fn slip_vector(&self, v: &BallVector) -> [Ball; 2] {
+        let Along::Turning(unit) = self.along else { return [Ball::default(); 2] };
+        let (_, _, back) = self.shape();
+        let unit = Ball::exact(unit);
+        let own = product(&back, [v[1], v[2]]).map(|own| own / unit);
+        let size = length(own);
+        let reach = size + Ball::exact(1.0);
+        own.map(|own| own / size * reach)
+    }
+
+    /// The piece at `w`.
+    pub fn local(&self, w: [Ball; 2]) -> Local {
+        let (one, zero) = (Ball::exact(1.0), Ball::default());
+        let unity = [[one, zero], [zero, one]];
+        match self.along {
+            Along::Stick => Local::default(),
+            Along::Free => Local { motion: unity, ..Local::default() },
+            Along::Side(side) => {
+                Local { push: [Ball::exact(side), zero], motion: unity, ..Local::default() }
+            }
+            Along::Turning(unit) => {
+                let (forward, scale, _) = self.shape();
+                let reach = length(w);
+                let h = w.map(|w| w / reach);
+                let (mut turn, mut motion) = (unity, unity);
+                for i in 0..2 {
+                    for j in 0..2 {
+                        let across = unity[i][j] - h[i] * h[j];
+                        turn[i][j] = across / reach;
+                        // (1 - 1/|w|) + h hᵀ / |w|, without the cancellation of both.
+                        motion[i][j] = unity[i][j] - turn[i][j];
+                    }
+                }
+                let unit = Ball::exact(unit);
+                let motion = times(&scale, &motion).map(|row| row.map(|entry| unit * entry));
+                Local { push: product(&forward, h), motion, turn: times(&forward, &turn), reach }
+            }
+        }
+    }
+
+    /// `A`, `B` and `B⁻¹`.
+    fn shape(&self) -> (BallPlane, BallPlane, BallPlane) {
+        let (one, zero) = (Ball::exact(1.0), Ball::default());
+        let Some(ellipse) = &self.law.ellipse else {
+            let unity = [[one, zero], [zero, one]];
+            return (unity, unity, unity);
+        };
+        let [[a, b], [c, d]] = self.disc();
+        let determinant = a * d - b * c;
+        let inverse = [[d / determinant, -b / determinant], [-c / determinant, a / determinant]];
+        let transposed = |m: &BallPlane| [[m[0][0], m[1][0]], [m[0][1], m[1][1]]];
+        match ellipse.rule() {
+            Rule::Associated => (inverse, [[a, c], [b, d]], transposed(&inverse)),
+            Rule::Collinear => (inverse, inverse, [[a, b], [c, d]]),
+        }
+    }
+
+    /// `W`, enclosed; 1 without an ellipse.
+    fn disc(&self) -> BallPlane {
+        let enclosed = |entry: f64| Ball::exact(entry).widened(product_up(DERIVED, entry.abs()));
+        match &self.law.ellipse {
+            None => [[Ball::exact(1.0), Ball::default()], [Ball::default(), Ball::exact(1.0)]],
+            Some(ellipse) => {
+                let columns = [ellipse.to_disc([1.0, 0.0]), ellipse.to_disc([0.0, 1.0])];
+                [[columns[0][0], columns[1][0]], [columns[0][1], columns[1][1]]]
+                    .map(|row| row.map(enclosed))
+            }
+        }
+    }
+
+    /// The bound `g` at the normal force.
+    pub fn enclosed_threshold(&self, normal: Ball) -> Ball {
+        let (slope, tension) = (Ball::exact(self.law.bound.slope), Ball::exact(self.law.tension));
+        let terms = sum_up(self.law.bound.offset, (slope * tension).size());
+        // The offset of a cohesive law is a difference that has been rounded; others are given.
+        let doubt = if self.law.tension > 0.0 { product_up(DERIVED, terms) } else { 0.0 };
+        let offset = Ball::new(self.law.bound.offset, doubt);
+        if self.closed { slope * (tension - normal) + offset } else { offset }
+    }
+
+    /// The difference between the forces and those of the piece, for components that move.
+    pub fn lack(&self, local: &Local, force: &BallVector) -> BallVector {
+        let threshold = self.enclosed_threshold(force[0]);
+        let mut lack = [force[0] - Ball::exact(self.law.tension), force[1], force[2]];
+        for c in 1..self.law.dim {
+            lack[c] = force[c] + threshold * local.push[c - 1];
+        }
+        lack
+    }
+
+    /// `-dF_t/dp` of the piece: how the friction follows the normal force.
+    pub fn drag(&self, local: &Local) -> [Ball; 2] {
+        if !self.is_dragged() {
+            return [Ball::default(); 2];
+        }
+        let slope = Ball::exact(self.law.bound.slope);
+        local.push.map(|push| slope * push)
+    }
+
+    /// The forces of the piece where the pair needs `force` for equilibrium: those of components that move
+    /// are given by the law.
+    pub fn force(&self, local: &Local, force: &BallVector) -> BallVector {
+        let threshold = self.enclosed_threshold(force[0]);
+        let mut given = *force;
+        if self.moves(0) {
+            given[0] = Ball::exact(self.law.tension);
+        }
+        for c in (1..self.law.dim).filter(|&c| self.moves(c)) {
+            given[c] = match self.along {
+                Along::Free => Ball::default(),
+                _ => -(threshold * local.push[c - 1]),
+            };
+        }
+        given
+    }
+
+    /// Returns `true` if the pair is inside its piece, clear of its boundaries, with every `v` and every force.
+    pub fn is_inside(&self, local: &Local, v: &BallVector, force: &BallVector) -> bool {
+        let pressure = Ball::exact(self.law.tension) - force[0];
+        let normal = match (self.law.has_obstacle(), self.closed) {
+            (false, _) => true,
+            (true, true) => pressure.is_positive(),
+            (true, false) => (-v[0]).is_positive(),
+        };
+        let threshold = self.enclosed_threshold(force[0]);
+        let tangential = match self.along {
+            Along::Free => true,
+            Along::Stick => {
+                let friction = product(&self.disc(), [force[1], force[2]]);
+                let [first, second] = friction.map(Ball::size);
+                let square = sum_up(product_up(first, first), product_up(second, second));
+                (threshold - Ball::exact(square.sqrt().next_up())).is_positive()
+            }
+            Along::Side(side) => {
+                threshold.is_positive() && (Ball::exact(side) * v[1]).is_positive()
+            }
+            Along::Turning(_) => {
+                threshold.is_positive() && (local.reach - Ball::exact(1.0)).is_positive()
+            }
+        };
+        normal && tangential
+    }
+}
+
+/// `a b`.
+fn times(a: &BallPlane, b: &BallPlane) -> BallPlane {
+    let column = |j: usize| product(a, [b[0][j], b[1][j]]);
+    let (first, second) = (column(0), column(1));
+    [[first[0], second[0]], [first[1], second[1]]]
+}

@@ -1,0 +1,63 @@
+//! The friction laws as numbers of a pair: of each its bound, its tension and its ellipse.
+//!
+//! The cohesive law, `p >= -a`, `|F_t| <= mu p + b`, is with `p' = p + a` the law `p' >= 0`,
+//! `|F_t| <= mu p' + (b - mu a)`: a bound with a slope and an offset, and a shift of the normal force. It has no
+//! memory: an open pair carries the tension `a` and the friction `b - mu a`, however far it is open.
+
+use super::{Bound, Ellipse, PairLaw, Plane, Rule};
+use crate::problem::FrictionLaw;
+
+impl Bound {
+    /// No friction.
+    pub const FRICTIONLESS: Bound = Bound { slope: 0.0, offset: 0.0 };
+
+    /// Coulomb's law with the coefficient `mu >= 0` (paper, 6 and 9).
+    pub fn coulomb(mu: f64) -> Bound {
+        Bound { slope: mu, offset: 0.0 }
+    }
+
+    /// Tresca's law with the threshold `g >= 0`, a force, whether the pair is open or closed (paper, section
+    /// 2.1, inside each step of Coulomb's fixed point).
+    pub fn tresca(g: f64) -> Bound {
+        Bound { slope: 0.0, offset: g }
+    }
+
+    /// Coulomb's law with the cohesion `b >= mu a` and the tension `a >= 0`, both forces.
+    pub fn cohesive(mu: f64, b: f64, a: f64) -> Bound {
+        // Not below 0 where `b = mu a` up to rounding.
+        Bound { slope: mu, offset: (b - mu * a).max(0.0) }
+    }
+
+    /// The law with a coefficient for each of two axes of the tangent plane, on the gauge of its [`Ellipse`].
+    pub fn orthotropic([first, second]: [f64; 2]) -> Bound {
+        Bound { slope: first.max(second), offset: 0.0 }
+    }
+}
+
+impl PairLaw {
+    /// Gives the pair the friction law of a problem; `numbers` are the parameters of this pair, `block` is the
+    /// stiffness of its tangential components.
+    pub(super) fn with_friction(
+        self,
+        law: FrictionLaw<'_>,
+        numbers: &[f64],
+        block: impl Fn() -> Plane,
+    ) -> Self {
+        let elliptic = |rule| {
+            let (mu, angle) = ([numbers[0], numbers[1]], numbers[2]);
+            let ellipse = Ellipse::new(mu, angle, rule, &block());
+            self.with_bound(Bound::orthotropic(mu)).with_ellipse(ellipse)
+        };
+        match law {
+            FrictionLaw::Frictionless => self.with_bound(Bound::FRICTIONLESS),
+            FrictionLaw::Coulomb(_) => self.with_bound(Bound::coulomb(numbers[0])),
+            FrictionLaw::Tresca(_) => self.with_bound(Bound::tresca(numbers[0])),
+            FrictionLaw::Cohesive(_) => {
+                let (mu, b, a) = (numbers[0], numbers[1], numbers[2]);
+                self.with_bound(Bound::cohesive(mu, b, a)).with_tension(a)
+            }
+            FrictionLaw::Orthotropic(_) => elliptic(Rule::Associated),
+            FrictionLaw::OrthotropicCollinear(_) => elliptic(Rule::Collinear),
+        }
+    }
+}

@@ -1,0 +1,72 @@
+//! The values of a panel, assembled and eliminated by one thread or by several.
+
+use std::sync::{Mutex, PoisonError};
+
+use super::failure::Failure;
+use super::panel::{Before, Panel, Source, Weakest, fill, weakest};
+use super::parallel::{Parallel, locked};
+use super::workspace::Workspace;
+
+/// Makes a panel on the calling thread. Returns its weakest pivot, or the place of one that is not positive.
+pub fn by_one_thread(
+    source: Source<'_>,
+    number: usize,
+    before: Before<'_>,
+    values: &mut [f64],
+    workspace: &mut Workspace,
+) -> Result<Weakest, usize> {
+    let Workspace { place, product, memory } = workspace;
+    fill(source, number, place, values);
+    let panel = Panel { source, number, before, place };
+    let (mut top, mut below) = panel.divided(values);
+    panel.change_top(top.as_mut(), product);
+    for rows in panel.blocks() {
+        let block = below.as_mut().subrows_mut(rows.start, rows.len());
+        panel.change_block(rows, block, product);
+    }
+    panel.eliminate(top.as_mut(), memory)?;
+    for rows in panel.blocks() {
+        panel.divide(top.as_ref(), below.as_mut().subrows_mut(rows.start, rows.len()));
+    }
+    Ok(weakest(source, number, values))
+}
+
+/// Makes a panel on all threads, with the same bits. The entries of `place` are overwritten with the places of the
+/// rows.
+pub fn by_all_threads(
+    source: Source<'_>,
+    number: usize,
+    before: Before<'_>,
+    values: &mut [f64],
+    place: &mut [usize],
+    parallel: &mut Parallel<'_>,
+) -> Result<Result<Weakest, usize>, Failure> {
+    fill(source, number, place, values);
+    let panel = Panel { source, number, before, place };
+    let (top, mut below) = panel.divided(values);
+    let top = Mutex::new(top);
+    let mut blocks = Vec::new();
+    for rows in panel.blocks() {
+        let (block, rest) = below.split_at_row_mut(rows.len());
+        blocks.push(Mutex::new((rows, block)));
+        below = rest;
+    }
+    let operations = source.schedule.operations(number);
+    parallel.share(1 + blocks.len(), operations, &|workspace, part| match part.checked_sub(1) {
+        None => panel.change_top(locked(&top).as_mut(), &mut workspace.product),
+        Some(k) => {
+            let (rows, block) = &mut *locked(&blocks[k]);
+            panel.change_block(rows.clone(), block.as_mut(), &mut workspace.product);
+        }
+    })?;
+    let mut top = top.into_inner().unwrap_or_else(PoisonError::into_inner);
+    if let Err(place) = panel.eliminate(top.as_mut(), &mut parallel.own_workspace().memory) {
+        return Ok(Err(place));
+    }
+    let (width, rows) = (top.ncols(), source.structure.rows(number).len());
+    parallel.share(blocks.len(), (width * width * rows) as f64, &|_, k| {
+        panel.divide(top.as_ref(), locked(&blocks[k]).1.as_mut());
+    })?;
+    drop(blocks);
+    Ok(Ok(weakest(source, number, values)))
+}

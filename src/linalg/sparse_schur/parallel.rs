@@ -1,0 +1,90 @@
+//! The parts of a factorisation on the threads of `Workers`, its count of operations, and its progress.
+
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+use super::factor_progress::FactorProgress;
+use super::failure::Failure;
+use super::structure::Structure;
+use super::workspace::Workspace;
+use crate::workers::{SingleThread, Workers};
+
+/// Multiplications between two questions whether to go on: some milliseconds.
+const BETWEEN: f64 = 3e8;
+
+/// A work of fewer multiplications stays on the calling thread: to wake another one takes about a tenth of their time.
+const FEW: f64 = 1e7;
+
+/// Multiplications that are done, by all threads.
+#[derive(Default)]
+pub struct Done(AtomicU64);
+
+impl Done {
+    /// So many more.
+    pub fn add(&self, operations: usize) {
+        self.0.fetch_add(operations as u64, Ordering::Relaxed);
+    }
+}
+
+/// The threads with their working memory, and the progress that they make together.
+pub struct Parallel<'w> {
+    workers: &'w dyn Workers,
+    workspaces: Vec<Mutex<Workspace>>,
+    progress: &'w mut dyn FactorProgress,
+    done: &'w Done,
+    all: f64,
+    asked: f64,
+}
+
+impl<'w> Parallel<'w> {
+    /// Threads for `all` multiplications, counted in `done`.
+    ///
+    /// # Errors
+    /// Not enough memory.
+    pub fn new(
+        structure: &Structure,
+        (workers, progress): (&'w dyn Workers, &'w mut dyn FactorProgress),
+        done: &'w Done,
+        all: f64,
+    ) -> Result<Self, Failure> {
+        let workspaces = (0..workers.threads()).map(|_| Workspace::new(structure).map(Mutex::new));
+        let workspaces = workspaces.collect::<Result<_, _>>()?;
+        Ok(Parallel { workers, workspaces, progress, done, all: all.max(1.0), asked: 0.0 })
+    }
+
+    /// Does the parts of a work of so many `operations`, each with the working memory of its thread.
+    ///
+    /// # Errors
+    /// It was ended; parts may be missing.
+    pub fn share(
+        &mut self,
+        parts: usize,
+        operations: f64,
+        work: &(dyn Fn(&mut Workspace, usize) + Sync),
+    ) -> Result<(), Failure> {
+        let Parallel { workspaces, progress, done, all, asked, .. } = self;
+        let mut answer = Ok(());
+        let mut go_on = || {
+            let so_far = done.0.load(Ordering::Relaxed) as f64;
+            if so_far - *asked >= BETWEEN {
+                *asked = so_far;
+                answer = progress.has_done((so_far / *all).min(1.0));
+            }
+            answer.is_ok()
+        };
+        let workers = if operations < FEW { &SingleThread } else { self.workers };
+        let work = |thread: usize, part: usize| work(&mut locked(&workspaces[thread]), part);
+        workers.run(parts, &work, &mut go_on);
+        Ok(answer?)
+    }
+
+    /// The working memory of the calling thread, between two works.
+    pub fn own_workspace(&mut self) -> &mut Workspace {
+        self.workspaces[0].get_mut().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// The value of a mutex that each thread locks for a part of its own.
+pub fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}

@@ -1,0 +1,140 @@
+//! The Schur complement, from which the products of all panels are subtracted, block by block.
+
+use std::ops::Range;
+use std::sync::Mutex;
+
+use faer::{MatMut, MatRef};
+
+use super::dense::{self, scattered};
+use super::failure::Failure;
+use super::panel::{accumulated, is_dense};
+use super::parallel::{Done, Parallel, locked};
+use super::structure::{PANEL, Structure};
+use super::workspace::ROWS;
+
+/// A block of the lower triangle.
+struct Block<'a> {
+    rows: Range<usize>,
+    columns: Range<usize>,
+    values: MatMut<'a, f64>,
+}
+
+/// The rows of a panel that are kept.
+struct Kept<'a> {
+    rows: &'a [usize],
+    l: MatRef<'a, f64>,
+}
+
+impl<'a> Kept<'a> {
+    /// Those of a panel, if it has any.
+    fn of(structure: &'a Structure, values: &'a [f64], panel: usize) -> Option<Self> {
+        let (width, inner) = (structure.columns(panel).len(), structure.inner_rows(panel));
+        let rows = structure.rows(panel);
+        let values = &values[structure.values(panel)];
+        let all = MatRef::from_column_major_slice(values, width + rows.len(), width);
+        let kept = Kept { rows: &rows[inner..], l: all.split_at_row(width + inner).1 };
+        (inner < rows.len()).then_some(kept)
+    }
+
+    /// Those of its rows that are in a range.
+    fn within(&self, range: &Range<usize>) -> (&'a [usize], MatRef<'a, f64>) {
+        let begin = self.rows.partition_point(|&row| row < range.start);
+        let count = self.rows[begin..].partition_point(|&row| row < range.end);
+        (&self.rows[begin..begin + count], self.l.subrows(begin, count))
+    }
+
+    fn reaches(&self, range: &Range<usize>) -> bool {
+        self.rows[0] < range.end && range.start <= self.rows[self.rows.len() - 1]
+    }
+}
+
+/// Subtracts the products of the kept rows of all panels, whose values are there, from `schur`, of which the lower
+/// triangle matters.
+pub fn subtract(
+    structure: &Structure,
+    values: &[f64],
+    schur: &mut [f64],
+    done: &Done,
+    parallel: &mut Parallel<'_>,
+) -> Result<(), Failure> {
+    let panels: Vec<Kept<'_>> =
+        (0..structure.panels()).filter_map(|s| Kept::of(structure, values, s)).collect();
+    let operations: f64 = panels.iter().map(|kept| cost(kept.l.ncols(), kept.rows.len())).sum();
+    // Panels with the same rows change the same entries.
+    let chains: Vec<&[Kept<'_>]> = panels.chunk_by(|one, other| one.rows == other.rows).collect();
+    let blocks = blocks(structure, schur);
+    parallel.share(blocks.len(), operations, &|workspace, part| {
+        let block = &mut *locked(&blocks[part]);
+        for chain in &chains {
+            if chain[0].reaches(&block.rows) && chain[0].reaches(&block.columns) {
+                block.change(chain, &mut workspace.product, done);
+            }
+        }
+    })
+}
+
+/// Multiplications of the lower triangle of a product.
+fn cost(width: usize, rows: usize) -> f64 {
+    (width * rows * rows) as f64 / 2.0
+}
+
+/// The blocks of the lower triangle: those on the diagonal are square.
+fn blocks<'a>(structure: &Structure, schur: &'a mut [f64]) -> Vec<Mutex<Block<'a>>> {
+    let (first, kept) = (structure.eliminated, structure.kept());
+    let mut rest = MatMut::from_column_major_slice_mut(schur, kept, kept);
+    let mut blocks = Vec::new();
+    let mut push = |rows: Range<usize>, columns: &Range<usize>, values| {
+        let numbers = |range: &Range<usize>| first + range.start..first + range.end;
+        blocks.push(Mutex::new(Block { rows: numbers(&rows), columns: numbers(columns), values }));
+    };
+    for begin in (0..kept).step_by(PANEL) {
+        let columns = begin..kept.min(begin + PANEL);
+        let (strip, right) = rest.split_at_col_mut(columns.len());
+        let (_, strip) = strip.split_at_row_mut(begin);
+        let (square, mut below) = strip.split_at_row_mut(columns.len());
+        push(columns.clone(), &columns, square);
+        for top in (columns.end..kept).step_by(ROWS) {
+            let rows = top..kept.min(top + ROWS);
+            let (block, rest) = below.split_at_row_mut(rows.len());
+            push(rows, &columns, block);
+            below = rest;
+        }
+        rest = right;
+    }
+    blocks
+}
+
+impl Block<'_> {
+    /// Subtracts the products of the rows of panels that have the same ones.
+    fn change(&mut self, chain: &[Kept<'_>], product: &mut [f64], done: &Done) {
+        let (columns, _) = chain[0].within(&self.columns);
+        let (rows, _) = chain[0].within(&self.rows);
+        if columns.is_empty() || rows.is_empty() {
+            return;
+        }
+        let (first_row, first_column) = (self.rows.start, self.columns.start);
+        let on_diagonal = first_row == first_column;
+        let row = |k: usize| rows[k] - first_row;
+        let column = |k: usize| columns[k] - first_column;
+        let each = chain.iter().map(|kept| {
+            let operations = kept.l.ncols() * rows.len() * columns.len();
+            done.add(if on_diagonal { operations / 2 } else { operations });
+            (kept.within(&self.rows).1, kept.within(&self.columns).1)
+        });
+        let mut target = self.values.as_mut();
+        if is_dense(rows) && is_dense(columns) {
+            let mut target = target.submatrix_mut(row(0), column(0), rows.len(), columns.len());
+            each.for_each(|(lower, upper)| match on_diagonal {
+                true => dense::subtract_square(target.as_mut(), lower),
+                false => dense::subtract_product(target.as_mut(), lower, upper),
+            });
+        } else {
+            let product = &mut product[..rows.len() * columns.len()];
+            accumulated(each, |accum, (lower, upper)| match on_diagonal {
+                true => dense::square(product, accum, lower),
+                false => dense::product(product, accum, lower, upper),
+            });
+            scattered(target.as_mut(), product, rows.len(), row, column, on_diagonal);
+        }
+    }
+}

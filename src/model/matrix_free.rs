@@ -1,0 +1,97 @@
+//! Models that have no stiffness in relative displacements: what they are asked in its place, and what they
+//! refuse.
+
+use super::arguments::check_fixed_gaps;
+use super::{LoadCase, Model};
+use crate::error::{Argument, Error, index};
+use crate::problem::{StiffnessOperator, checked_dim, unknowns};
+use crate::reduce::{HostOperator, MatrixFreeReduction, OperatorReduction};
+use crate::solve::MatrixFreeCase;
+use crate::workers::Workers;
+
+impl Model {
+    /// A structure of which the host gives products and solutions in relative displacements alone. Loads and
+    /// displacements of the host are those of the pairs, `dim * pairs`. `units` are positive, of the size of the
+    /// diagonal of `K_rel`, force per length; `None`: one for each direction, from products.
+    ///
+    /// # Errors
+    /// A dimension that is not 2 or 3; units of the wrong length; what [`OperatorReduction::new`] finds wrong with
+    /// the operator.
+    pub fn operator(
+        dim: usize,
+        pairs: usize,
+        operator: Box<dyn HostOperator>,
+        units: Option<&[f64]>,
+    ) -> Result<Self, Error> {
+        let size = unknowns(checked_dim(dim)?, pairs)?;
+        if let Some(units) = units.filter(|units| units.len() != size) {
+            let message = format!("units has {} entries, it must have {size}", units.len());
+            return Err(Error::invalid(Argument::Matrix, message));
+        }
+        let reduction = Box::new(OperatorReduction::new(operator, (dim, pairs), units)?);
+        Ok(Model { dim, pairs, reduction })
+    }
+
+    /// Hands over bodies whose stiffness is not formed, and whose factorisations `workers` share, with a load case.
+    pub(super) fn on_bodies<T>(
+        &self,
+        (matrix_free, workers): (&dyn MatrixFreeReduction, &dyn Workers),
+        case: &LoadCase<'_>,
+        to: impl FnOnce(&mut dyn StiffnessOperator, &MatrixFreeCase<'_>) -> Result<T, Error>,
+    ) -> Result<T, Error> {
+        self.check_loads(Some(case.load), case.prescribed)?;
+        check_fixed_gaps(self.reduction.fixed_components(), self.dim, case.gap)?;
+        let slip = case.reference_slip.map(|slip| self.allowed_slip(slip));
+        let load = matrix_free.all_loads(case.load, case.prescribed);
+        let case = MatrixFreeCase {
+            dim: self.dim,
+            load: &load,
+            gap: case.gap,
+            law: case.law,
+            reference_slip: slip.as_deref(),
+        };
+        to(&mut *matrix_free.bodies(workers), &case)
+    }
+
+    /// Returns `true` if the model forms no stiffness in relative displacements: it is in full space.
+    pub fn is_matrix_free(&self) -> bool {
+        self.reduction.matrix_free().is_some()
+    }
+
+    /// Refuses what needs the entries of a stiffness that is not formed.
+    pub(crate) fn check_formed(&self) -> Result<(), Error> {
+        self.check_stiffness_form()?;
+        if !self.is_matrix_free() {
+            return Ok(());
+        }
+        let message = "the model forms no condensed matrix: it is in full space, or an operator; solve, certify and recover \
+                       load cases by the model";
+        Err(Error::invalid(Argument::Matrix, message))
+    }
+
+    /// Refuses what is asked of a stiffness, in flexibility form.
+    pub(super) fn check_stiffness_form(&self) -> Result<(), Error> {
+        if self.reduction.flexibility().is_none() {
+            return Ok(());
+        }
+        let message = "the model is in flexibility form: it has no stiffness; solve load cases by the model, and \
+                       certify d with F";
+        Err(Error::invalid(Argument::Matrix, message))
+    }
+
+    /// Refuses what needs a stiffness in relative displacements, if there is none.
+    pub(crate) fn check_independent(&self) -> Result<(), Error> {
+        let pairs = self.dependent_pairs();
+        let Some(first) = pairs.first() else { return Ok(()) };
+        let others = match pairs.len() {
+            1 => String::new(),
+            more => format!(" and of {} more", more - 1),
+        };
+        let message = format!(
+            "the rows of pair {}{others} follow from those of other pairs or from supports: no stiffness in \
+             relative displacements exists; solve load cases by the model",
+            index(first)
+        );
+        Err(Error::invalid(Argument::Matrix, message))
+    }
+}

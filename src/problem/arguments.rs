@@ -1,0 +1,62 @@
+//! Checks of the arrays of a call.
+
+use crate::error::{Argument, Error, entry};
+use crate::linalg::matrix::{Matrix, required_length};
+use crate::linalg::vector::first_not_finite;
+
+/// The arguments of the first or only matrix of a call.
+pub(crate) const OF_MATRIX: (Argument, Argument) = (Argument::Matrix, Argument::LeadingDimension);
+
+/// A dense square matrix of so many rows, column-major with a leading dimension. `matrix` and `leading` are the
+/// arguments at fault.
+///
+/// # Errors
+/// A leading dimension or an array that is too small.
+pub(crate) fn dense<'a>(
+    name: &str,
+    (values, ld): (&'a [f64], usize),
+    rows: usize,
+    (matrix, leading): (Argument, Argument),
+) -> Result<Matrix<'a>, Error> {
+    let entries =
+        required_length(name, rows, ld).map_err(|message| Error::invalid(leading, message))?;
+    check_length(matrix, name, values.len(), entries)?;
+    Ok(Matrix::new(rows, values, ld))
+}
+
+/// The first `length` entries of a vector.
+///
+/// # Errors
+/// A vector that is shorter; the first of these entries that is not finite.
+pub(super) fn vector<'a>(
+    argument: Argument,
+    name: &str,
+    values: &'a [f64],
+    length: usize,
+) -> Result<&'a [f64], Error> {
+    check_length(argument, name, values.len(), length)?;
+    check_finite(argument, name, &values[..length])?;
+    Ok(&values[..length])
+}
+
+/// Refuses an array with fewer entries than are needed.
+pub(super) fn check_length(
+    argument: Argument,
+    name: &str,
+    given: usize,
+    needed: usize,
+) -> Result<(), Error> {
+    if given >= needed {
+        return Ok(());
+    }
+    let message = format!("{name} has {given} entries, it must have {needed}");
+    Err(Error::invalid(argument, message))
+}
+
+/// Refuses the first entry that is not finite.
+pub(crate) fn check_finite(argument: Argument, name: &str, values: &[f64]) -> Result<(), Error> {
+    match first_not_finite(values) {
+        Some(i) => Err(Error::invalid(argument, entry(name, [i]) + " is not finite")),
+        None => Ok(()),
+    }
+}

@@ -1,0 +1,163 @@
+//! Bodies whose stiffness in relative displacements, `K_rel`, is never formed.
+//!
+//! Their unknowns `x` are inner ones, on which no contact force acts, followed by the relative displacements
+//! `d` of the pairs, and equilibrium is
+//!
+//! ```text
+//! A x = b + (0, F),        A symmetric, positive semi-definite.
+//! ```
+//!
+//! `A` is a sparse matrix, or, without inner unknowns, an operator of the host: `A = K_rel`. A solver asks for
+//! products, and for solutions with some components of `d` held, or for those of an approximate inverse.
+
+use super::Relation;
+use crate::error::Error;
+
+/// A symmetric matrix along the two tangents of a pair; in the plane its first entry alone counts.
+pub type Tangential = [[f64; 2]; 2];
+
+/// Which components of `d` are held at zero, and springs along the tangents of pairs.
+#[derive(Clone, Debug, PartialEq)]
+pub struct HeldSet {
+    /// One for each component of `d`.
+    pub held: Vec<bool>,
+    /// One for each pair, positive semi-definite, force per length; those of held components do not count.
+    pub springs: Vec<Tangential>,
+}
+
+impl HeldSet {
+    /// All components of `pairs` pairs of `dim` components held.
+    pub fn all(dim: usize, pairs: usize) -> Self {
+        HeldSet { held: vec![true; dim * pairs], springs: vec![[[0.0; 2]; 2]; pairs] }
+    }
+}
+
+/// Is asked whether a work goes on.
+pub type GoesOn<'a> = &'a mut dyn FnMut() -> bool;
+
+/// The questions that a solver asks of bodies. Vectors have an entry for each unknown, the inner ones first.
+pub trait StiffnessOperator {
+    /// Number of inner unknowns.
+    fn inner(&self) -> usize;
+
+    /// The unit of force per length of each unknown, positive: of the size of the diagonal of `A`.
+    fn units(&self) -> &[f64];
+
+    /// Entry `A[i, j]` between components `i` and `j` of `d` that belong to one pair, `i` not equal to `j`; 0 if
+    /// it is not known.
+    fn coupling(&self, i: usize, j: usize) -> f64;
+
+    /// `A x`.
+    ///
+    /// # Errors
+    /// A failure in the host, told by a sentence on the matrix.
+    fn product(&mut self, x: &[f64]) -> Result<Vec<f64>, Error>;
+
+    /// `A (x + low) - b`, as exactly as it can be had; `low` is what rounding to doubles has left out of the inner
+    /// unknowns.
+    ///
+    /// # Errors
+    /// As [`Self::product`].
+    fn residual(&mut self, x: &[f64], low: &[f64], load: &[f64]) -> Result<Vec<f64>, Error>;
+
+    /// Bound on the sums of `A x` in which each entry of `x` has at most the given size: `|A| size`.
+    fn magnitude(&self, size: &[f64]) -> Vec<f64>;
+
+    /// Returns `true` if a product costs next to nothing beside a solution.
+    fn has_cheap_products(&self) -> bool;
+
+    /// Returns `true` if components can be held: whether [`Self::hold`] may be called.
+    fn can_hold(&self) -> bool;
+
+    /// Returns `true` if what is held has the springs of the restriction too.
+    fn has_springs(&self) -> bool;
+
+    /// From now on [`Self::solve`] solves with these components held. `goes_on` is asked now and then while that
+    /// lasts; `false`: it has ended it, and nothing can be solved before another call.
+    ///
+    /// # Errors
+    /// No memory, or what has failed in the host.
+    fn hold(&mut self, restriction: &HeldSet, goes_on: GoesOn<'_>) -> Result<bool, Error>;
+
+    /// An approximate solution `x` of `A x = forces`: with the held components zero, where forces on them do not
+    /// count; without [`Self::hold`] with nothing held.
+    ///
+    /// # Errors
+    /// As [`Self::product`].
+    fn solve(&mut self, forces: &[f64]) -> Result<Vec<f64>, Error>;
+}
+
+/// The relation of such bodies, as far as it is known without their inner unknowns: the size of forces. What
+/// needs more than that finds nothing certified by it.
+#[derive(Clone, Debug)]
+pub struct MatrixFree<'a> {
+    units: Vec<f64>,
+    /// `A[i, j]` of the two tangents of each pair.
+    couplings: Vec<f64>,
+    dim: usize,
+    load: &'a [f64],
+}
+
+impl<'a> MatrixFree<'a> {
+    /// Takes bodies with pairs of `dim` components and the relative load `load`.
+    pub fn new(bodies: &dyn StiffnessOperator, dim: usize, load: &'a [f64]) -> Self {
+        let units = bodies.units()[bodies.inner()..].to_vec();
+        let couplings = match dim {
+            2 => Vec::new(),
+            _ => (0..load.len()).step_by(dim).map(|n| bodies.coupling(n + 1, n + 2)).collect(),
+        };
+        MatrixFree { units, couplings, dim, load }
+    }
+}
+
+impl Relation for MatrixFree<'_> {
+    fn size(&self) -> usize {
+        self.units.len()
+    }
+
+    fn block(&self, i: usize, j: usize) -> f64 {
+        let normal = i.is_multiple_of(self.dim) || j.is_multiple_of(self.dim);
+        match i == j {
+            true => self.units[i],
+            false if normal => 0.0,
+            false => self.couplings[i / self.dim],
+        }
+    }
+
+    fn load(&self) -> &[f64] {
+        self.load
+    }
+
+    fn force(&self, _: &[f64], _: &[f64], _: &[f64]) -> Option<Vec<f64>> {
+        None
+    }
+
+    fn residual(&self, d: &[f64], _: &[f64]) -> Vec<f64> {
+        vec![f64::INFINITY; d.len()]
+    }
+
+    fn magnitude(&self, size: &[f64]) -> Vec<f64> {
+        vec![f64::INFINITY; size.len()]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A matrix that is not formed has unknown entries: no force follows from displacements, and every bound is
+    /// infinite, so that nothing is certified.
+    #[test]
+    fn a_relation_that_is_not_formed_certifies_nothing() {
+        let (units, couplings) = (vec![2.0, 3.0, 3.0], vec![0.5]);
+        let matrix_free = MatrixFree { units, couplings, dim: 3, load: &[1.0, 0.0, 0.0] };
+        let d = [0.1, 0.2, 0.3];
+        assert_eq!(matrix_free.force(&d, &[], &d), None);
+        assert_eq!(matrix_free.residual(&d, &d), [f64::INFINITY; 3]);
+        assert_eq!(matrix_free.magnitude(&d), [f64::INFINITY; 3]);
+        assert_eq!(
+            (matrix_free.block(0, 0), matrix_free.block(0, 1), matrix_free.block(1, 2)),
+            (2.0, 0.0, 0.5)
+        );
+    }
+}

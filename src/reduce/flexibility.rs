@@ -1,0 +1,69 @@
+//! A flexibility of the host, `d = W F + q`: nothing is reduced.
+
+use super::sparse::SparseMatrix;
+use super::{Reduction, motion};
+use crate::error::{Error, Message};
+use crate::problem::{Flexibility, FlexibilityForm, SparseW};
+
+/// The flexibility of pairs. Loads of the host are free displacements `q`, and displacements are `d`.
+pub struct FlexibilityReduction {
+    dim: usize,
+    size: usize,
+    form: FlexibilityForm,
+}
+
+impl FlexibilityReduction {
+    /// A dense matrix of `size` rows, `dim` for each pair, with `ld` entries from one column to the next.
+    ///
+    /// # Errors
+    /// As [`crate::FlexibilityProblem::from_flexibility`] of the matrix.
+    pub fn dense(dim: usize, size: usize, w: &[f64], ld: usize) -> Result<Self, Error> {
+        let matrix = Flexibility::checked_matrix(size, w, ld)?;
+        let copy = (0..size).flat_map(|j| matrix.column(j).to_vec()).collect();
+        Ok(FlexibilityReduction { dim, size, form: FlexibilityForm::Dense(copy) })
+    }
+
+    /// A sparse matrix.
+    ///
+    /// # Errors
+    /// As [`crate::SparseFlexibilityProblem::from_sparse`] of the matrix.
+    pub fn sparse(dim: usize, pairs: usize, w: &SparseMatrix<'_>) -> Result<Self, Error> {
+        let matrix = SparseW::from_sparse(dim, pairs, w)?;
+        Ok(FlexibilityReduction { dim, size: matrix.size(), form: FlexibilityForm::Sparse(matrix) })
+    }
+}
+
+impl Reduction for FlexibilityReduction {
+    fn stiffness(&self) -> &[f64] {
+        &[]
+    }
+
+    fn flexibility(&self) -> Option<&FlexibilityForm> {
+        Some(&self.form)
+    }
+
+    fn host_size(&self) -> usize {
+        self.size
+    }
+
+    fn condense(&self, load: &[f64], _prescribed: Option<&[f64]>) -> Result<Vec<f64>, Error> {
+        Ok(load.to_vec())
+    }
+
+    fn recover(
+        &self,
+        _load: Option<&[f64]>,
+        _prescribed: Option<&[f64]>,
+        d: &[f64],
+    ) -> Result<Vec<f64>, Error> {
+        Ok(d.to_vec())
+    }
+
+    fn nodal_forces(&self, force: &[f64]) -> Vec<f64> {
+        force.to_vec()
+    }
+
+    fn motion_in_words(&self, d: &[f64]) -> Message {
+        motion::of_pairs(self.dim, d).into()
+    }
+}

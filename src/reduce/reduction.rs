@@ -1,0 +1,144 @@
+//! The questions that every reduction of a structure to its contact pairs answers.
+
+use crate::error::{Error, Message};
+use crate::problem::{Dependence, FlexibilityForm, StiffnessOperator};
+use crate::workers::Workers;
+
+/// A reduction that changes variables and condenses nothing.
+pub trait MatrixFreeReduction {
+    /// The operator that a solver works on, for one load case at a time. `workers` share its factorisations.
+    fn bodies<'a>(&'a self, workers: &'a dyn Workers) -> Box<dyn StiffnessOperator + 'a>;
+
+    /// Loads of all unknowns of [`Self::bodies`] in a load case.
+    fn all_loads(&self, load: &[f64], _prescribed: Option<&[f64]>) -> Vec<f64> {
+        load.to_vec()
+    }
+
+    /// Most bytes that [`Self::bodies`] take at work beside this reduction, without what the host's functions take.
+    fn factor_bytes(&self) -> u64 {
+        0
+    }
+}
+
+/// Nodal loads of the host, and values of the fixed degrees of freedom (`None`: zero).
+pub type HostLoad<'a> = (&'a [f64], Option<&'a [f64]>);
+
+/// A load case of which the relative displacements are known.
+#[derive(Clone, Copy, Debug)]
+pub struct SolvedCase<'a> {
+    /// Nodal loads of the host; `None`: zero.
+    pub load: Option<&'a [f64]>,
+    /// Values of the fixed degrees of freedom; `None`: zero.
+    pub prescribed: Option<&'a [f64]>,
+    /// Relative displacements, `dim` entries for each pair.
+    pub d: &'a [f64],
+}
+
+/// A structure reduced to its contact pairs. It does not change: several threads may use it at once.
+///
+/// Vectors of the host have [`Self::host_size`] entries; vectors of relative displacements and of
+/// contact forces have `dim` entries for each pair, the normal component first. The lengths of
+/// arguments are the caller's responsibility. As they stand here, the functions are those of a host whose vectors
+/// are the relative ones.
+pub trait Reduction: Send + Sync {
+    /// `K_rel`, column-major, square; of rows that depend on each other the stiffness `K` of their
+    /// independent variables.
+    fn stiffness(&self) -> &[f64];
+
+    /// The reduction that is asked in the place of a stiffness that is not formed; [`Self::stiffness`] is empty then.
+    fn matrix_free(&self) -> Option<&dyn MatrixFreeReduction> {
+        None
+    }
+
+    /// The matrix of the flexibility form; [`Self::stiffness`] is empty then.
+    fn flexibility(&self) -> Option<&FlexibilityForm> {
+        None
+    }
+
+    /// How the relative displacements follow from independent variables; `None`: they are these variables.
+    fn dependence(&self) -> Option<&Dependence> {
+        None
+    }
+
+    /// Returns `true` if the host has condensed the stiffness, so that its rounding is not known from its entries.
+    fn is_condensed_by_host(&self) -> bool {
+        false
+    }
+
+    /// Entries of a load or displacement vector of the host.
+    fn host_size(&self) -> usize;
+
+    /// Number of degrees of freedom that the host holds fixed.
+    fn fixed_count(&self) -> usize {
+        0
+    }
+
+    /// Relative loads of a load case, of the variables of [`Self::stiffness`]: nodal loads and the values of the fixed degrees of freedom
+    /// (`None`: zero).
+    ///
+    /// # Errors
+    /// No memory for a factor that is not kept.
+    fn condense(&self, load: &[f64], _prescribed: Option<&[f64]>) -> Result<Vec<f64>, Error> {
+        Ok(load.to_vec())
+    }
+
+    /// Displacements of the host from the loads (`None`: zero), the values of the fixed degrees of
+    /// freedom (`None`: zero) and the relative displacements `d`.
+    ///
+    /// # Errors
+    /// As [`Self::condense`].
+    fn recover(
+        &self,
+        _load: Option<&[f64]>,
+        _prescribed: Option<&[f64]>,
+        d: &[f64],
+    ) -> Result<Vec<f64>, Error> {
+        Ok(d.to_vec())
+    }
+
+    /// As [`Self::condense`], of the loads and fixed values of several load cases at once.
+    ///
+    /// # Errors
+    /// As [`Self::condense`].
+    fn condense_cases(&self, cases: &[HostLoad<'_>]) -> Result<Vec<Vec<f64>>, Error> {
+        cases.iter().map(|(load, prescribed)| self.condense(load, *prescribed)).collect()
+    }
+
+    /// As [`Self::recover`], of several load cases at once.
+    ///
+    /// # Errors
+    /// As [`Self::recover`].
+    fn recover_cases(&self, cases: &[SolvedCase<'_>]) -> Result<Vec<Vec<f64>>, Error> {
+        cases.iter().map(|case| self.recover(case.load, case.prescribed, case.d)).collect()
+    }
+
+    /// Contact forces as nodal forces of the host.
+    fn nodal_forces(&self, force: &[f64]) -> Vec<f64> {
+        force.to_vec()
+    }
+
+    /// Rejects values of the fixed degrees of freedom that would open a pair along one of
+    /// [`Self::fixed_components`].
+    ///
+    /// # Errors
+    /// Names the pair.
+    fn check_prescribed(&self, _values: &[f64]) -> Result<(), Error> {
+        Ok(())
+    }
+
+    /// Components of `d` that supports on both sides of a pair fix: `d` and the contact force are
+    /// zero there in every load case, and so must be the reference slip.
+    fn fixed_components(&self) -> &[usize] {
+        &[]
+    }
+
+    /// Frames of the pairs in the host's axes, `dim * dim` entries for each pair: the normal, then the
+    /// tangents, orthonormal. `None` if only the host knows them.
+    fn frames(&self) -> Option<&[f64]> {
+        None
+    }
+
+    /// A motion in words, from its relative displacements: which part moves, where, and in which
+    /// direction. It completes "it moves ...".
+    fn motion_in_words(&self, d: &[f64]) -> Message;
+}

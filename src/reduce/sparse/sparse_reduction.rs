@@ -1,0 +1,317 @@
+//! The reduction of a whole sparse matrix: rows solved for degrees of freedom, then condensed or left in full space.
+
+use super::change_of_variables::{ChangeOfVariables, contact_forces};
+use super::control::{Asked, Control, ranks};
+use super::full_space::FullSpace;
+use super::general_rows::{GeneralRows, general_rows};
+use super::host_arrays::SparseMatrix;
+use super::messages;
+use super::supports::{self, FixedComponent};
+use crate::error::{Argument, Error, Message};
+use crate::linalg::sparse_matrix::{Csc, OutOfMemory, times, transpose_times};
+use crate::linalg::sparse_schur::{FactorProgress, Failure, Plan, RigidModeCheck, SparseSchur};
+use crate::linalg::vector::{columns, norm_inf};
+use crate::problem::{Dependence, StiffnessOperator};
+use crate::reduce::frame::Frame;
+use crate::reduce::{ContactPairs, HostLoad, MatrixFreeReduction, Reduction, SolvedCase, motion};
+use crate::workers::{SingleThread, Workers};
+
+/// The reduction of a whole sparse matrix, kept for further load cases.
+pub struct SparseReduction {
+    dim: usize,
+    fixed_count: usize,
+    variables: ChangeOfVariables,
+    /// `Pᵀ K T`: a row for each fixed degree of freedom, a column for each unknown.
+    of_fixed: Csc,
+    /// `Bᵀ`: nodal forces of unit contact forces.
+    contact_forces: Csc,
+    /// Normals and tangents, pair by pair.
+    frames: Vec<f64>,
+    supports: Vec<FixedComponent>,
+    fixed_components: Vec<usize>,
+    dependent: Option<Dependence>,
+    engine: Engine,
+}
+
+/// The way to solve for unknowns that are not relative displacements.
+enum Engine {
+    /// They are condensed.
+    Condensed(Box<SparseSchur>),
+    /// They stay.
+    FullSpace(Box<FullSpace>),
+}
+
+impl SparseReduction {
+    /// Reduces `matrix` with the degrees of freedom `fixed` and the contact `pairs`.
+    ///
+    /// # Errors
+    /// Arrays that are wrong, by entry; a pair that nothing can move; a motion that neither
+    /// supports nor pairs hold, by degrees of freedom that move in it.
+    pub fn new(
+        matrix: &SparseMatrix<'_>,
+        fixed: &[usize],
+        pairs: &ContactPairs<'_>,
+    ) -> Result<Self, Error> {
+        Self::controlled(
+            matrix,
+            fixed,
+            pairs,
+            Control {
+                order: None,
+                full_space: false,
+                workers: &SingleThread,
+                ask: &mut |_, _| Ok(()),
+            },
+        )
+    }
+
+    /// As [`Self::new`], in an order of the host and with somebody who is asked whether to go on.
+    ///
+    /// # Errors
+    /// As [`Self::new`]; an order that is no permutation; and what `control.ask` answers.
+    pub fn controlled(
+        matrix: &SparseMatrix<'_>,
+        fixed: &[usize],
+        pairs: &ContactPairs<'_>,
+        control: Control<'_>,
+    ) -> Result<Self, Error> {
+        let memory = |_: OutOfMemory| Error::OutOfMemory("the reduced stiffness matrix");
+        // The matrix first: a wrong size or index base shows in the other arrays too.
+        matrix.check_col_start()?;
+        let places = supports::places_in_fixed(matrix.size, fixed)?;
+        let host = matrix.lower_triangle("K", |dof| places[dof].is_some())?;
+        let rank = control.order.map(|order| ranks(matrix.size, order)).transpose()?;
+        pairs.check(matrix.size)?;
+        let mut frames = pairs.frames()?;
+        let with_own_slaves = rows_with_own_slaves(pairs, &mut frames, &places);
+        let own = with_own_slaves.is_some();
+        let rows = match with_own_slaves {
+            Some(rows) => rows.map_err(memory)?,
+            None => general_rows(pairs, &mut frames, &places)?,
+        };
+        let GeneralRows { variables, supports, dependent } = rows;
+        let contact_forces = contact_forces(matrix.size, pairs, &frames).map_err(memory)?;
+        let (transformed, of_fixed) = variables.transform(host).map_err(memory)?;
+        let mut asked = Asked::new(control.ask);
+        let free = variables.free();
+        let rank: Option<Vec<usize>> = rank.map(|rank| free.iter().map(|&dof| rank[dof]).collect());
+        // Rows of many nodes leave more rounding on motions that are free than the entries of K_rel show.
+        let check = if own { RigidModeCheck::IfSuspicious } else { RigidModeCheck::Always };
+        let (rank, workers) = (rank.as_deref(), control.workers);
+        let parts = Parts { inner: free.len(), dim: pairs.dim, rank, check, workers };
+        let choice = (control.full_space, dependent.is_none());
+        let engine = Engine::new(transformed, &parts, choice, &mut asked)
+            .map_err(|failure| asked.ended.unwrap_or_else(|| refused(&variables, own, failure)))?;
+        Ok(SparseReduction {
+            dim: pairs.dim,
+            fixed_count: fixed.len(),
+            variables,
+            of_fixed,
+            contact_forces,
+            frames: frames.iter().flat_map(|frame| frame.directions().flatten().copied()).collect(),
+            fixed_components: supports.iter().map(|support| support.component).collect(),
+            supports,
+            dependent,
+            engine,
+        })
+    }
+
+    /// `Tᵀ (f - K P p)`.
+    fn transformed_load(&self, load: &[f64], prescribed: Option<&[f64]>) -> Vec<f64> {
+        let mut transformed = self.variables.load(load);
+        if let Some(values) = prescribed {
+            let forces = transpose_times(&self.of_fixed, values);
+            transformed.iter_mut().zip(forces).for_each(|(load, force)| *load -= force);
+        }
+        transformed
+    }
+}
+
+impl Reduction for SparseReduction {
+    fn stiffness(&self) -> &[f64] {
+        match &self.engine {
+            Engine::Condensed(schur) => schur.schur(),
+            Engine::FullSpace(_) => &[],
+        }
+    }
+
+    fn matrix_free(&self) -> Option<&dyn MatrixFreeReduction> {
+        matches!(self.engine, Engine::FullSpace(_)).then_some(self as &dyn MatrixFreeReduction)
+    }
+
+    fn host_size(&self) -> usize {
+        self.variables.host_size()
+    }
+
+    fn fixed_count(&self) -> usize {
+        self.fixed_count
+    }
+
+    fn condense(&self, load: &[f64], prescribed: Option<&[f64]>) -> Result<Vec<f64>, Error> {
+        Ok(self.condense_cases(&[(load, prescribed)])?.concat())
+    }
+
+    fn condense_cases(&self, cases: &[HostLoad<'_>]) -> Result<Vec<Vec<f64>>, Error> {
+        let transformed = cases.iter().map(|(load, values)| self.transformed_load(load, *values));
+        let loads: Vec<f64> = transformed.flatten().collect();
+        let condensed = match &self.engine {
+            Engine::Condensed(schur) => schur.condense(&loads),
+            Engine::FullSpace(space) => space.condense(&loads)?,
+        };
+        Ok(columns(&condensed, cases.len()))
+    }
+
+    fn recover(
+        &self,
+        load: Option<&[f64]>,
+        prescribed: Option<&[f64]>,
+        d: &[f64],
+    ) -> Result<Vec<f64>, Error> {
+        Ok(self.recover_cases(&[SolvedCase { load, prescribed, d }])?.concat())
+    }
+
+    fn recover_cases(&self, cases: &[SolvedCase<'_>]) -> Result<Vec<Vec<f64>>, Error> {
+        let (mut loads, mut variables) = (Vec::new(), Vec::new());
+        let nothing = vec![0.0; self.host_size()];
+        for case in cases {
+            let load = case.load.unwrap_or(&nothing);
+            loads.extend(self.transformed_load(load, case.prescribed));
+            match self.dependence() {
+                Some(dependence) => variables.extend(dependence.of_relative(case.d)),
+                None => variables.extend_from_slice(case.d),
+            }
+        }
+        let x = match &self.engine {
+            Engine::Condensed(schur) => schur.recover(&loads, &variables),
+            Engine::FullSpace(space) => space.recover(&loads, &variables)?,
+        };
+        let of_host = |(x, case): (Vec<f64>, &SolvedCase<'_>)| {
+            self.variables.host_displacements(&x, case.prescribed)
+        };
+        Ok(columns(&x, cases.len()).into_iter().zip(cases).map(of_host).collect())
+    }
+
+    /// `Bᵀ F`: `R F` on each node by its signed weight.
+    fn nodal_forces(&self, force: &[f64]) -> Vec<f64> {
+        times(&self.contact_forces, force)
+    }
+
+    fn dependence(&self) -> Option<&Dependence> {
+        self.dependent.as_ref()
+    }
+
+    fn check_prescribed(&self, values: &[f64]) -> Result<(), Error> {
+        self.supports.iter().try_for_each(|support| support.check(values))
+    }
+
+    fn fixed_components(&self) -> &[usize] {
+        &self.fixed_components
+    }
+
+    fn frames(&self) -> Option<&[f64]> {
+        Some(&self.frames)
+    }
+
+    fn motion_in_words(&self, d: &[f64]) -> Message {
+        let whole = motion::of_host(&self.recover(None, None, d).unwrap_or_default());
+        let dim = self.dim;
+        let size = |pair: &usize| norm_inf(&d[dim * pair..dim * (pair + 1)]);
+        let most = (0..d.len() / dim).max_by(|a, b| size(a).total_cmp(&size(b)));
+        let Some(pair) = most.filter(|pair| size(pair) > 0.0) else {
+            return whole.into();
+        };
+        let range = dim * pair..dim * (pair + 1);
+        let mut relative = vec![0.0; dim];
+        for (d, direction) in d[range].iter().zip(self.frames[dim * dim * pair..].chunks(dim)) {
+            relative.iter_mut().zip(direction).for_each(|(u, part)| *u += d * part);
+        }
+        messages::with_pair(&whole, pair, &relative).into()
+    }
+}
+
+impl MatrixFreeReduction for SparseReduction {
+    fn bodies<'a>(&'a self, workers: &'a dyn Workers) -> Box<dyn StiffnessOperator + 'a> {
+        match &self.engine {
+            Engine::FullSpace(space) => Box::new(space.in_use(workers)),
+            Engine::Condensed(_) => unreachable!("a condensed stiffness is formed"),
+        }
+    }
+
+    fn all_loads(&self, load: &[f64], prescribed: Option<&[f64]>) -> Vec<f64> {
+        self.transformed_load(load, prescribed)
+    }
+
+    fn factor_bytes(&self) -> u64 {
+        match &self.engine {
+            Engine::FullSpace(space) => space.factor_bytes(),
+            Engine::Condensed(_) => 0,
+        }
+    }
+}
+
+/// How the transformed matrix is divided and eliminated, and by whom.
+struct Parts<'a> {
+    /// Number of unknowns that are no relative displacements.
+    inner: usize,
+    dim: usize,
+    /// The host's order of them.
+    rank: Option<&'a [usize]>,
+    check: RigidModeCheck,
+    workers: &'a dyn Workers,
+}
+
+impl Engine {
+    /// Condenses `matrix`, or leaves it as it is: if that is `wanted`, or if the condensed matrix needs more
+    /// memory than is allowed and it is `possible`.
+    fn new(
+        matrix: Csc,
+        parts: &Parts<'_>,
+        (wanted, possible): (bool, bool),
+        asked: &mut Asked<'_, '_>,
+    ) -> Result<Self, Failure> {
+        if !(wanted && possible) {
+            let plan = Plan::new(&matrix, parts.inner, parts.rank, parts.workers, asked)?;
+            if asked.needs(plan.bytes()).is_ok() {
+                return SparseSchur::planned(plan, matrix, parts.check, parts.workers, asked)
+                    .map(|schur| Engine::Condensed(Box::new(schur)));
+            }
+            if !(possible && asked.lacks_memory()) {
+                return Err(Failure::Stopped);
+            }
+            asked.begin_anew();
+        }
+        FullSpace::new(matrix, parts.inner, parts.dim, parts.workers, asked)
+            .map(|space| Engine::FullSpace(Box::new(space)))
+    }
+}
+
+/// The change of variables where each pair has a slave of its own, and supports that are along directions
+/// of its frame; `None` otherwise.
+fn rows_with_own_slaves(
+    pairs: &ContactPairs<'_>,
+    frames: &mut Vec<Frame>,
+    places: &[Option<usize>],
+) -> Option<Result<GeneralRows, OutOfMemory>> {
+    if !pairs.have_own_slaves(places.len()) {
+        return None;
+    }
+    let mut turned = frames.clone();
+    let supports = supports::fixed_components(pairs, &mut turned, places)?;
+    *frames = turned;
+    let variables = ChangeOfVariables::new(pairs, frames, places, &supports);
+    Some(variables.map(|variables| GeneralRows { variables, supports, dependent: None }))
+}
+
+/// Why the factorisation failed, in degrees of freedom of the host; `own`: each pair has a slave of its own.
+fn refused(variables: &ChangeOfVariables, own: bool, failure: Failure) -> Error {
+    let host = |x: &[f64]| variables.host_displacements(x, None);
+    let message = match failure {
+        Failure::OutOfMemory => return Error::OutOfMemory("the factor of the stiffness matrix"),
+        Failure::Stopped => unreachable!("who stops it says why"),
+        Failure::Indefinite(row) => messages::indefinite(variables.free().get(row)),
+        Failure::Negative(x) => messages::negative_energy(&host(&x)),
+        Failure::Unclear(x) => messages::unclear_motion(&host(&x), !own),
+        Failure::NullVector(x) => messages::free_motion(&host(&x)),
+    };
+    Error::invalid(Argument::Matrix, message)
+}

@@ -1,0 +1,236 @@
+//! Block principal pivoting on an LCP (Júdice and Pires 1994): exchange all variables that violate
+//! their condition at once; when their number has not fallen for as many systems as there are
+//! variables, exchange the last of them only (Murty 1974) until it does. Finite for positive definite
+//! matrices.
+//!
+//! Contact without friction is the LCP in `x = -d` with `M = K` and the bounds `-gap`; tangential
+//! components are free. Starting with all pairs closed keeps the first system small, tangential
+//! components only, and a few sweeps from its solution tell nearly all pairs that open; sweeps follow
+//! each later solution too, as long as they help.
+
+use std::cell::Cell;
+
+use crate::law::Contact;
+use crate::law::Row;
+use crate::law::complementarity::lower_bounds;
+use crate::linalg::simd::Simd;
+use crate::monitor::Monitor;
+use crate::problem::symmetric_matrix::is_symmetric;
+use crate::problem::{BoundedLcp, Lcp};
+use crate::settings::Settings;
+use crate::solve::pieces::{LinearSystem, Singular};
+use crate::solve::result::{Candidate, Effort, Ending};
+use crate::solve::sweeps::sweep_lcp;
+
+/// Least number of systems without progress before single exchanges. Júdice and Pires recommend 10; on
+/// the worst problems of single exchanges, which take `2^n`, whole blocks need `n`.
+const PATIENCE: usize = 10;
+
+/// Sweeps between a solution and its active set.
+const SWEEPS: u32 = 2;
+
+/// Up to so many variables the fixed costs of a system outweigh its arithmetic: there more sweeps save
+/// time wherever they save a system.
+const FEW_VARIABLES: usize = 256;
+const SWEEPS_OF_FEW: u32 = 6;
+
+/// Systems after which a problem of `n` complementary variables is left to another method: single
+/// exchanges may take `2^n`; whole blocks take a few, or at most about `n` on the worst problems
+/// known. Twice that and 50 more end no run that converges.
+pub fn enough(n: usize) -> u64 {
+    50 + 2 * n as u64
+}
+
+/// The result of block pivoting.
+pub struct Pivoted {
+    /// `x`.
+    pub x: Vec<f64>,
+    /// `q + M x`.
+    pub w: Vec<f64>,
+    /// Why it stopped.
+    pub ending: Ending,
+    /// Dense factorisations.
+    pub factorisations: u64,
+}
+
+/// Solves frictionless contact from the active set of `start`, or from all pairs closed; after `most`
+/// systems it gives up.
+pub fn contact(
+    contact: &Contact<'_>,
+    settings: &Settings,
+    start: Option<&[f64]>,
+    most: u64,
+    monitor: &mut Monitor<'_>,
+) -> Candidate {
+    let problem = contact.problem();
+    let lower = lower_bounds(contact);
+    let lcp = BoundedLcp {
+        matrix: problem.stiffness(),
+        q: contact.load_with_tension(),
+        lower: &lower,
+        symmetric: true,
+    };
+    let opposite = |values: &[f64]| -> Vec<f64> { values.iter().map(|value| -value).collect() };
+    let start = start.map(opposite);
+    let measured = Cell::new(None);
+    let is_accurate = |x: &[f64]| {
+        let candidate = Candidate::new(opposite(x), Vec::new(), Ending::Done, Effort::default());
+        let holds = candidate.certificate(contact).holds(settings.tolerance);
+        measured.set(Some(candidate));
+        holds
+    };
+    let pivoted = solve(&lcp, settings.tolerance, start, most, &is_accurate, monitor);
+    let effort = Effort::of_systems(pivoted.factorisations);
+    let d = opposite(&pivoted.x);
+    // The basis that was measured last is nearly always the one on which block pivoting ends.
+    let mut force = opposite(&pivoted.w);
+    contact.add_tension(&mut force);
+    let candidate = match measured.take().filter(|candidate: &Candidate| candidate.d() == d) {
+        Some(candidate) => candidate.ended(pivoted.ending).with_effort(effort),
+        None => Candidate::new(d, Vec::new(), pivoted.ending, effort),
+    };
+    let mut candidate = candidate.with_force(force);
+    // A symmetric positive definite matrix has positive principal minors.
+    candidate.orientation = 1;
+    candidate
+}
+
+/// Solves an LCP whose matrix has a positive diagonal, from all variables at their bounds; after `most`
+/// systems it gives up. `magnitudes` are those of the LCP.
+pub fn lcp(
+    lcp: &Lcp<'_>,
+    magnitudes: &[f64],
+    tolerance: f64,
+    most: u64,
+    monitor: &mut Monitor<'_>,
+) -> Pivoted {
+    let zero = vec![0.0; lcp.size()];
+    let bounded = BoundedLcp {
+        matrix: lcp.matrix(),
+        q: lcp.q(),
+        lower: &zero,
+        symmetric: is_symmetric(&lcp.matrix()),
+    };
+    let is_accurate = |x: &[f64]| lcp.measure(x, magnitudes).0 <= tolerance;
+    solve(&bounded, tolerance, None, most, &is_accurate, monitor)
+}
+
+fn solve(
+    lcp: &BoundedLcp<'_>,
+    tolerance: f64,
+    start: Option<Vec<f64>>,
+    most: u64,
+    is_accurate: &dyn Fn(&[f64]) -> bool,
+    monitor: &mut Monitor<'_>,
+) -> Pivoted {
+    let mut basic: Vec<bool> = match &start {
+        Some(x) => active_set(lcp, x, &lcp.w(x)),
+        None => (0..lcp.q.len()).map(|i| lcp.is_free(i)).collect(),
+    };
+    let x = start.unwrap_or_else(|| vec![0.0; lcp.q.len()]);
+    let mut system = LinearSystem::new(lcp.matrix, lcp.symmetric, 1, lcp.q.to_vec(), x);
+    let mut best = (f64::INFINITY, system.x.clone(), system.residual.clone());
+    let mut exchange = Exchange::new(lcp);
+    let last = monitor.iterations().saturating_add(most);
+    let ending = loop {
+        if monitor.iterations() >= last {
+            break Ending::Stalled("block pivoting does not converge");
+        }
+        if let Err(stop) = monitor.step() {
+            break Ending::Stopped(stop);
+        }
+        let rows = select(lcp, &basic);
+        if let Err(stop) = monitor.affords(system.work(&rows)) {
+            break Ending::Stopped(stop);
+        }
+        if let Err(Singular) = system.solve(&rows) {
+            break Ending::Singular;
+        }
+        let eta = lcp.eta(&system.x, &system.residual);
+        monitor.measured(eta);
+        if eta < best.0 {
+            best = (eta, system.x.clone(), system.residual.clone());
+        }
+        let next = active_set(lcp, &system.x, &system.residual);
+        if next == basic {
+            let refined =
+                system.refine(&rows, |x, w| lcp.eta(x, w), |x, _| is_accurate(x), monitor);
+            best = (0.0, std::mem::take(&mut system.x), std::mem::take(&mut system.residual));
+            break refined.map_or_else(Ending::Stopped, |()| Ending::Done);
+        }
+        let progress = exchange.choose(lcp, &system, &mut basic, next);
+        if !progress && best.0 <= tolerance && is_accurate(&best.1) {
+            // At a degenerate solution rounding may flip the active set forever.
+            break Ending::Done;
+        }
+    };
+    let (_, x, w) = best;
+    Pivoted { x, w, ending, factorisations: system.factorisations }
+}
+
+/// Which variables are exchanged: blocks as long as that helps.
+struct Exchange {
+    /// Fewest variables that violated their condition so far.
+    fewest: usize,
+    /// Systems without progress that are left before single exchanges.
+    patience: usize,
+    most_patience: usize,
+    simd: Simd,
+}
+
+impl Exchange {
+    fn new(lcp: &BoundedLcp<'_>) -> Self {
+        let complementary = (0..lcp.q.len()).filter(|&i| !lcp.is_free(i)).count();
+        let most_patience = PATIENCE.max(complementary);
+        Exchange { fewest: usize::MAX, patience: most_patience, most_patience, simd: Simd::new() }
+    }
+
+    /// Changes `basic`, of which the solution of the system selects `next`. Returns whether fewer
+    /// variables than ever violate their condition.
+    fn choose(
+        &mut self,
+        lcp: &BoundedLcp<'_>,
+        system: &LinearSystem<'_>,
+        basic: &mut Vec<bool>,
+        next: Vec<bool>,
+    ) -> bool {
+        let violated = || (0..next.len()).filter(|&i| next[i] != basic[i]);
+        let count = violated().count();
+        let progress = count < self.fewest;
+        if progress {
+            (self.fewest, self.patience) = (count, self.most_patience);
+        }
+        if self.patience > 0 {
+            self.patience -= usize::from(!progress);
+            let sweeps_help = lcp.symmetric && progress;
+            *basic = if sweeps_help { swept(self.simd, lcp, system) } else { next };
+        } else if let Some(single) = violated().next_back() {
+            basic[single] = next[single];
+        }
+        progress
+    }
+}
+
+/// True if each variable is off its bound.
+fn active_set(lcp: &BoundedLcp<'_>, x: &[f64], w: &[f64]) -> Vec<bool> {
+    (0..x.len()).map(|i| lcp.is_basic(i, x, w)).collect()
+}
+
+/// The equation of each variable.
+fn select(lcp: &BoundedLcp<'_>, basic: &[bool]) -> Vec<Row> {
+    let row = |(&basic, &lower): (&bool, &f64)| match basic {
+        true => Row::Free { coupling: 0.0, offset: 0.0 },
+        false => Row::Fixed(lower),
+    };
+    basic.iter().zip(lcp.lower).map(row).collect()
+}
+
+/// The active set after some sweeps, which the iterate does not keep.
+fn swept(simd: Simd, lcp: &BoundedLcp<'_>, system: &LinearSystem<'_>) -> Vec<bool> {
+    let (mut x, mut w) = (system.x.clone(), system.residual.clone());
+    let sweeps = if x.len() <= FEW_VARIABLES { SWEEPS_OF_FEW } else { SWEEPS };
+    for _ in 0..sweeps {
+        sweep_lcp(simd, lcp, &mut x, &mut w, 1.0);
+    }
+    active_set(lcp, &x, &w)
+}

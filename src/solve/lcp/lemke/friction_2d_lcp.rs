@@ -1,0 +1,200 @@
+//! The LCP of friction in 2D, as `friction_2d` states it. Its matrix is not stored: its columns are
+//! made from those of `K` when the tableau asks for them.
+
+use std::borrow::Cow;
+
+use super::scaled::Entries;
+use crate::law::Contact;
+use crate::law::Piece;
+use crate::linalg::factor::cholesky_work;
+use crate::linalg::matrix::Matrix;
+use crate::linalg::packed::PackedSymmetric;
+use crate::linalg::vector::norm_inf;
+use crate::monitor::Monitor;
+use crate::solve::part::{FreeBlock, INDEFINITE, driven_motion};
+use crate::solve::result::Ending;
+
+/// The LCP of a contact problem in the variables `(w, a, b)`.
+pub struct FrictionLcp<'p> {
+    contact: &'p Contact<'p>,
+    /// Components that carry no contact force are condensed.
+    block: FreeBlock<'p>,
+    at_rest: Vec<f64>,
+    /// The others: normal, then tangential.
+    normal: Vec<usize>,
+    tangential: Vec<usize>,
+    /// For each tangential component: the place of its pair in `normal`, and the slope of its bound; 0
+    /// of a pair without an obstacle.
+    coupling: Vec<(usize, f64)>,
+    stiffness: Stiffness<'p>,
+}
+
+/// The stiffness of the components that are left, normal, then tangential.
+enum Stiffness<'p> {
+    /// `K` itself where nothing is condensed, with the places of the components in it.
+    Whole(Matrix<'p>, Vec<usize>),
+    /// The Schur complement, half of it: the tableau beside it is larger than `K`.
+    Condensed(PackedSymmetric),
+}
+
+impl Stiffness<'_> {
+    /// Column of component `c`, and where in it component `i` stands.
+    fn column(&self, c: usize) -> (Cow<'_, [f64]>, impl Fn(usize) -> usize) {
+        let (column, places) = match self {
+            Stiffness::Whole(matrix, places) => {
+                (Cow::Borrowed(matrix.column(places[c])), Some(places))
+            }
+            Stiffness::Condensed(matrix) => (Cow::Owned(matrix.column(c)), None),
+        };
+        (column, move |i: usize| places.map_or(i, |places| places[i]))
+    }
+}
+
+/// Right-hand side, covering vector and scales of the variables.
+pub struct Vectors {
+    /// `q`.
+    pub q: Vec<f64>,
+    /// Covering vector.
+    pub covering: Vec<f64>,
+    /// Scales.
+    pub scale: Vec<f64>,
+}
+
+impl<'p> FrictionLcp<'p> {
+    /// Condenses what carries no contact force. `Err`: why that is impossible, which may be a proof
+    /// that no equilibrium exists.
+    pub fn new(contact: &'p Contact<'p>, monitor: &mut Monitor<'_>) -> Result<Self, Ending> {
+        let problem = contact.problem();
+        let (mut normal, mut tangential, mut free) = (Vec::new(), Vec::new(), Vec::new());
+        let mut coupling = Vec::new();
+        for (pair, law) in contact.pairs().iter().enumerate() {
+            let variables = law.variables();
+            if variables.slips {
+                let slope = law.bound().slope;
+                coupling.push(if variables.clearance { (normal.len(), slope) } else { (0, 0.0) });
+            }
+            if variables.clearance { &mut normal } else { &mut free }.push(2 * pair);
+            if variables.slips { &mut tangential } else { &mut free }.push(2 * pair + 1);
+        }
+        let indices: Vec<usize> = normal.iter().chain(&tangential).copied().collect();
+        let condenses = !free.is_empty();
+        monitor.affords(cholesky_work(free.len())).map_err(Ending::Stopped)?;
+        let block = FreeBlock::of_problem(problem, free).ok_or(INDEFINITE)?;
+        let mut at_rest = vec![0.0; contact.unknowns()];
+        for &i in &indices {
+            at_rest[i] = contact.pairs()[i / 2].reference()[i % 2];
+        }
+        block.equilibrate(contact.load_with_tension(), &mut at_rest);
+        if let Some(motion) = driven_motion(contact, &block, &at_rest) {
+            return Err(Ending::Recession(motion));
+        }
+        let stiffness = if condenses {
+            monitor.affords(block.schur_work(indices.len())).map_err(Ending::Stopped)?;
+            let schur = block.schur_complement(&indices);
+            Stiffness::Condensed(PackedSymmetric::new(indices.len(), schur))
+        } else {
+            Stiffness::Whole(problem.stiffness(), indices)
+        };
+        Ok(FrictionLcp { contact, block, at_rest, normal, tangential, coupling, stiffness })
+    }
+
+    /// The vectors, with the cohesion of the covering vector against slip to either side.
+    pub fn vectors(&self, cohesion: [f64; 2]) -> Vectors {
+        let (problem, n, m) = (self.contact.problem(), self.normal.len(), self.tangential.len());
+        let force = self.contact.force_without_tension(&self.at_rest);
+        let root = |i: usize| problem.unit(i).sqrt();
+        let mut vectors = Vectors {
+            q: self.normal.iter().map(|&i| -force[i]).collect(),
+            covering: self.normal.iter().map(|&i| root(i)).collect(),
+            scale: Vec::with_capacity(n + 2 * m),
+        };
+        for (side, cohesion) in [1.0, -1.0].into_iter().zip(cohesion) {
+            for (k, &i) in self.tangential.iter().enumerate() {
+                let (normal, slope) = self.coupling[k];
+                let coupled =
+                    |values: &[f64]| values.get(normal).map_or(0.0, |value| slope * value);
+                let (bound, clamp) = (coupled(&vectors.q), coupled(&vectors.covering));
+                let offset = self.contact.pairs()[i / 2].bound().offset;
+                vectors.q.push(bound + offset + side * force[i]);
+                vectors.covering.push(clamp + cohesion * root(i));
+            }
+        }
+        let scale = |i: &usize| root(*i).recip();
+        let components = self.normal.iter().chain(&self.tangential).chain(&self.tangential);
+        vectors.scale.extend(components.map(scale));
+        vectors
+    }
+
+    /// All displacements of a point of the path.
+    pub fn displacements(&self, z: &[f64]) -> Vec<f64> {
+        let mut d = self.at_rest.clone();
+        for (d, motion) in d.iter_mut().zip(self.motion_of_variables(z)) {
+            *d += motion;
+        }
+        self.block.equilibrate(self.contact.load_with_tension(), &mut d);
+        d
+    }
+
+    /// The motion of all components along a ray.
+    pub fn motion(&self, ray: &[f64]) -> Vec<f64> {
+        let mut motion = self.motion_of_variables(ray);
+        let least = DIGITS * norm_inf(&motion);
+        motion.iter_mut().filter(|r| r.abs() < least).for_each(|r| *r = 0.0);
+        self.block.follow(&mut motion);
+        motion
+    }
+
+    fn motion_of_variables(&self, z: &[f64]) -> Vec<f64> {
+        let (n, m) = (self.normal.len(), self.tangential.len());
+        let mut motion = vec![0.0; self.contact.unknowns()];
+        for (k, &i) in self.normal.iter().enumerate() {
+            motion[i] = -z[k];
+        }
+        for (k, &i) in self.tangential.iter().enumerate() {
+            motion[i] = z[n + k] - z[n + m + k];
+        }
+        motion
+    }
+
+    /// The pieces of a point of the path.
+    pub fn pieces(&self, z: &[f64]) -> Vec<Piece> {
+        let (n, m) = (self.normal.len(), self.tangential.len());
+        let mut variables = vec![[0.0; 3]; self.contact.pairs().len()];
+        for (k, &i) in self.normal.iter().enumerate() {
+            variables[i / 2][0] = z[k];
+        }
+        for (k, &i) in self.tangential.iter().enumerate() {
+            (variables[i / 2][1], variables[i / 2][2]) = (z[n + k], z[n + m + k]);
+        }
+        let laws = self.contact.pairs().iter();
+        laws.zip(variables).map(|(law, [w, a, b])| law.piece_of_variables(w, a, b)).collect()
+    }
+}
+
+/// Components of a ray below this part of the largest are digits that rounding has left: a tenth of
+/// what counts as rigid in the certificate.
+const DIGITS: f64 = 1e-12;
+
+impl Entries for FrictionLcp<'_> {
+    fn write_column(&self, j: usize, column: &mut [f64]) {
+        let (n, m) = (self.normal.len(), self.tangential.len());
+        // Variable j moves one component: a clearance, or a slip to one side.
+        let (component, sign) = match j {
+            j if j < n => (j, -1.0),
+            j if j < n + m => (j, 1.0),
+            j => (j - m, -1.0),
+        };
+        let (source, place) = self.stiffness.column(component);
+        let (clearances, slips) = column.split_at_mut(n);
+        let (forward, backward) = slips.split_at_mut(m);
+        for (i, entry) in clearances.iter_mut().enumerate() {
+            *entry = -sign * source[place(i)];
+        }
+        let sides = forward.iter_mut().zip(backward).zip(&self.coupling).enumerate();
+        for (k, ((forward, backward), &(normal, slope))) in sides {
+            let bound = clearances.get(normal).map_or(0.0, |clearance| slope * clearance);
+            let force = sign * source[place(n + k)];
+            (*forward, *backward) = (bound + force, bound - force);
+        }
+    }
+}

@@ -1,0 +1,166 @@
+//! Newton's method with a line search, for every form of the equations on the normal map (`law::normal_map`): dense,
+//! with some pairs eliminated, and with products and solutions only.
+//!
+//! The iterates obey the law exactly; what falls is the lack of equilibrium. There is no guarantee: from `mu` of about
+//! 1 on, on matrices that are no stiffness of a mesh, the method may stop at a kink of the lack's length.
+
+use crate::monitor::{Monitor, Stop};
+use crate::solve::result::Ending;
+
+/// Part of the fall of the lack that a full step promises which a shortened one must keep (Armijo).
+const SUFFICIENT: f64 = 1e-4;
+
+/// Shortest step: a kink of the law may lie within any longer one.
+const SHORTEST: f64 = 1e-3;
+
+/// Shortest steps in a row after which it is given up.
+const MOST_SHORTEST: u32 = 3;
+
+/// Part of the tolerance that is aimed at: the certificate of the whole problem, with its own rounding, must meet
+/// the tolerance.
+pub const AIM: f64 = 0.1;
+
+/// Where `eta` is below and falls no further, rounding is reached.
+const NEAR_ROUNDING: f64 = 1e-6;
+
+/// Equations on the normal map, as Newton's method sees them.
+pub trait NormalMap {
+    /// Coordinates of all pairs, with the lack of equilibrium there.
+    type Point;
+    /// A change of a point, to first order.
+    type Step;
+    /// A failure of the host that multiplies; `Infallible` where there is none.
+    type Failure;
+
+    /// `eta` at a point, as the certificate measures it.
+    fn eta(&self, point: &Self::Point) -> f64;
+
+    /// Length of the lack at a point.
+    fn merit(&self, point: &Self::Point) -> f64;
+
+    /// Newton's step from a point.
+    ///
+    /// # Errors
+    /// Why there is none.
+    fn step(
+        &mut self,
+        point: &Self::Point,
+        monitor: &mut Monitor<'_>,
+    ) -> Result<Self::Step, Halt<Self::Failure>>;
+
+    /// The point after a part of a step.
+    ///
+    /// # Errors
+    /// Those of the host.
+    fn moved(
+        &mut self,
+        point: &Self::Point,
+        step: &Self::Step,
+        part: f64,
+    ) -> Result<Self::Point, Self::Failure>;
+
+    /// The point from which the next system is made, after this part of `step` has led to `point`.
+    fn after(
+        &mut self,
+        point: Self::Point,
+        _step: Self::Step,
+        _part: f64,
+        _monitor: &mut Monitor<'_>,
+    ) -> Self::Point {
+        point
+    }
+}
+
+/// Why a computation ended before its result.
+pub enum Halt<F> {
+    /// The method ends so, at the best point that it has.
+    Ended(Ending),
+    /// The host has failed: the call ends.
+    Failed(F),
+}
+
+impl<F> From<Stop> for Halt<F> {
+    fn from(stop: Stop) -> Self {
+        Halt::Ended(Ending::Stopped(stop))
+    }
+}
+
+/// The tolerance and the budget of Newton's method.
+#[derive(Clone, Copy)]
+pub struct Goal {
+    pub tolerance: f64,
+    /// Systems that are solved even if the first point is a solution, and those after which it is given up.
+    pub least_systems: u64,
+    pub most_systems: u64,
+    /// First systems whose steps are taken whole, whether the lack falls or not: the line search comes after them.
+    pub full_steps: u64,
+}
+
+/// How Newton's method ended, and where.
+pub struct NewtonOutcome<P> {
+    /// The last point.
+    pub point: P,
+    /// `Done` if `eta` is below the tolerance or at its rounding.
+    pub ending: Ending,
+}
+
+/// Solves equations from a point.
+///
+/// # Errors
+/// Those of the host.
+pub fn solve<M: NormalMap>(
+    map: &mut M,
+    mut point: M::Point,
+    goal: Goal,
+    monitor: &mut Monitor<'_>,
+) -> Result<NewtonOutcome<M::Point>, M::Failure> {
+    let (mut systems, mut shortest, mut last) = (0, 0, f64::INFINITY);
+    let ending = loop {
+        let eta = map.eta(&point);
+        monitor.measured(eta);
+        let at_rounding = eta <= NEAR_ROUNDING && eta >= last;
+        if systems >= goal.least_systems && (eta <= AIM * goal.tolerance || at_rounding) {
+            break Ending::Done;
+        }
+        last = eta;
+        if systems >= goal.most_systems || shortest >= MOST_SHORTEST {
+            break Ending::Stalled("Newton's method does not converge");
+        }
+        if let Err(stop) = monitor.step() {
+            break Ending::Stopped(stop);
+        }
+        let step = map.step(&point, monitor);
+        systems += u64::from(!matches!(step, Err(Halt::Ended(Ending::Stopped(_)))));
+        let step = match step {
+            Ok(step) => step,
+            Err(Halt::Ended(ending)) => break ending,
+            Err(Halt::Failed(failure)) => return Err(failure),
+        };
+        let (next, part) = match systems <= goal.full_steps {
+            true => (map.moved(&point, &step, 1.0)?, 1.0),
+            false => line_search(map, &point, &step)?,
+        };
+        if !map.merit(&next).is_finite() {
+            break Ending::Stalled("the forces are beyond the largest number");
+        }
+        shortest = if part <= SHORTEST { shortest + 1 } else { 0 };
+        point = map.after(next, step, part, monitor);
+    };
+    Ok(NewtonOutcome { point, ending })
+}
+
+/// The first of ever shorter steps along which the lack falls enough, or the shortest; and its length.
+fn line_search<M: NormalMap>(
+    map: &mut M,
+    point: &M::Point,
+    step: &M::Step,
+) -> Result<(M::Point, f64), M::Failure> {
+    let (before, mut part) = (map.merit(point), 1.0);
+    loop {
+        let next = map.moved(point, step, part)?;
+        if map.merit(&next) <= (1.0 - SUFFICIENT * part) * before || part <= SHORTEST {
+            return Ok((next, part));
+        }
+        part /= 2.0;
+    }
+}

@@ -1,0 +1,268 @@
+//! Newton's method on the dense equations of some pairs.
+//!
+//! A factorised system serves again as long as a step with it lets `|H|` fall tenfold: where slip directions turn a
+//! little, such chord steps find the last digits for a solve each, and one or two systems in three are saved.
+//!
+//! In the plane a solution is exact on its pieces. Where it is on others, a few sweeps carry the edge of a zone over many
+//! pairs, where Newton's step alone moves it by one.
+
+use std::convert::Infallible;
+
+use super::descent::{self, Goal, Halt, NormalMap};
+use crate::law::{PairLaw, Piece, Vector};
+use crate::monitor::Monitor;
+use crate::solve::pieces::{Equations, Point, Systems};
+use crate::solve::result::{Candidate, Effort, Ending};
+use crate::solve::sweeps::Sweeper;
+
+/// Systems after which it is given up: it takes up to about ten where it converges.
+const MOST_SYSTEMS: u64 = 20;
+
+/// First systems in the plane whose steps are taken whole. With none the bar on the plane with 513 pairs is left unsolved;
+/// with four all of its problems take nine systems at most.
+const FULL_STEPS: u64 = 4;
+
+/// Part of `|H|` that a step with the system of an earlier point may leave. Such a step costs a solve, a small part
+/// of a factorisation.
+const CHORD: f64 = 0.1;
+
+/// Further systems in the plane after a solution to the tolerance, until it is on the pieces of its system. At a degenerate
+/// solution rounding may change pieces for ever.
+const MOST_EXACT: usize = 3;
+
+/// Sweeps between a solution in the plane and its pieces: two carry a zone's edge far enough.
+const SWEEPS: usize = 2;
+
+/// A step that is cut below this part ends at a kink of `|H|`: some sweeps lead away from it, a few
+/// times. They halve the failures on random problems.
+const SHORT: f64 = 0.1;
+const RESWEEPS: usize = 20;
+const MOST_RESWEEPS: usize = 3;
+
+/// How Newton's method ended, and where.
+pub struct Ended {
+    /// The best point.
+    pub point: Point,
+    /// `Done` if `eta` is below the tolerance or at its rounding.
+    pub ending: Ending,
+    /// Linear systems that were factorised.
+    pub systems: u64,
+    /// Sign of the determinant of the last system, 0 if there was none.
+    pub orientation: i8,
+}
+
+impl Ended {
+    /// The candidate of equations that are a whole problem's.
+    pub fn into_candidate(self) -> Candidate {
+        let effort = Effort::of_systems(self.systems);
+        let mut candidate = Candidate::new(self.point.d, self.point.force, self.ending, effort);
+        candidate.orientation = self.orientation;
+        candidate
+    }
+}
+
+/// Solves the equations from the coordinates `y`.
+pub fn solve(
+    equations: &Equations<'_>,
+    y: Vec<Vector>,
+    tolerance: f64,
+    monitor: &mut Monitor<'_>,
+) -> Ended {
+    let least_systems = 1;
+    Dense::of(equations).descend(y, (tolerance, least_systems), monitor)
+}
+
+/// Solves the equations from the solution on given pieces of the plane, whatever the law says to it. `Err`: that system
+/// is singular, or there is no time for it.
+pub fn from_pieces(
+    equations: &Equations<'_>,
+    pieces: &[Piece],
+    tolerance: f64,
+    monitor: &mut Monitor<'_>,
+) -> Result<Ended, Ending> {
+    let size = if equations.unit > 0.0 { equations.unit } else { 1.0 };
+    let inside = |(law, piece): (&PairLaw, &Piece)| law.inside(*piece, size);
+    let y: Vec<Vector> = equations.laws.iter().zip(pieces).map(inside).collect();
+    monitor.step().map_err(Ending::Stopped)?;
+    let mut dense = Dense::of(equations);
+    let step = dense.system(&Point::on(equations, pieces.to_vec(), y.clone()), monitor)?;
+    Ok(dense.descend(moved(&y, &step, 1.0), (tolerance, 0), monitor))
+}
+
+/// The point after one system, with the whole step; `None` if the system is singular.
+pub fn step(equations: &Equations<'_>, point: &Point) -> Option<Point> {
+    let mut systems = Systems::of(equations);
+    systems.go_to(&point.pieces, &point.y)?;
+    let step = systems.step(&point.lack)?;
+    Some(Point::new(equations, moved(&point.y, &step, 1.0)))
+}
+
+/// Equations whose systems are factorised.
+struct Dense<'e> {
+    equations: &'e Equations<'e>,
+    systems: Systems<'e>,
+    /// The pieces of the last system, and the coordinates there.
+    pieces: Vec<Piece>,
+    y: Vec<Vector>,
+    orientation: i8,
+    /// True if the last point is the solution on the pieces on which it is.
+    is_exact: bool,
+    /// The pieces to which the sweeps after cut steps have led; the last of them may be there twice.
+    swept_to: Vec<Vec<Piece>>,
+}
+
+impl<'e> Dense<'e> {
+    fn of(equations: &'e Equations<'e>) -> Self {
+        let (pieces, swept_to) = (Vec::new(), Vec::new());
+        let systems = Systems::of(equations);
+        Dense {
+            equations,
+            systems,
+            pieces,
+            y: Vec::new(),
+            orientation: 0,
+            is_exact: false,
+            swept_to,
+        }
+    }
+
+    /// Goes on from the coordinates `y` to a tolerance, with so many systems at least.
+    fn descend(
+        mut self,
+        y: Vec<Vector>,
+        (tolerance, least_systems): (f64, u64),
+        monitor: &mut Monitor<'_>,
+    ) -> Ended {
+        // In the plane the first solutions bring the zones near their places, whatever `|H|` is on the way.
+        let full_steps = if self.equations.dim == 2 { FULL_STEPS } else { 0 };
+        let mut goal = Goal { tolerance, least_systems, most_systems: MOST_SYSTEMS, full_steps };
+        let point = Point::new(self.equations, y);
+        self.is_exact = point.pieces == self.pieces;
+        let Ok(mut outcome) = descent::solve(&mut self, point, goal, monitor);
+        // A solution in the plane is exact once it is on the pieces of its system, however rough the tolerance is.
+        goal.least_systems = 1;
+        for _ in 0..MOST_EXACT {
+            let is_rough = self.systems.are_of_pieces() && !self.is_exact;
+            if outcome.ending != Ending::Done || !is_rough {
+                break;
+            }
+            let Ok(next) = descent::solve(&mut self, outcome.point, goal, monitor);
+            outcome = next;
+        }
+        let (systems, orientation) = (self.systems.factorisations, self.orientation);
+        Ended { point: outcome.point, ending: outcome.ending, systems, orientation }
+    }
+
+    /// The step from the pieces of a point.
+    fn system(&mut self, point: &Point, monitor: &mut Monitor<'_>) -> Result<Vec<Vector>, Ending> {
+        let work = self.systems.work(&point.pieces, &point.y);
+        monitor.affords(work).map_err(Ending::Stopped)?;
+        self.systems.go_to(&point.pieces, &point.y).ok_or(Ending::Singular)?;
+        let step = self.systems.step(&point.lack).ok_or(Ending::Singular)?;
+        self.orientation = self.systems.orientation();
+        self.pieces.clone_from(&point.pieces);
+        self.y.clone_from(&point.y);
+        Ok(step)
+    }
+
+    /// Steps with the system `A` of an earlier point, as long as `|H|` falls nearly as after one with a new system `J`.
+    ///
+    /// The orientation stays that of `A`. If that of `J` differed, `A⁻¹ J` would have a negative eigenvalue, and what
+    /// lies along its vector would grow with each step.
+    fn chords(&mut self, mut point: Point, monitor: &Monitor<'_>) -> Point {
+        while !monitor.is_late() {
+            let Some(step) = self.systems.step(&point.lack) else { break };
+            let next = Point::new(self.equations, moved(&point.y, &step, 1.0));
+            if !(next.merit < CHORD * point.merit) {
+                break;
+            }
+            point = next;
+        }
+        point
+    }
+
+    /// The point with pairs stuck whose slips have turned back since the last system, if there are any.
+    fn without_reversal(&self, point: &Point) -> Option<Point> {
+        let places = self.equations.laws.iter().zip(self.y.iter().zip(&point.y));
+        let y: Vec<Vector> =
+            places.map(|(law, (before, y))| law.without_reversal(before, *y)).collect();
+        (y != point.y).then(|| Point::new(self.equations, y))
+    }
+
+    /// The point after some sweeps, fewer if the time is up.
+    fn swept(&self, point: &Point, sweeps: usize, monitor: &Monitor<'_>) -> Point {
+        let (equations, sweeper) = (self.equations, Sweeper::new());
+        let (mut d, mut force) = (point.d.clone(), point.force.clone());
+        for _ in 0..sweeps {
+            if monitor.is_late() {
+                break;
+            }
+            sweeper.sweep_pairs(&equations.laws, equations.matrix, (&mut d, &mut force), 1.0);
+        }
+        Point::new(equations, equations.coordinates(&d, &force))
+    }
+}
+
+impl NormalMap for Dense<'_> {
+    type Point = Point;
+    type Step = Vec<Vector>;
+    type Failure = Infallible;
+
+    fn eta(&self, point: &Point) -> f64 {
+        self.equations.eta(&point.d, &point.force)
+    }
+
+    fn merit(&self, point: &Point) -> f64 {
+        point.merit
+    }
+
+    fn step(
+        &mut self,
+        point: &Point,
+        monitor: &mut Monitor<'_>,
+    ) -> Result<Vec<Vector>, Halt<Infallible>> {
+        if let Some((last, others)) = self.swept_to.split_last()
+            && others.contains(last)
+        {
+            return Err(Halt::Ended(Ending::Cycle));
+        }
+        self.system(point, monitor).map_err(Halt::Ended)
+    }
+
+    fn moved(&mut self, point: &Point, step: &Vec<Vector>, part: f64) -> Result<Point, Infallible> {
+        Ok(Point::new(self.equations, moved(&point.y, step, part)))
+    }
+
+    fn after(
+        &mut self,
+        point: Point,
+        _step: Vec<Vector>,
+        part: f64,
+        monitor: &mut Monitor<'_>,
+    ) -> Point {
+        let is_linear = self.systems.are_of_pieces();
+        self.is_exact = part == 1.0 && point.pieces == self.pieces;
+        if is_linear && let Some(stuck) = self.without_reversal(&point) {
+            return stuck;
+        }
+        if part < SHORT && self.swept_to.len() < MOST_RESWEEPS {
+            let swept = self.swept(&point, RESWEEPS, monitor);
+            self.swept_to.push(swept.pieces.clone());
+            return swept;
+        }
+        if self.is_exact || part == 1.0 && !is_linear {
+            return self.chords(point, monitor);
+        }
+        if !is_linear {
+            return point;
+        }
+        let swept = self.swept(&point, SWEEPS, monitor);
+        if swept.merit < point.merit { swept } else { point }
+    }
+}
+
+/// `y + part dy`.
+fn moved(y: &[Vector], step: &[Vector], part: f64) -> Vec<Vector> {
+    let each = |(y, dy): (&Vector, &Vector)| std::array::from_fn(|c| y[c] + part * dy[c]);
+    y.iter().zip(step).map(each).collect()
+}

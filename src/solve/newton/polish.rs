@@ -1,0 +1,276 @@
+//! Refinement of a candidate with residuals in twice the precision, its displacements carried as two
+//! doubles each.
+//!
+//! A double cannot hold displacements to the accuracy that the forces of an ill-conditioned `K` ask for:
+//! rounding `d` alone changes `K d` by `u |K| |d|`. So `d + low` is refined. With `F = K (d + low) - f`, the
+//! coordinates `y = k v - F'` on the chart of the law, and `v'` the displacement of the point there,
+//! `e = k (v - v')` is small, and computed without cancellation. The lack of equilibrium at that point is
+//! `H = e - K k⁻¹ e`, because its push is `P = e - F`. Newton's step `dy` from there on the pieces of `y`
+//! moves `v` by `-k⁻¹ e + k⁻¹ (1 - dP/dy) dy`, a small number again, which double precision gives.
+
+use crate::certificate::eta_of;
+use crate::law::Piece;
+use crate::law::{Contact, Vector};
+use crate::linalg::double_double::two_sum;
+use crate::linalg::tolerances::NULL_VECTOR;
+use crate::linalg::vector::{largest_of, norm_inf};
+use crate::monitor::{Monitor, Stop};
+use crate::settings::Settings;
+use crate::solve::pieces::{Equations, System};
+use crate::solve::result::Errors;
+use crate::solve::result::{Candidate, Ending};
+
+/// Most steps, and those in a row that may be no better than an earlier one: pieces may change first.
+const MOST_STEPS: usize = 30;
+const MOST_IN_VAIN: usize = 3;
+
+/// Part of the tolerance that is aimed at.
+const AIM: f64 = 0.01;
+
+/// Where `eta` is below a candidate is next to a solution. On few unknowns systems cost next to nothing,
+/// and rounding may hide a solution from a method altogether: there any candidate is refined.
+const NEAR: f64 = 1e-3;
+const FEW_UNKNOWNS: usize = 64;
+
+/// A factor serves further steps on its pieces while each makes `eta` smaller by this factor or less, and
+/// where the derivatives of the pieces have changed by rounding only: in the plane they do not change.
+const STILL_GOOD: f64 = 0.1;
+const SAME: f64 = 8.0 * f64::EPSILON;
+
+/// A step that makes `eta` smaller by this factor or less tells what error a residual stands for.
+const SURE: f64 = 0.5;
+
+/// Rounding of `eta`: that of forces rounded once, a few times as the steps have no rounding in mind.
+const ROUNDING_OF_ETA: f64 = 4.0 * f64::EPSILON;
+
+/// The candidate, refined if its residual is above the tolerance and that helps. Where it was done and there was no
+/// time to see, it is stopped.
+pub fn polished(
+    contact: &Contact<'_>,
+    settings: &Settings,
+    candidate: Candidate,
+    monitor: &Monitor<'_>,
+) -> Candidate {
+    let old = candidate.certificate(contact);
+    let is_finite = candidate.d().iter().all(|d| d.is_finite());
+    let is_near = old.eta <= NEAR || contact.unknowns() <= FEW_UNKNOWNS;
+    let is_stopped = matches!(candidate.ending, Ending::Stopped(_)) || contact.is_at_rest();
+    if old.residual <= settings.tolerance || !is_finite || !is_near || is_stopped {
+        return candidate;
+    }
+    let at_reference = contact.at_its_reference();
+    let equations = Equations::of(&at_reference);
+    let aim = AIM * settings.tolerance;
+    let mut newton = Newton::on(&equations, monitor);
+    let refined = refined(contact, &candidate, aim, &mut newton);
+    let new = refined.certificate(contact);
+    let helps = new.residual <= settings.tolerance && !new.runs_away();
+    match helps {
+        true => refined.ended(Ending::Done),
+        false if newton.is_stopped && candidate.ending == Ending::Done => {
+            candidate.ended(Ending::Stopped(Stop::TimeLimit))
+        }
+        false => candidate,
+    }
+}
+
+/// A candidate refined as far as it goes.
+pub struct Sharpened {
+    /// The candidate, with the orientation of the pieces that it is on.
+    pub candidate: Candidate,
+    /// Newton's next step: how far it is from the solution on its pieces, to first order.
+    pub error: Vec<f64>,
+}
+
+/// Refines displacements to the last digits; `None` if the system there is singular, or if there is no time.
+pub fn sharpened(
+    contact: &Contact<'_>,
+    candidate: &Candidate,
+    monitor: &Monitor<'_>,
+) -> Option<Sharpened> {
+    let at_reference = contact.at_its_reference();
+    let equations = Equations::of(&at_reference);
+    let mut newton = Newton::on(&equations, monitor);
+    let mut candidate = refined(contact, candidate, 0.0, &mut newton);
+    if newton.is_stopped {
+        return None;
+    }
+    let v = contact.beyond_reference(candidate.d(), candidate.low());
+    let (error, orientation) = newton.step(&v, candidate.force())?;
+    candidate.orientation = orientation;
+    Some(Sharpened { candidate, error })
+}
+
+/// Refines until `eta` is at most `aim`, falls no further, or the time is up.
+fn refined(
+    contact: &Contact<'_>,
+    candidate: &Candidate,
+    aim: f64,
+    newton: &mut Newton<'_, '_>,
+) -> Candidate {
+    let at_reference = contact.at_its_reference();
+    let (mut d, mut low) = (candidate.d().to_vec(), vec![0.0; candidate.d().len()]);
+    let mut best = candidate.clone();
+    let (mut least, mut in_vain) = (f64::INFINITY, 0);
+    let mut steps = Steps::default();
+    for _ in 0..MOST_STEPS {
+        if newton.monitor.is_late() {
+            newton.is_stopped = true;
+            break;
+        }
+        let v = contact.beyond_reference(&d, &low);
+        let force = contact.problem().force_of_parts(&d, &low);
+        let eta = eta_of(&at_reference, &v, &force);
+        if eta < least {
+            (least, in_vain) = (eta, 0);
+            steps.arrived((best.force(), &force), eta);
+            best = best.moved_to_parts(d.clone(), low.clone(), force.clone());
+            best.errors = steps.errors(&best, contact.problem().load(), eta);
+        } else {
+            steps.last = None;
+            in_vain += 1;
+        }
+        if !(least > aim) || in_vain >= MOST_IN_VAIN {
+            break;
+        }
+        newton.is_good = in_vain == 0 && steps.contraction <= STILL_GOOD;
+        let Some((step, orientation)) = newton.step(&v, &force) else { break };
+        best.orientation = orientation;
+        steps.begin(eta, &step);
+        for ((d, low), step) in d.iter_mut().zip(&mut low).zip(&step) {
+            let (sum, lost) = two_sum(*d, *step);
+            (*d, *low) = two_sum(sum, lost + *low);
+        }
+    }
+    best.effort.factorisations += newton.factorisations;
+    best
+}
+
+/// Changes by the steps of a refinement, beside the residuals from which they began: how large an error
+/// a residual stands for.
+#[derive(Default)]
+struct Steps {
+    /// `eta` where the last step began, and its largest change of a displacement.
+    last: Option<(f64, f64)>,
+    /// The last contraction of `eta` by a step.
+    contraction: f64,
+    /// Largest changes of a displacement and of a force, over the `eta` at which the step began.
+    gain: Errors,
+}
+
+impl Steps {
+    fn begin(&mut self, eta: f64, step: &[f64]) {
+        self.last = Some((eta, norm_inf(step)));
+    }
+
+    /// The forces before the step and now, with `eta`.
+    fn arrived(&mut self, (before, now): (&[f64], &[f64]), eta: f64) {
+        let Some((from, step)) = self.last.take() else { return };
+        let change = largest_of(before.iter().zip(now).map(|(before, now)| before - now));
+        self.contraction = eta / from;
+        self.gain.d = self.gain.d.max(step / from);
+        self.gain.force = self.gain.force.max(change / from);
+    }
+
+    /// The errors that are left with the residual `eta` and its rounding, beside the rounding of the answer.
+    fn errors(&self, at: &Candidate, load: &[f64], eta: f64) -> Option<Errors> {
+        let left = (eta + ROUNDING_OF_ETA) / (1.0 - self.contraction);
+        let part = |gain: f64, size: f64| {
+            let error = if gain > 0.0 { gain * left / size } else { 0.0 };
+            error + f64::EPSILON
+        };
+        let forces = norm_inf(at.force()).max(norm_inf(load));
+        let errors =
+            Errors { d: part(self.gain.d, norm_inf(at.d())), force: part(self.gain.force, forces) };
+        let is_known = self.contraction > 0.0 || self.gain.d > 0.0;
+        (is_known && self.contraction < SURE).then_some(errors)
+    }
+}
+
+/// Newton's steps, whose factor is kept.
+struct Newton<'e, 'm> {
+    equations: &'e Equations<'e>,
+    kept: Option<Kept<'e>>,
+    /// True if the last step came near enough for its factor to serve again.
+    is_good: bool,
+    factorisations: u64,
+    /// True if a factorisation or a step was left out as there was no time for it.
+    is_stopped: bool,
+    monitor: &'e Monitor<'m>,
+}
+
+/// A factor, with the coordinates and their pieces at which it was made.
+struct Kept<'e> {
+    system: System<'e>,
+    pieces: Vec<Piece>,
+    y: Vec<Vector>,
+}
+
+impl<'e, 'm> Newton<'e, 'm> {
+    fn on(equations: &'e Equations<'e>, monitor: &'e Monitor<'m>) -> Self {
+        let (kept, is_good, is_stopped) = (None, false, false);
+        Newton { equations, kept, is_good, factorisations: 0, is_stopped, monitor }
+    }
+
+    /// The change of displacements `v` beyond their references that Newton's method wants where they need
+    /// `force`, and the sign of the determinant; `None` if the system is singular, or there is no time.
+    fn step(&mut self, v: &[f64], force: &[f64]) -> Option<(Vec<f64>, i8)> {
+        let (equations, dim) = (self.equations, self.equations.dim);
+        let y = equations.coordinates(v, force);
+        let pieces = equations.pieces(&y);
+        let parts = v.chunks_exact(dim).zip(force.chunks_exact(dim));
+        let mut distance = Vec::with_capacity(v.len());
+        let mut change = Vec::with_capacity(v.len());
+        for (((law, &piece), y), (v, force)) in
+            equations.laws.iter().zip(&pieces).zip(&y).zip(parts)
+        {
+            let apart = law.distance_to_piece(piece, y, v, force);
+            distance.extend_from_slice(&apart[..dim]);
+            change.extend(law.displacement_by(&apart)[..dim].iter().map(|by| -by));
+        }
+        let mut lack = distance;
+        equations.matrix.add_product(&change, &mut lack);
+        let kept = self.factor(pieces, y)?;
+        let (steps, _) = kept.system.step(&lack, 0.0)?;
+        let laws = equations.laws.iter().zip(&kept.pieces).zip(&kept.y);
+        for ((((law, &piece), y), dy), change) in laws.zip(&steps).zip(change.chunks_exact_mut(dim))
+        {
+            let derivative = law.derivative_on(piece, y);
+            let by: Vector = std::array::from_fn(|row| {
+                dy[row] - (0..dim).map(|column| derivative[row][column] * dy[column]).sum::<f64>()
+            });
+            let moved = law.displacement_by(&by);
+            change.iter_mut().zip(moved).for_each(|(change, moved)| *change += moved);
+        }
+        Some((change, kept.system.orientation()))
+    }
+
+    /// The kept factor if it serves at these coordinates, otherwise theirs if there is time for it.
+    fn factor(&mut self, pieces: Vec<Piece>, y: Vec<Vector>) -> Option<&mut Kept<'e>> {
+        let (equations, is_good) = (self.equations, self.is_good);
+        let serves = |kept: &Kept<'_>| {
+            kept.pieces == pieces && (is_good || is_same(equations, &pieces, [&kept.y, &y]))
+        };
+        if !self.kept.as_ref().is_some_and(serves) {
+            if !self.monitor.has_time_for(System::work(equations, &pieces)) {
+                self.is_stopped = true;
+                return None;
+            }
+            self.factorisations += 1;
+            let pairs = equations.linearised(&pieces, &y);
+            let system = System::of_pairs(equations, pairs, 1.0, None, NULL_VECTOR)?;
+            self.kept = Some(Kept { system, pieces, y });
+        }
+        self.kept.as_mut()
+    }
+}
+
+/// True if the derivatives of the pieces are the same at two places up to rounding.
+fn is_same(equations: &Equations<'_>, pieces: &[Piece], y: [&[Vector]; 2]) -> bool {
+    let places = equations.laws.iter().zip(pieces).zip(y[0].iter().zip(y[1]));
+    let mut entries = places.flat_map(|((law, &piece), (one, other))| {
+        let [one, other] = [one, other].map(|y| law.derivative_on(piece, y));
+        one.into_iter().flatten().zip(other.into_iter().flatten())
+    });
+    entries.all(|(one, other)| (one - other).abs() <= SAME * one.abs().max(1.0))
+}

@@ -1,0 +1,190 @@
+//! A load case on bodies whose stiffness is not formed: its solution, and the measure of a result.
+
+use super::attempts;
+use super::point::{Displacements, Equations, REFINEMENTS};
+use super::session::Session;
+use crate::certificate::{Certificate, measure_spread};
+use crate::error::{Argument, Error};
+use crate::law::{Contact, gaps_within_reach};
+use crate::monitor::Monitor;
+use crate::problem::{ContactProblem, FrictionLaw, MatrixFree, StiffnessOperator};
+use crate::settings::{Method, Search, Settings};
+use crate::solve::plan::FAR;
+use crate::solve::result::Ending;
+use crate::solve::result::of_problem;
+use crate::solve::result::{Solution, Status};
+
+/// A load case on such bodies.
+pub struct Case<'a> {
+    /// Components of a pair.
+    pub dim: usize,
+    /// Loads of all unknowns of the bodies.
+    pub load: &'a [f64],
+    pub gap: &'a [f64],
+    pub law: FrictionLaw<'a>,
+    pub reference_slip: Option<&'a [f64]>,
+}
+
+/// Refuses settings that need a stiffness.
+fn check(settings: &Settings) -> Result<(), Error> {
+    settings.validate()?;
+    let refuse = |what: &str| {
+        let message =
+            format!("settings: {what} needs the condensed matrix, which this model does not form");
+        Err(Error::invalid(Argument::Settings, message))
+    };
+    if !matches!(settings.method, Method::Auto | Method::Newton) {
+        return refuse("a method other than auto and Newton's");
+    }
+    if settings.search == Search::Others {
+        return refuse("the search for other solutions");
+    }
+    if settings.proof {
+        return refuse("a proof that the solution exists");
+    }
+    Ok(())
+}
+
+/// Solves a load case from the displacements `start` (the pairs stuck at their gaps if `None`).
+///
+/// # Errors
+/// Settings that need a stiffness, arguments out of range, memory that cannot be had, and what has failed in the host.
+pub fn solve(
+    bodies: &mut dyn StiffnessOperator,
+    case: &Case<'_>,
+    settings: &Settings,
+    start: Option<&[f64]>,
+    monitor: &mut Monitor<'_>,
+) -> Result<Solution, Error> {
+    check(settings)?;
+    let mut bodies = Session::new(bodies);
+    let loaded = Loaded::new(&mut bodies, case)?;
+    let whole = loaded.problem(&bodies, case.gap)?;
+    let contact = Contact::new(&whole);
+    let mut solution = None;
+    if let Some(gaps) = gaps_within_reach(&contact, &[], FAR) {
+        let near = loaded.problem(&bodies, &gaps)?;
+        let near = Contact::new(&near);
+        let found = loaded.solve((&contact, &near), &mut bodies, (settings, start), monitor)?;
+        solution = Some(found).filter(|found| found.status != Status::Stalled);
+    }
+    let solution = match solution {
+        Some(solution) => solution,
+        None => loaded.solve((&contact, &contact), &mut bodies, (settings, start), monitor)?,
+    };
+    let Session { solutions, factorisations, .. } = bodies;
+    Ok(Solution { factorisations, outer_iterations: solutions, ..solution })
+}
+
+/// Measures displacements `d` of the pairs, of any origin, on a load case.
+///
+/// # Errors
+/// As [`solve`].
+pub fn certify(
+    bodies: &mut dyn StiffnessOperator,
+    case: &Case<'_>,
+    d: &[f64],
+) -> Result<Certificate, Error> {
+    let mut bodies = Session::new(bodies);
+    let loaded = Loaded::new(&mut bodies, case)?;
+    let problem = loaded.problem(&bodies, case.gap)?;
+    let mut at = loaded.at_zero.clone();
+    at.x[bodies.operator.inner()..].copy_from_slice(d);
+    for _ in 0..REFINEMENTS {
+        at = at.in_equilibrium(&mut bodies, case.load)?;
+    }
+    let residual = bodies.operator.residual(&at.x, &at.low, case.load)?;
+    Ok(measure_spread(&Contact::new(&problem), bodies.operator, &at.x, &residual))
+}
+
+/// A load case with what the bodies say of it where all pairs are held.
+struct Loaded<'a> {
+    case: &'a Case<'a>,
+    /// Displacements where those of the pairs are zero.
+    at_zero: Displacements,
+    /// The residual there.
+    residual: Vec<f64>,
+    /// The relative loads: minus the forces on the pairs there.
+    relative: Vec<f64>,
+}
+
+impl<'a> Loaded<'a> {
+    fn new(bodies: &mut Session<'_>, case: &'a Case<'a>) -> Result<Self, Error> {
+        bodies.hold_all(case.dim)?;
+        let inner = bodies.operator.inner();
+        let at_zero = Displacements::new(vec![0.0; case.load.len()], inner);
+        let at_zero = at_zero.in_equilibrium(bodies, case.load)?;
+        let residual = bodies.operator.residual(&at_zero.x, &at_zero.low, case.load)?;
+        let relative = residual[inner..].iter().map(|f| -f).collect();
+        Ok(Loaded { case, at_zero, residual, relative })
+    }
+
+    /// The contact problem with these gaps.
+    fn problem<'p>(
+        &'p self,
+        bodies: &Session<'_>,
+        gap: &'p [f64],
+    ) -> Result<ContactProblem<'p, MatrixFree<'p>>, Error> {
+        let Case { dim, law, reference_slip, .. } = *self.case;
+        let relation = MatrixFree::new(bodies.operator, dim, &self.relative);
+        ContactProblem::with_relation(relation, dim, gap, law, reference_slip)
+    }
+
+    /// Solves the contact `near`, and measures the result on `contact`, which has further obstacles.
+    fn solve(
+        &self,
+        (contact, near): (&Contact<'_, MatrixFree<'_>>, &Contact<'_, MatrixFree<'_>>),
+        bodies: &mut Session<'_>,
+        (settings, start): (&Settings, Option<&[f64]>),
+        monitor: &mut Monitor<'_>,
+    ) -> Result<Solution, Error> {
+        let (inner, load, mut at) = (bodies.operator.inner(), self.case.load, self.at_zero.clone());
+        let measure = |bodies: &Session<'_>, x: &[f64], residual: &[f64]| {
+            measure_spread(contact, bodies.operator, x, residual)
+        };
+        if contact.is_unloaded() {
+            let certificate = measure(bodies, &at.x, &self.residual);
+            if certificate.holds(settings.tolerance) {
+                let d = at.x.split_off(inner);
+                return Ok(result(contact, settings, d, certificate, &Ending::Done));
+            }
+        }
+        bodies.hold_all(self.case.dim)?;
+        let references = near.pairs().iter().flat_map(|law| {
+            let reference = law.reference();
+            reference.into_iter().take(self.case.dim)
+        });
+        match start {
+            Some(start) => at.x[inner..].copy_from_slice(&near.admissible(start)),
+            None => at.x[inner..].iter_mut().zip(references).for_each(|(x, held)| *x = held),
+        }
+        let at = at.in_equilibrium(bodies, load)?;
+        let equations = Equations::new(near, bodies.operator, load, &self.relative);
+        let ended = attempts::solve(&equations, bodies, &at, settings.tolerance, monitor)?;
+        let (mut x, residual) = (ended.point.at.x, ended.point.residual);
+        let certificate = measure(bodies, &x, &residual);
+        Ok(result(contact, settings, x.split_off(inner), certificate, &ended.ending))
+    }
+}
+
+/// The result at displacements `d` of the pairs, by its certificate.
+fn result(
+    contact: &Contact<'_, MatrixFree<'_>>,
+    settings: &Settings,
+    d: Vec<f64>,
+    certificate: Certificate,
+    ending: &Ending,
+) -> Solution {
+    let certificate = certificate.with_rounding(settings.tolerance);
+    let accuracy = format!("eta is {:.1e}", certificate.eta);
+    let wanted = format!("{accuracy}, wanted {:.1e}", settings.tolerance);
+    let told = match ending {
+        _ if certificate.holds(settings.tolerance) => {
+            (Status::Solved, format!("solved: {accuracy}"))
+        }
+        Ending::Stopped(stop) => stop.status(settings, &wanted),
+        ending => (Status::Stalled, format!("{}; {wanted}", ending.reason(&certificate))),
+    };
+    let remarks = of_problem(contact.problem());
+    Solution { remarks, ..Solution::of(Method::Newton, told, d, certificate) }
+}

@@ -1,0 +1,171 @@
+//! A point of the law on bodies whose stiffness is not formed, with what it lacks to equilibrium.
+
+use super::session::Session;
+use crate::error::Error;
+use crate::law::{Contact, Piece, Vector};
+use crate::linalg::double_double::two_sum;
+use crate::linalg::vector::{NormSum, norm};
+use crate::problem::{MatrixFree, StiffnessOperator};
+
+/// Solutions for unknowns in equilibrium, each with the residual of the one before: what is left is rounding.
+pub const REFINEMENTS: usize = 2;
+
+/// The equations `A x - b + (0, P) = 0` with `(d, P)` on the law of each pair.
+pub struct Equations<'a> {
+    pub contact: &'a Contact<'a, MatrixFree<'a>>,
+    /// `b`, of all unknowns.
+    pub load: &'a [f64],
+    /// Number of inner unknowns.
+    pub inner: usize,
+    /// Roots of the units of all unknowns.
+    pub root: Vec<f64>,
+    /// Size of the relative loads, a force.
+    pub unit: f64,
+}
+
+impl<'a> Equations<'a> {
+    pub fn new(
+        contact: &'a Contact<'a, MatrixFree<'a>>,
+        bodies: &dyn StiffnessOperator,
+        load: &'a [f64],
+        relative: &[f64],
+    ) -> Self {
+        let mut root: Vec<f64> = bodies.units().iter().map(|unit| unit.sqrt()).collect();
+        let scales =
+            contact.pairs().iter().flat_map(|law| law.scale().into_iter().take(contact.dim()));
+        root[bodies.inner()..].iter_mut().zip(scales).for_each(|(root, k)| *root = k.sqrt());
+        Equations { contact, load, inner: bodies.inner(), root, unit: norm(relative) }
+    }
+
+    /// These equations with other laws on the pairs.
+    pub fn with<'b>(&'b self, contact: &'b Contact<'b, MatrixFree<'b>>) -> Equations<'b> {
+        Equations { contact, root: self.root.clone(), ..*self }
+    }
+
+    /// Length of a vector of forces on all unknowns, each in its unit.
+    pub fn length(&self, forces: &[f64]) -> f64 {
+        let mut sum = NormSum::default();
+        forces.iter().zip(&self.root).for_each(|(force, root)| sum.add(force / root));
+        sum.root()
+    }
+
+    /// `eta` of displacements of all unknowns with their residual.
+    fn eta(&self, x: &[f64], residual: &[f64]) -> f64 {
+        let (inner, raw) = residual.split_at(self.inner);
+        let mut sum = NormSum::default();
+        inner.iter().for_each(|&lack| sum.add(lack));
+        let mut natural = [0.0; 3];
+        for (law, d, raw) in self.contact.each(&x[self.inner..], raw) {
+            law.natural_residual(d, raw, &mut natural);
+            natural[..d.len()].iter().for_each(|&e| sum.add(e));
+        }
+        sum.root() / self.unit.max(norm(raw))
+    }
+
+    /// The point whose contact forces are those that hold the pairs at displacements of which the inner ones are in
+    /// equilibrium.
+    pub fn held_at(&self, at: Displacements, bodies: &mut Session<'_>) -> Result<Point, Error> {
+        let residual = bodies.operator.residual(&at.x, &at.low, self.load)?;
+        let forces = &residual[self.inner..];
+        let y = self.contact.each(&at.x[self.inner..], forces).map(|(law, d, f)| law.chart(d, f));
+        let y = y.collect();
+        self.point(bodies, at, y, None)
+    }
+
+    /// The point at `y`, with the inner unknowns of `at`; `known` is the residual at `at`, if it is known.
+    pub fn point(
+        &self,
+        bodies: &mut Session<'_>,
+        mut at: Displacements,
+        y: Vec<Vector>,
+        known: Option<Vec<f64>>,
+    ) -> Result<Point, Error> {
+        let dim = self.contact.dim();
+        let x = &mut at.x;
+        let (mut pieces, mut push) = (Vec::with_capacity(y.len()), vec![0.0; x.len()]);
+        let mut apart = vec![0.0; x.len()];
+        for (pair, (law, y)) in self.contact.pairs().iter().zip(&y).enumerate() {
+            let piece = law.piece(y);
+            let p = law.push_on(piece, y);
+            let d = law.displacement(y, &p);
+            for (c, i) in (self.inner + dim * pair..self.inner + dim * (pair + 1)).enumerate() {
+                (push[i], apart[i]) = (p[c], d[c] - x[i]);
+                x[i] = d[c];
+            }
+            pieces.push(piece);
+        }
+        let residual = match known {
+            Some(mut residual) if apart.iter().any(|apart| *apart != 0.0) => {
+                let product = bodies.operator.product(&apart)?;
+                residual.iter_mut().zip(product).for_each(|(sum, product)| *sum += product);
+                residual
+            }
+            Some(residual) => residual,
+            None => bodies.operator.residual(&at.x, &at.low, self.load)?,
+        };
+        let lack: Vec<f64> = residual.iter().zip(&push).map(|(r, p)| r + p).collect();
+        let (merit, eta) = (self.length(&lack), self.eta(&at.x, &residual));
+        Ok(Point { y, pieces, at, residual, lack, merit, eta })
+    }
+}
+
+/// Displacements of all unknowns. A double cannot hold inner ones to the accuracy that forces on a fine mesh ask
+/// for, so that they have two parts.
+#[derive(Clone)]
+pub struct Displacements {
+    /// All unknowns.
+    pub x: Vec<f64>,
+    /// The part of the inner ones that rounding to doubles has left out.
+    pub low: Vec<f64>,
+}
+
+impl Displacements {
+    /// Displacements of which the first `inner` belong to inner unknowns.
+    pub fn new(x: Vec<f64>, inner: usize) -> Self {
+        Displacements { x, low: vec![0.0; inner] }
+    }
+
+    /// With their inner unknowns in equilibrium; all components of the pairs are held.
+    pub fn in_equilibrium(self, bodies: &mut Session<'_>, load: &[f64]) -> Result<Self, Error> {
+        let inner = self.low.len();
+        if inner == 0 {
+            return Ok(self);
+        }
+        let lack = bodies.operator.residual(&self.x, &self.low, load)?;
+        let mut step = bodies.solve(&lack)?;
+        step[inner..].fill(0.0);
+        Ok(self.moved(-1.0, &step))
+    }
+
+    /// A `part` of `step` further.
+    pub fn moved(&self, part: f64, step: &[f64]) -> Self {
+        let mut next = self.clone();
+        let (inner, pairs) = next.x.split_at_mut(self.low.len());
+        for ((x, low), step) in inner.iter_mut().zip(&mut next.low).zip(step) {
+            let (sum, lost) = two_sum(*x, part * step);
+            (*x, *low) = two_sum(sum, lost + *low);
+        }
+        let steps = &step[self.low.len()..];
+        pairs.iter_mut().zip(steps).for_each(|(x, step)| *x += part * step);
+        next
+    }
+}
+
+/// A point of the law.
+#[derive(Clone)]
+pub struct Point {
+    /// The coordinates on the chart of the law, pair by pair.
+    pub y: Vec<Vector>,
+    /// The pieces on which they are.
+    pub pieces: Vec<Piece>,
+    /// Displacements of all unknowns.
+    pub at: Displacements,
+    /// `A x - b`.
+    pub residual: Vec<f64>,
+    /// `A x - b + (0, P)`, zero at solutions.
+    pub lack: Vec<f64>,
+    /// Length of the lack.
+    pub merit: f64,
+    /// As the certificate measures it.
+    pub eta: f64,
+}

@@ -1,0 +1,53 @@
+//! Coulomb's law as a sequence of problems with given thresholds (paper, section 2.1, `g <- mu |F_n|`), each by
+//! Newton's method, which has one solution to find then, and Newton's method for the law itself from where each of
+//! them ends.
+
+use super::newton::{self, Outcome, improve};
+use super::point::{Displacements, Equations, Point};
+use super::session::{Halted, Session};
+use crate::law::Contact;
+use crate::monitor::Monitor;
+use crate::problem::MatrixFree;
+use crate::solve::result::Ending;
+
+/// Most problems with given thresholds.
+const ROUNDS: usize = 4;
+
+/// Tolerance of one: its solution is a start alone.
+const ROUGH: f64 = 1e-3;
+
+/// Goes on from a first try that has failed; `start` has its inner unknowns in equilibrium.
+pub fn solve(
+    equations: &Equations<'_>,
+    bodies: &mut Session<'_>,
+    start: &Displacements,
+    best: &mut Outcome,
+    tolerance: f64,
+    monitor: &mut Monitor<'_>,
+) -> Result<(), Halted> {
+    if !equations.contact.is_coupled() {
+        return Ok(());
+    }
+    let mut point = equations.held_at(start.clone(), bodies)?;
+    for _ in 0..ROUNDS {
+        let mut contact: Contact<'_, MatrixFree<'_>> = equations.contact.clone();
+        contact.set_thresholds(&thresholds(equations, &point));
+        let given = equations.with(&contact);
+        let from = given.held_at(point.at, bodies)?;
+        let between = newton::solve(&given, bodies, from, ROUGH, monitor)?;
+        if let Ending::Stopped(stop) = between.ending {
+            return Err(stop.into());
+        }
+        point = equations.held_at(between.point.at, bodies)?;
+        if improve(best, newton::solve(equations, bodies, point.clone(), tolerance, monitor)?) {
+            break;
+        }
+    }
+    Ok(())
+}
+
+/// The friction that the pairs can carry under the forces at a point.
+fn thresholds(equations: &Equations<'_>, point: &Point) -> Vec<f64> {
+    let (d, forces) = (&point.at.x[equations.inner..], &point.residual[equations.inner..]);
+    equations.contact.each(d, forces).map(|(law, _, force)| law.threshold(force[0])).collect()
+}

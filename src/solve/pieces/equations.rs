@@ -1,0 +1,145 @@
+//! The equations `K d - f + P = 0` with `(d, P)` on the law of each pair, and a point of them.
+
+use std::borrow::Cow;
+
+use crate::law::Piece;
+use crate::law::{Contact, Linearised, PairLaw, Vector};
+use crate::linalg::matrix::Matrix;
+use crate::linalg::vector::{NormSum, norm};
+
+/// The equations of some pairs: of a whole problem, or of what is left of one when others are
+/// eliminated.
+pub struct Equations<'a> {
+    /// Components of a pair.
+    pub dim: usize,
+    /// `K`.
+    pub matrix: Matrix<'a>,
+    /// True if `K` is symmetric.
+    pub symmetric: bool,
+    /// `f`.
+    pub load: Cow<'a, [f64]>,
+    /// The laws, pair by pair.
+    pub laws: Cow<'a, [PairLaw]>,
+    /// Roots of the stiffnesses that scale the components: `y / root` and `root d` are of one unit.
+    pub root: Vec<f64>,
+    /// Size of the loads of the whole problem, as `eta` measures it; a force.
+    pub unit: f64,
+}
+
+impl<'a> Equations<'a> {
+    /// The equations of a whole problem.
+    pub fn of(contact: &'a Contact<'a>) -> Self {
+        let problem = contact.problem();
+        let (load, laws) = (Cow::Borrowed(problem.load()), Cow::Borrowed(contact.pairs()));
+        let matrix = problem.stiffness();
+        let equations = Self::new(contact.dim(), matrix, load, laws, norm(problem.load()));
+        Equations { symmetric: problem.is_symmetric(), ..equations }
+    }
+
+    /// The equations of `laws` with their symmetric matrix and load.
+    pub fn new(
+        dim: usize,
+        matrix: Matrix<'a>,
+        load: Cow<'a, [f64]>,
+        laws: Cow<'a, [PairLaw]>,
+        unit: f64,
+    ) -> Self {
+        let root = laws.iter().flat_map(|law| law.scale().into_iter().take(dim));
+        let root = root.map(f64::sqrt).collect();
+        Equations { dim, matrix, symmetric: true, load, laws, root, unit }
+    }
+
+    /// `K d - f`.
+    pub fn force(&self, d: &[f64]) -> Vec<f64> {
+        let mut force: Vec<f64> = self.load.iter().map(|f| -f).collect();
+        self.matrix.add_product(d, &mut force);
+        force
+    }
+
+    /// The pieces on which the coordinates `y` are.
+    pub fn pieces(&self, y: &[Vector]) -> Vec<Piece> {
+        self.laws.iter().zip(y).map(|(law, y)| law.piece(y)).collect()
+    }
+
+    /// The pairs on given pieces at the coordinates `y`, to first order.
+    pub fn linearised(&self, pieces: &[Piece], y: &[Vector]) -> Vec<Linearised> {
+        let places = self.laws.iter().zip(pieces.iter().zip(y));
+        places.map(|(law, (&piece, y))| law.linearised(piece, y)).collect()
+    }
+
+    /// The vectors of the pairs from a vector of all components.
+    pub fn by_pairs(&self, values: &[f64]) -> Vec<Vector> {
+        let of_pair = |own: &[f64]| std::array::from_fn(|c| own.get(c).copied().unwrap_or(0.0));
+        values.chunks_exact(self.dim).map(of_pair).collect()
+    }
+
+    /// The coordinates of displacements and the force that they need.
+    pub fn coordinates(&self, d: &[f64], force: &[f64]) -> Vec<Vector> {
+        let parts = d.chunks_exact(self.dim).zip(force.chunks_exact(self.dim));
+        self.laws.iter().zip(parts).map(|(law, (d, force))| law.chart(d, force)).collect()
+    }
+
+    /// Displacements and pushes at coordinates on given pieces.
+    pub fn values(&self, pieces: &[Piece], y: &[Vector]) -> (Vec<f64>, Vec<f64>) {
+        let size = self.root.len();
+        let (mut d, mut push) = (Vec::with_capacity(size), Vec::with_capacity(size));
+        for ((law, y), &piece) in self.laws.iter().zip(y).zip(pieces) {
+            let p = law.push_on(piece, y);
+            d.extend_from_slice(&law.displacement(y, &p)[..self.dim]);
+            push.extend_from_slice(&p[..self.dim]);
+        }
+        (d, push)
+    }
+
+    /// Length of a vector of forces, each in the unit of its component.
+    pub fn length(&self, force: &[f64]) -> f64 {
+        let mut sum = NormSum::default();
+        force.iter().zip(&self.root).for_each(|(force, root)| sum.add(force / root));
+        sum.root()
+    }
+
+    /// `eta` of displacements with the force that they need: as the certificate measures it.
+    pub fn eta(&self, d: &[f64], force: &[f64]) -> f64 {
+        let mut sum = NormSum::default();
+        let mut residual = [0.0; 3];
+        let parts = d.chunks_exact(self.dim).zip(force.chunks_exact(self.dim));
+        for (law, (d, force)) in self.laws.iter().zip(parts) {
+            law.natural_residual(d, force, &mut residual);
+            residual[..self.dim].iter().for_each(|&e| sum.add(e));
+        }
+        let size = sum.root();
+        if size == 0.0 { 0.0 } else { size / self.unit.max(norm(force)) }
+    }
+}
+
+/// A point of the law with its lack of equilibrium.
+pub struct Point {
+    /// The coordinates, pair by pair.
+    pub y: Vec<Vector>,
+    /// The pieces on which they are.
+    pub pieces: Vec<Piece>,
+    /// Displacements.
+    pub d: Vec<f64>,
+    /// `K d - f`: the contact force that equilibrium needs.
+    pub force: Vec<f64>,
+    /// `H = K d - f + P`, zero at solutions.
+    pub lack: Vec<f64>,
+    /// Length of `H`.
+    pub merit: f64,
+}
+
+impl Point {
+    /// The point at `y`.
+    pub fn new(equations: &Equations<'_>, y: Vec<Vector>) -> Self {
+        Self::on(equations, equations.pieces(&y), y)
+    }
+
+    /// The point at `y` on given pieces.
+    pub fn on(equations: &Equations<'_>, pieces: Vec<Piece>, y: Vec<Vector>) -> Self {
+        let (d, push) = equations.values(&pieces, &y);
+        let force = equations.force(&d);
+        let lack: Vec<f64> = force.iter().zip(&push).map(|(force, p)| force + p).collect();
+        let merit = equations.length(&lack);
+        Point { y, pieces, d, force, lack, merit }
+    }
+}

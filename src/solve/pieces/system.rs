@@ -1,0 +1,315 @@
+//! The linear system of given pieces: Newton's step on the normal map, condensed on the components that
+//! move, and bordered by the parameter of a homotopy.
+//!
+//! With `K_s = s K + (1 - s) k` (`s = 1`: the problem itself) `J dy = b`, for a step `b = -H`, is reduced to the
+//! unknowns of each pair (`law::slopes`), the normal components of open pairs and the tangential ones of pairs that
+//! slip or carry no friction:
+//!
+//! ```text
+//! dp = (b - K_s dd - g ds)_n                                                            closed
+//! (K_s dd + g ds)_n = b_n                                                               open
+//! (K_s dd + g ds)_t - drag (K_s dd + g ds)_n + turn x = b_t - drag b_n,     g = dH/ds    slipping
+//! ```
+//!
+//! `k` is a number of the pair under an isotropic law, and a symmetric matrix with an ellipse.
+//!
+//! Nothing is divided by the slip. The sign of the determinant is that of `J`, or of `J` bordered: the
+//! components that are eliminated have the pivot 1.
+
+use super::equations::Equations;
+use crate::law::Piece;
+use crate::law::{Assembly, Linearised, Slopes, Unknown, Vector};
+use crate::linalg::factor::{Factor, lu_work, subtract_product};
+use crate::linalg::tolerances::SINGULAR;
+use crate::linalg::vector::dot;
+
+/// The border of a system: `border . (dy, ds) = wanted`.
+pub struct Border<'b> {
+    /// `g = dH/ds`.
+    pub rate: &'b [f64],
+    /// Coefficients of `dy`, pair by pair.
+    pub normal: &'b [Vector],
+    /// Coefficient of `ds`.
+    pub along: f64,
+    /// Unit of `ds` divided by that of scaled forces: it makes the border as large as the rest.
+    pub unit: f64,
+}
+
+/// A factorised system.
+pub struct System<'e> {
+    equations: &'e Equations<'e>,
+    s: f64,
+    pairs: Vec<Linearised>,
+    slopes: Vec<Slopes>,
+    unknowns: Vec<Unknown>,
+    /// Components that are no unknowns, and the row of `K` of each with the columns of the unknowns.
+    held: Vec<usize>,
+    rows: Vec<f64>,
+    factor: Factor,
+    border: Option<Bordered>,
+}
+
+/// The border that a system keeps: `g`, coefficients of the reactions, and the unit of the last row and of `ds`.
+struct Bordered {
+    rate: Vec<f64>,
+    reactions: Vec<f64>,
+    row_scale: f64,
+    column_scale: f64,
+}
+
+impl<'e> System<'e> {
+    /// Operations of a factorisation on given pieces.
+    pub fn work(equations: &Equations<'_>, pieces: &[Piece]) -> f64 {
+        let unknowns = |piece: &Piece| {
+            usize::from(!piece.closed) + if piece.slips() { equations.dim - 1 } else { 0 }
+        };
+        lu_work(pieces.iter().map(unknowns).sum())
+    }
+
+    /// Factorises the system at the coordinates `y` on given pieces; `None` if it is singular.
+    pub fn new(
+        equations: &'e Equations<'e>,
+        (pieces, y): (&[Piece], &[Vector]),
+        s: f64,
+        border: Option<&Border<'_>>,
+    ) -> Option<Self> {
+        Self::of_pairs(equations, equations.linearised(pieces, y), s, border, SINGULAR)
+    }
+
+    /// Factorises the system of pairs on their pieces; pivots below `least`, relative to the largest, make it
+    /// singular.
+    pub fn of_pairs(
+        equations: &'e Equations<'e>,
+        pairs: Vec<Linearised>,
+        s: f64,
+        border: Option<&Border<'_>>,
+        least: f64,
+    ) -> Option<Self> {
+        let (dim, root) = (equations.dim, &equations.root);
+        let (mut unknowns, mut held) = (Vec::new(), Vec::new());
+        for (i, root) in root.iter().enumerate() {
+            let (pair, component) = (i / dim, i % dim);
+            match pairs[pair].moves(component) {
+                true => {
+                    let unit = root.recip();
+                    unknowns.push(Unknown { pair, component, row: unit, column: unit });
+                }
+                false => held.push(i),
+            }
+        }
+        let slopes: Vec<Slopes> = pairs.iter().map(|pair| pair.slopes).collect();
+        let assembly =
+            Assembly { dim, matrix: equations.matrix, unknowns: &unknowns, slopes: &slopes };
+        let coefficients = Coefficients { equations, assembly, pairs: &pairs, s, least };
+        let (factor, border) = match border {
+            None => (coefficients.factor()?, None),
+            Some(border) => {
+                let (factor, bordered) = coefficients.bordered(border)?;
+                (factor, Some(bordered))
+            }
+        };
+        let rows = rows(equations, &held, &unknowns);
+        Some(System { equations, s, pairs, slopes, unknowns, held, rows, factor, border })
+    }
+
+    /// Sign of the determinant.
+    pub fn orientation(&self) -> i8 {
+        self.factor.sign()
+    }
+
+    /// Number of unknowns.
+    pub fn size(&self) -> usize {
+        self.unknowns.len()
+    }
+
+    /// `(dy, ds)` for the lack `H` and what the border wants, 0 without one; `None` if it overflows.
+    pub fn step(&mut self, lack: &[f64], wanted: f64) -> Option<(Vec<Vector>, f64)> {
+        let mut b: Vec<f64> = lack.iter().map(|lack| -lack).collect();
+        let mut x = self.right_sides(&b);
+        if let Some(border) = &self.border {
+            x.push((wanted - dot(&border.reactions, &b)) * border.row_scale);
+        }
+        self.factor.solve(&mut x);
+        if !x.iter().all(|x| x.is_finite()) {
+            return None;
+        }
+        let mut ds = 0.0;
+        if let (Some(border), Some(last)) = (&self.border, x.get(self.unknowns.len())) {
+            ds = border.column_scale * last;
+            x.truncate(self.unknowns.len());
+            b.iter_mut().zip(&border.rate).for_each(|(b, rate)| *b -= rate * ds);
+        }
+        let dy = self.coordinates(&b, &x);
+        Some((self.equations.by_pairs(&dy), ds))
+    }
+
+    /// `J⁻¹ b` for each column of `b`, without a border.
+    pub fn solve(&mut self, b: &[f64]) -> Vec<f64> {
+        let mut x = self.right_sides(b);
+        self.factor.solve(&mut x);
+        self.coordinates(b, &x)
+    }
+
+    /// The right-hand sides of the unknowns for each column of `b`.
+    fn right_sides(&self, b: &[f64]) -> Vec<f64> {
+        let dim = self.equations.dim;
+        let mut sides = Vec::with_capacity(self.unknowns.len() + 1);
+        for b in b.chunks_exact(self.equations.root.len().max(1)) {
+            sides.extend(self.unknowns.iter().map(|unknown| {
+                let at = dim * unknown.pair;
+                let dragged = match unknown.component {
+                    0 => 0.0,
+                    c => self.slopes[unknown.pair].drag[c - 1] * b[at],
+                };
+                (b[at + unknown.component] - dragged) * unknown.row
+            }));
+        }
+        sides
+    }
+
+    /// `dy` from the unknowns, for each column of `b`.
+    fn coordinates(&self, b: &[f64], x: &[f64]) -> Vec<f64> {
+        let (dim, size, count) = (self.equations.dim, self.equations.root.len(), self.size());
+        let mut pushes = Vec::with_capacity(b.len() / size.max(1) * self.held.len());
+        for b in b.chunks_exact(size.max(1)) {
+            pushes.extend(self.held.iter().map(|&i| b[i]));
+        }
+        let mut moved = x.to_vec();
+        moved.chunks_exact_mut(count.max(1)).for_each(|moved| self.displace(moved));
+        subtract_product(&mut pushes, &self.rows, &moved, count);
+        let mut dy = Vec::with_capacity(b.len());
+        let (mut x, mut pushes) = (x.iter().zip(self.unknowns.iter().cycle()), pushes.iter());
+        for _ in b.chunks_exact(size.max(1)) {
+            for pair in &self.pairs {
+                let (mut own, mut push) = ([0.0; 3], [0.0; 3]);
+                for c in 0..dim {
+                    match pair.moves(c) {
+                        true => own[c] = x.next().map_or(0.0, |(x, unknown)| x * unknown.column),
+                        false => push[c] = pushes.next().copied().unwrap_or(0.0),
+                    }
+                }
+                dy.extend_from_slice(&pair.coordinates(&own, &push)[..dim]);
+            }
+        }
+        dy
+    }
+
+    /// Turns a column of unknowns into `s` times the displacements of the components that move.
+    fn displace(&self, moved: &mut [f64]) {
+        let mut k = 0;
+        while k < moved.len() {
+            let Unknown { pair, component, column, .. } = self.unknowns[k];
+            if component == 0 {
+                moved[k] *= self.s * column;
+                k += 1;
+                continue;
+            }
+            let along = self.equations.dim - 1;
+            let own = std::array::from_fn(|c| match c < along {
+                true => moved[k + c] * self.s * self.unknowns[k + c].column,
+                false => 0.0,
+            });
+            let by = crate::law::ellipse::product(&self.slopes[pair].motion, own);
+            moved[k..k + along].copy_from_slice(&by[..along]);
+            k += along;
+        }
+    }
+}
+
+/// The rows of `K` of the components that are held, each with the columns of the unknowns.
+fn rows(equations: &Equations<'_>, held: &[usize], unknowns: &[Unknown]) -> Vec<f64> {
+    let (dim, matrix) = (equations.dim, equations.matrix);
+    let mut rows = Vec::with_capacity(held.len() * unknowns.len());
+    for &i in held {
+        // The columns of a symmetric matrix are contiguous, its rows are not.
+        let column = equations.symmetric.then(|| matrix.column(i));
+        rows.extend(unknowns.iter().map(|unknown| {
+            let j = dim * unknown.pair + unknown.component;
+            column.map_or_else(|| matrix.at(i, j), |column| column[j])
+        }));
+    }
+    rows
+}
+
+/// The coefficients from which a system is factorised.
+struct Coefficients<'s> {
+    equations: &'s Equations<'s>,
+    assembly: Assembly<'s>,
+    pairs: &'s [Linearised],
+    s: f64,
+    /// Least pivot of a regular system, relative to the largest.
+    least: f64,
+}
+
+impl Coefficients<'_> {
+    /// Writes `K_s dd` for a unit of the unknown `j`, all components.
+    fn image(&self, j: usize, image: &mut [f64]) {
+        self.assembly.image(j, image);
+        if self.s != 1.0 {
+            self.assembly.lead(self.s, self.pairs, j, image);
+        }
+    }
+
+    /// By Cholesky's method where the system is symmetric and definite.
+    fn factor(&self) -> Option<Factor> {
+        let mut image = vec![0.0; self.equations.root.len()];
+        let mut fill = |j: usize, entries: &mut [f64]| {
+            self.image(j, &mut image);
+            self.assembly.coefficients(j, &image, entries);
+        };
+        let size = self.assembly.unknowns.len();
+        let is_plain =
+            self.equations.symmetric && self.assembly.slopes.iter().all(Slopes::is_plain);
+        let definite = match is_plain {
+            true => Factor::with_least_pivot(size, true, self.least, &mut fill),
+            false => None,
+        };
+        definite.or_else(|| Factor::with_least_pivot(size, false, self.least, &mut fill))
+    }
+
+    fn bordered(&self, border: &Border<'_>) -> Option<(Factor, Bordered)> {
+        let (dim, root) = (self.equations.dim, &self.equations.root);
+        let (unknowns, slopes) = (self.assembly.unknowns, self.assembly.slopes);
+        let n = unknowns.len();
+        let reactions = self.reactions(border);
+        let (row_scale, column_scale) = (border.unit.recip(), border.unit);
+        let mut image = vec![0.0; root.len()];
+        let factor = Factor::new(n + 1, false, |j, entries| {
+            if let Some(unknown) = unknowns.get(j) {
+                self.image(j, &mut image);
+                self.assembly.coefficients(j, &image, entries);
+                // k b of the unknown, less what the reactions take.
+                let own = self.pairs[unknown.pair].scaled(&border.normal[unknown.pair]);
+                let row = own[unknown.component] * unknown.column - dot(&reactions, &image);
+                entries[n] = row_scale * row;
+                return;
+            }
+            for (entry, i) in entries.iter_mut().zip(unknowns) {
+                let (at, c) = (dim * i.pair, i.component);
+                let drag = if c == 0 { 0.0 } else { slopes[i.pair].drag[c - 1] };
+                let rate = border.rate[at + c] - drag * border.rate[at];
+                *entry = column_scale * rate * i.row;
+            }
+            entries[n] = row_scale * column_scale * (border.along - dot(&reactions, border.rate));
+        })?;
+        let rate = border.rate.to_vec();
+        Some((factor, Bordered { rate, reactions, row_scale, column_scale }))
+    }
+
+    /// Coefficients of the border on `b - K_s dd - g ds`, which the components follow that are no
+    /// unknowns.
+    fn reactions(&self, border: &Border<'_>) -> Vec<f64> {
+        let dim = self.equations.dim;
+        let mut reactions = vec![0.0; self.equations.root.len()];
+        for (at, (pair, b)) in self.pairs.iter().zip(border.normal).enumerate() {
+            if pair.closed {
+                let dragged: f64 = (1..dim).map(|c| pair.slopes.drag[c - 1] * b[c]).sum();
+                reactions[dim * at] = b[0] + dragged;
+            }
+            if !pair.slips {
+                reactions[dim * at + 1..dim * (at + 1)].copy_from_slice(&b[1..dim]);
+            }
+        }
+        reactions
+    }
+}

@@ -1,0 +1,103 @@
+//! Newton's systems of one point after another. Where the law is linear on each piece, one factor serves the pieces near
+//! by.
+
+use super::equations::Equations;
+use super::system::System;
+use super::updated::Updated;
+use crate::law::{Linearised, Piece, Vector};
+use crate::linalg::tolerances::SINGULAR;
+
+/// Below so many unknowns a new factorisation is cheaper than changes of an old one: measured on the bar on the
+/// plane.
+const SMALL: usize = 64;
+
+/// Most terms of changes, as a part of the unknowns: with more of them they cost as much as a new factorisation.
+const MOST_TERMS: f64 = 0.2;
+
+/// Systems of the same equations.
+pub struct Systems<'e> {
+    equations: &'e Equations<'e>,
+    last: Last<'e>,
+    /// Factorisations so far.
+    pub factorisations: u64,
+}
+
+/// The last system.
+enum Last<'e> {
+    None,
+    /// The system of a point, which serves no other one.
+    OfPoint(System<'e>),
+    /// The system of pieces, which changes of pairs update.
+    OfPieces(Updated<'e>),
+}
+
+impl<'e> Systems<'e> {
+    /// None yet.
+    pub fn of(equations: &'e Equations<'e>) -> Self {
+        Systems { equations, last: Last::None, factorisations: 0 }
+    }
+
+    /// The pairs whose pieces differ from those of the last system, if that can be changed to these.
+    fn changes(&self, pairs: &[Linearised]) -> Option<Vec<(usize, Linearised)>> {
+        let Last::OfPieces(system) = &self.last else { return None };
+        let others = pairs.iter().copied().enumerate();
+        let others: Vec<(usize, Linearised)> =
+            others.filter(|(at, pair)| system.differs(*at, pair)).collect();
+        let terms = (system.age() + system.count(&others)) as f64;
+        let is_near = system.size() >= SMALL && terms <= MOST_TERMS * system.size() as f64;
+        (is_near || others.is_empty()).then_some(others)
+    }
+
+    /// Operations of [`Self::go_to`].
+    pub fn work(&self, pieces: &[Piece], y: &[Vector]) -> f64 {
+        let pairs = self.equations.linearised(pieces, y);
+        match (self.changes(&pairs), &self.last) {
+            (Some(changes), Last::OfPieces(system)) => system.change_work(&changes),
+            _ => System::work(self.equations, pieces),
+        }
+    }
+
+    /// Goes to the system at the coordinates `y` on given pieces; `None` if it is singular.
+    pub fn go_to(&mut self, pieces: &[Piece], y: &[Vector]) -> Option<()> {
+        let equations = self.equations;
+        let pairs = equations.linearised(pieces, y);
+        if let (Some(changes), Last::OfPieces(system)) = (self.changes(&pairs), &mut self.last)
+            && system.change_to(&changes).is_some()
+        {
+            return Some(());
+        }
+        // Two factors never stand side by side.
+        self.last = Last::None;
+        self.factorisations += 1;
+        self.last = match equations.dim {
+            2 => Last::OfPieces(Updated::new(equations, pairs, SINGULAR)?),
+            _ => Last::OfPoint(System::of_pairs(equations, pairs, 1.0, None, SINGULAR)?),
+        };
+        Some(())
+    }
+
+    /// The step of the last system for the lack `H`; `None` if it overflows.
+    pub fn step(&mut self, lack: &[f64]) -> Option<Vec<Vector>> {
+        let b: Vec<f64> = lack.iter().map(|lack| -lack).collect();
+        let dy = match &mut self.last {
+            Last::None => return None,
+            Last::OfPoint(system) => system.solve(&b),
+            Last::OfPieces(system) => system.solve(&b),
+        };
+        dy.iter().all(|dy| dy.is_finite()).then(|| self.equations.by_pairs(&dy))
+    }
+
+    /// Sign of the determinant of the last system.
+    pub fn orientation(&self) -> i8 {
+        match &self.last {
+            Last::None => 0,
+            Last::OfPoint(system) => system.orientation(),
+            Last::OfPieces(system) => system.sign(),
+        }
+    }
+
+    /// True if the last system is one of pieces, on which its solution is exact.
+    pub fn are_of_pieces(&self) -> bool {
+        matches!(self.last, Last::OfPieces(_))
+    }
+}

@@ -1,0 +1,277 @@
+//! A factorised system where the law is linear on each piece, and the systems of other pieces near by.
+//!
+//! Pairs that change their pieces change `V = 1 - dP/dy` by a sum of `u nᵀ` and `J = K V / k + dP/dy` by
+//! `a nᵀ`, `a = (K / k - 1) u`. With the columns `Z = J⁻¹ a` of the changes that are made together, `N` of their `n`, and
+//! `M = 1 + Nᵀ Z`,
+//!
+//! ```text
+//! J'⁻¹ b = J⁻¹ b - Z M⁻¹ Nᵀ J⁻¹ b,    det J' = det M det J
+//! ```
+//!
+//! `Z` is a sum of columns of `J⁻¹ (K / k - 1)` on the pieces that were factorised (`columns`), which pass through the
+//! changes since then in turn, as all solutions do. Pairs that change together pass no system between them, which may
+//! be singular where that of all changes is not.
+
+use super::columns::Columns;
+use super::equations::Equations;
+use super::system::System;
+use crate::law::{Linearised, Planar};
+use crate::linalg::factor::{Factor, lu_work};
+use crate::linalg::simd::subtract_columns;
+use crate::linalg::vector::dot;
+
+/// A term `u nᵀ` of the changes of a pair.
+struct Term {
+    /// First component of the pair.
+    first: usize,
+    u: Planar,
+    n: Planar,
+}
+
+impl Term {
+    /// `n.x`.
+    fn along(&self, x: &[f64]) -> f64 {
+        let second = if self.n[1] == 0.0 { 0.0 } else { self.n[1] * x[self.first + 1] };
+        self.n[0] * x[self.first] + second
+    }
+
+    /// The components of which `u` is made, each with its part.
+    fn parts(&self) -> impl Iterator<Item = (usize, f64)> + use<> {
+        let first = self.first;
+        let parts = self.u.into_iter().enumerate().filter(|(_, u)| *u != 0.0);
+        parts.map(move |(c, u)| (first + c, u))
+    }
+}
+
+/// Changes that are made together.
+pub struct Change {
+    pairs: Vec<(usize, Linearised)>,
+    terms: Vec<Term>,
+    /// `Z`, by columns.
+    z: Vec<f64>,
+    /// `M`, by columns.
+    matrix: Vec<f64>,
+    /// For each term `n.z` of the terms that were made before.
+    before: Vec<Vec<f64>>,
+}
+
+impl Change {
+    /// The first entry of `M`: of a single term the factor by which it changes the determinant.
+    pub fn pivot(&self) -> f64 {
+        self.matrix.first().copied().unwrap_or(1.0)
+    }
+
+    /// The first column of `Z`: where the pivot of a single term is zero, `J` is singular along it beyond the boundary.
+    pub fn direction(&self) -> &[f64] {
+        &self.z
+    }
+}
+
+/// Changes that have been made.
+struct Made {
+    terms: Vec<Term>,
+    before: Vec<Vec<f64>>,
+    /// `M⁻¹`, by columns.
+    inverse: Vec<f64>,
+    sign: i8,
+}
+
+/// A factorised system with changes since then.
+pub struct Updated<'e> {
+    equations: &'e Equations<'e>,
+    base: System<'e>,
+    /// The pairs on their pieces of today.
+    pairs: Vec<Linearised>,
+    columns: Columns,
+    changes: Vec<Made>,
+    /// `Z` of all changes.
+    directions: Vec<f64>,
+}
+
+impl<'e> Updated<'e> {
+    /// Operations of [`Self::new`].
+    pub fn work(pairs: &[Linearised]) -> f64 {
+        let free = |pair: &Linearised| (0..2).filter(|&c| pair.moves(c)).count();
+        lu_work(pairs.iter().map(free).sum())
+    }
+
+    /// Factorises the system of pairs on their pieces; `None` if a pivot is below `least`, relative to the largest.
+    pub fn new(equations: &'e Equations<'e>, pairs: Vec<Linearised>, least: f64) -> Option<Self> {
+        let base = System::of_pairs(equations, pairs.clone(), 1.0, None, least)?;
+        let columns = Columns::none(equations.root.len());
+        let (changes, directions) = (Vec::new(), Vec::new());
+        Some(Updated { equations, base, pairs, columns, changes, directions })
+    }
+
+    /// Terms since the factorisation.
+    pub fn age(&self) -> usize {
+        self.changes.iter().map(|made| made.terms.len()).sum()
+    }
+
+    /// Unknowns that were factorised.
+    pub fn size(&self) -> usize {
+        self.base.size()
+    }
+
+    /// Sign of `det J`.
+    pub fn sign(&self) -> i8 {
+        self.changes.iter().fold(self.base.orientation(), |sign, made| sign * made.sign)
+    }
+
+    /// True if a pair is on another piece today.
+    pub fn differs(&self, pair: usize, other: &Linearised) -> bool {
+        !self.pairs[pair].change_to(other).is_empty()
+    }
+
+    /// Operations of [`Self::change_to`]: a solution for each term, and what passes through all directions.
+    pub fn change_work(&self, pairs: &[(usize, Linearised)]) -> f64 {
+        let (size, count) = (self.equations.root.len() as f64, self.count(pairs) as f64);
+        2.0 * size * (size * count + count * (count + self.age() as f64))
+    }
+
+    /// Makes the changes of pairs to the pieces beyond. `None`: the new system is singular, and has to be factorised.
+    pub fn change_to(&mut self, pairs: &[(usize, Linearised)]) -> Option<()> {
+        if pairs.is_empty() {
+            return Some(());
+        }
+        let change = self.change(pairs);
+        self.make(change, &mut vec![0.0; self.equations.root.len()])
+    }
+
+    /// `J⁻¹ b`.
+    pub fn solve(&mut self, b: &[f64]) -> Vec<f64> {
+        let mut x = self.base.solve(b);
+        self.pass(&mut x);
+        x
+    }
+
+    /// The terms of a change of pairs.
+    fn terms(&self, pairs: &[(usize, Linearised)]) -> Vec<Term> {
+        let of_pair = |(pair, beyond): &(usize, Linearised)| {
+            let first = self.equations.dim * pair;
+            let terms = self.pairs[*pair].change_to(beyond).into_iter();
+            terms.map(move |(u, n)| Term { first, u, n })
+        };
+        pairs.iter().flat_map(of_pair).collect()
+    }
+
+    /// Number of terms that a change of pairs has.
+    pub fn count(&self, pairs: &[(usize, Linearised)]) -> usize {
+        self.terms(pairs).len()
+    }
+
+    /// True if a change needs columns that are not known.
+    pub fn lacks_columns(&self, pairs: &[(usize, Linearised)]) -> bool {
+        let terms = self.terms(pairs);
+        terms.iter().flat_map(Term::parts).any(|(i, _)| self.columns.of(i).is_none())
+    }
+
+    /// Makes columns for changes of pairs, at most so many, so far as they are not known.
+    pub fn prepare(&mut self, likely: &[(usize, Linearised)], most: usize) {
+        self.columns.make_room(most);
+        let terms = self.terms(likely);
+        let lacking = terms.iter().flat_map(Term::parts).map(|(i, _)| i);
+        let mut components: Vec<usize> =
+            lacking.filter(|&i| self.columns.of(i).is_none()).take(most).collect();
+        components.dedup();
+        let (matrix, root) = (self.equations.matrix, &self.equations.root);
+        let mut sides = Vec::with_capacity(components.len() * root.len());
+        for &i in &components {
+            let scale = root[i].powi(2).recip();
+            let begin = sides.len();
+            sides.extend(matrix.column(i).iter().map(|k| k * scale));
+            sides[begin + i] -= 1.0;
+        }
+        let columns = self.base.solve(&sides);
+        self.columns.add(&components, &columns);
+    }
+
+    /// The change of pairs to the pieces beyond.
+    pub fn change(&mut self, pairs: &[(usize, Linearised)]) -> Change {
+        let terms = self.terms(pairs);
+        if self.lacks_columns(pairs) {
+            self.prepare(pairs, 2 * pairs.len());
+        }
+        let size = self.equations.root.len();
+        let mut z = vec![0.0; size * terms.len()];
+        for (term, z) in terms.iter().zip(z.chunks_exact_mut(size)) {
+            for (i, u) in term.parts() {
+                let column = self.columns.of(i).expect("it was prepared above");
+                z.iter_mut().zip(column).for_each(|(z, column)| *z += u * column);
+            }
+            self.pass(z);
+        }
+        let mut matrix = Vec::with_capacity(terms.len() * terms.len());
+        for (column, z) in z.chunks_exact(size).enumerate() {
+            let one = |row: usize| if row == column { 1.0 } else { 0.0 };
+            matrix.extend(terms.iter().enumerate().map(|(row, n)| one(row) + n.along(z)));
+        }
+        let made = || self.directions.chunks_exact(size);
+        let before = terms.iter().map(|term| made().map(|z| term.along(z)).collect()).collect();
+        Change { pairs: pairs.to_vec(), terms, z, matrix, before }
+    }
+
+    /// Makes a change; `x` becomes `J⁻¹ b` of the new pieces for the same `b`. `None`: the new system is
+    /// singular, and has to be factorised.
+    pub fn make(&mut self, change: Change, x: &mut [f64]) -> Option<()> {
+        let Change { pairs, terms, z, matrix, before } = change;
+        pairs.into_iter().for_each(|(pair, beyond)| self.pairs[pair] = beyond);
+        let (inverse, sign) = inverse(&matrix, terms.len())?;
+        let made = Made { terms, before: Vec::new(), inverse, sign };
+        let mut parts = Vec::with_capacity(made.terms.len());
+        made.add_parts(x, &mut parts);
+        subtract_columns(x, &z, &parts);
+        self.changes.push(Made { before, ..made });
+        self.directions.extend_from_slice(&z);
+        Some(())
+    }
+
+    /// Takes `J⁻¹ b` of the pieces that were factorised to that of the pieces of today. What each change subtracts
+    /// depends on those before it through a few numbers, so that all directions are read once.
+    fn pass(&self, x: &mut [f64]) {
+        let mut parts = Vec::with_capacity(self.directions.len() / x.len().max(1));
+        self.changes.iter().for_each(|made| made.add_parts(x, &mut parts));
+        subtract_columns(x, &self.directions, &parts);
+    }
+
+    /// The displacements along which the coordinates move when they move by `y`, in the plane.
+    pub fn motion(&self, y: &[f64]) -> Vec<f64> {
+        let mut motion = Vec::with_capacity(y.len());
+        for ((pair, y), root) in
+            self.pairs.iter().zip(y.chunks_exact(2)).zip(self.equations.root.chunks_exact(2))
+        {
+            let moved = pair.moved([y[0], y[1]]);
+            motion.extend(moved.iter().zip(root).map(|(moved, root)| moved / (root * root)));
+        }
+        motion
+    }
+}
+
+impl Made {
+    /// The multiples of its directions that this change subtracts, given those of the changes before it: `M⁻¹ Nᵀ J⁻¹ b`.
+    fn add_parts(&self, x: &[f64], parts: &mut Vec<f64>) {
+        let count = self.terms.len();
+        let before = |row: usize| self.before.get(row).map_or(0.0, |before| dot(before, parts));
+        let along: Vec<f64> =
+            self.terms.iter().enumerate().map(|(row, term)| term.along(x) - before(row)).collect();
+        let begin = parts.len();
+        parts.resize(begin + count, 0.0);
+        subtract_columns(&mut parts[begin..], &self.inverse, &along);
+        parts[begin..].iter_mut().for_each(|part| *part = -*part);
+    }
+}
+
+/// The inverse of an `n x n` matrix, and the sign of its determinant; `None` if it is singular.
+fn inverse(matrix: &[f64], n: usize) -> Option<(Vec<f64>, i8)> {
+    if let [only] = matrix {
+        let sign = if *only < 0.0 { -1 } else { 1 };
+        return (*only != 0.0).then(|| (vec![only.recip()], sign));
+    }
+    let mut factor = Factor::new(n, false, |j, column| {
+        column.copy_from_slice(&matrix[n * j..n * (j + 1)]);
+    })?;
+    let mut inverse = vec![0.0; n * n];
+    inverse.iter_mut().step_by(n + 1).for_each(|entry| *entry = 1.0);
+    factor.solve(&mut inverse);
+    Some((inverse, factor.sign()))
+}

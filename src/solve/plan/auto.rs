@@ -1,0 +1,123 @@
+//! The default: choose, check, fall back.
+//!
+//! The methods of the plan ([`super::table`]) run in turn until the certificate says that one has found a solution, or
+//! until a motion proves that there is none. How a method ended decides nothing. A start that another method has left
+//! is followed by the start of the call, so that the default solves what any method solves.
+//!
+//! If the orientation of a solution is −1, there are at least three solutions and this one is
+//! unstable: the next method is asked too.
+
+use super::dispatch::run;
+use super::table::{Call, Row, Start, plan};
+use crate::counters::count;
+use crate::error::Error;
+use crate::law::Contact;
+use crate::monitor::Monitor;
+use crate::settings::{Method, Settings};
+use crate::solve::result::{
+    Candidate, Effort, Ending, Fallback, SecondSolution, Solution, Status, Uniqueness, certified,
+};
+use crate::solve::uniqueness;
+
+/// Solves by the first method whose result is certified.
+pub fn solve(
+    contact: &Contact<'_>,
+    settings: &Settings,
+    start: Option<&[f64]>,
+    monitor: &mut Monitor<'_>,
+) -> Result<Solution, Error> {
+    let mut tried = Tried::default();
+    for (place, row) in plan(contact).enumerate() {
+        let from = match (row.start, tried.best.as_ref()) {
+            (Start::Best, Some((_, best))) => Some(best.d()),
+            _ => start,
+        };
+        if row.start == Start::Best && tried.best.is_none() {
+            continue;
+        }
+        let call = Call { contact, settings, start: from };
+        let Some(candidate) = run(row, &call, monitor)? else { continue };
+        tried.count(&candidate.effort);
+        let (why, stopped) = (fallback(&candidate), matches!(candidate.ending, Ending::Stopped(_)));
+        let solution = certified(contact, settings, row.method, &candidate);
+        let decided = matches!(solution.status, Status::Solved | Status::NoEquilibrium);
+        count(row.name, place, decided);
+        match solution.status {
+            Status::Solved if solution.orientation < 0 && tried.unstable.is_none() => {
+                tried.unstable = Some(solution);
+            }
+            _ if decided => return Ok(tried.ended(contact, solution, monitor)),
+            _ => tried.keep(contact, row, candidate),
+        }
+        tried.first.get_or_insert((row.method, why));
+        if stopped || (tried.unstable.is_some() && row.method == Method::Lemke) {
+            break;
+        }
+    }
+    if let Some(solution) = tried.unstable.take() {
+        return Ok(tried.ended(contact, solution, monitor));
+    }
+    let (method, candidate) = tried.best.take().expect("a plan has a method");
+    let solution = certified(contact, settings, method, &candidate);
+    Ok(tried.ended(contact, solution, monitor))
+}
+
+fn fallback(candidate: &Candidate) -> Fallback {
+    match candidate.ending {
+        Ending::Cycle => Fallback::Cycle,
+        Ending::Singular => Fallback::Singular,
+        Ending::Done if candidate.orientation < 0 => Fallback::Unstable,
+        _ => Fallback::Inaccurate,
+    }
+}
+
+/// The results of earlier methods.
+#[derive(Default)]
+struct Tried {
+    first: Option<(Method, Fallback)>,
+    /// A solution of orientation −1.
+    unstable: Option<Solution>,
+    /// Best uncertified candidate and its method, with how the last method ended.
+    best: Option<(Method, Candidate)>,
+    effort: Effort,
+}
+
+impl Tried {
+    fn count(&mut self, effort: &Effort) {
+        self.effort.factorisations += effort.factorisations;
+        self.effort.refactorisations += effort.refactorisations;
+    }
+
+    /// Keeps the better displacements, with the ending of the later method.
+    fn keep(&mut self, contact: &Contact<'_>, row: &Row, candidate: Candidate) {
+        let eta = |candidate: &Candidate| candidate.certificate(contact).eta;
+        match &mut self.best {
+            Some((_, best)) if !(eta(&candidate) < eta(best)) => best.ending = candidate.ending,
+            best => *best = Some((row.method, candidate)),
+        }
+    }
+
+    fn ended(
+        self,
+        contact: &Contact<'_>,
+        mut solution: Solution,
+        monitor: &Monitor<'_>,
+    ) -> Solution {
+        solution.fallback = self.first;
+        solution.factorisations = self.effort.factorisations;
+        solution.refactorisations = self.effort.refactorisations;
+        if let Some(other) = self.unstable
+            && solution.status == Status::Solved
+            && uniqueness::are_two(contact, &solution, &other, monitor)
+        {
+            solution.uniqueness = Uniqueness::Several;
+            solution.second = Some(Box::new(SecondSolution {
+                d: other.d,
+                d_low: other.d_low,
+                certificate: other.certificate,
+                orientation: other.orientation,
+            }));
+        }
+        solution
+    }
+}

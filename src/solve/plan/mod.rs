@@ -1,0 +1,12 @@
+//! The plan: which methods solve a problem, in which order, and what is said beside the result.
+
+mod auto;
+mod dispatch;
+mod far_obstacles;
+mod remarks;
+mod table;
+
+pub use auto::solve as auto;
+pub use dispatch::check_method;
+pub use far_obstacles::{FAR, solve};
+pub use remarks::{explain_stall, of_solution};

@@ -1,0 +1,218 @@
+//! The one table of methods: what each takes, what runs it, and where it stands in a plan.
+
+use crate::error::Error;
+use crate::law::Contact;
+use crate::monitor::{Monitor, Stop};
+use crate::settings::{Method, Settings};
+use crate::solve::result::{Candidate, Ending};
+use crate::solve::rigid_balance::Balance;
+use crate::solve::{lcp, newton, path, proximal, sweeps};
+
+/// A row of the table.
+pub struct Row {
+    /// The method that the result names.
+    pub method: Method,
+    /// The name of the row in counts.
+    pub name: &'static str,
+    /// Where a plan takes the start from.
+    pub start: Start,
+    /// Why the method does not fit a problem; `None` if it fits.
+    refuses: fn(&Contact<'_>) -> Option<String>,
+    /// Runs the method; `None` if there is nothing for it to do.
+    pub run: fn(&Call<'_>, &mut Monitor<'_>) -> Result<Option<Candidate>, Error>,
+}
+
+/// Where a method starts.
+#[derive(Clone, Copy, PartialEq)]
+pub enum Start {
+    /// At the start of the call.
+    Own,
+    /// At the best displacements that methods before it have left.
+    Best,
+}
+
+/// A problem that a method solves.
+pub struct Call<'c> {
+    pub contact: &'c Contact<'c>,
+    pub settings: &'c Settings,
+    /// Displacements, zero if `None`.
+    pub start: Option<&'c [f64]>,
+}
+
+impl Call<'_> {
+    fn start_or_zero(&self) -> Vec<f64> {
+        self.start.map_or_else(|| vec![0.0; self.contact.unknowns()], <[f64]>::to_vec)
+    }
+
+    /// True if the host has chosen the method itself.
+    fn is_chosen(&self) -> bool {
+        self.settings.method != Method::Auto
+    }
+}
+
+/// Without friction: methods of linear complementarity first, which end where Newton's method and the path give up.
+const WITHOUT_FRICTION: [&Row; 5] = [&BLOCK_PIVOTING, &LEMKE, &NEWTON, &PATH, &NESTED_SWEEPS];
+
+/// With friction: the fastest method first. In the plane the path has the guarantee. It starts where sweeps end and takes
+/// far fewer events than Lemke's method takes pivots on most problems; Lemke's path may end where rounding spoils all
+/// its starts, or where a body without supports leaves it on a ray that proves nothing.
+const WITH_FRICTION: [&Row; 7] =
+    [&NEWTON, &SPRINGS, &PATH_FROM_BEST, &PATH, &LEMKE, &NESTED_SWEEPS, &DIAGONAL_SWEEPS];
+
+/// The methods of a problem that leaves the choice to the library, in turn: all that fit.
+pub fn plan(contact: &Contact<'_>) -> impl Iterator<Item = &'static Row> {
+    let rows: &[&Row] = if contact.is_frictionless() { &WITHOUT_FRICTION } else { &WITH_FRICTION };
+    rows.iter().copied().filter(|row| (row.refuses)(contact).is_none())
+}
+
+/// The row of a method that a host has chosen. `Err`: why it does not fit the problem.
+pub fn chosen(contact: &Contact<'_>, method: Method) -> Result<&'static Row, String> {
+    let mut rows = WITHOUT_FRICTION.iter().chain(&WITH_FRICTION);
+    let row = rows.find(|row| row.method == method).expect("every method but auto has a row");
+    (row.refuses)(contact).map_or(Ok(row), Err)
+}
+
+const NEWTON: Row = Row {
+    method: Method::Newton,
+    name: "Newton",
+    start: Start::Own,
+    refuses: |_| None,
+    run: |call, monitor| Ok(Some(newton::newton(call.contact, call.settings, call.start, monitor))),
+};
+
+/// Springs that are let go, where contact alone holds a body. The balance of rigid motions is asked first: it proves in
+/// most cases that no equilibrium exists.
+const SPRINGS: Row = Row {
+    method: Method::Newton,
+    name: "springs",
+    start: Start::Best,
+    refuses: unsymmetric,
+    run: |call, monitor| {
+        let Some(balance) = Balance::new(call.contact, monitor) else { return Ok(None) };
+        Ok(Some(match balance.escape() {
+            Some(motion) => {
+                Candidate::without_displacements(call.contact, Ending::Recession(motion))
+            }
+            None => proximal::let_go(call.contact, call.settings, call.start, monitor),
+        }))
+    },
+};
+
+const PATH_FROM_BEST: Row = Row { name: "path from the best iterate", start: Start::Best, ..PATH };
+
+const PATH: Row = Row {
+    method: Method::Path,
+    name: "path",
+    start: Start::Own,
+    refuses: |_| None,
+    run: |call, monitor| {
+        let by = if call.contact.dim() == 2 { path::linear } else { path::curved };
+        Ok(Some(by(call.contact, call.settings, call.start, monitor)))
+    },
+};
+
+const BLOCK_PIVOTING: Row = Row {
+    method: Method::BlockPivoting,
+    name: "block pivoting",
+    start: Start::Own,
+    refuses: |contact| {
+        let law = || contact.problem().law().frictionless_if();
+        let with_friction = || {
+            (!contact.is_frictionless()).then(|| {
+                format!(
+                    "settings: block pivoting is for frictionless contact: the law must be frictionless, or {}",
+                    law()
+                )
+            })
+        };
+        unsymmetric(contact).or_else(with_friction)
+    },
+    run: |call, monitor| {
+        let pairs = call.contact.pairs().len();
+        let most = if call.is_chosen() { u64::MAX } else { lcp::enough(pairs) };
+        Ok(Some(lcp::block_pivoting(call.contact, call.settings, call.start, most, monitor)))
+    },
+};
+
+const LEMKE: Row = Row {
+    method: Method::Lemke,
+    name: "Lemke",
+    start: Start::Own,
+    refuses: |contact| {
+        let fits = contact.is_frictionless() || contact.dim() == 2;
+        let message =
+            "settings: Lemke's method is for frictionless contact, and for friction in 2D";
+        unsymmetric(contact).or_else(|| (!fits).then(|| message.to_owned()))
+    },
+    run: |call, monitor| {
+        let by = match call.contact.is_frictionless() {
+            true => lcp::lemke_frictionless,
+            false => lcp::lemke_friction_2d,
+        };
+        by(call.contact, call.settings, monitor).map(Some)
+    },
+};
+
+const NESTED_SWEEPS: Row = Row {
+    method: Method::SorNested,
+    name: "nested sweeps",
+    start: Start::Own,
+    refuses: unsymmetric,
+    run: |call, monitor| {
+        let (contact, settings) = (call.contact, call.settings);
+        if contact.is_coupled() {
+            let start = call.start_or_zero();
+            return for_a_while(call, monitor, |monitor| {
+                sweeps::nested(contact, settings, start, monitor)
+            });
+        }
+        single_sweeps(call, monitor)
+    },
+};
+
+const DIAGONAL_SWEEPS: Row = Row {
+    method: Method::SorDiagonal,
+    name: "diagonal sweeps",
+    start: Start::Own,
+    refuses: |contact| {
+        let fits = contact.is_frictionless() || contact.is_coupled();
+        let message = "settings: the diagonal method updates thresholds, and here they are given: \
+                       use the nested one";
+        unsymmetric(contact).or_else(|| (!fits).then(|| message.to_owned()))
+    },
+    run: single_sweeps,
+};
+
+/// Sweeps that update thresholds as they go, or have given ones.
+fn single_sweeps(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Result<Option<Candidate>, Error> {
+    let (contact, settings, start) = (call.contact, call.settings, call.start_or_zero());
+    for_a_while(call, monitor, |monitor| match contact.is_frictionless() {
+        true => sweeps::frictionless(contact, settings, &start, monitor),
+        false => sweeps::single(contact, settings, start, monitor),
+    })
+}
+
+/// Sweeps that a plan tries where exact methods have failed: a fortieth of what they may take when they
+/// are chosen; more is not worth the wait.
+const LATER_SWEEPS: u64 = 5000;
+
+/// Runs sweeps; in a plan only for a while.
+fn for_a_while(
+    call: &Call<'_>,
+    monitor: &mut Monitor<'_>,
+    sweeps: impl FnOnce(&mut Monitor<'_>) -> Candidate,
+) -> Result<Option<Candidate>, Error> {
+    if call.is_chosen() {
+        return Ok(Some(sweeps(monitor)));
+    }
+    let (mut candidate, used_up) = monitor.within(LATER_SWEEPS, sweeps);
+    if candidate.ending == Ending::Stopped(Stop::IterationLimit) && !used_up {
+        candidate.ending = Ending::Stalled("no method converges");
+    }
+    Ok(Some(candidate))
+}
+
+fn unsymmetric(contact: &Contact<'_>) -> Option<String> {
+    let message = "settings: this method needs a symmetric K: use Newton's, the path, or auto";
+    (!contact.problem().is_symmetric()).then(|| message.to_owned())
+}

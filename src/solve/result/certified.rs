@@ -1,0 +1,66 @@
+//! From a candidate to a result: the certificate alone decides what is called a solution.
+
+use super::candidate::Candidate;
+use super::ending::{Ending, NO_EQUILIBRIUM};
+use super::solution::{Solution, Status};
+use crate::certificate::is_escape_of;
+use crate::law::Contact;
+use crate::linalg::vector::normalise;
+use crate::settings::{Method, Settings};
+
+/// Turns the candidate of `method` into a result.
+pub fn certified(
+    contact: &Contact<'_>,
+    settings: &Settings,
+    method: Method,
+    candidate: &Candidate,
+) -> Solution {
+    let at_rest = at_rest(contact, settings, candidate);
+    let candidate = at_rest.as_ref().unwrap_or(candidate);
+    let certificate = candidate.certificate(contact).clone().with_rounding(settings.tolerance);
+    let mut recession = None;
+    let accuracy = format!("eta is {:.1e}", certificate.eta);
+    let wanted = format!("{accuracy}, wanted {:.1e}", settings.tolerance);
+    // A diverging iterate may itself be a recession direction.
+    let motion = match &candidate.ending {
+        Ending::Recession(motion) => Some(motion.as_slice()),
+        Ending::Stopped(_) => None,
+        _ => certificate.runs_away().then_some(candidate.d()),
+    };
+    let (status, message) = if certificate.holds(settings.tolerance) {
+        (Status::Solved, format!("solved: {accuracy}"))
+    } else if let Some(motion) = motion.filter(|motion| is_escape_of(contact, motion)) {
+        let mut motion = motion.to_vec();
+        normalise(&mut motion);
+        recession = Some(motion);
+        (Status::NoEquilibrium, NO_EQUILIBRIUM.to_owned())
+    } else if let Ending::Stopped(stop) = candidate.ending {
+        stop.status(settings, &wanted)
+    } else {
+        (Status::Stalled, format!("{}; {wanted}", candidate.ending.reason(&certificate)))
+    };
+    let effort = candidate.effort;
+    Solution {
+        d_low: candidate.low_part(),
+        recession,
+        errors: candidate.errors.filter(|_| status == Status::Solved),
+        orientation: if status == Status::Solved { candidate.orientation } else { 0 },
+        factorisations: effort.factorisations,
+        outer_iterations: effort.outer_iterations,
+        refactorisations: effort.refactorisations,
+        omega: effort.omega,
+        damping: effort.damping,
+        ..Solution::of(method, (status, message), candidate.d().to_vec(), certificate)
+    }
+}
+
+/// Zero displacement, if it is the solution and the candidate is not. Without loads the scale of
+/// forces is rounding only, which no iterate gets below.
+fn at_rest(contact: &Contact<'_>, settings: &Settings, other: &Candidate) -> Option<Candidate> {
+    if !contact.is_unloaded() || other.certificate(contact).holds(settings.tolerance) {
+        return None;
+    }
+    let mut rest = Candidate::without_displacements(contact, other.ending.clone());
+    (rest.effort, rest.orientation) = (other.effort, other.orientation);
+    rest.certificate(contact).holds(settings.tolerance).then_some(rest)
+}

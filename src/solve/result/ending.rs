@@ -1,0 +1,72 @@
+//! How an algorithm ended: the one list for all of them, and their sentences.
+
+use super::solution::Status;
+use crate::certificate::Certificate;
+use crate::monitor::Stop;
+use crate::settings::Settings;
+
+/// The end of an algorithm.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Ending {
+    /// Its own test of convergence is met.
+    Done,
+    /// A budget is used up, or the callback cancelled.
+    Stopped(Stop),
+    /// It found a motion that may be a recession direction and prove that no equilibrium exists (LCP: a
+    /// ray that may prove that nothing is feasible).
+    Recession(Vec<f64>),
+    /// The pieces of an earlier iteration repeat.
+    Cycle,
+    /// The system of its pieces, or its basis, is singular to working precision.
+    Singular,
+    /// It cannot go on for another reason.
+    Stalled(&'static str),
+}
+
+/// The sentence of a proof that no equilibrium exists.
+pub const NO_EQUILIBRIUM: &str =
+    "no equilibrium exists: the loads drive a rigid motion that contact does not stop";
+
+/// Causes that a host looks at then.
+pub const CAUSES: &str = "are a support, friction, or a pair missing, or is a normal, a load or the sign of gap \
+                          turned round?";
+
+impl Ending {
+    /// Why there is no solution at this end.
+    pub fn reason(&self, certificate: &Certificate) -> &'static str {
+        match self {
+            _ if certificate.runs_away() => {
+                "the displacements are so large that rounding hides the forces"
+            }
+            Ending::Recession(_) => {
+                "the method ended on a motion that does not prove that no equilibrium exists"
+            }
+            Ending::Cycle => "the states of the pairs repeat in a cycle",
+            Ending::Singular => "the system of equations is singular",
+            Ending::Stalled(reason) => reason,
+            Ending::Done | Ending::Stopped(_) => "accuracy was lost to rounding",
+        }
+    }
+}
+
+impl Stop {
+    /// Status and sentence of a run that was stopped with the accuracy that `wanted` tells.
+    pub fn status(self, settings: &Settings, wanted: &str) -> (Status, String) {
+        match self {
+            Stop::IterationLimit => (
+                Status::IterationLimit,
+                format!("max_iterations ({}) used up; {wanted}", settings.max_iterations),
+            ),
+            Stop::TimeLimit => (
+                Status::TimeLimit,
+                format!(
+                    "time_limit ({} s) used up, or too little left for the next step; {wanted}",
+                    settings.time_limit
+                ),
+            ),
+            Stop::Cancelled => {
+                (Status::Cancelled, format!("cancelled by the progress callback; {wanted}"))
+            }
+        }
+    }
+}

@@ -1,0 +1,66 @@
+//! Most bytes that a solution takes beside its data, known before work begins.
+//!
+//! Matrices of the size of `K` decide. Their greatest number at a time was counted over all methods, laws and
+//! questions; `tests/memory/estimate.rs` and `tests/memory/peaks.rs` count again.
+
+use crate::error::{Error, Limit};
+use crate::problem::{SparseFlexibilityProblem, SparseW};
+use crate::settings::Settings;
+
+/// Matrices of the size of `K` that a method holds at most. The tableau of Lemke's method with friction is
+/// the greatest part: 9/4.
+const MATRICES: f64 = 3.25;
+
+/// Vectors with a number for each unknown.
+const VECTORS: f64 = 100.0;
+
+/// Vectors with a number for each unknown of all islands.
+const VECTORS_OF_WHOLE: f64 = 32.0;
+
+/// Whatever the size.
+const ALWAYS: f64 = 262_144.0;
+
+/// Refuses what needs more bytes than the settings allow.
+pub fn check_limit(needed: u64, settings: &Settings) -> Result<(), Error> {
+    let most = settings.memory_limit;
+    if most == 0 || needed <= most {
+        return Ok(());
+    }
+    let (needed, most) = (needed as f64 / MEGABYTE, most as f64 / MEGABYTE);
+    let message = format!(
+        "the solution may need {needed:.1} MB, settings: memory_limit allows {most:.1} MB; nothing was done"
+    );
+    Err(Error::stopped(Limit::Memory, message))
+}
+
+const MEGABYTE: f64 = 1e6;
+
+/// Most bytes that [`solve`](super::solve()) and [`solve_lcp`](super::solve_lcp()) take for so many unknowns,
+/// beside the problem itself, whatever the method, the law and the questions. The working memory of matrix
+/// products, 4 MiB that a thread keeps, is not counted.
+pub fn memory(unknowns: usize) -> u64 {
+    let n = unknowns as f64;
+    ((MATRICES * n * n + VECTORS * n) * size_of::<f64>() as f64 + ALWAYS) as u64
+}
+
+/// Bytes of [`solve_flexibility`](super::solve_flexibility), which holds the stiffness of bodies and springs
+/// besides.
+pub fn memory_flexibility(unknowns: usize) -> u64 {
+    let stiffness = (unknowns as f64).powi(2) * size_of::<f64>() as f64;
+    memory(unknowns) + stiffness as u64
+}
+
+/// Bytes of [`solve_flexibility_sparse`](super::solve_flexibility_sparse): its largest island as a dense
+/// problem, of which it makes the matrix, and the problem itself, which has a copy of the host's matrix.
+pub fn memory_flexibility_sparse(problem: &SparseFlexibilityProblem<'_>) -> u64 {
+    memory_of_islands(problem.relation().form())
+}
+
+/// Bytes of the islands, from the matrix alone.
+pub fn memory_of_islands(matrix: &SparseW) -> u64 {
+    let largest = matrix.dim() * matrix.islands().largest().len();
+    let dense = (largest as f64).powi(2) * size_of::<f64>() as f64;
+    let vectors = VECTORS_OF_WHOLE * (matrix.size() * size_of::<f64>()) as f64;
+    let copy = matrix.entries() as f64 * (size_of::<usize>() + size_of::<f64>()) as f64;
+    memory_flexibility(largest) + (dense + vectors + copy) as u64
+}

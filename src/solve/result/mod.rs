@@ -1,0 +1,21 @@
+//! Results: the internal one of a method, its certification, and the public one; and the memory that a call takes.
+
+mod candidate;
+mod certified;
+mod effort;
+mod ending;
+mod memory;
+mod remarks;
+mod solution;
+
+pub use candidate::Candidate;
+pub use certified::certified;
+pub use effort::Effort;
+pub use ending::{CAUSES, Ending, NO_EQUILIBRIUM};
+pub use memory::{
+    check_limit, memory, memory_flexibility, memory_flexibility_sparse, memory_of_islands,
+};
+pub use remarks::of_problem;
+pub use solution::{
+    Errors, Escape, Existence, Fallback, Remarks, SecondSolution, Solution, Status, Uniqueness,
+};

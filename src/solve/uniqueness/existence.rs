@@ -1,0 +1,53 @@
+//! The proof, on request, that a solution exists where a method has found one.
+
+use crate::certificate::{Proof, errors, measure_parts, prove_parts};
+use crate::law::Contact;
+use crate::linalg::factor::lu_work;
+use crate::monitor::Monitor;
+use crate::settings::Settings;
+use crate::solve::result::{Errors, Existence, Solution, Status};
+
+/// Operations of a proof, in units of an `LU` factorisation: the approximate inverse and its products, or the
+/// factorisations of a bound on the least eigenvalue.
+const WORK: f64 = 1.0;
+
+/// Tries to prove that there is a solution with the states of this one. If there is, the result becomes the
+/// middle of its enclosure.
+pub fn examine(
+    contact: &Contact<'_>,
+    settings: &Settings,
+    solution: &mut Solution,
+    monitor: &Monitor<'_>,
+) {
+    solution.existence = Existence::NotProved;
+    let in_time = monitor.has_time_for(WORK * lu_work(contact.unknowns()));
+    if solution.status != Status::Solved || !in_time {
+        return;
+    }
+    let parts = (solution.d.as_slice(), solution.d_low.as_slice());
+    let Some(proof) = prove_parts(contact, parts, &solution.certificate.states) else { return };
+    move_to_middle(contact, settings, solution, &proof);
+    let force = &solution.certificate.force;
+    let (d_radius, radius) = (proof.radius_about(&solution.d), proof.force_radius_about(force));
+    let load = contact.problem().load();
+    let [d, force] = errors(load, (&solution.d, &d_radius), (force, &radius));
+    solution.errors = Some(Errors { d, force });
+    solution.existence = Existence::Proved(Box::new(proof));
+}
+
+/// Replaces the displacements by those of the proof, unless their certificate, which rounds, does not agree.
+fn move_to_middle(
+    contact: &Contact<'_>,
+    settings: &Settings,
+    solution: &mut Solution,
+    proof: &Proof,
+) {
+    let certificate =
+        measure_parts(contact, &proof.d, &proof.d_low).with_rounding(settings.tolerance);
+    let same = certificate.states == solution.certificate.states;
+    if certificate.holds(settings.tolerance) && same {
+        solution.d.clone_from(&proof.d);
+        solution.d_low.clone_from(&proof.d_low);
+        solution.certificate = certificate;
+    }
+}

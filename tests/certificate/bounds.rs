@@ -1,0 +1,187 @@
+//! The bounds that a certificate states: not below what they bound, and not far above it.
+
+use crate::common::dense::{largest, norm, product};
+use crate::common::exact::{self, quads};
+use crate::common::problems::{
+    Case, Law, coulomb, decades, definite, frictionless, loaded, vector,
+};
+use fastrand::Rng;
+use signorini::State::{Open, Slip, Stick};
+use signorini::certificate::{certify, certify_pair};
+use signorini::{Settings, Status};
+
+/// Half a unit in the last digit of 1.
+const UNIT: f64 = f64::EPSILON / 2.0;
+
+/// The residual that counts rounding is above `eta` in twice the precision, and next to it. Of a pair that slips
+/// eight roundings are counted, of `|F_t|_1 + 2 g` at most; with `g <= |F_n|` and `|F_t|_1 <= sqrt 2 |F_t|` that
+/// is below 3.5 of the forces. The norm and the quotient add eight roundings of `eta`.
+#[test]
+fn the_residual_is_a_close_bound() {
+    for seed in 0..2000 {
+        let mut rng = Rng::with_seed(seed);
+        let (dim, pairs) = (rng.usize(2..=3), rng.usize(1..=6));
+        let condition = decades(&mut rng, 3.0);
+        let k = definite(&mut rng, dim * pairs, condition);
+        let law = if rng.bool() { coulomb(&mut rng, pairs, 1.0) } else { frictionless(pairs) };
+        let mut case = loaded(&mut rng, dim, k, law);
+        if rng.bool() {
+            // Displacements are far larger than what contact prescribes.
+            case.gap.iter_mut().for_each(|gap| *gap *= 1e-6);
+            case.slip = None;
+        }
+        let d = vector(&mut rng, case.size());
+        let eta = exact::eta(&case, &quads(&d));
+        let certificate = certify(&case.problem(), &d);
+        let residual = certificate.residual;
+        assert!(eta <= residual, "seed {seed}: {eta:e} > {residual:e}");
+        let above = f64::EPSILON * (8.0 * 3.5 + 16.0 * eta);
+        assert!(residual <= eta + above, "seed {seed}: {residual:e} - {eta:e} > {above:e}");
+    }
+}
+
+/// One pair on unit stiffness and a second one far away, displaced by `far`. `slip0` is the reference slip of the
+/// first pair, which sticks where it is.
+fn displaced(gap: f64, slip0: f64, far: f64, load: f64) -> (Case, Vec<f64>) {
+    let mut k = vec![0.0; 16];
+    (0..4).for_each(|i| k[5 * i] = 1.0);
+    let f = vec![0.0, 0.0, load, 0.0];
+    let (gap, slip) = (vec![gap, f64::INFINITY], Some(vec![slip0, 0.0]));
+    let law = Law::Tresca(vec![1e3, 0.0]);
+    (Case { dim: 2, pairs: 2, k, f, gap: gap.clone(), law, slip }, vec![gap[0], slip0, far, 0.0])
+}
+
+/// `rounding` is half a unit of `|K| |d|`, relative to the larger of loads and forces. Of what contact prescribes,
+/// a closed gap or an earlier slip, a thousandfold is free where nothing is loaded: the rest alone counts then.
+#[test]
+fn rounding_is_that_of_the_product_without_what_contact_prescribes() {
+    let check = |(case, d): (Case, Vec<f64>), [free, rest]: [&[f64]; 2]| {
+        let certificate = certify(&case.problem(), &d);
+        let forces: Vec<f64> =
+            product(&case.k, &d).iter().zip(&case.f).map(|(a, f)| a - f).collect();
+        let scale = norm(&case.f).max(norm(&forces));
+        let free = if largest(&case.f) == 0.0 { 0.0 } else { norm(free) };
+        let expected = UNIT * (norm(rest) + free) / scale;
+        // A few roundings of the norms.
+        let error = (certificate.rounding - expected).abs();
+        assert!(error <= 1e-14 * expected, "{d:?}: {expected:e}, {certificate:?}");
+    };
+    for load in [0.0, 8.0, 5000.0] {
+        // Nothing prescribed: all of it is the rest.
+        check(displaced(0.0, 0.0, 5000.0, load), [&[], &[5000.0]]);
+        // A gap, an interference, and a slip of 2 prescribe up to 2000.
+        for (gap, slip) in [(2.0, 0.0), (-2.0, 0.0), (0.0, 2.0), (0.0, -2.0), (1.0, -2.0)] {
+            let own = f64::hypot(gap, slip);
+            check(displaced(gap, slip, 1500.0, load), [&[own, 1500.0], &[]]);
+            check(displaced(gap, slip, 5000.0, load), [&[own, 2000.0], &[3000.0]]);
+        }
+        // Every component beyond what the gap prescribes, which is penetrated.
+        let (case, d) = displaced(1.0, 0.0, 5000.0, load);
+        check((case, vec![5000.0; d.len()]), [&[1000.0; 4], &[4000.0; 4]]);
+    }
+}
+
+/// `equilibrium` is the largest component of `K d - f - F` with the force that is returned, whichever force is
+/// given: on springs without coupling, worked out by components.
+#[test]
+fn equilibrium_is_measured_with_the_force_that_is_returned() {
+    for seed in 0..500 {
+        let mut rng = Rng::with_seed(seed);
+        let (dim, pairs) = (rng.usize(2..=3), rng.usize(1..=4));
+        let k = definite(&mut rng, dim * pairs, 10.0);
+        let law = coulomb(&mut rng, pairs, 1.0);
+        let case = loaded(&mut rng, dim, k, law);
+        let (d, force) = (vector(&mut rng, case.size()), vector(&mut rng, case.size()));
+        let problem = case.problem();
+        for certificate in [certify(&problem, &d), certify_pair(&problem, &d, &force)] {
+            let lacking = product(&case.k, &d);
+            let lacking = lacking.iter().zip(&case.f).zip(&certificate.force);
+            let lacking: Vec<f64> = lacking.map(|((kd, f), force)| kd - f - force).collect();
+            // Sums of some ten numbers of order 10.
+            let error = (certificate.equilibrium - largest(&lacking)).abs();
+            assert!(error <= 1e-13, "seed {seed}: {lacking:?}, {certificate:?}");
+        }
+    }
+}
+
+/// The energy that resists a motion is that of the stiffness, whatever contact forces act. Two parts hold each
+/// other, `[[1, -1], [-1, 1 + e]]`; with `e` of 2^-44 rounding alone holds them as a whole. They stand against an
+/// obstacle at `1/e`, which presses as the load does.
+#[test]
+fn contact_forces_do_not_resist_a_motion() {
+    let e = 2_f64.powi(-44);
+    let mut k = vec![0.0; 16];
+    (k[0], k[2], k[8], k[10]) = (1.0, -1.0, -1.0, 1.0 + e);
+    (k[5], k[15]) = (1.0, 1.0);
+    for press in [0.0, 1.0, 1024.0] {
+        let f = vec![press, 0.0, 1.0, 0.0];
+        let gap = vec![1.0 / e, f64::INFINITY];
+        let law = Law::Coulomb(vec![0.0; 2]);
+        let case = Case { dim: 2, pairs: 2, k: k.clone(), f, gap, law, slip: None };
+        let certificate = certify(&case.problem(), &[1.0 / e, 0.0, 1.0 / e, 0.0]);
+        assert_eq!(certificate.eta, 0.0, "{certificate:?}");
+        assert_eq!(certificate.force, [-press, 0.0, 0.0, 0.0]);
+        assert!(!certificate.holds(1e-2), "{certificate:?}");
+    }
+}
+
+/// Where displacements do not determine the forces, `K d` is not known and no energy of it resists a motion: parts
+/// that `e` of 2^-36 holds are a solution by the energy of their stiffness, and none without it.
+#[test]
+fn only_a_stiffness_resists_a_motion() {
+    let e = 2_f64.powi(-36);
+    let mut k = vec![0.0; 16];
+    (k[0], k[2], k[8], k[10]) = (1.0, -1.0, -1.0, 1.0 + e);
+    (k[5], k[15]) = (1.0, 1.0);
+    let (f, gap) = (vec![0.0, 0.0, 1.0, 0.0], vec![f64::INFINITY; 2]);
+    let law = Law::Coulomb(vec![0.0; 2]);
+    let case = Case { dim: 2, pairs: 2, k, f, gap, law, slip: None };
+    let d = [1.0 / e, 0.0, 1.0 / e, 0.0];
+    assert!(certify(&case.problem(), &d).holds(1e-14));
+    let certificate = certify_pair(&case.problem(), &d, &[0.0; 4]);
+    assert_eq!(certificate.eta, 0.0);
+    assert!(!certificate.holds(1e-2), "{certificate:?}");
+}
+
+/// What a solution reports as `eta` counts the rounding of its evaluation, which is far below the tolerance here.
+#[test]
+fn what_is_reported_counts_rounding() {
+    let mut above = 0;
+    for seed in 0..100 {
+        let mut rng = Rng::with_seed(seed);
+        let (dim, pairs) = (rng.usize(2..=3), rng.usize(1..=4));
+        let k = definite(&mut rng, dim * pairs, 10.0);
+        let law = coulomb(&mut rng, pairs, 0.5);
+        let case = loaded(&mut rng, dim, k, law);
+        let solution = case.solve(&Settings::default());
+        assert_eq!(solution.status, Status::Solved, "seed {seed}: {}", solution.message);
+        let (eta, residual) = (solution.certificate.eta, solution.certificate.residual);
+        assert_eq!(eta, residual, "seed {seed}");
+        above += usize::from(eta > certify(&case.problem(), &solution.d).eta);
+    }
+    assert!(above > 10, "{above} with rounding");
+}
+
+/// The margin between states is 1e-11 of the largest load or force. Two pairs on unit stiffness; the second carries
+/// `small` beside 1. Where friction under that pressure is above the margin, with a coefficient of 1024, it
+/// is no open pair.
+#[test]
+fn forces_below_the_margin_tell_no_states() {
+    for (exponent, mu, expected) in [
+        (-34, 0.0, Slip),
+        (-36, 0.0, Slip),
+        (-37, 0.0, Open),
+        (-40, 0.0, Open),
+        (-40, 1024.0, Stick),
+        (-46, 1024.0, Stick),
+        (-47, 1024.0, Open),
+    ] {
+        let small = 2_f64.powi(exponent);
+        let k = (0..16).map(|i| if i % 5 == 0 { 1.0 } else { 0.0 }).collect();
+        let f = vec![1.0, 0.0, small, 0.0];
+        let law = Law::Coulomb(vec![1.0, mu]);
+        let case = Case { dim: 2, pairs: 2, k, f, gap: vec![0.0; 2], law, slip: None };
+        let certificate = certify(&case.problem(), &[0.0; 4]);
+        assert_eq!(certificate.states, [Stick, expected], "2^{exponent}, {mu}");
+    }
+}

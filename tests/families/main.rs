@@ -1,0 +1,18 @@
+//! Families of random problems and closed forms, which take longer than the other tests.
+
+#[path = "../bench/bar.rs"]
+#[allow(dead_code)] // Each test uses a part.
+mod bar;
+#[path = "../common/mod.rs"]
+mod common;
+
+mod blocks_3d;
+mod floating_3d;
+mod free_bodies;
+mod half_space;
+mod judged;
+mod never_worse;
+mod properties;
+mod random_3d;
+mod relaxation;
+mod rolling;

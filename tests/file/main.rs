@@ -1,0 +1,7 @@
+//! Problem files.
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod damaged;
+mod same_bits;

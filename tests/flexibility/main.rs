@@ -1,0 +1,11 @@
+//! The flexibility form, and pairs whose rows depend on each other.
+
+#[path = "../common/mod.rs"]
+mod common;
+#[path = "../common/rows.rs"]
+#[allow(dead_code)] // Each test uses a part.
+mod rows;
+
+mod closed_forms;
+mod dependent_rows;
+mod sparse;

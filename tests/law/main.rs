@@ -1,0 +1,15 @@
+//! The friction laws: what a pair may do, piece by piece, against the statement of each law.
+
+#[path = "../common/mod.rs"]
+mod common;
+#[path = "../common/laws.rs"]
+#[allow(dead_code)] // Each test uses a part.
+mod laws;
+
+mod boundaries;
+mod friction_laws;
+mod pieces;
+mod rounding;
+mod statement;
+mod uses;
+mod values;

@@ -1,0 +1,97 @@
+//! The bounds that the law states for its natural map: on its rounding, and on its change with the force. They hold,
+//! and they are close.
+
+use crate::laws::{Numbers, direction, norm, uniform};
+use fastrand::Rng;
+use signorini::law::PairLaw;
+
+const POINTS: usize = 3000;
+
+fn residual(law: &PairLaw, dim: usize, d: &[f64], force: &[f64]) -> Vec<f64> {
+    let mut residual = vec![0.0; dim];
+    law.natural_residual(d, force, &mut residual);
+    residual
+}
+
+/// Where a pair slips, eight roundings of two forces and of the terms of the bound; elsewhere none, as one term
+/// alone has the digits of the data.
+#[test]
+fn rounding_is_that_of_two_forces_on_a_slip() {
+    let rng = &mut Rng::with_seed(1);
+    let mut seen = [0; 3];
+    for _ in 0..POINTS {
+        let numbers = Numbers::random(rng);
+        let (v, p) = numbers.point(rng, 1e-6);
+        let (d, force) = numbers.of_host(&v, &p);
+        let rounding = numbers.law().natural_rounding(&d, &force);
+        let g = numbers.threshold(p[0]);
+        let slips = g > 0.0 && norm(&v[1..]) > 0.0;
+        // The sum of the sizes of two components is at most 1.5 of the length.
+        let friction = norm(&p[1..]);
+        let expected = 8.0 * f64::EPSILON * (friction + g + numbers.bound.slope * numbers.tension);
+        if slips {
+            let close = rounding >= 0.999 * expected && rounding <= 1.5 * expected;
+            assert!(close, "{numbers:?}: {rounding:e}, {expected:e}");
+        } else {
+            assert_eq!(rounding, 0.0, "{numbers:?} {v:?} {p:?}");
+        }
+        seen[if slips { 2 } else { usize::from(g > 0.0) }] += 1;
+    }
+    assert!(seen.iter().all(|&count| count > POINTS / 20), "{seen:?}");
+}
+
+/// Next to its bound a pair that sticks may slip, and one that slips may stick: within the rounding both count it.
+#[test]
+fn rounding_counts_next_to_the_bound() {
+    let rng = &mut Rng::with_seed(2);
+    for _ in 0..POINTS {
+        let numbers = Numbers::random(rng);
+        if !numbers.has_obstacle() {
+            continue;
+        }
+        let p_n = uniform(rng, 0.5, 2.0) - numbers.tension;
+        let (g, h) = (numbers.threshold(p_n), direction(rng, numbers.dim));
+        if g == 0.0 {
+            continue;
+        }
+        let size = numbers.size(&h[..numbers.dim - 1]);
+        for part in [1.0 - 1e-15, 1.0, 1.0 + 1e-15] {
+            let p = [p_n, part * g * h[0] / size, part * g * h[1] / size];
+            let (d, force) = numbers.of_host(&[0.0; 3], &p);
+            assert!(numbers.law().natural_rounding(&d, &force) > 0.0, "{numbers:?} {p:?}");
+        }
+    }
+}
+
+/// No change of the force changes the residual by more than the bound times its length; and some change of one law
+/// in a hundred comes to a fourth of the bound, with an ellipse as well.
+#[test]
+fn a_change_of_the_force_changes_the_residual_by_the_bound_at_most() {
+    let rng = &mut Rng::with_seed(3);
+    let (mut closest, mut elliptic) = (0.0_f64, 0.0_f64);
+    for _ in 0..POINTS {
+        let mut numbers = Numbers::random(rng);
+        if let Some(axes) = &mut numbers.axes {
+            axes.mu[0] *= 10_f64.powf(uniform(rng, -2.0, 2.0));
+            numbers.bound.slope = axes.mu[0].max(axes.mu[1]);
+        }
+        let (v, p) = numbers.point(rng, 0.0);
+        let (d, force) = numbers.of_host(&v, &p);
+        let (law, dim) = (numbers.law(), numbers.dim);
+        let before = residual(&law, dim, &d, &force);
+        let most = law.sensitivity();
+        for _ in 0..20 {
+            let by: Vec<f64> = (0..dim).map(|_| uniform(rng, -1.0, 1.0)).collect();
+            let length = 10_f64.powf(uniform(rng, -3.0, 0.0)) / norm(&by);
+            let moved: Vec<f64> = force.iter().zip(&by).map(|(f, by)| f + length * by).collect();
+            let after = residual(&law, dim, &d, &moved);
+            let change: Vec<f64> = after.iter().zip(&before).map(|(a, b)| a - b).collect();
+            let part = norm(&change) / (length * norm(&by));
+            // Rounding of forces up to 100 over a change of 1e-3.
+            assert!(part <= most * (1.0 + 1e-9) + 1e-9, "{numbers:?}: {part} > {most}");
+            let closest = if numbers.axes.is_some() { &mut elliptic } else { &mut closest };
+            *closest = closest.max(part / most);
+        }
+    }
+    assert!(closest > 0.25 && elliptic > 0.25, "{closest}, {elliptic}");
+}

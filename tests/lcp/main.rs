@@ -1,0 +1,10 @@
+//! Linear complementarity problems.
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod block_pivoting;
+mod copositive;
+mod enumeration;
+mod extremes;
+mod worst_cases;

@@ -1,0 +1,8 @@
+//! Models: many load cases of one reduction.
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod cases;
+mod histories;
+mod series;

@@ -1,0 +1,299 @@
+//! Bodies in full space: those that contact alone holds, closed forms, what is told and what is refused, and the
+//! limit on memory that chooses the form.
+
+use std::ops::ControlFlow;
+
+use crate::common::dense::{difference, largest};
+use crate::common::mesh::{Mesh, Pairs, steps};
+use crate::common::stack::{Stack, components};
+use crate::common::wavy::Wavy;
+use signorini::{
+    Error, FrictionLaw, Limit, LoadCase, Method, Model, Monitor, Progress, Search, Settings,
+    Solution, State, Status,
+};
+
+fn full() -> Settings {
+    Settings { full_space: true, ..Settings::default() }
+}
+
+fn solve(model: &Model, load: &[f64], law: FrictionLaw<'_>, settings: &Settings) -> Solution {
+    let gap = vec![0.0; model.pairs()];
+    let case = LoadCase { load, prescribed: None, gap: &gap, law, reference_slip: None };
+    model.solve(&case, settings, None, &mut Monitor::new(settings, None)).expect("a case")
+}
+
+fn stacked(stack: &Stack, fixed: &[usize], settings: &Settings) -> Model {
+    let monitor = &mut Monitor::new(settings, None);
+    stack.mesh.stiffness().model_under(fixed, &stack.pairs().view(), monitor).expect("a model")
+}
+
+/// Patch test: under uniform pressure `p` strains are uniform, `strain_y = -p (1 - nu²) / E`,
+/// `strain_x = p nu (1 + nu) / E` (plane strain). The upper block is held by contact alone. To 1e-10: a thousand
+/// times the rounding of the displacements, which follow the forces of a small mesh.
+#[test]
+fn a_block_on_a_block_passes_the_patch_test() {
+    let stack = Stack::new([4, 4], [2000.0, 2000.0]);
+    let mut fixed = components(&stack.lower.row(0), 1);
+    fixed.push(2 * stack.lower.node(0, 0));
+    let model = stacked(&stack, &fixed, &full());
+    let load = stack.load(7.0, 0.0);
+    let solution = solve(&model, &load, FrictionLaw::Coulomb(&[0.5; 5]), &full());
+    assert_eq!(solution.status, Status::Solved, "{}", solution.message);
+    let u = model.recover(Some(&load), None, &solution.d).unwrap();
+    let strains = (7.0 * 0.3 * 1.3 / 2000.0, -7.0 * (1.0 - 0.09) / 2000.0);
+    let exact: Vec<f64> =
+        stack.mesh.nodes.iter().flat_map(|[x, y]| [strains.0 * x, strains.1 * y]).collect();
+    assert!(largest(&difference(&u, &exact)) <= 1e-10 * largest(&exact));
+    let share = 7.0 * 3.0 / 4.0;
+    for (pair, force) in solution.certificate.force.chunks(2).enumerate() {
+        let normal = if pair % 4 == 0 { -share / 2.0 } else { -share };
+        assert!((force[0] - normal).abs() <= 1e-9 * share && force[1].abs() <= 1e-9 * share);
+    }
+}
+
+/// The same answers as condensed, for a body that contact alone holds, on meshes that match and that do not, under
+/// all laws of the plane. Both are certified to 1e-10 of the forces.
+#[test]
+fn floating_bodies_have_the_same_answers_as_condensed() {
+    for columns in [[6, 6], [9, 7], [20, 24]] {
+        let stack = Stack::new(columns, [2000.0, 700.0]);
+        let pairs = columns[1] + 1;
+        let models = [Settings::default(), full()];
+        let models = models.map(|settings| stacked(&stack, &stack.bottom(), &settings));
+        assert!(!models[0].is_matrix_free() && models[1].is_matrix_free());
+        let load = stack.load(7.0, 2.0);
+        let (coulomb, tresca) = (vec![0.4; pairs], vec![7.0 / pairs as f64; pairs]);
+        let cohesive = [0.3, 0.2, 0.1].repeat(pairs);
+        for law in [
+            FrictionLaw::Coulomb(&coulomb),
+            FrictionLaw::Tresca(&tresca),
+            FrictionLaw::Cohesive(&cohesive),
+        ] {
+            let [dense, full] = [0, 1].map(|i| solve(&models[i], &load, law, &Settings::default()));
+            let context = format!("{columns:?}, {law:?}");
+            assert_eq!(dense.status, Status::Solved, "{context}: {}", dense.message);
+            assert_eq!(full.status, Status::Solved, "{context}: {}", full.message);
+            let apart = largest(&difference(&full.d, &dense.d)) / largest(&dense.d);
+            assert!(apart <= 1e-9, "{context}: {apart:e}");
+            assert_eq!(full.certificate.states, dense.certificate.states, "{context}");
+            let displacements = |solution: &Solution, model: &Model| {
+                model.recover(Some(&load), None, &solution.d).unwrap()
+            };
+            let (u, v) = (displacements(&full, &models[1]), displacements(&dense, &models[0]));
+            assert!(largest(&difference(&u, &v)) <= 1e-9 * largest(&v), "{context}");
+            let relative = models.each_ref().map(|m| m.condensed_load(&load, None).unwrap());
+            let apart = largest(&difference(&relative[0], &relative[1]));
+            assert!(apart <= 1e-12 * largest(&relative[0]), "{context}: {apart:e}");
+        }
+    }
+}
+
+/// A block on a plane under its weight `N` and the horizontal force `T`: in equilibrium if `T < mu N` (and it does
+/// not tip), in none if `T > mu N`, where nothing may be called a solution.
+#[test]
+fn a_block_slides_beyond_the_coulomb_limit() {
+    let mut mesh = Mesh::default();
+    let block = mesh.block(&steps(0.0, 4.0, 8), &steps(0.0, 1.0, 2), (100.0, 0.3));
+    let pairs = Pairs::on_obstacle(&block.row(0), [0.0, -1.0]);
+    let monitor = &mut Monitor::new(&full(), None);
+    let model = mesh.stiffness().model_under(&[], &pairs.view(), monitor).unwrap();
+    let mu = vec![0.4; 9];
+    for (ratio, holds) in [(0.2, true), (0.399, true), (0.401, false), (0.6, false)] {
+        let mut load = vec![0.0; mesh.size()];
+        mesh.traction(&block.row(0), [ratio, 0.0], &mut load);
+        mesh.traction(&block.row(block.rows), [0.0, -1.0], &mut load);
+        let solution = solve(&model, &load, FrictionLaw::Coulomb(&mu), &full());
+        assert_eq!(solution.status == Status::Solved, holds, "{ratio}: {}", solution.message);
+        if holds {
+            let force = &solution.certificate.force;
+            let sum = |c: usize| force.iter().skip(c).step_by(2).sum::<f64>();
+            assert!((sum(0) + 4.0).abs() <= 1e-8 && (sum(1).abs() - 4.0 * ratio).abs() <= 1e-8);
+        } else {
+            assert!(solution.message.contains("eta is"), "{}", solution.message);
+        }
+    }
+}
+
+/// A body pulled off its plane flies away; pushed by nothing it rests.
+#[test]
+fn a_body_that_nothing_holds_is_not_solved() {
+    let mut mesh = Mesh::default();
+    let block = mesh.block(&steps(0.0, 2.0, 4), &steps(0.0, 1.0, 2), (100.0, 0.3));
+    let pairs = Pairs::on_obstacle(&block.row(0), [0.0, -1.0]);
+    let monitor = &mut Monitor::new(&full(), None);
+    let model = mesh.stiffness().model_under(&[], &pairs.view(), monitor).unwrap();
+    for mu in [0.0, 0.3] {
+        let mu = vec![mu; 5];
+        let mut load = vec![0.0; mesh.size()];
+        let rest = solve(&model, &load, FrictionLaw::Coulomb(&mu), &full());
+        assert_eq!((rest.status, largest(&rest.d)), (Status::Solved, 0.0), "{}", rest.message);
+        mesh.traction(&block.row(block.rows), [0.0, 1.0], &mut load);
+        let solution = solve(&model, &load, FrictionLaw::Coulomb(&mu), &full());
+        assert_eq!(solution.status, Status::Stalled, "{}", solution.message);
+    }
+}
+
+/// The limit on memory chooses: without one the matrix is condensed; with one that the condensed matrix passes the
+/// model is in full space; with a smaller one there is none.
+#[test]
+fn the_limit_on_memory_chooses_the_form() {
+    let wavy = Wavy::plane(256);
+    let announced = |settings: &Settings| {
+        let mut bytes = Vec::new();
+        let mut progress = |now: &Progress| {
+            bytes.push(now.memory);
+            ControlFlow::Continue(())
+        };
+        let made = wavy.try_model(&mut Monitor::new(settings, Some(&mut progress)));
+        (made, bytes.into_iter().max().unwrap_or(0))
+    };
+    let (dense, condensed) = announced(&Settings::default());
+    let (in_full, spread) = announced(&full());
+    assert!(!dense.unwrap().is_matrix_free() && in_full.unwrap().is_matrix_free());
+    assert!(spread < condensed, "{spread} bytes are not less than {condensed}");
+    for (limit, form) in [
+        (condensed, Some(false)),
+        (condensed - 1, Some(true)),
+        (spread, Some(true)),
+        (spread - 1, None),
+    ] {
+        let settings = Settings { memory_limit: limit, ..Settings::default() };
+        let (made, _) = announced(&settings);
+        match (made, form) {
+            (Ok(model), Some(form)) => assert_eq!(model.is_matrix_free(), form, "{limit}"),
+            (Err(Error::Stopped { limit: Limit::Memory, message }), None) => {
+                assert!(message.contains("memory_limit"), "{message}");
+            }
+            (Ok(_), None) => panic!("{limit} bytes are too few"),
+            (Err(error), _) => panic!("{limit}: {error}"),
+        }
+    }
+}
+
+/// Refused by a sentence: what needs the condensed matrix. Told: the measures of displacements from elsewhere.
+#[test]
+fn what_needs_the_matrix_is_refused() {
+    let stack = Stack::new([4, 4], [2000.0, 2000.0]);
+    let model = stacked(&stack, &stack.bottom(), &full());
+    assert!(model.stiffness().is_empty() && model.frames().is_some());
+    let (load, mu, gap) = (stack.load(7.0, 2.0), [0.3; 5], [0.0; 5]);
+    let law = FrictionLaw::Coulomb(&mu);
+    let case = LoadCase { load: &load, prescribed: None, gap: &gap, law, reference_slip: None };
+    for settings in [
+        Settings { method: Method::SorNested, ..full() },
+        Settings { search: Search::Others, ..full() },
+        Settings { proof: true, ..full() },
+    ] {
+        let monitor = &mut Monitor::new(&settings, None);
+        let message = model.solve(&case, &settings, None, monitor).err().unwrap().message();
+        assert!(message.contains("needs the condensed matrix"), "{message}");
+    }
+    let path = std::path::Path::new("never written");
+    assert!(model.write_case(path, &case, None).err().unwrap().message().contains("full space"));
+    let solution = solve(&model, &load, law, &full());
+    assert!(model.certify(&case, &solution.d).unwrap().holds(1e-10));
+    let off: Vec<f64> = solution.d.iter().map(|d| d + 1e-4).collect();
+    assert!(!model.certify(&case, &off).unwrap().holds(1e-10));
+    // From the solution one system is enough, and states and bits stay.
+    let settings = full();
+    let monitor = &mut Monitor::new(&settings, None);
+    let warm = model.solve(&case, &settings, Some(&solution.d), monitor).unwrap();
+    assert_eq!(warm.status, Status::Solved, "{}", warm.message);
+    assert!(warm.iterations <= 2, "{} systems", warm.iterations);
+    assert!(largest(&difference(&warm.d, &solution.d)) <= 1e-9 * largest(&solution.d));
+    assert_eq!(solve(&model, &load, law, &full()).d, solution.d);
+    assert!(solution.certificate.count(State::Open) < 5);
+}
+
+/// A budget ends the solution with its status and the best iterate; time runs out before the first system.
+#[test]
+fn budgets_end_a_solution() {
+    let wavy = Wavy::plane(64);
+    let model = wavy.try_model(&mut Monitor::new(&full(), None)).unwrap();
+    let mu = vec![0.3; 65];
+    let case = LoadCase {
+        load: &wavy.load,
+        prescribed: None,
+        gap: &wavy.gap,
+        law: FrictionLaw::Coulomb(&mu),
+        reference_slip: None,
+    };
+    for (settings, status) in [
+        (Settings { max_iterations: 2, ..full() }, Status::IterationLimit),
+        (Settings { time_limit: f64::MIN_POSITIVE, ..full() }, Status::TimeLimit),
+    ] {
+        let solution = model.solve(&case, &settings, None, &mut Monitor::new(&settings, None));
+        assert_eq!(solution.unwrap().status, status);
+    }
+    let mut calls = 0;
+    let mut progress = |_: &Progress| {
+        calls += 1;
+        if calls > 3 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    };
+    let monitor = &mut Monitor::new(&full(), Some(&mut progress));
+    let solution = model.solve(&case, &full(), None, monitor).unwrap();
+    assert_eq!((solution.status, solution.iterations), (Status::Cancelled, 3));
+}
+
+/// A callback is asked while a factor is made too; whenever it cancels, the model serves as before.
+#[test]
+fn a_factorisation_can_be_cancelled() {
+    let wavy = Wavy::space(17);
+    let model = wavy.try_model(&mut Monitor::new(&full(), None)).unwrap();
+    let mu = vec![0.3; model.pairs()];
+    let case = LoadCase {
+        load: &wavy.load,
+        prescribed: wavy.prescribed.as_deref(),
+        gap: &wavy.gap,
+        law: FrictionLaw::Coulomb(&mu),
+        reference_slip: None,
+    };
+    let run = |most: u64| {
+        let mut calls = 0;
+        let mut progress = |_: &Progress| {
+            calls += 1;
+            if calls > most { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        };
+        let monitor = &mut Monitor::new(&full(), Some(&mut progress));
+        let solution = model.solve(&case, &full(), None, monitor).unwrap();
+        (solution, calls)
+    };
+    let (whole, calls) = run(u64::MAX);
+    assert_eq!(whole.status, Status::Solved, "{}", whole.message);
+    assert!(calls > whole.iterations, "{calls} calls in {} systems", whole.iterations);
+    for most in 0..calls {
+        let (solution, _) = run(most);
+        assert_eq!(solution.status, Status::Cancelled, "{most}: {}", solution.message);
+    }
+    assert_eq!(run(u64::MAX).0.d, whole.d);
+}
+
+/// Obstacles that nothing can reach, and pairs without one, change nothing.
+#[test]
+fn far_obstacles_change_nothing() {
+    let wavy = Wavy::plane(32);
+    let model = wavy.try_model(&mut Monitor::new(&full(), None)).unwrap();
+    let mu = vec![0.3; 33];
+    let solve = |far: f64| {
+        let gap: Vec<f64> = wavy
+            .gap
+            .iter()
+            .enumerate()
+            .map(|(i, gap)| if i % 5 == 1 { far } else { *gap })
+            .collect();
+        let case = LoadCase {
+            load: &wavy.load,
+            prescribed: None,
+            gap: &gap,
+            law: FrictionLaw::Coulomb(&mu),
+            reference_slip: None,
+        };
+        let solution = model.solve(&case, &full(), None, &mut Monitor::new(&full(), None)).unwrap();
+        assert_eq!(solution.status, Status::Solved, "{far}: {}", solution.message);
+        solution.d
+    };
+    let without = solve(f64::INFINITY);
+    for far in [1.0, 1e8, 1e300] {
+        assert!(largest(&difference(&solve(far), &without)) <= 1e-9 * largest(&without), "{far}");
+    }
+}

@@ -1,0 +1,15 @@
+//! Full space, and hosts that multiply and solve by themselves.
+
+#[path = "../common/mod.rs"]
+mod common;
+#[path = "../common/surfaces.rs"]
+#[allow(dead_code)] // Each test uses a part.
+mod surfaces;
+
+mod full_space;
+mod full_space_bodies;
+mod full_space_floating;
+mod full_space_hard;
+mod full_space_random;
+mod parts;
+mod products;

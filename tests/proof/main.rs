@@ -1,0 +1,12 @@
+//! Proofs that a solution exists, and statements on other solutions.
+
+#[path = "../bench/bar.rs"]
+#[allow(dead_code)] // Each test uses a part.
+mod bar;
+#[path = "../common/mod.rs"]
+mod common;
+
+mod existence;
+mod truth;
+mod uniqueness;
+mod uniqueness_3d;

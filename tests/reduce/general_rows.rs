@@ -1,0 +1,178 @@
+//! Sparse models whose pairs are rows over any nodes: chains, nodes in several pairs, supports at slaves.
+
+use crate::common::dense::{difference, dot, largest};
+use crate::common::problems::{uniform, vector};
+use crate::rows::{Host, solved, springs};
+use fastrand::Rng;
+use signorini::{Argument, Error, FrictionLaw, LoadCase, Monitor, Settings, Status};
+
+/// A host with `pairs` rows of one slave each (its first node) against up to three masters; slaves are not
+/// masters.
+fn slaves_and_masters(rng: &mut Rng) -> Host {
+    let dim = rng.usize(2..=3);
+    let (nodes, pairs) = (rng.usize(8..=14), rng.usize(1..=4));
+    let stiffness = springs(rng, dim * nodes);
+    let mut order: Vec<usize> = (0..nodes).collect();
+    rng.shuffle(&mut order);
+    let mut rows = Vec::new();
+    for &slave in &order[..pairs] {
+        let count = rng.usize(0..=3);
+        let mut weights: Vec<f64> = (0..count).map(|_| uniform(rng, -0.3, 1.0)).collect();
+        let rest: f64 = weights.iter().skip(1).sum();
+        weights.iter_mut().take(1).for_each(|first| *first = 1.0 - rest);
+        let mut row = vec![(slave, 1.0)];
+        row.extend(weights.iter().map(|weight| (order[rng.usize(pairs..nodes)], -weight)));
+        rows.push(row);
+    }
+    let is_slave = |dof: &usize| order[..pairs].contains(&(dof / dim));
+    let fixed = (0..dim * nodes).filter(|dof| !is_slave(dof) && rng.u8(0..5) == 0).collect();
+    let normals = vector(rng, dim * pairs);
+    let tangents = rng.bool().then(|| {
+        let mut tangents = vector(rng, dim * pairs);
+        for (tangent, normal) in tangents.chunks_mut(dim).zip(normals.chunks(dim)) {
+            let part = dot(tangent, normal) / dot(normal, normal);
+            tangent.iter_mut().zip(normal).for_each(|(t, n)| *t -= part * n);
+        }
+        tangents
+    });
+    Host { dim, stiffness, fixed, rows, normals, tangents }
+}
+
+/// A host whose rows name any nodes, with supports anywhere.
+fn any_rows(rng: &mut Rng) -> Host {
+    let dim = rng.usize(2..=3);
+    let (nodes, pairs) = (rng.usize(8..=12), rng.usize(2..=6));
+    let mut rows = Vec::new();
+    for _ in 0..pairs {
+        let count = rng.usize(2..=4);
+        let mut weights: Vec<f64> = (0..count).map(|_| uniform(rng, -1.0, 1.0)).collect();
+        let wanted = f64::from(rng.u8(0..2));
+        let rest: f64 = weights.iter().skip(1).sum();
+        weights[0] = wanted - rest;
+        rows.push(weights.into_iter().map(|weight| (rng.usize(0..nodes), weight)).collect());
+    }
+    let fixed = (0..dim * nodes).filter(|_| rng.u8(0..8) == 0).collect();
+    let stiffness = springs(rng, dim * nodes);
+    Host { dim, stiffness, fixed, rows, normals: vector(rng, dim * pairs), tangents: None }
+}
+
+/// The rows are the same, so all that a model gives is: to 1e-12 of the largest, a thousand roundings.
+#[test]
+fn a_signed_list_is_the_pair_of_one_slave() {
+    for seed in 0..200 {
+        let rng = &mut Rng::with_seed(seed);
+        let host = slaves_and_masters(rng);
+        let (named, listed) = (host.model_of_slaves().unwrap(), host.model().unwrap());
+        let close = |a: &[f64], b: &[f64], what: &str| {
+            let error = largest(&difference(a, b));
+            assert!(error <= 1e-12 * largest(b), "seed {seed}: {what}: {error:e}");
+        };
+        assert_eq!(named.frames(), listed.frames());
+        close(listed.stiffness(), named.stiffness(), "K_rel");
+        let load = vector(rng, host.size());
+        let values = vector(rng, host.fixed.len());
+        let d = vector(rng, host.dim * host.rows.len());
+        let condensed =
+            |model: &signorini::Model| model.condensed_load(&load, Some(&values)).unwrap();
+        close(&condensed(&listed), &condensed(&named), "f");
+        let recovered =
+            |model: &signorini::Model| model.recover(Some(&load), Some(&values), &d).unwrap();
+        close(&recovered(&listed), &recovered(&named), "u");
+        close(&listed.nodal_forces(&d).unwrap(), &named.nodal_forces(&d).unwrap(), "Bᵀ F");
+    }
+}
+
+/// `K_rel` of any independent rows is that of the saddle point problem, by dense elimination. To 1e-9 of
+/// the largest entry: rows are random, and nearly dependent at times.
+#[test]
+fn stiffness_is_that_of_the_saddle_point_problem() {
+    let mut independent = 0;
+    for seed in 0..200 {
+        let host = any_rows(&mut Rng::with_seed(seed));
+        let Ok(model) = host.model() else { continue };
+        if !model.dependent_pairs().is_empty() {
+            continue;
+        }
+        let expected = host.relative_stiffness(&model);
+        let error = largest(&difference(model.stiffness(), &expected)) / largest(&expected);
+        assert!(error <= 1e-9, "seed {seed}: {error:e}");
+        independent += 1;
+    }
+    assert!(independent > 80, "{independent}");
+}
+
+/// Loads, prescribed values and contact forces balance in the host's full size, whatever the rows are; to
+/// 1e-9 of the forces, a thousand times the tolerance. Prescribed values may leave dependent rows no solution,
+/// or may be refused where they alone open a pair.
+#[test]
+fn any_rows_balance_in_the_host() {
+    let (mut dependent, mut driven) = (0, 0);
+    for (seed, drives) in (0..300).flat_map(|seed| [(seed, false), (seed, true)]) {
+        let rng = &mut Rng::with_seed(seed);
+        let host = any_rows(rng);
+        let Ok(model) = host.model() else { continue };
+        let pairs = host.rows.len();
+        let load: Vec<f64> = vector(rng, host.size()).iter().map(|f| 3.0 * f).collect();
+        let gap: Vec<f64> = vector(rng, pairs).iter().map(|gap| gap.abs()).collect();
+        let mu: Vec<f64> = (0..pairs).map(|_| uniform(rng, 0.0, 0.4)).collect();
+        let values: Vec<f64> = vector(rng, host.fixed.len()).iter().map(|u| 0.3 * u).collect();
+        let case = LoadCase {
+            load: &load,
+            prescribed: drives.then_some(&values[..]),
+            gap: &gap,
+            law: FrictionLaw::Coulomb(&mu),
+            reference_slip: None,
+        };
+        let settings = Settings { tolerance: 1e-12, ..Settings::default() };
+        let solution = model.solve(&case, &settings, None, &mut Monitor::new(&settings, None));
+        let is_dependent = !model.dependent_pairs().is_empty();
+        match solution {
+            Ok(solution) if solution.status == Status::Solved => {
+                host.assert_balanced(&model, &case, &solution, 1e-9);
+                dependent += usize::from(is_dependent);
+                driven += usize::from(drives && is_dependent);
+            }
+            Ok(solution) => {
+                assert!(drives && is_dependent, "seed {seed}: {}", solution.message);
+            }
+            Err(Error::Invalid { argument: Argument::Prescribed, .. }) => assert!(drives),
+            Err(error) => panic!("seed {seed}: {error}"),
+        }
+    }
+    assert!(dependent > 40 && driven > 15, "{dependent} dependent, {driven} of them driven");
+}
+
+/// A slave on a plane of symmetry x = 0 that faces an inclined obstacle: a tangent along x neither moves nor
+/// carries, and the pair has a stiffness. Tangents across the plane move by one motion, with one friction.
+#[test]
+fn tangents_along_supports_are_held() {
+    let mut stiffness = vec![0.0; 9];
+    (0..3).for_each(|i| stiffness[4 * i] = 2.0);
+    let mut host = Host {
+        dim: 3,
+        stiffness,
+        fixed: vec![0],
+        rows: vec![vec![(0, 1.0)]],
+        normals: vec![0.0, -0.6, -0.8],
+        tangents: None,
+    };
+    let held = host.model().unwrap();
+    assert!(held.dependent_pairs().is_empty());
+    host.tangents = Some(vec![1.0, 0.8, -0.6]);
+    let across = host.model().unwrap();
+    assert_eq!(across.dependent_pairs(), [0]);
+    // Pressed by 1 along the normal and pushed by 1 along the plane: mu 0.3 holds 0.3, springs the rest.
+    let load = [0.0, -0.6 + 0.8, -0.8 - 0.6];
+    for model in [held, across] {
+        let solution = solved(&model, &load, &[0.0], &[0.3]);
+        assert_eq!(solution.status, Status::Solved, "{}", solution.message);
+        let u = model.recover(Some(&load), None, &solution.d).unwrap();
+        let nodal = model.nodal_forces(&solution.certificate.force).unwrap();
+        // The friction of tangents across the plane has a part along x, which the support carries.
+        let along = [0.0, 0.8, -0.6];
+        let moved = dot(&u, &along);
+        assert!((2.0 * moved - 1.0 - dot(&nodal, &along)).abs() < 1e-10);
+        let friction = dot(&nodal, &along);
+        assert!((friction + 0.3).abs() < 1e-9, "{friction}");
+    }
+}

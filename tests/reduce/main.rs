@@ -1,0 +1,21 @@
+//! From a host's matrices to the relation between displacements and forces, and back.
+
+#[path = "../bench/bar.rs"]
+#[allow(dead_code)] // Each test uses a part.
+mod bar;
+#[path = "../common/mod.rs"]
+mod common;
+#[path = "../common/rows.rs"]
+#[allow(dead_code)] // Each test uses a part.
+mod rows;
+
+mod general_rows;
+mod motion_words;
+mod reductions;
+mod sparse_condensation;
+mod sparse_contact;
+mod sparse_messages;
+mod sparse_order;
+mod sparse_pairs;
+mod sparse_supports;
+mod two_body;

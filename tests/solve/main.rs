@@ -1,0 +1,26 @@
+//! The methods on condensed problems with friction, one by one and as the default.
+
+#[path = "../bench/bar.rs"]
+#[allow(dead_code)] // Each test uses a part.
+mod bar;
+#[path = "../common/mod.rs"]
+mod common;
+
+mod auto;
+mod auto_floating;
+mod bars;
+mod bricks_3d;
+mod direct_methods;
+mod enumeration;
+mod escape_motion;
+mod far_gaps;
+mod floating;
+mod ill_conditioned;
+mod invariance;
+mod invariance_3d;
+mod klarbring;
+mod newton_3d;
+mod paper_variables;
+mod path_2d;
+mod path_3d;
+mod peers_failures;

@@ -1,0 +1,120 @@
+//! Two surfaces that are each other's slaves: solved where the rows of both are far enough from following from each
+//! other, and refused with what to do where rounding decides.
+
+use crate::surfaces::{line, pair, steps};
+use signorini::reduce::{ContactPairs, Indices, SparseMatrix, Triangle};
+use signorini::surface::{PairArrays, SurfaceSettings};
+use signorini::{Error, FrictionLaw, LoadCase, Model, Monitor, Settings, Solution, Status};
+
+/// Two chains of springs from 0 to 1, the first above the second, of `cells` elements each; each node of the
+/// second stands on a spring of 1, the first one on contact alone.
+struct Chains {
+    cells: [usize; 2],
+    stiffness: Vec<f64>,
+    arrays: PairArrays,
+}
+
+impl Chains {
+    fn new(cells: [usize; 2]) -> Chains {
+        let (mut nodes, upper) = line(&steps(0.0, 1.0, cells[0]), false, 0);
+        let (below, mut lower) = line(&steps(0.0, 1.0, cells[1]), false, nodes.len());
+        lower.iter_mut().for_each(|face| face.swap(0, 1));
+        nodes.extend(below);
+        let found = |sides: [&[Vec<usize>]; 2]| {
+            pair(2, &nodes, sides, &SurfaceSettings::default()).unwrap()
+        };
+        let mut both = found([&upper, &lower]);
+        both.pairs.extend(found([&lower, &upper]).pairs);
+        let size = 2 * nodes.len();
+        let mut stiffness = vec![0.0; size * size];
+        let mut spring = |i: usize, j: usize, k: f64| {
+            [(i, i, k), (j, j, k), (i, j, -k), (j, i, -k)]
+                .iter()
+                .for_each(|(i, j, k)| stiffness[i + size * j] += k);
+        };
+        for (first, count) in [(0, cells[0]), (cells[0] + 1, cells[1])] {
+            for dof in 2 * first..2 * (first + count) {
+                spring(dof, dof + 2, count as f64);
+            }
+        }
+        (2 * (cells[0] + 1)..size).for_each(|dof| stiffness[dof + size * dof] += 1.0);
+        Chains { cells, stiffness, arrays: both.rows() }
+    }
+
+    fn size(&self) -> usize {
+        2 * (self.cells[0] + self.cells[1] + 2)
+    }
+
+    fn model(&self) -> Result<Model, Error> {
+        let (size, mut starts, mut rows, mut values) = (self.size(), vec![0], vec![], vec![]);
+        for j in 0..size {
+            let stored = (j..size).filter(|i| self.stiffness[i + size * j] != 0.0);
+            for i in stored {
+                rows.push(i as i64);
+                values.push(self.stiffness[i + size * j]);
+            }
+            starts.push(rows.len() as i64);
+        }
+        let matrix = SparseMatrix {
+            size,
+            col_start: Indices::Wide(&starts),
+            row: Indices::Wide(&rows),
+            values: &values,
+            index_base: 0,
+            triangle: Triangle::Lower,
+        };
+        Model::sparse(&matrix, &[], &ContactPairs::from(&self.arrays))
+    }
+
+    /// The upper chain pressed by 1 in all.
+    fn load(&self) -> Vec<f64> {
+        let count = self.cells[0] + 1;
+        let force = |dof: usize| if dof < 2 * count && dof % 2 == 1 { -1.0 } else { 0.0 };
+        (0..self.size()).map(|dof| force(dof) / count as f64).collect()
+    }
+
+    fn solved(&self, model: &Model) -> Result<Solution, Error> {
+        let (load, friction) = (self.load(), vec![0.3; self.arrays.count]);
+        let case = LoadCase {
+            load: &load,
+            prescribed: None,
+            gap: &self.arrays.gaps,
+            law: FrictionLaw::Coulomb(&friction),
+            reference_slip: None,
+        };
+        let settings = Settings::default();
+        model.solve(&case, &settings, None, &mut Monitor::new(&settings, None))
+    }
+}
+
+/// Few pairs, and meshes of which one has all nodes of the other: the forces of all pairs carry the press. To 1e-8:
+/// a hundred times the tolerance, as the sum of some tens of forces.
+#[test]
+fn both_ways_are_solved_where_rows_differ() {
+    for cells in [[3, 2], [12, 11], [20, 15], [40, 40], [60, 30]] {
+        let chains = Chains::new(cells);
+        let model = chains.model().unwrap_or_else(|error| panic!("{cells:?}: {error}"));
+        let solution = chains.solved(&model).unwrap_or_else(|error| panic!("{cells:?}: {error}"));
+        assert_eq!(solution.status, Status::Solved, "{cells:?}: {}", solution.message);
+        let nodal = model.nodal_forces(&solution.certificate.force).unwrap();
+        let carried: f64 = (0..=cells[0]).map(|node| nodal[2 * node + 1]).sum();
+        assert!((carried - 1.0).abs() < 1e-8, "{cells:?}: {carried}");
+    }
+}
+
+/// Nearly the same rows from both sides: no wrong answer, and a sentence that names the way out.
+#[test]
+fn both_ways_are_refused_with_the_way_out_where_rounding_decides() {
+    for cells in [[58, 44], [50, 49]] {
+        let chains = Chains::new(cells);
+        let result = chains.model().and_then(|model| chains.solved(&model));
+        match result {
+            Err(error) => {
+                let message = error.to_string();
+                let way_out = "if two surfaces are each other's slaves, let one side be the slave";
+                assert!(message.contains(way_out), "{cells:?}: {message}");
+            }
+            Ok(solution) => assert_eq!(solution.status, Status::Solved, "{cells:?}"),
+        }
+    }
+}

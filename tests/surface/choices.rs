@@ -1,0 +1,366 @@
+//! Choices of the pairing: whose normals pairs have, and what becomes of nodes at rims. By mathematics alone: planes
+//! and spheres, areas in closed form, statics, motions that open nothing.
+
+use crate::surfaces::{
+    SHAPES, Shape, Sheet, TwoSheets, exact_loads, line, most_moved, nodal_forces, pair, steps,
+};
+use fastrand::Rng;
+use signorini::surface::{Normals, Pairing, Rims, SurfacePair, SurfacePairs, SurfaceSettings};
+
+type Point = [f64; 3];
+
+const PAIRINGS: [Pairing; 2] = [Pairing::DualMortar, Pairing::NodeToSurface];
+const NORMALS: [Normals; 2] = [Normals::Averaged, Normals::Faces];
+const RIMS: [Rims; 3] = [Rims::Fold, Rims::Keep, Rims::Drop];
+
+fn with_normals(pairing: Pairing, normals: Normals) -> SurfaceSettings {
+    SurfaceSettings { pairing, normals, ..SurfaceSettings::default() }
+}
+
+fn with_rims(rims: Rims) -> SurfaceSettings {
+    SurfaceSettings { rims, ..SurfaceSettings::default() }
+}
+
+fn dot(a: Point, b: Point) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+fn apart(a: Point, b: Point) -> f64 {
+    a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
+}
+
+/// The point that weights make of nodes.
+fn point(nodes: &[Point], weights: &[(usize, f64)]) -> Point {
+    std::array::from_fn(|c| weights.iter().map(|&(node, weight)| weight * nodes[node][c]).sum())
+}
+
+/// Turned about two axes and moved.
+fn placed([x, y, z]: Point) -> Point {
+    let ((a, b), (c, d)) = (0.4_f64.sin_cos(), 0.7_f64.sin_cos());
+    let (y, z) = (b * y - a * z, a * y + b * z);
+    [d * x + c * z + 3.0, y - 1.0, d * z - c * x + 0.5]
+}
+
+/// Between parallel planes there is one normal: both choices give the same pairs, to 1e-13, rounding of
+/// coordinates of the size of ten; and a rigid motion moves nothing where the planes are closed.
+#[test]
+fn planes_have_one_normal() {
+    let mut rng = Rng::with_seed(1);
+    for (slave, master) in SHAPES.into_iter().flat_map(|s| SHAPES.map(|m| (s, m))) {
+        for height in [0.0, 0.07] {
+            let above = Sheet::rectangle(slave, [2, 3], [[0.0, 1.0]; 2], (0.25, &mut rng));
+            let below = Sheet::rectangle(master, [3, 2], [[0.2, 1.2]; 2], (0.25, &mut rng));
+            let above = above.turned().mapped(|[x, y, _]| placed([x, y, height]));
+            let sheets = TwoSheets::new(3, above, below.mapped(placed));
+            for pairing in PAIRINGS {
+                let [averaged, faces] =
+                    NORMALS.map(|normals| sheets.pair(&with_normals(pairing, normals)).unwrap());
+                let context = format!("{slave:?} on {master:?}, {pairing:?}, {height}");
+                assert!(!faces.pairs.is_empty(), "{context}");
+                assert_eq!(averaged.unpaired, faces.unpaired, "{context}");
+                assert_eq!(averaged.pairs.len(), faces.pairs.len(), "{context}");
+                for (a, b) in averaged.pairs.iter().zip(&faces.pairs) {
+                    assert_eq!((a.slave, &a.slaves, a.area), (b.slave, &b.slaves, b.area));
+                    assert!(apart(a.normal, b.normal) < 1e-13, "{context}: {a:?}, {b:?}");
+                    assert!((a.gap - b.gap).abs() < 1e-12, "{context}: {a:?}, {b:?}");
+                    let [p, q] = [a, b].map(|pair| point(&sheets.nodes, &pair.masters));
+                    assert!(apart(p, q) < 1e-12, "{context}: {a:?}, {b:?}");
+                }
+                if height == 0.0 {
+                    let rigid = |[x, y, z]: Point| [1.0 + y - 2.0 * z, 3.0 - x + z, 2.0 * x - y];
+                    let moved = most_moved(&faces, &sheets.nodes, rigid);
+                    assert!(moved < 1e-10, "{context}: {moved:e}");
+                }
+            }
+        }
+    }
+}
+
+/// A part of a sphere about the origin, its normal outward.
+fn cap(shape: Shape, cells: usize, (radius, size): (f64, f64)) -> Sheet {
+    // Eight nodes of a distorted quadrilateral do not hold all polynomials of the degree 2.
+    let distortion = if shape == Shape::Q8 { 0.0 } else { 0.2 };
+    let ends = [[-size, size]; 2];
+    let flat = Sheet::rectangle(shape, [cells; 2], ends, (distortion, &mut Rng::with_seed(2)));
+    flat.mapped(|[x, y, _]| {
+        let length = (1.0 + x * x + y * y).sqrt() / radius;
+        [x / length, y / length, 1.0 / length]
+    })
+}
+
+/// A slave of radius 1 in a hollow master, or around a ball; gaps of 0.02.
+fn spheres(shape: Shape, cells: usize, hollow: bool) -> TwoSheets {
+    let slave = cap(shape, cells, (1.0, 0.4));
+    let master = cap(shape, 2 * cells - 1, (if hollow { 1.02 } else { 0.98 }, 0.6));
+    if hollow {
+        TwoSheets::new(3, slave, master.turned())
+    } else {
+        TwoSheets::new(3, slave.turned(), master)
+    }
+}
+
+/// The normal of a flat face of a sphere is the direction to the middle of its circumscribed circle, so that it
+/// differs from those of its corners by an angle of which the sine is the radius of that circle over that of the
+/// sphere. That of the slave's triangles is below 1.3 cells of 0.8 / n, those of the master are smaller. So the
+/// normals of faces, and means of them, are within 1.1 of it of the slave node's, and of averaged ones within
+/// twice as much: the first order. The normal of a quadratic face is of the second order itself. The differences
+/// are taken in the mean square.
+#[test]
+fn normals_of_faces_converge_to_the_averaged_ones() {
+    for (shape, order) in
+        [(Shape::T3, 1), (Shape::Q4, 1), (Shape::T6, 2), (Shape::Q8, 2), (Shape::Q9, 2)]
+    {
+        for (pairing, hollow) in [
+            (Pairing::DualMortar, true),
+            (Pairing::NodeToSurface, true),
+            (Pairing::NodeToSurface, false),
+        ] {
+            let differences = [4, 12].map(|cells| {
+                let sheets = spheres(shape, cells, hollow);
+                let [averaged, faces] =
+                    NORMALS.map(|normals| sheets.pair(&with_normals(pairing, normals)).unwrap());
+                assert_eq!(averaged.pairs.len(), faces.pairs.len());
+                let sign = if hollow { 1.0 } else { -1.0 };
+                let bound = 1.1 * 1.3 * 0.8 / cells as f64;
+                for pair in &faces.pairs {
+                    let exact = sheets.nodes[pair.slave].map(|x| sign * x);
+                    let miss = apart(pair.normal, exact);
+                    assert!((dot(pair.normal, pair.normal) - 1.0).abs() < 1e-14);
+                    assert!(miss < bound, "{shape:?}, {pairing:?}, {hollow}: {miss} of {bound}");
+                }
+                let both = averaged.pairs.iter().zip(&faces.pairs);
+                let squares: f64 = both.map(|(a, b)| apart(a.normal, b.normal).powi(2)).sum();
+                (squares / faces.pairs.len() as f64).sqrt()
+            });
+            // Half an order less is asked for, as the mean depends on how the meshes lie to each other.
+            let factor = 3.0_f64.powf(f64::from(order) - 0.5);
+            let context = format!("{shape:?}, {pairing:?}, hollow: {hollow}");
+            assert!(differences[0] > 0.0, "{context}");
+            assert!(differences[1] < differences[0] / factor, "{context}: {differences:?}");
+        }
+    }
+}
+
+/// What a displacement opens at a pair.
+fn opens(pair: &SurfacePair, u: &[Point]) -> f64 {
+    let [slave, master] = [&pair.slaves, &pair.masters].map(|weights| point(u, weights));
+    dot(slave, pair.normal) - dot(master, pair.normal)
+}
+
+/// Forces of nodes against surfaces act along the line from point to point, with either normal: a rotation opens
+/// nothing, though the surfaces are curved and apart, and so they balance moments. Where a node looks into the wedge
+/// over an edge of a convex master, of which there are some and not many, the normal is that of a face, and
+/// translations alone open nothing.
+#[test]
+fn a_rigid_motion_opens_nothing_between_curved_surfaces() {
+    for (shape, hollow) in [Shape::T3, Shape::Q4].into_iter().flat_map(|s| [(s, true), (s, false)])
+    {
+        let sheets = spheres(shape, 8, hollow);
+        for normals in NORMALS {
+            let found = sheets.pair(&with_normals(Pairing::NodeToSurface, normals)).unwrap();
+            let mut wedges = 0;
+            for pair in &found.pairs {
+                let turned: Vec<Point> = sheets
+                    .nodes
+                    .iter()
+                    .map(|[x, y, z]| [y - 2.0 * z, 3.0 * z - x, 2.0 * x - 3.0 * y])
+                    .collect();
+                let moved = vec![[1.0, -2.0, 0.5]; sheets.nodes.len()];
+                assert!(opens(pair, &moved).abs() < 1e-13, "{pair:?}");
+                if opens(pair, &turned).abs() > 1e-11 {
+                    wedges += 1;
+                }
+            }
+            let context = format!("{shape:?}, {normals:?}, hollow: {hollow}: {wedges} wedges");
+            if normals == Normals::Averaged || hollow {
+                assert_eq!(wedges, 0, "{context}");
+            }
+            assert!(4 * wedges < found.pairs.len(), "{context}");
+        }
+    }
+}
+
+/// The slave is the bottom of a block and its side, one line around a sharp edge, over a floor. The averaged normal at
+/// the edge is between the two, that of the face in contact is that of the bottom; by both kinds of pairing.
+#[test]
+fn a_sharp_edge_has_the_normal_of_the_face_in_contact() {
+    let nodes =
+        [[0.0, 1.1, 0.0], [0.0, 0.1, 0.0], [1.0, 0.1, 0.0], [-1.0, 0.0, 0.0], [2.0, 0.0, 0.0]];
+    let (slave, master) = (vec![vec![0, 1], vec![1, 2]], vec![vec![4, 3]]);
+    for pairing in PAIRINGS {
+        let at_edge = |normals| {
+            let settings =
+                SurfaceSettings { search_distance: Some(0.5), ..with_normals(pairing, normals) };
+            let found = pair(2, &nodes, [&slave, &master], &settings).unwrap();
+            assert_eq!(found.unpaired, [0], "{pairing:?}");
+            found.pairs[0].clone()
+        };
+        let half = 0.5_f64.sqrt();
+        let averaged = at_edge(Normals::Averaged);
+        assert!(apart(averaged.normal, [-half, -half, 0.0]) < 1e-15, "{averaged:?}");
+        let of_face = at_edge(Normals::Faces);
+        assert!(apart(of_face.normal, [0.0, -1.0, 0.0]) < 1e-15, "{of_face:?}");
+        assert!((of_face.gap - 0.1).abs() < 1e-15, "{of_face:?}");
+        assert!(apart(point(&nodes, &of_face.masters), [0.0; 3]) < 1e-14, "{of_face:?}");
+    }
+}
+
+/// A line of elements of the length one from 0 to 4 over a master that ends within the last one.
+fn over_the_rim(end: f64, rims: Rims) -> SurfacePairs {
+    let (mut nodes, slave) = line(&steps(0.0, 4.0, 4), false, 0);
+    let (below, mut master) = line(&steps(-1.0, end, 3), false, nodes.len());
+    master.iter_mut().for_each(|face| face.swap(0, 1));
+    nodes.extend(below);
+    pair(2, &nodes, [&slave, &master], &with_rims(rims)).unwrap()
+}
+
+/// Of the last node of a line whose last element is covered by the share `c`, `c²` is covered, and of the one
+/// before `1/2 + c - c²/2`. Below a tenth the node is folded, kept or dropped; above nothing is a rim and the choices
+/// are the same; kept ones below a millionth are folded.
+#[test]
+fn rims_are_told_by_their_cover() {
+    for c in [0.9, 0.5, 0.33, 0.3, 0.1, 0.003, 3e-4, 1e-6] {
+        let [fold, keep, drop] = RIMS.map(|rims| over_the_rim(3.0 + c, rims));
+        let little = c * c < 0.1;
+        let kept = c * c >= 1e-6;
+        let slaves =
+            |found: &SurfacePairs| found.pairs.iter().map(|pair| pair.slave).collect::<Vec<_>>();
+        let (all, but_last) = (vec![0, 1, 2, 3, 4], vec![0, 1, 2, 3]);
+        assert_eq!(slaves(&fold), if little { but_last.clone() } else { all.clone() }, "{c}");
+        assert_eq!(slaves(&keep), if kept { all.clone() } else { but_last.clone() }, "{c}");
+        assert_eq!(slaves(&drop), if little { but_last } else { all }, "{c}");
+        let last = |is: bool| if is { vec![4] } else { vec![] };
+        let folded = |is: bool| if is { vec![(4, 3)] } else { vec![] };
+        for (found, unpaired, into, dropped) in [
+            (&fold, last(little), folded(little), vec![]),
+            (&keep, last(!kept), folded(!kept), vec![]),
+            (&drop, last(little), vec![], last(little)),
+        ] {
+            assert_eq!(found.unpaired, unpaired, "{c}");
+            assert_eq!(found.report.folded, into, "{c}");
+            assert_eq!(found.report.dropped, dropped, "{c}");
+            let sum: f64 = found.pairs.iter().map(|pair| pair.area).sum();
+            assert!((sum - found.report.covered_area).abs() < 1e-15, "{c}");
+            let left = if dropped.is_empty() { 0.0 } else { 0.5 * c * c };
+            assert!((sum - (3.0 + c - left)).abs() < 1e-14, "{c}: {sum}");
+            let told = found.summary().contains("1 of them dropped with little cover");
+            assert_eq!(told, !dropped.is_empty(), "{}", found.summary());
+        }
+        if kept {
+            let areas = [0.5, 1.0, 1.0, 0.5 + c - 0.5 * c * c, 0.5 * c * c];
+            for (pair, area) in keep.pairs.iter().zip(areas) {
+                assert!((pair.area - area).abs() < 1e-14, "{c}: {pair:?}");
+            }
+            // What is not at the rim is the same.
+            for pair in &drop.pairs {
+                assert!(keep.pairs.contains(pair), "{c}: {pair:?}");
+            }
+        }
+    }
+}
+
+/// Cover is counted on the faces of which a part lies over the master: the node between a face that is covered to a
+/// third and one that is not has a ninth of it, and with 0.3 less than a tenth.
+#[test]
+fn cover_is_counted_on_faces_that_have_some() {
+    for (end, dropped) in [(1.0 / 3.0, vec![]), (0.3, vec![2])] {
+        assert_eq!(over_the_rim(1.0 + end, Rims::Drop).report.dropped, dropped, "{end}");
+    }
+}
+
+/// A surface all of whose nodes have little cover: kept, or folded into one of them, it has its area; dropped it has no
+/// pairs, which is said.
+#[test]
+fn a_contact_of_rims_alone() {
+    let (mut nodes, slave) = line(&[0.0, 1.0], false, 0);
+    nodes.extend([[0.45, 0.0, 0.0], [0.55, 0.0, 0.0]]);
+    let (slave, master) = (&slave[..], &[vec![3, 2]][..]);
+    for (rims, pairs) in [(Rims::Fold, 2), (Rims::Keep, 2), (Rims::Drop, 2)] {
+        // A tenth of each node is covered, from the middle: no rim.
+        let found = pair(2, &nodes, [slave, master], &with_rims(rims));
+        assert_eq!(found.unwrap().pairs.len(), pairs, "{rims:?}");
+    }
+    nodes[2][0] = 0.46;
+    nodes[3][0] = 0.54;
+    for (rims, pairs) in [(Rims::Fold, 1), (Rims::Keep, 2), (Rims::Drop, 0)] {
+        let found = pair(2, &nodes, [slave, master], &with_rims(rims)).unwrap();
+        assert_eq!((found.pairs.len(), found.unpaired.len()), (pairs, 2 - pairs), "{rims:?}");
+        let area: f64 = found.pairs.iter().map(|pair| pair.area).sum();
+        assert!((area - if pairs == 0 { 0.0 } else { 0.08 }).abs() < 1e-15, "{rims:?}: {area}");
+        if rims == Rims::Drop {
+            assert_eq!(found.report.dropped, [0, 1]);
+            assert!(
+                found
+                    .summary()
+                    .starts_with("no pairs: all 2 slave nodes over the other side have little")
+            );
+        }
+    }
+}
+
+/// Loads of a unit pressure on a node of a grid of rectangles in a window: products of those of lines.
+fn on_grid(cells: [usize; 2], window: [[f64; 2]; 2]) -> Vec<f64> {
+    let [x, y] = [0, 1].map(|c| exact_loads(&steps(0.0, 1.0, cells[c]), false, window[c]));
+    y.iter().flat_map(|b| x.iter().map(move |a| a * b)).collect()
+}
+
+/// Faces of all kinds hang over a corner by 3 to 95 % of an element. Nodes that keep their pairs load both sides as
+/// folded ones do, and rigid motions open and slip nothing; areas are those of a grid in closed form; dropped nodes
+/// are those whose share of these is below a tenth. Forces to 1e-11, a hundred roundings of coordinates of ten. Motions
+/// to 1e-8: from a twentieth of a face polynomials of the degree 2 in both directions lead to the other end, where they
+/// are up to 20⁴ times as large, and control values take another ten.
+#[test]
+fn kept_nodes_pass_the_patch_test_and_dropped_ones_are_told() {
+    let mut rng = Rng::with_seed(5);
+    for (slave, master) in SHAPES.into_iter().flat_map(|s| SHAPES.map(|m| (s, m))) {
+        for part in [0.03, 0.3, 0.8, 0.95] {
+            let shift = [part * 0.5, part / 3.0];
+            let above = Sheet::rectangle(slave, [2, 3], [[0.0, 1.0]; 2], (0.0, &mut rng));
+            let ends = shift.map(|shift| [shift, 1.0 + shift]);
+            let below = Sheet::rectangle(master, [3, 2], ends, (0.0, &mut rng));
+            let sheets = TwoSheets::new(3, above.turned().mapped(placed), below.mapped(placed));
+            let [fold, keep, drop] = RIMS.map(|rims| sheets.pair(&with_rims(rims)).unwrap());
+            let context = format!("{slave:?} on {master:?}, overhang {part}");
+            let forces = [&fold, &keep].map(|found| nodal_forces(found, sheets.nodes.len(), 1.0));
+            for (a, b) in forces[0].iter().zip(&forces[1]) {
+                assert!(apart(*a, *b) < 1e-11, "{context}: {a:?}, {b:?}");
+            }
+            let rigid = |[x, y, z]: Point| [1.0 + y - 2.0 * z, 3.0 - x + z, 2.0 * x - y];
+            for found in [&keep, &drop] {
+                let moved = most_moved(found, &sheets.nodes, rigid);
+                assert!(moved < 1e-8, "{context}: {moved:e}");
+                assert!(found.pairs.iter().all(|pair| pair.area > 0.0), "{context}");
+            }
+            assert_eq!(drop.report.folded, [], "{context}");
+            let of_drop = drop.pairs.iter().map(|pair| pair.slave);
+            let lost: Vec<usize> = of_drop.chain(drop.unpaired.iter().copied()).collect();
+            assert_eq!(lost.len(), sheets.slave.concat().iter().max().unwrap() + 1, "{context}");
+            // Dropped are those that are folded otherwise.
+            let folded: Vec<usize> = fold.report.folded.iter().map(|(node, _)| *node).collect();
+            assert_eq!(drop.report.dropped, folded, "{context}");
+            if slave == Shape::Q4 {
+                let window = shift.map(|shift| [shift, 1.0]);
+                let (covered, whole) = (on_grid([2, 3], window), on_grid([2, 3], [[0.0, 1.0]; 2]));
+                for pair in &keep.pairs {
+                    assert!((pair.area - covered[pair.slave]).abs() < 1e-14, "{context}: {pair:?}");
+                }
+                let little = (0..whole.len()).filter(|&node| covered[node] < 0.1 * whole[node]);
+                let kept = little.clone().filter(|&node| covered[node] >= 1e-6 * whole[node]);
+                assert!(kept.clone().all(|node| keep.pairs.iter().any(|pair| pair.slave == node)));
+                assert_eq!(drop.report.dropped, little.collect::<Vec<_>>(), "{context}");
+            }
+        }
+    }
+}
+
+/// Nodes against surfaces have no cover: a choice for rims is refused, not ignored.
+#[test]
+fn rims_are_refused_where_nodes_have_no_cover() {
+    let (mut nodes, slave) = line(&[0.0, 1.0], false, 0);
+    nodes.extend([[0.0; 3], [1.0, 0.0, 0.0]]);
+    for rims in [Rims::Keep, Rims::Drop] {
+        let settings = SurfaceSettings { pairing: Pairing::NodeToSurface, ..with_rims(rims) };
+        let error = pair(2, &nodes, [&slave, &[vec![3, 2]]], &settings).unwrap_err().to_string();
+        assert!(error.starts_with("rims: nodes against surfaces have no cover"), "{error}");
+    }
+}

@@ -1,0 +1,18 @@
+//! Pairs from surfaces.
+
+#[path = "../common/mod.rs"]
+mod common;
+#[path = "../common/surfaces.rs"]
+#[allow(dead_code)] // Each test uses a part.
+mod surfaces;
+
+mod bodies;
+mod both_ways;
+mod choices;
+mod fields;
+mod hertz;
+mod models;
+mod overlap;
+mod patch;
+mod rows;
+mod symmetry;
