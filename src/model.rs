@@ -63,7 +63,8 @@ impl Model {
     /// Two condensed bodies on matching contact nodes, each in its own outward frame.
     ///
     /// # Errors
-    /// As [`TwoBodyReduction::new`].
+    /// Entries that are not finite or symmetric, negative diagonals, zeros there in rows that are not zero;
+    /// a motion that neither body resists, named by its largest component.
     pub fn two_body(
         dim: usize,
         pairs: usize,

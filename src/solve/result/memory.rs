@@ -35,7 +35,7 @@ pub fn check_limit(needed: u64, settings: &Settings) -> Result<(), Error> {
 
 const MEGABYTE: f64 = 1e6;
 
-/// Most bytes that [`solve`](super::solve()) and [`solve_lcp`](super::solve_lcp()) take for so many unknowns,
+/// Most bytes that [`solve`](crate::solve::solve()) and [`solve_lcp`](crate::solve::solve_lcp()) take for so many unknowns,
 /// beside the problem itself, whatever the method, the law and the questions. The working memory of matrix
 /// products, 4 MiB that a thread keeps, is not counted.
 pub fn memory(unknowns: usize) -> u64 {
@@ -43,14 +43,14 @@ pub fn memory(unknowns: usize) -> u64 {
     ((MATRICES * n * n + VECTORS * n) * size_of::<f64>() as f64 + ALWAYS) as u64
 }
 
-/// Bytes of [`solve_flexibility`](super::solve_flexibility), which holds the stiffness of bodies and springs
+/// Bytes of [`solve_flexibility`](crate::solve::solve_flexibility), which holds the stiffness of bodies and springs
 /// besides.
 pub fn memory_flexibility(unknowns: usize) -> u64 {
     let stiffness = (unknowns as f64).powi(2) * size_of::<f64>() as f64;
     memory(unknowns) + stiffness as u64
 }
 
-/// Bytes of [`solve_flexibility_sparse`](super::solve_flexibility_sparse): its largest island as a dense
+/// Bytes of [`solve_flexibility_sparse`](crate::solve::solve_flexibility_sparse): its largest island as a dense
 /// problem, of which it makes the matrix, and the problem itself, which has a copy of the host's matrix.
 pub fn memory_flexibility_sparse(problem: &SparseFlexibilityProblem<'_>) -> u64 {
     memory_of_islands(problem.relation().form())
