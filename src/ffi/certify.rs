@@ -10,26 +10,16 @@ use crate::certificate::Certificate;
 use crate::error::Argument;
 use crate::settings::check_tolerance;
 
-/// Measures relative displacements of any origin, say of another solver, on a load case of a model.
-/// This measure also decides whether a result of this library is called solved.
+/// Measures relative displacements of any origin on a load case, as the library measures its own.
 ///
-/// @param model       the model
-/// @param f           nodal loads of the host, H entries
-/// @param prescribed  values of the fixed degrees of freedom, in the order of fixed; NULL: zero
-/// @param gap         gaps, one for each pair
-/// @param law         SIGNORINI_LAW_..., the friction law of all pairs
-/// @param friction    parameters of the law, pair by pair; may be NULL if frictionless
-/// @param slip0       reference slip, dim - 1 for each pair; NULL: zero
-/// @param tolerance   largest eta of a solution, 1e-15 to 0.1
-/// @param d           relative displacements to be measured, N
-/// @param F           out: the contact forces that obey the contact law and are nearest to K d - f,
-///                    N; may be NULL. Where d does not determine the forces, in flexibility form and
-///                    where pairs depend on each other, in: the forces to be measured with d, which
-///                    stay as they are
-/// @param state       out: SIGNORINI_STATE_... of each pair; may be NULL
-/// @param report      out: the measures; set report->struct_size before the call; may be NULL
-/// @return 0: a solution, report->eta <= tolerance; SIGNORINI_STATUS_NOT_A_SOLUTION: none; -k: the
-///         k-th argument is wrong, nothing was written
+/// @param model,f,prescribed,gap,law,friction,slip0  as for signorini_model_solve
+/// @param tolerance     largest eta of a solution, 1e-15 to 0.1
+/// @param d             the displacements, N
+/// @param F             out: the contact forces that obey the law and are nearest to K d - f, N;
+///                      may be NULL. In flexibility form, and where pairs depend on each other, in:
+///                      the forces to be measured with d
+/// @param state,report  as for signorini_solve
+/// @return 0: a solution; SIGNORINI_STATUS_NOT_A_SOLUTION: none; or another status
 #[unsafe(no_mangle)]
 #[allow(non_snake_case)] // the names of the mechanics, which the header shows
 pub unsafe extern "C" fn signorini_model_certify(

@@ -6,9 +6,8 @@ use super::report::state_codes;
 use super::structures;
 use crate::solve::{Existence, Solution};
 
-/// Results that not every call wants. Fill it by signorini_extra_default(), then set the pointers
-/// of the arrays that you want. Each pointer may be NULL. In signorini_model_solve each array has a
-/// column for each case.
+/// Further results: arrays of N entries, of cases a column for each. Fill it by
+/// signorini_extra_default(), then set the pointers that you want.
 #[repr(C)]
 #[derive(Clone, Copy)]
 #[allow(non_snake_case)] // the names of the mechanics, which the header shows
@@ -17,30 +16,25 @@ pub struct SignoriniExtra {
     pub struct_size: u32,
     /// 0.
     pub reserved: i32,
-    /// Out: N entries. With SIGNORINI_STATUS_NO_EQUILIBRIUM a motion r that proves the status:
-    /// K r = 0, and f . r + F . r > 0 for all contact forces F that the law admits. Its largest
-    /// component is 1. With every other status zeros. With friction it lifts each slipping pair by
-    /// mu times its slip, as nothing moves: draw escape. In signorini_flexibility_solve the proof
-    /// is pressing normal forces p: W p = 0, and the sum of p_n (gap - q_n) is positive, p_n < 0
-    /// where it counts; the largest is -1.
+    /// With SIGNORINI_STATUS_NO_EQUILIBRIUM a motion r that proves it, its largest entry 1:
+    /// K r = 0, and f . r + F . r > 0 for all forces F that the law admits. It lifts slipping pairs
+    /// by mu times their slip, as no body moves: draw escape. In flexibility form pressing normal
+    /// forces p, the largest -1: W p = 0, and the sum of p_n (gap - q_n) is positive. Else zeros.
     pub motion: *mut f64,
-    /// Out: N entries. If report.second is 1, the relative displacements of a second solution,
-    /// certified as the first is; otherwise zeros.
+    /// Displacements of a second solution if report.second is 1; else zeros.
     pub second_d: *mut f64,
-    /// Out: N entries. Contact forces of the second solution; otherwise zeros.
+    /// Its contact forces; else zeros.
     pub second_F: *mut f64,
-    /// Out: one for each pair. SIGNORINI_STATE_... of the second solution; otherwise zeros.
+    /// Its states, one for each pair; else zeros.
     pub second_state: *mut i32,
-    /// Out: N entries. If report.proof is SIGNORINI_PROOF_PROVED: the solution has displacements
-    /// within this distance of d, component by component; length. Otherwise -1.
+    /// With SIGNORINI_PROOF_PROVED the solution lies within this distance of d, component by
+    /// component; length. Else -1.
     pub radius_d: *mut f64,
-    /// Out: N entries. The same of the contact forces and F; force.
+    /// Likewise of the contact forces; force.
     pub radius_F: *mut f64,
-    /// Out: N entries. With SIGNORINI_STATUS_NO_EQUILIBRIUM the motion of escape, which you can
-    /// draw: K r = 0, no pair approaches its obstacle, pairs that contact presses stay on it,
-    /// friction opposes the slip, and f . r > 0. It is the motion against a viscosity in each
-    /// component of the size of its diagonal entry of K, every pair of finite gap touching. Its
-    /// largest component is 1. With every other status zeros.
+    /// With SIGNORINI_STATUS_NO_EQUILIBRIUM the motion of escape, to be drawn, its largest entry 1:
+    /// K r = 0, no pair approaches its obstacle, friction opposes the slip, and f . r > 0, if every
+    /// pair of finite gap touches. Else zeros.
     pub escape: *mut f64,
 }
 
@@ -160,11 +154,7 @@ fn radii(solution: &Solution) -> (Vec<f64>, Vec<f64>) {
     }
 }
 
-/// Fills extra with NULL pointers, so that no array is wanted, and sets struct_size.
-///
-/// @param extra        not NULL
-/// @param struct_size  sizeof(signorini_extra); no more than that is written
-/// @return 0, or -1 or -2 for the argument that is wrong
+/// Fills extra with NULL pointers; struct_size is sizeof(signorini_extra).
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn signorini_extra_default(
     extra: *mut SignoriniExtra,

@@ -4,24 +4,21 @@ use super::args::Arrays;
 use super::guard::Failure;
 use crate::problem::{FrictionLaw, Law};
 
-/// No friction: F_t = 0. friction may be NULL and is not read.
+/// No friction: F_t = 0. friction is not read.
 pub const SIGNORINI_LAW_FRICTIONLESS: i32 = 0;
-/// Coulomb: |F_t| <= mu |F_n|. friction holds mu >= 0, one for each pair.
+/// Coulomb: |F_t| <= mu |F_n|. friction: mu >= 0.
 pub const SIGNORINI_LAW_COULOMB: i32 = 1;
-/// Tresca: |F_t| <= g, open or closed. friction holds g >= 0, one for each pair; force.
+/// Tresca: |F_t| <= g, open or closed. friction: g >= 0; force.
 pub const SIGNORINI_LAW_TRESCA: i32 = 2;
 /// Coulomb with cohesion and a tension cut-off: F_n <= a, (d_n - gap) (F_n - a) = 0,
-/// |F_t| <= b - mu F_n. friction holds three numbers for each pair, (mu, b, a): mu >= 0; a >= 0,
-/// the tension at which the pair opens, force; b >= mu a, the cohesion, force. The law has no
-/// memory: an open pair carries the tension F_n = a and a friction of up to b - mu a, however far
-/// it is open (gap +inf too). To let a pair break, the host sets its b and a to 0 in the load steps
-/// after it opened.
+/// |F_t| <= b - mu F_n. friction: (mu, b, a) with mu >= 0, the tension a >= 0 at which the pair
+/// opens, and the cohesion b >= mu a; forces. The law has no memory: an open pair, with gap +inf
+/// too, carries the tension a and a friction of up to b - mu a. To let a pair break, set its b and
+/// a to 0 in later load steps.
 pub const SIGNORINI_LAW_COHESIVE: i32 = 3;
-/// Orthotropic, 3D only: (F_1 / mu1)^2 + (F_2 / mu2)^2 <= F_n^2, an ellipse. friction holds three
-/// numbers for each pair, (mu1, mu2, angle): the coefficients along axis 1 and 2, both > 0 and at
-/// most 1e6 times apart, and the angle of axis 1 from t1 towards t2 in radians. The pair slips along
-/// the normal of the ellipse at -F_t (associated rule): of all forces in the ellipse F_t takes the
-/// most work from the slip.
+/// Orthotropic, 3D only: (F_1 / mu1)^2 + (F_2 / mu2)^2 <= F_n^2. friction: (mu1, mu2, angle), both
+/// coefficients > 0 and at most 1e6 times apart, and the angle of axis 1 from t1 towards t2 in
+/// radians. The pair slips along the normal of this ellipse at -F_t (associated rule).
 pub const SIGNORINI_LAW_ORTHOTROPIC: i32 = 4;
 /// As SIGNORINI_LAW_ORTHOTROPIC, but the pair slips opposite to F_t (collinear rule).
 pub const SIGNORINI_LAW_ORTHOTROPIC_COLLINEAR: i32 = 5;

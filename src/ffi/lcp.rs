@@ -11,25 +11,22 @@ use crate::solve::{Status, memory, solve_lcp};
 
 /// Solves a linear complementarity problem (LCP): w = q + M z, w >= 0, z >= 0, w . z = 0.
 ///
-/// SIGNORINI_METHOD_AUTO is block principal pivoting, then Lemke's method (lexicographic: it never
-/// cycles). M positive definite or a P-matrix: the problem is solved. M positive semi-definite or
-/// copositive-plus: it is solved, or proved infeasible (SIGNORINI_STATUS_NO_EQUILIBRIUM). Any other
-/// M: the call may also end in a ray that proves nothing (SIGNORINI_STATUS_STALLED).
+/// SIGNORINI_METHOD_AUTO is block principal pivoting, then Lemke's method (lexicographic). M
+/// positive definite or a P-matrix: the problem is solved. M positive semi-definite or
+/// copositive-plus: it is solved, or proved to have no solution (SIGNORINI_STATUS_NO_EQUILIBRIUM).
+/// Any other M: the call may also end in a ray that proves nothing (SIGNORINI_STATUS_STALLED).
 ///
 /// @param n         number of unknowns, 0 allowed
-/// @param M         any matrix, n columns of n entries, column-major
+/// @param M         any matrix, n columns of n entries
 /// @param ldm       entries from one column of M to the next, at least max(1, n)
 /// @param q         n
 /// @param cover     covering vector of Lemke's method, n positive entries; NULL: ones
-/// @param settings  NULL: the defaults; method is SIGNORINI_METHOD_AUTO, _BLOCK_PIVOTING or _LEMKE;
-///                  omega, damping, warm_start and search are checked and have no effect
-/// @param w         out: n
-/// @param z         out: n
-/// @param y         out: n; with SIGNORINI_STATUS_NO_EQUILIBRIUM the proof that no w, z >= 0 satisfy
-///                  w = q + M z: y >= 0, M' y <= 0, q . y < 0; with every other status zeros; may be
-///                  NULL
-/// @param report    out: set report->struct_size before the call; may be NULL
-/// @return as signorini_solve
+/// @param settings  NULL: the defaults; method AUTO, BLOCK_PIVOTING or LEMKE; omega, damping,
+///                  warm_start and search have no effect
+/// @param w,z       out: n
+/// @param y         out: n; may be NULL. With SIGNORINI_STATUS_NO_EQUILIBRIUM the proof: y >= 0,
+///                  M' y <= 0, q . y < 0; else zeros
+/// @param report    as for signorini_solve
 #[unsafe(no_mangle)]
 #[allow(non_snake_case)] // the name of the mathematics, which the header shows
 pub unsafe extern "C" fn signorini_lcp_solve(

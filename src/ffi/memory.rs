@@ -2,14 +2,10 @@
 
 use crate::solve;
 
-/// Most bytes that a call may take beside your arrays, for so many unknowns: signorini_solve with N
-/// = dim * pairs, and signorini_lcp_solve. A load case of a model: signorini_model_view. A call
-/// takes them for every method, law and setting, and holds as much address space in reserve;
-/// settings.memory_limit refuses a call that may need more. Each thread keeps some MiB of its own
-/// for matrix products, which are not counted.
-///
-/// @param n  number of unknowns
-/// @return bytes; -1 if n is negative
+/// Most bytes that a call with n unknowns may take beside your arrays, with any method, law and
+/// setting: signorini_solve with n = dim * pairs, and signorini_lcp_solve. A call that may need
+/// more than memory_limit is refused. Some MiB that each thread keeps are not counted. Returns -1
+/// if n is negative.
 #[unsafe(no_mangle)]
 pub extern "C" fn signorini_solve_memory(n: i64) -> i64 {
     let n = usize::try_from(n).ok();

@@ -5,10 +5,9 @@ use std::sync::Mutex;
 use super::guard::{self, Failure};
 use crate::model::{Model, Past};
 
-/// A structure that is reduced to its contact pairs: what all load cases share. Made by
-/// signorini_model_new_..., released by signorini_model_free. It does not change: several threads
-/// may use one at once (but see SIGNORINI_START_PREVIOUS). It holds copies: your arrays may go once
-/// the model is made.
+/// A structure that is reduced to its contact pairs: what all load cases share. It does not change:
+/// several threads may use one at once (but see SIGNORINI_START_PREVIOUS). signorini_model_free
+/// releases it.
 pub struct SignoriniModel {
     model: Model,
     /// The result that calls with SIGNORINI_START_PREVIOUS have left; nothing while one is at work.

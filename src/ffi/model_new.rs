@@ -12,15 +12,10 @@ use crate::model::Model;
 use crate::reduce;
 use crate::shortage;
 
-/// Makes a model of a body that you have condensed, on a rigid obstacle: d = u. Loads and
-/// displacements of the host have H = N entries.
+/// Makes a model of a body that you have condensed, on a rigid obstacle: d = u, H = N.
 ///
-/// @param dim    space dimension, 2 or 3
-/// @param pairs  number of contact pairs
-/// @param K      condensed stiffness, N = dim * pairs columns, as for signorini_solve
-/// @param ldk    entries from one column to the next, at least max(1, N)
-/// @param model  out: the model; NULL unless 0 is returned
-/// @return 0; -k: the k-th argument is wrong; <= -1000: out of memory or a defect
+/// @param dim,pairs,K,ldk  as for signorini_solve
+/// @param model  out: the model
 #[unsafe(no_mangle)]
 #[allow(non_snake_case)] // the names of the mechanics, which the header shows
 pub unsafe extern "C" fn signorini_model_new_condensed(
@@ -49,18 +44,13 @@ pub unsafe extern "C" fn signorini_model_new_condensed(
 }
 
 /// Makes a model of two bodies that you have condensed on matching contact nodes, each in its own
-/// outward frame: n_B = -n_A and t_B = -t_A, so that d = u_A + u_B. One body may float. A motion
-/// that neither body resists is refused. Loads and displacements of the host are [A; B], H = 2 N
-/// entries.
+/// outward frame: n_B = -n_A and t_B = -t_A, so that d = u_A + u_B. One body may float; a motion
+/// that neither resists is refused. Loads and displacements are [A; B], H = 2 N.
 ///
-/// @param dim    space dimension, 2 or 3
-/// @param pairs  number of contact pairs
-/// @param K_A    condensed stiffness of body A, N = dim * pairs columns
-/// @param lda    entries from one column to the next, at least max(1, N)
-/// @param K_B    condensed stiffness of body B
-/// @param ldb    entries from one column to the next, at least max(1, N)
-/// @param model  out: the model; NULL unless 0 is returned
-/// @return 0; -k: the k-th argument is wrong; <= -1000: out of memory or a defect
+/// @param dim,pairs  as for signorini_solve
+/// @param K_A,lda    stiffness of body A, as K and ldk for signorini_solve
+/// @param K_B,ldb    stiffness of body B
+/// @param model      out: the model
 #[unsafe(no_mangle)]
 #[allow(non_snake_case)] // as above
 pub unsafe extern "C" fn signorini_model_new_two_body(
@@ -97,28 +87,21 @@ pub unsafe extern "C" fn signorini_model_new_two_body(
 }
 
 /// Makes a model of your whole sparse stiffness matrix with contact pairs, for any number of bodies
-/// and contact zones. Bodies that only contact supports are allowed. Loads and displacements of the
-/// host have H = K->size entries.
+/// and contact zones. Contact alone may support a body. H = K->size.
 ///
-/// The call takes progress, user, time_limit, memory_limit, threads and full_space of the settings.
-/// The callback is told the share that is done and, before memory is taken, how much is needed. It
-/// is not called while the order of elimination is chosen (2 s for 1e5 nodes). A call that was ended
-/// holds nothing.
+/// If the condensed matrix needs more than memory_limit, the model is in full space: load cases are
+/// solved by Newton's method with GMRES on a sparse factor, made anew a few times in each; methods
+/// AUTO and NEWTON alone, no search, no proof. Pairs that depend on each other are condensed all
+/// the same.
 ///
-/// If the condensed matrix needs more than memory_limit, the model is in full space: no condensed
-/// matrix is formed. Load cases are solved by Newton's method with GMRES on a sparse factor, which
-/// each load case makes anew a few times; methods AUTO and NEWTON alone, no search, no proof. Pairs
-/// that depend on each other are condensed all the same. K->order is not read for it.
-///
-/// @param K         the stiffness matrix of all degrees of freedom, the fixed ones too
+/// @param K         the stiffness of all degrees of freedom, the fixed ones too
 /// @param n_fixed   number of fixed degrees of freedom
-/// @param fixed     the fixed degrees of freedom, counted from K->index_base; may be NULL if n_fixed
-///                  is 0
+/// @param fixed     these degrees of freedom, counted from K->index_base
 /// @param pairs     the contact pairs
-/// @param settings  NULL: no callback, no limits, one thread
-/// @param model     out: the model; NULL unless 0 is returned
-/// @return 0; SIGNORINI_STATUS_CANCELLED, _TIME_LIMIT or _MEMORY_LIMIT; -k: the k-th argument is
-///         wrong; <= -1000: out of memory or a defect
+/// @param settings  NULL: the defaults. It reads progress, user, time_limit, memory_limit, threads
+///                  and full_space. The callback is not called while the order of elimination is
+///                  computed (2 s for 1e5 nodes)
+/// @param model     out: the model
 #[unsafe(no_mangle)]
 #[allow(non_snake_case)] // as above
 pub unsafe extern "C" fn signorini_model_new_sparse(
@@ -157,39 +140,26 @@ pub unsafe extern "C" fn signorini_model_new_sparse(
     })
 }
 
-/// Makes a model in flexibility form, as codes of rigid and multibody dynamics have it: d = W F + q
-/// takes the place of K d = f + F. Contact, friction and signs stay. In the load cases of
-/// signorini_model_solve f holds the free displacements q, the relative displacements without
-/// contact forces; F holds the start if settings.warm_start is set. Loads and displacements of the
-/// host have H = N entries.
+/// Makes a model in flexibility form: d = W F + q takes the place of K d = f + F. Contact, friction
+/// and signs stay. In load cases f holds q, the relative displacements without contact forces, and
+/// F the start if settings.warm_start is set; H = N. W = H M^-1 H' may be singular, as where pairs
+/// are redundant: then contact forces are not unique, and no solution is said to be the only one.
 ///
-/// W = H M^-1 H' may be singular, as where pairs are redundant: four feet of a rigid table, a node
-/// on two planes. Contact forces are not unique then. From the start zero the smallest ones are
-/// returned, if states of pairs do not change during the iteration. No solution is said to be the
-/// only one.
+/// Codes with u = W r + q, where u_N >= 0 opens a contact and r_N >= 0 presses (FCLIB, Siconos,
+/// most multibody codes), hand over -q; then u = -d and r = -F. Velocities and impulses may take
+/// the places of displacements and forces.
 ///
-/// report.eta is the residual of the law and of d - q - W F, in the units 1 / W_nn for the normal of
-/// a pair and one over the largest eigenvalue of its tangential block for its tangents. It is
-/// relative to the larger of F, less the part that moves nothing, and the units times q. Where pairs
-/// that stay apart have free displacements far above those that forces undo, ask for a smaller
-/// tolerance.
+/// report.eta is relative to the larger of F and q, measured as a force: where open pairs have free
+/// displacements far above those that forces undo, ask for a smaller tolerance.
+/// SIGNORINI_STATUS_NO_EQUILIBRIUM proves that the gaps contradict each other. If friction wedges
+/// bodies, the status is SIGNORINI_STATUS_STALLED, and the sentence names the pairs whose forces
+/// grow.
 ///
-/// Codes that write u = W r + q with u_N >= 0 where a contact opens and r_N >= 0 where it presses
-/// (FCLIB, Siconos, most multibody codes) change all signs but those of W: hand over -q; then u = -d
-/// and r = -F. Velocities and impulses may take the places of displacements and forces.
-///
-/// SIGNORINI_STATUS_NO_EQUILIBRIUM proves that the gaps contradict each other: no forces move the
-/// bodies to where every gap is kept. Bodies that friction wedges are not proved: the status is
-/// SIGNORINI_STATUS_STALLED, and signorini_last_error names the pairs whose forces grow.
-///
-/// @param dim    space dimension, 2 or 3
-/// @param pairs  number of contact pairs, 0 allowed
-/// @param W      flexibility, N = dim * pairs columns of N entries, column-major, both triangles;
-///               symmetric, positive semi-definite, not zero; length / force. A row of zeros is a
-///               component that nothing moves
-/// @param ldw    entries from one column of W to the next, at least max(1, N)
-/// @param model  out: the model; NULL unless 0 is returned
-/// @return 0; -k: the k-th argument is wrong; <= -1000: out of memory or a defect
+/// @param dim,pairs  as for signorini_solve
+/// @param W,ldw      flexibility, as K and ldk for signorini_solve; length / force; symmetric,
+///                   positive semi-definite, not zero. A row of zeros is a component that nothing
+///                   moves
+/// @param model      out: the model
 #[unsafe(no_mangle)]
 #[allow(non_snake_case)] // as above
 pub unsafe extern "C" fn signorini_model_new_flexibility(
@@ -214,27 +184,17 @@ pub unsafe extern "C" fn signorini_model_new_flexibility(
     })
 }
 
-/// Makes a model in flexibility form of a sparse matrix.
+/// Makes a model in flexibility form of a sparse matrix. Pairs that no entry of W ties to each
+/// other are islands, such as heaps of bodies that do not touch. Each is solved as a dense problem
+/// of its own; the largest decides the memory.
 ///
-/// Pairs that no entry of W ties to each other are islands, such as heaps of bodies that do not
-/// touch. Each is solved by itself as a dense problem of its size; the result is measured as a whole
-/// on W. So the time is the sum of those of the islands, and the memory that of the largest. Where
-/// settings.memory_limit allows less, a load case ends with SIGNORINI_STATUS_MEMORY_LIMIT before its
-/// work begins, and signorini_last_error names the largest island.
+/// The status is that of the worst island; an island without equilibrium does not stop the others.
+/// At a limit, or where the callback cancels, islands that are left keep the start. report.method,
+/// omega and damping are those of the largest island with the status; counts are sums.
 ///
-/// The status is that of the worst island. SIGNORINI_STATUS_NO_EQUILIBRIUM of one proves that the
-/// whole has none; the other islands are solved all the same, from the smallest to the largest. At a
-/// limit, or where the callback cancels, the islands that are left keep the start. report.method,
-/// omega and damping are those of the largest island with the status; counts are sums over all
-/// islands.
-///
-/// @param dim    space dimension, 2 or 3
-/// @param pairs  number of contact pairs, 0 allowed
-/// @param W      flexibility, W->size = dim * pairs; symmetric, positive semi-definite, not zero;
-///               length / force. A component that nothing moves has a row of zeros, which need not
-///               be stored; stored zeros tie nothing. W->order is not read
-/// @param model  out: the model; NULL unless 0 is returned
-/// @return 0; -k: the k-th argument is wrong; <= -1000: out of memory or a defect
+/// @param dim,pairs  as for signorini_solve
+/// @param W          W->size = N; rows of zeros need not be stored; stored zeros tie nothing
+/// @param model      out: the model
 #[unsafe(no_mangle)]
 #[allow(non_snake_case)] // as above
 pub unsafe extern "C" fn signorini_model_new_flexibility_sparse(

@@ -9,18 +9,13 @@ use crate::error::Argument;
 use crate::model::BLOCK;
 use crate::reduce::SolvedCase;
 
-/// Displacements of the host from the relative ones. Every array has a column for each case, without
-/// space between the columns. Of a sparse model many cases at once cost a fraction of what they cost
-/// one by one.
+/// Your displacements from the relative ones, a column for each case; many cases of a sparse model
+/// at once cost a fraction. If u overflows, cases before may be written.
 ///
-/// @param model       the model
-/// @param cases       number of load cases, 0 allowed
-/// @param f           nodal loads, H entries a case; NULL: zero, as for a motion of escape
-/// @param prescribed  values of the fixed degrees of freedom; NULL: zero
-/// @param d           relative displacements, N entries a case
-/// @param u           out: displacements, H entries a case
-/// @return 0; -k: the k-th argument is wrong, in the case that signorini_last_error names. Numbers
-///         so large that u overflows are found on the way: cases before may be written then
+/// @param model,cases,prescribed  as for signorini_model_solve
+/// @param f  nodal loads, H a case; NULL: zero, as for a motion of escape
+/// @param d  relative displacements, N a case
+/// @param u  out: displacements, H a case
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn signorini_model_recover(
     model: *const SignoriniModel,
@@ -77,14 +72,13 @@ fn position(argument: Argument) -> i32 {
     }
 }
 
-/// Contact forces as a nodal force vector of the host. Sparse model: F on the slaves, the opposite
-/// on the masters; general rows: F by the signed weights. Two bodies: F on both, each in its own
-/// frame. Condensed model: F itself.
+/// Contact forces as your nodal forces. Sparse model: F on the slaves, the opposite on the masters;
+/// general rows: F by the signed weights. Two bodies: F on both, each in its own frame. Condensed
+/// model: F itself.
 ///
 /// @param model  the model
-/// @param F      contact forces, N entries
-/// @param nodal  out: nodal forces, H entries
-/// @return 0; -k: the k-th argument is wrong
+/// @param F      contact forces, N
+/// @param nodal  out: nodal forces, H
 #[unsafe(no_mangle)]
 #[allow(non_snake_case)] // the names of the mechanics, which the header shows
 pub unsafe extern "C" fn signorini_model_nodal_forces(
@@ -108,14 +102,11 @@ pub unsafe extern "C" fn signorini_model_nodal_forces(
     })
 }
 
-/// Relative loads of one load case: the f that signorini_solve takes beside the matrix of
-/// signorini_model_stiffness. There are none if rows of pairs depend on each other.
+/// Relative loads of a load case: the f of signorini_solve beside the K of signorini_model_data.
+/// There are none if pairs depend on each other.
 ///
-/// @param model       the model
-/// @param f           nodal loads of the host, H entries
-/// @param prescribed  values of the fixed degrees of freedom; NULL: zero
-/// @param load        out: relative loads, N entries
-/// @return 0; -k: the k-th argument is wrong
+/// @param model,f,prescribed  as for signorini_model_solve
+/// @param load  out: relative loads, N
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn signorini_model_condensed_load(
     model: *const SignoriniModel,

@@ -21,36 +21,27 @@ use crate::workers::SingleThread;
 const SETTINGS: i32 = 9;
 const START: i32 = 10;
 
-/// Solves load cases, one after the other. Every array has a column for each case, without space
-/// between the columns. All cases have the same law. A case that is wrong or not solved does not
-/// stop the others; the d, F, state, report and extra of a wrong case are not written. Many cases
-/// in one call cost less than one by one: loads of sparse models are condensed together, and with
-/// friction in 3D the elimination of pairs that stay open serves the next cases. The last digits of
-/// a result depend on the cases before it in the call. A case alone depends on itself only.
+/// Solves load cases with one friction law. Every array has a column for each case, without space
+/// between the columns. A case that is wrong or not solved does not stop the others; of a wrong one
+/// only its status is written.
 ///
-/// Load steps with friction: in each step hand over as slip0 the d_t of the step before, zero at
-/// first. The model keeps no state, but with SIGNORINI_START_PREVIOUS.
+/// Many cases in one call cost less than one by one: they share condensed loads and, with friction
+/// in 3D, the elimination of pairs that stay open. So the last digits of a result depend on the
+/// cases before it in the call.
 ///
-/// @param model       the model
-/// @param cases       number of load cases, 0 allowed
-/// @param f           nodal loads of the host, H = signorini_model_host_size entries a case
-/// @param prescribed  values of the fixed degrees of freedom, in the order of fixed; NULL: zero
-/// @param gap         gaps, one for each pair
-/// @param law         SIGNORINI_LAW_..., the friction law of all pairs
-/// @param friction    parameters of the law, pair by pair; may be NULL if frictionless
-/// @param slip0       reference slip, dim - 1 for each pair; NULL: zero
-/// @param settings    NULL: the defaults; a progress callback is called in each case in turn
-/// @param d           out: relative displacements, N = dim * pairs entries a case; in: the starts
-///                    if settings->warm_start
-/// @param F           out: contact forces, N entries a case
-/// @param state       out: SIGNORINI_STATE_... of each pair; may be NULL
-/// @param status      out: status of each case, as signorini_solve returns it, -k standing for the
-///                    k-th argument of this call; may be NULL
-/// @param report      out: one for each case; set struct_size in each one before the call; may be
-///                    NULL
-/// @param extra       the motion of escape, a second solution; may be NULL
-/// @return 0: every case is solved; otherwise the status of the first case that is not, which
-///         signorini_last_error names; -k: the k-th argument is wrong
+/// @param model        the model
+/// @param cases        number of load cases, 0 allowed
+/// @param f            your nodal loads, H a case
+/// @param prescribed   values of the fixed degrees of freedom, in the order of fixed; NULL: zero
+/// @param gap,law,friction,slip0,settings  as for signorini_solve
+/// @param d            out: relative displacements, N a case; in: the starts if
+///                     settings->warm_start
+/// @param F            out: contact forces, N a case
+/// @param status       out: status of each case, -k for the k-th argument of this call; may be NULL
+/// @param report       out: one for each case, each with its struct_size set; may be NULL
+/// @param state,extra  as for signorini_solve
+/// @return 0: every case is solved; otherwise the status of the first that is not, which
+///         signorini_last_error names
 #[unsafe(no_mangle)]
 #[allow(non_snake_case)] // the names of the mechanics, which the header shows
 pub unsafe extern "C" fn signorini_model_solve(

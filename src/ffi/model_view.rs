@@ -7,50 +7,44 @@ use crate::model::ModelKind;
 
 /// A condensed stiffness matrix K.
 pub const SIGNORINI_MODEL_STIFFNESS: i32 = 0;
-/// Factors of the sparse stiffness matrix: no condensed matrix is formed.
+/// Factors of the sparse stiffness matrix.
 pub const SIGNORINI_MODEL_FULL_SPACE: i32 = 1;
-/// Products and solutions of the host.
+/// Your products and solutions.
 pub const SIGNORINI_MODEL_OPERATOR: i32 = 2;
 /// The flexibility form, d = W F + q.
 pub const SIGNORINI_MODEL_FLEXIBILITY: i32 = 3;
 
-/// The content of a model. Arrays live as long as the model.
+/// The content of a model.
 #[repr(C)]
 #[derive(Clone, Copy)]
 #[allow(non_snake_case)] // the names of the mechanics, which the header shows
 pub struct SignoriniModelData {
-    /// sizeof(signorini_model_data) in your program; no more is written.
+    /// sizeof(signorini_model_data).
     pub struct_size: u32,
     /// Space dimension, 2 or 3.
     pub dim: i32,
     /// Number of contact pairs.
     pub pairs: i64,
-    /// H, the entries of a load or displacement vector of the host.
+    /// H, the entries of your load and displacement vectors.
     pub host_size: i64,
     /// Number of fixed degrees of freedom: the entries of prescribed.
     pub fixed: i64,
-    /// Most bytes that a load case of signorini_model_solve may take beside the model and your
-    /// arrays. Many load cases take them in turn; up to 32 at a time take some vectors of H entries
-    /// each besides.
+    /// Most bytes that a load case may take beside the model and your arrays. Up to 32 cases of a
+    /// call take some vectors of H entries each besides.
     pub memory: i64,
-    /// SIGNORINI_MODEL_..., by which load cases are solved.
+    /// SIGNORINI_MODEL_...
     pub kind: i32,
     /// Number of pairs whose rows follow from those of other pairs or from supports.
     pub dependent: i32,
-    /// The stiffness matrix in relative displacements, N columns of N entries; leading dimension N.
-    /// NULL: there is none, as the kind is another or pairs depend on each other.
+    /// Stiffness in relative displacements, N columns of N entries. NULL if kind is not
+    /// SIGNORINI_MODEL_STIFFNESS, or pairs depend on each other.
     pub K: *const f64,
-    /// The frames of the pairs, to turn d and F to global axes: for each pair the normal, then the
-    /// tangents, each a unit vector of dim entries; vector = n d_n + t d_t (2D) or
-    /// n d_n + t1 d_t1 + t2 d_t2 (3D). NULL: the matrix was condensed in frames of your own.
+    /// Frames of the pairs, to turn d and F to global axes: normal and tangents, unit vectors of
+    /// dim entries, vector = n d_n + t d_t. NULL: you condensed in frames of your own.
     pub frames: *const f64,
 }
 
-/// Shows a model: fills data, whose arrays live as long as the model.
-///
-/// @param model  the model
-/// @param data   out: set data->struct_size before the call
-/// @return 0; -k: the k-th argument is wrong
+/// Fills data, whose struct_size you set before. Its arrays live as long as the model.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn signorini_model_view(
     model: *const SignoriniModel,

@@ -10,16 +10,16 @@ use super::structures;
 use crate::model::Model;
 use crate::reduce::HostOperator;
 
-/// A product of the host, y = K_rel x or y = W x: x and y have N = dim * pairs entries. Returns 0;
-/// another number ends the call of the library, whose sentence tells it. It must return: no longjmp,
-/// no exception; and it must not call this library.
+/// Your product, y = K_rel x or y = W x, with N entries. Returns 0; another number ends the call of
+/// the library, whose sentence tells it. As a progress callback it must return, and not call this
+/// library.
 pub type SignoriniProductFn =
     Option<unsafe extern "C" fn(user: *mut c_void, x: *const f64, y: *mut f64) -> i32>;
 
-/// A solution of the host with components held: y is 0 where held is nonzero, and K_rel y = x in
-/// the other components; x does not count where held is nonzero. All have N entries. changed is 0
-/// if the same components are held as in the call before on this model, and that call has not
-/// failed, so that a factor may serve again. Returns as signorini_product_fn.
+/// Your solution with components held: y is 0 where held is nonzero, and K_rel y = x in the other
+/// components; x counts only there. All have N entries. changed is 0 if the same components are
+/// held as in the call before on this model, and that call has not failed: then a factor may serve
+/// again. Returns as signorini_product_fn.
 pub type SignoriniHeldFn = Option<
     unsafe extern "C" fn(
         user: *mut c_void,
@@ -30,8 +30,8 @@ pub type SignoriniHeldFn = Option<
     ) -> i32,
 >;
 
-/// Functions of a host in the place of a matrix: say of a code on several processes, with a factor
-/// of its own. d and F are those of the pairs, as for signorini_solve, and K_rel is the K there.
+/// Functions in the place of a matrix, say of a code on several processes. K_rel is the K of
+/// signorini_solve.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct SignoriniOperator {
@@ -43,13 +43,13 @@ pub struct SignoriniOperator {
     pub pairs: i64,
     /// y = K_rel x; symmetric, positive semi-definite; as exact as the tolerance asks for.
     pub stiffness: SignoriniProductFn,
-    /// y = W x, with W close to the inverse of K_rel, symmetric and positive definite: a solution
-    /// with the contact free. May be NULL if held is given, which is then used alone.
+    /// y = W x, W close to the inverse of K_rel, symmetric, positive definite: a solution with the
+    /// contact free. NULL: held is used alone.
     pub inverse: SignoriniProductFn,
     /// A solution with components held, in the place of W. May be NULL if inverse is given.
     pub held: SignoriniHeldFn,
-    /// Units of force per length of the components, N positive numbers of the size of the diagonal
-    /// of K_rel. NULL: one for each direction, from products.
+    /// Positive numbers of the size of the diagonal of K_rel, N; force / length. NULL: one for each
+    /// direction, from products.
     pub units: *const f64,
     /// Passed to the functions as their first argument.
     pub user: *mut c_void,
@@ -102,22 +102,18 @@ impl HostOperator for Functions {
     }
 }
 
-/// Makes a model of which you give products and solutions alone, for structures that no one process
-/// holds: no matrix is formed. Loads and displacements of the host are the relative ones, H = N
-/// entries. Load cases are solved by Newton's method with GMRES, methods AUTO and NEWTON alone, no
-/// search, no proof. It takes 20 to 110 products with K_rel and as many with W in 2D, to 160 in 3D;
-/// with held 5 to 70 solutions take the place of those with W, between which the components that are
-/// held change up to 14 times.
+/// Makes a model of products and solutions alone, for structures that no one process holds: no
+/// matrix is formed. H = N: loads and displacements are the relative ones. Load cases are solved by
+/// Newton's method with GMRES, methods AUTO and NEWTON alone, no search, no proof. They take up to
+/// 110 products with K_rel and as many with W in 2D, 160 in 3D; or with held up to 70 solutions,
+/// with 14 changes of the components that are held.
 ///
-/// Before it returns it asks for some products, of which the answers must be finite, linear,
-/// symmetric, positive and the same each time, to 1e-9. Later calls on the model return -1 if a
-/// function fails or gives a number that is not finite; the sentence says which one and where, and
-/// the model can be used again. Calls from several threads on one model are yours to allow: its
-/// functions are called on the threads that call the library.
+/// The call asks for some products, which must be finite, linear, symmetric, positive and the same
+/// each time, to 1e-9. Later calls return -1 if a function fails or gives a number that is not
+/// finite; the model can be used again. Your functions run on the threads that call the library.
 ///
 /// @param K      the functions; the structure is copied, with units
-/// @param model  out: the model; NULL unless 0 is returned
-/// @return 0; -k: the k-th argument is wrong; <= -1000: out of memory or a defect
+/// @param model  out: the model
 #[unsafe(no_mangle)]
 #[allow(non_snake_case)] // the names of the mechanics, which the header shows
 pub unsafe extern "C" fn signorini_model_new_operator(

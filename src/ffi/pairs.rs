@@ -10,20 +10,17 @@ use crate::error::Error;
 use crate::problem;
 use crate::reduce::ContactPairs;
 
-/// Contact pairs: each has a slave node, a point that faces it on other bodies, and a normal. The
-/// point is interpolated between master nodes. The slave's displacement is
-/// u_slave = sum of weight * u_master + n d_n + t d_t (3D: + t1 d_t1 + t2 d_t2),
-/// so that the gap is closed at d_n = gap.
+/// Contact pairs: each has a slave node, a point that faces it, and a normal. The point is
+/// interpolated between master nodes on other bodies; without masters it is on a rigid obstacle.
+/// The gap is closed at d_n = gap:
+///     u_slave = sum of weight * u_master + n d_n + t d_t      (3D: + t1 d_t1 + t2 d_t2)
 ///
-/// General rows, as mortar methods make them: leave slaves, master_start, masters and weights NULL
-/// and set row_start, row_nodes and row_weights. Each pair is then a list of nodes with signed
-/// weights, and n d_n + t d_t = sum of row_weight * u.
+/// General rows, as mortar methods make them: slaves, master_start, masters and weights are NULL,
+/// and each pair is a list of nodes with signed weights: n d_n + t d_t = sum of row_weight * u.
 ///
-/// A node may stand in any number of pairs, as slave and as master, and may be fixed. Where slave
-/// and masters are all fixed along an axis, which is the normal or a tangent, d and F are zero along
-/// it. Pairs may depend on each other, such as those of a node on two planes, or of two surfaces
-/// that are each other's slaves: then contact forces are not unique, and the model has no
-/// signorini_model_stiffness. The library only reads the structure during the call.
+/// A node may stand in any number of pairs, as slave and as master, and may be fixed. Where all
+/// nodes of a pair are fixed along its normal or a tangent, d and F are zero along it. Pairs may
+/// depend on each other, as those of a node on two planes: then contact forces are not unique.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct SignoriniPairs {
@@ -33,31 +30,26 @@ pub struct SignoriniPairs {
     pub dim: i32,
     /// Number of pairs.
     pub count: i64,
-    /// Degrees of freedom of each slave node, dim for each pair, in the order of the axes.
+    /// Degrees of freedom of each slave node, dim for each, in the order of the axes.
     pub slaves: *const i64,
-    /// Start of each pair's masters in masters and weights, count + 1 entries, counted from
-    /// index_base. A pair without masters faces a rigid obstacle. NULL: no pair has masters;
-    /// masters and weights must be NULL too.
+    /// Start of each pair's masters, count + 1 entries from index_base. NULL: no pair has any.
     pub master_start: *const i64,
-    /// Degrees of freedom of each master node, dim for each; may be NULL if there are none.
+    /// Degrees of freedom of each master node, dim for each.
     pub masters: *const i64,
-    /// Weight of each master node; may be NULL if there are none. The weights of a pair sum to 1;
-    /// negative weights are allowed.
+    /// Weight of each master node, negative ones too; those of a pair sum to 1.
     pub weights: *const f64,
     /// Normal of each pair, dim entries, outward from the slave's body, of any length.
     pub normals: *const f64,
-    /// First tangent of each pair, dim entries, orthogonal to the normal to 1e-5. NULL: chosen.
-    /// 2D: the normal turned by +90 degrees. 3D: t1 = e x n with the axis e that is most across the
-    /// normal. In 3D always t2 = n x t1; signorini_model_frames returns all.
+    /// First tangent of each pair, dim entries, orthogonal to the normal to 1e-5; t2 = n x t1.
+    /// NULL: chosen. 2D: the normal turned by +90 degrees. 3D: e x n, e the axis that is most
+    /// across n.
     pub tangents: *const f64,
-    /// General rows: start of each pair's nodes in row_nodes and row_weights, count + 1 entries,
-    /// counted from index_base. NULL: pairs of slaves and masters. A struct_size without this field
-    /// and the next two is right too: they are NULL then.
+    /// General rows: start of each pair's nodes, count + 1 entries from index_base; else NULL.
     pub row_start: *const i64,
-    /// Degrees of freedom of each node, dim for each, in the order of the axes.
+    /// Degrees of freedom of each node, as slaves.
     pub row_nodes: *const i64,
-    /// Weight of each node: positive on the side whose outward normal is given, negative on the
-    /// other. Those of a pair sum to 0, and against a rigid obstacle to 1.
+    /// Weight of each node: positive on the side whose outward normal is given, else negative.
+    /// Those of a pair sum to 0, and against a rigid obstacle to 1.
     pub row_weights: *const f64,
 }
 

@@ -10,29 +10,16 @@ use super::status::{SIGNORINI_STATUS_NOT_PROVED, SIGNORINI_STATUS_SOLVED, rememb
 use crate::error::entry;
 use crate::law::State;
 
-/// Tries to prove that a load case of a model has a solution next to displacements of any origin,
-/// say of another solver, and bounds how far it is away.
+/// Tries to prove that a load case has a solution next to displacements of any origin, in the sense
+/// of SIGNORINI_PROOF_PROVED, and bounds how far it is away. Others may exist.
 ///
-/// The proof is about the condensed problem: its K, f, gap, friction and slip0, each double taken
-/// for the real number that it is, have a solution with these states, each pair clear of the
-/// boundaries of its state. All rounding is bounded. It is not proved that there is no other
-/// solution.
-///
-/// @param model       a model with a condensed matrix
-/// @param f           nodal loads of the host, H entries
-/// @param prescribed  values of the fixed degrees of freedom; NULL: zero
-/// @param gap         gaps, one for each pair
-/// @param law         SIGNORINI_LAW_..., the friction law of all pairs
-/// @param friction    parameters of the law, pair by pair; may be NULL if frictionless
-/// @param slip0       reference slip, dim - 1 for each pair; NULL: zero
-/// @param d           relative displacements, N
-/// @param state       SIGNORINI_STATE_... of each pair; NULL: those of d
-/// @param F           out: contact forces of the solution, N; may be NULL
-/// @param radius_d    out: the solution has displacements within this distance of d, component by
-///                    component, N; length; may be NULL
-/// @param radius_F    out: the same of the contact forces and F, N; force; may be NULL
-/// @return 0: proved; SIGNORINI_STATUS_NOT_PROVED: not, which proves nothing: F holds zeros, the
-///         radii -1; -k: the k-th argument is wrong, nothing was written
+/// @param model  a model with a condensed matrix
+/// @param f,prescribed,gap,law,friction,slip0  as for signorini_model_solve
+/// @param d      relative displacements, N
+/// @param state  SIGNORINI_STATE_... of each pair; NULL: those of d
+/// @param F      out: contact forces of the solution, N; zeros if not proved; may be NULL
+/// @param radius_d,radius_F  out: as in signorini_extra; may be NULL
+/// @return 0: proved; SIGNORINI_STATUS_NOT_PROVED: not; or another status
 #[unsafe(no_mangle)]
 #[allow(non_snake_case)] // the names of the mechanics, which the header shows
 pub unsafe extern "C" fn signorini_model_prove(

@@ -12,14 +12,14 @@ use crate::settings::Method;
 use crate::solve::{Existence, Fallback, LcpSolution, Remarks, Solution, Uniqueness};
 
 /// The pair is apart: F_n = 0, with cohesion F_n = a; F_t = 0 but under Tresca's law and cohesion.
-/// Pressure counts as none if it and its friction are below 1e-11 of the largest load or force.
+/// A pair is open too if its pressure and friction are below 1e-11 of the largest load or force.
 pub const SIGNORINI_STATE_OPEN: i32 = 0;
 /// The pair touches and slips: |F_t| is at its bound. Frictionless: every pair that touches.
 pub const SIGNORINI_STATE_SLIP: i32 = 1;
 /// The pair sticks: d_t = slip0.
 pub const SIGNORINI_STATE_STICK: i32 = 2;
 
-/// It is not known whether there are other solutions.
+/// It is not known whether there are others.
 pub const SIGNORINI_UNIQUENESS_NOT_KNOWN: i32 = 0;
 /// Proved: there is no other solution.
 pub const SIGNORINI_UNIQUENESS_UNIQUE: i32 = 1;
@@ -28,41 +28,38 @@ pub const SIGNORINI_UNIQUENESS_SEVERAL: i32 = 2;
 
 /// settings.proof is 0.
 pub const SIGNORINI_PROOF_NOT_ASKED: i32 = 0;
-/// Proved: the data, each double taken for the real number that it is, have a solution with these
-/// states. Of a model the data are those of its condensed problem, in doubles as the library has
-/// made them.
+/// Proved: the data, of a model its condensed problem, have a solution with these states, each
+/// double taken for the real number that it is.
 pub const SIGNORINI_PROOF_PROVED: i32 = 1;
-/// Not proved, which says nothing about whether there is a solution: a pair is at the boundary of
-/// two states, or rounding is too large beside the condition of K.
+/// Not proved: a pair may be at the boundary of two states, or K badly conditioned.
 pub const SIGNORINI_PROOF_NOT_PROVED: i32 = 2;
 
 /// The first method succeeded.
 pub const SIGNORINI_FALLBACK_NONE: i32 = 0;
-/// The states of the first method repeated in a cycle.
+/// The states of the first method repeated.
 pub const SIGNORINI_FALLBACK_CYCLE: i32 = 1;
-/// The first method met a singular system.
+/// It met a singular system.
 pub const SIGNORINI_FALLBACK_SINGULAR: i32 = 2;
-/// The first method found an unstable solution (orientation -1).
+/// It found an unstable solution (orientation -1).
 pub const SIGNORINI_FALLBACK_UNSTABLE: i32 = 3;
-/// The first method found no accurate solution.
+/// It found no accurate solution.
 pub const SIGNORINI_FALLBACK_INACCURATE: i32 = 4;
 
 /// Every finite gap is negative: interference everywhere, or the sign of gaps is turned round.
 pub const SIGNORINI_REMARK_GAPS_NEGATIVE: i32 = 1;
 /// A coefficient of friction is above 10: percent, or another array.
 pub const SIGNORINI_REMARK_FRICTION_LARGE: i32 = 2;
-/// Without friction: the bodies may move without any force, so that d is one of many; a support may
-/// be missing. Not looked for in full space, nor where pairs depend on each other.
+/// Without friction: the bodies may move without any force; a support may be missing. Not looked
+/// for in full space, nor where pairs depend on each other.
 pub const SIGNORINI_REMARK_FREE_MOTION: i32 = 4;
 
-/// How good a result is, and how it was found. Fill it by signorini_report_default() or set
-/// struct_size before the call; the call writes all other fields. Forces and lengths are in the
-/// units of the problem. K d - f is the contact force that d requires.
+/// How good a result is, and how it was found. Set struct_size, or call signorini_report_default();
+/// the call writes all other fields. K d - f is the contact force that d requires.
 #[repr(C)]
 #[derive(Clone, Copy)]
 #[allow(non_snake_case)] // the names of the mechanics, which the header shows
 pub struct SignoriniReport {
-    /// sizeof(signorini_report) in your program; no more is written.
+    /// sizeof(signorini_report).
     pub struct_size: u32,
     /// The status of the result, as the call returns it.
     pub status: i32,
@@ -72,20 +69,18 @@ pub struct SignoriniReport {
     pub uniqueness: i32,
     /// Sweeps, pivots or linear systems, of all methods tried.
     pub iterations: i64,
-    /// Threshold updates of the nested method. Where no condensed matrix is formed: solutions with a
-    /// factor.
+    /// Threshold updates of the nested method; without a condensed K: solutions with a factor.
     pub outer_iterations: i64,
-    /// How often Lemke's tableau was refactorised to regain accuracy.
+    /// How often Lemke's tableau was refactorised.
     pub refactorisations: i64,
-    /// Residual of the contact law relative to the forces, no unit, before d is rounded to doubles;
-    /// 0 at exact solutions only.
+    /// Residual of the law relative to the forces, no unit, before d is rounded to doubles.
     pub eta: f64,
-    /// Rounding of d to doubles may add so much to eta, no unit. Above 1e-6 only a d is certified
-    /// that K resists by more energy than rounding of its entries explains.
+    /// Rounding of d to doubles may add so much to eta, no unit. Above 1e-6 a d is certified only
+    /// if K resists it by more energy than rounding of K explains.
     pub rounding: f64,
     /// Largest d_n - gap; length; 0 if none.
     pub penetration: f64,
-    /// Largest normal part of K d - f beyond the tension of the law, 0 but for cohesion; force.
+    /// Largest normal part of K d - f beyond the tension of the law; force; 0 if none.
     pub tension: f64,
     /// Largest excess of the tangential part of K d - f over its bound; force; 0 if none.
     pub cone_excess: f64,
@@ -107,21 +102,19 @@ pub struct SignoriniReport {
     pub first_method: i32,
     /// Why the first method was abandoned, SIGNORINI_FALLBACK_...
     pub fallback: i32,
-    /// Sign of the determinant of the system of equations that the states select. -1: the solution
-    /// is unstable; if K is positive definite, at least two others exist. 0: not known.
+    /// Sign of the determinant of the equations that the states select; 0: not known. -1: the
+    /// solution is unstable; if K is positive definite, at least two others exist.
     pub orientation: i32,
     /// 1: a second solution was found, see extra; else 0.
     pub second: i32,
-    /// Largest error of a component of d over the largest component of d, no unit. With
-    /// SIGNORINI_PROOF_PROVED a proved bound. Otherwise what the contraction of the last refinement
-    /// tells; -1: not known, there was none.
+    /// Largest error of a component of d over its largest component, no unit: proved with
+    /// SIGNORINI_PROOF_PROVED, else estimated from the last refinement; -1: not known.
     pub error_d: f64,
-    /// Largest error of a component of F over the largest component of F and f, no unit; in the
-    /// same way.
+    /// Likewise of F, over the largest component of F and f.
     pub error_F: f64,
     /// SIGNORINI_PROOF_...
     pub proof: i32,
-    /// Sum of SIGNORINI_REMARK_...: data that are legal and often a mistake; 0: none.
+    /// Sum of SIGNORINI_REMARK_...; 0: none.
     pub remarks: i32,
 }
 
@@ -312,11 +305,7 @@ pub(super) fn state_codes(states: &[State]) -> Vec<i32> {
     states.iter().map(code).collect()
 }
 
-/// Fills report with zeros and sets struct_size: a report of no call.
-///
-/// @param report       not NULL
-/// @param struct_size  sizeof(signorini_report); no more than that is written
-/// @return 0, or -1 or -2 for the argument that is wrong
+/// Fills report with zeros; struct_size is sizeof(signorini_report).
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn signorini_report_default(
     report: *mut SignoriniReport,
@@ -328,8 +317,7 @@ pub unsafe extern "C" fn signorini_report_default(
     })
 }
 
-/// A short description of one remark, such as "every gap is negative". Static text; never NULL, for
-/// any number.
+/// Static text that describes one remark, such as "every gap is negative"; never NULL.
 #[unsafe(no_mangle)]
 pub extern "C" fn signorini_remark_string(remark: i32) -> *const c_char {
     let text = match remark {

@@ -9,34 +9,29 @@ use super::threads;
 use crate::monitor::{Monitor, Progress, ProgressFn};
 use crate::settings::{Method, Search, Settings};
 
-/// The default: chooses a method, checks its result, and falls back to the next one if it fails.
-/// Without friction: block pivoting, then Lemke's method. With friction: Newton's method, then the
-/// path, in 2D then Lemke's method. At last: sweeps.
+/// The default: methods in turn, until one finds a solution. Without friction: block pivoting,
+/// Lemke's method. With friction: Newton's method, springs that are let go, the path, in 2D Lemke's
+/// method, sweeps.
 pub const SIGNORINI_METHOD_AUTO: i32 = 0;
 /// Projected over-relaxed Gauss-Seidel (SOR) on a sequence of Tresca problems, g <- mu |F_n|.
 pub const SIGNORINI_METHOD_SOR_NESTED: i32 = 1;
 /// Sweeps that update the threshold after each pair; not for Tresca's law.
 pub const SIGNORINI_METHOD_SOR_DIAGONAL: i32 = 2;
-/// Lemke's method, without friction, or with friction in 2D. It ends at a solution for every mu if
-/// K is positive definite.
+/// Lemke's method, without friction or in 2D. If K is positive definite it ends at a solution.
 pub const SIGNORINI_METHOD_LEMKE: i32 = 3;
-/// Block principal pivoting, for contact without friction.
+/// Block principal pivoting, without friction.
 pub const SIGNORINI_METHOD_BLOCK_PIVOTING: i32 = 4;
-/// Newton's method, on the states of the pairs (2D) or the normal map (3D). It may fail; the status
-/// says so.
+/// Newton's method. It may fail; the status says so.
 pub const SIGNORINI_METHOD_NEWTON: i32 = 5;
-/// A path of solutions that leads to one of the problem, with friction. If K is positive
-/// definite it exists for every mu, load and gap. AUTO follows it where Newton's method fails.
+/// A path of solutions that leads to one of the problem, with friction. It exists if K is definite.
 pub const SIGNORINI_METHOD_PATH: i32 = 6;
 
-/// settings.warm_start of signorini_model_solve: each case starts from the solution of the last case
-/// before that was solved, in this call and in those before it on the model with this setting; the
-/// first one as with 0; d needs no start. With friction in 3D the cases share the elimination of
-/// pairs that stay open, so that load steps, too, cost less one by one: the model keeps 8 N N bytes
-/// at most, until it is released or a call of signorini_model_solve has another start. The last
-/// digits of a result depend on these calls, and where there are several solutions which one it is:
-/// the same calls in the same order give the same bits. Leave it to one thread of those that share a
-/// model. Other calls have one case.
+/// settings.warm_start of signorini_model_solve: each case starts from the solution of the last one
+/// that was solved, in this call or in earlier ones on the model with this setting; the first one
+/// as with 0. With friction in 3D they share an elimination: the model keeps 8 N N bytes at most,
+/// until it is released or a call has another start. The same calls in the same order give the same
+/// bits; in another order last digits may differ, and which of several solutions is found. Leave it
+/// to one thread of those that share a model. Other calls take it as 0.
 pub const SIGNORINI_START_PREVIOUS: i32 = 2;
 
 /// Report only what the solution itself proves about other solutions. The default.
@@ -53,19 +48,16 @@ pub struct SignoriniProgress {
     pub eta: f64,
     /// Seconds since the call began.
     pub elapsed: f64,
-    /// Share of the reduction of a sparse matrix that is done, 0 to 1; 1 while a load case is
-    /// solved.
+    /// Share of the reduction of a sparse matrix that is done, 0 to 1; 1 in a load case.
     pub reduced: f64,
-    /// Bytes that this reduction needs in all, told before they are taken; 0 before they are known
-    /// and while a load case is solved.
+    /// Bytes that this reduction needs in all, told before they are taken; otherwise 0.
     pub memory: i64,
 }
 
-/// A progress callback: called before each sweep, pivot or linear system, and by
-/// signorini_model_new_sparse_within some hundred times a second. A nonzero result cancels
-/// the call (SIGNORINI_STATUS_CANCELLED). It runs on the calling thread, in the default
-/// floating-point environment. It must return: no longjmp, no exception; and it must not call this
-/// library.
+/// Called before each sweep, pivot or linear system, and some hundred times a second by
+/// signorini_model_new_sparse. A nonzero result cancels the call (SIGNORINI_STATUS_CANCELLED). It
+/// runs on the calling thread, in the default floating-point environment. It must return: no
+/// longjmp, no exception; and it must not call this library.
 pub type SignoriniProgressFn =
     Option<unsafe extern "C" fn(user: *mut c_void, progress: *const SignoriniProgress) -> i32>;
 
@@ -74,7 +66,7 @@ pub type SignoriniProgressFn =
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct SignoriniSettings {
-    /// sizeof(signorini_settings) in your program; later fields: defaults.
+    /// sizeof(signorini_settings).
     pub struct_size: u32,
     /// SIGNORINI_METHOD_...; default SIGNORINI_METHOD_AUTO.
     pub method: i32,
@@ -86,38 +78,36 @@ pub struct SignoriniSettings {
     pub damping: f64,
     /// Most sweeps, pivots or linear systems, at least 1; default 200000.
     pub max_iterations: i64,
-    /// Most seconds of wall time; 0 and infinity: no limit; default 0. A factorisation that would
+    /// Most seconds of wall time; default 0, and infinity: no limit. A factorisation that would
     /// take longer is not begun: the call may end before the limit.
     pub time_limit: f64,
-    /// Nonzero: start from what d holds (Newton in 2D, block pivoting: from its states). Default 0:
-    /// start from d = 0 (Newton in 2D, block pivoting: from all pairs sticking). Lemke's method has
-    /// no start. SIGNORINI_START_PREVIOUS: from the solution of the case before.
+    /// Nonzero: start from what d holds, block pivoting from its states. Default 0: start from
+    /// d = 0, block pivoting from all pairs closed. Lemke's method has no start.
+    /// SIGNORINI_START_PREVIOUS.
     pub warm_start: i32,
     /// SIGNORINI_SEARCH_...; default SIGNORINI_SEARCH_OFF.
     pub search: i32,
     /// Progress callback; default NULL.
     pub progress: SignoriniProgressFn,
-    /// Passed to progress as its first argument; default NULL.
+    /// First argument of progress; default NULL.
     pub user: *mut c_void,
     /// Nonzero: prove that the solution exists, and where: report.proof, extra.radius_d and
-    /// radius_F. It costs one to three solutions, without friction up to five. Default 0.
+    /// radius_F; default 0. It costs one to five solutions.
     pub proof: i32,
     /// 0.
     pub reserved: i32,
-    /// Most bytes that a solution or signorini_model_new_sparse_within may need; default 0: no
-    /// limit.
+    /// Most bytes that a solution or signorini_model_new_sparse may need; default 0: no limit.
     pub memory_limit: i64,
-    /// Nonzero: signorini_model_new_sparse_within makes a full-space model, whatever memory_limit
-    /// says. Default 0: only if the condensed matrix needs more than memory_limit.
+    /// Nonzero: signorini_model_new_sparse makes a model in full space in any case; default 0.
     pub full_space: i32,
-    /// Most threads of a call; default 1, and 0: 1. Threads end before the call does, and get no
-    /// signals. If the system refuses memory to a thread that begins, the process may end.
-    /// signorini_model_solve of several cases: each thread has a part of them in a row, and takes
-    /// the memory that signorini_model_memory tells; memory_limit is that of one. The same number
-    /// gives the same bits. A call with a callback or with SIGNORINI_START_PREVIOUS has one thread.
-    /// signorini_model_new_sparse_within, and signorini_model_solve on a model in full space: the
-    /// threads, of which 64 are the most, share each factorisation. Any number gives the same bits.
-    /// Each takes 8 bytes for each unknown and up to 1 MB more. All other calls have one thread.
+    /// Most threads of a call; default 1, and 0: 1. They end before the call does, and get no
+    /// signals. If the system refuses memory to a thread that begins, the process may end. In
+    /// signorini_model_solve each thread has a part of the cases, and takes
+    /// signorini_model_data.memory; memory_limit is that of one. The same number gives the same
+    /// bits. A callback or SIGNORINI_START_PREVIOUS leaves one thread. In
+    /// signorini_model_new_sparse, and in full space, the threads, at most 64, share each
+    /// factorisation. Any number gives the same bits. Each takes 8 bytes for each unknown and up to
+    /// 1 MB.
     pub threads: i32,
 }
 
@@ -292,11 +282,7 @@ pub(super) fn method_code(method: Method) -> i32 {
     }
 }
 
-/// Fills settings with their defaults and sets struct_size.
-///
-/// @param settings     not NULL
-/// @param struct_size  sizeof(signorini_settings); no more than that is written
-/// @return 0, or -1 or -2 for the argument that is wrong
+/// Fills settings with their defaults; struct_size is sizeof(signorini_settings).
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn signorini_settings_default(
     settings: *mut SignoriniSettings,

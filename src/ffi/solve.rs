@@ -15,31 +15,24 @@ use crate::solve::{memory, solve};
 ///
 /// @param dim       space dimension, 2 or 3
 /// @param pairs     number of contact pairs, 0 allowed
-/// @param K         condensed stiffness, N columns of N entries, column-major, both triangles;
-///                  symmetric, positive semi-definite; force / length. A row of zeros is a component
-///                  that nothing resists. Small entries on the diagonal are taken as they are: of a
-///                  free body on two or three points make a model, which knows rounding. That K is
-///                  positive semi-definite is checked by pairs of entries alone; models check it
+/// @param K         condensed stiffness, N columns of N entries, both triangles; force / length;
+///                  symmetric, positive semi-definite, which signorini_solve checks in part, a
+///                  model as a whole. A row of zeros is a component that nothing resists. If the
+///                  body can move freely and touches at two or three points, use a model
 /// @param ldk       entries from one column of K to the next, at least max(1, N)
 /// @param f         condensed nodal loads, N; force
-/// @param gap       initial gaps, one for each pair; length; negative: interference; +infinity:
-///                  the pair never touches
+/// @param gap       initial gap of each pair; length; negative: interference; +infinity: no contact
 /// @param law       SIGNORINI_LAW_..., the friction law of all pairs
-/// @param friction  parameters of the law, pair by pair; may be NULL if frictionless
-/// @param slip0     reference slip: the tangential displacement d_t0 at which a sticking pair has
-///                  no motion, dim - 1 for each pair; length; NULL: zero. In load steps hand over
-///                  the d_t of the step before.
+/// @param friction  parameters of the law, pair by pair; NULL if frictionless
+/// @param slip0     reference slip, dim - 1 for each pair; length; NULL: zero. In load steps hand
+///                  over the d_t of the step before
 /// @param settings  NULL: the defaults
 /// @param d         out: relative displacements, N; in: the start if settings->warm_start
 /// @param F         out: contact forces, N. They obey the contact law; K d = f + F holds up to
-///                  report->equilibrium.
+///                  report->equilibrium
 /// @param state     out: SIGNORINI_STATE_... of each pair; may be NULL
-/// @param report    out: the measures of the result; set report->struct_size before the call, as
-///                  signorini_report_default does; may be NULL
-/// @param extra     the motion of escape, a second solution; may be NULL
-/// @return 0: solved and certified; > 0: the results are not a solution, SIGNORINI_STATUS_... says
-///         which; -k: the k-th argument is wrong, nothing was written; <= -1000: out of memory or
-///         a defect
+/// @param report    out: how good the result is; set report->struct_size before; may be NULL
+/// @param extra     arrays for further results; may be NULL
 #[unsafe(no_mangle)]
 #[allow(non_snake_case)] // the names of the mechanics, which the header shows
 pub unsafe extern "C" fn signorini_solve(

@@ -10,25 +10,24 @@ use super::structures::{checked_size, read};
 use crate::error::entry;
 use crate::reduce::{Indices, SparseMatrix, Triangle};
 
-/// Stored are the entries with row >= column.
+/// Entries with row >= column.
 pub const SIGNORINI_TRIANGLE_LOWER: i32 = 0;
-/// Stored are the entries with row <= column.
+/// Entries with row <= column.
 pub const SIGNORINI_TRIANGLE_UPPER: i32 = 1;
-/// All entries are stored.
+/// All entries.
 pub const SIGNORINI_TRIANGLE_FULL: i32 = 2;
 
-/// A sparse symmetric matrix by columns (CSC), stiffness or flexibility. Hand over a matrix by rows
-/// (CSR) as its transpose: its rows are the columns here, and its LOWER is UPPER. The library only
-/// reads it during the call.
+/// A sparse symmetric matrix by columns (CSC), stiffness or flexibility. Of a matrix by rows (CSR)
+/// hand over the rows as columns, and LOWER for UPPER.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct SignoriniSparse {
     /// sizeof(signorini_sparse).
     pub struct_size: u32,
-    /// Width of col_start and row: 4 for int32_t, 8 for int64_t.
+    /// Width of col_start, row and order: 4 for int32_t, 8 for int64_t.
     pub index_bytes: i32,
-    /// 0 or 1: the number of the first row. col_start, row and the degrees of freedom in all other
-    /// arguments of the call count from it.
+    /// Number of the first row, 0 or 1: all indices and degrees of freedom of the call count from
+    /// it.
     pub index_base: i32,
     /// Which entries are stored, SIGNORINI_TRIANGLE_...
     pub triangle: i32,
@@ -36,15 +35,15 @@ pub struct SignoriniSparse {
     pub size: i64,
     /// Number of stored entries.
     pub nnz: i64,
-    /// Start of each column in row and values, size + 1 entries; the last is index_base + nnz.
+    /// Start of each column in row and values, size + 1 entries, the last index_base + nnz.
     pub col_start: *const c_void,
-    /// Row of each entry, ascending in each column; nnz entries.
+    /// Row of each entry, ascending in each column.
     pub row: *const c_void,
-    /// The entries, nnz; a stiffness: force / length.
+    /// The entries; a stiffness: force / length.
     pub values: *const f64,
-    /// Order of elimination: each degree of freedom once, the first to go first, size entries of
-    /// index_bytes. NULL: chosen. Fixed degrees of freedom and slaves are passed over; those with
-    /// the same neighbours, as of one node, go together. A flexibility has none: not looked at.
+    /// Order of elimination: each degree of freedom once, the first to go first, size entries;
+    /// NULL: chosen. Fixed ones and slaves in it have no effect; those with the same neighbours, as
+    /// of one node, go together. Of a flexibility, and in full space, it is not read.
     pub order: *const c_void,
 }
 

@@ -15,21 +15,20 @@ pub const SIGNORINI_STATUS_TIME_LIMIT: i32 = 2;
 /// The progress callback cancelled: best iterate.
 pub const SIGNORINI_STATUS_CANCELLED: i32 = 3;
 /// Proved: no equilibrium exists (LCP: no w, z >= 0 satisfy w = q + M z). extra->motion (LCP: y) is
-/// the proof. d, F, states and counts are those of the last iterate: not a solution.
+/// the proof. d, F and state hold the last iterate.
 pub const SIGNORINI_STATUS_NO_EQUILIBRIUM: i32 = 4;
-/// The method cannot go on (rounding, a cycle, a ray that proves nothing); the results are its best
-/// iterate. With SIGNORINI_METHOD_AUTO: no method found a solution or a proof that there is none.
+/// The method cannot go on: best iterate. With SIGNORINI_METHOD_AUTO no method found a solution or
+/// a proof that there is none.
 pub const SIGNORINI_STATUS_STALLED: i32 = 5;
 /// Certify: the displacements are no solution.
 pub const SIGNORINI_STATUS_NOT_A_SOLUTION: i32 = 6;
 /// Prove: no solution is proved to exist, which does not say that there is none.
 pub const SIGNORINI_STATUS_NOT_PROVED: i32 = 7;
-/// The call may need more than memory_limit: nothing was solved or factorised, no results were
-/// written.
+/// The call may need more than memory_limit: nothing was computed and nothing written.
 pub const SIGNORINI_STATUS_MEMORY_LIMIT: i32 = 8;
 /// A caught defect of the library: results undefined.
 pub const SIGNORINI_STATUS_INTERNAL: i32 = -1000;
-/// Out of memory: no results were written, but those of earlier load cases; the call holds nothing.
+/// Out of memory: only earlier load cases were written, and the call holds nothing.
 pub const SIGNORINI_STATUS_OUT_OF_MEMORY: i32 = -1001;
 /// A file cannot be read or written.
 pub const SIGNORINI_STATUS_FILE: i32 = -1002;
@@ -40,7 +39,7 @@ pub const SIGNORINI_VERSION_MAJOR: i32 = 0;
 pub const SIGNORINI_VERSION_MINOR: i32 = 2;
 /// Patch version of this header.
 pub const SIGNORINI_VERSION_PATCH: i32 = 0;
-/// Binary interface of this header; compare it with signorini_abi_version() after dlopen.
+/// Binary interface of this header.
 pub const SIGNORINI_ABI_VERSION: i32 = 3;
 
 // The header's numbers are written out for C; here they are held to the package's version.
@@ -64,14 +63,13 @@ pub(super) fn code(status: Status) -> i32 {
     }
 }
 
-/// Version of the library, such as "0.2.0". Static text; never NULL.
+/// Version of the library, such as "0.2.0"; static text.
 #[unsafe(no_mangle)]
 pub extern "C" fn signorini_version() -> *const c_char {
     concat!(env!("CARGO_PKG_VERSION"), "\0").as_ptr().cast()
 }
 
-/// Binary interface of the library. If it differs from the SIGNORINI_ABI_VERSION with which a
-/// program was compiled, the two are incompatible.
+/// Binary interface of the library: compare it with SIGNORINI_ABI_VERSION after dlopen.
 #[unsafe(no_mangle)]
 pub extern "C" fn signorini_abi_version() -> i32 {
     SIGNORINI_ABI_VERSION
@@ -80,7 +78,7 @@ pub extern "C" fn signorini_abi_version() -> i32 {
 /// Statuses from this one to -1 are reserved for arguments.
 const LAST_ARGUMENT: i32 = -99;
 
-/// A short description of a status, such as "solved". Static text; never NULL, for any number.
+/// Static text that describes a status, such as "solved"; never NULL, for any number.
 #[unsafe(no_mangle)]
 pub extern "C" fn signorini_status_string(status: i32) -> *const c_char {
     let text = match status {
@@ -163,11 +161,9 @@ pub(super) fn last_counted_from_one() -> String {
     })
 }
 
-/// Says what was wrong in the last call on this thread, in one sentence, such as "K[12,7] is not
-/// finite". Empty after a call that returned 0; a call that releases leaves the sentence.
-///
-/// @return UTF-8 text of at most 511 bytes, never NULL. It belongs to the calling thread; the next
-///         call of the library on this thread overwrites it.
+/// Says in one sentence what was wrong in the last call on this thread, such as "K[12,7] is not
+/// finite". Empty after a call that returned 0; a call that releases leaves it. UTF-8, at most 511
+/// bytes, never NULL. The text belongs to the thread, until its next call.
 #[unsafe(no_mangle)]
 pub extern "C" fn signorini_last_error() -> *const c_char {
     LAST.with_borrow(|sentence| sentence.text.as_ptr().cast())
