@@ -16,47 +16,30 @@ extern "C" {
  * Writes the problem of signorini_solve to a file, as text that keeps every bit.
  *
  * The file is a dense matrix in the Matrix Market format: the columns of K, f, gap, friction and
- * slip0, and comment lines that say so. It appears under its name only when it is complete: it is
- * written beside its place under a name that ends in .part, then renamed. A file that it replaces
- * hands on its mode; through a symbolic link the file is replaced that it names; pipes, devices and
- * links to nothing are refused. K must be finite; its symmetry and definiteness are not checked
- * here.
+ * slip0, and comment lines that say so. It is written beside its place under a name that ends in
+ * .part, then renamed: it appears only when it is complete. A file that it replaces hands on its
+ * mode; through a symbolic link the file is replaced that it names; pipes, devices and links to
+ * nothing are refused. K must be finite; its symmetry and definiteness are not checked.
  *
- * @param path      name of the file, which is replaced if it exists; bytes as for fopen (UTF-8 on
- *                  Windows)
- * @param dim       space dimension, 2 or 3
- * @param pairs     number of contact pairs, 0 allowed
- * @param K         condensed stiffness, as for signorini_solve
- * @param ldk       entries from one column of K to the next, at least max(1, N)
- * @param f         condensed nodal loads, N
- * @param gap       initial gaps, one for each pair
- * @param law       SIGNORINI_LAW_..., the friction law of all pairs
- * @param friction  parameters of the law, pair by pair; may be NULL if frictionless
- * @param slip0     reference slip, dim - 1 for each pair; NULL: zero
- * @param remark    one line of UTF-8 for the reader of the file, at most 1000 bytes, that does not
- *                  begin or end with a space; may be NULL
- * @return 0; -k: the k-th argument is wrong; SIGNORINI_STATUS_FILE: the file cannot be written; an
- *         old file is then unchanged
+ * @param path    name of the file, which is replaced if it exists; bytes as for fopen (UTF-8 on
+ *                Windows)
+ * @param dim,pairs,K,ldk,f,gap,law,friction,slip0  as for signorini_solve
+ * @param remark  one line of UTF-8 for the reader of the file, at most 1000 bytes, that does not
+ *                begin or end with a space; may be NULL
+ * @return the status; after SIGNORINI_STATUS_FILE an old file is unchanged
  */
 int32_t signorini_problem_write(const char *path, int32_t dim, int64_t pairs, const double *K,
                                 int64_t ldk, const double *f, const double *gap, int32_t law,
                                 const double *friction, const double *slip0, const char *remark);
 
 /**
- * Writes a load case of a model to a file, as signorini_problem_write does: the condensed problem
- * that signorini_model_solve solves. signorini_solve gives the same d and F for it. If pairs depend
- * on each other there is none: -1 is returned.
+ * Writes a load case of a model as signorini_problem_write does: the condensed problem, for which
+ * signorini_solve gives the same d and F. If pairs depend on each other there is none: -1 is
+ * returned.
  *
- * @param model       the model
- * @param path        name of the file, which is replaced if it exists
- * @param f           nodal loads of the host, H = signorini_model_host_size entries
- * @param prescribed  values of the fixed degrees of freedom, in the order of fixed; NULL: zero
- * @param gap         gaps, one for each pair
- * @param law         SIGNORINI_LAW_..., the friction law of all pairs
- * @param friction    parameters of the law, pair by pair; may be NULL if frictionless
- * @param slip0       reference slip, dim - 1 for each pair; NULL: zero
- * @param remark      one line of UTF-8 for the reader of the file, at most 1000 bytes, that does
- *                    not begin or end with a space; may be NULL
+ * @param model        the model
+ * @param path,remark  as for signorini_problem_write
+ * @param f,prescribed,gap,law,friction,slip0  as for signorini_model_solve
  * @return as signorini_problem_write
  */
 int32_t signorini_model_write(const signorini_model *model, const char *path, const double *f,
@@ -64,17 +47,12 @@ int32_t signorini_model_write(const signorini_model *model, const char *path, co
                               const double *friction, const double *slip0, const char *remark);
 
 /**
- * Writes an LCP, the problem of signorini_lcp_solve, to a file, as signorini_problem_write does:
- * the columns of M, q and, if given, cover.
+ * Writes the problem of signorini_lcp_solve as signorini_problem_write does: the columns of M, q
+ * and, if given, cover.
  *
- * @param path    name of the file, which is replaced if it exists
- * @param n       number of unknowns, 0 allowed
- * @param M       n columns of n entries, column-major
- * @param ldm     entries from one column of M to the next, at least max(1, n)
- * @param q       n
- * @param cover   covering vector, n positive entries; may be NULL
- * @param remark  one line of UTF-8 for the reader of the file, at most 1000 bytes, that does not
- *                begin or end with a space; may be NULL
+ * @param path,remark  as for signorini_problem_write
+ * @param n,M,ldm,q    as for signorini_lcp_solve
+ * @param cover        covering vector, n positive entries; may be NULL
  * @return as signorini_problem_write
  */
 int32_t signorini_lcp_write(const char *path, int64_t n, const double *M, int64_t ldm,
@@ -87,8 +65,8 @@ int32_t signorini_lcp_write(const char *path, int64_t n, const double *M, int64_
 typedef struct signorini_problem_data signorini_problem_data;
 
 /**
- * A problem that was read from a file by signorini_problem_read; released by
- * signorini_problem_free. It does not change: several threads may use one at once.
+ * A problem from a file. It does not change: several threads may use one at once.
+ * signorini_problem_free releases it.
  */
 typedef struct signorini_problem signorini_problem;
 
@@ -98,8 +76,8 @@ typedef struct signorini_problem signorini_problem;
  *
  * @param path     name of the file
  * @param problem  out: the problem; NULL unless 0 is returned
- * @return 0; -k: the k-th argument is wrong; SIGNORINI_STATUS_FILE: the file cannot be read, or is
- *         not a complete problem file; SIGNORINI_STATUS_OUT_OF_MEMORY
+ * @return the status; SIGNORINI_STATUS_FILE: the file cannot be read, or is no complete problem
+ *         file
  */
 int32_t signorini_problem_read(const char *path, signorini_problem **problem);
 
@@ -108,8 +86,7 @@ void signorini_problem_free(signorini_problem *problem);
 
 /** The content of a problem. Arrays live as long as the problem; one without entries is NULL. */
 struct signorini_problem_data {
-    /** sizeof(signorini_problem_data) in your program; no more is written. */
-    uint32_t struct_size;
+    uint32_t struct_size; /**< sizeof(signorini_problem_data). */
     int32_t kind;         /**< SIGNORINI_PROBLEM_..., the kind of the problem. */
     int32_t law;          /**< SIGNORINI_LAW_..., the friction law; -1 of an LCP. */
     int32_t dim;          /**< Space dimension, 2 or 3; 0 of an LCP. */
@@ -125,13 +102,7 @@ struct signorini_problem_data {
     const char *remark;   /**< The remark of the file, UTF-8; empty if there is none. */
 };
 
-/**
- * Shows the problem: fills data, whose arrays live as long as the problem.
- *
- * @param problem  the problem
- * @param data     out: set data->struct_size before the call
- * @return 0; -k: the k-th argument is wrong
- */
+/** Fills data, whose struct_size you set before. Its arrays live as long as the problem. */
 int32_t signorini_problem_view(const signorini_problem *problem, signorini_problem_data *data);
 
 #ifdef __cplusplus

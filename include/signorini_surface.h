@@ -47,26 +47,25 @@ extern "C" {
 /** The default: the mean of the unit normals of all slave faces at the slave node. */
 #define SIGNORINI_NORMALS_AVERAGED 0
 /**
- * Normals of the faces in contact. Dual mortar: the mean at the slave node over those faces that
- * lie over the master, by the node's share of the area that does; faces around a sharp edge that
- * face nothing do not turn it. Nodes against surfaces: opposite to the normal of the nearest master
- * face, at the foot of the perpendicular on it; above an edge without one, of the face that the
- * averaged normal meets. Which nodes have pairs does not depend on it.
+ * Normals of the faces in contact. Dual mortar: the mean at the slave node over the faces that lie
+ * over the master, weighted by the node's area there; around a sharp edge other faces do not turn
+ * it. Nodes against surfaces: opposite to the normal of the nearest master face, at the foot of
+ * the perpendicular on it; above an edge without one, of the face that the averaged normal meets.
+ * The choice does not change which nodes have pairs.
  */
 #define SIGNORINI_NORMALS_FACES 1
 
-/* What becomes of slave nodes at rims, with little of the master over them. */
+/* Slave nodes at rims, with little of the master over them. */
 /**
- * Slave nodes with less than a tenth of their area over the master, counted on the faces of
- * which any part lies over it. By default their rows are added to that of a neighbour, and
- * uniform pressure stays exact. The choice is for dual mortar: nodes against surfaces have no
- * cover, and take the default alone.
+ * The default: the rows of slave nodes with less than a tenth of their area over the master,
+ * counted on faces that lie over it in part, are added to that of a neighbour. Uniform pressure
+ * stays exact. The choice is for dual mortar: nodes against surfaces have no cover, and take the
+ * default alone.
  */
 #define SIGNORINI_RIMS_FOLD 0
 /**
- * They keep pairs of their own with small areas. Uniform pressure stays exact; under others their
- * pressures may be large, as their rows hold points in the air. With less than a millionth they are
- * folded all the same.
+ * They keep pairs of their own with small areas. Uniform pressure stays exact; other pressures may
+ * be large there, as the rows reach into the air. Below a millionth they are folded all the same.
  */
 #define SIGNORINI_RIMS_KEEP 1
 /** They get no pair, and their area is left out: uniform pressure is not exact around them. */
@@ -88,11 +87,11 @@ typedef struct signorini_surface_data signorini_surface_data;
  */
 struct signorini_faces {
     uint32_t struct_size; /**< sizeof(signorini_faces). */
-    int32_t face_nodes;   /**< Number of nodes of each face, if start is NULL; else 0. */
+    int32_t face_nodes;   /**< Nodes of each face, if start is NULL; else 0. */
     int64_t count;        /**< Number of faces. */
     /**
-     * Start of each face in nodes, count + 1 entries, counted from index_base; NULL: all faces
-     * have face_nodes nodes.
+     * Start of each face in nodes, count + 1 entries from index_base; NULL: all have face_nodes
+     * nodes.
      */
     const int64_t *start;
     const int64_t *nodes; /**< The nodes, counted from index_base. */
@@ -102,9 +101,7 @@ struct signorini_faces {
 struct signorini_obstacle {
     uint32_t struct_size;      /**< sizeof(signorini_obstacle). */
     int32_t kind;              /**< SIGNORINI_OBSTACLE_... */
-    /**
-     * A point of the plane or of the cylinder's axis, or the centre; in 2D two entries are read.
-     */
+    /** A point of the plane or of the cylinder's axis, or the centre; in 2D two entries. */
     double point[3];
     /** Plane: the direction out of the obstacle. Cylinder: its axis. Of any length. */
     double direction[3];
@@ -114,8 +111,8 @@ struct signorini_obstacle {
     int64_t nodes;             /**< Faces: number of nodes of the obstacle's own mesh. */
     const double *coordinates; /**< Faces: dim for each node of the obstacle; length. */
     /**
-     * Faces: in nodes of the obstacle, counted from index_base. Seen from the body that may touch
-     * them the corners run counterclockwise; in 2D the obstacle lies to the left of a line.
+     * Faces: in nodes of the obstacle, from index_base. Seen from the body that may touch them the
+     * corners run counterclockwise; in 2D the obstacle lies to the left of a line.
      */
     const signorini_faces *faces;
 };
@@ -129,29 +126,25 @@ struct signorini_surface_settings {
     int32_t pairing; /**< SIGNORINI_PAIRING_...; default SIGNORINI_PAIRING_DUAL_MORTAR. */
     /**
      * Largest distance along the normal at which surfaces are paired, open or overlapping; length.
-     * Default 0: the size of the largest slave face; against an obstacle that is not of faces no
-     * limit, as +infinity.
+     * Default 0: the size of the largest slave face; no limit against an obstacle without faces.
      */
     double search_distance;
     /**
-     * 0 or 1: the number of the first node, of the first entry of start and of the first degree of
-     * freedom, here and in what the pairs tell; default 0. Take the one of your matrix.
+     * Number of the first node, degree of freedom and entry of start, 0 or 1, here and in the
+     * pairs; default 0. Take that of your matrix.
      */
     int32_t index_base;
     /**
-     * Degrees of freedom of each node, of which the first dim are its displacements, such as 6;
+     * Degrees of freedom of each node, such as 6, the first dim of which are its displacements;
      * default 0: dim. Not read if node_dofs is given.
      */
     int32_t dofs_per_node;
-    /**
-     * Degrees of freedom of each node, dim for each, counted from index_base; default NULL:
-     * dofs_per_node * node + axis.
-     */
+    /** Displacements of each node, dim for each; default NULL: dofs_per_node * node + axis. */
     const int64_t *node_dofs;
     /**
      * Number of planes of symmetry of a half or quarter model; default 0. A pair whose slave node
-     * stands on one neither moves nor carries a force across it, as in the whole body, and its
-     * normal is in the plane. Fix the nodes on the plane across it as without contact.
+     * stands on one neither moves nor carries a force across it, and its normal is in the plane.
+     * Fix the nodes on the plane across it as without contact.
      */
     int64_t symmetry_planes;
     const int32_t *symmetry_axes; /**< The axis across each plane, counted from index_base. */
@@ -160,21 +153,14 @@ struct signorini_surface_settings {
     int32_t rims;                 /**< SIGNORINI_RIMS_...; default SIGNORINI_RIMS_FOLD. */
 };
 
-/**
- * Fills settings with their defaults and sets struct_size.
- *
- * @param settings     not NULL
- * @param struct_size  sizeof(signorini_surface_settings); no more than that is written
- * @return 0, or -1 or -2 for the argument that is wrong
- */
+/** Fills settings with their defaults; struct_size is sizeof(signorini_surface_settings). */
 int32_t signorini_surface_settings_default(signorini_surface_settings *settings,
                                            uint32_t struct_size);
 
 /**
- * Contact pairs that the library made from surfaces, with all that belongs to them. Made by
- * signorini_surface_pair or signorini_surface_pair_obstacle, released by signorini_surface_free.
- * It does not change: several threads may use one at once. It holds copies: your arrays may go
- * once it is made.
+ * Contact pairs that the library made from surfaces. It does not change: several threads may use
+ * one at once. It holds copies: your arrays may go once it is made. signorini_surface_free
+ * releases it.
  */
 typedef struct signorini_surface_pairs signorini_surface_pairs;
 
@@ -192,8 +178,7 @@ typedef struct signorini_surface_pairs signorini_surface_pairs;
  * @param master       the other side; its nodes must not be on the slave side
  * @param settings     NULL: the defaults
  * @param contact      out: the pairs; NULL unless 0 is returned
- * @return 0; -k: the k-th argument is wrong: signorini_last_error names side, face and node; <=
- *         -1000: out of memory or a defect
+ * @return the status; signorini_last_error names side, face and node
  */
 int32_t signorini_surface_pair(int32_t dim, int64_t nodes, const double *coordinates,
                                const signorini_faces *slave, const signorini_faces *master,
@@ -205,15 +190,11 @@ int32_t signorini_surface_pair(int32_t dim, int64_t nodes, const double *coordin
  * obstacle's surface: the gap is negative inside. An obstacle of faces is paired as a master is,
  * with the same search distance; its nodes are its own.
  *
- * @param dim          space dimension, 2 or 3
- * @param nodes        number of nodes of your mesh
- * @param coordinates  dim for each node, of all nodes; length
- * @param slave        the faces that may touch the obstacle
- * @param obstacle     the obstacle
- * @param settings     NULL: the defaults; pairing, normals, rims and symmetry_... are
- *                     read for faces alone
- * @param contact      out: the pairs; NULL unless 0 is returned
- * @return as signorini_surface_pair
+ * @param dim,nodes,coordinates  as for signorini_surface_pair
+ * @param slave     the faces that may touch the obstacle
+ * @param obstacle  the obstacle
+ * @param settings  NULL: the defaults; pairing, normals, rims and symmetry_... are for faces alone
+ * @param contact   out: the pairs; NULL unless 0 is returned
  */
 int32_t signorini_surface_pair_obstacle(int32_t dim, int64_t nodes, const double *coordinates,
                                         const signorini_faces *slave,
@@ -225,33 +206,28 @@ int32_t signorini_surface_pair_obstacle(int32_t dim, int64_t nodes, const double
 void signorini_surface_free(signorini_surface_pairs *contact);
 
 /**
- * Pairs from surfaces, and what became of faces and nodes. Arrays live as long as the pairs; one
+ * Pairs from surfaces, and the faces and nodes without any. Arrays live as long as the pairs; one
  * without entries is NULL. Nodes and faces are counted from index_base.
  */
 struct signorini_surface_data {
-    /** sizeof(signorini_surface_data) in your program; no more is written. */
-    uint32_t struct_size;
+    uint32_t struct_size;        /**< sizeof(signorini_surface_data). */
     int32_t dim;                 /**< Space dimension. */
     int64_t pairs;               /**< Number of pairs. */
     const signorini_pairs *rows; /**< The pairs for signorini_model_new_sparse, as general rows. */
-    /**
-     * Initial gaps, one for each pair; length: positive if open, negative if the surfaces overlap.
-     */
+    /** Initial gap of each pair; length; negative where the surfaces overlap. */
     const double *gaps;
-    /** Areas, one for each pair; the pressure of a pair is -F_n over its area. */
-    const double *areas;
+    const double *areas;         /**< Area of each pair; its pressure is -F_n over this area. */
     const double *normals; /**< Unit normals, dim for each pair, outward from the slave's body. */
-    /** First unit tangents, dim for each pair; in 3D the second one is n x t1. */
-    const double *tangents;
-    /** Where the force of each pair acts on the slave's body, dim for each pair. */
+    const double *tangents;      /**< First unit tangents, dim for each pair; in 3D t2 = n x t1. */
+    /** Where the force of each pair acts on the slave's body, dim for each. */
     const double *points;
     const int64_t *nodes;        /**< The slave node of each pair, ascending. */
     /** Number of slave nodes without a pair: nothing lies over them, or they are folded. */
     int64_t n_unpaired;
     const int64_t *unpaired;     /**< These nodes. */
-    /** How many of them have little cover, and their row in the pair of a neighbour. */
+    /** Number of those whose row is in the pair of a neighbour, for their little cover. */
     int64_t n_folded;
-    const int64_t *folded; /**< Each of these nodes with that neighbour: 2 entries for each. */
+    const int64_t *folded; /**< Each of these nodes with that neighbour, 2 entries for each. */
     int64_t n_uncovered;         /**< Number of slave faces that lie over nothing (dual mortar). */
     const int64_t *uncovered;    /**< These faces. */
     const char *summary;         /**< One sentence on what was found, ASCII text for a log. */
@@ -261,27 +237,20 @@ struct signorini_surface_data {
     double covered_area;
     double search_distance;      /**< The search distance that was used. */
     /**
-     * How often a master face was near a slave whose normal does not oppose the slave's. If there
-     * are no pairs, and this is not 0, one side is turned over.
+     * How often a master face was near a slave with a normal that does not oppose the slave's. If
+     * it is not 0 and there are no pairs, one side is turned over.
      */
     int64_t not_opposed;
     int64_t boxes_searched;      /**< Boxes that the search looked at: its cost. */
     int64_t on_symmetry;         /**< Pairs whose slave node stands on a plane of symmetry. */
-    /** Number of unpaired nodes that SIGNORINI_RIMS_DROP has left out for little cover. */
-    int64_t dropped;
+    int64_t dropped; /**< Number of unpaired nodes that SIGNORINI_RIMS_DROP has left out. */
 };
 
-/**
- * Shows pairs from surfaces: fills data, whose arrays live as long as the pairs.
- *
- * @param contact  the pairs
- * @param data     out: set data->struct_size before the call
- * @return 0; -k: the k-th argument is wrong
- */
+/** Fills data, whose struct_size you set before. Its arrays live as long as the pairs. */
 int32_t signorini_surface_view(const signorini_surface_pairs *contact,
                                signorini_surface_data *data);
 
-/* ---- What a solution means on the surfaces ------------------------------------------------- */
+/* ---- A solution on the surfaces ------------------------------------------------------------ */
 
 typedef struct signorini_contact_fields signorini_contact_fields;
 typedef struct signorini_resultant signorini_resultant;
@@ -290,13 +259,11 @@ typedef struct signorini_zone signorini_zone;
 typedef struct signorini_field signorini_field;
 
 /**
- * Fields at the nodes of your mesh. Set struct_size, and the pointers of the arrays that you want;
- * each may be NULL. A call writes the nodes that stand in pairs of its contact, on both sides. It
- * leaves the others as they are: set them before, and give the same arrays to the calls of all
- * contact zones. Vectors are in the axes of the mesh.
- *
- * A slave node has the values of its pair; other nodes have means over the pairs that they stand
- * in, weighted by area and the size of their weights.
+ * Fields at the nodes of your mesh. Set struct_size, and the pointers of the arrays that you want.
+ * A call writes the nodes in pairs of its contact, on both sides, and leaves the others as they
+ * are: set them before, and give the same arrays to the calls of all contact zones. Vectors are in
+ * the axes of the mesh. A slave node has the values of its pair; other nodes have means over their
+ * pairs, weighted by area and the size of their weights.
  */
 struct signorini_contact_fields {
     uint32_t struct_size; /**< sizeof(signorini_contact_fields). */
@@ -305,19 +272,21 @@ struct signorini_contact_fields {
     double *pressure;
     /** Out: force of the contact on the node's own body over area, dim for each node. */
     double *traction;
-    /** Out: what is left of the gap, gap - d_n, one for each node; positive if open; length. */
-    double *clearance;
+    double *clearance;    /**< Out: gap - d_n, one for each node; positive if open; length. */
     /**
      * Out: motion along the surface against the other body since slip0, dim for each node; length.
      */
     double *slip;
-    /** Out: SIGNORINI_STATE_..., one for each node: of its pair, or that of its largest share. */
+    /**
+     * Out: SIGNORINI_STATE_..., one for each node: of its pair, or of the pair of its largest
+     * share.
+     */
     int32_t *state;
 };
 
 /** Sums over a contact zone. Set struct_size before the call; the call writes all other fields. */
 struct signorini_resultant {
-    uint32_t struct_size; /**< sizeof(signorini_resultant) in your program; no more is written. */
+    uint32_t struct_size; /**< sizeof(signorini_resultant). */
     int32_t reserved;     /**< 0. */
     double force[3]; /**< Force of the contact on the slave's body; in 2D the third entry is 0. */
     double moment[3];     /**< Its moment about the given point; in 2D the third entry alone. */
@@ -339,7 +308,6 @@ struct signorini_resultant {
  * @param F        contact forces, N
  * @param state    SIGNORINI_STATE_... of each pair; may be NULL if fields->state is
  * @param fields   out: the arrays of the fields
- * @return 0; -k: the k-th argument is wrong, nothing was written
  */
 int32_t signorini_surface_fields(const signorini_surface_pairs *contact, const double *gap,
                                  const double *slip0, const double *d, const double *F,
@@ -348,13 +316,9 @@ int32_t signorini_surface_fields(const signorini_surface_pairs *contact, const d
 /**
  * Resultant of the contact forces on the slave's body, and the work of friction.
  *
- * @param contact    the pairs
- * @param slip0      reference slip, dim - 1 for each pair; NULL: zero
- * @param d          relative displacements, N = dim * pairs
- * @param F          contact forces, N
+ * @param contact,slip0,d,F  as for signorini_surface_fields
  * @param point      the point of the moment, dim coordinates; NULL: the origin
- * @param resultant  out: the sums; set resultant->struct_size before the call
- * @return 0; -k: the k-th argument is wrong, nothing was written
+ * @param resultant  out: the sums; set resultant->struct_size before
  */
 int32_t signorini_surface_resultant(const signorini_surface_pairs *contact, const double *slip0,
                                     const double *d, const double *F, const double *point,
@@ -376,8 +340,8 @@ struct signorini_mesh {
     int32_t cell_type;         /**< VTK's type of all cells, if cell_types is NULL; else 0. */
     const int32_t *cell_types; /**< VTK's type of each cell; NULL: all have cell_type. */
     /**
-     * Start of each cell in cell_nodes, cells + 1 entries; NULL: cells have the number of nodes of
-     * their types.
+     * Start of each cell in cell_nodes, cells + 1 entries; NULL: the types tell their numbers of
+     * nodes.
      */
     const int64_t *cell_start;
     const int64_t *cell_nodes; /**< Nodes of the cells. */
@@ -405,21 +369,19 @@ struct signorini_field {
 
 /**
  * Writes a mesh with fields at its nodes to a file in VTK's format .vtu, which ParaView opens. The
- * file keeps every bit, infinities too. With contact zones it has pressure, traction, clearance and
- * slip, as signorini_surface_fields gives them, and state where each zone has it. Nodes that stand
- * in no pair have 0 there, and state -1; of a node in several zones the last one counts.
+ * file keeps every bit, infinities too. With contact zones it has pressure, traction, clearance
+ * and slip, as signorini_surface_fields gives them, and state where each zone has it. Nodes in no
+ * pair have 0 there, and state -1; of a node in several zones the last one counts.
  *
  * @param path      name of the file, which is replaced if it exists
- * @param mesh      the mesh; with zones that whose nodes were paired
+ * @param mesh      the mesh; with zones the one whose nodes were paired
  * @param u         displacements of all degrees of freedom, as signorini_model_recover gives them;
  *                  without zones dim for each node; NULL: none
  * @param n_zones   number of contact zones, 0 allowed
- * @param zones     the zones, whose pairs number degrees of freedom alike; may be NULL if n_zones
- *                  is 0
+ * @param zones     the zones, whose pairs number degrees of freedom alike
  * @param n_fields  number of fields of your own, 0 allowed
- * @param fields    these fields; may be NULL if n_fields is 0
- * @return 0; -k: the k-th argument is wrong; SIGNORINI_STATUS_FILE: the file cannot be written; an
- *         old file is then unchanged
+ * @param fields    these fields
+ * @return the status; after SIGNORINI_STATUS_FILE an old file is unchanged
  */
 int32_t signorini_mesh_write(const char *path, const signorini_mesh *mesh, const double *u,
                              int64_t n_zones, const signorini_zone *zones, int64_t n_fields,

@@ -33,8 +33,8 @@ pub struct SignoriniMesh {
     pub cell_type: i32,
     /// VTK's type of each cell; NULL: all have cell_type.
     pub cell_types: *const i32,
-    /// Start of each cell in cell_nodes, cells + 1 entries; NULL: cells have the number of nodes of
-    /// their types.
+    /// Start of each cell in cell_nodes, cells + 1 entries; NULL: the types tell their numbers of
+    /// nodes.
     pub cell_start: *const i64,
     /// Nodes of the cells.
     pub cell_nodes: *const i64,
@@ -54,21 +54,19 @@ pub struct SignoriniField {
 }
 
 /// Writes a mesh with fields at its nodes to a file in VTK's format .vtu, which ParaView opens. The
-/// file keeps every bit, infinities too. With contact zones it has pressure, traction, clearance and
-/// slip, as signorini_surface_fields gives them, and state where each zone has it. Nodes that stand
-/// in no pair have 0 there, and state -1; of a node in several zones the last one counts.
+/// file keeps every bit, infinities too. With contact zones it has pressure, traction, clearance
+/// and slip, as signorini_surface_fields gives them, and state where each zone has it. Nodes in no
+/// pair have 0 there, and state -1; of a node in several zones the last one counts.
 ///
 /// @param path      name of the file, which is replaced if it exists
-/// @param mesh      the mesh; with zones that whose nodes were paired
+/// @param mesh      the mesh; with zones the one whose nodes were paired
 /// @param u         displacements of all degrees of freedom, as signorini_model_recover gives them;
 ///                  without zones dim for each node; NULL: none
 /// @param n_zones   number of contact zones, 0 allowed
-/// @param zones     the zones, whose pairs number degrees of freedom alike; may be NULL if n_zones
-///                  is 0
+/// @param zones     the zones, whose pairs number degrees of freedom alike
 /// @param n_fields  number of fields of your own, 0 allowed
-/// @param fields    these fields; may be NULL if n_fields is 0
-/// @return 0; -k: the k-th argument is wrong; SIGNORINI_STATUS_FILE: the file cannot be written; an
-///         old file is then unchanged
+/// @param fields    these fields
+/// @return the status; after SIGNORINI_STATUS_FILE an old file is unchanged
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn signorini_mesh_write(
     path: *const c_char,

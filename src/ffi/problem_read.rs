@@ -16,8 +16,8 @@ pub const SIGNORINI_PROBLEM_CONTACT: i32 = 0;
 /// An LCP, of signorini_lcp_solve.
 pub const SIGNORINI_PROBLEM_LCP: i32 = 1;
 
-/// A problem that was read from a file by signorini_problem_read; released by
-/// signorini_problem_free. It does not change: several threads may use one at once.
+/// A problem from a file. It does not change: several threads may use one at once.
+/// signorini_problem_free releases it.
 pub struct SignoriniProblem {
     problem: ProblemFile,
     remark: CString,
@@ -27,7 +27,7 @@ pub struct SignoriniProblem {
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct SignoriniProblemData {
-    /// sizeof(signorini_problem_data) in your program; no more is written.
+    /// sizeof(signorini_problem_data).
     pub struct_size: u32,
     /// SIGNORINI_PROBLEM_..., the kind of the problem.
     pub kind: i32,
@@ -60,8 +60,8 @@ pub struct SignoriniProblemData {
 ///
 /// @param path     name of the file
 /// @param problem  out: the problem; NULL unless 0 is returned
-/// @return 0; -k: the k-th argument is wrong; SIGNORINI_STATUS_FILE: the file cannot be read, or is
-///         not a complete problem file; SIGNORINI_STATUS_OUT_OF_MEMORY
+/// @return the status; SIGNORINI_STATUS_FILE: the file cannot be read, or is no complete problem
+///         file
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn signorini_problem_read(
     path: *const c_char,
@@ -96,11 +96,7 @@ pub unsafe extern "C" fn signorini_problem_free(problem: *mut SignoriniProblem) 
     unsafe { release(problem) }
 }
 
-/// Shows the problem: fills data, whose arrays live as long as the problem.
-///
-/// @param problem  the problem
-/// @param data     out: set data->struct_size before the call
-/// @return 0; -k: the k-th argument is wrong
+/// Fills data, whose struct_size you set before. Its arrays live as long as the problem.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn signorini_problem_view(
     problem: *const SignoriniProblem,

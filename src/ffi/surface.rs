@@ -24,12 +24,12 @@ pub const SIGNORINI_OBSTACLE_FACES: i32 = 3;
 pub struct SignoriniFaces {
     /// sizeof(signorini_faces).
     pub struct_size: u32,
-    /// Number of nodes of each face, if start is NULL; else 0.
+    /// Nodes of each face, if start is NULL; else 0.
     pub face_nodes: i32,
     /// Number of faces.
     pub count: i64,
-    /// Start of each face in nodes, count + 1 entries, counted from index_base; NULL: all faces
-    /// have face_nodes nodes.
+    /// Start of each face in nodes, count + 1 entries from index_base; NULL: all have face_nodes
+    /// nodes.
     pub start: *const i64,
     /// The nodes, counted from index_base.
     pub nodes: *const i64,
@@ -42,7 +42,7 @@ pub struct SignoriniObstacle {
     pub struct_size: u32,
     /// SIGNORINI_OBSTACLE_...
     pub kind: i32,
-    /// A point of the plane or of the cylinder's axis, or the centre; in 2D two entries are read.
+    /// A point of the plane or of the cylinder's axis, or the centre; in 2D two entries.
     pub point: [f64; 3],
     /// Plane: the direction out of the obstacle. Cylinder: its axis. Of any length.
     pub direction: [f64; 3],
@@ -56,8 +56,8 @@ pub struct SignoriniObstacle {
     pub nodes: i64,
     /// Faces: dim for each node of the obstacle; length.
     pub coordinates: *const f64,
-    /// Faces: in nodes of the obstacle, counted from index_base. Seen from the body that may touch
-    /// them the corners run counterclockwise; in 2D the obstacle lies to the left of a line.
+    /// Faces: in nodes of the obstacle, from index_base. Seen from the body that may touch them the
+    /// corners run counterclockwise; in 2D the obstacle lies to the left of a line.
     pub faces: *const SignoriniFaces,
 }
 

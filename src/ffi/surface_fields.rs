@@ -8,13 +8,11 @@ use super::surface_view::read;
 use crate::error::Argument;
 use crate::surface::{NodalFields, PairResults};
 
-/// Fields at the nodes of your mesh. Set struct_size, and the pointers of the arrays that you want;
-/// each may be NULL. A call writes the nodes that stand in pairs of its contact, on both sides. It
-/// leaves the others as they are: set them before, and give the same arrays to the calls of all
-/// contact zones. Vectors are in the axes of the mesh.
-///
-/// A slave node has the values of its pair; other nodes have means over the pairs that they stand
-/// in, weighted by area and the size of their weights.
+/// Fields at the nodes of your mesh. Set struct_size, and the pointers of the arrays that you want.
+/// A call writes the nodes in pairs of its contact, on both sides, and leaves the others as they
+/// are: set them before, and give the same arrays to the calls of all contact zones. Vectors are in
+/// the axes of the mesh. A slave node has the values of its pair; other nodes have means over their
+/// pairs, weighted by area and the size of their weights.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct SignoriniContactFields {
@@ -26,11 +24,12 @@ pub struct SignoriniContactFields {
     pub pressure: *mut f64,
     /// Out: force of the contact on the node's own body over area, dim for each node.
     pub traction: *mut f64,
-    /// Out: what is left of the gap, gap - d_n, one for each node; positive if open; length.
+    /// Out: gap - d_n, one for each node; positive if open; length.
     pub clearance: *mut f64,
     /// Out: motion along the surface against the other body since slip0, dim for each node; length.
     pub slip: *mut f64,
-    /// Out: SIGNORINI_STATE_..., one for each node: of its pair, or that of its largest share.
+    /// Out: SIGNORINI_STATE_..., one for each node: of its pair, or of the pair of its largest
+    /// share.
     pub state: *mut i32,
 }
 
@@ -38,7 +37,7 @@ pub struct SignoriniContactFields {
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct SignoriniResultant {
-    /// sizeof(signorini_resultant) in your program; no more is written.
+    /// sizeof(signorini_resultant).
     pub struct_size: u32,
     /// 0.
     pub reserved: i32,
@@ -62,7 +61,6 @@ pub struct SignoriniResultant {
 /// @param F        contact forces, N
 /// @param state    SIGNORINI_STATE_... of each pair; may be NULL if fields->state is
 /// @param fields   out: the arrays of the fields
-/// @return 0; -k: the k-th argument is wrong, nothing was written
 #[unsafe(no_mangle)]
 #[allow(non_snake_case)] // the names of the mechanics, which the header shows
 pub unsafe extern "C" fn signorini_surface_fields(
@@ -117,13 +115,9 @@ pub unsafe extern "C" fn signorini_surface_fields(
 
 /// Resultant of the contact forces on the slave's body, and the work of friction.
 ///
-/// @param contact    the pairs
-/// @param slip0      reference slip, dim - 1 for each pair; NULL: zero
-/// @param d          relative displacements, N = dim * pairs
-/// @param F          contact forces, N
+/// @param contact,slip0,d,F  as for signorini_surface_fields
 /// @param point      the point of the moment, dim coordinates; NULL: the origin
-/// @param resultant  out: the sums; set resultant->struct_size before the call
-/// @return 0; -k: the k-th argument is wrong, nothing was written
+/// @param resultant  out: the sums; set resultant->struct_size before
 #[unsafe(no_mangle)]
 #[allow(non_snake_case)] // as above
 pub unsafe extern "C" fn signorini_surface_resultant(

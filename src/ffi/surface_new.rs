@@ -16,10 +16,9 @@ use crate::surface::{
     pair_with_rigid_surface,
 };
 
-/// Contact pairs that the library made from surfaces, with all that belongs to them. Made by
-/// signorini_surface_pair or signorini_surface_pair_obstacle, released by signorini_surface_free.
-/// It does not change: several threads may use one at once. It holds copies: your arrays may go
-/// once it is made.
+/// Contact pairs that the library made from surfaces. It does not change: several threads may use
+/// one at once. It holds copies: your arrays may go once it is made. signorini_surface_free
+/// releases it.
 pub struct SignoriniSurfacePairs {
     pub(super) found: SurfacePairs,
     /// Nodes of the host.
@@ -55,8 +54,7 @@ unsafe impl Sync for SignoriniSurfacePairs {}
 /// @param master       the other side; its nodes must not be on the slave side
 /// @param settings     NULL: the defaults
 /// @param contact      out: the pairs; NULL unless 0 is returned
-/// @return 0; -k: the k-th argument is wrong: signorini_last_error names side, face and node; <=
-///         -1000: out of memory or a defect
+/// @return the status; signorini_last_error names side, face and node
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn signorini_surface_pair(
     dim: i32,
@@ -96,15 +94,11 @@ pub unsafe extern "C" fn signorini_surface_pair(
 /// obstacle's surface: the gap is negative inside. An obstacle of faces is paired as a master is,
 /// with the same search distance; its nodes are its own.
 ///
-/// @param dim          space dimension, 2 or 3
-/// @param nodes        number of nodes of your mesh
-/// @param coordinates  dim for each node, of all nodes; length
-/// @param slave        the faces that may touch the obstacle
-/// @param obstacle     the obstacle
-/// @param settings     NULL: the defaults; pairing, normals, rims and symmetry_... are
-///                     read for faces alone
-/// @param contact      out: the pairs; NULL unless 0 is returned
-/// @return as signorini_surface_pair
+/// @param dim,nodes,coordinates  as for signorini_surface_pair
+/// @param slave     the faces that may touch the obstacle
+/// @param obstacle  the obstacle
+/// @param settings  NULL: the defaults; pairing, normals, rims and symmetry_... are for faces alone
+/// @param contact   out: the pairs; NULL unless 0 is returned
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn signorini_surface_pair_obstacle(
     dim: i32,

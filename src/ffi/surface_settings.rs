@@ -14,21 +14,20 @@ pub const SIGNORINI_PAIRING_NODE_TO_SURFACE: i32 = 1;
 
 /// The default: the mean of the unit normals of all slave faces at the slave node.
 pub const SIGNORINI_NORMALS_AVERAGED: i32 = 0;
-/// Normals of the faces in contact. Dual mortar: the mean at the slave node over those faces that
-/// lie over the master, by the node's share of the area that does; faces around a sharp edge that
-/// face nothing do not turn it. Nodes against surfaces: opposite to the normal of the nearest master
-/// face, at the foot of the perpendicular on it; above an edge without one, of the face that the
-/// averaged normal meets. Which nodes have pairs does not depend on it.
+/// Normals of the faces in contact. Dual mortar: the mean at the slave node over the faces that lie
+/// over the master, weighted by the node's area there; around a sharp edge other faces do not turn
+/// it. Nodes against surfaces: opposite to the normal of the nearest master face, at the foot of
+/// the perpendicular on it; above an edge without one, of the face that the averaged normal meets.
+/// The choice does not change which nodes have pairs.
 pub const SIGNORINI_NORMALS_FACES: i32 = 1;
 
-/// Slave nodes with less than a tenth of their area over the master, counted on the faces of
-/// which any part lies over it. By default their rows are added to that of a neighbour, and
-/// uniform pressure stays exact. The choice is for dual mortar: nodes against surfaces have no
-/// cover, and take the default alone.
+/// The default: the rows of slave nodes with less than a tenth of their area over the master,
+/// counted on faces that lie over it in part, are added to that of a neighbour. Uniform pressure
+/// stays exact. The choice is for dual mortar: nodes against surfaces have no cover, and take the
+/// default alone.
 pub const SIGNORINI_RIMS_FOLD: i32 = 0;
-/// They keep pairs of their own with small areas. Uniform pressure stays exact; under others their
-/// pressures may be large, as their rows hold points in the air. With less than a millionth they are
-/// folded all the same.
+/// They keep pairs of their own with small areas. Uniform pressure stays exact; other pressures may
+/// be large there, as the rows reach into the air. Below a millionth they are folded all the same.
 pub const SIGNORINI_RIMS_KEEP: i32 = 1;
 /// They get no pair, and their area is left out: uniform pressure is not exact around them.
 pub const SIGNORINI_RIMS_DROP: i32 = 2;
@@ -43,21 +42,19 @@ pub struct SignoriniSurfaceSettings {
     /// SIGNORINI_PAIRING_...; default SIGNORINI_PAIRING_DUAL_MORTAR.
     pub pairing: i32,
     /// Largest distance along the normal at which surfaces are paired, open or overlapping; length.
-    /// Default 0: the size of the largest slave face; against an obstacle that is not of faces no
-    /// limit, as +infinity.
+    /// Default 0: the size of the largest slave face; no limit against an obstacle without faces.
     pub search_distance: f64,
-    /// 0 or 1: the number of the first node, of the first entry of start and of the first degree of
-    /// freedom, here and in what the pairs tell; default 0. Take the one of your matrix.
+    /// Number of the first node, degree of freedom and entry of start, 0 or 1, here and in the
+    /// pairs; default 0. Take that of your matrix.
     pub index_base: i32,
-    /// Degrees of freedom of each node, of which the first dim are its displacements, such as 6;
+    /// Degrees of freedom of each node, such as 6, the first dim of which are its displacements;
     /// default 0: dim. Not read if node_dofs is given.
     pub dofs_per_node: i32,
-    /// Degrees of freedom of each node, dim for each, counted from index_base; default NULL:
-    /// dofs_per_node * node + axis.
+    /// Displacements of each node, dim for each; default NULL: dofs_per_node * node + axis.
     pub node_dofs: *const i64,
     /// Number of planes of symmetry of a half or quarter model; default 0. A pair whose slave node
-    /// stands on one neither moves nor carries a force across it, as in the whole body, and its
-    /// normal is in the plane. Fix the nodes on the plane across it as without contact.
+    /// stands on one neither moves nor carries a force across it, and its normal is in the plane.
+    /// Fix the nodes on the plane across it as without contact.
     pub symmetry_planes: i64,
     /// The axis across each plane, counted from index_base.
     pub symmetry_axes: *const i32,
@@ -191,11 +188,7 @@ impl SignoriniSurfaceSettings {
     }
 }
 
-/// Fills settings with their defaults and sets struct_size.
-///
-/// @param settings     not NULL
-/// @param struct_size  sizeof(signorini_surface_settings); no more than that is written
-/// @return 0, or -1 or -2 for the argument that is wrong
+/// Fills settings with their defaults; struct_size is sizeof(signorini_surface_settings).
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn signorini_surface_settings_default(
     settings: *mut SignoriniSurfaceSettings,

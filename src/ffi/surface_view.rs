@@ -7,12 +7,12 @@ use super::pairs::SignoriniPairs;
 use super::structures::{address, show};
 use super::surface_new::SignoriniSurfacePairs;
 
-/// Pairs from surfaces, and what became of faces and nodes. Arrays live as long as the pairs; one
+/// Pairs from surfaces, and the faces and nodes without any. Arrays live as long as the pairs; one
 /// without entries is NULL. Nodes and faces are counted from index_base.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct SignoriniSurfaceData {
-    /// sizeof(signorini_surface_data) in your program; no more is written.
+    /// sizeof(signorini_surface_data).
     pub struct_size: u32,
     /// Space dimension.
     pub dim: i32,
@@ -20,15 +20,15 @@ pub struct SignoriniSurfaceData {
     pub pairs: i64,
     /// The pairs for signorini_model_new_sparse, as general rows.
     pub rows: *const SignoriniPairs,
-    /// Initial gaps, one for each pair; length: positive if open, negative if the surfaces overlap.
+    /// Initial gap of each pair; length; negative where the surfaces overlap.
     pub gaps: *const f64,
-    /// Areas, one for each pair; the pressure of a pair is -F_n over its area.
+    /// Area of each pair; its pressure is -F_n over this area.
     pub areas: *const f64,
     /// Unit normals, dim for each pair, outward from the slave's body.
     pub normals: *const f64,
-    /// First unit tangents, dim for each pair; in 3D the second one is n x t1.
+    /// First unit tangents, dim for each pair; in 3D t2 = n x t1.
     pub tangents: *const f64,
-    /// Where the force of each pair acts on the slave's body, dim for each pair.
+    /// Where the force of each pair acts on the slave's body, dim for each.
     pub points: *const f64,
     /// The slave node of each pair, ascending.
     pub nodes: *const i64,
@@ -36,9 +36,9 @@ pub struct SignoriniSurfaceData {
     pub n_unpaired: i64,
     /// These nodes.
     pub unpaired: *const i64,
-    /// How many of them have little cover, and their row in the pair of a neighbour.
+    /// Number of those whose row is in the pair of a neighbour, for their little cover.
     pub n_folded: i64,
-    /// Each of these nodes with that neighbour: 2 entries for each.
+    /// Each of these nodes with that neighbour, 2 entries for each.
     pub folded: *const i64,
     /// Number of slave faces that lie over nothing (dual mortar).
     pub n_uncovered: i64,
@@ -54,22 +54,18 @@ pub struct SignoriniSurfaceData {
     pub covered_area: f64,
     /// The search distance that was used.
     pub search_distance: f64,
-    /// How often a master face was near a slave whose normal does not oppose the slave's. If there
-    /// are no pairs, and this is not 0, one side is turned over.
+    /// How often a master face was near a slave with a normal that does not oppose the slave's. If
+    /// it is not 0 and there are no pairs, one side is turned over.
     pub not_opposed: i64,
     /// Boxes that the search looked at: its cost.
     pub boxes_searched: i64,
     /// Pairs whose slave node stands on a plane of symmetry.
     pub on_symmetry: i64,
-    /// Number of unpaired nodes that SIGNORINI_RIMS_DROP has left out for little cover.
+    /// Number of unpaired nodes that SIGNORINI_RIMS_DROP has left out.
     pub dropped: i64,
 }
 
-/// Shows pairs from surfaces: fills data, whose arrays live as long as the pairs.
-///
-/// @param contact  the pairs
-/// @param data     out: set data->struct_size before the call
-/// @return 0; -k: the k-th argument is wrong
+/// Fills data, whose struct_size you set before. Its arrays live as long as the pairs.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn signorini_surface_view(
     contact: *const SignoriniSurfacePairs,
