@@ -163,7 +163,7 @@ class Case:
                   if "total force" in line]
         if len(totals) != len(self.motions):
             sys.exit(f"CalculiX did not end all steps: see {out / self.name}_contact.log")
-        # What holds the upper end balances what presses on the slave, but for planes of symmetry.
+        # Forces at the upper end balance those on the slave, but for planes of symmetry.
         return -np.array(totals), seconds
 
 

@@ -1,5 +1,5 @@
 #!/bin/sh
-# What the guide in c_examples/guide says is so: links lead somewhere, names are those of the headers, programs are the files
+# The guide in c_examples/guide is right: links lead somewhere, names are those of the headers, programs are the files
 # that they are said to be and print what the guide says, functions compile and do what it says, and mdBook builds it.
 #
 #     sh tests/guide.sh [--require]

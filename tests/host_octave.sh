@@ -20,7 +20,7 @@ work=$root/target/tests/host\ octave
 rm -rf -- "$work"
 mkdir -p -- "$work"
 sh "$root/c_examples/hosts/octave/octave.sh" "$work" | tee "$work/printed"
-# What the C program of the README prints, the Octave one prints too.
+# The Octave program prints what the C program of the README prints.
 grep '^pair ' "$root/README.md" >"$work/expected"
 grep '^pair ' "$work/printed" | diff "$work/expected" -
 grep -q 'PASS.*K is not a real matrix' "$work/printed" # the last check: none was left out

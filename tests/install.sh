@@ -87,7 +87,7 @@ check_libraries() {
 }
 check_libraries "$by_script/lib"
 
-# What the standard library may do without must stay weak: older C libraries do not have it.
+# Names that the standard library may do without must stay weak: older C libraries do not have them.
 for name in pidfd_spawnp pidfd_getpid posix_spawn_file_actions_addchdir; do
     if nm -P --undefined-only "$by_script/lib/libsignorini.a" | grep -q "^$name U"; then
         die "the static library cannot do without $name"
@@ -96,7 +96,7 @@ done
 
 # ---- programs ----
 
-# Whether programs can be static at all: a libc.a is there.
+# Programs can be static if a libc.a is there.
 static_works=no
 printf 'int main(void) { return 0; }\n' >"$work/empty.c"
 if $cc -static "$work/empty.c" -o "$work/empty" 2>/dev/null && "$work/empty"; then

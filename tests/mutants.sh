@@ -40,7 +40,7 @@ done
 [ -z "${MUTANTS_SHARD-}" ] || set -- "$@" --shard "$MUTANTS_SHARD" --sharding round-robin
 
 mkdir -p -- "$work"
-# What is left of an earlier run is the library of its last mutant.
+# An earlier run leaves the library of its last mutant.
 rm -rf -- "$work"/target/mutants/.fingerprint/signorini-*
 export CARGO_TARGET_DIR="$work/target" SIGNORINI_PROPERTY_CASES=600 SIGNORINI_FAR_GAPS=1000
 exec cargo mutants --profile daily --cargo-arg=--locked --jobs 1 --output "$work" --no-shuffle \

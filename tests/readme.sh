@@ -1,5 +1,5 @@
 #!/bin/sh
-# What the README says is so: the commands from a clone to a program run as they stand and print what the
+# The README is right: the commands from a clone to a program run as they stand and print what the
 # README says, with -static too where that can be; the C example is the file.
 #
 #     sh tests/readme.sh [--require]
@@ -32,7 +32,7 @@ commands() {
         $0 == "```" { inside = 0 } inside' README.md
 }
 
-# Whether the C library has a static form.
+# Succeeds if the C library has a static form.
 can_be_static() {
     echo 'int main(void) { return 0; }' >"$work/empty.c"
     ${CC:-cc} -static "$work/empty.c" -o "$work/empty" 2>/dev/null

@@ -17,7 +17,7 @@ struct contact {
     int32_t *lower, *upper; /* the nodes of each pair */
 };
 
-/* What the library finds. The pairs one after the other, (n, t1, t2) for each in d and F. */
+/* The library's findings. The pairs one after the other, (n, t1, t2) for each in d and F. */
 struct answer {
     double *d, *F;
     int32_t *state;

@@ -68,7 +68,7 @@ int32_t study_recover(const struct study *study, int number, double u[], double 
 
 /* ---- Load cases ---------------------------------------------------------------------------- */
 
-/* What the forces of a load case on the lower ball sum up to. */
+/* Sums of the forces of a load case on the lower ball. */
 struct sums {
     double P, Q, M;              /* along -z, along x, about z */
     double P_squares, Q_squares; /* each force times its squared radius */

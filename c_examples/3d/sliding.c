@@ -41,7 +41,7 @@ struct slide {
     double moves[DOFS], f[DOFS], u[DOFS];
     double path[NODES]; /* how far each slave node has slipped in all */
 
-    /* Of the step. */
+    /* Slip in the step. */
     double slip[DOFS]; /* at the slave nodes, in global axes */
     double d[3 * LAYER], F[3 * LAYER], slip0[2 * LAYER];
     int32_t state[LAYER];

@@ -1,5 +1,5 @@
 /*
- * What two_blocks.c shows and checks: statics, the law of friction, the symmetry of the problem, the
+ * Output and checks of two_blocks.c: statics, the law of friction, the symmetry of the problem, the
  * host's own equations, and that the library proves where no equilibrium exists.
  */
 

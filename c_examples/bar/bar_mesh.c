@@ -111,7 +111,7 @@ static void hold(struct equations *eq, size_t held)
 }
 
 /* Eliminates the first `count` components by Cholesky's method (in its root-free form L D L').
- * What is left of the others is S = K_cc - K_ci K_ii^-1 K_ic and f_c - K_ci K_ii^-1 f_i. */
+ * The rest of the equations is S = K_cc - K_ci K_ii^-1 K_ic and f_c - K_ci K_ii^-1 f_i. */
 static int eliminate(struct equations *eq, size_t count)
 {
     const size_t n = eq->size;

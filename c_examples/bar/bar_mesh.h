@@ -37,7 +37,7 @@ struct bar {
 };
 
 /*
- * What the library wants, pair by pair (n, t), with n = (0, -1) the outward normal of the contact
+ * The library's arguments, pair by pair (n, t), with n = (0, -1) the outward normal of the contact
  * side and t = (1, 0): d_n = -u_y, d_t = u_x.
  */
 struct condensed_bar {

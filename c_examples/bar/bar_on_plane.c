@@ -25,7 +25,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What a method counts. */
+/* The name of the steps that a method counts. */
 static const char *steps_of(int32_t method)
 {
     switch (method) {

@@ -1,5 +1,5 @@
 /*
- * What the bar on the plane is compared with. Displacements in mm, forces in daN for 1 mm of
+ * The reference for the bar on the plane. Displacements in mm, forces in daN for 1 mm of
  * thickness; u^n = -u_y, u^t = u_x, F^n and F^t are nodal forces.
  */
 

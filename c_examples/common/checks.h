@@ -1,5 +1,5 @@
 /*
- * What the example programs share: counting checks, and the names of the states.
+ * Tools of the example programs: counting checks, and the names of the states.
  */
 
 #ifndef CHECKS_H

@@ -9,7 +9,7 @@
 
 #include "signorini.h"
 
-/* What a shell takes for "ended by Ctrl-C". */
+/* A shell takes this for "ended by Ctrl-C". */
 enum { EXIT_INTERRUPTED = 130 };
 
 /* From now on Ctrl-C (SIGINT) ends nothing by itself, it only makes `watch_interrupted` true. */

@@ -21,7 +21,7 @@ struct local_form {
  * W = H' M^-1 H, q = H' M^-1 f + w. Returns NULL, or a sentence on what is wrong. */
 const char *local_form_read(const char *path, struct local_form *form);
 
-/* The same from FCLIB's own structs. After a sentence the form may hold a part: free it. */
+/* Reads FCLIB's own structs likewise. After a sentence the form may hold a part: free it. */
 struct fclib_local;
 struct fclib_global;
 const char *local_form_of_local(const struct fclib_local *problem, struct local_form *form);
@@ -42,7 +42,7 @@ void triangle_free(struct triangle *lower);
  * W_aa the largest diagonal entry of the contact's block. Zero at exact solutions only. */
 double local_form_residual(const struct local_form *form, const double *r);
 
-/* Whether the file has such a group, "/solution" or "/guesses". */
+/* Nonzero if the file has such a group, "/solution" or "/guesses". */
 int file_has(const char *path, const char *group);
 
 #endif

@@ -73,7 +73,7 @@ END
     dpkg-deb --root-owner-group --build "$work/$1" "$out" >/dev/null
     say "$out/$1_$version-1_$architecture.deb"
 }
-# What programmers read and try goes with what they build with: the examples keep their places beside each other.
+# Examples for programmers go with what they build with, and keep their places beside each other.
 documents=$work/$dev/usr/share/doc/$dev
 mkdir -p "$documents/examples"
 cp -R "$root/README.md" "$examples/guide" "$examples/LIMITS.md" "$documents"

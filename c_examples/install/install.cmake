@@ -1,4 +1,4 @@
-# What `cmake --install` installs: the libraries, the header and the Fortran module's source,
+# Files that `cmake --install` installs: the libraries, the header and the Fortran module's source,
 # signorini.pc and the CMake package. install.sh installs the same without CMake.
 
 include(GNUInstallDirs)

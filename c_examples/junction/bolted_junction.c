@@ -233,8 +233,8 @@ static int ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* What a load case costs once the model exists: medians, with default settings. Not a check, as
- * machines are noisy. */
+/* Prints the cost of a load case once the model exists: medians, with default settings. Not a
+ * check, as machines are noisy. */
 static void report_cost(const struct junction *junction)
 {
     enum { RUNS = 11 };

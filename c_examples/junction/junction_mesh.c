@@ -9,7 +9,7 @@ static const double pitch = ELEMENT_SIDE;
 
 enum { A, B, C };
 
-/* What the parts consist of, in lines of the grid. */
+/* The parts, in lines of the grid. */
 static const struct rectangle {
     int part, r0, r1, z0, z1;
 } rectangles[] = {

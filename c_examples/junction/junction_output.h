@@ -19,7 +19,7 @@ struct step {
 
 extern const struct step steps[STEPS];
 
-/* The same steps for several friction coefficients side by side: arrays as the library has them,
+/* Load steps for several friction coefficients side by side: arrays as the library has them,
  * one column for each coefficient. */
 struct history {
     size_t cases;

@@ -20,7 +20,7 @@ const E: f64 = 13000.0;
 const NU: f64 = 0.2;
 const SIZE: f64 = 40.0;
 
-/// What is done to the upper side.
+/// Condition on the upper side.
 #[derive(Clone, Copy, PartialEq)]
 #[allow(dead_code)] // Every user uses a part.
 pub enum Top {

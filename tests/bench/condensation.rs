@@ -1,4 +1,4 @@
-//! What the reduction of a whole sparse matrix costs, in time and memory, and what it saves.
+//! Cost of the reduction of a whole sparse matrix, in time and memory, and its gain.
 //!
 //! `cargo bench --bench condensation`. One thread. Peak memory is that of Linux.
 

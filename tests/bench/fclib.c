@@ -37,7 +37,7 @@ static const double SOLVED = 1e-9, TOLERANCE = 1e-10, TIGHT = 1e-13;
 enum { CALLS = 20 };
 static const double ENOUGH = 0.2;
 
-/* What a child leaves to its parent. */
+/* The results that a child leaves to its parent. */
 struct answer {
     int finished, status;
     double seconds, r[];

@@ -75,8 +75,8 @@ static double *read_numbers(FILE *file, size_t count)
     return x;
 }
 
-/* Whether a matrix H of this size comes next: its storage and its size, three whole numbers, where
- * the local form has the first numbers of q. */
+/* Nonzero if a matrix H of this size comes next: its storage and its size, three whole numbers,
+ * where the local form has the first numbers of q. */
 static int matrix_follows(FILE *file, int rows, int columns)
 {
     const long here = ftell(file);

@@ -22,7 +22,7 @@
 #define GAUSS_SEIDEL(name, local, blocks) \
     {name, 3, SICONOS_FRICTION_3D_NSGS, SICONOS_FRICTION_3D_ONECONTACT_##local, blocks, 1000000}
 
-/* What is fast as a rule comes first: it limits the time of the others. */
+/* The solvers that are fast as a rule come first: they limit the time of the others. */
 const struct siconos_solver siconos_solvers[] = {
     SPACE("NSGS, blocks", NSGS, 1, 1000000),
     GAUSS_SEIDEL("NSGS by projection, blocks", ProjectionOnConeWithLocalIteration, 1),

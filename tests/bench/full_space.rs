@@ -1,4 +1,4 @@
-//! What models in full space cost: CPU time, peak memory, factorisations and solutions with a factor.
+//! Costs of models in full space: CPU time, peak memory, factorisations and solutions with a factor.
 //!
 //! `cargo bench --bench full_space -- plane 512 .3` solves half of a bar with 512 elements along a wavy obstacle,
 //! `space 16 .3` a block with 16 x 16 pairs, both graded away from the contact; a coefficient of friction for each

@@ -1,5 +1,5 @@
 #!/bin/sh
-# What large models cost, in one table: CPU time and peak memory of the reduction, of the first load case, and
+# Cost of large models, in one table: CPU time and peak memory of the reduction, of the first load case, and
 # of a further one; and where MUMPS and CHOLMOD are, beside them.
 #
 #     sh tests/bench/large.sh OUT [CASE ...]

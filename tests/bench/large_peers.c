@@ -1,5 +1,5 @@
 /*
- * What other libraries take for the condensation of large_rows.rs, on the matrix that it has written:
+ * Cost of the condensation of large_rows.rs by other libraries, on the matrix that it has written:
  *
  *     large_peers MATRIX mumps   CASE DIM BLAS    Schur complement on the contact unknowns by MUMPS
  *     large_peers MATRIX cholmod CASE DIM BLAS    Cholesky factor by CHOLMOD, contact unknowns last: a part of

@@ -1,5 +1,5 @@
 /*
- * What the programs of large.sh share: the problem that large_problem.rs has written, the clock, the peak of memory.
+ * Tools of the programs of large.sh: the problem that large_problem.rs has written, the clock, the peak of memory.
  * PROGRAM names the one that fails.
  */
 #ifndef LARGE_PROBLEM_H

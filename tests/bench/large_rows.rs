@@ -1,4 +1,4 @@
-//! What large models cost: CPU time and peak memory of the reduction, of the first load case, of a further one,
+//! Costs of large models: CPU time and peak memory of the reduction, of the first load case, of a further one,
 //! and of a hundred further ones at once, each with its displacements.
 //!
 //! `cargo bench --bench large_rows -- bar block 26 33`: `bar` has 1000 x 50 nodes with all 1000 of its lower

@@ -1,5 +1,5 @@
 /*
- * What threads save of the reduction, on a matrix that large_rows.rs has written:
+ * Gain of threads in the reduction, on a matrix that large_rows.rs has written:
  *
  *     large_threads MATRIX CASE DIM THREADS ...
  *

@@ -24,7 +24,7 @@ use signorini::{
 /// Counts of a mechanism: how often asked, and how often decisive.
 type Counts = BTreeMap<(&'static str, usize), [u64; 2]>;
 
-/// What a family's problems have counted.
+/// Counts of a family's problems.
 #[derive(Default)]
 struct Family {
     problems: u64,

@@ -1,5 +1,5 @@
 /*
- * What the library itself takes on many pairs: an operator model on a grid of pairs in space whose products are quick,
+ * The library's own time on many pairs: an operator model on a grid of pairs in space whose products are quick,
  * so that the time is that of the law, of Newton's method, of GMRES and of the certificate.
  *
  *     million_pairs SIDE      SIDE x SIDE pairs; prints a row of a table

@@ -1,5 +1,5 @@
 #!/bin/sh
-# What the library itself takes on up to a million pairs in space, by an operator model whose products are quick.
+# The library's own time on up to a million pairs in space, by an operator model whose products are quick.
 #
 #     sh tests/bench/million_pairs.sh
 #

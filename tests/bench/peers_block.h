@@ -14,7 +14,7 @@
 
 #include "peers_mesh.h"
 
-/* What all loads of a body share. */
+/* The data that all loads of a body share. */
 struct block;
 
 /* `slenderness`: 0 for a block, or the height of a column in widths. Fills pairs, dim and K of the

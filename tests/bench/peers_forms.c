@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Of the LAPACK that Siconos is linked with; Debian has no header of it without -dev packages. */
+/* The LAPACK that Siconos is linked with; Debian has no header of it without -dev packages. */
 void dpotrf_(const char *uplo, const int *n, double *a, const int *lda, int *info);
 void dpotri_(const char *uplo, const int *n, double *a, const int *lda, int *info);
 void dtrsm_(const char *side, const char *uplo, const char *trans, const char *diag, const int *m,

@@ -1,5 +1,5 @@
 /*
- * The same problem in the forms that the solvers take: dense linear algebra, untimed.
+ * A problem in the forms that the solvers take: dense linear algebra, untimed.
  *
  * Frictionless, on the normals: w = q + M z with
  *     stiffness form    z the opening gap - d_n, w the pressure -F_n, M = S, the Schur complement
@@ -41,7 +41,7 @@ double norm(size_t size, const double *x);
 /* CPU time of this thread in seconds. */
 double thread_seconds(void);
 
-/* What the BLAS that the peers use calls itself. */
+/* The name that the peers' BLAS gives itself. */
 const char *blas_name(void);
 
 #endif

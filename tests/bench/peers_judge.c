@@ -153,7 +153,7 @@ void judge(const struct solver *solver, const struct problem *problem, double li
     const size_t size = force_size(problem);
     double *force = need(size, sizeof *force);
     double tolerance = solver->iterative ? 1e-9 : SOLVED_ETA, spent = 0.0;
-    /* What Siconos' Lemke returns is exact or not; its tolerance is for its own check alone. */
+    /* The result of Siconos' Lemke is exact or not; its tolerance is for its own check alone. */
     if (!solver->iterative && strcmp(solver->library, "siconos") == 0)
         tolerance = 1e-9;
 

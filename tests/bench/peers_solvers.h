@@ -9,7 +9,7 @@
 
 enum family { FRICTIONLESS, FRICTION_2D, FRICTION_3D };
 
-/* The same data for every solver, made before any clock runs. */
+/* One problem for every solver, made before any clock runs. */
 struct problem {
     enum family family;
     enum geometry geometry;
@@ -21,7 +21,7 @@ struct problem {
     double lu_ms;           /* FRICTION_3D: factorisation_ms() of this body */
 };
 
-/* What a solver's numbers mean. */
+/* Meaning of a solver's numbers. */
 enum answer {
     OPENINGS,      /* x: openings, y: pressures */
     PRESSURES,     /* x: pressures, y: openings */
@@ -29,7 +29,7 @@ enum answer {
     REACTIONS      /* x: reactions, y: velocities, as Siconos has them */
 };
 
-/* What a call leaves, in memory that both processes see. */
+/* The results of a call, in memory that both processes see. */
 struct outcome {
     int finished;
     int code; /* 0: the solver says that it succeeded */

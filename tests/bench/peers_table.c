@@ -35,7 +35,7 @@ void write_csv(FILE *file, const struct row *rows, size_t count)
         fprintf(file, "%s,%s,%zu,%g,%s,%s,", family_name(row->solver->family),
                 geometry_name(row->geometry), row->pairs, row->mu, row->solver->library,
                 row->solver->name);
-        /* What was not measured stays empty. */
+        /* A figure that was not measured stays empty. */
         if (row->ms > 0.0)
             fprintf(file, "%.6g,%d,", row->ms, row->iterations);
         else

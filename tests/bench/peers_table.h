@@ -1,5 +1,5 @@
 /*
- * What a run found, as CSV and as a Markdown document.
+ * The findings of a run, as CSV and as a Markdown document.
  */
 
 #ifndef PEERS_TABLE_H

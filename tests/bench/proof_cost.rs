@@ -1,4 +1,4 @@
-//! What a proof that a solution exists costs, in units of the solution without it.
+//! Cost of a proof that a solution exists, in units of the solution without it.
 //!
 //! `cargo bench --bench proof_cost`. Times are the least of seven, both in turn, on one thread.
 

@@ -168,7 +168,7 @@ static void expect(int line, const char *function, int32_t (*call)(void), const 
         expect(__LINE__, call, name, status, part);                                               \
     } while (0)
 
-/* The same fault under both laws of friction, and in the certificate too. */
+/* One fault under both laws of friction, and in the certificate too. */
 #define BOTH_IN(dim, name, status, part, ...)                                                     \
     do {                                                                                          \
         BAD(dim, SOLVE, name, status, part, __VA_ARGS__);                                         \
@@ -188,7 +188,7 @@ static void expect(int line, const char *function, int32_t (*call)(void), const 
         BAD(2, TRESCA, name, -8, "g" part, __VA_ARGS__);                                          \
     } while (0)
 
-/* The same fault with and without a covering vector. */
+/* One fault with and without a covering vector. */
 #define BARE(name, status, part, ...)                                                             \
     do {                                                                                          \
         BAD(2, LCP, name, status, part, __VA_ARGS__);                                             \

@@ -22,7 +22,7 @@ enum { TRAPS = FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW };
 
 static volatile double tiny = 1e-300;
 
-/* What a host may see of its floating-point environment. */
+/* The floating-point environment as a host sees it. */
 typedef struct seen {
     int traps, rounding, flags;
 #if defined __x86_64__

@@ -1,5 +1,5 @@
 /*
- * What may go wrong around a call, and how the call ends: a table of fault and outcome, each row tried
+ * Faults around a call, and how the call ends: a table of fault and outcome, each row tried
  * here. Other programs try more of some rows: out_of_memory.c, processes.c, older_structures.c, problem_file.c,
  * environment.c. Linux with glibc.
  *
@@ -32,7 +32,7 @@ static void row(const char *fault, const char *outcome, int holds)
     fflush(stdout);
 }
 
-/* What `body` answers in a child process; -1 if the child is ended by a signal, or does not end in 20 s. */
+/* The answer of `body` in a child process; -1 if the child is ended by a signal, or does not end in 20 s. */
 static int in_child(int (*body)(void *), void *argument)
 {
     fflush(stdout);

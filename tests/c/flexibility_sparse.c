@@ -151,7 +151,7 @@ static void nothing_to_do(void)
                  0);
 }
 
-/* What is wrong with the matrix, or with an argument beside it. */
+/* Faults of the matrix, or of an argument beside it. */
 static void refusals(void)
 {
     const double nan_q[8] = {0, NAN}, wrong_gap[4] = {0, NAN}, wrong_mu[4] = {0.5, -0.1};

@@ -46,7 +46,7 @@ static void check_load_steps(void)
     signorini_model_free(model);
 }
 
-/* Of a linear host one iteration from anywhere leads to the solution. */
+/* One iteration from anywhere leads to the solution of a linear host. */
 static void check_contact_iteration(void)
 {
     static const double f[N] = {2, 1.5, 3, 0.5};

@@ -381,7 +381,7 @@ int main(void)
     CHECK(report.proof == SIGNORINI_PROOF_NOT_ASKED && report.remarks == 0);
     CHECK(report.error_d >= -1 && report.error_d < 1e-12 && report.error_F < 1e-12);
 
-    /* The same with a proof, by settings and extra of this size, and by a report of the size before. */
+    /* Once more with a proof, by settings and extra of this size, and by a report of the size before. */
     double radius_d[4], radius_F[4];
     extra.radius_d = radius_d;
     extra.radius_F = radius_F;

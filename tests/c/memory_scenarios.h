@@ -187,7 +187,7 @@ static int32_t flexibility(struct world *w)
                                        c->mu, NULL, NULL, w->d, w->F, w->state, NULL, NULL);
 }
 
-/* The same sparse, cut into two islands: parts on the diagonal of a definite matrix are definite. */
+/* The flexibility as a sparse one, cut into two islands: parts on the diagonal of a definite matrix are definite. */
 static int32_t flexibility_sparse(struct world *w)
 {
     const chain *c = &w->plane;

@@ -1,5 +1,5 @@
 /*
- * What the library says a call may need is what settings.memory_limit is held against: a call is made with a
+ * settings.memory_limit is held against the bytes that the library says a call may need: a call is made with a
  * limit of just so many bytes, and refused before anything is done with one less.
  */
 

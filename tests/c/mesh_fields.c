@@ -30,7 +30,7 @@ static int digit(char letter)
     return found ? (int)(found - letters) : -1;
 }
 
-/* Whether the array `name` of the file has these bytes, behind their number. */
+/* Nonzero if the array `name` of the file has these bytes, behind their number. */
 static int has(const char *file, const char *name, const void *bytes, size_t count)
 {
     char mark[64];

@@ -1,5 +1,5 @@
 /*
- * What a caller is told about methods and other solutions: the choice of the default, several
+ * Answers to a caller about methods and other solutions: the choice of the default, several
  * solutions, the certificate of displacements from elsewhere, LCPs. Answers
  * in closed form.
  */
@@ -146,7 +146,7 @@ static void the_default_says_what_it_chose(void)
                                          c.mu, NULL, NULL, c.d, c.F, c.state, &report, NULL),
                          SIGNORINI_STATUS_SOLVED);
             CHECK(report.method > AUTO && report.method <= SIGNORINI_METHOD_PATH);
-            /* What the header says of it. */
+            /* The header says which method is first. */
             const int32_t first =
                 friction ? SIGNORINI_METHOD_NEWTON : SIGNORINI_METHOD_BLOCK_PIVOTING;
             CHECK(report.first_method == first);
@@ -204,7 +204,7 @@ static void displacements_of_any_origin_are_measured(void)
                                    pulled, NULL, NULL, &report),
                  SIGNORINI_STATUS_NOT_A_SOLUTION);
     CHECK_NEAR(report.tension, 5);
-    /* What is not wanted may be NULL, and inputs may be one array. */
+    /* Unwanted outputs may be NULL, and inputs may be one array. */
     CHECK_STATUS(certify_condensed(2, 2, K, 4, f, gap, SIGNORINI_LAW_COULOMB, mu, NULL, 1e-10, d,
                                    NULL, NULL, NULL), 0);
     CHECK_STATUS(certify_condensed(2, 2, K, 4, f, f, SIGNORINI_LAW_COULOMB, mu, NULL, 1e-10, f,

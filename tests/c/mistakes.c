@@ -110,7 +110,7 @@ static void pairs(void)
             block.pairs.count = 0);
 }
 
-/* What drives the body off is told with what to look at. */
+/* The sentence on a body that flies off says what to look at. */
 static void signs(void)
 {
     const char *const off[3] = {"no equilibrium exists", "the slave of pair 3 moves along",

@@ -538,7 +538,7 @@ static void cases(void)
     CHECK(w.status[0] == 0 && w.status[1] == -9 && w.status[2] == -3);
     check_case(0);
 
-    /* What is not wanted is NULL; without status the rest goes on too. */
+    /* Arrays that are not wanted are NULL; without status the rest goes on too. */
     prepare_cases();
     w.f[0][0] = NAN;
     CHECK_STATUS(signorini_model_solve(model, CASES, w.f[0], NULL, w.gap, SIGNORINI_LAW_COULOMB,

@@ -1,5 +1,5 @@
 /*
- * What a model says of itself and of displacements: sizes, frames, the loads that a case condenses
+ * A model's answers about itself and displacements: sizes, frames, the loads that a case condenses
  * to, certificates, and the further results of each case of a block.
  */
 

@@ -44,7 +44,7 @@ static int32_t count(void *user, const signorini_progress *progress)
 static void one_call(void)
 {
     const double K[4] = {5, 0, 0, 3}, f[2] = {10, 8}, gap[1] = {0}, mu[1] = {0.5};
-    /* What lies behind each structure of then is the program's own. */
+    /* The bytes behind each structure of then are the program's own. */
     struct { signorini_settings settings; unsigned char own[64]; } in;
     struct { signorini_report report; double d[2], F[2]; } out;
     struct { signorini_extra extra; unsigned char own[64]; } more;

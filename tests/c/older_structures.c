@@ -149,7 +149,7 @@ static void structures_before_arrays(void)
         CHECK_STATUS(signorini_extra_default((signorini_extra *)(void *)room, size), 0);
         CHECK_STATUS(solve(NULL, d, F, NULL, (signorini_extra *)(void *)room), 0);
         CHECK_NEAR(d[1], 1);
-        /* What is only read must not be written to either. */
+        /* Arrays that are only read must not be written to either. */
         CHECK_STATUS(solve(NULL, d - 1, F, NULL, (signorini_extra *)(void *)room), -15);
         CHECK_TEXT(signorini_last_error(), "extra overlaps d");
     }

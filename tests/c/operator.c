@@ -10,7 +10,7 @@
 /* A chain of P nodes: along each axis a spring of 1 between neighbours and one of 0.5 to the ground. */
 enum { P = 5, N = 2 * P };
 
-/* What a host does wrong. */
+/* Faults of a host. */
 enum wrong {
     RIGHT, FAILS, NOT_A_NUMBER, UNSYMMETRIC, LEAVES_OUT, RESISTS_NOTHING, INVERTS_NOTHING, MOVES_HELD
 };
@@ -20,7 +20,7 @@ typedef struct host {
     int products, inverses, solutions, changes;
     /* The product that fails, and the solution; 0: none. */
     int fails_at, loses_at;
-    /* What the host's factor is for; whether it is lost, and how often it was asked for all the same. */
+    /* Components that the host's factor holds; whether it is lost, and how often it was asked for then. */
     int32_t factor[N];
     int lost, stale;
 } host;

@@ -46,7 +46,7 @@ static void *run(void *argument)
     return NULL;
 }
 
-/* The same on this thread, or on a new one. */
+/* The status on this thread, or on a new one. */
 static int32_t status_of(struct work *work, int fresh)
 {
     pthread_t thread;
@@ -55,7 +55,7 @@ static int32_t status_of(struct work *work, int fresh)
     return work->status;
 }
 
-/* What the child finds. */
+/* The child's outcome. */
 static int outcome(struct work work, int32_t expected)
 {
     const int64_t before = heap.living;
@@ -90,7 +90,7 @@ static int64_t tried(const struct scenario *scenario, struct world *world, int64
 {
     int64_t trials = 0;
     struct work work = {scenario, world, INT64_MAX, INT64_MAX, 0};
-    /* What is made once and stays is there after the first run. */
+    /* The first run makes all that is made once and stays. */
     scenario->run(world);
     const int32_t expected = status_of(&work, scenario->kind == NEW_THREAD);
     const int64_t requests = heap.requests;

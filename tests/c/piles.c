@@ -33,7 +33,7 @@ static double distance(const double *a, const double *b)
     return sqrt(pow(a[0] - b[0], 2) + pow(a[1] - b[1], 2) + pow(a[2] - b[2], 2));
 }
 
-/* Whether b is one of the nearest bodies of a. */
+/* Nonzero if b is one of the nearest bodies of a. */
 static int is_neighbour(double middle[BODIES][3], int a, int b)
 {
     int nearer = 0;

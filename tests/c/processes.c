@@ -1,5 +1,5 @@
 /*
- * What a host does to its threads and processes: a thread that is cancelled during a call, small stacks, a
+ * Threads and processes of a host: a thread that is cancelled during a call, small stacks, a
  * fork with objects that both sides then use, and callbacks that stop a call at every place. Nothing is held
  * afterwards. Linux with glibc.
  */
@@ -42,7 +42,7 @@ static void *cancelled(void *argument)
 
 static void cancellation(struct world *world)
 {
-    /* What the C library makes for the first thread that is cancelled stays. */
+    /* The C library keeps what it makes for the first thread that is cancelled. */
     struct run warm = {scenarios, world, -77};
     pthread_t first;
     CHECK(pthread_create(&first, NULL, cancelled, &warm) == 0 && pthread_join(first, NULL) == 0);
@@ -224,7 +224,7 @@ static void cancelled_reductions(struct world *w)
 int main(void)
 {
     struct world *world = world_new(), *other = world_new();
-    /* What is made once and stays is there after the first run. */
+    /* The first run makes all that is made once and stays. */
     for (const struct scenario *scenario = scenarios; scenario->name; scenario++)
         CHECK_STATUS(scenario->run(world), scenario->expected);
     cancellation(world);

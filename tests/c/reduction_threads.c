@@ -13,7 +13,7 @@
 
 enum { EDGE = 16, PAIRS = EDGE * EDGE, N = 3 * PAIRS };
 
-/* What a model gives. */
+/* The answer of a model. */
 typedef struct answer {
     double K[N * N], d[N], F[N], u[3 * EDGE * PAIRS];
     int32_t state[PAIRS];

@@ -473,7 +473,7 @@ static void refusals(void)
     signorini_surface_free(NULL);
 }
 
-/* What is wrong with the calls after the solution. */
+/* Faults of the calls after the solution. */
 static void refused_results(void)
 {
     const signorini_faces slave = lines(1, line), master = lines(2, below);

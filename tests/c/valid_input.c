@@ -1,5 +1,5 @@
 /*
- * What is valid is handled, the odd as well as the ordinary: answers in closed form, statuses above
+ * Valid input is handled, the odd as well as the ordinary: answers in closed form, statuses above
  * zero, optional arguments, and structures of older programs.
  */
 
@@ -18,7 +18,7 @@ enum {
     PATH = SIGNORINI_METHOD_PATH
 };
 
-/* Whether a method is for problems of this dimension, with friction or without. */
+/* Nonzero if a method is for problems of this dimension, with friction or without. */
 static int fits(int32_t method, int32_t dim, int friction)
 {
     switch (method) {
@@ -29,7 +29,7 @@ static int fits(int32_t method, int32_t dim, int friction)
     }
 }
 
-/* What a call returned, for up to two pairs. */
+/* Results of a call, for up to two pairs. */
 typedef struct answer {
     double d[6], F[6], motion[6];
     int32_t state[2];
@@ -61,7 +61,7 @@ static answer blank(void)
     return a;
 }
 
-/* What every report says, whatever the problem. */
+/* Every report says this, whatever the problem. */
 static void check_report(const signorini_report *report, int32_t status, int64_t pairs)
 {
     CHECK(report->struct_size == sizeof *report);
@@ -890,7 +890,7 @@ static void settings_of_an_older_program(void)
         CHECK_NEAR(d[1], 1);
         free(block);
     }
-    /* What lies behind the size is not looked at, be it wrong in every field. */
+    /* Bytes behind the size are not looked at, be they wrong in every field. */
     const uint32_t sizes[] = {16, 24};
     for (int i = 0; i < 2; i++) {
         signorini_settings settings;

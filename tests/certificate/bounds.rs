@@ -143,7 +143,7 @@ fn only_a_stiffness_resists_a_motion() {
     assert!(!certificate.holds(1e-2), "{certificate:?}");
 }
 
-/// What a solution reports as `eta` counts the rounding of its evaluation, which is far below the tolerance here.
+/// The `eta` that a solution reports counts the rounding of its evaluation, which is far below the tolerance here.
 #[test]
 fn what_is_reported_counts_rounding() {
     let mut above = 0;

@@ -1,4 +1,4 @@
-//! What counts as the rounding of a host's condensed matrix, from both sides: motions whose energy is at most 9e-12
+//! The rounding of a host's condensed matrix, from both sides: motions whose energy is at most 9e-12
 //! of the diagonals are free, those from 3e-10 on are held, and a matrix with one between is taken as it is. It is
 //! looked at only where an entry of the diagonal is as small as that beside its pair's.
 

@@ -99,7 +99,7 @@ fn work_of_rounding_proves_nothing() {
             }
         }
     }
-    // The same with a single load, so that the noise is all of the work.
+    // A single load leaves a work that is all noise.
     case.f.fill(0.0);
     case.f[2] = 10.0;
     let r = [0.0, -1.0, 1e-17, -1.0, 0.0, -1.0, 0.0, -1.0];

@@ -77,7 +77,7 @@ fn exact_solutions_have_no_residual() {
             // Lengths 5, 10, … of whole numbers; pressures that mu = 1/2 makes such.
             let direction = if dim == 2 { vec![5.0] } else { vec![-3.0, 4.0] };
             let (pressure, distance) = (10.0 * whole(&mut rng), whole(&mut rng));
-            // Of given thresholds one may slip, or stick, without touching.
+            // A pair of given threshold may slip, or stick, without touching.
             let slides = if state == Open && given { rng.bool() } else { state == Slip };
             let bound = if state == Open && !given { 0.0 } else { 0.5 * pressure };
             let along = match (state, slides) {
@@ -197,7 +197,7 @@ fn forces_that_are_small_against_the_slip_are_still_measured() {
     }
 }
 
-/// The same in 3D, where a tangential block `[[3, 1], [1, 3]]` has the largest eigenvalue 4.
+/// In 3D a tangential block `[[3, 1], [1, 3]]` has the largest eigenvalue 4.
 #[test]
 fn in_space_the_cone_is_round() {
     let check = |slip: [f64; 2], force: [f64; 2], residual: f64, excess: f64, state| {

@@ -19,11 +19,11 @@ use signorini::{
     ContactData, ContactProblem, FrictionLaw, Monitor, Relation, Settings, State, Status, solve,
 };
 
-/// What a verdict asks for. Candidates are solved to 1e-12; measured in the other form `eta` is larger
+/// Tolerance of a verdict. Candidates are solved to 1e-12; measured in the other form `eta` is larger
 /// by the ratio of the blocks `D` and `K_rel` at most, which is below 100 here.
 const TOLERANCE: f64 = 1e-9;
 
-/// What a problem has beside its relation.
+/// The data of a problem beside its relation.
 #[derive(Clone)]
 struct Contact {
     dim: usize,

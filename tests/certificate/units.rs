@@ -236,7 +236,7 @@ fn check_bare(method: Method) {
             let after = solve(&times(&m, units.force / units.length), &times(&q, units.force));
             let context = || format!("seed {seed}, {units:?}\n{before:?}\n{after:?}");
             assert_eq!(after.status, before.status, "{}", context());
-            // What is singular to rounding may be so in one unit only, and take another way.
+            // A matrix that is singular to rounding may be so in one unit only, and take another way.
             let as_many = after.iterations == before.iterations || method != Method::Lemke;
             assert!(as_many, "{}", context());
             if before.status == Status::Stalled && method != Method::Lemke {

@@ -107,7 +107,7 @@ fn candidate(case: &Case, local: &[Local]) -> Option<Vec<Quad>> {
     solve(matrix, rhs)
 }
 
-/// Whether the inequalities of a state hold.
+/// `true` if the inequalities of a state hold.
 fn obeys(case: &Case, local: &[Local], d: &[Quad]) -> bool {
     let (force, parts) = (force(case, d), parts(case, d));
     local.iter().enumerate().all(|(pair, now)| {

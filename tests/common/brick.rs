@@ -9,7 +9,7 @@ use super::problems::{Case, Law};
 
 pub type Vector = [f64; 3];
 
-/// What holds the upper face.
+/// Support of the upper face.
 #[derive(Clone, Copy, Debug)]
 pub enum Support {
     Clamped,
@@ -145,7 +145,7 @@ impl Brick {
         self.model_within(matrix, None, monitor).expect("the block is a model")
     }
 
-    /// The same in an order of elimination, within the limits of a monitor.
+    /// The model in an order of elimination, within the limits of a monitor.
     pub fn model_within(
         &self,
         matrix: &Stiffness,

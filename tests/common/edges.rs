@@ -18,7 +18,7 @@ pub struct Problem {
     /// Largest error of an entry of `K`, a stiffness, beyond the rounding of the entry itself.
     pub noise: f64,
     pub tolerance: f64,
-    /// Whether to look for other solutions.
+    /// `true`: other solutions are looked for.
     pub search: bool,
 }
 
@@ -166,7 +166,7 @@ fn plane_motions(rng: &mut Rng, dim: usize, pairs: usize) -> Vec<Vec<f64>> {
     ]
 }
 
-/// Whether no motion is nearly a sum of those before it.
+/// `true` if no motion is nearly a sum of those before it.
 fn independent(motions: &[Vec<f64>]) -> bool {
     let mut basis: Vec<Vec<f64>> = Vec::new();
     motions.iter().all(|motion| {
@@ -282,7 +282,7 @@ fn duplicated(rng: &mut Rng, dim: usize) -> Made {
     let slip = once.slip.map(|slip| {
         source.iter().flat_map(|&pair| slip[slips * pair..slips * (pair + 1)].to_vec()).collect()
     });
-    // What one moves and the other moves back.
+    // One body moves and the other moves back.
     let motions = (0..dim)
         .map(|c| {
             let mut r = vec![0.0; n];

@@ -249,8 +249,8 @@ fn system(
 /// be its cause: twice one.
 pub const BEYOND_ROUNDING: f64 = 2.0;
 
-/// Whether all eigenvalues of `K`, its diagonal scaled to 1, are above `units` of rounding in each of the
-/// `n` entries of a row; with 0: whether `K` is definite as it is given.
+/// `true` if all eigenvalues of `K`, its diagonal scaled to 1, are above `units` of rounding in each of the
+/// `n` entries of a row; with 0: if `K` is definite as it is given.
 pub fn is_definite(case: &Case, units: f64) -> bool {
     let n = case.size();
     let root: Vec<Quad> = (0..n).map(|i| Quad::from(case.stiffness(i, i)).sqrt()).collect();
@@ -265,7 +265,7 @@ pub fn is_definite(case: &Case, units: f64) -> bool {
     super::quad::is_definite((0..n).map(|i| (0..n).map(|j| entry(i, j)).collect()).collect())
 }
 
-/// Whether two displacements differ by more than 1e-9 in some component, beside 1e-20 of the largest.
+/// `true` if two displacements differ by more than 1e-9 in some component, beside 1e-20 of the largest.
 pub fn differ(case: &Case, a: &[Quad], b: &[Quad]) -> bool {
     let root = |i: usize| case.stiffness(i, i).abs().sqrt();
     let size = |i: usize| root(i) * a[i].value().abs().max(b[i].value().abs());

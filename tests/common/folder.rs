@@ -52,7 +52,7 @@ impl Folder {
         entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect()
     }
 
-    /// What `load` says of a file with this content.
+    /// The answer of `load` to a file with this content.
     pub fn load(&self, content: &[u8]) -> Result<ProblemFile, String> {
         fs::write(self.file(), content).unwrap();
         let loaded = catch_unwind(AssertUnwindSafe(|| file::read(&self.file())));

@@ -148,7 +148,7 @@ impl Host {
         (k, inverse.solve(&d0).0)
     }
 
-    /// The same with a second copy of the first pair behind it.
+    /// The rows with a second copy of the first pair behind them.
     pub fn doubled(&self, dim: usize) -> Host {
         let rows = self.rows[..dim].iter().chain(&self.rows).cloned().collect();
         Host { size: self.size, k: self.k.clone(), f: self.f.clone(), rows }

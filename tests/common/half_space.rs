@@ -19,7 +19,7 @@ use nalgebra::DMatrix;
 pub struct HalfSpace {
     pub shear: f64,
     pub poisson: f64,
-    /// Whether pressures move the surface along itself. The theories of friction on round contacts
+    /// `true`: pressures move the surface along itself. The theories of friction on round contacts
     /// leave this out; it vanishes for an incompressible material.
     pub coupled: bool,
 }

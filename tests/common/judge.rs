@@ -13,7 +13,7 @@ use super::exact::{
 use super::problems::{Case, Law};
 use super::quad::{Quad, largest, norm};
 
-/// What can be false.
+/// Statements that can be false.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fault {
     /// Status 0, and the residual of `d` as returned is above the reported `eta`.
@@ -69,7 +69,7 @@ const BALANCE: f64 = 1e-9;
 /// does not hide the forces: the library's own limit for what it certifies.
 const HIDDEN: f64 = 1e-6;
 
-/// What a host has after a call.
+/// The results that a host has after a call.
 pub struct Answer<'a> {
     pub status: Status,
     /// Displacements; of an answer that has more digits than a double, all of them.

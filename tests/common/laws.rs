@@ -169,7 +169,7 @@ impl Numbers {
         mu[0].max(mu[1]) / mu[0].min(mu[1])
     }
 
-    /// What the threshold limits: with axes the force along the axis of the larger coefficient on whose
+    /// The size that the threshold limits: with axes the force along the axis of the larger coefficient on whose
     /// ellipse `t` lies.
     pub fn size(&self, t: &[f64]) -> f64 {
         match self.axes {

@@ -215,7 +215,7 @@ impl Stiffness {
         Model::sparse(&self.view(), fixed, &pairs.view())
     }
 
-    /// The same under settings.
+    /// The model under settings.
     pub fn model_under(
         &self,
         fixed: &[usize],
@@ -230,7 +230,7 @@ impl Stiffness {
 #[derive(Clone, Debug, Default)]
 pub struct Pairs {
     pub slaves: Vec<usize>,
-    /// Of each pair: nodes and their weights.
+    /// Nodes of each pair and their weights.
     pub masters: Vec<Vec<(usize, f64)>>,
     pub normals: Vec<[f64; 2]>,
     dofs: [Vec<usize>; 3],

@@ -1,4 +1,4 @@
-//! What the tests share: random problems, a dense solver of their own, and enumeration of states.
+//! Tools that the tests share: random problems, a dense solver of their own, and enumeration of states.
 
 #![allow(dead_code)] // Every test file uses a part.
 

@@ -9,7 +9,7 @@ use super::sources::{Kind, Source, Token, closing};
 pub struct Named {
     /// Its segments; of an item of a group those of the group first.
     pub path: Vec<String>,
-    /// What the file calls it.
+    /// The file's own name for it.
     pub name: String,
     /// The module from which it is named, which an inline module makes another than the file's.
     pub from: Vec<String>,
@@ -53,7 +53,7 @@ impl Modules {
         }
     }
 
-    /// What a file imports from others.
+    /// The imports of a file from others.
     pub fn imports(&self, file: usize) -> Vec<Import> {
         let mut imports = Vec::new();
         for named in &self.named[file] {
@@ -162,7 +162,7 @@ fn words(source: &Source) -> BTreeSet<String> {
     words
 }
 
-/// Whether a `use` begins at `at`, and not the bounds of a type (`use<'a>`).
+/// `true` if a `use` begins at `at`, and not the bounds of a type (`use<'a>`).
 fn is_import(tokens: &[Token], at: usize) -> bool {
     tokens[at].text == "use" && tokens.get(at + 1).is_some_and(|next| next.text != "<")
 }

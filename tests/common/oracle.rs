@@ -17,7 +17,7 @@ use super::problems::Case;
 /// systems of condition 1e6 are solved to 1e-10, and random inequalities rarely fall below.
 const FEASIBLE: f64 = 1e-9;
 
-/// What one pair does. `side` is 1 or -1 where it slips (the sign of the slip), 0 where no
+/// State of one pair. `side` is 1 or -1 where it slips (the sign of the slip), 0 where no
 /// friction resists it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Local {
@@ -71,7 +71,7 @@ pub struct Match<'a> {
     pub piece: &'a Piece,
     pub d: Vec<f64>,
     pub force: Vec<f64>,
-    /// Whether all inequalities hold with a distance larger than the answer's error.
+    /// `true` if all inequalities hold with a distance larger than the answer's error.
     pub strict: bool,
 }
 
@@ -82,7 +82,7 @@ pub struct Enumeration<'a> {
 }
 
 impl<'a> Enumeration<'a> {
-    /// Of a 2D problem with few pairs: at most 4 states each under Coulomb's law, 6 under others.
+    /// Enumerates a 2D problem with few pairs: at most 4 states each under Coulomb's law, 6 under others.
     pub fn new(case: &'a Case) -> Self {
         assert_eq!(case.dim, 2);
         let options: Vec<Vec<Local>> = (0..case.pairs).map(|pair| options(case, pair)).collect();
@@ -99,7 +99,7 @@ impl<'a> Enumeration<'a> {
         }
     }
 
-    /// Whether no inequality is so close to equality that rounding may decide it (`FEASIBLE`, 100
+    /// `true` if no inequality is so close to equality that rounding may decide it (`FEASIBLE`, 100
     /// times over), and no state's equations are singular: then the number of solutions is certain.
     pub fn is_clear(&self) -> bool {
         self.pieces.iter().all(|piece| piece.margin.abs() > 1e-7 && piece.orientation() != 0)
@@ -229,7 +229,7 @@ fn piece(case: &Case, local: Vec<Local>) -> Option<Piece> {
         .map(|direction| {
             let moved: Vec<f64> = point.iter().zip(direction).map(|(x, v)| x + v).collect();
             let mut rates = dense::difference(&slack(&moved), &at_point);
-            // What is left of a rigid motion's forces is rounding: no way to go far.
+            // The forces of a rigid motion are rounding alone: no way to go far.
             let absolute: Vec<f64> = case.k.iter().map(|k| k.abs()).collect();
             let size: Vec<f64> = direction.iter().map(|v| v.abs()).collect();
             let parts = largest(&dense::product(&absolute, &size)) / unit;
@@ -243,7 +243,7 @@ fn piece(case: &Case, local: Vec<Local>) -> Option<Piece> {
     Some(Piece { local, margin, elimination, matrix, rhs })
 }
 
-/// What must not be negative, in forces.
+/// Slacks that must not be negative, in forces.
 fn slacks(case: &Case, local: &[Local], d: &[f64], force: &[f64]) -> Vec<f64> {
     let mut slacks = Vec::new();
     for (pair, now) in local.iter().enumerate() {

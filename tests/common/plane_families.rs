@@ -14,7 +14,7 @@ const GROWTH: f64 = 1.5;
 
 const STEEL: (f64, f64) = (13000.0, 0.2);
 
-/// What the pressure moves the upper side of a block by: 5 on 40 of steel.
+/// Way of the upper side of a block under the pressure: 5 on 40 of steel.
 const MOVED: f64 = 0.0154;
 
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -21,7 +21,7 @@ impl Law {
         }
     }
 
-    /// The same law with other numbers.
+    /// This law with other numbers.
     pub fn with(&self, values: Vec<f64>) -> Law {
         match self {
             Law::Coulomb(_) => Law::Coulomb(values),
@@ -327,7 +327,7 @@ pub fn definite_case(rng: &mut Rng, most: f64, law: impl Fn(&mut Rng, usize) -> 
     loaded(rng, 2, k, law)
 }
 
-/// The same, of a stiffness with a kernel.
+/// A random case whose stiffness has a kernel.
 pub fn floating_case(rng: &mut Rng, most: f64, law: impl Fn(&mut Rng, usize) -> Law) -> Case {
     let pairs = rng.usize(1..=4);
     let condition = decades(rng, most);

@@ -20,7 +20,7 @@ fn two_sum(a: f64, b: f64) -> (f64, f64) {
     (sum, (a - (sum - part)) + (b - part))
 }
 
-/// The same where `|a| >= |b|`, or `a` is zero.
+/// The sum where `|a| >= |b|`, or `a` is zero.
 fn quick_sum(a: f64, b: f64) -> Quad {
     let high = a + b;
     Quad { high, low: b - (high - a) }
@@ -212,7 +212,7 @@ pub fn solve(mut matrix: Vec<Vec<Quad>>, mut rhs: Vec<Quad>) -> Option<Vec<Quad>
     Some(rhs)
 }
 
-/// Whether a symmetric matrix is positive definite: whether Cholesky's factor exists.
+/// `true` if a symmetric matrix is positive definite: Cholesky's factor exists.
 pub fn is_definite(mut matrix: Vec<Vec<Quad>>) -> bool {
     let n = matrix.len();
     for step in 0..n {

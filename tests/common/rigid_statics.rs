@@ -4,7 +4,7 @@
 use super::brick::{Vector, cross};
 use super::dense::{dot, norm};
 
-/// What rigid statics says of loads.
+/// The answer of rigid statics to loads.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Statics {
     /// Forces of the feet balance the loads.

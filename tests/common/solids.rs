@@ -39,7 +39,7 @@ pub enum Order {
 pub struct Kind {
     dim: usize,
     corners: Vec<Point>,
-    /// Of each node the corners whose mean it is: corners first.
+    /// The corners whose mean each node is: corners first.
     pub means: Vec<Vec<usize>>,
     powers: Vec<[i32; 3]>,
     /// Column i: the coefficients of function i.

@@ -10,7 +10,7 @@ pub struct Token {
     pub kind: Kind,
     /// Counted from 1.
     pub line: usize,
-    /// Whether white space stands before and after it: `a < b` compares, `Vec<f64>` does not.
+    /// `true` if white space stands before and after it: `a < b` compares, `Vec<f64>` does not.
     pub spaced: bool,
 }
 
@@ -257,7 +257,7 @@ pub fn closing(tokens: &[Token], open: usize) -> usize {
 /// Operators that compare.
 pub const COMPARISONS: [&str; 6] = ["<", ">", "<=", ">=", "==", "!="];
 
-/// Whether the token compares two values.
+/// `true` if the token compares two values.
 pub fn compares(token: &Token) -> bool {
     token.kind == Kind::Mark && token.spaced && COMPARISONS.contains(&token.text.as_str())
 }

@@ -50,7 +50,7 @@ pub struct Stack {
 }
 
 impl Stack {
-    /// Of `columns` elements each (lower, upper), 3 wide, 1 and 1.5 high.
+    /// A stack of `columns` elements each (lower, upper), 3 wide, 1 and 1.5 high.
     pub fn new(columns: [usize; 2], young: [f64; 2]) -> Stack {
         let mut mesh = Mesh::default();
         let x = |count| steps(0.0, 3.0, count);

@@ -29,7 +29,7 @@ pub enum Shape {
 }
 
 impl Shape {
-    /// Whether all faces are quadrilaterals.
+    /// `true` if all faces are quadrilaterals.
     pub fn is_quadrilateral(self) -> bool {
         matches!(self, Shape::Q4 | Shape::Q8 | Shape::Q9 | Shape::Eight)
     }

@@ -7,7 +7,7 @@ use super::measures::{eta, flaw_of_escape, motion, rounding};
 use super::oracle::Enumeration;
 use super::problems::{Case, vector};
 
-/// What an answer turned out to be; a wrong one panics.
+/// The verdict on an answer; a wrong one panics.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Verdict {
     Solved,

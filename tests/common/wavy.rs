@@ -86,7 +86,7 @@ impl Wavy {
         self.try_model(&mut Monitor::new(settings, None)).expect("a valid model")
     }
 
-    /// The same within the limits of a monitor.
+    /// The model, made within the limits of a monitor.
     pub fn try_model(&self, monitor: &mut Monitor<'_>) -> Result<Model, Error> {
         let count = self.gap.len();
         let pairs = ContactPairs {

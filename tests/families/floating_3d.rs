@@ -75,7 +75,7 @@ impl Block {
         }
     }
 
-    /// What is wrong with an answer, if there is an equilibrium.
+    /// The fault of an answer, if there is an equilibrium.
     fn unbalanced(&self, case: &Case, solution: &Solution) -> Option<String> {
         if solution.status != Status::Solved {
             return Some(format!("{:?}: {}", solution.status, solution.message));
@@ -107,7 +107,7 @@ fn solve(case: &Case) -> Solution {
     })
 }
 
-/// What is wrong with an answer, if there is no equilibrium.
+/// The fault of an answer, if there is no equilibrium.
 fn unproved(case: &Case, solution: &Solution) -> Option<String> {
     if solution.status != Status::NoEquilibrium {
         return Some(format!("{:?}: {}", solution.status, solution.message));

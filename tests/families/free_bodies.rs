@@ -199,7 +199,7 @@ fn largest_of_normals(dim: usize, motion: &[f64]) -> f64 {
     motion.iter().step_by(dim).fold(0.0, |most: f64, r| most.max(*r))
 }
 
-/// What became of a body, for the counts.
+/// Counts of what became of the bodies.
 #[derive(Debug, Default, PartialEq, Eq)]
 struct Counts {
     balanced: usize,

@@ -3,7 +3,7 @@
 //! twist, where the slip of every point has another direction; punches that spin, and one that is bonded.
 //!
 //! The body moves by given amounts: down through the gaps, along the surface through the reference slip.
-//! What remains is the error of uniform tractions on squares. It comes from the rim, where tractions
+//! The error of uniform tractions on squares remains. It comes from the rim, where tractions
 //! begin with a vertical tangent, and from the circles that squares cannot follow: it falls with the side
 //! of the squares. `--nocapture` shows it.
 
@@ -121,7 +121,7 @@ fn ellipse(r: f64, a: f64) -> f64 {
     (1.0 - (r / a).powi(2)).max(0.0).sqrt()
 }
 
-/// What is measured, the relative errors on the grids, and the most that is allowed on the finest.
+/// A quantity, its relative errors on the grids, and the most that is allowed on the finest.
 type Row = (&'static str, [f64; 2], f64);
 
 /// Prints the errors, checks those of the finest grid, and that each is smaller than on the coarse one.

@@ -71,7 +71,7 @@ fn solve_by_default(problem: &Problem) -> Result<Solution, String> {
         .map_err(|error| format!("{error:?}"))
 }
 
-/// What is false in an answer, or that there is none.
+/// The false statements of an answer, or that there is none.
 fn faults(problem: &Problem, answer: &Result<Solution, String>) -> Faults {
     match answer {
         Err(why) => vec![Finding { fault: Fault::Refused, size: 1.0, text: why.clone() }],
@@ -250,7 +250,7 @@ fn the_judge_finds_what_is_falsified() {
         let rounded = |values: &[Quad]| values.iter().map(|x| x.value()).collect::<Vec<f64>>();
         let (d, now) = (rounded(&exact), states(case, &exact));
         let mut forces = rounded(&force(case, &exact));
-        // What is left of a zero, with which no law would be obeyed.
+        // A rest of a zero counts for nothing: with it no law would be obeyed.
         let scale = scale(case, &quads(&forces)).value();
         forces
             .iter_mut()

@@ -1,4 +1,4 @@
-//! The same bodies, described in another way, have the same displacements and forces: properties of random
+//! Bodies that are described in another way have the same displacements and forces: properties of random
 //! problems, which shrink to the smallest problem where they fail.
 //!
 //! A failure writes that problem to `target/tmp/property-NAME.mtx`; `replay_problem` of the examples solves it.
@@ -500,7 +500,7 @@ fn the_problems_have_pairs_of_every_state() {
     assert!(seen.iter().all(|&count| 20 * count >= all), "open, slip, stick: {seen:?}");
 }
 
-/// What a failure leaves behind: the smallest problem, as a file that the library reads.
+/// A failure leaves the smallest problem behind, as a file that the library reads.
 #[test]
 fn a_failure_shrinks_to_a_problem_file() {
     let failed = std::panic::catch_unwind(|| {

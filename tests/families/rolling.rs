@@ -9,7 +9,7 @@ use crate::common::rolling::{Rolling, Shape, Side};
 use fastrand::Rng;
 use signorini::{Settings, State, Status};
 
-/// What a load case took.
+/// The effort of a load case.
 struct Effort {
     systems: Vec<u64>,
     failed: Vec<String>,

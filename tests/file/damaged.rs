@@ -42,7 +42,7 @@ fn what_readers_and_mailers_change_is_accepted() {
     assert_eq!(remark, "a [2Jb c");
 }
 
-/// What is changed, into what, the line that is named, and a part of the sentence.
+/// A change: the old text, the new one, the line that is named, and a part of the sentence.
 const MUTATIONS: [(&str, &str, usize, &str); 41] = [
     ("%%MatrixMarket", "%MatrixMarket", 1, "not a problem file"),
     ("array", "coordinate", 1, "not a problem file"),

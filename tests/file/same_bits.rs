@@ -148,7 +148,7 @@ fn complementarity_problems_come_back_bit_for_bit() {
     }
 }
 
-/// What a model solves and what its file replays are the same numbers.
+/// A model and the replay of its file give the same numbers.
 #[test]
 fn the_case_of_a_model_is_solved_again_with_the_same_bits() {
     let folder = Folder::new("case");

@@ -198,7 +198,7 @@ fn gaps_that_contradict_each_other_are_proved_to() {
         let proof = solution.recession.expect("a proof");
         let (n, largest_flexibility) = (case.q.len(), largest(&case.w));
         assert!(proof.iter().all(|p| *p <= 0.0) && (largest(&proof) - 1.0).abs() < 1e-12);
-        // What the library takes for rounding of W is 1e-12 of its terms.
+        // The library takes 1e-12 of the terms of W for its rounding.
         assert!(largest(&product(&case.w, &proof)) <= 1e-11 * largest_flexibility);
         let work: f64 = (0..n / 2).map(|i| -proof[2 * i] * (case.gap[i] - case.q[2 * i])).sum();
         assert!(work < -0.05, "{work}");

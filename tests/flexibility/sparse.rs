@@ -56,7 +56,7 @@ impl Stored {
     }
 }
 
-/// The same problem with a sparse matrix.
+/// A case with its matrix stored as a sparse one.
 fn problem<'a>(case: &'a Case, stored: &'a Stored) -> Result<SparseFlexibilityProblem<'a>, Error> {
     SparseFlexibilityProblem::from_sparse(SparseFlexibilityData {
         dim: case.dim,
@@ -213,7 +213,7 @@ fn one_island_is_the_dense_problem() {
         };
         let (sparse, dense) = (solve(&case), case.solve());
         assert_eq!(sparse.status, dense.status);
-        // The same method on the same numbers; sums are taken in another order at the end.
+        // One method solves the same numbers; sums are taken in another order at the end.
         let size = largest(&dense.certificate.force);
         let apart = largest(&difference(&sparse.certificate.force, &dense.certificate.force));
         assert!(apart <= 1e-12 * size, "{apart:e}");
@@ -250,7 +250,7 @@ fn an_island_without_equilibrium_is_named_and_the_others_are_solved() {
             let presses = i % 2 == 0 && closed.contains(&(i / 2));
             assert!((p + f64::from(u8::from(presses))).abs() <= 1e-9, "p[{i}] is {p}");
         }
-        // What the library takes for rounding of W is 1e-12 of its terms.
+        // The library takes 1e-12 of the terms of W for its rounding.
         assert!(largest(&product(&whole.w, proof)) <= 1e-11);
         // The other islands are those of the whole without this one.
         cases.remove(at);
@@ -409,7 +409,7 @@ fn memory_is_that_of_the_largest_island() {
         memory_flexibility_sparse(&problem(case, &stored).expect("valid data"))
     };
     let (all, largest) = (bytes(&whole), bytes(&cases[2]));
-    // Of the 16 unknowns of the others 32 vectors and the copies of their triangles, of 2, 4, 4 and 6 rows.
+    // The 16 unknowns of the others have 32 vectors and the copies of their triangles, of 2, 4, 4 and 6 rows.
     assert_eq!(all - largest, 32 * 8 * 16 + 16 * (3 + 10 + 10 + 21));
     let limited = |memory_limit| Settings { memory_limit, ..Settings::default() };
     let within = solve_by(&whole, &limited(all), None).expect("memory enough");

@@ -96,7 +96,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
                                          problem_data(problem).friction,
                                          problem_data(problem).slip0, remark);
     check_status(status, 11);
-    /* What a file may hold that a problem may not is refused here. */
+    /* A file may hold data that a problem may not: they are refused here. */
     if (status == 0) {
         REQUIRE(signorini_problem_read(path_again, &again) == 0);
         REQUIRE(problem_data(again).size == n);

@@ -1,5 +1,5 @@
 /*
- * What the fuzz entries share. An entry turns bytes into the arguments of calls, calls, and judges.
+ * Tools of the fuzz entries. An entry turns bytes into the arguments of calls, calls, and judges.
  *
  * Arrays have their exact size: one end lies at a page that cannot be touched, the other at bytes that are
  * looked at afterwards. So an access behind the end stops the program without any sanitizer, in the library
@@ -32,7 +32,7 @@ int64_t between(int64_t low, int64_t high);
 /* True in one of `odds` inputs or so; behind the last byte never. */
 int rarely(int odds);
 
-/* Whether this input keeps to numbers of ordinary size. */
+/* Nonzero if this input keeps to numbers of ordinary size. */
 int sane(void);
 
 /* A number: eighths, any bits, or the odd ones that break programs. */
@@ -41,7 +41,7 @@ double number(void);
 /* A size of an array that is `right`, rarely one that no array can have. */
 int64_t size_or_wrong(int64_t right);
 
-/* What is left of the input. */
+/* The rest of the input. */
 const uint8_t *rest(size_t *size);
 
 /* ---- arrays ---- */
@@ -70,7 +70,7 @@ void check_arrays(int32_t status);
 /* An array that the call has left, where it is copied or read by the next call. */
 void as_input(const void *array);
 
-/* What is wrong, for whoever reads it; stops the program. */
+/* Prints the fault for whoever reads it; stops the program. */
 void complain(const char *format, ...) __attribute__((noreturn, format(printf, 1, 2)));
 
 #define REQUIRE(condition)                                                                         \
@@ -106,7 +106,8 @@ signorini_extra *an_extra(int64_t n, int64_t pairs, int64_t cases);
 void check_status(int32_t status, int arguments);
 
 /*
- * What was recovered, 0 the status, is finite. Numbers that no structure has may overflow, which is refused.
+ * Checks that recovered values are finite if the status is 0. Numbers that no structure has may overflow, which is
+ * refused.
  */
 void check_recovered(int32_t status, const double *values, int64_t count);
 

@@ -20,7 +20,7 @@ static const double UNIT = DBL_EPSILON / 2;
 /* Few roundings of a number that is computed in doubles. */
 static const double DIGITS = 1e-14;
 
-/* What may be lost to underflow. */
+/* Numbers below this size may be lost to underflow. */
 static const double LEAST = 1e-290;
 
 static quad magnitude(quad x)
@@ -194,7 +194,7 @@ void judge_solution(const problem *p, double tolerance, const double *d, const d
     }
     if (is_ellipse(p->law)) return;
     const quad left = residual(p, d, force, parts, &rounding);
-    /* Of bodies that move as far as gaps and slips tell, the certificate forgives 16 roundings of their rows. */
+    /* The certificate forgives 16 roundings of the rows of bodies that move as far as gaps and slips tell. */
     const double roundings = sane() && p->definite ? 2 : 20;
     if (!(left <= size * tolerance * (1 + DIGITS) + roundings * rounding + LEAST))
         complain("solved, eta is %g, rounding %g, tolerance %g", (double)(left / size),
@@ -210,7 +210,7 @@ void judge_motion(const problem *p, const double *r)
         REQUIRE(isfinite(r[i]));
         most = larger(most, magnitude(r[i]));
         work += (quad)p->f[i] * r[i];
-        /* What nothing resists has the unit of the stiffest component. */
+        /* A component that nothing resists has the unit of the stiffest one. */
         const quad own = p->K[i + p->ld * i];
         size = larger(size, root(own > 0 ? own : stiffest) * magnitude(r[i]));
     }
@@ -244,7 +244,7 @@ void judge_flexibility(const problem *p, double tolerance, const double *d, cons
                 parts += magnitude((quad)p->K[i + p->ld * j] * F[j]);
             }
             REQUIRE(isfinite(d[i]));
-            /* What nothing moves has no unit of force: its d is its q. */
+            /* A component that nothing moves has no unit of force: its d is its q. */
             if (w == 0) {
                 REQUIRE(magnitude(error) <= 8 * UNIT * parts + LEAST);
                 if (p->f[i] != 0) return;
@@ -279,7 +279,7 @@ void judge_lcp(int64_t n, const double *M, int64_t ld, const double *q, double t
             error -= (quad)M[i + ld * j] * z[j];
             parts += magnitude((quad)M[i + ld * j] * z[j]);
         }
-        /* Of two numbers that should not both be there the smaller is an error. */
+        /* One of the two numbers should be zero: the smaller is an error. */
         const quad m = magnitude(M[i + ld * i]);
         const quad both = larger(magnitude(error), w[i] < m * z[i] ? (quad)w[i] : m * z[i]);
         scale = larger(scale, parts);

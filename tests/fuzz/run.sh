@@ -88,7 +88,7 @@ compile() {
         -lm -lpthread -ldl '-Wl,-rpath,$ORIGIN/lib' || die "$1 does not compile"
 }
 
-# What the corpus of an entry has: nothing at first.
+# Prints the corpus of an entry: nothing at first.
 corpus() {
     find "$here/corpus/${1%_64}" -type f 2>/dev/null | sort
 }

@@ -424,7 +424,7 @@ fn a_block_slips_as_its_rule_says() {
     }
 }
 
-/// What is called solved obeys the statement of its law, pair by pair. Ordinary friction in space is
+/// A result called solved obeys the statement of its law, pair by pair. Ordinary friction in space is
 /// solved by Newton's method, by nested sweeps and, as its theorem says for all these laws, by the path.
 #[test]
 fn solutions_in_space_obey_the_statement_of_their_law() {

@@ -1,4 +1,4 @@
-//! What the law offers to methods, against mechanics: the step of a sweep minimises the energy of its
+//! The law's services to methods, against mechanics: the step of a sweep minimises the energy of its
 //! pair, motions of recession take no work from contact forces, cones hold their forces, and the
 //! variables of the complementarity problem name the piece of the normal map.
 
@@ -234,7 +234,7 @@ fn variables_name_the_branch_of_the_normal_map() {
         let most = if law.has_obstacle() { 1.0 } else { 0.0 };
         let friction = law.threshold(most - law.tension) > 0.0;
         assert_eq!(has.slips, law.has_obstacle() || friction);
-        // What the pair has no variable for is 0.
+        // A pair without the variable has 0.
         let clearance = if has.clearance { -v[0] } else { 0.0 };
         let slip = if has.slips { v[1] } else { 0.0 };
         let named = law.law().piece_of_variables(clearance, slip.max(0.0), (-slip).max(0.0));

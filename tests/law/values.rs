@@ -1,4 +1,4 @@
-//! What the law says of all pairs together, each by its own definition: which obstacles are out of reach, whether
+//! The law's answers for all pairs together, each by its own definition: which obstacles are out of reach, whether
 //! gaps contradict each other, how far pairs may move, and forces beside their tension.
 
 use crate::common::dense::product;
@@ -185,7 +185,7 @@ fn zero_is_admissible_where_it_obeys_the_law() {
     assert!(seen.iter().all(|&count| count > 300), "{seen:?}");
 }
 
-/// What is taken for decided: a pair that is open and carries nothing, and one that sticks. The point on which it is
+/// Two kinds of pairs are decided: one that is open and carries nothing, and one that sticks. The point on which it is
 /// held obeys the law, as its own does; a slip, and an open pair that may carry a force, have no such point.
 #[test]
 fn pairs_are_held_where_their_state_says_where() {
@@ -212,7 +212,7 @@ fn pairs_are_held_where_their_state_says_where() {
     assert!(seen.iter().all(|&count| count > 300), "{seen:?}");
 }
 
-/// What is said of all pairs together is so if it is so of each, or of one.
+/// A statement about all pairs together holds if it holds of each, or of one.
 #[test]
 fn what_is_said_of_all_pairs_is_so_of_each() {
     let mut seen = [[0; 2]; 5];

@@ -20,7 +20,7 @@ struct Exact {
     basic: Vec<usize>,
 }
 
-/// What it ends with.
+/// End of a run.
 #[derive(Debug, PartialEq)]
 enum End {
     Solved {
@@ -209,7 +209,7 @@ fn directed_graphs_end_where_the_exact_method_does() {
     for seed in 0..200 {
         let data = directed(seed, n);
         let End::Solved { pivots } = Exact::new(&data).run() else { continue };
-        // What rounding may cost: the pivots before it is noticed.
+        // Rounding may cost the pivots before it is noticed.
         let budget = pivots.max(10 * n as u64);
         let settings =
             Settings { method: Method::Lemke, max_iterations: budget, ..Settings::default() };

@@ -189,7 +189,7 @@ fn decides_copositive_plus_problems() {
     assert!(counts[1] > 100, "{counts:?}: too few are infeasible to test anything");
 }
 
-/// Of a general matrix nothing is known; the answer may be that nothing was found, never wrong.
+/// Nothing is known of a general matrix; the answer may be that nothing was found, never wrong.
 #[test]
 fn is_never_wrong_on_general_problems() {
     let counts = run(

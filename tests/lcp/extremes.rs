@@ -43,7 +43,7 @@ impl Wide {
         Wide::new(large.mantissa + small.mantissa * 2_f64.powi(shift), large.exponent)
     }
 
-    /// Whether `|self| <= part |other|`.
+    /// `true` if `|self| <= part |other|`.
     fn is_within(self, part: f64, other: Wide) -> bool {
         let bound = Wide::of(part).times(other);
         let rest = Wide::new(bound.mantissa.abs(), bound.exponent)

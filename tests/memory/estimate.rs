@@ -1,4 +1,4 @@
-//! What a solution holds at most stays below what [`signorini::memory`] tells before, for every method, law
+//! A solution's peak of memory stays below what [`signorini::memory`] tells before, for every method, law
 //! and question, and is a fair part of it.
 //!
 //! Chains of nodes: each tied to the next by springs of stiffness 1 and to the ground by weak ones, pressed
@@ -89,7 +89,7 @@ impl Chain {
     }
 }
 
-/// What is held beside the estimate: peak over estimate, and peak over the bytes of `K`.
+/// Memory beside the estimate: peak over estimate, and peak over the bytes of `K`.
 struct Shares {
     worst: f64,
     least: f64,
@@ -146,7 +146,7 @@ fn solutions(chain: &Chain, shares: &mut Shares) {
 #[test]
 fn a_call_holds_no_more_than_was_estimated() {
     let _alone = counted::alone();
-    // What a thread keeps for matrix products is there after its first one.
+    // The first solution of a thread makes what the thread keeps for matrix products.
     let first = Chain::new(2, 40, 0.05);
     let settings = Settings { method: Method::SorNested, ..Settings::default() };
     let monitor = &mut Monitor::new(&settings, None);
@@ -166,7 +166,7 @@ fn a_call_holds_no_more_than_was_estimated() {
     assert!(shares.worst >= 1.0 / MOST, "the estimate is {} times the most", 1.0 / shares.worst);
 }
 
-/// What is no solution of a contact problem.
+/// Calls that solve no contact problem.
 fn others(chain: &Chain, shares: &mut Shares) {
     let n = chain.n();
     let problem = chain.problem(FrictionLaw::Coulomb(&chain.mu));

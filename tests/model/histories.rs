@@ -199,7 +199,7 @@ fn an_indefinite_matrix_is_refused_by_a_component() {
         };
         for c in [1.0 + 1e-6, 1.04, 1.5] {
             let message = refused(c);
-            // Of the leading m components: 1 - c m / n.
+            // The block of the leading m components has the eigenvalue 1 - c m / n.
             let last = (0..n).find(|m| c * (m + 1) as f64 > n as f64).unwrap();
             let named = format!("components up to {last}, the last of pair {},", last / dim);
             assert!(message.contains("semi-definite") && message.contains(&named), "{message}");

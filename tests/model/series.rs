@@ -210,7 +210,7 @@ fn bits(solution: &Solution) -> Vec<u64> {
     solution.d.iter().chain(force).map(|number| number.to_bits()).collect()
 }
 
-/// What the model keeps of a load case by itself changes nothing: displacements are those of a model that has
+/// A load case that the model has kept changes nothing: displacements are those of a model that has
 /// solved nothing, whatever was condensed last.
 #[test]
 fn recovery_does_not_depend_on_what_was_solved_before() {

@@ -51,8 +51,8 @@ fn a_block_on_a_block_passes_the_patch_test() {
     }
 }
 
-/// The same answers as condensed, for a body that contact alone holds, on meshes that match and that do not, under
-/// all laws of the plane. Both are certified to 1e-10 of the forces.
+/// Full space gives the answers of the condensed form, for a body that contact alone holds, on meshes that match and
+/// that do not, under all laws of the plane. Both are certified to 1e-10 of the forces.
 #[test]
 fn floating_bodies_have_the_same_answers_as_condensed() {
     for columns in [[6, 6], [9, 7], [20, 24]] {

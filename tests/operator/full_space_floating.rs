@@ -92,7 +92,7 @@ impl Cubes {
     }
 }
 
-/// The same forces, states and displacements on meshes that match and that do not; and the forces balance the loads of
+/// Forces, states and displacements agree on meshes that match and that do not; and the forces balance the loads of
 /// the floating block.
 #[test]
 fn a_floating_cube_is_the_same_in_full_space_and_condensed() {

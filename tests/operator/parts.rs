@@ -63,7 +63,7 @@ fn hosts() -> [Box<dyn HostOperator>; 2] {
     [Box::new(Inverse), Box::new(Held)]
 }
 
-/// What a trait's own answers say of a kind that the host does not offer: that there is none.
+/// A trait's own answers say that the host does not offer a kind.
 #[test]
 fn what_is_not_offered_fails() {
     let (x, y) = ([1.0; 6], &mut [0.0; 6]);

@@ -13,7 +13,7 @@ use crate::common::problems::{Law, definite, loaded, uniform};
 use signorini::reduce::HostOperator;
 use signorini::{FrictionLaw, LoadCase, Model, Monitor, Settings, Solution, Status};
 
-/// What was asked of the host, and after how many products it fails (negative: never).
+/// The calls that the host has answered, and after how many products it fails (negative: never).
 #[derive(Default)]
 struct Asked {
     products: AtomicU64,
@@ -46,7 +46,7 @@ struct Host {
     wrong: Wrong,
 }
 
-/// What is wrong with a host.
+/// Faults of a host.
 #[derive(Clone, Copy, PartialEq)]
 enum Wrong {
     Nothing,
@@ -226,7 +226,7 @@ impl Condensed {
         Model::operator(self.dim, self.gap.len(), Box::new(host), None)
     }
 
-    /// Of the condensed model as a host's matrix.
+    /// A dense model of the condensed model's matrix.
     fn dense(&self) -> Model {
         Model::condensed(self.dim, self.gap.len(), &self.k, self.f.len()).unwrap()
     }
@@ -407,7 +407,7 @@ fn a_host_that_fails_ends_the_call() {
     assert_eq!((whole.status, &whole.d), (Status::Solved, &again.d));
 }
 
-/// What needs entries of a matrix is refused by a sentence; certify and recover are not.
+/// A call that needs entries of a matrix is refused by a sentence; certify and recover are not.
 #[test]
 fn what_needs_the_matrix_is_refused() {
     let condensed = Condensed::plane(8);

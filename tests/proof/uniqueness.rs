@@ -1,4 +1,4 @@
-//! What is reported about other solutions, against the enumeration of all states: 2D problems of up to
+//! Reports about other solutions, against the enumeration of all states: 2D problems of up to
 //! four pairs, where states do not meet.
 
 use crate::common::dense::{difference, largest};
@@ -34,7 +34,7 @@ fn identified<'e>(enumeration: &'e Enumeration, d: &[f64]) -> Option<&'e Piece> 
     }
 }
 
-/// Whether everything that a certified solution says about itself and others is true.
+/// Checks everything that a certified solution says about itself and others.
 fn check(case: &Case, enumeration: &Enumeration, solution: &Solution) {
     let count = enumeration.solutions().count();
     match solution.uniqueness {

@@ -1,4 +1,4 @@
-//! What is reported about other solutions in space, against the enumeration of all states of the plane:
+//! Reports about other solutions in space, against the enumeration of all states of the plane:
 //! problems of up to four pairs, extruded.
 
 use crate::common::measures::{eta, rounding};

@@ -1,4 +1,4 @@
-//! What models of each kind say of themselves: forces on the host's nodes, components that supports fix, what is
+//! Models of each kind tell of themselves: forces on the host's nodes, components that supports fix, what is
 //! not symmetric, prescribed values that are alike, and the host's functions that it does not give.
 
 use signorini::reduce::{ContactPairs, HostOperator, Indices, SparseMatrix, Triangle};
@@ -25,7 +25,7 @@ impl HostOperator for Springs {
     }
 }
 
-/// The same with solutions alone.
+/// A host with solutions alone.
 struct Held(Vec<f64>);
 
 impl HostOperator for Held {
@@ -86,7 +86,7 @@ fn pairs_on_springs_stick_at_their_reference_slip() {
         assert_eq!(model.recover(None, None, &solution.d).unwrap(), solution.d);
     }
     assert!(models[1].stiffness().is_empty() && models[2].stiffness().is_empty());
-    // What is not given fails, if it is called.
+    // A function that is not given fails, if it is called.
     assert!(!Springs(vec![]).has_held() && !Held(vec![]).has_inverse());
     assert!(Springs(vec![]).held(&[], true, &[], &mut []).is_err());
     assert!(Held(vec![]).inverse(&[], &mut []).is_err());
@@ -352,7 +352,7 @@ fn operators_are_judged_alike_in_all_units() {
                 Faulty { unit, unsymmetric, affine, irreproducible, calls: Default::default() };
             Model::operator(2, 3, Box::new(faulty), None)
         };
-        // What rounding of a host's products may leave.
+        // Rounding of a host's products may leave so much.
         assert!(model([0.0; 3]).is_ok() && model([1e-13; 3]).is_ok(), "{unit:e}");
         for (made, part) in [
             (model([1e-6, 0.0, 0.0]), "not symmetric"),

@@ -1,4 +1,4 @@
-//! What is wrong with a whole sparse matrix, its supports and its pairs is said by value, place and
+//! Faults of a whole sparse matrix, its supports and its pairs are told by value, place and
 //! remedy.
 
 use crate::common::stack::{Stack, close, solved};

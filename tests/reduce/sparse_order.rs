@@ -102,7 +102,7 @@ fn order_does_not_matter() {
     }
 }
 
-/// What is recovered balances the loads wherever nothing is fixed or in contact: that is its definition.
+/// Recovered displacements balance the loads wherever nothing is fixed or in contact: that is their definition.
 #[test]
 fn displacements_balance_the_loads() {
     let block = Block::new([6, 5, 4]);

@@ -219,7 +219,7 @@ fn stiffness_is_the_dense_schur_complement() {
     }
 }
 
-/// Of any load case: `u_slave = sum w u_master + R d`, supports where they are put, `K u = f +` the
+/// Any load case obeys `u_slave = sum w u_master + R d`, supports are where they are put, `K u = f +` the
 /// nodal contact forces wherever no support reacts, and contact forces do no work on motions that
 /// leave `d` as it is. To 1e-9 of the forces: a thousand times the tolerance.
 #[test]

@@ -191,7 +191,7 @@ fn supports_may_move_both_sides_of_a_pair_alike() {
     fixed.extend(components(&stack.lower.row(0), 1));
     let last_slave = along - 1;
     let place = |dof: usize| stack.mesh.nodes[dof / 2][0];
-    // The same pairs as general rows: all nodes with signed weights.
+    // General rows of these pairs: all nodes with signed weights.
     let view = pairs.view();
     let (mut start, mut dofs, mut weights) = (vec![0], vec![], vec![]);
     for (slave, masters) in pairs.slaves.iter().zip(&pairs.masters) {

@@ -358,7 +358,7 @@ fn the_body_that_flies_off_is_named() {
     }
 }
 
-/// What holds a body by less than a host's condensation leaves of nothing (1e-12 of its stiffness) does not hold it:
+/// A support weaker than a host's condensation leaves of nothing (1e-12 of the body's stiffness) does not hold it:
 /// pulled off, it has no equilibrium, alone and on another body.
 #[test]
 fn a_body_that_rounding_holds_flies_off() {

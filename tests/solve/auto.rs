@@ -92,7 +92,7 @@ fn friction_up_to_5_on_larger_problems() {
     println!("{}", solves_all(2100..2300, plane(40..=60), up_to(5.0)));
 }
 
-/// The same coefficient on all pairs, which lets many of them slip together.
+/// One coefficient on all pairs lets many of them slip together.
 #[test]
 fn the_same_high_friction_on_all_pairs() {
     let law = |rng: &mut Rng, pairs| Law::Coulomb(vec![uniform(rng, 1.0, 5.0); pairs]);

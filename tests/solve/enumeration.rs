@@ -109,7 +109,7 @@ fn problems_with_cohesion_are_solved() {
     run(1000, settings(Method::SorNested, 200_000), little, solved);
 }
 
-/// The same on bodies that only contact holds, which tension may hold too: never wrong. With tension
+/// Bodies that only contact holds, which tension may hold too, are never judged wrongly. With tension
 /// alone, without friction, every problem is decided.
 #[test]
 fn floating_problems_with_cohesion_are_judged_rightly() {

@@ -125,7 +125,7 @@ fn a_falling_body_ends_on_a_far_obstacle() {
 
 /// Two pairs that do not know of each other, `K = 1`, one pressed on its obstacle with 1, the other pulled
 /// away from one that is far: a call that ends before it begins is measured with all obstacles, at rest.
-/// What is lacking is the load on the first pair, and the pull on the second.
+/// The load on the first pair, and the pull on the second, are lacking.
 #[test]
 fn a_limit_beside_a_far_obstacle_leaves_a_measured_iterate() {
     let mut k = vec![0.0; 16];

@@ -1,4 +1,4 @@
-//! The same bodies, described in another way, have the same forces.
+//! Bodies that are described in another way have the same forces.
 //!
 //! All problems have a condition number up to 1e3, friction up to 0.3 (one solution), and are
 //! solved to 1e-12: answers agree to 1e-9 of their size, and 1e-8 is asked for.

@@ -18,7 +18,7 @@ const AGREEMENT: f64 = 1e-9;
 const TOLERANCE: f64 = 1e-13;
 const SEEDS: u64 = 40;
 
-/// What happens to the block, in its own axes and in the order of its nodes.
+/// A change of the block, in its own axes and in the order of its nodes.
 #[derive(Clone, Debug)]
 struct Event {
     springs: bool,

@@ -131,7 +131,7 @@ fn redundant_pairs_are_solved() {
     }
 }
 
-/// The same of LCPs: `M' = [M M; M M]`, and the sum of both halves of `z` solves `M`.
+/// LCPs are redundant likewise: `M' = [M M; M M]`, and the sum of both halves of `z` solves `M`.
 #[test]
 fn redundant_complementarity_is_solved() {
     for seed in 0..200 {
@@ -149,7 +149,7 @@ fn redundant_complementarity_is_solved() {
             assert_eq!(solution.status, Status::Solved, "{context}");
             assert_eq!(double.flaw(&solution, 1e-10), None, "{context}");
             solution.z = (0..n).map(|i| solution.z[i] + solution.z[n + i]).collect();
-            // Of two copies one may be zero with a w that is zero but for rounding.
+            // One of two copies may be zero with a w that is zero but for rounding.
             solution.w.truncate(n);
             for (w, z) in solution.w.iter_mut().zip(&solution.z) {
                 assert!(*z == 0.0 || *w <= 1e-10, "{context}");

@@ -76,7 +76,7 @@ fn the_layout_of_every_structure_is_stated() {
     assert!(fields > 100 && values > 40, "{fields} fields, {values} values");
 }
 
-/// What cbindgen writes for a constant and a function.
+/// cbindgen's output for a constant and a function.
 const TWO: &str =
     "/**\n * One.\n */\n#define ONE 1\n\n/**\n * Two.\n */\nint32_t two(int32_t n,\n double *x);\n";
 

@@ -82,7 +82,7 @@ const ALLOWED: [(&str, &str, &str); 9] = [
     ("ffi/", "State ::", "states to constants of C"),
 ];
 
-/// What the text decides that only the law may, with the line.
+/// Decisions of the text that only the law may take, with the line.
 fn decisions(text: &[Token]) -> Vec<(usize, String)> {
     let mut found = Vec::new();
     for (at, token) in text.iter().enumerate() {
@@ -130,18 +130,18 @@ fn decisions(text: &[Token]) -> Vec<(usize, String)> {
     found
 }
 
-/// Whether one of the names stands in the operand.
+/// `true` if one of the names stands in the operand.
 fn names_any(operand: &[Token], names: &[&str]) -> bool {
     operand.iter().any(|token| token.kind == Kind::Word && names.contains(&token.text.as_str()))
 }
 
-/// Whether a component of a force stands in the operand: `force[i]`.
+/// `true` if a component of a force stands in the operand: `force[i]`.
 fn has_component(operand: &[Token]) -> bool {
     let pairs = operand.windows(2);
     pairs.into_iter().any(|pair| pair[1].text == "[" && FORCES.contains(&pair[0].text.as_str()))
 }
 
-/// Whether the operand is zero, also as the only argument of a method.
+/// `true` if the operand is zero, also as the only argument of a method.
 fn is_zero(operand: &[Token]) -> bool {
     let inner: Vec<&Token> =
         operand.iter().filter(|token| !matches!(token.text.as_str(), "(" | ")" | "-")).collect();

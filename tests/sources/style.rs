@@ -73,7 +73,7 @@ fn functions(tokens: &[Token]) -> Vec<(String, usize, usize)> {
         }
         let body = (at..).find(|&end| match tokens[end].text.as_str() {
             "{" => true,
-            // Of an array type in the signature, or of a function without a body.
+            // It ends an array type in the signature, or a function without a body.
             ";" => !in_brackets(&tokens[at..end]),
             _ => false,
         });
@@ -140,7 +140,7 @@ fn end_of_condition(tokens: &[Token], begin: usize) -> usize {
     }
 }
 
-/// Whether the brace at `at` opens the pattern of an `if let`, which an `=` follows.
+/// `true` if the brace at `at` opens the pattern of an `if let`, which an `=` follows.
 fn is_pattern(tokens: &[Token], begin: usize, at: usize) -> bool {
     let binds = tokens[begin..at].iter().rev().take_while(|token| token.text != "=");
     let binds = binds.into_iter().any(|token| token.text == "let");
@@ -161,7 +161,7 @@ fn end_of_argument(tokens: &[Token], open: usize) -> usize {
     if tokens[open - 2].text == "matches" { end } else { at }
 }
 
-/// Whether a number needs no name: 0, 1 and 2, and 3 as a dimension.
+/// `true` if a number needs no name: 0, 1 and 2, and 3 as a dimension.
 fn is_plain(number: &str, dimension: bool) -> bool {
     const TYPES: [&str; 10] =
         ["usize", "isize", "u64", "i64", "u32", "i32", "u8", "i8", "f64", "u16"];

@@ -19,19 +19,19 @@ const PRESSURE: f64 = 7.0;
 /// are not polynomials of the position: the rule has an error of rounding there, as more points show.
 const POINTS: usize = 24;
 
-/// What the blocks are.
+/// A pair of blocks and how they are paired.
 #[derive(Clone, Copy, Debug)]
 struct Setting {
     dim: usize,
-    /// Of the lower and the upper block.
+    /// Cells of the lower and the upper block.
     kinds: [(Cells, Order); 2],
     distortion: f64,
     /// Share of the upper block's element by which it stands out.
     overhang: f64,
-    /// Whether the blocks have planes of symmetry through all their nodes at x = 0 (and y = 0), or are
+    /// `true`: the blocks have planes of symmetry through all their nodes at x = 0 (and y = 0); else they are
     /// held in a statically determinate way away from the interface.
     quarter: bool,
-    /// Whether the pairing is told the planes of symmetry.
+    /// `true`: the pairing is told the planes of symmetry.
     named: bool,
     /// Cells in the plane, of the lower and the upper block.
     cells: [[usize; 2]; 2],

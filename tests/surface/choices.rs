@@ -141,7 +141,7 @@ fn normals_of_faces_converge_to_the_averaged_ones() {
     }
 }
 
-/// What a displacement opens at a pair.
+/// The opening of a pair by displacements.
 fn opens(pair: &SurfacePair, u: &[Point]) -> f64 {
     let [slave, master] = [&pair.slaves, &pair.masters].map(|weights| point(u, weights));
     dot(slave, pair.normal) - dot(master, pair.normal)
@@ -214,7 +214,7 @@ fn over_the_rim(end: f64, rims: Rims) -> SurfacePairs {
     pair(2, &nodes, [&slave, &master], &with_rims(rims)).unwrap()
 }
 
-/// Of the last node of a line whose last element is covered by the share `c`, `c²` is covered, and of the one
+/// A last element is covered by the share `c`: the last node of the line has `c²` of its area covered, and the one
 /// before `1/2 + c - c²/2`. Below a tenth the node is folded, kept or dropped; above nothing is a rim and the choices
 /// are the same; kept ones below a millionth are folded.
 #[test]
@@ -251,7 +251,7 @@ fn rims_are_told_by_their_cover() {
             for (pair, area) in keep.pairs.iter().zip(areas) {
                 assert!((pair.area - area).abs() < 1e-14, "{c}: {pair:?}");
             }
-            // What is not at the rim is the same.
+            // Pairs away from the rim are the same.
             for pair in &drop.pairs {
                 assert!(keep.pairs.contains(pair), "{c}: {pair:?}");
             }

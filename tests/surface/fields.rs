@@ -112,7 +112,7 @@ fn a_uniform_traction_is_uniform_everywhere() {
     }
 }
 
-/// The same rows whatever numbers the degrees of freedom have.
+/// Rows do not depend on the numbers of the degrees of freedom.
 #[test]
 fn degrees_of_freedom_follow_the_host() {
     let (nodes, pairs) = found([Shape::Q8, Shape::T3], Pairing::DualMortar);
@@ -142,7 +142,7 @@ fn arrays_of_another_length_are_refused() {
     assert!(pairs.resultant(&good, &[0.0; 2]).is_err());
 }
 
-/// What VTK 9 wrote for the same arrays in its own binary form without compression, but for white space.
+/// VTK 9 wrote this for the same arrays in its own binary form without compression, but for white space.
 #[test]
 fn a_mesh_is_written_as_vtk_has_it() {
     let folder = Folder::new("vtu");

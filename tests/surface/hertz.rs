@@ -40,12 +40,12 @@ const SWEEPS: usize = 300;
 /// Errors in L2 that are accepted on the finest meshes.
 const WANTED: f64 = 0.03;
 
-/// The same as a multiple of the least, where that is larger.
+/// Accepted errors as a multiple of the least, where that is larger.
 const NEAR_LEAST: f64 = 1.25;
 
 /// How far elements are fine, and may touch; how their size grows from one to the next beyond.
 const LINEAR: (f64, f64) = (1.5 * A, 1.5);
-/// Of quadratic elements, which bear longer steps.
+/// Quadratic elements bear longer steps.
 const QUADRATIC: (f64, f64) = (1.2 * A, 2.0);
 /// In the plane, where there is room.
 const PLANE: (f64, f64) = (1.5 * A, 1.3);
@@ -59,14 +59,14 @@ const OF_EIGHT_NODES: [f64; 8] = {
     [corner, corner, corner, corner, mid, mid, mid, mid]
 };
 
-/// The same of a face with 9 nodes.
+/// Shares of a face with 9 nodes.
 const OF_NINE_NODES: [f64; 9] = {
     let (corner, mid, centre) = (1.0 / 36.0, 1.0 / 9.0, 4.0 / 9.0);
     [corner, corner, corner, corner, mid, mid, mid, mid, centre]
 };
 
-/// Of faces with 8 nodes pressure belongs to `N_c + 0.2 ΣN_m` at corners and to `0.6 N_m` at mid nodes, as
-/// src/surface/control.rs says; of the others to their shape functions.
+/// Pressure on faces with 8 nodes belongs to `N_c + 0.2 ΣN_m` at corners and to `0.6 N_m` at mid nodes, as
+/// src/surface/control.rs says; on the others to their shape functions.
 const TO_CORNERS: f64 = 0.2;
 
 /// `E*`.
@@ -239,11 +239,11 @@ impl Contact {
 
 /// Errors in L2 relative to the exact pressure.
 struct Distances {
-    /// Of the pressures of pairs, each against the mean that its function takes.
+    /// Error of the pressures of pairs, each against the mean that its function takes.
     means: f64,
-    /// Of the field that the slave's faces interpolate between them.
+    /// Error of the field that the slave's faces interpolate between them.
     field: f64,
-    /// Of the field between the exact pressures at the nodes.
+    /// Error of the field between the exact pressures at the nodes.
     exact_at_nodes: f64,
     /// The least of all fields that the slave's faces interpolate between pressures that are not negative.
     least: f64,
@@ -251,13 +251,13 @@ struct Distances {
 
 /// Integrals over the slave's faces.
 struct Integrals {
-    /// Of products of shape functions: of each node the others on its faces.
+    /// Integrals of products of shape functions: for each node the others on its faces.
     mass: Vec<BTreeMap<usize, f64>>,
-    /// Of shape functions times the exact pressure.
+    /// Integrals of shape functions times the exact pressure.
     moments: Vec<f64>,
-    /// Of the exact pressure squared.
+    /// Integral of the exact pressure squared.
     whole: f64,
-    /// Of the functions that pressures of pairs belong to, and of these times the exact pressure.
+    /// Integrals of the functions that pressures of pairs belong to, and of these times the exact pressure.
     areas: Vec<f64>,
     forces: Vec<f64>,
 }
@@ -324,7 +324,7 @@ fn integrals(
 }
 
 impl Integrals {
-    /// Of a field between pressures at nodes.
+    /// Error of a field between pressures at nodes.
     fn of_field(&self, pressure: &[f64]) -> f64 {
         let mut square = self.whole;
         for ((row, p), moment) in self.mass.iter().zip(pressure).zip(&self.moments) {
@@ -334,7 +334,7 @@ impl Integrals {
         (square.max(0.0) / self.whole).sqrt()
     }
 
-    /// Of pressures of pairs.
+    /// Error of pressures of pairs.
     fn of_means(&self, pressure: &[f64]) -> f64 {
         let (mut square, mut whole) = (0.0, 0.0);
         for (node, &area) in self.areas.iter().enumerate().filter(|(_, area)| **area > 0.0) {

@@ -98,7 +98,7 @@ fn two_meshes_of_a_curved_surface_are_refused() {
     }
 }
 
-/// What a mesh may have: both sides of a thin plate, of no thickness too; layers further apart than the
+/// A mesh may have these: both sides of a thin plate, of no thickness too; layers further apart than the
 /// search reaches; a surface folded upon itself; parts with nodes of their own side by side, with other
 /// meshes and along a curved line; a corner of a cube; a sharp cone.
 #[test]

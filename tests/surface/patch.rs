@@ -33,7 +33,7 @@ fn solve(stiffness: &Stiffness, fixed: &[usize], arrays: &PairArrays, load: &[f6
     model.solve(&case, &settings, None, &mut Monitor::new(&settings, None)).unwrap()
 }
 
-/// Whether the upper side is the slave, and what becomes of nodes with little cover.
+/// Choices: the upper side is the slave or not, and the treatment of nodes with little cover.
 const EITHER_WAY: [(bool, Rims); 4] =
     [(true, Rims::Fold), (false, Rims::Fold), (true, Rims::Keep), (false, Rims::Keep)];
 

@@ -157,7 +157,7 @@ fn exact_sheet_loads(sheet: &Sheet, window: [[f64; 2]; 2]) -> Option<Vec<f64>> {
                 } else {
                     (at(0, x), at(1, y), shrink * v * w)
                 };
-                // Of degree 2 at most in each coordinate, where central differences are exact.
+                // Functions have degree 2 at most in each coordinate, where central differences are exact.
                 let slope = |ds: f64, dt: f64| {
                     let ahead = shapes(face.len(), s + ds, t + dt);
                     let behind = shapes(face.len(), s - ds, t - dt);
@@ -352,7 +352,7 @@ fn the_search_is_nearly_linear() {
     assert!(many < 1600 * 1681 / 10, "{many}");
 }
 
-/// What is wrong, where, and what to do.
+/// A refusal says what is wrong, where, and what to do.
 #[test]
 fn wrong_surfaces_are_refused_by_place() {
     let square = || vec![[0.0; 3], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];

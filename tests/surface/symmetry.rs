@@ -253,7 +253,7 @@ fn parts_have_the_solution_of_the_whole_body() {
         }
     }
     assert_all(&states);
-    // What is compared is not the same without the planes: rows of half of their masters carry friction.
+    // Without the planes the result is another one: rows of half of their masters carry friction.
     assert!(unnamed > 1e-4, "{unnamed:e}");
 }
 

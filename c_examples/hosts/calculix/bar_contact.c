@@ -40,8 +40,8 @@ static const char *read_matrix(struct matrix_files *matrix, const char *director
     problem = matrix_read(matrix, job, BAR_SIZE);
     if (problem != NULL)
         return problem;
-    /* What the deck holds, u_x of node 33, is not in CalculiX's matrix, but a pair has all its
-     * components: they come back as rows that are held. */
+    /* CalculiX's matrix lacks the component that the deck holds, u_x of node 33. A pair has all its
+     * components: this one comes back as a row that is held. */
     for (int i = 0; i < BAR_SIZE; i++) {
         const long node = i / 2 + 1;
         const int direction = i % 2 + 1;

@@ -1,4 +1,4 @@
-# What CalculiX reports at the contact nodes against what the library expects:
+# CalculiX's report at the contact nodes against what the library expects:
 #     awk -f compare.awk bar_forces.csv bar_static.dat
 # RF has seven digits: the limit is one unit of the last one of the largest force.
 

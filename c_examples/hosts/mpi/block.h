@@ -46,10 +46,10 @@ int part_new(int rank, int parts, struct part *part);
 
 void part_free(struct part *part);
 
-/* Whether the degree of freedom is held by the support. */
+/* Nonzero if the support holds the degree of freedom. */
 int block_held(int32_t dof);
 
-/* Whether a part holds the degree of freedom, and which one owns it: of two on a cut the right one. */
+/* Nonzero if a part holds the degree of freedom; the part that owns it: of two on a cut the right one. */
 int part_holds(int rank, int parts, int32_t dof);
 int block_owner(int parts, int32_t dof);
 

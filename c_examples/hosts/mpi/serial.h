@@ -1,6 +1,6 @@
 /*
- * The same problem by one process: process 0 has the library condense the whole sparse matrix, and
- * all compare with it what they found together.
+ * One process solves the problem of all: process 0 has the library condense the whole sparse matrix,
+ * and all compare with it what they found together.
  */
 
 #ifndef SERIAL_H
@@ -9,7 +9,7 @@
 #include "../../common/checks.h"
 #include "block.h"
 
-/* What process 0 finds. */
+/* The findings of process 0. */
 struct found {
     double d[SIZE], F[SIZE];
     int32_t state[PAIRS];

@@ -62,7 +62,7 @@ static void contact_forces(struct service *service, double loads, double *y)
     free(load);
 }
 
-/* Of a node on a cut its owner alone gives the force and tells the displacement. */
+/* The owner alone of a node on a cut gives the force and tells the displacement. */
 static int solution(struct service *service, const double x[SIZE], double *y)
 {
     const struct part *part = service->part;
