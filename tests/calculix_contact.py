@@ -136,7 +136,7 @@ class Case:
         return np.array(forces), time.process_time() - begin, contact.pairs
 
     def calculix(self, out):
-        """The same by CalculiX's own contact: reactions of the upper end, and CPU seconds."""
+        """Solves by CalculiX's own contact: reactions of the upper end, and CPU seconds."""
         faces = {True: "S2", False: "S1"}
         text = self.deck()
         for name, (elements, _), upper in zip(("SLAVE", "MASTER"), self.sides, (False, True)):

@@ -1,5 +1,5 @@
 #!/bin/sh
-# Solves a problem again that a host has written to a file by signorini_problem_save or the like.
+# Solves a problem again that a host has written to a file by signorini_problem_write or the like.
 #
 #     sh c_examples/files/replay_problem.sh FILE [METHOD [TOLERANCE]]
 #
