@@ -2,14 +2,13 @@
 //! The certificate alone decides in `result` which candidate is a solution.
 //!
 //! ```text
-//! result ← pieces ← part ← rigid_balance ← smallest_lift ← sweeps ← newton ← path ← proximal ← lcp ← uniqueness ← plan ← operator ← escape_motion ← dependent ← flexibility ← mod
+//! result ← pieces ← part ← rigid ← sweeps ← newton ← path ← proximal ← lcp ← uniqueness ← plan ← operator ← dependent ← flexibility ← mod
 //! ```
 //!
 //! Each imports from those to its left only. One algorithm is one folder; others may use the names that its
 //! `mod.rs` passes on.
 
 mod dependent;
-mod escape_motion;
 mod flexibility;
 mod lcp;
 mod newton;
@@ -20,8 +19,7 @@ mod pieces;
 mod plan;
 mod proximal;
 mod result;
-mod rigid_balance;
-mod smallest_lift;
+mod rigid;
 mod sweeps;
 mod uniqueness;
 
@@ -139,7 +137,7 @@ pub fn solve(
     // Where d = 0 is the solution, other starts only approach it.
     let start = start.filter(|_| !contact.is_at_rest());
     let mut solution = plan::solve(&contact, settings, start, monitor)?;
-    escape_motion::describe(&contact, &mut solution, monitor)?;
+    rigid::describe(&contact, &mut solution, plan::auto, monitor)?;
     uniqueness::by_orientation(&contact, &mut solution, monitor);
     if settings.search == Search::Others && !monitor.is_late() {
         uniqueness::examine(&contact, settings, &mut solution, monitor)?;

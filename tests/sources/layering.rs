@@ -63,12 +63,11 @@ const ROOMS: [(&str, &[&str]); 16] = [
 ];
 
 /// The rooms of `solve`: each imports from those before it only.
-const SOLVERS: [&str; 17] = [
+const SOLVERS: [&str; 15] = [
     "result",
     "pieces",
     "part",
-    "rigid_balance",
-    "smallest_lift",
+    "rigid",
     "sweeps",
     "newton",
     "path",
@@ -77,7 +76,6 @@ const SOLVERS: [&str; 17] = [
     "uniqueness",
     "plan",
     "operator",
-    "escape_motion",
     "dependent",
     "flexibility",
     "mod",

@@ -10,8 +10,7 @@ use crate::settings::Settings;
 use crate::solve::newton::{Ended, newton_from, on_candidates, polished};
 use crate::solve::pieces::{Equations, Point};
 use crate::solve::result::{Candidate, Effort, Ending};
-use crate::solve::rigid_balance;
-use crate::solve::smallest_lift::without_idle_motion;
+use crate::solve::rigid::{self, without_idle_motion};
 
 /// Size of the perturbation of a start beside the loads: symmetric meshes have ties, and on a generic
 /// start no two pairs reach their boundaries at once.
@@ -35,7 +34,7 @@ pub fn curved(
     monitor: &mut Monitor<'_>,
 ) -> Candidate {
     // Without an equilibrium the path runs away slowly: what can be proved at once is.
-    if let Some(motion) = rigid_balance::escape(contact, monitor) {
+    if let Some(motion) = rigid::escape(contact, monitor) {
         return Candidate::without_displacements(contact, Ending::Recession(motion));
     }
     on_candidates(contact, settings, start, monitor, &mut |equations, y, monitor| {

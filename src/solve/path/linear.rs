@@ -95,7 +95,7 @@ use crate::settings::Settings;
 use crate::solve::newton::{PartOutcome, from_pieces, solve_part};
 use crate::solve::pieces::Equations;
 use crate::solve::result::{Candidate, Effort, Ending};
-use crate::solve::rigid_balance;
+use crate::solve::rigid;
 
 /// Why there is no solution.
 const LOST: &str = "the path does not arrive";
@@ -217,9 +217,7 @@ fn ended(
         End::Lost => Ending::Stalled(LOST),
         // If the body only lifts off, the ray itself is the proof; if it also slips, the balance of
         // the other pairs decides.
-        End::Ray(motion) => {
-            Ending::Recession(rigid_balance::escape(contact, monitor).unwrap_or(motion))
-        }
+        End::Ray(motion) => Ending::Recession(rigid::escape(contact, monitor).unwrap_or(motion)),
         End::Stopped(stop) => Ending::Stopped(stop),
     };
     Candidate::of_displacements(contact, d, ending)

@@ -62,7 +62,7 @@
 //! `K e = 0`, `e_n <= 0` and `f.e >= lim ((1 - s) |v| + sum mu p |e_t|) >= 0` (the work equation of A,
 //! divided by `|v|`). So if `f.e < 0` for every rigid motion `e` with `e_n <= 0`, a solution exists for
 //! every `mu`, and the path finds it. That it runs away does not prove that there is none: what does is
-//! [`crate::certificate::is_escape`], and `rigid_balance` looks for it before a path begins.
+//! [`crate::certificate::is_escape`], and `rigid` looks for it before a path begins.
 //!
 //! # Limits
 //!

@@ -7,7 +7,7 @@ use crate::monitor::Monitor;
 use crate::settings::Method;
 use crate::solve::newton;
 use crate::solve::result::{Candidate, Ending};
-use crate::solve::smallest_lift::without_idle_motion;
+use crate::solve::rigid::without_idle_motion;
 
 /// Refuses a method that does not fit the problem.
 pub fn check_method(contact: &Contact<'_>, method: Method) -> Result<(), Error> {

@@ -3,8 +3,7 @@
 use crate::law::Contact;
 use crate::monitor::Monitor;
 use crate::solve::result::{CAUSES, Remarks, Solution, Status, Uniqueness, of_problem};
-use crate::solve::rigid_balance::rigid_motions;
-use crate::solve::smallest_lift::moves_freely;
+use crate::solve::rigid::{RigidMotions, moves_freely};
 
 /// The remarks on a problem and its solution. With friction nothing is asked about motions: that would cost a
 /// factorisation of every semi-definite problem.
@@ -25,7 +24,7 @@ pub fn explain_stall(contact: &Contact<'_>, solution: &mut Solution, monitor: &M
     let problem = contact.problem();
     if solution.status == Status::Stalled
         && problem.is_symmetric()
-        && !rigid_motions(problem, &problem.unit_roots(), monitor).is_empty()
+        && RigidMotions::of(problem, monitor).is_some()
     {
         let said = solution.message.marked();
         solution.message = format!("{said}; contact alone holds a body: {CAUSES}").into();

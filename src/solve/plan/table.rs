@@ -5,7 +5,7 @@ use crate::law::Contact;
 use crate::monitor::{Monitor, Stop};
 use crate::settings::{Method, Settings};
 use crate::solve::result::{Candidate, Ending};
-use crate::solve::rigid_balance::Balance;
+use crate::solve::rigid::Balance;
 use crate::solve::{lcp, newton, path, proximal, sweeps};
 
 /// A row of the table.

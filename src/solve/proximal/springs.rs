@@ -58,7 +58,7 @@
 //! **T5, a counterexample.** With Coulomb's law a run-away proves nothing: there are problems of three pairs in the
 //! plane that have a solution, while the springs run away from it. So the run-away is told as what it is. What proves that
 //! there is no equilibrium is a rigid motion `m` with `m_n + mu |m_t| <= 0` and `f.m > 0`, for which
-//! [`crate::solve::rigid_balance`] looks before.
+//! [`crate::solve::rigid`] looks before.
 //! Nothing sharper follows from (1): with forces of the cones that balance the loads on all rigid motions, `-F.q = f.q`
 //! holds identically.
 

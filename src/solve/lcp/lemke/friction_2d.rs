@@ -52,7 +52,7 @@ use crate::monitor::Monitor;
 use crate::settings::Settings;
 use crate::solve::newton::from_pieces;
 use crate::solve::result::{Candidate, Ending};
-use crate::solve::rigid_balance;
+use crate::solve::rigid;
 
 /// Cohesion relative to the clamp, against slip to the side +1 and −1. The theorem holds for any
 /// positive numbers. The first pair is of the size of the clamp. The others serve the search for other solutions: lopsided
@@ -118,7 +118,7 @@ fn follow(
         // If the body only lifts off, the ray itself is the proof; if it also slips, the balance of
         // the other pairs decides.
         Ending::Recession(ray) => {
-            let balanced = rigid_balance::escape(contact, monitor);
+            let balanced = rigid::escape(contact, monitor);
             Ending::Recession(balanced.unwrap_or_else(|| lcp.motion(&ray)))
         }
         other => other,

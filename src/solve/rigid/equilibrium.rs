@@ -11,15 +11,14 @@
 //! the projection is repeated (cutting planes, on the exact disc). What is left of negative work within
 //! the tolerance is taken away by a motion that lifts all pairs.
 
-use super::part::FreeBlock;
+use super::motions::RigidMotions;
 use crate::certificate::is_escape_of;
 use crate::law::Contact;
-use crate::linalg::nnls::{extend_basis, nearest};
-use crate::linalg::pivoted_cholesky::{PivotedCholesky, pivoted_cholesky_work};
+use crate::linalg::nnls::nearest;
+use crate::linalg::pivoted_cholesky::PivotedCholesky;
 use crate::linalg::tolerances::NEGLIGIBLE;
-use crate::linalg::vector::{dot, largest_of, norm};
+use crate::linalg::vector::{dot, norm};
 use crate::monitor::Monitor;
-use crate::problem::ContactProblem;
 
 /// Negative work of a cone's force that counts, relative to the motion. Next to the limit of balance
 /// `e` is small beside the loads, and rounding of the projection is no smaller.
@@ -44,56 +43,33 @@ pub fn escape(contact: &Contact<'_>, monitor: &Monitor<'_>) -> Option<Vec<f64>> 
     Balance::new(contact, monitor)?.escape()
 }
 
-/// A motion that proves that no equilibrium exists without the rounding of the method that found it: made
-/// rigid, and lifted where contact would stop it. The given one, if that is no proof, or if there is no time.
-pub fn sharpened(contact: &Contact<'_>, motion: Vec<f64>, monitor: &Monitor<'_>) -> Vec<f64> {
-    let Some(balance) = Balance::new(contact, monitor) else { return motion };
-    let scaled: Vec<f64> = motion.iter().zip(&balance.root).map(|(r, root)| r * root).collect();
-    let e: Vec<f64> = balance.basis.iter().map(|v| dot(v, &scaled)).collect();
-    let mut rigid = balance.motion(&e);
-    let size = balance.size(&rigid);
-    if balance.approaches(&rigid).into_iter().any(|approach| approach > STOPPED * size) {
-        rigid = balance.lifted(rigid);
-    }
-    if is_escape_of(contact, &rigid) { rigid } else { motion }
-}
-
-/// An orthonormal basis of the motions without internal force, each component times its `root`; none if there is
-/// no time to find them.
-pub fn rigid_motions(
-    problem: &ContactProblem<'_>,
-    root: &[f64],
-    monitor: &Monitor<'_>,
-) -> Vec<Vec<f64>> {
-    let mut basis = Vec::new();
-    if !monitor.has_time_for(pivoted_cholesky_work(root.len())) {
-        return basis;
-    }
-    let Some(block) = FreeBlock::of_problem(problem, (0..root.len()).collect()) else {
-        return basis;
-    };
-    for mut motion in block.null_vectors() {
-        motion.iter_mut().zip(root).for_each(|(r, root)| *r *= root);
-        extend_basis(&mut basis, motion);
-    }
-    basis
-}
-
-/// The rigid motions of a problem.
+/// The rigid motions of a problem, and the forces that balance them.
 pub struct Balance<'c> {
     contact: &'c Contact<'c>,
-    /// Roots of the units of the components.
-    root: Vec<f64>,
-    /// An orthonormal basis of the motions without internal force, each component times its `root`.
-    basis: Vec<Vec<f64>>,
+    motions: RigidMotions,
 }
 
 impl<'c> Balance<'c> {
     /// `None` if there are no such motions, or if there is no time to find them.
     pub fn new(contact: &'c Contact<'c>, monitor: &Monitor<'_>) -> Option<Self> {
-        let root = contact.problem().unit_roots();
-        let basis = rigid_motions(contact.problem(), &root, monitor);
-        (!basis.is_empty()).then_some(Balance { contact, root, basis })
+        let motions = RigidMotions::of(contact.problem(), monitor)?;
+        Some(Balance { contact, motions })
+    }
+
+    /// The motions.
+    pub fn into_motions(self) -> RigidMotions {
+        self.motions
+    }
+
+    /// A motion that proves that no equilibrium exists without the rounding of the method that found it: made
+    /// rigid, and lifted where contact would stop it. The given one, if that is no proof.
+    pub fn sharpened(&self, motion: Vec<f64>) -> Vec<f64> {
+        let mut rigid = self.motions.part(&motion);
+        let size = self.motions.size(&rigid);
+        if self.approaches(&rigid).into_iter().any(|approach| approach > STOPPED * size) {
+            rigid = self.lifted(rigid);
+        }
+        if is_escape_of(self.contact, &rigid) { rigid } else { motion }
     }
 
     /// A recession direction that the loads drive, where the admissible forces are cones.
@@ -111,7 +87,7 @@ impl<'c> Balance<'c> {
         let mut last = f64::INFINITY;
         for _ in 0..MOST_ROUNDS {
             let rest = nearest(&load, &edges)?;
-            let motion = self.motion(&rest);
+            let motion = self.motions.motion(&rest);
             let worst = self.worst(&motion);
             let size = norm(&rest);
             let is_last = worst.is_empty() || contact.dim() == 2 || size == last;
@@ -135,9 +111,12 @@ impl<'c> Balance<'c> {
 
     /// Work on each motion of forces whose first component is `first`.
     fn on_motions(&self, force: &[f64], first: usize) -> Vec<f64> {
-        let scaled: Vec<f64> =
-            force.iter().zip(&self.root[first..]).map(|(force, root)| force / root).collect();
-        self.basis.iter().map(|v| dot(&v[first..first + force.len()], &scaled)).collect()
+        let scaled: Vec<f64> = force
+            .iter()
+            .zip(&self.motions.root[first..])
+            .map(|(force, root)| force / root)
+            .collect();
+        self.motions.basis.iter().map(|v| dot(&v[first..first + force.len()], &scaled)).collect()
     }
 
     /// Work on each motion of a force of a pair.
@@ -146,33 +125,17 @@ impl<'c> Balance<'c> {
         self.on_motions(&force[..dim], dim * pair)
     }
 
-    /// The motion with the coordinates `e`.
-    fn motion(&self, e: &[f64]) -> Vec<f64> {
-        let mut motion = vec![0.0; self.root.len()];
-        for (v, e) in self.basis.iter().zip(e) {
-            for ((motion, v), root) in motion.iter_mut().zip(v).zip(&self.root) {
-                *motion += e * v / root;
-            }
-        }
-        motion
-    }
-
     /// `r_n + slope |r_t|` of each pair, in the unit of `root`.
     fn approaches(&self, motion: &[f64]) -> Vec<f64> {
         let dim = self.contact.dim();
         let parts = self.contact.pairs().iter().zip(motion.chunks_exact(dim));
-        let roots = self.root.iter().step_by(dim);
+        let roots = self.motions.root.iter().step_by(dim);
         parts.zip(roots).map(|((law, r), root)| law.recession(r).approach * root).collect()
-    }
-
-    /// Largest component of a motion in the unit of `root`.
-    fn size(&self, motion: &[f64]) -> f64 {
-        largest_of(motion.iter().zip(&self.root).map(|(r, root)| r * root))
     }
 
     /// The pairs with a force that does negative work on a motion, those of most work first.
     fn worst(&self, motion: &[f64]) -> Vec<usize> {
-        let (least, approaches) = (NEGATIVE * self.size(motion), self.approaches(motion));
+        let (least, approaches) = (NEGATIVE * self.motions.size(motion), self.approaches(motion));
         let mut worst: Vec<usize> =
             (0..approaches.len()).filter(|&pair| approaches[pair] > least).collect();
         worst.sort_by(|&a, &b| approaches[b].total_cmp(&approaches[a]));
@@ -182,7 +145,7 @@ impl<'c> Balance<'c> {
     /// A motion with as much of one that lifts the pairs as takes away the negative work.
     fn lifted(&self, mut motion: Vec<f64>) -> Vec<f64> {
         let Some(lift) = self.lift() else { return motion };
-        let margin = NEGLIGIBLE * self.size(&motion);
+        let margin = NEGLIGIBLE * self.motions.size(&motion);
         let wanted = self.approaches(&motion).into_iter().zip(self.approaches(&lift));
         let part = wanted
             .filter(|(approach, _)| *approach > -margin)
@@ -202,13 +165,14 @@ impl<'c> Balance<'c> {
         let weight = |i: usize| match i % dim {
             0 => 1.0,
             _ => {
-                self.contact.pairs()[i / dim].bound().slope * self.root[i - i % dim] / self.root[i]
+                self.contact.pairs()[i / dim].bound().slope * self.motions.root[i - i % dim]
+                    / self.motions.root[i]
             }
         };
-        let weights: Vec<f64> = (0..self.root.len()).map(weight).collect();
+        let weights: Vec<f64> = (0..self.motions.root.len()).map(weight).collect();
         let weighted =
             |v: &Vec<f64>| v.iter().zip(&weights).map(|(v, weight)| v * weight).collect();
-        let approaches: Vec<Vec<f64>> = self.basis.iter().map(weighted).collect();
+        let approaches: Vec<Vec<f64>> = self.motions.basis.iter().map(weighted).collect();
         let size: Vec<f64> = approaches.iter().map(|v| dot(v, v).sqrt()).collect();
         let moving: Vec<usize> = (0..size.len()).filter(|&k| size[k] > NEGLIGIBLE).collect();
         let unit = |i: usize, j: usize| {
@@ -219,10 +183,10 @@ impl<'c> Balance<'c> {
         let wanted = |k: usize| -approaches[k].iter().step_by(dim).sum::<f64>() / size[k];
         let mut x: Vec<f64> = gram.independent().iter().map(|&i| wanted(moving[i])).collect();
         gram.solve(&mut x);
-        let mut e = vec![0.0; self.basis.len()];
+        let mut e = vec![0.0; self.motions.basis.len()];
         for (&i, x) in gram.independent().iter().zip(&x) {
             e[moving[i]] = x / size[moving[i]];
         }
-        Some(self.motion(&e))
+        Some(self.motions.motion(&e))
     }
 }

@@ -5,14 +5,14 @@
 //! have more than the loads ask for. So where displacements are that large, the rigid motion is taken away
 //! that moves no pair with a force, and that the loads do not drive.
 
-use super::part::FreeBlock;
-use super::result::Candidate;
-use super::rigid_balance::rigid_motions;
+use super::motions::RigidMotions;
 use crate::law::{Contact, State, touching};
 use crate::linalg::pivoted_cholesky::pivoted_cholesky_work;
 use crate::linalg::tolerances::{NEGLIGIBLE, ROUNDING_OF_SUM};
 use crate::linalg::vector::{dot, largest_of, norm, norm_inf};
 use crate::monitor::Monitor;
+use crate::solve::part::FreeBlock;
+use crate::solve::result::Candidate;
 
 /// Displacements are large if rounding them costs this part of the forces: below, a host's residual keeps ten
 /// digits.
@@ -24,26 +24,11 @@ pub fn without_idle_motion(
     candidate: Candidate,
     monitor: &Monitor<'_>,
 ) -> Candidate {
-    let problem = contact.problem();
-    let root = problem.unit_roots();
-    let scaled: Vec<f64> = candidate.d().iter().zip(&root).map(|(d, root)| d * root).collect();
-    let stiffness = |i: usize| root[i] * root[i];
-    let forces = norm_inf(contact.load_with_tension()).max(norm_inf(candidate.force()));
-    let prescribed = contact.each(candidate.d(), candidate.force()).enumerate();
-    let prescribed = largest_of(
-        prescribed.map(|(i, (law, d, _))| stiffness(contact.dim() * i) * law.prescribed(d[0])),
-    );
-    let largest = largest_of(scaled.iter().zip(&root).map(|(d, root)| (d * root).abs()));
-    if !largest.is_finite() || largest <= LARGE * forces.max(prescribed) {
+    if !is_far(contact, &candidate) {
         return candidate;
     }
-    let basis = idle(contact, &candidate, rigid_motions(problem, &root, monitor), forces);
-    let mut motion = vec![0.0; root.len()];
-    for v in &basis {
-        let share = dot(v, &scaled);
-        motion.iter_mut().zip(v).for_each(|(motion, v)| *motion += share * v);
-    }
-    motion.iter_mut().zip(&root).for_each(|(motion, root)| *motion /= root);
+    let Some(rigid) = RigidMotions::of(contact.problem(), monitor) else { return candidate };
+    let motion = idle(contact, &candidate, rigid).part(candidate.d());
     let driven = dot(contact.load_with_tension(), &motion).abs();
     let could = norm_inf(contact.load_with_tension()) * norm_inf(&motion);
     if norm(&motion) == 0.0 || driven > ROUNDING_OF_SUM * could {
@@ -52,6 +37,17 @@ pub fn without_idle_motion(
     let part = contact.admissible_part(candidate.d(), &motion);
     let d = candidate.d().iter().zip(&motion).map(|(d, motion)| d - part * motion).collect();
     candidate.moved_to(contact, d)
+}
+
+/// True if displacements are large beside what loads, forces and obstacles ask for.
+fn is_far(contact: &Contact<'_>, candidate: &Candidate) -> bool {
+    let unit = |i: usize| contact.problem().unit(i);
+    let forces = norm_inf(contact.load_with_tension()).max(norm_inf(candidate.force()));
+    let pairs = contact.each(candidate.d(), candidate.force()).enumerate();
+    let prescribed =
+        pairs.map(|(pair, (law, d, _))| unit(contact.dim() * pair) * law.prescribed(d[0]));
+    let largest = largest_of(candidate.d().iter().enumerate().map(|(i, d)| d * unit(i)));
+    largest.is_finite() && largest > LARGE * forces.max(largest_of(prescribed))
 }
 
 /// True if a frictionless solution may move by some motion without internal force: one that does not move the
@@ -75,19 +71,14 @@ pub fn moves_freely(
     block.is_some_and(|block| block.dependent().next().is_some())
 }
 
-/// Of rigid motions, each component times its `root`, an orthonormal basis of those that move no pair on
-/// which a force acts.
-fn idle(
-    contact: &Contact<'_>,
-    candidate: &Candidate,
-    rigid: Vec<Vec<f64>>,
-    forces: f64,
-) -> Vec<Vec<f64>> {
+/// The rigid motions that move no pair on which a force acts.
+fn idle(contact: &Contact<'_>, candidate: &Candidate, rigid: RigidMotions) -> RigidMotions {
+    let forces = norm_inf(contact.load_with_tension()).max(norm_inf(candidate.force()));
     let dim = contact.dim();
     let parts = candidate.force().chunks_exact(dim).enumerate();
     let held = parts.filter(|(_, force)| norm_inf(force) > NEGLIGIBLE * forces);
     let held = held.flat_map(|(pair, _)| dim * pair..dim * (pair + 1)).collect();
-    not_moving(held, rigid)
+    RigidMotions { basis: not_moving(held, rigid.basis), ..rigid }
 }
 
 /// Of the motions with an orthonormal `basis`, one of those that do not move the `held` components.

@@ -15,16 +15,15 @@
 //! is carried over from one solution to the next, so that a moderate `c` reaches the limit (the method of
 //! multipliers: M. R. Hestenes, J. Optim. Theory Appl. 4 (1969) 303-320).
 
-use super::plan;
-use super::result::{CAUSES, NO_EQUILIBRIUM};
-use super::result::{Escape, Solution, Status};
-use super::rigid_balance::{rigid_motions, sharpened};
+use super::equilibrium::Balance;
+use super::motions::RigidMotions;
 use crate::error::{Error, index};
 use crate::law::Contact;
-use crate::linalg::vector::{dot, norm, normalise};
+use crate::linalg::vector::{dot, normalise};
 use crate::monitor::Monitor;
 use crate::problem::{ContactData, ContactProblem};
 use crate::settings::Settings;
+use crate::solve::result::{CAUSES, Escape, NO_EQUILIBRIUM, Solution, Status};
 
 /// Stiffness against strains beside the viscosity: a solution leaves this part of a strain, which the next
 /// one takes away, and the condition number stays far from rounding.
@@ -40,21 +39,33 @@ const RIGID: f64 = 1e-10;
 /// reading.
 const MOVING: f64 = 1e-6;
 
+/// Solves a definite problem from a start.
+pub type Solve =
+    fn(&Contact<'_>, &Settings, Option<&[f64]>, &mut Monitor<'_>) -> Result<Solution, Error>;
+
 /// Gives a solution that has no equilibrium its motion of escape, sharpens the one that proves it, and says in
-/// the message what moves.
+/// the message what moves. `solve` finds the motion.
 pub fn describe(
     contact: &Contact<'_>,
     solution: &mut Solution,
+    solve: Solve,
     monitor: &mut Monitor<'_>,
 ) -> Result<(), Error> {
     if solution.status != Status::NoEquilibrium {
         return Ok(());
     }
     let Some(proof) = solution.recession.take() else { return Ok(()) };
-    let mut proof = sharpened(contact, proof, monitor);
+    let balance = Balance::new(contact, monitor);
+    let mut proof = match &balance {
+        Some(balance) => balance.sharpened(proof),
+        None => proof,
+    };
     normalise(&mut proof);
-    let viscous = Viscous::new(contact, &proof, monitor);
-    let escape = viscous.escape(monitor)?.unwrap_or_else(|| viscous.along(&proof));
+    // If others are not found in time, the motion of the proof stands for all.
+    let alone = || RigidMotions::along(contact.problem(), &proof);
+    let motions = balance.map_or_else(alone, Balance::into_motions);
+    let viscous = Viscous { contact, motions };
+    let escape = viscous.escape(solve, monitor)?.unwrap_or_else(|| viscous.along(&proof));
     solution.recession = Some(proof);
     solution.message = message(contact, &escape).into();
     solution.escape = Some(escape);
@@ -64,46 +75,19 @@ pub fn describe(
 /// Rigid motions against a viscosity.
 struct Viscous<'c> {
     contact: &'c Contact<'c>,
-    root: Vec<f64>,
-    /// An orthonormal basis of the rigid motions, each component times its `root`.
-    basis: Vec<Vec<f64>>,
+    motions: RigidMotions,
 }
 
-impl<'c> Viscous<'c> {
-    /// On all rigid motions; on that of the proof alone, if others are not found in time.
-    fn new(contact: &'c Contact<'c>, proof: &[f64], monitor: &Monitor<'_>) -> Self {
-        let root = contact.problem().unit_roots();
-        let mut basis = rigid_motions(contact.problem(), &root, monitor);
-        if basis.is_empty() {
-            let mut only: Vec<f64> = proof.iter().zip(&root).map(|(r, root)| r * root).collect();
-            let size = norm(&only);
-            only.iter_mut().for_each(|r| *r /= size);
-            basis.push(only);
-        }
-        Viscous { contact, root, basis }
-    }
-
-    /// `P d`, a displacement.
-    fn rigid_part(&self, d: &[f64]) -> Vec<f64> {
-        let scaled: Vec<f64> = d.iter().zip(&self.root).map(|(d, root)| d * root).collect();
-        let mut part = vec![0.0; d.len()];
-        for v in &self.basis {
-            let share = dot(v, &scaled);
-            part.iter_mut().zip(v).for_each(|(part, v)| *part += share * v);
-        }
-        part.iter_mut().zip(&self.root).for_each(|(part, root)| *part /= root);
-        part
-    }
-
+impl Viscous<'_> {
     /// `P + c (1 - P)` in the units of the problem, column-major.
     fn stiffness(&self) -> Vec<f64> {
-        let n = self.root.len();
+        let n = self.motions.root.len();
         let mut matrix = vec![0.0; n * n];
         for (j, column) in matrix.chunks_exact_mut(n).enumerate() {
-            column[j] = STIFFER * self.root[j] * self.root[j];
-            for v in &self.basis {
-                let own = v[j] * self.root[j];
-                let entries = column.iter_mut().zip(v.iter().zip(&self.root));
+            column[j] = STIFFER * self.motions.root[j] * self.motions.root[j];
+            for v in &self.motions.basis {
+                let own = v[j] * self.motions.root[j];
+                let entries = column.iter_mut().zip(v.iter().zip(&self.motions.root));
                 entries.for_each(|(k, (v, root))| *k += (1.0 - STIFFER) * (own * (v * root)));
             }
         }
@@ -111,7 +95,7 @@ impl<'c> Viscous<'c> {
     }
 
     /// The motion of escape; `None` if a solution was not found.
-    fn escape(&self, monitor: &mut Monitor<'_>) -> Result<Option<Escape>, Error> {
+    fn escape(&self, solve: Solve, monitor: &mut Monitor<'_>) -> Result<Option<Escape>, Error> {
         let problem = self.contact.problem();
         let (matrix, gap) = (self.stiffness(), self.contact.touching_gaps());
         let settings = Settings::default();
@@ -128,18 +112,18 @@ impl<'c> Viscous<'c> {
                 law: problem.law(),
                 reference_slip: None,
             })?;
-            let solution = plan::auto(&Contact::new(&viscous), &settings, d.as_deref(), monitor)?;
+            let solution = solve(&Contact::new(&viscous), &settings, d.as_deref(), monitor)?;
             if solution.status != Status::Solved {
                 return Ok(None);
             }
-            let rigid = self.rigid_part(&solution.d);
+            let rigid = self.motions.part(&solution.d);
             let mut most = 0.0;
             for (i, (d, rigid)) in solution.d.iter().zip(&rigid).enumerate() {
-                let strain = (d - rigid) * self.root[i];
-                load[i] -= STIFFER * strain * self.root[i];
+                let strain = (d - rigid) * self.motions.root[i];
+                load[i] -= STIFFER * strain * self.motions.root[i];
                 most = strain.abs().max(most);
             }
-            let size = rigid.iter().zip(&self.root).map(|(r, root)| (r * root).abs());
+            let size = rigid.iter().zip(&self.motions.root).map(|(r, root)| (r * root).abs());
             if most <= RIGID * size.fold(0.0, f64::max) {
                 return Ok(Some(self.with_motion(rigid)));
             }
@@ -150,7 +134,8 @@ impl<'c> Viscous<'c> {
 
     /// The escape with a rigid motion: what moves the viscosity is not balanced.
     fn with_motion(&self, mut motion: Vec<f64>) -> Escape {
-        let unbalanced = motion.iter().zip(&self.root).map(|(r, root)| r * root * root).collect();
+        let unbalanced =
+            motion.iter().zip(&self.motions.root).map(|(r, root)| r * root * root).collect();
         normalise(&mut motion);
         Escape { motion, unbalanced }
     }
@@ -158,7 +143,7 @@ impl<'c> Viscous<'c> {
     /// The escape along the motion of a proof, as fast as the loads drive it.
     fn along(&self, proof: &[f64]) -> Escape {
         let work = dot(self.contact.load_with_tension(), proof);
-        let scaled: Vec<f64> = proof.iter().zip(&self.root).map(|(r, root)| r * root).collect();
+        let scaled = self.motions.scaled(proof);
         let speed = work / dot(&scaled, &scaled);
         self.with_motion(proof.iter().map(|r| speed * r).collect())
     }

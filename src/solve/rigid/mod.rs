@@ -1,0 +1,18 @@
+//! Bodies that `K` does not hold: their rigid motions, and what these decide.
+//!
+//! | file | what it decides |
+//! |---|---|
+//! | `motions` | which motions are rigid |
+//! | `equilibrium` | can contact forces balance the loads on them? |
+//! | `idle` | which of them moves a solution further than it must |
+//! | `mechanism` | how bodies move that nothing holds |
+
+mod equilibrium;
+mod idle;
+mod mechanism;
+mod motions;
+
+pub use equilibrium::{Balance, escape};
+pub use idle::{moves_freely, without_idle_motion};
+pub use mechanism::describe;
+pub use motions::RigidMotions;

@@ -1,0 +1,70 @@
+//! The rigid motions of a problem: those that `K` does not resist.
+
+use crate::linalg::nnls::extend_basis;
+use crate::linalg::pivoted_cholesky::pivoted_cholesky_work;
+use crate::linalg::vector::{dot, largest_of, norm};
+use crate::monitor::Monitor;
+use crate::problem::ContactProblem;
+use crate::solve::part::FreeBlock;
+
+/// A space of rigid motions.
+pub struct RigidMotions {
+    /// Roots of the units of the components.
+    pub root: Vec<f64>,
+    /// An orthonormal basis, each component times its `root`.
+    pub basis: Vec<Vec<f64>>,
+}
+
+impl RigidMotions {
+    /// The motions without internal force; `None` if there are none, or no time to find them.
+    pub fn of(problem: &ContactProblem<'_>, monitor: &Monitor<'_>) -> Option<Self> {
+        let n = problem.unknowns();
+        if !monitor.has_time_for(pivoted_cholesky_work(n)) {
+            return None;
+        }
+        let block = FreeBlock::of_problem(problem, (0..n).collect())?;
+        let mut motions = RigidMotions { root: problem.unit_roots(), basis: Vec::new() };
+        for motion in block.null_vectors() {
+            let scaled = motions.scaled(&motion);
+            extend_basis(&mut motions.basis, scaled);
+        }
+        (!motions.basis.is_empty()).then_some(motions)
+    }
+
+    /// The multiples of one motion.
+    pub fn along(problem: &ContactProblem<'_>, motion: &[f64]) -> Self {
+        let mut motions = RigidMotions { root: problem.unit_roots(), basis: Vec::new() };
+        let mut only = motions.scaled(motion);
+        let size = norm(&only);
+        only.iter_mut().for_each(|r| *r /= size);
+        motions.basis.push(only);
+        motions
+    }
+
+    /// Displacements, each component times its `root`.
+    pub fn scaled(&self, d: &[f64]) -> Vec<f64> {
+        d.iter().zip(&self.root).map(|(d, root)| d * root).collect()
+    }
+
+    /// Largest component of a motion, in the unit of `root`.
+    pub fn size(&self, motion: &[f64]) -> f64 {
+        largest_of(motion.iter().zip(&self.root).map(|(r, root)| r * root))
+    }
+
+    /// The rigid motion nearest to displacements.
+    pub fn part(&self, d: &[f64]) -> Vec<f64> {
+        let scaled = self.scaled(d);
+        let coordinates: Vec<f64> = self.basis.iter().map(|v| dot(v, &scaled)).collect();
+        self.motion(&coordinates)
+    }
+
+    /// The motion with these coordinates.
+    pub fn motion(&self, coordinates: &[f64]) -> Vec<f64> {
+        let mut motion = vec![0.0; self.root.len()];
+        for (v, e) in self.basis.iter().zip(coordinates) {
+            motion.iter_mut().zip(v).for_each(|(motion, v)| *motion += e * v);
+        }
+        motion.iter_mut().zip(&self.root).for_each(|(motion, root)| *motion /= root);
+        motion
+    }
+}
