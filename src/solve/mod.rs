@@ -2,14 +2,12 @@
 //! The certificate alone decides in `result` which candidate is a solution.
 //!
 //! ```text
-//! result ← pieces ← part ← rigid ← sweeps ← newton ← path ← proximal ← lcp ← uniqueness ← plan ← operator ← dependent ← flexibility ← mod
+//! result ← pieces ← part ← rigid ← sweeps ← newton ← path ← proximal ← lcp ← uniqueness ← plan ← operator ← mod
 //! ```
 //!
 //! Each imports from those to its left only. One algorithm is one folder; others may use the names that its
 //! `mod.rs` passes on.
 
-mod dependent;
-mod flexibility;
 mod lcp;
 mod newton;
 mod operator;
@@ -30,18 +28,18 @@ use crate::monitor::Monitor;
 use crate::problem::{ContactProblem, DependentRows, FlexibilityProblem, SparseFlexibilityProblem};
 use crate::settings::{Search, Settings};
 
-pub(crate) use flexibility::largest_island;
 pub use lcp::{LcpSolution, solve_lcp};
 pub(crate) use operator::{
     Case as MatrixFreeCase, certify as certify_matrix_free, memory as memory_matrix_free,
     solve as solve_matrix_free,
 };
-use result::check_limit;
+pub(crate) use proximal::largest_island;
 pub(crate) use result::{CAUSES, NO_EQUILIBRIUM, memory_of_islands};
 pub use result::{
     Errors, Escape, Existence, Fallback, Remarks, SecondSolution, Solution, Status, Uniqueness,
     memory, memory_flexibility, memory_flexibility_sparse,
 };
+use result::{Solve, check_limit};
 
 /// Solves a contact problem whose rows depend on each other, as [`solve()`] does another one. Contact forces
 /// are not unique then, nor is any solution called the only one.
@@ -56,7 +54,7 @@ pub(crate) fn solve_dependent(
 ) -> Result<Solution, Error> {
     let n = problem.unknowns();
     check(settings, memory(n), ("d", n, start))?;
-    let mut solution = dependent::solve(problem, settings, start, monitor)?;
+    let mut solution = proximal::solve_dependent(problem, (settings, plan::solve), start, monitor)?;
     solution.remarks = result::of_problem(problem);
     solution.iterations = monitor.iterations();
     Ok(solution)
@@ -79,7 +77,8 @@ pub fn solve_flexibility(
 ) -> Result<Solution, Error> {
     let n = problem.unknowns();
     check(settings, memory_flexibility(n), ("F", n, start))?;
-    let mut solution = flexibility::solve(problem, settings, start, &|pair| pair, monitor)?;
+    let by = (settings, plan::solve as Solve);
+    let mut solution = proximal::solve_flexibility(problem, by, start, &|pair| pair, monitor)?;
     solution.remarks = result::of_problem(problem);
     solution.iterations = monitor.iterations();
     Ok(solution)
@@ -110,7 +109,7 @@ pub fn solve_flexibility_sparse(
         Error::stopped(Limit::Memory, message)
     })?;
     check_start("F", problem.unknowns(), start)?;
-    let mut solution = flexibility::solve_islands(problem, settings, start, monitor)?;
+    let mut solution = proximal::solve_islands(problem, (settings, plan::solve), start, monitor)?;
     solution.remarks = result::of_problem(problem);
     solution.iterations = monitor.iterations();
     Ok(solution)
@@ -133,11 +132,10 @@ pub fn solve(
     let more = settings.search == Search::Others || settings.proof;
     let problem = &problem.remembering(problem.remembered().filter(|_| !more));
     let contact = Contact::new(problem);
-    plan::check_method(&contact, settings.method)?;
     // Where d = 0 is the solution, other starts only approach it.
     let start = start.filter(|_| !contact.is_at_rest());
     let mut solution = plan::solve(&contact, settings, start, monitor)?;
-    rigid::describe(&contact, &mut solution, plan::auto, monitor)?;
+    rigid::describe(&contact, &mut solution, plan::solve, monitor)?;
     uniqueness::by_orientation(&contact, &mut solution, monitor);
     if settings.search == Search::Others && !monitor.is_late() {
         uniqueness::examine(&contact, settings, &mut solution, monitor)?;

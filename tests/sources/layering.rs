@@ -63,7 +63,7 @@ const ROOMS: [(&str, &[&str]); 16] = [
 ];
 
 /// The rooms of `solve`: each imports from those before it only.
-const SOLVERS: [&str; 15] = [
+const SOLVERS: [&str; 13] = [
     "result",
     "pieces",
     "part",
@@ -76,8 +76,6 @@ const SOLVERS: [&str; 15] = [
     "uniqueness",
     "plan",
     "operator",
-    "dependent",
-    "flexibility",
     "mod",
 ];
 

@@ -6,7 +6,7 @@
 //! come near are put back.
 
 use super::auto;
-use super::dispatch::run;
+use super::dispatch::{check_method, run};
 use super::table::{Call, chosen};
 use crate::certificate::measure_parts;
 use crate::error::Error;
@@ -27,13 +27,14 @@ const FAR_OF_UNSOLVED: [f64; 2] = [1e3, 1e1];
 /// structures in which that goes on are solved with all of them.
 const ROUNDS: usize = 3;
 
-/// Solves by the method that is chosen, or by the default.
+/// Solves by the method that is chosen, if it fits, or by the default.
 pub fn solve(
     contact: &Contact<'_>,
     settings: &Settings,
     start: Option<&[f64]>,
     monitor: &mut Monitor<'_>,
 ) -> Result<Solution, Error> {
+    check_method(contact, settings.method)?;
     if let Some(solution) = without_obstacles(FAR, contact, settings, start, monitor)? {
         return Ok(solution);
     }

@@ -7,6 +7,5 @@ mod remarks;
 mod table;
 
 pub use auto::solve as auto;
-pub use dispatch::check_method;
 pub use far_obstacles::{FAR, solve};
 pub use remarks::{explain_stall, of_solution};

@@ -1,5 +1,23 @@
 //! Springs beside a problem that make an easier one of it, and leave in the end.
+//!
+//! | file | springs |
+//! |---|---|
+//! | `let_go` | hold every component of bodies that contact alone holds, softer from problem to problem |
+//! | `rounds` | stand in series with the pairs, and are stretched anew in each round: the one loop of `dependent` and `flexibility` |
+//! | `dependent` | where rows depend on each other |
+//! | `flexibility`, `compliant`, `islands` | where the flexibility form may be singular |
+//! | `step`, `growth` | the problem of a round, and forces that grow without end |
 
-mod springs;
+mod compliant;
+mod dependent;
+mod flexibility;
+mod growth;
+mod islands;
+mod let_go;
+mod rounds;
+mod step;
 
-pub use springs::let_go;
+pub use dependent::solve as solve_dependent;
+pub use flexibility::solve as solve_flexibility;
+pub use islands::{largest_island, solve as solve_islands};
+pub use let_go::let_go;

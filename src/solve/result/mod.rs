@@ -17,5 +17,6 @@ pub use memory::{
 };
 pub use remarks::of_problem;
 pub use solution::{
-    Errors, Escape, Existence, Fallback, Remarks, SecondSolution, Solution, Status, Uniqueness,
+    Errors, Escape, Existence, Fallback, Remarks, SecondSolution, Solution, Solve, Status,
+    Uniqueness,
 };

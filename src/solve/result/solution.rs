@@ -1,8 +1,14 @@
 //! The public result of a contact problem: its status, and why the first method was abandoned.
 
 use crate::certificate::{Certificate, Proof};
-use crate::error::Message;
-use crate::settings::Method;
+use crate::error::{Error, Message};
+use crate::law::Contact;
+use crate::monitor::Monitor;
+use crate::settings::{Method, Settings};
+
+/// Solves a contact problem from a start: what methods take that stand before the plan and need it.
+pub type Solve =
+    fn(&Contact<'_>, &Settings, Option<&[f64]>, &mut Monitor<'_>) -> Result<Solution, Error>;
 
 /// Kind of a result: solved, or the reason why not.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -23,7 +23,7 @@ use crate::linalg::vector::{dot, normalise};
 use crate::monitor::Monitor;
 use crate::problem::{ContactData, ContactProblem};
 use crate::settings::Settings;
-use crate::solve::result::{CAUSES, Escape, NO_EQUILIBRIUM, Solution, Status};
+use crate::solve::result::{CAUSES, Escape, NO_EQUILIBRIUM, Solution, Solve, Status};
 
 /// Stiffness against strains beside the viscosity: a solution leaves this part of a strain, which the next
 /// one takes away, and the condition number stays far from rounding.
@@ -38,10 +38,6 @@ const RIGID: f64 = 1e-10;
 /// Part of the largest component that counts as moving in a sentence: what is below is not worth
 /// reading.
 const MOVING: f64 = 1e-6;
-
-/// Solves a definite problem from a start.
-pub type Solve =
-    fn(&Contact<'_>, &Settings, Option<&[f64]>, &mut Monitor<'_>) -> Result<Solution, Error>;
 
 /// Gives a solution that has no equilibrium its motion of escape, sharpens the one that proves it, and says in
 /// the message what moves. `solve` finds the motion.

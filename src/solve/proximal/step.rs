@@ -6,8 +6,7 @@ use crate::law::Contact;
 use crate::monitor::{Monitor, Stop};
 use crate::problem::{ContactData, ContactProblem, Relation};
 use crate::settings::Settings;
-use crate::solve::plan::{self, check_method};
-use crate::solve::result::{Existence, Solution, Status, Uniqueness};
+use crate::solve::result::{Existence, Solution, Solve, Status, Uniqueness};
 
 /// Solves for the step from the displacements `d`, with the `stiffness` of bodies and springs, column-major,
 /// and their `load`.
@@ -15,7 +14,7 @@ pub fn step<R: Relation>(
     problem: &ContactProblem<'_, R>,
     (stiffness, load): (&[f64], &[f64]),
     d: &[f64],
-    settings: &Settings,
+    (settings, solve): (&Settings, Solve),
     monitor: &mut Monitor<'_>,
 ) -> Result<Solution, Error> {
     let dim = problem.dim();
@@ -36,9 +35,7 @@ pub fn step<R: Relation>(
         law: problem.law(),
         reference_slip: Some(&slip),
     })?;
-    let contact = Contact::new(&problem);
-    check_method(&contact, settings.method)?;
-    plan::solve(&contact, settings, None, monitor)
+    solve(&Contact::new(&problem), settings, None, monitor)
 }
 
 /// The result of a call that has ended before the first round, at displacements `d` and forces.

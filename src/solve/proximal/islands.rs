@@ -4,7 +4,8 @@
 //! The squares of the residuals add up, and so do those of loads and forces, the larger of which is the scale of an
 //! island. So islands with `eta <= t` make a whole with `eta <= t √2`.
 
-use super::named;
+use super::flexibility;
+use super::growth::named;
 use crate::certificate::{Certificate, measure};
 use crate::error::{Argument, Error};
 use crate::law::Contact;
@@ -14,13 +15,13 @@ use crate::problem::{
     ContactProblem, Flexibility, FlexibilityProblem, FrictionLaw, SparseFlexibilityProblem, SparseW,
 };
 use crate::settings::{SMALLEST_TOLERANCE, Settings};
-use crate::solve::result::{Existence, Solution, Status};
+use crate::solve::result::{Existence, Solution, Solve, Status};
 
 /// Solves the problem; `start` are contact forces. Islands behind one at which the call is stopped, as large ones or
 /// larger, keep theirs.
 pub fn solve(
     problem: &SparseFlexibilityProblem<'_>,
-    settings: &Settings,
+    (settings, solve): (&Settings, Solve),
     start: Option<&[f64]>,
     monitor: &mut Monitor<'_>,
 ) -> Result<Solution, Error> {
@@ -46,7 +47,7 @@ pub fn solve(
         let island = Island::new(problem, pairs);
         let begin = start.is_some().then(|| gathered(&found.force, pairs, problem.dim()));
         let solution = island
-            .solve(pairs, &own, begin.as_deref(), monitor)
+            .solve(pairs, (&own, solve), begin.as_deref(), monitor)
             .map_err(|error| if several { in_island(error, pairs) } else { error })?;
         let stops = stop(solution.status).is_some();
         found.add(pairs, problem.dim(), solution);
@@ -98,7 +99,7 @@ impl<'a> Island<'a> {
     fn solve(
         &self,
         pairs: &[usize],
-        settings: &Settings,
+        by: (&Settings, Solve),
         start: Option<&[f64]>,
         monitor: &mut Monitor<'_>,
     ) -> Result<Solution, Error> {
@@ -108,7 +109,7 @@ impl<'a> Island<'a> {
         let law = self.law.with_values(&self.friction);
         let problem: FlexibilityProblem<'_> =
             ContactProblem::with_relation(relation, self.dim, &self.gap, law, Some(&self.slip))?;
-        super::solve(&problem, settings, start, &|pair| pairs[pair], monitor)
+        flexibility::solve(&problem, by, start, &|pair| pairs[pair], monitor)
     }
 }
 

@@ -49,11 +49,6 @@ impl Springs {
         self.change(relation, 1.0 / FACTOR, monitor);
     }
 
-    /// The first springs again, if there is time for them.
-    pub fn begin_again(&mut self, relation: &Flexibility<'_>, monitor: &mut Monitor<'_>) {
-        self.change(relation, FIRST / self.compliance, monitor);
-    }
-
     /// True if there are no softer ones.
     pub fn are_softest(&self) -> bool {
         self.compliance >= RANGE[1]

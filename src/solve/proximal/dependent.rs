@@ -1,0 +1,153 @@
+//! Rows that depend on each other: `d = C z + o`, `K z = f + Cᵀ F`.
+//!
+//! Displacements do not determine forces here, which the other methods need. So each pair gets a soft
+//! spring in series:
+//!
+//! ```text
+//! F = F_k + D / e (d - C z - o)
+//! ```
+//!
+//! With it the variables can be condensed, and the others solve for `d`, in [`super::rounds`]. What proves that the
+//! gaps contradict each other are normal forces `p >= 0` with `Cᵀ p = 0` and `sum p (gap - o) < 0`.
+
+use super::rounds::{InSeries, rounds, solve as solve_by_rounds};
+use super::step::stopped;
+use crate::error::{Argument, Error};
+use crate::law::Contact;
+use crate::linalg::sparse_matrix::{OutOfMemory, column, from_entries, transposed};
+use crate::linalg::sparse_schur::{FactorProgress, Failure, RigidModeCheck, SparseSchur, Stopped};
+use crate::monitor::{Monitor, Stop};
+use crate::problem::{ContactProblem, DependentRows, Relation};
+use crate::settings::Settings;
+use crate::solve::result::{Solution, Solve};
+
+/// `e`, the compliance of the springs beside that of the bodies. A round divides the error by the compliance
+/// of the least compliant pattern of forces over `e`; the condensed matrix loses as many digits as `e` has.
+const COMPLIANCE: f64 = 1e-4;
+
+/// Solves the problem from the displacements `start`; `solve` solves each round.
+pub fn solve(
+    problem: &ContactProblem<'_, DependentRows<'_>>,
+    (settings, solve): (&Settings, Solve),
+    start: Option<&[f64]>,
+    monitor: &mut Monitor<'_>,
+) -> Result<Solution, Error> {
+    let relation = problem.relation();
+    let condensed = &match condensed(relation, monitor)? {
+        Ok(condensed) => condensed,
+        Err(stop) => {
+            let d = relation.relative(&begun(relation, start));
+            let force = vec![0.0; d.len()];
+            return Ok(stopped(&Contact::new(problem), (d, &force), settings, stop));
+        }
+    };
+    let mut by_rounds = |problem: &ContactProblem<'_, DependentRows<'_>>,
+                         settings: &Settings,
+                         start: Option<&[f64]>| {
+        let variables = begun(relation, start);
+        let mut bodies = Bodies { relation, condensed, variables, right: Vec::new() };
+        let force = vec![0.0; relation.size()];
+        rounds(problem, &mut bodies, force, (settings, solve), monitor)
+    };
+    let (found, _) = solve_by_rounds(problem, &|pair| pair, (settings, start), &mut by_rounds)?;
+    Ok(found.solution)
+}
+
+/// The bodies between the pairs, with springs.
+struct Bodies<'p> {
+    relation: &'p DependentRows<'p>,
+    condensed: &'p SparseSchur,
+    variables: Vec<f64>,
+    /// The load of the round on the variables, and on the displacements beyond the springs.
+    right: Vec<f64>,
+}
+
+impl InSeries for Bodies<'_> {
+    fn compliance(&self) -> f64 {
+        COMPLIANCE
+    }
+
+    fn displacements(&self, _: &[f64]) -> Vec<f64> {
+        self.relation.relative(&self.variables)
+    }
+
+    fn stiffness(&self) -> &[f64] {
+        self.condensed.schur()
+    }
+
+    fn load(&mut self, force: &[f64]) -> Vec<f64> {
+        self.right = self.relation.unbalanced(&self.variables, force);
+        self.right.extend(force.iter().map(|force| -force));
+        self.condensed.condense(&self.right)
+    }
+
+    fn advance(&mut self, step: &[f64]) {
+        let step = self.condensed.recover(&self.right, step);
+        self.variables.iter_mut().zip(&step).for_each(|(z, step)| *z += step);
+    }
+}
+
+/// Ends a factorisation when the time is up or the callback cancels.
+struct Watched<'m, 'c> {
+    monitor: &'m mut Monitor<'c>,
+    stop: Option<Stop>,
+}
+
+impl FactorProgress for Watched<'_, '_> {
+    fn has_done(&mut self, _: f64) -> Result<(), Stopped> {
+        self.monitor.goes_on().map_err(|stop| {
+            self.stop = Some(stop);
+            Stopped
+        })
+    }
+}
+
+/// The stiffness of the variables and the springs, condensed on the displacements beyond the springs, or why that
+/// was stopped.
+fn condensed(
+    relation: &DependentRows<'_>,
+    monitor: &mut Monitor<'_>,
+) -> Result<Result<SparseSchur, Stop>, Error> {
+    let memory = |_: OutOfMemory| Error::OutOfMemory("the stiffness of dependent rows");
+    let (stiffness, dependence) = (relation.stiffness(), relation.dependence());
+    let (kept, size) = (dependence.variables(), relation.size());
+    let mut entries: Vec<(usize, usize, f64)> = Vec::new();
+    for j in 0..kept {
+        let below = (j..kept).filter(|&i| i == j || stiffness.at(i, j) != 0.0);
+        entries.extend(below.map(|i| (i, j, stiffness.at(i, j))));
+    }
+    let rows = transposed(dependence.to_relative()).map_err(memory)?;
+    for i in 0..size {
+        let spring = relation.units()[i] / COMPLIANCE;
+        let (variables, coefficients) = column(&rows, i);
+        for (&j, c) in variables.iter().zip(coefficients) {
+            entries.push((kept + i, j, -spring * c));
+            let below = variables.iter().zip(coefficients).filter(|(k, _)| **k >= j);
+            entries.extend(below.map(|(&k, other)| (k, j, spring * c * other)));
+        }
+        entries.push((kept + i, kept + i, spring));
+    }
+    let all = from_entries((kept + size, kept + size), entries.into_iter()).map_err(memory)?;
+    let workers = monitor.workers();
+    let mut watched = Watched { monitor, stop: None };
+    let made = SparseSchur::new(all, kept, None, RigidModeCheck::Always, workers, &mut watched);
+    match (made, watched.stop) {
+        (Ok(made), _) => Ok(Ok(made)),
+        (Err(_), Some(stop)) => Ok(Err(stop)),
+        (Err(Failure::OutOfMemory), None) => {
+            Err(Error::OutOfMemory("the factor of dependent rows"))
+        }
+        (Err(_), None) => Err(Error::invalid(
+            Argument::Matrix,
+            "the stiffness of the bodies between dependent pairs cannot be told from rounding: if two surfaces are \
+             each other's slaves, let one side be the slave; if slaves along a plane of symmetry are finer than what \
+             they face, name the plane where they are paired, or let the other side be the slave",
+        )),
+    }
+}
+
+/// The variables of the displacements `start`.
+fn begun(relation: &DependentRows<'_>, start: Option<&[f64]>) -> Vec<f64> {
+    let dependence = relation.dependence();
+    start.map_or_else(|| vec![0.0; dependence.variables()], |start| dependence.of_relative(start))
+}

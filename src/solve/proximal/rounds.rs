@@ -1,0 +1,251 @@
+//! The proximal iteration on contact forces that displacements do not determine.
+//!
+//! Each pair gets a soft spring in series, of stiffness `D / e`, which the force of the round before has
+//! stretched. Round by round the springs are stretched anew, until their change and with it the error is nothing
+//! (R. T. Rockafellar: *Monotone operators and the proximal point algorithm*. SIAM Journal on Control and
+//! Optimization 14 (1976) 877–898). From `F_0 = 0` it takes, where states do not change on the way, the smallest of
+//! the forces that are left open, in the norm of `D⁻¹`.
+//!
+//! A round divides the error in a pattern of forces by its flexibility over `e`. Where that is slow, `e` is
+//! lowered, and after the first solution rounds go on until forces settle. Where Newton's method does not solve a
+//! round, `e` is raised: a larger one is an easier problem nearer to the forces at hand. With the largest, the
+//! default method has all its means.
+//!
+//! Where the forces grow without end there is no solution near: they balance each other and wedge the bodies,
+//! or the gaps contradict each other. The second is proved by normal forces that balance each other and do work
+//! on the gaps.
+
+use super::growth::{Growth, contradicts, sentence};
+use super::step::{measured, step};
+use crate::error::Error;
+use crate::law::{Contact, without_friction};
+use crate::linalg::vector::norm_inf;
+use crate::monitor::Monitor;
+use crate::problem::{ContactProblem, Redundant};
+use crate::settings::{Method, SMALLEST_TOLERANCE, Settings};
+use crate::solve::result::{Solution, Solve, Status};
+
+/// Most rounds: patterns of forces with a flexibility of `e` itself halve their error in each.
+const ROUNDS: usize = 100;
+
+/// Part of the tolerance that a round is solved to, as far as that can be had: the springs leave the first rounds
+/// fewer digits, and later ones mend it.
+const INNER: f64 = 0.1;
+
+/// Part of the error before a round that is enough for the round.
+const ROUGH: f64 = 1e-3;
+
+/// Part of the least error that is left where a round has made progress.
+const HALF: f64 = 0.5;
+
+/// Part of the error that is left where rounds are slow, so that less compliant springs are tried.
+const SLOW: f64 = 0.1;
+
+/// So many rounds that do not halve the least error show that rounding is reached.
+const IDLE_ROUNDS: usize = 12;
+
+/// Most rounds after the first solution, until the forces settle: `eta` feels an error in a pattern of forces by its
+/// flexibility alone, and is small before forces of nearly redundant pairs are right. A flexibility of `1e-8` beside
+/// that of the pairs takes five.
+const LAST_ROUNDS: usize = 8;
+
+/// Bodies with springs in series with their pairs.
+pub trait InSeries {
+    /// `e`, beside flexibilities of size one.
+    fn compliance(&self) -> f64;
+
+    /// The displacements of the pairs where the springs are stretched to `force`.
+    fn displacements(&self, force: &[f64]) -> Vec<f64>;
+
+    /// The stiffness of bodies and springs, column-major.
+    fn stiffness(&self) -> &[f64];
+
+    /// The load on them where the springs are stretched to `force`.
+    fn load(&mut self, force: &[f64]) -> Vec<f64>;
+
+    /// Moves the bodies by the step of a round. Where the forces determine the displacements there is nothing to do.
+    fn advance(&mut self, _: &[f64]) {}
+
+    /// More compliant springs, if there are any.
+    fn soften(&mut self, _: &mut Monitor<'_>) {}
+
+    /// Less compliant springs, if there are any.
+    fn stiffen(&mut self, _: &mut Monitor<'_>) {}
+
+    /// True if there are no softer ones.
+    fn are_softest(&self) -> bool {
+        true
+    }
+}
+
+/// What rounds have found.
+pub struct Found {
+    /// The best result.
+    pub solution: Solution,
+    /// How the forces have grown.
+    pub growth: Growth,
+}
+
+/// The rounds of a problem from a start.
+type RoundsOf<'r, 'p, R> =
+    dyn FnMut(&ContactProblem<'p, R>, &Settings, Option<&[f64]>) -> Result<Found, Error> + 'r;
+
+/// Solves a problem by `rounds` from a start. Where forces do not settle, looks for normal forces which prove that the gaps
+/// contradict each other, says in the message what was found, and returns the proof. `number` tells which pair of the
+/// host a pair is.
+pub fn solve<'p, R: Clone + Redundant>(
+    problem: &ContactProblem<'p, R>,
+    number: &dyn Fn(usize) -> usize,
+    (settings, start): (&Settings, Option<&[f64]>),
+    rounds: &mut RoundsOf<'_, 'p, R>,
+) -> Result<(Found, Option<Vec<f64>>), Error> {
+    let mut found = rounds(problem, settings, start)?;
+    if found.solution.status != Status::Stalled {
+        return Ok((found, None));
+    }
+    let proof = |growth: &Growth| {
+        growth.pattern().filter(|pattern| contradicts(problem, pattern)).map(<[f64]>::to_vec)
+    };
+    let mut proved = proof(&found.growth);
+    if proved.is_none() {
+        // With friction they may hide behind forces that wedge.
+        let settings = Settings { method: Method::Auto, ..settings.clone() };
+        proved = proof(&rounds(&without_friction(problem), &settings, None)?.growth);
+    }
+    let pattern = proved.as_deref().or(found.growth.pattern());
+    let eta = found.solution.certificate.eta;
+    found.solution.message = sentence(problem, pattern, proved.is_some(), eta, number).into();
+    Ok((found, proved))
+}
+
+/// Rounds from contact forces `force`; `solve` solves each.
+pub fn rounds<R: Redundant>(
+    problem: &ContactProblem<'_, R>,
+    springs: &mut dyn InSeries,
+    force: Vec<f64>,
+    (settings, solve): (&Settings, Solve),
+    monitor: &mut Monitor<'_>,
+) -> Result<Found, Error> {
+    let mut rounds = Rounds {
+        contact: Contact::new(problem),
+        settings,
+        solve,
+        last: springs.compliance(),
+        springs,
+        force,
+        changes: [f64::INFINITY; 2],
+        growth: Growth::default(),
+        best: None,
+        least: f64::INFINITY,
+        idle: 0,
+        solved: 0,
+    };
+    for _ in 0..ROUNDS {
+        if rounds.ends_with_next(monitor)? {
+            break;
+        }
+    }
+    let solution = rounds.best.ok_or(Error::OutOfMemory("a round with springs"))?;
+    Ok(Found { solution, growth: rounds.growth })
+}
+
+/// The iteration.
+struct Rounds<'p, 's, R: Redundant> {
+    contact: Contact<'p, R>,
+    settings: &'s Settings,
+    solve: Solve,
+    springs: &'s mut dyn InSeries,
+    /// Contact forces of the round before.
+    force: Vec<f64>,
+    /// The largest changes of a force by the last two rounds.
+    changes: [f64; 2],
+    growth: Growth,
+    best: Option<Solution>,
+    /// `eta` of the round before, and the least of all.
+    last: f64,
+    least: f64,
+    /// Rounds since `least` was halved.
+    idle: usize,
+    /// Rounds since the first solution.
+    solved: usize,
+}
+
+impl<R: Redundant> Rounds<'_, '_, R> {
+    /// Makes a round. Returns `true` if it is the last one.
+    fn ends_with_next(&mut self, monitor: &mut Monitor<'_>) -> Result<bool, Error> {
+        let round = self.round(monitor)?;
+        let failed = round.status == Status::Stalled;
+        let force = match round.status {
+            Status::Solved | Status::Stalled => {
+                self.springs.advance(&round.d);
+                round.certificate.force.clone()
+            }
+            _ => self.force.clone(),
+        };
+        let result = (self.springs.displacements(&force), &force[..]);
+        let found = measured(&self.contact, round, result, self.settings);
+        let eta = found.certificate.eta;
+        if failed && eta >= self.last && !self.springs.are_softest() {
+            self.springs.soften(monitor);
+            return Ok(false);
+        }
+        let change: Vec<f64> = force.iter().zip(&self.force).map(|(a, b)| a - b).collect();
+        self.changes = [self.changes[1], norm_inf(&change)];
+        self.growth.add(change.iter().map(|change| self.springs.compliance() * change).collect());
+        self.force = force;
+        self.idle = if eta < HALF * self.least { 0 } else { self.idle + 1 };
+        self.least = self.least.min(eta);
+        let is_slow = match found.status {
+            Status::Solved => self.changes[1] > SLOW * self.changes[0],
+            _ => eta > SLOW * self.last && !self.growth.is_steady(),
+        };
+        let settled = settles(self.changes, self.settings.tolerance * norm_inf(&self.force));
+        if !failed && is_slow && !settled {
+            self.springs.stiffen(monitor);
+        }
+        self.last = eta;
+        let ends = self.keep(found, settled);
+        Ok(ends || self.growth.pattern().is_some() || self.idle >= IDLE_ROUNDS)
+    }
+
+    /// Solves the problem with springs. Hard ones are left to softer springs, as far as there are any.
+    fn round(&mut self, monitor: &mut Monitor<'_>) -> Result<Solution, Error> {
+        let rough = ROUGH * self.last.min(self.springs.compliance());
+        let tolerance = rough.max(INNER * self.settings.tolerance).max(SMALLEST_TOLERANCE);
+        let method = match self.settings.method {
+            Method::Auto if !self.springs.are_softest() => Method::Newton,
+            method => method,
+        };
+        let settings = Settings { tolerance, method, ..self.settings.clone() };
+        let d = self.springs.displacements(&self.force);
+        let load = self.springs.load(&self.force);
+        let system = (self.springs.stiffness(), &load[..]);
+        step(self.contact.problem(), system, &d, (&settings, self.solve), monitor)
+    }
+
+    /// Keeps a result if it is the best, of solutions the last one until the forces are `settled`. Returns `true` if
+    /// there will be no better one.
+    fn keep(&mut self, found: Solution, settled: bool) -> bool {
+        let stops = !matches!(found.status, Status::Solved | Status::Stalled);
+        let is_solved = |result: &Solution| result.status == Status::Solved;
+        let was_solved = self.best.as_ref().is_some_and(is_solved);
+        let is_better = match &self.best {
+            Some(best) if is_solved(&found) == was_solved => {
+                let unsettled = was_solved && !settled;
+                stops || unsettled || found.certificate.eta < best.certificate.eta
+            }
+            best => best.is_none() || !was_solved,
+        };
+        if is_better {
+            self.best = Some(found);
+        }
+        self.solved += usize::from(was_solved);
+        stops || was_solved && (settled || self.solved >= LAST_ROUNDS)
+    }
+}
+
+/// True if forces whose last two changes are `changes` will change by no more than `allowed`: each change is the
+/// same part of the one before.
+fn settles([before, last]: [f64; 2], allowed: f64) -> bool {
+    last <= allowed || last < before && before.is_finite() && last * (last / before) <= allowed
+}
