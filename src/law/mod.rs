@@ -11,7 +11,6 @@
 //! | `natural_map` | how far a displacement and a force are from the law | certificate |
 //! | `normal_map` | `y -> (v, P)`, the chart on which the law is one function | pieces, Newton's method |
 //! | `piece` | which smooth piece of the normal map a point is on | all methods, uniqueness |
-//! | `row` | the equation of a component on a piece, where the law is piecewise linear | active-set methods |
 //! | `piece_map` | the map on a piece that is given: push, derivative, boundaries | Newton's method, the path in space |
 //! | `planar_piece` | the boundaries between the pieces in the plane | the linear path |
 //! | `slopes`, `assembly` | a pair on its piece to first order, and the system of equations of all pairs | `solve::pieces`, proofs |
@@ -56,7 +55,6 @@ mod proximal;
 mod reach;
 mod recession;
 mod remarks;
-mod row;
 mod slopes;
 mod state;
 
@@ -74,6 +72,5 @@ pub use planar_piece::{Exit, Planar};
 pub use reach::gaps_within_reach;
 pub use recession::{Recession, lift};
 pub use remarks::{friction_is_large, gaps_are_negative, touching};
-pub use row::Row;
 pub use slopes::{Linearised, Slopes};
 pub use state::State;

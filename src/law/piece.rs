@@ -13,9 +13,9 @@
 //! so that `T h = 0`. Of an isotropic law `h = c` is the unit vector of the slip.
 //!
 //! In the plane, and without friction, `T = 0`: the law is piecewise linear, and the equations of a
-//! piece are exact everywhere on it ([`Piece::rows`]).
+//! piece are exact everywhere on it.
 
-use super::{PairLaw, Row, Vector};
+use super::{PairLaw, Vector};
 
 /// A piece of the normal map of one pair.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -58,29 +58,6 @@ impl Piece {
     #[inline(always)]
     pub fn slips(self) -> bool {
         self.tangential != Tangential::Stick
-    }
-
-    /// The equation of each component on this piece of the piecewise linear `law`: where `dP/dy` is 1
-    /// the displacement is fixed at its reference, elsewhere the force is.
-    #[inline]
-    pub fn rows(self, law: &PairLaw) -> [Row; 3] {
-        let reference = law.reference();
-        let normal = match self.closed {
-            true => Row::Fixed(reference[0]),
-            false => Row::Free { coupling: 0.0, offset: -law.tension },
-        };
-        // P' = (a - F_n, -F_t), so that tau = slope h p' + offset h is the equation of F below.
-        let slope = if self.closed { law.bound.slope } else { 0.0 };
-        let offset = slope * law.tension + law.bound.offset;
-        let tangential = |c: usize| match self.tangential {
-            Tangential::Free => Row::FREE,
-            Tangential::Stick => Row::Fixed(reference[c]),
-            Tangential::Slip { side } => {
-                let h = f64::from(side);
-                Row::Free { coupling: -slope * h, offset: offset * h }
-            }
-        };
-        [normal, tangential(1), tangential(2)]
     }
 }
 

@@ -44,6 +44,12 @@ pub struct Linearised {
 }
 
 impl Linearised {
+    /// A variable of a complementarity problem as a pair of one component: closed at its bound, open where it is basic.
+    pub fn of_variable(is_basic: bool, unit: f64) -> Self {
+        let (closed, slips, slopes) = (!is_basic, false, Slopes::default());
+        Linearised { closed, slips, slopes, normal_scale: unit, scale: Plane::default() }
+    }
+
     /// `k v` of the pair's part of a vector, which has one to three components.
     pub fn scaled(&self, v: &[f64]) -> Vector {
         let component = |c: usize| v.get(c).copied().unwrap_or(0.0);

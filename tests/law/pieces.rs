@@ -3,7 +3,7 @@
 use crate::boundaries::piece_of;
 use crate::laws::{Numbers, norm, uniform};
 use fastrand::Rng;
-use signorini::law::{Bound, Boundary, PairLaw, Piece, Row, Tangential, Vector, first_penetration};
+use signorini::law::{Bound, Boundary, PairLaw, Piece, Tangential, Vector, first_penetration};
 
 const POINTS: usize = 5000;
 
@@ -30,15 +30,17 @@ fn a_point_obeys_the_equations_of_its_branch() {
     for _ in 0..POINTS {
         let numbers = Numbers::random(rng);
         let (law, y) = (numbers.law(), coordinates(rng, &numbers));
-        let ((v, p), reference) = (law.normal_map(&y), law.reference());
-        let force = p.map(|p| -p);
-        if numbers.dim == 3 && matches!(law.piece(&y).tangential, Tangential::Slip { .. }) {
+        let ((v, p), piece) = (law.normal_map(&y), law.piece(&y));
+        if numbers.dim == 3 && matches!(piece.tangential, Tangential::Slip { .. }) {
             continue;
         }
-        for (c, row) in law.piece(&y).rows(&law)[..numbers.dim].iter().enumerate() {
-            let lack = match *row {
-                Row::Fixed(value) => v[c] + reference[c] - value,
-                Row::Free { coupling, offset } => force[c] + coupling * force[0] + offset,
+        let normal = if piece.closed { v[0] } else { p[0] + numbers.tension };
+        assert!(normal.abs() <= ROUNDING, "{numbers:?} at {y:?}: {normal:e}");
+        for c in 1..numbers.dim {
+            let lack = match piece.tangential {
+                Tangential::Free => p[c],
+                Tangential::Stick => v[c],
+                Tangential::Slip { side } => p[c] - f64::from(side) * numbers.threshold(p[0]),
             };
             assert!(lack.abs() <= ROUNDING, "{numbers:?} at {y:?}, {c}: {lack:e}");
         }

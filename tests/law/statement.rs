@@ -4,7 +4,6 @@
 use crate::laws::{Numbers, dot, norm, uniform};
 use fastrand::Rng;
 use signorini::law::Boundary;
-use signorini::law::Row;
 use signorini::law::{Planar, State, Vector};
 
 const POINTS: usize = 20_000;
@@ -214,25 +213,6 @@ fn pieces_are_those_of_the_normal_map_and_end_at_their_boundaries() {
         }
     }
     assert!(left.iter().all(|&left| left > POINTS / 20), "{left:?}");
-}
-
-#[test]
-fn in_the_plane_the_equations_of_a_branch_hold_on_it() {
-    let rng = &mut Rng::with_seed(6);
-    for _ in 0..POINTS {
-        let law = Numbers::random_in(rng, 2);
-        let y = any(rng, &law);
-        let (v, p) = law.law().normal_map(&y);
-        let (d, force) = law.of_host(&v, &p);
-        let rows = law.law().piece(&y).rows(&law.law());
-        for (i, row) in rows[..2].iter().enumerate() {
-            let left = match *row {
-                Row::Fixed(value) => d[i] - value,
-                Row::Free { coupling, offset } => force[i] + coupling * force[0] + offset,
-            };
-            assert!(left.abs() <= 10.0 * ROUNDING, "{law:?} at {y:?}: {rows:?} {left}");
-        }
-    }
 }
 
 #[test]

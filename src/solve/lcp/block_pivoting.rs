@@ -10,15 +10,14 @@
 
 use std::cell::Cell;
 
-use crate::law::Contact;
-use crate::law::Row;
 use crate::law::complementarity::lower_bounds;
+use crate::law::{Contact, Linearised};
 use crate::linalg::simd::Simd;
-use crate::monitor::Monitor;
+use crate::monitor::{Monitor, Stop};
 use crate::problem::symmetric_matrix::is_symmetric;
 use crate::problem::{BoundedLcp, Lcp};
 use crate::settings::Settings;
-use crate::solve::pieces::{LinearSystem, Singular};
+use crate::solve::pieces::{Equations, REFINEMENTS, Systems};
 use crate::solve::result::{Candidate, Effort, Ending};
 use crate::solve::sweeps::sweep_lcp;
 
@@ -51,6 +50,8 @@ pub struct Pivoted {
     pub ending: Ending,
     /// Dense factorisations.
     pub factorisations: u64,
+    /// Sign of the determinant of the last system.
+    orientation: i8,
 }
 
 /// Solves frictionless contact from the active set of `start`, or from all pairs closed; after `most`
@@ -90,8 +91,7 @@ pub fn contact(
         None => Candidate::new(d, Vec::new(), pivoted.ending, effort),
     };
     let mut candidate = candidate.with_force(force);
-    // A symmetric positive definite matrix has positive principal minors.
-    candidate.orientation = 1;
+    candidate.orientation = pivoted.orientation;
     candidate
 }
 
@@ -128,8 +128,9 @@ fn solve(
         None => (0..lcp.q.len()).map(|i| lcp.is_free(i)).collect(),
     };
     let x = start.unwrap_or_else(|| vec![0.0; lcp.q.len()]);
-    let mut system = LinearSystem::new(lcp.matrix, lcp.symmetric, 1, lcp.q.to_vec(), x);
-    let mut best = (f64::INFINITY, system.x.clone(), system.residual.clone());
+    let equations = Equations::of_lcp(lcp);
+    let mut iterate = Iterate { lcp, systems: Systems::of(&equations), w: lcp.w(&x), x };
+    let mut best = (f64::INFINITY, iterate.x.clone(), iterate.w.clone());
     let mut exchange = Exchange::new(lcp);
     let last = monitor.iterations().saturating_add(most);
     let ending = loop {
@@ -139,33 +140,96 @@ fn solve(
         if let Err(stop) = monitor.step() {
             break Ending::Stopped(stop);
         }
-        let rows = select(lcp, &basic);
-        if let Err(stop) = monitor.affords(system.work(&rows)) {
-            break Ending::Stopped(stop);
+        if let Err(ending) = iterate.solve(&basic, monitor) {
+            break ending;
         }
-        if let Err(Singular) = system.solve(&rows) {
-            break Ending::Singular;
-        }
-        let eta = lcp.eta(&system.x, &system.residual);
+        let eta = lcp.eta(&iterate.x, &iterate.w);
         monitor.measured(eta);
         if eta < best.0 {
-            best = (eta, system.x.clone(), system.residual.clone());
+            best = (eta, iterate.x.clone(), iterate.w.clone());
         }
-        let next = active_set(lcp, &system.x, &system.residual);
+        let next = active_set(lcp, &iterate.x, &iterate.w);
         if next == basic {
-            let refined =
-                system.refine(&rows, |x, w| lcp.eta(x, w), |x, _| is_accurate(x), monitor);
-            best = (0.0, std::mem::take(&mut system.x), std::mem::take(&mut system.residual));
+            let refined = iterate.refine(&basic, is_accurate, monitor);
+            best = (0.0, std::mem::take(&mut iterate.x), std::mem::take(&mut iterate.w));
             break refined.map_or_else(Ending::Stopped, |()| Ending::Done);
         }
-        let progress = exchange.choose(lcp, &system, &mut basic, next);
+        let progress = exchange.choose(&iterate, &mut basic, next);
         if !progress && best.0 <= tolerance && is_accurate(&best.1) {
             // At a degenerate solution rounding may flip the active set forever.
             break Ending::Done;
         }
     };
     let (_, x, w) = best;
-    Pivoted { x, w, ending, factorisations: system.factorisations }
+    let (factorisations, orientation) =
+        (iterate.systems.factorisations, iterate.systems.orientation());
+    Pivoted { x, w, ending, factorisations, orientation }
+}
+
+/// An iterate with its `w`.
+struct Iterate<'l> {
+    lcp: &'l BoundedLcp<'l>,
+    systems: Systems<'l>,
+    x: Vec<f64>,
+    w: Vec<f64>,
+}
+
+impl Iterate<'_> {
+    /// Goes to the solution in which the basic variables have no `w`, and the others are at their bounds.
+    fn solve(&mut self, basic: &[bool], monitor: &mut Monitor<'_>) -> Result<(), Ending> {
+        let lcp = self.lcp;
+        let units = lcp.matrix.units(1);
+        let pair = |(&basic, &unit): (&bool, &f64)| Linearised::of_variable(basic, unit);
+        let pairs: Vec<Linearised> = basic.iter().zip(&units).map(pair).collect();
+        monitor.affords(self.systems.work(&pairs)).map_err(Ending::Stopped)?;
+        let mut step = vec![0.0; self.x.len()];
+        for i in (0..step.len()).filter(|&i| !basic[i]) {
+            step[i] = lcp.lower[i] - self.x[i];
+            self.x[i] = lcp.lower[i];
+        }
+        lcp.matrix.add_product(&step, &mut self.w);
+        self.systems.go_to(pairs).ok_or(Ending::Singular)?;
+        let lack = self.w.iter().zip(basic).map(|(&w, &basic)| if basic { w } else { 0.0 });
+        let moved = self.systems.step(&lack.collect::<Vec<f64>>()).ok_or(Ending::Singular)?;
+        for (i, step) in step.iter_mut().enumerate() {
+            *step = if basic[i] { moved[i][0] / units[i] } else { 0.0 };
+            self.x[i] += *step;
+        }
+        lcp.matrix.add_product(&step, &mut self.w);
+        Ok(())
+    }
+
+    /// Brings the solution of the last system to the accuracy that `is_accurate` asks for, if rounding has left less.
+    /// `Err`: there is no time for more of it.
+    fn refine(
+        &mut self,
+        basic: &[bool],
+        is_accurate: &dyn Fn(&[f64]) -> bool,
+        monitor: &mut Monitor<'_>,
+    ) -> Result<(), Stop> {
+        let mut best = f64::INFINITY;
+        for _ in 0..=REFINEMENTS {
+            self.w = self.lcp.w(&self.x);
+            if is_accurate(&self.x) {
+                break;
+            }
+            let eta = self.lcp.eta(&self.x, &self.w);
+            if eta >= best {
+                self.systems.forget();
+            }
+            best = best.min(eta);
+            let before = self.x.clone();
+            match self.solve(basic, monitor) {
+                Ok(()) => {}
+                Err(Ending::Stopped(stop)) => return Err(stop),
+                Err(_) => {
+                    self.x = before;
+                    break;
+                }
+            }
+        }
+        Ok(())
+    }
 }
 
 /// Which variables are exchanged: blocks as long as that helps.
@@ -187,13 +251,7 @@ impl Exchange {
 
     /// Changes `basic`, of which the solution of the system selects `next`. Returns whether fewer
     /// variables than ever violate their condition.
-    fn choose(
-        &mut self,
-        lcp: &BoundedLcp<'_>,
-        system: &LinearSystem<'_>,
-        basic: &mut Vec<bool>,
-        next: Vec<bool>,
-    ) -> bool {
+    fn choose(&mut self, iterate: &Iterate<'_>, basic: &mut Vec<bool>, next: Vec<bool>) -> bool {
         let violated = || (0..next.len()).filter(|&i| next[i] != basic[i]);
         let count = violated().count();
         let progress = count < self.fewest;
@@ -202,8 +260,8 @@ impl Exchange {
         }
         if self.patience > 0 {
             self.patience -= usize::from(!progress);
-            let sweeps_help = lcp.symmetric && progress;
-            *basic = if sweeps_help { swept(self.simd, lcp, system) } else { next };
+            let sweeps_help = iterate.lcp.symmetric && progress;
+            *basic = if sweeps_help { swept(self.simd, iterate) } else { next };
         } else if let Some(single) = violated().next_back() {
             basic[single] = next[single];
         }
@@ -216,18 +274,9 @@ fn active_set(lcp: &BoundedLcp<'_>, x: &[f64], w: &[f64]) -> Vec<bool> {
     (0..x.len()).map(|i| lcp.is_basic(i, x, w)).collect()
 }
 
-/// The equation of each variable.
-fn select(lcp: &BoundedLcp<'_>, basic: &[bool]) -> Vec<Row> {
-    let row = |(&basic, &lower): (&bool, &f64)| match basic {
-        true => Row::Free { coupling: 0.0, offset: 0.0 },
-        false => Row::Fixed(lower),
-    };
-    basic.iter().zip(lcp.lower).map(row).collect()
-}
-
 /// The active set after some sweeps, which the iterate does not keep.
-fn swept(simd: Simd, lcp: &BoundedLcp<'_>, system: &LinearSystem<'_>) -> Vec<bool> {
-    let (mut x, mut w) = (system.x.clone(), system.residual.clone());
+fn swept(simd: Simd, iterate: &Iterate<'_>) -> Vec<bool> {
+    let (lcp, mut x, mut w) = (iterate.lcp, iterate.x.clone(), iterate.w.clone());
     let sweeps = if x.len() <= FEW_VARIABLES { SWEEPS_OF_FEW } else { SWEEPS };
     for _ in 0..sweeps {
         sweep_lcp(simd, lcp, &mut x, &mut w, 1.0);

@@ -13,15 +13,12 @@ use crate::certificate::{eta_of, measure};
 use crate::law::{Contact, Vector};
 use crate::monitor::Monitor;
 use crate::settings::Settings;
-use crate::solve::part::{MARGIN, Split, closed_with_margin};
-use crate::solve::pieces::{Equations, Point, System};
+use crate::solve::part::{MARGIN, ReducedProblem, closed_with_margin};
+use crate::solve::pieces::{Equations, Point, REFINEMENTS, System};
 use crate::solve::result::{Candidate, Effort, Ending};
 
 /// Why there is no start.
 pub(super) const OVERFLOW: Ending = Ending::Stalled("the forces are beyond the largest number");
-
-/// Steps of iterative refinement on the whole problem: each gains nearly all digits of a system.
-const REFINEMENTS: usize = 3;
 
 /// A solver of equations from given coordinates to a tolerance.
 pub type Core<'c> = dyn FnMut(&Equations<'_>, Vec<Vector>, &mut Monitor<'_>) -> Ended + 'c;
@@ -38,9 +35,9 @@ pub(super) fn solve(
         return Candidate::without_displacements(contact, OVERFLOW);
     }
     let mut found = search(whole, y, settings.tolerance, monitor, core);
-    if let Some((split, point)) = found.parted.take() {
+    if let Some((reduced, point)) = found.parted.take() {
         let parts = (&mut found.d, &mut found.force);
-        let systems = refine(&split, contact, settings, parts, point, monitor);
+        let systems = refine(&reduced, contact, settings, parts, point, monitor);
         found.systems += systems;
     }
     found.into_candidate()
@@ -57,7 +54,7 @@ pub(super) struct Found<'w> {
     pub(super) systems: u64,
     pub(super) orientation: i8,
     /// Where it is done and `eta` is above the tolerance: what was eliminated, and the point on the rest.
-    parted: Option<(Split<'w>, Point)>,
+    parted: Option<(ReducedProblem<'w>, Point)>,
 }
 
 impl Found<'_> {
@@ -88,8 +85,8 @@ pub(super) fn search<'w>(
     let mut kept = closed_with_margin(&whole.laws, &y, MARGIN);
     let (mut systems, mut orientation) = (0, 0);
     loop {
-        let split = match Split::new(whole, &kept, monitor) {
-            Ok(Some(split)) => split,
+        let reduced = match ReducedProblem::of_candidates(whole, &kept, monitor) {
+            Ok(Some(reduced)) => reduced,
             Ok(None) => {
                 let Ended { point, ending, systems: last, orientation } = core(whole, y, monitor);
                 return Found::at(point, ending, (systems + last, orientation));
@@ -99,19 +96,19 @@ pub(super) fn search<'w>(
                 return Found::at(point, Ending::Stopped(stop), (systems, orientation));
             }
         };
-        let ended = core(&split.equations(), split.of_kept(&y), monitor);
+        let ended = core(&reduced.equations(), reduced.of_kept(&y), monitor);
         systems += ended.systems;
         if ended.orientation != 0 {
             orientation = ended.orientation;
         }
         let Ended { point, ending, .. } = ended;
         let (d, force);
-        (d, force, y) = split.whole_from(&point.d, &point.y);
+        (d, force, y) = reduced.whole_from(&point.d, &point.y);
         let done = ending == Ending::Done;
         let solved = done && whole.eta(&d, &force) <= tolerance;
-        let closing = if solved { Vec::new() } else { split.closing(&y) };
+        let closing = if solved { Vec::new() } else { reduced.closing(&y) };
         if !done || closing.is_empty() {
-            let parted = (done && !solved).then_some((split, point));
+            let parted = (done && !solved).then_some((reduced, point));
             return Found { d, force, y, ending, systems, orientation, parted };
         }
         kept.extend(closing);
@@ -122,14 +119,14 @@ pub(super) fn search<'w>(
 /// Iterative refinement of a solution on the candidates by the residual of the whole problem, as long as there
 /// is time. Returns the number of systems.
 pub(super) fn refine(
-    split: &Split<'_>,
+    reduced: &ReducedProblem<'_>,
     contact: &Contact<'_>,
     settings: &Settings,
     (d, force): (&mut Vec<f64>, &mut Vec<f64>),
     mut point: Point,
     monitor: &mut Monitor<'_>,
 ) -> u64 {
-    let elimination = split.elimination();
+    let elimination = reduced.elimination();
     let (dropped, kept) = (elimination.dropped(), elimination.kept());
     let mut systems = 0;
     let mut best = eta_of(contact, d, force);
@@ -143,12 +140,15 @@ pub(super) fn refine(
         elimination.solve(&mut lack);
         dropped.iter().zip(&lack).for_each(|(&i, lack)| next[i] -= lack);
         // A load under which the force of the candidates is that of the whole problem.
-        let whole = split.whole().force(&next);
-        let mut equations = split.equations();
+        let whole = reduced.whole().force(&next);
+        let mut equations = reduced.equations();
         let mut load = equations.matrix.product(&point.d);
         load.iter_mut().zip(kept).for_each(|(load, &i)| *load -= whole[i]);
         equations.load = Cow::Owned(load);
-        if monitor.affords(System::work(&equations, &point.pieces)).is_err() {
+        if monitor
+            .affords(System::work(&equations, &equations.linearised(&point.pieces, &point.y)))
+            .is_err()
+        {
             break;
         }
         let Some(better) = iteration::step(&equations, &point) else { break };
@@ -157,7 +157,7 @@ pub(super) fn refine(
         let followed = elimination.follow(&vec![0.0; dropped.len()], &moved);
         kept.iter().zip(&better.d).for_each(|(&i, x)| next[i] = *x);
         dropped.iter().zip(&followed).for_each(|(&i, x)| next[i] += x);
-        let residual = split.whole().force(&next);
+        let residual = reduced.whole().force(&next);
         let eta = eta_of(contact, &next, &residual);
         if !(eta < best) {
             break;

@@ -252,13 +252,13 @@ impl<'e, 'm> Newton<'e, 'm> {
             kept.pieces == pieces && (is_good || is_same(equations, &pieces, [&kept.y, &y]))
         };
         if !self.kept.as_ref().is_some_and(serves) {
-            if !self.monitor.has_time_for(System::work(equations, &pieces)) {
+            let pairs = equations.linearised(&pieces, &y);
+            if !self.monitor.has_time_for(System::work(equations, &pairs)) {
                 self.is_stopped = true;
                 return None;
             }
             self.factorisations += 1;
-            let pairs = equations.linearised(&pieces, &y);
-            let system = System::of_pairs(equations, pairs, 1.0, None, NULL_VECTOR)?;
+            let system = System::new(equations, pairs, 1.0, None, NULL_VECTOR)?;
             self.kept = Some(Kept { system, pieces, y });
         }
         self.kept.as_mut()

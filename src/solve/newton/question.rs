@@ -10,9 +10,6 @@ use crate::solve::sweeps::Sweeper;
 const SWEEPS: usize = 10;
 const WATCHED: usize = 10;
 
-/// Fewer pairs that are decided are not worth their elimination.
-const WORTHWHILE: usize = 12;
-
 /// Pairs that a pair takes along to either side when it joins, beside its neighbour: so many, and a part of all. What
 /// joins one by one takes many rounds.
 const LEAST_BESIDE: usize = 3;
@@ -59,10 +56,10 @@ impl InQuestion {
         (d, InQuestion { pairs, pieces })
     }
 
-    /// True if at most `part` of the pairs is in question, not none, and enough are decided.
+    /// True if at most `part` of the pairs is in question, and not none.
     pub fn is_fewer_than(&self, part: f64) -> bool {
         let (count, all) = (self.pairs.iter().filter(|is_in| **is_in).count(), self.pairs.len());
-        count > 0 && count as f64 <= part * all as f64 && all - count >= WORTHWHILE
+        count > 0 && count as f64 <= part * all as f64
     }
 
     /// How each pair is held; `None` of those in question.

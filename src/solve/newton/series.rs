@@ -15,7 +15,7 @@ use crate::law::{Contact, Vector};
 use crate::linalg::elimination::{Elimination, Remembered};
 use crate::monitor::{Monitor, Stop};
 use crate::settings::Settings;
-use crate::solve::part::{Split, closed_with_margin};
+use crate::solve::part::{ReducedProblem, closed_with_margin};
 use crate::solve::pieces::{Equations, Point};
 use crate::solve::result::{Candidate, Ending};
 
@@ -82,22 +82,22 @@ impl<'w> Series<'w> {
         let before = self.remembered.get();
         self.remembered.keep(None);
         let begun = before.and_then(|before| self.begun(before, start, monitor));
-        let (mut split, mut y) = match begun {
+        let (mut reduced, mut y) = match begun {
             Some(begun) => begun,
             None => self.begin(start, monitor)?,
         };
         let mut systems = 0;
         loop {
-            let equations = split.equations();
+            let equations = reduced.equations();
             let mut found = search(&equations, y, self.settings.tolerance, monitor, core);
             systems += found.systems;
             let done = found.ending == Ending::Done;
             if !done && !matches!(found.ending, Ending::Stopped(_)) {
                 return Err(Alone { systems, y: None });
             }
-            let of_all = split.whole_from(&found.d, &found.y);
+            let of_all = reduced.whole_from(&found.d, &found.y);
             let solved = done && self.whole.eta(&of_all.0, &of_all.1) <= self.settings.tolerance;
-            let closing = if solved || !done { Vec::new() } else { split.closing(&of_all.2) };
+            let closing = if solved || !done { Vec::new() } else { reduced.closing(&of_all.2) };
             let (mut d, mut force);
             (d, force, y) = of_all;
             if closing.is_empty() {
@@ -105,16 +105,16 @@ impl<'w> Series<'w> {
                     let point = Point::new(&equations, found.y);
                     let (contact, settings) = (self.contact, self.settings);
                     let parts = (&mut d, &mut force);
-                    systems += refine(&split, contact, settings, parts, point, monitor);
+                    systems += refine(&reduced, contact, settings, parts, point, monitor);
                 }
-                self.remembered.keep(Some(Arc::clone(split.elimination())));
+                self.remembered.keep(Some(Arc::clone(reduced.elimination())));
                 (found.d, found.force, found.y, found.systems) = (d, force, y, systems);
                 return Ok(found.into_candidate());
             }
             let orientation = found.orientation;
             drop(found);
             drop(equations);
-            split = match self.wider(split, &closing, &y, monitor) {
+            reduced = match self.wider(reduced, &closing, &y, monitor) {
                 Ok(wider) => wider.ok_or(Alone { systems, y: None })?,
                 Err(stop) => {
                     let point = Point::new(self.whole, y);
@@ -122,7 +122,7 @@ impl<'w> Series<'w> {
                     return Ok(found.into_candidate());
                 }
             };
-            y = split.of_kept(&y);
+            y = reduced.of_kept(&y);
         }
     }
 
@@ -133,7 +133,7 @@ impl<'w> Series<'w> {
         before: Arc<Elimination>,
         start: Option<&[f64]>,
         monitor: &Monitor<'_>,
-    ) -> Option<(Split<'w>, Vec<Vector>)> {
+    ) -> Option<(ReducedProblem<'w>, Vec<Vector>)> {
         let dim = self.whole.dim;
         let mut components = before.dropped().iter();
         if !components.all(|i| self.whole.laws[i / dim].is_free_when_open()) {
@@ -141,13 +141,13 @@ impl<'w> Series<'w> {
         }
         let start: Option<Vec<f64>> =
             start.map(|start| before.kept().iter().map(|&i| start[i]).collect());
-        let split = Split::by(self.whole, before);
-        let equations = split.equations();
+        let reduced = ReducedProblem::by_elimination(self.whole, before);
+        let equations = reduced.equations();
         let y = swept(&equations, start.as_deref(), monitor);
         let needed = closed_with_margin(&equations.laws, &y, MARGIN).len();
         let fits = is_finite(&y) && y.len() as f64 <= TOO_MANY * needed as f64;
         drop(equations);
-        fits.then_some((split, y))
+        fits.then_some((reduced, y))
     }
 
     /// Begins with a problem that follows none.
@@ -155,36 +155,38 @@ impl<'w> Series<'w> {
         &self,
         start: Option<&[f64]>,
         monitor: &mut Monitor<'_>,
-    ) -> Result<(Split<'w>, Vec<Vector>), Alone> {
+    ) -> Result<(ReducedProblem<'w>, Vec<Vector>), Alone> {
         let y = swept(self.whole, start, monitor);
         let kept = is_finite(&y).then(|| closed_with_margin(&self.whole.laws, &y, MARGIN));
         // Without time for it the problem alone has none either, and ends there.
-        let split = kept.and_then(|kept| Split::new(self.whole, &kept, monitor).ok().flatten());
-        let Some(split) = split else { return Err(Alone { systems: 0, y: Some(y) }) };
-        let on_kept = split.of_kept(&y);
-        Ok((split, on_kept))
+        let reduced = kept.and_then(|kept| {
+            ReducedProblem::of_candidates(self.whole, &kept, monitor).ok().flatten()
+        });
+        let Some(reduced) = reduced else { return Err(Alone { systems: 0, y: Some(y) }) };
+        let on_kept = reduced.of_kept(&y);
+        Ok((reduced, on_kept))
     }
 
     /// The problem parted anew after some pairs outside of the candidates have closed at the coordinates `y`.
     /// `Err`: there is no time for it.
     fn wider(
         &self,
-        split: Split<'w>,
+        reduced: ReducedProblem<'w>,
         closing: &[usize],
         y: &[Vector],
         monitor: &mut Monitor<'_>,
-    ) -> Result<Option<Split<'w>>, Stop> {
-        let mut kept: Vec<usize> = split.kept().collect();
+    ) -> Result<Option<ReducedProblem<'w>>, Stop> {
+        let mut kept: Vec<usize> = reduced.kept().collect();
         if closing.len() as f64 > FEW_CLOSING * kept.len() as f64 {
             return Ok(None);
         }
-        drop(split);
+        drop(reduced);
         let needed = closed_with_margin(&self.whole.laws, y, MARGIN);
         kept.extend(&needed);
         kept.sort_unstable();
         kept.dedup();
         let too_many = kept.len() as f64 > TOO_MANY * needed.len() as f64;
-        Split::new(self.whole, if too_many { &needed } else { &kept }, monitor)
+        ReducedProblem::of_candidates(self.whole, if too_many { &needed } else { &kept }, monitor)
     }
 }
 

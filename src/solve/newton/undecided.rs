@@ -2,15 +2,8 @@
 //!
 //! Where Newton's method does not converge, most pairs have found their state all the same: iterates differ in a
 //! quarter of the pairs, or less. A pair that is decided is held: an open one without a force, a stuck one at its
-//! reference. With `O` the components of the open pairs, `C` those in question and `r` the loads less the forces
-//! of the stuck pairs' displacements,
-//!
-//! ```text
-//! (K_CC - K_CO K_OO⁻¹ K_OC) d_C = r_C - K_CO K_OO⁻¹ r_O + F_C
-//! ```
-//!
-//! is a contact problem of its own. It is definite if `K` is, so that what is proved of a path holds for it. On a
-//! quarter of the pairs a sweep, or an event of a path, costs a sixteenth, a system a sixty-fourth. Its solution
+//! reference. What is left is a contact problem of its own (`part::ReducedProblem`). It is definite if `K` is, so that
+//! what is proved of a path holds for it. On a quarter of the pairs a sweep, or an event of a path, costs a sixteenth, a system a sixty-fourth. Its solution
 //! is one of the whole problem unless a pair that is held closes, slips or opens. Then that pair and its neighbours
 //! are in question too, and the problem is solved again from there: this ends, as pairs only join.
 
@@ -19,7 +12,8 @@ use crate::law::Contact;
 use crate::law::Piece;
 use crate::monitor::{Monitor, Stop};
 use crate::settings::Settings;
-use crate::solve::part::Parted;
+use crate::solve::part::{PairData, ReducedProblem};
+use crate::solve::pieces::Equations;
 use crate::solve::result::{Candidate, Ending};
 
 /// Largest part of the pairs that may be in question at first, and later: beyond it the whole problem costs no
@@ -42,9 +36,8 @@ pub type Core<'c> = dyn FnMut(&Contact<'_>, &[f64], &mut Monitor<'_>) -> Candida
 pub enum PartOutcome {
     /// The pieces of a solution of the whole problem, and its displacements to some digits.
     Settled(Vec<Piece>, Vec<f64>),
-    /// Too many pairs are in question, or too few are decided; the displacements after some sweeps.
-    Undivided(Vec<f64>),
-    /// The core has found no solution; how far the displacements have come.
+    /// Too many pairs are in question, too few are decided, or the core has found no solution; how far the
+    /// displacements have come.
     Lost(Vec<f64>),
     /// A budget is used up, or the callback cancelled.
     Stopped(Stop),
@@ -60,26 +53,27 @@ pub fn solve_part(
     core: &mut Core<'_>,
 ) -> (PartOutcome, u64) {
     let (mut d, mut question) = InQuestion::after_sweeps(contact, d, monitor);
-    let mut systems = 0;
+    let (whole, mut systems) = (Equations::of(contact), 0);
     if !question.is_fewer_than(MOST_AT_FIRST) {
-        return (PartOutcome::Undivided(d), systems);
+        return (PartOutcome::Lost(d), systems);
     }
     let last = monitor.iterations() + (PATIENCE * contact.pairs().len() as f64) as u64;
     while question.is_fewer_than(MOST) && monitor.iterations() <= last {
-        let parted = match Parted::new(contact, &question.held(contact), monitor) {
-            Ok(Some(parted)) => parted,
-            Ok(None) => return (PartOutcome::Undivided(d), systems),
+        let reduced = match ReducedProblem::new(&whole, &question.held(contact), monitor) {
+            Ok(Some(reduced)) => reduced,
+            Ok(None) => break,
             Err(stop) => return (PartOutcome::Stopped(stop), systems),
         };
-        let Some(problem) = parted.problem() else { break };
+        let own = PairData::of(contact.problem(), &reduced.kept().collect::<Vec<usize>>());
+        let Some(problem) = reduced.problem(contact.problem(), &own) else { break };
         let part = Contact::new(&problem);
-        let candidate = core(&part, &parted.restrict(&d), monitor);
+        let candidate = core(&part, &reduced.restrict(&d), monitor);
         systems += candidate.effort.factorisations;
         match candidate.ending {
             Ending::Stopped(stop) => return (PartOutcome::Stopped(stop), systems),
             Ending::Recession(_) => break,
             _ if !candidate.is_settled(&part, settings.tolerance.max(ENOUGH)) => break,
-            _ => d = parted.expand(candidate.d()),
+            _ => d = reduced.expand(candidate.d()),
         }
         if !question.join_contradicted(contact, &d) {
             return (PartOutcome::Settled(question.pieces, d), systems);

@@ -15,6 +15,7 @@
 
 use super::homotopy::{Direction, Homotopy, Place, Value};
 use crate::law::{Boundary, Piece};
+use crate::linalg::tolerances::SINGULAR;
 use crate::monitor::Monitor;
 use crate::solve::pieces::{Border, System};
 use crate::solve::result::Ending;
@@ -193,8 +194,9 @@ impl<'h> Curve<'h> {
         monitor: &mut Monitor<'_>,
     ) -> Result<Option<Local<'h>>, Ending> {
         monitor.step().map_err(Ending::Stopped)?;
-        let work = System::work(self.homotopy.equations, &self.pieces);
-        monitor.affords(work).map_err(Ending::Stopped)?;
+        let equations = self.homotopy.equations;
+        let pairs = equations.linearised(&self.pieces, &place.y);
+        monitor.affords(System::work(equations, &pairs)).map_err(Ending::Stopped)?;
         self.systems += 1;
         let border = Border {
             rate: &value.rate,
@@ -202,8 +204,7 @@ impl<'h> Curve<'h> {
             along: border.s,
             unit: self.homotopy.size.recip(),
         };
-        let system =
-            System::new(self.homotopy.equations, (&self.pieces, &place.y), place.s, Some(&border));
+        let system = System::new(equations, pairs, place.s, Some(&border), SINGULAR);
         let Some(mut system) = system else { return Ok(None) };
         let Some((y, s)) = system.step(&vec![0.0; value.lack.len()], 1.0) else { return Ok(None) };
         let mut tangent = Direction { y, s };

@@ -86,10 +86,11 @@
 //! *Limits.* The number of events is not bounded by a polynomial.
 
 use super::linear_attempts::{ATTEMPTS, Attempt, FIRST_ON_UNDECIDED, LAST, ON_UNDECIDED, Start};
-use super::linear_start::{Random, Starts};
+use super::linear_start::Starts;
 use super::linear_walk::{End, Ground, Walk};
 use crate::counters::count;
 use crate::law::{Contact, Planar};
+use crate::linalg::perturbation::Perturbation;
 use crate::monitor::Monitor;
 use crate::settings::Settings;
 use crate::solve::newton::{PartOutcome, from_pieces, solve_part};
@@ -145,7 +146,7 @@ fn on_undecided(
         PartOutcome::Stopped(stop) => {
             Candidate::of_displacements(contact, d, Ending::Stopped(stop))
         }
-        PartOutcome::Undivided(d) | PartOutcome::Lost(d) => return Err(d),
+        PartOutcome::Lost(d) => return Err(d),
     };
     candidate.effort.factorisations += systems;
     Ok(candidate)
@@ -164,7 +165,7 @@ fn solve(
     let equations = Equations::of(contact);
     let ground =
         Ground { contact, equations: &equations, root: &root, load: &load, size: starts.size };
-    let mut random = Random::new(0);
+    let mut random = Perturbation::new(0);
     let mut best = Candidate::without_displacements(contact, Ending::Stalled(LOST));
     let mut effort = Effort::default();
     for (number, attempt) in attempts.iter().enumerate() {

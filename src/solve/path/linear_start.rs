@@ -2,6 +2,7 @@
 //! two pairs change at once.
 
 use crate::law::{Contact, PairLaw, Planar};
+use crate::linalg::perturbation::Perturbation;
 use crate::linalg::vector::NormSum;
 use crate::monitor::Monitor;
 use crate::solve::sweeps::Sweeper;
@@ -59,56 +60,38 @@ impl Starts {
     }
 
     /// The coordinates after the sweeps, moved at random.
-    pub fn swept(&self, contact: &Contact<'_>, random: &mut Random) -> Vec<Planar> {
+    pub fn swept(&self, contact: &Contact<'_>, random: &mut Perturbation) -> Vec<Planar> {
         let (d, force) = &self.swept;
         let mut units = self.unit.chunks_exact(2);
         let moved = |(law, d, force): (&PairLaw, &[f64], &[f64])| {
             let unit = units.next().expect("every pair has units");
-            let y = law.released(d, force, unit[0] * (2.0 + random.signed()));
-            std::array::from_fn(|c| y[c] + unit[c] * random.signed())
+            let y = law.released(d, force, unit[0] * (2.0 + random.next()));
+            std::array::from_fn(|c| y[c] + unit[c] * random.next())
         };
         contact.each(d, force).map(moved).collect()
     }
 
     /// Coordinates after the sweeps with the pairs in the states that make the path sure to arrive.
-    pub fn sure(&self, contact: &Contact<'_>, random: &mut Random) -> Vec<Planar> {
+    pub fn sure(&self, contact: &Contact<'_>, random: &mut Perturbation) -> Vec<Planar> {
         let swept = self.swept(contact, random);
         contact.pairs().iter().zip(swept).map(|(law, y)| law.sure_start(y)).collect()
     }
 
     /// All pairs pressed on their obstacles and stuck, by random forces of the size of the loads.
-    pub fn pressed(&self, contact: &Contact<'_>, root: &[f64], random: &mut Random) -> Vec<Planar> {
+    pub fn pressed(
+        &self,
+        contact: &Contact<'_>,
+        root: &[f64],
+        random: &mut Perturbation,
+    ) -> Vec<Planar> {
         let swept = self.swept(contact, random);
         let mean = self.size / (root.len() as f64).sqrt();
         let pairs = contact.pairs().iter().zip(swept).zip(root.chunks_exact(2));
         pairs
-            .map(|((law, y), root)| {
-                law.pressed(y, mean * root[0] * (1.0 + VARIED * random.signed()))
-            })
+            .map(|((law, y), root)| law.pressed(y, mean * root[0] * (1.0 + VARIED * random.next())))
             .collect()
     }
 }
 
 /// How much the forces of [`Starts::pressed`] differ.
 const VARIED: f64 = 0.1;
-
-/// Numbers that look random, the same in every call: splitmix64 (Steele, Lea and Flood 2014).
-pub struct Random(u64);
-
-impl Random {
-    /// The sequence number `seed`.
-    pub fn new(seed: u64) -> Self {
-        Random(seed)
-    }
-
-    /// Between −1 and 1.
-    fn signed(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut bits = self.0;
-        bits = (bits ^ (bits >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        bits = (bits ^ (bits >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        bits ^= bits >> 31;
-        // The upper 53 bits are a number in [0, 2^53).
-        (bits >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-    }
-}

@@ -1,11 +1,10 @@
 //! One way along the linear path, from piece to piece.
 
-use crate::law::Piece;
-use crate::law::{Contact, Exit, Linearised, Planar};
+use crate::law::{Contact, Exit, Linearised, Piece, Planar};
 use crate::linalg::tolerances::SINGULAR_BASIS;
 use crate::linalg::vector::{NormSum, largest_of};
 use crate::monitor::{Monitor, Stop};
-use crate::solve::pieces::{Equations, Updated};
+use crate::solve::pieces::{Equations, System, Updated};
 
 /// A pivot below this part of one is taken for zero: the error of all that went through it would be as
 /// large as what is looked for.
@@ -81,7 +80,7 @@ impl<'p> Walk<'p> {
     pub fn work(ground: &Ground<'_>, start: &[Planar]) -> f64 {
         let pairs = ground.contact.pairs().iter().zip(start);
         let pieces: Vec<Piece> = pairs.map(|(law, y)| law.piece(&[y[0], y[1], 0.0])).collect();
-        Updated::work(&linearised(ground.contact, &pieces))
+        System::work(ground.equations, &linearised(ground.contact, &pieces))
     }
 
     /// Begins at the coordinates `start`; `None` if the system there is singular.
@@ -192,7 +191,8 @@ impl<'p> Walk<'p> {
             return Err(End::Ray(motion));
         }
         if singular || made.is_none() || self.system.age() >= rules.age {
-            let work = Updated::work(&linearised(self.ground.contact, &self.pieces));
+            let pairs = linearised(self.ground.contact, &self.pieces);
+            let work = System::work(self.ground.equations, &pairs);
             monitor.affords(work).map_err(End::Stopped)?;
             return self.refactorise().ok_or(End::Lost);
         }

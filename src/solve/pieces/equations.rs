@@ -6,6 +6,7 @@ use crate::law::Piece;
 use crate::law::{Contact, Linearised, PairLaw, Vector};
 use crate::linalg::matrix::Matrix;
 use crate::linalg::vector::{NormSum, norm};
+use crate::problem::BoundedLcp;
 
 /// The equations of some pairs: of a whole problem, or of what is left of one when others are
 /// eliminated.
@@ -18,7 +19,7 @@ pub struct Equations<'a> {
     pub symmetric: bool,
     /// `f`.
     pub load: Cow<'a, [f64]>,
-    /// The laws, pair by pair.
+    /// The laws, pair by pair; none of the variables of a complementarity problem.
     pub laws: Cow<'a, [PairLaw]>,
     /// Roots of the stiffnesses that scale the components: `y / root` and `root d` are of one unit.
     pub root: Vec<f64>,
@@ -47,6 +48,15 @@ impl<'a> Equations<'a> {
         let root = laws.iter().flat_map(|law| law.scale().into_iter().take(dim));
         let root = root.map(f64::sqrt).collect();
         Equations { dim, matrix, symmetric: true, load, laws, root, unit }
+    }
+
+    /// The equations `M x + q = w` of a complementarity problem, each variable a pair of one component. They have
+    /// coefficients alone, and no laws.
+    pub fn of_lcp(lcp: &BoundedLcp<'a>) -> Self {
+        let root = lcp.matrix.units(1).iter().map(|unit| unit.sqrt()).collect();
+        let (load, laws) = (Cow::Borrowed(lcp.q), Cow::Borrowed([].as_slice()));
+        let (matrix, symmetric) = (lcp.matrix, lcp.symmetric);
+        Equations { dim: 1, matrix, symmetric, load, laws, root, unit: norm(lcp.q) }
     }
 
     /// `K d - f`.

@@ -17,10 +17,8 @@
 //! components that are eliminated have the pivot 1.
 
 use super::equations::Equations;
-use crate::law::Piece;
 use crate::law::{Assembly, Linearised, Slopes, Unknown, Vector};
-use crate::linalg::factor::{Factor, lu_work, subtract_product};
-use crate::linalg::tolerances::SINGULAR;
+use crate::linalg::factor::{Factor, cholesky_work, lu_work, subtract_product};
 use crate::linalg::vector::dot;
 
 /// The border of a system: `border . (dy, ds) = wanted`.
@@ -58,27 +56,17 @@ struct Bordered {
 }
 
 impl<'e> System<'e> {
-    /// Operations of a factorisation on given pieces.
-    pub fn work(equations: &Equations<'_>, pieces: &[Piece]) -> f64 {
-        let unknowns = |piece: &Piece| {
-            usize::from(!piece.closed) + if piece.slips() { equations.dim - 1 } else { 0 }
-        };
-        lu_work(pieces.iter().map(unknowns).sum())
-    }
-
-    /// Factorises the system at the coordinates `y` on given pieces; `None` if it is singular.
-    pub fn new(
-        equations: &'e Equations<'e>,
-        (pieces, y): (&[Piece], &[Vector]),
-        s: f64,
-        border: Option<&Border<'_>>,
-    ) -> Option<Self> {
-        Self::of_pairs(equations, equations.linearised(pieces, y), s, border, SINGULAR)
+    /// Operations of a factorisation of pairs on their pieces.
+    pub fn work(equations: &Equations<'_>, pairs: &[Linearised]) -> f64 {
+        let unknowns = |pair: &Linearised| (0..equations.dim).filter(|&c| pair.moves(c)).count();
+        let count = pairs.iter().map(unknowns).sum();
+        let is_plain = equations.symmetric && pairs.iter().all(|pair| pair.slopes.is_plain());
+        if is_plain { cholesky_work(count) } else { lu_work(count) }
     }
 
     /// Factorises the system of pairs on their pieces; pivots below `least`, relative to the largest, make it
     /// singular.
-    pub fn of_pairs(
+    pub fn new(
         equations: &'e Equations<'e>,
         pairs: Vec<Linearised>,
         s: f64,

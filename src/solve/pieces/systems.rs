@@ -4,7 +4,7 @@
 use super::equations::Equations;
 use super::system::System;
 use super::updated::Updated;
-use crate::law::{Linearised, Piece, Vector};
+use crate::law::{Linearised, Vector};
 use crate::linalg::tolerances::SINGULAR;
 
 /// Below so many unknowns a new factorisation is cheaper than changes of an old one: measured on the bar on the
@@ -13,6 +13,10 @@ const SMALL: usize = 64;
 
 /// Most terms of changes, as a part of the unknowns: with more of them they cost as much as a new factorisation.
 const MOST_TERMS: f64 = 0.2;
+
+/// Steps of iterative refinement: each gains about as many digits as the factor has right, so that three suffice
+/// whenever any do.
+pub const REFINEMENTS: usize = 3;
 
 /// Systems of the same equations.
 pub struct Systems<'e> {
@@ -49,18 +53,21 @@ impl<'e> Systems<'e> {
     }
 
     /// Operations of [`Self::go_to`].
-    pub fn work(&self, pieces: &[Piece], y: &[Vector]) -> f64 {
-        let pairs = self.equations.linearised(pieces, y);
-        match (self.changes(&pairs), &self.last) {
+    pub fn work(&self, pairs: &[Linearised]) -> f64 {
+        match (self.changes(pairs), &self.last) {
             (Some(changes), Last::OfPieces(system)) => system.change_work(&changes),
-            _ => System::work(self.equations, pieces),
+            _ => System::work(self.equations, pairs),
         }
     }
 
-    /// Goes to the system at the coordinates `y` on given pieces; `None` if it is singular.
-    pub fn go_to(&mut self, pieces: &[Piece], y: &[Vector]) -> Option<()> {
+    /// Lets the next system be factorised anew: changes lose accuracy that a new factor has.
+    pub fn forget(&mut self) {
+        self.last = Last::None;
+    }
+
+    /// Goes to the system of pairs on their pieces; `None` if it is singular.
+    pub fn go_to(&mut self, pairs: Vec<Linearised>) -> Option<()> {
         let equations = self.equations;
-        let pairs = equations.linearised(pieces, y);
         if let (Some(changes), Last::OfPieces(system)) = (self.changes(&pairs), &mut self.last)
             && system.change_to(&changes).is_some()
         {
@@ -70,8 +77,8 @@ impl<'e> Systems<'e> {
         self.last = Last::None;
         self.factorisations += 1;
         self.last = match equations.dim {
-            2 => Last::OfPieces(Updated::new(equations, pairs, SINGULAR)?),
-            _ => Last::OfPoint(System::of_pairs(equations, pairs, 1.0, None, SINGULAR)?),
+            3 => Last::OfPoint(System::new(equations, pairs, 1.0, None, SINGULAR)?),
+            _ => Last::OfPieces(Updated::new(equations, pairs, SINGULAR)?),
         };
         Some(())
     }

@@ -16,7 +16,7 @@ use super::columns::Columns;
 use super::equations::Equations;
 use super::system::System;
 use crate::law::{Linearised, Planar};
-use crate::linalg::factor::{Factor, lu_work};
+use crate::linalg::factor::Factor;
 use crate::linalg::simd::subtract_columns;
 use crate::linalg::vector::dot;
 
@@ -89,15 +89,9 @@ pub struct Updated<'e> {
 }
 
 impl<'e> Updated<'e> {
-    /// Operations of [`Self::new`].
-    pub fn work(pairs: &[Linearised]) -> f64 {
-        let free = |pair: &Linearised| (0..2).filter(|&c| pair.moves(c)).count();
-        lu_work(pairs.iter().map(free).sum())
-    }
-
     /// Factorises the system of pairs on their pieces; `None` if a pivot is below `least`, relative to the largest.
     pub fn new(equations: &'e Equations<'e>, pairs: Vec<Linearised>, least: f64) -> Option<Self> {
-        let base = System::of_pairs(equations, pairs.clone(), 1.0, None, least)?;
+        let base = System::new(equations, pairs.clone(), 1.0, None, least)?;
         let columns = Columns::none(equations.root.len());
         let (changes, directions) = (Vec::new(), Vec::new());
         Some(Updated { equations, base, pairs, columns, changes, directions })
