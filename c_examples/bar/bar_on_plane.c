@@ -71,6 +71,9 @@ static int solve(struct checks *checks, const char *name, int32_t method,
                steps_of(report.method), report.eta);
     else
         printf(": %s\n", signorini_last_error());
+    for (int32_t remark = 1; status >= 0 && remark <= report.remarks; remark *= 2)
+        if (report.remarks & remark)
+            printf("    remark: %s\n", signorini_remark_string(remark));
     return status == SIGNORINI_STATUS_SOLVED;
 }
 

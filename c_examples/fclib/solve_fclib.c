@@ -119,6 +119,9 @@ static int32_t solve(const struct local_form *form, double *r)
                (long long)report.pairs_slipping, (long long)report.pairs_sticking);
         printf("residual  %.1e, of the problem as the file has it\n",
                local_form_residual(form, r));
+        for (int32_t remark = 1; remark <= report.remarks; remark *= 2)
+            if (report.remarks & remark)
+                printf("remark    %s\n", signorini_remark_string(remark));
     }
     return status;
 }

@@ -25,8 +25,8 @@
 //!   that nothing holds would be "solved" by moving it far enough. Without loads there is nothing to drive
 //!   such motions, and the first kind does not count.
 //!
-//! `K d - f` and `d - gap` are evaluated in twice the precision. [`Certificate::residual`] is `eta` with a bound
-//! on what rounding is left in its evaluation: it is not below the true one.
+//! `K d - f` and `d - gap` are evaluated in twice the precision. [`Certificate::residual`] is `eta` plus a bound
+//! on the rounding of its own evaluation: it is not below the true `eta`.
 
 mod escape;
 mod measure;

@@ -1,7 +1,7 @@
 //! The allocator of the library: the system's, and a reserve for what the system refuses.
 //!
 //! Stable Rust has no way to go on after a refused request: the process ends. So each call of the C interface
-//! [holds](Held) memory that it obtained before its work began, where a refusal is a status. What the system
+//! [holds](CallReserve) memory that it obtained before its work began, where a refusal is a status. What the system
 //! then refuses is served from there, and noted in [`crate::shortage`]; the next check ends the call, which
 //! returns everything. A call to which the system refuses nothing pays one comparison a request.
 //!
@@ -110,11 +110,11 @@ impl Served {
 }
 
 /// The memory that a call may fall back to; it ends with the outermost call of the thread.
-pub(super) struct Held {
+pub(super) struct CallReserve {
     outermost: bool,
 }
 
-impl Held {
+impl CallReserve {
     /// `None`: the system has no memory.
     pub(super) fn begin() -> Option<Self> {
         let outermost = LAST.get().is_null();
@@ -126,11 +126,11 @@ impl Held {
                 return None;
             }
         }
-        Some(Held { outermost })
+        Some(CallReserve { outermost })
     }
 }
 
-impl Drop for Held {
+impl Drop for CallReserve {
     fn drop(&mut self) {
         if !self.outermost {
             return;

@@ -3,7 +3,7 @@
 use std::cell::Cell;
 
 use super::panic_sentence::caught;
-use super::reserve::{self, Held};
+use super::reserve::{self, CallReserve};
 use super::status::{
     SIGNORINI_STATUS_CANCELLED, SIGNORINI_STATUS_FILE, SIGNORINI_STATUS_INTERNAL,
     SIGNORINI_STATUS_MEMORY_LIMIT, SIGNORINI_STATUS_OUT_OF_MEMORY, SIGNORINI_STATUS_TIME_LIMIT,
@@ -84,7 +84,7 @@ pub(super) fn call(body: impl FnOnce() -> Result<i32, Failure>) -> i32 {
     #[cfg(all(target_os = "linux", target_env = "gnu"))]
     super::static_link::keep();
     forget();
-    let Some(_held) = Held::begin() else {
+    let Some(_held) = CallReserve::begin() else {
         remember_plain("not enough memory for a call; nothing was done");
         return SIGNORINI_STATUS_OUT_OF_MEMORY;
     };

@@ -26,7 +26,7 @@ pub unsafe extern "C" fn signorini_model_new_condensed(
     model: *mut *mut SignoriniModel,
 ) -> i32 {
     guard::call(|| {
-        let place = Place::new(5, model)?;
+        let place = OutPointer::new(5, model)?;
         let (dim, pairs, n) = sizes(1, dim, pairs)?;
         let ld = size(4, "ldk", ldk)?;
         let length = matrix_length(4, "K", n, ld)?;
@@ -63,7 +63,7 @@ pub unsafe extern "C" fn signorini_model_new_two_body(
     model: *mut *mut SignoriniModel,
 ) -> i32 {
     guard::call(|| {
-        let place = Place::new(7, model)?;
+        let place = OutPointer::new(7, model)?;
         let (dim, pairs, n) = sizes(1, dim, pairs)?;
         let (ld_a, ld_b) = (size(4, "lda", lda)?, size(6, "ldb", ldb)?);
         let (length_a, length_b) =
@@ -114,7 +114,7 @@ pub unsafe extern "C" fn signorini_model_new_sparse(
 ) -> i32 {
     const SETTINGS: i32 = 5;
     guard::call(|| {
-        let place = Place::new(6, model)?;
+        let place = OutPointer::new(6, model)?;
         // SAFETY: the structures and arrays are those of the header.
         let made = unsafe {
             let matrix = SignoriniSparse::read(&mut Arrays::default(), 1, &STIFFNESS, K)?;
@@ -170,7 +170,7 @@ pub unsafe extern "C" fn signorini_model_new_flexibility(
     model: *mut *mut SignoriniModel,
 ) -> i32 {
     guard::call(|| {
-        let place = Place::new(5, model)?;
+        let place = OutPointer::new(5, model)?;
         let (dim, pairs, n) = sizes(1, dim, pairs)?;
         let ld = size(4, "ldw", ldw)?;
         let length = matrix_length(4, "W", n, ld)?;
@@ -204,7 +204,7 @@ pub unsafe extern "C" fn signorini_model_new_flexibility_sparse(
     model: *mut *mut SignoriniModel,
 ) -> i32 {
     guard::call(|| {
-        let place = Place::new(4, model)?;
+        let place = OutPointer::new(4, model)?;
         let (dim, pairs, _) = sizes(1, dim, pairs)?;
         // SAFETY: the structure and its arrays are those of the header.
         let w = unsafe { SignoriniSparse::read(&mut Arrays::default(), 3, &FLEXIBILITY, W)? };
@@ -220,16 +220,16 @@ pub unsafe extern "C" fn signorini_model_free(model: *mut SignoriniModel) {
 }
 
 /// Where a new model goes; NULL until it exists.
-pub(super) struct Place(*mut *mut SignoriniModel);
+pub(super) struct OutPointer(*mut *mut SignoriniModel);
 
-impl Place {
+impl OutPointer {
     pub(super) fn new(position: i32, model: *mut *mut SignoriniModel) -> Result<Self, Failure> {
         if model.is_null() || !model.is_aligned() {
             return Err(Failure::argument(position, "model is NULL or not aligned"));
         }
         // SAFETY: a place for a pointer, by the header's contract.
         unsafe { model.write(std::ptr::null_mut()) };
-        Ok(Place(model))
+        Ok(OutPointer(model))
     }
 
     pub(super) fn fill(

@@ -8,7 +8,7 @@ use super::extra::{Extra, SignoriniExtra};
 use super::guard::{self, Failure};
 use super::model::{SignoriniModel, read_handle};
 use super::report::{Reports, SignoriniReport, state_codes};
-use super::settings::{Received, SignoriniSettings, WarmStart};
+use super::settings::{ParsedSettings, SignoriniSettings, WarmStart};
 use super::status::{code, remember};
 use super::threads::{LoadCaseChunk, Solved, Start, ThreadCases, on_each, stopped, with_workers};
 use crate::error::{Argument, Error, Message};
@@ -120,7 +120,7 @@ impl Block<'_> {
         &self,
         cases: usize,
         past: Option<Past>,
-        received: &Received,
+        received: &ParsedSettings,
         status: &Output<i32>,
     ) -> (i32, Option<Past>) {
         let goes_on = received.warm_start == WarmStart::Previous;
@@ -147,7 +147,12 @@ impl Block<'_> {
     /// The cases in as many parts as there are threads. One thread has them all where each starts
     /// from the one before, where a callback waits on the calling thread, and where the host's own
     /// functions are called.
-    fn lanes(&self, cases: usize, past: Option<Past>, received: &Received) -> Vec<ThreadCases<'_>> {
+    fn lanes(
+        &self,
+        cases: usize,
+        past: Option<Past>,
+        received: &ParsedSettings,
+    ) -> Vec<ThreadCases<'_>> {
         let model = self.model;
         if received.warm_start == WarmStart::Previous {
             let series = Series::after(model, past.unwrap_or_else(Past::of_none));
@@ -163,7 +168,11 @@ impl Block<'_> {
     }
 
     /// Solves the next block of each lane. Returns what each case has come to, by its number.
-    fn next_of(&self, lanes: &mut [ThreadCases<'_>], received: &Received) -> Vec<(usize, Solved)> {
+    fn next_of(
+        &self,
+        lanes: &mut [ThreadCases<'_>],
+        received: &ParsedSettings,
+    ) -> Vec<(usize, Solved)> {
         if let [lane] = lanes {
             let work = self.next_work(lane, received);
             let threads = if self.model.is_matrix_free() { received.threads } else { 1 };
@@ -196,7 +205,11 @@ impl Block<'_> {
     }
 
     /// Takes the next block of a lane.
-    fn next_work(&self, lane: &mut ThreadCases<'_>, received: &Received) -> LoadCaseChunk<'_> {
+    fn next_work(
+        &self,
+        lane: &mut ThreadCases<'_>,
+        received: &ParsedSettings,
+    ) -> LoadCaseChunk<'_> {
         let n = self.model.dim() * self.model.pairs();
         let begin = lane.left.start;
         let many = BLOCK.min(lane.left.len());

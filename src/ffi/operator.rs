@@ -5,7 +5,7 @@ use libc::c_void;
 use super::args::{Arrays, sizes};
 use super::guard::{self, Failure};
 use super::model::SignoriniModel;
-use super::model_new::Place;
+use super::model_new::OutPointer;
 use super::structures;
 use crate::model::Model;
 use crate::reduce::HostOperator;
@@ -121,7 +121,7 @@ pub unsafe extern "C" fn signorini_model_new_operator(
     model: *mut *mut SignoriniModel,
 ) -> i32 {
     guard::call(|| {
-        let place = Place::new(2, model)?;
+        let place = OutPointer::new(2, model)?;
         // SAFETY: NULL or a structure that begins with its size.
         let given = unsafe { structures::whole(1, "K", K)? };
         let wrong = |message: &str| Failure::argument(1, message.to_owned());
@@ -140,7 +140,7 @@ const VECTORS: usize = 32;
 
 /// Makes a model of what a host offers, the argument number `position` of the call.
 pub(super) fn create(
-    place: Place,
+    place: OutPointer,
     (dim, pairs): (usize, usize),
     host: Box<dyn HostOperator>,
     units: Option<&[f64]>,

@@ -1,16 +1,16 @@
 //! Memory that a call holds in reserve, where the library has its own allocator.
 
 #[cfg(c_library)]
-pub(super) use super::allocator::{Held, want};
+pub(super) use super::allocator::{CallReserve, want};
 
 /// Nothing is held: a refused request ends the process, as everywhere in Rust.
 #[cfg(not(c_library))]
-pub(super) struct Held;
+pub(super) struct CallReserve;
 
 #[cfg(not(c_library))]
-impl Held {
+impl CallReserve {
     pub(super) fn begin() -> Option<Self> {
-        Some(Held)
+        Some(CallReserve)
     }
 }
 

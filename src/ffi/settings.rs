@@ -122,7 +122,7 @@ pub(super) enum WarmStart {
 }
 
 /// Settings as the solvers know them, with what only the C interface has.
-pub(super) struct Received {
+pub(super) struct ParsedSettings {
     pub(super) settings: Settings,
     pub(super) warm_start: WarmStart,
     /// At least 1.
@@ -159,7 +159,10 @@ impl SignoriniSettings {
     ///
     /// # Safety
     /// A pointer that is not NULL has as many readable bytes as its first field says.
-    pub(super) unsafe fn read(position: i32, pointer: *const Self) -> Result<Received, Failure> {
+    pub(super) unsafe fn read(
+        position: i32,
+        pointer: *const Self,
+    ) -> Result<ParsedSettings, Failure> {
         let mut settings = Self::default_one();
         if !pointer.is_null() {
             // SAFETY: by the caller's contract.
@@ -168,7 +171,7 @@ impl SignoriniSettings {
         settings.checked(position)
     }
 
-    fn checked(self, position: i32) -> Result<Received, Failure> {
+    fn checked(self, position: i32) -> Result<ParsedSettings, Failure> {
         let refuse = |message: String| Err(Failure::argument(position, message));
         let method = match self.method {
             SIGNORINI_METHOD_AUTO => Method::Auto,
@@ -204,7 +207,7 @@ impl SignoriniSettings {
                 "settings: threads is {given}, it must be 0 (one thread) or more"
             ));
         };
-        Ok(Received {
+        Ok(ParsedSettings {
             settings: Settings {
                 method,
                 tolerance: self.tolerance,
@@ -229,7 +232,7 @@ impl SignoriniSettings {
     }
 }
 
-impl Received {
+impl ParsedSettings {
     /// True if the caller wants to be told of progress.
     pub(super) fn has_callback(&self) -> bool {
         self.progress.is_some()

@@ -7,7 +7,7 @@ use super::guard::{self, Failure};
 use super::pairs::SignoriniPairs;
 use super::release::release;
 use super::surface::{Rigid, SignoriniFaces, SignoriniObstacle};
-use super::surface_settings::{Received, SignoriniSurfaceSettings};
+use super::surface_settings::{ParsedSurfaceSettings, SignoriniSurfaceSettings};
 use crate::error::{Argument, Error};
 use crate::problem;
 use crate::shortage;
@@ -23,7 +23,7 @@ pub struct SignoriniSurfacePairs {
     pub(super) found: SurfacePairs,
     /// Nodes of the host.
     pub(super) nodes: usize,
-    pub(super) received: Received,
+    pub(super) received: ParsedSurfaceSettings,
     pub(super) arrays: PairArrays,
     pub(super) points: Vec<f64>,
     pub(super) slaves: Vec<i64>,
@@ -68,7 +68,7 @@ pub unsafe extern "C" fn signorini_surface_pair(
     guard::call(|| {
         // SAFETY: structures and arrays as the header demands.
         unsafe {
-            let place = Place::new(contact)?;
+            let place = OutPointer::new(contact)?;
             let host = Host::read(dim, nodes, coordinates, (6, settings))?;
             let slave = SignoriniFaces::read((4, "slave"), slave, host.received.base)?;
             let master = SignoriniFaces::read((5, "master"), master, host.received.base)?;
@@ -112,7 +112,7 @@ pub unsafe extern "C" fn signorini_surface_pair_obstacle(
     guard::call(|| {
         // SAFETY: structures and arrays as the header demands.
         unsafe {
-            let place = Place::new(contact)?;
+            let place = OutPointer::new(contact)?;
             let host = Host::read(dim, nodes, coordinates, (6, settings))?;
             let slave = SignoriniFaces::read((4, "slave"), slave, host.received.base)?;
             let obstacle = SignoriniObstacle::read(5, host.dim, host.received.base, obstacle)?;
@@ -153,7 +153,7 @@ pub unsafe extern "C" fn signorini_surface_free(contact: *mut SignoriniSurfacePa
 struct Host<'a> {
     dim: usize,
     coordinates: &'a [f64],
-    received: Received,
+    received: ParsedSurfaceSettings,
 }
 
 impl<'a> Host<'a> {
@@ -179,7 +179,7 @@ impl<'a> Host<'a> {
     }
 }
 
-impl Received {
+impl ParsedSurfaceSettings {
     fn dofs(&self) -> NodeDofs<'_> {
         match &self.listed {
             Some(dofs) => NodeDofs::Listed(dofs),
@@ -189,7 +189,7 @@ impl Received {
 }
 
 impl SignoriniSurfacePairs {
-    fn new(found: SurfacePairs, nodes: usize, received: Received) -> Self {
+    fn new(found: SurfacePairs, nodes: usize, received: ParsedSurfaceSettings) -> Self {
         let base = received.base;
         let counted = |values: &[usize]| -> Vec<i64> {
             values.iter().map(|value| *value as i64 + base).collect()
@@ -233,9 +233,9 @@ impl SignoriniSurfacePairs {
 }
 
 /// Where new pairs go, the seventh argument; NULL until they exist.
-struct Place(*mut *mut SignoriniSurfacePairs);
+struct OutPointer(*mut *mut SignoriniSurfacePairs);
 
-impl Place {
+impl OutPointer {
     /// # Safety
     /// A place as the header demands.
     unsafe fn new(contact: *mut *mut SignoriniSurfacePairs) -> Result<Self, Failure> {
@@ -244,7 +244,7 @@ impl Place {
         }
         // SAFETY: by the caller's contract.
         unsafe { contact.write(std::ptr::null_mut()) };
-        Ok(Place(contact))
+        Ok(OutPointer(contact))
     }
 
     /// # Safety

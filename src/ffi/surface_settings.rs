@@ -67,7 +67,7 @@ pub struct SignoriniSurfaceSettings {
 }
 
 /// Settings of a pairing as the host gave them.
-pub(super) struct Received {
+pub(super) struct ParsedSurfaceSettings {
     pub(super) settings: SurfaceSettings,
     pub(super) base: i64,
     /// Degrees of freedom of each node if they are in order.
@@ -101,7 +101,7 @@ impl SignoriniSurfaceSettings {
         position: i32,
         pointer: *const Self,
         (dim, nodes): (usize, usize),
-    ) -> Result<Received, Failure> {
+    ) -> Result<ParsedSurfaceSettings, Failure> {
         let refuse = |message: String| Err(Failure::argument(position, message));
         let mut given = Self::default_one();
         if !pointer.is_null() {
@@ -135,7 +135,7 @@ impl SignoriniSurfaceSettings {
         // SAFETY: arrays of as many entries as there are planes, by contract.
         let symmetry = unsafe { given.symmetry(position)? };
         let settings = SurfaceSettings { pairing, search_distance, symmetry, normals, rims };
-        Ok(Received { settings, base, per_node, listed })
+        Ok(ParsedSurfaceSettings { settings, base, per_node, listed })
     }
 
     /// How pairs are made, their normals, and what becomes of nodes at rims.

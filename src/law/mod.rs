@@ -68,7 +68,7 @@ pub use fixed_state::FixedState;
 pub use natural_map::Violation;
 pub use pair_law::{PairBlock, PairLaw, Vector};
 pub use piece::{Boundary, Piece, Tangential};
-pub use planar_piece::{Exit, Planar};
+pub use planar_piece::{PieceExit, Planar};
 pub use reach::gaps_within_reach;
 pub use recession::{Recession, lift};
 pub use remarks::{friction_is_large, gaps_are_negative, touching};

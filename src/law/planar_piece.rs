@@ -21,7 +21,7 @@ pub type Planar = [f64; 2];
 
 /// Where a straight way leaves a piece.
 #[derive(Clone, Copy, Debug)]
-pub struct Exit {
+pub struct PieceExit {
     /// How far along the way; 0 if rounding has put the point beyond already.
     pub step: f64,
     /// Gradient of the boundary, inside positive.
@@ -42,15 +42,15 @@ const KEPT_FRICTION: f64 = 1e-7;
 
 impl PairLaw {
     /// Where the way `y + step rate`, `step >= 0`, leaves `piece` first.
-    pub fn planar_exit(&self, piece: Piece, y: Planar, rate: Planar) -> Option<Exit> {
-        let mut first: Option<Exit> = None;
+    pub fn planar_exit(&self, piece: Piece, y: Planar, rate: Planar) -> Option<PieceExit> {
+        let mut first: Option<PieceExit> = None;
         let mut look = |gradient: Planar, constant: f64, beyond: Piece| {
             let inside = gradient[0] * y[0] + gradient[1] * y[1] + constant;
             let change = gradient[0] * rate[0] + gradient[1] * rate[1];
             if change < 0.0 {
                 let step = inside.max(0.0) / -change;
                 if first.is_none_or(|first| step < first.step) {
-                    first = Some(Exit { step, gradient, beyond });
+                    first = Some(PieceExit { step, gradient, beyond });
                 }
             }
         };

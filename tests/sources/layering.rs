@@ -195,7 +195,7 @@ fn the_search_follows_names_to_their_files() {
     // `use super::Iterate`, which its parent defines.
     assert!(imports("solve/sweeps/driver.rs").contains("solve/sweeps/mod.rs"));
     // `auto::solve(..)` after `use super::auto`.
-    assert!(imports("solve/plan/far_obstacles.rs").contains("solve/plan/auto.rs"));
+    assert!(imports("solve/plan/distant_gaps.rs").contains("solve/plan/auto.rs"));
     // `pub use solve::Status` of lib.rs.
     assert!(!imports("lib.rs").contains("solve/result/solution.rs"));
 }

@@ -12,13 +12,13 @@ mod polish;
 mod question;
 mod series;
 mod start;
-mod undecided;
+mod uncertain_pairs;
 
 pub use descent::{AIM, Goal, Halt, NewtonOutcome, NormalMap, solve as descend};
 pub use iteration::{Ended, solve as newton_from};
-pub use polish::{Sharpened, polished, sharpened};
+pub use polish::{FullyRefined, refine_fully, refine_to_tolerance};
 pub use series::solve as on_candidates;
-pub use undecided::{PartOutcome, solve_part};
+pub use uncertain_pairs::{PartOutcome, solve_part};
 
 use crate::law::{Contact, Piece};
 use crate::monitor::Monitor;

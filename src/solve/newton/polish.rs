@@ -45,7 +45,7 @@ const ROUNDING_OF_ETA: f64 = 4.0 * f64::EPSILON;
 
 /// The candidate, refined if its residual is above the tolerance and that helps. Where it was done and there was no
 /// time to see, it is stopped.
-pub fn polished(
+pub fn refine_to_tolerance(
     contact: &Contact<'_>,
     settings: &Settings,
     candidate: Candidate,
@@ -62,7 +62,7 @@ pub fn polished(
     let equations = Equations::of(&at_reference);
     let aim = AIM * settings.tolerance;
     let mut newton = Newton::on(&equations, monitor);
-    let refined = refined(contact, &candidate, aim, &mut newton);
+    let refined = refine(contact, &candidate, aim, &mut newton);
     let new = refined.certificate(contact);
     let helps = new.residual <= settings.tolerance && !new.runs_away();
     match helps {
@@ -75,7 +75,7 @@ pub fn polished(
 }
 
 /// A candidate refined as far as it goes.
-pub struct Sharpened {
+pub struct FullyRefined {
     /// The candidate, with the orientation of the pieces that it is on.
     pub candidate: Candidate,
     /// Newton's next step: how far it is from the solution on its pieces, to first order.
@@ -83,26 +83,26 @@ pub struct Sharpened {
 }
 
 /// Refines displacements to the last digits; `None` if the system there is singular, or if there is no time.
-pub fn sharpened(
+pub fn refine_fully(
     contact: &Contact<'_>,
     candidate: &Candidate,
     monitor: &Monitor<'_>,
-) -> Option<Sharpened> {
+) -> Option<FullyRefined> {
     let at_reference = contact.at_its_reference();
     let equations = Equations::of(&at_reference);
     let mut newton = Newton::on(&equations, monitor);
-    let mut candidate = refined(contact, candidate, 0.0, &mut newton);
+    let mut candidate = refine(contact, candidate, 0.0, &mut newton);
     if newton.is_stopped {
         return None;
     }
     let v = contact.beyond_reference(candidate.d(), candidate.low());
     let (error, orientation) = newton.step(&v, candidate.force())?;
     candidate.orientation = orientation;
-    Some(Sharpened { candidate, error })
+    Some(FullyRefined { candidate, error })
 }
 
 /// Refines until `eta` is at most `aim`, falls no further, or the time is up.
-fn refined(
+fn refine(
     contact: &Contact<'_>,
     candidate: &Candidate,
     aim: f64,

@@ -39,9 +39,9 @@ pub fn solve(
     core: &mut Core<'_>,
 ) -> Candidate {
     let whole = Equations::of(contact);
-    let mut alone = Alone::default();
+    let mut alone = ColdStart::default();
     if let Some(remembered) = contact.problem().remembered() {
-        let series = Series { contact, settings, whole: &whole, remembered };
+        let series = SharedElimination { contact, settings, whole: &whole, remembered };
         alone = match series.solve(start, monitor, core) {
             Ok(candidate) => return candidate,
             Err(alone) => alone,
@@ -54,7 +54,7 @@ pub fn solve(
 }
 
 /// A problem, and what those before it have left.
-struct Series<'w> {
+struct SharedElimination<'w> {
     contact: &'w Contact<'w>,
     settings: &'w Settings,
     whole: &'w Equations<'w>,
@@ -63,21 +63,21 @@ struct Series<'w> {
 
 /// Reasons to solve a problem alone, as far as they are known.
 #[derive(Default)]
-struct Alone {
+struct ColdStart {
     /// Systems that were spent.
     systems: u64,
     /// The coordinates after sweeps, if there were any on the whole problem and nothing else.
     y: Option<Vec<Vector>>,
 }
 
-impl<'w> Series<'w> {
+impl<'w> SharedElimination<'w> {
     /// Solves from the displacements `start`.
     fn solve(
         &self,
         start: Option<&[f64]>,
         monitor: &mut Monitor<'_>,
         core: &mut Core<'_>,
-    ) -> Result<Candidate, Alone> {
+    ) -> Result<Candidate, ColdStart> {
         // Nothing is kept while others may need the memory, and nothing of a problem that is not solved.
         let before = self.remembered.get();
         self.remembered.keep(None);
@@ -93,7 +93,7 @@ impl<'w> Series<'w> {
             systems += found.systems;
             let done = found.ending == Ending::Done;
             if !done && !matches!(found.ending, Ending::Stopped(_)) {
-                return Err(Alone { systems, y: None });
+                return Err(ColdStart { systems, y: None });
             }
             let of_all = reduced.whole_from(&found.d, &found.y);
             let solved = done && self.whole.eta(&of_all.0, &of_all.1) <= self.settings.tolerance;
@@ -115,7 +115,7 @@ impl<'w> Series<'w> {
             drop(found);
             drop(equations);
             reduced = match self.wider(reduced, &closing, &y, monitor) {
-                Ok(wider) => wider.ok_or(Alone { systems, y: None })?,
+                Ok(wider) => wider.ok_or(ColdStart { systems, y: None })?,
                 Err(stop) => {
                     let point = Point::new(self.whole, y);
                     let found = Found::at(point, Ending::Stopped(stop), (systems, orientation));
@@ -155,14 +155,14 @@ impl<'w> Series<'w> {
         &self,
         start: Option<&[f64]>,
         monitor: &mut Monitor<'_>,
-    ) -> Result<(ReducedProblem<'w>, Vec<Vector>), Alone> {
+    ) -> Result<(ReducedProblem<'w>, Vec<Vector>), ColdStart> {
         let y = swept(self.whole, start, monitor);
         let kept = is_finite(&y).then(|| closed_with_margin(&self.whole.laws, &y, MARGIN));
         // Without time for it the problem alone has none either, and ends there.
         let reduced = kept.and_then(|kept| {
             ReducedProblem::of_candidates(self.whole, &kept, monitor).ok().flatten()
         });
-        let Some(reduced) = reduced else { return Err(Alone { systems: 0, y: Some(y) }) };
+        let Some(reduced) = reduced else { return Err(ColdStart { systems: 0, y: Some(y) }) };
         let on_kept = reduced.of_kept(&y);
         Ok((reduced, on_kept))
     }

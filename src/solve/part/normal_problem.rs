@@ -116,7 +116,7 @@ impl<'p> NormalProblem<'p> {
 
     /// Re-solves equilibrium directly with the closed pairs of `d` fixed, if there is time, and keeps the
     /// better.
-    pub fn polished(&self, d: Vec<f64>, monitor: &Monitor<'_>) -> Vec<f64> {
+    pub fn refine(&self, d: Vec<f64>, monitor: &Monitor<'_>) -> Vec<f64> {
         let problem = self.contact.problem();
         let free: Vec<usize> = (0..d.len()).filter(|&i| !is_stopped(self.contact, i, &d)).collect();
         if !monitor.has_time_for(cholesky_work(free.len())) {

@@ -13,7 +13,7 @@
 //! much: up to 225 pairs the elimination is a tenth to a third of the path's time, and about half of the systems
 //! follow a boundary; the products with the stiffness in corrections take the most.
 
-use super::homotopy::{Direction, Homotopy, Place, Value};
+use super::homotopy::{Direction, Homotopy, PathPoint, Value};
 use crate::law::{Boundary, Piece};
 use crate::linalg::tolerances::SINGULAR;
 use crate::monitor::Monitor;
@@ -66,7 +66,7 @@ pub struct Curve<'h> {
     homotopy: &'h Homotopy<'h>,
     care: Care,
     pieces: Vec<Piece>,
-    place: Place,
+    place: PathPoint,
     /// Linear systems so far.
     pub systems: u64,
 }
@@ -80,7 +80,7 @@ struct Local<'h> {
 /// The one condition beside `H = 0`: `normal . X = value`.
 enum Condition {
     /// The plane across the tangent through a predicted place.
-    Plane { normal: Direction, through: Place },
+    Plane { normal: Direction, through: PathPoint },
     /// The boundary of a pair.
     Boundary { pair: usize, boundary: Boundary },
     /// The end, `s = 1`.
@@ -89,7 +89,7 @@ enum Condition {
 
 /// A step along the curve.
 struct Advance {
-    place: Place,
+    place: PathPoint,
     /// The condition that the place meets.
     condition: Condition,
     /// Length of the step along the tangent.
@@ -98,13 +98,13 @@ struct Advance {
 
 impl<'h> Curve<'h> {
     /// The curve that begins at `start`, the base of the homotopy.
-    pub fn new(homotopy: &'h Homotopy<'h>, start: Place, care: Care) -> Self {
+    pub fn new(homotopy: &'h Homotopy<'h>, start: PathPoint, care: Care) -> Self {
         let pieces = homotopy.equations.pieces(&start.y);
         Curve { homotopy, care, pieces, place: start, systems: 0 }
     }
 
     /// Where the curve is.
-    pub fn place(&self) -> &Place {
+    pub fn place(&self) -> &PathPoint {
         &self.place
     }
 
@@ -188,7 +188,7 @@ impl<'h> Curve<'h> {
 
     fn factorised(
         &mut self,
-        place: &Place,
+        place: &PathPoint,
         value: &Value,
         border: &Direction,
         monitor: &mut Monitor<'_>,
@@ -217,10 +217,10 @@ impl<'h> Curve<'h> {
     fn correct(
         &mut self,
         local: &mut Local<'h>,
-        mut place: Place,
+        mut place: PathPoint,
         condition: &Condition,
         monitor: &mut Monitor<'_>,
-    ) -> Result<Option<Place>, Ending> {
+    ) -> Result<Option<PathPoint>, Ending> {
         let mut fresh: Option<Local<'h>> = None;
         let mut refactorisations = 0;
         let mut before = f64::INFINITY;
@@ -260,7 +260,7 @@ impl<'h> Curve<'h> {
     }
 
     /// By how much a place misses a condition, and the condition's coefficients.
-    fn miss(&self, condition: &Condition, place: &Place) -> (f64, Direction) {
+    fn miss(&self, condition: &Condition, place: &PathPoint) -> (f64, Direction) {
         match condition {
             Condition::Plane { normal, through } => {
                 (normal.apply(&through.to(place)), normal.clone())
@@ -303,7 +303,7 @@ impl<'h> Curve<'h> {
     }
 
     /// True if all pairs but one that is on a boundary are in their pieces.
-    fn is_inside(&self, place: &Place, crossed: Option<(usize, Boundary)>) -> bool {
+    fn is_inside(&self, place: &PathPoint, crossed: Option<(usize, Boundary)>) -> bool {
         self.homotopy.equations.laws.iter().enumerate().all(|(pair, law)| {
             [Boundary::Contact, Boundary::Slip].into_iter().all(|boundary| {
                 let piece = self.pieces[pair];
@@ -326,7 +326,7 @@ impl<'h> Curve<'h> {
     }
 
     /// Length of a place in units of the homotopy.
-    fn size_of(&self, place: &Place) -> f64 {
+    fn size_of(&self, place: &PathPoint) -> f64 {
         self.homotopy.norm(&Direction { y: place.y.clone(), s: place.s })
     }
 }

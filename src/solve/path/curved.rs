@@ -1,13 +1,13 @@
 //! The path in space: from any start, several starts in turn.
 
 use super::curve::{Care, Curve};
-use super::homotopy::{Homotopy, Place};
+use super::homotopy::{Homotopy, PathPoint};
 use crate::counters::count;
 use crate::law::{Contact, Vector};
 use crate::linalg::perturbation::Perturbation;
 use crate::monitor::Monitor;
 use crate::settings::Settings;
-use crate::solve::newton::{Ended, newton_from, on_candidates, polished};
+use crate::solve::newton::{Ended, newton_from, on_candidates, refine_to_tolerance};
 use crate::solve::pieces::{Equations, Point};
 use crate::solve::result::{Candidate, Effort, Ending};
 use crate::solve::rigid::{self, without_idle_motion};
@@ -118,7 +118,8 @@ fn is_solution(
     let candidate =
         Candidate::new(d.clone(), force.clone(), ended.ending.clone(), Effort::default());
     let candidate = without_idle_motion(contact, candidate, monitor);
-    polished(contact, settings, candidate, monitor).is_settled(contact, settings.tolerance)
+    refine_to_tolerance(contact, settings, candidate, monitor)
+        .is_settled(contact, settings.tolerance)
 }
 
 /// Follows one path from `start`; where it ends Newton's method brings the solution to its last digits.
@@ -130,7 +131,7 @@ fn follow(
     monitor: &mut Monitor<'_>,
 ) -> Ended {
     let homotopy = Homotopy::new(equations, &start);
-    let mut curve = Curve::new(&homotopy, Place { y: start, s: 0.0 }, care);
+    let mut curve = Curve::new(&homotopy, PathPoint { y: start, s: 0.0 }, care);
     let mut ended = match curve.follow(monitor) {
         Ok(()) => newton_from(equations, curve.place().y.clone(), tolerance, monitor),
         Err(ending) => {

@@ -17,7 +17,7 @@ pub struct Homotopy<'e> {
 
 /// A point of the curve, or near it.
 #[derive(Clone)]
-pub struct Place {
+pub struct PathPoint {
     pub y: Vec<Vector>,
     pub s: f64,
 }
@@ -49,7 +49,7 @@ impl<'e> Homotopy<'e> {
     }
 
     /// The homotopy at a place on given pieces.
-    pub fn value(&self, pieces: &[Piece], place: &Place) -> Value {
+    pub fn value(&self, pieces: &[Piece], place: &PathPoint) -> Value {
         let (equations, s) = (self.equations, place.s);
         let dim = equations.dim;
         let (d, push) = equations.values(pieces, &place.y);
@@ -109,16 +109,16 @@ impl Homotopy<'_> {
     }
 }
 
-impl Place {
+impl PathPoint {
     /// The place `q` along a direction.
-    pub fn along(&self, direction: &Direction, q: f64) -> Place {
+    pub fn along(&self, direction: &Direction, q: f64) -> PathPoint {
         let y = self.y.iter().zip(&direction.y);
         let y = y.map(|(y, t)| std::array::from_fn(|c| y[c] + q * t[c])).collect();
-        Place { y, s: self.s + q * direction.s }
+        PathPoint { y, s: self.s + q * direction.s }
     }
 
     /// The direction from here to another place.
-    pub fn to(&self, other: &Place) -> Direction {
+    pub fn to(&self, other: &PathPoint) -> Direction {
         let y = self.y.iter().zip(&other.y);
         let y = y.map(|(a, b)| std::array::from_fn(|c| b[c] - a[c])).collect();
         Direction { y, s: other.s - self.s }

@@ -56,9 +56,9 @@
 //! So `D v = 0`, then `D P = -K D v = 0`. `y0` is interior to its piece and `J` is regular there, so that the
 //! same holds for the loads near by, among which almost all are generic; then theorem G. ∎
 //!
-//! A pair without friction may be anything. So there are sure starts: they keep the sweeps' open pairs and their slips,
-//! slips as far as the clearance allows; closed pairs start without friction and slip (`PairLaw::sure_start`). Kept
-//! friction, or kept slip of closed pairs, is what the example above forbids.
+//! A pair without friction may begin on any piece. So there are sure starts: pairs that the sweeps leave open stay open
+//! and keep their slips as far as the clearance allows; closed pairs start without friction and slip
+//! (`PairLaw::sure_start`). The example above forbids kept friction, and kept slip of closed pairs.
 //!
 //! **Theorem K.** *Let `K` be symmetric and semi-definite, and let every rigid motion move a closed pair of
 //! the start, in its normal component or, if it has friction, in any. The path of H ends at a solution, or
@@ -74,7 +74,7 @@
 //! So a ray is a candidate for the proof that no equilibrium exists, which
 //! [`crate::certificate::is_escape`] decides; friction may hold a body that this proof does not.
 //!
-//! *The walks.* First on the pairs in question alone (`newton::undecided`), where an event costs
+//! *The walks.* First on the pairs in question alone (`newton::uncertain_pairs`), where an event costs
 //! little: their matrix is definite too. Swept starts are near a solution, and most of their walks are short, so that
 //! several are tried, after more and more sweeps: by theorem I without its premise. Then walks on all pairs, from
 //! where those in question have come to: from swept starts and from sure ones, H, which take about one event a pair; if
@@ -85,9 +85,11 @@
 //!
 //! *Limits.* The number of events is not bounded by a polynomial.
 
-use super::linear_attempts::{ATTEMPTS, Attempt, FIRST_ON_UNDECIDED, LAST, ON_UNDECIDED, Start};
+use super::linear_attempts::{
+    ATTEMPTS, Attempt, FIRST_ON_UNCERTAIN_PAIRS, LAST, ON_UNCERTAIN_PAIRS, Start,
+};
 use super::linear_start::Starts;
-use super::linear_walk::{End, Ground, Walk};
+use super::linear_walk::{PathProblem, Walk, WalkEnd};
 use crate::counters::count;
 use crate::law::{Contact, Planar};
 use crate::linalg::perturbation::Perturbation;
@@ -113,7 +115,7 @@ pub fn linear(
     monitor: &mut Monitor<'_>,
 ) -> Candidate {
     if contact.is_coupled() {
-        return match on_undecided(contact, settings, start, monitor) {
+        return match on_uncertain_pairs(contact, settings, start, monitor) {
             Ok(candidate) if candidate.is_settled(contact, settings.tolerance) => candidate,
             Ok(candidate) => solve(contact, settings, Some(candidate.d()), &ATTEMPTS, monitor),
             Err(d) => solve(contact, settings, Some(&d), &ATTEMPTS, monitor),
@@ -127,7 +129,7 @@ pub fn linear(
 
 /// Solves by walks on the pairs in question. `Err`: these are not few, or no walk arrives; how far the
 /// displacements have come.
-fn on_undecided(
+fn on_uncertain_pairs(
     contact: &Contact<'_>,
     settings: &Settings,
     start: Option<&[f64]>,
@@ -135,9 +137,9 @@ fn on_undecided(
 ) -> Result<Candidate, Vec<f64>> {
     let zero = || vec![0.0; contact.unknowns()];
     let d = start.map_or_else(zero, <[f64]>::to_vec);
-    let mut skipped = FIRST_ON_UNDECIDED;
+    let mut skipped = FIRST_ON_UNCERTAIN_PAIRS;
     let mut core = |part: &Contact<'_>, d: &[f64], monitor: &mut Monitor<'_>| {
-        let attempts = &ON_UNDECIDED[std::mem::take(&mut skipped)..];
+        let attempts = &ON_UNCERTAIN_PAIRS[std::mem::take(&mut skipped)..];
         solve(part, settings, Some(d), attempts, monitor)
     };
     let (ended, systems) = solve_part(contact, settings, &d, monitor, &mut core);
@@ -163,8 +165,8 @@ fn solve(
     let mut starts = Starts::new(contact, &root, start);
     let load = starts.load.clone();
     let equations = Equations::of(contact);
-    let ground =
-        Ground { contact, equations: &equations, root: &root, load: &load, size: starts.size };
+    let problem =
+        PathProblem { contact, equations: &equations, root: &root, load: &load, size: starts.size };
     let mut random = Perturbation::new(0);
     let mut best = Candidate::without_displacements(contact, Ending::Stalled(LOST));
     let mut effort = Effort::default();
@@ -175,11 +177,11 @@ fn solve(
             Start::Sure => starts.sure(contact, &mut random),
             Start::Pressed => starts.pressed(contact, &root, &mut random),
         };
-        if let Err(stop) = monitor.affords(Walk::work(&ground, &y)) {
+        if let Err(stop) = monitor.affords(Walk::work(&problem, &y)) {
             best.ending = Ending::Stopped(stop);
             break;
         }
-        let Some(mut walk) = Walk::new(&ground, &y) else { continue };
+        let Some(mut walk) = Walk::new(&problem, &y) else { continue };
         let end = walk.follow(attempt.rules(y.len()), monitor);
         let mut candidate = ended(contact, settings, &walk, end, monitor);
         effort.factorisations += walk.factorisations + candidate.effort.factorisations;
@@ -187,7 +189,7 @@ fn solve(
         let settled = candidate.is_settled(contact, settings.tolerance);
         count(
             "path in the plane",
-            20 * usize::from(attempts.len() <= ON_UNDECIDED.len()) + number,
+            20 * usize::from(attempts.len() <= ON_UNCERTAIN_PAIRS.len()) + number,
             settled,
         );
         if settled {
@@ -207,19 +209,21 @@ fn ended(
     contact: &Contact<'_>,
     settings: &Settings,
     walk: &Walk<'_>,
-    end: End,
+    end: WalkEnd,
     monitor: &mut Monitor<'_>,
 ) -> Candidate {
     let d = walk.displacements();
     let ending = match end {
-        End::Arrived => {
+        WalkEnd::Arrived => {
             return from_pieces(contact, settings, walk.pieces(), &d, monitor);
         }
-        End::Lost => Ending::Stalled(LOST),
+        WalkEnd::Lost => Ending::Stalled(LOST),
         // If the body only lifts off, the ray itself is the proof; if it also slips, the balance of
         // the other pairs decides.
-        End::Ray(motion) => Ending::Recession(rigid::escape(contact, monitor).unwrap_or(motion)),
-        End::Stopped(stop) => Ending::Stopped(stop),
+        WalkEnd::Ray(motion) => {
+            Ending::Recession(rigid::escape(contact, monitor).unwrap_or(motion))
+        }
+        WalkEnd::Stopped(stop) => Ending::Stopped(stop),
     };
     Candidate::of_displacements(contact, d, ending)
 }
@@ -317,7 +321,7 @@ mod tests {
             let problem = coulomb(&stiffness, &load, &gap, &mu, &slip);
             let (contact, settings) = (Contact::new(&problem), Settings::default());
             let mut monitor = Monitor::new(&settings, None);
-            if let Ok(candidate) = on_undecided(&contact, &settings, None, &mut monitor) {
+            if let Ok(candidate) = on_uncertain_pairs(&contact, &settings, None, &mut monitor) {
                 assert!(candidate.is_settled(&contact, settings.tolerance), "seed {seed}");
                 settled += 1;
             }

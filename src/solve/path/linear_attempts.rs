@@ -79,8 +79,8 @@ pub const ATTEMPTS: [Attempt; 8] = [
 pub const LAST: usize = 5;
 
 /// Walks on the pairs in question, where each costs less.
-pub const ON_UNDECIDED: [Attempt; 3] =
+pub const ON_UNCERTAIN_PAIRS: [Attempt; 3] =
     [walk(0, Start::Swept, SHORT), walk(50, Start::Swept, SHORT), walk(50, Start::Swept, SHORT)];
 
 /// The first of them where no fewer pairs have been solved: without sweeps on these pairs few walks arrive.
-pub const FIRST_ON_UNDECIDED: usize = 1;
+pub const FIRST_ON_UNCERTAIN_PAIRS: usize = 1;

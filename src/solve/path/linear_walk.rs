@@ -1,6 +1,6 @@
 //! One way along the linear path, from piece to piece.
 
-use crate::law::{Contact, Exit, Linearised, Piece, Planar};
+use crate::law::{Contact, Linearised, Piece, PieceExit, Planar};
 use crate::linalg::tolerances::SINGULAR_BASIS;
 use crate::linalg::vector::{NormSum, largest_of};
 use crate::monitor::{Monitor, Stop};
@@ -31,7 +31,7 @@ pub struct Rules {
 }
 
 /// How a walk ended.
-pub enum End {
+pub enum WalkEnd {
     /// At the loads of the problem.
     Arrived,
     /// Below the loads of the start for ever; the system of a piece is singular; too many events.
@@ -43,7 +43,7 @@ pub enum End {
 }
 
 /// The data that all walks of a problem share.
-pub struct Ground<'p> {
+pub struct PathProblem<'p> {
     /// The problem.
     pub contact: &'p Contact<'p>,
     /// Its equations.
@@ -58,7 +58,7 @@ pub struct Ground<'p> {
 
 /// A walk: `K v + P = r_s` for all `s` on the way, `r_s = r_0 + s (r - r_0)`.
 pub struct Walk<'p> {
-    ground: &'p Ground<'p>,
+    problem: &'p PathProblem<'p>,
     system: Updated<'p>,
     /// The pieces of today.
     pieces: Vec<Piece>,
@@ -77,15 +77,15 @@ pub struct Walk<'p> {
 
 impl<'p> Walk<'p> {
     /// Operations of [`Self::new`].
-    pub fn work(ground: &Ground<'_>, start: &[Planar]) -> f64 {
-        let pairs = ground.contact.pairs().iter().zip(start);
+    pub fn work(problem: &PathProblem<'_>, start: &[Planar]) -> f64 {
+        let pairs = problem.contact.pairs().iter().zip(start);
         let pieces: Vec<Piece> = pairs.map(|(law, y)| law.piece(&[y[0], y[1], 0.0])).collect();
-        System::work(ground.equations, &linearised(ground.contact, &pieces))
+        System::work(problem.equations, &linearised(problem.contact, &pieces))
     }
 
     /// Begins at the coordinates `start`; `None` if the system there is singular.
-    pub fn new(ground: &'p Ground<'p>, start: &[Planar]) -> Option<Self> {
-        let contact = ground.contact;
+    pub fn new(problem: &'p PathProblem<'p>, start: &[Planar]) -> Option<Self> {
+        let contact = problem.contact;
         let (mut v, mut first, mut pieces) = (Vec::new(), Vec::new(), Vec::new());
         for (law, y) in contact.pairs().iter().zip(start) {
             let y = [y[0], y[1], 0.0];
@@ -95,12 +95,13 @@ impl<'p> Walk<'p> {
             first.extend_from_slice(&push[..2]);
         }
         contact.problem().stiffness().add_product(&v, &mut first);
-        let change: Vec<f64> = ground.load.iter().zip(&first).map(|(r, first)| r - first).collect();
+        let change: Vec<f64> =
+            problem.load.iter().zip(&first).map(|(r, first)| r - first).collect();
         let pairs = linearised(contact, &pieces);
-        let mut system = Updated::new(ground.equations, pairs, SINGULAR_BASIS)?;
+        let mut system = Updated::new(problem.equations, pairs, SINGULAR_BASIS)?;
         let rate = system.solve(&change);
         Some(Walk {
-            ground,
+            problem,
             system,
             pieces,
             first,
@@ -115,45 +116,45 @@ impl<'p> Walk<'p> {
 
     /// Goes on to the end, with the sign of `det J`: downwards at first where that is negative, and below the loads of the
     /// start if the way leads there.
-    pub fn follow(&mut self, rules: Rules, monitor: &mut Monitor<'_>) -> End {
+    pub fn follow(&mut self, rules: Rules, monitor: &mut Monitor<'_>) -> WalkEnd {
         for _ in 0..rules.most {
             if let Err(stop) = monitor.step() {
-                return End::Stopped(stop);
+                return WalkEnd::Stopped(stop);
             }
             let sign = f64::from(self.system.sign());
             let exit = self.next_exit(sign);
             let left = if sign > 0.0 { 1.0 - self.s } else { f64::INFINITY };
             let step = exit.as_ref().map_or(left, |(_, exit)| exit.step.min(left));
             if !step.is_finite() {
-                return End::Lost;
+                return WalkEnd::Lost;
             }
-            if step * self.length(&self.rate) > FAR * (self.length(&self.y) + self.ground.size)
+            if step * self.length(&self.rate) > FAR * (self.length(&self.y) + self.problem.size)
                 && let Some(motion) = self.rigid(&self.rate, sign)
             {
-                return End::Ray(motion);
+                return WalkEnd::Ray(motion);
             }
             for (y, rate) in self.y.iter_mut().zip(&self.rate) {
                 *y += sign * step * rate;
             }
             self.s += sign * step;
             let Some((pair, exit)) = exit.filter(|(_, exit)| exit.step < left) else {
-                return End::Arrived;
+                return WalkEnd::Arrived;
             };
             if let Err(end) = self.pass(pair, &exit, rules, monitor) {
                 return end;
             }
         }
-        End::Lost
+        WalkEnd::Lost
     }
 
     /// The first boundary on the way, and whose it is.
-    fn next_exit(&self, sign: f64) -> Option<(usize, Exit)> {
+    fn next_exit(&self, sign: f64) -> Option<(usize, PieceExit)> {
         self.exits(sign).min_by(|a, b| a.1.step.total_cmp(&b.1.step))
     }
 
     /// The next boundary of each pair that comes to one on the way.
-    fn exits(&self, sign: f64) -> impl Iterator<Item = (usize, Exit)> {
-        let pairs = self.ground.contact.pairs().iter().zip(&self.pieces);
+    fn exits(&self, sign: f64) -> impl Iterator<Item = (usize, PieceExit)> {
+        let pairs = self.problem.contact.pairs().iter().zip(&self.pieces);
         let ways = self.y.chunks_exact(2).zip(self.rate.chunks_exact(2));
         pairs.zip(ways).enumerate().filter_map(move |(pair, ((law, piece), (y, rate)))| {
             let rate = [sign * rate[0], sign * rate[1]];
@@ -165,18 +166,19 @@ impl<'p> Walk<'p> {
     fn pass(
         &mut self,
         pair: usize,
-        exit: &Exit,
+        exit: &PieceExit,
         rules: Rules,
         monitor: &mut Monitor<'_>,
-    ) -> Result<(), End> {
+    ) -> Result<(), WalkEnd> {
         self.events += 1;
-        let laws = self.ground.contact.pairs();
-        let beyond = |(pair, exit): (usize, Exit)| (pair, laws[pair].linearised_on(exit.beyond));
+        let laws = self.problem.contact.pairs();
+        let beyond =
+            |(pair, exit): (usize, PieceExit)| (pair, laws[pair].linearised_on(exit.beyond));
         let change = [beyond((pair, *exit))];
         if self.y.len() > IN_CACHE && self.system.lacks_columns(&change) {
             let others =
                 self.exits(f64::from(self.system.sign())).filter(|(other, _)| *other != pair);
-            let mut likely: Vec<(usize, Exit)> = others.collect();
+            let mut likely: Vec<(usize, PieceExit)> = others.collect();
             likely.sort_by(|a, b| a.1.step.total_cmp(&b.1.step));
             likely.insert(0, (pair, *exit));
             let likely: Vec<(usize, Linearised)> = likely.into_iter().map(beyond).collect();
@@ -188,23 +190,23 @@ impl<'p> Walk<'p> {
         let ray = if singular { change.direction().to_vec() } else { Vec::new() };
         let made = self.system.make(change, &mut self.rate);
         if singular && let Some(motion) = self.rigid(&ray, 1.0) {
-            return Err(End::Ray(motion));
+            return Err(WalkEnd::Ray(motion));
         }
         if singular || made.is_none() || self.system.age() >= rules.age {
-            let pairs = linearised(self.ground.contact, &self.pieces);
-            let work = System::work(self.ground.equations, &pairs);
-            monitor.affords(work).map_err(End::Stopped)?;
-            return self.refactorise().ok_or(End::Lost);
+            let pairs = linearised(self.problem.contact, &self.pieces);
+            let work = System::work(self.problem.equations, &pairs);
+            monitor.affords(work).map_err(WalkEnd::Stopped)?;
+            return self.refactorise().ok_or(WalkEnd::Lost);
         }
         Ok(())
     }
 
     /// Factorises the system of today's pieces, and puts the coordinates back on the path.
     fn refactorise(&mut self) -> Option<()> {
-        let contact = self.ground.contact;
+        let contact = self.problem.contact;
         self.factorisations += 1;
         let pairs = linearised(contact, &self.pieces);
-        self.system = Updated::new(self.ground.equations, pairs, SINGULAR_BASIS)?;
+        self.system = Updated::new(self.problem.equations, pairs, SINGULAR_BASIS)?;
         // J y = r_s - c + K c_t / k, with P = D y + c on a piece.
         let mut side: Vec<f64> =
             self.first.iter().zip(&self.change).map(|(r, change)| r + self.s * change).collect();
@@ -215,7 +217,7 @@ impl<'p> Walk<'p> {
             side[i] -= push[0];
             side[i + 1] -= push[1];
             // A tension is no part of `k v = y - P'`.
-            constant[i + 1] = push[1] / self.ground.root[i + 1].powi(2);
+            constant[i + 1] = push[1] / self.problem.root[i + 1].powi(2);
         }
         contact.problem().stiffness().add_product(&constant, &mut side);
         self.y = self.system.solve(&side);
@@ -232,17 +234,17 @@ impl<'p> Walk<'p> {
         }
         let mut motion = self.system.motion(way);
         motion.iter_mut().for_each(|motion| *motion *= sign);
-        let internal = self.ground.contact.problem().internal_force(&motion);
-        let pairs = || motion.iter().zip(self.ground.root);
+        let internal = self.problem.contact.problem().internal_force(&motion);
+        let pairs = || motion.iter().zip(self.problem.root);
         let size = largest_of(pairs().map(|(motion, root)| motion * root));
-        let resisted = internal.iter().zip(self.ground.root).map(|(force, root)| force / root);
+        let resisted = internal.iter().zip(self.problem.root).map(|(force, root)| force / root);
         (size > 0.0 && largest_of(resisted) <= SMALL_PIVOT * size).then_some(motion)
     }
 
     /// Norm of coordinates, each in its unit.
     fn length(&self, y: &[f64]) -> f64 {
         let mut sum = NormSum::default();
-        y.iter().zip(self.ground.root).for_each(|(y, root)| sum.add(y / root));
+        y.iter().zip(self.problem.root).for_each(|(y, root)| sum.add(y / root));
         sum.root()
     }
 
@@ -253,7 +255,7 @@ impl<'p> Walk<'p> {
 
     /// The displacements of today.
     pub fn displacements(&self) -> Vec<f64> {
-        let pairs = self.ground.contact.pairs().iter().zip(self.y.chunks_exact(2));
+        let pairs = self.problem.contact.pairs().iter().zip(self.y.chunks_exact(2));
         pairs.flat_map(|(law, y)| law.point(&[y[0], y[1], 0.0]).0[..2].to_vec()).collect()
     }
 }
@@ -290,7 +292,7 @@ mod tests {
         let (contact, settings) = (Contact::new(&problem), Settings::default());
         let root = problem.unit_roots();
         let equations = Equations::of(&contact);
-        let ground = Ground {
+        let problem = PathProblem {
             contact: &contact,
             equations: &equations,
             root: &root,
@@ -300,12 +302,12 @@ mod tests {
         let (stuck, slipping, open) = ([1.0, 1.5], [0.5, 1.5], [-1.0, 2.0]);
         for (start, sign, events) in [(stuck, 1.0, 2), (slipping, -1.0, 1), (open, 1.0, 0)] {
             let mut monitor = Monitor::new(&settings, None);
-            let mut walk = Walk::new(&ground, &[start]).expect("each piece is regular");
+            let mut walk = Walk::new(&problem, &[start]).expect("each piece is regular");
             // K v + P is (1, 1.5) at all three; powers of two and few digits leave no rounding.
             assert_eq!(walk.first, [1.0, 1.5]);
             assert_eq!(f64::from(walk.system.sign()), sign);
             let end = walk.follow(Rules { most: 10, age: 60 }, &mut monitor);
-            assert!(matches!(end, End::Arrived), "from {start:?}");
+            assert!(matches!(end, WalkEnd::Arrived), "from {start:?}");
             assert_eq!(walk.events, events, "from {start:?}");
             let d = walk.displacements();
             assert!((d[0] + 1.0).abs() < 1e-14 && (d[1] - 1.0).abs() < 1e-14, "{d:?}");

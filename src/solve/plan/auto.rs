@@ -8,7 +8,7 @@
 //! unstable: the next method is asked too.
 
 use super::dispatch::run;
-use super::table::{Call, Row, Start, plan};
+use super::table::{Call, MethodRow, Start, plan};
 use crate::counters::count;
 use crate::error::Error;
 use crate::law::Contact;
@@ -89,7 +89,7 @@ impl Tried {
     }
 
     /// Keeps the better displacements, with the ending of the later method.
-    fn keep(&mut self, contact: &Contact<'_>, row: &Row, candidate: Candidate) {
+    fn keep(&mut self, contact: &Contact<'_>, row: &MethodRow, candidate: Candidate) {
         let eta = |candidate: &Candidate| candidate.certificate(contact).eta;
         match &mut self.best {
             Some((_, best)) if !(eta(&candidate) < eta(best)) => best.ending = candidate.ending,

@@ -1,6 +1,6 @@
 //! One method on one problem: which it fits, and what runs it.
 
-use super::table::{Call, Row, chosen};
+use super::table::{Call, MethodRow, chosen};
 use crate::error::{Argument, Error};
 use crate::law::Contact;
 use crate::monitor::Monitor;
@@ -20,7 +20,7 @@ pub fn check_method(contact: &Contact<'_>, method: Method) -> Result<(), Error> 
 
 /// Runs the method of a row, which fits the problem; `None` if there is nothing for it to do.
 pub fn run(
-    row: &Row,
+    row: &MethodRow,
     call: &Call<'_>,
     monitor: &mut Monitor<'_>,
 ) -> Result<Option<Candidate>, Error> {
@@ -30,5 +30,5 @@ pub fn run(
     }
     let Some(candidate) = (row.run)(call, monitor)? else { return Ok(None) };
     let candidate = without_idle_motion(contact, candidate, monitor);
-    Ok(Some(newton::polished(contact, settings, candidate, monitor)))
+    Ok(Some(newton::refine_to_tolerance(contact, settings, candidate, monitor)))
 }

@@ -2,10 +2,10 @@
 
 mod auto;
 mod dispatch;
-mod far_obstacles;
+mod distant_gaps;
 mod remarks;
 mod table;
 
 pub use auto::solve as auto;
-pub use far_obstacles::{FAR, solve};
+pub use distant_gaps::{FAR, solve};
 pub use remarks::{explain_stall, of_solution};

@@ -9,7 +9,7 @@ use crate::solve::rigid::Balance;
 use crate::solve::{lcp, newton, path, proximal, sweeps};
 
 /// A row of the table.
-pub struct Row {
+pub struct MethodRow {
     /// The method that the result names.
     pub method: Method,
     /// The name of the row in counts.
@@ -51,28 +51,29 @@ impl Call<'_> {
 }
 
 /// Without friction: methods of linear complementarity first, which end where Newton's method and the path give up.
-const WITHOUT_FRICTION: [&Row; 5] = [&BLOCK_PIVOTING, &LEMKE, &NEWTON, &PATH, &NESTED_SWEEPS];
+const WITHOUT_FRICTION: [&MethodRow; 5] = [&BLOCK_PIVOTING, &LEMKE, &NEWTON, &PATH, &NESTED_SWEEPS];
 
 /// With friction: the fastest method first. In the plane the path has the guarantee. It starts where sweeps end and takes
 /// far fewer events than Lemke's method takes pivots on most problems; Lemke's path may end where rounding spoils all
 /// its starts, or where a body without supports leaves it on a ray that proves nothing.
-const WITH_FRICTION: [&Row; 7] =
+const WITH_FRICTION: [&MethodRow; 7] =
     [&NEWTON, &SPRINGS, &PATH_FROM_BEST, &PATH, &LEMKE, &NESTED_SWEEPS, &DIAGONAL_SWEEPS];
 
 /// The methods of a problem that leaves the choice to the library, in turn: all that fit.
-pub fn plan(contact: &Contact<'_>) -> impl Iterator<Item = &'static Row> {
-    let rows: &[&Row] = if contact.is_frictionless() { &WITHOUT_FRICTION } else { &WITH_FRICTION };
+pub fn plan(contact: &Contact<'_>) -> impl Iterator<Item = &'static MethodRow> {
+    let rows: &[&MethodRow] =
+        if contact.is_frictionless() { &WITHOUT_FRICTION } else { &WITH_FRICTION };
     rows.iter().copied().filter(|row| (row.refuses)(contact).is_none())
 }
 
 /// The row of a method that a host has chosen. `Err`: why it does not fit the problem.
-pub fn chosen(contact: &Contact<'_>, method: Method) -> Result<&'static Row, String> {
+pub fn chosen(contact: &Contact<'_>, method: Method) -> Result<&'static MethodRow, String> {
     let mut rows = WITHOUT_FRICTION.iter().chain(&WITH_FRICTION);
     let row = rows.find(|row| row.method == method).expect("every method but auto has a row");
     (row.refuses)(contact).map_or(Ok(row), Err)
 }
 
-const NEWTON: Row = Row {
+const NEWTON: MethodRow = MethodRow {
     method: Method::Newton,
     name: "Newton",
     start: Start::Own,
@@ -82,7 +83,7 @@ const NEWTON: Row = Row {
 
 /// Springs that are let go, where contact alone holds a body. The balance of rigid motions is asked first: it proves in
 /// most cases that no equilibrium exists.
-const SPRINGS: Row = Row {
+const SPRINGS: MethodRow = MethodRow {
     method: Method::Newton,
     name: "springs",
     start: Start::Best,
@@ -98,9 +99,10 @@ const SPRINGS: Row = Row {
     },
 };
 
-const PATH_FROM_BEST: Row = Row { name: "path from the best iterate", start: Start::Best, ..PATH };
+const PATH_FROM_BEST: MethodRow =
+    MethodRow { name: "path from the best iterate", start: Start::Best, ..PATH };
 
-const PATH: Row = Row {
+const PATH: MethodRow = MethodRow {
     method: Method::Path,
     name: "path",
     start: Start::Own,
@@ -111,7 +113,7 @@ const PATH: Row = Row {
     },
 };
 
-const BLOCK_PIVOTING: Row = Row {
+const BLOCK_PIVOTING: MethodRow = MethodRow {
     method: Method::BlockPivoting,
     name: "block pivoting",
     start: Start::Own,
@@ -134,7 +136,7 @@ const BLOCK_PIVOTING: Row = Row {
     },
 };
 
-const LEMKE: Row = Row {
+const LEMKE: MethodRow = MethodRow {
     method: Method::Lemke,
     name: "Lemke",
     start: Start::Own,
@@ -153,7 +155,7 @@ const LEMKE: Row = Row {
     },
 };
 
-const NESTED_SWEEPS: Row = Row {
+const NESTED_SWEEPS: MethodRow = MethodRow {
     method: Method::SorNested,
     name: "nested sweeps",
     start: Start::Own,
@@ -170,7 +172,7 @@ const NESTED_SWEEPS: Row = Row {
     },
 };
 
-const DIAGONAL_SWEEPS: Row = Row {
+const DIAGONAL_SWEEPS: MethodRow = MethodRow {
     method: Method::SorDiagonal,
     name: "diagonal sweeps",
     start: Start::Own,

@@ -206,7 +206,7 @@ impl Springs<'_> {
     fn without_springs(&mut self, monitor: &mut Monitor<'_>) -> Result<Candidate, Ending> {
         let (contact, settings) = (self.contact, self.settings);
         let candidate = self.newton((contact, settings), MOST_WITHOUT_SPRINGS, monitor)?;
-        Ok(newton::polished(contact, settings, candidate, monitor))
+        Ok(newton::refine_to_tolerance(contact, settings, candidate, monitor))
     }
 
     /// What Newton's method makes of a problem with at most so many systems from the last solution. `Err`: the call is

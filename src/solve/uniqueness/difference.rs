@@ -6,7 +6,7 @@
 
 use crate::law::Contact;
 use crate::linalg::vector::largest_of;
-use crate::solve::newton::Sharpened;
+use crate::solve::newton::FullyRefined;
 
 /// Relative margin by which a statement must be true to count as proved: the rounding of systems with condition
 /// numbers up to 1e9 or 1e10, the largest that are certified, stays below it.
@@ -21,8 +21,9 @@ const PARTED: f64 = 1e3;
 const AT_SOLUTION: f64 = 4.0 * f64::EPSILON;
 
 /// True if two refined answers are next to two solutions.
-pub fn are_parted(contact: &Contact<'_>, one: &Sharpened, two: &Sharpened) -> bool {
-    let is_solution = |answer: &Sharpened| answer.candidate.certificate(contact).holds(AT_SOLUTION);
+pub fn are_parted(contact: &Contact<'_>, one: &FullyRefined, two: &FullyRefined) -> bool {
+    let is_solution =
+        |answer: &FullyRefined| answer.candidate.certificate(contact).holds(AT_SOLUTION);
     if !is_solution(one) || !is_solution(two) {
         return false;
     }
@@ -34,7 +35,7 @@ pub fn are_parted(contact: &Contact<'_>, one: &Sharpened, two: &Sharpened) -> bo
 }
 
 /// True if a refined answer is so near to its solution that this has what the answer has by [`MARGIN`].
-pub fn is_sharp(contact: &Contact<'_>, answer: &Sharpened) -> bool {
+pub fn is_sharp(contact: &Contact<'_>, answer: &FullyRefined) -> bool {
     let root = contact.problem().unit_roots();
     PARTED * scaled(&root, &answer.error) <= MARGIN * size(contact, answer.candidate.d())
 }

@@ -11,7 +11,7 @@ mod search;
 
 use difference::{are_different, are_parted};
 
-use super::newton::{from_pieces, sharpened};
+use super::newton::{from_pieces, refine_fully};
 use super::result::{Candidate, Ending};
 use super::result::{Solution, Status, Uniqueness};
 use crate::error::Error;
@@ -41,7 +41,7 @@ pub fn examine(
         return Ok(());
     }
     if contact.dim() != 2 {
-        let Some(first) = sharpened(contact, &given(contact, solution), monitor) else {
+        let Some(first) = refine_fully(contact, &given(contact, solution), monitor) else {
             return Ok(());
         };
         if let Some(second) = search::another_in_space(contact, settings, &first, monitor) {
@@ -51,10 +51,10 @@ pub fn examine(
         return Ok(());
     }
     // To the last digit, and with its orientation.
-    let Some(first) = polished(contact, settings, &solution.d, monitor) else { return Ok(()) };
+    let Some(first) = on_own_pieces(contact, settings, &solution.d, monitor) else { return Ok(()) };
     solution.orientation = first.orientation;
     by_orientation(contact, solution, monitor);
-    let Some(first) = sharpened(contact, &first, monitor) else { return Ok(()) };
+    let Some(first) = refine_fully(contact, &first, monitor) else { return Ok(()) };
     if let Some(second) = search::another(contact, settings, &first, monitor)? {
         solution.uniqueness = Uniqueness::Several;
         solution.second = Some(Box::new(second));
@@ -67,7 +67,7 @@ pub fn examine(
 pub fn by_orientation(contact: &Contact<'_>, solution: &mut Solution, monitor: &Monitor<'_>) {
     if solution.orientation < 0
         && solution.status == Status::Solved
-        && let Some(sharp) = sharpened(contact, &given(contact, solution), monitor)
+        && let Some(sharp) = refine_fully(contact, &given(contact, solution), monitor)
         && sharp.candidate.orientation < 0
         && is_sharp(contact, &sharp)
         && is_strict(contact, sharp.candidate.d())
@@ -85,7 +85,7 @@ pub fn are_two(
     two: &Solution,
     monitor: &Monitor<'_>,
 ) -> bool {
-    let sharp = |solution| sharpened(contact, &given(contact, solution), monitor);
+    let sharp = |solution| refine_fully(contact, &given(contact, solution), monitor);
     matches!((sharp(one), sharp(two)), (Some(one), Some(two)) if are_parted(contact, &one, &two))
 }
 
@@ -95,7 +95,7 @@ fn given(contact: &Contact<'_>, solution: &Solution) -> Candidate {
 }
 
 /// The solution on the pieces of `d`, if that is `d`.
-fn polished(
+fn on_own_pieces(
     contact: &Contact<'_>,
     settings: &Settings,
     d: &[f64],

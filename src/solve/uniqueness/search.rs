@@ -6,7 +6,7 @@ use crate::law::Piece;
 use crate::law::{Contact, PairLaw};
 use crate::monitor::Monitor;
 use crate::settings::Settings;
-use crate::solve::newton::{Sharpened, from_pieces, sharpened};
+use crate::solve::newton::{FullyRefined, from_pieces, refine_fully};
 use crate::solve::result::SecondSolution;
 use crate::solve::result::{Candidate, Ending};
 use crate::solve::{lcp, path};
@@ -21,7 +21,7 @@ const NEIGHBOURS: usize = 32;
 pub fn another(
     contact: &Contact<'_>,
     settings: &Settings,
-    known: &Sharpened,
+    known: &FullyRefined,
     monitor: &mut Monitor<'_>,
 ) -> Result<Option<SecondSolution>, Error> {
     let accepted =
@@ -57,7 +57,7 @@ pub fn another(
 pub fn another_in_space(
     contact: &Contact<'_>,
     settings: &Settings,
-    known: &Sharpened,
+    known: &FullyRefined,
     monitor: &mut Monitor<'_>,
 ) -> Option<SecondSolution> {
     path::ends(contact, settings, monitor)
@@ -69,14 +69,14 @@ pub fn another_in_space(
 fn accepted(
     contact: &Contact<'_>,
     settings: &Settings,
-    known: &Sharpened,
+    known: &FullyRefined,
     candidate: Candidate,
     monitor: &Monitor<'_>,
 ) -> Option<SecondSolution> {
     let may_be = candidate.ending == Ending::Done
         && candidate.certificate(contact).holds(settings.tolerance)
         && are_different(contact, known.candidate.d(), candidate.d());
-    let other = if may_be { sharpened(contact, &candidate, monitor)? } else { return None };
+    let other = if may_be { refine_fully(contact, &candidate, monitor)? } else { return None };
     let is_other = are_parted(contact, known, &other)
         && other.candidate.certificate(contact).holds(settings.tolerance);
     let found = other.candidate;

@@ -126,10 +126,10 @@ fn follow(
     let mut candidate = Candidate::of_displacements(contact, d, ending);
     if candidate.ending == Ending::Done {
         let (pieces, d) = (lcp.pieces(&run.z), candidate.d().to_vec());
-        let mut polished = from_pieces(contact, settings, &pieces, &d, monitor);
-        polished.ending = Ending::Done;
-        if polished.certificate(contact).eta <= candidate.certificate(contact).eta {
-            candidate = polished;
+        let mut refined = from_pieces(contact, settings, &pieces, &d, monitor);
+        refined.ending = Ending::Done;
+        if refined.certificate(contact).eta <= candidate.certificate(contact).eta {
+            candidate = refined;
         }
     }
     candidate.effort.refactorisations = run.refactorisations;

@@ -30,12 +30,12 @@ pub fn frictionless(
         return Ok(thorough);
     }
     let effort = thorough.effort;
-    let polished = Candidate::of_displacements(
+    let refined = Candidate::of_displacements(
         contact,
-        normal.polished(thorough.d().to_vec(), monitor),
+        normal.refine(thorough.d().to_vec(), monitor),
         Ending::Done,
     );
-    Ok(polished.with_effort(effort))
+    Ok(refined.with_effort(effort))
 }
 
 fn follow(

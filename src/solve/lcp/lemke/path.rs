@@ -88,7 +88,7 @@ pub struct Rules {
     pub turns: usize,
 }
 
-/// End of the path where a ray proves something: only the rounding of the last pivots is forgiven, ten
+/// LemkeEnd of the path where a ray proves something: only the rounding of the last pivots is forgiven, ten
 /// units of [`crate::linalg::tolerances::ROUNDING`].
 const END: f64 = 1e-13;
 
@@ -152,22 +152,22 @@ pub fn follow(lcp: ScaledLcp<'_>, rules: Rules, monitor: &mut Monitor<'_>) -> Re
     let mut path =
         Path { problem: &problem, tableau, rules, turns: Vec::new(), refactorisations: 0 };
     let mut end = path.run(false, monitor);
-    if let End::Cycle = end {
+    if let LemkeEnd::Cycle = end {
         end = match Tableau::new(&problem, monitor)? {
             Ok(tableau) => {
                 path.tableau = tableau;
                 path.turns.clear();
                 path.run(true, monitor)
             }
-            Err(stop) => End::Ended(Ending::Stopped(stop)),
+            Err(stop) => LemkeEnd::Ended(Ending::Stopped(stop)),
         };
     }
     let ending = match end {
-        End::Ray(entering) => {
+        LemkeEnd::Ray(entering) => {
             Ending::Recession(in_unit(&mut (n..2 * n).map(|z| path.tableau.rate(z, entering)), 0))
         }
-        End::Cycle => CYCLE,
-        End::Ended(ending) => ending,
+        LemkeEnd::Cycle => CYCLE,
+        LemkeEnd::Ended(ending) => ending,
     };
     let turns = path.turns.iter().map(|z| in_unit(&mut z.iter().copied(), unit)).collect();
     let z = in_unit(&mut (n..2 * n).map(|z| path.tableau.value(z)), unit);
@@ -184,7 +184,7 @@ struct Path<'p> {
 }
 
 /// The end of a path in terms of the tableau.
-enum End {
+enum LemkeEnd {
     Ended(Ending),
     /// Nothing blocks the entering variable.
     Ray(usize),
@@ -194,10 +194,10 @@ enum End {
 
 impl Path<'_> {
     /// Follows the path; `always`: with close ratios decided in twice the precision from start to end.
-    fn run(&mut self, always: bool, monitor: &mut Monitor<'_>) -> End {
+    fn run(&mut self, always: bool, monitor: &mut Monitor<'_>) -> LemkeEnd {
         let n = self.problem.size();
         let z0 = 2 * n;
-        let Some(mut row) = self.tableau.first_row() else { return End::Ended(Ending::Done) };
+        let Some(mut row) = self.tableau.first_row() else { return LemkeEnd::Ended(Ending::Done) };
         let mut entering = z0;
         self.tableau.choose(entering);
         let mut start = None;
@@ -206,7 +206,7 @@ impl Path<'_> {
         loop {
             let work = self.tableau.pivot_work();
             if let Err(stop) = monitor.step().and_then(|()| monitor.affords(work)) {
-                return End::Ended(Ending::Stopped(stop));
+                return LemkeEnd::Ended(Ending::Stopped(stop));
             }
             pivots += 1;
             let leaving = self.tableau.basic(row);
@@ -217,15 +217,15 @@ impl Path<'_> {
             if ended || pivots % interval == 0 {
                 match self.check(careful, monitor) {
                     Ok(true) => {}
-                    Ok(false) => return End::Ended(BREAKDOWN),
-                    Err(stop) => return End::Ended(Ending::Stopped(stop)),
+                    Ok(false) => return LemkeEnd::Ended(BREAKDOWN),
+                    Err(stop) => return LemkeEnd::Ended(Ending::Stopped(stop)),
                 }
             }
             if ended {
-                return End::Ended(Ending::Done);
+                return LemkeEnd::Ended(Ending::Done);
             }
             if trail.returns_by(entering, leaving) {
-                return End::Cycle;
+                return LemkeEnd::Cycle;
             }
             careful = always || (n <= FEW && (n as u64..SPAN * n as u64).contains(&pivots));
             start.get_or_insert(self.tableau.value(z0));
@@ -236,7 +236,7 @@ impl Path<'_> {
             }
             row = match self.blocking_row(careful, entering) {
                 Some(row) => row,
-                None => return End::Ray(entering),
+                None => return LemkeEnd::Ray(entering),
             };
         }
     }

@@ -20,7 +20,7 @@ use crate::solve::result::{Solution, Status, Uniqueness, certified};
 /// costs no method the digits that a result must have.
 pub const FAR: f64 = 1e6;
 
-/// Factors where no method has solved the problem as it is: any obstacle may be the one that does harm.
+/// Factors where no method has solved the problem as it is: any obstacle may spoil it.
 const FAR_OF_UNSOLVED: [f64; 2] = [1e3, 1e1];
 
 /// Most solutions without far obstacles: each that is refused tells which ones to put back, and weak
