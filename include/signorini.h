@@ -81,8 +81,6 @@ extern "C" {
 
 /* ============================================================================================
  * 1  One call
- *
- * The structures of settings, report and extra stand in section 4.
  * ========================================================================================== */
 
 typedef struct signorini_settings signorini_settings;
@@ -208,15 +206,12 @@ typedef struct signorini_model_data signorini_model_data;
 struct signorini_sparse {
     uint32_t struct_size; /**< sizeof(signorini_sparse). */
     int32_t index_bytes;  /**< Width of col_start, row and order: 4 for int32_t, 8 for int64_t. */
-    /**
-     * Number of the first row, 0 or 1: all indices and degrees of freedom of the call count from
-     * it.
-     */
+    /** Number of the first row, 0 or 1: all degrees of freedom of the call count from it. */
     int32_t index_base;
     int32_t triangle;     /**< Which entries are stored, SIGNORINI_TRIANGLE_... */
     int64_t size;         /**< Number of rows and columns. */
     int64_t nnz;          /**< Number of stored entries. */
-    /** Start of each column in row and values, size + 1 entries, the last index_base + nnz. */
+    /** Start of each column in row and values, size + 1 entries from index_base. */
     const void *col_start;
     const void *row;      /**< Row of each entry, ascending in each column. */
     const double *values; /**< The entries; a stiffness: force / length. */
@@ -448,9 +443,9 @@ int32_t signorini_model_recover(const signorini_model *model, int64_t cases, con
                                 const double *prescribed, const double *d, double *u);
 
 /**
- * Contact forces as your nodal forces. Sparse model: F on the slaves, the opposite on the masters;
- * general rows: F by the signed weights. Two bodies: F on both, each in its own frame. Condensed
- * model: F itself.
+ * Contact forces as your nodal forces. Sparse model: F on the slaves, the opposite on the masters,
+ * or F by the signed weights. Two bodies: F on both, each in its own frame. Condensed model: F
+ * itself.
  *
  * @param model  the model
  * @param F      contact forces, N
@@ -518,7 +513,7 @@ int32_t signorini_model_certify(const signorini_model *model, const double *f,
 
 typedef struct signorini_progress signorini_progress;
 
-/** A progress callback receives it. Later versions may add fields at the end. */
+/** Later versions may add fields at the end. */
 struct signorini_progress {
     int64_t iterations; /**< Sweeps, pivots or linear systems done. */
     double eta;         /**< Latest measured eta; infinite before the first measurement. */
@@ -538,8 +533,8 @@ struct signorini_progress {
 typedef int32_t (*signorini_progress_fn)(void *user, const signorini_progress *progress);
 
 /**
- * How to solve. Fill it by signorini_settings_default(), then change what you like. The library
- * only reads it, so that several threads may use one.
+ * Fill it by signorini_settings_default(), then change what you like. The library only reads it:
+ * several threads may use one.
  */
 struct signorini_settings {
     uint32_t struct_size;           /**< sizeof(signorini_settings). */
@@ -557,7 +552,7 @@ struct signorini_settings {
     /**
      * Nonzero: start from what d holds, block pivoting from its states. Default 0: start from
      * d = 0, block pivoting from all pairs closed. Lemke's method has no start.
-     * SIGNORINI_START_PREVIOUS.
+     * SIGNORINI_START_PREVIOUS: from the case before.
      */
     int32_t warm_start;
     int32_t search;                 /**< SIGNORINI_SEARCH_...; default SIGNORINI_SEARCH_OFF. */
@@ -599,7 +594,7 @@ int64_t signorini_solve_memory(int64_t n);
 
 /* ---- How good the result is ---------------------------------------------------------------- */
 
-#define SIGNORINI_UNIQUENESS_NOT_KNOWN 0 /**< It is not known whether there are others. */
+#define SIGNORINI_UNIQUENESS_NOT_KNOWN 0 /**< Not known. */
 #define SIGNORINI_UNIQUENESS_UNIQUE 1    /**< Proved: there is no other solution. */
 #define SIGNORINI_UNIQUENESS_SEVERAL 2   /**< Proved: there are other solutions. */
 
@@ -621,7 +616,7 @@ int64_t signorini_solve_memory(int64_t n);
 #define SIGNORINI_FALLBACK_INACCURATE 4 /**< It found no accurate solution. */
 
 /* Remarks: legal, and often a mistake. */
-/** Every finite gap is negative: interference everywhere, or the sign of gaps is turned round. */
+/** Every finite gap is negative: interference everywhere, or gaps have the wrong sign. */
 #define SIGNORINI_REMARK_GAPS_NEGATIVE 1
 /** A coefficient of friction is above 10: percent, or another array. */
 #define SIGNORINI_REMARK_FRICTION_LARGE 2
@@ -760,7 +755,7 @@ int32_t signorini_lcp_solve(int64_t n, const double *M, int64_t ldm, const doubl
 /** Version of the library, such as "0.2.0"; static text. */
 const char *signorini_version(void);
 
-/** Binary interface of the library: compare it with SIGNORINI_ABI_VERSION after dlopen. */
+/** Binary interface of the library; compare it with SIGNORINI_ABI_VERSION after dlopen. */
 int32_t signorini_abi_version(void);
 
 /* ============================================================================================

@@ -19,7 +19,7 @@ pub const SIGNORINI_STATE_SLIP: i32 = 1;
 /// The pair sticks: d_t = slip0.
 pub const SIGNORINI_STATE_STICK: i32 = 2;
 
-/// It is not known whether there are others.
+/// Not known.
 pub const SIGNORINI_UNIQUENESS_NOT_KNOWN: i32 = 0;
 /// Proved: there is no other solution.
 pub const SIGNORINI_UNIQUENESS_UNIQUE: i32 = 1;
@@ -45,7 +45,7 @@ pub const SIGNORINI_FALLBACK_UNSTABLE: i32 = 3;
 /// It found no accurate solution.
 pub const SIGNORINI_FALLBACK_INACCURATE: i32 = 4;
 
-/// Every finite gap is negative: interference everywhere, or the sign of gaps is turned round.
+/// Every finite gap is negative: interference everywhere, or gaps have the wrong sign.
 pub const SIGNORINI_REMARK_GAPS_NEGATIVE: i32 = 1;
 /// A coefficient of friction is above 10: percent, or another array.
 pub const SIGNORINI_REMARK_FRICTION_LARGE: i32 = 2;

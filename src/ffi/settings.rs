@@ -39,7 +39,7 @@ pub const SIGNORINI_SEARCH_OFF: i32 = 0;
 /// Prove that the solution is unique, or look for a second one. It costs several solutions.
 pub const SIGNORINI_SEARCH_OTHERS: i32 = 1;
 
-/// A progress callback receives it. Later versions may add fields at the end.
+/// Later versions may add fields at the end.
 #[repr(C)]
 pub struct SignoriniProgress {
     /// Sweeps, pivots or linear systems done.
@@ -61,8 +61,8 @@ pub struct SignoriniProgress {
 pub type SignoriniProgressFn =
     Option<unsafe extern "C" fn(user: *mut c_void, progress: *const SignoriniProgress) -> i32>;
 
-/// How to solve. Fill it by signorini_settings_default(), then change what you like. The library
-/// only reads it, so that several threads may use one.
+/// Fill it by signorini_settings_default(), then change what you like. The library only reads it:
+/// several threads may use one.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct SignoriniSettings {
@@ -83,7 +83,7 @@ pub struct SignoriniSettings {
     pub time_limit: f64,
     /// Nonzero: start from what d holds, block pivoting from its states. Default 0: start from
     /// d = 0, block pivoting from all pairs closed. Lemke's method has no start.
-    /// SIGNORINI_START_PREVIOUS.
+    /// SIGNORINI_START_PREVIOUS: from the case before.
     pub warm_start: i32,
     /// SIGNORINI_SEARCH_...; default SIGNORINI_SEARCH_OFF.
     pub search: i32,

@@ -26,8 +26,7 @@ pub struct SignoriniSparse {
     pub struct_size: u32,
     /// Width of col_start, row and order: 4 for int32_t, 8 for int64_t.
     pub index_bytes: i32,
-    /// Number of the first row, 0 or 1: all indices and degrees of freedom of the call count from
-    /// it.
+    /// Number of the first row, 0 or 1: all degrees of freedom of the call count from it.
     pub index_base: i32,
     /// Which entries are stored, SIGNORINI_TRIANGLE_...
     pub triangle: i32,
@@ -35,7 +34,7 @@ pub struct SignoriniSparse {
     pub size: i64,
     /// Number of stored entries.
     pub nnz: i64,
-    /// Start of each column in row and values, size + 1 entries, the last index_base + nnz.
+    /// Start of each column in row and values, size + 1 entries from index_base.
     pub col_start: *const c_void,
     /// Row of each entry, ascending in each column.
     pub row: *const c_void,
