@@ -69,7 +69,7 @@ same() {
 required=
 [ "${1-}" != --require ] || required=yes
 
-# This file holds all that contact adds to a host: at most 60 lines after the comment at its top.
+# two_blocks.c holds all that contact adds to a host: at most 60 lines after the comment at its top.
 lines=$(sed '1,/^ \*\/$/d' "$examples/two_blocks.c" | grep -c '')
 [ "$lines" -le 60 ] || { echo "two_blocks: two_blocks.c has $lines lines"; exit 1; }
 echo "two_blocks: $lines lines of C"

@@ -13,7 +13,7 @@
 //!
 //! It is zero at solutions only and has no unit. On a relation in which `d` does not determine `F`, the
 //! candidate is the pair `(d, F)` and the residual of the relation counts in `|e|` too; `|F|` is the size of
-//! the part that the relation feels.
+//! the part of `F` that moves anything.
 //!
 //! Two facts of doubles are taken into account:
 //!

@@ -94,7 +94,7 @@ impl Served {
     /// Takes a block out of the list, and returns it to where it came from.
     ///
     /// # Safety
-    /// Alone; the block is in the list, and nobody uses a piece of it.
+    /// No other thread changes the list; the block is in it, and no piece of it is in use.
     unsafe fn release(&self, first: *mut *mut Block, block: *mut Block) {
         let mut link = first;
         // SAFETY: by the caller's contract.

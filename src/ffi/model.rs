@@ -26,7 +26,7 @@ impl SignoriniModel {
     /// Puts what is left for further calls, and returns what earlier ones have left.
     #[inline(never)] // tests/c/helgrind.supp names it
     pub(super) fn replace_past(&self, past: Option<Past>) -> Option<Past> {
-        // A call that ends early, by a shortage of memory too, has nothing in hand. Nobody waits for the lock: after
+        // A call that ends early, by a shortage of memory too, has nothing in hand. No call waits for the lock: after
         // a fork it may belong to a thread that is not there.
         self.past.try_lock().map_or(None, |mut place| std::mem::replace(&mut place, past))
     }

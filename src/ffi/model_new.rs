@@ -239,7 +239,7 @@ impl OutPointer {
     ) -> Result<i32, Failure> {
         let model = made.map_err(|error| Failure::from_error(error, position))?;
         let model = Box::new(SignoriniModel::new(model));
-        // Nothing that lives on may stand in the reserve of the call.
+        // The reserve of a call holds nothing that outlives it.
         shortage::check();
         // SAFETY: as above.
         unsafe { self.0.write(Box::into_raw(model)) };

@@ -92,7 +92,7 @@ pub unsafe extern "C" fn signorini_model_solve(
         let block = Block { model, given: &given, load_cases, d, force, state, reports, extra };
         let past = handle.replace_past(None);
         let (answer, past) = block.solve_all(cases, past, &received, &status);
-        // Nothing that lives on may stand in the reserve of the call.
+        // The reserve of a call holds nothing that outlives it.
         if !shortage::is_noted() {
             handle.replace_past(past);
         }

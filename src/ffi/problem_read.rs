@@ -81,7 +81,7 @@ pub unsafe extern "C" fn signorini_problem_read(
         // Without zeros, as it has no control characters.
         let remark = CString::new(loaded.remark.as_str()).unwrap_or_default();
         let read = Box::new(SignoriniProblem { problem: loaded, remark });
-        // Nothing that lives on may stand in the reserve of the call.
+        // The reserve of a call holds nothing that outlives it.
         shortage::check();
         // SAFETY: as above.
         unsafe { problem.write(Box::into_raw(read)) };

@@ -257,11 +257,11 @@ impl OutPointer {
     ) -> Result<i32, Failure> {
         let found = found.map_err(|error| Failure::from_error(error, position))?;
         let nodes = host.coordinates.len() / host.dim;
-        let made = Box::new(SignoriniSurfacePairs::new(found, nodes, host.received));
-        // Nothing that lives on may stand in the reserve of the call.
+        let pairs = Box::new(SignoriniSurfacePairs::new(found, nodes, host.received));
+        // The reserve of a call holds nothing that outlives it.
         shortage::check();
         // SAFETY: by the caller's contract.
-        unsafe { self.0.write(Box::into_raw(made)) };
+        unsafe { self.0.write(Box::into_raw(pairs)) };
         Ok(0)
     }
 }

@@ -38,8 +38,8 @@ pub trait Relation {
     /// `|K| size`.
     fn magnitude(&self, size: &[f64]) -> Vec<f64>;
 
-    /// The size of forces, for what is measured beside them: their norm, or that of the part which the relation
-    /// feels, if that is less.
+    /// The size of forces, with which other forces are compared: their norm, or the norm of the part that moves
+    /// anything, if that is less.
     fn size_of_force(&self, force: &[f64]) -> f64 {
         norm(force)
     }

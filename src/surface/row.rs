@@ -16,7 +16,7 @@ pub(super) struct Row {
     /// Master nodes likewise.
     pub(super) masters: Vec<Weight>,
     /// The faces' unit normals at the node times its areas on them, of length `D_j` if they agree; zero if
-    /// nobody asks for it.
+    /// it is not needed.
     pub(super) normal: Vector3,
 }
 

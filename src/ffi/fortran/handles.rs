@@ -68,15 +68,15 @@ pub(super) unsafe fn create<T: Kind>(
     }
     // SAFETY: by the caller's contract.
     unsafe { write(handle, 0) };
-    let mut made = std::ptr::null_mut();
-    let status = make(&raw mut made)?;
+    let mut boxed = std::ptr::null_mut();
+    let status = make(&raw mut boxed)?;
     if status == 0 {
         // SAFETY: a new object, which is ours alone.
-        let made: Arc<T> = Arc::from(unsafe { Box::from_raw(made) });
+        let object: Arc<T> = Arc::from(unsafe { Box::from_raw(boxed) });
         let mut opened = open();
         opened.last += 1;
         let number = opened.last;
-        opened.by_number.insert(number, made);
+        opened.by_number.insert(number, object);
         // SAFETY: by the caller's contract.
         unsafe { write(handle, number) };
     }

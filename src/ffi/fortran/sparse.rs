@@ -206,7 +206,7 @@ unsafe fn pairs<I: Integer>(
         let message = format!("NTAN is {tangents}, it must be 0 or NPAIR ({pairs})");
         return Err(Failure::argument(17, message));
     }
-    let mut made = SignoriniPairs {
+    let mut view = SignoriniPairs {
         struct_size: size_of::<SignoriniPairs>() as u32,
         dim: *dim,
         count: *pairs,
@@ -215,16 +215,16 @@ unsafe fn pairs<I: Integer>(
         ..SignoriniPairs::EMPTY
     };
     if slaves.is_empty() && *pairs > 0 {
-        made.row_start = begins.as_ptr();
-        made.row_nodes = masters.as_ptr();
-        made.row_weights = weights;
-        return Ok(made);
+        view.row_start = begins.as_ptr();
+        view.row_nodes = masters.as_ptr();
+        view.row_weights = weights;
+        return Ok(view);
     }
-    made.slaves = slaves.as_ptr();
+    view.slaves = slaves.as_ptr();
     if !begins.is_empty() {
-        made.master_start = begins.as_ptr();
-        made.masters = masters.as_ptr();
-        made.weights = weights;
+        view.master_start = begins.as_ptr();
+        view.masters = masters.as_ptr();
+        view.weights = weights;
     }
-    Ok(made)
+    Ok(view)
 }

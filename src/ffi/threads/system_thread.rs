@@ -17,8 +17,8 @@ pub(super) trait Run: Sync {
 pub(super) struct Job<R> {
     pub(super) work: R,
     is_prepared: AtomicBool,
-    /// Where the caller waits until the thread has what it keeps for itself. The C library ends the process if it has
-    /// no memory to note that: nobody else asks for memory meanwhile.
+    /// The caller waits here until the thread has obtained the memory that it keeps. The C library ends the process if
+    /// it is refused memory there: no other request is made meanwhile.
     ready: Barrier,
 }
 
@@ -46,7 +46,7 @@ pub(super) fn guarded<T>(body: impl FnOnce() -> Result<T, Failure>) -> Result<T,
     let mut result = None;
     let code = guard::call(|| {
         result = Some(body()?);
-        // Nothing that lives on may stand in the reserve of the thread.
+        // The reserve of the thread holds nothing that outlives its work.
         shortage::check();
         Ok(0)
     });

@@ -80,7 +80,7 @@ pub fn factorised(
 struct Subtree<'v> {
     panels: Range<usize>,
     values: &'v mut [f64],
-    made: Result<Weakest, usize>,
+    weakest: Result<Weakest, usize>,
 }
 
 /// Makes the panels of all subtrees.
@@ -98,14 +98,14 @@ fn subtrees(
         let (_, from) = rest.split_at_mut(begin - at);
         let (values, after) = from.split_at_mut(end - begin);
         operations += panels.clone().map(|s| source.schedule.operations(s)).sum::<f64>();
-        all.push(Mutex::new(Subtree { panels: panels.clone(), values, made: Ok(None) }));
+        all.push(Mutex::new(Subtree { panels: panels.clone(), values, weakest: Ok(None) }));
         (rest, at) = (after, end);
     }
     parallel.share(all.len(), operations, &|workspace, part| {
         locked(&all[part]).make(source, workspace);
     })?;
     // The first one in the order of the panels, whoever came to it first.
-    all.iter().try_fold(None, |weakest, subtree| match locked(subtree).made {
+    all.iter().try_fold(None, |weakest, subtree| match locked(subtree).weakest {
         Ok(other) => Ok(weaker(weakest, other)),
         Err(place) => Err(Unfinished::Pivot(place)),
     })
@@ -119,9 +119,9 @@ impl Subtree<'_> {
             let (before, rest) = self.values.split_at_mut(place.start - start);
             let before = Before { values: before, start };
             match by_one_thread(source, s, before, &mut rest[..place.len()], workspace) {
-                Ok(weakest) => self.made = self.made.map(|made| weaker(made, weakest)),
+                Ok(weakest) => self.weakest = self.weakest.map(|other| weaker(other, weakest)),
                 Err(place) => {
-                    self.made = Err(place);
+                    self.weakest = Err(place);
                     return;
                 }
             }
@@ -141,8 +141,8 @@ fn above(
         let own = source.structure.values(s);
         let (before, rest) = values.split_at_mut(own.start);
         let (before, panel) = (Before { values: before, start: 0 }, &mut rest[..own.len()]);
-        let made = by_all_threads(source, s, before, panel, &mut places, parallel)?;
-        weakest = weaker(weakest, made.map_err(Unfinished::Pivot)?);
+        let pivot = by_all_threads(source, s, before, panel, &mut places, parallel)?;
+        weakest = weaker(weakest, pivot.map_err(Unfinished::Pivot)?);
     }
     Ok(weakest)
 }

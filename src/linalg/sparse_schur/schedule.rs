@@ -68,10 +68,10 @@ impl Schedule {
             });
         }
         let operations = of_panel.iter().sum::<f64>() + outer;
-        let mut made =
+        let mut schedule =
             Schedule { start, changes, of_panel, operations, subtrees: Vec::new(), above: next };
-        made.part(structure, &panel_of)?;
-        Ok(made)
+        schedule.part(structure, &panel_of)?;
+        Ok(schedule)
     }
 
     /// Finds the subtrees.

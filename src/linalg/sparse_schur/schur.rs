@@ -99,7 +99,7 @@ impl SparseSchur {
         let (size, eliminated) = (self.structure.size.max(1), self.structure.eliminated);
         let x = self.forward(rhs);
         let condensed = x.chunks_exact(size).flat_map(|x| &x[eliminated..]).copied().collect();
-        // Nothing that lives on may stand in the reserve of a call.
+        // The reserve of a call holds nothing that outlives it.
         if x.len() == size && !shortage::is_noted() {
             let last = [rhs.to_vec(), x];
             if let Ok(mut place) = self.last.try_lock() {
@@ -123,7 +123,7 @@ impl SparseSchur {
         self.structure.unordered(&x)
     }
 
-    /// The result of elimination for a right side, if it is the last one. Nobody waits for the lock: after a fork it
+    /// The result of elimination for a right side, if it is the last one. No call waits for the lock: after a fork it
     /// may belong to a thread that is not there.
     fn last_of(&self, rhs: &[f64]) -> Option<Vec<f64>> {
         let last = self.last.try_lock().ok()?;

@@ -64,7 +64,7 @@ impl Structure {
             unknowns.extend_from_slice(graph.members(vertex));
             places.push(unknowns.len());
         }
-        let mut made = Structure {
+        let mut structure = Structure {
             size: lower.ncols(),
             eliminated,
             order: Vec::new(),
@@ -86,11 +86,11 @@ impl Structure {
                 rows.push(if place < eliminated { place } else { unknowns[place] });
             }
             rows.sort_unstable();
-            made.push_supernode(places[last], &rows)?;
+            structure.push_supernode(places[last], &rows)?;
         }
         unknowns[eliminated..].iter_mut().zip(eliminated..).for_each(|(place, i)| *place = i);
-        made.order = unknowns;
-        Ok(made)
+        structure.order = unknowns;
+        Ok(structure)
     }
 
     /// The columns up to `end`, in panels, over `rows`.

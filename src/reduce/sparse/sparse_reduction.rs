@@ -65,7 +65,7 @@ impl SparseReduction {
         )
     }
 
-    /// As [`Self::new`], in an order of the host and with somebody who is asked whether to go on.
+    /// As [`Self::new`], in an order of the host; `control.ask` says whether to go on.
     ///
     /// # Errors
     /// As [`Self::new`]; an order that is no permutation; and what `control.ask` answers.

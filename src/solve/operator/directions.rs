@@ -80,20 +80,20 @@ pub struct Images {
 impl Images {
     /// The basis of these images, one for each direction.
     pub fn new(images: impl Iterator<Item = Vec<f64>>) -> Self {
-        let mut made = Images::default();
+        let mut all = Images::default();
         for mut image in images {
-            let (mut column, left, was) = orthogonalised(&mut image, &made.basis);
+            let (mut column, left, was) = orthogonalised(&mut image, &all.basis);
             if left > LEAST_OF_IMAGE * was {
                 image.iter_mut().for_each(|v| *v /= left);
                 column.pop();
                 column.push(left);
-                made.basis.push(image);
-                made.triangle.push(column);
-                made.which.push(made.count);
+                all.basis.push(image);
+                all.triangle.push(column);
+                all.which.push(all.count);
             }
-            made.count += 1;
+            all.count += 1;
         }
-        made
+        all
     }
 
     /// Takes the images out of a vector, and returns its shares in `C`.
@@ -128,10 +128,10 @@ mod tests {
         let mut images: Vec<Vec<f64>> = (0..6).map(|_| vector()).collect();
         images[3] = images[1].iter().zip(&images[2]).map(|(a, b)| a - 2.0 * b).collect();
         let sum: Vec<f64> = (0..12).map(|i| images[0][i] + images[3][i] - images[5][i]).collect();
-        let made = Images::new(images.iter().cloned());
+        let all = Images::new(images.iter().cloned());
         let mut left = sum.clone();
-        let shares = made.take_out(&mut left);
-        let shares = made.of_directions(shares);
+        let shares = all.take_out(&mut left);
+        let shares = all.of_directions(shares);
         assert_eq!(shares.len(), images.len());
         for i in 0..12 {
             let again: f64 =
