@@ -34,7 +34,7 @@ fn is_on(kind: FaceKind, [s, t]: Local) -> bool {
 }
 
 /// A point of a master face that a slave node meets.
-struct Meeting {
+struct MasterPoint {
     distance: f64,
     /// The face's nodes with its shape functions there.
     weights: Vec<Weight>,
@@ -42,21 +42,21 @@ struct Meeting {
     normal: Vector3,
 }
 
-impl Meeting {
+impl MasterPoint {
     /// The point at local coordinates, if it is on the face and within reach.
     fn new(
         face: &Face<'_>,
         (at, normal): (Local, Vector3),
         (distance, reach): (f64, f64),
-    ) -> Option<Meeting> {
+    ) -> Option<MasterPoint> {
         let weights = || face.nodes.iter().copied().zip(face.kind.values(at)).collect();
         let meets = is_on(face.kind, at) && distance <= reach;
-        meets.then(|| Meeting { distance, weights: weights(), normal })
+        meets.then(|| MasterPoint { distance, weights: weights(), normal })
     }
 }
 
 /// The nearest meeting; of several the first one.
-fn nearest(meetings: impl Iterator<Item = Meeting>) -> Option<Meeting> {
+fn nearest(meetings: impl Iterator<Item = MasterPoint>) -> Option<MasterPoint> {
     meetings.min_by(|a, b| a.distance.total_cmp(&b.distance))
 }
 
@@ -66,7 +66,7 @@ fn meets(
     (x, averaged): (Vector3, Vector3),
     (dim, normals): (usize, Normals),
     candidates: &mut Candidates,
-) -> Option<Meeting> {
+) -> Option<MasterPoint> {
     let plane = Plane::new(dim, x, averaged);
     let reach = candidates.reach;
     let found = candidates.of_point(x, averaged);
@@ -78,7 +78,7 @@ fn meets(
             Normals::Averaged => averaged,
             Normals::Faces => -unit(face.outward(at))?,
         };
-        Meeting::new(&face, (at, normal), (flat.height(at).abs(), reach))
+        MasterPoint::new(&face, (at, normal), (flat.height(at).abs(), reach))
     }))?;
     if normals == Normals::Averaged {
         return Some(along_ray);
@@ -87,7 +87,7 @@ fn meets(
     let reach = (1.0 + BEYOND) * along_ray.distance;
     let perpendicular = faces().filter_map(|face| {
         let (at, outward) = foot(&face, x, dim)?;
-        Meeting::new(&face, (at, -outward), ((face.position(at) - x).norm(), reach))
+        MasterPoint::new(&face, (at, -outward), ((face.position(at) - x).norm(), reach))
     });
     Some(nearest(perpendicular).unwrap_or(along_ray))
 }
@@ -104,7 +104,7 @@ pub(super) fn pairs(
     normals: Normals,
 ) -> Result<SurfacePairs, Error> {
     let averaged = slave.node_normals_on(planes)?;
-    let mut met: BTreeMap<usize, Meeting> = BTreeMap::new();
+    let mut met: BTreeMap<usize, MasterPoint> = BTreeMap::new();
     for node in slave.all_nodes() {
         let ray = (slave.position(node), averaged[&node]);
         if let Some(meeting) = meets(master, ray, (dim, normals), &mut candidates) {

@@ -134,12 +134,12 @@ mod fork {
     }
 
     /// The lock, from before a fork to after it.
-    struct Kept(UnsafeCell<Option<Opened>>);
+    struct ForkLock(UnsafeCell<Option<Opened>>);
 
     // SAFETY: it is used by the thread that has the lock.
-    unsafe impl Sync for Kept {}
+    unsafe impl Sync for ForkLock {}
 
-    static KEPT: Kept = Kept(UnsafeCell::new(None));
+    static KEPT: ForkLock = ForkLock(UnsafeCell::new(None));
 
     unsafe extern "C" fn lock() {
         let opened = locked();

@@ -62,7 +62,7 @@ pub fn scattered(
         let first = if square { j } else { 0 };
         let target = target.as_mut().col_mut(column(j)).try_as_col_major_mut();
         let target = target.expect("columns are contiguous").as_slice_mut();
-        for Run { from, end, to } in &runs[runs.partition_point(|run| run.end <= first)..] {
+        for RowRun { from, end, to } in &runs[runs.partition_point(|run| run.end <= first)..] {
             let begin = first.max(*from);
             let target = &mut target[to + begin - from..to + end - from];
             target.iter_mut().zip(&product[begin..*end]).for_each(|(t, product)| *t -= product);
@@ -71,18 +71,18 @@ pub fn scattered(
 }
 
 /// Consecutive rows of a product, up to `end`, that go to consecutive ones from `to` on.
-struct Run {
+struct RowRun {
     from: usize,
     end: usize,
     to: usize,
 }
 
-fn runs(count: usize, row: impl Fn(usize) -> usize) -> Vec<Run> {
-    let mut runs: Vec<Run> = Vec::new();
+fn runs(count: usize, row: impl Fn(usize) -> usize) -> Vec<RowRun> {
+    let mut runs: Vec<RowRun> = Vec::new();
     for i in 0..count {
         match runs.last_mut() {
             Some(run) if row(i) == run.to + i - run.from => run.end = i + 1,
-            _ => runs.push(Run { from: i, end: i + 1, to: row(i) }),
+            _ => runs.push(RowRun { from: i, end: i + 1, to: row(i) }),
         }
     }
     runs

@@ -13,26 +13,26 @@ use super::structure::{PANEL, Structure};
 use super::workspace::ROWS;
 
 /// A block of the lower triangle.
-struct Block<'a> {
+struct TriangleBlock<'a> {
     rows: Range<usize>,
     columns: Range<usize>,
     values: MatMut<'a, f64>,
 }
 
 /// The rows of a panel that are kept.
-struct Kept<'a> {
+struct KeptRows<'a> {
     rows: &'a [usize],
     l: MatRef<'a, f64>,
 }
 
-impl<'a> Kept<'a> {
+impl<'a> KeptRows<'a> {
     /// Those of a panel, if it has any.
     fn of(structure: &'a Structure, values: &'a [f64], panel: usize) -> Option<Self> {
         let (width, inner) = (structure.columns(panel).len(), structure.inner_rows(panel));
         let rows = structure.rows(panel);
         let values = &values[structure.values(panel)];
         let all = MatRef::from_column_major_slice(values, width + rows.len(), width);
-        let kept = Kept { rows: &rows[inner..], l: all.split_at_row(width + inner).1 };
+        let kept = KeptRows { rows: &rows[inner..], l: all.split_at_row(width + inner).1 };
         (inner < rows.len()).then_some(kept)
     }
 
@@ -57,11 +57,12 @@ pub fn subtract(
     done: &Done,
     parallel: &mut Parallel<'_>,
 ) -> Result<(), Failure> {
-    let panels: Vec<Kept<'_>> =
-        (0..structure.panels()).filter_map(|s| Kept::of(structure, values, s)).collect();
+    let panels: Vec<KeptRows<'_>> =
+        (0..structure.panels()).filter_map(|s| KeptRows::of(structure, values, s)).collect();
     let operations: f64 = panels.iter().map(|kept| cost(kept.l.ncols(), kept.rows.len())).sum();
     // Panels with the same rows change the same entries.
-    let chains: Vec<&[Kept<'_>]> = panels.chunk_by(|one, other| one.rows == other.rows).collect();
+    let chains: Vec<&[KeptRows<'_>]> =
+        panels.chunk_by(|one, other| one.rows == other.rows).collect();
     let blocks = blocks(structure, schur);
     parallel.share(blocks.len(), operations, &|workspace, part| {
         let block = &mut *locked(&blocks[part]);
@@ -79,13 +80,17 @@ fn cost(width: usize, rows: usize) -> f64 {
 }
 
 /// The blocks of the lower triangle: those on the diagonal are square.
-fn blocks<'a>(structure: &Structure, schur: &'a mut [f64]) -> Vec<Mutex<Block<'a>>> {
+fn blocks<'a>(structure: &Structure, schur: &'a mut [f64]) -> Vec<Mutex<TriangleBlock<'a>>> {
     let (first, kept) = (structure.eliminated, structure.kept());
     let mut rest = MatMut::from_column_major_slice_mut(schur, kept, kept);
     let mut blocks = Vec::new();
     let mut push = |rows: Range<usize>, columns: &Range<usize>, values| {
         let numbers = |range: &Range<usize>| first + range.start..first + range.end;
-        blocks.push(Mutex::new(Block { rows: numbers(&rows), columns: numbers(columns), values }));
+        blocks.push(Mutex::new(TriangleBlock {
+            rows: numbers(&rows),
+            columns: numbers(columns),
+            values,
+        }));
     };
     for begin in (0..kept).step_by(PANEL) {
         let columns = begin..kept.min(begin + PANEL);
@@ -104,9 +109,9 @@ fn blocks<'a>(structure: &Structure, schur: &'a mut [f64]) -> Vec<Mutex<Block<'a
     blocks
 }
 
-impl Block<'_> {
+impl TriangleBlock<'_> {
     /// Subtracts the products of the rows of panels that have the same ones.
-    fn change(&mut self, chain: &[Kept<'_>], product: &mut [f64], done: &Done) {
+    fn change(&mut self, chain: &[KeptRows<'_>], product: &mut [f64], done: &Done) {
         let (columns, _) = chain[0].within(&self.columns);
         let (rows, _) = chain[0].within(&self.rows);
         if columns.is_empty() || rows.is_empty() {

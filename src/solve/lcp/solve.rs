@@ -1,7 +1,7 @@
 //! The linear complementarity problem, by block pivoting and by Lemke's method.
 
 use super::block_pivoting;
-use super::lemke::{self, Care, Rules, ScaledLcp};
+use super::lemke::{self, LemkeRules, Refactorising, ScaledLcp};
 use crate::error::{Argument, Error, Message, entry};
 use crate::linalg::tolerances::NEGLIGIBLE;
 use crate::linalg::vector::{first_not_finite, largest_of, normalise};
@@ -92,7 +92,7 @@ pub fn solve_lcp(
 }
 
 /// A candidate `z` and how it was found.
-struct Run {
+struct LcpRun {
     z: Vec<f64>,
     ending: Ending,
     factorisations: u64,
@@ -104,9 +104,10 @@ fn by_pivoting(
     magnitudes: &[f64],
     settings: &Settings,
     monitor: &mut Monitor<'_>,
-) -> Run {
+) -> LcpRun {
     let n = lcp.size();
-    let nothing = |ending| Run { z: vec![0.0; n], ending, factorisations: 0, refactorisations: 0 };
+    let nothing =
+        |ending| LcpRun { z: vec![0.0; n], ending, factorisations: 0, refactorisations: 0 };
     if n == 0 {
         return nothing(Ending::Done);
     }
@@ -116,7 +117,7 @@ fn by_pivoting(
     let chosen = settings.method == Method::BlockPivoting;
     let most = if chosen { u64::MAX } else { block_pivoting::enough(n) };
     let pivoted = block_pivoting::lcp(lcp, magnitudes, settings.tolerance, most, monitor);
-    Run {
+    LcpRun {
         // Written so that NaN stays NaN.
         z: pivoted.x.iter().map(|&x| if x < 0.0 { 0.0 } else { x }).collect(),
         ending: pivoted.ending,
@@ -130,30 +131,30 @@ fn by_lemke(
     magnitudes: &[f64],
     settings: &Settings,
     monitor: &mut Monitor<'_>,
-) -> Result<Run, Error> {
+) -> Result<LcpRun, Error> {
     // Powers of two: the pivots are those of the unscaled problem, rounding included.
     let scale: Vec<f64> = magnitudes.iter().map(|m| (-(m.log2() / 2.0).round()).exp2()).collect();
     let covering: Vec<f64> = (0..lcp.size()).map(|i| lcp.covering(i)).collect();
     let matrix = lcp.matrix();
     let problem = ScaledLcp { matrix: &matrix, q: lcp.q(), covering: &covering, scale: &scale };
-    let mut run = lemke::follow(problem, Rules::usual(Care::Usual), monitor)?;
+    let mut run = lemke::follow(problem, LemkeRules::usual(Refactorising::Usual), monitor)?;
     let lost_accuracy = match run.ending {
         Ending::Done => lcp.measure(&run.z, magnitudes).0 > settings.tolerance,
         Ending::Recession(_) | Ending::Stopped(_) => false,
         _ => true,
     };
     if lost_accuracy {
-        run = lemke::follow(problem, Rules::usual(Care::Thorough), monitor)?;
+        run = lemke::follow(problem, LemkeRules::usual(Refactorising::Thorough), monitor)?;
     }
-    let lemke::Run { z, ending, refactorisations, .. } = run;
-    Ok(Run { z, ending, factorisations: 0, refactorisations })
+    let lemke::LemkeRun { z, ending, refactorisations, .. } = run;
+    Ok(LcpRun { z, ending, factorisations: 0, refactorisations })
 }
 
 fn certified(
     (lcp, magnitudes): (&Lcp<'_>, &[f64]),
     settings: &Settings,
     method: Method,
-    run: &Run,
+    run: &LcpRun,
     iterations: u64,
 ) -> LcpSolution {
     let (mut eta, product) = lcp.measure(&run.z, magnitudes);

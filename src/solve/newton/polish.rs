@@ -190,7 +190,7 @@ impl Steps {
 /// Newton's steps, whose factor is kept.
 struct Newton<'e, 'm> {
     equations: &'e Equations<'e>,
-    kept: Option<Kept<'e>>,
+    kept: Option<CachedFactor<'e>>,
     /// True if the last step came near enough for its factor to serve again.
     is_good: bool,
     factorisations: u64,
@@ -200,7 +200,7 @@ struct Newton<'e, 'm> {
 }
 
 /// A factor, with the coordinates and their pieces at which it was made.
-struct Kept<'e> {
+struct CachedFactor<'e> {
     system: System<'e>,
     pieces: Vec<Piece>,
     y: Vec<Vector>,
@@ -246,9 +246,9 @@ impl<'e, 'm> Newton<'e, 'm> {
     }
 
     /// The kept factor if it serves at these coordinates, otherwise theirs if there is time for it.
-    fn factor(&mut self, pieces: Vec<Piece>, y: Vec<Vector>) -> Option<&mut Kept<'e>> {
+    fn factor(&mut self, pieces: Vec<Piece>, y: Vec<Vector>) -> Option<&mut CachedFactor<'e>> {
         let (equations, is_good) = (self.equations, self.is_good);
-        let serves = |kept: &Kept<'_>| {
+        let serves = |kept: &CachedFactor<'_>| {
             kept.pieces == pieces && (is_good || is_same(equations, &pieces, [&kept.y, &y]))
         };
         if !self.kept.as_ref().is_some_and(serves) {
@@ -259,7 +259,7 @@ impl<'e, 'm> Newton<'e, 'm> {
             }
             self.factorisations += 1;
             let system = System::new(equations, pairs, 1.0, None, NULL_VECTOR)?;
-            self.kept = Some(Kept { system, pieces, y });
+            self.kept = Some(CachedFactor { system, pieces, y });
         }
         self.kept.as_mut()
     }

@@ -45,7 +45,7 @@
 //! positive semi-definite and the standard theory applies; the same start serves.
 
 use super::friction_2d_lcp::FrictionLcp;
-use super::path::{self, Care, Rules, Run, ScaledLcp};
+use super::path::{self, LemkeRules, LemkeRun, Refactorising, ScaledLcp};
 use crate::error::Error;
 use crate::law::Contact;
 use crate::monitor::Monitor;
@@ -94,7 +94,7 @@ pub fn ends(
         if monitor.is_late() {
             break;
         }
-        let rules = Rules { care: Care::Usual, end: END, turns: TURNS };
+        let rules = LemkeRules { care: Refactorising::Usual, end: END, turns: TURNS };
         let run = run(&lcp, rules, cohesion, monitor)?;
         for z in run.turns.iter().chain((run.ending == Ending::Done).then_some(&run.z)) {
             let (pieces, d) = (lcp.pieces(z), lcp.displacements(z));
@@ -112,7 +112,8 @@ fn follow(
     cohesion: [f64; 2],
     monitor: &mut Monitor<'_>,
 ) -> Result<Candidate, Error> {
-    let run = run(lcp, Rules { care: Care::Usual, end: END, turns: 0 }, cohesion, monitor)?;
+    let run =
+        run(lcp, LemkeRules { care: Refactorising::Usual, end: END, turns: 0 }, cohesion, monitor)?;
     let d = lcp.displacements(&run.z);
     let ending = match run.ending {
         // If the body only lifts off, the ray itself is the proof; if it also slips, the balance of
@@ -139,10 +140,10 @@ fn follow(
 /// Follows a path to its end.
 fn run(
     lcp: &FrictionLcp<'_>,
-    rules: Rules,
+    rules: LemkeRules,
     cohesion: [f64; 2],
     monitor: &mut Monitor<'_>,
-) -> Result<Run, Error> {
+) -> Result<LemkeRun, Error> {
     let vectors = lcp.vectors(cohesion);
     let (q, covering, scale) = (&vectors.q, &vectors.covering, &vectors.scale);
     path::follow(ScaledLcp { matrix: lcp, q, covering, scale }, rules, monitor)

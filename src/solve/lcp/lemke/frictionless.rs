@@ -3,7 +3,7 @@
 //! A load that drives a motion free of contact has no equilibrium, and neither has one that ends
 //! Lemke's path in a ray: the condensed matrix is positive semi-definite.
 
-use super::path::{self, Care, Rules, ScaledLcp};
+use super::path::{self, LemkeRules, Refactorising, ScaledLcp};
 use crate::error::Error;
 use crate::law::Contact;
 use crate::monitor::Monitor;
@@ -21,11 +21,11 @@ pub fn frictionless(
         Ok(normal) => normal,
         Err(why) => return Ok(Candidate::without_displacements(contact, why)),
     };
-    let usual = follow(contact, &normal, Care::Usual, monitor)?;
+    let usual = follow(contact, &normal, Refactorising::Usual, monitor)?;
     if usual.is_settled(contact, settings.tolerance) {
         return Ok(usual);
     }
-    let thorough = follow(contact, &normal, Care::Thorough, monitor)?;
+    let thorough = follow(contact, &normal, Refactorising::Thorough, monitor)?;
     if thorough.ending != Ending::Done {
         return Ok(thorough);
     }
@@ -41,7 +41,7 @@ pub fn frictionless(
 fn follow(
     contact: &Contact<'_>,
     normal: &NormalProblem<'_>,
-    care: Care,
+    care: Refactorising,
     monitor: &mut Monitor<'_>,
 ) -> Result<Candidate, Error> {
     // The clearances z = x - l, with w = (q + M l) + M z.
@@ -50,7 +50,7 @@ fn follow(
     let root = normal.restrict(&contact.problem().unit_roots());
     let scale: Vec<f64> = root.iter().map(|root| root.recip()).collect();
     let problem = ScaledLcp { matrix: &bounded.matrix, q: &q, covering: &root, scale: &scale };
-    let run = path::follow(problem, Rules::usual(care), monitor)?;
+    let run = path::follow(problem, LemkeRules::usual(care), monitor)?;
     let ending = match run.ending {
         Ending::Recession(ray) => Ending::Recession(normal.follow(&ray)),
         other => other,

@@ -13,4 +13,4 @@ mod trail;
 
 pub use friction_2d::{ends, solve as friction_2d};
 pub use frictionless::frictionless;
-pub use path::{Care, Rules, Run, ScaledLcp, follow};
+pub use path::{LemkeRules, LemkeRun, Refactorising, ScaledLcp, follow};

@@ -11,7 +11,7 @@
 //!
 //! Rounding: every [`CHECK`] pivots the values are refined on the data; where they were found to
 //! have drifted, the tableau is refactorised. A caller whose certificate finds the
-//! end of a path inaccurate repeats it with [`Care::Thorough`].
+//! end of a path inaccurate repeats it with [`Refactorising::Thorough`].
 //!
 //! Rounding may also break a tie the wrong way, and then the path may cycle. So close ratios are decided in
 //! twice the precision where that is cheap beside the path, after as many pivots as there are equations of a
@@ -29,7 +29,7 @@ use crate::solve::result::Ending;
 
 /// Result of a run.
 #[derive(Clone, Debug)]
-pub struct Run {
+pub struct LemkeRun {
     /// `z`, non-negative; of a run that was stopped that of the last basis.
     pub z: Vec<f64>,
     /// How it ended: done (`z0 = 0`, a solution up to rounding), on a secondary ray with its direction
@@ -69,7 +69,7 @@ const CYCLE: Ending = Ending::Stalled("rounding made Lemke's path return to a ba
 
 /// When the tableau is refactorised.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Care {
+pub enum Refactorising {
     /// When its values have drifted.
     Usual,
     /// At every check.
@@ -78,9 +78,9 @@ pub enum Care {
 
 /// How a path is followed.
 #[derive(Clone, Copy, Debug)]
-pub struct Rules {
+pub struct LemkeRules {
     /// When the tableau is refactorised.
-    pub care: Care,
+    pub care: Refactorising,
     /// The path is at its end when `z0` has fallen to this part of its start: beyond it rounding
     /// decides between the end and a false ray.
     pub end: f64,
@@ -88,14 +88,14 @@ pub struct Rules {
     pub turns: usize,
 }
 
-/// LemkeEnd of the path where a ray proves something: only the rounding of the last pivots is forgiven, ten
+/// End of the path where a ray proves something: only the rounding of the last pivots is forgiven, ten
 /// units of [`crate::linalg::tolerances::ROUNDING`].
 const END: f64 = 1e-13;
 
-impl Rules {
+impl LemkeRules {
     /// For problems in which a ray proves something.
-    pub fn usual(care: Care) -> Self {
-        Rules { care, end: END, turns: 0 }
+    pub fn usual(care: Refactorising) -> Self {
+        LemkeRules { care, end: END, turns: 0 }
     }
 }
 
@@ -119,7 +119,11 @@ impl Entries for Matrix<'_> {
 }
 
 /// Follows the path of `lcp`.
-pub fn follow(lcp: ScaledLcp<'_>, rules: Rules, monitor: &mut Monitor<'_>) -> Result<Run, Error> {
+pub fn follow(
+    lcp: ScaledLcp<'_>,
+    rules: LemkeRules,
+    monitor: &mut Monitor<'_>,
+) -> Result<LemkeRun, Error> {
     let ScaledLcp { matrix, q, scale, .. } = lcp;
     let n = q.len();
     // The values get size one, as the rest of the scaled problem. Powers of two: the pivots stay the same.
@@ -138,7 +142,8 @@ pub fn follow(lcp: ScaledLcp<'_>, rules: Rules, monitor: &mut Monitor<'_>) -> Re
         let unscaled = z.zip(scale).map(|(z, scale)| z.max(0.0) * scale);
         unscaled.map(|z| times_power_of_two(z, unit)).collect()
     };
-    let nothing = |ending| Run { z: vec![0.0; n], ending, turns: Vec::new(), refactorisations: 0 };
+    let nothing =
+        |ending| LemkeRun { z: vec![0.0; n], ending, turns: Vec::new(), refactorisations: 0 };
     if let Err(stop) = monitor.affords(Tableau::work(n)) {
         return Ok(nothing(Ending::Stopped(stop)));
     }
@@ -171,14 +176,14 @@ pub fn follow(lcp: ScaledLcp<'_>, rules: Rules, monitor: &mut Monitor<'_>) -> Re
     };
     let turns = path.turns.iter().map(|z| in_unit(&mut z.iter().copied(), unit)).collect();
     let z = in_unit(&mut (n..2 * n).map(|z| path.tableau.value(z)), unit);
-    Ok(Run { z, ending, turns, refactorisations: path.refactorisations })
+    Ok(LemkeRun { z, ending, turns, refactorisations: path.refactorisations })
 }
 
 /// A path that is being followed.
 struct Path<'p> {
     problem: &'p Scaled<'p>,
     tableau: Tableau,
-    rules: Rules,
+    rules: LemkeRules,
     turns: Vec<Vec<f64>>,
     refactorisations: u64,
 }
@@ -269,7 +274,7 @@ impl Path<'_> {
     fn check(&mut self, careful: bool, monitor: &mut Monitor<'_>) -> Result<bool, Stop> {
         monitor.affords(self.tableau.refinement_work())?;
         let drift = self.tableau.refine(self.problem);
-        if drift <= DRIFT && self.rules.care == Care::Usual && !careful {
+        if drift <= DRIFT && self.rules.care == Refactorising::Usual && !careful {
             return Ok(true);
         }
         monitor.affords(self.tableau.refactorisation_work())?;
@@ -305,12 +310,12 @@ mod tests {
             let run = |care| {
                 let settings = crate::settings::Settings::default();
                 let monitor = &mut Monitor::new(&settings, None);
-                let run = follow(lcp, Rules::usual(care), monitor).expect("enough memory");
+                let run = follow(lcp, LemkeRules::usual(care), monitor).expect("enough memory");
                 assert_eq!(run.ending, Ending::Done);
                 (run, monitor.iterations())
             };
             let ((usual, pivots), (thorough, same_pivots)) =
-                (run(Care::Usual), run(Care::Thorough));
+                (run(Refactorising::Usual), run(Refactorising::Thorough));
             assert_eq!(pivots, same_pivots);
             assert_eq!(usual.refactorisations, 0);
             assert!(thorough.refactorisations >= pivots / CHECK);
