@@ -6,7 +6,7 @@ use crate::common::rigid_statics::distance;
 use fastrand::Rng;
 use signorini::{Escape, Settings, Status};
 
-/// What rounding and the accuracy of the motion leave, relative to the motion or the loads.
+/// Rest that rounding and the accuracy of the motion leave, relative to the motion or the loads.
 const SMALL: f64 = 1e-8;
 
 /// A block of four pairs on a plane, 1 apart, under forces `(normal, tangential)` of its pairs.
