@@ -192,8 +192,8 @@ fn the_search_follows_names_to_their_files() {
     // law/mod.rs passes `Contact` on without a use of its own, and law/pair_law.rs needs `Bound` itself.
     assert!(imports("law/pair_law.rs").contains("law/bound.rs"));
     assert!(!imports("law/mod.rs").contains("law/contact.rs"));
-    // `use super::Iterate`, which its parent defines.
-    assert!(imports("solve/sweeps/driver.rs").contains("solve/sweeps/mod.rs"));
+    // `use crate::solve::newton::from_pieces`, which that `mod.rs` defines.
+    assert!(imports("solve/uniqueness/search.rs").contains("solve/newton/mod.rs"));
     // `auto::solve(..)` after `use super::auto`.
     assert!(imports("solve/plan/distant_gaps.rs").contains("solve/plan/auto.rs"));
     // `pub use solve::Status` of lib.rs.

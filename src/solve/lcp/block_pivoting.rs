@@ -12,26 +12,16 @@ use std::cell::Cell;
 
 use crate::law::complementarity::lower_bounds;
 use crate::law::{Contact, Linearised};
-use crate::linalg::simd::Simd;
+use crate::linalg::simd::{self, Simd};
 use crate::monitor::{Monitor, Stop};
 use crate::problem::symmetric_matrix::is_symmetric;
 use crate::problem::{BoundedLcp, Lcp};
 use crate::settings::Settings;
 use crate::solve::pieces::{Equations, REFINEMENTS, Systems};
 use crate::solve::result::{Candidate, Effort, Ending};
-use crate::solve::sweeps::sweep_lcp;
 
-/// Least number of systems without progress before single exchanges. Júdice and Pires recommend 10; on
-/// the worst problems of single exchanges, which take `2^n`, whole blocks need `n`.
-const PATIENCE: usize = 10;
-
-/// Sweeps between a solution and its active set.
-const SWEEPS: u32 = 2;
-
-/// Up to so many variables the fixed costs of a system outweigh its arithmetic: there more sweeps save
-/// time wherever they save a system.
-const FEW_VARIABLES: usize = 256;
-const SWEEPS_OF_FEW: u32 = 6;
+/// Sweeps between a solution and its active set: they cost a small part of the system that they may save.
+const SWEEPS: u32 = 6;
 
 /// Systems after which a problem of `n` complementary variables is left to another method: single
 /// exchanges may take `2^n`; whole blocks take a few, or at most about `n` on the worst problems
@@ -238,6 +228,8 @@ struct Exchange {
     fewest: usize,
     /// Systems without progress that are left before single exchanges.
     patience: usize,
+    /// As many as there are complementary variables: on the worst problems of single exchanges, which take `2^n`, whole
+    /// blocks need `n`.
     most_patience: usize,
     simd: Simd,
 }
@@ -245,8 +237,8 @@ struct Exchange {
 impl Exchange {
     fn new(lcp: &BoundedLcp<'_>) -> Self {
         let complementary = (0..lcp.q.len()).filter(|&i| !lcp.is_free(i)).count();
-        let most_patience = PATIENCE.max(complementary);
-        Exchange { fewest: usize::MAX, patience: most_patience, most_patience, simd: Simd::new() }
+        let (fewest, patience) = (usize::MAX, complementary);
+        Exchange { fewest, patience, most_patience: patience, simd: Simd::new() }
     }
 
     /// Changes `basic`, of which the solution of the system selects `next`. Returns whether fewer
@@ -277,9 +269,27 @@ fn active_set(lcp: &BoundedLcp<'_>, x: &[f64], w: &[f64]) -> Vec<bool> {
 /// The active set after some sweeps, which the iterate does not keep.
 fn swept(simd: Simd, iterate: &Iterate<'_>) -> Vec<bool> {
     let (lcp, mut x, mut w) = (iterate.lcp, iterate.x.clone(), iterate.w.clone());
-    let sweeps = if x.len() <= FEW_VARIABLES { SWEEPS_OF_FEW } else { SWEEPS };
-    for _ in 0..sweeps {
-        sweep_lcp(simd, lcp, &mut x, &mut w, 1.0);
+    for _ in 0..SWEEPS {
+        sweep(simd, lcp, &mut x, &mut w);
     }
     active_set(lcp, &x, &w)
+}
+
+/// One sweep over all variables of `lcp`, whose matrix is symmetric, on `x` and `w = q + M x`.
+fn sweep(simd: Simd, lcp: &BoundedLcp<'_>, x: &mut [f64], w: &mut [f64]) {
+    simd::vectorised(
+        simd,
+        #[inline(always)]
+        || {
+            for i in 0..x.len() {
+                let column = lcp.matrix.column(i);
+                let value = lcp.admissible(i, x[i] - w[i] / column[i]);
+                let step = value - x[i];
+                if step != 0.0 {
+                    x[i] = value;
+                    simd::axpy(w, step, column);
+                }
+            }
+        },
+    )
 }

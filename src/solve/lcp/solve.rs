@@ -215,12 +215,10 @@ fn slack(q: f64, mz: f64) -> f64 {
 fn without_digits(ray: &[f64], magnitudes: &[f64]) -> Vec<f64> {
     // Products of the roots neither overflow nor underflow.
     let size = |(y, m): (&f64, &f64)| y.sqrt() * m.sqrt();
-    let least = DIGITS.sqrt() * largest_of(ray.iter().zip(magnitudes).map(size));
+    // A tenth of what counts as zero in a proof.
+    let least = (NEGLIGIBLE / 10.0).sqrt() * largest_of(ray.iter().zip(magnitudes).map(size));
     ray.iter().zip(magnitudes).map(|(y, m)| if size((y, m)) < least { 0.0 } else { *y }).collect()
 }
-
-/// A tenth of what counts as zero in a proof.
-const DIGITS: f64 = 0.1 * NEGLIGIBLE;
 
 /// The first entry that is not finite.
 fn overflow(w: &[f64], z: &[f64]) -> Option<String> {

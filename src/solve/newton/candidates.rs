@@ -5,138 +5,245 @@
 //! contact problem on `C` alone has the matrix `S = K_CC - K_CO K_OO⁻¹ K_OC`. It is solved with all
 //! states allowed. If a pair of `O` then penetrates, it joins `C`, and the problem is solved again: this
 //! ends, as each pass adds pairs. The result is measured and refined on the whole problem.
+//!
+//! *Series.* The eliminated pairs depend on the matrix and on which pairs are open, not on the loads. Where the pairs
+//! that an earlier problem with the same matrix has eliminated are open in this one too, the contact problem on its
+//! candidates is at hand: sweeps are sweeps on them, and the search is one on a part of the pairs. If pairs outside close,
+//! the candidates of both problems are the next ones, so that a series in which the contact rocks soon has candidates
+//! for all of it. Where that fails the problem is solved as one that stands alone.
 
 use std::borrow::Cow;
+use std::sync::Arc;
 
 use super::iteration::{self, Ended};
+use super::start::swept;
 use crate::certificate::{eta_of, measure};
 use crate::law::{Contact, Vector};
-use crate::monitor::Monitor;
+use crate::linalg::elimination::Elimination;
+use crate::monitor::{Monitor, Stop};
 use crate::settings::Settings;
-use crate::solve::part::{MARGIN, ReducedProblem, closed_with_margin};
+use crate::solve::part::{ReducedProblem, closed_with_margin};
 use crate::solve::pieces::{Equations, Point, REFINEMENTS, System};
 use crate::solve::result::{Candidate, Effort, Ending};
 
 /// Why there is no start.
 pub(super) const OVERFLOW: Ending = Ending::Stalled("the forces are beyond the largest number");
 
+/// Candidates are too many, which costs more than a new elimination, above so many times those that a
+/// problem needs.
+const TOO_MANY: f64 = 1.6;
+
 /// A solver of equations from given coordinates to a tolerance.
 pub type Core<'c> = dyn FnMut(&Equations<'_>, Vec<Vector>, &mut Monitor<'_>) -> Ended + 'c;
 
-/// Solves a whole problem from the coordinates `y`.
-pub(super) fn solve(
-    (contact, whole): (&Contact<'_>, &Equations<'_>),
+/// Solves a problem from the displacements `start` (zero if `None`): sweeps, then `core` on the
+/// candidates.
+pub fn solve(
+    contact: &Contact<'_>,
     settings: &Settings,
-    y: Vec<Vector>,
+    start: Option<&[f64]>,
     monitor: &mut Monitor<'_>,
     core: &mut Core<'_>,
 ) -> Candidate {
-    if !y.iter().flatten().all(|y| y.is_finite()) {
-        return Candidate::without_displacements(contact, OVERFLOW);
+    let whole = Equations::of(contact);
+    let remembered = contact.problem().remembered();
+    // Nothing is kept while others may need the memory, and nothing of a problem that is not solved.
+    let before = remembered.and_then(|remembered| {
+        let before = remembered.get();
+        remembered.keep(None);
+        before
+    });
+    let mut search =
+        Search { tolerance: settings.tolerance, core, is_series: remembered.is_some() };
+    let begun = before.and_then(|before| begun(&whole, before, start, monitor));
+    let mut spent = 0;
+    let mut found = begun.and_then(|(reduced, y)| {
+        let found = search.on(&whole, Some(reduced), y, monitor);
+        spent = found.systems;
+        matches!(found.ending, Ending::Done | Ending::Stopped(_)).then_some(found)
+    });
+    if found.is_none() {
+        let y = swept(&whole, start, monitor);
+        if !is_finite(&y) {
+            return Candidate::without_displacements(contact, OVERFLOW);
+        }
+        let alone = search.on(&whole, None, y, monitor);
+        found = Some(Found { systems: spent + alone.systems, ..alone });
     }
-    let mut found = search(whole, y, settings.tolerance, monitor, core);
-    if let Some((reduced, point)) = found.parted.take() {
-        let parts = (&mut found.d, &mut found.force);
-        let systems = refine(&reduced, contact, settings, parts, point, monitor);
-        found.systems += systems;
+    let mut found = found.expect("the problem alone has ended");
+    if let Some(reduced) = found.reduced.take() {
+        if let Some(remembered) = remembered
+            && matches!(found.ending, Ending::Done | Ending::Stopped(_))
+        {
+            remembered.keep(Some(Arc::clone(reduced.elimination())));
+        }
+        if found.ending == Ending::Done {
+            refine(&reduced, contact, settings, &mut found, monitor);
+        }
     }
-    found.into_candidate()
+    let mut candidate =
+        Candidate::new(found.d, found.force, found.ending, Effort::of_systems(found.systems));
+    candidate.orientation = found.orientation;
+    candidate
+}
+
+/// The problem reduced as an earlier one, and coordinates of which those of the candidates come from sweeps on them;
+/// `None` if the candidates do not fit.
+fn begun<'w>(
+    whole: &'w Equations<'w>,
+    before: Arc<Elimination>,
+    start: Option<&[f64]>,
+    monitor: &Monitor<'_>,
+) -> Option<(ReducedProblem<'w>, Vec<Vector>)> {
+    let mut components = before.dropped().iter();
+    if !components.all(|i| whole.laws[i / whole.dim].is_free_when_open()) {
+        return None;
+    }
+    let reduced = ReducedProblem::by_elimination(whole, before);
+    let start: Option<Vec<f64>> = start.map(|start| reduced.restrict(start));
+    let equations = reduced.equations();
+    let own = swept(&equations, start.as_deref(), monitor);
+    let needed = closed_with_margin(&equations.laws, &own).len();
+    let fits = is_finite(&own) && own.len() as f64 <= TOO_MANY * needed as f64;
+    drop(equations);
+    let mut y = vec![[0.0; 3]; whole.laws.len()];
+    reduced.kept().zip(own).for_each(|(pair, own)| y[pair] = own);
+    fits.then_some((reduced, y))
 }
 
 /// Where a search has ended.
-pub(super) struct Found<'w> {
+struct Found<'w> {
     /// Displacements, the force that they need, and their coordinates.
-    pub(super) d: Vec<f64>,
-    pub(super) force: Vec<f64>,
-    pub(super) y: Vec<Vector>,
+    d: Vec<f64>,
+    force: Vec<f64>,
+    y: Vec<Vector>,
     /// How it ended; its systems, and the orientation of the last one.
-    pub(super) ending: Ending,
-    pub(super) systems: u64,
-    pub(super) orientation: i8,
-    /// Where it is done and `eta` is above the tolerance: what was eliminated, and the point on the rest.
-    parted: Option<(ReducedProblem<'w>, Point)>,
+    ending: Ending,
+    systems: u64,
+    orientation: i8,
+    /// The candidates, if others were eliminated.
+    reduced: Option<ReducedProblem<'w>>,
 }
 
-impl Found<'_> {
-    /// The end at a point of the whole problem, after so many systems, with the orientation of the last one.
-    pub(super) fn at(point: Point, ending: Ending, (systems, orientation): (u64, i8)) -> Self {
+impl From<Ended> for Found<'_> {
+    fn from(ended: Ended) -> Self {
+        let Ended { point, ending, systems, orientation } = ended;
         let Point { y, d, force, .. } = point;
-        Found { d, force, y, ending, systems, orientation, parted: None }
-    }
-
-    /// The candidate of equations that are a whole problem's.
-    pub(super) fn into_candidate(self) -> Candidate {
-        let effort = Effort::of_systems(self.systems);
-        let mut candidate = Candidate::new(self.d, self.force, self.ending, effort);
-        candidate.orientation = self.orientation;
-        candidate
+        Found { d, force, y, ending, systems, orientation, reduced: None }
     }
 }
 
-/// Solves the equations from the coordinates `y`: by `core` on the candidates there, and on more of them
-/// as long as others close.
-pub(super) fn search<'w>(
-    whole: &'w Equations<'w>,
-    mut y: Vec<Vector>,
+/// A search on candidates.
+struct Search<'s, 'c> {
     tolerance: f64,
-    monitor: &mut Monitor<'_>,
-    core: &mut Core<'_>,
-) -> Found<'w> {
-    let mut kept = closed_with_margin(&whole.laws, &y, MARGIN);
-    let (mut systems, mut orientation) = (0, 0);
-    loop {
-        let reduced = match ReducedProblem::of_candidates(whole, &kept, monitor) {
-            Ok(Some(reduced)) => reduced,
-            Ok(None) => {
-                let Ended { point, ending, systems: last, orientation } = core(whole, y, monitor);
-                return Found::at(point, ending, (systems + last, orientation));
+    core: &'s mut Core<'c>,
+    /// True if the candidates of other problems stay among those of this one.
+    is_series: bool,
+}
+
+impl Search<'_, '_> {
+    /// Solves the equations from the coordinates `y`: by the core on the candidates there, first on those of `reduced` if
+    /// it is given, and on more of them as long as others close.
+    fn on<'w>(
+        &mut self,
+        whole: &'w Equations<'w>,
+        mut reduced: Option<ReducedProblem<'w>>,
+        mut y: Vec<Vector>,
+        monitor: &mut Monitor<'_>,
+    ) -> Found<'w> {
+        let mut kept = Vec::new();
+        let (mut systems, mut orientation) = (0, 0);
+        loop {
+            let on_part = match reduced.take() {
+                Some(reduced) => Ok(Some(reduced)),
+                None => self.widened(whole, &mut kept, &y, monitor),
+            };
+            let part = match on_part {
+                Ok(Some(part)) => part,
+                Ok(None) => {
+                    let found = Found::from((self.core)(whole, y, monitor));
+                    return Found { systems: systems + found.systems, ..found };
+                }
+                Err(stop) => {
+                    let (point, ending) = (Point::new(whole, y), Ending::Stopped(stop));
+                    return Ended { point, ending, systems, orientation }.into();
+                }
+            };
+            kept = part.kept().collect();
+            let found = self.on_part(&part.equations(), part.of_kept(&y), monitor);
+            systems += found.systems;
+            if found.orientation != 0 {
+                orientation = found.orientation;
             }
-            Err(stop) => {
-                let point = Point::new(whole, y);
-                return Found::at(point, Ending::Stopped(stop), (systems, orientation));
+            let (d, force);
+            (d, force, y) = part.whole_from(&found.d, &found.y);
+            let done = found.ending == Ending::Done;
+            let solved = done && whole.eta(&d, &force) <= self.tolerance;
+            let is_last = !done || solved || part.closing(&y).is_empty();
+            let ending = found.ending;
+            if is_last {
+                return Found { d, force, y, ending, systems, orientation, reduced: Some(part) };
             }
-        };
-        let ended = core(&reduced.equations(), reduced.of_kept(&y), monitor);
-        systems += ended.systems;
-        if ended.orientation != 0 {
-            orientation = ended.orientation;
         }
-        let Ended { point, ending, .. } = ended;
-        let (d, force);
-        (d, force, y) = reduced.whole_from(&point.d, &point.y);
-        let done = ending == Ending::Done;
-        let solved = done && whole.eta(&d, &force) <= tolerance;
-        let closing = if solved { Vec::new() } else { reduced.closing(&y) };
-        if !done || closing.is_empty() {
-            let parted = (done && !solved).then_some((reduced, point));
-            return Found { d, force, y, ending, systems, orientation, parted };
+    }
+
+    /// Solves the equations of candidates: those of a series are too many for one problem, which has its own among them.
+    fn on_part(
+        &mut self,
+        equations: &Equations<'_>,
+        y: Vec<Vector>,
+        monitor: &mut Monitor<'_>,
+    ) -> Found<'static> {
+        if !self.is_series {
+            return (self.core)(equations, y, monitor).into();
         }
-        kept.extend(closing);
+        self.is_series = false;
+        let Found { d, force, y, ending, systems, orientation, .. } =
+            self.on(equations, None, y, monitor);
+        self.is_series = true;
+        Found { d, force, y, ending, systems, orientation, reduced: None }
+    }
+
+    /// The problem on the candidates at the coordinates `y` and on the pairs that were `kept` before, unless a series has
+    /// too many of these; as [`ReducedProblem::new`].
+    fn widened<'w>(
+        &self,
+        whole: &'w Equations<'w>,
+        kept: &mut Vec<usize>,
+        y: &[Vector],
+        monitor: &mut Monitor<'_>,
+    ) -> Result<Option<ReducedProblem<'w>>, Stop> {
+        let needed = closed_with_margin(&whole.laws, y);
+        kept.extend(&needed);
         kept.sort_unstable();
+        kept.dedup();
+        if self.is_series && kept.len() as f64 > TOO_MANY * needed.len() as f64 {
+            *kept = needed;
+        }
+        ReducedProblem::of_candidates(whole, kept, monitor)
     }
 }
 
 /// Iterative refinement of a solution on the candidates by the residual of the whole problem, as long as there
-/// is time. Returns the number of systems.
-pub(super) fn refine(
+/// is time.
+fn refine(
     reduced: &ReducedProblem<'_>,
     contact: &Contact<'_>,
     settings: &Settings,
-    (d, force): (&mut Vec<f64>, &mut Vec<f64>),
-    mut point: Point,
+    found: &mut Found<'_>,
     monitor: &mut Monitor<'_>,
-) -> u64 {
+) {
     let elimination = reduced.elimination();
     let (dropped, kept) = (elimination.dropped(), elimination.kept());
-    let mut systems = 0;
-    let mut best = eta_of(contact, d, force);
+    let mut point = Point::new(&reduced.equations(), reduced.of_kept(&found.y));
+    let mut best = eta_of(contact, &found.d, &found.force);
     for _ in 0..REFINEMENTS {
         // The certificate also allows for the rounding of prescribed displacements.
-        if measure(contact, d, force).holds(settings.tolerance) {
+        if measure(contact, &found.d, &found.force).holds(settings.tolerance) {
             break;
         }
-        let mut next = d.clone();
-        let mut lack: Vec<f64> = dropped.iter().map(|&i| force[i]).collect();
+        let mut next = found.d.clone();
+        let mut lack: Vec<f64> = dropped.iter().map(|&i| found.force[i]).collect();
         elimination.solve(&mut lack);
         dropped.iter().zip(&lack).for_each(|(&i, lack)| next[i] -= lack);
         // A load under which the force of the candidates is that of the whole problem.
@@ -145,14 +252,12 @@ pub(super) fn refine(
         let mut load = equations.matrix.product(&point.d);
         load.iter_mut().zip(kept).for_each(|(load, &i)| *load -= whole[i]);
         equations.load = Cow::Owned(load);
-        if monitor
-            .affords(System::work(&equations, &equations.linearised(&point.pieces, &point.y)))
-            .is_err()
-        {
+        let pairs = equations.linearised(&point.pieces, &point.y);
+        if monitor.affords(System::work(&equations, &pairs)).is_err() {
             break;
         }
         let Some(better) = iteration::step(&equations, &point) else { break };
-        systems += 1;
+        found.systems += 1;
         let moved: Vec<f64> = better.d.iter().zip(&point.d).map(|(b, a)| b - a).collect();
         let followed = elimination.follow(&vec![0.0; dropped.len()], &moved);
         kept.iter().zip(&better.d).for_each(|(&i, x)| next[i] = *x);
@@ -162,7 +267,10 @@ pub(super) fn refine(
         if !(eta < best) {
             break;
         }
-        (best, *d, *force, point) = (eta, next, residual, better);
+        (best, found.d, found.force, point) = (eta, next, residual, better);
     }
-    systems
+}
+
+fn is_finite(y: &[Vector]) -> bool {
+    y.iter().flatten().all(|y| y.is_finite())
 }

@@ -13,8 +13,8 @@ const SUFFICIENT: f64 = 1e-4;
 /// Shortest step: a kink of the law may lie within any longer one.
 const SHORTEST: f64 = 1e-3;
 
-/// Shortest steps in a row after which it is given up.
-const MOST_SHORTEST: u32 = 3;
+/// Tries without a gain after which a loop of Newton's method is given up: shortest steps in a row here.
+pub const PATIENCE: usize = 3;
 
 /// Part of the tolerance that is aimed at: the certificate of the whole problem, with its own rounding, must meet
 /// the tolerance.
@@ -123,7 +123,7 @@ pub fn solve<M: NormalMap>(
             break Ending::Done;
         }
         last = eta;
-        if systems >= goal.most_systems || shortest >= MOST_SHORTEST {
+        if systems >= goal.most_systems || shortest >= PATIENCE {
             break Ending::Stalled("Newton's method does not converge");
         }
         if let Err(stop) = monitor.step() {

@@ -8,7 +8,7 @@
 
 use std::convert::Infallible;
 
-use super::descent::{self, Goal, Halt, NormalMap};
+use super::descent::{self, Goal, Halt, NormalMap, PATIENCE};
 use crate::law::{PairLaw, Piece, Vector};
 use crate::monitor::Monitor;
 use crate::solve::pieces::{Equations, Point, Systems};
@@ -24,20 +24,15 @@ const FULL_STEPS: u64 = 4;
 
 /// Part of `|H|` that a step with the system of an earlier point may leave. Such a step costs a solve, a small part
 /// of a factorisation.
-const CHORD: f64 = 0.1;
-
-/// Further systems in the plane after a solution to the tolerance, until it is on the pieces of its system. At a degenerate
-/// solution rounding may change pieces for ever.
-const MOST_EXACT: usize = 3;
+pub const CHORD: f64 = 0.1;
 
 /// Sweeps between a solution in the plane and its pieces: two carry a zone's edge far enough.
 const SWEEPS: usize = 2;
 
-/// A step that is cut below this part ends at a kink of `|H|`: some sweeps lead away from it, a few
-/// times. They halve the failures on random problems.
+/// A step that is cut below this part ends at a kink of `|H|`: some sweeps lead away from it, [`PATIENCE`] times. They
+/// halve the failures on random problems.
 const SHORT: f64 = 0.1;
 const RESWEEPS: usize = 20;
-const MOST_RESWEEPS: usize = 3;
 
 /// How Newton's method ended, and where.
 pub struct Ended {
@@ -141,7 +136,8 @@ impl<'e> Dense<'e> {
         let Ok(mut outcome) = descent::solve(&mut self, point, goal, monitor);
         // A solution in the plane is exact once it is on the pieces of its system, however rough the tolerance is.
         goal.least_systems = 1;
-        for _ in 0..MOST_EXACT {
+        // At a degenerate solution rounding may change pieces for ever.
+        for _ in 0..PATIENCE {
             let is_rough = self.systems.are_of_pieces() && !self.is_exact;
             if outcome.ending != Ending::Done || !is_rough {
                 break;
@@ -245,7 +241,7 @@ impl NormalMap for Dense<'_> {
         if is_linear && let Some(stuck) = self.without_reversal(&point) {
             return stuck;
         }
-        if part < SHORT && self.swept_to.len() < MOST_RESWEEPS {
+        if part < SHORT && self.swept_to.len() < PATIENCE {
             let swept = self.swept(&point, RESWEEPS, monitor);
             self.swept_to.push(swept.pieces.clone());
             return swept;

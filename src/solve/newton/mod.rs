@@ -2,22 +2,21 @@
 //! plane and in space, with the exact friction disc.
 //!
 //! Some sweeps (`start`), then Newton's method with a line search (`iteration`). In the plane one factor serves many systems;
-//! in space the pairs that are surely open are eliminated first (`candidates`), and problems that share a matrix share
-//! what is eliminated (`series`).
+//! in space the pairs that are surely open are eliminated first, and problems that share a matrix share what is eliminated
+//! (`candidates`).
 
 mod candidates;
 mod descent;
 mod iteration;
 mod polish;
 mod question;
-mod series;
 mod start;
 mod uncertain_pairs;
 
+pub use candidates::solve as on_candidates;
 pub use descent::{AIM, Goal, Halt, NewtonOutcome, NormalMap, solve as descend};
 pub use iteration::{Ended, solve as newton_from};
-pub use polish::{FullyRefined, refine_fully, refine_to_tolerance};
-pub use series::solve as on_candidates;
+pub use polish::{FullyRefined, ROUNDING_OF_ETA, refine_fully, refine_to_tolerance};
 pub use uncertain_pairs::{PartOutcome, solve_part};
 
 use crate::law::{Contact, Piece};

@@ -8,6 +8,8 @@
 //! `H = e - K k⁻¹ e`, because its push is `P = e - F`. Newton's step `dy` from there on the pieces of `y`
 //! moves `v` by `-k⁻¹ e + k⁻¹ (1 - dP/dy) dy`, a small number again, which double precision gives.
 
+use super::descent::{AIM, PATIENCE};
+use super::iteration::CHORD;
 use crate::certificate::eta_of;
 use crate::law::Piece;
 use crate::law::{Contact, Vector};
@@ -16,32 +18,22 @@ use crate::linalg::tolerances::NULL_VECTOR;
 use crate::linalg::vector::{largest_of, norm_inf};
 use crate::monitor::{Monitor, Stop};
 use crate::settings::Settings;
-use crate::solve::pieces::{Equations, System};
+use crate::solve::pieces::{Equations, SMALL, System};
 use crate::solve::result::Errors;
 use crate::solve::result::{Candidate, Ending};
 
-/// Most steps, and those in a row that may be no better than an earlier one: pieces may change first.
+/// Most steps; [`PATIENCE`] of them in a row may be no better than an earlier one: pieces may change first.
 const MOST_STEPS: usize = 30;
-const MOST_IN_VAIN: usize = 3;
-
-/// Part of the tolerance that is aimed at.
-const AIM: f64 = 0.01;
 
 /// Where `eta` is below a candidate is next to a solution. On few unknowns systems cost next to nothing,
 /// and rounding may hide a solution from a method altogether: there any candidate is refined.
 const NEAR: f64 = 1e-3;
-const FEW_UNKNOWNS: usize = 64;
-
-/// A factor serves further steps on its pieces while each makes `eta` smaller by this factor or less, and
-/// where the derivatives of the pieces have changed by rounding only: in the plane they do not change.
-const STILL_GOOD: f64 = 0.1;
-const SAME: f64 = 8.0 * f64::EPSILON;
 
 /// A step that makes `eta` smaller by this factor or less tells what error a residual stands for.
 const SURE: f64 = 0.5;
 
 /// Rounding of `eta`: that of forces rounded once, a few times as the steps have no rounding in mind.
-const ROUNDING_OF_ETA: f64 = 4.0 * f64::EPSILON;
+pub const ROUNDING_OF_ETA: f64 = 4.0 * f64::EPSILON;
 
 /// The candidate, refined if its residual is above the tolerance and that helps. Where it was done and there was no
 /// time to see, it is stopped.
@@ -53,7 +45,7 @@ pub fn refine_to_tolerance(
 ) -> Candidate {
     let old = candidate.certificate(contact);
     let is_finite = candidate.d().iter().all(|d| d.is_finite());
-    let is_near = old.eta <= NEAR || contact.unknowns() <= FEW_UNKNOWNS;
+    let is_near = old.eta <= NEAR || contact.unknowns() <= SMALL;
     let is_stopped = matches!(candidate.ending, Ending::Stopped(_)) || contact.is_at_rest();
     if old.residual <= settings.tolerance || !is_finite || !is_near || is_stopped {
         return candidate;
@@ -130,10 +122,10 @@ fn refine(
             steps.last = None;
             in_vain += 1;
         }
-        if !(least > aim) || in_vain >= MOST_IN_VAIN {
+        if !(least > aim) || in_vain >= PATIENCE {
             break;
         }
-        newton.is_good = in_vain == 0 && steps.contraction <= STILL_GOOD;
+        newton.is_good = in_vain == 0 && steps.contraction <= CHORD;
         let Some((step, orientation)) = newton.step(&v, &force) else { break };
         best.orientation = orientation;
         steps.begin(eta, &step);
@@ -245,7 +237,9 @@ impl<'e, 'm> Newton<'e, 'm> {
         Some((change, kept.system.orientation()))
     }
 
-    /// The kept factor if it serves at these coordinates, otherwise theirs if there is time for it.
+    /// The kept factor if it serves at these coordinates, otherwise theirs if there is time for it. It serves on its pieces
+    /// while each step leaves the part [`CHORD`] of `eta` at most, and where derivatives have changed by rounding only: in
+    /// the plane they do not change.
     fn factor(&mut self, pieces: Vec<Piece>, y: Vec<Vector>) -> Option<&mut CachedFactor<'e>> {
         let (equations, is_good) = (self.equations, self.is_good);
         let serves = |kept: &CachedFactor<'_>| {
@@ -272,5 +266,5 @@ fn is_same(equations: &Equations<'_>, pieces: &[Piece], y: [&[Vector]; 2]) -> bo
         let [one, other] = [one, other].map(|y| law.derivative_on(piece, y));
         one.into_iter().flatten().zip(other.into_iter().flatten())
     });
-    entries.all(|(one, other)| (one - other).abs() <= SAME * one.abs().max(1.0))
+    entries.all(|(one, other)| (one - other).abs() <= 2.0 * ROUNDING_OF_ETA * one.abs().max(1.0))
 }

@@ -5,15 +5,11 @@ use crate::law::{Contact, FixedState, PairLaw};
 use crate::monitor::Monitor;
 use crate::solve::sweeps::Sweeper;
 
-/// Sweeps before pairs are watched, and sweeps in which they are: a pair whose piece changes in these is in
-/// question.
+/// Sweeps before pairs are watched, and as many in which they are: a pair whose piece changes in these is in question.
 const SWEEPS: usize = 10;
-const WATCHED: usize = 10;
 
-/// Pairs that a pair takes along to either side when it joins, beside its neighbour: so many, and a part of all. What
-/// joins one by one takes many rounds.
-const LEAST_BESIDE: usize = 3;
-const BESIDE: f64 = 0.005;
+/// Pairs that a pair takes along to either side when it joins. What joins one by one takes many rounds.
+const BESIDE: usize = 4;
 
 /// Which pairs are in question, and the pieces of all.
 pub struct InQuestion {
@@ -43,7 +39,7 @@ impl InQuestion {
             pieces = sweep(&mut d);
         }
         let mut pairs = vec![false; pieces.len()];
-        for _ in 0..WATCHED {
+        for _ in 0..SWEEPS {
             let next = sweep(&mut d);
             for (is_in, (before, after)) in pairs.iter_mut().zip(pieces.iter().zip(&next)) {
                 *is_in |= before != after;
@@ -81,10 +77,9 @@ impl InQuestion {
         let others: Vec<bool> = laws.map(is_other).collect();
         let joining: Vec<usize> =
             (0..others.len()).filter(|&pair| others[pair] && !self.pairs[pair]).collect();
-        let beside = LEAST_BESIDE.max((BESIDE * self.pairs.len() as f64) as usize);
         for &pair in &joining {
-            let end = (pair + beside + 2).min(self.pairs.len());
-            self.pairs[pair.saturating_sub(beside + 1)..end].fill(true);
+            let end = (pair + BESIDE + 1).min(self.pairs.len());
+            self.pairs[pair.saturating_sub(BESIDE)..end].fill(true);
         }
         self.pieces = next;
         !joining.is_empty()

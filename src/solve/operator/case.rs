@@ -1,7 +1,7 @@
 //! A load case on bodies whose stiffness is not formed: its solution, and the measure of a result.
 
 use super::attempts;
-use super::point::{Displacements, Equations, REFINEMENTS};
+use super::point::{Displacements, Equations};
 use super::session::Session;
 use crate::certificate::{Certificate, measure_spread};
 use crate::error::{Argument, Error};
@@ -9,6 +9,7 @@ use crate::law::{Contact, gaps_within_reach};
 use crate::monitor::Monitor;
 use crate::problem::{ContactProblem, FrictionLaw, MatrixFree, StiffnessOperator};
 use crate::settings::{Method, Search, Settings};
+use crate::solve::part::SOLUTIONS;
 use crate::solve::plan::FAR;
 use crate::solve::result::Ending;
 use crate::solve::result::of_problem;
@@ -90,7 +91,7 @@ pub fn certify(
     let problem = loaded.problem(&bodies, case.gap)?;
     let mut at = loaded.at_zero.clone();
     at.x[bodies.operator.inner()..].copy_from_slice(d);
-    for _ in 0..REFINEMENTS {
+    for _ in 0..SOLUTIONS {
         at = at.in_equilibrium(&mut bodies, case.load)?;
     }
     let residual = bodies.operator.residual(&at.x, &at.low, case.load)?;

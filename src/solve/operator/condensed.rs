@@ -11,14 +11,14 @@
 
 use super::memory::{memory_of_components, room};
 use super::newton::{self, Outcome, improve};
-use super::point::{Displacements, Equations, REFINEMENTS};
+use super::point::{Displacements, Equations};
 use super::session::{Halted, Session};
 use crate::error::Error;
 use crate::law::Contact;
 use crate::monitor::{Monitor, Stop};
 use crate::problem::{ContactData, ContactProblem, HeldSet};
 use crate::settings::Settings;
-use crate::solve::part::{MARGIN, PairData, closed_with_margin};
+use crate::solve::part::{PairData, SOLUTIONS, closed_with_margin};
 use crate::solve::plan;
 use crate::solve::result::Status;
 
@@ -41,7 +41,7 @@ pub fn solve(
     };
     let laws = equations.contact.pairs();
     let mut chosen = match bodies.operator.can_hold() {
-        true => closed_with_margin(laws, &best.point.y, MARGIN),
+        true => closed_with_margin(laws, &best.point.y),
         false => (0..laws.len()).collect(),
     };
     let mut start = best.point.at.clone();
@@ -135,7 +135,7 @@ impl Condensed {
         let mut at = self.start.clone();
         self.places.iter().zip(d).for_each(|(&i, d)| at.x[i] = *d);
         if self.has_others() {
-            for _ in 0..=REFINEMENTS {
+            for _ in 0..=SOLUTIONS {
                 let lack = bodies.operator.residual(&at.x, &at.low, equations.load)?;
                 let mut step = bodies.solve(&lack)?;
                 self.places.iter().for_each(|&i| step[i] = 0.0);

@@ -5,17 +5,19 @@
 
 use crate::linalg::gmres::orthogonalised;
 
-/// Most directions that are kept, the latest ones, and most bytes of their vectors: with a million pairs taking them
-/// out of each new one costs more than the products that they save.
-const MOST_KEPT: usize = 50;
+/// Most new directions of one system.
+pub const MOST_DIRECTIONS: usize = 100;
+
+/// Most bytes of the directions that are kept: with a million pairs taking them out of each new one costs more than the
+/// products that they save.
 const MOST_BYTES: usize = 1 << 29;
 
 /// Vectors of all unknowns that a direction takes: itself, its product, and its image.
 pub const VECTORS: usize = 3;
 
-/// Most directions that are kept of so many unknowns.
+/// Most directions that are kept of so many unknowns, the latest ones: half of those of one system.
 pub fn most_kept(unknowns: usize) -> usize {
-    MOST_KEPT.min(MOST_BYTES / (VECTORS * size_of::<f64>() * unknowns.max(1)))
+    (MOST_DIRECTIONS / 2).min(MOST_BYTES / (VECTORS * size_of::<f64>() * unknowns.max(1)))
 }
 
 /// Where less than this part of an image is left when the others are taken out of it, its direction is left out: the

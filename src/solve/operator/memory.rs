@@ -1,7 +1,6 @@
 //! Most bytes that a solution on an operator takes, known before work begins.
 
-use super::directions::{self, most_kept};
-use super::system::MOST_DIRECTIONS;
+use super::directions::{self, MOST_DIRECTIONS, most_kept};
 use crate::solve::result::memory as memory_of_dense;
 
 /// Other vectors of all unknowns.

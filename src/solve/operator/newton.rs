@@ -1,9 +1,9 @@
 //! Newton's method on an operator: its steps by GMRES.
 
-use super::directions::Directions;
+use super::directions::{Directions, MOST_DIRECTIONS};
 use super::point::{Equations, Point};
 use super::session::{Halted, Session};
-use super::system::{MOST_DIRECTIONS, Step, System, changed};
+use super::system::{Step, System, changed};
 use crate::error::Error;
 use crate::law::Vector;
 use crate::monitor::Monitor;
@@ -22,10 +22,9 @@ const MOST_SYSTEMS: u64 = 40;
 const FORCING: f64 = 0.01;
 const FORCING_OF_ETA: f64 = 0.3;
 
-/// A factor serves while at most this part of the pairs has changed, and so many directions leave little
-/// enough; if they do not, they serve the system with the new factor.
+/// A factor serves while at most this part of the pairs has changed, and a quarter of the directions leaves little
+/// enough; if it does not, these serve the system with the new factor.
 const CHANGED: f64 = 0.02;
-const DIRECTIONS: usize = 25;
 
 /// How Newton's method ended, and where.
 pub type Outcome = NewtonOutcome<Point>;
@@ -101,7 +100,7 @@ impl NormalMap for Newton<'_, '_> {
         if let Some(factor) = bodies.held().filter(|factor| **factor != system.held_set) {
             let pairs = factor.springs.len();
             if changed(&factor, &system.held_set) as f64 <= CHANGED * pairs as f64 {
-                let step = system.step(bodies, (forcing, DIRECTIONS), known)?;
+                let step = system.step(bodies, (forcing, MOST_DIRECTIONS / 4), known)?;
                 if step.left <= FORCING {
                     return Ok(step);
                 }

@@ -7,9 +7,6 @@ use crate::linalg::double_double::two_sum;
 use crate::linalg::vector::{NormSum, norm};
 use crate::problem::{MatrixFree, StiffnessOperator};
 
-/// Solutions for unknowns in equilibrium, each with the residual of the one before: what is left is rounding.
-pub const REFINEMENTS: usize = 2;
-
 /// The equations `A x - b + (0, P) = 0` with `(d, P)` on the law of each pair.
 pub struct Equations<'a> {
     pub contact: &'a Contact<'a, MatrixFree<'a>>,

@@ -34,9 +34,6 @@ use crate::law::{Linearised, Plane, Vector, ellipse};
 use crate::linalg::gmres::gmres;
 use crate::problem::HeldSet;
 
-/// Most new directions of one system.
-pub const MOST_DIRECTIONS: usize = 100;
-
 /// A pair on its piece.
 struct Pair {
     on_piece: Linearised,

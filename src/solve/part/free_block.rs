@@ -15,7 +15,7 @@ pub struct FreeBlock<'p> {
 
 /// One solution and one step of iterative refinement: the second recovers the digits that the
 /// scaling and a nearly singular block lose.
-const SOLUTIONS: usize = 2;
+pub const SOLUTIONS: usize = 2;
 
 impl<'p> FreeBlock<'p> {
     /// Factorises the block of `rows` of a problem's matrix; `None` if it is not positive semi-definite.

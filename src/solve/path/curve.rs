@@ -37,11 +37,9 @@ const CONTRACTION: f64 = 0.3;
 /// `H` relative to the loads where a correction is done: well below what decides on a piece.
 const ON_CURVE: f64 = 1e-10;
 
-/// How far another pair may be outside its piece, relative to the size of the homotopy.
-const OUTSIDE: f64 = 1e-9;
-
-/// Steps are not held to their own length below it: rounding moves the corrector as far.
-const SHORTEST: f64 = 1e-9;
+/// How far rounding moves the corrector, relative to the size of the homotopy: so far may another pair be outside its
+/// piece, and shorter steps are not held to their own length.
+const ROUNDING_OF_PLACE: f64 = 1e-9;
 
 /// First step after a boundary, as a part of the size of the place.
 const AFTER_BOUNDARY: f64 = 1e-4;
@@ -162,7 +160,7 @@ impl<'h> Curve<'h> {
             let crossed = (length == leave).then_some((pair, boundary));
             if let Some(place) = self.correct(local, predicted.clone(), &condition, monitor)? {
                 let deviation = self.homotopy.norm(&predicted.to(&place));
-                let most = self.care.deviation * reach * length.max(SHORTEST);
+                let most = self.care.deviation * reach * length.max(ROUNDING_OF_PLACE);
                 if deviation <= most && self.is_inside(&place, crossed) {
                     return Ok(Advance { place, condition, length });
                 }
@@ -310,7 +308,7 @@ impl<'h> Curve<'h> {
                 !law.has_boundary(piece, boundary)
                     || crossed == Some((pair, boundary))
                     || law.excess(piece, boundary, &place.y[pair])
-                        <= OUTSIDE * self.unit_of(pair, boundary)
+                        <= ROUNDING_OF_PLACE * self.unit_of(pair, boundary)
             })
         })
     }

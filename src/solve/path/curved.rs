@@ -14,14 +14,11 @@ use crate::solve::rigid::{self, without_idle_motion};
 
 /// Size of the perturbation of a start beside the loads: symmetric meshes have ties, and on a generic
 /// start no two pairs reach their boundaries at once.
-const PERTURBATION: f64 = 1e-7;
+pub const PERTURBATION: f64 = 1e-7;
 
 /// How closely curves are followed, first and where that has failed.
 const EASY: Care = Care { deviation: 0.3 };
 const CAREFUL: Care = Care { deviation: 0.1 };
-
-/// Random part of the starts of a search for other solutions, of the loads.
-const FAR: f64 = 1.0;
 
 /// Starts of a search for other solutions.
 const SEARCHED: u64 = 10;
@@ -42,8 +39,8 @@ pub fn curved(
     })
 }
 
-/// Ends of paths from several starts, and what Newton's method makes of the starts themselves: where there
-/// are several solutions they may differ.
+/// Ends of paths from several starts, moved at random by all of the loads, and what Newton's method makes of the starts
+/// themselves: where there are several solutions they may differ.
 pub fn ends(
     contact: &Contact<'_>,
     settings: &Settings,
@@ -56,7 +53,7 @@ pub fn ends(
         if monitor.is_late() {
             break;
         }
-        let start = perturbed(&equations, &none, FAR, seed);
+        let start = perturbed(&equations, &none, 1.0, seed);
         let newton = newton_from(&equations, start.clone(), settings.tolerance, monitor);
         let path = follow(&equations, start, CAREFUL, settings.tolerance, monitor);
         ends.extend([newton, path].into_iter().filter(|end| end.ending == Ending::Done));

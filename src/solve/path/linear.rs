@@ -295,9 +295,8 @@ mod tests {
     /// chain, by the certificate, which knows nothing of pairs in question.
     #[test]
     fn pairs_in_question_end_with_a_solution_of_all() {
-        const PAIRS: usize = 60;
-        const CHAINS: u64 = 100;
-        let n = 2 * PAIRS;
+        let (pairs, chains) = (60, 100);
+        let n = 2 * pairs;
         let mut stiffness = vec![0.0; n * n];
         for i in 0..n {
             stiffness[i + n * i] = 0.1;
@@ -311,13 +310,13 @@ mod tests {
             }
         }
         let mut settled = 0;
-        for seed in 0..CHAINS {
+        for seed in 0..chains {
             let mut rng = fastrand::Rng::with_seed(seed);
             let mut vector = |n: usize, size: f64| -> Vec<f64> {
                 (0..n).map(|_| size * (2.0 * rng.f64() - 1.0)).collect()
             };
-            let (load, gap, slip) = (vector(n, 1.0), vector(PAIRS, 0.3), vector(PAIRS, 0.3));
-            let mu: Vec<f64> = vector(PAIRS, 3.0).iter().map(|mu| mu.abs()).collect();
+            let (load, gap, slip) = (vector(n, 1.0), vector(pairs, 0.3), vector(pairs, 0.3));
+            let mu: Vec<f64> = vector(pairs, 3.0).iter().map(|mu| mu.abs()).collect();
             let problem = coulomb(&stiffness, &load, &gap, &mu, &slip);
             let (contact, settings) = (Contact::new(&problem), Settings::default());
             let mut monitor = Monitor::new(&settings, None);
@@ -327,6 +326,6 @@ mod tests {
             }
         }
         // The whole path is there for the others: chains with more than the allowed part in question.
-        assert!(2 * settled > CHAINS, "{settled} of {CHAINS}");
+        assert!(2 * settled > chains, "{settled} of {chains}");
     }
 }

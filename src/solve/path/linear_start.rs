@@ -1,14 +1,12 @@
 //! Where the linear path starts: coordinates after some sweeps, moved by a little at random so that no
 //! two pairs change at once.
 
+use super::curved::PERTURBATION;
 use crate::law::{Contact, PairLaw, Planar};
 use crate::linalg::perturbation::Perturbation;
 use crate::linalg::vector::NormSum;
 use crate::monitor::Monitor;
 use crate::solve::sweeps::Sweeper;
-
-/// Random part of a start, of all loads.
-const RANDOM: f64 = 1e-7;
 
 /// The start, its randomness, and the loads of the problem.
 pub struct Starts {
@@ -35,7 +33,7 @@ impl Starts {
         let mut size = NormSum::default();
         load.iter().zip(root).for_each(|(load, root)| size.add(load / root));
         let size = size.root();
-        let part = RANDOM * size / (root.len() as f64).sqrt();
+        let part = PERTURBATION * size / (root.len() as f64).sqrt();
         Starts {
             load,
             swept: (d, force),

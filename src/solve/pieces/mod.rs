@@ -12,5 +12,5 @@ mod updated;
 
 pub use equations::{Equations, Point};
 pub use system::{Border, System};
-pub use systems::{REFINEMENTS, Systems};
+pub use systems::{REFINEMENTS, SMALL, Systems};
 pub use updated::Updated;

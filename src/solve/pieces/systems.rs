@@ -9,7 +9,7 @@ use crate::linalg::tolerances::SINGULAR;
 
 /// Below so many unknowns a new factorisation is cheaper than changes of an old one: measured on the bar on the
 /// plane.
-const SMALL: usize = 64;
+pub const SMALL: usize = 64;
 
 /// Most terms of changes, as a part of the unknowns: with more of them they cost as much as a new factorisation.
 const MOST_TERMS: f64 = 0.2;

@@ -146,13 +146,7 @@ const LEMKE: MethodRow = MethodRow {
             "settings: Lemke's method is for frictionless contact, and for friction in 2D";
         unsymmetric(contact).or_else(|| (!fits).then(|| message.to_owned()))
     },
-    run: |call, monitor| {
-        let by = match call.contact.is_frictionless() {
-            true => lcp::lemke_frictionless,
-            false => lcp::lemke_friction_2d,
-        };
-        by(call.contact, call.settings, monitor).map(Some)
-    },
+    run: |call, monitor| lcp::lemke(call.contact, call.settings, monitor).map(Some),
 };
 
 const NESTED_SWEEPS: MethodRow = MethodRow {
@@ -165,7 +159,7 @@ const NESTED_SWEEPS: MethodRow = MethodRow {
         if contact.is_coupled() {
             let start = call.start_or_zero();
             return for_a_while(call, monitor, |monitor| {
-                sweeps::nested(contact, settings, start, monitor)
+                sweeps::nested(contact, settings, &start, monitor)
             });
         }
         single_sweeps(call, monitor)
@@ -188,10 +182,7 @@ const DIAGONAL_SWEEPS: MethodRow = MethodRow {
 /// Sweeps that update thresholds as they go, or have given ones.
 fn single_sweeps(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Result<Option<Candidate>, Error> {
     let (contact, settings, start) = (call.contact, call.settings, call.start_or_zero());
-    for_a_while(call, monitor, |monitor| match contact.is_frictionless() {
-        true => sweeps::frictionless(contact, settings, &start, monitor),
-        false => sweeps::single(contact, settings, start, monitor),
-    })
+    for_a_while(call, monitor, |monitor| sweeps::single(contact, settings, &start, monitor))
 }
 
 /// Sweeps that a plan tries where exact methods have failed: a fortieth of what they may take when they

@@ -26,14 +26,12 @@ pub fn check_limit(needed: u64, settings: &Settings) -> Result<(), Error> {
     if most == 0 || needed <= most {
         return Ok(());
     }
-    let (needed, most) = (needed as f64 / MEGABYTE, most as f64 / MEGABYTE);
+    let [needed, most] = [needed, most].map(|bytes| bytes as f64 / 1e6);
     let message = format!(
         "the solution may need {needed:.1} MB, settings: memory_limit allows {most:.1} MB; nothing was done"
     );
     Err(Error::stopped(Limit::Memory, message))
 }
-
-const MEGABYTE: f64 = 1e6;
 
 /// Most bytes that [`solve`](crate::solve::solve()) and [`solve_lcp`](crate::solve::solve_lcp()) take for so many unknowns,
 /// beside the problem itself, whatever the method, the law and the questions. The working memory of matrix

@@ -6,7 +6,7 @@
 
 use crate::law::Contact;
 use crate::linalg::vector::largest_of;
-use crate::solve::newton::FullyRefined;
+use crate::solve::newton::{FullyRefined, ROUNDING_OF_ETA};
 
 /// Relative margin by which a statement must be true to count as proved: the rounding of systems with condition
 /// numbers up to 1e9 or 1e10, the largest that are certified, stays below it.
@@ -15,15 +15,12 @@ pub const MARGIN: f64 = 1e-6;
 /// How many times further apart than their errors two solutions are: the step is an estimate to first order.
 const PARTED: f64 = 1e3;
 
-/// Largest `eta` of a refined answer that is next to a solution: its displacements are two doubles each, and its forces
-/// are rounded once. An answer on pieces whose solution is not on them keeps a residual, which may be as small as the
-/// force of the softest spring: 7e-13 of the loads was seen, 1.5e-16 at solutions.
-const AT_SOLUTION: f64 = 4.0 * f64::EPSILON;
-
-/// True if two refined answers are next to two solutions.
+/// True if two refined answers are next to two solutions. Their `eta` is at its rounding then: displacements are two
+/// doubles each, and forces are rounded once. An answer on pieces whose solution is not on them keeps a residual, which
+/// may be as small as the force of the softest spring: 7e-13 of the loads was seen, 1.5e-16 at solutions.
 pub fn are_parted(contact: &Contact<'_>, one: &FullyRefined, two: &FullyRefined) -> bool {
     let is_solution =
-        |answer: &FullyRefined| answer.candidate.certificate(contact).holds(AT_SOLUTION);
+        |answer: &FullyRefined| answer.candidate.certificate(contact).holds(ROUNDING_OF_ETA);
     if !is_solution(one) || !is_solution(two) {
         return false;
     }

@@ -7,10 +7,6 @@ use crate::monitor::Monitor;
 use crate::settings::Settings;
 use crate::solve::result::{Errors, Existence, Solution, Status};
 
-/// Operations of a proof, in units of an `LU` factorisation: the approximate inverse and its products, or the
-/// factorisations of a bound on the least eigenvalue.
-const WORK: f64 = 1.0;
-
 /// Tries to prove that there is a solution with the states of this one. If there is, the result becomes the
 /// middle of its enclosure.
 pub fn examine(
@@ -20,7 +16,8 @@ pub fn examine(
     monitor: &Monitor<'_>,
 ) {
     solution.existence = Existence::NotProved;
-    let in_time = monitor.has_time_for(WORK * lu_work(contact.unknowns()));
+    // The approximate inverse and its products, or a bound on the least eigenvalue, cost one factorisation.
+    let in_time = monitor.has_time_for(lu_work(contact.unknowns()));
     if solution.status != Status::Solved || !in_time {
         return;
     }

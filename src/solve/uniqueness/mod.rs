@@ -40,20 +40,15 @@ pub fn examine(
     if contact.is_frictionless() || !monitor.has_time_for(lu_work(contact.unknowns())) {
         return Ok(());
     }
-    if contact.dim() != 2 {
-        let Some(first) = refine_fully(contact, &given(contact, solution), monitor) else {
-            return Ok(());
-        };
-        if let Some(second) = search::another_in_space(contact, settings, &first, monitor) {
-            solution.uniqueness = Uniqueness::Several;
-            solution.second = Some(Box::new(second));
-        }
-        return Ok(());
+    let mut first = given(contact, solution);
+    if contact.dim() == 2 {
+        // To the last digit, and with its orientation.
+        let own = on_own_pieces(contact, settings, &solution.d, monitor);
+        let Some(own) = own else { return Ok(()) };
+        solution.orientation = own.orientation;
+        by_orientation(contact, solution, monitor);
+        first = own;
     }
-    // To the last digit, and with its orientation.
-    let Some(first) = on_own_pieces(contact, settings, &solution.d, monitor) else { return Ok(()) };
-    solution.orientation = first.orientation;
-    by_orientation(contact, solution, monitor);
     let Some(first) = refine_fully(contact, &first, monitor) else { return Ok(()) };
     if let Some(second) = search::another(contact, settings, &first, monitor)? {
         solution.uniqueness = Uniqueness::Several;

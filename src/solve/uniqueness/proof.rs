@@ -17,16 +17,13 @@ use super::difference::MARGIN;
 use crate::law::Contact;
 use crate::linalg::eigen::largest_eigenvalue;
 use crate::linalg::factor::{Factor, cholesky_work};
-use crate::monitor::Monitor;
+use crate::monitor::{COLUMNS, Monitor};
 
 /// Operations that take as long as the eigenvalues of a matrix of `n` rows: four thirds of `n³`, half of them at the
 /// speed of memory, some five times slower.
 fn eigenvalue_work(n: usize) -> f64 {
     4.0 * (n as f64).powi(3)
 }
-
-/// Columns that are solved for between two looks at the clock.
-const BLOCK: usize = 64;
 
 /// The factor of `K`, scaled to a unit diagonal, if it is positive definite.
 pub fn scaled_factor(contact: &Contact<'_>) -> Option<Factor> {
@@ -70,7 +67,7 @@ fn is_contraction(
     for (a, column) in flexibility.chunks_exact_mut(n).enumerate() {
         column[component(a)] = 1.0;
     }
-    for columns in flexibility.chunks_mut(n * BLOCK) {
+    for columns in flexibility.chunks_mut(n * COLUMNS) {
         if monitor.is_late() {
             return false;
         }

@@ -15,54 +15,33 @@ use crate::solve::{lcp, path};
 /// the rest of the search costs for a hundred pairs.
 const NEIGHBOURS: usize = 32;
 
-/// A solution other than `known` in the plane, if one is found: by Newton's method from all pairs sticking, open
-/// or slipping, by Lemke's with several starts and from where its path turns, and by Newton's from
-/// pieces next to the known ones.
+/// A solution other than `known`, if one is found. In the plane: by Newton's method from all pairs sticking, open or
+/// slipping and from pieces next to the known ones, and by Lemke's with several starts and from where its path turns. In
+/// space: at the ends of paths from several starts.
 pub fn another(
     contact: &Contact<'_>,
     settings: &Settings,
     known: &FullyRefined,
     monitor: &mut Monitor<'_>,
 ) -> Result<Option<SecondSolution>, Error> {
-    let accepted =
-        |candidate, monitor: &Monitor<'_>| accepted(contact, settings, known, candidate, monitor);
-    for pieces in starts(contact) {
+    let is_planar = contact.dim() == 2;
+    let d = known.candidate.d();
+    for pieces in if is_planar { starts(contact, d) } else { Vec::new() } {
         if monitor.is_late() {
             return Ok(None);
         }
-        let d = vec![0.0; contact.unknowns()];
-        let candidate = from_pieces(contact, settings, &pieces, &d, monitor);
-        if let Some(other) = accepted(candidate, monitor) {
-            return Ok(Some(other));
+        let candidate = from_pieces(contact, settings, &pieces, d, monitor);
+        let other = accepted(contact, settings, known, candidate, monitor);
+        if other.is_some() {
+            return Ok(other);
         }
     }
-    for candidate in lcp::lemke_ends(contact, settings, monitor)? {
-        if let Some(other) = accepted(candidate, monitor) {
-            return Ok(Some(other));
-        }
-    }
-    for pieces in neighbours(contact, known.candidate.d()) {
-        if monitor.is_late() {
-            break;
-        }
-        let candidate = from_pieces(contact, settings, &pieces, known.candidate.d(), monitor);
-        if let Some(other) = accepted(candidate, monitor) {
-            return Ok(Some(other));
-        }
-    }
-    Ok(None)
-}
-
-/// A solution other than `known` in space, if one is found: at the ends of paths from several starts.
-pub fn another_in_space(
-    contact: &Contact<'_>,
-    settings: &Settings,
-    known: &FullyRefined,
-    monitor: &mut Monitor<'_>,
-) -> Option<SecondSolution> {
-    path::ends(contact, settings, monitor)
-        .into_iter()
-        .find_map(|candidate| accepted(contact, settings, known, candidate, monitor))
+    let ends = match is_planar {
+        true => lcp::lemke_ends(contact, settings, monitor)?,
+        false => path::ends(contact, settings, monitor),
+    };
+    let mut others = ends.into_iter();
+    Ok(others.find_map(|candidate| accepted(contact, settings, known, candidate, monitor)))
 }
 
 /// A candidate that is a solution other than `known`.
@@ -88,27 +67,23 @@ fn accepted(
     })
 }
 
-/// All pairs open, all slipping to either side, all sticking.
-fn starts(contact: &Contact<'_>) -> Vec<Vec<Piece>> {
+/// All pairs open, all slipping to either side, all sticking; and the pieces of a solution with that of one pair changed,
+/// of the first pairs.
+fn starts(contact: &Contact<'_>, known: &[f64]) -> Vec<Vec<Piece>> {
     let all = |piece: &dyn Fn(&PairLaw) -> Piece| contact.pairs().iter().map(piece).collect();
-    vec![
+    let here = contact.pieces(known, &contact.problem().force(known));
+    let mut starts = vec![
         all(&|_| Piece::OPEN),
         all(&|law| law.slip(1)),
         all(&|law| law.slip(-1)),
         all(&PairLaw::stick),
-    ]
-}
-
-/// The pieces of a solution with that of one pair changed, of the first pairs.
-fn neighbours(contact: &Contact<'_>, known: &[f64]) -> Vec<Vec<Piece>> {
-    let here = contact.pieces(known, &contact.problem().force(known));
-    let mut neighbours = Vec::new();
+    ];
     for (pair, law) in contact.pairs().iter().enumerate().take(NEIGHBOURS) {
         for piece in law.planar_pieces().into_iter().filter(|piece| *piece != here[pair]) {
             let mut pieces = here.clone();
             pieces[pair] = piece;
-            neighbours.push(pieces);
+            starts.push(pieces);
         }
     }
-    neighbours
+    starts
 }

@@ -10,12 +10,9 @@ use super::tableau::Tableau;
 use crate::linalg::double_double::{DoubleDouble, dot};
 use crate::linalg::vector::{self, norm_inf};
 
-/// Relative differences below are zero: well above what refined rows leave, `1e-32` times the condition
+/// Relative differences below are zero: a hundred times the residual of a refined row, well above what refined rows leave, `1e-32` times the condition
 /// number of the basis and the number of terms, and below those of numbers that are not built to be close.
 const EQUAL: f64 = 1e-24;
-
-/// Residual of a refined row of the inverse, relative to its largest entry.
-const REFINED: f64 = 1e-26;
 
 /// Steps of refinement: each gains the digits that the tableau has right, at least four of 26.
 const STEPS: usize = 8;
@@ -88,10 +85,10 @@ impl Tableau {
         let mut refined: Vec<Row> = rows.iter().map(begin).collect();
         for _ in 0..STEPS {
             let residuals = self.residuals(problem, &refined);
-            let mut done = true;
+            let (mut done, refined_to) = (true, EQUAL / 100.0);
             for (row, residual) in refined.iter_mut().zip(&residuals) {
                 row.size = norm_inf(&row.high);
-                done &= norm_inf(residual) <= REFINED * row.size;
+                done &= norm_inf(residual) <= refined_to * row.size;
                 let correction = self.times_inverse(residual);
                 for (i, correction) in correction.into_iter().enumerate() {
                     let sum = row.entry(i).plus(DoubleDouble::sum(correction, 0.0));

@@ -44,15 +44,13 @@ pub struct LemkeRun {
 /// Rounding made a basis of Lemke's method singular.
 pub const BREAKDOWN: Ending = Ending::Stalled("rounding made Lemke's basis singular");
 
-/// Pivots between two checks of the values against the data: the check costs about one pivot.
+/// Pivots between two checks of the values against the data: the check costs about one pivot. While close ratios are
+/// decided in twice the precision, checks are four times as many.
 const CHECK: u64 = 32;
 
 /// Residual, relative to `q`, from which on the tableau is refactorised: ten times what a check's own
 /// refinement can mend.
 const DRIFT: f64 = 10.0 * NEGLIGIBLE;
-
-/// Pivots between two checks while close ratios are decided in twice the precision.
-const CAREFUL_CHECK: u64 = 8;
 
 /// Ratios and values that differ by less are close: far more than a tableau of that age has lost.
 const CLOSE: f64 = 1e-7;
@@ -218,7 +216,7 @@ impl Path<'_> {
             self.tableau.pivot(row, entering);
             let limit = self.rules.end * start.unwrap_or(0.0);
             let ended = leaving == z0 || self.tableau.value(z0) <= limit;
-            let interval = if careful { CAREFUL_CHECK } else { CHECK };
+            let interval = if careful { CHECK / 4 } else { CHECK };
             if ended || pivots % interval == 0 {
                 match self.check(careful, monitor) {
                     Ok(true) => {}

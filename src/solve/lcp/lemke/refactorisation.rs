@@ -2,23 +2,17 @@
 //! recomputed in its basis.
 
 use super::scaled::Scaled;
-use super::tableau::Tableau;
+use super::tableau::{MEMORY, Tableau};
 use crate::linalg::factor::{Factor, lu_work, subtract_outer};
 use crate::linalg::simd;
 use crate::linalg::tolerances::SINGULAR_BASIS;
 use crate::linalg::vector::norm_inf;
-
-/// Operations that take as long as making an entry of the problem and reading one of the tableau, at the speed of
-/// memory.
-const READING: f64 = 40.0;
-
-/// Columns that are recomputed together: a block of them stays in the cache.
-const PANEL: usize = 64;
+use crate::monitor::COLUMNS;
 
 impl Tableau {
     /// Operations in whose time [`Self::refine`] reads the data and the tableau, and makes the changes that are kept.
     pub fn refinement_work(&self) -> f64 {
-        (READING + 2.0 * self.kept.count() as f64) * (self.size as f64).powi(2)
+        (MEMORY / 2.0 + 2.0 * self.kept.count() as f64) * (self.size as f64).powi(2)
     }
 
     /// Corrects the values by one step of iterative refinement on the data of `problem`, with the
@@ -72,8 +66,8 @@ impl Tableau {
         });
         let Some(mut factor) = factor else { return false };
         self.kept.clear();
-        for first in (0..n + 2).step_by(PANEL) {
-            let columns: Vec<usize> = (first..(first + PANEL).min(n + 2)).collect();
+        for first in (0..n + 2).step_by(COLUMNS) {
+            let columns: Vec<usize> = (first..(first + COLUMNS).min(n + 2)).collect();
             let solutions = self.solve_panel(problem, &mut factor, &columns, &equations);
             self.write_panel(problem, &columns, &solutions, &rows);
         }
@@ -128,8 +122,8 @@ impl Tableau {
     ) {
         let (n, count) = (self.size, rows.len());
         let mut memory = vec![0.0; n];
-        for first in (0..count).step_by(PANEL) {
-            let part = first..(first + PANEL).min(count);
+        for first in (0..count).step_by(COLUMNS) {
+            let part = first..(first + COLUMNS).min(count);
             let mut x = vec![0.0; n * part.len()];
             for (&row, x) in rows[part.clone()].iter().zip(x.chunks_exact_mut(n)) {
                 let mut column = vec![0.0; n];

@@ -16,7 +16,7 @@ use crate::error::Error;
 use crate::linalg::simd::{self, Simd};
 use crate::linalg::tolerances::{NEGLIGIBLE, ROUNDING};
 use crate::linalg::vector::norm_inf;
-use crate::monitor::{Monitor, Stop};
+use crate::monitor::{COLUMNS, Monitor, Stop};
 
 /// The tableau in a basis.
 pub struct Tableau {
@@ -50,16 +50,14 @@ const LARGE: usize = 160;
 /// where `n` is a power of two: one line.
 const LINE: usize = 8;
 
-/// Columns that are written between two looks at the clock.
-const BLOCK: usize = 64;
-
-/// Operations that take as long as writing an entry of new memory, which the system clears page by page.
-const WRITING: f64 = 100.0;
+/// Operations that take as long as writing an entry of new memory, which the system clears page by page; reading one
+/// takes half of that.
+pub(super) const MEMORY: f64 = 100.0;
 
 impl Tableau {
     /// Operations in whose time [`Self::new`] writes a tableau of `n` rows.
     pub fn work(n: usize) -> f64 {
-        WRITING * (n as f64).powi(2)
+        MEMORY * (n as f64).powi(2)
     }
 
     /// The tableau in which the `w` are basic; `Ok(Err)`: the time is up.
@@ -74,7 +72,7 @@ impl Tableau {
             .try_reserve_exact(stride * (n + 1))
             .map_err(|_| Error::OutOfMemory("the tableau of Lemke's method"))?;
         for j in 0..n {
-            if j % BLOCK == 0
+            if j % COLUMNS == 0
                 && let Err(stop) = monitor.affords(0.0)
             {
                 return Ok(Err(stop));

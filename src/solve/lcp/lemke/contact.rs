@@ -1,4 +1,9 @@
-//! Lemke's method for Coulomb friction in 2D, for every coefficient.
+//! Lemke's method for contact: without friction (paper, section 2.2), and in 2D with Coulomb friction, for every
+//! coefficient.
+//!
+//! Without friction the variables are clearances alone, and the matrix of what carries contact forces is positive
+//! semi-definite: a load that drives a motion free of contact has no equilibrium, and neither has one that ends the
+//! path in a ray.
 //!
 //! With the clearance `w = gap - d_n`, the slip `d_t - slip0 = a - b` (`a, b >= 0`) and the contact force
 //! that `d = (gap, slip0)` requires, `K (gap, slip0) - f = -(r_n, r_t)`, the problem is
@@ -44,7 +49,7 @@
 //! formulates friction as linear complementarity, without this start. With given thresholds the matrix is
 //! positive semi-definite and the standard theory applies; the same start serves.
 
-use super::friction_2d_lcp::FrictionLcp;
+use super::contact_lcp::ContactLcp;
 use super::path::{self, LemkeRules, LemkeRun, Refactorising, ScaledLcp};
 use crate::error::Error;
 use crate::law::Contact;
@@ -68,17 +73,29 @@ const TURNS: usize = 4;
 /// turn the path back, or into a ray. Newton's method finds the rest of the digits.
 const END: f64 = 1e-10;
 
-/// Solves a problem in 2D.
+/// Solves a problem without friction, or in 2D. It needs no start.
 pub fn solve(
     contact: &Contact<'_>,
     settings: &Settings,
     monitor: &mut Monitor<'_>,
 ) -> Result<Candidate, Error> {
-    let lcp = match FrictionLcp::new(contact, monitor) {
+    let lcp = match ContactLcp::new(contact, monitor) {
         Ok(lcp) => lcp,
         Err(why) => return Ok(Candidate::without_displacements(contact, why)),
     };
-    follow(&lcp, contact, settings, COHESIONS[0], monitor)
+    if !contact.is_frictionless() {
+        let rules = LemkeRules { care: Refactorising::Usual, end: END, turns: 0 };
+        return with_friction(&lcp, contact, settings, rules, monitor);
+    }
+    let usual = frictionless(&lcp, contact, Refactorising::Usual, monitor)?;
+    if usual.is_settled(contact, settings.tolerance) {
+        return Ok(usual);
+    }
+    let thorough = frictionless(&lcp, contact, Refactorising::Thorough, monitor)?;
+    Ok(match thorough.ending {
+        Ending::Done => lcp.in_equilibrium(thorough, monitor),
+        _ => thorough,
+    })
 }
 
 /// Ends of the path from several starts, and what Newton's method makes of its turning points: all
@@ -88,7 +105,7 @@ pub fn ends(
     settings: &Settings,
     monitor: &mut Monitor<'_>,
 ) -> Result<Vec<Candidate>, Error> {
-    let Ok(lcp) = FrictionLcp::new(contact, monitor) else { return Ok(Vec::new()) };
+    let Ok(lcp) = ContactLcp::new(contact, monitor) else { return Ok(Vec::new()) };
     let mut ends = Vec::new();
     for cohesion in COHESIONS {
         if monitor.is_late() {
@@ -104,16 +121,32 @@ pub fn ends(
     Ok(ends)
 }
 
-/// Follows a path to its end, and polishes the solution there.
-fn follow(
-    lcp: &FrictionLcp<'_>,
+/// Follows a path without friction to its end, where a ray proves that there is no equilibrium.
+fn frictionless(
+    lcp: &ContactLcp<'_>,
     contact: &Contact<'_>,
-    settings: &Settings,
-    cohesion: [f64; 2],
+    care: Refactorising,
     monitor: &mut Monitor<'_>,
 ) -> Result<Candidate, Error> {
-    let run =
-        run(lcp, LemkeRules { care: Refactorising::Usual, end: END, turns: 0 }, cohesion, monitor)?;
+    let run = run(lcp, LemkeRules::usual(care), COHESIONS[0], monitor)?;
+    let ending = match run.ending {
+        Ending::Recession(ray) => Ending::Recession(lcp.motion(&ray)),
+        other => other,
+    };
+    let mut candidate = Candidate::of_displacements(contact, lcp.displacements(&run.z), ending);
+    candidate.effort.refactorisations = run.refactorisations;
+    Ok(candidate)
+}
+
+/// Follows a path with friction to its end, and polishes the solution there.
+fn with_friction(
+    lcp: &ContactLcp<'_>,
+    contact: &Contact<'_>,
+    settings: &Settings,
+    rules: LemkeRules,
+    monitor: &mut Monitor<'_>,
+) -> Result<Candidate, Error> {
+    let run = run(lcp, rules, COHESIONS[0], monitor)?;
     let d = lcp.displacements(&run.z);
     let ending = match run.ending {
         // If the body only lifts off, the ray itself is the proof; if it also slips, the balance of
@@ -139,7 +172,7 @@ fn follow(
 
 /// Follows a path to its end.
 fn run(
-    lcp: &FrictionLcp<'_>,
+    lcp: &ContactLcp<'_>,
     rules: LemkeRules,
     cohesion: [f64; 2],
     monitor: &mut Monitor<'_>,

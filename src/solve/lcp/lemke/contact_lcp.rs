@@ -1,21 +1,22 @@
-//! The LCP of friction in 2D, as `friction_2d` states it. Its matrix is not stored: its columns are
+//! The LCP of contact without friction, or in 2D, as `contact` states it. Its matrix is not stored: its columns are
 //! made from those of `K` when the tableau asks for them.
 
 use std::borrow::Cow;
 
 use super::scaled::Entries;
-use crate::law::Contact;
-use crate::law::Piece;
+use crate::certificate::is_escape_of;
+use crate::law::{Contact, Piece};
 use crate::linalg::factor::cholesky_work;
 use crate::linalg::matrix::Matrix;
 use crate::linalg::packed::PackedSymmetric;
+use crate::linalg::tolerances::NEGLIGIBLE;
 use crate::linalg::vector::norm_inf;
 use crate::monitor::Monitor;
-use crate::solve::part::{FreeBlock, INDEFINITE, driven_motion};
-use crate::solve::result::Ending;
+use crate::solve::part::FreeBlock;
+use crate::solve::result::{Candidate, Ending};
 
 /// The LCP of a contact problem in the variables `(w, a, b)`.
-pub struct FrictionLcp<'p> {
+pub struct ContactLcp<'p> {
     contact: &'p Contact<'p>,
     /// Components that carry no contact force are condensed.
     block: FreeBlock<'p>,
@@ -60,29 +61,33 @@ pub struct Vectors {
     pub scale: Vec<f64>,
 }
 
-impl<'p> FrictionLcp<'p> {
+impl<'p> ContactLcp<'p> {
     /// Condenses what carries no contact force. `Err`: why that is impossible, which may be a proof
     /// that no equilibrium exists.
     pub fn new(contact: &'p Contact<'p>, monitor: &mut Monitor<'_>) -> Result<Self, Ending> {
-        let problem = contact.problem();
+        let (problem, dim) = (contact.problem(), contact.dim());
+        let is_frictionless = contact.is_frictionless();
         let (mut normal, mut tangential, mut free) = (Vec::new(), Vec::new(), Vec::new());
         let mut coupling = Vec::new();
         for (pair, law) in contact.pairs().iter().enumerate() {
             let variables = law.variables();
-            if variables.slips {
+            let slips = variables.slips && !is_frictionless;
+            if slips {
                 let slope = law.bound().slope;
                 coupling.push(if variables.clearance { (normal.len(), slope) } else { (0, 0.0) });
             }
-            if variables.clearance { &mut normal } else { &mut free }.push(2 * pair);
-            if variables.slips { &mut tangential } else { &mut free }.push(2 * pair + 1);
+            if variables.clearance { &mut normal } else { &mut free }.push(dim * pair);
+            if slips { &mut tangential } else { &mut free }
+                .extend(dim * pair + 1..dim * (pair + 1));
         }
         let indices: Vec<usize> = normal.iter().chain(&tangential).copied().collect();
         let condenses = !free.is_empty();
         monitor.affords(cholesky_work(free.len())).map_err(Ending::Stopped)?;
-        let block = FreeBlock::of_problem(problem, free).ok_or(INDEFINITE)?;
+        let block = FreeBlock::of_problem(problem, free)
+            .ok_or(Ending::Stalled("K is not positive semi-definite"))?;
         let mut at_rest = vec![0.0; contact.unknowns()];
         for &i in &indices {
-            at_rest[i] = contact.pairs()[i / 2].reference()[i % 2];
+            at_rest[i] = contact.pairs()[i / dim].reference()[i % dim];
         }
         block.equilibrate(contact.load_with_tension(), &mut at_rest);
         if let Some(motion) = driven_motion(contact, &block, &at_rest) {
@@ -95,7 +100,7 @@ impl<'p> FrictionLcp<'p> {
         } else {
             Stiffness::Whole(problem.stiffness(), indices)
         };
-        Ok(FrictionLcp { contact, block, at_rest, normal, tangential, coupling, stiffness })
+        Ok(ContactLcp { contact, block, at_rest, normal, tangential, coupling, stiffness })
     }
 
     /// The vectors, with the cohesion of the covering vector against slip to either side.
@@ -138,10 +143,29 @@ impl<'p> FrictionLcp<'p> {
     /// The motion of all components along a ray.
     pub fn motion(&self, ray: &[f64]) -> Vec<f64> {
         let mut motion = self.motion_of_variables(ray);
-        let least = DIGITS * norm_inf(&motion);
+        // Below a tenth of what counts as rigid in the certificate: digits that rounding has left.
+        let least = NEGLIGIBLE / 10.0 * norm_inf(&motion);
         motion.iter_mut().filter(|r| r.abs() < least).for_each(|r| *r = 0.0);
         self.block.follow(&mut motion);
         motion
+    }
+
+    /// A solution with equilibrium solved directly where its closed pairs are fixed, if there is time and that is better.
+    pub fn in_equilibrium(&self, given: Candidate, monitor: &Monitor<'_>) -> Candidate {
+        let (contact, d) = (self.contact, given.d());
+        let touches = |&i: &usize| contact.pairs()[i / contact.dim()].touches(d[i]);
+        let mut free = vec![true; d.len()];
+        self.normal.iter().filter(|i| touches(i)).for_each(|&i| free[i] = false);
+        let free: Vec<usize> = (0..d.len()).filter(|&i| free[i]).collect();
+        if !monitor.has_time_for(cholesky_work(free.len())) {
+            return given;
+        }
+        let Some(block) = FreeBlock::of_problem(contact.problem(), free) else { return given };
+        let mut better = d.to_vec();
+        block.equilibrate(contact.load_with_tension(), &mut better);
+        let better = given.clone().moved_to(contact, contact.admissible(&better));
+        let improves = better.certificate(contact).eta < given.certificate(contact).eta;
+        if improves { better } else { given }
     }
 
     fn motion_of_variables(&self, z: &[f64]) -> Vec<f64> {
@@ -156,7 +180,7 @@ impl<'p> FrictionLcp<'p> {
         motion
     }
 
-    /// The pieces of a point of the path.
+    /// The pieces of a point of the path in 2D.
     pub fn pieces(&self, z: &[f64]) -> Vec<Piece> {
         let (n, m) = (self.normal.len(), self.tangential.len());
         let mut variables = vec![[0.0; 3]; self.contact.pairs().len()];
@@ -171,11 +195,20 @@ impl<'p> FrictionLcp<'p> {
     }
 }
 
-/// Components of a ray below this part of the largest are digits that rounding has left: a tenth of
-/// what counts as rigid in the certificate.
-const DIGITS: f64 = 1e-12;
+/// A motion of condensed components alone on which the loads do work, if there is one.
+fn driven_motion(contact: &Contact<'_>, block: &FreeBlock<'_>, d: &[f64]) -> Option<Vec<f64>> {
+    let problem = contact.problem();
+    block.dependent().next()?;
+    let force = contact.force_without_tension(d);
+    let mut motion = vec![0.0; contact.unknowns()];
+    for i in block.dependent() {
+        motion[i] = -force[i] / problem.unit(i);
+    }
+    block.follow(&mut motion);
+    is_escape_of(contact, &motion).then_some(motion)
+}
 
-impl Entries for FrictionLcp<'_> {
+impl Entries for ContactLcp<'_> {
     fn write_column(&self, j: usize, column: &mut [f64]) {
         let (n, m) = (self.normal.len(), self.tangential.len());
         // Variable j moves one component: a clearance, or a slip to one side.
