@@ -3,6 +3,7 @@
 use std::iter::repeat;
 
 use crate::law::{Contact, State, Violation};
+use crate::linalg::ball::UNIT;
 use crate::linalg::tolerances::{NEGLIGIBLE, ROUNDING_OF_SUM};
 use crate::linalg::vector::{NormSum, dot, largest_of, norm, norm_inf, sizes};
 use crate::problem::{ContactProblem, Relation};
@@ -241,9 +242,6 @@ fn is_resisted<R: Relation>(relation: &R, d: &[f64], raw: &[f64]) -> bool {
 fn force_scale(load: &[f64], raw: &[f64]) -> f64 {
     norm(load).max(norm(raw))
 }
-
-/// Half a unit in the last digit of 1.
-const UNIT: f64 = f64::EPSILON / 2.0;
 
 /// The terms of `K d`: `|K| |d|`, whose rounding is [`UNIT`] of it.
 pub(super) struct Terms {

@@ -1,11 +1,13 @@
 //! The data of load cases of a model, which several calls receive in the same order.
 
 use super::args::Arrays;
-use super::guard::{self, Failure};
+use super::guard::{self, Failure, number_of};
 use super::law;
-use crate::error::Argument;
+use crate::error::Argument::{self, Gap, Law, LawChoice, Load, Matrix, Prescribed, ReferenceSlip};
 use crate::model::{LoadCase, Model};
 use crate::problem::FrictionLaw;
+
+const ARGUMENTS: [Argument; 6] = [Load, Prescribed, Gap, LawChoice, Law, ReferenceSlip];
 
 /// The arguments from `f` to `slip0` of a load case, as the host hands them over.
 pub(super) struct CaseArguments {
@@ -61,18 +63,11 @@ impl CaseArguments {
     /// Number of the argument that an error is about; `otherwise` of an argument of the call that
     /// is not here.
     pub(super) fn position(&self, argument: Argument, otherwise: i32) -> i32 {
-        let offset = match argument {
+        match argument {
             // The model is the first argument of each call.
-            Argument::Matrix => return 1,
-            Argument::Load => 0,
-            Argument::Prescribed => 1,
-            Argument::Gap => 2,
-            Argument::LawChoice => 3,
-            Argument::Law => 4,
-            Argument::ReferenceSlip => 5,
-            _ => return otherwise,
-        };
-        self.first + offset
+            Matrix => 1,
+            _ => number_of(argument, self.first, &ARGUMENTS).unwrap_or(otherwise),
+        }
     }
 }
 

@@ -1,10 +1,15 @@
 //! The data of a condensed contact problem, which several calls receive in the same order.
 
 use super::args::{Arrays, matrix_length, size, sizes};
-use super::guard::Failure;
+use super::guard::{Failure, number_of};
 use super::law;
-use crate::error::Argument;
+use crate::error::Argument::{
+    self, Dimension, Gap, Law, LawChoice, LeadingDimension, Load, Matrix, ReferenceSlip, Size,
+};
 use crate::problem::ContactData;
+
+const ARGUMENTS: [Argument; 9] =
+    [Dimension, Size, Matrix, LeadingDimension, Load, Gap, LawChoice, Law, ReferenceSlip];
 
 /// The arguments from `dim` to `slip0`, as the host hands them over.
 #[allow(non_snake_case)] // the names of the mechanics, which the header shows
@@ -24,7 +29,7 @@ pub(super) struct CondensedArguments {
 
 impl CondensedArguments {
     /// How many they are.
-    pub(super) const COUNT: i32 = 9;
+    pub(super) const COUNT: i32 = ARGUMENTS.len() as i32;
 
     /// The arrays as slices, noted in `arrays`.
     ///
@@ -51,17 +56,8 @@ impl CondensedArguments {
     }
 
     /// Number of the argument that an error is about; `otherwise` of an argument of the call that
-    /// is not here. The sizes were checked when they were read.
+    /// is not here.
     pub(super) fn position(&self, argument: Argument, otherwise: i32) -> i32 {
-        let offset = match argument {
-            Argument::Matrix => 2,
-            Argument::Load => 4,
-            Argument::Gap => 5,
-            Argument::LawChoice => 6,
-            Argument::Law => 7,
-            Argument::ReferenceSlip => 8,
-            _ => return otherwise,
-        };
-        self.first + offset
+        number_of(argument, self.first, &ARGUMENTS).unwrap_or(otherwise)
     }
 }

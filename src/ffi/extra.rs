@@ -1,9 +1,9 @@
 //! Results that not every call wants: motions where no equilibrium exists, and a second solution.
 
 use super::args::{Arrays, Output};
-use super::guard::{self, Failure};
+use super::guard::Failure;
 use super::report::state_codes;
-use super::structures;
+use super::structures::{self, Structure};
 use crate::solve::{Existence, Solution};
 
 /// Further results: arrays of N entries, of cases a column for each. Fill it by
@@ -41,22 +41,8 @@ pub struct SignoriniExtra {
 /// A radius where nothing is proved.
 pub(super) const NO_RADIUS: f64 = -1.0;
 
-impl SignoriniExtra {
-    fn default_one() -> Self {
-        let nothing = std::ptr::null_mut();
-        SignoriniExtra {
-            struct_size: size_of::<Self>() as u32,
-            reserved: 0,
-            motion: nothing,
-            second_d: nothing,
-            second_F: nothing,
-            second_state: std::ptr::null_mut(),
-            radius_d: nothing,
-            radius_F: nothing,
-            escape: nothing,
-        }
-    }
-}
+// SAFETY: led by its size; numbers and pointers.
+unsafe impl Structure for SignoriniExtra {}
 
 /// The arrays of the caller's structure.
 pub(super) struct Extra {
@@ -84,11 +70,8 @@ impl Extra {
         pointer: *const SignoriniExtra,
         (n, pairs, cases): (usize, usize, usize),
     ) -> Result<Self, Failure> {
-        let mut given = SignoriniExtra::default_one();
-        if !pointer.is_null() {
-            // SAFETY: by the caller's contract.
-            given = unsafe { structures::read(position, "extra", pointer, given)? };
-        }
+        // SAFETY: by the caller's contract.
+        let given = unsafe { structures::read(position, "extra", pointer)? };
         if given.reserved != 0 {
             let message = format!("extra: reserved is {}, it must be 0", given.reserved);
             return Err(Failure::argument(position, message));
@@ -160,9 +143,6 @@ pub unsafe extern "C" fn signorini_extra_default(
     extra: *mut SignoriniExtra,
     struct_size: u32,
 ) -> i32 {
-    guard::call(|| {
-        let default = SignoriniExtra::default_one();
-        // SAFETY: the caller's structure has `struct_size` bytes, as the header demands.
-        unsafe { structures::fill("extra", extra, struct_size, &default) }
-    })
+    // SAFETY: the caller's structure has `struct_size` bytes, as the header demands.
+    unsafe { structures::fill("extra", extra, struct_size) }
 }

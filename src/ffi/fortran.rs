@@ -17,26 +17,19 @@ macro_rules! export {
                 unsafe { $body }
             }
 
-            mod narrow {
-                use super::*;
-                type I = i32;
+            export! { narrow i32 $short ($($argument: $type),*) }
+            export! { wide i64 $long ($($argument: $type),*) }
+        }
+    };
+    ($width:ident $integer:ident $name:ident ($($argument:ident: $type:ty),*)) => {
+        mod $width {
+            use super::*;
+            type I = $integer;
 
-                #[unsafe(no_mangle)]
-                unsafe extern "C" fn $short($($argument: $type),*) {
-                    // SAFETY: as above.
-                    unsafe { generic($($argument),*) }
-                }
-            }
-
-            mod wide {
-                use super::*;
-                type I = i64;
-
-                #[unsafe(no_mangle)]
-                unsafe extern "C" fn $long($($argument: $type),*) {
-                    // SAFETY: as above.
-                    unsafe { generic($($argument),*) }
-                }
+            #[unsafe(no_mangle)]
+            unsafe extern "C" fn $name($($argument: $type),*) {
+                // SAFETY: as above.
+                unsafe { generic($($argument),*) }
             }
         }
     };

@@ -68,6 +68,11 @@ impl Failure {
     }
 }
 
+/// The number of an argument in a call that has `listed` ones from number `first` on.
+pub(super) fn number_of(argument: Argument, first: i32, listed: &[Argument]) -> Option<i32> {
+    (first..).zip(listed).find(|(_, other)| **other == argument).map(|(number, _)| number)
+}
+
 fn limit_code(limit: Limit) -> i32 {
     match limit {
         Limit::Memory => SIGNORINI_STATUS_MEMORY_LIMIT,

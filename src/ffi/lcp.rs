@@ -1,11 +1,12 @@
 //! The linear complementarity problem (LCP) in one call.
 
 use super::args::{Arrays, matrix_length, size};
-use super::guard::{self, Failure};
+use super::guard::{self, Failure, number_of};
 use super::report::SignoriniReport;
 use super::settings::SignoriniSettings;
 use super::status::{code, remember};
-use crate::error::{Argument, Error};
+use crate::error::Argument::{self, Covering, LeadingDimension, Load, Matrix, Size};
+use crate::error::Error;
 use crate::problem::Lcp;
 use crate::solve::{Status, memory, solve_lcp};
 
@@ -83,14 +84,10 @@ pub unsafe extern "C" fn signorini_lcp_solve(
     })
 }
 
+/// The arguments of the problem, in their order.
+pub(super) const LCP_ARGUMENTS: [Argument; 5] = [Size, Matrix, LeadingDimension, Load, Covering];
+
 /// A refusal, by the number of the argument that it is about.
 fn refused(error: Error) -> Failure {
-    Failure::from_error(error, |argument| match argument {
-        Argument::Size | Argument::Dimension => 1,
-        Argument::Matrix => 2,
-        Argument::LeadingDimension => 3,
-        Argument::Load => 4,
-        Argument::Covering => 5,
-        _ => 6,
-    })
+    Failure::from_error(error, |wrong| number_of(wrong, 1, &LCP_ARGUMENTS).unwrap_or(6))
 }

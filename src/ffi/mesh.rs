@@ -9,7 +9,7 @@ use super::sparse::shifted;
 use super::structures;
 use super::zones::{SignoriniZone, Zones};
 use crate::error::Argument;
-use crate::file::{self, Field, Values};
+use crate::file::{self, Field, Mesh, Values};
 use crate::problem;
 
 /// A mesh of yours, to be written to a file. Cells have the types and the order of nodes of VTK: 3
@@ -81,43 +81,44 @@ pub unsafe extern "C" fn signorini_mesh_write(
         // SAFETY: structures and arrays as the header demands.
         unsafe {
             let path = args::path(1, path)?;
-            let mesh = Mesh::read(2, mesh)?;
-            let size_of_mesh = (mesh.dim, mesh.nodes());
-            let mut arrays = Arrays::default();
-            let zones = Zones::read(&mut arrays, (n_zones, zones), size_of_mesh)?;
-            let displacement = match &zones {
-                Some(zones) => zones.displacement(&mut arrays, u)?,
-                None => arrays.optional(3, "u", u, mesh.dim * mesh.nodes())?.map(<[f64]>::to_vec),
-            };
-            let displacement = displacement.iter();
-            let displacement =
-                displacement.map(|u| Field { name: "displacement", values: Values::Vectors(u) });
-            let of_zones = zones.iter().flat_map(Zones::fields);
-            let mut written: Vec<Field<'_>> = displacement.chain(of_zones).collect();
-            for field in structures::all(7, "fields", fields, size(6, "n_fields", n_fields)?)? {
-                written.push(own_field(&mut arrays, field, size_of_mesh)?);
-            }
-            mesh.write(path, &written, (2, 7))
+            SignoriniMesh::with(2, mesh, |mesh| {
+                let size_of_mesh = (mesh.dim, mesh.node_count());
+                let mut arrays = Arrays::default();
+                let zones = Zones::read(&mut arrays, (n_zones, zones), size_of_mesh)?;
+                let displacement = match &zones {
+                    Some(zones) => zones.displacement(&mut arrays, u)?,
+                    None => {
+                        arrays.optional(3, "u", u, mesh.coordinates.len())?.map(<[f64]>::to_vec)
+                    }
+                };
+                let displacement = displacement.iter();
+                let displacement = displacement
+                    .map(|u| Field { name: "displacement", values: Values::Vectors(u) });
+                let of_zones = zones.iter().flat_map(Zones::fields);
+                let mut written: Vec<Field<'_>> = displacement.chain(of_zones).collect();
+                for field in structures::all(7, "fields", fields, size(6, "n_fields", n_fields)?)? {
+                    written.push(own_field(&mut arrays, field, size_of_mesh)?);
+                }
+                file::write_vtu(path, mesh, &written).map_err(|error| {
+                    let at = |wrong| if wrong == Argument::Fields { 7 } else { 2 };
+                    Failure::from_error(error, at)
+                })?;
+                Ok(0)
+            })
         }
     })
 }
 
-/// A mesh of the caller with nodes counted from 0.
-pub(super) struct Mesh<'a> {
-    pub(super) dim: usize,
-    coordinates: &'a [f64],
-    types: Vec<u8>,
-    start: Vec<usize>,
-    cell_nodes: Vec<usize>,
-}
-
-impl<'a> Mesh<'a> {
+impl SignoriniMesh {
+    /// Hands over the caller's mesh with nodes counted from 0.
+    ///
     /// # Safety
     /// The structure and its arrays are as the header demands.
-    pub(super) unsafe fn read(
+    unsafe fn with<T>(
         position: i32,
-        pointer: *const SignoriniMesh,
-    ) -> Result<Self, Failure> {
+        pointer: *const Self,
+        to: impl FnOnce(&Mesh<'_>) -> Result<T, Failure>,
+    ) -> Result<T, Failure> {
         let wrong = |message: String| Failure::argument(position, message);
         // SAFETY: by the caller's contract.
         let given = unsafe { structures::whole(position, "mesh", pointer)? };
@@ -125,10 +126,7 @@ impl<'a> Mesh<'a> {
             .map_err(|error| wrong(format!("mesh: {}", error.message())))?;
         let nodes = size(position, "mesh: nodes", given.nodes)?;
         let cells = size(position, "mesh: cells", given.cells)?;
-        let base = i64::from(given.index_base);
-        if base != 0 && base != 1 {
-            return Err(wrong(format!("mesh: index_base is {base}, it must be 0 or 1")));
-        }
+        let base = structures::index_base(position, "mesh", given.index_base)?;
         let (Some(length), Some(ends)) = (nodes.checked_mul(dim), cells.checked_add(1)) else {
             return Err(wrong(format!("mesh: {nodes} nodes or {cells} cells are too many")));
         };
@@ -144,40 +142,12 @@ impl<'a> Mesh<'a> {
                 Some(start) => shifted(position, "mesh: cell_start", start, base)?,
                 None => starts_of(&types).map_err(wrong)?,
             };
-            let cell_nodes =
-                arrays.required(position, "cell_nodes", given.cell_nodes, start[cells])?;
-            let cell_nodes = shifted(position, "mesh: cell_nodes", cell_nodes, base)?;
+            let nodes = arrays.required(position, "cell_nodes", given.cell_nodes, start[cells])?;
+            let nodes = shifted(position, "mesh: cell_nodes", nodes, base)?;
             let types: Result<Vec<u8>, _> = types.iter().map(|kind| u8::try_from(*kind)).collect();
             let types = types.map_err(|_| wrong("mesh: a type is none of VTK's".into()))?;
-            Ok(Mesh { dim, coordinates, types, start, cell_nodes })
+            to(&Mesh { dim, coordinates, types: &types, start: &start, nodes: &nodes })
         }
-    }
-
-    pub(super) fn nodes(&self) -> usize {
-        self.coordinates.len() / self.dim
-    }
-
-    /// Writes it; the positions are those of the mesh and the fields.
-    pub(super) fn write(
-        &self,
-        path: &std::path::Path,
-        fields: &[Field<'_>],
-        (at_mesh, at_fields): (i32, i32),
-    ) -> Result<i32, Failure> {
-        let mesh = file::Mesh {
-            dim: self.dim,
-            coordinates: self.coordinates,
-            types: &self.types,
-            start: &self.start,
-            nodes: &self.cell_nodes,
-        };
-        file::write_vtu(path, &mesh, fields).map_err(|error| {
-            Failure::from_error(error, |argument| match argument {
-                Argument::Fields => at_fields,
-                _ => at_mesh,
-            })
-        })?;
-        Ok(0)
     }
 }
 

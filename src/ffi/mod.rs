@@ -19,6 +19,7 @@ mod condensed;
 mod extra;
 mod fortran;
 mod guard;
+mod handle;
 #[cfg(c_library)]
 mod holes;
 mod law;
@@ -37,7 +38,6 @@ mod panic_sentence;
 mod problem_read;
 mod problem_write;
 mod prove;
-mod release;
 mod report;
 mod reserve;
 mod settings;

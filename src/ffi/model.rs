@@ -14,11 +14,13 @@ pub struct SignoriniModel {
     past: Mutex<Option<Past>>,
 }
 
-impl SignoriniModel {
-    pub(super) fn new(model: Model) -> Self {
+impl From<Model> for SignoriniModel {
+    fn from(model: Model) -> Self {
         SignoriniModel { model, past: Mutex::new(None) }
     }
+}
 
+impl SignoriniModel {
     pub(super) fn model(&self) -> &Model {
         &self.model
     }

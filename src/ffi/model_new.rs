@@ -1,16 +1,17 @@
 //! Models: made of what a host has, reduced once.
 
 use super::args::{Arrays, matrix_length, size, sizes};
-use super::guard::{self, Failure};
+use super::guard::{self, Failure, number_of};
+use super::handle::{OutPointer, release};
 use super::model::SignoriniModel;
 use super::pairs::SignoriniPairs;
-use super::release::release;
 use super::settings::SignoriniSettings;
 use super::sparse::{FLEXIBILITY, STIFFNESS, SignoriniSparse, shifted};
-use crate::error::{Argument, Error};
+use crate::error::Argument::{
+    Dimension, Fixed, LeadingDimension, Matrix, Order, SecondLeadingDimension, SecondMatrix, Size,
+};
 use crate::model::Model;
 use crate::reduce;
-use crate::shortage;
 
 /// Makes a model of a body that you have condensed, on a rigid obstacle: d = u, H = N.
 ///
@@ -26,7 +27,8 @@ pub unsafe extern "C" fn signorini_model_new_condensed(
     model: *mut *mut SignoriniModel,
 ) -> i32 {
     guard::call(|| {
-        let place = OutPointer::new(5, model)?;
+        // SAFETY: a place for a pointer, by the header's contract.
+        let place = unsafe { OutPointer::new(5, "model", model)? };
         let (dim, pairs, n) = sizes(1, dim, pairs)?;
         let ld = size(4, "ldk", ldk)?;
         let length = matrix_length(4, "K", n, ld)?;
@@ -34,11 +36,9 @@ pub unsafe extern "C" fn signorini_model_new_condensed(
         // SAFETY: the length is that of the header.
         let k = unsafe { arrays.matrix(3, "K", K, length)? };
         guard::reserve_estimate(reduce::memory(n))?;
-        place.fill(Model::condensed(dim, pairs, k, ld), |argument| match argument {
-            Argument::Dimension => 1,
-            Argument::Size => 2,
-            Argument::LeadingDimension => 4,
-            _ => 3,
+        let arguments = [Dimension, Size, Matrix, LeadingDimension];
+        place.fill(Model::condensed(dim, pairs, k, ld), |wrong| {
+            number_of(wrong, 1, &arguments).unwrap_or(3)
         })
     })
 }
@@ -63,7 +63,8 @@ pub unsafe extern "C" fn signorini_model_new_two_body(
     model: *mut *mut SignoriniModel,
 ) -> i32 {
     guard::call(|| {
-        let place = OutPointer::new(7, model)?;
+        // SAFETY: a place for a pointer, by the header's contract.
+        let place = unsafe { OutPointer::new(7, "model", model)? };
         let (dim, pairs, n) = sizes(1, dim, pairs)?;
         let (ld_a, ld_b) = (size(4, "lda", lda)?, size(6, "ldb", ldb)?);
         let (length_a, length_b) =
@@ -75,14 +76,9 @@ pub unsafe extern "C" fn signorini_model_new_two_body(
         };
         guard::reserve_estimate(reduce::memory(n))?;
         let made = Model::two_body(dim, pairs, (k_a, ld_a), (k_b, ld_b));
-        place.fill(made, |argument| match argument {
-            Argument::Dimension => 1,
-            Argument::Size => 2,
-            Argument::LeadingDimension => 4,
-            Argument::SecondMatrix => 5,
-            Argument::SecondLeadingDimension => 6,
-            _ => 3,
-        })
+        let arguments =
+            [Dimension, Size, Matrix, LeadingDimension, SecondMatrix, SecondLeadingDimension];
+        place.fill(made, |wrong| number_of(wrong, 1, &arguments).unwrap_or(3))
     })
 }
 
@@ -114,7 +110,8 @@ pub unsafe extern "C" fn signorini_model_new_sparse(
 ) -> i32 {
     const SETTINGS: i32 = 5;
     guard::call(|| {
-        let place = OutPointer::new(6, model)?;
+        // SAFETY: a place for a pointer, by the header's contract.
+        let place = unsafe { OutPointer::new(6, "model", model)? };
         // SAFETY: the structures and arrays are those of the header.
         let made = unsafe {
             let matrix = SignoriniSparse::read(&mut Arrays::default(), 1, &STIFFNESS, K)?;
@@ -122,19 +119,19 @@ pub unsafe extern "C" fn signorini_model_new_sparse(
             let count = size(2, "n_fixed", n_fixed)?;
             let fixed = Arrays::default().required(3, "fixed", fixed, count)?;
             let fixed = shifted(3, "fixed", fixed, matrix.index_base)?;
-            let pairs = SignoriniPairs::read(4, pairs, matrix.index_base)?;
-            let view = pairs.view();
-            guard::reserve_estimate(reduce::memory(view.dim * view.count))?;
-            let received = SignoriniSettings::read(SETTINGS, settings)?;
-            let wrong = |error| Failure::from_error(error, |_| SETTINGS);
-            received.settings.validate().map_err(wrong)?;
-            received.monitored(|monitor| {
-                Model::sparse_within(&matrix, &fixed, &view, order.as_deref(), monitor)
-            })
+            SignoriniPairs::with(4, pairs, matrix.index_base, |pairs| {
+                guard::reserve_estimate(reduce::memory(pairs.dim * pairs.count))?;
+                let received = SignoriniSettings::read(SETTINGS, settings)?;
+                let wrong = |error| Failure::from_error(error, |_| SETTINGS);
+                received.settings.validate().map_err(wrong)?;
+                Ok(received.monitored(|monitor| {
+                    Model::sparse_within(&matrix, &fixed, pairs, order.as_deref(), monitor)
+                }))
+            })?
         };
         place.fill(made, |argument| match argument {
-            Argument::Matrix | Argument::Order => 1,
-            Argument::Fixed => 3,
+            Matrix | Order => 1,
+            Fixed => 3,
             _ => 4,
         })
     })
@@ -170,7 +167,8 @@ pub unsafe extern "C" fn signorini_model_new_flexibility(
     model: *mut *mut SignoriniModel,
 ) -> i32 {
     guard::call(|| {
-        let place = OutPointer::new(5, model)?;
+        // SAFETY: a place for a pointer, by the header's contract.
+        let place = unsafe { OutPointer::new(5, "model", model)? };
         let (dim, pairs, n) = sizes(1, dim, pairs)?;
         let ld = size(4, "ldw", ldw)?;
         let length = matrix_length(4, "W", n, ld)?;
@@ -178,7 +176,7 @@ pub unsafe extern "C" fn signorini_model_new_flexibility(
         let w = unsafe { Arrays::default().matrix(3, "W", W, length)? };
         guard::reserve(n.saturating_mul(n).saturating_mul(size_of::<f64>()))?;
         place.fill(Model::flexibility(dim, pairs, w, ld), |argument| match argument {
-            Argument::LeadingDimension => 4,
+            LeadingDimension => 4,
             _ => 3,
         })
     })
@@ -204,7 +202,8 @@ pub unsafe extern "C" fn signorini_model_new_flexibility_sparse(
     model: *mut *mut SignoriniModel,
 ) -> i32 {
     guard::call(|| {
-        let place = OutPointer::new(4, model)?;
+        // SAFETY: a place for a pointer, by the header's contract.
+        let place = unsafe { OutPointer::new(4, "model", model)? };
         let (dim, pairs, _) = sizes(1, dim, pairs)?;
         // SAFETY: the structure and its arrays are those of the header.
         let w = unsafe { SignoriniSparse::read(&mut Arrays::default(), 3, &FLEXIBILITY, W)? };
@@ -217,32 +216,4 @@ pub unsafe extern "C" fn signorini_model_new_flexibility_sparse(
 pub unsafe extern "C" fn signorini_model_free(model: *mut SignoriniModel) {
     // SAFETY: NULL, or by the header's contract it came from signorini_model_new_..., once.
     unsafe { release(model) }
-}
-
-/// Where a new model goes; NULL until it exists.
-pub(super) struct OutPointer(*mut *mut SignoriniModel);
-
-impl OutPointer {
-    pub(super) fn new(position: i32, model: *mut *mut SignoriniModel) -> Result<Self, Failure> {
-        if model.is_null() || !model.is_aligned() {
-            return Err(Failure::argument(position, "model is NULL or not aligned"));
-        }
-        // SAFETY: a place for a pointer, by the header's contract.
-        unsafe { model.write(std::ptr::null_mut()) };
-        Ok(OutPointer(model))
-    }
-
-    pub(super) fn fill(
-        self,
-        made: Result<Model, Error>,
-        position: impl Fn(Argument) -> i32,
-    ) -> Result<i32, Failure> {
-        let model = made.map_err(|error| Failure::from_error(error, position))?;
-        let model = Box::new(SignoriniModel::new(model));
-        // The reserve of a call holds nothing that outlives it.
-        shortage::check();
-        // SAFETY: as above.
-        unsafe { self.0.write(Box::into_raw(model)) };
-        Ok(0)
-    }
 }

@@ -4,12 +4,13 @@ use std::sync::{Mutex, PoisonError};
 
 use super::args::{Arrays, Output, size};
 use super::case_arguments::{CaseArguments, LoadCases, times};
-use super::extra::{Extra, SignoriniExtra};
+use super::extra::SignoriniExtra;
 use super::guard::{self, Failure};
 use super::model::{SignoriniModel, read_handle};
-use super::report::{Reports, SignoriniReport, state_codes};
+use super::outputs::{OutputArguments, Outputs};
+use super::report::SignoriniReport;
 use super::settings::{ParsedSettings, SignoriniSettings, WarmStart};
-use super::status::{code, remember};
+use super::status::remember;
 use super::threads::{LoadCaseChunk, Solved, Start, ThreadCases, on_each, stopped, with_workers};
 use crate::error::{Argument, Error, Message};
 use crate::model::{BLOCK, Model, Past, Series};
@@ -62,6 +63,7 @@ pub unsafe extern "C" fn signorini_model_solve(
     extra: *const SignoriniExtra,
 ) -> i32 {
     let given = CaseArguments { first: 3, f, prescribed, gap, law, friction, slip0 };
+    let wanted = OutputArguments { d, F, state, report, extra };
     guard::call(|| {
         let mut arrays = Arrays::default();
         // SAFETY: a model as the header demands.
@@ -78,18 +80,12 @@ pub unsafe extern "C" fn signorini_model_solve(
         };
         received.settings.validate().map_err(|error| Failure::from_error(error, |_| SETTINGS))?;
         let (pairs, n) = (model.pairs(), model.dim() * model.pairs());
-        let (all_pairs, all) = (times(cases, pairs)?, times(cases, n)?);
-        let d = arrays.output(START, "d", d, all)?;
-        let force = arrays.output(11, "F", F, all)?;
-        let state = arrays.optional_output(12, "state", state, all_pairs)?;
-        let status = arrays.optional_output(13, "status", status, cases)?;
+        times(cases, n)?;
         // SAFETY: as above.
-        let (reports, extra) = unsafe {
-            let reports = Reports::read(&mut arrays, 14, report, cases)?;
-            (reports, Extra::read(&mut arrays, 15, extra, (n, pairs, cases))?)
-        };
+        let outputs = unsafe { wanted.note(&mut arrays, (START, 14), (n, pairs, cases))? };
+        let status = arrays.optional_output(13, "status", status, cases)?;
         arrays.check_overlap()?;
-        let block = Block { model, given: &given, load_cases, d, force, state, reports, extra };
+        let block = Block { model, given: &given, load_cases, outputs };
         let past = handle.replace_past(None);
         let (answer, past) = block.solve_all(cases, past, &received, &status);
         // The reserve of a call holds nothing that outlives it.
@@ -105,11 +101,7 @@ struct Block<'a> {
     model: &'a Model,
     given: &'a CaseArguments,
     load_cases: LoadCases<'a>,
-    d: Output<f64>,
-    force: Output<f64>,
-    state: Output<i32>,
-    reports: Reports,
-    extra: Extra,
+    outputs: Outputs,
 }
 
 impl Block<'_> {
@@ -219,7 +211,7 @@ impl Block<'_> {
             WarmStart::None => Start::Cold,
             WarmStart::Given => {
                 let forces = self.model.starts_from_forces();
-                let place = if forces { &self.force } else { &self.d };
+                let place = if forces { &self.outputs.force } else { &self.outputs.d };
                 // SAFETY: n entries for each case, filled by a caller that wants a warm start.
                 Start::Given(unsafe { place.part(n * begin, n * many).read() })
             }
@@ -230,21 +222,9 @@ impl Block<'_> {
 
     /// Writes the results of a case, unless it is wrong. Returns status and message.
     fn write(&self, case: usize, solved: Result<Solution, Error>) -> (i32, Message) {
-        let (pairs, n) = (self.model.pairs(), self.model.dim() * self.model.pairs());
         match solved {
-            Ok(solution) => {
-                let code = code(solution.status);
-                let certificate = &solution.certificate;
-                // SAFETY: the outputs have the lengths of the header and overlap nothing.
-                unsafe {
-                    self.d.part(n * case, n).write(&solution.d);
-                    self.force.part(n * case, n).write(&certificate.force);
-                    self.state.part(pairs * case, pairs).write(&state_codes(&certificate.states));
-                    SignoriniReport::of(code, &solution).write(self.reports.nth(case));
-                    self.extra.write(case, &solution);
-                }
-                (code, solution.message)
-            }
+            // SAFETY: the outputs have the lengths of the header and overlap nothing.
+            Ok(solution) => (unsafe { self.outputs.write(case, &solution) }, solution.message),
             Err(error) => {
                 let message = error.message();
                 let position = |argument| {

@@ -4,8 +4,8 @@ use libc::c_void;
 
 use super::args::{Arrays, sizes};
 use super::guard::{self, Failure};
+use super::handle::OutPointer;
 use super::model::SignoriniModel;
-use super::model_new::OutPointer;
 use super::structures;
 use crate::model::Model;
 use crate::reduce::HostOperator;
@@ -121,7 +121,8 @@ pub unsafe extern "C" fn signorini_model_new_operator(
     model: *mut *mut SignoriniModel,
 ) -> i32 {
     guard::call(|| {
-        let place = OutPointer::new(2, model)?;
+        // SAFETY: a place for a pointer, by the header's contract.
+        let place = unsafe { OutPointer::new(2, "model", model)? };
         // SAFETY: NULL or a structure that begins with its size.
         let given = unsafe { structures::whole(1, "K", K)? };
         let wrong = |message: &str| Failure::argument(1, message.to_owned());
@@ -131,21 +132,10 @@ pub unsafe extern "C" fn signorini_model_new_operator(
         let units = unsafe { Arrays::default().optional(1, "units", given.units, n)? };
         let SignoriniOperator { inverse, held, user, .. } = *given;
         let functions = Box::new(Functions { stiffness, inverse, held, user });
-        create(place, (dim, pairs), functions, units, 1)
+        guard::reserve(VECTORS.saturating_mul(n).saturating_mul(size_of::<f64>()))?;
+        place.fill(Model::operator(dim, pairs, functions, units), |_| 1)
     })
 }
 
 /// Vectors of N entries that the check of an operator takes.
 const VECTORS: usize = 32;
-
-/// Makes a model of what a host offers, the argument number `position` of the call.
-pub(super) fn create(
-    place: OutPointer,
-    (dim, pairs): (usize, usize),
-    host: Box<dyn HostOperator>,
-    units: Option<&[f64]>,
-    position: i32,
-) -> Result<i32, Failure> {
-    guard::reserve(VECTORS.saturating_mul(dim * pairs).saturating_mul(size_of::<f64>()))?;
-    place.fill(Model::operator(dim, pairs, host, units), |_| position)
-}

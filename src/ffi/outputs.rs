@@ -1,13 +1,13 @@
-//! The results of a call that solves one contact problem: where they go, and how they are written.
+//! The results of a call that solves contact problems: where they go, and how they are written.
 
 use super::args::{Arrays, Output};
 use super::extra::{Extra, SignoriniExtra};
 use super::guard::Failure;
-use super::report::{SignoriniReport, state_codes};
-use super::status::{code, remember};
-use crate::solve::{Solution, Status};
+use super::report::{Reports, SignoriniReport, state_codes};
+use super::status::code;
+use crate::solve::Solution;
 
-/// The pointers of the last arguments of a call, in their order.
+/// The pointers of a call.
 #[allow(non_snake_case)] // the names of the mechanics, which the header shows
 pub(super) struct OutputArguments {
     pub(super) d: *mut f64,
@@ -19,53 +19,55 @@ pub(super) struct OutputArguments {
 
 /// Where the results of the call go.
 pub(super) struct Outputs {
+    n: usize,
+    pairs: usize,
     pub(super) d: Output<f64>,
     pub(super) force: Output<f64>,
     state: Output<i32>,
-    report: *mut SignoriniReport,
+    reports: Reports,
     extra: Extra,
 }
 
 impl OutputArguments {
-    /// Notes the arrays of `n` unknowns of `pairs` pairs. `first` is the number of `d` among the
-    /// arguments.
+    /// Notes the arrays of `n` unknowns of `pairs` pairs, each `cases` times, which the caller has checked to be
+    /// numbers. `d`, `F` and `state` are the arguments from number `first` on, `report` and `extra` those from number
+    /// `report` on.
     ///
-    /// # Safety Every pointer is NULL or has the length that the header demands.
+    /// # Safety
+    /// Every pointer is NULL or has the length that the header demands.
     pub(super) unsafe fn note(
         &self,
         arrays: &mut Arrays,
-        first: i32,
-        (n, pairs): (usize, usize),
+        (first, report): (i32, i32),
+        (n, pairs, cases): (usize, usize, usize),
     ) -> Result<Outputs, Failure> {
-        let d = arrays.output(first, "d", self.d, n)?;
-        let force = arrays.output(first + 1, "F", self.F, n)?;
-        let state = arrays.optional_output(first + 2, "state", self.state, pairs)?;
+        let d = arrays.output(first, "d", self.d, n * cases)?;
+        let force = arrays.output(first + 1, "F", self.F, n * cases)?;
+        let state = arrays.optional_output(first + 2, "state", self.state, pairs * cases)?;
         // SAFETY: by the caller's contract.
-        let extra = unsafe {
-            arrays.structure(first + 3, "report", self.report.cast_const(), true)?;
-            Extra::read(arrays, first + 4, self.extra, (n, pairs, 1))?
+        let (reports, extra) = unsafe {
+            let reports = Reports::read(arrays, report, self.report, cases)?;
+            (reports, Extra::read(arrays, report + 1, self.extra, (n, pairs, cases))?)
         };
-        Ok(Outputs { d, force, state, report: self.report, extra })
+        Ok(Outputs { n, pairs, d, force, state, reports, extra })
     }
 }
 
 impl Outputs {
-    /// Writes the solution. Returns its status, and remembers its message unless it is solved.
+    /// Writes the solution of a case. Returns its status.
     ///
     /// # Safety
     /// The arrays have the lengths of the header and overlap nothing.
-    pub(super) unsafe fn write(&self, solution: &Solution) -> i32 {
-        let status = code(solution.status);
-        if solution.status != Status::Solved {
-            remember(solution.message.clone());
-        }
+    pub(super) unsafe fn write(&self, case: usize, solution: &Solution) -> i32 {
+        let (n, pairs, status) = (self.n, self.pairs, code(solution.status));
+        let certificate = &solution.certificate;
         // SAFETY: by the caller's contract.
         unsafe {
-            self.d.write(&solution.d);
-            self.force.write(&solution.certificate.force);
-            self.state.write(&state_codes(&solution.certificate.states));
-            SignoriniReport::of(status, solution).write(self.report);
-            self.extra.write(0, solution);
+            self.d.part(n * case, n).write(&solution.d);
+            self.force.part(n * case, n).write(&certificate.force);
+            self.state.part(pairs * case, pairs).write(&state_codes(&certificate.states));
+            SignoriniReport::of(status, solution).write(self.reports.nth(case));
+            self.extra.write(case, solution);
         }
         status
     }

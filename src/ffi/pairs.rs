@@ -5,7 +5,7 @@ use std::mem::offset_of;
 use super::args::{Arrays, size};
 use super::guard::Failure;
 use super::sparse::shifted;
-use super::structures::read;
+use super::structures::{Structure, read};
 use crate::error::Error;
 use crate::problem;
 use crate::reduce::ContactPairs;
@@ -53,49 +53,26 @@ pub struct SignoriniPairs {
     pub row_weights: *const f64,
 }
 
-/// Pairs of the caller with degrees of freedom counted from 0.
-pub(super) struct Pairs<'a> {
-    dim: usize,
-    pairs: usize,
-    slaves: Vec<usize>,
-    master_starts: Vec<usize>,
-    masters: Vec<usize>,
-    weights: &'a [f64],
-    normals: &'a [f64],
-    tangents: Option<&'a [f64]>,
-}
-
-impl Pairs<'_> {
-    pub(super) fn view(&self) -> ContactPairs<'_> {
-        ContactPairs {
-            dim: self.dim,
-            count: self.pairs,
-            slaves: &self.slaves,
-            master_start: &self.master_starts,
-            masters: &self.masters,
-            weights: self.weights,
-            normals: self.normals,
-            tangents: self.tangents,
-        }
-    }
-}
+// SAFETY: led by its size; numbers and pointers.
+unsafe impl Structure for SignoriniPairs {}
 
 impl SignoriniPairs {
-    /// Views the caller's pairs.
+    /// Hands over the caller's pairs with degrees of freedom counted from 0.
     ///
     /// # Safety
     /// The structure and its arrays are as the header demands and live during the call.
-    pub(super) unsafe fn read<'a>(
+    pub(super) unsafe fn with<T>(
         position: i32,
         pointer: *const Self,
         base: i64,
-    ) -> Result<Pairs<'a>, Failure> {
+        to: impl FnOnce(&ContactPairs<'_>) -> Result<T, Failure>,
+    ) -> Result<T, Failure> {
         let refuse = |message: String| Err(Failure::argument(position, message));
         if pointer.is_null() {
             return refuse("pairs is NULL".into());
         }
         // SAFETY: by the caller's contract; not NULL.
-        let given = unsafe { read(position, "pairs", pointer, Self::EMPTY)? };
+        let given = unsafe { read(position, "pairs", pointer)? };
         given.check_size(position)?;
         let wrong = |error: Error| {
             Failure::argument(position, format!("pairs: {}", error.message().marked()))
@@ -133,34 +110,18 @@ impl SignoriniPairs {
                 return refuse(format!("pairs: {masters} masters are too many"));
             };
             let dofs = arrays.required(position, nodes.names[1], nodes.dofs, entries)?;
-            Ok(Pairs {
+            to(&ContactPairs {
                 dim,
-                pairs: count,
-                slaves,
-                master_starts,
-                masters: shifted(position, nodes.names[1], dofs, base)?,
+                count,
+                slaves: &slaves,
+                master_start: &master_starts,
+                masters: &shifted(position, nodes.names[1], dofs, base)?,
                 weights: arrays.required(position, nodes.names[2], nodes.weights, masters)?,
                 normals: arrays.required(position, "normals", given.normals, components)?,
                 tangents: arrays.optional(position, "tangents", given.tangents, components)?,
             })
         }
     }
-
-    /// The values of an older program, which has no general rows.
-    pub(super) const EMPTY: SignoriniPairs = SignoriniPairs {
-        struct_size: 0,
-        dim: 0,
-        count: 0,
-        slaves: std::ptr::null(),
-        master_start: std::ptr::null(),
-        masters: std::ptr::null(),
-        weights: std::ptr::null(),
-        normals: std::ptr::null(),
-        tangents: std::ptr::null(),
-        row_start: std::ptr::null(),
-        row_nodes: std::ptr::null(),
-        row_weights: std::ptr::null(),
-    };
 
     /// Refuses a size that no version of the structure has.
     fn check_size(&self, position: i32) -> Result<(), Failure> {

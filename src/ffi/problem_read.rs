@@ -4,12 +4,11 @@ use libc::c_char;
 use std::ffi::CString;
 
 use super::args;
-use super::guard::{self, Failure};
+use super::guard;
+use super::handle::{OutPointer, release};
 use super::law;
-use super::release::release;
 use super::structures::{address, show};
 use crate::file::{self, Kind, ProblemFile};
-use crate::shortage;
 
 /// A contact problem, of signorini_solve.
 pub const SIGNORINI_PROBLEM_CONTACT: i32 = 0;
@@ -68,24 +67,11 @@ pub unsafe extern "C" fn signorini_problem_read(
     problem: *mut *mut SignoriniProblem,
 ) -> i32 {
     guard::call(|| {
-        if problem.is_null() || !problem.is_aligned() {
-            return Err(Failure::argument(2, "problem is NULL or not aligned"));
-        }
         // SAFETY: a place for a pointer and a text, by the header's contract.
-        let path = unsafe {
-            problem.write(std::ptr::null_mut());
-            args::path(1, path)?
-        };
+        let (place, path) =
+            unsafe { (OutPointer::new(2, "problem", problem)?, args::path(1, path)?) };
         guard::reserve_estimate(file::memory(path))?;
-        let loaded = file::read(path).map_err(|error| Failure::from_error(error, |_| 1))?;
-        // Without zeros, as it has no control characters.
-        let remark = CString::new(loaded.remark.as_str()).unwrap_or_default();
-        let read = Box::new(SignoriniProblem { problem: loaded, remark });
-        // The reserve of a call holds nothing that outlives it.
-        shortage::check();
-        // SAFETY: as above.
-        unsafe { problem.write(Box::into_raw(read)) };
-        Ok(0)
+        place.fill(file::read(path), |_| 1)
     })
 }
 
@@ -106,13 +92,25 @@ pub unsafe extern "C" fn signorini_problem_view(
     unsafe { show("problem", problem, data, SignoriniProblem::shown) }
 }
 
+impl From<ProblemFile> for SignoriniProblem {
+    fn from(problem: ProblemFile) -> Self {
+        // Without zeros, as it has no control characters.
+        let remark = CString::new(problem.remark.as_str()).unwrap_or_default();
+        SignoriniProblem { problem, remark }
+    }
+}
+
 impl SignoriniProblem {
     fn shown(&self) -> SignoriniProblemData {
         let SignoriniProblem { problem, remark } = self;
+        let (kind, law) = match problem.kind {
+            Kind::Contact(law) => (SIGNORINI_PROBLEM_CONTACT, law::code(law)),
+            Kind::Lcp => (SIGNORINI_PROBLEM_LCP, -1),
+        };
         SignoriniProblemData {
             struct_size: size_of::<SignoriniProblemData>() as u32,
-            kind: kind_code(problem.kind),
-            law: law_code(problem.kind),
+            kind,
+            law,
             dim: problem.dim as i32,
             pairs: problem.pairs as i64,
             size: problem.size as i64,
@@ -124,19 +122,5 @@ impl SignoriniProblem {
             cover: problem.covering.as_deref().map_or(std::ptr::null(), address),
             remark: remark.as_ptr(),
         }
-    }
-}
-
-fn kind_code(kind: Kind) -> i32 {
-    match kind {
-        Kind::Contact(_) => SIGNORINI_PROBLEM_CONTACT,
-        Kind::Lcp => SIGNORINI_PROBLEM_LCP,
-    }
-}
-
-fn law_code(kind: Kind) -> i32 {
-    match kind {
-        Kind::Contact(law) => law::code(law),
-        Kind::Lcp => -1,
     }
 }

@@ -5,9 +5,9 @@ use libc::c_char;
 use super::args::{self, Arrays, matrix_length, size, text};
 use super::case_arguments::CaseArguments;
 use super::condensed::CondensedArguments;
-use super::guard::{self, Failure};
+use super::guard::{self, Failure, number_of};
+use super::lcp::LCP_ARGUMENTS;
 use super::model::{SignoriniModel, read};
-use crate::error::Argument;
 use crate::file;
 use crate::problem::ContactProblem;
 use crate::problem::Lcp;
@@ -79,9 +79,10 @@ pub unsafe extern "C" fn signorini_lcp_write(
     cover: *const f64,
     remark: *const c_char,
 ) -> i32 {
+    const REMARK: i32 = 7;
     guard::call(|| {
         // SAFETY: as the header demands.
-        let (path, remark) = unsafe { (args::path(1, path)?, text(7, "remark", remark)?) };
+        let (path, remark) = unsafe { (args::path(1, path)?, text(REMARK, "remark", remark)?) };
         let n = size(2, "n", n)?;
         let ld = size(4, "ldm", ldm)?;
         let entries = matrix_length(4, "M", n, ld)?;
@@ -97,13 +98,8 @@ pub unsafe extern "C" fn signorini_lcp_write(
         Lcp::new(n, matrix, ld, q, cover)
             .and_then(|lcp| file::write_lcp(path, &lcp, remark))
             .map_err(|error| {
-                Failure::from_error(error, |argument| match argument {
-                    Argument::Size => 2,
-                    Argument::Matrix => 3,
-                    Argument::LeadingDimension => 4,
-                    Argument::Load => 5,
-                    Argument::Covering => 6,
-                    _ => 7,
+                Failure::from_error(error, |wrong| {
+                    number_of(wrong, 2, &LCP_ARGUMENTS).unwrap_or(REMARK)
                 })
             })?;
         Ok(0)

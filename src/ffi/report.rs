@@ -3,9 +3,9 @@
 use libc::c_char;
 
 use super::args::Arrays;
-use super::guard::{self, Failure};
+use super::guard::Failure;
 use super::settings::method_code;
-use super::structures;
+use super::structures::{self, Structure};
 use crate::certificate::Certificate;
 use crate::law::State;
 use crate::settings::Method;
@@ -118,6 +118,9 @@ pub struct SignoriniReport {
     pub remarks: i32,
 }
 
+// SAFETY: led by its size; numbers.
+unsafe impl Structure for SignoriniReport {}
+
 /// An error that is not known.
 const NOT_KNOWN: f64 = -1.0;
 
@@ -184,40 +187,14 @@ impl SignoriniReport {
         }
     }
 
-    /// A report of no call.
-    pub(super) fn blank() -> Self {
-        Self { error_d: 0.0, error_F: 0.0, ..Self::empty(0, Method::Auto) }
-    }
-
     fn empty(status: i32, method: Method) -> Self {
         SignoriniReport {
-            struct_size: size_of::<Self>() as u32,
             status,
             method: method_code(method),
-            uniqueness: SIGNORINI_UNIQUENESS_NOT_KNOWN,
-            iterations: 0,
-            outer_iterations: 0,
-            refactorisations: 0,
-            eta: 0.0,
-            rounding: 0.0,
-            penetration: 0.0,
-            tension: 0.0,
-            cone_excess: 0.0,
-            equilibrium: 0.0,
-            omega: 0.0,
-            damping: 0.0,
-            pairs_open: 0,
-            pairs_slipping: 0,
-            pairs_sticking: 0,
-            factorisations: 0,
             first_method: method_code(method),
-            fallback: SIGNORINI_FALLBACK_NONE,
-            orientation: 0,
-            second: 0,
             error_d: NOT_KNOWN,
             error_F: NOT_KNOWN,
-            proof: SIGNORINI_PROOF_NOT_ASKED,
-            remarks: 0,
+            ..Self::zeros()
         }
     }
 }
@@ -311,10 +288,8 @@ pub unsafe extern "C" fn signorini_report_default(
     report: *mut SignoriniReport,
     struct_size: u32,
 ) -> i32 {
-    guard::call(|| {
-        // SAFETY: the caller's structure has `struct_size` bytes, as the header demands.
-        unsafe { structures::fill("report", report, struct_size, &SignoriniReport::blank()) }
-    })
+    // SAFETY: the caller's structure has `struct_size` bytes, as the header demands.
+    unsafe { structures::fill("report", report, struct_size) }
 }
 
 /// Static text that describes one remark, such as "every gap is negative"; never NULL.

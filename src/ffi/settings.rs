@@ -3,8 +3,8 @@
 use libc::c_void;
 use std::ops::ControlFlow;
 
-use super::guard::{self, Failure};
-use super::structures;
+use super::guard::Failure;
+use super::structures::{self, Structure};
 use super::threads;
 use crate::monitor::{Monitor, Progress, ProgressFn};
 use crate::settings::{Method, Search, Settings};
@@ -131,30 +131,25 @@ pub(super) struct ParsedSettings {
     user: *mut c_void,
 }
 
-impl SignoriniSettings {
-    /// The defaults.
-    pub(super) fn default_one() -> Self {
+// SAFETY: led by its size; numbers, a pointer and a callback.
+unsafe impl Structure for SignoriniSettings {
+    fn default_one() -> Self {
         let default = Settings::default();
         SignoriniSettings {
-            struct_size: size_of::<Self>() as u32,
             method: method_code(default.method),
             tolerance: default.tolerance,
             omega: default.omega,
             damping: default.damping,
             max_iterations: default.max_iterations as i64,
             time_limit: default.time_limit,
-            warm_start: 0,
             search: SIGNORINI_SEARCH_OFF,
-            progress: None,
-            user: std::ptr::null_mut(),
-            proof: 0,
-            reserved: 0,
-            memory_limit: 0,
-            full_space: 0,
             threads: 1,
+            ..Self::zeros()
         }
     }
+}
 
+impl SignoriniSettings {
     /// Reads the caller's structure, NULL for the defaults.
     ///
     /// # Safety
@@ -163,12 +158,8 @@ impl SignoriniSettings {
         position: i32,
         pointer: *const Self,
     ) -> Result<ParsedSettings, Failure> {
-        let mut settings = Self::default_one();
-        if !pointer.is_null() {
-            // SAFETY: by the caller's contract.
-            settings = unsafe { structures::read(position, "settings", pointer, settings)? };
-        }
-        settings.checked(position)
+        // SAFETY: by the caller's contract.
+        unsafe { structures::read(position, "settings", pointer)? }.checked(position)
     }
 
     fn checked(self, position: i32) -> Result<ParsedSettings, Failure> {
@@ -291,9 +282,6 @@ pub unsafe extern "C" fn signorini_settings_default(
     settings: *mut SignoriniSettings,
     struct_size: u32,
 ) -> i32 {
-    guard::call(|| {
-        let default = SignoriniSettings::default_one();
-        // SAFETY: the caller's structure has `struct_size` bytes, as the header demands.
-        unsafe { structures::fill("settings", settings, struct_size, &default) }
-    })
+    // SAFETY: the caller's structure has `struct_size` bytes, as the header demands.
+    unsafe { structures::fill("settings", settings, struct_size) }
 }

@@ -7,6 +7,7 @@ use super::guard::{self, Failure};
 use super::outputs::OutputArguments;
 use super::report::SignoriniReport;
 use super::settings::SignoriniSettings;
+use super::status::{SIGNORINI_STATUS_SOLVED, remember};
 use crate::error::Argument;
 use crate::problem::ContactProblem;
 use crate::solve::{memory, solve};
@@ -63,7 +64,8 @@ pub unsafe extern "C" fn signorini_solve(
             let data = given.read(&mut arrays)?;
             let received = SignoriniSettings::read(SETTINGS, settings)?;
             arrays.structure(SETTINGS, "settings", settings, false)?;
-            let outputs = wanted.note(&mut arrays, START, (data.dim * data.pairs, data.pairs))?;
+            let sizes = (data.dim * data.pairs, data.pairs, 1);
+            let outputs = wanted.note(&mut arrays, (START, START + 3), sizes)?;
             (data, received, outputs)
         };
         arrays.check_overlap()?;
@@ -82,6 +84,10 @@ pub unsafe extern "C" fn signorini_solve(
             .monitored(|monitor| solve(&problem, &received.settings, start.as_deref(), monitor))
             .map_err(from_error)?;
         // SAFETY: the outputs have the lengths of the header and overlap nothing.
-        Ok(unsafe { outputs.write(&solution) })
+        let status = unsafe { outputs.write(0, &solution) };
+        if status != SIGNORINI_STATUS_SOLVED {
+            remember(solution.message);
+        }
+        Ok(status)
     })
 }

@@ -6,7 +6,7 @@ use libc::c_void;
 
 use super::args::{Arrays, size};
 use super::guard::Failure;
-use super::structures::{checked_size, read};
+use super::structures::{Structure, checked_size, index_base, read};
 use crate::error::entry;
 use crate::reduce::{Indices, SparseMatrix, Triangle};
 
@@ -62,6 +62,9 @@ pub(super) const STIFFNESS: Names =
 pub(super) const FLEXIBILITY: Names =
     Names { matrix: "W", col_start: "W: col_start", row: "W: row", values: "W: values" };
 
+// SAFETY: led by its size; numbers and pointers.
+unsafe impl Structure for SignoriniSparse {}
+
 impl SignoriniSparse {
     /// # Safety
     /// As [`Self::read`].
@@ -77,20 +80,8 @@ impl SignoriniSparse {
                 format!("{name}: struct_size is {given}, set it to sizeof ({})", size_of::<Self>());
             return Err(Failure::argument(position, message));
         }
-        let empty = SignoriniSparse {
-            struct_size: 0,
-            index_bytes: 0,
-            index_base: 0,
-            triangle: SIGNORINI_TRIANGLE_LOWER,
-            size: 0,
-            nnz: 0,
-            col_start: std::ptr::null(),
-            row: std::ptr::null(),
-            values: std::ptr::null(),
-            order: std::ptr::null(),
-        };
         // SAFETY: as above.
-        unsafe { read(position, name, pointer, empty) }
+        unsafe { read(position, name, pointer) }
     }
 
     /// The order of elimination, counted from 0, if there is one.
@@ -144,10 +135,7 @@ impl SignoriniSparse {
             SIGNORINI_TRIANGLE_FULL => Triangle::Full,
             other => return Err(wrong(format!("{name}: there is no triangle {other}"))),
         };
-        let base = i64::from(given.index_base);
-        if base != 0 && base != 1 {
-            return Err(wrong(format!("{name}: index_base is {base}, it must be 0 or 1")));
-        }
+        let base = index_base(position, name, given.index_base)?;
         let n = count("size", given.size)?;
         let nnz = count("nnz", given.nnz)?;
         let Some(columns) = n.checked_add(1) else {

@@ -14,6 +14,27 @@ const MOST: usize = 4096;
 /// Sizes of all structures are multiples of that of their widest fields.
 const ALIGNMENT: usize = align_of::<i64>();
 
+/// A structure of the header.
+///
+/// # Safety
+/// It begins with its size, and zeros are a value of it: its fields are numbers, pointers and callbacks.
+pub(super) unsafe trait Structure: Copy {
+    /// Zeros and NULL, with the size.
+    fn zeros() -> Self {
+        // SAFETY: by the contract of the trait.
+        unsafe {
+            let mut zeros: Self = std::mem::zeroed();
+            (&raw mut zeros).cast::<u32>().write(size_of::<Self>() as u32);
+            zeros
+        }
+    }
+
+    /// The value for a caller who has set nothing.
+    fn default_one() -> Self {
+        Self::zeros()
+    }
+}
+
 /// The size in the first field of a structure, if a version of this library may have it: an older
 /// one, this one, or a later one.
 ///
@@ -65,24 +86,26 @@ unsafe fn read_size<T>(position: i32, name: &str, pointer: *const T) -> Result<u
     Ok(size)
 }
 
-/// A copy of the caller's structure; fields that an older program does not have are those of
-/// `default`.
+/// A copy of the caller's structure; fields that an older program does not have are the defaults, and all are if it is
+/// NULL.
 ///
 /// # Safety
-/// `pointer` is not NULL and has as many readable bytes as its first field says.
-pub(super) unsafe fn read<T: Copy>(
+/// A pointer that is not NULL has as many readable bytes as its first field says.
+pub(super) unsafe fn read<T: Structure>(
     position: i32,
     name: &str,
     pointer: *const T,
-    mut default: T,
 ) -> Result<T, Failure> {
-    // SAFETY: the caller's structure begins with its size.
-    unsafe {
-        let bytes = read_size(position, name, pointer)?.min(size_of::<T>());
-        let target = (&raw mut default).cast::<u8>();
-        std::ptr::copy_nonoverlapping(pointer.cast::<u8>(), target, bytes);
+    let mut copy = T::default_one();
+    if !pointer.is_null() {
+        // SAFETY: the caller's structure begins with its size.
+        unsafe {
+            let bytes = read_size(position, name, pointer)?.min(size_of::<T>());
+            let target = (&raw mut copy).cast::<u8>();
+            std::ptr::copy_nonoverlapping(pointer.cast::<u8>(), target, bytes);
+        }
     }
-    Ok(default)
+    Ok(copy)
 }
 
 /// The caller's structure in place, of a kind that has no older form.
@@ -106,6 +129,15 @@ pub(super) unsafe fn whole<'a, T>(
     }
     // SAFETY: not NULL, aligned and large enough (just checked).
     Ok(unsafe { &*pointer })
+}
+
+/// The field `index_base` of a structure.
+pub(super) fn index_base(position: i32, name: &str, base: i32) -> Result<i64, Failure> {
+    if base != 0 && base != 1 {
+        let message = format!("{name}: index_base is {base}, it must be 0 or 1");
+        return Err(Failure::argument(position, message));
+    }
+    Ok(i64::from(base))
 }
 
 /// The bytes from one structure of the caller's array of `count` to the next: what the first one
@@ -171,25 +203,22 @@ pub(super) unsafe fn write<T>(value: &T, pointer: *mut T) {
     }
 }
 
-/// Fills the caller's structure of `struct_size` bytes, the second argument of the call, with its
-/// defaults and its size.
+/// The call that fills the caller's structure of `struct_size` bytes, its second argument, with the defaults and the
+/// size.
 ///
 /// # Safety
 /// NULL, or `struct_size` writable bytes.
-pub(super) unsafe fn fill<T>(
-    name: &str,
-    pointer: *mut T,
-    struct_size: u32,
-    default: &T,
-) -> Result<i32, Failure> {
-    check_place(1, name, pointer)?;
-    check_number::<T>(2, name, struct_size as usize)?;
-    // SAFETY: as many bytes as `struct_size` says by contract.
-    unsafe {
-        pointer.cast::<u32>().write(struct_size);
-        write(default, pointer);
-    }
-    Ok(0)
+pub(super) unsafe fn fill<T: Structure>(name: &str, pointer: *mut T, struct_size: u32) -> i32 {
+    guard::call(|| {
+        check_place(1, name, pointer)?;
+        check_number::<T>(2, name, struct_size as usize)?;
+        // SAFETY: as many bytes as `struct_size` says by contract.
+        unsafe {
+            pointer.cast::<u32>().write(struct_size);
+            write(&T::default_one(), pointer);
+        }
+        Ok(0)
+    })
 }
 
 /// Writes what a handle holds to the caller's structure, the second argument of the call.

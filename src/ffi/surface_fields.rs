@@ -2,7 +2,7 @@
 
 use super::args::{Arrays, Output};
 use super::guard::{self, Failure};
-use super::structures;
+use super::structures::{self, Structure};
 use super::surface_new::SignoriniSurfacePairs;
 use super::surface_view::read;
 use crate::error::Argument;
@@ -32,6 +32,9 @@ pub struct SignoriniContactFields {
     /// share.
     pub state: *mut i32,
 }
+
+// SAFETY: led by its size; a number and pointers.
+unsafe impl Structure for SignoriniContactFields {}
 
 /// Sums over a contact zone. Set struct_size before the call; the call writes all other fields.
 #[repr(C)]

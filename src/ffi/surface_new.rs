@@ -4,13 +4,13 @@ use std::ffi::CString;
 
 use super::args::{Arrays, size};
 use super::guard::{self, Failure};
+use super::handle::{OutPointer, release};
 use super::pairs::SignoriniPairs;
-use super::release::release;
+use super::structures::Structure;
 use super::surface::{Rigid, SignoriniFaces, SignoriniObstacle};
 use super::surface_settings::{ParsedSurfaceSettings, SignoriniSurfaceSettings};
-use crate::error::{Argument, Error};
+use crate::error::Argument;
 use crate::problem;
-use crate::shortage;
 use crate::surface::{
     NodeDofs, PairArrays, RigidSurface, SurfacePairs, Surfaces, pair_surfaces, pair_with_obstacle,
     pair_with_rigid_surface,
@@ -68,7 +68,7 @@ pub unsafe extern "C" fn signorini_surface_pair(
     guard::call(|| {
         // SAFETY: structures and arrays as the header demands.
         unsafe {
-            let place = OutPointer::new(contact)?;
+            let place = OutPointer::new(7, "contact", contact)?;
             let host = Host::read(dim, nodes, coordinates, (6, settings))?;
             let slave = SignoriniFaces::read((4, "slave"), slave, host.received.base)?;
             let master = SignoriniFaces::read((5, "master"), master, host.received.base)?;
@@ -79,13 +79,7 @@ pub unsafe extern "C" fn signorini_surface_pair(
                 master: SignoriniFaces::view(&master),
             };
             let found = pair_surfaces(&surfaces, &host.received.settings);
-            place.fill(host, found, |argument| match argument {
-                Argument::Dimension => 1,
-                Argument::Coordinates => 3,
-                Argument::MasterFaces => 5,
-                Argument::Settings => 6,
-                _ => 4,
-            })
+            place.fill(found.map(|found| (found, host)), position)
         }
     })
 }
@@ -112,7 +106,7 @@ pub unsafe extern "C" fn signorini_surface_pair_obstacle(
     guard::call(|| {
         // SAFETY: structures and arrays as the header demands.
         unsafe {
-            let place = OutPointer::new(contact)?;
+            let place = OutPointer::new(7, "contact", contact)?;
             let host = Host::read(dim, nodes, coordinates, (6, settings))?;
             let slave = SignoriniFaces::read((4, "slave"), slave, host.received.base)?;
             let obstacle = SignoriniObstacle::read(5, host.dim, host.received.base, obstacle)?;
@@ -131,13 +125,7 @@ pub unsafe extern "C" fn signorini_surface_pair_obstacle(
                     pair_with_rigid_surface(host.dim, host.coordinates, slave, &rigid, given)
                 }
             };
-            place.fill(host, found, |argument| match argument {
-                Argument::Dimension => 1,
-                Argument::Coordinates => 3,
-                Argument::Obstacle => 5,
-                Argument::Settings => 6,
-                _ => 4,
-            })
+            place.fill(found.map(|found| (found, host)), position)
         }
     })
 }
@@ -147,6 +135,17 @@ pub unsafe extern "C" fn signorini_surface_pair_obstacle(
 pub unsafe extern "C" fn signorini_surface_free(contact: *mut SignoriniSurfacePairs) {
     // SAFETY: NULL, or by the header's contract it came from signorini_surface_pair..., once.
     unsafe { release(contact) }
+}
+
+/// Number of an argument of both calls.
+fn position(argument: Argument) -> i32 {
+    match argument {
+        Argument::Dimension => 1,
+        Argument::Coordinates => 3,
+        Argument::MasterFaces | Argument::Obstacle => 5,
+        Argument::Settings => 6,
+        _ => 4,
+    }
 }
 
 /// Arguments that both calls have.
@@ -188,9 +187,10 @@ impl ParsedSurfaceSettings {
     }
 }
 
-impl SignoriniSurfacePairs {
-    fn new(found: SurfacePairs, nodes: usize, received: ParsedSurfaceSettings) -> Self {
-        let base = received.base;
+impl From<(SurfacePairs, Host<'_>)> for SignoriniSurfacePairs {
+    fn from((found, host): (SurfacePairs, Host<'_>)) -> Self {
+        let Host { dim, coordinates, received } = host;
+        let (nodes, base) = (coordinates.len() / dim, received.base);
         let counted = |values: &[usize]| -> Vec<i64> {
             values.iter().map(|value| *value as i64 + base).collect()
         };
@@ -200,15 +200,16 @@ impl SignoriniSurfacePairs {
         let points = found.pairs.iter().flat_map(|pair| pair.point[..found.dim].to_vec());
         let folded: Vec<usize> =
             found.report.folded.iter().flat_map(|(node, with)| [*node, *with]).collect();
-        let mut rows = SignoriniPairs::EMPTY;
-        rows.struct_size = size_of::<SignoriniPairs>() as u32;
-        rows.dim = found.dim as i32;
-        rows.count = found.pairs.len() as i64;
-        rows.normals = arrays.normals.as_ptr();
-        rows.tangents = arrays.tangents.as_ptr();
-        rows.row_start = indices[0].as_ptr();
-        rows.row_nodes = indices[1].as_ptr();
-        rows.row_weights = arrays.weights.as_ptr();
+        let rows = SignoriniPairs {
+            dim: found.dim as i32,
+            count: found.pairs.len() as i64,
+            normals: arrays.normals.as_ptr(),
+            tangents: arrays.tangents.as_ptr(),
+            row_start: indices[0].as_ptr(),
+            row_nodes: indices[1].as_ptr(),
+            row_weights: arrays.weights.as_ptr(),
+            ..SignoriniPairs::zeros()
+        };
         SignoriniSurfacePairs {
             slaves: counted(&slaves),
             unpaired: counted(&found.unpaired),
@@ -224,44 +225,12 @@ impl SignoriniSurfacePairs {
             found,
         }
     }
+}
 
+impl SignoriniSurfacePairs {
     /// Degrees of freedom of all nodes of the host, `dim` for each.
     pub(super) fn dofs(&self) -> Vec<usize> {
         let dofs = self.received.dofs();
         (0..self.nodes).flat_map(|node| dofs.of(node, self.found.dim)).collect()
-    }
-}
-
-/// Where new pairs go, the seventh argument; NULL until they exist.
-struct OutPointer(*mut *mut SignoriniSurfacePairs);
-
-impl OutPointer {
-    /// # Safety
-    /// A place as the header demands.
-    unsafe fn new(contact: *mut *mut SignoriniSurfacePairs) -> Result<Self, Failure> {
-        if contact.is_null() || !contact.is_aligned() {
-            return Err(Failure::argument(7, "contact is NULL or not aligned"));
-        }
-        // SAFETY: by the caller's contract.
-        unsafe { contact.write(std::ptr::null_mut()) };
-        Ok(OutPointer(contact))
-    }
-
-    /// # Safety
-    /// As for [`Self::new`].
-    unsafe fn fill(
-        self,
-        host: Host<'_>,
-        found: Result<SurfacePairs, Error>,
-        position: impl Fn(Argument) -> i32,
-    ) -> Result<i32, Failure> {
-        let found = found.map_err(|error| Failure::from_error(error, position))?;
-        let nodes = host.coordinates.len() / host.dim;
-        let pairs = Box::new(SignoriniSurfacePairs::new(found, nodes, host.received));
-        // The reserve of a call holds nothing that outlives it.
-        shortage::check();
-        // SAFETY: by the caller's contract.
-        unsafe { self.0.write(Box::into_raw(pairs)) };
-        Ok(0)
     }
 }

@@ -1,9 +1,9 @@
 //! How a host wants surfaces to be paired.
 
 use super::args::{Arrays, size};
-use super::guard::{self, Failure};
+use super::guard::Failure;
 use super::sparse::shifted;
-use super::structures;
+use super::structures::{self, Structure};
 use crate::surface::{Normals, Pairing, Rims, SurfaceSettings, SymmetryPlane};
 
 /// Dual mortar, the default: a uniform pressure passes between any two flat meshes.
@@ -76,23 +76,19 @@ pub(super) struct ParsedSurfaceSettings {
     pub(super) listed: Option<Vec<usize>>,
 }
 
-impl SignoriniSurfaceSettings {
-    pub(super) fn default_one() -> Self {
+// SAFETY: led by its size; numbers and pointers.
+unsafe impl Structure for SignoriniSurfaceSettings {
+    fn default_one() -> Self {
         SignoriniSurfaceSettings {
-            struct_size: size_of::<Self>() as u32,
             pairing: SIGNORINI_PAIRING_DUAL_MORTAR,
-            search_distance: 0.0,
-            index_base: 0,
-            dofs_per_node: 0,
-            node_dofs: std::ptr::null(),
-            symmetry_planes: 0,
-            symmetry_axes: std::ptr::null(),
-            symmetry_at: std::ptr::null(),
             normals: SIGNORINI_NORMALS_AVERAGED,
             rims: SIGNORINI_RIMS_FOLD,
+            ..Self::zeros()
         }
     }
+}
 
+impl SignoriniSurfaceSettings {
     /// Reads the caller's structure, NULL for the defaults, for `nodes` nodes of `dim` coordinates.
     ///
     /// # Safety
@@ -103,16 +99,10 @@ impl SignoriniSurfaceSettings {
         (dim, nodes): (usize, usize),
     ) -> Result<ParsedSurfaceSettings, Failure> {
         let refuse = |message: String| Err(Failure::argument(position, message));
-        let mut given = Self::default_one();
-        if !pointer.is_null() {
-            // SAFETY: by the caller's contract.
-            given = unsafe { structures::read(position, "settings", pointer, given)? };
-        }
+        // SAFETY: by the caller's contract.
+        let given = unsafe { structures::read(position, "settings", pointer)? };
         let (pairing, normals, rims) = given.choices(position)?;
-        let base = i64::from(given.index_base);
-        if base != 0 && base != 1 {
-            return refuse(format!("settings: index_base is {base}, it must be 0 or 1"));
-        }
+        let base = structures::index_base(position, "settings", given.index_base)?;
         let per_node = match given.dofs_per_node {
             0 => dim,
             other => usize::try_from(other).unwrap_or_default(),
@@ -194,9 +184,6 @@ pub unsafe extern "C" fn signorini_surface_settings_default(
     settings: *mut SignoriniSurfaceSettings,
     struct_size: u32,
 ) -> i32 {
-    guard::call(|| {
-        let default = SignoriniSurfaceSettings::default_one();
-        // SAFETY: the caller's structure has `struct_size` bytes, as the header demands.
-        unsafe { structures::fill("settings", settings, struct_size, &default) }
-    })
+    // SAFETY: the caller's structure has `struct_size` bytes, as the header demands.
+    unsafe { structures::fill("settings", settings, struct_size) }
 }

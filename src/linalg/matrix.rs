@@ -235,6 +235,7 @@ pub fn can_exist(size: usize) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::linalg::ball::UNIT;
     use crate::linalg::double_double::{DoubleDouble, dot};
     use crate::linalg::vector::sizes;
 
@@ -243,7 +244,6 @@ mod tests {
     /// residual is documented with is above the sum of both errors and of the rounding of the result.
     #[test]
     fn residuals_that_cancel_are_right() {
-        const UNIT: f64 = f64::EPSILON / 2.0;
         let mut rng = fastrand::Rng::with_seed(2);
         for n in (1..40).chain([200]) {
             let mut number = || (rng.f64() - 0.5) * 10_f64.powi(rng.i32(-6..6));

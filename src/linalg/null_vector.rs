@@ -1,8 +1,8 @@
 //! The null vector of a positive semi-definite matrix: a candidate, and how far it is from being one.
 
-use super::sparse_matrix::{Csc, column};
+use super::sparse_matrix::{Csc, symmetric_magnitude, symmetric_times};
 use super::tolerances::INVERSE_ITERATIONS;
-use super::vector::norm_inf;
+use super::vector::{norm_inf, sizes};
 
 /// The vector of `n` entries that `A` resists least, its largest entry 1, by inverse iteration from
 /// the unit vector of entry `first`. `solve` overwrites its argument `b` with `A⁻¹ b`.
@@ -20,19 +20,5 @@ pub fn weakest(n: usize, first: usize, solve: impl Fn(&mut [f64])) -> Vec<f64> {
 /// Largest entry of `A x`, relative to the largest sum of the sizes of its terms. `A` is symmetric, its
 /// `lower` triangle given.
 pub fn resistance(lower: &Csc, x: &[f64]) -> f64 {
-    let (mut sum, mut terms) = (vec![0.0; x.len()], vec![0.0; x.len()]);
-    let mut add = |i: usize, term: f64| {
-        sum[i] += term;
-        terms[i] += term.abs();
-    };
-    for j in 0..x.len() {
-        let (rows, values) = column(lower, j);
-        for (&i, value) in rows.iter().zip(values) {
-            add(i, value * x[j]);
-            if i != j {
-                add(j, value * x[i]);
-            }
-        }
-    }
-    norm_inf(&sum) / norm_inf(&terms)
+    norm_inf(&symmetric_times(lower, x)) / norm_inf(&symmetric_magnitude(lower, &sizes(x)))
 }

@@ -7,12 +7,9 @@ const STEP: i32 = 1000;
 /// Exponent of two of a number that is finite and not zero: `2^e <= |x| < 2^(e + 1)`.
 pub fn exponent(x: f64) -> i32 {
     let (x, below) = if x.is_subnormal() { (x * 2_f64.powi(STEP), STEP) } else { (x, 0) };
-    let biased = (x.to_bits() >> (f64::MANTISSA_DIGITS - 1)) & EXPONENT_BITS;
+    let biased = x.abs().to_bits() >> (f64::MANTISSA_DIGITS - 1);
     biased as i32 - (f64::MAX_EXP - 1) - below
 }
-
-/// The bits of an exponent, at the right end of a number.
-const EXPONENT_BITS: u64 = 0x7ff;
 
 /// Largest exponent of the numbers that are not zero, which are finite; `None` if all are zero.
 pub fn largest_exponent(values: impl IntoIterator<Item = f64>) -> Option<i32> {

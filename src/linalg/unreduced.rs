@@ -1,7 +1,8 @@
 //! A sparse matrix from which components were eliminated, for the energies of motions.
 
 use super::free_motions::Whole;
-use super::sparse_matrix::{Csc, column};
+use super::sparse_matrix::{Csc, symmetric_magnitude, symmetric_times};
+use super::vector::{dot, sizes};
 
 /// Solves for the eliminated rows: from a right side of all rows and the kept components to all.
 type Recover<'f> = dyn Fn(&[f64], &[f64]) -> Vec<f64> + 'f;
@@ -29,35 +30,11 @@ impl Whole for Unreduced<'_> {
     }
 
     fn forces(&self, motion: &[f64]) -> Vec<f64> {
-        let mut forces = vec![0.0; motion.len()];
-        for j in 0..self.lower.ncols() {
-            let (rows, values) = column(&self.lower, j);
-            let (moved, mut own) = (motion[j], 0.0);
-            for (&i, value) in rows.iter().zip(values) {
-                forces[i] += value * moved;
-                own += if i == j { 0.0 } else { value * motion[i] };
-            }
-            forces[j] += own;
-        }
-        forces
+        symmetric_times(&self.lower, motion)
     }
 
     fn noise(&self, motion: &[f64]) -> f64 {
-        let mut sum = 0.0;
-        self.each_entry(|i, j, value| {
-            let term = (motion[i] * value * motion[j]).abs();
-            sum += if i == j { term } else { 2.0 * term };
-        });
-        f64::EPSILON * sum
-    }
-}
-
-impl Unreduced<'_> {
-    /// Visits the entries of the lower triangle: row, column, value.
-    fn each_entry(&self, mut visit: impl FnMut(usize, usize, f64)) {
-        for j in 0..self.lower.ncols() {
-            let (rows, values) = column(&self.lower, j);
-            rows.iter().zip(values).for_each(|(&i, &value)| visit(i, j, value));
-        }
+        let size = sizes(motion);
+        f64::EPSILON * dot(&size, &symmetric_magnitude(&self.lower, &size))
     }
 }

@@ -213,15 +213,10 @@ impl Relation for DependentRows<'_> {
             }
         };
         let dependence = self.dependence;
-        let (variables, count) = (dependence.variables(), size.len());
-        let mut of_variables = vec![0.0; variables];
+        let mut of_variables = vec![0.0; dependence.variables()];
         absolute(&dependence.from_relative, size, &mut of_variables, true);
-        let mut forces = vec![0.0; variables];
-        for (j, &size) in of_variables.iter().enumerate() {
-            let column = self.stiffness.column(j);
-            forces.iter_mut().zip(column).for_each(|(force, k)| *force += k.abs() * size);
-        }
-        let (mut sum, mut relative) = (vec![0.0; count], size.to_vec());
+        let forces = self.stiffness.magnitude(&of_variables);
+        let (mut sum, mut relative) = (vec![0.0; size.len()], size.to_vec());
         absolute(&dependence.from_relative, &forces, &mut sum, false);
         absolute(&dependence.to_relative, &of_variables, &mut relative, false);
         sum.iter_mut().zip(&relative).enumerate().for_each(|(i, (sum, relative))| {

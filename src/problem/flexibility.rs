@@ -20,6 +20,7 @@ use super::friction_law::FrictionLaw;
 use super::relation::{Redundant, Relation};
 use super::symmetric_matrix;
 use crate::error::{Argument, Error};
+use crate::linalg::double_double::two_sum;
 use crate::linalg::matrix::Matrix;
 use crate::linalg::tolerances::ROUNDING_OF_SUM;
 use crate::linalg::vector::{largest_eigenvalue, largest_of, norm, sizes};
@@ -197,7 +198,7 @@ impl<M: FlexibilityMatrix> Relation for Flexibility<'_, M> {
     /// The units times `d - q - W F`, in twice the precision and rounded once.
     fn residual(&self, d: &[f64], force: &[f64]) -> Vec<f64> {
         let (caused, lost): (Vec<f64>, Vec<f64>) =
-            d.iter().zip(self.free).map(|(d, free)| difference(*d, *free)).unzip();
+            d.iter().zip(self.free).map(|(d, free)| two_sum(*d, -free)).unzip();
         let beyond = self.matrix.times_less(force, &caused);
         let of = |((beyond, lost), unit): ((f64, f64), &f64)| unit * (lost - beyond);
         beyond.into_iter().zip(lost).zip(&self.units).map(of).collect()
@@ -214,13 +215,6 @@ impl<M: FlexibilityMatrix> Relation for Flexibility<'_, M> {
         let felt: Vec<f64> = caused.iter().zip(&self.units).map(|(d, unit)| unit * d).collect();
         norm(force).min(norm(&felt))
     }
-}
-
-/// `a - b` rounded, and what rounding has left out.
-fn difference(a: f64, b: f64) -> (f64, f64) {
-    let rounded = a - b;
-    let part = rounded - a;
-    (rounded, (a - (rounded - part)) - (b + part))
 }
 
 impl Redundant for Flexibility<'_> {

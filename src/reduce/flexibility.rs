@@ -46,23 +46,6 @@ impl Reduction for FlexibilityReduction {
         self.size
     }
 
-    fn condense(&self, load: &[f64], _prescribed: Option<&[f64]>) -> Result<Vec<f64>, Error> {
-        Ok(load.to_vec())
-    }
-
-    fn recover(
-        &self,
-        _load: Option<&[f64]>,
-        _prescribed: Option<&[f64]>,
-        d: &[f64],
-    ) -> Result<Vec<f64>, Error> {
-        Ok(d.to_vec())
-    }
-
-    fn nodal_forces(&self, force: &[f64]) -> Vec<f64> {
-        force.to_vec()
-    }
-
     fn motion_in_words(&self, d: &[f64]) -> Message {
         motion::of_pairs(self.dim, d).into()
     }

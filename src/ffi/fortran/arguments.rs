@@ -1,9 +1,14 @@
 //! Scalars and arrays by reference in both widths, settings of three scalars, and states.
 
+use std::ops::RangeInclusive;
+
+use libc::c_void;
+
 use super::super::args::Arrays;
 use super::super::guard::{self, Failure};
 use super::super::law::{LAST_LAW, SIGNORINI_LAW_FRICTIONLESS};
 use super::super::settings::{SIGNORINI_METHOD_PATH, SignoriniSettings};
+use super::super::structures::Structure;
 use crate::problem::checked_dim;
 use crate::settings::check_tolerance;
 
@@ -83,98 +88,116 @@ pub(super) unsafe fn widen<I: Integer>(state: *mut I, pairs: i64) {
     }
 }
 
-/// # Safety
-/// As for [`write`], with a value.
-pub(super) unsafe fn read<T: Copy>(
-    position: i32,
-    name: &str,
-    place: *const T,
-) -> Result<T, Failure> {
-    if place.is_null() {
-        return Err(Failure::argument(position, format!("{name} is NULL")));
+/// An argument by reference that is read. It comes from the caller of an entry alone: NULL, or as many values as
+/// include/signorini.inc demands, of which the first may be unaligned, as for [`write`].
+#[derive(Clone, Copy)]
+#[repr(transparent)]
+pub(super) struct Given<T>(*const T);
+
+impl<T: Copy> Given<T> {
+    /// # Safety
+    /// NULL or a value of the caller of an entry.
+    pub(super) unsafe fn of(place: *const T) -> Self {
+        Given(place)
     }
-    // SAFETY: by the caller's contract.
-    Ok(unsafe { place.read_unaligned() })
-}
 
-/// An integer that chooses something.
-///
-/// # Safety
-/// As for [`read`].
-pub(super) unsafe fn choice<I: Integer>(
-    position: i32,
-    name: &str,
-    place: *const I,
-) -> Result<i32, Failure> {
-    // SAFETY: by the caller's contract.
-    let value = unsafe { read(position, name, place)? }.wide();
-    i32::try_from(value).map_err(|_| absurd::<I>(position, name, value))
-}
-
-/// The number of something that is in memory. A value of 2^31 or more almost certainly means that two
-/// integers of 4 bytes were read as one of 8 bytes; a matrix with such a leading dimension would be
-/// read far outside.
-///
-/// # Safety
-/// As for [`read`].
-pub(super) unsafe fn count<I: Integer>(
-    position: i32,
-    name: &str,
-    place: *const I,
-) -> Result<i64, Failure> {
-    // SAFETY: by the caller's contract.
-    let value = unsafe { choice(position, name, place)? };
-    if value < 0 {
-        let message = format!("{name} is {value}, it must not be negative");
-        return Err(Failure::argument(position, message));
+    /// The value of a scalar.
+    pub(super) fn read(self, position: i32, name: &str) -> Result<T, Failure> {
+        if self.0.is_null() {
+            return Err(Failure::argument(position, format!("{name} is NULL")));
+        }
+        // SAFETY: not NULL, and a value by the caller's contract.
+        Ok(unsafe { self.0.read_unaligned() })
     }
-    Ok(i64::from(value))
 }
 
-/// NDIM and NPAIR, at consecutive positions.
-///
-/// # Safety
-/// As for [`read`].
-pub(super) unsafe fn sizes<I: Integer>(
-    first: i32,
-    ndim: *const I,
-    npair: *const I,
-) -> Result<(i32, i64), Failure> {
-    // SAFETY: by the caller's contract.
-    unsafe { Ok((dimension(first, ndim)?, count(first + 1, "NPAIR", npair)?)) }
-}
-
-/// NDIM.
-///
-/// # Safety
-/// As for [`read`].
-pub(super) unsafe fn dimension<I: Integer>(position: i32, ndim: *const I) -> Result<i32, Failure> {
-    // SAFETY: by the caller's contract.
-    let dim = unsafe { choice(position, "NDIM", ndim)? };
-    let wrong = |_| Failure::argument(position, format!("NDIM is {dim}, it must be 2 or 3"));
-    checked_dim(dim).map_err(wrong)?;
-    Ok(dim)
-}
-
-/// LDK, the leading dimension of a matrix of all components of pairs.
-///
-/// # Safety
-/// As for [`read`].
-pub(super) unsafe fn leading<I: Integer>(
-    position: i32,
-    place: *const I,
-    (dim, pairs): (i32, i64),
-) -> Result<i64, Failure> {
-    // SAFETY: by the caller's contract.
-    let leading = unsafe { count(position, "LDK", place)? };
-    let n = i64::from(dim) * pairs;
-    if leading < n.max(1) {
-        let message = format!(
-            "LDK is {leading}, it must be at least NDIM * NPAIR, which is {n}; NPAIR counts pairs"
-        );
-        return Err(Failure::argument(position, message));
+impl<I: Integer> Given<I> {
+    /// The pointer, for a function of C.
+    pub(super) fn address(self) -> *const c_void {
+        self.0.cast()
     }
-    Ok(leading)
+
+    /// An integer that chooses something.
+    pub(super) fn choice(self, position: i32, name: &str) -> Result<i32, Failure> {
+        let value = self.read(position, name)?.wide();
+        i32::try_from(value).map_err(|_| absurd::<I>(position, name, value))
+    }
+
+    /// An integer that chooses one of several constants, which `wanted` tells.
+    pub(super) fn one_of(
+        self,
+        position: i32,
+        name: &str,
+        constants: RangeInclusive<i32>,
+        wanted: &str,
+    ) -> Result<i32, Failure> {
+        let value = self.choice(position, name)?;
+        if constants.contains(&value) {
+            return Ok(value);
+        }
+        Err(Failure::argument(position, format!("{name} is {value}, it must be {wanted}")))
+    }
+
+    /// The number of something that is in memory. A value of 2^31 or more almost certainly means that two
+    /// integers of 4 bytes were read as one of 8 bytes; a matrix with such a leading dimension would be
+    /// read far outside.
+    pub(super) fn count(self, position: i32, name: &str) -> Result<i64, Failure> {
+        let value = self.choice(position, name)?;
+        if value < 0 {
+            let message = format!("{name} is {value}, it must not be negative");
+            return Err(Failure::argument(position, message));
+        }
+        Ok(i64::from(value))
+    }
+
+    /// An integer array of `length` entries.
+    pub(super) fn slice(
+        &self,
+        position: i32,
+        name: &'static str,
+        length: i64,
+    ) -> Result<&[I], Failure> {
+        // SAFETY: by the caller's contract.
+        unsafe { Arrays::default().required(position, name, self.0, length as usize) }
+    }
+
+    /// A copy of an integer array in the width of the functions of C.
+    pub(super) fn numbers(
+        self,
+        position: i32,
+        name: &'static str,
+        length: i64,
+    ) -> Result<Vec<i64>, Failure> {
+        Ok(self.slice(position, name, length)?.iter().map(|value| value.wide()).collect())
+    }
+
+    /// NDIM.
+    pub(super) fn dimension(self, position: i32) -> Result<i32, Failure> {
+        let dim = self.choice(position, "NDIM")?;
+        let wrong = |_| Failure::argument(position, format!("NDIM is {dim}, it must be 2 or 3"));
+        checked_dim(dim).map_err(wrong)?;
+        Ok(dim)
+    }
+
+    /// LDK, the leading dimension of a matrix of all components of pairs.
+    pub(super) fn leading(self, position: i32, (dim, pairs): (i32, i64)) -> Result<i64, Failure> {
+        let leading = self.count(position, "LDK")?;
+        let n = i64::from(dim) * pairs;
+        if leading < n.max(1) {
+            let message = format!(
+                "LDK is {leading}, it must be at least NDIM * NPAIR, which is {n}; NPAIR counts pairs"
+            );
+            return Err(Failure::argument(position, message));
+        }
+        Ok(leading)
+    }
+
+    /// LAW.
+    pub(super) fn law(self, position: i32) -> Result<i32, Failure> {
+        let (first, last) = (SIGNORINI_LAW_FRICTIONLESS, LAST_LAW);
+        let wanted = format!("a law of signorini.inc, from SGNOFR ({first}) to {last}");
+        self.one_of(position, "LAW", first..=last, &wanted)
+    }
 }
 
 pub(super) fn absurd<I: Integer>(position: i32, name: &str, value: i64) -> Failure {
@@ -184,59 +207,17 @@ pub(super) fn absurd<I: Integer>(position: i32, name: &str, value: i64) -> Failu
     Failure::argument(position, message)
 }
 
-/// A copy of an integer array in the width of the functions of C.
-///
-/// # Safety
-/// `array` has `length` entries.
-pub(super) unsafe fn numbers<I: Integer>(
-    position: i32,
-    name: &'static str,
-    array: *const I,
-    length: i64,
-) -> Result<Vec<i64>, Failure> {
-    // SAFETY: by the caller's contract.
-    let values = unsafe { Arrays::default().required(position, name, array, length as usize)? };
-    Ok(values.iter().map(|value| value.wide()).collect())
-}
-
-/// LAW.
-///
-/// # Safety
-/// As for [`read`].
-pub(super) unsafe fn law<I: Integer>(position: i32, place: *const I) -> Result<i32, Failure> {
-    // SAFETY: by the caller's contract.
-    let law = unsafe { choice(position, "LAW", place)? };
-    if !(SIGNORINI_LAW_FRICTIONLESS..=LAST_LAW).contains(&law) {
-        let message = format!(
-            "LAW is {law}, it must be a law of signorini.inc, from SGNOFR ({SIGNORINI_LAW_FRICTIONLESS}) to {LAST_LAW}"
-        );
-        return Err(Failure::argument(position, message));
-    }
-    Ok(law)
-}
-
 /// METHOD, TOL and MAXIT at consecutive positions; 0 stands for the default of each.
-///
-/// # Safety
-/// As for [`read`].
-pub(super) unsafe fn settings<I: Integer>(
+pub(super) fn settings<I: Integer>(
     first: i32,
-    method: *const I,
-    tol: *const f64,
-    maxit: *const I,
+    method: Given<I>,
+    tol: Given<f64>,
+    maxit: Given<I>,
 ) -> Result<SignoriniSettings, Failure> {
-    // SAFETY: by the caller's contract.
-    let (method, tolerance, most) = unsafe {
-        (
-            choice(first, "METHOD", method)?,
-            read(first + 1, "TOL", tol)?,
-            read(first + 2, "MAXIT", maxit)?.wide(),
-        )
-    };
-    if !(0..=SIGNORINI_METHOD_PATH).contains(&method) {
-        let message = format!("METHOD is {method}, it must be 0 or SGNEST (1) to SGPATH (6)");
-        return Err(Failure::argument(first, message));
-    }
+    let methods = 0..=SIGNORINI_METHOD_PATH;
+    let method = method.one_of(first, "METHOD", methods, "0 or SGNEST (1) to SGPATH (6)")?;
+    let tolerance = tol.read(first + 1, "TOL")?;
+    let most = maxit.read(first + 2, "MAXIT")?.wide();
     if most < 0 {
         let message = format!("MAXIT is {most}, it must not be negative");
         return Err(Failure::argument(first + 2, message));

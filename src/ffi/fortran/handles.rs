@@ -8,7 +8,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use super::super::guard::Failure;
 use super::super::model::SignoriniModel;
 use super::super::surface_new::SignoriniSurfacePairs;
-use super::arguments::{read, write};
+use super::arguments::{Given, write};
 
 /// A kind of objects.
 pub(super) trait Kind: Any + Send + Sync {
@@ -84,12 +84,11 @@ pub(super) unsafe fn create<T: Kind>(
 }
 
 /// The object of a handle, which lives on during the call even if another thread releases it.
-///
-/// # Safety
-/// `handle` is NULL or a number of the caller.
-pub(super) unsafe fn find<T: Kind>(position: i32, handle: *const i64) -> Result<Arc<T>, Failure> {
-    // SAFETY: by the caller's contract.
-    let number = unsafe { read(position, T::NAME, handle)? };
+pub(super) fn find<T: Kind>(position: i32, handle: Given<i64>) -> Result<Arc<T>, Failure> {
+    object(position, handle.read(position, T::NAME)?)
+}
+
+fn object<T: Kind>(position: i32, number: i64) -> Result<Arc<T>, Failure> {
     let found = open().by_number.get(&number).cloned();
     let of_this_kind = found.and_then(|found| found.downcast().ok());
     of_this_kind.ok_or_else(|| unknown::<T>(position, number))
@@ -101,10 +100,9 @@ pub(super) unsafe fn find<T: Kind>(position: i32, handle: *const i64) -> Result<
 /// `handle` is NULL or a number of the caller.
 pub(super) unsafe fn free<T: Kind>(handle: *mut i64) -> Result<i32, Failure> {
     // SAFETY: by the caller's contract.
-    let number = unsafe { read(1, T::NAME, handle)? };
+    let number = unsafe { Given::of(handle) }.read(1, T::NAME)?;
     if number != 0 {
-        // SAFETY: as above.
-        unsafe { find::<T>(1, handle)? };
+        object::<T>(1, number)?;
         let released = open().by_number.remove(&number);
         drop(released.ok_or_else(|| unknown::<T>(1, number))?);
     }

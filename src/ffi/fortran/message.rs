@@ -3,13 +3,13 @@
 use libc::c_char;
 
 use super::super::status::last_counted_from_one;
-use super::arguments::{Integer, read};
+use super::arguments::{Given, Integer};
 
 export! {
     // Its length is an argument, so that it does not matter how, and whether, a compiler hands over the length of a
     // CHARACTER on its own.
-    sgmesg_ sgmesg_64_ (text: *mut c_char, ltext: *const I) {
-        if let Ok(length) = read(2, "LTEXT", ltext) {
+    sgmesg_ sgmesg_64_ (text: *mut c_char, ltext: Given<I>) {
+        if let Ok(length) = ltext.read(2, "LTEXT") {
             fill(text, length.wide(), &last_counted_from_one());
         }
     }

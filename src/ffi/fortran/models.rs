@@ -6,23 +6,24 @@ use super::super::model::SignoriniModel;
 use super::super::model_recover::signorini_model_recover;
 use super::super::model_solve::signorini_model_solve;
 use super::super::report::SignoriniReport;
-use super::arguments::{Integer, law as read_law, run, settings, widen, write};
+use super::super::structures::Structure;
+use super::arguments::{Given, Integer, run, settings, widen, write};
 use super::handles::{find, free};
 
 entry! {
     // Argument 2 of the function of C is the number of cases.
     sgcase_ sgcase_64_ positions [1, 1, 2, 3, 4, 5, 6, 7, 8, 11, 12, 13],
     (
-        handle: *const i64,
+        handle: Given<i64>,
         f: *const f64,
         presc: *const f64,
         gap: *const f64,
-        law: *const I,
+        law: Given<I>,
         fric: *const f64,
         slip0: *const f64,
-        method: *const I,
-        tol: *const f64,
-        maxit: *const I,
+        method: Given<I>,
+        tol: Given<f64>,
+        maxit: Given<I>,
         d: *mut f64,
         r: *mut f64,
         state: *mut I,
@@ -30,9 +31,9 @@ entry! {
         iter: *mut I,
     ) {
         let model = find::<SignoriniModel>(1, handle)?;
-        let law = read_law(5, law)?;
+        let law = law.law(5)?;
         let settings = settings(8, method, tol, maxit)?;
-        let mut report = SignoriniReport::blank();
+        let mut report = SignoriniReport::default_one();
         let status = signorini_model_solve(
             Arc::as_ptr(&model),
             1,
@@ -62,7 +63,7 @@ entry! {
 entry! {
     // As above.
     sgrecv_ sgrecv_64_ positions [1, 1, 2, 3, 4, 5],
-    (handle: *const i64, f: *const f64, presc: *const f64, d: *const f64, u: *mut f64) {
+    (handle: Given<i64>, f: *const f64, presc: *const f64, d: *const f64, u: *mut f64) {
         let model = find::<SignoriniModel>(1, handle)?;
         Ok(signorini_model_recover(Arc::as_ptr(&model), 1, f, presc, d, u))
     }

@@ -2,13 +2,13 @@
 
 use std::ptr::null;
 
-use super::super::args::Arrays;
 use super::super::guard::Failure;
 use super::super::model::SignoriniModel;
 use super::super::model_new::signorini_model_new_sparse;
 use super::super::pairs::SignoriniPairs;
 use super::super::sparse::{SIGNORINI_TRIANGLE_FULL, SIGNORINI_TRIANGLE_LOWER, SignoriniSparse};
-use super::arguments::{Integer, absurd, choice, count, numbers, read, run, sizes};
+use super::super::structures::Structure;
+use super::arguments::{Given, Integer, absurd, run};
 use super::handles::create;
 use crate::error::entry;
 
@@ -17,46 +17,46 @@ entry! {
     // pairs: here SLAVE.
     sgspar_ sgspar_64_ positions [5, 7, 8, 11, 19, 19],
     (
-        n: *const I,
-        nnz: *const I,
-        colptr: *const I,
-        rowind: *const I,
+        n: Given<I>,
+        nnz: Given<I>,
+        colptr: Given<I>,
+        rowind: Given<I>,
         values: *const f64,
-        tri: *const I,
-        nfix: *const I,
-        fixed: *const I,
-        ndim: *const I,
-        npair: *const I,
-        slave: *const I,
-        nmast: *const I,
-        mstart: *const I,
-        master: *const I,
+        tri: Given<I>,
+        nfix: Given<I>,
+        fixed: Given<I>,
+        ndim: Given<I>,
+        npair: Given<I>,
+        slave: Given<I>,
+        nmast: Given<I>,
+        mstart: Given<I>,
+        master: Given<I>,
         weight: *const f64,
         normal: *const f64,
-        ntan: *const I,
+        ntan: Given<I>,
         tangnt: *const f64,
         handle: *mut i64,
     ) {
         create(19, handle, |model| {
             let matrix = Matrix { n, nnz, colptr, rowind, values, tri, nfix, fixed };
-            let lists = Lists { ndim, npair, slave, nmast, mstart, master };
-            let lists = lists.read()?;
-            let pairs = pairs(&lists, (weight, normal), (ntan, tangnt))?;
-            matrix.with(&raw const pairs, model)
+            let pairs = Pairs {
+                ndim, npair, slave, nmast, mstart, master, weight, normal, ntan, tangnt
+            };
+            pairs.with(|pairs| matrix.with(pairs, model))
         })
     }
 }
 
 /// The arguments from N to FIXED, the first ones.
 pub(super) struct Matrix<I> {
-    pub(super) n: *const I,
-    pub(super) nnz: *const I,
-    pub(super) colptr: *const I,
-    pub(super) rowind: *const I,
+    pub(super) n: Given<I>,
+    pub(super) nnz: Given<I>,
+    pub(super) colptr: Given<I>,
+    pub(super) rowind: Given<I>,
     pub(super) values: *const f64,
-    pub(super) tri: *const I,
-    pub(super) nfix: *const I,
-    pub(super) fixed: *const I,
+    pub(super) tri: Given<I>,
+    pub(super) nfix: Given<I>,
+    pub(super) fixed: Given<I>,
 }
 
 impl<I: Integer> Matrix<I> {
@@ -69,56 +69,42 @@ impl<I: Integer> Matrix<I> {
         pairs: *const SignoriniPairs,
         model: *mut *mut SignoriniModel,
     ) -> Result<i32, Failure> {
+        let matrix = self.read()?;
+        let held = self.nfix.count(7, "NFIX")?;
+        let fixed = self.fixed.numbers(8, "FIXED", held)?;
+        let (matrix, fixed) = (&raw const matrix, fixed.as_ptr());
         // SAFETY: by the caller's contract.
-        unsafe {
-            let matrix = self.read()?;
-            let held = count(7, "NFIX", self.nfix)?;
-            let fixed = numbers(8, "FIXED", self.fixed, held)?;
-            let (matrix, fixed) = (&raw const matrix, fixed.as_ptr());
-            Ok(signorini_model_new_sparse(matrix, held, fixed, pairs, null(), model))
-        }
+        Ok(unsafe { signorini_model_new_sparse(matrix, held, fixed, pairs, null(), model) })
     }
 
-    /// # Safety
-    /// As above.
-    unsafe fn read(&self) -> Result<SignoriniSparse, Failure> {
-        // SAFETY: by the caller's contract.
-        let (size, nnz, triangle) = unsafe {
-            (count(1, "N", self.n)?, read(2, "NNZ", self.nnz)?.wide(), choice(6, "TRI", self.tri)?)
-        };
+    fn read(&self) -> Result<SignoriniSparse, Failure> {
+        let size = self.n.count(1, "N")?;
+        let nnz = self.nnz.read(2, "NNZ")?.wide();
         // More than a full matrix has. In 8 bytes there may be more than 2^31 of them.
         if nnz < 0 || nnz > size.saturating_mul(size) {
             return Err(absurd::<I>(2, "NNZ", nnz));
         }
-        if !(SIGNORINI_TRIANGLE_LOWER..=SIGNORINI_TRIANGLE_FULL).contains(&triangle) {
-            let message = format!("TRI is {triangle}, it must be 0 (lower), 1 (upper) or 2 (all)");
-            return Err(Failure::argument(6, message));
-        }
-        // SAFETY: as above.
-        unsafe { check_begins(size, nnz, self.colptr)? };
+        let triangles = SIGNORINI_TRIANGLE_LOWER..=SIGNORINI_TRIANGLE_FULL;
+        let triangle = self.tri.one_of(6, "TRI", triangles, "0 (lower), 1 (upper) or 2 (all)")?;
+        check_begins(size, nnz, self.colptr)?;
         Ok(SignoriniSparse {
-            struct_size: size_of::<SignoriniSparse>() as u32,
             index_bytes: I::BYTES,
             index_base: 1,
             triangle,
             size,
             nnz,
-            col_start: self.colptr.cast(),
-            row: self.rowind.cast(),
+            col_start: self.colptr.address(),
+            row: self.rowind.address(),
             values: self.values,
-            order: null(),
+            ..SignoriniSparse::zeros()
         })
     }
 }
 
 /// The begins of the columns, before ROWIND and VALUES are believed to be as long as NNZ says.
-///
-/// # Safety
-/// `colptr` has `size` + 1 entries.
-unsafe fn check_begins<I: Integer>(size: i64, nnz: i64, colptr: *const I) -> Result<(), Failure> {
-    let last = size as usize;
-    // SAFETY: by the caller's contract.
-    let begins = unsafe { Arrays::default().required(3, "COLPTR", colptr, last + 1)? };
+fn check_begins<I: Integer>(size: i64, nnz: i64, colptr: Given<I>) -> Result<(), Failure> {
+    let begins = colptr.slice(3, "COLPTR", size + 1)?;
+    let last = begins.len() - 1;
     let refuse = |i: usize, wanted: String| {
         let (place, value) = (entry("COLPTR", [i]), begins[i].wide());
         Err(Failure::argument(3, format!("{place} is {value}, it must be {wanted}")))
@@ -136,95 +122,75 @@ unsafe fn check_begins<I: Integer>(size: i64, nnz: i64, colptr: *const I) -> Res
 /// `SLAVE(1,1)` of pairs that are general rows.
 const GENERAL_ROWS: i64 = -1;
 
-/// The arguments from NDIM, the ninth, to MASTER.
-struct Lists<I> {
-    ndim: *const I,
-    npair: *const I,
-    slave: *const I,
-    nmast: *const I,
-    mstart: *const I,
-    master: *const I,
+/// The arguments from NDIM, the ninth, to TANGNT.
+struct Pairs<I> {
+    ndim: Given<I>,
+    npair: Given<I>,
+    slave: Given<I>,
+    nmast: Given<I>,
+    mstart: Given<I>,
+    master: Given<I>,
+    weight: *const f64,
+    normal: *const f64,
+    ntan: Given<I>,
+    tangnt: *const f64,
 }
 
-/// Their integers in the width of the functions of C.
-struct Wide {
-    dim: i32,
-    pairs: i64,
-    /// Empty in general rows.
-    slaves: Vec<i64>,
-    /// Empty without masters, as `masters` is.
-    begins: Vec<i64>,
-    masters: Vec<i64>,
-}
-
-impl<I: Integer> Lists<I> {
-    /// # Safety
-    /// As include/signorini.inc demands.
-    unsafe fn read(&self) -> Result<Wide, Failure> {
-        // SAFETY: by the caller's contract.
-        unsafe {
-            let (dim, pairs) = sizes(9, self.ndim, self.npair)?;
-            let first = numbers(11, "SLAVE", self.slave, pairs.min(1))?;
-            let general = first == [GENERAL_ROWS];
-            let slaves = if general { 0 } else { pairs * i64::from(dim) };
-            let slaves = numbers(11, "SLAVE", self.slave, slaves)?;
-            let masters = count(12, "NMAST", self.nmast)?;
-            if general && masters == 0 {
-                let message = "SLAVE(1,1) is -1, which means general rows, but NMAST is 0: list all nodes of \
-                               the pairs in MASTER";
-                return Err(Failure::argument(12, message));
-            }
-            let mut begins = Vec::new();
-            if masters > 0 {
-                begins = numbers(13, "MSTART", self.mstart, pairs + 1)?;
-                let last = begins[pairs as usize];
-                if last != masters + 1 {
-                    let place = entry("MSTART", [pairs]);
-                    let message =
-                        format!("{place} is {last}, it must be NMAST + 1 ({})", masters + 1);
-                    return Err(Failure::argument(13, message));
-                }
-            }
-            let masters = numbers(14, "MASTER", self.master, masters * i64::from(dim))?;
-            Ok(Wide { dim, pairs, slaves, begins, masters })
+impl<I: Integer> Pairs<I> {
+    /// Hands them to `work` in the form of C.
+    fn with<T>(
+        &self,
+        work: impl FnOnce(*const SignoriniPairs) -> Result<T, Failure>,
+    ) -> Result<T, Failure> {
+        let (dim, pairs) = (self.ndim.dimension(9)?, self.npair.count(10, "NPAIR")?);
+        let first = self.slave.numbers(11, "SLAVE", pairs.min(1))?;
+        let is_general = first == [GENERAL_ROWS];
+        let slaves = if is_general { 0 } else { pairs * i64::from(dim) };
+        let slaves = self.slave.numbers(11, "SLAVE", slaves)?;
+        let masters = self.nmast.count(12, "NMAST")?;
+        if is_general && masters == 0 {
+            let message = "SLAVE(1,1) is -1, which means general rows, but NMAST is 0: list all nodes of \
+                           the pairs in MASTER";
+            return Err(Failure::argument(12, message));
         }
+        let begins = self.begins(pairs, masters)?;
+        let nodes = self.master.numbers(14, "MASTER", masters * i64::from(dim))?;
+        let tangents = self.ntan.count(17, "NTAN")?;
+        if tangents != 0 && tangents != pairs {
+            let message = format!("NTAN is {tangents}, it must be 0 or NPAIR ({pairs})");
+            return Err(Failure::argument(17, message));
+        }
+        let mut view = SignoriniPairs {
+            dim,
+            count: pairs,
+            normals: self.normal,
+            tangents: if tangents == 0 { null() } else { self.tangnt },
+            ..SignoriniPairs::zeros()
+        };
+        let rows = (begins.as_ptr(), nodes.as_ptr(), self.weight);
+        if is_general {
+            (view.row_start, view.row_nodes, view.row_weights) = rows;
+        } else {
+            view.slaves = slaves.as_ptr();
+            if masters > 0 {
+                (view.master_start, view.masters, view.weights) = rows;
+            }
+        }
+        work(&raw const view)
     }
-}
 
-/// The pairs of these lists.
-///
-/// # Safety
-/// As include/signorini.inc demands.
-unsafe fn pairs<I: Integer>(
-    Wide { dim, pairs, slaves, begins, masters }: &Wide,
-    (weights, normals): (*const f64, *const f64),
-    (ntan, tangnt): (*const I, *const f64),
-) -> Result<SignoriniPairs, Failure> {
-    // SAFETY: by the caller's contract.
-    let tangents = unsafe { count(17, "NTAN", ntan)? };
-    if tangents != 0 && tangents != *pairs {
-        let message = format!("NTAN is {tangents}, it must be 0 or NPAIR ({pairs})");
-        return Err(Failure::argument(17, message));
+    /// MSTART; empty without masters.
+    fn begins(&self, pairs: i64, masters: i64) -> Result<Vec<i64>, Failure> {
+        if masters == 0 {
+            return Ok(Vec::new());
+        }
+        let begins = self.mstart.numbers(13, "MSTART", pairs + 1)?;
+        let last = begins[pairs as usize];
+        if last != masters + 1 {
+            let place = entry("MSTART", [pairs]);
+            let message = format!("{place} is {last}, it must be NMAST + 1 ({})", masters + 1);
+            return Err(Failure::argument(13, message));
+        }
+        Ok(begins)
     }
-    let mut view = SignoriniPairs {
-        struct_size: size_of::<SignoriniPairs>() as u32,
-        dim: *dim,
-        count: *pairs,
-        normals,
-        tangents: if tangents == 0 { null() } else { tangnt },
-        ..SignoriniPairs::EMPTY
-    };
-    if slaves.is_empty() && *pairs > 0 {
-        view.row_start = begins.as_ptr();
-        view.row_nodes = masters.as_ptr();
-        view.row_weights = weights;
-        return Ok(view);
-    }
-    view.slaves = slaves.as_ptr();
-    if !begins.is_empty() {
-        view.master_start = begins.as_ptr();
-        view.masters = masters.as_ptr();
-        view.weights = weights;
-    }
-    Ok(view)
 }

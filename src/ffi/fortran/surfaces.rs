@@ -1,18 +1,18 @@
 //! SGSURF, SGSGAP, SGSMOD, SGSFLD, SGSUMM, SGSFRE: pairs from two surfaces, known by numbers.
 
-use std::ptr::null_mut;
 use std::sync::Arc;
 
 use libc::c_char;
 
 use super::super::guard::Failure;
+use super::super::structures::Structure;
 use super::super::surface::SignoriniFaces;
 use super::super::surface_fields::{SignoriniContactFields, signorini_surface_fields};
 use super::super::surface_new::{SignoriniSurfacePairs, signorini_surface_pair};
 use super::super::surface_settings::{
     SIGNORINI_PAIRING_DUAL_MORTAR, SIGNORINI_PAIRING_NODE_TO_SURFACE, SignoriniSurfaceSettings,
 };
-use super::arguments::{Integer, choice, count, dimension, numbers, read, run, write};
+use super::arguments::{Given, Integer, run, write};
 use super::handles::{create, find, free};
 use super::message::fill;
 use super::sparse::Matrix;
@@ -20,32 +20,32 @@ use super::sparse::Matrix;
 entry! {
     sgsurf_ sgsurf_64_ positions [1, 2, 3, 7, 10, 12, 13],
     (
-        ndim: *const I,
-        nnode: *const I,
+        ndim: Given<I>,
+        nnode: Given<I>,
         x: *const f64,
-        ndof: *const I,
-        lsl: *const I,
-        nsl: *const I,
-        slave: *const I,
-        lma: *const I,
-        nma: *const I,
-        master: *const I,
-        pairng: *const I,
-        dist: *const f64,
+        ndof: Given<I>,
+        lsl: Given<I>,
+        nsl: Given<I>,
+        slave: Given<I>,
+        lma: Given<I>,
+        nma: Given<I>,
+        master: Given<I>,
+        pairng: Given<I>,
+        dist: Given<f64>,
         hsurf: *mut i64,
         npair: *mut I,
     ) {
         create(13, hsurf, |contact| {
-            let (dim, nodes) = (dimension(1, ndim)?, count(2, "NNODE", nnode)?);
+            let (dim, nodes) = (ndim.dimension(1)?, nnode.count(2, "NNODE")?);
             let settings = SignoriniSurfaceSettings {
                 dofs_per_node: dofs_of_a_node(dim, ndof)?,
                 pairing: pairing(pairng)?,
-                search_distance: read(12, "DIST", dist)?,
+                search_distance: dist.read(12, "DIST")?,
                 index_base: 1,
                 ..SignoriniSurfaceSettings::default_one()
             };
-            let slave = Faces::read((5, "LSL"), lsl, (6, "NSL"), nsl, (7, "SLAVE"), slave)?;
-            let master = Faces::read((8, "LMA"), lma, (9, "NMA"), nma, (10, "MASTER"), master)?;
+            let slave = Faces::read((5, "LSL", lsl), (6, "NSL", nsl), (7, "SLAVE", slave))?;
+            let master = Faces::read((8, "LMA", lma), (9, "NMA", nma), (10, "MASTER", master))?;
             let (slave, master) = (slave.view(), master.view());
             let (slave, master) = (&raw const slave, &raw const master);
             let settings = &raw const settings;
@@ -59,12 +59,8 @@ entry! {
 }
 
 /// NDOF.
-///
-/// # Safety
-/// As include/signorini.inc demands, as for all entries.
-unsafe fn dofs_of_a_node<I: Integer>(dim: i32, ndof: *const I) -> Result<i32, Failure> {
-    // SAFETY: by the caller's contract.
-    let dofs = unsafe { choice(4, "NDOF", ndof)? };
+fn dofs_of_a_node<I: Integer>(dim: i32, ndof: Given<I>) -> Result<i32, Failure> {
+    let dofs = ndof.choice(4, "NDOF")?;
     if dofs != 0 && dofs < dim {
         let message = format!("NDOF is {dofs}, it must be 0 or at least NDIM ({dim})");
         return Err(Failure::argument(4, message));
@@ -73,19 +69,9 @@ unsafe fn dofs_of_a_node<I: Integer>(dim: i32, ndof: *const I) -> Result<i32, Fa
 }
 
 /// PAIRNG.
-///
-/// # Safety
-/// As above.
-unsafe fn pairing<I: Integer>(pairng: *const I) -> Result<i32, Failure> {
-    // SAFETY: by the caller's contract.
-    let pairing = unsafe { choice(11, "PAIRNG", pairng)? };
-    if !(SIGNORINI_PAIRING_DUAL_MORTAR..=SIGNORINI_PAIRING_NODE_TO_SURFACE).contains(&pairing) {
-        let message = format!(
-            "PAIRNG is {pairing}, it must be 0 (dual mortar) or 1 (nodes against surfaces)"
-        );
-        return Err(Failure::argument(11, message));
-    }
-    Ok(pairing)
+fn pairing<I: Integer>(pairng: Given<I>) -> Result<i32, Failure> {
+    let kinds = SIGNORINI_PAIRING_DUAL_MORTAR..=SIGNORINI_PAIRING_NODE_TO_SURFACE;
+    pairng.one_of(11, "PAIRNG", kinds, "0 (dual mortar) or 1 (nodes against surfaces)")
 }
 
 /// Faces in the form of C, counted from 1.
@@ -96,27 +82,18 @@ struct Faces {
 
 impl Faces {
     /// Columns of a table, which faces with fewer nodes fill up with zeros.
-    ///
-    /// # Safety
-    /// As above.
-    unsafe fn read<I: Integer>(
-        (each_at, each_name): (i32, &str),
-        each: *const I,
-        (faces_at, faces_name): (i32, &str),
-        faces: *const I,
-        (table_at, table_name): (i32, &'static str),
-        table: *const I,
+    fn read<I: Integer>(
+        (each_at, each_name, each): (i32, &str, Given<I>),
+        (faces_at, faces_name, faces): (i32, &str, Given<I>),
+        (table_at, table_name, table): (i32, &'static str, Given<I>),
     ) -> Result<Faces, Failure> {
-        // SAFETY: by the caller's contract.
-        let (each, table) = unsafe {
-            let each = count(each_at, each_name, each)?;
-            let faces = count(faces_at, faces_name, faces)?;
-            if each == 0 && faces > 0 {
-                let message = format!("{each_name} is 0, it must be the nodes of a face");
-                return Err(Failure::argument(each_at, message));
-            }
-            (each, numbers(table_at, table_name, table, each * faces)?)
-        };
+        let each = each.count(each_at, each_name)?;
+        let faces = faces.count(faces_at, faces_name)?;
+        if each == 0 && faces > 0 {
+            let message = format!("{each_name} is 0, it must be the nodes of a face");
+            return Err(Failure::argument(each_at, message));
+        }
+        let table = table.numbers(table_at, table_name, each * faces)?;
         let (mut start, mut nodes) = (vec![1], Vec::new());
         for face in table.chunks(each.max(1) as usize) {
             let last = face.iter().rposition(|node| *node != 0).map_or(0, |last| last + 1);
@@ -139,7 +116,7 @@ impl Faces {
 
 entry! {
     sgsgap_ sgsgap_64_ positions [],
-    (hsurf: *const i64, node: *mut I, gap: *mut f64, area: *mut f64, normal: *mut f64) {
+    (hsurf: Given<i64>, node: *mut I, gap: *mut f64, area: *mut f64, normal: *mut f64) {
         let contact = find::<SignoriniSurfacePairs>(1, hsurf)?;
         let arrays = &contact.arrays;
         let given = [
@@ -171,15 +148,15 @@ entry! {
     // As for SGSPAR; HSURF in the place of the pairs.
     sgsmod_ sgsmod_64_ positions [5, 7, 8, 9, 10, 10],
     (
-        n: *const I,
-        nnz: *const I,
-        colptr: *const I,
-        rowind: *const I,
+        n: Given<I>,
+        nnz: Given<I>,
+        colptr: Given<I>,
+        rowind: Given<I>,
         values: *const f64,
-        tri: *const I,
-        nfix: *const I,
-        fixed: *const I,
-        hsurf: *const i64,
+        tri: Given<I>,
+        nfix: Given<I>,
+        fixed: Given<I>,
+        hsurf: Given<i64>,
         handle: *mut i64,
     ) {
         create(10, handle, |model| {
@@ -193,7 +170,7 @@ entry! {
 entry! {
     sgsfld_ sgsfld_64_ positions [1, 2, 3, 4, 5, 5, 6],
     (
-        hsurf: *const i64,
+        hsurf: Given<i64>,
         gap: *const f64,
         slip0: *const f64,
         d: *const f64,
@@ -205,13 +182,11 @@ entry! {
     ) {
         let contact = find::<SignoriniSurfacePairs>(1, hsurf)?;
         let fields = SignoriniContactFields {
-            struct_size: size_of::<SignoriniContactFields>() as u32,
-            reserved: 0,
             pressure: press,
             traction: tract,
             clearance: clear,
             slip,
-            state: null_mut(),
+            ..SignoriniContactFields::zeros()
         };
         let (states, fields) = (std::ptr::null(), &raw const fields);
         Ok(signorini_surface_fields(Arc::as_ptr(&contact), gap, slip0, d, r, states, fields))
@@ -220,9 +195,9 @@ entry! {
 
 entry! {
     sgsumm_ sgsumm_64_ positions [],
-    (hsurf: *const i64, text: *mut c_char, ltext: *const I) {
+    (hsurf: Given<i64>, text: *mut c_char, ltext: Given<I>) {
         let contact = find::<SignoriniSurfacePairs>(1, hsurf)?;
-        fill(text, count(3, "LTEXT", ltext)?, &contact.summary.to_string_lossy());
+        fill(text, ltext.count(3, "LTEXT")?, &contact.summary.to_string_lossy());
         Ok(0)
     }
 }

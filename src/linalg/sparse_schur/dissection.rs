@@ -99,10 +99,9 @@ impl Piece {
 
     /// Takes a separator out, and finds the connected parts of the others.
     fn cut(&self, separator: &[i32]) -> Cut {
-        const IN_NO_PART: i32 = -1;
         let mut is_open = vec![true; self.vertex.len()];
         separator.iter().for_each(|&v| is_open[v as usize] = false);
-        let (mut place, mut parts) = (vec![IN_NO_PART; self.vertex.len()], Vec::new());
+        let (mut place, mut parts) = (vec![None; self.vertex.len()], Vec::new());
         for from in 0..self.vertex.len() {
             if !std::mem::take(&mut is_open[from]) {
                 continue;
@@ -114,14 +113,14 @@ impl Piece {
                 found.extend(new);
             }
             found.sort_unstable();
-            (0..).zip(&found).for_each(|(k, &v)| place[v] = k);
+            (0_i32..).zip(&found).for_each(|(k, &v)| place[v] = Some(k));
             let (mut start, mut neighbour) = (vec![0], Vec::new());
             for &v in &found {
-                neighbour.extend(self.neighbours(v).map(|w| place[w]).filter(|&k| k >= 0));
+                neighbour.extend(self.neighbours(v).filter_map(|w| place[w]));
                 start.push(neighbour.len() as i32);
             }
             // The neighbours of a part are its own and those of the separator.
-            found.iter().for_each(|&v| place[v] = IN_NO_PART);
+            found.iter().for_each(|&v| place[v] = None);
             let vertex = found.iter().map(|&v| self.vertex[v]).collect();
             parts.push(Piece { start, neighbour, vertex });
         }

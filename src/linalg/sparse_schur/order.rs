@@ -160,33 +160,29 @@ fn tree(pattern: &Pattern) -> Result<(Vec<isize>, Vec<usize>), OutOfMemory> {
 
 /// The first `inner` columns, each after those below it in the tree and right behind them.
 fn post_order(parent: &[isize], inner: usize) -> Vec<usize> {
-    const NONE: usize = usize::MAX;
-    let (mut first_child, mut sibling) = (vec![NONE; inner], vec![NONE; inner]);
+    let (mut first_child, mut sibling) = (vec![None; inner], vec![None; inner]);
     let mut roots = Vec::new();
     // Backwards, so that children stand in ascending order.
     for k in (0..inner).rev() {
         match usize::try_from(parent[k]) {
             Ok(above) if above < inner => {
                 sibling[k] = first_child[above];
-                first_child[above] = k;
+                first_child[above] = Some(k);
             }
             _ => roots.push(k),
         }
     }
     let (mut order, mut open) = (Vec::with_capacity(inner), roots);
     while let Some(&k) = open.last() {
-        let child = std::mem::replace(&mut first_child[k], NONE);
-        if child == NONE {
+        let (mut next, begin) = (first_child[k].take(), open.len());
+        while let Some(child) = next {
+            open.push(child);
+            next = sibling[child];
+        }
+        open[begin..].reverse();
+        if open.len() == begin {
             open.pop();
             order.push(k);
-        } else {
-            let mut next = child;
-            let begin = open.len();
-            while next != NONE {
-                open.push(next);
-                next = sibling[next];
-            }
-            open[begin..].reverse();
         }
     }
     order

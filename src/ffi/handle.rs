@@ -1,0 +1,57 @@
+//! The beginning and the end of a handle.
+
+use super::guard::{self, Failure};
+use super::status::keeping_sentence;
+use crate::error::{Argument, Error};
+use crate::shortage;
+
+/// The caller's place for a new handle; NULL until there is one.
+pub(super) struct OutPointer<T>(*mut *mut T);
+
+impl<T> OutPointer<T> {
+    /// # Safety
+    /// NULL, or a place for a pointer that is the caller's during the call.
+    pub(super) unsafe fn new(
+        position: i32,
+        name: &str,
+        place: *mut *mut T,
+    ) -> Result<Self, Failure> {
+        if place.is_null() || !place.is_aligned() {
+            return Err(Failure::argument(position, format!("{name} is NULL or not aligned")));
+        }
+        // SAFETY: by the caller's contract.
+        unsafe { place.write(std::ptr::null_mut()) };
+        Ok(OutPointer(place))
+    }
+
+    /// Hands over what was made, or refuses the argument whose number `position` tells.
+    pub(super) fn fill<M: Into<T>>(
+        self,
+        made: Result<M, Error>,
+        position: impl Fn(Argument) -> i32,
+    ) -> Result<i32, Failure> {
+        let made = made.map_err(|error| Failure::from_error(error, position))?;
+        let handle = Box::new(made.into());
+        // The reserve of a call holds nothing that outlives it.
+        shortage::check();
+        // SAFETY: the caller's place.
+        unsafe { self.0.write(Box::into_raw(handle)) };
+        Ok(0)
+    }
+}
+
+/// Releases a handle; NULL is allowed. The sentence of the call before stays, so that a host may
+/// release first and ask then.
+///
+/// # Safety NULL or a handle that this library has made by `Box::into_raw`, once.
+pub(super) unsafe fn release<T>(handle: *mut T) {
+    keeping_sentence(|| {
+        guard::call(|| {
+            if !handle.is_null() {
+                // SAFETY: by the caller's contract.
+                drop(unsafe { Box::from_raw(handle) });
+            }
+            Ok(0)
+        });
+    });
+}
