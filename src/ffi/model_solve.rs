@@ -2,7 +2,7 @@
 
 use std::sync::{Mutex, PoisonError};
 
-use super::args::{Arrays, Output, size};
+use super::args::{Arrays, size};
 use super::case_arguments::{CaseArguments, LoadCases, times};
 use super::extra::SignoriniExtra;
 use super::guard::{self, Failure};
@@ -63,7 +63,7 @@ pub unsafe extern "C" fn signorini_model_solve(
     extra: *const SignoriniExtra,
 ) -> i32 {
     let given = CaseArguments { first: 3, f, prescribed, gap, law, friction, slip0 };
-    let wanted = OutputArguments { d, F, state, report, extra };
+    let wanted = OutputArguments { d, F, state, status, report, extra };
     guard::call(|| {
         let mut arrays = Arrays::default();
         // SAFETY: a model as the header demands.
@@ -83,11 +83,10 @@ pub unsafe extern "C" fn signorini_model_solve(
         times(cases, n)?;
         // SAFETY: as above.
         let outputs = unsafe { wanted.note(&mut arrays, (START, 14), (n, pairs, cases))? };
-        let status = arrays.optional_output(13, "status", status, cases)?;
         arrays.check_overlap()?;
         let block = Block { model, given: &given, load_cases, outputs };
         let past = handle.replace_past(None);
-        let (answer, past) = block.solve_all(cases, past, &received, &status);
+        let (answer, past) = block.solve_all(cases, past, &received);
         // The reserve of a call holds nothing that outlives it.
         if !shortage::is_noted() {
             handle.replace_past(past);
@@ -113,7 +112,6 @@ impl Block<'_> {
         cases: usize,
         past: Option<Past>,
         received: &ParsedSettings,
-        status: &Output<i32>,
     ) -> (i32, Option<Past>) {
         let goes_on = received.warm_start == WarmStart::Previous;
         let mut lanes = self.lanes(cases, past, received);
@@ -123,7 +121,7 @@ impl Block<'_> {
                 let (code, message) =
                     solved.map_or_else(stopped, |solved| self.write(case, solved));
                 // SAFETY: one status for each case, as the header demands.
-                unsafe { status.part(case, 1).write(&[code]) };
+                unsafe { self.outputs.status.part(case, 1).write(&[code]) };
                 if code != 0 && first.as_ref().is_none_or(|(earlier, ..)| case < *earlier) {
                     first = Some((case, code, message));
                 }

@@ -13,6 +13,8 @@ pub(super) struct OutputArguments {
     pub(super) d: *mut f64,
     pub(super) F: *mut f64,
     pub(super) state: *mut i32,
+    /// NULL in a call of one case, which returns it.
+    pub(super) status: *mut i32,
     pub(super) report: *mut SignoriniReport,
     pub(super) extra: *const SignoriniExtra,
 }
@@ -24,13 +26,14 @@ pub(super) struct Outputs {
     pub(super) d: Output<f64>,
     pub(super) force: Output<f64>,
     state: Output<i32>,
+    pub(super) status: Output<i32>,
     reports: Reports,
     extra: Extra,
 }
 
 impl OutputArguments {
     /// Notes the arrays of `n` unknowns of `pairs` pairs, each `cases` times, which the caller has checked to be
-    /// numbers. `d`, `F` and `state` are the arguments from number `first` on, `report` and `extra` those from number
+    /// numbers. `d`, `F`, `state` and `status` are the arguments from number `first` on, `report` and `extra` those from number
     /// `report` on.
     ///
     /// # Safety
@@ -44,12 +47,13 @@ impl OutputArguments {
         let d = arrays.output(first, "d", self.d, n * cases)?;
         let force = arrays.output(first + 1, "F", self.F, n * cases)?;
         let state = arrays.optional_output(first + 2, "state", self.state, pairs * cases)?;
+        let status = arrays.optional_output(first + 3, "status", self.status, cases)?;
         // SAFETY: by the caller's contract.
         let (reports, extra) = unsafe {
             let reports = Reports::read(arrays, report, self.report, cases)?;
             (reports, Extra::read(arrays, report + 1, self.extra, (n, pairs, cases))?)
         };
-        Ok(Outputs { n, pairs, d, force, state, reports, extra })
+        Ok(Outputs { n, pairs, d, force, state, status, reports, extra })
     }
 }
 

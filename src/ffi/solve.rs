@@ -1,5 +1,7 @@
 //! Condensed contact problems in one call on plain arrays.
 
+use std::ptr::null_mut;
+
 use super::args::Arrays;
 use super::condensed::CondensedArguments;
 use super::extra::SignoriniExtra;
@@ -56,7 +58,7 @@ pub unsafe extern "C" fn signorini_solve(
     const SETTINGS: i32 = 10;
     const START: i32 = 11;
     let given = CondensedArguments { first: 1, dim, pairs, K, ldk, f, gap, law, friction, slip0 };
-    let wanted = OutputArguments { d, F, state, report, extra };
+    let wanted = OutputArguments { d, F, state, status: null_mut(), report, extra };
     guard::call(|| {
         let mut arrays = Arrays::default();
         // SAFETY: arrays of the lengths of the header, structures that begin with their size.

@@ -7,6 +7,7 @@ use faer::linalg::matmul::matmul;
 use faer::perm::PermRef;
 use faer::{Accum, Mat, MatMut, MatRef, Par};
 
+use super::dense;
 use super::small_products::{SMALL_PRODUCT, by_rows};
 use super::tolerances::SINGULAR;
 use super::vector::dot;
@@ -135,20 +136,8 @@ pub fn first_not_definite(n: usize, entry: impl Fn(usize, usize) -> f64) -> Opti
 
 /// Cholesky's factor, or the row of the pivot that is not positive.
 fn cholesky_to_failure(matrix: &mut Mat<f64>) -> Result<(), usize> {
-    let scratch = llt::factor::cholesky_in_place_scratch::<f64>(
-        matrix.nrows(),
-        Par::Seq,
-        faer::Spec::default(),
-    );
-    llt::factor::cholesky_in_place(
-        matrix.as_mut(),
-        llt::factor::LltRegularization::default(),
-        Par::Seq,
-        MemStack::new(&mut MemBuffer::new(scratch)),
-        faer::Spec::default(),
-    )
-    .map(|_| ())
-    .map_err(|llt::factor::LltError::NonPositivePivot { index }| index)
+    let mut memory = MemBuffer::new(dense::scratch(matrix.nrows()));
+    dense::root(matrix.as_mut(), MemStack::new(&mut memory))
 }
 
 fn general(matrix: &mut Mat<f64>) -> Kind {

@@ -4,6 +4,7 @@
 pub(crate) mod approximate_inverse;
 pub(crate) mod ball;
 pub(crate) mod definite;
+pub(crate) mod dense;
 pub(crate) mod double_double;
 pub(crate) mod eigen;
 pub(crate) mod elimination;

@@ -2,10 +2,10 @@
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt_pivoting::factor as pivoted;
-use faer::linalg::matmul::triangular::{self, BlockStructure};
 use faer::linalg::triangular_solve;
-use faer::{Accum, Mat, MatMut, MatRef, Par};
+use faer::{Mat, MatMut, MatRef, Par};
 
+use super::dense::{mirror, subtract_square};
 use super::factor::{cholesky, cholesky_work};
 use super::tolerances::{NEGLIGIBLE, SUSPICIOUS_PIVOT};
 
@@ -128,20 +128,6 @@ impl PivotedCholesky {
 /// `C - X Xᵀ` from the lower triangle of the symmetric `C`, both triangles; column-major.
 pub fn subtract_gram(c: &mut [f64], x: MatRef<'_, f64>) {
     let m = x.nrows();
-    triangular::matmul(
-        MatMut::from_column_major_slice_mut(c, m, m),
-        BlockStructure::TriangularLower,
-        Accum::Add,
-        x,
-        BlockStructure::Rectangular,
-        x.transpose(),
-        BlockStructure::Rectangular,
-        -1.0,
-        Par::Seq,
-    );
-    for j in 0..m {
-        for i in 0..j {
-            c[i + m * j] = c[j + m * i];
-        }
-    }
+    subtract_square(MatMut::from_column_major_slice_mut(c, m, m), x);
+    mirror(c, m);
 }

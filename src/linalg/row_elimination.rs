@@ -156,33 +156,13 @@ impl<'c> Elimination<'c> {
         share: f64,
         cancelled: usize,
     ) -> Terms {
-        let mut sum = Terms::with_capacity(one.len() + other.len());
-        let (mut p, mut q) = (0, 0);
-        while p < one.len() || q < other.len() {
-            let next = |terms: &Terms, place: usize| terms.get(place).map_or(usize::MAX, |t| t.0);
-            let (mine, theirs) = (next(one, p), next(other, q));
-            let k = mine.min(theirs);
-            let (mut a, mut size) = (0.0, 0.0);
-            if mine == k {
-                a = one[p].1;
-                size = a.abs();
-                p += 1;
-            }
-            if theirs == k {
-                let part = share * other[q].1;
-                a += part;
-                size += part.abs();
-                q += 1;
-            }
-            if k == cancelled || a.abs() <= ROUNDING * size {
-                continue;
-            }
-            sum.push((k, a));
-            if k < self.count {
-                self.scale[equation] = self.scale[equation].max(a.abs());
-                if mine != k {
-                    self.having[k].push(equation);
-                }
+        let share_of_other = other.iter().map(|(k, a)| (*k, share * a));
+        let both = one.iter().copied().chain(share_of_other).filter(|(k, _)| *k != cancelled);
+        let sum = gathered(both.collect());
+        for &(k, a) in sum.iter().take_while(|(k, _)| *k < self.count) {
+            self.scale[equation] = self.scale[equation].max(a.abs());
+            if one.binary_search_by_key(&k, |(k, _)| *k).is_err() {
+                self.having[k].push(equation);
             }
         }
         sum

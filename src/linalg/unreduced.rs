@@ -1,7 +1,7 @@
 //! A sparse matrix from which components were eliminated, for the energies of motions.
 
 use super::free_motions::Whole;
-use super::sparse_matrix::{Csc, symmetric_magnitude, symmetric_times};
+use super::sparse_matrix::{Csc, column, symmetric_magnitude};
 use super::vector::{dot, sizes};
 
 /// Solves for the eliminated rows: from a right side of all rows and the kept components to all.
@@ -30,7 +30,17 @@ impl Whole for Unreduced<'_> {
     }
 
     fn forces(&self, motion: &[f64]) -> Vec<f64> {
-        symmetric_times(&self.lower, motion)
+        let mut forces = vec![0.0; motion.len()];
+        for j in 0..self.lower.ncols() {
+            let (rows, values) = column(&self.lower, j);
+            let (moved, mut own) = (motion[j], 0.0);
+            for (&i, value) in rows.iter().zip(values) {
+                forces[i] += value * moved;
+                own += if i == j { 0.0 } else { value * motion[i] };
+            }
+            forces[j] += own;
+        }
+        forces
     }
 
     fn noise(&self, motion: &[f64]) -> f64 {

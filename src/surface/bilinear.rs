@@ -119,9 +119,6 @@ mod tests {
 
     use super::{Bilinear, FaceKind, Local, Point};
 
-    /// Roundings on the way forth and back, each of an epsilon of the size of the face or of one.
-    const ROUNDINGS: f64 = 32.0;
-
     fn bilinear(kind: FaceKind, points: &[Point]) -> Bilinear {
         Bilinear::new(kind, points, &[0.0; 4][..points.len()])
     }
@@ -148,7 +145,8 @@ mod tests {
         let size = points.iter().flatten().fold(0.0_f64, |size, x| size.max(x.abs()));
         let sides = a[0].hypot(a[1]) + b[0].hypot(b[1]);
         let condition = size * sides / (a[0] * b[1] - a[1] * b[0]).abs();
-        let tolerance = ROUNDINGS * f64::EPSILON * condition;
+        // Some thirty roundings on the way forth and back.
+        let tolerance = 32.0 * f64::EPSILON * condition;
         let error = (found[0] - at[0]).abs().max((found[1] - at[1]).abs());
         assert!(error <= tolerance, "{points:?}, {at:?}: {error:e} of {tolerance:e}");
     }

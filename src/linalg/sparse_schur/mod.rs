@@ -6,7 +6,6 @@
 //! the eliminated unknowns.
 
 mod cholesky;
-mod dense;
 mod diagnosis;
 mod dissection;
 mod entries;

@@ -7,7 +7,6 @@
 use std::ops::Range;
 use std::sync::Mutex;
 
-use super::dense::mirror;
 use super::entries::Entries;
 use super::factor_progress::FactorProgress;
 use super::failure::Failure;
@@ -19,6 +18,7 @@ use super::schedule::Schedule;
 use super::schur_update;
 use super::structure::Structure;
 use super::workspace::Workspace;
+use crate::linalg::dense::mirror;
 use crate::linalg::sparse_matrix::Csc;
 use crate::workers::Workers;
 

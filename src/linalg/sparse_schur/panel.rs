@@ -7,12 +7,12 @@ use std::ops::Range;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::{Accum, MatMut, MatRef};
 
-use super::dense::{self, scattered};
 use super::entries::Entries;
 use super::parallel::Done;
 use super::schedule::{Change, Schedule};
 use super::structure::Structure;
 use super::workspace::ROWS;
+use crate::linalg::dense::{self, scattered};
 
 /// The pivot that is smallest relative to the diagonal: its place, and this ratio.
 pub type Weakest = Option<(usize, f64)>;

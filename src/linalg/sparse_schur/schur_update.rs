@@ -5,12 +5,12 @@ use std::sync::Mutex;
 
 use faer::{MatMut, MatRef};
 
-use super::dense::{self, scattered};
 use super::failure::Failure;
 use super::panel::{accumulated, is_dense};
 use super::parallel::{Done, Parallel, locked};
 use super::structure::{PANEL, Structure};
 use super::workspace::ROWS;
+use crate::linalg::dense::{self, scattered};
 
 /// A block of the lower triangle.
 struct TriangleBlock<'a> {

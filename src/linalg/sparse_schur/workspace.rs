@@ -2,10 +2,10 @@
 
 use faer::dyn_stack::MemBuffer;
 
-use super::dense;
 use super::failure::Failure;
 use super::graph::filled;
 use super::structure::{PANEL, Structure};
+use crate::linalg::dense;
 
 /// Rows of a block: products of it are fast, and its changes stay in the cache.
 pub const ROWS: usize = 512;

@@ -1,4 +1,4 @@
-//! Dense kernels of the factorisation.
+//! Dense kernels of factorisations, by faer on the calling thread.
 
 use faer::dyn_stack::{MemStack, StackReq};
 use faer::linalg::cholesky::llt::factor::{
@@ -9,7 +9,7 @@ use faer::linalg::matmul::triangular::{self, BlockStructure};
 use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
 use faer::{Accum, MatMut, MatRef, Par, Spec};
 
-use crate::linalg::matrix::TILE;
+use super::matrix::TILE;
 
 /// Writes `a bᵀ`, column-major, or adds it.
 pub fn product(target: &mut [f64], accum: Accum, a: MatRef<'_, f64>, b: MatRef<'_, f64>) {
