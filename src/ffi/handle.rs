@@ -24,14 +24,14 @@ impl<T> OutPointer<T> {
         Ok(OutPointer(place))
     }
 
-    /// Hands over what was made, or refuses the argument whose number `position` tells.
+    /// Hands over a new object, or refuses the argument whose number `position` tells.
     pub(super) fn fill<M: Into<T>>(
         self,
-        made: Result<M, Error>,
+        object: Result<M, Error>,
         position: impl Fn(Argument) -> i32,
     ) -> Result<i32, Failure> {
-        let made = made.map_err(|error| Failure::from_error(error, position))?;
-        let handle = Box::new(made.into());
+        let object = object.map_err(|error| Failure::from_error(error, position))?;
+        let handle = Box::new(object.into());
         // The reserve of a call holds nothing that outlives it.
         shortage::check();
         // SAFETY: the caller's place.

@@ -84,13 +84,10 @@ impl SignoriniPairs {
         let nodes = given.nodes(position)?;
         // SAFETY: arrays of the lengths that the header tells.
         unsafe {
-            let slaves = match nodes.slaves {
-                Some(slaves) => {
-                    let slaves = arrays.required(position, "slaves", slaves, components)?;
-                    shifted(position, "slaves", slaves, base)?
-                }
-                None => Vec::new(),
-            };
+            let (slaves, length) =
+                nodes.slaves.map_or((std::ptr::null(), 0), |slaves| (slaves, components));
+            let slaves = arrays.required(position, "slaves", slaves, length)?;
+            let slaves = shifted(position, "slaves", slaves, base)?;
             let starts = arrays.optional(position, nodes.names[0], nodes.start, count + 1)?;
             let master_starts = match starts {
                 Some(starts) => shifted(position, nodes.names[0], starts, base)?,
