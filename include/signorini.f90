@@ -109,6 +109,7 @@ module signorini
     integer(c_int32_t), parameter :: SIGNORINI_REMARK_GAPS_NEGATIVE = 1
     integer(c_int32_t), parameter :: SIGNORINI_REMARK_FRICTION_LARGE = 2
     integer(c_int32_t), parameter :: SIGNORINI_REMARK_FREE_MOTION = 4
+    integer(c_int32_t), parameter :: SIGNORINI_REMARK_HELD_BY_ROUNDING = 8
     integer(c_int32_t), parameter :: SIGNORINI_TRIANGLE_LOWER = 0
     integer(c_int32_t), parameter :: SIGNORINI_TRIANGLE_UPPER = 1
     integer(c_int32_t), parameter :: SIGNORINI_TRIANGLE_FULL = 2

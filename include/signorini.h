@@ -625,6 +625,7 @@ int64_t signorini_solve_memory(int64_t n);
  * for in full space, nor where pairs depend on each other.
  */
 #define SIGNORINI_REMARK_FREE_MOTION 4
+#define SIGNORINI_REMARK_HELD_BY_ROUNDING 8 /**< Only rounding of K holds a body. */
 
 /** Static text that describes one remark, such as "every gap is negative"; never NULL. */
 const char *signorini_remark_string(int32_t remark);
@@ -711,7 +712,7 @@ struct signorini_extra {
     /**
      * With SIGNORINI_STATUS_NO_EQUILIBRIUM the motion of escape, to be drawn, its largest entry 1:
      * K r = 0, no pair approaches its obstacle, friction opposes the slip, and f . r > 0, if every
-     * pair of finite gap touches. Else zeros.
+     * pair of finite gap touches. If stalled, a motion that proves nothing. Else zeros.
      */
     double *escape;
 };

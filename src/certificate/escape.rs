@@ -2,6 +2,7 @@
 //! can take (a recession direction of the energy). What a pair must satisfy stands in
 //! `law::recession`.
 
+use super::condensation::rounding_of_energy;
 use super::measure::energy;
 use crate::law::{Contact, Recession};
 use crate::linalg::tolerances::{LEAST_WORK, NEGLIGIBLE};
@@ -10,7 +11,8 @@ use crate::problem::ContactProblem;
 
 /// True if the rigid motion `r` proves that no equilibrium exists.
 ///
-/// `K r = 0` up to rounding, with no more energy than rounding of the entries of `K` explains, and for every
+/// `K r = 0` up to rounding, with no more energy than rounding of the entries of `K` explains, or what `K` shows to be
+/// the rounding of a condensation, and for every
 /// pair that has an obstacle `-r_n >= mu |r_t|`: then the contact forces can only do non-negative work
 /// `F . r >= sum |F_n| (|r_n| - mu |r_t|)`, while equilibrium asks for `F . r = -f . r`. So `f . r > 0`
 /// excludes it. With given thresholds the condition is `r_n <= 0` and `f . r > sum g |r_t|`. The tension of
@@ -36,13 +38,14 @@ pub(crate) fn is_escape_of(contact: &Contact<'_>, r: &[f64]) -> bool {
     }
     let negligible = NEGLIGIBLE * size;
     let internal = problem.internal_force(r);
-    let is_free = energy(problem.relation(), r, &internal) <= problem.rounding_of_energy();
-    if !is_free {
+    let own = energy(problem.relation(), r, &internal);
+    let rounding = rounding_of_energy(problem, own);
+    if own > rounding {
         return false;
     }
     // Forces that rounding of the entries leaves, each entry in the roots of its two units.
     let spread: f64 = r.iter().zip(&root).map(|(r, root)| (r * root).abs()).sum();
-    let strained = negligible.max(problem.rounding_of_energy() * spread);
+    let strained = negligible.max(rounding * spread);
     if internal.iter().zip(&root).any(|(k, root)| k.abs() > strained * root) {
         return false;
     }

@@ -34,7 +34,7 @@ pub struct SignoriniExtra {
     pub radius_F: *mut f64,
     /// With SIGNORINI_STATUS_NO_EQUILIBRIUM the motion of escape, to be drawn, its largest entry 1:
     /// K r = 0, no pair approaches its obstacle, friction opposes the slip, and f . r > 0, if every
-    /// pair of finite gap touches. Else zeros.
+    /// pair of finite gap touches. If stalled, a motion that proves nothing. Else zeros.
     pub escape: *mut f64,
 }
 

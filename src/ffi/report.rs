@@ -52,6 +52,8 @@ pub const SIGNORINI_REMARK_FRICTION_LARGE: i32 = 2;
 /// Without friction: the bodies may move without any force; a support may be missing. Not looked
 /// for in full space, nor where pairs depend on each other.
 pub const SIGNORINI_REMARK_FREE_MOTION: i32 = 4;
+/// Only rounding of K holds a body.
+pub const SIGNORINI_REMARK_HELD_BY_ROUNDING: i32 = 8;
 
 /// How good a result is, and how it was found. Set struct_size, or call signorini_report_default();
 /// the call writes all other fields. K d - f is the contact force that d requires.
@@ -251,6 +253,7 @@ fn remark_codes(remarks: Remarks) -> i32 {
     code(remarks.gaps_negative, SIGNORINI_REMARK_GAPS_NEGATIVE)
         + code(remarks.friction_large, SIGNORINI_REMARK_FRICTION_LARGE)
         + code(remarks.free_motion, SIGNORINI_REMARK_FREE_MOTION)
+        + code(remarks.held_by_rounding, SIGNORINI_REMARK_HELD_BY_ROUNDING)
 }
 
 fn uniqueness_code(uniqueness: Uniqueness) -> i32 {
@@ -299,6 +302,7 @@ pub extern "C" fn signorini_remark_string(remark: i32) -> *const c_char {
         SIGNORINI_REMARK_GAPS_NEGATIVE => c"every gap is negative",
         SIGNORINI_REMARK_FRICTION_LARGE => c"a coefficient of friction is above 10",
         SIGNORINI_REMARK_FREE_MOTION => c"the bodies may move without any force",
+        SIGNORINI_REMARK_HELD_BY_ROUNDING => c"only rounding of K holds a body",
         _ => c"unknown remark",
     };
     text.as_ptr()

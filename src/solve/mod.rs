@@ -144,7 +144,7 @@ pub fn solve(
         uniqueness::prove(&contact, settings, &mut solution, monitor);
     }
     solution.remarks = plan::of_solution(&contact, &solution, monitor);
-    plan::explain_stall(&contact, &mut solution, monitor);
+    plan::explain(&contact, &mut solution, monitor);
     solution.iterations = monitor.iterations();
     Ok(solution)
 }

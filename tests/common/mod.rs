@@ -7,6 +7,7 @@ pub mod bare;
 pub mod blocks;
 pub mod brick;
 pub mod brick20;
+pub mod contact_alone;
 pub mod dense;
 pub mod edges;
 pub mod escape;

@@ -7,6 +7,7 @@ mod bar;
 mod common;
 
 mod blocks_3d;
+mod contact_alone;
 mod floating_3d;
 mod free_bodies;
 mod half_space;

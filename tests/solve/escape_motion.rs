@@ -150,14 +150,20 @@ fn random_bodies_move_as_friction_lets_them() {
             assert_ne!(solution.status, Status::NoEquilibrium, "seed {seed}");
             continue;
         };
-        escaped += 1;
         assert_eq!(largest(motion), 1.0, "seed {seed}");
         let strain = largest(&product(&case.k, motion)) / largest(&case.k);
         assert!(strain <= SMALL, "seed {seed}: {strain:.1e}");
+        assert!(dot(&case.f, motion) > 0.0, "seed {seed}");
+        if solution.status == Status::Stalled {
+            // The motion of bodies that move away as springs are let go is known to a hundredth.
+            assert!(solution.recession.is_none(), "seed {seed}");
+            continue;
+        }
+        assert_eq!(solution.status, Status::NoEquilibrium, "seed {seed}");
+        escaped += 1;
         let into = (0..case.pairs).filter(|&pair| case.gap[pair].is_finite());
         let into = into.map(|pair| motion[case.dim * pair]).fold(0.0, f64::max);
         assert!(into <= SMALL, "seed {seed}: {into:.1e}");
-        assert!(dot(&case.f, motion) > 0.0, "seed {seed}");
         let left: Vec<f64> = case.f.iter().zip(unbalanced).map(|(f, rest)| f - rest).collect();
         let target: Vec<f64> = basis.iter().map(|v| dot(v, &left)).collect();
         let off = distance(&target, &forces_in(&case, &basis, motion)) / norm(&case.f);

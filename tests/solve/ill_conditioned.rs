@@ -44,6 +44,20 @@ fn a_pair_on_a_soft_spring_is_solved() {
     }
 }
 
+/// A spring of 1e-11 may be the rounding of a condensation, and `d` is 5e10 times what the load asks for; one of 1e-6 is
+/// neither.
+#[test]
+fn what_only_rounding_may_hold_gets_a_remark() {
+    for (power, remarked) in [(-11, true), (-6, false)] {
+        let a = 1.0 + 10_f64.powi(power);
+        let solution = solved(&pulled(&[a, -1.0, -1.0, a]));
+        assert_eq!(solution.status, Status::Solved, "1e{power}: {}", solution.message);
+        assert_eq!(solution.remarks.held_by_rounding, remarked, "1e{power}");
+        let said = solution.message.contains("only rounding of K holds a body");
+        assert_eq!(said, remarked, "1e{power}: {}", solution.message);
+    }
+}
+
 /// The energy `r . K r = 2 e` of `r = (-1, -1)` is above what the last digits of the entries explain,
 /// `eps |r| . |K| |r| = 4 eps`, from `e = 1e-15` on; without the spring the motion is a proof.
 #[test]

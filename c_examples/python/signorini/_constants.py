@@ -94,11 +94,13 @@ class Remark(IntFlag):
     FRICTION_LARGE: a coefficient of friction is above 10: percent, or another array.
     FREE_MOTION: without friction the bodies may move without any force, d is one of many; a support
     may be missing.
+    HELD_BY_ROUNDING: only rounding of K holds a body, d is a million times what the loads ask for.
     """
 
     GAPS_NEGATIVE = 1
     FRICTION_LARGE = 2
     FREE_MOTION = 4
+    HELD_BY_ROUNDING = 8
 
 
 class Proof(IntEnum):

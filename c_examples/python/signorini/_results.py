@@ -37,7 +37,8 @@ class Result(_Fields):
     radius_d, radius_F: if report.proof is PROVED (ask for it by proof=True) a solution with these
     states exists within these distances of d and of F, (P, D); else None.
     escape: with status NO_EQUILIBRIUM the motion with which the bodies escape, (P, D), largest
-    component 1, without the lift that a proof needs: draw this one; else None.
+    component 1, without the lift that a proof needs: draw this one; with status STALLED the motion
+    along which bodies move away as supports are let go, if they do, which proves nothing; else None.
     contact: the SurfacePairs of the model, or None.
     """
 
@@ -114,7 +115,9 @@ class Output:
                     F=self.second_F[case], state=self.second_state[case]
                 )
             if status == Status.NO_EQUILIBRIUM:
-                motion, escape = self.motion[case], self.escape[case]
+                motion = self.motion[case]
+            if self.escape[case].any():
+                escape = self.escape[case]
             if report.proof == Proof.PROVED:
                 radius_d, radius_F = self.radius_d[case], self.radius_F[case]
         return Result(self.d[case], self.F[case], self.state[case], status, message, report,

@@ -16,9 +16,9 @@ use super::session::{Halted, Session};
 use crate::error::Error;
 use crate::law::Contact;
 use crate::monitor::{Monitor, Stop};
-use crate::problem::{ContactData, ContactProblem, HeldSet};
+use crate::problem::{ContactData, ContactProblem, HeldSet, SOLUTIONS};
 use crate::settings::Settings;
-use crate::solve::part::{PairData, SOLUTIONS, closed_with_margin};
+use crate::solve::part::{PairData, closed_with_margin};
 use crate::solve::plan;
 use crate::solve::result::Status;
 

@@ -1,12 +1,10 @@
 //! A smaller problem on some of the pairs, candidates or those in question, with the others open or stuck
-//! (`reduced_problem`), and the equilibrium of components that carry no contact force (`free_block`).
+//! (`reduced_problem`), and the equilibrium of components that carry no contact force (`problem::free_block`).
 
-mod free_block;
 mod pair_data;
 mod reduced_problem;
 mod touching;
 
-pub use free_block::{FreeBlock, SOLUTIONS};
 pub use pair_data::PairData;
 pub use reduced_problem::ReducedProblem;
 pub use touching::closed_with_margin;

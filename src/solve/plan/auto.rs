@@ -17,7 +17,7 @@ use crate::settings::{Method, Settings};
 use crate::solve::result::{
     Candidate, Effort, Ending, Fallback, SecondSolution, Solution, Status, Uniqueness, certified,
 };
-use crate::solve::uniqueness;
+use crate::solve::{rigid, uniqueness};
 
 /// Solves by the first method whose result is certified.
 pub fn solve(
@@ -38,6 +38,9 @@ pub fn solve(
         let call = Call { contact, settings, start: from };
         let Some(candidate) = run(row, &call, monitor)? else { continue };
         tried.count(&candidate.effort);
+        if let Ending::RunsAway(motion) = &candidate.ending {
+            tried.away = Some(motion.clone());
+        }
         let (why, stopped) = (fallback(&candidate), matches!(candidate.ending, Ending::Stopped(_)));
         let solution = certified(contact, settings, row.method, &candidate);
         let decided = matches!(solution.status, Status::Solved | Status::NoEquilibrium);
@@ -80,6 +83,8 @@ struct Tried {
     /// Best uncertified candidate and its method, with how the last method ended.
     best: Option<(Method, Candidate)>,
     effort: Effort,
+    /// The motion along which bodies move away as springs are let go.
+    away: Option<Vec<f64>>,
 }
 
 impl Tried {
@@ -104,6 +109,11 @@ impl Tried {
         monitor: &Monitor<'_>,
     ) -> Solution {
         solution.fallback = self.first;
+        if let Some(motion) = self.away
+            && solution.status == Status::Stalled
+        {
+            rigid::describe_run_away(contact, &mut solution, motion);
+        }
         solution.factorisations = self.effort.factorisations;
         solution.refactorisations = self.effort.refactorisations;
         if let Some(other) = self.unstable

@@ -3,26 +3,31 @@
 use crate::law::Contact;
 use crate::monitor::Monitor;
 use crate::solve::result::{CAUSES, Remarks, Solution, Status, Uniqueness, of_problem};
-use crate::solve::rigid::{RigidMotions, moves_freely};
+use crate::solve::rigid::{RigidMotions, is_held_by_rounding, moves_freely};
 
 /// The remarks on a problem and its solution. With friction nothing is asked about motions: that would cost a
 /// factorisation of every semi-definite problem.
 pub fn of_solution(contact: &Contact<'_>, solution: &Solution, monitor: &Monitor<'_>) -> Remarks {
-    let asked = solution.status == Status::Solved
-        && solution.uniqueness == Uniqueness::NotKnown
-        && contact.is_frictionless();
+    let solved = solution.status == Status::Solved;
+    let asked = solved && solution.uniqueness == Uniqueness::NotKnown && contact.is_frictionless();
+    let (d, certificate) = (&solution.d, &solution.certificate);
     Remarks {
-        free_motion: asked
-            && moves_freely(contact, &solution.d, &solution.certificate.states, monitor),
+        free_motion: asked && moves_freely(contact, d, &certificate.states, monitor),
+        held_by_rounding: solved && is_held_by_rounding(contact, d, &certificate.force),
         ..of_problem(contact.problem())
     }
 }
 
-/// Adds to the sentence of a problem that no method solves what to look at, if contact alone holds a body: there
-/// may be no equilibrium.
-pub fn explain_stall(contact: &Contact<'_>, solution: &mut Solution, monitor: &Monitor<'_>) {
+/// Adds to the sentence of a result what to look at, if contact alone holds a body that no method brings to rest, or if
+/// rounding alone holds one: there may be no equilibrium.
+pub fn explain(contact: &Contact<'_>, solution: &mut Solution, monitor: &Monitor<'_>) {
     let problem = contact.problem();
+    if solution.remarks.held_by_rounding {
+        let said = solution.message.marked();
+        solution.message = format!("{said}; only rounding of K holds a body: {CAUSES}").into();
+    }
     if solution.status == Status::Stalled
+        && solution.escape.is_none()
         && problem.is_symmetric()
         && RigidMotions::of(problem, monitor).is_some()
     {

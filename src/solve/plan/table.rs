@@ -90,12 +90,15 @@ const SPRINGS: MethodRow = MethodRow {
     refuses: unsymmetric,
     run: |call, monitor| {
         let Some(balance) = Balance::new(call.contact, monitor) else { return Ok(None) };
-        Ok(Some(match balance.escape() {
-            Some(motion) => {
-                Candidate::without_displacements(call.contact, Ending::Recession(motion))
-            }
-            None => proximal::let_go(call.contact, call.settings, call.start, monitor),
-        }))
+        if let Some(motion) = balance.escape() {
+            let ending = Ending::Recession(motion);
+            return Ok(Some(Candidate::without_displacements(call.contact, ending)));
+        }
+        let mut candidate = proximal::let_go(call.contact, call.settings, call.start, monitor);
+        if let Ending::RunsAway(motion) = candidate.ending {
+            candidate.ending = Ending::RunsAway(balance.sharpened(balance.rigid_part(&motion)));
+        }
+        Ok(Some(candidate))
     },
 };
 

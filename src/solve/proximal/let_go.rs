@@ -100,7 +100,7 @@ const STEADY: f64 = 1e-2;
 const LEAST: f64 = 1e-13;
 
 /// Lets the springs go from the displacements `start` (zero if `None`). Ends with a solution for `K`, with
-/// [`Ending::Recession`] and the motion `q` of T3, or because it finds neither.
+/// [`Ending::RunsAway`] and the motion `q` of T3, or because it finds neither.
 pub fn let_go(
     contact: &Contact<'_>,
     settings: &Settings,
@@ -151,7 +151,7 @@ impl Springs<'_> {
                 }
             }
             if size > away && turn <= STEADY * s * size {
-                return Err(Ending::Recession(self.d.iter().map(|d| s * d).collect()));
+                return Err(Ending::RunsAway(self.d.iter().map(|d| s * d).collect()));
             }
         }
         Err(Ending::Stalled("the displacements do not settle as springs are let go"))

@@ -23,7 +23,7 @@ pub fn certified(
     let wanted = format!("{accuracy}, wanted {:.1e}", settings.tolerance);
     // A diverging iterate may itself be a recession direction.
     let motion = match &candidate.ending {
-        Ending::Recession(motion) => Some(motion.as_slice()),
+        Ending::Recession(motion) | Ending::RunsAway(motion) => Some(motion.as_slice()),
         Ending::Stopped(_) => None,
         _ => certificate.runs_away().then_some(candidate.d()),
     };

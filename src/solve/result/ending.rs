@@ -15,6 +15,8 @@ pub enum Ending {
     /// It found a motion that may be a recession direction and prove that no equilibrium exists (LCP: a
     /// ray that may prove that nothing is feasible).
     Recession(Vec<f64>),
+    /// Springs that are let go leave the bodies moving along this rigid motion, which proves nothing with Coulomb's law.
+    RunsAway(Vec<f64>),
     /// The pieces of an earlier iteration repeat.
     Cycle,
     /// The system of its pieces, or its basis, is singular to working precision.
@@ -41,6 +43,7 @@ impl Ending {
             Ending::Recession(_) => {
                 "the method ended on a motion that does not prove that no equilibrium exists"
             }
+            Ending::RunsAway(_) => "the bodies move away as springs are let go",
             Ending::Cycle => "the states of the pairs repeat in a cycle",
             Ending::Singular => "the system of equations is singular",
             Ending::Stalled(reason) => reason,

@@ -10,5 +10,6 @@ pub fn of_problem<R: Relation>(problem: &ContactProblem<'_, R>) -> Remarks {
         gaps_negative: gaps_are_negative(problem),
         friction_large: friction_is_large(problem.law()),
         free_motion: false,
+        held_by_rounding: false,
     }
 }

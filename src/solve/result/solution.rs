@@ -81,6 +81,9 @@ pub struct Remarks {
     /// Without friction: the bodies may move without any force and without closing a gap, so that `d` is one
     /// of many. A support may be missing.
     pub free_motion: bool,
+    /// Displacements are a million times what the loads ask for, and no more than the rounding of a condensed `K`
+    /// resists them: nothing but that rounding holds a body. A support may be missing.
+    pub held_by_rounding: bool,
 }
 
 /// Result of a contact problem.

@@ -61,6 +61,11 @@ impl<'c> Balance<'c> {
         self.motions
     }
 
+    /// The rigid motion nearest to a motion.
+    pub fn rigid_part(&self, motion: &[f64]) -> Vec<f64> {
+        self.motions.part(motion)
+    }
+
     /// A motion that proves that no equilibrium exists without the rounding of the method that found it: made
     /// rigid, and lifted where contact would stop it. The given one, if that is no proof.
     pub fn sharpened(&self, motion: Vec<f64>) -> Vec<f64> {

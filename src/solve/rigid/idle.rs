@@ -6,12 +6,13 @@
 //! that moves no pair with a force, and that the loads do not drive.
 
 use super::motions::RigidMotions;
+use crate::certificate::energy;
 use crate::law::{Contact, State, touching};
 use crate::linalg::pivoted_cholesky::pivoted_cholesky_work;
-use crate::linalg::tolerances::{NEGLIGIBLE, ROUNDING_OF_SUM};
+use crate::linalg::tolerances::{CONDENSATION, HELD, NEGLIGIBLE, ROUNDING_OF_SUM};
 use crate::linalg::vector::{dot, largest_of, norm, norm_inf};
 use crate::monitor::Monitor;
-use crate::solve::part::FreeBlock;
+use crate::problem::FreeBlock;
 use crate::solve::result::Candidate;
 
 /// Displacements are large if rounding them costs this part of the forces: below, a host's residual keeps ten
@@ -24,7 +25,7 @@ pub fn without_idle_motion(
     candidate: Candidate,
     monitor: &Monitor<'_>,
 ) -> Candidate {
-    if !is_far(contact, &candidate) {
+    if !is_far(contact, candidate.d(), candidate.force()) {
         return candidate;
     }
     let Some(rigid) = RigidMotions::of(contact.problem(), monitor) else { return candidate };
@@ -40,14 +41,23 @@ pub fn without_idle_motion(
 }
 
 /// True if displacements are large beside what loads, forces and obstacles ask for.
-fn is_far(contact: &Contact<'_>, candidate: &Candidate) -> bool {
+fn is_far(contact: &Contact<'_>, d: &[f64], force: &[f64]) -> bool {
     let unit = |i: usize| contact.problem().unit(i);
-    let forces = norm_inf(contact.load_with_tension()).max(norm_inf(candidate.force()));
-    let pairs = contact.each(candidate.d(), candidate.force()).enumerate();
+    let forces = norm_inf(contact.load_with_tension()).max(norm_inf(force));
+    let pairs = contact.each(d, force).enumerate();
     let prescribed =
         pairs.map(|(pair, (law, d, _))| unit(contact.dim() * pair) * law.prescribed(d[0]));
-    let largest = largest_of(candidate.d().iter().enumerate().map(|(i, d)| d * unit(i)));
+    let largest = largest_of(d.iter().enumerate().map(|(i, d)| d * unit(i)));
     largest.is_finite() && largest > LARGE * forces.max(largest_of(prescribed))
+}
+
+/// True if displacements are that large, and `K` resists them with no more energy than the rounding of a host's
+/// condensation leaves: another rounding would hold the bodies elsewhere, or not at all. Energies below [`HELD`] times that
+/// rounding cannot be told from it.
+pub fn is_held_by_rounding(contact: &Contact<'_>, d: &[f64], force: &[f64]) -> bool {
+    let problem = contact.problem();
+    is_far(contact, d, force)
+        && energy(problem.relation(), d, &problem.internal_force(d)) <= HELD * CONDENSATION
 }
 
 /// True if a frictionless solution may move by some motion without internal force: one that does not move the

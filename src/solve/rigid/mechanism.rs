@@ -63,9 +63,25 @@ pub fn describe(
     let viscous = Viscous { contact, motions };
     let escape = viscous.escape(solve, monitor)?.unwrap_or_else(|| viscous.along(&proof));
     solution.recession = Some(proof);
-    solution.message = message(contact, &escape).into();
+    let moves = in_words(contact, &escape);
+    solution.message = format!("{NO_EQUILIBRIUM}: {moves}; {CAUSES}").into();
     solution.escape = Some(escape);
     Ok(())
+}
+
+/// Gives a problem that no method solves the rigid motion along which its bodies move away as springs are let go, and
+/// says so in the message. With Coulomb's law that does not prove that there is no equilibrium.
+pub fn describe_run_away(contact: &Contact<'_>, solution: &mut Solution, motion: Vec<f64>) {
+    let motions = RigidMotions::along(contact.problem(), &motion);
+    let escape = Viscous { contact, motions }.with_motion(motion);
+    let said = solution.message.marked();
+    let moves = in_words(contact, &escape);
+    solution.message = format!(
+        "{said}; without supports the bodies move away along the motion of escape: {moves}; forces that balance the \
+         loads are not excluded, so that there may be an equilibrium; {CAUSES}"
+    )
+    .into();
+    solution.escape = Some(escape);
 }
 
 /// Rigid motions against a viscosity.
@@ -145,8 +161,8 @@ impl Viscous<'_> {
     }
 }
 
-/// The sentence: which pairs move, how, and what drives them.
-fn message(contact: &Contact<'_>, Escape { motion, unbalanced }: &Escape) -> String {
+/// Which pairs move, how, and what drives them.
+fn in_words(contact: &Contact<'_>, Escape { motion, unbalanced }: &Escape) -> String {
     let dim = contact.dim();
     let most = (0..motion.len()).max_by(|&a, &b| motion[a].abs().total_cmp(&motion[b].abs()));
     let most = most.unwrap_or(0);
@@ -154,9 +170,8 @@ fn message(contact: &Contact<'_>, Escape { motion, unbalanced }: &Escape) -> Str
     let (pair, component) = (most / dim, most % dim);
     let direction = contact.pairs()[pair].direction(component, motion[most]);
     format!(
-        "{NO_EQUILIBRIUM}: it moves {moving} of {} pairs, most of all pair {}, {direction}; the resultant of \
-         the loads along it is {:.3e} (largest component 1), and contact leaves {:.3e} of it unbalanced; \
-         {CAUSES}",
+        "it moves {moving} of {} pairs, most of all pair {}, {direction}; the resultant of the loads along it is \
+         {:.3e} (largest component 1), and contact leaves {:.3e} of it unbalanced",
         contact.pairs().len(),
         index(pair),
         dot(contact.load_with_tension(), motion),

@@ -13,6 +13,6 @@ mod mechanism;
 mod motions;
 
 pub use equilibrium::{Balance, escape};
-pub use idle::{moves_freely, without_idle_motion};
-pub use mechanism::describe;
+pub use idle::{is_held_by_rounding, moves_freely, without_idle_motion};
+pub use mechanism::{describe, describe_run_away};
 pub use motions::RigidMotions;

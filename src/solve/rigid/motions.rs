@@ -5,7 +5,7 @@ use crate::linalg::pivoted_cholesky::pivoted_cholesky_work;
 use crate::linalg::vector::{dot, largest_of, norm};
 use crate::monitor::Monitor;
 use crate::problem::ContactProblem;
-use crate::solve::part::FreeBlock;
+use crate::problem::FreeBlock;
 
 /// A space of rigid motions.
 pub struct RigidMotions {

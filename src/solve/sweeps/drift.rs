@@ -9,7 +9,7 @@ use crate::law::{Contact, lift};
 use crate::linalg::pivoted_cholesky::pivoted_cholesky_work;
 use crate::linalg::vector::norm_inf;
 use crate::monitor::Monitor;
-use crate::solve::part::FreeBlock;
+use crate::problem::FreeBlock;
 use crate::solve::rigid::escape;
 
 /// Looks at the iterates of sweeps 256, 512, 1024, …

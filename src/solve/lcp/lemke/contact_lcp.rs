@@ -12,7 +12,7 @@ use crate::linalg::packed::PackedSymmetric;
 use crate::linalg::tolerances::NEGLIGIBLE;
 use crate::linalg::vector::norm_inf;
 use crate::monitor::Monitor;
-use crate::solve::part::FreeBlock;
+use crate::problem::FreeBlock;
 use crate::solve::result::{Candidate, Ending};
 
 /// The LCP of a contact problem in the variables `(w, a, b)`.

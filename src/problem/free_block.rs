@@ -1,8 +1,8 @@
 //! Equilibrium of some components while the others are fixed.
 
+use super::ContactProblem;
 use crate::linalg::matrix::Matrix;
 use crate::linalg::pivoted_cholesky::PivotedCholesky;
-use crate::problem::ContactProblem;
 
 /// The factor of some rows and columns of a symmetric positive semi-definite matrix `K`, scaled by
 /// the units of its components.
