@@ -77,9 +77,9 @@
 //! *The walks.* First on the pairs in question alone (`newton::uncertain_pairs`), where an event costs
 //! little: their matrix is definite too. Swept starts are near a solution, and most of their walks are short, so that
 //! several are tried, after more and more sweeps: by theorem I without its premise. Then walks on all pairs, from
-//! where those in question have come to: from swept starts and from sure ones, H, which take about one event a pair; if
-//! rounding spoils them, with factorisations at nearly every event, and from
-//! all pairs pressed on their obstacles (`linear_attempts`). Starts are moved at random by 1e-7 of the loads, always by
+//! where those in question have come to: from swept starts and from sure ones, H, which take about one event a pair; at
+//! last, if rounding spoils them, from all pairs pressed on their obstacles, with factorisations at nearly every event
+//! (`linear_attempts`). Starts are moved at random by 1e-7 of the loads, always by
 //! the same numbers: symmetric meshes have ties. At `s = 1` nothing is left of that, and Newton's method refines from
 //! the pieces found there.
 //!

@@ -64,19 +64,17 @@ const fn walk(sweeps: usize, start: Start, events: f64) -> Attempt {
 /// Walks on all pairs, from the best iterate of Newton's method or from the end of walks on the pairs in question. The
 /// length of a walk varies much with the sweeps before it, and the next one may be ten times as long: short walks from
 /// several starts end sooner than a long one. `cargo bench --features counters --bench mechanisms` counts which decide.
-pub const ATTEMPTS: [Attempt; 8] = [
+pub const ATTEMPTS: [Attempt; 6] = [
     walk(0, Start::Swept, SHORT),
     walk(30, Start::Swept, SHORT),
     walk(70, Start::Swept, SHORT),
     walk(100, Start::Sure, SURE),
-    walk(100, Start::Swept, SHORT),
-    walk(200, Start::Sure, LONG),
-    Attempt { sweeps: 0, start: Start::Sure, events: LONG, careful: true },
+    walk(300, Start::Sure, LONG),
     Attempt { sweeps: 0, start: Start::Pressed, events: LONG, careful: true },
 ];
 
 /// Where the last ones begin, which are given all the events that they need.
-pub const LAST: usize = 5;
+pub const LAST: usize = 4;
 
 /// Walks on the pairs in question, where each costs less.
 pub const ON_UNCERTAIN_PAIRS: [Attempt; 3] =
