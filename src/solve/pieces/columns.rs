@@ -1,4 +1,4 @@
-//! Columns of `J⁻¹ (K / k - 1)` on the pieces that were factorised, kept for the changes of pairs.
+//! Columns of `J⁻¹ (K / k - 1)` on the pieces that were factorised, or a part of each, kept for the changes of pairs.
 //!
 //! A change needs one or two of them for each pair. Many right-hand sides together take a tenth of the time that they
 //! take one after the other, because the factor is read once.
@@ -10,37 +10,47 @@ const KEPT: f64 = 0.25;
 pub struct Columns {
     /// Where the column of each component is.
     place: Vec<Option<usize>>,
+    /// Entries of a column.
+    size: usize,
     /// The columns, contiguous.
     values: Vec<f64>,
 }
 
 impl Columns {
-    /// None yet, of so many components.
-    pub fn none(size: usize) -> Self {
-        Columns { place: vec![None; size], values: Vec::new() }
+    /// None yet, of so many components, with so many entries each.
+    pub fn none(components: usize, size: usize) -> Self {
+        Columns { place: vec![None; components], size, values: Vec::new() }
     }
 
     /// The column of a component.
     pub fn of(&self, component: usize) -> Option<&[f64]> {
-        let size = self.place.len();
+        let size = self.size;
         self.place[component].map(|place| &self.values[size * place..size * (place + 1)])
     }
 
-    /// Forgets all columns if there is no room for so many more.
-    pub fn make_room(&mut self, more: usize) {
-        let size = self.place.len();
-        let known = self.values.len() / size.max(1);
-        if known > 0 && (known + more) as f64 > KEPT * size as f64 {
+    /// The components of these parts whose columns are not known, each once.
+    pub fn lacking(&self, parts: impl Iterator<Item = (usize, f64)>) -> Vec<usize> {
+        let mut components: Vec<usize> =
+            parts.map(|(i, _)| i).filter(|&i| self.place[i].is_none()).collect();
+        components.dedup();
+        components
+    }
+
+    /// Forgets all columns if there is no room for so many more; true if none was forgotten.
+    pub fn make_room(&mut self, more: usize) -> bool {
+        let known = self.values.len() / self.size.max(1);
+        let has_room = known == 0 || (known + more) as f64 <= KEPT * self.place.len() as f64;
+        if !has_room {
             self.place.fill(None);
             self.values.clear();
         }
+        has_room
     }
 
     /// Takes in the columns of `components`.
     pub fn add(&mut self, components: &[usize], columns: &[f64]) {
-        let size = self.place.len();
-        for (&component, column) in components.iter().zip(columns.chunks_exact(size.max(1))) {
-            self.place[component] = Some(self.values.len() / size);
+        for (&component, column) in components.iter().zip(columns.chunks_exact(self.size.max(1))) {
+            self.place[component] = Some(self.values.len() / self.size);
             self.values.extend_from_slice(column);
         }
     }

@@ -1,13 +1,15 @@
 //! The system of equations on given pieces of the law.
 //!
 //! `equations` holds the equations of some pairs and a point of them, `system` the factorised system of a point. Where
-//! the law is linear on each piece, in the plane and in complementarity problems, `systems` solves the system of one
-//! choice of pieces after the other, by a factor that is kept and terms for the pairs that have changed (`updated`).
+//! the law is linear on each piece, in the plane and in complementarity problems, a factor is kept: `nearby` solves the
+//! systems of other pieces beside the factorised one (`systems`), and `updated` follows a path from piece to piece.
 
 mod columns;
 mod equations;
+mod nearby;
 mod system;
 mod systems;
+mod term;
 mod updated;
 
 pub use equations::{Equations, Point};

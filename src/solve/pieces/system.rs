@@ -138,6 +138,35 @@ impl<'e> System<'e> {
         self.coordinates(b, &x)
     }
 
+    /// The pairs on their pieces.
+    pub fn pairs(&self) -> &[Linearised] {
+        &self.pairs
+    }
+
+    /// The displacements of the unknowns for each column of `b`, in the plane, where a pair that slips moves by its
+    /// unknown.
+    pub fn displacements(&mut self, b: &[f64]) -> Vec<f64> {
+        let mut x = self.right_sides(b);
+        self.factor.solve(&mut x);
+        x.iter_mut().zip(self.unknowns.iter().cycle()).for_each(|(x, own)| *x *= own.column);
+        x
+    }
+
+    /// The coordinates of a pair from the displacements of the unknowns for the column `b`, in the plane.
+    pub fn of_pair(&self, pair: usize, b: impl Fn(usize) -> f64, moved: &[f64]) -> Vector {
+        let (dim, count) = (self.equations.dim, self.size());
+        let (mut own, mut push) = ([0.0; 3], [0.0; 3]);
+        for c in 0..dim {
+            // Unknowns and held components are in the order of all components.
+            let i = dim * pair + c;
+            match self.held.binary_search(&i) {
+                Ok(row) => push[c] = b(i) - dot(&self.rows[count * row..count * (row + 1)], moved),
+                Err(before) => own[c] = moved[i - before],
+            }
+        }
+        self.pairs[pair].coordinates(&own, &push)
+    }
+
     /// The right-hand sides of the unknowns for each column of `b`.
     fn right_sides(&self, b: &[f64]) -> Vec<f64> {
         let dim = self.equations.dim;

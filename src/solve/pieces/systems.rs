@@ -2,8 +2,9 @@
 //! by.
 
 use super::equations::Equations;
+use super::nearby::Nearby;
 use super::system::System;
-use super::updated::Updated;
+use super::term::Term;
 use crate::law::{Linearised, Vector};
 use crate::linalg::tolerances::SINGULAR;
 
@@ -31,8 +32,8 @@ enum Last<'e> {
     None,
     /// The system of a point, which serves no other one.
     OfPoint(System<'e>),
-    /// The system of pieces, which changes of pairs update.
-    OfPieces(Updated<'e>),
+    /// The system of pieces, which serves those near by.
+    OfPieces(Nearby<'e>),
 }
 
 impl<'e> Systems<'e> {
@@ -41,21 +42,19 @@ impl<'e> Systems<'e> {
         Systems { equations, last: Last::None, factorisations: 0 }
     }
 
-    /// The pairs whose pieces differ from those of the last system, if that can be changed to these.
-    fn changes(&self, pairs: &[Linearised]) -> Option<Vec<(usize, Linearised)>> {
+    /// The terms by which pairs differ from the last system that was factorised, if that serves for them.
+    fn changes(&self, pairs: &[Linearised]) -> Option<Vec<Term>> {
         let Last::OfPieces(system) = &self.last else { return None };
-        let others = pairs.iter().copied().enumerate();
-        let others: Vec<(usize, Linearised)> =
-            others.filter(|(at, pair)| system.differs(*at, pair)).collect();
-        let terms = (system.age() + system.count(&others)) as f64;
-        let is_near = system.size() >= SMALL && terms <= MOST_TERMS * system.size() as f64;
-        (is_near || others.is_empty()).then_some(others)
+        let terms = system.terms_to(pairs);
+        let is_near =
+            system.size() >= SMALL && terms.len() as f64 <= MOST_TERMS * system.size() as f64;
+        (is_near || terms.is_empty()).then_some(terms)
     }
 
     /// Operations of [`Self::go_to`].
     pub fn work(&self, pairs: &[Linearised]) -> f64 {
         match (self.changes(pairs), &self.last) {
-            (Some(changes), Last::OfPieces(system)) => system.change_work(&changes),
+            (Some(terms), Last::OfPieces(system)) => system.work(&terms),
             _ => System::work(self.equations, pairs),
         }
     }
@@ -68,17 +67,18 @@ impl<'e> Systems<'e> {
     /// Goes to the system of pairs on their pieces; `None` if it is singular.
     pub fn go_to(&mut self, pairs: Vec<Linearised>) -> Option<()> {
         let equations = self.equations;
-        if let (Some(changes), Last::OfPieces(system)) = (self.changes(&pairs), &mut self.last)
-            && system.change_to(&changes).is_some()
+        if let (Some(terms), Last::OfPieces(system)) = (self.changes(&pairs), &mut self.last)
+            && system.go_to(terms).is_some()
         {
             return Some(());
         }
         // Two factors never stand side by side.
         self.last = Last::None;
         self.factorisations += 1;
+        let system = System::new(equations, pairs, 1.0, None, SINGULAR)?;
         self.last = match equations.dim {
-            3 => Last::OfPoint(System::new(equations, pairs, 1.0, None, SINGULAR)?),
-            _ => Last::OfPieces(Updated::new(equations, pairs, SINGULAR)?),
+            3 => Last::OfPoint(system),
+            _ => Last::OfPieces(Nearby::of(equations, system)),
         };
         Some(())
     }
@@ -99,7 +99,7 @@ impl<'e> Systems<'e> {
         match &self.last {
             Last::None => 0,
             Last::OfPoint(system) => system.orientation(),
-            Last::OfPieces(system) => system.sign(),
+            Last::OfPieces(system) => system.orientation(),
         }
     }
 

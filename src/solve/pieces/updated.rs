@@ -15,33 +15,11 @@
 use super::columns::Columns;
 use super::equations::Equations;
 use super::system::System;
-use crate::law::{Linearised, Planar};
+use super::term::{Term, terms};
+use crate::law::Linearised;
 use crate::linalg::factor::Factor;
 use crate::linalg::simd::subtract_columns;
 use crate::linalg::vector::dot;
-
-/// A term `u nᵀ` of the changes of a pair.
-struct Term {
-    /// First component of the pair.
-    first: usize,
-    u: Planar,
-    n: Planar,
-}
-
-impl Term {
-    /// `n.x`.
-    fn along(&self, x: &[f64]) -> f64 {
-        let second = if self.n[1] == 0.0 { 0.0 } else { self.n[1] * x[self.first + 1] };
-        self.n[0] * x[self.first] + second
-    }
-
-    /// The components of which `u` is made, each with its part.
-    fn parts(&self) -> impl Iterator<Item = (usize, f64)> + use<> {
-        let first = self.first;
-        let parts = self.u.into_iter().enumerate().filter(|(_, u)| *u != 0.0);
-        parts.map(move |(c, u)| (first + c, u))
-    }
-}
 
 /// Changes that are made together.
 pub struct Change {
@@ -92,7 +70,7 @@ impl<'e> Updated<'e> {
     /// Factorises the system of pairs on their pieces; `None` if a pivot is below `least`, relative to the largest.
     pub fn new(equations: &'e Equations<'e>, pairs: Vec<Linearised>, least: f64) -> Option<Self> {
         let base = System::new(equations, pairs.clone(), 1.0, None, least)?;
-        let columns = Columns::none(equations.root.len());
+        let columns = Columns::none(equations.root.len(), equations.root.len());
         let (changes, directions) = (Vec::new(), Vec::new());
         Some(Updated { equations, base, pairs, columns, changes, directions })
     }
@@ -102,34 +80,9 @@ impl<'e> Updated<'e> {
         self.changes.iter().map(|made| made.terms.len()).sum()
     }
 
-    /// Unknowns that were factorised.
-    pub fn size(&self) -> usize {
-        self.base.size()
-    }
-
     /// Sign of `det J`.
     pub fn sign(&self) -> i8 {
         self.changes.iter().fold(self.base.orientation(), |sign, made| sign * made.sign)
-    }
-
-    /// True if a pair is on another piece today.
-    pub fn differs(&self, pair: usize, other: &Linearised) -> bool {
-        !self.pairs[pair].change_to(other).is_empty()
-    }
-
-    /// Operations of [`Self::change_to`]: a solution for each term, and what passes through all directions.
-    pub fn change_work(&self, pairs: &[(usize, Linearised)]) -> f64 {
-        let (size, count) = (self.equations.root.len() as f64, self.count(pairs) as f64);
-        2.0 * size * (size * count + count * (count + self.age() as f64))
-    }
-
-    /// Makes the changes of pairs to the pieces beyond. `None`: the new system is singular, and has to be factorised.
-    pub fn change_to(&mut self, pairs: &[(usize, Linearised)]) -> Option<()> {
-        if pairs.is_empty() {
-            return Some(());
-        }
-        let change = self.change(pairs);
-        self.make(change, &mut vec![0.0; self.equations.root.len()])
     }
 
     /// `J⁻¹ b`.
@@ -141,41 +94,20 @@ impl<'e> Updated<'e> {
 
     /// The terms of a change of pairs.
     fn terms(&self, pairs: &[(usize, Linearised)]) -> Vec<Term> {
-        let of_pair = |(pair, beyond): &(usize, Linearised)| {
-            let first = self.equations.dim * pair;
-            let terms = self.pairs[*pair].change_to(beyond).into_iter();
-            terms.map(move |(u, n)| Term { first, u, n })
-        };
-        pairs.iter().flat_map(of_pair).collect()
-    }
-
-    /// Number of terms that a change of pairs has.
-    pub fn count(&self, pairs: &[(usize, Linearised)]) -> usize {
-        self.terms(pairs).len()
+        terms(self.equations.dim, &self.pairs, pairs.iter().copied())
     }
 
     /// True if a change needs columns that are not known.
     pub fn lacks_columns(&self, pairs: &[(usize, Linearised)]) -> bool {
-        let terms = self.terms(pairs);
-        terms.iter().flat_map(Term::parts).any(|(i, _)| self.columns.of(i).is_none())
+        !self.columns.lacking(self.terms(pairs).iter().flat_map(Term::parts)).is_empty()
     }
 
     /// Makes columns for changes of pairs, at most so many, so far as they are not known.
     pub fn prepare(&mut self, likely: &[(usize, Linearised)], most: usize) {
         self.columns.make_room(most);
-        let terms = self.terms(likely);
-        let lacking = terms.iter().flat_map(Term::parts).map(|(i, _)| i);
-        let mut components: Vec<usize> =
-            lacking.filter(|&i| self.columns.of(i).is_none()).take(most).collect();
-        components.dedup();
-        let (matrix, root) = (self.equations.matrix, &self.equations.root);
-        let mut sides = Vec::with_capacity(components.len() * root.len());
-        for &i in &components {
-            let scale = root[i].powi(2).recip();
-            let begin = sides.len();
-            sides.extend(matrix.column(i).iter().map(|k| k * scale));
-            sides[begin + i] -= 1.0;
-        }
+        let mut components = self.columns.lacking(self.terms(likely).iter().flat_map(Term::parts));
+        components.truncate(most);
+        let sides = self.equations.change_columns(&components);
         let columns = self.base.solve(&sides);
         self.columns.add(&components, &columns);
     }

@@ -1,0 +1,46 @@
+//! The change of a system where pairs pass to other pieces.
+//!
+//! They change `V = 1 - dP/dy` by a sum of `u nᵀ` and `J = K V / k + dP/dy` by `a nᵀ`, `a = (K / k - 1) u`.
+
+use crate::law::{Linearised, Planar};
+
+/// A term `u nᵀ` of the change of a pair.
+pub struct Term {
+    /// First component of the pair.
+    pub first: usize,
+    u: Planar,
+    n: Planar,
+}
+
+/// The terms of pairs that pass from their pieces to others.
+pub fn terms(
+    dim: usize,
+    pairs: &[Linearised],
+    others: impl Iterator<Item = (usize, Linearised)>,
+) -> Vec<Term> {
+    let of_pair = |(pair, beyond): (usize, Linearised)| {
+        let terms = pairs[pair].change_to(&beyond).into_iter();
+        terms.map(move |(u, n)| Term { first: dim * pair, u, n })
+    };
+    others.flat_map(of_pair).collect()
+}
+
+impl Term {
+    /// `n.x`.
+    pub fn along(&self, x: &[f64]) -> f64 {
+        self.of_pair(&x[self.first..])
+    }
+
+    /// `n.x` of the pair's part of `x`.
+    pub fn of_pair(&self, x: &[f64]) -> f64 {
+        let second = if self.n[1] == 0.0 { 0.0 } else { self.n[1] * x[1] };
+        self.n[0] * x[0] + second
+    }
+
+    /// The components of which `u` is made, each with its part.
+    pub fn parts(&self) -> impl Iterator<Item = (usize, f64)> + use<> {
+        let first = self.first;
+        let parts = self.u.into_iter().enumerate().filter(|(_, u)| *u != 0.0);
+        parts.map(move |(c, u)| (first + c, u))
+    }
+}
