@@ -489,8 +489,8 @@ int32_t signorini_model_certify(const signorini_model *model, const double *f,
 
 /**
  * The default: methods in turn, until one finds a solution. Without friction: block pivoting,
- * Lemke's method. With friction: Newton's method, springs that are let go, the path, in 2D Lemke's
- * method, sweeps.
+ * Lemke's method. With friction: Newton's method; in 3D springs that are let go, the path; in 2D
+ * the path, springs, Lemke's method; sweeps.
  */
 #define SIGNORINI_METHOD_AUTO 0
 /** Projected over-relaxed Gauss-Seidel (SOR) on a sequence of Tresca problems, g <- mu |F_n|. */

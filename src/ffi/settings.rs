@@ -10,8 +10,8 @@ use crate::monitor::{Monitor, Progress, ProgressFn};
 use crate::settings::{Method, Search, Settings};
 
 /// The default: methods in turn, until one finds a solution. Without friction: block pivoting,
-/// Lemke's method. With friction: Newton's method, springs that are let go, the path, in 2D Lemke's
-/// method, sweeps.
+/// Lemke's method. With friction: Newton's method; in 3D springs that are let go, the path; in 2D
+/// the path, springs, Lemke's method; sweeps.
 pub const SIGNORINI_METHOD_AUTO: i32 = 0;
 /// Projected over-relaxed Gauss-Seidel (SOR) on a sequence of Tresca problems, g <- mu |F_n|.
 pub const SIGNORINI_METHOD_SOR_NESTED: i32 = 1;

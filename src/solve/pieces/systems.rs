@@ -31,9 +31,9 @@ pub struct Systems<'e> {
 enum Last<'e> {
     None,
     /// The system of a point, which serves no other one.
-    OfPoint(System<'e>),
+    OfPoint(Box<System<'e>>),
     /// The system of pieces, which serves those near by.
-    OfPieces(Nearby<'e>),
+    OfPieces(Box<Nearby<'e>>),
 }
 
 impl<'e> Systems<'e> {
@@ -77,8 +77,8 @@ impl<'e> Systems<'e> {
         self.factorisations += 1;
         let system = System::new(equations, pairs, 1.0, None, SINGULAR)?;
         self.last = match equations.dim {
-            3 => Last::OfPoint(system),
-            _ => Last::OfPieces(Nearby::of(equations, system)),
+            3 => Last::OfPoint(Box::new(system)),
+            _ => Last::OfPieces(Box::new(Nearby::of(equations, system))),
         };
         Some(())
     }
