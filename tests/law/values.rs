@@ -6,7 +6,7 @@ use crate::common::problems::{Case, Law, decades, definite, loaded, uniform, vec
 use crate::laws::Numbers;
 use fastrand::Rng;
 use signorini::law::Tangential;
-use signorini::law::complementarity::lower_bounds;
+use signorini::law::complementarity::{is_bounded, is_stopped, lower_bounds};
 use signorini::law::{
     Bound, Contact, FixedState, PairLaw, Rule, State, exceed_gaps, friction_is_large,
     gaps_within_reach, pressing, touching,
@@ -330,10 +330,13 @@ fn obstacles_stop_normal_components_at_their_gaps() {
         let found: Vec<usize> = touching(&contact, &d, &states).collect();
         assert_eq!(found, expected, "seed {seed}: {case:?} {d:?}");
         let lower = lower_bounds(&contact);
-        for (i, lower) in lower.iter().enumerate() {
+        for i in 0..case.size() {
             let bounded = i % dim == 0 && case.gap[i / dim].is_finite();
+            assert_eq!(is_bounded(&contact, i), bounded);
+            let stopped = bounded && d[i] >= case.gap[i / dim];
+            assert_eq!(is_stopped(&contact, i, &d), stopped, "seed {seed}, {i}: {d:?}");
             let bound = if bounded { -case.gap[i / dim] } else { f64::NEG_INFINITY };
-            assert_eq!(*lower, bound);
+            assert_eq!(lower[i], bound);
         }
     }
 }

@@ -12,13 +12,14 @@ use std::cell::Cell;
 
 use crate::law::complementarity::lower_bounds;
 use crate::law::{Contact, Linearised};
-use crate::linalg::simd::{self, Simd};
+use crate::linalg::simd::Simd;
 use crate::monitor::{Monitor, Stop};
 use crate::problem::symmetric_matrix::is_symmetric;
 use crate::problem::{BoundedLcp, Lcp};
 use crate::settings::Settings;
 use crate::solve::pieces::{Equations, REFINEMENTS, Systems};
 use crate::solve::result::{Candidate, Effort, Ending};
+use crate::solve::sweeps::sweep_lcp;
 
 /// Sweeps between a solution and its active set: they cost a small part of the system that they may save.
 const SWEEPS: u32 = 6;
@@ -270,26 +271,7 @@ fn active_set(lcp: &BoundedLcp<'_>, x: &[f64], w: &[f64]) -> Vec<bool> {
 fn swept(simd: Simd, iterate: &Iterate<'_>) -> Vec<bool> {
     let (lcp, mut x, mut w) = (iterate.lcp, iterate.x.clone(), iterate.w.clone());
     for _ in 0..SWEEPS {
-        sweep(simd, lcp, &mut x, &mut w);
+        sweep_lcp(simd, lcp, &mut x, &mut w, 1.0);
     }
     active_set(lcp, &x, &w)
-}
-
-/// One sweep over all variables of `lcp`, whose matrix is symmetric, on `x` and `w = q + M x`.
-fn sweep(simd: Simd, lcp: &BoundedLcp<'_>, x: &mut [f64], w: &mut [f64]) {
-    simd::vectorised(
-        simd,
-        #[inline(always)]
-        || {
-            for i in 0..x.len() {
-                let column = lcp.matrix.column(i);
-                let value = lcp.admissible(i, x[i] - w[i] / column[i]);
-                let step = value - x[i];
-                if step != 0.0 {
-                    x[i] = value;
-                    simd::axpy(w, step, column);
-                }
-            }
-        },
-    )
 }

@@ -180,7 +180,7 @@ const NESTED_SWEEPS: MethodRow = MethodRow {
         if contact.is_coupled() {
             let start = call.start_or_zero();
             return for_a_while(call, monitor, |monitor| {
-                sweeps::nested(contact, settings, &start, monitor)
+                sweeps::nested(contact, settings, start, monitor)
             });
         }
         single_sweeps(call, monitor)
@@ -203,7 +203,10 @@ const DIAGONAL_SWEEPS: MethodRow = MethodRow {
 /// Sweeps that update thresholds as they go, or have given ones.
 fn single_sweeps(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Result<Option<Candidate>, Error> {
     let (contact, settings, start) = (call.contact, call.settings, call.start_or_zero());
-    for_a_while(call, monitor, |monitor| sweeps::single(contact, settings, &start, monitor))
+    for_a_while(call, monitor, |monitor| match contact.is_frictionless() {
+        true => sweeps::frictionless(contact, settings, &start, monitor),
+        false => sweeps::single(contact, settings, start, monitor),
+    })
 }
 
 /// Sweeps that a plan tries where exact methods have failed: a fortieth of what they may take when they

@@ -4,11 +4,14 @@
 //! `0 < omega < 2`, definite `K` or not. `K d - f` is carried along: an unknown that does not change
 //! costs nothing.
 
+use super::Iterate;
+use super::drift::contact_recession;
 use crate::certificate::eta_of;
 use crate::law::{Contact, PairLaw};
 use crate::linalg::matrix::Matrix;
 use crate::linalg::simd::{self, Simd};
 use crate::linalg::vector::norm_inf;
+use crate::monitor::Monitor;
 
 /// The sweeps of a law, without an iterate of their own.
 pub struct Sweeper {
@@ -98,8 +101,10 @@ pub struct ContactIterate<'p> {
 
 impl<'p> ContactIterate<'p> {
     /// Starts from `d`, made admissible.
-    pub fn new(contact: &'p Contact<'p>, d: &[f64]) -> Self {
-        let d = contact.admissible(d);
+    pub fn new(contact: &'p Contact<'p>, mut d: Vec<f64>) -> Self {
+        for (law, normal) in contact.pairs().iter().zip(d.iter_mut().step_by(contact.dim())) {
+            *normal = law.admissible(*normal);
+        }
         let force = contact.problem().force(&d);
         ContactIterate { own: contact, working: None, d, force, sweeper: Sweeper::new() }
     }
@@ -119,48 +124,42 @@ impl<'p> ContactIterate<'p> {
         (self.d, self.force)
     }
 
-    /// The problem with its own law.
-    pub fn problem(&self) -> &'p Contact<'p> {
-        self.own
-    }
-
     fn law(&self) -> &Contact<'p> {
         self.working.as_ref().unwrap_or(self.own)
     }
+}
 
-    /// One sweep with the over-relaxation factor `omega`. Returns the change in the norm of the diagonal.
-    pub fn sweep(&mut self, omega: f64) -> f64 {
+impl Iterate for ContactIterate<'_> {
+    fn sweep(&mut self, omega: f64) -> f64 {
         let law = self.working.as_ref().unwrap_or(self.own);
         self.sweeper.sweep(law, (&mut self.d, &mut self.force), omega)
     }
 
-    /// `eta` under the law that the sweeps obey, from the carried residual.
-    pub fn eta_of_sweeps(&self) -> f64 {
+    fn eta_of_sweeps(&self) -> f64 {
         eta_of(self.law(), &self.d, &self.force)
     }
 
-    /// `eta` under the problem's own law, from the carried residual.
-    pub fn eta(&self) -> f64 {
+    fn eta(&self) -> f64 {
         eta_of(self.own, &self.d, &self.force)
     }
 
-    /// Recomputes the carried residual from the displacements.
-    pub fn refresh(&mut self) {
+    fn refresh(&mut self) {
         self.force = self.own.problem().force(&self.d);
     }
 
-    /// The displacements.
-    pub fn unknowns(&self) -> &[f64] {
+    fn unknowns(&self) -> &[f64] {
         &self.d
     }
 
-    /// Size of the largest force.
-    pub fn largest_force(&self) -> f64 {
+    fn largest_force(&self) -> f64 {
         norm_inf(&self.force)
     }
 
-    /// True if there are no loads.
-    pub fn is_unloaded(&self) -> bool {
+    fn is_unloaded(&self) -> bool {
         norm_inf(self.own.load_with_tension()) == 0.0
+    }
+
+    fn recession(&self, drift: &[f64], monitor: &Monitor<'_>) -> Option<Vec<f64>> {
+        contact_recession(self.own, drift, monitor)
     }
 }

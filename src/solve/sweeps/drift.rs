@@ -4,8 +4,10 @@
 //! matrix is singular on the others, its factor tells which of them depend on the rest: the null vector
 //! that agrees with the drift on these has none of the drift's elastic part.
 
+use super::Iterate;
 use crate::certificate::{is_escape_of, lifts};
 use crate::law::{Contact, lift};
+use crate::linalg::matrix::Matrix;
 use crate::linalg::pivoted_cholesky::pivoted_cholesky_work;
 use crate::linalg::vector::norm_inf;
 use crate::monitor::Monitor;
@@ -20,8 +22,8 @@ pub struct DriftDetector {
 }
 
 /// The first look: most problems that have a solution are solved before, and a look costs a dense
-/// factorisation. Looks are then spaced at doubling counts, so that their number stays small. A standstill is looked for as often.
-pub const FIRST_LOOK: u64 = 256;
+/// factorisation. Looks are then spaced at doubling counts, so that their number stays small.
+const FIRST_LOOK: u64 = 256;
 
 impl DriftDetector {
     /// Starts at the unknowns `x`.
@@ -29,22 +31,38 @@ impl DriftDetector {
         DriftDetector { sweeps: 0, next: FIRST_LOOK, before: x.to_vec() }
     }
 
-    /// Counts a sweep to the displacements `x`; returns a recession direction once one is found.
-    pub fn observe(
-        &mut self,
-        contact: &Contact<'_>,
-        x: &[f64],
-        monitor: &Monitor<'_>,
-    ) -> Option<Vec<f64>> {
+    /// Counts a sweep; returns a recession direction once one is found.
+    pub fn observe(&mut self, iterate: &impl Iterate, monitor: &Monitor<'_>) -> Option<Vec<f64>> {
         self.sweeps += 1;
         if self.sweeps < self.next {
             return None;
         }
         self.next *= 2;
+        let x = iterate.unknowns();
         let drift: Vec<f64> = x.iter().zip(&self.before).map(|(x, before)| x - before).collect();
         self.before.copy_from_slice(x);
-        contact_recession(contact, &drift, monitor)
+        iterate.recession(&drift, monitor)
     }
+}
+
+/// The part of a drift that the matrix does not resist; `None` if there is no time for a look.
+pub fn rigid_part(
+    matrix: Matrix<'_>,
+    unit: impl Fn(usize) -> f64,
+    drift: &[f64],
+    monitor: &Monitor<'_>,
+) -> Option<Vec<f64>> {
+    let moved: Vec<usize> = (0..drift.len()).filter(|&i| drift[i] != 0.0).collect();
+    if !monitor.has_time_for(pivoted_cholesky_work(moved.len())) {
+        return None;
+    }
+    let block = FreeBlock::new(matrix, moved, unit)?;
+    let mut motion = vec![0.0; drift.len()];
+    for i in block.dependent() {
+        motion[i] = drift[i];
+    }
+    block.follow(&mut motion);
+    Some(motion)
 }
 
 /// A recession direction of a contact problem, from the drift of its displacements.
@@ -52,23 +70,13 @@ impl DriftDetector {
 /// A body that slides away drifts along the slip of its friction. Where that is the slip from which
 /// friction takes the most work, the drift proves that nothing stops it. Under a collinear rule it is
 /// another one, and the balance of the rigid motions is asked.
-fn contact_recession(
+pub fn contact_recession(
     contact: &Contact<'_>,
     drift: &[f64],
     monitor: &Monitor<'_>,
 ) -> Option<Vec<f64>> {
     let problem = contact.problem();
-    let moved: Vec<usize> = (0..drift.len()).filter(|&i| drift[i] != 0.0).collect();
-    if !monitor.has_time_for(pivoted_cholesky_work(moved.len())) {
-        return None;
-    }
-    // The part of the drift that the matrix does not resist.
-    let block = FreeBlock::of_problem(problem, moved)?;
-    let mut motion = vec![0.0; drift.len()];
-    for i in block.dependent() {
-        motion[i] = drift[i];
-    }
-    block.follow(&mut motion);
+    let motion = rigid_part(problem.stiffness(), |i| problem.unit(i), drift, monitor)?;
     let lifts = lifts(contact, &motion);
     let uniform = vec![norm_inf(&lifts); lifts.len()];
     [vec![0.0; lifts.len()], lifts, uniform]

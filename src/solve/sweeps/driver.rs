@@ -1,7 +1,7 @@
-//! Sweeps until a target is met: over-relaxation, drift and budgets around an iterate.
+//! Sweeps until a target is met: over-relaxation, drift and budgets around an [`Iterate`].
 
-use super::contact_iterate::ContactIterate;
-use super::drift::{DriftDetector, FIRST_LOOK};
+use super::Iterate;
+use super::drift::DriftDetector;
 use super::relaxation::Relaxation;
 use crate::linalg::tolerances::{NEGLIGIBLE, ROUNDING};
 use crate::monitor::Monitor;
@@ -9,8 +9,8 @@ use crate::settings::Settings;
 use crate::solve::result::Ending;
 
 /// The driver of projected SOR.
-pub struct Driver<'m, 'c, 'p> {
-    iterate: ContactIterate<'p>,
+pub struct Driver<'m, 'c, I> {
+    iterate: I,
     relaxation: Relaxation,
     drift: DriftDetector,
     monitor: &'m mut Monitor<'c>,
@@ -36,18 +36,24 @@ struct Best {
 /// an error, and the measured rate says nothing meanwhile.
 pub const LARGEST_FACTOR: f64 = 1.97;
 
+/// Sweeps after which a standstill is looked for.
+const ROUND: u64 = 1000;
+
 /// Where `eta` is below [`NEGLIGIBLE`] and was not halved in so many sweeps, it is at the rounding
 /// floor: sweeps that still converge halve it in some hundred.
 const STAGNATION: u64 = 5000;
 
+/// Progress that moves the milestone of stagnation.
+const HALF: f64 = 0.5;
+
 /// Sweeps between two measurements of `eta`, which cost a few operations per unknown each.
 const MEASURE: u64 = 4;
 
-impl<'m, 'c, 'p> Driver<'m, 'c, 'p> {
+impl<'m, 'c, I: Iterate> Driver<'m, 'c, I> {
     /// Starts from `iterate`; a factor that the settings do not give is chosen below
     /// `largest_factor`.
     pub fn new(
-        iterate: ContactIterate<'p>,
+        iterate: I,
         settings: &Settings,
         largest_factor: f64,
         monitor: &'m mut Monitor<'c>,
@@ -69,7 +75,7 @@ impl<'m, 'c, 'p> Driver<'m, 'c, 'p> {
         let mut stands_still = false;
         while self.measure(tolerance)? > tolerance {
             let stood_still = stands_still;
-            stands_still = self.relax(tolerance, FIRST_LOOK)? == 0.0;
+            stands_still = self.relax(tolerance, ROUND)? == 0.0;
             if stands_still {
                 if stood_still {
                     return Err(Ending::Stalled("the sweeps no longer change the displacements"));
@@ -93,7 +99,7 @@ impl<'m, 'c, 'p> Driver<'m, 'c, 'p> {
         if force < ROUNDING * self.largest_force && self.iterate.is_unloaded() {
             return Err(Ending::Stalled("without loads the forces fall to rounding"));
         }
-        if eta <= self.milestone.eta / 2.0 {
+        if eta <= HALF * self.milestone.eta {
             self.milestone = Measured { eta, sweeps };
         }
         if eta < NEGLIGIBLE && sweeps > self.milestone.sweeps + STAGNATION {
@@ -110,8 +116,7 @@ impl<'m, 'c, 'p> Driver<'m, 'c, 'p> {
             self.monitor.step().map_err(Ending::Stopped)?;
             change = self.iterate.sweep(self.relaxation.omega());
             self.relaxation.observe(change);
-            let (contact, x) = (self.iterate.problem(), self.iterate.unknowns());
-            if let Some(motion) = self.drift.observe(contact, x, self.monitor) {
+            if let Some(motion) = self.drift.observe(&self.iterate, self.monitor) {
                 return Err(Ending::Recession(motion));
             }
             if sweep % MEASURE == 0 || change == 0.0 {
@@ -148,13 +153,18 @@ impl<'m, 'c, 'p> Driver<'m, 'c, 'p> {
     }
 
     /// The iterate.
-    pub fn iterate(&mut self) -> &mut ContactIterate<'p> {
+    pub fn iterate(&mut self) -> &mut I {
         &mut self.iterate
     }
 
     /// Ends the sweeps.
-    pub fn into_iterate(self) -> ContactIterate<'p> {
+    pub fn into_iterate(self) -> I {
         self.iterate
+    }
+
+    /// The unknowns of the iterate.
+    pub fn unknowns(&self) -> &[f64] {
+        self.iterate.unknowns()
     }
 
     /// The factor of the next sweep.

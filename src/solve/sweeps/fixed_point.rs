@@ -1,4 +1,4 @@
-//! Contact by projected SOR: without friction or with given thresholds, and Coulomb's law in two forms.
+//! Friction by projected SOR: given thresholds, and Coulomb's law in two forms.
 //!
 //! *Nested*: a sequence of Tresca problems, `g <- (1 - theta) g + theta mu |F_n|` (paper, section
 //! 2.1), each solved to 0.1 of the accuracy of the threshold. Without damping the error falls by
@@ -37,7 +37,7 @@ const SLOPE: f64 = 0.55;
 pub fn single(
     contact: &Contact<'_>,
     settings: &Settings,
-    start: &[f64],
+    start: Vec<f64>,
     monitor: &mut Monitor<'_>,
 ) -> Candidate {
     let steepest = largest_of(contact.bounds().map(|bound| bound.slope));
@@ -57,7 +57,7 @@ pub fn single(
 pub fn nested(
     contact: &Contact<'_>,
     settings: &Settings,
-    start: &[f64],
+    start: Vec<f64>,
     monitor: &mut Monitor<'_>,
 ) -> Candidate {
     let iterate = ContactIterate::new(contact, start);
@@ -93,7 +93,7 @@ pub fn nested(
 /// The last iterate if it is the solution, the best one otherwise.
 fn ended(
     contact: &Contact<'_>,
-    mut driver: Driver<'_, '_, '_>,
+    mut driver: Driver<'_, '_, ContactIterate<'_>>,
     ending: Ending,
     effort: Effort,
 ) -> Candidate {

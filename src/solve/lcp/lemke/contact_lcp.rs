@@ -4,7 +4,7 @@
 use std::borrow::Cow;
 
 use super::scaled::Entries;
-use crate::certificate::is_escape_of;
+use crate::law::complementarity::is_stopped;
 use crate::law::{Contact, Piece};
 use crate::linalg::factor::cholesky_work;
 use crate::linalg::matrix::Matrix;
@@ -13,6 +13,7 @@ use crate::linalg::tolerances::NEGLIGIBLE;
 use crate::linalg::vector::norm_inf;
 use crate::monitor::Monitor;
 use crate::problem::FreeBlock;
+use crate::solve::part::{INDEFINITE, driven_motion};
 use crate::solve::result::{Candidate, Ending};
 
 /// The LCP of a contact problem in the variables `(w, a, b)`.
@@ -83,8 +84,7 @@ impl<'p> ContactLcp<'p> {
         let indices: Vec<usize> = normal.iter().chain(&tangential).copied().collect();
         let condenses = !free.is_empty();
         monitor.affords(cholesky_work(free.len())).map_err(Ending::Stopped)?;
-        let block = FreeBlock::of_problem(problem, free)
-            .ok_or(Ending::Stalled("K is not positive semi-definite"))?;
+        let block = FreeBlock::of_problem(problem, free).ok_or(INDEFINITE)?;
         let mut at_rest = vec![0.0; contact.unknowns()];
         for &i in &indices {
             at_rest[i] = contact.pairs()[i / dim].reference()[i % dim];
@@ -153,10 +153,7 @@ impl<'p> ContactLcp<'p> {
     /// A solution with equilibrium solved directly where its closed pairs are fixed, if there is time and that is better.
     pub fn in_equilibrium(&self, given: Candidate, monitor: &Monitor<'_>) -> Candidate {
         let (contact, d) = (self.contact, given.d());
-        let touches = |&i: &usize| contact.pairs()[i / contact.dim()].touches(d[i]);
-        let mut free = vec![true; d.len()];
-        self.normal.iter().filter(|i| touches(i)).for_each(|&i| free[i] = false);
-        let free: Vec<usize> = (0..d.len()).filter(|&i| free[i]).collect();
+        let free: Vec<usize> = (0..d.len()).filter(|&i| !is_stopped(contact, i, d)).collect();
         if !monitor.has_time_for(cholesky_work(free.len())) {
             return given;
         }
@@ -193,19 +190,6 @@ impl<'p> ContactLcp<'p> {
         let laws = self.contact.pairs().iter();
         laws.zip(variables).map(|(law, [w, a, b])| law.piece_of_variables(w, a, b)).collect()
     }
-}
-
-/// A motion of condensed components alone on which the loads do work, if there is one.
-fn driven_motion(contact: &Contact<'_>, block: &FreeBlock<'_>, d: &[f64]) -> Option<Vec<f64>> {
-    let problem = contact.problem();
-    block.dependent().next()?;
-    let force = contact.force_without_tension(d);
-    let mut motion = vec![0.0; contact.unknowns()];
-    for i in block.dependent() {
-        motion[i] = -force[i] / problem.unit(i);
-    }
-    block.follow(&mut motion);
-    is_escape_of(contact, &motion).then_some(motion)
 }
 
 impl Entries for ContactLcp<'_> {

@@ -1,0 +1,49 @@
+//! Frictionless contact by sweeps on the normal displacements.
+
+use super::driver::{Driver, LARGEST_FACTOR};
+use super::lcp_iterate::LcpIterate;
+use crate::law::Contact;
+use crate::monitor::Monitor;
+use crate::settings::Settings;
+use crate::solve::part::NormalProblem;
+use crate::solve::result::{Candidate, Effort, Ending};
+
+/// The condensed problem has another scale of forces than the whole one, whose certificate decides: the
+/// target is tightened by this factor until that holds, ...
+const TIGHTENING: f64 = 0.1;
+
+/// ... and given up below this part of the tolerance, which no rounding can reach.
+const GIVE_UP: f64 = f64::EPSILON;
+
+/// Solves from the displacements `start`.
+pub fn frictionless(
+    contact: &Contact<'_>,
+    settings: &Settings,
+    start: &[f64],
+    monitor: &mut Monitor<'_>,
+) -> Candidate {
+    let normal = match NormalProblem::new(contact, monitor) {
+        Ok(normal) => normal,
+        Err(why) => return Candidate::without_displacements(contact, why),
+    };
+    let start = normal.restrict(start).iter().map(|d| -d).collect();
+    let iterate = LcpIterate::new(normal.lcp(), start);
+    let mut driver = Driver::new(iterate, settings, LARGEST_FACTOR, monitor);
+    let mut target = settings.tolerance;
+    loop {
+        let ending = match driver.solve(target) {
+            Ok(()) => Ending::Done,
+            Err(Ending::Recession(motion)) => Ending::Recession(normal.follow(&motion)),
+            Err(other) => other,
+        };
+        let d = normal.expand(driver.unknowns());
+        let mut candidate = Candidate::of_displacements(contact, d, ending);
+        candidate.effort = Effort { omega: driver.omega(), ..Effort::default() };
+        let done = candidate.ending != Ending::Done
+            || candidate.certificate(contact).holds(settings.tolerance);
+        if done || target < GIVE_UP * settings.tolerance {
+            return candidate;
+        }
+        target *= TIGHTENING;
+    }
+}

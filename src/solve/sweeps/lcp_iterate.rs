@@ -1,0 +1,86 @@
+//! Sweeps on an LCP with lower bounds, variable by variable.
+
+use super::Iterate;
+use super::drift::rigid_part;
+use crate::linalg::simd::{self, Simd};
+use crate::linalg::vector::norm_inf;
+use crate::monitor::Monitor;
+use crate::problem::BoundedLcp;
+
+/// One sweep over all variables of `lcp`, whose matrix is symmetric, on `x` and `w = q + M x`. Returns
+/// the change in the norm of the diagonal of `M`.
+pub fn sweep(simd: Simd, lcp: &BoundedLcp<'_>, x: &mut [f64], w: &mut [f64], omega: f64) -> f64 {
+    simd::vectorised(
+        simd,
+        #[inline(always)]
+        || {
+            let mut change = 0.0;
+            for i in 0..x.len() {
+                let column = lcp.matrix.column(i);
+                let value = lcp.admissible(i, x[i] - omega * w[i] / column[i]);
+                let step = value - x[i];
+                if step != 0.0 {
+                    x[i] = value;
+                    change += column[i] * step * step;
+                    simd::axpy(w, step, column);
+                }
+            }
+            change.sqrt()
+        },
+    )
+}
+
+/// An iterate with its `w`.
+pub struct LcpIterate<'p> {
+    lcp: BoundedLcp<'p>,
+    x: Vec<f64>,
+    w: Vec<f64>,
+    simd: Simd,
+}
+
+impl<'p> LcpIterate<'p> {
+    /// Starts from `x`, made admissible.
+    pub fn new(lcp: BoundedLcp<'p>, mut x: Vec<f64>) -> Self {
+        for (i, x) in x.iter_mut().enumerate() {
+            *x = lcp.admissible(i, *x);
+        }
+        let w = lcp.w(&x);
+        LcpIterate { lcp, x, w, simd: Simd::new() }
+    }
+}
+
+impl Iterate for LcpIterate<'_> {
+    fn sweep(&mut self, omega: f64) -> f64 {
+        sweep(self.simd, &self.lcp, &mut self.x, &mut self.w, omega)
+    }
+
+    fn eta_of_sweeps(&self) -> f64 {
+        self.eta()
+    }
+
+    fn eta(&self) -> f64 {
+        self.lcp.eta(&self.x, &self.w)
+    }
+
+    fn refresh(&mut self) {
+        self.w = self.lcp.w(&self.x);
+    }
+
+    fn unknowns(&self) -> &[f64] {
+        &self.x
+    }
+
+    fn largest_force(&self) -> f64 {
+        norm_inf(&self.w)
+    }
+
+    fn is_unloaded(&self) -> bool {
+        norm_inf(self.lcp.q) == 0.0
+    }
+
+    fn recession(&self, drift: &[f64], monitor: &Monitor<'_>) -> Option<Vec<f64>> {
+        let matrix = self.lcp.matrix;
+        rigid_part(matrix, |i| matrix.at(i, i), drift, monitor)
+            .filter(|motion| self.lcp.is_recession(motion))
+    }
+}
