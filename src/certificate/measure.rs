@@ -226,7 +226,7 @@ impl Natural {
 
 /// The energy of the motion `d` under `internal` forces, `K d`, beside its terms: `d . K d / |d| . |K| |d|`; 0 if
 /// nothing resists it.
-pub(crate) fn energy<R: Relation>(relation: &R, d: &[f64], internal: &[f64]) -> f64 {
+pub(super) fn energy<R: Relation>(relation: &R, d: &[f64], internal: &[f64]) -> f64 {
     let sizes = sizes(d);
     let terms = dot(&sizes, &relation.magnitude(&sizes));
     if terms == 0.0 { 0.0 } else { dot(d, internal) / terms }

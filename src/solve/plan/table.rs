@@ -114,7 +114,7 @@ const SPRINGS: MethodRow = MethodRow {
         let Some(balance) = Balance::new(call.contact, monitor) else { return Ok(None) };
         let mut candidate = proximal::let_go(call.contact, call.settings, call.start, monitor);
         if let Ending::RunsAway(motion) = candidate.ending {
-            candidate.ending = Ending::RunsAway(balance.sharpened(balance.rigid_part(&motion)));
+            candidate.ending = balance.ending_away(&motion);
         }
         Ok(Some(candidate))
     },

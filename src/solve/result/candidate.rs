@@ -102,7 +102,7 @@ impl Candidate {
     /// True if nothing is left to try: solved, proved to have no solution, or stopped.
     pub fn is_settled(&self, contact: &Contact<'_>, tolerance: f64) -> bool {
         match &self.ending {
-            Ending::Recession(motion) | Ending::RunsAway(motion) => is_escape_of(contact, motion),
+            Ending::Recession(motion) => is_escape_of(contact, motion),
             Ending::Stopped(_) => true,
             _ => self.certificate(contact).holds(tolerance),
         }

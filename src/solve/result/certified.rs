@@ -23,8 +23,8 @@ pub fn certified(
     let wanted = format!("{accuracy}, wanted {:.1e}", settings.tolerance);
     // A diverging iterate may itself be a recession direction.
     let motion = match &candidate.ending {
-        Ending::Recession(motion) | Ending::RunsAway(motion) => Some(motion.as_slice()),
-        Ending::Stopped(_) => None,
+        Ending::Recession(motion) => Some(motion.as_slice()),
+        Ending::RunsAway(_) | Ending::Stopped(_) => None,
         _ => certificate.runs_away().then_some(candidate.d()),
     };
     let (status, message) = if certificate.holds(settings.tolerance) {

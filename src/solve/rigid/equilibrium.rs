@@ -19,6 +19,7 @@ use crate::linalg::pivoted_cholesky::PivotedCholesky;
 use crate::linalg::tolerances::NEGLIGIBLE;
 use crate::linalg::vector::{dot, norm};
 use crate::monitor::Monitor;
+use crate::solve::result::Ending;
 
 /// Negative work of a cone's force that counts, relative to the motion. Next to the limit of balance
 /// `e` is small beside the loads, and rounding of the projection is no smaller.
@@ -61,9 +62,18 @@ impl<'c> Balance<'c> {
         self.motions
     }
 
-    /// The rigid motion nearest to a motion.
-    pub fn rigid_part(&self, motion: &[f64]) -> Vec<f64> {
-        self.motions.part(motion)
+    /// The ending of a method along whose motion bodies move away: a proof that no equilibrium exists, if the motion
+    /// made rigid is one and contact stops it nowhere, not even by what the certificate takes for rounding.
+    pub fn ending_away(&self, motion: &[f64]) -> Ending {
+        let rigid = self.motions.part(motion);
+        let proof = self.sharpened(rigid.clone());
+        let most = STOPPED * self.motions.size(&proof);
+        let is_stopped = self.approaches(&proof).into_iter().any(|approach| approach > most);
+        if !is_stopped && is_escape_of(self.contact, &proof) {
+            Ending::Recession(proof)
+        } else {
+            Ending::RunsAway(rigid)
+        }
     }
 
     /// A motion that proves that no equilibrium exists without the rounding of the method that found it: made

@@ -6,7 +6,6 @@
 //! that moves no pair with a force, and that the loads do not drive.
 
 use super::motions::RigidMotions;
-use crate::certificate::energy;
 use crate::law::{Contact, State, touching};
 use crate::linalg::pivoted_cholesky::pivoted_cholesky_work;
 use crate::linalg::tolerances::{CONDENSATION, HELD, NEGLIGIBLE, ROUNDING_OF_SUM};
@@ -54,10 +53,18 @@ fn is_far(contact: &Contact<'_>, d: &[f64], force: &[f64]) -> bool {
 /// True if displacements are that large, and `K` resists them with no more energy than the rounding of a host's
 /// condensation leaves: another rounding would hold the bodies elsewhere, or not at all. Energies below [`HELD`] times that
 /// rounding cannot be told from it.
+///
+/// The energy is compared with that of the units, not of the entries of `K`: a diagonal entry that is rounding itself
+/// would be its own measure.
 pub fn is_held_by_rounding(contact: &Contact<'_>, d: &[f64], force: &[f64]) -> bool {
+    if !is_far(contact, d, force) {
+        return false;
+    }
     let problem = contact.problem();
-    is_far(contact, d, force)
-        && energy(problem.relation(), d, &problem.internal_force(d)) <= HELD * CONDENSATION
+    let largest = norm_inf(d);
+    let motion: Vec<f64> = d.iter().map(|d| d / largest).collect();
+    let of_units: f64 = motion.iter().enumerate().map(|(i, d)| problem.unit(i) * d * d).sum();
+    dot(&motion, &problem.internal_force(&motion)) <= HELD * CONDENSATION * of_units
 }
 
 /// True if a frictionless solution may move by some motion without internal force: one that does not move the
