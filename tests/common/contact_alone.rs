@@ -129,7 +129,7 @@ impl ContactAlone {
         if outer >= CLEAR { Statics::Driven } else { Statics::Undecided }
     }
 
-    /// What forces leave of the loads on the rigid motions, relative to these; friction is `around` times as large.
+    /// The part of the loads on the rigid motions that forces leave, relative to these; friction is `around` times as large.
     pub fn rest(&self, around: f64) -> f64 {
         let case = &self.raw;
         let scale = norm(&self.work).max(1e-3 * norm(&case.f));

@@ -20,19 +20,19 @@ fn count() -> usize {
     wanted.map_or(FEW, |wanted| wanted.parse().expect("a number of bodies"))
 }
 
-/// What became of bodies.
+/// How many bodies ended in which way.
 #[derive(Debug, Default)]
 struct Counts {
     balanced: usize,
     driven: usize,
     undecided: usize,
     refused: usize,
-    /// Of the driven: no equilibrium, proved.
+    /// Driven, and proved to have no equilibrium.
     proved: usize,
-    /// Of the driven: solved for the matrix as it is.
+    /// Driven, and solved for the matrix as it is, with the remark.
     held_by_rounding: usize,
     solved: usize,
-    /// Of the balanced: not solved, though another method or an enumeration finds a solution.
+    /// Balanced and not solved, though another method or an enumeration finds a solution.
     missed: usize,
 }
 

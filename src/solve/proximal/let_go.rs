@@ -202,14 +202,14 @@ impl Springs<'_> {
         }
     }
 
-    /// What Newton's method makes of `K` alone from the last solution.
+    /// Newton's method on `K` alone, from the last solution.
     fn without_springs(&mut self, monitor: &mut Monitor<'_>) -> Result<Candidate, Ending> {
         let (contact, settings) = (self.contact, self.settings);
         let candidate = self.newton((contact, settings), MOST_WITHOUT_SPRINGS, monitor)?;
         Ok(newton::refine_to_tolerance(contact, settings, candidate, monitor))
     }
 
-    /// What Newton's method makes of a problem with at most so many systems from the last solution. `Err`: the call is
+    /// Newton's method on a problem with at most so many systems, from the last solution. `Err`: the call is
     /// stopped.
     fn newton(
         &mut self,

@@ -78,7 +78,7 @@ pub trait InSeries {
     }
 }
 
-/// What rounds have found.
+/// The result of the rounds.
 pub struct Found {
     /// The best result.
     pub solution: Solution,

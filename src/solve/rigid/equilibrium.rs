@@ -176,7 +176,7 @@ impl<'c> Balance<'c> {
     /// a pair approach, by least squares; `None` if none has any.
     fn lift(&self) -> Option<Vec<f64>> {
         let dim = self.contact.dim();
-        // What each component adds to the approach of its pair.
+        // Each component adds so much to the approach of its pair.
         let weight = |i: usize| match i % dim {
             0 => 1.0,
             _ => {

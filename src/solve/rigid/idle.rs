@@ -98,7 +98,7 @@ fn idle(contact: &Contact<'_>, candidate: &Candidate, rigid: RigidMotions) -> Ri
     RigidMotions { basis: not_moving(held, rigid.basis), ..rigid }
 }
 
-/// Of the motions with an orthonormal `basis`, one of those that do not move the `held` components.
+/// An orthonormal basis of those motions of a `basis` that do not move the `held` components.
 fn not_moving(mut held: Vec<usize>, mut basis: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
     // Each component that is held takes one motion away: the others are combined with it so that they do
     // not move it.
