@@ -57,12 +57,17 @@ pub fn gmres<E>(
     }
     let mut coefficients = rotated;
     coefficients.truncate(triangle.len());
-    for k in (0..triangle.len()).rev() {
-        coefficients[k] /= triangle[k][k];
-        let known = coefficients[k];
-        (0..k).for_each(|j| coefficients[j] -= known * triangle[k][j]);
-    }
+    solve_triangle(&triangle, &mut coefficients);
     Ok((coefficients, residual))
+}
+
+/// Overwrites `x` with the solution of an upper triangle of columns.
+pub fn solve_triangle(triangle: &[Vec<f64>], x: &mut [f64]) {
+    for (k, column) in triangle.iter().enumerate().rev() {
+        x[k] /= column[k];
+        let known = x[k];
+        (0..k).for_each(|j| x[j] -= known * column[j]);
+    }
 }
 
 /// Takes the directions of `basis` out of a vector: their coefficients, followed by a 0, what is left of its

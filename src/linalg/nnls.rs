@@ -1,8 +1,7 @@
 //! Non-negative least squares (Lawson and Hanson, *Solving Least Squares Problems*, 1974, chapter 23),
 //! and orthonormal bases.
 
-use super::factor::Factor;
-use super::gmres::orthogonalised;
+use super::gmres::{orthogonalised, solve_triangle};
 use super::vector::dot;
 
 /// Slopes above this part of the length of the target would still lower the distance: ten times the
@@ -71,17 +70,24 @@ fn descend(
     }
 }
 
-/// The `x` for which `target + sum x_j columns_j` is shortest; `None` if the columns are dependent.
+/// The `x` for which `target + sum x_j columns_j` is shortest; `None` if the columns are dependent. By orthogonal
+/// directions: products of the columns with each other would lose half the digits of columns next to each other.
 fn least_squares(target: &[f64], columns: &[Vec<f64>], active: &[usize]) -> Option<Vec<f64>> {
-    let length = |j: usize| dot(&columns[j], &columns[j]).sqrt();
-    let mut gram = Factor::new(active.len(), true, |c, column| {
-        for (entry, &j) in column.iter_mut().zip(active) {
-            *entry = dot(&columns[j], &columns[active[c]]) / (length(j) * length(active[c]));
+    let (mut basis, mut triangle) = (Vec::new(), Vec::new());
+    for (k, &j) in active.iter().enumerate() {
+        let mut direction = columns[j].clone();
+        let (mut column, left, was) = orthogonalised(&mut direction, &basis);
+        if left <= SLOPE * was {
+            return None;
         }
-    })?;
-    let mut x: Vec<f64> = active.iter().map(|&j| -dot(&columns[j], target) / length(j)).collect();
-    gram.solve(&mut x);
-    Some(x.iter().zip(active).map(|(x, &j)| x / length(j)).collect())
+        direction.iter_mut().for_each(|v| *v /= left);
+        column[k] = left;
+        basis.push(direction);
+        triangle.push(column);
+    }
+    let mut x: Vec<f64> = basis.iter().map(|direction| -dot(direction, target)).collect();
+    solve_triangle(&triangle, &mut x);
+    Some(x)
 }
 
 /// Adds to an orthonormal `basis` the part of `v` that is orthogonal to it, normalised.

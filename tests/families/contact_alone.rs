@@ -116,12 +116,13 @@ fn all(case: impl Fn(&ContactAlone) -> Case, as_model: bool, proved: f64) {
     println!("{counts:?}");
     assert!(wrong.is_empty(), "{} wrong:\n{}", wrong.len(), wrong.join("\n"));
     assert!(counts.missed <= counts.balanced * 2 / 1000, "{counts:?}");
-    assert!(counts.proved as f64 >= proved * counts.driven as f64, "{counts:?}");
+    // One more, as a few bodies have less than one miss.
+    assert!((counts.proved + 1) as f64 >= proved * counts.driven as f64, "{counts:?}");
 }
 
 #[test]
 fn clean() {
-    all(ContactAlone::clean, false, 0.98);
+    all(ContactAlone::clean, false, 0.995);
 }
 
 /// The matrix alone cannot tell rounding from springs where the products of rounding with the rigid motions happen to be
@@ -133,5 +134,5 @@ fn as_condensed() {
 
 #[test]
 fn as_condensed_through_a_model() {
-    all(|bodies| bodies.raw.clone(), true, 0.98);
+    all(|bodies| bodies.raw.clone(), true, 0.995);
 }

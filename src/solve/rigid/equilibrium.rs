@@ -8,8 +8,8 @@
 //!
 //! In space a cone has infinitely many edges. The projection begins with a few (non-negative least
 //! squares); where a force of a cone does negative work on `r`, the edge of the least work joins, and
-//! the projection is repeated (cutting planes, on the exact disc). What is left of negative work within
-//! the tolerance is taken away by a motion that lifts all pairs.
+//! the projection is repeated (cutting planes, on the exact disc), until no more than rounding is left of it. Where a
+//! motion lifts all pairs, a part of it takes away what is left before; bodies that are wedged have none.
 
 use super::motions::RigidMotions;
 use crate::certificate::is_escape_of;
@@ -17,23 +17,15 @@ use crate::law::Contact;
 use crate::linalg::nnls::nearest;
 use crate::linalg::pivoted_cholesky::PivotedCholesky;
 use crate::linalg::tolerances::NEGLIGIBLE;
-use crate::linalg::vector::{dot, norm};
+use crate::linalg::vector::dot;
 use crate::monitor::Monitor;
 use crate::solve::result::Ending;
-
-/// Negative work of a cone's force that counts, relative to the motion. Next to the limit of balance
-/// `e` is small beside the loads, and rounding of the projection is no smaller.
-const NEGATIVE: f64 = 1e-9;
 
 /// Approach of a pair beside the motion that is more than its own rounding.
 const STOPPED: f64 = 2.0 * f64::EPSILON;
 
 /// Pairs whose edges join in one round.
 const JOINING: usize = 4;
-
-/// Where a round leaves more than this part of what was not balanced, a lift may make the motion a proof
-/// at once: edges that come ever nearer to each other are dependent before the negative work is gone.
-const STEADY: f64 = 0.999;
 
 /// Rounds of cutting planes: a hundred were the most where it converged.
 const MOST_ROUNDS: usize = 300;
@@ -82,7 +74,7 @@ impl<'c> Balance<'c> {
         let mut rigid = self.motions.part(&motion);
         let size = self.motions.size(&rigid);
         if self.approaches(&rigid).into_iter().any(|approach| approach > STOPPED * size) {
-            rigid = self.lifted(rigid);
+            rigid = self.lifted(rigid, self.lift().as_deref());
         }
         if is_escape_of(self.contact, &rigid) { rigid } else { motion }
     }
@@ -99,27 +91,27 @@ impl<'c> Balance<'c> {
             let own = law.cone_edges();
             edges.extend(own.iter().map(|edge| self.on_pair(edge, pair)));
         }
-        let mut last = f64::INFINITY;
+        let (lift, mut last) = (self.lift(), Vec::new());
         for _ in 0..MOST_ROUNDS {
             let rest = nearest(&load, &edges)?;
             let motion = self.motions.motion(&rest);
-            let worst = self.worst(&motion);
-            let size = norm(&rest);
-            let is_last = worst.is_empty() || contact.dim() == 2 || size == last;
-            if is_last || size > STEADY * last {
-                let lifted = self.lifted(motion.clone());
-                if is_escape_of(contact, &lifted) {
-                    return Some(lifted);
-                }
-                if is_last {
-                    return None;
-                }
+            // A lift that takes the rounding of one pair away may bring another nearer.
+            let proofs = [self.lifted(motion.clone(), lift.as_deref()), motion.clone()];
+            let is_driven = |r: &[f64]| dot(contact.load_with_tension(), r) > 0.0;
+            let is_free = |r: &[f64]| self.worst(r).is_empty();
+            let is_proof = |r: &Vec<f64>| is_driven(r) && is_free(r) && is_escape_of(contact, r);
+            if let Some(proof) = proofs.into_iter().find(is_proof) {
+                return Some(proof);
             }
-            last = size;
+            let worst = self.worst(&motion);
+            if worst.is_empty() || rest == last {
+                return None;
+            }
             for pair in worst.into_iter().take(JOINING) {
                 let own = &motion[contact.dim() * pair..contact.dim() * (pair + 1)];
                 edges.push(self.on_pair(&contact.pairs()[pair].opposing_edge(own), pair));
             }
+            last = rest;
         }
         None
     }
@@ -150,7 +142,7 @@ impl<'c> Balance<'c> {
 
     /// The pairs with a force that does negative work on a motion, those of most work first.
     fn worst(&self, motion: &[f64]) -> Vec<usize> {
-        let (least, approaches) = (NEGATIVE * self.motions.size(motion), self.approaches(motion));
+        let (least, approaches) = (NEGLIGIBLE * self.motions.size(motion), self.approaches(motion));
         let mut worst: Vec<usize> =
             (0..approaches.len()).filter(|&pair| approaches[pair] > least).collect();
         worst.sort_by(|&a, &b| approaches[b].total_cmp(&approaches[a]));
@@ -158,16 +150,16 @@ impl<'c> Balance<'c> {
     }
 
     /// A motion with as much of one that lifts the pairs as takes away the negative work.
-    fn lifted(&self, mut motion: Vec<f64>) -> Vec<f64> {
-        let Some(lift) = self.lift() else { return motion };
+    fn lifted(&self, mut motion: Vec<f64>, lift: Option<&[f64]>) -> Vec<f64> {
+        let Some(lift) = lift else { return motion };
         let margin = NEGLIGIBLE * self.motions.size(&motion);
-        let wanted = self.approaches(&motion).into_iter().zip(self.approaches(&lift));
+        let wanted = self.approaches(&motion).into_iter().zip(self.approaches(lift));
         let part = wanted
             .filter(|(approach, _)| *approach > -margin)
             .map(|(approach, lifted)| (approach + margin) / -lifted)
             .fold(0.0, |most: f64, part| if part < 0.0 { f64::NAN } else { most.max(part) });
         if part.is_finite() {
-            motion.iter_mut().zip(&lift).for_each(|(r, lift)| *r += part * lift);
+            motion.iter_mut().zip(lift).for_each(|(r, lift)| *r += part * lift);
         }
         motion
     }
