@@ -2,10 +2,10 @@
 
 use libc::c_char;
 use std::ffi::CStr;
+use std::marker::PhantomData;
 use std::path::Path;
 
 use super::guard::{self, Failure};
-use super::structures::checked_size;
 use crate::error::Argument;
 use crate::linalg::matrix;
 use crate::problem;
@@ -15,10 +15,13 @@ use crate::problem;
 /// counts by itself.
 const IN_RESERVE: usize = 16;
 
-/// The arrays of one call, collected to check that outputs overlap nothing.
-#[derive(Default)]
-pub(super) struct Arrays {
+/// The memory of the host that a call may use, of which outputs overlap nothing.
+///
+/// It stands for the contract of the header, which [`Self::of_call`] asks for once: its methods turn the pointers of
+/// the call into slices, structures and outputs after checking them.
+pub(super) struct Arrays<'h> {
     ranges: Vec<Range>,
+    host: PhantomData<&'h [u8]>,
 }
 
 struct Range {
@@ -35,71 +38,64 @@ pub(super) struct Output<T> {
     length: usize,
 }
 
-impl Arrays {
-    /// An array to read, which must not be NULL unless it has no elements.
+impl<'h> Arrays<'h> {
+    /// The arrays of a call, before any is known.
     ///
     /// # Safety
-    /// A pointer that is not NULL has `length` initialised elements, as the header demands, which
-    /// nobody writes to during the call.
-    pub(super) unsafe fn required<'a, T>(
+    /// Every pointer that a method is given is an argument of the call, or stands in a structure of its arguments. It
+    /// is NULL, or has as many elements as the header demands: initialised ones, if the call reads them, which nobody
+    /// writes to during the call; ones that nobody else accesses, if the call writes them.
+    pub(super) unsafe fn of_call() -> Self {
+        Arrays { ranges: Vec::new(), host: PhantomData }
+    }
+
+    /// An array to read, which must not be NULL unless it has no elements.
+    pub(super) fn required<T>(
         &mut self,
         position: i32,
         name: &'static str,
         pointer: *const T,
         length: usize,
-    ) -> Result<&'a [T], Failure> {
+    ) -> Result<&'h [T], Failure> {
         refuse_null(position, name, pointer, length)?;
-        // SAFETY: by the caller's contract.
-        let values = unsafe { self.optional(position, name, pointer, length)? };
-        Ok(values.unwrap_or_default())
+        Ok(self.optional(position, name, pointer, length)?.unwrap_or_default())
     }
 
     /// A matrix to read, for which the call holds memory in reserve by itself.
-    ///
-    /// # Safety
-    /// As for [`Self::required`].
-    pub(super) unsafe fn matrix<'a>(
+    pub(super) fn matrix(
         &mut self,
         position: i32,
         name: &'static str,
         pointer: *const f64,
         length: usize,
-    ) -> Result<&'a [f64], Failure> {
+    ) -> Result<&'h [f64], Failure> {
         refuse_null(position, name, pointer, length)?;
-        // SAFETY: by the caller's contract.
-        let values = unsafe { self.matrix_or_null(position, name, pointer, length)? };
-        Ok(values.unwrap_or_default())
+        Ok(self.matrix_or_null(position, name, pointer, length)?.unwrap_or_default())
     }
 
     /// As [`Self::matrix`], `None` if it is NULL or has no elements.
-    ///
-    /// # Safety
-    /// As for [`Self::required`].
-    pub(super) unsafe fn matrix_or_null<'a>(
+    pub(super) fn matrix_or_null(
         &mut self,
         position: i32,
         name: &'static str,
         pointer: *const f64,
         length: usize,
-    ) -> Result<Option<&'a [f64]>, Failure> {
+    ) -> Result<Option<&'h [f64]>, Failure> {
         let present = self.note(position, name, pointer, length, false)?;
         // SAFETY: as in `optional`.
         Ok(present.then(|| unsafe { std::slice::from_raw_parts(pointer, length) }))
     }
 
     /// An array to read, `None` if it is NULL or has no elements.
-    ///
-    /// # Safety
-    /// As for [`Self::required`].
-    pub(super) unsafe fn optional<'a, T>(
+    pub(super) fn optional<T>(
         &mut self,
         position: i32,
         name: &'static str,
         pointer: *const T,
         length: usize,
-    ) -> Result<Option<&'a [T]>, Failure> {
+    ) -> Result<Option<&'h [T]>, Failure> {
         let present = self.add(position, name, pointer, length, false)?;
-        // SAFETY: not NULL and aligned (just checked); long enough by the caller's contract.
+        // SAFETY: not NULL and aligned (just checked); long enough by the contract of the call.
         Ok(present.then(|| unsafe { std::slice::from_raw_parts(pointer, length) }))
     }
 
@@ -140,35 +136,47 @@ impl Arrays {
         Ok(Output { pointer, length: if present { length } else { 0 } })
     }
 
-    /// A structure of the caller, to be checked for overlap only: as large as it says.
-    ///
-    /// # Safety
-    /// NULL, or a structure that begins with its size.
-    pub(super) unsafe fn structure<T>(
-        &mut self,
+    /// An object of this library, by its handle.
+    pub(super) fn handle<T>(
+        &self,
         position: i32,
-        name: &'static str,
-        pointer: *const T,
-        written: bool,
-    ) -> Result<(), Failure> {
-        if pointer.is_null() {
-            return Ok(());
-        }
-        // SAFETY: by the caller's contract. An older program's structure is smaller than ours.
-        let bytes = unsafe { checked_size(position, name, pointer)? };
-        self.structures(position, name, pointer, bytes, written)
+        name: &str,
+        handle: *const T,
+    ) -> Result<&'h T, Failure> {
+        refuse_null(position, name, handle, 1)?;
+        // SAFETY: not NULL; an object that lives, by the contract of the call.
+        Ok(unsafe { &*handle })
     }
 
-    /// An array of structures of `bytes` bytes in all.
-    pub(super) fn structures<T>(
-        &mut self,
+    /// The name of a file: any bytes on Unix, UTF-8 elsewhere.
+    pub(super) fn path(&self, position: i32, pointer: *const c_char) -> Result<&'h Path, Failure> {
+        refuse_null(position, "path", pointer, 1)?;
+        // SAFETY: not NULL; a text that ends with a zero, by the contract of the call.
+        let bytes = unsafe { CStr::from_ptr(pointer) }.to_bytes();
+        if bytes.is_empty() {
+            return Err(Failure::argument(position, "path is empty"));
+        }
+        #[cfg(unix)]
+        let path = Some(<std::ffi::OsStr as std::os::unix::ffi::OsStrExt>::from_bytes(bytes));
+        #[cfg(not(unix))]
+        let path = std::str::from_utf8(bytes).ok();
+        let path = path.ok_or_else(|| Failure::argument(position, "path is not UTF-8"))?;
+        Ok(Path::new(path))
+    }
+
+    /// A text, `None` if it is NULL.
+    pub(super) fn text(
+        &self,
         position: i32,
-        name: &'static str,
-        pointer: *const T,
-        bytes: usize,
-        written: bool,
-    ) -> Result<(), Failure> {
-        self.add(position, name, pointer.cast::<u8>(), bytes, written).map(drop)
+        name: &str,
+        pointer: *const c_char,
+    ) -> Result<Option<&'h str>, Failure> {
+        if pointer.is_null() {
+            return Ok(None);
+        }
+        // SAFETY: not NULL; a text that ends with a zero, by the contract of the call.
+        let text = unsafe { CStr::from_ptr(pointer) }.to_str();
+        text.map(Some).map_err(|_| Failure::argument(position, format!("{name} is not UTF-8")))
     }
 
     /// Refuses an output that shares memory with another array.
@@ -188,7 +196,7 @@ impl Arrays {
     }
 
     /// Notes an array, and holds memory in reserve for it; false if there is nothing to access.
-    fn add<T>(
+    pub(super) fn add<T>(
         &mut self,
         position: i32,
         name: &'static str,
@@ -234,13 +242,10 @@ impl Arrays {
 
 impl<T: Copy> Output<T> {
     /// Writes the results.
-    ///
-    /// # Safety
-    /// The pointer has `length` elements, as the header demands, which nobody else accesses.
-    pub(super) unsafe fn write(&self, values: &[T]) {
+    pub(super) fn write(&self, values: &[T]) {
         if self.length > 0 {
             debug_assert_eq!(self.length, values.len());
-            // SAFETY: not NULL and aligned (checked when it was made), not overlapping ours.
+            // SAFETY: made by `Arrays`: not NULL, aligned, so many elements that overlap none of ours.
             unsafe { std::ptr::copy_nonoverlapping(values.as_ptr(), self.pointer, self.length) }
         }
     }
@@ -251,11 +256,8 @@ impl<T: Copy> Output<T> {
         Output { pointer: self.pointer.wrapping_add(begin), length }
     }
 
-    /// A copy of what the array holds now.
-    ///
-    /// # Safety
-    /// As for [`Self::write`]; the elements are initialised.
-    pub(super) unsafe fn read(&self) -> Vec<T> {
+    /// A copy of the elements that the caller has put there.
+    pub(super) fn read(&self) -> Vec<T> {
         if self.length == 0 {
             return Vec::new();
         }
@@ -301,42 +303,4 @@ pub(super) fn matrix_length(
 ) -> Result<usize, Failure> {
     matrix::required_length(name, n, leading)
         .map_err(|message| Failure::argument(position, message))
-}
-
-/// The name of a file: any bytes on Unix, UTF-8 elsewhere.
-///
-/// # Safety
-/// NULL or a text that ends with a zero and lives as long as the name is used.
-pub(super) unsafe fn path<'a>(position: i32, pointer: *const c_char) -> Result<&'a Path, Failure> {
-    if pointer.is_null() {
-        return Err(Failure::argument(position, "path is NULL"));
-    }
-    // SAFETY: by the caller's contract.
-    let bytes = unsafe { CStr::from_ptr(pointer) }.to_bytes();
-    if bytes.is_empty() {
-        return Err(Failure::argument(position, "path is empty"));
-    }
-    #[cfg(unix)]
-    let path = Some(<std::ffi::OsStr as std::os::unix::ffi::OsStrExt>::from_bytes(bytes));
-    #[cfg(not(unix))]
-    let path = std::str::from_utf8(bytes).ok();
-    let path = path.ok_or_else(|| Failure::argument(position, "path is not UTF-8"))?;
-    Ok(Path::new(path))
-}
-
-/// A text, `None` if it is NULL.
-///
-/// # Safety
-/// NULL or a text that ends with a zero and lives as long as it is used.
-pub(super) unsafe fn text<'a>(
-    position: i32,
-    name: &str,
-    pointer: *const c_char,
-) -> Result<Option<&'a str>, Failure> {
-    if pointer.is_null() {
-        return Ok(None);
-    }
-    // SAFETY: by the caller's contract.
-    let text = unsafe { CStr::from_ptr(pointer) }.to_str();
-    text.map(Some).map_err(|_| Failure::argument(position, format!("{name} is not UTF-8")))
 }

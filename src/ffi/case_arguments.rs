@@ -24,15 +24,13 @@ pub(super) struct CaseArguments {
 impl CaseArguments {
     /// The arrays of `cases` load cases as slices, noted in `arrays`. `memory_limit` is that of the
     /// settings, 0: none.
-    ///
-    /// # Safety Every pointer is NULL or has the length that the header demands.
-    pub(super) unsafe fn read<'a>(
+    pub(super) fn read<'h>(
         &self,
-        arrays: &mut Arrays,
-        model: &'a Model,
+        arrays: &mut Arrays<'h>,
+        model: &'h Model,
         cases: usize,
         memory_limit: u64,
-    ) -> Result<LoadCases<'a>, Failure> {
+    ) -> Result<LoadCases<'h>, Failure> {
         let bytes = model.memory();
         // A case that may need more is refused before it takes anything.
         if memory_limit == 0 || bytes <= memory_limit {
@@ -47,17 +45,14 @@ impl CaseArguments {
         let slips = (model.dim() - 1) * model.pairs();
         let (host, fixed) = (times(cases, model.host_size())?, times(cases, model.fixed_count())?);
         let (pairs, slips) = (times(cases, model.pairs())?, times(cases, slips)?);
-        // SAFETY: the lengths are those of the header.
-        unsafe {
-            Ok(LoadCases {
-                model,
-                load: arrays.matrix(at(0), "f", self.f, host)?,
-                prescribed: arrays.optional(at(1), "prescribed", self.prescribed, fixed)?,
-                gap: arrays.required(at(2), "gap", self.gap, pairs)?,
-                law: law::read(arrays, at(3), (self.law, self.friction), pairs)?,
-                slip0: arrays.optional(at(5), "slip0", self.slip0, slips)?,
-            })
-        }
+        Ok(LoadCases {
+            model,
+            load: arrays.matrix(at(0), "f", self.f, host)?,
+            prescribed: arrays.optional(at(1), "prescribed", self.prescribed, fixed)?,
+            gap: arrays.required(at(2), "gap", self.gap, pairs)?,
+            law: law::read(arrays, at(3), (self.law, self.friction), pairs)?,
+            slip0: arrays.optional(at(5), "slip0", self.slip0, slips)?,
+        })
     }
 
     /// Number of the argument that an error is about; `otherwise` of an argument of the call that

@@ -3,7 +3,7 @@
 use super::args::Arrays;
 use super::case_arguments::CaseArguments;
 use super::guard::{self, Failure};
-use super::model::{SignoriniModel, read};
+use super::model::SignoriniModel;
 use super::report::{SignoriniReport, state_codes};
 use super::status::{SIGNORINI_STATUS_NOT_A_SOLUTION, SIGNORINI_STATUS_SOLVED, remember};
 use crate::certificate::Certificate;
@@ -39,25 +39,21 @@ pub unsafe extern "C" fn signorini_model_certify(
     const MEASURED: i32 = 9;
     let given = CaseArguments { first: 2, f, prescribed, gap, law, friction, slip0 };
     guard::call(|| {
-        let mut arrays = Arrays::default();
-        // SAFETY: a model, arrays and a report as the header demands.
-        let (model, case, d) = unsafe {
-            let model = read(model)?;
-            let cases = given.read(&mut arrays, model, 1, 0)?;
-            check_tolerance("tolerance", tolerance)
-                .map_err(|message| Failure::argument(MEASURED - 1, message))?;
-            let d = arrays.required(MEASURED, "d", d, model.dim() * model.pairs())?;
-            arrays.structure(12, "report", report.cast_const(), true)?;
-            (model, cases.case(0), d)
-        };
+        // SAFETY: the header's contract.
+        let mut arrays = unsafe { Arrays::of_call() };
+        let model = arrays.model(model)?;
+        let case = given.read(&mut arrays, model, 1, 0)?.case(0);
+        check_tolerance("tolerance", tolerance)
+            .map_err(|message| Failure::argument(MEASURED - 1, message))?;
+        let d = arrays.required(MEASURED, "d", d, model.dim() * model.pairs())?;
+        let report = arrays.out_structures(12, "report", report, 1)?;
         let state = arrays.optional_output(11, "state", state, model.pairs())?;
         let (certificate, force) = if model.is_determined_by_displacements() {
             let force = arrays.optional_output(10, "F", F, d.len())?;
             arrays.check_overlap()?;
             (model.certify(&case, d), Some(force))
         } else {
-            // SAFETY: as above.
-            let force = unsafe { arrays.required(10, "F", F.cast_const(), d.len())? };
+            let force = arrays.required(10, "F", F.cast_const(), d.len())?;
             arrays.check_overlap()?;
             (model.certify_forces(&case, d, force), None)
         };
@@ -69,14 +65,11 @@ pub unsafe extern "C" fn signorini_model_certify(
         })?;
         let certificate = certificate.with_rounding(tolerance);
         let status = judged(&certificate, tolerance);
-        // SAFETY: the outputs have the lengths of the header and overlap nothing.
-        unsafe {
-            if let Some(force) = force {
-                force.write(&certificate.force);
-            }
-            state.write(&state_codes(&certificate.states));
-            SignoriniReport::of_certificate(status, &certificate).write(report);
+        if let Some(force) = force {
+            force.write(&certificate.force);
         }
+        state.write(&state_codes(&certificate.states));
+        report.write(0, &SignoriniReport::of_certificate(status, &certificate));
         Ok(status)
     })
 }

@@ -32,27 +32,21 @@ impl CondensedArguments {
     pub(super) const COUNT: i32 = ARGUMENTS.len() as i32;
 
     /// The arrays as slices, noted in `arrays`.
-    ///
-    /// # Safety
-    /// Every pointer is NULL or has the length that the header demands.
-    pub(super) unsafe fn read<'a>(&self, arrays: &mut Arrays) -> Result<ContactData<'a>, Failure> {
+    pub(super) fn read<'h>(&self, arrays: &mut Arrays<'h>) -> Result<ContactData<'h>, Failure> {
         let at = |offset| self.first + offset;
         let (dim, pairs, n) = sizes(self.first, self.dim, self.pairs)?;
         let ld = size(at(3), "ldk", self.ldk)?;
         let entries = matrix_length(at(3), "K", n, ld)?;
-        // SAFETY: the lengths are those of the header.
-        unsafe {
-            Ok(ContactData {
-                dim,
-                pairs,
-                stiffness: arrays.matrix(at(2), "K", self.K, entries)?,
-                ld,
-                load: arrays.required(at(4), "f", self.f, n)?,
-                gap: arrays.required(at(5), "gap", self.gap, pairs)?,
-                law: law::read(arrays, at(6), (self.law, self.friction), pairs)?,
-                reference_slip: arrays.optional(at(8), "slip0", self.slip0, n - pairs)?,
-            })
-        }
+        Ok(ContactData {
+            dim,
+            pairs,
+            stiffness: arrays.matrix(at(2), "K", self.K, entries)?,
+            ld,
+            load: arrays.required(at(4), "f", self.f, n)?,
+            gap: arrays.required(at(5), "gap", self.gap, pairs)?,
+            law: law::read(arrays, at(6), (self.law, self.friction), pairs)?,
+            reference_slip: arrays.optional(at(8), "slip0", self.slip0, n - pairs)?,
+        })
     }
 
     /// Number of the argument that an error is about; `otherwise` of an argument of the call that

@@ -46,84 +46,57 @@ unsafe impl Structure for SignoriniExtra {}
 
 /// The arrays of the caller's structure.
 pub(super) struct Extra {
-    n: usize,
-    pairs: usize,
-    motion: Output<f64>,
-    second_d: Output<f64>,
-    second_force: Output<f64>,
+    /// Motion, escape, displacements and forces of the second solution, radii of displacements and forces.
+    vectors: [Output<f64>; 6],
     second_state: Output<i32>,
-    radius_d: Output<f64>,
-    radius_force: Output<f64>,
-    escape: Output<f64>,
 }
 
 impl Extra {
     /// Reads the caller's structure for results of `n` unknowns of `pairs` pairs, each `cases`
     /// times; NULL: nothing is wanted.
-    ///
-    /// # Safety
-    /// A pointer that is not NULL has as many readable bytes as its first field says, and its
-    /// pointers are NULL or have the lengths of the header.
-    pub(super) unsafe fn read(
-        arrays: &mut Arrays,
+    pub(super) fn read(
+        arrays: &mut Arrays<'_>,
         position: i32,
         pointer: *const SignoriniExtra,
         (n, pairs, cases): (usize, usize, usize),
     ) -> Result<Self, Failure> {
-        // SAFETY: by the caller's contract.
-        let given = unsafe { structures::read(position, "extra", pointer)? };
-        if given.reserved != 0 {
-            let message = format!("extra: reserved is {}, it must be 0", given.reserved);
-            return Err(Failure::argument(position, message));
-        }
-        // SAFETY: by the caller's contract.
-        unsafe { arrays.structure(position, "extra", pointer, false)? };
+        let given = arrays.copy(position, "extra", pointer)?;
+        structures::check_reserved(position, "extra", given.reserved)?;
         // No overflow: the required arrays d and state of the call are as long.
-        let (all, all_pairs) = (n * cases, pairs * cases);
-        let mut vector = |name, pointer| arrays.optional_output(position, name, pointer, all);
-        Ok(Extra {
-            n,
-            pairs,
-            motion: vector("extra: motion", given.motion)?,
-            second_d: vector("extra: second_d", given.second_d)?,
-            second_force: vector("extra: second_F", given.second_F)?,
-            radius_d: vector("extra: radius_d", given.radius_d)?,
-            radius_force: vector("extra: radius_F", given.radius_F)?,
-            escape: vector("extra: escape", given.escape)?,
-            second_state: arrays.optional_output(
-                position,
-                "extra: second_state",
-                given.second_state,
-                all_pairs,
-            )?,
-        })
+        let mut vector = |name, pointer| arrays.optional_output(position, name, pointer, n * cases);
+        let vectors = [
+            vector("extra: motion", given.motion)?,
+            vector("extra: escape", given.escape)?,
+            vector("extra: second_d", given.second_d)?,
+            vector("extra: second_F", given.second_F)?,
+            vector("extra: radius_d", given.radius_d)?,
+            vector("extra: radius_F", given.radius_F)?,
+        ];
+        let (name, state) = ("extra: second_state", given.second_state);
+        let second_state = arrays.optional_output(position, name, state, pairs * cases)?;
+        Ok(Extra { vectors, second_state })
     }
 
     /// Writes the results of a case.
-    ///
-    /// # Safety
-    /// The arrays have the lengths of the header and overlap nothing.
-    pub(super) unsafe fn write(&self, case: usize, solution: &Solution) {
-        let (n, pairs) = (self.n, self.pairs);
+    pub(super) fn write(&self, case: usize, solution: &Solution) {
+        let (n, pairs) = (solution.d.len(), solution.certificate.states.len());
         let zeros = vec![0.0; n];
-        let motion = solution.recession.as_deref().unwrap_or(&zeros);
-        let escape = solution.escape.as_ref().map_or(&zeros[..], |escape| &escape.motion);
         let second = solution.second.as_deref();
-        let d = second.map_or(&zeros[..], |second| &second.d);
-        let force = second.map_or(&zeros[..], |second| &second.certificate.force);
-        let states =
-            second.map_or_else(|| vec![0; pairs], |second| state_codes(&second.certificate.states));
         let (radius_d, radius_force) = radii(solution);
-        // SAFETY: by the caller's contract.
-        unsafe {
-            self.radius_d.part(n * case, n).write(&radius_d);
-            self.radius_force.part(n * case, n).write(&radius_force);
-            self.motion.part(n * case, n).write(motion);
-            self.escape.part(n * case, n).write(escape);
-            self.second_d.part(n * case, n).write(d);
-            self.second_force.part(n * case, n).write(force);
-            self.second_state.part(pairs * case, pairs).write(&states);
+        let vectors = [
+            solution.recession.as_ref().unwrap_or(&zeros),
+            solution.escape.as_ref().map_or(&zeros, |escape| &escape.motion),
+            second.map_or(&zeros, |second| &second.d),
+            second.map_or(&zeros, |second| &second.certificate.force),
+            &radius_d,
+            &radius_force,
+        ];
+        for (output, values) in self.vectors.iter().zip(vectors) {
+            output.part(n * case, n).write(values);
         }
+        let states = second.map(|second| state_codes(&second.certificate.states));
+        let states = states.unwrap_or_else(|| vec![0; pairs]);
+        self.second_state.part(pairs * case, pairs).write(&states);
     }
 }
 

@@ -1,5 +1,6 @@
 //! The beginning and the end of a handle.
 
+use super::args::Arrays;
 use super::guard::{self, Failure};
 use super::status::keeping_sentence;
 use crate::error::{Argument, Error};
@@ -8,22 +9,24 @@ use crate::shortage;
 /// The caller's place for a new handle; NULL until there is one.
 pub(super) struct OutPointer<T>(*mut *mut T);
 
-impl<T> OutPointer<T> {
-    /// # Safety
-    /// NULL, or a place for a pointer that is the caller's during the call.
-    pub(super) unsafe fn new(
+impl Arrays<'_> {
+    /// The place for a new handle, which holds NULL from now on.
+    pub(super) fn out_pointer<T>(
+        &self,
         position: i32,
         name: &str,
         place: *mut *mut T,
-    ) -> Result<Self, Failure> {
+    ) -> Result<OutPointer<T>, Failure> {
         if place.is_null() || !place.is_aligned() {
             return Err(Failure::argument(position, format!("{name} is NULL or not aligned")));
         }
-        // SAFETY: by the caller's contract.
+        // SAFETY: not NULL and aligned; the caller's place, by the contract of the call.
         unsafe { place.write(std::ptr::null_mut()) };
         Ok(OutPointer(place))
     }
+}
 
+impl<T> OutPointer<T> {
     /// Hands over a new object, or refuses the argument whose number `position` tells.
     pub(super) fn fill<M: Into<T>>(
         self,
@@ -43,7 +46,8 @@ impl<T> OutPointer<T> {
 /// Releases a handle; NULL is allowed. The sentence of the call before stays, so that a host may
 /// release first and ask then.
 ///
-/// # Safety NULL or a handle that this library has made by `Box::into_raw`, once.
+/// # Safety
+/// NULL or a handle that this library has made by `Box::into_raw`, once.
 pub(super) unsafe fn release<T>(handle: *mut T) {
     keeping_sentence(|| {
         guard::call(|| {

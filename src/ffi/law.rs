@@ -37,15 +37,12 @@ const NUMBERS: [i32; Law::ALL.len()] = [
 pub(super) const LAST_LAW: i32 = NUMBERS[NUMBERS.len() - 1];
 
 /// The arguments `law`, number `position`, and `friction`, the next one, for `pairs` pairs.
-///
-/// # Safety
-/// A pointer that is not NULL has as many elements as the header demands.
-pub(super) unsafe fn read<'a>(
-    arrays: &mut Arrays,
+pub(super) fn read<'h>(
+    arrays: &mut Arrays<'h>,
     position: i32,
     (law, friction): (i32, *const f64),
     pairs: usize,
-) -> Result<FrictionLaw<'a>, Failure> {
+) -> Result<FrictionLaw<'h>, Failure> {
     let Some(law) = Law::ALL.into_iter().find(|known| code(*known) == law) else {
         let known = Law::ALL.map(|law| {
             let name = law.name().to_uppercase().replace('-', "_");
@@ -66,8 +63,7 @@ pub(super) unsafe fn read<'a>(
         return Err(Failure::argument(position + 1, message));
     }
     let count = pairs.saturating_mul(parameters);
-    // SAFETY: by the caller's contract.
-    Ok(law.with(unsafe { arrays.required(position + 1, "friction", friction, count)? }))
+    Ok(law.with(arrays.required(position + 1, "friction", friction, count)?))
 }
 
 /// The number of a law.

@@ -43,24 +43,19 @@ pub unsafe extern "C" fn signorini_lcp_solve(
     report: *mut SignoriniReport,
 ) -> i32 {
     guard::call(|| {
+        // SAFETY: the header's contract.
+        let mut arrays = unsafe { Arrays::of_call() };
         let n = size(1, "n", n)?;
         let ld = size(3, "ldm", ldm)?;
         let entries = matrix_length(3, "M", n, ld)?;
-        let mut arrays = Arrays::default();
-        // SAFETY: the lengths are those of the header; the structures begin with their size.
-        let (matrix, q, cover, received) = unsafe {
-            arrays.structure(6, "settings", settings, false)?;
-            arrays.structure(10, "report", report.cast_const(), true)?;
-            (
-                arrays.matrix(2, "M", M, entries)?,
-                arrays.required(4, "q", q, n)?,
-                arrays.optional(5, "cover", cover, n)?,
-                SignoriniSettings::read(6, settings)?,
-            )
-        };
+        let matrix = arrays.matrix(2, "M", M, entries)?;
+        let q = arrays.required(4, "q", q, n)?;
+        let cover = arrays.optional(5, "cover", cover, n)?;
+        let received = SignoriniSettings::read(&mut arrays, 6, settings)?;
         let w = arrays.output(7, "w", w, n)?;
         let z = arrays.output(8, "z", z, n)?;
         let y = arrays.optional_output(9, "y", y, n)?;
+        let report = arrays.out_structures(10, "report", report, 1)?;
         arrays.check_overlap()?;
 
         guard::reserve_estimate(memory(n))?;
@@ -73,13 +68,10 @@ pub unsafe extern "C" fn signorini_lcp_solve(
         if solution.status != Status::Solved {
             remember(solution.message.clone());
         }
-        // SAFETY: the outputs have the lengths of the header and overlap nothing.
-        unsafe {
-            w.write(&solution.w);
-            z.write(&solution.z);
-            y.write(solution.infeasible_by.as_deref().unwrap_or(&vec![0.0; n]));
-            SignoriniReport::of_lcp(status, &solution).write(report);
-        }
+        w.write(&solution.w);
+        z.write(&solution.z);
+        y.write(solution.infeasible_by.as_deref().unwrap_or(&vec![0.0; n]));
+        report.write(0, &SignoriniReport::of_lcp(status, &solution));
         Ok(status)
     })
 }

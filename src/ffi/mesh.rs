@@ -1,9 +1,8 @@
 //! Meshes with fields to files for ParaView.
 
 use libc::c_char;
-use std::ffi::CStr;
 
-use super::args::{self, Arrays, size};
+use super::args::{Arrays, size};
 use super::guard::{self, Failure};
 use super::sparse::shifted;
 use super::structures;
@@ -78,50 +77,43 @@ pub unsafe extern "C" fn signorini_mesh_write(
     fields: *const SignoriniField,
 ) -> i32 {
     guard::call(|| {
-        // SAFETY: structures and arrays as the header demands.
-        unsafe {
-            let path = args::path(1, path)?;
-            SignoriniMesh::with(2, mesh, |mesh| {
-                let size_of_mesh = (mesh.dim, mesh.node_count());
-                let mut arrays = Arrays::default();
-                let zones = Zones::read(&mut arrays, (n_zones, zones), size_of_mesh)?;
-                let displacement = match &zones {
-                    Some(zones) => zones.displacement(&mut arrays, u)?,
-                    None => {
-                        arrays.optional(3, "u", u, mesh.coordinates.len())?.map(<[f64]>::to_vec)
-                    }
-                };
-                let displacement = displacement.iter();
-                let displacement = displacement
-                    .map(|u| Field { name: "displacement", values: Values::Vectors(u) });
-                let of_zones = zones.iter().flat_map(Zones::fields);
-                let mut written: Vec<Field<'_>> = displacement.chain(of_zones).collect();
-                for field in structures::all(7, "fields", fields, size(6, "n_fields", n_fields)?)? {
-                    written.push(own_field(&mut arrays, field, size_of_mesh)?);
-                }
-                file::write_vtu(path, mesh, &written).map_err(|error| {
-                    let at = |wrong| if wrong == Argument::Fields { 7 } else { 2 };
-                    Failure::from_error(error, at)
-                })?;
-                Ok(0)
-            })
-        }
+        // SAFETY: the header's contract.
+        let mut arrays = unsafe { Arrays::of_call() };
+        let path = arrays.path(1, path)?;
+        SignoriniMesh::with(&mut arrays, 2, mesh, |arrays, mesh| {
+            let size_of_mesh = (mesh.dim, mesh.node_count());
+            let zones = Zones::read(arrays, (n_zones, zones), size_of_mesh)?;
+            let displacement = match &zones {
+                Some(zones) => zones.displacement(arrays, u)?,
+                None => arrays.optional(3, "u", u, mesh.coordinates.len())?.map(<[f64]>::to_vec),
+            };
+            let displacement = displacement.iter();
+            let displacement =
+                displacement.map(|u| Field { name: "displacement", values: Values::Vectors(u) });
+            let of_zones = zones.iter().flat_map(Zones::fields);
+            let mut written: Vec<Field<'_>> = displacement.chain(of_zones).collect();
+            for field in arrays.all(7, "fields", fields, size(6, "n_fields", n_fields)?)? {
+                written.push(own_field(arrays, field, size_of_mesh)?);
+            }
+            file::write_vtu(path, mesh, &written).map_err(|error| {
+                let at = |wrong| if wrong == Argument::Fields { 7 } else { 2 };
+                Failure::from_error(error, at)
+            })?;
+            Ok(0)
+        })
     })
 }
 
 impl SignoriniMesh {
     /// Hands over the caller's mesh with nodes counted from 0.
-    ///
-    /// # Safety
-    /// The structure and its arrays are as the header demands.
-    unsafe fn with<T>(
+    fn with<T>(
+        arrays: &mut Arrays<'_>,
         position: i32,
         pointer: *const Self,
-        to: impl FnOnce(&Mesh<'_>) -> Result<T, Failure>,
+        to: impl FnOnce(&mut Arrays<'_>, &Mesh<'_>) -> Result<T, Failure>,
     ) -> Result<T, Failure> {
         let wrong = |message: String| Failure::argument(position, message);
-        // SAFETY: by the caller's contract.
-        let given = unsafe { structures::whole(position, "mesh", pointer)? };
+        let given = arrays.whole(position, "mesh", pointer)?;
         let dim = problem::checked_dim(given.dim)
             .map_err(|error| wrong(format!("mesh: {}", error.message())))?;
         let nodes = size(position, "mesh: nodes", given.nodes)?;
@@ -130,24 +122,19 @@ impl SignoriniMesh {
         let (Some(length), Some(ends)) = (nodes.checked_mul(dim), cells.checked_add(1)) else {
             return Err(wrong(format!("mesh: {nodes} nodes or {cells} cells are too many")));
         };
-        let mut arrays = Arrays::default();
-        // SAFETY: by the caller's contract.
-        unsafe {
-            let coordinates =
-                arrays.required(position, "coordinates", given.coordinates, length)?;
-            let told = arrays.optional(position, "cell_types", given.cell_types, cells)?;
-            let types = told.map_or_else(|| vec![given.cell_type; cells], <[i32]>::to_vec);
-            let start = arrays.optional(position, "cell_start", given.cell_start, ends)?;
-            let start = match start {
-                Some(start) => shifted(position, "mesh: cell_start", start, base)?,
-                None => starts_of(&types).map_err(wrong)?,
-            };
-            let nodes = arrays.required(position, "cell_nodes", given.cell_nodes, start[cells])?;
-            let nodes = shifted(position, "mesh: cell_nodes", nodes, base)?;
-            let types: Result<Vec<u8>, _> = types.iter().map(|kind| u8::try_from(*kind)).collect();
-            let types = types.map_err(|_| wrong("mesh: a type is none of VTK's".into()))?;
-            to(&Mesh { dim, coordinates, types: &types, start: &start, nodes: &nodes })
-        }
+        let coordinates = arrays.required(position, "coordinates", given.coordinates, length)?;
+        let told = arrays.optional(position, "cell_types", given.cell_types, cells)?;
+        let types = told.map_or_else(|| vec![given.cell_type; cells], <[i32]>::to_vec);
+        let start = arrays.optional(position, "cell_start", given.cell_start, ends)?;
+        let start = match start {
+            Some(start) => shifted(position, "mesh: cell_start", start, base)?,
+            None => starts_of(&types).map_err(wrong)?,
+        };
+        let nodes = arrays.required(position, "cell_nodes", given.cell_nodes, start[cells])?;
+        let nodes = shifted(position, "mesh: cell_nodes", nodes, base)?;
+        let types: Result<Vec<u8>, _> = types.iter().map(|kind| u8::try_from(*kind)).collect();
+        let types = types.map_err(|_| wrong("mesh: a type is none of VTK's".into()))?;
+        to(arrays, &Mesh { dim, coordinates, types: &types, start: &start, nodes: &nodes })
     }
 }
 
@@ -166,28 +153,21 @@ fn starts_of(types: &[i32]) -> Result<Vec<usize>, String> {
 }
 
 /// A field of the caller.
-///
-/// # Safety
-/// Its name and values are as the header demands.
-unsafe fn own_field<'a>(
-    arrays: &mut Arrays,
-    field: &'a SignoriniField,
+fn own_field<'h>(
+    arrays: &mut Arrays<'h>,
+    field: &'h SignoriniField,
     (dim, nodes): (usize, usize),
-) -> Result<Field<'a>, Failure> {
-    if field.name.is_null() {
+) -> Result<Field<'h>, Failure> {
+    let Some(name) = arrays.text(7, "fields: a name", field.name)? else {
         return Err(Failure::argument(7, "fields: a name is NULL"));
-    }
-    // SAFETY: by the caller's contract.
-    let name = unsafe { CStr::from_ptr(field.name) }.to_str();
-    let name = name.map_err(|_| Failure::argument(7, "fields: a name is not UTF-8"))?;
+    };
     let components = usize::try_from(field.components).unwrap_or_default();
     if components != 1 && components != dim {
         let message =
             format!("fields: {name} has {} components, it needs 1 or {dim}", field.components);
         return Err(Failure::argument(7, message));
     }
-    // SAFETY: as above.
-    let values = unsafe { arrays.required(7, "values", field.values, components * nodes)? };
+    let values = arrays.required(7, "values", field.values, components * nodes)?;
     let values = match components {
         1 => Values::Scalars(values),
         _ => Values::Vectors(values),

@@ -2,6 +2,7 @@
 
 use std::sync::Mutex;
 
+use super::args::Arrays;
 use super::guard::{self, Failure};
 use crate::model::{Model, Past};
 
@@ -34,19 +35,18 @@ impl SignoriniModel {
     }
 }
 
-/// # Safety
-/// NULL or a model that lives during the call.
-pub(super) unsafe fn read<'a>(model: *const SignoriniModel) -> Result<&'a Model, Failure> {
-    // SAFETY: by the caller's contract.
-    unsafe { read_handle(model).map(SignoriniModel::model) }
-}
+impl<'h> Arrays<'h> {
+    /// The first argument, a model.
+    pub(super) fn model(&self, model: *const SignoriniModel) -> Result<&'h Model, Failure> {
+        self.model_handle(model).map(SignoriniModel::model)
+    }
 
-/// # Safety
-/// As [`read`].
-pub(super) unsafe fn read_handle<'a>(
-    model: *const SignoriniModel,
-) -> Result<&'a SignoriniModel, Failure> {
-    guard::prepare_thread()?;
-    // SAFETY: by the caller's contract.
-    unsafe { model.as_ref() }.ok_or_else(|| Failure::argument(1, "model is NULL"))
+    /// As [`Self::model`], with what calls leave to the next ones.
+    pub(super) fn model_handle(
+        &self,
+        model: *const SignoriniModel,
+    ) -> Result<&'h SignoriniModel, Failure> {
+        guard::prepare_thread()?;
+        self.handle(1, "model", model)
+    }
 }

@@ -2,7 +2,7 @@
 
 use super::args::{Arrays, matrix_length, size, sizes};
 use super::guard::{self, Failure, number_of};
-use super::handle::{OutPointer, release};
+use super::handle::release;
 use super::model::SignoriniModel;
 use super::pairs::SignoriniPairs;
 use super::settings::SignoriniSettings;
@@ -27,14 +27,13 @@ pub unsafe extern "C" fn signorini_model_new_condensed(
     model: *mut *mut SignoriniModel,
 ) -> i32 {
     guard::call(|| {
-        // SAFETY: a place for a pointer, by the header's contract.
-        let place = unsafe { OutPointer::new(5, "model", model)? };
+        // SAFETY: the header's contract.
+        let mut arrays = unsafe { Arrays::of_call() };
+        let place = arrays.out_pointer(5, "model", model)?;
         let (dim, pairs, n) = sizes(1, dim, pairs)?;
         let ld = size(4, "ldk", ldk)?;
         let length = matrix_length(4, "K", n, ld)?;
-        let mut arrays = Arrays::default();
-        // SAFETY: the length is that of the header.
-        let k = unsafe { arrays.matrix(3, "K", K, length)? };
+        let k = arrays.matrix(3, "K", K, length)?;
         guard::reserve_estimate(reduce::memory(n))?;
         let arguments = [Dimension, Size, Matrix, LeadingDimension];
         place.fill(Model::condensed(dim, pairs, k, ld), |wrong| {
@@ -63,17 +62,15 @@ pub unsafe extern "C" fn signorini_model_new_two_body(
     model: *mut *mut SignoriniModel,
 ) -> i32 {
     guard::call(|| {
-        // SAFETY: a place for a pointer, by the header's contract.
-        let place = unsafe { OutPointer::new(7, "model", model)? };
+        // SAFETY: the header's contract.
+        let mut arrays = unsafe { Arrays::of_call() };
+        let place = arrays.out_pointer(7, "model", model)?;
         let (dim, pairs, n) = sizes(1, dim, pairs)?;
         let (ld_a, ld_b) = (size(4, "lda", lda)?, size(6, "ldb", ldb)?);
         let (length_a, length_b) =
             (matrix_length(4, "K_A", n, ld_a)?, matrix_length(6, "K_B", n, ld_b)?);
-        let mut arrays = Arrays::default();
-        // SAFETY: the lengths are those of the header.
-        let (k_a, k_b) = unsafe {
-            (arrays.matrix(3, "K_A", K_A, length_a)?, arrays.matrix(5, "K_B", K_B, length_b)?)
-        };
+        let k_a = arrays.matrix(3, "K_A", K_A, length_a)?;
+        let k_b = arrays.matrix(5, "K_B", K_B, length_b)?;
         guard::reserve_estimate(reduce::memory(n))?;
         let made = Model::two_body(dim, pairs, (k_a, ld_a), (k_b, ld_b));
         let arguments =
@@ -110,25 +107,25 @@ pub unsafe extern "C" fn signorini_model_new_sparse(
 ) -> i32 {
     const SETTINGS: i32 = 5;
     guard::call(|| {
-        // SAFETY: a place for a pointer, by the header's contract.
-        let place = unsafe { OutPointer::new(6, "model", model)? };
-        // SAFETY: the structures and arrays are those of the header.
-        let made = unsafe {
-            let matrix = SignoriniSparse::read(&mut Arrays::default(), 1, &STIFFNESS, K)?;
-            let order = SignoriniSparse::order(1, K)?;
-            let count = size(2, "n_fixed", n_fixed)?;
-            let fixed = Arrays::default().required(3, "fixed", fixed, count)?;
-            let fixed = shifted(3, "fixed", fixed, matrix.index_base)?;
-            SignoriniPairs::with(4, pairs, matrix.index_base, |pairs| {
+        // SAFETY: the header's contract.
+        let mut arrays = unsafe { Arrays::of_call() };
+        let place = arrays.out_pointer(6, "model", model)?;
+        let given = SignoriniSparse::copy(&mut arrays, 1, &STIFFNESS, K)?;
+        let matrix = given.read(&mut arrays, 1, &STIFFNESS)?;
+        let order = given.order(&mut arrays, 1)?;
+        let count = size(2, "n_fixed", n_fixed)?;
+        let fixed = arrays.required(3, "fixed", fixed, count)?;
+        let fixed = shifted(3, "fixed", fixed, matrix.index_base)?;
+        let made =
+            SignoriniPairs::with(&mut arrays, 4, pairs, matrix.index_base, |arrays, pairs| {
                 guard::reserve_estimate(reduce::memory(pairs.dim * pairs.count))?;
-                let received = SignoriniSettings::read(SETTINGS, settings)?;
+                let received = SignoriniSettings::read(arrays, SETTINGS, settings)?;
                 let wrong = |error| Failure::from_error(error, |_| SETTINGS);
                 received.settings.validate().map_err(wrong)?;
                 Ok(received.monitored(|monitor| {
                     Model::sparse_within(&matrix, &fixed, pairs, order.as_deref(), monitor)
                 }))
-            })?
-        };
+            })?;
         place.fill(made, |argument| match argument {
             Matrix | Order => 1,
             Fixed => 3,
@@ -167,13 +164,13 @@ pub unsafe extern "C" fn signorini_model_new_flexibility(
     model: *mut *mut SignoriniModel,
 ) -> i32 {
     guard::call(|| {
-        // SAFETY: a place for a pointer, by the header's contract.
-        let place = unsafe { OutPointer::new(5, "model", model)? };
+        // SAFETY: the header's contract.
+        let mut arrays = unsafe { Arrays::of_call() };
+        let place = arrays.out_pointer(5, "model", model)?;
         let (dim, pairs, n) = sizes(1, dim, pairs)?;
         let ld = size(4, "ldw", ldw)?;
         let length = matrix_length(4, "W", n, ld)?;
-        // SAFETY: the length is that of the header.
-        let w = unsafe { Arrays::default().matrix(3, "W", W, length)? };
+        let w = arrays.matrix(3, "W", W, length)?;
         guard::reserve(n.saturating_mul(n).saturating_mul(size_of::<f64>()))?;
         place.fill(Model::flexibility(dim, pairs, w, ld), |argument| match argument {
             LeadingDimension => 4,
@@ -202,11 +199,12 @@ pub unsafe extern "C" fn signorini_model_new_flexibility_sparse(
     model: *mut *mut SignoriniModel,
 ) -> i32 {
     guard::call(|| {
-        // SAFETY: a place for a pointer, by the header's contract.
-        let place = unsafe { OutPointer::new(4, "model", model)? };
+        // SAFETY: the header's contract.
+        let mut arrays = unsafe { Arrays::of_call() };
+        let place = arrays.out_pointer(4, "model", model)?;
         let (dim, pairs, _) = sizes(1, dim, pairs)?;
-        // SAFETY: the structure and its arrays are those of the header.
-        let w = unsafe { SignoriniSparse::read(&mut Arrays::default(), 3, &FLEXIBILITY, W)? };
+        let given = SignoriniSparse::copy(&mut arrays, 3, &FLEXIBILITY, W)?;
+        let w = given.read(&mut arrays, 3, &FLEXIBILITY)?;
         place.fill(Model::flexibility_sparse(dim, pairs, &w), |_| 3)
     })
 }

@@ -4,7 +4,7 @@
 use super::args::{Arrays, size};
 use super::case_arguments::times;
 use super::guard::{self, Failure};
-use super::model::{SignoriniModel, read};
+use super::model::SignoriniModel;
 use crate::error::Argument;
 use crate::model::BLOCK;
 use crate::reduce::SolvedCase;
@@ -26,36 +26,33 @@ pub unsafe extern "C" fn signorini_model_recover(
     u: *mut f64,
 ) -> i32 {
     guard::call(|| {
-        let mut arrays = Arrays::default();
-        // SAFETY: a model and arrays as the header demands.
-        unsafe {
-            let model = read(model)?;
-            let cases = size(2, "cases", cases)?;
-            let (host, fixed) = (model.host_size(), model.fixed_count());
-            let n = model.dim() * model.pairs();
-            let load = arrays.matrix_or_null(3, "f", f, times(cases, host)?)?;
-            let values =
-                arrays.matrix_or_null(4, "prescribed", prescribed, times(cases, fixed)?)?;
-            let d = arrays.matrix(5, "d", d, times(cases, n)?)?;
-            let out = arrays.output_matrix(6, "u", u, times(cases, host)?)?;
-            arrays.check_overlap()?;
-            guard::reserve_estimate(model.memory_of_recovery(cases))?;
-            let case = |k: usize| SolvedCase {
-                load: load.map(|load| &load[host * k..host * (k + 1)]),
-                prescribed: values.map(|values| &values[fixed * k..fixed * (k + 1)]),
-                d: &d[n * k..n * (k + 1)],
-            };
-            // Nothing is written if a case is wrong.
-            let refused = |error| Failure::from_error(error, position);
-            for k in 0..cases {
-                model.check_case(&case(k), k, cases).map_err(refused)?;
-            }
-            for begin in (0..cases).step_by(BLOCK) {
-                let block: Vec<_> = (begin..cases.min(begin + BLOCK)).map(case).collect();
-                let recovered = model.recover_block(&block, begin, cases).map_err(refused)?;
-                for (k, u) in (begin..).zip(recovered) {
-                    out.part(host * k, host).write(&u);
-                }
+        // SAFETY: the header's contract.
+        let mut arrays = unsafe { Arrays::of_call() };
+        let model = arrays.model(model)?;
+        let cases = size(2, "cases", cases)?;
+        let (host, fixed) = (model.host_size(), model.fixed_count());
+        let n = model.dim() * model.pairs();
+        let load = arrays.matrix_or_null(3, "f", f, times(cases, host)?)?;
+        let values = arrays.matrix_or_null(4, "prescribed", prescribed, times(cases, fixed)?)?;
+        let d = arrays.matrix(5, "d", d, times(cases, n)?)?;
+        let out = arrays.output_matrix(6, "u", u, times(cases, host)?)?;
+        arrays.check_overlap()?;
+        guard::reserve_estimate(model.memory_of_recovery(cases))?;
+        let case = |k: usize| SolvedCase {
+            load: load.map(|load| &load[host * k..host * (k + 1)]),
+            prescribed: values.map(|values| &values[fixed * k..fixed * (k + 1)]),
+            d: &d[n * k..n * (k + 1)],
+        };
+        // Nothing is written if a case is wrong.
+        let refused = |error| Failure::from_error(error, position);
+        for k in 0..cases {
+            model.check_case(&case(k), k, cases).map_err(refused)?;
+        }
+        for begin in (0..cases).step_by(BLOCK) {
+            let block: Vec<_> = (begin..cases.min(begin + BLOCK)).map(case).collect();
+            let recovered = model.recover_block(&block, begin, cases).map_err(refused)?;
+            for (k, u) in (begin..).zip(recovered) {
+                out.part(host * k, host).write(&u);
             }
         }
         Ok(0)
@@ -87,17 +84,15 @@ pub unsafe extern "C" fn signorini_model_nodal_forces(
     nodal: *mut f64,
 ) -> i32 {
     guard::call(|| {
-        let mut arrays = Arrays::default();
-        // SAFETY: a model and arrays as the header demands.
-        unsafe {
-            let model = read(model)?;
-            let n = model.dim() * model.pairs();
-            let force = arrays.required(2, "F", F, n)?;
-            let out = arrays.output(3, "nodal", nodal, model.host_size())?;
-            arrays.check_overlap()?;
-            let forces = model.nodal_forces(force);
-            out.write(&forces.map_err(|error| Failure::from_error(error, |_| 2))?);
-        }
+        // SAFETY: the header's contract.
+        let mut arrays = unsafe { Arrays::of_call() };
+        let model = arrays.model(model)?;
+        let n = model.dim() * model.pairs();
+        let force = arrays.required(2, "F", F, n)?;
+        let out = arrays.output(3, "nodal", nodal, model.host_size())?;
+        arrays.check_overlap()?;
+        let forces = model.nodal_forces(force);
+        out.write(&forces.map_err(|error| Failure::from_error(error, |_| 2))?);
         Ok(0)
     })
 }
@@ -115,23 +110,21 @@ pub unsafe extern "C" fn signorini_model_condensed_load(
     load: *mut f64,
 ) -> i32 {
     guard::call(|| {
-        let mut arrays = Arrays::default();
-        // SAFETY: a model and arrays as the header demands.
-        unsafe {
-            let model = read(model)?;
-            let given = arrays.required(2, "f", f, model.host_size())?;
-            let values = arrays.optional(3, "prescribed", prescribed, model.fixed_count())?;
-            let out = arrays.output(4, "load", load, model.dim() * model.pairs())?;
-            arrays.check_overlap()?;
-            let condensed = model.condensed_load(given, values).map_err(|error| {
-                Failure::from_error(error, |argument| match argument {
-                    Argument::Matrix => 1,
-                    Argument::Prescribed => 3,
-                    _ => 2,
-                })
-            })?;
-            out.write(&condensed);
-        }
+        // SAFETY: the header's contract.
+        let mut arrays = unsafe { Arrays::of_call() };
+        let model = arrays.model(model)?;
+        let given = arrays.required(2, "f", f, model.host_size())?;
+        let values = arrays.optional(3, "prescribed", prescribed, model.fixed_count())?;
+        let out = arrays.output(4, "load", load, model.dim() * model.pairs())?;
+        arrays.check_overlap()?;
+        let condensed = model.condensed_load(given, values).map_err(|error| {
+            Failure::from_error(error, |argument| match argument {
+                Argument::Matrix => 1,
+                Argument::Prescribed => 3,
+                _ => 2,
+            })
+        })?;
+        out.write(&condensed);
         Ok(0)
     })
 }

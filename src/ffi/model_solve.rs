@@ -6,7 +6,7 @@ use super::args::{Arrays, size};
 use super::case_arguments::{CaseArguments, LoadCases, times};
 use super::extra::SignoriniExtra;
 use super::guard::{self, Failure};
-use super::model::{SignoriniModel, read_handle};
+use super::model::SignoriniModel;
 use super::outputs::{OutputArguments, Outputs};
 use super::report::SignoriniReport;
 use super::settings::{ParsedSettings, SignoriniSettings, WarmStart};
@@ -65,24 +65,18 @@ pub unsafe extern "C" fn signorini_model_solve(
     let given = CaseArguments { first: 3, f, prescribed, gap, law, friction, slip0 };
     let wanted = OutputArguments { d, F, state, status, report, extra };
     guard::call(|| {
-        let mut arrays = Arrays::default();
-        // SAFETY: a model as the header demands.
-        let handle = unsafe { read_handle(model)? };
+        // SAFETY: the header's contract.
+        let mut arrays = unsafe { Arrays::of_call() };
+        let handle = arrays.model_handle(model)?;
         let model = handle.model();
         let cases = size(2, "cases", cases)?;
-        // SAFETY: arrays of the lengths of the header, structures that begin with their size.
-        let (load_cases, received) = unsafe {
-            let received = SignoriniSettings::read(SETTINGS, settings)?;
-            let limit = received.settings.memory_limit;
-            let load_cases = given.read(&mut arrays, model, cases, limit)?;
-            arrays.structure(SETTINGS, "settings", settings, false)?;
-            (load_cases, received)
-        };
+        let received = SignoriniSettings::read(&mut arrays, SETTINGS, settings)?;
+        let limit = received.settings.memory_limit;
+        let load_cases = given.read(&mut arrays, model, cases, limit)?;
         received.settings.validate().map_err(|error| Failure::from_error(error, |_| SETTINGS))?;
         let (pairs, n) = (model.pairs(), model.dim() * model.pairs());
         times(cases, n)?;
-        // SAFETY: as above.
-        let outputs = unsafe { wanted.note(&mut arrays, (START, 14), (n, pairs, cases))? };
+        let outputs = wanted.note(&mut arrays, (START, 14), (n, pairs, cases))?;
         arrays.check_overlap()?;
         let block = Block { model, given: &given, load_cases, outputs };
         let past = handle.replace_past(None);
@@ -120,8 +114,7 @@ impl Block<'_> {
             for (case, solved) in self.next_of(&mut lanes, received) {
                 let (code, message) =
                     solved.map_or_else(stopped, |solved| self.write(case, solved));
-                // SAFETY: one status for each case, as the header demands.
-                unsafe { self.outputs.status.part(case, 1).write(&[code]) };
+                self.outputs.status.part(case, 1).write(&[code]);
                 if code != 0 && first.as_ref().is_none_or(|(earlier, ..)| case < *earlier) {
                     first = Some((case, code, message));
                 }
@@ -210,8 +203,7 @@ impl Block<'_> {
             WarmStart::Given => {
                 let forces = self.model.starts_from_forces();
                 let place = if forces { &self.outputs.force } else { &self.outputs.d };
-                // SAFETY: n entries for each case, filled by a caller that wants a warm start.
-                Start::Given(unsafe { place.part(n * begin, n * many).read() })
+                Start::Given(place.part(n * begin, n * many).read())
             }
             WarmStart::Previous => Start::Previous,
         };
@@ -221,8 +213,7 @@ impl Block<'_> {
     /// Writes the results of a case, unless it is wrong. Returns status and message.
     fn write(&self, case: usize, solved: Result<Solution, Error>) -> (i32, Message) {
         match solved {
-            // SAFETY: the outputs have the lengths of the header and overlap nothing.
-            Ok(solution) => (unsafe { self.outputs.write(case, &solution) }, solution.message),
+            Ok(solution) => (self.outputs.write(case, &solution), solution.message),
             Err(error) => {
                 let message = error.message();
                 let position = |argument| {

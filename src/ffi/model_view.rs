@@ -1,8 +1,9 @@
 //! The content of a model, as one structure.
 
+use super::args::Arrays;
 use super::guard;
-use super::model::{SignoriniModel, read};
-use super::structures::{address, tell};
+use super::model::SignoriniModel;
+use super::structures::address;
 use crate::model::ModelKind;
 
 /// A condensed stiffness matrix K.
@@ -51,8 +52,9 @@ pub unsafe extern "C" fn signorini_model_view(
     data: *mut SignoriniModelData,
 ) -> i32 {
     guard::call(|| {
-        // SAFETY: NULL or a model, by the header's contract.
-        let model = unsafe { read(model)? };
+        // SAFETY: the header's contract.
+        let arrays = unsafe { Arrays::of_call() };
+        let model = arrays.model(model)?;
         let shown = SignoriniModelData {
             struct_size: size_of::<SignoriniModelData>() as u32,
             dim: model.dim() as i32,
@@ -70,7 +72,7 @@ pub unsafe extern "C" fn signorini_model_view(
             K: address(model.stiffness()),
             frames: model.frames().map_or(std::ptr::null(), address),
         };
-        // SAFETY: NULL or a structure that begins with its size, by the header's contract.
-        unsafe { tell(&shown, data) }
+        arrays.out_structure(2, "data", data)?.write(0, &shown);
+        Ok(0)
     })
 }

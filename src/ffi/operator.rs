@@ -4,9 +4,7 @@ use libc::c_void;
 
 use super::args::{Arrays, sizes};
 use super::guard::{self, Failure};
-use super::handle::OutPointer;
 use super::model::SignoriniModel;
-use super::structures;
 use crate::model::Model;
 use crate::reduce::HostOperator;
 
@@ -121,15 +119,14 @@ pub unsafe extern "C" fn signorini_model_new_operator(
     model: *mut *mut SignoriniModel,
 ) -> i32 {
     guard::call(|| {
-        // SAFETY: a place for a pointer, by the header's contract.
-        let place = unsafe { OutPointer::new(2, "model", model)? };
-        // SAFETY: NULL or a structure that begins with its size.
-        let given = unsafe { structures::whole(1, "K", K)? };
+        // SAFETY: the header's contract.
+        let mut arrays = unsafe { Arrays::of_call() };
+        let place = arrays.out_pointer(2, "model", model)?;
+        let given = arrays.whole(1, "K", K)?;
         let wrong = |message: &str| Failure::argument(1, message.to_owned());
         let (dim, pairs, n) = sizes(1, given.dim, given.pairs).map_err(|failure| failure.at(1))?;
         let stiffness = given.stiffness.ok_or_else(|| wrong("K: stiffness is NULL"))?;
-        // SAFETY: NULL or N entries, by the header.
-        let units = unsafe { Arrays::default().optional(1, "units", given.units, n)? };
+        let units = arrays.optional(1, "units", given.units, n)?;
         let SignoriniOperator { inverse, held, user, .. } = *given;
         let functions = Box::new(Functions { stiffness, inverse, held, user });
         guard::reserve(VECTORS.saturating_mul(n).saturating_mul(size_of::<f64>()))?;

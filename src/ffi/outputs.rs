@@ -3,8 +3,9 @@
 use super::args::{Arrays, Output};
 use super::extra::{Extra, SignoriniExtra};
 use super::guard::Failure;
-use super::report::{Reports, SignoriniReport, state_codes};
+use super::report::{SignoriniReport, state_codes};
 use super::status::code;
+use super::structures::OutStructures;
 use crate::solve::Solution;
 
 /// The pointers of a call.
@@ -27,7 +28,7 @@ pub(super) struct Outputs {
     pub(super) force: Output<f64>,
     state: Output<i32>,
     pub(super) status: Output<i32>,
-    reports: Reports,
+    reports: OutStructures<SignoriniReport>,
     extra: Extra,
 }
 
@@ -35,12 +36,9 @@ impl OutputArguments {
     /// Notes the arrays of `n` unknowns of `pairs` pairs, each `cases` times, which the caller has checked to be
     /// numbers. `d`, `F`, `state` and `status` are the arguments from number `first` on, `report` and `extra` those from number
     /// `report` on.
-    ///
-    /// # Safety
-    /// Every pointer is NULL or has the length that the header demands.
-    pub(super) unsafe fn note(
+    pub(super) fn note(
         &self,
-        arrays: &mut Arrays,
+        arrays: &mut Arrays<'_>,
         (first, report): (i32, i32),
         (n, pairs, cases): (usize, usize, usize),
     ) -> Result<Outputs, Failure> {
@@ -48,31 +46,22 @@ impl OutputArguments {
         let force = arrays.output(first + 1, "F", self.F, n * cases)?;
         let state = arrays.optional_output(first + 2, "state", self.state, pairs * cases)?;
         let status = arrays.optional_output(first + 3, "status", self.status, cases)?;
-        // SAFETY: by the caller's contract.
-        let (reports, extra) = unsafe {
-            let reports = Reports::read(arrays, report, self.report, cases)?;
-            (reports, Extra::read(arrays, report + 1, self.extra, (n, pairs, cases))?)
-        };
+        let reports = arrays.out_structures(report, "report", self.report, cases)?;
+        let extra = Extra::read(arrays, report + 1, self.extra, (n, pairs, cases))?;
         Ok(Outputs { n, pairs, d, force, state, status, reports, extra })
     }
 }
 
 impl Outputs {
     /// Writes the solution of a case. Returns its status.
-    ///
-    /// # Safety
-    /// The arrays have the lengths of the header and overlap nothing.
-    pub(super) unsafe fn write(&self, case: usize, solution: &Solution) -> i32 {
+    pub(super) fn write(&self, case: usize, solution: &Solution) -> i32 {
         let (n, pairs, status) = (self.n, self.pairs, code(solution.status));
         let certificate = &solution.certificate;
-        // SAFETY: by the caller's contract.
-        unsafe {
-            self.d.part(n * case, n).write(&solution.d);
-            self.force.part(n * case, n).write(&certificate.force);
-            self.state.part(pairs * case, pairs).write(&state_codes(&certificate.states));
-            SignoriniReport::of(status, solution).write(self.reports.nth(case));
-            self.extra.write(case, solution);
-        }
+        self.d.part(n * case, n).write(&solution.d);
+        self.force.part(n * case, n).write(&certificate.force);
+        self.state.part(pairs * case, pairs).write(&state_codes(&certificate.states));
+        self.reports.write(case, &SignoriniReport::of(status, solution));
+        self.extra.write(case, solution);
         status
     }
 }

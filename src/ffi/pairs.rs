@@ -5,7 +5,7 @@ use std::mem::offset_of;
 use super::args::{Arrays, size};
 use super::guard::Failure;
 use super::sparse::shifted;
-use super::structures::{Structure, read};
+use super::structures::Structure;
 use crate::error::Error;
 use crate::problem;
 use crate::reduce::ContactPairs;
@@ -58,76 +58,58 @@ unsafe impl Structure for SignoriniPairs {}
 
 impl SignoriniPairs {
     /// Hands over the caller's pairs with degrees of freedom counted from 0.
-    ///
-    /// # Safety
-    /// The structure and its arrays are as the header demands and live during the call.
-    pub(super) unsafe fn with<T>(
+    pub(super) fn with<T>(
+        arrays: &mut Arrays<'_>,
         position: i32,
         pointer: *const Self,
         base: i64,
-        to: impl FnOnce(&ContactPairs<'_>) -> Result<T, Failure>,
+        to: impl FnOnce(&mut Arrays<'_>, &ContactPairs<'_>) -> Result<T, Failure>,
     ) -> Result<T, Failure> {
         let refuse = |message: String| Err(Failure::argument(position, message));
-        if pointer.is_null() {
-            return refuse("pairs is NULL".into());
-        }
-        // SAFETY: by the caller's contract; not NULL.
-        let given = unsafe { read(position, "pairs", pointer)? };
-        given.check_size(position)?;
+        // An older program has no general rows.
+        let older = offset_of!(Self, row_start);
+        let given = arrays.required_copy(position, "pairs", pointer, older)?;
         let wrong = |error: Error| {
             Failure::argument(position, format!("pairs: {}", error.message().marked()))
         };
         let dim = problem::checked_dim(given.dim).map_err(wrong)?;
         let count = size(position, "pairs: count", given.count)?;
         let components = problem::unknowns(dim, count).map_err(wrong)?;
-        let mut arrays = Arrays::default();
         let nodes = given.nodes(position)?;
-        // SAFETY: arrays of the lengths that the header tells.
-        unsafe {
-            let (slaves, length) =
-                nodes.slaves.map_or((std::ptr::null(), 0), |slaves| (slaves, components));
-            let slaves = arrays.required(position, "slaves", slaves, length)?;
-            let slaves = shifted(position, "slaves", slaves, base)?;
-            let starts = arrays.optional(position, nodes.names[0], nodes.start, count + 1)?;
-            let master_starts = match starts {
-                Some(starts) => shifted(position, nodes.names[0], starts, base)?,
-                None if nodes.dofs.is_null() && nodes.weights.is_null() => vec![0; count + 1],
-                None => {
-                    return refuse(
-                        "pairs: master_start is NULL, but masters or weights is not: set \
-                         master_start, or all three to NULL for rigid obstacles"
-                            .into(),
-                    );
-                }
-            };
-            // The last start gives the lengths of masters and weights; Model::sparse checks the
-            // other starts.
-            let masters = master_starts[count];
-            let Some(entries) = masters.checked_mul(dim) else {
-                return refuse(format!("pairs: {masters} masters are too many"));
-            };
-            let dofs = arrays.required(position, nodes.names[1], nodes.dofs, entries)?;
-            to(&ContactPairs {
-                dim,
-                count,
-                slaves: &slaves,
-                master_start: &master_starts,
-                masters: &shifted(position, nodes.names[1], dofs, base)?,
-                weights: arrays.required(position, nodes.names[2], nodes.weights, masters)?,
-                normals: arrays.required(position, "normals", given.normals, components)?,
-                tangents: arrays.optional(position, "tangents", given.tangents, components)?,
-            })
-        }
-    }
-
-    /// Refuses a size that no version of the structure has.
-    fn check_size(&self, position: i32) -> Result<(), Failure> {
-        let (told, ours) = (self.struct_size as usize, size_of::<Self>());
-        if told == ours || told == offset_of!(Self, row_start) {
-            return Ok(());
-        }
-        let message = format!("pairs: struct_size is {told}, set it to sizeof ({ours})");
-        Err(Failure::argument(position, message))
+        let (slaves, length) =
+            nodes.slaves.map_or((std::ptr::null(), 0), |slaves| (slaves, components));
+        let slaves = arrays.required(position, "slaves", slaves, length)?;
+        let slaves = shifted(position, "slaves", slaves, base)?;
+        let starts = arrays.optional(position, nodes.names[0], nodes.start, count + 1)?;
+        let master_starts = match starts {
+            Some(starts) => shifted(position, nodes.names[0], starts, base)?,
+            None if nodes.dofs.is_null() && nodes.weights.is_null() => vec![0; count + 1],
+            None => {
+                return refuse(
+                    "pairs: master_start is NULL, but masters or weights is not: set \
+                     master_start, or all three to NULL for rigid obstacles"
+                        .into(),
+                );
+            }
+        };
+        // The last start gives the lengths of masters and weights; Model::sparse checks the
+        // other starts.
+        let masters = master_starts[count];
+        let Some(entries) = masters.checked_mul(dim) else {
+            return refuse(format!("pairs: {masters} masters are too many"));
+        };
+        let dofs = arrays.required(position, nodes.names[1], nodes.dofs, entries)?;
+        let pairs = ContactPairs {
+            dim,
+            count,
+            slaves: &slaves,
+            master_start: &master_starts,
+            masters: &shifted(position, nodes.names[1], dofs, base)?,
+            weights: arrays.required(position, nodes.names[2], nodes.weights, masters)?,
+            normals: arrays.required(position, "normals", given.normals, components)?,
+            tangents: arrays.optional(position, "tangents", given.tangents, components)?,
+        };
+        to(arrays, &pairs)
     }
 
     /// The nodes of the pairs in the one form or the other.

@@ -3,9 +3,9 @@
 use libc::c_char;
 use std::ffi::CString;
 
-use super::args;
+use super::args::Arrays;
 use super::guard;
-use super::handle::{OutPointer, release};
+use super::handle::release;
 use super::law;
 use super::structures::{address, show};
 use crate::file::{self, Kind, ProblemFile};
@@ -67,9 +67,10 @@ pub unsafe extern "C" fn signorini_problem_read(
     problem: *mut *mut SignoriniProblem,
 ) -> i32 {
     guard::call(|| {
-        // SAFETY: a place for a pointer and a text, by the header's contract.
-        let (place, path) =
-            unsafe { (OutPointer::new(2, "problem", problem)?, args::path(1, path)?) };
+        // SAFETY: the header's contract.
+        let arrays = unsafe { Arrays::of_call() };
+        let place = arrays.out_pointer(2, "problem", problem)?;
+        let path = arrays.path(1, path)?;
         guard::reserve_estimate(file::memory(path))?;
         place.fill(file::read(path), |_| 1)
     })

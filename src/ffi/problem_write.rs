@@ -2,12 +2,12 @@
 
 use libc::c_char;
 
-use super::args::{self, Arrays, matrix_length, size, text};
+use super::args::{Arrays, matrix_length, size};
 use super::case_arguments::CaseArguments;
 use super::condensed::CondensedArguments;
 use super::guard::{self, Failure, number_of};
 use super::lcp::LCP_ARGUMENTS;
-use super::model::{SignoriniModel, read};
+use super::model::SignoriniModel;
 use crate::file;
 use crate::problem::ContactProblem;
 use crate::problem::Lcp;
@@ -46,12 +46,11 @@ pub unsafe extern "C" fn signorini_problem_write(
     let given =
         CondensedArguments { first: FIRST, dim, pairs, K, ldk, f, gap, law, friction, slip0 };
     guard::call(|| {
-        // SAFETY: texts and arrays as the header demands.
-        let (path, data, remark) = unsafe {
-            let path = args::path(1, path)?;
-            let data = given.read(&mut Arrays::default())?;
-            (path, data, text(REMARK, "remark", remark)?)
-        };
+        // SAFETY: the header's contract.
+        let mut arrays = unsafe { Arrays::of_call() };
+        let path = arrays.path(1, path)?;
+        let data = given.read(&mut arrays)?;
+        let remark = arrays.text(REMARK, "remark", remark)?;
         ContactProblem::on_checked_matrix(data)
             .and_then(|problem| file::write(path, &problem, remark))
             .map_err(|error| {
@@ -81,20 +80,16 @@ pub unsafe extern "C" fn signorini_lcp_write(
 ) -> i32 {
     const REMARK: i32 = 7;
     guard::call(|| {
-        // SAFETY: as the header demands.
-        let (path, remark) = unsafe { (args::path(1, path)?, text(REMARK, "remark", remark)?) };
+        // SAFETY: the header's contract.
+        let mut arrays = unsafe { Arrays::of_call() };
+        let path = arrays.path(1, path)?;
+        let remark = arrays.text(REMARK, "remark", remark)?;
         let n = size(2, "n", n)?;
         let ld = size(4, "ldm", ldm)?;
         let entries = matrix_length(4, "M", n, ld)?;
-        let mut arrays = Arrays::default();
-        // SAFETY: the lengths are those of the header.
-        let (matrix, q, cover) = unsafe {
-            (
-                arrays.matrix(3, "M", M, entries)?,
-                arrays.required(5, "q", q, n)?,
-                arrays.optional(6, "cover", cover, n)?,
-            )
-        };
+        let matrix = arrays.matrix(3, "M", M, entries)?;
+        let q = arrays.required(5, "q", q, n)?;
+        let cover = arrays.optional(6, "cover", cover, n)?;
         Lcp::new(n, matrix, ld, q, cover)
             .and_then(|lcp| file::write_lcp(path, &lcp, remark))
             .map_err(|error| {
@@ -129,13 +124,12 @@ pub unsafe extern "C" fn signorini_model_write(
     const REMARK: i32 = 9;
     let given = CaseArguments { first: 3, f, prescribed, gap, law, friction, slip0 };
     guard::call(|| {
-        // SAFETY: a model, arrays and texts as the header demands.
-        let (model, path, case, remark) = unsafe {
-            let model = read(model)?;
-            let path = args::path(2, path)?;
-            let case = given.read(&mut Arrays::default(), model, 1, 0)?.case(0);
-            (model, path, case, text(REMARK, "remark", remark)?)
-        };
+        // SAFETY: the header's contract.
+        let mut arrays = unsafe { Arrays::of_call() };
+        let model = arrays.model(model)?;
+        let path = arrays.path(2, path)?;
+        let case = given.read(&mut arrays, model, 1, 0)?.case(0);
+        let remark = arrays.text(REMARK, "remark", remark)?;
         model.write_case(path, &case, remark).map_err(|error| {
             Failure::from_error(error, |argument| given.position(argument, REMARK))
         })?;

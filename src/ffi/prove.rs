@@ -4,7 +4,7 @@ use super::args::Arrays;
 use super::case_arguments::CaseArguments;
 use super::extra::NO_RADIUS;
 use super::guard::{self, Failure};
-use super::model::{SignoriniModel, read};
+use super::model::SignoriniModel;
 use super::report::{SIGNORINI_STATE_OPEN, SIGNORINI_STATE_SLIP, SIGNORINI_STATE_STICK};
 use super::status::{SIGNORINI_STATUS_NOT_PROVED, SIGNORINI_STATUS_SOLVED, remember};
 use crate::error::entry;
@@ -39,14 +39,12 @@ pub unsafe extern "C" fn signorini_model_prove(
     const MEASURED: i32 = 8;
     let given = CaseArguments { first: 2, f, prescribed, gap, law, friction, slip0 };
     guard::call(|| {
-        let mut arrays = Arrays::default();
-        // SAFETY: a model and arrays as the header demands.
-        let (model, case, d, state) = unsafe {
-            let model = read(model)?;
-            let case = given.read(&mut arrays, model, 1, 0)?.case(0);
-            let d = arrays.required(MEASURED, "d", d, model.dim() * model.pairs())?;
-            (model, case, d, arrays.optional(STATE, "state", state, model.pairs())?)
-        };
+        // SAFETY: the header's contract.
+        let mut arrays = unsafe { Arrays::of_call() };
+        let model = arrays.model(model)?;
+        let case = given.read(&mut arrays, model, 1, 0)?.case(0);
+        let d = arrays.required(MEASURED, "d", d, model.dim() * model.pairs())?;
+        let state = arrays.optional(STATE, "state", state, model.pairs())?;
         let force = arrays.optional_output(10, "F", F, d.len())?;
         let radius_d = arrays.optional_output(11, "radius_d", radius_d, d.len())?;
         let radius_force = arrays.optional_output(12, "radius_F", radius_F, d.len())?;
@@ -57,12 +55,9 @@ pub unsafe extern "C" fn signorini_model_prove(
         })?;
         let nothing = vec![NO_RADIUS; d.len()];
         let about_d = proof.as_ref().map_or(nothing.clone(), |proof| proof.radius_about(d));
-        // SAFETY: the outputs have the lengths of the header and overlap nothing.
-        unsafe {
-            force.write(proof.as_ref().map_or(&vec![0.0; d.len()], |proof| &proof.force));
-            radius_d.write(&about_d);
-            radius_force.write(proof.as_ref().map_or(&nothing, |proof| &proof.force_radius));
-        }
+        force.write(proof.as_ref().map_or(&vec![0.0; d.len()], |proof| &proof.force));
+        radius_d.write(&about_d);
+        radius_force.write(proof.as_ref().map_or(&nothing, |proof| &proof.force_radius));
         if proof.is_none() {
             remember("no solution with these states is proved to exist next to d");
             return Ok(SIGNORINI_STATUS_NOT_PROVED);

@@ -2,8 +2,6 @@
 
 use libc::c_char;
 
-use super::args::Arrays;
-use super::guard::Failure;
 use super::settings::method_code;
 use super::structures::{self, Structure};
 use crate::certificate::Certificate;
@@ -127,17 +125,6 @@ unsafe impl Structure for SignoriniReport {}
 const NOT_KNOWN: f64 = -1.0;
 
 impl SignoriniReport {
-    /// Writes as much of the report as the caller's structure holds; nothing to NULL.
-    ///
-    /// # Safety
-    /// A pointer that is not NULL was accepted and has as many bytes as its first field says.
-    pub(super) unsafe fn write(&self, pointer: *mut Self) {
-        if !pointer.is_null() {
-            // SAFETY: by the caller's contract.
-            unsafe { structures::write(self, pointer) }
-        }
-    }
-
     pub(super) fn of(status: i32, solution: &Solution) -> Self {
         let (first, fallback) = tried(solution.method, solution.fallback);
         SignoriniReport {
@@ -197,45 +184,6 @@ impl SignoriniReport {
             error_d: NOT_KNOWN,
             error_F: NOT_KNOWN,
             ..Self::zeros()
-        }
-    }
-}
-
-/// An array of reports of the caller, whose structure may be smaller than ours.
-pub(super) struct Reports {
-    first: *mut SignoriniReport,
-    stride: usize,
-}
-
-impl Reports {
-    /// Checks the size of each report and notes the array in `arrays`.
-    ///
-    /// # Safety
-    /// NULL, or an array of `cases` reports that begin with their size.
-    pub(super) unsafe fn read(
-        arrays: &mut Arrays,
-        position: i32,
-        first: *mut SignoriniReport,
-        cases: usize,
-    ) -> Result<Self, Failure> {
-        if first.is_null() || cases == 0 {
-            return Ok(Reports { first: std::ptr::null_mut(), stride: 0 });
-        }
-        // SAFETY: by the caller's contract.
-        let stride = unsafe { structures::stride(position, "report", first.cast_const(), cases)? };
-        let reports = Reports { first, stride };
-        // An overflow is refused with the array, which cannot have so many entries.
-        let bytes = stride.saturating_mul(cases);
-        arrays.structures(position, "report", first.cast_const(), bytes, true)?;
-        Ok(reports)
-    }
-
-    /// The report of a case, NULL if none is wanted.
-    pub(super) fn nth(&self, case: usize) -> *mut SignoriniReport {
-        if self.first.is_null() {
-            self.first
-        } else {
-            self.first.wrapping_byte_add(self.stride * case)
         }
     }
 }

@@ -3,6 +3,7 @@
 use libc::c_void;
 use std::ops::ControlFlow;
 
+use super::args::Arrays;
 use super::guard::Failure;
 use super::structures::{self, Structure};
 use super::threads;
@@ -151,15 +152,12 @@ unsafe impl Structure for SignoriniSettings {
 
 impl SignoriniSettings {
     /// Reads the caller's structure, NULL for the defaults.
-    ///
-    /// # Safety
-    /// A pointer that is not NULL has as many readable bytes as its first field says.
-    pub(super) unsafe fn read(
+    pub(super) fn read(
+        arrays: &mut Arrays<'_>,
         position: i32,
         pointer: *const Self,
     ) -> Result<ParsedSettings, Failure> {
-        // SAFETY: by the caller's contract.
-        unsafe { structures::read(position, "settings", pointer)? }.checked(position)
+        arrays.copy(position, "settings", pointer)?.checked(position)
     }
 
     fn checked(self, position: i32) -> Result<ParsedSettings, Failure> {
@@ -189,9 +187,7 @@ impl SignoriniSettings {
             SIGNORINI_SEARCH_OTHERS => Search::Others,
             other => return refuse(format!("settings: there is no search {other}")),
         };
-        if self.reserved != 0 {
-            return refuse(format!("settings: reserved is {}, it must be 0", self.reserved));
-        }
+        structures::check_reserved(position, "settings", self.reserved)?;
         let Ok(threads) = usize::try_from(self.threads) else {
             let given = self.threads;
             return refuse(format!(

@@ -60,16 +60,12 @@ pub unsafe extern "C" fn signorini_solve(
     let given = CondensedArguments { first: 1, dim, pairs, K, ldk, f, gap, law, friction, slip0 };
     let wanted = OutputArguments { d, F, state, status: null_mut(), report, extra };
     guard::call(|| {
-        let mut arrays = Arrays::default();
-        // SAFETY: arrays of the lengths of the header, structures that begin with their size.
-        let (data, received, outputs) = unsafe {
-            let data = given.read(&mut arrays)?;
-            let received = SignoriniSettings::read(SETTINGS, settings)?;
-            arrays.structure(SETTINGS, "settings", settings, false)?;
-            let sizes = (data.dim * data.pairs, data.pairs, 1);
-            let outputs = wanted.note(&mut arrays, (START, START + 3), sizes)?;
-            (data, received, outputs)
-        };
+        // SAFETY: the header's contract.
+        let mut arrays = unsafe { Arrays::of_call() };
+        let data = given.read(&mut arrays)?;
+        let received = SignoriniSettings::read(&mut arrays, SETTINGS, settings)?;
+        let sizes = (data.dim * data.pairs, data.pairs, 1);
+        let outputs = wanted.note(&mut arrays, (START, START + 3), sizes)?;
         arrays.check_overlap()?;
 
         let from_error = |error| {
@@ -80,13 +76,11 @@ pub unsafe extern "C" fn signorini_solve(
         };
         guard::reserve_estimate(memory(data.dim * data.pairs))?;
         let problem = ContactProblem::new(data).map_err(from_error)?;
-        // SAFETY: d has n entries, which the caller has filled if it asked for a warm start.
-        let start = received.starts_from_given().then(|| unsafe { outputs.d.read() });
+        let start = received.starts_from_given().then(|| outputs.d.read());
         let solution = received
             .monitored(|monitor| solve(&problem, &received.settings, start.as_deref(), monitor))
             .map_err(from_error)?;
-        // SAFETY: the outputs have the lengths of the header and overlap nothing.
-        let status = unsafe { outputs.write(0, &solution) };
+        let status = outputs.write(0, &solution);
         if status != SIGNORINI_STATUS_SOLVED {
             remember(solution.message);
         }

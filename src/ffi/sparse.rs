@@ -6,7 +6,7 @@ use libc::c_void;
 
 use super::args::{Arrays, size};
 use super::guard::Failure;
-use super::structures::{Structure, checked_size, index_base, read};
+use super::structures::{Structure, index_base};
 use crate::error::entry;
 use crate::reduce::{Indices, SparseMatrix, Triangle};
 
@@ -66,100 +66,83 @@ pub(super) const FLEXIBILITY: Names =
 unsafe impl Structure for SignoriniSparse {}
 
 impl SignoriniSparse {
-    /// # Safety
-    /// As [`Self::read`].
-    unsafe fn copied(position: i32, name: &str, pointer: *const Self) -> Result<Self, Failure> {
-        if pointer.is_null() {
-            return Err(Failure::argument(position, format!("{name} is NULL")));
-        }
-        // SAFETY: by the caller's contract; before version 0.2 was finished the structure ended
-        // with `values`.
-        let given = unsafe { checked_size(position, name, pointer)? };
-        if given < offset_of!(Self, order) {
-            let message =
-                format!("{name}: struct_size is {given}, set it to sizeof ({})", size_of::<Self>());
-            return Err(Failure::argument(position, message));
-        }
-        // SAFETY: as above.
-        unsafe { read(position, name, pointer) }
-    }
-
-    /// The order of elimination, counted from 0, if there is one.
-    ///
-    /// # Safety
-    /// The structure was read, and its arrays are as the header demands.
-    pub(super) unsafe fn order(
-        position: i32,
-        pointer: *const Self,
-    ) -> Result<Option<Vec<usize>>, Failure> {
-        // SAFETY: by the caller's contract.
-        let given = unsafe { Self::copied(position, STIFFNESS.matrix, pointer)? };
-        if given.order.is_null() {
-            return Ok(None);
-        }
-        let n = size(position, "K: size", given.size)?;
-        let base = i64::from(given.index_base);
-        let mut arrays = Arrays::default();
-        // SAFETY: an array of the length and width that the structure tells.
-        let wide: Vec<i64> = unsafe {
-            if given.index_bytes == size_of::<i32>() as i32 {
-                let order = arrays.required(position, "K: order", given.order.cast::<i32>(), n)?;
-                order.iter().map(|&i| i64::from(i)).collect()
-            } else {
-                arrays.required(position, "K: order", given.order.cast::<i64>(), n)?.to_vec()
-            }
-        };
-        shifted(position, "order", &wide, base).map(Some)
-    }
-
-    /// Views the caller's matrix, and notes its structure and arrays.
-    ///
-    /// # Safety
-    /// The structure and its arrays are as the header demands and live during the call.
-    pub(super) unsafe fn read<'a>(
-        arrays: &mut Arrays,
+    /// A copy of the caller's structure, which has no `order` in an older program.
+    pub(super) fn copy(
+        arrays: &mut Arrays<'_>,
         position: i32,
         names: &Names,
         pointer: *const Self,
-    ) -> Result<SparseMatrix<'a>, Failure> {
+    ) -> Result<Self, Failure> {
+        arrays.required_copy(position, names.matrix, pointer, offset_of!(Self, order))
+    }
+
+    /// The order of elimination of a stiffness that was read, counted from 0, if there is one.
+    pub(super) fn order(
+        &self,
+        arrays: &mut Arrays<'_>,
+        position: i32,
+    ) -> Result<Option<Vec<usize>>, Failure> {
+        if self.order.is_null() {
+            return Ok(None);
+        }
+        let n = size(position, "K: size", self.size)?;
+        let order =
+            self.indices(arrays, position, STIFFNESS.matrix, ("K: order", self.order, n))?;
+        let wide = match order {
+            Indices::Narrow(order) => order.iter().map(|&i| i64::from(i)).collect(),
+            Indices::Wide(order) => order.to_vec(),
+        };
+        shifted(position, "order", &wide, i64::from(self.index_base)).map(Some)
+    }
+
+    /// An array of indices, in the width that the structure tells.
+    fn indices<'h>(
+        &self,
+        arrays: &mut Arrays<'h>,
+        position: i32,
+        matrix: &str,
+        (name, pointer, length): (&'static str, *const c_void, usize),
+    ) -> Result<Indices<'h>, Failure> {
+        match self.index_bytes {
+            4 => arrays.required(position, name, pointer.cast(), length).map(Indices::Narrow),
+            8 => arrays.required(position, name, pointer.cast(), length).map(Indices::Wide),
+            other => {
+                let message = format!("{matrix}: index_bytes is {other}, it must be 4 or 8");
+                Err(Failure::argument(position, message))
+            }
+        }
+    }
+
+    /// The matrix, viewed in the caller's arrays.
+    pub(super) fn read<'h>(
+        &self,
+        arrays: &mut Arrays<'h>,
+        position: i32,
+        names: &Names,
+    ) -> Result<SparseMatrix<'h>, Failure> {
         let name = names.matrix;
         let wrong = |message: String| Failure::argument(position, message);
         let count = |what: &str, value| size(position, &format!("{name}: {what}"), value);
-        // SAFETY: by the caller's contract.
-        let given = unsafe { Self::copied(position, name, pointer)? };
-        // SAFETY: as above.
-        unsafe { arrays.structure(position, name, pointer, false)? };
-        let triangle = match given.triangle {
+        let triangle = match self.triangle {
             SIGNORINI_TRIANGLE_LOWER => Triangle::Lower,
             SIGNORINI_TRIANGLE_UPPER => Triangle::Upper,
             SIGNORINI_TRIANGLE_FULL => Triangle::Full,
             other => return Err(wrong(format!("{name}: there is no triangle {other}"))),
         };
-        let base = index_base(position, name, given.index_base)?;
-        let n = count("size", given.size)?;
-        let nnz = count("nnz", given.nnz)?;
+        let base = index_base(position, name, self.index_base)?;
+        let n = count("size", self.size)?;
+        let nnz = count("nnz", self.nnz)?;
         let Some(columns) = n.checked_add(1) else {
             return Err(wrong(format!("{name}: size is {n}, too large")));
         };
-        // SAFETY: arrays of the lengths and the width that the structure tells.
-        unsafe {
-            let values = arrays.required(position, names.values, given.values, nnz)?;
-            let mut indices = |name, pointer: *const c_void, length| match given.index_bytes {
-                4 => arrays.required(position, name, pointer.cast(), length).map(Indices::Narrow),
-                8 => arrays.required(position, name, pointer.cast(), length).map(Indices::Wide),
-                other => {
-                    let name = names.matrix;
-                    Err(wrong(format!("{name}: index_bytes is {other}, it must be 4 or 8")))
-                }
-            };
-            let col_start = indices(names.col_start, given.col_start, columns)?;
-            let row = indices(names.row, given.row, nnz)?;
-            let matrix =
-                SparseMatrix { size: n, col_start, row, values, index_base: base, triangle };
-            // Before other indices: a wrong index base is most likely that of all of them.
-            matrix.check_col_start().map_err(|error| Failure::from_error(error, |_| position))?;
-            Ok(matrix)
-        }
+        let values = arrays.required(position, names.values, self.values, nnz)?;
+        let mut indices = |array| self.indices(arrays, position, name, array);
+        let col_start = indices((names.col_start, self.col_start, columns))?;
+        let row = indices((names.row, self.row, nnz))?;
+        let matrix = SparseMatrix { size: n, col_start, row, values, index_base: base, triangle };
+        // Before other indices: a wrong index base is most likely that of all of them.
+        matrix.check_col_start().map_err(|error| Failure::from_error(error, |_| position))?;
+        Ok(matrix)
     }
 }
 

@@ -1,5 +1,8 @@
 //! The caller's structures, which begin with their size: `struct_size`, in bytes.
 
+use std::ptr::null_mut;
+
+use super::args::Arrays;
 use super::guard::{self, Failure};
 use super::status::forget;
 use crate::error::index;
@@ -35,22 +38,181 @@ pub(super) unsafe trait Structure: Copy {
     }
 }
 
-/// The size in the first field of a structure, if a version of this library may have it: an older
-/// one, this one, or a later one.
-///
-/// # Safety `pointer` has at least 4 readable bytes.
-pub(super) unsafe fn checked_size<T>(
-    position: i32,
-    name: &str,
-    pointer: *const T,
-) -> Result<usize, Failure> {
-    if !pointer.is_aligned() {
-        return Err(Failure::argument(position, format!("{name} is not aligned")));
+/// Structures of the caller that the call writes, one or an array of them; none where the caller wants none.
+pub(super) struct OutStructures<T> {
+    first: *mut T,
+    stride: usize,
+}
+
+impl<'h> Arrays<'h> {
+    /// A copy of the caller's structure; fields that an older program does not have are the defaults, and all are if it
+    /// is NULL.
+    pub(super) fn copy<T: Structure>(
+        &mut self,
+        position: i32,
+        name: &'static str,
+        pointer: *const T,
+    ) -> Result<T, Failure> {
+        let mut copy = T::default_one();
+        if !pointer.is_null() {
+            let size = self.read_size(position, name, pointer)?;
+            self.add(position, name, pointer.cast::<u8>(), size, false)?;
+            let (source, target) = (pointer.cast::<u8>(), (&raw mut copy).cast::<u8>());
+            // SAFETY: as many bytes as the first field says, by the contract of the call.
+            unsafe { std::ptr::copy_nonoverlapping(source, target, size.min(size_of::<T>())) }
+        }
+        Ok(copy)
     }
-    // SAFETY: by the caller's contract, and aligned.
-    let size = unsafe { pointer.cast::<u32>().read() } as usize;
-    check_number::<T>(position, name, size)?;
-    Ok(size)
+
+    /// As [`Self::copy`], of a structure that must be there, and whose older form has `older` bytes.
+    pub(super) fn required_copy<T: Structure>(
+        &mut self,
+        position: i32,
+        name: &'static str,
+        pointer: *const T,
+        older: usize,
+    ) -> Result<T, Failure> {
+        let size = self.read_size(position, name, pointer)?;
+        if size != older && size < size_of::<T>() {
+            return Err(wrong_size::<T>(position, name, size));
+        }
+        self.copy(position, name, pointer)
+    }
+
+    /// The caller's structure in place, of a kind that has no older form.
+    pub(super) fn whole<T>(
+        &self,
+        position: i32,
+        name: &str,
+        pointer: *const T,
+    ) -> Result<&'h T, Failure> {
+        let size = self.read_size(position, name, pointer)?;
+        if size < size_of::<T>() {
+            return Err(wrong_size::<T>(position, name, size));
+        }
+        // SAFETY: not NULL, aligned and large enough (just checked); the caller's by the contract of the call.
+        Ok(unsafe { &*pointer })
+    }
+
+    /// The structures of the caller's array in place, of a kind that has no older form.
+    pub(super) fn all<T>(
+        &self,
+        position: i32,
+        name: &str,
+        first: *const T,
+        count: usize,
+    ) -> Result<Vec<&'h T>, Failure> {
+        let stride = self.stride(position, name, first, count)?;
+        let at = |i: usize| self.whole(position, name, first.wrapping_byte_add(stride * i));
+        (0..count).map(at).collect()
+    }
+
+    /// A structure that the call writes.
+    pub(super) fn out_structure<T>(
+        &self,
+        position: i32,
+        name: &str,
+        pointer: *mut T,
+    ) -> Result<OutStructures<T>, Failure> {
+        check_place(position, name, pointer)?;
+        Ok(OutStructures { first: pointer, stride: self.size(position, name, pointer)? })
+    }
+
+    /// An array of structures that the call writes; NULL: none is wanted.
+    pub(super) fn out_structures<T>(
+        &mut self,
+        position: i32,
+        name: &'static str,
+        first: *mut T,
+        count: usize,
+    ) -> Result<OutStructures<T>, Failure> {
+        if first.is_null() || count == 0 {
+            return Ok(OutStructures { first: null_mut(), stride: 0 });
+        }
+        let stride = self.stride(position, name, first, count)?;
+        // An overflow is refused with the array, which cannot have so many entries.
+        let bytes = stride.saturating_mul(count);
+        self.add(position, name, first.cast_const().cast::<u8>(), bytes, true)?;
+        Ok(OutStructures { first, stride })
+    }
+
+    /// The size in the first field of a structure, if a version of this library may have it: an older
+    /// one, this one, or a later one.
+    fn size<T>(&self, position: i32, name: &str, pointer: *const T) -> Result<usize, Failure> {
+        check_place(position, name, pointer)?;
+        // SAFETY: not NULL and aligned; it begins with its size, by the contract of the call.
+        let size = unsafe { pointer.cast::<u32>().read() } as usize;
+        check_number::<T>(position, name, size)?;
+        Ok(size)
+    }
+
+    /// The size of a structure that the library reads: all that a later version has beyond ours must be
+    /// zero, as it asks for something that this version does not have.
+    fn read_size<T>(&self, position: i32, name: &str, pointer: *const T) -> Result<usize, Failure> {
+        let size = self.size(position, name, pointer)?;
+        let ours = size_of::<T>();
+        let begin = ours.min(size);
+        let beyond = pointer.cast::<u8>().wrapping_add(begin);
+        // SAFETY: it has as many bytes as it says, by the contract of the call.
+        let beyond = unsafe { std::slice::from_raw_parts(beyond, size - begin) };
+        if let Some(byte) = beyond.iter().position(|byte| *byte != 0) {
+            let byte = ours + byte;
+            let message = format!(
+                "{name}: struct_size is {size}, this version of the library knows {ours} bytes, and byte {byte} is not \
+                 zero: leave the fields of a later version at zero, or use its library"
+            );
+            return Err(Failure::argument(position, message));
+        }
+        Ok(size)
+    }
+
+    /// The bytes from one structure of the caller's array of `count` to the next: what the first one
+    /// says its size is, which must be that of all.
+    fn stride<T>(
+        &self,
+        position: i32,
+        name: &str,
+        first: *const T,
+        count: usize,
+    ) -> Result<usize, Failure> {
+        if count == 0 {
+            return Ok(0);
+        }
+        let stride = self.size(position, name, first)?;
+        for i in 1..count {
+            let size = self.size(position, name, first.wrapping_byte_add(stride * i))?;
+            if size != stride {
+                let message = format!("{name} {}: struct_size is {size}, not {stride}", index(i));
+                return Err(Failure::argument(position, message));
+            }
+        }
+        Ok(stride)
+    }
+}
+
+impl<T> OutStructures<T> {
+    /// Writes as much of `value` as the `i`-th structure holds, and zero beyond it; keeps its `struct_size`.
+    pub(super) fn write(&self, i: usize, value: &T) {
+        if !self.first.is_null() {
+            // SAFETY: made by `Arrays`: a structure of the caller with so many bytes.
+            unsafe { write(value, self.first.wrapping_byte_add(self.stride * i), self.stride) }
+        }
+    }
+}
+
+/// Writes as much of `value` as `bytes` hold, and zero beyond it, behind the size of the structure.
+///
+/// # Safety
+/// `pointer` has so many bytes, at least those of the size.
+unsafe fn write<T>(value: &T, pointer: *mut T, bytes: usize) {
+    const WORD: usize = size_of::<u32>();
+    let known = bytes.min(size_of::<T>());
+    let (source, target) = (std::ptr::from_ref(value).cast::<u8>(), pointer.cast::<u8>());
+    // SAFETY: by the caller's contract.
+    unsafe {
+        std::ptr::copy_nonoverlapping(source.add(WORD), target.add(WORD), known - WORD);
+        std::ptr::write_bytes(target.add(known), 0, bytes - known);
+    }
 }
 
 /// Refuses a size that no version of a structure has.
@@ -58,77 +220,31 @@ fn check_number<T>(position: i32, name: &str, size: usize) -> Result<(), Failure
     if (LEAST..=MOST).contains(&size) && size.is_multiple_of(ALIGNMENT) {
         return Ok(());
     }
+    Err(wrong_size::<T>(position, name, size))
+}
+
+fn wrong_size<T>(position: i32, name: &str, size: usize) -> Failure {
     let ours = size_of::<T>();
-    let message = format!("{name}: struct_size is {size}, set it to sizeof ({ours})");
-    Err(Failure::argument(position, message))
+    Failure::argument(position, format!("{name}: struct_size is {size}, set it to sizeof ({ours})"))
 }
 
-/// The size of a structure that the library reads: all that a later version has beyond ours must be
-/// zero, as it asks for something that this version does not have.
-///
-/// # Safety `pointer` is not NULL and has as many readable bytes as its first field says.
-unsafe fn read_size<T>(position: i32, name: &str, pointer: *const T) -> Result<usize, Failure> {
-    let ours = size_of::<T>();
-    // SAFETY: by the caller's contract.
-    let (size, beyond) = unsafe {
-        let size = checked_size(position, name, pointer)?;
-        let begin = ours.min(size);
-        (size, std::slice::from_raw_parts(pointer.cast::<u8>().add(begin), size - begin))
-    };
-    if let Some(byte) = beyond.iter().position(|byte| *byte != 0) {
-        let byte = ours + byte;
-        let message = format!(
-            "{name}: struct_size is {size}, this version of the library knows {ours} bytes, and byte {byte} is not \
-             zero: leave the fields of a later version at zero, or use its library"
-        );
-        return Err(Failure::argument(position, message));
-    }
-    Ok(size)
-}
-
-/// A copy of the caller's structure; fields that an older program does not have are the defaults, and all are if it is
-/// NULL.
-///
-/// # Safety
-/// A pointer that is not NULL has as many readable bytes as its first field says.
-pub(super) unsafe fn read<T: Structure>(
-    position: i32,
-    name: &str,
-    pointer: *const T,
-) -> Result<T, Failure> {
-    let mut copy = T::default_one();
-    if !pointer.is_null() {
-        // SAFETY: the caller's structure begins with its size.
-        unsafe {
-            let bytes = read_size(position, name, pointer)?.min(size_of::<T>());
-            let target = (&raw mut copy).cast::<u8>();
-            std::ptr::copy_nonoverlapping(pointer.cast::<u8>(), target, bytes);
-        }
-    }
-    Ok(copy)
-}
-
-/// The caller's structure in place, of a kind that has no older form.
-///
-/// # Safety
-/// NULL, or a structure of the caller that begins with its size.
-pub(super) unsafe fn whole<'a, T>(
-    position: i32,
-    name: &str,
-    pointer: *const T,
-) -> Result<&'a T, Failure> {
+fn check_place<T>(position: i32, name: &str, pointer: *const T) -> Result<(), Failure> {
     if pointer.is_null() {
         return Err(Failure::argument(position, format!("{name} is NULL")));
     }
-    // SAFETY: by the caller's contract.
-    let given = unsafe { read_size(position, name, pointer)? };
-    if given < size_of::<T>() {
-        let message =
-            format!("{name}: struct_size is {given}, set it to sizeof ({})", size_of::<T>());
-        return Err(Failure::argument(position, message));
+    if !pointer.is_aligned() {
+        return Err(Failure::argument(position, format!("{name} is not aligned")));
     }
-    // SAFETY: not NULL, aligned and large enough (just checked).
-    Ok(unsafe { &*pointer })
+    Ok(())
+}
+
+/// Refuses what a field holds that this version does not use.
+pub(super) fn check_reserved(position: i32, name: &str, reserved: i32) -> Result<(), Failure> {
+    if reserved == 0 {
+        return Ok(());
+    }
+    let message = format!("{name}: reserved is {reserved}, it must be 0");
+    Err(Failure::argument(position, message))
 }
 
 /// The field `index_base` of a structure.
@@ -138,69 +254,6 @@ pub(super) fn index_base(position: i32, name: &str, base: i32) -> Result<i64, Fa
         return Err(Failure::argument(position, message));
     }
     Ok(i64::from(base))
-}
-
-/// The bytes from one structure of the caller's array of `count` to the next: what the first one
-/// says its size is, which must be that of all.
-///
-/// # Safety NULL, or an array of `count` structures that begin with their size.
-pub(super) unsafe fn stride<T>(
-    position: i32,
-    name: &str,
-    first: *const T,
-    count: usize,
-) -> Result<usize, Failure> {
-    if count == 0 {
-        return Ok(0);
-    }
-    if first.is_null() {
-        return Err(Failure::argument(position, format!("{name} is NULL")));
-    }
-    // SAFETY: by the caller's contract, as in the loop.
-    let stride = unsafe { checked_size(position, name, first)? };
-    for i in 1..count {
-        // SAFETY: as above.
-        let size = unsafe { checked_size(position, name, first.wrapping_byte_add(stride * i))? };
-        if size != stride {
-            let message = format!("{name} {}: struct_size is {size}, not {stride}", index(i));
-            return Err(Failure::argument(position, message));
-        }
-    }
-    Ok(stride)
-}
-
-/// The structures of the caller's array in place, of a kind that has no older form.
-///
-/// # Safety
-/// NULL, or an array of `count` structures that begin with their size.
-pub(super) unsafe fn all<'a, T>(
-    position: i32,
-    name: &str,
-    first: *const T,
-    count: usize,
-) -> Result<Vec<&'a T>, Failure> {
-    // SAFETY: by the caller's contract.
-    let stride = unsafe { stride(position, name, first, count)? };
-    // SAFETY: as above.
-    let at = |i: usize| unsafe { whole(position, name, first.wrapping_byte_add(stride * i)) };
-    (0..count).map(at).collect()
-}
-
-/// Writes as much of `value` as the caller's structure holds, and zero beyond it; keeps its `struct_size`.
-///
-/// # Safety
-/// `pointer` was accepted by [`checked_size`] and has as many bytes as its first field says.
-pub(super) unsafe fn write<T>(value: &T, pointer: *mut T) {
-    const WORD: usize = size_of::<u32>();
-    // SAFETY: by the caller's contract.
-    unsafe {
-        let bytes = pointer.cast::<u32>().read() as usize;
-        let known = bytes.min(size_of::<T>());
-        let source = std::ptr::from_ref(value).cast::<u8>();
-        let target = pointer.cast::<u8>();
-        std::ptr::copy_nonoverlapping(source.add(WORD), target.add(WORD), known - WORD);
-        std::ptr::write_bytes(target.add(known), 0, bytes - known);
-    }
 }
 
 /// The call that fills the caller's structure of `struct_size` bytes, its second argument, with the defaults and the
@@ -215,31 +268,17 @@ pub(super) unsafe fn fill<T: Structure>(name: &str, pointer: *mut T, struct_size
         // SAFETY: as many bytes as `struct_size` says by contract.
         unsafe {
             pointer.cast::<u32>().write(struct_size);
-            write(&T::default_one(), pointer);
+            write(&T::default_one(), pointer, struct_size as usize);
         }
         Ok(0)
     })
 }
 
-/// Writes what a handle holds to the caller's structure, the second argument of the call.
-///
-/// # Safety
-/// NULL, or a structure of the caller that begins with its size.
-pub(super) unsafe fn tell<T>(value: &T, pointer: *mut T) -> Result<i32, Failure> {
-    check_place(2, "data", pointer)?;
-    // SAFETY: by the caller's contract.
-    unsafe {
-        checked_size(2, "data", pointer.cast_const())?;
-        write(value, pointer);
-    }
-    Ok(0)
-}
-
 /// Shows what a handle holds in the caller's structure. It takes no memory unless an argument is
 /// wrong.
 ///
-/// # Safety NULL or a handle of this library; NULL or a structure of the caller that begins with its
-/// size.
+/// # Safety
+/// NULL or a handle of this library; NULL or a structure of the caller that begins with its size.
 pub(super) unsafe fn show<H, T>(
     name: &str,
     handle: *const H,
@@ -247,28 +286,18 @@ pub(super) unsafe fn show<H, T>(
     shown: impl FnOnce(&H) -> T,
 ) -> i32 {
     // SAFETY: by the caller's contract.
-    let told = match unsafe { handle.as_ref() } {
-        // SAFETY: by the caller's contract.
-        Some(handle) => unsafe { tell(&shown(handle), data) },
-        None => Err(Failure::argument(1, format!("{name} is NULL"))),
-    };
+    let arrays = unsafe { Arrays::of_call() };
+    let told = arrays.handle(1, name, handle).and_then(|handle| {
+        arrays.out_structure(2, "data", data)?.write(0, &shown(handle));
+        Ok(())
+    });
     match told {
-        Ok(code) => {
+        Ok(()) => {
             forget();
-            code
+            0
         }
         Err(failure) => guard::call(|| Err(failure)),
     }
-}
-
-fn check_place<T>(position: i32, name: &str, pointer: *mut T) -> Result<(), Failure> {
-    if pointer.is_null() {
-        return Err(Failure::argument(position, format!("{name} is NULL")));
-    }
-    if !pointer.is_aligned() {
-        return Err(Failure::argument(position, format!("{name} is not aligned")));
-    }
-    Ok(())
 }
 
 /// The address of an array that a handle holds, NULL if it has no entries.

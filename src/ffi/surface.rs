@@ -3,7 +3,6 @@
 use super::args::{Arrays, size};
 use super::guard::Failure;
 use super::sparse::shifted;
-use super::structures;
 use crate::surface::{Faces, Obstacle};
 
 /// A half space, in 2D a half plane.
@@ -70,19 +69,15 @@ pub(super) enum Rigid<'a> {
 
 impl SignoriniFaces {
     /// Start and nodes of the faces, counted from 0.
-    ///
-    /// # Safety
-    /// The structure and its arrays are as the header demands.
-    pub(super) unsafe fn read(
+    pub(super) fn read(
+        arrays: &mut Arrays<'_>,
         (position, name): (i32, &str),
         pointer: *const Self,
         base: i64,
     ) -> Result<[Vec<usize>; 2], Failure> {
         let refuse = |message: String| Err(Failure::argument(position, message));
-        // SAFETY: by the caller's contract.
-        let given = unsafe { structures::whole(position, name, pointer)? };
+        let given = arrays.whole(position, name, pointer)?;
         let count = size(position, &format!("{name}: count"), given.count)?;
-        let mut arrays = Arrays::default();
         let start = if given.start.is_null() {
             let each = size(position, &format!("{name}: face_nodes"), given.face_nodes.into())?;
             if count > 0 && each == 0 {
@@ -101,12 +96,11 @@ impl SignoriniFaces {
             let Some(entries) = count.checked_add(1) else {
                 return refuse(format!("{name}: {count} faces are too many"));
             };
-            // SAFETY: as above.
-            let start = unsafe { arrays.required(position, "start", given.start, entries)? };
+            let start = arrays.required(position, "start", given.start, entries)?;
             shifted(position, &format!("{name}: start"), start, base)?
         };
-        // SAFETY: as above; the last start tells the number of nodes.
-        let nodes = unsafe { arrays.required(position, "nodes", given.nodes, start[count])? };
+        // The last start tells the number of nodes.
+        let nodes = arrays.required(position, "nodes", given.nodes, start[count])?;
         Ok([start, shifted(position, &format!("{name}: nodes"), nodes, base)?])
     }
 
@@ -116,19 +110,16 @@ impl SignoriniFaces {
 }
 
 impl SignoriniObstacle {
-    /// # Safety
-    /// The structure is as the header demands.
-    pub(super) unsafe fn read<'a>(
+    pub(super) fn read<'h>(
+        arrays: &mut Arrays<'h>,
         position: i32,
         dim: usize,
         base: i64,
         pointer: *const Self,
-    ) -> Result<Rigid<'a>, Failure> {
-        // SAFETY: by the caller's contract.
-        let given = unsafe { structures::whole(position, "obstacle", pointer)? };
+    ) -> Result<Rigid<'h>, Failure> {
+        let given = arrays.whole(position, "obstacle", pointer)?;
         if given.kind == SIGNORINI_OBSTACLE_FACES {
-            // SAFETY: as above.
-            return unsafe { given.mesh(position, dim, base) };
+            return given.mesh(arrays, position, dim, base);
         }
         let in_dim = |mut v: [f64; 3]| {
             v[dim..].fill(0.0);
@@ -150,21 +141,21 @@ impl SignoriniObstacle {
         Ok(Rigid::Shape(shape))
     }
 
-    /// # Safety
-    /// The structure's arrays are as the header demands.
-    unsafe fn mesh<'a>(&self, position: i32, dim: usize, base: i64) -> Result<Rigid<'a>, Failure> {
+    fn mesh<'h>(
+        &self,
+        arrays: &mut Arrays<'h>,
+        position: i32,
+        dim: usize,
+        base: i64,
+    ) -> Result<Rigid<'h>, Failure> {
         let nodes = size(position, "obstacle: nodes", self.nodes)?;
         let Some(length) = nodes.checked_mul(dim) else {
             let message = format!("obstacle: nodes is {nodes}, too large");
             return Err(Failure::argument(position, message));
         };
-        // SAFETY: by the caller's contract.
-        unsafe {
-            let name = "obstacle: coordinates";
-            let coordinates =
-                Arrays::default().required(position, name, self.coordinates, length)?;
-            let faces = SignoriniFaces::read((position, "obstacle: faces"), self.faces, base)?;
-            Ok(Rigid::Faces(coordinates, faces))
-        }
+        let name = "obstacle: coordinates";
+        let coordinates = arrays.required(position, name, self.coordinates, length)?;
+        let faces = SignoriniFaces::read(arrays, (position, "obstacle: faces"), self.faces, base)?;
+        Ok(Rigid::Faces(coordinates, faces))
     }
 }

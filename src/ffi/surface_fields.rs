@@ -2,9 +2,8 @@
 
 use super::args::{Arrays, Output};
 use super::guard::{self, Failure};
-use super::structures::{self, Structure};
+use super::structures::{Structure, check_reserved};
 use super::surface_new::SignoriniSurfacePairs;
-use super::surface_view::read;
 use crate::error::Argument;
 use crate::surface::{NodalFields, PairResults};
 
@@ -76,41 +75,36 @@ pub unsafe extern "C" fn signorini_surface_fields(
     fields: *const SignoriniContactFields,
 ) -> i32 {
     guard::call(|| {
-        // SAFETY: pairs, arrays and a structure as the header demands.
-        unsafe {
-            let contact = read(contact)?;
-            let mut arrays = Arrays::default();
-            let results = pair_results(&mut arrays, contact, (2, gap), (3, slip0), (4, d), (5, F))?;
-            let count = contact.arrays.count;
-            let state = arrays.optional(6, "state", state, count)?;
-            let given = structures::whole(7, "fields", fields)?;
-            if given.reserved != 0 {
-                let message = format!("fields: reserved is {}, it must be 0", given.reserved);
-                return Err(Failure::argument(7, message));
-            }
-            if state.is_none() && !given.state.is_null() && count > 0 {
-                return Err(Failure::argument(6, "state is NULL, but fields->state is not"));
-            }
-            let (nodes, dim) = (contact.nodes, contact.found.dim);
-            let mut out =
-                |name, pointer, each: usize| arrays.optional_output(7, name, pointer, each * nodes);
-            let places = [
-                out("pressure", given.pressure, 1)?,
-                out("traction", given.traction, dim)?,
-                out("clearance", given.clearance, 1)?,
-                out("slip", given.slip, dim)?,
-            ];
-            let states = arrays.optional_output(7, "state", given.state, nodes)?;
-            arrays.check_overlap()?;
-            let found = contact.found.fields(&results).map_err(wrong)?;
-            let NodalFields { nodes, pairs, pressure, traction, clearance, slip } = &found;
-            for (place, values) in places.iter().zip([pressure, traction, clearance, slip]) {
-                scatter(place, nodes, values);
-            }
-            if let Some(state) = state {
-                let of_nodes: Vec<i32> = pairs.iter().map(|pair| state[*pair]).collect();
-                scatter(&states, nodes, &of_nodes);
-            }
+        // SAFETY: the header's contract.
+        let mut arrays = unsafe { Arrays::of_call() };
+        let contact = arrays.handle(1, "contact", contact)?;
+        let results = pair_results(&mut arrays, contact, (2, gap), (3, slip0), (4, d), (5, F))?;
+        let count = contact.arrays.count;
+        let state = arrays.optional(6, "state", state, count)?;
+        let given = arrays.whole(7, "fields", fields)?;
+        check_reserved(7, "fields", given.reserved)?;
+        if state.is_none() && !given.state.is_null() && count > 0 {
+            return Err(Failure::argument(6, "state is NULL, but fields->state is not"));
+        }
+        let (nodes, dim) = (contact.nodes, contact.found.dim);
+        let mut out =
+            |name, pointer, each: usize| arrays.optional_output(7, name, pointer, each * nodes);
+        let places = [
+            out("pressure", given.pressure, 1)?,
+            out("traction", given.traction, dim)?,
+            out("clearance", given.clearance, 1)?,
+            out("slip", given.slip, dim)?,
+        ];
+        let states = arrays.optional_output(7, "state", given.state, nodes)?;
+        arrays.check_overlap()?;
+        let found = contact.found.fields(&results).map_err(wrong)?;
+        let NodalFields { nodes, pairs, pressure, traction, clearance, slip } = &found;
+        for (place, values) in places.iter().zip([pressure, traction, clearance, slip]) {
+            scatter(place, nodes, values);
+        }
+        if let Some(state) = state {
+            let of_nodes: Vec<i32> = pairs.iter().map(|pair| state[*pair]).collect();
+            scatter(&states, nodes, &of_nodes);
         }
         Ok(0)
     })
@@ -132,57 +126,45 @@ pub unsafe extern "C" fn signorini_surface_resultant(
     resultant: *mut SignoriniResultant,
 ) -> i32 {
     guard::call(|| {
-        // SAFETY: pairs, arrays and a structure as the header demands.
-        unsafe {
-            let contact = read(contact)?;
-            let mut arrays = Arrays::default();
-            let no_gap = std::ptr::null();
-            let results =
-                pair_results(&mut arrays, contact, (1, no_gap), (2, slip0), (3, d), (4, F))?;
-            let dim = contact.found.dim;
-            let origin = [0.0; 3];
-            let point = arrays.optional(5, "point", point, dim)?.unwrap_or(&origin[..dim]);
-            if resultant.is_null() {
-                return Err(Failure::argument(6, "resultant is NULL"));
-            }
-            structures::checked_size(6, "resultant", resultant.cast_const())?;
-            let sums = contact.found.resultant(&results, point).map_err(wrong)?;
-            let told = SignoriniResultant {
-                struct_size: size_of::<SignoriniResultant>() as u32,
-                reserved: 0,
-                force: sums.force,
-                moment: sums.moment,
-                friction_work: sums.friction_work,
-                pressed_area: sums.pressed_area,
-            };
-            structures::write(&told, resultant);
-        }
+        // SAFETY: the header's contract.
+        let mut arrays = unsafe { Arrays::of_call() };
+        let contact = arrays.handle(1, "contact", contact)?;
+        let no_gap = std::ptr::null();
+        let results = pair_results(&mut arrays, contact, (1, no_gap), (2, slip0), (3, d), (4, F))?;
+        let dim = contact.found.dim;
+        let origin = [0.0; 3];
+        let point = arrays.optional(5, "point", point, dim)?.unwrap_or(&origin[..dim]);
+        let resultant = arrays.out_structure(6, "resultant", resultant)?;
+        let sums = contact.found.resultant(&results, point).map_err(wrong)?;
+        let told = SignoriniResultant {
+            struct_size: size_of::<SignoriniResultant>() as u32,
+            reserved: 0,
+            force: sums.force,
+            moment: sums.moment,
+            friction_work: sums.friction_work,
+            pressed_area: sums.pressed_area,
+        };
+        resultant.write(0, &told);
         Ok(0)
     })
 }
 
 /// The results of a host, each with its position.
-///
-/// # Safety
-/// The arrays are as the header demands.
-pub(super) unsafe fn pair_results<'a>(
-    arrays: &mut Arrays,
+pub(super) fn pair_results<'h>(
+    arrays: &mut Arrays<'h>,
     contact: &SignoriniSurfacePairs,
     (at_gap, gap): (i32, *const f64),
     (at_slip0, slip0): (i32, *const f64),
     (at_d, d): (i32, *const f64),
     (at_force, force): (i32, *const f64),
-) -> Result<PairResults<'a>, Failure> {
+) -> Result<PairResults<'h>, Failure> {
     let (pairs, dim) = (contact.arrays.count, contact.found.dim);
-    // SAFETY: by the caller's contract.
-    unsafe {
-        Ok(PairResults {
-            gap: arrays.optional(at_gap, "gap", gap, pairs)?,
-            reference_slip: arrays.optional(at_slip0, "slip0", slip0, (dim - 1) * pairs)?,
-            d: arrays.required(at_d, "d", d, dim * pairs)?,
-            force: arrays.required(at_force, "F", force, dim * pairs)?,
-        })
-    }
+    Ok(PairResults {
+        gap: arrays.optional(at_gap, "gap", gap, pairs)?,
+        reference_slip: arrays.optional(at_slip0, "slip0", slip0, (dim - 1) * pairs)?,
+        d: arrays.required(at_d, "d", d, dim * pairs)?,
+        force: arrays.required(at_force, "F", force, dim * pairs)?,
+    })
 }
 
 /// All lengths are those of the pairs, so that no argument is left to be wrong.
@@ -196,13 +178,9 @@ pub(super) fn wrong(error: crate::error::Error) -> Failure {
 }
 
 /// Writes the values of some nodes to their places.
-///
-/// # Safety
-/// As for [`Output::write`].
-unsafe fn scatter<T: Copy>(place: &Output<T>, nodes: &[usize], values: &[T]) {
+fn scatter<T: Copy>(place: &Output<T>, nodes: &[usize], values: &[T]) {
     let each = values.len().checked_div(nodes.len()).unwrap_or(0);
     for (node, of_node) in nodes.iter().zip(values.chunks(each.max(1))) {
-        // SAFETY: by the caller's contract; the place has `each` entries for every node.
-        unsafe { place.part(node * each, each).write(of_node) };
+        place.part(node * each, each).write(of_node);
     }
 }

@@ -4,7 +4,7 @@ use std::ffi::CString;
 
 use super::args::{Arrays, size};
 use super::guard::{self, Failure};
-use super::handle::{OutPointer, release};
+use super::handle::release;
 use super::pairs::SignoriniPairs;
 use super::structures::Structure;
 use super::surface::{Rigid, SignoriniFaces, SignoriniObstacle};
@@ -66,21 +66,20 @@ pub unsafe extern "C" fn signorini_surface_pair(
     contact: *mut *mut SignoriniSurfacePairs,
 ) -> i32 {
     guard::call(|| {
-        // SAFETY: structures and arrays as the header demands.
-        unsafe {
-            let place = OutPointer::new(7, "contact", contact)?;
-            let host = Host::read(dim, nodes, coordinates, (6, settings))?;
-            let slave = SignoriniFaces::read((4, "slave"), slave, host.received.base)?;
-            let master = SignoriniFaces::read((5, "master"), master, host.received.base)?;
-            let surfaces = Surfaces {
-                dim: host.dim,
-                coordinates: host.coordinates,
-                slave: SignoriniFaces::view(&slave),
-                master: SignoriniFaces::view(&master),
-            };
-            let found = pair_surfaces(&surfaces, &host.received.settings);
-            place.fill(found.map(|found| (found, host)), position)
-        }
+        // SAFETY: the header's contract.
+        let mut arrays = unsafe { Arrays::of_call() };
+        let place = arrays.out_pointer(7, "contact", contact)?;
+        let host = Host::read(&mut arrays, (dim, nodes, coordinates), slave, settings)?;
+        let base = host.received.base;
+        let master = SignoriniFaces::read(&mut arrays, (5, "master"), master, base)?;
+        let surfaces = Surfaces {
+            dim: host.dim,
+            coordinates: host.coordinates,
+            slave: SignoriniFaces::view(&host.slave),
+            master: SignoriniFaces::view(&master),
+        };
+        let found = pair_surfaces(&surfaces, &host.received.settings);
+        place.fill(found.map(|found| (found, host)), position)
     })
 }
 
@@ -104,29 +103,25 @@ pub unsafe extern "C" fn signorini_surface_pair_obstacle(
     contact: *mut *mut SignoriniSurfacePairs,
 ) -> i32 {
     guard::call(|| {
-        // SAFETY: structures and arrays as the header demands.
-        unsafe {
-            let place = OutPointer::new(7, "contact", contact)?;
-            let host = Host::read(dim, nodes, coordinates, (6, settings))?;
-            let slave = SignoriniFaces::read((4, "slave"), slave, host.received.base)?;
-            let obstacle = SignoriniObstacle::read(5, host.dim, host.received.base, obstacle)?;
-            let (slave, given) = (SignoriniFaces::view(&slave), &host.received.settings);
-            let found = match &obstacle {
-                Rigid::Shape(shape) => pair_with_obstacle(
-                    host.dim,
-                    host.coordinates,
-                    slave,
-                    shape,
-                    given.search_distance,
-                ),
-                Rigid::Faces(coordinates, faces) => {
-                    let faces = SignoriniFaces::view(faces);
-                    let rigid = RigidSurface { coordinates, faces };
-                    pair_with_rigid_surface(host.dim, host.coordinates, slave, &rigid, given)
-                }
-            };
-            place.fill(found.map(|found| (found, host)), position)
-        }
+        // SAFETY: the header's contract.
+        let mut arrays = unsafe { Arrays::of_call() };
+        let place = arrays.out_pointer(7, "contact", contact)?;
+        let host = Host::read(&mut arrays, (dim, nodes, coordinates), slave, settings)?;
+        let Host { dim, coordinates, received, .. } = &host;
+        let slave = SignoriniFaces::view(&host.slave);
+        let obstacle = SignoriniObstacle::read(&mut arrays, 5, *dim, received.base, obstacle)?;
+        let given = &received.settings;
+        let found = match &obstacle {
+            Rigid::Shape(shape) => {
+                pair_with_obstacle(*dim, coordinates, slave, shape, given.search_distance)
+            }
+            Rigid::Faces(of_obstacle, faces) => {
+                let faces = SignoriniFaces::view(faces);
+                let rigid = RigidSurface { coordinates: of_obstacle, faces };
+                pair_with_rigid_surface(*dim, coordinates, slave, &rigid, given)
+            }
+        };
+        place.fill(found.map(|found| (found, host)), position)
     })
 }
 
@@ -149,32 +144,29 @@ fn position(argument: Argument) -> i32 {
 }
 
 /// Arguments that both calls have.
-struct Host<'a> {
+struct Host<'h> {
     dim: usize,
-    coordinates: &'a [f64],
+    coordinates: &'h [f64],
+    slave: [Vec<usize>; 2],
     received: ParsedSurfaceSettings,
 }
 
-impl<'a> Host<'a> {
-    /// # Safety
-    /// Structures and arrays are as the header demands.
-    unsafe fn read(
-        dim: i32,
-        nodes: i64,
-        coordinates: *const f64,
-        (position, settings): (i32, *const SignoriniSurfaceSettings),
+impl<'h> Host<'h> {
+    fn read(
+        arrays: &mut Arrays<'h>,
+        (dim, nodes, coordinates): (i32, i64, *const f64),
+        slave: *const SignoriniFaces,
+        settings: *const SignoriniSurfaceSettings,
     ) -> Result<Self, Failure> {
         let dim = problem::checked_dim(dim).map_err(|error| Failure::from_error(error, |_| 1))?;
         let nodes = size(2, "nodes", nodes)?;
         let Some(length) = nodes.checked_mul(dim) else {
             return Err(Failure::argument(2, format!("nodes is {nodes}, too large")));
         };
-        // SAFETY: by the caller's contract.
-        unsafe {
-            let coordinates = Arrays::default().required(3, "coordinates", coordinates, length)?;
-            let received = SignoriniSurfaceSettings::read(position, settings, (dim, nodes))?;
-            Ok(Host { dim, coordinates, received })
-        }
+        let coordinates = arrays.required(3, "coordinates", coordinates, length)?;
+        let received = SignoriniSurfaceSettings::read(arrays, 6, settings, (dim, nodes))?;
+        let slave = SignoriniFaces::read(arrays, (4, "slave"), slave, received.base)?;
+        Ok(Host { dim, coordinates, slave, received })
     }
 }
 
@@ -189,7 +181,7 @@ impl ParsedSurfaceSettings {
 
 impl From<(SurfacePairs, Host<'_>)> for SignoriniSurfacePairs {
     fn from((found, host): (SurfacePairs, Host<'_>)) -> Self {
-        let Host { dim, coordinates, received } = host;
+        let Host { dim, coordinates, received, .. } = host;
         let (nodes, base) = (coordinates.len() / dim, received.base);
         let counted = |values: &[usize]| -> Vec<i64> {
             values.iter().map(|value| *value as i64 + base).collect()

@@ -90,17 +90,14 @@ unsafe impl Structure for SignoriniSurfaceSettings {
 
 impl SignoriniSurfaceSettings {
     /// Reads the caller's structure, NULL for the defaults, for `nodes` nodes of `dim` coordinates.
-    ///
-    /// # Safety
-    /// The structure and its array are as the header demands.
-    pub(super) unsafe fn read(
+    pub(super) fn read(
+        arrays: &mut Arrays<'_>,
         position: i32,
         pointer: *const Self,
         (dim, nodes): (usize, usize),
     ) -> Result<ParsedSurfaceSettings, Failure> {
         let refuse = |message: String| Err(Failure::argument(position, message));
-        // SAFETY: by the caller's contract.
-        let given = unsafe { structures::read(position, "settings", pointer)? };
+        let given = arrays.copy(position, "settings", pointer)?;
         let (pairing, normals, rims) = given.choices(position)?;
         let base = structures::index_base(position, "settings", given.index_base)?;
         let per_node = match given.dofs_per_node {
@@ -113,17 +110,14 @@ impl SignoriniSurfaceSettings {
                 "settings: dofs_per_node is {told}, it must be 0 or at least dim {dim}"
             ));
         }
-        // SAFETY: an array of `dim` for each node by contract; the coordinates have as many.
-        let dofs = unsafe {
-            Arrays::default().optional(position, "node_dofs", given.node_dofs, dim * nodes)?
-        };
+        // The coordinates have as many entries.
+        let dofs = arrays.optional(position, "node_dofs", given.node_dofs, dim * nodes)?;
         let listed = match dofs {
             Some(dofs) => Some(shifted(position, "settings: node_dofs", dofs, base)?),
             None => None,
         };
         let search_distance = Some(given.search_distance).filter(|distance| *distance != 0.0);
-        // SAFETY: arrays of as many entries as there are planes, by contract.
-        let symmetry = unsafe { given.symmetry(position)? };
+        let symmetry = given.symmetry(arrays, position)?;
         let settings = SurfaceSettings { pairing, search_distance, symmetry, normals, rims };
         Ok(ParsedSurfaceSettings { settings, base, per_node, listed })
     }
@@ -153,19 +147,15 @@ impl SignoriniSurfaceSettings {
     }
 
     /// The planes of symmetry.
-    ///
-    /// # Safety
-    /// The structure's arrays are as the header demands.
-    unsafe fn symmetry(&self, position: i32) -> Result<Vec<SymmetryPlane>, Failure> {
+    fn symmetry(
+        &self,
+        arrays: &mut Arrays<'_>,
+        position: i32,
+    ) -> Result<Vec<SymmetryPlane>, Failure> {
         let count = size(position, "settings: symmetry_planes", self.symmetry_planes)?;
-        let mut arrays = Arrays::default();
-        // SAFETY: by the caller's contract.
-        let (axes, places) = unsafe {
-            let name = "settings: symmetry_axes";
-            let axes = arrays.required(position, name, self.symmetry_axes, count)?;
-            let name = "settings: symmetry_at";
-            (axes, arrays.required(position, name, self.symmetry_at, count)?)
-        };
+        let axes = "settings: symmetry_axes";
+        let axes = arrays.required(position, axes, self.symmetry_axes, count)?;
+        let places = arrays.required(position, "settings: symmetry_at", self.symmetry_at, count)?;
         let plane = |(&axis, &at): (&i32, &f64)| {
             let counted = i64::from(axis) - i64::from(self.index_base);
             let Ok(axis) = usize::try_from(counted) else {

@@ -2,7 +2,6 @@
 
 use libc::c_char;
 
-use super::guard::Failure;
 use super::pairs::SignoriniPairs;
 use super::structures::{address, show};
 use super::surface_new::SignoriniSurfacePairs;
@@ -73,15 +72,6 @@ pub unsafe extern "C" fn signorini_surface_view(
 ) -> i32 {
     // SAFETY: NULL or pairs, and NULL or a structure that begins with its size, by the header's contract.
     unsafe { show("contact", contact, data, SignoriniSurfacePairs::shown) }
-}
-
-/// # Safety
-/// NULL or pairs that live during the call.
-pub(super) unsafe fn read<'a>(
-    contact: *const SignoriniSurfacePairs,
-) -> Result<&'a SignoriniSurfacePairs, Failure> {
-    // SAFETY: by the caller's contract.
-    unsafe { contact.as_ref() }.ok_or_else(|| Failure::argument(1, "contact is NULL"))
 }
 
 impl SignoriniSurfacePairs {

@@ -2,7 +2,7 @@
 
 use super::args::{Arrays, size};
 use super::guard::Failure;
-use super::structures;
+use super::structures::check_reserved;
 use super::surface_fields::pair_results;
 use super::surface_new::SignoriniSurfacePairs;
 use crate::error::index;
@@ -53,28 +53,21 @@ pub(super) struct Zones {
 impl Zones {
     /// The fields of the caller's zones on a mesh of so many dimensions and nodes; `None` of no
     /// zones.
-    ///
-    /// # Safety The structures and their arrays are as the header demands.
-    pub(super) unsafe fn read(
-        arrays: &mut Arrays,
+    pub(super) fn read(
+        arrays: &mut Arrays<'_>,
         (count, zones): (i64, *const SignoriniZone),
         (dim, nodes): (usize, usize),
     ) -> Result<Option<Self>, Failure> {
         let count = size(ZONES - 1, "n_zones", count)?;
-        // SAFETY: by the caller's contract.
-        let given = unsafe { structures::all(ZONES, "zones", zones, count)? };
+        let given = arrays.all(ZONES, "zones", zones, count)?;
         let mut all: Option<Zones> = None;
         for (number, zone) in given.into_iter().enumerate() {
             let refuse = |message: &str| {
                 Err(Failure::argument(ZONES, format!("zones {}: {message}", index(number))))
             };
-            if zone.reserved != 0 {
-                return refuse("reserved must be 0");
-            }
-            // SAFETY: as above.
-            let Some(contact) = (unsafe { zone.contact.as_ref() }) else {
-                return refuse("contact is NULL");
-            };
+            check_reserved(ZONES, &format!("zones {}", index(number)), zone.reserved)?;
+            let name = format!("zones {}: contact", index(number));
+            let contact = arrays.handle(ZONES, &name, zone.contact)?;
             let of = (contact.found.dim, contact.nodes);
             if of != (dim, nodes) {
                 let (of_dim, of_nodes) = of;
@@ -86,8 +79,7 @@ impl Zones {
             if contact.dofs() != all.dofs {
                 return refuse("it numbers degrees of freedom otherwise than the first zone");
             }
-            // SAFETY: as above.
-            unsafe { all.add(arrays, contact, zone)? };
+            all.add(arrays, contact, zone)?;
         }
         Ok(all)
     }
@@ -105,22 +97,16 @@ impl Zones {
     }
 
     /// Adds the fields of a zone.
-    ///
-    /// # Safety
-    /// Its arrays are as the header demands.
-    unsafe fn add(
+    fn add(
         &mut self,
-        arrays: &mut Arrays,
+        arrays: &mut Arrays<'_>,
         contact: &SignoriniSurfacePairs,
         zone: &SignoriniZone,
     ) -> Result<(), Failure> {
         let [gap, slip0, d, force] = [zone.gap, zone.slip0, zone.d, zone.F];
         let at = |array| (ZONES, array);
-        // SAFETY: by the caller's contract.
-        let (results, state) = unsafe {
-            let results = pair_results(arrays, contact, at(gap), at(slip0), at(d), at(force))?;
-            (results, arrays.optional(ZONES, "state", zone.state, contact.arrays.count)?)
-        };
+        let results = pair_results(arrays, contact, at(gap), at(slip0), at(d), at(force))?;
+        let state = arrays.optional(ZONES, "state", zone.state, contact.arrays.count)?;
         let found = contact.found.fields(&results);
         let found = found.map_err(|error| Failure::from_error(error, |_| ZONES))?;
         let spread = |all: &mut [f64], values: &[f64], each: usize| {
@@ -143,17 +129,13 @@ impl Zones {
     }
 
     /// Displacements of all nodes, from those of the host's degrees of freedom.
-    ///
-    /// # Safety
-    /// NULL or an array as the header demands.
-    pub(super) unsafe fn displacement(
+    pub(super) fn displacement(
         &self,
-        arrays: &mut Arrays,
+        arrays: &mut Arrays<'_>,
         u: *const f64,
     ) -> Result<Option<Vec<f64>>, Failure> {
         let entries = self.dofs.iter().max().map_or(0, |last| last + 1);
-        // SAFETY: by the caller's contract.
-        let u = unsafe { arrays.optional(3, "u", u, entries)? };
+        let u = arrays.optional(3, "u", u, entries)?;
         Ok(u.map(|u| self.dofs.iter().map(|dof| u[*dof]).collect()))
     }
 

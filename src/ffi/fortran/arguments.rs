@@ -157,8 +157,8 @@ impl<I: Integer> Given<I> {
         name: &'static str,
         length: i64,
     ) -> Result<&[I], Failure> {
-        // SAFETY: by the caller's contract.
-        unsafe { Arrays::default().required(position, name, self.0, length as usize) }
+        // SAFETY: the contract of `Given`.
+        unsafe { Arrays::of_call() }.required(position, name, self.0, length as usize)
     }
 
     /// A copy of an integer array in the width of the functions of C.
