@@ -1,5 +1,6 @@
 //! Load cases of a model.
 
+use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
 
 use super::args::{Arrays, size};
@@ -11,13 +12,14 @@ use super::outputs::{OutputArguments, Outputs};
 use super::report::SignoriniReport;
 use super::settings::{ParsedSettings, SignoriniSettings, WarmStart};
 use super::status::remember;
-use super::threads::{LoadCaseChunk, Solved, Start, ThreadCases, on_each, stopped, with_workers};
+use super::threads::with_workers;
 use crate::error::{Argument, Error, Message};
-use crate::model::{BLOCK, Model, Past, Series};
+use crate::model::{BLOCK, Model, Past, Series, Starts};
 use crate::monitor::ProgressFn;
+use crate::settings::Settings;
 use crate::shortage;
 use crate::solve::Solution;
-use crate::workers::SingleThread;
+use crate::workers::{SingleThread, Workers};
 
 const SETTINGS: i32 = 9;
 const START: i32 = 10;
@@ -44,7 +46,6 @@ const START: i32 = 10;
 /// @return 0: every case is solved; otherwise the status of the first that is not, which
 ///         signorini_last_error names
 #[unsafe(no_mangle)]
-#[allow(non_snake_case)] // the names of the mechanics, which the header shows
 pub unsafe extern "C" fn signorini_model_solve(
     model: *const SignoriniModel,
     cases: i64,
@@ -97,6 +98,40 @@ struct Block<'a> {
     outputs: Outputs,
 }
 
+/// Load cases that are solved one after the other.
+struct Lane<'m> {
+    left: Range<usize>,
+    series: Series<'m>,
+    /// The caller's starts of the next cases.
+    starts: Vec<f64>,
+}
+
+impl<'m> Lane<'m> {
+    fn new(left: Range<usize>, series: Series<'m>) -> Self {
+        Lane { left, series, starts: Vec::new() }
+    }
+
+    /// Solves the next cases, each with its number. `workers` share what is factorised in full space.
+    fn solve_next(
+        &mut self,
+        cases: &LoadCases<'_>,
+        (settings, start): (&Settings, WarmStart),
+        workers: &dyn Workers,
+        progress: Option<&mut ProgressFn<'_>>,
+    ) -> Vec<(usize, Result<Solution, Error>)> {
+        let next = self.left.start..self.left.end.min(self.left.start + BLOCK);
+        self.left.start = next.end;
+        let cases: Vec<_> = next.clone().map(|k| cases.case(k)).collect();
+        let starts = match start {
+            WarmStart::None => Starts::Cold,
+            WarmStart::Given => Starts::Given(&self.starts),
+            WarmStart::Previous => Starts::Previous(None),
+        };
+        let solved = self.series.solve_cases_with(workers, &cases, settings, starts, progress);
+        next.zip(solved).collect()
+    }
+}
+
 impl Block<'_> {
     /// Solves all cases and writes their results. Returns the status of the first one that is not
     /// solved, and remembers its message; and what is left for further calls. `past` is what earlier
@@ -110,16 +145,24 @@ impl Block<'_> {
         let goes_on = received.warm_start == WarmStart::Previous;
         let mut lanes = self.lanes(cases, past, received);
         let mut first: Option<(usize, i32, Message)> = None;
-        while lanes.iter().any(|lane| !lane.left.is_empty()) {
-            for (case, solved) in self.next_of(&mut lanes, received) {
-                let (code, message) =
-                    solved.map_or_else(stopped, |solved| self.write(case, solved));
-                self.outputs.status.part(case, 1).write(&[code]);
-                if code != 0 && first.as_ref().is_none_or(|(earlier, ..)| case < *earlier) {
-                    first = Some((case, code, message));
+        // Without a stiffness, threads share each factorisation; else each solves cases of its own.
+        let (threads, memory) = match self.model.is_matrix_free() {
+            true => (received.threads, 0),
+            false => {
+                (lanes.len(), self.model.memory().saturating_add(self.model.memory_of_cases(BLOCK)))
+            }
+        };
+        with_workers(threads, memory, |workers| {
+            while lanes.iter().any(|lane| !lane.left.is_empty()) {
+                for (case, solved) in self.next_of(&mut lanes, received, workers) {
+                    let (code, message) = self.write(case, solved);
+                    self.outputs.status.part(case, 1).write(&[code]);
+                    if code != 0 && first.as_ref().is_none_or(|(earlier, ..)| case < *earlier) {
+                        first = Some((case, code, message));
+                    }
                 }
             }
-        }
+        });
         let past = lanes.pop().filter(|_| goes_on).map(|lane| lane.series.into_past());
         let Some((case, code, message)) = first else { return (0, past) };
         // A call with one case needs no number of it.
@@ -130,84 +173,53 @@ impl Block<'_> {
     /// The cases in as many parts as there are threads. One thread has them all where each starts
     /// from the one before, where a callback waits on the calling thread, and where the host's own
     /// functions are called.
-    fn lanes(
-        &self,
-        cases: usize,
-        past: Option<Past>,
-        received: &ParsedSettings,
-    ) -> Vec<ThreadCases<'_>> {
+    fn lanes(&self, cases: usize, past: Option<Past>, received: &ParsedSettings) -> Vec<Lane<'_>> {
         let model = self.model;
         if received.warm_start == WarmStart::Previous {
             let series = Series::after(model, past.unwrap_or_else(Past::of_none));
-            return vec![ThreadCases { left: 0..cases, series }];
+            return vec![Lane::new(0..cases, series)];
         }
         let alone = received.has_callback() || model.is_matrix_free();
         let count = if alone { 1 } else { received.threads.min(cases) };
         let begin = |lane: usize| lane * cases / count;
         (0..count)
             .map(|lane| begin(lane)..begin(lane + 1))
-            .map(|left| ThreadCases { series: Series::of(model, left.len()), left })
+            .map(|left| Lane::new(left.clone(), Series::of(model, left.len())))
             .collect()
     }
 
-    /// Solves the next block of each lane. Returns what each case has come to, by its number.
+    /// Solves the next cases of each lane. Returns what each case has come to, by its number.
     fn next_of(
         &self,
-        lanes: &mut [ThreadCases<'_>],
+        lanes: &mut [Lane<'_>],
         received: &ParsedSettings,
-    ) -> Vec<(usize, Solved)> {
+        workers: &dyn Workers,
+    ) -> Vec<(usize, Result<Solution, Error>)> {
+        if received.warm_start == WarmStart::Given {
+            lanes.iter_mut().for_each(|lane| self.take_starts(lane));
+        }
+        let (cases, how) = (&self.load_cases, (&received.settings, received.warm_start));
         if let [lane] = lanes {
-            let work = self.next_work(lane, received);
-            let threads = if self.model.is_matrix_free() { received.threads } else { 1 };
-            let solved = with_workers(threads, |workers| {
-                let mut progress = received.progress();
-                let progress = progress.as_mut().map(|progress| progress as &mut ProgressFn<'_>);
-                work.solve(&mut lane.series, workers, &received.settings, progress)
-            });
-            return (work.begin..).zip(solved.into_iter().map(Ok)).collect();
+            let mut progress = received.progress();
+            let progress = progress.as_mut().map(|progress| progress as &mut ProgressFn<'_>);
+            return lane.solve_next(cases, how, workers, progress);
         }
-        let work: Vec<_> = lanes.iter_mut().map(|lane| self.next_work(lane, received)).collect();
-        let series: Vec<_> = lanes.iter_mut().map(|lane| Mutex::new(&mut lane.series)).collect();
-        let (model, settings) = (self.model, &received.settings);
-        let solved = on_each(work.len(), &|lane| {
-            guard::reserve_estimate(model.memory())?;
-            guard::reserve_estimate(model.memory_of_cases(BLOCK))?;
-            let mut series = series[lane].lock().unwrap_or_else(PoisonError::into_inner);
-            Ok(work[lane].solve(&mut series, &SingleThread, settings, None))
-        });
-        let mut all = Vec::new();
-        for (work, solved) in work.iter().zip(solved) {
-            let many = work.cases.len();
-            let each = solved.map_or_else(
-                |code| (0..many).map(|_| Err(code)).collect(),
-                |solved| solved.into_iter().map(Ok).collect::<Vec<_>>(),
-            );
-            all.extend((work.begin..).zip(each));
-        }
-        all
+        let parts: Vec<_> = lanes.iter_mut().map(|lane| Mutex::new((lane, Vec::new()))).collect();
+        let work = |_, part: usize| {
+            let mut part = parts[part].lock().unwrap_or_else(PoisonError::into_inner);
+            part.1 = part.0.solve_next(cases, how, &SingleThread, None);
+        };
+        workers.run(parts.len(), &work, &mut || true);
+        let solved = parts.into_iter().map(Mutex::into_inner);
+        solved.flat_map(|part| part.unwrap_or_else(PoisonError::into_inner).1).collect()
     }
 
-    /// Takes the next block of a lane.
-    fn next_work(
-        &self,
-        lane: &mut ThreadCases<'_>,
-        received: &ParsedSettings,
-    ) -> LoadCaseChunk<'_> {
+    /// Copies the starts that the caller gives to the next cases of a lane.
+    fn take_starts(&self, lane: &mut Lane<'_>) {
         let n = self.model.dim() * self.model.pairs();
-        let begin = lane.left.start;
-        let many = BLOCK.min(lane.left.len());
-        lane.left.start += many;
-        let cases = (begin..begin + many).map(|k| self.load_cases.case(k)).collect();
-        let start = match received.warm_start {
-            WarmStart::None => Start::Cold,
-            WarmStart::Given => {
-                let forces = self.model.starts_from_forces();
-                let place = if forces { &self.outputs.force } else { &self.outputs.d };
-                Start::Given(place.part(n * begin, n * many).read())
-            }
-            WarmStart::Previous => Start::Previous,
-        };
-        LoadCaseChunk { begin, cases, start }
+        let forces = self.model.starts_from_forces();
+        let place = if forces { &self.outputs.force } else { &self.outputs.d };
+        lane.starts = place.part(n * lane.left.start, n * BLOCK.min(lane.left.len())).read();
     }
 
     /// Writes the results of a case, unless it is wrong. Returns status and message.

@@ -172,28 +172,21 @@ impl SignoriniSettings {
             SIGNORINI_METHOD_PATH => Method::Path,
             other => return refuse(format!("settings: there is no method {other}")),
         };
-        let Ok(max_iterations) = u64::try_from(self.max_iterations) else {
-            let given = self.max_iterations;
-            return refuse(format!("settings: max_iterations is {given}, it must be at least 1"));
+        let natural = |name: &str, value: i64, wanted: &str| {
+            u64::try_from(value).map_err(|_| {
+                let message = format!("settings: {name} is {value}, it must be {wanted}");
+                Failure::argument(position, message)
+            })
         };
-        let Ok(memory_limit) = u64::try_from(self.memory_limit) else {
-            let given = self.memory_limit;
-            return refuse(format!(
-                "settings: memory_limit is {given}, it must be 0 (none) or bytes"
-            ));
-        };
+        let max_iterations = natural("max_iterations", self.max_iterations, "at least 1")?;
+        let memory_limit = natural("memory_limit", self.memory_limit, "0 (none) or bytes")?;
+        let threads = natural("threads", self.threads.into(), "0 (one thread) or more")?;
         let search = match self.search {
             SIGNORINI_SEARCH_OFF => Search::Off,
             SIGNORINI_SEARCH_OTHERS => Search::Others,
             other => return refuse(format!("settings: there is no search {other}")),
         };
         structures::check_reserved(position, "settings", self.reserved)?;
-        let Ok(threads) = usize::try_from(self.threads) else {
-            let given = self.threads;
-            return refuse(format!(
-                "settings: threads is {given}, it must be 0 (one thread) or more"
-            ));
-        };
         Ok(ParsedSettings {
             settings: Settings {
                 method,
@@ -212,7 +205,7 @@ impl SignoriniSettings {
                 SIGNORINI_START_PREVIOUS => WarmStart::Previous,
                 _ => WarmStart::Given,
             },
-            threads: threads.max(1),
+            threads: usize::try_from(threads).unwrap_or(usize::MAX).max(1),
             progress: self.progress,
             user: self.user,
         })
@@ -233,7 +226,7 @@ impl ParsedSettings {
     /// Does work that the settings limit, the caller's callback watches, and the caller's number of
     /// threads share.
     pub(super) fn monitored<T>(&self, work: impl FnOnce(&mut Monitor<'_>) -> T) -> T {
-        threads::with_workers(self.threads, |workers| {
+        threads::with_workers(self.threads, 0, |workers| {
             let mut progress = self.progress();
             let progress = progress.as_mut().map(|progress| progress as &mut ProgressFn<'_>);
             work(&mut Monitor::new(&self.settings, progress).with_workers(workers))

@@ -4,55 +4,47 @@
 use std::sync::Barrier;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use crate::ffi::guard::{self, Failure};
+use crate::ffi::guard;
 use crate::shortage;
 
-/// The work of a further thread; it does not unwind.
-pub(super) trait Run: Sync {
-    /// Does the work; `prepared` is the status if the thread has no memory to keep for itself.
-    fn run(&self, prepared: Result<(), i32>);
-}
-
-/// A work and its thread's beginning.
-pub(super) struct Job<R> {
-    pub(super) work: R,
+/// The life of a further thread.
+pub(super) struct Job<'w> {
+    number: usize,
+    /// Bytes that the thread holds in reserve.
+    memory: u64,
+    /// The work of each thread by its number; it does not unwind.
+    work: &'w (dyn Fn(usize) + Sync),
     is_prepared: AtomicBool,
     /// The caller waits here until the thread has obtained the memory that it keeps. The C library ends the process if
     /// it is refused memory there: no other request is made meanwhile.
     ready: Barrier,
 }
 
-impl<R: Run> Job<R> {
+impl<'w> Job<'w> {
     /// A job for a thread.
-    pub(super) fn new(work: R) -> Self {
-        Job { work, is_prepared: AtomicBool::new(false), ready: Barrier::new(2) }
+    pub(super) fn new(number: usize, memory: u64, work: &'w (dyn Fn(usize) + Sync)) -> Self {
+        Job { number, memory, work, is_prepared: AtomicBool::new(false), ready: Barrier::new(2) }
     }
 
-    /// `true` if its thread has what it keeps for itself.
+    /// `true` if its thread has what it keeps for itself, and does the work.
     pub(super) fn is_prepared(&self) -> bool {
         self.is_prepared.load(Ordering::Relaxed)
     }
 
+    /// Runs as an entry of the C interface. Without memory the work is not done.
     fn run(&self) {
-        let prepared = guarded(guard::prepare_thread);
-        self.is_prepared.store(prepared.is_ok(), Ordering::Relaxed);
-        self.ready.wait();
-        self.work.run(prepared);
-    }
-}
-
-/// Runs `body` as an entry of the C interface runs its own.
-pub(super) fn guarded<T>(body: impl FnOnce() -> Result<T, Failure>) -> Result<T, i32> {
-    let mut result = None;
-    let code = guard::call(|| {
-        result = Some(body()?);
-        // The reserve of the thread holds nothing that outlives its work.
-        shortage::check();
-        Ok(0)
-    });
-    match result {
-        Some(result) if code == 0 => Ok(result),
-        _ => Err(code),
+        guard::call(|| {
+            guard::reserve_estimate(self.memory)?;
+            self.is_prepared.store(true, Ordering::Relaxed);
+            self.ready.wait();
+            (self.work)(self.number);
+            // The reserve of the thread holds nothing that outlives its work.
+            shortage::check();
+            Ok(0)
+        });
+        if !self.is_prepared() {
+            self.ready.wait();
+        }
     }
 }
 
@@ -65,7 +57,7 @@ impl Thread {
     ///
     /// # Safety
     /// `job` lives until the thread is joined.
-    pub(super) unsafe fn start<R: Run>(job: &Job<R>) -> Option<Self> {
+    pub(super) unsafe fn start(job: &Job<'_>) -> Option<Self> {
         #[cfg(unix)]
         let masked = own::Masked::new();
         // SAFETY: by the caller's contract.
@@ -88,17 +80,17 @@ mod own {
     use std::mem::{MaybeUninit, zeroed};
     use std::ptr::null_mut;
 
-    use super::{Job, Run};
+    use super::Job;
 
     /// Stack of a thread, in bytes: that of the threads of Rust's standard library.
     const STACK: usize = 2 << 20;
 
     pub(super) type Handle = libc::pthread_t;
 
-    pub(super) unsafe fn start<R: Run>(job: &Job<R>) -> Option<Handle> {
-        extern "C" fn begin<R: Run>(job: *mut c_void) -> *mut c_void {
+    pub(super) unsafe fn start(job: &Job<'_>) -> Option<Handle> {
+        extern "C" fn begin(job: *mut c_void) -> *mut c_void {
             // SAFETY: the job of `start`, which lives until the thread is joined.
-            unsafe { (*job.cast::<Job<R>>()).run() };
+            unsafe { (*job.cast::<Job<'_>>()).run() };
             null_mut()
         }
         let (mut attributes, mut thread) = (MaybeUninit::uninit(), MaybeUninit::uninit());
@@ -110,7 +102,7 @@ mod own {
             libc::pthread_attr_setstacksize(attributes.as_mut_ptr(), STACK);
             let job = std::ptr::from_ref(job).cast_mut().cast();
             let refused =
-                libc::pthread_create(thread.as_mut_ptr(), attributes.as_ptr(), begin::<R>, job);
+                libc::pthread_create(thread.as_mut_ptr(), attributes.as_ptr(), begin, job);
             libc::pthread_attr_destroy(attributes.as_mut_ptr());
             (refused == 0).then(|| thread.assume_init())
         }
@@ -150,11 +142,11 @@ mod own {
 mod own {
     use std::thread::{Builder, JoinHandle};
 
-    use super::{Job, Run};
+    use super::Job;
 
     pub(super) type Handle = JoinHandle<()>;
 
-    pub(super) unsafe fn start<R: Run>(job: &Job<R>) -> Option<Handle> {
+    pub(super) unsafe fn start(job: &Job<'_>) -> Option<Handle> {
         // SAFETY: by the caller's contract the job lives until the thread is joined.
         unsafe { Builder::new().spawn_unchecked(|| job.run()) }.ok()
     }

@@ -5,22 +5,26 @@ use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 
-use super::system_thread::{Job, Run, Thread, guarded};
+use super::system_thread::{Job, Thread};
 use crate::shortage::{self, Shortage};
 use crate::workers::{SingleThread, Workers};
 
 /// Most threads: each has working memory, and of more than these none has enough to do.
 const MOST: usize = 64;
 
-/// Does `body` with so many threads, the calling one among them.
-pub(in crate::ffi) fn with_workers<T>(threads: usize, body: impl FnOnce(&dyn Workers) -> T) -> T {
+/// Does `body` with so many threads, the calling one among them. Each further one holds `memory` bytes in reserve.
+pub(in crate::ffi) fn with_workers<T>(
+    threads: usize,
+    memory: u64,
+    body: impl FnOnce(&dyn Workers) -> T,
+) -> T {
     if threads <= 1 {
         return body(&SingleThread);
     }
     let threads = threads.min(MOST);
     let board = Board::new(threads);
-    let member = |number| Job::new(Member { number, board: &board });
-    let jobs: Vec<_> = (1..threads).map(member).collect();
+    let serve = |thread| board.serve(thread);
+    let jobs: Vec<_> = (1..threads).map(|number| Job::new(number, memory, &serve)).collect();
     let started = RefCell::new(Vec::with_capacity(jobs.len()));
     body(&WorkerPool { board: &board, jobs: &jobs, started })
 }
@@ -142,28 +146,10 @@ impl Board {
     }
 }
 
-/// A further thread, which serves the board.
-struct Member<'b> {
-    number: usize,
-    board: &'b Board,
-}
-
-impl Run for Member<'_> {
-    fn run(&self, prepared: Result<(), i32>) {
-        // Without memory the others do its parts, and the failure of a part is on the board.
-        if prepared.is_ok() {
-            let _ = guarded(|| {
-                self.board.serve(self.number);
-                Ok(())
-            });
-        }
-    }
-}
-
 /// The calling thread and the others.
 struct WorkerPool<'b> {
     board: &'b Board,
-    jobs: &'b [Job<Member<'b>>],
+    jobs: &'b [Job<'b>],
     started: RefCell<Vec<Thread>>,
 }
 
