@@ -7,7 +7,7 @@ use std::path::Path;
 
 use super::guard::{self, Failure};
 use crate::error::Argument;
-use crate::linalg::matrix;
+use crate::linalg::matrix::required_length;
 use crate::problem;
 
 /// Bytes that a call holds in reserve for each byte of the host's arrays: of copies, of what is
@@ -71,6 +71,20 @@ impl<'h> Arrays<'h> {
     ) -> Result<&'h [f64], Failure> {
         refuse_null(position, name, pointer, length)?;
         Ok(self.matrix_or_null(position, name, pointer, length)?.unwrap_or_default())
+    }
+
+    /// A matrix of `n` columns, argument number `position`, with its leading dimension, the next one: both with names.
+    pub(super) fn square(
+        &mut self,
+        position: i32,
+        (name, pointer): (&'static str, *const f64),
+        (ld_name, ld): (&str, i64),
+        n: usize,
+    ) -> Result<(&'h [f64], usize), Failure> {
+        let ld = size(position + 1, ld_name, ld)?;
+        let length = required_length(name, n, ld)
+            .map_err(|message| Failure::argument(position + 1, message))?;
+        Ok((self.matrix(position, name, pointer, length)?, ld))
     }
 
     /// As [`Self::matrix`], `None` if it is NULL or has no elements.
@@ -292,15 +306,4 @@ pub(super) fn sizes(first: i32, dim: i32, pairs: i64) -> Result<(usize, usize, u
     let dim = problem::checked_dim(dim).map_err(from_error)?;
     let pairs = size(first + 1, "pairs", pairs)?;
     Ok((dim, pairs, problem::unknowns(dim, pairs).map_err(from_error)?))
-}
-
-/// Elements of a column-major matrix with `n` rows and columns.
-pub(super) fn matrix_length(
-    position: i32,
-    name: &str,
-    n: usize,
-    leading: usize,
-) -> Result<usize, Failure> {
-    matrix::required_length(name, n, leading)
-        .map_err(|message| Failure::argument(position, message))
 }

@@ -21,7 +21,6 @@ use crate::settings::check_tolerance;
 /// @param state,report  as for signorini_solve
 /// @return 0: a solution; SIGNORINI_STATUS_NOT_A_SOLUTION: none; or another status
 #[unsafe(no_mangle)]
-#[allow(non_snake_case)] // the names of the mechanics, which the header shows
 pub unsafe extern "C" fn signorini_model_certify(
     model: *const SignoriniModel,
     f: *const f64,

@@ -1,6 +1,6 @@
 //! The data of a condensed contact problem, which several calls receive in the same order.
 
-use super::args::{Arrays, matrix_length, size, sizes};
+use super::args::{Arrays, sizes};
 use super::guard::{Failure, number_of};
 use super::law;
 use crate::error::Argument::{
@@ -12,7 +12,6 @@ const ARGUMENTS: [Argument; 9] =
     [Dimension, Size, Matrix, LeadingDimension, Load, Gap, LawChoice, Law, ReferenceSlip];
 
 /// The arguments from `dim` to `slip0`, as the host hands them over.
-#[allow(non_snake_case)] // the names of the mechanics, which the header shows
 pub(super) struct CondensedArguments {
     /// Number of `dim` among the arguments of the call; the others follow it.
     pub(super) first: i32,
@@ -35,12 +34,11 @@ impl CondensedArguments {
     pub(super) fn read<'h>(&self, arrays: &mut Arrays<'h>) -> Result<ContactData<'h>, Failure> {
         let at = |offset| self.first + offset;
         let (dim, pairs, n) = sizes(self.first, self.dim, self.pairs)?;
-        let ld = size(at(3), "ldk", self.ldk)?;
-        let entries = matrix_length(at(3), "K", n, ld)?;
+        let (stiffness, ld) = arrays.square(at(2), ("K", self.K), ("ldk", self.ldk), n)?;
         Ok(ContactData {
             dim,
             pairs,
-            stiffness: arrays.matrix(at(2), "K", self.K, entries)?,
+            stiffness,
             ld,
             load: arrays.required(at(4), "f", self.f, n)?,
             gap: arrays.required(at(5), "gap", self.gap, pairs)?,

@@ -10,7 +10,6 @@ use crate::solve::{Existence, Solution};
 /// signorini_extra_default(), then set the pointers that you want.
 #[repr(C)]
 #[derive(Clone, Copy)]
-#[allow(non_snake_case)] // the names of the mechanics, which the header shows
 pub struct SignoriniExtra {
     /// sizeof(signorini_extra).
     pub struct_size: u32,

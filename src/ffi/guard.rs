@@ -218,13 +218,4 @@ mod tests {
         let text = unsafe { std::ffi::CStr::from_ptr(signorini_last_error()) };
         assert!(text.to_str().unwrap().contains("bug number 7"), "{text:?}");
     }
-
-    #[test]
-    fn a_success_clears_the_message() {
-        call(|| Err(Failure::argument(3, "K is wrong")));
-        assert_eq!(call(|| Ok(0)), 0);
-        // SAFETY: the library's own zero-terminated buffer.
-        let text = unsafe { std::ffi::CStr::from_ptr(signorini_last_error()) };
-        assert!(text.is_empty());
-    }
 }

@@ -1,6 +1,6 @@
 //! The linear complementarity problem (LCP) in one call.
 
-use super::args::{Arrays, matrix_length, size};
+use super::args::{Arrays, size};
 use super::guard::{self, Failure, number_of};
 use super::report::SignoriniReport;
 use super::settings::SignoriniSettings;
@@ -29,7 +29,6 @@ use crate::solve::{Status, memory, solve_lcp};
 ///                  M' y <= 0, q . y < 0; else zeros
 /// @param report    as for signorini_solve
 #[unsafe(no_mangle)]
-#[allow(non_snake_case)] // the name of the mathematics, which the header shows
 pub unsafe extern "C" fn signorini_lcp_solve(
     n: i64,
     M: *const f64,
@@ -46,9 +45,7 @@ pub unsafe extern "C" fn signorini_lcp_solve(
         // SAFETY: the header's contract.
         let mut arrays = unsafe { Arrays::of_call() };
         let n = size(1, "n", n)?;
-        let ld = size(3, "ldm", ldm)?;
-        let entries = matrix_length(3, "M", n, ld)?;
-        let matrix = arrays.matrix(2, "M", M, entries)?;
+        let (matrix, ld) = arrays.square(2, ("M", M), ("ldm", ldm), n)?;
         let q = arrays.required(4, "q", q, n)?;
         let cover = arrays.optional(5, "cover", cover, n)?;
         let received = SignoriniSettings::read(&mut arrays, 6, settings)?;

@@ -1,12 +1,14 @@
 //! The C interface: the only room with `unsafe`.
 //!
 //! Every entry runs inside [`guard::call`], which keeps the host's floating-point environment and
-//! stops panics; [`args`] turns pointers into slices after checking them; nothing is written before
-//! every argument has been accepted.
+//! stops panics. The [`args::Arrays`] of a call stand for the contract of the header: they turn pointers
+//! into slices, structures and outputs after checking them. Nothing is written before every argument has
+//! been accepted.
 
 // Pointer requirements are documented for each @param, where a C programmer reads them. Plain
-// arrays make long parameter lists.
-#![allow(clippy::missing_safety_doc, clippy::too_many_arguments)]
+// arrays make long parameter lists. Arguments and fields have the names of the mechanics, which the
+// header shows.
+#![allow(clippy::missing_safety_doc, clippy::too_many_arguments, non_snake_case)]
 
 #[cfg(c_library)]
 mod allocator;

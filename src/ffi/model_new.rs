@@ -1,6 +1,6 @@
 //! Models: made of what a host has, reduced once.
 
-use super::args::{Arrays, matrix_length, size, sizes};
+use super::args::{Arrays, size, sizes};
 use super::guard::{self, Failure, number_of};
 use super::handle::release;
 use super::model::SignoriniModel;
@@ -18,7 +18,6 @@ use crate::reduce;
 /// @param dim,pairs,K,ldk  as for signorini_solve
 /// @param model  out: the model
 #[unsafe(no_mangle)]
-#[allow(non_snake_case)] // the names of the mechanics, which the header shows
 pub unsafe extern "C" fn signorini_model_new_condensed(
     dim: i32,
     pairs: i64,
@@ -31,9 +30,7 @@ pub unsafe extern "C" fn signorini_model_new_condensed(
         let mut arrays = unsafe { Arrays::of_call() };
         let place = arrays.out_pointer(5, "model", model)?;
         let (dim, pairs, n) = sizes(1, dim, pairs)?;
-        let ld = size(4, "ldk", ldk)?;
-        let length = matrix_length(4, "K", n, ld)?;
-        let k = arrays.matrix(3, "K", K, length)?;
+        let (k, ld) = arrays.square(3, ("K", K), ("ldk", ldk), n)?;
         guard::reserve_estimate(reduce::memory(n))?;
         let arguments = [Dimension, Size, Matrix, LeadingDimension];
         place.fill(Model::condensed(dim, pairs, k, ld), |wrong| {
@@ -51,7 +48,6 @@ pub unsafe extern "C" fn signorini_model_new_condensed(
 /// @param K_B,ldb    stiffness of body B
 /// @param model      out: the model
 #[unsafe(no_mangle)]
-#[allow(non_snake_case)] // as above
 pub unsafe extern "C" fn signorini_model_new_two_body(
     dim: i32,
     pairs: i64,
@@ -66,13 +62,10 @@ pub unsafe extern "C" fn signorini_model_new_two_body(
         let mut arrays = unsafe { Arrays::of_call() };
         let place = arrays.out_pointer(7, "model", model)?;
         let (dim, pairs, n) = sizes(1, dim, pairs)?;
-        let (ld_a, ld_b) = (size(4, "lda", lda)?, size(6, "ldb", ldb)?);
-        let (length_a, length_b) =
-            (matrix_length(4, "K_A", n, ld_a)?, matrix_length(6, "K_B", n, ld_b)?);
-        let k_a = arrays.matrix(3, "K_A", K_A, length_a)?;
-        let k_b = arrays.matrix(5, "K_B", K_B, length_b)?;
+        let first = arrays.square(3, ("K_A", K_A), ("lda", lda), n)?;
+        let second = arrays.square(5, ("K_B", K_B), ("ldb", ldb), n)?;
         guard::reserve_estimate(reduce::memory(n))?;
-        let made = Model::two_body(dim, pairs, (k_a, ld_a), (k_b, ld_b));
+        let made = Model::two_body(dim, pairs, first, second);
         let arguments =
             [Dimension, Size, Matrix, LeadingDimension, SecondMatrix, SecondLeadingDimension];
         place.fill(made, |wrong| number_of(wrong, 1, &arguments).unwrap_or(3))
@@ -96,7 +89,6 @@ pub unsafe extern "C" fn signorini_model_new_two_body(
 ///                  computed (2 s for 1e5 nodes)
 /// @param model     out: the model
 #[unsafe(no_mangle)]
-#[allow(non_snake_case)] // as above
 pub unsafe extern "C" fn signorini_model_new_sparse(
     K: *const SignoriniSparse,
     n_fixed: i64,
@@ -155,7 +147,6 @@ pub unsafe extern "C" fn signorini_model_new_sparse(
 ///                   moves
 /// @param model      out: the model
 #[unsafe(no_mangle)]
-#[allow(non_snake_case)] // as above
 pub unsafe extern "C" fn signorini_model_new_flexibility(
     dim: i32,
     pairs: i64,
@@ -168,9 +159,7 @@ pub unsafe extern "C" fn signorini_model_new_flexibility(
         let mut arrays = unsafe { Arrays::of_call() };
         let place = arrays.out_pointer(5, "model", model)?;
         let (dim, pairs, n) = sizes(1, dim, pairs)?;
-        let ld = size(4, "ldw", ldw)?;
-        let length = matrix_length(4, "W", n, ld)?;
-        let w = arrays.matrix(3, "W", W, length)?;
+        let (w, ld) = arrays.square(3, ("W", W), ("ldw", ldw), n)?;
         guard::reserve(n.saturating_mul(n).saturating_mul(size_of::<f64>()))?;
         place.fill(Model::flexibility(dim, pairs, w, ld), |argument| match argument {
             LeadingDimension => 4,
@@ -191,7 +180,6 @@ pub unsafe extern "C" fn signorini_model_new_flexibility(
 /// @param W          W->size = N; rows of zeros need not be stored; stored zeros tie nothing
 /// @param model      out: the model
 #[unsafe(no_mangle)]
-#[allow(non_snake_case)] // as above
 pub unsafe extern "C" fn signorini_model_new_flexibility_sparse(
     dim: i32,
     pairs: i64,

@@ -77,7 +77,6 @@ fn position(argument: Argument) -> i32 {
 /// @param F      contact forces, N
 /// @param nodal  out: nodal forces, H
 #[unsafe(no_mangle)]
-#[allow(non_snake_case)] // the names of the mechanics, which the header shows
 pub unsafe extern "C" fn signorini_model_nodal_forces(
     model: *const SignoriniModel,
     F: *const f64,

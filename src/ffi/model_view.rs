@@ -18,7 +18,6 @@ pub const SIGNORINI_MODEL_FLEXIBILITY: i32 = 3;
 /// The content of a model.
 #[repr(C)]
 #[derive(Clone, Copy)]
-#[allow(non_snake_case)] // the names of the mechanics, which the header shows
 pub struct SignoriniModelData {
     /// sizeof(signorini_model_data).
     pub struct_size: u32,

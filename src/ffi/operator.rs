@@ -113,7 +113,6 @@ impl HostOperator for Functions {
 /// @param K      the functions; the structure is copied, with units
 /// @param model  out: the model
 #[unsafe(no_mangle)]
-#[allow(non_snake_case)] // the names of the mechanics, which the header shows
 pub unsafe extern "C" fn signorini_model_new_operator(
     K: *const SignoriniOperator,
     model: *mut *mut SignoriniModel,

@@ -9,7 +9,6 @@ use super::structures::OutStructures;
 use crate::solve::Solution;
 
 /// The pointers of a call.
-#[allow(non_snake_case)] // the names of the mechanics, which the header shows
 pub(super) struct OutputArguments {
     pub(super) d: *mut f64,
     pub(super) F: *mut f64,

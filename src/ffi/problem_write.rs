@@ -2,7 +2,7 @@
 
 use libc::c_char;
 
-use super::args::{Arrays, matrix_length, size};
+use super::args::{Arrays, size};
 use super::case_arguments::CaseArguments;
 use super::condensed::CondensedArguments;
 use super::guard::{self, Failure, number_of};
@@ -27,7 +27,6 @@ use crate::problem::Lcp;
 ///                begin or end with a space; may be NULL
 /// @return the status; after SIGNORINI_STATUS_FILE an old file is unchanged
 #[unsafe(no_mangle)]
-#[allow(non_snake_case)] // the names of the mechanics, which the header shows
 pub unsafe extern "C" fn signorini_problem_write(
     path: *const c_char,
     dim: i32,
@@ -68,7 +67,6 @@ pub unsafe extern "C" fn signorini_problem_write(
 /// @param cover        covering vector, n positive entries; may be NULL
 /// @return as signorini_problem_write
 #[unsafe(no_mangle)]
-#[allow(non_snake_case)] // the name of the mathematics, which the header shows
 pub unsafe extern "C" fn signorini_lcp_write(
     path: *const c_char,
     n: i64,
@@ -85,9 +83,7 @@ pub unsafe extern "C" fn signorini_lcp_write(
         let path = arrays.path(1, path)?;
         let remark = arrays.text(REMARK, "remark", remark)?;
         let n = size(2, "n", n)?;
-        let ld = size(4, "ldm", ldm)?;
-        let entries = matrix_length(4, "M", n, ld)?;
-        let matrix = arrays.matrix(3, "M", M, entries)?;
+        let (matrix, ld) = arrays.square(3, ("M", M), ("ldm", ldm), n)?;
         let q = arrays.required(5, "q", q, n)?;
         let cover = arrays.optional(6, "cover", cover, n)?;
         Lcp::new(n, matrix, ld, q, cover)

@@ -21,7 +21,6 @@ use crate::law::State;
 /// @param radius_d,radius_F  out: as in signorini_extra; may be NULL
 /// @return 0: proved; SIGNORINI_STATUS_NOT_PROVED: not; or another status
 #[unsafe(no_mangle)]
-#[allow(non_snake_case)] // the names of the mechanics, which the header shows
 pub unsafe extern "C" fn signorini_model_prove(
     model: *const SignoriniModel,
     f: *const f64,

@@ -57,7 +57,6 @@ pub const SIGNORINI_REMARK_HELD_BY_ROUNDING: i32 = 8;
 /// the call writes all other fields. K d - f is the contact force that d requires.
 #[repr(C)]
 #[derive(Clone, Copy)]
-#[allow(non_snake_case)] // the names of the mechanics, which the header shows
 pub struct SignoriniReport {
     /// sizeof(signorini_report).
     pub struct_size: u32,

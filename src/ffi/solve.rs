@@ -37,7 +37,6 @@ use crate::solve::{memory, solve};
 /// @param report    out: how good the result is; set report->struct_size before; may be NULL
 /// @param extra     arrays for further results; may be NULL
 #[unsafe(no_mangle)]
-#[allow(non_snake_case)] // the names of the mechanics, which the header shows
 pub unsafe extern "C" fn signorini_solve(
     dim: i32,
     pairs: i64,

@@ -64,7 +64,6 @@ pub struct SignoriniResultant {
 /// @param state    SIGNORINI_STATE_... of each pair; may be NULL if fields->state is
 /// @param fields   out: the arrays of the fields
 #[unsafe(no_mangle)]
-#[allow(non_snake_case)] // the names of the mechanics, which the header shows
 pub unsafe extern "C" fn signorini_surface_fields(
     contact: *const SignoriniSurfacePairs,
     gap: *const f64,
@@ -116,7 +115,6 @@ pub unsafe extern "C" fn signorini_surface_fields(
 /// @param point      the point of the moment, dim coordinates; NULL: the origin
 /// @param resultant  out: the sums; set resultant->struct_size before
 #[unsafe(no_mangle)]
-#[allow(non_snake_case)] // as above
 pub unsafe extern "C" fn signorini_surface_resultant(
     contact: *const SignoriniSurfacePairs,
     slip0: *const f64,

@@ -11,7 +11,6 @@ use crate::file::{Field, Values};
 /// A contact zone with its solution, for signorini_mesh_write.
 #[repr(C)]
 #[derive(Clone, Copy)]
-#[allow(non_snake_case)] // the names of the mechanics, which the header shows
 pub struct SignoriniZone {
     /// sizeof(signorini_zone).
     pub struct_size: u32,

@@ -15,3 +15,4 @@ use common::mesh; // graded_bar.rs names it as its sibling, as a bench has it.
 
 mod estimate;
 mod peaks;
+mod reserve_holes;

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use libc::c_char;
 
+use super::super::args::Arrays;
 use super::super::guard::Failure;
 use super::super::structures::Structure;
 use super::super::surface::SignoriniFaces;
@@ -118,28 +119,16 @@ entry! {
     sgsgap_ sgsgap_64_ positions [],
     (hsurf: Given<i64>, node: *mut I, gap: *mut f64, area: *mut f64, normal: *mut f64) {
         let contact = find::<SignoriniSurfacePairs>(1, hsurf)?;
-        let arrays = &contact.arrays;
-        let given = [
-            (2, "NODE", node.is_null()),
-            (3, "GAP", gap.is_null()),
-            (4, "AREA", area.is_null()),
-            (5, "NORMAL", normal.is_null()),
+        let (found, pairs) = (&contact.arrays, contact.arrays.count);
+        let mut arrays = Arrays::of_call();
+        let node = arrays.output(2, "NODE", node, pairs)?;
+        let outputs = [
+            (arrays.output(3, "GAP", gap, pairs)?, &found.gaps),
+            (arrays.output(4, "AREA", area, pairs)?, &found.areas),
+            (arrays.output(5, "NORMAL", normal, contact.found.dim * pairs)?, &found.normals),
         ];
-        if let Some((position, name, _)) = given.iter().find(|(.., is_null)| *is_null)
-            && arrays.count > 0
-        {
-            return Err(Failure::argument(*position, format!("{name} is NULL")));
-        }
-        for (i, slave) in contact.slaves.iter().enumerate() {
-            write(node.add(i), I::nearest(*slave));
-        }
-        for (place, values) in
-            [(gap, &arrays.gaps), (area, &arrays.areas), (normal, &arrays.normals)]
-        {
-            for (i, value) in values.iter().enumerate() {
-                write(place.add(i), *value);
-            }
-        }
+        node.write(&contact.slaves.iter().map(|slave| I::nearest(*slave)).collect::<Vec<I>>());
+        outputs.iter().for_each(|(place, values)| place.write(values));
         Ok(0)
     }
 }
