@@ -1,6 +1,6 @@
 //! A face in space, or a line in the plane: positions, normals, area.
 
-use super::quadrature;
+use super::quadrature::{self, RulePoint};
 use super::shape::{FaceKind, Local, MOST_NODES, Values};
 use crate::linalg::vector3::{Vector3, unit};
 
@@ -10,6 +10,9 @@ pub(super) const ON_EDGE: f64 = 1e-11;
 
 /// Points of the rule for areas along each direction: exact for flat faces of every kind.
 const AREA_POINTS: usize = 4;
+
+/// The rule across a line, whose second coordinate is zero: the half of a unit.
+const MIDDLE: [RulePoint; 1] = [([0.5, 0.5, 0.0], 0.5)];
 
 /// A face with the coordinates of its nodes.
 #[derive(Clone, Debug)]
@@ -26,19 +29,25 @@ impl Face<'_> {
         self.x.iter().zip(values).map(|(x, value)| x * value).sum()
     }
 
-    /// The outward normal, as long as the area of a unit of local coordinates: to the right of a
-    /// line, and towards the eye that sees the corners of a face counterclockwise.
-    pub(super) fn outward(&self, at: Local) -> Vector3 {
+    /// Derivatives of the position by the local coordinates; the second of a line is zero.
+    pub(super) fn derivatives(&self, at: Local) -> [Vector3; 2] {
         let mut along = [Vector3::zeros(); 2];
         let nodes = &self.x[..self.kind.nodes()];
         for (x, slopes) in nodes.iter().zip(self.kind.derivatives(at)) {
             along[0] += x * slopes[0];
             along[1] += x * slopes[1];
         }
+        along
+    }
+
+    /// The outward normal, as long as the area of a unit of local coordinates: to the right of a
+    /// line, and towards the eye that sees the corners of a face counterclockwise.
+    pub(super) fn outward(&self, at: Local) -> Vector3 {
+        let [first, second] = self.derivatives(at);
         if self.kind.is_line() {
-            return Vector3::new(along[0].y, -along[0].x, 0.0);
+            return Vector3::new(first.y, -first.x, 0.0);
         }
-        along[0].cross(&along[1])
+        first.cross(&second)
     }
 
     /// The unit normal in the middle.
@@ -61,20 +70,16 @@ impl Face<'_> {
             integrals.iter_mut().zip(values).for_each(|(sum, value)| *sum += area * value);
         };
         let line = quadrature::on_interval(AREA_POINTS);
-        match self.kind {
-            FaceKind::Line2 | FaceKind::Line3 => {
-                line.iter().for_each(|([_, s, _], w)| add([2.0 * s - 1.0, 0.0], 2.0 * w));
-            }
-            FaceKind::T3 | FaceKind::T6 => {
-                let triangle = quadrature::on_triangle(AREA_POINTS);
-                triangle.iter().for_each(|([_, s, t], w)| add([*s, *t], 0.5 * w));
-            }
-            FaceKind::Q4 | FaceKind::Q8 | FaceKind::Q9 => {
-                for ([_, s, _], v) in line {
-                    for ([_, t, _], w) in line {
-                        add([2.0 * s - 1.0, 2.0 * t - 1.0], 4.0 * v * w);
-                    }
-                }
+        if self.kind.is_triangle() {
+            let triangle = quadrature::on_triangle(AREA_POINTS);
+            triangle.iter().for_each(|([_, s, t], w)| add([*s, *t], 0.5 * w));
+            return integrals;
+        }
+        // Across a line there is one place, its middle.
+        let across = if self.kind.is_line() { &MIDDLE[..] } else { line };
+        for ([_, s, _], v) in line {
+            for ([_, t, _], w) in across {
+                add([2.0 * s - 1.0, 2.0 * t - 1.0], 4.0 * v * w);
             }
         }
         integrals

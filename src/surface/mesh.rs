@@ -116,6 +116,16 @@ impl<'a> Side<'a> {
         Ok(side)
     }
 
+    /// The slave side, checked.
+    pub(super) fn slave(
+        dim: usize,
+        coordinates: &'a [f64],
+        faces: Faces<'a>,
+    ) -> Result<Side<'a>, Error> {
+        checked_dim(dim)?;
+        Side::new("slave", Argument::SlaveFaces, (dim, coordinates), faces)
+    }
+
     /// The argument that the coordinates are part of.
     fn of_coordinates(&self) -> Argument {
         match self.argument {
@@ -273,7 +283,7 @@ impl<'a> Side<'a> {
 impl<'a> Surfaces<'a> {
     /// Checks everything and gives the two sides, slave and master.
     pub(super) fn sides(&self) -> Result<[Side<'a>; 2], Error> {
-        let slave = self.slave_side()?;
+        let slave = Side::slave(self.dim, self.coordinates, self.slave)?;
         let side =
             Side { name: "master", argument: Argument::MasterFaces, faces: self.master, ..slave };
         side.check()?;
@@ -290,12 +300,5 @@ impl<'a> Surfaces<'a> {
             }
         }
         Ok([slave, side])
-    }
-
-    /// Checks and gives the slave side alone.
-    pub(super) fn slave_side(&self) -> Result<Side<'a>, Error> {
-        let Surfaces { dim, coordinates, slave, .. } = *self;
-        checked_dim(dim)?;
-        Side::new("slave", Argument::SlaveFaces, (dim, coordinates), slave)
     }
 }

@@ -19,11 +19,10 @@ use super::pairs::{SurfacePair, SurfacePairs, SurfaceReport};
 use super::plane::Plane;
 use super::projected_shapes::{Covered, Opposite, Polynomials};
 use super::rims::{self, SAME_COVER};
-use super::row::Row;
+use super::row::{Row, add_face};
 use super::settings::{Normals, SurfaceSettings};
 use super::shape::{FaceKind, Values};
 use super::symmetry::OnPlanes;
-use super::whole_faces::unit_values;
 use crate::error::{Argument, Error, index};
 use crate::linalg::vector3::Vector3;
 
@@ -170,29 +169,14 @@ fn rows(slave: &Side<'_>, faces: &[CoveredFace<'_>], whose: Normals) -> BTreeMap
         edges.add(*kind, nodes, *wholly);
     }
     let mut rows: BTreeMap<usize, Row> = BTreeMap::new();
-    let (mut masters, mut own) = (Vec::new(), Vec::new());
     for CoveredFace { at, kind, nodes, covered, whole, wholly } in faces {
         let basis = edges.basis(*kind, nodes, *wholly);
         let normals = match whose {
             Normals::Averaged => Default::default(),
             Normals::Faces => at_nodes(&slave.face(*at)),
         };
-        let areas = basis.functions(covered.integrals);
-        let whole = basis.functions(*whole);
-        let control = |(node, values)| (node, basis.control_values(values));
-        masters.clear();
-        masters.extend(covered.weights().map(control));
-        own.clear();
-        own.extend(nodes.iter().copied().zip(unit_values(kind.nodes())).map(control));
-        for (j, &node) in nodes.iter().enumerate() {
-            let scaled = |(node, values): &(usize, Values)| (*node, areas[j] * values[j]);
-            let row = rows.entry(node).or_default();
-            row.area += areas[j];
-            row.whole += whole[j];
-            row.slaves.extend(own.iter().map(scaled).filter(|(_, weight)| *weight != 0.0));
-            row.masters.extend(masters.iter().map(scaled));
-            row.normal += areas[j] * normals[j];
-        }
+        let integrals = [covered.integrals, *whole];
+        add_face(&mut rows, (nodes, &basis), integrals, covered.weights(), &normals);
     }
     rows
 }

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::candidates::SearchFaces;
-use super::mesh::{Faces, Surfaces};
+use super::mesh::{Faces, Side};
 use super::pairs::{SurfacePair, SurfacePairs, SurfaceReport};
 use super::whole_faces::paired;
 use crate::error::{Argument, Error};
@@ -131,8 +131,7 @@ pub fn pair_with_obstacle(
     obstacle: &Obstacle,
     search_distance: Option<f64>,
 ) -> Result<SurfacePairs, Error> {
-    let none = Faces { start: &[0], nodes: &[] };
-    let side = Surfaces { dim, coordinates, slave, master: none }.slave_side()?;
+    let side = Side::slave(dim, coordinates, slave)?;
     // A distance that is neither finite nor positive is refused below.
     let limit = search_distance.filter(|distance| distance.is_finite() || !(*distance > 0.0));
     let reach = super::settings::reach(limit, || f64::INFINITY)?;

@@ -29,9 +29,9 @@ pub(super) struct Meeting {
 }
 
 /// A slave face in its auxiliary plane.
-pub(super) struct SlaveFace {
+pub(super) struct SlaveFace<'a> {
     pub(super) plane: Plane,
-    flat: Flat,
+    flat: Flat<'a>,
     polygons: Vec<Polygon>,
     /// Area in the plane.
     pub(super) area: f64,
@@ -57,14 +57,14 @@ struct Rule {
 pub(super) struct NotFound;
 
 /// The polygons of a projected face: its own, or those of its flat parts if its edges are curved.
-fn polygons(face: &Face<'_>, flat: &Flat) -> impl Iterator<Item = Polygon> {
+fn polygons(face: &Face<'_>, flat: &Flat<'_>) -> impl Iterator<Item = Polygon> {
     let whole = face.is_straight() || face.kind.is_line();
     let parts = if whole { face.kind.outline() } else { face.kind.parts() };
     parts.iter().map(|part| flat.polygon(part))
 }
 
-impl SlaveFace {
-    pub(super) fn new(face: &Face<'_>, plane: Plane) -> SlaveFace {
+impl<'a> SlaveFace<'a> {
+    pub(super) fn new(face: &Face<'a>, plane: Plane) -> SlaveFace<'a> {
         let flat = plane.flatten(face);
         let polygons: Vec<Polygon> = polygons(face, &flat).collect();
         let area = polygons.iter().map(|polygon| measure(polygon.corners())).sum();
@@ -108,14 +108,14 @@ impl SlaveFace {
     /// Barycentric points and weights for simplices of the parts: exact for products of shape
     /// functions if local coordinates are linear in the position, and otherwise with so many more points
     /// as the distance from linear asks for.
-    fn rule(&self, master: &Flat) -> Rule {
-        let own = self.flat.kind.degree();
-        let degree = own + own.max(master.kind.degree());
+    fn rule(&self, master: &Flat<'_>) -> Rule {
+        let own = self.flat.face.kind.degree();
+        let degree = own + own.max(master.face.kind.degree());
         let count = |exact: usize, size: f64| {
             let further = self.further_degrees(master, size);
             further.map_or(MOST_POINTS, |more| (exact + more).div_ceil(2))
         };
-        if self.flat.kind.is_line() {
+        if self.flat.face.kind.is_line() {
             let points = quadrature::on_interval(count(degree + 1, 1.0).min(MOST_POINTS));
             return Rule { points, quartered: false };
         }
@@ -132,7 +132,7 @@ impl SlaveFace {
     /// With the distortion `e` of a quadrilateral, local coordinates are analytic in the position up to the
     /// distance `1 / e` from the middle, so that what is neglected falls by `2 / e` with each degree. The
     /// area of a face whose warp adds the slope `w` has terms `w^2k` of the degree `2 k`.
-    fn further_degrees(&self, master: &Flat, size: f64) -> Option<usize> {
+    fn further_degrees(&self, master: &Flat<'_>, size: f64) -> Option<usize> {
         let (own, other) = (self.flat.bilinear?, master.bilinear?);
         let terms = |ratio: f64, left: f64| (left.ln() / ratio.ln()).ceil() as usize;
         let distortion = own.distortion().max(other.distortion());
@@ -154,7 +154,7 @@ impl SlaveFace {
     /// Adds the points of a common part, and returns its mean distance along the normal.
     fn add_points(
         &self,
-        master: &Flat,
+        master: &Flat<'_>,
         common: &[Point],
         rule: &Rule,
         points: &mut Vec<Meeting>,

@@ -4,7 +4,7 @@
 use super::bilinear::Bilinear;
 use super::clip::Point;
 use super::face::Face;
-use super::shape::{FaceKind, Local, MOST_NODES};
+use super::shape::Local;
 use crate::linalg::vector3::{Vector3, axis, unit};
 
 /// Steps of Newton's method to local coordinates. It converges by squares from the middle of a face that
@@ -40,22 +40,15 @@ impl Plane {
     }
 
     /// Projects a face.
-    pub(super) fn flatten(&self, face: &Face<'_>) -> Flat {
-        let mut flat = Flat {
-            kind: face.kind,
-            points: [[0.0; 2]; MOST_NODES],
-            heights: [0.0; MOST_NODES],
-            bilinear: None,
-        };
-        for (i, x) in face.x[..face.kind.nodes()].iter().enumerate() {
-            let from = x - self.origin;
-            flat.points[i] = self.along.map(|along| along.dot(&from));
-            flat.heights[i] = self.normal.dot(&from);
+    pub(super) fn flatten<'a>(&self, face: &Face<'a>) -> Flat<'a> {
+        let mut seen = face.clone();
+        for x in &mut seen.x[..face.kind.nodes()] {
+            let from = *x - self.origin;
+            let [along, across] = self.along.map(|along| along.dot(&from));
+            *x = Vector3::new(along, across, self.normal.dot(&from));
         }
-        if face.is_bilinear() {
-            flat.bilinear = Some(Bilinear::new(face.kind, &flat.points, &flat.heights));
-        }
-        flat
+        let bilinear = face.is_bilinear().then(|| Bilinear::new(&seen));
+        Flat { face: seen, bilinear }
     }
 }
 
@@ -76,22 +69,21 @@ impl Polygon {
     }
 }
 
-/// A projected face: its nodes in the axes of the plane, and their heights above it.
+/// A projected face.
 #[derive(Clone, Debug)]
-pub(super) struct Flat {
-    pub(super) kind: FaceKind,
-    pub(super) points: [Point; MOST_NODES],
-    heights: [f64; MOST_NODES],
+pub(super) struct Flat<'a> {
+    /// The face in the axes of the plane, with heights above it.
+    pub(super) face: Face<'a>,
     /// The closed form of faces with straight edges.
     pub(super) bilinear: Option<Bilinear>,
 }
 
-impl Flat {
+impl Flat<'_> {
     /// A part of the face as a polygon that turns to the left, or an interval that ascends.
     pub(super) fn polygon(&self, part: &[usize]) -> Polygon {
         let mut polygon = Polygon { corners: [[0.0; 2]; MOST_CORNERS], count: part.len() };
         for (corner, &node) in polygon.corners.iter_mut().zip(part) {
-            *corner = self.points[node];
+            *corner = [self.face.x[node].x, self.face.x[node].y];
         }
         if super::clip::measure(polygon.corners()) < 0.0 {
             polygon.corners[..part.len()].reverse();
@@ -101,29 +93,19 @@ impl Flat {
 
     /// The height above the plane.
     pub(super) fn height(&self, at: Local) -> f64 {
-        if let Some(bilinear) = &self.bilinear {
-            return bilinear.height(at);
+        match &self.bilinear {
+            Some(bilinear) => bilinear.height(at),
+            None => self.face.position(at).z,
         }
-        self.kind.values(at).iter().zip(self.heights).map(|(value, height)| value * height).sum()
     }
 
-    /// Position less `p`, and its derivatives by the local coordinates.
-    fn offset(&self, at: Local, p: Point) -> (Point, [Point; 2]) {
-        let mut from = [-p[0], -p[1]];
-        let mut by = [[0.0; 2]; 2];
-        let functions = self.kind.functions(at);
-        let nodes = self.kind.nodes();
-        for (point, [value, first, second]) in self.points[..nodes].iter().zip(functions) {
-            for c in 0..2 {
-                from[c] += value * point[c];
-                by[0][c] += first * point[c];
-                by[1][c] += second * point[c];
-            }
+    /// Derivatives of the position by the local coordinates; across a line of the plane itself.
+    fn derivatives(&self, at: Local) -> [Vector3; 2] {
+        match &self.bilinear {
+            Some(bilinear) => bilinear.derivatives(at),
+            None if self.face.kind.is_line() => [self.face.derivatives(at)[0], axis(1)],
+            None => self.face.derivatives(at),
         }
-        if self.kind.is_line() {
-            by[1] = [0.0, 1.0];
-        }
-        (from, by)
     }
 
     /// Local coordinates of the face's point above `p`, in closed form if its edges are straight and by Newton's
@@ -136,16 +118,13 @@ impl Flat {
     }
 
     fn newton(&self, p: Point) -> Option<Local> {
-        let p = if self.kind.is_line() { [p[0], 0.0] } else { p };
-        let mut at = self.kind.centre();
+        let mut at = self.face.kind.centre();
         for _ in 0..STEPS {
-            let (from, [a, b]) = self.offset(at, p);
-            let determinant = a[0] * b[1] - a[1] * b[0];
-            let step = [
-                (from[0] * b[1] - from[1] * b[0]) / determinant,
-                (a[0] * from[1] - a[1] * from[0]) / determinant,
-            ];
-            at = [at[0] - step[0], if self.kind.is_line() { 0.0 } else { at[1] - step[1] }];
+            let from = self.face.position(at) - Vector3::new(p[0], p[1], 0.0);
+            let [a, b] = self.derivatives(at);
+            let determinant = a.cross(&b).z;
+            let step = [from.cross(&b).z / determinant, a.cross(&from).z / determinant];
+            at = [at[0] - step[0], at[1] - step[1]];
             if step[0].abs().max(step[1].abs()) <= LAST {
                 return Some(at);
             }
@@ -153,28 +132,10 @@ impl Flat {
         None
     }
 
-    fn rise(&self, at: Local) -> [f64; 2] {
-        let mut rise = [0.0; 2];
-        for (slopes, height) in self.kind.derivatives(at).iter().zip(self.heights) {
-            rise[0] += slopes[0] * height;
-            rise[1] += slopes[1] * height;
-        }
-        rise
-    }
-
     /// The area of the face over a unit of area of the plane.
     pub(super) fn stretch(&self, at: Local) -> f64 {
-        if let Some(bilinear) = &self.bilinear {
-            return bilinear.stretch(at);
-        }
-        let (_, [a, b]) = self.offset(at, [0.0; 2]);
-        let rise = self.rise(at);
-        if self.kind.is_line() {
-            return (1.0 + (rise[0] / a[0]).powi(2)).sqrt();
-        }
-        let area = a[0] * b[1] - a[1] * b[0];
-        let [s, t] =
-            [(rise[0] * b[1] - rise[1] * a[1]) / area, (rise[1] * a[0] - rise[0] * b[0]) / area];
-        (1.0 + s * s + t * t).sqrt()
+        let [a, b] = self.derivatives(at);
+        let normal = a.cross(&b);
+        normal.norm() / normal.z.abs()
     }
 }

@@ -1,7 +1,7 @@
 //! A rigid obstacle whose surface is a mesh of its own: paired as a master is, and then left out of the
 //! rows, as it does not move.
 
-use super::mesh::{Faces, Side, Surfaces};
+use super::mesh::{Faces, Side};
 use super::pair_surfaces::pair_sides;
 use super::pairs::SurfacePairs;
 use super::settings::SurfaceSettings;
@@ -30,17 +30,10 @@ pub fn pair_with_rigid_surface(
     rigid: &RigidSurface<'_>,
     settings: &SurfaceSettings,
 ) -> Result<SurfacePairs, Error> {
-    let none = Faces { start: &[0], nodes: &[] };
-    let slave = Surfaces { dim, coordinates, slave, master: none }.slave_side()?;
-    let obstacle = Side::obstacle(dim, rigid.coordinates, rigid.faces)?;
+    let slave = Side::slave(dim, coordinates, slave)?;
+    let RigidSurface { coordinates, faces } = *rigid;
+    let obstacle = Side::new("obstacle", Argument::Obstacle, (dim, coordinates), faces)?;
     let mut found = pair_sides([&slave, &obstacle], dim, settings)?;
     found.pairs.iter_mut().for_each(|pair| pair.masters.clear());
     Ok(found)
-}
-
-impl<'a> Side<'a> {
-    /// The side of a rigid surface, checked.
-    fn obstacle(dim: usize, coordinates: &'a [f64], faces: Faces<'a>) -> Result<Side<'a>, Error> {
-        Side::new("obstacle", Argument::Obstacle, (dim, coordinates), faces)
-    }
 }

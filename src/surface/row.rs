@@ -1,6 +1,10 @@
 //! A row while it is summed over the faces at its node.
 
+use std::collections::BTreeMap;
+
+use super::control::Basis;
 use super::pairs::Weight;
+use super::shape::{MOST_NODES, Values};
 use crate::linalg::tolerances::ROUNDING;
 use crate::linalg::vector3::Vector3;
 
@@ -40,6 +44,41 @@ impl Row {
     pub(super) fn into_weights(self) -> [Vec<Weight>; 2] {
         [merged(self.slaves, self.area), merged(self.masters, self.area)]
     }
+}
+
+/// Adds to the rows of a face's nodes what it has of them. `integrals` are those of its shape functions over the covered
+/// part and over all of it, `masters` the nodes opposite with the coefficients of their shape functions at its nodes.
+pub(super) fn add_face(
+    rows: &mut BTreeMap<usize, Row>,
+    (nodes, basis): (&[usize], &Basis),
+    integrals: [Values; 2],
+    masters: impl Iterator<Item = (usize, Values)>,
+    normals: &[Vector3; MOST_NODES],
+) {
+    let [areas, whole] = integrals.map(|integrals| basis.functions(integrals));
+    let control = |(node, values)| (node, basis.control_values(values));
+    let masters: Vec<(usize, Values)> = masters.map(control).collect();
+    let own = nodes.iter().copied().zip(unit_values()).map(control);
+    let own: Vec<(usize, Values)> = own.collect();
+    for (j, &node) in nodes.iter().enumerate() {
+        let scaled = |(node, values): &(usize, Values)| (*node, areas[j] * values[j]);
+        let row = rows.entry(node).or_default();
+        row.area += areas[j];
+        row.whole += whole[j];
+        // A node that a row does not move is not named by it: it may face nothing.
+        row.slaves.extend(own.iter().map(scaled).filter(|(_, weight)| *weight != 0.0));
+        row.masters.extend(masters.iter().map(scaled));
+        row.normal += areas[j] * normals[j];
+    }
+}
+
+/// Nodal values that are one at a node each.
+fn unit_values() -> impl Iterator<Item = Values> {
+    (0..MOST_NODES).map(|node| {
+        let mut values = [0.0; MOST_NODES];
+        values[node] = 1.0;
+        values
+    })
 }
 
 /// Sums the weights of each node and divides them.

@@ -202,16 +202,12 @@ impl FaceKind {
                 self.take_from_corners(&mut functions);
             }
             Q4 | Q8 => {
-                for (i, [a, b]) in SIDES[..4].iter().enumerate() {
-                    functions[i] = product(linear(s, *a), linear(t, *b));
-                }
-                for (mid, _) in self.mids() {
-                    let [a, b] = SIDES[mid];
-                    functions[mid] = if a == MIDDLE {
-                        product(quadratic(s, a), linear(t, b))
-                    } else {
-                        product(linear(s, a), quadratic(t, b))
-                    };
+                let along = |s, place| match place {
+                    MIDDLE => quadratic(s, place),
+                    _ => linear(s, place),
+                };
+                for (function, &[a, b]) in functions.iter_mut().zip(&SIDES[..self.nodes()]) {
+                    *function = product(along(s, a), along(t, b));
                 }
                 self.take_from_corners(&mut functions);
             }

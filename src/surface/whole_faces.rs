@@ -1,12 +1,11 @@
-//! Rows of slave nodes whose faces count as covered wholly, and integrals over whole faces.
+//! Rows of slave nodes whose faces count as covered wholly.
 
 use std::collections::BTreeMap;
 
 use super::control::Edges;
 use super::mesh::Side;
 use super::pairs::{SurfacePair, SurfacePairs, SurfaceReport};
-use super::row::Row;
-use super::shape::{MOST_NODES, Values};
+use super::row::{Row, add_face};
 use crate::error::Error;
 
 /// The slave's part of the rows of all nodes, as if every face were covered wholly.
@@ -17,17 +16,8 @@ fn whole_rows(side: &Side<'_>) -> BTreeMap<usize, Row> {
     let mut rows: BTreeMap<usize, Row> = BTreeMap::new();
     for face in faces() {
         let basis = edges.basis(face.kind, face.nodes, true);
-        let areas = basis.functions(face.integrals());
-        for (node, unit) in face.nodes.iter().zip(unit_values(face.kind.nodes())) {
-            let values = basis.control_values(unit);
-            // A node that a row does not move is not named by it: it may face nothing.
-            for (j, own) in face.nodes.iter().enumerate().filter(|(j, _)| values[*j] != 0.0) {
-                rows.entry(*own).or_default().slaves.push((*node, areas[j] * values[j]));
-            }
-        }
-        for (node, area) in face.nodes.iter().zip(areas) {
-            rows.entry(*node).or_default().area += area;
-        }
+        let (on, integrals) = ((face.nodes, &basis), [face.integrals(); 2]);
+        add_face(&mut rows, on, integrals, std::iter::empty(), &Default::default());
     }
     rows
 }
@@ -53,13 +43,4 @@ pub(super) fn paired(
         }
     }
     Ok(SurfacePairs { report, ..found })
-}
-
-/// Nodal values that are one at a node each.
-pub(super) fn unit_values(nodes: usize) -> impl Iterator<Item = Values> {
-    (0..nodes).map(|node| {
-        let mut values = [0.0; MOST_NODES];
-        values[node] = 1.0;
-        values
-    })
 }

@@ -14,5 +14,6 @@ mod hertz;
 mod models;
 mod overlap;
 mod patch;
+mod quadrilaterals;
 mod rows;
 mod symmetry;
