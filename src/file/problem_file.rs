@@ -4,17 +4,18 @@ use super::Law;
 use crate::problem::ContactData;
 
 /// The kind of a problem.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Kind {
     /// A contact problem with its friction law.
     Contact(Law),
     /// A linear complementarity problem.
+    #[default]
     Lcp,
 }
 
 /// A problem that was read from a file. Its numbers are finite (a gap may be `+inf`) and its arrays
 /// have the lengths that they must have; other checks are made when the problem is solved.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct ProblemFile {
     /// A contact problem with its law, or an LCP.
     pub kind: Kind,
@@ -41,23 +42,6 @@ pub struct ProblemFile {
 }
 
 impl ProblemFile {
-    /// A problem without size and arrays.
-    pub(super) fn empty(kind: Kind) -> Self {
-        ProblemFile {
-            kind,
-            dim: 0,
-            pairs: 0,
-            size: 0,
-            matrix: Vec::new(),
-            load: Vec::new(),
-            gap: Vec::new(),
-            friction: Vec::new(),
-            reference_slip: Vec::new(),
-            covering: None,
-            remark: String::new(),
-        }
-    }
-
     /// The contact problem, not yet checked; `None` of an LCP.
     pub fn contact(&self) -> Option<ContactData<'_>> {
         let law = match self.kind {

@@ -109,7 +109,7 @@ fn read_header(lines: &mut Lines<'_>) -> Result<(ProblemFile, bool), Error> {
     }
     let comments = Comments::read(lines)?;
     let kind = read_kind(lines, comments.version, &comments.kind, &comments.law)?;
-    let mut problem = ProblemFile::empty(kind);
+    let mut problem = ProblemFile { kind, ..ProblemFile::default() };
     let has_covering = match kind {
         Kind::Lcp => read_lcp_size(&mut problem, lines)?,
         Kind::Contact(law) => read_contact_size(&mut problem, lines, law, &comments)?,
