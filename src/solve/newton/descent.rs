@@ -98,7 +98,7 @@ pub struct Goal {
 
 /// How Newton's method ended, and where.
 pub struct NewtonOutcome<P> {
-    /// The last point.
+    /// The last point where the method is done, otherwise that of the least lack.
     pub point: P,
     /// `Done` if `eta` is below the tolerance or at its rounding.
     pub ending: Ending,
@@ -115,6 +115,8 @@ pub fn solve<M: NormalMap>(
     monitor: &mut Monitor<'_>,
 ) -> Result<NewtonOutcome<M::Point>, M::Failure> {
     let (mut systems, mut shortest, mut last) = (0, 0, f64::INFINITY);
+    // The point of the least lack, if it is not the last one.
+    let mut best = None;
     let ending = loop {
         let eta = map.eta(&point);
         monitor.measured(eta);
@@ -144,8 +146,13 @@ pub fn solve<M: NormalMap>(
             break Ending::Stalled("the forces are beyond the largest number");
         }
         shortest = if part <= SHORTEST { shortest + 1 } else { 0 };
-        point = map.after(next, step, part, monitor);
+        let before = std::mem::replace(&mut point, map.after(next, step, part, monitor));
+        let now = map.merit(&point);
+        best = best.or(Some(before)).filter(|best| map.merit(best) < now);
     };
+    if ending != Ending::Done {
+        point = best.unwrap_or(point);
+    }
     Ok(NewtonOutcome { point, ending })
 }
 

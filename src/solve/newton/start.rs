@@ -20,8 +20,9 @@ struct Rounds {
 
 const IN_SPACE: Rounds = Rounds { sweeps: 10, least: 2, most: 10 };
 
-/// In the plane a system costs as much as a few sweeps, as one factor serves many.
-const IN_PLANE: Rounds = Rounds { sweeps: 5, least: 1, most: 4 };
+/// In the plane a system costs as much as a few sweeps, as one factor serves many, and most fronts move by two sweeps
+/// between systems.
+const IN_PLANE: Rounds = Rounds { sweeps: 5, least: 1, most: 2 };
 
 /// Settled is a round that changes at most this part of the pieces, and leaves at most this residual `eta`.
 const CHANGING: f64 = 0.01;
@@ -34,13 +35,20 @@ const OVER_RELAXATION: f64 = 1.5;
 /// Part of `eta` that an over-relaxed round may leave.
 const WORTHWHILE: f64 = 0.7;
 
-/// The coordinates after some sweeps from the displacements `start` (zero if `None`), fewer if the time is up.
+/// The coordinates after some sweeps from the displacements `start`, fewer if the time is up. If that is `None`, all pairs
+/// are closed without slip in the plane, and all displacements zero in space.
 pub(super) fn swept(
     whole: &Equations<'_>,
     start: Option<&[f64]>,
     monitor: &Monitor<'_>,
 ) -> Vec<Vector> {
-    let mut d = start.map_or_else(|| vec![0.0; whole.root.len()], <[f64]>::to_vec);
+    let mut d = match start {
+        Some(start) => start.to_vec(),
+        None if whole.dim == 2 => {
+            whole.laws.iter().flat_map(|law| law.reference().into_iter().take(2)).collect()
+        }
+        None => vec![0.0; whole.root.len()],
+    };
     for (law, normal) in whole.laws.iter().zip(d.iter_mut().step_by(whole.dim)) {
         *normal = law.admissible(*normal);
     }

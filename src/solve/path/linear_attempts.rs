@@ -76,9 +76,9 @@ pub const ATTEMPTS: [Attempt; 6] = [
 /// Where the last ones begin, which are given all the events that they need.
 pub const LAST: usize = 4;
 
-/// Walks on the pairs in question, where each costs less.
+/// Walks on the pairs in question, where an event costs less than on all: so a sure start is the last one.
 pub const ON_UNCERTAIN_PAIRS: [Attempt; 3] =
-    [walk(0, Start::Swept, SHORT), walk(50, Start::Swept, SHORT), walk(50, Start::Swept, SHORT)];
+    [walk(0, Start::Swept, SHORT), walk(50, Start::Swept, SHORT), walk(50, Start::Sure, LONG)];
 
 /// The first of them where no fewer pairs have been solved: without sweeps on these pairs few walks arrive.
 pub const FIRST_ON_UNCERTAIN_PAIRS: usize = 1;

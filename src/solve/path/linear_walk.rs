@@ -188,7 +188,7 @@ impl<'p> Walk<'p> {
         self.pieces[pair] = exit.beyond;
         let singular = change.pivot().abs() < SMALL_PIVOT;
         let ray = if singular { change.direction().to_vec() } else { Vec::new() };
-        let made = self.system.make(change, &mut self.rate);
+        let made = self.system.make(change).map(|()| self.system.follow(&mut self.rate));
         if singular && let Some(motion) = self.rigid(&ray, 1.0) {
             return Err(WalkEnd::Ray(motion));
         }

@@ -59,27 +59,17 @@ impl<'a> Equations<'a> {
         Equations { dim: 1, matrix, symmetric, load, laws, root, unit: norm(lcp.q) }
     }
 
-    /// The entry of `K / k - 1` in a row and a column.
-    pub fn change_entry(&self, row: usize, column: usize) -> f64 {
-        let entry = self.matrix.at(row, column) / self.root[column].powi(2);
-        if row == column { entry - 1.0 } else { entry }
-    }
-
     /// Columns of `K / k - 1`, contiguous.
     pub fn change_columns(&self, components: &[usize]) -> Vec<f64> {
         let size = self.root.len();
-        let mut columns = vec![0.0; size * components.len()];
-        for (&i, column) in components.iter().zip(columns.chunks_exact_mut(size.max(1))) {
-            self.subtract_change_column(i, -1.0, column);
+        let mut columns = Vec::with_capacity(size * components.len());
+        for &i in components {
+            let unit = self.root[i].powi(2);
+            columns.extend(self.matrix.column(i).iter().map(|k| k / unit));
+            let begin = columns.len() - size;
+            columns[begin + i] -= 1.0;
         }
         columns
-    }
-
-    /// `x` less a multiple of a column of `K / k - 1`.
-    pub fn subtract_change_column(&self, component: usize, by: f64, x: &mut [f64]) {
-        let scale = by / self.root[component].powi(2);
-        x.iter_mut().zip(self.matrix.column(component)).for_each(|(x, k)| *x -= scale * k);
-        x[component] += by;
     }
 
     /// `K d - f`.

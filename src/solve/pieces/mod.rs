@@ -1,12 +1,11 @@
 //! The system of equations on given pieces of the law.
 //!
 //! `equations` holds the equations of some pairs and a point of them, `system` the factorised system of a point. Where
-//! the law is linear on each piece, in the plane and in complementarity problems, a factor is kept: `nearby` solves the
-//! systems of other pieces beside the factorised one (`systems`), and `updated` follows a path from piece to piece.
+//! the law is linear on each piece, in the plane and in complementarity problems, a factor is kept: `updated` solves
+//! the systems of other pieces, those near a factorised one (`systems`) and those of a path from piece to piece.
 
 mod columns;
 mod equations;
-mod nearby;
 mod system;
 mod systems;
 mod term;

@@ -143,30 +143,6 @@ impl<'e> System<'e> {
         &self.pairs
     }
 
-    /// The displacements of the unknowns for each column of `b`, in the plane, where a pair that slips moves by its
-    /// unknown.
-    pub fn displacements(&mut self, b: &[f64]) -> Vec<f64> {
-        let mut x = self.right_sides(b);
-        self.factor.solve(&mut x);
-        x.iter_mut().zip(self.unknowns.iter().cycle()).for_each(|(x, own)| *x *= own.column);
-        x
-    }
-
-    /// The coordinates of a pair from the displacements of the unknowns for the column `b`, in the plane.
-    pub fn of_pair(&self, pair: usize, b: impl Fn(usize) -> f64, moved: &[f64]) -> Vector {
-        let (dim, count) = (self.equations.dim, self.size());
-        let (mut own, mut push) = ([0.0; 3], [0.0; 3]);
-        for c in 0..dim {
-            // Unknowns and held components are in the order of all components.
-            let i = dim * pair + c;
-            match self.held.binary_search(&i) {
-                Ok(row) => push[c] = b(i) - dot(&self.rows[count * row..count * (row + 1)], moved),
-                Err(before) => own[c] = moved[i - before],
-            }
-        }
-        self.pairs[pair].coordinates(&own, &push)
-    }
-
     /// The right-hand sides of the unknowns for each column of `b`.
     fn right_sides(&self, b: &[f64]) -> Vec<f64> {
         let dim = self.equations.dim;
@@ -194,19 +170,17 @@ impl<'e> System<'e> {
         let mut moved = x.to_vec();
         moved.chunks_exact_mut(count.max(1)).for_each(|moved| self.displace(moved));
         subtract_product(&mut pushes, &self.rows, &moved, count);
-        let mut dy = Vec::with_capacity(b.len());
+        let mut dy = vec![0.0; b.len()];
         let (mut x, mut pushes) = (x.iter().zip(self.unknowns.iter().cycle()), pushes.iter());
-        for _ in b.chunks_exact(size.max(1)) {
-            for pair in &self.pairs {
-                let (mut own, mut push) = ([0.0; 3], [0.0; 3]);
-                for c in 0..dim {
-                    match pair.moves(c) {
-                        true => own[c] = x.next().map_or(0.0, |(x, unknown)| x * unknown.column),
-                        false => push[c] = pushes.next().copied().unwrap_or(0.0),
-                    }
+        for (dy, pair) in dy.chunks_exact_mut(dim).zip(self.pairs.iter().cycle()) {
+            let (mut own, mut push) = ([0.0; 3], [0.0; 3]);
+            for c in 0..dim {
+                match pair.moves(c) {
+                    true => own[c] = x.next().map_or(0.0, |(x, unknown)| x * unknown.column),
+                    false => push[c] = pushes.next().copied().unwrap_or(0.0),
                 }
-                dy.extend_from_slice(&pair.coordinates(&own, &push)[..dim]);
             }
+            dy.iter_mut().zip(pair.coordinates(&own, &push)).for_each(|(dy, y)| *dy = y);
         }
         dy
     }
@@ -227,7 +201,7 @@ impl<'e> System<'e> {
                 false => 0.0,
             });
             let by = crate::law::ellipse::product(&self.slopes[pair].motion, own);
-            moved[k..k + along].copy_from_slice(&by[..along]);
+            moved[k..k + along].iter_mut().zip(by).for_each(|(moved, by)| *moved = by);
             k += along;
         }
     }

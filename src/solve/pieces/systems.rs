@@ -2,18 +2,14 @@
 //! by.
 
 use super::equations::Equations;
-use super::nearby::Nearby;
 use super::system::System;
-use super::term::Term;
+use super::updated::Updated;
 use crate::law::{Linearised, Vector};
 use crate::linalg::tolerances::SINGULAR;
 
 /// Below so many unknowns a new factorisation is cheaper than changes of an old one: measured on the bar on the
 /// plane.
 pub const SMALL: usize = 64;
-
-/// Most terms of changes, as a part of the unknowns: with more of them they cost as much as a new factorisation.
-const MOST_TERMS: f64 = 0.2;
 
 /// Steps of iterative refinement: each gains about as many digits as the factor has right, so that three suffice
 /// whenever any do.
@@ -33,7 +29,7 @@ enum Last<'e> {
     /// The system of a point, which serves no other one.
     OfPoint(Box<System<'e>>),
     /// The system of pieces, which serves those near by.
-    OfPieces(Box<Nearby<'e>>),
+    OfPieces(Box<Updated<'e>>),
 }
 
 impl<'e> Systems<'e> {
@@ -42,21 +38,18 @@ impl<'e> Systems<'e> {
         Systems { equations, last: Last::None, factorisations: 0 }
     }
 
-    /// The terms by which pairs differ from the last system that was factorised, if that serves for them.
-    fn changes(&self, pairs: &[Linearised]) -> Option<Vec<Term>> {
+    /// Operations of a change from the last system that was factorised to that of `pairs`, if it is of pieces and that
+    /// takes fewer than a new factorisation.
+    fn change_work(&self, pairs: &[Linearised]) -> Option<f64> {
         let Last::OfPieces(system) = &self.last else { return None };
-        let terms = system.terms_to(pairs);
-        let is_near =
-            system.size() >= SMALL && terms.len() as f64 <= MOST_TERMS * system.size() as f64;
-        (is_near || terms.is_empty()).then_some(terms)
+        let work = system.work(pairs);
+        let is_less = system.size() >= SMALL && work <= System::work(self.equations, pairs);
+        (is_less || work == 0.0).then_some(work)
     }
 
     /// Operations of [`Self::go_to`].
     pub fn work(&self, pairs: &[Linearised]) -> f64 {
-        match (self.changes(pairs), &self.last) {
-            (Some(terms), Last::OfPieces(system)) => system.work(&terms),
-            _ => System::work(self.equations, pairs),
-        }
+        self.change_work(pairs).unwrap_or_else(|| System::work(self.equations, pairs))
     }
 
     /// Lets the next system be factorised anew: changes lose accuracy that a new factor has.
@@ -67,18 +60,18 @@ impl<'e> Systems<'e> {
     /// Goes to the system of pairs on their pieces; `None` if it is singular.
     pub fn go_to(&mut self, pairs: Vec<Linearised>) -> Option<()> {
         let equations = self.equations;
-        if let (Some(terms), Last::OfPieces(system)) = (self.changes(&pairs), &mut self.last)
-            && system.go_to(terms).is_some()
+        if self.change_work(&pairs).is_some()
+            && let Last::OfPieces(system) = &mut self.last
+            && system.go_to(&pairs).is_some()
         {
             return Some(());
         }
         // Two factors never stand side by side.
         self.last = Last::None;
         self.factorisations += 1;
-        let system = System::new(equations, pairs, 1.0, None, SINGULAR)?;
         self.last = match equations.dim {
-            3 => Last::OfPoint(Box::new(system)),
-            _ => Last::OfPieces(Box::new(Nearby::of(equations, system))),
+            3 => Last::OfPoint(Box::new(System::new(equations, pairs, 1.0, None, SINGULAR)?)),
+            _ => Last::OfPieces(Box::new(Updated::new(equations, pairs, SINGULAR)?)),
         };
         Some(())
     }
@@ -99,7 +92,7 @@ impl<'e> Systems<'e> {
         match &self.last {
             Last::None => 0,
             Last::OfPoint(system) => system.orientation(),
-            Last::OfPieces(system) => system.orientation(),
+            Last::OfPieces(system) => system.sign(),
         }
     }
 

@@ -28,13 +28,8 @@ pub fn terms(
 impl Term {
     /// `n.x`.
     pub fn along(&self, x: &[f64]) -> f64 {
-        self.of_pair(&x[self.first..])
-    }
-
-    /// `n.x` of the pair's part of `x`.
-    pub fn of_pair(&self, x: &[f64]) -> f64 {
-        let second = if self.n[1] == 0.0 { 0.0 } else { self.n[1] * x[1] };
-        self.n[0] * x[0] + second
+        let second = if self.n[1] == 0.0 { 0.0 } else { self.n[1] * x[self.first + 1] };
+        self.n[0] * x[self.first] + second
     }
 
     /// The components of which `u` is made, each with its part.

@@ -70,14 +70,40 @@ impl<'e> Updated<'e> {
     /// Factorises the system of pairs on their pieces; `None` if a pivot is below `least`, relative to the largest.
     pub fn new(equations: &'e Equations<'e>, pairs: Vec<Linearised>, least: f64) -> Option<Self> {
         let base = System::new(equations, pairs.clone(), 1.0, None, least)?;
-        let columns = Columns::none(equations.root.len(), equations.root.len());
+        let columns = Columns::none(equations.root.len());
         let (changes, directions) = (Vec::new(), Vec::new());
         Some(Updated { equations, base, pairs, columns, changes, directions })
+    }
+
+    /// Unknowns that were factorised.
+    pub fn size(&self) -> usize {
+        self.base.size()
     }
 
     /// Terms since the factorisation.
     pub fn age(&self) -> usize {
         self.changes.iter().map(|made| made.terms.len()).sum()
+    }
+
+    /// Operations of [`Self::go_to`]: a solution for each column that is new, and `M`. Those of a solution take twice the
+    /// time that those of a factorisation take.
+    pub fn work(&self, pairs: &[Linearised]) -> f64 {
+        let others = pairs.iter().copied().enumerate();
+        let terms = terms(self.equations.dim, self.base.pairs(), others);
+        let lacking = self.columns.lacking(terms.iter().flat_map(Term::parts)).len() as f64;
+        let (size, all) = (self.base.size() as f64, self.equations.root.len() as f64);
+        let count = terms.len() as f64;
+        4.0 * size * all * lacking + 2.0 * count * count * count
+    }
+
+    /// Goes to the system of pairs on their pieces by one change of the factorised one; `None` if it is singular.
+    pub fn go_to(&mut self, pairs: &[Linearised]) -> Option<()> {
+        self.changes.clear();
+        self.directions.clear();
+        self.pairs.copy_from_slice(self.base.pairs());
+        let all: Vec<(usize, Linearised)> = pairs.iter().copied().enumerate().collect();
+        let change = self.change(&all);
+        self.make(change)
     }
 
     /// Sign of `det J`.
@@ -104,9 +130,16 @@ impl<'e> Updated<'e> {
 
     /// Makes columns for changes of pairs, at most so many, so far as they are not known.
     pub fn prepare(&mut self, likely: &[(usize, Linearised)], most: usize) {
-        self.columns.make_room(most);
-        let mut components = self.columns.lacking(self.terms(likely).iter().flat_map(Term::parts));
-        components.truncate(most);
+        let parts = self.terms(likely);
+        let lacking = |columns: &Columns| {
+            let mut components = columns.lacking(parts.iter().flat_map(Term::parts));
+            components.truncate(most);
+            components
+        };
+        let mut components = lacking(&self.columns);
+        if !self.columns.make_room(components.len()) {
+            components = lacking(&self.columns);
+        }
         let sides = self.equations.change_columns(&components);
         let columns = self.base.solve(&sides);
         self.columns.add(&components, &columns);
@@ -116,7 +149,7 @@ impl<'e> Updated<'e> {
     pub fn change(&mut self, pairs: &[(usize, Linearised)]) -> Change {
         let terms = self.terms(pairs);
         if self.lacks_columns(pairs) {
-            self.prepare(pairs, 2 * pairs.len());
+            self.prepare(pairs, 2 * terms.len());
         }
         let size = self.equations.root.len();
         let mut z = vec![0.0; size * terms.len()];
@@ -137,19 +170,27 @@ impl<'e> Updated<'e> {
         Change { pairs: pairs.to_vec(), terms, z, matrix, before }
     }
 
-    /// Makes a change; `x` becomes `J⁻¹ b` of the new pieces for the same `b`. `None`: the new system is
-    /// singular, and has to be factorised.
-    pub fn make(&mut self, change: Change, x: &mut [f64]) -> Option<()> {
+    /// Makes a change. `None`: the new system is singular, and has to be factorised.
+    pub fn make(&mut self, change: Change) -> Option<()> {
         let Change { pairs, terms, z, matrix, before } = change;
         pairs.into_iter().for_each(|(pair, beyond)| self.pairs[pair] = beyond);
         let (inverse, sign) = inverse(&matrix, terms.len())?;
-        let made = Made { terms, before: Vec::new(), inverse, sign };
-        let mut parts = Vec::with_capacity(made.terms.len());
-        made.add_parts(x, &mut parts);
-        subtract_columns(x, &z, &parts);
-        self.changes.push(Made { before, ..made });
+        self.changes.push(Made { terms, before, inverse, sign });
         self.directions.extend_from_slice(&z);
         Some(())
+    }
+
+    /// Takes `J⁻¹ b` of the pieces before the last change to that of the pieces of today.
+    pub fn follow(&self, x: &mut [f64]) {
+        let Some(made) = self.changes.last() else { return };
+        let mut parts = Vec::with_capacity(made.terms.len());
+        // Directions made before have left their parts in `x`.
+        made.add_parts(x, &mut parts);
+        subtract_columns(
+            x,
+            &self.directions[self.directions.len() - x.len() * parts.len()..],
+            &parts,
+        );
     }
 
     /// Takes `J⁻¹ b` of the pieces that were factorised to that of the pieces of today. What each change subtracts
