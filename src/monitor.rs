@@ -141,14 +141,13 @@ impl<'a> Monitor<'a> {
         if elapsed > self.time_limit {
             return Err(Stop::TimeLimit);
         }
-        if let Some(progress) = self.progress.as_mut() {
-            let (iterations, eta) = (self.iterations, self.eta);
-            let now = Progress { iterations, eta, elapsed, reduced: 1.0, memory: 0 };
-            if progress(&now).is_break() {
-                return Err(Stop::Cancelled);
-            }
-        }
-        Ok(())
+        if self.is_cancelled(elapsed, 1.0, 0) { Err(Stop::Cancelled) } else { Ok(()) }
+    }
+
+    /// Reports progress: `true` if the callback cancels.
+    fn is_cancelled(&mut self, elapsed: f64, reduced: f64, memory: u64) -> bool {
+        let now = Progress { iterations: self.iterations, eta: self.eta, elapsed, reduced, memory };
+        self.progress.as_mut().is_some_and(|progress| progress(&now).is_break())
     }
 
     /// To be called before so many `operations` of dense linear algebra, which nothing interrupts: why not to begin,
@@ -209,13 +208,9 @@ impl<'a> Monitor<'a> {
             );
             return Err(Error::stopped(Limit::Time, message));
         }
-        if let Some(progress) = self.progress.as_mut() {
-            let (iterations, eta) = (self.iterations, self.eta);
-            let now = Progress { iterations, eta, elapsed, reduced: share, memory };
-            if progress(&now).is_break() {
-                let message = format!("cancelled with {done:.0} % of the reduction done");
-                return Err(Error::stopped(Limit::Cancelled, message));
-            }
+        if self.is_cancelled(elapsed, share, memory) {
+            let message = format!("cancelled with {done:.0} % of the reduction done");
+            return Err(Error::stopped(Limit::Cancelled, message));
         }
         Ok(())
     }

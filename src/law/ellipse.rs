@@ -19,10 +19,33 @@
 //! ellipse along its own line: `W k delta` is along `W tau` by the first rule, `k delta` along `tau` by
 //! the second, and both say that `k delta` is along `tau`.
 
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
 use crate::linalg::vector::largest_eigenvalue;
 
 /// A matrix of the two tangential components, by rows.
-pub type Plane = [[f64; 2]; 2];
+pub type Plane<T = f64> = [[T; 2]; 2];
+
+/// Doubles, and balls.
+pub trait Real:
+    Copy
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+{
+}
+
+impl<T> Real for T where
+    T: Copy
+        + Add<Output = T>
+        + Sub<Output = T>
+        + Mul<Output = T>
+        + Div<Output = T>
+        + Neg<Output = T>
+{
+}
 
 /// Along what a pair with a friction ellipse slips.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -116,12 +139,12 @@ impl Ellipse {
 }
 
 /// `a t`.
-pub fn product(a: &Plane, t: [f64; 2]) -> [f64; 2] {
+pub fn product<T: Real>(a: &Plane<T>, t: [T; 2]) -> [T; 2] {
     a.map(|row| row[0] * t[0] + row[1] * t[1])
 }
 
 /// `a⁻¹`.
-pub fn inverse(a: &Plane) -> Plane {
+pub fn inverse<T: Real>(a: &Plane<T>) -> Plane<T> {
     let determinant = a[0][0] * a[1][1] - a[0][1] * a[1][0];
     [
         [a[1][1] / determinant, -a[0][1] / determinant],
@@ -130,12 +153,13 @@ pub fn inverse(a: &Plane) -> Plane {
 }
 
 /// `a b`.
-pub fn times(a: &Plane, b: &Plane) -> Plane {
+pub fn times<T: Real>(a: &Plane<T>, b: &Plane<T>) -> Plane<T> {
     let columns = transposed(b).map(|column| product(a, column));
     transposed(&columns)
 }
 
-fn transposed(a: &Plane) -> Plane {
+/// `aᵀ`.
+pub fn transposed<T: Real>(a: &Plane<T>) -> Plane<T> {
     [[a[0][0], a[1][0]], [a[0][1], a[1][1]]]
 }
 

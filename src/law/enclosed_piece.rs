@@ -20,10 +20,9 @@
 //! | slip in space | `F_t = -g A h` | `\|w\| > 1`, `g > 0` |
 //! | no friction | `F_t = 0` | |
 
-use super::{PairLaw, Rule, State};
-use crate::linalg::ball::{
-    Ball, BallPlane, BallVector, length, product, product_up, sum_of_parts, sum_up,
-};
+use super::ellipse::{inverse, product, times, transposed};
+use super::{PairLaw, Plane, Rule, State};
+use crate::linalg::ball::{Ball, BallVector, length, product_up, sum_of_parts, sum_up};
 use crate::linalg::double_double::two_sum;
 
 /// Rounding of the offset `b - mu a` and of the entries of an ellipse, relative to their terms: a few
@@ -55,9 +54,9 @@ pub struct Local {
     /// `A h`: `F_t = -g A h`.
     pub push: [Ball; 2],
     /// Derivative of the tangential displacement by its unknowns.
-    pub motion: BallPlane,
+    pub motion: Plane<Ball>,
     /// Derivative of `A h`.
-    pub turn: BallPlane,
+    pub turn: Plane<Ball>,
     /// `|w|`.
     reach: Ball,
 }
@@ -127,7 +126,7 @@ impl EnclosedPiece {
     /// `w` at the displacement `v` beyond the reference; zero but for a slip in space.
     pub fn slip_vector(&self, v: &BallVector) -> [Ball; 2] {
         let Along::Turning(unit) = self.along else { return [Ball::default(); 2] };
-        let (_, _, back) = self.shape();
+        let [_, _, back] = self.shape();
         let unit = Ball::exact(unit);
         let own = product(&back, [v[1], v[2]]).map(|own| own / unit);
         let size = length(own);
@@ -146,7 +145,7 @@ impl EnclosedPiece {
                 Local { push: [Ball::exact(side), zero], motion: unity, ..Local::default() }
             }
             Along::Turning(unit) => {
-                let (forward, scale, _) = self.shape();
+                let [forward, scale, _] = self.shape();
                 let reach = length(w);
                 let h = w.map(|w| w / reach);
                 let (mut turn, mut motion) = (unity, unity);
@@ -166,31 +165,28 @@ impl EnclosedPiece {
     }
 
     /// `A`, `B` and `B⁻¹`.
-    fn shape(&self) -> (BallPlane, BallPlane, BallPlane) {
+    fn shape(&self) -> [Plane<Ball>; 3] {
         let (one, zero) = (Ball::exact(1.0), Ball::default());
         let Some(ellipse) = &self.law.ellipse else {
             let unity = [[one, zero], [zero, one]];
-            return (unity, unity, unity);
+            return [unity; 3];
         };
-        let [[a, b], [c, d]] = self.disc();
-        let determinant = a * d - b * c;
-        let inverse = [[d / determinant, -b / determinant], [-c / determinant, a / determinant]];
-        let transposed = |m: &BallPlane| [[m[0][0], m[1][0]], [m[0][1], m[1][1]]];
+        let disc = self.disc();
+        let inverse = inverse(&disc);
         match ellipse.rule() {
-            Rule::Associated => (inverse, [[a, c], [b, d]], transposed(&inverse)),
-            Rule::Collinear => (inverse, inverse, [[a, b], [c, d]]),
+            Rule::Associated => [inverse, transposed(&disc), transposed(&inverse)],
+            Rule::Collinear => [inverse, inverse, disc],
         }
     }
 
     /// `W`, enclosed; 1 without an ellipse.
-    fn disc(&self) -> BallPlane {
+    fn disc(&self) -> Plane<Ball> {
         let enclosed = |entry: f64| Ball::exact(entry).widened(product_up(DERIVED, entry.abs()));
         match &self.law.ellipse {
             None => [[Ball::exact(1.0), Ball::default()], [Ball::default(), Ball::exact(1.0)]],
             Some(ellipse) => {
                 let columns = [ellipse.to_disc([1.0, 0.0]), ellipse.to_disc([0.0, 1.0])];
-                [[columns[0][0], columns[1][0]], [columns[0][1], columns[1][1]]]
-                    .map(|row| row.map(enclosed))
+                transposed(&columns).map(|row| row.map(enclosed))
             }
         }
     }
@@ -267,11 +263,4 @@ impl EnclosedPiece {
         };
         normal && tangential
     }
-}
-
-/// `a b`.
-fn times(a: &BallPlane, b: &BallPlane) -> BallPlane {
-    let column = |j: usize| product(a, [b[0][j], b[1][j]]);
-    let (first, second) = (column(0), column(1));
-    [[first[0], second[0]], [first[1], second[1]]]
 }

@@ -96,17 +96,6 @@ impl PairLaw {
         }
     }
 
-    /// `dP/dy` on `piece`.
-    pub fn slopes(&self, piece: Piece) -> [Planar; 2] {
-        let normal = if piece.closed { 1.0 } else { 0.0 };
-        let tangential = match piece.tangential {
-            Tangential::Free => [0.0, 0.0],
-            Tangential::Stick => [0.0, 1.0],
-            Tangential::Slip { side } => [self.bound.slope * f64::from(side) * normal, 0.0],
-        };
-        [[normal, 0.0], tangential]
-    }
-
     /// Coordinates near `y` that no other coordinates share their `K v + P` with, whatever the
     /// positive definite `K` (theorem H of the linear path): a closed pair sticks with the friction of
     /// zero pressure at most, and an open one has slipped less than its clearance divided by the

@@ -111,9 +111,7 @@ impl PairLaw {
 
     /// The pair on a piece in the plane, where its derivative is the same everywhere.
     pub fn linearised_on(&self, piece: Piece) -> Linearised {
-        let [[normal, _], [drag, tangential]] = self.slopes(piece);
-        let block = [[normal, 0.0, 0.0], [drag, tangential, 0.0], [0.0; 3]];
-        self.linearised_by(&block, tangential == 0.0)
+        self.linearised(piece, &self.inside(piece, 1.0))
     }
 
     /// The pair where the piece has the derivative `dP/dy`.

@@ -23,9 +23,6 @@ pub struct Ball {
 /// A vector of a pair.
 pub type BallVector = [Ball; 3];
 
-/// A matrix of the two tangential components, by rows.
-pub type BallPlane = [[Ball; 2]; 2];
-
 impl Ball {
     /// The numbers at most `radius >= 0` away from `middle`.
     pub fn new(middle: f64, radius: f64) -> Self {
@@ -160,11 +157,6 @@ impl Div for Ball {
 /// `a + b + c` of two doubles whose sum is exact up to `c`: see [`super::double_double::two_sum`].
 pub fn sum_of_parts(high: f64, lost: f64, low: f64) -> Ball {
     Ball::exact(high) + (Ball::exact(lost) + Ball::exact(low))
-}
-
-/// `a t`.
-pub fn product(a: &BallPlane, t: [Ball; 2]) -> [Ball; 2] {
-    a.map(|row| row[0] * t[0] + row[1] * t[1])
 }
 
 /// Length, of a vector whose squares neither overflow nor underflow; without a bound otherwise.

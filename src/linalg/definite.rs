@@ -11,7 +11,7 @@ use faer::Mat;
 
 use super::ball::{product_up, sum_of_products_up, sum_up};
 use super::factor::{Factor, cholesky};
-use super::matrix::TILE;
+use super::matrix::tiles;
 use super::vector::{norm, norm_inf};
 
 /// Steps of inverse iteration: the shift may be half of the eigenvalue, and need not be exact.
@@ -69,9 +69,9 @@ impl Definite {
 fn lower_symmetric_part(matrix: &mut Mat<f64>) -> Vec<f64> {
     let n = matrix.nrows();
     let mut sums = vec![0.0; n];
-    for (first, row) in tiles(n) {
-        for j in first..(first + TILE).min(n) {
-            for i in row.max(j)..(row + TILE).min(n) {
+    for (columns, rows) in tiles(n) {
+        for j in columns {
+            for i in rows.start.max(j)..rows.end {
                 let (below, above) = (matrix[(i, j)], matrix[(j, i)]);
                 matrix[(i, j)] = if below == above { below } else { 0.5 * below + 0.5 * above };
                 let size = below.abs() + above.abs();
@@ -81,12 +81,6 @@ fn lower_symmetric_part(matrix: &mut Mat<f64>) -> Vec<f64> {
         }
     }
     sums.iter().map(|&sum| sum_of_products_up(sum, 2 * n)).collect()
-}
-
-/// First column and row of the tiles on and below the diagonal of `n` columns.
-fn tiles(n: usize) -> impl Iterator<Item = (usize, usize)> {
-    let first = (0..n).step_by(TILE);
-    first.flat_map(move |column| (column..n).step_by(TILE).map(move |row| (column, row)))
 }
 
 /// The least eigenvalue, roughly.

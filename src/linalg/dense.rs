@@ -9,51 +9,68 @@ use faer::linalg::matmul::triangular::{self, BlockStructure};
 use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
 use faer::{Accum, MatMut, MatRef, Par, Spec};
 
-use super::matrix::TILE;
+use super::matrix::tiles;
 
-/// Writes `a bᵀ`, column-major, or adds it.
-pub fn product(target: &mut [f64], accum: Accum, a: MatRef<'_, f64>, b: MatRef<'_, f64>) {
-    let target = MatMut::from_column_major_slice_mut(target, a.nrows(), b.nrows());
-    matmul(target, accum, a, b.transpose(), 1.0, Par::Seq);
-}
-
-/// Subtracts `a bᵀ`.
-pub fn subtract_product(target: MatMut<'_, f64>, a: MatRef<'_, f64>, b: MatRef<'_, f64>) {
-    matmul(target, Accum::Add, a, b.transpose(), -1.0, Par::Seq);
-}
-
-/// Writes the lower triangle of `l lᵀ`, column-major, or adds it.
-pub fn square(target: &mut [f64], accum: Accum, l: MatRef<'_, f64>) {
-    let target = MatMut::from_column_major_slice_mut(target, l.nrows(), l.nrows());
-    lower_square(target, accum, l, 1.0);
+/// Subtracts the products `a bᵀ` from the entries `(row(i), column(j))` of a matrix, `i < rows` and `j < columns`; of
+/// a `square` one, `a = b`, the lower triangle. Rows and columns ascend. `work` holds a product.
+pub fn subtract_products<'a>(
+    mut target: MatMut<'_, f64>,
+    products: impl Iterator<Item = (MatRef<'a, f64>, MatRef<'a, f64>)>,
+    (rows, row): (usize, impl Fn(usize) -> usize),
+    (columns, column): (usize, impl Fn(usize) -> usize),
+    square: bool,
+    work: &mut [f64],
+) {
+    let follow = |count: usize, first: usize, last: usize| last + 1 - first == count;
+    if follow(rows, row(0), row(rows - 1)) && follow(columns, column(0), column(columns - 1)) {
+        let mut target = target.submatrix_mut(row(0), column(0), rows, columns);
+        products.for_each(|(a, b)| add_product(target.as_mut(), Accum::Add, (a, b), -1.0, square));
+        return;
+    }
+    let work = &mut work[..rows * columns];
+    for (k, factors) in products.enumerate() {
+        let accum = if k == 0 { Accum::Replace } else { Accum::Add };
+        let sum = MatMut::from_column_major_slice_mut(work, rows, columns);
+        add_product(sum, accum, factors, 1.0, square);
+    }
+    scatter(target.as_mut(), work, (rows, row), column, square);
 }
 
 /// Subtracts the lower triangle of `l lᵀ`.
 pub fn subtract_square(target: MatMut<'_, f64>, l: MatRef<'_, f64>) {
-    lower_square(target, Accum::Add, l, -1.0);
+    add_product(target, Accum::Add, (l, l), -1.0, true);
 }
 
-fn lower_square(target: MatMut<'_, f64>, accum: Accum, l: MatRef<'_, f64>, factor: f64) {
+/// Adds `factor a bᵀ`, or writes it; of a `square`, `a = b`, the lower triangle.
+fn add_product(
+    target: MatMut<'_, f64>,
+    accum: Accum,
+    (a, b): (MatRef<'_, f64>, MatRef<'_, f64>),
+    factor: f64,
+    square: bool,
+) {
+    if !square {
+        return matmul(target, accum, a, b.transpose(), factor, Par::Seq);
+    }
     triangular::matmul(
         target,
         BlockStructure::TriangularLower,
         accum,
-        l,
+        a,
         BlockStructure::Rectangular,
-        l.transpose(),
+        b.transpose(),
         BlockStructure::Rectangular,
         factor,
         Par::Seq,
     );
 }
 
-/// Subtracts a product, column-major with `count` rows, from the entries `(row(i), column(j))` of a matrix; of a
-/// `square` one the lower triangle. Rows ascend.
-pub fn scattered(
+/// Subtracts a product, column-major, from the entries `(row(i), column(j))` of a matrix; of a `square` one the lower
+/// triangle.
+fn scatter(
     mut target: MatMut<'_, f64>,
     product: &[f64],
-    count: usize,
-    row: impl Fn(usize) -> usize,
+    (count, row): (usize, impl Fn(usize) -> usize),
     column: impl Fn(usize) -> usize,
     square: bool,
 ) {
@@ -109,12 +126,10 @@ pub fn divide(factor: MatRef<'_, f64>, rows: MatMut<'_, f64>) {
 
 /// Copies the lower triangle to the upper one.
 pub fn mirror(matrix: &mut [f64], size: usize) {
-    for begin in (0..size).step_by(TILE) {
-        for across in (begin..size).step_by(TILE) {
-            for j in begin..size.min(begin + TILE) {
-                for i in across.max(j + 1)..size.min(across + TILE) {
-                    matrix[j + size * i] = matrix[i + size * j];
-                }
+    for (columns, rows) in tiles(size) {
+        for j in columns {
+            for i in rows.start.max(j + 1)..rows.end {
+                matrix[j + size * i] = matrix[i + size * j];
             }
         }
     }

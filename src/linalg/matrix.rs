@@ -1,5 +1,7 @@
 //! A view of a dense square matrix.
 
+use std::ops::Range;
+
 use super::simd::{Simd, add_four, add_four_sizes, add_four_twice, vectorised};
 use super::tolerances::UNRESISTED;
 use super::vector::largest_of;
@@ -145,7 +147,7 @@ impl<'a> Matrix<'a> {
     }
 
     /// `true` if each entry below the diagonal is of size `most` at most and differs by `apart` at most from the one
-    /// across it, both times `root[i] root[j]`.
+    /// across it, both times `root[i] root[j]`; `most` may be infinite.
     pub fn agrees_across(&self, root: &[f64], apart: f64, most: f64) -> bool {
         vectorised(
             Simd::new(),
@@ -157,26 +159,22 @@ impl<'a> Matrix<'a> {
     #[inline(always)]
     fn tiles_agree(&self, root: &[f64], apart: f64, most: f64) -> bool {
         let mut across = [[0.0; TILE]; TILE];
-        for j0 in (0..self.size).step_by(TILE) {
-            let columns = j0..self.size.min(j0 + TILE);
-            for i0 in (j0..self.size).step_by(TILE) {
-                let rows = i0..self.size.min(i0 + TILE);
-                for (k, i) in rows.clone().enumerate() {
-                    let upper = &self.column(i)[columns.clone()];
-                    upper.iter().zip(&mut across).for_each(|(upper, across)| across[k] = *upper);
-                }
-                for (j, across) in columns.clone().zip(&across) {
-                    let begin = i0.max(j + 1).min(rows.end);
-                    let lower = self.column(j)[begin..rows.end].iter();
-                    let both = lower.zip(&across[begin - i0..]).zip(&root[begin..]);
-                    let agree = both.fold(true, |agree, ((below, above), other)| {
-                        let scale = other * root[j];
-                        let near = (below - above).abs() <= apart * scale;
-                        agree & near & (below.abs() <= most * scale)
-                    });
-                    if !agree {
-                        return false;
-                    }
+        for (columns, rows) in tiles(self.size) {
+            for (k, i) in rows.clone().enumerate() {
+                let upper = &self.column(i)[columns.clone()];
+                upper.iter().zip(&mut across).for_each(|(upper, across)| across[k] = *upper);
+            }
+            for (j, across) in columns.zip(&across) {
+                let begin = rows.start.max(j + 1).min(rows.end);
+                let lower = self.column(j)[begin..rows.end].iter();
+                let both = lower.zip(&across[begin - rows.start..]).zip(&root[begin..]);
+                let agree = both.fold(true, |agree, ((below, above), other)| {
+                    let scale = other * root[j];
+                    let near = (below - above).abs() <= apart * scale;
+                    agree & near & !(below.abs() > most * scale)
+                });
+                if !agree {
+                    return false;
                 }
             }
         }
@@ -189,18 +187,22 @@ impl<'a> Matrix<'a> {
         &self,
         visit: impl Fn(usize, usize, f64, f64) -> Result<(), E>,
     ) -> Result<(), E> {
-        let n = self.size;
-        for j0 in (0..n).step_by(TILE) {
-            for i0 in (j0..n).step_by(TILE) {
-                for j in j0..(j0 + TILE).min(n) {
-                    for i in i0.max(j + 1)..(i0 + TILE).min(n) {
-                        visit(i, j, self.column(j)[i], self.column(i)[j])?;
-                    }
+        for (columns, rows) in tiles(self.size) {
+            for j in columns {
+                for i in rows.start.max(j + 1)..rows.end {
+                    visit(i, j, self.column(j)[i], self.column(i)[j])?;
                 }
             }
         }
         Ok(())
     }
+}
+
+/// Columns and rows of the tiles on and below the diagonal of a square matrix.
+pub fn tiles(size: usize) -> impl Iterator<Item = (Range<usize>, Range<usize>)> {
+    let from = move |first: usize| (first..size).step_by(TILE);
+    let range = move |first: usize| first..size.min(first + TILE);
+    from(0).flat_map(move |column| from(column).map(move |row| (range(column), range(row))))
 }
 
 /// A number that sums of terms whose sizes sum up to `size` change by less than a third, however they are

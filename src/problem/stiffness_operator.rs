@@ -63,14 +63,12 @@ pub trait StiffnessOperator {
     /// Bound on the sums of `A x` in which each entry of `x` has at most the given size: `|A| size`.
     fn magnitude(&self, size: &[f64]) -> Vec<f64>;
 
-    /// Returns `true` if a product costs next to nothing beside a solution.
-    fn has_cheap_products(&self) -> bool;
+    /// Returns `true` if `A` is a sparse matrix: a product costs next to nothing beside a solution, and what is held
+    /// has the springs of the held set too.
+    fn is_sparse(&self) -> bool;
 
     /// Returns `true` if components can be held: whether [`Self::hold`] may be called.
     fn can_hold(&self) -> bool;
-
-    /// Returns `true` if what is held has the springs of the restriction too.
-    fn has_springs(&self) -> bool;
 
     /// From now on [`Self::solve`] solves with these components held. `goes_on` is asked now and then while that
     /// lasts; `false`: it has ended it, and nothing can be solved before another call.

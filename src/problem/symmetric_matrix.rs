@@ -17,10 +17,7 @@ pub(crate) fn is_symmetric(matrix: &Matrix<'_>) -> bool {
 
 /// Returns `true` if entries agree with those across the diagonal, up to rounding relative to the squares of `root`.
 pub(crate) fn is_symmetric_beside(matrix: &Matrix<'_>, root: &[f64]) -> bool {
-    let compare = |i: usize, j: usize, lower: f64, upper: f64| {
-        if (lower - upper).abs() <= SYMMETRY * root[i] * root[j] { Ok(()) } else { Err(()) }
-    };
-    matrix.agrees_across(root, SYMMETRY, f64::MAX) || matrix.pairs_across(compare).is_ok()
+    matrix.agrees_across(root, SYMMETRY, f64::INFINITY)
 }
 
 /// Refuses entries that are not finite, negative diagonals, zeros on the diagonal of rows that are not zero,
@@ -30,11 +27,8 @@ pub(crate) fn is_symmetric_beside(matrix: &Matrix<'_>, root: &[f64]) -> bool {
 /// A row of zeros is a component that a free body moves without a force: a foot along its normal, if the
 /// body stands on two feet in the plane, or on three in space.
 pub(crate) fn check(matrix: &Matrix<'_>, name: &str, argument: Argument) -> Result<(), Error> {
-    if matrix.largest_diagonal() > 0.0 && is_plainly_semi_definite(matrix) {
-        return Ok(());
-    }
-    check_diagonal(matrix, name, argument)?;
-    check_across(matrix, name, argument)
+    check_semi_definite(matrix, name, argument)?;
+    check_not_zero(matrix, name, argument)
 }
 
 /// As [`check`], but a matrix of zeros passes.
@@ -130,6 +124,10 @@ pub(crate) fn check_diagonal(
     argument: Argument,
 ) -> Result<(), Error> {
     check_columns(matrix, name, argument)?;
+    check_not_zero(matrix, name, argument)
+}
+
+fn check_not_zero(matrix: &Matrix<'_>, name: &str, argument: Argument) -> Result<(), Error> {
     if matrix.size() > 0 && matrix.largest_diagonal() == 0.0 {
         let message = format!(
             "{name} is zero: nothing has stiffness; if the host holds the components fixed, put \

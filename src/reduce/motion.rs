@@ -108,35 +108,3 @@ pub(super) fn components(vector: &[f64]) -> String {
 fn rounded(value: f64) -> f64 {
     (value * 1e3).round() / 1e3 + 0.0
 }
-
-#[cfg(test)]
-mod tests {
-    use super::{force, of_host, of_pairs, rests};
-
-    /// A motion has no unit: parts of 1e-7 of the largest do not count as moving, others do; and what does not
-    /// move at all moves nothing.
-    #[test]
-    fn motions_are_told_alike_in_all_units() {
-        for unit in [1e-9, 1.0, 1e9] {
-            let u = [1e-7, -4.0, 2.0, 1e-5, 0.0].map(|u| u * unit);
-            let words = crate::error::Message::from(of_host(&u)).to_string();
-            let expected = "3 of the degrees of freedom 1 to 3, most of all degree of freedom 1 by -1.000, \
-                            2 by 0.500, 3 by 0.000";
-            assert_eq!(words, expected);
-            assert!(rests(&u[..1], 4.0 * unit) && !rests(&u[3..], 4.0 * unit));
-        }
-        assert_eq!(of_host(&[0.0; 3]), "nothing");
-        assert_eq!(of_pairs(2, &[0.0; 4]), "nothing");
-    }
-
-    /// The sum of two forces in frames that are turned by 3-4-5, in which one component cancels but for rounding.
-    #[test]
-    fn a_force_is_summed_in_the_axes() {
-        let frames = [0.6, 0.8, -0.8, 0.6, 0.8, -0.6, 0.6, 0.8];
-        for (unit, power) in [(1e-9, "e-9"), (1.0, "e0"), (1e9, "e9")] {
-            // 0.6 (1, 0) and 0.8 (1, 0) in the frames: 1.4 along the first axis.
-            let forces = [0.36, -0.48, 0.64, 0.48].map(|force| force * unit);
-            assert_eq!(force(&frames, &forces, &[0.0; 4]), format!("(1.400{power}, 0.000e0)"));
-        }
-    }
-}

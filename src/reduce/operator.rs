@@ -268,16 +268,12 @@ impl StiffnessOperator for InUse<'_> {
         size.iter().zip(&self.operator.units).map(|(size, unit)| NEIGHBOURS * size * unit).collect()
     }
 
-    fn has_cheap_products(&self) -> bool {
+    fn is_sparse(&self) -> bool {
         false
     }
 
     fn can_hold(&self) -> bool {
         self.operator.operator.has_held()
-    }
-
-    fn has_springs(&self) -> bool {
-        false
     }
 
     fn hold(&mut self, held_set: &HeldSet, _: GoesOn<'_>) -> Result<bool, Error> {

@@ -78,8 +78,8 @@ pub trait Reduction: Send + Sync {
     ///
     /// # Errors
     /// No memory for a factor that is not kept.
-    fn condense(&self, load: &[f64], _prescribed: Option<&[f64]>) -> Result<Vec<f64>, Error> {
-        Ok(load.to_vec())
+    fn condense(&self, load: &[f64], prescribed: Option<&[f64]>) -> Result<Vec<f64>, Error> {
+        Ok(self.condense_cases(&[(load, prescribed)])?.concat())
     }
 
     /// Displacements of the host from the loads (`None`: zero), the values of the fixed degrees of
@@ -89,11 +89,11 @@ pub trait Reduction: Send + Sync {
     /// As [`Self::condense`].
     fn recover(
         &self,
-        _load: Option<&[f64]>,
-        _prescribed: Option<&[f64]>,
+        load: Option<&[f64]>,
+        prescribed: Option<&[f64]>,
         d: &[f64],
     ) -> Result<Vec<f64>, Error> {
-        Ok(d.to_vec())
+        Ok(self.recover_cases(&[SolvedCase { load, prescribed, d }])?.concat())
     }
 
     /// As [`Self::condense`], of the loads and fixed values of several load cases at once.
@@ -101,7 +101,7 @@ pub trait Reduction: Send + Sync {
     /// # Errors
     /// As [`Self::condense`].
     fn condense_cases(&self, cases: &[HostLoad<'_>]) -> Result<Vec<Vec<f64>>, Error> {
-        cases.iter().map(|(load, prescribed)| self.condense(load, *prescribed)).collect()
+        Ok(cases.iter().map(|(load, _)| load.to_vec()).collect())
     }
 
     /// As [`Self::recover`], of several load cases at once.
@@ -109,7 +109,7 @@ pub trait Reduction: Send + Sync {
     /// # Errors
     /// As [`Self::recover`].
     fn recover_cases(&self, cases: &[SolvedCase<'_>]) -> Result<Vec<Vec<f64>>, Error> {
-        cases.iter().map(|case| self.recover(case.load, case.prescribed, case.d)).collect()
+        Ok(cases.iter().map(|case| case.d.to_vec()).collect())
     }
 
     /// Contact forces as nodal forces of the host.

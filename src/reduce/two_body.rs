@@ -13,7 +13,7 @@
 //! the softer one, so that `K_rel` is not the small difference of large numbers.
 
 use super::condensed::{settled, view};
-use super::{Reduction, motion};
+use super::{HostLoad, Reduction, SolvedCase, motion};
 use crate::error::{Argument, Error, Message, index};
 use crate::linalg::matrix::Matrix;
 use crate::linalg::pivoted_cholesky::PivotedCholesky;
@@ -129,20 +129,18 @@ impl Reduction for TwoBodyReduction {
         2 * self.size
     }
 
-    fn condense(&self, load: &[f64], _prescribed: Option<&[f64]>) -> Result<Vec<f64>, Error> {
-        let (first, second) = self.split(load);
-        let difference: Vec<f64> = first.iter().zip(second).map(|(a, b)| a - b).collect();
-        let x = self.solve(&difference);
-        Ok(self.times_second(&x).iter().zip(second).map(|(carried, f)| carried + f).collect())
+    fn condense_cases(&self, cases: &[HostLoad<'_>]) -> Result<Vec<Vec<f64>>, Error> {
+        let condensed = |(load, _): &HostLoad<'_>| {
+            let (first, second) = self.split(load);
+            let difference: Vec<f64> = first.iter().zip(second).map(|(a, b)| a - b).collect();
+            let x = self.solve(&difference);
+            self.times_second(&x).iter().zip(second).map(|(carried, f)| carried + f).collect()
+        };
+        Ok(cases.iter().map(condensed).collect())
     }
 
-    fn recover(
-        &self,
-        load: Option<&[f64]>,
-        _prescribed: Option<&[f64]>,
-        d: &[f64],
-    ) -> Result<Vec<f64>, Error> {
-        Ok(self.displacements(load, d))
+    fn recover_cases(&self, cases: &[SolvedCase<'_>]) -> Result<Vec<Vec<f64>>, Error> {
+        Ok(cases.iter().map(|case| self.displacements(case.load, case.d)).collect())
     }
 
     /// `F` acts on both bodies, each in its own outward frame.

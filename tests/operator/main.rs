@@ -12,4 +12,5 @@ mod full_space_floating;
 mod full_space_hard;
 mod full_space_random;
 mod parts;
+mod probes;
 mod products;

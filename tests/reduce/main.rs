@@ -9,6 +9,7 @@ mod common;
 #[allow(dead_code)] // Each test uses a part.
 mod rows;
 
+mod frames;
 mod general_rows;
 mod motion_words;
 mod reductions;

@@ -1,8 +1,7 @@
 //! Sparse Cholesky factorisations of matrices of one pattern: analysed once, factorised again and again.
 
 use super::diagnosis::diagnosed;
-use super::factor_progress::FactorProgress;
-use super::failure::Failure;
+use super::factor_progress::{FactorProgress, Failure};
 use super::numeric::{Numeric, Unfinished, factorised};
 use super::plan::Plan;
 use super::solve::{backward, forward};
@@ -21,7 +20,7 @@ impl SparseCholesky {
     pub fn new(
         lower: &Csc,
         workers: &dyn Workers,
-        progress: &mut dyn FactorProgress,
+        progress: &mut FactorProgress<'_>,
     ) -> Result<Self, Failure> {
         Ok(SparseCholesky(Plan::new(lower, lower.ncols(), None, workers, progress)?))
     }
@@ -36,7 +35,7 @@ impl SparseCholesky {
         &self,
         mut lower: Csc,
         workers: &dyn Workers,
-        progress: &mut dyn FactorProgress,
+        progress: &mut FactorProgress<'_>,
     ) -> Result<Values, Failure> {
         Ok(Values(diagnosed(&self.0, &mut lower, workers, progress)?.values))
     }
@@ -46,7 +45,7 @@ impl SparseCholesky {
         &self,
         lower: &Csc,
         workers: &dyn Workers,
-        progress: &mut dyn FactorProgress,
+        progress: &mut FactorProgress<'_>,
     ) -> Result<Option<Values>, Failure> {
         match factorised((&self.0.structure, &self.0.schedule), lower, workers, progress) {
             Ok(Numeric { values, weakest, .. }) => {

@@ -1,14 +1,15 @@
 //! A factorisation that names the motion which makes it fail.
 
-use super::factor_progress::FactorProgress;
-use super::failure::Failure;
+use super::factor_progress::{FactorProgress, Failure};
 use super::numeric::{Numeric, Unfinished, factorised};
 use super::plan::Plan;
 use super::solve;
 use super::structure::Structure;
-use crate::linalg::null_vector::{resistance, weakest};
-use crate::linalg::sparse_matrix::Csc;
-use crate::linalg::tolerances::{NULL_VECTOR, REGULARISATION, SUSPICIOUS_PIVOT};
+use crate::linalg::sparse_matrix::{Csc, symmetric_magnitude, symmetric_times};
+use crate::linalg::tolerances::{
+    INVERSE_ITERATIONS, NULL_VECTOR, REGULARISATION, SUSPICIOUS_PIVOT,
+};
+use crate::linalg::vector::{norm_inf, normalise, sizes};
 use crate::workers::Workers;
 
 /// Factorises `matrix`, which stays as it is; or says what motion of the eliminated rows nothing resists, and
@@ -17,7 +18,7 @@ pub fn diagnosed(
     plan: &Plan,
     matrix: &mut Csc,
     workers: &dyn Workers,
-    progress: &mut dyn FactorProgress,
+    progress: &mut FactorProgress<'_>,
 ) -> Result<Numeric, Failure> {
     let structure = &plan.structure;
     let parts = (structure, &plan.schedule);
@@ -46,14 +47,24 @@ pub fn diagnosed(
     Ok(numeric)
 }
 
-/// The motion of the eliminated rows that `A` resists least, by inverse iteration from a `place`.
+/// The motion of the eliminated rows that `A` resists least, its largest entry 1, by inverse iteration from the unit
+/// vector of a `place`.
 fn weakest_motion(structure: &Structure, values: &[f64], place: usize) -> Vec<f64> {
-    let ordered = weakest(structure.size, place, |x| {
-        solve::forward(structure, values, x);
+    let mut x = vec![0.0; structure.size];
+    x[place] = 1.0;
+    for _ in 0..INVERSE_ITERATIONS {
+        solve::forward(structure, values, &mut x);
         x[structure.eliminated..].fill(0.0);
-        solve::backward(structure, values, x);
-    });
-    structure.unordered(&ordered)
+        solve::backward(structure, values, &mut x);
+        normalise(&mut x);
+    }
+    structure.unordered(&x)
+}
+
+/// Largest entry of `A x`, relative to the largest sum of the sizes of its terms. `A` is symmetric, its
+/// `lower` triangle given.
+fn resistance(lower: &Csc, x: &[f64]) -> f64 {
+    norm_inf(&symmetric_times(lower, x)) / norm_inf(&symmetric_magnitude(lower, &sizes(x)))
 }
 
 /// Multiplies the diagonal entry of column `j`, which is stored first.

@@ -9,8 +9,7 @@ use std::panic::{UnwindSafe, catch_unwind};
 
 use feral_scotch::{CscPattern, ScotchOptions, scotch_order, scotch_order_full};
 
-use super::factor_progress::FactorProgress;
-use super::failure::Failure;
+use super::factor_progress::{FactorProgress, FactorStep, Failure};
 
 /// Pieces of fewer vertices are ordered at once: their share of the cost is small.
 const SMALL: usize = 3000;
@@ -41,14 +40,14 @@ struct Cut {
 pub fn dissected(
     start: Vec<i32>,
     neighbour: Vec<i32>,
-    progress: &mut dyn FactorProgress,
+    progress: &mut FactorProgress<'_>,
 ) -> Result<Option<Vec<i32>>, Failure> {
     let vertex: Vec<i32> = (0..).take(start.len() - 1).collect();
     let mut open = Piece { start, neighbour, vertex }.cut(&[]).parts;
     // From the last vertex of the order to the first: a separator stands behind its parts.
     let mut backwards = Vec::new();
     while let Some(piece) = open.pop() {
-        progress.has_done(0.0)?;
+        progress(FactorStep::HasDone(0.0))?;
         if let Some(cut) = piece.best_cut() {
             backwards.extend(cut.separator.iter().rev());
             open.extend(cut.parts);
@@ -146,7 +145,6 @@ impl Cut {
 #[cfg(test)]
 mod tests {
     use super::{Piece, SMALL, dissected, guarded};
-    use crate::linalg::sparse_schur::factor_progress::tests::Unwatched;
 
     /// A strip of `length` x `width` nodes, each beside the eight around it.
     fn strip(length: usize, width: usize) -> Piece {
@@ -191,7 +189,7 @@ mod tests {
         neighbour.extend(one.neighbour.iter().map(|v| v + shift));
         // And two vertices without neighbours.
         start.extend([neighbour.len() as i32; 2]);
-        let mut order = dissected(start, neighbour, &mut Unwatched).unwrap().unwrap();
+        let mut order = dissected(start, neighbour, &mut |_| Ok(())).unwrap().unwrap();
         order.sort_unstable();
         assert!(order.into_iter().eq(0..2 * shift + 2));
     }

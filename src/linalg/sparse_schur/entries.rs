@@ -1,9 +1,9 @@
 //! The entries of a matrix in the order of elimination.
 
-use super::failure::Failure;
+use super::factor_progress::Failure;
 use super::graph::filled;
-use super::structure::{Structure, placed};
-use crate::linalg::sparse_matrix::Csc;
+use super::structure::Structure;
+use crate::linalg::sparse_matrix::{Csc, column};
 
 /// An entry of the matrix in a column: its row, and its value.
 type Entry = (usize, f64);
@@ -53,4 +53,19 @@ impl Entries {
     pub fn diagonal(&self, column: usize) -> f64 {
         self.of(column).iter().find(|(row, _)| *row == column).map_or(0.0, |(_, value)| *value)
     }
+}
+
+/// The entries of the lower triangle in the places of the order: row, column, value.
+fn placed<'a>(
+    lower: &'a Csc,
+    inverse: &'a [usize],
+) -> impl Iterator<Item = (usize, usize, f64)> + 'a {
+    (0..lower.ncols()).flat_map(move |j| {
+        let (rows, values) = column(lower, j);
+        let to = inverse[j];
+        rows.iter().zip(values).map(move |(&i, &value)| {
+            let other = inverse[i];
+            (to.max(other), to.min(other), value)
+        })
+    })
 }

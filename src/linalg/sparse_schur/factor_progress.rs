@@ -1,36 +1,58 @@
-//! Progress of a factorisation, and the end that its caller may put to it.
+//! The progress of a factorisation, the end that its caller may put to it, and how else it fails.
+
+use crate::linalg::free_motions::StiffnessDefect;
+use crate::linalg::sparse_matrix::OutOfMemory;
 
 /// The caller's answer that ends the work.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Stopped;
 
-/// Is told the memory and the progress of a factorisation, and may end it.
-pub trait FactorProgress {
-    /// A long part begins that needs `bytes` of memory in all, those of its arguments included.
-    ///
-    /// # Errors
-    /// The part must not begin.
-    fn needs(&mut self, _bytes: u64) -> Result<(), Stopped> {
-        Ok(())
-    }
-
-    /// Between two steps: `share` of the work is done, 0 before anything is known of it.
-    ///
-    /// # Errors
-    /// The work must end.
-    fn has_done(&mut self, share: f64) -> Result<(), Stopped>;
+/// A question whether a factorisation goes on.
+#[derive(Clone, Copy, Debug)]
+pub enum FactorStep {
+    /// A long part begins that needs so many bytes of memory in all, those of its arguments included.
+    Needs(u64),
+    /// Between two steps: this share of the work is done, 0 before anything is known of it.
+    HasDone(f64),
 }
 
-#[cfg(test)]
-pub mod tests {
-    use super::{FactorProgress, Stopped};
+/// Is told the memory and the progress of a factorisation, and may end it.
+pub type FactorProgress<'a> = dyn FnMut(FactorStep) -> Result<(), Stopped> + 'a;
 
-    /// Lets everything go on.
-    pub struct Unwatched;
+/// Why a matrix was not factorised.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Failure {
+    /// A null vector of the matrix, zero in the rows of `C`, its largest entry 1.
+    NullVector(Vec<f64>),
+    /// The matrix is not positive semi-definite, as this row shows.
+    Indefinite(usize),
+    /// The energy of this motion is negative, so that the matrix is not positive semi-definite.
+    Negative(Vec<f64>),
+    /// The resistance of the matrix to this motion cannot be told from rounding.
+    Unclear(Vec<f64>),
+    /// Not enough memory.
+    OutOfMemory,
+    /// The caller has ended it.
+    Stopped,
+}
 
-    impl FactorProgress for Unwatched {
-        fn has_done(&mut self, _: f64) -> Result<(), Stopped> {
-            Ok(())
+impl From<StiffnessDefect> for Failure {
+    fn from(defect: StiffnessDefect) -> Self {
+        match defect {
+            StiffnessDefect::Indefinite(motion) => Failure::Negative(motion),
+            StiffnessDefect::Unclear(motion) => Failure::Unclear(motion),
         }
+    }
+}
+
+impl From<Stopped> for Failure {
+    fn from(_: Stopped) -> Self {
+        Failure::Stopped
+    }
+}
+
+impl From<OutOfMemory> for Failure {
+    fn from(_: OutOfMemory) -> Self {
+        Failure::OutOfMemory
     }
 }

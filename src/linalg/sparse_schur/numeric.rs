@@ -8,16 +8,14 @@ use std::ops::Range;
 use std::sync::Mutex;
 
 use super::entries::Entries;
-use super::factor_progress::FactorProgress;
-use super::failure::Failure;
+use super::factor_progress::{FactorProgress, Failure};
 use super::graph::filled;
 use super::panel::{Before, Source, Weakest, weaker};
 use super::panel_assembly::{by_all_threads, by_one_thread};
-use super::parallel::{Done, Parallel, locked};
+use super::parallel::{Done, Parallel, Workspace, locked};
 use super::schedule::Schedule;
 use super::schur_update;
 use super::structure::Structure;
-use super::workspace::Workspace;
 use crate::linalg::dense::mirror;
 use crate::linalg::sparse_matrix::Csc;
 use crate::workers::Workers;
@@ -59,7 +57,7 @@ pub fn factorised(
     (structure, schedule): (&Structure, &Schedule),
     lower: &Csc,
     workers: &dyn Workers,
-    progress: &mut dyn FactorProgress,
+    progress: &mut FactorProgress<'_>,
 ) -> Result<Numeric, Unfinished> {
     let kept = structure.kept();
     let mut values = filled(structure.stored(), 0.0)?;

@@ -4,14 +4,15 @@
 //! degrees of the others and come last by their own. Where its factor costs much, nested dissection too,
 //! and the better of both. Or the order of the host.
 
-use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
 use faer::sparse::linalg::amd;
-use faer::sparse::linalg::cholesky::simplicial;
+use faer::sparse::linalg::cholesky::simplicial::{
+    EliminationTreeRef, prefactorize_symbolic_cholesky, prefactorize_symbolic_cholesky_scratch,
+};
 use faer::sparse::{SymbolicSparseColMat, SymbolicSparseColMatRef};
 
 use super::dissection::dissected;
-use super::factor_progress::FactorProgress;
-use super::failure::Failure;
+use super::factor_progress::{FactorProgress, FactorStep, Failure};
 use super::graph::{Graph, filled, reserved};
 use crate::linalg::sparse_matrix::OutOfMemory;
 
@@ -33,7 +34,7 @@ pub type Pattern = SymbolicSparseColMat<usize>;
 pub fn chosen(
     graph: &Graph,
     given: Option<&[usize]>,
-    progress: &mut dyn FactorProgress,
+    progress: &mut FactorProgress<'_>,
 ) -> Result<Vec<usize>, Failure> {
     if let Some(rank) = given {
         let mut order: Vec<usize> = (0..graph.inner).collect();
@@ -46,7 +47,7 @@ pub fn chosen(
         return Ok(order);
     }
     let Some(dissected) = nested_dissection(graph, progress)? else { return Ok(order) };
-    progress.has_done(0.0)?;
+    progress(FactorStep::HasDone(0.0))?;
     let (dissected, fewer) = examined(graph, &dissected)?;
     Ok(if fewer < operations { dissected } else { order })
 }
@@ -82,7 +83,7 @@ fn minimum_degree(graph: &Graph) -> Result<Vec<usize>, OutOfMemory> {
 /// `None` if it fails in any way: the other order serves.
 fn nested_dissection(
     graph: &Graph,
-    progress: &mut dyn FactorProgress,
+    progress: &mut FactorProgress<'_>,
 ) -> Result<Option<Vec<usize>>, Failure> {
     let Some((start, neighbour)) = inner_links(graph) else { return Ok(None) };
     let order = dissected(start, neighbour, progress)?;
@@ -120,12 +121,13 @@ fn is_permutation(order: &[usize], size: usize) -> bool {
 /// operations its factorisation takes.
 fn examined(graph: &Graph, order: &[usize]) -> Result<(Vec<usize>, f64), OutOfMemory> {
     let pattern = pattern(graph, order)?;
-    let (parent, counts) = tree(&pattern)?;
     let unknowns: usize = (0..graph.inner).map(|v| graph.members(v).len()).sum();
     let size = unknowns as f64 / graph.inner.max(1) as f64;
-    let operations: f64 = counts[..graph.inner].iter().map(|&count| (count as f64).powi(2)).sum();
-    let post = post_order(&parent, graph.inner);
-    Ok((post.into_iter().map(|k| order[k]).collect(), size.powi(3) * operations))
+    of_tree(&pattern, StackReq::EMPTY, |tree, counts, _| {
+        let squares = counts[..graph.inner].iter().map(|&count| (count as f64).powi(2));
+        let post = post_order(tree.into_inner(), graph.inner);
+        (post.into_iter().map(|k| order[k]).collect(), size.powi(3) * squares.sum::<f64>())
+    })
 }
 
 /// The pattern with the inner vertices in their order and the kept ones behind them as they are.
@@ -145,17 +147,20 @@ pub fn pattern(graph: &Graph, order: &[usize]) -> Result<Pattern, OutOfMemory> {
     Ok(SymbolicSparseColMat::new_checked(size, size, start, None, row))
 }
 
-/// The parent of each column in the elimination tree, -1 for none, and the length of each column of the
-/// factor.
-fn tree(pattern: &Pattern) -> Result<(Vec<isize>, Vec<usize>), OutOfMemory> {
+/// The answer of `ask` to the elimination tree, in which -1 is the parent of a root, and the length of each column of
+/// the factor; with room for `scratch`.
+pub fn of_tree<T>(
+    pattern: &Pattern,
+    scratch: StackReq,
+    ask: impl FnOnce(EliminationTreeRef<'_, usize>, &[usize], &mut MemStack) -> T,
+) -> Result<T, OutOfMemory> {
     let size = pattern.ncols();
     let (mut parent, mut counts) = (filled(size, 0)?, filled(size, 0)?);
-    let entries = pattern.row_idx().len();
-    let scratch = simplicial::prefactorize_symbolic_cholesky_scratch::<usize>(size, entries);
-    let mut memory = MemBuffer::try_new(scratch).map_err(|_| OutOfMemory)?;
+    let own = prefactorize_symbolic_cholesky_scratch::<usize>(size, pattern.row_idx().len());
+    let mut memory = MemBuffer::try_new(own.or(scratch)).map_err(|_| OutOfMemory)?;
     let stack = MemStack::new(&mut memory);
-    simplicial::prefactorize_symbolic_cholesky(&mut parent, &mut counts, pattern.as_ref(), stack);
-    Ok((parent, counts))
+    let tree = prefactorize_symbolic_cholesky(&mut parent, &mut counts, pattern.as_ref(), stack);
+    Ok(ask(tree, &counts, stack))
 }
 
 /// The first `inner` columns, each after those below it in the tree and right behind them.
@@ -195,7 +200,6 @@ mod tests {
         post_order,
     };
     use crate::linalg::sparse_matrix::{Csc, from_entries};
-    use crate::linalg::sparse_schur::factor_progress::tests::Unwatched;
     use crate::linalg::sparse_schur::graph::Graph;
 
     /// A cube of `edge`³ nodes with `dofs` unknowns each that are coupled with those of the 26 nodes around;
@@ -231,9 +235,9 @@ mod tests {
             let (matrix, eliminated) = cube(edge, 3);
             let graph = Graph::new(&matrix, eliminated).unwrap();
             let (_, most) = examined(&graph, &minimum_degree(&graph).unwrap()).unwrap();
-            let order = chosen(&graph, None, &mut Unwatched).unwrap();
+            let order = chosen(&graph, None, &mut |_| Ok(())).unwrap();
             assert!(is_permutation(&order, graph.inner));
-            assert!(nested_dissection(&graph, &mut Unwatched).unwrap().is_some());
+            assert!(nested_dissection(&graph, &mut |_| Ok(())).unwrap().is_some());
             assert!(examined(&graph, &order).unwrap().1 <= most);
         }
     }

@@ -5,14 +5,13 @@
 use std::ops::Range;
 
 use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::{Accum, MatMut, MatRef};
+use faer::{MatMut, MatRef};
 
 use super::entries::Entries;
-use super::parallel::Done;
+use super::parallel::{Done, ROWS};
 use super::schedule::{Change, Schedule};
 use super::structure::Structure;
-use super::workspace::ROWS;
-use crate::linalg::dense::{self, scattered};
+use crate::linalg::dense::{self, subtract_products};
 
 /// The pivot that is smallest relative to the diagonal: its place, and this ratio.
 pub type Weakest = Option<(usize, f64)>;
@@ -102,11 +101,9 @@ impl Panel<'_> {
     /// An earlier panel: its rows by number, and their values.
     fn earlier(&self, by: usize) -> (&[usize], MatRef<'_, f64>) {
         let structure = self.source.structure;
-        let (width, rows, place) =
-            (structure.columns(by).len(), structure.rows(by), structure.values(by));
+        let place = structure.values(by);
         let values = &self.before.values[place.start - self.before.start..][..place.len()];
-        let all = MatRef::from_column_major_slice(values, width + rows.len(), width);
-        (rows, all.split_at_row(width).1)
+        (structure.rows(by), structure.blocks(by, values).1)
     }
 
     /// The panels before it that change it, those together that change the same entries.
@@ -131,14 +128,8 @@ impl Panel<'_> {
                 self.source.done.add(l.ncols() * count * count / 2);
                 l
             });
-            if is_dense(columns) {
-                let mut target = top.as_mut().submatrix_mut(place(0), place(0), count, count);
-                each.for_each(|l| dense::subtract_square(target.as_mut(), l));
-            } else {
-                let product = &mut product[..count * count];
-                accumulated(each, |accum, l| dense::square(product, accum, l));
-                scattered(top.as_mut(), product, count, place, place, true);
-            }
+            let each = each.map(|l| (l, l));
+            subtract_products(top.as_mut(), each, (count, place), (count, place), true, product);
         }
     }
 
@@ -173,14 +164,8 @@ impl Panel<'_> {
             });
             let column = |k: usize| self.place[columns[k]];
             let row = |k: usize| self.place[rows[k]] - above;
-            if is_dense(columns) && row(count - 1) + 1 - row(0) == count {
-                let mut target = target.as_mut().submatrix_mut(row(0), column(0), count, width);
-                each.for_each(|(l, upper)| dense::subtract_product(target.as_mut(), l, upper));
-            } else {
-                let product = &mut product[..count * width];
-                accumulated(each, |accum, (l, upper)| dense::product(product, accum, l, upper));
-                scattered(target.as_mut(), product, count, row, column, false);
-            }
+            let (rows, columns) = ((count, row), (width, column));
+            subtract_products(target.as_mut(), each, rows, columns, false, product);
         }
     }
 
@@ -197,16 +182,4 @@ impl Panel<'_> {
         self.source.done.add(top.ncols() * top.ncols() * block.nrows());
         dense::divide(top, block);
     }
-}
-
-/// Writes the first of several products, and adds the others.
-pub fn accumulated<T>(each: impl Iterator<Item = T>, mut product: impl FnMut(Accum, T)) {
-    each.enumerate().for_each(|(k, factors)| {
-        product(if k == 0 { Accum::Replace } else { Accum::Add }, factors);
-    });
-}
-
-/// `true` if ascending numbers follow each other.
-pub fn is_dense(rows: &[usize]) -> bool {
-    rows.last().is_none_or(|last| last + 1 - rows[0] == rows.len())
 }

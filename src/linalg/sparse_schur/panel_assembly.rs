@@ -2,10 +2,9 @@
 
 use std::sync::{Mutex, PoisonError};
 
-use super::failure::Failure;
+use super::factor_progress::Failure;
 use super::panel::{Before, Panel, Source, Weakest, fill, weakest};
-use super::parallel::{Parallel, locked};
-use super::workspace::Workspace;
+use super::parallel::{Parallel, Workspace, locked};
 
 /// Makes a panel on the calling thread. Returns its weakest pivot, or the place of one that is not positive.
 pub fn by_one_thread(

@@ -1,12 +1,14 @@
-//! The parts of a factorisation on the threads of `Workers`, its count of operations, and its progress.
+//! The parts of a factorisation on the threads of `Workers`, their working memory, its count of operations, and its progress.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use super::factor_progress::FactorProgress;
-use super::failure::Failure;
-use super::structure::Structure;
-use super::workspace::Workspace;
+use faer::dyn_stack::MemBuffer;
+
+use super::factor_progress::{FactorProgress, FactorStep, Failure};
+use super::graph::filled;
+use super::structure::{PANEL, Structure};
+use crate::linalg::dense;
 use crate::workers::{SingleThread, Workers};
 
 /// Multiplications between two questions whether to go on: some milliseconds.
@@ -14,6 +16,9 @@ const BETWEEN: f64 = 3e8;
 
 /// A work of fewer multiplications stays on the calling thread: to wake another one takes about a tenth of their time.
 const FEW: f64 = 1e7;
+
+/// Rows of a block: products of it are fast, and its changes stay in the cache.
+pub const ROWS: usize = 512;
 
 /// Multiplications that are done, by all threads.
 #[derive(Default)]
@@ -30,7 +35,7 @@ impl Done {
 pub struct Parallel<'w> {
     workers: &'w dyn Workers,
     workspaces: Vec<Mutex<Workspace>>,
-    progress: &'w mut dyn FactorProgress,
+    progress: &'w mut FactorProgress<'w>,
     done: &'w Done,
     all: f64,
     asked: f64,
@@ -43,7 +48,7 @@ impl<'w> Parallel<'w> {
     /// Not enough memory.
     pub fn new(
         structure: &Structure,
-        (workers, progress): (&'w dyn Workers, &'w mut dyn FactorProgress),
+        (workers, progress): (&'w dyn Workers, &'w mut FactorProgress<'w>),
         done: &'w Done,
         all: f64,
     ) -> Result<Self, Failure> {
@@ -68,7 +73,7 @@ impl<'w> Parallel<'w> {
             let so_far = done.0.load(Ordering::Relaxed) as f64;
             if so_far - *asked >= BETWEEN {
                 *asked = so_far;
-                answer = progress.has_done((so_far / *all).min(1.0));
+                answer = progress(FactorStep::HasDone((so_far / *all).min(1.0)));
             }
             answer.is_ok()
         };
@@ -87,4 +92,44 @@ impl<'w> Parallel<'w> {
 /// The value of a mutex that each thread locks for a part of its own.
 pub fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Working memory for any panel.
+pub struct Workspace {
+    /// The place of each row in the panel that is made.
+    pub place: Vec<usize>,
+    /// A product that is then subtracted.
+    pub product: Vec<f64>,
+    pub memory: MemBuffer,
+}
+
+impl Workspace {
+    /// Working memory for the panels of a factor.
+    ///
+    /// # Errors
+    /// Not enough memory.
+    pub fn new(structure: &Structure) -> Result<Self, Failure> {
+        Ok(Workspace {
+            place: filled(structure.size, 0)?,
+            product: filled(largest_product(structure), 0.0)?,
+            memory: MemBuffer::try_new(dense::scratch(widest(structure)))
+                .map_err(|_| Failure::OutOfMemory)?,
+        })
+    }
+
+    /// Its bytes, but for those of the factorisation of a diagonal block.
+    pub fn bytes(structure: &Structure) -> usize {
+        structure.size * size_of::<usize>() + largest_product(structure) * size_of::<f64>()
+    }
+}
+
+fn widest(structure: &Structure) -> usize {
+    (0..structure.panels()).map(|s| structure.columns(s).len()).max().unwrap_or(0)
+}
+
+/// Entries of the largest product of blocks.
+fn largest_product(structure: &Structure) -> usize {
+    let rows = (0..structure.panels()).map(|s| structure.rows(s).len()).max().unwrap_or(0);
+    let columns = widest(structure).max(structure.kept().min(PANEL));
+    columns * rows.max(columns).min(ROWS)
 }

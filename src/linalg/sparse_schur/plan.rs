@@ -1,7 +1,6 @@
 //! The steps and the memory of a factorisation, before a number is computed.
 
-use super::factor_progress::FactorProgress;
-use super::failure::Failure;
+use super::factor_progress::{FactorProgress, Failure};
 use super::numeric;
 use super::schedule::Schedule;
 use super::structure::Structure;
@@ -23,7 +22,7 @@ impl Plan {
         eliminated: usize,
         rank: Option<&[usize]>,
         workers: &dyn Workers,
-        progress: &mut dyn FactorProgress,
+        progress: &mut FactorProgress<'_>,
     ) -> Result<Self, Failure> {
         let structure = Structure::new(lower, eliminated, rank, progress)?;
         let schedule = Schedule::new(&structure)?;

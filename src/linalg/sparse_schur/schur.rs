@@ -3,30 +3,20 @@
 use std::sync::Mutex;
 
 use super::diagnosis::diagnosed;
-use super::factor_progress::FactorProgress;
-use super::failure::Failure;
+use super::factor_progress::{FactorProgress, FactorStep, Failure};
 use super::numeric::Numeric;
 use super::plan::Plan;
 use super::solve;
 use super::structure::Structure;
-use crate::linalg::free_motions::{self, StiffnessDefect, is_suspicious};
-use crate::linalg::sparse_matrix::{Csc, diagonal};
-use crate::linalg::unreduced::Unreduced;
+use crate::linalg::free_motions::{self, StiffnessDefect, Whole, is_suspicious};
+use crate::linalg::sparse_matrix::{Csc, diagonal, symmetric_magnitude, symmetric_times};
+use crate::linalg::vector::{dot, sizes};
 use crate::shortage;
 use crate::workers::Workers;
 
 /// So many rows of `C` are few beside the rigid motions of a body, which are up to six: pivots tell which of
 /// them depend on the others, at no cost. Of more rows small diagonal entries alone are looked at.
 const FEW: usize = 24;
-
-/// When free motions are looked for.
-#[derive(Clone, Copy, PartialEq)]
-pub enum RigidModeCheck {
-    /// However many rows `C` has, and whatever its diagonal says.
-    Always,
-    /// If `C` has few rows, or small diagonal entries.
-    IfSuspicious,
-}
 
 /// The factor and the Schur complement.
 pub struct SparseSchur {
@@ -42,28 +32,27 @@ pub struct SparseSchur {
 
 impl SparseSchur {
     /// Factorises the symmetric matrix whose lower triangle is `lower`, every diagonal entry stored.
-    /// The first `eliminated` rows are those of `A`; `rank`, if given, orders them. `progress` is told the
-    /// memory before it is taken.
+    /// The first `eliminated` rows are those of `A`. Free motions are looked for. `progress` is told the memory before
+    /// it is taken.
     pub fn new(
         lower: Csc,
         eliminated: usize,
-        rank: Option<&[usize]>,
-        check: RigidModeCheck,
         workers: &dyn Workers,
-        progress: &mut dyn FactorProgress,
+        progress: &mut FactorProgress<'_>,
     ) -> Result<Self, Failure> {
-        let plan = Plan::new(&lower, eliminated, rank, workers, progress)?;
-        progress.needs(plan.bytes())?;
-        Self::planned(plan, lower, check, workers, progress)
+        let plan = Plan::new(&lower, eliminated, None, workers, progress)?;
+        progress(FactorStep::Needs(plan.bytes()))?;
+        Self::planned(plan, lower, true, workers, progress)
     }
 
-    /// Factorises the matrix of which `plan` was made.
+    /// Factorises the matrix of which `plan` was made. Free motions are looked for if `C` has few rows or small
+    /// diagonal entries, or `always`.
     pub fn planned(
         plan: Plan,
         mut lower: Csc,
-        check: RigidModeCheck,
+        always: bool,
         workers: &dyn Workers,
-        progress: &mut dyn FactorProgress,
+        progress: &mut FactorProgress<'_>,
     ) -> Result<Self, Failure> {
         let Numeric { values, schur, .. } = diagnosed(&plan, &mut lower, workers, progress)?;
         let structure = plan.structure;
@@ -71,8 +60,7 @@ impl SparseSchur {
         let mut found = SparseSchur { structure, values, schur, last: Mutex::new(None) };
         let units: Vec<f64> =
             (eliminated..lower.ncols()).map(|j| diagonal(&lower, j).unwrap_or_default()).collect();
-        let few = check == RigidModeCheck::Always || m <= FEW;
-        if few || is_suspicious(&units, |i| found.schur[i + m * i]) {
+        if always || m <= FEW || is_suspicious(&units, |i| found.schur[i + m * i]) {
             found.settle(lower, &units)?;
         }
         Ok(found)
@@ -82,8 +70,7 @@ impl SparseSchur {
     /// diagonal of `C`.
     fn settle(&mut self, lower: Csc, units: &[f64]) -> Result<(), StiffnessDefect> {
         let mut schur = std::mem::take(&mut self.schur);
-        let recover = |load: &[f64], d: &[f64]| self.recover(load, d);
-        free_motions::settle(&mut schur, units, &Unreduced::new(lower, &recover))?;
+        free_motions::settle(&mut schur, units, &Unreduced { lower, factor: self })?;
         self.schur = schur;
         Ok(())
     }
@@ -134,5 +121,30 @@ impl SparseSchur {
         let mut x = self.structure.ordered(rhs);
         solve::forward(&self.structure, &self.values, &mut x);
         x
+    }
+}
+
+/// The matrix before the elimination, with its factor.
+struct Unreduced<'f> {
+    lower: Csc,
+    factor: &'f SparseSchur,
+}
+
+impl Whole for Unreduced<'_> {
+    /// With one step of iterative refinement.
+    fn extended(&self, kept: &[f64]) -> Vec<f64> {
+        let mut motion = self.factor.recover(&vec![0.0; self.lower.ncols()], kept);
+        let correction = self.factor.recover(&self.forces(&motion), &vec![0.0; kept.len()]);
+        motion.iter_mut().zip(&correction).for_each(|(x, correction)| *x -= correction);
+        motion
+    }
+
+    fn forces(&self, motion: &[f64]) -> Vec<f64> {
+        symmetric_times(&self.lower, motion)
+    }
+
+    fn noise(&self, motion: &[f64]) -> f64 {
+        let size = sizes(motion);
+        f64::EPSILON * dot(&size, &symmetric_magnitude(&self.lower, &size))
     }
 }

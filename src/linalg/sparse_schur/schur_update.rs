@@ -5,12 +5,10 @@ use std::sync::Mutex;
 
 use faer::{MatMut, MatRef};
 
-use super::failure::Failure;
-use super::panel::{accumulated, is_dense};
-use super::parallel::{Done, Parallel, locked};
+use super::factor_progress::Failure;
+use super::parallel::{Done, Parallel, ROWS, locked};
 use super::structure::{PANEL, Structure};
-use super::workspace::ROWS;
-use crate::linalg::dense::{self, scattered};
+use crate::linalg::dense::subtract_products;
 
 /// A block of the lower triangle.
 struct TriangleBlock<'a> {
@@ -28,11 +26,9 @@ struct KeptRows<'a> {
 impl<'a> KeptRows<'a> {
     /// Those of a panel, if it has any.
     fn of(structure: &'a Structure, values: &'a [f64], panel: usize) -> Option<Self> {
-        let (width, inner) = (structure.columns(panel).len(), structure.inner_rows(panel));
-        let rows = structure.rows(panel);
-        let values = &values[structure.values(panel)];
-        let all = MatRef::from_column_major_slice(values, width + rows.len(), width);
-        let kept = KeptRows { rows: &rows[inner..], l: all.split_at_row(width + inner).1 };
+        let (rows, inner) = (structure.rows(panel), structure.inner_rows(panel));
+        let (_, below) = structure.blocks(panel, &values[structure.values(panel)]);
+        let kept = KeptRows { rows: &rows[inner..], l: below.split_at_row(inner).1 };
         (inner < rows.len()).then_some(kept)
     }
 
@@ -126,20 +122,7 @@ impl TriangleBlock<'_> {
             done.add(if on_diagonal { operations / 2 } else { operations });
             (kept.within(&self.rows).1, kept.within(&self.columns).1)
         });
-        let mut target = self.values.as_mut();
-        if is_dense(rows) && is_dense(columns) {
-            let mut target = target.submatrix_mut(row(0), column(0), rows.len(), columns.len());
-            each.for_each(|(lower, upper)| match on_diagonal {
-                true => dense::subtract_square(target.as_mut(), lower),
-                false => dense::subtract_product(target.as_mut(), lower, upper),
-            });
-        } else {
-            let product = &mut product[..rows.len() * columns.len()];
-            accumulated(each, |accum, (lower, upper)| match on_diagonal {
-                true => dense::square(product, accum, lower),
-                false => dense::product(product, accum, lower, upper),
-            });
-            scattered(target.as_mut(), product, rows.len(), row, column, on_diagonal);
-        }
+        let (rows, columns) = ((rows.len(), row), (columns.len(), column));
+        subtract_products(self.values.as_mut(), each, rows, columns, on_diagonal, product);
     }
 }

@@ -17,7 +17,7 @@ pub fn forward(structure: &Structure, values: &[f64], x: &mut [f64]) {
     let mut product = Vec::new();
     for s in 0..structure.panels() {
         let (columns, rows) = (structure.columns(s), structure.rows(s));
-        let (top, below) = blocks(structure, values, s);
+        let (top, below) = structure.blocks(s, &values[structure.values(s)]);
         let mut part = x.as_mut().subrows_mut(columns.start, columns.len());
         if part.as_ref().col_iter().all(|column| column.iter().all(|entry| *entry == 0.0)) {
             continue;
@@ -42,7 +42,7 @@ pub fn backward(structure: &Structure, values: &[f64], x: &mut [f64]) {
     let (mut gathered, mut work): (Vec<f64>, _) = (Vec::new(), Vec::new());
     for s in (0..structure.panels()).rev() {
         let (columns, rows) = (structure.columns(s), structure.rows(s));
-        let (top, below) = blocks(structure, values, s);
+        let (top, below) = structure.blocks(s, &values[structure.values(s)]);
         gathered.clear();
         for &row in rows {
             gathered.extend(x.as_ref().row(row).iter());
@@ -60,15 +60,4 @@ pub fn backward(structure: &Structure, values: &[f64], x: &mut [f64]) {
 fn columns_of<'x>(structure: &Structure, x: &'x mut [f64]) -> MatMut<'x, f64> {
     let many = x.len() / structure.size.max(1);
     MatMut::from_column_major_slice_mut(x, structure.size, many)
-}
-
-/// The diagonal block of a panel, and its rows.
-fn blocks<'a>(
-    structure: &Structure,
-    values: &'a [f64],
-    s: usize,
-) -> (MatRef<'a, f64>, MatRef<'a, f64>) {
-    let (width, rows) = (structure.columns(s).len(), structure.rows(s).len());
-    let values = &values[structure.values(s)];
-    MatRef::from_column_major_slice(values, width + rows, width).split_at_row(width)
 }

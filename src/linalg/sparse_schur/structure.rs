@@ -1,14 +1,13 @@
 //! Where the entries of the factor stand, before any is computed: its supernodes, and what they cost.
 
-use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::MatRef;
 use faer::sparse::linalg::SymbolicSupernodalParams;
-use faer::sparse::linalg::cholesky::{simplicial, supernodal};
+use faer::sparse::linalg::cholesky::supernodal;
 
-use super::factor_progress::FactorProgress;
-use super::failure::Failure;
-use super::graph::{Graph, filled, reserved};
-use super::order::{Pattern, chosen, pattern};
-use crate::linalg::sparse_matrix::{Csc, OutOfMemory, column};
+use super::factor_progress::{FactorProgress, FactorStep, Failure};
+use super::graph::{Graph, reserved};
+use super::order::{Pattern, chosen, of_tree, pattern};
+use crate::linalg::sparse_matrix::{Csc, OutOfMemory};
 
 /// Most columns of a panel, into which wide supernodes are cut, and of a block of the Schur complement. Products with so
 /// many are fast; more would delay the question whether to go on, and store more of the triangle above the diagonal.
@@ -47,11 +46,11 @@ impl Structure {
         lower: &Csc,
         eliminated: usize,
         given: Option<&[usize]>,
-        progress: &mut dyn FactorProgress,
+        progress: &mut FactorProgress<'_>,
     ) -> Result<Self, Failure> {
-        progress.has_done(0.0)?;
+        progress(FactorStep::HasDone(0.0))?;
         let graph = Graph::new(lower, eliminated)?;
-        progress.has_done(0.0)?;
+        progress(FactorStep::HasDone(0.0))?;
         let order = chosen(&graph, given, progress)?;
         let pattern = pattern(&graph, &order)?;
         let symbolic = symbolic(&pattern)?;
@@ -154,6 +153,16 @@ impl Structure {
         self.value_start[panel]..self.value_start[panel + 1]
     }
 
+    /// The diagonal block of a panel with these values, and its rows.
+    pub fn blocks<'v>(
+        &self,
+        panel: usize,
+        values: &'v [f64],
+    ) -> (MatRef<'v, f64>, MatRef<'v, f64>) {
+        let (width, rows) = (self.columns(panel).len(), self.rows(panel).len());
+        MatRef::from_column_major_slice(values, width + rows, width).split_at_row(width)
+    }
+
     /// Number of values of all panels.
     pub fn stored(&self) -> usize {
         self.value_start[self.panels()]
@@ -183,40 +192,12 @@ impl Structure {
 fn symbolic(
     pattern: &Pattern,
 ) -> Result<supernodal::SymbolicSupernodalCholesky<usize>, OutOfMemory> {
-    let size = pattern.ncols();
-    let (mut parent, mut counts) = (filled(size, 0)?, filled(size, 0)?);
-    let entries = pattern.row_idx().len();
-    let scratch = simplicial::prefactorize_symbolic_cholesky_scratch::<usize>(size, entries)
-        .or(supernodal::factorize_supernodal_symbolic_cholesky_scratch::<usize>(size));
-    let mut memory = MemBuffer::try_new(scratch).map_err(|_| OutOfMemory)?;
-    let stack = MemStack::new(&mut memory);
-    let tree = simplicial::prefactorize_symbolic_cholesky(
-        &mut parent,
-        &mut counts,
-        pattern.as_ref(),
-        stack,
-    );
-    supernodal::factorize_supernodal_symbolic_cholesky(
-        pattern.as_ref(),
-        tree,
-        &counts,
-        stack,
-        SymbolicSupernodalParams { relax: Some(&RELAXATION) },
-    )
+    let scratch =
+        supernodal::factorize_supernodal_symbolic_cholesky_scratch::<usize>(pattern.ncols());
+    let parameters = SymbolicSupernodalParams { relax: Some(&RELAXATION) };
+    of_tree(pattern, scratch, |tree, counts, stack| {
+        let pattern = pattern.as_ref();
+        supernodal::factorize_supernodal_symbolic_cholesky(pattern, tree, counts, stack, parameters)
+    })?
     .map_err(|_| OutOfMemory)
-}
-
-/// The entries of the lower triangle in the places of the order: row, column, value.
-pub fn placed<'a>(
-    lower: &'a Csc,
-    inverse: &'a [usize],
-) -> impl Iterator<Item = (usize, usize, f64)> + 'a {
-    (0..lower.ncols()).flat_map(move |j| {
-        let (rows, values) = column(lower, j);
-        let to = inverse[j];
-        rows.iter().zip(values).map(move |(&i, &value)| {
-            let other = inverse[i];
-            (to.max(other), to.min(other), value)
-        })
-    })
 }

@@ -1,7 +1,7 @@
 //! The choices of a host for a reduction: its order of elimination, its threads, and whether to go on.
 
 use crate::error::{Argument, Error, Limit, entry, index};
-use crate::linalg::sparse_schur::{FactorProgress, Stopped};
+use crate::linalg::sparse_schur::{FactorStep, Stopped};
 use crate::workers::Workers;
 
 /// Is asked between steps whether to go on: the share of the work that is done, and the bytes that it needs
@@ -37,23 +37,24 @@ impl<'a, 'b> Asked<'a, 'b> {
         (self.memory, self.ended) = (0, None);
     }
 
-    /// `true` if the answer was that memory does not suffice.
-    pub(super) fn lacks_memory(&self) -> bool {
-        matches!(self.ended, Some(Error::Stopped { limit: Limit::Memory, .. }))
-    }
-}
-
-impl FactorProgress for Asked<'_, '_> {
-    fn needs(&mut self, bytes: u64) -> Result<(), Stopped> {
-        self.memory = bytes;
-        self.has_done(0.0)
-    }
-
-    fn has_done(&mut self, share: f64) -> Result<(), Stopped> {
+    /// Passes a question on.
+    pub(super) fn goes_on(&mut self, step: FactorStep) -> Result<(), Stopped> {
+        let share = match step {
+            FactorStep::HasDone(share) => share,
+            FactorStep::Needs(bytes) => {
+                self.memory = bytes;
+                0.0
+            }
+        };
         (self.ask)(share, self.memory).map_err(|error| {
             self.ended = Some(error);
             Stopped
         })
+    }
+
+    /// `true` if the answer was that memory does not suffice.
+    pub(super) fn lacks_memory(&self) -> bool {
+        matches!(self.ended, Some(Error::Stopped { limit: Limit::Memory, .. }))
     }
 }
 

@@ -10,7 +10,9 @@ use crate::error::{Argument, Error};
 use crate::linalg::sparse_matrix::{
     Csc, column, diagonal, symmetric_magnitude, symmetric_residual, symmetric_times,
 };
-use crate::linalg::sparse_schur::{FactorProgress, Failure, SparseCholesky, Stopped, Values};
+use crate::linalg::sparse_schur::{
+    FactorProgress, FactorStep, Failure, SparseCholesky, Stopped, Values,
+};
 use crate::problem::{GoesOn, HeldSet, StiffnessOperator};
 use crate::workers::{SingleThread, Workers};
 
@@ -44,10 +46,10 @@ impl FullSpace {
         inner: usize,
         dim: usize,
         workers: &dyn Workers,
-        progress: &mut dyn FactorProgress,
+        progress: &mut FactorProgress<'_>,
     ) -> Result<Self, Failure> {
         let cholesky = SparseCholesky::new(&matrix, workers, progress)?;
-        progress.needs(factor_bytes(&cholesky, &matrix))?;
+        progress(FactorStep::Needs(factor_bytes(&cholesky, &matrix)))?;
         let units: Vec<f64> =
             (0..matrix.ncols()).map(|j| diagonal(&matrix, j).unwrap_or_default()).collect();
         let held_set = HeldSet::all(dim, (matrix.ncols() - inner) / dim);
@@ -157,15 +159,6 @@ const VECTORS: usize = 16;
 /// Solutions for given `d`, each with the residual of the one before.
 const REFINEMENTS: usize = 2;
 
-/// Asks while a factor is space.
-struct Asking<'a>(GoesOn<'a>);
-
-impl FactorProgress for Asking<'_> {
-    fn has_done(&mut self, _: f64) -> Result<(), Stopped> {
-        if (self.0)() { Ok(()) } else { Err(Stopped) }
-    }
-}
-
 /// A user of the matrix with a factor of its own.
 pub(super) struct InUse<'a> {
     space: &'a FullSpace,
@@ -214,15 +207,11 @@ impl StiffnessOperator for InUse<'_> {
         symmetric_magnitude(&self.space.matrix, size)
     }
 
-    fn has_cheap_products(&self) -> bool {
+    fn is_sparse(&self) -> bool {
         true
     }
 
     fn can_hold(&self) -> bool {
-        true
-    }
-
-    fn has_springs(&self) -> bool {
         true
     }
 
@@ -234,8 +223,8 @@ impl StiffnessOperator for InUse<'_> {
         self.factor = None;
         for soft in std::iter::once(0.0).chain(SPRINGS) {
             let matrix = self.space.restricted(held_set, soft);
-            let (cholesky, asking) = (&self.space.cholesky, &mut Asking(&mut *goes_on));
-            match cholesky.factor(&matrix, self.workers, asking) {
+            let asked = &mut |_| if goes_on() { Ok(()) } else { Err(Stopped) };
+            match self.space.cholesky.factor(&matrix, self.workers, asked) {
                 Ok(Some(values)) => {
                     self.factor = Some(Factor { held_set: held_set.clone(), values });
                     return Ok(true);

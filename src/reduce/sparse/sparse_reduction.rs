@@ -9,7 +9,7 @@ use super::messages;
 use super::supports::{self, FixedComponent};
 use crate::error::{Argument, Error, Message};
 use crate::linalg::sparse_matrix::{Csc, OutOfMemory, times, transpose_times};
-use crate::linalg::sparse_schur::{FactorProgress, Failure, Plan, RigidModeCheck, SparseSchur};
+use crate::linalg::sparse_schur::{FactorStep, Failure, Plan, SparseSchur};
 use crate::linalg::vector::{columns, norm_inf};
 use crate::problem::{Dependence, StiffnessOperator};
 use crate::reduce::frame::Frame;
@@ -95,10 +95,8 @@ impl SparseReduction {
         let mut asked = Asked::new(control.ask);
         let free = variables.free();
         let rank: Option<Vec<usize>> = rank.map(|rank| free.iter().map(|&dof| rank[dof]).collect());
-        // Rows of many nodes leave more rounding on motions that are free than the entries of K_rel show.
-        let check = if own { RigidModeCheck::IfSuspicious } else { RigidModeCheck::Always };
         let (rank, workers) = (rank.as_deref(), control.workers);
-        let parts = Parts { inner: free.len(), dim: pairs.dim, rank, check, workers };
+        let parts = Parts { inner: free.len(), dim: pairs.dim, rank, own, workers };
         let choice = (control.full_space, dependent.is_none());
         let engine = Engine::new(transformed, &parts, choice, &mut asked)
             .map_err(|failure| asked.ended.unwrap_or_else(|| refused(&variables, own, failure)))?;
@@ -147,10 +145,6 @@ impl Reduction for SparseReduction {
         self.fixed_count
     }
 
-    fn condense(&self, load: &[f64], prescribed: Option<&[f64]>) -> Result<Vec<f64>, Error> {
-        Ok(self.condense_cases(&[(load, prescribed)])?.concat())
-    }
-
     fn condense_cases(&self, cases: &[HostLoad<'_>]) -> Result<Vec<Vec<f64>>, Error> {
         let transformed = cases.iter().map(|(load, values)| self.transformed_load(load, *values));
         let loads: Vec<f64> = transformed.flatten().collect();
@@ -159,15 +153,6 @@ impl Reduction for SparseReduction {
             Engine::FullSpace(space) => space.condense(&loads)?,
         };
         Ok(columns(&condensed, cases.len()))
-    }
-
-    fn recover(
-        &self,
-        load: Option<&[f64]>,
-        prescribed: Option<&[f64]>,
-        d: &[f64],
-    ) -> Result<Vec<f64>, Error> {
-        Ok(self.recover_cases(&[SolvedCase { load, prescribed, d }])?.concat())
     }
 
     fn recover_cases(&self, cases: &[SolvedCase<'_>]) -> Result<Vec<Vec<f64>>, Error> {
@@ -256,7 +241,8 @@ struct Parts<'a> {
     dim: usize,
     /// The host's order of them.
     rank: Option<&'a [usize]>,
-    check: RigidModeCheck,
+    /// Each pair has a slave of its own.
+    own: bool,
     workers: &'a dyn Workers,
 }
 
@@ -270,9 +256,11 @@ impl Engine {
         asked: &mut Asked<'_, '_>,
     ) -> Result<Self, Failure> {
         if !(wanted && possible) {
-            let plan = Plan::new(&matrix, parts.inner, parts.rank, parts.workers, asked)?;
-            if asked.needs(plan.bytes()).is_ok() {
-                return SparseSchur::planned(plan, matrix, parts.check, parts.workers, asked)
+            let progress = &mut |step| asked.goes_on(step);
+            let plan = Plan::new(&matrix, parts.inner, parts.rank, parts.workers, progress)?;
+            if progress(FactorStep::Needs(plan.bytes())).is_ok() {
+                // Rows of many nodes leave more rounding on motions that are free than the entries of K_rel show.
+                return SparseSchur::planned(plan, matrix, !parts.own, parts.workers, progress)
                     .map(|schur| Engine::Condensed(Box::new(schur)));
             }
             if !(possible && asked.lacks_memory()) {
@@ -280,7 +268,8 @@ impl Engine {
             }
             asked.begin_anew();
         }
-        FullSpace::new(matrix, parts.inner, parts.dim, parts.workers, asked)
+        let progress = &mut |step| asked.goes_on(step);
+        FullSpace::new(matrix, parts.inner, parts.dim, parts.workers, progress)
             .map(|space| Engine::FullSpace(Box::new(space)))
     }
 }

@@ -96,7 +96,7 @@ impl NormalMap for Newton<'_, '_> {
         let least = FORCING_OF_ETA * AIM * self.tolerance / point.eta;
         let forcing = FORCING.min(FORCING_OF_ETA * point.eta).max(least);
         let (bodies, known) = (&mut *self.bodies, &mut self.known);
-        let system = System::new(self.equations, point, bodies.operator.has_springs());
+        let system = System::new(self.equations, point, bodies.operator.is_sparse());
         if let Some(factor) = bodies.held().filter(|factor| **factor != system.held_set) {
             let pairs = factor.springs.len();
             if changed(&factor, &system.held_set) as f64 <= CHANGED * pairs as f64 {

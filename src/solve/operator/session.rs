@@ -75,6 +75,6 @@ impl<'b> Session<'b> {
 
     /// True where each product is dear: residuals follow from those of the point before.
     pub fn follows_residuals(&self) -> bool {
-        !self.operator.has_cheap_products() && self.operator.inner() == 0
+        !self.operator.is_sparse()
     }
 }

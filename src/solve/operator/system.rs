@@ -175,7 +175,7 @@ impl<'a> System<'a> {
     ) -> Result<Moved, Error> {
         let inner = self.equations.inner;
         let factor = bodies.held();
-        let softens = factor.is_none() || !bodies.operator.has_springs();
+        let softens = factor.is_none() || !bodies.operator.is_sparse();
         let mut w = w.to_vec();
         if softens {
             self.soften(&mut w);

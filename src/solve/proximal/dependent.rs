@@ -15,7 +15,7 @@ use super::step::stopped;
 use crate::error::{Argument, Error};
 use crate::law::Contact;
 use crate::linalg::sparse_matrix::{OutOfMemory, column, from_entries, transposed};
-use crate::linalg::sparse_schur::{FactorProgress, Failure, RigidModeCheck, SparseSchur, Stopped};
+use crate::linalg::sparse_schur::{Failure, SparseSchur, Stopped};
 use crate::monitor::{Monitor, Stop};
 use crate::problem::{ContactProblem, DependentRows, Relation};
 use crate::settings::Settings;
@@ -87,21 +87,6 @@ impl InSeries for Bodies<'_> {
     }
 }
 
-/// Ends a factorisation when the time is up or the callback cancels.
-struct Watched<'m, 'c> {
-    monitor: &'m mut Monitor<'c>,
-    stop: Option<Stop>,
-}
-
-impl FactorProgress for Watched<'_, '_> {
-    fn has_done(&mut self, _: f64) -> Result<(), Stopped> {
-        self.monitor.goes_on().map_err(|stop| {
-            self.stop = Some(stop);
-            Stopped
-        })
-    }
-}
-
 /// The stiffness of the variables and the springs, condensed on the displacements beyond the springs, or why that
 /// was stopped.
 fn condensed(
@@ -129,9 +114,14 @@ fn condensed(
     }
     let all = from_entries((kept + size, kept + size), entries.into_iter()).map_err(memory)?;
     let workers = monitor.workers();
-    let mut watched = Watched { monitor, stop: None };
-    let made = SparseSchur::new(all, kept, None, RigidModeCheck::Always, workers, &mut watched);
-    match (made, watched.stop) {
+    let mut stopped = None;
+    let watched = &mut |_| {
+        monitor.goes_on().map_err(|stop| {
+            stopped = Some(stop);
+            Stopped
+        })
+    };
+    match (SparseSchur::new(all, kept, workers, watched), stopped) {
         (Ok(made), _) => Ok(Ok(made)),
         (Err(_), Some(stop)) => Ok(Err(stop)),
         (Err(Failure::OutOfMemory), None) => {
