@@ -15,18 +15,23 @@ pub struct Certificate {
     pub eta: f64,
     /// `eta` with the rounding of its own evaluation: the true one is not above.
     pub residual: f64,
-    /// Rounding of `K d` relative to the forces, dimensionless: what rounding `d` to doubles may cost.
+    /// What rounding `d` to doubles may add to `eta`, dimensionless: the rounding of `K d` relative to the forces, times
+    /// the most that the law makes of it.
     pub rounding: f64,
+    /// Rounding of `K d`, relative to the forces, that a motion which nothing holds may hide behind, dimensionless.
+    pub(crate) hidden: f64,
     /// `true` if `K` resists `d` by more than rounding of its entries explains; looked at only where
-    /// `rounding` is above [`ROUNDING_LIMIT`].
+    /// `hidden` is above [`ROUNDING_LIMIT`].
     pub is_resisted: bool,
+    /// `true` if the forces are so small that products have lost their digits.
+    pub(crate) underflows: bool,
     /// Largest `d_n - gap`, a length; 0 if none.
     pub penetration: f64,
     /// Largest tensile `F_n` of `F = K d - f` beyond the tension that the law allows, a force; 0 if none.
     pub tension: f64,
     /// Largest `|F_t|` beyond its bound, a force; 0 if none.
     pub cone_excess: f64,
-    /// Largest `|K d - f - F|` with the `F` returned here, a force.
+    /// Largest `|K d - f - F|` with the `F` returned here, a force; of displacements in two parts that of `d` rounded.
     pub equilibrium: f64,
     /// Contact forces that obey the law: `K d - f`, projected.
     pub force: Vec<f64>,
@@ -37,7 +42,7 @@ pub struct Certificate {
 impl Certificate {
     /// Returns `true` if the candidate may be called a solution.
     pub fn holds(&self, tolerance: f64) -> bool {
-        self.eta <= tolerance && !self.runs_away()
+        self.eta <= tolerance && !self.runs_away() && !self.underflows
     }
 
     /// Copies the certificate with the rounding of its evaluation in `eta`, where that meets the tolerance too.
@@ -48,7 +53,7 @@ impl Certificate {
 
     /// Returns `true` if the displacements are so large that rounding hides the forces.
     pub fn runs_away(&self) -> bool {
-        self.rounding > ROUNDING_LIMIT && !self.is_resisted
+        self.hidden > ROUNDING_LIMIT && !self.is_resisted
     }
 
     /// Number of pairs in a state.
@@ -67,6 +72,9 @@ pub const LEVER: f64 = 1e3;
 /// Roundings of one component of the residual, of its norm and of the quotient, relative: some ten, half
 /// a unit each.
 const ROUNDINGS_OF_NORM: f64 = 8.0 * f64::EPSILON;
+
+/// The smallest number, a bound on what a product loses that is smaller than all numbers with full digits.
+const LEAST: f64 = f64::from_bits(1);
 
 /// Measures displacements of any origin, on a relation in which they determine the contact forces.
 pub fn certify(problem: &ContactProblem<'_>, d: &[f64]) -> Certificate {
@@ -136,24 +144,31 @@ pub(super) fn measure_pair<R: Relation>(
     let size = natural.size.root().hypot(norm(residual)).hypot(norm(inner));
     let inherent = UNIT * terms.inherent;
     let eta = ratio(size, scale);
-    // The error of products in twice the precision: `Matrix::residual`.
+    // The error of products in twice the precision, `Matrix::residual`, and what products of the smallest numbers lose.
     let count = (d.len() + 2) as f64;
-    let products = (4.0 * UNIT * count).powi(2) * (terms.inherent + terms.rest + load);
+    let underflow = if d.iter().chain(low).all(|&d| d == 0.0) { 0.0 } else { count * LEAST };
+    let all_terms = terms.inherent + terms.rest + load;
+    let products = (4.0 * UNIT * count).powi(2) * all_terms + underflow;
     let doubt = natural.doubt.root() + natural.sensitivity * products;
     let upper = ratio((size + doubt) * (1.0 + ROUNDINGS_OF_NORM), scale);
-    let rounding = ratio(UNIT * terms.rest + if unloaded { 0.0 } else { inherent }, scale);
+    let hidden = ratio(UNIT * terms.rest + if unloaded { 0.0 } else { inherent }, scale);
+    let rounding = ratio(natural.sensitivity * (UNIT * terms.rest + inherent), scale);
     let determines = residual.is_empty() && inner.is_empty();
-    let is_resisted = rounding > ROUNDING_LIMIT && determines && is_resisted(relation, d, &raw);
+    let is_resisted = hidden > ROUNDING_LIMIT && determines && is_resisted(relation, d, &raw);
     let Natural { worst, admissible, states, .. } = natural;
     let at_pairs = residual.iter().copied().chain(repeat(0.0));
-    let lacking = raw.iter().zip(&admissible).zip(at_pairs).map(|((a, b), r)| a - b + r);
+    let in_parts = if low.is_empty() { 0.0 } else { UNIT };
+    let lacking = raw.iter().zip(&admissible).zip(at_pairs).zip(&terms.each);
+    let lacking = lacking.map(|(((a, b), r), term)| (a - b + r).abs() + in_parts * term);
     let equilibrium = largest_of(lacking).max(norm_inf(inner));
     let Violation { penetration, tension, cone_excess } = worst;
     Certificate {
         eta,
         residual: upper,
         rounding,
+        hidden,
         is_resisted,
+        underflows: underflow > UNIT * scale.max(all_terms),
         penetration,
         tension,
         cone_excess,

@@ -20,13 +20,14 @@
 //! - A closing gap or an earlier slip may translate or rotate a body rigidly. These displacements
 //!   cancel in `K d` up to rounding only. Displacements up to [`LEVER`] times the largest gap or slip qualify: a
 //!   body that turns about a contact moves as much more at its far end as its length exceeds the contact's.
-//! - Where rounding `d` to doubles changes `K d` by a part of the forces (`rounding >` [`ROUNDING_LIMIT`])
+//! - Where rounding `d` to doubles changes `K d` by a part of the forces (above [`ROUNDING_LIMIT`])
 //!   nothing is certified unless `K` resists `d` by more energy than rounding of its entries explains: a body
 //!   that nothing holds would be "solved" by moving it far enough. Without loads there is nothing to drive
 //!   such motions, and the first kind does not count.
 //!
 //! `K d - f` and `d - gap` are evaluated in twice the precision. [`Certificate::residual`] is `eta` plus a bound
-//! on the rounding of its own evaluation: it is not below the true `eta`.
+//! on the rounding of its own evaluation: it is not below the true `eta`. Forces so small that products have lost
+//! their digits are not certified.
 
 mod condensation;
 mod escape;

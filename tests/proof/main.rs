@@ -6,6 +6,7 @@ mod bar;
 #[path = "../common/mod.rs"]
 mod common;
 
+mod edges;
 mod existence;
 mod truth;
 mod uniqueness;

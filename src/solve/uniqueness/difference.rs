@@ -5,7 +5,7 @@
 //! is from its solution; where a system is singular nothing is said.
 
 use crate::law::Contact;
-use crate::linalg::vector::largest_of;
+use crate::linalg::vector::{largest_of, norm_inf};
 use crate::solve::newton::{FullyRefined, ROUNDING_OF_ETA};
 
 /// Relative margin by which a statement must be true to count as proved: the rounding of systems with condition
@@ -17,10 +17,16 @@ const PARTED: f64 = 1e3;
 
 /// True if two refined answers are next to two solutions. Their `eta` is at its rounding then: displacements are two
 /// doubles each, and forces are rounded once. An answer on pieces whose solution is not on them keeps a residual, which
-/// may be as small as the force of the softest spring: 7e-13 of the loads was seen, 1.5e-16 at solutions.
+/// may be as small as the force of the softest spring: 7e-13 of the loads was seen, 1.5e-16 at solutions. One at which
+/// pieces meet up to rounding, as where a pair grazes its obstacle, may be next to a solution or to none, unless it
+/// is one exactly.
 pub fn are_parted(contact: &Contact<'_>, one: &FullyRefined, two: &FullyRefined) -> bool {
-    let is_solution =
-        |answer: &FullyRefined| answer.candidate.certificate(contact).holds(ROUNDING_OF_ETA);
+    let is_solution = |answer: &FullyRefined| {
+        let certificate = answer.candidate.certificate(contact);
+        certificate.eta <= ROUNDING_OF_ETA
+            && certificate.holds(MARGIN)
+            && (certificate.eta == 0.0 || is_strict(contact, answer.candidate.d()))
+    };
     if !is_solution(one) || !is_solution(two) {
         return false;
     }
@@ -58,4 +64,13 @@ pub fn are_different(contact: &Contact<'_>, one: &[f64], two: &[f64]) -> bool {
     let difference: Vec<f64> = one.iter().zip(two).map(|(one, two)| one - two).collect();
     let pieces = |d: &[f64]| contact.pieces(d, &problem.force(d));
     scaled(&root, &difference) > MARGIN * size && (contact.dim() > 2 || pieces(one) != pieces(two))
+}
+
+/// True if no pair is where pieces meet: forces and displacements are clear of all bounds.
+pub fn is_strict(contact: &Contact<'_>, d: &[f64]) -> bool {
+    let force = contact.problem().force(d);
+    let unit = norm_inf(&force).max(norm_inf(contact.load_with_tension()));
+    contact
+        .each(d, &force)
+        .all(|(law, d, force)| law.distance_to_kink(&law.trial(d, force)) > MARGIN * unit)
 }

@@ -9,18 +9,15 @@ mod existence;
 mod proof;
 mod search;
 
-use difference::{are_different, are_parted};
-
 use super::newton::{from_pieces, refine_fully};
 use super::result::{Candidate, Ending};
 use super::result::{Solution, Status, Uniqueness};
 use crate::error::Error;
 use crate::law::Contact;
 use crate::linalg::factor::{cholesky_work, lu_work};
-use crate::linalg::vector::norm_inf;
 use crate::monitor::Monitor;
 use crate::settings::Settings;
-use difference::{MARGIN, is_sharp};
+use difference::{are_different, are_parted, is_sharp, is_strict};
 pub use existence::examine as prove;
 
 /// Tries to prove that `solution` is the only one, or to find a second.
@@ -100,13 +97,4 @@ fn on_own_pieces(
     let candidate = from_pieces(contact, settings, &pieces, d, monitor);
     let same = candidate.ending == Ending::Done && !are_different(contact, d, candidate.d());
     same.then_some(candidate)
-}
-
-/// True if no pair is where pieces meet: forces and displacements are clear of all bounds.
-fn is_strict(contact: &Contact<'_>, d: &[f64]) -> bool {
-    let force = contact.problem().force(d);
-    let unit = norm_inf(&force).max(norm_inf(contact.load_with_tension()));
-    contact
-        .each(d, &force)
-        .all(|(law, d, force)| law.distance_to_kink(&law.trial(d, force)) > MARGIN * unit)
 }
