@@ -110,6 +110,7 @@ module signorini
     integer(c_int32_t), parameter :: SIGNORINI_REMARK_FRICTION_LARGE = 2
     integer(c_int32_t), parameter :: SIGNORINI_REMARK_FREE_MOTION = 4
     integer(c_int32_t), parameter :: SIGNORINI_REMARK_HELD_BY_ROUNDING = 8
+    integer(c_int32_t), parameter :: SIGNORINI_REMARK_NEEDS_LOW_PART = 16
     integer(c_int32_t), parameter :: SIGNORINI_TRIANGLE_LOWER = 0
     integer(c_int32_t), parameter :: SIGNORINI_TRIANGLE_UPPER = 1
     integer(c_int32_t), parameter :: SIGNORINI_TRIANGLE_FULL = 2
@@ -218,6 +219,7 @@ module signorini
         type(c_ptr) :: radius_d = c_null_ptr
         type(c_ptr) :: radius_force = c_null_ptr
         type(c_ptr) :: escape = c_null_ptr
+        type(c_ptr) :: d_low = c_null_ptr
     end type
 
     type, bind(C) :: signorini_sparse

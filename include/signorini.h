@@ -149,7 +149,7 @@ int32_t signorini_solve(int32_t dim, int64_t pairs, const double *K, int64_t ldk
 
 /**
  * Says in one sentence what was wrong in the last call on this thread, such as "K[12,7] is not
- * finite". Empty after a call that returned 0; a call that releases leaves it. UTF-8, at most 511
+ * finite"; of a solution its remarks, else nothing. A call that releases leaves it. UTF-8, at most 511
  * bytes, never NULL. The text belongs to the thread, until its next call.
  */
 const char *signorini_last_error(void);
@@ -626,6 +626,8 @@ int64_t signorini_solve_memory(int64_t n);
  */
 #define SIGNORINI_REMARK_FREE_MOTION 4
 #define SIGNORINI_REMARK_HELD_BY_ROUNDING 8 /**< Only rounding of K holds a body. */
+/** d rounded to doubles misses the tolerance, d + extra.d_low meets it. */
+#define SIGNORINI_REMARK_NEEDS_LOW_PART 16
 
 /** Static text that describes one remark, such as "every gap is negative"; never NULL. */
 const char *signorini_remark_string(int32_t remark);
@@ -715,6 +717,7 @@ struct signorini_extra {
      * pair of finite gap touches. If stalled, a motion that proves nothing. Else zeros.
      */
     double *escape;
+    double *d_low; /**< The last digits of d: d + d_low is what the report measures; length. */
 };
 
 /** Fills extra with NULL pointers; struct_size is sizeof(signorini_extra). */

@@ -9,49 +9,13 @@
 //! its first page. A piece that outlives its call keeps its block until it is freed.
 
 use std::alloc::{GlobalAlloc, Layout, System};
-use std::cell::{Cell, UnsafeCell};
-use std::hint::spin_loop;
+use std::cell::Cell;
 use std::ptr::null_mut;
-use std::sync::atomic::Ordering::{Acquire, Relaxed, Release};
-use std::sync::atomic::{AtomicBool, AtomicUsize};
+use std::sync::atomic::Ordering::Relaxed;
 
+use super::blocks::{self, ALIGNMENT, Block, SERVED, SLOT, Served, block_of, return_block};
 use super::holes::Holes;
 use crate::shortage;
-
-/// Static blocks: as many threads at once call without a request for their first reserve.
-const SLOTS: usize = 8;
-
-/// Size of a static block: sentences, small arrays, and all of a problem of some twenty pairs.
-const SLOT: usize = 512 << 10;
-
-const ALIGNMENT: usize = 64;
-
-#[repr(C, align(64))]
-struct Slot {
-    memory: UnsafeCell<[u8; SLOT]>,
-    taken: AtomicBool,
-}
-
-// SAFETY: the memory is used by who has set `taken`, until it is reset.
-unsafe impl Sync for Slot {}
-
-static STATIC: [Slot; SLOTS] =
-    [const { Slot { memory: UnsafeCell::new([0; SLOT]), taken: AtomicBool::new(false) } }; SLOTS];
-
-/// The beginning of a block of a reserve.
-struct Block {
-    /// Bytes from the system; 0: a static block.
-    bytes: usize,
-    /// The block that the same call obtained before.
-    before: *mut Block,
-    /// The next block that has served. Another thread changes it when it frees the last piece of that one.
-    next: *mut Block,
-    /// `true` once a piece of it was served. The thread of the call alone changes it.
-    has_served: bool,
-    /// `true` while the call goes on.
-    open: bool,
-    holes: Holes,
-}
 
 /// Bytes that a call needs for sentences and small arrays, whatever it is given.
 const ALWAYS: usize = 128 << 10;
@@ -64,51 +28,6 @@ thread_local! {
     static HELD: Cell<usize> = const { Cell::new(0) };
 }
 
-/// The blocks that have served, of all threads: whoever frees a piece finds its block here.
-struct Served {
-    locked: AtomicBool,
-    count: AtomicUsize,
-    first: UnsafeCell<*mut Block>,
-}
-
-// SAFETY: `first`, and the blocks from there on, are used by who has set `locked`.
-unsafe impl Sync for Served {}
-
-static SERVED: Served = Served {
-    locked: AtomicBool::new(false),
-    count: AtomicUsize::new(0),
-    first: UnsafeCell::new(null_mut()),
-};
-
-impl Served {
-    /// Runs `work` alone. A mutex of the standard library may need memory itself.
-    fn alone<T>(&self, work: impl FnOnce(*mut *mut Block) -> T) -> T {
-        while self.locked.compare_exchange_weak(false, true, Acquire, Relaxed).is_err() {
-            spin_loop();
-        }
-        let result = work(self.first.get());
-        self.locked.store(false, Release);
-        result
-    }
-
-    /// Takes a block out of the list, and returns it to where it came from.
-    ///
-    /// # Safety
-    /// No other thread changes the list; the block is in it, and no piece of it is in use.
-    unsafe fn release(&self, first: *mut *mut Block, block: *mut Block) {
-        let mut link = first;
-        // SAFETY: by the caller's contract.
-        unsafe {
-            while *link != block {
-                link = &raw mut (**link).next;
-            }
-            *link = (*block).next;
-            self.count.fetch_sub(1, Relaxed);
-            return_block(block);
-        }
-    }
-}
-
 /// The memory that a call may fall back to; it ends with the outermost call of the thread.
 pub(super) struct CallReserve {
     outermost: bool,
@@ -117,6 +36,8 @@ pub(super) struct CallReserve {
 impl CallReserve {
     /// `None`: the system has no memory.
     pub(super) fn begin() -> Option<Self> {
+        #[cfg(unix)]
+        Served::wait_at_forks();
         let outermost = LAST.get().is_null();
         if outermost {
             shortage::forget();
@@ -127,6 +48,11 @@ impl CallReserve {
             }
         }
         Some(CallReserve { outermost })
+    }
+
+    /// Gives back what a call holds that the host has left by a jump.
+    pub(super) fn give_back_abandoned() {
+        drop(CallReserve { outermost: true });
     }
 }
 
@@ -180,10 +106,9 @@ fn grow(bytes: usize) -> bool {
 }
 
 fn take_slot() -> bool {
-    let taken = |slot: &&Slot| !slot.taken.swap(true, Acquire);
-    let Some(slot) = STATIC.iter().find(taken) else { return false };
-    // SAFETY: the memory of the slot is ours until `taken` is reset.
-    unsafe { hold(slot.memory.get().cast(), SLOT, 0) };
+    let Some(memory) = blocks::take_slot() else { return false };
+    // SAFETY: the memory of the slot is ours until its block is returned.
+    unsafe { hold(memory, SLOT, 0) };
     true
 }
 
@@ -208,24 +133,6 @@ unsafe fn hold(memory: *mut u8, size: usize, bytes: usize) {
     }
     LAST.set(block);
     HELD.set(HELD.get() + size);
-}
-
-/// # Safety
-/// A block that nobody uses any more.
-unsafe fn return_block(block: *mut Block) {
-    // SAFETY: by the caller's contract; the layout is the one of `grow`.
-    unsafe {
-        match (*block).bytes {
-            0 => {
-                let slot = STATIC.iter().find(|slot| slot.memory.get().cast() == block);
-                slot.inspect(|slot| slot.taken.store(false, Release));
-            }
-            bytes => {
-                let layout = Layout::from_size_align_unchecked(bytes, ALIGNMENT);
-                System.dealloc(block.cast(), layout);
-            }
-        }
-    }
 }
 
 /// A piece of the reserve of this thread's call; NULL if it has none, or none that is large enough.
@@ -257,18 +164,6 @@ fn serve(layout: Layout) -> *mut u8 {
 /// raised when its block served.
 fn is_served(piece: *mut u8) -> bool {
     SERVED.count.load(Relaxed) != 0 && SERVED.alone(|first| !block_of(first, piece).is_null())
-}
-
-/// The block that has served the piece, or NULL; to be asked alone.
-fn block_of(first: *mut *mut Block, piece: *mut u8) -> *mut Block {
-    // SAFETY: alone; every block of the list is there until it is taken out.
-    unsafe {
-        let mut block = *first;
-        while !block.is_null() && !(*block).holes.has(piece) {
-            block = (*block).next;
-        }
-        block
-    }
 }
 
 /// # Safety

@@ -35,6 +35,8 @@ pub struct SignoriniExtra {
     /// K r = 0, no pair approaches its obstacle, friction opposes the slip, and f . r > 0, if every
     /// pair of finite gap touches. If stalled, a motion that proves nothing. Else zeros.
     pub escape: *mut f64,
+    /// The last digits of d: d + d_low is what the report measures; length.
+    pub d_low: *mut f64,
 }
 
 /// A radius where nothing is proved.
@@ -45,8 +47,8 @@ unsafe impl Structure for SignoriniExtra {}
 
 /// The arrays of the caller's structure.
 pub(super) struct Extra {
-    /// Motion, escape, displacements and forces of the second solution, radii of displacements and forces.
-    vectors: [Output<f64>; 6],
+    /// Motion, escape, displacements and forces of the second solution, radii of displacements and forces, the low part.
+    vectors: [Output<f64>; 7],
     second_state: Output<i32>,
 }
 
@@ -70,6 +72,7 @@ impl Extra {
             vector("extra: second_F", given.second_F)?,
             vector("extra: radius_d", given.radius_d)?,
             vector("extra: radius_F", given.radius_F)?,
+            vector("extra: d_low", given.d_low)?,
         ];
         let (name, state) = ("extra: second_state", given.second_state);
         let second_state = arrays.optional_output(position, name, state, pairs * cases)?;
@@ -89,6 +92,7 @@ impl Extra {
             second.map_or(&zeros, |second| &second.certificate.force),
             &radius_d,
             &radius_force,
+            &solution.d_low,
         ];
         for (output, values) in self.vectors.iter().zip(vectors) {
             output.part(n * case, n).write(values);

@@ -1,4 +1,4 @@
-//! The surroundings of every call: the floating-point environment and the panic barrier.
+//! The frame of every call: its surroundings, its reserve and the panic barrier.
 
 use std::cell::Cell;
 
@@ -9,6 +9,7 @@ use super::status::{
     SIGNORINI_STATUS_MEMORY_LIMIT, SIGNORINI_STATUS_OUT_OF_MEMORY, SIGNORINI_STATUS_TIME_LIMIT,
     forget, remember, remember_plain,
 };
+use super::surroundings::Surroundings;
 use crate::error::{Argument, Error, Limit, Message};
 use crate::linalg::products;
 use crate::shortage::Shortage;
@@ -83,9 +84,7 @@ fn limit_code(limit: Limit) -> i32 {
 
 /// Runs the body of an entry. Panics become `SIGNORINI_STATUS_INTERNAL`; the C library prints none of them.
 pub(super) fn call(body: impl FnOnce() -> Result<i32, Failure>) -> i32 {
-    #[cfg(any(target_os = "linux", target_os = "macos"))]
-    let _uncancelled = super::cancellation::Uncancelled::new();
-    let _environment = Environment::default_one();
+    let _surroundings = Surroundings::of_call();
     #[cfg(all(target_os = "linux", target_env = "gnu"))]
     super::static_link::keep();
     forget();
@@ -94,13 +93,7 @@ pub(super) fn call(body: impl FnOnce() -> Result<i32, Failure>) -> i32 {
         return SIGNORINI_STATUS_OUT_OF_MEMORY;
     };
     match caught(body) {
-        Ok(Ok(code)) => {
-            // A panic that was caught inside, where another way was taken, has left its sentence.
-            if code == 0 {
-                forget();
-            }
-            code
-        }
+        Ok(Ok(code)) => code,
         Ok(Err(failure)) => {
             remember(failure.message);
             failure.code
@@ -139,70 +132,6 @@ pub(super) fn prepare_thread() -> Result<(), Failure> {
         READY.set(true);
     }
     Ok(())
-}
-
-/// Keeps the host's floating-point environment (traps, rounding, flush-to-zero) and sets the
-/// default one until it is dropped. Nothing is raised on the way back.
-struct Environment {
-    #[cfg(any(target_os = "linux", target_os = "macos"))]
-    host: fenv::Environment,
-}
-
-#[cfg(any(target_os = "linux", target_os = "macos"))]
-mod fenv {
-    use libc::c_int;
-
-    /// At least as large and as aligned as `fenv_t` of any Linux or macOS (32 bytes on x86).
-    #[repr(C, align(16))]
-    pub struct Environment(pub [u8; 128]);
-
-    #[link(name = "m")]
-    unsafe extern "C" {
-        pub fn fegetenv(environment: *mut Environment) -> c_int;
-        pub fn fesetenv(environment: *const Environment) -> c_int;
-        #[cfg(target_os = "macos")]
-        #[link_name = "_FE_DFL_ENV"]
-        static FE_DFL_ENV: Environment;
-    }
-
-    /// `FE_DFL_ENV` of the C header.
-    pub fn default() -> *const Environment {
-        // glibc and musl define it as the address -1 on every processor but PowerPC.
-        #[cfg(target_os = "linux")]
-        let default = std::ptr::without_provenance(usize::MAX);
-        #[cfg(target_os = "macos")]
-        let default = &raw const FE_DFL_ENV;
-        default
-    }
-}
-
-impl Environment {
-    #[cfg(any(target_os = "linux", target_os = "macos"))]
-    fn default_one() -> Self {
-        let mut host = fenv::Environment([0; 128]);
-        // SAFETY: `host` is large and aligned enough for fenv_t; the default environment is the
-        // one that Rust code must run in.
-        unsafe {
-            fenv::fegetenv(&raw mut host);
-            fenv::fesetenv(fenv::default());
-        }
-        Environment { host }
-    }
-
-    #[cfg(not(any(target_os = "linux", target_os = "macos")))]
-    fn default_one() -> Self {
-        Environment {}
-    }
-}
-
-#[cfg(any(target_os = "linux", target_os = "macos"))]
-impl Drop for Environment {
-    fn drop(&mut self) {
-        // SAFETY: `host` was filled by fegetenv on this thread.
-        unsafe {
-            fenv::fesetenv(&raw const self.host);
-        }
-    }
 }
 
 #[cfg(test)]

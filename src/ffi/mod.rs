@@ -13,8 +13,8 @@
 #[cfg(c_library)]
 mod allocator;
 mod args;
-#[cfg(any(target_os = "linux", target_os = "macos"))]
-mod cancellation;
+#[cfg(c_library)]
+mod blocks;
 mod case_arguments;
 mod certify;
 mod condensed;
@@ -54,5 +54,6 @@ mod surface_fields;
 mod surface_new;
 mod surface_settings;
 mod surface_view;
+mod surroundings;
 mod threads;
 mod zones;

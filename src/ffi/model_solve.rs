@@ -11,7 +11,7 @@ use super::model::SignoriniModel;
 use super::outputs::{OutputArguments, Outputs};
 use super::report::SignoriniReport;
 use super::settings::{ParsedSettings, SignoriniSettings, WarmStart};
-use super::status::remember;
+use super::status::{is_told, remember};
 use super::threads::with_workers;
 use crate::error::{Argument, Error, Message};
 use crate::model::{BLOCK, Model, Past, Series, Starts};
@@ -134,7 +134,7 @@ impl<'m> Lane<'m> {
 
 impl Block<'_> {
     /// Solves all cases and writes their results. Returns the status of the first one that is not
-    /// solved, and remembers its message; and what is left for further calls. `past` is what earlier
+    /// solved, and remembers its message, or the first remark; and what is left for further calls. `past` is what earlier
     /// ones have left.
     fn solve_all(
         &self,
@@ -144,7 +144,8 @@ impl Block<'_> {
     ) -> (i32, Option<Past>) {
         let goes_on = received.warm_start == WarmStart::Previous;
         let mut lanes = self.lanes(cases, past, received);
-        let mut first: Option<(usize, i32, Message)> = None;
+        // A case that is not solved is told before one with a remark.
+        let mut told: Option<((bool, usize), i32, Message)> = None;
         // Without a stiffness, threads share each factorisation; else each solves cases of its own.
         let (threads, memory) = match self.model.is_matrix_free() {
             true => (received.threads, 0),
@@ -157,14 +158,17 @@ impl Block<'_> {
                 for (case, solved) in self.next_of(&mut lanes, received, workers) {
                     let (code, message) = self.write(case, solved);
                     self.outputs.status.part(case, 1).write(&[code]);
-                    if code != 0 && first.as_ref().is_none_or(|(earlier, ..)| case < *earlier) {
-                        first = Some((case, code, message));
+                    let rank = (code == 0, case);
+                    if let Some(message) = message
+                        && told.as_ref().is_none_or(|(before, ..)| rank < *before)
+                    {
+                        told = Some((rank, code, message));
                     }
                 }
             }
         });
         let past = lanes.pop().filter(|_| goes_on).map(|lane| lane.series.into_past());
-        let Some((case, code, message)) = first else { return (0, past) };
+        let Some(((_, case), code, message)) = told else { return (0, past) };
         // A call with one case needs no number of it.
         remember(if cases == 1 { message } else { message.in_case(case) });
         (code, past)
@@ -222,10 +226,13 @@ impl Block<'_> {
         lane.starts = place.part(n * lane.left.start, n * BLOCK.min(lane.left.len())).read();
     }
 
-    /// Writes the results of a case, unless it is wrong. Returns status and message.
-    fn write(&self, case: usize, solved: Result<Solution, Error>) -> (i32, Message) {
+    /// Writes the results of a case, unless it is wrong. Returns status and message, if there is one to be read.
+    fn write(&self, case: usize, solved: Result<Solution, Error>) -> (i32, Option<Message>) {
         match solved {
-            Ok(solution) => (self.outputs.write(case, &solution), solution.message),
+            Ok(solution) => {
+                let status = self.outputs.write(case, &solution);
+                (status, is_told(&solution).then_some(solution.message))
+            }
             Err(error) => {
                 let message = error.message();
                 let position = |argument| {
@@ -233,7 +240,7 @@ impl Block<'_> {
                     let own = if argument == Argument::Start { START + forces } else { SETTINGS };
                     self.given.position(argument, own)
                 };
-                (Failure::from_error(error, position).code(), message)
+                (Failure::from_error(error, position).code(), Some(message))
             }
         }
     }

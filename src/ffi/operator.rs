@@ -5,6 +5,7 @@ use libc::c_void;
 use super::args::{Arrays, sizes};
 use super::guard::{self, Failure};
 use super::model::SignoriniModel;
+use super::surroundings::in_host;
 use crate::model::Model;
 use crate::reduce::HostOperator;
 
@@ -74,7 +75,7 @@ fn answered(number: i32) -> Result<(), i32> {
 impl HostOperator for Functions {
     fn stiffness(&self, x: &[f64], y: &mut [f64]) -> Result<(), i32> {
         // SAFETY: the header demands a function of this type that returns normally and writes N entries.
-        answered(unsafe { (self.stiffness)(self.user, x.as_ptr(), y.as_mut_ptr()) })
+        answered(in_host(|| unsafe { (self.stiffness)(self.user, x.as_ptr(), y.as_mut_ptr()) }))
     }
 
     fn has_inverse(&self) -> bool {
@@ -84,7 +85,7 @@ impl HostOperator for Functions {
     fn inverse(&self, x: &[f64], y: &mut [f64]) -> Result<(), i32> {
         let Some(inverse) = self.inverse else { return Err(-1) };
         // SAFETY: as above.
-        answered(unsafe { inverse(self.user, x.as_ptr(), y.as_mut_ptr()) })
+        answered(in_host(|| unsafe { inverse(self.user, x.as_ptr(), y.as_mut_ptr()) }))
     }
 
     fn has_held(&self) -> bool {
@@ -96,7 +97,7 @@ impl HostOperator for Functions {
         let held: Vec<i32> = held.iter().map(|held| i32::from(*held)).collect();
         let (changed, x, y) = (i32::from(changed), x.as_ptr(), y.as_mut_ptr());
         // SAFETY: as above; `held` has N entries too.
-        answered(unsafe { solve(self.user, held.as_ptr(), changed, x, y) })
+        answered(in_host(|| unsafe { solve(self.user, held.as_ptr(), changed, x, y) }))
     }
 }
 

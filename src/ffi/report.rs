@@ -52,6 +52,8 @@ pub const SIGNORINI_REMARK_FRICTION_LARGE: i32 = 2;
 pub const SIGNORINI_REMARK_FREE_MOTION: i32 = 4;
 /// Only rounding of K holds a body.
 pub const SIGNORINI_REMARK_HELD_BY_ROUNDING: i32 = 8;
+/// d rounded to doubles misses the tolerance, d + extra.d_low meets it.
+pub const SIGNORINI_REMARK_NEEDS_LOW_PART: i32 = 16;
 
 /// How good a result is, and how it was found. Set struct_size, or call signorini_report_default();
 /// the call writes all other fields. K d - f is the contact force that d requires.
@@ -201,6 +203,7 @@ fn remark_codes(remarks: Remarks) -> i32 {
         + code(remarks.friction_large, SIGNORINI_REMARK_FRICTION_LARGE)
         + code(remarks.free_motion, SIGNORINI_REMARK_FREE_MOTION)
         + code(remarks.held_by_rounding, SIGNORINI_REMARK_HELD_BY_ROUNDING)
+        + code(remarks.needs_low_part, SIGNORINI_REMARK_NEEDS_LOW_PART)
 }
 
 fn uniqueness_code(uniqueness: Uniqueness) -> i32 {
@@ -250,6 +253,7 @@ pub extern "C" fn signorini_remark_string(remark: i32) -> *const c_char {
         SIGNORINI_REMARK_FRICTION_LARGE => c"a coefficient of friction is above 10",
         SIGNORINI_REMARK_FREE_MOTION => c"the bodies may move without any force",
         SIGNORINI_REMARK_HELD_BY_ROUNDING => c"only rounding of K holds a body",
+        SIGNORINI_REMARK_NEEDS_LOW_PART => c"d rounded to doubles misses the tolerance",
         _ => c"unknown remark",
     };
     text.as_ptr()

@@ -12,6 +12,8 @@ impl CallReserve {
     pub(super) fn begin() -> Option<Self> {
         Some(CallReserve)
     }
+
+    pub(super) fn give_back_abandoned() {}
 }
 
 #[cfg(not(c_library))]

@@ -6,6 +6,7 @@ use std::ops::ControlFlow;
 use super::args::Arrays;
 use super::guard::Failure;
 use super::structures::{self, Structure};
+use super::surroundings::in_host;
 use super::threads;
 use crate::monitor::{Monitor, Progress, ProgressFn};
 use crate::settings::{Method, Search, Settings};
@@ -245,7 +246,7 @@ impl ParsedSettings {
                 memory: progress.memory as i64,
             };
             // SAFETY: the header demands a function of this type that returns normally.
-            match unsafe { callback(user, &raw const progress) } {
+            match in_host(|| unsafe { callback(user, &raw const progress) }) {
                 0 => ControlFlow::Continue(()),
                 _ => ControlFlow::Break(()),
             }

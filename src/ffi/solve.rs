@@ -9,7 +9,7 @@ use super::guard::{self, Failure};
 use super::outputs::OutputArguments;
 use super::report::SignoriniReport;
 use super::settings::SignoriniSettings;
-use super::status::{SIGNORINI_STATUS_SOLVED, remember};
+use super::status::remember_result;
 use crate::error::Argument;
 use crate::problem::ContactProblem;
 use crate::solve::{memory, solve};
@@ -80,9 +80,7 @@ pub unsafe extern "C" fn signorini_solve(
             .monitored(|monitor| solve(&problem, &received.settings, start.as_deref(), monitor))
             .map_err(from_error)?;
         let status = outputs.write(0, &solution);
-        if status != SIGNORINI_STATUS_SOLVED {
-            remember(solution.message);
-        }
+        remember_result(solution);
         Ok(status)
     })
 }

@@ -4,7 +4,7 @@ use libc::c_char;
 use std::cell::RefCell;
 
 use crate::error::Message;
-use crate::solve::Status;
+use crate::solve::{Remarks, Solution, Status};
 
 /// Solved and certified: eta <= tolerance.
 pub const SIGNORINI_STATUS_SOLVED: i32 = 0;
@@ -107,6 +107,9 @@ thread_local! {
     static LAST: RefCell<Sentence> = const { RefCell::new(Sentence::EMPTY) };
     // The sentence as Fortran counts.
     static FROM_ONE: RefCell<Sentence> = const { RefCell::new(Sentence::EMPTY) };
+    // The sentence of the last panic, which may be caught inside a call that then takes another way.
+    #[cfg(c_library)]
+    static PANIC: RefCell<Sentence> = const { RefCell::new(Sentence::EMPTY) };
 }
 
 #[derive(Clone, Copy)]
@@ -134,6 +137,18 @@ pub(super) fn remember(message: impl Into<Message>) {
     FROM_ONE.with_borrow_mut(|sentence| sentence.set(&message.counted_from_one()));
 }
 
+/// Keeps the sentence of a result: why it is no solution, or the remarks on one.
+pub(super) fn remember_result(solution: Solution) {
+    if is_told(&solution) {
+        remember(solution.message);
+    }
+}
+
+/// True if a host should read the sentence of a result.
+pub(super) fn is_told(solution: &Solution) -> bool {
+    solution.status != Status::Solved || solution.remarks != Remarks::default()
+}
+
 /// A sentence without indices: it needs no memory.
 pub(super) fn remember_plain(sentence: &str) {
     LAST.with_borrow_mut(|last| last.set(sentence));
@@ -149,6 +164,19 @@ pub(super) fn keeping_sentence(work: impl FnOnce()) {
     }
 }
 
+/// Keeps the sentence of a panic, until it is told.
+#[cfg(c_library)]
+pub(super) fn note_panic(message: &str) {
+    PANIC.with_borrow_mut(|sentence| sentence.set(message));
+}
+
+/// A panic has ended the call.
+#[cfg(c_library)]
+pub(super) fn tell_panic() {
+    let noted = PANIC.with_borrow(|sentence| *sentence);
+    [&LAST, &FROM_ONE].into_iter().for_each(|place| place.set(noted));
+}
+
 /// Nothing happened.
 pub(super) fn forget() {
     remember_plain("");
@@ -162,8 +190,8 @@ pub(super) fn last_counted_from_one() -> String {
 }
 
 /// Says in one sentence what was wrong in the last call on this thread, such as "K[12,7] is not
-/// finite". Empty after a call that returned 0; a call that releases leaves it. UTF-8, at most 511
-/// bytes, never NULL. The text belongs to the thread, until its next call.
+/// finite"; of a solution its remarks, else nothing. A call that releases leaves it. UTF-8, at
+/// most 511 bytes, never NULL. The text belongs to the thread, until its next call.
 #[unsafe(no_mangle)]
 pub extern "C" fn signorini_last_error() -> *const c_char {
     LAST.with_borrow(|sentence| sentence.text.as_ptr().cast())

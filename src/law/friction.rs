@@ -24,8 +24,8 @@ impl Bound {
 
     /// Coulomb's law with the cohesion `b >= mu a` and the tension `a >= 0`, both forces.
     pub fn cohesive(mu: f64, b: f64, a: f64) -> Bound {
-        // Not below 0 where `b = mu a` up to rounding.
-        Bound { slope: mu, offset: (b - mu * a).max(0.0) }
+        // Rounded once: it is zero only if `b = mu a`, or where rounding has left `b` below that.
+        Bound { slope: mu, offset: (-mu).mul_add(a, b).max(0.0) }
     }
 
     /// The law with a coefficient for each of two axes of the tangent plane, on the gauge of its [`Ellipse`].

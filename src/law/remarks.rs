@@ -10,10 +10,10 @@ use crate::problem::{ContactProblem, FrictionLaw, Parameter, Relation};
 const LARGE_FRICTION: f64 = 10.0;
 
 /// Returns `true` if every finite gap is negative, and there is one.
-pub fn gaps_are_negative<R: Relation>(problem: &ContactProblem<'_, R>) -> bool {
+pub fn deepest_of_negative_gaps<R: Relation>(problem: &ContactProblem<'_, R>) -> Option<f64> {
     let gaps = (0..problem.pairs()).map(|pair| problem.gap(pair)).filter(|gap| gap.is_finite());
-    let mut gaps = gaps.peekable();
-    gaps.peek().is_some() && gaps.all(|gap| gap < 0.0)
+    let largest = gaps.clone().fold(f64::NEG_INFINITY, f64::max);
+    (largest < 0.0 && largest.is_finite()).then(|| -gaps.fold(0.0, f64::min))
 }
 
 /// Returns `true` if a coefficient of friction is large.

@@ -55,7 +55,8 @@ pub(crate) fn solve_dependent(
     let n = problem.unknowns();
     check(settings, memory(n), ("d", n, start))?;
     let mut solution = proximal::solve_dependent(problem, (settings, plan::solve), start, monitor)?;
-    solution.remarks = result::of_problem(problem);
+    let remarks = result::of_problem(problem, &solution.d);
+    result::remark(&mut solution, problem, remarks);
     solution.iterations = monitor.iterations();
     Ok(solution)
 }
@@ -79,7 +80,8 @@ pub fn solve_flexibility(
     check(settings, memory_flexibility(n), ("F", n, start))?;
     let by = (settings, plan::solve as Solve);
     let mut solution = proximal::solve_flexibility(problem, by, start, &|pair| pair, monitor)?;
-    solution.remarks = result::of_problem(problem);
+    let remarks = result::of_problem(problem, &solution.d);
+    result::remark(&mut solution, problem, remarks);
     solution.iterations = monitor.iterations();
     Ok(solution)
 }
@@ -110,7 +112,8 @@ pub fn solve_flexibility_sparse(
     })?;
     check_start("F", problem.unknowns(), start)?;
     let mut solution = proximal::solve_islands(problem, (settings, plan::solve), start, monitor)?;
-    solution.remarks = result::of_problem(problem);
+    let remarks = result::of_problem(problem, &solution.d);
+    result::remark(&mut solution, problem, remarks);
     solution.iterations = monitor.iterations();
     Ok(solution)
 }
@@ -143,8 +146,7 @@ pub fn solve(
     if settings.proof {
         uniqueness::prove(&contact, settings, &mut solution, monitor);
     }
-    solution.remarks = plan::of_solution(&contact, &solution, monitor);
-    plan::explain(&contact, &mut solution, monitor);
+    plan::add_remarks(&contact, settings, &mut solution, monitor);
     solution.iterations = monitor.iterations();
     Ok(solution)
 }

@@ -67,6 +67,7 @@ VALUE(SIGNORINI_REMARK_GAPS_NEGATIVE, 1);
 VALUE(SIGNORINI_REMARK_FRICTION_LARGE, 2);
 VALUE(SIGNORINI_REMARK_FREE_MOTION, 4);
 VALUE(SIGNORINI_REMARK_HELD_BY_ROUNDING, 8);
+VALUE(SIGNORINI_REMARK_NEEDS_LOW_PART, 16);
 VALUE(SIGNORINI_TRIANGLE_LOWER, 0);
 VALUE(SIGNORINI_TRIANGLE_UPPER, 1);
 VALUE(SIGNORINI_TRIANGLE_FULL, 2);
@@ -175,6 +176,7 @@ FIELD(signorini_extra, second_state, int32_t *, 32);
 FIELD(signorini_extra, radius_d, double *, 40);
 FIELD(signorini_extra, radius_F, double *, 48);
 FIELD(signorini_extra, escape, double *, 56);
+FIELD(signorini_extra, d_low, double *, 64);
 
 SIZE(signorini_faces, 32);
 FIELD(signorini_faces, struct_size, uint32_t, 0);
@@ -345,6 +347,7 @@ int main(void)
     CHECK(extra.radius_d == NULL && extra.radius_F == NULL);
     CHECK(extra.second_d == NULL && extra.second_F == NULL && extra.second_state == NULL);
     CHECK(extra.escape == NULL);
+    CHECK(extra.d_low == NULL);
     signorini_report blank, zeros = {.struct_size = sizeof zeros};
     memset(&blank, 0xFF, sizeof blank);
     CHECK_STATUS(signorini_report_default(&blank, sizeof blank), 0);

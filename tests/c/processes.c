@@ -1,7 +1,7 @@
 /*
  * Threads and processes of a host: a thread that is cancelled during a call, small stacks, a
- * fork with objects that both sides then use, and callbacks that stop a call at every place. Nothing is held
- * afterwards. Linux with glibc.
+ * fork with objects that both sides then use, calls that the host leaves by a jump, and callbacks that stop a call
+ * at every place. Nothing is held afterwards. Linux with glibc.
  */
 
 #define _POSIX_C_SOURCE 200809L
@@ -10,7 +10,9 @@
 
 #include "memory_scenarios.h"
 
+#include <fenv.h>
 #include <pthread.h>
+#include <setjmp.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -153,6 +155,85 @@ static void forks(struct world *w, struct world *other)
     CHECK(pthread_join(thread, NULL) == 0);
 }
 
+/* Every request of all threads is refused: the thread that calls is served from its reserve all the time. */
+static void forks_while_served(struct world *w, struct world *other)
+{
+    pthread_t thread;
+    CHECK_STATUS(small_auto(w), 0);
+    busy_ends = 0;
+    CHECK(pthread_create(&thread, NULL, busy, other) == 0);
+    heap_watch(1);
+    heap.first = 1;
+    for (int round = 0; round < 300; round++) {
+        fflush(stdout);
+        const pid_t child = fork();
+        if (child == 0) {
+            heap.watching = 0;
+            alarm(60);
+            _exit(small_auto(w) != 0);
+        }
+        int status = -1;
+        if (!check_result(__FILE__, __LINE__, child > 0 && waitpid(child, &status, 0) == child && status == 0))
+            break;
+    }
+    heap.watching = 0;
+    busy_ends = 1;
+    CHECK(pthread_join(thread, NULL) == 0);
+}
+
+/* ---- A call that the host has left by a jump -------------------------------------------------- */
+
+static jmp_buf outside;
+
+static int32_t jump_out(void *user, const signorini_progress *progress)
+{
+    (void)user;
+    (void)progress;
+    longjmp(outside, 1);
+}
+
+/* Pages that the process has mapped, touched or not. */
+static long pages(void)
+{
+    long size = 0;
+    FILE *file = fopen("/proc/self/statm", "r");
+    if (!file || fscanf(file, "%ld", &size) != 1) size = -1;
+    if (file) fclose(file);
+    return size;
+}
+
+/* True if the callback has left the call. */
+static int jump(const chain *c, const signorini_settings *settings)
+{
+    if (setjmp(outside)) return 1;
+    signorini_solve(c->dim, c->pairs, c->K, c->n, c->f, c->gap, SIGNORINI_LAW_COULOMB, c->mu, NULL,
+                    settings, c->d, c->F, c->state, NULL, NULL);
+    return 0;
+}
+
+/*
+ * The header forbids it, and old hosts do it. The next call gives back what the call that was left held of the
+ * thread: the host's rounding mode, its cancellation, and the reserve, without which each later call
+ * would keep half a megabyte of addresses and more.
+ */
+static void jumps(struct world *w)
+{
+    signorini_settings settings;
+    int state = -1;
+    CHECK_STATUS(signorini_settings_default(&settings, sizeof settings), 0);
+    settings.progress = jump_out;
+    CHECK(fesetround(FE_UPWARD) == 0);
+    for (int i = 0; i < 3; i++) CHECK(jump(&w->plane, &settings));
+    CHECK_STATUS(small_auto(w), 0);
+    CHECK(fegetround() == FE_UPWARD);
+    fesetround(FE_TONEAREST);
+    CHECK(pthread_setcancelstate(PTHREAD_CANCEL_ENABLE, &state) == 0 && state == PTHREAD_CANCEL_ENABLE);
+    const long before = pages(), page = sysconf(_SC_PAGESIZE);
+    for (int i = 0; i < 1000; i++) CHECK_STATUS(small_auto(w), 0);
+    /* A tenth of what 1000 reserves take. */
+    CHECK(before > 0 && (pages() - before) * page < 50L << 20);
+}
+
 /* ---- Callbacks ------------------------------------------------------------------------------ */
 
 struct patience {
@@ -230,6 +311,8 @@ int main(void)
     cancellation(world);
     small_stacks(world);
     forks(world, other);
+    forks_while_served(world, other);
+    jumps(world);
     cancelled_solutions(world);
     cancelled_reductions(world);
     world_free(world);

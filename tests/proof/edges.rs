@@ -1,8 +1,9 @@
-//! Statements on other solutions where doubles end: zero loads, grazing pairs.
+//! Statements where doubles end: other solutions with zero loads and of grazing pairs, proofs of a bound that nearly
+//! vanishes.
 
 use crate::common::problems::{Case, Law, coulomb, definite, uniform};
 use fastrand::Rng;
-use signorini::{Search, Settings, State, Status, Uniqueness};
+use signorini::{Existence, Search, Settings, State, Status, Uniqueness};
 
 fn searching() -> Settings {
     Settings { search: Search::Others, ..Settings::default() }
@@ -108,4 +109,21 @@ fn a_pair_that_grazes_its_obstacle_is_no_second_solution() {
     }
     println!("several, penetrating: {counts:?}");
     assert!(counts[1] > 1000, "the free solution nearly never penetrates");
+}
+
+/// A pair that is never closed carries the tension `a` and friction up to `b - mu a` of the cohesive law, here 1.1e-16, in
+/// which a product of doubles rounded before the difference loses all: the pair sticks, `F_t = -f_t`.
+#[test]
+fn a_bound_that_nearly_vanishes_is_none_that_vanishes() {
+    let law = Law::Cohesive(vec![5.0, 2.7677695733867043, 0.55355391467734083]);
+    let (k, f, gap) = (vec![2.0, 0.0, 0.0, 1.0], vec![0.1, 5e-17], vec![f64::INFINITY]);
+    let case = Case { dim: 2, pairs: 1, k, f, gap, law, slip: None };
+    let solution = case.solve(&Settings { proof: true, ..Settings::default() });
+    assert_eq!(solution.status, Status::Solved, "{}", solution.message);
+    assert!((solution.certificate.force[1] + 5e-17).abs() <= 1e-32, "{:?}", solution.certificate);
+    if let Existence::Proved(proof) = &solution.existence {
+        let radius = proof.force_radius_about(&solution.certificate.force);
+        assert!((solution.certificate.force[1] + 5e-17).abs() <= radius[1], "{radius:?}");
+        assert!(solution.d[1].abs() <= proof.radius_about(&solution.d)[1]);
+    }
 }

@@ -95,12 +95,14 @@ class Remark(IntFlag):
     FREE_MOTION: without friction the bodies may move without any force, d is one of many; a support
     may be missing.
     HELD_BY_ROUNDING: only rounding of K holds a body, d is a million times what the loads ask for.
+    NEEDS_LOW_PART: d rounded to doubles misses the tolerance, d + d_low meets it.
     """
 
     GAPS_NEGATIVE = 1
     FRICTION_LARGE = 2
     FREE_MOTION = 4
     HELD_BY_ROUNDING = 8
+    NEEDS_LOW_PART = 16
 
 
 class Proof(IntEnum):

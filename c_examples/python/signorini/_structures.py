@@ -67,6 +67,7 @@ class Extra(ctypes.Structure):
         ("struct_size", u32), ("reserved", i32), ("motion", address), ("second_d", address),
         ("second_F", address), ("second_state", address), ("radius_d", address),
         ("radius_F", address), ("escape", address),
+        ("d_low", address),
     ]
 
 

@@ -11,8 +11,8 @@ use crate::problem::{ContactProblem, FrictionLaw, MatrixFree, SOLUTIONS, Stiffne
 use crate::settings::{Method, Search, Settings};
 use crate::solve::plan::FAR;
 use crate::solve::result::Ending;
-use crate::solve::result::of_problem;
 use crate::solve::result::{Solution, Status};
+use crate::solve::result::{of_problem, remark};
 
 /// A load case on such bodies.
 pub struct Case<'a> {
@@ -185,6 +185,8 @@ fn result(
         Ending::Stopped(stop) => stop.status(settings, &wanted),
         ending => (Status::Stalled, format!("{}; {wanted}", ending.reason(&certificate))),
     };
-    let remarks = of_problem(contact.problem());
-    Solution { remarks, ..Solution::of(Method::Newton, told, d, certificate) }
+    let mut solution = Solution::of(Method::Newton, told, d, certificate);
+    let remarks = of_problem(contact.problem(), &solution.d);
+    remark(&mut solution, contact.problem(), remarks);
+    solution
 }

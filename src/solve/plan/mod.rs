@@ -8,4 +8,4 @@ mod table;
 
 pub use auto::solve as auto;
 pub use distant_gaps::{FAR, solve};
-pub use remarks::{explain, of_solution};
+pub use remarks::add_remarks;

@@ -1,31 +1,33 @@
-//! Remarks: data that are legal and often a mistake of the host are named beside the result, never refused.
+//! Remarks: data that are legal and often a mistake of the host, and what a host should know of a solution, are named
+//! beside the result, never refused.
 
+use crate::certificate::measure;
 use crate::law::Contact;
 use crate::monitor::Monitor;
-use crate::solve::result::{CAUSES, Remarks, Solution, Status, Uniqueness, of_problem};
+use crate::settings::Settings;
+use crate::solve::result::{CAUSES, Remarks, Solution, Status, Uniqueness, of_problem, remark};
 use crate::solve::rigid::{RigidMotions, is_held_by_rounding, moves_freely};
 
-/// The remarks on a problem and its solution. With friction nothing is asked about motions: that would cost a
-/// factorisation of every semi-definite problem.
-pub fn of_solution(contact: &Contact<'_>, solution: &Solution, monitor: &Monitor<'_>) -> Remarks {
+/// Adds the remarks on a problem and its solution; of a problem that is not solved the sentence says what to look at, if
+/// contact alone holds a body: there may be no equilibrium. With friction nothing is asked about free motions: that
+/// would cost a factorisation of every semi-definite problem.
+pub fn add_remarks(
+    contact: &Contact<'_>,
+    settings: &Settings,
+    solution: &mut Solution,
+    monitor: &Monitor<'_>,
+) {
+    let problem = contact.problem();
     let solved = solution.status == Status::Solved;
     let asked = solved && solution.uniqueness == Uniqueness::NotKnown && contact.is_frictionless();
     let (d, certificate) = (&solution.d, &solution.certificate);
-    Remarks {
+    let remarks = Remarks {
         free_motion: asked && moves_freely(contact, d, &certificate.states, monitor),
         held_by_rounding: solved && is_held_by_rounding(contact, d, &certificate.force),
-        ..of_problem(contact.problem())
-    }
-}
-
-/// Adds to the sentence of a result what to look at, if contact alone holds a body that no method brings to rest, or if
-/// rounding alone holds one: there may be no equilibrium.
-pub fn explain(contact: &Contact<'_>, solution: &mut Solution, monitor: &Monitor<'_>) {
-    let problem = contact.problem();
-    if solution.remarks.held_by_rounding {
-        let said = solution.message.marked();
-        solution.message = format!("{said}; only rounding of K holds a body: {CAUSES}").into();
-    }
+        needs_low_part: solved && needs_low_part(contact, settings, solution),
+        ..of_problem(problem, d)
+    };
+    remark(solution, problem, remarks);
     if solution.status == Status::Stalled
         && solution.escape.is_none()
         && problem.is_symmetric()
@@ -34,4 +36,13 @@ pub fn explain(contact: &Contact<'_>, solution: &mut Solution, monitor: &Monitor
         let said = solution.message.marked();
         solution.message = format!("{said}; contact alone holds a body: {CAUSES}").into();
     }
+}
+
+/// True if the displacements rounded to doubles miss the tolerance.
+fn needs_low_part(contact: &Contact<'_>, settings: &Settings, solution: &Solution) -> bool {
+    let certificate = &solution.certificate;
+    let may_miss = certificate.residual + certificate.rounding > settings.tolerance;
+    may_miss
+        && solution.d_low.iter().any(|&low| low != 0.0)
+        && !measure(contact, &solution.d, &certificate.force).holds(settings.tolerance)
 }

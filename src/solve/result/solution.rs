@@ -84,6 +84,9 @@ pub struct Remarks {
     /// Displacements are a million times what the loads ask for, and no more than the rounding of a condensed `K`
     /// resists them: nothing but that rounding holds a body. A support may be missing.
     pub held_by_rounding: bool,
+    /// [`Solution::d`] alone misses the tolerance, as its rounding to doubles changes the forces by more; with
+    /// [`Solution::d_low`] it meets it.
+    pub needs_low_part: bool,
 }
 
 /// Result of a contact problem.
