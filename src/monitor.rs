@@ -62,6 +62,8 @@ pub struct Monitor<'a> {
     /// Operations in a second.
     rate: f64,
     progress: Option<&'a mut ProgressFn<'a>>,
+    /// True once the callback has cancelled: it is not asked again.
+    is_cancelled: bool,
     workers: &'a dyn Workers,
 }
 
@@ -83,6 +85,7 @@ impl<'a> Monitor<'a> {
             work: None,
             rate: OPERATIONS,
             progress,
+            is_cancelled: false,
             workers: &SingleThread,
         }
     }
@@ -136,18 +139,22 @@ impl<'a> Monitor<'a> {
     /// To be called now and then in a long one: nothing is counted.
     pub(crate) fn goes_on(&mut self) -> Result<(), Stop> {
         self.learn();
+        if self.is_cancelled {
+            return Err(Stop::Cancelled);
+        }
         let timed = self.time_limit.is_finite() || self.progress.is_some();
         let elapsed = if timed { self.begin.elapsed().as_secs_f64() } else { 0.0 };
         if elapsed > self.time_limit {
             return Err(Stop::TimeLimit);
         }
-        if self.is_cancelled(elapsed, 1.0, 0) { Err(Stop::Cancelled) } else { Ok(()) }
+        if self.cancels(elapsed, 1.0, 0) { Err(Stop::Cancelled) } else { Ok(()) }
     }
 
     /// Reports progress: `true` if the callback cancels.
-    fn is_cancelled(&mut self, elapsed: f64, reduced: f64, memory: u64) -> bool {
+    fn cancels(&mut self, elapsed: f64, reduced: f64, memory: u64) -> bool {
         let now = Progress { iterations: self.iterations, eta: self.eta, elapsed, reduced, memory };
-        self.progress.as_mut().is_some_and(|progress| progress(&now).is_break())
+        self.is_cancelled = self.progress.as_mut().is_some_and(|progress| progress(&now).is_break());
+        self.is_cancelled
     }
 
     /// To be called before so many `operations` of dense linear algebra, which nothing interrupts: why not to begin,
@@ -175,14 +182,18 @@ impl<'a> Monitor<'a> {
     /// already.
     pub(crate) fn has_time_for(&self, operations: f64) -> bool {
         let time = operations / self.rate;
+        if self.is_cancelled {
+            return false;
+        }
         !self.time_limit.is_finite() || self.begin.elapsed().as_secs_f64() + time <= self.time_limit
     }
 
-    /// `true` if the time limit is used up, for questions about a result that is there already: they are then
-    /// left open.
+    /// `true` if the time limit is used up, or the caller has cancelled, for questions about a result that is there
+    /// already: they are then left open.
     pub(crate) fn is_late(&self) -> bool {
         shortage::check();
-        self.time_limit.is_finite() && self.begin.elapsed().as_secs_f64() > self.time_limit
+        self.is_cancelled
+            || self.time_limit.is_finite() && self.begin.elapsed().as_secs_f64() > self.time_limit
     }
 
     /// To be called while a matrix is reduced: `share` of the work is done, which needs `memory` bytes.
@@ -208,7 +219,7 @@ impl<'a> Monitor<'a> {
             );
             return Err(Error::stopped(Limit::Time, message));
         }
-        if self.is_cancelled(elapsed, share, memory) {
+        if self.cancels(elapsed, share, memory) {
             let message = format!("cancelled with {done:.0} % of the reduction done");
             return Err(Error::stopped(Limit::Cancelled, message));
         }

@@ -239,8 +239,9 @@ impl Redundant for DependentRows<'_> {
     }
 
     /// `Cᵀ F = 0`, up to rounding of the size of the forces.
-    fn balance_each_other(&self, force: &[f64]) -> bool {
+    fn balance_each_other(&self, force: &[f64], within: f64) -> bool {
         let coefficients = largest_of(self.dependence.to_relative.val().iter().map(|c| c.abs()));
-        norm_inf(&self.dependence.forces(force)) <= NEGLIGIBLE * coefficients * norm_inf(force)
+        norm_inf(&self.dependence.forces(force))
+            <= within.max(NEGLIGIBLE) * coefficients * norm_inf(force)
     }
 }

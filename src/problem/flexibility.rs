@@ -222,12 +222,12 @@ impl Redundant for Flexibility<'_> {
         self.free
     }
 
-    /// `W F = 0`, up to rounding of the terms.
-    fn balance_each_other(&self, force: &[f64]) -> bool {
+    /// `W F = 0`.
+    fn balance_each_other(&self, force: &[f64], within: f64) -> bool {
         let scaled = |values: Vec<f64>| {
             largest_of(values.iter().zip(&self.units).map(|(value, unit)| (unit * value).abs()))
         };
         let terms = scaled(self.matrix.magnitude(&sizes(force)));
-        scaled(self.matrix.product(force)) <= ROUNDING_OF_SUM * terms
+        scaled(self.matrix.product(force)) <= within.max(ROUNDING_OF_SUM) * terms
     }
 }

@@ -51,8 +51,8 @@ pub(crate) trait Redundant: Relation {
     /// each other.
     fn offset(&self) -> &[f64];
 
-    /// Returns `true` if forces balance each other, up to rounding.
-    fn balance_each_other(&self, force: &[f64]) -> bool;
+    /// Returns `true` if forces balance each other, up to rounding or the part `within` of their terms.
+    fn balance_each_other(&self, force: &[f64], within: f64) -> bool;
 }
 
 /// The stiffness form `K d = f + F`, with `K` dense, symmetric and positive semi-definite, or positive

@@ -269,3 +269,38 @@ fn what_is_said_about_floating_bodies_is_true() {
         }
     }
 }
+
+/// Springs between neighbours and to the ground, normal components apart from tangential ones: the eigenvalues of
+/// both are `2 + s - 2 cos(k pi / (n + 1))`. With a uniform `mu` and constant diagonals the bound is
+/// `mu < 1 / sqrt(|K_nn| |W_tt|)`, which is found to a per cent for more pairs than Lanczos' method has directions.
+#[test]
+fn a_long_chain_is_proved_unique_up_to_its_bound() {
+    let (pairs, ground) = (100, 0.5);
+    let n = 2 * pairs;
+    let mut k = vec![0.0; n * n];
+    for pair in 0..pairs {
+        for i in [2 * pair, 2 * pair + 1] {
+            k[i + n * i] = 2.0 + ground;
+            if pair > 0 {
+                (k[i + n * (i - 2)], k[i - 2 + n * i]) = (-1.0, -1.0);
+            }
+        }
+    }
+    let cosine = (std::f64::consts::PI / (pairs + 1) as f64).cos();
+    let (stiffest, softest) = (2.0 + ground + 2.0 * cosine, 2.0 + ground - 2.0 * cosine);
+    let bound = (softest / stiffest).sqrt();
+    for (mu, unique) in [(0.99 * bound, true), (1.01 * bound, false)] {
+        let case = Case {
+            dim: 2,
+            pairs,
+            k: k.clone(),
+            f: [1.0, 0.1].repeat(pairs),
+            gap: vec![0.0; pairs],
+            law: Law::Coulomb(vec![mu; pairs]),
+            slip: None,
+        };
+        let solution = solve(&case, Method::Auto, Search::Others, None);
+        assert_eq!(solution.status, Status::Solved, "{}", solution.message);
+        assert_eq!(solution.uniqueness == Uniqueness::Unique, unique, "mu {mu}");
+    }
+}

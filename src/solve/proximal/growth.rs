@@ -51,7 +51,8 @@ impl Growth {
 pub fn contradicts<R: Redundant>(problem: &ContactProblem<'_, R>, pattern: &[f64]) -> bool {
     let relation = problem.relation();
     let pressing = pressing(problem.dim(), pattern);
-    relation.balance_each_other(&pressing) && exceed_gaps(problem, &pressing, relation.offset())
+    relation.balance_each_other(&pressing, 0.0)
+        && exceed_gaps(problem, &pressing, relation.offset())
 }
 
 /// Why there is no solution: the pattern in which forces grow, if there is one, and whether it is `proved`
@@ -80,10 +81,10 @@ pub fn sentence<R: Redundant>(
              one without entering another"
         );
     }
-    format!(
-        "no solution was found: the forces of pairs {named} grow without end and balance each other, as \
-         those of a wedge"
-    )
+    // The pattern is known as well as two rounds agree.
+    let balance = problem.relation().balance_each_other(pattern, SAME);
+    let how = if balance { " and balance each other, as those of a wedge" } else { "" };
+    format!("no solution was found: the forces of pairs {named} grow without end{how}")
 }
 
 /// The numbers of the first few pairs.
