@@ -149,8 +149,8 @@ int32_t signorini_solve(int32_t dim, int64_t pairs, const double *K, int64_t ldk
 
 /**
  * Says in one sentence what was wrong in the last call on this thread, such as "K[12,7] is not
- * finite"; of a solution its remarks, else nothing. A call that releases leaves it. UTF-8, at most 511
- * bytes, never NULL. The text belongs to the thread, until its next call.
+ * finite"; of a solution its remarks, else nothing. A call that releases leaves it. UTF-8, at
+ * most 511 bytes, never NULL. The text belongs to the thread, until its next call.
  */
 const char *signorini_last_error(void);
 

@@ -31,7 +31,7 @@ fn without_loads_there_is_one_solution() {
         law,
         slip: None,
     });
-    for seed in 0..2000 {
+    for seed in 0..500 {
         let mut rng = Rng::with_seed(seed);
         let (dim, pairs) = (rng.usize(2..=3), rng.usize(1..=4));
         let condition = 10_f64.powf(uniform(&mut rng, 0.0, 6.0));
