@@ -44,6 +44,11 @@ fn solve(case: &Case, settings: &Settings, cancel_at: Option<u64>) -> (Solution,
     let mut calls = 0;
     let mut progress = |progress: &Progress| {
         assert!(progress.eta >= 0.0 && progress.elapsed >= 0.0);
+        // Proofs of uniqueness, long work without iterations, ask again.
+        if settings.search == Search::Others && progress.iterations < calls {
+            assert_eq!(progress.iterations + 1, calls, "the last iteration is told again");
+            return ControlFlow::Continue(());
+        }
         assert_eq!(progress.iterations, calls, "every iteration is told once, in order");
         calls += 1;
         assert!(cancel_at.is_none_or(|at| calls <= at), "it goes on after it was cancelled");
