@@ -153,7 +153,8 @@ impl<'a> Monitor<'a> {
     /// Reports progress: `true` if the callback cancels.
     fn cancels(&mut self, elapsed: f64, reduced: f64, memory: u64) -> bool {
         let now = Progress { iterations: self.iterations, eta: self.eta, elapsed, reduced, memory };
-        self.is_cancelled = self.progress.as_mut().is_some_and(|progress| progress(&now).is_break());
+        self.is_cancelled =
+            self.progress.as_mut().is_some_and(|progress| progress(&now).is_break());
         self.is_cancelled
     }
 
