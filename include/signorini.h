@@ -525,7 +525,7 @@ struct signorini_progress {
 };
 
 /**
- * Called before each sweep, pivot or linear system, and some hundred times a second by
+ * Called before each sweep, pivot or linear system, in long proofs, and often by
  * signorini_model_new_sparse. A nonzero result cancels the call (SIGNORINI_STATUS_CANCELLED). It
  * runs on the calling thread, in the default floating-point environment. It must return: no
  * longjmp, no exception; and it must not call this library.

@@ -101,7 +101,7 @@ fn problems(dims: &[usize], law: impl Fn(&mut Rng, usize) -> Law) -> Vec<(Case, 
 
 fn check(method: Method, law: impl Fn(&mut Rng, usize) -> Law) {
     let settings = Settings { method, max_iterations: 20_000, ..Settings::default() };
-    let mut decided = 0;
+    let (mut decided, mut stalled) = (0, 0);
     let with_law =
         matches!(law(&mut Rng::with_seed(0), 40), Law::Coulomb(mu) if largest(&mu) > 0.0);
     let planar = method == Method::Lemke && with_law;
@@ -120,8 +120,14 @@ fn check(method: Method, law: impl Fn(&mut Rng, usize) -> Law) {
                 && [before.status, after.status]
                     .iter()
                     .all(|status| matches!(status, Status::NoEquilibrium | Status::IterationLimit));
-            assert!(after.status == before.status || drifts, "{}", context());
-            if after.status != Status::Solved {
+            // Where a pair touches without a force, it is open or closed up to rounding. Newton's method
+            // alone has nothing to solve a singular system by if it is open and nothing else holds the body.
+            let stalls = method == Method::Newton
+                && !definite
+                && (before.status == Status::Stalled || after.status == Status::Stalled);
+            stalled += usize::from(stalls && after.status != before.status);
+            assert!(after.status == before.status || drifts || stalls, "{}", context());
+            if before.status != Status::Solved || after.status != Status::Solved {
                 let proof = after.status == Status::NoEquilibrium;
                 assert!(
                     !proof || flaw_of_escape(&scaled, motion(&after)).is_none(),
@@ -154,6 +160,7 @@ fn check(method: Method, law: impl Fn(&mut Rng, usize) -> Law) {
     // Alone, block pivoting and Newton's method do not decide about bodies that nothing holds.
     let least = if matches!(method, Method::BlockPivoting | Method::Newton) { 45 } else { 60 };
     assert!(decided >= least, "only {decided} of 80 problems compare anything");
+    assert!(stalled <= DECIMAL.len(), "{stalled} answers depend on rounding");
 }
 
 fn near(a: &[f64], b: &[f64], scale: f64) -> bool {
