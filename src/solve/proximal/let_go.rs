@@ -56,7 +56,8 @@
 //! `E(d°) <= E(d_s)`. ∎
 //!
 //! **T5, a counterexample.** With Coulomb's law a run-away proves nothing: there are problems of three pairs in the
-//! plane that have a solution, while the springs run away from it. So the run-away is told as what it is. What proves that
+//! plane that have a solution, while the springs run away from it (the test below has one in whole numbers). So the
+//! run-away is told as what it is. What proves that
 //! there is no equilibrium is a rigid motion `m` with `m_n + mu |m_t| <= 0` and `f.m > 0`, for which
 //! [`crate::solve::rigid`] looks before.
 //! Nothing sharper follows from (1): with forces of the cones that balance the loads on all rigid motions, `-F.q = f.q`
@@ -244,5 +245,54 @@ impl Springs<'_> {
         let mut sum = NormSum::default();
         self.units.iter().enumerate().for_each(|(i, unit)| sum.add(unit.sqrt() * d(i)));
         sum.root()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::problem::{ContactData, ContactProblem, FrictionLaw};
+    use crate::solve::result::Existence;
+    use crate::solve::solve;
+
+    /// The counterexample of T5, with `mu = 2`. `d = (0, 0, -1, 1, 0, 0) / 5` solves it with
+    /// `F = (-8, 14, 0, 0, -7, 5) / 5`: the second pair is open, the others stick. The springs run away along
+    /// `q = (-2, -4, 0, -2, 0, 0) / 11`: `K q = 0`, and (1) holds as `f.q = q.D q = 8/11`.
+    #[test]
+    fn springs_run_away_from_a_solution() {
+        let stiffness = [
+            [5.0, -1.0, 0.0, -3.0, -2.0, 0.0],
+            [-1.0, 2.0, -2.0, -3.0, 2.0, 0.0],
+            [0.0, -2.0, 4.0, 4.0, 0.0, 0.0],
+            [-3.0, -3.0, 4.0, 9.0, -2.0, 0.0],
+            [-2.0, 2.0, 0.0, -2.0, 4.0, 0.0],
+            [0.0; 6],
+        ];
+        let problem = ContactProblem::new(ContactData {
+            dim: 2,
+            pairs: 3,
+            stiffness: stiffness.as_flattened(),
+            ld: 6,
+            load: &[1.0, -3.0, 0.0, 1.0, 1.0, -1.0],
+            gap: &[0.0; 3],
+            law: FrictionLaw::Coulomb(&[2.0; 3]),
+            reference_slip: None,
+        })
+        .expect("the data are valid");
+        let settings = Settings { proof: true, ..Settings::default() };
+        let mut monitor = Monitor::new(&settings, None);
+        let ending = let_go(&Contact::new(&problem), &settings, None, &mut monitor).ending;
+        let Ending::RunsAway(motion) = ending else { panic!("the springs end otherwise") };
+        // `s d - q` is of the size of `s`, which is less than 1e-8 here.
+        for (q, exact) in motion.iter().zip([-2.0, -4.0, 0.0, -2.0, 0.0, 0.0]) {
+            assert!((q - exact / 11.0).abs() <= 1e-6, "{motion:?}");
+        }
+        let solution = solve(&problem, &settings, None, &mut monitor).expect("the settings fit");
+        assert!(matches!(solution.existence, Existence::Proved(_)), "{}", solution.message);
+        // The tolerance is 1e-10.
+        let force = &solution.certificate.force;
+        for (force, exact) in force.iter().zip([-8.0, 14.0, 0.0, 0.0, -7.0, 5.0]) {
+            assert!((force - exact / 5.0).abs() <= 1e-8, "{force:?}");
+        }
     }
 }
