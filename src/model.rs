@@ -124,7 +124,7 @@ impl Model {
         let dependence = self.reduction.dependence();
         let size = dependence.map_or(self.dim * self.pairs, Dependence::variables);
         let matrix = Matrix::new(size, self.reduction.stiffness(), size.max(1));
-        symmetric_matrix::check(&matrix, "K_rel", Argument::Matrix)?;
+        symmetric_matrix::check(&matrix, 1, "K_rel", Argument::Matrix)?;
         Ok(self)
     }
 

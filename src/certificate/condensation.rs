@@ -12,31 +12,64 @@
 
 use super::measure::energy;
 use crate::linalg::eigen::eigenvectors;
-use crate::linalg::tolerances::{CONDENSATION, FREE};
-use crate::linalg::vector::dot;
+use crate::linalg::tolerances::{CONDENSATION, FREE, NEGLIGIBLE};
+use crate::linalg::vector::{dot, largest_of};
 use crate::problem::{ContactProblem, FreeBlock};
 
-/// The energy that counts as rounding, relative as that of [`energy`], of a motion that has the energy `own`.
-pub fn rounding_of_energy(problem: &ContactProblem<'_>, own: f64) -> f64 {
+/// True if `K r = 0` up to rounding, in the energy and in each force: rounding of the entries of `K`, each beside its own
+/// size, or what `K` shows to be the rounding of a condensation.
+///
+/// A condensation rounds in the norm. So a diagonal entry that is rounding itself is no measure, and the largest of each
+/// pair stands for its components.
+pub fn is_free(problem: &ContactProblem<'_>, r: &[f64]) -> bool {
+    let internal = problem.internal_force(r);
     let (stated, condensed) = (problem.rounding_of_energy(), FREE * CONDENSATION);
-    let matters = own > stated && own <= condensed;
-    if matters && shows_condensation(problem) { condensed } else { stated }
+    let own = energy(problem.relation(), r, &internal);
+    if own <= stated && has_no_forces(r, &internal, stated, &problem.unit_roots()) {
+        return true;
+    }
+    let units = problem.units_of_condensation();
+    let root: Vec<f64> = units.iter().map(|unit| unit.sqrt()).collect();
+    let of_units: f64 = r.iter().zip(&units).map(|(r, unit)| unit * r * r).sum();
+    (own <= condensed || dot(r, &internal) <= condensed * of_units)
+        && has_no_forces(r, &internal, condensed, &root)
+        && (stated >= condensed || shows_condensation(problem))
+}
+
+/// True if internal forces are no more than rounding of the entries of `K`, each in the roots of two units, or than what
+/// is negligible beside the motion.
+fn has_no_forces(r: &[f64], internal: &[f64], rounding: f64, root: &[f64]) -> bool {
+    let scaled = || r.iter().zip(root).map(|(r, root)| (r * root).abs());
+    let strained = (NEGLIGIBLE * largest_of(scaled())).max(rounding * scaled().sum::<f64>());
+    internal.iter().zip(root).all(|(k, root)| k.abs() <= strained * root)
 }
 
 /// True if some motion has an energy further below zero than rounding of the entries of `K` explains.
+///
+/// It is looked for with the motions in the units of the components, and with each in that of its own energy: what is
+/// rounding beside one motion may be more beside another.
 fn shows_condensation(problem: &ContactProblem<'_>) -> bool {
     let all = (0..problem.unknowns()).collect();
     let Some(block) = FreeBlock::of_problem(problem, all) else { return false };
     let motions: Vec<Vec<f64>> = block.null_vectors().collect();
     let forces: Vec<Vec<f64>> = motions.iter().map(|r| problem.internal_force(r)).collect();
     let product = |i: usize, j: usize| dot(&motions[i], &forces[j]) + dot(&motions[j], &forces[i]);
-    let Some(directions) = eigenvectors(motions.len(), product) else { return false };
-    directions.first().is_some_and(|shares| {
-        let mut least = vec![0.0; problem.unknowns()];
-        for (share, motion) in shares.iter().zip(&motions) {
-            least.iter_mut().zip(motion).for_each(|(least, r)| *least += share * r);
-        }
-        let internal = problem.internal_force(&least);
-        energy(problem.relation(), &least, &internal) < -problem.rounding_of_energy()
+    let own = |i: usize| match product(i, i).abs() {
+        0.0 => 1.0,
+        energy => energy.sqrt().recip(),
+    };
+    let units: Vec<f64> = vec![1.0; motions.len()];
+    let energies: Vec<f64> = (0..motions.len()).map(own).collect();
+    [units, energies].iter().any(|scale| {
+        let scaled = |i: usize, j: usize| scale[i] * product(i, j) * scale[j];
+        let Some(directions) = eigenvectors(motions.len(), scaled) else { return false };
+        directions.first().is_some_and(|shares| {
+            let mut least = vec![0.0; problem.unknowns()];
+            for ((share, scale), motion) in shares.iter().zip(scale).zip(&motions) {
+                least.iter_mut().zip(motion).for_each(|(least, r)| *least += share * scale * r);
+            }
+            let internal = problem.internal_force(&least);
+            energy(problem.relation(), &least, &internal) < -problem.rounding_of_energy()
+        })
     })
 }

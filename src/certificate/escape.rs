@@ -2,8 +2,7 @@
 //! can take (a recession direction of the energy). What a pair must satisfy stands in
 //! `law::recession`.
 
-use super::condensation::rounding_of_energy;
-use super::measure::energy;
+use super::condensation::is_free;
 use crate::law::{Contact, Recession};
 use crate::linalg::tolerances::{LEAST_WORK, NEGLIGIBLE};
 use crate::linalg::vector::{dot, largest_of, norm_inf};
@@ -36,19 +35,10 @@ pub(crate) fn is_escape_of(contact: &Contact<'_>, r: &[f64]) -> bool {
     if size == 0.0 || !size.is_finite() {
         return false;
     }
+    if !is_free(problem, r) {
+        return false;
+    }
     let negligible = NEGLIGIBLE * size;
-    let internal = problem.internal_force(r);
-    let own = energy(problem.relation(), r, &internal);
-    let rounding = rounding_of_energy(problem, own);
-    if own > rounding {
-        return false;
-    }
-    // Forces that rounding of the entries leaves, each entry in the roots of its two units.
-    let spread: f64 = r.iter().zip(&root).map(|(r, root)| (r * root).abs()).sum();
-    let strained = negligible.max(rounding * spread);
-    if internal.iter().zip(&root).any(|(k, root)| k.abs() > strained * root) {
-        return false;
-    }
     let motions = recessions(contact, r);
     let normals = root.iter().step_by(contact.dim());
     if motions.iter().zip(normals).any(|(motion, root)| motion.approach * root > negligible) {

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::simd::{Simd, add_four, add_four_sizes, add_four_twice, vectorised};
-use super::tolerances::UNRESISTED;
+use super::tolerances::{CONDENSATION, FREE, UNRESISTED};
 use super::vector::largest_of;
 
 /// Rows and columns of a square tile: what stands across its diagonal is read from cache.
@@ -74,6 +74,19 @@ impl<'a> Matrix<'a> {
     pub fn units(&self, group: usize) -> Vec<f64> {
         let otherwise = self.largest_diagonal();
         (0..self.size).map(|i| self.unit(i, group, otherwise)).collect()
+    }
+
+    /// The largest diagonal entry of each component's group, beside which a host's condensation has rounded. A component
+    /// that is coupled to no other one has its own: condensation leaves no such row, it is a spring of the host.
+    pub fn units_of_condensation(&self, group: usize) -> Vec<f64> {
+        let otherwise = self.largest_diagonal();
+        let unit = |i: usize| {
+            let (own, unit) = (self.at(i, i), self.unit_of_group(i, group, otherwise));
+            let is_small = own > 0.0 && own <= FREE * CONDENSATION * unit;
+            let is_spring = || self.column(i).iter().enumerate().all(|(j, &k)| j == i || k == 0.0);
+            if is_small && is_spring() { own } else { unit }
+        };
+        (0..self.size).map(unit).collect()
     }
 
     /// Adds the product with `x` to `sum`.

@@ -62,11 +62,12 @@ impl<'a> ContactProblem<'a> {
     ///
     /// # Errors
     /// [`Error::Invalid`] names the first entry that is not finite, not symmetric beyond rounding
-    /// (1e-9 of the diagonal), negative on the diagonal or zero there in a row that is not zero, or out of
-    /// range. Small entries on the diagonal are taken as they are; a [`crate::Model`] tells them from rounding.
+    /// (1e-9 of the diagonal), negative on the diagonal or zero there in a row that is not zero by more than
+    /// a condensation leaves, 9e-12 of the pair's, or out of range. Small entries on the diagonal are taken as they
+    /// are; a [`crate::Model`] tells them from rounding.
     pub fn new(data: ContactData<'a>) -> Result<Self, Error> {
         let problem = Self::on_checked_matrix(data)?;
-        symmetric_matrix::check(&problem.relation.matrix, "K", Argument::Matrix)?;
+        symmetric_matrix::check(&problem.relation.matrix, data.dim, "K", Argument::Matrix)?;
         Ok(problem)
     }
 
@@ -171,6 +172,11 @@ impl<'a> ContactProblem<'a> {
     /// Square roots of the units of all components.
     pub fn unit_roots(&self) -> Vec<f64> {
         (0..self.unknowns()).map(|i| self.unit(i).sqrt()).collect()
+    }
+
+    /// The units beside which a host's condensation has rounded `K`.
+    pub(crate) fn units_of_condensation(&self) -> Vec<f64> {
+        self.relation.matrix.units_of_condensation(self.dim)
     }
 
     /// `f`.

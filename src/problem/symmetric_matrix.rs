@@ -3,6 +3,7 @@
 use crate::error::{Argument, Error, entry, index};
 use crate::linalg::factor::first_not_definite;
 use crate::linalg::matrix::Matrix;
+use crate::linalg::tolerances::{CONDENSATION, FREE};
 use crate::linalg::vector::first_not_finite;
 
 /// Asymmetry allowed, relative to the diagonal: far above the rounding of a host's condensation
@@ -20,14 +21,32 @@ pub(crate) fn is_symmetric_beside(matrix: &Matrix<'_>, root: &[f64]) -> bool {
     matrix.agrees_across(root, SYMMETRY, f64::INFINITY)
 }
 
+/// What a host's condensation leaves of a zero on the diagonal, of each component: a part of the largest entry of its
+/// `group`.
+fn rounding(matrix: &Matrix<'_>, group: usize) -> impl Fn(usize) -> f64 {
+    move |i| FREE * CONDENSATION * matrix.unit_of_group(i, group, 0.0)
+}
+
+/// Roots of the diagonal entries, each with its [`rounding`]; NaN where one is further below zero.
+fn roots(matrix: &Matrix<'_>, group: usize) -> Vec<f64> {
+    let rounding = rounding(matrix, group);
+    (0..matrix.size()).map(|i| (matrix.at(i, i) + rounding(i)).sqrt()).collect()
+}
+
 /// Refuses entries that are not finite, negative diagonals, zeros on the diagonal of rows that are not zero,
 /// a matrix of zeros, asymmetry beyond rounding, and entries that a positive semi-definite matrix
-/// cannot have. `name` is the host's name of the matrix.
+/// cannot have, each but for what a condensation leaves beside the entries of the same `group` of components. `name` is
+/// the host's name of the matrix.
 ///
 /// A row of zeros is a component that a free body moves without a force: a foot along its normal, if the
 /// body stands on two feet in the plane, or on three in space.
-pub(crate) fn check(matrix: &Matrix<'_>, name: &str, argument: Argument) -> Result<(), Error> {
-    check_semi_definite(matrix, name, argument)?;
+pub(crate) fn check(
+    matrix: &Matrix<'_>,
+    group: usize,
+    name: &str,
+    argument: Argument,
+) -> Result<(), Error> {
+    check_beside(matrix, &roots(matrix, group), name, argument)?;
     check_not_zero(matrix, name, argument)
 }
 
@@ -37,26 +56,38 @@ pub(crate) fn check_semi_definite(
     name: &str,
     argument: Argument,
 ) -> Result<(), Error> {
-    if is_plainly_semi_definite(matrix) {
+    check_beside(matrix, &matrix.diagonal_roots(), name, argument)
+}
+
+/// The check beside these roots of the diagonal.
+fn check_beside(
+    matrix: &Matrix<'_>,
+    root: &[f64],
+    name: &str,
+    argument: Argument,
+) -> Result<(), Error> {
+    if is_plainly_semi_definite(matrix, root) {
         return Ok(());
     }
-    check_columns(matrix, name, argument)?;
-    check_across(matrix, name, argument)
+    check_columns(matrix, root, name, argument)?;
+    check_across(matrix, root, name, argument)
 }
 
 /// Returns `true` if [`check_columns`] and [`check_across`] find nothing, in one pass over the matrix: entries that are not
 /// finite agree with nothing. They find what is wrong where it is.
-fn is_plainly_semi_definite(matrix: &Matrix<'_>) -> bool {
-    let root = matrix.diagonal_roots();
-    root.iter().all(|root| root.is_finite())
-        && matrix.agrees_across(&root, SYMMETRY, 1.0 + SYMMETRY)
+fn is_plainly_semi_definite(matrix: &Matrix<'_>, root: &[f64]) -> bool {
+    root.iter().all(|root| root.is_finite()) && matrix.agrees_across(root, SYMMETRY, 1.0 + SYMMETRY)
 }
 
-/// Refuses asymmetry beyond rounding and entries that the diagonal does not allow.
-fn check_across(matrix: &Matrix<'_>, name: &str, argument: Argument) -> Result<(), Error> {
+/// Refuses asymmetry beyond rounding and entries that a diagonal with these roots does not allow.
+fn check_across(
+    matrix: &Matrix<'_>,
+    root: &[f64],
+    name: &str,
+    argument: Argument,
+) -> Result<(), Error> {
     let refuse = |message: String| Err(Error::invalid(argument, message));
     let at = |i: usize, j: usize| entry(name, [i, j]);
-    let root = matrix.diagonal_roots();
     matrix.pairs_across(|i, j, lower, upper| {
         let scale = root[i] * root[j];
         let difference = (lower - upper).abs();
@@ -90,20 +121,19 @@ pub(crate) fn beyond_diagonal(
 }
 
 /// Refuses a checked matrix, of `dim` components for each pair, that a motion makes work: with a negative
-/// eigenvalue, scaled to a unit diagonal, that is no rounding ([`SYMMETRY`]).
+/// eigenvalue, scaled to a unit diagonal, that is no rounding ([`SYMMETRY`]), with what a condensation leaves on the
+/// diagonal.
 pub(crate) fn check_semidefinite(
     matrix: &Matrix<'_>,
     dim: usize,
     name: &str,
     argument: Argument,
 ) -> Result<(), Error> {
-    let scale: Vec<f64> = matrix
-        .diagonal_roots()
-        .iter()
-        .map(|root| if *root > 0.0 { root.recip() } else { 0.0 })
-        .collect();
-    let entry = |i: usize, j: usize| {
-        scale[i] * matrix.at(i, j) * scale[j] + if i == j { SYMMETRY } else { 0.0 }
+    let inverse = |root: f64| if root > 0.0 { root.recip() } else { 0.0 };
+    let scale: Vec<f64> = roots(matrix, dim).into_iter().map(inverse).collect();
+    let entry = |i: usize, j: usize| match i == j {
+        true => 1.0 + SYMMETRY,
+        false => scale[i] * matrix.at(i, j) * scale[j],
     };
     let Some(component) = first_not_definite(matrix.size(), entry) else { return Ok(()) };
     let message = format!(
@@ -123,7 +153,7 @@ pub(crate) fn check_diagonal(
     name: &str,
     argument: Argument,
 ) -> Result<(), Error> {
-    check_columns(matrix, name, argument)?;
+    check_columns(matrix, &matrix.diagonal_roots(), name, argument)?;
     check_not_zero(matrix, name, argument)
 }
 
@@ -138,19 +168,29 @@ fn check_not_zero(matrix: &Matrix<'_>, name: &str, argument: Argument) -> Result
     Ok(())
 }
 
-fn check_columns(matrix: &Matrix<'_>, name: &str, argument: Argument) -> Result<(), Error> {
+/// Refuses entries that are not finite, and a diagonal entry that is negative, or zero in a column that is not, where
+/// its root is none.
+fn check_columns(
+    matrix: &Matrix<'_>,
+    root: &[f64],
+    name: &str,
+    argument: Argument,
+) -> Result<(), Error> {
     let refuse = |message: String| Err(Error::invalid(argument, message));
     let at = |i: usize, j: usize| entry(name, [i, j]);
     for j in 0..matrix.size() {
-        let column = matrix.column(j);
-        if let Some(i) = first_not_finite(column) {
+        if let Some(i) = first_not_finite(matrix.column(j)) {
             return refuse(at(i, j) + " is not finite");
         }
-        if column[j] < 0.0 {
+    }
+    for j in 0..matrix.size() {
+        let column = matrix.column(j);
+        if root[j].is_nan() {
             return refuse(format!("{} is {}, it must be positive", at(j, j), column[j]));
         }
+        let is_too_large = |i: &usize| column[*i].abs() > (1.0 + SYMMETRY) * root[*i] * root[j];
         if column[j] == 0.0
-            && let Some(i) = column.iter().position(|&k| k != 0.0)
+            && let Some(i) = (0..column.len()).find(is_too_large)
         {
             return refuse(format!(
                 "{} is 0, it must be positive: {} is {}",

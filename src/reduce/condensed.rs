@@ -47,7 +47,7 @@ pub(super) fn settled(
     argument: Argument,
 ) -> Result<Option<Vec<f64>>, Error> {
     let cleaned = without_rounding(dim, matrix);
-    check(&view(matrix, &cleaned), name, argument)?;
+    check(&view(matrix, &cleaned), dim, name, argument)?;
     check_semidefinite(&view(matrix, &cleaned), dim, name, argument)?;
     Ok(cleaned)
 }
@@ -64,7 +64,7 @@ fn contiguous(matrix: &Matrix<'_>) -> Vec<f64> {
 
 /// The matrix without what rounding made of free motions; `None` if it is to be taken as it is.
 fn without_rounding(dim: usize, matrix: &Matrix<'_>) -> Option<Vec<f64>> {
-    let units = units(dim, matrix);
+    let units = matrix.units_of_condensation(dim);
     let is_rounding = |i: usize| matrix.at(i, i) <= FREE * CONDENSATION * units[i];
     if !(0..matrix.size()).any(is_rounding) {
         return None;
@@ -77,19 +77,6 @@ fn without_rounding(dim: usize, matrix: &Matrix<'_>) -> Option<Vec<f64>> {
     let given = HostMatrix { matrix: *matrix, units: &units };
     // A matrix that is not sound is refused by the check.
     (is_sound && settle(&mut stiffness, &units, &given) == Ok(true)).then_some(stiffness)
-}
-
-/// The largest diagonal entry of each component's pair. A component that is coupled to no other one has its
-/// own: condensation leaves no such row, it is a spring of the host.
-fn units(dim: usize, matrix: &Matrix<'_>) -> Vec<f64> {
-    let otherwise = matrix.largest_diagonal();
-    let unit = |i: usize| {
-        let (own, unit) = (matrix.at(i, i), matrix.unit_of_group(i, dim, otherwise));
-        let is_small = own > 0.0 && own <= FREE * CONDENSATION * unit;
-        let is_spring = || matrix.column(i).iter().enumerate().all(|(j, &k)| j == i || k == 0.0);
-        if is_small && is_spring() { own } else { unit }
-    };
-    (0..matrix.size()).map(unit).collect()
 }
 
 /// A matrix of which nothing was eliminated here.

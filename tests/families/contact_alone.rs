@@ -26,7 +26,6 @@ struct Counts {
     balanced: usize,
     driven: usize,
     undecided: usize,
-    refused: usize,
     /// Driven, and proved to have no equilibrium.
     proved: usize,
     /// Driven, and solved for the matrix as it is, with the remark.
@@ -101,14 +100,8 @@ fn all(case: impl Fn(&ContactAlone) -> Case, as_model: bool, proved: f64) {
         let kind = KINDS[seed % KINDS.len()];
         let bodies = ContactAlone::random(&mut Rng::with_seed(seed as u64), kind);
         let case = case(&bodies);
-        let solution = match solved(&case, as_model) {
-            Ok(solution) => solution,
-            // Rounding below zero on the diagonal of a component that nothing resists.
-            Err(_) => {
-                counts.refused += 1;
-                continue;
-            }
-        };
+        // What a condensation leaves below zero, on the diagonal too, is no reason to refuse a matrix.
+        let solution = solved(&case, as_model).expect("the data are valid");
         if let Err(what) = counts.add(&case, bodies.statics(), &solution) {
             wrong.push(format!("{seed} ({kind:?}): {what}"));
         }
@@ -126,10 +119,10 @@ fn clean() {
 }
 
 /// The matrix alone cannot tell rounding from springs where the products of rounding with the rigid motions happen to be
-/// those of springs: in the plane for one body in forty.
+/// those of springs: for one body in twenty.
 #[test]
 fn as_condensed() {
-    all(|bodies| bodies.raw.clone(), false, 0.93);
+    all(|bodies| bodies.raw.clone(), false, 0.94);
 }
 
 #[test]

@@ -6,11 +6,14 @@ use crate::law::Contact;
 use crate::monitor::Monitor;
 use crate::settings::Settings;
 use crate::solve::result::{CAUSES, Remarks, Solution, Status, Uniqueness, of_problem, remark};
-use crate::solve::rigid::{RigidMotions, is_held_by_rounding, moves_freely};
+use crate::solve::rigid::{RigidMotions, escape, is_held_by_rounding, moves_freely};
 
-/// Adds the remarks on a problem and its solution; of a problem that is not solved the sentence says what to look at, if
-/// contact alone holds a body: there may be no equilibrium. With friction nothing is asked about free motions: that
-/// would cost a factorisation of every semi-definite problem.
+/// The sentence on bodies that move away if the rounding of a condensation counts as no resistance.
+const ROUNDING: &str = "if K is condensed, nothing but its rounding resists a motion that the loads drive: solve it as a \
+                        model, which takes that rounding for none";
+
+/// Adds the remarks on a problem and its solution. With friction nothing is asked about free motions: that would cost a
+/// factorisation of every semi-definite problem.
 pub fn add_remarks(
     contact: &Contact<'_>,
     settings: &Settings,
@@ -28,13 +31,22 @@ pub fn add_remarks(
         ..of_problem(problem, d)
     };
     remark(solution, problem, remarks);
-    if solution.status == Status::Stalled
-        && solution.escape.is_none()
-        && problem.is_symmetric()
-        && RigidMotions::of(problem, monitor).is_some()
-    {
+    if solution.status == Status::Stalled && problem.is_symmetric() {
+        explain(contact, solution, monitor);
+    }
+}
+
+/// Adds to the sentence of a problem that is not solved what to look at, if contact alone holds a body, or if nothing but
+/// rounding may hold one: there may be no equilibrium.
+fn explain(contact: &Contact<'_>, solution: &mut Solution, monitor: &Monitor<'_>) {
+    let problem = contact.problem();
+    if solution.escape.is_none() && RigidMotions::of(problem, monitor).is_some() {
         let said = solution.message.marked();
         solution.message = format!("{said}; contact alone holds a body: {CAUSES}").into();
+    }
+    if escape(&Contact::new(&problem.condensed_by_host()), monitor).is_some() {
+        let said = solution.message.marked();
+        solution.message = format!("{said}; {ROUNDING}").into();
     }
 }
 

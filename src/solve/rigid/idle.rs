@@ -24,7 +24,8 @@ pub fn without_idle_motion(
     candidate: Candidate,
     monitor: &Monitor<'_>,
 ) -> Candidate {
-    if !is_far(contact, candidate.d(), candidate.force()) {
+    let unit = |i: usize| contact.problem().unit(i);
+    if !is_far(contact, candidate.d(), candidate.force(), unit) {
         return candidate;
     }
     let Some(rigid) = RigidMotions::of(contact.problem(), monitor) else { return candidate };
@@ -39,9 +40,8 @@ pub fn without_idle_motion(
     candidate.moved_to(contact, d)
 }
 
-/// True if displacements are large beside what loads, forces and obstacles ask for.
-fn is_far(contact: &Contact<'_>, d: &[f64], force: &[f64]) -> bool {
-    let unit = |i: usize| contact.problem().unit(i);
+/// True if displacements, of components with these units, are large beside what loads, forces and obstacles ask for.
+fn is_far(contact: &Contact<'_>, d: &[f64], force: &[f64], unit: impl Fn(usize) -> f64) -> bool {
     let forces = norm_inf(contact.load_with_tension()).max(norm_inf(force));
     let pairs = contact.each(d, force).enumerate();
     let prescribed =
@@ -54,16 +54,17 @@ fn is_far(contact: &Contact<'_>, d: &[f64], force: &[f64]) -> bool {
 /// condensation leaves: another rounding would hold the bodies elsewhere, or not at all. Energies below [`HELD`] times that
 /// rounding cannot be told from it.
 ///
-/// The energy is compared with that of the units, not of the entries of `K`: a diagonal entry that is rounding itself
-/// would be its own measure.
+/// The units are those beside which a condensation has rounded: a diagonal entry that is rounding itself would be its own
+/// measure.
 pub fn is_held_by_rounding(contact: &Contact<'_>, d: &[f64], force: &[f64]) -> bool {
-    if !is_far(contact, d, force) {
+    let problem = contact.problem();
+    let units = problem.units_of_condensation();
+    if !is_far(contact, d, force, |i| units[i]) {
         return false;
     }
-    let problem = contact.problem();
     let largest = norm_inf(d);
     let motion: Vec<f64> = d.iter().map(|d| d / largest).collect();
-    let of_units: f64 = motion.iter().enumerate().map(|(i, d)| problem.unit(i) * d * d).sum();
+    let of_units: f64 = motion.iter().zip(&units).map(|(d, unit)| unit * d * d).sum();
     dot(&motion, &problem.internal_force(&motion)) <= HELD * CONDENSATION * of_units
 }
 
