@@ -107,8 +107,10 @@ impl Numbers {
             3 | 4 => Bound::tresca(uniform(rng, 0.01, 2.0)),
             5 => Bound { slope: uniform(rng, 0.0, 2.0), offset: uniform(rng, 0.0, 1.0) },
             6 | 7 => {
-                let mu = if rng.bool() { 0.0 } else { uniform(rng, 0.0, 2.0) };
-                tension = uniform(rng, 0.01, 2.0);
+                // Numbers of 24 bits have an exact product, so that `b` is `mu a` where nothing is added.
+                let short = |value: f64| f64::from(value as f32);
+                let mu = if rng.bool() { 0.0 } else { short(uniform(rng, 0.0, 2.0)) };
+                tension = short(uniform(rng, 0.01, 2.0));
                 let more = if rng.bool() { 0.0 } else { uniform(rng, 0.01, 2.0) };
                 Bound::cohesive(mu, mu * tension + more, tension)
             }
