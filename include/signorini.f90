@@ -210,7 +210,7 @@ module signorini
     end type
 
     type, bind(C) :: signorini_extra
-        integer(c_int32_t) :: struct_size = 8 + 7 * address_bytes
+        integer(c_int32_t) :: struct_size = 8 + 8 * address_bytes
         integer(c_int32_t) :: reserved = 0
         type(c_ptr) :: motion = c_null_ptr
         type(c_ptr) :: second_d = c_null_ptr

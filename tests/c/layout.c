@@ -166,7 +166,7 @@ FIELD(signorini_pairs, row_start, int64_t *, 64);
 FIELD(signorini_pairs, row_nodes, int64_t *, 72);
 FIELD(signorini_pairs, row_weights, double *, 80);
 
-SIZE(signorini_extra, 64);
+SIZE(signorini_extra, 72);
 FIELD(signorini_extra, struct_size, uint32_t, 0);
 FIELD(signorini_extra, reserved, int32_t, 4);
 FIELD(signorini_extra, motion, double *, 8);

@@ -113,7 +113,7 @@ static void pairs(void)
 /* The sentence on a body that flies off says what to look at. */
 static void signs(void)
 {
-    const char *const off[3] = {"no equilibrium exists", "the slave of pair 3 moves along",
+    const char *const off[3] = {"no equilibrium exists", "the slave of pair ",
                                 "is a normal, a load or the sign of gap turned round?"};
     REFUSED("normals point into the body", 4, off,
             for (int i = 0; i < PAIRS; i++) block.normals[2 * i + 1] = 1);
@@ -124,7 +124,7 @@ static void signs(void)
                   "are a support, friction, or a pair missing"),
             block.n_fixed = 0, each_pair(block.mu, 0), block.f[16] = 0.1);
     REFUSED("x and y exchanged in slaves", 5,
-            WORDS("no method converges", "contact alone holds a body", "is a normal, a load"),
+            WORDS("no method converges", "the bodies move away", "is a normal, a load"),
             for (int i = 0; i < PAIRS; i++) {
                 block.slaves[2 * i] = 2 * i + 1;
                 block.slaves[2 * i + 1] = 2 * i;

@@ -78,7 +78,9 @@ static void check_report(const signorini_report *report, int32_t status, int64_t
     CHECK(report->pairs_open + report->pairs_slipping + report->pairs_sticking == pairs);
     CHECK(report->pairs_open >= 0 && report->pairs_slipping >= 0 && report->pairs_sticking >= 0);
     CHECK(status != SIGNORINI_STATUS_SOLVED || report->eta <= 1e-10);
-    CHECK((status == SIGNORINI_STATUS_SOLVED) == (signorini_last_error()[0] == '\0'));
+    /* A solved problem has a sentence for its remarks. */
+    const int is_silent = status == SIGNORINI_STATUS_SOLVED && report->remarks == 0;
+    CHECK(is_silent == (signorini_last_error()[0] == '\0'));
 }
 
 /* A leading dimension without padding; it is at least 1. */

@@ -25,7 +25,7 @@ pub fn remark<R: Relation>(
     remarks: Remarks,
 ) {
     solution.remarks = remarks;
-    if solution.status != Status::Solved {
+    if solution.status != Status::Solved || remarks == Remarks::default() {
         return;
     }
     let deepest = deepest_of_negative_gaps(problem).unwrap_or(0.0);
