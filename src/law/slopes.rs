@@ -90,15 +90,22 @@ impl Linearised {
         if square(&n) > 0.0 { vec![([along(&one), along(&other)], n)] } else { Vec::new() }
     }
 
-    /// The change of the coordinates where the unknowns change by `x`, and the pushes of the other components by
-    /// `push`.
-    pub fn coordinates(&self, x: &Vector, push: &Vector) -> Vector {
-        let scaled = self.scaled(x);
-        let drag = self.slopes.drag;
-        let normal = if self.closed { push[0] } else { scaled[0] };
-        match self.slips {
-            true => [normal, scaled[1] + drag[0] * normal, scaled[2] + drag[1] * normal],
-            false => [normal, push[1], push[2]],
+    /// Turns the changes of the unknowns, and of the pushes of the other components, into those of the coordinates.
+    pub fn complete(&self, own: &mut [f64]) {
+        if !self.closed {
+            own[0] *= self.normal_scale;
+        }
+        if !self.slips {
+            return;
+        }
+        let (drag, scale) = (self.slopes.drag, &self.scale);
+        match own {
+            [normal, one] => *one = scale[0][0] * *one + drag[0] * *normal,
+            [normal, one, other] => {
+                let [first, second] = ellipse::product(scale, [*one, *other]);
+                (*one, *other) = (first + drag[0] * *normal, second + drag[1] * *normal);
+            }
+            _ => {}
         }
     }
 }

@@ -17,7 +17,7 @@
 //! components that are eliminated have the pivot 1.
 
 use super::equations::Equations;
-use crate::law::{Assembly, Linearised, Slopes, Unknown, Vector};
+use crate::law::{Assembly, Linearised, Slopes, Unknown, Vector, ellipse};
 use crate::linalg::factor::{Factor, cholesky_work, lu_work, subtract_product};
 use crate::linalg::vector::dot;
 
@@ -171,38 +171,31 @@ impl<'e> System<'e> {
         moved.chunks_exact_mut(count.max(1)).for_each(|moved| self.displace(moved));
         subtract_product(&mut pushes, &self.rows, &moved, count);
         let mut dy = vec![0.0; b.len()];
-        let (mut x, mut pushes) = (x.iter().zip(self.unknowns.iter().cycle()), pushes.iter());
-        for (dy, pair) in dy.chunks_exact_mut(dim).zip(self.pairs.iter().cycle()) {
-            let (mut own, mut push) = ([0.0; 3], [0.0; 3]);
-            for c in 0..dim {
-                match pair.moves(c) {
-                    true => own[c] = x.next().map_or(0.0, |(x, unknown)| x * unknown.column),
-                    false => push[c] = pushes.next().copied().unwrap_or(0.0),
-                }
+        for (column, dy) in dy.chunks_exact_mut(size.max(1)).enumerate() {
+            for (unknown, x) in self.unknowns.iter().zip(&x[column * count..]) {
+                dy[dim * unknown.pair + unknown.component] = x * unknown.column;
             }
-            dy.iter_mut().zip(pair.coordinates(&own, &push)).for_each(|(dy, y)| *dy = y);
+            for (&i, push) in self.held.iter().zip(&pushes[column * self.held.len()..]) {
+                dy[i] = *push;
+            }
+            let pairs = self.pairs.iter().zip(dy.chunks_exact_mut(dim));
+            pairs.for_each(|(pair, dy)| pair.complete(dy));
         }
         dy
     }
 
     /// Turns a column of unknowns into `s` times the displacements of the components that move.
     fn displace(&self, moved: &mut [f64]) {
-        let mut k = 0;
-        while k < moved.len() {
-            let Unknown { pair, component, column, .. } = self.unknowns[k];
-            if component == 0 {
-                moved[k] *= self.s * column;
-                k += 1;
-                continue;
+        for (moved, unknown) in moved.iter_mut().zip(&self.unknowns) {
+            *moved *= self.s * unknown.column;
+        }
+        let tangential = self.unknowns.iter().enumerate().filter(|(_, own)| own.component == 1);
+        for (k, unknown) in tangential {
+            let motion = &self.slopes[unknown.pair].motion;
+            match &mut moved[k..k + self.equations.dim - 1] {
+                [one, other] => [*one, *other] = ellipse::product(motion, [*one, *other]),
+                along => along.iter_mut().for_each(|along| *along *= motion[0][0]),
             }
-            let along = self.equations.dim - 1;
-            let own = std::array::from_fn(|c| match c < along {
-                true => moved[k + c] * self.s * self.unknowns[k + c].column,
-                false => 0.0,
-            });
-            let by = crate::law::ellipse::product(&self.slopes[pair].motion, own);
-            moved[k..k + along].iter_mut().zip(by).for_each(|(moved, by)| *moved = by);
-            k += along;
         }
     }
 }
