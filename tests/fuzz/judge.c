@@ -145,7 +145,9 @@ static quad residual(const problem *p, const double *d, const quad *force, const
         const int64_t i = p->dim * pair;
         double slope, offset, tension;
         bound_of(p, pair, &slope, &offset, &tension);
-        const quad k_t = tangential(p, pair), k_n = p->K[i + p->ld * i];
+        /* A stiffness that a condensation has rounded to below zero is no unit: the pair's stands for it. */
+        const quad own_t = tangential(p, pair), own_n = p->K[i + p->ld * i];
+        const quad k_t = own_t > 0 ? own_t : own_n, k_n = own_n > 0 ? own_n : own_t;
         quad e = force[i] - tension, change = parts[i];
         if (!isinf(p->gap[pair])) e = larger(e, k_n * ((quad)d[i] - p->gap[pair]));
         sum += e * e;
