@@ -47,7 +47,8 @@ impl Assembly<'_> {
         let unknown = &self.unknowns[j];
         let parts = self.motion_of(unknown);
         let mut is_first = true;
-        for (c, part) in parts.into_iter().enumerate().filter(|(_, part)| *part != 0.0) {
+        let parts = parts.into_iter().take(self.dim).enumerate();
+        for (c, part) in parts.filter(|(_, part)| *part != 0.0) {
             let source = self.matrix.column(self.dim * unknown.pair + c);
             let terms = image.iter_mut().zip(source);
             match is_first {
