@@ -41,6 +41,47 @@ fn the_residual_is_a_close_bound() {
     }
 }
 
+/// The law itself rounds: a pair that slips at `d = 0`, beyond its reference slip by 1, has the forces `-f` exactly, and
+/// lacks `mu f_n - f_t`. With `f_t` the nearest double to `mu f_n` the computed lack is nothing. Of numbers with 53 digits
+/// behind the point the product is a whole multiple of 2^-106, and so is its rounding.
+#[test]
+fn the_residual_counts_the_rounding_of_the_law() {
+    const ONE: i128 = 1 << 53;
+    let rng = &mut Rng::with_seed(1);
+    let number = |whole: i128| whole as f64 / ONE as f64;
+    let mut inexact = 0;
+    for seed in 0..200 {
+        let [press, mu] = [(); 2].map(|()| rng.i128(ONE / 2..ONE));
+        let f = vec![number(press), number(press) * number(mu)];
+        let off = press * mu - (f[1] * 2_f64.powi(106)) as i128;
+        let eta = off.unsigned_abs() as f64 * 2_f64.powi(-106) / norm(&f);
+        let law = Law::Coulomb(vec![number(mu)]);
+        let (k, slip) = (vec![1.0, 0.0, 0.0, 1.0], Some(vec![-1.0]));
+        let case = Case { dim: 2, pairs: 1, k, f, gap: vec![0.0], law, slip };
+        let certificate = certify(&case.problem(), &[0.0; 2]);
+        assert_eq!(certificate.states, [Slip]);
+        assert!(eta <= certificate.residual, "seed {seed}: {eta:e} > {:e}", certificate.residual);
+        inexact += usize::from(off != 0);
+    }
+    assert!(inexact > 100, "{inexact} of 200");
+}
+
+/// A force that overflows is no number, which neither the branches of the law nor the larger of two see: a pair that
+/// touches at a displacement whose force overflows lacks nothing that could be seen. Nothing is certified there, nor at
+/// displacements that are no numbers.
+#[test]
+fn what_is_no_number_is_not_certified() {
+    let large = 1e200;
+    let (k, f, gap) = (vec![large, 0.0, 0.0, 1.0], vec![1.0, 0.0], vec![large]);
+    let law = Law::Coulomb(vec![0.5]);
+    let case = Case { dim: 2, pairs: 1, k, f, gap, law, slip: None };
+    for d in [large, f64::INFINITY, f64::NEG_INFINITY, f64::NAN] {
+        let certificate = certify(&case.problem(), &[d, 0.0]);
+        assert!(!certificate.holds(0.1), "{d}: {certificate:?}");
+        assert_eq!(certificate.eta, f64::INFINITY, "{d}");
+    }
+}
+
 /// One pair on unit stiffness and a second one far away, displaced by `far`. `slip0` is the reference slip of the
 /// first pair, which sticks where it is.
 fn displaced(gap: f64, slip0: f64, far: f64, load: f64) -> (Case, Vec<f64>) {

@@ -8,6 +8,7 @@ mod common;
 
 mod edges;
 mod existence;
+mod rims;
 mod truth;
 mod uniqueness;
 mod uniqueness_3d;

@@ -1,7 +1,8 @@
 //! Doubts of a box, against the matrices at its corners.
 
 use super::{
-    BOX, Ball, BallVector, Centre, Neighbourhood, Solver, System, by_inverse, enclosed_force,
+    BOX, Ball, BallVector, Centre, Enclosure, Neighbourhood, Solver, System, by_inverse, enclose,
+    enclosed_force,
 };
 use crate::law::{Contact, State};
 use crate::linalg::vector::largest_of;
@@ -67,6 +68,34 @@ fn random(rng: &mut Rng, dim: usize) -> (Vec<f64>, Vec<State>) {
     (k, (0..PAIRS).map(|_| state()).collect())
 }
 
+/// A statement on the system of a problem on pieces at a place.
+fn on_pieces<T>(
+    (dim, k, load): (usize, &[f64], &[f64]),
+    (states, mu): (&[State], f64),
+    (d, force): (Vec<f64>, &[f64]),
+    said: impl FnOnce(&System<'_>, &Centre) -> T,
+) -> T {
+    let (mu, gap) = (vec![mu; states.len()], vec![0.0; states.len()]);
+    let problem = ContactProblem::new(ContactData {
+        dim,
+        pairs: states.len(),
+        stiffness: k,
+        ld: d.len(),
+        load,
+        gap: &gap,
+        law: FrictionLaw::Coulomb(&mu),
+        reference_slip: None,
+    })
+    .unwrap();
+    let contact = Contact::new(&problem);
+    let pieces = contact.each(&d, force).zip(states);
+    let pairs =
+        pieces.map(|((law, v, force), state)| law.enclosed_piece(*state, v, force).unwrap());
+    let (pairs, low) = (pairs.collect(), vec![0.0; d.len()]);
+    let centre = Centre { force: problem.force_of_parts(&d, &low), d, low };
+    said(&System::new(&contact, pairs, &centre), &centre)
+}
+
 /// A statement on a system at a random place where the states are possible, whether it is a solution or not.
 fn of_system<T>(
     rng: &mut Rng,
@@ -85,27 +114,7 @@ fn of_system<T>(
         (0..n).map(|i| component(i, rng)).map(|[d, force]| (d, force)).unzip();
     let load: Vec<f64> =
         (0..n).map(|i| (0..n).map(|j| k[i + n * j] * d[j]).sum::<f64>() - force[i]).collect();
-    let (mu, gap) = (vec![mu; states.len()], vec![0.0; states.len()]);
-    let problem = ContactProblem::new(ContactData {
-        dim,
-        pairs: states.len(),
-        stiffness: k,
-        ld: n,
-        load: &load,
-        gap: &gap,
-        law: FrictionLaw::Coulomb(&mu),
-        reference_slip: None,
-    })
-    .unwrap();
-    let contact = Contact::new(&problem);
-    let low = vec![0.0; n];
-    let centre = Centre { force: problem.force_of_parts(&d, &low), d, low };
-    let frozen = contact.each(&centre.d, &centre.force).zip(states);
-    let pairs = frozen
-        .map(|((law, v, force), state)| law.enclosed_piece(*state, v, force).unwrap())
-        .collect();
-    let system = System::new(&contact, pairs, &centre);
-    said(&system, &centre)
+    on_pieces((dim, k, &load), (states, mu), (d, &force), said)
 }
 
 /// The largest part of a doubt that one of 20 corners of the box, taken just inside, comes to: at most 1.
@@ -198,4 +207,77 @@ fn a_box_that_is_not_taken_into_itself_proves_nothing() {
         });
     }
     assert!(proved > SYSTEMS && contracts > SYSTEMS, "{proved}, {contracts}");
+}
+
+/// The enclosure of a place that is off by `off` from a solution at the displacements `d`, all of whose numbers are
+/// powers of two or small multiples of them, so that sums are exact.
+fn enclosed_off(
+    (k, mu): (&[f64; 4], f64),
+    state: State,
+    (d, force): ([f64; 2], [f64; 2]),
+    off: [f64; 2],
+) -> Enclosure {
+    let load = [0, 1].map(|i| k[i] * d[0] + k[i + 2] * d[1] - force[i]);
+    let place = [0, 1].map(|i| d[i] + off[i]);
+    on_pieces((2, k, &load), (&[state], mu), (place.to_vec(), &force), |system, centre| {
+        enclose(system, &system.solver().unwrap(), centre).unwrap()
+    })
+}
+
+/// Of an open pair of the stiffness `[[2, 1], [1, 2]]` the direction `(1, -1)` is resisted by 1, its least eigenvalue:
+/// a place that is off along it lacks a force of the same length. The solution is off by `1 / sqrt(2)` of the radius
+/// then, and by all of it where the stiffness is 1 in both directions and the place is off along one.
+#[test]
+fn a_solution_at_the_rim_of_a_ball_is_in_the_enclosure() {
+    for exponent in [-40, -20, -4] {
+        let off = 2_f64.powi(exponent);
+        let cases = [([2.0, 1.0, 1.0, 2.0], [off, -off]), ([1.0, 0.0, 0.0, 1.0], [off, 0.0])];
+        for (k, off) in cases {
+            let enclosure = enclosed_off((&k, 0.5), State::Open, ([-1.0, 2.0], [0.0; 2]), off);
+            assert!((0..2).all(|i| off[i].abs() <= enclosure.d_radius[i]), "{off:?}");
+        }
+    }
+}
+
+/// A pair that slips has one unknown, its slip, and an equation that is linear with the coefficient `k_tt - mu k_nt`:
+/// the first correction is the whole distance.
+#[test]
+fn a_solution_at_the_rim_of_a_box_is_in_the_enclosure() {
+    for exponent in [-40, -20, -4] {
+        let off = [0.0, 2_f64.powi(exponent)];
+        let truth = ([0.0, 2.0], [-1.0, -0.5]);
+        let enclosure = enclosed_off((&[1.0, 0.25, 0.25, 1.0], 0.5), State::Slip, truth, off);
+        assert!(off[1] <= enclosure.d_radius[1], "{off:?}: {:?}", enclosure.d_radius);
+    }
+}
+
+/// The coefficient of a slip, `k_tt -+ mu k_nt`, is rounded twice. Of numbers below one with 53 digits behind the point
+/// products are whole multiples of 2^-106, and so are the coefficient and its error.
+#[test]
+fn doubts_hold_the_rounding_of_the_coefficients() {
+    const ONE: i128 = 1 << 53;
+    let rng = &mut Rng::with_seed(4);
+    let number = |whole: i128| whole as f64 / ONE as f64;
+    let mut inexact = 0;
+    for _ in 0..SYSTEMS {
+        // Between a half and one: scales are 1, and the stiffness is definite.
+        let [k_tt, mu] = [(); 2].map(|()| rng.i128(ONE / 2..ONE));
+        let k_nt = rng.i128(ONE / 8..ONE / 2);
+        let k = [1.0, number(k_nt), number(k_nt), number(k_tt)];
+        let (d, needed) = (vec![0.0, 1.0], [-1.0, -number(mu)]);
+        let load = [number(k_nt) + 1.0, number(k_tt) + number(mu)];
+        let pieces = (&[State::Slip][..], number(mu));
+        on_pieces((2, &k, &load), pieces, (d, &needed), |system, centre| {
+            let (v, force) = place(system, centre);
+            let doubt = Neighbourhood::new(system, &force, &v, 0.0).doubts()[0];
+            let drag = if system.slopes[0].drag[0] < 0.0 { -mu } else { mu };
+            let scale = system.unknowns[0].row * system.unknowns[0].column;
+            let unit = scale * 2_f64.powi(-106);
+            let exact = k_tt * ONE - drag * k_nt;
+            let error = (exact - (matrix(system)[0] / unit) as i128).unsigned_abs() as f64 * unit;
+            assert!(error <= doubt, "{error:e} > {doubt:e}");
+            inexact += usize::from(error > 0.0);
+        });
+    }
+    assert!(2 * inexact > SYSTEMS, "{inexact}");
 }
