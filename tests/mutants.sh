@@ -2,15 +2,19 @@
 # Mutants: small changes of the source, each of which some test should notice. Which ones do not?
 #
 #     sh tests/mutants.sh [FILE | PATTERN]...
+#     sh tests/mutants.sh --planted [WORD]...
 #
-# Without a word: certificate, law, reduce and ffi/args.rs, some 2800 mutants and a day or two on one core. A file
-# (src/law/gauge.rs) takes half an hour. Of a room a random part may do: MUTANTS_SHARD=3/10 takes the
-# fourth tenth. MUTANTS_TESTS names the tests, default those that bear on all rooms and are quick.
+# Without a word: the rooms that decide what is true, certificate and proof, law, reduce, existence, rigid motions, mortar
+# and ffi/args.rs, some 3000 mutants and a day or two on one core. A file (src/certificate/escape.rs) takes a
+# quarter of an hour. Of a room a random part may do: MUTANTS_SHARD=3/10 takes the fourth tenth. MUTANTS_TESTS names the
+# rooms of tests, default all that bear on these.
 #
-# Needs cargo-mutants (cargo install --locked cargo-mutants). It writes to target/mutants, where
+# With --planted: those that once no test noticed, tests/mutants/planted.txt, or of them those that hold a word.
+#
+# Needs cargo-mutants (cargo install --locked cargo-mutants), or python3 for --planted. It writes to target/mutants, where
 # mutants.out/missed.txt lists what survived; the source stays as it is. Survivors are judged by hand: a test that
-# is not among these may notice them, they may change a bound, or the speed, or nothing at all. Ends with 2 if some
-# survived, with 77 if cargo-mutants is missing.
+# is not among these may notice them, they may change a bound, or the speed, or nothing at all. Ends with 2, or 1 of
+# planted ones, if some survived, with 77 if cargo-mutants is missing.
 set -eu
 LC_ALL=C
 export LC_ALL
@@ -18,16 +22,18 @@ export LC_ALL
 root=$(CDPATH='' cd -- "$(dirname -- "$0")/.." && pwd)
 work=$root/target/mutants
 cd -- "$root"
+if [ "${1-}" = --planted ]; then
+    shift
+    exec python3 tests/mutants/planted.py "$@"
+fi
 cargo mutants --version >/dev/null 2>&1 || {
     echo "mutants: skipped: no cargo-mutants: cargo install --locked cargo-mutants"
     exit 77
 }
-tests=${MUTANTS_TESTS:-certificate certificate_bounds thresholds escape law law_values law_uses law_pieces \
-    law_boundaries law_rounding relation friction_laws properties far_gaps proof model_cases dependent_rows \
-    flexibility flexibility_sparse two_body general_rows reductions condensed_rounding motion_words sparse_messages \
-    sparse_supports sparse_condensation full_space_bodies operator free_bodies counting bad_input}
+tests=${MUTANTS_TESTS:-certificate law problem proof reduce model flexibility operator surface solve}
 
-[ $# -gt 0 ] || set -- 'src/certificate/**' 'src/law/**' 'src/reduce/**' src/ffi/args.rs
+[ $# -gt 0 ] || set -- 'src/certificate/**' 'src/law/**' 'src/reduce/**' src/ffi/args.rs \
+    src/solve/uniqueness/existence.rs 'src/solve/rigid/**' src/surface/mortar.rs
 for file in "$@"; do
     shift
     set -- "$@" --file "$file"
