@@ -62,7 +62,8 @@ impl PairLaw {
     }
 
     /// Bound on the rounding of [`Self::natural_residual`] where its terms cancel, from forces that are
-    /// rounded once: two forces on a slip. Elsewhere a component has one term, with a few roundings.
+    /// rounded once: a normal force and the tension, and two forces on a slip. Elsewhere a component has one term, with
+    /// a few roundings.
     pub fn natural_rounding(&self, d: &[f64], force: &[f64]) -> f64 {
         let threshold = self.threshold(force[0]);
         // For an isotropic law the sum of sizes is above the length, and cheaper.
@@ -73,7 +74,8 @@ impl PairLaw {
         // Next to its bound a pair that sticks may slip.
         let sticks = self.ellipse.is_none() && above(trial) + rounding <= threshold;
         let slips = threshold > 0.0 && !sticks && self.gauge(trial) + rounding > threshold;
-        if slips { rounding } else { 0.0 }
+        let pull = if self.tension > 0.0 { f64::EPSILON * force[0].abs() } else { 0.0 };
+        if slips { pull + rounding } else { pull }
     }
 
     /// Bound on the change of [`Self::natural_residual`] by a change of the force, relative to that change.

@@ -2,7 +2,7 @@
 //! square linear system and some inequalities.
 
 use super::exact::{differ, force, parts, quads};
-use super::problems::{Case, Law};
+use super::problems::Case;
 use super::quad::{Quad, solve};
 
 /// A state's inequality holds if it is missed by no more than this part of the sums that it comes from:
@@ -51,15 +51,14 @@ pub fn all_solutions(case: &Case) -> AllSolutions {
 }
 
 fn options(case: &Case, pair: usize) -> Vec<Local> {
-    let (bound, open_slips) = match &case.law {
-        Law::Coulomb(mu) => (mu[pair], false),
-        Law::Tresca(g) => (g[pair], true),
-        Law::Cohesive(_) => unreachable!("no problem at the edges has cohesion"),
+    let [slope, offset, _] = case.law.of(pair);
+    let slips = match (slope, offset) {
+        (0.0, 0.0) => vec![Some(0.0)],
+        _ => vec![None, Some(1.0), Some(-1.0)],
     };
-    let slips = if bound == 0.0 { vec![Some(0.0)] } else { vec![None, Some(1.0), Some(-1.0)] };
     let local = |closed: bool| move |&slip: &Option<f64>| Local { closed, slip };
     let mut options = Vec::new();
-    if open_slips {
+    if open_bound(case, pair) != Quad::ZERO {
         options.extend(slips.iter().map(local(false)));
     } else {
         options.push(Local { closed: false, slip: Some(0.0) });
@@ -68,6 +67,12 @@ fn options(case: &Case, pair: usize) -> Vec<Local> {
         options.extend(slips.iter().map(local(true)));
     }
     options
+}
+
+/// The bound on the tangential force of an open pair, `b - mu a`.
+fn open_bound(case: &Case, pair: usize) -> Quad {
+    let [slope, offset, tension] = case.law.of(pair);
+    Quad::from(offset) - Quad::from(tension) * slope
 }
 
 /// Displacements that solve the equations of a state.
@@ -88,19 +93,16 @@ fn candidate(case: &Case, local: &[Local]) -> Option<Vec<Quad>> {
             rhs.push(Quad::from(case.gap[pair]));
         } else {
             matrix.push(normal.clone());
-            rhs.push(load);
+            rhs.push(load + Quad::from(case.law.of(pair)[2]));
         }
         let Some(side) = now.slip else {
             matrix.push(unit(t));
             rhs.push(Quad::from(case.rest(pair, 0)));
             continue;
         };
-        // Against the slip: F_t = side mu F_n with F_n <= 0, or -side g.
-        let (slope, offset) = match &case.law {
-            Law::Coulomb(mu) => (side * mu[pair], 0.0),
-            Law::Tresca(g) => (0.0, side * g[pair]),
-            Law::Cohesive(_) => unreachable!("no problem at the edges has cohesion"),
-        };
+        // Against the slip: F_t = side (mu F_n - b), of an open pair with F_n = a.
+        let [slope, offset, _] = case.law.of(pair);
+        let (slope, offset) = (side * slope, side * offset);
         matrix.push(row(t).iter().zip(&normal).map(|(&k_t, &k_n)| k_t - k_n * slope).collect());
         rhs.push(Quad::from(case.f[t]) - load * slope - Quad::from(offset));
     }
@@ -115,7 +117,10 @@ fn obeys(case: &Case, local: &[Local], d: &[Quad]) -> bool {
         let positive = |value: Quad, size: f64| value.value() >= -FEASIBLE * size;
         let gap = case.gap[pair];
         let normal = match now.closed {
-            true => positive(-force[i], parts[i]),
+            true => {
+                let tension = Quad::from(case.law.of(pair)[2]);
+                positive(tension - force[i], parts[i] + tension.value())
+            }
             false if gap.is_finite() => {
                 positive(Quad::from(gap) - d[i], d[i].value().abs().max(gap.abs()))
             }
@@ -124,12 +129,12 @@ fn obeys(case: &Case, local: &[Local], d: &[Quad]) -> bool {
         let rest = case.rest(pair, 0);
         let tangential = match now.slip {
             None => {
-                let bound = match &case.law {
-                    Law::Coulomb(mu) => -force[i] * mu[pair],
-                    Law::Tresca(g) => Quad::from(g[pair]),
-                    Law::Cohesive(_) => unreachable!("no problem at the edges has cohesion"),
+                let [slope, offset, _] = case.law.of(pair);
+                let bound = match now.closed {
+                    true => Quad::from(offset) - force[i] * slope,
+                    false => open_bound(case, pair),
                 };
-                let size = parts[t] + bound.value().abs();
+                let size = parts[t] + bound.value().abs() + offset;
                 positive(bound - force[t].abs(), size)
             }
             Some(0.0) => true,

@@ -28,7 +28,7 @@ type Class = (&'static str, fn(&mut Rng, usize) -> Made);
 /// A case, its rigid motions and its noise.
 type Made = (Case, Vec<Vec<f64>>, f64);
 
-pub const CLASSES: [Class; 12] = [
+pub const CLASSES: [Class; 19] = [
     ("definite, condition to 1e3, mu to 2", ordinary),
     ("definite, condition to 1e3, mu to 1e3", high_friction),
     ("definite, thresholds", thresholds),
@@ -41,6 +41,13 @@ pub const CLASSES: [Class; 12] = [
     ("duplicated pairs", duplicated),
     ("touching, on the cone, unloaded", touching),
     ("gaps to 1e300 and infinite, mu to 1e3", large_gaps),
+    ("no loads", unloaded),
+    ("grazing up to rounding", grazing),
+    ("cohesion", cohesive),
+    ("cohesion, rigid motions", cohesive_bodies),
+    ("reference slips to 1e8 of the gaps", far_slips),
+    ("units to 1e60", far_units),
+    ("pairs that nearly coincide, to 1e-12", nearly_duplicated),
 ];
 
 /// The problem of a seed: all classes in turn, in 2D and in 3D.
@@ -336,4 +343,89 @@ fn large_gaps(rng: &mut Rng, dim: usize) -> Made {
         }
     }
     (case, Vec::new(), 0.0)
+}
+
+/// Interferences and reference slips alone drive it, of a definite matrix or of a body with rigid motions.
+fn unloaded(rng: &mut Rng, dim: usize) -> Made {
+    let (mut case, motions, noise) = match rng.bool() {
+        true => ordinary(rng, dim),
+        false => rigid_motions(rng, dim),
+    };
+    case.f.fill(0.0);
+    for gap in &mut case.gap {
+        let some = if gap.is_finite() { *gap } else { 1.0 };
+        *gap = [*gap, -some, -some.abs(), 0.0][rng.usize(0..4)];
+    }
+    (case, motions, noise)
+}
+
+/// As [`touching`], in units that are no powers of two: what was zero there is rounding, of either sign.
+fn grazing(rng: &mut Rng, dim: usize) -> Made {
+    let (mut case, motions, noise) = touching(rng, dim);
+    let (length, force) = (power(rng, -3.0, 3.0), power(rng, -3.0, 3.0));
+    let rounded =
+        |values: &mut [f64], unit: f64| values.iter_mut().for_each(|value| *value *= unit);
+    rounded(&mut case.k, force / length);
+    rounded(&mut case.f, force);
+    rounded(&mut case.gap, length);
+    case.slip.iter_mut().for_each(|slip| rounded(slip, length));
+    (case, motions, noise)
+}
+
+/// `b >= mu a`, both of the size of the loads; where both are equal the cone is moved, and zero tension is Coulomb's law
+/// with an offset.
+fn with_cohesion(rng: &mut Rng, case: &mut Case) {
+    let size = norm(&case.f).max(f64::MIN_POSITIVE);
+    let most = power(rng, -1.0, 1.0);
+    let numbers = (0..case.pairs).flat_map(|_| {
+        let mu = most * rng.f64();
+        let tension = [0.0, size * rng.f64(), 1e-3 * size * rng.f64()][rng.usize(0..3)];
+        let more = [0.0, size * rng.f64()][rng.usize(0..2)];
+        [mu, mu * tension + more, tension]
+    });
+    case.law = Law::Cohesive(numbers.collect());
+}
+
+fn cohesive(rng: &mut Rng, dim: usize) -> Made {
+    let condition = power(rng, 0.0, 6.0);
+    let (mut case, motions, noise) = on_definite(rng, dim, condition, 1.0);
+    with_cohesion(rng, &mut case);
+    (case, motions, noise)
+}
+
+fn cohesive_bodies(rng: &mut Rng, dim: usize) -> Made {
+    let (mut case, motions, noise) = rigid_motions(rng, dim);
+    with_cohesion(rng, &mut case);
+    (case, motions, noise)
+}
+
+fn far_slips(rng: &mut Rng, dim: usize) -> Made {
+    let (mut case, motions, noise) = ordinary(rng, dim);
+    let gaps = case.gap.iter().filter(|gap| gap.is_finite());
+    let size = power(rng, 0.0, 8.0) * gaps.fold(0.1, |most: f64, gap| most.max(gap.abs()));
+    let slips = case.pairs * (dim - 1);
+    case.slip = Some((0..slips).map(|_| size * uniform(rng, -1.0, 1.0)).collect());
+    (case, motions, noise)
+}
+
+/// Units that are powers of two, of lengths and of forces: squares of all numbers are in range.
+fn far_units(rng: &mut Rng, dim: usize) -> Made {
+    let (mut case, motions, noise) = ordinary(rng, dim);
+    let [length, force] = [(); 2].map(|()| 2_f64.powi(rng.i32(-100..=100)));
+    let times = |values: &mut [f64], unit: f64| values.iter_mut().for_each(|value| *value *= unit);
+    times(&mut case.k, force / length);
+    times(&mut case.f, force);
+    times(&mut case.gap, length);
+    case.slip.iter_mut().for_each(|slip| times(slip, length));
+    (case, motions, noise)
+}
+
+/// A pair that stands twice, a soft spring between both: definite, and ill-conditioned.
+fn nearly_duplicated(rng: &mut Rng, dim: usize) -> Made {
+    let (mut case, motions, noise) = duplicated(rng, dim);
+    let spring = power(rng, -12.0, -2.0);
+    for motion in &motions {
+        super::problems::add_spring(&mut case.k, motion, spring);
+    }
+    (case, Vec::new(), noise)
 }

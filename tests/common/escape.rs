@@ -2,12 +2,12 @@
 
 use super::edges::Problem;
 use super::exact::{UNIT, force, quads, work};
-use super::problems::{Case, Law};
+use super::problems::Case;
 use super::quad::norm;
 
 /// Why `r` does not prove that there is no equilibrium: how far it is from that, beside what is allowed,
 /// and a sentence. It does if `K r = 0` up to the rounding of the entries, `-r_n >= mu |r_t|` at
-/// obstacles, and `f . r > sum g |r_t|`, each up to the rounding of its terms.
+/// obstacles, and `(f + a) . r > sum (b - mu a) |r_t|` with the tension `a`, each up to the rounding of its terms.
 pub fn flaw_of_motion(problem: &Problem, r: &[f64]) -> Option<(f64, String)> {
     let Problem { case, noise, .. } = problem;
     let (n, dim) = (case.size(), case.dim);
@@ -23,18 +23,14 @@ pub fn flaw_of_motion(problem: &Problem, r: &[f64]) -> Option<(f64, String)> {
             return Some((size / allowed, format!("|(K r)[{i}]| = {size:.1e} > {allowed:.1e}")));
         }
     }
-    let mut resisted = 0.0;
+    let (mut resisted, mut pulled) = (0.0, 0.0);
     for pair in 0..case.pairs {
         let part = &r[dim * pair..dim * (pair + 1)];
         let slide = norm(&quads(&part[1..])).value();
-        let lift = match &case.law {
-            Law::Coulomb(mu) => mu[pair] * slide,
-            Law::Tresca(g) => {
-                resisted += g[pair] * slide;
-                0.0
-            }
-            Law::Cohesive(_) => unreachable!("no problem at the edges has cohesion"),
-        };
+        let [slope, offset, tension] = case.law.of(pair);
+        let lift = slope * slide;
+        resisted += (offset - slope * tension) * slide;
+        pulled += tension * part[0];
         let allowed = few * (part[0].abs() + lift);
         // A motion of the size of rounding beside the largest is none.
         let most = r.iter().fold(0.0, |most: f64, r| most.max(r.abs()));
@@ -44,7 +40,8 @@ pub fn flaw_of_motion(problem: &Problem, r: &[f64]) -> Option<(f64, String)> {
             return Some((size, format!("contact can stop it at pair {pair}: {approach:.1e}")));
         }
     }
-    let parts: f64 = (0..n).map(|i| (case.f[i] * r[i]).abs()).sum::<f64>() + resisted;
-    let driven = work(&case.f, r) - resisted;
+    let loads: f64 = (0..n).map(|i| (case.f[i] * r[i]).abs()).sum();
+    let driven = work(&case.f, r) + pulled - resisted;
+    let parts = loads + resisted + f64::abs(pulled);
     (driven <= few * parts).then(|| (f64::INFINITY, format!("the loads do the work {driven:.1e}")))
 }

@@ -54,24 +54,18 @@ pub fn tangential_stiffness(case: &Case, pair: usize) -> Quad {
     (a + c).scaled(0.5) + (half * half + b * b).sqrt()
 }
 
-/// Slope and offset of the bound `g(p)` on the tangential force.
-fn bound(case: &Case, pair: usize) -> (f64, f64) {
-    match &case.law {
-        Law::Coulomb(mu) => (mu[pair], 0.0),
-        Law::Tresca(g) => (0.0, g[pair]),
-        Law::Cohesive(_) => unreachable!("no problem at the edges has cohesion"),
-    }
-}
-
-/// Bound on the tangential force under the normal force `normal`.
+/// Bound on the tangential force under the normal force `normal`. Where `b` is the rounded `mu a` of a cone it is zero at
+/// its tip, not what the rounding has left below.
 pub fn threshold(case: &Case, pair: usize, normal: Quad) -> Quad {
-    let (slope, offset) = bound(case, pair);
-    (-normal).max(Quad::ZERO) * slope + Quad::from(offset)
+    let [slope, offset, tension] = case.law.of(pair);
+    ((-normal).max(Quad::from(-tension)) * slope + Quad::from(offset)).max(Quad::ZERO)
 }
 
 /// One pair at a displacement and the force there.
 struct Point {
     force: Vec<Quad>,
+    /// `F_n - a`.
+    pull: Quad,
     /// `d_t - slip0`.
     slip: Vec<Quad>,
     /// `k_t slip - F_t`, and its length.
@@ -92,6 +86,7 @@ fn point(case: &Case, pair: usize, d: &[Quad], force: &[Quad]) -> Point {
     let penetration = gap.is_finite().then(|| (d[i] - Quad::from(gap)) * case.stiffness(i, i));
     Point {
         force: force[i..i + case.dim].to_vec(),
+        pull: force[i] - Quad::from(case.law.of(pair)[2]),
         length: norm(&trial),
         threshold: threshold(case, pair, force[i]),
         slip,
@@ -101,13 +96,13 @@ fn point(case: &Case, pair: usize, d: &[Quad], force: &[Quad]) -> Point {
 }
 
 /// The natural residual `e` at `d`, a force for each component:
-/// `e_n = max(k_n (d_n - gap), F_n)`, `e_t = F_t + g h` where the trial `h |y|` is longer than the bound
+/// `e_n = max(k_n (d_n - gap), F_n - a)`, `e_t = F_t + g h` where the trial `h |y|` is longer than the bound
 /// `g`, else `k_t (d_t - slip0)`.
 pub fn residual(case: &Case, d: &[Quad], force: &[Quad]) -> Vec<Quad> {
     let mut residual = Vec::new();
     for pair in 0..case.pairs {
         let at = point(case, pair, d, force);
-        residual.push(at.penetration.map_or(at.force[0], |closed| closed.max(at.force[0])));
+        residual.push(at.penetration.map_or(at.pull, |closed| closed.max(at.pull)));
         let k_t = tangential_stiffness(case, pair);
         for c in 0..case.dim - 1 {
             residual.push(match at.length > at.threshold {
@@ -143,7 +138,7 @@ pub fn rounding(case: &Case, d: &[Quad], scale: f64) -> f64 {
         sum = sum.hypot(a(i));
         for (c, d) in d.iter().enumerate().take(i + case.dim).skip(i + 1) {
             let own = UNIT * k_t * d.value().abs();
-            sum = sum.hypot(2.0 * a(c) + bound(case, pair).0 * a(i) + own);
+            sum = sum.hypot(2.0 * a(c) + case.law.of(pair)[0] * a(i) + own);
         }
     }
     if sum == 0.0 { 0.0 } else { sum / scale }
@@ -154,7 +149,7 @@ pub fn states(case: &Case, d: &[Quad]) -> Vec<State> {
     let force = force(case, d);
     let state = |pair: usize| {
         let at = point(case, pair, d, &force);
-        let open = at.penetration.is_none_or(|closed| closed < at.force[0]);
+        let open = at.penetration.is_none_or(|closed| closed < at.pull);
         match at.length > at.threshold {
             _ if open => State::Open,
             true => State::Slip,
@@ -196,15 +191,18 @@ fn system(
         let state = held.map(|held| held[pair]);
         let closed = at.penetration.filter(|closed| match state {
             Some(state) if matches!(case.law, Law::Coulomb(_)) => state != State::Open,
-            _ => *closed >= at.force[0],
+            _ => *closed >= at.pull,
         });
         let mut unit = vec![Quad::ZERO; n];
         unit[i] = Quad::from(case.stiffness(i, i));
         matrix.push(if closed.is_some() { unit } else { row(i) });
-        rhs.push(closed.unwrap_or(at.force[0]));
-        let (slope, offset) = bound(case, pair);
-        let slope = if closed.is_some() { slope } else { 0.0 };
-        let threshold = (-at.force[0]) * slope + Quad::from(offset);
+        rhs.push(closed.unwrap_or(at.pull));
+        let [slope, offset, tension] = case.law.of(pair);
+        let (slope, offset) = match closed {
+            Some(_) => (slope, Quad::from(offset)),
+            None => (0.0, Quad::from(offset) - Quad::from(tension) * slope),
+        };
+        let threshold = (-at.force[0]) * slope + offset;
         let k_t = tangential_stiffness(case, pair);
         let sticks = match state {
             Some(state) if matches!(case.law, Law::Coulomb(_)) => state == State::Stick,

@@ -10,7 +10,7 @@ use super::exact::{
     BEYOND_ROUNDING, UNIT, differ, eta, force, is_definite, quads, refined, residual, rounding,
     scale, threshold, work,
 };
-use super::problems::{Case, Law};
+use super::problems::Case;
 use super::quad::{Quad, largest, norm};
 
 /// Statements that can be false.
@@ -181,7 +181,8 @@ fn judge_forces(case: &Case, answer: &Answer<'_>, faults: &mut Faults) {
         let tangential = norm(&quads(&part[1..]));
         let state = answer.states[pair];
         let free = case.gap[pair] == f64::INFINITY;
-        if part[0] > 0.0 || (part[0] != 0.0 && (free || state == State::Open)) {
+        let tension = case.law.of(pair)[2];
+        if part[0] > tension || (part[0] != tension && (free || state == State::Open)) {
             wrong(f64::INFINITY, format!("pair {pair} is {state:?} with F_n = {:e}", part[0]));
         }
         if tangential > bound * (1.0 + DIGITS) {
@@ -191,11 +192,7 @@ fn judge_forces(case: &Case, answer: &Answer<'_>, faults: &mut Faults) {
             );
         }
     }
-    let mu = match &case.law {
-        Law::Coulomb(mu) => mu.iter().fold(0.0, |most: f64, mu| most.max(*mu)),
-        Law::Tresca(_) => 0.0,
-        Law::Cohesive(_) => unreachable!("no problem at the edges has cohesion"),
-    };
+    let mu = (0..case.pairs).map(|pair| case.law.of(pair)[0]).fold(0.0, f64::max);
     let scale = scale(case, &exact).value();
     let error: Vec<Quad> =
         exact.iter().zip(answer.force).map(|(exact, f)| *exact - Quad::from(*f)).collect();

@@ -14,7 +14,7 @@ use crate::common::quad::Quad;
 use signorini::{ContactProblem, Model, Monitor, Search, Settings, Solution, Status, Uniqueness};
 
 /// How many problems without the variable: 200 of each class in each dimension.
-const PROBLEMS: u64 = 4800;
+const PROBLEMS: u64 = 7600;
 
 /// Problems of a long run between two tables.
 const BETWEEN_PRINTS: u64 = 100_000;
@@ -96,6 +96,13 @@ const STILL_IN_THE_PLANE: Limits = [
     [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // duplicated pairs
     [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // touching, on the cone, unloaded
     [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // gaps to 1e300 and infinite, mu to 1e3
+    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // no loads
+    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // grazing up to rounding
+    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // cohesion
+    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // cohesion, rigid motions
+    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // reference slips to 1e8 of the gaps
+    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // units to 1e60
+    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // pairs that nearly coincide, to 1e-12
 ];
 #[rustfmt::skip]
 const STILL_IN_SPACE: Limits = [
@@ -111,6 +118,13 @@ const STILL_IN_SPACE: Limits = [
     [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // duplicated pairs
     [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // touching, on the cone, unloaded
     [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // gaps to 1e300 and infinite, mu to 1e3
+    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // no loads
+    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // grazing up to rounding
+    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // cohesion
+    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // cohesion, rigid motions
+    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // reference slips to 1e8 of the gaps
+    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // units to 1e60
+    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // pairs that nearly coincide, to 1e-12
 ];
 
 type Limits = [[u64; FAULTS.len()]; CLASSES.len()];
