@@ -32,11 +32,12 @@ pub fn flaw_of_motion(problem: &Problem, r: &[f64]) -> Option<(f64, String)> {
         resisted += (offset - slope * tension) * slide;
         pulled += tension * part[0];
         let allowed = few * (part[0].abs() + lift);
-        // A motion of the size of rounding beside the largest is none.
+        // A motion of the size of rounding beside the largest is none. Rounding of the entries of K moves what it does
+        // not resist by its condition number times as much, 1e4 at these edges: ten times are far below.
         let most = r.iter().fold(0.0, |most: f64, r| most.max(r.abs()));
         let approach = part[0] + lift;
-        if case.gap[pair].is_finite() && approach > allowed + few * most {
-            let size = approach / (allowed + few * most);
+        if case.gap[pair].is_finite() && approach > allowed + 10.0 * few * most {
+            let size = approach / (allowed + 10.0 * few * most);
             return Some((size, format!("contact can stop it at pair {pair}: {approach:.1e}")));
         }
     }

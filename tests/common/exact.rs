@@ -200,7 +200,7 @@ fn system(
         let [slope, offset, tension] = case.law.of(pair);
         let (slope, offset) = match closed {
             Some(_) => (slope, Quad::from(offset)),
-            None => (0.0, Quad::from(offset) - Quad::from(tension) * slope),
+            None => (0.0, threshold(case, pair, Quad::from(tension))),
         };
         let threshold = (-at.force[0]) * slope + offset;
         let k_t = tangential_stiffness(case, pair);
