@@ -116,6 +116,24 @@ fn body(a: f64, unit: f64, load: [f64; 4], gap: f64) -> Case {
     Case { dim: 2, pairs: 2, k, f, gap: vec![gap; 2], law, slip: None }
 }
 
+/// A tension of 1 at each of two pairs holds a body that is pulled away by less, and does not hold one that is pulled away
+/// by more. Without an obstacle the tension acts all the same: the law has no memory.
+#[test]
+fn a_tension_is_a_load() {
+    for gap in [0.0, 1.0, f64::INFINITY] {
+        for (pull, proves) in [(0.75, false), (1.0, false), (1.25, true)] {
+            let mut case = body(1.0, 1.0, [-pull, 0.0, -pull, 0.0], gap);
+            case.law = Law::Cohesive([0.0, 0.0, 1.0].repeat(2));
+            let away = [-1.0, 0.0, -1.0, 0.0];
+            assert_eq!(is_escape(&case.problem(), &away), proves, "{pull} at {gap}");
+            // Towards the obstacle the tension drives it where nothing stops it.
+            let towards = [1.0, 0.0, 1.0, 0.0];
+            let driven = gap == f64::INFINITY && pull < 1.0;
+            assert_eq!(is_escape(&case.problem(), &towards), driven, "{pull} at {gap}");
+        }
+    }
+}
+
 /// The thresholds, each from both sides and in all units: problems in powers of two, exact but for the length of
 /// the motion. Work counts from 1e-9 on of what the loads could do, here 2; strain from 1e-11 on of the stiffness,
 /// and an approach to an obstacle from 1e-11 on of the motion.
