@@ -322,7 +322,8 @@ fn what_no_flexibility_has_is_refused() {
         solve_flexibility(&problem, &settings, None, monitor).unwrap_err().message().to_string()
     };
     type Wrong<'a> = (&'a dyn Fn(&mut Case), &'a str);
-    let wrong: [Wrong<'_>; 6] = [
+    const NEARLY: f64 = -0.25 * (1.0 + 1e-6);
+    let wrong: [Wrong<'_>; 7] = [
         (&|case| case.w[1] = 0.3, "W is not symmetric: W[1,0] is 0.3"),
         (&|case| case.w[5] = -0.5, "W[1,1] is -0.5, it must be positive"),
         (&|case| case.w[3] = f64::NAN, "W[3,0] is not finite"),
@@ -333,6 +334,15 @@ fn what_no_flexibility_has_is_refused() {
             &|case| {
                 for (i, j) in [(0, 1), (1, 2), (0, 2)] {
                     (case.w[i + 4 * j], case.w[j + 4 * i]) = (-0.45, -0.45);
+                }
+            },
+            "W is not positive semi-definite",
+        ),
+        // The same with eigenvalues 1.5, 1.5 and -1e-6 halves: far above what rounding leaves.
+        (
+            &|case| {
+                for (i, j) in [(0, 1), (1, 2), (0, 2)] {
+                    (case.w[i + 4 * j], case.w[j + 4 * i]) = (NEARLY, NEARLY);
                 }
             },
             "W is not positive semi-definite",
