@@ -1,5 +1,6 @@
 //! The judge of a motion that is to prove that no equilibrium exists, in twice the precision.
 
+use super::dense::dot;
 use super::edges::Problem;
 use super::exact::{UNIT, force, quads, work};
 use super::problems::Case;
@@ -14,6 +15,11 @@ pub fn flaw_of_motion(problem: &Problem, r: &[f64]) -> Option<(f64, String)> {
     let few = 4.0 * n as f64 * UNIT;
     let unloaded = Case { f: vec![0.0; n], ..case.clone() };
     let strain = force(&unloaded, &quads(r));
+    // What makes K of rigid motions rounds beside its largest entries.
+    let largest = (0..n).map(|i| case.stiffness(i, i)).fold(0.0, f64::max);
+    let noise = if problem.motions.is_empty() { *noise } else { noise + few * largest };
+    let most = r.iter().fold(0.0, |most: f64, r| most.max(r.abs()));
+    let least = few * most + 2.0 * distance_to(&problem.motions, r);
     let root: Vec<f64> = (0..n).map(|i| case.stiffness(i, i).abs().sqrt()).collect();
     for i in 0..n {
         let entry = |j: usize| (few * root[i] * root[j] + noise) * r[j].abs();
@@ -32,12 +38,11 @@ pub fn flaw_of_motion(problem: &Problem, r: &[f64]) -> Option<(f64, String)> {
         resisted += (offset - slope * tension) * slide;
         pulled += tension * part[0];
         let allowed = few * (part[0].abs() + lift);
-        // A motion of the size of rounding beside the largest is none. Rounding of the entries of K moves what it does
-        // not resist by its condition number times as much, 1e4 at these edges: ten times are far below.
-        let most = r.iter().fold(0.0, |most: f64, r| most.max(r.abs()));
+        // A motion of the size of rounding beside the largest is none, nor is one as small as its distance to the
+        // motions of the maker: those of K as it is given are as far from them.
         let approach = part[0] + lift;
-        if case.gap[pair].is_finite() && approach > allowed + 10.0 * few * most {
-            let size = approach / (allowed + 10.0 * few * most);
+        if case.gap[pair].is_finite() && approach > allowed + least {
+            let size = approach / (allowed + least);
             return Some((size, format!("contact can stop it at pair {pair}: {approach:.1e}")));
         }
     }
@@ -45,4 +50,23 @@ pub fn flaw_of_motion(problem: &Problem, r: &[f64]) -> Option<(f64, String)> {
     let driven = work(&case.f, r) + pulled - resisted;
     let parts = loads + resisted + f64::abs(pulled);
     (driven <= few * parts).then(|| (f64::INFINITY, format!("the loads do the work {driven:.1e}")))
+}
+
+/// Largest component of what is left of `r` beside the motions.
+fn distance_to(motions: &[Vec<f64>], r: &[f64]) -> f64 {
+    let mut basis: Vec<Vec<f64>> = Vec::new();
+    let without = |basis: &[Vec<f64>], v: &[f64]| {
+        let mut rest = v.to_vec();
+        for q in basis.iter().chain(basis) {
+            let share = dot(q, &rest);
+            rest.iter_mut().zip(q).for_each(|(rest, q)| *rest -= share * q);
+        }
+        rest
+    };
+    for motion in motions {
+        let rest = without(&basis, motion);
+        let length = dot(&rest, &rest).sqrt();
+        basis.push(rest.iter().map(|rest| rest / length).collect());
+    }
+    without(&basis, r).iter().fold(0.0, |most: f64, rest| most.max(rest.abs()))
 }

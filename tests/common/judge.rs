@@ -35,7 +35,9 @@ pub enum Fault {
     Unique,
     /// "Several", and there is one, or the second is none.
     Several,
-    /// No answer, and there is a solution.
+    /// No answer, and `K` is definite, of a condition number up to 1e10 with its diagonal scaled to 1.
+    UnsolvedRegular,
+    /// No answer, and there is a solution, of another `K`.
     Unsolved,
     /// Good data refused.
     Refused,
@@ -43,7 +45,7 @@ pub enum Fault {
     Report,
 }
 
-pub const FAULTS: [Fault; 12] = [
+pub const FAULTS: [Fault; 13] = [
     Fault::AboveEta,
     Fault::AboveTolerance,
     Fault::BeyondRounding,
@@ -53,6 +55,7 @@ pub const FAULTS: [Fault; 12] = [
     Fault::Motion,
     Fault::Unique,
     Fault::Several,
+    Fault::UnsolvedRegular,
     Fault::Unsolved,
     Fault::Refused,
     Fault::Report,
@@ -140,7 +143,10 @@ pub fn judge(problem: &Problem, answer: &Answer<'_>, tolerance: f64) -> Faults {
         Status::NoEquilibrium => judge_proof(problem, answer, &mut faults),
         Status::Stalled | Status::IterationLimit => {
             if let Some(why) = solvable(problem) {
-                faults.push(plain(Fault::Unsolved, format!("{:?}, but {why}", answer.status)));
+                // The largest eigenvalue is at most n: no smallest one is below n / 1e10.
+                let regular = is_definite(case, 1e-10 / UNIT);
+                let fault = if regular { Fault::UnsolvedRegular } else { Fault::Unsolved };
+                faults.push(plain(fault, format!("{:?}, but {why}", answer.status)));
             }
         }
         other => faults.push(plain(Fault::Report, format!("no reason to end with {other:?}"))),
@@ -185,7 +191,10 @@ fn judge_forces(case: &Case, answer: &Answer<'_>, faults: &mut Faults) {
         if part[0] > tension || (part[0] != tension && (free || state == State::Open)) {
             wrong(f64::INFINITY, format!("pair {pair} is {state:?} with F_n = {:e}", part[0]));
         }
-        if tangential > bound * (1.0 + DIGITS) {
+        // The reported F_n is rounded where it is far from the tension that it is taken from.
+        let [mu, _, a] = case.law.of(pair);
+        let allowed = bound * (1.0 + DIGITS) + Quad::from(DIGITS * mu * (a + part[0].abs()));
+        if tangential > allowed {
             wrong(
                 f64::INFINITY,
                 format!("pair {pair}: |F_t| {:e} > {:e}", tangential.value(), bound.value()),

@@ -84,47 +84,47 @@ fn faults(problem: &Problem, answer: &Result<Solution, String>) -> Faults {
 /// quarter and three in reserve, as rounding differs from machine to machine.
 #[rustfmt::skip]
 const STILL_IN_THE_PLANE: Limits = [
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // definite, condition to 1e3, mu to 2
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // definite, condition to 1e3, mu to 1e3
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // definite, thresholds
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 5, 0, 0], // definite, condition 1e3 to 1e15
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // definite, stiffness 1e13 apart
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 38, 0, 0], // soft springs beside stiff ones, to 1e-15
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // rigid motions
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // blocks, rigid motions exact
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // body on two or three points
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // duplicated pairs
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // touching, on the cone, unloaded
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // gaps to 1e300 and infinite, mu to 1e3
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // no loads
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // grazing up to rounding
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // cohesion
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // cohesion, rigid motions
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // reference slips to 1e8 of the gaps
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // units to 1e60
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // pairs that nearly coincide, to 1e-12
+    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // definite, condition to 1e3, mu to 2
+    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // definite, condition to 1e3, mu to 1e3
+    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // definite, thresholds
+    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 5, 0, 0], // definite, condition 1e3 to 1e15
+    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // definite, stiffness 1e13 apart
+    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 38, 0, 0], // soft springs beside stiff ones, to 1e-15
+    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // rigid motions
+    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // blocks, rigid motions exact
+    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // body on two or three points
+    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // duplicated pairs
+    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // touching, on the cone, unloaded
+    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // gaps to 1e300 and infinite, mu to 1e3
+    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // no loads
+    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // grazing up to rounding
+    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // cohesion
+    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // cohesion, rigid motions
+    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // reference slips to 1e8 of the gaps
+    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // units to 1e60
+    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // pairs that nearly coincide, to 1e-12
 ];
 #[rustfmt::skip]
 const STILL_IN_SPACE: Limits = [
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // definite, condition to 1e3, mu to 2
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // definite, condition to 1e3, mu to 1e3
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // definite, thresholds
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 8, 0, 0], // definite, condition 1e3 to 1e15
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // definite, stiffness 1e13 apart
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 42, 0, 0], // soft springs beside stiff ones, to 1e-15
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // rigid motions
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // blocks, rigid motions exact
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // body on two or three points
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // duplicated pairs
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // touching, on the cone, unloaded
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // gaps to 1e300 and infinite, mu to 1e3
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // no loads
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // grazing up to rounding
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // cohesion
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // cohesion, rigid motions
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // reference slips to 1e8 of the gaps
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // units to 1e60
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // pairs that nearly coincide, to 1e-12
+    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // definite, condition to 1e3, mu to 2
+    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // definite, condition to 1e3, mu to 1e3
+    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // definite, thresholds
+    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 8, 0, 0], // definite, condition 1e3 to 1e15
+    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // definite, stiffness 1e13 apart
+    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 42, 0, 0], // soft springs beside stiff ones, to 1e-15
+    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // rigid motions
+    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // blocks, rigid motions exact
+    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // body on two or three points
+    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // duplicated pairs
+    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // touching, on the cone, unloaded
+    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // gaps to 1e300 and infinite, mu to 1e3
+    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // no loads
+    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // grazing up to rounding
+    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // cohesion
+    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // cohesion, rigid motions
+    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // reference slips to 1e8 of the gaps
+    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // units to 1e60
+    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // pairs that nearly coincide, to 1e-12
 ];
 
 type Limits = [[u64; FAULTS.len()]; CLASSES.len()];
@@ -299,7 +299,7 @@ fn the_judge_finds_what_is_falsified() {
         let faults = answer(&d, &forces, Status::NoEquilibrium, true_eta);
         assert!(has(&faults, Fault::WrongProof) && has(&faults, Fault::Motion), "seed {seed}");
         let faults = answer(&d, &forces, Status::Stalled, true_eta);
-        assert!(has(&faults, Fault::Unsolved), "seed {seed}");
+        assert!(has(&faults, Fault::UnsolvedRegular), "seed {seed}");
     }
     assert!(examined > 50, "{examined}");
 }

@@ -18,14 +18,13 @@ const PARTED: f64 = 1e3;
 /// True if two refined answers are next to two solutions. Their `eta` is at its rounding then: displacements are two
 /// doubles each, and forces are rounded once. An answer on pieces whose solution is not on them keeps a residual, which
 /// may be as small as the force of the softest spring: 7e-13 of the loads was seen, 1.5e-16 at solutions. One at which
-/// pieces meet up to rounding, as where a pair grazes its obstacle, may be next to a solution or to none, unless it
-/// is one exactly.
+/// pieces meet up to rounding, as where a pair grazes its obstacle, may be next to a solution or to none.
 pub fn are_parted(contact: &Contact<'_>, one: &FullyRefined, two: &FullyRefined) -> bool {
     let is_solution = |answer: &FullyRefined| {
         let certificate = answer.candidate.certificate(contact);
         certificate.eta <= ROUNDING_OF_ETA
             && certificate.holds(MARGIN)
-            && (certificate.eta == 0.0 || is_strict(contact, answer.candidate.d()))
+            && is_strict(contact, answer.candidate.d())
     };
     if !is_solution(one) || !is_solution(two) {
         return false;
