@@ -95,7 +95,6 @@ impl<'c> Balance<'c> {
         for _ in 0..MOST_ROUNDS {
             let rest = nearest(&load, &edges)?;
             let motion = self.motions.motion(&rest);
-            // A lift that takes the rounding of one pair away may bring another nearer.
             let proofs = [self.lifted(motion.clone(), lift.as_deref()), motion.clone()];
             let is_driven = |r: &[f64]| dot(contact.load_with_tension(), r) > 0.0;
             let is_free = |r: &[f64]| self.worst(r).is_empty();
@@ -149,19 +148,19 @@ impl<'c> Balance<'c> {
         worst
     }
 
-    /// A motion with as much of one that lifts the pairs as takes away the negative work.
-    fn lifted(&self, mut motion: Vec<f64>, lift: Option<&[f64]>) -> Vec<f64> {
+    /// A motion with as much of one that lifts the pairs as takes away the negative work; without, where that would bring
+    /// a pair nearer to its obstacle than any was.
+    fn lifted(&self, motion: Vec<f64>, lift: Option<&[f64]>) -> Vec<f64> {
         let Some(lift) = lift else { return motion };
+        let nearest = |r: &[f64]| self.approaches(r).into_iter().fold(0.0, f64::max);
         let margin = NEGLIGIBLE * self.motions.size(&motion);
         let wanted = self.approaches(&motion).into_iter().zip(self.approaches(lift));
         let part = wanted
             .filter(|(approach, _)| *approach > -margin)
             .map(|(approach, lifted)| (approach + margin) / -lifted)
             .fold(0.0, |most: f64, part| if part < 0.0 { f64::NAN } else { most.max(part) });
-        if part.is_finite() {
-            motion.iter_mut().zip(lift).for_each(|(r, lift)| *r += part * lift);
-        }
-        motion
+        let lifted: Vec<f64> = motion.iter().zip(lift).map(|(r, lift)| r + part * lift).collect();
+        if part.is_finite() && nearest(&lifted) < nearest(&motion) { lifted } else { motion }
     }
 
     /// The motion nearest to `-1` in the normal components, and to no slip in those tangential ones that make
