@@ -8,6 +8,7 @@ mod common;
 
 mod blocks_3d;
 mod contact_alone;
+mod flexible;
 mod floating_3d;
 mod free_bodies;
 mod half_space;

@@ -21,7 +21,7 @@ use crate::law::{Contact, pressing};
 use crate::linalg::vector::norm_inf;
 use crate::monitor::Monitor;
 use crate::problem::{Flexibility, FlexibilityProblem};
-use crate::settings::Settings;
+use crate::settings::{Method, Settings};
 use crate::solve::result::{Solution, Solve, Status};
 
 /// The sentence on a `W` that the first springs make definite.
@@ -40,7 +40,13 @@ pub fn solve(
     let mut by_rounds =
         |problem: &FlexibilityProblem<'_>, settings: &Settings, start: Option<&[f64]>| {
             let force = start.map_or_else(|| vec![0.0; problem.unknowns()], <[f64]>::to_vec);
-            from_forces(problem, (settings, solve), force, monitor)
+            let found = from_forces(problem, (settings, solve), (&force, false), monitor)?;
+            if found.solution.status != Status::Stalled || settings.method != Method::Auto {
+                return Ok(found);
+            }
+            // Newton's method in softer springs leads elsewhere: each round has a solution whatever the friction.
+            let again = from_forces(problem, (settings, solve), (&force, true), monitor)?;
+            Ok(if again.solution.status == Status::Stalled { found } else { again })
         };
     let (found, proof) = solve_by_rounds(problem, number, (settings, start), &mut by_rounds)?;
     let (mut solution, growth) = (found.solution, found.growth);
@@ -61,11 +67,12 @@ pub fn solve(
     Ok(solution)
 }
 
-/// Rounds from contact forces `force`, with the first springs.
+/// Rounds from contact forces `force`, with the first springs; each `by_all_means` of the default method, or as far as
+/// Newton's method solves it.
 fn from_forces(
     problem: &FlexibilityProblem<'_>,
     (settings, solve): (&Settings, Solve),
-    force: Vec<f64>,
+    (force, by_all_means): (&[f64], bool),
     monitor: &mut Monitor<'_>,
 ) -> Result<Found, Error> {
     let relation = problem.relation();
@@ -77,12 +84,12 @@ fn from_forces(
                     "W is not positive semi-definite: a force has negative flexibility",
                 )
             })?;
-            let mut bodies = Bodies { relation, springs };
-            rounds(problem, &mut bodies, force, (settings, solve), monitor)
+            let mut bodies = Bodies { relation, springs, by_all_means };
+            rounds(problem, &mut bodies, force.to_vec(), (settings, solve), monitor)
         }
         Err(stop) => {
-            let d = relation.relative(&force);
-            let solution = stopped(&Contact::new(problem), (d, &force), settings, stop);
+            let d = relation.relative(force);
+            let solution = stopped(&Contact::new(problem), (d, force), settings, stop);
             Ok(Found { solution, growth: Growth::default() })
         }
     }
@@ -92,6 +99,8 @@ fn from_forces(
 struct Bodies<'p> {
     relation: &'p Flexibility<'p>,
     springs: Springs,
+    /// No round is left to softer springs.
+    by_all_means: bool,
 }
 
 impl InSeries for Bodies<'_> {
@@ -120,6 +129,6 @@ impl InSeries for Bodies<'_> {
     }
 
     fn are_softest(&self) -> bool {
-        self.springs.are_softest()
+        self.by_all_means || self.springs.are_softest()
     }
 }

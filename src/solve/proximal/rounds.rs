@@ -72,7 +72,7 @@ pub trait InSeries {
     /// Less compliant springs, if there are any.
     fn stiffen(&mut self, _: &mut Monitor<'_>) {}
 
-    /// True if there are no softer ones.
+    /// True if there are no softer ones, or none that a round is left to.
     fn are_softest(&self) -> bool {
         true
     }
