@@ -2,6 +2,7 @@
 //!
 //! `SIGNORINI_FLEXIBLE=2000 cargo test --release --test families -- flexible:: --nocapture` tries as many of each.
 
+use crate::common::dense::{difference, product};
 use crate::common::flexible::{Case, gram};
 use crate::common::problems::{uniform, vector};
 use fastrand::Rng;
@@ -73,9 +74,7 @@ fn problem(rng: &mut Rng, kind: Kind, most_mu: f64) -> Case {
             (force[i + c], d[i + c]) = (share * mu * force[i] * h, slip * h);
         }
     }
-    for i in 0..n {
-        case.q[i] = d[i] - (0..n).map(|j| case.w[i + n * j] * force[j]).sum::<f64>();
-    }
+    case.q = difference(&d, &product(&case.w, &force));
     case
 }
 
