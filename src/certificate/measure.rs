@@ -6,7 +6,7 @@ use crate::law::{Contact, State, Violation};
 use crate::linalg::ball::UNIT;
 use crate::linalg::tolerances::{NEGLIGIBLE, ROUNDING_OF_SUM};
 use crate::linalg::vector::{NormSum, dot, largest_of, norm, norm_inf, sizes};
-use crate::problem::{ContactProblem, Relation};
+use crate::problem::{ChangesUnits, ContactProblem, InUnits, Relation};
 
 /// The measures of one candidate, forces and displacements in the units of the problem.
 #[derive(Clone, Debug)]
@@ -78,8 +78,30 @@ const LEAST: f64 = f64::from_bits(1);
 
 /// Measures displacements of any origin, on a relation in which they determine the contact forces.
 pub fn certify(problem: &ContactProblem<'_>, d: &[f64]) -> Certificate {
+    if let Some(numbers) = InUnits::of(problem)
+        && let Some(d) = numbers.units().lengths(d)
+    {
+        let problem = numbers.problem(problem);
+        return measure(&Contact::new(&problem), &d, &[]).to_host(numbers.units());
+    }
     let contact = Contact::new(problem);
     measure(&contact, d, &[])
+}
+
+/// Measures a displacement and a contact force of any origin, on a relation of this library, in units in which its
+/// numbers are ordinary.
+pub(crate) fn certify_pair_in_units<R: ChangesUnits>(
+    problem: &ContactProblem<'_, R>,
+    d: &[f64],
+    force: &[f64],
+) -> Certificate {
+    if let Some(numbers) = InUnits::of(problem)
+        && let (units, problem) = (numbers.units(), numbers.problem(problem))
+        && let (Some(d), Some(force)) = (units.lengths(d), units.forces(force))
+    {
+        return certify_pair(&problem, &d, &force).to_host(units);
+    }
+    certify_pair(problem, d, force)
 }
 
 /// Measures a displacement and a contact force of any origin, on any relation.

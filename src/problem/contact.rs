@@ -300,6 +300,11 @@ impl<'a, R: Relation> ContactProblem<'a, R> {
         self.law
     }
 
+    /// All reference slips, pair by pair; empty if they are zero.
+    pub(super) fn reference_slips(&self) -> &'a [f64] {
+        self.reference_slip.unwrap_or(&[])
+    }
+
     /// Reference slip of a pair; `component` counts from 0 to `D - 2`.
     pub fn reference_slip(&self, pair: usize, component: usize) -> f64 {
         self.reference_slip.map_or(0.0, |slip| slip[(self.dim - 1) * pair + component])

@@ -129,6 +129,11 @@ impl<'a> DependentRows<'a> {
         self.stiffness
     }
 
+    /// `f`.
+    pub(super) fn variable_load(&self) -> &'a [f64] {
+        self.load
+    }
+
     /// `C z + o`.
     pub(crate) fn relative(&self, variables: &[f64]) -> Vec<f64> {
         let mut d = self.dependence.relative(variables);

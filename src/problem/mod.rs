@@ -14,6 +14,7 @@ mod relation;
 mod sparse_flexibility;
 mod stiffness_operator;
 pub(crate) mod symmetric_matrix;
+mod units;
 
 pub(crate) use arguments::{OF_MATRIX, check_finite, dense};
 pub(crate) use bounded_lcp::BoundedLcp;
@@ -30,3 +31,4 @@ pub(crate) use relation::Redundant;
 pub use relation::{Relation, Stiffness};
 pub use sparse_flexibility::{SparseFlexibilityProblem, SparseW};
 pub(crate) use stiffness_operator::{GoesOn, HeldSet, MatrixFree, StiffnessOperator};
+pub(crate) use units::{ChangesUnits, InUnits, Units};

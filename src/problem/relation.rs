@@ -63,9 +63,9 @@ pub struct Stiffness<'a> {
     pub(super) load: &'a [f64],
     pub(super) symmetric: bool,
     /// Components of a pair.
-    dim: usize,
+    pub(super) dim: usize,
     /// Largest diagonal entry.
-    largest: f64,
+    pub(super) largest: f64,
     /// Energy of a motion that rounding of the entries explains, of `|d| . |K| |d|`.
     pub(super) rounding: f64,
     /// The factors that earlier problems with this matrix have left.

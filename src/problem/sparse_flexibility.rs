@@ -89,6 +89,15 @@ impl SparseW {
         largest_of(each)
     }
 
+    /// The matrix with other values in the same places; `None` where there is none for one of them.
+    pub(super) fn with_values(&self, value: impl Fn(f64) -> Option<f64>) -> Option<Self> {
+        let mut copy = self.clone();
+        for entry in copy.lower.val_mut() {
+            *entry = value(*entry)?;
+        }
+        Some(copy)
+    }
+
     /// Number of rows.
     pub fn size(&self) -> usize {
         self.lower.ncols()

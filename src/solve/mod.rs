@@ -2,7 +2,7 @@
 //! The certificate alone decides in `result` which candidate is a solution.
 //!
 //! ```text
-//! result ← pieces ← part ← rigid ← sweeps ← newton ← path ← proximal ← lcp ← uniqueness ← plan ← operator ← mod
+//! result ← pieces ← part ← rigid ← sweeps ← newton ← path ← proximal ← lcp ← uniqueness ← plan ← operator ← units ← mod
 //! ```
 //!
 //! Each imports from those to its left only. One algorithm is one folder; others may use the names that its
@@ -20,12 +20,17 @@ mod result;
 mod rigid;
 mod sweeps;
 mod uniqueness;
+mod units;
 
+use crate::certificate::{certify_pair, measure_parts};
 use crate::error::{Argument, Error, Limit, entry};
 use crate::law::Contact;
 use crate::linalg::vector::first_not_finite;
 use crate::monitor::Monitor;
-use crate::problem::{ContactProblem, DependentRows, FlexibilityProblem, SparseFlexibilityProblem};
+use crate::problem::{
+    ChangesUnits, ContactProblem, DependentRows, FlexibilityProblem, InUnits, Relation,
+    SparseFlexibilityProblem, Units,
+};
 use crate::settings::{Search, Settings};
 
 pub use lcp::{LcpSolution, solve_lcp};
@@ -52,13 +57,19 @@ pub(crate) fn solve_dependent(
     start: Option<&[f64]>,
     monitor: &mut Monitor<'_>,
 ) -> Result<Solution, Error> {
-    let n = problem.unknowns();
-    check(settings, memory(n), ("d", n, start))?;
-    let mut solution = proximal::solve_dependent(problem, (settings, plan::solve), start, monitor)?;
-    let remarks = result::of_problem(problem, &solution.d);
-    result::remark(&mut solution, problem, remarks);
-    solution.iterations = monitor.iterations();
-    Ok(solution)
+    let (n, numbers) = (problem.unknowns(), InUnits::of(problem));
+    check(settings, memory(n) + copy_of(n, &numbers), ("d", n, start))?;
+    let by = (settings, plan::solve as Solve);
+    let solution = match numbers {
+        None => proximal::solve_dependent(problem, by, start, monitor)?,
+        Some(numbers) => {
+            let (units, problem) = (numbers.units(), numbers.problem(problem));
+            let start = start.and_then(|start| units.lengths(start));
+            let solution = proximal::solve_dependent(&problem, by, start.as_deref(), monitor)?;
+            pair_to_host(solution, units, settings, &problem)
+        }
+    };
+    Ok(finished(solution, problem, monitor))
 }
 
 /// Solves a contact problem in flexibility form from the contact forces `start` (zero if `None`).
@@ -76,14 +87,20 @@ pub fn solve_flexibility(
     start: Option<&[f64]>,
     monitor: &mut Monitor<'_>,
 ) -> Result<Solution, Error> {
-    let n = problem.unknowns();
-    check(settings, memory_flexibility(n), ("F", n, start))?;
+    let (n, numbers) = (problem.unknowns(), InUnits::of(problem));
+    check(settings, memory_flexibility(n) + copy_of(n, &numbers), ("F", n, start))?;
     let by = (settings, plan::solve as Solve);
-    let mut solution = proximal::solve_flexibility(problem, by, start, &|pair| pair, monitor)?;
-    let remarks = result::of_problem(problem, &solution.d);
-    result::remark(&mut solution, problem, remarks);
-    solution.iterations = monitor.iterations();
-    Ok(solution)
+    let solution = match numbers {
+        None => proximal::solve_flexibility(problem, by, start, &|pair| pair, monitor)?,
+        Some(numbers) => {
+            let (units, problem) = (numbers.units(), numbers.problem(problem));
+            let start = start.and_then(|start| units.forces(start));
+            let start = start.as_deref();
+            let solution = proximal::solve_flexibility(&problem, by, start, &|pair| pair, monitor)?;
+            pair_to_host(solution, units, settings, &problem)
+        }
+    };
+    Ok(finished(solution, problem, monitor))
 }
 
 /// Solves a contact problem in flexibility form with a sparse `W`, as [`solve_flexibility`] does one with a dense
@@ -111,11 +128,17 @@ pub fn solve_flexibility_sparse(
         Error::stopped(Limit::Memory, message)
     })?;
     check_start("F", problem.unknowns(), start)?;
-    let mut solution = proximal::solve_islands(problem, (settings, plan::solve), start, monitor)?;
-    let remarks = result::of_problem(problem, &solution.d);
-    result::remark(&mut solution, problem, remarks);
-    solution.iterations = monitor.iterations();
-    Ok(solution)
+    let by = (settings, plan::solve as Solve);
+    let solution = match InUnits::of(problem) {
+        None => proximal::solve_islands(problem, by, start, monitor)?,
+        Some(numbers) => {
+            let (units, problem) = (numbers.units(), numbers.problem(problem));
+            let start = start.and_then(|start| units.forces(start));
+            let solution = proximal::solve_islands(&problem, by, start.as_deref(), monitor)?;
+            pair_to_host(solution, units, settings, &problem)
+        }
+    };
+    Ok(finished(solution, problem, monitor))
 }
 
 /// Solves a contact problem from the displacements `start` (zero if `None`).
@@ -129,8 +152,32 @@ pub fn solve(
     start: Option<&[f64]>,
     monitor: &mut Monitor<'_>,
 ) -> Result<Solution, Error> {
-    let n = problem.unknowns();
-    check(settings, memory(n), ("d", n, start))?;
+    let (n, numbers) = (problem.unknowns(), InUnits::of(problem));
+    check(settings, memory(n) + copy_of(n, &numbers), ("d", n, start))?;
+    let mut solution = match numbers {
+        None => solve_as_it_stands(problem, settings, start, monitor)?,
+        Some(numbers) => {
+            let (units, problem) = (numbers.units(), numbers.problem(problem));
+            let start = start.and_then(|start| units.lengths(start));
+            let solution = solve_as_it_stands(&problem, settings, start.as_deref(), monitor)?;
+            let contact = Contact::new(&problem);
+            let certify = |d: &[f64], low: &[f64], _: &[f64]| {
+                measure_parts(&contact, d, low).with_rounding(settings.tolerance)
+            };
+            units::to_host(solution, units, settings.tolerance, certify)
+        }
+    };
+    result::say_remarks(&mut solution, problem);
+    solution.iterations = monitor.iterations();
+    Ok(solution)
+}
+
+fn solve_as_it_stands(
+    problem: &ContactProblem<'_>,
+    settings: &Settings,
+    start: Option<&[f64]>,
+    monitor: &mut Monitor<'_>,
+) -> Result<Solution, Error> {
     // Further questions take the memory that would be kept.
     let more = settings.search == Search::Others || settings.proof;
     let problem = &problem.remembering(problem.remembered().filter(|_| !more));
@@ -147,8 +194,38 @@ pub fn solve(
         uniqueness::prove(&contact, settings, &mut solution, monitor);
     }
     plan::add_remarks(&contact, settings, &mut solution, monitor);
-    solution.iterations = monitor.iterations();
     Ok(solution)
+}
+
+/// A result on a relation in which displacements do not determine forces, in the host's units; `problem` is in those
+/// of the result.
+fn pair_to_host<R: ChangesUnits>(
+    solution: Solution,
+    units: Units,
+    settings: &Settings,
+    problem: &ContactProblem<'_, R>,
+) -> Solution {
+    let certify = |d: &[f64], _: &[f64], force: &[f64]| {
+        certify_pair(problem, d, force).with_rounding(settings.tolerance)
+    };
+    units::to_host(solution, units, settings.tolerance, certify)
+}
+
+/// A result with the remarks on its data and the count of its iterations.
+fn finished<R: Relation>(
+    mut solution: Solution,
+    problem: &ContactProblem<'_, R>,
+    monitor: &Monitor<'_>,
+) -> Solution {
+    solution.remarks = result::of_problem(problem, &solution.d);
+    result::say_remarks(&mut solution, problem);
+    solution.iterations = monitor.iterations();
+    solution
+}
+
+/// Bytes of the copy of a matrix of `n` rows in other units.
+fn copy_of<N>(n: usize, numbers: &Option<N>) -> u64 {
+    if numbers.is_some() { (n * n * size_of::<f64>()) as u64 } else { 0 }
 }
 
 /// Refuses settings out of range, a call that needs more bytes than they allow, and a start of another length

@@ -35,8 +35,11 @@ const DECIMAL: [Units; 8] = {
 /// Powers of two round nothing; even ones, so that square roots of stiffnesses and of energies do
 /// not either.
 fn binary() -> impl Iterator<Item = Units> {
-    [(40, 0), (0, 38), (-30, 0), (0, -40), (31, 43), (-44, 44), (41, -41)]
-        .into_iter()
+    let near = [(40, 0), (0, 38), (-30, 0), (0, -40), (31, 43), (-44, 44), (41, -41)];
+    // Lengths, forces and stiffnesses whose products no double holds.
+    let far = [(900, 0), (0, 900), (-900, 0), (0, -900), (900, 900), (-900, -900), (451, -451)];
+    near.into_iter()
+        .chain(far)
         .map(|(length, force)| Units { length: 2_f64.powi(length), force: 2_f64.powi(force) })
 }
 

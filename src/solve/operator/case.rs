@@ -12,7 +12,7 @@ use crate::settings::{Method, Search, Settings};
 use crate::solve::plan::FAR;
 use crate::solve::result::Ending;
 use crate::solve::result::{Solution, Status};
-use crate::solve::result::{of_problem, remark};
+use crate::solve::result::{of_problem, say_remarks};
 
 /// A load case on such bodies.
 pub struct Case<'a> {
@@ -186,7 +186,7 @@ fn result(
         ending => (Status::Stalled, format!("{}; {wanted}", ending.reason(&certificate))),
     };
     let mut solution = Solution::of(Method::Newton, told, d, certificate);
-    let remarks = of_problem(contact.problem(), &solution.d);
-    remark(&mut solution, contact.problem(), remarks);
+    solution.remarks = of_problem(contact.problem(), &solution.d);
+    say_remarks(&mut solution, contact.problem());
     solution
 }

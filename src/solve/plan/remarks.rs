@@ -5,7 +5,7 @@ use crate::certificate::measure;
 use crate::law::Contact;
 use crate::monitor::Monitor;
 use crate::settings::Settings;
-use crate::solve::result::{CAUSES, Remarks, Solution, Status, Uniqueness, of_problem, remark};
+use crate::solve::result::{CAUSES, Remarks, Solution, Status, Uniqueness, of_problem};
 use crate::solve::rigid::{RigidMotions, escape, is_held_by_rounding, moves_freely};
 
 /// The sentence on bodies that move away if the rounding of a condensation counts as no resistance.
@@ -24,13 +24,12 @@ pub fn add_remarks(
     let solved = solution.status == Status::Solved;
     let asked = solved && solution.uniqueness == Uniqueness::NotKnown && contact.is_frictionless();
     let (d, certificate) = (&solution.d, &solution.certificate);
-    let remarks = Remarks {
+    solution.remarks = Remarks {
         free_motion: asked && moves_freely(contact, d, &certificate.states, monitor),
         held_by_rounding: solved && is_held_by_rounding(contact, d, &certificate.force),
         needs_low_part: solved && needs_low_part(contact, settings, solution),
         ..of_problem(problem, d)
     };
-    remark(solution, problem, remarks);
     if solution.status == Status::Stalled && problem.is_symmetric() {
         explain(contact, solution, monitor);
     }

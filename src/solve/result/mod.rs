@@ -15,7 +15,7 @@ pub use ending::{CAUSES, Ending, NO_EQUILIBRIUM};
 pub use memory::{
     check_limit, memory, memory_flexibility, memory_flexibility_sparse, memory_of_islands,
 };
-pub use remarks::{of_problem, remark};
+pub use remarks::{of_problem, say_remarks};
 pub use solution::{
     Errors, Escape, Existence, Fallback, Remarks, SecondSolution, Solution, Solve, Status,
     Uniqueness,

@@ -18,13 +18,9 @@ pub fn of_problem<R: Relation>(problem: &ContactProblem<'_, R>, d: &[f64]) -> Re
     }
 }
 
-/// Gives a result its remarks, and says those on a solution in its sentence.
-pub fn remark<R: Relation>(
-    solution: &mut Solution,
-    problem: &ContactProblem<'_, R>,
-    remarks: Remarks,
-) {
-    solution.remarks = remarks;
+/// Says the remarks on a solution in its sentence.
+pub fn say_remarks<R: Relation>(solution: &mut Solution, problem: &ContactProblem<'_, R>) {
+    let remarks = solution.remarks;
     if solution.status != Status::Solved || remarks == Remarks::default() {
         return;
     }
