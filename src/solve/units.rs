@@ -17,7 +17,7 @@ pub fn to_host(
     certify: impl Fn(&[f64], &[f64], &[f64]) -> Certificate,
 ) -> Solution {
     let point = Point { d: solution.d, low: solution.d_low, certificate: solution.certificate };
-    let point = point.to_host(units, &certify);
+    let point = point.in_host_units(units, &certify);
     if solution.status == Status::Solved && !point.certificate.holds(tolerance) {
         (solution.status, solution.message) = (Status::Stalled, TOO_SMALL.into());
         (solution.uniqueness, solution.existence) = (Uniqueness::NotKnown, Existence::NotProved);
@@ -26,7 +26,7 @@ pub fn to_host(
     (solution.d, solution.d_low, solution.certificate) = (point.d, point.low, point.certificate);
     if let Some(second) = solution.second.take() {
         let SecondSolution { d, d_low, certificate, orientation } = *second;
-        let point = Point { d, low: d_low, certificate }.to_host(units, &certify);
+        let point = Point { d, low: d_low, certificate }.in_host_units(units, &certify);
         if point.certificate.holds(tolerance) {
             let Point { d, low: d_low, certificate } = point;
             solution.second = Some(Box::new(SecondSolution { d, d_low, certificate, orientation }));
@@ -51,7 +51,7 @@ struct Point {
 }
 
 impl Point {
-    fn to_host(
+    fn in_host_units(
         self,
         units: Units,
         certify: &impl Fn(&[f64], &[f64], &[f64]) -> Certificate,
