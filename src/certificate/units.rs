@@ -9,11 +9,14 @@ const LEAST: f64 = f64::from_bits(1);
 
 impl Certificate {
     /// The certificate in the host's units. Forces among the smallest doubles are rounded, which
-    /// [`Certificate::equilibrium`] counts.
+    /// [`Certificate::equilibrium`] counts; a force beyond doubles is no solution.
     pub(crate) fn to_host(&self, units: Units) -> Self {
         let force: Vec<f64> = self.force.iter().map(|&force| units.host_force(force)).collect();
         let rounded = if units.keeps_forces(&self.force) { 0.0 } else { LEAST };
+        let beyond = force.iter().any(|force| force.abs() == f64::MAX);
         Certificate {
+            eta: if beyond { self.eta.max(1.0) } else { self.eta },
+            residual: if beyond { self.residual.max(1.0) } else { self.residual },
             penetration: units.host_length(self.penetration),
             tension: units.host_force(self.tension),
             cone_excess: units.host_force(self.cone_excess),

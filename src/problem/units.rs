@@ -71,14 +71,15 @@ impl Units {
         all(values, self.force)
     }
 
-    /// A length of these units in those of the host, rounded where it is among the smallest doubles.
+    /// A length of these units in those of the host, rounded where it is among the smallest doubles; the largest
+    /// double where it is beyond.
     pub fn host_length(self, value: f64) -> f64 {
-        times_power_of_two(value, -self.length)
+        times_power_of_two(value, -self.length).clamp(-f64::MAX, f64::MAX)
     }
 
-    /// A force of these units in those of the host, rounded where it is among the smallest doubles.
+    /// A force of these units in those of the host, as [`Units::host_length`] a length.
     pub fn host_force(self, value: f64) -> f64 {
-        times_power_of_two(value, -self.force)
+        times_power_of_two(value, -self.force).clamp(-f64::MAX, f64::MAX)
     }
 
     /// Returns `true` if lengths of these units keep all digits in those of the host.

@@ -4,11 +4,11 @@ use super::result::{Escape, Existence, SecondSolution, Solution, Status, Uniquen
 use crate::certificate::Certificate;
 use crate::problem::Units;
 
-/// The sentence on a result whose displacements are among the smallest doubles.
-const TOO_SMALL: &str = "solved, but the displacements or forces are among the smallest doubles and lose their digits: use \
-                         smaller units";
+/// The sentence on a result of which the host's units hold no digits.
+const OUT_OF_RANGE: &str = "solved, but displacements or forces in these units are beyond doubles, or so small that \
+                            doubles lose their digits: use units that are nearer to the problem's sizes";
 
-/// The result in the host's units. Displacements and forces that lose digits there are measured again by `certify`,
+/// The result in the host's units. Displacements and forces that lose digits there, or are beyond doubles, are measured again by `certify`,
 /// which takes `d`, `d_low` and the contact forces in the units of the solution.
 pub fn to_host(
     mut solution: Solution,
@@ -19,7 +19,7 @@ pub fn to_host(
     let point = Point { d: solution.d, low: solution.d_low, certificate: solution.certificate };
     let point = point.in_host_units(units, &certify);
     if solution.status == Status::Solved && !point.certificate.holds(tolerance) {
-        (solution.status, solution.message) = (Status::Stalled, TOO_SMALL.into());
+        (solution.status, solution.message) = (Status::Stalled, OUT_OF_RANGE.into());
         (solution.uniqueness, solution.existence) = (Uniqueness::NotKnown, Existence::NotProved);
         solution.second = None;
     }
