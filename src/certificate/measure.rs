@@ -15,8 +15,8 @@ pub struct Certificate {
     pub eta: f64,
     /// `eta` with the rounding of its own evaluation: the true one is not above.
     pub residual: f64,
-    /// What rounding `d` to doubles may add to `eta`, dimensionless: the rounding of `K d` relative to the forces, times
-    /// the most that the law makes of it.
+    /// The most that rounding `d` to doubles may add to `eta`, dimensionless: the rounding of `K d` relative to the
+    /// forces, times the most that the law makes of it.
     pub rounding: f64,
     /// Rounding of `K d`, relative to the forces, that a motion which nothing holds may hide behind, dimensionless.
     pub(crate) hidden: f64,

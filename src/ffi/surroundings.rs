@@ -1,5 +1,5 @@
-//! What a call changes of its thread: the floating-point environment and the thread's cancellation, both as the host
-//! has them again when the call ends.
+//! The surroundings of a call: it changes the floating-point environment and the cancellation of its thread, and
+//! gives both back to the host as they were.
 //!
 //! Cancellation unwinds as an exception of C++ does, which may not pass through Rust: a thread that is cancelled during a
 //! call ends after it.

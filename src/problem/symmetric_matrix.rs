@@ -21,8 +21,8 @@ pub(crate) fn is_symmetric_beside(matrix: &Matrix<'_>, root: &[f64]) -> bool {
     matrix.agrees_across(root, SYMMETRY, f64::INFINITY)
 }
 
-/// What a host's condensation leaves of a zero on the diagonal, of each component: a part of the largest entry of its
-/// `group`.
+/// The rounding that a host's condensation leaves in the place of a zero on the diagonal, of each component: a part of
+/// the largest entry of its `group`.
 fn rounding(matrix: &Matrix<'_>, group: usize) -> impl Fn(usize) -> f64 {
     move |i| FREE * CONDENSATION * matrix.unit_of_group(i, group, 0.0)
 }

@@ -15,7 +15,7 @@ pub fn flaw_of_motion(problem: &Problem, r: &[f64]) -> Option<(f64, String)> {
     let few = 4.0 * n as f64 * UNIT;
     let unloaded = Case { f: vec![0.0; n], ..case.clone() };
     let strain = force(&unloaded, &quads(r));
-    // What makes K of rigid motions rounds beside its largest entries.
+    // The products that make K of rigid motions round beside its largest entries.
     let largest = (0..n).map(|i| case.stiffness(i, i)).fold(0.0, f64::max);
     let noise = if problem.motions.is_empty() { *noise } else { noise + few * largest };
     let most = r.iter().fold(0.0, |most: f64, r| most.max(r.abs()));

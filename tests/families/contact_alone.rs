@@ -100,7 +100,7 @@ fn all(case: impl Fn(&ContactAlone) -> Case, as_model: bool, proved: f64) {
         let kind = KINDS[seed % KINDS.len()];
         let bodies = ContactAlone::random(&mut Rng::with_seed(seed as u64), kind);
         let case = case(&bodies);
-        // What a condensation leaves below zero, on the diagonal too, is no reason to refuse a matrix.
+        // A condensation may leave entries below zero, on the diagonal too: they are no reason to refuse a matrix.
         let solution = solved(&case, as_model).expect("the data are valid");
         if let Err(what) = counts.add(&case, bodies.statics(), &solution) {
             wrong.push(format!("{seed} ({kind:?}): {what}"));

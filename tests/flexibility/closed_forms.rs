@@ -338,7 +338,7 @@ fn what_no_flexibility_has_is_refused() {
             },
             "W is not positive semi-definite",
         ),
-        // The same with eigenvalues 1.5, 1.5 and -1e-6 halves: far above what rounding leaves.
+        // Now with eigenvalues 1.5, 1.5 and -1e-6 halves: far above what rounding leaves.
         (
             &|case| {
                 for (i, j) in [(0, 1), (1, 2), (0, 2)] {

@@ -224,7 +224,7 @@ fn enclosed_off(
     })
 }
 
-/// Of an open pair of the stiffness `[[2, 1], [1, 2]]` the direction `(1, -1)` is resisted by 1, its least eigenvalue:
+/// The stiffness `[[2, 1], [1, 2]]` of an open pair resists the direction `(1, -1)` by 1, its least eigenvalue:
 /// a place that is off along it lacks a force of the same length. The solution is off by `1 / sqrt(2)` of the radius
 /// then, and by all of it where the stiffness is 1 in both directions and the place is off along one.
 #[test]
