@@ -34,10 +34,12 @@ impl Proof {
         let lengths =
             |values: &[f64]| values.iter().map(|&value| units.host_length(value)).collect();
         let widened = |radius: f64, exact: bool| if exact { radius } else { radius + 3.0 * LEAST };
-        let keeps_lengths = [&self.d, &self.d_low, &self.d_radius].map(|d| units.keeps_lengths(d));
-        let keeps_forces = [&self.force, &self.force_radius].map(|force| units.keeps_forces(force));
-        let d_radius = |&radius| widened(units.host_length(radius), keeps_lengths == [true; 3]);
-        let force_radius = |&radius| widened(units.host_force(radius), keeps_forces == [true; 2]);
+        let mut lengths_of = [&self.d, &self.d_low, &self.d_radius].into_iter();
+        let keeps_lengths = lengths_of.all(|d| units.keeps_lengths(d));
+        let keeps_forces =
+            units.keeps_forces(&self.force) && units.keeps_forces(&self.force_radius);
+        let d_radius = |&radius| widened(units.host_length(radius), keeps_lengths);
+        let force_radius = |&radius| widened(units.host_force(radius), keeps_forces);
         Proof {
             d: lengths(&self.d),
             d_low: lengths(&self.d_low),

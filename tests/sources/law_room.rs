@@ -70,9 +70,10 @@ const CHOICES: [(&str, &[&str]); 4] = [
 
 /// Where the data pass in or out, or where a name means something else: the place, what is allowed
 /// there, and why.
-const ALLOWED: [(&str, &str, &str); 9] = [
+const ALLOWED: [(&str, &str, &str); 10] = [
     ("problem/friction_law.rs", "FrictionLaw ::", "the arrays of a law: their number and range"),
     ("problem/contact.rs", "gap == f64 :: NEG_INFINITY", "input: a gap is a number or +inf"),
+    ("problem/units.rs", "gap", "units: the size of a gap, and a gap beyond doubles"),
     ("problem/bounded_lcp.rs", "self . lower", "the bound of an LCP's variable"),
     ("problem/symmetric_matrix.rs", "lower", "an entry below the diagonal"),
     ("linalg/", "lower [", "a lower triangular factor"),

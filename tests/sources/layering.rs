@@ -63,7 +63,7 @@ const ROOMS: [(&str, &[&str]); 16] = [
 ];
 
 /// The rooms of `solve`: each imports from those before it only.
-const SOLVERS: [&str; 13] = [
+const SOLVERS: [&str; 14] = [
     "result",
     "pieces",
     "part",
@@ -76,6 +76,7 @@ const SOLVERS: [&str; 13] = [
     "uniqueness",
     "plan",
     "operator",
+    "units",
     "mod",
 ];
 
