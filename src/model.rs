@@ -217,11 +217,17 @@ impl Model {
         if let Some(matrix_free) = self.reduction.matrix_free() {
             check_start("d", self.dim * self.pairs, start)?;
             let by = (matrix_free, monitor.workers());
-            return self.on_bodies(by, case, |bodies, case| {
+            let solution = self.on_bodies(by, case, |bodies, case| {
                 let mut solution = solve_matrix_free(bodies, case, settings, start, monitor)?;
                 solution.iterations = monitor.iterations();
                 Ok(solution)
             });
+            let solution = solution?;
+            if solution.recession.is_none() {
+                return Ok(solution);
+            }
+            let load = self.reduction.condense(case.load, case.prescribed)?;
+            return Ok(self.with_motion(solution, &load));
         }
         if let Some(dependence) = self.reduction.dependence() {
             return self.on_dependent_rows(dependence, (case, load), |problem| {

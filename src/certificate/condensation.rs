@@ -38,7 +38,7 @@ pub fn is_free(problem: &ContactProblem<'_>, r: &[f64]) -> bool {
 
 /// True if internal forces are no more than rounding of the entries of `K`, each in the roots of two units, or than what
 /// is negligible beside the motion.
-fn has_no_forces(r: &[f64], internal: &[f64], rounding: f64, root: &[f64]) -> bool {
+pub fn has_no_forces(r: &[f64], internal: &[f64], rounding: f64, root: &[f64]) -> bool {
     let scaled = || r.iter().zip(root).map(|(r, root)| (r * root).abs());
     let strained = (NEGLIGIBLE * largest_of(scaled())).max(rounding * scaled().sum::<f64>());
     internal.iter().zip(root).all(|(k, root)| k.abs() <= strained * root)

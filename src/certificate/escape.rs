@@ -6,7 +6,7 @@ use super::condensation::is_free;
 use crate::law::{Contact, Recession};
 use crate::linalg::tolerances::{LEAST_WORK, NEGLIGIBLE};
 use crate::linalg::vector::{dot, largest_of, norm_inf};
-use crate::problem::ContactProblem;
+use crate::problem::{ContactProblem, Relation};
 
 /// True if the rigid motion `r` proves that no equilibrium exists.
 ///
@@ -23,19 +23,24 @@ pub fn is_escape(problem: &ContactProblem<'_>, r: &[f64]) -> bool {
 /// [`is_escape`], on a problem whose laws are worked out.
 pub(crate) fn is_escape_of(contact: &Contact<'_>, r: &[f64]) -> bool {
     let problem = contact.problem();
-    let largest = norm_inf(r);
+    let Some(r) = of_size_one(r) else { return false };
     // On a motion that only Kᵀ resists internal forces do work.
-    if largest == 0.0 || !largest.is_finite() || !problem.is_symmetric() {
-        return false;
-    }
-    // The length of a motion says nothing; products of it might overflow, or vanish and with them its energy.
-    let r = &r.iter().map(|r| r / largest).collect::<Vec<f64>>()[..];
-    let root = problem.unit_roots();
+    problem.is_symmetric() && outworks_contact(contact, &r) && is_free(problem, &r)
+}
+
+/// A motion with the largest component 1: its length says nothing, and products of it might overflow, or vanish and with
+/// them its energy. `None` if it has no length, or none that is finite.
+pub(super) fn of_size_one(r: &[f64]) -> Option<Vec<f64>> {
+    let largest = norm_inf(r);
+    let is_motion = largest > 0.0 && largest.is_finite();
+    is_motion.then(|| r.iter().map(|r| r / largest).collect())
+}
+
+/// True if contact stops a motion `r` of the pairs nowhere, and takes less work than the loads do.
+pub(super) fn outworks_contact<R: Relation>(contact: &Contact<'_, R>, r: &[f64]) -> bool {
+    let root = contact.problem().unit_roots();
     let size = largest_of(r.iter().zip(&root).map(|(r, root)| r * root));
     if size == 0.0 || !size.is_finite() {
-        return false;
-    }
-    if !is_free(problem, r) {
         return false;
     }
     let negligible = NEGLIGIBLE * size;
@@ -55,7 +60,7 @@ pub(crate) fn lifts(contact: &Contact<'_>, r: &[f64]) -> Vec<f64> {
     recessions(contact, r).iter().map(|motion| motion.lift).collect()
 }
 
-fn recessions(contact: &Contact<'_>, r: &[f64]) -> Vec<Recession> {
+fn recessions<R: Relation>(contact: &Contact<'_, R>, r: &[f64]) -> Vec<Recession> {
     let parts = r.chunks_exact(contact.dim());
     contact.pairs().iter().zip(parts).map(|(law, r)| law.recession(r)).collect()
 }

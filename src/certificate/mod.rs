@@ -42,4 +42,4 @@ pub use measure::{Certificate, LEVER, ROUNDING_LIMIT, certify, certify_pair, eta
 pub(crate) use measure::{certify_pair_in_units, eta_of, measure, measure_parts};
 pub use proof::{Proof, prove};
 pub(crate) use proof::{errors, prove_parts};
-pub(crate) use spread::measure_spread;
+pub(crate) use spread::{is_spread_escape, is_unresisted, measure_spread};

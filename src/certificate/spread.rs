@@ -1,7 +1,12 @@
 //! The measure of bodies whose stiffness is not condensed: displacements of all unknowns.
 
+use super::condensation::has_no_forces;
+use super::escape::{of_size_one, outworks_contact};
 use super::measure::{Certificate, Terms, measure_pair};
+use crate::error::Error;
 use crate::law::Contact;
+use crate::linalg::tolerances::FREE;
+use crate::linalg::vector::{dot, sizes};
 use crate::problem::{MatrixFree, StiffnessOperator};
 
 /// Measures the displacements `x` of all unknowns of `bodies`, whose residual `A x - b` is given. What the
@@ -18,10 +23,36 @@ pub(crate) fn measure_spread(
     measure_pair(contact, (d, &[]), &terms, raw.to_vec(), (&[], inner))
 }
 
+/// True if the motion `r` of all unknowns of `bodies` proves that no equilibrium exists, as [`super::is_escape`] says of
+/// one of the pairs.
+///
+/// # Errors
+/// A failure in the host.
+pub(crate) fn is_spread_escape(
+    contact: &Contact<'_, MatrixFree<'_>>,
+    bodies: &dyn StiffnessOperator,
+    r: &[f64],
+) -> Result<bool, Error> {
+    let Some(r) = of_size_one(r) else { return Ok(false) };
+    Ok(outworks_contact(contact, &r[bodies.inner()..]) && is_unresisted(bodies, &r)?)
+}
+
+/// True if the bodies resist the motion `r` of all their unknowns by no more than rounding of the entries of `A`.
+///
+/// # Errors
+/// A failure in the host.
+pub(crate) fn is_unresisted(bodies: &dyn StiffnessOperator, r: &[f64]) -> Result<bool, Error> {
+    let nothing = vec![0.0; r.len()];
+    let forces = bodies.residual(r, &nothing[..bodies.inner()], &nothing)?;
+    let (size, rounding) = (sizes(r), FREE * f64::EPSILON);
+    let root: Vec<f64> = bodies.units().iter().map(|unit| unit.sqrt()).collect();
+    let is_free = dot(r, &forces).abs() <= rounding * dot(&size, &bodies.magnitude(&size));
+    Ok(is_free && has_no_forces(r, &forces, rounding, &root))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::error::Error;
     use crate::problem::{ContactProblem, FrictionLaw, GoesOn, HeldSet};
 
     /// Two springs in a row from a support to a pair, and one along its tangent.
@@ -40,11 +71,11 @@ mod tests {
             0.0
         }
 
-        fn product(&mut self, x: &[f64]) -> Result<Vec<f64>, Error> {
+        fn product(&self, x: &[f64]) -> Result<Vec<f64>, Error> {
             Ok(vec![2.0 * x[0] - x[1], x[1] - x[0], x[2]])
         }
 
-        fn residual(&mut self, x: &[f64], _: &[f64], load: &[f64]) -> Result<Vec<f64>, Error> {
+        fn residual(&self, x: &[f64], _: &[f64], load: &[f64]) -> Result<Vec<f64>, Error> {
             Ok(self.product(x)?.iter().zip(load).map(|(force, load)| force - load).collect())
         }
 
@@ -75,7 +106,7 @@ mod tests {
     fn an_imbalance_inside_is_no_equilibrium() {
         let load = [0.0, 1.0, 0.0];
         for off in [-30, -12, -2].map(|exponent| 2_f64.powi(exponent)) {
-            let mut springs = Springs;
+            let springs = Springs;
             let relation = MatrixFree::new(&springs, 2, &load[1..]);
             let law = FrictionLaw::Coulomb(&[0.5]);
             let problem = ContactProblem::with_relation(relation, 2, &[0.0], law, None).unwrap();

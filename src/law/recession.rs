@@ -14,6 +14,7 @@
 //! `r_n <= 0`: tension takes the work `a |r_n|`.
 
 use super::{Contact, PairLaw, Vector};
+use crate::problem::Relation;
 
 /// A motion of a pair, as its law sees it.
 #[derive(Clone, Copy, Debug)]
@@ -31,7 +32,7 @@ pub fn lift(r: &mut [f64], by: f64) {
     r[0] -= by;
 }
 
-impl Contact<'_> {
+impl<R: Relation> Contact<'_, R> {
     /// Gaps with which every pair that has an obstacle touches it.
     pub fn touching_gaps(&self) -> Vec<f64> {
         let gap = |law: &PairLaw| if law.has_obstacle() { 0.0 } else { f64::INFINITY };

@@ -163,17 +163,6 @@ impl<'a> ContactProblem<'a> {
         self.relation.matrix.column(j)
     }
 
-    /// The unit of force per length of component `i`, positive: `K[i, i]`; where nothing resists the
-    /// component, the largest diagonal entry of its pair, or of the whole.
-    pub fn unit(&self, i: usize) -> f64 {
-        self.relation.unit(i)
-    }
-
-    /// Square roots of the units of all components.
-    pub fn unit_roots(&self) -> Vec<f64> {
-        (0..self.unknowns()).map(|i| self.unit(i).sqrt()).collect()
-    }
-
     /// The units beside which a host's condensation has rounded `K`.
     pub(crate) fn units_of_condensation(&self) -> Vec<f64> {
         self.relation.matrix.units_of_condensation(self.dim)
@@ -262,6 +251,17 @@ impl<'a, R: Relation> ContactProblem<'a, R> {
     /// Number of unknowns, `D` for each pair.
     pub fn unknowns(&self) -> usize {
         self.dim * self.gap.len()
+    }
+
+    /// The unit of force per length of component `i`, positive: `K[i, i]`; where nothing resists the
+    /// component, the largest diagonal entry of its pair, or of the whole.
+    pub fn unit(&self, i: usize) -> f64 {
+        self.relation.block(i, i)
+    }
+
+    /// Square roots of the units of all components.
+    pub fn unit_roots(&self) -> Vec<f64> {
+        (0..self.unknowns()).map(|i| self.unit(i).sqrt()).collect()
     }
 
     /// Force per length of the normal component of a pair.

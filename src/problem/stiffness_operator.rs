@@ -30,6 +30,11 @@ impl HeldSet {
     pub fn all(dim: usize, pairs: usize) -> Self {
         HeldSet { held: vec![true; dim * pairs], springs: vec![[[0.0; 2]; 2]; pairs] }
     }
+
+    /// No component of these pairs held.
+    pub fn none(dim: usize, pairs: usize) -> Self {
+        HeldSet { held: vec![false; dim * pairs], ..HeldSet::all(dim, pairs) }
+    }
 }
 
 /// Is asked whether a work goes on.
@@ -51,14 +56,14 @@ pub trait StiffnessOperator {
     ///
     /// # Errors
     /// A failure in the host, told by a sentence on the matrix.
-    fn product(&mut self, x: &[f64]) -> Result<Vec<f64>, Error>;
+    fn product(&self, x: &[f64]) -> Result<Vec<f64>, Error>;
 
     /// `A (x + low) - b`, as exactly as it can be had; `low` is what rounding to doubles has left out of the inner
     /// unknowns.
     ///
     /// # Errors
     /// As [`Self::product`].
-    fn residual(&mut self, x: &[f64], low: &[f64], load: &[f64]) -> Result<Vec<f64>, Error>;
+    fn residual(&self, x: &[f64], low: &[f64], load: &[f64]) -> Result<Vec<f64>, Error>;
 
     /// Bound on the sums of `A x` in which each entry of `x` has at most the given size: `|A| size`.
     fn magnitude(&self, size: &[f64]) -> Vec<f64>;

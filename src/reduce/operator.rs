@@ -251,11 +251,11 @@ impl StiffnessOperator for InUse<'_> {
         0.0
     }
 
-    fn product(&mut self, x: &[f64]) -> Result<Vec<f64>, Error> {
+    fn product(&self, x: &[f64]) -> Result<Vec<f64>, Error> {
         self.operator.product(x)
     }
 
-    fn residual(&mut self, x: &[f64], _: &[f64], load: &[f64]) -> Result<Vec<f64>, Error> {
+    fn residual(&self, x: &[f64], _: &[f64], load: &[f64]) -> Result<Vec<f64>, Error> {
         let mut residual: Vec<f64> = load.iter().map(|f| -f).collect();
         if x.iter().any(|x| *x != 0.0) {
             let product = self.product(x)?;

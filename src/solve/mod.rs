@@ -45,6 +45,7 @@ pub use result::{
     memory, memory_flexibility, memory_flexibility_sparse,
 };
 use result::{Solve, check_limit};
+use rigid::Balance;
 
 /// Solves a contact problem whose rows depend on each other, as [`solve()`] does another one. Contact forces
 /// are not unique then, nor is any solution called the only one.
@@ -185,7 +186,10 @@ fn solve_as_it_stands(
     // Where d = 0 is the solution, other starts only approach it.
     let start = start.filter(|_| !contact.is_at_rest());
     let mut solution = plan::solve(&contact, settings, start, monitor)?;
-    rigid::describe(&contact, &mut solution, plan::solve, monitor)?;
+    if solution.status == Status::NoEquilibrium {
+        let (balance, solve) = (Balance::new(&contact, monitor), Some(plan::solve as Solve));
+        rigid::describe(&contact, &mut solution, balance, solve, monitor)?;
+    }
     uniqueness::by_orientation(&contact, &mut solution, monitor);
     if settings.search == Search::Others && !monitor.is_late() {
         uniqueness::examine(&contact, settings, &mut solution, monitor)?;

@@ -109,7 +109,7 @@ fn a_block_slides_beyond_the_coulomb_limit() {
             let sum = |c: usize| force.iter().skip(c).step_by(2).sum::<f64>();
             assert!((sum(0) + 4.0).abs() <= 1e-8 && (sum(1).abs() - 4.0 * ratio).abs() <= 1e-8);
         } else {
-            assert!(solution.message.contains("eta is"), "{}", solution.message);
+            assert_eq!(solution.status, Status::NoEquilibrium, "{}", solution.message);
         }
     }
 }
@@ -129,7 +129,7 @@ fn a_body_that_nothing_holds_is_not_solved() {
         assert_eq!((rest.status, largest(&rest.d)), (Status::Solved, 0.0), "{}", rest.message);
         mesh.traction(&block.row(block.rows), [0.0, 1.0], &mut load);
         let solution = solve(&model, &load, FrictionLaw::Coulomb(&mu), &full());
-        assert_eq!(solution.status, Status::Stalled, "{}", solution.message);
+        assert_eq!(solution.status, Status::NoEquilibrium, "{}", solution.message);
     }
 }
 

@@ -8,6 +8,7 @@ mod surfaces;
 
 mod full_space;
 mod full_space_bodies;
+mod full_space_escape;
 mod full_space_floating;
 mod full_space_hard;
 mod full_space_random;

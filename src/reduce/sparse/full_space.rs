@@ -195,11 +195,11 @@ impl StiffnessOperator for InUse<'_> {
         rows.binary_search(&row).map_or(0.0, |place| values[place])
     }
 
-    fn product(&mut self, x: &[f64]) -> Result<Vec<f64>, Error> {
+    fn product(&self, x: &[f64]) -> Result<Vec<f64>, Error> {
         Ok(symmetric_times(&self.space.matrix, x))
     }
 
-    fn residual(&mut self, x: &[f64], low: &[f64], load: &[f64]) -> Result<Vec<f64>, Error> {
+    fn residual(&self, x: &[f64], low: &[f64], load: &[f64]) -> Result<Vec<f64>, Error> {
         Ok(symmetric_residual(&self.space.matrix, (x, low), load))
     }
 

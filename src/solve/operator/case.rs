@@ -1,18 +1,21 @@
 //! A load case on bodies whose stiffness is not formed: its solution, and the measure of a result.
 
-use super::attempts;
-use super::point::{Displacements, Equations};
-use super::session::Session;
-use crate::certificate::{Certificate, measure_spread};
+use super::free_motions::FreeMotions;
+use super::newton::{self, Outcome};
+use super::point::{Displacements, Equations, Point};
+use super::session::{Halted, Session};
+use super::{condensed, thresholds};
+use crate::certificate::{Certificate, is_spread_escape, measure_spread};
 use crate::error::{Argument, Error};
 use crate::law::{Contact, gaps_within_reach};
+use crate::linalg::vector::normalise;
 use crate::monitor::Monitor;
 use crate::problem::{ContactProblem, FrictionLaw, MatrixFree, SOLUTIONS, StiffnessOperator};
 use crate::settings::{Method, Search, Settings};
-use crate::solve::plan::FAR;
-use crate::solve::result::Ending;
-use crate::solve::result::{Solution, Status};
-use crate::solve::result::{of_problem, say_remarks};
+use crate::solve::newton::Halt;
+use crate::solve::plan::{self, FAR};
+use crate::solve::result::{Ending, Solution, Solve, Status, of_problem, say_remarks};
+use crate::solve::rigid;
 
 /// A load case on such bodies.
 pub struct Case<'a> {
@@ -160,11 +163,86 @@ impl<'a> Loaded<'a> {
         }
         let at = at.in_equilibrium(bodies, load)?;
         let equations = Equations::new(near, bodies.operator, load, &self.relative);
-        let ended = attempts::solve(&equations, bodies, &at, settings.tolerance, monitor)?;
+        let ended = by_attempts(&equations, bodies, &at, settings.tolerance, monitor)?;
         let (mut x, residual) = (ended.point.at.x, ended.point.residual);
         let certificate = measure(bodies, &x, &residual);
-        Ok(result(contact, settings, x.split_off(inner), certificate, &ended.ending))
+        let mut solution =
+            result(contact, settings, x.split_off(inner), certificate, &ended.ending);
+        if let Ending::Recession(motion) = ended.ending
+            && solution.status == Status::Stalled
+            && is_spread_escape(contact, bodies.operator, &motion)?
+        {
+            solution.status = Status::NoEquilibrium;
+            let mut motion = motion[inner..].to_vec();
+            normalise(&mut motion);
+            solution.recession = Some(motion);
+            describe(contact, bodies, &mut solution, monitor)?;
+        }
+        Ok(solution)
     }
+}
+
+/// Newton's method, and what follows until the certificate calls one's result a solution: the balance of free motions,
+/// the dense problem of the pairs that may touch, problems with given thresholds.
+fn by_attempts(
+    equations: &Equations<'_>,
+    bodies: &mut Session<'_>,
+    start: &Displacements,
+    tolerance: f64,
+    monitor: &mut Monitor<'_>,
+) -> Result<Outcome, Error> {
+    let point = equations.held_at(start.clone(), bodies)?;
+    let mut best = newton::solve(equations, bodies, point, tolerance, monitor)?;
+    for attempt in [balance, condensed::solve, thresholds::solve] {
+        let Point { at, residual, merit, .. } = &best.point;
+        let certificate = measure_spread(equations.contact, bodies.operator, &at.x, residual);
+        let has_ended = matches!(best.ending, Ending::Stopped(_) | Ending::Recession(_));
+        if has_ended || certificate.holds(tolerance) || !merit.is_finite() {
+            break;
+        }
+        match attempt(equations, bodies, start, &mut best, tolerance, monitor) {
+            Ok(()) => {}
+            Err(Halt::Ended(ending)) => best.ending = ending,
+            Err(Halt::Failed(error)) => return Err(error),
+        }
+    }
+    Ok(best)
+}
+
+/// Ends with a free motion that proves that no equilibrium exists, if the balance of the loads finds one.
+fn balance(
+    equations: &Equations<'_>,
+    bodies: &mut Session<'_>,
+    _start: &Displacements,
+    _best: &mut Outcome,
+    _tolerance: f64,
+    monitor: &mut Monitor<'_>,
+) -> Result<(), Halted> {
+    let contact = equations.contact;
+    let Some(motions) = FreeMotions::of(bodies, contact.dim(), monitor)? else { return Ok(()) };
+    match motions.balance(contact, bodies.operator).escape() {
+        Some(motion) => Err(Halt::Ended(Ending::Recession(motions.continued(&motion)))),
+        None => Ok(()),
+    }
+}
+
+/// Gives a solution that has no equilibrium its motion of escape.
+fn describe(
+    contact: &Contact<'_, MatrixFree<'_>>,
+    bodies: &mut Session<'_>,
+    solution: &mut Solution,
+    monitor: &mut Monitor<'_>,
+) -> Result<(), Error> {
+    let motions = match FreeMotions::of(bodies, contact.dim(), monitor) {
+        Ok(motions) => motions,
+        // The motion of the proof stands for the others.
+        Err(Halt::Ended(_)) => None,
+        Err(Halt::Failed(error)) => return Err(error),
+    };
+    let fits = condensed::fits(contact.unknowns(), bodies.operator.units().len());
+    let balance = motions.as_ref().map(|motions| motions.balance(contact, bodies.operator));
+    let solve = fits.then_some(plan::solve as Solve);
+    rigid::describe(contact, solution, balance, solve, monitor)
 }
 
 /// The result at displacements `d` of the pairs, by its certificate.

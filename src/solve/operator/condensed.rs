@@ -7,23 +7,31 @@
 //! ```
 //!
 //! take one solution with `C` held, and one product, for each component. Where nothing can be held `C` are all pairs,
-//! and products alone are taken. Pairs that penetrate then join `C`. Newton's method goes on from the solution.
+//! and products alone are taken. Pairs that penetrate then join `C`. Newton's method goes on from the solution. Where
+//! the dense problem has no equilibrium, its motion is continued to all unknowns, and the certificate judges it.
 
 use super::memory::{memory_of_components, room};
 use super::newton::{self, Outcome, improve};
 use super::point::{Displacements, Equations};
 use super::session::{Halted, Session};
+use crate::certificate::is_spread_escape;
 use crate::error::Error;
 use crate::law::Contact;
 use crate::monitor::{Monitor, Stop};
 use crate::problem::{ContactData, ContactProblem, HeldSet, SOLUTIONS};
 use crate::settings::Settings;
+use crate::solve::newton::Halt;
 use crate::solve::part::{PairData, closed_with_margin};
 use crate::solve::plan;
-use crate::solve::result::Status;
+use crate::solve::result::{Ending, Status};
 
 /// Most components of `C`: a system of the dense problem takes a second, and it may take a thousand of them.
 const MOST_COMPONENTS: usize = 3000;
+
+/// True if a dense problem of so many components fits into the time and the memory of one of so many unknowns.
+pub fn fits(components: usize, unknowns: usize) -> bool {
+    components <= MOST_COMPONENTS && memory_of_components(components) <= room(unknowns)
+}
 
 /// Goes on from a try that has failed.
 pub fn solve(
@@ -34,32 +42,42 @@ pub fn solve(
     tolerance: f64,
     monitor: &mut Monitor<'_>,
 ) -> Result<(), Halted> {
-    let most = room(equations.load.len());
-    let fits = |pairs: &[usize]| {
-        let components = pairs.len() * equations.contact.dim();
-        components <= MOST_COMPONENTS && memory_of_components(components) <= most
-    };
     let laws = equations.contact.pairs();
     let mut chosen = match bodies.operator.can_hold() {
         true => closed_with_margin(laws, &best.point.y),
         false => (0..laws.len()).collect(),
     };
-    let mut start = best.point.at.clone();
-    while fits(&chosen) {
-        let condensed = Condensed::new(equations, bodies, &chosen, start, monitor)?;
-        let Some(d) = condensed.solution(equations, &chosen, tolerance, monitor)? else { break };
-        let at = condensed.with(equations, bodies, &d)?;
-        let point = equations.held_at(at, bodies)?;
-        let closing: Vec<usize> = (0..point.pieces.len())
-            .filter(|pair| point.pieces[*pair].closed && chosen.binary_search(pair).is_err())
-            .collect();
-        if closing.is_empty() {
-            improve(best, newton::solve(equations, bodies, point, tolerance, monitor)?);
+    let mut at = best.point.at.clone();
+    while fits(equations.contact.dim() * chosen.len(), equations.load.len()) {
+        let condensed = Condensed::new(equations, bodies, &chosen, &at, monitor)?;
+        let joins: Vec<bool> =
+            match condensed.solved(equations, &chosen, (&at, tolerance), monitor)? {
+                Found::Nothing => break,
+                Found::Solution(d) => {
+                    let point = condensed.with(bodies, at, &d, equations.load)?;
+                    let point = equations.held_at(point, bodies)?;
+                    let closed: Vec<bool> = point.pieces.iter().map(|piece| piece.closed).collect();
+                    at = point.at.clone();
+                    if (0..laws.len()).all(|k| !closed[k] || chosen.binary_search(&k).is_ok()) {
+                        improve(best, newton::solve(equations, bodies, point, tolerance, monitor)?);
+                        break;
+                    }
+                    closed
+                }
+                Found::Escape(motion) => {
+                    let motion = condensed.motion(equations, bodies, &motion)?;
+                    if is_spread_escape(equations.contact, bodies.operator, &motion)? {
+                        return Err(Halt::Ended(Ending::Recession(motion)));
+                    }
+                    let parts = motion[equations.inner..].chunks_exact(equations.contact.dim());
+                    laws.iter().zip(parts).map(|(law, r)| law.recession(r).approach > 0.0).collect()
+                }
+            };
+        let before = chosen.len();
+        chosen = (0..laws.len()).filter(|k| joins[*k] || chosen.binary_search(k).is_ok()).collect();
+        if chosen.len() == before {
             break;
         }
-        start = point.at;
-        chosen.extend(closing);
-        chosen.sort_unstable();
     }
     Ok(())
 }
@@ -68,33 +86,40 @@ pub fn solve(
 struct Condensed {
     /// Places of the components among all unknowns.
     places: Vec<usize>,
-    /// Displacements of all unknowns, from which it begins.
-    start: Displacements,
+    /// Number of all unknowns.
+    unknowns: usize,
     /// Column-major.
     matrix: Vec<f64>,
     load: Vec<f64>,
 }
 
+/// The outcome of a dense problem, in displacements of its components.
+enum Found {
+    Solution(Vec<f64>),
+    /// A motion that proves that it has no equilibrium.
+    Escape(Vec<f64>),
+    Nothing,
+}
+
 impl Condensed {
-    /// The bodies on `pairs`, to begin from displacements of all unknowns.
+    /// The bodies on `pairs`, near displacements of all unknowns.
     fn new(
         equations: &Equations<'_>,
         bodies: &mut Session<'_>,
         pairs: &[usize],
-        start: Displacements,
+        near: &Displacements,
         monitor: &mut Monitor<'_>,
     ) -> Result<Self, Halted> {
         let (dim, inner) = (equations.contact.dim(), equations.inner);
-        let mut held_set = HeldSet::all(dim, equations.contact.pairs().len());
-        held_set.held.fill(false);
+        let mut held_set = HeldSet::none(dim, equations.contact.pairs().len());
         let own: Vec<usize> = pairs.iter().flat_map(|pair| dim * pair..dim * (pair + 1)).collect();
         own.iter().for_each(|&i| held_set.held[i] = true);
         bodies.hold_under(&held_set, monitor)?;
         let places: Vec<usize> = own.iter().map(|i| inner + i).collect();
-        let size = places.len();
-        let mut condensed =
-            Condensed { places, start, matrix: vec![0.0; size * size], load: Vec::new() };
-        let at = condensed.with(equations, bodies, &vec![0.0; size])?;
+        let (size, unknowns) = (places.len(), equations.load.len());
+        let (matrix, load) = (vec![0.0; size * size], Vec::new());
+        let mut condensed = Condensed { places, unknowns, matrix, load };
+        let at = condensed.with(bodies, near.clone(), &vec![0.0; size], equations.load)?;
         let forces = bodies.operator.residual(&at.x, &at.low, equations.load)?;
         condensed.load = condensed.places.iter().map(|&i| -forces[i]).collect();
         for j in 0..size {
@@ -108,12 +133,12 @@ impl Condensed {
 
     /// True if there are other unknowns.
     fn has_others(&self) -> bool {
-        self.places.len() < self.start.x.len()
+        self.places.len() < self.unknowns
     }
 
     /// The forces on the components where component `j` is moved by one.
     fn column(&self, bodies: &mut Session<'_>, j: usize) -> Result<Vec<f64>, Error> {
-        let mut x = vec![0.0; self.start.x.len()];
+        let mut x = vec![0.0; self.unknowns];
         x[self.places[j]] = 1.0;
         let mut forces = bodies.operator.product(&x)?;
         if self.has_others() {
@@ -125,18 +150,19 @@ impl Condensed {
         Ok(self.places.iter().map(|&i| forces[i]).collect())
     }
 
-    /// All unknowns where the components have the displacements `d` and the others carry no contact forces.
+    /// All unknowns under a load where the components have the displacements `d` and the others carry no contact
+    /// forces, from displacements near them.
     fn with(
         &self,
-        equations: &Equations<'_>,
         bodies: &mut Session<'_>,
+        mut at: Displacements,
         d: &[f64],
+        load: &[f64],
     ) -> Result<Displacements, Error> {
-        let mut at = self.start.clone();
         self.places.iter().zip(d).for_each(|(&i, d)| at.x[i] = *d);
         if self.has_others() {
             for _ in 0..=SOLUTIONS {
-                let lack = bodies.operator.residual(&at.x, &at.low, equations.load)?;
+                let lack = bodies.operator.residual(&at.x, &at.low, load)?;
                 let mut step = bodies.solve(&lack)?;
                 self.places.iter().for_each(|&i| step[i] = 0.0);
                 at = at.moved(-1.0, &step);
@@ -145,15 +171,27 @@ impl Condensed {
         Ok(at)
     }
 
-    /// Displacements of the components that solve the dense problem; `None` if there are none, or if its data are
-    /// none, as where rounding has left a stiffness that is not positive.
-    fn solution(
+    /// A motion of the components, continued to all unknowns.
+    fn motion(
+        &self,
+        equations: &Equations<'_>,
+        bodies: &mut Session<'_>,
+        d: &[f64],
+    ) -> Result<Vec<f64>, Error> {
+        let nothing = vec![0.0; self.unknowns];
+        let rest = Displacements::new(nothing.clone(), equations.inner);
+        Ok(self.with(bodies, rest, d, &nothing)?.x)
+    }
+
+    /// Solves the dense problem from displacements of all unknowns. Its data may be none, as where rounding has left a
+    /// stiffness that is not positive.
+    fn solved(
         &self,
         whole: &Equations<'_>,
         pairs: &[usize],
-        tolerance: f64,
+        (start, tolerance): (&Displacements, f64),
         monitor: &mut Monitor<'_>,
-    ) -> Result<Option<Vec<f64>>, Halted> {
+    ) -> Result<Found, Halted> {
         let problem = whole.contact.problem();
         let own = PairData::of(problem, pairs);
         let data = ContactData {
@@ -166,16 +204,18 @@ impl Condensed {
             law: problem.law().with_values(&own.parameters),
             reference_slip: Some(&own.slip),
         };
-        let Ok(problem) = ContactProblem::new(data) else { return Ok(None) };
-        let start: Vec<f64> = self.places.iter().map(|&i| self.start.x[i]).collect();
+        let Ok(problem) = ContactProblem::new(data) else { return Ok(Found::Nothing) };
+        let contact = &Contact::new(&problem);
+        let start: Vec<f64> = self.places.iter().map(|&i| start.x[i]).collect();
         let settings = Settings { tolerance, ..Settings::default() };
-        let found = plan::auto(&Contact::new(&problem), &settings, Some(&start), monitor)?;
+        let found = plan::auto(contact, &settings, Some(&start), monitor)?;
         Ok(match found.status {
-            Status::Solved => Some(found.d),
+            Status::Solved => Found::Solution(found.d),
+            Status::NoEquilibrium => found.recession.map_or(Found::Nothing, Found::Escape),
             Status::IterationLimit => return Err(Stop::IterationLimit.into()),
             Status::TimeLimit => return Err(Stop::TimeLimit.into()),
             Status::Cancelled => return Err(Stop::Cancelled.into()),
-            _ => None,
+            Status::Stalled => Found::Nothing,
         })
     }
 }

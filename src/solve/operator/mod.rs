@@ -3,13 +3,14 @@
 //! Newton-Krylov methods*, J. Comput. Phys. 193 (2004) 357-397, for the family).
 //!
 //! A step is a system that GMRES solves (`system`) on a factor that serves several steps (`session`). Where Newton's
-//! method fails, the pairs that may touch are condensed into a dense problem (`condensed`), and where that is too
-//! large, the thresholds of friction are given one after the other (`thresholds`).
+//! method fails, the balance of free motions is asked (`free_motions`), then the pairs that may touch are condensed
+//! into a dense problem (`condensed`), and where that is too large, the thresholds of friction are given one after the
+//! other (`thresholds`).
 
-mod attempts;
 mod case;
 mod condensed;
 mod directions;
+mod free_motions;
 mod memory;
 mod newton;
 mod point;

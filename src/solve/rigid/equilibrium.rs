@@ -19,6 +19,7 @@ use crate::linalg::pivoted_cholesky::PivotedCholesky;
 use crate::linalg::tolerances::NEGLIGIBLE;
 use crate::linalg::vector::dot;
 use crate::monitor::Monitor;
+use crate::problem::{Relation, Stiffness};
 use crate::solve::result::Ending;
 
 /// Approach of a pair beside the motion that is more than its own rounding.
@@ -36,17 +37,36 @@ pub fn escape(contact: &Contact<'_>, monitor: &Monitor<'_>) -> Option<Vec<f64>> 
     Balance::new(contact, monitor)?.escape()
 }
 
+/// Is asked if a motion proves that no equilibrium exists.
+type Proves<'c> = dyn Fn(&[f64]) -> bool + 'c;
+
 /// The rigid motions of a problem, and the forces that balance them.
-pub struct Balance<'c> {
-    contact: &'c Contact<'c>,
+pub struct Balance<'c, R = Stiffness<'c>> {
+    contact: &'c Contact<'c, R>,
     motions: RigidMotions,
+    /// The certificate.
+    proves: Box<Proves<'c>>,
 }
 
 impl<'c> Balance<'c> {
-    /// `None` if there are no such motions, or if there is no time to find them.
+    /// `None` if `K` is not symmetric, if there are no such motions, or if there is no time to find them.
     pub fn new(contact: &'c Contact<'c>, monitor: &Monitor<'_>) -> Option<Self> {
+        if !contact.problem().is_symmetric() {
+            return None;
+        }
         let motions = RigidMotions::of(contact.problem(), monitor)?;
-        Some(Balance { contact, motions })
+        Some(Balance::of(contact, motions, move |r: &[f64]| is_escape_of(contact, r)))
+    }
+}
+
+impl<'c, R: Relation> Balance<'c, R> {
+    /// The balance on these motions; `proves` is the certificate's answer on one of them.
+    pub fn of(
+        contact: &'c Contact<'c, R>,
+        motions: RigidMotions,
+        proves: impl Fn(&[f64]) -> bool + 'c,
+    ) -> Self {
+        Balance { contact, motions, proves: Box::new(proves) }
     }
 
     /// The motions.
@@ -61,7 +81,7 @@ impl<'c> Balance<'c> {
         let proof = self.sharpened(rigid.clone());
         let most = STOPPED * self.motions.size(&proof);
         let is_stopped = self.approaches(&proof).into_iter().any(|approach| approach > most);
-        if !is_stopped && is_escape_of(self.contact, &proof) {
+        if !is_stopped && (self.proves)(&proof) {
             Ending::Recession(proof)
         } else {
             Ending::RunsAway(rigid)
@@ -76,13 +96,13 @@ impl<'c> Balance<'c> {
         if self.approaches(&rigid).into_iter().any(|approach| approach > STOPPED * size) {
             rigid = self.lifted(rigid, self.lift().as_deref());
         }
-        if is_escape_of(self.contact, &rigid) { rigid } else { motion }
+        if (self.proves)(&rigid) { rigid } else { motion }
     }
 
     /// A recession direction that the loads drive, where the admissible forces are cones.
     pub fn escape(&self) -> Option<Vec<f64>> {
         let contact = self.contact;
-        if !contact.bounds().all(|bound| bound.is_cone()) || !contact.problem().is_symmetric() {
+        if !contact.bounds().all(|bound| bound.is_cone()) {
             return None;
         }
         let load = self.on_motions(contact.load_with_tension(), 0);
@@ -98,7 +118,7 @@ impl<'c> Balance<'c> {
             let proofs = [self.lifted(motion.clone(), lift.as_deref()), motion.clone()];
             let is_driven = |r: &[f64]| dot(contact.load_with_tension(), r) > 0.0;
             let is_free = |r: &[f64]| self.worst(r).is_empty();
-            let is_proof = |r: &Vec<f64>| is_driven(r) && is_free(r) && is_escape_of(contact, r);
+            let is_proof = |r: &Vec<f64>| is_driven(r) && is_free(r) && (self.proves)(r);
             if let Some(proof) = proofs.into_iter().find(is_proof) {
                 return Some(proof);
             }

@@ -21,7 +21,7 @@ use crate::error::{Error, index};
 use crate::law::Contact;
 use crate::linalg::vector::{dot, normalise};
 use crate::monitor::Monitor;
-use crate::problem::{ContactData, ContactProblem};
+use crate::problem::{ContactData, ContactProblem, Relation, Stiffness};
 use crate::settings::Settings;
 use crate::solve::result::{CAUSES, Escape, NO_EQUILIBRIUM, Solution, Solve, Status};
 
@@ -40,18 +40,15 @@ const RIGID: f64 = 1e-10;
 const MOVING: f64 = 1e-6;
 
 /// Gives a solution that has no equilibrium its motion of escape, sharpens the one that proves it, and says in
-/// the message what moves. `solve` finds the motion.
-pub fn describe(
-    contact: &Contact<'_>,
+/// the message what moves. `solve` finds the motion; `None`: that of the proof stands for it.
+pub fn describe<'c, R: Relation>(
+    contact: &'c Contact<'c, R>,
     solution: &mut Solution,
-    solve: Solve,
+    balance: Option<Balance<'c, R>>,
+    solve: Option<Solve>,
     monitor: &mut Monitor<'_>,
 ) -> Result<(), Error> {
-    if solution.status != Status::NoEquilibrium {
-        return Ok(());
-    }
     let Some(proof) = solution.recession.take() else { return Ok(()) };
-    let balance = Balance::new(contact, monitor);
     let mut proof = match &balance {
         Some(balance) => balance.sharpened(proof),
         None => proof,
@@ -61,7 +58,8 @@ pub fn describe(
     let alone = || RigidMotions::along(contact.problem(), &proof);
     let motions = balance.map_or_else(alone, Balance::into_motions);
     let viscous = Viscous { contact, motions };
-    let escape = viscous.escape(solve, monitor)?.unwrap_or_else(|| viscous.along(&proof));
+    let found = solve.map(|solve| viscous.escape(solve, monitor)).transpose()?.flatten();
+    let escape = found.unwrap_or_else(|| viscous.along(&proof));
     solution.recession = Some(proof);
     let moves = in_words(contact, &escape);
     solution.message = format!("{NO_EQUILIBRIUM}: {moves}; {CAUSES}").into();
@@ -85,12 +83,12 @@ pub fn describe_run_away(contact: &Contact<'_>, solution: &mut Solution, motion:
 }
 
 /// Rigid motions against a viscosity.
-struct Viscous<'c> {
-    contact: &'c Contact<'c>,
+struct Viscous<'c, R = Stiffness<'c>> {
+    contact: &'c Contact<'c, R>,
     motions: RigidMotions,
 }
 
-impl Viscous<'_> {
+impl<R: Relation> Viscous<'_, R> {
     /// `P + c (1 - P)` in the units of the problem, column-major.
     fn stiffness(&self) -> Vec<f64> {
         let n = self.motions.root.len();
@@ -111,7 +109,7 @@ impl Viscous<'_> {
         let problem = self.contact.problem();
         let (matrix, gap) = (self.stiffness(), self.contact.touching_gaps());
         let settings = Settings::default();
-        let mut load = problem.load().to_vec();
+        let mut load = problem.relation().load().to_vec();
         let mut d: Option<Vec<f64>> = None;
         for _ in 0..ROUNDS {
             let viscous = ContactProblem::on_checked_matrix(ContactData {
@@ -162,7 +160,10 @@ impl Viscous<'_> {
 }
 
 /// Which pairs move, how, and what drives them.
-fn in_words(contact: &Contact<'_>, Escape { motion, unbalanced }: &Escape) -> String {
+fn in_words<R: Relation>(
+    contact: &Contact<'_, R>,
+    Escape { motion, unbalanced }: &Escape,
+) -> String {
     let dim = contact.dim();
     let most = (0..motion.len()).max_by(|&a, &b| motion[a].abs().total_cmp(&motion[b].abs()));
     let most = most.unwrap_or(0);

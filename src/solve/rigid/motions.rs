@@ -4,10 +4,10 @@ use crate::linalg::nnls::extend_basis;
 use crate::linalg::pivoted_cholesky::pivoted_cholesky_work;
 use crate::linalg::vector::{dot, largest_of, norm};
 use crate::monitor::Monitor;
-use crate::problem::ContactProblem;
-use crate::problem::FreeBlock;
+use crate::problem::{ContactProblem, FreeBlock, Relation};
 
 /// A space of rigid motions.
+#[derive(Clone)]
 pub struct RigidMotions {
     /// Roots of the units of the components.
     pub root: Vec<f64>,
@@ -32,7 +32,7 @@ impl RigidMotions {
     }
 
     /// The multiples of one motion.
-    pub fn along(problem: &ContactProblem<'_>, motion: &[f64]) -> Self {
+    pub fn along<R: Relation>(problem: &ContactProblem<'_, R>, motion: &[f64]) -> Self {
         let mut motions = RigidMotions { root: problem.unit_roots(), basis: Vec::new() };
         let mut only = motions.scaled(motion);
         let size = norm(&only);
@@ -53,9 +53,13 @@ impl RigidMotions {
 
     /// The rigid motion nearest to displacements.
     pub fn part(&self, d: &[f64]) -> Vec<f64> {
+        self.motion(&self.coordinates(d))
+    }
+
+    /// The coordinates of the rigid motion nearest to displacements.
+    pub fn coordinates(&self, d: &[f64]) -> Vec<f64> {
         let scaled = self.scaled(d);
-        let coordinates: Vec<f64> = self.basis.iter().map(|v| dot(v, &scaled)).collect();
-        self.motion(&coordinates)
+        self.basis.iter().map(|v| dot(v, &scaled)).collect()
     }
 
     /// The motion with these coordinates.
