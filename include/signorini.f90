@@ -51,8 +51,8 @@
 !               not a solution. -k: the k-th argument in the parentheses of your call, counted as
 !               if none was left out, is wrong, and nothing was written. CONTACT_WRONG_MODEL: so
 !               is the model itself. <= -1000: internal, memory, a file.
-!     message   a sentence of any length that tells what is wrong and where; empty if info is 0.
-!               Indices in it count from 1.
+!     message   a sentence of any length that tells what is wrong and where, or, if info is 0, the
+!               remarks on the solution, most often none. Indices in it count from 1.
 module signorini
     use, intrinsic :: iso_c_binding
     implicit none
@@ -420,19 +420,22 @@ module signorini
             type(signorini_pairs), intent(in) :: pairs
             type(c_ptr), intent(out) :: model
         end function
-        integer(c_int32_t) function signorini_model_new_condensed(dim, pairs, k, ldk, model) bind(C)
+        integer(c_int32_t) function signorini_model_new_condensed(dim, pairs, k, ldk, settings, model) &
+            bind(C)
             import
             integer(c_int32_t), value :: dim
             integer(c_int64_t), value :: pairs, ldk
             real(c_double), intent(in) :: k(*)
+            type(c_ptr), value :: settings
             type(c_ptr), intent(out) :: model
         end function
-        integer(c_int32_t) function signorini_model_new_two_body(dim, pairs, k_a, lda, k_b, ldb, model) &
-            bind(C)
+        integer(c_int32_t) function signorini_model_new_two_body(dim, pairs, k_a, lda, k_b, ldb, settings, &
+            model) bind(C)
             import
             integer(c_int32_t), value :: dim
             integer(c_int64_t), value :: pairs, lda, ldb
             real(c_double), intent(in) :: k_a(*), k_b(*)
+            type(c_ptr), value :: settings
             type(c_ptr), intent(out) :: model
         end function
         integer(c_int32_t) function signorini_model_new_flexibility(dim, pairs, w, ldw, model) bind(C)
@@ -764,6 +767,13 @@ contains
         text = text_of(signorini_status_string(number(info)))
     end function
 
+    ! A short description of one remark, such as SIGNORINI_REMARK_FREE_MOTION; report%remarks is a sum of them.
+    function signorini_remark_text(remark) result(text)
+        integer(c_int32_t), intent(in) :: remark
+        character(len=:), allocatable :: text
+        text = text_of(signorini_remark_string(remark))
+    end function
+
     ! Solves a condensed contact problem of n = size(f) unknowns, size(f) / size(gap) for each pair.
     ! k(n, n), f(n), gap(pairs), d(n), force(n), slip0(n - pairs).
     subroutine contact_solve(k, f, gap, d, force, info, law, friction, slip0, method, tolerance, &
@@ -979,13 +989,14 @@ contains
         if (present(report)) report = measured
     end subroutine
 
-    ! A model of the condensed stiffness k(n, n), n = dim * pairs.
-    subroutine model_new_condensed(self, dim, k, info, message)
+    ! A model of the condensed stiffness k(n, n), n = dim * pairs. settings: callback, time_limit and memory_limit.
+    subroutine model_new_condensed(self, dim, k, info, message, settings)
         class(contact_model), intent(inout) :: self
         integer, intent(in) :: dim
         real(c_double), intent(in), contiguous :: k(:, :)
         integer, intent(out) :: info
         character(len=*), intent(out), optional :: message
+        type(signorini_settings), intent(in), target, optional :: settings
         type(refusal) :: wrong
         integer :: pairs
         call self%release()
@@ -994,18 +1005,21 @@ contains
         if (refused(wrong, info, message)) return
         pairs = size(k, 2) / dim
         call finish(signorini_model_new_condensed(number(dim), int(pairs, c_int64_t), k, &
-            int(max(1, size(k, 1)), c_int64_t), self%handle), info, message, [1, 2, 2, 2])
+            int(max(1, size(k, 1)), c_int64_t), address_of_settings(settings), self%handle), info, message, &
+            [1, 2, 2, 2, 5])
         call keep_sizes(self)
     end subroutine
 
     ! A model of two bodies that face each other in the same frames: k_a(n, n) and k_b(n, n),
-    ! n = dim * pairs. A load of the model is that of the first body, then that of the second.
-    subroutine model_new_two_body(self, dim, k_a, k_b, info, message)
+    ! n = dim * pairs. A load of the model is that of the first body, then that of the second. settings: as for
+    ! new_condensed.
+    subroutine model_new_two_body(self, dim, k_a, k_b, info, message, settings)
         class(contact_model), intent(inout) :: self
         integer, intent(in) :: dim
         real(c_double), intent(in), contiguous :: k_a(:, :), k_b(:, :)
         integer, intent(out) :: info
         character(len=*), intent(out), optional :: message
+        type(signorini_settings), intent(in), target, optional :: settings
         type(refusal) :: wrong
         integer :: pairs
         call self%release()
@@ -1016,7 +1030,7 @@ contains
         pairs = size(k_a, 2) / dim
         call finish(signorini_model_new_two_body(number(dim), int(pairs, c_int64_t), k_a, &
             int(max(1, size(k_a, 1)), c_int64_t), k_b, int(max(1, size(k_b, 1)), c_int64_t), &
-            self%handle), info, message, [1, 2, 2, 2, 3, 3])
+            address_of_settings(settings), self%handle), info, message, [1, 2, 2, 2, 3, 3, 6])
         call keep_sizes(self)
     end subroutine
 
@@ -2285,6 +2299,14 @@ contains
         extra%second_force = address(second_force)
         extra%escape = address(escape)
         if (size(second_states) > 0) extra%second_state = c_loc(second_states)
+    end function
+
+    ! Absent: the defaults.
+    function address_of_settings(settings) result(pointer)
+        type(signorini_settings), intent(in), target, optional :: settings
+        type(c_ptr) :: pointer
+        pointer = c_null_ptr
+        if (present(settings)) pointer = c_loc(settings)
     end function
 
     ! Address of an array that may be absent, or empty.

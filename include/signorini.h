@@ -298,10 +298,11 @@ int32_t signorini_model_new_sparse(const signorini_sparse *K, int64_t n_fixed, c
  * Makes a model of a body that you have condensed, on a rigid obstacle: d = u, H = N.
  *
  * @param dim,pairs,K,ldk  as for signorini_solve
- * @param model  out: the model
+ * @param settings  NULL: the defaults. It reads progress, user, time_limit and memory_limit
+ * @param model     out: the model
  */
 int32_t signorini_model_new_condensed(int32_t dim, int64_t pairs, const double *K, int64_t ldk,
-                                      signorini_model **model);
+                                      const signorini_settings *settings, signorini_model **model);
 
 /**
  * Makes a model of two bodies that you have condensed on matching contact nodes, each in its own
@@ -311,10 +312,12 @@ int32_t signorini_model_new_condensed(int32_t dim, int64_t pairs, const double *
  * @param dim,pairs  as for signorini_solve
  * @param K_A,lda    stiffness of body A, as K and ldk for signorini_solve
  * @param K_B,ldb    stiffness of body B
+ * @param settings   as for signorini_model_new_condensed
  * @param model      out: the model
  */
 int32_t signorini_model_new_two_body(int32_t dim, int64_t pairs, const double *K_A, int64_t lda,
-                                     const double *K_B, int64_t ldb, signorini_model **model);
+                                     const double *K_B, int64_t ldb,
+                                     const signorini_settings *settings, signorini_model **model);
 
 /**
  * Makes a model in flexibility form: d = W F + q takes the place of K d = f + F. Contact, friction

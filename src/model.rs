@@ -30,7 +30,7 @@ use crate::problem::{
 };
 use crate::reduce::{
     CondensedReduction, ContactPairs, Control, Reduction, SparseMatrix, SparseReduction,
-    TwoBodyReduction, driven_motion,
+    TwoBodyReduction, driven_motion, memory,
 };
 use crate::settings::Settings;
 use crate::solve::{
@@ -54,7 +54,22 @@ impl Model {
     /// of the largest one of its pair, and the component is coupled to others, motions of so little energy
     /// are the rounding of a condensation and become exactly free. All other matrices are taken as they are.
     pub fn condensed(dim: usize, pairs: usize, k: &[f64], ld: usize) -> Result<Self, Error> {
+        Self::condensed_within(dim, pairs, k, ld, &mut Monitor::new(&Settings::default(), None))
+    }
+
+    /// As [`Self::condensed`], within the limits of `monitor` on memory and time, with its callback.
+    ///
+    /// # Errors
+    /// As [`Self::condensed`]; [`Error::Stopped`].
+    pub fn condensed_within(
+        dim: usize,
+        pairs: usize,
+        k: &[f64],
+        ld: usize,
+        monitor: &mut Monitor<'_>,
+    ) -> Result<Self, Error> {
         let size = unknowns(checked_dim(dim)?, pairs)?;
+        monitor.reducing(0.0, memory(size))?;
         let matrix = dense("K", (k, ld), size, OF_MATRIX)?;
         let reduction = Box::new(CondensedReduction::new(dim, &matrix)?);
         Ok(Model { dim, pairs, reduction })
@@ -71,7 +86,23 @@ impl Model {
         first: (&[f64], usize),
         second: (&[f64], usize),
     ) -> Result<Self, Error> {
+        let monitor = &mut Monitor::new(&Settings::default(), None);
+        Self::two_body_within(dim, pairs, first, second, monitor)
+    }
+
+    /// As [`Self::two_body`], within the limits of `monitor` on memory and time, with its callback.
+    ///
+    /// # Errors
+    /// As [`Self::two_body`]; [`Error::Stopped`].
+    pub fn two_body_within(
+        dim: usize,
+        pairs: usize,
+        first: (&[f64], usize),
+        second: (&[f64], usize),
+        monitor: &mut Monitor<'_>,
+    ) -> Result<Self, Error> {
         let size = unknowns(checked_dim(dim)?, pairs)?;
+        monitor.reducing(0.0, memory(size))?;
         let first = dense("K_A", first, size, OF_MATRIX)?;
         let arguments = (Argument::SecondMatrix, Argument::SecondLeadingDimension);
         let second = dense("K_B", second, size, arguments)?;

@@ -21,6 +21,8 @@ const IN_RESERVE: usize = 16;
 /// the call into slices, structures and outputs after checking them.
 pub(super) struct Arrays<'h> {
     ranges: Vec<Range>,
+    /// Bytes held in reserve for each byte of what is noted next.
+    in_reserve: usize,
     host: PhantomData<&'h [u8]>,
 }
 
@@ -46,7 +48,7 @@ impl<'h> Arrays<'h> {
     /// is NULL, or has as many elements as the header demands: initialised ones, if the call reads them, which nobody
     /// writes to during the call; ones that nobody else accesses, if the call writes them.
     pub(super) unsafe fn of_call() -> Self {
-        Arrays { ranges: Vec::new(), host: PhantomData }
+        Arrays { ranges: Vec::new(), in_reserve: IN_RESERVE, host: PhantomData }
     }
 
     /// An array to read, which must not be NULL unless it has no elements.
@@ -61,16 +63,15 @@ impl<'h> Arrays<'h> {
         Ok(self.optional(position, name, pointer, length)?.unwrap_or_default())
     }
 
-    /// A matrix to read, for which the call holds memory in reserve by itself.
-    pub(super) fn matrix(
+    /// Notes matrices, for which the call holds memory in reserve by itself.
+    pub(super) fn matrices<T>(
         &mut self,
-        position: i32,
-        name: &'static str,
-        pointer: *const f64,
-        length: usize,
-    ) -> Result<&'h [f64], Failure> {
-        refuse_null(position, name, pointer, length)?;
-        Ok(self.matrix_or_null(position, name, pointer, length)?.unwrap_or_default())
+        note: impl FnOnce(&mut Self) -> Result<T, Failure>,
+    ) -> Result<T, Failure> {
+        self.in_reserve = 0;
+        let noted = note(self);
+        self.in_reserve = IN_RESERVE;
+        noted
     }
 
     /// A matrix of `n` columns, argument number `position`, with its leading dimension, the next one: both with names.
@@ -84,20 +85,8 @@ impl<'h> Arrays<'h> {
         let ld = size(position + 1, ld_name, ld)?;
         let length = required_length(name, n, ld)
             .map_err(|message| Failure::argument(position + 1, message))?;
-        Ok((self.matrix(position, name, pointer, length)?, ld))
-    }
-
-    /// As [`Self::matrix`], `None` if it is NULL or has no elements.
-    pub(super) fn matrix_or_null(
-        &mut self,
-        position: i32,
-        name: &'static str,
-        pointer: *const f64,
-        length: usize,
-    ) -> Result<Option<&'h [f64]>, Failure> {
-        let present = self.note(position, name, pointer, length, false)?;
-        // SAFETY: as in `optional`.
-        Ok(present.then(|| unsafe { std::slice::from_raw_parts(pointer, length) }))
+        let matrix = self.matrices(|arrays| arrays.required(position, name, pointer, length))?;
+        Ok((matrix, ld))
     }
 
     /// An array to read, `None` if it is NULL or has no elements.
@@ -108,7 +97,7 @@ impl<'h> Arrays<'h> {
         pointer: *const T,
         length: usize,
     ) -> Result<Option<&'h [T]>, Failure> {
-        let present = self.add(position, name, pointer, length, false)?;
+        let present = self.note(position, name, pointer, length, false)?;
         // SAFETY: not NULL and aligned (just checked); long enough by the contract of the call.
         Ok(present.then(|| unsafe { std::slice::from_raw_parts(pointer, length) }))
     }
@@ -125,19 +114,6 @@ impl<'h> Arrays<'h> {
         self.optional_output(position, name, pointer, length)
     }
 
-    /// As [`Self::output`], of a matrix that is there already.
-    pub(super) fn output_matrix(
-        &mut self,
-        position: i32,
-        name: &'static str,
-        pointer: *mut f64,
-        length: usize,
-    ) -> Result<Output<f64>, Failure> {
-        refuse_null(position, name, pointer, length)?;
-        let present = self.note(position, name, pointer.cast_const(), length, true)?;
-        Ok(Output { pointer, length: if present { length } else { 0 } })
-    }
-
     /// An array to write at the end; writing to NULL does nothing.
     pub(super) fn optional_output<T>(
         &mut self,
@@ -146,7 +122,7 @@ impl<'h> Arrays<'h> {
         pointer: *mut T,
         length: usize,
     ) -> Result<Output<T>, Failure> {
-        let present = self.add(position, name, pointer.cast_const(), length, true)?;
+        let present = self.note(position, name, pointer.cast_const(), length, true)?;
         Ok(Output { pointer, length: if present { length } else { 0 } })
     }
 
@@ -209,24 +185,8 @@ impl<'h> Arrays<'h> {
         Ok(())
     }
 
-    /// Notes an array, and holds memory in reserve for it; false if there is nothing to access.
-    pub(super) fn add<T>(
-        &mut self,
-        position: i32,
-        name: &'static str,
-        pointer: *const T,
-        length: usize,
-        written: bool,
-    ) -> Result<bool, Failure> {
-        let present = self.note(position, name, pointer, length, written)?;
-        if present {
-            guard::reserve(IN_RESERVE.saturating_mul(length).saturating_mul(size_of::<T>()))?;
-        }
-        Ok(present)
-    }
-
-    /// Checks and notes an array; false if there is nothing to access.
-    fn note<T>(
+    /// Checks and notes an array, and holds memory in reserve for it; false if there is nothing to access.
+    pub(super) fn note<T>(
         &mut self,
         position: i32,
         name: &'static str,
@@ -242,14 +202,14 @@ impl<'h> Arrays<'h> {
             return refuse(format!("{name} is not aligned to {} bytes", align_of::<T>()));
         }
         let begin = pointer.addr();
-        let end = length
-            .checked_mul(size_of::<T>())
-            .filter(|bytes| *bytes <= isize::MAX as usize)
-            .and_then(|bytes| begin.checked_add(bytes));
-        let Some(end) = end else {
+        let bytes =
+            length.checked_mul(size_of::<T>()).filter(|bytes| *bytes <= isize::MAX as usize);
+        let Some((bytes, end)) = bytes.and_then(|bytes| Some((bytes, begin.checked_add(bytes)?)))
+        else {
             return refuse(format!("{name} cannot have {length} entries"));
         };
         self.ranges.push(Range { position, name, begin, end, written });
+        guard::reserve(self.in_reserve.saturating_mul(bytes))?;
         Ok(true)
     }
 }

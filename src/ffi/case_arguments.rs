@@ -47,7 +47,7 @@ impl CaseArguments {
         let (pairs, slips) = (times(cases, model.pairs())?, times(cases, slips)?);
         Ok(LoadCases {
             model,
-            load: arrays.matrix(at(0), "f", self.f, host)?,
+            load: arrays.matrices(|arrays| arrays.required(at(0), "f", self.f, host))?,
             prescribed: arrays.optional(at(1), "prescribed", self.prescribed, fixed)?,
             gap: arrays.required(at(2), "gap", self.gap, pairs)?,
             law: law::read(arrays, at(3), (self.law, self.friction), pairs)?,

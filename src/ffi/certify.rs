@@ -1,8 +1,7 @@
 //! The certificate of displacements from any origin.
 
-use super::args::Arrays;
 use super::case_arguments::CaseArguments;
-use super::guard::{self, Failure};
+use super::guard::{Failure, c_entry};
 use super::model::SignoriniModel;
 use super::report::{SignoriniReport, state_codes};
 use super::status::{SIGNORINI_STATUS_NOT_A_SOLUTION, SIGNORINI_STATUS_SOLVED, remember};
@@ -37,11 +36,9 @@ pub unsafe extern "C" fn signorini_model_certify(
 ) -> i32 {
     const MEASURED: i32 = 9;
     let given = CaseArguments { first: 2, f, prescribed, gap, law, friction, slip0 };
-    guard::call(|| {
-        // SAFETY: the header's contract.
-        let mut arrays = unsafe { Arrays::of_call() };
+    c_entry!(|arrays| {
         let model = arrays.model(model)?;
-        let case = given.read(&mut arrays, model, 1, 0)?.case(0);
+        let case = given.read(arrays, model, 1, 0)?.case(0);
         check_tolerance("tolerance", tolerance)
             .map_err(|message| Failure::argument(MEASURED - 1, message))?;
         let d = arrays.required(MEASURED, "d", d, model.dim() * model.pairs())?;

@@ -1,10 +1,11 @@
 //! The linear complementarity problem (LCP) in one call.
 
-use super::args::{Arrays, size};
-use super::guard::{self, Failure, number_of};
+use super::args::size;
+use super::guard::{self, Failure, c_entry, number_of};
+use super::numbers::Numbered;
 use super::report::SignoriniReport;
 use super::settings::SignoriniSettings;
-use super::status::{code, remember};
+use super::status::remember;
 use crate::error::Argument::{self, Covering, LeadingDimension, Load, Matrix, Size};
 use crate::error::Error;
 use crate::problem::Lcp;
@@ -41,14 +42,12 @@ pub unsafe extern "C" fn signorini_lcp_solve(
     y: *mut f64,
     report: *mut SignoriniReport,
 ) -> i32 {
-    guard::call(|| {
-        // SAFETY: the header's contract.
-        let mut arrays = unsafe { Arrays::of_call() };
+    c_entry!(|arrays| {
         let n = size(1, "n", n)?;
         let (matrix, ld) = arrays.square(2, ("M", M), ("ldm", ldm), n)?;
         let q = arrays.required(4, "q", q, n)?;
         let cover = arrays.optional(5, "cover", cover, n)?;
-        let received = SignoriniSettings::read(&mut arrays, 6, settings)?;
+        let received = SignoriniSettings::read(arrays, 6, settings)?;
         let w = arrays.output(7, "w", w, n)?;
         let z = arrays.output(8, "z", z, n)?;
         let y = arrays.optional_output(9, "y", y, n)?;
@@ -61,7 +60,7 @@ pub unsafe extern "C" fn signorini_lcp_solve(
             .monitored(|monitor| solve_lcp(&lcp, &received.settings, monitor))
             .map_err(refused)?;
 
-        let status = code(solution.status);
+        let status = solution.status.number();
         if solution.status != Status::Solved {
             remember(solution.message.clone());
         }

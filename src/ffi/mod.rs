@@ -33,6 +33,7 @@ mod model_new;
 mod model_recover;
 mod model_solve;
 mod model_view;
+mod numbers;
 mod operator;
 mod outputs;
 mod pairs;

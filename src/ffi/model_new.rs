@@ -1,14 +1,15 @@
 //! Models: made of what a host has, reduced once.
 
-use super::args::{Arrays, size, sizes};
-use super::guard::{self, Failure, number_of};
+use super::args::{size, sizes};
+use super::guard::{self, c_entry, number_of};
 use super::handle::release;
 use super::model::SignoriniModel;
 use super::pairs::SignoriniPairs;
 use super::settings::SignoriniSettings;
 use super::sparse::{FLEXIBILITY, STIFFNESS, SignoriniSparse, shifted};
 use crate::error::Argument::{
-    Dimension, Fixed, LeadingDimension, Matrix, Order, SecondLeadingDimension, SecondMatrix, Size,
+    self, Dimension, Fixed, LeadingDimension, Matrix, Order, SecondLeadingDimension, SecondMatrix,
+    Size,
 };
 use crate::model::Model;
 use crate::reduce;
@@ -16,27 +17,34 @@ use crate::reduce;
 /// Makes a model of a body that you have condensed, on a rigid obstacle: d = u, H = N.
 ///
 /// @param dim,pairs,K,ldk  as for signorini_solve
-/// @param model  out: the model
+/// @param settings  NULL: the defaults. It reads progress, user, time_limit and memory_limit
+/// @param model     out: the model
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn signorini_model_new_condensed(
     dim: i32,
     pairs: i64,
     K: *const f64,
     ldk: i64,
+    settings: *const SignoriniSettings,
     model: *mut *mut SignoriniModel,
 ) -> i32 {
-    guard::call(|| {
-        // SAFETY: the header's contract.
-        let mut arrays = unsafe { Arrays::of_call() };
-        let place = arrays.out_pointer(5, "model", model)?;
+    c_entry!(|arrays| {
+        let place = arrays.out_pointer(6, "model", model)?;
         let (dim, pairs, n) = sizes(1, dim, pairs)?;
         let (k, ld) = arrays.square(3, ("K", K), ("ldk", ldk), n)?;
+        let received = SignoriniSettings::read(arrays, 5, settings)?;
         guard::reserve_estimate(reduce::memory(n))?;
-        let arguments = [Dimension, Size, Matrix, LeadingDimension];
-        place.fill(Model::condensed(dim, pairs, k, ld), |wrong| {
-            number_of(wrong, 1, &arguments).unwrap_or(3)
-        })
+        let made =
+            received.monitored(|monitor| Model::condensed_within(dim, pairs, k, ld, monitor));
+        place.fill(made, of_matrices)
     })
+}
+
+/// Number of an argument of the calls that take dense matrices.
+fn of_matrices(wrong: Argument) -> i32 {
+    const ARGUMENTS: [Argument; 6] =
+        [Dimension, Size, Matrix, LeadingDimension, SecondMatrix, SecondLeadingDimension];
+    number_of(wrong, 1, &ARGUMENTS).unwrap_or(3)
 }
 
 /// Makes a model of two bodies that you have condensed on matching contact nodes, each in its own
@@ -46,6 +54,7 @@ pub unsafe extern "C" fn signorini_model_new_condensed(
 /// @param dim,pairs  as for signorini_solve
 /// @param K_A,lda    stiffness of body A, as K and ldk for signorini_solve
 /// @param K_B,ldb    stiffness of body B
+/// @param settings   as for signorini_model_new_condensed
 /// @param model      out: the model
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn signorini_model_new_two_body(
@@ -55,20 +64,19 @@ pub unsafe extern "C" fn signorini_model_new_two_body(
     lda: i64,
     K_B: *const f64,
     ldb: i64,
+    settings: *const SignoriniSettings,
     model: *mut *mut SignoriniModel,
 ) -> i32 {
-    guard::call(|| {
-        // SAFETY: the header's contract.
-        let mut arrays = unsafe { Arrays::of_call() };
-        let place = arrays.out_pointer(7, "model", model)?;
+    c_entry!(|arrays| {
+        let place = arrays.out_pointer(8, "model", model)?;
         let (dim, pairs, n) = sizes(1, dim, pairs)?;
         let first = arrays.square(3, ("K_A", K_A), ("lda", lda), n)?;
         let second = arrays.square(5, ("K_B", K_B), ("ldb", ldb), n)?;
+        let received = SignoriniSettings::read(arrays, 7, settings)?;
         guard::reserve_estimate(reduce::memory(n))?;
-        let made = Model::two_body(dim, pairs, first, second);
-        let arguments =
-            [Dimension, Size, Matrix, LeadingDimension, SecondMatrix, SecondLeadingDimension];
-        place.fill(made, |wrong| number_of(wrong, 1, &arguments).unwrap_or(3))
+        let made = received
+            .monitored(|monitor| Model::two_body_within(dim, pairs, first, second, monitor));
+        place.fill(made, of_matrices)
     })
 }
 
@@ -97,27 +105,20 @@ pub unsafe extern "C" fn signorini_model_new_sparse(
     settings: *const SignoriniSettings,
     model: *mut *mut SignoriniModel,
 ) -> i32 {
-    const SETTINGS: i32 = 5;
-    guard::call(|| {
-        // SAFETY: the header's contract.
-        let mut arrays = unsafe { Arrays::of_call() };
+    c_entry!(|arrays| {
         let place = arrays.out_pointer(6, "model", model)?;
-        let given = SignoriniSparse::copy(&mut arrays, 1, &STIFFNESS, K)?;
-        let matrix = given.read(&mut arrays, 1, &STIFFNESS)?;
-        let order = given.order(&mut arrays, 1)?;
+        let (given, matrix) = SignoriniSparse::read(arrays, 1, STIFFNESS, K)?;
+        let order = given.order(arrays, 1)?;
         let count = size(2, "n_fixed", n_fixed)?;
         let fixed = arrays.required(3, "fixed", fixed, count)?;
         let fixed = shifted(3, "fixed", fixed, matrix.index_base)?;
-        let made =
-            SignoriniPairs::with(&mut arrays, 4, pairs, matrix.index_base, |arrays, pairs| {
-                guard::reserve_estimate(reduce::memory(pairs.dim * pairs.count))?;
-                let received = SignoriniSettings::read(arrays, SETTINGS, settings)?;
-                let wrong = |error| Failure::from_error(error, |_| SETTINGS);
-                received.settings.validate().map_err(wrong)?;
-                Ok(received.monitored(|monitor| {
-                    Model::sparse_within(&matrix, &fixed, pairs, order.as_deref(), monitor)
-                }))
-            })?;
+        let received = SignoriniSettings::read(arrays, 5, settings)?;
+        let made = SignoriniPairs::with(arrays, 4, pairs, matrix.index_base, |_, pairs| {
+            guard::reserve_estimate(reduce::memory(pairs.dim * pairs.count))?;
+            Ok(received.monitored(|monitor| {
+                Model::sparse_within(&matrix, &fixed, pairs, order.as_deref(), monitor)
+            }))
+        })?;
         place.fill(made, |argument| match argument {
             Matrix | Order => 1,
             Fixed => 3,
@@ -154,17 +155,12 @@ pub unsafe extern "C" fn signorini_model_new_flexibility(
     ldw: i64,
     model: *mut *mut SignoriniModel,
 ) -> i32 {
-    guard::call(|| {
-        // SAFETY: the header's contract.
-        let mut arrays = unsafe { Arrays::of_call() };
+    c_entry!(|arrays| {
         let place = arrays.out_pointer(5, "model", model)?;
         let (dim, pairs, n) = sizes(1, dim, pairs)?;
         let (w, ld) = arrays.square(3, ("W", W), ("ldw", ldw), n)?;
         guard::reserve(n.saturating_mul(n).saturating_mul(size_of::<f64>()))?;
-        place.fill(Model::flexibility(dim, pairs, w, ld), |argument| match argument {
-            LeadingDimension => 4,
-            _ => 3,
-        })
+        place.fill(Model::flexibility(dim, pairs, w, ld), of_matrices)
     })
 }
 
@@ -186,13 +182,10 @@ pub unsafe extern "C" fn signorini_model_new_flexibility_sparse(
     W: *const SignoriniSparse,
     model: *mut *mut SignoriniModel,
 ) -> i32 {
-    guard::call(|| {
-        // SAFETY: the header's contract.
-        let mut arrays = unsafe { Arrays::of_call() };
+    c_entry!(|arrays| {
         let place = arrays.out_pointer(4, "model", model)?;
         let (dim, pairs, _) = sizes(1, dim, pairs)?;
-        let given = SignoriniSparse::copy(&mut arrays, 3, &FLEXIBILITY, W)?;
-        let w = given.read(&mut arrays, 3, &FLEXIBILITY)?;
+        let (_, w) = SignoriniSparse::read(arrays, 3, FLEXIBILITY, W)?;
         place.fill(Model::flexibility_sparse(dim, pairs, &w), |_| 3)
     })
 }

@@ -1,9 +1,9 @@
 //! From relative displacements and contact forces back to the host, and what a load case condenses
 //! to.
 
-use super::args::{Arrays, size};
+use super::args::size;
 use super::case_arguments::times;
-use super::guard::{self, Failure};
+use super::guard::{self, Failure, c_entry};
 use super::model::SignoriniModel;
 use crate::error::Argument;
 use crate::model::BLOCK;
@@ -25,17 +25,18 @@ pub unsafe extern "C" fn signorini_model_recover(
     d: *const f64,
     u: *mut f64,
 ) -> i32 {
-    guard::call(|| {
-        // SAFETY: the header's contract.
-        let mut arrays = unsafe { Arrays::of_call() };
+    c_entry!(|arrays| {
         let model = arrays.model(model)?;
         let cases = size(2, "cases", cases)?;
         let (host, fixed) = (model.host_size(), model.fixed_count());
         let n = model.dim() * model.pairs();
-        let load = arrays.matrix_or_null(3, "f", f, times(cases, host)?)?;
-        let values = arrays.matrix_or_null(4, "prescribed", prescribed, times(cases, fixed)?)?;
-        let d = arrays.matrix(5, "d", d, times(cases, n)?)?;
-        let out = arrays.output_matrix(6, "u", u, times(cases, host)?)?;
+        let lengths = (times(cases, host)?, times(cases, fixed)?, times(cases, n)?);
+        let (load, values, d, out) = arrays.matrices(|arrays| {
+            let load = arrays.optional(3, "f", f, lengths.0)?;
+            let values = arrays.optional(4, "prescribed", prescribed, lengths.1)?;
+            let d = arrays.required(5, "d", d, lengths.2)?;
+            Ok((load, values, d, arrays.output(6, "u", u, lengths.0)?))
+        })?;
         arrays.check_overlap()?;
         guard::reserve_estimate(model.memory_of_recovery(cases))?;
         let case = |k: usize| SolvedCase {
@@ -82,9 +83,7 @@ pub unsafe extern "C" fn signorini_model_nodal_forces(
     F: *const f64,
     nodal: *mut f64,
 ) -> i32 {
-    guard::call(|| {
-        // SAFETY: the header's contract.
-        let mut arrays = unsafe { Arrays::of_call() };
+    c_entry!(|arrays| {
         let model = arrays.model(model)?;
         let n = model.dim() * model.pairs();
         let force = arrays.required(2, "F", F, n)?;
@@ -108,9 +107,7 @@ pub unsafe extern "C" fn signorini_model_condensed_load(
     prescribed: *const f64,
     load: *mut f64,
 ) -> i32 {
-    guard::call(|| {
-        // SAFETY: the header's contract.
-        let mut arrays = unsafe { Arrays::of_call() };
+    c_entry!(|arrays| {
         let model = arrays.model(model)?;
         let given = arrays.required(2, "f", f, model.host_size())?;
         let values = arrays.optional(3, "prescribed", prescribed, model.fixed_count())?;

@@ -3,10 +3,10 @@
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
 
-use super::args::{Arrays, size};
+use super::args::size;
 use super::case_arguments::{CaseArguments, LoadCases, times};
 use super::extra::SignoriniExtra;
-use super::guard::{self, Failure};
+use super::guard::{Failure, c_entry};
 use super::model::SignoriniModel;
 use super::outputs::{OutputArguments, Outputs};
 use super::report::SignoriniReport;
@@ -65,19 +65,16 @@ pub unsafe extern "C" fn signorini_model_solve(
 ) -> i32 {
     let given = CaseArguments { first: 3, f, prescribed, gap, law, friction, slip0 };
     let wanted = OutputArguments { d, F, state, status, report, extra };
-    guard::call(|| {
-        // SAFETY: the header's contract.
-        let mut arrays = unsafe { Arrays::of_call() };
+    c_entry!(|arrays| {
         let handle = arrays.model_handle(model)?;
         let model = handle.model();
         let cases = size(2, "cases", cases)?;
-        let received = SignoriniSettings::read(&mut arrays, SETTINGS, settings)?;
+        let received = SignoriniSettings::read(arrays, SETTINGS, settings)?;
         let limit = received.settings.memory_limit;
-        let load_cases = given.read(&mut arrays, model, cases, limit)?;
-        received.settings.validate().map_err(|error| Failure::from_error(error, |_| SETTINGS))?;
+        let load_cases = given.read(arrays, model, cases, limit)?;
         let (pairs, n) = (model.pairs(), model.dim() * model.pairs());
         times(cases, n)?;
-        let outputs = wanted.note(&mut arrays, (START, 14), (n, pairs, cases))?;
+        let outputs = wanted.note(arrays, (START, 14), (n, pairs, cases))?;
         arrays.check_overlap()?;
         let block = Block { model, given: &given, load_cases, outputs };
         let past = handle.replace_past(None);

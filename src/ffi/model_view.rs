@@ -1,8 +1,8 @@
 //! The content of a model, as one structure.
 
-use super::args::Arrays;
-use super::guard;
+use super::guard::c_entry;
 use super::model::SignoriniModel;
+use super::numbers::{Numbered, numbers};
 use super::structures::address;
 use crate::model::ModelKind;
 
@@ -14,6 +14,15 @@ pub const SIGNORINI_MODEL_FULL_SPACE: i32 = 1;
 pub const SIGNORINI_MODEL_OPERATOR: i32 = 2;
 /// The flexibility form, d = W F + q.
 pub const SIGNORINI_MODEL_FLEXIBILITY: i32 = 3;
+
+numbers! {
+    ModelKind {
+        Stiffness = SIGNORINI_MODEL_STIFFNESS,
+        FullSpace = SIGNORINI_MODEL_FULL_SPACE,
+        Operator = SIGNORINI_MODEL_OPERATOR,
+        Flexibility = SIGNORINI_MODEL_FLEXIBILITY,
+    }
+}
 
 /// The content of a model.
 #[repr(C)]
@@ -50,9 +59,7 @@ pub unsafe extern "C" fn signorini_model_view(
     model: *const SignoriniModel,
     data: *mut SignoriniModelData,
 ) -> i32 {
-    guard::call(|| {
-        // SAFETY: the header's contract.
-        let arrays = unsafe { Arrays::of_call() };
+    c_entry!(|arrays| {
         let model = arrays.model(model)?;
         let shown = SignoriniModelData {
             struct_size: size_of::<SignoriniModelData>() as u32,
@@ -61,12 +68,7 @@ pub unsafe extern "C" fn signorini_model_view(
             host_size: model.host_size() as i64,
             fixed: model.fixed_count() as i64,
             memory: i64::try_from(model.memory()).unwrap_or(i64::MAX),
-            kind: match model.kind() {
-                ModelKind::Stiffness => SIGNORINI_MODEL_STIFFNESS,
-                ModelKind::FullSpace => SIGNORINI_MODEL_FULL_SPACE,
-                ModelKind::Operator => SIGNORINI_MODEL_OPERATOR,
-                ModelKind::Flexibility => SIGNORINI_MODEL_FLEXIBILITY,
-            },
+            kind: model.kind().number(),
             dependent: i32::try_from(model.dependent_pairs().len()).unwrap_or(i32::MAX),
             K: address(model.stiffness()),
             frames: model.frames().map_or(std::ptr::null(), address),

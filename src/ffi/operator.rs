@@ -2,8 +2,8 @@
 
 use libc::c_void;
 
-use super::args::{Arrays, sizes};
-use super::guard::{self, Failure};
+use super::args::sizes;
+use super::guard::{self, Failure, c_entry};
 use super::model::SignoriniModel;
 use super::surroundings::in_host;
 use crate::model::Model;
@@ -118,9 +118,7 @@ pub unsafe extern "C" fn signorini_model_new_operator(
     K: *const SignoriniOperator,
     model: *mut *mut SignoriniModel,
 ) -> i32 {
-    guard::call(|| {
-        // SAFETY: the header's contract.
-        let mut arrays = unsafe { Arrays::of_call() };
+    c_entry!(|arrays| {
         let place = arrays.out_pointer(2, "model", model)?;
         let given = arrays.whole(1, "K", K)?;
         let wrong = |message: &str| Failure::argument(1, message.to_owned());

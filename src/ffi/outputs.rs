@@ -3,8 +3,8 @@
 use super::args::{Arrays, Output};
 use super::extra::{Extra, SignoriniExtra};
 use super::guard::Failure;
+use super::numbers::Numbered;
 use super::report::{SignoriniReport, state_codes};
-use super::status::code;
 use super::structures::OutStructures;
 use crate::solve::Solution;
 
@@ -54,7 +54,7 @@ impl OutputArguments {
 impl Outputs {
     /// Writes the solution of a case. Returns its status.
     pub(super) fn write(&self, case: usize, solution: &Solution) -> i32 {
-        let (n, pairs, status) = (self.n, self.pairs, code(solution.status));
+        let (n, pairs, status) = (self.n, self.pairs, solution.status.number());
         let certificate = &solution.certificate;
         self.d.part(n * case, n).write(&solution.d);
         self.force.part(n * case, n).write(&certificate.force);

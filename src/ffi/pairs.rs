@@ -54,7 +54,10 @@ pub struct SignoriniPairs {
 }
 
 // SAFETY: led by its size; numbers and pointers.
-unsafe impl Structure for SignoriniPairs {}
+unsafe impl Structure for SignoriniPairs {
+    // Without general rows.
+    const OLDEST: usize = offset_of!(Self, row_start);
+}
 
 impl SignoriniPairs {
     /// Hands over the caller's pairs with degrees of freedom counted from 0.
@@ -66,9 +69,7 @@ impl SignoriniPairs {
         to: impl FnOnce(&mut Arrays<'_>, &ContactPairs<'_>) -> Result<T, Failure>,
     ) -> Result<T, Failure> {
         let refuse = |message: String| Err(Failure::argument(position, message));
-        // An older program has no general rows.
-        let older = offset_of!(Self, row_start);
-        let given = arrays.required_copy(position, "pairs", pointer, older)?;
+        let given = arrays.required_copy(position, "pairs", pointer)?;
         let wrong = |error: Error| {
             Failure::argument(position, format!("pairs: {}", error.message().marked()))
         };

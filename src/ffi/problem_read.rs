@@ -3,8 +3,7 @@
 use libc::c_char;
 use std::ffi::CString;
 
-use super::args::Arrays;
-use super::guard;
+use super::guard::{self, c_entry};
 use super::handle::release;
 use super::law;
 use super::structures::{address, show};
@@ -66,9 +65,7 @@ pub unsafe extern "C" fn signorini_problem_read(
     path: *const c_char,
     problem: *mut *mut SignoriniProblem,
 ) -> i32 {
-    guard::call(|| {
-        // SAFETY: the header's contract.
-        let arrays = unsafe { Arrays::of_call() };
+    c_entry!(|arrays| {
         let place = arrays.out_pointer(2, "problem", problem)?;
         let path = arrays.path(1, path)?;
         guard::reserve_estimate(file::memory(path))?;

@@ -2,10 +2,10 @@
 
 use libc::c_char;
 
-use super::args::{Arrays, size};
+use super::args::size;
 use super::case_arguments::CaseArguments;
 use super::condensed::CondensedArguments;
-use super::guard::{self, Failure, number_of};
+use super::guard::{Failure, c_entry, number_of};
 use super::lcp::LCP_ARGUMENTS;
 use super::model::SignoriniModel;
 use crate::file;
@@ -44,11 +44,9 @@ pub unsafe extern "C" fn signorini_problem_write(
     const REMARK: i32 = FIRST + CondensedArguments::COUNT;
     let given =
         CondensedArguments { first: FIRST, dim, pairs, K, ldk, f, gap, law, friction, slip0 };
-    guard::call(|| {
-        // SAFETY: the header's contract.
-        let mut arrays = unsafe { Arrays::of_call() };
+    c_entry!(|arrays| {
         let path = arrays.path(1, path)?;
-        let data = given.read(&mut arrays)?;
+        let data = given.read(arrays)?;
         let remark = arrays.text(REMARK, "remark", remark)?;
         ContactProblem::on_checked_matrix(data)
             .and_then(|problem| file::write(path, &problem, remark))
@@ -77,9 +75,7 @@ pub unsafe extern "C" fn signorini_lcp_write(
     remark: *const c_char,
 ) -> i32 {
     const REMARK: i32 = 7;
-    guard::call(|| {
-        // SAFETY: the header's contract.
-        let mut arrays = unsafe { Arrays::of_call() };
+    c_entry!(|arrays| {
         let path = arrays.path(1, path)?;
         let remark = arrays.text(REMARK, "remark", remark)?;
         let n = size(2, "n", n)?;
@@ -119,12 +115,10 @@ pub unsafe extern "C" fn signorini_model_write(
 ) -> i32 {
     const REMARK: i32 = 9;
     let given = CaseArguments { first: 3, f, prescribed, gap, law, friction, slip0 };
-    guard::call(|| {
-        // SAFETY: the header's contract.
-        let mut arrays = unsafe { Arrays::of_call() };
+    c_entry!(|arrays| {
         let model = arrays.model(model)?;
         let path = arrays.path(2, path)?;
-        let case = given.read(&mut arrays, model, 1, 0)?.case(0);
+        let case = given.read(arrays, model, 1, 0)?.case(0);
         let remark = arrays.text(REMARK, "remark", remark)?;
         model.write_case(path, &case, remark).map_err(|error| {
             Failure::from_error(error, |argument| given.position(argument, REMARK))

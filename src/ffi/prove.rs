@@ -1,11 +1,10 @@
 //! The proof that a solution exists next to displacements from any origin.
 
-use super::args::Arrays;
 use super::case_arguments::CaseArguments;
 use super::extra::NO_RADIUS;
-use super::guard::{self, Failure};
+use super::guard::{Failure, c_entry};
 use super::model::SignoriniModel;
-use super::report::{SIGNORINI_STATE_OPEN, SIGNORINI_STATE_SLIP, SIGNORINI_STATE_STICK};
+use super::numbers::Numbered;
 use super::status::{SIGNORINI_STATUS_NOT_PROVED, SIGNORINI_STATUS_SOLVED, remember};
 use crate::error::entry;
 use crate::law::State;
@@ -37,11 +36,9 @@ pub unsafe extern "C" fn signorini_model_prove(
 ) -> i32 {
     const MEASURED: i32 = 8;
     let given = CaseArguments { first: 2, f, prescribed, gap, law, friction, slip0 };
-    guard::call(|| {
-        // SAFETY: the header's contract.
-        let mut arrays = unsafe { Arrays::of_call() };
+    c_entry!(|arrays| {
         let model = arrays.model(model)?;
-        let case = given.read(&mut arrays, model, 1, 0)?.case(0);
+        let case = given.read(arrays, model, 1, 0)?.case(0);
         let d = arrays.required(MEASURED, "d", d, model.dim() * model.pairs())?;
         let state = arrays.optional(STATE, "state", state, model.pairs())?;
         let force = arrays.optional_output(10, "F", F, d.len())?;
@@ -69,14 +66,11 @@ pub unsafe extern "C" fn signorini_model_prove(
 const STATE: i32 = 9;
 
 fn states(codes: &[i32]) -> Result<Vec<State>, Failure> {
-    let state = |(pair, code): (usize, &i32)| match *code {
-        SIGNORINI_STATE_OPEN => Ok(State::Open),
-        SIGNORINI_STATE_SLIP => Ok(State::Slip),
-        SIGNORINI_STATE_STICK => Ok(State::Stick),
-        other => {
+    let state = |(pair, code): (usize, &i32)| {
+        State::numbered(*code).ok_or_else(|| {
             let place = entry("state", [pair]);
-            Err(Failure::argument(STATE, place + &format!(" is {other}, it must be 0, 1 or 2")))
-        }
+            Failure::argument(STATE, place + &format!(" is {code}, it must be 0, 1 or 2"))
+        })
     };
     codes.iter().enumerate().map(state).collect()
 }

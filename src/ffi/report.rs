@@ -2,7 +2,7 @@
 
 use libc::c_char;
 
-use super::settings::method_code;
+use super::numbers::{Numbered, numbers};
 use super::structures::{self, Structure};
 use crate::certificate::Certificate;
 use crate::law::State;
@@ -127,17 +127,17 @@ const NOT_KNOWN: f64 = -1.0;
 
 impl SignoriniReport {
     pub(super) fn of(status: i32, solution: &Solution) -> Self {
-        let (first, fallback) = tried(solution.method, solution.fallback);
+        let (first_method, fallback) = tried(solution.method, solution.fallback);
         SignoriniReport {
-            method: method_code(solution.method),
+            method: solution.method.number(),
             outer_iterations: solution.outer_iterations as i64,
             omega: solution.omega,
             damping: solution.damping,
             iterations: solution.iterations as i64,
             refactorisations: solution.refactorisations as i64,
             factorisations: solution.factorisations as i64,
-            uniqueness: uniqueness_code(solution.uniqueness),
-            first_method: method_code(first),
+            uniqueness: solution.uniqueness.number(),
+            first_method,
             fallback,
             orientation: i32::from(solution.orientation),
             second: i32::from(solution.second.is_some()),
@@ -165,13 +165,13 @@ impl SignoriniReport {
     }
 
     pub(super) fn of_lcp(status: i32, solution: &LcpSolution) -> Self {
-        let (first, fallback) = tried(solution.method, solution.fallback);
+        let (first_method, fallback) = tried(solution.method, solution.fallback);
         SignoriniReport {
             eta: solution.eta,
             iterations: solution.iterations as i64,
             refactorisations: solution.refactorisations as i64,
             factorisations: solution.factorisations as i64,
-            first_method: method_code(first),
+            first_method,
             fallback,
             ..Self::empty(status, solution.method)
         }
@@ -180,8 +180,8 @@ impl SignoriniReport {
     fn empty(status: i32, method: Method) -> Self {
         SignoriniReport {
             status,
-            method: method_code(method),
-            first_method: method_code(method),
+            method: method.number(),
+            first_method: method.number(),
             error_d: NOT_KNOWN,
             error_F: NOT_KNOWN,
             ..Self::zeros()
@@ -206,33 +206,41 @@ fn remark_codes(remarks: Remarks) -> i32 {
         + code(remarks.needs_low_part, SIGNORINI_REMARK_NEEDS_LOW_PART)
 }
 
-fn uniqueness_code(uniqueness: Uniqueness) -> i32 {
-    match uniqueness {
-        Uniqueness::NotKnown => SIGNORINI_UNIQUENESS_NOT_KNOWN,
-        Uniqueness::Unique => SIGNORINI_UNIQUENESS_UNIQUE,
-        Uniqueness::Several => SIGNORINI_UNIQUENESS_SEVERAL,
+numbers! {
+    Uniqueness {
+        NotKnown = SIGNORINI_UNIQUENESS_NOT_KNOWN,
+        Unique = SIGNORINI_UNIQUENESS_UNIQUE,
+        Several = SIGNORINI_UNIQUENESS_SEVERAL,
+    }
+}
+
+numbers! {
+    Fallback {
+        Cycle = SIGNORINI_FALLBACK_CYCLE,
+        Singular = SIGNORINI_FALLBACK_SINGULAR,
+        Unstable = SIGNORINI_FALLBACK_UNSTABLE,
+        Inaccurate = SIGNORINI_FALLBACK_INACCURATE,
+    }
+}
+
+numbers! {
+    State {
+        Open = SIGNORINI_STATE_OPEN,
+        Slip = SIGNORINI_STATE_SLIP,
+        Stick = SIGNORINI_STATE_STICK,
     }
 }
 
 /// The first method, and why it was abandoned.
-fn tried(method: Method, fallback: Option<(Method, Fallback)>) -> (Method, i32) {
-    match fallback {
-        None => (method, SIGNORINI_FALLBACK_NONE),
-        Some((first, Fallback::Cycle)) => (first, SIGNORINI_FALLBACK_CYCLE),
-        Some((first, Fallback::Singular)) => (first, SIGNORINI_FALLBACK_SINGULAR),
-        Some((first, Fallback::Unstable)) => (first, SIGNORINI_FALLBACK_UNSTABLE),
-        Some((first, Fallback::Inaccurate)) => (first, SIGNORINI_FALLBACK_INACCURATE),
-    }
+fn tried(method: Method, fallback: Option<(Method, Fallback)>) -> (i32, i32) {
+    let (first, why) =
+        fallback.map_or((method, SIGNORINI_FALLBACK_NONE), |(first, why)| (first, why.number()));
+    (first.number(), why)
 }
 
 /// The states of the pairs as numbers.
 pub(super) fn state_codes(states: &[State]) -> Vec<i32> {
-    let code = |state: &State| match state {
-        State::Open => SIGNORINI_STATE_OPEN,
-        State::Slip => SIGNORINI_STATE_SLIP,
-        State::Stick => SIGNORINI_STATE_STICK,
-    };
-    states.iter().map(code).collect()
+    states.iter().map(|state| state.number()).collect()
 }
 
 /// Fills report with zeros; struct_size is sizeof(signorini_report).

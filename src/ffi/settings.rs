@@ -5,6 +5,7 @@ use std::ops::ControlFlow;
 
 use super::args::Arrays;
 use super::guard::Failure;
+use super::numbers::{Numbered, chosen, numbers};
 use super::structures::{self, Structure};
 use super::surroundings::in_host;
 use super::threads;
@@ -138,7 +139,7 @@ unsafe impl Structure for SignoriniSettings {
     fn default_one() -> Self {
         let default = Settings::default();
         SignoriniSettings {
-            method: method_code(default.method),
+            method: default.method.number(),
             tolerance: default.tolerance,
             omega: default.omega,
             damping: default.damping,
@@ -152,27 +153,19 @@ unsafe impl Structure for SignoriniSettings {
 }
 
 impl SignoriniSettings {
-    /// Reads the caller's structure, NULL for the defaults.
+    /// Reads and checks the caller's structure, NULL for the defaults.
     pub(super) fn read(
         arrays: &mut Arrays<'_>,
         position: i32,
         pointer: *const Self,
     ) -> Result<ParsedSettings, Failure> {
-        arrays.copy(position, "settings", pointer)?.checked(position)
+        let given = arrays.copy(position, "settings", pointer)?;
+        let received = given.parsed(position)?;
+        received.settings.validate().map_err(|error| Failure::from_error(error, |_| position))?;
+        Ok(received)
     }
 
-    fn checked(self, position: i32) -> Result<ParsedSettings, Failure> {
-        let refuse = |message: String| Err(Failure::argument(position, message));
-        let method = match self.method {
-            SIGNORINI_METHOD_AUTO => Method::Auto,
-            SIGNORINI_METHOD_SOR_NESTED => Method::SorNested,
-            SIGNORINI_METHOD_SOR_DIAGONAL => Method::SorDiagonal,
-            SIGNORINI_METHOD_LEMKE => Method::Lemke,
-            SIGNORINI_METHOD_BLOCK_PIVOTING => Method::BlockPivoting,
-            SIGNORINI_METHOD_NEWTON => Method::Newton,
-            SIGNORINI_METHOD_PATH => Method::Path,
-            other => return refuse(format!("settings: there is no method {other}")),
-        };
+    fn parsed(self, position: i32) -> Result<ParsedSettings, Failure> {
         let natural = |name: &str, value: i64, wanted: &str| {
             u64::try_from(value).map_err(|_| {
                 let message = format!("settings: {name} is {value}, it must be {wanted}");
@@ -182,21 +175,16 @@ impl SignoriniSettings {
         let max_iterations = natural("max_iterations", self.max_iterations, "at least 1")?;
         let memory_limit = natural("memory_limit", self.memory_limit, "0 (none) or bytes")?;
         let threads = natural("threads", self.threads.into(), "0 (one thread) or more")?;
-        let search = match self.search {
-            SIGNORINI_SEARCH_OFF => Search::Off,
-            SIGNORINI_SEARCH_OTHERS => Search::Others,
-            other => return refuse(format!("settings: there is no search {other}")),
-        };
         structures::check_reserved(position, "settings", self.reserved)?;
         Ok(ParsedSettings {
             settings: Settings {
-                method,
+                method: chosen(position, ("settings", "method"), self.method)?,
                 tolerance: self.tolerance,
                 omega: self.omega,
                 damping: self.damping,
                 max_iterations,
                 time_limit: self.time_limit,
-                search,
+                search: chosen(position, ("settings", "search"), self.search)?,
                 proof: self.proof != 0,
                 memory_limit,
                 full_space: self.full_space != 0,
@@ -254,17 +242,19 @@ impl ParsedSettings {
     }
 }
 
-pub(super) fn method_code(method: Method) -> i32 {
-    match method {
-        Method::Auto => SIGNORINI_METHOD_AUTO,
-        Method::SorNested => SIGNORINI_METHOD_SOR_NESTED,
-        Method::SorDiagonal => SIGNORINI_METHOD_SOR_DIAGONAL,
-        Method::Lemke => SIGNORINI_METHOD_LEMKE,
-        Method::BlockPivoting => SIGNORINI_METHOD_BLOCK_PIVOTING,
-        Method::Newton => SIGNORINI_METHOD_NEWTON,
-        Method::Path => SIGNORINI_METHOD_PATH,
+numbers! {
+    Method {
+        Auto = SIGNORINI_METHOD_AUTO,
+        SorNested = SIGNORINI_METHOD_SOR_NESTED,
+        SorDiagonal = SIGNORINI_METHOD_SOR_DIAGONAL,
+        Lemke = SIGNORINI_METHOD_LEMKE,
+        BlockPivoting = SIGNORINI_METHOD_BLOCK_PIVOTING,
+        Newton = SIGNORINI_METHOD_NEWTON,
+        Path = SIGNORINI_METHOD_PATH,
     }
 }
+
+numbers! { Search { Off = SIGNORINI_SEARCH_OFF, Others = SIGNORINI_SEARCH_OTHERS } }
 
 /// Fills settings with their defaults; struct_size is sizeof(signorini_settings).
 #[unsafe(no_mangle)]

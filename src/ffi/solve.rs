@@ -2,10 +2,9 @@
 
 use std::ptr::null_mut;
 
-use super::args::Arrays;
 use super::condensed::CondensedArguments;
 use super::extra::SignoriniExtra;
-use super::guard::{self, Failure};
+use super::guard::{self, Failure, c_entry};
 use super::outputs::OutputArguments;
 use super::report::SignoriniReport;
 use super::settings::SignoriniSettings;
@@ -58,13 +57,11 @@ pub unsafe extern "C" fn signorini_solve(
     const START: i32 = 11;
     let given = CondensedArguments { first: 1, dim, pairs, K, ldk, f, gap, law, friction, slip0 };
     let wanted = OutputArguments { d, F, state, status: null_mut(), report, extra };
-    guard::call(|| {
-        // SAFETY: the header's contract.
-        let mut arrays = unsafe { Arrays::of_call() };
-        let data = given.read(&mut arrays)?;
-        let received = SignoriniSettings::read(&mut arrays, SETTINGS, settings)?;
+    c_entry!(|arrays| {
+        let data = given.read(arrays)?;
+        let received = SignoriniSettings::read(arrays, SETTINGS, settings)?;
         let sizes = (data.dim * data.pairs, data.pairs, 1);
-        let outputs = wanted.note(&mut arrays, (START, START + 3), sizes)?;
+        let outputs = wanted.note(arrays, (START, START + 3), sizes)?;
         arrays.check_overlap()?;
 
         let from_error = |error| {

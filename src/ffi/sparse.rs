@@ -6,6 +6,7 @@ use libc::c_void;
 
 use super::args::{Arrays, size};
 use super::guard::Failure;
+use super::numbers::{Numbered, chosen, numbers};
 use super::structures::{Structure, index_base};
 use crate::error::entry;
 use crate::reduce::{Indices, SparseMatrix, Triangle};
@@ -46,36 +47,29 @@ pub struct SignoriniSparse {
     pub order: *const c_void,
 }
 
-/// Names of a sparse matrix and of its arrays in sentences.
-pub(super) struct Names {
-    matrix: &'static str,
-    col_start: &'static str,
-    row: &'static str,
-    values: &'static str,
+numbers! {
+    Triangle {
+        Lower = SIGNORINI_TRIANGLE_LOWER,
+        Upper = SIGNORINI_TRIANGLE_UPPER,
+        Full = SIGNORINI_TRIANGLE_FULL,
+    }
 }
 
+/// Names of a sparse matrix and of its arrays `col_start`, `row` and `values` in sentences.
+type Names = [&'static str; 4];
+
 /// The names of a stiffness.
-pub(super) const STIFFNESS: Names =
-    Names { matrix: "K", col_start: "K: col_start", row: "K: row", values: "K: values" };
+pub(super) const STIFFNESS: Names = ["K", "K: col_start", "K: row", "K: values"];
 
 /// The names of a flexibility.
-pub(super) const FLEXIBILITY: Names =
-    Names { matrix: "W", col_start: "W: col_start", row: "W: row", values: "W: values" };
+pub(super) const FLEXIBILITY: Names = ["W", "W: col_start", "W: row", "W: values"];
 
 // SAFETY: led by its size; numbers and pointers.
-unsafe impl Structure for SignoriniSparse {}
+unsafe impl Structure for SignoriniSparse {
+    const OLDEST: usize = offset_of!(Self, order);
+}
 
 impl SignoriniSparse {
-    /// A copy of the caller's structure, which has no `order` in an older program.
-    pub(super) fn copy(
-        arrays: &mut Arrays<'_>,
-        position: i32,
-        names: &Names,
-        pointer: *const Self,
-    ) -> Result<Self, Failure> {
-        arrays.required_copy(position, names.matrix, pointer, offset_of!(Self, order))
-    }
-
     /// The order of elimination of a stiffness that was read, counted from 0, if there is one.
     pub(super) fn order(
         &self,
@@ -86,8 +80,7 @@ impl SignoriniSparse {
             return Ok(None);
         }
         let n = size(position, "K: size", self.size)?;
-        let order =
-            self.indices(arrays, position, STIFFNESS.matrix, ("K: order", self.order, n))?;
+        let order = self.indices(arrays, position, "K", ("K: order", self.order, n))?;
         let wide = match order {
             Indices::Narrow(order) => order.iter().map(|&i| i64::from(i)).collect(),
             Indices::Wide(order) => order.to_vec(),
@@ -113,36 +106,30 @@ impl SignoriniSparse {
         }
     }
 
-    /// The matrix, viewed in the caller's arrays.
+    /// The caller's structure, and its matrix, viewed in the caller's arrays.
     pub(super) fn read<'h>(
-        &self,
         arrays: &mut Arrays<'h>,
         position: i32,
-        names: &Names,
-    ) -> Result<SparseMatrix<'h>, Failure> {
-        let name = names.matrix;
-        let wrong = |message: String| Failure::argument(position, message);
+        [name, col_start, row, values]: Names,
+        pointer: *const Self,
+    ) -> Result<(Self, SparseMatrix<'h>), Failure> {
+        let given = arrays.required_copy(position, name, pointer)?;
         let count = |what: &str, value| size(position, &format!("{name}: {what}"), value);
-        let triangle = match self.triangle {
-            SIGNORINI_TRIANGLE_LOWER => Triangle::Lower,
-            SIGNORINI_TRIANGLE_UPPER => Triangle::Upper,
-            SIGNORINI_TRIANGLE_FULL => Triangle::Full,
-            other => return Err(wrong(format!("{name}: there is no triangle {other}"))),
+        let triangle = chosen(position, (name, "triangle"), given.triangle)?;
+        let index_base = index_base(position, name, given.index_base)?;
+        let size = count("size", given.size)?;
+        let nnz = count("nnz", given.nnz)?;
+        let Some(columns) = size.checked_add(1) else {
+            return Err(Failure::argument(position, format!("{name}: size is {size}, too large")));
         };
-        let base = index_base(position, name, self.index_base)?;
-        let n = count("size", self.size)?;
-        let nnz = count("nnz", self.nnz)?;
-        let Some(columns) = n.checked_add(1) else {
-            return Err(wrong(format!("{name}: size is {n}, too large")));
-        };
-        let values = arrays.required(position, names.values, self.values, nnz)?;
-        let mut indices = |array| self.indices(arrays, position, name, array);
-        let col_start = indices((names.col_start, self.col_start, columns))?;
-        let row = indices((names.row, self.row, nnz))?;
-        let matrix = SparseMatrix { size: n, col_start, row, values, index_base: base, triangle };
+        let values = arrays.required(position, values, given.values, nnz)?;
+        let mut indices = |array| given.indices(arrays, position, name, array);
+        let col_start = indices((col_start, given.col_start, columns))?;
+        let row = indices((row, given.row, nnz))?;
+        let matrix = SparseMatrix { size, col_start, row, values, index_base, triangle };
         // Before other indices: a wrong index base is most likely that of all of them.
         matrix.check_col_start().map_err(|error| Failure::from_error(error, |_| position))?;
-        Ok(matrix)
+        Ok((given, matrix))
     }
 }
 

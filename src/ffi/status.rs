@@ -3,6 +3,7 @@
 use libc::c_char;
 use std::cell::RefCell;
 
+use super::numbers::{Numbered, numbers};
 use crate::error::Message;
 use crate::solve::{Remarks, Solution, Status};
 
@@ -52,14 +53,14 @@ const _: () = {
     assert!(matches!(patch, Ok(SIGNORINI_VERSION_PATCH)));
 };
 
-pub(super) fn code(status: Status) -> i32 {
-    match status {
-        Status::Solved => SIGNORINI_STATUS_SOLVED,
-        Status::IterationLimit => SIGNORINI_STATUS_ITERATION_LIMIT,
-        Status::TimeLimit => SIGNORINI_STATUS_TIME_LIMIT,
-        Status::Cancelled => SIGNORINI_STATUS_CANCELLED,
-        Status::NoEquilibrium => SIGNORINI_STATUS_NO_EQUILIBRIUM,
-        Status::Stalled => SIGNORINI_STATUS_STALLED,
+numbers! {
+    Status {
+        Solved = SIGNORINI_STATUS_SOLVED,
+        IterationLimit = SIGNORINI_STATUS_ITERATION_LIMIT,
+        TimeLimit = SIGNORINI_STATUS_TIME_LIMIT,
+        Cancelled = SIGNORINI_STATUS_CANCELLED,
+        NoEquilibrium = SIGNORINI_STATUS_NO_EQUILIBRIUM,
+        Stalled = SIGNORINI_STATUS_STALLED,
     }
 }
 

@@ -4,7 +4,6 @@ use std::ptr::null_mut;
 
 use super::args::Arrays;
 use super::guard::{self, Failure};
-use super::status::forget;
 use crate::error::index;
 
 /// Smallest structure of any version: its size, the first word and a number. Fields that an older
@@ -22,6 +21,9 @@ const ALIGNMENT: usize = align_of::<i64>();
 /// # Safety
 /// It begins with its size, and zeros are a value of it: its fields are numbers, pointers and callbacks.
 pub(super) unsafe trait Structure: Copy {
+    /// Bytes of its oldest form.
+    const OLDEST: usize = LEAST;
+
     /// Zeros and NULL, with the size.
     fn zeros() -> Self {
         // SAFETY: by the contract of the trait.
@@ -56,7 +58,10 @@ impl<'h> Arrays<'h> {
         let mut copy = T::default_one();
         if !pointer.is_null() {
             let size = self.read_size(position, name, pointer)?;
-            self.add(position, name, pointer.cast::<u8>(), size, false)?;
+            if size < T::OLDEST {
+                return Err(wrong_size::<T>(position, name, size));
+            }
+            self.note(position, name, pointer.cast::<u8>(), size, false)?;
             let (source, target) = (pointer.cast::<u8>(), (&raw mut copy).cast::<u8>());
             // SAFETY: as many bytes as the first field says, by the contract of the call.
             unsafe { std::ptr::copy_nonoverlapping(source, target, size.min(size_of::<T>())) }
@@ -64,18 +69,14 @@ impl<'h> Arrays<'h> {
         Ok(copy)
     }
 
-    /// As [`Self::copy`], of a structure that must be there, and whose older form has `older` bytes.
+    /// As [`Self::copy`], of a structure that must be there.
     pub(super) fn required_copy<T: Structure>(
         &mut self,
         position: i32,
         name: &'static str,
         pointer: *const T,
-        older: usize,
     ) -> Result<T, Failure> {
-        let size = self.read_size(position, name, pointer)?;
-        if size != older && size < size_of::<T>() {
-            return Err(wrong_size::<T>(position, name, size));
-        }
+        check_place(position, name, pointer)?;
         self.copy(position, name, pointer)
     }
 
@@ -132,7 +133,7 @@ impl<'h> Arrays<'h> {
         let stride = self.stride(position, name, first, count)?;
         // An overflow is refused with the array, which cannot have so many entries.
         let bytes = stride.saturating_mul(count);
-        self.add(position, name, first.cast_const().cast::<u8>(), bytes, true)?;
+        self.note(position, name, first.cast_const().cast::<u8>(), bytes, true)?;
         Ok(OutStructures { first, stride })
     }
 
@@ -274,8 +275,7 @@ pub(super) unsafe fn fill<T: Structure>(name: &str, pointer: *mut T, struct_size
     })
 }
 
-/// Shows what a handle holds in the caller's structure. It takes no memory unless an argument is
-/// wrong.
+/// Shows what a handle holds in the caller's structure.
 ///
 /// # Safety
 /// NULL or a handle of this library; NULL or a structure of the caller that begins with its size.
@@ -285,19 +285,13 @@ pub(super) unsafe fn show<H, T>(
     data: *mut T,
     shown: impl FnOnce(&H) -> T,
 ) -> i32 {
-    // SAFETY: by the caller's contract.
-    let arrays = unsafe { Arrays::of_call() };
-    let told = arrays.handle(1, name, handle).and_then(|handle| {
+    guard::call(|| {
+        // SAFETY: by the caller's contract.
+        let arrays = unsafe { Arrays::of_call() };
+        let handle = arrays.handle(1, name, handle)?;
         arrays.out_structure(2, "data", data)?.write(0, &shown(handle));
-        Ok(())
-    });
-    match told {
-        Ok(()) => {
-            forget();
-            0
-        }
-        Err(failure) => guard::call(|| Err(failure)),
-    }
+        Ok(0)
+    })
 }
 
 /// The address of an array that a handle holds, NULL if it has no entries.

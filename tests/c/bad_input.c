@@ -121,7 +121,7 @@ static int32_t call_certify(void)
 {
     static const int32_t place[] = {0, 0, 5, 0, 6, 7, 8, 9, 10, 11, 12, 13, 14};
     signorini_model *model = NULL;
-    int32_t status = signorini_model_new_condensed(c.dim, c.pairs, c.K, c.ldk, &model);
+    int32_t status = signorini_model_new_condensed(c.dim, c.pairs, c.K, c.ldk, NULL, &model);
     if (status != 0) return status;
     status = signorini_model_certify(model, c.f, NULL, c.gap, c.law, c.friction, c.slip0, c.tolerance, c.d, c.F,
                                      c.state, c.report);

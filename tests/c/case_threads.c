@@ -32,7 +32,7 @@ static void calls_on_several_threads(void)
     static block b, one, before;
     chain c = chain_new(3, PAIRS, 0.5, 3);
     signorini_model *model = NULL;
-    CHECK_STATUS(signorini_model_new_condensed(3, PAIRS, c.K, N, &model), 0);
+    CHECK_STATUS(signorini_model_new_condensed(3, PAIRS, c.K, N, NULL, &model), 0);
     for (int k = 0; k < CASES; k++) {
         for (int i = 0; i < N; i++) b.f[k][i] = (0.5 + 0.01 * k) * c.f[(i + 3 * k) % N];
         memcpy(b.gap[k], c.gap, sizeof b.gap[k]);

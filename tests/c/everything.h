@@ -68,7 +68,7 @@ static inline int32_t certify_condensed(int32_t dim, int64_t pairs, const double
                               signorini_report *report)
 {
     signorini_model *model = NULL;
-    int32_t status = signorini_model_new_condensed(dim, pairs, K, ldk, &model);
+    int32_t status = signorini_model_new_condensed(dim, pairs, K, ldk, NULL, &model);
     if (status == 0)
         status = signorini_model_certify(model, f, NULL, gap, law, friction, slip0, tolerance, d, F, state,
                                          report);
@@ -83,7 +83,7 @@ static inline int32_t prove_condensed(int32_t dim, int64_t pairs, const double *
                             double *radius_F)
 {
     signorini_model *model = NULL;
-    int32_t status = signorini_model_new_condensed(dim, pairs, K, ldk, &model);
+    int32_t status = signorini_model_new_condensed(dim, pairs, K, ldk, NULL, &model);
     if (status == 0)
         status = signorini_model_prove(model, f, NULL, gap, law, friction, slip0, d, state, F, radius_d,
                                        radius_F);

@@ -32,7 +32,7 @@ static void check_load_steps(void)
     double slip0[PAIRS] = {0}, d[N], F[N], slip_1[PAIRS] = {0}, d_1[N], F_1[N];
     signorini_model *model;
 
-    CHECK_STATUS(signorini_model_new_condensed(2, PAIRS, K, N, &model), 0);
+    CHECK_STATUS(signorini_model_new_condensed(2, PAIRS, K, N, NULL, &model), 0);
     CHECK_STATUS(load_steps(model, 2, loads, gap, mu, slip0, d, F), 0);
     for (int step = 0; step < 2; step++) {
         CHECK_STATUS(signorini_solve(2, PAIRS, K, N, loads + step * N, gap, SIGNORINI_LAW_COULOMB,
@@ -79,7 +79,7 @@ static void check_three_dimensions(void)
     double slip0[2] = {0}, d[3], F[3], r[3], room[3], c[3];
     signorini_model *model;
 
-    CHECK_STATUS(signorini_model_new_condensed(3, 1, K_3, 3, &model), 0);
+    CHECK_STATUS(signorini_model_new_condensed(3, 1, K_3, 3, NULL, &model), 0);
     CHECK_STATUS(load_steps(model, 2, loads, &closed, &friction, slip0, d, F), 0);
     CHECK(fabs(d[1] - 0.15) < 1e-9 && fabs(d[2] - 0.2) < 1e-9); /* as above */
     CHECK(fabs(slip0[0] - 0.15) < 1e-9 && fabs(slip0[1] - 0.2) < 1e-9);
@@ -108,7 +108,7 @@ static void check_free_oscillation(void)
 
     for (int i = 0; i < 2; i++)
         a[i] = -spring[i] / mass[i] * u[i];
-    CHECK_STATUS(signorini_model_new_condensed(2, 1, K_eff, 2, &model), 0);
+    CHECK_STATUS(signorini_model_new_condensed(2, 1, K_eff, 2, NULL, &model), 0);
     for (int step = 0; step < STEPS; step++)
         CHECK_STATUS(newmark_step(model, dt, 0.25, 0.5, mass, none, none, &far_away, none, u, v, a, slip0, d, F, room),
                      0);
@@ -133,7 +133,7 @@ static void check_sliding_block(void)
     const double end = STEPS * dt;
     signorini_model *model;
 
-    CHECK_STATUS(signorini_model_new_condensed(2, 1, K_eff, 2, &model), 0);
+    CHECK_STATUS(signorini_model_new_condensed(2, 1, K_eff, 2, NULL, &model), 0);
     for (int step = 0; step < STEPS; step++)
         CHECK_STATUS(newmark_step(model, dt, beta, 0.6, mass, none, push, &closed, &friction, u, v, a, slip0, d, F,
                                   room), 0);
@@ -157,7 +157,7 @@ static void check_damping(void)
     const double x = 3 * dt / 4;
     signorini_model *model;
 
-    CHECK_STATUS(signorini_model_new_condensed(2, 1, K_eff, 2, &model), 0);
+    CHECK_STATUS(signorini_model_new_condensed(2, 1, K_eff, 2, NULL, &model), 0);
     CHECK_STATUS(newmark_step(model, dt, 0.25, 0.5, mass, damper, none, &far_away, none, u, v, a, slip0, d, F, room),
                  0);
     CHECK(fabs(v[0] - (1 - x) / (1 + x)) < 1e-9 && fabs(v[1] + (1 - x) / (1 + x)) < 1e-9);

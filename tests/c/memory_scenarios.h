@@ -297,7 +297,7 @@ static int32_t condensed_model(struct world *w)
 {
     chain *c = &w->plane;
     signorini_model *model = NULL;
-    int32_t status = signorini_model_new_condensed(c->dim, c->pairs, c->K, c->n, &model);
+    int32_t status = signorini_model_new_condensed(c->dim, c->pairs, c->K, c->n, NULL, &model);
     if (!status)
         status = signorini_model_solve(model, 3, w->more, NULL, w->gap, SIGNORINI_LAW_COULOMB, w->mu,
                                        NULL, NULL, w->d, w->F, w->state, NULL, NULL, NULL);
@@ -331,7 +331,7 @@ static int32_t two_threads(struct world *w)
     }
     int32_t status = signorini_settings_default(&settings, sizeof settings);
     settings.threads = 2;
-    if (!status) status = signorini_model_new_condensed(c->dim, c->pairs, c->K, c->n, &model);
+    if (!status) status = signorini_model_new_condensed(c->dim, c->pairs, c->K, c->n, NULL, &model);
     if (!status)
         status = signorini_model_solve(model, CASES, loads, NULL, gaps, SIGNORINI_LAW_COULOMB, w->mu,
                                        NULL, &settings, d, F, state, status_of_case, NULL, NULL);
@@ -358,7 +358,7 @@ static int32_t two_bodies(struct world *w)
 {
     chain *c = &w->space;
     signorini_model *model = NULL;
-    int32_t status = signorini_model_new_two_body(c->dim, c->pairs, c->K, c->n, c->K, c->n, &model);
+    int32_t status = signorini_model_new_two_body(c->dim, c->pairs, c->K, c->n, c->K, c->n, NULL, &model);
     if (!status)
         status = signorini_model_solve(model, 1, w->load, NULL, w->gap, SIGNORINI_LAW_COULOMB, w->mu,
                                        NULL, NULL, w->d, w->F, w->state, NULL, NULL, NULL);
@@ -378,7 +378,7 @@ static int32_t series(struct world *w)
         gap[pair] = pair % 2 ? 10 : c->gap[pair];
     int32_t status = signorini_settings_default(&settings, sizeof settings);
     settings.warm_start = SIGNORINI_START_PREVIOUS;
-    if (!status) status = signorini_model_new_condensed(c->dim, c->pairs, c->K, c->n, &model);
+    if (!status) status = signorini_model_new_condensed(c->dim, c->pairs, c->K, c->n, NULL, &model);
     for (int step = 0; step < 3 && !status; step++)
         status = signorini_model_solve(model, 1, c->f, NULL, gap, SIGNORINI_LAW_COULOMB, c->mu, NULL,
                                        &settings, w->d, w->F, w->state, NULL, NULL, NULL);

@@ -46,7 +46,7 @@ static void limits(int64_t pairs)
     CHECK_TEXT(signorini_last_error(), "memory_limit allows");
     CHECK_STATUS(solve_lcp(&c, bytes), SIGNORINI_STATUS_SOLVED);
     CHECK_STATUS(solve_lcp(&c, bytes - 1), SIGNORINI_STATUS_MEMORY_LIMIT);
-    CHECK_STATUS(signorini_model_new_condensed(2, c.pairs, c.K, c.n, &model), 0);
+    CHECK_STATUS(signorini_model_new_condensed(2, c.pairs, c.K, c.n, NULL, &model), 0);
     const int64_t of_case = model_data(model).memory;
     CHECK_STATUS(solve_case(model, &c, of_case), SIGNORINI_STATUS_SOLVED);
     CHECK_STATUS(solve_case(model, &c, of_case - 1), SIGNORINI_STATUS_MEMORY_LIMIT);

@@ -325,7 +325,7 @@ static void bad_dense(void)
 #define TWO(status, part, ...)                                                                    \
     do {                                                                                          \
         model = (signorini_model *)(void *)&in;                                                   \
-        CHECK_STATUS(signorini_model_new_two_body(__VA_ARGS__, &model), status);                  \
+        CHECK_STATUS(signorini_model_new_two_body(__VA_ARGS__, NULL, &model), status);            \
         CHECK_TEXT(signorini_last_error(), part);                                                 \
         CHECK(model == NULL);                                                                     \
     } while (0)
@@ -344,12 +344,12 @@ static void bad_dense(void)
     TWO(-5, "K_B[1,1]", 2, 1, good, 2, nan, 2);
     TWO(-3, "neither body resists", 2, 1, loose, 2, loose, 2);
     TWO(-3, "not positive semi-definite", 2, 1, indefinite, 2, loose, 2);
-    CHECK_STATUS(signorini_model_new_two_body(2, 1, good, 2, good, 2, NULL), -7);
+    CHECK_STATUS(signorini_model_new_two_body(2, 1, good, 2, good, 2, NULL, NULL), -8);
 
 #define ONE(status, part, ...)                                                                    \
     do {                                                                                          \
         model = (signorini_model *)(void *)&in;                                                   \
-        CHECK_STATUS(signorini_model_new_condensed(__VA_ARGS__, &model), status);                 \
+        CHECK_STATUS(signorini_model_new_condensed(__VA_ARGS__, NULL, &model), status);           \
         CHECK_TEXT(signorini_last_error(), part);                                                 \
         CHECK(model == NULL);                                                                     \
     } while (0)
@@ -360,11 +360,11 @@ static void bad_dense(void)
     ONE(-3, "K is not symmetric", 2, 1, unsymmetric, 2);
     ONE(-3, "K[1,1] is not finite", 2, 1, nan, 2);
     /* A row of zeros is a component that nothing resists. */
-    CHECK_STATUS(signorini_model_new_condensed(2, 1, empty, 2, &model), 0);
+    CHECK_STATUS(signorini_model_new_condensed(2, 1, empty, 2, NULL, &model), 0);
     signorini_model_free(model);
-    CHECK_STATUS(signorini_model_new_two_body(2, 1, empty, 2, good, 2, &model), 0);
+    CHECK_STATUS(signorini_model_new_two_body(2, 1, empty, 2, good, 2, NULL, &model), 0);
     signorini_model_free(model);
-    CHECK_STATUS(signorini_model_new_condensed(2, 1, good, 2, NULL), -5);
+    CHECK_STATUS(signorini_model_new_condensed(2, 1, good, 2, NULL, NULL), -6);
 }
 
 static void no_model(void)
@@ -428,10 +428,10 @@ static void sizes_and_stiffness(void)
     }
     const double one[4] = {2, 1, 1, 2};
     signorini_model *model;
-    CHECK_STATUS(signorini_model_new_condensed(2, 1, one, 2, &model), 0);
+    CHECK_STATUS(signorini_model_new_condensed(2, 1, one, 2, NULL, &model), 0);
     CHECK(model_data(model).host_size == 2);
     signorini_model_free(model);
-    CHECK_STATUS(signorini_model_new_two_body(2, 1, one, 2, one, 2, &model), 0);
+    CHECK_STATUS(signorini_model_new_two_body(2, 1, one, 2, one, 2, NULL, &model), 0);
     CHECK(model_data(model).host_size == 4);
     double K[4];
     CHECK_STATUS(copy_stiffness(model, K), 0);

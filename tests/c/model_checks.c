@@ -97,13 +97,13 @@ static void condensed_models_have_no_frames(void)
     const double K[4] = {2, 1, 1, 2};
     double frames[4] = {7, 7, 7, 7};
     signorini_model *model;
-    CHECK_STATUS(signorini_model_new_condensed(2, 1, K, 2, &model), 0);
+    CHECK_STATUS(signorini_model_new_condensed(2, 1, K, 2, NULL, &model), 0);
     CHECK(model_data(model).dim == 2 && model_data(model).pairs == 1);
     CHECK_STATUS(copy_frames(model, frames), -1);
     CHECK(model_data(model).frames == NULL);
     CHECK(frames[0] == 7);
     signorini_model_free(model);
-    CHECK_STATUS(signorini_model_new_two_body(2, 1, K, 2, K, 2, &model), 0);
+    CHECK_STATUS(signorini_model_new_two_body(2, 1, K, 2, K, 2, NULL, &model), 0);
     CHECK_STATUS(copy_frames(model, frames), -1);
     signorini_model_free(model);
 }
@@ -234,7 +234,7 @@ static void each_case_has_its_own_motion(void)
     extra.escape = escape;
     extra.second_d = second_d;
     extra.second_state = second_state;
-    CHECK_STATUS(signorini_model_new_condensed(2, 1, K, 2, &model), 0);
+    CHECK_STATUS(signorini_model_new_condensed(2, 1, K, 2, NULL, &model), 0);
     CHECK_STATUS(signorini_model_solve(model, CASES, f, NULL, gap, SIGNORINI_LAW_COULOMB, mu, NULL,
                                        NULL, d, F, NULL, status, NULL, &extra),
                  SIGNORINI_STATUS_NO_EQUILIBRIUM);

@@ -76,9 +76,10 @@ int32_t signorini_model_new_sparse(const signorini_sparse *K, int64_t n_fixed, c
                                    const signorini_pairs *pairs, const signorini_settings *settings,
                                    signorini_model **model);
 int32_t signorini_model_new_condensed(int32_t dim, int64_t pairs, const double *K, int64_t ldk,
-                                      signorini_model **model);
+                                      const signorini_settings *settings, signorini_model **model);
 int32_t signorini_model_new_two_body(int32_t dim, int64_t pairs, const double *K_A, int64_t lda,
-                                     const double *K_B, int64_t ldb, signorini_model **model);
+                                     const double *K_B, int64_t ldb,
+                                     const signorini_settings *settings, signorini_model **model);
 int32_t signorini_model_new_flexibility(int32_t dim, int64_t pairs, const double *W, int64_t ldw,
                                         signorini_model **model);
 int32_t signorini_model_new_flexibility_sparse(int32_t dim, int64_t pairs,

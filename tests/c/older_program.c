@@ -66,7 +66,7 @@ static void one_call(void)
     CHECK(out.report.status == 0 && out.report.eta <= 1e-10 && out.report.pairs_slipping == 1);
     CHECK(out.report.second == 0 && motion[0] == 0 && motion[1] == 0 && calls > 0);
     signorini_model *model = NULL;
-    CHECK(signorini_model_new_condensed(2, 1, K, 2, &model) == 0);
+    CHECK(signorini_model_new_condensed(2, 1, K, 2, NULL, &model) == 0);
     CHECK(signorini_model_certify(model, f, NULL, gap, SIGNORINI_LAW_COULOMB, mu, NULL, 1e-9, out.d, NULL,
                                   NULL, &out.report) == 0);
     signorini_model_free(model);

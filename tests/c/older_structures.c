@@ -59,7 +59,7 @@ static void settings_of_each_size(void)
         CHECK_STATUS(signorini_lcp_solve(1, M, 1, q, NULL, settings, F, d, NULL, NULL), 0);
         CHECK_NEAR(d[0], 2);
         signorini_model *model = NULL;
-        CHECK_STATUS(signorini_model_new_condensed(2, 1, K, 2, &model), 0);
+        CHECK_STATUS(signorini_model_new_condensed(2, 1, K, 2, NULL, &model), 0);
         CHECK_STATUS(signorini_model_solve(model, 1, f, NULL, gap, SIGNORINI_LAW_COULOMB, mu, NULL,
                                            settings, d, F, NULL, NULL, NULL, NULL), 0);
         signorini_model_free(model);
@@ -91,7 +91,7 @@ static void reports_of_each_size(void)
         const double f2[4] = {10, 8, -1, 0}, gap2[2] = {0, 0}, mu2[2] = {0.5, 0.5};
         double d2[4], F2[4];
         signorini_model *model = NULL;
-        CHECK_STATUS(signorini_model_new_condensed(2, 1, K, 2, &model), 0);
+        CHECK_STATUS(signorini_model_new_condensed(2, 1, K, 2, NULL, &model), 0);
         CHECK_STATUS(signorini_model_solve(model, 2, f2, NULL, gap2, SIGNORINI_LAW_COULOMB, mu2,
                                            NULL, NULL, d2, F2, NULL, NULL,
                                            (signorini_report *)(void *)two, NULL), 0);

@@ -137,7 +137,7 @@ static void model_case(void)
     signorini_problem *problem;
     double d[4], F[4], d_again[4], F_again[4];
 
-    CHECK_STATUS(signorini_model_new_condensed(2, 2, K, 4, &model), 0);
+    CHECK_STATUS(signorini_model_new_condensed(2, 2, K, 4, NULL, &model), 0);
     CHECK_STATUS(signorini_model_solve(model, 1, f, NULL, gap, COULOMB, mu, slip0, NULL, d, F, NULL,
                                        NULL, NULL, NULL), 0);
     CHECK_STATUS(signorini_model_write(model, in_folder("case"), f, NULL, gap, COULOMB, mu, slip0,

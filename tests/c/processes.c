@@ -132,7 +132,7 @@ static void forks(struct world *w, struct world *other)
         signorini_surface_pairs *contact = NULL;
         signorini_problem *problem = NULL;
         const char *const path = "processes.mtx";
-        CHECK_STATUS(signorini_model_new_condensed(c->dim, c->pairs, c->K, c->n, &model), 0);
+        CHECK_STATUS(signorini_model_new_condensed(c->dim, c->pairs, c->K, c->n, NULL, &model), 0);
         CHECK_STATUS(signorini_surface_pair(3, w->mesh->nodes, w->mesh->at[0], &w->bottom, &w->top,
                                             NULL, &contact), 0);
         CHECK_STATUS(signorini_problem_write(path, c->dim, c->pairs, c->K, c->n, c->f, c->gap,

@@ -91,7 +91,7 @@ int main(void)
     }
     shared_case = chain_new(2, 30, 0.05, 5);
     CHECK_STATUS(signorini_model_new_condensed(2, shared_case.pairs, shared_case.K, shared_case.n,
-                                               &shared), 0);
+                                               NULL, &shared), 0);
     CHECK_STATUS(solve_shared(shared_case.d, shared_case.F), SIGNORINI_STATUS_SOLVED);
     CHECK_STATUS(signorini_settings_default(NULL, 0), -1);
     CHECK(pthread_barrier_init(&barrier, NULL, THREADS) == 0);

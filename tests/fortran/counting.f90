@@ -136,7 +136,7 @@ contains
         loads = 1
         loads(3, 2) = nan
         gaps = 0
-        info = signorini_model_new_condensed(2_c_int32_t, 2_c_int64_t, k, 4_c_int64_t, handle)
+        info = signorini_model_new_condensed(2_c_int32_t, 2_c_int64_t, k, 4_c_int64_t, c_null_ptr, handle)
         info = signorini_model_solve(handle, 2_c_int64_t, c_loc(loads), c_null_ptr, gaps, &
             SIGNORINI_LAW_FRICTIONLESS, c_null_ptr, c_null_ptr, c_null_ptr, both_d, both_force, &
             c_null_ptr, c_null_ptr, c_null_ptr, c_null_ptr)

@@ -89,7 +89,7 @@ contains
     subroutine remarked(mistake, remark)
         character(len=*), intent(in) :: mistake
         integer(c_int32_t), intent(in) :: remark
-        call told(mistake, 0, '')
+        call told(mistake, 0, 'remark: ' // signorini_remark_text(remark))
         if (report%remarks == remark) return
         print '(a, i0, a, i0)', '   FAIL: remarks ', report%remarks, ', wanted ', remark
         failed = failed + 1

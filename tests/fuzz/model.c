@@ -16,10 +16,11 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     const signorini_settings *settings = a_settings();
     signorini_model *model = NULL;
     arm();
-    int32_t status = two ? signorini_model_new_two_body(p.dim, p.pairs, p.K, p.ld, K_B, p.ld, &model)
-                         : signorini_model_new_condensed(p.dim, p.pairs, p.K, p.ld, &model);
+    int32_t status =
+        two ? signorini_model_new_two_body(p.dim, p.pairs, p.K, p.ld, K_B, p.ld, settings, &model)
+            : signorini_model_new_condensed(p.dim, p.pairs, p.K, p.ld, settings, &model);
     check_arrays(status);
-    check_status(status, 7);
+    check_status(status, 8);
     REQUIRE((status == 0) == (model != NULL));
     if (p.definite && definite && sane()) REQUIRE(status == 0);
     if (!model) return 0;

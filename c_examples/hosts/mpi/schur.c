@@ -71,7 +71,7 @@ static void solve_contact(const double schur[], const double reduced[], struct f
     }
     block_contact(gap, mu);
     signorini_report_default(&found->report, sizeof found->report);
-    insist("model", signorini_model_new_condensed(3, PAIRS, K, SIZE, &model));
+    insist("model", signorini_model_new_condensed(3, PAIRS, K, SIZE, NULL, &model));
     insist("contact", signorini_model_solve(model, 1, f, NULL, gap, SIGNORINI_LAW_COULOMB, mu, NULL,
                                             &settings, found->d, found->F, found->state, NULL,
                                             &found->report, NULL));

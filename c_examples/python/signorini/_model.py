@@ -97,24 +97,30 @@ class Model:
         )
 
     @classmethod
-    def condensed(cls, K, *, dim=2):
-        """One body on an obstacle. K: condensed stiffness, (N, N). H = N."""
+    def condensed(cls, K, *, dim=2, **settings):
+        """One body on an obstacle. K: condensed stiffness, (N, N). H = N.
+
+        settings: progress, time_limit (seconds) and memory_limit (bytes); a limit that is passed, or a
+        progress function that cancels, raises SignoriniError.
+        """
         K = stiffness("K", K)
         pairs = pairs_of("K", K, dim)
-        return cls("model_new_condensed", dim, pairs, at(K), max(1, len(K)))
+        return cls("model_new_condensed", dim, pairs, at(K), max(1, len(K)), settings=settings)
 
     @classmethod
-    def two_body(cls, K_A, K_B, *, dim=2):
+    def two_body(cls, K_A, K_B, *, dim=2, **settings):
         """Two bodies on matching contact nodes, each in its own outward frame; d = u_A + u_B.
 
         K_A, K_B: condensed stiffness, (N, N) each. Loads and displacements are [A; B], H = 2 N.
+        settings: as for condensed.
         """
         K_A, K_B = stiffness("K_A", K_A), stiffness("K_B", K_B)
         pairs = pairs_of("K_A", K_A, dim)
         if K_B.shape != K_A.shape:
             raise ValueError(f"K_B has the shape {K_B.shape}: give the shape of K_A, {K_A.shape}")
         size = max(1, len(K_A))
-        return cls("model_new_two_body", dim, pairs, at(K_A), size, at(K_B), size)
+        return cls("model_new_two_body", dim, pairs, at(K_A), size, at(K_B), size,
+                   settings=settings)
 
     @classmethod
     def flexibility(cls, W, *, dim=2, triangle="full"):
