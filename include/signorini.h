@@ -94,8 +94,8 @@ typedef struct signorini_extra signorini_extra;
 /**
  * Coulomb with cohesion and a tension cut-off: F_n <= a, (d_n - gap) (F_n - a) = 0,
  * |F_t| <= b - mu F_n. friction: (mu, b, a) with mu >= 0, the tension a >= 0 at which the pair
- * opens, and the cohesion b >= mu a; forces. The law has no memory: an open pair, with gap +inf
- * too, carries the tension a and a friction of up to b - mu a. To let a pair break, set its b and
+ * opens, and the cohesion b >= mu a; forces. The law has no memory: an open pair, even with gap
+ * +inf, carries the tension a and a friction of up to b - mu a. To let a pair break, set its b and
  * a to 0 in later load steps.
  */
 #define SIGNORINI_LAW_COHESIVE 3
@@ -110,8 +110,9 @@ typedef struct signorini_extra signorini_extra;
 
 /* State of a pair. */
 /**
- * The pair is apart: F_n = 0, with cohesion F_n = a; F_t = 0 but under Tresca's law and cohesion.
- * A pair is open too if its pressure and friction are below 1e-11 of the largest load or force.
+ * The pair is apart: F_n = 0, with cohesion F_n = a; F_t = 0 except under Tresca's law and
+ * cohesion. A pair is open too if its pressure and friction are below 1e-11 of the largest load
+ * or force.
  */
 #define SIGNORINI_STATE_OPEN 0
 /** The pair touches and slips: |F_t| is at its bound. Frictionless: every pair that touches. */
@@ -124,9 +125,9 @@ typedef struct signorini_extra signorini_extra;
  * @param dim       space dimension, 2 or 3
  * @param pairs     number of contact pairs, 0 allowed
  * @param K         condensed stiffness, N columns of N entries, both triangles; force / length;
- *                  symmetric, positive semi-definite, which signorini_solve checks in part, a
- *                  model as a whole. A row of zeros is a component that nothing resists. If the
- *                  body can move freely and touches at two or three points, use a model
+ *                  symmetric, positive semi-definite: signorini_solve checks a part of this, a
+ *                  model all. A row of zeros is a component that nothing resists. If the body can
+ *                  move freely and touches at two or three points, use a model
  * @param ldk       entries from one column of K to the next, at least max(1, N)
  * @param f         condensed nodal loads, N; force
  * @param gap       initial gap of each pair; length; negative: interference; +infinity: no contact
@@ -149,8 +150,8 @@ int32_t signorini_solve(int32_t dim, int64_t pairs, const double *K, int64_t ldk
 
 /**
  * Says in one sentence what was wrong in the last call on this thread, such as "K[12,7] is not
- * finite"; of a solution its remarks, else nothing. A call that releases leaves it. UTF-8, at
- * most 511 bytes, never NULL. The text belongs to the thread, until its next call.
+ * finite"; after a solution its remarks, else nothing. A call that releases leaves it. UTF-8,
+ * at most 511 bytes, never NULL. The text belongs to the thread, until its next call.
  */
 const char *signorini_last_error(void);
 
@@ -170,9 +171,9 @@ const char *signorini_last_error(void);
  */
 #define SIGNORINI_STATUS_STALLED 5
 #define SIGNORINI_STATUS_NOT_A_SOLUTION 6  /**< Certify: the displacements are no solution. */
-/** Prove: no solution is proved to exist, which does not say that there is none. */
+/** Prove: no solution is proved to exist; there may be one. */
 #define SIGNORINI_STATUS_NOT_PROVED 7
-/** The call may need more than memory_limit: nothing was computed and nothing written. */
+/** The call may need more than memory_limit: nothing was computed or written. */
 #define SIGNORINI_STATUS_MEMORY_LIMIT 8
 #define SIGNORINI_STATUS_INTERNAL -1000 /**< A caught defect of the library: results undefined. */
 /** Out of memory: only earlier load cases were written, and the call holds nothing. */
@@ -200,8 +201,8 @@ typedef struct signorini_pairs signorini_pairs;
 typedef struct signorini_model_data signorini_model_data;
 
 /**
- * A sparse symmetric matrix by columns (CSC), stiffness or flexibility. Of a matrix by rows (CSR)
- * hand over the rows as columns, and LOWER for UPPER.
+ * A sparse symmetric matrix by columns (CSC), stiffness or flexibility. For a matrix by rows
+ * (CSR) pass the rows as columns, and LOWER for UPPER.
  */
 struct signorini_sparse {
     uint32_t struct_size; /**< sizeof(signorini_sparse). */
@@ -216,9 +217,9 @@ struct signorini_sparse {
     const void *row;      /**< Row of each entry, ascending in each column. */
     const double *values; /**< The entries; a stiffness: force / length. */
     /**
-     * Order of elimination: each degree of freedom once, the first to go first, size entries;
-     * NULL: chosen. Fixed ones and slaves in it have no effect; those with the same neighbours, as
-     * of one node, go together. Of a flexibility, and in full space, it is not read.
+     * Order of elimination, size entries: each degree of freedom once, the first to be eliminated
+     * first. NULL: chosen. The places of fixed ones and slaves do not matter; those with the same
+     * neighbours, as of one node, go together. Not read for a flexibility, nor in full space.
      */
     const void *order;
 };
@@ -250,9 +251,8 @@ struct signorini_pairs {
     /** Normal of each pair, dim entries, outward from the slave's body, of any length. */
     const double *normals;
     /**
-     * First tangent of each pair, dim entries, orthogonal to the normal to 1e-5; t2 = n x t1.
-     * NULL: chosen. 2D: the normal turned by +90 degrees. 3D: e x n, e the axis that is most
-     * across n.
+     * First tangent of each pair, dim entries, orthogonal to the normal to 1e-5; t2 = n x t1. NULL:
+     * chosen. 2D: the normal turned by +90 degrees. 3D: e x n with the axis e most across n.
      */
     const double *tangents;
     /** General rows: start of each pair's nodes, count + 1 entries from index_base; else NULL. */
@@ -266,9 +266,9 @@ struct signorini_pairs {
 };
 
 /**
- * A structure that is reduced to its contact pairs: what all load cases share. It does not change:
- * several threads may use one at once (but see SIGNORINI_START_PREVIOUS). signorini_model_free
- * releases it.
+ * A structure reduced to its contact pairs, for all load cases. It does not change: several
+ * threads may use one at once (but see SIGNORINI_START_PREVIOUS). signorini_model_free releases
+ * it.
  */
 typedef struct signorini_model signorini_model;
 
@@ -276,10 +276,10 @@ typedef struct signorini_model signorini_model;
  * Makes a model of your whole sparse stiffness matrix with contact pairs, for any number of bodies
  * and contact zones. Contact alone may support a body. H = K->size.
  *
- * If the condensed matrix needs more than memory_limit, the model is in full space: load cases are
- * solved by Newton's method with GMRES on a sparse factor, made anew a few times in each; methods
- * AUTO and NEWTON alone, no search, no proof. Pairs that depend on each other are condensed all
- * the same.
+ * If the condensed matrix needs more than memory_limit, the model is in full space: load cases
+ * are solved by Newton's method with GMRES on a sparse factor that is made anew a few times in
+ * each, methods AUTO and NEWTON alone, no search, no proof. Pairs that depend on each other are
+ * condensed all the same.
  *
  * @param K         the stiffness of all degrees of freedom, the fixed ones too
  * @param n_fixed   number of fixed degrees of freedom
@@ -320,20 +320,21 @@ int32_t signorini_model_new_two_body(int32_t dim, int64_t pairs, const double *K
                                      const signorini_settings *settings, signorini_model **model);
 
 /**
- * Makes a model in flexibility form: d = W F + q takes the place of K d = f + F. Contact, friction
- * and signs stay. In load cases f holds q, the relative displacements without contact forces, and
- * F the start if settings.warm_start is set; H = N. W = H M^-1 H' may be singular, as where pairs
- * are redundant: then contact forces are not unique, and no solution is said to be the only one.
+ * Makes a model in flexibility form: d = W F + q takes the place of K d = f + F. Contact,
+ * friction and signs stay. In load cases f holds q, the relative displacements without contact
+ * forces, and F the start if settings.warm_start is set; H = N. W = H M^-1 H' may be singular,
+ * as with redundant pairs: then contact forces are not unique, and report.uniqueness is never
+ * UNIQUE.
  *
  * Codes with u = W r + q, where u_N >= 0 opens a contact and r_N >= 0 presses (FCLIB, Siconos,
  * most multibody codes), hand over -q; then u = -d and r = -F. Velocities and impulses may take
  * the places of displacements and forces.
  *
- * report.eta is relative to the larger of F and q, measured as a force: where open pairs have free
- * displacements far above those that forces undo, ask for a smaller tolerance.
- * SIGNORINI_STATUS_NO_EQUILIBRIUM proves that the gaps contradict each other. If friction wedges
- * bodies, the status is SIGNORINI_STATUS_STALLED, and the sentence names the pairs whose forces
- * grow.
+ * report.eta is relative to the larger of F and q, the latter turned into a force. If open
+ * pairs move freely by far more than forces undo elsewhere, ask for a smaller tolerance.
+ * SIGNORINI_STATUS_NO_EQUILIBRIUM proves that the gaps contradict each other. If friction
+ * wedges bodies, the status is SIGNORINI_STATUS_STALLED, and the sentence names the pairs whose
+ * forces grow.
  *
  * @param dim,pairs  as for signorini_solve
  * @param W,ldw      flexibility, as K and ldk for signorini_solve; length / force; symmetric,
@@ -377,8 +378,8 @@ struct signorini_model_data {
     int64_t host_size;    /**< H, the entries of your load and displacement vectors. */
     int64_t fixed;        /**< Number of fixed degrees of freedom: the entries of prescribed. */
     /**
-     * Most bytes that a load case may take beside the model and your arrays. Up to 32 cases of a
-     * call take some vectors of H entries each besides.
+     * Most bytes that a load case may take beside the model and your arrays. A call works on up to
+     * 32 cases at once, each with some more vectors of H entries.
      */
     int64_t memory;
     int32_t kind;         /**< SIGNORINI_MODEL_... */
@@ -434,8 +435,9 @@ int32_t signorini_model_solve(const signorini_model *model, int64_t cases, const
                               const signorini_extra *extra);
 
 /**
- * Your displacements from the relative ones, a column for each case; many cases of a sparse model
- * at once cost a fraction. If u overflows, cases before may be written.
+ * Your displacements from the relative ones, a column for each case; many cases of a sparse
+ * model in one call cost a fraction of as many calls. If u overflows in a case, those before it
+ * may be written.
  *
  * @param model,cases,prescribed  as for signorini_model_solve
  * @param f  nodal loads, H a case; NULL: zero, as for a motion of escape
@@ -457,8 +459,8 @@ int32_t signorini_model_recover(const signorini_model *model, int64_t cases, con
 int32_t signorini_model_nodal_forces(const signorini_model *model, const double *F, double *nodal);
 
 /**
- * Relative loads of a load case: the f of signorini_solve beside the K of signorini_model_data.
- * There are none if pairs depend on each other.
+ * Relative loads of a load case: the f that signorini_solve takes with the K of
+ * signorini_model_data. There are none if pairs depend on each other.
  *
  * @param model,f,prescribed  as for signorini_model_solve
  * @param load  out: relative loads, N
@@ -492,8 +494,8 @@ int32_t signorini_model_certify(const signorini_model *model, const double *f,
 
 /**
  * The default: methods in turn, until one finds a solution. Without friction: block pivoting,
- * Lemke's method. With friction: Newton's method; in 3D springs that are let go, the path; in 2D
- * the path, springs, Lemke's method; sweeps.
+ * Lemke's method. With friction: Newton's method; then in 3D springs that are let go and the
+ * path, in 2D the path, springs and Lemke's method; at last sweeps.
  */
 #define SIGNORINI_METHOD_AUTO 0
 /** Projected over-relaxed Gauss-Seidel (SOR) on a sequence of Tresca problems, g <- mu |F_n|. */
@@ -503,9 +505,10 @@ int32_t signorini_model_certify(const signorini_model *model, const double *f,
 /** Lemke's method, without friction or in 2D. If K is positive definite it ends at a solution. */
 #define SIGNORINI_METHOD_LEMKE 3
 #define SIGNORINI_METHOD_BLOCK_PIVOTING 4 /**< Block principal pivoting, without friction. */
-#define SIGNORINI_METHOD_NEWTON 5         /**< Newton's method. It may fail; the status says so. */
+#define SIGNORINI_METHOD_NEWTON 5         /**< Newton's method; it may fail. */
 /**
- * A path of solutions that leads to one of the problem, with friction. It exists if K is definite.
+ * With friction: a path of solutions that ends at one of the problem. It exists if K is
+ * definite.
  */
 #define SIGNORINI_METHOD_PATH 6
 
@@ -521,17 +524,17 @@ struct signorini_progress {
     int64_t iterations; /**< Sweeps, pivots or linear systems done. */
     double eta;         /**< Latest measured eta; infinite before the first measurement. */
     double elapsed;     /**< Seconds since the call began. */
-    /** Share of the reduction of a sparse matrix that is done, 0 to 1; 1 in a load case. */
+    /** Share of the reduction of a matrix that is done, 0 to 1; 1 in a load case. */
     double reduced;
     /** Bytes that this reduction needs in all, told before they are taken; otherwise 0. */
     int64_t memory;
 };
 
 /**
- * Called before each sweep, pivot or linear system, in long proofs, and often by
- * signorini_model_new_sparse. A nonzero result cancels the call (SIGNORINI_STATUS_CANCELLED). It
- * runs on the calling thread, in the default floating-point environment. It must return: no
- * longjmp, no exception; and it must not call this library.
+ * Called before each sweep, pivot or linear system, in long proofs, and often while a model is
+ * made. A nonzero result cancels the call (SIGNORINI_STATUS_CANCELLED). It runs on the calling
+ * thread, in the default floating-point environment. It must return: no longjmp, no exception;
+ * and it must not call this library.
  */
 typedef int32_t (*signorini_progress_fn)(void *user, const signorini_progress *progress);
 
@@ -544,11 +547,11 @@ struct signorini_settings {
     int32_t method;                 /**< SIGNORINI_METHOD_...; default SIGNORINI_METHOD_AUTO. */
     double tolerance; /**< Solved means eta <= tolerance; 1e-15 to 0.1, default 1e-10. */
     double omega; /**< Over-relaxation factor, 0 to 2; default 0: chosen from the measured rate. */
-    double damping; /**< Damping of the threshold update, to 1; default 0: chosen likewise. */
+    double damping; /**< Damping of the threshold update, 0 to 1; default 0: chosen likewise. */
     /** Most sweeps, pivots or linear systems, at least 1; default 200000. */
     int64_t max_iterations;
     /**
-     * Most seconds of wall time; default 0, and infinity: no limit. A factorisation that would
+     * Most seconds of wall time; 0, the default, and infinity: no limit. A factorisation that would
      * take longer is not begun: the call may end before the limit.
      */
     double time_limit;
@@ -567,19 +570,21 @@ struct signorini_settings {
      */
     int32_t proof;
     int32_t reserved;               /**< 0. */
-    /** Most bytes that a solution or signorini_model_new_sparse may need; default 0: no limit. */
+    /** Most bytes that a solution, or making a model, may need; default 0: no limit. */
     int64_t memory_limit;
-    /** Nonzero: signorini_model_new_sparse makes a model in full space in any case; default 0. */
+    /** Nonzero: signorini_model_new_sparse always makes a model in full space; default 0. */
     int32_t full_space;
     /**
-     * Most threads of a call; default 1, and 0: 1. They end before the call does, and get no
-     * signals. If the system refuses memory to a thread that begins, the process may end. In
-     * signorini_model_solve each thread has a part of the cases, and takes
-     * signorini_model_data.memory; memory_limit is that of one. The same number gives the same
-     * bits. A callback or SIGNORINI_START_PREVIOUS leaves one thread. In
-     * signorini_model_new_sparse, and in full space, the threads, at most 64, share each
-     * factorisation. Any number gives the same bits. Each takes 8 bytes for each unknown and up to
-     * 1 MB.
+     * Most threads of a call; default 1; 0 stands for 1. They end before the call does, and get no
+     * signals. If the system refuses memory to a thread that begins, the process may end.
+     *
+     * signorini_model_solve: each thread solves a part of the cases, and takes
+     * signorini_model_data.memory, to which memory_limit applies. The same number gives the same
+     * bits. A callback or SIGNORINI_START_PREVIOUS leaves one thread.
+     *
+     * signorini_model_new_sparse, and load cases in full space: at most 64 threads share each
+     * factorisation. Each takes 8 bytes for each unknown and up to 1 MB. Any number gives the same
+     * bits.
      */
     int32_t threads;
 };
@@ -604,8 +609,8 @@ int64_t signorini_solve_memory(int64_t n);
 /* Is a solution proved to exist? */
 #define SIGNORINI_PROOF_NOT_ASKED 0 /**< settings.proof is 0. */
 /**
- * Proved: the data, of a model its condensed problem, have a solution with these states, each
- * double taken for the real number that it is.
+ * Proved: the problem (of a model: the condensed one) has a solution with these states, each
+ * double taken as an exact number.
  */
 #define SIGNORINI_PROOF_PROVED 1
 /** Not proved: a pair may be at the boundary of two states, or K badly conditioned. */
@@ -619,9 +624,9 @@ int64_t signorini_solve_memory(int64_t n);
 #define SIGNORINI_FALLBACK_INACCURATE 4 /**< It found no accurate solution. */
 
 /* Remarks: legal, and often a mistake. */
-/** Every finite gap is negative: interference everywhere, or gaps have the wrong sign. */
+/** Every finite gap is negative: interference everywhere, or the wrong sign. */
 #define SIGNORINI_REMARK_GAPS_NEGATIVE 1
-/** A coefficient of friction is above 10: percent, or another array. */
+/** A coefficient of friction is above 10: in percent, or another array? */
 #define SIGNORINI_REMARK_FRICTION_LARGE 2
 /**
  * Without friction: the bodies may move without any force; a support may be missing. Not looked
@@ -651,8 +656,8 @@ struct signorini_report {
     /** Residual of the law relative to the forces, no unit, before d is rounded to doubles. */
     double eta;
     /**
-     * Rounding of d to doubles may add so much to eta, no unit. Above 1e-6 a d is certified only
-     * if K resists it by more energy than rounding of K explains.
+     * Most that rounding d to doubles may add to eta, no unit. Above 1e-6, d is certified only if
+     * its energy d . K d is more than rounding of K explains.
      */
     double rounding;
     double penetration;       /**< Largest d_n - gap; length; 0 if none. */
@@ -668,7 +673,7 @@ struct signorini_report {
     int64_t pairs_sticking;   /**< Pairs of SIGNORINI_STATE_STICK. */
     /** Dense factorisations by Newton's method and block pivoting. In full space: sparse ones. */
     int64_t factorisations;
-    int32_t first_method;     /**< The method that was tried first, SIGNORINI_METHOD_... */
+    int32_t first_method;     /**< The first method, SIGNORINI_METHOD_... */
     int32_t fallback;         /**< Why the first method was abandoned, SIGNORINI_FALLBACK_... */
     /**
      * Sign of the determinant of the equations that the states select; 0: not known. -1: the
@@ -699,10 +704,11 @@ struct signorini_extra {
     uint32_t struct_size;  /**< sizeof(signorini_extra). */
     int32_t reserved;      /**< 0. */
     /**
-     * With SIGNORINI_STATUS_NO_EQUILIBRIUM a motion r that proves it, its largest entry 1:
-     * K r = 0, and f . r + F . r > 0 for all forces F that the law admits. It lifts slipping pairs
-     * by mu times their slip, as no body moves: draw escape. In flexibility form pressing normal
-     * forces p, the largest -1: W p = 0, and the sum of p_n (gap - q_n) is positive. Else zeros.
+     * With SIGNORINI_STATUS_NO_EQUILIBRIUM a motion r that proves it, its largest entry 1: K r = 0,
+     * and f . r + F . r > 0 for all forces F that the law admits. It lifts slipping pairs by mu
+     * times their slip, as no body does: to draw it, take escape. In flexibility form pressing
+     * normal forces p, the largest -1: W p = 0, and the sum of p_n (gap - q_n) is positive. Else
+     * zeros.
      */
     double *motion;
     double *second_d; /**< Displacements of a second solution if report.second is 1; else zeros. */
@@ -717,7 +723,8 @@ struct signorini_extra {
     /**
      * With SIGNORINI_STATUS_NO_EQUILIBRIUM the motion of escape, to be drawn, its largest entry 1:
      * K r = 0, no pair approaches its obstacle, friction opposes the slip, and f . r > 0, if every
-     * pair of finite gap touches. If stalled, a motion that proves nothing. Else zeros.
+     * pair of finite gap touches. With SIGNORINI_STATUS_STALLED a motion that proves nothing. Else
+     * zeros.
      */
     double *escape;
     double *d_low; /**< The last digits of d: d + d_low is what the report measures; length. */
@@ -754,9 +761,9 @@ int32_t signorini_lcp_solve(int64_t n, const double *M, int64_t ldm, const doubl
 
 /* ---- Versions ------------------------------------------------------------------------------ */
 
-#define SIGNORINI_VERSION_MAJOR 0 /**< Major version of this header. */
-#define SIGNORINI_VERSION_MINOR 2 /**< Minor version of this header. */
-#define SIGNORINI_VERSION_PATCH 0 /**< Patch version of this header. */
+#define SIGNORINI_VERSION_MAJOR 0 /**< Major version. */
+#define SIGNORINI_VERSION_MINOR 2 /**< Minor version. */
+#define SIGNORINI_VERSION_PATCH 0 /**< Patch version. */
 #define SIGNORINI_ABI_VERSION 3   /**< Binary interface of this header. */
 
 /** Version of the library, such as "0.2.0"; static text. */
@@ -774,12 +781,13 @@ int32_t signorini_abi_version(void);
 #ifdef SIGNORINI_UNSTABLE
 
 /**
- * settings.warm_start of signorini_model_solve: each case starts from the solution of the last one
- * that was solved, in this call or in earlier ones on the model with this setting; the first one
- * as with 0. With friction in 3D they share an elimination: the model keeps 8 N N bytes at most,
- * until it is released or a call has another start. The same calls in the same order give the same
- * bits; in another order last digits may differ, and which of several solutions is found. Leave it
- * to one thread of those that share a model. Other calls take it as 0.
+ * settings.warm_start of signorini_model_solve: each case starts from the solution of the last
+ * one that was solved, in this call or in earlier ones on the model with this setting; the
+ * first one as with 0. With friction in 3D they share an elimination: the model keeps 8 N N
+ * bytes at most, until it is released or a call has another start. The same calls in the same
+ * order give the same bits; another order may change last digits, and which of several
+ * solutions is found. Only one thread of those that share a model may use it. Other calls take
+ * it as 0.
  */
 #define SIGNORINI_START_PREVIOUS 2
 
@@ -827,11 +835,11 @@ struct signorini_operator {
 };
 
 /**
- * Makes a model of products and solutions alone, for structures that no one process holds: no
- * matrix is formed. H = N: loads and displacements are the relative ones. Load cases are solved by
- * Newton's method with GMRES, methods AUTO and NEWTON alone, no search, no proof. They take up to
- * 110 products with K_rel and as many with W in 2D, 160 in 3D; or with held up to 70 solutions,
- * with 14 changes of the components that are held.
+ * Makes a model of products and solutions alone: no matrix is formed. H = N: loads and
+ * displacements are the relative ones. Load cases are solved by Newton's method with GMRES,
+ * methods AUTO and NEWTON alone, no search, no proof. They take up to 110 products with K_rel
+ * and as many with W in 2D, 160 in 3D; or with held up to 70 solutions, with 14 changes of the
+ * components that are held.
  *
  * The call asks for some products, which must be finite, linear, symmetric, positive and the same
  * each time, to 1e-9. Later calls return -1 if a function fails or gives a number that is not
@@ -843,8 +851,8 @@ struct signorini_operator {
 int32_t signorini_model_new_operator(const signorini_operator *K, signorini_model **model);
 
 /**
- * Tries to prove that a load case has a solution next to displacements of any origin, in the sense
- * of SIGNORINI_PROOF_PROVED, and bounds how far it is away. Others may exist.
+ * Tries to prove that a load case has a solution next to displacements of any origin, in the
+ * sense of SIGNORINI_PROOF_PROVED, and bounds its distance. Others may exist.
  *
  * @param model  a model with a condensed matrix
  * @param f,prescribed,gap,law,friction,slip0  as for signorini_model_solve

@@ -2,6 +2,7 @@
 
 mod arguments;
 mod cases;
+mod dense;
 mod flexibility;
 mod kind;
 mod load_case;
@@ -25,12 +26,10 @@ use crate::linalg::elimination::Remembered;
 use crate::linalg::matrix::Matrix;
 use crate::monitor::Monitor;
 use crate::problem::{
-    ContactData, ContactProblem, Dependence, DependentRows, OF_MATRIX, Relation, checked_dim,
-    dense, symmetric_matrix, unknowns,
+    ContactData, ContactProblem, Dependence, DependentRows, Relation, symmetric_matrix,
 };
 use crate::reduce::{
-    CondensedReduction, ContactPairs, Control, Reduction, SparseMatrix, SparseReduction,
-    TwoBodyReduction, driven_motion, memory,
+    ContactPairs, Control, Reduction, SparseMatrix, SparseReduction, driven_motion,
 };
 use crate::settings::Settings;
 use crate::solve::{
@@ -46,70 +45,6 @@ pub struct Model {
 }
 
 impl Model {
-    /// A body condensed by the host, on an obstacle: `d = u`.
-    ///
-    /// # Errors
-    /// As [`ContactProblem::new`] for the matrix, and a matrix that is not positive semi-definite, by a component;
-    /// after it was cleaned: if a diagonal entry is at most 9e-12
-    /// of the largest one of its pair, and the component is coupled to others, motions of so little energy
-    /// are the rounding of a condensation and become exactly free. All other matrices are taken as they are.
-    pub fn condensed(dim: usize, pairs: usize, k: &[f64], ld: usize) -> Result<Self, Error> {
-        Self::condensed_within(dim, pairs, k, ld, &mut Monitor::new(&Settings::default(), None))
-    }
-
-    /// As [`Self::condensed`], within the limits of `monitor` on memory and time, with its callback.
-    ///
-    /// # Errors
-    /// As [`Self::condensed`]; [`Error::Stopped`].
-    pub fn condensed_within(
-        dim: usize,
-        pairs: usize,
-        k: &[f64],
-        ld: usize,
-        monitor: &mut Monitor<'_>,
-    ) -> Result<Self, Error> {
-        let size = unknowns(checked_dim(dim)?, pairs)?;
-        monitor.reducing(0.0, memory(size))?;
-        let matrix = dense("K", (k, ld), size, OF_MATRIX)?;
-        let reduction = Box::new(CondensedReduction::new(dim, &matrix)?);
-        Ok(Model { dim, pairs, reduction })
-    }
-
-    /// Two condensed bodies on matching contact nodes, each in its own outward frame.
-    ///
-    /// # Errors
-    /// Entries that are not finite or symmetric, negative diagonals, zeros there in rows that are not zero;
-    /// a motion that neither body resists, named by its largest component.
-    pub fn two_body(
-        dim: usize,
-        pairs: usize,
-        first: (&[f64], usize),
-        second: (&[f64], usize),
-    ) -> Result<Self, Error> {
-        let monitor = &mut Monitor::new(&Settings::default(), None);
-        Self::two_body_within(dim, pairs, first, second, monitor)
-    }
-
-    /// As [`Self::two_body`], within the limits of `monitor` on memory and time, with its callback.
-    ///
-    /// # Errors
-    /// As [`Self::two_body`]; [`Error::Stopped`].
-    pub fn two_body_within(
-        dim: usize,
-        pairs: usize,
-        first: (&[f64], usize),
-        second: (&[f64], usize),
-        monitor: &mut Monitor<'_>,
-    ) -> Result<Self, Error> {
-        let size = unknowns(checked_dim(dim)?, pairs)?;
-        monitor.reducing(0.0, memory(size))?;
-        let first = dense("K_A", first, size, OF_MATRIX)?;
-        let arguments = (Argument::SecondMatrix, Argument::SecondLeadingDimension);
-        let second = dense("K_B", second, size, arguments)?;
-        let reduction = Box::new(TwoBodyReduction::new(dim, first, second)?);
-        Model { dim, pairs, reduction }.checked()
-    }
-
     /// A whole sparse stiffness matrix with fixed degrees of freedom and pairs; those of
     /// [`crate::surface`] by `ContactPairs::from(&found.rows())`.
     ///

@@ -10,6 +10,26 @@ use crate::error::Argument;
 use crate::linalg::matrix::required_length;
 use crate::problem;
 
+/// Runs the body of an entry, a closure of the arrays of the call.
+macro_rules! c_entry {
+    ($body:expr) => {
+        $crate::ffi::guard::call(|| {
+            // SAFETY: the header's contract.
+            let mut arrays = unsafe { $crate::ffi::args::Arrays::of_call() };
+            $crate::ffi::args::on_arrays(&mut arrays, $body)
+        })
+    };
+}
+pub(super) use c_entry;
+
+/// Runs the body of an entry: the arrays' lifetime is that of what is made of them.
+pub(super) fn on_arrays<'h>(
+    arrays: &mut Arrays<'h>,
+    body: impl FnOnce(&mut Arrays<'h>) -> Result<i32, Failure>,
+) -> Result<i32, Failure> {
+    body(arrays)
+}
+
 /// Bytes that a call holds in reserve for each byte of the host's arrays: of copies, of what is
 /// worked out from them, and of holes between. For matrices, of which a call makes few copies, it
 /// counts by itself.

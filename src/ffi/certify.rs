@@ -1,7 +1,8 @@
 //! The certificate of displacements from any origin.
 
+use super::args::c_entry;
 use super::case_arguments::CaseArguments;
-use super::guard::{Failure, c_entry};
+use super::guard::Failure;
 use super::model::SignoriniModel;
 use super::report::{SignoriniReport, state_codes};
 use super::status::{SIGNORINI_STATUS_NOT_A_SOLUTION, SIGNORINI_STATUS_SOLVED, remember};

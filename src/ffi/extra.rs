@@ -15,10 +15,11 @@ pub struct SignoriniExtra {
     pub struct_size: u32,
     /// 0.
     pub reserved: i32,
-    /// With SIGNORINI_STATUS_NO_EQUILIBRIUM a motion r that proves it, its largest entry 1:
-    /// K r = 0, and f . r + F . r > 0 for all forces F that the law admits. It lifts slipping pairs
-    /// by mu times their slip, as no body moves: draw escape. In flexibility form pressing normal
-    /// forces p, the largest -1: W p = 0, and the sum of p_n (gap - q_n) is positive. Else zeros.
+    /// With SIGNORINI_STATUS_NO_EQUILIBRIUM a motion r that proves it, its largest entry 1: K r = 0,
+    /// and f . r + F . r > 0 for all forces F that the law admits. It lifts slipping pairs by mu
+    /// times their slip, as no body does: to draw it, take escape. In flexibility form pressing
+    /// normal forces p, the largest -1: W p = 0, and the sum of p_n (gap - q_n) is positive. Else
+    /// zeros.
     pub motion: *mut f64,
     /// Displacements of a second solution if report.second is 1; else zeros.
     pub second_d: *mut f64,
@@ -33,7 +34,8 @@ pub struct SignoriniExtra {
     pub radius_F: *mut f64,
     /// With SIGNORINI_STATUS_NO_EQUILIBRIUM the motion of escape, to be drawn, its largest entry 1:
     /// K r = 0, no pair approaches its obstacle, friction opposes the slip, and f . r > 0, if every
-    /// pair of finite gap touches. If stalled, a motion that proves nothing. Else zeros.
+    /// pair of finite gap touches. With SIGNORINI_STATUS_STALLED a motion that proves nothing. Else
+    /// zeros.
     pub escape: *mut f64,
     /// The last digits of d: d + d_low is what the report measures; length.
     pub d_low: *mut f64,

@@ -2,7 +2,6 @@
 
 use std::cell::Cell;
 
-use super::args::Arrays;
 use super::panic_sentence::caught;
 use super::reserve::{self, CallReserve};
 use super::status::{
@@ -107,26 +106,6 @@ pub(super) fn call(body: impl FnOnce() -> Result<i32, Failure>) -> i32 {
             None => SIGNORINI_STATUS_INTERNAL,
         },
     }
-}
-
-/// Runs the body of an entry, a closure of the arrays of the call.
-macro_rules! c_entry {
-    ($body:expr) => {
-        $crate::ffi::guard::call(|| {
-            // SAFETY: the header's contract.
-            let mut arrays = unsafe { $crate::ffi::args::Arrays::of_call() };
-            $crate::ffi::guard::on_arrays(&mut arrays, $body)
-        })
-    };
-}
-pub(super) use c_entry;
-
-/// Runs the body of an entry: the arrays' lifetime is that of what is made of them.
-pub(super) fn on_arrays<'h>(
-    arrays: &mut Arrays<'h>,
-    body: impl FnOnce(&mut Arrays<'h>) -> Result<i32, Failure>,
-) -> Result<i32, Failure> {
-    body(arrays)
 }
 
 /// Obtains memory for a call that may need so much, before its work begins.

@@ -12,8 +12,8 @@ pub const SIGNORINI_LAW_COULOMB: i32 = 1;
 pub const SIGNORINI_LAW_TRESCA: i32 = 2;
 /// Coulomb with cohesion and a tension cut-off: F_n <= a, (d_n - gap) (F_n - a) = 0,
 /// |F_t| <= b - mu F_n. friction: (mu, b, a) with mu >= 0, the tension a >= 0 at which the pair
-/// opens, and the cohesion b >= mu a; forces. The law has no memory: an open pair, with gap +inf
-/// too, carries the tension a and a friction of up to b - mu a. To let a pair break, set its b and
+/// opens, and the cohesion b >= mu a; forces. The law has no memory: an open pair, even with gap
+/// +inf, carries the tension a and a friction of up to b - mu a. To let a pair break, set its b and
 /// a to 0 in later load steps.
 pub const SIGNORINI_LAW_COHESIVE: i32 = 3;
 /// Orthotropic, 3D only: (F_1 / mu1)^2 + (F_2 / mu2)^2 <= F_n^2. friction: (mu1, mu2, angle), both

@@ -1,7 +1,7 @@
 //! The linear complementarity problem (LCP) in one call.
 
-use super::args::size;
-use super::guard::{self, Failure, c_entry, number_of};
+use super::args::{c_entry, size};
+use super::guard::{self, Failure, number_of};
 use super::numbers::Numbered;
 use super::report::SignoriniReport;
 use super::settings::SignoriniSettings;

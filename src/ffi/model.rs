@@ -6,9 +6,9 @@ use super::args::Arrays;
 use super::guard::{self, Failure};
 use crate::model::{Model, Past};
 
-/// A structure that is reduced to its contact pairs: what all load cases share. It does not change:
-/// several threads may use one at once (but see SIGNORINI_START_PREVIOUS). signorini_model_free
-/// releases it.
+/// A structure reduced to its contact pairs, for all load cases. It does not change: several
+/// threads may use one at once (but see SIGNORINI_START_PREVIOUS). signorini_model_free releases
+/// it.
 pub struct SignoriniModel {
     model: Model,
     /// The result that calls with SIGNORINI_START_PREVIOUS have left; nothing while one is at work.

@@ -1,7 +1,7 @@
 //! Models: made of what a host has, reduced once.
 
-use super::args::{size, sizes};
-use super::guard::{self, c_entry, number_of};
+use super::args::{c_entry, size, sizes};
+use super::guard::{self, number_of};
 use super::handle::release;
 use super::model::SignoriniModel;
 use super::pairs::SignoriniPairs;
@@ -83,10 +83,10 @@ pub unsafe extern "C" fn signorini_model_new_two_body(
 /// Makes a model of your whole sparse stiffness matrix with contact pairs, for any number of bodies
 /// and contact zones. Contact alone may support a body. H = K->size.
 ///
-/// If the condensed matrix needs more than memory_limit, the model is in full space: load cases are
-/// solved by Newton's method with GMRES on a sparse factor, made anew a few times in each; methods
-/// AUTO and NEWTON alone, no search, no proof. Pairs that depend on each other are condensed all
-/// the same.
+/// If the condensed matrix needs more than memory_limit, the model is in full space: load cases
+/// are solved by Newton's method with GMRES on a sparse factor that is made anew a few times in
+/// each, methods AUTO and NEWTON alone, no search, no proof. Pairs that depend on each other are
+/// condensed all the same.
 ///
 /// @param K         the stiffness of all degrees of freedom, the fixed ones too
 /// @param n_fixed   number of fixed degrees of freedom
@@ -127,20 +127,21 @@ pub unsafe extern "C" fn signorini_model_new_sparse(
     })
 }
 
-/// Makes a model in flexibility form: d = W F + q takes the place of K d = f + F. Contact, friction
-/// and signs stay. In load cases f holds q, the relative displacements without contact forces, and
-/// F the start if settings.warm_start is set; H = N. W = H M^-1 H' may be singular, as where pairs
-/// are redundant: then contact forces are not unique, and no solution is said to be the only one.
+/// Makes a model in flexibility form: d = W F + q takes the place of K d = f + F. Contact,
+/// friction and signs stay. In load cases f holds q, the relative displacements without contact
+/// forces, and F the start if settings.warm_start is set; H = N. W = H M^-1 H' may be singular,
+/// as with redundant pairs: then contact forces are not unique, and report.uniqueness is never
+/// UNIQUE.
 ///
 /// Codes with u = W r + q, where u_N >= 0 opens a contact and r_N >= 0 presses (FCLIB, Siconos,
 /// most multibody codes), hand over -q; then u = -d and r = -F. Velocities and impulses may take
 /// the places of displacements and forces.
 ///
-/// report.eta is relative to the larger of F and q, measured as a force: where open pairs have free
-/// displacements far above those that forces undo, ask for a smaller tolerance.
-/// SIGNORINI_STATUS_NO_EQUILIBRIUM proves that the gaps contradict each other. If friction wedges
-/// bodies, the status is SIGNORINI_STATUS_STALLED, and the sentence names the pairs whose forces
-/// grow.
+/// report.eta is relative to the larger of F and q, the latter turned into a force. If open
+/// pairs move freely by far more than forces undo elsewhere, ask for a smaller tolerance.
+/// SIGNORINI_STATUS_NO_EQUILIBRIUM proves that the gaps contradict each other. If friction
+/// wedges bodies, the status is SIGNORINI_STATUS_STALLED, and the sentence names the pairs whose
+/// forces grow.
 ///
 /// @param dim,pairs  as for signorini_solve
 /// @param W,ldw      flexibility, as K and ldk for signorini_solve; length / force; symmetric,

@@ -1,16 +1,17 @@
 //! From relative displacements and contact forces back to the host, and what a load case condenses
 //! to.
 
-use super::args::size;
+use super::args::{c_entry, size};
 use super::case_arguments::times;
-use super::guard::{self, Failure, c_entry};
+use super::guard::{self, Failure};
 use super::model::SignoriniModel;
 use crate::error::Argument;
 use crate::model::BLOCK;
 use crate::reduce::SolvedCase;
 
-/// Your displacements from the relative ones, a column for each case; many cases of a sparse model
-/// at once cost a fraction. If u overflows, cases before may be written.
+/// Your displacements from the relative ones, a column for each case; many cases of a sparse
+/// model in one call cost a fraction of as many calls. If u overflows in a case, those before it
+/// may be written.
 ///
 /// @param model,cases,prescribed  as for signorini_model_solve
 /// @param f  nodal loads, H a case; NULL: zero, as for a motion of escape
@@ -95,8 +96,8 @@ pub unsafe extern "C" fn signorini_model_nodal_forces(
     })
 }
 
-/// Relative loads of a load case: the f of signorini_solve beside the K of signorini_model_data.
-/// There are none if pairs depend on each other.
+/// Relative loads of a load case: the f that signorini_solve takes with the K of
+/// signorini_model_data. There are none if pairs depend on each other.
 ///
 /// @param model,f,prescribed  as for signorini_model_solve
 /// @param load  out: relative loads, N

@@ -3,10 +3,10 @@
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
 
-use super::args::size;
+use super::args::{c_entry, size};
 use super::case_arguments::{CaseArguments, LoadCases, times};
 use super::extra::SignoriniExtra;
-use super::guard::{Failure, c_entry};
+use super::guard::Failure;
 use super::model::SignoriniModel;
 use super::outputs::{OutputArguments, Outputs};
 use super::report::SignoriniReport;

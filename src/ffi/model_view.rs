@@ -1,6 +1,6 @@
 //! The content of a model, as one structure.
 
-use super::guard::c_entry;
+use super::args::c_entry;
 use super::model::SignoriniModel;
 use super::numbers::{Numbered, numbers};
 use super::structures::address;
@@ -38,8 +38,8 @@ pub struct SignoriniModelData {
     pub host_size: i64,
     /// Number of fixed degrees of freedom: the entries of prescribed.
     pub fixed: i64,
-    /// Most bytes that a load case may take beside the model and your arrays. Up to 32 cases of a
-    /// call take some vectors of H entries each besides.
+    /// Most bytes that a load case may take beside the model and your arrays. A call works on up to
+    /// 32 cases at once, each with some more vectors of H entries.
     pub memory: i64,
     /// SIGNORINI_MODEL_...
     pub kind: i32,

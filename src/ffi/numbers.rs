@@ -1,7 +1,5 @@
 //! Numbers of the header for the choices of the library.
 
-use super::guard::Failure;
-
 /// A choice whose values have numbers in the header.
 pub(super) trait Numbered: Sized {
     fn number(self) -> i32;
@@ -24,13 +22,3 @@ macro_rules! numbers {
     };
 }
 pub(super) use numbers;
-
-/// The value that the host has chosen, in a structure called `name`.
-pub(super) fn chosen<T: Numbered>(
-    position: i32,
-    (name, choice): (&str, &str),
-    number: i32,
-) -> Result<T, Failure> {
-    let wrong = || Failure::argument(position, format!("{name}: there is no {choice} {number}"));
-    T::numbered(number).ok_or_else(wrong)
-}

@@ -2,8 +2,8 @@
 
 use libc::c_void;
 
-use super::args::sizes;
-use super::guard::{self, Failure, c_entry};
+use super::args::{c_entry, sizes};
+use super::guard::{self, Failure};
 use super::model::SignoriniModel;
 use super::surroundings::in_host;
 use crate::model::Model;
@@ -101,11 +101,11 @@ impl HostOperator for Functions {
     }
 }
 
-/// Makes a model of products and solutions alone, for structures that no one process holds: no
-/// matrix is formed. H = N: loads and displacements are the relative ones. Load cases are solved by
-/// Newton's method with GMRES, methods AUTO and NEWTON alone, no search, no proof. They take up to
-/// 110 products with K_rel and as many with W in 2D, 160 in 3D; or with held up to 70 solutions,
-/// with 14 changes of the components that are held.
+/// Makes a model of products and solutions alone: no matrix is formed. H = N: loads and
+/// displacements are the relative ones. Load cases are solved by Newton's method with GMRES,
+/// methods AUTO and NEWTON alone, no search, no proof. They take up to 110 products with K_rel
+/// and as many with W in 2D, 160 in 3D; or with held up to 70 solutions, with 14 changes of the
+/// components that are held.
 ///
 /// The call asks for some products, which must be finite, linear, symmetric, positive and the same
 /// each time, to 1e-9. Later calls return -1 if a function fails or gives a number that is not

@@ -3,7 +3,8 @@
 use libc::c_char;
 use std::ffi::CString;
 
-use super::guard::{self, c_entry};
+use super::args::c_entry;
+use super::guard;
 use super::handle::release;
 use super::law;
 use super::structures::{address, show};

@@ -2,10 +2,10 @@
 
 use libc::c_char;
 
-use super::args::size;
+use super::args::{c_entry, size};
 use super::case_arguments::CaseArguments;
 use super::condensed::CondensedArguments;
-use super::guard::{Failure, c_entry, number_of};
+use super::guard::{Failure, number_of};
 use super::lcp::LCP_ARGUMENTS;
 use super::model::SignoriniModel;
 use crate::file;

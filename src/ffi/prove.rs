@@ -1,16 +1,17 @@
 //! The proof that a solution exists next to displacements from any origin.
 
+use super::args::c_entry;
 use super::case_arguments::CaseArguments;
 use super::extra::NO_RADIUS;
-use super::guard::{Failure, c_entry};
+use super::guard::Failure;
 use super::model::SignoriniModel;
 use super::numbers::Numbered;
 use super::status::{SIGNORINI_STATUS_NOT_PROVED, SIGNORINI_STATUS_SOLVED, remember};
 use crate::error::entry;
 use crate::law::State;
 
-/// Tries to prove that a load case has a solution next to displacements of any origin, in the sense
-/// of SIGNORINI_PROOF_PROVED, and bounds how far it is away. Others may exist.
+/// Tries to prove that a load case has a solution next to displacements of any origin, in the
+/// sense of SIGNORINI_PROOF_PROVED, and bounds its distance. Others may exist.
 ///
 /// @param model  a model with a condensed matrix
 /// @param f,prescribed,gap,law,friction,slip0  as for signorini_model_solve

@@ -9,8 +9,9 @@ use crate::law::State;
 use crate::settings::Method;
 use crate::solve::{Existence, Fallback, LcpSolution, Remarks, Solution, Uniqueness};
 
-/// The pair is apart: F_n = 0, with cohesion F_n = a; F_t = 0 but under Tresca's law and cohesion.
-/// A pair is open too if its pressure and friction are below 1e-11 of the largest load or force.
+/// The pair is apart: F_n = 0, with cohesion F_n = a; F_t = 0 except under Tresca's law and
+/// cohesion. A pair is open too if its pressure and friction are below 1e-11 of the largest load
+/// or force.
 pub const SIGNORINI_STATE_OPEN: i32 = 0;
 /// The pair touches and slips: |F_t| is at its bound. Frictionless: every pair that touches.
 pub const SIGNORINI_STATE_SLIP: i32 = 1;
@@ -26,8 +27,8 @@ pub const SIGNORINI_UNIQUENESS_SEVERAL: i32 = 2;
 
 /// settings.proof is 0.
 pub const SIGNORINI_PROOF_NOT_ASKED: i32 = 0;
-/// Proved: the data, of a model its condensed problem, have a solution with these states, each
-/// double taken for the real number that it is.
+/// Proved: the problem (of a model: the condensed one) has a solution with these states, each
+/// double taken as an exact number.
 pub const SIGNORINI_PROOF_PROVED: i32 = 1;
 /// Not proved: a pair may be at the boundary of two states, or K badly conditioned.
 pub const SIGNORINI_PROOF_NOT_PROVED: i32 = 2;
@@ -43,9 +44,9 @@ pub const SIGNORINI_FALLBACK_UNSTABLE: i32 = 3;
 /// It found no accurate solution.
 pub const SIGNORINI_FALLBACK_INACCURATE: i32 = 4;
 
-/// Every finite gap is negative: interference everywhere, or gaps have the wrong sign.
+/// Every finite gap is negative: interference everywhere, or the wrong sign.
 pub const SIGNORINI_REMARK_GAPS_NEGATIVE: i32 = 1;
-/// A coefficient of friction is above 10: percent, or another array.
+/// A coefficient of friction is above 10: in percent, or another array?
 pub const SIGNORINI_REMARK_FRICTION_LARGE: i32 = 2;
 /// Without friction: the bodies may move without any force; a support may be missing. Not looked
 /// for in full space, nor where pairs depend on each other.
@@ -76,8 +77,8 @@ pub struct SignoriniReport {
     pub refactorisations: i64,
     /// Residual of the law relative to the forces, no unit, before d is rounded to doubles.
     pub eta: f64,
-    /// Rounding of d to doubles may add so much to eta, no unit. Above 1e-6 a d is certified only
-    /// if K resists it by more energy than rounding of K explains.
+    /// Most that rounding d to doubles may add to eta, no unit. Above 1e-6, d is certified only if
+    /// its energy d . K d is more than rounding of K explains.
     pub rounding: f64,
     /// Largest d_n - gap; length; 0 if none.
     pub penetration: f64,
@@ -99,7 +100,7 @@ pub struct SignoriniReport {
     pub pairs_sticking: i64,
     /// Dense factorisations by Newton's method and block pivoting. In full space: sparse ones.
     pub factorisations: i64,
-    /// The method that was tried first, SIGNORINI_METHOD_...
+    /// The first method, SIGNORINI_METHOD_...
     pub first_method: i32,
     /// Why the first method was abandoned, SIGNORINI_FALLBACK_...
     pub fallback: i32,

@@ -5,16 +5,16 @@ use std::ops::ControlFlow;
 
 use super::args::Arrays;
 use super::guard::Failure;
-use super::numbers::{Numbered, chosen, numbers};
-use super::structures::{self, Structure};
+use super::numbers::{Numbered, numbers};
+use super::structures::{self, Structure, chosen};
 use super::surroundings::in_host;
 use super::threads;
 use crate::monitor::{Monitor, Progress, ProgressFn};
 use crate::settings::{Method, Search, Settings};
 
 /// The default: methods in turn, until one finds a solution. Without friction: block pivoting,
-/// Lemke's method. With friction: Newton's method; in 3D springs that are let go, the path; in 2D
-/// the path, springs, Lemke's method; sweeps.
+/// Lemke's method. With friction: Newton's method; then in 3D springs that are let go and the
+/// path, in 2D the path, springs and Lemke's method; at last sweeps.
 pub const SIGNORINI_METHOD_AUTO: i32 = 0;
 /// Projected over-relaxed Gauss-Seidel (SOR) on a sequence of Tresca problems, g <- mu |F_n|.
 pub const SIGNORINI_METHOD_SOR_NESTED: i32 = 1;
@@ -24,17 +24,19 @@ pub const SIGNORINI_METHOD_SOR_DIAGONAL: i32 = 2;
 pub const SIGNORINI_METHOD_LEMKE: i32 = 3;
 /// Block principal pivoting, without friction.
 pub const SIGNORINI_METHOD_BLOCK_PIVOTING: i32 = 4;
-/// Newton's method. It may fail; the status says so.
+/// Newton's method; it may fail.
 pub const SIGNORINI_METHOD_NEWTON: i32 = 5;
-/// A path of solutions that leads to one of the problem, with friction. It exists if K is definite.
+/// With friction: a path of solutions that ends at one of the problem. It exists if K is
+/// definite.
 pub const SIGNORINI_METHOD_PATH: i32 = 6;
 
-/// settings.warm_start of signorini_model_solve: each case starts from the solution of the last one
-/// that was solved, in this call or in earlier ones on the model with this setting; the first one
-/// as with 0. With friction in 3D they share an elimination: the model keeps 8 N N bytes at most,
-/// until it is released or a call has another start. The same calls in the same order give the same
-/// bits; in another order last digits may differ, and which of several solutions is found. Leave it
-/// to one thread of those that share a model. Other calls take it as 0.
+/// settings.warm_start of signorini_model_solve: each case starts from the solution of the last
+/// one that was solved, in this call or in earlier ones on the model with this setting; the
+/// first one as with 0. With friction in 3D they share an elimination: the model keeps 8 N N
+/// bytes at most, until it is released or a call has another start. The same calls in the same
+/// order give the same bits; another order may change last digits, and which of several
+/// solutions is found. Only one thread of those that share a model may use it. Other calls take
+/// it as 0.
 pub const SIGNORINI_START_PREVIOUS: i32 = 2;
 
 /// Report only what the solution itself proves about other solutions. The default.
@@ -51,16 +53,16 @@ pub struct SignoriniProgress {
     pub eta: f64,
     /// Seconds since the call began.
     pub elapsed: f64,
-    /// Share of the reduction of a sparse matrix that is done, 0 to 1; 1 in a load case.
+    /// Share of the reduction of a matrix that is done, 0 to 1; 1 in a load case.
     pub reduced: f64,
     /// Bytes that this reduction needs in all, told before they are taken; otherwise 0.
     pub memory: i64,
 }
 
-/// Called before each sweep, pivot or linear system, in long proofs, and often by
-/// signorini_model_new_sparse. A nonzero result cancels the call (SIGNORINI_STATUS_CANCELLED). It
-/// runs on the calling thread, in the default floating-point environment. It must return: no
-/// longjmp, no exception; and it must not call this library.
+/// Called before each sweep, pivot or linear system, in long proofs, and often while a model is
+/// made. A nonzero result cancels the call (SIGNORINI_STATUS_CANCELLED). It runs on the calling
+/// thread, in the default floating-point environment. It must return: no longjmp, no exception;
+/// and it must not call this library.
 pub type SignoriniProgressFn =
     Option<unsafe extern "C" fn(user: *mut c_void, progress: *const SignoriniProgress) -> i32>;
 
@@ -77,11 +79,11 @@ pub struct SignoriniSettings {
     pub tolerance: f64,
     /// Over-relaxation factor, 0 to 2; default 0: chosen from the measured rate.
     pub omega: f64,
-    /// Damping of the threshold update, to 1; default 0: chosen likewise.
+    /// Damping of the threshold update, 0 to 1; default 0: chosen likewise.
     pub damping: f64,
     /// Most sweeps, pivots or linear systems, at least 1; default 200000.
     pub max_iterations: i64,
-    /// Most seconds of wall time; default 0, and infinity: no limit. A factorisation that would
+    /// Most seconds of wall time; 0, the default, and infinity: no limit. A factorisation that would
     /// take longer is not begun: the call may end before the limit.
     pub time_limit: f64,
     /// Nonzero: start from what d holds, block pivoting from its states. Default 0: start from
@@ -99,18 +101,20 @@ pub struct SignoriniSettings {
     pub proof: i32,
     /// 0.
     pub reserved: i32,
-    /// Most bytes that a solution or signorini_model_new_sparse may need; default 0: no limit.
+    /// Most bytes that a solution, or making a model, may need; default 0: no limit.
     pub memory_limit: i64,
-    /// Nonzero: signorini_model_new_sparse makes a model in full space in any case; default 0.
+    /// Nonzero: signorini_model_new_sparse always makes a model in full space; default 0.
     pub full_space: i32,
-    /// Most threads of a call; default 1, and 0: 1. They end before the call does, and get no
-    /// signals. If the system refuses memory to a thread that begins, the process may end. In
-    /// signorini_model_solve each thread has a part of the cases, and takes
-    /// signorini_model_data.memory; memory_limit is that of one. The same number gives the same
-    /// bits. A callback or SIGNORINI_START_PREVIOUS leaves one thread. In
-    /// signorini_model_new_sparse, and in full space, the threads, at most 64, share each
-    /// factorisation. Any number gives the same bits. Each takes 8 bytes for each unknown and up to
-    /// 1 MB.
+    /// Most threads of a call; default 1; 0 stands for 1. They end before the call does, and get no
+    /// signals. If the system refuses memory to a thread that begins, the process may end.
+    ///
+    /// signorini_model_solve: each thread solves a part of the cases, and takes
+    /// signorini_model_data.memory, to which memory_limit applies. The same number gives the same
+    /// bits. A callback or SIGNORINI_START_PREVIOUS leaves one thread.
+    ///
+    /// signorini_model_new_sparse, and load cases in full space: at most 64 threads share each
+    /// factorisation. Each takes 8 bytes for each unknown and up to 1 MB. Any number gives the same
+    /// bits.
     pub threads: i32,
 }
 

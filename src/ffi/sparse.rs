@@ -6,8 +6,8 @@ use libc::c_void;
 
 use super::args::{Arrays, size};
 use super::guard::Failure;
-use super::numbers::{Numbered, chosen, numbers};
-use super::structures::{Structure, index_base};
+use super::numbers::{Numbered, numbers};
+use super::structures::{Structure, chosen, index_base};
 use crate::error::entry;
 use crate::reduce::{Indices, SparseMatrix, Triangle};
 
@@ -18,8 +18,8 @@ pub const SIGNORINI_TRIANGLE_UPPER: i32 = 1;
 /// All entries.
 pub const SIGNORINI_TRIANGLE_FULL: i32 = 2;
 
-/// A sparse symmetric matrix by columns (CSC), stiffness or flexibility. Of a matrix by rows (CSR)
-/// hand over the rows as columns, and LOWER for UPPER.
+/// A sparse symmetric matrix by columns (CSC), stiffness or flexibility. For a matrix by rows
+/// (CSR) pass the rows as columns, and LOWER for UPPER.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct SignoriniSparse {
@@ -41,9 +41,9 @@ pub struct SignoriniSparse {
     pub row: *const c_void,
     /// The entries; a stiffness: force / length.
     pub values: *const f64,
-    /// Order of elimination: each degree of freedom once, the first to go first, size entries;
-    /// NULL: chosen. Fixed ones and slaves in it have no effect; those with the same neighbours, as
-    /// of one node, go together. Of a flexibility, and in full space, it is not read.
+    /// Order of elimination, size entries: each degree of freedom once, the first to be eliminated
+    /// first. NULL: chosen. The places of fixed ones and slaves do not matter; those with the same
+    /// neighbours, as of one node, go together. Not read for a flexibility, nor in full space.
     pub order: *const c_void,
 }
 

@@ -23,9 +23,9 @@ pub const SIGNORINI_STATUS_NO_EQUILIBRIUM: i32 = 4;
 pub const SIGNORINI_STATUS_STALLED: i32 = 5;
 /// Certify: the displacements are no solution.
 pub const SIGNORINI_STATUS_NOT_A_SOLUTION: i32 = 6;
-/// Prove: no solution is proved to exist, which does not say that there is none.
+/// Prove: no solution is proved to exist; there may be one.
 pub const SIGNORINI_STATUS_NOT_PROVED: i32 = 7;
-/// The call may need more than memory_limit: nothing was computed and nothing written.
+/// The call may need more than memory_limit: nothing was computed or written.
 pub const SIGNORINI_STATUS_MEMORY_LIMIT: i32 = 8;
 /// A caught defect of the library: results undefined.
 pub const SIGNORINI_STATUS_INTERNAL: i32 = -1000;
@@ -34,11 +34,11 @@ pub const SIGNORINI_STATUS_OUT_OF_MEMORY: i32 = -1001;
 /// A file cannot be read or written.
 pub const SIGNORINI_STATUS_FILE: i32 = -1002;
 
-/// Major version of this header.
+/// Major version.
 pub const SIGNORINI_VERSION_MAJOR: i32 = 0;
-/// Minor version of this header.
+/// Minor version.
 pub const SIGNORINI_VERSION_MINOR: i32 = 2;
-/// Patch version of this header.
+/// Patch version.
 pub const SIGNORINI_VERSION_PATCH: i32 = 0;
 /// Binary interface of this header.
 pub const SIGNORINI_ABI_VERSION: i32 = 3;
@@ -191,8 +191,8 @@ pub(super) fn last_counted_from_one() -> String {
 }
 
 /// Says in one sentence what was wrong in the last call on this thread, such as "K[12,7] is not
-/// finite"; of a solution its remarks, else nothing. A call that releases leaves it. UTF-8, at
-/// most 511 bytes, never NULL. The text belongs to the thread, until its next call.
+/// finite"; after a solution its remarks, else nothing. A call that releases leaves it. UTF-8,
+/// at most 511 bytes, never NULL. The text belongs to the thread, until its next call.
 #[unsafe(no_mangle)]
 pub extern "C" fn signorini_last_error() -> *const c_char {
     LAST.with_borrow(|sentence| sentence.text.as_ptr().cast())

@@ -4,6 +4,7 @@ use std::ptr::null_mut;
 
 use super::args::Arrays;
 use super::guard::{self, Failure};
+use super::numbers::Numbered;
 use crate::error::index;
 
 /// Smallest structure of any version: its size, the first word and a number. Fields that an older
@@ -246,6 +247,16 @@ pub(super) fn check_reserved(position: i32, name: &str, reserved: i32) -> Result
     }
     let message = format!("{name}: reserved is {reserved}, it must be 0");
     Err(Failure::argument(position, message))
+}
+
+/// The value that the host has chosen, in a structure called `name`.
+pub(super) fn chosen<T: Numbered>(
+    position: i32,
+    (name, choice): (&str, &str),
+    number: i32,
+) -> Result<T, Failure> {
+    let wrong = || Failure::argument(position, format!("{name}: there is no {choice} {number}"));
+    T::numbered(number).ok_or_else(wrong)
 }
 
 /// The field `index_base` of a structure.
