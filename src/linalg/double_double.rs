@@ -1,14 +1,4 @@
-//! Twice the working precision: a number as the sum of two doubles, `high + low` with
-//! `|low| <= ulp(high) / 2`.
-//!
-//! With `u = 2^-53`, and where nothing overflows or is subnormal:
-//!
-//! | operation | error |
-//! |---|---|
-//! | [`two_sum`], [`two_product`] | none: result and error are both returned |
-//! | [`DoubleDouble::plus`] | `3 u² (\|a\| + \|b\|)` at most |
-//! | [`DoubleDouble::times`] | `8 u² \|a b\|` at most |
-//! | [`dot`] | `n² u² sum \|a_i b_i\|` at most, before it is rounded: that of a sum taken in twice the precision |
+//! Sums and products with their rounding errors, exactly where nothing overflows or is subnormal.
 //!
 //! D. E. Knuth, *The Art of Computer Programming*, volume 2, 4.2.2 (the sum); T. Ogita, S. M. Rump and
 //! S. Oishi, *Accurate sum and dot product*, SIAM J. Sci. Comput. 26 (2005) 1955-1988 (the inner product).
@@ -26,60 +16,75 @@ pub fn two_product(a: f64, b: f64) -> (f64, f64) {
     (product, a.mul_add(b, -product))
 }
 
-/// `high + low`.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct DoubleDouble {
-    high: f64,
-    low: f64,
-}
+/// Twice the working precision, by which tests judge: a number as the sum of two doubles, `high + low` with
+/// `|low| <= ulp(high) / 2`.
+///
+/// With `u = 2^-53`, and where nothing overflows or is subnormal:
+///
+/// | operation | error |
+/// |---|---|
+/// | [`DoubleDouble::plus`] | `3 u² (\|a\| + \|b\|)` at most |
+/// | [`DoubleDouble::times`] | `8 u² \|a b\|` at most |
+/// | [`dot`] | `n² u² sum \|a_i b_i\|` at most, before it is rounded: that of a sum taken in twice the precision |
+#[cfg(test)]
+pub mod reference {
+    use super::{two_product, two_sum};
 
-impl DoubleDouble {
-    /// `a + b`, exactly.
-    pub fn sum(a: f64, b: f64) -> Self {
-        let (high, low) = two_sum(a, b);
-        DoubleDouble { high, low }
+    /// `high + low`.
+    #[derive(Clone, Copy, Debug, Default, PartialEq)]
+    pub struct DoubleDouble {
+        high: f64,
+        low: f64,
     }
 
-    /// The number rounded to a double, and what is left of it.
-    pub fn parts(self) -> (f64, f64) {
-        (self.high, self.low)
+    impl DoubleDouble {
+        /// `a + b`, exactly.
+        pub fn sum(a: f64, b: f64) -> Self {
+            let (high, low) = two_sum(a, b);
+            DoubleDouble { high, low }
+        }
+
+        /// The number rounded to a double, and what is left of it.
+        pub fn parts(self) -> (f64, f64) {
+            (self.high, self.low)
+        }
+
+        /// `self + other`.
+        pub fn plus(self, other: Self) -> Self {
+            let (high, first) = two_sum(self.high, other.high);
+            let (low, second) = two_sum(self.low, other.low);
+            let (high, first) = two_sum(high, first + low);
+            Self::sum(high, first + second)
+        }
+
+        /// `self other`.
+        pub fn times(self, other: Self) -> Self {
+            let (high, low) = two_product(self.high, other.high);
+            Self::sum(high, low + (self.high * other.low + self.low * other.high))
+        }
+
+        /// `-self`.
+        pub fn negated(self) -> Self {
+            DoubleDouble { high: -self.high, low: -self.low }
+        }
     }
 
-    /// `self + other`.
-    pub fn plus(self, other: Self) -> Self {
-        let (high, first) = two_sum(self.high, other.high);
-        let (low, second) = two_sum(self.low, other.low);
-        let (high, first) = two_sum(high, first + low);
-        Self::sum(high, first + second)
+    /// Inner product.
+    pub fn dot(a: &[f64], b: &[f64]) -> DoubleDouble {
+        let (mut high, mut low) = (0.0, 0.0);
+        for (&a, &b) in a.iter().zip(b) {
+            let (product, error) = two_product(a, b);
+            let (sum, lost) = two_sum(high, product);
+            high = sum;
+            low += error + lost;
+        }
+        DoubleDouble::sum(high, low)
     }
-
-    /// `self other`.
-    pub fn times(self, other: Self) -> Self {
-        let (high, low) = two_product(self.high, other.high);
-        Self::sum(high, low + (self.high * other.low + self.low * other.high))
-    }
-
-    /// `-self`.
-    pub fn negated(self) -> Self {
-        DoubleDouble { high: -self.high, low: -self.low }
-    }
-}
-
-/// Inner product.
-pub fn dot(a: &[f64], b: &[f64]) -> DoubleDouble {
-    let (mut high, mut low) = (0.0, 0.0);
-    for (&a, &b) in a.iter().zip(b) {
-        let (product, error) = two_product(a, b);
-        let (sum, lost) = two_sum(high, product);
-        high = sum;
-        low += error + lost;
-    }
-    DoubleDouble::sum(high, low)
 }
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use super::reference::{DoubleDouble, dot};
 
     /// Whole numbers below 2^100: what 128-bit integers give exactly.
     #[test]

@@ -251,7 +251,7 @@ pub fn can_exist(size: usize) -> bool {
 mod tests {
     use super::*;
     use crate::linalg::ball::UNIT;
-    use crate::linalg::double_double::{DoubleDouble, dot};
+    use crate::linalg::double_double::reference::{DoubleDouble, dot};
     use crate::linalg::vector::sizes;
 
     /// A residual that cancels to the last digits of its terms, against inner products in twice the precision,

@@ -6,13 +6,14 @@ use crate::common::problems::{decades, definite, semidefinite, uniform, vector};
 use fastrand::Rng;
 use signorini::{Method, Settings, Status};
 
-/// Solves `count` problems by both; returns how many were solved, proved infeasible, and given up.
+/// Solves `count` problems by both; returns how many were solved, proved infeasible, given up where there is a
+/// solution, and given up otherwise.
 fn run(
     count: u64,
     make: impl Fn(&mut Rng, usize) -> Vec<f64>,
     allowed: impl Fn(Status) -> bool,
-) -> [usize; 3] {
-    let mut counts = [0; 3];
+) -> [usize; 4] {
+    let mut counts = [0; 4];
     for seed in 0..count {
         let mut rng = Rng::with_seed(seed);
         let n = rng.usize(1..=8);
@@ -36,7 +37,8 @@ fn run(
             counts[match solution.status {
                 Status::Solved => 0,
                 Status::NoEquilibrium => 1,
-                _ => 2,
+                _ if margin > 1e-7 => 2,
+                _ => 3,
             }] += 1;
         }
     }
@@ -204,4 +206,7 @@ fn is_never_wrong_on_general_problems() {
         |_| true,
     );
     assert!(counts.iter().all(|&count| count > 200), "{counts:?}: one-sided");
+    // No theorem says how many; 85 % are found.
+    let [found, _, missed, _] = counts;
+    assert!(found >= 4 * missed, "{counts:?}: too few of those that have a solution");
 }

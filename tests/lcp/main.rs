@@ -7,4 +7,5 @@ mod block_pivoting;
 mod copositive;
 mod enumeration;
 mod extremes;
+mod games;
 mod worst_cases;

@@ -1,7 +1,7 @@
 //! The linear complementarity problem, by block pivoting and by Lemke's method.
 
 use super::block_pivoting;
-use super::lemke::{self, LemkeRules, Refactorising, ScaledLcp};
+use super::lemke::{self, LemkeRules, Scaled};
 use crate::error::{Argument, Error, Message, entry};
 use crate::linalg::tolerances::NEGLIGIBLE;
 use crate::linalg::vector::{first_not_finite, largest_of, normalise};
@@ -136,18 +136,24 @@ fn by_lemke(
     let scale: Vec<f64> = magnitudes.iter().map(|m| (-(m.log2() / 2.0).round()).exp2()).collect();
     let covering: Vec<f64> = (0..lcp.size()).map(|i| lcp.covering(i)).collect();
     let matrix = lcp.matrix();
-    let problem = ScaledLcp { matrix: &matrix, q: lcp.q(), covering: &covering, scale: &scale };
-    let mut run = lemke::follow(problem, LemkeRules::usual(Refactorising::Usual), monitor)?;
+    let problem = Scaled::new(&matrix, lcp.q(), &covering, scale);
+    let label = lemke::missing_label(&matrix, lcp.q());
+    let rules = |thorough| LemkeRules { label, ..LemkeRules::usual(thorough) };
+    let mut run = lemke::follow(&problem, rules(false), monitor)?;
     let lost_accuracy = match run.ending {
         Ending::Done => lcp.measure(&run.z, magnitudes).0 > settings.tolerance,
         Ending::Recession(_) | Ending::Stopped(_) => false,
         _ => true,
     };
     if lost_accuracy {
-        run = lemke::follow(problem, LemkeRules::usual(Refactorising::Thorough), monitor)?;
+        run = lemke::follow(&problem, rules(true), monitor)?;
     }
-    let lemke::LemkeRun { z, ending, refactorisations, .. } = run;
-    Ok(LcpRun { z, ending, factorisations: 0, refactorisations })
+    Ok(LcpRun {
+        z: run.z,
+        ending: run.ending,
+        factorisations: 0,
+        refactorisations: run.refactorisations,
+    })
 }
 
 fn certified(

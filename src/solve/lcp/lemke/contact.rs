@@ -50,7 +50,8 @@
 //! positive semi-definite and the standard theory applies; the same start serves.
 
 use super::contact_lcp::ContactLcp;
-use super::path::{self, LemkeRules, LemkeRun, Refactorising, ScaledLcp};
+use super::path::{self, LemkeRules};
+use crate::certificate::is_escape_of;
 use crate::error::Error;
 use crate::law::Contact;
 use crate::monitor::Monitor;
@@ -84,81 +85,41 @@ pub fn solve(
         Err(why) => return Ok(Candidate::without_displacements(contact, why)),
     };
     if !contact.is_frictionless() {
-        let rules = LemkeRules { care: Refactorising::Usual, end: END, turns: 0 };
-        return with_friction(&lcp, contact, settings, rules, monitor);
+        let rules = LemkeRules { end: END, ..LemkeRules::usual(false) };
+        return run(&lcp, contact, settings, rules, monitor);
     }
-    let usual = frictionless(&lcp, contact, Refactorising::Usual, monitor)?;
+    let usual = run(&lcp, contact, settings, LemkeRules::usual(false), monitor)?;
     if usual.is_settled(contact, settings.tolerance) {
         return Ok(usual);
     }
-    let thorough = frictionless(&lcp, contact, Refactorising::Thorough, monitor)?;
-    Ok(match thorough.ending {
-        Ending::Done => lcp.in_equilibrium(thorough, monitor),
-        _ => thorough,
-    })
+    run(&lcp, contact, settings, LemkeRules::usual(true), monitor)
 }
 
-/// Ends of the path from several starts, and what Newton's method makes of its turning points: all
-/// solutions that the path shows.
-pub fn ends(
-    contact: &Contact<'_>,
-    settings: &Settings,
-    monitor: &mut Monitor<'_>,
-) -> Result<Vec<Candidate>, Error> {
-    let Ok(lcp) = ContactLcp::new(contact, monitor) else { return Ok(Vec::new()) };
-    let mut ends = Vec::new();
-    for cohesion in COHESIONS {
-        if monitor.is_late() {
-            break;
-        }
-        let rules = LemkeRules { care: Refactorising::Usual, end: END, turns: TURNS };
-        let run = run(&lcp, rules, cohesion, monitor)?;
-        for z in run.turns.iter().chain((run.ending == Ending::Done).then_some(&run.z)) {
-            let (pieces, d) = (lcp.pieces(z), lcp.displacements(z));
-            ends.push(from_pieces(contact, settings, &pieces, &d, monitor));
-        }
-    }
-    Ok(ends)
-}
-
-/// Follows a path without friction to its end, where a ray proves that there is no equilibrium.
-fn frictionless(
-    lcp: &ContactLcp<'_>,
-    contact: &Contact<'_>,
-    care: Refactorising,
-    monitor: &mut Monitor<'_>,
-) -> Result<Candidate, Error> {
-    let run = run(lcp, LemkeRules::usual(care), COHESIONS[0], monitor)?;
-    let ending = match run.ending {
-        Ending::Recession(ray) => Ending::Recession(lcp.motion(&ray)),
-        other => other,
-    };
-    let mut candidate = Candidate::of_displacements(contact, lcp.displacements(&run.z), ending);
-    candidate.effort.refactorisations = run.refactorisations;
-    Ok(candidate)
-}
-
-/// Follows a path with friction to its end, and polishes the solution there.
-fn with_friction(
+/// Follows a path to its end, and polishes the solution there.
+fn run(
     lcp: &ContactLcp<'_>,
     contact: &Contact<'_>,
     settings: &Settings,
     rules: LemkeRules,
     monitor: &mut Monitor<'_>,
 ) -> Result<Candidate, Error> {
-    let run = run(lcp, rules, COHESIONS[0], monitor)?;
+    let run = path::follow(&lcp.scaled(COHESIONS[0]), rules, monitor)?;
     let d = lcp.displacements(&run.z);
     let ending = match run.ending {
         // If the body only lifts off, the ray itself is the proof; if it also slips, the balance of
         // the other pairs decides.
         Ending::Recession(ray) => {
-            let balanced = rigid::escape(contact, monitor);
-            Ending::Recession(balanced.unwrap_or_else(|| lcp.motion(&ray)))
+            let motion = lcp.motion(&ray);
+            let proves = is_escape_of(contact, &motion);
+            let balanced = if proves { None } else { rigid::escape(contact, monitor) };
+            Ending::Recession(balanced.unwrap_or(motion))
         }
         other => other,
     };
     let mut candidate = Candidate::of_displacements(contact, d, ending);
-    if candidate.ending == Ending::Done {
+    if candidate.ending == Ending::Done
+        && !(contact.is_frictionless() && candidate.is_settled(contact, settings.tolerance))
+    {
         let (pieces, d) = (lcp.pieces(&run.z), candidate.d().to_vec());
         let mut refined = from_pieces(contact, settings, &pieces, &d, monitor);
         refined.ending = Ending::Done;
@@ -170,14 +131,25 @@ fn with_friction(
     Ok(candidate)
 }
 
-/// Follows a path to its end.
-fn run(
-    lcp: &ContactLcp<'_>,
-    rules: LemkeRules,
-    cohesion: [f64; 2],
+/// Ends of the path from several starts, and what Newton's method makes of its turning points: all
+/// solutions that the path shows.
+pub fn ends(
+    contact: &Contact<'_>,
+    settings: &Settings,
     monitor: &mut Monitor<'_>,
-) -> Result<LemkeRun, Error> {
-    let vectors = lcp.vectors(cohesion);
-    let (q, covering, scale) = (&vectors.q, &vectors.covering, &vectors.scale);
-    path::follow(ScaledLcp { matrix: lcp, q, covering, scale }, rules, monitor)
+) -> Result<Vec<Candidate>, Error> {
+    let Ok(lcp) = ContactLcp::new(contact, monitor) else { return Ok(Vec::new()) };
+    let mut ends = Vec::new();
+    let rules = LemkeRules { end: END, turns: TURNS, ..LemkeRules::usual(false) };
+    for cohesion in COHESIONS {
+        if monitor.is_late() {
+            break;
+        }
+        let run = path::follow(&lcp.scaled(cohesion), rules, monitor)?;
+        for z in run.turns.iter().chain((run.ending == Ending::Done).then_some(&run.z)) {
+            let (pieces, d) = (lcp.pieces(z), lcp.displacements(z));
+            ends.push(from_pieces(contact, settings, &pieces, &d, monitor));
+        }
+    }
+    Ok(ends)
 }

@@ -3,8 +3,7 @@
 
 use std::borrow::Cow;
 
-use super::scaled::Entries;
-use crate::law::complementarity::is_stopped;
+use super::scaled::{Entries, Scaled};
 use crate::law::{Contact, Piece};
 use crate::linalg::factor::cholesky_work;
 use crate::linalg::matrix::Matrix;
@@ -14,7 +13,7 @@ use crate::linalg::vector::norm_inf;
 use crate::monitor::Monitor;
 use crate::problem::FreeBlock;
 use crate::solve::part::{INDEFINITE, driven_motion};
-use crate::solve::result::{Candidate, Ending};
+use crate::solve::result::Ending;
 
 /// The LCP of a contact problem in the variables `(w, a, b)`.
 pub struct ContactLcp<'p> {
@@ -50,16 +49,6 @@ impl Stiffness<'_> {
         };
         (column, move |i: usize| places.map_or(i, |places| places[i]))
     }
-}
-
-/// Right-hand side, covering vector and scales of the variables.
-pub struct Vectors {
-    /// `q`.
-    pub q: Vec<f64>,
-    /// Covering vector.
-    pub covering: Vec<f64>,
-    /// Scales.
-    pub scale: Vec<f64>,
 }
 
 impl<'p> ContactLcp<'p> {
@@ -103,31 +92,25 @@ impl<'p> ContactLcp<'p> {
         Ok(ContactLcp { contact, block, at_rest, normal, tangential, coupling, stiffness })
     }
 
-    /// The vectors, with the cohesion of the covering vector against slip to either side.
-    pub fn vectors(&self, cohesion: [f64; 2]) -> Vectors {
-        let (problem, n, m) = (self.contact.problem(), self.normal.len(), self.tangential.len());
+    /// The problem to be solved, with the cohesion of the covering vector against slip to either side.
+    pub fn scaled(&self, cohesion: [f64; 2]) -> Scaled<'_> {
+        let problem = self.contact.problem();
         let force = self.contact.force_without_tension(&self.at_rest);
-        let root = |i: usize| problem.unit(i).sqrt();
-        let mut vectors = Vectors {
-            q: self.normal.iter().map(|&i| -force[i]).collect(),
-            covering: self.normal.iter().map(|&i| root(i)).collect(),
-            scale: Vec::with_capacity(n + 2 * m),
-        };
+        let root = |i: &usize| problem.unit(*i).sqrt();
+        let mut q: Vec<f64> = self.normal.iter().map(|&i| -force[i]).collect();
+        let mut covering: Vec<f64> = self.normal.iter().map(root).collect();
         for (side, cohesion) in [1.0, -1.0].into_iter().zip(cohesion) {
-            for (k, &i) in self.tangential.iter().enumerate() {
-                let (normal, slope) = self.coupling[k];
+            for (i, &(normal, slope)) in self.tangential.iter().zip(&self.coupling) {
                 let coupled =
                     |values: &[f64]| values.get(normal).map_or(0.0, |value| slope * value);
-                let (bound, clamp) = (coupled(&vectors.q), coupled(&vectors.covering));
+                let (bound, clamp) = (coupled(&q), coupled(&covering));
                 let offset = self.contact.pairs()[i / 2].bound().offset;
-                vectors.q.push(bound + offset + side * force[i]);
-                vectors.covering.push(clamp + cohesion * root(i));
+                q.push(bound + offset + side * force[*i]);
+                covering.push(clamp + cohesion * root(i));
             }
         }
-        let scale = |i: &usize| root(*i).recip();
         let components = self.normal.iter().chain(&self.tangential).chain(&self.tangential);
-        vectors.scale.extend(components.map(scale));
-        vectors
+        Scaled::new(self, &q, &covering, components.map(|i| root(i).recip()).collect())
     }
 
     /// All displacements of a point of the path.
@@ -150,21 +133,6 @@ impl<'p> ContactLcp<'p> {
         motion
     }
 
-    /// A solution with equilibrium solved directly where its closed pairs are fixed, if there is time and that is better.
-    pub fn in_equilibrium(&self, given: Candidate, monitor: &Monitor<'_>) -> Candidate {
-        let (contact, d) = (self.contact, given.d());
-        let free: Vec<usize> = (0..d.len()).filter(|&i| !is_stopped(contact, i, d)).collect();
-        if !monitor.has_time_for(cholesky_work(free.len())) {
-            return given;
-        }
-        let Some(block) = FreeBlock::of_problem(contact.problem(), free) else { return given };
-        let mut better = d.to_vec();
-        block.equilibrate(contact.load_with_tension(), &mut better);
-        let better = given.clone().moved_to(contact, contact.admissible(&better));
-        let improves = better.certificate(contact).eta < given.certificate(contact).eta;
-        if improves { better } else { given }
-    }
-
     fn motion_of_variables(&self, z: &[f64]) -> Vec<f64> {
         let (n, m) = (self.normal.len(), self.tangential.len());
         let mut motion = vec![0.0; self.contact.unknowns()];
@@ -177,12 +145,12 @@ impl<'p> ContactLcp<'p> {
         motion
     }
 
-    /// The pieces of a point of the path in 2D.
+    /// The pieces of a point of the path.
     pub fn pieces(&self, z: &[f64]) -> Vec<Piece> {
         let (n, m) = (self.normal.len(), self.tangential.len());
         let mut variables = vec![[0.0; 3]; self.contact.pairs().len()];
         for (k, &i) in self.normal.iter().enumerate() {
-            variables[i / 2][0] = z[k];
+            variables[i / self.contact.dim()][0] = z[k];
         }
         for (k, &i) in self.tangential.iter().enumerate() {
             (variables[i / 2][1], variables[i / 2][2]) = (z[n + k], z[n + m + k]);

@@ -1,6 +1,6 @@
 //! Lemke's method: for LCPs, for frictionless contact and for friction in 2D.
 
-mod close_ratios;
+mod bimatrix;
 mod contact;
 mod contact_lcp;
 mod path;
@@ -10,5 +10,7 @@ mod scaled;
 mod tableau;
 mod trail;
 
+pub use bimatrix::missing_label;
 pub use contact::{ends, solve as contact};
-pub use path::{LemkeRules, LemkeRun, Refactorising, ScaledLcp, follow};
+pub use path::{LemkeRules, follow};
+pub use scaled::Scaled;

@@ -1,6 +1,8 @@
 //! How the tableau of Lemke's method is kept on its data: its values refined, or the whole of it
 //! recomputed in its basis.
 
+use std::ops::Range;
+
 use super::scaled::Scaled;
 use super::tableau::{MEMORY, Tableau};
 use crate::linalg::factor::{Factor, lu_work, subtract_outer};
@@ -66,23 +68,16 @@ impl Tableau {
         });
         let Some(mut factor) = factor else { return false };
         self.kept.clear();
-        for first in (0..n + 2).step_by(COLUMNS) {
-            let columns: Vec<usize> = (first..(first + COLUMNS).min(n + 2)).collect();
-            let solutions = self.solve_panel(problem, &mut factor, &columns, &equations);
-            self.write_panel(problem, &columns, &solutions, &rows);
+        for first in (0..=n).step_by(COLUMNS) {
+            let columns = first..(first + COLUMNS).min(n + 1);
+            let solutions = self.solve_panel(problem, &mut factor, columns.clone(), &equations);
+            self.write_panel(problem, columns, &solutions, &rows);
         }
+        // The values by two steps of refinement, which leave the rounding of one.
+        self.values.fill(0.0);
+        self.refine(problem);
+        self.refine(problem);
         true
-    }
-
-    /// Right-hand side of the system of the basis for column `c` of the tableau, `q` for the values
-    /// behind the last one.
-    fn write_right_side(&self, problem: &Scaled<'_>, c: usize, side: &mut [f64]) {
-        if c > self.size {
-            side.copy_from_slice(&problem.q);
-            return;
-        }
-        side.fill(0.0);
-        problem.add_column(self.nonbasic[c], -1.0, side, &mut vec![0.0; side.len()]);
     }
 
     /// Writes the right-hand sides into the columns, equation by equation into the row of its `w`, and
@@ -91,19 +86,20 @@ impl Tableau {
         &mut self,
         problem: &Scaled<'_>,
         factor: &mut Factor,
-        columns: &[usize],
+        columns: Range<usize>,
         equations: &[usize],
     ) -> Vec<f64> {
         let n = self.size;
-        let mut side = vec![0.0; n];
+        let (mut side, mut memory) = (vec![0.0; n], vec![0.0; n]);
         let mut solutions = Vec::with_capacity(equations.len() * columns.len());
-        for &c in columns {
-            self.write_right_side(problem, c, &mut side);
+        for c in columns {
+            side.fill(0.0);
+            problem.add_column(self.nonbasic[c], -1.0, &mut side, &mut memory);
             solutions.extend(equations.iter().map(|&i| side[i]));
             for (i, &value) in side.iter().enumerate() {
                 let row = self.place[i];
                 if row < n {
-                    self.target(c)[row] = value;
+                    self.column_mut(c)[row] = value;
                 }
             }
         }
@@ -116,7 +112,7 @@ impl Tableau {
     fn write_panel(
         &mut self,
         problem: &Scaled<'_>,
-        columns: &[usize],
+        columns: Range<usize>,
         solutions: &[f64],
         rows: &[usize],
     ) {
@@ -137,33 +133,13 @@ impl Tableau {
             let y: Vec<f64> = part
                 .flat_map(|k| solutions.chunks_exact(count).map(move |solution| solution[k]))
                 .collect();
-            self.subtract(columns, &x, &y);
+            let target = &mut self.entries[columns.start * self.stride..];
+            subtract_outer(target, (n, columns.len()), self.stride, &x, &y);
         }
-        for (&c, solution) in columns.iter().zip(solutions.chunks_exact(count.max(1))) {
+        for (c, solution) in columns.zip(solutions.chunks_exact(count.max(1))) {
             for (&row, value) in rows.iter().zip(solution) {
-                self.target(c)[row] = *value;
+                self.column_mut(c)[row] = *value;
             }
         }
-    }
-
-    /// Subtracts `sum x_k y_kᵀ` from consecutive columns, the values among them.
-    fn subtract(&mut self, columns: &[usize], x: &[f64], y: &[f64]) {
-        let (n, stride, count) = (self.size, self.stride, columns.len());
-        let stored = columns.iter().filter(|&&c| c <= n).count();
-        if stored == count {
-            let target = &mut self.entries[columns[0] * stride..];
-            subtract_outer(target, (n, count), stride, x, y);
-            return;
-        }
-        for (x, y) in x.chunks_exact(n).zip(y.chunks_exact(count)) {
-            for (&c, &y) in columns.iter().zip(y) {
-                simd::axpy(self.target(c), -y, x);
-            }
-        }
-    }
-
-    /// Column `c`, the values behind the last one.
-    fn target(&mut self, c: usize) -> &mut [f64] {
-        if c > self.size { &mut self.values } else { self.column_mut(c) }
     }
 }

@@ -1,5 +1,7 @@
 //! An LCP, scaled, as the tableau of Lemke's method reads it.
 
+use crate::linalg::matrix::Matrix;
+use crate::linalg::power_of_two::{largest_exponent, times_power_of_two};
 use crate::linalg::simd;
 
 /// The entries of an LCP matrix that nobody needs to store a second time: the tableau begins as a copy
@@ -9,28 +11,64 @@ pub trait Entries {
     fn write_column(&self, j: usize, column: &mut [f64]);
 }
 
-/// The problem that a tableau belongs to, scaled so that its entries are of similar size.
+impl Entries for Matrix<'_> {
+    fn write_column(&self, j: usize, column: &mut [f64]) {
+        column.copy_from_slice(self.column(j));
+    }
+}
+
+/// The problem that a tableau belongs to, in the variables `z_i / scale_i`, `w_i * scale_i`, so that its entries are of
+/// similar size.
 pub struct Scaled<'p> {
     /// `M`.
-    pub matrix: &'p dyn Entries,
+    matrix: &'p dyn Entries,
     /// Row and column scales of `M`.
-    pub scale: &'p [f64],
-    /// `q`, scaled.
+    scale: Vec<f64>,
+    /// `q`, scaled, of size one.
     pub q: Vec<f64>,
-    /// `d > 0`, scaled.
+    /// The exponent of two that `q` has lost.
+    unit: i32,
+    /// `d > 0`, scaled, of size one.
     pub covering: Vec<f64>,
 }
 
-impl Scaled<'_> {
+impl<'p> Scaled<'p> {
+    /// The LCP of a matrix, `q` and a positive covering vector, to be scaled.
+    pub fn new(matrix: &'p dyn Entries, q: &[f64], covering: &[f64], scale: Vec<f64>) -> Self {
+        // Powers of two: the pivots stay the same.
+        let of_size_one = |values: &[f64]| -> (Vec<f64>, i32) {
+            let first = largest_exponent(values.iter().copied()).unwrap_or(0);
+            let scaled = values.iter().zip(&scale);
+            let scaled = scaled.map(|(&value, scale)| times_power_of_two(value, -first) * scale);
+            let scaled: Vec<f64> = scaled.collect();
+            let second = largest_exponent(scaled.iter().copied()).unwrap_or(0);
+            let of_size_one = scaled.iter().map(|&value| times_power_of_two(value, -second));
+            (of_size_one.collect(), first + second)
+        };
+        let ((q, unit), (covering, _)) = (of_size_one(q), of_size_one(covering));
+        Scaled { matrix, scale, q, unit, covering }
+    }
+
     /// Number of equations.
     pub fn size(&self) -> usize {
         self.q.len()
     }
 
+    /// The `z` of the problem that is not scaled.
+    pub fn unscaled(&self, z: impl Iterator<Item = f64>) -> Vec<f64> {
+        let ray = self.unscaled_ray(z);
+        ray.into_iter().map(|z| times_power_of_two(z, self.unit)).collect()
+    }
+
+    /// The direction of `z` in the problem that is not scaled.
+    pub fn unscaled_ray(&self, z: impl Iterator<Item = f64>) -> Vec<f64> {
+        z.zip(&self.scale).map(|(z, scale)| z.max(0.0) * scale).collect()
+    }
+
     /// Writes column `j` of `M`, scaled.
     pub fn write_column(&self, j: usize, column: &mut [f64]) {
         self.matrix.write_column(j, column);
-        for (entry, row_scale) in column.iter_mut().zip(self.scale) {
+        for (entry, row_scale) in column.iter_mut().zip(&self.scale) {
             *entry = row_scale * *entry * self.scale[j];
         }
     }

@@ -14,7 +14,7 @@ use super::rank_one_updates::RankOneUpdates;
 use super::scaled::Scaled;
 use crate::error::Error;
 use crate::linalg::simd::{self, Simd};
-use crate::linalg::tolerances::{NEGLIGIBLE, ROUNDING};
+use crate::linalg::tolerances::NEGLIGIBLE;
 use crate::linalg::vector::norm_inf;
 use crate::monitor::{COLUMNS, Monitor, Stop};
 
@@ -143,9 +143,8 @@ impl Tableau {
     }
 
     /// The rows whose basic variables reach zero first when the chosen variable `entering` grows, as far as
-    /// ratios can be told apart that are accurate to `relative`, and values to `rounding` of the largest
-    /// one. None: it can grow for ever.
-    pub fn ties(&self, entering: usize, relative: f64, rounding: f64) -> Vec<usize> {
+    /// ratios and values can be told apart. None: it can grow for ever.
+    fn ties(&self, entering: usize) -> Vec<usize> {
         let column = &self.entering;
         let largest = norm_inf(column);
         // In the column of a z the data are of size one: smaller coefficients are rounding of those.
@@ -154,19 +153,19 @@ impl Tableau {
         let blocking = || (0..self.size).filter(|&row| column[row] < least);
         let ratio = |row: usize| self.values[row].max(0.0) / -column[row];
         let first = blocking().map(ratio).fold(f64::INFINITY, f64::min);
-        // The second term ties values that are zero up to rounding; divided by the largest
+        // The second term ties values that are zero up to the rounding of the pivots before; divided by the largest
         // coefficient, it pushes no basic variable below zero by more than that rounding.
         let scale = norm_inf(&self.values);
-        let last = first * (1.0 + relative) + rounding * scale / largest;
+        let last = first * (1.0 + NEGLIGIBLE) + NEGLIGIBLE * scale / largest;
         blocking().filter(|&row| ratio(row) <= last).collect()
     }
 
     /// The row whose basic variable reaches zero first when the chosen variable `entering` grows;
     /// among ties that of `preferred`, then the lexicographic one. `None`: it can grow for ever.
-    pub fn blocking_row(&self, entering: usize, preferred: usize) -> Option<usize> {
+    pub fn blocking_row(&self, entering: usize, preferred: [usize; 2]) -> Option<usize> {
         let (column, largest) = (&self.entering, norm_inf(&self.entering));
-        let mut ties = self.ties(entering, NEGLIGIBLE, ROUNDING);
-        if let Some(&row) = ties.iter().find(|&&row| self.basic[row] == preferred) {
+        let mut ties = self.ties(entering);
+        if let Some(&row) = ties.iter().find(|&&row| preferred.contains(&self.basic[row])) {
             return Some(row);
         }
         // Perturb q by (e, e², …): its coefficients decide, one component after the other.
@@ -193,16 +192,13 @@ impl Tableau {
         }
     }
 
-    /// The row that leaves when `z0` enters the first basis: that which makes all values
-    /// non-negative, the last of ties as the lexicographic rule has it.
-    pub fn first_row(&self) -> Option<usize> {
-        let (values, covering) = (&self.values, self.column(self.size));
-        let ratio = |row: usize| values[row] / covering[row];
-        let first = (0..self.size).map(ratio).fold(0.0, f64::min);
-        (0..self.size)
-            .rev()
-            .find(|&row| ratio(row) <= first * (1.0 - NEGLIGIBLE))
-            .filter(|_| first < 0.0)
+    /// The row whose value comes to zero last when the chosen variable grows, so that all that grow with it are
+    /// non-negative: of ties the last one, as the lexicographic rule has it. `None`: none of these is negative.
+    pub fn last_to_rise(&self) -> Option<usize> {
+        let ratio = |row: usize| self.values[row] / self.entering[row];
+        let rising = || (0..self.size).filter(|&row| self.entering[row] > 0.0);
+        let first = rising().map(ratio).fold(0.0, f64::min);
+        rising().rev().find(|&row| ratio(row) <= first * (1.0 - NEGLIGIBLE)).filter(|_| first < 0.0)
     }
 
     /// Operations of the next [`Self::pivot`]: those of the changes that it makes in the tableau.
