@@ -18,6 +18,7 @@
 //! | `complementarity` | the law as complementarity of non-negative variables | Lemke's method, block pivoting |
 //! | `fixed_state` | which states can be taken for decided, and how such a pair is held | `solve::newton` |
 //! | `enclosed_piece` | a pair on a piece that is given, with bounds on all that is computed of it | proofs that a solution exists |
+//! | `drawn` | points of the law at random | `solve::proximal` |
 //! | `reach` | which obstacles are too far away to matter | `solve::plan` |
 //! | `contradiction` | when normal forces prove that no displacements meet all gaps | `solve::dependent` |
 //! | `recession` | what a rigid motion must satisfy to prove that no equilibrium exists | certificate |
@@ -40,6 +41,7 @@ mod bound;
 pub mod complementarity;
 mod contact;
 mod contradiction;
+mod drawn;
 pub mod ellipse;
 mod enclosed_piece;
 mod fixed_state;

@@ -78,10 +78,9 @@ fn problem(rng: &mut Rng, kind: Kind, most_mu: f64) -> Case {
     case
 }
 
-/// Parts of each kind that may still be unsolved, with friction up to 2 and up to 50: the goal is 0 and 0.01. Of 2000
-/// there were none of definite ones, 0.037 and 0.18 of singular ones, 0.023 and 0.15 in islands.
-const STILL: [(Kind, [f64; 2]); 3] =
-    [(Kind::Definite, [0.0, 0.0]), (Kind::Singular, [0.05, 0.22]), (Kind::Islands, [0.035, 0.19])];
+/// Parts that may still be unsolved, with friction up to 2 and up to 50. Of 2000 of each kind one was, of singular ones
+/// with friction up to 50.
+const STILL: [(f64, f64); 2] = [(2.0, 0.0), (50.0, 0.01)];
 
 /// None is said to have no solution, and what is solved passes the judge.
 #[test]
@@ -90,8 +89,8 @@ fn problems_with_a_solution_are_solved() {
         std::env::var("SIGNORINI_FLEXIBLE").ok().map(|text| text.parse().expect("a number"));
     let count = count.unwrap_or(PROBLEMS);
     let mut wrong = 0_u64;
-    for (kind, still) in STILL {
-        for (most_mu, still) in [2.0, 50.0].into_iter().zip(still) {
+    for kind in [Kind::Definite, Kind::Singular, Kind::Islands] {
+        for (most_mu, still) in STILL {
             let mut unsolved = 0_u32;
             for seed in 0..count {
                 let case = problem(&mut Rng::with_seed(seed), kind, most_mu);

@@ -1,6 +1,7 @@
 //! The stiffness of bodies and springs in series, `(W + e D⁻¹)⁻¹`.
 
 use crate::linalg::factor::{Factor, cholesky_work};
+use crate::linalg::tolerances::SINGULAR;
 use crate::monitor::{Monitor, Stop};
 use crate::problem::{Flexibility, Relation};
 
@@ -71,22 +72,31 @@ const BLOCK: usize = 64;
 /// is of the order of its size times `2e-16`.
 const NEGATIVE: f64 = 1e-9;
 
+/// Least pivot of a `W` that is told from a singular one, beside the largest. Forces are then known to the tolerance over
+/// it.
+const DEFINITE: f64 = 1e-6;
+
+/// True if `W` is definite. `Err`: there is no time to see it.
+pub fn is_definite(relation: &Flexibility<'_>, monitor: &mut Monitor<'_>) -> Result<bool, Stop> {
+    Ok(factor(relation, (0.0, DEFINITE), monitor)?.is_some())
+}
+
 /// True if `W` has an eigenvalue below zero that is not due to rounding; if there is no time to see it, it has not.
 pub fn is_indefinite(relation: &Flexibility<'_>, monitor: &mut Monitor<'_>) -> bool {
-    matches!(factor(relation, NEGATIVE, monitor), Ok(None))
+    matches!(factor(relation, (NEGATIVE, SINGULAR), monitor), Ok(None))
 }
 
 /// The factor of the scaled `D^½ W D^½ + e`; `None` if there is none. `Err`: there is no time for it.
 fn factor(
     relation: &Flexibility<'_>,
-    compliance: f64,
+    (compliance, least): (f64, f64),
     monitor: &mut Monitor<'_>,
 ) -> Result<Option<Factor>, Stop> {
     let n = relation.size();
     let root = roots(relation);
     let matrix = relation.matrix();
     monitor.affords(cholesky_work(n))?;
-    Ok(Factor::new(n, true, |j, column| {
+    Ok(Factor::with_least_pivot(n, true, least, |j, column| {
         for i in j..n {
             column[i] = root[i] * matrix.at(i, j) * root[j];
         }
@@ -107,7 +117,9 @@ fn stiffness(
 ) -> Result<Option<Vec<f64>>, Stop> {
     let n = relation.size();
     let root = roots(relation);
-    let Some(mut factor) = factor(relation, compliance, monitor)? else { return Ok(None) };
+    let Some(mut factor) = factor(relation, (compliance, SINGULAR), monitor)? else {
+        return Ok(None);
+    };
     let mut inverse = vec![0.0; n * n];
     inverse.iter_mut().step_by(n + 1).for_each(|entry| *entry = 1.0);
     for columns in inverse.chunks_mut((BLOCK * n).max(1)) {

@@ -1,5 +1,9 @@
 //! The flexibility form `d = W F + q`, with a `W` that may be singular.
 //!
+//! A definite `W` is left to Newton's method on `W` itself ([`super::on_flexibility`]). Where that fails, and where `W` is
+//! singular, rounds follow; and where they end without a solution a few pairs are solved from points that are drawn
+//! ([`super::drawn`]).
+//!
 //! Forces that `W` does not feel are not determined by displacements. So each pair gets a soft spring in
 //! series:
 //!
@@ -12,10 +16,12 @@
 //! them: rounds with an `e` of its size run away from the solution, and harder springs may leave Newton's method
 //! without one.
 
-use super::compliant::{Springs, is_indefinite};
+use super::compliant::{Springs, is_definite, is_indefinite};
+use super::drawn::drawn;
 use super::growth::Growth;
+use super::on_flexibility::OnFlexibility;
 use super::rounds::{Found, InSeries, rounds, solve as solve_by_rounds};
-use super::step::stopped;
+use super::step::{of_forces, stopped};
 use crate::error::{Argument, Error};
 use crate::law::{Contact, pressing};
 use crate::linalg::vector::norm_inf;
@@ -37,6 +43,19 @@ pub fn solve(
     number: &dyn Fn(usize) -> usize,
     monitor: &mut Monitor<'_>,
 ) -> Result<Solution, Error> {
+    let contact = &Contact::new(problem);
+    let force = start.map_or_else(|| vec![0.0; problem.unknowns()], <[f64]>::to_vec);
+    let takes_newton = matches!(settings.method, Method::Auto | Method::Newton);
+    if takes_newton && is_definite(problem.relation(), monitor) == Ok(true) {
+        let mut equations = OnFlexibility::new(contact, None, true);
+        let begin = equations.coordinates(&force);
+        let found = equations.solve(begin, settings.tolerance, monitor);
+        let effort = (&found.ending, found.systems);
+        let solution = of_forces(contact, &found.force, settings, effort);
+        if solution.status != Status::Stalled {
+            return Ok(solution);
+        }
+    }
     let mut by_rounds =
         |problem: &FlexibilityProblem<'_>, settings: &Settings, start: Option<&[f64]>| {
             let force = start.map_or_else(|| vec![0.0; problem.unknowns()], <[f64]>::to_vec);
@@ -63,6 +82,12 @@ pub fn solve(
         let eta = solution.certificate.eta;
         solution.message =
             format!("{INDEFINITE}, and forces do not settle (eta is {eta:.1e})").into();
+    }
+    if solution.status == Status::Stalled
+        && settings.method == Method::Auto
+        && let Some(found) = drawn(contact, settings, &force, monitor)
+    {
+        return Ok(found);
     }
     Ok(solution)
 }

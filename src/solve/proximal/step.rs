@@ -4,9 +4,9 @@ use crate::certificate::measure;
 use crate::error::Error;
 use crate::law::Contact;
 use crate::monitor::{Monitor, Stop};
-use crate::problem::{ContactData, ContactProblem, Relation};
-use crate::settings::Settings;
-use crate::solve::result::{Existence, Solution, Solve, Status, Uniqueness};
+use crate::problem::{ContactData, ContactProblem, Flexibility, Relation};
+use crate::settings::{Method, Settings};
+use crate::solve::result::{Ending, Existence, Solution, Solve, Status, Uniqueness};
 
 /// Solves for the step from the displacements `d`, with the `stiffness` of bodies and springs, column-major,
 /// and their `load`.
@@ -55,6 +55,29 @@ pub fn stopped<R: Relation>(
     };
     let existence = if settings.proof { Existence::NotProved } else { Existence::NotAsked };
     Solution { existence, ..Solution::of(settings.method, ending, d, certificate) }
+}
+
+/// The result of forces that Newton's method has found on the flexibility.
+pub fn of_forces(
+    contact: &Contact<'_, Flexibility<'_>>,
+    force: &[f64],
+    settings: &Settings,
+    (ending, systems): (&Ending, u64),
+) -> Solution {
+    let d = contact.problem().relation().relative(force);
+    let certificate = measure(contact, &d, force);
+    let accuracy = format!("eta is {:.1e}", certificate.eta);
+    let wanted = format!("{accuracy}, wanted {:.1e}", settings.tolerance);
+    let ended = match ending {
+        _ if certificate.holds(settings.tolerance) => {
+            (Status::Solved, format!("solved: {accuracy}"))
+        }
+        Ending::Stopped(stop) => stop.status(settings, &wanted),
+        other => (Status::Stalled, format!("{}; {wanted}", other.reason(&certificate))),
+    };
+    let existence = if settings.proof { Existence::NotProved } else { Existence::NotAsked };
+    let solution = Solution::of(Method::Newton, ended, d, certificate);
+    Solution { existence, factorisations: systems, ..solution }
 }
 
 /// The result of a round as one of the problem itself, of displacements `d` and forces.

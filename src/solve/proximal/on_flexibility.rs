@@ -1,0 +1,281 @@
+//! Newton's method on the flexibility itself: no stiffness is formed, and a pair without a force costs nothing.
+//!
+//! The unknowns are the coordinates `y` of the normal map, whose `(v, P)` obey the law. What is left to be solved is
+//!
+//! ```text
+//! H(y) = d(y) - q - W F - e D⁻¹ (F - F_k) = 0,    F = -P(y)
+//! ```
+//!
+//! where the springs in series, of the compliance `e`, may be missing. A pair whose push does not change has `dP = 0`:
+//! its columns are `dd/dy` alone, so that the system is one of the other pairs, and its own coordinates follow.
+//!
+//! Where `W` is singular and there are no springs, the system is damped: `ε D⁻¹ dP` is added, with an `ε` of the size of
+//! the lack, which is nothing at a solution.
+
+use crate::law::{Contact, PairBlock, PairLaw, Vector};
+use crate::linalg::factor::{Factor, lu_work};
+use crate::linalg::vector::{NormSum, norm};
+use crate::monitor::Monitor;
+use crate::problem::{Flexibility, Relation};
+use crate::solve::newton::{Goal, Halt, NewtonOutcome, NormalMap, descend};
+use crate::solve::result::Ending;
+use std::convert::Infallible;
+
+/// Least and largest damping, beside flexibilities of size one. With `1e-3` fewer first starts arrive, with `0.1` more of
+/// them arrive and fewer of those that are drawn.
+const DAMPING: [f64; 2] = [1e-13, 1e-2];
+
+/// Systems after which it is given up.
+const MOST_SYSTEMS: u64 = 40;
+
+/// Part of the tolerance that is aimed at: forces are known to less than `eta` where `W` hardly feels them, and the last
+/// system of Newton's method gives most of the digits.
+const ACCURATE: f64 = 1e-3;
+
+/// Forces and how they were found.
+pub struct Found {
+    /// Contact forces, which obey the law.
+    pub force: Vec<f64>,
+    /// The coordinates.
+    pub y: Vec<Vector>,
+    /// Length of what is left of `H`.
+    pub lack: f64,
+    pub ending: Ending,
+    /// Systems that were factorised.
+    pub systems: u64,
+}
+
+/// The equations of a problem.
+pub struct OnFlexibility<'c, 'p> {
+    contact: &'c Contact<'p, Flexibility<'p>>,
+    /// `e` and `F_k`.
+    springs: Option<(f64, &'c [f64])>,
+    /// Largest damping; 0 with springs.
+    damping: f64,
+    /// Roots of the scales of the components: `y / root` and `root d` are of one unit.
+    root: Vec<f64>,
+    systems: u64,
+}
+
+/// A point of the law.
+pub struct LawPoint {
+    y: Vec<Vector>,
+    force: Vec<f64>,
+    /// `H`, a length.
+    lack: Vec<f64>,
+    merit: f64,
+}
+
+impl<'c, 'p> OnFlexibility<'c, 'p> {
+    /// The equations with springs in series of the compliance `e`, which `F_k` has stretched, or without.
+    pub fn new(
+        contact: &'c Contact<'p, Flexibility<'p>>,
+        springs: Option<(f64, &'c [f64])>,
+        is_definite: bool,
+    ) -> Self {
+        let scales = contact.pairs().iter().flat_map(|law| law.scale().into_iter());
+        let dim = contact.dim();
+        let root = scales.enumerate().filter(|(c, _)| c % 3 < dim).map(|(_, k)| k.sqrt()).collect();
+        let damping = if is_definite || springs.is_some() { 0.0 } else { DAMPING[1] };
+        OnFlexibility { contact, springs, damping, root, systems: 0 }
+    }
+
+    fn relation(&self) -> &'p Flexibility<'p> {
+        self.contact.problem().relation()
+    }
+
+    /// The coordinates of contact forces, and of the displacements that they cause.
+    pub fn coordinates(&self, force: &[f64]) -> Vec<Vector> {
+        let d = self.caused(force);
+        self.contact.each(&d, force).map(|(law, d, force)| law.chart(d, force)).collect()
+    }
+
+    /// The length of `H` where there is no force and no slip beside the reference.
+    pub fn size(&self) -> f64 {
+        let reference = self.contact.pairs().iter().flat_map(|law| law.reference().into_iter());
+        let dim = self.contact.dim();
+        let reference = reference.enumerate().filter(|(c, _)| c % 3 < dim).map(|(_, r)| r);
+        let lack = reference.zip(self.relation().free()).map(|(r, q)| r - q);
+        self.length(&lack.collect::<Vec<f64>>())
+    }
+
+    /// Newton's method from the coordinates `y`.
+    pub fn solve(&mut self, y: Vec<Vector>, tolerance: f64, monitor: &mut Monitor<'_>) -> Found {
+        let (before, tolerance) = (self.systems, ACCURATE * tolerance);
+        let goal = Goal { tolerance, least_systems: 0, most_systems: MOST_SYSTEMS, full_steps: 0 };
+        let begin = self.point(y);
+        let Ok(NewtonOutcome { point, ending }) = descend(self, begin, goal, monitor);
+        let LawPoint { y, force, merit, .. } = point;
+        Found { force, y, lack: merit, ending, systems: self.systems - before }
+    }
+
+    /// `W F + q`, and what springs add.
+    fn caused(&self, force: &[f64]) -> Vec<f64> {
+        let mut d = self.relation().free().to_vec();
+        let matrix = self.relation().matrix();
+        for (j, &force) in force.iter().enumerate().filter(|(_, force)| **force != 0.0) {
+            d.iter_mut().zip(matrix.column(j)).for_each(|(d, w)| *d += w * force);
+        }
+        if let Some((compliance, stretched)) = self.springs {
+            let units = self.relation().units();
+            for (i, d) in d.iter_mut().enumerate() {
+                *d += compliance / units[i] * (force[i] - stretched[i]);
+            }
+        }
+        d
+    }
+
+    fn point(&self, y: Vec<Vector>) -> LawPoint {
+        let dim = self.contact.dim();
+        let (mut lack, mut force) = (Vec::new(), Vec::new());
+        for (law, y) in self.contact.pairs().iter().zip(&y) {
+            let (d, push) = law.point(y);
+            lack.extend_from_slice(&d[..dim]);
+            force.extend(push[..dim].iter().map(|p| -p));
+        }
+        let caused = self.caused(&force);
+        lack.iter_mut().zip(caused).for_each(|(lack, caused)| *lack -= caused);
+        let merit = self.length(&lack);
+        LawPoint { y, force, lack, merit }
+    }
+
+    /// Length of a vector of displacements, each in the unit of its component.
+    fn length(&self, d: &[f64]) -> f64 {
+        let mut sum = NormSum::default();
+        d.iter().zip(&self.root).for_each(|(d, root)| sum.add(d * root));
+        sum.root()
+    }
+
+    /// `e + ε` at a point.
+    fn compliance(&self, point: &LawPoint) -> f64 {
+        match self.springs {
+            Some((compliance, _)) => compliance,
+            None if self.damping == 0.0 => 0.0,
+            None => (point.merit / self.size()).clamp(DAMPING[0], self.damping),
+        }
+    }
+
+    /// The changes of the coordinates by those of the pushes of pairs in `system`.
+    fn complete(&self, system: &System<'_>, own: &[f64]) -> Vec<Vector> {
+        let (dim, matrix) = (self.contact.dim(), self.relation().matrix());
+        let mut change: Vec<f64> = system.lack.iter().map(|lack| -lack).collect();
+        let mut step = vec![[0.0; 3]; system.slopes.len()];
+        for (j, own) in system.unknowns.iter().zip(own) {
+            step[j / dim][j % dim] = own * self.root[*j];
+        }
+        for &pair in &system.pairs {
+            for (row, slopes) in system.slopes[pair][..dim].iter().enumerate() {
+                let push: f64 = slopes.iter().zip(&step[pair]).map(|(s, dy)| s * dy).sum();
+                let column = matrix.column(dim * pair + row);
+                change.iter_mut().zip(column).for_each(|(change, w)| *change -= w * push);
+            }
+        }
+        for (pair, law) in self.contact.pairs().iter().enumerate() {
+            if !moves(&system.slopes[pair]) {
+                let linear = law.linearised_by(&system.slopes[pair], true);
+                step[pair] = linear.scaled(&change[dim * pair..dim * (pair + 1)]);
+            }
+        }
+        step
+    }
+}
+
+/// The pairs whose pushes change, and to first order how.
+struct System<'a> {
+    pairs: Vec<usize>,
+    /// Their components.
+    unknowns: Vec<usize>,
+    /// `dP/dy` of all pairs.
+    slopes: Vec<PairBlock>,
+    lack: &'a [f64],
+}
+
+/// True if the push of a pair with this `dP/dy` changes.
+fn moves(slopes: &PairBlock) -> bool {
+    *slopes != [[0.0; 3]; 3]
+}
+
+/// Column `c` of `dP/dy`, and of `dd/dy`.
+fn column(law: &PairLaw, slopes: &PairBlock, c: usize) -> (Vector, Vector) {
+    let push = [slopes[0][c], slopes[1][c], slopes[2][c]];
+    let mut rest = push.map(|p| -p);
+    rest[c] += 1.0;
+    (push, law.displacement_by(&rest))
+}
+
+impl NormalMap for OnFlexibility<'_, '_> {
+    type Point = LawPoint;
+    type Step = Vec<Vector>;
+    type Failure = Infallible;
+
+    fn eta(&self, point: &LawPoint) -> f64 {
+        let (relation, mut sum) = (self.relation(), NormSum::default());
+        let mut residual = [0.0; 3];
+        let caused = self.caused(&point.force);
+        for (law, d, force) in self.contact.each(&caused, &point.force) {
+            law.natural_residual(d, force, &mut residual);
+            residual[..d.len()].iter().for_each(|&e| sum.add(e));
+        }
+        let felt = caused.iter().zip(relation.free()).zip(relation.units());
+        let felt: Vec<f64> = felt.map(|((d, q), unit)| unit * (d - q)).collect();
+        let size = norm(relation.load()).max(norm(&point.force).min(norm(&felt)));
+        let sum = sum.root();
+        if sum == 0.0 { 0.0 } else { sum / size }
+    }
+
+    fn merit(&self, point: &LawPoint) -> f64 {
+        point.merit
+    }
+
+    fn step(
+        &mut self,
+        point: &LawPoint,
+        monitor: &mut Monitor<'_>,
+    ) -> Result<Vec<Vector>, Halt<Infallible>> {
+        let (dim, laws) = (self.contact.dim(), self.contact.pairs());
+        let (matrix, units) = (self.relation().matrix(), self.relation().units());
+        let slopes: Vec<PairBlock> =
+            laws.iter().zip(&point.y).map(|(law, y)| law.derivative(y)).collect();
+        let pairs: Vec<usize> = (0..laws.len()).filter(|&pair| moves(&slopes[pair])).collect();
+        let unknowns: Vec<usize> =
+            pairs.iter().flat_map(|pair| dim * pair..dim * (pair + 1)).collect();
+        let compliance = self.compliance(point);
+        let n = unknowns.len();
+        monitor.affords(lu_work(n))?;
+        let factor = Factor::new(n, false, |j, entries| {
+            let (pair, c) = (unknowns[j] / dim, unknowns[j] % dim);
+            let (push, motion) = column(&laws[pair], &slopes[pair], c);
+            entries.fill(0.0);
+            for (row, push) in push[..dim].iter().enumerate().filter(|(_, push)| **push != 0.0) {
+                let w = matrix.column(dim * pair + row);
+                entries.iter_mut().zip(&unknowns).for_each(|(entry, &i)| *entry += w[i] * push);
+            }
+            let first = j - c;
+            for row in 0..dim {
+                entries[first + row] +=
+                    motion[row] + compliance / units[unknowns[first + row]] * push[row];
+            }
+            let scale = self.root[unknowns[j]];
+            entries
+                .iter_mut()
+                .zip(&unknowns)
+                .for_each(|(entry, &i)| *entry *= self.root[i] * scale);
+        });
+        self.systems += 1;
+        let mut factor = factor.ok_or(Halt::Ended(Ending::Singular))?;
+        let mut own: Vec<f64> = unknowns.iter().map(|&i| -self.root[i] * point.lack[i]).collect();
+        factor.solve(&mut own);
+        let system = System { pairs, unknowns, slopes, lack: &point.lack };
+        Ok(self.complete(&system, &own))
+    }
+
+    fn moved(
+        &mut self,
+        point: &LawPoint,
+        step: &Vec<Vector>,
+        part: f64,
+    ) -> Result<LawPoint, Infallible> {
+        let each = |(y, dy): (&Vector, &Vector)| std::array::from_fn(|c| y[c] + part * dy[c]);
+        Ok(self.point(point.y.iter().zip(step).map(each).collect()))
+    }
+}
