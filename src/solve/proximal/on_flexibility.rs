@@ -192,7 +192,7 @@ struct System<'a> {
 
 /// True if the push of a pair with this `dP/dy` changes.
 fn moves(slopes: &PairBlock) -> bool {
-    *slopes != [[0.0; 3]; 3]
+    slopes.iter().flatten().any(|slope| *slope != 0.0)
 }
 
 /// Column `c` of `dP/dy`, and of `dd/dy`.
