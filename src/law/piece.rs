@@ -54,6 +54,11 @@ impl Piece {
     /// Open, without tangential force.
     pub const OPEN: Piece = Piece { closed: false, tangential: Tangential::Free };
 
+    /// Returns `true` if a force may act on the pair.
+    pub fn carries_force(self) -> bool {
+        self != Piece::OPEN
+    }
+
     /// Returns `true` if the slip is not held: the tangential force is on its bound, which may be zero.
     #[inline(always)]
     pub fn slips(self) -> bool {

@@ -12,9 +12,10 @@
 //! Where `W` is singular and there are no springs, the system is damped: `ε D⁻¹ dP` is added, with an `ε` of the size of
 //! the lack, which is nothing at a solution.
 
-use crate::law::{Contact, PairBlock, PairLaw, Vector};
+use crate::law::{Contact, PairBlock, PairLaw, Piece, Vector};
 use crate::linalg::factor::{Factor, lu_work};
-use crate::linalg::vector::{NormSum, norm};
+use crate::linalg::matrix::Matrix;
+use crate::linalg::vector::{NormSum, dot, norm};
 use crate::monitor::Monitor;
 use crate::problem::{Flexibility, Relation};
 use crate::solve::newton::{Goal, Halt, NewtonOutcome, NormalMap, descend};
@@ -112,10 +113,7 @@ impl<'c, 'p> OnFlexibility<'c, 'p> {
     /// `W F + q`, and what springs add.
     fn caused(&self, force: &[f64]) -> Vec<f64> {
         let mut d = self.relation().free().to_vec();
-        let matrix = self.relation().matrix();
-        for (j, &force) in force.iter().enumerate().filter(|(_, force)| **force != 0.0) {
-            d.iter_mut().zip(matrix.column(j)).for_each(|(d, w)| *d += w * force);
-        }
+        add_products(&self.relation().matrix(), force.iter().copied().enumerate(), &mut d);
         if let Some((compliance, stretched)) = self.springs {
             let units = self.relation().units();
             for (i, d) in d.iter_mut().enumerate() {
@@ -164,14 +162,12 @@ impl<'c, 'p> OnFlexibility<'c, 'p> {
             step[j / dim][j % dim] = own * self.root[*j];
         }
         for &pair in &system.pairs {
-            for (row, slopes) in system.slopes[pair][..dim].iter().enumerate() {
-                let push: f64 = slopes.iter().zip(&step[pair]).map(|(s, dy)| s * dy).sum();
-                let column = matrix.column(dim * pair + row);
-                change.iter_mut().zip(column).for_each(|(change, w)| *change -= w * push);
-            }
+            let push = system.slopes[pair].map(|row| dot(&row, &step[pair]));
+            let forces = (0..dim).map(|c| (dim * pair + c, -push[c]));
+            add_products(&matrix, forces, &mut change);
         }
         for (pair, law) in self.contact.pairs().iter().enumerate() {
-            if !moves(&system.slopes[pair]) {
+            if !system.pieces[pair].carries_force() {
                 let linear = law.linearised_by(&system.slopes[pair], true);
                 step[pair] = linear.scaled(&change[dim * pair..dim * (pair + 1)]);
             }
@@ -182,6 +178,7 @@ impl<'c, 'p> OnFlexibility<'c, 'p> {
 
 /// The pairs whose pushes change, and to first order how.
 struct System<'a> {
+    pieces: Vec<Piece>,
     pairs: Vec<usize>,
     /// Their components.
     unknowns: Vec<usize>,
@@ -190,9 +187,11 @@ struct System<'a> {
     lack: &'a [f64],
 }
 
-/// True if the push of a pair with this `dP/dy` changes.
-fn moves(slopes: &PairBlock) -> bool {
-    slopes.iter().flatten().any(|slope| *slope != 0.0)
+/// Adds the products of columns with forces; those without one cost nothing.
+fn add_products(matrix: &Matrix<'_>, forces: impl Iterator<Item = (usize, f64)>, sum: &mut [f64]) {
+    for (j, by) in forces.filter(|(_, by)| *by != 0.0) {
+        sum.iter_mut().zip(matrix.column(j)).for_each(|(sum, w)| *sum += w * by);
+    }
 }
 
 /// Column `c` of `dP/dy`, and of `dd/dy`.
@@ -234,9 +233,12 @@ impl NormalMap for OnFlexibility<'_, '_> {
     ) -> Result<Vec<Vector>, Halt<Infallible>> {
         let (dim, laws) = (self.contact.dim(), self.contact.pairs());
         let (matrix, units) = (self.relation().matrix(), self.relation().units());
+        let pieces: Vec<Piece> = laws.iter().zip(&point.y).map(|(law, y)| law.piece(y)).collect();
+        let places = laws.iter().zip(&pieces).zip(&point.y);
         let slopes: Vec<PairBlock> =
-            laws.iter().zip(&point.y).map(|(law, y)| law.derivative(y)).collect();
-        let pairs: Vec<usize> = (0..laws.len()).filter(|&pair| moves(&slopes[pair])).collect();
+            places.map(|((law, piece), y)| law.derivative_on(*piece, y)).collect();
+        let pairs: Vec<usize> =
+            (0..laws.len()).filter(|&pair| pieces[pair].carries_force()).collect();
         let unknowns: Vec<usize> =
             pairs.iter().flat_map(|pair| dim * pair..dim * (pair + 1)).collect();
         let compliance = self.compliance(point);
@@ -265,7 +267,7 @@ impl NormalMap for OnFlexibility<'_, '_> {
         let mut factor = factor.ok_or(Halt::Ended(Ending::Singular))?;
         let mut own: Vec<f64> = unknowns.iter().map(|&i| -self.root[i] * point.lack[i]).collect();
         factor.solve(&mut own);
-        let system = System { pairs, unknowns, slopes, lack: &point.lack };
+        let system = System { pieces, pairs, unknowns, slopes, lack: &point.lack };
         Ok(self.complete(&system, &own))
     }
 
