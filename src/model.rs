@@ -2,7 +2,7 @@
 
 mod arguments;
 mod cases;
-mod dense;
+mod condensed;
 mod flexibility;
 mod kind;
 mod load_case;

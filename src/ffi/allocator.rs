@@ -13,7 +13,8 @@ use std::cell::Cell;
 use std::ptr::null_mut;
 use std::sync::atomic::Ordering::Relaxed;
 
-use super::blocks::{self, ALIGNMENT, Block, SERVED, SLOT, Served, block_of, return_block};
+use super::blocks::{self, ALIGNMENT, Block, SERVED, SLOT, block_of, return_block};
+use super::fork_lock::wait_at_forks;
 use super::holes::Holes;
 use crate::shortage;
 
@@ -36,8 +37,7 @@ pub(super) struct CallReserve {
 impl CallReserve {
     /// `None`: the system has no memory.
     pub(super) fn begin() -> Option<Self> {
-        #[cfg(unix)]
-        Served::wait_at_forks();
+        wait_at_forks();
         let outermost = LAST.get().is_null();
         if outermost {
             shortage::forget();

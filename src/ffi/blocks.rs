@@ -2,11 +2,11 @@
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::UnsafeCell;
-use std::hint::spin_loop;
 use std::ptr::null_mut;
 use std::sync::atomic::Ordering::{Acquire, Relaxed, Release};
 use std::sync::atomic::{AtomicBool, AtomicUsize};
 
+use super::fork_lock::BLOCKS;
 use super::holes::Holes;
 
 /// Static blocks: as many threads at once call without a request for their first reserve.
@@ -52,53 +52,20 @@ pub(super) struct Block {
 
 /// The blocks that have served, of all threads: whoever frees a piece finds its block here.
 pub(super) struct Served {
-    locked: AtomicBool,
     pub(super) count: AtomicUsize,
     first: UnsafeCell<*mut Block>,
 }
 
-// SAFETY: `first`, and the blocks from there on, are used by who has set `locked`.
+// SAFETY: `first`, and the blocks from there on, are used under the lock of the blocks.
 unsafe impl Sync for Served {}
 
-pub(super) static SERVED: Served = Served {
-    locked: AtomicBool::new(false),
-    count: AtomicUsize::new(0),
-    first: UnsafeCell::new(null_mut()),
-};
+pub(super) static SERVED: Served =
+    Served { count: AtomicUsize::new(0), first: UnsafeCell::new(null_mut()) };
 
 impl Served {
-    /// Runs `work` alone. A mutex of the standard library may need memory itself.
+    /// Runs `work` alone.
     pub(super) fn alone<T>(&self, work: impl FnOnce(*mut *mut Block) -> T) -> T {
-        self.lock();
-        let result = work(self.first.get());
-        self.unlock();
-        result
-    }
-
-    fn lock(&self) {
-        while self.locked.compare_exchange_weak(false, true, Acquire, Relaxed).is_err() {
-            spin_loop();
-        }
-    }
-
-    fn unlock(&self) {
-        self.locked.store(false, Release);
-    }
-
-    /// Lets a fork wait until nobody changes the list: the child has no thread that would end such a change.
-    #[cfg(unix)]
-    pub(super) fn wait_at_forks() {
-        extern "C" fn lock() {
-            SERVED.lock();
-        }
-        extern "C" fn unlock() {
-            SERVED.unlock();
-        }
-        static IS_SET: AtomicBool = AtomicBool::new(false);
-        if !IS_SET.swap(true, Relaxed) {
-            // SAFETY: functions that may run at any fork; the system forgets them with the library.
-            unsafe { libc::pthread_atfork(Some(lock), Some(unlock), Some(unlock)) };
-        }
+        BLOCKS.alone(|| work(self.first.get()))
     }
 
     /// Takes a block out of the list, and returns it to where it came from.

@@ -52,6 +52,5 @@ mod arguments;
 mod calls;
 mod handles;
 mod message;
-mod models;
 mod sparse;
 mod surfaces;

@@ -19,6 +19,7 @@ mod case_arguments;
 mod certify;
 mod condensed;
 mod extra;
+mod fork_lock;
 mod fortran;
 mod guard;
 mod handle;

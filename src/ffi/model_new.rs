@@ -31,11 +31,10 @@ pub unsafe extern "C" fn signorini_model_new_condensed(
     c_entry!(|arrays| {
         let place = arrays.out_pointer(6, "model", model)?;
         let (dim, pairs, n) = sizes(1, dim, pairs)?;
-        let (k, ld) = arrays.square(3, ("K", K), ("ldk", ldk), n)?;
+        let k = arrays.square(3, ("K", K), ("ldk", ldk), n)?;
         let received = SignoriniSettings::read(arrays, 5, settings)?;
         guard::reserve_estimate(reduce::memory(n))?;
-        let made =
-            received.monitored(|monitor| Model::condensed_within(dim, pairs, k, ld, monitor));
+        let made = received.monitored(|monitor| Model::condensed_within(dim, pairs, k, monitor));
         place.fill(made, of_matrices)
     })
 }
@@ -75,7 +74,7 @@ pub unsafe extern "C" fn signorini_model_new_two_body(
         let received = SignoriniSettings::read(arrays, 7, settings)?;
         guard::reserve_estimate(reduce::memory(n))?;
         let made = received
-            .monitored(|monitor| Model::two_body_within(dim, pairs, first, second, monitor));
+            .monitored(|monitor| Model::two_body_within(dim, pairs, [first, second], monitor));
         place.fill(made, of_matrices)
     })
 }

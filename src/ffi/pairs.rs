@@ -114,31 +114,35 @@ impl SignoriniPairs {
 
     /// The nodes of the pairs in the one form or the other.
     fn nodes(&self, position: i32) -> Result<Nodes, Failure> {
-        let is_general = !self.row_start.is_null();
-        let none = |is_null: &[bool]| is_null.iter().all(|is_null| *is_null);
-        let slaves = [self.slaves, self.master_start, self.masters].map(<*const i64>::is_null);
-        let of_slaves = [slaves[0], slaves[1], slaves[2], self.weights.is_null()];
-        let of_rows = [self.row_nodes.is_null(), self.row_weights.is_null()];
-        let message = match is_general {
-            true if !none(&of_slaves) => {
-                "pairs: row_start is set, and slaves, master_start, masters or weights too: leave \
-                 these four NULL, or row_start, row_nodes and row_weights"
-            }
-            false if !none(&of_rows) => {
-                "pairs: row_nodes or row_weights is set, but row_start is NULL: set all three, or none"
-            }
-            true => {
-                let names = ["row_start", "row_nodes", "row_weights"];
-                let (start, dofs, weights) = (self.row_start, self.row_nodes, self.row_weights);
-                return Ok(Nodes { slaves: None, start, dofs, weights, names });
-            }
-            false => {
-                let names = ["master_start", "masters", "weights"];
-                let (start, dofs, weights) = (self.master_start, self.masters, self.weights);
-                return Ok(Nodes { slaves: Some(self.slaves), start, dofs, weights, names });
-            }
+        let is_given = |arrays: &[*const i64], weights: *const f64| {
+            !weights.is_null() || arrays.iter().any(|array| !array.is_null())
         };
-        Err(Failure::argument(position, message))
+        let of_slaves = is_given(&[self.slaves, self.master_start, self.masters], self.weights);
+        let of_rows = is_given(&[self.row_nodes], self.row_weights);
+        let refuse = |message: &str| Err(Failure::argument(position, message));
+        match (self.row_start.is_null(), of_slaves, of_rows) {
+            (false, true, _) => refuse(
+                "pairs: row_start is set, and slaves, master_start, masters or weights too: leave \
+                 these four NULL, or row_start, row_nodes and row_weights",
+            ),
+            (true, _, true) => refuse(
+                "pairs: row_nodes or row_weights is set, but row_start is NULL: set all three, or none",
+            ),
+            (false, false, _) => Ok(Nodes {
+                slaves: None,
+                start: self.row_start,
+                dofs: self.row_nodes,
+                weights: self.row_weights,
+                names: ["row_start", "row_nodes", "row_weights"],
+            }),
+            (true, _, false) => Ok(Nodes {
+                slaves: Some(self.slaves),
+                start: self.master_start,
+                dofs: self.masters,
+                weights: self.weights,
+                names: ["master_start", "masters", "weights"],
+            }),
+        }
     }
 }
 

@@ -367,6 +367,53 @@ static void bad_dense(void)
     CHECK_STATUS(signorini_model_new_condensed(2, 1, good, 2, NULL, NULL), -6);
 }
 
+static int32_t counting_to(void *user, const signorini_progress *progress)
+{
+    int *left = user;
+    CHECK(progress->reduced >= 0 && progress->reduced <= 1);
+    return (*left)-- <= 0;
+}
+
+/* Limits and callback of the settings, for one body and for two. */
+static void settings_of_dense_models(void)
+{
+    const double K[4] = {2, 1, 1, 2};
+    for (int two = 0; two < 2; two++) {
+        signorini_model *model;
+        signorini_settings settings;
+        int left = 0;
+#define MAKE(status)                                                                              \
+    do {                                                                                          \
+        model = (signorini_model *)(void *)&in;                                                   \
+        CHECK_STATUS(two ? signorini_model_new_two_body(2, 1, K, 2, K, 2, &settings, &model)      \
+                         : signorini_model_new_condensed(2, 1, K, 2, &settings, &model), status); \
+        CHECK((model == NULL) == ((status) != 0));                                                \
+    } while (0)
+        CHECK_STATUS(signorini_settings_default(&settings, sizeof settings), 0);
+        MAKE(0);
+        signorini_model_free(model);
+        settings.tolerance = 1;
+        MAKE(two ? -7 : -5);
+        CHECK_TEXT(signorini_last_error(), "settings: tolerance");
+        settings.tolerance = 1e-10;
+        settings.memory_limit = 1000;
+        MAKE(SIGNORINI_STATUS_MEMORY_LIMIT);
+        CHECK_TEXT(signorini_last_error(), "memory_limit allows");
+        settings.memory_limit = 0;
+        settings.time_limit = 1e-12;
+        MAKE(SIGNORINI_STATUS_TIME_LIMIT);
+        settings.time_limit = 0;
+        settings.progress = counting_to;
+        settings.user = &left;
+        MAKE(SIGNORINI_STATUS_CANCELLED);
+        CHECK_TEXT(signorini_last_error(), "cancelled");
+        left = 1000;
+        MAKE(0);
+        CHECK(left < 1000);
+        signorini_model_free(model);
+    }
+}
+
 static void no_model(void)
 {
     double x[8] = {0};
@@ -741,6 +788,7 @@ int main(void)
     bad_fixed();
     bad_pairs();
     bad_dense();
+    settings_of_dense_models();
     sizes_and_stiffness();
     cases();
     smaller_reports();

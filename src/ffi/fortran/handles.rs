@@ -2,9 +2,11 @@
 //! followed whatever it holds, a number that is not here is refused.
 
 use std::any::Any;
+use std::cell::UnsafeCell;
 use std::collections::BTreeMap;
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::Arc;
 
+use super::super::fork_lock::{HANDLES, wait_at_forks};
 use super::super::guard::Failure;
 use super::super::model::SignoriniModel;
 use super::super::surface_new::SignoriniSurfacePairs;
@@ -28,30 +30,28 @@ impl Kind for SignoriniSurfacePairs {
     const NONE: &'static str = "there are no such pairs";
 }
 
-/// The objects that live, and the last number. No number is used twice.
-struct Living {
-    last: i64,
-    by_number: BTreeMap<i64, Arc<dyn Any + Send + Sync>>,
-}
-
 /// The upper half of a number is not 0, so that one cut to an INTEGER*4 is never one.
 const BEFORE_THE_FIRST: i64 = i64::from_be_bytes(*b"\0\0SG\0\0\0\0");
 
-static LIVING: Mutex<Living> =
-    Mutex::new(Living { last: BEFORE_THE_FIRST, by_number: BTreeMap::new() });
+/// The objects that live, by their numbers.
+type Objects = BTreeMap<i64, Arc<dyn Any + Send + Sync>>;
 
-type Opened = MutexGuard<'static, Living>;
+/// The last number, which is not used twice, and the objects.
+struct Living(UnsafeCell<(i64, Objects)>);
 
-/// The objects, for this thread alone.
-fn open() -> Opened {
-    #[cfg(any(target_os = "linux", target_os = "macos"))]
-    fork::guard();
-    locked()
-}
+// SAFETY: the objects may be shared, and the map is used under its lock alone.
+unsafe impl Sync for Living {}
 
-fn locked() -> Opened {
-    // The map is whole whenever a panic can happen.
-    LIVING.lock().unwrap_or_else(PoisonError::into_inner)
+static LIVING: Living = Living(UnsafeCell::new((BEFORE_THE_FIRST, BTreeMap::new())));
+
+/// Works on the last number and the objects, on this thread alone.
+fn with_living<T>(work: impl FnOnce(&mut i64, &mut Objects) -> T) -> T {
+    wait_at_forks();
+    HANDLES.alone(|| {
+        // SAFETY: this thread has the lock.
+        let (last, objects) = unsafe { &mut *LIVING.0.get() };
+        work(last, objects)
+    })
 }
 
 /// Makes an object by a function of C and puts its number into the handle, 0 if there is none.
@@ -73,10 +73,11 @@ pub(super) unsafe fn create<T: Kind>(
     if status == 0 {
         // SAFETY: a new object, which is ours alone.
         let object: Arc<T> = Arc::from(unsafe { Box::from_raw(boxed) });
-        let mut opened = open();
-        opened.last += 1;
-        let number = opened.last;
-        opened.by_number.insert(number, object);
+        let number = with_living(|last, objects| {
+            *last += 1;
+            objects.insert(*last, object);
+            *last
+        });
         // SAFETY: by the caller's contract.
         unsafe { write(handle, number) };
     }
@@ -89,7 +90,7 @@ pub(super) fn find<T: Kind>(position: i32, handle: Given<i64>) -> Result<Arc<T>,
 }
 
 fn object<T: Kind>(position: i32, number: i64) -> Result<Arc<T>, Failure> {
-    let found = open().by_number.get(&number).cloned();
+    let found = with_living(|_, objects| objects.get(&number).cloned());
     let of_this_kind = found.and_then(|found| found.downcast().ok());
     of_this_kind.ok_or_else(|| unknown::<T>(position, number))
 }
@@ -103,7 +104,7 @@ pub(super) unsafe fn free<T: Kind>(handle: *mut i64) -> Result<i32, Failure> {
     let number = unsafe { Given::of(handle) }.read(1, T::NAME)?;
     if number != 0 {
         object::<T>(1, number)?;
-        let released = open().by_number.remove(&number);
+        let released = with_living(|_, objects| objects.remove(&number));
         drop(released.ok_or_else(|| unknown::<T>(1, number))?);
     }
     // SAFETY: by the caller's contract.
@@ -114,50 +115,4 @@ pub(super) unsafe fn free<T: Kind>(handle: *mut i64) -> Result<i32, Failure> {
 fn unknown<T: Kind>(position: i32, number: i64) -> Failure {
     let message = format!("{} is {number}, {}; is it INTEGER*8?", T::NAME, T::NONE);
     Failure::argument(position, message)
-}
-
-/// A child of a fork begins with one thread, and would wait for ever for a lock that another thread of its parent held.
-#[cfg(any(target_os = "linux", target_os = "macos"))]
-mod fork {
-    use libc::c_int;
-    use std::cell::UnsafeCell;
-    use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
-
-    use super::{Opened, locked};
-
-    type Handler = Option<unsafe extern "C" fn()>;
-
-    unsafe extern "C" {
-        fn pthread_atfork(before: Handler, in_parent: Handler, in_child: Handler) -> c_int;
-    }
-
-    /// The lock, from before a fork to after it.
-    struct ForkLock(UnsafeCell<Option<Opened>>);
-
-    // SAFETY: it is used by the thread that has the lock.
-    unsafe impl Sync for ForkLock {}
-
-    static KEPT: ForkLock = ForkLock(UnsafeCell::new(None));
-
-    unsafe extern "C" fn lock() {
-        let opened = locked();
-        // SAFETY: this thread has the lock.
-        unsafe { *KEPT.0.get() = Some(opened) };
-    }
-
-    unsafe extern "C" fn unlock() {
-        // SAFETY: this thread has the lock since before the fork; it is open when the cell is empty.
-        let opened = unsafe { (*KEPT.0.get()).take() };
-        drop(opened);
-    }
-
-    /// From now on a fork waits for the lock, and both processes have it open. Without memory for that it is
-    /// as before.
-    pub(super) fn guard() {
-        static DONE: AtomicBool = AtomicBool::new(false);
-        if !DONE.swap(true, Relaxed) {
-            // SAFETY: handlers that live as long as this library: the C library forgets them with it.
-            unsafe { pthread_atfork(Some(lock), Some(unlock), Some(unlock)) };
-        }
-    }
 }

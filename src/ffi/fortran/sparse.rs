@@ -39,10 +39,9 @@ entry! {
     ) {
         create(19, handle, |model| {
             let matrix = Matrix { n, nnz, colptr, rowind, values, tri, nfix, fixed };
-            let pairs = Pairs {
-                ndim, npair, slave, nmast, mstart, master, weight, normal, ntan, tangnt
-            };
-            pairs.with(|pairs| matrix.with(pairs, model))
+            let nodes = Nodes { slave, nmast, mstart, master, weight };
+            let pairs = (ndim.dimension(9)?, npair.count(10, "NPAIR")?);
+            nodes.with_pairs(pairs, normal, (ntan, tangnt), |pairs| matrix.with(pairs, model))
         })
     }
 }
@@ -122,27 +121,24 @@ fn check_begins<I: Integer>(size: i64, nnz: i64, colptr: Given<I>) -> Result<(),
 /// `SLAVE(1,1)` of pairs that are general rows.
 const GENERAL_ROWS: i64 = -1;
 
-/// The arguments from NDIM, the ninth, to TANGNT.
-struct Pairs<I> {
-    ndim: Given<I>,
-    npair: Given<I>,
+/// The arguments from SLAVE, the eleventh, to WEIGHT.
+struct Nodes<I> {
     slave: Given<I>,
     nmast: Given<I>,
     mstart: Given<I>,
     master: Given<I>,
     weight: *const f64,
-    normal: *const f64,
-    ntan: Given<I>,
-    tangnt: *const f64,
 }
 
-impl<I: Integer> Pairs<I> {
-    /// Hands them to `work` in the form of C.
-    fn with<T>(
+impl<I: Integer> Nodes<I> {
+    /// Hands pairs of these nodes to `work` in the form of C.
+    fn with_pairs<T>(
         &self,
+        (dim, pairs): (i32, i64),
+        normals: *const f64,
+        (ntan, tangents): (Given<I>, *const f64),
         work: impl FnOnce(*const SignoriniPairs) -> Result<T, Failure>,
     ) -> Result<T, Failure> {
-        let (dim, pairs) = (self.ndim.dimension(9)?, self.npair.count(10, "NPAIR")?);
         let first = self.slave.numbers(11, "SLAVE", pairs.min(1))?;
         let is_general = first == [GENERAL_ROWS];
         let slaves = if is_general { 0 } else { pairs * i64::from(dim) };
@@ -155,16 +151,16 @@ impl<I: Integer> Pairs<I> {
         }
         let begins = self.begins(pairs, masters)?;
         let nodes = self.master.numbers(14, "MASTER", masters * i64::from(dim))?;
-        let tangents = self.ntan.count(17, "NTAN")?;
-        if tangents != 0 && tangents != pairs {
-            let message = format!("NTAN is {tangents}, it must be 0 or NPAIR ({pairs})");
+        let given = ntan.count(17, "NTAN")?;
+        if given != 0 && given != pairs {
+            let message = format!("NTAN is {given}, it must be 0 or NPAIR ({pairs})");
             return Err(Failure::argument(17, message));
         }
         let mut view = SignoriniPairs {
             dim,
             count: pairs,
-            normals: self.normal,
-            tangents: if tangents == 0 { null() } else { self.tangnt },
+            normals,
+            tangents: if given == 0 { null() } else { tangents },
             ..SignoriniPairs::zeros()
         };
         let rows = (begins.as_ptr(), nodes.as_ptr(), self.weight);

@@ -16,7 +16,7 @@ impl Model {
     /// of the largest one of its pair, and the component is coupled to others, motions of so little energy
     /// are the rounding of a condensation and become exactly free. All other matrices are taken as they are.
     pub fn condensed(dim: usize, pairs: usize, k: &[f64], ld: usize) -> Result<Self, Error> {
-        Self::condensed_within(dim, pairs, k, ld, &mut Monitor::new(&Settings::default(), None))
+        Self::condensed_within(dim, pairs, (k, ld), &mut Monitor::new(&Settings::default(), None))
     }
 
     /// As [`Self::condensed`], within the limits of `monitor` on memory and time, with its callback.
@@ -26,13 +26,12 @@ impl Model {
     pub fn condensed_within(
         dim: usize,
         pairs: usize,
-        k: &[f64],
-        ld: usize,
+        k: (&[f64], usize),
         monitor: &mut Monitor<'_>,
     ) -> Result<Self, Error> {
         let size = unknowns(checked_dim(dim)?, pairs)?;
         monitor.reducing(0.0, memory(size))?;
-        let matrix = dense("K", (k, ld), size, OF_MATRIX)?;
+        let matrix = dense("K", k, size, OF_MATRIX)?;
         let reduction = Box::new(CondensedReduction::new(dim, &matrix)?);
         Ok(Model { dim, pairs, reduction })
     }
@@ -49,7 +48,7 @@ impl Model {
         second: (&[f64], usize),
     ) -> Result<Self, Error> {
         let monitor = &mut Monitor::new(&Settings::default(), None);
-        Self::two_body_within(dim, pairs, first, second, monitor)
+        Self::two_body_within(dim, pairs, [first, second], monitor)
     }
 
     /// As [`Self::two_body`], within the limits of `monitor` on memory and time, with its callback.
@@ -59,8 +58,7 @@ impl Model {
     pub fn two_body_within(
         dim: usize,
         pairs: usize,
-        first: (&[f64], usize),
-        second: (&[f64], usize),
+        [first, second]: [(&[f64], usize); 2],
         monitor: &mut Monitor<'_>,
     ) -> Result<Self, Error> {
         let size = unknowns(checked_dim(dim)?, pairs)?;
