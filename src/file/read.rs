@@ -1,6 +1,8 @@
 //! Reading a problem file.
 
+use std::collections::BTreeMap;
 use std::fs::{self, File};
+use std::ops::RangeInclusive;
 use std::path::Path;
 
 use super::errors::{failed, refuse};
@@ -40,18 +42,18 @@ pub fn memory(path: &Path) -> u64 {
     fs::metadata(path).map_or(0, |about| about.len().saturating_mul(EACH).saturating_add(LEAST))
 }
 
-/// The value of a comment `% key: value` and its line.
-type Comment = Option<(u64, String)>;
+/// The keys of the comments `% key: value` that tell the problem.
+const KEYS: [&str; 5] = ["kind", "law", "dim", "pairs", "remark"];
+
+/// The laws that version 1 of the format has.
+const OLD_LAWS: [Law; 2] = [Law::Coulomb, Law::Tresca];
 
 /// The comments above the size line.
 #[derive(Default)]
 struct Comments {
     version: &'static str,
-    kind: Comment,
-    law: Comment,
-    dim: Comment,
-    pairs: Comment,
-    remark: Comment,
+    /// Line and value of each key.
+    found: BTreeMap<&'static str, (u64, String)>,
 }
 
 impl Comments {
@@ -70,16 +72,11 @@ impl Comments {
                     return Err(lines.refuse(&format!("version {found} of the format: {known}")));
                 };
                 comments.version = known;
-            } else if let Some((key, value)) = comment.split_once(':') {
-                let place = match key {
-                    "kind" => &mut comments.kind,
-                    "law" => &mut comments.law,
-                    "dim" => &mut comments.dim,
-                    "pairs" => &mut comments.pairs,
-                    "remark" => &mut comments.remark,
-                    _ => continue,
-                };
-                if place.replace((lines.number(), value.trim_ascii().to_owned())).is_some() {
+            } else if let Some((key, value)) = comment.split_once(':')
+                && let Some(key) = KEYS.into_iter().find(|known| *known == key)
+            {
+                let value = (lines.number(), value.trim_ascii().to_owned());
+                if comments.found.insert(key, value).is_some() {
                     return Err(lines.refuse(&format!("a second '{key}:'")));
                 }
             }
@@ -90,7 +87,43 @@ impl Comments {
         }
         Ok(comments)
     }
+
+    /// Line and value of a key that must be there.
+    fn get(&self, lines: &Lines<'_>, key: &str) -> Result<(u64, &str), Error> {
+        let missing = || lines.refuse(&format!("no line '% {key}:' stands above"));
+        self.found.get(key).map(|(at, value)| (*at, value.as_str())).ok_or_else(missing)
+    }
+
+    fn size(&self, lines: &Lines<'_>, key: &str) -> Result<usize, Error> {
+        let (at, value) = self.get(lines, key)?;
+        let wrong = |_| lines.refuse_at(at, &format!("{key} is {}, not a size", shown(value)));
+        value.parse().map_err(wrong)
+    }
+
+    /// The kind and, of contact, the law: in version 1 of the format the kind is the law.
+    fn kind(&self, lines: &Lines<'_>) -> Result<Kind, Error> {
+        let unknown = |what: &str, (at, name): (u64, &str)| {
+            lines.refuse_at(at, &format!("no {what} is {}", shown(name)))
+        };
+        let find = |name: &str| Law::ALL.into_iter().find(|law| law.name() == name);
+        let kind = self.get(lines, "kind")?;
+        match kind.1 {
+            "lcp" => Ok(Kind::Lcp),
+            name if self.version == OLD_VERSION => {
+                let law = find(name).filter(|law| OLD_LAWS.contains(law));
+                law.map(Kind::Contact).ok_or_else(|| unknown("kind of problem", kind))
+            }
+            "contact" => {
+                let law = self.get(lines, "law")?;
+                find(law.1).map(Kind::Contact).ok_or_else(|| unknown("friction law", law))
+            }
+            _ => Err(unknown("kind of problem", kind)),
+        }
+    }
 }
+
+/// Columns of an LCP besides the matrix: `q` and, if given, the covering vector.
+const LCP_COLUMNS: RangeInclusive<usize> = 1..=2;
 
 /// Columns of a contact problem besides the matrix and the parameters of its law: loads, gaps and
 /// reference slips.
@@ -108,54 +141,42 @@ fn read_header(lines: &mut Lines<'_>) -> Result<(ProblemFile, bool), Error> {
         return Err(lines.refuse(&what));
     }
     let comments = Comments::read(lines)?;
-    let kind = read_kind(lines, comments.version, &comments.kind, &comments.law)?;
-    let mut problem = ProblemFile { kind, ..ProblemFile::default() };
-    let has_covering = match kind {
-        Kind::Lcp => read_lcp_size(&mut problem, lines)?,
-        Kind::Contact(law) => read_contact_size(&mut problem, lines, law, &comments)?,
-    };
-    check_memory(lines, problem.size)?;
-    // It may be shown on a terminal, which control characters command.
-    let remark = comments.remark.map_or_else(String::new, |(_, remark)| remark);
-    problem.remark = remark.replace(char::is_control, " ");
-    Ok((problem, has_covering))
-}
-
-/// Takes the size of an LCP; `true` if it has a covering vector.
-fn read_lcp_size(problem: &mut ProblemFile, lines: &Lines<'_>) -> Result<bool, Error> {
-    let (size, columns) = sizes(lines)?;
-    problem.size = size;
-    match columns.checked_sub(size) {
-        Some(more @ (1 | 2)) => Ok(more == 2),
-        _ => {
-            let what = format!("{size} rows ask for 1 or 2 columns more, not for {columns}");
-            Err(lines.refuse(&what))
+    let kind = comments.kind(lines)?;
+    let (dim, pairs) = match kind {
+        Kind::Lcp => (0, 0),
+        Kind::Contact(_) => {
+            let dim = comments.size(lines, "dim")?;
+            problem::checked_dim(dim).map_err(|error| lines.refuse(&format!("above, {error}")))?;
+            (dim, comments.size(lines, "pairs")?)
         }
-    }
-}
-
-/// Takes the size of a contact problem, which has no covering vector.
-fn read_contact_size(
-    problem: &mut ProblemFile,
-    lines: &Lines<'_>,
-    law: Law,
-    comments: &Comments,
-) -> Result<bool, Error> {
-    let dim = number(lines, "dim", &comments.dim)?;
-    problem::checked_dim(dim).map_err(|error| lines.refuse(&format!("above, {error}")))?;
-    let pairs = number(lines, "pairs", &comments.pairs)?;
+    };
     let (size, columns) = sizes(lines)?;
-    let more = CONTACT_COLUMNS + law.parameters().len();
-    if dim.checked_mul(pairs) != Some(size) || columns.checked_sub(more) != Some(size) {
-        let what = format!(
-            "{size} rows and {columns} columns: with dim {dim}, {pairs} pairs and the law \
-             '{}' there must be dim * pairs rows and {more} columns more",
-            law.name()
-        );
-        return Err(lines.refuse(&what));
+    let more = columns.checked_sub(size);
+    match kind {
+        Kind::Lcp if !more.is_some_and(|more| LCP_COLUMNS.contains(&more)) => {
+            let what = format!("{size} rows ask for 1 or 2 columns more, not for {columns}");
+            return Err(lines.refuse(&what));
+        }
+        Kind::Contact(law) => {
+            let wanted = CONTACT_COLUMNS + law.parameters().len();
+            if dim.checked_mul(pairs) != Some(size) || more != Some(wanted) {
+                let what = format!(
+                    "{size} rows and {columns} columns: with dim {dim}, {pairs} pairs and the law \
+                     '{}' there must be dim * pairs rows and {wanted} columns more",
+                    law.name()
+                );
+                return Err(lines.refuse(&what));
+            }
+        }
+        Kind::Lcp => {}
     }
-    (problem.dim, problem.pairs, problem.size) = (dim, pairs, size);
-    Ok(false)
+    let has_covering = kind == Kind::Lcp && more == Some(*LCP_COLUMNS.end());
+    check_memory(lines, size)?;
+    // It may be shown on a terminal, which control characters command.
+    let remark = comments.found.get("remark").map(|(_, remark)| remark.as_str());
+    let remark = remark.unwrap_or_default().replace(char::is_control, " ");
+    let problem = ProblemFile { kind, dim, pairs, size, remark, ..ProblemFile::default() };
+    Ok((problem, has_covering))
 }
 
 /// Reads the columns; nothing may follow them.
@@ -197,39 +218,6 @@ fn read_columns(
     Ok(())
 }
 
-/// The laws that version 1 of the format has.
-const OLD_LAWS: [Law; 2] = [Law::Coulomb, Law::Tresca];
-
-/// The kind and, of contact, the law: in version 1 of the format the kind is the law.
-fn read_kind(
-    lines: &Lines<'_>,
-    version: &str,
-    kind: &Comment,
-    law: &Comment,
-) -> Result<Kind, Error> {
-    let Some((at, name)) = kind else {
-        return Err(lines.refuse("no line '% kind:' stands above"));
-    };
-    if name == "lcp" {
-        return Ok(Kind::Lcp);
-    }
-    let find = |name: &str| Law::ALL.into_iter().find(|law| law.name() == name);
-    if version == OLD_VERSION {
-        let law = find(name).filter(|law| OLD_LAWS.contains(law));
-        let unknown = || lines.refuse_at(*at, &format!("no kind of problem is {}", shown(name)));
-        return law.map(Kind::Contact).ok_or_else(unknown);
-    }
-    if name != "contact" {
-        return Err(lines.refuse_at(*at, &format!("no kind of problem is {}", shown(name))));
-    }
-    let Some((at, name)) = law else {
-        return Err(lines.refuse("no line '% law:' stands above"));
-    };
-    find(name)
-        .map(Kind::Contact)
-        .ok_or_else(|| lines.refuse_at(*at, &format!("no friction law is {}", shown(name))))
-}
-
 /// The entries of a column in the rows that `hold` some; the others are 0.
 fn rows(
     lines: &mut Lines<'_>,
@@ -255,16 +243,6 @@ fn sizes(lines: &Lines<'_>) -> Result<(usize, usize), Error> {
         [Ok(rows), Ok(columns)] => Ok((rows, columns)),
         _ => Err(lines.refuse(&format!("not two sizes, rows and columns: {}", shown(&text)))),
     }
-}
-
-/// The number of a comment, which must be there.
-fn number(lines: &Lines<'_>, key: &str, comment: &Comment) -> Result<usize, Error> {
-    let Some((at, value)) = comment else {
-        return Err(lines.refuse(&format!("no line '% {key}:' stands above")));
-    };
-    value
-        .parse()
-        .map_err(|_| lines.refuse_at(*at, &format!("{key} is {}, not a size", shown(value))))
 }
 
 fn check_memory(lines: &Lines<'_>, size: usize) -> Result<(), Error> {

@@ -183,19 +183,14 @@ fn write_grid(file: &mut impl Write, mesh: &Mesh<'_>, fields: &[Field<'_>]) -> i
     array(file, ("UInt8", "types", 1), mesh.types)?;
     writeln!(file, "</Cells>\n<PointData>")?;
     for field in fields {
-        let name = escaped(field.name);
-        match field.values {
-            Values::Scalars(values) => {
-                array(file, ("Float64", &name, 1), &reals(&mut values.iter().copied()))?;
-            }
-            Values::Vectors(values) => {
-                array(file, ("Float64", &name, SPACE), &reals(&mut mesh.in_space(values)))?;
-            }
+        let (kind, components, bytes) = match field.values {
+            Values::Scalars(values) => ("Float64", 1, reals(&mut values.iter().copied())),
+            Values::Vectors(values) => ("Float64", SPACE, reals(&mut mesh.in_space(values))),
             Values::Integers(values) => {
-                let bytes: Vec<u8> = values.iter().flat_map(|value| value.to_le_bytes()).collect();
-                array(file, ("Int32", &name, 1), &bytes)?;
+                ("Int32", 1, values.iter().flat_map(|value| value.to_le_bytes()).collect())
             }
-        }
+        };
+        array(file, (kind, &escaped(field.name), components), &bytes)?;
     }
     writeln!(file, "</PointData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>")
 }

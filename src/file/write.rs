@@ -18,40 +18,28 @@ use crate::problem::{ContactProblem, Lcp};
 /// [`Error::File`] if the file cannot be written: then there is no new one, and an old one is as it
 /// was.
 pub fn write(path: &Path, problem: &ContactProblem<'_>, remark: Option<&str>) -> Result<(), Error> {
-    check_remark(remark)?;
-    let (dim, n) = (problem.dim(), problem.unknowns());
+    let (dim, n, pairs, law) = (problem.dim(), problem.unknowns(), problem.pairs(), problem.law());
     for j in 0..n {
         if let Some(i) = problem.column(j).iter().position(|k| !k.is_finite()) {
             return Err(Error::invalid(Argument::Matrix, entry("K", [i, j]) + " is not finite"));
         }
     }
-    let (law, given) = (problem.law().law(), problem.law());
-    let gap: Vec<f64> = (0..problem.pairs()).map(|pair| problem.gap(pair)).collect();
-    let pairs = problem.pairs();
-    replace(path, |file| {
-        let lines = format!("contact\n% law: {}\n% dim: {dim}\n% pairs: {pairs}", law.name());
-        head(file, &lines, remark)?;
-        let names = listed(&[&["gap"], &law.names()[..]].concat());
-        writeln!(file, "K ({n}), f, {names} in normal rows, slip0 in tangential rows.")?;
-        writeln!(file, "{n} {}", n + 3 + law.parameters().len())?;
-        for j in 0..n {
-            entries(file, problem.column(j).iter().copied())?;
-        }
-        entries(file, problem.load().iter().copied())?;
-        // A value of each pair in its normal row.
-        let in_normal_rows = |value: &dyn Fn(usize) -> f64| -> Vec<f64> {
-            (0..n).map(|i| if i % dim == 0 { value(i / dim) } else { 0.0 }).collect()
-        };
-        entries(file, in_normal_rows(&|pair| gap[pair]).into_iter())?;
-        for k in 0..given.parameters() {
-            entries(file, in_normal_rows(&|pair| given.of_pair(pair)[k]).into_iter())?;
-        }
-        let slip0 = |i| match i % dim {
-            0 => 0.0,
-            axis => problem.reference_slip(i / dim, axis - 1),
-        };
-        entries(file, (0..n).map(slip0))
-    })
+    // A value of each pair in its normal row.
+    let in_normal_rows = |value: &dyn Fn(usize) -> f64| -> Vec<f64> {
+        (0..n).map(|i| if i % dim == 0 { value(i / dim) } else { 0.0 }).collect()
+    };
+    let slip0 = |i| match i % dim {
+        0 => 0.0,
+        axis => problem.reference_slip(i / dim, axis - 1),
+    };
+    let mut columns = vec![problem.load().to_vec(), in_normal_rows(&|pair| problem.gap(pair))];
+    columns.extend((0..law.parameters()).map(|k| in_normal_rows(&|pair| law.of_pair(pair)[k])));
+    columns.push((0..n).map(slip0).collect());
+    let law = law.law();
+    let kind = format!("contact\n% law: {}\n% dim: {dim}\n% pairs: {pairs}", law.name());
+    let names = listed(&[&["gap"], &law.names()[..]].concat());
+    let names = format!("K ({n}), f, {names} in normal rows, slip0 in tangential rows");
+    save(path, (&kind, remark, &names), n, |j| problem.column(j), &columns)
 }
 
 /// Writes an LCP.
@@ -59,31 +47,35 @@ pub fn write(path: &Path, problem: &ContactProblem<'_>, remark: Option<&str>) ->
 /// # Errors
 /// As [`write()`].
 pub fn write_lcp(path: &Path, lcp: &Lcp<'_>, remark: Option<&str>) -> Result<(), Error> {
-    check_remark(remark)?;
     let (n, covering) = (lcp.size(), lcp.covering_vector());
-    replace(path, |file| {
-        head(file, "lcp", remark)?;
-        let (name, columns) = if covering.is_some() { (", cover", n + 2) } else { ("", n + 1) };
-        writeln!(file, "M ({n}), q{name}.")?;
-        writeln!(file, "{n} {columns}")?;
-        for j in 0..n {
-            entries(file, lcp.column(j).iter().copied())?;
-        }
-        entries(file, lcp.q().iter().copied())?;
-        entries(file, covering.unwrap_or_default().iter().copied())
-    })
+    let columns: Vec<_> = [lcp.q()].into_iter().chain(covering).map(<[f64]>::to_vec).collect();
+    let names = format!("M ({n}), q{}", if covering.is_some() { ", cover" } else { "" });
+    save(path, ("lcp", remark, &names), n, |j| lcp.column(j), &columns)
 }
 
-/// The comment lines, beginning with the kind and what belongs to it, without the names of the
-/// columns, which end the last one.
-fn head(file: &mut impl Write, kind: &str, remark: Option<&str>) -> io::Result<()> {
-    writeln!(file, "{BANNER}\n% {TITLE} {VERSION}\n% kind: {kind}")?;
-    if let Some(remark) = remark.filter(|remark| !remark.is_empty()) {
-        writeln!(file, "% remark: {remark}")?;
-    }
-    let version = env!("CARGO_PKG_VERSION");
-    writeln!(file, "% Written by signorini {version} in the units of the host.")?;
-    write!(file, "% Columns: ")
+/// Writes a problem: the comment lines, with the kind and what belongs to it, and the names of the columns; the sizes;
+/// the `n` columns of a matrix and further ones, an entry a line, in the fewest digits that give back the same bits.
+fn save<'m>(
+    path: &Path,
+    (kind, remark, names): (&str, Option<&str>, &str),
+    n: usize,
+    matrix: impl Fn(usize) -> &'m [f64],
+    columns: &[Vec<f64>],
+) -> Result<(), Error> {
+    check_remark(remark)?;
+    replace(path, |file| {
+        writeln!(file, "{BANNER}\n% {TITLE} {VERSION}\n% kind: {kind}")?;
+        if let Some(remark) = remark.filter(|remark| !remark.is_empty()) {
+            writeln!(file, "% remark: {remark}")?;
+        }
+        let version = env!("CARGO_PKG_VERSION");
+        writeln!(file, "% Written by signorini {version} in the units of the host.")?;
+        writeln!(file, "% Columns: {names}.\n{n} {}", n + columns.len())?;
+        let mut column =
+            |values: &[f64]| values.iter().try_for_each(|value| writeln!(file, "{value:e}"));
+        (0..n).try_for_each(|j| column(matrix(j)))?;
+        columns.iter().try_for_each(|values| column(values))
+    })
 }
 
 /// Names in a sentence: "gap and mu", "gap, mu, b and a".
@@ -92,11 +84,6 @@ fn listed(names: &[&str]) -> String {
         [rest @ .., last] if !rest.is_empty() => format!("{} and {last}", rest.join(", ")),
         _ => names.concat(),
     }
-}
-
-/// One entry a line, in the fewest digits that give back the same bits.
-fn entries(file: &mut impl Write, mut values: impl Iterator<Item = f64>) -> io::Result<()> {
-    values.try_for_each(|value| writeln!(file, "{value:e}"))
 }
 
 fn check_remark(remark: Option<&str>) -> Result<(), Error> {
