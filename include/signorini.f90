@@ -124,7 +124,6 @@ module signorini
     integer(c_int32_t), parameter :: SIGNORINI_NORMALS_FACES = 1
     integer(c_int32_t), parameter :: SIGNORINI_RIMS_FOLD = 0
     integer(c_int32_t), parameter :: SIGNORINI_RIMS_KEEP = 1
-    integer(c_int32_t), parameter :: SIGNORINI_RIMS_DROP = 2
     integer(c_int32_t), parameter :: SIGNORINI_OBSTACLE_PLANE = 0
     integer(c_int32_t), parameter :: SIGNORINI_OBSTACLE_CYLINDER = 1
     integer(c_int32_t), parameter :: SIGNORINI_OBSTACLE_SPHERE = 2
@@ -285,7 +284,7 @@ module signorini
     end type
 
     type, bind(C) :: signorini_surface_settings
-        integer(c_int32_t) :: struct_size = 40 + 3 * address_bytes
+        integer(c_int32_t) :: struct_size = 56 + 5 * address_bytes
         integer(c_int32_t) :: pairing = 0
         real(c_double) :: search_distance = 0
         integer(c_int32_t) :: index_base = 0
@@ -296,11 +295,16 @@ module signorini
         type(c_ptr) :: symmetry_at = c_null_ptr
         integer(c_int32_t) :: normals = 0
         integer(c_int32_t) :: rims = 0
+        integer(c_int32_t) :: axisymmetric = 0
+        integer(c_int32_t) :: reserved = 0
+        real(c_double) :: time_limit = 0
+        type(c_funptr) :: progress = c_null_funptr
+        type(c_ptr) :: user = c_null_ptr
     end type
 
     ! The arrays belong to the pairs; contact_surfaces has copies of those that hosts use most.
     type, bind(C) :: signorini_surface_data
-        integer(c_int32_t) :: struct_size = 104 + 11 * address_bytes
+        integer(c_int32_t) :: struct_size = 104 + 14 * address_bytes
         integer(c_int32_t) :: dim = 0
         integer(c_int64_t) :: pairs = 0
         type(c_ptr) :: rows = c_null_ptr
@@ -324,7 +328,10 @@ module signorini
         integer(c_int64_t) :: not_opposed = 0
         integer(c_int64_t) :: boxes_searched = 0
         integer(c_int64_t) :: on_symmetry = 0
-        integer(c_int64_t) :: dropped = 0
+        integer(c_int64_t) :: n_beyond = 0
+        type(c_ptr) :: beyond = c_null_ptr
+        type(c_ptr) :: beyond_distances = c_null_ptr
+        type(c_ptr) :: folded_distances = c_null_ptr
     end type
 
     type, bind(C) :: signorini_contact_fields
@@ -1653,17 +1660,19 @@ contains
     ! summary() says why. coordinates(dim, nodes). slave(k, faces), master(k, faces): nodes of each
     ! face, counted from 1; a face with fewer than k nodes ends with zeros. signorini_surface.h tells their
     ! order. pairing: SIGNORINI_PAIRING_DUAL_MORTAR, the default, or _NODE_TO_SURFACE.
-    ! search_distance: absent: the size of the largest slave face. dofs(dim, nodes): degrees of
+    ! search_distance: absent: half the diagonal of the smaller side's box. dofs(dim, nodes): degrees of
     ! freedom of each node; absent: dofs_per_node * (node - 1) + axis, dofs_per_node absent: dim.
     ! symmetry_axes, symmetry_at: planes of symmetry of half and quarter models, the axis across each
     ! of them (1, 2, 3) and where it stands along that axis: pairs on one do not slip across it.
     ! normals: SIGNORINI_NORMALS_AVERAGED, the default, or _FACES. rims: SIGNORINI_RIMS_FOLD, the default,
-    ! _KEEP or _DROP.
+    ! or _KEEP. settings: what begins in place of the defaults, such as progress, user, time_limit and
+    ! axisymmetric; its lists, index_base and what the other arguments say are not read.
     subroutine surfaces_pair(self, coordinates, slave, master, info, pairing, search_distance, dofs, &
-            dofs_per_node, symmetry_axes, symmetry_at, normals, rims, message)
+            dofs_per_node, symmetry_axes, symmetry_at, normals, rims, message, settings)
         class(contact_surfaces), intent(inout) :: self
         real(c_double), intent(in), contiguous, target :: coordinates(:, :)
         integer, intent(in) :: slave(:, :), master(:, :)
+        type(signorini_surface_settings), intent(in), optional :: settings
         integer, intent(out) :: info
         integer, intent(in), optional :: pairing, dofs(:, :), dofs_per_node, symmetry_axes(:), normals, rims
         real(c_double), intent(in), optional :: search_distance, symmetry_at(:)
@@ -1672,7 +1681,7 @@ contains
         type(refusal) :: wrong
         call self%release()
         call prepare(wrong, 6, told, shape(coordinates), slave, search_distance, dofs, dofs_per_node, &
-            symmetry_axes, symmetry_at, normals, rims)
+            symmetry_axes, symmetry_at, normals, rims, settings)
         if (present(pairing)) then
             told%settings%pairing = number(pairing)
             if (pairing /= SIGNORINI_PAIRING_DUAL_MORTAR .and. pairing /= SIGNORINI_PAIRING_NODE_TO_SURFACE) &
@@ -1688,8 +1697,9 @@ contains
 
     ! Pairs a surface with a rigid obstacle; the rest as for pair. search_distance absent: no limit.
     subroutine surfaces_pair_obstacle(self, coordinates, slave, obstacle, info, search_distance, dofs, &
-            dofs_per_node, symmetry_axes, symmetry_at, message)
+            dofs_per_node, symmetry_axes, symmetry_at, message, settings)
         class(contact_surfaces), intent(inout) :: self
+        type(signorini_surface_settings), intent(in), optional :: settings
         real(c_double), intent(in), contiguous, target :: coordinates(:, :)
         integer, intent(in) :: slave(:, :)
         type(signorini_obstacle), intent(in), target :: obstacle
@@ -1701,7 +1711,7 @@ contains
         type(refusal) :: wrong
         call self%release()
         call prepare(wrong, 5, told, shape(coordinates), slave, search_distance, dofs, dofs_per_node, &
-            symmetry_axes, symmetry_at)
+            symmetry_axes, symmetry_at, settings=settings)
         if (refused(wrong, info, message)) return
         call finish(signorini_surface_pair_obstacle(number(size(coordinates, 1)), &
             int(size(coordinates, 2), c_int64_t), address2(coordinates), c_loc(told%slave%faces), &
@@ -1713,8 +1723,9 @@ contains
     ! faces) in nodes of its own, counted from 1; corners counterclockwise as the body sees them. The
     ! rest as for pair.
     subroutine surfaces_pair_rigid(self, coordinates, slave, rigid_coordinates, rigid_faces, info, &
-            search_distance, dofs, dofs_per_node, symmetry_axes, symmetry_at, normals, rims, message)
+            search_distance, dofs, dofs_per_node, symmetry_axes, symmetry_at, normals, rims, message, settings)
         class(contact_surfaces), intent(inout) :: self
+        type(signorini_surface_settings), intent(in), optional :: settings
         real(c_double), intent(in), contiguous, target :: coordinates(:, :)
         integer, intent(in) :: slave(:, :)
         real(c_double), intent(in), contiguous, target :: rigid_coordinates(:, :)
@@ -1730,7 +1741,7 @@ contains
         if (size(rigid_coordinates, 1) /= size(coordinates, 1)) call refuse(wrong, 3, &
             'rigid_coordinates and coordinates differ in their first size, the dimension')
         call prepare(wrong, 6, told, shape(coordinates), slave, search_distance, dofs, dofs_per_node, &
-            symmetry_axes, symmetry_at, normals, rims)
+            symmetry_axes, symmetry_at, normals, rims, settings)
         if (refused(wrong, info, message)) return
         call list_faces(rigid_faces, told%other)
         obstacle%kind = SIGNORINI_OBSTACLE_FACES
@@ -1925,8 +1936,9 @@ contains
 
     ! The slave and the settings of a pairing; search_distance at the position `first`, the others behind it.
     subroutine prepare(wrong, first, told, nodes, slave, search_distance, dofs, dofs_per_node, &
-            symmetry_axes, symmetry_at, normals, rims)
+            symmetry_axes, symmetry_at, normals, rims, settings)
         type(refusal), intent(inout) :: wrong
+        type(signorini_surface_settings), intent(in), optional :: settings
         integer, intent(in) :: first, nodes(2), slave(:, :)
         type(preparation), intent(inout), target :: told
         real(c_double), intent(in), optional :: search_distance, symmetry_at(:)
@@ -1934,7 +1946,10 @@ contains
         integer :: axes, places
         call check_dim(wrong, 1, nodes(1))
         call list_faces(slave, told%slave)
+        if (present(settings)) told%settings = settings
         told%settings%index_base = 1
+        told%settings%node_dofs = c_null_ptr
+        told%settings%symmetry_planes = 0
         if (present(search_distance)) then
             told%settings%search_distance = search_distance
             if (.not. search_distance > 0) call refuse(wrong, first, 'search_distance must be positive')
@@ -1970,7 +1985,7 @@ contains
         end if
         if (present(rims)) then
             told%settings%rims = number(rims)
-            if (rims < SIGNORINI_RIMS_FOLD .or. rims > SIGNORINI_RIMS_DROP) &
+            if (rims < SIGNORINI_RIMS_FOLD .or. rims > SIGNORINI_RIMS_KEEP) &
                 call refuse(wrong, first + 6, 'there is no choice of rims ' // text(rims))
         end if
     end subroutine

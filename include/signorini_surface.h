@@ -57,10 +57,10 @@ extern "C" {
 
 /* Slave nodes at rims, with little of the master over them. */
 /**
- * The default: the rows of slave nodes with less than a tenth of their area over the master,
- * counted on faces that lie over it in part, are added to that of a neighbour. Uniform pressure
- * stays exact. The choice is for dual mortar: nodes against surfaces have no cover, and take the
- * default alone.
+ * The default: the rows of slave nodes with less than half of their area over the master, counted
+ * on all slave faces around them that look the same way, are added to that of a node of their own
+ * faces. Uniform pressure stays exact, and others are as exact as elsewhere. The choice is for dual mortar: nodes against
+ * surfaces have no cover, and take the default alone.
  */
 #define SIGNORINI_RIMS_FOLD 0
 /**
@@ -68,8 +68,6 @@ extern "C" {
  * be large there, as the rows reach into the air. Below a millionth they are folded all the same.
  */
 #define SIGNORINI_RIMS_KEEP 1
-/** They get no pair, and their area is left out: uniform pressure is not exact around them. */
-#define SIGNORINI_RIMS_DROP 2
 
 #endif /* SIGNORINI_UNSTABLE */
 
@@ -122,11 +120,13 @@ struct signorini_obstacle {
  * like.
  */
 struct signorini_surface_settings {
-    uint32_t struct_size;         /**< sizeof(signorini_surface_settings). */
+    uint32_t struct_size;           /**< sizeof(signorini_surface_settings). */
     int32_t pairing; /**< SIGNORINI_PAIRING_...; default SIGNORINI_PAIRING_DUAL_MORTAR. */
     /**
      * Largest distance along the normal at which surfaces are paired, open or overlapping; length.
-     * Default 0: the size of the largest slave face; no limit against an obstacle without faces.
+     * Default 0: open up to half the diagonal of the smaller of the two sides' boxes, but of masters
+     * over each other the nearest alone; overlapping up to the size of the largest slave face; no
+     * limit against an obstacle without faces.
      */
     double search_distance;
     /**
@@ -147,10 +147,20 @@ struct signorini_surface_settings {
      * Fix the nodes on the plane across it as without contact.
      */
     int64_t symmetry_planes;
-    const int32_t *symmetry_axes; /**< The axis across each plane, counted from index_base. */
-    const double *symmetry_at;    /**< Where each plane stands along its axis; length. */
-    int32_t normals;              /**< SIGNORINI_NORMALS_...; default SIGNORINI_NORMALS_AVERAGED. */
-    int32_t rims;                 /**< SIGNORINI_RIMS_...; default SIGNORINI_RIMS_FOLD. */
+    const int32_t *symmetry_axes;   /**< The axis across each plane, counted from index_base. */
+    const double *symmetry_at;      /**< Where each plane stands along its axis; length. */
+    int32_t normals; /**< SIGNORINI_NORMALS_...; default SIGNORINI_NORMALS_AVERAGED. */
+    int32_t rims;                   /**< SIGNORINI_RIMS_...; default SIGNORINI_RIMS_FOLD. */
+    /**
+     * Nonzero: lines in 2D are meridians of bodies of revolution about the axis x = 0, with the
+     * radius x >= 0. Areas are those of whole rings, with the factor 2 pi r: hand over stiffness and
+     * loads of whole rings too. The axis is a plane of symmetry without being named. Default 0.
+     */
+    int32_t axisymmetric;
+    int32_t reserved;               /**< 0. */
+    double time_limit; /**< Most seconds of wall time; default 0, and infinity: no limit. */
+    signorini_progress_fn progress; /**< Progress callback; default NULL. */
+    void *user;                     /**< First argument of progress; default NULL. */
 };
 
 /** Fills settings with their defaults; struct_size is sizeof(signorini_surface_settings). */
@@ -225,17 +235,20 @@ struct signorini_surface_data {
     /** Number of slave nodes without a pair: nothing lies over them, or they are folded. */
     int64_t n_unpaired;
     const int64_t *unpaired;     /**< These nodes. */
-    /** Number of those whose row is in the pair of a neighbour, for their little cover. */
+    /**
+     * Number of those whose row is in the pair of a node of their faces, for their little cover.
+     */
     int64_t n_folded;
     const int64_t *folded; /**< Each of these nodes with that neighbour, 2 entries for each. */
-    int64_t n_uncovered;         /**< Number of slave faces that lie over nothing (dual mortar). */
+    /** Number of slave faces that lie over nothing within the search distance. */
+    int64_t n_uncovered;
     const int64_t *uncovered;    /**< These faces. */
     const char *summary;         /**< One sentence on what was found, ASCII text for a log. */
     int64_t slave_faces;         /**< Number of slave faces. */
     double slave_area;           /**< Area of the slave faces. */
     /** The part of it that lies over the other side: the areas of all pairs. */
     double covered_area;
-    double search_distance;      /**< The search distance that was used. */
+    double search_distance;      /**< The largest open distance that was looked at. */
     /**
      * How often a master face was near a slave with a normal that does not oppose the slave's. If
      * it is not 0 and there are no pairs, one side is turned over.
@@ -243,7 +256,16 @@ struct signorini_surface_data {
     int64_t not_opposed;
     int64_t boxes_searched;      /**< Boxes that the search looked at: its cost. */
     int64_t on_symmetry;         /**< Pairs whose slave node stands on a plane of symmetry. */
-    int64_t dropped; /**< Number of unpaired nodes that SIGNORINI_RIMS_DROP has left out. */
+    /**
+     * Number of slave faces that lie over nothing within the search distance, but point at a master
+     * beyond it: contact there is not seen. Give a larger search_distance if it may come to it.
+     */
+    int64_t n_beyond;
+    const int64_t *beyond;       /**< These faces. */
+    /** How far away the nearest master is, one for each of them; length. */
+    const double *beyond_distances;
+    /** The distance between a folded node and its neighbour, one for each; length. */
+    const double *folded_distances;
 };
 
 /** Fills data, whose struct_size you set before. Its arrays live as long as the pairs. */

@@ -17,7 +17,8 @@ pub struct Progress {
     pub eta: f64,
     /// Seconds since the call began.
     pub elapsed: f64,
-    /// Share of the reduction of a sparse matrix that is done, 0 to 1; 1 while a load case is solved.
+    /// Share of the reduction of a sparse matrix, or of a pairing of surfaces, that is done, 0 to 1; 1 while a load case
+    /// is solved.
     pub reduced: f64,
     /// Bytes that this reduction needs in all, known before they are taken; 0 before that and while a load
     /// case is solved.
@@ -211,17 +212,30 @@ impl<'a> Monitor<'a> {
             );
             return Err(Error::stopped(Limit::Memory, message));
         }
+        self.does("reduction", share, memory)
+    }
+
+    /// To be called while surfaces are paired, of which `share` is done.
+    ///
+    /// # Errors
+    /// As [`Self::reducing`].
+    pub(crate) fn pairing(&mut self, share: f64) -> Result<(), Error> {
+        shortage::check();
+        self.does("pairing", share, 0)
+    }
+
+    fn does(&mut self, work: &str, share: f64, memory: u64) -> Result<(), Error> {
         let elapsed = self.begin.elapsed().as_secs_f64();
         let done = 100.0 * share;
         if elapsed > self.time_limit {
             let message = format!(
-                "the time limit of {} s is used up with {done:.0} % of the reduction done",
+                "the time limit of {} s is used up with {done:.0} % of the {work} done",
                 self.time_limit
             );
             return Err(Error::stopped(Limit::Time, message));
         }
         if self.cancels(elapsed, share, memory) {
-            let message = format!("cancelled with {done:.0} % of the reduction done");
+            let message = format!("cancelled with {done:.0} % of the {work} done");
             return Err(Error::stopped(Limit::Cancelled, message));
         }
         Ok(())

@@ -53,7 +53,7 @@ pub struct SignoriniProgress {
     pub eta: f64,
     /// Seconds since the call began.
     pub elapsed: f64,
-    /// Share of the reduction of a matrix that is done, 0 to 1; 1 in a load case.
+    /// Share of the reduction of a matrix or of a pairing that is done; 1 in a load case.
     pub reduced: f64,
     /// Bytes that this reduction needs in all, told before they are taken; otherwise 0.
     pub memory: i64,
@@ -228,22 +228,30 @@ impl ParsedSettings {
 
     /// The caller's callback as a closure, if there is one.
     pub(super) fn progress(&self) -> Option<impl FnMut(&Progress) -> ControlFlow<()> + use<>> {
-        let (callback, user) = (self.progress?, self.user);
-        Some(move |progress: &Progress| {
-            let progress = SignoriniProgress {
-                iterations: progress.iterations as i64,
-                eta: progress.eta,
-                elapsed: progress.elapsed,
-                reduced: progress.reduced,
-                memory: progress.memory as i64,
-            };
-            // SAFETY: the header demands a function of this type that returns normally.
-            match in_host(|| unsafe { callback(user, &raw const progress) }) {
-                0 => ControlFlow::Continue(()),
-                _ => ControlFlow::Break(()),
-            }
-        })
+        callback(self.progress, self.user)
     }
+}
+
+/// A caller's callback as a closure, if there is one.
+pub(super) fn callback(
+    progress: SignoriniProgressFn,
+    user: *mut c_void,
+) -> Option<impl FnMut(&Progress) -> ControlFlow<()> + use<>> {
+    let progress = progress?;
+    Some(move |told: &Progress| {
+        let told = SignoriniProgress {
+            iterations: told.iterations as i64,
+            eta: told.eta,
+            elapsed: told.elapsed,
+            reduced: told.reduced,
+            memory: told.memory as i64,
+        };
+        // SAFETY: the header demands a function of this type that returns normally.
+        match in_host(|| unsafe { progress(user, &raw const told) }) {
+            0 => ControlFlow::Continue(()),
+            _ => ControlFlow::Break(()),
+        }
+    })
 }
 
 numbers! {

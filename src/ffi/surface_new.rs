@@ -30,6 +30,9 @@ pub struct SignoriniSurfacePairs {
     pub(super) unpaired: Vec<i64>,
     pub(super) uncovered: Vec<i64>,
     pub(super) folded: Vec<i64>,
+    pub(super) folded_distances: Vec<f64>,
+    pub(super) beyond: Vec<i64>,
+    pub(super) beyond_distances: Vec<f64>,
     pub(super) summary: CString,
     pub(super) rows: SignoriniPairs,
     /// Memory that `rows` points to beside `arrays`.
@@ -78,7 +81,9 @@ pub unsafe extern "C" fn signorini_surface_pair(
             slave: SignoriniFaces::view(&host.slave),
             master: SignoriniFaces::view(&master),
         };
-        let found = pair_surfaces(&surfaces, &host.received.settings);
+        let received = &host.received;
+        let found =
+            received.monitored(|monitor| pair_surfaces(&surfaces, &received.settings, monitor));
         place.fill(found.map(|found| (found, host)), position)
     })
 }
@@ -111,16 +116,16 @@ pub unsafe extern "C" fn signorini_surface_pair_obstacle(
         let slave = SignoriniFaces::view(&host.slave);
         let obstacle = SignoriniObstacle::read(&mut arrays, 5, *dim, received.base, obstacle)?;
         let given = &received.settings;
-        let found = match &obstacle {
+        let found = received.monitored(|monitor| match &obstacle {
             Rigid::Shape(shape) => {
-                pair_with_obstacle(*dim, coordinates, slave, shape, given.search_distance)
+                pair_with_obstacle(*dim, coordinates, slave, shape, given, monitor)
             }
             Rigid::Faces(of_obstacle, faces) => {
                 let faces = SignoriniFaces::view(faces);
                 let rigid = RigidSurface { coordinates: of_obstacle, faces };
-                pair_with_rigid_surface(*dim, coordinates, slave, &rigid, given)
+                pair_with_rigid_surface(*dim, coordinates, slave, &rigid, given, monitor)
             }
-        };
+        });
         place.fill(found.map(|found| (found, host)), position)
     })
 }
@@ -190,8 +195,12 @@ impl From<(SurfacePairs, Host<'_>)> for SignoriniSurfacePairs {
         let indices = [counted(&arrays.master_start), counted(&arrays.masters)];
         let slaves: Vec<usize> = found.pairs.iter().map(|pair| pair.slave).collect();
         let points = found.pairs.iter().flat_map(|pair| pair.point[..found.dim].to_vec());
-        let folded: Vec<usize> =
-            found.report.folded.iter().flat_map(|(node, with)| [*node, *with]).collect();
+        let folds = &found.report.folded;
+        let folded: Vec<usize> = folds.iter().flat_map(|fold| [fold.node, fold.into]).collect();
+        let (beyond, beyond_distances): (Vec<usize>, _) =
+            found.report.beyond.iter().copied().unzip();
+        let summary = found.summary();
+        let summary = if base == 1 { summary.counted_from_one() } else { summary.to_string() };
         let rows = SignoriniPairs {
             dim: found.dim as i32,
             count: found.pairs.len() as i64,
@@ -207,8 +216,11 @@ impl From<(SurfacePairs, Host<'_>)> for SignoriniSurfacePairs {
             unpaired: counted(&found.unpaired),
             uncovered: counted(&found.report.uncovered_faces),
             folded: counted(&folded),
+            folded_distances: folds.iter().map(|fold| fold.distance).collect(),
+            beyond: counted(&beyond),
+            beyond_distances,
             points: points.collect(),
-            summary: CString::new(found.summary()).unwrap_or_default(),
+            summary: CString::new(summary).unwrap_or_default(),
             rows,
             _indices: indices,
             nodes,

@@ -1,9 +1,14 @@
 //! How a host wants surfaces to be paired.
 
+use libc::c_void;
+
 use super::args::{Arrays, size};
 use super::guard::Failure;
+use super::settings::{SignoriniProgressFn, callback};
 use super::sparse::shifted;
 use super::structures::{self, Structure};
+use crate::monitor::{Monitor, ProgressFn};
+use crate::settings::Settings;
 use crate::surface::{Normals, Pairing, Rims, SurfaceSettings, SymmetryPlane};
 
 /// Dual mortar, the default: a uniform pressure passes between any two flat meshes.
@@ -21,16 +26,14 @@ pub const SIGNORINI_NORMALS_AVERAGED: i32 = 0;
 /// The choice does not change which nodes have pairs.
 pub const SIGNORINI_NORMALS_FACES: i32 = 1;
 
-/// The default: the rows of slave nodes with less than a tenth of their area over the master,
-/// counted on faces that lie over it in part, are added to that of a neighbour. Uniform pressure
-/// stays exact. The choice is for dual mortar: nodes against surfaces have no cover, and take the
-/// default alone.
+/// The default: the rows of slave nodes with less than half of their area over the master, counted
+/// on all slave faces around them that look the same way, are added to that of a node of their own
+/// faces. Uniform pressure stays exact, and others are as exact as elsewhere. The choice is for dual mortar: nodes against
+/// surfaces have no cover, and take the default alone.
 pub const SIGNORINI_RIMS_FOLD: i32 = 0;
 /// They keep pairs of their own with small areas. Uniform pressure stays exact; other pressures may
 /// be large there, as the rows reach into the air. Below a millionth they are folded all the same.
 pub const SIGNORINI_RIMS_KEEP: i32 = 1;
-/// They get no pair, and their area is left out: uniform pressure is not exact around them.
-pub const SIGNORINI_RIMS_DROP: i32 = 2;
 
 /// How surfaces are paired. Fill it by signorini_surface_settings_default(), then change what you
 /// like.
@@ -42,7 +45,9 @@ pub struct SignoriniSurfaceSettings {
     /// SIGNORINI_PAIRING_...; default SIGNORINI_PAIRING_DUAL_MORTAR.
     pub pairing: i32,
     /// Largest distance along the normal at which surfaces are paired, open or overlapping; length.
-    /// Default 0: the size of the largest slave face; no limit against an obstacle without faces.
+    /// Default 0: open up to half the diagonal of the smaller of the two sides' boxes, but of masters
+    /// over each other the nearest alone; overlapping up to the size of the largest slave face; no
+    /// limit against an obstacle without faces.
     pub search_distance: f64,
     /// Number of the first node, degree of freedom and entry of start, 0 or 1, here and in the
     /// pairs; default 0. Take that of your matrix.
@@ -64,6 +69,18 @@ pub struct SignoriniSurfaceSettings {
     pub normals: i32,
     /// SIGNORINI_RIMS_...; default SIGNORINI_RIMS_FOLD.
     pub rims: i32,
+    /// Nonzero: lines in 2D are meridians of bodies of revolution about the axis x = 0, with the
+    /// radius x >= 0. Areas are those of whole rings, with the factor 2 pi r: hand over stiffness and
+    /// loads of whole rings too. The axis is a plane of symmetry without being named. Default 0.
+    pub axisymmetric: i32,
+    /// 0.
+    pub reserved: i32,
+    /// Most seconds of wall time; default 0, and infinity: no limit.
+    pub time_limit: f64,
+    /// Progress callback as in signorini_settings, called often; default NULL.
+    pub progress: SignoriniProgressFn,
+    /// First argument of progress; default NULL.
+    pub user: *mut c_void,
 }
 
 /// Settings of a pairing as the host gave them.
@@ -74,9 +91,22 @@ pub(super) struct ParsedSurfaceSettings {
     pub(super) per_node: usize,
     /// Or all of them.
     pub(super) listed: Option<Vec<usize>>,
+    time_limit: f64,
+    progress: SignoriniProgressFn,
+    user: *mut c_void,
 }
 
-// SAFETY: led by its size; numbers and pointers.
+impl ParsedSurfaceSettings {
+    /// Does work that the settings limit and the caller's callback watches.
+    pub(super) fn monitored<T>(&self, work: impl FnOnce(&mut Monitor<'_>) -> T) -> T {
+        let mut progress = callback(self.progress, self.user);
+        let progress = progress.as_mut().map(|progress| progress as &mut ProgressFn<'_>);
+        let limits = Settings { time_limit: self.time_limit, ..Settings::default() };
+        work(&mut Monitor::new(&limits, progress))
+    }
+}
+
+// SAFETY: led by its size; numbers, pointers and a callback.
 unsafe impl Structure for SignoriniSurfaceSettings {
     fn default_one() -> Self {
         SignoriniSurfaceSettings {
@@ -118,8 +148,17 @@ impl SignoriniSurfaceSettings {
         };
         let search_distance = Some(given.search_distance).filter(|distance| *distance != 0.0);
         let symmetry = given.symmetry(arrays, position)?;
-        let settings = SurfaceSettings { pairing, search_distance, symmetry, normals, rims };
-        Ok(ParsedSurfaceSettings { settings, base, per_node, listed })
+        let axisymmetric = given.axisymmetric != 0;
+        let settings =
+            SurfaceSettings { pairing, search_distance, symmetry, normals, rims, axisymmetric };
+        structures::check_reserved(position, "settings", given.reserved)?;
+        let SignoriniSurfaceSettings { time_limit, progress, user, .. } = given;
+        // Written so that NaN is refused.
+        if !(time_limit >= 0.0) {
+            let message = "it must be 0 (none) or a number of seconds";
+            return refuse(format!("settings: time_limit is {time_limit}, {message}"));
+        }
+        Ok(ParsedSurfaceSettings { settings, base, per_node, listed, time_limit, progress, user })
     }
 
     /// How pairs are made, their normals, and what becomes of nodes at rims.
@@ -140,7 +179,6 @@ impl SignoriniSurfaceSettings {
         let rims = match self.rims {
             SIGNORINI_RIMS_FOLD => Rims::Fold,
             SIGNORINI_RIMS_KEEP => Rims::Keep,
-            SIGNORINI_RIMS_DROP => Rims::Drop,
             other => return none("choice of rims", other),
         };
         Ok((pairing, normals, rims))

@@ -35,11 +35,11 @@ pub struct SignoriniSurfaceData {
     pub n_unpaired: i64,
     /// These nodes.
     pub unpaired: *const i64,
-    /// Number of those whose row is in the pair of a neighbour, for their little cover.
+    /// Number of those whose row is in the pair of a node of their faces, for their little cover.
     pub n_folded: i64,
     /// Each of these nodes with that neighbour, 2 entries for each.
     pub folded: *const i64,
-    /// Number of slave faces that lie over nothing (dual mortar).
+    /// Number of slave faces that lie over nothing within the search distance.
     pub n_uncovered: i64,
     /// These faces.
     pub uncovered: *const i64,
@@ -51,7 +51,7 @@ pub struct SignoriniSurfaceData {
     pub slave_area: f64,
     /// The part of it that lies over the other side: the areas of all pairs.
     pub covered_area: f64,
-    /// The search distance that was used.
+    /// The largest open distance that was looked at.
     pub search_distance: f64,
     /// How often a master face was near a slave with a normal that does not oppose the slave's. If
     /// it is not 0 and there are no pairs, one side is turned over.
@@ -60,8 +60,15 @@ pub struct SignoriniSurfaceData {
     pub boxes_searched: i64,
     /// Pairs whose slave node stands on a plane of symmetry.
     pub on_symmetry: i64,
-    /// Number of unpaired nodes that SIGNORINI_RIMS_DROP has left out.
-    pub dropped: i64,
+    /// Number of slave faces that lie over nothing within the search distance, but point at a master
+    /// beyond it: contact there is not seen. Give a larger search_distance if it may come to it.
+    pub n_beyond: i64,
+    /// These faces.
+    pub beyond: *const i64,
+    /// How far away the nearest master is, one for each of them; length.
+    pub beyond_distances: *const f64,
+    /// The distance between a folded node and its neighbour, one for each; length.
+    pub folded_distances: *const f64,
 }
 
 /// Fills data, whose struct_size you set before. Its arrays live as long as the pairs.
@@ -102,7 +109,10 @@ impl SignoriniSurfacePairs {
             not_opposed: report.not_opposed as i64,
             boxes_searched: report.boxes_searched as i64,
             on_symmetry: self.found.on_symmetry().count() as i64,
-            dropped: report.dropped.len() as i64,
+            n_beyond: report.beyond.len() as i64,
+            beyond: address(&self.beyond),
+            beyond_distances: address(&self.beyond_distances),
+            folded_distances: address(&self.folded_distances),
         }
     }
 }

@@ -1,40 +1,65 @@
-//! Which master faces may lie opposite a slave face.
+//! Which master faces may lie opposite a slave face, and how far away.
 
 use super::face::Face;
 use super::mesh::Side;
-use super::tree::{Bounds, Tree};
+use super::tree::{Sweep, Tree};
+use super::watch::Watch;
+use crate::error::Error;
 use crate::linalg::vector3::Vector3;
 
 /// Faces oppose each other if the cosine between their normals is below this: they are inclined by less
 /// than 78 degrees, and the projection of one on the other keeps a fifth of its area.
 const OPPOSED: f64 = -0.2;
 
-/// A curved face may bulge out of the box of its nodes by this share of its size: an arc of a quarter
-/// circle bulges by 0.1 of its chord, between nodes by less.
-const BULGE: f64 = 0.1;
+/// Faces look the same way if the cosine between their normals is above this. Of two meshes of one curved surface, and
+/// of neighbours on it, normals differ by the angle of a face, say 30 degrees on coarse ones.
+pub(super) const SAME_WAY: f64 = 0.7;
+
+/// A node is wanted even if it is beyond a master face by this part of the coordinates.
+const BEYOND: f64 = 1e-9;
+
+/// How far from a slave face a master face may be, along the slave's normal.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Reach {
+    /// How deep they overlap at most.
+    pub(super) overlap: f64,
+    /// The largest distance, if they are apart.
+    pub(super) open: f64,
+    /// How much further a master face may be than the nearest one over the same slave face.
+    pub(super) layer: f64,
+}
+
+impl Reach {
+    pub(super) fn holds(&self, distance: f64) -> bool {
+        (-self.overlap..=self.open).contains(&distance)
+    }
+}
 
 /// The faces of a side as a search needs them.
-pub(super) struct SearchFaces {
-    pub(super) tree: Tree,
+pub(super) struct SearchFaces<'a> {
+    pub(super) tree: Tree<'a>,
     /// Unit normals in the middle of the faces.
     pub(super) normals: Vec<Vector3>,
 }
 
-impl SearchFaces {
-    pub(super) fn new(side: &Side<'_>) -> SearchFaces {
-        let faces = || (0..side.count()).map(|face| side.face(face));
-        SearchFaces {
-            tree: Tree::new(faces().map(|face| bounds(&face)).collect()),
-            normals: faces().map(|face| middle_normal(&face)).collect(),
-        }
+impl<'a> SearchFaces<'a> {
+    /// # Errors
+    /// What ends the watch.
+    pub(super) fn new(
+        side: &'a Side<'a>,
+        watch: &mut Watch<'_, '_>,
+    ) -> Result<SearchFaces<'a>, Error> {
+        let normals = (0..side.count()).map(|face| middle_normal(&side.face(face))).collect();
+        Ok(SearchFaces { tree: Tree::new(side, watch)?, normals })
     }
 }
 
 /// The master faces, to be asked for those near a slave face.
-pub(super) struct Candidates {
-    master: SearchFaces,
-    /// The search distance.
-    pub(super) reach: f64,
+pub(super) struct Candidates<'a> {
+    master: SearchFaces<'a>,
+    pub(super) reach: Reach,
+    /// No face of either side is further away from another one.
+    pub(super) span: f64,
     found: Vec<usize>,
     /// Boxes looked at so far.
     pub(super) searched: usize,
@@ -42,34 +67,33 @@ pub(super) struct Candidates {
     pub(super) not_opposed: usize,
 }
 
-/// A box that holds a face.
-pub(super) fn bounds(face: &Face<'_>) -> Bounds {
-    let bounds = Bounds::of(face.x[..face.kind.nodes()].iter().copied());
-    bounds.grown(if face.is_straight() { 0.0 } else { BULGE * bounds.size() })
-}
-
 /// Unit normal in the middle of a face, which has one as faces without area are refused.
 pub(super) fn middle_normal(face: &Face<'_>) -> Vector3 {
     face.middle_normal().unwrap_or_default()
 }
 
-impl Candidates {
-    pub(super) fn new(master: SearchFaces, reach: f64) -> Candidates {
-        Candidates { master, reach, found: Vec::new(), searched: 0, not_opposed: 0 }
+impl<'a> Candidates<'a> {
+    pub(super) fn new(master: SearchFaces<'a>, reach: Reach, span: f64) -> Candidates<'a> {
+        Candidates { master, reach, span, found: Vec::new(), searched: 0, not_opposed: 0 }
     }
 
     /// Master faces within reach of a slave face whose normals oppose its own.
     pub(super) fn of_face(&mut self, face: &Face<'_>, normal: Vector3) -> &[usize] {
-        self.near(bounds(face), normal)
+        self.near(&Sweep::of_face(face, normal, self.ways()), normal)
     }
 
     /// Master faces within reach of a point, opposed to a normal.
     pub(super) fn of_point(&mut self, point: Vector3, normal: Vector3) -> &[usize] {
-        self.near(Bounds::of(std::iter::once(point)), normal)
+        self.near(&Sweep::of_point(&point, normal, self.ways(), BEYOND), normal)
     }
 
-    fn near(&mut self, bounds: Bounds, normal: Vector3) -> &[usize] {
-        self.searched += self.master.tree.near(&bounds.grown(self.reach), &mut self.found);
+    /// How far back and forward faces are looked for.
+    fn ways(&self) -> [f64; 2] {
+        [self.reach.overlap, self.reach.open].map(|reach| reach.min(self.span))
+    }
+
+    fn near(&mut self, sweep: &Sweep<'_>, normal: Vector3) -> &[usize] {
+        self.searched += self.master.tree.near(sweep, &mut self.found);
         let before = self.found.len();
         self.found.retain(|&face| self.master.normals[face].dot(&normal) < OPPOSED);
         self.not_opposed += before - self.found.len();

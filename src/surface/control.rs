@@ -24,7 +24,8 @@ const TO_MID: f64 = 1.0 / 8.0;
 /// The share that remains at the centre.
 const REMAINS: f64 = 0.25;
 
-/// `α` of a face's edges, if it is covered wholly or in part.
+/// `α` of a face's edges, if it is covered wholly or in part. A ring that touches its axis counts as covered in part: the
+/// integral of its corner there has the radius in it, and is zero with `α = 0`.
 fn alpha(kind: FaceKind, wholly: bool) -> f64 {
     match (kind, wholly) {
         (FaceKind::Line2 | FaceKind::T3 | FaceKind::Q4, _) => 0.0,

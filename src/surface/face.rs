@@ -1,5 +1,7 @@
 //! A face in space, or a line in the plane: positions, normals, area.
 
+use std::f64::consts::TAU;
+
 use super::quadrature::{self, RulePoint};
 use super::shape::{FaceKind, Local, MOST_NODES, Values};
 use crate::linalg::vector3::{Vector3, unit};
@@ -20,6 +22,8 @@ pub(super) struct Face<'a> {
     pub(super) kind: FaceKind,
     pub(super) nodes: &'a [usize],
     pub(super) x: [Vector3; MOST_NODES],
+    /// `true`: a meridian of a ring about the axis `x = 0`.
+    pub(super) is_ring: bool,
 }
 
 impl Face<'_> {
@@ -38,6 +42,11 @@ impl Face<'_> {
             along[1] += x * slopes[1];
         }
         along
+    }
+
+    /// The length of the ring at local coordinates; 1 of a face that is none.
+    pub(super) fn around(&self, at: Local) -> f64 {
+        if self.is_ring { TAU * self.position(at).x } else { 1.0 }
     }
 
     /// The outward normal, as long as the area of a unit of local coordinates: to the right of a
@@ -65,7 +74,7 @@ impl Face<'_> {
     pub(super) fn integrals(&self) -> Values {
         let mut integrals = [0.0; MOST_NODES];
         let mut add = |at: Local, weight: f64| {
-            let area = weight * self.outward(at).norm();
+            let area = weight * self.outward(at).norm() * self.around(at);
             let values = self.kind.values(at);
             integrals.iter_mut().zip(values).for_each(|(sum, value)| *sum += area * value);
         };

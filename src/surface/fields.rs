@@ -46,7 +46,7 @@ pub struct NodalFields {
 /// Sums over a contact zone.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Resultant {
-    /// The force of the contact on the slave's body.
+    /// The force of the contact on the slave's body, of whole rings if it is one of revolution.
     pub force: [f64; 3],
     /// Its moment about the given point, in the plane `[0, 0, m]`.
     pub moment: [f64; 3],
@@ -150,6 +150,10 @@ impl SurfacePairs {
             if of_pair[0] < 0.0 {
                 resultant.pressed_area += pair.area;
             }
+        }
+        if self.axisymmetric {
+            // What is across the axis cancels around a ring, and so do all moments.
+            (force.x, moment) = (0.0, Vector3::zeros());
         }
         Ok(Resultant { force: force.into(), moment: moment.into(), ..resultant })
     }

@@ -3,16 +3,20 @@
 use std::collections::HashMap;
 
 use super::face::Face;
-use super::normals::LEAST_NORMAL;
 use super::pairs::Weight;
 use super::shape::{FaceKind, MOST_NODES};
+use super::watch::Watch;
 use crate::error::{Argument, Error, entry, index};
-use crate::linalg::vector3::{Vector3, unit, vector};
+use crate::linalg::vector3::{Vector3, vector};
 use crate::problem::checked_dim;
 
 /// A face whose area, at one of its nodes, is below this part of the square of its size has none: 1e-10
 /// is a corner of a ten-thousandth of a degree, far below what a mesh for computations has.
 const LEAST_AREA: f64 = 1e-10;
+
+/// A node is on a plane if it is nearer than this part of the size of its side: ten times the error of
+/// coordinates with seven digits.
+pub(super) const ON_PLANE: f64 = 1e-6;
 
 /// Faces as lists of nodes.
 #[derive(Clone, Copy, Debug)]
@@ -48,6 +52,9 @@ pub(super) struct Side<'a> {
     dim: usize,
     coordinates: &'a [f64],
     faces: Faces<'a>,
+    is_axisymmetric: bool,
+    /// Coordinates are multiplied by this power of two, so that they are below 1 whatever the host's unit is.
+    scale: f64,
 }
 
 impl<'a> Side<'a> {
@@ -63,12 +70,33 @@ impl<'a> Side<'a> {
         for (x, &node) in x.iter_mut().zip(nodes) {
             *x = self.position(node);
         }
-        Face { kind: self.kind(nodes), nodes, x }
+        Face { kind: self.kind(nodes), nodes, x, is_ring: self.is_axisymmetric }
     }
 
-    /// Coordinates of a node.
+    /// Place of a node, in the unit of the pairing.
     pub(super) fn position(&self, node: usize) -> Vector3 {
-        vector(&self.coordinates[self.dim * node..self.dim * (node + 1)])
+        self.scale * vector(&self.coordinates[self.dim * node..self.dim * (node + 1)])
+    }
+
+    /// The host's coordinates of all nodes of faces.
+    pub(super) fn lengths(&self) -> impl Iterator<Item = f64> {
+        let of_node = |&node: &usize| &self.coordinates[self.dim * node..self.dim * (node + 1)];
+        self.faces.nodes.iter().flat_map(of_node).copied()
+    }
+
+    /// The side with its scale, its shape checked.
+    pub(super) fn checked(
+        mut self,
+        (scale, is_axisymmetric): (f64, bool),
+        watch: &mut Watch<'_, '_>,
+    ) -> Result<Side<'a>, Error> {
+        (self.scale, self.is_axisymmetric) = (scale, is_axisymmetric);
+        for face in 0..self.count() {
+            watch.goes_on()?;
+            self.check_shape(face)?;
+        }
+        self.check_orientation(watch)?;
+        Ok(self)
     }
 
     /// The nodes of all faces, each once, ascending.
@@ -99,24 +127,25 @@ impl<'a> Side<'a> {
         Error::invalid(self.argument, format!("{} face {} {what}", self.name, index(face)))
     }
 
-    /// A side, checked. `argument` is that of its faces.
+    /// A side whose lists are in order. `argument` is that of its faces.
     pub(super) fn new(
         name: &'static str,
         argument: Argument,
         (dim, coordinates): (usize, &'a [f64]),
         faces: Faces<'a>,
     ) -> Result<Side<'a>, Error> {
-        let side = Side { name, argument, dim, coordinates, faces };
+        let (is_axisymmetric, scale) = (false, 1.0);
+        let side = Side { name, argument, dim, coordinates, faces, is_axisymmetric, scale };
         if !coordinates.len().is_multiple_of(dim) {
             let message =
                 format!("there are {} coordinates, no multiple of dim {dim}", coordinates.len());
             return Err(Error::invalid(side.of_coordinates(), message));
         }
-        side.check()?;
+        side.check_lists()?;
         Ok(side)
     }
 
-    /// The slave side, checked.
+    /// The slave side, whose lists are in order.
     pub(super) fn slave(
         dim: usize,
         coordinates: &'a [f64],
@@ -139,13 +168,9 @@ impl<'a> Side<'a> {
         weights.iter().map(|&(node, weight)| weight * self.position(node)).sum()
     }
 
-    fn check(&self) -> Result<(), Error> {
+    fn check_lists(&self) -> Result<(), Error> {
         self.check_start()?;
-        for face in 0..self.count() {
-            self.check_nodes(face)?;
-            self.check_shape(face)?;
-        }
-        self.check_orientation()
+        (0..self.count()).try_for_each(|face| self.check_nodes(face))
     }
 
     fn check_start(&self) -> Result<(), Error> {
@@ -208,6 +233,13 @@ impl<'a> Side<'a> {
     fn check_shape(&self, at: usize) -> Result<(), Error> {
         let face = self.face(at);
         let size = face.size();
+        let inner = |&&node: &&usize| self.position(node).x < -ON_PLANE * size;
+        if let Some(&node) = face.nodes.iter().find(inner).filter(|_| face.is_ring) {
+            let radius = self.coordinates[self.dim * node];
+            let what =
+                format!("has node {} at the radius {radius}, beyond the axis x = 0", index(node));
+            return Err(self.refuse(at, &what));
+        }
         let least = LEAST_AREA * if self.dim == 2 { size } else { size * size };
         let middle = face.outward(face.kind.centre());
         // Written so that zero and NaN are refused.
@@ -229,10 +261,11 @@ impl<'a> Side<'a> {
     }
 
     /// Refuses neighbours that run along their common edge in the same direction.
-    fn check_orientation(&self) -> Result<(), Error> {
+    fn check_orientation(&self, watch: &mut Watch<'_, '_>) -> Result<(), Error> {
         let mut seen: HashMap<(usize, usize), usize> =
             HashMap::with_capacity(self.faces.nodes.len());
         for face in 0..self.count() {
+            watch.goes_on()?;
             let corners = self.corners(face);
             for (i, &a) in corners.iter().enumerate() {
                 let b = corners[(i + 1) % corners.len()];
@@ -255,38 +288,15 @@ impl<'a> Side<'a> {
         }
         Ok(())
     }
-
-    /// Averaged unit normals of the nodes of [`Self::all_nodes`], by node.
-    ///
-    /// # Errors
-    /// A node whose faces' normals cancel.
-    pub(super) fn node_normals(&self) -> Result<HashMap<usize, Vector3>, Error> {
-        let mut sums: HashMap<usize, (Vector3, usize)> = HashMap::new();
-        for at in 0..self.count() {
-            let face = self.face(at);
-            for (&node, &place) in face.nodes.iter().zip(face.kind.places()) {
-                let sum = sums.entry(node).or_insert((Vector3::zeros(), at));
-                sum.0 += unit(face.outward(place)).unwrap_or_default();
-            }
-        }
-        let normal = |(node, (sum, face)): (usize, (Vector3, usize))| {
-            let normal = unit(sum).filter(|_| sum.norm() > LEAST_NORMAL).ok_or_else(|| {
-                let what = format!("has node {}, where normals cancel", index(node));
-                self.refuse(face, &what)
-            });
-            normal.map(|normal| (node, normal))
-        };
-        sums.into_iter().map(normal).collect()
-    }
 }
 
 impl<'a> Surfaces<'a> {
-    /// Checks everything and gives the two sides, slave and master.
+    /// The two sides, slave and master, with their lists in order.
     pub(super) fn sides(&self) -> Result<[Side<'a>; 2], Error> {
         let slave = Side::slave(self.dim, self.coordinates, self.slave)?;
         let side =
             Side { name: "master", argument: Argument::MasterFaces, faces: self.master, ..slave };
-        side.check()?;
+        side.check_lists()?;
         let mut on_slave = vec![false; self.coordinates.len() / self.dim];
         self.slave.nodes.iter().for_each(|&node| on_slave[node] = true);
         for face in 0..side.count() {

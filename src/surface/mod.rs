@@ -4,6 +4,7 @@
 //! tangents, gaps and areas, and what found no partner. Lengths are in the host's unit.
 //!
 //! ```
+//! use signorini::{Monitor, Settings};
 //! use signorini::surface::{Faces, SurfaceSettings, Surfaces, pair_surfaces};
 //!
 //! // A line of one element, 0 to 1, stands on one of two elements.
@@ -11,13 +12,15 @@
 //! let slave = Faces { start: &[0, 2], nodes: &[0, 1] };
 //! let master = Faces { start: &[0, 2, 4], nodes: &[4, 3, 3, 2] };
 //! let surfaces = Surfaces { dim: 2, coordinates: &coordinates, slave, master };
-//! let found = pair_surfaces(&surfaces, &SurfaceSettings::default())?;
+//! let monitor = &mut Monitor::new(&Settings::default(), None);
+//! let found = pair_surfaces(&surfaces, &SurfaceSettings::default(), monitor)?;
 //! assert_eq!(found.pairs.len(), 2);
 //! assert!((found.pairs[0].gap - 0.1).abs() < 1e-15);
 //! assert!((found.pairs[0].area - 0.5).abs() < 1e-15);
 //! # Ok::<(), signorini::Error>(())
 //! ```
 
+mod beyond;
 mod bilinear;
 mod candidates;
 mod clip;
@@ -41,15 +44,18 @@ mod row;
 mod self_overlap;
 mod settings;
 mod shape;
+mod summary;
 mod symmetry;
 mod tree;
+mod unit;
+mod watch;
 mod whole_faces;
 
 pub use fields::{NodalFields, PairResults, Resultant};
 pub use mesh::{Faces, Surfaces};
 pub use obstacle::{Obstacle, pair_with_obstacle};
 pub use pair_surfaces::pair_surfaces;
-pub use pairs::{NodeDofs, PairArrays, SurfacePair, SurfacePairs, SurfaceReport, Weight};
+pub use pairs::{Fold, NodeDofs, PairArrays, SurfacePair, SurfacePairs, SurfaceReport, Weight};
 pub use rigid::{RigidSurface, pair_with_rigid_surface};
 pub use settings::{Normals, Pairing, Rims, SurfaceSettings};
 pub use shape::FaceKind;

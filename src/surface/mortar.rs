@@ -9,38 +9,32 @@
 
 use std::collections::BTreeMap;
 
-use super::candidates::{Candidates, middle_normal};
+use super::candidates::{Candidates, SAME_WAY, middle_normal};
 use super::control::Edges;
 use super::face::Face;
 use super::mesh::Side;
 use super::normals::{at_nodes, direction};
-use super::overlap::{Overlaps, SlaveFace};
+use super::overlap::{Meeting, Overlaps, SlaveFace};
 use super::pairs::{SurfacePair, SurfacePairs, SurfaceReport};
 use super::plane::Plane;
 use super::projected_shapes::{Covered, Opposite, Polynomials};
 use super::rims::{self, SAME_COVER};
 use super::row::{Row, add_face};
 use super::settings::{Normals, SurfaceSettings};
-use super::shape::{FaceKind, Values};
 use super::symmetry::OnPlanes;
+use super::watch::Watch;
 use crate::error::{Argument, Error, index};
 use crate::linalg::vector3::Vector3;
 
 /// A slave face that lies over master faces.
-struct CoveredFace<'a> {
-    /// Its place among the slave faces.
-    at: usize,
-    kind: FaceKind,
-    nodes: &'a [usize],
+struct CoveredFace {
     covered: Covered,
-    /// Integrals of its shape functions over the whole face.
-    whole: Values,
     wholly: bool,
 }
 
 /// The memory that the search uses from face to face.
-struct Search {
-    candidates: Candidates,
+struct Search<'a> {
+    candidates: Candidates<'a>,
     overlaps: Overlaps,
     polynomials: Polynomials,
 }
@@ -54,33 +48,32 @@ pub(super) fn pairs(
     [slave, master]: [&Side<'_>; 2],
     dim: usize,
     planes: &OnPlanes,
-    candidates: Candidates,
+    candidates: Candidates<'_>,
     settings: &SurfaceSettings,
+    watch: &mut Watch<'_, '_>,
 ) -> Result<SurfacePairs, Error> {
     let mut report = SurfaceReport {
-        search_distance: candidates.reach,
+        search_distance: candidates.reach.open,
         slave_faces: slave.count(),
         ..SurfaceReport::default()
     };
     let (overlaps, polynomials) = (Overlaps::default(), Polynomials::default());
     let SurfaceSettings { normals, rims, .. } = *settings;
-    let search = &mut Search { candidates, overlaps, polynomials };
+    let mut search = Search { candidates, overlaps, polynomials };
     let mut faces = Vec::new();
     for at in 0..slave.count() {
-        let face = slave.face(at);
-        let whole = face.integrals();
-        report.slave_area += whole.iter().sum::<f64>();
-        match cover([slave, master], (at, &face, whole), dim, search)? {
-            Some(face) => faces.push(face),
-            None => report.uncovered_faces.push(at),
+        watch.step()?;
+        let face =
+            cover([slave, master], (at, &slave.face(at)), (dim, planes), &mut search, watch)?;
+        if face.is_none() {
+            report.uncovered_faces.push(at);
         }
+        faces.push(face);
     }
-    report.boxes_searched = search.candidates.searched;
-    report.not_opposed = search.candidates.not_opposed;
-    let mut rows = rows(slave, &faces, normals);
-    let around = faces.iter().map(|face| face.nodes);
-    let little = rims::settle(rims, &mut rows, around, |node| slave.position(node));
-    (report.folded, report.dropped) = (little.folded, little.dropped);
+    let Search { candidates, .. } = search;
+    candidates.look_beyond([slave, master], dim, &mut report, watch)?;
+    let mut rows = rows(slave, &faces, planes, watch)?;
+    report.folded = rims::fold(rims, &mut rows, slave);
     let averaged = match normals {
         Normals::Averaged => Some(slave.node_normals_on(planes)?),
         Normals::Faces => None,
@@ -88,6 +81,7 @@ pub(super) fn pairs(
     let pairs: Vec<SurfacePair> = rows
         .into_iter()
         .map(|(node, row)| {
+            watch.goes_on()?;
             let area = row.area;
             let normal = match &averaged {
                 Some(normals) => normals[&node],
@@ -101,7 +95,7 @@ pub(super) fn pairs(
     report.covered_area = pairs.iter().map(|pair| pair.area).sum();
     let has_pair = |node: &usize| pairs.binary_search_by_key(node, |pair| pair.slave).is_ok();
     let unpaired = slave.all_nodes().into_iter().filter(|node| !has_pair(node)).collect();
-    Ok(SurfacePairs { dim, pairs, unpaired, report })
+    Ok(SurfacePairs { dim, pairs, unpaired, report, ..SurfacePairs::default() })
 }
 
 /// The normal of a row from those of the faces in contact.
@@ -112,25 +106,27 @@ fn normal_of_faces(node: usize, row: &Row) -> Result<Vector3, Error> {
     })
 }
 
-/// The part of the master that a slave face lies over. `whole` are the integrals of its shape functions over all of it.
-fn cover<'a>(
-    [slave, master]: [&Side<'a>; 2],
-    (at, face, whole): (usize, &Face<'a>, Values),
-    dim: usize,
-    search: &mut Search,
-) -> Result<Option<CoveredFace<'a>>, Error> {
+/// The part of the master that a slave face lies over.
+fn cover(
+    [slave, master]: [&Side<'_>; 2],
+    (at, face): (usize, &Face<'_>),
+    (dim, planes): (usize, &OnPlanes),
+    search: &mut Search<'_>,
+    watch: &mut Watch<'_, '_>,
+) -> Result<Option<CoveredFace>, Error> {
     let normal = middle_normal(face);
     let plane = Plane::new(dim, face.position(face.kind.centre()), normal);
     let in_plane = SlaveFace::new(face, plane);
     let Search { candidates, overlaps, polynomials } = search;
     overlaps.points.clear();
     let reach = candidates.reach;
-    let mut parts = Vec::new();
-    let (mut area, mut over) = (0.0, Vec::new());
+    let mut parts: Vec<Opposite<'_>> = Vec::new();
     for &opposite in candidates.of_face(face, normal) {
+        watch.goes_on()?;
         let other = master.face(opposite);
         let before = overlaps.points.len();
-        area += in_plane.overlap(&other, reach, overlaps).map_err(|_| {
+        let wanted = |distance| reach.holds(distance);
+        let part = in_plane.overlap(&other, wanted, overlaps).map_err(|_| {
             let opposite = index(opposite);
             let what = format!(
                 "cannot be projected on master face {opposite}: one of them is turned over or \
@@ -140,16 +136,22 @@ fn cover<'a>(
         })?;
         let points = before..overlaps.points.len();
         if !points.is_empty() {
-            over.push(opposite);
-            parts.push(Opposite { kind: other.kind, nodes: other.nodes, points });
+            parts.push(Opposite {
+                at: opposite,
+                kind: other.kind,
+                nodes: other.nodes,
+                points,
+                part,
+            });
         }
     }
+    keep_nearest(&mut parts, &mut overlaps.points, reach.layer);
     if parts.is_empty() {
         return Ok(None);
     }
-    let cover = area / in_plane.area;
+    let cover = parts.iter().map(|opposite| opposite.part.area).sum::<f64>() / in_plane.area;
     if cover > 1.0 + SAME_COVER {
-        let over: Vec<String> = over.iter().map(index).collect();
+        let over: Vec<String> = parts.iter().map(|opposite| index(opposite.at)).collect();
         let what = format!(
             "lies under master faces that lie over each other, among {}: leave the hidden ones out, or \
              give a smaller search distance",
@@ -158,25 +160,66 @@ fn cover<'a>(
         return Err(slave.refuse(at, &what));
     }
     let covered = polynomials.project(face.kind, &overlaps.points, &parts);
-    let (kind, nodes, wholly) = (face.kind, face.nodes, cover >= 1.0 - SAME_COVER);
-    Ok(Some(CoveredFace { at, kind, nodes, covered, whole, wholly }))
+    let wholly = cover >= 1.0 - SAME_COVER && !planes.touch_axis(face);
+    Ok(Some(CoveredFace { covered, wholly }))
 }
 
-/// The rows of all nodes with cover, by node. `whose` are the normals that they have.
-fn rows(slave: &Side<'_>, faces: &[CoveredFace<'_>], whose: Normals) -> BTreeMap<usize, Row> {
+/// Leaves out the parts that are further away than the nearest one by more than a layer, with their points.
+fn keep_nearest(parts: &mut Vec<Opposite<'_>>, points: &mut Vec<Meeting>, layer: f64) {
+    let distances = parts.iter().map(|opposite| opposite.part.distance.abs());
+    let most = distances.fold(f64::INFINITY, f64::min) + layer;
+    if parts.iter().all(|opposite| opposite.part.distance.abs() <= most) {
+        return;
+    }
+    let all = std::mem::take(points);
+    parts.retain_mut(|opposite| {
+        let first = points.len();
+        let keeps = opposite.part.distance.abs() <= most;
+        if keeps {
+            points.extend(&all[opposite.points.clone()]);
+            opposite.points = first..points.len();
+        }
+        keeps
+    });
+}
+
+/// The rows of all nodes with cover, by node.
+fn rows(
+    slave: &Side<'_>,
+    faces: &[Option<CoveredFace>],
+    planes: &OnPlanes,
+    watch: &mut Watch<'_, '_>,
+) -> Result<BTreeMap<usize, Row>, Error> {
+    let wholly = |at: usize, face: &Face<'_>| match &faces[at] {
+        Some(covered) => covered.wholly,
+        None => !planes.touch_axis(face),
+    };
     let mut edges = Edges::default();
-    for CoveredFace { kind, nodes, wholly, .. } in faces {
-        edges.add(*kind, nodes, *wholly);
+    for at in 0..slave.count() {
+        let face = slave.face(at);
+        edges.add(face.kind, face.nodes, wholly(at, &face));
     }
     let mut rows: BTreeMap<usize, Row> = BTreeMap::new();
-    for CoveredFace { at, kind, nodes, covered, whole, wholly } in faces {
-        let basis = edges.basis(*kind, nodes, *wholly);
-        let normals = match whose {
-            Normals::Averaged => Default::default(),
-            Normals::Faces => at_nodes(&slave.face(*at)),
-        };
-        let integrals = [covered.integrals, *whole];
-        add_face(&mut rows, (nodes, &basis), integrals, covered.weights(), &normals);
+    for (at, covered) in faces.iter().enumerate() {
+        watch.goes_on()?;
+        if let Some(CoveredFace { covered, wholly }) = covered {
+            let face = slave.face(at);
+            let basis = edges.basis(face.kind, face.nodes, *wholly);
+            let integrals = [covered.integrals, face.integrals()];
+            let on = (face.nodes, &basis);
+            add_face(&mut rows, on, integrals, covered.weights(), &at_nodes(&face));
+        }
     }
-    rows
+    for (at, _) in faces.iter().enumerate().filter(|(_, covered)| covered.is_none()) {
+        let face = slave.face(at);
+        let basis = edges.basis(face.kind, face.nodes, wholly(at, &face));
+        let (whole, normal) = (basis.functions(face.integrals()), middle_normal(&face));
+        for (node, whole) in face.nodes.iter().zip(whole) {
+            // Around a sharp edge faces look elsewhere, and the node has none of its contact there.
+            let row = rows.get_mut(node);
+            let same_way = |row: &&mut Row| row.normal.dot(&normal) > SAME_WAY * row.normal.norm();
+            row.into_iter().filter(same_way).for_each(|row| row.whole += whole);
+        }
+    }
+    Ok(rows)
 }

@@ -15,9 +15,11 @@ use super::mesh::Side;
 use super::normals::foot;
 use super::pairs::{SurfacePair, SurfacePairs, SurfaceReport, Weight};
 use super::plane::Plane;
+use super::row::Row;
 use super::settings::Normals;
 use super::shape::{FaceKind, Local};
 use super::symmetry::OnPlanes;
+use super::watch::Watch;
 use super::whole_faces::paired;
 use crate::error::Error;
 use crate::linalg::vector3::{Vector3, unit};
@@ -47,11 +49,12 @@ impl MasterPoint {
     fn new(
         face: &Face<'_>,
         (at, normal): (Local, Vector3),
-        (distance, reach): (f64, f64),
+        distance: f64,
+        is_near: impl Fn(f64) -> bool,
     ) -> Option<MasterPoint> {
         let weights = || face.nodes.iter().copied().zip(face.kind.values(at)).collect();
-        let meets = is_on(face.kind, at) && distance <= reach;
-        meets.then(|| MasterPoint { distance, weights: weights(), normal })
+        let meets = is_on(face.kind, at) && is_near(distance);
+        meets.then(|| MasterPoint { distance: distance.abs(), weights: weights(), normal })
     }
 }
 
@@ -65,7 +68,7 @@ fn meets(
     master: &Side<'_>,
     (x, averaged): (Vector3, Vector3),
     (dim, normals): (usize, Normals),
-    candidates: &mut Candidates,
+    candidates: &mut Candidates<'_>,
 ) -> Option<MasterPoint> {
     let plane = Plane::new(dim, x, averaged);
     let reach = candidates.reach;
@@ -78,16 +81,16 @@ fn meets(
             Normals::Averaged => averaged,
             Normals::Faces => -unit(face.outward(at))?,
         };
-        MasterPoint::new(&face, (at, normal), (flat.height(at).abs(), reach))
+        MasterPoint::new(&face, (at, normal), flat.height(at), |distance| reach.holds(distance))
     }))?;
     if normals == Normals::Averaged {
         return Some(along_ray);
     }
     // On the face that the ray meets it is no further; another one further away is no neighbour.
-    let reach = (1.0 + BEYOND) * along_ray.distance;
+    let nearer = |distance: f64| distance <= (1.0 + BEYOND) * along_ray.distance;
     let perpendicular = faces().filter_map(|face| {
         let (at, outward) = foot(&face, x, dim)?;
-        MasterPoint::new(&face, (at, -outward), ((face.position(at) - x).norm(), reach))
+        MasterPoint::new(&face, (at, -outward), (face.position(at) - x).norm(), nearer)
     });
     Some(nearest(perpendicular).unwrap_or(along_ray))
 }
@@ -100,26 +103,26 @@ pub(super) fn pairs(
     [slave, master]: [&Side<'_>; 2],
     dim: usize,
     planes: &OnPlanes,
-    mut candidates: Candidates,
+    mut candidates: Candidates<'_>,
     normals: Normals,
+    watch: &mut Watch<'_, '_>,
 ) -> Result<SurfacePairs, Error> {
     let averaged = slave.node_normals_on(planes)?;
     let mut met: BTreeMap<usize, MasterPoint> = BTreeMap::new();
     for node in slave.all_nodes() {
+        watch.goes_on()?;
         let ray = (slave.position(node), averaged[&node]);
         if let Some(meeting) = meets(master, ray, (dim, normals), &mut candidates) {
             met.insert(node, meeting);
         }
     }
     let report = SurfaceReport {
-        search_distance: candidates.reach,
+        search_distance: candidates.reach.open,
         slave_faces: slave.count(),
-        boxes_searched: candidates.searched,
-        not_opposed: candidates.not_opposed,
         ..SurfaceReport::default()
     };
     let meets = |node: usize| met.contains_key(&node);
-    paired((slave, dim), report, meets, |node, mut row| {
+    let pair = |node, mut row: Row| {
         for (slave, part) in &row.slaves {
             let parts = met[slave].weights.iter().map(|(node, weight)| (*node, part * weight));
             row.masters.extend(parts);
@@ -129,5 +132,11 @@ pub(super) fn pairs(
         let points = (slave.point(&weights[0]), Some(master.point(&weights[1])));
         let normal = planes.turned(node, met[&node].normal);
         planes.hold(SurfacePair::new(dim, (node, area), weights, normal, points))
-    })
+    };
+    let mut found = paired((slave, dim, planes), report, meets, pair, watch)?;
+    let has_pair = |node: &usize| met.contains_key(node);
+    let alone = (0..slave.count()).filter(|&at| !slave.face(at).nodes.iter().any(has_pair));
+    found.report.uncovered_faces = alone.collect();
+    candidates.look_beyond([slave, master], dim, &mut found.report, watch)?;
+    Ok(found)
 }

@@ -1,8 +1,12 @@
 //! Normals of faces, where a pair has those and not the mean at its slave node.
 
+use std::collections::HashMap;
+
 use super::face::Face;
+use super::mesh::Side;
 use super::plane::Plane;
 use super::shape::{Local, MOST_NODES};
+use crate::error::{Error, index};
 use crate::linalg::vector3::{Vector3, unit};
 
 /// Steps to the foot of a perpendicular. Each reduces the error by the distance over the radius of curvature; from
@@ -28,6 +32,31 @@ pub(super) fn at_nodes(face: &Face<'_>) -> [Vector3; MOST_NODES] {
 /// The direction of a sum of unit normals times areas; `None` if they cancel. `area` is the sum of the areas.
 pub(super) fn direction(sum: Vector3, area: f64) -> Option<Vector3> {
     unit(sum).filter(|_| sum.norm() > LEAST_NORMAL * area)
+}
+
+impl Side<'_> {
+    /// Averaged unit normals of the nodes of [`Self::all_nodes`], by node.
+    ///
+    /// # Errors
+    /// A node whose faces' normals cancel.
+    pub(super) fn node_normals(&self) -> Result<HashMap<usize, Vector3>, Error> {
+        let mut sums: HashMap<usize, (Vector3, usize)> = HashMap::new();
+        for at in 0..self.count() {
+            let face = self.face(at);
+            for (&node, &place) in face.nodes.iter().zip(face.kind.places()) {
+                let sum = sums.entry(node).or_insert((Vector3::zeros(), at));
+                sum.0 += unit(face.outward(place)).unwrap_or_default();
+            }
+        }
+        let normal = |(node, (sum, face)): (usize, (Vector3, usize))| {
+            let normal = unit(sum).filter(|_| sum.norm() > LEAST_NORMAL).ok_or_else(|| {
+                let what = format!("has node {}, where normals cancel", index(node));
+                self.refuse(face, &what)
+            });
+            normal.map(|normal| (node, normal))
+        };
+        sums.into_iter().map(normal).collect()
+    }
 }
 
 /// The point of a face, or of its continuation, from which the perpendicular leads to `x`: local coordinates

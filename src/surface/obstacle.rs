@@ -4,10 +4,17 @@ use std::collections::BTreeMap;
 
 use super::candidates::SearchFaces;
 use super::mesh::{Faces, Side};
-use super::pairs::{SurfacePair, SurfacePairs, SurfaceReport};
+use super::pairs::{SurfacePair, SurfacePairs, SurfaceReport, without_rounding};
+use super::row::Row;
+use super::self_overlap;
+use super::settings::{self, SurfaceSettings};
+use super::symmetry::OnPlanes;
+use super::unit::Unit;
+use super::watch::Watch;
 use super::whole_faces::paired;
 use crate::error::{Argument, Error};
 use crate::linalg::vector3::{Vector3, unit};
+use crate::monitor::Monitor;
 
 /// A surface that does not deform. Vectors have their third component zero in the plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -61,7 +68,19 @@ fn refuse<T>(message: &str) -> Result<T, Error> {
 }
 
 impl Obstacle {
-    fn check(&self, dim: usize) -> Result<Checked, Error> {
+    /// The numbers that are lengths.
+    fn lengths(&self) -> [f64; 4] {
+        let (Obstacle::Plane { point: [x, y, z], .. }
+        | Obstacle::Sphere { centre: [x, y, z], .. }
+        | Obstacle::Cylinder { point: [x, y, z], .. }) = *self;
+        let radius = match *self {
+            Obstacle::Plane { .. } => 0.0,
+            Obstacle::Sphere { radius, .. } | Obstacle::Cylinder { radius, .. } => radius,
+        };
+        [x, y, z, radius]
+    }
+
+    fn check(&self, dim: usize, scale: Unit) -> Result<Checked, Error> {
         let direction = |name: &str, v: [f64; 3]| match unit(v.into()) {
             Some(v) => Ok(v),
             None => refuse(&format!("its {name} is zero or not finite")),
@@ -84,7 +103,7 @@ impl Obstacle {
             }
         };
         match point.iter().all(|x| x.is_finite()) {
-            true => Ok(checked),
+            true => Ok(checked.scaled(scale.inside)),
             false => refuse("its point is not finite"),
         }
     }
@@ -100,6 +119,23 @@ fn round(point: [f64; 3], axis: Vector3, radius: f64, hollow: bool) -> Result<Ch
 }
 
 impl Checked {
+    fn scaled(self, by: f64) -> Checked {
+        match self {
+            Checked::Plane { point, outward } => Checked::Plane { point: by * point, outward },
+            Checked::Round { point, axis, radius, sign } => {
+                Checked::Round { point: by * point, axis, radius: by * radius, sign }
+            }
+        }
+    }
+
+    /// The size of its own lengths.
+    fn size(&self) -> f64 {
+        match self {
+            Checked::Plane { point, .. } => point.lp_norm(1),
+            Checked::Round { point, radius, .. } => point.lp_norm(1) + radius,
+        }
+    }
+
     /// The gap of a point, and the normal from the point into the obstacle; `None` where all normals
     /// are as good, on the axis or in the centre.
     fn facing(&self, x: Vector3) -> Option<(f64, Vector3)> {
@@ -115,8 +151,8 @@ impl Checked {
     }
 }
 
-/// Pairs the nodes of a surface with an obstacle, up to `search_distance` (`None` or infinite: all of
-/// them).
+/// Pairs the nodes of a surface with an obstacle, up to the search distance (`None` or infinite: all of
+/// them). Of the settings it reads that and `axisymmetric`.
 ///
 /// A mid node of a quadratic face has its corners beside it in its row, and the gap is that of the row.
 ///
@@ -129,14 +165,21 @@ pub fn pair_with_obstacle(
     coordinates: &[f64],
     slave: Faces<'_>,
     obstacle: &Obstacle,
-    search_distance: Option<f64>,
+    settings: &SurfaceSettings,
+    monitor: &mut Monitor<'_>,
 ) -> Result<SurfacePairs, Error> {
+    let SurfaceSettings { search_distance, axisymmetric, .. } = *settings;
+    let settings = &SurfaceSettings { search_distance, axisymmetric, ..Default::default() };
+    settings.check(dim)?;
+    let watch = &mut Watch::new(monitor);
     let side = Side::slave(dim, coordinates, slave)?;
-    // A distance that is neither finite nor positive is refused below.
-    let limit = search_distance.filter(|distance| distance.is_finite() || !(*distance > 0.0));
-    let reach = super::settings::reach(limit, || f64::INFINITY)?;
-    let obstacle = obstacle.check(dim)?;
-    super::self_overlap::check(&side, &SearchFaces::new(&side), dim, reach)?;
+    let unit = Unit::of(side.lengths().chain(obstacle.lengths()));
+    let (obstacle, settings) = (obstacle.check(dim, unit)?, &unit.settings(settings));
+    let side = side.checked((unit.inside, axisymmetric), watch)?;
+    let reach = settings::distance(settings.search_distance)?.unwrap_or(f64::INFINITY);
+    let planes = OnPlanes::new(&side, dim, (&settings.symmetry, axisymmetric))?;
+    watch.expects(side.count());
+    self_overlap::check(&side, &SearchFaces::new(&side, watch)?, (dim, reach), watch)?;
     let mut facing = BTreeMap::new();
     for node in side.all_nodes() {
         let Some(met) = obstacle.facing(side.position(node)) else {
@@ -153,12 +196,16 @@ pub fn pair_with_obstacle(
         ..SurfaceReport::default()
     };
     let meets = |node: usize| facing[&node].0.abs() <= reach;
-    paired((&side, dim), report, meets, |node, row| {
+    let pair = |node, row: Row| {
         let area = row.area;
         let [slaves, masters] = row.into_weights();
+        let size = |node: &usize| side.position(*node).lp_norm(1) + obstacle.size();
         let gap = slaves.iter().map(|(node, weight)| weight * facing[node].0).sum();
+        let size = slaves.iter().map(|(node, weight)| weight.abs() * size(node)).sum();
         let points = (side.point(&slaves), None);
-        let pair = SurfacePair::new(dim, (node, area), [slaves, masters], facing[&node].1, points);
-        Ok(SurfacePair { gap, ..pair })
-    })
+        let normal = planes.turned(node, facing[&node].1);
+        let pair = SurfacePair::new(dim, (node, area), [slaves, masters], normal, points);
+        planes.hold(SurfacePair { gap: without_rounding(gap, size), ..pair })
+    };
+    unit.of_host(paired((&side, dim, &planes), report, meets, pair, watch)?, settings)
 }

@@ -35,6 +35,16 @@ pub(super) struct SlaveFace<'a> {
     polygons: Vec<Polygon>,
     /// Area in the plane.
     pub(super) area: f64,
+    face: Face<'a>,
+}
+
+/// What lies over a master face.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Part {
+    /// Area in the auxiliary plane.
+    pub(super) area: f64,
+    /// Mean distance along the normal.
+    pub(super) distance: f64,
 }
 
 /// The common parts of a slave face and master faces, in memory that the next one uses again.
@@ -68,24 +78,23 @@ impl<'a> SlaveFace<'a> {
         let flat = plane.flatten(face);
         let polygons: Vec<Polygon> = polygons(face, &flat).collect();
         let area = polygons.iter().map(|polygon| measure(polygon.corners())).sum();
-        SlaveFace { plane, flat, polygons, area }
+        SlaveFace { plane, flat, polygons, area, face: face.clone() }
     }
 
-    /// Adds the points of what lies over a master face, at a distance of at most `reach` along the normal, and
-    /// returns its area in the auxiliary plane.
+    /// Adds the points of what lies over a master face, at a distance along the normal that is `wanted`.
     ///
     /// # Errors
     /// A face that is turned over in the projection has no local coordinates.
     pub(super) fn overlap(
         &self,
         master: &Face<'_>,
-        reach: f64,
+        wanted: impl Fn(f64) -> bool,
         found: &mut Overlaps,
-    ) -> Result<f64, NotFound> {
+    ) -> Result<Part, NotFound> {
         let flat = self.plane.flatten(master);
         // Most faces that are near have nothing in common.
         let rule = LazyCell::new(|| self.rule(&flat));
-        let mut whole = 0.0;
+        let mut whole = Part::default();
         for window in polygons(master, &flat) {
             for polygon in &self.polygons {
                 let common = found.clipper.common_part(polygon.corners(), window.corners());
@@ -95,8 +104,9 @@ impl<'a> SlaveFace<'a> {
                 }
                 let before = found.points.len();
                 let distance = self.add_points(&flat, common, &rule, &mut found.points)?;
-                if distance.abs() <= reach {
-                    whole += area;
+                if wanted(distance) {
+                    whole.area += area;
+                    whole.distance += area * (distance - whole.distance) / whole.area;
                 } else {
                     found.points.truncate(before);
                 }
@@ -110,7 +120,9 @@ impl<'a> SlaveFace<'a> {
     /// as the distance from linear asks for.
     fn rule(&self, master: &Flat<'_>) -> Rule {
         let own = self.flat.face.kind.degree();
-        let degree = own + own.max(master.face.kind.degree());
+        // The length of a ring is as much of a polynomial as the place.
+        let ring = if self.face.is_ring { own } else { 0 };
+        let degree = own + own.max(master.face.kind.degree()) + ring;
         let count = |exact: usize, size: f64| {
             let further = self.further_degrees(master, size);
             further.map_or(MOST_POINTS, |more| (exact + more).div_ceil(2))
@@ -179,7 +191,7 @@ impl<'a> SlaveFace<'a> {
                 let weight = share * area;
                 distance += weight * (master.height(at) - self.flat.height(slave));
                 whole += weight;
-                let weight = weight * self.flat.stretch(slave);
+                let weight = weight * self.flat.stretch(slave) * self.face.around(slave);
                 points.push(Meeting { slave, master: at, weight });
             }
         }

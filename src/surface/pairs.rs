@@ -1,6 +1,7 @@
 //! Contact pairs from surfaces: what the caller gets.
 
 use super::plane;
+use crate::linalg::tolerances::ROUNDING;
 use crate::linalg::vector3::Vector3;
 
 /// A node's share in a row, and its weight.
@@ -35,10 +36,21 @@ pub struct SurfacePair {
     pub held: [bool; 3],
 }
 
+/// A slave node with little cover whose row is in that of another one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Fold {
+    /// The node.
+    pub node: usize,
+    /// The node of its own faces whose pair has taken in its row.
+    pub into: usize,
+    /// The distance between them.
+    pub distance: f64,
+}
+
 /// A report on the faces and nodes that have no pair of their own.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SurfaceReport {
-    /// The search distance that was used; infinite against an obstacle if none was given.
+    /// The largest open distance that was looked at; infinite against an obstacle if none was given.
     pub search_distance: f64,
     /// Number of slave faces.
     pub slave_faces: usize,
@@ -48,10 +60,11 @@ pub struct SurfaceReport {
     pub covered_area: f64,
     /// Slave faces that lie over nothing.
     pub uncovered_faces: Vec<usize>,
-    /// Nodes with little cover, each with the node whose pair has taken in its row.
-    pub folded: Vec<(usize, usize)>,
-    /// Nodes with little cover that were left out, by [`Rims::Drop`](super::Rims::Drop).
-    pub dropped: Vec<usize>,
+    /// Slave faces that lie over nothing within the search distance, but point at a master beyond it: each with how far
+    /// that is away. Contact there is not seen.
+    pub beyond: Vec<(usize, f64)>,
+    /// Nodes with little cover.
+    pub folded: Vec<Fold>,
     /// Master faces near a slave face whose normals do not oppose its own. If no pair was found and
     /// there are many of them, one side is turned over.
     pub not_opposed: usize,
@@ -85,7 +98,9 @@ pub struct SurfacePairs {
     pub dim: usize,
     /// The pairs, by slave node.
     pub pairs: Vec<SurfacePair>,
-    /// Slave nodes without a pair: nothing lies over them, or they have little cover and were folded or dropped.
+    /// `true`: areas are those of rings about the axis `x = 0`, and forces those on whole rings.
+    pub axisymmetric: bool,
+    /// Slave nodes without a pair: nothing lies over them, or they have little cover and were folded.
     pub unpaired: Vec<usize>,
     /// The report on the pairing.
     pub report: SurfaceReport,
@@ -126,12 +141,20 @@ impl SurfacePair {
         normal: Vector3,
         (point, opposite): (Vector3, Option<Vector3>),
     ) -> SurfacePair {
-        let gap = opposite.map_or(0.0, |opposite| normal.dot(&(opposite - point)));
+        let gap = opposite.map_or(0.0, |opposite| {
+            let size = normal.abs().dot(&(opposite.abs() + point.abs()));
+            without_rounding(normal.dot(&(opposite - point)), size)
+        });
         let tangents = plane::tangents(dim, normal).map(Into::into);
         let (point, normal) = (point.into(), normal.into());
         let held = [false; 3];
         SurfacePair { slave, slaves, masters, point, normal, tangents, gap, area, held }
     }
+}
+
+/// A gap of coordinates of this size: zero if it is their rounding, so that surfaces that touch do not overlap.
+pub(super) fn without_rounding(distance: f64, size: f64) -> f64 {
+    if distance.abs() <= ROUNDING * size { 0.0 } else { distance }
 }
 
 impl PairArrays {
@@ -207,48 +230,5 @@ impl SurfacePairs {
     /// The pairs whose slave node stands on a plane of symmetry.
     pub fn on_symmetry(&self) -> impl Iterator<Item = usize> {
         (0..self.pairs.len()).filter(|&pair| self.pairs[pair].held.contains(&true))
-    }
-
-    /// One sentence on what was found: for a log, and to see why there are no pairs.
-    pub fn summary(&self) -> String {
-        let SurfaceReport { slave_area, covered_area, search_distance, not_opposed, .. } =
-            self.report;
-        let (pairs, unpaired) = (self.pairs.len(), self.unpaired.len());
-        let dropped = self.report.dropped.len();
-        if pairs > 0 {
-            let (folded, cover) = (self.report.folded.len(), 100.0 * covered_area / slave_area);
-            let found = format!(
-                "{pairs} pairs on {cover:.2} % of the slave area; {unpaired} slave nodes without a \
-                 pair, {folded} of them in the pair of a neighbour"
-            );
-            let found = match dropped {
-                0 => found,
-                _ => format!("{found}, {dropped} of them dropped with little cover"),
-            };
-            return match self.on_symmetry().count() {
-                0 => found,
-                on => format!("{found}; {on} of the pairs on planes of symmetry"),
-            };
-        }
-        if unpaired == 0 {
-            return "no pairs: there are no slave faces".into();
-        }
-        if dropped > 0 {
-            return format!(
-                "no pairs: all {dropped} slave nodes over the other side have little cover, and \
-                            such nodes are dropped"
-            );
-        }
-        let found = format!(
-            "no pairs: nothing lies opposite the {} slave faces within {search_distance}",
-            self.report.slave_faces
-        );
-        match not_opposed {
-            0 => format!("{found}; if it should, give a larger search distance"),
-            _ => format!(
-                "{found}, but {not_opposed} times a master face was near whose normal does not \
-                 oppose the slave's: one side is turned over, or the search distance is too small"
-            ),
-        }
     }
 }

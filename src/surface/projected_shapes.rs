@@ -8,7 +8,7 @@
 
 use std::ops::Range;
 
-use super::overlap::Meeting;
+use super::overlap::{Meeting, Part};
 use super::shape::{FaceKind, Local, MOST_NODES, Values};
 
 /// A monomial that is this close to a combination of those before it adds nothing: the covered part has
@@ -24,6 +24,9 @@ const LANES: usize = 4;
 /// The part of a slave face over one master face.
 #[derive(Clone, Debug)]
 pub(super) struct Opposite<'a> {
+    /// Its place among the master's faces.
+    pub(super) at: usize,
+    pub(super) part: Part,
     pub(super) kind: FaceKind,
     pub(super) nodes: &'a [usize],
     /// Places of its points among those of the slave face.

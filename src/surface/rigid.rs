@@ -6,6 +6,7 @@ use super::pair_surfaces::pair_sides;
 use super::pairs::SurfacePairs;
 use super::settings::SurfaceSettings;
 use crate::error::{Argument, Error};
+use crate::monitor::Monitor;
 
 /// A surface that does not deform, with coordinates of its own: triangles of a scan or of a drawing, or any
 /// other faces.
@@ -29,11 +30,12 @@ pub fn pair_with_rigid_surface(
     slave: Faces<'_>,
     rigid: &RigidSurface<'_>,
     settings: &SurfaceSettings,
+    monitor: &mut Monitor<'_>,
 ) -> Result<SurfacePairs, Error> {
     let slave = Side::slave(dim, coordinates, slave)?;
     let RigidSurface { coordinates, faces } = *rigid;
     let obstacle = Side::new("obstacle", Argument::Obstacle, (dim, coordinates), faces)?;
-    let mut found = pair_sides([&slave, &obstacle], dim, settings)?;
+    let mut found = pair_sides([slave, obstacle], dim, settings, monitor)?;
     found.pairs.iter_mut().for_each(|pair| pair.masters.clear());
     Ok(found)
 }

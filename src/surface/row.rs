@@ -13,14 +13,13 @@ use crate::linalg::vector3::Vector3;
 pub(super) struct Row {
     /// `D_j`: the area of the node on the covered part.
     pub(super) area: f64,
-    /// The area that the node would have on the whole of the faces of which a part is covered.
+    /// The area that the node would have on the whole of all slave faces around it that look the same way.
     pub(super) whole: f64,
     /// Slave nodes with weights whose sum is `D_j`; nodes may repeat.
     pub(super) slaves: Vec<Weight>,
     /// Master nodes likewise.
     pub(super) masters: Vec<Weight>,
-    /// The faces' unit normals at the node times its areas on them, of length `D_j` if they agree; zero if
-    /// it is not needed.
+    /// The faces' unit normals at the node times its areas on them, of length `D_j` if they agree.
     pub(super) normal: Vector3,
 }
 

@@ -3,15 +3,13 @@
 //! Legal surfaces pass: two sides of a plate, whose normals oppose each other; a surface folded upon
 //! itself; faces that meet in an edge or a node; layers further apart than the search reaches.
 
-use super::candidates::{SearchFaces, bounds};
+use super::candidates::{SAME_WAY, SearchFaces};
 use super::mesh::Side;
 use super::overlap::{Overlaps, SlaveFace};
 use super::plane::Plane;
+use super::tree::Sweep;
+use super::watch::Watch;
 use crate::error::{Error, index};
-
-/// Faces that lie upon each other look the same way: the cosine between their normals is above this. Of
-/// two meshes of one curved surface, normals differ by the angle of a face, say 30 degrees on coarse ones.
-const SAME_WAY: f64 = 0.7;
 
 /// Faces lie upon each other up to this distance, relative to the smaller one: two meshes of a curved
 /// surface differ by `h² / 8 R`, which is 0.05 of `h` where a face turns by 23 degrees.
@@ -26,18 +24,19 @@ const COMMON: f64 = 0.05;
 /// It asks the tree once for each face, so it costs `n log n`.
 ///
 /// # Errors
-/// The two faces, and the share that is common.
+/// The two faces, and the share that is common; what ends the watch.
 pub(super) fn check(
     side: &Side<'_>,
-    faces: &SearchFaces,
-    dim: usize,
-    reach: f64,
+    SearchFaces { tree, normals }: &SearchFaces<'_>,
+    (dim, reach): (usize, f64),
+    watch: &mut Watch<'_, '_>,
 ) -> Result<(), Error> {
-    let SearchFaces { tree, normals } = faces;
     let (mut near, mut overlaps) = (Vec::new(), Overlaps::default());
     for at in 0..side.count() {
+        watch.step()?;
         let face = side.face(at);
-        tree.near(&bounds(&face).grown(UPON * face.size()), &mut near);
+        let distance = reach.min(UPON * face.size());
+        tree.near(&Sweep::of_face(&face, normals[at], [distance; 2]), &mut near);
         near.retain(|&other| other < at && normals[other].dot(&normals[at]) > SAME_WAY);
         near.retain(|&other| dim == 2 || !are_neighbours(side.corners(at), side.corners(other)));
         if near.is_empty() {
@@ -47,9 +46,11 @@ pub(super) fn check(
         let in_plane = SlaveFace::new(&face, plane.clone());
         for &other in &near {
             let second = side.face(other);
-            let distance = reach.min(UPON * face.size().min(second.size()));
+            let distance = distance.min(UPON * second.size());
+            let is_upon = |apart: f64| apart.abs() <= distance;
             // Faces that cannot be projected on each other do not lie upon each other.
-            let common = in_plane.overlap(&second, distance, &mut overlaps).unwrap_or(0.0);
+            let common = in_plane.overlap(&second, is_upon, &mut overlaps);
+            let common = common.map_or(0.0, |part| part.area);
             overlaps.points.clear();
             let smaller = || in_plane.area.min(SlaveFace::new(&second, plane.clone()).area);
             if common > 0.0 && common > COMMON * smaller() {

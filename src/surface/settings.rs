@@ -31,20 +31,17 @@ pub enum Normals {
     Faces,
 }
 
-/// The treatment of slave nodes at rims: those that have less than a tenth of their area over the master, counted
-/// on the faces of which any part lies over it. Of dual mortar; nodes against surfaces have no cover.
+/// The treatment of slave nodes at rims: those that have less than half of their area, on all slave faces around
+/// them that look the same way, over the master. Of dual mortar; nodes against surfaces have no cover.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Rims {
-    /// Their rows are added to that of a neighbour: uniform pressure stays exact.
+    /// Their rows are added to that of a node of their own faces: uniform pressure stays exact.
     #[default]
     Fold,
     /// They keep pairs of their own, with small areas. Uniform pressure stays exact, but under others the
     /// pressures of these nodes may be large, and their rows hold points in the air by masters beside them. With
     /// less than a millionth of cover, where a row would be rounding, they are folded all the same.
     Keep,
-    /// They get no pair, and the area that they would carry is left out: uniform pressure is not exact
-    /// around them.
-    Drop,
 }
 
 /// Settings of the pairing.
@@ -52,8 +49,9 @@ pub enum Rims {
 pub struct SurfaceSettings {
     /// How the rows are made.
     pub pairing: Pairing,
-    /// The largest distance along the normal at which surfaces are paired, open or overlapping; `None`:
-    /// the size of the largest slave face.
+    /// The largest distance along the normal at which surfaces are paired, open or overlapping. `None`: open up to half
+    /// the diagonal of the smaller of the two sides' boxes, but of masters over each other the nearest alone;
+    /// overlapping up to the size of the largest slave face.
     pub search_distance: Option<f64>,
     /// Planes of symmetry of half and quarter models. A pair whose slave node stands on one neither moves nor carries
     /// a force across it, as in the whole body, and its normal is in the plane.
@@ -62,12 +60,20 @@ pub struct SurfaceSettings {
     pub normals: Normals,
     /// The treatment of nodes with little cover.
     pub rims: Rims,
+    /// `true`: lines of the plane are meridians of bodies of revolution about the axis `x = 0`, with the radius
+    /// `x >= 0`. Areas are those of whole rings, `2 π ∫ r ds`, and so must be stiffness, loads and forces. The axis
+    /// is a plane of symmetry without being named.
+    pub axisymmetric: bool,
 }
 
 impl SurfaceSettings {
     /// # Errors
-    /// A choice for rims where nodes have no cover.
-    pub(super) fn check(&self) -> Result<(), Error> {
+    /// A choice for rims where nodes have no cover; bodies of revolution in space.
+    pub(super) fn check(&self, dim: usize) -> Result<(), Error> {
+        if self.axisymmetric && dim == 3 {
+            let message = "axisymmetric: faces of bodies of revolution are lines, in 2 dimensions";
+            return Err(Error::invalid(Argument::Settings, message));
+        }
         if self.pairing == Pairing::NodeToSurface && self.rims != Rims::Fold {
             let message = "rims: nodes against surfaces have no cover that a rim could be told by: leave the \
                            default, or pair by dual mortar";
@@ -77,15 +83,17 @@ impl SurfaceSettings {
     }
 }
 
-/// The search distance, if it is one, or another one if it is not given.
-pub(super) fn reach(given: Option<f64>, otherwise: impl Fn() -> f64) -> Result<f64, Error> {
+/// The search distance, if one is given.
+///
+/// # Errors
+/// One that is not positive.
+pub(super) fn distance(given: Option<f64>) -> Result<Option<f64>, Error> {
     match given {
         // Written so that NaN is refused.
-        Some(distance) if !(distance > 0.0 && distance.is_finite()) => {
-            let message = format!("search_distance is {distance}, it must be positive and finite");
+        Some(distance) if !(distance > 0.0) => {
+            let message = format!("search_distance is {distance}, it must be positive");
             Err(Error::invalid(Argument::Settings, message))
         }
-        Some(distance) => Ok(distance),
-        None => Ok(otherwise()),
+        other => Ok(other),
     }
 }

@@ -9,7 +9,8 @@
 
 use std::collections::{BTreeMap, HashMap};
 
-use super::mesh::Side;
+use super::face::Face;
+use super::mesh::{ON_PLANE, Side};
 use super::normals::LEAST_NORMAL;
 use super::pairs::SurfacePair;
 use crate::error::{Argument, Error, index};
@@ -24,10 +25,6 @@ pub struct SymmetryPlane {
     pub at: f64,
 }
 
-/// A node is on a plane if it is nearer than this part of the size of the slave side: ten times the error of
-/// coordinates with seven digits.
-const ON_PLANE: f64 = 1e-6;
-
 /// The slave nodes that stand on planes of symmetry.
 #[derive(Debug, Default)]
 pub(super) struct OnPlanes {
@@ -41,15 +38,17 @@ impl OnPlanes {
     pub(super) fn new(
         slave: &Side<'_>,
         dim: usize,
-        planes: &[SymmetryPlane],
+        (planes, axisymmetric): (&[SymmetryPlane], bool),
     ) -> Result<Self, Error> {
         let refuse = |message: String| Err(Error::invalid(Argument::Settings, message));
         let mut found = OnPlanes::default();
-        if planes.is_empty() {
-            return Ok(found);
-        }
         let nodes = slave.all_nodes();
         let near = ON_PLANE * extent(slave, &nodes);
+        if axisymmetric {
+            for node in nodes.iter().filter(|&&node| slave.position(node).x <= near) {
+                found.axes.entry(*node).or_default()[0] = true;
+            }
+        }
         for (k, &SymmetryPlane { axis, at }) in planes.iter().enumerate() {
             let plane = format!("plane of symmetry {}", index(k));
             if axis >= dim {
@@ -86,6 +85,12 @@ impl OnPlanes {
         let mut along = normal;
         (0..3).filter(|&axis| axes[axis]).for_each(|axis| along[axis] = 0.0);
         if along.norm() > LEAST_NORMAL { unit(along).unwrap_or(normal) } else { normal }
+    }
+
+    /// `true` of a ring that touches its axis.
+    pub(super) fn touch_axis(&self, face: &Face<'_>) -> bool {
+        let on_axis = |node| self.axes.get(node).is_some_and(|held| held[0]);
+        face.is_ring && face.nodes.iter().any(on_axis)
     }
 
     /// The pair, held across the planes on which its slave node stands.

@@ -1,13 +1,29 @@
-//! Which faces are near another one: a tree of boxes.
+//! Which faces are near another one: a tree of boxes, each with two walls.
 //!
-//! Each branch halves its faces at the median of their middles along the longest side of its box, so
-//! building costs `n log n`, and a question costs the boxes on the way to its answer. (A hundred lines
-//! serve better than a further package: boxes are all that is asked for, and the visits are counted.)
+//! Each branch halves its faces at the median of their middles along the axis that these differ along most, so
+//! building costs `n log n`, and a question costs the branches on the way to its answer. Boxes along the axes
+//! say little of slivers and needles: all that lean, or that meet in a point, have boxes over each other. So a branch
+//! has two walls besides, lines of its own faces' edges that it does not reach beyond.
 
+use super::face::Face;
+use super::mesh::Side;
+use super::watch::Watch;
+use crate::error::Error;
 use crate::linalg::vector3::Vector3;
 
 /// Most faces of a leaf.
 const LEAF: usize = 4;
+
+/// Faces that have less than this in common, beside their largest coordinate, have nothing: rounding of the places
+/// themselves.
+const TOUCH: f64 = 4e-15;
+
+/// The second wall of a branch looks another way than the first: the cosine between them is below this.
+const OTHER_WAY: f64 = 0.5;
+
+/// A curved face may bulge out of the hull of its nodes by this share of its size: an arc of a quarter
+/// circle bulges by 0.1 of its chord, between nodes by less.
+const BULGE: f64 = 0.1;
 
 /// A box along the axes.
 #[derive(Clone, Copy, Debug)]
@@ -29,18 +45,12 @@ impl Bounds {
         })
     }
 
-    /// The longest side.
-    pub(super) fn size(&self) -> f64 {
-        (self.high - self.low).amax()
+    /// The distance between opposite corners.
+    pub(super) fn diagonal(&self) -> f64 {
+        (self.high - self.low).norm()
     }
 
-    /// The box with a margin on all sides.
-    pub(super) fn grown(&self, margin: f64) -> Bounds {
-        let margin = Vector3::repeat(margin);
-        Bounds { low: self.low - margin, high: self.high + margin }
-    }
-
-    fn with(&self, other: &Bounds) -> Bounds {
+    pub(super) fn with(&self, other: &Bounds) -> Bounds {
         Bounds { low: self.low.inf(&other.low), high: self.high.sup(&other.high) }
     }
 
@@ -49,76 +59,262 @@ impl Bounds {
     }
 }
 
+/// The half space `along · x <= most`; everything if `along` is zero.
+#[derive(Clone, Copy, Debug, Default)]
+struct Wall {
+    along: Vector3,
+    most: f64,
+}
+
+/// Points, and how far beyond them what they stand for may reach.
+#[derive(Clone, Copy, Debug)]
+struct Hull<'a> {
+    points: &'a [Vector3],
+    margin: f64,
+}
+
+impl<'a> Hull<'a> {
+    fn of(face: &'a Face<'_>) -> Hull<'a> {
+        let points = &face.x[..face.kind.nodes()];
+        Hull { points, margin: if face.is_straight() { 0.0 } else { BULGE * face.size() } }
+    }
+
+    fn most(&self, along: &Vector3) -> f64 {
+        let heights = self.points.iter().map(|x| along.dot(x));
+        heights.fold(f64::NEG_INFINITY, f64::max) + self.margin * along.norm()
+    }
+
+    fn bounds(&self) -> Bounds {
+        let Bounds { low, high } = Bounds::of(self.points.iter().copied());
+        let margin = Vector3::repeat(self.margin);
+        Bounds { low: low - margin, high: high + margin }
+    }
+}
+
+/// The places over which a face moves along its normal, or a point along a normal.
+#[derive(Clone, Debug)]
+pub(super) struct Sweep<'a> {
+    hull: Hull<'a>,
+    normal: Vector3,
+    /// How far back and how far forward.
+    reach: [f64; 2],
+    bounds: Bounds,
+    /// Directions across the normal with the lowest and the highest place along them: of a needle along it and across.
+    across: [(Vector3, f64, f64); 2],
+    /// Walls that are this far away, or nearer by as much, are passed.
+    touch: f64,
+}
+
+impl<'a> Sweep<'a> {
+    pub(super) fn of_face(face: &'a Face<'_>, normal: Vector3, reach: [f64; 2]) -> Sweep<'a> {
+        let corners = face.kind.corners();
+        let edge = |i: usize| face.x[(i + 1) % corners] - face.x[i];
+        let longest = (0..corners).map(edge).max_by(|a, b| a.norm().total_cmp(&b.norm()));
+        Sweep::new(Hull::of(face), (normal, longest.unwrap_or_default()), reach, -TOUCH)
+    }
+
+    /// A point that is wanted even if it is beyond a face by as much as `beyond`.
+    pub(super) fn of_point(
+        point: &'a Vector3,
+        normal: Vector3,
+        reach: [f64; 2],
+        beyond: f64,
+    ) -> Sweep<'a> {
+        let hull = Hull { points: std::slice::from_ref(point), margin: 0.0 };
+        Sweep::new(hull, (normal, Vector3::zeros()), reach, beyond)
+    }
+
+    fn new(
+        hull: Hull<'a>,
+        (normal, along): (Vector3, Vector3),
+        reach: [f64; 2],
+        touch: f64,
+    ) -> Sweep<'a> {
+        let [back, forward] = reach;
+        let Bounds { low, high } = hull.bounds();
+        let ends = [
+            low - back * normal,
+            high - back * normal,
+            low + forward * normal,
+            high + forward * normal,
+        ];
+        let bounds = Bounds::of(ends.into_iter());
+        let largest = bounds.low.abs().sup(&bounds.high.abs()).amax();
+        let margin = Vector3::repeat((touch * largest).max(0.0));
+        let bounds = Bounds { low: bounds.low - margin, high: bounds.high + margin };
+        let along = along - normal.dot(&along) * normal;
+        let across = [along, normal.cross(&along)].map(|v| {
+            let v = v.try_normalize(0.0).unwrap_or_default();
+            (v, -hull.most(&-v), hull.most(&v))
+        });
+        Sweep { hull, normal, reach, bounds, across, touch: touch * largest }
+    }
+
+    /// `false` if nothing of a box with two walls is met.
+    fn meets(&self, bounds: &Bounds, walls: &[Wall; 2]) -> bool {
+        self.bounds.meets(bounds)
+            && self.is_across(bounds)
+            && walls.iter().all(|wall| self.passes(wall))
+    }
+
+    fn is_across(&self, bounds: &Bounds) -> bool {
+        let (middle, half) = (0.5 * (bounds.low + bounds.high), 0.5 * (bounds.high - bounds.low));
+        self.across.iter().all(|(along, low, high)| {
+            let (at, size) = (along.dot(&middle), along.abs().dot(&half));
+            at - size <= *high && at + size >= *low
+        })
+    }
+
+    /// `false` if all of it lies behind the wall.
+    fn passes(&self, wall: &Wall) -> bool {
+        if wall.along == Vector3::zeros() {
+            return true;
+        }
+        let moves = self.normal.dot(&wall.along);
+        let [back, forward] = self.reach.map(|reach| reach * moves);
+        let least = -self.hull.most(&-wall.along) + (-back).min(forward);
+        least < wall.most + self.touch * wall.along.norm()
+    }
+}
+
 #[derive(Debug)]
 struct Branch {
     bounds: Bounds,
+    walls: [Wall; 2],
     /// Range in `order`.
     faces: std::ops::Range<usize>,
     /// The two halves; `None`: a leaf.
     halves: Option<[usize; 2]>,
 }
 
-/// The boxes of faces.
+/// The faces of a side.
 #[derive(Debug)]
-pub(super) struct Tree {
+pub(super) struct Tree<'a> {
+    side: &'a Side<'a>,
     boxes: Vec<Bounds>,
     order: Vec<usize>,
     branches: Vec<Branch>,
 }
 
-impl Tree {
-    pub(super) fn new(boxes: Vec<Bounds>) -> Tree {
+impl<'a> Tree<'a> {
+    /// # Errors
+    /// What ends the watch.
+    pub(super) fn new(side: &'a Side<'a>, watch: &mut Watch<'_, '_>) -> Result<Tree<'a>, Error> {
+        let boxes: Vec<Bounds> =
+            (0..side.count()).map(|at| Hull::of(&side.face(at)).bounds()).collect();
         let order = (0..boxes.len()).collect();
-        let mut tree = Tree { boxes, order, branches: Vec::new() };
+        let mut tree = Tree { side, boxes, order, branches: Vec::new() };
         if !tree.boxes.is_empty() {
-            tree.branch(0..tree.boxes.len());
+            tree.branch(0..tree.boxes.len(), watch)?;
         }
-        tree
+        Ok(tree)
+    }
+
+    /// The box of all faces; `None` if there are none.
+    pub(super) fn bounds(&self) -> Option<Bounds> {
+        self.branches.first().map(|branch| branch.bounds)
     }
 
     /// Builds the branch of a range and returns its place.
-    fn branch(&mut self, faces: std::ops::Range<usize>) -> usize {
+    fn branch(
+        &mut self,
+        faces: std::ops::Range<usize>,
+        watch: &mut Watch<'_, '_>,
+    ) -> Result<usize, Error> {
+        watch.goes_on()?;
         let boxes = &self.boxes;
         let part = &mut self.order[faces.clone()];
         let bounds =
             part.iter().map(|&face| boxes[face]).reduce(|a, b| a.with(&b)).expect("not empty");
         let place = self.branches.len();
-        let axis = (bounds.high - bounds.low).imax();
+        let middle = |face: usize| 0.5 * (boxes[face].low + boxes[face].high);
+        let middles = Bounds::of(part.iter().map(|&face| middle(face)));
+        let axis = (middles.high - middles.low).imax();
         let half = part.len() / 2;
         let split = part.len() > LEAF;
         if split {
-            let middle = |face: usize| boxes[face].low[axis] + boxes[face].high[axis];
+            let middle = |face: usize| middle(face)[axis];
             part.select_nth_unstable_by(half, |&a, &b| middle(a).total_cmp(&middle(b)));
         }
-        self.branches.push(Branch { bounds, faces: faces.clone(), halves: None });
-        if split {
+        let walls = Default::default();
+        self.branches.push(Branch { bounds, walls, faces: faces.clone(), halves: None });
+        let walls = if split {
             let middle = faces.start + half;
-            let halves = [self.branch(faces.start..middle), self.branch(middle..faces.end)];
+            let first = self.branch(faces.start..middle, watch)?;
+            let halves = [first, self.branch(middle..faces.end, watch)?];
             self.branches[place].halves = Some(halves);
-        }
-        place
+            halves.iter().flat_map(|&half| self.branches[half].walls).collect()
+        } else {
+            self.order[faces.clone()].iter().flat_map(|&at| edges(&self.side.face(at))).collect()
+        };
+        self.branches[place].walls = self.walls(faces, walls);
+        Ok(place)
     }
 
-    /// Collects the faces whose boxes meet `bounds`, in ascending order, and returns how many boxes
+    /// The two walls of a branch: of those given, whose lengths are the sizes of their edges, the long ones that the branch
+    /// reaches beyond least.
+    fn walls(&self, faces: std::ops::Range<usize>, mut given: Vec<Wall>) -> [Wall; 2] {
+        given.retain(|wall| wall.along != Vector3::zeros());
+        let mut worth = vec![0.0; given.len()];
+        let before: Vec<f64> = given.iter().map(|wall| wall.most).collect();
+        for &at in &self.order[faces] {
+            let face = self.side.face(at);
+            let hull = Hull::of(&face);
+            for wall in &mut given {
+                wall.most = wall.most.max(hull.most(&wall.along));
+            }
+        }
+        for ((worth, wall), before) in worth.iter_mut().zip(&given).zip(before) {
+            // A wall is as long as its edge: heights along it are lengths times that.
+            let length = wall.along.norm();
+            *worth = length - (wall.most - before) / length;
+        }
+        let best = |other: Vector3| {
+            let looks_away = |wall: &Wall| {
+                wall.along.dot(&other) <= OTHER_WAY * wall.along.norm() * other.norm()
+            };
+            let found = worth.iter().zip(&given).filter(|(_, wall)| looks_away(wall));
+            let found = found.max_by(|a, b| a.0.total_cmp(b.0));
+            found.map_or_else(Wall::default, |(_, wall)| *wall)
+        };
+        let first = best(Vector3::zeros());
+        [first, best(first.along)]
+    }
+
+    /// Collects the faces that a sweep may meet, in ascending order, and returns how many boxes
     /// were looked at.
-    pub(super) fn near(&self, bounds: &Bounds, found: &mut Vec<usize>) -> usize {
+    pub(super) fn near(&self, sweep: &Sweep<'_>, found: &mut Vec<usize>) -> usize {
         found.clear();
-        let looked = if self.branches.is_empty() { 0 } else { self.collect(0, bounds, found) };
+        let looked = if self.branches.is_empty() { 0 } else { self.collect(0, sweep, found) };
         found.sort_unstable();
         looked
     }
 
     /// Collects the faces of one branch, in any order.
-    fn collect(&self, place: usize, bounds: &Bounds, found: &mut Vec<usize>) -> usize {
+    fn collect(&self, place: usize, sweep: &Sweep<'_>, found: &mut Vec<usize>) -> usize {
         let branch = &self.branches[place];
-        if !branch.bounds.meets(bounds) {
+        if !sweep.meets(&branch.bounds, &branch.walls) {
             return 1;
         }
         let Some(halves) = branch.halves else {
             let faces = &self.order[branch.faces.clone()];
-            found.extend(faces.iter().filter(|&&face| self.boxes[face].meets(bounds)));
+            let none = Default::default();
+            found.extend(faces.iter().filter(|&&face| sweep.meets(&self.boxes[face], &none)));
             return 1 + faces.len();
         };
-        1 + halves.map(|half| self.collect(half, bounds, found)).iter().sum::<usize>()
+        1 + halves.map(|half| self.collect(half, sweep, found)).iter().sum::<usize>()
     }
+}
+
+/// The walls of a face at its edges, as long as these.
+fn edges(face: &Face<'_>) -> Vec<Wall> {
+    let corners = face.kind.corners();
+    let Some(normal) = face.middle_normal().filter(|_| !face.kind.is_line()) else {
+        return Vec::new();
+    };
+    let wall = |i: usize| {
+        let along = (face.x[(i + 1) % corners] - face.x[i]).cross(&normal);
+        Wall { along, most: along.dot(&face.x[i]) }
+    };
+    (0..corners).map(wall).collect()
 }

@@ -2,6 +2,7 @@
 
 use fastrand::Rng;
 use signorini::surface::{Faces, SurfacePairs, SurfaceSettings, Surfaces, pair_surfaces};
+use signorini::{Monitor, Settings};
 
 /// A list of faces with coordinates of its own nodes.
 #[derive(Clone, Debug, Default)]
@@ -184,7 +185,12 @@ pub fn pair(
         slave: Faces { start: &slave.0, nodes: &slave.1 },
         master: Faces { start: &master.0, nodes: &master.1 },
     };
-    pair_surfaces(&surfaces, settings)
+    pair_surfaces(&surfaces, settings, &mut unlimited())
+}
+
+/// A monitor without limits.
+pub fn unlimited<'a>() -> Monitor<'a> {
+    Monitor::new(&Settings::default(), None)
 }
 
 /// Starts and nodes of lists.

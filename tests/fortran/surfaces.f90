@@ -116,6 +116,7 @@ contains
             0.1_dp, -1._dp, 0._dp, 1.02_dp, 0._dp], [2, 6])
         integer, parameter :: sides(2, 3) = reshape([1, 2, 2, 3, 3, 4], [2, 3])
         integer, parameter :: floor(2, 1) = reshape([6, 5], [2, 1])
+        type(signorini_surface_settings) :: limits
         integer :: pairing, rims
         do pairing = SIGNORINI_PAIRING_DUAL_MORTAR, SIGNORINI_PAIRING_NODE_TO_SURFACE
             call surfaces%pair(around, sides, floor, info, pairing=pairing, search_distance=0.5_dp, &
@@ -125,15 +126,22 @@ contains
                 normals=int(SIGNORINI_NORMALS_FACES), message=message)
             call expect('of faces', info == 0 .and. all(abs(surfaces%normal(:, 1) - [0, -1]) < 1d-15))
         end do
-        do rims = SIGNORINI_RIMS_FOLD, SIGNORINI_RIMS_DROP
+        do rims = SIGNORINI_RIMS_FOLD, SIGNORINI_RIMS_KEEP
             call surfaces%pair(around, sides, floor, info, search_distance=0.5_dp, rims=rims, message=message)
             call expect('rims', info == 0 .and. surfaces%pairs == merge(3, 2, rims == SIGNORINI_RIMS_KEEP))
             call expect('folded', surfaces%data%n_folded == merge(1, 0, rims == SIGNORINI_RIMS_FOLD))
-            call expect('dropped', surfaces%data%dropped == merge(1, 0, rims == SIGNORINI_RIMS_DROP))
         end do
         call surfaces%pair_rigid(around(:, :4), sides, around(:, 5:), floor - 4, info, search_distance=0.5_dp, &
-            normals=int(SIGNORINI_NORMALS_FACES), rims=int(SIGNORINI_RIMS_DROP), message=message)
-        call expect('rigid choices', info == 0 .and. surfaces%data%dropped == 1 .and. surfaces%pairs == 2)
+            normals=int(SIGNORINI_NORMALS_FACES), rims=int(SIGNORINI_RIMS_KEEP), message=message)
+        call expect('rigid choices', info == 0 .and. surfaces%data%n_folded == 0 .and. surfaces%pairs == 3)
+        limits%time_limit = 1e-12_dp
+        call surfaces%pair(around, sides, floor, info, search_distance=0.5_dp, message=message, settings=limits)
+        call expect('time limit', info == SIGNORINI_STATUS_TIME_LIMIT)
+        limits%time_limit = 0
+        limits%axisymmetric = 1
+        call surfaces%pair(reshape([0._dp, 0._dp, 1._dp, 0._dp, 0._dp, 0._dp, 1._dp, 0._dp], [2, 4]), &
+            sides(:, 1:1), reshape([4, 3], [2, 1]), info, message=message, settings=limits)
+        call expect('rings', info == 0 .and. abs(sum(surfaces%area) - acos(-1._dp)) < 1d-14)
         call surfaces%pair(around, sides, floor, info, normals=2, message=message)
         call expect('normals', info == -11 .and. message == 'there is no choice of normals 2')
         call surfaces%pair(around, sides, floor, info, rims=-1, message=message)

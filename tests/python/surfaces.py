@@ -100,14 +100,28 @@ class Pairs(unittest.TestCase):
                 contact = signorini.pair_surfaces(nodes, sides, floor, pairing=pairing, normals=normals,
                                                   search_distance=0.5)
                 np.testing.assert_allclose(contact.normals[0], normal, atol=1e-15)
-        for rims, numbers in (("fold", (2, 1, 0)), ("keep", (3, 0, 0)), (signorini.Rims.DROP, (2, 0, 1))):
+        for rims, numbers in (("fold", (2, 1)), (signorini.Rims.KEEP, (3, 0))):
             contact = signorini.pair_surfaces(nodes, sides, floor, rims=rims, search_distance=0.5)
             report = contact.report
-            self.assertEqual((report.pairs, report.folded, report.dropped), numbers)
+            self.assertEqual((report.pairs, report.folded), numbers)
+            np.testing.assert_allclose(contact.folded_distances, [0.2] * report.folded)
             self.assertEqual(contact.unpaired.tolist(), [0, 3] if report.pairs == 2 else [0])
         rigid = signorini.pair_obstacle(nodes[:4], sides, signorini.RigidFaces(nodes[4:], [[1, 0]]),
-                                        normals="faces", rims="drop", search_distance=0.5)
-        np.testing.assert_allclose(rigid.normals, [[0, -1]] * 2, atol=1e-15)
+                                        normals="faces", rims="keep", search_distance=0.5)
+        np.testing.assert_allclose(rigid.normals, [[0, -1]] * 3, atol=1e-15)
+
+    def test_limits_and_rings(self):
+        told = []
+        contact = signorini.pair_surfaces(NODES, SLAVE, MASTER, progress=told.append)
+        self.assertTrue(contact.pairs > 0 and told and 0 <= told[0].reduced <= 1)
+        for limits, part in (({"time_limit": 1e-12}, "time limit"), ({"progress": lambda told: True}, "cancelled")):
+            with self.assertRaisesRegex(signorini.SignoriniError, part):
+                signorini.pair_surfaces(NODES, SLAVE, MASTER, **limits)
+        with self.assertRaises(ZeroDivisionError):
+            signorini.pair_surfaces(NODES, SLAVE, MASTER, progress=lambda told: 1 / 0)
+        disc = np.array([[0.0, 0], [1, 0], [0, 0], [1, 0]])
+        contact = signorini.pair_surfaces(disc, [[0, 1]], [[3, 2]], axisymmetric=True)
+        np.testing.assert_allclose(contact.areas, np.pi * np.array([1, 2]) / 3)
 
     def test_never_meet(self):
         apart = NODES + np.array([[0, 5]] * 2 + [[0, 0]] * 3)
@@ -116,6 +130,8 @@ class Pairs(unittest.TestCase):
         self.assertEqual(contact.unpaired.tolist(), [0, 1])
         self.assertEqual(contact.uncovered.tolist(), [0])
         self.assertIn("nothing lies opposite", contact.summary)
+        self.assertEqual(contact.beyond.tolist(), [0])
+        self.assertIn("1 slave faces point at a master beyond the search distance", contact.summary)
 
     def test_refusals(self):
         for kind, part, arguments, keywords in (

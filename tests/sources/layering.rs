@@ -17,7 +17,7 @@ const ROOMS: [(&str, &[&str]); 16] = [
     ("problem", &["error", "linalg"]),
     ("law", &["error", "linalg", "problem"]),
     ("reduce", &["error", "linalg", "problem", "workers"]),
-    ("surface", &["error", "linalg", "problem"]),
+    ("surface", &["error", "linalg", "monitor", "problem"]),
     ("file", &["error", "problem"]),
     ("certificate", &["error", "linalg", "problem", "law"]),
     (

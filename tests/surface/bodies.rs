@@ -10,7 +10,7 @@ use crate::common::solids::{Cell, Cells, Kind, Order, Point, Solid, gauss, on_tr
 use crate::surfaces::{grid, pair, steps};
 use fastrand::Rng;
 use signorini::reduce::ContactPairs;
-use signorini::surface::{PairArrays, SurfaceSettings, SymmetryPlane};
+use signorini::surface::{PairArrays, SurfacePairs, SurfaceSettings, SymmetryPlane};
 use signorini::{Error, FrictionLaw, LoadCase, Model, Monitor, Settings, Solution, State, Status};
 
 const PRESSURE: f64 = 7.0;
@@ -36,9 +36,15 @@ struct Setting {
     /// Cells in the plane, of the lower and the upper block.
     cells: [[usize; 2]; 2],
     upper_is_slave: bool,
+    /// By how much of itself the pressure grows along x and y.
+    growth: [f64; 2],
 }
 
 impl Setting {
+    fn pressure(&self, x: f64, y: f64) -> f64 {
+        PRESSURE * (1.0 + self.growth[0] * x + self.growth[1] * y)
+    }
+
     fn planes(&self) -> Vec<SymmetryPlane> {
         let axes = 0..if self.named { self.dim - 1 } else { 0 };
         axes.map(|axis| SymmetryPlane { axis, at: 0.0 }).collect()
@@ -51,6 +57,7 @@ const CELLS: [[usize; 2]; 2] = [[3, 2], [2, 3]];
 /// A model of blocks with its solution.
 struct Solved {
     model: Model,
+    found: SurfacePairs,
     arrays: PairArrays,
     load: Vec<f64>,
     prescribed: Vec<f64>,
@@ -94,7 +101,7 @@ impl Blocks {
         let shifted = |face: &Vec<usize>| face.iter().map(|node| first + node).collect();
         let faces = [solids[0].upper.clone(), solids[1].lower.iter().map(shifted).collect()];
         let nodes = [&solids[0].nodes[..], &solids[1].nodes].concat();
-        let exact = solids.iter().flat_map(exact_field).collect();
+        let exact = solids.iter().flat_map(|solid| exact_field(solid, setting.growth)).collect();
         let fixed = supports(&setting, &solids);
         Blocks { setting, solids, nodes, faces, exact, fixed }
     }
@@ -113,8 +120,9 @@ impl Blocks {
         let mut load = stiffness.times(&self.exact);
         let dim = self.setting.dim;
         for (faces, sign) in self.faces.iter().zip([1.0, -1.0]) {
-            for (node, share) in window_loads(dim, &self.nodes, faces, self.window()) {
-                load[dim * node + dim - 1] += sign * PRESSURE * share;
+            for (node, share, [x, y]) in window_loads(dim, &self.nodes, faces, self.window()) {
+                let y = if dim == 2 { 0.0 } else { y };
+                load[dim * node + dim - 1] += sign * self.setting.pressure(x, y) * share;
             }
         }
         load
@@ -127,7 +135,8 @@ impl Blocks {
         let sides = if upper_is_slave { [&upper[..], lower] } else { [&lower[..], upper] };
         let settings =
             SurfaceSettings { symmetry: self.setting.planes(), ..SurfaceSettings::default() };
-        let arrays = pair(dim, &self.nodes, sides, &settings).unwrap().rows();
+        let found = pair(dim, &self.nodes, sides, &settings).unwrap();
+        let arrays = found.rows();
         let stiffness = Solid::stiffness(&self.solids.each_ref());
         let model = Model::sparse(&stiffness.view(), &self.fixed, &ContactPairs::from(&arrays))?;
         let load = self.load(&stiffness);
@@ -142,7 +151,7 @@ impl Blocks {
         let settings = Settings { tolerance: 1e-12, ..Settings::default() };
         let monitor = &mut Monitor::new(&settings, None);
         let solution = model.solve(&case, &settings, None, monitor)?;
-        Ok(Solved { model, arrays, load, prescribed, solution })
+        Ok(Solved { model, found, arrays, load, prescribed, solution })
     }
 
     /// Pairs, solves and compares with the exact field.
@@ -150,7 +159,7 @@ impl Blocks {
         let dim = self.setting.dim;
         let context = format!("{:?}", self.setting);
         let solved = self.solved().unwrap_or_else(|error| panic!("{context}: {error}"));
-        let Solved { model, arrays, load, prescribed, solution } = solved;
+        let Solved { model, arrays, load, prescribed, solution, .. } = solved;
         assert!(!self.setting.named || model.dependent_pairs().is_empty(), "{context}");
         assert_eq!(solution.status, Status::Solved, "{context}: {}", solution.message);
         for (j, area) in arrays.areas.iter().enumerate() {
@@ -168,15 +177,28 @@ impl Blocks {
     }
 }
 
-/// Uniaxial pressure; in plane strain with nothing across the plane.
-fn exact_field(solid: &Solid) -> Vec<f64> {
+/// Uniaxial pressure, in space one that grows along x and y, as in a body that is bent: nothing moves across the plane
+/// z = 0. In plane strain with nothing across the plane.
+fn exact_field(solid: &Solid, growth: [f64; 2]) -> Vec<f64> {
     let (young, poisson) = solid.material;
     let [along, across] = match solid.dim {
         2 => [1.0 - poisson * poisson, poisson * (1.0 + poisson)],
         _ => [1.0, poisson],
     };
     let strain = |c: usize| PRESSURE / young * if c + 1 == solid.dim { -along } else { across };
-    solid.nodes.iter().flat_map(|p| (0..solid.dim).map(move |c| strain(c) * p[c])).collect()
+    let [a, b] = growth.map(|growth| -PRESSURE * growth / young);
+    let bent = |&[x, y, z]: &Point| {
+        [
+            -0.5 * a * (z * z + poisson * (x * x - y * y)) - poisson * b * x * y,
+            -0.5 * b * (z * z + poisson * (y * y - x * x)) - poisson * a * x * y,
+            (a * x + b * y) * z,
+        ]
+    };
+    let at = |p: &Point| {
+        let (p, bent) = (*p, bent(p));
+        (0..solid.dim).map(move |c| strain(c) * p[c] + bent[c])
+    };
+    solid.nodes.iter().flat_map(at).collect()
 }
 
 /// Degrees of freedom with the displacement of the exact field.
@@ -214,13 +236,13 @@ fn supports(setting: &Setting, solids: &[Solid; 2]) -> Vec<usize> {
     fixed
 }
 
-/// Integrals of the functions of faces in the plane z = 0 over a window along the axes.
+/// Terms of integrals of the functions of faces in the plane z = 0 over a window along the axes, each with its place.
 fn window_loads(
     dim: usize,
     nodes: &[Point],
     faces: &[Vec<usize>],
     window: [[f64; 2]; 2],
-) -> Vec<(usize, f64)> {
+) -> Vec<(usize, f64, [f64; 2])> {
     let mut loads = Vec::new();
     for face in faces {
         let (kind, corners) = face_kind(dim, face.len());
@@ -237,7 +259,7 @@ fn window_loads(
         };
         for (p, weight) in points {
             let values = kind.values(local(&kind, dim - 1, nodes, face, p));
-            loads.extend(face.iter().zip(values).map(|(&node, value)| (node, weight * value)));
+            loads.extend(face.iter().zip(values).map(|(&node, value)| (node, weight * value, p)));
         }
     }
     loads
@@ -338,6 +360,7 @@ fn check_all(dim: usize, kinds: [(Cells, Order); 2], overhangs: &[f64], rng: &mu
                         named: false,
                         cells: CELLS,
                         upper_is_slave,
+                        growth: [0.0; 2],
                     };
                     Blocks::new(setting, rng).check();
                 }
@@ -406,6 +429,7 @@ fn triangles_beside_faces_with_a_centre_pass_the_patch_test() {
                 named: false,
                 cells: CELLS,
                 upper_is_slave: i % 2 == 0,
+                growth: [0.0; 2],
             };
             Blocks::new(setting, &mut rng).check();
         }
@@ -430,6 +454,7 @@ fn fine_slaves_on_planes_of_symmetry_are_solved_or_refused_with_the_way_out() {
             named: false,
             cells: CELLS,
             upper_is_slave: true,
+            growth: [0.0; 2],
         };
         let mut blocks = Blocks::new(fine, &mut rng);
         match blocks.solved() {
@@ -474,6 +499,7 @@ fn quarter_models_whose_planes_are_named_pass_the_patch_test() {
                     named: true,
                     cells: [[2, 2], fine],
                     upper_is_slave,
+                    growth: [0.0; 2],
                 };
                 Blocks::new(setting, &mut rng).check();
             }
@@ -497,6 +523,7 @@ fn half_models_in_the_plane_whose_axis_is_named_pass_the_patch_test() {
                     named: true,
                     cells: [[3, 2], [5, 2]],
                     upper_is_slave,
+                    growth: [0.0; 2],
                 };
                 Blocks::new(setting, &mut rng).check();
             }
@@ -520,8 +547,50 @@ fn bodies_of_different_elements_pass_the_patch_test() {
                 named: false,
                 cells: CELLS,
                 upper_is_slave: i < j,
+                growth: [0.0; 2],
             };
             Blocks::new(setting, &mut rng).check();
         }
+    }
+}
+
+/// A pressure that grows to three times itself, on unstructured tetrahedra that hang over each other by a part of an
+/// element, either side slave. The largest errors beside the pressure there: of nodes that have taken in others, and of
+/// all. A mesh that is covered wholly has errors of 6 % with six nodes a face, and of 13 % with three.
+#[test]
+fn a_growing_pressure_is_found_at_rims() {
+    let mut rng = Rng::with_seed(17);
+    for (order, receivers, all) in [(Order::Linear, 0.12, 0.15), (Order::Edges, 0.05, 0.07)] {
+        let (mut at_receivers, mut anywhere, mut folded) = (0.0_f64, 0.0_f64, 0);
+        for i in 0..18 {
+            let kind = (Cells::Simplices, order);
+            let setting = Setting {
+                dim: 3,
+                kinds: [kind; 2],
+                distortion: 0.25,
+                overhang: [0.03, 0.2, 0.35, 0.5, 0.65, 0.8, 0.9, 0.95, 0.99][i / 2],
+                quarter: false,
+                named: false,
+                cells: [[8, 7], [7, 8]],
+                upper_is_slave: i % 2 == 0,
+                growth: [0.3, 0.8],
+            };
+            let blocks = Blocks::new(setting, &mut rng);
+            let Solved { found, solution, .. } = blocks.solved().unwrap();
+            assert_eq!(solution.status, Status::Solved, "{}", solution.message);
+            folded += found.report.folded.len();
+            for (j, pair) in found.pairs.iter().enumerate() {
+                let [x, y, _] = blocks.nodes[pair.slave];
+                let pressure = -solution.certificate.force[3 * j] / pair.area;
+                let error = (pressure / setting.pressure(x, y) - 1.0).abs();
+                anywhere = anywhere.max(error);
+                if found.report.folded.iter().any(|fold| fold.into == pair.slave) {
+                    at_receivers = at_receivers.max(error);
+                }
+            }
+        }
+        let context = format!("{order:?}: {at_receivers:.3} at receivers, {anywhere:.3} of all");
+        println!("{context}; {folded} folded");
+        assert!(folded > 0 && at_receivers < receivers && anywhere < all, "{context}");
     }
 }

@@ -15,5 +15,6 @@ mod models;
 mod overlap;
 mod patch;
 mod quadrilaterals;
+mod reach;
 mod rows;
 mod symmetry;

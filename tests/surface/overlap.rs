@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use crate::surfaces::{SHAPES, Shape, Sheet, flat, line, pair, steps};
+use crate::surfaces::{SHAPES, Shape, Sheet, flat, line, pair, steps, unlimited};
 use fastrand::Rng;
 use signorini::Argument;
 use signorini::surface::{
@@ -216,8 +216,8 @@ fn masters_and_obstacles_are_compared_too() {
         coordinates: &obstacle,
         faces: Faces { start: &obstacle_start, nodes: &obstacle_nodes },
     };
-    let error =
-        pair_with_rigid_surface(3, &coordinates, faces, &rigid, &SurfaceSettings::default());
+    let settings = &SurfaceSettings::default();
+    let error = pair_with_rigid_surface(3, &coordinates, faces, &rigid, settings, &mut unlimited());
     let error = error.unwrap_err().to_string();
     assert!(error.starts_with("obstacle face 1 lies upon face 0"), "{error}");
 
@@ -226,6 +226,8 @@ fn masters_and_obstacles_are_compared_too() {
     let (start, nodes) = flat(&twice.faces);
     let faces = Faces { start: &start, nodes: &nodes };
     let plane = Obstacle::Plane { point: [0.0; 3], outward: [0.0, 0.0, 1.0] };
-    let error = pair_with_obstacle(3, &coordinates, faces, &plane, None).unwrap_err().to_string();
+    let error = pair_with_obstacle(3, &coordinates, faces, &plane, settings, &mut unlimited())
+        .unwrap_err()
+        .to_string();
     assert!(error.starts_with("slave face 4 lies upon face 0"), "{error}");
 }

@@ -72,7 +72,7 @@ fn pairs(corners: &[Point; 4], triangles: &[[Point; 3]]) -> SurfacePairs {
         search_distance: Some(100.0),
         ..SurfaceSettings::default()
     };
-    pair_surfaces(&surfaces, &settings).unwrap()
+    pair_surfaces(&surfaces, &settings, &mut crate::surfaces::unlimited()).unwrap()
 }
 
 /// Checks the weights of nodes above some places; returns how many were checked.

@@ -3,7 +3,7 @@
 
 use crate::surfaces::{
     SHAPES, Shape, Sheet, TwoSheets, exact_loads, flat, grid, line, most_moved, nodal_forces, pair,
-    steps,
+    steps, unlimited,
 };
 use fastrand::Rng;
 use signorini::surface::{
@@ -235,7 +235,10 @@ fn statics_of(slave: Shape, master: Shape, (distortion, part): (f64, f64), rng: 
             }
         }
         (Shape::Q9, _) => {}
-        (_, arrays) => assert!(arrays.is_none(), "{context}: mid rows hold corners too"),
+        // A twentieth of a face leaves few pairs.
+        (_, arrays) => {
+            assert!(arrays.is_none() || part > 0.9, "{context}: mid rows hold corners too");
+        }
     }
     // Rectangles can be cut.
     let cut = |shape: Shape| part > 0.0 && (!shape.is_quadrilateral() || distortion > 0.0);
@@ -390,7 +393,7 @@ fn wrong_surfaces_are_refused_by_place() {
     assert!(layered.starts_with(expected), "{layered}");
     let distance = SurfaceSettings { search_distance: Some(-1.0), ..SurfaceSettings::default() };
     let error = pair(3, &square(), [&four, &[]], &distance).unwrap_err();
-    assert_eq!(error.to_string(), "search_distance is -1, it must be positive and finite");
+    assert_eq!(error.to_string(), "search_distance is -1, it must be positive");
     let error = pair(4, &[], [&[], &[]], &SurfaceSettings::default()).unwrap_err();
     assert_eq!(error.to_string(), "dim is 4, it must be 2 or 3");
 }
@@ -405,6 +408,17 @@ fn a_surface_turned_over_is_said() {
     assert!(found.pairs.is_empty());
     assert_eq!(found.report.uncovered_faces, [0, 1, 2, 3]);
     assert!(found.report.not_opposed >= 4);
+}
+
+/// Pairs in space with an obstacle.
+fn facing(
+    coordinates: &[f64],
+    slave: Faces<'_>,
+    obstacle: &Obstacle,
+    search_distance: Option<f64>,
+) -> Result<SurfacePairs, signorini::Error> {
+    let settings = SurfaceSettings { search_distance, ..SurfaceSettings::default() };
+    pair_with_obstacle(3, coordinates, slave, obstacle, &settings, &mut unlimited())
 }
 
 /// Gaps and normals of nodes against obstacles, by elementary geometry.
@@ -423,7 +437,7 @@ fn obstacles_face_nodes() {
     let bar = Obstacle::Cylinder { point, axis, radius: 1.0, hollow: false };
     let plane = Obstacle::Plane { point: [7.0, 0.0, 1.0], outward: [0.0, 0.0, 2.0] };
     for obstacle in [sphere, bowl, bar, plane] {
-        let found = pair_with_obstacle(3, &coordinates, slave, &obstacle, None).unwrap();
+        let found = facing(&coordinates, slave, &obstacle, None).unwrap();
         assert_eq!(found.pairs.len(), 16);
         for pair in &found.pairs {
             let [x, y, z] = sheet.nodes[pair.slave];
@@ -442,11 +456,11 @@ fn obstacles_face_nodes() {
         }
         assert!((found.report.covered_area - 1.44).abs() < 1e-14);
     }
-    let near = pair_with_obstacle(3, &coordinates, slave, &sphere, Some(0.3)).unwrap();
+    let near = facing(&coordinates, slave, &sphere, Some(0.3)).unwrap();
     assert_eq!(near.pairs.len() + near.unpaired.len(), 16);
     assert!(near.pairs.iter().all(|pair| pair.gap <= 0.3) && !near.unpaired.is_empty());
     let flat = Obstacle::Sphere { centre: [0.0; 3], radius: 0.0, hollow: false };
-    let error = pair_with_obstacle(3, &coordinates, slave, &flat, None).unwrap_err();
+    let error = facing(&coordinates, slave, &flat, None).unwrap_err();
     assert_eq!(error.to_string(), "obstacle: its radius is 0, it must be positive and finite");
 }
 
@@ -469,7 +483,9 @@ fn rigid_meshes_face_nodes() {
             RigidSurface { coordinates: &own, faces: Faces { start: &start, nodes: &nodes } };
         let settings =
             SurfaceSettings { pairing, search_distance: Some(2.0), ..SurfaceSettings::default() };
-        let found = pair_with_rigid_surface(3, &coordinates, faces, &rigid, &settings).unwrap();
+        let found =
+            pair_with_rigid_surface(3, &coordinates, faces, &rigid, &settings, &mut unlimited())
+                .unwrap();
         let both = TwoSheets::new(3, slave.clone(), obstacle.clone()).pair(&settings).unwrap();
         assert_eq!(found.pairs.len(), 20);
         for (pair, other) in found.pairs.iter().zip(&both.pairs) {
@@ -512,7 +528,7 @@ fn obstacles_load_quadratic_faces() {
         let sheet = sheet.turned();
         let (start, nodes) = flat(&sheet.faces);
         let slave = Faces { start: &start, nodes: &nodes };
-        let found = pair_with_obstacle(3, &sheet.nodes.concat(), slave, &plane, None).unwrap();
+        let found = facing(&sheet.nodes.concat(), slave, &plane, None).unwrap();
         assert!(found.pairs.iter().all(|pair| pair.area > 0.0 && pair.gap.abs() < 1e-15));
         for (force, load) in nodal_forces(&found, sheet.nodes.len(), 1.0).iter().zip(loads) {
             assert!((force[2] - load).abs() < 1e-14, "{shape:?}: {force:?}, {load}");

@@ -296,8 +296,14 @@ fn normals_and_gaps_are_those_of_the_whole_surface() {
         ] {
             let found = |bodies: &Bodies, symmetry| {
                 let (search_distance, rims) = (Some(1.0), Rims::Fold);
-                let settings =
-                    SurfaceSettings { pairing, search_distance, symmetry, normals, rims };
+                let settings = SurfaceSettings {
+                    pairing,
+                    search_distance,
+                    symmetry,
+                    normals,
+                    rims,
+                    ..Default::default()
+                };
                 pair(3, &bodies.nodes, bodies.faces.each_ref().map(|faces| &faces[..]), &settings)
                     .unwrap()
             };

@@ -149,7 +149,6 @@ class Rims(IntEnum):
 
     FOLD = 0
     KEEP = 1
-    DROP = 2
 
 
 class Obstacle(IntEnum):

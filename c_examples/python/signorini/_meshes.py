@@ -7,6 +7,9 @@ from ._mesh import points
 from ._skin import corners, dimension, skin, turned
 from ._surfaces import Cylinder, Plane, RigidFaces, Sphere, pair_obstacle, pair_surfaces
 
+# Faces look the same way if the cosine between their normals is above this.
+SAME_WAY = 0.7
+
 
 def pair_meshes(slave, master, *, slave_faces=None, master_faces=None, **pairing):
     """Pairs the faces of two meshes that may touch: SurfacePairs.
@@ -19,7 +22,8 @@ def pair_meshes(slave, master, *, slave_faces=None, master_faces=None, **pairing
     physical group, of faces or of the cells whose skin is meant; a function of coordinates, (n, D),
     that tells for each node whether its faces of the skin belong, which they do if all of their
     nodes do; or faces, as for pair_surfaces, in nodes of their mesh. Faces that lie on the skin are
-    turned to the outside, those of the slave that lie over nothing are left out.
+    turned to the outside; those of the slave that lie over nothing and look elsewhere than those over
+    the master are left out.
     Coordinates with a third column that is the same everywhere are those of a plane mesh if no cell
     has a volume. The rest: as for pair_surfaces.
     """
@@ -46,13 +50,41 @@ def pair_meshes(slave, master, *, slave_faces=None, master_faces=None, **pairing
 
 
 def _covered(coordinates, slave, master, pairing):
-    """Pairs without the slave faces that lie over nothing: they would bend the normals of the nodes at the rim."""
-    contact = pair_surfaces(coordinates, slave, master, **pairing)
-    if len(contact.uncovered) in (0, len(slave)):
-        return contact
-    over_nothing = set(contact.uncovered.tolist())
-    return pair_surfaces(coordinates, [face for place, face in enumerate(slave) if place not in over_nothing], master,
-                         **pairing)
+    """Pairs without the slave faces that lie over nothing and look elsewhere than those beside them that lie over the
+    master: they would bend the normals of the nodes at the rim. Counts and areas are those of all faces given."""
+    whole = pair_surfaces(coordinates, slave, master, **pairing)
+    uncovered = set(whole.uncovered.tolist())
+    if len(uncovered) in (0, len(slave)):
+        return whole
+    normals = [_normal(coordinates[face[:corners(face, whole.dim)]]) for face in slave]
+    around = {}
+    for place, face in enumerate(slave):
+        if place not in uncovered:
+            for node in face:
+                around[node] = around.get(node, 0) + normals[place]
+    kept = [place for place, face in enumerate(slave) if place not in uncovered or any(
+        node in around and normals[place] @ around[node] > SAME_WAY * np.linalg.norm(around[node]) for node in face)]
+    contact = pair_surfaces(coordinates, [slave[place] for place in kept], master, **pairing)
+    if len(contact.beyond):
+        contact.summary = contact.summary.rpartition("; ")[0]
+    for name in ("uncovered", "beyond", "beyond_distances"):
+        setattr(contact, name, getattr(whole, name))
+    for name in ("uncovered", "beyond", "slave_faces", "slave_area"):
+        setattr(contact.report, name, getattr(whole.report, name))
+    share = 100 * contact.report.covered_area / contact.report.slave_area
+    contact.summary += f"; of the area of all {len(slave)} faces given {share:.2f} %"
+    if len(whole.beyond):
+        contact.summary += "; " + whole.summary.rpartition("; ")[2]
+    return contact
+
+
+def _normal(x):
+    """Unit normal of a face by its corners, in 2D of a line."""
+    if len(x) == 2:
+        normal = np.array([x[1, 1] - x[0, 1], x[0, 0] - x[1, 0]])
+    else:
+        normal = np.cross(x[2] - x[0], x[-1] - x[1])
+    return normal / np.linalg.norm(normal)
 
 
 class _Mesh:

@@ -137,6 +137,8 @@ class SurfaceSettings(ctypes.Structure):
         ("struct_size", u32), ("pairing", i32), ("search_distance", real), ("index_base", i32),
         ("dofs_per_node", i32), ("node_dofs", address), ("symmetry_planes", i64),
         ("symmetry_axes", address), ("symmetry_at", address), ("normals", i32), ("rims", i32),
+        ("axisymmetric", i32), ("reserved", i32), ("time_limit", real), ("progress", Callback),
+        ("user", address),
     ]
 
 
@@ -150,7 +152,8 @@ class SurfaceData(ctypes.Structure):
         ("folded", address), ("n_uncovered", i64), ("uncovered", address),
         ("summary", ctypes.c_char_p), ("slave_faces", i64), ("slave_area", real),
         ("covered_area", real), ("search_distance", real), ("not_opposed", i64),
-        ("boxes_searched", i64), ("on_symmetry", i64), ("dropped", i64),
+        ("boxes_searched", i64), ("on_symmetry", i64), ("n_beyond", i64),
+        ("beyond", address), ("beyond_distances", address), ("folded_distances", address),
     ]
 
 

@@ -8,8 +8,9 @@ from types import SimpleNamespace
 import numpy as np
 
 from ._arrays import at, components, copied, doubles, fit, indices, integers, per_pair, reals
-from ._constants import Normals, Obstacle, Pairing, Rims, chosen
-from ._library import check, library
+from ._call import Call
+from ._constants import Normals, Obstacle, Pairing, Rims, Status, chosen, member
+from ._library import SignoriniError, check, library
 from ._mesh import Cells, points
 from ._structures import (ContactFields, Faces, ResultantSums, RigidObstacle, SurfaceData,
                           SurfaceSettings, Zone, address, i32, i64, real, sized)
@@ -53,7 +54,8 @@ what friction takes in the step.  pressed_area: of the pairs that press.
 
 
 def pair_surfaces(coordinates, slave, master, *, pairing="dual_mortar", search_distance=0.0,
-                  dofs=None, dofs_per_node=0, symmetry=(), normals="averaged", rims="fold"):
+                  dofs=None, dofs_per_node=0, symmetry=(), normals="averaged", rims="fold",
+                  axisymmetric=False, time_limit=0.0, progress=None):
     """Pairs two surfaces of a mesh: SurfacePairs. Surfaces that never meet give no pairs.
 
     coordinates: of all nodes, (n, D).  slave, master: nodes of each face, (F, k), or a list of
@@ -61,24 +63,30 @@ def pair_surfaces(coordinates, slave, master, *, pairing="dual_mortar", search_d
     left of a line; in 3D triangles (3, 6) and quadrilaterals (4, 8, 9), counterclockwise from
     outside; corners first, then mid nodes, then the centre.
     pairing: "dual_mortar" or "node_to_surface".  search_distance: the largest one along the normal;
-    0: the size of the largest slave face.
+    0: open up to half the diagonal of the smaller of the two sides' boxes, of masters over each other
+    the nearest alone; overlapping up to the size of the largest slave face.
     dofs: degrees of freedom of each node, (n, D); None: dofs_per_node * node + axis, dofs_per_node
     0: D.
     symmetry: planes of symmetry of a half or quarter model, pairs of the axis across each and where
     it stands along it: [(0, 0.0), (1, 0.0)]. Pairs on one neither move nor carry a force across it.
     normals: "averaged" over all slave faces at a node, or of the "faces" in contact: slave faces over
     the master by dual mortar, the nearest master face by "node_to_surface".
-    rims: slave nodes with less than a tenth of their area over the master (on the faces of which any
-    part is) "fold" into a neighbour, "keep" pairs of their own, or "drop" out; by "node_to_surface"
-    the default alone.
+    rims: slave nodes with less than half of their area over the master "fold" into a node of their
+    faces, or "keep" pairs of their own; by "node_to_surface" the default alone.
+    axisymmetric: lines in 2D are meridians of bodies of revolution about the axis x = 0; areas are those
+    of whole rings, and so must be stiffness and loads.
+    time_limit: seconds; 0: none.  progress: as for solve; a function that cancels, or the limit, raises
+    SignoriniError.
     """
     slave, master = _Faces("slave", slave), _Faces("master", master)
     return SurfacePairs("surface_pair", coordinates, slave, master.structure, pairing,
-                        search_distance, dofs, dofs_per_node, symmetry, normals, rims)
+                        search_distance, dofs, dofs_per_node, symmetry, normals, rims, axisymmetric,
+                        time_limit, progress)
 
 
 def pair_obstacle(coordinates, slave, obstacle, *, search_distance=0.0, dofs=None,
-                  dofs_per_node=0, symmetry=(), normals="averaged", rims="fold"):
+                  dofs_per_node=0, symmetry=(), normals="averaged", rims="fold", axisymmetric=False,
+                  time_limit=0.0, progress=None):
     """Pairs a surface with a rigid Plane, Sphere, Cylinder or RigidFaces: SurfacePairs.
 
     The rest: as for pair_surfaces; search_distance 0: no limit, and with RigidFaces as there.
@@ -87,7 +95,7 @@ def pair_obstacle(coordinates, slave, obstacle, *, search_distance=0.0, dofs=Non
     slave, rigid = _Faces("slave", slave), _Rigid(obstacle)
     return SurfacePairs("surface_pair_obstacle", coordinates, slave, rigid.structure,
                         Pairing.DUAL_MORTAR, search_distance, dofs, dofs_per_node, symmetry, normals,
-                        rims)
+                        rims, axisymmetric, time_limit, progress)
 
 
 class SurfacePairs:
@@ -97,13 +105,15 @@ class SurfacePairs:
     where the force of each pair acts, (P, D).  nodes: slave node of each pair, (P,).
     coordinates: those given.  slave_faces: the nodes of each slave face.
     unpaired: slave nodes without a pair.  folded: nodes with little cover, each with the node whose
-    pair has its row, (k, 2).  uncovered: slave faces that lie over nothing.
+    pair has its row, (k, 2); folded_distances: how far away that is, (k,).  uncovered: slave faces
+    that lie over nothing.  beyond: those of them that point at a master beyond the search distance,
+    beyond_distances: how far away it is.
     summary: one sentence.  report: numbers and areas of signorini_surface_data, n_unpaired as
     unpaired and so on.
     """
 
     def __init__(self, make, coordinates, slave, other, pairing, search_distance, dofs,
-                 dofs_per_node, symmetry, normals, rims):
+                 dofs_per_node, symmetry, normals, rims, axisymmetric, time_limit, progress):
         self._functions, self._coordinates = library(), points(coordinates).copy()
         self.node_count, self.dim = self._coordinates.shape
         self.slave_faces, self.coordinates = slave.lists, self._coordinates
@@ -111,7 +121,10 @@ class SurfacePairs:
             SurfaceSettings, pairing=chosen("pairing", Pairing, pairing),
             search_distance=float(search_distance), dofs_per_node=dofs_per_node,
             normals=chosen("normals", Normals, normals), rims=chosen("rims", Rims, rims),
+            axisymmetric=bool(axisymmetric), time_limit=float(time_limit),
         )
+        call = Call(self._functions, {"progress": progress})
+        settings.progress = call.settings.progress
         axes, places = _planes(symmetry)
         settings.symmetry_planes = len(axes)
         settings.symmetry_axes, settings.symmetry_at = at(axes), at(places)
@@ -125,9 +138,12 @@ class SurfacePairs:
             settings.node_dofs = at(dofs)
             self._least = int(dofs.max(initial=-1)) + 1
         handle, data = address(), sized(SurfaceData)
-        check(self._functions, getattr(self._functions, make)(
-            self.dim, self.node_count, at(self._coordinates), ctypes.byref(slave.structure),
-            ctypes.byref(other), ctypes.byref(settings), ctypes.byref(handle)))
+        status, message = call.run(
+            getattr(self._functions, make), self.dim, self.node_count, at(self._coordinates),
+            ctypes.byref(slave.structure), ctypes.byref(other), ctypes.byref(settings),
+            ctypes.byref(handle))
+        if status != 0:
+            raise SignoriniError(message, member(Status, status))
         self._handle = handle.value
         weakref.finalize(self, self._functions.surface_free, self._handle)
         self._do("surface_view", ctypes.byref(data))
@@ -151,7 +167,10 @@ class SurfacePairs:
         self.nodes = array("nodes", (pairs,), i64)
         self.unpaired = array("unpaired", (data.n_unpaired,), i64)
         self.folded = array("folded", (data.n_folded, 2), i64)
+        self.folded_distances = array("folded_distances", (data.n_folded,))
         self.uncovered = array("uncovered", (data.n_uncovered,), i64)
+        self.beyond = array("beyond", (data.n_beyond,), i64)
+        self.beyond_distances = array("beyond_distances", (data.n_beyond,))
 
     def fields(self, result, *, slip0=None, gap=None):
         """Pressure, traction, clearance, slip and state at all nodes: Fields.

@@ -1,0 +1,71 @@
+//! The unit of lengths inside of the pairing: a power of two by which coordinates are below 1, whatever the host's unit is.
+//! Scaling by it is exact, so that rows do not depend on the host's unit, and gaps scale with it.
+
+use super::pairs::SurfacePairs;
+use super::settings::SurfaceSettings;
+use super::symmetry::SymmetryPlane;
+use crate::error::{Argument, Error, index};
+use crate::linalg::power_of_two::{largest_exponent, times_power_of_two};
+
+/// Lengths inside are those of the host times this exact number.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Unit {
+    pub(super) inside: f64,
+    exponent: i32,
+}
+
+/// The largest exponent whose power of two has an inverse with all its digits.
+const MOST: i32 = 1020;
+
+impl Unit {
+    /// The unit of lengths.
+    pub(super) fn of(lengths: impl Iterator<Item = f64>) -> Unit {
+        let largest = largest_exponent(lengths.filter(|length| length.is_finite()));
+        let exponent = largest.map_or(0, |largest| largest + 1).clamp(-MOST, MOST);
+        Unit { inside: times_power_of_two(1.0, -exponent), exponent }
+    }
+
+    /// The settings in this unit.
+    pub(super) fn settings(&self, given: &SurfaceSettings) -> SurfaceSettings {
+        let plane = |plane: &SymmetryPlane| SymmetryPlane { at: self.inside * plane.at, ..*plane };
+        SurfaceSettings {
+            search_distance: given.search_distance.map(|distance| self.inside * distance),
+            symmetry: given.symmetry.iter().map(plane).collect(),
+            ..given.clone()
+        }
+    }
+
+    /// Pairs in the host's unit.
+    ///
+    /// # Errors
+    /// Areas that no number holds.
+    pub(super) fn of_host(
+        &self,
+        mut found: SurfacePairs,
+        settings: &SurfaceSettings,
+    ) -> Result<SurfacePairs, Error> {
+        found.axisymmetric = settings.axisymmetric;
+        let powers = if found.dim == 2 && !found.axisymmetric { 1 } else { 2 };
+        let length = |length: &mut f64| *length = times_power_of_two(*length, self.exponent);
+        let area = |area: &mut f64| *area = times_power_of_two(*area, powers * self.exponent);
+        for pair in &mut found.pairs {
+            pair.point.iter_mut().for_each(length);
+            length(&mut pair.gap);
+            area(&mut pair.area);
+            if !pair.area.is_normal() {
+                let message = format!(
+                    "the area at node {} is beyond the range of numbers: choose another unit of length",
+                    index(pair.slave)
+                );
+                return Err(Error::invalid(Argument::Coordinates, message));
+            }
+        }
+        let report = &mut found.report;
+        length(&mut report.search_distance);
+        report.folded.iter_mut().for_each(|fold| length(&mut fold.distance));
+        report.beyond.iter_mut().for_each(|(_, distance)| length(distance));
+        area(&mut report.slave_area);
+        area(&mut report.covered_area);
+        Ok(found)
+    }
+}
