@@ -7,7 +7,7 @@ use super::mesh::{Faces, Side};
 use super::pairs::{SurfacePair, SurfacePairs, SurfaceReport, without_rounding};
 use super::row::Row;
 use super::self_overlap;
-use super::settings::{self, SurfaceSettings};
+use super::settings::SurfaceSettings;
 use super::symmetry::OnPlanes;
 use super::unit::Unit;
 use super::watch::Watch;
@@ -176,7 +176,7 @@ pub fn pair_with_obstacle(
     let unit = Unit::of(side.lengths().chain(obstacle.lengths()));
     let (obstacle, settings) = (obstacle.check(dim, unit)?, &unit.settings(settings));
     let side = side.checked((unit.inside, axisymmetric), watch)?;
-    let reach = settings::distance(settings.search_distance)?.unwrap_or(f64::INFINITY);
+    let reach = settings.search_distance.unwrap_or(f64::INFINITY);
     let planes = OnPlanes::new(&side, dim, (&settings.symmetry, axisymmetric))?;
     watch.expects(side.count());
     self_overlap::check(&side, &SearchFaces::new(&side, watch)?, (dim, reach), watch)?;

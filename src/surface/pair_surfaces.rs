@@ -3,7 +3,7 @@
 use super::candidates::{Candidates, Reach, SearchFaces};
 use super::mesh::{Side, Surfaces};
 use super::pairs::SurfacePairs;
-use super::settings::{self, Pairing, SurfaceSettings};
+use super::settings::{Pairing, SurfaceSettings};
 use super::symmetry::OnPlanes;
 use super::tree::Bounds;
 use super::unit::Unit;
@@ -55,7 +55,7 @@ pub(super) fn pair_sides(
     let settings = &unit.settings(settings);
     let planes = OnPlanes::new(&slave, dim, (&settings.symmetry, settings.axisymmetric))?;
     let (own, opposite) = (SearchFaces::new(&slave, watch)?, SearchFaces::new(&master, watch)?);
-    let (reach, span) = reach(&slave, [own.tree.bounds(), opposite.tree.bounds()], settings)?;
+    let (reach, span) = reach(&slave, [own.tree.bounds(), opposite.tree.bounds()], settings);
     watch.expects(2 * slave.count() + master.count());
     self_overlap::check(&slave, &own, (dim, reach.overlap), watch)?;
     if settings.pairing == Pairing::DualMortar {
@@ -73,19 +73,15 @@ pub(super) fn pair_sides(
 }
 
 /// How far masters are looked for, and how far away any face may be.
-fn reach(
-    slave: &Side<'_>,
-    boxes: [Option<Bounds>; 2],
-    settings: &SurfaceSettings,
-) -> Result<(Reach, f64), Error> {
+fn reach(slave: &Side<'_>, boxes: [Option<Bounds>; 2], settings: &SurfaceSettings) -> (Reach, f64) {
     let largest = (0..slave.count()).map(|face| slave.face(face).size()).fold(0.0, f64::max);
     let all = boxes.into_iter().flatten().reduce(|a, b| a.with(&b));
     let span = all.map_or(0.0, |all| all.diagonal());
     let smaller = boxes.map(|of_side| of_side.map_or(0.0, |of_side| of_side.diagonal()));
     let open = largest.max(OF_BOX * smaller[0].min(smaller[1]));
-    let reach = match settings::distance(settings.search_distance)? {
+    let reach = match settings.search_distance {
         Some(given) => Reach { overlap: given, open: given, layer: f64::INFINITY },
         None => Reach { overlap: largest, open, layer: largest },
     };
-    Ok((reach, span))
+    (reach, span)
 }

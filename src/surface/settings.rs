@@ -68,8 +68,14 @@ pub struct SurfaceSettings {
 
 impl SurfaceSettings {
     /// # Errors
-    /// A choice for rims where nodes have no cover; bodies of revolution in space.
+    /// A search distance that is not positive; a choice for rims where nodes have no cover; bodies of revolution in
+    /// space.
     pub(super) fn check(&self, dim: usize) -> Result<(), Error> {
+        // Written so that NaN is refused.
+        if let Some(distance) = self.search_distance.filter(|distance| !(*distance > 0.0)) {
+            let message = format!("search_distance is {distance}, it must be positive");
+            return Err(Error::invalid(Argument::Settings, message));
+        }
         if self.axisymmetric && dim == 3 {
             let message = "axisymmetric: faces of bodies of revolution are lines, in 2 dimensions";
             return Err(Error::invalid(Argument::Settings, message));
@@ -80,20 +86,5 @@ impl SurfaceSettings {
             return Err(Error::invalid(Argument::Settings, message));
         }
         Ok(())
-    }
-}
-
-/// The search distance, if one is given.
-///
-/// # Errors
-/// One that is not positive.
-pub(super) fn distance(given: Option<f64>) -> Result<Option<f64>, Error> {
-    match given {
-        // Written so that NaN is refused.
-        Some(distance) if !(distance > 0.0) => {
-            let message = format!("search_distance is {distance}, it must be positive");
-            Err(Error::invalid(Argument::Settings, message))
-        }
-        other => Ok(other),
     }
 }
