@@ -524,7 +524,7 @@ struct signorini_progress {
     int64_t iterations; /**< Sweeps, pivots or linear systems done. */
     double eta;         /**< Latest measured eta; infinite before the first measurement. */
     double elapsed;     /**< Seconds since the call began. */
-    /** Share of the reduction of a matrix that is done, 0 to 1; 1 in a load case. */
+    /** Share of a reduction or a pairing that is done, 0 to 1; 1 in a load case. */
     double reduced;
     /** Bytes that this reduction needs in all, told before they are taken; otherwise 0. */
     int64_t memory;

@@ -59,8 +59,8 @@ extern "C" {
 /**
  * The default: the rows of slave nodes with less than half of their area over the master, counted
  * on all slave faces around them that look the same way, are added to that of a node of their own
- * faces. Uniform pressure stays exact, and others are as exact as elsewhere. The choice is for dual mortar: nodes against
- * surfaces have no cover, and take the default alone.
+ * faces. Uniform pressure stays exact, and others are as exact as elsewhere. The choice is for dual
+ * mortar: nodes against surfaces have no cover, and take the default alone.
  */
 #define SIGNORINI_RIMS_FOLD 0
 /**
@@ -120,7 +120,7 @@ struct signorini_obstacle {
  * like.
  */
 struct signorini_surface_settings {
-    uint32_t struct_size;           /**< sizeof(signorini_surface_settings). */
+    uint32_t struct_size;         /**< sizeof(signorini_surface_settings). */
     int32_t pairing; /**< SIGNORINI_PAIRING_...; default SIGNORINI_PAIRING_DUAL_MORTAR. */
     /**
      * Largest distance along the normal at which surfaces are paired, open or overlapping; length.
@@ -147,20 +147,21 @@ struct signorini_surface_settings {
      * Fix the nodes on the plane across it as without contact.
      */
     int64_t symmetry_planes;
-    const int32_t *symmetry_axes;   /**< The axis across each plane, counted from index_base. */
-    const double *symmetry_at;      /**< Where each plane stands along its axis; length. */
-    int32_t normals; /**< SIGNORINI_NORMALS_...; default SIGNORINI_NORMALS_AVERAGED. */
-    int32_t rims;                   /**< SIGNORINI_RIMS_...; default SIGNORINI_RIMS_FOLD. */
+    const int32_t *symmetry_axes; /**< The axis across each plane, counted from index_base. */
+    const double *symmetry_at;    /**< Where each plane stands along its axis; length. */
+    int32_t normals;              /**< SIGNORINI_NORMALS_...; default SIGNORINI_NORMALS_AVERAGED. */
+    int32_t rims;                 /**< SIGNORINI_RIMS_...; default SIGNORINI_RIMS_FOLD. */
     /**
      * Nonzero: lines in 2D are meridians of bodies of revolution about the axis x = 0, with the
      * radius x >= 0. Areas are those of whole rings, with the factor 2 pi r: hand over stiffness and
      * loads of whole rings too. The axis is a plane of symmetry without being named. Default 0.
      */
     int32_t axisymmetric;
-    int32_t reserved;               /**< 0. */
+    int32_t reserved;             /**< 0. */
     double time_limit; /**< Most seconds of wall time; default 0, and infinity: no limit. */
-    signorini_progress_fn progress; /**< Progress callback; default NULL. */
-    void *user;                     /**< First argument of progress; default NULL. */
+    /** Progress callback as in signorini_settings, called often; default NULL. */
+    signorini_progress_fn progress;
+    void *user;                   /**< First argument of progress; default NULL. */
 };
 
 /** Fills settings with their defaults; struct_size is sizeof(signorini_surface_settings). */

@@ -53,7 +53,7 @@ pub struct SignoriniProgress {
     pub eta: f64,
     /// Seconds since the call began.
     pub elapsed: f64,
-    /// Share of the reduction of a matrix or of a pairing that is done; 1 in a load case.
+    /// Share of a reduction or a pairing that is done, 0 to 1; 1 in a load case.
     pub reduced: f64,
     /// Bytes that this reduction needs in all, told before they are taken; otherwise 0.
     pub memory: i64,

@@ -28,8 +28,8 @@ pub const SIGNORINI_NORMALS_FACES: i32 = 1;
 
 /// The default: the rows of slave nodes with less than half of their area over the master, counted
 /// on all slave faces around them that look the same way, are added to that of a node of their own
-/// faces. Uniform pressure stays exact, and others are as exact as elsewhere. The choice is for dual mortar: nodes against
-/// surfaces have no cover, and take the default alone.
+/// faces. Uniform pressure stays exact, and others are as exact as elsewhere. The choice is for dual
+/// mortar: nodes against surfaces have no cover, and take the default alone.
 pub const SIGNORINI_RIMS_FOLD: i32 = 0;
 /// They keep pairs of their own with small areas. Uniform pressure stays exact; other pressures may
 /// be large there, as the rows reach into the air. Below a millionth they are folded all the same.

@@ -261,7 +261,10 @@ static signorini_surface_pairs *by_surfaces(struct meshes *m, struct answer *ans
                                     .count = m->n_master, .nodes = m->master[0]};
     signorini_surface_pairs *contact;
     int zone[MOST_PAIRS] = {0};
-    CHECK_STATUS(signorini_surface_pair(2, m->nodes, m->places[0], &slave, &master, NULL, &contact), 0);
+    signorini_surface_settings settings;
+    signorini_surface_settings_default(&settings, sizeof settings);
+    settings.axisymmetric = 1;
+    CHECK_STATUS(signorini_surface_pair(2, m->nodes, m->places[0], &slave, &master, &settings, &contact), 0);
     const double *points = surface_data(contact).points;
     for (int64_t pair = 0; pair < surface_data(contact).pairs; pair++)
         zone[pair] = points[2 * pair + 1] < 135 ? 1 : points[2 * pair] < 95 ? 2 : 3;

@@ -94,7 +94,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         settings->index_base = (int32_t)base;
         settings->pairing = (int32_t)between(0, sane() ? 1 : 2);
         if (rarely(4)) settings->normals = (int32_t)between(0, sane() ? 1 : 2);
-        if (rarely(4)) settings->rims = (int32_t)between(0, sane() ? 2 : 3);
+        if (rarely(4)) settings->rims = (int32_t)between(0, sane() ? 1 : 2);
         if (rarely(4)) settings->search_distance = fabs(number());
         if (!sane() && rarely(8)) settings->dofs_per_node = (int32_t)between(-1, 7);
     }
