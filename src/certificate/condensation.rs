@@ -10,7 +10,7 @@
 //! `k` of them form a matrix whose signs are those of chance, so that all its eigenvalues are positive with a
 //! probability of 1/2, .15, .03 and less for `k = 1, 2, 3, ...`: then nothing is shown.
 
-use super::measure::energy;
+use super::measure::{energy, terms};
 use crate::linalg::eigen::eigenvectors;
 use crate::linalg::tolerances::{CONDENSATION, FREE, NEGLIGIBLE};
 use crate::linalg::vector::{dot, largest_of};
@@ -46,30 +46,25 @@ pub fn has_no_forces(r: &[f64], internal: &[f64], rounding: f64, root: &[f64]) -
 
 /// True if some motion has an energy further below zero than rounding of the entries of `K` explains.
 ///
-/// It is looked for with the motions in the units of the components, and with each in that of its own energy: what is
-/// rounding beside one motion may be more beside another.
+/// It is looked for with each motion in the unit in which its terms `|r| . |K| |r|` are 1: their rounding is that of its
+/// energy.
 fn shows_condensation(problem: &ContactProblem<'_>) -> bool {
     let all = (0..problem.unknowns()).collect();
     let Some(block) = FreeBlock::of_problem(problem, all) else { return false };
-    let motions: Vec<Vec<f64>> = block.null_vectors().collect();
+    let mut motions: Vec<Vec<f64>> = block.null_vectors().collect();
+    for motion in &mut motions {
+        let unit = terms(problem.relation(), motion).sqrt();
+        motion.iter_mut().for_each(|r| *r /= unit);
+    }
     let forces: Vec<Vec<f64>> = motions.iter().map(|r| problem.internal_force(r)).collect();
     let product = |i: usize, j: usize| dot(&motions[i], &forces[j]) + dot(&motions[j], &forces[i]);
-    let own = |i: usize| match product(i, i).abs() {
-        0.0 => 1.0,
-        energy => energy.sqrt().recip(),
-    };
-    let units: Vec<f64> = vec![1.0; motions.len()];
-    let energies: Vec<f64> = (0..motions.len()).map(own).collect();
-    [units, energies].iter().any(|scale| {
-        let scaled = |i: usize, j: usize| scale[i] * product(i, j) * scale[j];
-        let Some(directions) = eigenvectors(motions.len(), scaled) else { return false };
-        directions.first().is_some_and(|shares| {
-            let mut least = vec![0.0; problem.unknowns()];
-            for ((share, scale), motion) in shares.iter().zip(scale).zip(&motions) {
-                least.iter_mut().zip(motion).for_each(|(least, r)| *least += share * scale * r);
-            }
-            let internal = problem.internal_force(&least);
-            energy(problem.relation(), &least, &internal) < -problem.rounding_of_energy()
-        })
+    let Some(directions) = eigenvectors(motions.len(), product) else { return false };
+    directions.first().is_some_and(|shares| {
+        let mut least = vec![0.0; problem.unknowns()];
+        for (share, motion) in shares.iter().zip(&motions) {
+            least.iter_mut().zip(motion).for_each(|(least, r)| *least += share * r);
+        }
+        let internal = problem.internal_force(&least);
+        energy(problem.relation(), &least, &internal) < -problem.rounding_of_energy()
     })
 }

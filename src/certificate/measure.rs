@@ -264,9 +264,14 @@ impl Natural {
 /// The energy of the motion `d` under `internal` forces, `K d`, beside its terms: `d . K d / |d| . |K| |d|`; 0 if
 /// nothing resists it.
 pub(super) fn energy<R: Relation>(relation: &R, d: &[f64], internal: &[f64]) -> f64 {
-    let sizes = sizes(d);
-    let terms = dot(&sizes, &relation.magnitude(&sizes));
+    let terms = terms(relation, d);
     if terms == 0.0 { 0.0 } else { dot(d, internal) / terms }
+}
+
+/// The terms of the energy of the motion `d`: `|d| . |K| |d|`.
+pub(super) fn terms<R: Relation>(relation: &R, d: &[f64]) -> f64 {
+    let sizes = sizes(d);
+    dot(&sizes, &relation.magnitude(&sizes))
 }
 
 fn is_resisted<R: Relation>(relation: &R, d: &[f64], raw: &[f64]) -> bool {
