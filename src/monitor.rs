@@ -160,12 +160,9 @@ impl<'a> Monitor<'a> {
     }
 
     /// To be called before so many `operations` of dense linear algebra, which nothing interrupts: why not to begin,
-    /// if they would pass the time limit. The last ones in this call tell how long they take.
+    /// if they would pass the time limit, or the callback cancels. The last ones in this call tell how long they take.
     pub(crate) fn affords(&mut self, operations: f64) -> Result<(), Stop> {
-        if !self.time_limit.is_finite() {
-            return Ok(());
-        }
-        self.learn();
+        self.goes_on()?;
         if !self.has_time_for(operations) {
             return Err(Stop::TimeLimit);
         }
@@ -183,19 +180,15 @@ impl<'a> Monitor<'a> {
     /// `true` if so many `operations` end within the time limit, for questions about a result that is there
     /// already.
     pub(crate) fn has_time_for(&self, operations: f64) -> bool {
-        let time = operations / self.rate;
-        if self.is_cancelled {
-            return false;
-        }
-        !self.time_limit.is_finite() || self.begin.elapsed().as_secs_f64() + time <= self.time_limit
+        let is_in_time = |time: f64| self.begin.elapsed().as_secs_f64() + time <= self.time_limit;
+        !self.is_cancelled && (!self.time_limit.is_finite() || is_in_time(operations / self.rate))
     }
 
     /// `true` if the time limit is used up, or the caller has cancelled, for questions about a result that is there
     /// already: they are then left open.
     pub(crate) fn is_late(&self) -> bool {
         shortage::check();
-        self.is_cancelled
-            || self.time_limit.is_finite() && self.begin.elapsed().as_secs_f64() > self.time_limit
+        !self.has_time_for(0.0)
     }
 
     /// To be called while a matrix is reduced: `share` of the work is done, which needs `memory` bytes.

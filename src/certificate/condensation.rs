@@ -13,7 +13,7 @@
 use super::measure::{energy, terms};
 use crate::linalg::eigen::eigenvectors;
 use crate::linalg::tolerances::{CONDENSATION, FREE, NEGLIGIBLE};
-use crate::linalg::vector::{dot, largest_of};
+use crate::linalg::vector::{combination, dot, largest_of};
 use crate::problem::{ContactProblem, FreeBlock};
 
 /// True if `K r = 0` up to rounding, in the energy and in each force: rounding of the entries of `K`, each beside its own
@@ -60,10 +60,8 @@ fn shows_condensation(problem: &ContactProblem<'_>) -> bool {
     let product = |i: usize, j: usize| dot(&motions[i], &forces[j]) + dot(&motions[j], &forces[i]);
     let Some(directions) = eigenvectors(motions.len(), product) else { return false };
     directions.first().is_some_and(|shares| {
-        let mut least = vec![0.0; problem.unknowns()];
-        for (share, motion) in shares.iter().zip(&motions) {
-            least.iter_mut().zip(motion).for_each(|(least, r)| *least += share * r);
-        }
+        let parts = shares.iter().copied().zip(&motions);
+        let least = combination(problem.unknowns(), parts);
         let internal = problem.internal_force(&least);
         energy(problem.relation(), &least, &internal) < -problem.rounding_of_energy()
     })

@@ -78,19 +78,12 @@ const LEAST: f64 = f64::from_bits(1);
 
 /// Measures displacements of any origin, on a relation in which they determine the contact forces.
 pub fn certify(problem: &ContactProblem<'_>, d: &[f64]) -> Certificate {
-    if let Some(numbers) = InUnits::of(problem)
-        && let Some(d) = numbers.units().lengths(d)
-    {
-        let problem = numbers.problem(problem);
-        return measure(&Contact::new(&problem), &d, &[]).to_host(numbers.units());
-    }
-    let contact = Contact::new(problem);
-    measure(&contact, d, &[])
+    certify_in_units(problem, d, &[])
 }
 
 /// Measures a displacement and a contact force of any origin, on a relation of this library, in units in which its
-/// numbers are ordinary.
-pub(crate) fn certify_pair_in_units<R: ChangesUnits>(
+/// numbers are ordinary. Where `d` determines the contact forces, the given one is not looked at.
+pub(crate) fn certify_in_units<R: ChangesUnits>(
     problem: &ContactProblem<'_, R>,
     d: &[f64],
     force: &[f64],
@@ -99,9 +92,9 @@ pub(crate) fn certify_pair_in_units<R: ChangesUnits>(
         && let (units, problem) = (numbers.units(), numbers.problem(problem))
         && let (Some(d), Some(force)) = (units.lengths(d), units.forces(force))
     {
-        return certify_pair(&problem, &d, &force).to_host(units);
+        return measure(&Contact::new(&problem), &d, &force).to_host(units);
     }
-    certify_pair(problem, d, force)
+    measure(&Contact::new(problem), d, force)
 }
 
 /// Measures a displacement and a contact force of any origin, on any relation.
@@ -215,7 +208,7 @@ pub(crate) fn eta_of(contact: &Contact<'_>, d: &[f64], raw: &[f64]) -> f64 {
         law.natural_residual(d, raw, &mut residual);
         residual[..d.len()].iter().for_each(|&e| sum.add(e));
     }
-    ratio(sum.root(), force_scale(contact.problem().load(), raw))
+    ratio(sum.root(), norm(contact.problem().load()).max(norm(raw)))
 }
 
 /// The measures by the laws of all pairs for displacements `d + low` and forces.
@@ -279,10 +272,6 @@ fn is_resisted<R: Relation>(relation: &R, d: &[f64], raw: &[f64]) -> bool {
     // More than a host's condensation leaves of a zero: below it the stiffness may be rounding, as of a body that
     // turns about two points. Definite matrices of condition numbers up to 1e12 pass.
     energy(relation, d, &internal) > ROUNDING_OF_SUM
-}
-
-fn force_scale(load: &[f64], raw: &[f64]) -> f64 {
-    norm(load).max(norm(raw))
 }
 
 /// The terms of `K d`: `|K| |d|`, whose rounding is [`UNIT`] of it.

@@ -24,9 +24,10 @@
 //! move on their own get rows of zeros.
 
 use super::eigen::eigenvectors;
+use super::gmres::{extend_basis, orthogonalised};
 use super::pivoted_cholesky::PivotedCholesky;
 use super::tolerances::{FREE, HELD, NEGLIGIBLE, SUSPICIOUS_PIVOT};
-use super::vector::{dot, norm};
+use super::vector::{combination, dot, norm};
 
 /// The matrix from which another one was condensed: of eliminated components, then of those kept.
 pub trait Whole {
@@ -181,12 +182,8 @@ fn parted(candidates: Vec<Vec<f64>>, root: &[f64], whole: &dyn Whole) -> Vec<Mot
         (product(i, j) + product(j, i)) / 2.0
     };
     let Some(directions) = eigenvectors(count, energy) else { return given };
-    let scaled = directions.iter().map(|shares| {
-        let mut scaled = vec![0.0; root.len()];
-        for (given, share) in given.iter().zip(shares) {
-            scaled.iter_mut().zip(&given.scaled).for_each(|(sum, part)| *sum += share * part);
-        }
-        scaled
+    let scaled = directions.into_iter().map(|shares| {
+        combination(root.len(), shares.into_iter().zip(given.iter().map(|given| &given.scaled)))
     });
     orthonormal(scaled.collect(), count).into_iter().map(motion).collect()
 }
@@ -196,26 +193,16 @@ fn divided(scaled: &[f64], root: &[f64]) -> Vec<f64> {
 }
 
 /// `count` orthonormal vectors that span the given ones, by Gram and Schmidt's process with the longest
-/// remainder first, each made orthogonal twice.
+/// remainder first.
 fn orthonormal(mut vectors: Vec<Vec<f64>>, count: usize) -> Vec<Vec<f64>> {
     let mut basis: Vec<Vec<f64>> = Vec::with_capacity(count);
-    let without = |v: &mut Vec<f64>, unit: &[f64]| {
-        let share = dot(unit, v);
-        v.iter_mut().zip(unit).for_each(|(v, unit)| *v -= share * unit);
-    };
-    while basis.len() < count {
-        let length = |v: &Vec<f64>| norm(v);
-        let Some(k) =
-            (0..vectors.len()).max_by(|&a, &b| length(&vectors[a]).total_cmp(&length(&vectors[b])))
-        else {
-            break;
-        };
-        let mut v = vectors.swap_remove(k);
-        basis.iter().for_each(|unit| without(&mut v, unit));
-        let size = norm(&v);
-        v.iter_mut().for_each(|v| *v /= size);
-        vectors.iter_mut().for_each(|other| without(other, &v));
-        basis.push(v);
+    while basis.len() < count
+        && let Some(k) =
+            (0..vectors.len()).max_by(|&a, &b| norm(&vectors[a]).total_cmp(&norm(&vectors[b])))
+    {
+        extend_basis(&mut basis, vectors.swap_remove(k));
+        let last = &basis[basis.len() - 1..];
+        vectors.iter_mut().for_each(|other| drop(orthogonalised(other, last)));
     }
     basis
 }
@@ -227,12 +214,9 @@ fn orthonormal(mut vectors: Vec<Vec<f64>>, count: usize) -> Vec<Vec<f64>> {
 fn separate(free: &mut Vec<Vec<f64>>, size: usize) -> Vec<usize> {
     let share = |i: usize| free.iter().map(|v| v[i] * v[i]).sum::<f64>();
     let remainder = |i: usize| {
-        let mut unit = vec![0.0; size];
-        unit[i] = 1.0;
-        for v in free.iter() {
-            unit.iter_mut().zip(v).for_each(|(unit, part)| *unit -= v[i] * part);
-        }
-        norm(&unit)
+        let mut rest = combination(size, free.iter().map(|v| (-v[i], v)));
+        rest[i] += 1.0;
+        norm(&rest)
     };
     let alone: Vec<usize> =
         (0..size).filter(|&i| share(i) > 1.0 - NEGLIGIBLE && remainder(i) <= NEGLIGIBLE).collect();

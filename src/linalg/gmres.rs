@@ -1,4 +1,4 @@
-//! GMRES: a linear system of which only products are known.
+//! GMRES: a linear system of which only products are known; and orthonormal bases.
 //!
 //! Y. Saad and M. H. Schultz, *GMRES: a generalized minimal residual algorithm for solving nonsymmetric linear
 //! systems*, SIAM J. Sci. Stat. Comput. 7 (1986) 856-869. Modified Gram-Schmidt, twice where digits cancel;
@@ -85,6 +85,13 @@ pub fn orthogonalised(vector: &mut [f64], basis: &[Vec<f64>]) -> (Vec<f64>, f64,
         (before, left) = (left, norm(vector));
     }
     (column, left, was)
+}
+
+/// Adds to an orthonormal `basis` the part of `v` that is orthogonal to it, normalised.
+pub fn extend_basis(basis: &mut Vec<Vec<f64>>, mut v: Vec<f64>) {
+    let (_, size, _) = orthogonalised(&mut v, basis);
+    v.iter_mut().for_each(|v| *v /= size);
+    basis.push(v);
 }
 
 fn scaled(vector: &[f64], factor: f64) -> Vec<f64> {

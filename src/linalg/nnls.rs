@@ -1,5 +1,4 @@
-//! Non-negative least squares (Lawson and Hanson, *Solving Least Squares Problems*, 1974, chapter 23),
-//! and orthonormal bases.
+//! Non-negative least squares (Lawson and Hanson, *Solving Least Squares Problems*, 1974, chapter 23).
 
 use super::gmres::{orthogonalised, solve_triangle};
 use super::vector::dot;
@@ -88,11 +87,4 @@ fn least_squares(target: &[f64], columns: &[Vec<f64>], active: &[usize]) -> Opti
     let mut x: Vec<f64> = basis.iter().map(|direction| -dot(direction, target)).collect();
     solve_triangle(&triangle, &mut x);
     Some(x)
-}
-
-/// Adds to an orthonormal `basis` the part of `v` that is orthogonal to it, normalised.
-pub fn extend_basis(basis: &mut Vec<Vec<f64>>, mut v: Vec<f64>) {
-    let (_, size, _) = orthogonalised(&mut v, basis);
-    v.iter_mut().for_each(|v| *v /= size);
-    basis.push(v);
 }

@@ -52,6 +52,18 @@ pub fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
+/// The sum of vectors of a length, each times its share.
+pub fn combination(
+    length: usize,
+    parts: impl IntoIterator<Item = (f64, impl AsRef<[f64]>)>,
+) -> Vec<f64> {
+    let mut sum = vec![0.0; length];
+    for (share, vector) in parts {
+        sum.iter_mut().zip(vector.as_ref()).for_each(|(sum, v)| *sum += share * v);
+    }
+    sum
+}
+
 /// Divides a vector that is not zero by its largest absolute value.
 pub fn normalise(values: &mut [f64]) {
     let largest = norm_inf(values);

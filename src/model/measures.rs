@@ -3,7 +3,7 @@
 use super::arguments::check_vector;
 use super::flexibility::sparse_problem;
 use super::{LoadCase, Model};
-use crate::certificate::{Certificate, Proof, certify, certify_pair_in_units, prove};
+use crate::certificate::{Certificate, Proof, certify, certify_in_units, prove};
 use crate::error::{Argument, Error};
 use crate::law::State;
 use crate::problem::FlexibilityForm;
@@ -42,16 +42,16 @@ impl Model {
         self.check_loads(Some(case.load), case.prescribed)?;
         if let Some(dependence) = self.reduction.dependence() {
             return self.on_dependent_rows(dependence, (case, None), |problem| {
-                Ok(certify_pair_in_units(problem, d, force))
+                Ok(certify_in_units(problem, d, force))
             });
         }
         match self.reduction.flexibility() {
             None => self.certify(case, d),
             Some(FlexibilityForm::Dense(w)) => {
-                Ok(certify_pair_in_units(&self.dense_problem(w, case)?, d, force))
+                Ok(certify_in_units(&self.dense_problem(w, case)?, d, force))
             }
             Some(FlexibilityForm::Sparse(matrix)) => {
-                Ok(certify_pair_in_units(&sparse_problem(matrix, case)?, d, force))
+                Ok(certify_in_units(&sparse_problem(matrix, case)?, d, force))
             }
         }
     }

@@ -168,7 +168,7 @@ pub fn solve(
             units::to_host(solution, units, settings.tolerance, certify)
         }
     };
-    result::say_remarks(&mut solution, problem);
+    plan::say_remarks(problem, &mut solution);
     solution.iterations = monitor.iterations();
     Ok(solution)
 }
@@ -221,8 +221,7 @@ fn finished<R: Relation>(
     problem: &ContactProblem<'_, R>,
     monitor: &Monitor<'_>,
 ) -> Solution {
-    solution.remarks = result::of_problem(problem, &solution.d);
-    result::say_remarks(&mut solution, problem);
+    plan::remark_on_data(problem, &mut solution);
     solution.iterations = monitor.iterations();
     solution
 }

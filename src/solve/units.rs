@@ -8,32 +8,24 @@ use crate::problem::Units;
 const OUT_OF_RANGE: &str = "solved, but displacements or forces in these units are beyond doubles, or so small that \
                             doubles lose their digits: use units that are nearer to the problem's sizes";
 
-/// The result in the host's units. Displacements and forces that lose digits there, or are beyond doubles, are measured again by `certify`,
-/// which takes `d`, `d_low` and the contact forces in the units of the solution.
+/// The result in the host's units. Displacements and forces that lose digits there, or are beyond doubles, are measured
+/// again by `certify`, which takes `d`, `d_low` and the contact forces in the units of the solution.
 pub fn to_host(
     mut solution: Solution,
     units: Units,
     tolerance: f64,
     certify: impl Fn(&[f64], &[f64], &[f64]) -> Certificate,
 ) -> Solution {
-    let point = Point { d: solution.d, low: solution.d_low, certificate: solution.certificate };
-    let point = point.in_host_units(units, &certify);
-    if solution.status == Status::Solved && !point.certificate.holds(tolerance) {
+    let Solution { d, d_low, certificate, .. } = &mut solution;
+    point_to_host(units, (d, d_low, certificate), &certify);
+    if solution.status == Status::Solved && !solution.certificate.holds(tolerance) {
         (solution.status, solution.message) = (Status::Stalled, OUT_OF_RANGE.into());
         (solution.uniqueness, solution.existence) = (Uniqueness::NotKnown, Existence::NotProved);
         solution.second = None;
     }
-    (solution.d, solution.d_low, solution.certificate) = (point.d, point.low, point.certificate);
-    if let Some(second) = solution.second.take() {
-        let SecondSolution { d, d_low, certificate, orientation } = *second;
-        let point = Point { d, low: d_low, certificate }.in_host_units(units, &certify);
-        if point.certificate.holds(tolerance) {
-            let Point { d, low: d_low, certificate } = point;
-            solution.second = Some(Box::new(SecondSolution { d, d_low, certificate, orientation }));
-        } else {
-            solution.uniqueness = Uniqueness::NotKnown;
-        }
-    }
+    solution.change_second(tolerance, |SecondSolution { d, d_low, certificate, .. }| {
+        point_to_host(units, (d, d_low, certificate), &certify);
+    });
     if let Existence::Proved(proof) = &mut solution.existence {
         **proof = proof.to_host(units);
     }
@@ -43,28 +35,19 @@ pub fn to_host(
     solution
 }
 
-/// Displacements and their certificate.
-struct Point {
-    d: Vec<f64>,
-    low: Vec<f64>,
-    certificate: Certificate,
-}
-
-impl Point {
-    fn in_host_units(
-        self,
-        units: Units,
-        certify: &impl Fn(&[f64], &[f64], &[f64]) -> Certificate,
-    ) -> Self {
-        let lengths = |d: &[f64]| d.iter().map(|&d| units.host_length(d)).collect::<Vec<_>>();
-        let (d, low) = (lengths(&self.d), lengths(&self.low));
-        let force = self.certificate.to_host(units).force;
-        let kept = units.keeps_lengths(&self.d)
-            && units.keeps_lengths(&self.low)
-            && units.keeps_forces(&self.certificate.force);
-        let again =
-            || Some(certify(&units.lengths(&d)?, &units.lengths(&low)?, &units.forces(&force)?));
-        let measured = if kept { None } else { again() };
-        Point { certificate: measured.unwrap_or(self.certificate).to_host(units), d, low }
-    }
+/// Turns displacements in two parts and their certificate into the host's units.
+fn point_to_host(
+    units: Units,
+    (d, low, certificate): (&mut [f64], &mut [f64], &mut Certificate),
+    certify: &impl Fn(&[f64], &[f64], &[f64]) -> Certificate,
+) {
+    let kept = units.keeps_lengths(d)
+        && units.keeps_lengths(low)
+        && units.keeps_forces(&certificate.force);
+    let own = certificate.to_host(units);
+    d.iter_mut().chain(low.iter_mut()).for_each(|d| *d = units.host_length(*d));
+    let again =
+        || Some(certify(&units.lengths(d)?, &units.lengths(low)?, &units.forces(&own.force)?));
+    let measured = if kept { None } else { again() };
+    *certificate = measured.map_or(own, |measured| measured.to_host(units));
 }

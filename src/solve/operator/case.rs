@@ -13,8 +13,8 @@ use crate::monitor::Monitor;
 use crate::problem::{ContactProblem, FrictionLaw, MatrixFree, SOLUTIONS, StiffnessOperator};
 use crate::settings::{Method, Search, Settings};
 use crate::solve::newton::Halt;
-use crate::solve::plan::{self, FAR};
-use crate::solve::result::{Ending, Solution, Solve, Status, of_problem, say_remarks};
+use crate::solve::plan::{self, FAR, remark_on_data};
+use crate::solve::result::{Ending, Solution, Solve, Status};
 use crate::solve::rigid;
 
 /// A load case on such bodies.
@@ -264,7 +264,6 @@ fn result(
         ending => (Status::Stalled, format!("{}; {wanted}", ending.reason(&certificate))),
     };
     let mut solution = Solution::of(Method::Newton, told, d, certificate);
-    solution.remarks = of_problem(contact.problem(), &solution.d);
-    say_remarks(&mut solution, contact.problem());
+    remark_on_data(contact.problem(), &mut solution);
     solution
 }

@@ -7,7 +7,6 @@
 //! If the orientation of a solution is −1, there are at least three solutions and this one is
 //! unstable: the next method is asked too.
 
-use super::dispatch::run;
 use super::table::{Call, MethodRow, Start, plan};
 use crate::counters::count;
 use crate::error::Error;
@@ -36,7 +35,7 @@ pub fn solve(
             continue;
         }
         let call = Call { contact, settings, start: from };
-        let Some(candidate) = run(row, &call, monitor)? else { continue };
+        let Some(candidate) = row.candidate(&call, monitor)? else { continue };
         tried.count(&candidate.effort);
         if let Ending::RunsAway(motion) = &candidate.ending {
             tried.away = Some(motion.clone());

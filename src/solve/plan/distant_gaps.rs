@@ -6,14 +6,13 @@
 //! come near are put back.
 
 use super::auto;
-use super::dispatch::{check_method, run};
-use super::table::{Call, chosen};
+use super::table::{Call, MethodRow, chosen};
 use crate::certificate::measure_parts;
 use crate::error::Error;
 use crate::law::{Contact, gaps_within_reach};
 use crate::monitor::Monitor;
-use crate::settings::{Method, Settings};
-use crate::solve::result::{Solution, Status, Uniqueness, certified};
+use crate::settings::Settings;
+use crate::solve::result::{Solution, Status, certified};
 
 /// How many times longer than the displacements that can be expected a gap must be to be left out. Weak
 /// structures move a million times as far as a load moves its own component alone, and a gap of that length
@@ -34,14 +33,15 @@ pub fn solve(
     start: Option<&[f64]>,
     monitor: &mut Monitor<'_>,
 ) -> Result<Solution, Error> {
-    check_method(contact, settings.method)?;
-    if let Some(solution) = without_obstacles(FAR, contact, settings, start, monitor)? {
+    let call = Call { contact, settings, start };
+    let row = chosen(contact, settings.method)?;
+    if let Some(solution) = without_obstacles(FAR, row, &call, monitor)? {
         return Ok(solution);
     }
-    let solution = by_method(contact, settings, start, monitor)?;
-    if solution.status == Status::Stalled && settings.method == Method::Auto {
+    let solution = by_method(row, &call, monitor)?;
+    if solution.status == Status::Stalled && row.is_none() {
         for far in FAR_OF_UNSOLVED {
-            let other = without_obstacles(far, contact, settings, start, monitor)?;
+            let other = without_obstacles(far, row, &call, monitor)?;
             if let Some(other) = other.filter(|other| other.status == Status::Solved) {
                 return Ok(other);
             }
@@ -53,16 +53,17 @@ pub fn solve(
 /// Solves without the obstacles that are `far` away; `None` if there are none, or if they matter.
 fn without_obstacles(
     far: f64,
-    contact: &Contact<'_>,
-    settings: &Settings,
-    start: Option<&[f64]>,
+    row: Option<&MethodRow>,
+    call: &Call<'_>,
     monitor: &mut Monitor<'_>,
 ) -> Result<Option<Solution>, Error> {
+    let Call { contact, settings, start } = *call;
     let mut moved = Vec::new();
     for _ in 0..ROUNDS {
         let Some(gaps) = gaps_within_reach(contact, &moved, far) else { break };
         let problem = contact.problem().with_gaps(&gaps);
-        let solution = by_method(&Contact::new(&problem), settings, start, monitor)?;
+        let call = Call { contact: &Contact::new(&problem), settings, start };
+        let solution = by_method(row, &call, monitor)?;
         match solution.status {
             Status::Solved => match on_all_obstacles(contact, settings, solution) {
                 Ok(solution) => return Ok(Some(solution)),
@@ -79,21 +80,18 @@ fn without_obstacles(
     Ok(None)
 }
 
+/// Solves by the method of a row, or by the default.
 fn by_method(
-    contact: &Contact<'_>,
-    settings: &Settings,
-    start: Option<&[f64]>,
+    row: Option<&MethodRow>,
+    call: &Call<'_>,
     monitor: &mut Monitor<'_>,
 ) -> Result<Solution, Error> {
-    match settings.method {
-        Method::Auto => auto::solve(contact, settings, start, monitor),
-        method => {
-            let row = chosen(contact, method).expect("checked before");
-            let candidate = run(row, &Call { contact, settings, start }, monitor)?;
-            let candidate = candidate.expect("a method that can be chosen has a candidate");
-            Ok(certified(contact, settings, method, &candidate))
-        }
-    }
+    let Some(row) = row else {
+        return auto::solve(call.contact, call.settings, call.start, monitor);
+    };
+    let candidate = row.candidate(call, monitor)?;
+    let candidate = candidate.expect("a method that can be chosen has a candidate");
+    Ok(certified(call.contact, call.settings, row.method, &candidate))
 }
 
 /// A solution without far obstacles, certified with them. `Err`: its displacements, if it is none.
@@ -102,19 +100,15 @@ fn on_all_obstacles(
     settings: &Settings,
     mut solution: Solution,
 ) -> Result<Solution, Vec<f64>> {
+    let tolerance = settings.tolerance;
     let certificate =
-        |d: &[f64], low: &[f64]| measure_parts(contact, d, low).with_rounding(settings.tolerance);
-    let own = certificate(&solution.d, &solution.d_low);
-    if !own.holds(settings.tolerance) {
+        |d: &[f64], low: &[f64]| measure_parts(contact, d, low).with_rounding(tolerance);
+    solution.certificate = certificate(&solution.d, &solution.d_low);
+    if !solution.certificate.holds(tolerance) {
         return Err(solution.d);
     }
-    solution.certificate = own;
-    if let Some(second) = solution.second.as_mut() {
+    solution.change_second(tolerance, |second| {
         second.certificate = certificate(&second.d, &second.d_low);
-        if !second.certificate.holds(settings.tolerance) {
-            solution.second = None;
-            solution.uniqueness = Uniqueness::NotKnown;
-        }
-    }
+    });
     Ok(solution)
 }

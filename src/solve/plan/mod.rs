@@ -1,11 +1,10 @@
 //! The plan: which methods solve a problem, in which order, and what is said beside the result.
 
 mod auto;
-mod dispatch;
 mod distant_gaps;
 mod remarks;
 mod table;
 
 pub use auto::solve as auto;
 pub use distant_gaps::{FAR, solve};
-pub use remarks::add_remarks;
+pub use remarks::{add_remarks, remark_on_data, say_remarks};

@@ -2,15 +2,57 @@
 //! beside the result, never refused.
 
 use crate::certificate::measure;
-use crate::law::Contact;
+use crate::law::{Contact, deepest_of_negative_gaps, friction_is_large};
+use crate::linalg::tolerances::NEGLIGIBLE;
+use crate::linalg::vector::norm_inf;
 use crate::monitor::Monitor;
+use crate::problem::{ContactProblem, Relation};
 use crate::settings::Settings;
-use crate::solve::result::{CAUSES, Remarks, Solution, Status, Uniqueness, of_problem};
+use crate::solve::result::{CAUSES, Remarks, Solution, Status, Uniqueness};
 use crate::solve::rigid::{RigidMotions, escape, is_held_by_rounding, moves_freely};
 
 /// The sentence on bodies that move away if the rounding of a condensation counts as no resistance.
 const ROUNDING: &str = "if K is condensed, nothing but its rounding resists a motion that the loads drive: solve it as a \
                         model, which takes that rounding for none";
+
+/// Adds the remarks on the data of a problem, in the sentence of its solution too.
+pub fn remark_on_data<R: Relation>(problem: &ContactProblem<'_, R>, solution: &mut Solution) {
+    solution.remarks = of_data(problem, &solution.d);
+    say_remarks(problem, solution);
+}
+
+/// The remarks on the data of a problem with the displacements `d`. Gaps that are no more than rounding beside them
+/// may have any sign.
+fn of_data<R: Relation>(problem: &ContactProblem<'_, R>, d: &[f64]) -> Remarks {
+    let deepest = deepest_of_negative_gaps(problem);
+    Remarks {
+        gaps_negative: deepest.is_some_and(|deepest| deepest > NEGLIGIBLE * norm_inf(d)),
+        friction_large: friction_is_large(problem.law()),
+        ..Remarks::default()
+    }
+}
+
+/// Says the remarks on a solution in its sentence.
+pub fn say_remarks<R: Relation>(problem: &ContactProblem<'_, R>, solution: &mut Solution) {
+    let remarks = solution.remarks;
+    if solution.status != Status::Solved || remarks == Remarks::default() {
+        return;
+    }
+    let deepest = deepest_of_negative_gaps(problem).unwrap_or(0.0);
+    let sentences = [
+        (remarks.gaps_negative, format!("every gap is negative, by at most {deepest:.1e}")),
+        (remarks.friction_large, "a coefficient of friction is above 10".into()),
+        (remarks.free_motion, "the bodies may move without any force".into()),
+        (remarks.held_by_rounding, format!("only rounding of K holds a body: {CAUSES}")),
+        (
+            remarks.needs_low_part,
+            "d rounded to doubles misses the tolerance, d + d_low meets it".into(),
+        ),
+    ];
+    for (_, sentence) in sentences.iter().filter(|(said, _)| *said) {
+        solution.say(&format!("remark: {sentence}"));
+    }
+}
 
 /// Adds the remarks on a problem and its solution. With friction nothing is asked about free motions: that would cost a
 /// factorisation of every semi-definite problem.
@@ -28,7 +70,7 @@ pub fn add_remarks(
         free_motion: asked && moves_freely(contact, d, &certificate.states, monitor),
         held_by_rounding: solved && is_held_by_rounding(contact, d, &certificate.force),
         needs_low_part: solved && needs_low_part(contact, settings, solution),
-        ..of_problem(problem, d)
+        ..of_data(problem, d)
     };
     if solution.status == Status::Stalled && problem.is_symmetric() {
         explain(contact, solution, monitor);
@@ -40,12 +82,10 @@ pub fn add_remarks(
 fn explain(contact: &Contact<'_>, solution: &mut Solution, monitor: &Monitor<'_>) {
     let problem = contact.problem();
     if solution.escape.is_none() && RigidMotions::of(problem, monitor).is_some() {
-        let said = solution.message.marked();
-        solution.message = format!("{said}; contact alone holds a body: {CAUSES}").into();
+        solution.say(&format!("contact alone holds a body: {CAUSES}"));
     }
     if escape(&Contact::new(&problem.condensed_by_host()), monitor).is_some() {
-        let said = solution.message.marked();
-        solution.message = format!("{said}; {ROUNDING}").into();
+        solution.say(ROUNDING);
     }
 }
 

@@ -1,11 +1,11 @@
 //! The one table of methods: what each takes, what runs it, and where it stands in a plan.
 
-use crate::error::Error;
+use crate::error::{Argument, Error};
 use crate::law::Contact;
 use crate::monitor::{Monitor, Stop};
 use crate::settings::{Method, Settings};
 use crate::solve::result::{Candidate, Ending};
-use crate::solve::rigid::{self, Balance};
+use crate::solve::rigid::{self, Balance, without_idle_motion};
 use crate::solve::{lcp, newton, path, proximal, sweeps};
 
 /// A row of the table.
@@ -19,7 +19,24 @@ pub struct MethodRow {
     /// Why the method does not fit a problem; `None` if it fits.
     refuses: fn(&Contact<'_>) -> Option<String>,
     /// Runs the method; `None` if there is nothing for it to do.
-    pub run: fn(&Call<'_>, &mut Monitor<'_>) -> Result<Option<Candidate>, Error>,
+    run: fn(&Call<'_>, &mut Monitor<'_>) -> Result<Option<Candidate>, Error>,
+}
+
+impl MethodRow {
+    /// Runs the method on a problem that it fits, and refines what it finds; `None` if there is nothing for it to do.
+    pub fn candidate(
+        &self,
+        call: &Call<'_>,
+        monitor: &mut Monitor<'_>,
+    ) -> Result<Option<Candidate>, Error> {
+        let (contact, settings) = (call.contact, call.settings);
+        if contact.pairs().is_empty() {
+            return Ok(Some(Candidate::without_displacements(contact, Ending::Done)));
+        }
+        let Some(candidate) = (self.run)(call, monitor)? else { return Ok(None) };
+        let candidate = without_idle_motion(contact, candidate, monitor);
+        Ok(Some(newton::refine_to_tolerance(contact, settings, candidate, monitor)))
+    }
 }
 
 /// Where a method starts.
@@ -75,11 +92,16 @@ pub fn plan(contact: &Contact<'_>) -> impl Iterator<Item = &'static MethodRow> {
     rows.iter().copied().filter(|row| (row.refuses)(contact).is_none())
 }
 
-/// The row of a method that a host has chosen. `Err`: why it does not fit the problem.
-pub fn chosen(contact: &Contact<'_>, method: Method) -> Result<&'static MethodRow, String> {
-    let mut rows = WITHOUT_FRICTION.iter().chain(&IN_PLANE);
-    let row = rows.find(|row| row.method == method).expect("every method but auto has a row");
-    (row.refuses)(contact).map_or(Ok(row), Err)
+/// The row of a method that a host has chosen; `None`: the choice is the library's.
+///
+/// # Errors
+/// A method that does not fit the problem.
+pub fn chosen(contact: &Contact<'_>, method: Method) -> Result<Option<&'static MethodRow>, Error> {
+    let row = WITHOUT_FRICTION.iter().chain(&IN_PLANE).find(|row| row.method == method).copied();
+    match row.and_then(|row| (row.refuses)(contact)) {
+        Some(message) => Err(Error::invalid(Argument::Settings, message)),
+        None => Ok(row),
+    }
 }
 
 const NEWTON: MethodRow = MethodRow {

@@ -5,7 +5,6 @@ mod certified;
 mod effort;
 mod ending;
 mod memory;
-mod remarks;
 mod solution;
 
 pub use candidate::Candidate;
@@ -15,7 +14,6 @@ pub use ending::{CAUSES, Ending, NO_EQUILIBRIUM};
 pub use memory::{
     check_limit, memory, memory_flexibility, memory_flexibility_sparse, memory_of_islands,
 };
-pub use remarks::{of_problem, say_remarks};
 pub use solution::{
     Errors, Escape, Existence, Fallback, Remarks, SecondSolution, Solution, Solve, Status,
     Uniqueness,

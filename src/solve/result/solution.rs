@@ -173,6 +173,24 @@ impl Solution {
             damping: 0.0,
         }
     }
+
+    /// Changes the second solution, which is none where its certificate no longer holds.
+    pub(in crate::solve) fn change_second(
+        &mut self,
+        tolerance: f64,
+        change: impl FnOnce(&mut SecondSolution),
+    ) {
+        let Some(second) = &mut self.second else { return };
+        change(second);
+        if !second.certificate.holds(tolerance) {
+            (self.second, self.uniqueness) = (None, Uniqueness::NotKnown);
+        }
+    }
+
+    /// Adds a part to the sentence.
+    pub(in crate::solve) fn say(&mut self, more: &str) {
+        self.message = format!("{}; {more}", self.message.marked()).into();
+    }
 }
 
 /// How bodies move where no equilibrium exists.

@@ -9,7 +9,7 @@ use super::motions::RigidMotions;
 use crate::law::{Contact, State, touching};
 use crate::linalg::pivoted_cholesky::pivoted_cholesky_work;
 use crate::linalg::tolerances::{CONDENSATION, HELD, NEGLIGIBLE, ROUNDING_OF_SUM};
-use crate::linalg::vector::{dot, largest_of, norm, norm_inf};
+use crate::linalg::vector::{combination, dot, largest_of, norm, norm_inf};
 use crate::monitor::Monitor;
 use crate::problem::FreeBlock;
 use crate::solve::result::Candidate;
@@ -125,10 +125,7 @@ const HELD_STILL: f64 = 1e-8;
 fn complement(basis: &[Vec<f64>], shares: &[f64]) -> Vec<Vec<f64>> {
     let mut w = shares.to_vec();
     w[0] += w[0].signum();
-    let mut along = vec![0.0; basis[0].len()];
-    for (v, w) in basis.iter().zip(&w) {
-        along.iter_mut().zip(v).for_each(|(along, v)| *along += w * v);
-    }
+    let along = combination(basis[0].len(), w.iter().copied().zip(basis));
     let factor = 2.0 / dot(&w, &w);
     let reflected = basis
         .iter()

@@ -72,13 +72,11 @@ pub fn describe<'c, R: Relation>(
 pub fn describe_run_away(contact: &Contact<'_>, solution: &mut Solution, motion: Vec<f64>) {
     let motions = RigidMotions::along(contact.problem(), &motion);
     let escape = Viscous { contact, motions }.with_motion(motion);
-    let said = solution.message.marked();
     let moves = in_words(contact, &escape);
-    solution.message = format!(
-        "{said}; without supports the bodies move away along the motion of escape: {moves}; forces that balance the \
-         loads are not excluded, so that there may be an equilibrium; {CAUSES}"
-    )
-    .into();
+    solution.say(&format!(
+        "without supports the bodies move away along the motion of escape: {moves}; forces that balance the loads are \
+         not excluded, so that there may be an equilibrium; {CAUSES}"
+    ));
     solution.escape = Some(escape);
 }
 

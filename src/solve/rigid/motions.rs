@@ -1,8 +1,8 @@
 //! The rigid motions of a problem: those that `K` does not resist.
 
-use crate::linalg::nnls::extend_basis;
+use crate::linalg::gmres::extend_basis;
 use crate::linalg::pivoted_cholesky::pivoted_cholesky_work;
-use crate::linalg::vector::{dot, largest_of, norm};
+use crate::linalg::vector::{combination, dot, largest_of, norm};
 use crate::monitor::Monitor;
 use crate::problem::{ContactProblem, FreeBlock, Relation};
 
@@ -64,10 +64,8 @@ impl RigidMotions {
 
     /// The motion with these coordinates.
     pub fn motion(&self, coordinates: &[f64]) -> Vec<f64> {
-        let mut motion = vec![0.0; self.root.len()];
-        for (v, e) in self.basis.iter().zip(coordinates) {
-            motion.iter_mut().zip(v).for_each(|(motion, v)| *motion += e * v);
-        }
+        let parts = coordinates.iter().copied().zip(&self.basis);
+        let mut motion = combination(self.root.len(), parts);
         motion.iter_mut().zip(&self.root).for_each(|(motion, root)| *motion /= root);
         motion
     }
