@@ -175,7 +175,7 @@ impl Solution {
     }
 
     /// Changes the second solution, which is none where its certificate no longer holds.
-    pub(in crate::solve) fn change_second(
+    pub(crate) fn change_second(
         &mut self,
         tolerance: f64,
         change: impl FnOnce(&mut SecondSolution),
@@ -188,7 +188,7 @@ impl Solution {
     }
 
     /// Adds a part to the sentence.
-    pub(in crate::solve) fn say(&mut self, more: &str) {
+    pub(crate) fn say(&mut self, more: &str) {
         self.message = format!("{}; {more}", self.message.marked()).into();
     }
 }
