@@ -140,6 +140,15 @@ impl<'a> Monitor<'a> {
     /// To be called now and then in a long one: nothing is counted.
     pub(crate) fn goes_on(&mut self) -> Result<(), Stop> {
         self.learn();
+        self.ask()
+    }
+
+    /// Asks in the middle of a work, between two parts of it: `false` ends it.
+    pub(crate) fn asking(&mut self) -> impl FnMut() -> bool + use<'_, 'a> {
+        || self.ask().is_ok()
+    }
+
+    fn ask(&mut self) -> Result<(), Stop> {
         if self.is_cancelled {
             return Err(Stop::Cancelled);
         }

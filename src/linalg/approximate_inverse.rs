@@ -15,9 +15,7 @@ use faer::perm::{PermRef, permute_cols_in_place, permute_cols_in_place_scratch};
 use faer::{Accum, Mat, Par};
 
 use super::ball::{product_up, sum_of_products_up, sum_up};
-
-/// Columns of `R J` that are computed at once.
-const BLOCK: usize = 64;
+use super::factor::{BLOCK, filled};
 
 /// A matrix and its approximate inverse.
 pub struct ApproximateInverse {
@@ -28,11 +26,8 @@ pub struct ApproximateInverse {
 impl ApproximateInverse {
     /// Inverts the `n x n` matrix whose columns `fill(j, column)` writes; `None` if an entry of the inverse is
     /// not finite.
-    pub fn new(n: usize, mut fill: impl FnMut(usize, &mut [f64])) -> Option<Self> {
-        let mut matrix = Mat::zeros(n, n);
-        for j in 0..n {
-            fill(j, matrix.col_as_slice_mut(j));
-        }
+    pub fn new(n: usize, fill: impl FnMut(usize, &mut [f64])) -> Option<Self> {
+        let matrix = filled(n, fill);
         let inverse = inverted(&matrix);
         let finite = (0..n).all(|j| inverse.col_as_slice(j).iter().all(|entry| entry.is_finite()));
         finite.then_some(ApproximateInverse { matrix, inverse })

@@ -10,7 +10,7 @@
 use faer::Mat;
 
 use super::ball::{product_up, sum_of_products_up, sum_up};
-use super::factor::{Factor, cholesky};
+use super::factor::{Factor, cholesky, filled};
 use super::matrix::tiles;
 use super::vector::{norm, norm_inf};
 
@@ -36,11 +36,8 @@ pub struct Definite {
 impl Definite {
     /// The matrix of `n` rows whose columns `fill(j, column)` writes, each entry known up to [`GIVEN`], relative;
     /// `None` if it is not proved to be positive definite: that its symmetric part is.
-    pub fn new(n: usize, mut fill: impl FnMut(usize, &mut [f64])) -> Option<Self> {
-        let mut matrix = Mat::zeros(n, n);
-        for j in 0..n {
-            fill(j, matrix.col_as_slice_mut(j));
-        }
+    pub fn new(n: usize, fill: impl FnMut(usize, &mut [f64])) -> Option<Self> {
+        let mut matrix = filled(n, fill);
         let sizes = lower_symmetric_part(&mut matrix);
         let lower = |j: usize, column: &mut [f64]| {
             column[j..].copy_from_slice(&matrix.col_as_slice(j)[j..]);
@@ -104,7 +101,7 @@ fn above(matrix: &Mat<f64>, shift: f64, doubt: f64) -> Option<f64> {
     let n = matrix.nrows();
     let mut factor = matrix.clone();
     (0..n).for_each(|i| factor[(i, i)] -= shift);
-    cholesky(&mut factor)?;
+    cholesky(&mut factor, &mut || true)?;
     // |L| |Lᵀ| 1.
     let mut size = vec![0.0; n];
     for j in 0..n {

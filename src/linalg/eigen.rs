@@ -5,19 +5,19 @@
 
 use nalgebra::{DMatrix, SymmetricEigen};
 
-use super::factor::Factor;
+use super::factor::{Factor, GoesOn};
 use super::gmres::orthogonalised;
 use super::matrix::Matrix;
-use super::tolerances::ROUNDING;
+use super::tolerances::{ROUNDING, SINGULAR};
 use super::vector::norm;
 
 /// Most directions of Lanczos' method: three digits of the largest eigenvalue wherever it stands out by a per cent.
 const DIRECTIONS: usize = 60;
 
 /// The largest eigenvalue of a symmetric positive semi-definite matrix from below, to rounding if it has no more than
-/// [`DIRECTIONS`] rows; `None` if a number is not finite, or there is none. C. Lanczos, J. Res. Nat. Bur. Standards 45 (1950)
+/// [`DIRECTIONS`] rows; `None` if a number is not finite, or there is none, or where `goes_on` says no. C. Lanczos, J. Res. Nat. Bur. Standards 45 (1950)
 /// 255-282, with full orthogonalisation.
-pub fn largest_eigenvalue(matrix: &Matrix<'_>) -> Option<f64> {
+pub fn largest_eigenvalue(matrix: &Matrix<'_>, goes_on: GoesOn<'_>) -> Option<f64> {
     let n = matrix.size();
     // A direction that no symmetry of a mesh leaves out.
     let first: Vec<f64> = (0..n).map(|i| 1.0 + 1.0 / (2.0 + i as f64)).collect();
@@ -25,6 +25,9 @@ pub fn largest_eigenvalue(matrix: &Matrix<'_>) -> Option<f64> {
     let mut columns: Vec<Vec<f64>> = Vec::new();
     let (mut next, mut left, mut was) = (first, 1.0, 1.0);
     while basis.len() < n.min(DIRECTIONS) && left > ROUNDING * was {
+        if !goes_on() {
+            return None;
+        }
         let length = norm(&next);
         basis.push(next.iter().map(|v| v / length).collect());
         next = matrix.product(&basis[basis.len() - 1]);
@@ -36,13 +39,14 @@ pub fn largest_eigenvalue(matrix: &Matrix<'_>) -> Option<f64> {
     projected.symmetric_eigenvalues().iter().copied().reduce(f64::max)
 }
 
-/// True if all eigenvalues of a symmetric matrix are below `bound`, by more than rounding of a factorisation.
-pub fn is_below(matrix: &Matrix<'_>, bound: f64) -> bool {
-    let factor = Factor::new(matrix.size(), true, |j, column| {
+/// True if all eigenvalues of a symmetric matrix are below `bound`, by more than rounding of a factorisation; no, where
+/// `goes_on` says no.
+pub fn is_below(matrix: &Matrix<'_>, bound: f64, goes_on: GoesOn<'_>) -> bool {
+    let fill = |j: usize, column: &mut [f64]| {
         column.iter_mut().zip(matrix.column(j)).for_each(|(entry, own)| *entry = -own);
         column[j] += bound;
-    });
-    factor.is_some()
+    };
+    Factor::asked(matrix.size(), true, SINGULAR, fill, goes_on).is_some()
 }
 
 /// Orthonormal eigenvectors of the symmetric `n x n` matrix `entry(i, j)`, by increasing eigenvalues; `None` as in

@@ -6,7 +6,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use faer::linalg::triangular_solve;
 use faer::{Mat, MatMut, MatRef, Par};
 
-use super::factor::{cholesky, cholesky_work};
+use super::factor::{BLOCK, GoesOn, cholesky, cholesky_work};
 use super::matrix::Matrix;
 use super::pivoted_cholesky::subtract_gram;
 use super::tolerances::SINGULAR;
@@ -47,8 +47,13 @@ impl Elimination {
     }
 
     /// Eliminates `dropped` and keeps `kept`; `None` if `K_OO` is not positive definite to working
-    /// precision.
-    pub fn new(matrix: Matrix<'_>, dropped: Vec<usize>, kept: Vec<usize>) -> Option<Self> {
+    /// precision, or where `goes_on` says no.
+    pub fn new(
+        matrix: Matrix<'_>,
+        dropped: Vec<usize>,
+        kept: Vec<usize>,
+        goes_on: GoesOn<'_>,
+    ) -> Option<Self> {
         let (o, c) = (dropped.len(), kept.len());
         let mut lower = Mat::zeros(o, o);
         for (j, &at) in dropped.iter().enumerate() {
@@ -56,7 +61,7 @@ impl Elimination {
             let target = &mut lower.col_as_slice_mut(j)[j..];
             target.iter_mut().zip(&dropped[j..]).for_each(|(entry, &i)| *entry = column[i]);
         }
-        cholesky(&mut lower)?;
+        cholesky(&mut lower, goes_on)?;
         // Written so that NaN is singular too.
         let regular = dropped
             .iter()
@@ -77,8 +82,14 @@ impl Elimination {
             let target = &mut schur[c * j + j..c * (j + 1)];
             target.iter_mut().zip(&kept[j..]).for_each(|(entry, &i)| *entry = column[i]);
         }
-        let rows = half.transpose_mut();
-        triangular_solve::solve_lower_triangular_in_place(lower.as_ref(), rows, Par::Seq);
+        for begin in (0..c).step_by(BLOCK) {
+            if !goes_on() {
+                return None;
+            }
+            let rows = half.as_mut().submatrix_mut(begin, 0, BLOCK.min(c - begin), o);
+            let rows = rows.transpose_mut();
+            triangular_solve::solve_lower_triangular_in_place(lower.as_ref(), rows, Par::Seq);
+        }
         subtract_gram(&mut schur, half.as_ref());
         Some(Elimination { dropped, kept, lower, half, schur })
     }

@@ -4,6 +4,7 @@ use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
 use faer::linalg::cholesky::llt;
 use faer::linalg::lu::partial_pivoting as lu;
 use faer::linalg::matmul::matmul;
+use faer::linalg::triangular_solve::solve_unit_lower_triangular_in_place;
 use faer::perm::PermRef;
 use faer::{Accum, Mat, MatMut, MatRef, Par};
 
@@ -11,6 +12,15 @@ use super::dense;
 use super::small_products::{SMALL_PRODUCT, by_rows};
 use super::tolerances::SINGULAR;
 use super::vector::dot;
+
+/// Columns of a block, which stays in a cache: between two of them a long work asks if it goes on.
+pub const BLOCK: usize = 64;
+
+/// Rows up to which a matrix is factorised in one go: a few milliseconds.
+const SHORT: usize = 512;
+
+/// Is asked whether a work goes on.
+pub type GoesOn<'a> = &'a mut dyn FnMut() -> bool;
 
 /// Operations of a Cholesky factorisation of `n` rows.
 pub fn cholesky_work(n: usize) -> f64 {
@@ -43,24 +53,23 @@ impl Factor {
     /// definite one on and below the diagonal. `None` if it is singular to working precision, or
     /// not positive definite as promised.
     pub fn new(n: usize, symmetric: bool, fill: impl FnMut(usize, &mut [f64])) -> Option<Self> {
-        Self::with_least_pivot(n, symmetric, SINGULAR, fill)
+        Self::asked(n, symmetric, SINGULAR, fill, &mut || true)
     }
 
-    /// As [`Self::new`]; pivots below `least`, relative to the largest, make the matrix singular.
-    pub fn with_least_pivot(
+    /// As [`Self::new`]; pivots below `least`, relative to the largest, make the matrix singular. `None` too where
+    /// `goes_on` says no.
+    pub fn asked(
         n: usize,
         symmetric: bool,
         least: f64,
-        mut fill: impl FnMut(usize, &mut [f64]),
+        fill: impl FnMut(usize, &mut [f64]),
+        goes_on: GoesOn<'_>,
     ) -> Option<Self> {
-        let mut factors = Mat::zeros(n, n);
-        for j in 0..n {
-            fill(j, factors.col_as_slice_mut(j));
-        }
+        let mut factors = filled(n, fill);
         let kind = if symmetric {
-            cholesky(&mut factors).map(|()| Kind::Cholesky)?
+            cholesky(&mut factors, goes_on).map(|()| Kind::Cholesky)?
         } else {
-            general(&mut factors)
+            general(&mut factors, goes_on)?
         };
         let pivot = |i: usize| match kind {
             Kind::Cholesky => factors[(i, i)].powi(2),
@@ -122,38 +131,89 @@ impl Factor {
 }
 
 /// Overwrites the lower triangle of a symmetric matrix with Cholesky's factor; `None` if the matrix is not
-/// positive definite.
-pub fn cholesky(matrix: &mut Mat<f64>) -> Option<()> {
-    cholesky_to_failure(matrix).ok()
+/// positive definite, or where `goes_on` says no.
+pub fn cholesky(matrix: &mut Mat<f64>, goes_on: GoesOn<'_>) -> Option<()> {
+    cholesky_to_failure(matrix, goes_on).ok()
 }
 
 /// The first row with which the leading block of the symmetric `n x n` matrix, its lower triangle `entry(i, j)`,
 /// is not positive definite.
 pub fn first_not_definite(n: usize, entry: impl Fn(usize, usize) -> f64) -> Option<usize> {
     let lower = |i: usize, j: usize| if i >= j { entry(i, j) } else { 0.0 };
-    cholesky_to_failure(&mut Mat::from_fn(n, n, lower)).err()
+    cholesky_to_failure(&mut Mat::from_fn(n, n, lower), &mut || true).err()
 }
 
-/// Cholesky's factor, or the row of the pivot that is not positive.
-fn cholesky_to_failure(matrix: &mut Mat<f64>) -> Result<(), usize> {
-    let mut memory = MemBuffer::new(dense::scratch(matrix.nrows()));
-    dense::root(matrix.as_mut(), MemStack::new(&mut memory))
+/// The width of the blocks in which `n` columns are factorised.
+fn width_of_blocks(n: usize) -> usize {
+    if n <= SHORT { n.max(1) } else { BLOCK }
 }
 
-fn general(matrix: &mut Mat<f64>) -> Kind {
-    let n = matrix.nrows();
-    let (mut forward, mut inverse) = (vec![0; n], vec![0; n]);
-    let scratch =
-        lu::factor::lu_in_place_scratch::<usize, f64>(n, n, Par::Seq, faer::Spec::default());
-    let (info, _) = lu::factor::lu_in_place(
-        matrix.as_mut(),
-        &mut forward,
-        &mut inverse,
-        Par::Seq,
-        MemStack::new(&mut MemBuffer::new(scratch)),
-        faer::Spec::default(),
-    );
-    Kind::Lu { forward, inverse, odd: info.transposition_count % 2 == 1 }
+/// Cholesky's factor, or the row of the pivot that is not positive, or of the block at which it was ended.
+fn cholesky_to_failure(matrix: &mut Mat<f64>, goes_on: GoesOn<'_>) -> Result<(), usize> {
+    let (n, most) = (matrix.nrows(), width_of_blocks(matrix.nrows()));
+    let mut memory = MemBuffer::new(dense::scratch(most));
+    for begin in (0..n).step_by(most) {
+        if !goes_on() {
+            return Err(begin);
+        }
+        let (width, left) = (most.min(n - begin), n - begin);
+        let all = matrix.as_mut().submatrix_mut(begin, begin, left, left);
+        let (mut root, _, mut below, rest) = all.split_at_mut(width, width);
+        let found = dense::root(root.as_mut(), MemStack::new(&mut memory));
+        found.map_err(|column| begin + column)?;
+        dense::divide(root.as_ref(), below.as_mut());
+        dense::subtract_square(rest, below.as_ref());
+    }
+    Ok(())
+}
+
+/// Overwrites a matrix with its factors `LU`, with row pivots; `None` where `goes_on` says no.
+fn general(matrix: &mut Mat<f64>, goes_on: GoesOn<'_>) -> Option<Kind> {
+    let (n, most) = (matrix.nrows(), width_of_blocks(matrix.nrows()));
+    let (mut forward, mut exchanges): (Vec<usize>, usize) = ((0..n).collect(), 0);
+    let spec = faer::Spec::default();
+    let request = lu::factor::lu_in_place_scratch::<usize, f64>(n, most.min(n), Par::Seq, spec);
+    let mut memory = MemBuffer::new(request);
+    for begin in (0..n).step_by(most) {
+        if !goes_on() {
+            return None;
+        }
+        let (width, left) = (most.min(n - begin), n - begin);
+        let (mut order, mut back) = (vec![0; left], vec![0; left]);
+        let panel = matrix.as_mut().submatrix_mut(begin, begin, left, width);
+        let stack = MemStack::new(&mut memory);
+        let (info, _) =
+            lu::factor::lu_in_place(panel, &mut order, &mut back, Par::Seq, stack, spec);
+        exchanges += info.transposition_count;
+        let moved: Vec<(usize, usize)> = (begin..n)
+            .zip(order.iter().map(|&from| begin + from))
+            .filter(|(to, from)| to != from)
+            .collect();
+        exchange(&mut forward, &moved);
+        for j in (0..begin).chain(begin + width..n) {
+            exchange(matrix.col_as_slice_mut(j), &moved);
+        }
+        let all = matrix.as_mut().submatrix_mut(begin, begin, left, left);
+        let (root, mut beside, below, rest) = all.split_at_mut(width, width);
+        solve_unit_lower_triangular_in_place(root.as_ref(), beside.as_mut(), Par::Seq);
+        matmul(rest, Accum::Add, below.as_ref(), beside.as_ref(), -1.0, Par::Seq);
+    }
+    let mut inverse = vec![0; n];
+    forward.iter().enumerate().for_each(|(to, &from)| inverse[from] = to);
+    Some(Kind::Lu { forward, inverse, odd: exchanges % 2 == 1 })
+}
+
+/// Moves values all at once: each pair is the new place and the old one.
+fn exchange<T: Copy>(values: &mut [T], moved: &[(usize, usize)]) {
+    let taken: Vec<T> = moved.iter().map(|&(_, from)| values[from]).collect();
+    moved.iter().zip(taken).for_each(|(&(to, _), value)| values[to] = value);
+}
+
+/// The `n x n` matrix whose columns `fill(j, column)` writes.
+pub fn filled(n: usize, mut fill: impl FnMut(usize, &mut [f64])) -> Mat<f64> {
+    let mut matrix = Mat::zeros(n, n);
+    (0..n).for_each(|j| fill(j, matrix.col_as_slice_mut(j)));
+    matrix
 }
 
 /// `target - Aᵀ B`, contiguous column-major matrices of `n` rows; `target` has a row for each
@@ -200,4 +260,68 @@ pub fn subtract_outer(
         -1.0,
         Par::Seq,
     );
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Solutions of random systems with one block of columns and with several: the residual is that of elimination with
+    /// row pivots, `n u` of the entries and the solution, which are of size one, with a growth of ten. A work that is
+    /// ended gives no factor.
+    #[test]
+    fn factors_by_blocks_solve_their_systems() {
+        let mut rng = fastrand::Rng::with_seed(1);
+        for n in [1, SHORT, SHORT + 1, SHORT + 2 * BLOCK + 7] {
+            for symmetric in [false, true] {
+                let mut entries: Vec<f64> = (0..n * n).map(|_| rng.f64() - 0.5).collect();
+                for j in 0..n {
+                    (0..j).for_each(|i| {
+                        if symmetric {
+                            entries[j + n * i] = entries[i + n * j];
+                        }
+                    });
+                    entries[j * (n + 1)] += if symmetric { n as f64 } else { 0.0 };
+                }
+                let fill = |j: usize, column: &mut [f64]| {
+                    column.copy_from_slice(&entries[n * j..n * (j + 1)]);
+                };
+                let mut factor = Factor::new(n, symmetric, fill).expect("it is regular");
+                let b: Vec<f64> = (0..n).map(|_| rng.f64() - 0.5).collect();
+                let mut x = b.clone();
+                factor.solve(&mut x);
+                let size = x.iter().fold(1.0, |most: f64, x| most.max(x.abs()));
+                for i in 0..n {
+                    let row: f64 = (0..n).map(|j| entries[i + n * j] * x[j]).sum();
+                    let most =
+                        10.0 * n as f64 * f64::EPSILON * size * entries[i * (n + 1)].abs().max(1.0);
+                    assert!(
+                        (row - b[i]).abs() <= most,
+                        "{n}, {symmetric}, row {i}: {row} {}",
+                        b[i]
+                    );
+                }
+                let mut blocks = 0;
+                let ended = &mut || {
+                    blocks += 1;
+                    blocks < n.div_ceil(width_of_blocks(n))
+                };
+                assert!(Factor::asked(n, symmetric, 0.0, fill, ended).is_none());
+            }
+        }
+    }
+
+    /// The sign of the determinant of a permutation, and of its triangle of ones.
+    #[test]
+    fn the_sign_counts_exchanges_in_all_blocks() {
+        let n = SHORT + BLOCK;
+        for shift in [0, 1, 2, 5] {
+            let fill = |j: usize, column: &mut [f64]| {
+                (0..=j).for_each(|i| column[(i + shift) % n] = 1.0);
+            };
+            // A rotation by one place of an even number of rows is odd.
+            let sign = if shift % 2 == 0 { 1 } else { -1 };
+            assert_eq!(Factor::new(n, false, fill).expect("it is regular").sign(), sign);
+        }
+    }
 }

@@ -44,7 +44,7 @@ impl PivotedCholesky {
         let lower_entry = |i: usize, j: usize| if i >= j { entry(rows[i], rows[j]) } else { 0.0 };
         let fill = || Mat::from_fn(n, n, lower_entry);
         let mut lower = fill();
-        let regular = cholesky(&mut lower).is_some();
+        let regular = cholesky(&mut lower, &mut || true).is_some();
         if regular && (0..n).all(|i| lower[(i, i)].powi(2) > SUSPICIOUS_PIVOT) {
             return Some(PivotedCholesky { lower, independent: rows, dependent });
         }

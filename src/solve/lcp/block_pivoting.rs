@@ -179,7 +179,7 @@ impl Iterate<'_> {
             self.x[i] = lcp.lower[i];
         }
         lcp.matrix.add_product(&step, &mut self.w);
-        self.systems.go_to(pairs).ok_or(Ending::Singular)?;
+        self.systems.go_to(pairs, &mut monitor.asking()).ok_or(Ending::Singular)?;
         let lack = self.w.iter().zip(basic).map(|(&w, &basic)| if basic { w } else { 0.0 });
         let moved = self.systems.step(&lack.collect::<Vec<f64>>()).ok_or(Ending::Singular)?;
         for (i, step) in step.iter_mut().enumerate() {

@@ -256,7 +256,7 @@ fn refine(
         if monitor.affords(System::work(&equations, &pairs)).is_err() {
             break;
         }
-        let Some(better) = iteration::step(&equations, &point) else { break };
+        let Some(better) = iteration::step(&equations, &point, monitor) else { break };
         found.systems += 1;
         let moved: Vec<f64> = better.d.iter().zip(&point.d).map(|(b, a)| b - a).collect();
         let followed = elimination.follow(&vec![0.0; dropped.len()], &moved);

@@ -85,9 +85,10 @@ pub fn from_pieces(
 }
 
 /// The point after one system, with the whole step; `None` if the system is singular.
-pub fn step(equations: &Equations<'_>, point: &Point) -> Option<Point> {
+pub fn step(equations: &Equations<'_>, point: &Point, monitor: &mut Monitor<'_>) -> Option<Point> {
     let mut systems = Systems::of(equations);
-    systems.go_to(equations.linearised(&point.pieces, &point.y))?;
+    let pairs = equations.linearised(&point.pieces, &point.y);
+    systems.go_to(pairs, &mut monitor.asking())?;
     let step = systems.step(&point.lack)?;
     Some(Point::new(equations, moved(&point.y, &step, 1.0)))
 }
@@ -153,7 +154,7 @@ impl<'e> Dense<'e> {
     fn system(&mut self, point: &Point, monitor: &mut Monitor<'_>) -> Result<Vec<Vector>, Ending> {
         let pairs = self.equations.linearised(&point.pieces, &point.y);
         monitor.affords(self.systems.work(&pairs)).map_err(Ending::Stopped)?;
-        self.systems.go_to(pairs).ok_or(Ending::Singular)?;
+        self.systems.go_to(pairs, &mut monitor.asking()).ok_or(Ending::Singular)?;
         let step = self.systems.step(&point.lack).ok_or(Ending::Singular)?;
         self.orientation = self.systems.orientation();
         self.pieces.clone_from(&point.pieces);

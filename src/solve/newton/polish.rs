@@ -252,7 +252,7 @@ impl<'e, 'm> Newton<'e, 'm> {
                 return None;
             }
             self.factorisations += 1;
-            let system = System::new(equations, pairs, 1.0, None, NULL_VECTOR)?;
+            let system = System::new(equations, (pairs, 1.0), None, NULL_VECTOR, &mut || true)?;
             self.kept = Some(CachedFactor { system, pieces, y });
         }
         self.kept.as_mut()

@@ -55,7 +55,7 @@ impl<'w> ReducedProblem<'w> {
             return Ok(None);
         }
         monitor.affords(Elimination::work(open.len(), kept.len()))?;
-        let elimination = Elimination::new(whole.matrix, open, kept);
+        let elimination = Elimination::new(whole.matrix, open, kept, &mut monitor.asking());
         Ok(elimination.map(|elimination| Self::by(whole, Arc::new(elimination), stuck)))
     }
 

@@ -202,7 +202,8 @@ impl<'h> Curve<'h> {
             along: border.s,
             unit: self.homotopy.size.recip(),
         };
-        let system = System::new(equations, pairs, place.s, Some(&border), SINGULAR);
+        let (pairs, asking) = ((pairs, place.s), &mut monitor.asking());
+        let system = System::new(equations, pairs, Some(&border), SINGULAR, asking);
         let Some(mut system) = system else { return Ok(None) };
         let Some((y, s)) = system.step(&vec![0.0; value.lack.len()], 1.0) else { return Ok(None) };
         let mut tangent = Direction { y, s };

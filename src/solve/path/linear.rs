@@ -181,7 +181,7 @@ fn solve(
             best.ending = Ending::Stopped(stop);
             break;
         }
-        let Some(mut walk) = Walk::new(&problem, &y) else { continue };
+        let Some(mut walk) = Walk::new(&problem, &y, &mut monitor.asking()) else { continue };
         let end = walk.follow(attempt.rules(y.len()), monitor);
         let mut candidate = ended(contact, settings, &walk, end, monitor);
         effort.factorisations += walk.factorisations + candidate.effort.factorisations;

@@ -1,6 +1,7 @@
 //! One way along the linear path, from piece to piece.
 
 use crate::law::{Contact, Linearised, Piece, PieceExit, Planar};
+use crate::linalg::factor::GoesOn;
 use crate::linalg::tolerances::SINGULAR_BASIS;
 use crate::linalg::vector::{NormSum, largest_of};
 use crate::monitor::{Monitor, Stop};
@@ -84,7 +85,11 @@ impl<'p> Walk<'p> {
     }
 
     /// Begins at the coordinates `start`; `None` if the system there is singular.
-    pub fn new(problem: &'p PathProblem<'p>, start: &[Planar]) -> Option<Self> {
+    pub fn new(
+        problem: &'p PathProblem<'p>,
+        start: &[Planar],
+        goes_on: GoesOn<'_>,
+    ) -> Option<Self> {
         let contact = problem.contact;
         let (mut v, mut first, mut pieces) = (Vec::new(), Vec::new(), Vec::new());
         for (law, y) in contact.pairs().iter().zip(start) {
@@ -98,7 +103,7 @@ impl<'p> Walk<'p> {
         let change: Vec<f64> =
             problem.load.iter().zip(&first).map(|(r, first)| r - first).collect();
         let pairs = linearised(contact, &pieces);
-        let mut system = Updated::new(problem.equations, pairs, SINGULAR_BASIS)?;
+        let mut system = Updated::new(problem.equations, pairs, SINGULAR_BASIS, goes_on)?;
         let rate = system.solve(&change);
         Some(Walk {
             problem,
@@ -196,17 +201,17 @@ impl<'p> Walk<'p> {
             let pairs = linearised(self.problem.contact, &self.pieces);
             let work = System::work(self.problem.equations, &pairs);
             monitor.affords(work).map_err(WalkEnd::Stopped)?;
-            return self.refactorise().ok_or(WalkEnd::Lost);
+            return self.refactorise(&mut monitor.asking()).ok_or(WalkEnd::Lost);
         }
         Ok(())
     }
 
     /// Factorises the system of today's pieces, and puts the coordinates back on the path.
-    fn refactorise(&mut self) -> Option<()> {
+    fn refactorise(&mut self, goes_on: GoesOn<'_>) -> Option<()> {
         let contact = self.problem.contact;
         self.factorisations += 1;
         let pairs = linearised(contact, &self.pieces);
-        self.system = Updated::new(self.problem.equations, pairs, SINGULAR_BASIS)?;
+        self.system = Updated::new(self.problem.equations, pairs, SINGULAR_BASIS, goes_on)?;
         // J y = r_s - c + K c_t / k, with P = D y + c on a piece.
         let mut side: Vec<f64> =
             self.first.iter().zip(&self.change).map(|(r, change)| r + self.s * change).collect();
@@ -302,7 +307,8 @@ mod tests {
         let (stuck, slipping, open) = ([1.0, 1.5], [0.5, 1.5], [-1.0, 2.0]);
         for (start, sign, events) in [(stuck, 1.0, 2), (slipping, -1.0, 1), (open, 1.0, 0)] {
             let mut monitor = Monitor::new(&settings, None);
-            let mut walk = Walk::new(&problem, &[start]).expect("each piece is regular");
+            let mut walk =
+                Walk::new(&problem, &[start], &mut || true).expect("each piece is regular");
             // K v + P is (1, 1.5) at all three; powers of two and few digits leave no rounding.
             assert_eq!(walk.first, [1.0, 1.5]);
             assert_eq!(f64::from(walk.system.sign()), sign);

@@ -18,7 +18,8 @@
 
 use super::equations::Equations;
 use crate::law::{Assembly, Linearised, Slopes, Unknown, Vector, ellipse};
-use crate::linalg::factor::{Factor, cholesky_work, lu_work, subtract_product};
+use crate::linalg::factor::{Factor, GoesOn, cholesky_work, lu_work, subtract_product};
+use crate::linalg::tolerances::SINGULAR;
 use crate::linalg::vector::dot;
 
 /// The border of a system: `border . (dy, ds) = wanted`.
@@ -65,13 +66,13 @@ impl<'e> System<'e> {
     }
 
     /// Factorises the system of pairs on their pieces; pivots below `least`, relative to the largest, make it
-    /// singular.
+    /// singular. `None` too where `goes_on` says no.
     pub fn new(
         equations: &'e Equations<'e>,
-        pairs: Vec<Linearised>,
-        s: f64,
+        (pairs, s): (Vec<Linearised>, f64),
         border: Option<&Border<'_>>,
         least: f64,
+        goes_on: GoesOn<'_>,
     ) -> Option<Self> {
         let (dim, root) = (equations.dim, &equations.root);
         let (mut unknowns, mut held) = (Vec::new(), Vec::new());
@@ -90,9 +91,9 @@ impl<'e> System<'e> {
             Assembly { dim, matrix: equations.matrix, unknowns: &unknowns, slopes: &slopes };
         let coefficients = Coefficients { equations, assembly, pairs: &pairs, s, least };
         let (factor, border) = match border {
-            None => (coefficients.factor()?, None),
+            None => (coefficients.factor(goes_on)?, None),
             Some(border) => {
-                let (factor, bordered) = coefficients.bordered(border)?;
+                let (factor, bordered) = coefficients.bordered(border, goes_on)?;
                 (factor, Some(bordered))
             }
         };
@@ -235,7 +236,7 @@ impl Coefficients<'_> {
     }
 
     /// By Cholesky's method where the system is symmetric and definite.
-    fn factor(&self) -> Option<Factor> {
+    fn factor(&self, goes_on: GoesOn<'_>) -> Option<Factor> {
         let mut image = vec![0.0; self.equations.root.len()];
         let mut fill = |j: usize, entries: &mut [f64]| {
             self.image(j, &mut image);
@@ -245,20 +246,20 @@ impl Coefficients<'_> {
         let is_plain =
             self.equations.symmetric && self.assembly.slopes.iter().all(Slopes::is_plain);
         let definite = match is_plain {
-            true => Factor::with_least_pivot(size, true, self.least, &mut fill),
+            true => Factor::asked(size, true, self.least, &mut fill, goes_on),
             false => None,
         };
-        definite.or_else(|| Factor::with_least_pivot(size, false, self.least, &mut fill))
+        definite.or_else(|| Factor::asked(size, false, self.least, &mut fill, goes_on))
     }
 
-    fn bordered(&self, border: &Border<'_>) -> Option<(Factor, Bordered)> {
+    fn bordered(&self, border: &Border<'_>, goes_on: GoesOn<'_>) -> Option<(Factor, Bordered)> {
         let (dim, root) = (self.equations.dim, &self.equations.root);
         let (unknowns, slopes) = (self.assembly.unknowns, self.assembly.slopes);
         let n = unknowns.len();
         let reactions = self.reactions(border);
         let (row_scale, column_scale) = (border.unit.recip(), border.unit);
         let mut image = vec![0.0; root.len()];
-        let factor = Factor::new(n + 1, false, |j, entries| {
+        let fill = |j: usize, entries: &mut [f64]| {
             if let Some(unknown) = unknowns.get(j) {
                 self.image(j, &mut image);
                 self.assembly.coefficients(j, &image, entries);
@@ -275,7 +276,8 @@ impl Coefficients<'_> {
                 *entry = column_scale * rate * i.row;
             }
             entries[n] = row_scale * column_scale * (border.along - dot(&reactions, border.rate));
-        })?;
+        };
+        let factor = Factor::asked(n + 1, false, SINGULAR, fill, goes_on)?;
         let rate = border.rate.to_vec();
         Some((factor, Bordered { rate, reactions, row_scale, column_scale }))
     }

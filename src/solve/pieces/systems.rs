@@ -5,6 +5,7 @@ use super::equations::Equations;
 use super::system::System;
 use super::updated::Updated;
 use crate::law::{Linearised, Vector};
+use crate::linalg::factor::GoesOn;
 use crate::linalg::tolerances::SINGULAR;
 
 /// Below so many unknowns a new factorisation is cheaper than changes of an old one: measured on the bar on the
@@ -57,8 +58,8 @@ impl<'e> Systems<'e> {
         self.last = Last::None;
     }
 
-    /// Goes to the system of pairs on their pieces; `None` if it is singular.
-    pub fn go_to(&mut self, pairs: Vec<Linearised>) -> Option<()> {
+    /// Goes to the system of pairs on their pieces; `None` if it is singular, or where `goes_on` says no.
+    pub fn go_to(&mut self, pairs: Vec<Linearised>, goes_on: GoesOn<'_>) -> Option<()> {
         let equations = self.equations;
         if self.change_work(&pairs).is_some()
             && let Last::OfPieces(system) = &mut self.last
@@ -70,8 +71,14 @@ impl<'e> Systems<'e> {
         self.last = Last::None;
         self.factorisations += 1;
         self.last = match equations.dim {
-            3 => Last::OfPoint(Box::new(System::new(equations, pairs, 1.0, None, SINGULAR)?)),
-            _ => Last::OfPieces(Box::new(Updated::new(equations, pairs, SINGULAR)?)),
+            3 => Last::OfPoint(Box::new(System::new(
+                equations,
+                (pairs, 1.0),
+                None,
+                SINGULAR,
+                goes_on,
+            )?)),
+            _ => Last::OfPieces(Box::new(Updated::new(equations, pairs, SINGULAR, goes_on)?)),
         };
         Some(())
     }

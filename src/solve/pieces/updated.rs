@@ -17,7 +17,7 @@ use super::equations::Equations;
 use super::system::System;
 use super::term::{Term, terms};
 use crate::law::Linearised;
-use crate::linalg::factor::Factor;
+use crate::linalg::factor::{Factor, GoesOn};
 use crate::linalg::simd::subtract_columns;
 use crate::linalg::vector::dot;
 
@@ -67,9 +67,15 @@ pub struct Updated<'e> {
 }
 
 impl<'e> Updated<'e> {
-    /// Factorises the system of pairs on their pieces; `None` if a pivot is below `least`, relative to the largest.
-    pub fn new(equations: &'e Equations<'e>, pairs: Vec<Linearised>, least: f64) -> Option<Self> {
-        let base = System::new(equations, pairs.clone(), 1.0, None, least)?;
+    /// Factorises the system of pairs on their pieces; `None` if a pivot is below `least`, relative to the
+    /// largest, or where `goes_on` says no.
+    pub fn new(
+        equations: &'e Equations<'e>,
+        pairs: Vec<Linearised>,
+        least: f64,
+        goes_on: GoesOn<'_>,
+    ) -> Option<Self> {
+        let base = System::new(equations, (pairs.clone(), 1.0), None, least, goes_on)?;
         let columns = Columns::none(equations.root.len());
         let (changes, directions) = (Vec::new(), Vec::new());
         Some(Updated { equations, base, pairs, columns, changes, directions })

@@ -35,7 +35,14 @@ impl MethodRow {
         }
         let Some(candidate) = (self.run)(call, monitor)? else { return Ok(None) };
         let candidate = without_idle_motion(contact, candidate, monitor);
-        Ok(Some(newton::refine_to_tolerance(contact, settings, candidate, monitor)))
+        let candidate = newton::refine_to_tolerance(contact, settings, candidate, monitor);
+        // A factorisation that was ended is a singular system to the method.
+        if candidate.ending == Ending::Singular
+            && let Err(stop) = monitor.goes_on()
+        {
+            return Ok(Some(candidate.ended(Ending::Stopped(stop))));
+        }
+        Ok(Some(candidate))
     }
 }
 

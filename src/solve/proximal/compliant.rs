@@ -96,12 +96,13 @@ fn factor(
     let root = roots(relation);
     let matrix = relation.matrix();
     monitor.affords(cholesky_work(n))?;
-    Ok(Factor::with_least_pivot(n, true, least, |j, column| {
+    let fill = |j: usize, column: &mut [f64]| {
         for i in j..n {
             column[i] = root[i] * matrix.at(i, j) * root[j];
         }
         column[j] += compliance;
-    }))
+    };
+    Ok(Factor::asked(n, true, least, fill, &mut monitor.asking()))
 }
 
 /// `D^½`.

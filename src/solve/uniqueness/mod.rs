@@ -14,7 +14,7 @@ use super::result::{Candidate, Ending};
 use super::result::{Solution, Status, Uniqueness};
 use crate::error::Error;
 use crate::law::Contact;
-use crate::linalg::factor::{cholesky_work, lu_work};
+use crate::linalg::factor::lu_work;
 use crate::monitor::Monitor;
 use crate::settings::Settings;
 use difference::{are_different, are_parted, is_sharp, is_strict};
@@ -56,15 +56,14 @@ pub fn examine(
 
 /// Concludes from an orientation of −1, away from where pieces meet, that there are others; nothing if there is no
 /// time.
-pub fn by_orientation(contact: &Contact<'_>, solution: &mut Solution, monitor: &Monitor<'_>) {
+pub fn by_orientation(contact: &Contact<'_>, solution: &mut Solution, monitor: &mut Monitor<'_>) {
     if solution.orientation < 0
         && solution.status == Status::Solved
         && let Some(sharp) = refine_fully(contact, &given(contact, solution), monitor)
         && sharp.candidate.orientation < 0
         && is_sharp(contact, &sharp)
         && is_strict(contact, sharp.candidate.d())
-        && monitor.has_time_for(cholesky_work(contact.unknowns()))
-        && proof::scaled_factor(contact).is_some()
+        && proof::scaled_factor(contact, monitor).is_some()
     {
         solution.uniqueness = Uniqueness::Several;
     }

@@ -16,31 +16,31 @@
 use super::difference::MARGIN;
 use crate::law::Contact;
 use crate::linalg::eigen::{is_below, largest_eigenvalue};
-use crate::linalg::factor::{Factor, cholesky_work};
+use crate::linalg::factor::{Factor, GoesOn, cholesky_work};
 use crate::linalg::matrix::Matrix;
+use crate::linalg::tolerances::SINGULAR;
 use crate::monitor::{COLUMNS, Monitor};
 
-/// The factor of `K`, scaled to a unit diagonal, if it is positive definite.
-pub fn scaled_factor(contact: &Contact<'_>) -> Option<Factor> {
+/// The factor of `K`, scaled to a unit diagonal, if it is positive definite, and if there is time for it.
+pub fn scaled_factor(contact: &Contact<'_>, monitor: &mut Monitor<'_>) -> Option<Factor> {
     let matrix = contact.problem().stiffness();
-    if !contact.problem().is_symmetric() {
+    let in_time = monitor.has_time_for(cholesky_work(matrix.size()));
+    if !contact.problem().is_symmetric() || !in_time {
         return None;
     }
     let root = contact.problem().unit_roots();
-    Factor::new(matrix.size(), true, |j, column| {
+    let fill = |j: usize, column: &mut [f64]| {
         for (i, (entry, k)) in column.iter_mut().zip(matrix.column(j)).enumerate() {
             *entry = k / (root[i] * root[j]);
         }
-    })
+    };
+    Factor::asked(matrix.size(), true, SINGULAR, fill, &mut monitor.asking())
 }
 
 /// True if the solution is proved to be the only one: `K` is positive definite, and `g -> mu p` is
 /// constant or a contraction. When the time is up, or the caller has cancelled, nothing is proved.
 pub fn is_unique(contact: &Contact<'_>, monitor: &mut Monitor<'_>) -> bool {
-    if !monitor.has_time_for(cholesky_work(contact.unknowns())) {
-        return false;
-    }
-    let Some(mut factor) = scaled_factor(contact) else { return false };
+    let Some(mut factor) = scaled_factor(contact, monitor) else { return false };
     let laws = contact.pairs();
     let coupled: Vec<usize> = (0..laws.len()).filter(|&i| laws[i].is_coupled()).collect();
     coupled.is_empty()
@@ -91,11 +91,12 @@ fn is_contraction(
         let tangential =
             dense(m * tangents, |a, b| compliance(a, b) * x[a / tangents] * x[b / tangents]);
         let work = 2.0 * cholesky_work(m * tangents);
-        if monitor.goes_on().is_err() || !monitor.has_time_for(work) {
+        if !monitor.has_time_for(work) {
             return false;
         }
         let matrices = [(m, &normal), (m * tangents, &tangential)];
-        if have_product_below_one(matrices.map(|(n, entries)| Matrix::new(n, entries, n))) {
+        let matrices = matrices.map(|(n, entries)| Matrix::new(n, entries, n));
+        if have_product_below_one(matrices, &mut monitor.asking()) {
             return true;
         }
     }
@@ -109,10 +110,10 @@ fn dense(n: usize, entry: impl Fn(usize, usize) -> f64) -> Vec<f64> {
 
 /// True if the product of the largest eigenvalues of two positive definite matrices is below 1 by [`MARGIN`]. Estimates
 /// from below tell which bounds may hold; factorisations show that they do.
-fn have_product_below_one(matrices: [Matrix<'_>; 2]) -> bool {
-    let [Some(normal), Some(tangential)] = matrices.each_ref().map(largest_eigenvalue) else {
-        return false;
-    };
+fn have_product_below_one(matrices: [Matrix<'_>; 2], goes_on: GoesOn<'_>) -> bool {
+    let found = matrices.each_ref().map(|matrix| largest_eigenvalue(matrix, goes_on));
+    let [Some(normal), Some(tangential)] = found else { return false };
     let room = ((1.0 - MARGIN) / (normal * tangential)).sqrt();
-    room > 1.0 && is_below(&matrices[0], room * normal) && is_below(&matrices[1], room * tangential)
+    let mut is_small = |k: usize, largest: f64| is_below(&matrices[k], room * largest, goes_on);
+    room > 1.0 && is_small(0, normal) && is_small(1, tangential)
 }

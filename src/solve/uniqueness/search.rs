@@ -24,6 +24,9 @@ pub fn another(
     known: &FullyRefined,
     monitor: &mut Monitor<'_>,
 ) -> Result<Option<SecondSolution>, Error> {
+    if monitor.goes_on().is_err() {
+        return Ok(None);
+    }
     let is_planar = contact.dim() == 2;
     let d = known.candidate.d();
     for pieces in if is_planar { starts(contact, d) } else { Vec::new() } {

@@ -59,13 +59,14 @@ impl Tableau {
         // Rows of the tableau with a basic z or z0, and equations whose w is not basic.
         let rows: Vec<usize> = (0..n).filter(|&row| self.basic[row] >= n).collect();
         let equations: Vec<usize> = (0..n).filter(|&i| self.place[i] >= n).collect();
-        let factor = Factor::with_least_pivot(rows.len(), false, SINGULAR_BASIS, |c, column| {
+        let fill = |c: usize, column: &mut [f64]| {
             let (mut whole, mut memory) = (vec![0.0; n], vec![0.0; n]);
             problem.add_column(self.basic[rows[c]], 1.0, &mut whole, &mut memory);
             for (entry, &equation) in column.iter_mut().zip(&equations) {
                 *entry = whole[equation];
             }
-        });
+        };
+        let factor = Factor::asked(rows.len(), false, SINGULAR_BASIS, fill, &mut || true);
         let Some(mut factor) = factor else { return false };
         self.kept.clear();
         for first in (0..=n).step_by(COLUMNS) {
