@@ -1,27 +1,26 @@
 //! The friction ellipse of a law whose coefficient depends on the direction, in space.
 //!
-//! In the axes of the ellipse, turned by `angle` from `(t1, t2)`, its half-axes are `mu1 p` and `mu2 p`.
-//! With `m` the larger of both coefficients and `R` the turn,
+//! In the axes of the ellipse, turned by `angle` from `(t1, t2)` by `R`, its half-axes are `mu1 p` and `mu2 p`. With
+//! `m` the larger of both coefficients and `c = (mu1, mu2) / m`,
 //!
 //! ```text
-//! W = diag(m / mu1, m / mu2) R,   gauge(t) = |W t|,   gauge(tau) <= m p
+//! W = diag(1 / c) R,   gauge(t) = |W t|,   gauge(tau) <= g = m p
 //! ```
 //!
 //! so that `W` makes a disc of the ellipse, a gauge is a force, and equal coefficients are Coulomb's law
-//! with `m`. The rule says along what a pair slips:
+//! with `m`. The rule says along what a pair slips, and with it which friction belongs to a trial force
+//! `y = tau + k delta` outside of the ellipse:
 //!
-//! - associated: along the outward normal of the ellipse, `Wᵀ W tau`. In the variables `W tau` and
-//!   `W⁻ᵀ delta`, whose product is the work `tau . delta`, this is Coulomb's law with `m`. Displacements
-//!   are scaled by `k = k~ (Wᵀ W)⁻¹`, `k~` the largest eigenvalue of `W K_tt Wᵀ`.
-//! - collinear: along the force, as if the law were isotropic. `k = k_t`.
+//! - associated: the slip is along the outward normal of the ellipse, and the friction is the point of the ellipse
+//!   nearest to `y`. It moves by no more than `y` does, and by no more than the bound does (`|dtau| <= |dg|`, as
+//!   `c <= 1`), however flat the ellipse is.
+//! - collinear: the slip is along the force, and the friction is `y` brought back to the ellipse along its own line.
 //!
-//! With either scale the friction that belongs to the trial force `y` is `y` brought back to the
-//! ellipse along its own line: `W k delta` is along `W tau` by the first rule, `k delta` along `tau` by
-//! the second, and both say that `k delta` is along `tau`.
+//! *The nearest point.* In the axes it is `tau = g c h`, with the unit vector `h = c y / (g c² + q)` and the
+//! multiplier `q` at which its length is 1. One over this length is a concave function of `q`, so that Newton's method
+//! rises to the root from below, and where the larger component alone is 1 is below it and near.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
-
-use crate::linalg::vector::largest_eigenvalue;
 
 /// A matrix of the two tangential components, by rows.
 pub type Plane<T = f64> = [[T; 2]; 2];
@@ -56,33 +55,38 @@ pub enum Rule {
     Collinear,
 }
 
-/// A friction ellipse with the scale of displacements.
+/// A friction ellipse.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ellipse {
-    /// `W`.
-    to_disc: Plane,
-    /// `k`, force per length, symmetric positive definite.
-    scale: Plane,
+    /// `R`, by rows.
+    turn: Plane,
+    /// `c`.
+    half_axes: [f64; 2],
     rule: Rule,
 }
 
+/// The point of an ellipse that is nearest to a force, in the axes.
+struct Nearest {
+    /// `h`.
+    h: [f64; 2],
+    /// `g c² + q`, a force for each axis.
+    divisors: [f64; 2],
+}
+
+/// Steps to the nearest point: they double the digits from the first ones on.
+const MOST_STEPS: usize = 60;
+
+/// Part of the smaller half-axis squared that a force inside of the ellipse leaves of it: the friction of a slip is
+/// asked for a little inside too, and has no nearest point in the middle.
+const LEFT_INSIDE: f64 = 0.5;
+
 impl Ellipse {
     /// The ellipse of the coefficients `mu`, both positive, with axis 1 at `angle` (radians) from `t1`
-    /// towards `t2`; `block` is the stiffness of the pair's tangential components.
-    pub fn new(mu: [f64; 2], angle: f64, rule: Rule, block: &Plane) -> Self {
+    /// towards `t2`.
+    pub fn new(mu: [f64; 2], angle: f64, rule: Rule) -> Self {
         let (sin, cos) = angle.sin_cos();
-        let [one, two] = mu.map(|coefficient| mu[0].max(mu[1]) / coefficient);
-        let to_disc = [[one * cos, one * sin], [-two * sin, two * cos]];
-        let stiffest = |block: &Plane| largest_eigenvalue(block[0][0], block[1][0], block[1][1]);
-        let scale = match rule {
-            Rule::Associated => {
-                let inverse = inverse(&form(&to_disc));
-                let stiffness = stiffest(&conjugate(&to_disc, block));
-                inverse.map(|row| row.map(|entry| stiffness * entry))
-            }
-            Rule::Collinear => [[stiffest(block), 0.0], [0.0, stiffest(block)]],
-        };
-        Ellipse { to_disc, scale, rule }
+        let half_axes = mu.map(|coefficient| coefficient / mu[0].max(mu[1]));
+        Ellipse { turn: [[cos, sin], [-sin, cos]], half_axes, rule }
     }
 
     /// Along what the pair slips.
@@ -90,52 +94,104 @@ impl Ellipse {
         self.rule
     }
 
+    /// `diag(c) v`.
+    fn times_axes(&self, v: [f64; 2]) -> [f64; 2] {
+        [self.half_axes[0] * v[0], self.half_axes[1] * v[1]]
+    }
+
+    /// `diag(1 / c) v`.
+    fn over_axes(&self, v: [f64; 2]) -> [f64; 2] {
+        [v[0] / self.half_axes[0], v[1] / self.half_axes[1]]
+    }
+
+    /// `Rᵀ v`.
+    fn turned_back(&self, v: [f64; 2]) -> [f64; 2] {
+        product(&transposed(&self.turn), v)
+    }
+
+    /// The norm of `W` that its entries have together.
+    pub fn norm(&self) -> f64 {
+        length(self.over_axes([1.0; 2]))
+    }
+
     /// `W t`.
-    pub fn to_disc(&self, t: [f64; 2]) -> [f64; 2] {
-        product(&self.to_disc, t)
+    pub fn disc_of(&self, t: [f64; 2]) -> [f64; 2] {
+        self.over_axes(product(&self.turn, t))
+    }
+
+    /// `Wᵀ t`.
+    pub fn by_disc(&self, t: [f64; 2]) -> [f64; 2] {
+        self.turned_back(self.over_axes(t))
     }
 
     /// `W⁻¹ t`.
     pub fn from_disc(&self, t: [f64; 2]) -> [f64; 2] {
-        product(&inverse(&self.to_disc), t)
+        self.turned_back(self.times_axes(t))
     }
 
-    /// `|W t|`.
-    pub fn gauge(&self, t: [f64; 2]) -> f64 {
-        let [a, b] = self.to_disc(t);
-        a.hypot(b)
+    /// `W⁻ᵀ t`: its length is the largest `tau . t` of all `tau` of gauge 1.
+    pub fn dual_of(&self, t: [f64; 2]) -> [f64; 2] {
+        self.times_axes(product(&self.turn, t))
     }
 
-    /// The largest `tau . t` of all `tau` of gauge 1: `|W⁻ᵀ t|`.
-    pub fn dual_gauge(&self, t: [f64; 2]) -> f64 {
-        let [a, b] = product(&transposed(&inverse(&self.to_disc)), t);
-        a.hypot(b)
+    /// The friction on the ellipse of the bound `g` that belongs to the trial force `y` of a slip.
+    pub fn friction(&self, y: [f64; 2], g: f64) -> [f64; 2] {
+        match self.rule {
+            Rule::Associated => {
+                let h = self.nearest(y, g).h;
+                self.from_disc(h.map(|h| g * h))
+            }
+            Rule::Collinear => {
+                let size = length(self.disc_of(y));
+                y.map(|y| y / size * g)
+            }
+        }
     }
 
-    /// The direction of the force in the ellipse that takes most work from the slip `t`: `(Wᵀ W)⁻¹ t`.
-    pub fn most_opposed(&self, t: [f64; 2]) -> [f64; 2] {
-        product(&inverse(&self.form()), t)
+    /// The derivative of [`Self::friction`] by `y`, and that by `g` at a given slip.
+    pub fn slopes(&self, y: [f64; 2], g: f64) -> (Plane, [f64; 2]) {
+        match self.rule {
+            Rule::Associated => {
+                // Along the ellipse, g u uᵀ / (p2 h1² + p1 h2²), with the divisors p.
+                let Nearest { h: [one, two], divisors: [first, second] } = self.nearest(y, g);
+                let u = self.turned_back(self.times_axes([-two, one]));
+                let size = g / (second * one * one + first * two * two);
+                (u.map(|row| u.map(|column| size * row * column)), self.from_disc([one, two]))
+            }
+            Rule::Collinear => {
+                let disc = self.disc_of(y);
+                let size = length(disc);
+                let (h, normal) = (y.map(|y| y / size), self.by_disc(disc.map(|y| y / size)));
+                let entry = |i: usize, j: usize| if i == j { 1.0 } else { 0.0 } - h[i] * normal[j];
+                let row = |i: usize| [g / size * entry(i, 0), g / size * entry(i, 1)];
+                ([row(0), row(1)], h)
+            }
+        }
     }
 
-    /// `Wᵀ W`.
-    pub fn form(&self) -> Plane {
-        form(&self.to_disc)
+    /// The point of the ellipse of the bound `g` that is nearest to `y`.
+    fn nearest(&self, y: [f64; 2], g: f64) -> Nearest {
+        let squares = self.half_axes.map(|c| g * c * c);
+        let sides = self.times_axes(product(&self.turn, y));
+        let alone = (sides[0].abs() - squares[0]).max(sides[1].abs() - squares[1]);
+        let mut multiplier = alone.max(-LEFT_INSIDE * squares[0].min(squares[1]));
+        for step in 1.. {
+            let divisors = squares.map(|square| square + multiplier);
+            let h = [sides[0] / divisors[0], sides[1] / divisors[1]];
+            let size = length(h);
+            let slope = h[0] * h[0] / divisors[0] + h[1] * h[1] / divisors[1];
+            let next = multiplier + (size - 1.0) * size * size / slope;
+            if !(next > multiplier) || step == MOST_STEPS {
+                return Nearest { h: h.map(|h| h / size), divisors };
+            }
+            multiplier = next;
+        }
+        unreachable!("the steps are counted")
     }
+}
 
-    /// `k`.
-    pub fn scale(&self) -> &Plane {
-        &self.scale
-    }
-
-    /// `k delta`.
-    pub fn scaled(&self, delta: [f64; 2]) -> [f64; 2] {
-        product(&self.scale, delta)
-    }
-
-    /// `k⁻¹ force`.
-    pub fn unscaled(&self, force: [f64; 2]) -> [f64; 2] {
-        product(&inverse(&self.scale), force)
-    }
+fn length(t: [f64; 2]) -> f64 {
+    t[0].hypot(t[1])
 }
 
 /// `a t`.
@@ -161,14 +217,4 @@ pub fn times<T: Real>(a: &Plane<T>, b: &Plane<T>) -> Plane<T> {
 /// `aᵀ`.
 pub fn transposed<T: Real>(a: &Plane<T>) -> Plane<T> {
     [[a[0][0], a[1][0]], [a[0][1], a[1][1]]]
-}
-
-/// `Wᵀ W`.
-fn form(w: &Plane) -> Plane {
-    times(&transposed(w), w)
-}
-
-/// `W a Wᵀ`.
-fn conjugate(w: &Plane, a: &Plane) -> Plane {
-    times(&times(w, a), &transposed(w))
 }

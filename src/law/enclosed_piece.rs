@@ -185,7 +185,7 @@ impl EnclosedPiece {
         match &self.law.ellipse {
             None => [[Ball::exact(1.0), Ball::default()], [Ball::default(), Ball::exact(1.0)]],
             Some(ellipse) => {
-                let columns = [ellipse.to_disc([1.0, 0.0]), ellipse.to_disc([0.0, 1.0])];
+                let columns = [ellipse.disc_of([1.0, 0.0]), ellipse.disc_of([0.0, 1.0])];
                 transposed(&columns).map(|row| row.map(enclosed))
             }
         }

@@ -4,7 +4,7 @@
 //! `|F_t| <= mu p' + (b - mu a)`: a bound with a slope and an offset, and a shift of the normal force. It has no
 //! memory: an open pair carries the tension `a` and the friction `b - mu a`, however far it is open.
 
-use super::{Bound, Ellipse, PairLaw, Plane, Rule};
+use super::{Bound, Ellipse, PairLaw, Rule};
 use crate::problem::FrictionLaw;
 
 impl Bound {
@@ -35,17 +35,11 @@ impl Bound {
 }
 
 impl PairLaw {
-    /// Gives the pair the friction law of a problem; `numbers` are the parameters of this pair, `block` is the
-    /// stiffness of its tangential components.
-    pub(super) fn with_friction(
-        self,
-        law: FrictionLaw<'_>,
-        numbers: &[f64],
-        block: impl Fn() -> Plane,
-    ) -> Self {
+    /// Gives the pair the friction law of a problem; `numbers` are the parameters of this pair.
+    pub(super) fn with_friction(self, law: FrictionLaw<'_>, numbers: &[f64]) -> Self {
         let elliptic = |rule| {
             let (mu, angle) = ([numbers[0], numbers[1]], numbers[2]);
-            let ellipse = Ellipse::new(mu, angle, rule, &block());
+            let ellipse = Ellipse::new(mu, angle, rule);
             self.with_bound(Bound::orthotropic(mu)).with_ellipse(ellipse)
         };
         match law {

@@ -1,11 +1,11 @@
-//! The gauge of a tangential force, which the bound of the law limits, and the scale of slips.
+//! The gauge of a tangential force, which the bound of the law limits, the friction of a slip, and the scale of slips.
 //!
-//! | law | gauge of `t` | scale `k` |
+//! | law | gauge of `t` | friction of a slip with the trial force `y` |
 //! |---|---|---|
-//! | isotropic | its length | `k_t` |
+//! | isotropic | its length | `g y / \|y\|` |
 //! | with an ellipse | `\|W t\|` | that of the rule ([`super::ellipse`]) |
 
-use super::{Ellipse, PairLaw, Plane, Rule, Vector, ellipse, length};
+use super::{PairLaw, Plane, Rule, Vector, length};
 
 impl PairLaw {
     /// The size of a tangential force that the bound limits: stick and slip meet where the gauge of the
@@ -14,58 +14,32 @@ impl PairLaw {
     pub fn gauge(&self, t: &[f64]) -> f64 {
         match &self.ellipse {
             None => length(t),
-            Some(ellipse) => ellipse.gauge(pair_of(t)),
+            Some(ellipse) => length(&ellipse.disc_of(pair_of(t))),
         }
     }
 
-    /// `Q`, symmetric positive definite, of `gauge(t)² = t . Q t`. Of a planar pair its first entry
-    /// counts.
-    pub fn gauge_form(&self) -> Plane {
-        self.ellipse.as_ref().map_or([[1.0, 0.0], [0.0, 1.0]], Ellipse::form)
+    /// The force in the variables in which its gauge is its length.
+    pub(super) fn disc_of(&self, t: [f64; 2]) -> [f64; 2] {
+        self.ellipse.as_ref().map_or(t, |ellipse| ellipse.disc_of(t))
+    }
+
+    /// The gradient of the gauge at a tangential force, of which `size` is the gauge.
+    pub(super) fn conormal(&self, t: [f64; 2], size: f64) -> [f64; 2] {
+        let unit = self.disc_of(t).map(|t| t / size);
+        self.ellipse.as_ref().map_or(unit, |ellipse| ellipse.by_disc(unit))
     }
 
     /// The largest work of tangential forces of gauge 1 on the motion `t`.
     pub fn dual_gauge(&self, t: &[f64]) -> f64 {
         match &self.ellipse {
             None => length(t),
-            Some(ellipse) => ellipse.dual_gauge(pair_of(t)),
+            Some(ellipse) => length(&ellipse.dual_of(pair_of(t))),
         }
     }
 
-    /// `k_n`, force per length: what scales the normal displacement.
-    pub fn normal_scale(&self) -> f64 {
-        self.k_n
-    }
-
-    /// `k`, force per length, symmetric positive definite: what scales the slip, in `y_t = tau + k delta`.
-    pub fn tangential_scale(&self) -> Plane {
-        match &self.ellipse {
-            None => [[self.k_t, 0.0], [0.0, self.k_t]],
-            Some(ellipse) => *ellipse.scale(),
-        }
-    }
-
-    /// Diagonal of `k`: the units in which components of a pair are compared.
+    /// `k_n` and `k_t`, forces per length: what scales displacements, in `y = P' + k v`.
     pub fn scale(&self) -> Vector {
-        let [[first, _], [_, second]] = self.tangential_scale();
-        [self.k_n, first, second]
-    }
-
-    /// `k delta`.
-    #[inline(always)]
-    pub(super) fn scaled(&self, delta: [f64; 2]) -> [f64; 2] {
-        match &self.ellipse {
-            None => [self.k_t * delta[0], self.k_t * delta[1]],
-            Some(ellipse) => ellipse.scaled(delta),
-        }
-    }
-
-    /// `k⁻¹ force`.
-    pub(super) fn unscaled(&self, force: [f64; 2]) -> [f64; 2] {
-        match &self.ellipse {
-            None => [force[0] / self.k_t, force[1] / self.k_t],
-            Some(ellipse) => ellipse.unscaled(force),
-        }
+        [self.k_n, self.k_t, self.k_t]
     }
 
     /// Returns `true` if the pair has an ellipse and slips along its friction all the same.
@@ -73,45 +47,35 @@ impl PairLaw {
         self.ellipse.as_ref().is_some_and(|ellipse| ellipse.rule() == Rule::Collinear)
     }
 
-    /// Brings a tangential force back to what the pair can carry under `threshold`, along its own line.
-    pub(super) fn bring_back(&self, t: &mut [f64], threshold: f64) {
-        let gauge = self.gauge(t);
-        if gauge > threshold {
-            // The quotient of two forces far apart may be subnormal, with few digits.
-            t.iter_mut().for_each(|t| *t = *t / gauge * threshold);
-        }
-    }
-
-    /// `k⁻¹ (1 - T) k` for the tangential block `T` of `dP/dy`: how a slip follows the unknown `x` of
-    /// `dy_t = k x`.
-    pub fn moves(&self, turned: &Plane) -> Plane {
-        let mut rest = [[0.0; 2]; 2];
-        for (i, row) in rest.iter_mut().enumerate() {
-            for (j, rest) in row.iter_mut().enumerate() {
-                *rest = if i == j { 1.0 } else { 0.0 } - turned[i][j];
-            }
-        }
+    /// The friction of a slip whose trial force is `t`, under the bound `g`; `t` becomes it.
+    #[inline]
+    pub(super) fn bring_to_bound(&self, t: &mut [f64], g: f64) {
         match &self.ellipse {
-            // A multiple of 1 changes nothing.
-            None => rest,
-            Some(ellipse) => {
-                let k = ellipse.scale();
-                ellipse::times(&ellipse::inverse(k), &ellipse::times(&rest, k))
+            None => {
+                let size = length(t);
+                // The quotient of two forces far apart may be subnormal, with few digits.
+                t.iter_mut().for_each(|t| *t = *t / size * g);
             }
+            Some(ellipse) => t.copy_from_slice(&ellipse.friction(pair_of(t), g)),
         }
     }
-}
 
-impl PairLaw {
-    /// `C = T (1 - T)⁻¹ k` for the tangential block `T` of `dP/dy`: how friction turns with the slip,
-    /// `dtau = drag dp + C ddelta`, a force per length. Of an isotropic law it is `g / |delta|` across the slip.
-    ///
-    /// `T` has the eigenvalue 0 along the force and one other, its trace `q = g / |y_t|`, so that
-    /// `T (1 - T)⁻¹ = T / (1 - q)`. Where a slip begins, `1 - q` is taken as the rounding of `q` at least.
-    pub fn curvature(&self, turned: &Plane) -> Plane {
-        let rest = (1.0 - turned[0][0] - turned[1][1]).max(f64::EPSILON);
-        let across = ellipse::times(turned, &self.tangential_scale());
-        across.map(|row| row.map(|entry| entry / rest))
+    /// Brings a trial force back to what the pair can carry under `threshold`.
+    pub(super) fn bring_back(&self, t: &mut [f64], threshold: f64) {
+        if self.gauge(t) > threshold {
+            self.bring_to_bound(t, threshold);
+        }
+    }
+
+    /// The derivatives of [`Self::bring_to_bound`] in space: by the trial force, and by the bound at a given slip.
+    pub(super) fn slopes_on_bound(&self, t: [f64; 2], g: f64) -> (Plane, [f64; 2]) {
+        if let Some(ellipse) = &self.ellipse {
+            return ellipse.slopes(t, g);
+        }
+        let size = length(&t);
+        let h = t.map(|t| t / size);
+        let across = [-h[1], h[0]];
+        (across.map(|row| across.map(|column| g / size * row * column)), h)
     }
 }
 

@@ -34,7 +34,7 @@
 //! y = P' + k v                                                     (Alart and Curnier's trial forces)
 //! ```
 //!
-//! With an ellipse the length of `tau` is its gauge, `k_t` is a matrix, and `k delta` is along `tau`.
+//! With an ellipse the length of `tau` is its gauge, and `delta` is along its normal at `tau`, or along `tau`.
 
 mod assembly;
 mod bound;
@@ -68,7 +68,7 @@ pub use ellipse::{Ellipse, Plane, Rule};
 pub(crate) use enclosed_piece::{EnclosedPiece, Local};
 pub use fixed_state::FixedState;
 pub use natural_map::Violation;
-pub use pair_law::{PairBlock, PairLaw, Vector};
+pub use pair_law::{PairLaw, Vector};
 pub use piece::{Boundary, Piece, Tangential};
 pub use planar_piece::{PieceExit, Planar};
 pub use reach::gaps_within_reach;

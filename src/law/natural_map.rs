@@ -5,11 +5,12 @@
 //! e_t = back(k delta - F_t) + F_t                                g = g(max(0, a - F_n))
 //! ```
 //!
-//! with `back(y)` the trial force `y` brought back along its own line to the gauge `g` if that is
-//! exceeded. Of an isotropic law `e_t = k_t (delta - shrink(delta - F_t / k_t, g / k_t))`, `shrink(x, s)`
-//! the vector `x` shortened by `s`. It is zero exactly if the law is obeyed.
+//! with `back(y)` the trial force `y`, or where its gauge exceeds `g` the friction of a slip that belongs to it: along
+//! its own line, and with an ellipse as its rule says. Of an isotropic law
+//! `e_t = k_t (delta - shrink(delta - F_t / k_t, g / k_t))`, `shrink(x, s)` the vector `x` shortened by `s`. It is zero
+//! exactly if the law is obeyed.
 
-use super::{PairLaw, State, Vector, length};
+use super::{Ellipse, PairLaw, State, Vector, length};
 
 /// Roundings of the residual on a slip, relative to its terms: one of each force, four of the bound, and up
 /// to seven of the direction and of the sum, half a unit each.
@@ -46,18 +47,15 @@ impl PairLaw {
         // max() of both pieces, so that an infinite gap leaves the force and no NaN.
         residual[0] = (self.k_n * (d[0] - self.gap)).max(force[0] - self.tension);
         let threshold = self.threshold(force[0]);
-        let scaled = self.scaled(self.slip_at(d));
         let mut trial = [0.0; 2];
+        let trial = &mut trial[..self.dim - 1];
         for c in 1..self.dim {
-            trial[c - 1] = scaled[c - 1] - force[c];
+            residual[c] = self.k_t * self.slip_at(d, c);
+            trial[c - 1] = residual[c] - force[c];
         }
-        let gauge = self.gauge(&trial[..self.dim - 1]);
-        for c in 1..self.dim {
-            residual[c] = if gauge > threshold {
-                force[c] + threshold * (trial[c - 1] / gauge)
-            } else {
-                scaled[c - 1]
-            };
+        if self.gauge(trial) > threshold {
+            self.bring_to_bound(trial, threshold);
+            (1..self.dim).for_each(|c| residual[c] = force[c] + trial[c - 1]);
         }
     }
 
@@ -68,9 +66,15 @@ impl PairLaw {
         let threshold = self.threshold(force[0]);
         // For an isotropic law the sum of sizes is above the length, and cheaper.
         let above = |t: &[f64]| t.iter().map(|t| t.abs()).sum::<f64>();
-        let terms = above(&force[1..self.dim]) + threshold + self.bound.slope * self.tension;
+        let mut terms = above(&force[1..self.dim]) + threshold + self.bound.slope * self.tension;
+        let y = &self.trial(d, force);
+        let trial = &y[1..self.dim];
+        // The trial force is turned into the axes of an ellipse.
+        if self.ellipse.is_some() && self.gauge(trial) > 0.0 {
+            let (turned, _) = self.slopes_on_bound([y[1], y[2]], threshold);
+            terms += above(turned.as_flattened()) * above(trial);
+        }
         let rounding = EVALUATION * terms;
-        let trial = &self.trial(d, force)[1..self.dim];
         // Next to its bound a pair that sticks may slip.
         let sticks = self.ellipse.is_none() && above(trial) + rounding <= threshold;
         let slips = threshold > 0.0 && !sticks && self.gauge(trial) + rounding > threshold;
@@ -80,11 +84,12 @@ impl PairLaw {
 
     /// Bound on the change of [`Self::natural_residual`] by a change of the force, relative to that change.
     ///
-    /// With the gauge `|W t|`, friction on a slip `g y / |W y|` changes by `mu` times the change of the
-    /// normal force and, as `g <= |W y|`, by `1 + |W|` times the change of the trial force `y`.
+    /// The friction of a slip changes by `mu` times the change of the normal force, and by no more than its trial force
+    /// if it is the nearest point of the disc or the ellipse. On its own line, `g y / |W y|`, it changes by `1 + |W|`
+    /// times as much, as `g <= |W y|`.
     pub fn sensitivity(&self) -> f64 {
-        let form = self.gauge_form();
-        2.0 + self.bound.slope + (form[0][0] + form[1][1]).sqrt()
+        let own_line = self.ellipse.as_ref().filter(|_| self.is_collinear());
+        2.0 + self.bound.slope + own_line.map_or(0.0, Ellipse::norm)
     }
 
     /// The state of the active piece of the natural map. Pieces closer than the force `margin` are
@@ -102,7 +107,7 @@ impl PairLaw {
         }
     }
 
-    /// A force next to `force` that a pair in `state` can carry: of an isotropic law the nearest one.
+    /// A force next to `force` that a pair in `state` can carry: the nearest one, but under the collinear rule.
     pub fn admissible_force(&self, force: &[f64], state: State) -> Vector {
         let mut admissible = [0.0; 3];
         admissible[..self.dim].copy_from_slice(force);
@@ -120,10 +125,11 @@ impl PairLaw {
         let carried = &mut carried[..self.dim - 1];
         carried.copy_from_slice(friction);
         self.bring_back(carried, self.threshold(force[0]));
+        carried.iter_mut().zip(friction).for_each(|(carried, force)| *carried -= force);
         Violation {
             penetration: (d[0] - self.gap).max(0.0),
             tension: (force[0] - self.tension).max(0.0),
-            cone_excess: length(friction) - length(carried),
+            cone_excess: length(carried),
         }
     }
 }

@@ -5,6 +5,8 @@
 //! tau = y_t if gauge(y_t) <= g(p'), else g(p') y_t / gauge(y_t),     k delta = y_t - tau
 //! ```
 //!
+//! and with an ellipse the friction of its rule ([`super::ellipse`]) in the place of the last one.
+//!
 //! `(v, P)` obeys the law if and only if it is of this form, with `y = P' + k v`, and `y` is then unique
 //! (Robinson, *Normal maps induced by linear transformations*, 1992). It has no kink but where
 //! pieces meet, and no singularity where a slip begins.
@@ -17,21 +19,16 @@ impl PairLaw {
     pub fn trial(&self, d: &[f64], force: &[f64]) -> Vector {
         let mut y = [0.0; 3];
         y[0] = self.k_n * (d[0] - self.gap) - (force[0] - self.tension);
-        let scaled = self.scaled(self.slip_at(d));
         for c in 1..self.dim {
-            y[c] = scaled[c - 1] - force[c];
+            y[c] = self.k_t * self.slip_at(d, c) - force[c];
         }
         y
     }
 
-    /// `delta`: the slip at the displacement `d`.
+    /// The slip at the displacement `d` along component `c`.
     #[inline(always)]
-    pub(super) fn slip_at(&self, d: &[f64]) -> [f64; 2] {
-        let mut delta = [0.0; 2];
-        for c in 1..self.dim {
-            delta[c - 1] = d[c] - self.slip0[c - 1];
-        }
-        delta
+    pub(super) fn slip_at(&self, d: &[f64], c: usize) -> f64 {
+        d[c] - self.slip0[c - 1]
     }
 
     /// `(v, P)` at `y`, in the units of length and force.
@@ -41,9 +38,9 @@ impl PairLaw {
         let v_n = (y[0] - p[0]) / self.k_n;
         let threshold = self.bound.at(p[0]);
         self.bring_back(&mut p[1..self.dim], threshold);
-        let delta = self.unscaled([y[1] - p[1], y[2] - p[2]]);
+        let v = [v_n, (y[1] - p[1]) / self.k_t, (y[2] - p[2]) / self.k_t];
         p[0] -= self.tension;
-        ([v_n, delta[0], delta[1]], p)
+        (v, p)
     }
 
     /// The coordinates `y = P' + k (d - reference)` of a displacement and a force on the chart that

@@ -6,9 +6,6 @@ use crate::linalg::double_double::two_sum;
 /// A vector of a pair: normal and up to two tangential components.
 pub type Vector = [f64; 3];
 
-/// A matrix of a pair, by rows.
-pub type PairBlock = [Vector; 3];
-
 /// The law of one pair with its numbers.
 #[derive(Clone, Copy, Debug)]
 pub struct PairLaw {

@@ -11,7 +11,7 @@
 //!
 //! An open pair whose bound is a cone has no boundary of slip: its tangential force is zero.
 
-use super::{Boundary, PairBlock, PairLaw, Piece, Tangential, Vector, ellipse};
+use super::{Boundary, Linearised, PairLaw, Piece, Tangential, Vector};
 
 /// Part of its bound that the friction of a pair has that has just been made to stick.
 const INSIDE: f64 = 0.999;
@@ -59,14 +59,11 @@ impl PairLaw {
     #[inline]
     pub fn push_on(&self, piece: Piece, y: &Vector) -> Vector {
         let (pressure, threshold) = self.pressure_on(piece, y);
-        let keep = match piece.slips() {
-            true if threshold == 0.0 => 0.0,
-            true => threshold / self.gauge(&y[1..self.dim]),
-            false => 1.0,
-        };
-        let mut push = [pressure - self.tension, 0.0, 0.0];
-        for c in 1..self.dim {
-            push[c] = keep * y[c];
+        let mut push = [pressure - self.tension, y[1], y[2]];
+        match piece.slips() {
+            true if threshold == 0.0 => push[1..].fill(0.0),
+            true => self.bring_to_bound(&mut push[1..self.dim], threshold),
+            false => {}
         }
         push
     }
@@ -75,65 +72,50 @@ impl PairLaw {
     /// of the piece at `y`: how far they are from the piece, a force.
     pub fn distance_to_piece(&self, piece: Piece, y: &Vector, d: &[f64], force: &[f64]) -> Vector {
         let push = self.push_on(piece, y);
-        let scaled = self.scaled(self.slip_at(d));
         let mut distance = [0.0; 3];
         distance[0] = if piece.closed { self.k_n * (d[0] - self.gap) } else { force[0] + push[0] };
         for c in 1..self.dim {
-            distance[c] = if piece.slips() { force[c] + push[c] } else { scaled[c - 1] };
+            distance[c] =
+                if piece.slips() { force[c] + push[c] } else { self.k_t * self.slip_at(d, c) };
         }
         distance
     }
 
     /// The change of the displacement by a change `by` of `k v`.
     pub fn displacement_by(&self, by: &Vector) -> Vector {
-        let [first, second] = self.unscaled([by[1], by[2]]);
-        [by[0] / self.k_n, first, second]
+        let scale = self.scale();
+        std::array::from_fn(|c| by[c] / scale[c])
     }
 
     /// The displacement at `y` where the push is `push`.
     #[inline]
     pub fn displacement(&self, y: &Vector, push: &Vector) -> Vector {
-        let reference = self.reference();
-        let delta = self.unscaled([y[1] - push[1], y[2] - push[2]]);
-        let v = [(y[0] - push[0] - self.tension) / self.k_n, delta[0], delta[1]];
-        std::array::from_fn(|c| reference[c] + v[c])
+        let (reference, scale) = (self.reference(), self.scale());
+        let moved = [y[0] - push[0] - self.tension, y[1] - push[1], y[2] - push[2]];
+        std::array::from_fn(|c| reference[c] + moved[c] / scale[c])
     }
 
-    /// `dP/dy` at the coordinates `y` of the chart.
-    pub fn derivative(&self, y: &Vector) -> PairBlock {
-        self.derivative_on(self.piece(y), y)
-    }
-
-    /// `dP/dy` on a piece at `y`.
-    pub fn derivative_on(&self, piece: Piece, y: &Vector) -> PairBlock {
+    /// The pair on a piece at the coordinates `y`.
+    pub fn linearised(&self, piece: Piece, y: &Vector) -> Linearised {
+        let mut pair = Linearised::of_piece(piece, self.k_n, self.k_t);
         let (_, threshold) = self.pressure_on(piece, y);
-        let normal = if piece.closed { 1.0 } else { 0.0 };
-        let mut block = [[0.0; 3]; 3];
-        block[0][0] = normal;
         let size = self.gauge(&y[1..self.dim]);
-        let conormal = self.conormal(y, size);
-        for row in 1..self.dim {
-            if !piece.slips() {
-                block[row][row] = 1.0;
-            } else if size > 0.0 {
-                let h = y[row] / size;
-                block[row][0] = self.bound.slope * h * normal;
-                for column in 1..self.dim {
-                    let unit = if row == column { 1.0 } else { 0.0 };
-                    block[row][column] = threshold / size * (unit - h * conormal[column - 1]);
-                }
-                // In the plane a slip has no direction to turn in.
-                if self.dim == 2 {
-                    block[row][row] = 0.0;
-                }
-            }
+        if !piece.slips() || size == 0.0 {
+            return pair;
         }
-        block
+        let (turned, along) = match self.dim {
+            // In the plane a slip has no direction to turn in.
+            2 => ([[0.0; 2]; 2], [y[1] / size, 0.0]),
+            _ => self.slopes_on_bound([y[1], y[2]], threshold),
+        };
+        let slope = if piece.closed { self.bound.slope } else { 0.0 };
+        pair.set_slopes(turned, along.map(|along| slope * along));
+        pair
     }
 
-    /// Gradient of the gauge at the coordinates `y`, of the gauge `size`: `Q y_t / size`.
-    fn conormal(&self, y: &Vector, size: f64) -> [f64; 2] {
-        ellipse::product(&self.gauge_form(), [y[1] / size, y[2] / size])
+    /// The pair on a piece in the plane, where its derivative is the same everywhere.
+    pub fn linearised_on(&self, piece: Piece) -> Linearised {
+        self.linearised(piece, &self.inside(piece, 1.0))
     }
 
     /// Returns `true` if a piece has this boundary.
@@ -153,7 +135,7 @@ impl PairLaw {
         let (_, threshold) = self.pressure_on(piece, y);
         let size = self.gauge(&y[1..self.dim]);
         let normal = if piece.closed { -self.bound.slope } else { 0.0 };
-        let [first, second] = self.conormal(y, size);
+        let [first, second] = self.conormal([y[1], y[2]], size);
         (size - threshold, [normal, first, if self.dim == 2 { 0.0 } else { second }])
     }
 
@@ -182,13 +164,11 @@ impl PairLaw {
                 let (_, g) = self.pressure_on(piece, y);
                 let dg = if piece.closed { self.bound.slope * t[0] } else { 0.0 };
                 let (mut a, mut b, mut c) = (-dg * dg, -g * dg, -g * g);
-                let form = self.gauge_form();
-                let (y, t) = ([y[1], y[2]], [t[1], t[2]]);
-                let (form_t, form_y) = (ellipse::product(&form, t), ellipse::product(&form, y));
+                let [y, t] = [y, t].map(|v| self.disc_of([v[1], v[2]]));
                 for i in 0..self.dim - 1 {
-                    a += t[i] * form_t[i];
-                    b += y[i] * form_t[i];
-                    c += y[i] * form_y[i];
+                    a += t[i] * t[i];
+                    b += y[i] * t[i];
+                    c += y[i] * y[i];
                 }
                 if piece.slips() { falls_to_zero(a, b, c) } else { falls_to_zero(-a, -b, -c) }
             }

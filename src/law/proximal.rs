@@ -5,12 +5,12 @@
 //! omega g / k_t)`, the exact minimum in the plane and for isotropic blocks, and a majorised one for
 //! others. A sticking pair has `delta = 0` exactly.
 //!
-//! With an ellipse the trial slip is `x = delta - omega k⁻¹ r_t` and `z = k x / omega` its force:
-//! `delta <- x (1 - g / gauge(z))`, or 0. Under the associated rule this is the proximal map in the
-//! variables of the disc; under the collinear one no energy has it for its minimum, but the points that
-//! it leaves where they are obey the law.
+//! With an ellipse the trial slip is `x = delta - omega r_t / k_t`, and `z = k_t x / omega` its force:
+//! `delta <- x - omega back(z) / k_t`, `back` the law's friction ([`super::ellipse`]). Under the associated rule this is
+//! the proximal map of the most work of friction; under the collinear one no energy has it for its minimum, but the
+//! points that it leaves where they are obey the law.
 
-use super::{Ellipse, PairLaw, Vector, length};
+use super::{PairLaw, Vector, length};
 
 impl PairLaw {
     /// Steps of a pair at the displacement `d` with the force `force = K d - f`, over-relaxed by
@@ -34,13 +34,13 @@ impl PairLaw {
         let mut change = self.k_n * steps[0] * steps[0];
 
         let pressure = (self.tension - force[0] - self.k_n * steps[0]).max(0.0);
-        if let Some(ellipse) = &self.ellipse {
+        if self.ellipse.is_some() {
             let mut friction = [0.0; 2];
             for c in 0..2 {
                 friction[c] = force[1 + c] + coupling[c] * steps[0];
             }
             let threshold = self.bound.at(pressure);
-            let ([t1, t2], moved) = self.relax_on(ellipse, d, friction, threshold, omega);
+            let ([t1, t2], moved) = self.relax_on_ellipse(d, friction, threshold, omega);
             return ([steps[0], t1, t2], change + moved);
         }
         let shrinkage = omega * self.bound.at(pressure) / self.k_t;
@@ -69,28 +69,30 @@ impl PairLaw {
     /// squared length in the norm of `k`. Not inlined, and all by value: else it would slow down the
     /// isotropic step.
     #[inline(never)]
-    fn relax_on(
+    fn relax_on_ellipse(
         &self,
-        ellipse: &Ellipse,
         d: &mut [f64],
         friction: [f64; 2],
         threshold: f64,
         omega: f64,
     ) -> ([f64; 2], f64) {
-        let mut steps = [0.0; 2];
-        let (slip, moved) = (self.slip_at(d), ellipse.unscaled(friction).map(|r| -omega * r));
-        let trial = [slip[0] + moved[0], slip[1] + moved[1]];
-        let gauge = ellipse.gauge(ellipse.scaled(trial)) / omega;
+        let (rate, mut steps) = (omega / self.k_t, [0.0; 2]);
+        let slip = [self.slip_at(d, 1), self.slip_at(d, 2)];
+        let moved = friction.map(|r| -rate * r);
+        let mut force = [0, 1].map(|c| (slip[c] + moved[c]) / rate);
+        let slips = self.gauge(&force) > threshold;
+        if slips {
+            self.bring_to_bound(&mut force, threshold);
+        }
         for c in 0..2 {
-            if gauge > threshold {
-                steps[c] = moved[c] - trial[c] * (threshold / gauge);
+            if slips {
+                steps[c] = moved[c] - rate * force[c];
                 d[1 + c] += steps[c];
             } else {
                 steps[c] = -slip[c];
                 d[1 + c] = self.slip0[c];
             }
         }
-        let scaled = ellipse.scaled(steps);
-        (steps, scaled[0] * steps[0] + scaled[1] * steps[1])
+        (steps, self.k_t * (steps[0] * steps[0] + steps[1] * steps[1]))
     }
 }

@@ -86,7 +86,7 @@ impl PairLaw {
         let mut against = [0.0; 2];
         against[..self.dim - 1].copy_from_slice(&r[1..self.dim]);
         if let Some(ellipse) = &self.ellipse {
-            against = ellipse.most_opposed(against);
+            against = ellipse.from_disc(ellipse.dual_of(against));
         }
         let gauge = self.gauge(&against[..self.dim - 1]);
         if gauge > 0.0 {

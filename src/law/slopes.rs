@@ -1,20 +1,21 @@
 //! A pair on its piece to first order: what it contributes to the system of equations on given pieces.
 //!
-//! With `T = dtau/dy_t` and `drag = dtau/dp`, `T drag = 0` under every law, a pair that slips or carries no
-//! friction has the tangential unknown `x` with `dy_t = k x + drag dp`:
+//! With `T = dtau/dy_t` and `drag = dtau/dp` at a given slip, a pair that slips or carries no friction has the
+//! tangential unknown `x` with `dy_t = k x + drag dp`:
 //!
 //! ```text
-//! dd_t = motion x = k⁻¹ (1 - T) k x,    dtau = drag dp + turn x = drag dp + T k x
+//! dd_t = motion x = (1 - T) x,    dtau = drag dp + turn x = drag dp + T k x
 //! ```
 //!
-//! Nothing is divided by the slip. An open pair has the normal displacement as its unknown.
+//! because where the bound grows by a part and the slip stays, the trial force less `k` times the slip grows by that
+//! part along the friction. Nothing is divided by the slip. An open pair has the normal displacement as its unknown.
 
-use super::{PairBlock, PairLaw, Piece, Planar, Plane, Vector, ellipse};
+use super::{Piece, Planar, Plane, Vector, ellipse};
 
 /// The derivatives of a pair that moves along its tangents.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Slopes {
-    /// `dtau/dp`, zero of an open pair.
+    /// `dtau/dp` at a given slip, zero of an open pair.
     pub drag: [f64; 2],
     /// The tangential displacement by its unknowns.
     pub motion: Plane,
@@ -39,22 +40,51 @@ pub struct Linearised {
     /// How it moves.
     pub slopes: Slopes,
     /// `k` of the normal component, and of the tangential ones.
-    normal_scale: f64,
-    scale: Plane,
+    scale: [f64; 2],
 }
 
 impl Linearised {
     /// A variable of a complementarity problem as a pair of one component: closed at its bound, open where it is basic.
     pub fn of_variable(is_basic: bool, unit: f64) -> Self {
         let (closed, slips, slopes) = (!is_basic, false, Slopes::default());
-        Linearised { closed, slips, slopes, normal_scale: unit, scale: Plane::default() }
+        Linearised { closed, slips, slopes, scale: [unit, 0.0] }
+    }
+
+    /// A pair on a piece on which its friction follows nothing, with its scales.
+    pub(super) fn of_piece(piece: Piece, normal: f64, tangential: f64) -> Self {
+        let motion = [[1.0, 0.0], [0.0, 1.0]];
+        let slopes = Slopes { motion, ..Slopes::default() };
+        let scale = [normal, tangential];
+        Linearised { closed: piece.closed, slips: piece.slips(), slopes, scale }
+    }
+
+    /// Gives the pair `T` and its drag.
+    pub(super) fn set_slopes(&mut self, turned: Plane, drag: [f64; 2]) {
+        self.slopes.drag = drag;
+        for (i, row) in turned.iter().enumerate() {
+            for (j, turned) in row.iter().enumerate() {
+                self.slopes.motion[i][j] -= turned;
+                self.slopes.turn[i][j] = turned * self.scale[1];
+            }
+        }
     }
 
     /// `k v` of the pair's part of a vector, which has one to three components.
     pub fn scaled(&self, v: &[f64]) -> Vector {
-        let component = |c: usize| v.get(c).copied().unwrap_or(0.0);
-        let [one, two] = ellipse::product(&self.scale, [component(1), component(2)]);
-        [self.normal_scale * v[0], one, two]
+        let [normal, tangential] = self.scale;
+        let component = |c: usize| v.get(c).map_or(0.0, |v| tangential * v);
+        [normal * v[0], component(1), component(2)]
+    }
+
+    /// `C = T (1 - T)⁻¹ k`: how friction turns with the slip, `dtau = drag dp + C ddelta`, a force per length. Of an
+    /// isotropic law it is `g / |delta|` across the slip.
+    ///
+    /// One eigenvalue of `T` is 0 and the other its trace, so that `T (1 - T)⁻¹ = T / (1 - trace)`. Where a slip begins
+    /// the divisor is taken as the rounding of the trace at least.
+    pub fn curvature(&self) -> Plane {
+        let [[first, _], [_, second]] = self.slopes.motion;
+        let rest = (first + second - 1.0).max(f64::EPSILON);
+        self.slopes.turn.map(|row| row.map(|entry| entry / rest))
     }
 
     /// True if component `c` is an unknown.
@@ -68,10 +98,15 @@ impl Linearised {
         [[one_if(self.closed), 0.0], [self.slopes.drag[0], one_if(!self.slips)]]
     }
 
-    /// The change of `k v` in the plane where the coordinates change by `y`.
-    pub fn moved(&self, y: Planar) -> Planar {
-        let [normal, tangential] = self.planar();
-        [y[0] - normal[0] * y[0], y[1] - tangential[0] * y[0] - tangential[1] * y[1]]
+    /// The change of `k v` where the coordinates change by `y`.
+    pub fn moved(&self, y: &Vector) -> Vector {
+        let (normal, drag) = (if self.closed { y[0] } else { 0.0 }, self.slopes.drag);
+        let unknown = [y[1] - drag[0] * normal, y[2] - drag[1] * normal];
+        let [one, two] = match self.slips {
+            true => ellipse::product(&self.slopes.motion, unknown),
+            false => [0.0; 2],
+        };
+        [y[0] - normal, one, two]
     }
 
     /// The change of `1 - dP/dy` from here to `beyond` in the plane, as a sum of `u nᵀ`: each `u` with its `n`. One
@@ -92,45 +127,15 @@ impl Linearised {
 
     /// Turns the changes of the unknowns, and of the pushes of the other components, into those of the coordinates.
     pub fn complete(&self, own: &mut [f64]) {
+        let [normal, tangential] = self.scale;
         if !self.closed {
-            own[0] *= self.normal_scale;
+            own[0] *= normal;
         }
-        if !self.slips {
-            return;
+        if let [pressure, along @ ..] = own
+            && self.slips
+        {
+            let parts = along.iter_mut().zip(self.slopes.drag);
+            parts.for_each(|(own, drag)| *own = tangential * *own + drag * *pressure);
         }
-        let (drag, scale) = (self.slopes.drag, &self.scale);
-        match own {
-            [normal, one] => *one = scale[0][0] * *one + drag[0] * *normal,
-            [normal, one, other] => {
-                let [first, second] = ellipse::product(scale, [*one, *other]);
-                (*one, *other) = (first + drag[0] * *normal, second + drag[1] * *normal);
-            }
-            _ => {}
-        }
-    }
-}
-
-impl PairLaw {
-    /// The pair on a piece at the coordinates `y`.
-    pub fn linearised(&self, piece: Piece, y: &Vector) -> Linearised {
-        self.linearised_by(&self.derivative_on(piece, y), piece.slips())
-    }
-
-    /// The pair on a piece in the plane, where its derivative is the same everywhere.
-    pub fn linearised_on(&self, piece: Piece) -> Linearised {
-        self.linearised(piece, &self.inside(piece, 1.0))
-    }
-
-    /// The pair where the piece has the derivative `dP/dy`.
-    pub fn linearised_by(&self, derivative: &PairBlock, slips: bool) -> Linearised {
-        let [_, [first, a, b], [second, c, d]] = *derivative;
-        let (turned, scale) = ([[a, b], [c, d]], self.tangential_scale());
-        let slopes = Slopes {
-            drag: [first, second],
-            motion: self.moves(&turned),
-            turn: ellipse::times(&turned, &scale),
-        };
-        let closed = derivative[0][0] != 0.0;
-        Linearised { closed, slips, slopes, normal_scale: self.normal_scale(), scale }
     }
 }

@@ -271,23 +271,12 @@ impl<'a, R: Relation> ContactProblem<'a, R> {
 
     /// Force per length of the tangential components of a pair: the largest eigenvalue of their block.
     pub fn tangential_stiffness(&self, pair: usize) -> f64 {
-        let block = self.tangential_block(pair);
+        let first = self.dim * pair + 1;
+        let entry = |i: usize, j: usize| self.relation.block(first + i, first + j);
         match self.dim {
-            2 => block[0][0],
-            _ => largest_eigenvalue(block[0][0], block[1][0], block[1][1]),
+            2 => entry(0, 0),
+            _ => largest_eigenvalue(entry(0, 0), entry(1, 0), entry(1, 1)),
         }
-    }
-
-    /// Block of the tangential components of a pair; in the plane only its first entry is not 0.
-    pub fn tangential_block(&self, pair: usize) -> [[f64; 2]; 2] {
-        let t = self.dim * pair + 1;
-        let mut block = [[0.0; 2]; 2];
-        for (i, row) in block[..self.dim - 1].iter_mut().enumerate() {
-            for (j, entry) in row[..self.dim - 1].iter_mut().enumerate() {
-                *entry = self.relation.block(t + i, t + j);
-            }
-        }
-        block
     }
 
     /// Gap of a pair, `+inf` if it never touches.

@@ -22,7 +22,7 @@ mod sweeps;
 mod uniqueness;
 mod units;
 
-use crate::certificate::{certify_pair, measure_parts};
+use crate::certificate::{certify_pair, measure_parts, without_approach};
 use crate::error::{Argument, Error, Limit, entry};
 use crate::law::Contact;
 use crate::linalg::vector::first_not_finite;
@@ -189,6 +189,7 @@ fn solve_as_it_stands(
     if solution.status == Status::NoEquilibrium {
         let (balance, solve) = (Balance::new(&contact, monitor), Some(plan::solve as Solve));
         rigid::describe(&contact, &mut solution, balance, solve, monitor)?;
+        solution.recession = solution.recession.map(|motion| without_approach(&contact, motion));
     }
     uniqueness::by_orientation(&contact, &mut solution, monitor);
     if settings.search == Search::Others && !monitor.is_late() {

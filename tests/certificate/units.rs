@@ -53,7 +53,7 @@ fn in_units(case: &Case, units: Units) -> Case {
         f: times(&case.f, units.force),
         gap: times(&case.gap, units.length),
         law: match &case.law {
-            Law::Coulomb(mu) => Law::Coulomb(mu.clone()),
+            law @ (Law::Coulomb(_) | Law::Orthotropic(_) | Law::Collinear(_)) => law.clone(),
             Law::Tresca(g) => Law::Tresca(times(g, units.force)),
             Law::Cohesive(numbers) => Law::Cohesive(
                 numbers

@@ -28,7 +28,7 @@ type Class = (&'static str, fn(&mut Rng, usize) -> Made);
 /// A case, its rigid motions and its noise.
 type Made = (Case, Vec<Vec<f64>>, f64);
 
-pub const CLASSES: [Class; 19] = [
+pub const CLASSES: [Class; 22] = [
     ("definite, condition to 1e3, mu to 2", ordinary),
     ("definite, condition to 1e3, mu to 1e3", high_friction),
     ("definite, thresholds", thresholds),
@@ -48,13 +48,21 @@ pub const CLASSES: [Class; 19] = [
     ("reference slips to 1e8 of the gaps", far_slips),
     ("units to 1e60", far_units),
     ("pairs that nearly coincide, to 1e-12", nearly_duplicated),
+    ("ellipses to 1e6, slip along the normal", ellipses),
+    ("ellipses to 1e6, slip against the force", collinear_ellipses),
+    ("gaps of 1e-12 to 1e12 together", wide_gaps),
 ];
 
 /// The problem of a seed: all classes in turn, in 2D and in 3D.
 pub fn problem(seed: u64) -> Problem {
+    problem_among(seed, CLASSES.len())
+}
+
+/// The problem of a seed among the first classes.
+pub fn problem_among(seed: u64, classes: usize) -> Problem {
     let rng = &mut Rng::with_seed(seed);
-    let class = seed as usize % CLASSES.len();
-    let dim = 2 + seed as usize / CLASSES.len() % 2;
+    let class = seed as usize % classes;
+    let dim = 2 + seed as usize / classes % 2;
     let (case, motions, noise) = CLASSES[class].1(rng, dim);
     // The default three times in ten; 0.01 and 0.1, at which errors are seen, as often.
     let tolerances = [1e-10, 1e-10, 1e-10, 1e-8, 1e-8, 1e-12, 1e-12, 1e-2, 1e-2, 0.1];
@@ -428,4 +436,43 @@ fn nearly_duplicated(rng: &mut Rng, dim: usize) -> Made {
         super::problems::add_spring(&mut case.k, motion, spring);
     }
     (case, Vec::new(), noise)
+}
+
+/// Coefficients up to 1e6 apart: in space those of a pair, along axes at any angle, in the plane those of pairs.
+fn ellipses(rng: &mut Rng, dim: usize) -> Made {
+    let condition = power(rng, 0.0, 3.0);
+    let (mut case, motions, noise) = on_definite(rng, dim, condition, 1.0);
+    let most = power(rng, -2.0, 2.0);
+    // The header admits a quotient of 1e6 after its rounding.
+    let other = |rng: &mut Rng| most * power(rng, -6.0, 0.0).max(1.000_001e-6);
+    if dim == 2 {
+        case.law = Law::Coulomb((0..case.pairs).map(|_| other(rng)).collect());
+        return (case, motions, noise);
+    }
+    let numbers = (0..case.pairs).flat_map(|_| {
+        let mu = if rng.bool() { [most, other(rng)] } else { [other(rng), most] };
+        let angle = if rng.u8(0..4) == 0 { 0.0 } else { uniform(rng, -10.0, 10.0) };
+        [mu[0], mu[1], angle]
+    });
+    case.law = Law::Orthotropic(numbers.collect());
+    (case, motions, noise)
+}
+
+fn collinear_ellipses(rng: &mut Rng, dim: usize) -> Made {
+    let (mut case, motions, noise) = ellipses(rng, dim);
+    if let Law::Orthotropic(numbers) = case.law {
+        case.law = Law::Collinear(numbers);
+    }
+    (case, motions, noise)
+}
+
+/// Gaps over 24 decades beside each other, on an ill-conditioned matrix too.
+fn wide_gaps(rng: &mut Rng, dim: usize) -> Made {
+    let condition = power(rng, 0.0, 6.0);
+    let (mut case, motions, noise) = on_definite(rng, dim, condition, 10.0);
+    for gap in &mut case.gap {
+        let sign = if rng.u8(0..4) == 0 { -1.0 } else { 1.0 };
+        *gap = sign * power(rng, -12.0, if sign < 0.0 { 0.0 } else { 12.0 });
+    }
+    (case, motions, noise)
 }

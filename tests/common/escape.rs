@@ -2,6 +2,7 @@
 
 use super::dense::dot;
 use super::edges::Problem;
+use super::ellipses::axes;
 use super::exact::{UNIT, force, quads, work};
 use super::problems::Case;
 use super::quad::norm;
@@ -32,7 +33,8 @@ pub fn flaw_of_motion(problem: &Problem, r: &[f64]) -> Option<(f64, String)> {
     let (mut resisted, mut pulled) = (0.0, 0.0);
     for pair in 0..case.pairs {
         let part = &r[dim * pair..dim * (pair + 1)];
-        let slide = norm(&quads(&part[1..])).value();
+        let along = quads(&part[1..]);
+        let slide = axes(case, pair).map_or_else(|| norm(&along), |axes| axes.work(&along)).value();
         let [slope, offset, tension] = case.law.of(pair);
         let lift = slope * slide;
         resisted += (offset - slope * tension) * slide;

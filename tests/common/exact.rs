@@ -3,6 +3,7 @@
 
 use signorini::State;
 
+use super::ellipses::axes;
 use super::problems::{Case, Law};
 use super::quad::{Quad, norm, solve};
 
@@ -68,7 +69,7 @@ struct Point {
     pull: Quad,
     /// `d_t - slip0`.
     slip: Vec<Quad>,
-    /// `k_t slip - F_t`, and its length.
+    /// `k_t slip - F_t`, and its length, or with an ellipse the bound on whose ellipse it lies.
     trial: Vec<Quad>,
     length: Quad,
     threshold: Quad,
@@ -87,7 +88,7 @@ fn point(case: &Case, pair: usize, d: &[Quad], force: &[Quad]) -> Point {
     Point {
         force: force[i..i + case.dim].to_vec(),
         pull: force[i] - Quad::from(case.law.of(pair)[2]),
-        length: norm(&trial),
+        length: axes(case, pair).map_or_else(|| norm(&trial), |axes| axes.size(&trial)),
         threshold: threshold(case, pair, force[i]),
         slip,
         trial,
@@ -97,21 +98,35 @@ fn point(case: &Case, pair: usize, d: &[Quad], force: &[Quad]) -> Point {
 
 /// The natural residual `e` at `d`, a force for each component:
 /// `e_n = max(k_n (d_n - gap), F_n - a)`, `e_t = F_t + g h` where the trial `h |y|` is longer than the bound
-/// `g`, else `k_t (d_t - slip0)`.
+/// `g`, else `k_t (d_t - slip0)`. With an ellipse `-g h` is the friction that belongs to the trial, by its rule.
 pub fn residual(case: &Case, d: &[Quad], force: &[Quad]) -> Vec<Quad> {
     let mut residual = Vec::new();
     for pair in 0..case.pairs {
         let at = point(case, pair, d, force);
         residual.push(at.penetration.map_or(at.pull, |closed| closed.max(at.pull)));
         let k_t = tangential_stiffness(case, pair);
-        for c in 0..case.dim - 1 {
-            residual.push(match at.length > at.threshold {
-                true => at.force[1 + c] + at.threshold * (at.trial[c] / at.length),
-                false => k_t * at.slip[c],
-            });
+        if at.length > at.threshold {
+            let (friction, ..) = slip(case, pair, &at, at.threshold);
+            residual.extend(at.force[1..].iter().zip(friction).map(|(&force, own)| force + own));
+        } else {
+            residual.extend(at.slip.iter().map(|&slip| k_t * slip));
         }
     }
     residual
+}
+
+/// The friction of a slip under the bound `g`, its derivatives by the trial force, by columns, and that by the bound.
+fn slip(case: &Case, pair: usize, at: &Point, g: Quad) -> (Vec<Quad>, Vec<Vec<Quad>>, Vec<Quad>) {
+    if let Some(axes) = axes(case, pair) {
+        let (turned, by_bound) = axes.slopes(&at.trial, g);
+        return (axes.friction(&at.trial, g), turned.to_vec(), by_bound);
+    }
+    let h: Vec<Quad> = at.trial.iter().map(|&y| y / at.length).collect();
+    let column = |j: usize| {
+        let one = |i: usize| if i == j { Quad::ONE } else { Quad::ZERO };
+        (0..h.len()).map(|i| g / at.length * (one(i) - h[i] * h[j])).collect()
+    };
+    (h.iter().map(|&h| g * h).collect(), (0..h.len()).map(column).collect(), h)
 }
 
 /// `eta` of `d`: `|e| / max(|f|, |F|)`.
@@ -124,7 +139,8 @@ pub fn eta(case: &Case, d: &[Quad]) -> f64 {
 /// By how much `eta` may change if each entry of `d` is rounded to a double, and its denominator is
 /// `scale`: with `a = u |K| |d|` the change of `F` is `a`, of `e_n` no more, and of `e_t` at most
 /// `2 a_t + mu a_n + u k_t |d_t|`, as the direction of the trial `y` turns by `|change of y| / |y|` and
-/// `g <= |y|`.
+/// `g <= |y|`. The friction of an ellipse that is the nearest point moves as much at most, and that along the trial by
+/// its length over the smaller half-axis as much.
 pub fn rounding(case: &Case, d: &[Quad], scale: f64) -> f64 {
     let n = case.size();
     let a = |i: usize| -> f64 {
@@ -138,10 +154,19 @@ pub fn rounding(case: &Case, d: &[Quad], scale: f64) -> f64 {
         sum = sum.hypot(a(i));
         for (c, d) in d.iter().enumerate().take(i + case.dim).skip(i + 1) {
             let own = UNIT * k_t * d.value().abs();
-            sum = sum.hypot(2.0 * a(c) + case.law.of(pair)[0] * a(i) + own);
+            let turned = own_line(case, pair) * (a(c) + own);
+            sum = sum.hypot(2.0 * a(c) + case.law.of(pair)[0] * a(i) + own + turned);
         }
     }
     if sum == 0.0 { 0.0 } else { sum / scale }
+}
+
+/// The ratio of the axes of an ellipse along whose trial the friction is; 0 for others.
+pub fn own_line(case: &Case, pair: usize) -> f64 {
+    match case.law {
+        Law::Collinear(_) => axes(case, pair).map_or(0.0, |axes| axes.ratio()),
+        _ => 0.0,
+    }
 }
 
 /// The states of the pairs on whose branches of the natural map `d` is.
@@ -176,6 +201,11 @@ pub fn refined(case: &Case, d: &[Quad], held: Option<&[State]>) -> Option<Vec<Qu
     None
 }
 
+/// True if a state names the equations of a pair.
+fn is_of_states(case: &Case) -> bool {
+    matches!(case.law, Law::Coulomb(_) | Law::Orthotropic(_) | Law::Collinear(_))
+}
+
 /// Derivative and value of the equations of the states.
 fn system(
     case: &Case,
@@ -190,7 +220,7 @@ fn system(
         let (i, at) = (case.dim * pair, point(case, pair, d, force));
         let state = held.map(|held| held[pair]);
         let closed = at.penetration.filter(|closed| match state {
-            Some(state) if matches!(case.law, Law::Coulomb(_)) => state != State::Open,
+            Some(state) if is_of_states(case) => state != State::Open,
             _ => *closed >= at.pull,
         });
         let mut unit = vec![Quad::ZERO; n];
@@ -205,7 +235,7 @@ fn system(
         let threshold = (-at.force[0]) * slope + offset;
         let k_t = tangential_stiffness(case, pair);
         let sticks = match state {
-            Some(state) if matches!(case.law, Law::Coulomb(_)) => state == State::Stick,
+            Some(state) if is_of_states(case) => state == State::Stick,
             _ => at.length <= threshold,
         };
         for c in 0..case.dim - 1 {
@@ -222,22 +252,20 @@ fn system(
                 rhs.push(at.force[1 + c]);
                 continue;
             }
-            // F_t + g h, h = y / |y|: dF_t + h dg + g (I - h h') / |y| (k_t d(d_t) - dF_t).
-            let h: Vec<Quad> = at.trial.iter().map(|&y| y / at.length).collect();
+            // F_t + tau: dF_t + G dg + T (k_t d(d_t) - dF_t).
+            let (friction, turned, by_bound) = slip(case, pair, &at, threshold);
             let mut sum = row(t);
             for (sum, normal) in sum.iter_mut().zip(row(i)) {
-                *sum -= h[c] * normal * slope;
+                *sum -= by_bound[c] * normal * slope;
             }
-            for b in 0..case.dim - 1 {
-                let one = if b == c { Quad::ONE } else { Quad::ZERO };
-                let turn = threshold / at.length * (one - h[c] * h[b]);
+            for (b, turned) in turned.iter().enumerate() {
                 for (sum, tangential) in sum.iter_mut().zip(row(i + 1 + b)) {
-                    *sum -= turn * tangential;
+                    *sum -= turned[c] * tangential;
                 }
-                sum[i + 1 + b] += turn * k_t;
+                sum[i + 1 + b] += turned[c] * k_t;
             }
             matrix.push(sum);
-            rhs.push(at.force[1 + c] + threshold * h[c]);
+            rhs.push(at.force[1 + c] + friction[c]);
         }
     }
     (matrix, rhs)

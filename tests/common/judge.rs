@@ -5,10 +5,11 @@ use signorini::{Solution, State, Status, Uniqueness};
 
 use super::all_states::{AllSolutions, MOST_PAIRS, all_solutions};
 use super::edges::Problem;
+use super::ellipses::axes;
 use super::escape::flaw_of_motion;
 use super::exact::{
-    BEYOND_ROUNDING, UNIT, differ, eta, force, is_definite, parts as parts_of, quads, refined,
-    residual, rounding, scale, threshold, work,
+    BEYOND_ROUNDING, UNIT, differ, eta, force, is_definite, own_line, parts as parts_of, quads,
+    refined, residual, rounding, scale, threshold, work,
 };
 use super::problems::Case;
 use super::quad::{Quad, largest, norm};
@@ -184,7 +185,18 @@ fn judge_forces(case: &Case, answer: &Answer<'_>, faults: &mut Faults) {
     for pair in 0..case.pairs {
         let part = &answer.force[dim * pair..dim * (pair + 1)];
         let bound = threshold(case, pair, part[0].into());
-        let tangential = norm(&quads(&part[1..]));
+        // With an ellipse the friction beyond it, which rounding of a component may leave.
+        let friction = quads(&part[1..]);
+        let ellipse = axes(case, pair);
+        let tangential = match &ellipse {
+            Some(axes) if axes.size(&friction) > bound => {
+                let carried = axes.nearest(&friction, bound);
+                let beyond: Vec<Quad> = (0..2).map(|c| friction[c] - carried[c]).collect();
+                bound + norm(&beyond)
+            }
+            Some(_) => Quad::ZERO,
+            None => norm(&friction),
+        };
         let state = answer.states[pair];
         let free = case.gap[pair] == f64::INFINITY;
         let tension = case.law.of(pair)[2];
@@ -201,7 +213,8 @@ fn judge_forces(case: &Case, answer: &Answer<'_>, faults: &mut Faults) {
             );
         }
     }
-    let mu = (0..case.pairs).map(|pair| case.law.of(pair)[0]).fold(0.0, f64::max);
+    let mu =
+        (0..case.pairs).map(|pair| case.law.of(pair)[0] + own_line(case, pair)).fold(0.0, f64::max);
     let scale = scale(case, &exact).value();
     let error: Vec<Quad> =
         exact.iter().zip(answer.force).map(|(exact, f)| *exact - Quad::from(*f)).collect();

@@ -1,7 +1,7 @@
 //! Random laws of a pair, points that obey them, and the law itself, stated without the library.
 
 use fastrand::Rng;
-use signorini::law::{Bound, Ellipse, PairLaw, Plane, Rule, Vector};
+use signorini::law::{Bound, Ellipse, PairLaw, Rule, Vector};
 
 /// A law with its numbers.
 #[derive(Clone, Copy, Debug)]
@@ -14,8 +14,6 @@ pub struct Numbers {
     pub tension: f64,
     pub axes: Option<Axes>,
     pub k: (f64, f64),
-    /// Stiffness of the tangential components, of largest eigenvalue `k.1`.
-    pub block: Plane,
 }
 
 /// An orthotropic law: coefficients along two axes, the first at `angle` from t1 towards t2.
@@ -135,13 +133,7 @@ impl Numbers {
         }
         let stiffness = |rng: &mut Rng| 10_f64.powf(uniform(rng, -1.0, 1.0));
         let k = (stiffness(rng), stiffness(rng));
-        let least = if dim == 2 { k.1 } else { k.1 * uniform(rng, 0.1, 1.0) };
-        let [x, y] = direction(rng, dim);
-        let block = [
-            [k.1 * x * x + least * y * y, (k.1 - least) * x * y],
-            [(k.1 - least) * x * y, k.1 * y * y + least * x * x],
-        ];
-        Numbers { dim, gap, slip0, bound, tension, axes, k, block }
+        Numbers { dim, gap, slip0, bound, tension, axes, k }
     }
 
     pub fn law(&self) -> PairLaw {
@@ -149,9 +141,7 @@ impl Numbers {
         let law = law.with_tension(self.tension);
         match self.axes {
             None => law,
-            Some(Axes { mu, angle, rule }) => {
-                law.with_ellipse(Ellipse::new(mu, angle, rule, &self.block))
-            }
+            Some(Axes { mu, angle, rule }) => law.with_ellipse(Ellipse::new(mu, angle, rule)),
         }
     }
 
@@ -190,9 +180,8 @@ impl Numbers {
 
     /// `k delta`.
     pub fn scaled(&self, delta: &[f64]) -> [f64; 2] {
-        let [one, two] = self.law().tangential_scale();
         let second = delta.get(1).copied().unwrap_or(0.0);
-        [one[0] * delta[0] + one[1] * second, two[0] * delta[0] + two[1] * second]
+        [self.k.1 * delta[0], self.k.1 * second]
     }
 
     /// `y = P + (a, 0, 0) + k v`.
@@ -228,7 +217,9 @@ impl Numbers {
             0.0
         } else if collinear {
             let on_ellipse = g / self.size(slip);
-            norm(&[tau[0] - on_ellipse * slip[0], tau[1] - on_ellipse * slip[1]])
+            let lack = norm(&[tau[0] - on_ellipse * slip[0], tau[1] - on_ellipse * slip[1]]);
+            // A force turned by as much as the slip, or the slip turned.
+            lack.min(lack * along / g)
         } else {
             (self.most_work(g, slip) - dot(slip, tau)) / norm(slip)
         };

@@ -10,6 +10,7 @@ pub mod brick20;
 pub mod contact_alone;
 pub mod dense;
 pub mod edges;
+pub mod ellipses;
 pub mod escape;
 pub mod exact;
 pub mod flexible;

@@ -12,12 +12,17 @@ pub enum Law {
     Tresca(Vec<f64>),
     /// `(mu, b, a)` of each pair.
     Cohesive(Vec<f64>),
+    /// `(mu1, mu2, angle)` of each pair, in space; the slip along the normal of the ellipse.
+    Orthotropic(Vec<f64>),
+    /// The same, the slip against the force.
+    Collinear(Vec<f64>),
 }
 
 impl Law {
     pub fn values(&self) -> &[f64] {
         match self {
             Law::Coulomb(values) | Law::Tresca(values) | Law::Cohesive(values) => values,
+            Law::Orthotropic(values) | Law::Collinear(values) => values,
         }
     }
 
@@ -27,15 +32,20 @@ impl Law {
             Law::Coulomb(_) => Law::Coulomb(values),
             Law::Tresca(_) => Law::Tresca(values),
             Law::Cohesive(_) => Law::Cohesive(values),
+            Law::Orthotropic(_) => Law::Orthotropic(values),
+            Law::Collinear(_) => Law::Collinear(values),
         }
     }
 
-    /// `(mu, b, a)` of a pair: `p >= -a`, `|F_t| <= mu p + b`.
+    /// `(mu, b, a)` of a pair: `p >= -a`, `|F_t| <= mu p + b`; `mu` the larger coefficient of an ellipse.
     pub fn of(&self, pair: usize) -> [f64; 3] {
         match self {
             Law::Coulomb(mu) => [mu[pair], 0.0, 0.0],
             Law::Tresca(g) => [0.0, g[pair], 0.0],
             Law::Cohesive(numbers) => [0, 1, 2].map(|k| numbers[3 * pair + k]),
+            Law::Orthotropic(numbers) | Law::Collinear(numbers) => {
+                [numbers[3 * pair].max(numbers[3 * pair + 1]), 0.0, 0.0]
+            }
         }
     }
 }
@@ -66,6 +76,8 @@ impl Case {
                 Law::Coulomb(mu) => FrictionLaw::Coulomb(mu),
                 Law::Tresca(g) => FrictionLaw::Tresca(g),
                 Law::Cohesive(numbers) => FrictionLaw::Cohesive(numbers),
+                Law::Orthotropic(numbers) => FrictionLaw::Orthotropic(numbers),
+                Law::Collinear(numbers) => FrictionLaw::OrthotropicCollinear(numbers),
             },
             reference_slip: self.slip.as_deref(),
         }

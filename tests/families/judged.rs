@@ -6,7 +6,7 @@
 
 use crate::common::all_states::all_solutions;
 use crate::common::dense::largest;
-use crate::common::edges::{CLASSES, Problem, problem};
+use crate::common::edges::{CLASSES, Problem, problem, problem_among};
 use crate::common::exact::{UNIT, differ, eta, force, quads, refined, scale, states};
 use crate::common::judge::{Answer, FAULTS, Fault, Faults, Finding, judge};
 use crate::common::problems::{Case, Law};
@@ -14,7 +14,7 @@ use crate::common::quad::Quad;
 use signorini::{ContactProblem, Model, Monitor, Search, Settings, Solution, Status, Uniqueness};
 
 /// How many problems without the variable: 200 of each class in each dimension.
-const PROBLEMS: u64 = 7600;
+const PROBLEMS: u64 = 8800;
 
 /// Problems of a long run between two tables.
 const BETWEEN_PRINTS: u64 = 100_000;
@@ -103,13 +103,16 @@ const STILL_IN_THE_PLANE: Limits = [
     [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // reference slips to 1e8 of the gaps
     [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // units to 1e60
     [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // pairs that nearly coincide, to 1e-12
+    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // ellipses to 1e6, slip along the normal
+    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // ellipses to 1e6, slip against the force
+    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // gaps of 1e-12 to 1e12 together
 ];
 #[rustfmt::skip]
 const STILL_IN_SPACE: Limits = [
     [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // definite, condition to 1e3, mu to 2
     [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // definite, condition to 1e3, mu to 1e3
     [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // definite, thresholds
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 8, 0, 0], // definite, condition 1e3 to 1e15
+    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 15, 0, 0], // definite, condition 1e3 to 1e15
     [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // definite, stiffness 1e13 apart
     [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 42, 0, 0], // soft springs beside stiff ones, to 1e-15
     [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // rigid motions
@@ -125,6 +128,9 @@ const STILL_IN_SPACE: Limits = [
     [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // reference slips to 1e8 of the gaps
     [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // units to 1e60
     [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // pairs that nearly coincide, to 1e-12
+    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // ellipses to 1e6, slip along the normal
+    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // ellipses to 1e6, slip against the force
+    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // gaps of 1e-12 to 1e12 together
 ];
 
 type Limits = [[u64; FAULTS.len()]; CLASSES.len()];
@@ -216,12 +222,12 @@ fn nothing_false_is_said() {
     assert!(wrong.is_empty(), "{wrong:#?}");
 }
 
-/// Problems of the long run of which "several" was said with a second answer that is next to no solution: at a coarse
-/// tolerance, and beside springs of 8e-14.
+/// Problems of a long run of twelve classes of which "several" was said with a second answer that is next to no solution:
+/// at a coarse tolerance, and beside springs of 8e-14.
 #[test]
 fn answers_next_to_no_solution_are_no_second_one() {
     for seed in [230_271, 414_145, 43_013] {
-        let (problem, answer) = answered(&problem(seed));
+        let (problem, answer) = answered(&problem_among(seed, 12));
         assert!(faults(&problem, &answer).is_empty(), "seed {seed}: {answer:?}");
     }
 }

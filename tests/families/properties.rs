@@ -183,7 +183,7 @@ fn times(values: &[f64], factor: f64) -> Vec<f64> {
 /// The law with its forces in another unit.
 fn law_times(law: &Law, force: f64) -> Law {
     match law {
-        Law::Coulomb(_) => law.clone(),
+        Law::Coulomb(_) | Law::Orthotropic(_) | Law::Collinear(_) => law.clone(),
         Law::Tresca(g) => Law::Tresca(times(g, force)),
         Law::Cohesive(numbers) => Law::Cohesive(
             numbers.chunks_exact(3).flat_map(|n| [n[0], force * n[1], force * n[2]]).collect(),
@@ -366,7 +366,7 @@ fn a_pair_may_be_doubled() {
             false => 0.0,
         };
         let split = |numbers: &[f64]| match case.law {
-            Law::Coulomb(_) => numbers.to_vec(),
+            Law::Coulomb(_) | Law::Orthotropic(_) | Law::Collinear(_) => numbers.to_vec(),
             Law::Tresca(_) => times(numbers, 0.5),
             Law::Cohesive(_) => vec![numbers[0], numbers[1] / 2.0, numbers[2] / 2.0],
         };
@@ -483,7 +483,7 @@ fn the_problems_have_pairs_of_every_state() {
         laws[match case.law {
             Law::Coulomb(_) => 0,
             Law::Tresca(_) => 1,
-            Law::Cohesive(_) => 2,
+            _ => 2,
         }] += 1;
         for state in case.solve(&settings()).certificate.states {
             seen[match state {

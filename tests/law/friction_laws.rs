@@ -500,7 +500,6 @@ fn defect(body: &Body<'_>, law: FrictionLaw<'_>, d: &[f64]) -> f64 {
             tension: if axes.is_some() { 0.0 } else { numbers[2] },
             axes,
             k: (entry(i, i), (trace + gap) / 2.0),
-            block,
         };
         let v = [d[i] - numbers.gap, d[i + 1] - slip[0], d[i + 2] - slip[1]];
         let mut p = [-force(i), -force(i + 1), -force(i + 2)];

@@ -29,8 +29,12 @@ impl Pair {
         // [k_n, c; c, B] is definite with |c|² < k_n times the least eigenvalue of B: its trace less the
         // largest one.
         let (k_n, k_t) = law.k;
-        let block = law.block;
-        let least = if dim == 2 { k_t } else { block[0][0] + block[1][1] - k_t };
+        let least = if dim == 2 { k_t } else { k_t * uniform(rng, 0.1, 1.0) };
+        let [x, y] = direction(rng, dim);
+        let block = [
+            [k_t * x * x + least * y * y, (k_t - least) * x * y],
+            [(k_t - least) * x * y, k_t * y * y + least * x * x],
+        ];
         let share = uniform(rng, 0.0, 0.95) * (k_n * least).sqrt();
         let coupling = direction(rng, dim).map(|c| share * c);
         let (mut d, mut force) = (vec![0.0; dim], vec![0.0; dim]);

@@ -11,6 +11,7 @@ mod auto_floating;
 mod bars;
 mod bricks_3d;
 mod direct_methods;
+mod ellipses;
 mod enumeration;
 mod escape_motion;
 mod far_gaps;

@@ -20,9 +20,7 @@ fn assert_solved(case: &Case, method: Method, context: &str) -> u64 {
     let most = match &case.law {
         Law::Coulomb(mu) => mu.iter().fold(1.0, |most: f64, mu| most.max(*mu)),
         Law::Tresca(_) => 1.0,
-        Law::Cohesive(numbers) => {
-            numbers.iter().step_by(3).fold(1.0, |most: f64, mu| most.max(*mu))
-        }
+        law => law.values().iter().step_by(3).fold(1.0, |most: f64, mu| most.max(*mu)),
     };
     let residual = eta(case, &solution.d);
     let allowed = TOLERANCE + most * rounding(case, &solution.d);

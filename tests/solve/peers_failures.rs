@@ -94,7 +94,7 @@ fn twice(case: &Case) -> Case {
         law: match &case.law {
             Law::Coulomb(mu) => Law::Coulomb(both(mu)),
             Law::Tresca(g) => Law::Tresca(both(&g.iter().map(|g| g / 2.0).collect::<Vec<f64>>())),
-            Law::Cohesive(_) => unreachable!("none of these problems has cohesion"),
+            _ => unreachable!("none of these problems has cohesion or an ellipse"),
         },
         slip: case.slip.as_ref().map(|slip| both(slip)),
         ..*case

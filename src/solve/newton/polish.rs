@@ -11,8 +11,7 @@
 use super::descent::{AIM, PATIENCE};
 use super::iteration::CHORD;
 use crate::certificate::eta_of;
-use crate::law::Piece;
-use crate::law::{Contact, Vector};
+use crate::law::{Contact, Linearised, Piece, Slopes};
 use crate::linalg::double_double::two_sum;
 use crate::linalg::tolerances::NULL_VECTOR;
 use crate::linalg::vector::{largest_of, norm_inf};
@@ -191,11 +190,10 @@ struct Newton<'e, 'm> {
     monitor: &'e Monitor<'m>,
 }
 
-/// A factor, with the coordinates and their pieces at which it was made.
+/// A factor, with the pieces at which it was made.
 struct CachedFactor<'e> {
     system: System<'e>,
     pieces: Vec<Piece>,
-    y: Vec<Vector>,
 }
 
 impl<'e, 'm> Newton<'e, 'm> {
@@ -222,16 +220,12 @@ impl<'e, 'm> Newton<'e, 'm> {
         }
         let mut lack = distance;
         equations.matrix.add_product(&change, &mut lack);
-        let kept = self.factor(pieces, y)?;
+        let pairs = equations.linearised(&pieces, &y);
+        let kept = self.factor(pieces, pairs)?;
         let (steps, _) = kept.system.step(&lack, 0.0)?;
-        let laws = equations.laws.iter().zip(&kept.pieces).zip(&kept.y);
-        for ((((law, &piece), y), dy), change) in laws.zip(&steps).zip(change.chunks_exact_mut(dim))
-        {
-            let derivative = law.derivative_on(piece, y);
-            let by: Vector = std::array::from_fn(|row| {
-                dy[row] - (0..dim).map(|column| derivative[row][column] * dy[column]).sum::<f64>()
-            });
-            let moved = law.displacement_by(&by);
+        let pairs = equations.laws.iter().zip(kept.system.pairs()).zip(&steps);
+        for (((law, pair), dy), change) in pairs.zip(change.chunks_exact_mut(dim)) {
+            let moved = law.displacement_by(&pair.moved(dy));
             change.iter_mut().zip(moved).for_each(|(change, moved)| *change += moved);
         }
         Some((change, kept.system.orientation()))
@@ -240,31 +234,37 @@ impl<'e, 'm> Newton<'e, 'm> {
     /// The kept factor if it serves at these coordinates, otherwise theirs if there is time for it. It serves on its pieces
     /// while each step leaves the part [`CHORD`] of `eta` at most, and where derivatives have changed by rounding only: in
     /// the plane they do not change.
-    fn factor(&mut self, pieces: Vec<Piece>, y: Vec<Vector>) -> Option<&mut CachedFactor<'e>> {
+    fn factor(
+        &mut self,
+        pieces: Vec<Piece>,
+        pairs: Vec<Linearised>,
+    ) -> Option<&mut CachedFactor<'e>> {
         let (equations, is_good) = (self.equations, self.is_good);
         let serves = |kept: &CachedFactor<'_>| {
-            kept.pieces == pieces && (is_good || is_same(equations, &pieces, [&kept.y, &y]))
+            kept.pieces == pieces && (is_good || are_same(kept.system.pairs(), &pairs))
         };
         if !self.kept.as_ref().is_some_and(serves) {
-            let pairs = equations.linearised(&pieces, &y);
             if !self.monitor.has_time_for(System::work(equations, &pairs)) {
                 self.is_stopped = true;
                 return None;
             }
             self.factorisations += 1;
             let system = System::new(equations, (pairs, 1.0), None, NULL_VECTOR, &mut || true)?;
-            self.kept = Some(CachedFactor { system, pieces, y });
+            self.kept = Some(CachedFactor { system, pieces });
         }
         self.kept.as_mut()
     }
 }
 
-/// True if the derivatives of the pieces are the same at two places up to rounding.
-fn is_same(equations: &Equations<'_>, pieces: &[Piece], y: [&[Vector]; 2]) -> bool {
-    let places = equations.laws.iter().zip(pieces).zip(y[0].iter().zip(y[1]));
-    let mut entries = places.flat_map(|((law, &piece), (one, other))| {
-        let [one, other] = [one, other].map(|y| law.derivative_on(piece, y));
+/// True if the derivatives of the pairs are the same at two places up to rounding.
+fn are_same(pairs: &[Linearised], others: &[Linearised]) -> bool {
+    let entries = |pair: &Linearised| {
+        let Slopes { drag, motion, .. } = pair.slopes;
+        [drag, motion[0], motion[1]]
+    };
+    let mut places = pairs.iter().zip(others).flat_map(|(one, other)| {
+        let (one, other) = (entries(one), entries(other));
         one.into_iter().flatten().zip(other.into_iter().flatten())
     });
-    entries.all(|(one, other)| (one - other).abs() <= 2.0 * ROUNDING_OF_ETA * one.abs().max(1.0))
+    places.all(|(one, other)| (one - other).abs() <= 2.0 * ROUNDING_OF_ETA * one.abs().max(1.0))
 }

@@ -68,10 +68,8 @@ impl<'a> System<'a> {
         let laws = equations.contact.pairs().iter();
         let mut pairs = Vec::with_capacity(point.y.len());
         for (at, (law, (y, &piece))) in laws.zip(point.y.iter().zip(&point.pieces)).enumerate() {
-            let derivative = law.derivative_on(piece, y);
-            let [_, [_, a, b], [_, c, d]] = derivative;
-            let curvature = law.curvature(&[[a, b], [c, d]]);
-            let on_piece = law.linearised_by(&derivative, piece.slips());
+            let on_piece = law.linearised(piece, y);
+            let curvature = on_piece.curvature();
             (0..dim).for_each(|c| held_set.held[dim * at + c] = !on_piece.moves(c));
             if on_piece.slips && has_springs {
                 held_set.springs[at] = symmetric(&curvature);

@@ -11,7 +11,7 @@ pub fn closed_with_margin(laws: &[PairLaw], y: &[Vector]) -> Vec<usize> {
     let closed = laws.iter().zip(y).filter(|(law, y)| law.piece(y).closed).count();
     let wanted = closed + (MARGIN * closed as f64).ceil() as usize + FEW;
     let mut order: Vec<usize> = (0..y.len()).filter(|&pair| laws[pair].has_obstacle()).collect();
-    let height = |pair: usize| y[pair][0] / laws[pair].normal_scale().sqrt();
+    let height = |pair: usize| y[pair][0] / laws[pair].scale()[0].sqrt();
     order.sort_by(|&a, &b| height(b).total_cmp(&height(a)));
     order.truncate(wanted);
     order.extend((0..y.len()).filter(|&pair| !laws[pair].is_free_when_open()));

@@ -213,7 +213,7 @@ impl<'e> Updated<'e> {
         for ((pair, y), root) in
             self.pairs.iter().zip(y.chunks_exact(2)).zip(self.equations.root.chunks_exact(2))
         {
-            let moved = pair.moved([y[0], y[1]]);
+            let moved = pair.moved(&[y[0], y[1], 0.0]);
             motion.extend(moved.iter().zip(root).map(|(moved, root)| moved / (root * root)));
         }
         motion

@@ -12,10 +12,10 @@
 //! Where `W` is singular and there are no springs, the system is damped: `ε D⁻¹ dP` is added, with an `ε` of the size of
 //! the lack, which is nothing at a solution.
 
-use crate::law::{Contact, PairBlock, PairLaw, Piece, Vector};
+use crate::law::{Contact, Linearised, PairLaw, Piece, Vector};
 use crate::linalg::factor::{Factor, lu_work};
 use crate::linalg::matrix::Matrix;
-use crate::linalg::vector::{NormSum, dot, norm};
+use crate::linalg::vector::{NormSum, norm};
 use crate::monitor::Monitor;
 use crate::problem::{Flexibility, Relation};
 use crate::solve::newton::{Goal, Halt, NewtonOutcome, NormalMap, descend};
@@ -162,13 +162,12 @@ impl<'c, 'p> OnFlexibility<'c, 'p> {
             step[j / dim][j % dim] = own * self.root[*j];
         }
         for &pair in &system.pairs {
-            let push = system.slopes[pair].map(|row| dot(&row, &step[pair]));
-            let forces = (0..dim).map(|c| (dim * pair + c, -push[c]));
+            let moved = system.slopes[pair].moved(&step[pair]);
+            let forces = (0..dim).map(|c| (dim * pair + c, moved[c] - step[pair][c]));
             add_products(&matrix, forces, &mut change);
         }
-        for (pair, law) in self.contact.pairs().iter().enumerate() {
+        for (pair, linear) in system.slopes.iter().enumerate() {
             if !system.pieces[pair].carries_force() {
-                let linear = law.linearised_by(&system.slopes[pair], true);
                 step[pair] = linear.scaled(&change[dim * pair..dim * (pair + 1)]);
             }
         }
@@ -182,8 +181,8 @@ struct System<'a> {
     pairs: Vec<usize>,
     /// Their components.
     unknowns: Vec<usize>,
-    /// `dP/dy` of all pairs.
-    slopes: Vec<PairBlock>,
+    /// All pairs on their pieces, to first order.
+    slopes: Vec<Linearised>,
     lack: &'a [f64],
 }
 
@@ -195,11 +194,11 @@ fn add_products(matrix: &Matrix<'_>, forces: impl Iterator<Item = (usize, f64)>,
 }
 
 /// Column `c` of `dP/dy`, and of `dd/dy`.
-fn column(law: &PairLaw, slopes: &PairBlock, c: usize) -> (Vector, Vector) {
-    let push = [slopes[0][c], slopes[1][c], slopes[2][c]];
-    let mut rest = push.map(|p| -p);
-    rest[c] += 1.0;
-    (push, law.displacement_by(&rest))
+fn column(law: &PairLaw, slopes: &Linearised, c: usize) -> (Vector, Vector) {
+    let mut unit = [0.0; 3];
+    unit[c] = 1.0;
+    let moved = slopes.moved(&unit);
+    (std::array::from_fn(|row| unit[row] - moved[row]), law.displacement_by(&moved))
 }
 
 impl NormalMap for OnFlexibility<'_, '_> {
@@ -235,8 +234,8 @@ impl NormalMap for OnFlexibility<'_, '_> {
         let (matrix, units) = (self.relation().matrix(), self.relation().units());
         let pieces: Vec<Piece> = laws.iter().zip(&point.y).map(|(law, y)| law.piece(y)).collect();
         let places = laws.iter().zip(&pieces).zip(&point.y);
-        let slopes: Vec<PairBlock> =
-            places.map(|((law, piece), y)| law.derivative_on(*piece, y)).collect();
+        let slopes: Vec<Linearised> =
+            places.map(|((law, piece), y)| law.linearised(*piece, y)).collect();
         let pairs: Vec<usize> =
             (0..laws.len()).filter(|&pair| pieces[pair].carries_force()).collect();
         let unknowns: Vec<usize> =
