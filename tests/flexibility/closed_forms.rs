@@ -202,6 +202,29 @@ fn definite_bodies_are_never_called_wedged() {
     println!("{failed} of 300 are not solved");
 }
 
+/// Three pairs of which each pulls half as much at both others as it gives itself, and by a part `e` of that more:
+/// pressed alike they give `-e` each, an eigenvalue below zero. With an interference of 1 at each, one or two of them
+/// cannot keep the third out, and all three can by tensions alone: there are no forces. Up to `e` of 1e-5 the first
+/// springs make the flexibility definite, and forces run away or do not settle; the message names the eigenvalue then,
+/// and as long as it is larger than rounding.
+#[test]
+fn a_negative_flexibility_is_named_where_no_forces_are_found() {
+    for e in [1e-8, 1e-7, 1e-6, 4e-6] {
+        for (mu, q) in [(0.0, [1.0, 1.0, 1.0]), (0.3, [1.0, 2.0, 3.0]), (1.0, [1.0, 2.0, 3.0])] {
+            let mut w = vec![0.0; 36];
+            for (i, j) in (0..3).flat_map(|i| (0..3).map(move |j| (i, j))) {
+                w[2 * i + 12 * j] = if i == j { 1.0 } else { -0.5 * (1.0 + e) };
+            }
+            (0..3).for_each(|i| w[(2 * i + 1) * 7] = 1.0);
+            let free = q.iter().flat_map(|q| [*q, 0.5]).collect();
+            let solution = Case::new(2, w, free, mu).solve();
+            assert_eq!(solution.status, Status::Stalled, "{e:e}: {}", solution.message);
+            let named = solution.message.contains("W is not positive semi-definite");
+            assert!(named, "{e:e}, mu {mu}: {}", solution.message);
+        }
+    }
+}
+
 /// Walls closer than the body, whatever the friction: no displacement keeps both gaps. The proof is two
 /// pressing forces that move nothing and meet gaps of negative sum.
 #[test]

@@ -13,6 +13,7 @@ mod fields;
 mod hertz;
 mod models;
 mod overlap;
+mod parts_of_faces;
 mod patch;
 mod quadrilaterals;
 mod reach;
