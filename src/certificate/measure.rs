@@ -311,8 +311,7 @@ impl Terms {
         }
         let mut each = part(&|size| size.min(limit));
         let inherent = norm(&each);
-        // Not finite where a displacement is not: nothing is certified then.
-        let mut rest = if inherent.is_finite() { 0.0 } else { f64::INFINITY };
+        let mut rest = 0.0;
         if !all.iter().all(|d| d.abs() <= limit) {
             let above = part(&|size| size - size.min(limit));
             each.iter_mut().zip(&above).for_each(|(each, above)| *each += above);

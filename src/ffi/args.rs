@@ -287,3 +287,19 @@ pub(super) fn sizes(first: i32, dim: i32, pairs: i64) -> Result<(usize, usize, u
     let pairs = size(first + 1, "pairs", pairs)?;
     Ok((dim, pairs, problem::unknowns(dim, pairs).map_err(from_error)?))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The language has no memory of more than half of all addresses: a length beyond is a mistake of the host.
+    #[test]
+    fn no_array_is_longer_than_half_of_all_addresses() {
+        // SAFETY: nothing is read.
+        let mut arrays = unsafe { Arrays::of_call() };
+        let most = isize::MAX as usize / size_of::<f64>();
+        for (length, exists) in [(most, true), (most + 1, false)] {
+            assert_eq!(arrays.note(1, "x", &1.0_f64, length, false).is_ok(), exists);
+        }
+    }
+}

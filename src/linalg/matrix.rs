@@ -279,6 +279,12 @@ mod tests {
         }
     }
 
+    /// 2^30 rows of as many doubles are 2^63 bytes, one more than the language has for an array.
+    #[test]
+    fn no_matrix_is_larger_than_half_of_all_addresses() {
+        assert!(can_exist((1 << 30) - 1) && !can_exist(1 << 30) && !can_exist(usize::MAX));
+    }
+
     /// Powers of two are no rounding: scaled data give scaled bits, from small numbers to large ones.
     #[test]
     fn residuals_scale_with_their_data() {

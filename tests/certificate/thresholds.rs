@@ -42,6 +42,26 @@ fn a_body_that_rounding_alone_holds_is_not_certified() {
     }
 }
 
+/// No displacement that is infinite, or no number, is a solution, loaded or not: beside an interference that is nearly
+/// as large as numbers are, and with any tolerance.
+#[test]
+fn no_infinite_displacement_is_certified() {
+    for gap in [[-1e306, f64::INFINITY], [0.0, -1.0], [f64::INFINITY; 2]] {
+        for load in [[0.0; 2], [1.0, 0.0], [0.0, -1.0]] {
+            let case = coupled([1.0, -1.0, 1.0], load, gap);
+            for (at, wrong) in (0..4).flat_map(|at| {
+                [f64::INFINITY, f64::NEG_INFINITY, f64::NAN].map(|wrong| (at, wrong))
+            }) {
+                let mut d = [0.0, 0.0, gap[0].max(-1e306).min(0.0), 0.0];
+                d[0] = d[2];
+                d[at] = wrong;
+                let certificate = certify(&case.problem(), &d);
+                assert!(!certificate.holds(f64::MAX), "{case:?} {d:?}: {certificate:?}");
+            }
+        }
+    }
+}
+
 /// An interference of 1 pushes a rigid body aside that nothing else holds or loads: no force acts, and
 /// rounding of the displacement has nothing to be compared with.
 #[test]

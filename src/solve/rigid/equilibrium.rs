@@ -183,16 +183,17 @@ impl<'c, R: Relation> Balance<'c, R> {
         if part.is_finite() && nearest(&lifted) < nearest(&motion) { lifted } else { motion }
     }
 
-    /// The motion nearest to `-1` in the normal components, and to no slip in those tangential ones that make
-    /// a pair approach, by least squares; `None` if none has any.
+    /// The motion nearest to `-1` in the normal components of pairs with an obstacle, and to no slip in those tangential
+    /// ones that make such a pair approach, by least squares; `None` if none has any.
     fn lift(&self) -> Option<Vec<f64>> {
         let dim = self.contact.dim();
-        // Each component adds so much to the approach of its pair.
-        let weight = |i: usize| match i % dim {
-            0 => 1.0,
-            _ => {
-                self.contact.pairs()[i / dim].bound().slope * self.motions.root[i - i % dim]
-                    / self.motions.root[i]
+        // Each component adds so much to the approach of its pair; a pair without an obstacle approaches none.
+        let weight = |i: usize| {
+            let law = &self.contact.pairs()[i / dim];
+            match (law.has_obstacle(), i % dim) {
+                (false, _) => 0.0,
+                (true, 0) => 1.0,
+                _ => law.bound().slope * self.motions.root[i - i % dim] / self.motions.root[i],
             }
         };
         let weights: Vec<f64> = (0..self.motions.root.len()).map(weight).collect();
