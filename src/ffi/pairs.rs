@@ -55,7 +55,7 @@ pub struct SignoriniPairs {
 // SAFETY: led by its size; numbers and pointers.
 unsafe impl Structure for SignoriniPairs {
     // Without general rows.
-    const OLDEST: usize = offset_of!(Self, row_start);
+    const OLDER: Option<usize> = Some(offset_of!(Self, row_start));
 }
 
 impl SignoriniPairs {
