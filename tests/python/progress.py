@@ -56,6 +56,19 @@ class Progress(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "order has the shape"):
             make(order=[0])
 
+    def test_models_of_dense_matrices_have_limits(self):
+        K = chain()[0]
+        for make in (signorini.Model.condensed,
+                     lambda K, **more: signorini.Model.two_body(K, K, **more)):
+            told = []
+            make(K, progress=lambda now: told.append(now))
+            self.assertGreater(told[0].memory, K.nbytes)
+            for more, status in (({"progress": lambda now: True}, signorini.Status.CANCELLED),
+                                 ({"memory_limit": 1000}, signorini.Status.MEMORY_LIMIT)):
+                with self.assertRaises(signorini.SignoriniError) as caught:
+                    make(K, **more)
+                self.assertIs(caught.exception.status, status)
+
     def test_exceptions_cancel_and_go_on(self):
         def fail(_):
             calls.append(1)
