@@ -13,8 +13,8 @@
 //! much: up to 225 pairs the elimination is a tenth to a third of the path's time, and about half of the systems
 //! follow a boundary; the products with the stiffness in corrections take the most.
 
-use super::homotopy::{Direction, Homotopy, PathPoint, Value};
-use crate::law::{Boundary, Piece};
+use super::homotopy::{Homotopy, PathPoint, Value};
+use crate::law::{Boundary, Piece, Vector};
 use crate::linalg::tolerances::SINGULAR;
 use crate::monitor::Monitor;
 use crate::solve::pieces::{Border, System};
@@ -52,17 +52,11 @@ const LEAST_SYSTEMS: usize = 1500;
 /// accepts: the curve runs away.
 const AWAY: f64 = 1e11;
 
-/// How closely a curve is followed.
-#[derive(Clone, Copy)]
-pub struct Care {
-    /// Most distance from the predicted place, relative to the step.
-    pub deviation: f64,
-}
-
 /// A curve on the way from `s = 0` to `s = 1`.
 pub struct Curve<'h> {
     homotopy: &'h Homotopy<'h>,
-    care: Care,
+    /// Most distance from the predicted place, relative to the step.
+    deviation: f64,
     pieces: Vec<Piece>,
     place: PathPoint,
     /// Linear systems so far.
@@ -72,13 +66,13 @@ pub struct Curve<'h> {
 /// The system at a place, with the unit tangent of the curve.
 struct Local<'h> {
     system: System<'h>,
-    tangent: Direction,
+    tangent: PathPoint,
 }
 
 /// The one condition beside `H = 0`: `normal . X = value`.
 enum Condition {
     /// The plane across the tangent through a predicted place.
-    Plane { normal: Direction, through: PathPoint },
+    Plane { normal: PathPoint, through: PathPoint },
     /// The boundary of a pair.
     Boundary { pair: usize, boundary: Boundary },
     /// The end, `s = 1`.
@@ -96,9 +90,9 @@ struct Advance {
 
 impl<'h> Curve<'h> {
     /// The curve that begins at `start`, the base of the homotopy.
-    pub fn new(homotopy: &'h Homotopy<'h>, start: PathPoint, care: Care) -> Self {
-        let pieces = homotopy.equations.pieces(&start.y);
-        Curve { homotopy, care, pieces, place: start, systems: 0 }
+    pub fn new(homotopy: &'h Homotopy<'h>, start: Vec<Vector>, deviation: f64) -> Self {
+        let pieces = homotopy.equations.pieces(&start);
+        Curve { homotopy, deviation, pieces, place: PathPoint { y: start, s: 0.0 }, systems: 0 }
     }
 
     /// Where the curve is.
@@ -110,11 +104,11 @@ impl<'h> Curve<'h> {
     pub fn follow(&mut self, monitor: &mut Monitor<'_>) -> Result<(), Ending> {
         let pairs = self.pieces.len();
         let most = LEAST_SYSTEMS.max(SYSTEMS_PER_PAIR * pairs) as u64;
-        let mut border = Direction { y: vec![[0.0; 3]; pairs], s: 1.0 };
+        let mut border = PathPoint::of_s(pairs);
         let mut step = f64::INFINITY;
         while self.systems <= most {
             let mut local = self.local(&border, monitor)?;
-            let size = 1.0 + self.size_of(&self.place);
+            let size = 1.0 + self.homotopy.norm(&self.place);
             let Advance { place, condition, length } =
                 self.advance(&mut local, step.min(LONGEST * size), monitor)?;
             self.place = place;
@@ -123,7 +117,7 @@ impl<'h> Curve<'h> {
                 Condition::End => return Ok(()),
                 Condition::Plane { .. } => step = 2.0 * length,
                 Condition::Boundary { pair, boundary } => {
-                    border = self.normal_of(pair, boundary);
+                    border = self.miss(&condition, &self.place).1;
                     self.pieces[pair] =
                         self.homotopy.equations.laws[pair].across(self.pieces[pair], boundary);
                     step = step.min(LONGEST * size).max(AFTER_BOUNDARY * size);
@@ -160,7 +154,7 @@ impl<'h> Curve<'h> {
             let crossed = (length == leave).then_some((pair, boundary));
             if let Some(place) = self.correct(local, predicted.clone(), &condition, monitor)? {
                 let deviation = self.homotopy.norm(&predicted.to(&place));
-                let most = self.care.deviation * reach * length.max(ROUNDING_OF_PLACE);
+                let most = self.deviation * reach * length.max(ROUNDING_OF_PLACE);
                 if deviation <= most && self.is_inside(&place, crossed) {
                     return Ok(Advance { place, condition, length });
                 }
@@ -173,7 +167,7 @@ impl<'h> Curve<'h> {
     /// Factorises at the place of the curve with the border `normal`, and finds the tangent.
     fn local(
         &mut self,
-        border: &Direction,
+        border: &PathPoint,
         monitor: &mut Monitor<'_>,
     ) -> Result<Local<'h>, Ending> {
         let value = self.homotopy.value(&self.pieces, &self.place);
@@ -188,7 +182,7 @@ impl<'h> Curve<'h> {
         &mut self,
         place: &PathPoint,
         value: &Value,
-        border: &Direction,
+        border: &PathPoint,
         monitor: &mut Monitor<'_>,
     ) -> Result<Option<Local<'h>>, Ending> {
         monitor.step().map_err(Ending::Stopped)?;
@@ -206,7 +200,7 @@ impl<'h> Curve<'h> {
         let system = System::new(equations, pairs, Some(&border), SINGULAR, asking);
         let Some(mut system) = system else { return Ok(None) };
         let Some((y, s)) = system.step(&vec![0.0; value.lack.len()], 1.0) else { return Ok(None) };
-        let mut tangent = Direction { y, s };
+        let mut tangent = PathPoint { y, s };
         let length = self.homotopy.norm(&tangent);
         tangent.scale(f64::from(system.orientation()) / length);
         Ok(Some(Local { system, tangent }))
@@ -247,7 +241,7 @@ impl<'h> Curve<'h> {
             before = now;
             let local = fresh.as_mut().unwrap_or(local);
             let Some((y, s)) = local.system.step(&value.lack, 0.0) else { return Ok(None) };
-            let z = Direction { y, s };
+            let z = PathPoint { y, s };
             let along = normal.apply(&local.tangent);
             let part = (-miss - normal.apply(&z)) / along;
             if !part.is_finite() {
@@ -259,7 +253,7 @@ impl<'h> Curve<'h> {
     }
 
     /// By how much a place misses a condition, and the condition's coefficients.
-    fn miss(&self, condition: &Condition, place: &PathPoint) -> (f64, Direction) {
+    fn miss(&self, condition: &Condition, place: &PathPoint) -> (f64, PathPoint) {
         match condition {
             Condition::Plane { normal, through } => {
                 (normal.apply(&through.to(place)), normal.clone())
@@ -271,21 +265,14 @@ impl<'h> Curve<'h> {
                 let unit = self.unit_of(*pair, *boundary);
                 let mut y = vec![[0.0; 3]; place.y.len()];
                 y[*pair] = gradient.map(|g| g / unit);
-                (value / unit, Direction { y, s: 0.0 })
+                (value / unit, PathPoint { y, s: 0.0 })
             }
-            Condition::End => {
-                (place.s - 1.0, Direction { y: vec![[0.0; 3]; place.y.len()], s: 1.0 })
-            }
+            Condition::End => (place.s - 1.0, PathPoint::of_s(place.y.len())),
         }
     }
 
-    /// The normal of a boundary at the place of the curve.
-    fn normal_of(&self, pair: usize, boundary: Boundary) -> Direction {
-        self.miss(&Condition::Boundary { pair, boundary }, &self.place).1
-    }
-
     /// The nearest boundary along a direction: how far, of which pair, which.
-    fn exit(&self, tangent: &Direction) -> (f64, usize, Boundary) {
+    fn exit(&self, tangent: &PathPoint) -> (f64, usize, Boundary) {
         let mut nearest = (f64::INFINITY, 0, Boundary::Contact);
         for (pair, law) in self.homotopy.equations.laws.iter().enumerate() {
             for boundary in [Boundary::Contact, Boundary::Slip] {
@@ -322,10 +309,5 @@ impl<'h> Curve<'h> {
                 Boundary::Slip => 1,
             };
         self.homotopy.equations.root[component] * self.homotopy.size
-    }
-
-    /// Length of a place in units of the homotopy.
-    fn size_of(&self, place: &PathPoint) -> f64 {
-        self.homotopy.norm(&Direction { y: place.y.clone(), s: place.s })
     }
 }

@@ -1,7 +1,7 @@
 //! The path in space: from any start, several starts in turn.
 
-use super::curve::{Care, Curve};
-use super::homotopy::{Homotopy, PathPoint};
+use super::curve::Curve;
+use super::homotopy::Homotopy;
 use crate::counters::count;
 use crate::law::{Contact, Vector};
 use crate::linalg::perturbation::Perturbation;
@@ -16,9 +16,8 @@ use crate::solve::rigid::{self, without_idle_motion};
 /// start no two pairs reach their boundaries at once.
 pub const PERTURBATION: f64 = 1e-7;
 
-/// How closely curves are followed, first and where that has failed.
-const EASY: Care = Care { deviation: 0.3 };
-const CAREFUL: Care = Care { deviation: 0.1 };
+/// How far from the predicted place a curve may be, relative to the step: first and where that has failed.
+const DEVIATIONS: [f64; 2] = [0.3, 0.1];
 
 /// Starts of a search for other solutions.
 const SEARCHED: u64 = 10;
@@ -55,7 +54,7 @@ pub fn ends(
         }
         let start = perturbed(&equations, &none, 1.0, seed);
         let newton = newton_from(&equations, start.clone(), settings.tolerance, monitor);
-        let path = follow(&equations, start, CAREFUL, settings.tolerance, monitor);
+        let path = follow(&equations, start, DEVIATIONS[1], settings.tolerance, monitor);
         ends.extend([newton, path].into_iter().filter(|end| end.ending == Ending::Done));
     }
     ends.into_iter().map(Ended::into_candidate).collect()
@@ -71,10 +70,11 @@ fn from(
     let mut systems = 0;
     let mut best: Option<Ended> = None;
     let none = vec![[0.0; 3]; y.len()];
-    let starts = [(&y, EASY), (&none, EASY), (&y, CAREFUL)];
-    for (attempt, (start, care)) in starts.into_iter().enumerate() {
+    let [easy, careful] = DEVIATIONS;
+    let starts = [(&y, easy), (&none, easy), (&y, careful)];
+    for (attempt, (start, deviation)) in starts.into_iter().enumerate() {
         let start = perturbed(equations, start, PERTURBATION, attempt as u64);
-        let ended = follow(equations, start, care, settings.tolerance, monitor);
+        let ended = follow(equations, start, deviation, settings.tolerance, monitor);
         systems += ended.systems;
         // A path ends with the orientation of its beginning, +1: with another one it has changed curves.
         let settled = match ended.ending {
@@ -123,12 +123,12 @@ fn is_solution(
 fn follow(
     equations: &Equations<'_>,
     start: Vec<Vector>,
-    care: Care,
+    deviation: f64,
     tolerance: f64,
     monitor: &mut Monitor<'_>,
 ) -> Ended {
     let homotopy = Homotopy::new(equations, &start);
-    let mut curve = Curve::new(&homotopy, PathPoint { y: start, s: 0.0 }, care);
+    let mut curve = Curve::new(&homotopy, start, deviation);
     let mut ended = match curve.follow(monitor) {
         Ok(()) => newton_from(equations, curve.place().y.clone(), tolerance, monitor),
         Err(ending) => {

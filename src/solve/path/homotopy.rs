@@ -15,7 +15,7 @@ pub struct Homotopy<'e> {
     pub size: f64,
 }
 
-/// A point of the curve, or near it.
+/// A point of the curve or near it; a direction; or the coefficients of a function of directions.
 #[derive(Clone)]
 pub struct PathPoint {
     pub y: Vec<Vector>,
@@ -70,34 +70,14 @@ impl<'e> Homotopy<'e> {
     }
 }
 
-/// A direction in the space of places, with coordinates in units of the homotopy's size and `s`.
-#[derive(Clone)]
-pub struct Direction {
-    pub y: Vec<Vector>,
-    pub s: f64,
-}
-
 impl Homotopy<'_> {
-    /// Inner product of directions.
-    pub fn product(&self, a: &Direction, b: &Direction) -> f64 {
-        let mut sum = a.s * b.s;
-        let dim = self.equations.dim;
-        for (at, (a, b)) in a.y.iter().zip(&b.y).enumerate() {
-            for c in 0..dim {
-                let unit = self.equations.root[dim * at + c] * self.size;
-                sum += (a[c] / unit) * (b[c] / unit);
-            }
-        }
-        sum
+    /// Length of a point or direction, with coordinates in units of the homotopy's size and `s`.
+    pub fn norm(&self, a: &PathPoint) -> f64 {
+        self.dual(a).apply(a).sqrt()
     }
 
-    /// Length of a direction.
-    pub fn norm(&self, a: &Direction) -> f64 {
-        self.product(a, a).sqrt()
-    }
-
-    /// The coefficients of `product(a, .)`.
-    pub fn dual(&self, a: &Direction) -> Direction {
+    /// The coefficients of the inner product with `a`, in the same units.
+    pub fn dual(&self, a: &PathPoint) -> PathPoint {
         let dim = self.equations.dim;
         let mut dual = a.clone();
         for (at, y) in dual.y.iter_mut().enumerate() {
@@ -110,30 +90,31 @@ impl Homotopy<'_> {
 }
 
 impl PathPoint {
+    /// The coefficient of `s`.
+    pub fn of_s(pairs: usize) -> Self {
+        PathPoint { y: vec![[0.0; 3]; pairs], s: 1.0 }
+    }
+
     /// The place `q` along a direction.
-    pub fn along(&self, direction: &Direction, q: f64) -> PathPoint {
+    pub fn along(&self, direction: &PathPoint, q: f64) -> Self {
         let y = self.y.iter().zip(&direction.y);
         let y = y.map(|(y, t)| std::array::from_fn(|c| y[c] + q * t[c])).collect();
         PathPoint { y, s: self.s + q * direction.s }
     }
 
     /// The direction from here to another place.
-    pub fn to(&self, other: &PathPoint) -> Direction {
-        let y = self.y.iter().zip(&other.y);
-        let y = y.map(|(a, b)| std::array::from_fn(|c| b[c] - a[c])).collect();
-        Direction { y, s: other.s - self.s }
+    pub fn to(&self, other: &PathPoint) -> Self {
+        other.along(self, -1.0)
     }
-}
 
-impl Direction {
     /// Multiplies by a number.
     pub fn scale(&mut self, by: f64) {
         self.s *= by;
         self.y.iter_mut().flatten().for_each(|y| *y *= by);
     }
 
-    /// The value of a dual, of which `self` holds the coefficients, at a direction.
-    pub fn apply(&self, other: &Direction) -> f64 {
+    /// The value of a function, of which `self` holds the coefficients, at a direction.
+    pub fn apply(&self, other: &PathPoint) -> f64 {
         let y = self.y.iter().zip(&other.y);
         self.s * other.s + y.map(|(a, b)| dot(a, b)).sum::<f64>()
     }

@@ -79,20 +79,16 @@
 //! several are tried, after more and more sweeps: by theorem I without its premise. Then walks on all pairs, from
 //! where those in question have come to: from swept starts and from sure ones, H, which take about one event a pair; at
 //! last, if rounding spoils them, from all pairs pressed on their obstacles, with factorisations at nearly every event
-//! (`linear_attempts`). Starts are moved at random by 1e-7 of the loads, always by
+//! (`linear_start`). Starts are moved at random by 1e-7 of the loads, always by
 //! the same numbers: symmetric meshes have ties. At `s = 1` nothing is left of that, and Newton's method refines from
 //! the pieces found there.
 //!
 //! *Limits.* The number of events is not bounded by a polynomial.
 
-use super::linear_attempts::{
-    ATTEMPTS, Attempt, FIRST_ON_UNCERTAIN_PAIRS, LAST, ON_UNCERTAIN_PAIRS, Start,
-};
-use super::linear_start::Starts;
-use super::linear_walk::{PathProblem, Walk, WalkEnd};
+use super::linear_start::{ATTEMPTS, Attempt, ON_UNCERTAIN_PAIRS, Starts, with_given_thresholds};
+use super::linear_walk::{Walk, WalkEnd};
 use crate::counters::count;
-use crate::law::{Contact, Planar};
-use crate::linalg::perturbation::Perturbation;
+use crate::law::Contact;
 use crate::monitor::Monitor;
 use crate::settings::Settings;
 use crate::solve::newton::{PartOutcome, from_pieces, solve_part};
@@ -103,9 +99,6 @@ use crate::solve::rigid;
 /// Why there is no solution.
 const LOST: &str = "the path does not arrive";
 
-/// Sweeps before the first of these, where none is made before.
-const SWEEPS_OF_SURE: usize = 100;
-
 /// Solves a problem in the plane, from the displacements `start` (zero if `None`). An iteration is an
 /// event: a pair that passes from one piece to the next.
 pub fn linear(
@@ -114,17 +107,14 @@ pub fn linear(
     start: Option<&[f64]>,
     monitor: &mut Monitor<'_>,
 ) -> Candidate {
-    if contact.is_coupled() {
-        return match on_uncertain_pairs(contact, settings, start, monitor) {
-            Ok(candidate) if candidate.is_settled(contact, settings.tolerance) => candidate,
-            Ok(candidate) => solve(contact, settings, Some(candidate.d()), &ATTEMPTS, monitor),
-            Err(d) => solve(contact, settings, Some(&d), &ATTEMPTS, monitor),
-        };
+    if !contact.is_coupled() {
+        return solve(contact, settings, start, with_given_thresholds(), monitor);
     }
-    // With given thresholds every start is sure.
-    let mut attempts = ATTEMPTS[LAST..].to_vec();
-    attempts[0].sweeps = SWEEPS_OF_SURE;
-    solve(contact, settings, start, &attempts, monitor)
+    match on_uncertain_pairs(contact, settings, start, monitor) {
+        Ok(candidate) if candidate.is_settled(contact, settings.tolerance) => candidate,
+        Ok(candidate) => solve(contact, settings, Some(candidate.d()), &ATTEMPTS, monitor),
+        Err(d) => solve(contact, settings, Some(&d), &ATTEMPTS, monitor),
+    }
 }
 
 /// Solves by walks on the pairs in question. `Err`: these are not few, or no walk arrives; how far the
@@ -137,7 +127,7 @@ fn on_uncertain_pairs(
 ) -> Result<Candidate, Vec<f64>> {
     let zero = || vec![0.0; contact.unknowns()];
     let d = start.map_or_else(zero, <[f64]>::to_vec);
-    let mut skipped = FIRST_ON_UNCERTAIN_PAIRS;
+    let mut skipped = 1;
     let mut core = |part: &Contact<'_>, d: &[f64], monitor: &mut Monitor<'_>| {
         let attempts = &ON_UNCERTAIN_PAIRS[std::mem::take(&mut skipped)..];
         solve(part, settings, Some(d), attempts, monitor)
@@ -161,27 +151,24 @@ fn solve(
     attempts: &[Attempt],
     monitor: &mut Monitor<'_>,
 ) -> Candidate {
-    let root = contact.problem().unit_roots();
-    let mut starts = Starts::new(contact, &root, start);
-    let load = starts.load.clone();
     let equations = Equations::of(contact);
-    let problem =
-        PathProblem { contact, equations: &equations, root: &root, load: &load, size: starts.size };
-    let mut random = Perturbation::new(0);
+    // r = f - K (gap, slip0): the loads on the body that touches all its obstacles.
+    let reference: Vec<f64> =
+        contact.pairs().iter().flat_map(|law| law.reference()[..2].to_vec()).collect();
+    let load: Vec<f64> = equations.force(&reference).iter().map(|force| -force).collect();
+    let mut starts = Starts::new(contact, &equations.root, equations.length(&load), start);
     let mut best = Candidate::without_displacements(contact, Ending::Stalled(LOST));
     let mut effort = Effort::default();
-    for (number, attempt) in attempts.iter().enumerate() {
-        starts.sweep(contact, attempt.sweeps, monitor);
-        let y: Vec<Planar> = match attempt.start {
-            Start::Swept => starts.swept(contact, &mut random),
-            Start::Sure => starts.sure(contact, &mut random),
-            Start::Pressed => starts.pressed(contact, &root, &mut random),
+    for (number, &attempt) in attempts.iter().enumerate() {
+        let y = starts.next(attempt, monitor);
+        let mut walk = match Walk::new(&equations, &load, &y, monitor) {
+            Ok(walk) => walk,
+            Err(WalkEnd::Stopped(stop)) => {
+                best.ending = Ending::Stopped(stop);
+                break;
+            }
+            Err(_) => continue,
         };
-        if let Err(stop) = monitor.affords(Walk::work(&problem, &y)) {
-            best.ending = Ending::Stopped(stop);
-            break;
-        }
-        let Some(mut walk) = Walk::new(&problem, &y, &mut monitor.asking()) else { continue };
         let end = walk.follow(attempt.rules(y.len()), monitor);
         let mut candidate = ended(contact, settings, &walk, end, monitor);
         effort.factorisations += walk.factorisations + candidate.effort.factorisations;
@@ -195,8 +182,7 @@ fn solve(
         if settled {
             return candidate;
         }
-        let eta = |candidate: &Candidate| candidate.certificate(contact).eta;
-        if eta(&candidate) < eta(&best) {
+        if candidate.certificate(contact).eta < best.certificate(contact).eta {
             best = candidate;
         }
         best.effort = effort;
@@ -232,6 +218,7 @@ fn ended(
 mod tests {
     use super::*;
     use crate::problem::{ContactData, ContactProblem, FrictionLaw};
+    use crate::solve::path::linear_start::Start;
 
     /// `B Bᵀ` and a part of the identity, so that no two columns are alike: definite, of a condition
     /// about 1e4 at the least part.

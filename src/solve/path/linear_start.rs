@@ -1,95 +1,158 @@
-//! Where the linear path starts: coordinates after some sweeps, moved by a little at random so that no
-//! two pairs change at once.
+//! The walks along the linear path that are tried, in turn, and where they start: at coordinates after some sweeps,
+//! moved by a little at random so that no two pairs change at once.
 
 use super::curved::PERTURBATION;
+use super::linear_walk::Rules;
 use crate::law::{Contact, PairLaw, Planar};
 use crate::linalg::perturbation::Perturbation;
-use crate::linalg::vector::NormSum;
 use crate::monitor::Monitor;
 use crate::solve::sweeps::Sweeper;
 
-/// The start, its randomness, and the loads of the problem.
-pub struct Starts {
-    /// `r = f - K (gap, slip0)`: the loads on the body that touches all its obstacles.
-    pub load: Vec<f64>,
-    /// Displacements after the sweeps, and their force; at first those of the start, which may break the law.
-    swept: (Vec<f64>, Vec<f64>),
-    /// Size of the random part of each component.
-    unit: Vec<f64>,
-    /// Size of all forces, each in the unit that its diagonal entry of `K` gives it.
-    pub size: f64,
+/// Events that any walk may take.
+const LEAST: usize = 100;
+
+/// Events of a walk from the swept start, for each pair: on the hard families with 513 and 1025 pairs most of those that
+/// arrive take fewer.
+const SHORT: f64 = 0.5;
+
+/// Events of a walk from a sure start, for each pair, at first: after a hundred sweeps and more most take between 0.6 and
+/// 1.2, and others more than 4.
+const SURE: f64 = 1.2;
+
+/// Events of a walk that no other kind of start follows.
+const LONG: f64 = 10.0;
+
+/// Changes after which a system is factorised again, at least and for each pair: a factorisation then costs about as
+/// much as the changes.
+const LEAST_AGE: usize = 60;
+const AGE: f64 = 0.3;
+
+/// Changes after which a system is factorised again where rounding has spoilt a walk.
+const CAREFUL_AGE: usize = 4;
+
+/// The start of a walk.
+#[derive(Clone, Copy, PartialEq)]
+pub enum Start {
+    /// The coordinates after the sweeps; without any those of the given displacements, as far as the law has some.
+    Swept,
+    /// Sure coordinates: no others share their loads.
+    Sure,
+    /// Coordinates of pairs that are pressed on their obstacles and stick.
+    Pressed,
 }
 
-impl Starts {
-    /// Begins at the displacements `start` (zero if `None`).
-    pub fn new(contact: &Contact<'_>, root: &[f64], start: Option<&[f64]>) -> Self {
-        let zero = || vec![0.0; contact.unknowns()];
-        let d = start.map_or_else(zero, <[f64]>::to_vec);
-        let force = contact.problem().force(&d);
-        let reference: Vec<f64> =
-            contact.pairs().iter().flat_map(|law| law.reference()[..2].to_vec()).collect();
-        let load: Vec<f64> =
-            contact.problem().force(&reference).iter().map(|force| -force).collect();
-        let mut size = NormSum::default();
-        load.iter().zip(root).for_each(|(load, root)| size.add(load / root));
-        let size = size.root();
-        let part = PERTURBATION * size / (root.len() as f64).sqrt();
-        Starts {
-            load,
-            swept: (d, force),
-            unit: root.iter().map(|root| part * root).collect(),
-            size,
-        }
+/// A walk that is tried.
+#[derive(Clone, Copy)]
+pub struct Attempt {
+    /// Sweeps before it, beside those of earlier ones.
+    pub sweeps: usize,
+    pub start: Start,
+    /// Events after which it is given up, for each pair.
+    pub events: f64,
+    /// True if rounding has spoilt the walks before.
+    pub careful: bool,
+}
+
+impl Attempt {
+    /// How far the walk may go with so many pairs.
+    pub fn rules(&self, pairs: usize) -> Rules {
+        let of = |part: f64| (part * pairs as f64) as usize;
+        let age = if self.careful { CAREFUL_AGE } else { LEAST_AGE.max(of(AGE)) };
+        Rules { most: LEAST.max(of(self.events)), age }
+    }
+}
+
+/// A walk that rounding has not spoilt.
+const fn walk(sweeps: usize, start: Start, events: f64) -> Attempt {
+    Attempt { sweeps, start, events, careful: false }
+}
+
+/// Walks on all pairs, from the best iterate of Newton's method or from the end of walks on the pairs in question. The
+/// length of a walk varies much with the sweeps before it, and the next one may be ten times as long: short walks from
+/// several starts end sooner than a long one. `cargo bench --features counters --bench mechanisms` counts which decide.
+pub const ATTEMPTS: [Attempt; 6] = [
+    walk(0, Start::Swept, SHORT),
+    walk(30, Start::Swept, SHORT),
+    walk(70, Start::Swept, SHORT),
+    walk(100, Start::Sure, SURE),
+    walk(300, Start::Sure, LONG),
+    Attempt { sweeps: 0, start: Start::Pressed, events: LONG, careful: true },
+];
+
+/// Walks where thresholds are given, so that every start is sure.
+pub fn with_given_thresholds() -> &'static [Attempt] {
+    let first = ATTEMPTS.iter().position(|attempt| attempt.start == Start::Sure);
+    &ATTEMPTS[first.unwrap_or(0)..]
+}
+
+/// Walks on the pairs in question, where an event costs less than on all: so a sure start is the last one. The first is
+/// left out where no fewer pairs have been solved: without sweeps on these pairs few walks arrive.
+pub const ON_UNCERTAIN_PAIRS: [Attempt; 3] =
+    [walk(0, Start::Swept, SHORT), walk(50, Start::Swept, SHORT), walk(50, Start::Sure, LONG)];
+
+/// How much the forces of [`Start::Pressed`] differ.
+const VARIED: f64 = 0.1;
+
+/// The sweeps before the walks, and their randomness.
+pub struct Starts<'p> {
+    contact: &'p Contact<'p>,
+    root: &'p [f64],
+    /// Displacements after the sweeps, and their force; at first those of the start, which may break the law.
+    d: Vec<f64>,
+    force: Vec<f64>,
+    /// Mean size of the loads, in the unit that its diagonal entry of `K` gives each.
+    mean: f64,
+    random: Perturbation,
+}
+
+impl<'p> Starts<'p> {
+    /// Begins at the displacements `start` (zero if `None`); `size` is the length of the loads, `root` gives the units.
+    pub fn new(
+        contact: &'p Contact<'p>,
+        root: &'p [f64],
+        size: f64,
+        start: Option<&[f64]>,
+    ) -> Self {
+        let d = start.map_or_else(|| vec![0.0; contact.unknowns()], <[f64]>::to_vec);
+        let (force, mean) = (contact.problem().force(&d), size / (root.len() as f64).sqrt());
+        Starts { contact, root, d, force, mean, random: Perturbation::new(0) }
     }
 
-    /// Sweeps on while there is time.
-    pub fn sweep(&mut self, contact: &Contact<'_>, sweeps: usize, monitor: &Monitor<'_>) {
-        let (sweeper, (d, force)) = (Sweeper::new(), &mut self.swept);
-        if sweeps > 0 {
-            *d = contact.admissible(d);
-            *force = contact.problem().force(d);
+    /// Sweeps on while there is time; then the coordinates at which a walk starts.
+    pub fn next(&mut self, attempt: Attempt, monitor: &Monitor<'_>) -> Vec<Planar> {
+        let sweeper = Sweeper::new();
+        if attempt.sweeps > 0 {
+            self.d = self.contact.admissible(&self.d);
+            self.force = self.contact.problem().force(&self.d);
         }
-        for _ in 0..sweeps {
+        for _ in 0..attempt.sweeps {
             if monitor.is_late() {
-                return;
+                break;
             }
-            sweeper.sweep(contact, (&mut *d, &mut *force), 1.0);
+            sweeper.sweep(self.contact, (&mut self.d, &mut self.force), 1.0);
         }
+        let swept = self.swept();
+        let pairs = self.contact.pairs().iter().zip(swept).zip(self.root.chunks_exact(2));
+        let start = |((law, y), root): ((&PairLaw, Planar), &[f64])| match attempt.start {
+            Start::Swept => y,
+            Start::Sure => law.sure_start(y),
+            Start::Pressed => {
+                let varied = 1.0 + VARIED * self.random.next();
+                law.pressed(y, self.mean * root[0] * varied)
+            }
+        };
+        pairs.map(start).collect()
     }
 
     /// The coordinates after the sweeps, moved at random.
-    pub fn swept(&self, contact: &Contact<'_>, random: &mut Perturbation) -> Vec<Planar> {
-        let (d, force) = &self.swept;
-        let mut units = self.unit.chunks_exact(2);
+    fn swept(&mut self) -> Vec<Planar> {
+        let (part, random) = (PERTURBATION * self.mean, &mut self.random);
+        let mut roots = self.root.chunks_exact(2);
         let moved = |(law, d, force): (&PairLaw, &[f64], &[f64])| {
-            let unit = units.next().expect("every pair has units");
-            let y = law.released(d, force, unit[0] * (2.0 + random.next()));
-            std::array::from_fn(|c| y[c] + unit[c] * random.next())
+            let root = roots.next().expect("every pair has roots");
+            let y = law.released(d, force, part * root[0] * (2.0 + random.next()));
+            std::array::from_fn(|c| y[c] + part * root[c] * random.next())
         };
-        contact.each(d, force).map(moved).collect()
-    }
-
-    /// Coordinates after the sweeps with the pairs in the states that make the path sure to arrive.
-    pub fn sure(&self, contact: &Contact<'_>, random: &mut Perturbation) -> Vec<Planar> {
-        let swept = self.swept(contact, random);
-        contact.pairs().iter().zip(swept).map(|(law, y)| law.sure_start(y)).collect()
-    }
-
-    /// All pairs pressed on their obstacles and stuck, by random forces of the size of the loads.
-    pub fn pressed(
-        &self,
-        contact: &Contact<'_>,
-        root: &[f64],
-        random: &mut Perturbation,
-    ) -> Vec<Planar> {
-        let swept = self.swept(contact, random);
-        let mean = self.size / (root.len() as f64).sqrt();
-        let pairs = contact.pairs().iter().zip(swept).zip(root.chunks_exact(2));
-        pairs
-            .map(|((law, y), root)| law.pressed(y, mean * root[0] * (1.0 + VARIED * random.next())))
-            .collect()
+        self.contact.each(&self.d, &self.force).map(moved).collect()
     }
 }
-
-/// How much the forces of [`Starts::pressed`] differ.
-const VARIED: f64 = 0.1;

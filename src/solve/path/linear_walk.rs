@@ -1,9 +1,8 @@
 //! One way along the linear path, from piece to piece.
 
-use crate::law::{Contact, Linearised, Piece, PieceExit, Planar};
-use crate::linalg::factor::GoesOn;
+use crate::law::{Linearised, Piece, PieceExit, Planar};
 use crate::linalg::tolerances::SINGULAR_BASIS;
-use crate::linalg::vector::{NormSum, largest_of};
+use crate::linalg::vector::largest_of;
 use crate::monitor::{Monitor, Stop};
 use crate::solve::pieces::{Equations, System, Updated};
 
@@ -43,23 +42,11 @@ pub enum WalkEnd {
     Stopped(Stop),
 }
 
-/// The data that all walks of a problem share.
-pub struct PathProblem<'p> {
-    /// The problem.
-    pub contact: &'p Contact<'p>,
-    /// Its equations.
-    pub equations: &'p Equations<'p>,
-    /// Roots of the diagonal of `K`.
-    pub root: &'p [f64],
-    /// `r`.
-    pub load: &'p [f64],
-    /// `|r|`, each force in the unit that its diagonal entry of `K` gives it.
-    pub size: f64,
-}
-
 /// A walk: `K v + P = r_s` for all `s` on the way, `r_s = r_0 + s (r - r_0)`.
 pub struct Walk<'p> {
-    problem: &'p PathProblem<'p>,
+    equations: &'p Equations<'p>,
+    /// Length of the loads `r` of the problem.
+    size: f64,
     system: Updated<'p>,
     /// The pieces of today.
     pieces: Vec<Piece>,
@@ -77,36 +64,29 @@ pub struct Walk<'p> {
 }
 
 impl<'p> Walk<'p> {
-    /// Operations of [`Self::new`].
-    pub fn work(problem: &PathProblem<'_>, start: &[Planar]) -> f64 {
-        let pairs = problem.contact.pairs().iter().zip(start);
-        let pieces: Vec<Piece> = pairs.map(|(law, y)| law.piece(&[y[0], y[1], 0.0])).collect();
-        System::work(problem.equations, &linearised(problem.contact, &pieces))
-    }
-
-    /// Begins at the coordinates `start`; `None` if the system there is singular.
+    /// Begins at the coordinates `start`, to go to the loads `load`. `Err`: the system there is singular, or there is no
+    /// time for it.
     pub fn new(
-        problem: &'p PathProblem<'p>,
+        equations: &'p Equations<'p>,
+        load: &[f64],
         start: &[Planar],
-        goes_on: GoesOn<'_>,
-    ) -> Option<Self> {
-        let contact = problem.contact;
+        monitor: &mut Monitor<'_>,
+    ) -> Result<Self, WalkEnd> {
         let (mut v, mut first, mut pieces) = (Vec::new(), Vec::new(), Vec::new());
-        for (law, y) in contact.pairs().iter().zip(start) {
+        for (law, y) in equations.laws.iter().zip(start) {
             let y = [y[0], y[1], 0.0];
             let ((d, push), reference) = (law.point(&y), law.reference());
             pieces.push(law.piece(&y));
             v.extend((0..2).map(|c| d[c] - reference[c]));
             first.extend_from_slice(&push[..2]);
         }
-        contact.problem().stiffness().add_product(&v, &mut first);
-        let change: Vec<f64> =
-            problem.load.iter().zip(&first).map(|(r, first)| r - first).collect();
-        let pairs = linearised(contact, &pieces);
-        let mut system = Updated::new(problem.equations, pairs, SINGULAR_BASIS, goes_on)?;
+        equations.matrix.add_product(&v, &mut first);
+        let change: Vec<f64> = load.iter().zip(&first).map(|(r, first)| r - first).collect();
+        let mut system = factorised(equations, &pieces, monitor)?;
         let rate = system.solve(&change);
-        Some(Walk {
-            problem,
+        Ok(Walk {
+            equations,
+            size: equations.length(load),
             system,
             pieces,
             first,
@@ -133,7 +113,8 @@ impl<'p> Walk<'p> {
             if !step.is_finite() {
                 return WalkEnd::Lost;
             }
-            if step * self.length(&self.rate) > FAR * (self.length(&self.y) + self.problem.size)
+            if step * self.equations.length(&self.rate)
+                > FAR * (self.equations.length(&self.y) + self.size)
                 && let Some(motion) = self.rigid(&self.rate, sign)
             {
                 return WalkEnd::Ray(motion);
@@ -159,7 +140,7 @@ impl<'p> Walk<'p> {
 
     /// The next boundary of each pair that comes to one on the way.
     fn exits(&self, sign: f64) -> impl Iterator<Item = (usize, PieceExit)> {
-        let pairs = self.problem.contact.pairs().iter().zip(&self.pieces);
+        let pairs = self.equations.laws.iter().zip(&self.pieces);
         let ways = self.y.chunks_exact(2).zip(self.rate.chunks_exact(2));
         pairs.zip(ways).enumerate().filter_map(move |(pair, ((law, piece), (y, rate)))| {
             let rate = [sign * rate[0], sign * rate[1]];
@@ -176,7 +157,7 @@ impl<'p> Walk<'p> {
         monitor: &mut Monitor<'_>,
     ) -> Result<(), WalkEnd> {
         self.events += 1;
-        let laws = self.problem.contact.pairs();
+        let laws = &self.equations.laws;
         let beyond =
             |(pair, exit): (usize, PieceExit)| (pair, laws[pair].linearised_on(exit.beyond));
         let change = [beyond((pair, *exit))];
@@ -198,37 +179,31 @@ impl<'p> Walk<'p> {
             return Err(WalkEnd::Ray(motion));
         }
         if singular || made.is_none() || self.system.age() >= rules.age {
-            let pairs = linearised(self.problem.contact, &self.pieces);
-            let work = System::work(self.problem.equations, &pairs);
-            monitor.affords(work).map_err(WalkEnd::Stopped)?;
-            return self.refactorise(&mut monitor.asking()).ok_or(WalkEnd::Lost);
+            self.refactorise(monitor)?;
         }
         Ok(())
     }
 
     /// Factorises the system of today's pieces, and puts the coordinates back on the path.
-    fn refactorise(&mut self, goes_on: GoesOn<'_>) -> Option<()> {
-        let contact = self.problem.contact;
+    fn refactorise(&mut self, monitor: &mut Monitor<'_>) -> Result<(), WalkEnd> {
         self.factorisations += 1;
-        let pairs = linearised(contact, &self.pieces);
-        self.system = Updated::new(self.problem.equations, pairs, SINGULAR_BASIS, goes_on)?;
+        self.system = factorised(self.equations, &self.pieces, monitor)?;
         // J y = r_s - c + K c_t / k, with P = D y + c on a piece.
         let mut side: Vec<f64> =
             self.first.iter().zip(&self.change).map(|(r, change)| r + self.s * change).collect();
         let mut constant = vec![0.0; side.len()];
-        let pairs = contact.pairs().iter().zip(&self.pieces);
-        for (pair, (law, piece)) in pairs.enumerate() {
+        for (pair, (law, piece)) in self.equations.laws.iter().zip(&self.pieces).enumerate() {
             let (i, push) = (2 * pair, law.constant(*piece));
             side[i] -= push[0];
             side[i + 1] -= push[1];
             // A tension is no part of `k v = y - P'`.
-            constant[i + 1] = push[1] / self.problem.root[i + 1].powi(2);
+            constant[i + 1] = push[1] / self.equations.root[i + 1].powi(2);
         }
-        contact.problem().stiffness().add_product(&constant, &mut side);
+        self.equations.matrix.add_product(&constant, &mut side);
         self.y = self.system.solve(&side);
         self.rate = self.system.solve(&self.change);
-        let finite = |x: &[f64]| x.iter().all(|x| x.is_finite());
-        (finite(&self.y) && finite(&self.rate)).then_some(())
+        let finite = self.y.iter().chain(&self.rate).all(|x| x.is_finite());
+        if finite { Ok(()) } else { Err(WalkEnd::Lost) }
     }
 
     /// The motion of the coordinates' direction `sign way`, if it is rigid. Below the start a ray says nothing of the
@@ -239,18 +214,11 @@ impl<'p> Walk<'p> {
         }
         let mut motion = self.system.motion(way);
         motion.iter_mut().for_each(|motion| *motion *= sign);
-        let internal = self.problem.contact.problem().internal_force(&motion);
-        let pairs = || motion.iter().zip(self.problem.root);
-        let size = largest_of(pairs().map(|(motion, root)| motion * root));
-        let resisted = internal.iter().zip(self.problem.root).map(|(force, root)| force / root);
+        let root = &self.equations.root;
+        let size = largest_of(motion.iter().zip(root).map(|(motion, root)| motion * root));
+        let internal = self.equations.matrix.product(&motion);
+        let resisted = internal.iter().zip(root).map(|(force, root)| force / root);
         (size > 0.0 && largest_of(resisted) <= SMALL_PIVOT * size).then_some(motion)
-    }
-
-    /// Norm of coordinates, each in its unit.
-    fn length(&self, y: &[f64]) -> f64 {
-        let mut sum = NormSum::default();
-        y.iter().zip(self.problem.root).for_each(|(y, root)| sum.add(y / root));
-        sum.root()
     }
 
     /// The pieces of today.
@@ -260,19 +228,26 @@ impl<'p> Walk<'p> {
 
     /// The displacements of today.
     pub fn displacements(&self) -> Vec<f64> {
-        let pairs = self.problem.contact.pairs().iter().zip(self.y.chunks_exact(2));
-        pairs.flat_map(|(law, y)| law.point(&[y[0], y[1], 0.0]).0[..2].to_vec()).collect()
+        self.equations.values(&self.pieces, &self.equations.by_pairs(&self.y)).0
     }
 }
 
-/// The pairs on their pieces, to first order.
-fn linearised(contact: &Contact<'_>, pieces: &[Piece]) -> Vec<Linearised> {
-    contact.pairs().iter().zip(pieces).map(|(law, b)| law.linearised_on(*b)).collect()
+/// The system of pairs on their pieces. `Err`: it is singular, or there is no time for it.
+fn factorised<'p>(
+    equations: &'p Equations<'p>,
+    pieces: &[Piece],
+    monitor: &mut Monitor<'_>,
+) -> Result<Updated<'p>, WalkEnd> {
+    let pairs = equations.laws.iter().zip(pieces);
+    let pairs: Vec<Linearised> = pairs.map(|(law, piece)| law.linearised_on(*piece)).collect();
+    monitor.affords(System::work(equations, &pairs)).map_err(WalkEnd::Stopped)?;
+    Updated::new(equations, pairs, SINGULAR_BASIS, &mut monitor.asking()).ok_or(WalkEnd::Lost)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::law::Contact;
     use crate::problem::{ContactData, ContactProblem, FrictionLaw};
     use crate::settings::Settings;
 
@@ -295,20 +270,12 @@ mod tests {
         });
         let problem = problem.expect("the data is valid");
         let (contact, settings) = (Contact::new(&problem), Settings::default());
-        let root = problem.unit_roots();
         let equations = Equations::of(&contact);
-        let problem = PathProblem {
-            contact: &contact,
-            equations: &equations,
-            root: &root,
-            load: &load,
-            size: 1.0,
-        };
         let (stuck, slipping, open) = ([1.0, 1.5], [0.5, 1.5], [-1.0, 2.0]);
         for (start, sign, events) in [(stuck, 1.0, 2), (slipping, -1.0, 1), (open, 1.0, 0)] {
             let mut monitor = Monitor::new(&settings, None);
-            let mut walk =
-                Walk::new(&problem, &[start], &mut || true).expect("each piece is regular");
+            let walk = Walk::new(&equations, &load, &[start], &mut monitor);
+            let Ok(mut walk) = walk else { panic!("each piece is regular") };
             // K v + P is (1, 1.5) at all three; powers of two and few digits leave no rounding.
             assert_eq!(walk.first, [1.0, 1.5]);
             assert_eq!(f64::from(walk.system.sign()), sign);

@@ -74,7 +74,6 @@ mod curve;
 mod curved;
 mod homotopy;
 mod linear;
-mod linear_attempts;
 mod linear_start;
 mod linear_walk;
 
