@@ -50,123 +50,106 @@ pub fn solve_lcp(
     settings.validate()?;
     check_limit(memory(lcp.size()), settings)?;
     let magnitudes = lcp.magnitudes();
-    let mut pivoted = None;
-    match settings.method {
-        Method::Auto | Method::BlockPivoting => {
-            let run = by_pivoting(lcp, &magnitudes, settings, monitor);
-            let solution = certified(
-                (lcp, &magnitudes),
-                settings,
-                Method::BlockPivoting,
-                &run,
-                monitor.iterations(),
-            );
-            let done =
-                solution.status == Status::Solved || settings.method == Method::BlockPivoting;
-            if done || matches!(run.ending, Ending::Stopped(_)) {
-                return Ok(solution);
-            }
-            pivoted = Some((run, solution));
-        }
-        Method::Lemke => {}
+    let problem = (lcp, magnitudes.as_slice());
+    let pivoted = match settings.method {
+        Method::Auto | Method::BlockPivoting => Some(by_pivoting(problem, settings, monitor)),
+        Method::Lemke => None,
         _ => {
             let message =
                 "settings: an LCP is solved by the methods auto, block pivoting and Lemke";
             return Err(Error::invalid(Argument::Settings, message));
         }
-    }
-    let run = by_lemke(lcp, &magnitudes, settings, monitor)?;
-    let mut solution =
-        certified((lcp, &magnitudes), settings, Method::Lemke, &run, monitor.iterations());
-    if let Some((run, before)) = pivoted {
+    };
+    let done = |(solution, ending): &(LcpSolution, Ending)| {
+        solution.status == Status::Solved
+            || settings.method == Method::BlockPivoting
+            || matches!(ending, Ending::Stopped(_))
+    };
+    let pivoted = match pivoted {
+        Some(pivoted) if done(&pivoted) => return Ok(pivoted.0),
+        other => other,
+    };
+    let mut solution = by_lemke(problem, settings, monitor)?;
+    if let Some((before, ending)) = pivoted {
         let decided = matches!(solution.status, Status::Solved | Status::NoEquilibrium);
         if !decided && before.eta < solution.eta {
             (solution.w, solution.z, solution.eta) = (before.w, before.z, before.eta);
         }
         let why =
-            if run.ending == Ending::Singular { Fallback::Singular } else { Fallback::Inaccurate };
+            if ending == Ending::Singular { Fallback::Singular } else { Fallback::Inaccurate };
         solution.fallback = Some((Method::BlockPivoting, why));
         solution.factorisations = before.factorisations;
     }
     Ok(solution)
 }
 
-/// A candidate `z` and how it was found.
-struct LcpRun {
-    z: Vec<f64>,
-    ending: Ending,
-    factorisations: u64,
-    refactorisations: u64,
-}
-
+/// Block pivoting, and how it ended.
 fn by_pivoting(
-    lcp: &Lcp<'_>,
-    magnitudes: &[f64],
+    problem: (&Lcp<'_>, &[f64]),
     settings: &Settings,
     monitor: &mut Monitor<'_>,
-) -> LcpRun {
+) -> (LcpSolution, Ending) {
+    let (lcp, magnitudes) = problem;
     let n = lcp.size();
-    let nothing =
-        |ending| LcpRun { z: vec![0.0; n], ending, factorisations: 0, refactorisations: 0 };
-    if n == 0 {
-        return nothing(Ending::Done);
-    }
-    if (0..n).any(|i| !(lcp.column(i)[i] > 0.0)) {
-        return nothing(Ending::Singular);
-    }
-    let chosen = settings.method == Method::BlockPivoting;
-    let most = if chosen { u64::MAX } else { block_pivoting::enough(n) };
-    let pivoted = block_pivoting::lcp(lcp, magnitudes, settings.tolerance, most, monitor);
-    LcpRun {
+    let (mut z, mut factorisations) = (vec![0.0; n], 0);
+    let ending = if (0..n).any(|i| !(lcp.column(i)[i] > 0.0)) {
+        Ending::Singular
+    } else if n == 0 {
+        Ending::Done
+    } else {
+        let chosen = settings.method == Method::BlockPivoting;
+        let most = if chosen { u64::MAX } else { block_pivoting::enough(n) };
+        let pivoted = block_pivoting::lcp(lcp, magnitudes, settings.tolerance, most, monitor);
         // Written so that NaN stays NaN.
-        z: pivoted.x.iter().map(|&x| if x < 0.0 { 0.0 } else { x }).collect(),
-        ending: pivoted.ending,
-        factorisations: pivoted.factorisations,
-        refactorisations: 0,
-    }
+        z = pivoted.x.iter().map(|&x| if x < 0.0 { 0.0 } else { x }).collect();
+        factorisations = pivoted.factorisations;
+        pivoted.ending
+    };
+    let mut solution = certified(problem, settings, Method::BlockPivoting, z, &ending);
+    (solution.iterations, solution.factorisations) = (monitor.iterations(), factorisations);
+    (solution, ending)
 }
 
+/// Lemke's method; a path whose end has lost accuracy is followed once more.
 fn by_lemke(
-    lcp: &Lcp<'_>,
-    magnitudes: &[f64],
+    problem: (&Lcp<'_>, &[f64]),
     settings: &Settings,
     monitor: &mut Monitor<'_>,
-) -> Result<LcpRun, Error> {
+) -> Result<LcpSolution, Error> {
+    let (lcp, magnitudes) = problem;
     // Powers of two: the pivots are those of the unscaled problem, rounding included.
     let scale: Vec<f64> = magnitudes.iter().map(|m| (-(m.log2() / 2.0).round()).exp2()).collect();
     let covering: Vec<f64> = (0..lcp.size()).map(|i| lcp.covering(i)).collect();
     let matrix = lcp.matrix();
-    let problem = Scaled::new(&matrix, lcp.q(), &covering, scale);
+    let scaled = Scaled::new(&matrix, lcp.q(), &covering, scale);
     let label = lemke::missing_label(&matrix, lcp.q());
     let rules = |thorough| LemkeRules { label, ..LemkeRules::usual(thorough) };
-    let mut run = lemke::follow(&problem, rules(false), monitor)?;
+    let mut run = lemke::follow(&scaled, rules(false), monitor)?;
     let lost_accuracy = match run.ending {
         Ending::Done => lcp.measure(&run.z, magnitudes).0 > settings.tolerance,
         Ending::Recession(_) | Ending::Stopped(_) => false,
         _ => true,
     };
     if lost_accuracy {
-        run = lemke::follow(&problem, rules(true), monitor)?;
+        run = lemke::follow(&scaled, rules(true), monitor)?;
     }
-    Ok(LcpRun {
-        z: run.z,
-        ending: run.ending,
-        factorisations: 0,
-        refactorisations: run.refactorisations,
-    })
+    let mut solution = certified(problem, settings, Method::Lemke, run.z, &run.ending);
+    (solution.iterations, solution.refactorisations) = (monitor.iterations(), run.refactorisations);
+    Ok(solution)
 }
 
+/// The result of `z`, with which a method has ended.
 fn certified(
     (lcp, magnitudes): (&Lcp<'_>, &[f64]),
     settings: &Settings,
     method: Method,
-    run: &LcpRun,
-    iterations: u64,
+    mut z: Vec<f64>,
+    ending: &Ending,
 ) -> LcpSolution {
-    let (mut eta, product) = lcp.measure(&run.z, magnitudes);
-    let w = lcp.q().iter().zip(&product).zip(&run.z);
+    let (mut eta, product) = lcp.measure(&z, magnitudes);
+    let w = lcp.q().iter().zip(&product).zip(&z);
     let w = w.map(|((q, mz), z)| if *z > 0.0 { 0.0 } else { slack(*q, *mz) });
-    let (mut w, mut z): (Vec<f64>, Vec<f64>) = (w.collect(), run.z.clone());
+    let mut w: Vec<f64> = w.collect();
     let overflow = overflow(&w, &z);
     if overflow.is_some() {
         // Only numbers are returned: those of z = 0.
@@ -175,7 +158,7 @@ fn certified(
         eta = lcp.measure(&z, magnitudes).0;
     }
     let mut infeasible_by = None;
-    let ending = match &run.ending {
+    let ending = match ending {
         Ending::Recession(ray) => &Ending::Recession(without_digits(ray, magnitudes)),
         other => other,
     };
@@ -205,9 +188,9 @@ fn certified(
         eta,
         method,
         fallback: None,
-        iterations,
-        factorisations: run.factorisations,
-        refactorisations: run.refactorisations,
+        iterations: 0,
+        factorisations: 0,
+        refactorisations: 0,
     }
 }
 

@@ -10,26 +10,18 @@ use crate::solve::result::Ending;
 
 /// The driver of projected SOR.
 pub struct Driver<'m, 'c, I> {
-    iterate: I,
-    relaxation: Relaxation,
+    /// The iterate.
+    pub iterate: I,
+    /// Chooses the factor of the next sweep.
+    pub relaxation: Relaxation,
     drift: DriftDetector,
     monitor: &'m mut Monitor<'c>,
-    /// When `eta` was last halved.
-    milestone: Measured,
+    /// `eta` when it was last halved, and the sweeps until then.
+    milestone: (f64, u64),
     /// Largest force of any iterate.
     largest_force: f64,
-    /// The best iterate that was measured under the problem's own law.
-    best: Best,
-}
-
-struct Measured {
-    eta: f64,
-    sweeps: u64,
-}
-
-struct Best {
-    eta: f64,
-    unknowns: Vec<f64>,
+    /// `eta` and the unknowns of the best iterate that was measured under the problem's own law.
+    best: (f64, Vec<f64>),
 }
 
 /// Largest over-relaxation factor chosen: sweeps with a larger one take more than a hundred to forget
@@ -64,9 +56,9 @@ impl<'m, 'c, I: Iterate> Driver<'m, 'c, I> {
             iterate,
             relaxation: Relaxation::new(settings.omega, largest_factor, unknowns),
             monitor,
-            milestone: Measured { eta: f64::INFINITY, sweeps: 0 },
+            milestone: (f64::INFINITY, 0),
             largest_force: 0.0,
-            best: Best { eta: f64::INFINITY, unknowns: Vec::new() },
+            best: (f64::INFINITY, Vec::new()),
         }
     }
 
@@ -99,10 +91,10 @@ impl<'m, 'c, I: Iterate> Driver<'m, 'c, I> {
         if force < ROUNDING * self.largest_force && self.iterate.is_unloaded() {
             return Err(Ending::Stalled("without loads the forces fall to rounding"));
         }
-        if eta <= HALF * self.milestone.eta {
-            self.milestone = Measured { eta, sweeps };
+        if eta <= HALF * self.milestone.0 {
+            self.milestone = (eta, sweeps);
         }
-        if eta < NEGLIGIBLE && sweeps > self.milestone.sweeps + STAGNATION {
+        if eta < NEGLIGIBLE && sweeps > self.milestone.1 + STAGNATION {
             return Err(Ending::Stalled("rounding keeps the sweeps from a better accuracy"));
         }
         Ok(eta)
@@ -130,18 +122,13 @@ impl<'m, 'c, I: Iterate> Driver<'m, 'c, I> {
         Ok(change)
     }
 
-    /// Resets the measured rate: the law of the sweeps has changed.
-    pub fn restart(&mut self) {
-        self.relaxation.restart();
-    }
-
     /// Measures the iterate under the problem's own law and keeps it if it is the best.
     fn note(&mut self) -> f64 {
         let eta = self.iterate.eta();
-        if eta < self.best.eta {
-            self.best.eta = eta;
-            self.best.unknowns.clear();
-            self.best.unknowns.extend_from_slice(self.iterate.unknowns());
+        if eta < self.best.0 {
+            self.best.0 = eta;
+            self.best.1.clear();
+            self.best.1.extend_from_slice(self.iterate.unknowns());
         }
         eta
     }
@@ -149,26 +136,6 @@ impl<'m, 'c, I: Iterate> Driver<'m, 'c, I> {
     /// The unknowns of the best iterate, `None` if that is the last one.
     pub fn best(&mut self) -> Option<Vec<f64>> {
         let eta = self.note();
-        (eta > self.best.eta).then(|| std::mem::take(&mut self.best.unknowns))
-    }
-
-    /// The iterate.
-    pub fn iterate(&mut self) -> &mut I {
-        &mut self.iterate
-    }
-
-    /// Ends the sweeps.
-    pub fn into_iterate(self) -> I {
-        self.iterate
-    }
-
-    /// The unknowns of the iterate.
-    pub fn unknowns(&self) -> &[f64] {
-        self.iterate.unknowns()
-    }
-
-    /// The factor of the next sweep.
-    pub fn omega(&self) -> f64 {
-        self.relaxation.omega()
+        (eta > self.best.0).then(|| std::mem::take(&mut self.best.1))
     }
 }

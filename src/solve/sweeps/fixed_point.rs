@@ -49,7 +49,7 @@ pub fn single(
     let iterate = ContactIterate::new(contact, start);
     let mut driver = Driver::new(iterate, settings, largest_factor, monitor);
     let ending = driver.solve(settings.tolerance).err().unwrap_or(Ending::Done);
-    let effort = Effort { omega: driver.omega(), ..Effort::default() };
+    let effort = Effort { omega: driver.relaxation.omega(), ..Effort::default() };
     ended(contact, driver, ending, effort)
 }
 
@@ -63,7 +63,7 @@ pub fn nested(
     let iterate = ContactIterate::new(contact, start);
     let mut driver = Driver::new(iterate, settings, LARGEST_FACTOR, monitor);
     let mut damping = Damping::new(settings.damping);
-    let mut thresholds = driver.iterate().thresholds();
+    let mut thresholds = driver.iterate.thresholds();
     let mut outer_iterations = 0;
     let ending = loop {
         let target = match driver.measure(settings.tolerance) {
@@ -71,13 +71,13 @@ pub fn nested(
             Ok(eta) => INNER * eta,
             Err(ending) => break ending,
         };
-        driver.iterate().set_thresholds(&thresholds);
-        driver.restart();
+        driver.iterate.set_thresholds(&thresholds);
+        driver.relaxation.restart();
         if let Err(ending) = driver.relax(target, INNER_SWEEPS) {
             break ending;
         }
         outer_iterations += 1;
-        let updated = driver.iterate().thresholds();
+        let updated = driver.iterate.thresholds();
         let change: Vec<f64> =
             updated.iter().zip(&thresholds).map(|(new, old)| new - old).collect();
         let theta = damping.observe(norm(&change));
@@ -85,7 +85,7 @@ pub fn nested(
             *threshold += theta * change;
         }
     };
-    let (omega, damping) = (driver.omega(), damping.theta);
+    let (omega, damping) = (driver.relaxation.omega(), damping.theta);
     let effort = Effort { outer_iterations, omega, damping, ..Effort::default() };
     ended(contact, driver, ending, effort)
 }
@@ -102,7 +102,7 @@ fn ended(
     {
         return Candidate::of_displacements(contact, best, ending).with_effort(effort);
     }
-    let (d, force) = driver.into_iterate().into_parts();
+    let (d, force) = driver.iterate.into_parts();
     Candidate::new(d, force, ending, effort)
 }
 

@@ -1,5 +1,6 @@
 //! Frictionless contact by sweeps on the normal displacements.
 
+use super::Iterate;
 use super::driver::{Driver, LARGEST_FACTOR};
 use super::lcp_iterate::LcpIterate;
 use crate::law::Contact;
@@ -36,9 +37,9 @@ pub fn frictionless(
             Err(Ending::Recession(motion)) => Ending::Recession(normal.follow(&motion)),
             Err(other) => other,
         };
-        let d = normal.expand(driver.unknowns());
+        let d = normal.expand(driver.iterate.unknowns());
         let mut candidate = Candidate::of_displacements(contact, d, ending);
-        candidate.effort = Effort { omega: driver.omega(), ..Effort::default() };
+        candidate.effort = Effort { omega: driver.relaxation.omega(), ..Effort::default() };
         let done = candidate.ending != Ending::Done
             || candidate.certificate(contact).holds(settings.tolerance);
         if done || target < GIVE_UP * settings.tolerance {
