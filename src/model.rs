@@ -33,7 +33,7 @@ use crate::reduce::{
 };
 use crate::settings::Settings;
 use crate::solve::{
-    CAUSES, NO_EQUILIBRIUM, Solution, Status, check_start, solve, solve_dependent,
+    CAUSES, CasePast, NO_EQUILIBRIUM, Solution, Status, check_start, solve, solve_dependent,
     solve_matrix_free,
 };
 
@@ -164,15 +164,15 @@ impl Model {
         start: Option<&[f64]>,
         monitor: &mut Monitor<'_>,
     ) -> Result<Solution, Error> {
-        self.solve_condensed((case, None), None, (settings, start), monitor)
+        let past = (None, &mut CasePast::default());
+        self.solve_condensed((case, None), past, (settings, start), monitor)
     }
 
-    /// As [`Self::solve`]; `load` is what the loads condense to, if that is known, and `remembered` what cases
-    /// before have left.
+    /// As [`Self::solve`]; `load` is what the loads condense to, if that is known; with what cases before have left.
     fn solve_condensed(
         &self,
         (case, load): (&LoadCase<'_>, Option<Vec<f64>>),
-        remembered: Option<&Remembered>,
+        (remembered, past): (Option<&Remembered>, &mut CasePast),
         (settings, start): (&Settings, Option<&[f64]>),
         monitor: &mut Monitor<'_>,
     ) -> Result<Solution, Error> {
@@ -184,7 +184,7 @@ impl Model {
             check_start("d", self.dim * self.pairs, start)?;
             let by = (matrix_free, monitor.workers());
             let solution = self.on_bodies(by, case, |bodies, case| {
-                let mut solution = solve_matrix_free(bodies, case, settings, start, monitor)?;
+                let mut solution = solve_matrix_free(bodies, case, settings, start, past, monitor)?;
                 solution.iterations = monitor.iterations();
                 Ok(solution)
             });

@@ -137,10 +137,14 @@ pub fn cholesky(matrix: &mut Mat<f64>, goes_on: GoesOn<'_>) -> Option<()> {
 }
 
 /// The first row with which the leading block of the symmetric `n x n` matrix, its lower triangle `entry(i, j)`,
-/// is not positive definite.
-pub fn first_not_definite(n: usize, entry: impl Fn(usize, usize) -> f64) -> Option<usize> {
+/// is not positive definite, or one at which `goes_on` says no.
+pub fn first_not_definite(
+    n: usize,
+    entry: impl Fn(usize, usize) -> f64,
+    goes_on: GoesOn<'_>,
+) -> Option<usize> {
     let lower = |i: usize, j: usize| if i >= j { entry(i, j) } else { 0.0 };
-    cholesky_to_failure(&mut Mat::from_fn(n, n, lower), &mut || true).err()
+    cholesky_to_failure(&mut Mat::from_fn(n, n, lower), goes_on).err()
 }
 
 /// The width of the blocks in which `n` columns are factorised.

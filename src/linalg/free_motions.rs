@@ -81,7 +81,7 @@ pub fn settle(
     let size = units.len();
     let root: Vec<f64> = units.iter().map(|unit| unit.sqrt()).collect();
     let entry = |i: usize, j: usize| matrix[i + size * j] / (root[i] * root[j]);
-    let Some(factor) = PivotedCholesky::with_least_pivot(size, SUSPICIOUS_PIVOT, entry) else {
+    let Some(factor) = PivotedCholesky::within(size, SUSPICIOUS_PIVOT, entry, &mut || true) else {
         return Ok(false);
     };
     if factor.dependent().is_empty() {

@@ -2,11 +2,12 @@
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt_pivoting::factor as pivoted;
+use faer::linalg::matmul::matmul;
 use faer::linalg::triangular_solve;
-use faer::{Mat, MatMut, MatRef, Par};
+use faer::{Accum, Mat, MatMut, MatRef, Par};
 
-use super::dense::{mirror, subtract_square};
-use super::factor::{cholesky, cholesky_work};
+use super::dense::{self, mirror, subtract_square};
+use super::factor::{BLOCK, GoesOn, cholesky, cholesky_work};
 use super::tolerances::{NEGLIGIBLE, SUSPICIOUS_PIVOT};
 
 /// Operations in whose time a factorisation of `n` rows is made: at first without pivots, and if rows may depend on
@@ -28,14 +29,16 @@ impl PivotedCholesky {
     /// Factorises the `n x n` matrix whose lower triangle is `entry(i, j)`, `i >= j`.
     /// `None` if it is not positive semi-definite.
     pub fn new(n: usize, entry: impl Fn(usize, usize) -> f64) -> Option<Self> {
-        Self::with_least_pivot(n, NEGLIGIBLE, entry)
+        Self::within(n, NEGLIGIBLE, entry, &mut || true)
     }
 
-    /// As [`Self::new`]; rows whose pivots are at most `least` depend on the others.
-    pub fn with_least_pivot(
+    /// As [`Self::new`]; rows whose pivots are at most `least` depend on the others. `None` also if `go_on` ends it,
+    /// which is asked between panels.
+    pub fn within(
         size: usize,
         least: f64,
         entry: impl Fn(usize, usize) -> f64,
+        go_on: GoesOn<'_>,
     ) -> Option<Self> {
         // No pivot exceeds its diagonal entry.
         let (rows, mut dependent): (Vec<usize>, Vec<usize>) =
@@ -44,7 +47,15 @@ impl PivotedCholesky {
         let lower_entry = |i: usize, j: usize| if i >= j { entry(rows[i], rows[j]) } else { 0.0 };
         let fill = || Mat::from_fn(n, n, lower_entry);
         let mut lower = fill();
-        let regular = cholesky(&mut lower, &mut || true).is_some();
+        let mut has_ended = false;
+        let asked = &mut || {
+            has_ended = has_ended || !go_on();
+            !has_ended
+        };
+        let regular = cholesky(&mut lower, asked).is_some();
+        if has_ended {
+            return None;
+        }
         if regular && (0..n).all(|i| lower[(i, i)].powi(2) > SUSPICIOUS_PIVOT) {
             return Some(PivotedCholesky { lower, independent: rows, dependent });
         }
@@ -100,27 +111,38 @@ impl PivotedCholesky {
     }
 
     /// `C - Bᵀ A⁻¹ B` for `m` columns, `B = coupling(row, column)` over the independent rows
-    /// named as in [`Self::independent`], `C = corner(i, j)` symmetric; column-major `m x m`.
+    /// named as in [`Self::independent`], `C = corner(i, j)` symmetric; column-major `m x m`. `go_on` is asked between
+    /// blocks of columns; if it ends the work, the rest is `C`.
     pub fn schur_complement(
         &self,
         m: usize,
         coupling: impl Fn(usize, usize) -> f64,
         corner: impl Fn(usize, usize) -> f64,
+        go_on: GoesOn<'_>,
     ) -> Vec<f64> {
         let n = self.independent.len();
         let mut half = Mat::from_fn(m, n, |j, i| coupling(self.independent[i], j));
-        triangular_solve::solve_lower_triangular_in_place(
-            self.lower.as_ref(),
-            half.transpose_mut(),
-            Par::Seq,
-        );
         let mut schur = vec![0.0; m * m];
         for j in 0..m {
             for i in j..m {
                 schur[i + m * j] = corner(i, j);
             }
         }
-        subtract_gram(&mut schur, half.as_ref());
+        let blocks = || (0..m).step_by(BLOCK).map(|begin| (begin, BLOCK.min(m - begin)));
+        let mut left = MatMut::from_column_major_slice_mut(&mut schur, m, m);
+        for (begin, count) in blocks() {
+            if !go_on() {
+                break;
+            }
+            let (before, rows) = half.as_mut().split_at_row_mut(begin);
+            let mut rows = rows.subrows_mut(0, count);
+            dense::divide(self.lower.as_ref(), rows.as_mut());
+            let mut target = left.as_mut().subrows_mut(begin, count);
+            let (earlier, own) = target.as_mut().split_at_col_mut(begin);
+            matmul(earlier, Accum::Add, rows.as_ref(), before.transpose(), -1.0, Par::Seq);
+            subtract_square(own.subcols_mut(0, count), rows.as_ref());
+        }
+        mirror(&mut schur, m);
         schur
     }
 }

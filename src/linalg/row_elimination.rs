@@ -88,7 +88,8 @@ impl<'c> Elimination<'c> {
         let mut counts: Vec<usize> = self.having.iter().map(Vec::len).collect();
         let mut waiting: Vec<usize> = (0..self.sums.len()).rev().collect();
         while let Some(i) = waiting.pop() {
-            let least = LEAST_PIVOT * self.largest_choice(i);
+            let rounding = ROUNDING_OF_SUM * self.scale[i];
+            let least = rounding.max(LEAST_PIVOT * self.largest_choice(i));
             let own = self.choices(i).filter(|(k, a)| counts[*k] == 1 && a.abs() >= least);
             let best = own.max_by(|(k, a), (l, b)| a.abs().total_cmp(&b.abs()).then(l.cmp(k)));
             let Some((unknown, _)) = best.filter(|_| self.is_open[i]) else { continue };

@@ -5,7 +5,7 @@ use crate::error::Error;
 use crate::linalg::elimination::Remembered;
 use crate::monitor::{Monitor, Progress, ProgressFn};
 use crate::settings::Settings;
-use crate::solve::{Solution, Status};
+use crate::solve::{CasePast, Solution, Status};
 use crate::workers::{SingleThread, Workers};
 
 /// Load cases of a block. A solve with one column waits for memory; from this number on it computes, and a
@@ -38,6 +38,8 @@ pub struct Series<'m> {
 pub(crate) struct Past {
     /// Factors of the stiffness; `None`: they are not kept for other cases.
     remembered: Option<Remembered>,
+    /// Solutions in full space.
+    spread: CasePast,
     /// The last solution.
     before: Option<Vec<f64>>,
 }
@@ -45,7 +47,7 @@ pub(crate) struct Past {
 impl Past {
     /// The past of a series that begins: no case has been solved.
     pub(crate) fn of_none() -> Self {
-        Past { remembered: Some(Remembered::default()), before: None }
+        Past { remembered: Some(Remembered::default()), ..Past::default() }
     }
 }
 
@@ -91,6 +93,7 @@ impl<'m> Series<'m> {
     ) -> Vec<Result<Solution, Error>> {
         let n = self.model.dim * self.model.pairs;
         let mut solved = Vec::with_capacity(cases.len());
+        let Past { remembered, spread, before } = &mut self.past;
         for block in cases.chunks(BLOCK) {
             for (case, load) in block.iter().zip(self.model.condensed_loads(block)) {
                 let k = solved.len();
@@ -98,20 +101,20 @@ impl<'m> Series<'m> {
                     Starts::Cold => None,
                     // Where the array is too short, the empty start is refused for its length.
                     Starts::Given(all) => Some(all.get(n * k..n * (k + 1)).unwrap_or_default()),
-                    Starts::Previous(first) => self.past.before.as_deref().or(first),
+                    Starts::Previous(first) => before.as_deref().or(first),
                 };
                 let mut told = progress.as_mut().map(|tell| |now: &Progress| tell(now));
                 let told = told.as_mut().map(|tell| tell as &mut ProgressFn<'_>);
                 let monitor = &mut Monitor::new(settings, told).with_workers(workers);
                 let solution = load.and_then(|load| {
-                    let remembered = self.past.remembered.as_ref();
-                    self.model.solve_condensed((case, load), remembered, (settings, start), monitor)
+                    let past = (remembered.as_ref(), &mut *spread);
+                    self.model.solve_condensed((case, load), past, (settings, start), monitor)
                 });
                 if let Ok(found) = &solution
                     && found.status == Status::Solved
                 {
                     let forces = self.model.starts_from_forces();
-                    self.past.before =
+                    *before =
                         Some(if forces { &found.certificate.force } else { &found.d }.clone());
                 }
                 solved.push(solution);

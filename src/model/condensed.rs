@@ -32,8 +32,9 @@ impl Model {
         let size = unknowns(checked_dim(dim)?, pairs)?;
         monitor.reducing(0.0, memory(size))?;
         let matrix = dense("K", k, size, OF_MATRIX)?;
-        let reduction = Box::new(CondensedReduction::new(dim, &matrix)?);
-        Ok(Model { dim, pairs, reduction })
+        let reduction =
+            while_it_goes_on(monitor, |go_on| CondensedReduction::new(dim, &matrix, go_on))?;
+        Ok(Model { dim, pairs, reduction: Box::new(reduction) })
     }
 
     /// Two condensed bodies on matching contact nodes, each in its own outward frame.
@@ -66,7 +67,21 @@ impl Model {
         let first = dense("K_A", first, size, OF_MATRIX)?;
         let arguments = (Argument::SecondMatrix, Argument::SecondLeadingDimension);
         let second = dense("K_B", second, size, arguments)?;
-        let reduction = Box::new(TwoBodyReduction::new(dim, first, second)?);
-        Model { dim, pairs, reduction }.checked()
+        let reduction =
+            while_it_goes_on(monitor, |go_on| TwoBodyReduction::new(dim, first, second, go_on))?;
+        Model { dim, pairs, reduction: Box::new(reduction) }.checked()
     }
+}
+
+/// The result of a work that asks whether to go on, unless the monitor ends it.
+fn while_it_goes_on<T>(
+    monitor: &mut Monitor<'_>,
+    work: impl FnOnce(&mut dyn FnMut() -> bool) -> Result<T, Error>,
+) -> Result<T, Error> {
+    let mut ended = None;
+    let result = work(&mut || {
+        ended = ended.take().or_else(|| monitor.reducing(0.0, 0).err());
+        ended.is_none()
+    });
+    ended.map_or(result, Err)
 }

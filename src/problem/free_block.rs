@@ -48,6 +48,7 @@ impl<'p> FreeBlock<'p> {
             kept.len(),
             |i, j| self.scale[i] * self.matrix.at(self.rows[i], kept[j]),
             |i, j| self.matrix.at(kept[i], kept[j]),
+            &mut || true,
         )
     }
 

@@ -82,6 +82,9 @@ pub trait StiffnessOperator {
     /// No memory, or what has failed in the host.
     fn hold(&mut self, restriction: &HeldSet, goes_on: GoesOn<'_>) -> Result<bool, Error>;
 
+    /// All unknowns `x` of a load case that ends: they may be asked for next.
+    fn remember(&mut self, _load: &[f64], _x: &[f64]) {}
+
     /// An approximate solution `x` of `A x = forces`: with the held components zero, where forces on them do not
     /// count; without [`Self::hold`] with nothing held.
     ///

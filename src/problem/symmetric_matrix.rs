@@ -122,12 +122,12 @@ pub(crate) fn beyond_diagonal(
 
 /// Refuses a checked matrix, of `dim` components for each pair, that a motion makes work: with a negative
 /// eigenvalue, scaled to a unit diagonal, that is no rounding ([`SYMMETRY`]), with what a condensation leaves on the
-/// diagonal.
+/// diagonal. `go_on` is asked now and then; if it ends the check, the answer is none to use.
 pub(crate) fn check_semidefinite(
     matrix: &Matrix<'_>,
     dim: usize,
-    name: &str,
-    argument: Argument,
+    (name, argument): (&str, Argument),
+    go_on: &mut dyn FnMut() -> bool,
 ) -> Result<(), Error> {
     let inverse = |root: f64| if root > 0.0 { root.recip() } else { 0.0 };
     let scale: Vec<f64> = roots(matrix, dim).into_iter().map(inverse).collect();
@@ -135,7 +135,7 @@ pub(crate) fn check_semidefinite(
         true => 1.0 + SYMMETRY,
         false => scale[i] * matrix.at(i, j) * scale[j],
     };
-    let Some(component) = first_not_definite(matrix.size(), entry) else { return Ok(()) };
+    let Some(component) = first_not_definite(matrix.size(), entry, go_on) else { return Ok(()) };
     let message = format!(
         "{name} is not positive semi-definite: a motion of the components up to {}, the last of pair {}, has \
          a negative energy: is {name} a stiffness, with the signs of its mixed entries in the frames of \

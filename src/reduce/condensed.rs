@@ -22,8 +22,12 @@ impl CondensedReduction {
     ///
     /// # Errors
     /// As [`settled`].
-    pub(crate) fn new(dim: usize, matrix: &Matrix<'_>) -> Result<Self, Error> {
-        let settled = settled(dim, matrix, "K", Argument::Matrix)?;
+    pub(crate) fn new(
+        dim: usize,
+        matrix: &Matrix<'_>,
+        go_on: &mut dyn FnMut() -> bool,
+    ) -> Result<Self, Error> {
+        let settled = settled(dim, matrix, ("K", Argument::Matrix), go_on)?;
         let stiffness = settled.unwrap_or_else(|| contiguous(matrix));
         Ok(CondensedReduction { dim, size: matrix.size(), stiffness })
     }
@@ -36,19 +40,20 @@ impl CondensedReduction {
 /// It is changed only if a diagonal entry is at most 9e-12 of the largest one of its pair and the
 /// component is coupled to others: that may be rounding of a free body on few points. Then motions of
 /// so little energy become exactly free, and all others keep what they have. A matrix with a motion that
-/// cannot be told from rounding is taken as it is.
+/// cannot be told from rounding is taken as it is. `go_on` is asked now and then; if it ends the check, the
+/// answer is none to use.
 ///
 /// # Errors
 /// As `check` and `check_semidefinite`.
 pub(super) fn settled(
     dim: usize,
     matrix: &Matrix<'_>,
-    name: &str,
-    argument: Argument,
+    (name, argument): (&str, Argument),
+    go_on: &mut dyn FnMut() -> bool,
 ) -> Result<Option<Vec<f64>>, Error> {
     let cleaned = without_rounding(dim, matrix);
     check(&view(matrix, &cleaned), dim, name, argument)?;
-    check_semidefinite(&view(matrix, &cleaned), dim, name, argument)?;
+    check_semidefinite(&view(matrix, &cleaned), dim, (name, argument), go_on)?;
     Ok(cleaned)
 }
 

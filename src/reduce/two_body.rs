@@ -17,6 +17,7 @@ use super::{HostLoad, Reduction, SolvedCase, motion};
 use crate::error::{Argument, Error, Message, index};
 use crate::linalg::matrix::Matrix;
 use crate::linalg::pivoted_cholesky::PivotedCholesky;
+use crate::linalg::tolerances::NEGLIGIBLE;
 use crate::linalg::vector::norm_inf;
 
 /// The reduction of two bodies, kept for further load cases.
@@ -51,15 +52,21 @@ impl TwoBodyReduction {
         if self.exchanged { [softer, stiffer].concat() } else { [stiffer, softer].concat() }
     }
 
-    /// Reduces `K_A` and `K_B`, each with `dim` components for each pair.
+    /// Reduces `K_A` and `K_B`, each with `dim` components for each pair. `go_on` is asked now and then; once it ends the
+    /// work, the result is none to use.
     ///
     /// # Errors
     /// Entries that are not finite or symmetric, negative diagonals, zeros there in rows that are not zero;
     /// a motion that neither body resists, named by its largest component.
-    pub(crate) fn new(dim: usize, first: Matrix<'_>, second: Matrix<'_>) -> Result<Self, Error> {
+    pub(crate) fn new(
+        dim: usize,
+        first: Matrix<'_>,
+        second: Matrix<'_>,
+        go_on: &mut dyn FnMut() -> bool,
+    ) -> Result<Self, Error> {
         let size = first.size();
-        let cleaned_first = settled(dim, &first, "K_A", Argument::Matrix)?;
-        let cleaned_second = settled(dim, &second, "K_B", Argument::SecondMatrix)?;
+        let cleaned_first = settled(dim, &first, ("K_A", Argument::Matrix), go_on)?;
+        let cleaned_second = settled(dim, &second, ("K_B", Argument::SecondMatrix), go_on)?;
         let (first, second) = (view(&first, &cleaned_first), view(&second, &cleaned_second));
         let trace = |k: &Matrix<'_>| (0..size).map(|i| k.column(i)[i]).sum::<f64>();
         let exchanged = trace(&first) < trace(&second);
@@ -72,7 +79,7 @@ impl TwoBodyReduction {
             .collect();
         let entry =
             |i: usize, j: usize| scale[i] * (first.column(j)[i] + second.column(j)[i]) * scale[j];
-        let Some(sum) = PivotedCholesky::new(size, entry) else {
+        let Some(sum) = PivotedCholesky::within(size, NEGLIGIBLE, entry, go_on) else {
             let message = "K_A + K_B is not positive semi-definite";
             return Err(Error::invalid(Argument::Matrix, message));
         };
@@ -86,6 +93,7 @@ impl TwoBodyReduction {
             size,
             |i, j| scale[i] * second.column(j)[i],
             |i, j| second.column(j)[i],
+            go_on,
         );
         let second = (0..size).flat_map(|j| second.column(j).iter().copied()).collect();
         Ok(TwoBodyReduction { dim, size, exchanged, second, scale, sum, stiffness })

@@ -5,6 +5,9 @@
 //! processor time, which other work on the machine does not lengthen: between two calls of the callback, and from
 //! the last one to the end. A limit that passes in between is noticed so much later. Then calls with
 //! limits are made, which end so many milliseconds (of the clock) after them at most.
+//!
+//! `cargo bench --bench time_limits -- models` does so with models of 60,000 to 110,000 unknowns, condensed and in full
+//! space: while they are made, and in load cases of a series.
 
 mod bar;
 #[path = "../common/mod.rs"]
@@ -16,9 +19,10 @@ use std::time::Instant;
 use bar::{Top, bar_with_top};
 use common::blocks::{Loading, block, loaded};
 use common::brick::Support;
+use common::wavy::Wavy;
 use signorini::{
-    ContactData, ContactProblem, FrictionLaw, Method, Monitor, Progress, Search, Settings,
-    Solution, Status, solve,
+    ContactData, ContactProblem, FrictionLaw, LoadCase, Method, Monitor, Progress, ProgressFn,
+    Search, Settings, Solution, Starts, Status, solve,
 };
 
 /// Seconds.
@@ -28,6 +32,12 @@ const LIMITS: [f64; 8] = [0.005, 0.01, 0.02, 0.04, 0.08, 0.16, 0.32, 0.8];
 const RUNS: usize = 2;
 
 fn main() {
+    if std::env::args().any(|argument| argument == "models") {
+        println!("ms of the processor, and the most between two looks at the clock");
+        models("plane, 2001 pairs", &Wavy::plane(2000));
+        models("space, 1849 pairs", &Wavy::space(43));
+        return;
+    }
     let plane = bar_with_top(749, 10, 1.5, 10.0, Top::Clamped(0.02));
     let gap: Vec<f64> = (0..plane.pairs).map(|i| 1e-3 * (0.05 * i as f64).sin()).collect();
     let brick = block(22, Support::Clamped);
@@ -51,6 +61,59 @@ fn main() {
         case.law = common::problems::Law::Coulomb(vec![mu; case.pairs]);
         every_method(&format!("3D mu {mu}"), &case.problem());
     }
+}
+
+/// Makes a model in both forms and solves three load cases, each from the one before it, with ever lower loads.
+fn models(name: &str, wavy: &Wavy) {
+    for full_space in [false, true] {
+        let settings = Settings { full_space, ..Settings::default() };
+        let form = if full_space { "full space" } else { "condensed" };
+        println!("{name}, {} unknowns, {form}", wavy.stiffness.size);
+        let model = looked("model", |look| {
+            wavy.try_model(&mut Monitor::new(&settings, Some(look))).expect("a model")
+        });
+        let (mu, mut series) = (vec![0.3; model.pairs()], model.series());
+        for (part, called) in [(1.0, "first load case"), (0.9, "second load case"), (0.8, "third")]
+        {
+            let scaled = |values: &[f64]| values.iter().map(|v| part * v).collect::<Vec<f64>>();
+            let (load, values) = (scaled(&wavy.load), wavy.prescribed.as_deref().map(scaled));
+            let case = LoadCase {
+                load: &load,
+                prescribed: values.as_deref(),
+                gap: &wavy.gap,
+                law: FrictionLaw::Coulomb(&mu),
+                reference_slip: None,
+            };
+            let solution = looked(called, |look| {
+                let start = Starts::Previous(None);
+                let solved = series.solve_cases(&[case], &settings, start, Some(look));
+                solved.into_iter().next().expect("a case").expect("a solution")
+            });
+            let Solution { status, iterations, factorisations, outer_iterations, .. } = solution;
+            println!(
+                "    {status:?}, {iterations} systems, {factorisations} factorisations, {outer_iterations} solutions"
+            );
+        }
+    }
+}
+
+/// Works with a callback, and tells how long it takes and is silent.
+fn looked<T>(name: &str, work: impl FnOnce(&mut ProgressFn<'_>) -> T) -> T {
+    let (begin, mut looks) = (processor_time(), Vec::new());
+    let mut look = |_: &Progress| {
+        looks.push(processor_time());
+        ControlFlow::Continue(())
+    };
+    let done = work(&mut look);
+    looks.push(processor_time());
+    let mut gaps: Vec<(f64, usize)> = (0..looks.len())
+        .map(|k| (looks[k] - if k > 0 { looks[k - 1] } else { begin }, k))
+        .collect();
+    gaps.sort_by(|a, b| b.0.total_cmp(&a.0));
+    gaps.truncate(4);
+    let longest: Vec<String> = gaps.iter().map(|(gap, k)| format!("{gap:.0} (look {k})")).collect();
+    println!("  {name:<16} {:>7.0}; {}", looks[looks.len() - 1] - begin, longest.join(", "));
+    done
 }
 
 fn every_method(name: &str, problem: &ContactProblem<'_>) {

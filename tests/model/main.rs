@@ -5,4 +5,5 @@ mod common;
 
 mod cases;
 mod histories;
+mod limits;
 mod series;

@@ -225,10 +225,9 @@ fn budgets_end_a_solution() {
         let solution = model.solve(&case, &settings, None, &mut Monitor::new(&settings, None));
         assert_eq!(solution.unwrap().status, status);
     }
-    let mut calls = 0;
-    let mut progress = |_: &Progress| {
-        calls += 1;
-        if calls > 3 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    let mut progress = |now: &Progress| match now.iterations {
+        3.. => ControlFlow::Break(()),
+        _ => ControlFlow::Continue(()),
     };
     let monitor = &mut Monitor::new(&full(), Some(&mut progress));
     let solution = model.solve(&case, &full(), None, monitor).unwrap();
@@ -266,6 +265,50 @@ fn a_factorisation_can_be_cancelled() {
         assert_eq!(solution.status, Status::Cancelled, "{most}: {}", solution.message);
     }
     assert_eq!(run(u64::MAX).0.d, whole.d);
+}
+
+/// The factor with all pairs held, which a further load case makes before its first system, asks too.
+#[test]
+fn a_further_load_case_asks_before_its_first_system() {
+    let wavy = Wavy::space(17);
+    let model = wavy.try_model(&mut Monitor::new(&full(), None)).unwrap();
+    let mu = vec![0.3; model.pairs()];
+    let case = LoadCase {
+        load: &wavy.load,
+        prescribed: wavy.prescribed.as_deref(),
+        gap: &wavy.gap,
+        law: FrictionLaw::Coulomb(&mu),
+        reference_slip: None,
+    };
+    for begins in [1, 2] {
+        let mut before = 0;
+        let mut progress = |now: &Progress| {
+            before += u64::from(now.iterations == 0);
+            ControlFlow::Continue(())
+        };
+        let monitor = &mut Monitor::new(&full(), Some(&mut progress));
+        let solution = model.solve(&case, &full(), None, monitor).unwrap();
+        assert_eq!(solution.status, Status::Solved, "{}", solution.message);
+        // The first system itself asks once; the model has left the factor of the first case.
+        assert!(before >= begins, "{before}");
+    }
+}
+
+/// All unknowns of a load case are known when it ends: they are those that a new model recovers from its `d`, to the
+/// tolerance of forces, and other loads do not get them.
+#[test]
+fn displacements_of_the_last_case_are_those_of_any_case() {
+    let stack = Stack::new([9, 7], [2000.0, 700.0]);
+    let model = || stacked(&stack, &stack.bottom(), &full());
+    let (load, other) = (stack.load(7.0, 2.0), stack.load(5.0, 1.0));
+    let (one, new) = (model(), model());
+    let solution = solve(&one, &load, FrictionLaw::Coulomb(&[0.4; 8]), &full());
+    assert_eq!(solution.status, Status::Solved, "{}", solution.message);
+    for load in [&load, &other, &load] {
+        let [u, v] =
+            [&one, &new].map(|model| model.recover(Some(load), None, &solution.d).unwrap());
+        assert!(largest(&difference(&u, &v)) <= 1e-9 * largest(&v));
+    }
 }
 
 /// Obstacles that nothing can reach, and pairs without one, change nothing.

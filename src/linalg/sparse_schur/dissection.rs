@@ -9,7 +9,7 @@ use std::panic::{UnwindSafe, catch_unwind};
 
 use feral_scotch::{CscPattern, ScotchOptions, scotch_order, scotch_order_full};
 
-use super::factor_progress::{FactorProgress, FactorStep, Failure};
+use super::factor_progress::{FactorProgress, FactorStep, Failure, Stopped};
 
 /// Pieces of fewer vertices are ordered at once: their share of the cost is small.
 const SMALL: usize = 3000;
@@ -36,7 +36,7 @@ struct Cut {
 /// in any way.
 ///
 /// # Errors
-/// `progress`, which is asked before each separator, ends it.
+/// `progress`, which is asked before each call, ends it.
 pub fn dissected(
     start: Vec<i32>,
     neighbour: Vec<i32>,
@@ -48,7 +48,7 @@ pub fn dissected(
     let mut backwards = Vec::new();
     while let Some(piece) = open.pop() {
         progress(FactorStep::HasDone(0.0))?;
-        if let Some(cut) = piece.best_cut() {
+        if let Some(cut) = piece.best_cut(progress)? {
             backwards.extend(cut.separator.iter().rev());
             open.extend(cut.parts);
         } else if let Some(order) = guarded(|| piece.ordered()) {
@@ -78,12 +78,16 @@ impl Piece {
     }
 
     /// The best cut of those that are tried; `None` for a small piece, or if the call finds none.
-    fn best_cut(&self) -> Option<Cut> {
-        if self.vertex.len() < SMALL {
-            return None;
+    fn best_cut(&self, progress: &mut FactorProgress<'_>) -> Result<Option<Cut>, Stopped> {
+        let mut cuts = Vec::new();
+        if self.vertex.len() >= SMALL {
+            for seed in 0..TRIALS {
+                progress(FactorStep::HasDone(0.0))?;
+                cuts.extend(guarded(|| self.cut_by_call(seed)));
+            }
         }
-        let cuts = (0..TRIALS).filter_map(|seed| guarded(|| self.cut_by_call(seed)));
-        cuts.filter(|cut| cut.parts.len() > 1).min_by(|a, b| a.badness().total_cmp(&b.badness()))
+        let cuts = cuts.into_iter().filter(|cut| cut.parts.len() > 1);
+        Ok(cuts.min_by(|a, b| a.badness().total_cmp(&b.badness())))
     }
 
     /// A cut with a separator of the call.
@@ -165,7 +169,7 @@ mod tests {
     #[test]
     fn a_strip_is_cut_across() {
         let strip = strip(500, 7);
-        let cut = strip.best_cut().expect("a strip has separators");
+        let cut = strip.best_cut(&mut |_| Ok(())).unwrap().expect("a strip has separators");
         assert!((7..=14).contains(&cut.separator.len()), "{:?}", cut.separator);
         assert_eq!(cut.parts.len(), 2);
         for part in &cut.parts {

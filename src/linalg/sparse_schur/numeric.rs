@@ -8,7 +8,7 @@ use std::ops::Range;
 use std::sync::Mutex;
 
 use super::entries::Entries;
-use super::factor_progress::{FactorProgress, Failure};
+use super::factor_progress::{FactorProgress, FactorStep, Failure};
 use super::graph::filled;
 use super::panel::{Before, Source, Weakest, weaker};
 use super::panel_assembly::{by_all_threads, by_one_thread};
@@ -62,7 +62,9 @@ pub fn factorised(
     let kept = structure.kept();
     let mut values = filled(structure.stored(), 0.0)?;
     let mut schur = filled(kept * kept, 0.0)?;
+    progress(FactorStep::HasDone(0.0))?;
     let entries = &Entries::new(structure, lower, &mut schur)?;
+    progress(FactorStep::HasDone(0.0))?;
     let done = &Done::default();
     let parallel = &mut Parallel::new(structure, (workers, progress), done, schedule.operations)?;
     let source = Source { structure, schedule, entries, done };

@@ -42,7 +42,9 @@ pub fn chosen(
         order.sort_by_key(first);
         return Ok(examined(graph, &order)?.0);
     }
-    let (order, operations) = examined(graph, &minimum_degree(graph)?)?;
+    let order = minimum_degree(graph)?;
+    progress(FactorStep::HasDone(0.0))?;
+    let (order, operations) = examined(graph, &order)?;
     if operations <= OPERATIONS_PER_VERTEX * graph.inner as f64 {
         return Ok(order);
     }

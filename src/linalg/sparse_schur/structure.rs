@@ -52,8 +52,10 @@ impl Structure {
         let graph = Graph::new(lower, eliminated)?;
         progress(FactorStep::HasDone(0.0))?;
         let order = chosen(&graph, given, progress)?;
+        progress(FactorStep::HasDone(0.0))?;
         let pattern = pattern(&graph, &order)?;
         let symbolic = symbolic(&pattern)?;
+        progress(FactorStep::HasDone(0.0))?;
         // Places of the unknowns of each vertex.
         let mut places = reserved(graph.vertices() + 1)?;
         let mut unknowns = reserved(lower.ncols())?;

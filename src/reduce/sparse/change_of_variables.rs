@@ -62,36 +62,8 @@ impl VariableColumns {
 }
 
 impl ChangeOfVariables {
-    /// `places` are the places in `fixed` of the host's degrees of freedom.
-    pub(super) fn new(
-        pairs: &ContactPairs<'_>,
-        frames: &[Frame],
-        places: &[Option<usize>],
-        fixed_components: &[FixedComponent],
-    ) -> Result<Self, OutOfMemory> {
-        let slaves = pairs.slaves.iter().copied();
-        let mut columns = VariableColumns::new(places, slaves, pairs.dim * pairs.count);
-        let VariableColumns { free, of_dof: column, entries, .. } = &mut columns;
-        for (pair, frame) in frames.iter().enumerate() {
-            for (axis, &slave) in pairs.slave(pair).unwrap_or_default().iter().enumerate() {
-                if column[slave].is_some() {
-                    continue;
-                }
-                for (component, direction) in frame.directions().enumerate() {
-                    let unknown = free.len() + pairs.dim * pair + component;
-                    entries.push((slave, unknown, direction[axis]));
-                }
-                for (weight, master) in pairs.masters_of(pair) {
-                    // No master is a slave, so it has a column.
-                    entries.extend(column[master[axis]].map(|k| (slave, k, weight)));
-                }
-            }
-        }
-        Self::of_columns(columns, fixed_components)
-    }
-
     /// The change of variables with all entries of `T` and `P`, and springs on components that are fixed.
-    pub(super) fn of_columns(
+    pub(super) fn new(
         columns: VariableColumns,
         fixed_components: &[FixedComponent],
     ) -> Result<Self, OutOfMemory> {

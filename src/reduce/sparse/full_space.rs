@@ -14,6 +14,7 @@ use crate::linalg::sparse_schur::{
     FactorProgress, FactorStep, Failure, SparseCholesky, Stopped, Values,
 };
 use crate::problem::{GoesOn, HeldSet, StiffnessOperator};
+use crate::shortage;
 use crate::workers::{SingleThread, Workers};
 
 /// Where bodies move freely with the components that are held, springs of this part of their units hold them in
@@ -30,6 +31,8 @@ pub(super) struct FullSpace {
     cholesky: SparseCholesky,
     /// The factor that was made last, for whom needs the same one next.
     kept: Mutex<Option<Factor>>,
+    /// The loads and all unknowns of the last load case, for its recovery.
+    last: Mutex<Option<[Vec<f64>; 2]>>,
 }
 
 /// A factor, and what is held in it.
@@ -53,7 +56,8 @@ impl FullSpace {
         let units: Vec<f64> =
             (0..matrix.ncols()).map(|j| diagonal(&matrix, j).unwrap_or_default()).collect();
         let held_set = HeldSet::all(dim, (matrix.ncols() - inner) / dim);
-        let mut space = FullSpace { matrix, inner, dim, units, cholesky, kept: Mutex::new(None) };
+        let (kept, last) = (Mutex::new(None), Mutex::new(None));
+        let mut space = FullSpace { matrix, inner, dim, units, cholesky, kept, last };
         let values =
             space.cholesky.diagnosed(space.restricted(&held_set, 0.0), workers, progress)?;
         let largest = space.units.iter().fold(0.0_f64, |most, unit| most.max(*unit));
@@ -123,6 +127,9 @@ impl FullSpace {
     /// All unknowns of loads where those of the pairs are `d`. Of several load cases, each argument has its
     /// vectors one behind the other, and so has the result.
     pub(super) fn recover(&self, loads: &[f64], d: &[f64]) -> Result<Vec<f64>, Error> {
+        if let Some(x) = self.last_of(loads, d) {
+            return Ok(x);
+        }
         let mut user = self.in_use(&SingleThread);
         user.hold_all()?;
         let size = self.matrix.ncols().max(1);
@@ -143,6 +150,14 @@ impl FullSpace {
             }
         }
         Ok(x)
+    }
+
+    /// All unknowns of the last load case, if it had these loads and relative displacements. No call waits for the lock:
+    /// after a fork it may belong to a thread that is not there.
+    fn last_of(&self, load: &[f64], d: &[f64]) -> Option<Vec<f64>> {
+        let last = self.last.try_lock().ok()?;
+        let known = last.as_ref().filter(|[of, x]| of == load && &x[self.inner..] == d);
+        known.map(|[_, x]| x.clone())
     }
 }
 
@@ -211,6 +226,15 @@ impl StiffnessOperator for InUse<'_> {
         true
     }
 
+    fn remember(&mut self, load: &[f64], x: &[f64]) {
+        // The reserve of a call holds nothing that outlives it.
+        if !shortage::is_noted()
+            && let Ok(mut last) = self.space.last.try_lock()
+        {
+            *last = Some([load.to_vec(), x.to_vec()]);
+        }
+    }
+
     fn can_hold(&self) -> bool {
         true
     }
@@ -222,6 +246,9 @@ impl StiffnessOperator for InUse<'_> {
         // Two factors never exist at a time.
         self.factor = None;
         for soft in std::iter::once(0.0).chain(SPRINGS) {
+            if !goes_on() {
+                return Ok(false);
+            }
             let matrix = self.space.restricted(held_set, soft);
             let asked = &mut |_| if goes_on() { Ok(()) } else { Err(Stopped) };
             match self.space.cholesky.factor(&matrix, self.workers, asked) {

@@ -2,8 +2,8 @@
 //! other.
 //!
 //! Each axis of a pair is an equation `sum a_k u_k = delta` in degrees of freedom of the host. Independent
-//! equations give a degree of freedom each, and with it the change of variables `u = T x + P p`; the slave
-//! of its own is the special case in which nothing has to be solved. What an equation says that follows
+//! equations give a degree of freedom each, and with it the change of variables `u = T x + P p`; a slave
+//! of its own gives its equation. What an equation says that follows
 //! from others is a combination of their right sides and of fixed values.
 //!
 //! The variables kept are the relative displacements `d` of a pair whose axes are all independent, or fixed
@@ -62,9 +62,9 @@ pub(super) fn general_rows(
         .collect();
     let may_choose: Vec<bool> = places.iter().map(Option::is_none).collect();
     let solved = solve(&equations, places.len(), &may_choose);
-    let mut supports = Vec::new();
+    let (mut supports, own) = (Vec::new(), pairs.have_own_slaves(places.len()));
     for (pair, frame) in frames.iter_mut().enumerate() {
-        supports.extend(held(pair, frame, &solved, places)?);
+        supports.extend(held((pair, own), frame, &solved, places)?);
     }
     let rows = Rows::new(pairs.dim, frames, places, &solved, &mut supports);
     rows.assembled(&solved, supports)
@@ -77,9 +77,10 @@ fn dependent(solved: &Solved, pair: usize, dim: usize, axis: usize) -> Option<&E
 }
 
 /// The components of a pair that supports fix, and its frame turned exactly along them; none if one of its
-/// axes follows from other pairs, or is fixed and no direction of the frame.
+/// axes follows from other pairs, or is fixed and no direction of the frame. A pair that supports fix wholly is one only
+/// if each has a slave of its `own`: general rows may have been meant otherwise.
 fn held(
-    pair: usize,
+    (pair, own): (usize, bool),
     frame: &mut Frame,
     solved: &Solved,
     places: &[Option<usize>],
@@ -90,14 +91,14 @@ fn held(
         expression.is_some_and(|expression| expression.right_sides.is_empty())
     };
     let held: Vec<usize> = (0..dim).filter(|&axis| is_held(axis)).collect();
-    if held.len() == dim {
+    let along: Option<Vec<usize>> = held.iter().map(|&axis| frame.component_along(axis)).collect();
+    if held.len() == dim && !(own && along.is_some()) {
         return Err(Error::invalid(Argument::Pairs, messages::moves_nothing(pair)));
     }
     let dependent_axes = (0..dim).filter(|&axis| dependent(solved, pair, dim, axis).is_some());
     if dependent_axes.count() != held.len() {
         return Ok(Vec::new());
     }
-    let along: Option<Vec<usize>> = held.iter().map(|&axis| frame.component_along(axis)).collect();
     let Some(along) = along else { return Ok(Vec::new()) };
     let fixed = |(&axis, &along): (&usize, &usize)| {
         frame.align(along, axis);
@@ -185,7 +186,7 @@ impl<'r> Rows<'r> {
             entries.extend(sides.into_iter().map(|(k, a)| (*dof, free.len() + k, a)));
         }
         let fixed = columns.fixed;
-        let variables = ChangeOfVariables::of_columns(columns, &supports)?;
+        let variables = ChangeOfVariables::new(columns, &supports)?;
         let depends = self.places.iter().any(|place| matches!(place, RowPlace::Axes(_)));
         let dependent = if depends { Some(self.dependence(solved, fixed)?) } else { None };
         Ok(GeneralRows { variables, supports, dependent })

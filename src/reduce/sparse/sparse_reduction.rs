@@ -12,7 +12,6 @@ use crate::linalg::sparse_matrix::{Csc, OutOfMemory, times, transpose_times};
 use crate::linalg::sparse_schur::{FactorStep, Failure, Plan, SparseSchur};
 use crate::linalg::vector::{columns, norm_inf};
 use crate::problem::{Dependence, StiffnessOperator};
-use crate::reduce::frame::Frame;
 use crate::reduce::{ContactPairs, HostLoad, MatrixFreeReduction, Reduction, SolvedCase, motion};
 use crate::workers::{SingleThread, Workers};
 
@@ -80,16 +79,14 @@ impl SparseReduction {
         matrix.check_col_start()?;
         let places = supports::places_in_fixed(matrix.size, fixed)?;
         let host = matrix.lower_triangle("K", |dof| places[dof].is_some())?;
+        (control.ask)(0.0, 0)?;
         let rank = control.order.map(|order| ranks(matrix.size, order)).transpose()?;
         pairs.check(matrix.size)?;
         let mut frames = pairs.frames()?;
-        let with_own_slaves = rows_with_own_slaves(pairs, &mut frames, &places);
-        let own = with_own_slaves.is_some();
-        let rows = match with_own_slaves {
-            Some(rows) => rows.map_err(memory)?,
-            None => general_rows(pairs, &mut frames, &places)?,
-        };
-        let GeneralRows { variables, supports, dependent } = rows;
+        let GeneralRows { variables, supports, dependent } =
+            general_rows(pairs, &mut frames, &places)?;
+        let own = dependent.is_none() && pairs.have_own_slaves(matrix.size);
+        (control.ask)(0.0, 0)?;
         let contact_forces = contact_forces(matrix.size, pairs, &frames).map_err(memory)?;
         let (transformed, of_fixed) = variables.transform(host).map_err(memory)?;
         let mut asked = Asked::new(control.ask);
@@ -272,23 +269,6 @@ impl Engine {
         FullSpace::new(matrix, parts.inner, parts.dim, parts.workers, progress)
             .map(|space| Engine::FullSpace(Box::new(space)))
     }
-}
-
-/// The change of variables where each pair has a slave of its own, and supports that are along directions
-/// of its frame; `None` otherwise.
-fn rows_with_own_slaves(
-    pairs: &ContactPairs<'_>,
-    frames: &mut Vec<Frame>,
-    places: &[Option<usize>],
-) -> Option<Result<GeneralRows, OutOfMemory>> {
-    if !pairs.have_own_slaves(places.len()) {
-        return None;
-    }
-    let mut turned = frames.clone();
-    let supports = supports::fixed_components(pairs, &mut turned, places)?;
-    *frames = turned;
-    let variables = ChangeOfVariables::new(pairs, frames, places, &supports);
-    Some(variables.map(|variables| GeneralRows { variables, supports, dependent: None }))
 }
 
 /// Why the factorisation failed, in degrees of freedom of the host; `own`: each pair has a slave of its own.

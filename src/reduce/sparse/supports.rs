@@ -3,8 +3,6 @@
 
 use crate::error::{Argument, Error, index};
 use crate::linalg::tolerances::ROUNDING_OF_SUM;
-use crate::reduce::frame::Frame;
-use crate::reduce::pairs::ContactPairs;
 
 /// Place in `fixed` of each degree of freedom.
 ///
@@ -54,34 +52,4 @@ impl FixedComponent {
         );
         Err(Error::invalid(Argument::Prescribed, message))
     }
-}
-
-/// Finds the components that supports fix, and turns their directions exactly along the axes. `None` if a
-/// slave is fixed along an axis where its masters are not, or along one that is neither its normal nor a
-/// tangent: then the rows are general.
-pub(super) fn fixed_components(
-    pairs: &ContactPairs<'_>,
-    frames: &mut [Frame],
-    places: &[Option<usize>],
-) -> Option<Vec<FixedComponent>> {
-    let mut found = Vec::new();
-    for (pair, frame) in frames.iter_mut().enumerate() {
-        for (axis, &slave) in pairs.slave(pair)?.iter().enumerate() {
-            let Some(place) = places[slave] else { continue };
-            let mut jump = vec![(place, 1.0)];
-            for (weight, master) in pairs.masters_of(pair) {
-                match places[master[axis]] {
-                    Some(place) => jump.push((place, -weight)),
-                    // A weight of rounding's size is none.
-                    None if weight.abs() <= ROUNDING_OF_SUM => {}
-                    None => return None,
-                }
-            }
-            let along = frame.component_along(axis)?;
-            frame.align(along, axis);
-            let component = pairs.dim * pair + along;
-            found.push(FixedComponent { pair, component, variable: component, jump });
-        }
-    }
-    Some(found)
 }

@@ -2,6 +2,7 @@
 
 use super::free_motions::FreeMotions;
 use super::newton::{self, Outcome};
+use super::past::CasePast;
 use super::point::{Displacements, Equations, Point};
 use super::session::{Halted, Session};
 use super::{condensed, thresholds};
@@ -48,7 +49,9 @@ fn check(settings: &Settings) -> Result<(), Error> {
     Ok(())
 }
 
-/// Solves a load case from the displacements `start` (the pairs stuck at their gaps if `None`).
+/// Solves a load case from the displacements `start` (the pairs stuck at their gaps if `None`), with what cases before it
+/// have left in `past`. A factor with all pairs held is made where the load is no sum of loads before it, or the start
+/// is not the last solution.
 ///
 /// # Errors
 /// Settings that need a stiffness, arguments out of range, memory that cannot be had, and what has failed in the host.
@@ -57,23 +60,30 @@ pub fn solve(
     case: &Case<'_>,
     settings: &Settings,
     start: Option<&[f64]>,
+    past: &mut CasePast,
     monitor: &mut Monitor<'_>,
 ) -> Result<Solution, Error> {
     check(settings)?;
     let mut bodies = Session::new(bodies);
-    let loaded = Loaded::new(&mut bodies, case)?;
+    let (loaded, ending) = Loaded::new(&mut bodies, case, past, monitor)?;
     let whole = loaded.problem(&bodies, case.gap)?;
     let contact = Contact::new(&whole);
     let mut solution = None;
-    if let Some(gaps) = gaps_within_reach(&contact, &[], FAR) {
+    if let Some(ending) = ending {
+        let found = (&loaded.at_zero, &loaded.residual[..], &ending);
+        solution = Some(result(&contact, &mut bodies, (settings, case), found, past));
+    } else if let Some(gaps) = gaps_within_reach(&contact, &[], FAR) {
         let near = loaded.problem(&bodies, &gaps)?;
         let near = Contact::new(&near);
-        let found = loaded.solve((&contact, &near), &mut bodies, (settings, start), monitor)?;
+        let found =
+            loaded.solve((&contact, &near), &mut bodies, (settings, start), past, monitor)?;
         solution = Some(found).filter(|found| found.status != Status::Stalled);
     }
     let solution = match solution {
         Some(solution) => solution,
-        None => loaded.solve((&contact, &contact), &mut bodies, (settings, start), monitor)?,
+        None => {
+            loaded.solve((&contact, &contact), &mut bodies, (settings, start), past, monitor)?
+        }
     };
     let Session { solutions, factorisations, .. } = bodies;
     Ok(Solution { factorisations, outer_iterations: solutions, ..solution })
@@ -89,7 +99,8 @@ pub fn certify(
     d: &[f64],
 ) -> Result<Certificate, Error> {
     let mut bodies = Session::new(bodies);
-    let loaded = Loaded::new(&mut bodies, case)?;
+    let endless = &mut Monitor::new(&Settings::default(), None);
+    let (loaded, _) = Loaded::new(&mut bodies, case, &mut CasePast::default(), endless)?;
     let problem = loaded.problem(&bodies, case.gap)?;
     let mut at = loaded.at_zero.clone();
     at.x[bodies.operator.inner()..].copy_from_slice(d);
@@ -112,14 +123,26 @@ struct Loaded<'a> {
 }
 
 impl<'a> Loaded<'a> {
-    fn new(bodies: &mut Session<'_>, case: &'a Case<'a>) -> Result<Self, Error> {
-        bodies.hold_all(case.dim)?;
-        let inner = bodies.operator.inner();
-        let at_zero = Displacements::new(vec![0.0; case.load.len()], inner);
-        let at_zero = at_zero.in_equilibrium(bodies, case.load)?;
+    /// The load case, and how the call ends if it has no factor in time: nothing is in equilibrium then.
+    fn new(
+        bodies: &mut Session<'_>,
+        case: &'a Case<'a>,
+        past: &mut CasePast,
+        monitor: &mut Monitor<'_>,
+    ) -> Result<(Self, Option<Ending>), Error> {
+        let (inner, known) = (bodies.operator.inner(), past.at_zero(case.load));
+        let (mut at_zero, mut ending) = (known.clone().unwrap_or_default(), None);
+        if known.is_none() {
+            at_zero = Displacements::new(vec![0.0; case.load.len()], inner);
+            ending = ended(bodies.hold_all(case.dim, monitor))?;
+            if ending.is_none() {
+                at_zero = at_zero.in_equilibrium(bodies, case.load)?;
+                past.learn(case.load, &at_zero);
+            }
+        }
         let residual = bodies.operator.residual(&at_zero.x, &at_zero.low, case.load)?;
         let relative = residual[inner..].iter().map(|f| -f).collect();
-        Ok(Loaded { case, at_zero, residual, relative })
+        Ok((Loaded { case, at_zero, residual, relative }, ending))
     }
 
     /// The contact problem with these gaps.
@@ -139,36 +162,41 @@ impl<'a> Loaded<'a> {
         (contact, near): (&Contact<'_, MatrixFree<'_>>, &Contact<'_, MatrixFree<'_>>),
         bodies: &mut Session<'_>,
         (settings, start): (&Settings, Option<&[f64]>),
+        past: &mut CasePast,
         monitor: &mut Monitor<'_>,
     ) -> Result<Solution, Error> {
-        let (inner, load, mut at) = (bodies.operator.inner(), self.case.load, self.at_zero.clone());
-        let measure = |bodies: &Session<'_>, x: &[f64], residual: &[f64]| {
-            measure_spread(contact, bodies.operator, x, residual)
-        };
+        let (inner, case) = (bodies.operator.inner(), self.case);
         if contact.is_unloaded() {
-            let certificate = measure(bodies, &at.x, &self.residual);
-            if certificate.holds(settings.tolerance) {
-                let d = at.x.split_off(inner);
-                return Ok(result(contact, settings, d, certificate, &Ending::Done));
+            let rest = (&self.at_zero, &self.residual[..], &Ending::Done);
+            let rest = result(contact, bodies, (settings, case), rest, past);
+            if rest.status == Status::Solved {
+                return Ok(rest);
             }
         }
-        bodies.hold_all(self.case.dim)?;
-        let references = near.pairs().iter().flat_map(|law| {
-            let reference = law.reference();
-            reference.into_iter().take(self.case.dim)
-        });
-        match start {
-            Some(start) => at.x[inner..].copy_from_slice(&near.admissible(start)),
-            None => at.x[inner..].iter_mut().zip(references).for_each(|(x, held)| *x = held),
-        }
-        let at = at.in_equilibrium(bodies, load)?;
-        let equations = Equations::new(near, bodies.operator, load, &self.relative);
-        let ended = by_attempts(&equations, bodies, &at, settings.tolerance, monitor)?;
-        let (mut x, residual) = (ended.point.at.x, ended.point.residual);
-        let certificate = measure(bodies, &x, &residual);
-        let mut solution =
-            result(contact, settings, x.split_off(inner), certificate, &ended.ending);
-        if let Ending::Recession(motion) = ended.ending
+        let at = match start.and_then(|start| past.last(start)) {
+            Some(last) => last.clone(),
+            None => {
+                if let Some(ending) = ended(bodies.hold_all(case.dim, monitor))? {
+                    let rest = (&self.at_zero, &self.residual[..], &ending);
+                    return Ok(result(contact, bodies, (settings, case), rest, past));
+                }
+                let mut at = self.at_zero.clone();
+                let references = near.pairs().iter().flat_map(|law| {
+                    let reference = law.reference();
+                    reference.into_iter().take(case.dim)
+                });
+                match start {
+                    Some(start) => at.x[inner..].copy_from_slice(&near.admissible(start)),
+                    None => at.x[inner..].iter_mut().zip(references).for_each(|(x, r)| *x = r),
+                }
+                at.in_equilibrium(bodies, case.load)?
+            }
+        };
+        let equations = Equations::new(near, bodies.operator, case.load, &self.relative);
+        let outcome = by_attempts(&equations, bodies, &at, settings.tolerance, monitor)?;
+        let found = (&outcome.point.at, &outcome.point.residual[..], &outcome.ending);
+        let mut solution = result(contact, bodies, (settings, case), found, past);
+        if let Ending::Recession(motion) = outcome.ending
             && solution.status == Status::Stalled
             && is_spread_escape(contact, bodies.operator, &motion)?
         {
@@ -200,10 +228,10 @@ fn by_attempts(
         if has_ended || certificate.holds(tolerance) || !merit.is_finite() {
             break;
         }
-        match attempt(equations, bodies, start, &mut best, tolerance, monitor) {
-            Ok(()) => {}
-            Err(Halt::Ended(ending)) => best.ending = ending,
-            Err(Halt::Failed(error)) => return Err(error),
+        if let Some(ending) =
+            ended(attempt(equations, bodies, start, &mut best, tolerance, monitor))?
+        {
+            best.ending = ending;
         }
     }
     Ok(best)
@@ -233,27 +261,39 @@ fn describe(
     solution: &mut Solution,
     monitor: &mut Monitor<'_>,
 ) -> Result<(), Error> {
-    let motions = match FreeMotions::of(bodies, contact.dim(), monitor) {
-        Ok(motions) => motions,
-        // The motion of the proof stands for the others.
-        Err(Halt::Ended(_)) => None,
-        Err(Halt::Failed(error)) => return Err(error),
-    };
+    let mut motions = None;
+    // If others are not found in time, the motion of the proof stands for all.
+    ended(FreeMotions::of(bodies, contact.dim(), monitor).map(|found| motions = found))?;
     let fits = condensed::fits(contact.unknowns(), bodies.operator.units().len());
     let balance = motions.as_ref().map(|motions| motions.balance(contact, bodies.operator));
     let solve = fits.then_some(plan::solve as Solve);
     rigid::describe(contact, solution, balance, solve, monitor)
 }
 
-/// The result at displacements `d` of the pairs, by its certificate.
+/// How the call ends where a work was ended.
+fn ended(result: Result<(), Halted>) -> Result<Option<Ending>, Error> {
+    match result {
+        Ok(()) => Ok(None),
+        Err(Halt::Ended(ending)) => Ok(Some(ending)),
+        Err(Halt::Failed(error)) => Err(error),
+    }
+}
+
+/// The result at displacements of all unknowns with their residual, by its certificate.
 fn result(
     contact: &Contact<'_, MatrixFree<'_>>,
-    settings: &Settings,
-    d: Vec<f64>,
-    certificate: Certificate,
-    ending: &Ending,
+    bodies: &mut Session<'_>,
+    (settings, case): (&Settings, &Case<'_>),
+    (at, residual, ending): (&Displacements, &[f64], &Ending),
+    past: &mut CasePast,
 ) -> Solution {
+    let certificate = measure_spread(contact, bodies.operator, &at.x, residual);
     let certificate = certificate.with_rounding(settings.tolerance);
+    let d = at.x[bodies.operator.inner()..].to_vec();
+    if certificate.holds(settings.tolerance) {
+        bodies.operator.remember(case.load, &at.x);
+        past.solved(at.clone());
+    }
     let accuracy = format!("eta is {:.1e}", certificate.eta);
     let wanted = format!("{accuracy}, wanted {:.1e}", settings.tolerance);
     let told = match ending {

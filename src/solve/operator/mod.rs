@@ -13,6 +13,7 @@ mod directions;
 mod free_motions;
 mod memory;
 mod newton;
+mod past;
 mod point;
 mod session;
 mod system;
@@ -20,3 +21,4 @@ mod thresholds;
 
 pub use case::{Case, certify, solve};
 pub use memory::memory;
+pub use past::CasePast;

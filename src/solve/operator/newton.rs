@@ -100,7 +100,7 @@ impl NormalMap for Newton<'_, '_> {
         if let Some(factor) = bodies.held().filter(|factor| **factor != system.held_set) {
             let pairs = factor.springs.len();
             if changed(&factor, &system.held_set) as f64 <= CHANGED * pairs as f64 {
-                let step = system.step(bodies, (forcing, MOST_DIRECTIONS / 4), known)?;
+                let step = system.step(bodies, (forcing, MOST_DIRECTIONS / 4), known, monitor)?;
                 if step.left <= FORCING {
                     return Ok(step);
                 }
@@ -109,7 +109,7 @@ impl NormalMap for Newton<'_, '_> {
             }
             bodies.hold_under(&system.held_set, monitor)?;
         }
-        Ok(system.step(bodies, (forcing, MOST_DIRECTIONS), known)?)
+        system.step(bodies, (forcing, MOST_DIRECTIONS), known, monitor)
     }
 
     fn moved(&mut self, point: &Point, step: &Step, part: f64) -> Result<Point, Error> {

@@ -108,7 +108,7 @@ impl<'a> Equations<'a> {
 
 /// Displacements of all unknowns. A double cannot hold inner ones to the accuracy that forces on a fine mesh ask
 /// for, so that they have two parts.
-#[derive(Clone)]
+#[derive(Clone, Default)]
 pub struct Displacements {
     /// All unknowns.
     pub x: Vec<f64>,
@@ -132,6 +132,13 @@ impl Displacements {
         let mut step = bodies.solve(&lack)?;
         step[inner..].fill(0.0);
         Ok(self.moved(-1.0, &step))
+    }
+
+    /// With a share of other displacements.
+    pub fn plus(&self, share: f64, other: &Displacements) -> Self {
+        let mut sum = self.moved(share, &other.x);
+        sum.low.iter_mut().zip(&other.low).for_each(|(low, other)| *low += share * other);
+        sum
     }
 
     /// A `part` of `step` further.

@@ -4,7 +4,7 @@ use std::rc::Rc;
 
 use crate::error::Error;
 use crate::monitor::Monitor;
-use crate::problem::{GoesOn, HeldSet, StiffnessOperator};
+use crate::problem::{HeldSet, StiffnessOperator};
 use crate::solve::newton::Halt;
 
 /// Why a computation on an operator ended before its result.
@@ -36,35 +36,30 @@ impl<'b> Session<'b> {
     }
 
     /// Holds all components of pairs that have `dim` of them, if the operator can hold any.
-    pub fn hold_all(&mut self, dim: usize) -> Result<(), Error> {
+    pub fn hold_all(&mut self, dim: usize, monitor: &mut Monitor<'_>) -> Result<(), Halted> {
         let components = self.operator.units().len() - self.operator.inner();
-        self.hold(&HeldSet::all(dim, components / dim), &mut || true)
+        self.hold_under(&HeldSet::all(dim, components / dim), monitor)
     }
 
-    /// Holds components until the next call, if the operator can hold any.
+    /// Holds components until the next call, if the operator can hold any. The factor of the last call serves again where it
+    /// holds the same components.
     pub fn hold_under(
         &mut self,
         held_set: &HeldSet,
         monitor: &mut Monitor<'_>,
     ) -> Result<(), Halted> {
-        let mut stop = None;
-        self.hold(held_set, &mut || {
-            stop = monitor.goes_on().err();
-            stop.is_none()
-        })?;
-        Ok(stop.map_or(Ok(()), Err)?)
-    }
-
-    /// The factor of the last call serves again where it holds the same components.
-    fn hold(&mut self, held_set: &HeldSet, goes_on: GoesOn<'_>) -> Result<(), Error> {
         if !self.operator.can_hold() || self.held.as_deref() == Some(held_set) {
             return Ok(());
         }
         self.held = None;
         self.factorisations += 1;
-        let is_held = self.operator.hold(held_set, goes_on)?;
+        let mut stop = None;
+        let is_held = self.operator.hold(held_set, &mut || {
+            stop = monitor.goes_on().err();
+            stop.is_none()
+        })?;
         self.held = is_held.then(|| Rc::new(held_set.clone()));
-        Ok(())
+        Ok(stop.map_or(Ok(()), Err)?)
     }
 
     /// A solution with the held components at zero, or with the inverse.

@@ -28,10 +28,11 @@
 
 use super::directions::{Directions, Images, Moved};
 use super::point::{Equations, Point};
-use super::session::Session;
+use super::session::{Halted, Session};
 use crate::error::Error;
 use crate::law::{Linearised, Plane, Vector, ellipse};
 use crate::linalg::gmres::gmres;
+use crate::monitor::Monitor;
 use crate::problem::HeldSet;
 
 /// A pair on its piece.
@@ -86,12 +87,14 @@ impl<'a> System<'a> {
         bodies: &mut Session<'_>,
         (forcing, most): (f64, usize),
         known: &mut Directions,
-    ) -> Result<Step, Error> {
+        monitor: &mut Monitor<'_>,
+    ) -> Result<Step, Halted> {
         let inner = self.equations.inner;
         let root = &self.equations.root[inner..];
         let mut right = self.right();
         let lack = self.equations.length(self.lack);
         let mut sum = Moved { z: vec![0.0; self.lack.len()], forces: vec![0.0; right.len()] };
+        monitor.goes_on()?;
         if bodies.held().is_some() {
             let on_inner: Vec<f64> = self.lack[..inner].iter().map(|h| -h).collect();
             sum = self.moved_by(bodies, &on_inner, &right)?;
@@ -106,12 +109,13 @@ impl<'a> System<'a> {
         let (before, mut by_known) = (known.count(), images.take_out(&mut right));
         let mut taken_out = Vec::new();
         let (shares, left) = gmres(&right, forcing * lack, most, |v| {
+            monitor.goes_on()?;
             let w: Vec<f64> = v.iter().zip(root).map(|(v, root)| v * root).collect();
             let moved = self.moved_by(bodies, &vec![0.0; inner], &w)?;
             let mut row = image(&moved);
             taken_out.push(images.take_out(&mut row));
             known.add(moved);
-            Ok::<_, Error>(row)
+            Ok::<_, Halted>(row)
         })?;
         for (share, taken_out) in shares.iter().zip(&taken_out) {
             by_known.iter_mut().zip(taken_out).for_each(|(sum, part)| *sum -= share * part);
