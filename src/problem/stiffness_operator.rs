@@ -75,6 +75,11 @@ pub trait StiffnessOperator {
     /// Returns `true` if components can be held: whether [`Self::hold`] may be called.
     fn can_hold(&self) -> bool;
 
+    /// The components that a factor holds which is there already.
+    fn held_set(&self) -> Option<&HeldSet> {
+        None
+    }
+
     /// From now on [`Self::solve`] solves with these components held. `goes_on` is asked now and then while that
     /// lasts; `false`: it has ended it, and nothing can be solved before another call.
     ///

@@ -9,7 +9,7 @@ use crate::common::stack::{Stack, components};
 use crate::common::wavy::Wavy;
 use signorini::{
     Error, FrictionLaw, Limit, LoadCase, Method, Model, Monitor, Progress, Search, Settings,
-    Solution, State, Status,
+    Solution, Starts, State, Status,
 };
 
 fn full() -> Settings {
@@ -291,6 +291,41 @@ fn a_further_load_case_asks_before_its_first_system() {
         assert_eq!(solution.status, Status::Solved, "{}", solution.message);
         // The first system itself asks once; the model has left the factor of the first case.
         assert!(before >= begins, "{before}");
+    }
+}
+
+/// A case of a series begins at the solution before it, with its factor: it has the answer of a case by itself, with
+/// fewer factorisations, also where its loads are no multiple of earlier ones.
+#[test]
+fn a_series_begins_where_it_was() {
+    let wavy = Wavy::space(13);
+    let model = || wavy.try_model(&mut Monitor::new(&full(), None)).unwrap();
+    let (series, alone) = (model(), model());
+    let mut series = series.series();
+    let mu = vec![0.3; alone.pairs()];
+    for (k, part) in [1.0, 0.95, 0.9, 0.85].into_iter().enumerate() {
+        let values = wavy.prescribed.as_ref().map(|values| {
+            let turned = |(i, v): (usize, &f64)| if k == 2 && i % 3 == 0 { 0.9 * v } else { *v };
+            values.iter().enumerate().map(turned).map(|v| part * v).collect::<Vec<f64>>()
+        });
+        let case = LoadCase {
+            load: &wavy.load,
+            prescribed: values.as_deref(),
+            gap: &wavy.gap,
+            law: FrictionLaw::Coulomb(&mu),
+            reference_slip: None,
+        };
+        let solved = series.solve_cases(&[case], &full(), Starts::Previous(None), None);
+        let one = solved.into_iter().next().unwrap().unwrap();
+        let start = None;
+        let other = alone.solve(&case, &full(), start, &mut Monitor::new(&full(), None)).unwrap();
+        for solution in [&one, &other] {
+            assert_eq!(solution.status, Status::Solved, "{k}: {}", solution.message);
+        }
+        // Friction .3 leaves one solution here; both are certified to 1e-10 of the forces.
+        assert!(largest(&difference(&one.d, &other.d)) <= 1e-8 * largest(&other.d), "{k}");
+        let counts = (one.factorisations, other.factorisations);
+        assert!(k == 0 || counts.0 < counts.1, "{k}: {counts:?}");
     }
 }
 

@@ -1,7 +1,5 @@
 //! The factor of the eliminated rows, and the Schur complement of the others.
 
-use std::sync::Mutex;
-
 use super::diagnosis::diagnosed;
 use super::factor_progress::{FactorProgress, FactorStep, Failure};
 use super::numeric::Numeric;
@@ -9,9 +7,9 @@ use super::plan::Plan;
 use super::solve;
 use super::structure::Structure;
 use crate::linalg::free_motions::{self, StiffnessDefect, Whole, is_suspicious};
+use crate::linalg::last_case::LastCase;
 use crate::linalg::sparse_matrix::{Csc, diagonal, symmetric_magnitude, symmetric_times};
 use crate::linalg::vector::{dot, sizes};
-use crate::shortage;
 use crate::workers::Workers;
 
 /// So many rows of `C` are few beside the rigid motions of a body, which are up to six: pivots tell which of
@@ -27,7 +25,7 @@ pub struct SparseSchur {
     schur: Vec<f64>,
     /// The last right side that was condensed by itself, and the result of its elimination: its recovery needs both
     /// again.
-    last: Mutex<Option<[Vec<f64>; 2]>>,
+    last: LastCase,
 }
 
 impl SparseSchur {
@@ -57,7 +55,7 @@ impl SparseSchur {
         let Numeric { values, schur, .. } = diagnosed(&plan, &mut lower, workers, progress)?;
         let structure = plan.structure;
         let (eliminated, m) = (structure.eliminated, structure.kept());
-        let mut found = SparseSchur { structure, values, schur, last: Mutex::new(None) };
+        let mut found = SparseSchur { structure, values, schur, last: LastCase::default() };
         let units: Vec<f64> =
             (eliminated..lower.ncols()).map(|j| diagonal(&lower, j).unwrap_or_default()).collect();
         if always || m <= FEW || is_suspicious(&units, |i| found.schur[i + m * i]) {
@@ -86,12 +84,8 @@ impl SparseSchur {
         let (size, eliminated) = (self.structure.size.max(1), self.structure.eliminated);
         let x = self.forward(rhs);
         let condensed = x.chunks_exact(size).flat_map(|x| &x[eliminated..]).copied().collect();
-        // The reserve of a call holds nothing that outlives it.
-        if x.len() == size && !shortage::is_noted() {
-            let last = [rhs.to_vec(), x];
-            if let Ok(mut place) = self.last.try_lock() {
-                *place = Some(last);
-            }
+        if x.len() == size {
+            self.last.keep(rhs, &x);
         }
         condensed
     }
@@ -101,20 +95,13 @@ impl SparseSchur {
     /// result.
     pub fn recover(&self, rhs: &[f64], d: &[f64]) -> Vec<f64> {
         let (size, eliminated) = (self.structure.size.max(1), self.structure.eliminated);
-        let mut x = self.last_of(rhs).unwrap_or_else(|| self.forward(rhs));
+        let mut x = self.last.of(rhs, |_| true).unwrap_or_else(|| self.forward(rhs));
         let kept = d.chunks_exact(self.structure.kept().max(1));
         for (x, d) in x.chunks_exact_mut(size).zip(kept) {
             x[eliminated..].copy_from_slice(d);
         }
         solve::backward(&self.structure, &self.values, &mut x);
         self.structure.unordered(&x)
-    }
-
-    /// The result of elimination for a right side, if it is the last one. No call waits for the lock: after a fork it
-    /// may belong to a thread that is not there.
-    fn last_of(&self, rhs: &[f64]) -> Option<Vec<f64>> {
-        let last = self.last.try_lock().ok()?;
-        last.as_ref().filter(|[known, _]| known == rhs).map(|[_, x]| x.clone())
     }
 
     fn forward(&self, rhs: &[f64]) -> Vec<f64> {

@@ -7,6 +7,7 @@
 use std::sync::{Mutex, PoisonError};
 
 use crate::error::{Argument, Error};
+use crate::linalg::last_case::LastCase;
 use crate::linalg::sparse_matrix::{
     Csc, column, diagonal, symmetric_magnitude, symmetric_residual, symmetric_times,
 };
@@ -14,7 +15,6 @@ use crate::linalg::sparse_schur::{
     FactorProgress, FactorStep, Failure, SparseCholesky, Stopped, Values,
 };
 use crate::problem::{GoesOn, HeldSet, StiffnessOperator};
-use crate::shortage;
 use crate::workers::{SingleThread, Workers};
 
 /// Where bodies move freely with the components that are held, springs of this part of their units hold them in
@@ -32,7 +32,7 @@ pub(super) struct FullSpace {
     /// The factor that was made last, for whom needs the same one next.
     kept: Mutex<Option<Factor>>,
     /// The loads and all unknowns of the last load case, for its recovery.
-    last: Mutex<Option<[Vec<f64>; 2]>>,
+    last: LastCase,
 }
 
 /// A factor, and what is held in it.
@@ -56,7 +56,7 @@ impl FullSpace {
         let units: Vec<f64> =
             (0..matrix.ncols()).map(|j| diagonal(&matrix, j).unwrap_or_default()).collect();
         let held_set = HeldSet::all(dim, (matrix.ncols() - inner) / dim);
-        let (kept, last) = (Mutex::new(None), Mutex::new(None));
+        let (kept, last) = (Mutex::new(None), LastCase::default());
         let mut space = FullSpace { matrix, inner, dim, units, cholesky, kept, last };
         let values =
             space.cholesky.diagnosed(space.restricted(&held_set, 0.0), workers, progress)?;
@@ -127,7 +127,7 @@ impl FullSpace {
     /// All unknowns of loads where those of the pairs are `d`. Of several load cases, each argument has its
     /// vectors one behind the other, and so has the result.
     pub(super) fn recover(&self, loads: &[f64], d: &[f64]) -> Result<Vec<f64>, Error> {
-        if let Some(x) = self.last_of(loads, d) {
+        if let Some(x) = self.last.of(loads, |x| &x[self.inner..] == d) {
             return Ok(x);
         }
         let mut user = self.in_use(&SingleThread);
@@ -150,14 +150,6 @@ impl FullSpace {
             }
         }
         Ok(x)
-    }
-
-    /// All unknowns of the last load case, if it had these loads and relative displacements. No call waits for the lock:
-    /// after a fork it may belong to a thread that is not there.
-    fn last_of(&self, load: &[f64], d: &[f64]) -> Option<Vec<f64>> {
-        let last = self.last.try_lock().ok()?;
-        let known = last.as_ref().filter(|[of, x]| of == load && &x[self.inner..] == d);
-        known.map(|[_, x]| x.clone())
     }
 }
 
@@ -227,16 +219,15 @@ impl StiffnessOperator for InUse<'_> {
     }
 
     fn remember(&mut self, load: &[f64], x: &[f64]) {
-        // The reserve of a call holds nothing that outlives it.
-        if !shortage::is_noted()
-            && let Ok(mut last) = self.space.last.try_lock()
-        {
-            *last = Some([load.to_vec(), x.to_vec()]);
-        }
+        self.space.last.keep(load, x);
     }
 
     fn can_hold(&self) -> bool {
         true
+    }
+
+    fn held_set(&self) -> Option<&HeldSet> {
+        self.factor.as_ref().map(|factor| &factor.held_set)
     }
 
     fn hold(&mut self, held_set: &HeldSet, goes_on: GoesOn<'_>) -> Result<bool, Error> {

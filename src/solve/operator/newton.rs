@@ -97,7 +97,11 @@ impl NormalMap for Newton<'_, '_> {
         let forcing = FORCING.min(FORCING_OF_ETA * point.eta).max(least);
         let (bodies, known) = (&mut *self.bodies, &mut self.known);
         let system = System::new(self.equations, point, bodies.operator.is_sparse());
-        if let Some(factor) = bodies.held().filter(|factor| **factor != system.held_set) {
+        let factor = bodies.held();
+        if factor.is_none() {
+            bodies.hold_under(&system.held_set, monitor)?;
+        }
+        if let Some(factor) = factor.filter(|factor| **factor != system.held_set) {
             let pairs = factor.springs.len();
             if changed(&factor, &system.held_set) as f64 <= CHANGED * pairs as f64 {
                 let step = system.step(bodies, (forcing, MOST_DIRECTIONS / 4), known, monitor)?;

@@ -27,7 +27,8 @@ pub struct Session<'b> {
 
 impl<'b> Session<'b> {
     pub fn new(operator: &'b mut dyn StiffnessOperator) -> Self {
-        Session { operator, held: None, solutions: 0, factorisations: 0 }
+        let held = operator.held_set().map(|held_set| Rc::new(held_set.clone()));
+        Session { operator, held, solutions: 0, factorisations: 0 }
     }
 
     /// The components that the factor holds; `None`: solutions are those of an inverse.
