@@ -31,18 +31,6 @@ impl PairLaw {
         d[c] - self.slip0[c - 1]
     }
 
-    /// `(v, P)` at `y`, in the units of length and force.
-    pub fn normal_map(&self, y: &Vector) -> (Vector, Vector) {
-        let mut p = *y;
-        p[0] = y[0].max(0.0);
-        let v_n = (y[0] - p[0]) / self.k_n;
-        let threshold = self.bound.at(p[0]);
-        self.bring_back(&mut p[1..self.dim], threshold);
-        let v = [v_n, (y[1] - p[1]) / self.k_t, (y[2] - p[2]) / self.k_t];
-        p[0] -= self.tension;
-        (v, p)
-    }
-
     /// The coordinates `y = P' + k (d - reference)` of a displacement and a force on the chart that
     /// [`Self::point`] reads; of a pair without an obstacle `y_n` is `k_n d_n`.
     pub fn chart(&self, d: &[f64], force: &[f64]) -> Vector {
@@ -56,19 +44,7 @@ impl PairLaw {
     /// The displacement `d` and the pressure and friction `P = -F` at the coordinates `y`; they obey the
     /// law.
     pub fn point(&self, y: &Vector) -> (Vector, Vector) {
-        let (mut v, p) = self.normal_map(&self.without_obstacle(y));
-        let reference = self.reference();
-        if !self.has_obstacle() {
-            v[0] = y[0] / self.k_n;
-        }
-        for c in 0..self.dim {
-            v[c] += reference[c];
-        }
-        (v, p)
-    }
-
-    /// `y` with the normal coordinate that the normal map has for an infinite gap.
-    fn without_obstacle(&self, y: &Vector) -> Vector {
-        if self.has_obstacle() { *y } else { [f64::NEG_INFINITY, y[1], y[2]] }
+        let push = self.push_on(self.piece(y), y);
+        (self.displacement(y, &push), push)
     }
 }

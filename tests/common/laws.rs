@@ -190,6 +190,13 @@ impl Numbers {
         [p[0] + self.tension + self.k.0 * v[0], p[1] + moved[0], p[2] + moved[1]]
     }
 
+    /// `(v, P)` at the coordinates `y`.
+    pub fn map(&self, y: &Vector) -> (Vector, Vector) {
+        let law = self.law();
+        let ((d, push), reference) = (law.point(y), law.reference());
+        (std::array::from_fn(|c| d[c] - reference[c]), push)
+    }
+
     /// The displacement and the force of `(v, P)`; without an obstacle `d_n = 0.5`.
     pub fn of_host(&self, v: &Vector, p: &Vector) -> (Vec<f64>, Vec<f64>) {
         let normal = if self.has_obstacle() { self.gap + v[0] } else { 0.5 };

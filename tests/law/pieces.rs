@@ -30,7 +30,7 @@ fn a_point_obeys_the_equations_of_its_branch() {
     for _ in 0..POINTS {
         let numbers = Numbers::random(rng);
         let (law, y) = (numbers.law(), coordinates(rng, &numbers));
-        let ((v, p), piece) = (law.normal_map(&y), law.piece(&y));
+        let ((v, p), piece) = (numbers.map(&y), law.piece(&y));
         if numbers.dim == 3 && matches!(piece.tangential, Tangential::Slip { .. }) {
             continue;
         }
@@ -55,7 +55,7 @@ fn the_push_of_a_branch_is_its_constant_and_its_slopes() {
         let numbers = Numbers::random_in(rng, 2);
         let law = numbers.law();
         let mut y = coordinates(rng, &numbers);
-        let (piece, (_, p)) = (law.piece(&y), law.normal_map(&y));
+        let (piece, (_, p)) = (law.piece(&y), numbers.map(&y));
         if !numbers.has_obstacle() {
             y[0] = -1.0;
         }
@@ -145,7 +145,7 @@ fn the_distance_to_a_piece_is_what_was_added() {
         }
         let (law, y) = (numbers.law(), coordinates(rng, &numbers));
         let piece = law.piece(&y);
-        let ((v, p), dim) = (law.normal_map(&y), numbers.dim);
+        let ((v, p), dim) = (numbers.map(&y), numbers.dim);
         let (mut d, mut force) = numbers.of_host(&v, &p);
         let distance = law.distance_to_piece(piece, &y, &d, &force);
         assert!(norm(&distance) <= 10.0 * ROUNDING, "{numbers:?} at {y:?}: {distance:?}");

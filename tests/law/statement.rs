@@ -33,7 +33,7 @@ fn every_point_of_the_normal_map_obeys_the_law() {
     for _ in 0..POINTS {
         let law = Numbers::random(rng);
         let y = any(rng, &law);
-        let (v, p) = law.law().normal_map(&y);
+        let (v, p) = law.map(&y);
         assert!(law.defect(&v, &p) <= ROUNDING, "{law:?} at {y:?}: {v:?} {p:?}");
         assert!(is_near(&law.trial(&v, &p), &y), "{law:?} at {y:?}");
     }
@@ -46,7 +46,7 @@ fn every_point_of_the_law_is_one_of_the_normal_map() {
         let law = Numbers::random(rng);
         let (v, p) = law.point(rng, 0.0);
         assert!(law.defect(&v, &p) <= ROUNDING, "a wrong test: {law:?} {v:?} {p:?}");
-        let (v_again, p_again) = law.law().normal_map(&law.trial(&v, &p));
+        let (v_again, p_again) = law.map(&law.trial(&v, &p));
         assert!(is_near(&v, &v_again) && is_near(&p, &p_again), "{law:?} at {v:?} {p:?}");
         // In terms of the host's displacement and force.
         let (d, force) = law.of_host(&v, &p);
@@ -141,7 +141,7 @@ fn branches_have_the_derivative_of_the_normal_map() {
             let moved = |h: f64| {
                 let mut y = y;
                 y[j] += h;
-                law.law().normal_map(&y)
+                law.map(&y)
             };
             let unit: Vector = std::array::from_fn(|i| f64::from(u8::from(i == j)));
             let followed = linearised.moved(&unit);
@@ -180,7 +180,7 @@ fn pieces_are_those_of_the_normal_map_and_end_at_their_boundaries() {
         }
         let pair = law.law();
         let piece = pair.piece(&y);
-        let (v, p) = pair.normal_map(&y);
+        let (v, p) = law.map(&y);
         let push = pair.push_on(piece, &y);
         let d = pair.displacement(&y, &push);
         assert!(is_near(&push, &p), "{law:?} at {y:?}: {push:?}");

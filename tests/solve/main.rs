@@ -15,6 +15,7 @@ mod ellipses;
 mod enumeration;
 mod escape_motion;
 mod far_gaps;
+mod far_slips;
 mod floating;
 mod ill_conditioned;
 mod invariance;
