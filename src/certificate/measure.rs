@@ -97,7 +97,7 @@ pub(crate) fn certify_in_units<R: ChangesUnits>(
     measure(&Contact::new(problem), d, force)
 }
 
-/// Measures a displacement and a contact force of any origin, on any relation.
+/// Measures a displacement and a contact force of any origin, on any relation. The force is taken as it is.
 pub fn certify_pair<R: Relation>(
     problem: &ContactProblem<'_, R>,
     d: &[f64],
@@ -116,23 +116,30 @@ pub(crate) fn measure<R: Relation>(
     d: &[f64],
     force: &[f64],
 ) -> Certificate {
+    measure_any(contact, (d, &[]), force)
+}
+
+/// [`measure`] of displacements `d + low` in two parts, where they determine the contact forces.
+pub(crate) fn measure_parts(contact: &Contact<'_>, d: &[f64], low: &[f64]) -> Certificate {
+    measure_any(contact, (d, low), &[])
+}
+
+/// [`measure`] of displacements `d + low` in two parts, if they determine the contact forces; otherwise `low` is left
+/// out.
+pub(crate) fn measure_any<R: Relation>(
+    contact: &Contact<'_, R>,
+    (d, low): (&[f64], &[f64]),
+    force: &[f64],
+) -> Certificate {
     let relation = contact.problem().relation();
     let terms = Terms::new(contact, d);
-    match relation.force(d, &[], &terms.each) {
-        Some(force) => measure_pair(contact, (d, &[]), &terms, force, NOTHING),
+    match relation.force(d, low, &terms.each) {
+        Some(force) => measure_pair(contact, (d, low), &terms, force, NOTHING),
         None => {
             let residual = relation.residual(d, force);
             measure_pair(contact, (d, &[]), &terms, force.to_vec(), (&residual, &[]))
         }
     }
-}
-
-/// [`measure`] of displacements `d + low` in two parts, where they determine the contact forces.
-pub(crate) fn measure_parts(contact: &Contact<'_>, d: &[f64], low: &[f64]) -> Certificate {
-    let terms = Terms::new(contact, d);
-    let force =
-        contact.problem().stiffness().residual(d, low, contact.problem().load(), &terms.each);
-    measure_pair(contact, (d, low), &terms, force, NOTHING)
 }
 
 /// No residual: the displacements determine the forces.

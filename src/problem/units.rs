@@ -5,7 +5,7 @@
 //! numbers keep all their digits, and so do those of its solution on the way back.
 
 use super::contact::ContactProblem;
-use super::dependent_rows::DependentRows;
+use super::dependent_rows::{Dependence, DependentRows};
 use super::flexibility::{Flexibility, FlexibilityMatrix};
 use super::friction_law::{Law, Parameter};
 use super::relation::{Redundant, Relation, Stiffness};
@@ -133,7 +133,7 @@ impl<N> InUnits<N> {
         &'b self,
         problem: &'b ContactProblem<'_, R>,
     ) -> ContactProblem<'b, R::On<'b>> {
-        let relation = problem.relation().on(&self.relation);
+        let relation = R::on(&self.relation);
         let slip = Some(&*self.reference_slip).filter(|slip| !slip.is_empty());
         ContactProblem::with_relation(
             relation,
@@ -148,55 +148,48 @@ impl<N> InUnits<N> {
 
 /// A relation whose numbers can be copied to other units.
 pub trait ChangesUnits: Relation {
-    /// The numbers of the relation in other units.
+    /// The numbers of the relation in other units, with what no unit changes.
     type Numbers;
     /// The relation on them.
-    type On<'b>: Relation
-    where
-        Self: 'b;
+    type On<'b>: Relation;
 
     /// The numbers in these units; `None` where one is beyond doubles.
     fn numbers(&self, units: Units) -> Option<Self::Numbers>;
 
     /// The relation on its numbers in other units.
-    fn on<'b>(&'b self, numbers: &'b Self::Numbers) -> Self::On<'b>;
+    fn on(numbers: &Self::Numbers) -> Self::On<'_>;
 }
 
-impl ChangesUnits for Stiffness<'_> {
+impl<'a> ChangesUnits for Stiffness<'a> {
     /// `K` and `f`.
-    type Numbers = [Vec<f64>; 2];
-    type On<'b>
-        = Stiffness<'b>
-    where
-        Self: 'b;
+    type Numbers = (Stiffness<'a>, [Vec<f64>; 2]);
+    type On<'b> = Stiffness<'b>;
 
     fn numbers(&self, units: Units) -> Option<Self::Numbers> {
-        Some([dense(&self.matrix, units.stiffness())?, units.forces(self.load)?])
+        let numbers = [dense(&self.matrix, units.stiffness())?, units.forces(self.load)?];
+        Some((*self, numbers))
     }
 
-    fn on<'b>(&'b self, [matrix, load]: &'b Self::Numbers) -> Stiffness<'b> {
-        let size = self.size();
+    fn on((host, [matrix, load]): &Self::Numbers) -> Stiffness<'_> {
+        let size = host.size();
         let matrix = Matrix::new(size, matrix, size.max(1));
-        let (symmetric, rounding) = (self.symmetric, self.rounding);
-        Stiffness { symmetric, rounding, ..Stiffness::new(matrix, load, self.dim) }
+        let (symmetric, rounding) = (host.symmetric, host.rounding);
+        Stiffness { symmetric, rounding, ..Stiffness::new(matrix, load, host.dim) }
     }
 }
 
 impl<M: FlexibilityInUnits> ChangesUnits for Flexibility<'_, M> {
     /// `W`, `q` and the units of the components.
     type Numbers = (M::Numbers, Vec<f64>, Vec<f64>);
-    type On<'b>
-        = Flexibility<'b, M::On<'b>>
-    where
-        Self: 'b;
+    type On<'b> = Flexibility<'b, M::On<'b>>;
 
     fn numbers(&self, units: Units) -> Option<Self::Numbers> {
         let matrix = self.form().numbers(-units.stiffness())?;
         Some((matrix, units.lengths(self.free())?, all(self.units(), units.stiffness())?))
     }
 
-    fn on<'b>(&'b self, (matrix, free, units): &'b Self::Numbers) -> Self::On<'b> {
-        Flexibility::new(self.form().on(matrix), free, units.clone())
+    fn on((matrix, free, units): &Self::Numbers) -> Self::On<'_> {
+        Flexibility::new(M::on(matrix), free, units.clone())
     }
 }
 
@@ -205,30 +198,25 @@ pub trait FlexibilityInUnits: FlexibilityMatrix {
     /// The numbers of the matrix in other units.
     type Numbers;
     /// The matrix on them.
-    type On<'b>: FlexibilityMatrix
-    where
-        Self: 'b;
+    type On<'b>: FlexibilityMatrix;
 
     /// The numbers times a power of two; `None` where one is beyond doubles.
     fn numbers(&self, power: i32) -> Option<Self::Numbers>;
 
     /// The matrix on its numbers in other units.
-    fn on<'b>(&'b self, numbers: &'b Self::Numbers) -> Self::On<'b>;
+    fn on(numbers: &Self::Numbers) -> Self::On<'_>;
 }
 
 impl FlexibilityInUnits for Matrix<'_> {
-    type Numbers = Vec<f64>;
-    type On<'b>
-        = Matrix<'b>
-    where
-        Self: 'b;
+    type Numbers = (usize, Vec<f64>);
+    type On<'b> = Matrix<'b>;
 
-    fn numbers(&self, power: i32) -> Option<Vec<f64>> {
-        dense(self, power)
+    fn numbers(&self, power: i32) -> Option<(usize, Vec<f64>)> {
+        Some((self.size(), dense(self, power)?))
     }
 
-    fn on<'b>(&'b self, numbers: &'b Vec<f64>) -> Matrix<'b> {
-        Matrix::new(self.size(), numbers, self.size().max(1))
+    fn on((size, entries): &(usize, Vec<f64>)) -> Matrix<'_> {
+        Matrix::new(*size, entries, (*size).max(1))
     }
 }
 
@@ -240,26 +228,24 @@ impl FlexibilityInUnits for SparseW {
         self.with_values(|value| exactly(value, power))
     }
 
-    fn on<'b>(&'b self, numbers: &'b SparseW) -> SparseW {
+    fn on(numbers: &SparseW) -> SparseW {
         numbers.clone()
     }
 }
 
-impl ChangesUnits for DependentRows<'_> {
+impl<'a> ChangesUnits for DependentRows<'a> {
     /// `K`, `f` and `o`.
-    type Numbers = [Vec<f64>; 3];
-    type On<'b>
-        = DependentRows<'b>
-    where
-        Self: 'b;
+    type Numbers = (&'a Dependence, [Vec<f64>; 3]);
+    type On<'b> = DependentRows<'b>;
 
     fn numbers(&self, units: Units) -> Option<Self::Numbers> {
         let matrix = dense(&self.stiffness(), units.stiffness())?;
-        Some([matrix, units.forces(self.variable_load())?, units.lengths(self.offset())?])
+        let (load, offset) = (self.variable_load(), self.offset());
+        Some((self.dependence(), [matrix, units.forces(load)?, units.lengths(offset)?]))
     }
 
-    fn on<'b>(&'b self, [matrix, load, offset]: &'b Self::Numbers) -> DependentRows<'b> {
-        DependentRows::new(self.dependence(), (matrix, load), offset)
+    fn on((dependence, [matrix, load, offset]): &Self::Numbers) -> DependentRows<'_> {
+        DependentRows::new(dependence, (matrix, load), offset)
     }
 }
 

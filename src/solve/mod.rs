@@ -22,14 +22,14 @@ mod sweeps;
 mod uniqueness;
 mod units;
 
-use crate::certificate::{certify_pair, measure_parts, without_approach};
+use crate::certificate::{measure_any, without_approach};
 use crate::error::{Argument, Error, Limit, entry};
 use crate::law::Contact;
 use crate::linalg::vector::first_not_finite;
 use crate::monitor::Monitor;
 use crate::problem::{
-    ChangesUnits, ContactProblem, DependentRows, FlexibilityProblem, InUnits, Relation,
-    SparseFlexibilityProblem, Units,
+    ContactProblem, DependentRows, FlexibilityProblem, InUnits, Relation, SparseFlexibilityProblem,
+    Units,
 };
 use crate::settings::{Search, Settings};
 
@@ -67,7 +67,7 @@ pub(crate) fn solve_dependent(
             let (units, problem) = (numbers.units(), numbers.problem(problem));
             let start = start.and_then(|start| units.lengths(start));
             let solution = proximal::solve_dependent(&problem, by, start.as_deref(), monitor)?;
-            pair_to_host(solution, units, settings, &problem)
+            to_host(solution, units, settings, &problem)
         }
     };
     Ok(finished(solution, problem, monitor))
@@ -91,14 +91,15 @@ pub fn solve_flexibility(
     let (n, numbers) = (problem.unknowns(), InUnits::of(problem));
     check(settings, memory_flexibility(n) + copy_of(n, &numbers), ("F", n, start))?;
     let by = (settings, plan::solve as Solve);
+    let number = &|pair| pair;
     let solution = match numbers {
-        None => proximal::solve_flexibility(problem, by, start, &|pair| pair, monitor)?,
+        None => proximal::solve_flexibility(problem, by, start, number, monitor)?,
         Some(numbers) => {
             let (units, problem) = (numbers.units(), numbers.problem(problem));
             let start = start.and_then(|start| units.forces(start));
             let start = start.as_deref();
-            let solution = proximal::solve_flexibility(&problem, by, start, &|pair| pair, monitor)?;
-            pair_to_host(solution, units, settings, &problem)
+            let solution = proximal::solve_flexibility(&problem, by, start, number, monitor)?;
+            to_host(solution, units, settings, &problem)
         }
     };
     Ok(finished(solution, problem, monitor))
@@ -136,7 +137,7 @@ pub fn solve_flexibility_sparse(
             let (units, problem) = (numbers.units(), numbers.problem(problem));
             let start = start.and_then(|start| units.forces(start));
             let solution = proximal::solve_islands(&problem, by, start.as_deref(), monitor)?;
-            pair_to_host(solution, units, settings, &problem)
+            to_host(solution, units, settings, &problem)
         }
     };
     Ok(finished(solution, problem, monitor))
@@ -161,11 +162,7 @@ pub fn solve(
             let (units, problem) = (numbers.units(), numbers.problem(problem));
             let start = start.and_then(|start| units.lengths(start));
             let solution = solve_as_it_stands(&problem, settings, start.as_deref(), monitor)?;
-            let contact = Contact::new(&problem);
-            let certify = |d: &[f64], low: &[f64], _: &[f64]| {
-                measure_parts(&contact, d, low).with_rounding(settings.tolerance)
-            };
-            units::to_host(solution, units, settings.tolerance, certify)
+            to_host(solution, units, settings, &problem)
         }
     };
     plan::say_remarks(problem, &mut solution);
@@ -202,16 +199,16 @@ fn solve_as_it_stands(
     Ok(solution)
 }
 
-/// A result on a relation in which displacements do not determine forces, in the host's units; `problem` is in those
-/// of the result.
-fn pair_to_host<R: ChangesUnits>(
+/// A result in the host's units; `problem` is in those of the result.
+fn to_host<R: Relation>(
     solution: Solution,
     units: Units,
     settings: &Settings,
     problem: &ContactProblem<'_, R>,
 ) -> Solution {
-    let certify = |d: &[f64], _: &[f64], force: &[f64]| {
-        certify_pair(problem, d, force).with_rounding(settings.tolerance)
+    let contact = Contact::new(problem);
+    let certify = |d: &[f64], low: &[f64], force: &[f64]| {
+        measure_any(&contact, (d, low), force).with_rounding(settings.tolerance)
     };
     units::to_host(solution, units, settings.tolerance, certify)
 }

@@ -1,5 +1,6 @@
 //! The stiffness of bodies and springs in series, `(W + e D⁻¹)⁻¹`.
 
+use super::rounds::InSeries;
 use crate::linalg::factor::{Factor, cholesky_work};
 use crate::linalg::tolerances::SINGULAR;
 use crate::monitor::{Monitor, Stop};
@@ -14,54 +15,69 @@ const RANGE: [f64; 2] = [1e-10, 1e-1];
 /// By which `e` is changed.
 const FACTOR: f64 = 0.1;
 
-/// The springs of some rounds.
-pub struct Springs {
+/// Bodies of a flexibility, with the springs of some rounds.
+pub struct Springs<'p> {
+    relation: &'p Flexibility<'p>,
     compliance: f64,
     stiffness: Vec<f64>,
+    /// No round is left to softer springs.
+    by_all_means: bool,
 }
 
-impl Springs {
+impl<'p> Springs<'p> {
     /// The first springs; `None` if `W` has negative eigenvalues. `Err`: there is no time for them.
     pub fn new(
-        relation: &Flexibility<'_>,
+        relation: &'p Flexibility<'p>,
+        by_all_means: bool,
         monitor: &mut Monitor<'_>,
     ) -> Result<Option<Self>, Stop> {
         let stiffness = stiffness(relation, FIRST, monitor)?;
-        Ok(stiffness.map(|stiffness| Springs { compliance: FIRST, stiffness }))
+        Ok(stiffness.map(|stiffness| Springs {
+            relation,
+            compliance: FIRST,
+            stiffness,
+            by_all_means,
+        }))
     }
 
-    /// `e`.
-    pub fn compliance(&self) -> f64 {
+    /// Springs of another compliance, if there are any, and time for them.
+    fn change(&mut self, by: f64, monitor: &mut Monitor<'_>) {
+        let compliance = (by * self.compliance).clamp(RANGE[0], RANGE[1]);
+        if compliance != self.compliance
+            && let Ok(Some(stiffness)) = stiffness(self.relation, compliance, monitor)
+        {
+            (self.compliance, self.stiffness) = (compliance, stiffness);
+        }
+    }
+}
+
+impl InSeries for Springs<'_> {
+    fn compliance(&self) -> f64 {
         self.compliance
     }
 
-    /// `(W + e D⁻¹)⁻¹`, column-major.
-    pub fn stiffness(&self) -> &[f64] {
+    fn displacements(&self, force: &[f64]) -> Vec<f64> {
+        self.relation.relative(force)
+    }
+
+    fn stiffness(&self) -> &[f64] {
         &self.stiffness
     }
 
-    /// Less compliant springs, if there are any, and time for them.
-    pub fn stiffen(&mut self, relation: &Flexibility<'_>, monitor: &mut Monitor<'_>) {
-        self.change(relation, FACTOR, monitor);
+    fn load(&mut self, force: &[f64]) -> Vec<f64> {
+        force.iter().map(|force| -force).collect()
     }
 
-    /// More compliant springs, if there are any, and time for them.
-    pub fn soften(&mut self, relation: &Flexibility<'_>, monitor: &mut Monitor<'_>) {
-        self.change(relation, 1.0 / FACTOR, monitor);
+    fn soften(&mut self, monitor: &mut Monitor<'_>) {
+        self.change(1.0 / FACTOR, monitor);
     }
 
-    /// True if there are no softer ones.
-    pub fn are_softest(&self) -> bool {
-        self.compliance >= RANGE[1]
+    fn stiffen(&mut self, monitor: &mut Monitor<'_>) {
+        self.change(FACTOR, monitor);
     }
 
-    fn change(&mut self, relation: &Flexibility<'_>, by: f64, monitor: &mut Monitor<'_>) {
-        let compliance = (by * self.compliance).clamp(RANGE[0], RANGE[1]);
-        if compliance != self.compliance
-            && let Ok(Some(stiffness)) = stiffness(relation, compliance, monitor)
-        {
-            *self = Springs { compliance, stiffness };
-        }
+    fn are_softest(&self) -> bool {
+        self.by_all_means || self.compliance >= RANGE[1]
     }
 }
 

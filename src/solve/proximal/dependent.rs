@@ -11,7 +11,7 @@
 //! gaps contradict each other are normal forces `p >= 0` with `Cᵀ p = 0` and `sum p (gap - o) < 0`.
 
 use super::rounds::{InSeries, rounds, solve as solve_by_rounds};
-use super::step::stopped;
+use super::step::ended;
 use crate::error::{Argument, Error};
 use crate::law::Contact;
 use crate::linalg::sparse_matrix::{OutOfMemory, column, from_entries, transposed};
@@ -19,7 +19,7 @@ use crate::linalg::sparse_schur::{Failure, SparseSchur, Stopped};
 use crate::monitor::{Monitor, Stop};
 use crate::problem::{ContactProblem, DependentRows, Relation};
 use crate::settings::Settings;
-use crate::solve::result::{Solution, Solve};
+use crate::solve::result::{Ending, Solution, Solve};
 
 /// `e`, the compliance of the springs beside that of the bodies. A round divides the error by the compliance
 /// of the least compliant pattern of forces over `e`; the condensed matrix loses as many digits as `e` has.
@@ -38,7 +38,8 @@ pub fn solve(
         Err(stop) => {
             let d = relation.relative(&begun(relation, start));
             let force = vec![0.0; d.len()];
-            return Ok(stopped(&Contact::new(problem), (d, &force), settings, stop));
+            let how = (settings.method, &Ending::Stopped(stop), 0);
+            return Ok(ended(&Contact::new(problem), (d, &force), settings, how));
         }
     };
     let mut by_rounds = |problem: &ContactProblem<'_, DependentRows<'_>>,

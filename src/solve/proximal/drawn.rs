@@ -7,12 +7,12 @@
 //! them are the point of the least lack so far, with two pairs drawn anew.
 
 use super::on_flexibility::OnFlexibility;
-use super::step::of_forces;
+use super::step::ended;
 use crate::law::{Contact, Vector};
 use crate::linalg::perturbation::Perturbation;
 use crate::monitor::Monitor;
 use crate::problem::Flexibility;
-use crate::settings::Settings;
+use crate::settings::{Method, Settings};
 use crate::solve::result::{Ending, Solution, Status};
 
 /// Most pairs, and most points that are drawn: pieces are four to the power of the pairs. Of problems with 1 to 8 pairs,
@@ -34,7 +34,7 @@ pub fn drawn(
     if laws.len() > MOST_PAIRS || contact.is_frictionless() {
         return None;
     }
-    let mut equations = OnFlexibility::new(contact, None, false);
+    let mut equations = OnFlexibility::new(contact, false);
     let size = equations.size();
     let mut random = Perturbation::new(0);
     let mut systems = 0;
@@ -47,7 +47,9 @@ pub fn drawn(
         let found = equations.solve(begin, settings.tolerance, monitor);
         systems += found.systems;
         if found.ending == Ending::Done {
-            let solution = of_forces(contact, &found.force, settings, (&found.ending, systems));
+            let d = contact.problem().relation().relative(&found.force);
+            let how = (Method::Newton, &found.ending, systems);
+            let solution = ended(contact, (d, &found.force), settings, how);
             if solution.status == Status::Solved {
                 return Some(solution);
             }

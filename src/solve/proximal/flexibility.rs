@@ -19,16 +19,16 @@
 use super::compliant::{Springs, is_definite, is_indefinite};
 use super::drawn::drawn;
 use super::growth::Growth;
-use super::on_flexibility::OnFlexibility;
-use super::rounds::{Found, InSeries, rounds, solve as solve_by_rounds};
-use super::step::{of_forces, stopped};
+use super::on_flexibility::{NewtonForces, OnFlexibility};
+use super::rounds::{RoundsFound, rounds, solve as solve_by_rounds};
+use super::step::ended;
 use crate::error::{Argument, Error};
 use crate::law::{Contact, pressing};
 use crate::linalg::vector::norm_inf;
 use crate::monitor::Monitor;
 use crate::problem::{Flexibility, FlexibilityProblem};
 use crate::settings::{Method, Settings};
-use crate::solve::result::{Solution, Solve, Status};
+use crate::solve::result::{Ending, Solution, Solve, Status};
 
 /// The sentence on a `W` that the first springs make definite.
 const INDEFINITE: &str = "no solution was found: W is not positive semi-definite, its negative eigenvalues are \
@@ -45,13 +45,10 @@ pub fn solve(
 ) -> Result<Solution, Error> {
     let contact = &Contact::new(problem);
     let force = start.map_or_else(|| vec![0.0; problem.unknowns()], <[f64]>::to_vec);
-    let takes_newton = matches!(settings.method, Method::Auto | Method::Newton);
-    if takes_newton && is_definite(problem.relation(), monitor) == Ok(true) {
-        let mut equations = OnFlexibility::new(contact, None, true);
-        let begin = equations.coordinates(&force);
-        let found = equations.solve(begin, settings.tolerance, monitor);
-        let effort = (&found.ending, found.systems);
-        let solution = of_forces(contact, &found.force, settings, effort);
+    if let Some(found) = on_itself(contact, settings, &force, monitor) {
+        let d = problem.relation().relative(&found.force);
+        let how = (Method::Newton, &found.ending, found.systems);
+        let solution = ended(contact, (d, &found.force), settings, how);
         if solution.status != Status::Stalled {
             return Ok(solution);
         }
@@ -92,6 +89,23 @@ pub fn solve(
     Ok(solution)
 }
 
+/// What Newton's method makes of a definite `W` from contact forces `force`; `None` where `W` is not definite, another
+/// method is chosen, or there is no time.
+pub fn on_itself(
+    contact: &Contact<'_, Flexibility<'_>>,
+    settings: &Settings,
+    force: &[f64],
+    monitor: &mut Monitor<'_>,
+) -> Option<NewtonForces> {
+    let takes_newton = matches!(settings.method, Method::Auto | Method::Newton);
+    if !takes_newton || is_definite(contact.problem().relation(), monitor) != Ok(true) {
+        return None;
+    }
+    let mut equations = OnFlexibility::new(contact, true);
+    let begin = equations.coordinates(force);
+    Some(equations.solve(begin, settings.tolerance, monitor))
+}
+
 /// Rounds from contact forces `force`, with the first springs; each `by_all_means` of the default method, or as far as
 /// Newton's method solves it.
 fn from_forces(
@@ -99,61 +113,22 @@ fn from_forces(
     (settings, solve): (&Settings, Solve),
     (force, by_all_means): (&[f64], bool),
     monitor: &mut Monitor<'_>,
-) -> Result<Found, Error> {
+) -> Result<RoundsFound, Error> {
     let relation = problem.relation();
-    match Springs::new(relation, monitor) {
+    match Springs::new(relation, by_all_means, monitor) {
         Ok(springs) => {
-            let springs = springs.ok_or_else(|| {
+            let mut springs = springs.ok_or_else(|| {
                 Error::invalid(
                     Argument::Matrix,
                     "W is not positive semi-definite: a force has negative flexibility",
                 )
             })?;
-            let mut bodies = Bodies { relation, springs, by_all_means };
-            rounds(problem, &mut bodies, force.to_vec(), (settings, solve), monitor)
+            rounds(problem, &mut springs, force.to_vec(), (settings, solve), monitor)
         }
         Err(stop) => {
-            let d = relation.relative(force);
-            let solution = stopped(&Contact::new(problem), (d, force), settings, stop);
-            Ok(Found { solution, growth: Growth::default() })
+            let (d, how) = (relation.relative(force), (settings.method, &Ending::Stopped(stop), 0));
+            let solution = ended(&Contact::new(problem), (d, force), settings, how);
+            Ok(RoundsFound { solution, growth: Growth::default() })
         }
-    }
-}
-
-/// Bodies of a flexibility, with springs.
-struct Bodies<'p> {
-    relation: &'p Flexibility<'p>,
-    springs: Springs,
-    /// No round is left to softer springs.
-    by_all_means: bool,
-}
-
-impl InSeries for Bodies<'_> {
-    fn compliance(&self) -> f64 {
-        self.springs.compliance()
-    }
-
-    fn displacements(&self, force: &[f64]) -> Vec<f64> {
-        self.relation.relative(force)
-    }
-
-    fn stiffness(&self) -> &[f64] {
-        self.springs.stiffness()
-    }
-
-    fn load(&mut self, force: &[f64]) -> Vec<f64> {
-        force.iter().map(|force| -force).collect()
-    }
-
-    fn soften(&mut self, monitor: &mut Monitor<'_>) {
-        self.springs.soften(self.relation, monitor);
-    }
-
-    fn stiffen(&mut self, monitor: &mut Monitor<'_>) {
-        self.springs.stiffen(self.relation, monitor);
-    }
-
-    fn are_softest(&self) -> bool {
-        self.by_all_means || self.springs.are_softest()
     }
 }

@@ -2,10 +2,12 @@
 //! found is certified as a whole on the host's sparse data.
 //!
 //! The squares of the residuals add up, and so do those of loads and forces, the larger of which is the scale of an
-//! island. So islands with `eta <= t` make a whole with `eta <= t √2`.
+//! island. So islands with `eta <= t` make a whole with `eta <= t √2`. Islands that Newton's method has solved have no
+//! certificate of their own: that of the whole is enough, and where it does not hold they are solved again with one.
 
-use super::flexibility;
+use super::flexibility::{self, on_itself};
 use super::growth::named;
+use super::on_flexibility::NewtonForces;
 use crate::certificate::{Certificate, measure};
 use crate::error::{Argument, Error};
 use crate::law::Contact;
@@ -14,8 +16,8 @@ use crate::monitor::{Monitor, Stop};
 use crate::problem::{
     ContactProblem, Flexibility, FlexibilityProblem, FrictionLaw, SparseFlexibilityProblem, SparseW,
 };
-use crate::settings::{SMALLEST_TOLERANCE, Settings};
-use crate::solve::result::{Existence, Solution, Solve, Status};
+use crate::settings::{Method, SMALLEST_TOLERANCE, Settings};
+use crate::solve::result::{Ending, Existence, Solution, Solve, Status};
 
 /// Solves the problem; `start` are contact forces. Islands behind one at which the call is stopped, as large ones or
 /// larger, keep theirs.
@@ -25,37 +27,57 @@ pub fn solve(
     start: Option<&[f64]>,
     monitor: &mut Monitor<'_>,
 ) -> Result<Solution, Error> {
-    let islands = problem.relation().form().islands();
+    let found = in_turn(problem, (settings, solve), (start, false), monitor)?;
+    let (is_certified, all) = (found.quick == 0, found.worst.is_none());
+    let solution = found.solution(problem, settings);
+    if is_certified || !all || solution.status != Status::Stalled {
+        return Ok(solution);
+    }
+    Ok(in_turn(problem, (settings, solve), (start, true), monitor)?.solution(problem, settings))
+}
+
+/// Solves island by island, each with a certificate of its own if they are to be `certified`.
+fn in_turn(
+    problem: &SparseFlexibilityProblem<'_>,
+    (settings, solve): (&Settings, Solve),
+    (start, certified): (Option<&[f64]>, bool),
+    monitor: &mut Monitor<'_>,
+) -> Result<Found, Error> {
+    let (islands, dim) = (problem.relation().form().islands(), problem.dim());
     let several = islands.len() > 1;
     let mut own = settings.clone();
     if several {
         let share = settings.tolerance / std::f64::consts::SQRT_2;
         own.tolerance = share.max(SMALLEST_TOLERANCE);
     }
-    let mut found = Found {
-        force: start.map_or_else(|| vec![0.0; problem.unknowns()], <[f64]>::to_vec),
-        worst: None,
-        solved: 0,
-        factorisations: 0,
-        outer_iterations: 0,
-        refactorisations: 0,
-    };
+    let force = start.map_or_else(|| vec![0.0; problem.unknowns()], <[f64]>::to_vec);
+    let mut found = Found { force, ..Found::default() };
     // The smallest first: what ends the call, most likely the largest, leaves the fewest.
     let mut in_turn: Vec<&[usize]> = islands.each().collect();
     in_turn.sort_by_key(|pairs| pairs.len());
     for pairs in in_turn {
         let island = Island::new(problem, pairs);
-        let begin = start.is_some().then(|| gathered(&found.force, pairs, problem.dim()));
-        let solution = island
-            .solve(pairs, (&own, solve), begin.as_deref(), monitor)
-            .map_err(|error| if several { in_island(error, pairs) } else { error })?;
+        let island = island.problem()?;
+        let begin = gathered(&found.force, pairs, dim);
+        if !certified
+            && let Some(newton) = on_itself(&Contact::new(&island), &own, &begin, monitor)
+            && newton.ending == Ending::Done
+            && newton.eta <= own.tolerance
+        {
+            found.add_quick(pairs, dim, &newton);
+            continue;
+        }
+        let begin = start.map(|_| &begin[..]);
+        let solution =
+            flexibility::solve(&island, (&own, solve), begin, &|pair| pairs[pair], monitor)
+                .map_err(|error| if several { in_island(error, pairs) } else { error })?;
         let stops = stop(solution.status).is_some();
-        found.add(pairs, problem.dim(), solution);
+        found.add(pairs, dim, solution);
         if stops {
             break;
         }
     }
-    Ok(found.solution(problem, settings))
+    Ok(found)
 }
 
 /// The largest island, in words.
@@ -95,21 +117,13 @@ impl<'a> Island<'a> {
         }
     }
 
-    /// The solution, with the numbers of `pairs` in its sentence.
-    fn solve(
-        &self,
-        pairs: &[usize],
-        by: (&Settings, Solve),
-        start: Option<&[f64]>,
-        monitor: &mut Monitor<'_>,
-    ) -> Result<Solution, Error> {
+    /// The island as a problem of its own.
+    fn problem(&self) -> Result<FlexibilityProblem<'_>, Error> {
         let n = self.free.len();
         let matrix = Matrix::new(n, &self.matrix, n.max(1));
         let relation = Flexibility::new(matrix, &self.free, self.units.clone());
         let law = self.law.with_values(&self.friction);
-        let problem: FlexibilityProblem<'_> =
-            ContactProblem::with_relation(relation, self.dim, &self.gap, law, Some(&self.slip))?;
-        flexibility::solve(&problem, by, start, &|pair| pairs[pair], monitor)
+        ContactProblem::with_relation(relation, self.dim, &self.gap, law, Some(&self.slip))
     }
 }
 
@@ -137,11 +151,14 @@ fn in_island(error: Error, pairs: &[usize]) -> Error {
 }
 
 /// The results of the islands so far.
+#[derive(Default)]
 struct Found {
     force: Vec<f64>,
-    /// The pairs and the result of the worst one: of equals the largest.
+    /// The pairs and the result of the worst one: of equals the largest. `None`: Newton's method has solved it.
     worst: Option<(Vec<usize>, Solution)>,
     solved: usize,
+    /// Islands that have no certificate of their own.
+    quick: usize,
     factorisations: u64,
     outer_iterations: u64,
     refactorisations: u64,
@@ -163,18 +180,28 @@ impl Found {
         }
     }
 
+    /// Adds the forces of Newton's method.
+    fn add_quick(&mut self, pairs: &[usize], dim: usize, newton: &NewtonForces) {
+        scatter(&newton.force, pairs, dim, &mut self.force);
+        (self.solved, self.quick) = (self.solved + 1, self.quick + 1);
+        self.factorisations += newton.systems;
+        // Islands come from the smallest to the largest.
+        self.worst.take_if(|(_, worst)| worst.status == Status::Solved);
+    }
+
     /// The result of the whole.
     fn solution(self, problem: &SparseFlexibilityProblem<'_>, settings: &Settings) -> Solution {
         let d = problem.relation().relative(&self.force);
         let certificate = measure(&Contact::new(problem), &d, &self.force);
         let ending = self.ending(problem, settings, &certificate);
         let existence = if settings.proof { Existence::NotProved } else { Existence::NotAsked };
+        let method = if self.quick > 0 { Method::Newton } else { settings.method };
         let mut whole = Solution {
             existence,
             factorisations: self.factorisations,
             outer_iterations: self.outer_iterations,
             refactorisations: self.refactorisations,
-            ..Solution::of(settings.method, ending, d, certificate)
+            ..Solution::of(method, ending, d, certificate)
         };
         if let Some((pairs, worst)) = self.worst {
             (whole.method, whole.omega, whole.damping) = (worst.method, worst.omega, worst.damping);

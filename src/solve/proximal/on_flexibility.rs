@@ -3,14 +3,12 @@
 //! The unknowns are the coordinates `y` of the normal map, whose `(v, P)` obey the law. What is left to be solved is
 //!
 //! ```text
-//! H(y) = d(y) - q - W F - e D⁻¹ (F - F_k) = 0,    F = -P(y)
+//! H(y) = d(y) - q - W F = 0,    F = -P(y)
 //! ```
 //!
-//! where the springs in series, of the compliance `e`, may be missing. A pair whose push does not change has `dP = 0`:
-//! its columns are `dd/dy` alone, so that the system is one of the other pairs, and its own coordinates follow.
-//!
-//! Where `W` is singular and there are no springs, the system is damped: `ε D⁻¹ dP` is added, with an `ε` of the size of
-//! the lack, which is nothing at a solution.
+//! A pair that is open has `dP = 0`: its columns are `dd/dy` alone, so that the system is one of the other pairs, and its
+//! own coordinates follow. Where `W` is singular the system is damped: `ε D⁻¹ dP` is added, with an `ε` of the size of the
+//! lack, which is nothing at a solution.
 
 use crate::law::{Contact, Linearised, PairLaw, Piece, Vector};
 use crate::linalg::factor::{Factor, lu_work};
@@ -34,13 +32,15 @@ const MOST_SYSTEMS: u64 = 40;
 const ACCURATE: f64 = 1e-3;
 
 /// Forces and how they were found.
-pub struct Found {
+pub struct NewtonForces {
     /// Contact forces, which obey the law.
     pub force: Vec<f64>,
     /// The coordinates.
     pub y: Vec<Vector>,
     /// Length of what is left of `H`.
     pub lack: f64,
+    /// `eta`, as far as it is known without a certificate.
+    pub eta: f64,
     pub ending: Ending,
     /// Systems that were factorised.
     pub systems: u64,
@@ -49,10 +49,7 @@ pub struct Found {
 /// The equations of a problem.
 pub struct OnFlexibility<'c, 'p> {
     contact: &'c Contact<'p, Flexibility<'p>>,
-    /// `e` and `F_k`.
-    springs: Option<(f64, &'c [f64])>,
-    /// Largest damping; 0 with springs.
-    damping: f64,
+    is_definite: bool,
     /// Roots of the scales of the components: `y / root` and `root d` are of one unit.
     root: Vec<f64>,
     systems: u64,
@@ -68,17 +65,12 @@ pub struct LawPoint {
 }
 
 impl<'c, 'p> OnFlexibility<'c, 'p> {
-    /// The equations with springs in series of the compliance `e`, which `F_k` has stretched, or without.
-    pub fn new(
-        contact: &'c Contact<'p, Flexibility<'p>>,
-        springs: Option<(f64, &'c [f64])>,
-        is_definite: bool,
-    ) -> Self {
-        let scales = contact.pairs().iter().flat_map(|law| law.scale().into_iter());
-        let dim = contact.dim();
-        let root = scales.enumerate().filter(|(c, _)| c % 3 < dim).map(|(_, k)| k.sqrt()).collect();
-        let damping = if is_definite || springs.is_some() { 0.0 } else { DAMPING[1] };
-        OnFlexibility { contact, springs, damping, root, systems: 0 }
+    /// The equations, undamped if `W` is definite.
+    pub fn new(contact: &'c Contact<'p, Flexibility<'p>>, is_definite: bool) -> Self {
+        let scales =
+            contact.pairs().iter().flat_map(|law| law.scale().into_iter().take(contact.dim()));
+        let root = scales.map(f64::sqrt).collect();
+        OnFlexibility { contact, is_definite, root, systems: 0 }
     }
 
     fn relation(&self) -> &'p Flexibility<'p> {
@@ -93,33 +85,33 @@ impl<'c, 'p> OnFlexibility<'c, 'p> {
 
     /// The length of `H` where there is no force and no slip beside the reference.
     pub fn size(&self) -> f64 {
-        let reference = self.contact.pairs().iter().flat_map(|law| law.reference().into_iter());
         let dim = self.contact.dim();
-        let reference = reference.enumerate().filter(|(c, _)| c % 3 < dim).map(|(_, r)| r);
+        let laws = self.contact.pairs().iter();
+        let reference = laws.flat_map(|law| law.reference().into_iter().take(dim));
         let lack = reference.zip(self.relation().free()).map(|(r, q)| r - q);
         self.length(&lack.collect::<Vec<f64>>())
     }
 
     /// Newton's method from the coordinates `y`.
-    pub fn solve(&mut self, y: Vec<Vector>, tolerance: f64, monitor: &mut Monitor<'_>) -> Found {
+    pub fn solve(
+        &mut self,
+        y: Vec<Vector>,
+        tolerance: f64,
+        monitor: &mut Monitor<'_>,
+    ) -> NewtonForces {
         let (before, tolerance) = (self.systems, ACCURATE * tolerance);
         let goal = Goal { tolerance, least_systems: 0, most_systems: MOST_SYSTEMS, full_steps: 0 };
         let begin = self.point(y);
         let Ok(NewtonOutcome { point, ending }) = descend(self, begin, goal, monitor);
+        let eta = self.eta(&point);
         let LawPoint { y, force, merit, .. } = point;
-        Found { force, y, lack: merit, ending, systems: self.systems - before }
+        NewtonForces { force, y, lack: merit, eta, ending, systems: self.systems - before }
     }
 
-    /// `W F + q`, and what springs add.
+    /// `W F + q`.
     fn caused(&self, force: &[f64]) -> Vec<f64> {
         let mut d = self.relation().free().to_vec();
         add_products(&self.relation().matrix(), force.iter().copied().enumerate(), &mut d);
-        if let Some((compliance, stretched)) = self.springs {
-            let units = self.relation().units();
-            for (i, d) in d.iter_mut().enumerate() {
-                *d += compliance / units[i] * (force[i] - stretched[i]);
-            }
-        }
         d
     }
 
@@ -144,13 +136,10 @@ impl<'c, 'p> OnFlexibility<'c, 'p> {
         sum.root()
     }
 
-    /// `e + ε` at a point.
-    fn compliance(&self, point: &LawPoint) -> f64 {
-        match self.springs {
-            Some((compliance, _)) => compliance,
-            None if self.damping == 0.0 => 0.0,
-            None => (point.merit / self.size()).clamp(DAMPING[0], self.damping),
-        }
+    /// `ε` at a point.
+    fn damping(&self, point: &LawPoint) -> f64 {
+        let [least, most] = DAMPING;
+        if self.is_definite { 0.0 } else { (point.merit / self.size()).clamp(least, most) }
     }
 
     /// The changes of the coordinates by those of the pushes of pairs in `system`.
@@ -240,7 +229,7 @@ impl NormalMap for OnFlexibility<'_, '_> {
             (0..laws.len()).filter(|&pair| pieces[pair].carries_force()).collect();
         let unknowns: Vec<usize> =
             pairs.iter().flat_map(|pair| dim * pair..dim * (pair + 1)).collect();
-        let compliance = self.compliance(point);
+        let damping = self.damping(point);
         let n = unknowns.len();
         monitor.affords(lu_work(n))?;
         let factor = Factor::new(n, false, |j, entries| {
@@ -254,7 +243,7 @@ impl NormalMap for OnFlexibility<'_, '_> {
             let first = j - c;
             for row in 0..dim {
                 entries[first + row] +=
-                    motion[row] + compliance / units[unknowns[first + row]] * push[row];
+                    motion[row] + damping / units[unknowns[first + row]] * push[row];
             }
             let scale = self.root[unknowns[j]];
             entries

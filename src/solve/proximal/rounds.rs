@@ -79,7 +79,7 @@ pub trait InSeries {
 }
 
 /// The result of the rounds.
-pub struct Found {
+pub struct RoundsFound {
     /// The best result.
     pub solution: Solution,
     /// How the forces have grown.
@@ -88,7 +88,7 @@ pub struct Found {
 
 /// The rounds of a problem from a start.
 type RoundsOf<'r, 'p, R> =
-    dyn FnMut(&ContactProblem<'p, R>, &Settings, Option<&[f64]>) -> Result<Found, Error> + 'r;
+    dyn FnMut(&ContactProblem<'p, R>, &Settings, Option<&[f64]>) -> Result<RoundsFound, Error> + 'r;
 
 /// Solves a problem by `rounds` from a start. Where forces do not settle, looks for normal forces which prove that the gaps
 /// contradict each other, says in the message what was found, and returns the proof. `number` tells which pair of the
@@ -98,7 +98,7 @@ pub fn solve<'p, R: Clone + Redundant>(
     number: &dyn Fn(usize) -> usize,
     (settings, start): (&Settings, Option<&[f64]>),
     rounds: &mut RoundsOf<'_, 'p, R>,
-) -> Result<(Found, Option<Vec<f64>>), Error> {
+) -> Result<(RoundsFound, Option<Vec<f64>>), Error> {
     let mut found = rounds(problem, settings, start)?;
     if found.solution.status != Status::Stalled {
         return Ok((found, None));
@@ -125,7 +125,7 @@ pub fn rounds<R: Redundant>(
     force: Vec<f64>,
     (settings, solve): (&Settings, Solve),
     monitor: &mut Monitor<'_>,
-) -> Result<Found, Error> {
+) -> Result<RoundsFound, Error> {
     let mut rounds = Rounds {
         contact: Contact::new(problem),
         settings,
@@ -146,7 +146,7 @@ pub fn rounds<R: Redundant>(
         }
     }
     let solution = rounds.best.ok_or(Error::OutOfMemory("a round with springs"))?;
-    Ok(Found { solution, growth: rounds.growth })
+    Ok(RoundsFound { solution, growth: rounds.growth })
 }
 
 /// The iteration.

@@ -3,8 +3,8 @@
 use crate::certificate::measure;
 use crate::error::Error;
 use crate::law::Contact;
-use crate::monitor::{Monitor, Stop};
-use crate::problem::{ContactData, ContactProblem, Flexibility, Relation};
+use crate::monitor::Monitor;
+use crate::problem::{ContactData, ContactProblem, Relation};
 use crate::settings::{Method, Settings};
 use crate::solve::result::{Ending, Existence, Solution, Solve, Status, Uniqueness};
 
@@ -38,33 +38,13 @@ pub fn step<R: Relation>(
     solve(&Contact::new(&problem), settings, None, monitor)
 }
 
-/// The result of a call that has ended before the first round, at displacements `d` and forces.
-pub fn stopped<R: Relation>(
+/// The result of displacements `d` and forces that a method has ended with, and the number of its systems.
+pub fn ended<R: Relation>(
     contact: &Contact<'_, R>,
     (d, force): (Vec<f64>, &[f64]),
     settings: &Settings,
-    stop: Stop,
+    (method, ending, systems): (Method, &Ending, u64),
 ) -> Solution {
-    let certificate = measure(contact, &d, force);
-    let eta = certificate.eta;
-    let ending = match certificate.holds(settings.tolerance) {
-        true => (Status::Solved, format!("solved: eta is {eta:.1e}")),
-        false => {
-            stop.status(settings, &format!("eta is {eta:.1e}, wanted {:.1e}", settings.tolerance))
-        }
-    };
-    let existence = if settings.proof { Existence::NotProved } else { Existence::NotAsked };
-    Solution { existence, ..Solution::of(settings.method, ending, d, certificate) }
-}
-
-/// The result of forces that Newton's method has found on the flexibility.
-pub fn of_forces(
-    contact: &Contact<'_, Flexibility<'_>>,
-    force: &[f64],
-    settings: &Settings,
-    (ending, systems): (&Ending, u64),
-) -> Solution {
-    let d = contact.problem().relation().relative(force);
     let certificate = measure(contact, &d, force);
     let accuracy = format!("eta is {:.1e}", certificate.eta);
     let wanted = format!("{accuracy}, wanted {:.1e}", settings.tolerance);
@@ -76,7 +56,7 @@ pub fn of_forces(
         other => (Status::Stalled, format!("{}; {wanted}", other.reason(&certificate))),
     };
     let existence = if settings.proof { Existence::NotProved } else { Existence::NotAsked };
-    let solution = Solution::of(Method::Newton, ended, d, certificate);
+    let solution = Solution::of(method, ended, d, certificate);
     Solution { existence, factorisations: systems, ..solution }
 }
 
