@@ -171,7 +171,10 @@ impl<'a> Monitor<'a> {
     /// To be called before so many `operations` of dense linear algebra, which nothing interrupts: why not to begin,
     /// if they would pass the time limit, or the callback cancels. The last ones in this call tell how long they take.
     pub(crate) fn affords(&mut self, operations: f64) -> Result<(), Stop> {
-        self.goes_on()?;
+        if operations >= MEASURABLE {
+            self.goes_on()?;
+        }
+        self.learn();
         if !self.has_time_for(operations) {
             return Err(Stop::TimeLimit);
         }
@@ -198,6 +201,12 @@ impl<'a> Monitor<'a> {
     pub(crate) fn is_late(&self) -> bool {
         shortage::check();
         !self.has_time_for(0.0)
+    }
+
+    /// Why the call is to end, if it is; the callback is not asked.
+    pub(crate) fn stop(&self) -> Option<Stop> {
+        let stop = if self.is_cancelled { Stop::Cancelled } else { Stop::TimeLimit };
+        self.is_late().then_some(stop)
     }
 
     /// To be called while a matrix is reduced: `share` of the work is done, which needs `memory` bytes.

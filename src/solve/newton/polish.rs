@@ -40,7 +40,7 @@ pub fn refine_to_tolerance(
     contact: &Contact<'_>,
     settings: &Settings,
     candidate: Candidate,
-    monitor: &Monitor<'_>,
+    monitor: &mut Monitor<'_>,
 ) -> Candidate {
     let old = candidate.certificate(contact);
     let is_finite = candidate.d().iter().all(|d| d.is_finite());
@@ -77,7 +77,7 @@ pub struct FullyRefined {
 pub fn refine_fully(
     contact: &Contact<'_>,
     candidate: &Candidate,
-    monitor: &Monitor<'_>,
+    monitor: &mut Monitor<'_>,
 ) -> Option<FullyRefined> {
     let at_reference = contact.at_its_reference();
     let equations = Equations::of(&at_reference);
@@ -187,7 +187,7 @@ struct Newton<'e, 'm> {
     factorisations: u64,
     /// True if a factorisation or a step was left out as there was no time for it.
     is_stopped: bool,
-    monitor: &'e Monitor<'m>,
+    monitor: &'e mut Monitor<'m>,
 }
 
 /// A factor, with the pieces at which it was made.
@@ -197,7 +197,7 @@ struct CachedFactor<'e> {
 }
 
 impl<'e, 'm> Newton<'e, 'm> {
-    fn on(equations: &'e Equations<'e>, monitor: &'e Monitor<'m>) -> Self {
+    fn on(equations: &'e Equations<'e>, monitor: &'e mut Monitor<'m>) -> Self {
         let (kept, is_good, is_stopped) = (None, false, false);
         Newton { equations, kept, is_good, factorisations: 0, is_stopped, monitor }
     }
@@ -249,7 +249,8 @@ impl<'e, 'm> Newton<'e, 'm> {
                 return None;
             }
             self.factorisations += 1;
-            let system = System::new(equations, (pairs, 1.0), None, NULL_VECTOR, &mut || true)?;
+            let asking = &mut self.monitor.asking();
+            let system = System::new(equations, (pairs, 1.0), None, NULL_VECTOR, asking)?;
             self.kept = Some(CachedFactor { system, pieces });
         }
         self.kept.as_mut()

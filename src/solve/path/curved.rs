@@ -103,7 +103,7 @@ fn is_solution(
     settings: &Settings,
     equations: &Equations<'_>,
     ended: &Ended,
-    monitor: &Monitor<'_>,
+    monitor: &mut Monitor<'_>,
 ) -> bool {
     let (d, force) = (&ended.point.d, &ended.point.force);
     if ended.ending == Ending::Done || equations.eta(d, force) <= settings.tolerance {

@@ -105,7 +105,7 @@ impl Tried {
         self,
         contact: &Contact<'_>,
         mut solution: Solution,
-        monitor: &Monitor<'_>,
+        monitor: &mut Monitor<'_>,
     ) -> Solution {
         solution.fallback = self.first;
         if let Some(motion) = self.away

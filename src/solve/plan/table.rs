@@ -38,7 +38,7 @@ impl MethodRow {
         let candidate = newton::refine_to_tolerance(contact, settings, candidate, monitor);
         // A factorisation that was ended is a singular system to the method.
         if candidate.ending == Ending::Singular
-            && let Err(stop) = monitor.goes_on()
+            && let Some(stop) = monitor.stop()
         {
             return Ok(Some(candidate.ended(Ending::Stopped(stop))));
         }

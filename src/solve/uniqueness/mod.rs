@@ -74,9 +74,9 @@ pub fn are_two(
     contact: &Contact<'_>,
     one: &Solution,
     two: &Solution,
-    monitor: &Monitor<'_>,
+    monitor: &mut Monitor<'_>,
 ) -> bool {
-    let sharp = |solution| refine_fully(contact, &given(contact, solution), monitor);
+    let mut sharp = |solution| refine_fully(contact, &given(contact, solution), monitor);
     matches!((sharp(one), sharp(two)), (Some(one), Some(two)) if are_parted(contact, &one, &two))
 }
 

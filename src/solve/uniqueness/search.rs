@@ -53,7 +53,7 @@ fn accepted(
     settings: &Settings,
     known: &FullyRefined,
     candidate: Candidate,
-    monitor: &Monitor<'_>,
+    monitor: &mut Monitor<'_>,
 ) -> Option<SecondSolution> {
     let may_be = candidate.ending == Ending::Done
         && candidate.certificate(contact).holds(settings.tolerance)
