@@ -78,6 +78,11 @@ impl<'a> Side<'a> {
         self.scale * vector(&self.coordinates[self.dim * node..self.dim * (node + 1)])
     }
 
+    /// A length of the host in the unit of the pairing.
+    pub(super) fn inside(&self, length: f64) -> f64 {
+        self.scale * length
+    }
+
     /// The host's coordinates of all nodes of faces.
     pub(super) fn lengths(&self) -> impl Iterator<Item = f64> {
         let of_node = |&node: &usize| &self.coordinates[self.dim * node..self.dim * (node + 1)];

@@ -63,12 +63,13 @@ pub(super) fn pairs(
     let mut faces = Vec::new();
     for at in 0..slave.count() {
         watch.step()?;
-        let face =
-            cover([slave, master], (at, &slave.face(at)), (dim, planes), &mut search, watch)?;
-        if face.is_none() {
+        let face = slave.face(at);
+        report.slave_area += face.integrals().iter().sum::<f64>();
+        let covered = cover([slave, master], (at, &face), (dim, planes), &mut search, watch)?;
+        if covered.is_none() {
             report.uncovered_faces.push(at);
         }
-        faces.push(face);
+        faces.push(covered);
     }
     let Search { candidates, .. } = search;
     candidates.look_beyond([slave, master], dim, &mut report, watch)?;

@@ -174,9 +174,9 @@ pub fn pair_with_obstacle(
     let watch = &mut Watch::new(monitor);
     let side = Side::slave(dim, coordinates, slave)?;
     let unit = Unit::of(side.lengths().chain(obstacle.lengths()));
-    let (obstacle, settings) = (obstacle.check(dim, unit)?, &unit.settings(settings));
+    let obstacle = obstacle.check(dim, unit)?;
     let side = side.checked((unit.inside, axisymmetric), watch)?;
-    let reach = settings.search_distance.unwrap_or(f64::INFINITY);
+    let reach = side.inside(search_distance.unwrap_or(f64::INFINITY));
     let planes = OnPlanes::new(&side, dim, (&settings.symmetry, axisymmetric))?;
     watch.expects(side.count());
     self_overlap::check(&side, &SearchFaces::new(&side, watch)?, (dim, reach), watch)?;
@@ -207,5 +207,5 @@ pub fn pair_with_obstacle(
         let pair = SurfacePair::new(dim, (node, area), [slaves, masters], normal, points);
         planes.hold(SurfacePair { gap: without_rounding(gap, size), ..pair })
     };
-    unit.of_host(paired((&side, dim, &planes), report, meets, pair, watch)?, settings)
+    unit.of_host(paired((&side, dim, &planes), report, meets, pair, watch)?, axisymmetric)
 }

@@ -52,7 +52,6 @@ pub(super) fn pair_sides(
     let unit = Unit::of(slave.lengths().chain(master.lengths()));
     let slave = slave.checked((unit.inside, settings.axisymmetric), watch)?;
     let master = master.checked((unit.inside, settings.axisymmetric), watch)?;
-    let settings = &unit.settings(settings);
     let planes = OnPlanes::new(&slave, dim, (&settings.symmetry, settings.axisymmetric))?;
     let (own, opposite) = (SearchFaces::new(&slave, watch)?, SearchFaces::new(&master, watch)?);
     let (reach, span) = reach(&slave, [own.tree.bounds(), opposite.tree.bounds()], settings);
@@ -69,7 +68,7 @@ pub(super) fn pair_sides(
             node_to_surface::pairs(sides, dim, &planes, candidates, settings.normals, watch)
         }
     };
-    unit.of_host(found?, settings)
+    unit.of_host(found?, settings.axisymmetric)
 }
 
 /// How far masters are looked for, and how far away any face may be.
@@ -79,7 +78,7 @@ fn reach(slave: &Side<'_>, boxes: [Option<Bounds>; 2], settings: &SurfaceSetting
     let span = all.map_or(0.0, |all| all.diagonal());
     let smaller = boxes.map(|of_side| of_side.map_or(0.0, |of_side| of_side.diagonal()));
     let open = largest.max(OF_BOX * smaller[0].min(smaller[1]));
-    let reach = match settings.search_distance {
+    let reach = match settings.search_distance.map(|distance| slave.inside(distance)) {
         Some(given) => Reach { overlap: given, open: given, layer: f64::INFINITY },
         None => Reach { overlap: largest, open, layer: largest },
     };

@@ -60,7 +60,7 @@ impl OnPlanes {
             }
             let mut beyond = [None; 2];
             for &node in &nodes {
-                let height = slave.position(node)[axis] - at;
+                let height = slave.position(node)[axis] - slave.inside(at);
                 if height.abs() <= near {
                     found.axes.entry(node).or_default()[axis] = true;
                 } else {

@@ -2,8 +2,6 @@
 //! Scaling by it is exact, so that rows do not depend on the host's unit, and gaps scale with it.
 
 use super::pairs::SurfacePairs;
-use super::settings::SurfaceSettings;
-use super::symmetry::SymmetryPlane;
 use crate::error::{Argument, Error, index};
 use crate::linalg::power_of_two::{largest_exponent, times_power_of_two};
 
@@ -25,16 +23,6 @@ impl Unit {
         Unit { inside: times_power_of_two(1.0, -exponent), exponent }
     }
 
-    /// The settings in this unit.
-    pub(super) fn settings(&self, given: &SurfaceSettings) -> SurfaceSettings {
-        let plane = |plane: &SymmetryPlane| SymmetryPlane { at: self.inside * plane.at, ..*plane };
-        SurfaceSettings {
-            search_distance: given.search_distance.map(|distance| self.inside * distance),
-            symmetry: given.symmetry.iter().map(plane).collect(),
-            ..given.clone()
-        }
-    }
-
     /// Pairs in the host's unit.
     ///
     /// # Errors
@@ -42,9 +30,9 @@ impl Unit {
     pub(super) fn of_host(
         &self,
         mut found: SurfacePairs,
-        settings: &SurfaceSettings,
+        axisymmetric: bool,
     ) -> Result<SurfacePairs, Error> {
-        found.axisymmetric = settings.axisymmetric;
+        found.axisymmetric = axisymmetric;
         let powers = if found.dim == 2 && !found.axisymmetric { 1 } else { 2 };
         let length = |length: &mut f64| *length = times_power_of_two(*length, self.exponent);
         let area = |area: &mut f64| *area = times_power_of_two(*area, powers * self.exponent);

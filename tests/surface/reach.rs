@@ -334,6 +334,8 @@ fn a_uniform_pressure_passes_between_rings() {
                 let area: f64 = found.pairs.iter().map(|pair| pair.area).sum();
                 let exact = std::f64::consts::PI * (end * end - axis * axis) * long;
                 assert!((area - exact).abs() < 1e-13, "{context}: {area}, {exact}");
+                let whole = std::f64::consts::PI * (1.0 - axis * axis) * long;
+                assert!((found.report.slave_area - whole).abs() < 1e-13, "{context}");
                 assert!(found.pairs.iter().all(|pair| pair.area > 0.0), "{context}");
                 let mut sums = vec![0.0; nodes.len()];
                 for pair in &found.pairs {
