@@ -124,9 +124,9 @@ struct signorini_surface_settings {
     int32_t pairing; /**< SIGNORINI_PAIRING_...; default SIGNORINI_PAIRING_DUAL_MORTAR. */
     /**
      * Largest distance along the normal at which surfaces are paired, open or overlapping; length.
-     * Default 0: open up to half the diagonal of the smaller of the two sides' boxes, but of masters
-     * over each other the nearest alone; overlapping up to the size of the largest slave face; no
-     * limit against an obstacle without faces.
+     * Default 0: open up to half the diagonal of the smaller of the two sides' boxes, but of
+     * masters over each other the nearest; overlapping up to the size of the largest slave face;
+     * no limit against an obstacle without faces.
      */
     double search_distance;
     /**

@@ -45,9 +45,9 @@ pub struct SignoriniSurfaceSettings {
     /// SIGNORINI_PAIRING_...; default SIGNORINI_PAIRING_DUAL_MORTAR.
     pub pairing: i32,
     /// Largest distance along the normal at which surfaces are paired, open or overlapping; length.
-    /// Default 0: open up to half the diagonal of the smaller of the two sides' boxes, but of masters
-    /// over each other the nearest alone; overlapping up to the size of the largest slave face; no
-    /// limit against an obstacle without faces.
+    /// Default 0: open up to half the diagonal of the smaller of the two sides' boxes, but of
+    /// masters over each other the nearest; overlapping up to the size of the largest slave face;
+    /// no limit against an obstacle without faces.
     pub search_distance: f64,
     /// Number of the first node, degree of freedom and entry of start, 0 or 1, here and in the
     /// pairs; default 0. Take that of your matrix.

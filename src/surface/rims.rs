@@ -16,6 +16,11 @@ use super::settings::Rims;
 /// with a half that of meshes that are covered wholly, with 0.3 twice and with a tenth three times as large.
 const LEAST_COVER: f64 = 0.5;
 
+/// Where so few nodes have that much that they could not hold a body, and where no node beside a rim has it, as under a
+/// punch of the size of a face, the rim is of nodes with less than this: pressures are less exact then, but moments
+/// are carried.
+const LITTLE_COVER: f64 = 0.1;
+
 /// Shares of cover that differ by less are the same, far above the rounding of edges: a face that lacks less is
 /// covered wholly, one that has more than all of it by more lies under two faces, and a node at the end of a master
 /// that ends where its faces do has half of its cover. With less than this a node does not keep a row even if it
@@ -28,10 +33,16 @@ const NEXT_BUT_ONE: f64 = 0.02;
 
 /// Folds the rows of nodes with little cover. Each goes to a node of its own faces that keeps its row: that with the
 /// largest area over the square of the distance. One that finds none keeps its own, and may take in others.
-pub(super) fn fold(rims: Rims, rows: &mut BTreeMap<usize, Row>, slave: &Side<'_>) -> Vec<Fold> {
+pub(super) fn fold(
+    rims: Rims,
+    rows: &mut BTreeMap<usize, Row>,
+    (slave, dim): (&Side<'_>, usize),
+) -> Vec<Fold> {
+    let enough = |row: &&Row| row.cover() >= LEAST_COVER - SAME_COVER;
     let least = match rims {
-        Rims::Fold => LEAST_COVER - SAME_COVER,
         Rims::Keep => SAME_COVER,
+        Rims::Fold if rows.values().filter(enough).count() < dim => LITTLE_COVER - SAME_COVER,
+        Rims::Fold => LEAST_COVER - SAME_COVER,
     };
     let mut little: Vec<(usize, f64)> = rows
         .iter()
@@ -49,7 +60,8 @@ pub(super) fn fold(rims: Rims, rows: &mut BTreeMap<usize, Row>, slave: &Side<'_>
         little.iter().map(|(node, _)| (*node, usize::MAX)).collect();
     for (node, cover) in little {
         let is_home = |other: &usize| {
-            rows.contains_key(other) && homes.get(other).is_none_or(|home| home == other)
+            let takes = |home: &usize| home == other && cover < LITTLE_COVER - SAME_COVER;
+            rows.contains_key(other) && homes.get(other).is_none_or(takes)
         };
         let best = |among: &mut dyn Iterator<Item = usize>| {
             let worth = |other: usize| {

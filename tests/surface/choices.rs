@@ -261,17 +261,34 @@ fn cover_is_counted_on_all_faces() {
     }
 }
 
-/// A surface all of whose nodes have little cover: kept, or folded into one of them, it has its area.
+/// A surface all of whose nodes have little cover, from the middle: with a tenth, or kept, they hold the body by two
+/// pairs; with less one of them is folded into the other. The area is that of the master.
 #[test]
 fn a_contact_of_rims_alone() {
-    let (mut nodes, slave) = line(&[0.0, 1.0], false, 0);
-    nodes.extend([[0.45, 0.0, 0.0], [0.55, 0.0, 0.0]]);
-    for (rims, pairs) in [(Rims::Fold, 1), (Rims::Keep, 2)] {
+    for (rims, width, pairs) in [(Rims::Fold, 0.1, 2), (Rims::Fold, 0.08, 1), (Rims::Keep, 0.08, 2)]
+    {
+        let (mut nodes, slave) = line(&[0.0, 1.0], false, 0);
+        nodes.extend([-0.5, 0.5].map(|side| [0.5 + side * width, 0.0, 0.0]));
         let found = pair(2, &nodes, [&slave, &[vec![3, 2]]], &with_rims(rims)).unwrap();
         assert_eq!((found.pairs.len(), found.unpaired.len()), (pairs, 2 - pairs), "{rims:?}");
         let area: f64 = found.pairs.iter().map(|pair| pair.area).sum();
-        assert!((area - 0.1).abs() < 1e-15, "{rims:?}: {area}");
+        assert!((area - width).abs() < 1e-15, "{rims:?}: {area}");
     }
+}
+
+/// Masters of the size of a slave face under two of many: each node there has a quarter of cover, and the pairs of all
+/// of them carry the moments of the masters.
+#[test]
+fn masters_of_one_face_are_held_by_its_nodes() {
+    let rng = &mut Rng::with_seed(9);
+    let above = Sheet::rectangle(Shape::Q4, [5, 3], [[0.0, 5.0], [0.0, 3.0]], (0.0, rng)).turned();
+    let mut below = Sheet::rectangle(Shape::Q4, [1, 1], [[1.0, 2.0]; 2], (0.0, rng));
+    below.nodes.extend([[3.0, 1.0, 0.0], [4.0, 1.0, 0.0], [3.0, 2.0, 0.0], [4.0, 2.0, 0.0]]);
+    below.faces.push(below.faces[0].iter().map(|node| node + 4).collect());
+    let found = TwoSheets::new(3, above, below).pair(&SurfaceSettings::default()).unwrap();
+    let slaves: Vec<usize> = found.pairs.iter().map(|pair| pair.slave).collect();
+    assert_eq!(slaves, [7, 8, 9, 10, 13, 14, 15, 16]);
+    assert!(found.pairs.iter().all(|pair| (pair.area - 0.25).abs() < 1e-14));
 }
 
 /// Loads of a unit pressure on a node of a grid of rectangles in a window: products of those of lines.
