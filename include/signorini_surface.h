@@ -153,8 +153,9 @@ struct signorini_surface_settings {
     int32_t rims;                 /**< SIGNORINI_RIMS_...; default SIGNORINI_RIMS_FOLD. */
     /**
      * Nonzero: lines in 2D are meridians of bodies of revolution about the axis x = 0, with the
-     * radius x >= 0. Areas are those of whole rings, with the factor 2 pi r: hand over stiffness and
-     * loads of whole rings too. The axis is a plane of symmetry without being named. Default 0.
+     * radius x >= 0. Areas are those of whole rings, with the factor 2 pi r: hand over stiffness
+     * and loads of whole rings too. The axis is a plane of symmetry without being named.
+     * Default 0.
      */
     int32_t axisymmetric;
     int32_t reserved;             /**< 0. */

@@ -70,8 +70,9 @@ pub struct SignoriniSurfaceSettings {
     /// SIGNORINI_RIMS_...; default SIGNORINI_RIMS_FOLD.
     pub rims: i32,
     /// Nonzero: lines in 2D are meridians of bodies of revolution about the axis x = 0, with the
-    /// radius x >= 0. Areas are those of whole rings, with the factor 2 pi r: hand over stiffness and
-    /// loads of whole rings too. The axis is a plane of symmetry without being named. Default 0.
+    /// radius x >= 0. Areas are those of whole rings, with the factor 2 pi r: hand over stiffness
+    /// and loads of whole rings too. The axis is a plane of symmetry without being named.
+    /// Default 0.
     pub axisymmetric: i32,
     /// 0.
     pub reserved: i32,

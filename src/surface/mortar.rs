@@ -74,7 +74,7 @@ pub(super) fn pairs(
     let Search { candidates, .. } = search;
     candidates.look_beyond([slave, master], dim, &mut report, watch)?;
     let mut rows = rows(slave, &faces, planes, watch)?;
-    report.folded = rims::fold(rims, &mut rows, (slave, dim));
+    report.folded = rims::fold(rims, &mut rows, (slave, dim, planes));
     let averaged = match normals {
         Normals::Averaged => Some(slave.node_normals_on(planes)?),
         Normals::Faces => None,

@@ -5,12 +5,13 @@
 //! test. So `D_j d_j` is added to the row of a node of the same face: `Σ ψ_j = 1` stays, and with it the patch
 //! test. Rows that have taken in others take in no row of theirs: no row goes further than one face.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use super::mesh::Side;
 use super::pairs::Fold;
 use super::row::Row;
 use super::settings::Rims;
+use super::symmetry::OnPlanes;
 
 /// Nodes with less than this share of cover are at a rim. On 36 unstructured meshes the error of a linear pressure is
 /// with a half that of meshes that are covered wholly, with 0.3 twice and with a tenth three times as large.
@@ -36,7 +37,7 @@ const NEXT_BUT_ONE: f64 = 0.02;
 pub(super) fn fold(
     rims: Rims,
     rows: &mut BTreeMap<usize, Row>,
-    (slave, dim): (&Side<'_>, usize),
+    (slave, dim, planes): (&Side<'_>, usize, &OnPlanes),
 ) -> Vec<Fold> {
     let enough = |row: &&Row| row.cover() >= LEAST_COVER - SAME_COVER;
     let least = match rims {
@@ -63,22 +64,19 @@ pub(super) fn fold(
             let takes = |home: &usize| home == other && cover < LITTLE_COVER - SAME_COVER;
             rows.contains_key(other) && homes.get(other).is_none_or(takes)
         };
-        let best = |among: &mut dyn Iterator<Item = usize>| {
-            let worth = |other: usize| {
-                let away = slave.position(other) - slave.position(node);
-                rows[&other].area / away.norm_squared()
-            };
-            let ranked: Vec<(usize, f64)> =
-                among.filter(is_home).map(|other| (other, worth(other))).collect();
-            let most = ranked.iter().map(|(_, worth)| *worth).fold(0.0, f64::max);
-            // Of several that are as good the first, so that rounding does not choose.
-            let as_good = ranked.iter().filter(|(_, worth)| *worth >= (1.0 - SAME_COVER) * most);
-            as_good.map(|(other, _)| *other).min()
+        let best = |among: BTreeSet<usize>| {
+            let homes = among.into_iter().filter(is_home);
+            let ranked = homes.filter_map(|home| {
+                let worth = planes.in_whole_body(home, node)? * rows[&home].area;
+                let away = slave.position(home) - slave.position(node);
+                Some((home, worth / away.norm_squared()))
+            });
+            first_alone(ranked.collect())
         };
-        let mut near = beside[&node].iter().copied();
-        let mut further = beside[&node].iter().flat_map(|other| beside[other].iter().copied());
-        let home = best(&mut near)
-            .or_else(|| if cover < NEXT_BUT_ONE { best(&mut further) } else { None });
+        let near = || beside[&node].iter().copied();
+        let further = || near().flat_map(|other| beside[&other].iter().copied()).collect();
+        let far = || if cover < NEXT_BUT_ONE { best(further()) } else { None };
+        let home = best(near().collect()).or_else(far);
         homes.insert(node, home.unwrap_or(node));
     }
     let mut folded: Vec<(usize, usize)> = homes.into_iter().filter(|(a, b)| a != b).collect();
@@ -90,6 +88,15 @@ pub(super) fn fold(
         Fold { node, into, distance }
     };
     folded.into_iter().map(fold).collect()
+}
+
+/// Of homes with what they are worth the best one that is as good as no other, as nodes on the two sides of a plane of
+/// symmetry are: rounding would choose. If there is none, the first of the best.
+fn first_alone(mut ranked: Vec<(usize, f64)>) -> Option<usize> {
+    ranked.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let mut groups = ranked.chunk_by(|a, b| b.1 >= (1.0 - SAME_COVER) * a.1);
+    let alone = groups.clone().find(|group| matches!(group, [_]));
+    alone.or_else(|| groups.next())?.iter().map(|(home, _)| *home).min()
 }
 
 /// The other nodes of the slave faces around some nodes.

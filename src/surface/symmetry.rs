@@ -87,10 +87,23 @@ impl OnPlanes {
         if along.norm() > LEAST_NORMAL { unit(along).unwrap_or(normal) } else { normal }
     }
 
+    /// The axes across which a node stands on a plane.
+    fn of(&self, node: usize) -> [bool; 3] {
+        self.axes.get(&node).copied().unwrap_or_default()
+    }
+
+    /// How much larger the area of a node is in the whole body. `None` if another one, `from`, stands on a plane that it
+    /// does not stand on: what goes from there would leave the plane.
+    pub(super) fn in_whole_body(&self, node: usize, from: usize) -> Option<f64> {
+        let (own, from) = (self.of(node), self.of(from));
+        let stays = from.iter().zip(own).all(|(from, own)| !from || own);
+        let planes = own.iter().filter(|on| **on).count();
+        stays.then(|| f64::from(1 << planes))
+    }
+
     /// `true` of a ring that touches its axis.
     pub(super) fn touch_axis(&self, face: &Face<'_>) -> bool {
-        let on_axis = |node| self.axes.get(node).is_some_and(|held| held[0]);
-        face.is_ring && face.nodes.iter().any(on_axis)
+        face.is_ring && face.nodes.iter().any(|&node| self.of(node)[0])
     }
 
     /// The pair, held across the planes on which its slave node stands.
