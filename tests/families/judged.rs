@@ -232,8 +232,9 @@ fn answers_next_to_no_solution_are_no_second_one() {
     }
 }
 
-/// Problems of a long run of nineteen classes in which a pair without an obstacle moves against the others as the body turns. The motion that
-/// proves that there is no equilibrium is lifted off the obstacles that there are, and approaches none, not by 1e-11.
+/// Problems of a long run of nineteen classes in which a pair without an obstacle moves against the others as the body
+/// turns. The motion that proves that there is no equilibrium is lifted off the obstacles that there are, and approaches
+/// none, not by 1e-11.
 #[test]
 fn motions_are_lifted_off_the_obstacles_that_there_are() {
     for seed in [333_484, 399_557, 76_367, 175_518] {

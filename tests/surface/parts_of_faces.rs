@@ -16,6 +16,8 @@ fn integrals(t: f64) -> [f64; 3] {
 fn areas(sheets: &TwoSheets) -> Vec<f64> {
     let settings = SurfaceSettings { rims: Rims::Keep, ..SurfaceSettings::default() };
     let found = sheets.pair(&settings).unwrap();
+    // The slave is one face of side 1.
+    assert!((found.report.slave_area - 1.0).abs() < 1e-14, "{:?}", found.report);
     let area = |node: &usize| found.pairs.iter().find(|pair| pair.slave == *node).unwrap().area;
     sheets.slave[0].iter().map(area).collect()
 }
@@ -74,4 +76,25 @@ fn a_growing_part_is_a_growing_area_of_each_node() {
             before = now;
         }
     }
+}
+
+/// Two masters that lie over each other by a hundredth of the slave's face, which legal meshes of a curved surface may do as a
+/// whole: a pressure would count twice there, and the slave's face names them.
+#[test]
+fn masters_over_each_other_by_a_hundredth_are_named() {
+    let rng = &mut Rng::with_seed(1);
+    let slave = Sheet::rectangle(Shape::Q4, [1, 1], [[0.0, 1.0]; 2], (0.0, rng)).turned();
+    let mut pair_with = |middle: [f64; 2]| {
+        let [to, from] = middle;
+        let mut master = Sheet::rectangle(Shape::Q4, [1, 1], [[-0.2, to], [-0.2, 1.2]], (0.0, rng));
+        let other = Sheet::rectangle(Shape::Q4, [1, 1], [[from, 1.2], [-0.2, 1.2]], (0.0, rng));
+        let first = master.nodes.len();
+        master.nodes.extend(other.nodes);
+        let shifted = |face: Vec<usize>| face.into_iter().map(|node| node + first).collect();
+        master.faces.extend(other.faces.into_iter().map(shifted));
+        TwoSheets::new(3, slave.clone(), master).pair(&SurfaceSettings::default())
+    };
+    assert!(pair_with([0.5, 0.5]).is_ok());
+    let message = pair_with([0.505, 0.495]).unwrap_err().message().to_string();
+    assert!(message.contains("lie over each other"), "{message}");
 }
