@@ -52,7 +52,7 @@ fn no_infinite_displacement_is_certified() {
             for (at, wrong) in (0..4).flat_map(|at| {
                 [f64::INFINITY, f64::NEG_INFINITY, f64::NAN].map(|wrong| (at, wrong))
             }) {
-                let mut d = [0.0, 0.0, gap[0].max(-1e306).min(0.0), 0.0];
+                let mut d = [0.0, 0.0, gap[0].clamp(-1e306, 0.0), 0.0];
                 d[0] = d[2];
                 d[at] = wrong;
                 let certificate = certify(&case.problem(), &d);
