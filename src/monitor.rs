@@ -176,7 +176,7 @@ impl<'a> Monitor<'a> {
         }
         self.learn();
         if !self.has_time_for(operations) {
-            return Err(Stop::TimeLimit);
+            return Err(self.reason());
         }
         self.work = (operations >= MEASURABLE).then(|| (Instant::now(), operations));
         Ok(())
@@ -205,8 +205,12 @@ impl<'a> Monitor<'a> {
 
     /// Why the call is to end, if it is; the callback is not asked.
     pub(crate) fn stop(&self) -> Option<Stop> {
-        let stop = if self.is_cancelled { Stop::Cancelled } else { Stop::TimeLimit };
-        self.is_late().then_some(stop)
+        self.is_late().then(|| self.reason())
+    }
+
+    /// Why a call ends for which there is no time.
+    fn reason(&self) -> Stop {
+        if self.is_cancelled { Stop::Cancelled } else { Stop::TimeLimit }
     }
 
     /// To be called while a matrix is reduced: `share` of the work is done, which needs `memory` bytes.

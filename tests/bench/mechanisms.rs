@@ -4,7 +4,6 @@
 //! `cargo bench --features counters --bench mechanisms -- PROBLEMS`: as many problems of the classes at the edges of
 //! double precision (default: 4800), and a share of that of the other families.
 
-#[allow(dead_code)]
 #[path = "../common/mod.rs"]
 mod common;
 

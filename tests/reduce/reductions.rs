@@ -93,15 +93,14 @@ fn pairs_on_springs_stick_at_their_reference_slip() {
 }
 
 /// The rounding that a certificate states is half a unit of the sizes of all terms of `K u`, relative to the larger
-/// of loads and forces, times the bound on what the law makes of a change of the force: `2 + mu + |W|`, with the
-/// Frobenius norm of the gauge's form, the square root of 2 of a disc. Of an operator eight units of its components stand
-/// for the terms.
+/// of loads and forces, times the bound on what the law makes of a change of the force: `2 + mu` on a disc. Of an
+/// operator eight units of its components stand for the terms.
 #[test]
 fn rounding_is_half_a_unit_of_all_terms() {
     let norm = |values: &[f64]| values.iter().map(|v| v * v).sum::<f64>().sqrt();
     let check = |solution: &Solution, load: &[f64], terms: &[f64]| {
         let scale = norm(load).max(norm(&solution.certificate.force));
-        let of_law = 2.0 + 2_f64.sqrt();
+        let of_law = 2.0;
         let expected = of_law * f64::EPSILON / 2.0 * norm(terms) / scale;
         let error = (solution.certificate.rounding - expected).abs();
         assert!(error <= 1e-9 * expected, "{expected:e}: {:?}", solution.certificate);
