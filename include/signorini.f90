@@ -1660,13 +1660,13 @@ contains
     ! summary() says why. coordinates(dim, nodes). slave(k, faces), master(k, faces): nodes of each
     ! face, counted from 1; a face with fewer than k nodes ends with zeros. signorini_surface.h tells their
     ! order. pairing: SIGNORINI_PAIRING_DUAL_MORTAR, the default, or _NODE_TO_SURFACE.
-    ! search_distance: absent: half the diagonal of the smaller side's box. dofs(dim, nodes): degrees of
+    ! search_distance: absent: the default of signorini_surface.h. dofs(dim, nodes): degrees of
     ! freedom of each node; absent: dofs_per_node * (node - 1) + axis, dofs_per_node absent: dim.
     ! symmetry_axes, symmetry_at: planes of symmetry of half and quarter models, the axis across each
     ! of them (1, 2, 3) and where it stands along that axis: pairs on one do not slip across it.
     ! normals: SIGNORINI_NORMALS_AVERAGED, the default, or _FACES. rims: SIGNORINI_RIMS_FOLD, the default,
-    ! or _KEEP. settings: what begins in place of the defaults, such as progress, user, time_limit and
-    ! axisymmetric; its lists, index_base and what the other arguments say are not read.
+    ! or _KEEP. settings: in the place of the defaults, for axisymmetric, time_limit, progress and user; an
+    ! argument that is present comes before it. Its lists and index_base are not read.
     subroutine surfaces_pair(self, coordinates, slave, master, info, pairing, search_distance, dofs, &
             dofs_per_node, symmetry_axes, symmetry_at, normals, rims, message, settings)
         class(contact_surfaces), intent(inout) :: self

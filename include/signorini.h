@@ -278,16 +278,15 @@ typedef struct signorini_model signorini_model;
  *
  * If the condensed matrix needs more than memory_limit, the model is in full space: load cases
  * are solved by Newton's method with GMRES on a sparse factor that is made anew a few times in
- * each, methods AUTO and NEWTON alone, no search, no proof. Pairs that depend on each other are
- * condensed all the same.
+ * each, methods AUTO and NEWTON alone; search and settings.proof are refused. Pairs that depend on
+ * each other are condensed all the same.
  *
  * @param K         the stiffness of all degrees of freedom, the fixed ones too
  * @param n_fixed   number of fixed degrees of freedom
  * @param fixed     these degrees of freedom, counted from K->index_base
  * @param pairs     the contact pairs
  * @param settings  NULL: the defaults. It reads progress, user, time_limit, memory_limit, threads
- *                  and full_space. The callback is not called while the order of elimination is
- *                  computed (2 s for 1e5 nodes)
+ *                  and full_space. Ordering asks the callback every 0.1 s (1e5 unknowns)
  * @param model     out: the model
  */
 int32_t signorini_model_new_sparse(const signorini_sparse *K, int64_t n_fixed, const int64_t *fixed,
@@ -532,9 +531,9 @@ struct signorini_progress {
 
 /**
  * Called before each sweep, pivot or linear system, in long proofs, and often while a model is
- * made. A nonzero result cancels the call (SIGNORINI_STATUS_CANCELLED). It runs on the calling
- * thread, in the default floating-point environment. It must return: no longjmp, no exception;
- * and it must not call this library.
+ * made or surfaces are paired. A nonzero result cancels the call (SIGNORINI_STATUS_CANCELLED). It
+ * runs on the calling thread, in the default floating-point environment. It must return: no
+ * longjmp, no exception; and it must not call this library.
  */
 typedef int32_t (*signorini_progress_fn)(void *user, const signorini_progress *progress);
 
@@ -604,7 +603,7 @@ int64_t signorini_solve_memory(int64_t n);
 
 #define SIGNORINI_UNIQUENESS_NOT_KNOWN 0 /**< Not known. */
 #define SIGNORINI_UNIQUENESS_UNIQUE 1    /**< Proved: there is no other solution. */
-#define SIGNORINI_UNIQUENESS_SEVERAL 2   /**< Proved: there are other solutions. */
+#define SIGNORINI_UNIQUENESS_SEVERAL 2   /**< There are others, by an estimate of errors. */
 
 /* Is a solution proved to exist? */
 #define SIGNORINI_PROOF_NOT_ASKED 0 /**< settings.proof is 0. */
@@ -836,10 +835,9 @@ struct signorini_operator {
 
 /**
  * Makes a model of products and solutions alone: no matrix is formed. H = N: loads and
- * displacements are the relative ones. Load cases are solved by Newton's method with GMRES,
- * methods AUTO and NEWTON alone, no search, no proof. They take up to 110 products with K_rel
- * and as many with W in 2D, 160 in 3D; or with held up to 70 solutions, with 14 changes of the
- * components that are held.
+ * displacements are the relative ones. Load cases are solved as in full space. They take up to 110
+ * products with K_rel and as many with W in 2D, 160 in 3D; or with held up to 70 solutions, with
+ * 14 changes of the components that are held.
  *
  * The call asks for some products, which must be finite, linear, symmetric, positive and the same
  * each time, to 1e-9. Later calls return -1 if a function fails or gives a number that is not

@@ -57,10 +57,10 @@ extern "C" {
 
 /* Slave nodes at rims, with little of the master over them. */
 /**
- * The default: the rows of slave nodes with less than half of their area over the master, counted
- * on all slave faces around them that look the same way, are added to that of a node of their own
- * faces. Uniform pressure stays exact, and others are as exact as elsewhere. The choice is for dual
- * mortar: nodes against surfaces have no cover, and take the default alone.
+ * The default. A slave node with less than half of its area over the master gives its row to a
+ * node of its own faces; if none can take it, it keeps it. Its area is that on all slave faces
+ * around it that look the same way. Uniform pressure stays exact, and others are as exact as
+ * elsewhere. For dual mortar: nodes against surfaces have no cover, and take the default alone.
  */
 #define SIGNORINI_RIMS_FOLD 0
 /**
@@ -124,9 +124,9 @@ struct signorini_surface_settings {
     int32_t pairing; /**< SIGNORINI_PAIRING_...; default SIGNORINI_PAIRING_DUAL_MORTAR. */
     /**
      * Largest distance along the normal at which surfaces are paired, open or overlapping; length.
-     * Default 0: open up to half the diagonal of the smaller of the two sides' boxes, but of
-     * masters over each other the nearest; overlapping up to the size of the largest slave face;
-     * no limit against an obstacle without faces.
+     * Default 0. Then open surfaces are paired up to half the diagonal of the smaller of the two
+     * sides' boxes, and of masters behind each other the nearest counts; surfaces overlap by the
+     * size of the largest slave face at most; an obstacle without faces has no limit.
      */
     double search_distance;
     /**

@@ -102,10 +102,9 @@ impl HostOperator for Functions {
 }
 
 /// Makes a model of products and solutions alone: no matrix is formed. H = N: loads and
-/// displacements are the relative ones. Load cases are solved by Newton's method with GMRES,
-/// methods AUTO and NEWTON alone, no search, no proof. They take up to 110 products with K_rel
-/// and as many with W in 2D, 160 in 3D; or with held up to 70 solutions, with 14 changes of the
-/// components that are held.
+/// displacements are the relative ones. Load cases are solved as in full space. They take up to 110
+/// products with K_rel and as many with W in 2D, 160 in 3D; or with held up to 70 solutions, with
+/// 14 changes of the components that are held.
 ///
 /// The call asks for some products, which must be finite, linear, symmetric, positive and the same
 /// each time, to 1e-9. Later calls return -1 if a function fails or gives a number that is not

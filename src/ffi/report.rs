@@ -22,7 +22,7 @@ pub const SIGNORINI_STATE_STICK: i32 = 2;
 pub const SIGNORINI_UNIQUENESS_NOT_KNOWN: i32 = 0;
 /// Proved: there is no other solution.
 pub const SIGNORINI_UNIQUENESS_UNIQUE: i32 = 1;
-/// Proved: there are other solutions.
+/// There are others, by an estimate of errors.
 pub const SIGNORINI_UNIQUENESS_SEVERAL: i32 = 2;
 
 /// settings.proof is 0.

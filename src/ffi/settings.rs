@@ -60,9 +60,9 @@ pub struct SignoriniProgress {
 }
 
 /// Called before each sweep, pivot or linear system, in long proofs, and often while a model is
-/// made. A nonzero result cancels the call (SIGNORINI_STATUS_CANCELLED). It runs on the calling
-/// thread, in the default floating-point environment. It must return: no longjmp, no exception;
-/// and it must not call this library.
+/// made or surfaces are paired. A nonzero result cancels the call (SIGNORINI_STATUS_CANCELLED). It
+/// runs on the calling thread, in the default floating-point environment. It must return: no
+/// longjmp, no exception; and it must not call this library.
 pub type SignoriniProgressFn =
     Option<unsafe extern "C" fn(user: *mut c_void, progress: *const SignoriniProgress) -> i32>;
 

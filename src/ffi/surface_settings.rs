@@ -26,10 +26,10 @@ pub const SIGNORINI_NORMALS_AVERAGED: i32 = 0;
 /// The choice does not change which nodes have pairs.
 pub const SIGNORINI_NORMALS_FACES: i32 = 1;
 
-/// The default: the rows of slave nodes with less than half of their area over the master, counted
-/// on all slave faces around them that look the same way, are added to that of a node of their own
-/// faces. Uniform pressure stays exact, and others are as exact as elsewhere. The choice is for dual
-/// mortar: nodes against surfaces have no cover, and take the default alone.
+/// The default. A slave node with less than half of its area over the master gives its row to a
+/// node of its own faces; if none can take it, it keeps it. Its area is that on all slave faces
+/// around it that look the same way. Uniform pressure stays exact, and others are as exact as
+/// elsewhere. For dual mortar: nodes against surfaces have no cover, and take the default alone.
 pub const SIGNORINI_RIMS_FOLD: i32 = 0;
 /// They keep pairs of their own with small areas. Uniform pressure stays exact; other pressures may
 /// be large there, as the rows reach into the air. Below a millionth they are folded all the same.
@@ -45,9 +45,9 @@ pub struct SignoriniSurfaceSettings {
     /// SIGNORINI_PAIRING_...; default SIGNORINI_PAIRING_DUAL_MORTAR.
     pub pairing: i32,
     /// Largest distance along the normal at which surfaces are paired, open or overlapping; length.
-    /// Default 0: open up to half the diagonal of the smaller of the two sides' boxes, but of
-    /// masters over each other the nearest; overlapping up to the size of the largest slave face;
-    /// no limit against an obstacle without faces.
+    /// Default 0. Then open surfaces are paired up to half the diagonal of the smaller of the two
+    /// sides' boxes, and of masters behind each other the nearest counts; surfaces overlap by the
+    /// size of the largest slave face at most; an obstacle without faces has no limit.
     pub search_distance: f64,
     /// Number of the first node, degree of freedom and entry of start, 0 or 1, here and in the
     /// pairs; default 0. Take that of your matrix.

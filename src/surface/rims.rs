@@ -3,7 +3,8 @@
 //! The area `D_j` of a node falls with a high power of the covered strip, so that `F_j / D_j` is rounding,
 //! and the row holds a node in the air by masters that are far away. Leaving the row out breaks the patch
 //! test. So `D_j d_j` is added to the row of a node of the same face: `Σ ψ_j = 1` stays, and with it the patch
-//! test. Rows that have taken in others take in no row of theirs: no row goes further than one face.
+//! test. A node whose row has gone takes in none, so that no row goes further than one face; one with hardly any
+//! cover may go two.
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 

@@ -35,7 +35,7 @@ pub enum Normals {
 /// them that look the same way, over the master. Of dual mortar; nodes against surfaces have no cover.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Rims {
-    /// Their rows are added to that of a node of their own faces: uniform pressure stays exact.
+    /// Each gives its row to a node of its own faces; if none can take it, it keeps it. Uniform pressure stays exact.
     #[default]
     Fold,
     /// They keep pairs of their own, with small areas. Uniform pressure stays exact, but under others the
@@ -49,9 +49,9 @@ pub enum Rims {
 pub struct SurfaceSettings {
     /// How the rows are made.
     pub pairing: Pairing,
-    /// The largest distance along the normal at which surfaces are paired, open or overlapping. `None`: open up to half
-    /// the diagonal of the smaller of the two sides' boxes, but of masters over each other the nearest alone;
-    /// overlapping up to the size of the largest slave face.
+    /// The largest distance along the normal at which surfaces are paired, open or overlapping. `None`: open surfaces up
+    /// to half the diagonal of the smaller of the two sides' boxes, and of masters behind each other the nearest;
+    /// overlapping ones up to the size of the largest slave face; against an obstacle without faces no limit.
     pub search_distance: Option<f64>,
     /// Planes of symmetry of half and quarter models. A pair whose slave node stands on one neither moves nor carries
     /// a force across it, as in the whole body, and its normal is in the plane.

@@ -63,8 +63,8 @@ def pair_surfaces(coordinates, slave, master, *, pairing="dual_mortar", search_d
     left of a line; in 3D triangles (3, 6) and quadrilaterals (4, 8, 9), counterclockwise from
     outside; corners first, then mid nodes, then the centre.
     pairing: "dual_mortar" or "node_to_surface".  search_distance: the largest one along the normal;
-    0: open up to half the diagonal of the smaller of the two sides' boxes, of masters over each other
-    the nearest alone; overlapping up to the size of the largest slave face.
+    0: open surfaces up to half the diagonal of the smaller of the two sides' boxes, and of masters
+    behind each other the nearest; overlapping ones up to the size of the largest slave face.
     dofs: degrees of freedom of each node, (n, D); None: dofs_per_node * node + axis, dofs_per_node
     0: D.
     symmetry: planes of symmetry of a half or quarter model, pairs of the axis across each and where

@@ -47,7 +47,7 @@ pub enum Uniqueness {
     NotKnown,
     /// Proved to be the only one.
     Unique,
-    /// Proved to be one of several.
+    /// One of several, by an estimate of errors.
     Several,
 }
 
