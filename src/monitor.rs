@@ -168,8 +168,8 @@ impl<'a> Monitor<'a> {
         self.is_cancelled
     }
 
-    /// To be called before so many `operations` of dense linear algebra, which nothing interrupts: why not to begin,
-    /// if they would pass the time limit, or the callback cancels. The last ones in this call tell how long they take.
+    /// To be called before so many `operations` of dense linear algebra: why not to begin, if they would pass the time
+    /// limit, or the callback cancels. The last ones in this call tell how long they take.
     pub(crate) fn affords(&mut self, operations: f64) -> Result<(), Stop> {
         if operations >= MEASURABLE {
             self.goes_on()?;

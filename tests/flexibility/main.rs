@@ -6,6 +6,7 @@ mod common;
 #[allow(dead_code)] // Each test uses a part.
 mod rows;
 
+mod cancelled;
 mod closed_forms;
 mod dependent_rows;
 mod sparse;

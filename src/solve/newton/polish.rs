@@ -28,9 +28,6 @@ const MOST_STEPS: usize = 30;
 /// and rounding may hide a solution from a method altogether: there any candidate is refined.
 const NEAR: f64 = 1e-3;
 
-/// A step that makes `eta` smaller by this factor or less tells what error a residual stands for.
-const SURE: f64 = 0.5;
-
 /// Rounding of `eta`: that of forces rounded once, a few times as the steps have no rounding in mind.
 pub const ROUNDING_OF_ETA: f64 = 4.0 * f64::EPSILON;
 
@@ -174,7 +171,8 @@ impl Steps {
         let errors =
             Errors { d: part(self.gain.d, norm_inf(at.d())), force: part(self.gain.force, forces) };
         let is_known = self.contraction > 0.0 || self.gain.d > 0.0;
-        (is_known && self.contraction < SURE).then_some(errors)
+        // A step that leaves less than half of `eta` tells what error a residual stands for.
+        (is_known && 2.0 * self.contraction < 1.0).then_some(errors)
     }
 }
 

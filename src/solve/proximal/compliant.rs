@@ -1,13 +1,10 @@
 //! The stiffness of bodies and springs in series, `(W + e D⁻¹)⁻¹`.
 
-use super::rounds::InSeries;
+use super::rounds::{COMPLIANCE, InSeries};
 use crate::linalg::factor::{Factor, cholesky_work};
 use crate::linalg::tolerances::SINGULAR;
 use crate::monitor::{Monitor, Stop};
 use crate::problem::{Flexibility, Relation};
-
-/// `e` of the first rounds, beside flexibilities of size one: the stiffness loses as many digits as `e` has.
-const FIRST: f64 = 1e-4;
 
 /// Least and largest `e`.
 const RANGE: [f64; 2] = [1e-10, 1e-1];
@@ -31,10 +28,10 @@ impl<'p> Springs<'p> {
         by_all_means: bool,
         monitor: &mut Monitor<'_>,
     ) -> Result<Option<Self>, Stop> {
-        let stiffness = stiffness(relation, FIRST, monitor)?;
+        let stiffness = stiffness(relation, COMPLIANCE, monitor)?;
         Ok(stiffness.map(|stiffness| Springs {
             relation,
-            compliance: FIRST,
+            compliance: COMPLIANCE,
             stiffness,
             by_all_means,
         }))
@@ -102,7 +99,7 @@ pub fn is_indefinite(relation: &Flexibility<'_>, monitor: &mut Monitor<'_>) -> b
     matches!(factor(relation, (NEGATIVE, SINGULAR), monitor), Ok(None))
 }
 
-/// The factor of the scaled `D^½ W D^½ + e`; `None` if there is none. `Err`: there is no time for it.
+/// The factor of the scaled `D^½ W D^½ + e`; `None` if there is none. `Err`: there is no time for it, or it was stopped.
 fn factor(
     relation: &Flexibility<'_>,
     (compliance, least): (f64, f64),
@@ -118,7 +115,11 @@ fn factor(
         }
         column[j] += compliance;
     };
-    Ok(Factor::asked(n, true, least, fill, &mut monitor.asking()))
+    let factor = Factor::asked(n, true, least, fill, &mut monitor.asking());
+    match monitor.stop() {
+        Some(stop) if factor.is_none() => Err(stop),
+        _ => Ok(factor),
+    }
 }
 
 /// `D^½`.

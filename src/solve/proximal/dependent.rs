@@ -10,7 +10,7 @@
 //! With it the variables can be condensed, and the others solve for `d`, in [`super::rounds`]. What proves that the
 //! gaps contradict each other are normal forces `p >= 0` with `Cᵀ p = 0` and `sum p (gap - o) < 0`.
 
-use super::rounds::{InSeries, rounds, solve as solve_by_rounds};
+use super::rounds::{COMPLIANCE, InSeries, rounds, solve as solve_by_rounds};
 use super::step::ended;
 use crate::error::{Argument, Error};
 use crate::law::Contact;
@@ -20,10 +20,6 @@ use crate::monitor::{Monitor, Stop};
 use crate::problem::{ContactProblem, DependentRows, Relation};
 use crate::settings::Settings;
 use crate::solve::result::{Ending, Solution, Solve};
-
-/// `e`, the compliance of the springs beside that of the bodies. A round divides the error by the compliance
-/// of the least compliant pattern of forces over `e`; the condensed matrix loses as many digits as `e` has.
-const COMPLIANCE: f64 = 1e-4;
 
 /// Solves the problem from the displacements `start`; `solve` solves each round.
 pub fn solve(

@@ -7,12 +7,11 @@
 //! them are the point of the least lack so far, with two pairs drawn anew.
 
 use super::on_flexibility::OnFlexibility;
-use super::step::ended;
 use crate::law::{Contact, Vector};
 use crate::linalg::perturbation::Perturbation;
 use crate::monitor::Monitor;
 use crate::problem::Flexibility;
-use crate::settings::{Method, Settings};
+use crate::settings::Settings;
 use crate::solve::result::{Ending, Solution, Status};
 
 /// Most pairs, and most points that are drawn: pieces are four to the power of the pairs. Of problems with 1 to 8 pairs,
@@ -37,7 +36,6 @@ pub fn drawn(
     let mut equations = OnFlexibility::new(contact, false);
     let size = equations.size();
     let mut random = Perturbation::new(0);
-    let mut systems = 0;
     let (mut best, mut least) = (equations.coordinates(force), f64::INFINITY);
     let mut begin: Vec<Vector> = best.clone();
     for _ in 0..MOST_POINTS {
@@ -45,11 +43,8 @@ pub fn drawn(
             return None;
         }
         let found = equations.solve(begin, settings.tolerance, monitor);
-        systems += found.systems;
         if found.ending == Ending::Done {
-            let d = contact.problem().relation().relative(&found.force);
-            let how = (Method::Newton, &found.ending, systems);
-            let solution = ended(contact, (d, &found.force), settings, how);
+            let solution = found.solution(contact, settings);
             if solution.status == Status::Solved {
                 return Some(solution);
             }
@@ -57,8 +52,8 @@ pub fn drawn(
         if let Ending::Stopped(_) = found.ending {
             return None;
         }
-        if found.lack < least {
-            (best, least) = (found.y, found.lack);
+        if found.point.merit < least {
+            (best, least) = (found.point.y, found.point.merit);
         }
         begin = match random.next() > 0.0 {
             true => laws.iter().map(|law| law.drawn(size, || random.next())).collect(),

@@ -46,9 +46,7 @@ pub fn solve(
     let contact = &Contact::new(problem);
     let force = start.map_or_else(|| vec![0.0; problem.unknowns()], <[f64]>::to_vec);
     if let Some(found) = on_itself(contact, settings, &force, monitor) {
-        let d = problem.relation().relative(&found.force);
-        let how = (Method::Newton, &found.ending, found.systems);
-        let solution = ended(contact, (d, &found.force), settings, how);
+        let solution = found.solution(contact, settings);
         if solution.status != Status::Stalled {
             return Ok(solution);
         }

@@ -62,7 +62,7 @@ fn in_turn(
         if !certified
             && let Some(newton) = on_itself(&Contact::new(&island), &own, &begin, monitor)
             && newton.ending == Ending::Done
-            && newton.eta <= own.tolerance
+            && newton.point.eta <= own.tolerance
         {
             found.add_quick(pairs, dim, &newton);
             continue;
@@ -182,7 +182,7 @@ impl Found {
 
     /// Adds the forces of Newton's method.
     fn add_quick(&mut self, pairs: &[usize], dim: usize, newton: &NewtonForces) {
-        scatter(&newton.force, pairs, dim, &mut self.force);
+        scatter(&newton.point.force, pairs, dim, &mut self.force);
         (self.solved, self.quick) = (self.solved + 1, self.quick + 1);
         self.factorisations += newton.systems;
         // Islands come from the smallest to the largest.

@@ -72,10 +72,9 @@ use crate::solve::result::{Candidate, Effort, Ending};
 use crate::solve::{newton, path};
 
 /// By how much `s` falls from one problem to the next, first and at most. Where Newton's method fails it falls by the
-/// root of that, and below the least factor the path takes the place of Newton's method.
+/// root of that, and below two the path takes the place of Newton's method.
 const FACTOR: f64 = 30.0;
 const MOST_FACTOR: f64 = 1e4;
-const LEAST_FACTOR: f64 = 2.0;
 
 /// Systems with which Newton's method counts as quick: `s` then falls by this power of the factor before.
 const QUICK: u64 = 4;
@@ -167,7 +166,7 @@ impl Springs<'_> {
     ) -> Result<(f64, Vec<f64>), Ending> {
         loop {
             let next = s / *factor;
-            let is_last = *factor < LEAST_FACTOR;
+            let is_last = *factor < 2.0;
             match self.held(next, is_last, monitor) {
                 Ok(d) => return Ok((next, d)),
                 Err(ending) if is_last || matches!(ending, Ending::Stopped(_)) => {

@@ -10,14 +10,17 @@
 //! own coordinates follow. Where `W` is singular the system is damped: `ε D⁻¹ dP` is added, with an `ε` of the size of the
 //! lack, which is nothing at a solution.
 
-use crate::law::{Contact, Linearised, PairLaw, Piece, Vector};
+use super::step::ended;
+use crate::law::{Contact, Linearised, PairLaw, Vector};
 use crate::linalg::factor::{Factor, lu_work};
 use crate::linalg::matrix::Matrix;
+use crate::linalg::tolerances::SINGULAR;
 use crate::linalg::vector::{NormSum, norm};
 use crate::monitor::Monitor;
 use crate::problem::{Flexibility, Relation};
+use crate::settings::{Method, Settings};
 use crate::solve::newton::{Goal, Halt, NewtonOutcome, NormalMap, descend};
-use crate::solve::result::Ending;
+use crate::solve::result::{Ending, Solution};
 use std::convert::Infallible;
 
 /// Least and largest damping, beside flexibilities of size one. With `1e-3` fewer first starts arrive, with `0.1` more of
@@ -33,17 +36,23 @@ const ACCURATE: f64 = 1e-3;
 
 /// Forces and how they were found.
 pub struct NewtonForces {
-    /// Contact forces, which obey the law.
-    pub force: Vec<f64>,
-    /// The coordinates.
-    pub y: Vec<Vector>,
-    /// Length of what is left of `H`.
-    pub lack: f64,
-    /// `eta`, as far as it is known without a certificate.
-    pub eta: f64,
+    pub point: LawPoint,
     pub ending: Ending,
-    /// Systems that were factorised.
+    /// Systems that were factorised for these equations so far.
     pub systems: u64,
+}
+
+impl NewtonForces {
+    /// The result, with a certificate.
+    pub fn solution(
+        &self,
+        contact: &Contact<'_, Flexibility<'_>>,
+        settings: &Settings,
+    ) -> Solution {
+        let force = &self.point.force;
+        let d = contact.problem().relation().relative(force);
+        ended(contact, (d, force), settings, (Method::Newton, &self.ending, self.systems))
+    }
 }
 
 /// The equations of a problem.
@@ -57,11 +66,16 @@ pub struct OnFlexibility<'c, 'p> {
 
 /// A point of the law.
 pub struct LawPoint {
-    y: Vec<Vector>,
-    force: Vec<f64>,
+    /// The coordinates.
+    pub y: Vec<Vector>,
+    /// Contact forces.
+    pub force: Vec<f64>,
     /// `H`, a length.
     lack: Vec<f64>,
-    merit: f64,
+    /// Length of `H`.
+    pub merit: f64,
+    /// `eta` of the forces, as far as it is known without a certificate.
+    pub eta: f64,
 }
 
 impl<'c, 'p> OnFlexibility<'c, 'p> {
@@ -99,19 +113,17 @@ impl<'c, 'p> OnFlexibility<'c, 'p> {
         tolerance: f64,
         monitor: &mut Monitor<'_>,
     ) -> NewtonForces {
-        let (before, tolerance) = (self.systems, ACCURATE * tolerance);
+        let tolerance = ACCURATE * tolerance;
         let goal = Goal { tolerance, least_systems: 0, most_systems: MOST_SYSTEMS, full_steps: 0 };
         let begin = self.point(y);
         let Ok(NewtonOutcome { point, ending }) = descend(self, begin, goal, monitor);
-        let eta = self.eta(&point);
-        let LawPoint { y, force, merit, .. } = point;
-        NewtonForces { force, y, lack: merit, eta, ending, systems: self.systems - before }
+        NewtonForces { point, ending, systems: self.systems }
     }
 
     /// `W F + q`.
     fn caused(&self, force: &[f64]) -> Vec<f64> {
         let mut d = self.relation().free().to_vec();
-        add_products(&self.relation().matrix(), force.iter().copied().enumerate(), &mut d);
+        add_products(&self.relation().matrix(), force.iter().copied(), &mut d);
         d
     }
 
@@ -124,9 +136,24 @@ impl<'c, 'p> OnFlexibility<'c, 'p> {
             force.extend(push[..dim].iter().map(|p| -p));
         }
         let caused = self.caused(&force);
-        lack.iter_mut().zip(caused).for_each(|(lack, caused)| *lack -= caused);
-        let merit = self.length(&lack);
-        LawPoint { y, force, lack, merit }
+        lack.iter_mut().zip(&caused).for_each(|(lack, caused)| *lack -= caused);
+        let (merit, eta) = (self.length(&lack), self.eta_of(&force, &caused));
+        LawPoint { y, force, lack, merit, eta }
+    }
+
+    /// `eta` of forces, with the displacements that they cause.
+    fn eta_of(&self, force: &[f64], caused: &[f64]) -> f64 {
+        let (relation, mut sum) = (self.relation(), NormSum::default());
+        let mut residual = [0.0; 3];
+        for (law, d, force) in self.contact.each(caused, force) {
+            law.natural_residual(d, force, &mut residual);
+            residual[..d.len()].iter().for_each(|&e| sum.add(e));
+        }
+        let felt = caused.iter().zip(relation.free()).zip(relation.units());
+        let felt: Vec<f64> = felt.map(|((d, q), unit)| unit * (d - q)).collect();
+        let size = norm(relation.load()).max(norm(force).min(norm(&felt)));
+        let sum = sum.root();
+        if sum == 0.0 { 0.0 } else { sum / size }
     }
 
     /// Length of a vector of displacements, each in the unit of its component.
@@ -142,42 +169,28 @@ impl<'c, 'p> OnFlexibility<'c, 'p> {
         if self.is_definite { 0.0 } else { (point.merit / self.size()).clamp(least, most) }
     }
 
-    /// The changes of the coordinates by those of the pushes of pairs in `system`.
-    fn complete(&self, system: &System<'_>, own: &[f64]) -> Vec<Vector> {
-        let (dim, matrix) = (self.contact.dim(), self.relation().matrix());
-        let mut change: Vec<f64> = system.lack.iter().map(|lack| -lack).collect();
-        let mut step = vec![[0.0; 3]; system.slopes.len()];
-        for (j, own) in system.unknowns.iter().zip(own) {
-            step[j / dim][j % dim] = own * self.root[*j];
-        }
-        for &pair in &system.pairs {
-            let moved = system.slopes[pair].moved(&step[pair]);
-            let forces = (0..dim).map(|c| (dim * pair + c, moved[c] - step[pair][c]));
-            add_products(&matrix, forces, &mut change);
-        }
-        for (pair, linear) in system.slopes.iter().enumerate() {
-            if !system.pieces[pair].carries_force() {
-                step[pair] = linear.scaled(&change[dim * pair..dim * (pair + 1)]);
+    /// The changes of all coordinates by those of pairs with forces, `step`, to first order; `pairs` tells which have one.
+    fn complete(&self, pairs: &[(bool, Linearised)], lack: &[f64], step: &mut [Vector]) {
+        let dim = self.contact.dim();
+        let mut change: Vec<f64> = lack.iter().map(|lack| -lack).collect();
+        let forces = pairs.iter().zip(&*step).flat_map(|((_, linear), step)| {
+            let moved = linear.moved(step);
+            (0..dim).map(move |c| moved[c] - step[c])
+        });
+        add_products(&self.relation().matrix(), forces, &mut change);
+        for (((has_force, linear), change), step) in
+            pairs.iter().zip(change.chunks_exact(dim)).zip(step)
+        {
+            if !has_force {
+                *step = linear.scaled(change);
             }
         }
-        step
     }
 }
 
-/// The pairs whose pushes change, and to first order how.
-struct System<'a> {
-    pieces: Vec<Piece>,
-    pairs: Vec<usize>,
-    /// Their components.
-    unknowns: Vec<usize>,
-    /// All pairs on their pieces, to first order.
-    slopes: Vec<Linearised>,
-    lack: &'a [f64],
-}
-
 /// Adds the products of columns with forces; those without one cost nothing.
-fn add_products(matrix: &Matrix<'_>, forces: impl Iterator<Item = (usize, f64)>, sum: &mut [f64]) {
-    for (j, by) in forces.filter(|(_, by)| *by != 0.0) {
+fn add_products(matrix: &Matrix<'_>, forces: impl Iterator<Item = f64>, sum: &mut [f64]) {
+    for (j, by) in forces.enumerate().filter(|(_, by)| *by != 0.0) {
         sum.iter_mut().zip(matrix.column(j)).for_each(|(sum, w)| *sum += w * by);
     }
 }
@@ -196,18 +209,7 @@ impl NormalMap for OnFlexibility<'_, '_> {
     type Failure = Infallible;
 
     fn eta(&self, point: &LawPoint) -> f64 {
-        let (relation, mut sum) = (self.relation(), NormSum::default());
-        let mut residual = [0.0; 3];
-        let caused = self.caused(&point.force);
-        for (law, d, force) in self.contact.each(&caused, &point.force) {
-            law.natural_residual(d, force, &mut residual);
-            residual[..d.len()].iter().for_each(|&e| sum.add(e));
-        }
-        let felt = caused.iter().zip(relation.free()).zip(relation.units());
-        let felt: Vec<f64> = felt.map(|((d, q), unit)| unit * (d - q)).collect();
-        let size = norm(relation.load()).max(norm(&point.force).min(norm(&felt)));
-        let sum = sum.root();
-        if sum == 0.0 { 0.0 } else { sum / size }
+        point.eta
     }
 
     fn merit(&self, point: &LawPoint) -> f64 {
@@ -221,20 +223,18 @@ impl NormalMap for OnFlexibility<'_, '_> {
     ) -> Result<Vec<Vector>, Halt<Infallible>> {
         let (dim, laws) = (self.contact.dim(), self.contact.pairs());
         let (matrix, units) = (self.relation().matrix(), self.relation().units());
-        let pieces: Vec<Piece> = laws.iter().zip(&point.y).map(|(law, y)| law.piece(y)).collect();
-        let places = laws.iter().zip(&pieces).zip(&point.y);
-        let slopes: Vec<Linearised> =
-            places.map(|((law, piece), y)| law.linearised(*piece, y)).collect();
-        let pairs: Vec<usize> =
-            (0..laws.len()).filter(|&pair| pieces[pair].carries_force()).collect();
-        let unknowns: Vec<usize> =
-            pairs.iter().flat_map(|pair| dim * pair..dim * (pair + 1)).collect();
+        let pairs = laws.iter().zip(&point.y).map(|(law, y)| {
+            let piece = law.piece(y);
+            (piece.carries_force(), law.linearised(piece, y))
+        });
+        let pairs: Vec<(bool, Linearised)> = pairs.collect();
+        let unknowns: Vec<usize> = (0..point.lack.len()).filter(|i| pairs[i / dim].0).collect();
         let damping = self.damping(point);
         let n = unknowns.len();
         monitor.affords(lu_work(n))?;
-        let factor = Factor::new(n, false, |j, entries| {
+        let fill = |j: usize, entries: &mut [f64]| {
             let (pair, c) = (unknowns[j] / dim, unknowns[j] % dim);
-            let (push, motion) = column(&laws[pair], &slopes[pair], c);
+            let (push, motion) = column(&laws[pair], &pairs[pair].1, c);
             entries.fill(0.0);
             for (row, push) in push[..dim].iter().enumerate().filter(|(_, push)| **push != 0.0) {
                 let w = matrix.column(dim * pair + row);
@@ -250,13 +250,23 @@ impl NormalMap for OnFlexibility<'_, '_> {
                 .iter_mut()
                 .zip(&unknowns)
                 .for_each(|(entry, &i)| *entry *= self.root[i] * scale);
-        });
+        };
+        let factor = Factor::asked(n, false, SINGULAR, fill, &mut monitor.asking());
+        if factor.is_none()
+            && let Some(stop) = monitor.stop()
+        {
+            return Err(stop.into());
+        }
         self.systems += 1;
         let mut factor = factor.ok_or(Halt::Ended(Ending::Singular))?;
         let mut own: Vec<f64> = unknowns.iter().map(|&i| -self.root[i] * point.lack[i]).collect();
         factor.solve(&mut own);
-        let system = System { pieces, pairs, unknowns, slopes, lack: &point.lack };
-        Ok(self.complete(&system, &own))
+        let mut step = vec![[0.0; 3]; pairs.len()];
+        for (i, own) in unknowns.iter().zip(own) {
+            step[i / dim][i % dim] = own * self.root[*i];
+        }
+        self.complete(&pairs, &point.lack, &mut step);
+        Ok(step)
     }
 
     fn moved(

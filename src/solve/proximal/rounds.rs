@@ -23,20 +23,18 @@ use crate::linalg::vector::norm_inf;
 use crate::monitor::Monitor;
 use crate::problem::{ContactProblem, Redundant};
 use crate::settings::{Method, SMALLEST_TOLERANCE, Settings};
+use crate::solve::newton::AIM;
 use crate::solve::result::{Solution, Solve, Status};
 
 /// Most rounds: patterns of forces with a flexibility of `e` itself halve their error in each.
 const ROUNDS: usize = 100;
 
-/// Part of the tolerance that a round is solved to, as far as that can be had: the springs leave the first rounds
-/// fewer digits, and later ones mend it.
-const INNER: f64 = 0.1;
+/// `e` of the first springs, beside flexibilities of size one. A round divides the error by the compliance of the least
+/// compliant pattern of forces over `e`; the stiffness with springs loses as many digits as `e` has.
+pub const COMPLIANCE: f64 = 1e-4;
 
 /// Part of the error before a round that is enough for the round.
 const ROUGH: f64 = 1e-3;
-
-/// Part of the least error that is left where a round has made progress.
-const HALF: f64 = 0.5;
 
 /// Part of the error that is left where rounds are slow, so that less compliant springs are tried.
 const SLOW: f64 = 0.1;
@@ -193,7 +191,7 @@ impl<R: Redundant> Rounds<'_, '_, R> {
         self.changes = [self.changes[1], norm_inf(&change)];
         self.growth.add(change.iter().map(|change| self.springs.compliance() * change).collect());
         self.force = force;
-        self.idle = if eta < HALF * self.least { 0 } else { self.idle + 1 };
+        self.idle = if 2.0 * eta < self.least { 0 } else { self.idle + 1 };
         self.least = self.least.min(eta);
         let is_slow = match found.status {
             Status::Solved => self.changes[1] > SLOW * self.changes[0],
@@ -211,7 +209,8 @@ impl<R: Redundant> Rounds<'_, '_, R> {
     /// Solves the problem with springs. Hard ones are left to softer springs, as far as there are any.
     fn round(&mut self, monitor: &mut Monitor<'_>) -> Result<Solution, Error> {
         let rough = ROUGH * self.last.min(self.springs.compliance());
-        let tolerance = rough.max(INNER * self.settings.tolerance).max(SMALLEST_TOLERANCE);
+        // The springs leave the first rounds fewer digits than that, and later ones mend it.
+        let tolerance = rough.max(AIM * self.settings.tolerance).max(SMALLEST_TOLERANCE);
         let method = match self.settings.method {
             Method::Auto if !self.springs.are_softest() => Method::Newton,
             method => method,

@@ -35,9 +35,6 @@ const ROUND: u64 = 1000;
 /// floor: sweeps that still converge halve it in some hundred.
 const STAGNATION: u64 = 5000;
 
-/// Progress that moves the milestone of stagnation.
-const HALF: f64 = 0.5;
-
 /// Sweeps between two measurements of `eta`, which cost a few operations per unknown each.
 const MEASURE: u64 = 4;
 
@@ -91,7 +88,7 @@ impl<'m, 'c, I: Iterate> Driver<'m, 'c, I> {
         if force < ROUNDING * self.largest_force && self.iterate.is_unloaded() {
             return Err(Ending::Stalled("without loads the forces fall to rounding"));
         }
-        if eta <= HALF * self.milestone.0 {
+        if 2.0 * eta <= self.milestone.0 {
             self.milestone = (eta, sweeps);
         }
         if eta < NEGLIGIBLE && sweeps > self.milestone.1 + STAGNATION {

@@ -106,9 +106,6 @@ fn ended(
     Candidate::new(d, force, ending, effort)
 }
 
-/// Squared reduction over two updates below which the fixed point converges fast enough as it is.
-const FALLING: f64 = 0.5;
-
 /// Damping of the threshold update, given or chosen from the measured rate.
 struct Damping {
     theta: f64,
@@ -133,7 +130,8 @@ impl Damping {
             let square = now / before;
             let keep = 1.0 - self.theta;
             let rho_square = (square - keep * keep) / (self.theta * self.theta);
-            if square > FALLING && rho_square > FALLING {
+            // With a half or less the fixed point converges fast enough as it is.
+            if 2.0 * square > 1.0 && 2.0 * rho_square > 1.0 {
                 self.theta = (1.0 / (1.0 + rho_square)).clamp(LEAST_DAMPING, self.theta);
                 self.steps.clear();
             }

@@ -10,11 +10,8 @@ use crate::solve::part::NormalProblem;
 use crate::solve::result::{Candidate, Effort, Ending};
 
 /// The condensed problem has another scale of forces than the whole one, whose certificate decides: the
-/// target is tightened by this factor until that holds, ...
+/// target is tightened by this factor until that holds, or no rounding can reach it.
 const TIGHTENING: f64 = 0.1;
-
-/// ... and given up below this part of the tolerance, which no rounding can reach.
-const GIVE_UP: f64 = f64::EPSILON;
 
 /// Solves from the displacements `start`.
 pub fn frictionless(
@@ -42,7 +39,7 @@ pub fn frictionless(
         candidate.effort = Effort { omega: driver.relaxation.omega(), ..Effort::default() };
         let done = candidate.ending != Ending::Done
             || candidate.certificate(contact).holds(settings.tolerance);
-        if done || target < GIVE_UP * settings.tolerance {
+        if done || target < f64::EPSILON * settings.tolerance {
             return candidate;
         }
         target *= TIGHTENING;

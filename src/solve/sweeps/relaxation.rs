@@ -34,9 +34,6 @@ const BELOW_BEST: f64 = 0.8;
 /// Sweeps in a window of the measured rate, besides those that an error takes to settle.
 const WINDOW: usize = 4;
 
-/// Two windows agree if the distances of their rates from 1 differ by at most this factor.
-const AGREEMENT: f64 = 2.0;
-
 impl Relaxation {
     /// `omega` as given, or chosen between 1 and `largest` if it is 0, for so many unknowns.
     pub fn new(omega: f64, largest: f64, unknowns: usize) -> Self {
@@ -104,7 +101,8 @@ impl Relaxation {
         };
         let before = rate(last - window.min(last), last.checked_sub(2 * window)?);
         let now = rate(last, last - window);
-        let agree = (AGREEMENT.recip()..AGREEMENT).contains(&((1.0 - before) / (1.0 - now)));
+        // Two windows agree if the distances of their rates from 1 differ by a factor of two at most.
+        let agree = (0.5..2.0).contains(&((1.0 - before) / (1.0 - now)));
         (agree && now < 1.0).then_some(now)
     }
 }
