@@ -308,7 +308,11 @@ struct signorini_contact_fields {
     int32_t *state;
 };
 
-/** Sums over a contact zone. Set struct_size before the call; the call writes all other fields. */
+/**
+ * Sums over a contact zone. Set struct_size before the call; the call writes all other fields. Of
+ * bodies of revolution they are those of whole rings: of the force its part along the axis is
+ * left, and no moment.
+ */
 struct signorini_resultant {
     uint32_t struct_size; /**< sizeof(signorini_resultant). */
     int32_t reserved;     /**< 0. */

@@ -35,7 +35,9 @@ pub struct SignoriniContactFields {
 // SAFETY: led by its size; a number and pointers.
 unsafe impl Structure for SignoriniContactFields {}
 
-/// Sums over a contact zone. Set struct_size before the call; the call writes all other fields.
+/// Sums over a contact zone. Set struct_size before the call; the call writes all other fields. Of
+/// bodies of revolution they are those of whole rings: of the force its part along the axis is
+/// left, and no moment.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct SignoriniResultant {

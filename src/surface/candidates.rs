@@ -2,7 +2,8 @@
 
 use super::face::Face;
 use super::mesh::Side;
-use super::tree::{Sweep, Tree};
+use super::sweep::Sweep;
+use super::tree::Tree;
 use super::watch::Watch;
 use crate::error::Error;
 use crate::linalg::vector3::Vector3;

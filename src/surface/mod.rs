@@ -23,6 +23,7 @@
 mod beyond;
 mod bilinear;
 mod candidates;
+mod checks;
 mod clip;
 mod control;
 mod face;
@@ -45,6 +46,7 @@ mod self_overlap;
 mod settings;
 mod shape;
 mod summary;
+mod sweep;
 mod symmetry;
 mod tree;
 mod unit;

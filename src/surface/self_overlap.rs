@@ -7,7 +7,7 @@ use super::candidates::{SAME_WAY, SearchFaces};
 use super::mesh::Side;
 use super::overlap::{Overlaps, SlaveFace};
 use super::plane::Plane;
-use super::tree::Sweep;
+use super::sweep::Sweep;
 use super::watch::Watch;
 use crate::error::{Error, index};
 

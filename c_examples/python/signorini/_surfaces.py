@@ -46,7 +46,7 @@ other body since slip0, (n, D).  state: of its pair (State), (n,).
 """
 
 Resultant = namedtuple("Resultant", "force moment friction_work pressed_area")
-Resultant.__doc__ = """Sums over a contact zone.
+Resultant.__doc__ = """Sums over a contact zone, over whole rings if it is axisymmetric.
 
 force: of the contact on the slave's body, (3,).  moment: about the point, (3,).  friction_work:
 what friction takes in the step.  pressed_area: of the pairs that press.

@@ -1,0 +1,166 @@
+//! The places over which a face, or a point, moves along its normal, and what they may meet: boxes along the axes, and
+//! walls.
+
+use super::face::Face;
+use crate::linalg::vector3::Vector3;
+
+/// Faces that have less than this in common, beside their largest coordinate, have nothing: rounding of the places
+/// themselves.
+const TOUCH: f64 = 4e-15;
+
+/// A curved face may bulge out of the hull of its nodes by this share of its size: an arc of a quarter
+/// circle bulges by 0.1 of its chord, between nodes by less.
+const BULGE: f64 = 0.1;
+
+/// A box along the axes.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Bounds {
+    pub(super) low: Vector3,
+    pub(super) high: Vector3,
+}
+
+impl Bounds {
+    /// The smallest box that holds the points.
+    pub(super) fn of(points: impl Iterator<Item = Vector3>) -> Bounds {
+        let none = Bounds {
+            low: Vector3::repeat(f64::INFINITY),
+            high: Vector3::repeat(f64::NEG_INFINITY),
+        };
+        points.fold(none, |bounds, point| Bounds {
+            low: bounds.low.inf(&point),
+            high: bounds.high.sup(&point),
+        })
+    }
+
+    /// The distance between opposite corners.
+    pub(super) fn diagonal(&self) -> f64 {
+        (self.high - self.low).norm()
+    }
+
+    pub(super) fn with(&self, other: &Bounds) -> Bounds {
+        Bounds { low: self.low.inf(&other.low), high: self.high.sup(&other.high) }
+    }
+
+    fn meets(&self, other: &Bounds) -> bool {
+        (0..3).all(|c| self.low[c] <= other.high[c] && other.low[c] <= self.high[c])
+    }
+}
+
+/// The half space `along · x <= most`; everything if `along` is zero.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Wall {
+    pub(super) along: Vector3,
+    pub(super) most: f64,
+}
+
+/// Points, and how far beyond them what they stand for may reach.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Hull<'a> {
+    points: &'a [Vector3],
+    margin: f64,
+}
+
+impl<'a> Hull<'a> {
+    pub(super) fn of(face: &'a Face<'_>) -> Hull<'a> {
+        let points = &face.x[..face.kind.nodes()];
+        Hull { points, margin: if face.is_straight() { 0.0 } else { BULGE * face.size() } }
+    }
+
+    /// How far it reaches along a direction, times the length of that.
+    pub(super) fn most(&self, along: &Vector3) -> f64 {
+        let heights = self.points.iter().map(|x| along.dot(x));
+        heights.fold(f64::NEG_INFINITY, f64::max) + self.margin * along.norm()
+    }
+
+    pub(super) fn bounds(&self) -> Bounds {
+        let Bounds { low, high } = Bounds::of(self.points.iter().copied());
+        let margin = Vector3::repeat(self.margin);
+        Bounds { low: low - margin, high: high + margin }
+    }
+}
+
+/// The places over which a face moves along its normal, or a point along a normal.
+#[derive(Clone, Debug)]
+pub(super) struct Sweep<'a> {
+    hull: Hull<'a>,
+    normal: Vector3,
+    /// How far back and how far forward.
+    reach: [f64; 2],
+    bounds: Bounds,
+    /// Directions across the normal with the lowest and the highest place along them: of a needle along it and across.
+    across: [(Vector3, f64, f64); 2],
+    /// Walls that are this far away, or nearer by as much, are passed.
+    touch: f64,
+}
+
+impl<'a> Sweep<'a> {
+    pub(super) fn of_face(face: &'a Face<'_>, normal: Vector3, reach: [f64; 2]) -> Sweep<'a> {
+        let corners = face.kind.corners();
+        let edge = |i: usize| face.x[(i + 1) % corners] - face.x[i];
+        let longest = (0..corners).map(edge).max_by(|a, b| a.norm().total_cmp(&b.norm()));
+        Sweep::new(Hull::of(face), (normal, longest.unwrap_or_default()), reach, -TOUCH)
+    }
+
+    /// A point that is wanted even if it is beyond a face by as much as `beyond`.
+    pub(super) fn of_point(
+        point: &'a Vector3,
+        normal: Vector3,
+        reach: [f64; 2],
+        beyond: f64,
+    ) -> Sweep<'a> {
+        let hull = Hull { points: std::slice::from_ref(point), margin: 0.0 };
+        Sweep::new(hull, (normal, Vector3::zeros()), reach, beyond)
+    }
+
+    fn new(
+        hull: Hull<'a>,
+        (normal, along): (Vector3, Vector3),
+        reach: [f64; 2],
+        touch: f64,
+    ) -> Sweep<'a> {
+        let [back, forward] = reach;
+        let Bounds { low, high } = hull.bounds();
+        let ends = [
+            low - back * normal,
+            high - back * normal,
+            low + forward * normal,
+            high + forward * normal,
+        ];
+        let bounds = Bounds::of(ends.into_iter());
+        let largest = bounds.low.abs().sup(&bounds.high.abs()).amax();
+        let margin = Vector3::repeat((touch * largest).max(0.0));
+        let bounds = Bounds { low: bounds.low - margin, high: bounds.high + margin };
+        let along = along - normal.dot(&along) * normal;
+        let across = [along, normal.cross(&along)].map(|v| {
+            let v = v.try_normalize(0.0).unwrap_or_default();
+            (v, -hull.most(&-v), hull.most(&v))
+        });
+        Sweep { hull, normal, reach, bounds, across, touch: touch * largest }
+    }
+
+    /// `false` if nothing of a box with two walls is met.
+    pub(super) fn meets(&self, bounds: &Bounds, walls: &[Wall; 2]) -> bool {
+        self.bounds.meets(bounds)
+            && self.is_across(bounds)
+            && walls.iter().all(|wall| self.passes(wall))
+    }
+
+    fn is_across(&self, bounds: &Bounds) -> bool {
+        let (middle, half) = (0.5 * (bounds.low + bounds.high), 0.5 * (bounds.high - bounds.low));
+        self.across.iter().all(|(along, low, high)| {
+            let (at, size) = (along.dot(&middle), along.abs().dot(&half));
+            at - size <= *high && at + size >= *low
+        })
+    }
+
+    /// `false` if all of it lies behind the wall.
+    fn passes(&self, wall: &Wall) -> bool {
+        if wall.along == Vector3::zeros() {
+            return true;
+        }
+        let moves = self.normal.dot(&wall.along);
+        let [back, forward] = self.reach.map(|reach| reach * moves);
+        let least = -self.hull.most(&-wall.along) + (-back).min(forward);
+        least < wall.most + self.touch * wall.along.norm()
+    }
+}
