@@ -3,6 +3,8 @@
 use super::Model;
 use crate::error::{Argument, Error};
 use crate::monitor::Monitor;
+#[cfg(doc)]
+use crate::problem::ContactProblem;
 use crate::problem::{OF_MATRIX, checked_dim, dense, unknowns};
 use crate::reduce::{CondensedReduction, TwoBodyReduction, memory};
 use crate::settings::Settings;
@@ -10,11 +12,12 @@ use crate::settings::Settings;
 impl Model {
     /// A body condensed by the host, on an obstacle: `d = u`.
     ///
+    /// If a diagonal entry is at most 9e-12 of the largest one of its pair, and the component is coupled to others,
+    /// motions of so little energy are the rounding of a condensation and become exactly free. All other matrices are
+    /// taken as they are.
+    ///
     /// # Errors
-    /// As [`ContactProblem::new`] for the matrix, and a matrix that is not positive semi-definite, by a component;
-    /// after it was cleaned: if a diagonal entry is at most 9e-12
-    /// of the largest one of its pair, and the component is coupled to others, motions of so little energy
-    /// are the rounding of a condensation and become exactly free. All other matrices are taken as they are.
+    /// As [`ContactProblem::new`] for the matrix; one that is then not positive semi-definite, with a component.
     pub fn condensed(dim: usize, pairs: usize, k: &[f64], ld: usize) -> Result<Self, Error> {
         Self::condensed_within(dim, pairs, (k, ld), &mut Monitor::new(&Settings::default(), None))
     }

@@ -1,9 +1,9 @@
 //! The change of variables `u = T x + P p` from the unknowns and the fixed values to the host's degrees
 //! of freedom, and what it makes of a matrix and of loads.
 //!
-//! The unknowns `x` are the free degrees of freedom that no row gives, then the relative
-//! displacements `d` (of rows that depend on each other, those of independent ones); `p` are the values of the fixed degrees of freedom. `W = [T P]` is one sparse
-//! matrix, so that `Wᵀ K W` has all that is needed: `Tᵀ K T`, and `Pᵀ K T` for the loads of the fixed values.
+//! The unknowns `x` are the free degrees of freedom that no row gives, then the relative displacements `d` (of rows
+//! that depend on each other, those of independent ones); `p` are the values of the fixed degrees of freedom.
+//! `W = [T P]` is one sparse matrix, so that `Wᵀ K W` has all that is needed: `Tᵀ K T`, and `Pᵀ K T` for the loads of the fixed values.
 //!
 //! A component of `d` that supports fix moves nothing. It gets a spring to nothing, as stiff as the
 //! stiffest entry of `K`: a further row of `K` and of `W`, so that `Tᵀ K T` has a decoupled row for it.

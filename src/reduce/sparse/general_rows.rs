@@ -40,7 +40,7 @@ enum RowPlace {
 struct Rows<'r> {
     dim: usize,
     frames: &'r [Frame],
-    /// RowPlace in `fixed` of each degree of freedom.
+    /// The place of each degree of freedom among the fixed ones.
     fixed: &'r [Option<usize>],
     places: Vec<RowPlace>,
     kept: usize,
@@ -77,8 +77,11 @@ fn dependent(solved: &Solved, pair: usize, dim: usize, axis: usize) -> Option<&E
 }
 
 /// The components of a pair that supports fix, and its frame turned exactly along them; none if one of its
-/// axes follows from other pairs, or is fixed and no direction of the frame. A pair that supports fix wholly is one only
-/// if each has a slave of its `own`: general rows may have been meant otherwise.
+/// axes follows from other pairs, or is fixed and no direction of the frame.
+///
+/// # Errors
+/// A pair that supports fix wholly, as general rows by mistake may be. With a slave of its `own` it is legal if its
+/// frame stands along the axes.
 fn held(
     (pair, own): (usize, bool),
     frame: &mut Frame,
