@@ -294,15 +294,7 @@ fn result(
         bodies.operator.remember(case.load, &at.x);
         past.solved(at.clone());
     }
-    let accuracy = format!("eta is {:.1e}", certificate.eta);
-    let wanted = format!("{accuracy}, wanted {:.1e}", settings.tolerance);
-    let told = match ending {
-        _ if certificate.holds(settings.tolerance) => {
-            (Status::Solved, format!("solved: {accuracy}"))
-        }
-        Ending::Stopped(stop) => stop.status(settings, &wanted),
-        ending => (Status::Stalled, format!("{}; {wanted}", ending.reason(&certificate))),
-    };
+    let told = ending.status(settings, &certificate);
     let mut solution = Solution::of(Method::Newton, told, d, certificate);
     remark_on_data(contact.problem(), &mut solution);
     solution

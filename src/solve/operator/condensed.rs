@@ -17,7 +17,7 @@ use super::session::{Halted, Session};
 use crate::certificate::is_spread_escape;
 use crate::error::Error;
 use crate::law::Contact;
-use crate::monitor::{Monitor, Stop};
+use crate::monitor::Monitor;
 use crate::problem::{ContactData, ContactProblem, HeldSet, SOLUTIONS};
 use crate::settings::Settings;
 use crate::solve::newton::Halt;
@@ -209,13 +209,13 @@ impl Condensed {
         let start: Vec<f64> = self.places.iter().map(|&i| start.x[i]).collect();
         let settings = Settings { tolerance, ..Settings::default() };
         let found = plan::auto(contact, &settings, Some(&start), monitor)?;
+        if let Some(stop) = found.status.stop() {
+            return Err(stop.into());
+        }
         Ok(match found.status {
             Status::Solved => Found::Solution(found.d),
             Status::NoEquilibrium => found.recession.map_or(Found::Nothing, Found::Escape),
-            Status::IterationLimit => return Err(Stop::IterationLimit.into()),
-            Status::TimeLimit => return Err(Stop::TimeLimit.into()),
-            Status::Cancelled => return Err(Stop::Cancelled.into()),
-            Status::Stalled => Found::Nothing,
+            _ => Found::Nothing,
         })
     }
 }

@@ -12,7 +12,7 @@ use crate::certificate::{Certificate, measure};
 use crate::error::{Argument, Error};
 use crate::law::Contact;
 use crate::linalg::matrix::Matrix;
-use crate::monitor::{Monitor, Stop};
+use crate::monitor::Monitor;
 use crate::problem::{
     ContactProblem, Flexibility, FlexibilityProblem, FrictionLaw, SparseFlexibilityProblem, SparseW,
 };
@@ -71,7 +71,7 @@ fn in_turn(
         let solution =
             flexibility::solve(&island, (&own, solve), begin, &|pair| pairs[pair], monitor)
                 .map_err(|error| if several { in_island(error, pairs) } else { error })?;
-        let stops = stop(solution.status).is_some();
+        let stops = solution.status.stop().is_some();
         found.add(pairs, dim, solution);
         if stops {
             break;
@@ -226,7 +226,7 @@ impl Found {
         let holds = certificate.holds(settings.tolerance);
         let islands = problem.relation().form().islands().len();
         let failed = self.worst.as_ref().filter(|(_, worst)| worst.status != Status::Solved);
-        let stop = failed.and_then(|(_, worst)| stop(worst.status));
+        let stop = failed.and_then(|(_, worst)| worst.status.stop());
         match (failed, stop) {
             (Some((pairs, worst)), None) => {
                 let said = worst.message.marked();
@@ -250,15 +250,5 @@ fn rank(status: Status) -> u8 {
         Status::Stalled => 1,
         Status::IterationLimit | Status::TimeLimit | Status::Cancelled => 2,
         Status::NoEquilibrium => 3,
-    }
-}
-
-/// The limit that has stopped a call with this status, if one has.
-fn stop(status: Status) -> Option<Stop> {
-    match status {
-        Status::IterationLimit => Some(Stop::IterationLimit),
-        Status::TimeLimit => Some(Stop::TimeLimit),
-        Status::Cancelled => Some(Stop::Cancelled),
-        Status::Solved | Status::Stalled | Status::NoEquilibrium => None,
     }
 }

@@ -46,15 +46,7 @@ pub fn ended<R: Relation>(
     (method, ending, systems): (Method, &Ending, u64),
 ) -> Solution {
     let certificate = measure(contact, &d, force);
-    let accuracy = format!("eta is {:.1e}", certificate.eta);
-    let wanted = format!("{accuracy}, wanted {:.1e}", settings.tolerance);
-    let ended = match ending {
-        _ if certificate.holds(settings.tolerance) => {
-            (Status::Solved, format!("solved: {accuracy}"))
-        }
-        Ending::Stopped(stop) => stop.status(settings, &wanted),
-        other => (Status::Stalled, format!("{}; {wanted}", other.reason(&certificate))),
-    };
+    let ended = ending.status(settings, &certificate);
     let existence = if settings.proof { Existence::NotProved } else { Existence::NotAsked };
     let solution = Solution::of(method, ended, d, certificate);
     Solution { existence, factorisations: systems, ..solution }

@@ -19,26 +19,21 @@ pub fn certified(
     let candidate = at_rest.as_ref().unwrap_or(candidate);
     let certificate = candidate.certificate(contact).clone().with_rounding(settings.tolerance);
     let mut recession = None;
-    let accuracy = format!("eta is {:.1e}", certificate.eta);
-    let wanted = format!("{accuracy}, wanted {:.1e}", settings.tolerance);
     // A diverging iterate may itself be a recession direction.
     let motion = match &candidate.ending {
         Ending::Recession(motion) => Some(motion.as_slice()),
         Ending::RunsAway(_) | Ending::Stopped(_) => None,
         _ => certificate.runs_away().then_some(candidate.d()),
     };
-    let (status, message) = if certificate.holds(settings.tolerance) {
-        (Status::Solved, format!("solved: {accuracy}"))
-    } else if let Some(motion) = motion.filter(|motion| is_escape_of(contact, motion)) {
+    let (mut status, mut message) = candidate.ending.status(settings, &certificate);
+    if status != Status::Solved
+        && let Some(motion) = motion.filter(|motion| is_escape_of(contact, motion))
+    {
         let mut motion = motion.to_vec();
         normalise(&mut motion);
         recession = Some(motion);
-        (Status::NoEquilibrium, NO_EQUILIBRIUM.to_owned())
-    } else if let Ending::Stopped(stop) = candidate.ending {
-        stop.status(settings, &wanted)
-    } else {
-        (Status::Stalled, format!("{}; {wanted}", candidate.ending.reason(&certificate)))
-    };
+        (status, message) = (Status::NoEquilibrium, NO_EQUILIBRIUM.to_owned());
+    }
     let effort = candidate.effort;
     Solution {
         d_low: candidate.low_part(),

@@ -34,8 +34,21 @@ pub const CAUSES: &str = "are a support, friction, or a pair missing, or is a no
                           turned round?";
 
 impl Ending {
+    /// Status and sentence of a run with this certificate; whether a motion proves something is not asked.
+    pub fn status(&self, settings: &Settings, certificate: &Certificate) -> (Status, String) {
+        let accuracy = format!("eta is {:.1e}", certificate.eta);
+        let wanted = format!("{accuracy}, wanted {:.1e}", settings.tolerance);
+        match self {
+            _ if certificate.holds(settings.tolerance) => {
+                (Status::Solved, format!("solved: {accuracy}"))
+            }
+            Ending::Stopped(stop) => stop.status(settings, &wanted),
+            other => (Status::Stalled, format!("{}; {wanted}", other.reason(certificate))),
+        }
+    }
+
     /// Why there is no solution at this end.
-    pub fn reason(&self, certificate: &Certificate) -> &'static str {
+    fn reason(&self, certificate: &Certificate) -> &'static str {
         match self {
             _ if certificate.runs_away() => {
                 "the displacements are so large that rounding hides the forces"

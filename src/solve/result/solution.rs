@@ -3,7 +3,7 @@
 use crate::certificate::{Certificate, Proof};
 use crate::error::{Error, Message};
 use crate::law::Contact;
-use crate::monitor::Monitor;
+use crate::monitor::{Monitor, Stop};
 use crate::settings::{Method, Settings};
 
 /// Solves a contact problem from a start: what methods take that stand before the plan and need it.
@@ -25,6 +25,18 @@ pub enum Status {
     NoEquilibrium,
     /// The method cannot go on, and proves nothing.
     Stalled,
+}
+
+impl Status {
+    /// The limit that has stopped the call, if one has.
+    pub(crate) fn stop(self) -> Option<Stop> {
+        match self {
+            Status::IterationLimit => Some(Stop::IterationLimit),
+            Status::TimeLimit => Some(Stop::TimeLimit),
+            Status::Cancelled => Some(Stop::Cancelled),
+            Status::Solved | Status::Stalled | Status::NoEquilibrium => None,
+        }
+    }
 }
 
 /// Why the first method was abandoned.
