@@ -181,7 +181,9 @@ typedef struct signorini_surface_pairs signorini_surface_pairs;
  *
  * Surfaces that never meet are no error: there are no pairs, and data.summary says why. Faces of
  * one side that lie upon each other are refused, as their area would count twice; those of masters
- * with SIGNORINI_PAIRING_DUAL_MORTAR alone.
+ * with SIGNORINI_PAIRING_DUAL_MORTAR alone. Then a slave face is refused too if masters lie over
+ * each other above it; without a search_distance of yours only if they are no further apart than
+ * the size of the largest slave face.
  *
  * @param dim          space dimension, 2 or 3
  * @param nodes        number of nodes of your mesh
