@@ -82,12 +82,29 @@ const WITHOUT_FRICTION: [&MethodRow; 5] = [&BLOCK_PIVOTING, &LEMKE, &NEWTON, &PA
 /// problems; Lemke's path may end where rounding spoils all its starts, or where a body without supports leaves it on a
 /// ray that proves nothing. Springs come after the path: where the problem with `K` is hard for Newton's method, so
 /// are those with springs, and a body on rollers with 513 pairs takes 330 systems of springs where the path takes 30.
-const IN_PLANE: [&MethodRow; 8] =
-    [&NEWTON, &BALANCE, &PATH_FROM_BEST, &SPRINGS, &PATH, &LEMKE, &NESTED_SWEEPS, &DIAGONAL_SWEEPS];
+const IN_PLANE: [&MethodRow; 9] = [
+    &NEWTON,
+    &BALANCE,
+    &PATH_FROM_BEST,
+    &SPRINGS,
+    &PATH,
+    &LEMKE,
+    &NESTED_SWEEPS,
+    &DIAGONAL_SWEEPS,
+    &SWEEPS_FROM_BEST,
+];
 
 /// With friction in space: the path proves nothing where contact alone holds a body, so that springs come before it.
-const IN_SPACE: [&MethodRow; 7] =
-    [&NEWTON, &BALANCE, &SPRINGS, &PATH_FROM_BEST, &PATH, &NESTED_SWEEPS, &DIAGONAL_SWEEPS];
+const IN_SPACE: [&MethodRow; 8] = [
+    &NEWTON,
+    &BALANCE,
+    &SPRINGS,
+    &PATH_FROM_BEST,
+    &PATH,
+    &NESTED_SWEEPS,
+    &DIAGONAL_SWEEPS,
+    &SWEEPS_FROM_BEST,
+];
 
 /// The methods of a problem that leaves the choice to the library, in turn: all that fit.
 pub fn plan(contact: &Contact<'_>) -> impl Iterator<Item = &'static MethodRow> {
@@ -215,6 +232,10 @@ const NESTED_SWEEPS: MethodRow = MethodRow {
         single_sweeps(call, monitor)
     },
 };
+
+/// Where a plan's sweeps are too few from the start of the call, they may be enough from where other methods end.
+const SWEEPS_FROM_BEST: MethodRow =
+    MethodRow { name: "sweeps from the best iterate", start: Start::Best, ..DIAGONAL_SWEEPS };
 
 const DIAGONAL_SWEEPS: MethodRow = MethodRow {
     method: Method::SorDiagonal,
