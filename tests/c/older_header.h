@@ -302,7 +302,7 @@ struct signorini_surface_data {
     int64_t not_opposed;
     int64_t boxes_searched;
     int64_t on_symmetry;
-    int64_t dropped;
+    int64_t n_beyond;
 };
 int32_t signorini_surface_view(const signorini_surface_pairs *contact,
                                signorini_surface_data *data);
