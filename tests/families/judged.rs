@@ -243,6 +243,14 @@ fn motions_are_lifted_off_the_obstacles_that_there_are() {
     }
 }
 
+/// A problem of a long run of twenty-two classes of which a path leaves displacements that are no numbers. The last
+/// iterate beside the proof that there is no equilibrium has numbers.
+#[test]
+fn displacements_that_are_no_numbers_are_not_returned() {
+    let (problem, answer) = answered(&problem_among(899_111, 22));
+    assert!(faults(&problem, &answer).is_empty(), "{answer:?}");
+}
+
 /// Sums, products, quotients and roots of twice the precision against integers of 100 bits, which are
 /// exact.
 #[test]

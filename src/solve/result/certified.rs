@@ -5,7 +5,7 @@ use super::ending::{Ending, NO_EQUILIBRIUM};
 use super::solution::{Solution, Status};
 use crate::certificate::is_escape_of;
 use crate::law::Contact;
-use crate::linalg::vector::normalise;
+use crate::linalg::vector::{first_not_finite, normalise};
 use crate::settings::{Method, Settings};
 
 /// Turns the candidate of `method` into a result.
@@ -49,13 +49,15 @@ pub fn certified(
     }
 }
 
-/// Zero displacement, if it is the solution and the candidate is not. Without loads the scale of
-/// forces is rounding only, which no iterate gets below.
+/// Zero displacement, if it is the solution and the candidate is not, or if a displacement of the candidate is not
+/// finite. Without loads the scale of forces is rounding only, which no iterate gets below.
 fn at_rest(contact: &Contact<'_>, settings: &Settings, other: &Candidate) -> Option<Candidate> {
-    if !contact.is_unloaded() || other.certificate(contact).holds(settings.tolerance) {
+    let is_finite = first_not_finite(other.d()).is_none();
+    if is_finite && (!contact.is_unloaded() || other.certificate(contact).holds(settings.tolerance))
+    {
         return None;
     }
     let mut rest = Candidate::without_displacements(contact, other.ending.clone());
     (rest.effort, rest.orientation) = (other.effort, other.orientation);
-    rest.certificate(contact).holds(settings.tolerance).then_some(rest)
+    (!is_finite || rest.certificate(contact).holds(settings.tolerance)).then_some(rest)
 }
