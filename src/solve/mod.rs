@@ -1,4 +1,4 @@
-//! Solvers: each a plain function of (problem, settings, start, monitor) that returns a candidate.
+//! Solvers: each a plain function of (call, monitor) that returns a candidate; a call is a problem, settings and a start.
 //! The certificate alone decides in `result` which candidate is a solution.
 //!
 //! ```text
@@ -40,11 +40,11 @@ pub(crate) use operator::{
 };
 pub(crate) use proximal::largest_island;
 pub(crate) use result::{CAUSES, NO_EQUILIBRIUM, memory_of_islands};
+use result::{Call, Solve, check_limit};
 pub use result::{
     Errors, Escape, Existence, Fallback, Remarks, SecondSolution, Solution, Status, Uniqueness,
     memory, memory_flexibility, memory_flexibility_sparse,
 };
-use result::{Solve, check_limit};
 use rigid::Balance;
 
 /// Solves a contact problem whose rows depend on each other, as [`solve()`] does another one. Contact forces
@@ -182,7 +182,8 @@ fn solve_as_it_stands(
     let contact = Contact::new(problem);
     // Where d = 0 is the solution, other starts only approach it.
     let start = start.filter(|_| !contact.is_at_rest());
-    let mut solution = plan::solve(&contact, settings, start, monitor)?;
+    let call = Call { contact: &contact, settings, start };
+    let mut solution = plan::solve(&call, monitor)?;
     if solution.status == Status::NoEquilibrium {
         let (balance, solve) = (Balance::new(&contact, monitor), Some(plan::solve as Solve));
         rigid::describe(&contact, &mut solution, balance, solve, monitor)?;
@@ -190,12 +191,12 @@ fn solve_as_it_stands(
     }
     uniqueness::by_orientation(&contact, &mut solution, monitor);
     if settings.search == Search::Others && !monitor.is_late() {
-        uniqueness::examine(&contact, settings, &mut solution, monitor)?;
+        uniqueness::examine(&call, &mut solution, monitor)?;
     }
     if settings.proof {
-        uniqueness::prove(&contact, settings, &mut solution, monitor);
+        uniqueness::prove(&call, &mut solution, monitor);
     }
-    plan::add_remarks(&contact, settings, &mut solution, monitor);
+    plan::add_remarks(&call, &mut solution, monitor);
     Ok(solution)
 }
 

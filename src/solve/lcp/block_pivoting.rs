@@ -10,15 +10,14 @@
 
 use std::cell::Cell;
 
+use crate::law::Linearised;
 use crate::law::complementarity::lower_bounds;
-use crate::law::{Contact, Linearised};
 use crate::linalg::simd::Simd;
 use crate::monitor::{Monitor, Stop};
 use crate::problem::symmetric_matrix::is_symmetric;
 use crate::problem::{BoundedLcp, Lcp};
-use crate::settings::Settings;
 use crate::solve::pieces::{Equations, REFINEMENTS, Systems};
-use crate::solve::result::{Candidate, Effort, Ending};
+use crate::solve::result::{Call, Candidate, Effort, Ending};
 use crate::solve::sweeps::sweep_lcp;
 
 /// Sweeps between a solution and its active set: they cost a small part of the system that they may save.
@@ -45,16 +44,10 @@ pub struct Pivoted {
     orientation: i8,
 }
 
-/// Solves frictionless contact from the active set of `start`, or from all pairs closed; after `most`
+/// Solves frictionless contact from the active set of the start, or from all pairs closed; after `most`
 /// systems it gives up.
-pub fn contact(
-    contact: &Contact<'_>,
-    settings: &Settings,
-    start: Option<&[f64]>,
-    most: u64,
-    monitor: &mut Monitor<'_>,
-) -> Candidate {
-    let problem = contact.problem();
+pub fn contact(call: &Call<'_>, most: u64, monitor: &mut Monitor<'_>) -> Candidate {
+    let (contact, settings, problem) = (call.contact, call.settings, call.contact.problem());
     let lower = lower_bounds(contact);
     let lcp = BoundedLcp {
         matrix: problem.stiffness(),
@@ -63,7 +56,7 @@ pub fn contact(
         symmetric: true,
     };
     let opposite = |values: &[f64]| -> Vec<f64> { values.iter().map(|value| -value).collect() };
-    let start = start.map(opposite);
+    let start = call.start.map(opposite);
     let measured = Cell::new(None);
     let is_accurate = |x: &[f64]| {
         let candidate = Candidate::new(opposite(x), Vec::new(), Ending::Done, Effort::default());

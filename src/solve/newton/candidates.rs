@@ -18,13 +18,12 @@ use std::sync::Arc;
 use super::iteration::{self, Ended};
 use super::start::swept;
 use crate::certificate::{eta_of, measure};
-use crate::law::{Contact, Vector};
+use crate::law::Vector;
 use crate::linalg::elimination::Elimination;
 use crate::monitor::{Monitor, Stop};
-use crate::settings::Settings;
 use crate::solve::part::{ReducedProblem, closed_with_margin};
 use crate::solve::pieces::{Equations, Point, REFINEMENTS, System};
-use crate::solve::result::{Candidate, Effort, Ending};
+use crate::solve::result::{Call, Candidate, Effort, Ending};
 
 /// Why there is no start.
 pub(super) const OVERFLOW: Ending = Ending::Stalled("the forces are beyond the largest number");
@@ -36,15 +35,9 @@ const TOO_MANY: f64 = 1.6;
 /// A solver of equations from given coordinates to a tolerance.
 pub type Core<'c> = dyn FnMut(&Equations<'_>, Vec<Vector>, &mut Monitor<'_>) -> Ended + 'c;
 
-/// Solves a problem from the displacements `start` (zero if `None`): sweeps, then `core` on the
-/// candidates.
-pub fn solve(
-    contact: &Contact<'_>,
-    settings: &Settings,
-    start: Option<&[f64]>,
-    monitor: &mut Monitor<'_>,
-    core: &mut Core<'_>,
-) -> Candidate {
+/// Solves a problem: sweeps, then `core` on the candidates.
+pub fn solve(call: &Call<'_>, monitor: &mut Monitor<'_>, core: &mut Core<'_>) -> Candidate {
+    let Call { contact, settings, start } = *call;
     let whole = Equations::of(contact);
     let remembered = contact.problem().remembered();
     // Nothing is kept while others may need the memory, and nothing of a problem that is not solved.
@@ -78,7 +71,7 @@ pub fn solve(
             remembered.keep(Some(Arc::clone(reduced.elimination())));
         }
         if found.ending == Ending::Done {
-            refine(&reduced, contact, settings, &mut found, monitor);
+            refine(&reduced, call, &mut found, monitor);
         }
     }
     let mut candidate =
@@ -228,18 +221,18 @@ impl Search<'_, '_> {
 /// is time.
 fn refine(
     reduced: &ReducedProblem<'_>,
-    contact: &Contact<'_>,
-    settings: &Settings,
+    call: &Call<'_>,
     found: &mut Found<'_>,
     monitor: &mut Monitor<'_>,
 ) {
+    let contact = call.contact;
     let elimination = reduced.elimination();
     let (dropped, kept) = (elimination.dropped(), elimination.kept());
     let mut point = Point::new(&reduced.equations(), reduced.of_kept(&found.y));
     let mut best = eta_of(contact, &found.d, &found.force);
     for _ in 0..REFINEMENTS {
         // The certificate also allows for the rounding of prescribed displacements.
-        if measure(contact, &found.d, &found.force).holds(settings.tolerance) {
+        if measure(contact, &found.d, &found.force).holds(call.settings.tolerance) {
             break;
         }
         let mut next = found.d.clone();

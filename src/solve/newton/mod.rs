@@ -19,42 +19,32 @@ pub use iteration::{Ended, solve as newton_from};
 pub use polish::{FullyRefined, ROUNDING_OF_ETA, refine_fully, refine_to_tolerance};
 pub use uncertain_pairs::{PartOutcome, solve_part};
 
-use crate::law::{Contact, Piece};
+use crate::law::Piece;
 use crate::monitor::Monitor;
-use crate::settings::Settings;
 use crate::solve::pieces::Equations;
-use crate::solve::result::Candidate;
+use crate::solve::result::{Call, Candidate};
 
-/// Solves from the displacements `start` (zero if `None`) by Newton's method.
-pub fn newton(
-    contact: &Contact<'_>,
-    settings: &Settings,
-    start: Option<&[f64]>,
-    monitor: &mut Monitor<'_>,
-) -> Candidate {
+/// Solves a problem by Newton's method.
+pub fn newton(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Candidate {
+    let (contact, settings) = (call.contact, call.settings);
     if contact.dim() == 2 {
         let equations = Equations::of(contact);
-        let y = start::swept(&equations, start, monitor);
+        let y = start::swept(&equations, call.start, monitor);
         if !y.iter().flatten().all(|y| y.is_finite()) {
             return Candidate::without_displacements(contact, candidates::OVERFLOW);
         }
         return iteration::solve(&equations, y, settings.tolerance, monitor).into_candidate();
     }
-    on_candidates(contact, settings, start, monitor, &mut |equations, y, monitor| {
+    on_candidates(call, monitor, &mut |equations, y, monitor| {
         iteration::solve(equations, y, settings.tolerance, monitor)
     })
 }
 
-/// Solves in the plane from the solution on given pieces; `d` is returned unchanged if that cannot be had.
-pub fn from_pieces(
-    contact: &Contact<'_>,
-    settings: &Settings,
-    pieces: &[Piece],
-    d: &[f64],
-    monitor: &mut Monitor<'_>,
-) -> Candidate {
-    match iteration::from_pieces(&Equations::of(contact), pieces, settings.tolerance, monitor) {
+/// Solves in the plane from the solution on given pieces; the start is returned unchanged if that cannot be had.
+pub fn from_pieces(call: &Call<'_>, pieces: &[Piece], monitor: &mut Monitor<'_>) -> Candidate {
+    let (equations, tolerance) = (Equations::of(call.contact), call.settings.tolerance);
+    match iteration::from_pieces(&equations, pieces, tolerance, monitor) {
         Ok(ended) => ended.into_candidate(),
-        Err(ending) => Candidate::of_displacements(contact, d.to_vec(), ending),
+        Err(ending) => Candidate::of_displacements(call.contact, call.start_or_zero(), ending),
     }
 }

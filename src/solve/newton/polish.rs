@@ -16,10 +16,8 @@ use crate::linalg::double_double::two_sum;
 use crate::linalg::tolerances::NULL_VECTOR;
 use crate::linalg::vector::{largest_of, norm_inf};
 use crate::monitor::{Monitor, Stop};
-use crate::settings::Settings;
 use crate::solve::pieces::{Equations, SMALL, System};
-use crate::solve::result::Errors;
-use crate::solve::result::{Candidate, Ending};
+use crate::solve::result::{Call, Candidate, Ending, Errors};
 
 /// Most steps; [`PATIENCE`] of them in a row may be no better than an earlier one: pieces may change first.
 const MOST_STEPS: usize = 30;
@@ -34,11 +32,11 @@ pub const ROUNDING_OF_ETA: f64 = 4.0 * f64::EPSILON;
 /// The candidate, refined if its residual is above the tolerance and that helps. Where it was done and there was no
 /// time to see, it is stopped.
 pub fn refine_to_tolerance(
-    contact: &Contact<'_>,
-    settings: &Settings,
+    call: &Call<'_>,
     candidate: Candidate,
     monitor: &mut Monitor<'_>,
 ) -> Candidate {
+    let (contact, settings) = (call.contact, call.settings);
     let old = candidate.certificate(contact);
     let is_finite = candidate.d().iter().all(|d| d.is_finite());
     let is_near = old.eta <= NEAR || contact.unknowns() <= SMALL;

@@ -11,10 +11,9 @@ use super::question::InQuestion;
 use crate::law::Contact;
 use crate::law::Piece;
 use crate::monitor::{Monitor, Stop};
-use crate::settings::Settings;
 use crate::solve::part::{PairData, ReducedProblem};
 use crate::solve::pieces::Equations;
-use crate::solve::result::{Candidate, Ending};
+use crate::solve::result::{Call, Candidate, Ending};
 
 /// Largest part of the pairs that may be in question: beyond it the whole problem costs no more.
 const MOST: f64 = 0.6;
@@ -27,8 +26,8 @@ const PATIENCE: f64 = 5.0;
 /// problem finds the digits.
 const ENOUGH: f64 = 1e-6;
 
-/// A solver of the pairs in question, from displacements.
-pub type Core<'c> = dyn FnMut(&Contact<'_>, &[f64], &mut Monitor<'_>) -> Candidate + 'c;
+/// A solver of the pairs in question.
+pub type Core<'c> = dyn FnMut(&Call<'_>, &mut Monitor<'_>) -> Candidate + 'c;
 
 /// How the pairs in question ended.
 pub enum PartOutcome {
@@ -41,16 +40,14 @@ pub enum PartOutcome {
     Stopped(Stop),
 }
 
-/// Solves a problem from the displacements `d`, by `core` on the pairs in question. Returns the linear systems of
-/// `core` too.
+/// Solves a problem by `core` on the pairs in question. Returns the linear systems of `core` too.
 pub fn solve_part(
-    contact: &Contact<'_>,
-    settings: &Settings,
-    d: &[f64],
+    call: &Call<'_>,
     monitor: &mut Monitor<'_>,
     core: &mut Core<'_>,
 ) -> (PartOutcome, u64) {
-    let (mut d, mut question) = InQuestion::after_sweeps(contact, d, monitor);
+    let (contact, settings) = (call.contact, call.settings);
+    let (mut d, mut question) = InQuestion::after_sweeps(contact, &call.start_or_zero(), monitor);
     let (whole, mut systems) = (Equations::of(contact), 0);
     let last = monitor.iterations() + (PATIENCE * contact.pairs().len() as f64) as u64;
     while question.is_fewer_than(MOST) && monitor.iterations() <= last {
@@ -62,7 +59,7 @@ pub fn solve_part(
         let own = PairData::of(contact.problem(), &reduced.kept().collect::<Vec<usize>>());
         let Some(problem) = reduced.problem(contact.problem(), &own) else { break };
         let part = Contact::new(&problem);
-        let candidate = core(&part, &reduced.restrict(&d), monitor);
+        let candidate = core(&Call::new(&part, settings).from(&reduced.restrict(&d)), monitor);
         systems += candidate.effort.factorisations;
         match candidate.ending {
             Ending::Stopped(stop) => return (PartOutcome::Stopped(stop), systems),

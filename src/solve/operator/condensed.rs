@@ -23,7 +23,7 @@ use crate::settings::Settings;
 use crate::solve::newton::Halt;
 use crate::solve::part::{PairData, closed_with_margin};
 use crate::solve::plan;
-use crate::solve::result::{Ending, Status};
+use crate::solve::result::{Call, Ending, Status};
 
 /// Most components of `C`: a system of the dense problem takes a second, and it may take a thousand of them.
 const MOST_COMPONENTS: usize = 3000;
@@ -208,7 +208,7 @@ impl Condensed {
         let contact = &Contact::new(&problem);
         let start: Vec<f64> = self.places.iter().map(|&i| start.x[i]).collect();
         let settings = Settings { tolerance, ..Settings::default() };
-        let found = plan::auto(contact, &settings, Some(&start), monitor)?;
+        let found = plan::auto(&Call::new(contact, &settings).from(&start), monitor)?;
         if let Some(stop) = found.status.stop() {
             return Err(stop.into());
         }

@@ -3,13 +3,12 @@
 use super::curve::Curve;
 use super::homotopy::Homotopy;
 use crate::counters::count;
-use crate::law::{Contact, Vector};
+use crate::law::Vector;
 use crate::linalg::perturbation::Perturbation;
 use crate::monitor::Monitor;
-use crate::settings::Settings;
 use crate::solve::newton::{Ended, newton_from, on_candidates, refine_to_tolerance};
 use crate::solve::pieces::{Equations, Point};
-use crate::solve::result::{Candidate, Effort, Ending};
+use crate::solve::result::{Call, Candidate, Effort, Ending};
 use crate::solve::rigid::{self, without_idle_motion};
 
 /// Size of the perturbation of a start beside the loads: symmetric meshes have ties, and on a generic
@@ -22,39 +21,28 @@ const DEVIATIONS: [f64; 2] = [0.3, 0.1];
 /// Starts of a search for other solutions.
 const SEARCHED: u64 = 10;
 
-/// Solves from the displacements `start` (zero if `None`) by following a path.
-pub fn curved(
-    contact: &Contact<'_>,
-    settings: &Settings,
-    start: Option<&[f64]>,
-    monitor: &mut Monitor<'_>,
-) -> Candidate {
+/// Solves a problem by following a path.
+pub fn curved(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Candidate {
     // Without an equilibrium the path runs away slowly: what can be proved at once is.
-    if let Some(motion) = rigid::escape(contact, monitor) {
-        return Candidate::without_displacements(contact, Ending::Recession(motion));
+    if let Some(motion) = rigid::escape(call.contact, monitor) {
+        return Candidate::without_displacements(call.contact, Ending::Recession(motion));
     }
-    on_candidates(contact, settings, start, monitor, &mut |equations, y, monitor| {
-        from((contact, settings), equations, y, monitor)
-    })
+    on_candidates(call, monitor, &mut |equations, y, monitor| from(call, equations, y, monitor))
 }
 
 /// Ends of paths from several starts, moved at random by all of the loads, and what Newton's method makes of the starts
 /// themselves: where there are several solutions they may differ.
-pub fn ends(
-    contact: &Contact<'_>,
-    settings: &Settings,
-    monitor: &mut Monitor<'_>,
-) -> Vec<Candidate> {
-    let equations = Equations::of(contact);
-    let none = vec![[0.0; 3]; contact.pairs().len()];
+pub fn ends(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Vec<Candidate> {
+    let (equations, tolerance) = (Equations::of(call.contact), call.settings.tolerance);
+    let none = vec![[0.0; 3]; call.contact.pairs().len()];
     let mut ends = Vec::new();
     for seed in 0..SEARCHED {
         if monitor.is_late() {
             break;
         }
         let start = perturbed(&equations, &none, 1.0, seed);
-        let newton = newton_from(&equations, start.clone(), settings.tolerance, monitor);
-        let path = follow(&equations, start, DEVIATIONS[1], settings.tolerance, monitor);
+        let newton = newton_from(&equations, start.clone(), tolerance, monitor);
+        let path = follow(&equations, start, DEVIATIONS[1], tolerance, monitor);
         ends.extend([newton, path].into_iter().filter(|end| end.ending == Ending::Done));
     }
     ends.into_iter().map(Ended::into_candidate).collect()
@@ -62,7 +50,7 @@ pub fn ends(
 
 /// Follows paths from `y`, and from other starts if one fails, to a solution of the equations.
 fn from(
-    (contact, settings): (&Contact<'_>, &Settings),
+    call: &Call<'_>,
     equations: &Equations<'_>,
     y: Vec<Vector>,
     monitor: &mut Monitor<'_>,
@@ -74,14 +62,12 @@ fn from(
     let starts = [(&y, easy), (&none, easy), (&y, careful)];
     for (attempt, (start, deviation)) in starts.into_iter().enumerate() {
         let start = perturbed(equations, start, PERTURBATION, attempt as u64);
-        let ended = follow(equations, start, deviation, settings.tolerance, monitor);
+        let ended = follow(equations, start, deviation, call.settings.tolerance, monitor);
         systems += ended.systems;
         // A path ends with the orientation of its beginning, +1: with another one it has changed curves.
         let settled = match ended.ending {
             Ending::Stopped(_) => true,
-            _ => {
-                ended.orientation >= 0 && is_solution(contact, settings, equations, &ended, monitor)
-            }
+            _ => ended.orientation >= 0 && is_solution(call, equations, &ended, monitor),
         };
         count("path in space", attempt, settled);
         if settled || best.as_ref().is_none_or(|best| ended.point.merit < best.point.merit) {
@@ -99,12 +85,12 @@ fn from(
 /// True if the end of a path is a solution: by the certificate of the problem, or on a part of the pairs by the
 /// residual of theirs; or Newton's method has come to the rounding of that part, and the rest is found on the whole.
 fn is_solution(
-    contact: &Contact<'_>,
-    settings: &Settings,
+    call: &Call<'_>,
     equations: &Equations<'_>,
     ended: &Ended,
     monitor: &mut Monitor<'_>,
 ) -> bool {
+    let (contact, settings) = (call.contact, call.settings);
     let (d, force) = (&ended.point.d, &ended.point.force);
     if ended.ending == Ending::Done || equations.eta(d, force) <= settings.tolerance {
         return true;
@@ -115,8 +101,7 @@ fn is_solution(
     let candidate =
         Candidate::new(d.clone(), force.clone(), ended.ending.clone(), Effort::default());
     let candidate = without_idle_motion(contact, candidate, monitor);
-    refine_to_tolerance(contact, settings, candidate, monitor)
-        .is_settled(contact, settings.tolerance)
+    refine_to_tolerance(call, candidate, monitor).is_settled(contact, settings.tolerance)
 }
 
 /// Follows one path from `start`; where it ends Newton's method brings the solution to its last digits.

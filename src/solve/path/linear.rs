@@ -88,55 +88,40 @@
 use super::linear_start::{ATTEMPTS, Attempt, ON_UNCERTAIN_PAIRS, Starts, with_given_thresholds};
 use super::linear_walk::{Walk, WalkEnd};
 use crate::counters::count;
-use crate::law::Contact;
 use crate::monitor::Monitor;
-use crate::settings::Settings;
 use crate::solve::newton::{PartOutcome, from_pieces, solve_part};
 use crate::solve::pieces::Equations;
-use crate::solve::result::{Candidate, Effort, Ending};
+use crate::solve::result::{Call, Candidate, Effort, Ending};
 use crate::solve::rigid;
 
 /// Why there is no solution.
 const LOST: &str = "the path does not arrive";
 
-/// Solves a problem in the plane, from the displacements `start` (zero if `None`). An iteration is an
-/// event: a pair that passes from one piece to the next.
-pub fn linear(
-    contact: &Contact<'_>,
-    settings: &Settings,
-    start: Option<&[f64]>,
-    monitor: &mut Monitor<'_>,
-) -> Candidate {
-    if !contact.is_coupled() {
-        return solve(contact, settings, start, with_given_thresholds(), monitor);
+/// Solves a problem in the plane. An iteration is an event: a pair that passes from one piece to the next.
+pub fn linear(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Candidate {
+    if !call.contact.is_coupled() {
+        return solve(call, with_given_thresholds(), monitor);
     }
-    match on_uncertain_pairs(contact, settings, start, monitor) {
-        Ok(candidate) if candidate.is_settled(contact, settings.tolerance) => candidate,
-        Ok(candidate) => solve(contact, settings, Some(candidate.d()), &ATTEMPTS, monitor),
-        Err(d) => solve(contact, settings, Some(&d), &ATTEMPTS, monitor),
+    match on_uncertain_pairs(call, monitor) {
+        Ok(candidate) if candidate.is_settled(call.contact, call.settings.tolerance) => candidate,
+        Ok(candidate) => solve(&call.from(candidate.d()), &ATTEMPTS, monitor),
+        Err(d) => solve(&call.from(&d), &ATTEMPTS, monitor),
     }
 }
 
 /// Solves by walks on the pairs in question. `Err`: these are not few, or no walk arrives; how far the
 /// displacements have come.
-fn on_uncertain_pairs(
-    contact: &Contact<'_>,
-    settings: &Settings,
-    start: Option<&[f64]>,
-    monitor: &mut Monitor<'_>,
-) -> Result<Candidate, Vec<f64>> {
-    let zero = || vec![0.0; contact.unknowns()];
-    let d = start.map_or_else(zero, <[f64]>::to_vec);
+fn on_uncertain_pairs(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Result<Candidate, Vec<f64>> {
     let mut skipped = 1;
-    let mut core = |part: &Contact<'_>, d: &[f64], monitor: &mut Monitor<'_>| {
-        let attempts = &ON_UNCERTAIN_PAIRS[std::mem::take(&mut skipped)..];
-        solve(part, settings, Some(d), attempts, monitor)
+    let mut core = |part: &Call<'_>, monitor: &mut Monitor<'_>| {
+        solve(part, &ON_UNCERTAIN_PAIRS[std::mem::take(&mut skipped)..], monitor)
     };
-    let (ended, systems) = solve_part(contact, settings, &d, monitor, &mut core);
+    let (ended, systems) = solve_part(call, monitor, &mut core);
     let mut candidate = match ended {
-        PartOutcome::Settled(pieces, d) => from_pieces(contact, settings, &pieces, &d, monitor),
+        PartOutcome::Settled(pieces, d) => from_pieces(&call.from(&d), &pieces, monitor),
         PartOutcome::Stopped(stop) => {
-            Candidate::of_displacements(contact, d, Ending::Stopped(stop))
+            let d = call.start_or_zero();
+            Candidate::of_displacements(call.contact, d, Ending::Stopped(stop))
         }
         PartOutcome::Lost(d) => return Err(d),
     };
@@ -144,13 +129,8 @@ fn on_uncertain_pairs(
     Ok(candidate)
 }
 
-fn solve(
-    contact: &Contact<'_>,
-    settings: &Settings,
-    start: Option<&[f64]>,
-    attempts: &[Attempt],
-    monitor: &mut Monitor<'_>,
-) -> Candidate {
+fn solve(call: &Call<'_>, attempts: &[Attempt], monitor: &mut Monitor<'_>) -> Candidate {
+    let Call { contact, settings, start } = *call;
     let equations = Equations::of(contact);
     // r = f - K (gap, slip0): the loads on the body that touches all its obstacles.
     let reference: Vec<f64> =
@@ -170,7 +150,7 @@ fn solve(
             Err(_) => continue,
         };
         let end = walk.follow(attempt.rules(y.len()), monitor);
-        let mut candidate = ended(contact, settings, &walk, end, monitor);
+        let mut candidate = ended(call, &walk, end, monitor);
         effort.factorisations += walk.factorisations + candidate.effort.factorisations;
         candidate.effort = effort;
         let settled = candidate.is_settled(contact, settings.tolerance);
@@ -191,33 +171,27 @@ fn solve(
 }
 
 /// The candidate of a walk that has ended.
-fn ended(
-    contact: &Contact<'_>,
-    settings: &Settings,
-    walk: &Walk<'_>,
-    end: WalkEnd,
-    monitor: &mut Monitor<'_>,
-) -> Candidate {
+fn ended(call: &Call<'_>, walk: &Walk<'_>, end: WalkEnd, monitor: &mut Monitor<'_>) -> Candidate {
     let d = walk.displacements();
     let ending = match end {
-        WalkEnd::Arrived => {
-            return from_pieces(contact, settings, walk.pieces(), &d, monitor);
-        }
+        WalkEnd::Arrived => return from_pieces(&call.from(&d), walk.pieces(), monitor),
         WalkEnd::Lost => Ending::Stalled(LOST),
         // If the body only lifts off, the ray itself is the proof; if it also slips, the balance of
         // the other pairs decides.
         WalkEnd::Ray(motion) => {
-            Ending::Recession(rigid::escape(contact, monitor).unwrap_or(motion))
+            Ending::Recession(rigid::escape(call.contact, monitor).unwrap_or(motion))
         }
         WalkEnd::Stopped(stop) => Ending::Stopped(stop),
     };
-    Candidate::of_displacements(contact, d, ending)
+    Candidate::of_displacements(call.contact, d, ending)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::law::Contact;
     use crate::problem::{ContactData, ContactProblem, FrictionLaw};
+    use crate::settings::Settings;
     use crate::solve::path::linear_start::Start;
 
     /// `B Bᵀ` and a part of the identity, so that no two columns are alike: definite, of a condition
@@ -271,7 +245,7 @@ mod tests {
             let mut monitor = Monitor::new(&settings, None);
             let attempt =
                 [Attempt { sweeps: 30, start: Start::Sure, events: 10.0, careful: false }];
-            let candidate = solve(&contact, &settings, None, &attempt, &mut monitor);
+            let candidate = solve(&Call::new(&contact, &settings), &attempt, &mut monitor);
             let holds = candidate.certificate(&contact).holds(settings.tolerance);
             assert!(holds, "seed {seed}: {:?}", candidate.ending);
         }
@@ -307,7 +281,8 @@ mod tests {
             let problem = coulomb(&stiffness, &load, &gap, &mu, &slip);
             let (contact, settings) = (Contact::new(&problem), Settings::default());
             let mut monitor = Monitor::new(&settings, None);
-            if let Ok(candidate) = on_uncertain_pairs(&contact, &settings, None, &mut monitor) {
+            let call = Call::new(&contact, &settings);
+            if let Ok(candidate) = on_uncertain_pairs(&call, &mut monitor) {
                 assert!(candidate.is_settled(&contact, settings.tolerance), "seed {seed}");
                 settled += 1;
             }

@@ -7,41 +7,35 @@
 //! If the orientation of a solution is −1, there are at least three solutions and this one is
 //! unstable: the next method is asked too.
 
-use super::table::{Call, MethodRow, Start, plan};
+use super::table::{MethodRow, Start, plan};
 use crate::counters::count;
 use crate::error::Error;
 use crate::law::Contact;
 use crate::monitor::Monitor;
-use crate::settings::{Method, Settings};
+use crate::settings::Method;
 use crate::solve::result::{
-    Candidate, Effort, Ending, Fallback, SecondSolution, Solution, Status, Uniqueness, certified,
+    Call, Candidate, Effort, Ending, Fallback, SecondSolution, Solution, Status, Uniqueness,
+    certified,
 };
 use crate::solve::{rigid, uniqueness};
 
 /// Solves by the first method whose result is certified.
-pub fn solve(
-    contact: &Contact<'_>,
-    settings: &Settings,
-    start: Option<&[f64]>,
-    monitor: &mut Monitor<'_>,
-) -> Result<Solution, Error> {
+pub fn solve(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Result<Solution, Error> {
+    let contact = call.contact;
     let mut tried = Tried::default();
     for (place, row) in plan(contact).enumerate() {
-        let from = match (row.start, tried.best.as_ref()) {
-            (Start::Best, Some((_, best))) => Some(best.d()),
-            _ => start,
+        let from = match (row.start, &tried.best) {
+            (Start::Best, Some((_, best))) => call.from(best.d()),
+            (Start::Best, None) => continue,
+            (Start::Own, _) => *call,
         };
-        if row.start == Start::Best && tried.best.is_none() {
-            continue;
-        }
-        let call = Call { contact, settings, start: from };
-        let Some(candidate) = row.candidate(&call, monitor)? else { continue };
+        let Some(candidate) = row.candidate(&from, monitor)? else { continue };
         tried.count(&candidate.effort);
         if let Ending::RunsAway(motion) = &candidate.ending {
             tried.away = Some(motion.clone());
         }
         let (why, stopped) = (fallback(&candidate), matches!(candidate.ending, Ending::Stopped(_)));
-        let solution = certified(contact, settings, row.method, &candidate);
+        let solution = certified(call, row.method, &candidate);
         let decided = matches!(solution.status, Status::Solved | Status::NoEquilibrium);
         count(row.name, place, decided);
         match solution.status {
@@ -60,7 +54,7 @@ pub fn solve(
         return Ok(tried.ended(contact, solution, monitor));
     }
     let (method, candidate) = tried.best.take().expect("a plan has a method");
-    let solution = certified(contact, settings, method, &candidate);
+    let solution = certified(call, method, &candidate);
     Ok(tried.ended(contact, solution, monitor))
 }
 

@@ -6,13 +6,12 @@
 //! come near are put back.
 
 use super::auto;
-use super::table::{Call, MethodRow, chosen};
+use super::table::{MethodRow, chosen};
 use crate::certificate::measure_parts;
 use crate::error::Error;
 use crate::law::{Contact, gaps_within_reach};
 use crate::monitor::Monitor;
-use crate::settings::Settings;
-use crate::solve::result::{Solution, Status, certified};
+use crate::solve::result::{Call, Solution, Status, certified};
 
 /// How many times longer than the displacements that can be expected a gap must be to be left out. Weak
 /// structures move a million times as far as a load moves its own component alone, and a gap of that length
@@ -27,21 +26,15 @@ const FAR_OF_UNSOLVED: [f64; 2] = [1e3, 1e1];
 const ROUNDS: usize = 3;
 
 /// Solves by the method that is chosen, if it fits, or by the default.
-pub fn solve(
-    contact: &Contact<'_>,
-    settings: &Settings,
-    start: Option<&[f64]>,
-    monitor: &mut Monitor<'_>,
-) -> Result<Solution, Error> {
-    let call = Call { contact, settings, start };
-    let row = chosen(contact, settings.method)?;
-    if let Some(solution) = without_obstacles(FAR, row, &call, monitor)? {
+pub fn solve(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Result<Solution, Error> {
+    let row = chosen(call.contact, call.settings.method)?;
+    if let Some(solution) = without_obstacles(FAR, row, call, monitor)? {
         return Ok(solution);
     }
-    let solution = by_method(row, &call, monitor)?;
+    let solution = by_method(row, call, monitor)?;
     if solution.status == Status::Stalled && row.is_none() {
         for far in FAR_OF_UNSOLVED {
-            let other = without_obstacles(far, row, &call, monitor)?;
+            let other = without_obstacles(far, row, call, monitor)?;
             if let Some(other) = other.filter(|other| other.status == Status::Solved) {
                 return Ok(other);
             }
@@ -57,15 +50,15 @@ fn without_obstacles(
     call: &Call<'_>,
     monitor: &mut Monitor<'_>,
 ) -> Result<Option<Solution>, Error> {
-    let Call { contact, settings, start } = *call;
+    let contact = call.contact;
     let mut moved = Vec::new();
     for _ in 0..ROUNDS {
         let Some(gaps) = gaps_within_reach(contact, &moved, far) else { break };
         let problem = contact.problem().with_gaps(&gaps);
-        let call = Call { contact: &Contact::new(&problem), settings, start };
-        let solution = by_method(row, &call, monitor)?;
+        let near = Call { contact: &Contact::new(&problem), ..*call };
+        let solution = by_method(row, &near, monitor)?;
         match solution.status {
-            Status::Solved => match on_all_obstacles(contact, settings, solution) {
+            Status::Solved => match on_all_obstacles(call, solution) {
                 Ok(solution) => return Ok(Some(solution)),
                 Err(refused) => moved = refused,
             },
@@ -87,20 +80,16 @@ fn by_method(
     monitor: &mut Monitor<'_>,
 ) -> Result<Solution, Error> {
     let Some(row) = row else {
-        return auto::solve(call.contact, call.settings, call.start, monitor);
+        return auto::solve(call, monitor);
     };
     let candidate = row.candidate(call, monitor)?;
     let candidate = candidate.expect("a method that can be chosen has a candidate");
-    Ok(certified(call.contact, call.settings, row.method, &candidate))
+    Ok(certified(call, row.method, &candidate))
 }
 
 /// A solution without far obstacles, certified with them. `Err`: its displacements, if it is none.
-fn on_all_obstacles(
-    contact: &Contact<'_>,
-    settings: &Settings,
-    mut solution: Solution,
-) -> Result<Solution, Vec<f64>> {
-    let tolerance = settings.tolerance;
+fn on_all_obstacles(call: &Call<'_>, mut solution: Solution) -> Result<Solution, Vec<f64>> {
+    let (contact, tolerance) = (call.contact, call.settings.tolerance);
     let certificate =
         |d: &[f64], low: &[f64]| measure_parts(contact, d, low).with_rounding(tolerance);
     solution.certificate = certificate(&solution.d, &solution.d_low);

@@ -7,8 +7,7 @@ use crate::linalg::tolerances::NEGLIGIBLE;
 use crate::linalg::vector::norm_inf;
 use crate::monitor::Monitor;
 use crate::problem::{ContactProblem, Relation};
-use crate::settings::Settings;
-use crate::solve::result::{CAUSES, Remarks, Solution, Status, Uniqueness};
+use crate::solve::result::{CAUSES, Call, Remarks, Solution, Status, Uniqueness};
 use crate::solve::rigid::{RigidMotions, escape, is_held_by_rounding, moves_freely};
 
 /// The sentence on bodies that move away if the rounding of a condensation counts as no resistance.
@@ -56,20 +55,15 @@ pub fn say_remarks<R: Relation>(problem: &ContactProblem<'_, R>, solution: &mut 
 
 /// Adds the remarks on a problem and its solution. With friction nothing is asked about free motions: that would cost a
 /// factorisation of every semi-definite problem.
-pub fn add_remarks(
-    contact: &Contact<'_>,
-    settings: &Settings,
-    solution: &mut Solution,
-    monitor: &Monitor<'_>,
-) {
-    let problem = contact.problem();
+pub fn add_remarks(call: &Call<'_>, solution: &mut Solution, monitor: &Monitor<'_>) {
+    let (contact, problem) = (call.contact, call.contact.problem());
     let solved = solution.status == Status::Solved;
     let asked = solved && solution.uniqueness == Uniqueness::NotKnown && contact.is_frictionless();
     let (d, certificate) = (&solution.d, &solution.certificate);
     solution.remarks = Remarks {
         free_motion: asked && moves_freely(contact, d, &certificate.states, monitor),
         held_by_rounding: solved && is_held_by_rounding(contact, d, &certificate.force),
-        needs_low_part: solved && needs_low_part(contact, settings, solution),
+        needs_low_part: solved && needs_low_part(call, solution),
         ..of_data(problem, d)
     };
     if solution.status == Status::Stalled && problem.is_symmetric() {
@@ -90,10 +84,10 @@ fn explain(contact: &Contact<'_>, solution: &mut Solution, monitor: &Monitor<'_>
 }
 
 /// True if the displacements rounded to doubles miss the tolerance.
-fn needs_low_part(contact: &Contact<'_>, settings: &Settings, solution: &Solution) -> bool {
-    let certificate = &solution.certificate;
-    let may_miss = certificate.residual + certificate.rounding > settings.tolerance;
+fn needs_low_part(call: &Call<'_>, solution: &Solution) -> bool {
+    let (certificate, tolerance) = (&solution.certificate, call.settings.tolerance);
+    let may_miss = certificate.residual + certificate.rounding > tolerance;
     may_miss
         && solution.d_low.iter().any(|&low| low != 0.0)
-        && !measure(contact, &solution.d, &certificate.force).holds(settings.tolerance)
+        && !measure(call.contact, &solution.d, &certificate.force).holds(tolerance)
 }

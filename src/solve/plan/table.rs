@@ -3,8 +3,8 @@
 use crate::error::{Argument, Error};
 use crate::law::Contact;
 use crate::monitor::{Monitor, Stop};
-use crate::settings::{Method, Settings};
-use crate::solve::result::{Candidate, Ending};
+use crate::settings::Method;
+use crate::solve::result::{Call, Candidate, Ending};
 use crate::solve::rigid::{self, Balance, without_idle_motion};
 use crate::solve::{lcp, newton, path, proximal, sweeps};
 
@@ -29,13 +29,13 @@ impl MethodRow {
         call: &Call<'_>,
         monitor: &mut Monitor<'_>,
     ) -> Result<Option<Candidate>, Error> {
-        let (contact, settings) = (call.contact, call.settings);
+        let contact = call.contact;
         if contact.pairs().is_empty() {
             return Ok(Some(Candidate::without_displacements(contact, Ending::Done)));
         }
         let Some(candidate) = (self.run)(call, monitor)? else { return Ok(None) };
         let candidate = without_idle_motion(contact, candidate, monitor);
-        let candidate = newton::refine_to_tolerance(contact, settings, candidate, monitor);
+        let candidate = newton::refine_to_tolerance(call, candidate, monitor);
         // A factorisation that was ended is a singular system to the method.
         if candidate.ending == Ending::Singular
             && let Some(stop) = monitor.stop()
@@ -53,25 +53,6 @@ pub enum Start {
     Own,
     /// At the best displacements that methods before it have left.
     Best,
-}
-
-/// A problem that a method solves.
-pub struct Call<'c> {
-    pub contact: &'c Contact<'c>,
-    pub settings: &'c Settings,
-    /// Displacements, zero if `None`.
-    pub start: Option<&'c [f64]>,
-}
-
-impl Call<'_> {
-    fn start_or_zero(&self) -> Vec<f64> {
-        self.start.map_or_else(|| vec![0.0; self.contact.unknowns()], <[f64]>::to_vec)
-    }
-
-    /// True if the host has chosen the method itself.
-    fn is_chosen(&self) -> bool {
-        self.settings.method != Method::Auto
-    }
 }
 
 /// Without friction: methods of linear complementarity first, which end where Newton's method and the path give up.
@@ -133,7 +114,7 @@ const NEWTON: MethodRow = MethodRow {
     name: "Newton",
     start: Start::Own,
     refuses: |_| None,
-    run: |call, monitor| Ok(Some(newton::newton(call.contact, call.settings, call.start, monitor))),
+    run: |call, monitor| Ok(Some(newton::newton(call, monitor))),
 };
 
 /// The balance of rigid motions, where contact alone holds a body: it proves in most cases that no equilibrium exists,
@@ -158,7 +139,7 @@ const SPRINGS: MethodRow = MethodRow {
     refuses: unsymmetric,
     run: |call, monitor| {
         let Some(balance) = Balance::new(call.contact, monitor) else { return Ok(None) };
-        let mut candidate = proximal::let_go(call.contact, call.settings, call.start, monitor);
+        let mut candidate = proximal::let_go(call, monitor);
         if let Ending::RunsAway(motion) = candidate.ending {
             candidate.ending = balance.ending_away(&motion);
         }
@@ -176,7 +157,7 @@ const PATH: MethodRow = MethodRow {
     refuses: |_| None,
     run: |call, monitor| {
         let by = if call.contact.dim() == 2 { path::linear } else { path::curved };
-        Ok(Some(by(call.contact, call.settings, call.start, monitor)))
+        Ok(Some(by(call, monitor)))
     },
 };
 
@@ -199,7 +180,7 @@ const BLOCK_PIVOTING: MethodRow = MethodRow {
     run: |call, monitor| {
         let pairs = call.contact.pairs().len();
         let most = if call.is_chosen() { u64::MAX } else { lcp::enough(pairs) };
-        Ok(Some(lcp::block_pivoting(call.contact, call.settings, call.start, most, monitor)))
+        Ok(Some(lcp::block_pivoting(call, most, monitor)))
     },
 };
 
@@ -213,7 +194,7 @@ const LEMKE: MethodRow = MethodRow {
             "settings: Lemke's method is for frictionless contact, and for friction in 2D";
         unsymmetric(contact).or_else(|| (!fits).then(|| message.to_owned()))
     },
-    run: |call, monitor| lcp::lemke(call.contact, call.settings, monitor).map(Some),
+    run: |call, monitor| lcp::lemke(call, monitor).map(Some),
 };
 
 const NESTED_SWEEPS: MethodRow = MethodRow {
@@ -222,12 +203,8 @@ const NESTED_SWEEPS: MethodRow = MethodRow {
     start: Start::Own,
     refuses: unsymmetric,
     run: |call, monitor| {
-        let (contact, settings) = (call.contact, call.settings);
-        if contact.is_coupled() {
-            let start = call.start_or_zero();
-            return for_a_while(call, monitor, |monitor| {
-                sweeps::nested(contact, settings, start, monitor)
-            });
+        if call.contact.is_coupled() {
+            return for_a_while(call, monitor, |monitor| sweeps::nested(call, monitor));
         }
         single_sweeps(call, monitor)
     },
@@ -252,10 +229,9 @@ const DIAGONAL_SWEEPS: MethodRow = MethodRow {
 
 /// Sweeps that update thresholds as they go, or have given ones.
 fn single_sweeps(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Result<Option<Candidate>, Error> {
-    let (contact, settings, start) = (call.contact, call.settings, call.start_or_zero());
-    for_a_while(call, monitor, |monitor| match contact.is_frictionless() {
-        true => sweeps::frictionless(contact, settings, &start, monitor),
-        false => sweeps::single(contact, settings, start, monitor),
+    for_a_while(call, monitor, |monitor| match call.contact.is_frictionless() {
+        true => sweeps::frictionless(call, monitor),
+        false => sweeps::single(call, monitor),
     })
 }
 

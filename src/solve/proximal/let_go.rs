@@ -68,7 +68,7 @@ use crate::linalg::matrix::Matrix;
 use crate::linalg::vector::NormSum;
 use crate::monitor::{Monitor, Stop};
 use crate::settings::Settings;
-use crate::solve::result::{Candidate, Effort, Ending};
+use crate::solve::result::{Call, Candidate, Effort, Ending};
 use crate::solve::{newton, path};
 
 /// By how much `s` falls from one problem to the next, first and at most. Where Newton's method fails it falls by the
@@ -99,17 +99,12 @@ const STEADY: f64 = 1e-2;
 /// Springs of this part of the stiffness are no more than its rounding.
 const LEAST: f64 = 1e-13;
 
-/// Lets the springs go from the displacements `start` (zero if `None`). Ends with a solution for `K`, with
-/// [`Ending::RunsAway`] and the motion `q` of T3, or because it finds neither.
-pub fn let_go(
-    contact: &Contact<'_>,
-    settings: &Settings,
-    start: Option<&[f64]>,
-    monitor: &mut Monitor<'_>,
-) -> Candidate {
-    let d = start.map_or_else(|| vec![0.0; contact.unknowns()], <[f64]>::to_vec);
+/// Lets the springs go. Ends with a solution for `K`, with [`Ending::RunsAway`] and the motion `q` of T3, or because it
+/// finds neither.
+pub fn let_go(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Candidate {
+    let (contact, d) = (call.contact, call.start_or_zero());
     let units = (0..d.len()).map(|i| contact.problem().unit(i)).collect();
-    let mut springs = Springs { contact, settings, units, d, systems: 0 };
+    let mut springs = Springs { contact, settings: call.settings, units, d, systems: 0 };
     let found = springs.let_go(monitor);
     let effort = Effort::of_systems(springs.systems);
     let candidate = |ending| Candidate::of_displacements(contact, springs.d, ending);
@@ -190,10 +185,10 @@ impl Springs<'_> {
         let contact = Contact::new(&problem);
         let tolerance = self.settings.tolerance.max(ROUGH);
         let settings = Settings { tolerance, ..self.settings.clone() };
-        let mut candidate = self.newton((&contact, &settings), MOST_SYSTEMS, monitor)?;
+        let mut candidate = self.newton(Call::new(&contact, &settings), MOST_SYSTEMS, monitor)?;
         if by_path && !candidate.certificate(&contact).holds(tolerance) {
             let walk = if contact.dim() == 2 { path::linear } else { path::curved };
-            candidate = walk(&contact, &settings, Some(candidate.d()), monitor);
+            candidate = walk(&Call::new(&contact, &settings).from(candidate.d()), monitor);
             self.systems += candidate.effort.factorisations;
         }
         match candidate.certificate(&contact).holds(tolerance) {
@@ -204,21 +199,21 @@ impl Springs<'_> {
 
     /// Newton's method on `K` alone, from the last solution.
     fn without_springs(&mut self, monitor: &mut Monitor<'_>) -> Result<Candidate, Ending> {
-        let (contact, settings) = (self.contact, self.settings);
-        let candidate = self.newton((contact, settings), MOST_WITHOUT_SPRINGS, monitor)?;
-        Ok(newton::refine_to_tolerance(contact, settings, candidate, monitor))
+        let call = Call::new(self.contact, self.settings);
+        let candidate = self.newton(call, MOST_WITHOUT_SPRINGS, monitor)?;
+        Ok(newton::refine_to_tolerance(&call, candidate, monitor))
     }
 
     /// Newton's method on a problem with at most so many systems, from the last solution. `Err`: the call is
     /// stopped.
     fn newton(
         &mut self,
-        (contact, settings): (&Contact<'_>, &Settings),
+        call: Call<'_>,
         most: u64,
         monitor: &mut Monitor<'_>,
     ) -> Result<Candidate, Ending> {
-        let (mut candidate, used_up) = monitor
-            .within(most, |monitor| newton::newton(contact, settings, Some(&self.d), monitor));
+        let (mut candidate, used_up) =
+            monitor.within(most, |monitor| newton::newton(&call.from(&self.d), monitor));
         self.systems += candidate.effort.factorisations;
         if let Ending::Stopped(stop) = candidate.ending {
             if stop != Stop::IterationLimit || used_up {
@@ -280,7 +275,8 @@ mod tests {
         .expect("the data are valid");
         let settings = Settings { proof: true, ..Settings::default() };
         let mut monitor = Monitor::new(&settings, None);
-        let ending = let_go(&Contact::new(&problem), &settings, None, &mut monitor).ending;
+        let contact = Contact::new(&problem);
+        let ending = let_go(&Call::new(&contact, &settings), &mut monitor).ending;
         let Ending::RunsAway(motion) = ending else { panic!("the springs end otherwise") };
         // `s d - q` is of the size of `s`, which is less than 1e-8 here.
         for (q, exact) in motion.iter().zip([-2.0, -4.0, 0.0, -2.0, 0.0, 0.0]) {

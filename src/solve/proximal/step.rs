@@ -6,7 +6,7 @@ use crate::law::Contact;
 use crate::monitor::Monitor;
 use crate::problem::{ContactData, ContactProblem, Relation};
 use crate::settings::{Method, Settings};
-use crate::solve::result::{Ending, Existence, Solution, Solve, Status, Uniqueness};
+use crate::solve::result::{Call, Ending, Existence, Solution, Solve, Status, Uniqueness};
 
 /// Solves for the step from the displacements `d`, with the `stiffness` of bodies and springs, column-major,
 /// and their `load`.
@@ -35,7 +35,7 @@ pub fn step<R: Relation>(
         law: problem.law(),
         reference_slip: Some(&slip),
     })?;
-    solve(&Contact::new(&problem), settings, None, monitor)
+    solve(&Call::new(&Contact::new(&problem), settings), monitor)
 }
 
 /// The result of displacements `d` and forces that a method has ended with, and the number of its systems.

@@ -1,21 +1,17 @@
 //! From a candidate to a result: the certificate alone decides what is called a solution.
 
+use super::call::Call;
 use super::candidate::Candidate;
 use super::ending::{Ending, NO_EQUILIBRIUM};
 use super::solution::{Solution, Status};
 use crate::certificate::is_escape_of;
-use crate::law::Contact;
 use crate::linalg::vector::{first_not_finite, normalise};
-use crate::settings::{Method, Settings};
+use crate::settings::Method;
 
 /// Turns the candidate of `method` into a result.
-pub fn certified(
-    contact: &Contact<'_>,
-    settings: &Settings,
-    method: Method,
-    candidate: &Candidate,
-) -> Solution {
-    let at_rest = at_rest(contact, settings, candidate);
+pub fn certified(call: &Call<'_>, method: Method, candidate: &Candidate) -> Solution {
+    let (contact, settings) = (call.contact, call.settings);
+    let at_rest = at_rest(call, candidate);
     let candidate = at_rest.as_ref().unwrap_or(candidate);
     let certificate = candidate.certificate(contact).clone().with_rounding(settings.tolerance);
     let mut recession = None;
@@ -51,13 +47,13 @@ pub fn certified(
 
 /// Zero displacement, if it is the solution and the candidate is not, or if a displacement of the candidate is not
 /// finite. Without loads the scale of forces is rounding only, which no iterate gets below.
-fn at_rest(contact: &Contact<'_>, settings: &Settings, other: &Candidate) -> Option<Candidate> {
+fn at_rest(call: &Call<'_>, other: &Candidate) -> Option<Candidate> {
+    let (contact, tolerance) = (call.contact, call.settings.tolerance);
     let is_finite = first_not_finite(other.d()).is_none();
-    if is_finite && (!contact.is_unloaded() || other.certificate(contact).holds(settings.tolerance))
-    {
+    if is_finite && (!contact.is_unloaded() || other.certificate(contact).holds(tolerance)) {
         return None;
     }
     let mut rest = Candidate::without_displacements(contact, other.ending.clone());
     (rest.effort, rest.orientation) = (other.effort, other.orientation);
-    (!is_finite || rest.certificate(contact).holds(settings.tolerance)).then_some(rest)
+    (!is_finite || rest.certificate(contact).holds(tolerance)).then_some(rest)
 }

@@ -1,5 +1,6 @@
 //! Results: the internal one of a method, its certification, and the public one; and the memory that a call takes.
 
+mod call;
 mod candidate;
 mod certified;
 mod effort;
@@ -7,6 +8,7 @@ mod ending;
 mod memory;
 mod solution;
 
+pub use call::Call;
 pub use candidate::Candidate;
 pub use certified::certified;
 pub use effort::Effort;

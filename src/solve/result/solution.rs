@@ -1,14 +1,13 @@
 //! The public result of a contact problem: its status, and why the first method was abandoned.
 
+use super::call::Call;
 use crate::certificate::{Certificate, Proof};
 use crate::error::{Error, Message};
-use crate::law::Contact;
 use crate::monitor::{Monitor, Stop};
-use crate::settings::{Method, Settings};
+use crate::settings::Method;
 
-/// Solves a contact problem from a start: what methods take that stand before the plan and need it.
-pub type Solve =
-    fn(&Contact<'_>, &Settings, Option<&[f64]>, &mut Monitor<'_>) -> Result<Solution, Error>;
+/// Solves a contact problem: what methods take that stand before the plan and need it.
+pub type Solve = fn(&Call<'_>, &mut Monitor<'_>) -> Result<Solution, Error>;
 
 /// Kind of a result: solved, or the reason why not.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

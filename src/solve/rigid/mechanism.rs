@@ -23,7 +23,7 @@ use crate::linalg::vector::{dot, normalise};
 use crate::monitor::Monitor;
 use crate::problem::{ContactData, ContactProblem, Relation, Stiffness};
 use crate::settings::Settings;
-use crate::solve::result::{CAUSES, Escape, NO_EQUILIBRIUM, Solution, Solve, Status};
+use crate::solve::result::{CAUSES, Call, Escape, NO_EQUILIBRIUM, Solution, Solve, Status};
 
 /// Stiffness against strains beside the viscosity: a solution leaves this part of a strain, which the next
 /// one takes away, and the condition number stays far from rounding.
@@ -120,7 +120,14 @@ impl<R: Relation> Viscous<'_, R> {
                 law: problem.law(),
                 reference_slip: None,
             })?;
-            let solution = solve(&Contact::new(&viscous), &settings, d.as_deref(), monitor)?;
+            let solution = solve(
+                &Call {
+                    contact: &Contact::new(&viscous),
+                    settings: &settings,
+                    start: d.as_deref(),
+                },
+                monitor,
+            )?;
             if solution.status != Status::Solved {
                 return Ok(None);
             }

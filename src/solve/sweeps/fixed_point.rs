@@ -14,8 +14,7 @@ use super::driver::{Driver, LARGEST_FACTOR};
 use crate::law::Contact;
 use crate::linalg::vector::{largest_of, norm};
 use crate::monitor::Monitor;
-use crate::settings::Settings;
-use crate::solve::result::{Candidate, Effort, Ending};
+use crate::solve::result::{Call, Candidate, Effort, Ending};
 
 /// Accuracy of an inner problem relative to that of the threshold.
 const INNER: f64 = 0.1;
@@ -34,19 +33,15 @@ const RANGE: f64 = 0.95;
 const SLOPE: f64 = 0.55;
 
 /// Solves with given thresholds, or with Coulomb's updated inside the sweep.
-pub fn single(
-    contact: &Contact<'_>,
-    settings: &Settings,
-    start: Vec<f64>,
-    monitor: &mut Monitor<'_>,
-) -> Candidate {
+pub fn single(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Candidate {
+    let (contact, settings) = (call.contact, call.settings);
     let steepest = largest_of(contact.bounds().map(|bound| bound.slope));
     let largest_factor = if contact.is_coupled() {
         LARGEST_FACTOR.min(1.0 + RANGE / (1.0 + SLOPE * steepest))
     } else {
         LARGEST_FACTOR
     };
-    let iterate = ContactIterate::new(contact, start);
+    let iterate = ContactIterate::new(contact, call.start_or_zero());
     let mut driver = Driver::new(iterate, settings, largest_factor, monitor);
     let ending = driver.solve(settings.tolerance).err().unwrap_or(Ending::Done);
     let effort = Effort { omega: driver.relaxation.omega(), ..Effort::default() };
@@ -54,13 +49,9 @@ pub fn single(
 }
 
 /// Solves Coulomb's problem as a sequence of Tresca problems.
-pub fn nested(
-    contact: &Contact<'_>,
-    settings: &Settings,
-    start: Vec<f64>,
-    monitor: &mut Monitor<'_>,
-) -> Candidate {
-    let iterate = ContactIterate::new(contact, start);
+pub fn nested(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Candidate {
+    let (contact, settings) = (call.contact, call.settings);
+    let iterate = ContactIterate::new(contact, call.start_or_zero());
     let mut driver = Driver::new(iterate, settings, LARGEST_FACTOR, monitor);
     let mut damping = Damping::new(settings.damping);
     let mut thresholds = driver.iterate.thresholds();

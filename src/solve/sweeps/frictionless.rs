@@ -3,28 +3,22 @@
 use super::Iterate;
 use super::driver::{Driver, LARGEST_FACTOR};
 use super::lcp_iterate::LcpIterate;
-use crate::law::Contact;
 use crate::monitor::Monitor;
-use crate::settings::Settings;
 use crate::solve::part::NormalProblem;
-use crate::solve::result::{Candidate, Effort, Ending};
+use crate::solve::result::{Call, Candidate, Effort, Ending};
 
 /// The condensed problem has another scale of forces than the whole one, whose certificate decides: the
 /// target is tightened by this factor until that holds, or no rounding can reach it.
 const TIGHTENING: f64 = 0.1;
 
-/// Solves from the displacements `start`.
-pub fn frictionless(
-    contact: &Contact<'_>,
-    settings: &Settings,
-    start: &[f64],
-    monitor: &mut Monitor<'_>,
-) -> Candidate {
+/// Solves a problem.
+pub fn frictionless(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Candidate {
+    let (contact, settings) = (call.contact, call.settings);
     let normal = match NormalProblem::new(contact, monitor) {
         Ok(normal) => normal,
         Err(why) => return Candidate::without_displacements(contact, why),
     };
-    let start = normal.restrict(start).iter().map(|d| -d).collect();
+    let start = normal.restrict(&call.start_or_zero()).iter().map(|d| -d).collect();
     let iterate = LcpIterate::new(normal.lcp(), start);
     let mut driver = Driver::new(iterate, settings, LARGEST_FACTOR, monitor);
     let mut target = settings.tolerance;

@@ -1,20 +1,14 @@
 //! The proof, on request, that a solution exists where a method has found one.
 
 use crate::certificate::{Proof, errors, measure_parts, prove_parts};
-use crate::law::Contact;
 use crate::linalg::factor::lu_work;
 use crate::monitor::Monitor;
-use crate::settings::Settings;
-use crate::solve::result::{Errors, Existence, Solution, Status};
+use crate::solve::result::{Call, Errors, Existence, Solution, Status};
 
 /// Tries to prove that there is a solution with the states of this one. If there is, the result becomes the
 /// middle of its enclosure.
-pub fn examine(
-    contact: &Contact<'_>,
-    settings: &Settings,
-    solution: &mut Solution,
-    monitor: &Monitor<'_>,
-) {
+pub fn examine(call: &Call<'_>, solution: &mut Solution, monitor: &Monitor<'_>) {
+    let contact = call.contact;
     solution.existence = Existence::NotProved;
     // The approximate inverse and its products, or a bound on the least eigenvalue, cost one factorisation.
     let in_time = monitor.has_time_for(lu_work(contact.unknowns()));
@@ -23,7 +17,7 @@ pub fn examine(
     }
     let parts = (solution.d.as_slice(), solution.d_low.as_slice());
     let Some(proof) = prove_parts(contact, parts, &solution.certificate.states) else { return };
-    move_to_middle(contact, settings, solution, &proof);
+    move_to_middle(call, solution, &proof);
     let force = &solution.certificate.force;
     let (d_radius, radius) = (proof.radius_about(&solution.d), proof.force_radius_about(force));
     let load = contact.problem().load();
@@ -33,16 +27,11 @@ pub fn examine(
 }
 
 /// Replaces the displacements by those of the proof, unless their certificate, which rounds, does not agree.
-fn move_to_middle(
-    contact: &Contact<'_>,
-    settings: &Settings,
-    solution: &mut Solution,
-    proof: &Proof,
-) {
-    let certificate =
-        measure_parts(contact, &proof.d, &proof.d_low).with_rounding(settings.tolerance);
+fn move_to_middle(call: &Call<'_>, solution: &mut Solution, proof: &Proof) {
+    let tolerance = call.settings.tolerance;
+    let certificate = measure_parts(call.contact, &proof.d, &proof.d_low).with_rounding(tolerance);
     let same = certificate.states == solution.certificate.states;
-    if certificate.holds(settings.tolerance) && same {
+    if certificate.holds(tolerance) && same {
         solution.d.clone_from(&proof.d);
         solution.d_low.clone_from(&proof.d_low);
         solution.certificate = certificate;

@@ -10,23 +10,21 @@ mod proof;
 mod search;
 
 use super::newton::{from_pieces, refine_fully};
-use super::result::{Candidate, Ending};
-use super::result::{Solution, Status, Uniqueness};
+use super::result::{Call, Candidate, Ending, Solution, Status, Uniqueness};
 use crate::error::Error;
 use crate::law::Contact;
 use crate::linalg::factor::lu_work;
 use crate::monitor::Monitor;
-use crate::settings::Settings;
 use difference::{are_different, are_parted, is_sharp, is_strict};
 pub use existence::examine as prove;
 
 /// Tries to prove that `solution` is the only one, or to find a second.
 pub fn examine(
-    contact: &Contact<'_>,
-    settings: &Settings,
+    call: &Call<'_>,
     solution: &mut Solution,
     monitor: &mut Monitor<'_>,
 ) -> Result<(), Error> {
+    let contact = call.contact;
     if solution.status != Status::Solved || solution.second.is_some() {
         return Ok(());
     }
@@ -40,14 +38,13 @@ pub fn examine(
     let mut first = given(contact, solution);
     if contact.dim() == 2 {
         // To the last digit, and with its orientation.
-        let own = on_own_pieces(contact, settings, &solution.d, monitor);
-        let Some(own) = own else { return Ok(()) };
+        let Some(own) = on_own_pieces(&call.from(&solution.d), monitor) else { return Ok(()) };
         solution.orientation = own.orientation;
         by_orientation(contact, solution, monitor);
         first = own;
     }
     let Some(first) = refine_fully(contact, &first, monitor) else { return Ok(()) };
-    if let Some(second) = search::another(contact, settings, &first, monitor)? {
+    if let Some(second) = search::another(call, &first, monitor)? {
         solution.uniqueness = Uniqueness::Several;
         solution.second = Some(Box::new(second));
     }
@@ -85,15 +82,11 @@ fn given(contact: &Contact<'_>, solution: &Solution) -> Candidate {
     Candidate::of_displacements(contact, solution.d.clone(), Ending::Done)
 }
 
-/// The solution on the pieces of `d`, if that is `d`.
-fn on_own_pieces(
-    contact: &Contact<'_>,
-    settings: &Settings,
-    d: &[f64],
-    monitor: &mut Monitor<'_>,
-) -> Option<Candidate> {
-    let pieces = contact.pieces(d, &contact.problem().force(d));
-    let candidate = from_pieces(contact, settings, &pieces, d, monitor);
-    let same = candidate.ending == Ending::Done && !are_different(contact, d, candidate.d());
+/// The solution on the pieces of the start, if that is the start.
+fn on_own_pieces(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Option<Candidate> {
+    let (contact, d) = (call.contact, call.start_or_zero());
+    let pieces = contact.pieces(&d, &contact.problem().force(&d));
+    let candidate = from_pieces(call, &pieces, monitor);
+    let same = candidate.ending == Ending::Done && !are_different(contact, &d, candidate.d());
     same.then_some(candidate)
 }

@@ -2,13 +2,10 @@
 
 use super::difference::{are_different, are_parted};
 use crate::error::Error;
-use crate::law::Piece;
-use crate::law::{Contact, PairLaw};
+use crate::law::{Contact, PairLaw, Piece};
 use crate::monitor::Monitor;
-use crate::settings::Settings;
 use crate::solve::newton::{FullyRefined, from_pieces, refine_fully};
-use crate::solve::result::SecondSolution;
-use crate::solve::result::{Candidate, Ending};
+use crate::solve::result::{Call, Candidate, Ending, SecondSolution};
 use crate::solve::{lcp, path};
 
 /// Pairs whose piece is changed, one at a time: four runs of Newton's method for each, which is what
@@ -19,42 +16,41 @@ const NEIGHBOURS: usize = 32;
 /// slipping and from pieces next to the known ones, and by Lemke's with several starts and from where its path turns. In
 /// space: at the ends of paths from several starts.
 pub fn another(
-    contact: &Contact<'_>,
-    settings: &Settings,
+    call: &Call<'_>,
     known: &FullyRefined,
     monitor: &mut Monitor<'_>,
 ) -> Result<Option<SecondSolution>, Error> {
     if monitor.goes_on().is_err() {
         return Ok(None);
     }
-    let is_planar = contact.dim() == 2;
+    let is_planar = call.contact.dim() == 2;
     let d = known.candidate.d();
-    for pieces in if is_planar { starts(contact, d) } else { Vec::new() } {
+    for pieces in if is_planar { starts(call.contact, d) } else { Vec::new() } {
         if monitor.is_late() {
             return Ok(None);
         }
-        let candidate = from_pieces(contact, settings, &pieces, d, monitor);
-        let other = accepted(contact, settings, known, candidate, monitor);
+        let candidate = from_pieces(&call.from(d), &pieces, monitor);
+        let other = accepted(call, known, candidate, monitor);
         if other.is_some() {
             return Ok(other);
         }
     }
     let ends = match is_planar {
-        true => lcp::lemke_ends(contact, settings, monitor)?,
-        false => path::ends(contact, settings, monitor),
+        true => lcp::lemke_ends(call, monitor)?,
+        false => path::ends(call, monitor),
     };
     let mut others = ends.into_iter();
-    Ok(others.find_map(|candidate| accepted(contact, settings, known, candidate, monitor)))
+    Ok(others.find_map(|candidate| accepted(call, known, candidate, monitor)))
 }
 
 /// A candidate that is a solution other than `known`.
 fn accepted(
-    contact: &Contact<'_>,
-    settings: &Settings,
+    call: &Call<'_>,
     known: &FullyRefined,
     candidate: Candidate,
     monitor: &mut Monitor<'_>,
 ) -> Option<SecondSolution> {
+    let (contact, settings) = (call.contact, call.settings);
     let may_be = candidate.ending == Ending::Done
         && candidate.certificate(contact).holds(settings.tolerance)
         && are_different(contact, known.candidate.d(), candidate.d());

@@ -53,11 +53,9 @@ use super::contact_lcp::ContactLcp;
 use super::path::{self, LemkeRules};
 use crate::certificate::is_escape_of;
 use crate::error::Error;
-use crate::law::Contact;
 use crate::monitor::Monitor;
-use crate::settings::Settings;
 use crate::solve::newton::from_pieces;
-use crate::solve::result::{Candidate, Ending};
+use crate::solve::result::{Call, Candidate, Ending};
 use crate::solve::rigid;
 
 /// Cohesion relative to the clamp, against slip to the side +1 and −1. The theorem holds for any
@@ -75,34 +73,31 @@ const TURNS: usize = 4;
 const END: f64 = 1e-10;
 
 /// Solves a problem without friction, or in 2D. It needs no start.
-pub fn solve(
-    contact: &Contact<'_>,
-    settings: &Settings,
-    monitor: &mut Monitor<'_>,
-) -> Result<Candidate, Error> {
+pub fn solve(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Result<Candidate, Error> {
+    let (contact, settings) = (call.contact, call.settings);
     let lcp = match ContactLcp::new(contact, monitor) {
         Ok(lcp) => lcp,
         Err(why) => return Ok(Candidate::without_displacements(contact, why)),
     };
     if !contact.is_frictionless() {
         let rules = LemkeRules { end: END, ..LemkeRules::usual(false) };
-        return run(&lcp, contact, settings, rules, monitor);
+        return run(&lcp, call, rules, monitor);
     }
-    let usual = run(&lcp, contact, settings, LemkeRules::usual(false), monitor)?;
+    let usual = run(&lcp, call, LemkeRules::usual(false), monitor)?;
     if usual.is_settled(contact, settings.tolerance) {
         return Ok(usual);
     }
-    run(&lcp, contact, settings, LemkeRules::usual(true), monitor)
+    run(&lcp, call, LemkeRules::usual(true), monitor)
 }
 
 /// Follows a path to its end, and polishes the solution there.
 fn run(
     lcp: &ContactLcp<'_>,
-    contact: &Contact<'_>,
-    settings: &Settings,
+    call: &Call<'_>,
     rules: LemkeRules,
     monitor: &mut Monitor<'_>,
 ) -> Result<Candidate, Error> {
+    let (contact, settings) = (call.contact, call.settings);
     let run = path::follow(&lcp.scaled(COHESIONS[0]), rules, monitor)?;
     let d = lcp.displacements(&run.z);
     let ending = match run.ending {
@@ -121,7 +116,7 @@ fn run(
         && !(contact.is_frictionless() && candidate.is_settled(contact, settings.tolerance))
     {
         let (pieces, d) = (lcp.pieces(&run.z), candidate.d().to_vec());
-        let mut refined = from_pieces(contact, settings, &pieces, &d, monitor);
+        let mut refined = from_pieces(&call.from(&d), &pieces, monitor);
         refined.ending = Ending::Done;
         if refined.certificate(contact).eta <= candidate.certificate(contact).eta {
             candidate = refined;
@@ -133,12 +128,8 @@ fn run(
 
 /// Ends of the path from several starts, and what Newton's method makes of its turning points: all
 /// solutions that the path shows.
-pub fn ends(
-    contact: &Contact<'_>,
-    settings: &Settings,
-    monitor: &mut Monitor<'_>,
-) -> Result<Vec<Candidate>, Error> {
-    let Ok(lcp) = ContactLcp::new(contact, monitor) else { return Ok(Vec::new()) };
+pub fn ends(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Result<Vec<Candidate>, Error> {
+    let Ok(lcp) = ContactLcp::new(call.contact, monitor) else { return Ok(Vec::new()) };
     let mut ends = Vec::new();
     let rules = LemkeRules { end: END, turns: TURNS, ..LemkeRules::usual(false) };
     for cohesion in COHESIONS {
@@ -148,7 +139,7 @@ pub fn ends(
         let run = path::follow(&lcp.scaled(cohesion), rules, monitor)?;
         for z in run.turns.iter().chain((run.ending == Ending::Done).then_some(&run.z)) {
             let (pieces, d) = (lcp.pieces(z), lcp.displacements(z));
-            ends.push(from_pieces(contact, settings, &pieces, &d, monitor));
+            ends.push(from_pieces(&call.from(&d), &pieces, monitor));
         }
     }
     Ok(ends)
