@@ -17,4 +17,5 @@ mod bindings;
 mod header;
 mod law_room;
 mod layering;
+mod notices;
 mod style;
