@@ -96,7 +96,7 @@ hosts=$root/c_examples/hosts/fortran
 tests=$root/tests/fortran
 
 runs() {
-    "$work/$1" >"$work/$1.out" 2>&1 || { cat "$work/$1.out"; die "$1 failed"; }
+    run "$1" >"$work/$1.out" 2>&1 || { cat "$work/$1.out"; die "$1 failed"; }
     say "$1: $(tail -n 1 "$work/$1.out")"
 }
 

@@ -4,7 +4,13 @@
 
 #include <signal.h>
 #include <stdio.h>
+#ifdef _WIN32
+#include <io.h>
+#define isatty _isatty
+#define fileno _fileno
+#else
 #include <unistd.h>
+#endif
 
 static volatile sig_atomic_t interrupted;
 
@@ -21,11 +27,15 @@ static void on_interrupt(int number)
 
 void watch_begin(void)
 {
+#ifdef _WIN32
+    signal(SIGINT, on_interrupt);
+#else
     struct sigaction action = {0};
     action.sa_handler = on_interrupt;
     action.sa_flags = SA_RESTART; /* reading and writing go on as if nothing had happened */
     sigemptyset(&action.sa_mask);
     sigaction(SIGINT, &action, NULL);
+#endif
 }
 
 int watch_interrupted(void)

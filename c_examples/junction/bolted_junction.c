@@ -40,9 +40,14 @@ static const double ring_area = 3.14159265358979323846 * (100.0 * 100.0 - 80.0 *
 
 static double now(void)
 {
+#ifdef TIME_UTC
     struct timespec time;
     timespec_get(&time, TIME_UTC);
     return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
+#else
+    /* An older library of Windows, where this is the time on the wall. */
+    return (double)clock() / CLOCKS_PER_SEC;
+#endif
 }
 
 /* The slave of each pair is the node of the lower part; its outward normal points upwards, and

@@ -20,6 +20,8 @@ struct Host {
     environment: posix::Environment,
     #[cfg(any(target_os = "linux", target_os = "macos"))]
     cancellation: libc::c_int,
+    #[cfg(all(windows, target_arch = "x86_64"))]
+    registers: registers::Registers,
 }
 
 /// The outer call that a thread is in.
@@ -157,7 +159,56 @@ impl Host {
     }
 }
 
-#[cfg(not(any(target_os = "linux", target_os = "macos")))]
+/// The registers of floating-point numbers themselves: the C libraries of Windows differ in what `fenv_t` is.
+#[cfg(all(windows, target_arch = "x86_64"))]
+mod registers {
+    use std::arch::asm;
+
+    #[derive(Clone, Copy)]
+    pub struct Registers {
+        /// Control and status of SSE, by which Rust computes.
+        sse: u32,
+        /// The environment of x87, which functions of MinGW's C library use.
+        x87: [u32; 7],
+    }
+
+    impl Registers {
+        /// All exceptions masked, to nearest, no flag, as a thread begins; returns what was there.
+        pub fn begin() -> Self {
+            static SSE: u32 = 0x1F80;
+            let mut old = Registers { sse: SSE, x87: [0; 7] };
+            // SAFETY: stores to places of their sizes, and loads a value without reserved bits.
+            unsafe {
+                asm!("stmxcsr [{}]", in(reg) &raw mut old.sse, options(nostack));
+                asm!("ldmxcsr [{}]", in(reg) &raw const SSE, options(nostack));
+                asm!("fnstenv [{}]", "fninit", in(reg) &raw mut old.x87, options(nostack));
+            }
+            old
+        }
+
+        pub fn restore(&self) {
+            // SAFETY: loads what `begin` has stored on this thread; the stack of x87 is empty between functions.
+            unsafe {
+                asm!("fldenv [{}]", in(reg) &raw const self.x87, options(nostack));
+                asm!("ldmxcsr [{}]", in(reg) &raw const self.sse, options(nostack));
+            }
+        }
+    }
+}
+
+/// Windows has no cancellation.
+#[cfg(all(windows, target_arch = "x86_64"))]
+impl Host {
+    fn change() -> Self {
+        Host { registers: registers::Registers::begin() }
+    }
+
+    fn restore(&self) {
+        self.registers.restore();
+    }
+}
+
+#[cfg(not(any(target_os = "linux", target_os = "macos", all(windows, target_arch = "x86_64"))))]
 impl Host {
     fn change() -> Self {
         Host {}

@@ -2,14 +2,24 @@
 
 #include "signorini.h"
 
-#include <dlfcn.h>
 #include <stdio.h>
 #include <string.h>
+#ifdef _WIN32
+#include <windows.h>
+#define dlopen(path, mode) ((void *)LoadLibraryA(path))
+#define dlsym(library, name) (GetProcAddress((HMODULE)(library), name))
+#define dlclose(library) (!FreeLibrary((HMODULE)(library)))
+#define dlerror() "Windows refuses it"
+typedef FARPROC address;
+#else
+#include <dlfcn.h>
+typedef void *address;
+#endif
 
 /* ISO C has no conversion from an object pointer to a function pointer; POSIX promises this one. */
 #define FUNCTION(library, name)                                                                   \
     do {                                                                                          \
-        void *const symbol = dlsym(library, "signorini_" #name);                                  \
+        const address symbol = dlsym(library, "signorini_" #name);                                \
         if (!symbol) return fail("signorini_" #name, dlerror());                                  \
         memcpy(&name, &symbol, sizeof name);                                                      \
     } while (0)

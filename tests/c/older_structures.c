@@ -10,30 +10,88 @@
 
 #include <stddef.h>
 #include <stdlib.h>
+#ifdef _WIN32
+#include <windows.h>
+#else
 #include <sys/mman.h>
 #include <unistd.h>
+#endif
 
 static size_t page;
+
+#ifdef _WIN32
+static size_t page_size(void)
+{
+    SYSTEM_INFO info;
+    GetSystemInfo(&info);
+    return info.dwPageSize;
+}
+
+/* Two pages, of which the second cannot be touched; NULL: there are none. */
+static unsigned char *two_pages(void)
+{
+    DWORD before;
+    unsigned char *both = VirtualAlloc(NULL, 2 * page, MEM_COMMIT | MEM_RESERVE, PAGE_READWRITE);
+    return both && VirtualProtect(both + page, page, PAGE_NOACCESS, &before) ? both : NULL;
+}
+
+static int give_back(unsigned char *first)
+{
+    return VirtualFree(first, 0, MEM_RELEASE) != 0;
+}
+
+static int protect(unsigned char *first)
+{
+    DWORD before;
+    return VirtualProtect(first, page, PAGE_READONLY, &before) != 0;
+}
+#else
+static size_t page_size(void)
+{
+    return (size_t)sysconf(_SC_PAGESIZE);
+}
+
+/* Two pages, of which the second cannot be touched; NULL: there are none. */
+static unsigned char *two_pages(void)
+{
+    unsigned char *both =
+        mmap(NULL, 2 * page, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    return both != MAP_FAILED && mprotect(both + page, page, PROT_NONE) == 0 ? both : NULL;
+}
+
+static int give_back(unsigned char *first)
+{
+    return munmap(first, 2 * page) == 0;
+}
+
+static int protect(unsigned char *first)
+{
+    return mprotect(first, page, PROT_READ) == 0;
+}
+#endif
+
+static unsigned char *page_of(void *place)
+{
+    return (unsigned char *)((uintptr_t)place / page * page);
+}
 
 /* `bytes` bytes at the end of a page; the next one cannot be touched. */
 static void *at_the_end(size_t bytes)
 {
-    unsigned char *both =
-        mmap(NULL, 2 * page, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-    if (both == MAP_FAILED || mprotect(both + page, page, PROT_NONE) != 0) exit(2);
+    unsigned char *both = two_pages();
+    if (both == NULL) exit(2);
     memset(both, 0xEE, page);
     return both + page - bytes;
 }
 
 static void drop(void *place)
 {
-    unsigned char *first = (unsigned char *)((uintptr_t)place / page * page);
-    CHECK(munmap(first, 2 * page) == 0);
+    CHECK(give_back(page_of(place)));
 }
 
 static void only_read(void *place)
 {
-    CHECK(mprotect((void *)((uintptr_t)place / page * page), page, PROT_READ) == 0);
+    CHECK(protect(page_of(place)));
 }
 
 /* Pressed by 10 and pushed by 8 against 5 of friction: it slips by 1. */
@@ -327,7 +385,7 @@ static void surfaces_of_each_size(void)
 
 int main(void)
 {
-    page = (size_t)sysconf(_SC_PAGESIZE);
+    page = page_size();
     settings_of_each_size();
     reports_of_each_size();
     extras_of_each_size();

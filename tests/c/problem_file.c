@@ -8,11 +8,17 @@
 #include "check.h"
 
 #include <dirent.h>
+#include <locale.h>
 #include <signal.h>
 #include <stdlib.h>
-#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#ifdef _WIN32
+#include <direct.h>
+#define mkdir(name, mode) _mkdir(name)
+#else
+#include <sys/resource.h>
+#endif
 
 /* A folder of our own where the test is run. */
 static char folder[4096], path[8192];
@@ -130,6 +136,23 @@ static void kinds(void)
     signorini_problem_free(problem);
 }
 
+/* Files have points in their numbers, whatever the host's own numbers look like. */
+static void decimal_commas(void)
+{
+    const char *names[] = {"de_DE.UTF-8", "de_DE", "fr_FR.UTF-8", "German_Germany.1252", "de-DE"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (setlocale(LC_NUMERIC, names[i]) && localeconv()->decimal_point[0] == ',') {
+            kinds();
+            char text[4096] = "";
+            FILE *file = fopen(in_folder("coulomb"), "r");
+            CHECK(file != NULL && fread(text, 1, sizeof text - 1, file) > 0 && fclose(file) == 0);
+            CHECK(strstr(text, "1,5") == NULL && strstr(text, "1.5") != NULL);
+            printf("with decimal commas: %s\n", names[i]);
+            break;
+        }
+    setlocale(LC_NUMERIC, "C");
+}
+
 /* A load case of a model, replayed by the call on plain arrays: the same bits. */
 static void model_case(void)
 {
@@ -235,9 +258,19 @@ static void bad_paths(void)
     BAD(SIGNORINI_STATUS_FILE, "cannot be written: ", write_problem("coulomb/p", NULL));
     CHECK(problem == NULL && files() == before);
 
-    /* Names are bytes, as for fopen; a relative one is meant. macOS wants UTF-8. */
-#ifndef __APPLE__
+    /* Names are bytes, as for fopen; a relative one is meant. Windows and macOS want UTF-8. */
     CHECK(chdir(folder) == 0);
+#ifdef _WIN32
+    BAD(-1, "path is not UTF-8", write_problem("\xFF\xFE.mtx", NULL));
+    CHECK_STATUS(signorini_problem_write("M\xC3\xBCller.mtx", 2, 2, K, 4, f, gap, COULOMB, mu, slip0,
+                                         NULL), 0);
+    FILE *file = _wfopen(L"M\u00FCller.mtx", L"rb");
+    CHECK(file != NULL && fclose(file) == 0);
+    CHECK_STATUS(signorini_problem_read("M\xC3\xBCller.mtx", &problem), 0);
+    CHECK(same(problem_data(problem).matrix, K, 16));
+    signorini_problem_free(problem);
+    CHECK(_wremove(L"M\u00FCller.mtx") == 0 && files() == before);
+#elif !defined __APPLE__
     CHECK_STATUS(signorini_problem_write("\xFF\xFE.mtx", 2, 2, K, 4, f, gap, COULOMB, mu, slip0,
                                          NULL), 0);
     CHECK_STATUS(signorini_problem_read("\xFF\xFE.mtx", &problem), 0);
@@ -247,6 +280,7 @@ static void bad_paths(void)
 #endif
 }
 
+#ifndef _WIN32
 /* A disk that is full, as a limit of 200 bytes a file: the old file stays as it was, no part. */
 static void full_disk(void)
 {
@@ -269,6 +303,8 @@ static void full_disk(void)
     CHECK_TEXT(problem_data(problem).remark, "crane");
     signorini_problem_free(problem);
 }
+
+#endif
 
 static void bad_files(void)
 {
@@ -298,23 +334,40 @@ static void clean(void)
     const char *names[] = {"coulomb", "tresca", "cohesive", "frictionless", "lcp",
                            "empty",   "case",   "bad",      "inner"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) remove(in_folder(names[i]));
+#ifdef _WIN32
+    /* It removes no folder, and none that is used. */
+    rmdir(in_folder("inner"));
+    CHECK(chdir("..") == 0);
+#endif
     CHECK(rmdir(folder) == 0);
+}
+
+/* Makes the folder of this name, with letters in the place of each X. */
+static int made(char *name)
+{
+#ifdef _WIN32
+    return _mktemp(name) != NULL && mkdir(name, 0700) == 0;
+#else
+    return mkdtemp(name) != NULL;
+#endif
 }
 
 int main(void)
 {
     const char *const name = "/problem file XXXXXX";
-    if (getcwd(folder, sizeof folder - strlen(name)) == NULL ||
-        mkdtemp(strcat(folder, name)) == NULL) {
+    if (getcwd(folder, sizeof folder - strlen(name)) == NULL || !made(strcat(folder, name))) {
         perror(folder);
         return 1;
     }
     gap[1] = INFINITY;
     kinds();
+    decimal_commas();
     model_case();
     bad_arguments();
     bad_paths();
+#ifndef _WIN32
     full_disk();
+#endif
     bad_files();
     clean();
     return check_summary("problem_file");

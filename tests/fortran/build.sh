@@ -1,7 +1,8 @@
 # Sourced by tests/fortran.sh and tests/host_mumps.sh, which set `script`, their name for messages.
 #
 # The library is that of target/release, which has been built. FC names the Fortran compiler,
-# default gfortran. All goes to target/fortran.
+# default gfortran. All goes to target/fortran. tests/platforms.sh sets BUILT and WORK, the library and the place of
+# another platform, and RUNNER, which runs its programs.
 # shellcheck shell=sh disable=SC2154
 
 say() { printf '%s: %s\n' "$script" "$*"; }
@@ -11,18 +12,27 @@ die() {
 }
 
 root=$(CDPATH='' cd -- "$(dirname -- "$0")/.." && pwd)
-work=$root/target/fortran
-release=$root/target/release
+work=${WORK:-$root/target/fortran}
+release=${BUILT:-$root/target/release}
+runner=${RUNNER:-}
 fc=${FC:-gfortran}
 flags="-O1 -Wall -Werror -ffpe-trap=invalid,zero,overflow"
 
-[ -f "$release/libsignorini.a" ] && [ -f "$release/libsignorini.so" ] ||
+shared_library=libsignorini.so
+libraries="-lm -lpthread -ldl"
+if [ -f "$release/signorini.dll" ]; then
+    shared_library=signorini.dll
+    # gfortran's own libraries go into the program.
+    flags="$flags -static"
+    libraries="-lkernel32 -lntdll -luserenv -lws2_32 -ldbghelp"
+fi
+[ -f "$release/libsignorini.a" ] && [ -f "$release/$shared_library" ] ||
     die "no library in $release: cargo build --release"
 mkdir -p "$work"
-cp "$release/libsignorini.so" "$work/libsignorini.so.$$"
-mv -f "$work/libsignorini.so.$$" "$work/libsignorini.so"
+cp "$release/$shared_library" "$work/$shared_library.$$"
+mv -f "$work/$shared_library.$$" "$work/$shared_library"
 soname=$(sed -n '/^version = /{s/[^0-9]*\([0-9]*\.[0-9]*\).*/\1/p;q;}' "$root/Cargo.toml")
-ln -sf libsignorini.so "$work/libsignorini.so.$soname"
+[ "$shared_library" = signorini.dll ] || ln -sf libsignorini.so "$work/libsignorini.so.$soname"
 
 # compile NAME static|shared OPTION... SOURCE...
 compile() (
@@ -34,18 +44,26 @@ compile() (
     mkdir -p "$work/$name.mod"
     cd "$work/$name.mod"
     case $kind in
-    static) set -- "$@" "$release/libsignorini.a" -lm -lpthread -ldl ;;
+    # shellcheck disable=SC2086 # several options
+    static) set -- "$@" "$release/libsignorini.a" $libraries ;;
     # shellcheck disable=SC2016 # the linker's own variable
-    shared) set -- "$@" "$work/libsignorini.so" '-Wl,-rpath,$ORIGIN' ;;
+    shared) set -- "$@" "$work/$shared_library" '-Wl,-rpath,$ORIGIN' ;;
     esac
     # shellcheck disable=SC2086 # several options
     "$fc" $flags -J"$work/$name.mod" -I"$root/include" "$@" -o "$work/$name"
 )
 
+# run NAME: a program that has been compiled.
+run() {
+    program=$work/$1
+    [ ! -f "$program.exe" ] || program=$program.exe
+    if [ -n "$runner" ]; then "$runner" "$program"; else "$program"; fi
+}
+
 # Runs a program that prints `node NUMBER STATE d_n d_t F_n F_t` and compares with the solution in
 # c_examples/bar/bar_reference.h: largest difference relative to the largest value, at most 1e-9.
 compare() {
-    "$work/$1" >"$work/$1.out" || { cat "$work/$1.out"; die "$1 failed"; }
+    run "$1" >"$work/$1.out" || { cat "$work/$1.out"; die "$1 failed"; }
     awk -v name="$1" '
         function judge(what, off, largest) {
             printf "%s: %s off by %.1e of the largest (limit 1e-09)\n", name, what, off / largest

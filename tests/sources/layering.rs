@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::modules::{Modules, cycles};
-use crate::sources::{Source, sources};
+use crate::sources::{Source, Token, sources, tokens};
 
 /// Rooms that each room may import. `lib.rs` passes names on and is no room.
 const ROOMS: [(&str, &[&str]); 16] = [
@@ -248,4 +248,77 @@ fn threads_are_started_in_one_place() {
     let source = sources.iter().find(|source| source.path == "ffi/threads/system_thread.rs");
     let tokens = &source.expect("the file is there").tokens;
     assert!(tokens.iter().any(|token| token.text == "pthread_create"));
+}
+
+/// Files that know on which system they run. All others compile and do the same everywhere.
+const FILES_OF_SYSTEMS: [&str; 7] = [
+    "ffi/args.rs",
+    "ffi/fork_lock.rs",
+    "ffi/guard.rs",
+    "ffi/mod.rs",
+    "ffi/static_link.rs",
+    "ffi/surroundings.rs",
+    "ffi/threads/system_thread.rs",
+];
+
+/// Types of C that every system has.
+const TYPES_OF_C: [&str; 3] = ["c_char", "c_int", "c_void"];
+
+/// True of a word that asks for a system or a processor, or calls what one alone has.
+fn is_of_a_system(tokens: &[Token], at: usize) -> bool {
+    let text = |place: Option<usize>| {
+        place.and_then(|place| tokens.get(place)).map_or("", |token| token.text.as_str())
+    };
+    let (before, word, after) = (text(at.checked_sub(1)), text(Some(at)), text(Some(at + 1)));
+    match word {
+        "target_os" | "target_env" | "target_family" | "target_arch" | "target_vendor" | "asm" => {
+            true
+        }
+        // `slice.windows(2)` is none.
+        "unix" | "windows" => before != ".",
+        "libc" => after == "::" && !TYPES_OF_C.contains(&text(Some(at + 2))),
+        // `std::arch`, `std::os`, and functions of the C library that are declared here.
+        "arch" | "os" => before == "::",
+        "extern" => text(Some(at + 2)) == "{",
+        _ => false,
+    }
+}
+
+#[test]
+fn the_system_is_asked_for_in_its_places() {
+    let (mut wrong, mut found) = (Vec::new(), BTreeSet::new());
+    for source in sources() {
+        for at in (0..source.tokens.len()).filter(|at| is_of_a_system(&source.tokens, *at)) {
+            let token = &source.tokens[at];
+            match FILES_OF_SYSTEMS.iter().find(|file| **file == source.path) {
+                Some(file) => _ = found.insert(*file),
+                None => wrong.push(format!("src/{}:{}: {}", source.path, token.line, token.text)),
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "what one system alone has:\n{}", wrong.join("\n"));
+    assert_eq!(found.len(), FILES_OF_SYSTEMS.len(), "files that know no system: {found:?} do");
+}
+
+#[test]
+fn the_search_for_systems_finds_them() {
+    let is_found = |text: &str| {
+        let tokens = tokens(text);
+        (0..tokens.len()).any(|at| is_of_a_system(&tokens, at))
+    };
+    let of_a_system = [
+        "#[cfg(unix)] fn f() {}",
+        "if cfg!(windows) {}",
+        "#[cfg(target_arch = \"x86_64\")]",
+        "unsafe { libc::fork() }",
+        "use std::os::fd::AsFd;",
+        "core::arch::asm!(\"nop\")",
+        "unsafe extern \"C\" { fn fork() -> i32; }",
+    ];
+    for text in of_a_system {
+        assert!(is_found(text), "{text}");
+    }
+    for text in ["for pair in ends.windows(2) {}", "use libc::c_char;", "extern \"C\" fn f() {}"] {
+        assert!(!is_found(text), "{text}");
+    }
 }

@@ -1,0 +1,149 @@
+# Sourced by tests/platforms.sh: what is built, run and compared on each platform.
+# shellcheck shell=sh disable=SC2154
+
+# What is compared: programs that write their results into a folder.
+compared="bar_on_plane bolted_junction two_blocks"
+
+# This machine's programs, and their results.
+native() {
+    : >"$work/table"
+    configured "$work/native" && cmake --build "$work/native" --target $compared >"$work/log" 2>&1 ||
+        { tail -n 20 "$work/log"; return 1; }
+    results native ""
+}
+
+# configured FOLDER OPTION...
+configured() {
+    folder=$1
+    shift
+    cmake -S "$root/c_examples" -B "$folder" "$@" >"$work/log" 2>&1 || { tail -n 20 "$work/log"; return 1; }
+}
+
+# results PLATFORM RUNNER: what the programs write there, in the folder `out` of the platform.
+results() {
+    mkdir -p "$work/$1/out"
+    for program in $compared; do
+        (cd "$work/$1" && $2 "./$program" out >"out/$program.txt" 2>&1) ||
+            { tail -n 5 "$work/$1/out/$program.txt"; say "$1: $program has failed"; return 1; }
+    done
+}
+
+# agree PLATFORM: its results are this machine's.
+agree() {
+    apart=0
+    for file in "$work"/native/out/*.csv; do
+        name=$(basename "$file")
+        worst=$(awk -F ', *' -f "$here/compare.awk" "$file" "$work/$1/out/$name") ||
+            { say "$1: $name differs: $worst"; return 1; }
+        apart=$(printf '%s\n%s\n' "$apart" "$worst" | sort -g | tail -n 1)
+    done
+    tr -d '\r' <"$work/$1/out/bar_on_plane.txt" | grep -v ' ms' | sed 's/eta [^ ]*//' >"$work/bar"
+    grep -v ' ms' "$work/native/out/bar_on_plane.txt" | sed 's/eta [^ ]*//' | diff - "$work/bar" ||
+        { say "$1: the bar's digits are others"; return 1; }
+}
+
+# programs PLATFORM RUNNER CMAKE_OPTION...: all C programs, then the comparison.
+programs() {
+    platform=$1
+    runner=$2
+    shift 2
+    configured "$work/$platform" "-DSIGNORINI_BUILT=$built" "-DCMAKE_CROSSCOMPILING_EMULATOR=$runner" "$@" || return 1
+    cmake --build "$work/$platform" >"$work/$platform.log" 2>&1 ||
+        { grep -B 2 -A 6 -i 'error' "$work/$platform.log" | head -n 40; return 1; }
+    before_tests
+    (cd "$work/$platform" && ctest --timeout 3000 --output-on-failure) >"$work/$platform.log" 2>&1
+    passed=$(grep -c 'Test .*Passed' "$work/$platform.log")
+    grep -e '\*\*\*' "$work/$platform.log"
+    lost=$(grep -c 'Test .*\*\*\*' "$work/$platform.log")
+    results "$platform" "$runner" && agree "$platform" || return 1
+    printf '%-8s C: %s programs passed, %s failed; results off by at most %s\n' "$platform" "$passed" "$lost" "$apart" \
+        >>"$work/table"
+    [ "$passed" -gt 0 ] && [ "$lost" -eq 0 ]
+}
+before_tests() { :; }
+
+# fortran PLATFORM COMPILER RUNNER: all Fortran programs.
+fortran() {
+    if FC=$2 RUNNER=$3 BUILT=$built WORK=$work/$1/fortran sh "$root/tests/fortran.sh" >"$work/$1.fortran.log" 2>&1; then
+        printf '%-8s Fortran: %s programs passed\n' "$1" "$(cat "$work/$1"/fortran/*.out | wc -l)" >>"$work/table"
+    else
+        tail -n 20 "$work/$1.fortran.log"
+        return 1
+    fi
+}
+
+# The CMake package, installed for Windows, and programs of tests/install with it: C and Fortran, shared and static.
+windows_package() {
+    prefix=$work/windows/a\ prefix
+    cmake --install "$work/windows" --prefix "$prefix" >"$work/log" 2>&1 &&
+        configured "$work/windows/consumer" "-DCMAKE_PREFIX_PATH=$prefix" "-DEXAMPLES=$root/c_examples" "$@" \
+            -DCMAKE_Fortran_COMPILER=x86_64-w64-mingw32-gfortran &&
+        cmake --build "$work/windows/consumer" >"$work/log" 2>&1 || { tail -n 20 "$work/log"; return 1; }
+    for name in libsignorini.dll.a signorini.lib signorini.def; do
+        [ -s "$prefix/lib/$name" ] || { say "windows: $name is not installed"; return 1; }
+    done
+    cp "$prefix/bin/signorini.dll" "$work/windows/bcryptprimitives.dll" "$work/windows/consumer"
+    for name in shared static; do
+        "$wine" "$work/windows/consumer/$name.exe" >"$work/log" || { say "windows: $name has failed"; return 1; }
+    done
+    grep '^pair ' "$root/README.md" >"$work/expected"
+    for name in fortran fortran_static fortran_77; do
+        "$wine" "$work/windows/consumer/$name.exe" | tr -d '\r' | diff "$work/expected" - ||
+            { say "windows: $name prints something else"; return 1; }
+    done
+    echo "windows  CMake package: 5 programs, shared and static, with import libraries for MinGW and Microsoft" \
+        >>"$work/table"
+}
+
+run_windows() {
+    library_for x86_64-pc-windows-gnu || return 1
+    WINEPREFIX=$work/wine
+    WINEDEBUG=-all
+    export WINEPREFIX WINEDEBUG
+    # Rust's standard library draws random numbers from a DLL that Wine has from version 9 on.
+    before_tests() {
+        x86_64-w64-mingw32-gcc -O1 -shared "$here/bcryptprimitives.c" -ladvapi32 \
+            -o "$work/windows/bcryptprimitives.dll"
+        mkdir -p "$work/windows/fortran"
+        cp "$work/windows/bcryptprimitives.dll" "$work/windows/fortran"
+    }
+    set -- -DCMAKE_SYSTEM_NAME=Windows -DCMAKE_C_COMPILER=x86_64-w64-mingw32-gcc -DCMAKE_EXE_LINKER_FLAGS=-static \
+        -DCMAKE_RC_COMPILER=x86_64-w64-mingw32-windres
+    programs windows "$wine" -DCMAKE_CXX_COMPILER=x86_64-w64-mingw32-g++ "$@"
+    result=$?
+    before_tests() { :; }
+    windows_package "$@" || result=1
+    fortran windows x86_64-w64-mingw32-gfortran "$wine" || result=1
+    return $result
+}
+
+run_aarch64() {
+    CARGO_TARGET_AARCH64_UNKNOWN_LINUX_GNU_LINKER=aarch64-linux-gnu-gcc
+    QEMU_LD_PREFIX=/usr/aarch64-linux-gnu
+    export CARGO_TARGET_AARCH64_UNKNOWN_LINUX_GNU_LINKER QEMU_LD_PREFIX
+    library_for aarch64-unknown-linux-gnu || return 1
+    programs aarch64 qemu-aarch64-static -DCMAKE_SYSTEM_NAME=Linux -DCMAKE_SYSTEM_PROCESSOR=aarch64 \
+        -DCMAKE_C_COMPILER=aarch64-linux-gnu-gcc -DCMAKE_CXX_COMPILER=aarch64-linux-gnu-g++
+    result=$?
+    fortran aarch64 aarch64-linux-gnu-gfortran qemu-aarch64-static || result=1
+    return $result
+}
+
+# Static programs. The unwinder is gcc's; gfortran here is glibc's.
+run_musl() {
+    library_for x86_64-unknown-linux-musl || return 1
+    say "musl: Fortran SKIPPED: Debian's gfortran is for glibc"
+    programs musl "" -DCMAKE_SYSTEM_NAME=Linux -DCMAKE_C_COMPILER=musl-gcc -DCMAKE_EXE_LINKER_FLAGS=-static \
+        -DCMAKE_C_STANDARD_LIBRARIES=-lgcc_eh
+}
+
+run_macos() {
+    for target in aarch64-apple-darwin x86_64-apple-darwin; do
+        printf '#!/bin/sh\nexec "%s" "%s" "%s" %s "$@"\n' python3 "$here/zig_linker.py" "$zig" "${target%%-*}-macos" \
+            >"$work/link-$target"
+        chmod 755 "$work/link-$target"
+        library_for "$target" -C "linker=$work/link-$target" || return 1
+        printf '%-8s %s: linked, not run: %s bytes\n' macos "$target" "$(wc -c <"$built/libsignorini.dylib")" \
+            >>"$work/table"
+    done
+}
