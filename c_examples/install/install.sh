@@ -1,6 +1,6 @@
 #!/bin/sh
-# Installs the library without CMake: libraries, header, the Fortran module's source, signorini.pc
-# and the CMake package, all that install.cmake installs.
+# Installs the library without CMake: libraries, header, the Fortran module's source, signorini.pc,
+# the CMake package, licences and a page for man, all that install.cmake installs.
 #
 #     PREFIX=/usr/local sh c_examples/install/install.sh
 #
@@ -82,7 +82,8 @@ cmake_private=$(printf '%s' "$private" | sed 's/^-l//; s/ -l/;/g')
 sed -e "s|@PACKAGE_INIT@|get_filename_component(PACKAGE_PREFIX_DIR \"\${CMAKE_CURRENT_LIST_FILE}\" REALPATH)\\
 get_filename_component(PACKAGE_PREFIX_DIR \"\${PACKAGE_PREFIX_DIR}/../$up\" ABSOLUTE)|" \
     -e "s|@PACKAGE_libdir@|\${PACKAGE_PREFIX_DIR}/$(quoted "$libdir")|" \
-    -e 's|@PACKAGE_includedir@|${PACKAGE_PREFIX_DIR}/include|' -e "s|@shared_name@|$shared_name|" \
+    -e 's|@PACKAGE_includedir@|${PACKAGE_PREFIX_DIR}/include|' -e 's|@PACKAGE_bindir@|${PACKAGE_PREFIX_DIR}/bin|' \
+    -e 's|@static_name@|libsignorini.a|' -e "s|@shared_name@|$shared_name|" \
     -e "s|@version@|$version|" -e "s|@private@|$cmake_private|" \
     "$examples/install/signorini-config.cmake.in" >"$work/signorini-config.cmake"
 
@@ -102,7 +103,9 @@ END
 
 to=${DESTDIR:-}$prefix
 say "installing to $to"
-install -d "$to/include" "$to/$libdir/pkgconfig" "$to/$package"
+install -d "$to/include" "$to/$libdir/pkgconfig" "$to/$package" "$to/share/doc/signorini" "$to/share/man/man7"
+install -m 644 "$root/LICENSE-MIT" "$root/LICENSE-APACHE" "$root/LICENSE-THIRD-PARTY" "$to/share/doc/signorini"
+install -m 644 "$examples/install/signorini.7" "$to/share/man/man7"
 install -m 644 "$root/include/signorini.h" "$root/include/signorini_file.h" \
     "$root/include/signorini_surface.h" "$to/include"
 install -m 644 "$root/include/signorini.f90" "$root/include/signorini.inc" "$to/include"

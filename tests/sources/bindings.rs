@@ -1,9 +1,16 @@
 //! The lists of friction laws in Fortran and in Python are those of the library's table.
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
 use signorini::file::Law;
+
+use crate::sources::sources;
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
 
 /// The line above a list names this file; a blank line ends the list.
 const MARK: &str = "(tests/sources/bindings.rs)";
@@ -39,7 +46,7 @@ fn package() -> Vec<String> {
 }
 
 fn fresh(path: &str, list: &[String]) {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(path);
+    let path = root().join(path);
     let text = fs::read_to_string(&path).unwrap();
     let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
     let first = 1 + lines.iter().position(|line| line.contains(MARK)).unwrap();
@@ -54,5 +61,62 @@ fn fresh(path: &str, list: &[String]) {
     assert!(
         text == renewed,
         "the laws of {path} are stale: run SIGNORINI_BLESS=1 cargo test --test sources"
+    );
+}
+
+/// Entries of Fortran 77, without what compilers add to a name.
+fn fortran_77() -> BTreeSet<String> {
+    let entries: BTreeSet<String> = sources()
+        .iter()
+        .filter(|source| source.path.starts_with("ffi/fortran/"))
+        .flat_map(|source| &source.tokens)
+        .filter_map(|token| token.text.strip_suffix("_64_"))
+        .map(str::to_owned)
+        .collect();
+    assert!(!entries.is_empty());
+    entries
+}
+
+/// The build script exports each entry of Fortran 77 by further names on Windows.
+#[test]
+fn all_entries_of_fortran_77_have_their_names_on_windows() {
+    let script = fs::read_to_string(root().join("src/build.rs")).unwrap();
+    let list = script.split("FORTRAN: ").nth(1).unwrap().split(';').nth(1).unwrap();
+    let listed: BTreeSet<String> = list.split('"').skip(1).step_by(2).map(str::to_owned).collect();
+    assert_eq!(listed, fortran_77());
+}
+
+/// What the DLL exports, for those who make an import library of their own.
+fn definitions() -> String {
+    let mut names = BTreeSet::new();
+    for name in ["signorini.h", "signorini_file.h", "signorini_surface.h"] {
+        let header = fs::read_to_string(root().join("include").join(name)).unwrap();
+        // A declaration begins at the start of its line.
+        for line in header.lines().filter(|line| line.starts_with(|c: char| c.is_ascii_lowercase()))
+        {
+            let before = line.split('(').next().filter(|before| before.len() < line.len());
+            let name = before.and_then(|before| before.rsplit([' ', '*']).next());
+            names.extend(name.filter(|name| name.starts_with("signorini_")).map(str::to_owned));
+        }
+    }
+    for entry in fortran_77() {
+        for name in [entry.clone(), format!("{entry}_64")] {
+            names.extend([format!("{name}_"), name.to_uppercase(), name]);
+        }
+    }
+    let lines: Vec<String> = names.iter().map(|name| format!("    {name}\n")).collect();
+    format!("LIBRARY signorini.dll\nEXPORTS\n{}", lines.concat())
+}
+
+/// `SIGNORINI_BLESS=1 cargo test --test sources` renews it.
+#[test]
+fn the_list_of_the_dlls_functions_is_fresh() {
+    let path = root().join("include/signorini.def");
+    if std::env::var_os("SIGNORINI_BLESS").is_some() {
+        fs::write(&path, definitions()).unwrap();
+    }
+    assert!(
+        fs::read_to_string(&path).unwrap_or_default() == definitions(),
+        "include/signorini.def is stale: run SIGNORINI_BLESS=1 cargo test --test sources"
     );
 }
