@@ -165,7 +165,7 @@ impl Iterate<'_> {
         let units = lcp.matrix.units(1);
         let pair = |(&basic, &unit): (&bool, &f64)| Linearised::of_variable(basic, unit);
         let pairs: Vec<Linearised> = basic.iter().zip(&units).map(pair).collect();
-        monitor.affords(self.systems.work(&pairs)).map_err(Ending::Stopped)?;
+        monitor.affords(self.systems.work(&pairs))?;
         let mut step = vec![0.0; self.x.len()];
         for i in (0..step.len()).filter(|&i| !basic[i]) {
             step[i] = lcp.lower[i] - self.x[i];

@@ -221,8 +221,10 @@ fn reason(ending: &Ending) -> &'static str {
         Ending::Recession(_) => "Lemke's path ended in a ray that is no proof of infeasibility",
         Ending::Singular => "block pivoting met a singular system, or M has no positive diagonal",
         Ending::Stalled(reason) => reason,
-        Ending::Done | Ending::Cycle | Ending::RunsAway(_) | Ending::Stopped(_) => {
-            "accuracy was lost to rounding"
-        }
+        Ending::Done
+        | Ending::Cycle
+        | Ending::RunsAway(_)
+        | Ending::Stopped(_)
+        | Ending::Failed(_) => "accuracy was lost to rounding",
     }
 }

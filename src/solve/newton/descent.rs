@@ -4,7 +4,7 @@
 //! The iterates obey the law exactly; what falls is the lack of equilibrium. There is no guarantee: from `mu` of about
 //! 1 on, on matrices that are no stiffness of a mesh, the method may stop at a kink of the lack's length.
 
-use crate::monitor::{Monitor, Stop};
+use crate::monitor::Monitor;
 use crate::solve::result::Ending;
 
 /// Part of the fall of the lack that a full step promises which a shortened one must keep (Armijo).
@@ -29,8 +29,6 @@ pub trait NormalMap {
     type Point;
     /// A change of a point, to first order.
     type Step;
-    /// A failure of the host that multiplies; `Infallible` where there is none.
-    type Failure;
 
     /// `eta` at a point, as the certificate measures it.
     fn eta(&self, point: &Self::Point) -> f64;
@@ -46,18 +44,18 @@ pub trait NormalMap {
         &mut self,
         point: &Self::Point,
         monitor: &mut Monitor<'_>,
-    ) -> Result<Self::Step, Halt<Self::Failure>>;
+    ) -> Result<Self::Step, Ending>;
 
     /// The point after a part of a step.
     ///
     /// # Errors
-    /// Those of the host.
+    /// A failure of the host that multiplies.
     fn moved(
         &mut self,
         point: &Self::Point,
         step: &Self::Step,
         part: f64,
-    ) -> Result<Self::Point, Self::Failure>;
+    ) -> Result<Self::Point, Ending>;
 
     /// The point from which the next system is made, after this part of `step` has led to `point`.
     fn after(
@@ -68,20 +66,6 @@ pub trait NormalMap {
         _monitor: &mut Monitor<'_>,
     ) -> Self::Point {
         point
-    }
-}
-
-/// Why a computation ended before its result.
-pub enum Halt<F> {
-    /// The method ends so, at the best point that it has.
-    Ended(Ending),
-    /// The host has failed: the call ends.
-    Failed(F),
-}
-
-impl<F> From<Stop> for Halt<F> {
-    fn from(stop: Stop) -> Self {
-        Halt::Ended(Ending::Stopped(stop))
     }
 }
 
@@ -105,15 +89,12 @@ pub struct NewtonOutcome<P> {
 }
 
 /// Solves equations from a point.
-///
-/// # Errors
-/// Those of the host.
 pub fn solve<M: NormalMap>(
     map: &mut M,
     mut point: M::Point,
     goal: Goal,
     monitor: &mut Monitor<'_>,
-) -> Result<NewtonOutcome<M::Point>, M::Failure> {
+) -> NewtonOutcome<M::Point> {
     let (mut systems, mut shortest, mut last) = (0, 0, f64::INFINITY);
     // The point of the least lack, if it is not the last one.
     let mut best = None;
@@ -132,15 +113,18 @@ pub fn solve<M: NormalMap>(
             break Ending::Stopped(stop);
         }
         let step = map.step(&point, monitor);
-        systems += u64::from(!matches!(step, Err(Halt::Ended(Ending::Stopped(_)))));
+        systems += u64::from(!matches!(step, Err(Ending::Stopped(_))));
         let step = match step {
             Ok(step) => step,
-            Err(Halt::Ended(ending)) => break ending,
-            Err(Halt::Failed(failure)) => return Err(failure),
+            Err(ending) => break ending,
         };
-        let (next, part) = match systems <= goal.full_steps {
-            true => (map.moved(&point, &step, 1.0)?, 1.0),
-            false => line_search(map, &point, &step)?,
+        let moved = match systems <= goal.full_steps {
+            true => map.moved(&point, &step, 1.0).map(|next| (next, 1.0)),
+            false => line_search(map, &point, &step),
+        };
+        let (next, part) = match moved {
+            Ok(moved) => moved,
+            Err(ending) => break ending,
         };
         if !map.merit(&next).is_finite() {
             break Ending::Stalled("the forces are beyond the largest number");
@@ -153,7 +137,7 @@ pub fn solve<M: NormalMap>(
     if ending != Ending::Done {
         point = best.unwrap_or(point);
     }
-    Ok(NewtonOutcome { point, ending })
+    NewtonOutcome { point, ending }
 }
 
 /// The first of ever shorter steps along which the lack falls enough, or the shortest; and its length.
@@ -161,7 +145,7 @@ fn line_search<M: NormalMap>(
     map: &mut M,
     point: &M::Point,
     step: &M::Step,
-) -> Result<(M::Point, f64), M::Failure> {
+) -> Result<(M::Point, f64), Ending> {
     let (before, mut part) = (map.merit(point), 1.0);
     loop {
         let next = map.moved(point, step, part)?;

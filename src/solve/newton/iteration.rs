@@ -6,9 +6,7 @@
 //! In the plane a solution is exact on its pieces. Where it is on others, a few sweeps carry the edge of a zone over many
 //! pairs, where Newton's step alone moves it by one.
 
-use std::convert::Infallible;
-
-use super::descent::{self, Goal, Halt, NormalMap, PATIENCE};
+use super::descent::{self, Goal, NormalMap, PATIENCE};
 use crate::law::{PairLaw, Piece, Vector};
 use crate::monitor::Monitor;
 use crate::solve::pieces::{Equations, Point, Systems};
@@ -78,7 +76,7 @@ pub fn from_pieces(
     let size = if equations.unit > 0.0 { equations.unit } else { 1.0 };
     let inside = |(law, piece): (&PairLaw, &Piece)| law.inside(*piece, size);
     let y: Vec<Vector> = equations.laws.iter().zip(pieces).map(inside).collect();
-    monitor.step().map_err(Ending::Stopped)?;
+    monitor.step()?;
     let mut dense = Dense::of(equations);
     let step = dense.system(&Point::on(equations, pieces.to_vec(), y.clone()), monitor)?;
     Ok(dense.descend(moved(&y, &step, 1.0), (tolerance, 0), monitor))
@@ -134,7 +132,7 @@ impl<'e> Dense<'e> {
         let mut goal = Goal { tolerance, least_systems, most_systems: MOST_SYSTEMS, full_steps };
         let point = Point::new(self.equations, y);
         self.is_exact = point.pieces == self.pieces;
-        let Ok(mut outcome) = descent::solve(&mut self, point, goal, monitor);
+        let mut outcome = descent::solve(&mut self, point, goal, monitor);
         // A solution in the plane is exact once it is on the pieces of its system, however rough the tolerance is.
         goal.least_systems = 1;
         // At a degenerate solution rounding may change pieces for ever.
@@ -143,8 +141,7 @@ impl<'e> Dense<'e> {
             if outcome.ending != Ending::Done || !is_rough {
                 break;
             }
-            let Ok(next) = descent::solve(&mut self, outcome.point, goal, monitor);
-            outcome = next;
+            outcome = descent::solve(&mut self, outcome.point, goal, monitor);
         }
         let (systems, orientation) = (self.systems.factorisations, self.orientation);
         Ended { point: outcome.point, ending: outcome.ending, systems, orientation }
@@ -153,7 +150,7 @@ impl<'e> Dense<'e> {
     /// The step from the pieces of a point.
     fn system(&mut self, point: &Point, monitor: &mut Monitor<'_>) -> Result<Vec<Vector>, Ending> {
         let pairs = self.equations.linearised(&point.pieces, &point.y);
-        monitor.affords(self.systems.work(&pairs)).map_err(Ending::Stopped)?;
+        monitor.affords(self.systems.work(&pairs))?;
         self.systems.go_to(pairs, &mut monitor.asking()).ok_or(Ending::Singular)?;
         let step = self.systems.step(&point.lack).ok_or(Ending::Singular)?;
         self.orientation = self.systems.orientation();
@@ -203,7 +200,6 @@ impl<'e> Dense<'e> {
 impl NormalMap for Dense<'_> {
     type Point = Point;
     type Step = Vec<Vector>;
-    type Failure = Infallible;
 
     fn eta(&self, point: &Point) -> f64 {
         self.equations.eta(&point.d, &point.force)
@@ -213,20 +209,16 @@ impl NormalMap for Dense<'_> {
         point.merit
     }
 
-    fn step(
-        &mut self,
-        point: &Point,
-        monitor: &mut Monitor<'_>,
-    ) -> Result<Vec<Vector>, Halt<Infallible>> {
+    fn step(&mut self, point: &Point, monitor: &mut Monitor<'_>) -> Result<Vec<Vector>, Ending> {
         if let Some((last, others)) = self.swept_to.split_last()
             && others.contains(last)
         {
-            return Err(Halt::Ended(Ending::Cycle));
+            return Err(Ending::Cycle);
         }
-        self.system(point, monitor).map_err(Halt::Ended)
+        self.system(point, monitor)
     }
 
-    fn moved(&mut self, point: &Point, step: &Vec<Vector>, part: f64) -> Result<Point, Infallible> {
+    fn moved(&mut self, point: &Point, step: &Vec<Vector>, part: f64) -> Result<Point, Ending> {
         Ok(Point::new(self.equations, moved(&point.y, step, part)))
     }
 

@@ -9,12 +9,11 @@ mod candidates;
 mod descent;
 mod iteration;
 mod polish;
-mod question;
 mod start;
 mod uncertain_pairs;
 
 pub use candidates::solve as on_candidates;
-pub use descent::{AIM, Goal, Halt, NewtonOutcome, NormalMap, solve as descend};
+pub use descent::{AIM, Goal, NewtonOutcome, NormalMap, solve as descend};
 pub use iteration::{Ended, solve as newton_from};
 pub use polish::{FullyRefined, ROUNDING_OF_ETA, refine_fully, refine_to_tolerance};
 pub use uncertain_pairs::{PartOutcome, solve_part};

@@ -4,7 +4,7 @@ use super::free_motions::FreeMotions;
 use super::newton::{self, Outcome};
 use super::past::CasePast;
 use super::point::{Displacements, Equations, Point};
-use super::session::{Halted, Session};
+use super::session::Session;
 use super::{condensed, thresholds};
 use crate::certificate::{Certificate, is_spread_escape, measure_spread};
 use crate::error::{Argument, Error};
@@ -13,7 +13,6 @@ use crate::linalg::vector::normalise;
 use crate::monitor::Monitor;
 use crate::problem::{ContactProblem, FrictionLaw, MatrixFree, SOLUTIONS, StiffnessOperator};
 use crate::settings::{Method, Search, Settings};
-use crate::solve::newton::Halt;
 use crate::solve::plan::{self, FAR, remark_on_data};
 use crate::solve::result::{Ending, Solution, Solve, Status};
 use crate::solve::rigid;
@@ -245,11 +244,11 @@ fn balance(
     _best: &mut Outcome,
     _tolerance: f64,
     monitor: &mut Monitor<'_>,
-) -> Result<(), Halted> {
+) -> Result<(), Ending> {
     let contact = equations.contact;
     let Some(motions) = FreeMotions::of(bodies, contact.dim(), monitor)? else { return Ok(()) };
     match motions.balance(contact, bodies.operator).escape() {
-        Some(motion) => Err(Halt::Ended(Ending::Recession(motions.continued(&motion)))),
+        Some(motion) => Err(Ending::Recession(motions.continued(&motion))),
         None => Ok(()),
     }
 }
@@ -271,11 +270,11 @@ fn describe(
 }
 
 /// How the call ends where a work was ended.
-fn ended(result: Result<(), Halted>) -> Result<Option<Ending>, Error> {
+fn ended(result: Result<(), Ending>) -> Result<Option<Ending>, Error> {
     match result {
         Ok(()) => Ok(None),
-        Err(Halt::Ended(ending)) => Ok(Some(ending)),
-        Err(Halt::Failed(error)) => Err(error),
+        Err(Ending::Failed(error)) => Err(error),
+        Err(ending) => Ok(Some(ending)),
     }
 }
 

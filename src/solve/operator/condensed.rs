@@ -13,14 +13,13 @@
 use super::memory::{memory_of_components, room};
 use super::newton::{self, Outcome, improve};
 use super::point::{Displacements, Equations};
-use super::session::{Halted, Session};
+use super::session::Session;
 use crate::certificate::is_spread_escape;
 use crate::error::Error;
 use crate::law::Contact;
 use crate::monitor::Monitor;
 use crate::problem::{ContactData, ContactProblem, HeldSet, SOLUTIONS};
 use crate::settings::Settings;
-use crate::solve::newton::Halt;
 use crate::solve::part::{PairData, closed_with_margin};
 use crate::solve::plan;
 use crate::solve::result::{Call, Ending, Status};
@@ -41,7 +40,7 @@ pub fn solve(
     best: &mut Outcome,
     tolerance: f64,
     monitor: &mut Monitor<'_>,
-) -> Result<(), Halted> {
+) -> Result<(), Ending> {
     let laws = equations.contact.pairs();
     let mut chosen = match bodies.operator.can_hold() {
         true => closed_with_margin(laws, &best.point.y),
@@ -67,7 +66,7 @@ pub fn solve(
                 Found::Escape(motion) => {
                     let motion = condensed.motion(equations, bodies, &motion)?;
                     if is_spread_escape(equations.contact, bodies.operator, &motion)? {
-                        return Err(Halt::Ended(Ending::Recession(motion)));
+                        return Err(Ending::Recession(motion));
                     }
                     let parts = motion[equations.inner..].chunks_exact(equations.contact.dim());
                     laws.iter().zip(parts).map(|(law, r)| law.recession(r).approach > 0.0).collect()
@@ -109,7 +108,7 @@ impl Condensed {
         pairs: &[usize],
         near: &Displacements,
         monitor: &mut Monitor<'_>,
-    ) -> Result<Self, Halted> {
+    ) -> Result<Self, Ending> {
         let (dim, inner) = (equations.contact.dim(), equations.inner);
         let mut held_set = HeldSet::none(dim, equations.contact.pairs().len());
         let own: Vec<usize> = pairs.iter().flat_map(|pair| dim * pair..dim * (pair + 1)).collect();
@@ -191,7 +190,7 @@ impl Condensed {
         pairs: &[usize],
         (start, tolerance): (&Displacements, f64),
         monitor: &mut Monitor<'_>,
-    ) -> Result<Found, Halted> {
+    ) -> Result<Found, Ending> {
         let problem = whole.contact.problem();
         let own = PairData::of(problem, pairs);
         let data = ContactData {

@@ -5,7 +5,7 @@
 //! iteration; B. N. Parlett, *The Symmetric Eigenvalue Problem*, 1980, chapter 14). The images are in equilibrium inside. Ritz's
 //! method parts what is free from soft parts of bodies; the certificate says what is free.
 
-use super::session::{Halted, Session};
+use super::session::Session;
 use crate::certificate::{is_spread_escape, is_unresisted};
 use crate::law::Contact;
 use crate::linalg::eigen::eigenvectors;
@@ -14,6 +14,7 @@ use crate::linalg::perturbation::Perturbation;
 use crate::linalg::vector::dot;
 use crate::monitor::Monitor;
 use crate::problem::{HeldSet, MatrixFree, StiffnessOperator};
+use crate::solve::result::Ending;
 use crate::solve::rigid::{Balance, RigidMotions};
 
 /// Motions that are followed at first: more than one body has, so that the softest others show that all are found.
@@ -39,7 +40,7 @@ impl FreeMotions {
         bodies: &mut Session<'_>,
         dim: usize,
         monitor: &mut Monitor<'_>,
-    ) -> Result<Option<Self>, Halted> {
+    ) -> Result<Option<Self>, Ending> {
         let components = bodies.operator.units().len() - bodies.operator.inner();
         if !bodies.operator.is_sparse() || components == 0 {
             return Ok(None);
@@ -62,7 +63,7 @@ impl FreeMotions {
         bodies: &mut Session<'_>,
         count: usize,
         monitor: &mut Monitor<'_>,
-    ) -> Result<Self, Halted> {
+    ) -> Result<Self, Ending> {
         let inner = bodies.operator.inner();
         let root: Vec<f64> = bodies.operator.units()[inner..].iter().map(|u| u.sqrt()).collect();
         let mut rigid = RigidMotions { root, basis: Vec::new() };

@@ -2,7 +2,7 @@
 
 use super::directions::{Directions, MOST_DIRECTIONS};
 use super::point::{Equations, Point};
-use super::session::{Halted, Session};
+use super::session::Session;
 use super::system::{Step, System, changed};
 use crate::error::Error;
 use crate::law::Vector;
@@ -42,7 +42,7 @@ pub fn solve(
         Goal { tolerance, least_systems: 0, most_systems: MOST_SYSTEMS, full_steps: FULL_STEPS };
     let is_followed = bodies.follows_residuals();
     let mut newton = Newton { equations, bodies, known: Directions::default(), tolerance };
-    let mut outcome = descend(&mut newton, point, goal, monitor)?;
+    let mut outcome = unfailed(descend(&mut newton, point, goal, monitor))?;
     if !is_followed {
         return Ok(outcome);
     }
@@ -57,7 +57,15 @@ pub fn solve(
         }
         before = eta;
         newton.known.clear();
-        outcome = descend(&mut newton, outcome.point, goal, monitor)?;
+        outcome = unfailed(descend(&mut newton, outcome.point, goal, monitor))?;
+    }
+}
+
+/// The outcome, unless the host has failed.
+fn unfailed(outcome: Outcome) -> Result<Outcome, Error> {
+    match outcome.ending {
+        Ending::Failed(error) => Err(error),
+        _ => Ok(outcome),
     }
 }
 
@@ -81,7 +89,6 @@ struct Newton<'n, 'b> {
 impl NormalMap for Newton<'_, '_> {
     type Point = Point;
     type Step = Step;
-    type Failure = Error;
 
     fn eta(&self, point: &Point) -> f64 {
         point.eta
@@ -92,7 +99,7 @@ impl NormalMap for Newton<'_, '_> {
     }
 
     /// With a new factor where the old one leaves too much.
-    fn step(&mut self, point: &Point, monitor: &mut Monitor<'_>) -> Result<Step, Halted> {
+    fn step(&mut self, point: &Point, monitor: &mut Monitor<'_>) -> Result<Step, Ending> {
         let least = FORCING_OF_ETA * AIM * self.tolerance / point.eta;
         let forcing = FORCING.min(FORCING_OF_ETA * point.eta).max(least);
         let (bodies, known) = (&mut *self.bodies, &mut self.known);
@@ -116,7 +123,7 @@ impl NormalMap for Newton<'_, '_> {
         system.step(bodies, (forcing, MOST_DIRECTIONS), known, monitor)
     }
 
-    fn moved(&mut self, point: &Point, step: &Step, part: f64) -> Result<Point, Error> {
+    fn moved(&mut self, point: &Point, step: &Step, part: f64) -> Result<Point, Ending> {
         let laws = self.equations.contact.pairs().iter();
         let y = laws.zip(point.y.iter().zip(&step.dy)).map(|(law, (y, dy))| {
             let next: Vector = std::array::from_fn(|c| y[c] + part * dy[c]);
@@ -127,6 +134,6 @@ impl NormalMap for Newton<'_, '_> {
             let parts = point.residual.iter().zip(&step.moved.forces);
             parts.map(|(from, by)| from + part * by).collect()
         });
-        self.equations.point(self.bodies, at, y.collect(), residual)
+        Ok(self.equations.point(self.bodies, at, y.collect(), residual)?)
     }
 }

@@ -5,16 +5,7 @@ use std::rc::Rc;
 use crate::error::Error;
 use crate::monitor::Monitor;
 use crate::problem::{HeldSet, StiffnessOperator};
-use crate::solve::newton::Halt;
-
-/// Why a computation on an operator ended before its result.
-pub type Halted = Halt<Error>;
-
-impl From<Error> for Halted {
-    fn from(error: Error) -> Self {
-        Halt::Failed(error)
-    }
-}
+use crate::solve::result::Ending;
 
 /// An operator with its last factor and its counts.
 pub struct Session<'b> {
@@ -37,7 +28,7 @@ impl<'b> Session<'b> {
     }
 
     /// Holds all components of pairs that have `dim` of them, if the operator can hold any.
-    pub fn hold_all(&mut self, dim: usize, monitor: &mut Monitor<'_>) -> Result<(), Halted> {
+    pub fn hold_all(&mut self, dim: usize, monitor: &mut Monitor<'_>) -> Result<(), Ending> {
         let components = self.operator.units().len() - self.operator.inner();
         self.hold_under(&HeldSet::all(dim, components / dim), monitor)
     }
@@ -48,7 +39,7 @@ impl<'b> Session<'b> {
         &mut self,
         held_set: &HeldSet,
         monitor: &mut Monitor<'_>,
-    ) -> Result<(), Halted> {
+    ) -> Result<(), Ending> {
         if !self.operator.can_hold() || self.held.as_deref() == Some(held_set) {
             return Ok(());
         }

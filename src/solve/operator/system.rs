@@ -28,12 +28,13 @@
 
 use super::directions::{Directions, Images, Moved};
 use super::point::{Equations, Point};
-use super::session::{Halted, Session};
+use super::session::Session;
 use crate::error::Error;
 use crate::law::{Linearised, Plane, Vector, ellipse};
 use crate::linalg::gmres::gmres;
 use crate::monitor::Monitor;
 use crate::problem::HeldSet;
+use crate::solve::result::Ending;
 
 /// A pair on its piece.
 struct Pair {
@@ -88,7 +89,7 @@ impl<'a> System<'a> {
         (forcing, most): (f64, usize),
         known: &mut Directions,
         monitor: &mut Monitor<'_>,
-    ) -> Result<Step, Halted> {
+    ) -> Result<Step, Ending> {
         let inner = self.equations.inner;
         let root = &self.equations.root[inner..];
         let mut right = self.right();
@@ -115,7 +116,7 @@ impl<'a> System<'a> {
             let mut row = image(&moved);
             taken_out.push(images.take_out(&mut row));
             known.add(moved);
-            Ok::<_, Halted>(row)
+            Ok::<_, Ending>(row)
         })?;
         for (share, taken_out) in shares.iter().zip(&taken_out) {
             by_known.iter_mut().zip(taken_out).for_each(|(sum, part)| *sum -= share * part);

@@ -4,7 +4,7 @@
 
 use super::newton::{self, Outcome, improve};
 use super::point::{Displacements, Equations, Point};
-use super::session::{Halted, Session};
+use super::session::Session;
 use crate::law::Contact;
 use crate::monitor::Monitor;
 use crate::problem::MatrixFree;
@@ -24,7 +24,7 @@ pub fn solve(
     best: &mut Outcome,
     tolerance: f64,
     monitor: &mut Monitor<'_>,
-) -> Result<(), Halted> {
+) -> Result<(), Ending> {
     if !equations.contact.is_coupled() {
         return Ok(());
     }

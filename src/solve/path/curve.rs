@@ -185,10 +185,10 @@ impl<'h> Curve<'h> {
         border: &PathPoint,
         monitor: &mut Monitor<'_>,
     ) -> Result<Option<Local<'h>>, Ending> {
-        monitor.step().map_err(Ending::Stopped)?;
+        monitor.step()?;
         let equations = self.homotopy.equations;
         let pairs = equations.linearised(&self.pieces, &place.y);
-        monitor.affords(System::work(equations, &pairs)).map_err(Ending::Stopped)?;
+        monitor.affords(System::work(equations, &pairs))?;
         self.systems += 1;
         let border = Border {
             rate: &value.rate,
@@ -218,7 +218,7 @@ impl<'h> Curve<'h> {
         let mut refactorisations = 0;
         let mut before = f64::INFINITY;
         for _ in 0..MOST_CORRECTIONS {
-            monitor.affords(0.0).map_err(Ending::Stopped)?;
+            monitor.affords(0.0)?;
             let value = self.homotopy.value(&self.pieces, &place);
             let (miss, normal) = self.miss(condition, &place);
             let rounding = f64::EPSILON * (value.lack.len() as f64).sqrt() * value.stretch;

@@ -19,30 +19,22 @@ pub const REFINEMENTS: usize = 3;
 /// Systems of the same equations.
 pub struct Systems<'e> {
     equations: &'e Equations<'e>,
-    last: Last<'e>,
+    /// The last system. In space it is one of a point, and serves no other one.
+    last: Option<Updated<'e>>,
     /// Factorisations so far.
     pub factorisations: u64,
-}
-
-/// The last system.
-enum Last<'e> {
-    None,
-    /// The system of a point, which serves no other one.
-    OfPoint(Box<System<'e>>),
-    /// The system of pieces, which serves those near by.
-    OfPieces(Box<Updated<'e>>),
 }
 
 impl<'e> Systems<'e> {
     /// None yet.
     pub fn of(equations: &'e Equations<'e>) -> Self {
-        Systems { equations, last: Last::None, factorisations: 0 }
+        Systems { equations, last: None, factorisations: 0 }
     }
 
     /// Operations of a change from the last system that was factorised to that of `pairs`, if it is of pieces and that
     /// takes fewer than a new factorisation.
     fn change_work(&self, pairs: &[Linearised]) -> Option<f64> {
-        let Last::OfPieces(system) = &self.last else { return None };
+        let system = self.last.as_ref().filter(|_| self.are_of_pieces())?;
         let work = system.work(pairs);
         let is_less = system.size() >= SMALL && work <= System::work(self.equations, pairs);
         (is_less || work == 0.0).then_some(work)
@@ -55,56 +47,39 @@ impl<'e> Systems<'e> {
 
     /// Lets the next system be factorised anew: changes lose accuracy that a new factor has.
     pub fn forget(&mut self) {
-        self.last = Last::None;
+        self.last = None;
     }
 
     /// Goes to the system of pairs on their pieces; `None` if it is singular, or where `goes_on` says no.
     pub fn go_to(&mut self, pairs: Vec<Linearised>, goes_on: GoesOn<'_>) -> Option<()> {
         let equations = self.equations;
         if self.change_work(&pairs).is_some()
-            && let Last::OfPieces(system) = &mut self.last
+            && let Some(system) = &mut self.last
             && system.go_to(&pairs).is_some()
         {
             return Some(());
         }
         // Two factors never stand side by side.
-        self.last = Last::None;
+        self.last = None;
         self.factorisations += 1;
-        self.last = match equations.dim {
-            3 => Last::OfPoint(Box::new(System::new(
-                equations,
-                (pairs, 1.0),
-                None,
-                SINGULAR,
-                goes_on,
-            )?)),
-            _ => Last::OfPieces(Box::new(Updated::new(equations, pairs, SINGULAR, goes_on)?)),
-        };
+        self.last = Some(Updated::new(equations, pairs, SINGULAR, goes_on)?);
         Some(())
     }
 
     /// The step of the last system for the lack `H`; `None` if it overflows.
     pub fn step(&mut self, lack: &[f64]) -> Option<Vec<Vector>> {
         let b: Vec<f64> = lack.iter().map(|lack| -lack).collect();
-        let dy = match &mut self.last {
-            Last::None => return None,
-            Last::OfPoint(system) => system.solve(&b),
-            Last::OfPieces(system) => system.solve(&b),
-        };
+        let dy = self.last.as_mut()?.solve(&b);
         dy.iter().all(|dy| dy.is_finite()).then(|| self.equations.by_pairs(&dy))
     }
 
     /// Sign of the determinant of the last system.
     pub fn orientation(&self) -> i8 {
-        match &self.last {
-            Last::None => 0,
-            Last::OfPoint(system) => system.orientation(),
-            Last::OfPieces(system) => system.sign(),
-        }
+        self.last.as_ref().map_or(0, Updated::sign)
     }
 
     /// True if the last system is one of pieces, on which its solution is exact.
     pub fn are_of_pieces(&self) -> bool {
-        matches!(self.last, Last::OfPieces(_))
+        self.last.is_some() && self.equations.dim < 3
     }
 }

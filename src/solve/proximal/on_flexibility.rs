@@ -19,9 +19,8 @@ use crate::linalg::vector::{NormSum, norm};
 use crate::monitor::Monitor;
 use crate::problem::{Flexibility, Relation};
 use crate::settings::{Method, Settings};
-use crate::solve::newton::{Goal, Halt, NewtonOutcome, NormalMap, descend};
+use crate::solve::newton::{Goal, NewtonOutcome, NormalMap, descend};
 use crate::solve::result::{Ending, Solution};
-use std::convert::Infallible;
 
 /// Least and largest damping, beside flexibilities of size one. With `1e-3` fewer first starts arrive, with `0.1` more of
 /// them arrive and fewer of those that are drawn.
@@ -116,7 +115,7 @@ impl<'c, 'p> OnFlexibility<'c, 'p> {
         let tolerance = ACCURATE * tolerance;
         let goal = Goal { tolerance, least_systems: 0, most_systems: MOST_SYSTEMS, full_steps: 0 };
         let begin = self.point(y);
-        let Ok(NewtonOutcome { point, ending }) = descend(self, begin, goal, monitor);
+        let NewtonOutcome { point, ending } = descend(self, begin, goal, monitor);
         NewtonForces { point, ending, systems: self.systems }
     }
 
@@ -206,7 +205,6 @@ fn column(law: &PairLaw, slopes: &Linearised, c: usize) -> (Vector, Vector) {
 impl NormalMap for OnFlexibility<'_, '_> {
     type Point = LawPoint;
     type Step = Vec<Vector>;
-    type Failure = Infallible;
 
     fn eta(&self, point: &LawPoint) -> f64 {
         point.eta
@@ -216,11 +214,7 @@ impl NormalMap for OnFlexibility<'_, '_> {
         point.merit
     }
 
-    fn step(
-        &mut self,
-        point: &LawPoint,
-        monitor: &mut Monitor<'_>,
-    ) -> Result<Vec<Vector>, Halt<Infallible>> {
+    fn step(&mut self, point: &LawPoint, monitor: &mut Monitor<'_>) -> Result<Vec<Vector>, Ending> {
         let (dim, laws) = (self.contact.dim(), self.contact.pairs());
         let (matrix, units) = (self.relation().matrix(), self.relation().units());
         let pairs = laws.iter().zip(&point.y).map(|(law, y)| {
@@ -258,7 +252,7 @@ impl NormalMap for OnFlexibility<'_, '_> {
             return Err(stop.into());
         }
         self.systems += 1;
-        let mut factor = factor.ok_or(Halt::Ended(Ending::Singular))?;
+        let mut factor = factor.ok_or(Ending::Singular)?;
         let mut own: Vec<f64> = unknowns.iter().map(|&i| -self.root[i] * point.lack[i]).collect();
         factor.solve(&mut own);
         let mut step = vec![[0.0; 3]; pairs.len()];
@@ -274,7 +268,7 @@ impl NormalMap for OnFlexibility<'_, '_> {
         point: &LawPoint,
         step: &Vec<Vector>,
         part: f64,
-    ) -> Result<LawPoint, Infallible> {
+    ) -> Result<LawPoint, Ending> {
         let each = |(y, dy): (&Vector, &Vector)| std::array::from_fn(|c| y[c] + part * dy[c]);
         Ok(self.point(point.y.iter().zip(step).map(each).collect()))
     }

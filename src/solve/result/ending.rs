@@ -2,6 +2,7 @@
 
 use super::solution::Status;
 use crate::certificate::Certificate;
+use crate::error::Error;
 use crate::monitor::Stop;
 use crate::settings::Settings;
 
@@ -23,6 +24,8 @@ pub enum Ending {
     Singular,
     /// It cannot go on for another reason.
     Stalled(&'static str),
+    /// A function of the host has failed, which ends the call.
+    Failed(Error),
 }
 
 /// The sentence of a proof that no equilibrium exists.
@@ -32,6 +35,18 @@ pub const NO_EQUILIBRIUM: &str =
 /// Causes that a host looks at then.
 pub const CAUSES: &str = "are a support, friction, or a pair missing, or is a normal, a load or the sign of gap \
                           turned round?";
+
+impl From<Stop> for Ending {
+    fn from(stop: Stop) -> Self {
+        Ending::Stopped(stop)
+    }
+}
+
+impl From<Error> for Ending {
+    fn from(error: Error) -> Self {
+        Ending::Failed(error)
+    }
+}
 
 impl Ending {
     /// Status and sentence of a run with this certificate; whether a motion proves something is not asked.
@@ -60,6 +75,7 @@ impl Ending {
             Ending::Cycle => "the states of the pairs repeat in a cycle",
             Ending::Singular => "the system of equations is singular",
             Ending::Stalled(reason) => reason,
+            Ending::Failed(_) => "a function of the host has failed",
             Ending::Done | Ending::Stopped(_) => "accuracy was lost to rounding",
         }
     }

@@ -102,7 +102,7 @@ impl<'m, 'c, I: Iterate> Driver<'m, 'c, I> {
     pub fn relax(&mut self, target: f64, most: u64) -> Result<f64, Ending> {
         let mut change = 0.0;
         for sweep in 1..=most {
-            self.monitor.step().map_err(Ending::Stopped)?;
+            self.monitor.step()?;
             change = self.iterate.sweep(self.relaxation.omega());
             self.relaxation.observe(change);
             if let Some(motion) = self.drift.observe(&self.iterate, self.monitor) {

@@ -72,7 +72,7 @@ impl<'p> ContactLcp<'p> {
         }
         let indices: Vec<usize> = normal.iter().chain(&tangential).copied().collect();
         let condenses = !free.is_empty();
-        monitor.affords(cholesky_work(free.len())).map_err(Ending::Stopped)?;
+        monitor.affords(cholesky_work(free.len()))?;
         let block = FreeBlock::of_problem(problem, free).ok_or(INDEFINITE)?;
         let mut at_rest = vec![0.0; contact.unknowns()];
         for &i in &indices {
@@ -83,7 +83,7 @@ impl<'p> ContactLcp<'p> {
             return Err(Ending::Recession(motion));
         }
         let stiffness = if condenses {
-            monitor.affords(block.schur_work(indices.len())).map_err(Ending::Stopped)?;
+            monitor.affords(block.schur_work(indices.len()))?;
             let schur = block.schur_complement(&indices);
             Stiffness::Condensed(PackedSymmetric::new(indices.len(), schur))
         } else {

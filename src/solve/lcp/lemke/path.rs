@@ -132,7 +132,7 @@ impl Path<'_> {
         let (mut start, mut pivots, mut trail) = (None, 0, Trail::new());
         loop {
             let work = self.tableau.pivot_work();
-            monitor.step().and_then(|()| monitor.affords(work)).map_err(Ending::Stopped)?;
+            monitor.step().and_then(|()| monitor.affords(work))?;
             pivots += 1;
             let leaving = self.tableau.basic(row);
             self.tableau.pivot(row, entering);
@@ -187,11 +187,11 @@ impl Path<'_> {
 
     /// Refines the values, and refactorises where they have drifted, or always.
     fn check(&mut self, always: bool, monitor: &mut Monitor<'_>) -> Result<(), Ending> {
-        monitor.affords(self.tableau.refinement_work()).map_err(Ending::Stopped)?;
+        monitor.affords(self.tableau.refinement_work())?;
         if self.tableau.refine(self.problem) <= DRIFT && !always {
             return Ok(());
         }
-        monitor.affords(self.tableau.refactorisation_work()).map_err(Ending::Stopped)?;
+        monitor.affords(self.tableau.refactorisation_work())?;
         self.refactorisations += 1;
         if self.tableau.refactorise(self.problem) { Ok(()) } else { Err(BREAKDOWN) }
     }
