@@ -137,12 +137,11 @@ pub use model::{LoadCase, Model, ModelKind, Series, Starts};
 pub use monitor::{Monitor, Progress, ProgressFn, Stop};
 pub use problem::{
     ContactData, ContactProblem, Dependence, Flexibility, FlexibilityData, FlexibilityProblem,
-    FrictionLaw, Lcp, Relation, SparseFlexibilityProblem, Stiffness,
+    FrictionLaw, Lcp, Relation, Stiffness,
 };
 pub use settings::{Method, Search, Settings};
 pub use solve::{
     Errors, Escape, Existence, Fallback, LcpSolution, Remarks, SecondSolution, Solution, Status,
-    Uniqueness, memory, memory_flexibility, memory_flexibility_sparse, solve, solve_flexibility,
-    solve_flexibility_sparse, solve_lcp,
+    Uniqueness, memory, memory_flexibility, solve, solve_flexibility, solve_lcp,
 };
 pub use workers::{SingleThread, Workers};

@@ -34,7 +34,7 @@ use crate::reduce::{
 use crate::settings::Settings;
 use crate::solve::{
     CAUSES, CasePast, NO_EQUILIBRIUM, Solution, Status, check_start, solve, solve_dependent,
-    solve_matrix_free,
+    solve_flexibility, solve_matrix_free,
 };
 
 /// A structure, reduced to its contact pairs. It does not change: several threads may use it.
@@ -178,7 +178,8 @@ impl Model {
     ) -> Result<Solution, Error> {
         if let Some(form) = self.reduction.flexibility() {
             self.check_loads(Some(case.load), case.prescribed)?;
-            return self.solve_flexibility(form, case, (settings, start), monitor);
+            let problem = self.on_flexibility(form, case)?;
+            return solve_flexibility(&problem, settings, start, monitor);
         }
         if let Some(matrix_free) = self.reduction.matrix_free() {
             check_start("d", self.dim * self.pairs, start)?;

@@ -6,7 +6,7 @@ use crate::law::{Contact, State, Violation};
 use crate::linalg::ball::UNIT;
 use crate::linalg::tolerances::{NEGLIGIBLE, ROUNDING_OF_SUM};
 use crate::linalg::vector::{NormSum, dot, largest_of, norm, norm_inf, sizes};
-use crate::problem::{ChangesUnits, ContactProblem, InUnits, Relation};
+use crate::problem::{ChangesUnits, ContactProblem, Relation, in_units};
 
 /// The measures of one candidate, forces and displacements in the units of the problem.
 #[derive(Clone, Debug)]
@@ -88,13 +88,11 @@ pub(crate) fn certify_in_units<R: ChangesUnits>(
     d: &[f64],
     force: &[f64],
 ) -> Certificate {
-    if let Some(numbers) = InUnits::of(problem)
-        && let (units, problem) = (numbers.units(), numbers.problem(problem))
-        && let (Some(d), Some(force)) = (units.lengths(d), units.forces(force))
-    {
-        return measure(&Contact::new(&problem), &d, &force).to_host(units);
-    }
-    measure(&Contact::new(problem), d, force)
+    let in_units = in_units(problem, |units, problem| {
+        let (d, force) = (units.lengths(d)?, units.forces(force)?);
+        Some(measure(&Contact::new(problem), &d, &force).to_host(units))
+    });
+    in_units.flatten().unwrap_or_else(|| measure(&Contact::new(problem), d, force))
 }
 
 /// Measures a displacement and a contact force of any origin, on any relation. The force is taken as it is.

@@ -1,12 +1,10 @@
 //! Certificates and proofs of displacements from any origin, on a load case of a model.
 
 use super::arguments::check_vector;
-use super::flexibility::sparse_problem;
 use super::{LoadCase, Model};
 use crate::certificate::{Certificate, Proof, certify, certify_in_units, prove};
 use crate::error::{Argument, Error};
 use crate::law::State;
-use crate::problem::FlexibilityForm;
 use crate::solve::certify_matrix_free;
 use crate::workers::SingleThread;
 
@@ -47,12 +45,7 @@ impl Model {
         }
         match self.reduction.flexibility() {
             None => self.certify(case, d),
-            Some(FlexibilityForm::Dense(w)) => {
-                Ok(certify_in_units(&self.dense_problem(w, case)?, d, force))
-            }
-            Some(FlexibilityForm::Sparse(matrix)) => {
-                Ok(certify_in_units(&sparse_problem(matrix, case)?, d, force))
-            }
+            Some(form) => Ok(certify_in_units(&self.on_flexibility(form, case)?, d, force)),
         }
     }
 

@@ -2,7 +2,7 @@
 
 use super::{BLOCK, Model};
 use crate::problem::Dependence;
-use crate::solve::{memory, memory_matrix_free};
+use crate::solve::{memory, memory_matrix_free, memory_of_flexibility};
 use crate::workers::SingleThread;
 
 /// Vectors of the host's size that each load case of a block takes while it is condensed or recovered.
@@ -12,7 +12,7 @@ impl Model {
     /// Most bytes that [`Self::solve`] takes beside the model.
     pub fn memory(&self) -> u64 {
         if let Some(form) = self.reduction.flexibility() {
-            return self.memory_of_flexibility(form);
+            return memory_of_flexibility(&form);
         }
         if let Some(matrix_free) = self.reduction.matrix_free() {
             let inner = matrix_free.bodies(&SingleThread).inner();

@@ -12,22 +12,18 @@
 //! Forces are compared with displacements by one unit of force per length for the normal of a pair, `1 / W_nn`,
 //! and one for its tangents, one over the largest eigenvalue of its tangential block.
 
-use std::iter::{once, repeat_n};
-
 use super::arguments::{OF_MATRIX, dense, vector};
 use super::contact::{ContactProblem, checked_dim, unknowns};
+use super::flexibility_form::FlexibilityForm;
 use super::friction_law::FrictionLaw;
 use super::relation::{Redundant, Relation};
+use super::sparse_flexibility::ZERO;
 use super::symmetric_matrix;
 use crate::error::{Argument, Error};
 use crate::linalg::double_double::two_sum;
 use crate::linalg::matrix::Matrix;
 use crate::linalg::tolerances::ROUNDING_OF_SUM;
-use crate::linalg::vector::{largest_eigenvalue, largest_of, norm, sizes};
-
-/// Why a matrix of zeros is refused.
-pub(super) const ZERO: &str =
-    "W is zero: no contact force moves anything; hand over the flexibility of the bodies";
+use crate::linalg::vector::{largest_of, norm, sizes};
 
 /// The caller's arrays of a problem in flexibility form, not yet checked. Forces and displacements are in the
 /// caller's units; velocities and impulses may take their places.
@@ -51,29 +47,10 @@ pub struct FlexibilityData<'a> {
     pub reference_slip: Option<&'a [f64]>,
 }
 
-/// The matrix `W`, as much as the relation needs of it.
-pub trait FlexibilityMatrix {
-    /// `W F`.
-    fn times(&self, force: &[f64]) -> Vec<f64>;
-
-    /// `W F - d`, in twice the precision and rounded once.
-    fn times_less(&self, force: &[f64], d: &[f64]) -> Vec<f64>;
-}
-
-impl FlexibilityMatrix for Matrix<'_> {
-    fn times(&self, force: &[f64]) -> Vec<f64> {
-        self.product(force)
-    }
-
-    fn times_less(&self, force: &[f64], d: &[f64]) -> Vec<f64> {
-        self.residual(force, &[], d, &self.magnitude(&sizes(force)))
-    }
-}
-
-/// The relation `d = W F + q`: a view of the host's arrays. `W` is dense, or of another form that multiplies.
+/// The relation `d = W F + q`: a view of the host's arrays.
 #[derive(Clone, Debug)]
-pub struct Flexibility<'a, M = Matrix<'a>> {
-    matrix: M,
+pub struct Flexibility<'a> {
+    form: FlexibilityForm<'a>,
     free: &'a [f64],
     /// Positive units of force per length, one for each component, the same for all tangents of a pair.
     units: Vec<f64>,
@@ -94,9 +71,25 @@ impl<'a> FlexibilityProblem<'a> {
     pub fn from_flexibility(data: FlexibilityData<'a>) -> Result<Self, Error> {
         let size = unknowns(checked_dim(data.dim)?, data.pairs)?;
         let matrix = Flexibility::checked_matrix(size, data.flexibility, data.ld)?;
-        let free = vector(Argument::Load, "q", data.free, size)?;
-        let relation = Flexibility::new(matrix, free, units(data.dim, &matrix));
-        ContactProblem::with_relation(relation, data.dim, data.gap, data.law, data.reference_slip)
+        let form = FlexibilityForm::Dense(matrix);
+        Self::with_form(form, data.dim, data.free, (data.gap, data.law, data.reference_slip))
+    }
+
+    /// A problem with a checked `W`, of pairs of `dim` components; gaps, law and reference slip as in
+    /// [`FlexibilityData`].
+    ///
+    /// # Errors
+    /// [`Error::Invalid`]: the first entry of an array that is out of range.
+    pub(crate) fn with_form(
+        form: FlexibilityForm<'a>,
+        dim: usize,
+        free: &'a [f64],
+        (gap, law, reference_slip): (&'a [f64], FrictionLaw<'a>, Option<&'a [f64]>),
+    ) -> Result<Self, Error> {
+        let units = form.units(dim);
+        let free = vector(Argument::Load, "q", free, units.len())?;
+        let relation = Flexibility::new(form, free, units);
+        ContactProblem::with_relation(relation, dim, gap, law, reference_slip)
     }
 }
 
@@ -118,23 +111,24 @@ impl<'a> Flexibility<'a> {
         Ok(matrix)
     }
 
-    /// `W`.
+    /// A dense `W`, as that of an island is.
     pub(crate) fn matrix(&self) -> Matrix<'a> {
-        self.matrix
+        match self.form {
+            FlexibilityForm::Dense(matrix) => matrix,
+            FlexibilityForm::Sparse(_) => unreachable!("islands are dense"),
+        }
     }
-}
 
-impl<'a, M: FlexibilityMatrix> Flexibility<'a, M> {
     /// The relation with a checked matrix, free displacements and units of force per length, which must be those
     /// of the components of the matrix, or of a larger one that this is a part of.
-    pub(crate) fn new(matrix: M, free: &'a [f64], units: Vec<f64>) -> Self {
+    pub(crate) fn new(form: FlexibilityForm<'a>, free: &'a [f64], units: Vec<f64>) -> Self {
         let load = units.iter().zip(free).map(|(unit, free)| unit * free).collect();
-        Flexibility { matrix, free, units, load }
+        Flexibility { form, free, units, load }
     }
 
-    /// `W`, of any form.
-    pub(crate) fn form(&self) -> &M {
-        &self.matrix
+    /// `W`.
+    pub(crate) fn form(&self) -> &FlexibilityForm<'a> {
+        &self.form
     }
 
     /// `q`.
@@ -150,35 +144,11 @@ impl<'a, M: FlexibilityMatrix> Flexibility<'a, M> {
     /// `W F + q`, in twice the precision and rounded once.
     pub(crate) fn relative(&self, force: &[f64]) -> Vec<f64> {
         let opposite: Vec<f64> = self.free.iter().map(|free| -free).collect();
-        self.matrix.times_less(force, &opposite)
+        self.form.times_less(force, &opposite)
     }
 }
 
-fn units(dim: usize, matrix: &Matrix<'_>) -> Vec<f64> {
-    let otherwise = matrix.largest_diagonal();
-    let firsts = (0..matrix.size()).step_by(dim);
-    let blocks = firsts.map(|first| matrix.block(first, dim));
-    units_of_pairs(dim, blocks.map(|block| units_of_pair(&block, otherwise)))
-}
-
-/// The units of all components, from those of the normal and of the tangents of each pair.
-pub(super) fn units_of_pairs(dim: usize, each: impl Iterator<Item = [f64; 2]>) -> Vec<f64> {
-    each.flat_map(|[normal, tangent]| once(normal).chain(repeat_n(tangent, dim - 1))).collect()
-}
-
-/// The units of the normal and of the tangents of a pair with this block of `W`: `1 / W_nn`, and one over the
-/// largest eigenvalue of the tangents. `otherwise` is the flexibility of a pair that nothing moves.
-pub(super) fn units_of_pair(block: &Matrix<'_>, otherwise: f64) -> [f64; 2] {
-    let (dim, t) = (block.size(), 1);
-    let last = dim - 1;
-    let largest = largest_eigenvalue(block.at(t, t), block.at(last, t), block.at(last, last));
-    let largest = if dim == 2 { block.at(t, t) } else { largest };
-    // A pair that only its normal force moves: its tangents have the unit of the normal.
-    let softest = largest.max(block.unit(t, dim, otherwise));
-    [1.0 / block.unit(0, dim, otherwise), 1.0 / softest]
-}
-
-impl<M: FlexibilityMatrix> Relation for Flexibility<'_, M> {
+impl Relation for Flexibility<'_> {
     fn size(&self) -> usize {
         self.units.len()
     }
@@ -199,7 +169,7 @@ impl<M: FlexibilityMatrix> Relation for Flexibility<'_, M> {
     fn residual(&self, d: &[f64], force: &[f64]) -> Vec<f64> {
         let (caused, lost): (Vec<f64>, Vec<f64>) =
             d.iter().zip(self.free).map(|(d, free)| two_sum(*d, -free)).unzip();
-        let beyond = self.matrix.times_less(force, &caused);
+        let beyond = self.form.times_less(force, &caused);
         let of = |((beyond, lost), unit): ((f64, f64), &f64)| unit * (lost - beyond);
         beyond.into_iter().zip(lost).zip(&self.units).map(of).collect()
     }
@@ -211,7 +181,7 @@ impl<M: FlexibilityMatrix> Relation for Flexibility<'_, M> {
     /// Forces that move nothing may be of any size, and would hide what is left of all others. So at most
     /// the units times `W F`.
     fn size_of_force(&self, force: &[f64]) -> f64 {
-        let caused = self.matrix.times(force);
+        let caused = self.form.times(force);
         let felt: Vec<f64> = caused.iter().zip(&self.units).map(|(d, unit)| unit * d).collect();
         norm(force).min(norm(&felt))
     }
@@ -227,7 +197,7 @@ impl Redundant for Flexibility<'_> {
         let scaled = |values: Vec<f64>| {
             largest_of(values.iter().zip(&self.units).map(|(value, unit)| (unit * value).abs()))
         };
-        let terms = scaled(self.matrix.magnitude(&sizes(force)));
-        scaled(self.matrix.product(force)) <= within.max(ROUNDING_OF_SUM) * terms
+        let terms = scaled(self.matrix().magnitude(&sizes(force)));
+        scaled(self.form.times(force)) <= within.max(ROUNDING_OF_SUM) * terms
     }
 }

@@ -29,6 +29,6 @@ pub use friction_law::{FrictionLaw, Law, Parameter};
 pub use lcp::Lcp;
 pub(crate) use relation::Redundant;
 pub use relation::{Relation, Stiffness};
-pub use sparse_flexibility::{SparseFlexibilityProblem, SparseW};
+pub use sparse_flexibility::SparseW;
 pub(crate) use stiffness_operator::{GoesOn, HeldSet, MatrixFree, StiffnessOperator};
-pub(crate) use units::{ChangesUnits, InUnits, Units};
+pub(crate) use units::{ChangesUnits, Units, in_units};

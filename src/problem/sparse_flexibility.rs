@@ -1,15 +1,14 @@
 //! The flexibility form with a sparse `W`. Pairs that no entry of it ties to each other are islands: each is a
 //! problem of its own.
 
-use super::arguments::vector;
-use super::contact::ContactProblem;
-use super::flexibility::{Flexibility, FlexibilityMatrix, units_of_pair, units_of_pairs};
-use super::friction_law::FrictionLaw;
 use super::islands::Islands;
 use crate::error::{Argument, Error};
-use crate::linalg::matrix::Matrix;
 use crate::linalg::sparse_matrix::{Csc, column, diagonal, symmetric_residual, symmetric_times};
 use crate::linalg::vector::largest_of;
+
+/// Why a matrix of zeros is refused.
+pub(super) const ZERO: &str =
+    "W is zero: no contact force moves anything; hand over the flexibility of the bodies";
 
 /// A sparse symmetric `W` of pairs, and its islands.
 #[derive(Clone, Debug)]
@@ -17,47 +16,6 @@ pub struct SparseW {
     lower: Csc,
     dim: usize,
     islands: Islands,
-}
-
-/// A contact problem in flexibility form with a sparse `W`, of which it has a copy; a view of the host's other
-/// arrays.
-pub type SparseFlexibilityProblem<'a> = ContactProblem<'a, Flexibility<'a, SparseW>>;
-
-impl<'a> SparseFlexibilityProblem<'a> {
-    /// A problem with a checked `W`; other arguments as in [`super::FlexibilityData`].
-    ///
-    /// # Errors
-    /// [`Error::Invalid`]: the first entry of an array that is out of range.
-    pub(crate) fn with_matrix(
-        matrix: SparseW,
-        free: &'a [f64],
-        gap: &'a [f64],
-        law: FrictionLaw<'a>,
-        reference_slip: Option<&'a [f64]>,
-    ) -> Result<Self, Error> {
-        let (dim, size) = (matrix.dim, matrix.lower.ncols());
-        let free = vector(Argument::Load, "q", free, size)?;
-        let largest = matrix.largest_diagonal();
-        let each = (0..size).step_by(dim).map(|first| {
-            let block = block(&matrix.lower, first, dim);
-            units_of_pair(&Matrix::new(dim, &block, dim), largest)
-        });
-        let units = units_of_pairs(dim, each);
-        let relation = Flexibility::new(matrix, free, units);
-        ContactProblem::with_relation(relation, dim, gap, law, reference_slip)
-    }
-}
-
-/// The diagonal block from component `first` on, column-major.
-fn block(lower: &Csc, first: usize, dim: usize) -> Vec<f64> {
-    let mut block = vec![0.0; dim * dim];
-    for j in 0..dim {
-        let (rows, values) = column(lower, first + j);
-        for (&i, &value) in rows.iter().zip(values).take_while(|(i, _)| **i < first + dim) {
-            (block[i - first + dim * j], block[j + dim * (i - first)]) = (value, value);
-        }
-    }
-    block
 }
 
 /// Pairs with an entry that is not zero are of one island.
@@ -79,12 +37,12 @@ impl SparseW {
         let matrix = SparseW { islands: islands(&lower, dim), lower, dim };
         let (size, largest) = (matrix.size(), matrix.largest_diagonal());
         if size > 0 && largest == 0.0 {
-            return Err(Error::invalid(Argument::Matrix, super::flexibility::ZERO));
+            return Err(Error::invalid(Argument::Matrix, ZERO));
         }
         Ok(matrix)
     }
 
-    fn largest_diagonal(&self) -> f64 {
+    pub(super) fn largest_diagonal(&self) -> f64 {
         let each = (0..self.lower.ncols()).map(|j| diagonal(&self.lower, j).unwrap_or(0.0));
         largest_of(each)
     }
@@ -137,14 +95,27 @@ impl SparseW {
         }
         part
     }
-}
 
-impl FlexibilityMatrix for SparseW {
-    fn times(&self, force: &[f64]) -> Vec<f64> {
+    /// The diagonal block from component `first` on, column-major.
+    pub(super) fn block(&self, first: usize) -> Vec<f64> {
+        let dim = self.dim;
+        let mut block = vec![0.0; dim * dim];
+        for j in 0..dim {
+            let (rows, values) = column(&self.lower, first + j);
+            for (&i, &value) in rows.iter().zip(values).take_while(|(i, _)| **i < first + dim) {
+                (block[i - first + dim * j], block[j + dim * (i - first)]) = (value, value);
+            }
+        }
+        block
+    }
+
+    /// `W F`.
+    pub(super) fn times(&self, force: &[f64]) -> Vec<f64> {
         symmetric_times(&self.lower, force)
     }
 
-    fn times_less(&self, force: &[f64], d: &[f64]) -> Vec<f64> {
+    /// `W F - d`, in twice the precision and rounded once.
+    pub(super) fn times_less(&self, force: &[f64], d: &[f64]) -> Vec<f64> {
         symmetric_residual(&self.lower, (force, &[]), d)
     }
 }

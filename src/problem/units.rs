@@ -4,12 +4,14 @@
 //! numbers are not too far from 1. A problem in other units is copied to units that differ by powers of two: its
 //! numbers keep all their digits, and so do those of its solution on the way back.
 
+use std::borrow::Cow;
+
 use super::contact::ContactProblem;
-use super::dependent_rows::{Dependence, DependentRows};
-use super::flexibility::{Flexibility, FlexibilityMatrix};
-use super::friction_law::{Law, Parameter};
+use super::dependent_rows::DependentRows;
+use super::flexibility::Flexibility;
+use super::flexibility_form::FlexibilityForm;
+use super::friction_law::Parameter;
 use super::relation::{Redundant, Relation, Stiffness};
-use super::sparse_flexibility::SparseW;
 use crate::linalg::matrix::Matrix;
 use crate::linalg::power_of_two::{exponent, times_power_of_two};
 
@@ -22,15 +24,6 @@ const ORDINARY: i32 = 128;
 pub struct Units {
     length: i32,
     force: i32,
-}
-
-/// The numbers of a problem in other units; `N` are those of its relation.
-pub struct InUnits<N> {
-    units: Units,
-    gap: Vec<f64>,
-    law: (Law, Vec<f64>),
-    reference_slip: Vec<f64>,
-    relation: N,
 }
 
 impl Units {
@@ -97,155 +90,83 @@ impl Units {
     }
 }
 
-impl<N> InUnits<N> {
-    /// The numbers of a problem in units in which they are ordinary; `None` where they are as they stand, or where
-    /// one is beyond doubles there. A gap that is becomes `+inf`: nothing reaches it.
-    pub fn of<R: ChangesUnits<Numbers = N>>(problem: &ContactProblem<'_, R>) -> Option<Self> {
-        let units = Units::of(problem)?;
-        let gap = |pair| {
-            let gap = problem.gap(pair);
-            let far = (gap > 0.0 && units.length > 0).then_some(f64::INFINITY);
-            exactly(gap, units.length).or(far)
-        };
-        let law = problem.law();
-        let meanings = law.law().parameters().iter().cycle();
-        let parameters = law.values().iter().zip(meanings);
-        let parameters = parameters.map(|(&value, (_, meaning))| match meaning {
-            Parameter::Force => exactly(value, units.force),
-            _ => Some(value),
-        });
-        Some(InUnits {
-            units,
-            gap: (0..problem.pairs()).map(gap).collect::<Option<_>>()?,
-            law: (law.law(), parameters.collect::<Option<_>>()?),
-            reference_slip: units.lengths(problem.reference_slips())?,
-            relation: problem.relation().numbers(units)?,
-        })
-    }
-
-    /// The units.
-    pub fn units(&self) -> Units {
-        self.units
-    }
-
-    /// The copy of `problem` in these units.
-    pub fn problem<'b, R: ChangesUnits<Numbers = N>>(
-        &'b self,
-        problem: &'b ContactProblem<'_, R>,
-    ) -> ContactProblem<'b, R::On<'b>> {
-        let relation = R::on(&self.relation);
-        let slip = Some(&*self.reference_slip).filter(|slip| !slip.is_empty());
-        ContactProblem::with_relation(
-            relation,
-            problem.dim(),
-            &self.gap,
-            self.law.0.with(&self.law.1),
-            slip,
-        )
-        .expect("powers of two change no sign and no quotient")
-    }
+/// Does work on a copy of a problem in units in which its numbers are ordinary; `None` where they are as they stand,
+/// or where one is beyond doubles there. A gap that is becomes `+inf`: nothing reaches it.
+pub fn in_units<R: ChangesUnits, T>(
+    problem: &ContactProblem<'_, R>,
+    work: impl FnOnce(Units, &ContactProblem<'_, R::On<'_>>) -> T,
+) -> Option<T> {
+    let units = Units::of(problem)?;
+    let gap = |pair| {
+        let gap = problem.gap(pair);
+        let far = (gap > 0.0 && units.length > 0).then_some(f64::INFINITY);
+        exactly(gap, units.length).or(far)
+    };
+    let gap: Vec<f64> = (0..problem.pairs()).map(gap).collect::<Option<_>>()?;
+    let law = problem.law();
+    let parameters = law.values().iter().zip(law.law().parameters().iter().cycle());
+    let parameters = parameters.map(|(&value, (_, meaning))| match meaning {
+        Parameter::Force => exactly(value, units.force),
+        _ => Some(value),
+    });
+    let parameters: Vec<f64> = parameters.collect::<Option<_>>()?;
+    let slip = units.lengths(problem.reference_slips())?;
+    problem.relation().in_units(units, |relation| {
+        let (law, slip) =
+            (law.law().with(&parameters), Some(&*slip).filter(|slip| !slip.is_empty()));
+        let problem = ContactProblem::with_relation(relation, problem.dim(), &gap, law, slip);
+        work(units, &problem.expect("powers of two change no sign and no quotient"))
+    })
 }
 
 /// A relation whose numbers can be copied to other units.
 pub trait ChangesUnits: Relation {
-    /// The numbers of the relation in other units, with what no unit changes.
-    type Numbers;
-    /// The relation on them.
+    /// The relation on such numbers.
     type On<'b>: Relation;
 
-    /// The numbers in these units; `None` where one is beyond doubles.
-    fn numbers(&self, units: Units) -> Option<Self::Numbers>;
-
-    /// The relation on its numbers in other units.
-    fn on(numbers: &Self::Numbers) -> Self::On<'_>;
+    /// Does work on the relation in these units; `None` where a number is beyond doubles.
+    fn in_units<T>(&self, units: Units, work: impl FnOnce(Self::On<'_>) -> T) -> Option<T>;
 }
 
-impl<'a> ChangesUnits for Stiffness<'a> {
-    /// `K` and `f`.
-    type Numbers = (Stiffness<'a>, [Vec<f64>; 2]);
+impl ChangesUnits for Stiffness<'_> {
     type On<'b> = Stiffness<'b>;
 
-    fn numbers(&self, units: Units) -> Option<Self::Numbers> {
-        let numbers = [dense(&self.matrix, units.stiffness())?, units.forces(self.load)?];
-        Some((*self, numbers))
-    }
-
-    fn on((host, [matrix, load]): &Self::Numbers) -> Stiffness<'_> {
-        let size = host.size();
-        let matrix = Matrix::new(size, matrix, size.max(1));
-        let (symmetric, rounding) = (host.symmetric, host.rounding);
-        Stiffness { symmetric, rounding, ..Stiffness::new(matrix, load, host.dim) }
+    fn in_units<T>(&self, units: Units, work: impl FnOnce(Stiffness<'_>) -> T) -> Option<T> {
+        let (matrix, load) = (dense(&self.matrix, units.stiffness())?, units.forces(self.load)?);
+        let matrix = Matrix::new(self.size(), &matrix, self.size().max(1));
+        let (symmetric, rounding) = (self.symmetric, self.rounding);
+        Some(work(Stiffness { symmetric, rounding, ..Stiffness::new(matrix, &load, self.dim) }))
     }
 }
 
-impl<M: FlexibilityInUnits> ChangesUnits for Flexibility<'_, M> {
-    /// `W`, `q` and the units of the components.
-    type Numbers = (M::Numbers, Vec<f64>, Vec<f64>);
-    type On<'b> = Flexibility<'b, M::On<'b>>;
+impl ChangesUnits for Flexibility<'_> {
+    type On<'b> = Flexibility<'b>;
 
-    fn numbers(&self, units: Units) -> Option<Self::Numbers> {
-        let matrix = self.form().numbers(-units.stiffness())?;
-        Some((matrix, units.lengths(self.free())?, all(self.units(), units.stiffness())?))
-    }
-
-    fn on((matrix, free, units): &Self::Numbers) -> Self::On<'_> {
-        Flexibility::new(M::on(matrix), free, units.clone())
-    }
-}
-
-/// A matrix of flexibility whose numbers can be copied to other units.
-pub trait FlexibilityInUnits: FlexibilityMatrix {
-    /// The numbers of the matrix in other units.
-    type Numbers;
-    /// The matrix on them.
-    type On<'b>: FlexibilityMatrix;
-
-    /// The numbers times a power of two; `None` where one is beyond doubles.
-    fn numbers(&self, power: i32) -> Option<Self::Numbers>;
-
-    /// The matrix on its numbers in other units.
-    fn on(numbers: &Self::Numbers) -> Self::On<'_>;
-}
-
-impl FlexibilityInUnits for Matrix<'_> {
-    type Numbers = (usize, Vec<f64>);
-    type On<'b> = Matrix<'b>;
-
-    fn numbers(&self, power: i32) -> Option<(usize, Vec<f64>)> {
-        Some((self.size(), dense(self, power)?))
-    }
-
-    fn on((size, entries): &(usize, Vec<f64>)) -> Matrix<'_> {
-        Matrix::new(*size, entries, (*size).max(1))
+    fn in_units<T>(&self, units: Units, work: impl FnOnce(Flexibility<'_>) -> T) -> Option<T> {
+        let entries;
+        let form = match self.form() {
+            FlexibilityForm::Dense(matrix) => {
+                entries = dense(matrix, -units.stiffness())?;
+                FlexibilityForm::Dense(Matrix::new(matrix.size(), &entries, matrix.size().max(1)))
+            }
+            FlexibilityForm::Sparse(matrix) => {
+                let value = |value| exactly(value, -units.stiffness());
+                FlexibilityForm::Sparse(Cow::Owned(matrix.with_values(value)?))
+            }
+        };
+        let (free, of_components) =
+            (units.lengths(self.free())?, all(self.units(), units.stiffness())?);
+        Some(work(Flexibility::new(form, &free, of_components)))
     }
 }
 
-impl FlexibilityInUnits for SparseW {
-    type Numbers = SparseW;
-    type On<'b> = SparseW;
-
-    fn numbers(&self, power: i32) -> Option<SparseW> {
-        self.with_values(|value| exactly(value, power))
-    }
-
-    fn on(numbers: &SparseW) -> SparseW {
-        numbers.clone()
-    }
-}
-
-impl<'a> ChangesUnits for DependentRows<'a> {
-    /// `K`, `f` and `o`.
-    type Numbers = (&'a Dependence, [Vec<f64>; 3]);
+impl ChangesUnits for DependentRows<'_> {
     type On<'b> = DependentRows<'b>;
 
-    fn numbers(&self, units: Units) -> Option<Self::Numbers> {
+    fn in_units<T>(&self, units: Units, work: impl FnOnce(DependentRows<'_>) -> T) -> Option<T> {
         let matrix = dense(&self.stiffness(), units.stiffness())?;
-        let (load, offset) = (self.variable_load(), self.offset());
-        Some((self.dependence(), [matrix, units.forces(load)?, units.lengths(offset)?]))
-    }
-
-    fn on((dependence, [matrix, load, offset]): &Self::Numbers) -> DependentRows<'_> {
-        DependentRows::new(dependence, (matrix, load), offset)
+        let (load, offset) = (units.forces(self.variable_load())?, units.lengths(self.offset())?);
+        Some(work(DependentRows::new(self.dependence(), (&matrix, &load), &offset)))
     }
 }
 

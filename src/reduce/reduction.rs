@@ -51,7 +51,7 @@ pub trait Reduction: Send + Sync {
     }
 
     /// The matrix of the flexibility form; [`Self::stiffness`] is empty then.
-    fn flexibility(&self) -> Option<&FlexibilityForm> {
+    fn flexibility(&self) -> Option<FlexibilityForm<'_>> {
         None
     }
 

@@ -28,8 +28,7 @@ use crate::law::Contact;
 use crate::linalg::vector::first_not_finite;
 use crate::monitor::Monitor;
 use crate::problem::{
-    ContactProblem, DependentRows, FlexibilityProblem, InUnits, Relation, SparseFlexibilityProblem,
-    Units,
+    ContactProblem, DependentRows, FlexibilityForm, FlexibilityProblem, Relation, Units, in_units,
 };
 use crate::settings::{Search, Settings};
 
@@ -39,11 +38,11 @@ pub(crate) use operator::{
     solve as solve_matrix_free,
 };
 pub(crate) use proximal::largest_island;
-pub(crate) use result::{CAUSES, NO_EQUILIBRIUM, memory_of_islands};
+pub(crate) use result::{CAUSES, NO_EQUILIBRIUM, memory_of_flexibility};
 use result::{Call, Solve, check_limit};
 pub use result::{
     Errors, Escape, Existence, Fallback, Remarks, SecondSolution, Solution, Status, Uniqueness,
-    memory, memory_flexibility, memory_flexibility_sparse,
+    memory, memory_flexibility,
 };
 use rigid::Balance;
 
@@ -58,18 +57,15 @@ pub(crate) fn solve_dependent(
     start: Option<&[f64]>,
     monitor: &mut Monitor<'_>,
 ) -> Result<Solution, Error> {
-    let (n, numbers) = (problem.unknowns(), InUnits::of(problem));
-    check(settings, memory(n) + copy_of(n, &numbers), ("d", n, start))?;
     let by = (settings, plan::solve as Solve);
-    let solution = match numbers {
-        None => proximal::solve_dependent(problem, by, start, monitor)?,
-        Some(numbers) => {
-            let (units, problem) = (numbers.units(), numbers.problem(problem));
-            let start = start.and_then(|start| units.lengths(start));
-            let solution = proximal::solve_dependent(&problem, by, start.as_deref(), monitor)?;
-            to_host(solution, units, settings, &problem)
-        }
-    };
+    check(settings, memory(problem.unknowns()) + copy_of(problem), ("d", problem, start))?;
+    let solution = in_units(problem, |units, problem| {
+        let start = start.and_then(|start| units.lengths(start));
+        let solution = proximal::solve_dependent(problem, by, start.as_deref(), monitor)?;
+        Ok(to_host(solution, units, settings, problem))
+    });
+    let solution =
+        solution.unwrap_or_else(|| proximal::solve_dependent(problem, by, start, monitor))?;
     Ok(finished(solution, problem, monitor))
 }
 
@@ -80,66 +76,39 @@ pub(crate) fn solve_dependent(
 /// [`Status::NoEquilibrium`] [`Solution::recession`] holds pressing normal forces which move nothing and prove
 /// that the gaps contradict each other.
 ///
-/// # Errors
-/// As [`solve()`]; a `W` with negative eigenvalues.
-pub fn solve_flexibility(
-    problem: &FlexibilityProblem<'_>,
-    settings: &Settings,
-    start: Option<&[f64]>,
-    monitor: &mut Monitor<'_>,
-) -> Result<Solution, Error> {
-    let (n, numbers) = (problem.unknowns(), InUnits::of(problem));
-    check(settings, memory_flexibility(n) + copy_of(n, &numbers), ("F", n, start))?;
-    let by = (settings, plan::solve as Solve);
-    let number = &|pair| pair;
-    let solution = match numbers {
-        None => proximal::solve_flexibility(problem, by, start, number, monitor)?,
-        Some(numbers) => {
-            let (units, problem) = (numbers.units(), numbers.problem(problem));
-            let start = start.and_then(|start| units.forces(start));
-            let start = start.as_deref();
-            let solution = proximal::solve_flexibility(&problem, by, start, number, monitor)?;
-            to_host(solution, units, settings, &problem)
-        }
-    };
-    Ok(finished(solution, problem, monitor))
-}
-
-/// Solves a contact problem in flexibility form with a sparse `W`, as [`solve_flexibility`] does one with a dense
-/// one.
-///
-/// Pairs that no entry of `W` ties to each other are islands, each solved by itself to the tolerance: time and memory
-/// are those of dense problems of their sizes, the memory that of the largest. What was found is certified as a
+/// Pairs that no entry of a sparse `W` ties to each other are islands, each solved by itself to the tolerance: time and
+/// memory are those of dense problems of their sizes, the memory that of the largest. What was found is certified as a
 /// whole. The status is that of the worst island: a proof that one has no equilibrium is one for the whole. They are
 /// solved from the smallest to the largest, and those behind one at which a limit ended the call are left as they
 /// were at the start. [`Solution::method`] is that of the largest island with that status, and so are
 /// [`Solution::omega`] and [`Solution::damping`].
 ///
 /// # Errors
-/// As [`solve_flexibility`]; where the largest island would need more memory than the settings allow it is named.
-pub fn solve_flexibility_sparse(
-    problem: &SparseFlexibilityProblem<'_>,
+/// As [`solve()`]; a `W` with negative eigenvalues. Where the largest island would need more memory than the settings
+/// allow it is named.
+pub fn solve_flexibility(
+    problem: &FlexibilityProblem<'_>,
     settings: &Settings,
     start: Option<&[f64]>,
     monitor: &mut Monitor<'_>,
 ) -> Result<Solution, Error> {
-    settings.validate()?;
-    let matrix = problem.relation().form();
-    check_limit(memory_of_islands(matrix), settings).map_err(|error| {
-        let message = format!("{}: {}", error.message().marked(), largest_island(matrix));
-        Error::stopped(Limit::Memory, message)
-    })?;
-    check_start("F", problem.unknowns(), start)?;
-    let by = (settings, plan::solve as Solve);
-    let solution = match InUnits::of(problem) {
-        None => proximal::solve_islands(problem, by, start, monitor)?,
-        Some(numbers) => {
-            let (units, problem) = (numbers.units(), numbers.problem(problem));
-            let start = start.and_then(|start| units.forces(start));
-            let solution = proximal::solve_islands(&problem, by, start.as_deref(), monitor)?;
-            to_host(solution, units, settings, &problem)
-        }
-    };
+    let (form, by) = (problem.relation().form(), (settings, plan::solve as Solve));
+    let copy = if let FlexibilityForm::Dense(_) = form { copy_of(problem) } else { 0 };
+    check(settings, memory_of_flexibility(form) + copy, ("F", problem, start)).map_err(
+        |error| match (&error, largest_island(form)) {
+            (Error::Stopped { limit: Limit::Memory, .. }, Some(island)) => {
+                Error::stopped(Limit::Memory, format!("{}: {island}", error.message().marked()))
+            }
+            _ => error,
+        },
+    )?;
+    let solution = in_units(problem, |units, problem| {
+        let start = start.and_then(|start| units.forces(start));
+        let solution = proximal::solve_flexibility(problem, by, start.as_deref(), monitor)?;
+        Ok(to_host(solution, units, settings, problem))
+    });
+    let solution =
+        solution.unwrap_or_else(|| proximal::solve_flexibility(problem, by, start, monitor))?;
     Ok(finished(solution, problem, monitor))
 }
 
@@ -154,17 +123,14 @@ pub fn solve(
     start: Option<&[f64]>,
     monitor: &mut Monitor<'_>,
 ) -> Result<Solution, Error> {
-    let (n, numbers) = (problem.unknowns(), InUnits::of(problem));
-    check(settings, memory(n) + copy_of(n, &numbers), ("d", n, start))?;
-    let mut solution = match numbers {
-        None => solve_as_it_stands(problem, settings, start, monitor)?,
-        Some(numbers) => {
-            let (units, problem) = (numbers.units(), numbers.problem(problem));
-            let start = start.and_then(|start| units.lengths(start));
-            let solution = solve_as_it_stands(&problem, settings, start.as_deref(), monitor)?;
-            to_host(solution, units, settings, &problem)
-        }
-    };
+    check(settings, memory(problem.unknowns()) + copy_of(problem), ("d", problem, start))?;
+    let solution = in_units(problem, |units, problem| {
+        let start = start.and_then(|start| units.lengths(start));
+        let solution = solve_as_it_stands(problem, settings, start.as_deref(), monitor)?;
+        Ok(to_host(solution, units, settings, problem))
+    });
+    let mut solution =
+        solution.unwrap_or_else(|| solve_as_it_stands(problem, settings, start, monitor))?;
     plan::say_remarks(problem, &mut solution);
     solution.iterations = monitor.iterations();
     Ok(solution)
@@ -225,21 +191,22 @@ fn finished<R: Relation>(
     solution
 }
 
-/// Bytes of the copy of a matrix of `n` rows in other units.
-fn copy_of<N>(n: usize, numbers: &Option<N>) -> u64 {
-    if numbers.is_some() { (n * n * size_of::<f64>()) as u64 } else { 0 }
+/// Bytes of the copy of the matrix of a problem that is solved in other units.
+fn copy_of<R: Relation>(problem: &ContactProblem<'_, R>) -> u64 {
+    let size = problem.unknowns();
+    if Units::of(problem).is_some() { (size * size * size_of::<f64>()) as u64 } else { 0 }
 }
 
-/// Refuses settings out of range, a call that needs more bytes than they allow, and a start of another length
-/// than `n` or with entries that are not finite.
-fn check(
+/// Refuses settings out of range, a call that needs more bytes than they allow, and a start of a wrong length
+/// or with entries that are not finite.
+fn check<R: Relation>(
     settings: &Settings,
     bytes: u64,
-    (name, n, start): (&str, usize, Option<&[f64]>),
+    (name, problem, start): (&str, &ContactProblem<'_, R>, Option<&[f64]>),
 ) -> Result<(), Error> {
     settings.validate()?;
     check_limit(bytes, settings)?;
-    check_start(name, n, start)
+    check_start(name, problem.unknowns(), start)
 }
 
 pub(crate) fn check_start(name: &str, n: usize, start: Option<&[f64]>) -> Result<(), Error> {

@@ -12,8 +12,7 @@ use fastrand::Rng;
 use signorini::reduce::{Indices, SparseFlexibilityData, SparseMatrix, Triangle};
 use signorini::{
     ContactData, ContactProblem, FlexibilityData, FlexibilityProblem, FrictionLaw, Monitor,
-    Settings, Solution, SparseFlexibilityProblem, State, Status, solve, solve_flexibility,
-    solve_flexibility_sparse,
+    Settings, Solution, State, Status, solve, solve_flexibility,
 };
 
 const MU: f64 = 0.3;
@@ -80,7 +79,7 @@ fn islands(dim: usize, pairs: usize, count: usize) -> f64 {
     let free = numbers(rng, n);
     let gap: Vec<f64> = (0..n / dim).map(|_| 0.4 * rng.f64() - 0.1).collect();
     let mu = vec![MU; n / dim];
-    let problem = SparseFlexibilityProblem::from_sparse(SparseFlexibilityData {
+    let problem = FlexibilityProblem::from_sparse(SparseFlexibilityData {
         dim,
         pairs: n / dim,
         flexibility: SparseMatrix {
@@ -100,7 +99,7 @@ fn islands(dim: usize, pairs: usize, count: usize) -> f64 {
     let settings = Settings::default();
     let call = || {
         let monitor = &mut Monitor::new(&settings, None);
-        solve_flexibility_sparse(&problem, &settings, None, monitor).expect("valid data")
+        solve_flexibility(&problem, &settings, None, monitor).expect("valid data")
     };
     least(call).0
 }

@@ -7,8 +7,8 @@ use crate::common::problems::{definite, uniform, vector};
 use fastrand::Rng;
 use signorini::reduce::{Indices, SparseFlexibilityData, SparseMatrix, Triangle};
 use signorini::{
-    Error, FrictionLaw, Limit, Method, Monitor, Settings, Solution, SparseFlexibilityProblem,
-    Status, Uniqueness, memory_flexibility_sparse, solve_flexibility_sparse,
+    Error, FlexibilityProblem, FrictionLaw, Limit, Method, Monitor, Settings, Solution, Status,
+    Uniqueness, memory_flexibility, solve_flexibility,
 };
 
 /// A matrix by columns, as a host has it.
@@ -57,8 +57,8 @@ impl Stored {
 }
 
 /// A case with its matrix stored as a sparse one.
-fn problem<'a>(case: &'a Case, stored: &'a Stored) -> Result<SparseFlexibilityProblem<'a>, Error> {
-    SparseFlexibilityProblem::from_sparse(SparseFlexibilityData {
+fn problem<'a>(case: &'a Case, stored: &'a Stored) -> Result<FlexibilityProblem<'a>, Error> {
+    FlexibilityProblem::from_sparse(SparseFlexibilityData {
         dim: case.dim,
         pairs: case.gap.len(),
         flexibility: stored.view(),
@@ -76,8 +76,7 @@ fn lower(case: &Case) -> Stored {
 fn solve_by(case: &Case, settings: &Settings, start: Option<&[f64]>) -> Result<Solution, Error> {
     let stored = lower(case);
     let problem = problem(case, &stored)?;
-    let solution =
-        solve_flexibility_sparse(&problem, settings, start, &mut Monitor::new(settings, None))?;
+    let solution = solve_flexibility(&problem, settings, start, &mut Monitor::new(settings, None))?;
     assert_eq!(solution.uniqueness, Uniqueness::NotKnown);
     Ok(solution)
 }
@@ -310,7 +309,7 @@ fn all_forms_of_the_matrix_are_one() {
                 ..stored.view()
             };
             for flexibility in [stored.view(), narrow] {
-                let problem = SparseFlexibilityProblem::from_sparse(SparseFlexibilityData {
+                let problem = FlexibilityProblem::from_sparse(SparseFlexibilityData {
                     dim: 3,
                     pairs: 5,
                     flexibility,
@@ -322,7 +321,7 @@ fn all_forms_of_the_matrix_are_one() {
                 let settings = Settings::default();
                 let monitor = &mut Monitor::new(&settings, None);
                 let problem = problem.expect("valid data");
-                let same = solve_flexibility_sparse(&problem, &settings, None, monitor).unwrap();
+                let same = solve_flexibility(&problem, &settings, None, monitor).unwrap();
                 assert_eq!(same.certificate.force, reference.certificate.force);
                 assert_eq!(same.d, reference.d);
             }
@@ -338,7 +337,7 @@ fn all_forms_of_the_matrix_are_one() {
     let settings = Settings::default();
     let problem = problem(&case, &all).expect("valid data");
     let monitor = &mut Monitor::new(&settings, None);
-    let same = solve_flexibility_sparse(&problem, &settings, None, monitor).unwrap();
+    let same = solve_flexibility(&problem, &settings, None, monitor).unwrap();
     assert_eq!(same.certificate.force, reference.certificate.force);
 }
 
@@ -406,7 +405,7 @@ fn memory_is_that_of_the_largest_island() {
     let whole = together(&cases, &(0..48).collect::<Vec<_>>());
     let bytes = |case: &Case| {
         let stored = lower(case);
-        memory_flexibility_sparse(&problem(case, &stored).expect("valid data"))
+        memory_flexibility(&problem(case, &stored).expect("valid data"))
     };
     let (all, largest) = (bytes(&whole), bytes(&cases[2]));
     // The 16 unknowns of the others have 32 vectors and the copies of their triangles, of 2, 4, 4 and 6 rows.
@@ -444,7 +443,7 @@ fn a_call_that_is_stopped_keeps_what_is_solved() {
     let stored = lower(&whole);
     let problem = problem(&whole, &stored).expect("valid data");
     let monitor = &mut Monitor::new(&settings, Some(&mut cancel));
-    let solution = solve_flexibility_sparse(&problem, &settings, None, monitor).unwrap();
+    let solution = solve_flexibility(&problem, &settings, None, monitor).unwrap();
     assert_eq!(solution.status, Status::Cancelled, "{}", solution.message);
     assert_eq!(calls, 1, "a callback that has cancelled is not asked again");
 }

@@ -10,9 +10,8 @@ use signorini::certificate::{certify, prove};
 use signorini::reduce::{self, Indices, SparseFlexibilityData, SparseMatrix, Triangle};
 use signorini::{
     ContactData, ContactProblem, FlexibilityData, FlexibilityProblem, FrictionLaw, Lcp, LoadCase,
-    Method, Model, Monitor, Search, Settings, SparseFlexibilityProblem, Starts, memory,
-    memory_flexibility, memory_flexibility_sparse, solve, solve_flexibility,
-    solve_flexibility_sparse, solve_lcp,
+    Method, Model, Monitor, Search, Settings, Starts, memory, memory_flexibility, solve,
+    solve_flexibility, solve_lcp,
 };
 
 /// Most that the estimate may be of what is held, where the problem is large enough that matrices decide and
@@ -218,7 +217,7 @@ fn flexibilities(chain: &Chain, shares: &mut Shares) {
                 "flexibility, {}D, {} pairs, {name}, {method:?}, {:?}",
                 chain.dim, chain.pairs, solution.status
             );
-            shares.note(&what, n, peak, memory_flexibility(n));
+            shares.note(&what, n, peak, memory_flexibility(&problem));
         }
     }
 }
@@ -255,11 +254,11 @@ fn sparse_flexibility(chain: &Chain, shares: &mut Shares) {
         };
         let mut estimate = 0;
         let (peak, _) = counted::peak(|| {
-            let problem = SparseFlexibilityProblem::from_sparse(data).expect("a valid problem");
-            estimate = memory_flexibility_sparse(&problem);
+            let problem = FlexibilityProblem::from_sparse(data).expect("a valid problem");
+            estimate = memory_flexibility(&problem);
             let settings = Settings { max_iterations: 3000, ..Settings::default() };
             let monitor = &mut Monitor::new(&settings, None);
-            solve_flexibility_sparse(&problem, &settings, None, monitor).expect("valid settings")
+            solve_flexibility(&problem, &settings, None, monitor).expect("valid settings")
         });
         let what = format!("sparse flexibility, {}D, {} pairs, {name}", chain.dim, chain.pairs);
         shares.note(&what, n, peak, estimate);

@@ -1,11 +1,15 @@
 //! A host's sparse flexibility matrix: checked as a stiffness matrix is, and by what no semi-definite matrix has.
 
+use std::borrow::Cow;
+
 use super::host_arrays::SparseMatrix;
 use super::host_matrix::refuse;
 use crate::error::Error;
 use crate::linalg::sparse_matrix::{Csc, column, diagonal};
 use crate::problem::symmetric_matrix::{SYMMETRY, beyond_diagonal};
-use crate::problem::{FrictionLaw, SparseFlexibilityProblem, SparseW, checked_dim, unknowns};
+use crate::problem::{
+    FlexibilityForm, FlexibilityProblem, FrictionLaw, SparseW, checked_dim, unknowns,
+};
 
 /// The caller's arrays of a problem in flexibility form with a sparse `W`, not yet checked. Units as in
 /// [`crate::FlexibilityData`].
@@ -27,7 +31,7 @@ pub struct SparseFlexibilityData<'a> {
     pub reference_slip: Option<&'a [f64]>,
 }
 
-impl<'a> SparseFlexibilityProblem<'a> {
+impl<'a> FlexibilityProblem<'a> {
     /// Checks the data and copies `W`.
     ///
     /// # Errors
@@ -37,7 +41,8 @@ impl<'a> SparseFlexibilityProblem<'a> {
     /// zeros; the first entry of another array that is out of range. [`Error::OutOfMemory`]: no memory for the copy.
     pub fn from_sparse(data: SparseFlexibilityData<'a>) -> Result<Self, Error> {
         let matrix = SparseW::from_sparse(data.dim, data.pairs, &data.flexibility)?;
-        Self::with_matrix(matrix, data.free, data.gap, data.law, data.reference_slip)
+        let form = FlexibilityForm::Sparse(Cow::Owned(matrix));
+        Self::with_form(form, data.dim, data.free, (data.gap, data.law, data.reference_slip))
     }
 }
 
@@ -45,7 +50,7 @@ impl SparseW {
     /// A checked copy of a host's matrix of so many pairs.
     ///
     /// # Errors
-    /// As [`SparseFlexibilityProblem::from_sparse`] of the matrix.
+    /// As [`FlexibilityProblem::from_sparse`] of the matrix.
     pub(crate) fn from_sparse(
         dim: usize,
         pairs: usize,

@@ -1,5 +1,5 @@
-//! The flexibility form with a sparse `W`, island by island: each is a dense problem of its own, and what was
-//! found is certified as a whole on the host's sparse data.
+//! The flexibility form. With a sparse `W` it is solved island by island: each is a dense problem of its own, and what
+//! was found is certified as a whole on the host's sparse data.
 //!
 //! The squares of the residuals add up, and so do those of loads and forces, the larger of which is the scale of an
 //! island. So islands with `eta <= t` make a whole with `eta <= t √2`. Islands that Newton's method has solved have no
@@ -13,37 +13,40 @@ use crate::error::{Argument, Error};
 use crate::law::Contact;
 use crate::linalg::matrix::Matrix;
 use crate::monitor::Monitor;
-use crate::problem::{
-    ContactProblem, Flexibility, FlexibilityProblem, FrictionLaw, SparseFlexibilityProblem, SparseW,
-};
+use crate::problem::{ContactProblem, Flexibility, FlexibilityForm, FlexibilityProblem, SparseW};
 use crate::settings::{Method, SMALLEST_TOLERANCE, Settings};
+use crate::solve::part::PairData;
 use crate::solve::result::{Ending, Existence, Solution, Solve, Status};
 
 /// Solves the problem; `start` are contact forces. Islands behind one at which the call is stopped, as large ones or
 /// larger, keep theirs.
 pub fn solve(
-    problem: &SparseFlexibilityProblem<'_>,
+    problem: &FlexibilityProblem<'_>,
     (settings, solve): (&Settings, Solve),
     start: Option<&[f64]>,
     monitor: &mut Monitor<'_>,
 ) -> Result<Solution, Error> {
-    let found = in_turn(problem, (settings, solve), (start, false), monitor)?;
+    let FlexibilityForm::Sparse(matrix) = problem.relation().form() else {
+        return flexibility::solve(problem, (settings, solve), start, &|pair| pair, monitor);
+    };
+    let whole = (problem, matrix.as_ref());
+    let found = in_turn(whole, (settings, solve), (start, false), monitor)?;
     let (is_certified, all) = (found.quick == 0, found.worst.is_none());
     let solution = found.solution(problem, settings);
     if is_certified || !all || solution.status != Status::Stalled {
         return Ok(solution);
     }
-    Ok(in_turn(problem, (settings, solve), (start, true), monitor)?.solution(problem, settings))
+    Ok(in_turn(whole, (settings, solve), (start, true), monitor)?.solution(problem, settings))
 }
 
 /// Solves island by island, each with a certificate of its own if they are to be `certified`.
 fn in_turn(
-    problem: &SparseFlexibilityProblem<'_>,
+    (problem, matrix): (&FlexibilityProblem<'_>, &SparseW),
     (settings, solve): (&Settings, Solve),
     (start, certified): (Option<&[f64]>, bool),
     monitor: &mut Monitor<'_>,
 ) -> Result<Found, Error> {
-    let (islands, dim) = (problem.relation().form().islands(), problem.dim());
+    let (islands, dim) = (matrix.islands(), problem.dim());
     let several = islands.len() > 1;
     let mut own = settings.clone();
     if several {
@@ -51,13 +54,13 @@ fn in_turn(
         own.tolerance = share.max(SMALLEST_TOLERANCE);
     }
     let force = start.map_or_else(|| vec![0.0; problem.unknowns()], <[f64]>::to_vec);
-    let mut found = Found { force, ..Found::default() };
+    let mut found = Found { force, islands: islands.len(), ..Found::default() };
     // The smallest first: what ends the call, most likely the largest, leaves the fewest.
     let mut in_turn: Vec<&[usize]> = islands.each().collect();
     in_turn.sort_by_key(|pairs| pairs.len());
     for pairs in in_turn {
-        let island = Island::new(problem, pairs);
-        let island = island.problem()?;
+        let island = Island::new(problem, matrix, pairs);
+        let island = island.problem(problem)?;
         let begin = gathered(&found.force, pairs, dim);
         if !certified
             && let Some(newton) = on_itself(&Contact::new(&island), &own, &begin, monitor)
@@ -80,50 +83,48 @@ fn in_turn(
     Ok(found)
 }
 
-/// The largest island, in words.
-pub fn largest_island(matrix: &SparseW) -> String {
+/// The largest island of a sparse `W`, in words.
+pub fn largest_island(form: &FlexibilityForm<'_>) -> Option<String> {
+    let FlexibilityForm::Sparse(matrix) = form else { return None };
     let pairs = matrix.islands().largest();
-    format!("the largest island has {} pairs: {}", pairs.len(), named(pairs))
+    Some(format!("the largest island has {} pairs: {}", pairs.len(), named(pairs)))
 }
 
 /// The data of an island.
-struct Island<'a> {
-    dim: usize,
+struct Island {
     matrix: Vec<f64>,
     units: Vec<f64>,
     free: Vec<f64>,
-    gap: Vec<f64>,
-    law: FrictionLaw<'a>,
-    friction: Vec<f64>,
-    slip: Vec<f64>,
+    own: PairData,
 }
 
-impl<'a> Island<'a> {
-    fn new(problem: &SparseFlexibilityProblem<'a>, pairs: &[usize]) -> Self {
+impl Island {
+    fn new(problem: &FlexibilityProblem<'_>, matrix: &SparseW, pairs: &[usize]) -> Self {
         let (relation, dim) = (problem.relation(), problem.dim());
-        let slips = |pair: &usize| {
-            let pair = *pair;
-            (0..dim - 1).map(move |component| problem.reference_slip(pair, component))
-        };
         Island {
-            dim,
-            matrix: relation.form().part(pairs),
+            matrix: matrix.part(pairs),
             units: gathered(relation.units(), pairs, dim),
             free: gathered(relation.free(), pairs, dim),
-            gap: pairs.iter().map(|&pair| problem.gap(pair)).collect(),
-            law: problem.law(),
-            friction: gathered(problem.law().values(), pairs, problem.law().parameters()),
-            slip: pairs.iter().flat_map(slips).collect(),
+            own: PairData::of(problem, pairs),
         }
     }
 
-    /// The island as a problem of its own.
-    fn problem(&self) -> Result<FlexibilityProblem<'_>, Error> {
+    /// The island of the `whole` as a problem of its own.
+    fn problem<'s>(
+        &'s self,
+        whole: &FlexibilityProblem<'s>,
+    ) -> Result<FlexibilityProblem<'s>, Error> {
         let n = self.free.len();
-        let matrix = Matrix::new(n, &self.matrix, n.max(1));
-        let relation = Flexibility::new(matrix, &self.free, self.units.clone());
-        let law = self.law.with_values(&self.friction);
-        ContactProblem::with_relation(relation, self.dim, &self.gap, law, Some(&self.slip))
+        let form = FlexibilityForm::Dense(Matrix::new(n, &self.matrix, n.max(1)));
+        let relation = Flexibility::new(form, &self.free, self.units.clone());
+        let law = whole.law().with_values(&self.own.parameters);
+        ContactProblem::with_relation(
+            relation,
+            whole.dim(),
+            &self.own.gap,
+            law,
+            Some(&self.own.slip),
+        )
     }
 }
 
@@ -156,6 +157,7 @@ struct Found {
     force: Vec<f64>,
     /// The pairs and the result of the worst one: of equals the largest. `None`: Newton's method has solved it.
     worst: Option<(Vec<usize>, Solution)>,
+    islands: usize,
     solved: usize,
     /// Islands that have no certificate of their own.
     quick: usize,
@@ -190,10 +192,10 @@ impl Found {
     }
 
     /// The result of the whole.
-    fn solution(self, problem: &SparseFlexibilityProblem<'_>, settings: &Settings) -> Solution {
+    fn solution(self, problem: &FlexibilityProblem<'_>, settings: &Settings) -> Solution {
         let d = problem.relation().relative(&self.force);
         let certificate = measure(&Contact::new(problem), &d, &self.force);
-        let ending = self.ending(problem, settings, &certificate);
+        let ending = self.ending(settings, &certificate);
         let existence = if settings.proof { Existence::NotProved } else { Existence::NotAsked };
         let method = if self.quick > 0 { Method::Newton } else { settings.method };
         let mut whole = Solution {
@@ -215,16 +217,11 @@ impl Found {
     }
 
     /// The status, that of the worst island, and its sentence.
-    fn ending(
-        &self,
-        problem: &SparseFlexibilityProblem<'_>,
-        settings: &Settings,
-        certificate: &Certificate,
-    ) -> (Status, String) {
+    fn ending(&self, settings: &Settings, certificate: &Certificate) -> (Status, String) {
         let accuracy = format!("eta is {:.1e}", certificate.eta);
         let wanted = format!("{accuracy}, wanted {:.1e}", settings.tolerance);
         let holds = certificate.holds(settings.tolerance);
-        let islands = problem.relation().form().islands().len();
+        let islands = self.islands;
         let failed = self.worst.as_ref().filter(|(_, worst)| worst.status != Status::Solved);
         let stop = failed.and_then(|(_, worst)| worst.status.stop());
         match (failed, stop) {

@@ -22,6 +22,5 @@ mod rounds;
 mod step;
 
 pub use dependent::solve as solve_dependent;
-pub use flexibility::solve as solve_flexibility;
-pub use islands::{largest_island, solve as solve_islands};
+pub use islands::{largest_island, solve as solve_flexibility};
 pub use let_go::let_go;

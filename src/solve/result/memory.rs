@@ -4,7 +4,7 @@
 //! questions; `tests/memory/estimate.rs` and `tests/memory/peaks.rs` count again.
 
 use crate::error::{Error, Limit};
-use crate::problem::{SparseFlexibilityProblem, SparseW};
+use crate::problem::{FlexibilityForm, FlexibilityProblem};
 use crate::settings::Settings;
 
 /// Matrices of the size of `K` that a method holds at most. The tableau of Lemke's method with friction is
@@ -42,23 +42,23 @@ pub fn memory(unknowns: usize) -> u64 {
 }
 
 /// Bytes of [`solve_flexibility`](crate::solve::solve_flexibility), which holds the stiffness of bodies and springs
-/// besides.
-pub fn memory_flexibility(unknowns: usize) -> u64 {
-    let stiffness = (unknowns as f64).powi(2) * size_of::<f64>() as f64;
-    memory(unknowns) + stiffness as u64
+/// besides. Of a sparse `W` those of its largest island as a dense problem, of which the matrix is made, and of the
+/// problem itself, which has a copy of the host's matrix.
+pub fn memory_flexibility(problem: &FlexibilityProblem<'_>) -> u64 {
+    memory_of_flexibility(problem.relation().form())
 }
 
-/// Bytes of [`solve_flexibility_sparse`](crate::solve::solve_flexibility_sparse): its largest island as a dense
-/// problem, of which it makes the matrix, and the problem itself, which has a copy of the host's matrix.
-pub fn memory_flexibility_sparse(problem: &SparseFlexibilityProblem<'_>) -> u64 {
-    memory_of_islands(problem.relation().form())
-}
-
-/// Bytes of the islands, from the matrix alone.
-pub fn memory_of_islands(matrix: &SparseW) -> u64 {
-    let largest = matrix.dim() * matrix.islands().largest().len();
-    let dense = (largest as f64).powi(2) * size_of::<f64>() as f64;
-    let vectors = VECTORS_OF_WHOLE * (matrix.size() * size_of::<f64>()) as f64;
-    let copy = matrix.entries() as f64 * (size_of::<usize>() + size_of::<f64>()) as f64;
-    memory_flexibility(largest) + (dense + vectors + copy) as u64
+/// As [`memory_flexibility`], from the matrix alone.
+pub fn memory_of_flexibility(form: &FlexibilityForm<'_>) -> u64 {
+    let square = |n: usize| (n as f64).powi(2) * size_of::<f64>() as f64;
+    let dense = |n: usize| memory(n) + square(n) as u64;
+    match form {
+        FlexibilityForm::Dense(matrix) => dense(matrix.size()),
+        FlexibilityForm::Sparse(matrix) => {
+            let largest = matrix.dim() * matrix.islands().largest().len();
+            let vectors = VECTORS_OF_WHOLE * (matrix.size() * size_of::<f64>()) as f64;
+            let copy = matrix.entries() as f64 * (size_of::<usize>() + size_of::<f64>()) as f64;
+            dense(largest) + (square(largest) + vectors + copy) as u64
+        }
+    }
 }

@@ -13,9 +13,7 @@ pub use candidate::Candidate;
 pub use certified::certified;
 pub use effort::Effort;
 pub use ending::{CAUSES, Ending, NO_EQUILIBRIUM};
-pub use memory::{
-    check_limit, memory, memory_flexibility, memory_flexibility_sparse, memory_of_islands,
-};
+pub use memory::{check_limit, memory, memory_flexibility, memory_of_flexibility};
 pub use solution::{
     Errors, Escape, Existence, Fallback, Remarks, SecondSolution, Solution, Solve, Status,
     Uniqueness,
