@@ -2,8 +2,8 @@
 
 use libc::c_char;
 
-use super::args::{Arrays, size};
-use super::guard::{self, Failure};
+use super::args::{Arrays, c_entry, size};
+use super::guard::Failure;
 use super::sparse::shifted;
 use super::structures;
 use super::zones::{SignoriniZone, Zones};
@@ -76,11 +76,9 @@ pub unsafe extern "C" fn signorini_mesh_write(
     n_fields: i64,
     fields: *const SignoriniField,
 ) -> i32 {
-    guard::call(|| {
-        // SAFETY: the header's contract.
-        let mut arrays = unsafe { Arrays::of_call() };
+    c_entry!(|arrays| {
         let path = arrays.path(1, path)?;
-        SignoriniMesh::with(&mut arrays, 2, mesh, |arrays, mesh| {
+        SignoriniMesh::with(arrays, 2, mesh, |arrays, mesh| {
             let size_of_mesh = (mesh.dim, mesh.node_count());
             let zones = Zones::read(arrays, (n_zones, zones), size_of_mesh)?;
             let displacement = match &zones {

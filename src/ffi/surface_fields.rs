@@ -1,7 +1,7 @@
 //! Pressure, traction, clearance and slip of pairs from surfaces, and their resultant.
 
-use super::args::{Arrays, Output};
-use super::guard::{self, Failure};
+use super::args::{Arrays, Output, c_entry};
+use super::guard::Failure;
 use super::structures::{Structure, check_reserved};
 use super::surface_new::SignoriniSurfacePairs;
 use crate::error::Argument;
@@ -75,11 +75,9 @@ pub unsafe extern "C" fn signorini_surface_fields(
     state: *const i32,
     fields: *const SignoriniContactFields,
 ) -> i32 {
-    guard::call(|| {
-        // SAFETY: the header's contract.
-        let mut arrays = unsafe { Arrays::of_call() };
+    c_entry!(|arrays| {
         let contact = arrays.handle(1, "contact", contact)?;
-        let results = pair_results(&mut arrays, contact, (2, gap), (3, slip0), (4, d), (5, F))?;
+        let results = pair_results(arrays, contact, (2, gap), (3, slip0), (4, d), (5, F))?;
         let count = contact.arrays.count;
         let state = arrays.optional(6, "state", state, count)?;
         let given = arrays.whole(7, "fields", fields)?;
@@ -125,12 +123,10 @@ pub unsafe extern "C" fn signorini_surface_resultant(
     point: *const f64,
     resultant: *mut SignoriniResultant,
 ) -> i32 {
-    guard::call(|| {
-        // SAFETY: the header's contract.
-        let mut arrays = unsafe { Arrays::of_call() };
+    c_entry!(|arrays| {
         let contact = arrays.handle(1, "contact", contact)?;
         let no_gap = std::ptr::null();
-        let results = pair_results(&mut arrays, contact, (1, no_gap), (2, slip0), (3, d), (4, F))?;
+        let results = pair_results(arrays, contact, (1, no_gap), (2, slip0), (3, d), (4, F))?;
         let dim = contact.found.dim;
         let origin = [0.0; 3];
         let point = arrays.optional(5, "point", point, dim)?.unwrap_or(&origin[..dim]);

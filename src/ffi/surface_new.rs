@@ -2,8 +2,8 @@
 
 use std::ffi::CString;
 
-use super::args::{Arrays, size};
-use super::guard::{self, Failure};
+use super::args::{Arrays, c_entry, size};
+use super::guard::Failure;
 use super::handle::release;
 use super::pairs::SignoriniPairs;
 use super::structures::Structure;
@@ -70,13 +70,11 @@ pub unsafe extern "C" fn signorini_surface_pair(
     settings: *const SignoriniSurfaceSettings,
     contact: *mut *mut SignoriniSurfacePairs,
 ) -> i32 {
-    guard::call(|| {
-        // SAFETY: the header's contract.
-        let mut arrays = unsafe { Arrays::of_call() };
+    c_entry!(|arrays| {
         let place = arrays.out_pointer(7, "contact", contact)?;
-        let host = Host::read(&mut arrays, (dim, nodes, coordinates), slave, settings)?;
+        let host = Host::read(arrays, (dim, nodes, coordinates), slave, settings)?;
         let base = host.received.base;
-        let master = SignoriniFaces::read(&mut arrays, (5, "master"), master, base)?;
+        let master = SignoriniFaces::read(arrays, (5, "master"), master, base)?;
         let surfaces = Surfaces {
             dim: host.dim,
             coordinates: host.coordinates,
@@ -109,14 +107,12 @@ pub unsafe extern "C" fn signorini_surface_pair_obstacle(
     settings: *const SignoriniSurfaceSettings,
     contact: *mut *mut SignoriniSurfacePairs,
 ) -> i32 {
-    guard::call(|| {
-        // SAFETY: the header's contract.
-        let mut arrays = unsafe { Arrays::of_call() };
+    c_entry!(|arrays| {
         let place = arrays.out_pointer(7, "contact", contact)?;
-        let host = Host::read(&mut arrays, (dim, nodes, coordinates), slave, settings)?;
+        let host = Host::read(arrays, (dim, nodes, coordinates), slave, settings)?;
         let Host { dim, coordinates, received, .. } = &host;
         let slave = SignoriniFaces::view(&host.slave);
-        let obstacle = SignoriniObstacle::read(&mut arrays, 5, *dim, received.base, obstacle)?;
+        let obstacle = SignoriniObstacle::read(arrays, 5, *dim, received.base, obstacle)?;
         let given = &received.settings;
         let found = received.monitored(|monitor| match &obstacle {
             Rigid::Shape(shape) => {

@@ -4,9 +4,10 @@ use libc::c_void;
 
 use super::args::{Arrays, size};
 use super::guard::Failure;
+use super::numbers::{Numbered, numbers};
 use super::settings::{SignoriniProgressFn, callback};
 use super::sparse::shifted;
-use super::structures::{self, Structure};
+use super::structures::{self, Structure, chosen};
 use crate::monitor::{Monitor, ProgressFn};
 use crate::settings::Settings;
 use crate::surface::{Normals, Pairing, Rims, SurfaceSettings, SymmetryPlane};
@@ -129,7 +130,9 @@ impl SignoriniSurfaceSettings {
     ) -> Result<ParsedSurfaceSettings, Failure> {
         let refuse = |message: String| Err(Failure::argument(position, message));
         let given = arrays.copy(position, "settings", pointer)?;
-        let (pairing, normals, rims) = given.choices(position)?;
+        let pairing = chosen(position, ("settings", "pairing"), given.pairing)?;
+        let normals = chosen(position, ("settings", "choice of normals"), given.normals)?;
+        let rims = chosen(position, ("settings", "choice of rims"), given.rims)?;
         let base = structures::index_base(position, "settings", given.index_base)?;
         let per_node = match given.dofs_per_node {
             0 => dim,
@@ -143,10 +146,8 @@ impl SignoriniSurfaceSettings {
         }
         // The coordinates have as many entries.
         let dofs = arrays.optional(position, "node_dofs", given.node_dofs, dim * nodes)?;
-        let listed = match dofs {
-            Some(dofs) => Some(shifted(position, "settings: node_dofs", dofs, base)?),
-            None => None,
-        };
+        let listed = dofs.map(|dofs| shifted(position, "settings: node_dofs", dofs, base));
+        let listed = listed.transpose()?;
         let search_distance = Some(given.search_distance).filter(|distance| *distance != 0.0);
         let symmetry = given.symmetry(arrays, position)?;
         let axisymmetric = given.axisymmetric != 0;
@@ -160,29 +161,6 @@ impl SignoriniSurfaceSettings {
             return refuse(format!("settings: time_limit is {time_limit}, {message}"));
         }
         Ok(ParsedSurfaceSettings { settings, base, per_node, listed, time_limit, progress, user })
-    }
-
-    /// How pairs are made, their normals, and what becomes of nodes at rims.
-    fn choices(&self, position: i32) -> Result<(Pairing, Normals, Rims), Failure> {
-        let none = |kind: &str, number: i32| {
-            Err(Failure::argument(position, format!("settings: there is no {kind} {number}")))
-        };
-        let pairing = match self.pairing {
-            SIGNORINI_PAIRING_DUAL_MORTAR => Pairing::DualMortar,
-            SIGNORINI_PAIRING_NODE_TO_SURFACE => Pairing::NodeToSurface,
-            other => return none("pairing", other),
-        };
-        let normals = match self.normals {
-            SIGNORINI_NORMALS_AVERAGED => Normals::Averaged,
-            SIGNORINI_NORMALS_FACES => Normals::Faces,
-            other => return none("choice of normals", other),
-        };
-        let rims = match self.rims {
-            SIGNORINI_RIMS_FOLD => Rims::Fold,
-            SIGNORINI_RIMS_KEEP => Rims::Keep,
-            other => return none("choice of rims", other),
-        };
-        Ok((pairing, normals, rims))
     }
 
     /// The planes of symmetry.
@@ -206,6 +184,19 @@ impl SignoriniSurfaceSettings {
         axes.iter().zip(places).map(plane).collect()
     }
 }
+
+numbers! {
+    Pairing {
+        DualMortar = SIGNORINI_PAIRING_DUAL_MORTAR,
+        NodeToSurface = SIGNORINI_PAIRING_NODE_TO_SURFACE,
+    }
+}
+
+numbers! {
+    Normals { Averaged = SIGNORINI_NORMALS_AVERAGED, Faces = SIGNORINI_NORMALS_FACES }
+}
+
+numbers! { Rims { Fold = SIGNORINI_RIMS_FOLD, Keep = SIGNORINI_RIMS_KEEP } }
 
 /// Fills settings with their defaults; struct_size is sizeof(signorini_surface_settings).
 #[unsafe(no_mangle)]
