@@ -109,12 +109,6 @@ impl Elimination {
         Matrix::new(self.kept.len(), &self.schur, self.kept.len())
     }
 
-    /// `K_OO⁻¹ b`, in place.
-    pub fn solve(&self, b: &mut [f64]) {
-        self.solve_half(b);
-        self.solve_other_half(b);
-    }
-
     /// `X L⁻¹ b`: what a load `b` on the components `O` takes from the load on `C`.
     pub fn transfer(&self, b: &[f64]) -> Vec<f64> {
         let mut half = b.to_vec();

@@ -4,7 +4,7 @@
 //! and `C` the candidates, `K_OO d_O + K_OC d_C = f_O` holds as long as `O` stays open, so that the
 //! contact problem on `C` alone has the matrix `S = K_CC - K_CO K_OO⁻¹ K_OC`. It is solved with all
 //! states allowed. If a pair of `O` then penetrates, it joins `C`, and the problem is solved again: this
-//! ends, as each pass adds pairs. The result is measured and refined on the whole problem.
+//! ends, as each pass adds pairs. The result is measured on the whole problem.
 //!
 //! *Series.* The eliminated pairs depend on the matrix and on which pairs are open, not on the loads. Where the pairs
 //! that an earlier problem with the same matrix has eliminated are open in this one too, the contact problem on its
@@ -12,17 +12,15 @@
 //! the candidates of both problems are the next ones, so that a series in which the contact rocks soon has candidates
 //! for all of it. Where that fails the problem is solved as one that stands alone.
 
-use std::borrow::Cow;
 use std::sync::Arc;
 
-use super::iteration::{self, Ended};
+use super::iteration::Ended;
 use super::start::swept;
-use crate::certificate::{eta_of, measure};
 use crate::law::Vector;
 use crate::linalg::elimination::Elimination;
 use crate::monitor::{Monitor, Stop};
 use crate::solve::part::{ReducedProblem, closed_with_margin};
-use crate::solve::pieces::{Equations, Point, REFINEMENTS, System};
+use crate::solve::pieces::{Equations, Point};
 use crate::solve::result::{Call, Candidate, Effort, Ending};
 
 /// Why there is no start.
@@ -63,16 +61,11 @@ pub fn solve(call: &Call<'_>, monitor: &mut Monitor<'_>, core: &mut Core<'_>) ->
         let alone = search.on(&whole, None, y, monitor);
         found = Some(Found { systems: spent + alone.systems, ..alone });
     }
-    let mut found = found.expect("the problem alone has ended");
-    if let Some(reduced) = found.reduced.take() {
-        if let Some(remembered) = remembered
-            && matches!(found.ending, Ending::Done | Ending::Stopped(_))
-        {
-            remembered.keep(Some(Arc::clone(reduced.elimination())));
-        }
-        if found.ending == Ending::Done {
-            refine(&reduced, call, &mut found, monitor);
-        }
+    let found = found.expect("the problem alone has ended");
+    if let Some(remembered) = remembered
+        && matches!(found.ending, Ending::Done | Ending::Stopped(_))
+    {
+        remembered.keep(found.elimination);
     }
     let mut candidate =
         Candidate::new(found.d, found.force, found.ending, Effort::of_systems(found.systems));
@@ -105,7 +98,7 @@ fn begun<'w>(
 }
 
 /// Where a search has ended.
-struct Found<'w> {
+struct Found {
     /// Displacements, the force that they need, and their coordinates.
     d: Vec<f64>,
     force: Vec<f64>,
@@ -114,15 +107,15 @@ struct Found<'w> {
     ending: Ending,
     systems: u64,
     orientation: i8,
-    /// The candidates, if others were eliminated.
-    reduced: Option<ReducedProblem<'w>>,
+    /// What was eliminated beside the candidates, if anything was.
+    elimination: Option<Arc<Elimination>>,
 }
 
-impl From<Ended> for Found<'_> {
+impl From<Ended> for Found {
     fn from(ended: Ended) -> Self {
         let Ended { point, ending, systems, orientation } = ended;
         let Point { y, d, force, .. } = point;
-        Found { d, force, y, ending, systems, orientation, reduced: None }
+        Found { d, force, y, ending, systems, orientation, elimination: None }
     }
 }
 
@@ -143,7 +136,7 @@ impl Search<'_, '_> {
         mut reduced: Option<ReducedProblem<'w>>,
         mut y: Vec<Vector>,
         monitor: &mut Monitor<'_>,
-    ) -> Found<'w> {
+    ) -> Found {
         let mut kept = Vec::new();
         let (mut systems, mut orientation) = (0, 0);
         loop {
@@ -175,7 +168,8 @@ impl Search<'_, '_> {
             let is_last = !done || solved || part.closing(&y).is_empty();
             let ending = found.ending;
             if is_last {
-                return Found { d, force, y, ending, systems, orientation, reduced: Some(part) };
+                let elimination = Some(Arc::clone(part.elimination()));
+                return Found { d, force, y, ending, systems, orientation, elimination };
             }
         }
     }
@@ -186,15 +180,14 @@ impl Search<'_, '_> {
         equations: &Equations<'_>,
         y: Vec<Vector>,
         monitor: &mut Monitor<'_>,
-    ) -> Found<'static> {
+    ) -> Found {
         if !self.is_series {
             return (self.core)(equations, y, monitor).into();
         }
         self.is_series = false;
-        let Found { d, force, y, ending, systems, orientation, .. } =
-            self.on(equations, None, y, monitor);
+        let found = self.on(equations, None, y, monitor);
         self.is_series = true;
-        Found { d, force, y, ending, systems, orientation, reduced: None }
+        Found { elimination: None, ..found }
     }
 
     /// The problem on the candidates at the coordinates `y` and on the pairs that were `kept` before, unless a series has
@@ -214,53 +207,6 @@ impl Search<'_, '_> {
             *kept = needed;
         }
         ReducedProblem::of_candidates(whole, kept, monitor)
-    }
-}
-
-/// Iterative refinement of a solution on the candidates by the residual of the whole problem, as long as there
-/// is time.
-fn refine(
-    reduced: &ReducedProblem<'_>,
-    call: &Call<'_>,
-    found: &mut Found<'_>,
-    monitor: &mut Monitor<'_>,
-) {
-    let contact = call.contact;
-    let elimination = reduced.elimination();
-    let (dropped, kept) = (elimination.dropped(), elimination.kept());
-    let mut point = Point::new(&reduced.equations(), reduced.of_kept(&found.y));
-    let mut best = eta_of(contact, &found.d, &found.force);
-    for _ in 0..REFINEMENTS {
-        // The certificate also allows for the rounding of prescribed displacements.
-        if measure(contact, &found.d, &found.force).holds(call.settings.tolerance) {
-            break;
-        }
-        let mut next = found.d.clone();
-        let mut lack: Vec<f64> = dropped.iter().map(|&i| found.force[i]).collect();
-        elimination.solve(&mut lack);
-        dropped.iter().zip(&lack).for_each(|(&i, lack)| next[i] -= lack);
-        // A load under which the force of the candidates is that of the whole problem.
-        let whole = reduced.whole().force(&next);
-        let mut equations = reduced.equations();
-        let mut load = equations.matrix.product(&point.d);
-        load.iter_mut().zip(kept).for_each(|(load, &i)| *load -= whole[i]);
-        equations.load = Cow::Owned(load);
-        let pairs = equations.linearised(&point.pieces, &point.y);
-        if monitor.affords(System::work(&equations, &pairs)).is_err() {
-            break;
-        }
-        let Some(better) = iteration::step(&equations, &point, monitor) else { break };
-        found.systems += 1;
-        let moved: Vec<f64> = better.d.iter().zip(&point.d).map(|(b, a)| b - a).collect();
-        let followed = elimination.follow(&vec![0.0; dropped.len()], &moved);
-        kept.iter().zip(&better.d).for_each(|(&i, x)| next[i] = *x);
-        dropped.iter().zip(&followed).for_each(|(&i, x)| next[i] += x);
-        let residual = reduced.whole().force(&next);
-        let eta = eta_of(contact, &next, &residual);
-        if !(eta < best) {
-            break;
-        }
-        (best, found.d, found.force, point) = (eta, next, residual, better);
     }
 }
 

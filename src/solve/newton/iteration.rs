@@ -82,15 +82,6 @@ pub fn from_pieces(
     Ok(dense.descend(moved(&y, &step, 1.0), (tolerance, 0), monitor))
 }
 
-/// The point after one system, with the whole step; `None` if the system is singular.
-pub fn step(equations: &Equations<'_>, point: &Point, monitor: &mut Monitor<'_>) -> Option<Point> {
-    let mut systems = Systems::of(equations);
-    let pairs = equations.linearised(&point.pieces, &point.y);
-    systems.go_to(pairs, &mut monitor.asking())?;
-    let step = systems.step(&point.lack)?;
-    Some(Point::new(equations, moved(&point.y, &step, 1.0)))
-}
-
 /// Equations whose systems are factorised.
 struct Dense<'e> {
     equations: &'e Equations<'e>,

@@ -84,11 +84,6 @@ impl<'w> ReducedProblem<'w> {
         ReducedProblem { whole, elimination, stuck, on_open, load }
     }
 
-    /// The equations of the whole problem.
-    pub fn whole(&self) -> &'w Equations<'w> {
-        self.whole
-    }
-
     /// The elimination of the open pairs.
     pub fn elimination(&self) -> &Arc<Elimination> {
         &self.elimination
