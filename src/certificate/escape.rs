@@ -3,7 +3,7 @@
 //! `law::recession`.
 
 use super::condensation::is_free;
-use crate::law::{Contact, Recession, lift};
+use crate::law::{Contact, Recession};
 use crate::linalg::tolerances::{LEAST_WORK, NEGLIGIBLE};
 use crate::linalg::vector::{dot, largest_of, norm_inf};
 use crate::problem::{ContactProblem, Relation};
@@ -53,16 +53,6 @@ pub(super) fn outworks_contact<R: Relation>(contact: &Contact<'_, R>, r: &[f64])
     let load = contact.load_with_tension();
     let scale: f64 = load.iter().zip(&root).map(|(f, root)| size * (f / root).abs()).sum();
     dot(load, r) - resisted > LEAST_WORK * scale
-}
-
-/// A motion that proves that no equilibrium exists, with each pair lifted that rounding brings nearer to its obstacle, if
-/// it proves so still.
-pub(crate) fn without_approach(contact: &Contact<'_>, r: Vec<f64>) -> Vec<f64> {
-    let mut lifted = r.clone();
-    for (law, r) in contact.pairs().iter().zip(lifted.chunks_exact_mut(contact.dim())) {
-        lift(r, law.recession(r).approach.max(0.0));
-    }
-    if is_escape_of(contact, &lifted) { lifted } else { r }
 }
 
 /// By how much each pair must be lifted in the motion `r` so that contact forces do no negative work.

@@ -37,7 +37,7 @@ mod spread;
 mod units;
 
 pub use escape::is_escape;
-pub(crate) use escape::{is_escape_of, lifts, without_approach};
+pub(crate) use escape::{is_escape_of, lifts};
 pub use measure::{Certificate, LEVER, ROUNDING_LIMIT, certify, certify_pair, eta};
 pub(crate) use measure::{certify_in_units, eta_of, measure, measure_any, measure_parts};
 pub use proof::{Proof, prove};

@@ -22,7 +22,7 @@ mod sweeps;
 mod uniqueness;
 mod units;
 
-use crate::certificate::{measure_any, without_approach};
+use crate::certificate::measure_any;
 use crate::error::{Argument, Error, Limit, entry};
 use crate::law::Contact;
 use crate::linalg::vector::first_not_finite;
@@ -153,7 +153,6 @@ fn solve_as_it_stands(
     if solution.status == Status::NoEquilibrium {
         let (balance, solve) = (Balance::new(&contact, monitor), Some(plan::solve as Solve));
         rigid::describe(&contact, &mut solution, balance, solve, monitor)?;
-        solution.recession = solution.recession.map(|motion| without_approach(&contact, motion));
     }
     uniqueness::by_orientation(&contact, &mut solution, monitor);
     if settings.search == Search::Others && !monitor.is_late() {

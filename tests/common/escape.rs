@@ -3,7 +3,7 @@
 use super::dense::dot;
 use super::edges::Problem;
 use super::ellipses::axes;
-use super::exact::{UNIT, force, quads, work};
+use super::exact::{UNIT, force, largest_stiffness, quads, work};
 use super::problems::Case;
 use super::quad::norm;
 
@@ -17,11 +17,12 @@ pub fn flaw_of_motion(problem: &Problem, r: &[f64]) -> Option<(f64, String)> {
     let unloaded = Case { f: vec![0.0; n], ..case.clone() };
     let strain = force(&unloaded, &quads(r));
     // The products that make K of rigid motions round beside its largest entries.
-    let largest = (0..n).map(|i| case.stiffness(i, i)).fold(0.0, f64::max);
-    let noise = if problem.motions.is_empty() { *noise } else { noise + few * largest };
+    let rounded = if problem.motions.is_empty() { 0.0 } else { few * largest_stiffness(case) };
+    let noise = noise + rounded;
     let most = r.iter().fold(0.0, |most: f64, r| most.max(r.abs()));
     let least = few * most + 2.0 * distance_to(&problem.motions, r);
     let root: Vec<f64> = (0..n).map(|i| case.stiffness(i, i).abs().sqrt()).collect();
+    let total: f64 = root.iter().zip(r).map(|(root, r)| root * r.abs()).sum();
     for i in 0..n {
         let entry = |j: usize| (few * root[i] * root[j] + noise) * r[j].abs();
         let allowed: f64 = (0..n).map(entry).sum();
@@ -41,10 +42,12 @@ pub fn flaw_of_motion(problem: &Problem, r: &[f64]) -> Option<(f64, String)> {
         pulled += tension * part[0];
         let allowed = few * (part[0].abs() + lift);
         // A motion of the size of rounding beside the largest is none, nor is one as small as its distance to the
-        // motions of the maker: those of K as it is given are as far from them.
+        // motions of the maker: those of K as it is given are as far from them. Nor is one that strains K by rounding.
+        let strained = few * total / root[dim * pair];
         let approach = part[0] + lift;
-        if case.gap[pair].is_finite() && approach > allowed + least {
-            let size = approach / (allowed + least);
+        let allowed = allowed + least + strained;
+        if case.gap[pair].is_finite() && approach > allowed {
+            let size = approach / allowed;
             return Some((size, format!("contact can stop it at pair {pair}: {approach:.1e}")));
         }
     }

@@ -38,6 +38,11 @@ pub fn parts(case: &Case, d: &[Quad]) -> Vec<f64> {
     (0..n).map(|i| row(i) + case.f[i].abs()).collect()
 }
 
+/// The largest entry of a stiffness.
+pub fn largest_stiffness(case: &Case) -> f64 {
+    (0..case.size()).map(|i| case.stiffness(i, i)).fold(0.0, f64::max)
+}
+
 /// `max(|f|, |F|)`.
 pub fn scale(case: &Case, force: &[Quad]) -> Quad {
     norm(&quads(&case.f)).max(norm(force))
@@ -129,11 +134,12 @@ fn slip(case: &Case, pair: usize, at: &Point, g: Quad) -> (Vec<Quad>, Vec<Vec<Qu
     (h.iter().map(|&h| g * h).collect(), (0..h.len()).map(column).collect(), h)
 }
 
-/// `eta` of `d`: `|e| / max(|f|, |F|)`.
+/// `eta` of `d`: `|e| / max(|f|, |F|)`; 0 of loads and forces that are below the last digits of the judge's own sums.
 pub fn eta(case: &Case, d: &[Quad]) -> f64 {
     let force = force(case, d);
-    let size = norm(&residual(case, d, &force));
-    if size == Quad::ZERO { 0.0 } else { (size / scale(case, &force)).value() }
+    let (size, scale) = (norm(&residual(case, d, &force)), scale(case, &force));
+    let digits = ZERO * parts(case, d).into_iter().fold(0.0, f64::max);
+    if size == Quad::ZERO || scale.value() <= digits { 0.0 } else { (size / scale).value() }
 }
 
 /// By how much `eta` may change if each entry of `d` is rounded to a double, and its denominator is

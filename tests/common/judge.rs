@@ -8,8 +8,8 @@ use super::edges::Problem;
 use super::ellipses::axes;
 use super::escape::flaw_of_motion;
 use super::exact::{
-    BEYOND_ROUNDING, UNIT, differ, eta, force, is_definite, own_line, parts as parts_of, quads,
-    refined, residual, rounding, scale, threshold, work,
+    BEYOND_ROUNDING, UNIT, differ, eta, force, is_definite, largest_stiffness, own_line,
+    parts as parts_of, quads, refined, residual, rounding, scale, threshold, work,
 };
 use super::problems::Case;
 use super::quad::{Quad, largest, norm};
@@ -38,6 +38,8 @@ pub enum Fault {
     Several,
     /// No answer, and `K` is definite, of a condition number up to 1e10 with its diagonal scaled to 1.
     UnsolvedRegular,
+    /// The same of a condition number from 1e10 to 1e12.
+    UnsolvedTo1e12,
     /// No answer, and there is a solution, of another `K`.
     Unsolved,
     /// Good data refused.
@@ -46,7 +48,7 @@ pub enum Fault {
     Report,
 }
 
-pub const FAULTS: [Fault; 13] = [
+pub const FAULTS: [Fault; 14] = [
     Fault::AboveEta,
     Fault::AboveTolerance,
     Fault::BeyondRounding,
@@ -57,6 +59,7 @@ pub const FAULTS: [Fault; 13] = [
     Fault::Unique,
     Fault::Several,
     Fault::UnsolvedRegular,
+    Fault::UnsolvedTo1e12,
     Fault::Unsolved,
     Fault::Refused,
     Fault::Report,
@@ -144,15 +147,25 @@ pub fn judge(problem: &Problem, answer: &Answer<'_>, tolerance: f64) -> Faults {
         Status::NoEquilibrium => judge_proof(problem, answer, &mut faults),
         Status::Stalled | Status::IterationLimit => {
             if let Some(why) = solvable(problem) {
-                // The largest eigenvalue is at most n: no smallest one is below n / 1e10.
-                let regular = is_definite(case, 1e-10 / UNIT);
-                let fault = if regular { Fault::UnsolvedRegular } else { Fault::Unsolved };
+                let fault = without_answer(case);
                 faults.push(plain(fault, format!("{:?}, but {why}", answer.status)));
             }
         }
         other => faults.push(plain(Fault::Report, format!("no reason to end with {other:?}"))),
     }
     faults
+}
+
+/// The fault of an answer that is none, where there is a solution, by the condition of `K`.
+pub fn without_answer(case: &Case) -> Fault {
+    // The largest eigenvalue is at most n: no smallest one is below n / 1e10, or n / 1e12.
+    if is_definite(case, 1e-10 / UNIT) {
+        Fault::UnsolvedRegular
+    } else if is_definite(case, 1e-12 / UNIT) {
+        Fault::UnsolvedTo1e12
+    } else {
+        Fault::Unsolved
+    }
 }
 
 fn judge_residual(case: &Case, answer: &Answer<'_>, tolerance: f64, faults: &mut Faults) {
@@ -248,8 +261,10 @@ fn judge_balance(problem: &Problem, answer: &Answer<'_>, tolerance: f64, faults:
         let length = norm(&quads(r)).value();
         let left = (work(r, &case.f) + work(r, answer.force)).abs();
         let strained: f64 = r.iter().zip(&terms).map(|(r, term)| r.abs() * term).sum();
+        // The products that make K of rigid motions round beside its largest entries.
         let few = 4.0 * case.size() as f64 * UNIT;
-        let allowed = (BALANCE + 4.0 * tolerance) * size * length + few * strained;
+        let noise = few * largest_stiffness(case) * parts * r.iter().map(|r| r.abs()).sum::<f64>();
+        let allowed = (BALANCE + 4.0 * tolerance) * size * length + few * strained + noise;
         if left > allowed {
             let size = left / (size * length);
             let text = format!("{size:.1e} of the load is not balanced, |d| is {parts:.1e}");

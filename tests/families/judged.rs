@@ -8,7 +8,7 @@ use crate::common::all_states::all_solutions;
 use crate::common::dense::largest;
 use crate::common::edges::{CLASSES, Problem, problem, problem_among};
 use crate::common::exact::{UNIT, differ, eta, force, quads, refined, scale, states};
-use crate::common::judge::{Answer, FAULTS, Fault, Faults, Finding, judge};
+use crate::common::judge::{Answer, FAULTS, Fault, Faults, Finding, judge, without_answer};
 use crate::common::problems::{Case, Law};
 use crate::common::quad::Quad;
 use signorini::{ContactProblem, Model, Monitor, Search, Settings, Solution, Status, Uniqueness};
@@ -29,7 +29,7 @@ const ON_FEW_POINTS: usize = 8;
 
 /// A problem whose matrix is that of a model, which knows it without the rounding of rigid motions. Without
 /// the error `E` of the given one, `(1 - V V') (K + E) (1 - V V') = K`: the change is `2 |E|` at most, and
-/// `|E|` is at most `n` times its largest entry.
+/// `|E|` is at most `n` times its largest entry; the motions `V` of `K + E` are those of `K` turned by as much again.
 fn of_model(problem: &Problem) -> Result<Problem, String> {
     let data = problem.case.data();
     let model = Model::condensed(data.dim, data.pairs, data.stiffness, data.ld)
@@ -38,7 +38,7 @@ fn of_model(problem: &Problem) -> Result<Problem, String> {
     let error = problem.noise + UNIT * largest(data.stiffness);
     let change = data.stiffness.iter().zip(model.stiffness()).map(|(given, k)| (given - k).abs());
     let change = change.fold(0.0, f64::max);
-    if change > 2.0 * n as f64 * error {
+    if change > 4.0 * n as f64 * error {
         return Err(format!("a model changes K by {change:.1e}, its error is {error:.1e}"));
     }
     let mut of_model = problem.clone();
@@ -79,61 +79,18 @@ fn faults(problem: &Problem, answer: &Result<Solution, String>) -> Faults {
     }
 }
 
-/// How many of the `PROBLEMS` may still be judged so: rows as [`CLASSES`], columns as [`FAULTS`]. The goal
-/// is zero everywhere; lower a number as soon as the library allows it. Numbers that are not zero have a
-/// quarter and three in reserve, as rounding differs from machine to machine.
-#[rustfmt::skip]
-const STILL_IN_THE_PLANE: Limits = [
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // definite, condition to 1e3, mu to 2
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // definite, condition to 1e3, mu to 1e3
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // definite, thresholds
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 5, 0, 0], // definite, condition 1e3 to 1e15
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // definite, stiffness 1e13 apart
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 38, 0, 0], // soft springs beside stiff ones, to 1e-15
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // rigid motions
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // blocks, rigid motions exact
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // body on two or three points
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // duplicated pairs
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // touching, on the cone, unloaded
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // gaps to 1e300 and infinite, mu to 1e3
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // no loads
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // grazing up to rounding
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // cohesion
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // cohesion, rigid motions
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // reference slips to 1e8 of the gaps
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // units to 1e60
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // pairs that nearly coincide, to 1e-12
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // ellipses to 1e6, slip along the normal
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // ellipses to 1e6, slip against the force
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // gaps of 1e-12 to 1e12 together
-];
-#[rustfmt::skip]
-const STILL_IN_SPACE: Limits = [
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // definite, condition to 1e3, mu to 2
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // definite, condition to 1e3, mu to 1e3
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // definite, thresholds
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 15, 0, 0], // definite, condition 1e3 to 1e15
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // definite, stiffness 1e13 apart
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 42, 0, 0], // soft springs beside stiff ones, to 1e-15
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // rigid motions
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // blocks, rigid motions exact
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // body on two or three points
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // duplicated pairs
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // touching, on the cone, unloaded
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // gaps to 1e300 and infinite, mu to 1e3
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // no loads
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // grazing up to rounding
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // cohesion
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // cohesion, rigid motions
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // reference slips to 1e8 of the gaps
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // units to 1e60
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // pairs that nearly coincide, to 1e-12
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // ellipses to 1e6, slip along the normal
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // ellipses to 1e6, slip against the force
-    [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], // gaps of 1e-12 to 1e12 together
+/// How many of the `PROBLEMS` of a class may still be judged so, in the plane and in space; no others. Lower a number as
+/// soon as the library allows it. They have a quarter and three in reserve, as rounding differs from machine to machine.
+const STILL: [(&str, Fault, [u64; 2]); 3] = [
+    ("definite, condition 1e3 to 1e15", Fault::Unsolved, [5, 15]),
+    ("definite, condition 1e3 to 1e15", Fault::UnsolvedTo1e12, [0, 4]),
+    ("soft springs beside stiff ones, to 1e-15", Fault::Unsolved, [38, 42]),
 ];
 
-type Limits = [[u64; FAULTS.len()]; CLASSES.len()];
+/// Part of the problems of a long run that may have no answer, of those with a definite matrix by its condition; beyond
+/// 1e12 nothing is asked.
+const UNSOLVED: [(Fault, f64); 3] =
+    [(Fault::UnsolvedRegular, 1e-4), (Fault::UnsolvedTo1e12, 1e-2), (Fault::Unsolved, 1.0)];
 
 /// Counts of one class in one dimension.
 #[derive(Default)]
@@ -143,6 +100,8 @@ struct Row {
     no_equilibrium: u64,
     unique: u64,
     several: u64,
+    /// Problems by what it means that they have no answer, as in `UNSOLVED`.
+    answerable: [u64; 3],
     faults: [u64; FAULTS.len()],
     /// The worst of each fault: how bad it is, and how to see it again.
     worst: [(f64, String); FAULTS.len()],
@@ -153,6 +112,9 @@ impl Row {
         let (problem, answer) = answered(given);
         let faults = faults(&problem, &answer);
         self.problems += 1;
+        for ((kind, _), count) in UNSOLVED.iter().zip(&mut self.answerable) {
+            *count += u64::from(*kind == without_answer(&problem.case));
+        }
         if let Ok(Solution { status, uniqueness, .. }) = answer {
             self.solved += u64::from(status == Status::Solved);
             self.no_equilibrium += u64::from(status == Status::NoEquilibrium);
@@ -187,6 +149,18 @@ fn print(rows: &[Row]) {
         total.iter_mut().zip(faults).for_each(|(total, count)| *total += count);
     }
     println!("All: {total:?}");
+    for (kind, (fault, _)) in UNSOLVED.iter().enumerate() {
+        println!("{fault:?}: {} of {}", count(rows, *fault), answerable(rows, kind));
+    }
+}
+
+fn answerable(rows: &[Row], kind: usize) -> u64 {
+    rows.iter().map(|row| row.answerable[kind]).sum()
+}
+
+fn count(rows: &[Row], fault: Fault) -> u64 {
+    let at = FAULTS.iter().position(|other| *other == fault).unwrap();
+    rows.iter().map(|row| row.faults[at]).sum()
 }
 
 /// The short run keeps the limits above; the long one asks for the goal, that nothing is false.
@@ -207,16 +181,27 @@ fn nothing_false_is_said() {
         }
     }
     print(&rows);
-    let limits = STILL_IN_THE_PLANE.iter().chain(&STILL_IN_SPACE);
     let mut wrong = Vec::new();
-    for (at, (row, limits)) in rows.iter().zip(limits).enumerate() {
-        for (kind, fault) in FAULTS.iter().enumerate() {
-            let (count, limit) = (row.faults[kind], if long.is_some() { 0 } else { limits[kind] });
-            if count > limit {
-                let (name, _) = CLASSES[at % CLASSES.len()];
+    for (at, row) in rows.iter().enumerate() {
+        let (name, _) = CLASSES[at % CLASSES.len()];
+        for (fault, &count) in FAULTS.iter().zip(&row.faults) {
+            let still = STILL.iter().find(|(class, kind, _)| *class == name && kind == fault);
+            let of_long_run = long.is_some() && UNSOLVED.iter().any(|(kind, _)| kind == fault);
+            let limit = if long.is_some() {
+                0
+            } else {
+                still.map_or(0, |still| still.2[at / CLASSES.len()])
+            };
+            if count > limit && !of_long_run {
                 let dim = 2 + at / CLASSES.len();
                 wrong.push(format!("{dim}D {name}: {count} times {fault:?}, allowed {limit}"));
             }
+        }
+    }
+    for (kind, &(fault, part)) in UNSOLVED.iter().enumerate() {
+        let (count, all) = (count(&rows, fault), answerable(&rows, kind));
+        if long.is_some() && count as f64 > part * all as f64 {
+            wrong.push(format!("{count} times {fault:?} of {all}, allowed a part of {part:.0e}"));
         }
     }
     assert!(wrong.is_empty(), "{wrong:#?}");

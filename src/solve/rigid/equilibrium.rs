@@ -28,6 +28,12 @@ const STOPPED: f64 = 2.0 * f64::EPSILON;
 /// Pairs whose edges join in one round.
 const JOINING: usize = 4;
 
+/// Motion of a pair beside the largest that counts as none where the pair approaches its obstacle.
+const AT_REST: f64 = 1e-6;
+
+/// Steps of Newton's method for a motion that approaches no obstacle.
+const STEPS: usize = 20;
+
 /// Rounds of cutting planes: a hundred were the most where it converged.
 const MOST_ROUNDS: usize = 300;
 
@@ -79,8 +85,7 @@ impl<'c, R: Relation> Balance<'c, R> {
     pub fn ending_away(&self, motion: &[f64]) -> Ending {
         let rigid = self.motions.part(motion);
         let proof = self.sharpened(rigid.clone());
-        let most = STOPPED * self.motions.size(&proof);
-        let is_stopped = self.approaches(&proof).into_iter().any(|approach| approach > most);
+        let is_stopped = self.nearest(&proof) > STOPPED * self.motions.size(&proof);
         if !is_stopped && (self.proves)(&proof) {
             Ending::Recession(proof)
         } else {
@@ -91,11 +96,7 @@ impl<'c, R: Relation> Balance<'c, R> {
     /// A motion that proves that no equilibrium exists without the rounding of the method that found it: made
     /// rigid, and lifted where contact would stop it. The given one, if that is no proof.
     pub fn sharpened(&self, motion: Vec<f64>) -> Vec<f64> {
-        let mut rigid = self.motions.part(&motion);
-        let size = self.motions.size(&rigid);
-        if self.approaches(&rigid).into_iter().any(|approach| approach > STOPPED * size) {
-            rigid = self.lifted(rigid, self.lift().as_deref());
-        }
+        let rigid = self.cleared(self.motions.part(&motion));
         if (self.proves)(&rigid) { rigid } else { motion }
     }
 
@@ -111,11 +112,11 @@ impl<'c, R: Relation> Balance<'c, R> {
             let own = law.cone_edges();
             edges.extend(own.iter().map(|edge| self.on_pair(edge, pair)));
         }
-        let (lift, mut last) = (self.lift(), Vec::new());
+        let mut last = Vec::new();
         for _ in 0..MOST_ROUNDS {
             let rest = nearest(&load, &edges)?;
             let motion = self.motions.motion(&rest);
-            let proofs = [self.lifted(motion.clone(), lift.as_deref()), motion.clone()];
+            let proofs = [self.cleared(motion.clone()), motion.clone()];
             let is_driven = |r: &[f64]| dot(contact.load_with_tension(), r) > 0.0;
             let is_free = |r: &[f64]| self.worst(r).is_empty();
             let is_proof = |r: &Vec<f64>| is_driven(r) && is_free(r) && (self.proves)(r);
@@ -159,6 +160,11 @@ impl<'c, R: Relation> Balance<'c, R> {
         parts.zip(roots).map(|((law, r), root)| law.recession(r).approach * root).collect()
     }
 
+    /// Largest approach of a pair, in the unit of `root`; 0 if there is none.
+    fn nearest(&self, motion: &[f64]) -> f64 {
+        self.approaches(motion).into_iter().fold(0.0, f64::max)
+    }
+
     /// The pairs with a force that does negative work on a motion, those of most work first.
     fn worst(&self, motion: &[f64]) -> Vec<usize> {
         let (least, approaches) = (NEGLIGIBLE * self.motions.size(motion), self.approaches(motion));
@@ -168,52 +174,66 @@ impl<'c, R: Relation> Balance<'c, R> {
         worst
     }
 
-    /// A motion with as much of one that lifts the pairs as takes away the negative work; without, where that would bring
-    /// a pair nearer to its obstacle than any was.
-    fn lifted(&self, motion: Vec<f64>, lift: Option<&[f64]>) -> Vec<f64> {
-        let Some(lift) = lift else { return motion };
-        let nearest = |r: &[f64]| self.approaches(r).into_iter().fold(0.0, f64::max);
-        let margin = NEGLIGIBLE * self.motions.size(&motion);
-        let wanted = self.approaches(&motion).into_iter().zip(self.approaches(lift));
-        let part = wanted
-            .filter(|(approach, _)| *approach > -margin)
-            .map(|(approach, lifted)| (approach + margin) / -lifted)
-            .fold(0.0, |most: f64, part| if part < 0.0 { f64::NAN } else { most.max(part) });
-        let lifted: Vec<f64> = motion.iter().zip(lift).map(|(r, lift)| r + part * lift).collect();
-        if part.is_finite() && nearest(&lifted) < nearest(&motion) { lifted } else { motion }
+    /// A motion next to this one along which no pair approaches its obstacle, by Newton's method on `r_n + slope |r_t|* = 0`
+    /// of the pairs that do or nearly do; as near to that as its steps come.
+    fn cleared(&self, mut motion: Vec<f64>) -> Vec<f64> {
+        for _ in 0..STEPS {
+            let nearest = self.nearest(&motion);
+            if nearest <= STOPPED * self.motions.size(&motion) {
+                break;
+            }
+            let Some(step) = self.step_away(&motion) else { break };
+            let moved: Vec<f64> = motion.iter().zip(step).map(|(r, step)| r + step).collect();
+            if !(self.nearest(&moved) < nearest) {
+                break;
+            }
+            motion = moved;
+        }
+        motion
     }
 
-    /// The motion nearest to `-1` in the normal components of pairs with an obstacle, and to no slip in those tangential
-    /// ones that make such a pair approach, by least squares; `None` if none has any.
-    fn lift(&self) -> Option<Vec<f64>> {
+    /// The motion that takes away the approach of the pairs that move towards their obstacles or along them, to first
+    /// order in the slip, and brings to rest those that nearly are, by least squares.
+    fn step_away(&self, motion: &[f64]) -> Option<Vec<f64>> {
         let dim = self.contact.dim();
-        // Each component adds so much to the approach of its pair; a pair without an obstacle approaches none.
-        let weight = |i: usize| {
-            let law = &self.contact.pairs()[i / dim];
-            match (law.has_obstacle(), i % dim) {
-                (false, _) => 0.0,
-                (true, 0) => 1.0,
-                _ => law.bound().slope * self.motions.root[i - i % dim] / self.motions.root[i],
+        let size = self.motions.size(motion);
+        let mut equations = Vec::new();
+        for (pair, approach) in self.approaches(motion).into_iter().enumerate() {
+            let own = &motion[dim * pair..dim * (pair + 1)];
+            let mut ask = |force: &[f64]| {
+                let root = self.motions.root[dim * pair];
+                let row = self.on_pair(force, pair).iter().map(|work| work * root).collect();
+                equations.push((row, -dot(&force[..dim], own) * root));
+            };
+            let moves = |(r, root): (&f64, &f64)| (r * root).abs() > AT_REST * size;
+            if approach <= -NEGLIGIBLE * size {
+                continue;
+            } else if own.iter().zip(&self.motions.root[dim * pair..]).any(moves) {
+                ask(&self.contact.pairs()[pair].opposing_edge(own));
+            } else {
+                [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]][..dim]
+                    .iter()
+                    .for_each(|one| ask(one));
             }
-        };
-        let weights: Vec<f64> = (0..self.motions.root.len()).map(weight).collect();
-        let weighted =
-            |v: &Vec<f64>| v.iter().zip(&weights).map(|(v, weight)| v * weight).collect();
-        let approaches: Vec<Vec<f64>> = self.motions.basis.iter().map(weighted).collect();
-        let size: Vec<f64> = approaches.iter().map(|v| dot(v, v).sqrt()).collect();
-        let moving: Vec<usize> = (0..size.len()).filter(|&k| size[k] > NEGLIGIBLE).collect();
-        let unit = |i: usize, j: usize| {
-            let (i, j) = (moving[i], moving[j]);
-            dot(&approaches[i], &approaches[j]) / (size[i] * size[j])
-        };
-        let gram = PivotedCholesky::new(moving.len(), unit)?;
-        let wanted = |k: usize| -approaches[k].iter().step_by(dim).sum::<f64>() / size[k];
-        let mut x: Vec<f64> = gram.independent().iter().map(|&i| wanted(moving[i])).collect();
-        gram.solve(&mut x);
-        let mut e = vec![0.0; self.motions.basis.len()];
-        for (&i, x) in gram.independent().iter().zip(&x) {
-            e[moving[i]] = x / size[moving[i]];
         }
-        Some(self.motions.motion(&e))
+        Some(self.motions.motion(&least_squares(&equations, self.motions.basis.len())?))
     }
+}
+
+/// The `n` unknowns of equations, rows and right sides, by least squares; 0 for those that the equations do not tell.
+fn least_squares(equations: &[(Vec<f64>, f64)], n: usize) -> Option<Vec<f64>> {
+    let product =
+        |i: usize, j: usize| equations.iter().map(|(row, _)| row[i] * row[j]).sum::<f64>();
+    let size: Vec<f64> = (0..n).map(|i| product(i, i).sqrt()).collect();
+    let told: Vec<usize> = (0..n).filter(|&i| size[i] > NEGLIGIBLE).collect();
+    let unit = |i: usize, j: usize| product(told[i], told[j]) / (size[told[i]] * size[told[j]]);
+    let gram = PivotedCholesky::new(told.len(), unit)?;
+    let own = |i: usize| equations.iter().map(|(row, right)| row[i] * right).sum::<f64>() / size[i];
+    let mut x: Vec<f64> = gram.independent().iter().map(|&k| own(told[k])).collect();
+    gram.solve(&mut x);
+    let mut all = vec![0.0; n];
+    for (&k, x) in gram.independent().iter().zip(&x) {
+        all[told[k]] = x / size[told[k]];
+    }
+    Some(all)
 }
