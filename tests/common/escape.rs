@@ -45,7 +45,7 @@ pub fn flaw_of_motion(problem: &Problem, r: &[f64]) -> Option<(f64, String)> {
         // motions of the maker: those of K as it is given are as far from them. Nor is one that strains K by rounding.
         let strained = few * total / root[dim * pair];
         let approach = part[0] + lift;
-        let allowed = allowed + least + strained;
+        let allowed = allowed + (1.0 + slope) * (least + strained);
         if case.gap[pair].is_finite() && approach > allowed {
             let size = approach / allowed;
             return Some((size, format!("contact can stop it at pair {pair}: {approach:.1e}")));

@@ -8,8 +8,8 @@
 //!
 //! In space a cone has infinitely many edges. The projection begins with a few (non-negative least
 //! squares); where a force of a cone does negative work on `r`, the edge of the least work joins, and
-//! the projection is repeated (cutting planes, on the exact disc), until no more than rounding is left of it. Where a
-//! motion lifts all pairs, a part of it takes away what is left before; bodies that are wedged have none.
+//! the projection is repeated (cutting planes, on the exact disc), until little is left of it. The rest is
+//! taken away by Newton's method on the pairs that still approach their obstacles, in motions that stay rigid.
 
 use super::motions::RigidMotions;
 use crate::certificate::is_escape_of;
@@ -28,8 +28,11 @@ const STOPPED: f64 = 2.0 * f64::EPSILON;
 /// Pairs whose edges join in one round.
 const JOINING: usize = 4;
 
-/// Motion of a pair beside the largest that counts as none where the pair approaches its obstacle.
-const AT_REST: f64 = 1e-6;
+/// Approach of a pair beside the largest motion that Newton's method takes away; a pair that moves less is brought to rest.
+const NEARLY: f64 = 1e-6;
+
+/// A force of 1 along each component.
+const UNIT_FORCES: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
 /// Steps of Newton's method for a motion that approaches no obstacle.
 const STEPS: usize = 20;
@@ -116,11 +119,13 @@ impl<'c, R: Relation> Balance<'c, R> {
         for _ in 0..MOST_ROUNDS {
             let rest = nearest(&load, &edges)?;
             let motion = self.motions.motion(&rest);
-            let proofs = [self.cleared(motion.clone()), motion.clone()];
             let is_driven = |r: &[f64]| dot(contact.load_with_tension(), r) > 0.0;
             let is_free = |r: &[f64]| self.worst(r).is_empty();
             let is_proof = |r: &Vec<f64>| is_driven(r) && is_free(r) && (self.proves)(r);
-            if let Some(proof) = proofs.into_iter().find(is_proof) {
+            if self.nearest(&motion) <= NEARLY * self.motions.size(&motion)
+                && let Some(proof) =
+                    [self.cleared(motion.clone()), motion.clone()].into_iter().find(is_proof)
+            {
                 return Some(proof);
             }
             let worst = self.worst(&motion);
@@ -205,15 +210,13 @@ impl<'c, R: Relation> Balance<'c, R> {
                 let row = self.on_pair(force, pair).iter().map(|work| work * root).collect();
                 equations.push((row, -dot(&force[..dim], own) * root));
             };
-            let moves = |(r, root): (&f64, &f64)| (r * root).abs() > AT_REST * size;
+            let moves = |(r, root): (&f64, &f64)| (r * root).abs() > NEARLY * size;
             if approach <= -NEGLIGIBLE * size {
                 continue;
-            } else if own.iter().zip(&self.motions.root[dim * pair..]).any(moves) {
-                ask(&self.contact.pairs()[pair].opposing_edge(own));
-            } else {
-                [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]][..dim]
-                    .iter()
-                    .for_each(|one| ask(one));
+            }
+            match own.iter().zip(&self.motions.root[dim * pair..]).any(moves) {
+                true => ask(&self.contact.pairs()[pair].opposing_edge(own)),
+                false => UNIT_FORCES[..dim].iter().for_each(|force| ask(force)),
             }
         }
         Some(self.motions.motion(&least_squares(&equations, self.motions.basis.len())?))
