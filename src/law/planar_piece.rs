@@ -24,8 +24,6 @@ pub type Planar = [f64; 2];
 pub struct PieceExit {
     /// How far along the way; 0 if rounding has put the point beyond already.
     pub step: f64,
-    /// Gradient of the boundary, inside positive.
-    pub gradient: Planar,
     /// The piece beyond.
     pub beyond: Piece,
 }
@@ -50,7 +48,7 @@ impl PairLaw {
             if change < 0.0 {
                 let step = inside.max(0.0) / -change;
                 if first.is_none_or(|first| step < first.step) {
-                    first = Some(PieceExit { step, gradient, beyond });
+                    first = Some(PieceExit { step, beyond });
                 }
             }
         };

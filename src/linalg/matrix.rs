@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::simd::{Simd, add_four, add_four_sizes, add_four_twice, vectorised};
+use super::simd::{add_four, add_four_sizes, add_four_twice, vectorised};
 use super::tolerances::{CONDENSATION, FREE, UNRESISTED};
 use super::vector::largest_of;
 
@@ -143,7 +143,6 @@ impl<'a> Matrix<'a> {
     #[inline(always)]
     fn in_fours(&self, factors: &[f64], mut visit: impl FnMut([f64; 4], [&'a [f64]; 4])) {
         vectorised(
-            Simd::new(),
             #[inline(always)]
             || {
                 let mut left = factors.iter().enumerate().filter(|(_, factor)| **factor != 0.0);
@@ -163,7 +162,6 @@ impl<'a> Matrix<'a> {
     /// across it, both times `root[i] root[j]`; `most` may be infinite.
     pub fn agrees_across(&self, root: &[f64], apart: f64, most: f64) -> bool {
         vectorised(
-            Simd::new(),
             #[inline(always)]
             || self.tiles_agree(root, apart, most),
         )

@@ -7,13 +7,10 @@
 
 use pulp::Arch;
 
-/// The instruction set, detected once by the caller.
-pub type Simd = Arch;
-
-/// Runs `work` with the widest vectors that the processor has.
+/// Runs `work` with the widest vectors that the processor has, which is looked up once in a process.
 #[inline(always)]
-pub fn vectorised<R>(simd: Simd, work: impl FnOnce() -> R) -> R {
-    simd.dispatch(work)
+pub fn vectorised<R>(work: impl FnOnce() -> R) -> R {
+    Arch::new().dispatch(work)
 }
 
 /// `y += a x`; to be called inside [`vectorised`].
@@ -48,7 +45,6 @@ pub fn subtract_columns(y: &mut [f64], columns: &[f64], x: &[f64]) {
         return;
     }
     vectorised(
-        Simd::new(),
         #[inline(always)]
         || {
             let fours = x.chunks_exact(4);

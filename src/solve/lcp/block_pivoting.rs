@@ -12,7 +12,6 @@ use std::cell::Cell;
 
 use crate::law::Linearised;
 use crate::law::complementarity::lower_bounds;
-use crate::linalg::simd::Simd;
 use crate::monitor::{Monitor, Stop};
 use crate::problem::symmetric_matrix::is_symmetric;
 use crate::problem::{BoundedLcp, Lcp};
@@ -225,14 +224,13 @@ struct Exchange {
     /// As many as there are complementary variables: on the worst problems of single exchanges, which take `2^n`, whole
     /// blocks need `n`.
     most_patience: usize,
-    simd: Simd,
 }
 
 impl Exchange {
     fn new(lcp: &BoundedLcp<'_>) -> Self {
         let complementary = (0..lcp.q.len()).filter(|&i| !lcp.is_free(i)).count();
         let (fewest, patience) = (usize::MAX, complementary);
-        Exchange { fewest, patience, most_patience: patience, simd: Simd::new() }
+        Exchange { fewest, patience, most_patience: patience }
     }
 
     /// Changes `basic`, of which the solution of the system selects `next`. Returns whether fewer
@@ -247,7 +245,7 @@ impl Exchange {
         if self.patience > 0 {
             self.patience -= usize::from(!progress);
             let sweeps_help = iterate.lcp.symmetric && progress;
-            *basic = if sweeps_help { swept(self.simd, iterate) } else { next };
+            *basic = if sweeps_help { swept(iterate) } else { next };
         } else if let Some(single) = violated().next_back() {
             basic[single] = next[single];
         }
@@ -261,10 +259,10 @@ fn active_set(lcp: &BoundedLcp<'_>, x: &[f64], w: &[f64]) -> Vec<bool> {
 }
 
 /// The active set after some sweeps, which the iterate does not keep.
-fn swept(simd: Simd, iterate: &Iterate<'_>) -> Vec<bool> {
+fn swept(iterate: &Iterate<'_>) -> Vec<bool> {
     let (lcp, mut x, mut w) = (iterate.lcp, iterate.x.clone(), iterate.w.clone());
     for _ in 0..SWEEPS {
-        sweep_lcp(simd, lcp, &mut x, &mut w, 1.0);
+        sweep_lcp(lcp, &mut x, &mut w, 1.0);
     }
     active_set(lcp, &x, &w)
 }

@@ -11,7 +11,7 @@ use crate::law::{PairLaw, Piece, Vector};
 use crate::monitor::Monitor;
 use crate::solve::pieces::{Equations, Point, Systems};
 use crate::solve::result::{Candidate, Effort, Ending};
-use crate::solve::sweeps::Sweeper;
+use crate::solve::sweeps::sweep_pairs;
 
 /// Systems after which it is given up: it takes up to about ten where it converges.
 const MOST_SYSTEMS: u64 = 20;
@@ -176,13 +176,13 @@ impl<'e> Dense<'e> {
 
     /// The point after some sweeps, fewer if the time is up.
     fn swept(&self, point: &Point, sweeps: usize, monitor: &Monitor<'_>) -> Point {
-        let (equations, sweeper) = (self.equations, Sweeper::new());
+        let equations = self.equations;
         let (mut d, mut force) = (point.d.clone(), point.force.clone());
         for _ in 0..sweeps {
             if monitor.is_late() {
                 break;
             }
-            sweeper.sweep_pairs(&equations.laws, equations.matrix, (&mut d, &mut force), 1.0);
+            sweep_pairs(&equations.laws, equations.matrix, (&mut d, &mut force), 1.0);
         }
         Point::new(equations, equations.coordinates(&d, &force))
     }

@@ -9,7 +9,7 @@
 use crate::law::Vector;
 use crate::monitor::Monitor;
 use crate::solve::pieces::Equations;
-use crate::solve::sweeps::Sweeper;
+use crate::solve::sweeps::sweep_pairs;
 
 /// How many rounds are made, and of how many sweeps.
 struct Rounds {
@@ -54,16 +54,14 @@ pub(super) fn swept(
     }
     let mut force = whole.force(&d);
     let rounds = if whole.dim == 2 { IN_PLANE } else { IN_SPACE };
-    let sweeper = Sweeper::new();
     let round = |d: &mut Vec<f64>, force: &mut Vec<f64>, omega: f64| {
-        let mut sweep = |omega| {
-            if monitor.is_late() {
-                return;
+        let mut one = |omega| {
+            if !monitor.is_late() {
+                sweep_pairs(&whole.laws, whole.matrix, (&mut *d, &mut *force), omega);
             }
-            sweeper.sweep_pairs(&whole.laws, whole.matrix, (&mut *d, &mut *force), omega);
         };
-        (1..rounds.sweeps).for_each(|_| sweep(omega));
-        sweep(1.0);
+        (1..rounds.sweeps).for_each(|_| one(omega));
+        one(1.0);
         whole.eta(d, force)
     };
     let (mut pieces, mut eta) = (Vec::new(), f64::INFINITY);

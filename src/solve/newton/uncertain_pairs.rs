@@ -12,7 +12,7 @@ use crate::monitor::{Monitor, Stop};
 use crate::solve::part::{PairData, ReducedProblem};
 use crate::solve::pieces::Equations;
 use crate::solve::result::{Call, Candidate, Ending};
-use crate::solve::sweeps::Sweeper;
+use crate::solve::sweeps::sweep_pairs;
 
 /// Sweeps before pairs are watched, and as many in which they are: a pair whose piece changes in these is in question.
 const SWEEPS: usize = 10;
@@ -91,20 +91,20 @@ impl InQuestion {
     fn after_sweeps(contact: &Contact<'_>, d: &[f64], monitor: &Monitor<'_>) -> (Vec<f64>, Self) {
         let mut d = contact.admissible(d);
         let mut force = contact.problem().force(&d);
-        let sweeper = Sweeper::new();
-        let mut sweep = |d: &mut Vec<f64>| {
+        let (laws, matrix) = (contact.pairs(), contact.problem().stiffness());
+        let mut swept = |d: &mut Vec<f64>| {
             if !monitor.is_late() {
-                sweeper.sweep(contact, (&mut *d, &mut force), 1.0);
+                sweep_pairs(laws, matrix, (&mut *d, &mut force), 1.0);
             }
             contact.pieces(d, &force)
         };
         let mut pieces = Vec::new();
         for _ in 0..SWEEPS {
-            pieces = sweep(&mut d);
+            pieces = swept(&mut d);
         }
         let mut pairs = vec![false; pieces.len()];
         for _ in 0..SWEEPS {
-            let next = sweep(&mut d);
+            let next = swept(&mut d);
             for (is_in, (before, after)) in pairs.iter_mut().zip(pieces.iter().zip(&next)) {
                 *is_in |= before != after;
             }

@@ -11,7 +11,7 @@ use crate::law::Contact;
 use crate::linalg::eigen::eigenvectors;
 use crate::linalg::gmres::orthogonalised;
 use crate::linalg::perturbation::Perturbation;
-use crate::linalg::vector::dot;
+use crate::linalg::vector::{combination, dot};
 use crate::monitor::Monitor;
 use crate::problem::{HeldSet, MatrixFree, StiffnessOperator};
 use crate::solve::result::Ending;
@@ -91,9 +91,12 @@ impl FreeMotions {
             |i: usize, j: usize| dot(&whole[i], &products[j]) + dot(&whole[j], &products[i]);
         let mut free = Vec::new();
         for shares in eigenvectors(whole.len(), energy).unwrap_or_default() {
-            let motion = combined(&whole, &shares);
+            let of = |vectors: &[Vec<f64>]| {
+                combination(vectors[0].len(), shares.iter().copied().zip(vectors))
+            };
+            let motion = of(&whole);
             if is_unresisted(bodies.operator, &motion)? {
-                rigid.basis.push(combined(&basis, &shares));
+                rigid.basis.push(of(&basis));
                 free.push(motion);
             }
         }
@@ -115,7 +118,8 @@ impl FreeMotions {
 
     /// All unknowns of the free motion with the relative displacements `r`.
     pub fn continued(&self, r: &[f64]) -> Vec<f64> {
-        combined(&self.whole, &self.rigid.coordinates(r))
+        let shares = self.rigid.coordinates(r).into_iter();
+        combination(self.whole[0].len(), shares.zip(&self.whole))
     }
 }
 
@@ -131,20 +135,10 @@ fn orthonormal<'m>(
         let (shares, left, _) = orthogonalised(&mut own, &basis);
         if left > 0.0 {
             own.iter_mut().for_each(|r| *r /= left);
-            let taken = combined(&whole, &shares[..whole.len()]);
-            let parts = motion.iter().enumerate();
-            whole.push(parts.map(|(i, r)| (r - taken.get(i).unwrap_or(&0.0)) / left).collect());
+            let taken = combination(motion.len(), shares.into_iter().zip(&whole));
+            whole.push(motion.iter().zip(taken).map(|(r, taken)| (r - taken) / left).collect());
             basis.push(own);
         }
     }
     (basis, whole)
-}
-
-/// The sum of shares of vectors.
-fn combined(vectors: &[Vec<f64>], shares: &[f64]) -> Vec<f64> {
-    let mut sum = vec![0.0; vectors.first().map_or(0, Vec::len)];
-    for (vector, share) in vectors.iter().zip(shares) {
-        sum.iter_mut().zip(vector).for_each(|(sum, part)| *sum += share * part);
-    }
-    sum
 }

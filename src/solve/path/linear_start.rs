@@ -6,7 +6,7 @@ use super::linear_walk::Rules;
 use crate::law::{Contact, PairLaw, Planar};
 use crate::linalg::perturbation::Perturbation;
 use crate::monitor::Monitor;
-use crate::solve::sweeps::Sweeper;
+use crate::solve::sweeps::sweep_pairs;
 
 /// Events that any walk may take.
 const LEAST: usize = 100;
@@ -120,7 +120,7 @@ impl<'p> Starts<'p> {
 
     /// Sweeps on while there is time; then the coordinates at which a walk starts.
     pub fn next(&mut self, attempt: Attempt, monitor: &Monitor<'_>) -> Vec<Planar> {
-        let sweeper = Sweeper::new();
+        let (laws, matrix) = (self.contact.pairs(), self.contact.problem().stiffness());
         if attempt.sweeps > 0 {
             self.d = self.contact.admissible(&self.d);
             self.force = self.contact.problem().force(&self.d);
@@ -129,7 +129,7 @@ impl<'p> Starts<'p> {
             if monitor.is_late() {
                 break;
             }
-            sweeper.sweep(self.contact, (&mut self.d, &mut self.force), 1.0);
+            sweep_pairs(laws, matrix, (&mut self.d, &mut self.force), 1.0);
         }
         let swept = self.swept();
         let pairs = self.contact.pairs().iter().zip(swept).zip(self.root.chunks_exact(2));

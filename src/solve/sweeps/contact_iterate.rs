@@ -9,47 +9,22 @@ use super::drift::contact_recession;
 use crate::certificate::eta_of;
 use crate::law::{Contact, PairLaw};
 use crate::linalg::matrix::Matrix;
-use crate::linalg::simd::{self, Simd};
+use crate::linalg::simd;
 use crate::linalg::vector::norm_inf;
 use crate::monitor::Monitor;
 
-/// The sweeps of a law, without an iterate of their own.
-pub struct Sweeper {
-    simd: Simd,
-}
-
-impl Sweeper {
-    /// Detects the instruction set.
-    pub fn new() -> Self {
-        Sweeper { simd: Simd::new() }
-    }
-
-    /// One sweep over all pairs of `contact` on displacements and their force `K d - f`. Under
-    /// Coulomb's law the threshold follows the pressure within the sweep. Returns the change in the
-    /// norm of the diagonal of `K`.
-    pub fn sweep(
-        &self,
-        contact: &Contact<'_>,
-        iterate: (&mut [f64], &mut [f64]),
-        omega: f64,
-    ) -> f64 {
-        self.sweep_pairs(contact.pairs(), contact.problem().stiffness(), iterate, omega)
-    }
-
-    /// [`Self::sweep`], for pairs whose matrix is given.
-    pub fn sweep_pairs(
-        &self,
-        laws: &[PairLaw],
-        matrix: Matrix<'_>,
-        (d, force): (&mut [f64], &mut [f64]),
-        omega: f64,
-    ) -> f64 {
-        simd::vectorised(
-            self.simd,
-            #[inline(always)]
-            || sweep_pairs(laws, matrix, d, force, omega),
-        )
-    }
+/// One sweep over all pairs on displacements and their force `K d - f`. Under Coulomb's law the threshold follows the
+/// pressure within the sweep. Returns the change in the norm of the diagonal of `K`.
+pub fn sweep(
+    laws: &[PairLaw],
+    matrix: Matrix<'_>,
+    (d, force): (&mut [f64], &mut [f64]),
+    omega: f64,
+) -> f64 {
+    simd::vectorised(
+        #[inline(always)]
+        || sweep_pairs(laws, matrix, d, force, omega),
+    )
 }
 
 #[inline(always)]
@@ -96,7 +71,6 @@ pub struct ContactIterate<'p> {
     d: Vec<f64>,
     /// `K d - f`.
     force: Vec<f64>,
-    sweeper: Sweeper,
 }
 
 impl<'p> ContactIterate<'p> {
@@ -106,7 +80,7 @@ impl<'p> ContactIterate<'p> {
             *normal = law.admissible(*normal);
         }
         let force = contact.problem().force(&d);
-        ContactIterate { own: contact, working: None, d, force, sweeper: Sweeper::new() }
+        ContactIterate { own: contact, working: None, d, force }
     }
 
     /// Thresholds of the problem's own law at the pressures of the iterate.
@@ -132,7 +106,8 @@ impl<'p> ContactIterate<'p> {
 impl Iterate for ContactIterate<'_> {
     fn sweep(&mut self, omega: f64) -> f64 {
         let law = self.working.as_ref().unwrap_or(self.own);
-        self.sweeper.sweep(law, (&mut self.d, &mut self.force), omega)
+        let matrix = self.own.problem().stiffness();
+        sweep(law.pairs(), matrix, (&mut self.d, &mut self.force), omega)
     }
 
     fn eta_of_sweeps(&self) -> f64 {

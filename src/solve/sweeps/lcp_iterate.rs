@@ -2,16 +2,15 @@
 
 use super::Iterate;
 use super::drift::rigid_part;
-use crate::linalg::simd::{self, Simd};
+use crate::linalg::simd;
 use crate::linalg::vector::norm_inf;
 use crate::monitor::Monitor;
 use crate::problem::BoundedLcp;
 
 /// One sweep over all variables of `lcp`, whose matrix is symmetric, on `x` and `w = q + M x`. Returns
 /// the change in the norm of the diagonal of `M`.
-pub fn sweep(simd: Simd, lcp: &BoundedLcp<'_>, x: &mut [f64], w: &mut [f64], omega: f64) -> f64 {
+pub fn sweep(lcp: &BoundedLcp<'_>, x: &mut [f64], w: &mut [f64], omega: f64) -> f64 {
     simd::vectorised(
-        simd,
         #[inline(always)]
         || {
             let mut change = 0.0;
@@ -35,7 +34,6 @@ pub struct LcpIterate<'p> {
     lcp: BoundedLcp<'p>,
     x: Vec<f64>,
     w: Vec<f64>,
-    simd: Simd,
 }
 
 impl<'p> LcpIterate<'p> {
@@ -45,13 +43,13 @@ impl<'p> LcpIterate<'p> {
             *x = lcp.admissible(i, *x);
         }
         let w = lcp.w(&x);
-        LcpIterate { lcp, x, w, simd: Simd::new() }
+        LcpIterate { lcp, x, w }
     }
 }
 
 impl Iterate for LcpIterate<'_> {
     fn sweep(&mut self, omega: f64) -> f64 {
-        sweep(self.simd, &self.lcp, &mut self.x, &mut self.w, omega)
+        sweep(&self.lcp, &mut self.x, &mut self.w, omega)
     }
 
     fn eta_of_sweeps(&self) -> f64 {

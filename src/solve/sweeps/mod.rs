@@ -8,7 +8,7 @@ mod frictionless;
 mod lcp_iterate;
 mod relaxation;
 
-pub use contact_iterate::Sweeper;
+pub use contact_iterate::sweep as sweep_pairs;
 pub use fixed_point::{nested, single};
 pub use frictionless::frictionless;
 pub use lcp_iterate::sweep as sweep_lcp;

@@ -4,7 +4,7 @@
 //! beyond the cache; in between a column or a row of it is corrected when it is needed.
 
 use crate::linalg::factor::subtract_outer;
-use crate::linalg::simd::{self, Simd};
+use crate::linalg::simd;
 
 /// The updates that are kept, of a matrix of `rows` rows and `columns` columns.
 pub struct RankOneUpdates {
@@ -13,14 +13,13 @@ pub struct RankOneUpdates {
     /// The `x_k`, and the `y_k`, one after the other.
     x: Vec<f64>,
     y: Vec<f64>,
-    simd: Simd,
 }
 
 impl RankOneUpdates {
     /// None yet; there is room for `most`.
-    pub fn new(rows: usize, columns: usize, most: usize, simd: Simd) -> Self {
+    pub fn new(rows: usize, columns: usize, most: usize) -> Self {
         let (x, y) = (Vec::with_capacity(most * rows), Vec::with_capacity(most * columns));
-        RankOneUpdates { rows, columns, x, y, simd }
+        RankOneUpdates { rows, columns, x, y }
     }
 
     /// Number of updates.
@@ -65,7 +64,6 @@ impl RankOneUpdates {
     #[inline(always)]
     fn each(&self, mut change: impl FnMut(&[f64], &[f64])) {
         simd::vectorised(
-            self.simd,
             #[inline(always)]
             || {
                 let x = self.x.chunks_exact(self.rows.max(1));

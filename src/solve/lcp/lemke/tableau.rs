@@ -13,7 +13,7 @@
 use super::rank_one_updates::RankOneUpdates;
 use super::scaled::Scaled;
 use crate::error::Error;
-use crate::linalg::simd::{self, Simd};
+use crate::linalg::simd;
 use crate::linalg::tolerances::NEGLIGIBLE;
 use crate::linalg::vector::norm_inf;
 use crate::monitor::{COLUMNS, Monitor, Stop};
@@ -34,7 +34,6 @@ pub struct Tableau {
     pub(super) kept: RankOneUpdates,
     /// Most changes that are kept.
     delay: usize,
-    simd: Simd,
 }
 
 /// Changes made together where the tableau is beyond the cache: as many as let the product do some
@@ -83,7 +82,6 @@ impl Tableau {
         }
         entries.extend_from_slice(&problem.covering);
         entries.resize(stride * (n + 1), 0.0);
-        let simd = Simd::new();
         let delay = if n < LARGE { 1 } else { DELAY };
         Ok(Ok(Tableau {
             size: n,
@@ -94,9 +92,8 @@ impl Tableau {
             place: (0..n).chain(n..=2 * n).collect(),
             entering: vec![0.0; n],
             values: problem.q.clone(),
-            kept: RankOneUpdates::new(n, n + 1, if delay == 1 { 0 } else { delay }, simd),
+            kept: RankOneUpdates::new(n, n + 1, if delay == 1 { 0 } else { delay }),
             delay,
-            simd,
         }))
     }
 
@@ -232,7 +229,6 @@ impl Tableau {
         self.entering[row] = 0.0;
         let (entries, column) = (&mut self.entries, &self.entering);
         simd::vectorised(
-            self.simd,
             #[inline(always)]
             || {
                 for (j, target) in entries.chunks_exact_mut(stride).enumerate() {
