@@ -90,9 +90,9 @@ pub(crate) fn certify_in_units<R: ChangesUnits>(
 ) -> Certificate {
     let in_units = in_units(problem, |units, problem| {
         let (d, force) = (units.lengths(d)?, units.forces(force)?);
-        Some(measure(&Contact::new(problem), &d, &force).to_host(units))
+        Some(measure(&Contact::new(problem), (&d, &[]), &force).to_host(units))
     });
-    in_units.flatten().unwrap_or_else(|| measure(&Contact::new(problem), d, force))
+    in_units.flatten().unwrap_or_else(|| measure(&Contact::new(problem), (d, &[]), force))
 }
 
 /// Measures a displacement and a contact force of any origin, on any relation. The force is taken as it is.
@@ -107,24 +107,10 @@ pub fn certify_pair<R: Relation>(
     measure_pair(&contact, (d, &[]), &terms, force.to_vec(), (&residual, &[]))
 }
 
-/// Measures the candidate `(d, force)` of a solver, on a problem whose laws are worked out. Where `d`
-/// determines the contact forces they are taken from the host's data, not from the solver.
+/// Measures a candidate of a solver, `d + low` in two parts and `force`, on a problem whose laws are worked out. Where
+/// the displacements determine the contact forces they are taken from the host's data, not from the solver; otherwise
+/// `low` is left out.
 pub(crate) fn measure<R: Relation>(
-    contact: &Contact<'_, R>,
-    d: &[f64],
-    force: &[f64],
-) -> Certificate {
-    measure_any(contact, (d, &[]), force)
-}
-
-/// [`measure`] of displacements `d + low` in two parts, where they determine the contact forces.
-pub(crate) fn measure_parts(contact: &Contact<'_>, d: &[f64], low: &[f64]) -> Certificate {
-    measure_any(contact, (d, low), &[])
-}
-
-/// [`measure`] of displacements `d + low` in two parts, if they determine the contact forces; otherwise `low` is left
-/// out.
-pub(crate) fn measure_any<R: Relation>(
     contact: &Contact<'_, R>,
     (d, low): (&[f64], &[f64]),
     force: &[f64],

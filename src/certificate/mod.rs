@@ -39,7 +39,7 @@ mod units;
 pub use escape::is_escape;
 pub(crate) use escape::{is_escape_of, lifts};
 pub use measure::{Certificate, LEVER, ROUNDING_LIMIT, certify, certify_pair, eta};
-pub(crate) use measure::{certify_in_units, eta_of, measure, measure_any, measure_parts};
+pub(crate) use measure::{certify_in_units, eta_of, measure};
 pub use proof::{Proof, prove};
 pub(crate) use proof::{errors, prove_parts};
 pub(crate) use spread::{is_spread_escape, is_unresisted, measure_spread};

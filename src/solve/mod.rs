@@ -22,7 +22,7 @@ mod sweeps;
 mod uniqueness;
 mod units;
 
-use crate::certificate::measure_any;
+use crate::certificate::measure;
 use crate::error::{Argument, Error, Limit, entry};
 use crate::law::Contact;
 use crate::linalg::vector::first_not_finite;
@@ -174,7 +174,7 @@ fn to_host<R: Relation>(
 ) -> Solution {
     let contact = Contact::new(problem);
     let certify = |d: &[f64], low: &[f64], force: &[f64]| {
-        measure_any(&contact, (d, low), force).with_rounding(settings.tolerance)
+        measure(&contact, (d, low), force).with_rounding(settings.tolerance)
     };
     units::to_host(solution, units, settings.tolerance, certify)
 }

@@ -7,7 +7,7 @@
 
 use super::auto;
 use super::table::{MethodRow, chosen};
-use crate::certificate::measure_parts;
+use crate::certificate::measure;
 use crate::error::Error;
 use crate::law::{Contact, gaps_within_reach};
 use crate::monitor::Monitor;
@@ -65,7 +65,7 @@ fn without_obstacles(
             // The motion may end at an obstacle that was left out.
             Status::NoEquilibrium | Status::Stalled => break,
             Status::IterationLimit | Status::TimeLimit | Status::Cancelled => {
-                let certificate = measure_parts(contact, &solution.d, &solution.d_low);
+                let certificate = measure(contact, (&solution.d, &solution.d_low), &[]);
                 return Ok(Some(Solution { certificate, ..solution }));
             }
         }
@@ -91,7 +91,7 @@ fn by_method(
 fn on_all_obstacles(call: &Call<'_>, mut solution: Solution) -> Result<Solution, Vec<f64>> {
     let (contact, tolerance) = (call.contact, call.settings.tolerance);
     let certificate =
-        |d: &[f64], low: &[f64]| measure_parts(contact, d, low).with_rounding(tolerance);
+        |d: &[f64], low: &[f64]| measure(contact, (d, low), &[]).with_rounding(tolerance);
     solution.certificate = certificate(&solution.d, &solution.d_low);
     if !solution.certificate.holds(tolerance) {
         return Err(solution.d);

@@ -194,7 +194,7 @@ impl Found {
     /// The result of the whole.
     fn solution(self, problem: &FlexibilityProblem<'_>, settings: &Settings) -> Solution {
         let d = problem.relation().relative(&self.force);
-        let certificate = measure(&Contact::new(problem), &d, &self.force);
+        let certificate = measure(&Contact::new(problem), (&d, &[]), &self.force);
         let ending = self.ending(settings, &certificate);
         let existence = if settings.proof { Existence::NotProved } else { Existence::NotAsked };
         let method = if self.quick > 0 { Method::Newton } else { settings.method };

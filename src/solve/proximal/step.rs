@@ -45,7 +45,7 @@ pub fn ended<R: Relation>(
     settings: &Settings,
     (method, ending, systems): (Method, &Ending, u64),
 ) -> Solution {
-    let certificate = measure(contact, &d, force);
+    let certificate = measure(contact, (&d, &[]), force);
     let ended = ending.status(settings, &certificate);
     let existence = if settings.proof { Existence::NotProved } else { Existence::NotAsked };
     let solution = Solution::of(method, ended, d, certificate);
@@ -59,7 +59,7 @@ pub fn measured<R: Relation>(
     (d, force): (Vec<f64>, &[f64]),
     settings: &Settings,
 ) -> Solution {
-    let certificate = measure(contact, &d, force);
+    let certificate = measure(contact, (&d, &[]), force);
     let (status, message) = match round.status {
         Status::Solved | Status::Stalled if certificate.holds(settings.tolerance) => {
             (Status::Solved, format!("solved: eta is {:.1e}", certificate.eta).into())

@@ -5,7 +5,7 @@ use std::cell::OnceCell;
 use super::effort::Effort;
 use super::ending::Ending;
 use super::solution::Errors;
-use crate::certificate::{Certificate, is_escape_of, measure, measure_parts};
+use crate::certificate::{Certificate, is_escape_of, measure};
 use crate::law::Contact;
 
 /// A candidate of a solver. Its displacements change only together with its certificate, which is measured once.
@@ -93,10 +93,7 @@ impl Candidate {
 
     /// The certificate, measured once.
     pub fn certificate(&self, contact: &Contact<'_>) -> &Certificate {
-        self.certificate.get_or_init(|| match self.low.as_slice() {
-            [] => measure(contact, &self.d, &self.force),
-            low => measure_parts(contact, &self.d, low),
-        })
+        self.certificate.get_or_init(|| measure(contact, (&self.d, &self.low), &self.force))
     }
 
     /// True if nothing is left to try: solved, proved to have no solution, or stopped.

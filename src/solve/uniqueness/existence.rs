@@ -1,6 +1,6 @@
 //! The proof, on request, that a solution exists where a method has found one.
 
-use crate::certificate::{Proof, errors, measure_parts, prove_parts};
+use crate::certificate::{Proof, errors, measure, prove_parts};
 use crate::linalg::factor::lu_work;
 use crate::monitor::Monitor;
 use crate::solve::result::{Call, Errors, Existence, Solution, Status};
@@ -29,7 +29,7 @@ pub fn examine(call: &Call<'_>, solution: &mut Solution, monitor: &Monitor<'_>) 
 /// Replaces the displacements by those of the proof, unless their certificate, which rounds, does not agree.
 fn move_to_middle(call: &Call<'_>, solution: &mut Solution, proof: &Proof) {
     let tolerance = call.settings.tolerance;
-    let certificate = measure_parts(call.contact, &proof.d, &proof.d_low).with_rounding(tolerance);
+    let certificate = measure(call.contact, (&proof.d, &proof.d_low), &[]).with_rounding(tolerance);
     let same = certificate.states == solution.certificate.states;
     if certificate.holds(tolerance) && same {
         solution.d.clone_from(&proof.d);
