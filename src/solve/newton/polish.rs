@@ -110,7 +110,7 @@ fn refine(
         if eta < least {
             (least, in_vain) = (eta, 0);
             steps.arrived((best.force(), &force), eta);
-            best = best.moved_to_parts(d.clone(), low.clone(), force.clone());
+            best = best.moved_to(d.clone(), low.clone(), force.clone());
             best.errors = steps.errors(&best, contact.problem().load(), eta);
         } else {
             steps.last = None;

@@ -191,8 +191,9 @@ impl<'a> Loaded<'a> {
                 at.in_equilibrium(bodies, case.load)?
             }
         };
-        let equations = Equations::new(near, bodies.operator, case.load, &self.relative);
-        let outcome = by_attempts(&equations, bodies, &at, settings.tolerance, monitor)?;
+        let equations =
+            Equations::new(near, bodies.operator, case.load, &self.relative, settings.tolerance);
+        let outcome = by_attempts(&equations, bodies, &at, monitor)?;
         let found = (&outcome.point.at, &outcome.point.residual[..], &outcome.ending);
         let mut solution = result(contact, bodies, (settings, case), found, past);
         if let Ending::Recession(motion) = outcome.ending
@@ -215,21 +216,18 @@ fn by_attempts(
     equations: &Equations<'_>,
     bodies: &mut Session<'_>,
     start: &Displacements,
-    tolerance: f64,
     monitor: &mut Monitor<'_>,
 ) -> Result<Outcome, Error> {
     let point = equations.held_at(start.clone(), bodies)?;
-    let mut best = newton::solve(equations, bodies, point, tolerance, monitor)?;
+    let mut best = newton::solve(equations, bodies, point, monitor)?;
     for attempt in [balance, condensed::solve, thresholds::solve] {
         let Point { at, residual, merit, .. } = &best.point;
         let certificate = measure_spread(equations.contact, bodies.operator, &at.x, residual);
         let has_ended = matches!(best.ending, Ending::Stopped(_) | Ending::Recession(_));
-        if has_ended || certificate.holds(tolerance) || !merit.is_finite() {
+        if has_ended || certificate.holds(equations.tolerance) || !merit.is_finite() {
             break;
         }
-        if let Some(ending) =
-            ended(attempt(equations, bodies, start, &mut best, tolerance, monitor))?
-        {
+        if let Some(ending) = ended(attempt(equations, bodies, start, &mut best, monitor))? {
             best.ending = ending;
         }
     }
@@ -242,7 +240,6 @@ fn balance(
     bodies: &mut Session<'_>,
     _start: &Displacements,
     _best: &mut Outcome,
-    _tolerance: f64,
     monitor: &mut Monitor<'_>,
 ) -> Result<(), Ending> {
     let contact = equations.contact;

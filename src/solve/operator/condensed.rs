@@ -38,7 +38,6 @@ pub fn solve(
     bodies: &mut Session<'_>,
     _start: &Displacements,
     best: &mut Outcome,
-    tolerance: f64,
     monitor: &mut Monitor<'_>,
 ) -> Result<(), Ending> {
     let laws = equations.contact.pairs();
@@ -49,29 +48,28 @@ pub fn solve(
     let mut at = best.point.at.clone();
     while fits(equations.contact.dim() * chosen.len(), equations.load.len()) {
         let condensed = Condensed::new(equations, bodies, &chosen, &at, monitor)?;
-        let joins: Vec<bool> =
-            match condensed.solved(equations, &chosen, (&at, tolerance), monitor)? {
-                Found::Nothing => break,
-                Found::Solution(d) => {
-                    let point = condensed.with(bodies, at, &d, equations.load)?;
-                    let point = equations.held_at(point, bodies)?;
-                    let closed: Vec<bool> = point.pieces.iter().map(|piece| piece.closed).collect();
-                    at = point.at.clone();
-                    if (0..laws.len()).all(|k| !closed[k] || chosen.binary_search(&k).is_ok()) {
-                        improve(best, newton::solve(equations, bodies, point, tolerance, monitor)?);
-                        break;
-                    }
-                    closed
+        let joins: Vec<bool> = match condensed.solved(equations, &chosen, &at, monitor)? {
+            Found::Nothing => break,
+            Found::Solution(d) => {
+                let point = condensed.with(bodies, at, &d, equations.load)?;
+                let point = equations.held_at(point, bodies)?;
+                let closed: Vec<bool> = point.pieces.iter().map(|piece| piece.closed).collect();
+                at = point.at.clone();
+                if (0..laws.len()).all(|k| !closed[k] || chosen.binary_search(&k).is_ok()) {
+                    improve(best, newton::solve(equations, bodies, point, monitor)?);
+                    break;
                 }
-                Found::Escape(motion) => {
-                    let motion = condensed.motion(equations, bodies, &motion)?;
-                    if is_spread_escape(equations.contact, bodies.operator, &motion)? {
-                        return Err(Ending::Recession(motion));
-                    }
-                    let parts = motion[equations.inner..].chunks_exact(equations.contact.dim());
-                    laws.iter().zip(parts).map(|(law, r)| law.recession(r).approach > 0.0).collect()
+                closed
+            }
+            Found::Escape(motion) => {
+                let motion = condensed.motion(equations, bodies, &motion)?;
+                if is_spread_escape(equations.contact, bodies.operator, &motion)? {
+                    return Err(Ending::Recession(motion));
                 }
-            };
+                let parts = motion[equations.inner..].chunks_exact(equations.contact.dim());
+                laws.iter().zip(parts).map(|(law, r)| law.recession(r).approach > 0.0).collect()
+            }
+        };
         let before = chosen.len();
         chosen = (0..laws.len()).filter(|k| joins[*k] || chosen.binary_search(k).is_ok()).collect();
         if chosen.len() == before {
@@ -188,7 +186,7 @@ impl Condensed {
         &self,
         whole: &Equations<'_>,
         pairs: &[usize],
-        (start, tolerance): (&Displacements, f64),
+        start: &Displacements,
         monitor: &mut Monitor<'_>,
     ) -> Result<Found, Ending> {
         let problem = whole.contact.problem();
@@ -206,7 +204,7 @@ impl Condensed {
         let Ok(problem) = ContactProblem::new(data) else { return Ok(Found::Nothing) };
         let contact = &Contact::new(&problem);
         let start: Vec<f64> = self.places.iter().map(|&i| start.x[i]).collect();
-        let settings = Settings { tolerance, ..Settings::default() };
+        let settings = Settings { tolerance: whole.tolerance, ..Settings::default() };
         let found = plan::auto(&Call::new(contact, &settings).from(&start), monitor)?;
         if let Some(stop) = found.status.stop() {
             return Err(stop.into());

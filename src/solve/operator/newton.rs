@@ -29,19 +29,19 @@ const CHANGED: f64 = 0.02;
 /// How Newton's method ended, and where.
 pub type Outcome = NewtonOutcome<Point>;
 
-/// Solves from a point to a tolerance. The residual of the last point is measured: where products are dear it is
+/// Solves from a point. The residual of the last point is measured: where products are dear it is
 /// followed from step to step, has the rounding of all of them, and may hide what is left.
 pub fn solve(
     equations: &Equations<'_>,
     bodies: &mut Session<'_>,
     point: Point,
-    tolerance: f64,
     monitor: &mut Monitor<'_>,
 ) -> Result<Outcome, Error> {
+    let tolerance = equations.tolerance;
     let goal =
         Goal { tolerance, least_systems: 0, most_systems: MOST_SYSTEMS, full_steps: FULL_STEPS };
     let is_followed = bodies.follows_residuals();
-    let mut newton = Newton { equations, bodies, known: Directions::default(), tolerance };
+    let mut newton = Newton { equations, bodies, known: Directions::default() };
     let mut outcome = unfailed(descend(&mut newton, point, goal, monitor))?;
     if !is_followed {
         return Ok(outcome);
@@ -83,7 +83,6 @@ struct Newton<'n, 'b> {
     equations: &'n Equations<'n>,
     bodies: &'n mut Session<'b>,
     known: Directions,
-    tolerance: f64,
 }
 
 impl NormalMap for Newton<'_, '_> {
@@ -100,7 +99,7 @@ impl NormalMap for Newton<'_, '_> {
 
     /// With a new factor where the old one leaves too much.
     fn step(&mut self, point: &Point, monitor: &mut Monitor<'_>) -> Result<Step, Ending> {
-        let least = FORCING_OF_ETA * AIM * self.tolerance / point.eta;
+        let least = FORCING_OF_ETA * AIM * self.equations.tolerance / point.eta;
         let forcing = FORCING.min(FORCING_OF_ETA * point.eta).max(least);
         let (bodies, known) = (&mut *self.bodies, &mut self.known);
         let system = System::new(self.equations, point, bodies.operator.is_sparse());

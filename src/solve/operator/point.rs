@@ -18,6 +18,8 @@ pub struct Equations<'a> {
     pub root: Vec<f64>,
     /// Size of the relative loads, a force.
     pub unit: f64,
+    /// Tolerance of their solution.
+    pub tolerance: f64,
 }
 
 impl<'a> Equations<'a> {
@@ -26,17 +28,13 @@ impl<'a> Equations<'a> {
         bodies: &dyn StiffnessOperator,
         load: &'a [f64],
         relative: &[f64],
+        tolerance: f64,
     ) -> Self {
         let mut root: Vec<f64> = bodies.units().iter().map(|unit| unit.sqrt()).collect();
         let scales =
             contact.pairs().iter().flat_map(|law| law.scale().into_iter().take(contact.dim()));
         root[bodies.inner()..].iter_mut().zip(scales).for_each(|(root, k)| *root = k.sqrt());
-        Equations { contact, load, inner: bodies.inner(), root, unit: norm(relative) }
-    }
-
-    /// These equations with other laws on the pairs.
-    pub fn with<'b>(&'b self, contact: &'b Contact<'b, MatrixFree<'b>>) -> Equations<'b> {
-        Equations { contact, root: self.root.clone(), ..*self }
+        Equations { contact, load, inner: bodies.inner(), root, unit: norm(relative), tolerance }
     }
 
     /// Length of a vector of forces on all unknowns, each in its unit.

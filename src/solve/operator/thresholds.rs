@@ -22,7 +22,6 @@ pub fn solve(
     bodies: &mut Session<'_>,
     start: &Displacements,
     best: &mut Outcome,
-    tolerance: f64,
     monitor: &mut Monitor<'_>,
 ) -> Result<(), Ending> {
     if !equations.contact.is_coupled() {
@@ -32,14 +31,15 @@ pub fn solve(
     for _ in 0..ROUNDS {
         let mut contact: Contact<'_, MatrixFree<'_>> = equations.contact.clone();
         contact.set_thresholds(&thresholds(equations, &point));
-        let given = equations.with(&contact);
+        let root = equations.root.clone();
+        let given = Equations { contact: &contact, root, tolerance: ROUGH, ..*equations };
         let from = given.held_at(point.at, bodies)?;
-        let between = newton::solve(&given, bodies, from, ROUGH, monitor)?;
+        let between = newton::solve(&given, bodies, from, monitor)?;
         if let Ending::Stopped(stop) = between.ending {
             return Err(stop.into());
         }
         point = equations.held_at(between.point.at, bodies)?;
-        if improve(best, newton::solve(equations, bodies, point.clone(), tolerance, monitor)?) {
+        if improve(best, newton::solve(equations, bodies, point.clone(), monitor)?) {
             break;
         }
     }

@@ -80,14 +80,8 @@ impl Candidate {
         Candidate { ending, ..self }
     }
 
-    /// This candidate at other displacements.
-    pub fn moved_to(self, contact: &Contact<'_>, d: Vec<f64>) -> Self {
-        let force = contact.problem().force(&d);
-        self.moved_to_parts(d, Vec::new(), force)
-    }
-
     /// This candidate at the displacements `d + low`, which need `force`.
-    pub fn moved_to_parts(self, d: Vec<f64>, low: Vec<f64>, force: Vec<f64>) -> Self {
+    pub fn moved_to(self, d: Vec<f64>, low: Vec<f64>, force: Vec<f64>) -> Self {
         Candidate { d, low, force, certificate: OnceCell::new(), ..self }
     }
 

@@ -36,8 +36,10 @@ pub fn without_idle_motion(
         return candidate;
     }
     let part = contact.admissible_part(candidate.d(), &motion);
-    let d = candidate.d().iter().zip(&motion).map(|(d, motion)| d - part * motion).collect();
-    candidate.moved_to(contact, d)
+    let parts = candidate.d().iter().zip(&motion);
+    let d: Vec<f64> = parts.map(|(d, motion)| d - part * motion).collect();
+    let force = contact.problem().force(&d);
+    candidate.moved_to(d, Vec::new(), force)
 }
 
 /// True if displacements, of components with these units, are large beside what loads, forces and obstacles ask for.
