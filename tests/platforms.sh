@@ -3,14 +3,14 @@
 #
 #     sh tests/platforms.sh [--install] [PLATFORM...]
 #
-# PLATFORM  windows (x86_64, MinGW; run by wine), aarch64 (glibc; run by qemu), musl (x86_64, static; run as it is),
-#           macos (aarch64 and x86_64; linked by zig and not run: no emulator has macOS's libraries). Default: all.
-# --install  has apt-get and pip fetch what is missing. Without it nothing is installed, a platform whose tools are
+# PLATFORM   windows (x86_64, MinGW; run by wine) or aarch64 (glibc; run by qemu). Default: both. No emulator has the
+#            libraries of macOS.
+# --install  has apt-get fetch what is missing. Without it nothing is installed, a platform whose tools are
 #            missing is named and skipped, and it ends with 77.
 #
 # The C programs are those of c_examples/CMakeLists.txt, those in Fortran those of tests/fortran.sh: nothing is listed
 # here but what is compared. Bar, junction and blocks are solved on this machine too: all numbers agree to 1e-12 of the
-# largest of their column, states and counts exactly, and the bar's printed lines are the same to the last character.
+# largest of their column, states and counts exactly, and the bar's printed table is the same to the last character.
 #
 # Not run elsewhere, and why: out_of_memory, processes and faults stand in for functions of glibc, fork or are
 # cancelled, and run on Linux alone; valgrind watches this machine's programs. Within the others, limits of file size,
@@ -33,11 +33,11 @@ here=$root/tests/platforms
 
 install=
 [ "${1-}" != --install ] || { install=yes; shift; }
-[ $# -gt 0 ] || set -- windows aarch64 musl macos
+[ $# -gt 0 ] || set -- windows aarch64
 for platform in "$@"; do
     case $platform in
-    windows | aarch64 | musl | macos) ;;
-    *) die "unknown: '$platform'; usage: sh tests/platforms.sh [--install] [windows|aarch64|musl|macos...]" ;;
+    windows | aarch64) ;;
+    *) die "unknown: '$platform'; usage: sh tests/platforms.sh [--install] [windows|aarch64...]" ;;
     esac
 done
 unset CARGO_BUILD_TARGET RUSTFLAGS CARGO_TARGET_DIR CC AR FC SIGNORINI_LIBRARY

@@ -3,6 +3,9 @@
 It asks for nothing but Python and cargo. In a clone the crate is two folders up; in a source
 distribution it is in crate/, beside this file. CARGO_TARGET_DIR says where cargo builds, by default
 in target/ of the crate.
+
+SIGNORINI_WHEEL_LIBRARY is the path of a library that has been built, and SIGNORINI_WHEEL_PLATFORM the
+platform of its wheel, say manylinux_2_17_x86_64: install/wheels.sh sets both.
 """
 
 import base64
@@ -18,10 +21,21 @@ import zipfile
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 PACKAGE = "signorini"
+DESCRIPTION = """\
+Contact with Coulomb friction for finite-element codes: stiffness matrices, loads and gaps go in, contact forces and
+displacements come out, with a certificate that judges them from these data alone.
+
+    import signorini
+
+    result = signorini.solve([[5, 0], [0, 3]], [10, 8], gap=0, mu=0.5)
+    print(result.message, result.d, result.F, result.state)
+
+The library is inside, written in Rust; numpy is all that the package needs, and `result.plot()` needs matplotlib.
+"""
 # Files and folders that the crate is built from, below its top.
-CRATE_FILES = ("Cargo.toml", "Cargo.lock", "README.md", "CHANGELOG.md", "LICENSE-MIT", "LICENSE-APACHE")
+CRATE_FILES = ("Cargo.toml", "Cargo.lock", "README.md", "CHANGELOG.md", "LICENSE-MIT", "LICENSE-APACHE", "LICENSE-THIRD-PARTY")
 CRATE_FOLDERS = {"src": "", "include": "", os.path.join("tests", "bench"): ".rs"}  # and the ends of names
-LICENCES = ("LICENSE-MIT", "LICENSE-APACHE")
+LICENCES = ("LICENSE-MIT", "LICENSE-APACHE", "LICENSE-THIRD-PARTY")
 WHEN = (1980, 1, 1, 0, 0, 0)  # the same files give the same bytes
 READABLE, EXECUTABLE = 0o100644, 0o100755
 
@@ -96,6 +110,9 @@ def _version():
 
 def _library():
     """Builds the shared library; returns its path."""
+    built = os.environ.get("SIGNORINI_WHEEL_LIBRARY")
+    if built:
+        return built
     crate = _crate()
     target = os.path.abspath(os.environ.get("CARGO_TARGET_DIR") or os.path.join(crate, "target"))
     home = os.environ.get("CARGO_HOME") or os.path.join(os.path.expanduser("~"), ".cargo")
@@ -129,7 +146,8 @@ def _folder():
 
 def _tag():
     """Any Python 3, this platform: the library is loaded by ctypes."""
-    return "py3-none-" + re.sub(r"[-.]", "_", sysconfig.get_platform())
+    platform = os.environ.get("SIGNORINI_WHEEL_PLATFORM") or sysconfig.get_platform()
+    return "py3-none-" + re.sub(r"[-.]", "_", platform)
 
 
 def _metadata():
@@ -140,12 +158,16 @@ Summary: Unilateral contact with Coulomb friction for existing finite-element co
 License-Expression: MIT OR Apache-2.0
 License-File: LICENSE-MIT
 License-File: LICENSE-APACHE
+License-File: LICENSE-THIRD-PARTY
+Classifier: Topic :: Scientific/Engineering :: Physics
+Description-Content-Type: text/markdown
 Keywords: contact,friction,finite elements,complementarity
 Requires-Python: >=3.9
 Requires-Dist: numpy
 Provides-Extra: plot
 Requires-Dist: matplotlib; extra == "plot"
-"""
+
+{DESCRIPTION}"""
 
 
 def _about():

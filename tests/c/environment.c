@@ -150,9 +150,14 @@ static void traps_are_off_inside_and_back_on_return(void)
 {
     fenv_t host;
     fegetenv(&host);
+    /* Most processors of ARM have no traps. */
     feenableexcept(TRAPS);
+    const int traps = fegetexcept();
+#if defined __x86_64__
+    CHECK(traps == TRAPS);
+#endif
     all_calls("traps");
-    CHECK(fegetexcept() == TRAPS);
+    CHECK(fegetexcept() == traps);
     fesetenv(&host);
 }
 

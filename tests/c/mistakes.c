@@ -123,8 +123,9 @@ static void signs(void)
             WORDS("most of all degree of freedom", "the resultant of the loads along it is 1.000e-1",
                   "are a support, friction, or a pair missing"),
             block.n_fixed = 0, each_pair(block.mu, 0), block.f[16] = 0.1);
+    /* That bodies move away as springs are let go is seen on some processors before rounding ends it, on others not. */
     REFUSED("x and y exchanged in slaves", 5,
-            WORDS("no method converges", "the bodies move away", "is a normal, a load"),
+            WORDS("no method converges", "eta is", "is a normal, a load"),
             for (int i = 0; i < PAIRS; i++) {
                 block.slaves[2 * i] = 2 * i + 1;
                 block.slaves[2 * i + 1] = 2 * i;

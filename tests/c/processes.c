@@ -64,8 +64,12 @@ static void cancellation(struct world *world)
 
 /* ---- Small stacks --------------------------------------------------------------------------- */
 
-/* Bytes. */
-enum { SMALL_STACK = 64 << 10 };
+/* 64 KiB, or the least that the system gives, in bytes. */
+static size_t small_stack_size(void)
+{
+    const long least = sysconf(_SC_THREAD_STACK_MIN);
+    return least > 64 << 10 ? (size_t)least : 64 << 10;
+}
 
 static void small_stack(struct world *world, const struct scenario *scenario)
 {
@@ -76,7 +80,7 @@ static void small_stack(struct world *world, const struct scenario *scenario)
         struct run work = {scenario, world, -77};
         pthread_attr_t attributes;
         pthread_t thread;
-        if (pthread_attr_init(&attributes) || pthread_attr_setstacksize(&attributes, SMALL_STACK) ||
+        if (pthread_attr_init(&attributes) || pthread_attr_setstacksize(&attributes, small_stack_size()) ||
             pthread_create(&thread, &attributes, run, &work))
             _exit(2);
         pthread_join(thread, NULL);
@@ -85,8 +89,8 @@ static void small_stack(struct world *world, const struct scenario *scenario)
     int status = -1;
     CHECK(child > 0 && waitpid(child, &status, 0) == child);
     if (!check_result(__FILE__, __LINE__, status == 0))
-        printf("%s: status %x with a stack of %d KiB\n", scenario->name, (unsigned)status,
-               SMALL_STACK >> 10);
+        printf("%s: status %x with a stack of %zu KiB\n", scenario->name, (unsigned)status,
+               small_stack_size() >> 10);
 }
 
 static void small_stacks(struct world *world)

@@ -39,25 +39,9 @@ missing_of() {
         have aarch64-linux-gnu-gfortran || echo gfortran-aarch64-linux-gnu
         have qemu-aarch64-static || echo qemu-user-static
         ;;
-    musl)
-        compiler_of x86_64-unknown-linux-musl || echo rustc-web cargo-web rust-web-src
-        have musl-gcc || echo musl-tools
-        ;;
-    macos)
-        compiler_of aarch64-apple-darwin && compiler_of x86_64-apple-darwin || echo rustc-web cargo-web rust-web-src
-        ;;
     esac
 }
 wine=$(command -v wine64 || echo /usr/lib/wine/wine64)
-
-# Zig has a linker for macOS, and what stands for the system's libraries. It is the PyPI package `ziglang`, here in an
-# environment of its own.
-find_zig() {
-    zig=$work/zig/bin/python
-    "$zig" -m ziglang version >/dev/null 2>&1 && return
-    [ -n "$install" ] || { say "zig is missing (the PyPI package ziglang in $work/zig)"; return 1; }
-    python3 -m venv "$work/zig" && "$work/zig/bin/pip" install --quiet ziglang
-}
 
 # True if the platform has all it needs, or has been given it.
 tools_of() {
@@ -70,19 +54,14 @@ tools_of() {
         packages=$(missing_of "$1" | sort -u | tr '\n' ' ')
     fi
     [ -z "$packages" ] || { say "$1 lacks (Debian's names): $packages"; return 1; }
-    [ "$1" != macos ] || find_zig
 }
 
-# library_for TARGET [OPTION...]: the library as `built`; options are those of rustc.
+# library_for TARGET: the library as `built`.
 library_for() {
-    target=$1
-    shift
-    compiler_of "$target"
-    built=$root/target/$target/release
-    say "building the library for $target: $("$RUSTC" --version)${unstable:+, with its standard library}"
-    kinds=
-    [ "$target" != x86_64-unknown-linux-musl ] || kinds="--crate-type staticlib"
-    # shellcheck disable=SC2086 # lists of words
-    (cd "$root" && RUSTC=$RUSTC RUSTC_BOOTSTRAP=${unstable:+1} "$cargo" rustc --quiet --release --locked --lib $unstable \
-        --target "$target" --target-dir "$root/target" $kinds -- "$@")
+    compiler_of "$1"
+    built=$root/target/$1/release
+    say "building the library for $1: $("$RUSTC" --version)${unstable:+, with its standard library}"
+    # shellcheck disable=SC2086 # an option or none
+    (cd "$root" && RUSTC=$RUSTC RUSTC_BOOTSTRAP=${unstable:+1} "$cargo" build --quiet --release --locked --lib \
+        $unstable --target "$1" --target-dir "$root/target")
 }
