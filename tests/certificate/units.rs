@@ -7,6 +7,7 @@ use crate::common::problems::{
     tresca, vector,
 };
 use fastrand::Rng;
+use signorini::certificate::certify;
 use signorini::{Lcp, LcpSolution, Method, Monitor, Settings, Status, solve_lcp};
 
 /// Units in which lengths and forces are given by numbers `length` and `force` times as large.
@@ -277,4 +278,41 @@ fn check_bare(method: Method) {
         }
     }
     assert!(infeasible > 20 || method == Method::BlockPivoting, "only {infeasible} are infeasible");
+}
+
+/// The measures of a candidate that violates the law in each way change with the units, and their sizes beside the forces
+/// do not: powers of two round nothing.
+#[test]
+fn measures_have_the_units_of_the_host() {
+    let mut k = vec![0.0; 16];
+    (0..4).for_each(|i| k[5 * i] = 4.0);
+    let (f, gap) = (vec![3.0, 1.0, -2.0, 0.0], vec![0.5, 2.0]);
+    let law = Law::Coulomb(vec![0.5; 2]);
+    let case = Case { dim: 2, pairs: 2, k, f, gap, law, slip: None };
+    // The first pair is 0.25 inside of its obstacle and carries no pressure and a friction of 7; the second one pulls by 6.
+    let d = [0.75, 2.0, 1.0, 0.0];
+    let one = certify(&case.problem(), &d);
+    assert_eq!((one.penetration, one.tension, one.cone_excess), (0.25, 6.0, 7.0));
+    assert_eq!(one.equilibrium, 7.0);
+    for units in binary() {
+        let other = in_units(&case, units);
+        let there = certify(&other.problem(), &times(&d, units.length));
+        assert_eq!((there.eta, there.residual), (one.eta, one.residual), "{units:?}");
+        assert_eq!(there.penetration, 0.25 * units.length, "{units:?}");
+        let forces = [there.tension, there.cone_excess, there.equilibrium];
+        assert_eq!(forces, [6.0, 7.0, 7.0].map(|force| force * units.force), "{units:?}");
+        assert_eq!(there.force, times(&one.force, units.force), "{units:?}");
+    }
+}
+
+/// A solution whose force is 8 in ordinary units, and 2^1025 in others, which no double holds: nothing is certified there.
+#[test]
+fn a_force_beyond_doubles_is_no_solution() {
+    let (k, f, gap) = (vec![4.0, 0.0, 0.0, 4.0], vec![3.0, 0.0], vec![-1.25]);
+    let case = Case { dim: 2, pairs: 1, k, f, gap, law: frictionless(1), slip: None };
+    let d = [-1.25, 0.0];
+    assert_eq!(certify(&case.problem(), &d).eta, 0.0);
+    let units = Units { length: 2_f64.powi(100), force: 2_f64.powi(1022) };
+    let there = certify(&in_units(&case, units).problem(), &times(&d, units.length));
+    assert!(there.eta >= 1.0 && there.residual >= 1.0, "{there:?}");
 }
