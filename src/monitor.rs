@@ -175,7 +175,7 @@ impl<'a> Monitor<'a> {
             self.goes_on()?;
         }
         self.learn();
-        if !self.has_time_for(operations) {
+        if self.is_late_after(operations / self.rate) {
             return Err(self.reason());
         }
         self.work = (operations >= MEASURABLE).then(|| (Instant::now(), operations));
@@ -189,18 +189,16 @@ impl<'a> Monitor<'a> {
         }
     }
 
-    /// `true` if so many `operations` end within the time limit, for questions about a result that is there
-    /// already.
-    pub(crate) fn has_time_for(&self, operations: f64) -> bool {
-        let is_in_time = |time: f64| self.begin.elapsed().as_secs_f64() + time <= self.time_limit;
-        !self.is_cancelled && (!self.time_limit.is_finite() || is_in_time(operations / self.rate))
-    }
-
     /// `true` if the time limit is used up, or the caller has cancelled, for questions about a result that is there
     /// already: they are then left open.
     pub(crate) fn is_late(&self) -> bool {
         shortage::check();
-        !self.has_time_for(0.0)
+        self.is_late_after(0.0)
+    }
+
+    fn is_late_after(&self, seconds: f64) -> bool {
+        let is_late = || self.begin.elapsed().as_secs_f64() + seconds > self.time_limit;
+        self.is_cancelled || (self.time_limit.is_finite() && is_late())
     }
 
     /// Why the call is to end, if it is; the callback is not asked.

@@ -50,7 +50,7 @@ pub fn has_no_forces(r: &[f64], internal: &[f64], rounding: f64, root: &[f64]) -
 /// energy.
 fn shows_condensation(problem: &ContactProblem<'_>) -> bool {
     let all = (0..problem.unknowns()).collect();
-    let Some(block) = FreeBlock::of_problem(problem, all) else { return false };
+    let Some(block) = FreeBlock::of_problem(problem, all, &mut || true) else { return false };
     let mut motions: Vec<Vec<f64>> = block.null_vectors().collect();
     for motion in &mut motions {
         let unit = terms(problem.relation(), motion).sqrt();

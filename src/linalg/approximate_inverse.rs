@@ -6,7 +6,6 @@
 //! `|R| |J|` take a product with a vector only.
 
 use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::linalg::lu::partial_pivoting as lu;
 use faer::linalg::matmul::matmul;
 use faer::linalg::triangular_solve::{
     solve_unit_lower_triangular_in_place, solve_upper_triangular_in_place,
@@ -15,7 +14,8 @@ use faer::perm::{PermRef, permute_cols_in_place, permute_cols_in_place_scratch};
 use faer::{Accum, Mat, Par};
 
 use super::ball::{product_up, sum_of_products_up, sum_up};
-use super::factor::{BLOCK, filled};
+use super::factor::{RowOrder, lu};
+use super::watched::{BLOCK, GoesOn, filled};
 
 /// A matrix and its approximate inverse.
 pub struct ApproximateInverse {
@@ -25,10 +25,10 @@ pub struct ApproximateInverse {
 
 impl ApproximateInverse {
     /// Inverts the `n x n` matrix whose columns `fill(j, column)` writes; `None` if an entry of the inverse is
-    /// not finite.
-    pub fn new(n: usize, fill: impl FnMut(usize, &mut [f64])) -> Option<Self> {
-        let matrix = filled(n, fill);
-        let inverse = inverted(&matrix);
+    /// not finite, or where `goes_on` says no.
+    pub fn new(n: usize, fill: impl FnMut(usize, &mut [f64]), goes_on: GoesOn<'_>) -> Option<Self> {
+        let matrix = filled((n, n), fill, goes_on)?;
+        let inverse = inverted(&matrix, goes_on)?;
         let finite = (0..n).all(|j| inverse.col_as_slice(j).iter().all(|entry| entry.is_finite()));
         finite.then_some(ApproximateInverse { matrix, inverse })
     }
@@ -69,12 +69,16 @@ impl ApproximateInverse {
         computed.iter().zip(rest).map(|(g, rest)| sum_up(sum_up(g.abs(), rest), tiny(n))).collect()
     }
 
-    /// Bounds on the row sums of `|1 - R (J + E)|` for all `E` whose absolute row sums are at most `doubt`.
-    pub fn contraction(&self, doubt: &[f64]) -> Vec<f64> {
+    /// Bounds on the row sums of `|1 - R (J + E)|` for all `E` whose absolute row sums are at most `doubt`;
+    /// `None` where `goes_on` says no.
+    pub fn contraction(&self, doubt: &[f64], goes_on: GoesOn<'_>) -> Option<Vec<f64>> {
         let n = self.size();
         let mut sums = vec![0.0; n];
         let mut block = Mat::zeros(n, BLOCK.min(n));
         for begin in (0..n).step_by(BLOCK) {
+            if !goes_on() {
+                return None;
+            }
             let width = BLOCK.min(n - begin);
             let columns = self.matrix.get(.., begin..begin + width);
             let part = block.get_mut(.., ..width);
@@ -96,7 +100,7 @@ impl ApproximateInverse {
         let tiny = tiny(n) * n as f64;
         let total =
             |(sum, rest): (&f64, f64)| sum_up(sum_of_products_up(*sum, n), sum_up(rest, tiny));
-        sums.iter().zip(rest).map(total).collect()
+        Some(sums.iter().zip(rest).map(total).collect())
     }
 }
 
@@ -121,35 +125,24 @@ fn bound_of_product(matrix: &Mat<f64>, x: &[f64]) -> Vec<f64> {
 }
 
 /// By the factors of the transpose: right-hand sides by rows need no deep stack (`small_products.rs`), and the inverse
-/// comes out by columns.
-fn inverted(matrix: &Mat<f64>) -> Mat<f64> {
+/// comes out by columns. `None` where `goes_on` says no.
+fn inverted(matrix: &Mat<f64>, goes_on: GoesOn<'_>) -> Option<Mat<f64>> {
     let n = matrix.nrows();
     let mut factors = matrix.transpose().to_owned();
-    let (mut forward, mut backward) = (vec![0_usize; n], vec![0; n]);
-    let spec = faer::Spec::default();
-    let request = lu::factor::lu_in_place_scratch::<usize, f64>(n, n, Par::Seq, spec)
-        .or(permute_cols_in_place_scratch::<usize, f64>(n, n));
-    let mut memory = MemBuffer::new(request);
-    lu::factor::lu_in_place(
-        factors.as_mut(),
-        &mut forward,
-        &mut backward,
-        Par::Seq,
-        MemStack::new(&mut memory),
-        spec,
-    );
+    let RowOrder { forward, inverse: backward, .. } = lu(&mut factors, goes_on)?;
     let mut inverse = Mat::identity(n, n);
     let mut columns = inverse.transpose_mut();
     for begin in (0..n).step_by(BLOCK) {
-        let end = n.min(begin + BLOCK);
-        solve_unit_lower_triangular_in_place(
-            factors.get(begin.., begin..),
-            columns.as_mut().get_mut(begin.., begin..end),
-            Par::Seq,
-        );
+        if !goes_on() {
+            return None;
+        }
+        let mut block = columns.as_mut().get_mut(.., begin..n.min(begin + BLOCK));
+        let below = block.as_mut().get_mut(begin.., ..);
+        solve_unit_lower_triangular_in_place(factors.get(begin.., begin..), below, Par::Seq);
+        solve_upper_triangular_in_place(factors.as_ref(), block, Par::Seq);
     }
-    solve_upper_triangular_in_place(factors.as_ref(), columns.as_mut(), Par::Seq);
+    let mut memory = MemBuffer::new(permute_cols_in_place_scratch::<usize, f64>(n, n));
     let order = PermRef::new_checked(&forward, &backward, n);
     permute_cols_in_place(columns, order.inverse(), MemStack::new(&mut memory));
-    inverse
+    Some(inverse)
 }

@@ -10,9 +10,11 @@
 use faer::Mat;
 
 use super::ball::{product_up, sum_of_products_up, sum_up};
-use super::factor::{Factor, cholesky, filled};
+use super::factor::{Factor, cholesky};
 use super::matrix::tiles;
+use super::tolerances::SINGULAR;
 use super::vector::{norm, norm_inf};
+use super::watched::{GoesOn, filled};
 
 /// Steps of inverse iteration: the shift may be half of the eigenvalue, and need not be exact.
 const ITERATIONS: usize = 4;
@@ -35,17 +37,17 @@ pub struct Definite {
 
 impl Definite {
     /// The matrix of `n` rows whose columns `fill(j, column)` writes, each entry known up to [`GIVEN`], relative;
-    /// `None` if it is not proved to be positive definite: that its symmetric part is.
-    pub fn new(n: usize, fill: impl FnMut(usize, &mut [f64])) -> Option<Self> {
-        let mut matrix = filled(n, fill);
+    /// `None` if it is not proved to be positive definite, that its symmetric part is, or where `goes_on` says no.
+    pub fn new(n: usize, fill: impl FnMut(usize, &mut [f64]), goes_on: GoesOn<'_>) -> Option<Self> {
+        let mut matrix = filled((n, n), fill, goes_on)?;
         let sizes = lower_symmetric_part(&mut matrix);
         let lower = |j: usize, column: &mut [f64]| {
             column[j..].copy_from_slice(&matrix.col_as_slice(j)[j..]);
         };
-        let mut factor = Factor::new(n, true, lower)?;
+        let mut factor = Factor::new(n, true, SINGULAR, lower, goes_on)?;
         let found = least_eigenvalue(&mut factor);
         let doubt = product_up(GIVEN, norm_inf(&sizes));
-        let bound = |part: f64| above(&matrix, part * found, doubt);
+        let bound = |part: f64| above(&matrix, part * found, doubt, goes_on);
         let least = SHIFTS.into_iter().find_map(bound)?;
         Some(Definite { factor, least })
     }
@@ -96,12 +98,12 @@ fn least_eigenvalue(factor: &mut Factor) -> f64 {
 
 /// A positive bound below all eigenvalues of the symmetric matrix, of which the lower triangle is read and
 /// which is known up to `doubt` in each absolute row sum; `None` if they are not proved to be above `shift`
-/// by as much as rounding leaves.
-fn above(matrix: &Mat<f64>, shift: f64, doubt: f64) -> Option<f64> {
+/// by as much as rounding leaves, or where `goes_on` says no.
+fn above(matrix: &Mat<f64>, shift: f64, doubt: f64, goes_on: GoesOn<'_>) -> Option<f64> {
     let n = matrix.nrows();
     let mut factor = matrix.clone();
     (0..n).for_each(|i| factor[(i, i)] -= shift);
-    cholesky(&mut factor, &mut || true)?;
+    cholesky(&mut factor, goes_on)?;
     // |L| |Lᵀ| 1.
     let mut size = vec![0.0; n];
     for j in 0..n {
@@ -132,7 +134,7 @@ mod tests {
                     }
                 }
             };
-            let bound = Definite::new(n, fill).expect("it is definite").least();
+            let bound = Definite::new(n, fill, &mut || true).expect("it is definite").least();
             let exact = 4.0 * (std::f64::consts::PI / (2.0 * (n as f64 + 1.0))).sin().powi(2);
             assert!(bound <= exact && bound > 0.04 * exact, "{n}: {bound:e}, {exact:e}");
         }
@@ -142,7 +144,7 @@ mod tests {
                 column.fill(beside);
                 column[j] = 1.0;
             };
-            assert!(Definite::new(2, fill).is_none());
+            assert!(Definite::new(2, fill, &mut || true).is_none());
         }
     }
 }

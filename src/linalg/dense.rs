@@ -10,6 +10,7 @@ use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
 use faer::{Accum, MatMut, MatRef, Par, Spec};
 
 use super::matrix::tiles;
+use super::watched::{BLOCK, GoesOn};
 
 /// Subtracts the products `a bᵀ` from the entries `(row(i), column(j))` of a matrix, `i < rows` and `j < columns`; of
 /// a `square` one, `a = b`, the lower triangle. Rows and columns ascend. `work` holds a product.
@@ -122,6 +123,33 @@ pub fn root(block: MatMut<'_, f64>, stack: &mut MemStack) -> Result<(), usize> {
 /// Divides rows by the factor of their diagonal block.
 pub fn divide(factor: MatRef<'_, f64>, rows: MatMut<'_, f64>) {
     solve_lower_triangular_in_place(factor, rows.transpose_mut(), Par::Seq);
+}
+
+/// `C - X Xᵀ` from the lower triangle of the symmetric `C`, both triangles; column-major. `X = B L⁻ᵀ` takes the place of
+/// `B`. `None` where `goes_on` says no, which is asked between blocks of rows.
+pub fn subtract_coupling(
+    c: &mut [f64],
+    lower: MatRef<'_, f64>,
+    mut b: MatMut<'_, f64>,
+    goes_on: GoesOn<'_>,
+) -> Option<()> {
+    let m = b.nrows();
+    let mut left = MatMut::from_column_major_slice_mut(c, m, m);
+    for begin in (0..m).step_by(BLOCK) {
+        if !goes_on() {
+            return None;
+        }
+        let count = BLOCK.min(m - begin);
+        let (before, rows) = b.as_mut().split_at_row_mut(begin);
+        let mut rows = rows.subrows_mut(0, count);
+        divide(lower, rows.as_mut());
+        let mut target = left.as_mut().subrows_mut(begin, count);
+        let (earlier, own) = target.as_mut().split_at_col_mut(begin);
+        matmul(earlier, Accum::Add, rows.as_ref(), before.transpose(), -1.0, Par::Seq);
+        subtract_square(own.subcols_mut(0, count), rows.as_ref());
+    }
+    mirror(c, m);
+    Some(())
 }
 
 /// Copies the lower triangle to the upper one.

@@ -5,11 +5,12 @@
 
 use nalgebra::{DMatrix, SymmetricEigen};
 
-use super::factor::{Factor, GoesOn};
+use super::factor::Factor;
 use super::gmres::orthogonalised;
 use super::matrix::Matrix;
 use super::tolerances::{ROUNDING, SINGULAR};
 use super::vector::norm;
+use super::watched::GoesOn;
 
 /// Most directions of Lanczos' method: three digits of the largest eigenvalue wherever it stands out by a per cent.
 const DIRECTIONS: usize = 60;
@@ -46,7 +47,7 @@ pub fn is_below(matrix: &Matrix<'_>, bound: f64, goes_on: GoesOn<'_>) -> bool {
         column.iter_mut().zip(matrix.column(j)).for_each(|(entry, own)| *entry = -own);
         column[j] += bound;
     };
-    Factor::asked(matrix.size(), true, SINGULAR, fill, goes_on).is_some()
+    Factor::new(matrix.size(), true, SINGULAR, fill, goes_on).is_some()
 }
 
 /// Orthonormal eigenvectors of the symmetric `n x n` matrix `entry(i, j)`, by increasing eigenvalues; `None` as in

@@ -6,10 +6,11 @@ use std::sync::{Arc, Mutex, PoisonError};
 use faer::linalg::triangular_solve;
 use faer::{Mat, MatMut, MatRef, Par};
 
-use super::factor::{BLOCK, GoesOn, cholesky, cholesky_work};
+use super::dense;
+use super::factor::{cholesky, cholesky_work};
 use super::matrix::Matrix;
-use super::pivoted_cholesky::subtract_gram;
 use super::tolerances::SINGULAR;
+use super::watched::{GoesOn, filled};
 
 /// `K_OO = L Lᵀ` of the components `O`, `X = K_CO L⁻ᵀ` with the components `C` that are kept, and their Schur
 /// complement.
@@ -55,12 +56,11 @@ impl Elimination {
         goes_on: GoesOn<'_>,
     ) -> Option<Self> {
         let (o, c) = (dropped.len(), kept.len());
-        let mut lower = Mat::zeros(o, o);
-        for (j, &at) in dropped.iter().enumerate() {
-            let column = matrix.column(at);
-            let target = &mut lower.col_as_slice_mut(j)[j..];
-            target.iter_mut().zip(&dropped[j..]).for_each(|(entry, &i)| *entry = column[i]);
-        }
+        let fill = |j: usize, column: &mut [f64]| {
+            let own = matrix.column(dropped[j]);
+            column[j..].iter_mut().zip(&dropped[j..]).for_each(|(entry, &i)| *entry = own[i]);
+        };
+        let mut lower = filled((o, o), fill, goes_on)?;
         cholesky(&mut lower, goes_on)?;
         // Written so that NaN is singular too.
         let regular = dropped
@@ -70,27 +70,18 @@ impl Elimination {
         if !regular {
             return None;
         }
-        let mut half = Mat::zeros(c, o);
-        for (j, &at) in dropped.iter().enumerate() {
-            let column = matrix.column(at);
-            let target = half.col_as_slice_mut(j);
-            target.iter_mut().zip(&kept).for_each(|(entry, &i)| *entry = column[i]);
-        }
+        let fill = |j: usize, column: &mut [f64]| {
+            let own = matrix.column(dropped[j]);
+            column.iter_mut().zip(&kept).for_each(|(entry, &i)| *entry = own[i]);
+        };
+        let mut half = filled((c, o), fill, goes_on)?;
         let mut schur = vec![0.0; c * c];
         for (j, &at) in kept.iter().enumerate() {
             let column = matrix.column(at);
             let target = &mut schur[c * j + j..c * (j + 1)];
             target.iter_mut().zip(&kept[j..]).for_each(|(entry, &i)| *entry = column[i]);
         }
-        for begin in (0..c).step_by(BLOCK) {
-            if begin > 0 && !goes_on() {
-                return None;
-            }
-            let rows = half.as_mut().submatrix_mut(begin, 0, BLOCK.min(c - begin), o);
-            let rows = rows.transpose_mut();
-            triangular_solve::solve_lower_triangular_in_place(lower.as_ref(), rows, Par::Seq);
-        }
-        subtract_gram(&mut schur, half.as_ref());
+        dense::subtract_coupling(&mut schur, lower.as_ref(), half.as_mut(), goes_on)?;
         Some(Elimination { dropped, kept, lower, half, schur })
     }
 

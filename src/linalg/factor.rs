@@ -2,7 +2,7 @@
 
 use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
 use faer::linalg::cholesky::llt;
-use faer::linalg::lu::partial_pivoting as lu;
+use faer::linalg::lu::partial_pivoting;
 use faer::linalg::matmul::matmul;
 use faer::linalg::triangular_solve::solve_unit_lower_triangular_in_place;
 use faer::perm::PermRef;
@@ -10,17 +10,8 @@ use faer::{Accum, Mat, MatMut, MatRef, Par};
 
 use super::dense;
 use super::small_products::{SMALL_PRODUCT, by_rows};
-use super::tolerances::SINGULAR;
 use super::vector::dot;
-
-/// Columns of a block, which stays in a cache: between two of them a long work asks if it goes on.
-pub const BLOCK: usize = 64;
-
-/// Rows up to which a matrix is factorised in one go: a few milliseconds.
-const SHORT: usize = 512;
-
-/// Is asked whether a work goes on.
-pub type GoesOn<'a> = &'a mut dyn FnMut() -> bool;
+use super::watched::{BLOCK, GoesOn, SHORT, filled, lower_triangle};
 
 /// Operations of a Cholesky factorisation of `n` rows.
 pub fn cholesky_work(n: usize) -> f64 {
@@ -45,35 +36,37 @@ pub struct Factor {
 
 enum Kind {
     Cholesky,
-    Lu { forward: Vec<usize>, inverse: Vec<usize>, odd: bool },
+    Lu(RowOrder),
+}
+
+/// The order in which an elimination with row pivots takes the rows.
+pub struct RowOrder {
+    pub forward: Vec<usize>,
+    pub inverse: Vec<usize>,
+    /// True if its permutation is odd.
+    odd: bool,
 }
 
 impl Factor {
     /// Factorises the `n x n` matrix whose columns `fill(j, column)` writes, of a symmetric positive
-    /// definite one on and below the diagonal. `None` if it is singular to working precision, or
-    /// not positive definite as promised.
-    pub fn new(n: usize, symmetric: bool, fill: impl FnMut(usize, &mut [f64])) -> Option<Self> {
-        Self::asked(n, symmetric, SINGULAR, fill, &mut || true)
-    }
-
-    /// As [`Self::new`]; pivots below `least`, relative to the largest, make the matrix singular. `None` too where
-    /// `goes_on` says no.
-    pub fn asked(
+    /// definite one on and below the diagonal. `None` if it is not positive definite as promised; if it is singular:
+    /// if pivots are below `least`, relative to the largest; or where `goes_on` says no.
+    pub fn new(
         n: usize,
         symmetric: bool,
         least: f64,
         fill: impl FnMut(usize, &mut [f64]),
         goes_on: GoesOn<'_>,
     ) -> Option<Self> {
-        let mut factors = filled(n, fill);
+        let mut factors = filled((n, n), fill, goes_on)?;
         let kind = if symmetric {
             cholesky(&mut factors, goes_on).map(|()| Kind::Cholesky)?
         } else {
-            general(&mut factors, goes_on)?
+            lu(&mut factors, goes_on).map(Kind::Lu)?
         };
         let pivot = |i: usize| match kind {
             Kind::Cholesky => factors[(i, i)].powi(2),
-            Kind::Lu { .. } => factors[(i, i)].abs(),
+            Kind::Lu(_) => factors[(i, i)].abs(),
         };
         let largest = (0..n).map(pivot).fold(0.0, f64::max);
         // Written so that NaN is singular too.
@@ -103,9 +96,11 @@ impl Factor {
         if columns > self.room {
             self.memory = MemBuffer::new(match self.kind {
                 Kind::Cholesky => llt::solve::solve_in_place_scratch::<f64>(n, columns, Par::Seq),
-                Kind::Lu { .. } => {
-                    lu::solve::solve_in_place_scratch::<usize, f64>(n, columns, Par::Seq)
-                }
+                Kind::Lu(_) => partial_pivoting::solve::solve_in_place_scratch::<usize, f64>(
+                    n,
+                    columns,
+                    Par::Seq,
+                ),
             });
             self.room = columns;
         }
@@ -115,9 +110,16 @@ impl Factor {
             Kind::Cholesky => by_rows(rhs, &mut self.rows, |rhs| {
                 llt::solve::solve_in_place(factors, rhs, Par::Seq, stack);
             }),
-            Kind::Lu { forward, inverse, .. } => {
+            Kind::Lu(RowOrder { forward, inverse, .. }) => {
                 let order = PermRef::new_checked(forward, inverse, n);
-                lu::solve::solve_in_place(factors, factors, order, rhs, Par::Seq, stack);
+                partial_pivoting::solve::solve_in_place(
+                    factors,
+                    factors,
+                    order,
+                    rhs,
+                    Par::Seq,
+                    stack,
+                );
             }
         }
     }
@@ -125,7 +127,7 @@ impl Factor {
     /// Sign of the determinant.
     pub fn sign(&self) -> i8 {
         let negative = (0..self.size()).filter(|&i| self.factors[(i, i)] < 0.0).count();
-        let odd = matches!(self.kind, Kind::Lu { odd: true, .. });
+        let odd = matches!(self.kind, Kind::Lu(RowOrder { odd: true, .. }));
         if (negative % 2 == 1) == odd { 1 } else { -1 }
     }
 }
@@ -143,8 +145,8 @@ pub fn first_not_definite(
     entry: impl Fn(usize, usize) -> f64,
     goes_on: GoesOn<'_>,
 ) -> Option<usize> {
-    let lower = |i: usize, j: usize| if i >= j { entry(i, j) } else { 0.0 };
-    cholesky_to_failure(&mut Mat::from_fn(n, n, lower), goes_on).err()
+    let Some(mut lower) = lower_triangle(n, entry, goes_on) else { return Some(0) };
+    cholesky_to_failure(&mut lower, goes_on).err()
 }
 
 /// The width of the blocks in which `n` columns are factorised.
@@ -172,11 +174,12 @@ fn cholesky_to_failure(matrix: &mut Mat<f64>, goes_on: GoesOn<'_>) -> Result<(),
 }
 
 /// Overwrites a matrix with its factors `LU`, with row pivots; `None` where `goes_on` says no.
-fn general(matrix: &mut Mat<f64>, goes_on: GoesOn<'_>) -> Option<Kind> {
+pub fn lu(matrix: &mut Mat<f64>, goes_on: GoesOn<'_>) -> Option<RowOrder> {
     let (n, most) = (matrix.nrows(), width_of_blocks(matrix.nrows()));
     let (mut forward, mut exchanges): (Vec<usize>, usize) = ((0..n).collect(), 0);
     let spec = faer::Spec::default();
-    let request = lu::factor::lu_in_place_scratch::<usize, f64>(n, most.min(n), Par::Seq, spec);
+    let request =
+        partial_pivoting::factor::lu_in_place_scratch::<usize, f64>(n, most.min(n), Par::Seq, spec);
     let mut memory = MemBuffer::new(request);
     for begin in (0..n).step_by(most) {
         if begin > 0 && !goes_on() {
@@ -186,8 +189,14 @@ fn general(matrix: &mut Mat<f64>, goes_on: GoesOn<'_>) -> Option<Kind> {
         let (mut order, mut back) = (vec![0; left], vec![0; left]);
         let panel = matrix.as_mut().submatrix_mut(begin, begin, left, width);
         let stack = MemStack::new(&mut memory);
-        let (info, _) =
-            lu::factor::lu_in_place(panel, &mut order, &mut back, Par::Seq, stack, spec);
+        let (info, _) = partial_pivoting::factor::lu_in_place(
+            panel,
+            &mut order,
+            &mut back,
+            Par::Seq,
+            stack,
+            spec,
+        );
         exchanges += info.transposition_count;
         let moved: Vec<(usize, usize)> = (begin..n)
             .zip(order.iter().map(|&from| begin + from))
@@ -204,20 +213,13 @@ fn general(matrix: &mut Mat<f64>, goes_on: GoesOn<'_>) -> Option<Kind> {
     }
     let mut inverse = vec![0; n];
     forward.iter().enumerate().for_each(|(to, &from)| inverse[from] = to);
-    Some(Kind::Lu { forward, inverse, odd: exchanges % 2 == 1 })
+    Some(RowOrder { forward, inverse, odd: exchanges % 2 == 1 })
 }
 
 /// Moves values all at once: each pair is the new place and the old one.
 fn exchange<T: Copy>(values: &mut [T], moved: &[(usize, usize)]) {
     let taken: Vec<T> = moved.iter().map(|&(_, from)| values[from]).collect();
     moved.iter().zip(taken).for_each(|(&(to, _), value)| values[to] = value);
-}
-
-/// The `n x n` matrix whose columns `fill(j, column)` writes.
-pub fn filled(n: usize, mut fill: impl FnMut(usize, &mut [f64])) -> Mat<f64> {
-    let mut matrix = Mat::zeros(n, n);
-    (0..n).for_each(|j| fill(j, matrix.col_as_slice_mut(j)));
-    matrix
 }
 
 /// `target - Aᵀ B`, contiguous column-major matrices of `n` rows; `target` has a row for each
@@ -269,6 +271,7 @@ pub fn subtract_outer(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::linalg::tolerances::SINGULAR;
 
     /// Solutions of random systems with one block of columns and with several: the residual is that of elimination with
     /// row pivots, `n u` of the entries and the solution, which are of size one, with a growth of ten. A work that is
@@ -290,7 +293,8 @@ mod tests {
                 let fill = |j: usize, column: &mut [f64]| {
                     column.copy_from_slice(&entries[n * j..n * (j + 1)]);
                 };
-                let mut factor = Factor::new(n, symmetric, fill).expect("it is regular");
+                let factor = Factor::new(n, symmetric, SINGULAR, fill, &mut || true);
+                let mut factor = factor.expect("it is regular");
                 let b: Vec<f64> = (0..n).map(|_| rng.f64() - 0.5).collect();
                 let mut x = b.clone();
                 factor.solve(&mut x);
@@ -305,7 +309,7 @@ mod tests {
                         b[i]
                     );
                 }
-                let ended = Factor::asked(n, symmetric, 0.0, fill, &mut || false).is_none();
+                let ended = Factor::new(n, symmetric, 0.0, fill, &mut || false).is_none();
                 assert_eq!(ended, n > SHORT, "it is asked between blocks");
             }
         }
@@ -321,7 +325,8 @@ mod tests {
             };
             // A rotation by one place of an even number of rows is odd.
             let sign = if shift % 2 == 0 { 1 } else { -1 };
-            assert_eq!(Factor::new(n, false, fill).expect("it is regular").sign(), sign);
+            let factor = Factor::new(n, false, SINGULAR, fill, &mut || true);
+            assert_eq!(factor.expect("it is regular").sign(), sign);
         }
     }
 }

@@ -27,3 +27,4 @@ pub(crate) mod sparse_schur;
 pub(crate) mod tolerances;
 pub(crate) mod vector;
 pub(crate) mod vector3;
+pub(crate) mod watched;

@@ -1,20 +1,13 @@
 //! Dense Cholesky factorisation of a semi-definite matrix, by faer on the calling thread.
 
-use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::linalg::cholesky::llt_pivoting::factor as pivoted;
 use faer::linalg::matmul::matmul;
 use faer::linalg::triangular_solve;
-use faer::{Accum, Mat, MatMut, MatRef, Par};
+use faer::{Accum, Mat, MatMut, Par};
 
-use super::dense::{self, mirror, subtract_square};
-use super::factor::{BLOCK, GoesOn, cholesky, cholesky_work};
+use super::dense;
+use super::factor::cholesky;
 use super::tolerances::{NEGLIGIBLE, SUSPICIOUS_PIVOT};
-
-/// Operations in whose time a factorisation of `n` rows is made: at first without pivots, and if rows may depend on
-/// others once more with them, half of it at the speed of memory.
-pub fn pivoted_cholesky_work(n: usize) -> f64 {
-    3.0 * cholesky_work(n)
-}
+use super::watched::{BLOCK, GoesOn, filled, lower_triangle};
 
 /// Rank-revealing Cholesky factor of a positive semi-definite matrix `A` with a diagonal of size one, or
 /// less in rows that little resists: `A[p, p] = L Lᵀ` on the independent rows `p`; the other rows depend on
@@ -44,9 +37,8 @@ impl PivotedCholesky {
         let (rows, mut dependent): (Vec<usize>, Vec<usize>) =
             (0..size).partition(|&i| entry(i, i) > least);
         let n = rows.len();
-        let lower_entry = |i: usize, j: usize| if i >= j { entry(rows[i], rows[j]) } else { 0.0 };
-        let fill = || Mat::from_fn(n, n, lower_entry);
-        let mut lower = fill();
+        let fill = |go_on: GoesOn<'_>| lower_triangle(n, |i, j| entry(rows[i], rows[j]), go_on);
+        let mut lower = fill(go_on)?;
         let mut has_ended = false;
         let asked = &mut || {
             has_ended = has_ended || !go_on();
@@ -60,24 +52,12 @@ impl PivotedCholesky {
             return Some(PivotedCholesky { lower, independent: rows, dependent });
         }
         drop(lower);
-        let mut lower = fill();
-        let (mut forward, mut inverse) = (vec![0_usize; n], vec![0_usize; n]);
-        let scratch =
-            pivoted::cholesky_in_place_scratch::<usize, f64>(n, Par::Seq, faer::Spec::default());
-        let info = pivoted::cholesky_in_place(
-            lower.as_mut(),
-            &mut forward,
-            &mut inverse,
-            Par::Seq,
-            MemStack::new(&mut MemBuffer::new(scratch)),
-            faer::Spec::default(),
-        );
-        let Ok((info, _)) = info else { return None };
-        let rank = (0..info.rank).find(|&i| lower[(i, i)].powi(2) <= least).unwrap_or(info.rank);
-        dependent.splice(..0, forward[rank..].iter().map(|&i| rows[i]));
+        let mut lower = fill(go_on)?;
+        let (order, rank) = pivoted(&mut lower, least, go_on)?;
+        dependent.splice(..0, order[rank..].iter().map(|&i| rows[i]));
         Some(PivotedCholesky {
             lower: lower.as_ref().submatrix(0, 0, rank, rank).to_owned(),
-            independent: forward[..rank].iter().map(|&i| rows[i]).collect(),
+            independent: order[..rank].iter().map(|&i| rows[i]).collect(),
             dependent,
         })
     }
@@ -111,45 +91,135 @@ impl PivotedCholesky {
     }
 
     /// `C - Bᵀ A⁻¹ B` for `m` columns, `B = coupling(row, column)` over the independent rows
-    /// named as in [`Self::independent`], `C = corner(i, j)` symmetric; column-major `m x m`. `go_on` is asked between
-    /// blocks of columns; if it ends the work, the rest is `C`.
+    /// named as in [`Self::independent`], `C = corner(i, j)` symmetric; column-major `m x m`. `None` where `goes_on` says
+    /// no, which is asked between blocks of columns.
     pub fn schur_complement(
         &self,
         m: usize,
         coupling: impl Fn(usize, usize) -> f64,
         corner: impl Fn(usize, usize) -> f64,
-        go_on: GoesOn<'_>,
-    ) -> Vec<f64> {
+        goes_on: GoesOn<'_>,
+    ) -> Option<Vec<f64>> {
         let n = self.independent.len();
-        let mut half = Mat::from_fn(m, n, |j, i| coupling(self.independent[i], j));
+        let fill = |i: usize, column: &mut [f64]| {
+            (0..m).for_each(|j| column[j] = coupling(self.independent[i], j));
+        };
+        let mut half = filled((m, n), fill, goes_on)?;
         let mut schur = vec![0.0; m * m];
         for j in 0..m {
             for i in j..m {
                 schur[i + m * j] = corner(i, j);
             }
         }
-        let blocks = || (0..m).step_by(BLOCK).map(|begin| (begin, BLOCK.min(m - begin)));
-        let mut left = MatMut::from_column_major_slice_mut(&mut schur, m, m);
-        for (begin, count) in blocks() {
-            if !go_on() {
-                break;
-            }
-            let (before, rows) = half.as_mut().split_at_row_mut(begin);
-            let mut rows = rows.subrows_mut(0, count);
-            dense::divide(self.lower.as_ref(), rows.as_mut());
-            let mut target = left.as_mut().subrows_mut(begin, count);
-            let (earlier, own) = target.as_mut().split_at_col_mut(begin);
-            matmul(earlier, Accum::Add, rows.as_ref(), before.transpose(), -1.0, Par::Seq);
-            subtract_square(own.subcols_mut(0, count), rows.as_ref());
-        }
-        mirror(&mut schur, m);
-        schur
+        dense::subtract_coupling(&mut schur, self.lower.as_ref(), half.as_mut(), goes_on)?;
+        Some(schur)
     }
 }
 
-/// `C - X Xᵀ` from the lower triangle of the symmetric `C`, both triangles; column-major.
-pub fn subtract_gram(c: &mut [f64], x: MatRef<'_, f64>) {
-    let m = x.nrows();
-    subtract_square(MatMut::from_column_major_slice_mut(c, m, m), x);
-    mirror(c, m);
+/// Overwrites the lower triangle with Cholesky's factor of the rows in another order, of the largest pivot that is left
+/// first, panel by panel (C. Lucas, LAPACK working note 161, 2004). Returns that order, and how many pivots are above
+/// `least`; `None` where one is no number, or `goes_on` says no.
+fn pivoted(matrix: &mut Mat<f64>, least: f64, goes_on: GoesOn<'_>) -> Option<(Vec<usize>, usize)> {
+    let n = matrix.nrows();
+    let mut order: Vec<usize> = (0..n).collect();
+    for begin in (0..n).step_by(BLOCK) {
+        if !goes_on() {
+            return None;
+        }
+        let end = n.min(begin + BLOCK);
+        // The diagonal of what is left.
+        let mut left: Vec<f64> = (0..n).map(|i| matrix[(i, i)]).collect();
+        for j in begin..end {
+            let most = (j..n).reduce(|most, i| if left[i] > left[most] { i } else { most })?;
+            if left[j..].iter().any(|left| left.is_nan()) {
+                return None;
+            }
+            if left[most] <= least {
+                return Some((order, j));
+            }
+            exchange(matrix, j, most);
+            left.swap(j, most);
+            order.swap(j, most);
+            let rows = matrix.as_mut().submatrix_mut(j, begin, n - j, j + 1 - begin);
+            let (before, mut column) = rows.split_at_col_mut(j - begin);
+            let (own, below) = before.as_ref().split_at_row(1);
+            matmul(
+                column.as_mut().split_at_row_mut(1).1,
+                Accum::Add,
+                below,
+                own.transpose(),
+                -1.0,
+                Par::Seq,
+            );
+            let root = left[j].sqrt();
+            let column = &mut matrix.col_as_slice_mut(j)[j..];
+            column[0] = root;
+            for (entry, left) in column[1..].iter_mut().zip(&mut left[j + 1..]) {
+                *entry /= root;
+                *left -= entry.powi(2);
+            }
+        }
+        let all = matrix.as_mut().submatrix_mut(begin, begin, n - begin, n - begin);
+        let (_, _, below, rest) = all.split_at_mut(end - begin, end - begin);
+        dense::subtract_square(rest, below.as_ref());
+    }
+    Some((order, n))
+}
+
+/// Exchanges the rows and columns `j < p` of a symmetric matrix whose lower triangle is kept, but for the diagonal entry of
+/// `j`, which is lost.
+fn exchange(matrix: &mut Mat<f64>, j: usize, p: usize) {
+    if j == p {
+        return;
+    }
+    let n = matrix.nrows();
+    let mut swap = |one: (usize, usize), other: (usize, usize)| {
+        (matrix[one], matrix[other]) = (matrix[other], matrix[one]);
+    };
+    (0..j).for_each(|k| swap((j, k), (p, k)));
+    (j + 1..p).for_each(|k| swap((k, j), (p, k)));
+    (p + 1..n).for_each(|k| swap((k, j), (k, p)));
+    matrix[(p, p)] = matrix[(j, j)];
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Gram matrices of vectors in a space of fewer dimensions: the rank is that of the space, pivots fall, and `L Lᵀ` is the
+    /// matrix in the new order up to `n u` of its entries, which are of the size of the dimension.
+    #[test]
+    fn the_rank_of_gram_matrices_is_found_with_largest_pivots_first() {
+        let mut rng = fastrand::Rng::with_seed(4);
+        for (n, rank) in
+            [(1, 1), (7, 3), (BLOCK, BLOCK), (BLOCK + 9, 20), (3 * BLOCK, 2 * BLOCK + 1)]
+        {
+            let vectors: Vec<Vec<f64>> =
+                (0..n).map(|_| (0..rank).map(|_| 2.0 * rng.f64() - 1.0).collect()).collect();
+            let gram = |i: usize, j: usize| crate::linalg::vector::dot(&vectors[i], &vectors[j]);
+            let mut factor = lower_triangle(n, gram, &mut || true).expect("it is not ended");
+            let (order, found) = pivoted(&mut factor, 1e-10, &mut || true).expect("numbers");
+            assert_eq!(found, rank, "{n}");
+            let mut sorted = order.clone();
+            sorted.sort_unstable();
+            assert!(sorted.into_iter().eq(0..n));
+            assert!((1..rank).all(|j| factor[(j, j)] <= factor[(j - 1, j - 1)]));
+            let most = 10.0 * (n * rank) as f64 * f64::EPSILON;
+            for j in 0..n {
+                for i in j..n {
+                    let terms = (0..rank.min(j + 1)).map(|k| factor[(i, k)] * factor[(j, k)]);
+                    let apart = terms.sum::<f64>() - gram(order[i], order[j]);
+                    assert!(apart.abs() <= most, "{n}: {i}, {j}: {apart:e}");
+                }
+            }
+            for ended in 0..rank.div_ceil(BLOCK) {
+                let (mut again, mut asked) = (Mat::from_fn(n, n, gram), 0);
+                let goes_on = &mut || {
+                    asked += 1;
+                    asked <= ended
+                };
+                assert!(pivoted(&mut again, 1e-10, goes_on).is_none());
+            }
+        }
+    }
 }

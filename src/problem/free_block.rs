@@ -3,6 +3,8 @@
 use super::ContactProblem;
 use crate::linalg::matrix::Matrix;
 use crate::linalg::pivoted_cholesky::PivotedCholesky;
+use crate::linalg::tolerances::NEGLIGIBLE;
+use crate::linalg::watched::GoesOn;
 
 /// The factor of some rows and columns of a symmetric positive semi-definite matrix `K`, scaled by
 /// the units of its components.
@@ -18,17 +20,27 @@ pub struct FreeBlock<'p> {
 pub const SOLUTIONS: usize = 2;
 
 impl<'p> FreeBlock<'p> {
-    /// Factorises the block of `rows` of a problem's matrix; `None` if it is not positive semi-definite.
-    pub fn of_problem(problem: &ContactProblem<'p>, rows: Vec<usize>) -> Option<Self> {
-        Self::new(problem.stiffness(), rows, |i| problem.unit(i))
+    /// Factorises the block of `rows` of a problem's matrix; `None` if it is not positive semi-definite, or where
+    /// `goes_on` says no.
+    pub fn of_problem(
+        problem: &ContactProblem<'p>,
+        rows: Vec<usize>,
+        goes_on: GoesOn<'_>,
+    ) -> Option<Self> {
+        Self::new(problem.stiffness(), rows, |i| problem.unit(i), goes_on)
     }
 
     /// Factorises the block of `rows`, component `i` of which has the positive unit `unit(i)`; `None` if it
-    /// is not positive semi-definite.
-    pub fn new(matrix: Matrix<'p>, rows: Vec<usize>, unit: impl Fn(usize) -> f64) -> Option<Self> {
+    /// is not positive semi-definite, or where `goes_on` says no.
+    pub fn new(
+        matrix: Matrix<'p>,
+        rows: Vec<usize>,
+        unit: impl Fn(usize) -> f64,
+        goes_on: GoesOn<'_>,
+    ) -> Option<Self> {
         let scale: Vec<f64> = rows.iter().map(|&i| unit(i).sqrt().recip()).collect();
         let entry = |i: usize, j: usize| scale[i] * matrix.at(rows[i], rows[j]) * scale[j];
-        let factor = PivotedCholesky::new(rows.len(), entry)?;
+        let factor = PivotedCholesky::within(rows.len(), NEGLIGIBLE, entry, goes_on)?;
         Some(FreeBlock { matrix, rows, scale, factor })
     }
 
@@ -42,13 +54,13 @@ impl<'p> FreeBlock<'p> {
         self.factor.schur_work(kept)
     }
 
-    /// Schur complement of `K` on the rows `kept`, column-major.
-    pub fn schur_complement(&self, kept: &[usize]) -> Vec<f64> {
+    /// Schur complement of `K` on the rows `kept`, column-major; `None` where `goes_on` says no.
+    pub fn schur_complement(&self, kept: &[usize], goes_on: GoesOn<'_>) -> Option<Vec<f64>> {
         self.factor.schur_complement(
             kept.len(),
             |i, j| self.scale[i] * self.matrix.at(self.rows[i], kept[j]),
             |i, j| self.matrix.at(kept[i], kept[j]),
-            &mut || true,
+            goes_on,
         )
     }
 

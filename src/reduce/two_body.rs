@@ -79,10 +79,11 @@ impl TwoBodyReduction {
             .collect();
         let entry =
             |i: usize, j: usize| scale[i] * (first.column(j)[i] + second.column(j)[i]) * scale[j];
-        let Some(sum) = PivotedCholesky::within(size, NEGLIGIBLE, entry, go_on) else {
-            let message = "K_A + K_B is not positive semi-definite";
-            return Err(Error::invalid(Argument::Matrix, message));
-        };
+        // Of a work that is ended no error is told.
+        let not_semidefinite =
+            || Error::invalid(Argument::Matrix, "K_A + K_B is not positive semi-definite");
+        let sum = PivotedCholesky::within(size, NEGLIGIBLE, entry, go_on);
+        let sum = sum.ok_or_else(not_semidefinite)?;
         if let Some(&free) = sum.dependent().first() {
             return Err(Error::invalid(
                 Argument::Matrix,
@@ -95,6 +96,7 @@ impl TwoBodyReduction {
             |i, j| second.column(j)[i],
             go_on,
         );
+        let stiffness = stiffness.ok_or_else(not_semidefinite)?;
         let second = (0..size).flat_map(|j| second.column(j).iter().copied()).collect();
         Ok(TwoBodyReduction { dim, size, exchanged, second, scale, sum, stiffness })
     }

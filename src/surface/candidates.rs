@@ -50,7 +50,11 @@ impl<'a> SearchFaces<'a> {
         side: &'a Side<'a>,
         watch: &mut Watch<'_, '_>,
     ) -> Result<SearchFaces<'a>, Error> {
-        let normals = (0..side.count()).map(|face| middle_normal(&side.face(face))).collect();
+        let mut normals = Vec::with_capacity(side.count());
+        for face in 0..side.count() {
+            watch.goes_on()?;
+            normals.push(middle_normal(&side.face(face)));
+        }
         Ok(SearchFaces { tree: Tree::new(side, watch)?, normals })
     }
 }

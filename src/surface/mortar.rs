@@ -76,7 +76,7 @@ pub(super) fn pairs(
     let mut rows = rows(slave, &faces, planes, watch)?;
     report.folded = rims::fold(rims, &mut rows, (slave, dim, planes));
     let averaged = match normals {
-        Normals::Averaged => Some(slave.node_normals_on(planes)?),
+        Normals::Averaged => Some(slave.node_normals_on(planes, watch)?),
         Normals::Faces => None,
     };
     let pairs: Vec<SurfacePair> = rows
@@ -93,6 +93,7 @@ pub(super) fn pairs(
             planes.hold(SurfacePair::new(dim, (node, area), weights, normal, points))
         })
         .collect::<Result<_, Error>>()?;
+    watch.goes_on()?;
     report.covered_area = pairs.iter().map(|pair| pair.area).sum();
     let has_pair = |node: &usize| pairs.binary_search_by_key(node, |pair| pair.slave).is_ok();
     let unpaired = slave.all_nodes().into_iter().filter(|node| !has_pair(node)).collect();
@@ -197,6 +198,7 @@ fn rows(
     };
     let mut edges = Edges::default();
     for at in 0..slave.count() {
+        watch.goes_on()?;
         let face = slave.face(at);
         edges.add(face.kind, face.nodes, wholly(at, &face));
     }
@@ -212,6 +214,7 @@ fn rows(
         }
     }
     for (at, _) in faces.iter().enumerate().filter(|(_, covered)| covered.is_none()) {
+        watch.goes_on()?;
         let face = slave.face(at);
         let basis = edges.basis(face.kind, face.nodes, wholly(at, &face));
         let (whole, normal) = (basis.functions(face.integrals()), middle_normal(&face));

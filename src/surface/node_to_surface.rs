@@ -107,7 +107,7 @@ pub(super) fn pairs(
     normals: Normals,
     watch: &mut Watch<'_, '_>,
 ) -> Result<SurfacePairs, Error> {
-    let averaged = slave.node_normals_on(planes)?;
+    let averaged = slave.node_normals_on(planes, watch)?;
     let mut met: BTreeMap<usize, MasterPoint> = BTreeMap::new();
     for node in slave.all_nodes() {
         watch.goes_on()?;

@@ -6,6 +6,7 @@ use super::face::Face;
 use super::mesh::Side;
 use super::plane::Plane;
 use super::shape::{Local, MOST_NODES};
+use super::watch::Watch;
 use crate::error::{Error, index};
 use crate::linalg::vector3::{Vector3, unit};
 
@@ -38,10 +39,14 @@ impl Side<'_> {
     /// Averaged unit normals of the nodes of [`Self::all_nodes`], by node.
     ///
     /// # Errors
-    /// A node whose faces' normals cancel.
-    pub(super) fn node_normals(&self) -> Result<HashMap<usize, Vector3>, Error> {
+    /// A node whose faces' normals cancel; what ends the watch.
+    pub(super) fn node_normals(
+        &self,
+        watch: &mut Watch<'_, '_>,
+    ) -> Result<HashMap<usize, Vector3>, Error> {
         let mut sums: HashMap<usize, (Vector3, usize)> = HashMap::new();
         for at in 0..self.count() {
+            watch.goes_on()?;
             let face = self.face(at);
             for (&node, &place) in face.nodes.iter().zip(face.kind.places()) {
                 let sum = sums.entry(node).or_insert((Vector3::zeros(), at));
@@ -49,6 +54,7 @@ impl Side<'_> {
             }
         }
         let normal = |(node, (sum, face)): (usize, (Vector3, usize))| {
+            watch.goes_on()?;
             let normal = unit(sum).filter(|_| sum.norm() > LEAST_NORMAL).ok_or_else(|| {
                 let what = format!("has node {}, where normals cancel", index(node));
                 self.refuse(face, &what)

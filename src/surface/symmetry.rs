@@ -13,6 +13,7 @@ use super::face::Face;
 use super::mesh::{ON_PLANE, Side};
 use super::normals::LEAST_NORMAL;
 use super::pairs::SurfacePair;
+use super::watch::Watch;
 use crate::error::{Argument, Error, index};
 use crate::linalg::vector3::{Vector3, unit};
 
@@ -128,12 +129,13 @@ impl Side<'_> {
     /// The mean normals of the nodes, in the planes of symmetry on which they stand.
     ///
     /// # Errors
-    /// Normals that cancel.
+    /// Normals that cancel; what ends the watch.
     pub(super) fn node_normals_on(
         &self,
         planes: &OnPlanes,
+        watch: &mut Watch<'_, '_>,
     ) -> Result<HashMap<usize, Vector3>, Error> {
-        let mut normals = self.node_normals()?;
+        let mut normals = self.node_normals(watch)?;
         normals.iter_mut().for_each(|(node, normal)| *normal = planes.turned(*node, *normal));
         Ok(normals)
     }

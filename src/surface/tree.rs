@@ -41,8 +41,11 @@ impl<'a> Tree<'a> {
     /// # Errors
     /// What ends the watch.
     pub(super) fn new(side: &'a Side<'a>, watch: &mut Watch<'_, '_>) -> Result<Tree<'a>, Error> {
-        let boxes: Vec<Bounds> =
-            (0..side.count()).map(|at| Hull::of(&side.face(at)).bounds()).collect();
+        let mut boxes: Vec<Bounds> = Vec::with_capacity(side.count());
+        for at in 0..side.count() {
+            watch.goes_on()?;
+            boxes.push(Hull::of(&side.face(at)).bounds());
+        }
         let order = (0..boxes.len()).collect();
         let mut tree = Tree { side, boxes, order, branches: Vec::new() };
         if !tree.boxes.is_empty() {
@@ -88,17 +91,23 @@ impl<'a> Tree<'a> {
         } else {
             self.order[faces.clone()].iter().flat_map(|&at| edges(&self.side.face(at))).collect()
         };
-        self.branches[place].walls = self.walls(faces, walls);
+        self.branches[place].walls = self.walls(faces, walls, watch)?;
         Ok(place)
     }
 
     /// The two walls of a branch: of those given, whose lengths are the sizes of their edges, the long ones that the branch
     /// reaches beyond least.
-    fn walls(&self, faces: std::ops::Range<usize>, mut given: Vec<Wall>) -> [Wall; 2] {
+    fn walls(
+        &self,
+        faces: std::ops::Range<usize>,
+        mut given: Vec<Wall>,
+        watch: &mut Watch<'_, '_>,
+    ) -> Result<[Wall; 2], Error> {
         given.retain(|wall| wall.along != Vector3::zeros());
         let mut worth = vec![0.0; given.len()];
         let before: Vec<f64> = given.iter().map(|wall| wall.most).collect();
         for &at in &self.order[faces] {
+            watch.goes_on()?;
             let face = self.side.face(at);
             let hull = Hull::of(&face);
             for wall in &mut given {
@@ -119,7 +128,7 @@ impl<'a> Tree<'a> {
             found.map_or_else(Wall::default, |(_, wall)| *wall)
         };
         let first = best(Vector3::zeros());
-        [first, best(first.along)]
+        Ok([first, best(first.along)])
     }
 
     /// Collects the faces that a sweep may meet, in ascending order, and returns how many boxes

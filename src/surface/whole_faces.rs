@@ -18,7 +18,10 @@ fn whole_rows(
 ) -> Result<BTreeMap<usize, Row>, Error> {
     let faces = || (0..side.count()).map(|face| side.face(face));
     let mut edges = Edges::default();
-    faces().for_each(|face| edges.add(face.kind, face.nodes, !planes.touch_axis(&face)));
+    for face in faces() {
+        watch.goes_on()?;
+        edges.add(face.kind, face.nodes, !planes.touch_axis(&face));
+    }
     let mut rows: BTreeMap<usize, Row> = BTreeMap::new();
     for face in faces() {
         watch.goes_on()?;

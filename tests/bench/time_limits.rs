@@ -1,172 +1,322 @@
-//! How long a call may work after its time limit: the longest time between two looks at the clock.
+//! How late a call may end: the longest silence of each phase, between two looks at the clock or the callback.
 //!
-//! `cargo bench --bench time_limits`: 1500 unknowns in the plane and in space, with and without friction,
-//! every method, the search for other solutions and proofs. Measured are milliseconds of the thread's own
-//! processor time, which other work on the machine does not lengthen: between two calls of the callback, and from
-//! the last one to the end. A limit that passes in between is noticed so much later. Then calls with
-//! limits are made, which end so many milliseconds (of the clock) after them at most.
-//!
-//! `cargo bench --bench time_limits -- models` does so with models of 60,000 to 110,000 unknowns, condensed and in full
-//! space: while they are made, and in load cases of a series.
+//! `cargo bench --bench time_limits`, or with words of the groups that are wanted, such as `-- space models`. Told are milliseconds
+//! of the thread's own processor time, which other work on the machine does not lengthen: of the phase in all (up to ten
+//! seconds), the longest between two looks, and how long the call goes on after a callback that cancels, the most of
+//! three places. A limit that passes is noticed after the longest silence, and then the call ends as a cancelled one.
 
-mod bar;
 #[path = "../common/mod.rs"]
 mod common;
+#[path = "../common/surfaces.rs"]
+#[allow(dead_code)] // Tests use the rest.
+mod surfaces;
 
 use std::ops::ControlFlow;
-use std::time::Instant;
 
-use bar::{Top, bar_with_top};
 use common::blocks::{Loading, block, loaded};
-use common::brick::Support;
+use common::brick::{Brick, Support};
+use common::problems::{Case, Law};
 use common::wavy::Wavy;
-use signorini::{
-    ContactData, ContactProblem, FrictionLaw, LoadCase, Method, Monitor, Progress, ProgressFn,
-    Search, Settings, Solution, Starts, Status, solve,
+use signorini::surface::{
+    Faces, Obstacle, Pairing, SurfaceSettings, Surfaces, pair_surfaces, pair_with_obstacle,
 };
+use signorini::{
+    ContactProblem, FlexibilityData, FlexibilityProblem, FrictionLaw, Lcp, LoadCase, Method, Model,
+    Monitor, ProgressFn, Search, Settings, Starts, solve, solve_flexibility, solve_lcp,
+};
+use surfaces::{Shape, Sheet, TwoSheets, flat};
 
-/// Seconds.
-const LIMITS: [f64; 8] = [0.005, 0.01, 0.02, 0.04, 0.08, 0.16, 0.32, 0.8];
+/// A phase is ended after so many milliseconds.
+const LONGEST: f64 = 1e4;
 
-/// A wall clock tells of other processes too: the better of so many runs.
-const RUNS: usize = 2;
+/// Parts of a phase after which its callback cancels.
+const CANCELLED: [f64; 3] = [0.2, 0.5, 0.8];
 
 fn main() {
-    if std::env::args().any(|argument| argument == "models") {
-        println!("ms of the processor, and the most between two looks at the clock");
-        models("plane, 2001 pairs", &Wavy::plane(2000));
-        models("space, 1849 pairs", &Wavy::space(43));
-        return;
-    }
-    let plane = bar_with_top(749, 10, 1.5, 10.0, Top::Clamped(0.02));
-    let gap: Vec<f64> = (0..plane.pairs).map(|i| 1e-3 * (0.05 * i as f64).sin()).collect();
-    let brick = block(22, Support::Clamped);
-    let model = brick.model();
-    let space = loaded(&brick, &model, Loading::WavyGaps, 0.3);
-    println!("ms of the processor between two looks at the clock; ms of the clock after the limit");
-    println!("{:<34} {:>9} {:>9} {:>9} {:>9}", "", "all", "gap", "end", "late");
-    for mu in [0.0, 0.3] {
-        let data = ContactData {
-            dim: 2,
-            pairs: plane.pairs,
-            stiffness: &plane.stiffness,
-            ld: 2 * plane.pairs,
-            load: &plane.load,
-            gap: &gap,
-            law: FrictionLaw::Coulomb(&vec![mu; plane.pairs]),
-            reference_slip: None,
-        };
-        every_method(&format!("2D mu {mu}"), &ContactProblem::new(data).expect("a valid problem"));
-        let mut case = space.clone();
-        case.law = common::problems::Law::Coulomb(vec![mu; case.pairs]);
-        every_method(&format!("3D mu {mu}"), &case.problem());
-    }
-}
-
-/// Makes a model in both forms and solves three load cases, each from the one before it, with ever lower loads.
-fn models(name: &str, wavy: &Wavy) {
-    for full_space in [false, true] {
-        let settings = Settings { full_space, ..Settings::default() };
-        let form = if full_space { "full space" } else { "condensed" };
-        println!("{name}, {} unknowns, {form}", wavy.stiffness.size);
-        let model = looked("model", |look| {
-            wavy.try_model(&mut Monitor::new(&settings, Some(look))).expect("a model")
-        });
-        let (mu, mut series) = (vec![0.3; model.pairs()], model.series());
-        for (part, called) in [(1.0, "first load case"), (0.9, "second load case"), (0.8, "third")]
-        {
-            let scaled = |values: &[f64]| values.iter().map(|v| part * v).collect::<Vec<f64>>();
-            let (load, values) = (scaled(&wavy.load), wavy.prescribed.as_deref().map(scaled));
-            let case = LoadCase {
-                load: &load,
-                prescribed: values.as_deref(),
-                gap: &wavy.gap,
-                law: FrictionLaw::Coulomb(&mu),
-                reference_slip: None,
-            };
-            let solution = looked(called, |look| {
-                let start = Starts::Previous(None);
-                let solved = series.solve_cases(&[case], &settings, start, Some(look));
-                solved.into_iter().next().expect("a case").expect("a solution")
-            });
-            let Solution { status, iterations, factorisations, outer_iterations, .. } = solution;
-            println!(
-                "    {status:?}, {iterations} systems, {factorisations} factorisations, {outer_iterations} solutions"
-            );
+    let words: Vec<String> = std::env::args().skip(1).filter(|word| word != "--bench").collect();
+    let groups: [(&str, fn()); 5] = [
+        ("plane", plane),
+        ("space", space),
+        ("flexibility", flexibility),
+        ("models", models),
+        ("surfaces", all_surfaces),
+    ];
+    println!("ms of the processor            in all, longest silence, on after a cancellation");
+    for (name, group) in groups {
+        if words.is_empty() || words.iter().any(|word| word == name) {
+            group();
         }
     }
 }
 
-/// Works with a callback, and tells how long it takes and is silent.
-fn looked<T>(name: &str, work: impl FnOnce(&mut ProgressFn<'_>) -> T) -> T {
-    let (begin, mut looks) = (processor_time(), Vec::new());
-    let mut look = |_: &Progress| {
-        looks.push(processor_time());
-        ControlFlow::Continue(())
+/// 2049 pairs of a bar.
+fn plane() {
+    let wavy = Wavy::plane(2048);
+    let model = wavy.model(&Settings::default());
+    let case = Case {
+        dim: 2,
+        pairs: wavy.gap.len(),
+        k: model.stiffness().to_vec(),
+        f: model.condensed_load(&wavy.load, None).expect("loads that fit"),
+        gap: wavy.gap,
+        law: Law::Coulomb(vec![0.3; 2049]),
+        slip: None,
     };
-    let done = work(&mut look);
-    looks.push(processor_time());
-    let mut gaps: Vec<(f64, usize)> = (0..looks.len())
-        .map(|k| (looks[k] - if k > 0 { looks[k - 1] } else { begin }, k))
-        .collect();
-    gaps.sort_by(|a, b| b.0.total_cmp(&a.0));
-    gaps.truncate(4);
-    let longest: Vec<String> = gaps.iter().map(|(gap, k)| format!("{gap:.0} (look {k})")).collect();
-    println!("  {name:<16} {:>7.0}; {}", looks[looks.len() - 1] - begin, longest.join(", "));
-    done
+    drop(model);
+    every_method("2049 pairs in the plane", case);
 }
 
-fn every_method(name: &str, problem: &ContactProblem<'_>) {
-    let method = |method| Settings { method, ..Settings::default() };
-    let all = [
-        ("auto", method(Method::Auto)),
-        ("nested sweeps", method(Method::SorNested)),
-        ("diagonal sweeps", method(Method::SorDiagonal)),
-        ("Lemke", method(Method::Lemke)),
-        ("block pivoting", method(Method::BlockPivoting)),
-        ("Newton", method(Method::Newton)),
-        ("path", method(Method::Path)),
-        ("others", Settings { search: Search::Others, ..Settings::default() }),
-        ("proof", Settings { proof: true, ..Settings::default() }),
-    ];
-    for (method, settings) in all {
-        let Some((all, gap, end)) = looks(problem, &settings) else { continue };
-        let late = LIMITS.map(|limit| {
-            let settings = Settings { time_limit: limit, ..settings };
-            (0..RUNS).map(|_| late(problem, &settings)).fold(f64::INFINITY, f64::min)
-        });
-        let late = late.into_iter().fold(f64::NEG_INFINITY, f64::max);
-        let name = format!("{name}, {method}");
-        println!("{name:<34} {all:>9.1} {gap:>9.1} {end:>9.1} {late:>9.1}");
+/// 961 pairs of a block, clamped and free.
+fn space() {
+    let brick = block(31, Support::Clamped);
+    every_method("961 pairs in space", loaded(&brick, &brick.model(), Loading::WavyGaps, 0.3));
+    let free = Brick { support: Support::Free, ..brick };
+    let model = free.model();
+    let mut load = vec![0.0; free.size()];
+    free.top().for_each(|node| (load[3 * node], load[3 * node + 2]) = (1e-6, -1e-5));
+    let f = model.condensed_load(&load, None).expect("loads that fit");
+    let gap = vec![0.0; free.pairs()];
+    let law = Law::Coulomb(vec![0.3; free.pairs()]);
+    let case = Case {
+        dim: 3,
+        pairs: free.pairs(),
+        k: model.stiffness().to_vec(),
+        f,
+        gap,
+        law,
+        slip: None,
+    };
+    told("free block, auto", |look| contact(&case, &Settings::default(), look));
+    let others = Settings { search: Search::Others, ..Settings::default() };
+    told("free block, other solutions", |look| contact(&case, &others, look));
+}
+
+/// A problem by every method that fits it, without friction and with it.
+fn every_method(name: &str, mut case: Case) {
+    for mu in [0.0, 0.3] {
+        println!("{name}, mu {mu}");
+        case.law = Law::Coulomb(vec![mu; case.pairs]);
+        let method = |method| Settings { method, ..Settings::default() };
+        for (called, settings) in [
+            ("auto", method(Method::Auto)),
+            ("nested sweeps", method(Method::SorNested)),
+            ("diagonal sweeps", method(Method::SorDiagonal)),
+            ("Lemke", method(Method::Lemke)),
+            ("block pivoting", method(Method::BlockPivoting)),
+            ("Newton", method(Method::Newton)),
+            ("path", method(Method::Path)),
+            ("other solutions", Settings { search: Search::Others, ..Settings::default() }),
+            ("proof", Settings { proof: true, ..Settings::default() }),
+        ] {
+            let fits = settings.method != Method::BlockPivoting || mu == 0.0;
+            let in_space = case.dim == 3 && mu > 0.0;
+            if fits && !(in_space && settings.method == Method::Lemke) {
+                told(called, |look| contact(&case, &settings, look));
+            }
+        }
     }
 }
 
-/// Processor time of a call in all, most of it between two looks at the clock, and after the last one; `None` if the method
-/// does not fit the problem.
-fn looks(problem: &ContactProblem<'_>, settings: &Settings) -> Option<(f64, f64, f64)> {
-    let settings = Settings { time_limit: 3.0, ..*settings };
-    let begin = processor_time();
-    let (mut last, mut most) = (begin, 0.0_f64);
-    let mut look = |_: &Progress| {
-        let now = processor_time();
-        most = most.max(now - last);
-        last = now;
-        ControlFlow::Continue(())
-    };
-    let monitor = &mut Monitor::new(&settings, Some(&mut look));
-    solve(problem, &settings, None, monitor).ok()?;
-    let end = processor_time();
-    Some((end - begin, most, end - last))
+fn contact(case: &Case, settings: &Settings, look: &mut ProgressFn<'_>) {
+    let monitor = &mut Monitor::new(settings, Some(look));
+    let problem = ContactProblem::new(case.data()).expect("valid data");
+    solve(&problem, settings, None, monitor).expect("settings that fit");
 }
 
-/// How much later than its limit a call ends.
-fn late(problem: &ContactProblem<'_>, settings: &Settings) -> f64 {
-    let begin = Instant::now();
-    let Solution { status, .. } =
-        solve(problem, settings, None, &mut Monitor::new(settings, None)).expect("a valid problem");
-    let elapsed = begin.elapsed().as_secs_f64();
-    assert!(matches!(status, Status::Solved | Status::TimeLimit | Status::Stalled), "{status:?}");
-    1e3 * (elapsed - settings.time_limit)
+/// A dense `W` of the size of 961 pairs in space, definite and singular, and a linear complementarity problem of it.
+fn flexibility() {
+    println!("flexibility form, 961 pairs in space");
+    let (pairs, n) = (961, 3 * 961);
+    for (called, twice) in [("definite", 1), ("each pair twice", 2)] {
+        // Components next to each other are tied the most.
+        let place = |i: usize| 3 * (i / (3 * twice)) + i % 3;
+        let entry = |i: usize, j: usize| {
+            let own = if place(i) == place(j) { 0.5 } else { 0.0 };
+            own + 1.0 / (1.0 + place(i).abs_diff(place(j)) as f64)
+        };
+        let w: Vec<f64> = (0..n * n).map(|at| entry(at % n, at / n)).collect();
+        let free: Vec<f64> = (0..n).map(|i| (0.37 * place(i) as f64).sin()).collect();
+        let gap: Vec<f64> =
+            (0..pairs).map(|pair| 0.3 * (0.5 * (pair / twice) as f64).cos()).collect();
+        let (mu, settings) = (vec![0.3; pairs], Settings::default());
+        let law = FrictionLaw::Coulomb(&mu);
+        let data = FlexibilityData {
+            dim: 3,
+            pairs,
+            flexibility: &w,
+            ld: n,
+            free: &free,
+            gap: &gap,
+            law,
+            reference_slip: None,
+        };
+        told(called, |look| {
+            let monitor = &mut Monitor::new(&settings, Some(look));
+            let problem = FlexibilityProblem::from_flexibility(data).expect("valid data");
+            solve_flexibility(&problem, &settings, None, monitor).expect("settings that fit");
+        });
+        told("model of it", |_| {
+            Model::flexibility(3, pairs, &w, n).expect("valid data");
+        });
+        for method in [Method::Auto, Method::Lemke] {
+            let settings = Settings { method, ..settings };
+            told(&format!("LCP, {method:?}"), |look| {
+                let monitor = &mut Monitor::new(&settings, Some(look));
+                let lcp = Lcp::new(n, &w, n, &free, None).expect("valid data");
+                solve_lcp(&lcp, &settings, monitor).expect("settings that fit");
+            });
+        }
+    }
+}
+
+/// Models of 100,000 unknowns in both forms, with a series of load cases, each from the one before it.
+fn models() {
+    let brick = Brick::new([30, 30, 34], [2.0, 2.0, 2.0], Support::Clamped);
+    let of_brick =
+        |matrix: &_, monitor: &mut Monitor<'_>| brick.model_within(matrix, None, monitor);
+    let matrix = brick.stiffness();
+    let (load, prescribed) = brick.moved(|[x, y, _]| [0.008 - 0.005 * y, 0.003 + 0.005 * x, -0.03]);
+    let gap: Vec<f64> = (0..brick.pairs())
+        .map(|pair| {
+            let [x, y, _] = brick.place(pair);
+            0.01 * (1.0 - (4.0 * x).cos() * (3.0 * y + 0.5).cos())
+        })
+        .collect();
+    in_both_forms(
+        &format!("961 pairs in space, {} unknowns", matrix.size),
+        &|monitor| of_brick(&matrix, monitor).ok(),
+        (&load, prescribed.as_deref(), &gap),
+    );
+    for (name, wavy) in
+        [("2001 pairs in the plane", Wavy::plane(2000)), ("1849 pairs in space", Wavy::space(43))]
+    {
+        let name = format!("{name}, {} unknowns", wavy.stiffness.size);
+        let case = (&wavy.load[..], wavy.prescribed.as_deref(), &wavy.gap[..]);
+        in_both_forms(&name, &|monitor| wavy.try_model(monitor).ok(), case);
+    }
+}
+
+fn in_both_forms(
+    name: &str,
+    make: &dyn Fn(&mut Monitor<'_>) -> Option<Model>,
+    (load, prescribed, gap): (&[f64], Option<&[f64]>, &[f64]),
+) {
+    for full_space in [false, true] {
+        let settings = Settings { full_space, ..Settings::default() };
+        println!("{name}, {}", if full_space { "full space" } else { "condensed" });
+        let make = |look: &mut ProgressFn<'_>| make(&mut Monitor::new(&settings, Some(look)));
+        told("model", |look| drop(make(look)));
+        let model = make(&mut |_| ControlFlow::Continue(())).expect("a model");
+        let (mu, mut series) = (vec![0.3; model.pairs()], model.series());
+        let mut d = Vec::new();
+        for (part, called) in [(1.0, "first load case"), (0.9, "second"), (0.8, "third")] {
+            let scaled = |values: &[f64]| values.iter().map(|v| part * v).collect::<Vec<f64>>();
+            let (load, values) = (scaled(load), prescribed.map(scaled));
+            let law = FrictionLaw::Coulomb(&mu);
+            let case = LoadCase {
+                load: &load,
+                prescribed: values.as_deref(),
+                gap,
+                law,
+                reference_slip: None,
+            };
+            if part == 1.0 {
+                told("load case by itself", |look| {
+                    model.solve_cases(&[case], &settings, Starts::Cold, Some(look));
+                });
+            }
+            let (looks, solved) = looked(f64::INFINITY, |look| {
+                series.solve_cases(&[case], &settings, Starts::Previous(None), Some(look))
+            });
+            print(called, looks, None);
+            d = solved.into_iter().next().expect("a case").expect("a solution").d;
+        }
+        let ((all, _, _), _) = looked(f64::INFINITY, |_| model.recover(Some(load), prescribed, &d));
+        println!("  {:<30} {all:>8.0}", "recovery, without a callback");
+    }
+}
+
+/// A hundred thousand faces on as many of another mesh.
+fn all_surfaces() {
+    let sheet = |shape: Shape, cells: [usize; 2], height: f64| {
+        let rng = &mut fastrand::Rng::with_seed(3);
+        let flat = Sheet::rectangle(shape, cells, [[0.0, 1.0]; 2], (0.0, rng));
+        flat.mapped(|[x, y, _]| [x, y, height - 0.3 * (x * x + y * y)])
+    };
+    println!("100,000 faces a side, 200,000 slivers");
+    let dual = SurfaceSettings::default();
+    let nodes = SurfaceSettings { pairing: Pairing::NodeToSurface, ..SurfaceSettings::default() };
+    let far = SurfaceSettings { search_distance: Some(1e3), ..SurfaceSettings::default() };
+    for (name, shape, cells, settings) in [
+        ("Q4", Shape::Q4, 316, &dual),
+        ("Q4, nodes against surfaces", Shape::Q4, 316, &nodes),
+        ("Q4, any distance", Shape::Q4, 316, &far),
+        ("T3", Shape::T3, 224, &dual),
+        ("T6", Shape::T6, 224, &dual),
+        ("Q8", Shape::Q8, 316, &dual),
+        ("Q9", Shape::Q9, 316, &dual),
+        ("Q9, nodes against surfaces", Shape::Q9, 316, &nodes),
+    ] {
+        let slave = sheet(shape, [cells; 2], 1e-3).turned();
+        paired(name, &TwoSheets::new(3, slave, sheet(shape, [cells + 1; 2], 0.0)), settings);
+    }
+    let fan = |height: f64| {
+        let rim = (0..=200_000).map(|k| (5.0 * k as f64 / 2e5).sin_cos());
+        Sheet {
+            nodes: std::iter::once([0.0, 0.0, height])
+                .chain(rim.map(|(s, c)| [c, s, height]))
+                .collect(),
+            faces: (0..200_000).map(|k| vec![0, k + 1, k + 2]).collect(),
+        }
+    };
+    let other = fan(0.0).mapped(|[x, y, z]| [y, -x, z]);
+    paired("slivers", &TwoSheets::new(3, fan(1e-3).turned(), other), &dual);
+    let plate = sheet(Shape::Q4, [316; 2], 1e-3).turned();
+    let (coordinates, (start, faces)) = (plate.nodes.concat(), flat(&plate.faces));
+    let plane = Obstacle::Plane { point: [0.0; 3], outward: [0.0, 0.0, 1.0] };
+    told("Q4 on a rigid plane", |look| {
+        let monitor = &mut Monitor::new(&Settings::default(), Some(look));
+        let faces = Faces { start: &start, nodes: &faces };
+        pair_with_obstacle(3, &coordinates, faces, &plane, &dual, monitor).ok();
+    });
+}
+
+fn paired(name: &str, sheets: &TwoSheets, settings: &SurfaceSettings) {
+    let coordinates = sheets.nodes.concat();
+    let [slave, master] = [flat(&sheets.slave), flat(&sheets.master)];
+    told(name, |look| {
+        let [slave, master] = [&slave, &master].map(|(start, nodes)| Faces { start, nodes });
+        let surfaces = Surfaces { dim: 3, coordinates: &coordinates, slave, master };
+        pair_surfaces(&surfaces, settings, &mut Monitor::new(&Settings::default(), Some(look)))
+            .ok();
+    });
+}
+
+/// Tells of a phase, which is run again for each cancellation.
+fn told(name: &str, work: impl Fn(&mut ProgressFn<'_>)) {
+    let (looks, ()) = looked(LONGEST, &work);
+    let on = CANCELLED.map(|part| looked(part * looks.0, &work).0.2);
+    print(name, looks, Some(on.into_iter().fold(0.0, f64::max)));
+}
+
+fn print(name: &str, (all, silence, end): (f64, f64, f64), cancelled: Option<f64>) {
+    let silence = silence.max(if all < LONGEST { end } else { 0.0 });
+    let on = cancelled.map_or(String::new(), |on| format!("{on:>8.0}"));
+    println!("  {name:<30} {all:>8.0} {silence:>8.0} {on}");
+}
+
+/// Milliseconds of a work that is cancelled after `most` of them: in all, the longest between two looks, and after the last one.
+fn looked<T>(most: f64, work: impl FnOnce(&mut ProgressFn<'_>) -> T) -> ((f64, f64, f64), T) {
+    let begin = processor_time();
+    let (mut last, mut longest) = (begin, 0.0_f64);
+    let done = work(&mut |_| {
+        let now = processor_time();
+        longest = longest.max(now - last);
+        last = now;
+        if now - begin < most { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+    });
+    let end = processor_time();
+    ((end - begin, longest, end - last), done)
 }
 
 /// Milliseconds that the processor has worked for this thread.

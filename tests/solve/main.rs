@@ -10,6 +10,7 @@ mod auto;
 mod auto_floating;
 mod bars;
 mod bricks_3d;
+mod cancelled;
 mod direct_methods;
 mod ellipses;
 mod enumeration;

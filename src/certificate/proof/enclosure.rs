@@ -14,6 +14,7 @@ use crate::law::{EnclosedPiece, Local, Unknown};
 use crate::linalg::approximate_inverse::ApproximateInverse;
 use crate::linalg::ball::{Ball, BallVector, product_up, sum_up};
 use crate::linalg::vector::first_not_finite;
+use crate::linalg::watched::GoesOn;
 
 /// The box, in units of the first correction: `alpha` may be a half.
 const BOX: f64 = 2.0;
@@ -30,8 +31,13 @@ pub struct Enclosure {
 }
 
 /// A solution of the frozen equations next to the centre; `None` if it is not
-/// proved, or if it is not clear of the boundaries of its pieces.
-pub fn enclose(system: &System<'_>, solver: &Solver, centre: &Centre) -> Option<Enclosure> {
+/// proved, or if it is not clear of the boundaries of its pieces, or where `goes_on` says no.
+pub fn enclose(
+    system: &System<'_>,
+    solver: &Solver,
+    centre: &Centre,
+    goes_on: GoesOn<'_>,
+) -> Option<Enclosure> {
     let v = system.beyond_reference(centre);
     let force = enclosed_force(system.contact, (&centre.d, &centre.low), &centre.force);
     let lack = system.lack(centre, &force);
@@ -41,7 +47,7 @@ pub fn enclose(system: &System<'_>, solver: &Solver, centre: &Centre) -> Option<
             let radii = vec![radius; system.unknowns.len()];
             Neighbourhood::new(system, &force, &v, radius).enclosure(&v, &radii)
         }
-        Solver::Inverse(inverse) => by_inverse(system, inverse, &lack, (&force, &v)),
+        Solver::Inverse(inverse) => by_inverse(system, inverse, &lack, (&force, &v), goes_on),
     }
 }
 
@@ -62,13 +68,14 @@ fn by_inverse(
     inverse: &ApproximateInverse,
     lack: &[Ball],
     (force, v): (&[BallVector], &[BallVector]),
+    goes_on: GoesOn<'_>,
 ) -> Option<Enclosure> {
     let middle: Vec<f64> = lack.iter().map(|lack| lack.middle()).collect();
     let doubt: Vec<f64> = lack.iter().map(|lack| lack.radius()).collect();
     let first = inverse.image(&middle, &doubt);
     let eps = BOX * first.iter().fold(f64::MIN_POSITIVE, |most, &z| most.max(z));
     let neighbourhood = Neighbourhood::new(system, force, v, eps);
-    let alpha = inverse.contraction(&neighbourhood.doubts());
+    let alpha = inverse.contraction(&neighbourhood.doubts(), goes_on)?;
     let radius = |(z, alpha): (&f64, &f64)| {
         let radius = sum_up(*z, product_up(*alpha, eps));
         (*alpha < 1.0 && radius <= eps).then_some(radius)

@@ -5,6 +5,7 @@ use super::system::{Centre, System};
 use crate::law::{Contact, EnclosedPiece, State};
 use crate::linalg::ball::{Ball, BallVector, sum_up};
 use crate::linalg::vector::{first_not_finite, largest_of};
+use crate::linalg::watched::GoesOn;
 use crate::problem::ContactProblem;
 
 /// A solution that is proved to exist: its displacements and forces up to radii that bound every component.
@@ -47,14 +48,16 @@ impl Proof {
 /// # Panics
 /// If `d` or `states` have not as many entries as the problem has unknowns and pairs.
 pub fn prove(problem: &ContactProblem<'_>, d: &[f64], states: &[State]) -> Option<Proof> {
-    prove_parts(&Contact::new(problem), (d, &vec![0.0; d.len()]), states)
+    prove_parts(&Contact::new(problem), (d, &vec![0.0; d.len()]), states, &mut || true)
 }
 
-/// [`prove`] of displacements `d + low` in two parts, on a problem whose laws are worked out.
+/// [`prove`] of displacements `d + low` in two parts, on a problem whose laws are worked out. Nothing is proved where
+/// `goes_on` says no.
 pub(crate) fn prove_parts(
     contact: &Contact<'_>,
     (d, low): (&[f64], &[f64]),
     states: &[State],
+    goes_on: GoesOn<'_>,
 ) -> Option<Proof> {
     assert_eq!((d.len(), states.len()), (contact.unknowns(), contact.pairs().len()));
     if first_not_finite(d).is_some() || first_not_finite(low).is_some() {
@@ -68,9 +71,9 @@ pub(crate) fn prove_parts(
         .collect::<Option<_>>()?;
     let mut centre = on_pieces(contact, &pairs, Centre { d: d.to_vec(), low: low.to_vec(), force });
     let system = System::new(contact, pairs, &centre);
-    let mut solver = system.solver()?;
+    let mut solver = system.solver(goes_on)?;
     system.refine(&mut solver, &mut centre);
-    let enclosure = enclose(&system, &solver, &centre)?;
+    let enclosure = enclose(&system, &solver, &centre, goes_on)?;
     let of_parts = |part: fn(Ball) -> f64| -> Vec<f64> {
         let parts = |force: &BallVector| force[..contact.dim()].to_vec();
         enclosure.force.iter().flat_map(parts).map(part).collect()

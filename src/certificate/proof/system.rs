@@ -11,6 +11,7 @@ use crate::linalg::definite::Definite;
 use crate::linalg::double_double::two_sum;
 use crate::linalg::power_of_two::{exponent, times_power_of_two};
 use crate::linalg::vector::{largest_of, norm_inf};
+use crate::linalg::watched::GoesOn;
 
 /// Most steps of refinement, and by what part each must be smaller than the one before.
 const MOST_STEPS: usize = 6;
@@ -94,16 +95,16 @@ impl<'c> System<'c> {
     }
 
     /// The proof that the scaled matrix is regular: it is definite, where its pieces are symmetric,
-    /// otherwise an approximate inverse.
-    pub fn solver(&self) -> Option<Solver> {
+    /// otherwise an approximate inverse. `None` too where `goes_on` says no.
+    pub fn solver(&self, goes_on: GoesOn<'_>) -> Option<Solver> {
         let size = self.unknowns.len();
         let definite = match self.pairs.iter().all(EnclosedPiece::is_symmetric) {
-            true => Definite::new(size, self.columns()),
+            true => Definite::new(size, self.columns(), goes_on),
             false => None,
         };
         match definite {
             Some(definite) => Some(Solver::Definite(definite)),
-            None => ApproximateInverse::new(size, self.columns()).map(Solver::Inverse),
+            None => ApproximateInverse::new(size, self.columns(), goes_on).map(Solver::Inverse),
         }
     }
 

@@ -9,7 +9,7 @@ use std::sync::Mutex;
 
 use super::entries::Entries;
 use super::factor_progress::{FactorProgress, FactorStep, Failure};
-use super::graph::filled;
+use super::graph::{filled, reserved};
 use super::panel::{Before, Source, Weakest, weaker};
 use super::panel_assembly::{by_all_threads, by_one_thread};
 use super::parallel::{Done, Parallel, Workspace, locked};
@@ -19,6 +19,9 @@ use super::structure::Structure;
 use crate::linalg::dense::mirror;
 use crate::linalg::sparse_matrix::Csc;
 use crate::workers::Workers;
+
+/// Numbers that are cleared between two questions whether to go on: some milliseconds.
+const CLEARED: usize = 1 << 21;
 
 /// The results of a factorisation.
 pub struct Numeric {
@@ -60,8 +63,8 @@ pub fn factorised(
     progress: &mut FactorProgress<'_>,
 ) -> Result<Numeric, Unfinished> {
     let kept = structure.kept();
-    let mut values = filled(structure.stored(), 0.0)?;
-    let mut schur = filled(kept * kept, 0.0)?;
+    let mut values = cleared(structure.stored(), progress)?;
+    let mut schur = cleared(kept * kept, progress)?;
     progress(FactorStep::HasDone(0.0))?;
     let entries = &Entries::new(structure, lower, &mut schur)?;
     progress(FactorStep::HasDone(0.0))?;
@@ -74,6 +77,16 @@ pub fn factorised(
     mirror(&mut schur, kept);
     let weakest = weaker(below, above);
     Ok(Numeric { values, schur, weakest })
+}
+
+/// Zeros. The system hands out the pages as they are written.
+fn cleared(length: usize, progress: &mut FactorProgress<'_>) -> Result<Vec<f64>, Failure> {
+    let mut zeros = reserved(length)?;
+    while zeros.len() < length {
+        progress(FactorStep::HasDone(0.0))?;
+        zeros.resize(length.min(zeros.len() + CLEARED), 0.0);
+    }
+    Ok(zeros)
 }
 
 /// The panels of a subtree.

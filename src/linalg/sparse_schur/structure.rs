@@ -54,6 +54,7 @@ impl Structure {
         let order = chosen(&graph, given, progress)?;
         progress(FactorStep::HasDone(0.0))?;
         let pattern = pattern(&graph, &order)?;
+        progress(FactorStep::HasDone(0.0))?;
         let symbolic = symbolic(&pattern)?;
         progress(FactorStep::HasDone(0.0))?;
         // Places of the unknowns of each vertex.

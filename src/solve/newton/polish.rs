@@ -240,14 +240,12 @@ impl<'e, 'm> Newton<'e, 'm> {
             kept.pieces == pieces && (is_good || are_same(kept.system.pairs(), &pairs))
         };
         if !self.kept.as_ref().is_some_and(serves) {
-            if !self.monitor.has_time_for(System::work(equations, &pairs)) {
-                self.is_stopped = true;
-                return None;
-            }
             self.factorisations += 1;
-            let asking = &mut self.monitor.asking();
-            let system = System::new(equations, (pairs, 1.0), None, NULL_VECTOR, asking)?;
-            self.kept = Some(CachedFactor { system, pieces });
+            let pairs = (pairs, 1.0);
+            let system =
+                System::new(equations, pairs, None, NULL_VECTOR, &mut self.monitor.asking());
+            self.is_stopped = system.is_none() && self.monitor.is_late();
+            self.kept = Some(CachedFactor { system: system?, pieces });
         }
         self.kept.as_mut()
     }

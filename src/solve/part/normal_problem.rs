@@ -38,14 +38,15 @@ impl<'p> NormalProblem<'p> {
         let (normal, free): (Vec<usize>, Vec<usize>) =
             (0..contact.unknowns()).partition(|&i| is_bounded(contact, i));
         monitor.affords(cholesky_work(free.len()))?;
-        let block = FreeBlock::of_problem(problem, free).ok_or(INDEFINITE)?;
+        let block = FreeBlock::of_problem(problem, free, &mut monitor.asking());
+        let block = block.ok_or(INDEFINITE)?;
         let mut at_rest = vec![0.0; contact.unknowns()];
         block.equilibrate(contact.load_with_tension(), &mut at_rest);
         if let Some(motion) = driven_motion(contact, &block, &at_rest) {
             return Err(Ending::Recession(motion));
         }
         monitor.affords(block.schur_work(normal.len()))?;
-        let whole = block.schur_complement(&normal);
+        let whole = block.schur_complement(&normal, &mut monitor.asking()).ok_or(INDEFINITE)?;
         let size = normal.len();
         // A normal component whose motion nothing resists: its pair is closed if it is pushed, and
         // proves that no equilibrium exists if it is pulled.

@@ -218,7 +218,7 @@ impl<'h> Curve<'h> {
         let mut refactorisations = 0;
         let mut before = f64::INFINITY;
         for _ in 0..MOST_CORRECTIONS {
-            monitor.affords(0.0)?;
+            monitor.goes_on()?;
             let value = self.homotopy.value(&self.pieces, &place);
             let (miss, normal) = self.miss(condition, &place);
             let rounding = f64::EPSILON * (value.lack.len() as f64).sqrt() * value.stretch;

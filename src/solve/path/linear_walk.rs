@@ -168,13 +168,15 @@ impl<'p> Walk<'p> {
             likely.sort_by(|a, b| a.1.step.total_cmp(&b.1.step));
             likely.insert(0, (pair, *exit));
             let likely: Vec<(usize, Linearised)> = likely.into_iter().map(beyond).collect();
-            self.system.prepare(&likely, BLOCK);
+            let prepared = self.system.prepare(&likely, BLOCK, &mut monitor.asking());
+            prepared.ok_or(WalkEnd::Lost)?;
         }
-        let change = self.system.change(&change);
+        let change = self.system.change(&change, &mut monitor.asking()).ok_or(WalkEnd::Lost)?;
         self.pieces[pair] = exit.beyond;
         let singular = change.pivot().abs() < SMALL_PIVOT;
         let ray = if singular { change.direction().to_vec() } else { Vec::new() };
-        let made = self.system.make(change).map(|()| self.system.follow(&mut self.rate));
+        let made = self.system.make(change, &mut monitor.asking());
+        let made = made.map(|()| self.system.follow(&mut self.rate));
         if singular && let Some(motion) = self.rigid(&ray, 1.0) {
             return Err(WalkEnd::Ray(motion));
         }

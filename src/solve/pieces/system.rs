@@ -18,9 +18,10 @@
 
 use super::equations::Equations;
 use crate::law::{Assembly, Linearised, Slopes, Unknown, Vector, ellipse};
-use crate::linalg::factor::{Factor, GoesOn, cholesky_work, lu_work, subtract_product};
+use crate::linalg::factor::{Factor, cholesky_work, lu_work, subtract_product};
 use crate::linalg::tolerances::SINGULAR;
 use crate::linalg::vector::dot;
+use crate::linalg::watched::GoesOn;
 
 /// The border of a system: `border . (dy, ds) = wanted`.
 pub struct Border<'b> {
@@ -246,10 +247,10 @@ impl Coefficients<'_> {
         let is_plain =
             self.equations.symmetric && self.assembly.slopes.iter().all(Slopes::is_plain);
         let definite = match is_plain {
-            true => Factor::asked(size, true, self.least, &mut fill, goes_on),
+            true => Factor::new(size, true, self.least, &mut fill, goes_on),
             false => None,
         };
-        definite.or_else(|| Factor::asked(size, false, self.least, &mut fill, goes_on))
+        definite.or_else(|| Factor::new(size, false, self.least, &mut fill, goes_on))
     }
 
     fn bordered(&self, border: &Border<'_>, goes_on: GoesOn<'_>) -> Option<(Factor, Bordered)> {
@@ -277,7 +278,7 @@ impl Coefficients<'_> {
             }
             entries[n] = row_scale * column_scale * (border.along - dot(&reactions, border.rate));
         };
-        let factor = Factor::asked(n + 1, false, SINGULAR, fill, goes_on)?;
+        let factor = Factor::new(n + 1, false, SINGULAR, fill, goes_on)?;
         let rate = border.rate.to_vec();
         Some((factor, Bordered { rate, reactions, row_scale, column_scale }))
     }

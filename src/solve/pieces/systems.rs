@@ -5,8 +5,8 @@ use super::equations::Equations;
 use super::system::System;
 use super::updated::Updated;
 use crate::law::{Linearised, Vector};
-use crate::linalg::factor::GoesOn;
 use crate::linalg::tolerances::SINGULAR;
+use crate::linalg::watched::GoesOn;
 
 /// Below so many unknowns a new factorisation is cheaper than changes of an old one: measured on the bar on the
 /// plane.
@@ -55,7 +55,7 @@ impl<'e> Systems<'e> {
         let equations = self.equations;
         if self.change_work(&pairs).is_some()
             && let Some(system) = &mut self.last
-            && system.go_to(&pairs).is_some()
+            && system.go_to(&pairs, goes_on).is_some()
         {
             return Some(());
         }

@@ -17,9 +17,11 @@ use super::equations::Equations;
 use super::system::System;
 use super::term::{Term, terms};
 use crate::law::Linearised;
-use crate::linalg::factor::{Factor, GoesOn};
+use crate::linalg::factor::Factor;
 use crate::linalg::simd::subtract_columns;
+use crate::linalg::tolerances::SINGULAR;
 use crate::linalg::vector::dot;
+use crate::linalg::watched::{BLOCK, GoesOn};
 
 /// Changes that are made together.
 pub struct Change {
@@ -102,14 +104,15 @@ impl<'e> Updated<'e> {
         4.0 * size * all * lacking + 2.0 * count * count * count
     }
 
-    /// Goes to the system of pairs on their pieces by one change of the factorised one; `None` if it is singular.
-    pub fn go_to(&mut self, pairs: &[Linearised]) -> Option<()> {
+    /// Goes to the system of pairs on their pieces by one change of the factorised one; `None` if it is singular, or where
+    /// `goes_on` says no.
+    pub fn go_to(&mut self, pairs: &[Linearised], goes_on: GoesOn<'_>) -> Option<()> {
         self.changes.clear();
         self.directions.clear();
         self.pairs.copy_from_slice(self.base.pairs());
         let all: Vec<(usize, Linearised)> = pairs.iter().copied().enumerate().collect();
-        let change = self.change(&all);
-        self.make(change)
+        let change = self.change(&all, goes_on)?;
+        self.make(change, goes_on)
     }
 
     /// Sign of `det J`.
@@ -134,8 +137,13 @@ impl<'e> Updated<'e> {
         !self.columns.lacking(self.terms(pairs).iter().flat_map(Term::parts)).is_empty()
     }
 
-    /// Makes columns for changes of pairs, at most so many, so far as they are not known.
-    pub fn prepare(&mut self, likely: &[(usize, Linearised)], most: usize) {
+    /// Makes columns for changes of pairs, at most so many, so far as they are not known; `None` where `goes_on` says no.
+    pub fn prepare(
+        &mut self,
+        likely: &[(usize, Linearised)],
+        most: usize,
+        goes_on: GoesOn<'_>,
+    ) -> Option<()> {
         let parts = self.terms(likely);
         let lacking = |columns: &Columns| {
             let mut components = columns.lacking(parts.iter().flat_map(Term::parts));
@@ -146,16 +154,22 @@ impl<'e> Updated<'e> {
         if !self.columns.make_room(components.len()) {
             components = lacking(&self.columns);
         }
-        let sides = self.equations.change_columns(&components);
-        let columns = self.base.solve(&sides);
-        self.columns.add(&components, &columns);
+        for components in components.chunks(BLOCK) {
+            if !goes_on() {
+                return None;
+            }
+            let sides = self.equations.change_columns(components);
+            let columns = self.base.solve(&sides);
+            self.columns.add(components, &columns);
+        }
+        Some(())
     }
 
-    /// The change of pairs to the pieces beyond.
-    pub fn change(&mut self, pairs: &[(usize, Linearised)]) -> Change {
+    /// The change of pairs to the pieces beyond; `None` where `goes_on` says no.
+    pub fn change(&mut self, pairs: &[(usize, Linearised)], goes_on: GoesOn<'_>) -> Option<Change> {
         let terms = self.terms(pairs);
         if self.lacks_columns(pairs) {
-            self.prepare(pairs, 2 * terms.len());
+            self.prepare(pairs, 2 * terms.len(), goes_on)?;
         }
         let size = self.equations.root.len();
         let mut z = vec![0.0; size * terms.len()];
@@ -173,14 +187,14 @@ impl<'e> Updated<'e> {
         }
         let made = || self.directions.chunks_exact(size);
         let before = terms.iter().map(|term| made().map(|z| term.along(z)).collect()).collect();
-        Change { pairs: pairs.to_vec(), terms, z, matrix, before }
+        Some(Change { pairs: pairs.to_vec(), terms, z, matrix, before })
     }
 
-    /// Makes a change. `None`: the new system is singular, and has to be factorised.
-    pub fn make(&mut self, change: Change) -> Option<()> {
+    /// Makes a change. `None`: the new system is singular, and has to be factorised, or `goes_on` says no.
+    pub fn make(&mut self, change: Change, goes_on: GoesOn<'_>) -> Option<()> {
         let Change { pairs, terms, z, matrix, before } = change;
         pairs.into_iter().for_each(|(pair, beyond)| self.pairs[pair] = beyond);
-        let (inverse, sign) = inverse(&matrix, terms.len())?;
+        let (inverse, sign) = inverse(&matrix, terms.len(), goes_on)?;
         self.changes.push(Made { terms, before, inverse, sign });
         self.directions.extend_from_slice(&z);
         Some(())
@@ -234,17 +248,21 @@ impl Made {
     }
 }
 
-/// The inverse of an `n x n` matrix, and the sign of its determinant; `None` if it is singular.
-fn inverse(matrix: &[f64], n: usize) -> Option<(Vec<f64>, i8)> {
+/// The inverse of an `n x n` matrix, and the sign of its determinant; `None` if it is singular, or where `goes_on` says no.
+fn inverse(matrix: &[f64], n: usize, goes_on: GoesOn<'_>) -> Option<(Vec<f64>, i8)> {
     if let [only] = matrix {
         let sign = if *only < 0.0 { -1 } else { 1 };
         return (*only != 0.0).then(|| (vec![only.recip()], sign));
     }
-    let mut factor = Factor::new(n, false, |j, column| {
-        column.copy_from_slice(&matrix[n * j..n * (j + 1)]);
-    })?;
+    let fill = |j: usize, column: &mut [f64]| column.copy_from_slice(&matrix[n * j..n * (j + 1)]);
+    let mut factor = Factor::new(n, false, SINGULAR, fill, goes_on)?;
     let mut inverse = vec![0.0; n * n];
     inverse.iter_mut().step_by(n + 1).for_each(|entry| *entry = 1.0);
-    factor.solve(&mut inverse);
+    for columns in inverse.chunks_mut((BLOCK * n).max(1)) {
+        if !goes_on() {
+            return None;
+        }
+        factor.solve(columns);
+    }
     Some((inverse, factor.sign()))
 }

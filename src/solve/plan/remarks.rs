@@ -55,7 +55,7 @@ pub fn say_remarks<R: Relation>(problem: &ContactProblem<'_, R>, solution: &mut 
 
 /// Adds the remarks on a problem and its solution. With friction nothing is asked about free motions: that would cost a
 /// factorisation of every semi-definite problem.
-pub fn add_remarks(call: &Call<'_>, solution: &mut Solution, monitor: &Monitor<'_>) {
+pub fn add_remarks(call: &Call<'_>, solution: &mut Solution, monitor: &mut Monitor<'_>) {
     let (contact, problem) = (call.contact, call.contact.problem());
     let solved = solution.status == Status::Solved;
     let asked = solved && solution.uniqueness == Uniqueness::NotKnown && contact.is_frictionless();
@@ -73,7 +73,7 @@ pub fn add_remarks(call: &Call<'_>, solution: &mut Solution, monitor: &Monitor<'
 
 /// Adds to the sentence of a problem that is not solved what to look at, if contact alone holds a body, or if nothing but
 /// rounding may hold one: there may be no equilibrium.
-fn explain(contact: &Contact<'_>, solution: &mut Solution, monitor: &Monitor<'_>) {
+fn explain(contact: &Contact<'_>, solution: &mut Solution, monitor: &mut Monitor<'_>) {
     let problem = contact.problem();
     if solution.escape.is_none() && RigidMotions::of(problem, monitor).is_some() {
         solution.say(&format!("contact alone holds a body: {CAUSES}"));

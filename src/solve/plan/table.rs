@@ -36,8 +36,8 @@ impl MethodRow {
         let Some(candidate) = (self.run)(call, monitor)? else { return Ok(None) };
         let candidate = without_idle_motion(contact, candidate, monitor);
         let candidate = newton::refine_to_tolerance(call, candidate, monitor);
-        // A factorisation that was ended is a singular system to the method.
-        if candidate.ending == Ending::Singular
+        // To a method a factorisation that was ended is that of a singular or indefinite matrix.
+        if matches!(candidate.ending, Ending::Singular | Ending::Stalled(_))
             && let Some(stop) = monitor.stop()
         {
             return Ok(Some(candidate.ended(Ending::Stopped(stop))));

@@ -115,7 +115,7 @@ fn factor(
         }
         column[j] += compliance;
     };
-    let factor = Factor::asked(n, true, least, fill, &mut monitor.asking());
+    let factor = Factor::new(n, true, least, fill, &mut monitor.asking());
     match monitor.stop() {
         Some(stop) if factor.is_none() => Err(stop),
         _ => Ok(factor),

@@ -245,7 +245,7 @@ impl NormalMap for OnFlexibility<'_, '_> {
                 .zip(&unknowns)
                 .for_each(|(entry, &i)| *entry *= self.root[i] * scale);
         };
-        let factor = Factor::asked(n, false, SINGULAR, fill, &mut monitor.asking());
+        let factor = Factor::new(n, false, SINGULAR, fill, &mut monitor.asking());
         if factor.is_none()
             && let Some(stop) = monitor.stop()
         {

@@ -42,7 +42,7 @@ const MOST_ROUNDS: usize = 300;
 
 /// A recession direction that the loads drive, where the admissible forces are cones; `None` also if there is
 /// no time to look for it.
-pub fn escape(contact: &Contact<'_>, monitor: &Monitor<'_>) -> Option<Vec<f64>> {
+pub fn escape(contact: &Contact<'_>, monitor: &mut Monitor<'_>) -> Option<Vec<f64>> {
     Balance::new(contact, monitor)?.escape()
 }
 
@@ -59,7 +59,7 @@ pub struct Balance<'c, R = Stiffness<'c>> {
 
 impl<'c> Balance<'c> {
     /// `None` if `K` is not symmetric, if there are no such motions, or if there is no time to find them.
-    pub fn new(contact: &'c Contact<'c>, monitor: &Monitor<'_>) -> Option<Self> {
+    pub fn new(contact: &'c Contact<'c>, monitor: &mut Monitor<'_>) -> Option<Self> {
         if !contact.problem().is_symmetric() {
             return None;
         }

@@ -7,7 +7,6 @@
 
 use super::motions::RigidMotions;
 use crate::law::{Contact, State, touching};
-use crate::linalg::pivoted_cholesky::pivoted_cholesky_work;
 use crate::linalg::tolerances::{CONDENSATION, HELD, NEGLIGIBLE, ROUNDING_OF_SUM};
 use crate::linalg::vector::{combination, dot, largest_of, norm, norm_inf};
 use crate::monitor::Monitor;
@@ -22,7 +21,7 @@ const LARGE: f64 = 1e-10 / f64::EPSILON;
 pub fn without_idle_motion(
     contact: &Contact<'_>,
     candidate: Candidate,
-    monitor: &Monitor<'_>,
+    monitor: &mut Monitor<'_>,
 ) -> Candidate {
     let unit = |i: usize| contact.problem().unit(i);
     if !is_far(contact, candidate.d(), candidate.force(), unit) {
@@ -79,15 +78,12 @@ pub fn moves_freely(
     contact: &Contact<'_>,
     d: &[f64],
     states: &[State],
-    monitor: &Monitor<'_>,
+    monitor: &mut Monitor<'_>,
 ) -> bool {
     let mut is_held = vec![false; contact.unknowns()];
     touching(contact, d, states).for_each(|pair| is_held[contact.dim() * pair] = true);
     let others: Vec<usize> = (0..is_held.len()).filter(|&i| !is_held[i]).collect();
-    if !monitor.has_time_for(pivoted_cholesky_work(others.len())) {
-        return false;
-    }
-    let block = FreeBlock::of_problem(contact.problem(), others);
+    let block = FreeBlock::of_problem(contact.problem(), others, &mut monitor.asking());
     block.is_some_and(|block| block.dependent().next().is_some())
 }
 

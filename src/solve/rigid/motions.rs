@@ -1,7 +1,6 @@
 //! The rigid motions of a problem: those that `K` does not resist.
 
 use crate::linalg::gmres::extend_basis;
-use crate::linalg::pivoted_cholesky::pivoted_cholesky_work;
 use crate::linalg::vector::{combination, dot, largest_of, norm};
 use crate::monitor::Monitor;
 use crate::problem::{ContactProblem, FreeBlock, Relation};
@@ -17,12 +16,9 @@ pub struct RigidMotions {
 
 impl RigidMotions {
     /// The motions without internal force; `None` if there are none, or no time to find them.
-    pub fn of(problem: &ContactProblem<'_>, monitor: &Monitor<'_>) -> Option<Self> {
+    pub fn of(problem: &ContactProblem<'_>, monitor: &mut Monitor<'_>) -> Option<Self> {
         let n = problem.unknowns();
-        if !monitor.has_time_for(pivoted_cholesky_work(n)) {
-            return None;
-        }
-        let block = FreeBlock::of_problem(problem, (0..n).collect())?;
+        let block = FreeBlock::of_problem(problem, (0..n).collect(), &mut monitor.asking())?;
         let mut motions = RigidMotions { root: problem.unit_roots(), basis: Vec::new() };
         for motion in block.null_vectors() {
             let scaled = motions.scaled(&motion);

@@ -134,7 +134,7 @@ impl Iterate for ContactIterate<'_> {
         norm_inf(self.own.load_with_tension()) == 0.0
     }
 
-    fn recession(&self, drift: &[f64], monitor: &Monitor<'_>) -> Option<Vec<f64>> {
+    fn recession(&self, drift: &[f64], monitor: &mut Monitor<'_>) -> Option<Vec<f64>> {
         contact_recession(self.own, drift, monitor)
     }
 }

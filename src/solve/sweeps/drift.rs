@@ -8,7 +8,6 @@ use super::Iterate;
 use crate::certificate::{is_escape_of, lifts};
 use crate::law::{Contact, lift};
 use crate::linalg::matrix::Matrix;
-use crate::linalg::pivoted_cholesky::pivoted_cholesky_work;
 use crate::linalg::vector::norm_inf;
 use crate::monitor::Monitor;
 use crate::problem::FreeBlock;
@@ -32,7 +31,11 @@ impl DriftDetector {
     }
 
     /// Counts a sweep; returns a recession direction once one is found.
-    pub fn observe(&mut self, iterate: &impl Iterate, monitor: &Monitor<'_>) -> Option<Vec<f64>> {
+    pub fn observe(
+        &mut self,
+        iterate: &impl Iterate,
+        monitor: &mut Monitor<'_>,
+    ) -> Option<Vec<f64>> {
         self.sweeps += 1;
         if self.sweeps < self.next {
             return None;
@@ -50,13 +53,10 @@ pub fn rigid_part(
     matrix: Matrix<'_>,
     unit: impl Fn(usize) -> f64,
     drift: &[f64],
-    monitor: &Monitor<'_>,
+    monitor: &mut Monitor<'_>,
 ) -> Option<Vec<f64>> {
     let moved: Vec<usize> = (0..drift.len()).filter(|&i| drift[i] != 0.0).collect();
-    if !monitor.has_time_for(pivoted_cholesky_work(moved.len())) {
-        return None;
-    }
-    let block = FreeBlock::new(matrix, moved, unit)?;
+    let block = FreeBlock::new(matrix, moved, unit, &mut monitor.asking())?;
     let mut motion = vec![0.0; drift.len()];
     for i in block.dependent() {
         motion[i] = drift[i];
@@ -73,7 +73,7 @@ pub fn rigid_part(
 pub fn contact_recession(
     contact: &Contact<'_>,
     drift: &[f64],
-    monitor: &Monitor<'_>,
+    monitor: &mut Monitor<'_>,
 ) -> Option<Vec<f64>> {
     let problem = contact.problem();
     let motion = rigid_part(problem.stiffness(), |i| problem.unit(i), drift, monitor)?;

@@ -76,7 +76,7 @@ impl Iterate for LcpIterate<'_> {
         norm_inf(self.lcp.q) == 0.0
     }
 
-    fn recession(&self, drift: &[f64], monitor: &Monitor<'_>) -> Option<Vec<f64>> {
+    fn recession(&self, drift: &[f64], monitor: &mut Monitor<'_>) -> Option<Vec<f64>> {
         let matrix = self.lcp.matrix;
         rigid_part(matrix, |i| matrix.at(i, i), drift, monitor)
             .filter(|motion| self.lcp.is_recession(motion))

@@ -40,5 +40,5 @@ pub trait Iterate {
     fn is_unloaded(&self) -> bool;
 
     /// A recession direction, found in the change of the unknowns between two looks if there is time.
-    fn recession(&self, drift: &[f64], monitor: &Monitor<'_>) -> Option<Vec<f64>>;
+    fn recession(&self, drift: &[f64], monitor: &mut Monitor<'_>) -> Option<Vec<f64>>;
 }

@@ -1,22 +1,21 @@
 //! The proof, on request, that a solution exists where a method has found one.
 
 use crate::certificate::{Proof, errors, measure, prove_parts};
-use crate::linalg::factor::lu_work;
 use crate::monitor::Monitor;
 use crate::solve::result::{Call, Errors, Existence, Solution, Status};
 
 /// Tries to prove that there is a solution with the states of this one. If there is, the result becomes the
 /// middle of its enclosure.
-pub fn examine(call: &Call<'_>, solution: &mut Solution, monitor: &Monitor<'_>) {
+pub fn examine(call: &Call<'_>, solution: &mut Solution, monitor: &mut Monitor<'_>) {
     let contact = call.contact;
     solution.existence = Existence::NotProved;
-    // The approximate inverse and its products, or a bound on the least eigenvalue, cost one factorisation.
-    let in_time = monitor.has_time_for(lu_work(contact.unknowns()));
-    if solution.status != Status::Solved || !in_time {
+    if solution.status != Status::Solved {
         return;
     }
     let parts = (solution.d.as_slice(), solution.d_low.as_slice());
-    let Some(proof) = prove_parts(contact, parts, &solution.certificate.states) else { return };
+    let states = &solution.certificate.states;
+    let proof = prove_parts(contact, parts, states, &mut monitor.asking());
+    let Some(proof) = proof else { return };
     move_to_middle(call, solution, &proof);
     let force = &solution.certificate.force;
     let (d_radius, radius) = (proof.radius_about(&solution.d), proof.force_radius_about(force));

@@ -13,7 +13,6 @@ use super::newton::{from_pieces, refine_fully};
 use super::result::{Call, Candidate, Ending, Solution, Status, Uniqueness};
 use crate::error::Error;
 use crate::law::Contact;
-use crate::linalg::factor::lu_work;
 use crate::monitor::Monitor;
 use difference::{are_different, are_parted, is_sharp, is_strict};
 pub use existence::examine as prove;
@@ -32,7 +31,7 @@ pub fn examine(
         solution.uniqueness = Uniqueness::Unique;
         return Ok(());
     }
-    if contact.is_frictionless() || !monitor.has_time_for(lu_work(contact.unknowns())) {
+    if contact.is_frictionless() || monitor.is_late() {
         return Ok(());
     }
     let mut first = given(contact, solution);

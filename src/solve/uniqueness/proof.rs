@@ -16,16 +16,16 @@
 use super::difference::MARGIN;
 use crate::law::Contact;
 use crate::linalg::eigen::{is_below, largest_eigenvalue};
-use crate::linalg::factor::{Factor, GoesOn, cholesky_work};
+use crate::linalg::factor::Factor;
 use crate::linalg::matrix::Matrix;
 use crate::linalg::tolerances::SINGULAR;
+use crate::linalg::watched::GoesOn;
 use crate::monitor::{COLUMNS, Monitor};
 
 /// The factor of `K`, scaled to a unit diagonal, if it is positive definite, and if there is time for it.
 pub fn scaled_factor(contact: &Contact<'_>, monitor: &mut Monitor<'_>) -> Option<Factor> {
     let matrix = contact.problem().stiffness();
-    let in_time = monitor.has_time_for(cholesky_work(matrix.size()));
-    if !contact.problem().is_symmetric() || !in_time {
+    if !contact.problem().is_symmetric() {
         return None;
     }
     let root = contact.problem().unit_roots();
@@ -34,7 +34,7 @@ pub fn scaled_factor(contact: &Contact<'_>, monitor: &mut Monitor<'_>) -> Option
             *entry = k / (root[i] * root[j]);
         }
     };
-    Factor::asked(matrix.size(), true, SINGULAR, fill, &mut monitor.asking())
+    Factor::new(matrix.size(), true, SINGULAR, fill, &mut monitor.asking())
 }
 
 /// True if the solution is proved to be the only one: `K` is positive definite, and `g -> mu p` is
@@ -90,10 +90,6 @@ fn is_contraction(
         let normal = dense(m, |a, b| stiffness(a, b) / (x[a] * x[b]));
         let tangential =
             dense(m * tangents, |a, b| compliance(a, b) * x[a / tangents] * x[b / tangents]);
-        let work = 2.0 * cholesky_work(m * tangents);
-        if !monitor.has_time_for(work) {
-            return false;
-        }
         let matrices = [(m, &normal), (m * tangents, &tangential)];
         let matrices = matrices.map(|(n, entries)| Matrix::new(n, entries, n));
         if have_product_below_one(matrices, &mut monitor.asking()) {

@@ -188,7 +188,7 @@ fn a_box_that_is_not_taken_into_itself_proves_nothing() {
     let (mut proved, mut contracts) = (0, 0);
     for _ in 0..SYSTEMS {
         of_system(rng, 3, (&k, &[State::Slip], FRICTION), |system, centre| {
-            let Some(Solver::Inverse(inverse)) = system.solver() else { return };
+            let Some(Solver::Inverse(inverse)) = system.solver(&mut || true) else { return };
             let (v, force) = place(system, centre);
             let size = system.unknowns.len();
             // From 1e-6 on.
@@ -197,9 +197,9 @@ fn a_box_that_is_not_taken_into_itself_proves_nothing() {
                 let first = inverse.image(&vec![lack; size], &vec![0.0; size]);
                 let eps = BOX * largest_of(first.iter().copied());
                 let doubts = Neighbourhood::new(system, &force, &v, eps).doubts();
-                let alpha = inverse.contraction(&doubts);
+                let alpha = inverse.contraction(&doubts, &mut || true).expect("it is not ended");
                 let into = first.iter().zip(&alpha).all(|(z, alpha)| z + alpha * eps <= eps);
-                let found = by_inverse(system, &inverse, &balls, (&force, &v));
+                let found = by_inverse(system, &inverse, &balls, (&force, &v), &mut || true);
                 assert!(into || found.is_none(), "{lack:e}: {alpha:?}");
                 proved += usize::from(found.is_some());
                 contracts += usize::from(!into && largest_of(alpha.iter().copied()) < 1.0);
@@ -220,7 +220,8 @@ fn enclosed_off(
     let load = [0, 1].map(|i| k[i] * d[0] + k[i + 2] * d[1] - force[i]);
     let place = [0, 1].map(|i| d[i] + off[i]);
     on_pieces((2, k, &load), (&[state], mu), (place.to_vec(), &force), |system, centre| {
-        enclose(system, &system.solver().unwrap(), centre).unwrap()
+        let goes_on = &mut || true;
+        enclose(system, &system.solver(goes_on).unwrap(), centre, goes_on).unwrap()
     })
 }
 

@@ -73,7 +73,8 @@ impl<'p> ContactLcp<'p> {
         let indices: Vec<usize> = normal.iter().chain(&tangential).copied().collect();
         let condenses = !free.is_empty();
         monitor.affords(cholesky_work(free.len()))?;
-        let block = FreeBlock::of_problem(problem, free).ok_or(INDEFINITE)?;
+        let block = FreeBlock::of_problem(problem, free, &mut monitor.asking());
+        let block = block.ok_or(INDEFINITE)?;
         let mut at_rest = vec![0.0; contact.unknowns()];
         for &i in &indices {
             at_rest[i] = contact.pairs()[i / dim].reference()[i % dim];
@@ -84,7 +85,8 @@ impl<'p> ContactLcp<'p> {
         }
         let stiffness = if condenses {
             monitor.affords(block.schur_work(indices.len()))?;
-            let schur = block.schur_complement(&indices);
+            let schur = block.schur_complement(&indices, &mut monitor.asking());
+            let schur = schur.ok_or(INDEFINITE)?;
             Stiffness::Condensed(PackedSymmetric::new(indices.len(), schur))
         } else {
             Stiffness::Whole(problem.stiffness(), indices)

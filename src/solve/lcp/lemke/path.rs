@@ -193,7 +193,8 @@ impl Path<'_> {
         }
         monitor.affords(self.tableau.refactorisation_work())?;
         self.refactorisations += 1;
-        if self.tableau.refactorise(self.problem) { Ok(()) } else { Err(BREAKDOWN) }
+        let done = self.tableau.refactorise(self.problem, &mut monitor.asking());
+        done.ok_or_else(|| monitor.stop().map_or(BREAKDOWN, Ending::Stopped))
     }
 }
 

@@ -9,6 +9,7 @@ use crate::linalg::factor::{Factor, lu_work, subtract_outer};
 use crate::linalg::simd;
 use crate::linalg::tolerances::SINGULAR_BASIS;
 use crate::linalg::vector::norm_inf;
+use crate::linalg::watched::GoesOn;
 use crate::monitor::COLUMNS;
 
 impl Tableau {
@@ -49,12 +50,12 @@ impl Tableau {
         lu_work(count) + 2.0 * (n as f64) * (count as f64) * (n as f64)
     }
 
-    /// Recomputes the tableau from the data of `problem`, in the basis it is in. False if that basis is
-    /// singular to working precision; the tableau is then unchanged.
+    /// Recomputes the tableau from the data of `problem`, in the basis it is in. `None` if that basis is
+    /// singular to working precision, or where `goes_on` says no: only the values are then of use.
     ///
     /// The equations whose `w` is not basic give the basic `z` and `z0`, as many; the others follow.
     /// Only the square system of these is factorised, beside the tableau itself.
-    pub fn refactorise(&mut self, problem: &Scaled<'_>) -> bool {
+    pub fn refactorise(&mut self, problem: &Scaled<'_>, goes_on: GoesOn<'_>) -> Option<()> {
         let n = self.size;
         // Rows of the tableau with a basic z or z0, and equations whose w is not basic.
         let rows: Vec<usize> = (0..n).filter(|&row| self.basic[row] >= n).collect();
@@ -66,10 +67,12 @@ impl Tableau {
                 *entry = whole[equation];
             }
         };
-        let factor = Factor::asked(rows.len(), false, SINGULAR_BASIS, fill, &mut || true);
-        let Some(mut factor) = factor else { return false };
+        let mut factor = Factor::new(rows.len(), false, SINGULAR_BASIS, fill, goes_on)?;
         self.kept.clear();
         for first in (0..=n).step_by(COLUMNS) {
+            if !goes_on() {
+                return None;
+            }
             let columns = first..(first + COLUMNS).min(n + 1);
             let solutions = self.solve_panel(problem, &mut factor, columns.clone(), &equations);
             self.write_panel(problem, columns, &solutions, &rows);
@@ -78,7 +81,7 @@ impl Tableau {
         self.values.fill(0.0);
         self.refine(problem);
         self.refine(problem);
-        true
+        Some(())
     }
 
     /// Writes the right-hand sides into the columns, equation by equation into the row of its `w`, and

@@ -72,7 +72,7 @@ impl Tableau {
             .map_err(|_| Error::OutOfMemory("the tableau of Lemke's method"))?;
         for j in 0..n {
             if j % COLUMNS == 0
-                && let Err(stop) = monitor.affords(0.0)
+                && let Err(stop) = monitor.goes_on()
             {
                 return Ok(Err(stop));
             }
