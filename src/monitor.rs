@@ -189,11 +189,11 @@ impl<'a> Monitor<'a> {
         }
     }
 
-    /// `true` if the time limit is used up, or the caller has cancelled, for questions about a result that is there
-    /// already: they are then left open.
-    pub(crate) fn is_late(&self) -> bool {
+    /// `true` if the time limit is used up, or the callback, which is asked, cancels or has cancelled: for sweeps, and
+    /// questions about a result that is there already, which are then left open.
+    pub(crate) fn is_late(&mut self) -> bool {
         shortage::check();
-        self.is_late_after(0.0)
+        self.goes_on().is_err()
     }
 
     fn is_late_after(&self, seconds: f64) -> bool {
@@ -203,7 +203,7 @@ impl<'a> Monitor<'a> {
 
     /// Why the call is to end, if it is; the callback is not asked.
     pub(crate) fn stop(&self) -> Option<Stop> {
-        self.is_late().then(|| self.reason())
+        self.is_late_after(0.0).then(|| self.reason())
     }
 
     /// Why a call ends for which there is no time.

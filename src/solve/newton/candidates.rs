@@ -79,7 +79,7 @@ fn begun<'w>(
     whole: &'w Equations<'w>,
     before: Arc<Elimination>,
     start: Option<&[f64]>,
-    monitor: &Monitor<'_>,
+    monitor: &mut Monitor<'_>,
 ) -> Option<(ReducedProblem<'w>, Vec<Vector>)> {
     let mut components = before.dropped().iter();
     if !components.all(|i| whole.laws[i / whole.dim].is_free_when_open()) {

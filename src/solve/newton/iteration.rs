@@ -154,7 +154,7 @@ impl<'e> Dense<'e> {
     ///
     /// The orientation stays that of `A`. If that of `J` differed, `A⁻¹ J` would have a negative eigenvalue, and what
     /// lies along its vector would grow with each step.
-    fn chords(&mut self, mut point: Point, monitor: &Monitor<'_>) -> Point {
+    fn chords(&mut self, mut point: Point, monitor: &mut Monitor<'_>) -> Point {
         while !monitor.is_late() {
             let Some(step) = self.systems.step(&point.lack) else { break };
             let next = Point::new(self.equations, moved(&point.y, &step, 1.0));
@@ -175,7 +175,7 @@ impl<'e> Dense<'e> {
     }
 
     /// The point after some sweeps, fewer if the time is up.
-    fn swept(&self, point: &Point, sweeps: usize, monitor: &Monitor<'_>) -> Point {
+    fn swept(&self, point: &Point, sweeps: usize, monitor: &mut Monitor<'_>) -> Point {
         let equations = self.equations;
         let (mut d, mut force) = (point.d.clone(), point.force.clone());
         for _ in 0..sweeps {

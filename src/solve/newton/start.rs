@@ -40,7 +40,7 @@ const WORTHWHILE: f64 = 0.7;
 pub(super) fn swept(
     whole: &Equations<'_>,
     start: Option<&[f64]>,
-    monitor: &Monitor<'_>,
+    monitor: &mut Monitor<'_>,
 ) -> Vec<Vector> {
     let mut d = match start {
         Some(start) => start.to_vec(),
@@ -54,7 +54,7 @@ pub(super) fn swept(
     }
     let mut force = whole.force(&d);
     let rounds = if whole.dim == 2 { IN_PLANE } else { IN_SPACE };
-    let round = |d: &mut Vec<f64>, force: &mut Vec<f64>, omega: f64| {
+    let round = |d: &mut Vec<f64>, force: &mut Vec<f64>, omega, monitor: &mut Monitor<'_>| {
         let mut one = |omega| {
             if !monitor.is_late() {
                 sweep_pairs(&whole.laws, whole.matrix, (&mut *d, &mut *force), omega);
@@ -68,10 +68,10 @@ pub(super) fn swept(
     let mut omega = OVER_RELAXATION;
     for number in 1..=rounds.most {
         if number <= IN_SPACE.least || omega <= 1.0 {
-            eta = round(&mut d, &mut force, 1.0);
+            eta = round(&mut d, &mut force, 1.0, monitor);
         } else {
             let before = (d.clone(), force.clone());
-            let after = round(&mut d, &mut force, omega);
+            let after = round(&mut d, &mut force, omega, monitor);
             if after <= WORTHWHILE * eta {
                 eta = after;
             } else {

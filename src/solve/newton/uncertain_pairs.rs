@@ -88,7 +88,11 @@ struct InQuestion {
 impl InQuestion {
     /// The pairs whose piece changes in sweeps from `d`, or that are not held on it; and the displacements after
     /// the sweeps.
-    fn after_sweeps(contact: &Contact<'_>, d: &[f64], monitor: &Monitor<'_>) -> (Vec<f64>, Self) {
+    fn after_sweeps(
+        contact: &Contact<'_>,
+        d: &[f64],
+        monitor: &mut Monitor<'_>,
+    ) -> (Vec<f64>, Self) {
         let mut d = contact.admissible(d);
         let mut force = contact.problem().force(&d);
         let (laws, matrix) = (contact.pairs(), contact.problem().stiffness());

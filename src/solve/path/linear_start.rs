@@ -119,7 +119,7 @@ impl<'p> Starts<'p> {
     }
 
     /// Sweeps on while there is time; then the coordinates at which a walk starts.
-    pub fn next(&mut self, attempt: Attempt, monitor: &Monitor<'_>) -> Vec<Planar> {
+    pub fn next(&mut self, attempt: Attempt, monitor: &mut Monitor<'_>) -> Vec<Planar> {
         let (laws, matrix) = (self.contact.pairs(), self.contact.problem().stiffness());
         if attempt.sweeps > 0 {
             self.d = self.contact.admissible(&self.d);
