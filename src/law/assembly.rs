@@ -42,15 +42,15 @@ impl Assembly<'_> {
         }
     }
 
-    /// Writes `K dd` for a unit of the unknown `j`, all components.
-    pub fn image(&self, j: usize, image: &mut [f64]) {
+    /// Writes `K dd` for a unit of the unknown `j`, the components from `from` on.
+    pub fn image(&self, j: usize, from: usize, image: &mut [f64]) {
         let unknown = &self.unknowns[j];
         let parts = self.motion_of(unknown);
         let mut is_first = true;
         let parts = parts.into_iter().take(self.dim).enumerate();
         for (c, part) in parts.filter(|(_, part)| *part != 0.0) {
             let source = self.matrix.column(self.dim * unknown.pair + c);
-            let terms = image.iter_mut().zip(source);
+            let terms = image[from..].iter_mut().zip(&source[from..]);
             match is_first {
                 true => terms.for_each(|(image, k)| *image = part * k),
                 false => terms.for_each(|(image, k)| *image += part * k),
@@ -58,24 +58,24 @@ impl Assembly<'_> {
             is_first = false;
         }
         if is_first {
-            image.fill(0.0);
+            image[from..].fill(0.0);
         }
     }
 
-    /// Adds `(1 - s) k dd` to `s K dd`: the matrix is `K_s = s K + (1 - s) k` then.
-    pub fn lead(&self, s: f64, pairs: &[Linearised], j: usize, image: &mut [f64]) {
+    /// Adds `(1 - s) k dd` to `s K dd`, the components from `from` on: the matrix is `K_s = s K + (1 - s) k` then.
+    pub fn lead(&self, s: f64, pairs: &[Linearised], j: usize, from: usize, image: &mut [f64]) {
         let unknown = &self.unknowns[j];
         let own = pairs[unknown.pair].scaled(&self.motion_of(unknown));
-        image.iter_mut().for_each(|image| *image *= s);
+        image[from..].iter_mut().for_each(|image| *image *= s);
         let first = self.dim * unknown.pair;
         let components = image[first..first + self.dim].iter_mut();
         components.zip(own).for_each(|(image, own)| *image += (1.0 - s) * own);
     }
 
-    /// Writes the coefficients of the unknown `j` in all equations, by its `image`.
-    pub fn coefficients(&self, j: usize, image: &[f64], entries: &mut [f64]) {
+    /// Writes the coefficients of the unknown `j` in the equations from `first` on, by its `image`.
+    pub fn coefficients(&self, j: usize, first: usize, image: &[f64], entries: &mut [f64]) {
         let unknown = &self.unknowns[j];
-        for (entry, equation) in entries.iter_mut().zip(self.unknowns) {
+        for (entry, equation) in entries[first..].iter_mut().zip(&self.unknowns[first..]) {
             let at = self.dim * equation.pair;
             let mut value = image[at + equation.component];
             if equation.component > 0 {

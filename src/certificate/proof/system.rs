@@ -119,8 +119,8 @@ impl<'c> System<'c> {
         let assembly = self.assembly();
         let mut image = vec![0.0; assembly.matrix.size()];
         move |j, entries| {
-            assembly.image(j, &mut image);
-            assembly.coefficients(j, &image, entries);
+            assembly.image(j, 0, &mut image);
+            assembly.coefficients(j, 0, &image, entries);
         }
     }
 

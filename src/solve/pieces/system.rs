@@ -228,29 +228,31 @@ struct Coefficients<'s> {
 }
 
 impl Coefficients<'_> {
-    /// Writes `K_s dd` for a unit of the unknown `j`, all components.
-    fn image(&self, j: usize, image: &mut [f64]) {
-        self.assembly.image(j, image);
+    /// Writes `K_s dd` for a unit of the unknown `j`, the components from `from` on.
+    fn image(&self, j: usize, from: usize, image: &mut [f64]) {
+        self.assembly.image(j, from, image);
         if self.s != 1.0 {
-            self.assembly.lead(self.s, self.pairs, j, image);
+            self.assembly.lead(self.s, self.pairs, j, from, image);
         }
     }
 
     /// By Cholesky's method where the system is symmetric and definite.
     fn factor(&self, goes_on: GoesOn<'_>) -> Option<Factor> {
         let mut image = vec![0.0; self.equations.root.len()];
-        let mut fill = |j: usize, entries: &mut [f64]| {
-            self.image(j, &mut image);
-            self.assembly.coefficients(j, &image, entries);
+        let (dim, unknowns) = (self.equations.dim, self.assembly.unknowns);
+        let mut fill = |j: usize, first: usize, entries: &mut [f64]| {
+            self.image(j, dim * unknowns[first].pair, &mut image);
+            self.assembly.coefficients(j, first, &image, entries);
         };
-        let size = self.assembly.unknowns.len();
+        let size = unknowns.len();
         let is_plain =
             self.equations.symmetric && self.assembly.slopes.iter().all(Slopes::is_plain);
         let definite = match is_plain {
-            true => Factor::new(size, true, self.least, &mut fill, goes_on),
+            true => Factor::new(size, true, self.least, |j, below| fill(j, j, below), goes_on),
             false => None,
         };
-        definite.or_else(|| Factor::new(size, false, self.least, &mut fill, goes_on))
+        let whole = |j: usize, entries: &mut [f64]| fill(j, 0, entries);
+        definite.or_else(|| Factor::new(size, false, self.least, whole, goes_on))
     }
 
     fn bordered(&self, border: &Border<'_>, goes_on: GoesOn<'_>) -> Option<(Factor, Bordered)> {
@@ -262,8 +264,8 @@ impl Coefficients<'_> {
         let mut image = vec![0.0; root.len()];
         let fill = |j: usize, entries: &mut [f64]| {
             if let Some(unknown) = unknowns.get(j) {
-                self.image(j, &mut image);
-                self.assembly.coefficients(j, &image, entries);
+                self.image(j, 0, &mut image);
+                self.assembly.coefficients(j, 0, &image, entries);
                 // k b of the unknown, less what the reactions take.
                 let own = self.pairs[unknown.pair].scaled(&border.normal[unknown.pair]);
                 let row = own[unknown.component] * unknown.column - dot(&reactions, &image);

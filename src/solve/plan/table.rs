@@ -36,8 +36,9 @@ impl MethodRow {
         let Some(candidate) = (self.run)(call, monitor)? else { return Ok(None) };
         let candidate = without_idle_motion(contact, candidate, monitor);
         let candidate = newton::refine_to_tolerance(call, candidate, monitor);
-        // To a method a factorisation that was ended is that of a singular or indefinite matrix.
-        if matches!(candidate.ending, Ending::Singular | Ending::Stalled(_))
+        // To a method a factorisation that was ended is that of a singular or indefinite matrix, and a question that was
+        // ended is one without an answer.
+        if matches!(candidate.ending, Ending::Singular | Ending::Cycle | Ending::Stalled(_))
             && let Some(stop) = monitor.stop()
         {
             return Ok(Some(candidate.ended(Ending::Stopped(stop))));
