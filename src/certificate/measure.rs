@@ -45,9 +45,10 @@ impl Certificate {
         self.eta <= tolerance && !self.runs_away() && !self.underflows
     }
 
-    /// Copies the certificate with the rounding of its evaluation in `eta`, where that meets the tolerance too.
+    /// Copies the certificate with the rounding of its evaluation in `eta`, as far as the tolerance that `eta` meets.
     pub(crate) fn with_rounding(self, tolerance: f64) -> Self {
-        let eta = if self.residual <= tolerance { self.residual } else { self.eta };
+        let meets = self.eta <= tolerance;
+        let eta = if meets { self.eta.max(self.residual.min(tolerance)) } else { self.eta };
         Certificate { eta, ..self }
     }
 

@@ -110,6 +110,13 @@ static void pairs(void)
             block.pairs.count = 0);
 }
 
+/* That bodies move away as springs are let go is seen before rounding ends it, or not: on aarch64 it is not. */
+#if defined(__x86_64__) || defined(_M_X64)
+#define AWAY "the bodies move away"
+#else
+#define AWAY "eta is"
+#endif
+
 /* The sentence on a body that flies off says what to look at. */
 static void signs(void)
 {
@@ -123,9 +130,8 @@ static void signs(void)
             WORDS("most of all degree of freedom", "the resultant of the loads along it is 1.000e-1",
                   "are a support, friction, or a pair missing"),
             block.n_fixed = 0, each_pair(block.mu, 0), block.f[16] = 0.1);
-    /* That bodies move away as springs are let go is seen on some processors before rounding ends it, on others not. */
     REFUSED("x and y exchanged in slaves", 5,
-            WORDS("no method converges", "eta is", "is a normal, a load"),
+            WORDS("no method converges", AWAY, "is a normal, a load"),
             for (int i = 0; i < PAIRS; i++) {
                 block.slaves[2 * i] = 2 * i + 1;
                 block.slaves[2 * i + 1] = 2 * i;

@@ -228,6 +228,13 @@ fn motions_are_lifted_off_the_obstacles_that_there_are() {
     }
 }
 
+/// A problem of a long run of twenty-two classes whose residual meets the tolerance by less than its own rounding.
+#[test]
+fn a_residual_is_not_above_the_reported_one() {
+    let (problem, answer) = answered(&problem_among(202_871, 22));
+    assert!(faults(&problem, &answer).is_empty(), "{answer:?}");
+}
+
 /// A problem of a long run of twenty-two classes of which a path leaves displacements that are no numbers. The last
 /// iterate beside the proof that there is no equilibrium has numbers.
 #[test]
