@@ -45,10 +45,16 @@ impl Certificate {
         self.eta <= tolerance && !self.runs_away() && !self.underflows
     }
 
-    /// Copies the certificate with the rounding of its evaluation in `eta`, as far as the tolerance that `eta` meets.
+    /// Copies the certificate with the rounding of its evaluation in `eta`, as far as a tolerance that `eta` meets. An
+    /// `eta` of 0 with more rounding than that stays.
     pub(crate) fn with_rounding(self, tolerance: f64) -> Self {
-        let meets = self.eta <= tolerance;
-        let eta = if meets { self.eta.max(self.residual.min(tolerance)) } else { self.eta };
+        let eta = if self.residual <= tolerance {
+            self.residual
+        } else if self.eta > 0.0 {
+            self.eta.max(tolerance)
+        } else {
+            self.eta
+        };
         Certificate { eta, ..self }
     }
 
