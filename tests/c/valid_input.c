@@ -830,7 +830,8 @@ static void budgets_end_a_call_with_results(void)
             seen = (watch){.in_order = 1, .last = -1, .cancel_at = at};
             const int32_t ended = limited(&c, &settings, &report);
             CHECK(seen.in_order && seen.calls == at && report.iterations == seen.last);
-            /* Before its last system the path stands on a solution; the last calls are questions about one. */
+            /* Before its last system the path stands on a solution; the last calls are questions
+             * about one. */
             if ((method == PATH || at == calls) && ended == SIGNORINI_STATUS_SOLVED) {
                 CHECK(report.eta <= 1e-10);
                 continue;
