@@ -60,7 +60,7 @@ mod remarks;
 mod slopes;
 mod state;
 
-pub use assembly::{Assembly, Unknown};
+pub use assembly::{Assembly, Image, Unknown};
 pub use bound::{Bound, length};
 pub use contact::Contact;
 pub use contradiction::{exceed_gaps, first_penetration, pressing, without_friction};

@@ -13,7 +13,7 @@
 use super::{Piece, Planar, Plane, Vector, ellipse};
 
 /// The derivatives of a pair that moves along its tangents.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Slopes {
     /// `dtau/dp` at a given slip, zero of an open pair.
     pub drag: [f64; 2],
@@ -31,7 +31,7 @@ impl Slopes {
 }
 
 /// A pair on its piece, to first order.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Linearised {
     /// True if the pressure follows `y`, and not the displacement.
     pub closed: bool,

@@ -1,5 +1,6 @@
 //! A view of a dense square matrix.
 
+use std::iter::repeat_n;
 use std::ops::Range;
 
 use super::simd::{add_four, add_four_sizes, add_four_twice, vectorised};
@@ -7,7 +8,7 @@ use super::tolerances::{CONDENSATION, FREE, UNRESISTED};
 use super::vector::largest_of;
 
 /// Rows and columns of a square tile: what stands across its diagonal is read from cache.
-pub const TILE: usize = 32;
+pub const TILE: usize = 16;
 
 /// A square matrix, column-major, in the caller's memory.
 #[derive(Clone, Copy, Debug)]
@@ -56,17 +57,29 @@ impl<'a> Matrix<'a> {
     }
 
     /// The unit of component `i`, positive: its diagonal entry; where that is nothing beside the largest of
-    /// its group of `group` components, this one; `otherwise` in a group that nothing resists.
-    pub fn unit(&self, i: usize, group: usize, otherwise: f64) -> f64 {
-        let (own, unit) = (self.at(i, i), self.unit_of_group(i, group, otherwise));
+    /// its group of `group` components, this one; `largest` in a group that nothing resists, which no diagonal entry
+    /// exceeds.
+    pub fn unit(&self, i: usize, group: usize, largest: f64) -> f64 {
+        let own = self.at(i, i);
+        // Most components pass beside the largest of all, too.
+        if own > UNRESISTED * largest {
+            return own;
+        }
+        let unit = self.unit_of_group(i, group, largest);
         if own > UNRESISTED * unit { own } else { unit }
     }
 
     /// The largest diagonal entry of the group of component `i`, or `otherwise` if that is zero.
-    pub fn unit_of_group(&self, i: usize, group: usize, otherwise: f64) -> f64 {
+    fn unit_of_group(&self, i: usize, group: usize, otherwise: f64) -> f64 {
         let first = i - i % group;
         let largest = largest_of((first..first + group).map(|k| self.at(k, k)));
         if largest > 0.0 { largest } else { otherwise }
+    }
+
+    /// The largest diagonal entry of each component's group, or `otherwise` if that is zero.
+    pub fn units_of_groups(&self, group: usize, otherwise: f64) -> impl Iterator<Item = f64> {
+        let firsts = (0..self.size).step_by(group);
+        firsts.flat_map(move |i| repeat_n(self.unit_of_group(i, group, otherwise), group))
     }
 
     /// The units of all components, [`Self::unit`]; those of a group that nothing resists are the largest
@@ -79,14 +92,14 @@ impl<'a> Matrix<'a> {
     /// The largest diagonal entry of each component's group, beside which a host's condensation has rounded. A component
     /// that is coupled to no other one has its own: condensation leaves no such row, it is a spring of the host.
     pub fn units_of_condensation(&self, group: usize) -> Vec<f64> {
-        let otherwise = self.largest_diagonal();
-        let unit = |i: usize| {
-            let (own, unit) = (self.at(i, i), self.unit_of_group(i, group, otherwise));
+        let units = self.units_of_groups(group, self.largest_diagonal()).enumerate();
+        let unit = |(i, unit): (usize, f64)| {
+            let own = self.at(i, i);
             let is_small = own > 0.0 && own <= FREE * CONDENSATION * unit;
             let is_spring = || self.column(i).iter().enumerate().all(|(j, &k)| j == i || k == 0.0);
             if is_small && is_spring() { own } else { unit }
         };
-        (0..self.size).map(unit).collect()
+        units.map(unit).collect()
     }
 
     /// Adds the product with `x` to `sum`.

@@ -6,9 +6,12 @@ const STEP: i32 = 1000;
 
 /// Exponent of two of a number that is finite and not zero: `2^e <= |x| < 2^(e + 1)`.
 pub fn exponent(x: f64) -> i32 {
-    let (x, below) = if x.is_subnormal() { (x * 2_f64.powi(STEP), STEP) } else { (x, 0) };
-    let biased = x.abs().to_bits() >> (f64::MANTISSA_DIGITS - 1);
-    biased as i32 - (f64::MAX_EXP - 1) - below
+    let biased = |x: f64| (x.abs().to_bits() >> (f64::MANTISSA_DIGITS - 1)) as i32;
+    match biased(x) {
+        // A subnormal number.
+        0 => biased(x * 2_f64.powi(STEP)) - (f64::MAX_EXP - 1) - STEP,
+        biased => biased - (f64::MAX_EXP - 1),
+    }
 }
 
 /// Largest exponent of the numbers that are not zero, which are finite; `None` if all are zero.

@@ -21,16 +21,11 @@ pub(crate) fn is_symmetric_beside(matrix: &Matrix<'_>, root: &[f64]) -> bool {
     matrix.agrees_across(root, SYMMETRY, f64::INFINITY)
 }
 
-/// The rounding that a host's condensation leaves in the place of a zero on the diagonal, of each component: a part of
-/// the largest entry of its `group`.
-fn rounding(matrix: &Matrix<'_>, group: usize) -> impl Fn(usize) -> f64 {
-    move |i| FREE * CONDENSATION * matrix.unit_of_group(i, group, 0.0)
-}
-
-/// Roots of the diagonal entries, each with its [`rounding`]; NaN where one is further below zero.
+/// Roots of the diagonal entries, each with the rounding that a host's condensation leaves in the place of a zero, a part
+/// of the largest entry of its `group`; NaN where one is further below zero.
 fn roots(matrix: &Matrix<'_>, group: usize) -> Vec<f64> {
-    let rounding = rounding(matrix, group);
-    (0..matrix.size()).map(|i| (matrix.at(i, i) + rounding(i)).sqrt()).collect()
+    let units = matrix.units_of_groups(group, 0.0).enumerate();
+    units.map(|(i, unit)| (matrix.at(i, i) + FREE * CONDENSATION * unit).sqrt()).collect()
 }
 
 /// Refuses entries that are not finite, negative diagonals, zeros on the diagonal of rows that are not zero,

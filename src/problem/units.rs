@@ -14,6 +14,7 @@ use super::friction_law::Parameter;
 use super::relation::{Redundant, Relation, Stiffness};
 use crate::linalg::matrix::Matrix;
 use crate::linalg::power_of_two::{exponent, times_power_of_two};
+use crate::linalg::vector::largest_of;
 
 /// Powers of two, of a stiffness, a length and a force, up to which methods take a problem as it is: products of
 /// four forces and of the squares of a condition number of 1e16 stay far from the ends of doubles, 2^±1022.
@@ -32,23 +33,17 @@ impl Units {
     ///
     /// The powers of a stiffness are even, so that its square root has the same digits.
     pub fn of<R: Relation>(problem: &ContactProblem<'_, R>) -> Option<Self> {
-        let relation = problem.relation();
-        let units = (0..problem.unknowns()).map(|i| power(relation.block(i, i)));
-        let (least, most) = range(units)?;
-        let stiffness = least.midpoint(most) & !1;
-        let asked = |i: usize| {
-            let load = relation.load()[i];
-            Some(power(load)? - power(relation.block(i, i))?)
-        };
-        let by_loads = (0..problem.unknowns()).map(asked);
-        let gaps = (0..problem.pairs()).map(|pair| problem.gap(pair));
-        let interferences = gaps.clone().filter(|gap| *gap < 0.0).map(power);
-        let slips = problem.reference_slips().iter().map(|slip| power(*slip));
-        let driven = range(by_loads.chain(interferences).chain(slips));
-        let length = match driven.or_else(|| range(gaps.filter(|gap| gap.is_finite()).map(power))) {
-            Some((_, most)) => most & !1,
-            None => 0,
-        };
+        let (load, components) = (problem.relation().load(), 0..problem.unknowns());
+        let stiffnesses = components.clone().map(|i| problem.unit(i));
+        let range = |(least, most): (f64, f64), unit: f64| (unit.min(least), unit.max(most));
+        let (least, most) = stiffnesses.fold((f64::INFINITY, 0.0), range);
+        let stiffness = power(least)?.midpoint(power(most)?) & !1;
+        let asked = |i: usize| Some(power(load[i])? - exponent(problem.unit(i)));
+        let gaps = (0..problem.pairs()).map(|pair| problem.gap(pair)).filter(|gap| gap.is_finite());
+        let interference = power(largest_of(gaps.clone().map(|gap| gap.min(0.0))));
+        let moved = power(largest_of(problem.reference_slips().iter().copied()));
+        let driven = components.filter_map(asked).chain(interference).chain(moved).max();
+        let length = driven.or_else(|| power(largest_of(gaps))).unwrap_or(0) & !1;
         let is_far =
             [stiffness, length, stiffness + length].iter().any(|power| power.abs() > ORDINARY);
         is_far.then_some(Units { length: -length, force: -length - stiffness })
@@ -179,14 +174,6 @@ fn power(value: f64) -> Option<i32> {
 fn exactly(value: f64, power: i32) -> Option<f64> {
     let product = times_power_of_two(value, power);
     (times_power_of_two(product, -power) == value).then_some(product)
-}
-
-/// The least and the largest of the powers that there are.
-fn range(powers: impl Iterator<Item = Option<i32>>) -> Option<(i32, i32)> {
-    powers.flatten().fold(None, |range, power| {
-        let (least, most) = range.unwrap_or((power, power));
-        Some((power.min(least), power.max(most)))
-    })
 }
 
 /// All numbers times a power of two; `None` where one is beyond doubles.

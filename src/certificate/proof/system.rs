@@ -111,16 +111,15 @@ impl<'c> System<'c> {
     /// The coefficients of the scaled matrix.
     fn assembly(&self) -> Assembly<'_> {
         let (dim, matrix) = (self.contact.dim(), self.contact.problem().stiffness());
-        Assembly { dim, matrix, unknowns: &self.unknowns, slopes: &self.slopes }
+        Assembly::new(dim, matrix, &self.unknowns, &self.slopes)
     }
 
     /// Writes columns of the scaled matrix.
     pub fn columns(&self) -> impl FnMut(usize, &mut [f64]) {
         let assembly = self.assembly();
-        let mut image = vec![0.0; assembly.matrix.size()];
+        let mut room = vec![0.0; self.contact.unknowns()];
         move |j, entries| {
-            assembly.image(j, 0, &mut image);
-            assembly.coefficients(j, 0, &image, entries);
+            assembly.coefficients(j, 0, &assembly.image(j, 0, &mut room), entries);
         }
     }
 

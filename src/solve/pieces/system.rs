@@ -17,7 +17,7 @@
 //! components that are eliminated have the pivot 1.
 
 use super::equations::Equations;
-use crate::law::{Assembly, Linearised, Slopes, Unknown, Vector, ellipse};
+use crate::law::{Assembly, Image, Linearised, Slopes, Unknown, Vector, ellipse};
 use crate::linalg::factor::{Factor, cholesky_work, lu_work, subtract_product};
 use crate::linalg::tolerances::SINGULAR;
 use crate::linalg::vector::dot;
@@ -76,7 +76,8 @@ impl<'e> System<'e> {
         goes_on: GoesOn<'_>,
     ) -> Option<Self> {
         let (dim, root) = (equations.dim, &equations.root);
-        let (mut unknowns, mut held) = (Vec::new(), Vec::new());
+        let mut unknowns = Vec::with_capacity(root.len());
+        let mut held = Vec::with_capacity(root.len());
         for (i, root) in root.iter().enumerate() {
             let (pair, component) = (i / dim, i % dim);
             match pairs[pair].moves(component) {
@@ -88,9 +89,9 @@ impl<'e> System<'e> {
             }
         }
         let slopes: Vec<Slopes> = pairs.iter().map(|pair| pair.slopes).collect();
-        let assembly =
-            Assembly { dim, matrix: equations.matrix, unknowns: &unknowns, slopes: &slopes };
-        let coefficients = Coefficients { equations, assembly, pairs: &pairs, s, least };
+        let assembly = Assembly::new(dim, equations.matrix, &unknowns, &slopes);
+        let coefficients =
+            Coefficients { equations, assembly, unknowns: &unknowns, pairs: &pairs, s, least };
         let (factor, border) = match border {
             None => (coefficients.factor(goes_on)?, None),
             Some(border) => {
@@ -205,14 +206,16 @@ impl<'e> System<'e> {
 /// The rows of `K` of the components that are held, each with the columns of the unknowns.
 fn rows(equations: &Equations<'_>, held: &[usize], unknowns: &[Unknown]) -> Vec<f64> {
     let (dim, matrix) = (equations.dim, equations.matrix);
+    let at: Vec<usize> = unknowns.iter().map(|own| dim * own.pair + own.component).collect();
     let mut rows = Vec::with_capacity(held.len() * unknowns.len());
     for &i in held {
         // The columns of a symmetric matrix are contiguous, its rows are not.
-        let column = equations.symmetric.then(|| matrix.column(i));
-        rows.extend(unknowns.iter().map(|unknown| {
-            let j = dim * unknown.pair + unknown.component;
-            column.map_or_else(|| matrix.at(i, j), |column| column[j])
-        }));
+        if equations.symmetric {
+            let column = matrix.column(i);
+            rows.extend(at.iter().map(|&j| column[j]));
+        } else {
+            rows.extend(at.iter().map(|&j| matrix.at(i, j)));
+        }
     }
     rows
 }
@@ -221,32 +224,36 @@ fn rows(equations: &Equations<'_>, held: &[usize], unknowns: &[Unknown]) -> Vec<
 struct Coefficients<'s> {
     equations: &'s Equations<'s>,
     assembly: Assembly<'s>,
+    unknowns: &'s [Unknown],
     pairs: &'s [Linearised],
     s: f64,
     /// Least pivot of a regular system, relative to the largest.
     least: f64,
 }
 
-impl Coefficients<'_> {
-    /// Writes `K_s dd` for a unit of the unknown `j`, the components from `from` on.
-    fn image(&self, j: usize, from: usize, image: &mut [f64]) {
-        self.assembly.image(j, from, image);
-        if self.s != 1.0 {
-            self.assembly.lead(self.s, self.pairs, j, from, image);
+impl<'s> Coefficients<'s> {
+    /// `K_s dd` for a unit of the unknown `j`, the components from `from` on.
+    fn image<'i>(&self, j: usize, from: usize, room: &'i mut [f64]) -> Image<'i>
+    where
+        's: 'i,
+    {
+        match self.s == 1.0 {
+            true => self.assembly.image(j, from, room),
+            false => self.assembly.led_image((self.s, self.pairs), j, from, room),
         }
     }
 
     /// By Cholesky's method where the system is symmetric and definite.
     fn factor(&self, goes_on: GoesOn<'_>) -> Option<Factor> {
-        let mut image = vec![0.0; self.equations.root.len()];
-        let (dim, unknowns) = (self.equations.dim, self.assembly.unknowns);
+        let mut room = vec![0.0; self.equations.root.len()];
+        let (dim, unknowns) = (self.equations.dim, self.unknowns);
         let mut fill = |j: usize, first: usize, entries: &mut [f64]| {
-            self.image(j, dim * unknowns[first].pair, &mut image);
+            let image = self.image(j, dim * unknowns[first].pair, &mut room);
             self.assembly.coefficients(j, first, &image, entries);
         };
         let size = unknowns.len();
         let is_plain =
-            self.equations.symmetric && self.assembly.slopes.iter().all(Slopes::is_plain);
+            self.equations.symmetric && self.pairs.iter().all(|pair| pair.slopes.is_plain());
         let definite = match is_plain {
             true => Factor::new(size, true, self.least, |j, below| fill(j, j, below), goes_on),
             false => None,
@@ -257,24 +264,24 @@ impl Coefficients<'_> {
 
     fn bordered(&self, border: &Border<'_>, goes_on: GoesOn<'_>) -> Option<(Factor, Bordered)> {
         let (dim, root) = (self.equations.dim, &self.equations.root);
-        let (unknowns, slopes) = (self.assembly.unknowns, self.assembly.slopes);
+        let unknowns = self.unknowns;
         let n = unknowns.len();
         let reactions = self.reactions(border);
         let (row_scale, column_scale) = (border.unit.recip(), border.unit);
-        let mut image = vec![0.0; root.len()];
+        let mut room = vec![0.0; root.len()];
         let fill = |j: usize, entries: &mut [f64]| {
             if let Some(unknown) = unknowns.get(j) {
-                self.image(j, 0, &mut image);
+                let image = self.image(j, 0, &mut room);
                 self.assembly.coefficients(j, 0, &image, entries);
                 // k b of the unknown, less what the reactions take.
                 let own = self.pairs[unknown.pair].scaled(&border.normal[unknown.pair]);
-                let row = own[unknown.component] * unknown.column - dot(&reactions, &image);
+                let row = own[unknown.component] * unknown.column - image.dot(&reactions);
                 entries[n] = row_scale * row;
                 return;
             }
             for (entry, i) in entries.iter_mut().zip(unknowns) {
                 let (at, c) = (dim * i.pair, i.component);
-                let drag = if c == 0 { 0.0 } else { slopes[i.pair].drag[c - 1] };
+                let drag = if c == 0 { 0.0 } else { self.pairs[i.pair].slopes.drag[c - 1] };
                 let rate = border.rate[at + c] - drag * border.rate[at];
                 *entry = column_scale * rate * i.row;
             }

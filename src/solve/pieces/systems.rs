@@ -35,9 +35,11 @@ impl<'e> Systems<'e> {
     /// takes fewer than a new factorisation.
     fn change_work(&self, pairs: &[Linearised]) -> Option<f64> {
         let system = self.last.as_ref().filter(|_| self.are_of_pieces())?;
+        if system.size() < SMALL {
+            return system.is_of(pairs).then_some(0.0);
+        }
         let work = system.work(pairs);
-        let is_less = system.size() >= SMALL && work <= System::work(self.equations, pairs);
-        (is_less || work == 0.0).then_some(work)
+        (work <= System::work(self.equations, pairs)).then_some(work)
     }
 
     /// Operations of [`Self::go_to`].

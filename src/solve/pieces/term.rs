@@ -22,7 +22,7 @@ pub fn terms(
         let terms = pairs[pair].change_to(&beyond).into_iter();
         terms.map(move |(u, n)| Term { first: dim * pair, u, n })
     };
-    others.flat_map(of_pair).collect()
+    others.filter(|(pair, beyond)| pairs[*pair] != *beyond).flat_map(of_pair).collect()
 }
 
 impl Term {

@@ -88,6 +88,11 @@ impl<'e> Updated<'e> {
         self.base.size()
     }
 
+    /// True if the system that was factorised is that of `pairs`.
+    pub fn is_of(&self, pairs: &[Linearised]) -> bool {
+        self.base.pairs() == pairs
+    }
+
     /// Terms since the factorisation.
     pub fn age(&self) -> usize {
         self.changes.iter().map(|made| made.terms.len()).sum()

@@ -51,12 +51,12 @@ impl From<Error> for Ending {
 impl Ending {
     /// Status and sentence of a run with this certificate; whether a motion proves something is not asked.
     pub fn status(&self, settings: &Settings, certificate: &Certificate) -> (Status, String) {
-        let accuracy = format!("eta is {:.1e}", certificate.eta);
-        let wanted = format!("{accuracy}, wanted {:.1e}", settings.tolerance);
+        let (eta, tolerance) = (certificate.eta, settings.tolerance);
+        if certificate.holds(tolerance) {
+            return (Status::Solved, format!("solved: eta is {eta:.1e}"));
+        }
+        let wanted = format!("eta is {eta:.1e}, wanted {tolerance:.1e}");
         match self {
-            _ if certificate.holds(settings.tolerance) => {
-                (Status::Solved, format!("solved: {accuracy}"))
-            }
             Ending::Stopped(stop) => stop.status(settings, &wanted),
             other => (Status::Stalled, format!("{}; {wanted}", other.reason(certificate))),
         }
