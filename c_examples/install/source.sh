@@ -5,7 +5,8 @@
 #     sh c_examples/install/source.sh [OUT]
 #
 # It goes to OUT, by default target/source: signorini-VERSION.tar.gz. Unpack it, and `cargo build --release --locked
-# --offline` or any script of c_examples builds the library. The same files give the same bytes.
+# --offline` or any script of c_examples builds the library. The same files give the same bytes; their time is that of
+# the commit, or SOURCE_DATE_EPOCH.
 set -eu
 
 script=source
@@ -29,11 +30,14 @@ trap 'rm -rf "$work"' EXIT
 # The files that git knows, as they are now; without git all of the fixed top level.
 cd "$root"
 if git rev-parse --is-inside-work-tree >/dev/null 2>&1; then
+    epoch=$(git log -1 --format=%ct)
     git ls-files
 else
+    epoch=$(date -r Cargo.toml +%s)
     find Cargo.toml Cargo.lock README.md CHANGELOG.md LICENSE-* .cargo-deny.toml .rustfmt.toml src include \
         c_examples tests -type f
 fi >"$work/files"
+epoch=${SOURCE_DATE_EPOCH:-$epoch}
 mkdir -p "$work/$name/.cargo"
 tar cf - -T "$work/files" | tar xf - -C "$work/$name"
 
@@ -44,7 +48,7 @@ say "copying the crates: cargo vendor"
     die "cargo vendor has failed"
 }
 grep -q '^directory = "vendor"' "$work/$name/.cargo/config.toml" || die "cargo vendor names no copies"
-tar --sort=name --mtime=@0 --owner=0 --group=0 --numeric-owner -cf - -C "$work" "$name" |
+tar --sort=name --mtime="@$epoch" --mode=u=rwX,go=rX --owner=0 --group=0 --numeric-owner -cf - -C "$work" "$name" |
     gzip -9n >"$out/$name.tar.gz.part"
 mv -f "$out/$name.tar.gz.part" "$out/$name.tar.gz"
 say "$out/$name.tar.gz"
