@@ -1,10 +1,11 @@
 #!/bin/sh
-# A cargo that is too old is refused in a sentence; and with --require a release is made: the tarball builds without
-# a network, the shared library has no path of this machine, and the packages have documentation and examples.
+# A cargo that is too old is refused in a sentence; and with --require a release is made twice, in two folders, with
+# the same hashes: the tarball builds without a network, the shared library has no path of this machine, and the
+# packages have documentation and examples.
 #
 #     sh tests/release.sh [--require]
 #
-# Without --require the release, which builds all crates once more, is skipped, and it ends with 77.
+# Without --require the release, which builds all crates twice more, is skipped, and it ends with 77.
 set -eu
 LC_ALL=C
 export LC_ALL
@@ -33,8 +34,12 @@ if [ "${1:-}" != --require ]; then
     echo "release: SKIPPED: the release itself (--require makes it)"
     exit 77
 fi
-sh "$root/c_examples/install/release.sh" "$work/out"
+for folder in out again; do
+    mkdir -p "$work/$folder/build"
+    TMPDIR=$work/$folder/build sh "$root/c_examples/install/release.sh" "$work/$folder"
+done
 (cd "$work/out" && sha256sum -c SHA256SUMS)
+diff "$work/out/SHA256SUMS" "$work/again/SHA256SUMS" || die "a second release in another folder is not the same"
 for package in "$work"/out/libsignorini-dev_*.deb; do
     [ -f "$package" ] || continue
     dpkg-deb -c "$package" >"$work/contents"

@@ -1,14 +1,14 @@
 #!/bin/sh
-# Every test of the project: sh tests/run.sh [--hosts]
+# Every test of the project: sh tests/run.sh [--install] [--hosts]
 #
 # Formatting, lints, the Rust tests, the documentation, the C and Fortran programs, the installation,
 # the scripts, and the replay of the examples. It ends at the first step that fails, with its name.
-# It writes to target/ alone. Compilers, CMake, pkg-config and numpy that it does not find it installs
-# by apt-get if it may; other tools it uses where they are. It says what it skips, and the last line
-# says how many steps that were.
+# It writes to target/ alone. It says what it skips, and the last line says how many steps that were.
 #
-# With --hosts it installs the rest too, the finite-element codes of the examples among it, and skips
-# nothing.
+# --install  root's apt-get brings missing compilers, CMake, pkg-config and numpy. Without it a terminal is
+#            asked; without a terminal nothing is installed.
+# --hosts    nothing is skipped for want of a package: all are asked for, the finite-element codes of the
+#            examples among them.
 
 set -u
 LC_ALL=C
@@ -20,14 +20,17 @@ target=$root/target
 began=$(date +%s)
 
 hosts=
-case $#:${1-} in
-0:) ;;
-1:--hosts) hosts=--require ;;
-*)
-    echo "usage: sh tests/run.sh [--hosts]"
-    exit 2
-    ;;
-esac
+install=
+for option; do
+    case $option in
+    --hosts) hosts=--require ;;
+    --install) install=yes ;;
+    *)
+        echo "usage: sh tests/run.sh [--install] [--hosts]"
+        exit 2
+        ;;
+    esac
+done
 
 # One place for everything that is built, whatever the caller has set.
 CARGO_TARGET_DIR=$target
@@ -81,6 +84,7 @@ host_packages() {
     have c++ || echo g++
     have valgrind || echo valgrind
     have abidiff || echo abigail-tools
+    have dpkg-buildpackage && have dh && have dh_python3 || echo dpkg-dev debhelper dh-python
     have ccx || echo calculix-ccx
     /usr/bin/python3 -c 'import getfem' >/dev/null 2>&1 || echo python3-getfem
     python_with numpy,matplotlib,PIL >/dev/null || echo python3-numpy python3-matplotlib python3-pil
@@ -107,8 +111,17 @@ missing() {
     [ -z "$hosts" ] || host_packages
 }
 
+# True if apt-get may install the packages: by the option, or by an answer.
+may_install() {
+    have apt-get && [ "$(id -u)" = 0 ] || return 1
+    [ -z "$install" ] || return 0
+    [ -t 0 ] || return 1
+    printf 'tests/run.sh: install %sby apt-get? [y/N] ' "$packages"
+    read -r answer && [ "$answer" = y ]
+}
+
 packages=$(missing | tr '\n' ' ')
-if [ -n "$packages" ] && have apt-get && [ "$(id -u)" = 0 ]; then
+if [ -n "$packages" ] && may_install; then
     echo "== installing: $packages"
     DEBIAN_FRONTEND=noninteractive
     export DEBIAN_FRONTEND
@@ -126,11 +139,13 @@ if ! have cargo; then
     exit 1
 fi
 if [ -n "$packages" ]; then
-    echo "tests/run.sh: install first (names of Debian and Ubuntu): $packages"
+    echo "tests/run.sh: install first (names of Debian and Ubuntu), or be root and say --install: $packages"
     exit 1
 fi
 # shellcheck source=c_examples/common/build.sh
 (script=tests/run.sh && . c_examples/common/build.sh && find_cargo) || exit 1
+packages=$(missing | tr '\n' ' ')
+[ -z "$packages" ] || echo "tests/run.sh: goes on without: $packages"
 PYTHON=$(python_with numpy,matplotlib,PIL || python_with numpy || echo python3)
 export PYTHON
 
@@ -201,7 +216,7 @@ else
     skip "lints" "clippy is not installed"
 fi
 if cargo deny --version >/dev/null 2>&1; then
-    step "crates and licences" cargo deny --config .cargo-deny.toml check
+    step "crates and licences" cargo deny --config .cargo-deny.toml check licenses bans sources
 else
     skip "crates and licences" "cargo-deny is not installed (cargo install cargo-deny)"
 fi

@@ -3,8 +3,9 @@
 #
 #     sh c_examples/install/release.sh [OUT]
 #
-# All goes to OUT, by default target/release_files. No path of this machine is in the shared library: the compiler writes
-# signorini/ and crates/ instead. Before that: the version in Cargo.toml and its section in CHANGELOG.md agree, and
+# All goes to OUT, by default target/release_files, and nothing is signed. The same commit gives the same hashes in any
+# folder, by the same compiler: no path of this machine is in the libraries, and all times are that of the commit or
+# SOURCE_DATE_EPOCH. Before that: the version in Cargo.toml and its section in CHANGELOG.md agree, and
 # sh tests/run.sh --hosts has passed. MAINTAINER is as for debian.sh. To publish, tag the commit vVERSION.
 set -eu
 
@@ -22,27 +23,17 @@ version=$(sed -n '/^version = /{s/[^"]*"\([^"]*\)".*/\1/p;q;}' "$root/Cargo.toml
 grep -q "^## .*$version" "$root/CHANGELOG.md" || die "CHANGELOG.md has no section of version $version"
 
 sh "$examples/install/source.sh" "$out"
-work=$(mktemp -d "${TMPDIR:-/tmp}/signorini.XXXXXX")
-trap 'rm -rf "$work"' EXIT
-tar xzf "$out/signorini-$version.tar.gz" -C "$work"
-tree=$work/signorini-$version
-
-# The vendored crates lie in the tree too; the standard library has no path of this machine.
-RUSTFLAGS="--remap-path-prefix=$tree/vendor=crates --remap-path-prefix=$tree=signorini"
-CARGO_NET_OFFLINE=true
-export RUSTFLAGS CARGO_NET_OFFLINE
-unset CARGO_TARGET_DIR
-say "building without a network"
-(cd "$tree" && cargo build --quiet --release --locked --offline --lib)
-if grep -aqF -e "$work" -e "${HOME:-/root}/" "$tree/target/release/libsignorini.so"; then
-    die "a path of this machine is in libsignorini.so"
-fi
-if command -v dpkg-deb >/dev/null && command -v dpkg-shlibdeps >/dev/null; then
-    sh "$tree/c_examples/install/debian.sh" "$out"
+if command -v dh >/dev/null && command -v dh_python3 >/dev/null; then
+    sh "$examples/install/debian.sh" "$out/signorini-$version.tar.gz"
+    library=$(dpkg-deb --contents "$out"/libsignorini[0-9]*"_$version"-*.deb | sed -n 's|.* \(\./usr/lib/.*[0-9]\)$|\1|p')
+    if dpkg-deb --fsys-tarfile "$out"/libsignorini[0-9]*"_$version"-*.deb | tar xOf - "$library" |
+        grep -aqF -e "${TMPDIR:-/tmp}/" -e "${HOME:-/root}/"; then
+        die "a path of this machine is in $library"
+    fi
 else
-    say "no Debian packages: dpkg-dev is missing"
+    say "no Debian packages: debhelper or dh-python is missing"
 fi
-(cd "$out" && for file in *"$version"*.tar.gz *"$version"*.deb; do
+(cd "$out" && for file in *"$version"*.tar.?z *"$version"*.dsc *"$version"*.deb; do
     [ ! -f "$file" ] || sha256sum "$file"
-done >SHA256SUMS)
+done | tee SHA256SUMS)
 say "$out/SHA256SUMS"

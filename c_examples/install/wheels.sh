@@ -4,7 +4,7 @@
 #     sh c_examples/install/wheels.sh BUILT PLATFORM OUT
 #
 # BUILT     the folder of cargo's release for the platform: target/TRIPLE/release
-# PLATFORM  win_amd64, manylinux_2_17_x86_64 or manylinux_2_17_aarch64
+# PLATFORM  win_amd64, macosx_11_0_arm64, manylinux_2_17_x86_64 or manylinux_2_17_aarch64
 #
 # A library that cargo links here needs the C library of this machine. That of a manylinux wheel is linked anew from
 # libsignorini.a for glibc 2.17, by zig: ZIG names it, by default `python3 -m ziglang` (the PyPI package ziglang).
@@ -17,7 +17,7 @@ root=$(CDPATH='' cd -- "$(dirname -- "$0")/../.." && pwd)
 . "$root/c_examples/common/build.sh"
 
 [ $# -eq 3 ] || die "usage: sh wheels.sh BUILT PLATFORM OUT"
-built=$1
+built=$(CDPATH='' cd -- "$1" && pwd)
 platform=$2
 mkdir -p -- "$3"
 out=$(CDPATH='' cd -- "$3" && pwd)
@@ -42,6 +42,7 @@ linked_anew() {
 }
 case $platform in
 win_amd64) library=$built/signorini.dll ;;
+macosx_11_0_arm64) library=$built/libsignorini.dylib ;;
 manylinux_2_17_x86_64) linked_anew x86_64 "$(${CC:-cc} -print-file-name=libgcc_s.so.1)" ;;
 manylinux_2_17_aarch64) linked_anew aarch64 "$(aarch64-linux-gnu-gcc -print-file-name=libgcc_s.so.1)" ;;
 *) die "unknown platform: $platform" ;;
