@@ -25,10 +25,9 @@ grep -q "^## .*$version" "$root/CHANGELOG.md" || die "CHANGELOG.md has no sectio
 sh "$examples/install/source.sh" "$out"
 if command -v dh >/dev/null && command -v dh_python3 >/dev/null; then
     sh "$examples/install/debian.sh" "$out/signorini-$version.tar.gz"
-    library=$(dpkg-deb --contents "$out"/libsignorini[0-9]*"_$version"-*.deb | sed -n 's|.* \(\./usr/lib/.*[0-9]\)$|\1|p')
-    if dpkg-deb --fsys-tarfile "$out"/libsignorini[0-9]*"_$version"-*.deb | tar xOf - "$library" |
-        grep -aqF -e "${TMPDIR:-/tmp}/" -e "${HOME:-/root}/"; then
-        die "a path of this machine is in $library"
+    if dpkg-deb --fsys-tarfile "$out"/libsignorini[0-9]*"_$version"-*.deb |
+        tar xOf - --wildcards "./usr/lib/*.so.$version" | grep -aqF -e "${TMPDIR:-/tmp}/" -e "${HOME:-/root}/"; then
+        die "a path of this machine is in libsignorini.so.$version"
     fi
 else
     say "no Debian packages: debhelper or dh-python is missing"

@@ -9,6 +9,7 @@ platform of its wheel, say manylinux_2_17_x86_64: install/wheels.sh sets both.
 """
 
 import base64
+import gzip
 import hashlib
 import io
 import os
@@ -62,7 +63,8 @@ def build_sdist(sdist_directory, config_settings=None):
     files["PKG-INFO"] = _metadata().encode()
     files.update({f"{PACKAGE}/{name}": _read(HERE, PACKAGE, name) for name in _modules()})
     files.update({f"crate/{name}": _read(crate, name) for name in _crate_files(crate)})
-    with tarfile.open(os.path.join(sdist_directory, f"{top}.tar.gz"), "w:gz", format=tarfile.PAX_FORMAT) as archive:
+    with gzip.GzipFile(os.path.join(sdist_directory, f"{top}.tar.gz"), "wb", mtime=0) as packed, \
+            tarfile.open(fileobj=packed, mode="w", format=tarfile.PAX_FORMAT) as archive:
         for name, data in sorted(files.items()):
             entry = tarfile.TarInfo(f"{top}/{name}")
             entry.size, entry.mode = len(data), READABLE & 0o777
