@@ -13,6 +13,10 @@ class Test(ConanFile):
     def requirements(self):
         self.requires(self.tested_reference_str)
 
+    def layout(self):
+        self.folders.build = os.path.join(os.pardir, os.pardir, os.pardir, "target", "conan")
+        self.folders.generators = self.folders.build
+
     def build(self):
         root = os.path.join(self.recipe_folder, os.pardir, os.pardir, os.pardir)
         cmake = CMake(self)
