@@ -31,8 +31,9 @@ pub struct Assembly<'s> {
     drags: bool,
 }
 
-/// The equation of an unknown: `scale (v[at] - drag v[normal])` of `v = K dd`, and its pair's `turn`.
+/// The equation of an unknown, `scale (v[at] - drag v[normal])` of `v = K dd`, but for the turn of its pair.
 struct Equation {
+    /// Its component, and the normal one of its pair.
     at: usize,
     normal: usize,
     scale: f64,

@@ -11,7 +11,7 @@ use faer::Mat;
 
 use super::ball::{product_up, sum_of_products_up, sum_up};
 use super::factor::{Factor, cholesky};
-use super::matrix::tiles;
+use super::matrix::{TILE, tiles};
 use super::tolerances::SINGULAR;
 use super::vector::{norm, norm_inf};
 use super::watched::{GoesOn, filled};
@@ -68,7 +68,7 @@ impl Definite {
 fn lower_symmetric_part(matrix: &mut Mat<f64>) -> Vec<f64> {
     let n = matrix.nrows();
     let mut sums = vec![0.0; n];
-    for (columns, rows) in tiles(n) {
+    for (columns, rows) in tiles(n, TILE) {
         for j in columns {
             for i in rows.start.max(j)..rows.end {
                 let (below, above) = (matrix[(i, j)], matrix[(j, i)]);

@@ -8,7 +8,10 @@ use super::tolerances::{CONDENSATION, FREE, UNRESISTED};
 use super::vector::largest_of;
 
 /// Rows and columns of a square tile: what stands across its diagonal is read from cache.
-pub const TILE: usize = 16;
+pub const TILE: usize = 32;
+
+/// Those of a tile of a matrix that is no larger: of one or two pairs, which clearing a large tile would delay.
+const SMALL_TILE: usize = 8;
 
 /// A square matrix, column-major, in the caller's memory.
 #[derive(Clone, Copy, Debug)]
@@ -176,14 +179,17 @@ impl<'a> Matrix<'a> {
     pub fn agrees_across(&self, root: &[f64], apart: f64, most: f64) -> bool {
         vectorised(
             #[inline(always)]
-            || self.tiles_agree(root, apart, most),
+            || match self.size <= SMALL_TILE {
+                true => self.tiles_agree::<SMALL_TILE>(root, apart, most),
+                false => self.tiles_agree::<TILE>(root, apart, most),
+            },
         )
     }
 
     #[inline(always)]
-    fn tiles_agree(&self, root: &[f64], apart: f64, most: f64) -> bool {
-        let mut across = [[0.0; TILE]; TILE];
-        for (columns, rows) in tiles(self.size) {
+    fn tiles_agree<const T: usize>(&self, root: &[f64], apart: f64, most: f64) -> bool {
+        let mut across = [[0.0; T]; T];
+        for (columns, rows) in tiles(self.size, T) {
             for (k, i) in rows.clone().enumerate() {
                 let upper = &self.column(i)[columns.clone()];
                 upper.iter().zip(&mut across).for_each(|(upper, across)| across[k] = *upper);
@@ -211,7 +217,7 @@ impl<'a> Matrix<'a> {
         &self,
         visit: impl Fn(usize, usize, f64, f64) -> Result<(), E>,
     ) -> Result<(), E> {
-        for (columns, rows) in tiles(self.size) {
+        for (columns, rows) in tiles(self.size, TILE) {
             for j in columns {
                 for i in rows.start.max(j + 1)..rows.end {
                     visit(i, j, self.column(j)[i], self.column(i)[j])?;
@@ -222,10 +228,10 @@ impl<'a> Matrix<'a> {
     }
 }
 
-/// Columns and rows of the tiles on and below the diagonal of a square matrix.
-pub fn tiles(size: usize) -> impl Iterator<Item = (Range<usize>, Range<usize>)> {
-    let from = move |first: usize| (first..size).step_by(TILE);
-    let range = move |first: usize| first..size.min(first + TILE);
+/// Columns and rows of the tiles of so many rows and columns, on and below the diagonal of a square matrix.
+pub fn tiles(size: usize, tile: usize) -> impl Iterator<Item = (Range<usize>, Range<usize>)> {
+    let from = move |first: usize| (first..size).step_by(tile);
+    let range = move |first: usize| first..size.min(first + tile);
     from(0).flat_map(move |column| from(column).map(move |row| (range(column), range(row))))
 }
 

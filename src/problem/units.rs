@@ -34,11 +34,14 @@ impl Units {
     /// The powers of a stiffness are even, so that its square root has the same digits.
     pub fn of<R: Relation>(problem: &ContactProblem<'_, R>) -> Option<Self> {
         let (load, components) = (problem.relation().load(), 0..problem.unknowns());
-        let stiffnesses = components.clone().map(|i| problem.unit(i));
-        let range = |(least, most): (f64, f64), unit: f64| (unit.min(least), unit.max(most));
-        let (least, most) = stiffnesses.fold((f64::INFINITY, 0.0), range);
-        let stiffness = power(least)?.midpoint(power(most)?) & !1;
-        let asked = |i: usize| Some(power(load[i])? - exponent(problem.unit(i)));
+        let stiffnesses = components.clone().filter_map(|i| power(problem.unit(i)));
+        let range = |(least, most): (i32, i32), power: i32| (power.min(least), power.max(most));
+        let (least, most) = stiffnesses.fold((i32::MAX, i32::MIN), range);
+        if least > most {
+            return None;
+        }
+        let stiffness = least.midpoint(most) & !1;
+        let asked = |i: usize| Some(power(load[i])? - power(problem.unit(i))?);
         let gaps = (0..problem.pairs()).map(|pair| problem.gap(pair)).filter(|gap| gap.is_finite());
         let interference = power(largest_of(gaps.clone().map(|gap| gap.min(0.0))));
         let moved = power(largest_of(problem.reference_slips().iter().copied()));
