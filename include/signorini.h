@@ -125,9 +125,10 @@ typedef struct signorini_extra signorini_extra;
  * @param dim       space dimension, 2 or 3
  * @param pairs     number of contact pairs, 0 allowed
  * @param K         condensed stiffness, N columns of N entries, both triangles; force / length;
- *                  symmetric, positive semi-definite: signorini_solve checks a part of this, a
- *                  model all. A row of zeros is a component that nothing resists. If the body can
- *                  move freely and touches at two or three points, use a model
+ *                  symmetric to 1e-9 of the diagonal, positive semi-definite: signorini_solve
+ *                  checks a part of this, a model all. A row of zeros is a component that nothing
+ *                  resists. If the body can move freely and touches at two or three points, use a
+ *                  model
  * @param ldk       entries from one column of K to the next, at least max(1, N)
  * @param f         condensed nodal loads, N; force
  * @param gap       initial gap of each pair; length; negative: interference; +infinity: no contact
@@ -252,7 +253,7 @@ struct signorini_pairs {
     const double *normals;
     /**
      * First tangent of each pair, dim entries, orthogonal to the normal to 1e-5; t2 = n x t1. NULL:
-     * chosen. 2D: the normal turned by +90 degrees. 3D: e x n with the axis e most across n.
+     * chosen. 2D: the normal turned by +90 degrees. 3D: e x n, e the first axis most across n.
      */
     const double *tangents;
     /** General rows: start of each pair's nodes, count + 1 entries from index_base; else NULL. */

@@ -41,7 +41,7 @@ pub struct SignoriniPairs {
     /// Normal of each pair, dim entries, outward from the slave's body, of any length.
     pub normals: *const f64,
     /// First tangent of each pair, dim entries, orthogonal to the normal to 1e-5; t2 = n x t1. NULL:
-    /// chosen. 2D: the normal turned by +90 degrees. 3D: e x n with the axis e most across n.
+    /// chosen. 2D: the normal turned by +90 degrees. 3D: e x n, e the first axis most across n.
     pub tangents: *const f64,
     /// General rows: start of each pair's nodes, count + 1 entries from index_base; else NULL.
     pub row_start: *const i64,
