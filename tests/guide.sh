@@ -91,7 +91,7 @@ say "$count links, $(wc -l <"$work/paths" | tr -d ' ') files, $(wc -l <"$work/ch
 grep -ohE '(signorini|SIGNORINI)_[A-Za-z0-9_]*' "$guide"/*.md | sort -u >"$work/names"
 while read -r name; do
     case $name in
-    signorini_bench*) ;;
+    signorini_bench* | SIGNORINI_LIBRARY) ;; # a program, a variable of the environment
     *_) grep -q "\\b$name" $headers || die "no name of the header begins with $name" ;;
     *) grep -qw -- "$name" $headers || die "the header has no $name" ;;
     esac
@@ -158,22 +158,28 @@ try Python "$python"
 
 # ---- functions ----
 
-# Each block of C that is no file becomes CHAPTER.h, a source of its own; tests/c/guide.c calls them.
-for chapter in "$guide"/*.md; do
-    name=$(basename "$chapter" .md)
-    awk 'shown && $0 == "```c" { shown = 0; next } { shown = /^<!-- / } $0 == "```c" { inside = 1; next }
-        $0 == "```" { inside = 0 } inside' "$chapter" >"$work/$name.h"
-    [ -s "$work/$name.h" ] || { rm "$work/$name.h"; continue; }
-    grep -q "\"$name.h\"" tests/c/guide.c || die "tests/c/guide.c does not call what $chapter shows"
-done
+# Each block of a language that is no file goes into CHAPTER.h, .py or .f; a program calls what stands there.
+functions() {
+    for chapter in "$guide"/*.md; do
+        name=$(basename "$chapter" .md)
+        awk -v open="\`\`\`$1" 'shown && $0 == open { shown = 0; next } { shown = /^<!-- / }
+            $0 == open { inside = 1; next } $0 == "```" { inside = 0 } inside' "$chapter" >"$work/$name.$2"
+        [ -s "$work/$name.$2" ] || { rm "$work/$name.$2"; continue; }
+        # shellcheck disable=SC2086 # several files
+        grep -q "$name$3" $4 || die "$4 does not call what $chapter shows"
+    done
+}
+functions c h '\.h"' "tests/c/guide.c tests/c/questions.c"
+functions python py '' tests/python/guide.py
+functions fortran f '\.f' tests/fortran/guide.f
 flags="-std=c11 -Wall -Wextra -Wpedantic -Werror -Iinclude"
-# shellcheck disable=SC2086 # several flags
-${CC:-cc} $flags -Itests/c -I"$work" tests/c/guide.c target/release/libsignorini.a \
-    -lm -lpthread -ldl -o "$work/guide"
-"$work/guide"
+for program in guide questions; do
+    # shellcheck disable=SC2086 # several flags
+    ${CC:-cc} $flags -Itests/c -I"$work" "tests/c/$program.c" target/release/libsignorini.a \
+        -lm -lpthread -ldl -o "$work/$program"
+    "$work/$program"
+done
 if "$python" -c 'import numpy' 2>/dev/null; then
-    awk '$0 == "```python" { inside = 1; next }
-        $0 == "```" { inside = 0 } inside' "$guide/large_sliding.md" >"$work/large_sliding.py"
     "$python" -B tests/python/guide.py "$work"
     # Beside its mesh and matrix a host has 15 lines at most, and friction holds the twist: statics.
     two_meshes=c_examples/3d/two_meshes.py
@@ -184,6 +190,13 @@ if "$python" -c 'import numpy' 2>/dev/null; then
     say "$two_meshes: friction holds the twist in $(wc -l <"$work/printed" | tr -d ' ') steps"
 else
     skip "Python" "'$python' has no numpy (python3-numpy in Debian)"
+fi
+if command -v gfortran >/dev/null; then
+    gfortran -std=legacy -Wall -Werror -fimplicit-none -Iinclude -I"$work" tests/fortran/guide.f target/release/libsignorini.a \
+        -lm -lpthread -ldl -o "$work/guide_f"
+    "$work/guide_f"
+else
+    skip "Fortran 77" "'gfortran' is missing"
 fi
 
 # ---- the book ----

@@ -1,6 +1,6 @@
-"""The function of the guide's chapter on large sliding does what the chapter says.
+"""The functions of the guide's chapters on large sliding and on questions do what the chapters say.
 
-    python3 tests/python/guide.py WORK      WORK has the function in large_sliding.py
+    python3 tests/python/guide.py WORK      WORK has them in large_sliding.py and questions.py
 """
 
 import os
@@ -83,7 +83,75 @@ class Sliding(unittest.TestCase):
         np.testing.assert_allclose(self.forces(moves), wanted, atol=1e-3 * wanted[:, 2].max())
 
 
+class PressFit(unittest.TestCase):
+    """A shaft with a bore in a hub, in plane strain: rings of quadrilaterals, 32 and 40 around."""
+
+    YOUNG, POISSON, BORE, RADIUS, RIM = 210000.0, 0.3, 20.0, 50.0, 100.0
+
+    def ring(self, inner, outer, across, around):
+        """Coordinates, elements, lines inside and outside with the body on their left, a dense stiffness."""
+        turn = 2 * np.pi * np.arange(around) / around
+        radius = np.linspace(inner, outer, across + 1)
+        at = np.stack([np.outer(np.cos(turn), radius), np.outer(np.sin(turn), radius)], axis=-1).reshape(-1, 2)
+        node = np.arange(len(at)).reshape(around, across + 1)
+        after = np.roll(node, -1, axis=0)
+        quads = np.stack([node[:, :-1], node[:, 1:], after[:, 1:], after[:, :-1]], axis=-1).reshape(-1, 4)
+        K = np.zeros((2 * len(at), 2 * len(at)))
+        for quad in quads:
+            dofs = np.stack([2 * quad, 2 * quad + 1], axis=-1).ravel()
+            K[np.ix_(dofs, dofs)] += self.element(at[quad])
+        return (at, np.stack([after[:, 0], node[:, 0]], axis=-1), np.stack([node[:, -1], after[:, -1]], axis=-1), K)
+
+    def element(self, x):
+        scale = self.YOUNG / (1 + self.POISSON)
+        shear, lame = scale / 2, scale * self.POISSON / (1 - 2 * self.POISSON)
+        law = np.array([[lame + 2 * shear, lame, 0], [lame, lame + 2 * shear, 0], [0, 0, shear]])
+        K = np.zeros((8, 8))
+        for a in (-1 / 3 ** 0.5, 1 / 3 ** 0.5):
+            for b in (-1 / 3 ** 0.5, 1 / 3 ** 0.5):
+                slopes = np.array([[b - 1, 1 - b, 1 + b, -1 - b], [a - 1, -1 - a, 1 + a, 1 - a]]) / 4
+                jacobian = slopes @ x
+                h = np.linalg.solve(jacobian, slopes)
+                strain = np.zeros((3, 8))
+                strain[0, 0::2], strain[1, 1::2], strain[2, 0::2], strain[2, 1::2] = h[0], h[1], h[1], h[0]
+                K += np.linalg.det(jacobian) * strain.T @ law @ strain
+        return K
+
+    def widening(self, at, other):
+        """How far a pressure of 1 moves the circle of this radius of a ring (Lame)."""
+        poisson = self.POISSON
+        ratio = ((1 - 2 * poisson) * at ** 2 + other ** 2) / abs(other ** 2 - at ** 2)
+        return (1 + poisson) / self.YOUNG * ratio * at
+
+    def pressures(self, shaft_around, hub_around, shaft_is_slave, interference):
+        shaft, _, outside, K_shaft = self.ring(self.BORE, self.RADIUS, 6, shaft_around)
+        hub, inside, _, K_hub = self.ring(self.RADIUS, self.RIM, 8, hub_around)
+        at, n = np.vstack([shaft, hub]), len(shaft)
+        K = np.zeros((2 * len(at), 2 * len(at)))
+        K[:2 * n, :2 * n], K[2 * n:, 2 * n:] = K_shaft, K_hub
+        # Three nodes of each ring that the fit moves along the axes alone.
+        fixed = [base + 2 * node + axis for base, around, across in ((0, shaft_around, 7), (2 * n, hub_around, 9))
+                 for node, axis in ((0, 1), (around // 2 * across, 1), (around // 4 * across, 0))]
+        sides = (outside, inside + n) if shaft_is_slave else (inside + n, outside)
+        columns, rows = np.nonzero(K)
+        sparse = (K[rows, columns], rows, np.searchsorted(columns, np.arange(len(K) + 1)))
+        contact, result = press_fit(at, sparse, *sides, fixed, interference)
+        self.assertEqual(result.status, signorini.Status.SOLVED)
+        return -result.F[:, 0] / contact.areas
+
+    def test_pressure_of_a_given_interference(self):
+        """Of each pair to 1 %, in the mean to 0.2 %: the circle is a polygon, and the field curved within elements."""
+        interference = 0.05
+        wanted = interference / (self.widening(self.RADIUS, self.BORE) + self.widening(self.RADIUS, self.RIM))
+        for arounds in ((32, 40), (40, 32)):
+            for shaft_is_slave in (False, True):
+                pressures = self.pressures(*arounds, shaft_is_slave, interference)
+                np.testing.assert_allclose(pressures, wanted, rtol=0.01)
+                self.assertLess(abs(pressures.mean() / wanted - 1), 0.002)
+
+
 if __name__ == "__main__":
     sys.path.insert(0, sys.argv.pop(1))
     from large_sliding import slide
+    from questions import press_fit
     unittest.main()

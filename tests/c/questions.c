@@ -1,0 +1,172 @@
+/*
+ * The functions of the guide's chapter of questions, c_examples/guide/questions.md, do what it says. They come into
+ * this program as they stand there: tests/guide.sh cuts them out. Answers are closed forms of springs.
+ */
+
+#include "check.h" /* first: what may still change */
+
+#include "questions.h"
+
+/* A diagonal stiffness: each degree of freedom has a spring to the ground. */
+enum { MOST = 12 };
+static signorini_sparse springs(int64_t size, int32_t base, const double *stiffness)
+{
+    static int64_t start[MOST + 1], row[MOST];
+    for (int64_t i = 0; i <= size; i++)
+        start[i] = base + i;
+    for (int64_t i = 0; i < size; i++)
+        row[i] = base + i;
+    return (signorini_sparse){.struct_size = sizeof(signorini_sparse), .index_bytes = 8, .index_base = base,
+                              .triangle = SIGNORINI_TRIANGLE_LOWER, .size = size, .nnz = size, .col_start = start,
+                              .row = row, .values = stiffness};
+}
+
+/*
+ * Three lines of two nodes above each other, A and B 0.2 apart, B and C 0.1, each node on a spring: 1, 2 and 4. The
+ * nodes of A are pressed down by 4. They go down by a, b and c with a - b = 0.2, b - c = 0.1 and a + 2 b + 4 c = 4: so
+ * c = 0.5, and B presses on C by 4 c = 2, A on B by 2 + 2 b = 3.2. B is master of one zone and slave of the other.
+ */
+static void check_zones(int32_t base)
+{
+    const double x[12] = {0, 0.3, 1, 0.3, 0, 0.1, 1, 0.1, 0, 0, 1, 0};
+    const double stiffness[12] = {1, 1, 1, 1, 2, 2, 2, 2, 4, 4, 4, 4}, load[12] = {0, -4, 0, -4}, mu[4] = {0};
+    /* A body lies to the left of its line: each line of B looks down as a slave, up as a master. */
+    const int64_t down[2][2] = {{base, base + 1}, {base + 2, base + 3}};
+    const int64_t up[2][2] = {{base + 3, base + 2}, {base + 5, base + 4}};
+    int64_t count = 0, start[5], nodes[2 * 4 * 4];
+    double weights[4 * 4], normals[8], tangents[8], gap[4], d[8], F[8], u[12];
+    signorini_surface_settings settings;
+    signorini_surface_pairs *zone[2];
+    signorini_model *model;
+
+    signorini_surface_settings_default(&settings, sizeof settings);
+    settings.index_base = base;
+    for (int i = 0; i < 2; i++) {
+        const signorini_faces slave = {.struct_size = sizeof slave, .face_nodes = 2, .count = 1, .nodes = down[i]};
+        const signorini_faces master = {.struct_size = sizeof master, .face_nodes = 2, .count = 1, .nodes = up[i]};
+        signorini_surface_data data = {.struct_size = sizeof data};
+        CHECK_STATUS(signorini_surface_pair(2, 6, x, &slave, &master, &settings, &zone[i]), 0);
+        CHECK_STATUS(signorini_surface_view(zone[i], &data), 0);
+        CHECK(data.pairs == 2);
+        initial_gaps(&data, 0, 0, gap + count);
+        append_zone(data.rows, &count, start, nodes, weights, normals, tangents);
+    }
+    CHECK(count == 4);
+    const signorini_pairs all = {.struct_size = sizeof all, .dim = 2, .count = count, .normals = normals,
+                                 .tangents = tangents, .row_start = start, .row_nodes = nodes, .row_weights = weights};
+    const signorini_sparse K = springs(12, base, stiffness);
+    CHECK_STATUS(signorini_model_new_sparse(&K, 0, NULL, &all, NULL, &model), 0);
+    CHECK_STATUS(signorini_model_solve(model, 1, load, NULL, gap, SIGNORINI_LAW_COULOMB, mu, NULL, NULL, d, F, NULL,
+                                       NULL, NULL, NULL), 0);
+    CHECK_STATUS(signorini_model_recover(model, 1, load, NULL, d, u), 0);
+    for (int i = 0; i < 4; i++)
+        CHECK_NEAR(F[2 * i], i < 2 ? -3.2 : -2);
+    for (int i = 0; i < 6; i++)
+        CHECK_NEAR(u[2 * i + 1], i < 2 ? -0.8 : i < 4 ? -0.6 : -0.5);
+    signorini_model_free(model);
+    for (int i = 0; i < 2; i++)
+        signorini_surface_free(zone[i]);
+}
+
+static void check_initial_gaps(void)
+{
+    const double gaps[3] = {0.02, -0.001, 0.5};
+    const signorini_surface_data data = {.struct_size = sizeof data, .pairs = 3, .gaps = gaps};
+    double gap[3];
+
+    initial_gaps(&data, 0, 0.01, gap);
+    CHECK(gap[0] == 0.02 && gap[1] == 0 && gap[2] == 0.5);
+    initial_gaps(&data, -0.5, 0.01, gap);
+    CHECK(gap[0] == 0.02 - 0.5 && gap[1] == -0.001 - 0.5 && gap[2] == 0);
+}
+
+/*
+ * Two bolts, of stiffness 2 and 4, on flanges of 6 and 4. A shortening s makes them carry s / (1/2 + 1/6) = 1.5 s and
+ * 2 s; the second has a clearance of 0.1, so that they carry 1.5 s + 2 (s - 0.1), 7 if s = 7.2 / 3.5. A load of 0.8
+ * that lifts the first flange adds 0.8 * 2 / (2 + 6) to its bolt: the joint diagram.
+ */
+static void check_pretension(void)
+{
+    enum { BOLTS = 2 };
+    const double stiffness[8] = {1, 2, 1, 6, 1, 4, 1, 4}, mu[2] = {0.2, 0.2}, normals[4] = {0, -1, 0, -1};
+    const double weights[2] = {1, 1}, lift[8] = {0, 0, 0, 0.8}, none[8] = {0}, shortening = 7.2 / 3.5;
+    const int64_t slaves[4] = {0, 1, 4, 5}, masters[4] = {2, 3, 6, 7}, master_start[3] = {0, 1, 2};
+    const signorini_pairs pairs = {.struct_size = sizeof pairs, .dim = 2, .count = BOLTS, .slaves = slaves,
+        .master_start = master_start, .masters = masters, .weights = weights, .normals = normals};
+    const signorini_sparse K = springs(8, 0, stiffness);
+    double gap[2] = {0, 0.1}, d[4], F[4];
+    signorini_model *model;
+
+    CHECK_STATUS(signorini_model_new_sparse(&K, 0, NULL, &pairs, NULL, &model), 0);
+    CHECK_STATUS(tighten(model, none, mu, 7, 0.05, 0, BOLTS, gap, d, F), 0);
+    CHECK(fabs(gap[0] + shortening) < 1e-6 * shortening); /* the force is met to 1e-6 */
+    CHECK(fabs(F[0] + 1.5 * shortening) < 1e-5 && fabs(F[2] + 2 * (shortening - 0.1)) < 1e-5);
+    const double before = F[0];
+    CHECK_STATUS(signorini_model_solve(model, 1, lift, NULL, gap, SIGNORINI_LAW_COULOMB, mu, NULL, NULL, d, F, NULL,
+                                       NULL, NULL, NULL), 0);
+    CHECK_NEAR(F[0], before - 0.2);
+    /* The second bolt alone, from where both are: it carries 2 more after a shortening of 1. */
+    const double aim = -F[2] + 2, start = gap[1];
+    CHECK_STATUS(tighten(model, lift, mu, aim, 0.3, 1, 1, gap, d, F), 0);
+    CHECK(fabs(gap[1] - start + 1) < 1e-5 && fabs(F[2] + aim) < 1e-5);
+    signorini_model_free(model);
+}
+
+/*
+ * Springs of 2. A tied pair that is pulled by 3 and pushed by 1 does not move. Of two that slide the one pressed by
+ * 3 and pushed by 2 carries 0.5 * 3 and slips by 0.25, the other one, pulled by 1, opens by 0.5.
+ */
+static void check_tie(void)
+{
+    enum { N = 6 };
+    const int32_t tied[3] = {1, 0, 0};
+    const double f[N] = {-3, 1, 3, 2, -1, 0}, gap[3] = {0}, strength[2] = {10, 1e12};
+    const double moved[N] = {0, 0, 0, 0.25, -0.5, 0}, held[N] = {3, -1, -3, -1.5, 0, 0};
+    double K[N * N] = {0}, friction[9], d[N], F[N];
+
+    for (int i = 0; i < N; i++)
+        K[i + N * i] = 2;
+    for (int k = 0; k < 2; k++) {
+        tied_and_sliding(3, tied, strength[k], 0.5, friction);
+        CHECK_STATUS(signorini_solve(2, 3, K, N, f, gap, SIGNORINI_LAW_COHESIVE, friction, NULL, NULL, d, F, NULL, NULL,
+                                     NULL), 0);
+        for (int i = 0; i < N; i++) {
+            CHECK_NEAR(d[i], moved[i]);
+            CHECK_NEAR(F[i], held[i]);
+        }
+    }
+}
+
+/* Two nodes with a spring between them, one above the other; nothing but contact holds them along y. */
+static void check_escape(void)
+{
+    const int64_t col_start[5] = {0, 1, 3, 4, 5}, row[5] = {0, 1, 3, 2, 3}, fixed[2] = {0, 2}, slave[2] = {0, 1};
+    const double values[5] = {1, 5, -5, 1, 5}, normal[2] = {0, -1}, gap[1] = {0.5}, mu[1] = {0};
+    const double press[4] = {0, 0, 0, -2}, pull[4] = {0, 0, 0, 2};
+    const signorini_sparse K = {.struct_size = sizeof K, .index_bytes = 8, .triangle = SIGNORINI_TRIANGLE_LOWER,
+                                .size = 4, .nnz = 5, .col_start = col_start, .row = row, .values = values};
+    const signorini_pairs pairs = {.struct_size = sizeof pairs, .dim = 2, .count = 1, .slaves = slave,
+                                   .normals = normal};
+    double d[2], F[2], escape[2], u[4] = {0};
+    signorini_model *model;
+
+    CHECK_STATUS(signorini_model_new_sparse(&K, 2, fixed, &pairs, NULL, &model), 0);
+    CHECK_STATUS(solve_or_escape(model, press, gap, mu, d, F, escape, u), SIGNORINI_STATUS_SOLVED);
+    CHECK_NEAR(d[0], 0.5);
+    CHECK_NEAR(F[0], -2);
+    CHECK_STATUS(solve_or_escape(model, pull, gap, mu, d, F, escape, u), SIGNORINI_STATUS_NO_EQUILIBRIUM);
+    CHECK(u[0] == 0 && u[2] == 0 && u[1] > 0);
+    CHECK_NEAR(u[3], u[1]); /* rigid */
+    signorini_model_free(model);
+}
+
+int main(void)
+{
+    check_zones(0);
+    check_zones(1);
+    check_initial_gaps();
+    check_pretension();
+    check_tie();
+    check_escape();
+    return check_summary("questions");
+}
