@@ -83,6 +83,38 @@ class Sliding(unittest.TestCase):
         np.testing.assert_allclose(self.forces(moves), wanted, atol=1e-3 * wanted[:, 2].max())
 
 
+class Zones(unittest.TestCase):
+    """Three lines above each other, each node on a spring: the closed form stands in tests/c/questions.c."""
+
+    def test_a_node_is_master_and_slave(self):
+        at = np.array([[0, 0.3], [1, 0.3], [0, 0.1], [1, 0.1], [0, 0], [1, 0]])
+        springs = (np.repeat([1.0, 2.0, 4.0], 4), np.arange(12), np.arange(13))
+        contacts = [signorini.pair_surfaces(at, [[upper, upper + 1]], [[upper + 3, upper + 2]]) for upper in (0, 2)]
+        load = np.zeros(12)
+        load[[1, 3]] = -4
+        upper, lower = solve_zones(springs, contacts, load, [], 0.3)
+        self.assertEqual(upper.status, signorini.Status.SOLVED)
+        # To 1e-9: results are certified to 1e-10 of forces of size one.
+        np.testing.assert_allclose(upper.F, [[-3.2, 0]] * 2, atol=1e-9)
+        np.testing.assert_allclose(lower.F, [[-2, 0]] * 2, atol=1e-9)
+        np.testing.assert_allclose(contacts[0].resultant(upper).force, [0, 6.4, 0], atol=1e-9)
+        np.testing.assert_allclose(contacts[1].resultant(lower).force, [0, 4, 0], atol=1e-9)
+
+    def test_rows_are_those_of_the_library(self):
+        """A model of the rows has the stiffness of the model of the pairs, bit by bit."""
+        blocks = brick_mesh.two_blocks(wide=3, deep=2, narrow=2, high=1)
+        contact = signorini.pair_surfaces(blocks.at, blocks.slave, blocks.master)
+        mine = signorini.Model.sparse(blocks.matrix, rows=contact.rows, normals=contact.normals,
+                                      tangents=contact.tangents, fixed=blocks.held)
+        ours = signorini.Model.from_surfaces(blocks.matrix, contact, fixed=blocks.held)
+        np.testing.assert_array_equal(mine.stiffness, ours.stiffness)
+        np.testing.assert_array_equal(mine.frames, ours.frames)
+
+    def test_no_pairs_have_no_rows(self):
+        at = np.array([[0, 50], [1, 50], [0, 0], [1, 0.0]])
+        self.assertEqual(signorini.pair_surfaces(at, [[0, 1]], [[3, 2]]).rows, [])
+
+
 class PressFit(unittest.TestCase):
     """A shaft with a bore in a hub, in plane strain: rings of quadrilaterals, 32 and 40 around."""
 
@@ -153,5 +185,5 @@ class PressFit(unittest.TestCase):
 if __name__ == "__main__":
     sys.path.insert(0, sys.argv.pop(1))
     from large_sliding import slide
-    from questions import press_fit
+    from questions import press_fit, solve_zones
     unittest.main()

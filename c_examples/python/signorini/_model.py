@@ -184,9 +184,8 @@ class Model:
         """The whole stiffness matrix of the host with the pairs of pair_surfaces or pair_obstacle.
 
         K, fixed, triangle, order, settings: as for sparse.  contact: SurfacePairs; of an axisymmetric one K and
-        the loads are those of whole rings. Several contact zones: give pair_surfaces the faces of all of them,
-        and a search_distance below the thickness of the bodies. The gap of a load case is contact.gaps, if it is
-        not given.
+        the loads are those of whole rings. Several contact zones: give sparse the rows, normals and tangents of
+        all of them. The gap of a load case is contact.gaps, if it is not given.
         """
         if not isinstance(contact, SurfacePairs):
             raise TypeError(f"contact is a {type(contact).__name__}: give what pair_surfaces or "

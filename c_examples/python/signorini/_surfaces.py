@@ -12,7 +12,7 @@ from ._call import Call
 from ._constants import Normals, Obstacle, Pairing, Rims, Status, chosen, member
 from ._library import SignoriniError, check, library
 from ._mesh import Cells, points
-from ._structures import (ContactFields, Faces, ResultantSums, RigidObstacle, SurfaceData,
+from ._structures import (ContactFields, Faces, Pairs, ResultantSums, RigidObstacle, SurfaceData,
                           SurfaceSettings, Zone, address, i32, i64, real, sized)
 
 Plane = namedtuple("Plane", "point outward")
@@ -171,6 +171,17 @@ class SurfacePairs:
         self.uncovered = array("uncovered", (data.n_uncovered,), i64)
         self.beyond = array("beyond", (data.n_beyond,), i64)
         self.beyond_distances = array("beyond_distances", (data.n_beyond,))
+
+    @property
+    def rows(self):
+        """For each pair (dofs, weights): rows of Model.sparse, which takes those of several zones in one list."""
+        if not self.pairs:
+            return []
+        pairs = Pairs.from_address(self.structure)
+        ends = copied(pairs.row_start, (self.pairs + 1,), i64)
+        dofs = copied(pairs.row_nodes, (ends[-1], self.dim), i64)
+        weights = copied(pairs.row_weights, (ends[-1],))
+        return [(dofs[begin:end], weights[begin:end]) for begin, end in zip(ends, ends[1:])]
 
     def fields(self, result, *, slip0=None, gap=None):
         """Pressure, traction, clearance, slip and state at all nodes: Fields.
