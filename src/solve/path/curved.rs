@@ -100,7 +100,7 @@ fn is_solution(
     }
     let candidate =
         Candidate::new(d.clone(), force.clone(), ended.ending.clone(), Effort::default());
-    let candidate = without_idle_motion(contact, candidate, monitor);
+    let candidate = without_idle_motion(call, candidate, monitor);
     refine_to_tolerance(call, candidate, monitor).is_settled(contact, settings.tolerance)
 }
 

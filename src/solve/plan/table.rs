@@ -34,7 +34,7 @@ impl MethodRow {
             return Ok(Some(Candidate::without_displacements(contact, Ending::Done)));
         }
         let Some(candidate) = (self.run)(call, monitor)? else { return Ok(None) };
-        let candidate = without_idle_motion(contact, candidate, monitor);
+        let candidate = without_idle_motion(call, candidate, monitor);
         let candidate = newton::refine_to_tolerance(call, candidate, monitor);
         // To a method a factorisation that was ended is that of a singular or indefinite matrix, and a question that was
         // ended is one without an answer.

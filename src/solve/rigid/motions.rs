@@ -19,12 +19,17 @@ impl RigidMotions {
     pub fn of(problem: &ContactProblem<'_>, monitor: &mut Monitor<'_>) -> Option<Self> {
         let n = problem.unknowns();
         let block = FreeBlock::of_problem(problem, (0..n).collect(), &mut monitor.asking())?;
+        Some(Self::of_block(problem, &block)).filter(|motions| !motions.basis.is_empty())
+    }
+
+    /// The motions that a block of a problem does not resist, and that move nothing beside it.
+    pub fn of_block(problem: &ContactProblem<'_>, block: &FreeBlock<'_>) -> Self {
         let mut motions = RigidMotions { root: problem.unit_roots(), basis: Vec::new() };
         for motion in block.null_vectors() {
             let scaled = motions.scaled(&motion);
             extend_basis(&mut motions.basis, scaled);
         }
-        (!motions.basis.is_empty()).then_some(motions)
+        motions
     }
 
     /// The multiples of one motion.
