@@ -23,26 +23,23 @@ pub fn is_escape(problem: &ContactProblem<'_>, r: &[f64]) -> bool {
 /// [`is_escape`], on a problem whose laws are worked out.
 pub(crate) fn is_escape_of(contact: &Contact<'_>, r: &[f64]) -> bool {
     let problem = contact.problem();
-    let Some(r) = of_size_one(r) else { return false };
+    let r = of_size_one(r);
     // On a motion that only Kᵀ resists internal forces do work.
     problem.is_symmetric() && outworks_contact(contact, &r) && is_free(problem, &r)
 }
 
 /// A motion with the largest component 1: its length says nothing, and products of it might overflow, or vanish and with
-/// them its energy. `None` if it has no length, or none that is finite.
-pub(super) fn of_size_one(r: &[f64]) -> Option<Vec<f64>> {
+/// them its energy. Components of one that has no length, or none that is finite, are no numbers.
+pub(super) fn of_size_one(r: &[f64]) -> Vec<f64> {
     let largest = norm_inf(r);
-    let is_motion = largest > 0.0 && largest.is_finite();
-    is_motion.then(|| r.iter().map(|r| r / largest).collect())
+    r.iter().map(|r| r / largest).collect()
 }
 
-/// True if contact stops a motion `r` of the pairs nowhere, and takes less work than the loads do.
+/// True if contact stops a motion `r` of the pairs nowhere, and takes less work than the loads do. The work of a motion
+/// that is no number is none, and more than nothing is asked for.
 pub(super) fn outworks_contact<R: Relation>(contact: &Contact<'_, R>, r: &[f64]) -> bool {
     let root = contact.problem().unit_roots();
     let size = largest_of(r.iter().zip(&root).map(|(r, root)| r * root));
-    if size == 0.0 || !size.is_finite() {
-        return false;
-    }
     let negligible = NEGLIGIBLE * size;
     let motions = recessions(contact, r);
     let normals = root.iter().step_by(contact.dim());

@@ -33,7 +33,7 @@ pub(crate) fn is_spread_escape(
     bodies: &dyn StiffnessOperator,
     r: &[f64],
 ) -> Result<bool, Error> {
-    let Some(r) = of_size_one(r) else { return Ok(false) };
+    let r = of_size_one(r);
     Ok(outworks_contact(contact, &r[bodies.inner()..]) && is_unresisted(bodies, &r)?)
 }
 
@@ -55,8 +55,17 @@ mod tests {
     use super::*;
     use crate::problem::{ContactProblem, FrictionLaw, GoesOn, HeldSet};
 
-    /// Two springs in a row from a support to a pair, and one along its tangent.
-    struct Springs;
+    /// Two springs in a row from a support to a pair, the first of the stiffness `support`, and one along its tangent.
+    struct Springs {
+        support: f64,
+        units: [f64; 3],
+    }
+
+    impl Springs {
+        fn on(support: f64) -> Self {
+            Springs { support, units: [1.0 + support, 1.0, 1.0] }
+        }
+    }
 
     impl StiffnessOperator for Springs {
         fn inner(&self) -> usize {
@@ -64,7 +73,7 @@ mod tests {
         }
 
         fn units(&self) -> &[f64] {
-            &[2.0, 1.0, 1.0]
+            &self.units
         }
 
         fn coupling(&self, _: usize, _: usize) -> f64 {
@@ -72,7 +81,7 @@ mod tests {
         }
 
         fn product(&self, x: &[f64]) -> Result<Vec<f64>, Error> {
-            Ok(vec![2.0 * x[0] - x[1], x[1] - x[0], x[2]])
+            Ok(vec![self.support * x[0] + (x[0] - x[1]), x[1] - x[0], x[2]])
         }
 
         fn residual(&self, x: &[f64], _: &[f64], load: &[f64]) -> Result<Vec<f64>, Error> {
@@ -80,7 +89,7 @@ mod tests {
         }
 
         fn magnitude(&self, size: &[f64]) -> Vec<f64> {
-            vec![2.0 * size[0] + size[1], size[0] + size[1], size[2]]
+            vec![self.units[0] * size[0] + size[1], size[0] + size[1], size[2]]
         }
 
         fn is_sparse(&self) -> bool {
@@ -106,7 +115,7 @@ mod tests {
     fn an_imbalance_inside_is_no_equilibrium() {
         let load = [0.0, 1.0, 0.0];
         for off in [-30, -12, -2].map(|exponent| 2_f64.powi(exponent)) {
-            let springs = Springs;
+            let springs = Springs::on(1.0);
             let relation = MatrixFree::new(&springs, 2, &load[1..]);
             let law = FrictionLaw::Coulomb(&[0.5]);
             let problem = ContactProblem::with_relation(relation, 2, &[0.0], law, None).unwrap();
@@ -117,6 +126,54 @@ mod tests {
             let scale = residual[1].abs().max(1.0);
             assert_eq!((certificate.eta, certificate.equilibrium), (2.0 * off / scale, 2.0 * off));
             assert!(!certificate.holds(off));
+        }
+    }
+
+    /// True if a motion proves that two parts, with springs of these stiffnesses, have no equilibrium under a load on the pair.
+    fn escapes(support: f64, (load, gap): (f64, f64), motion: [f64; 3]) -> bool {
+        let (springs, load, gap) = (Springs::on(support), [load, 0.0], [gap]);
+        let relation = MatrixFree::new(&springs, 2, &load);
+        let law = FrictionLaw::Coulomb(&[0.5]);
+        let problem = ContactProblem::with_relation(relation, 2, &gap, law, None).unwrap();
+        is_spread_escape(&Contact::new(&problem), &springs, &motion).unwrap()
+    }
+
+    /// Two parts without a support are driven towards the pair, where no obstacle stops them, or away from it.
+    #[test]
+    fn free_bodies_escape_where_the_load_drives_them() {
+        const NONE: f64 = f64::INFINITY;
+        for size in [1e-200, 1e-20, 1.0, 1e20, 1e200] {
+            let of = |motion: [f64; 3]| motion.map(|r| size * r);
+            assert!(escapes(0.0, (1.0, NONE), of([1.0, 1.0, 0.0])));
+            assert!(escapes(0.0, (-1.0, 0.0), of([-1.0, -1.0, 0.0])));
+            assert!(!escapes(0.0, (1.0, 0.0), of([1.0, 1.0, 0.0])), "the obstacle stops it");
+            assert!(!escapes(0.0, (1.0, NONE), of([-1.0, -1.0, 0.0])), "against the load");
+            assert!(!escapes(0.0, (0.0, NONE), of([1.0, 1.0, 0.0])), "nothing drives it");
+            assert!(!escapes(1.0, (1.0, NONE), of([1.0, 1.0, 0.0])), "the support holds it");
+            for strained in [[0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [-1.0, 1.0, 0.0]] {
+                assert!(!escapes(0.0, (1.0, NONE), of(strained)), "{strained:?}");
+            }
+        }
+        for nothing in [0.0, f64::NAN, f64::INFINITY] {
+            assert!(!escapes(0.0, (1.0, NONE), [nothing, nothing, 0.0]), "{nothing}");
+            assert!(!escapes(0.0, (1.0, NONE), [nothing, 0.0, 0.0]), "{nothing} inside");
+        }
+    }
+
+    /// The thresholds, each from both sides, in powers of two. A strain counts from 1e-11 of the motion on; a spring
+    /// `e` that holds both parts from 3 roundings of the energy on, whose terms are 4: `e` against 2.7e-15.
+    #[test]
+    fn little_strain_and_soft_springs_resist() {
+        let power = |exponent| 2_f64.powi(exponent);
+        for (exponent, is_free) in [(-35, false), (-36, false), (-37, true), (-39, true)] {
+            let motion = [1.0, 1.0 - power(exponent), 0.0];
+            let answer = is_unresisted(&Springs::on(0.0), &motion).unwrap();
+            assert_eq!(answer, is_free, "strain 2^{exponent}");
+        }
+        for (exponent, is_free) in [(-40, false), (-48, false), (-49, true), (-52, true)] {
+            let springs = Springs::on(power(exponent));
+            let answer = is_unresisted(&springs, &[1.0, 1.0, 0.0]).unwrap();
+            assert_eq!(answer, is_free, "spring 2^{exponent}");
         }
     }
 }

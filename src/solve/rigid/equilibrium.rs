@@ -119,14 +119,11 @@ impl<'c, R: Relation> Balance<'c, R> {
         for _ in 0..MOST_ROUNDS {
             let rest = nearest(&load, &edges)?;
             let motion = self.motions.motion(&rest);
-            let is_driven = |r: &[f64]| dot(contact.load_with_tension(), r) > 0.0;
-            let is_free = |r: &[f64]| self.worst(r).is_empty();
-            let is_proof = |r: &Vec<f64>| is_driven(r) && is_free(r) && (self.proves)(r);
-            if self.nearest(&motion) <= NEARLY * self.motions.size(&motion)
-                && let Some(proof) =
-                    [self.cleared(motion.clone()), motion.clone()].into_iter().find(is_proof)
-            {
-                return Some(proof);
+            if self.nearest(&motion) <= NEARLY * self.motions.size(&motion) {
+                let proof = self.sharpened(motion.clone());
+                if (self.proves)(&proof) {
+                    return Some(proof);
+                }
             }
             let worst = self.worst(&motion);
             if worst.is_empty() || rest == last {
