@@ -5,7 +5,8 @@
 #
 # Without a word: the rooms that decide what is true, certificate and proof, law, reduce, existence, rigid motions, mortar
 # and ffi/args.rs, some 3400 mutants. A word chooses those below a folder, or of a file (src/certificate/escape.rs).
-# With --planted: those that once no test noticed, tests/mutants/planted.txt; with --again what survived in the last run.
+# With --planted: those that once no test noticed, tests/mutants/planted.txt, each on the tests that it names; with --again
+# what survived in the last run.
 # MUTANTS_TESTS names the rooms of tests, default all that bear on these; MUTANTS_LONGEST the processor seconds of a test
 # beyond which it is left out, MUTANTS_SECONDS those of a mutant after which it counts as survived.
 #

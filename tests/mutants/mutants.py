@@ -9,9 +9,9 @@ not compile are taken out. Each test then runs once by itself, which tells its t
 each mutant runs the tests that reach its function, the quick ones first, until one fails. A test that takes six times the
 processor time that it takes without the mutant has timed out, which is noticed too.
 
-Without a word: the rooms that decide what is true. `--planted` adds the list planted.txt beside this file; with no other
-word it stands alone. `--again` tries what survived in the last run. Results: target/mutants/results.tsv, a line as
-soon as it is known. Ends with 1 if some survived.
+Without a word: the rooms that decide what is true. `--planted` adds the list planted.txt beside this file, each mutant of
+which runs the tests that the list names for it; with no other word it stands alone. `--again` tries what survived in the
+last run. Results: target/mutants/results.tsv, a line as soon as it is known. Ends with 1 if some survived.
 """
 
 import collections
@@ -114,12 +114,16 @@ class Source:
 
 
 class Mutant:
-    """A change: the text from `start` to `end` of a file becomes `new`."""
+    """A change: the text from `start` to `end` of a file becomes `new`. The tests to be tried: rooms with words of names."""
 
-    def __init__(self, name, source, start, end, new):
+    def __init__(self, name, source, start, end, new, tests):
         self.name, self.source, self.start, self.end, self.new = name, source, start, end, new
-        self.arms = []
+        self.tests = tests
         self.result = None
+
+    def tries(self, room, name):
+        """True if the test bears on the change: it is of such a room, and has one of the words, if there are some."""
+        return any(room == own and any(word in name for word in words or [""]) for own, *words in self.tests)
 
     def bodies(self, sources):
         """The bodies with the change, each with its source and its place."""
@@ -151,7 +155,8 @@ def read_mutants(words, planted):
     mutants = []
     for mutant in (mutant for word in words for mutant in listed if mutant["file"].startswith(word)):
         source = sources[mutant["file"]]
-        mutants.append(Mutant(mutant["name"], source, *source.range(mutant["span"]), mutant["replacement"]))
+        mutants.append(Mutant(mutant["name"], source, *source.range(mutant["span"]), mutant["replacement"],
+                              [[room] for room in TESTS]))
     return sources, read_planted(sources) * planted + mutants
 
 
@@ -166,7 +171,8 @@ def read_planted(sources):
         source = sources[lines[0]]
         start = source.text.find(old)
         name = f"planted {lines[0]}: {old.strip()} -> {new.strip() or 'nothing'}".replace("\n", " ")
-        mutants.append(Mutant(name, source, start, start + len(old), new))
+        tests = [line[2:].split() for line in lines if line.startswith(">")]
+        mutants.append(Mutant(name, source, start, start + len(old), new, tests))
         if source.text.count(old) != 1:
             mutants[-1].result = "does not apply"
     return mutants
@@ -233,7 +239,8 @@ def in_source(span):
 
 def build(sources, mutants):
     """Builds what compiles. Returns the functions, and the program of each room of tests."""
-    programs = [f"--test={test}" if test != "lib" else "--lib" for test in TESTS]
+    rooms = sorted({room for mutant in mutants for room, *_ in mutant.tests})
+    programs = [f"--test={room}" if room != "lib" else "--lib" for room in rooms]
     while True:
         arms, functions = write_copy(sources, mutants)
         told, built = cargo(["test", "--no-run", *programs])
@@ -276,13 +283,14 @@ def run(test, seconds, **environment):
     return "timed out" if stopped else "killed" if status else "passed", used.ru_utime + used.ru_stime
 
 
-def measure(programs):
-    """The time of each test, and the functions that it reaches."""
+def measure(programs, mutants):
+    """The time of each test that some mutant tries, and the functions that it reaches."""
     times, reached = {}, {}
     record = WORK / "reached.txt"
     for room, program in programs.items():
         listed = subprocess.run([program, "--list"], cwd=COPY, capture_output=True, text=True, check=True)
-        for name in re.findall(r"^(.*): test$", listed.stdout, re.M):
+        names = re.findall(r"^(.*): test$", listed.stdout, re.M)
+        for name in (name for name in names if any(mutant.tries(room, name) for mutant in mutants)):
             record.write_text("")
             result, time = run((program, name), LONGEST, MUTANT="0", MUTANTS_REACHED=str(record))
             if result == "passed":
@@ -317,7 +325,8 @@ def main():
         mutants = [mutant for mutant in mutants if last.get(mutant.name) in ("survived", "not reached")]
     copy_source()
     functions, programs = build(sources, mutants)
-    times, reached = measure(programs)
+    times, reached = measure(programs, mutants)
+    room_of = {program: room for room, program in programs.items()}
     print(f"{len(mutants)} mutants, {len(times)} tests, {sum(times.values()):.0f} s", flush=True)
     quick = collections.defaultdict(list)
     with RESULTS.open("w") as results:
@@ -326,7 +335,8 @@ def main():
             if mutant.result is None:
                 keys = [(source.name, body) for source, body, _ in mutant.bodies(sources.values())]
                 places = {functions[key] for key in keys}
-                tests = [test for test, places_of_test in reached.items() if places & places_of_test]
+                tests = [(program, test) for (program, test), reached_places in reached.items()
+                         if places & reached_places and mutant.tries(room_of[program], test)]
                 mutant.result, test = judge(number, tests, times, quick[tuple(keys)]) if keys else ("not tried", "")
             print(mutant.result, mutant.name, test, sep="\t", file=results, flush=True)
     survived = print_table(mutants)
@@ -340,7 +350,8 @@ def print_table(mutants):
         counts[mutant.name.split(":")[0].rpartition("/")[0]][mutant.result] += 1
     for room, results in sorted(counts.items()):
         print(f"{room}: {sum(results.values())}: " + ", ".join(f"{count} {name}" for name, count in results.items()))
-    return sum(results["survived"] + results["not reached"] for results in counts.values())
+    left = ("survived", "not reached", "does not apply")
+    return sum(results[name] for results in counts.values() for name in left)
 
 
 if __name__ == "__main__":
