@@ -406,12 +406,11 @@ int32_t signorini_model_view(const signorini_model *model, signorini_model_data 
 
 /**
  * Solves load cases with one friction law. Every array has a column for each case, without space
- * between the columns. A case that is wrong or not solved does not stop the others; of a wrong one
- * only its status is written.
+ * between the columns. A case that is wrong or not solved does not stop the others. Only the
+ * status is written of a case that is wrong, or had not begun when the callback cancelled.
  *
- * Many cases in one call cost less than one by one: they share condensed loads and, with friction
- * in 3D, the elimination of pairs that stay open. So the last digits of a result depend on the
- * cases before it in the call.
+ * Many cases in one call share condensed loads and, with friction in 3D, the elimination of pairs
+ * that stay open: they cost less than one by one, and the last digits depend on the cases before.
  *
  * @param model        the model
  * @param cases        number of load cases, 0 allowed

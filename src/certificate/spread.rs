@@ -104,8 +104,8 @@ mod tests {
             Ok(false)
         }
 
-        fn solve(&mut self, forces: &[f64]) -> Result<Vec<f64>, Error> {
-            Ok(forces.to_vec())
+        fn solve(&mut self, forces: &[f64], _: GoesOn<'_>) -> Result<Option<Vec<f64>>, Error> {
+            Ok(Some(forces.to_vec()))
         }
     }
 

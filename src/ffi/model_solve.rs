@@ -25,12 +25,11 @@ const SETTINGS: i32 = 9;
 const START: i32 = 10;
 
 /// Solves load cases with one friction law. Every array has a column for each case, without space
-/// between the columns. A case that is wrong or not solved does not stop the others; of a wrong one
-/// only its status is written.
+/// between the columns. A case that is wrong or not solved does not stop the others. Only the
+/// status is written of a case that is wrong, or had not begun when the callback cancelled.
 ///
-/// Many cases in one call cost less than one by one: they share condensed loads and, with friction
-/// in 3D, the elimination of pairs that stay open. So the last digits of a result depend on the
-/// cases before it in the call.
+/// Many cases in one call share condensed loads and, with friction in 3D, the elimination of pairs
+/// that stay open: they cost less than one by one, and the last digits depend on the cases before.
 ///
 /// @param model        the model
 /// @param cases        number of load cases, 0 allowed

@@ -28,11 +28,13 @@ use super::gmres::{extend_basis, orthogonalised};
 use super::pivoted_cholesky::PivotedCholesky;
 use super::tolerances::{FREE, HELD, NEGLIGIBLE, SUSPICIOUS_PIVOT};
 use super::vector::{combination, dot, norm};
+use super::watched::GoesOn;
 
 /// The matrix from which another one was condensed: of eliminated components, then of those kept.
 pub trait Whole {
-    /// Continues a motion of the kept components to all, so that no force acts on the others.
-    fn extended(&self, kept: &[f64]) -> Vec<f64>;
+    /// Continues a motion of the kept components to all, so that no force acts on the others; `None` where `goes_on`
+    /// says no.
+    fn extended(&self, kept: &[f64], goes_on: GoesOn<'_>) -> Option<Vec<f64>>;
 
     /// The forces that a motion of all components meets.
     fn forces(&self, motion: &[f64]) -> Vec<f64>;
@@ -72,16 +74,17 @@ pub fn is_suspicious(units: &[f64], diagonal: impl Fn(usize) -> f64) -> bool {
 
 /// Settles which motions the condensed `matrix`, column-major, does not resist, and makes it exact on them.
 /// `units` are positive, of the size of the diagonal before anything was eliminated. Returns whether any
-/// motion is free.
+/// motion is free; `goes_on` is asked now and then, and where it says no, nothing is settled.
 pub fn settle(
     matrix: &mut [f64],
     units: &[f64],
     whole: &dyn Whole,
+    goes_on: GoesOn<'_>,
 ) -> Result<bool, StiffnessDefect> {
     let size = units.len();
     let root: Vec<f64> = units.iter().map(|unit| unit.sqrt()).collect();
     let entry = |i: usize, j: usize| matrix[i + size * j] / (root[i] * root[j]);
-    let Some(factor) = PivotedCholesky::within(size, SUSPICIOUS_PIVOT, entry, &mut || true) else {
+    let Some(factor) = PivotedCholesky::within(size, SUSPICIOUS_PIVOT, entry, goes_on) else {
         return Ok(false);
     };
     if factor.dependent().is_empty() {
@@ -92,7 +95,7 @@ pub fn settle(
             matrix[i + size * j] /= root[i] * root[j];
         }
     }
-    let settled = settle_scaled(matrix, &factor, &root, whole);
+    let settled = settle_scaled(matrix, &factor, &root, whole, goes_on);
     for j in 0..size {
         for i in 0..size {
             matrix[i + size * j] *= root[i] * root[j];
@@ -106,12 +109,15 @@ fn settle_scaled(
     factor: &PivotedCholesky,
     root: &[f64],
     whole: &dyn Whole,
+    goes_on: GoesOn<'_>,
 ) -> Result<bool, StiffnessDefect> {
     let size = root.len();
-    let candidates = candidates(matrix, factor, root, whole);
+    let motions = candidates(matrix, factor, root, whole, goes_on)
+        .and_then(|candidates| parted(candidates, root, whole, goes_on));
+    let Some(motions) = motions else { return Ok(false) };
     let (mut basis, mut products) = (Vec::new(), Vec::new());
     let mut free = Vec::new();
-    for motion in parted(candidates, root, whole) {
+    for motion in motions {
         let (energy, noise) = (dot(&motion.whole, &motion.forces), whole.noise(&motion.whole));
         if energy <= -HELD * noise {
             return Err(StiffnessDefect::Indefinite(motion.whole));
@@ -141,13 +147,14 @@ fn settle_scaled(
 }
 
 /// Motions of the kept components that move one dependent component each, and of the others what no force
-/// then acts on.
+/// then acts on; `None` where `goes_on` says no.
 fn candidates(
     matrix: &[f64],
     factor: &PivotedCholesky,
     root: &[f64],
     whole: &dyn Whole,
-) -> Vec<Vec<f64>> {
+    goes_on: GoesOn<'_>,
+) -> Option<Vec<Vec<f64>>> {
     let size = root.len();
     // Takes away the forces, scaled, on the independent components.
     let correct = |scaled: &mut [f64], forces: &dyn Fn(usize) -> f64| {
@@ -160,32 +167,40 @@ fn candidates(
         scaled[dependent] = 1.0;
         correct(&mut scaled, &|i| matrix[i + size * dependent]);
         for _ in 0..CORRECTIONS {
-            let forces = whole.forces(&whole.extended(&divided(&scaled, root)));
+            let forces = whole.forces(&whole.extended(&divided(&scaled, root), goes_on)?);
             let kept = &forces[forces.len() - size..];
             correct(&mut scaled, &|i| kept[i] / root[i]);
         }
-        scaled
+        Some(scaled)
     };
     factor.dependent().iter().map(candidate).collect()
 }
 
-/// The space of the candidates by directions of stationary energy.
-fn parted(candidates: Vec<Vec<f64>>, root: &[f64], whole: &dyn Whole) -> Vec<Motion> {
+/// The space of the candidates by directions of stationary energy; `None` where `goes_on` says no.
+fn parted(
+    candidates: Vec<Vec<f64>>,
+    root: &[f64],
+    whole: &dyn Whole,
+    goes_on: GoesOn<'_>,
+) -> Option<Vec<Motion>> {
     let count = candidates.len();
-    let motion = |scaled: Vec<f64>| {
-        let whole_motion = whole.extended(&divided(&scaled, root));
-        Motion { forces: whole.forces(&whole_motion), whole: whole_motion, scaled }
+    let mut motions = |scaled: Vec<Vec<f64>>| {
+        let motion = |scaled: Vec<f64>| {
+            let whole_motion = whole.extended(&divided(&scaled, root), goes_on)?;
+            Some(Motion { forces: whole.forces(&whole_motion), whole: whole_motion, scaled })
+        };
+        orthonormal(scaled, count).into_iter().map(motion).collect::<Option<Vec<Motion>>>()
     };
-    let given: Vec<Motion> = orthonormal(candidates, count).into_iter().map(motion).collect();
+    let given = motions(candidates)?;
     let energy = |i: usize, j: usize| {
         let product = |i: usize, j: usize| dot(&given[i].whole, &given[j].forces);
         (product(i, j) + product(j, i)) / 2.0
     };
-    let Some(directions) = eigenvectors(count, energy) else { return given };
+    let Some(directions) = eigenvectors(count, energy) else { return Some(given) };
     let scaled = directions.into_iter().map(|shares| {
         combination(root.len(), shares.into_iter().zip(given.iter().map(|given| &given.scaled)))
     });
-    orthonormal(scaled.collect(), count).into_iter().map(motion).collect()
+    motions(scaled.collect())
 }
 
 fn divided(scaled: &[f64], root: &[f64]) -> Vec<f64> {

@@ -11,6 +11,11 @@ pub const SHORT: usize = 512;
 /// Is asked whether a work goes on.
 pub type GoesOn<'a> = &'a mut dyn FnMut() -> bool;
 
+/// The result of a work that ends early only where `goes_on` says no, and that nobody ends.
+pub fn unended<T>(work: impl FnOnce(GoesOn<'_>) -> Option<T>) -> T {
+    work(&mut || true).expect("nobody ends it")
+}
+
 /// The matrix of so many rows and columns whose columns `fill(j, column)` writes; `None` where `goes_on` says no.
 pub fn filled(
     (rows, columns): (usize, usize),

@@ -1,9 +1,9 @@
 //! Many load cases of a model: the factor of the reduction is read once for a block of them.
 
 use super::{LoadCase, Model};
-use crate::error::Error;
+use crate::error::{Error, Limit};
 use crate::linalg::elimination::Remembered;
-use crate::monitor::{Monitor, Progress, ProgressFn};
+use crate::monitor::{Monitor, Progress, ProgressFn, Stop};
 use crate::settings::Settings;
 use crate::solve::{CasePast, Solution, Status};
 use crate::workers::{SingleThread, Workers};
@@ -68,10 +68,11 @@ impl<'m> Series<'m> {
     }
 
     /// Solves the next load cases, each with budgets of its own. Their loads are condensed in blocks of 32, so that
-    /// a case costs less than by [`Model::solve`]. A case that is wrong or not solved does not stop the others.
+    /// a case costs less than by [`Model::solve`]. A case that is wrong or not solved does not stop the others; a callback
+    /// that cancels does.
     ///
     /// # Errors
-    /// For each case as [`Model::solve`].
+    /// For each case as [`Model::solve`]; [`Error::Stopped`] for those that had not begun when the callback cancelled.
     pub fn solve_cases(
         &mut self,
         cases: &[LoadCase<'_>],
@@ -94,8 +95,19 @@ impl<'m> Series<'m> {
         let n = self.model.dim * self.model.pairs;
         let mut solved = Vec::with_capacity(cases.len());
         let Past { remembered, spread, before } = &mut self.past;
+        let mut is_cancelled = false;
         for block in cases.chunks(BLOCK) {
-            for (case, load) in block.iter().zip(self.model.condensed_loads(block)) {
+            let mut told = progress.as_mut().map(|tell| |now: &Progress| tell(now));
+            let told = told.as_mut().map(|tell| tell as &mut ProgressFn<'_>);
+            // The limits of time are those of each case.
+            let limits = Settings { time_limit: 0.0, ..*settings };
+            let monitor = &mut Monitor::new(&limits, told);
+            let loads = match is_cancelled {
+                true => block.iter().map(|_| Err(not_begun())).collect(),
+                false => self.model.condensed_loads(block, monitor),
+            };
+            is_cancelled |= monitor.stop().is_some();
+            for (case, load) in block.iter().zip(loads) {
                 let k = solved.len();
                 let start = match starts {
                     Starts::Cold => None,
@@ -106,6 +118,7 @@ impl<'m> Series<'m> {
                 let mut told = progress.as_mut().map(|tell| |now: &Progress| tell(now));
                 let told = told.as_mut().map(|tell| tell as &mut ProgressFn<'_>);
                 let monitor = &mut Monitor::new(settings, told).with_workers(workers);
+                let load = if is_cancelled { Err(not_begun()) } else { load };
                 let solution = load.and_then(|load| {
                     let past = (remembered.as_ref(), &mut *spread);
                     self.model.solve_condensed((case, load), past, (settings, start), monitor)
@@ -117,6 +130,7 @@ impl<'m> Series<'m> {
                     *before =
                         Some(if forces { &found.certificate.force } else { &found.d }.clone());
                 }
+                is_cancelled |= monitor.stop() == Some(Stop::Cancelled);
                 solved.push(solution);
             }
         }
@@ -146,7 +160,11 @@ impl Model {
 
     /// The condensed loads of each case of a block; `None` where nothing is condensed. A wrong case is left out
     /// of what is worked out together.
-    fn condensed_loads(&self, block: &[LoadCase<'_>]) -> Vec<Result<Option<Vec<f64>>, Error>> {
+    fn condensed_loads(
+        &self,
+        block: &[LoadCase<'_>],
+        monitor: &mut Monitor<'_>,
+    ) -> Vec<Result<Option<Vec<f64>>, Error>> {
         if self.is_matrix_free() {
             return block.iter().map(|_| Ok(None)).collect();
         }
@@ -156,10 +174,18 @@ impl Model {
             .filter(|(_, checked)| checked.is_ok())
             .map(|(case, _)| (case.load, case.prescribed))
             .collect();
-        let mut loads = match self.reduction.condense_cases(&sound) {
+        let condensed = self.reduction.condense_cases(&sound, &mut monitor.asking());
+        let mut loads = match condensed.and_then(|loads| loads.ok_or_else(not_begun)) {
             Ok(loads) => loads.into_iter(),
             Err(error) => return block.iter().map(|_| Err(error.clone())).collect(),
         };
         checked.into_iter().map(|checked| checked.map(|()| loads.next())).collect()
     }
+}
+
+/// The error of a case that the callback did not let begin.
+fn not_begun() -> Error {
+    let message =
+        "the callback has cancelled the call before this load case began: nothing is written";
+    Error::stopped(Limit::Cancelled, message)
 }

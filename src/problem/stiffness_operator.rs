@@ -12,6 +12,7 @@
 
 use super::Relation;
 use crate::error::Error;
+pub use crate::linalg::watched::GoesOn;
 
 /// A symmetric matrix along the two tangents of a pair; in the plane its first entry alone counts.
 pub type Tangential = [[f64; 2]; 2];
@@ -36,9 +37,6 @@ impl HeldSet {
         HeldSet { held: vec![false; dim * pairs], ..HeldSet::all(dim, pairs) }
     }
 }
-
-/// Is asked whether a work goes on.
-pub type GoesOn<'a> = &'a mut dyn FnMut() -> bool;
 
 /// The questions that a solver asks of bodies. Vectors have an entry for each unknown, the inner ones first.
 pub trait StiffnessOperator {
@@ -91,11 +89,11 @@ pub trait StiffnessOperator {
     fn remember(&mut self, _load: &[f64], _x: &[f64]) {}
 
     /// An approximate solution `x` of `A x = forces`: with the held components zero, where forces on them do not
-    /// count; without [`Self::hold`] with nothing held.
+    /// count; without [`Self::hold`] with nothing held. `None` where `goes_on`, which is asked now and then, says no.
     ///
     /// # Errors
     /// As [`Self::product`].
-    fn solve(&mut self, forces: &[f64]) -> Result<Vec<f64>, Error>;
+    fn solve(&mut self, forces: &[f64], goes_on: GoesOn<'_>) -> Result<Option<Vec<f64>>, Error>;
 }
 
 /// The relation of such bodies, as far as it is known without their inner unknowns: the size of forces. What

@@ -6,6 +6,7 @@ use crate::linalg::free_motions::{Whole, settle};
 use crate::linalg::matrix::Matrix;
 use crate::linalg::tolerances::{CONDENSATION, FREE};
 use crate::linalg::vector::first_not_finite;
+use crate::linalg::watched::GoesOn;
 use crate::problem::symmetric_matrix::{check, check_semidefinite, is_symmetric_beside};
 
 /// The host's condensed stiffness.
@@ -51,7 +52,7 @@ pub(super) fn settled(
     (name, argument): (&str, Argument),
     go_on: &mut dyn FnMut() -> bool,
 ) -> Result<Option<Vec<f64>>, Error> {
-    let cleaned = without_rounding(dim, matrix);
+    let cleaned = without_rounding(dim, matrix, go_on);
     check(&view(matrix, &cleaned), dim, name, argument)?;
     check_semidefinite(&view(matrix, &cleaned), dim, (name, argument), go_on)?;
     Ok(cleaned)
@@ -67,8 +68,9 @@ fn contiguous(matrix: &Matrix<'_>) -> Vec<f64> {
     (0..matrix.size()).flat_map(|j| matrix.column(j).iter().copied()).collect()
 }
 
-/// The matrix without what rounding made of free motions; `None` if it is to be taken as it is.
-fn without_rounding(dim: usize, matrix: &Matrix<'_>) -> Option<Vec<f64>> {
+/// The matrix without what rounding made of free motions; `None` if it is to be taken as it is, or where `goes_on`
+/// says no.
+fn without_rounding(dim: usize, matrix: &Matrix<'_>, goes_on: GoesOn<'_>) -> Option<Vec<f64>> {
     let units = matrix.units_of_condensation(dim);
     let is_rounding = |i: usize| matrix.at(i, i) <= FREE * CONDENSATION * units[i];
     if !(0..matrix.size()).any(is_rounding) {
@@ -81,7 +83,7 @@ fn without_rounding(dim: usize, matrix: &Matrix<'_>) -> Option<Vec<f64>> {
         && is_symmetric_beside(matrix, &root);
     let given = HostMatrix { matrix: *matrix, units: &units };
     // A matrix that is not sound is refused by the check.
-    (is_sound && settle(&mut stiffness, &units, &given) == Ok(true)).then_some(stiffness)
+    (is_sound && settle(&mut stiffness, &units, &given, goes_on) == Ok(true)).then_some(stiffness)
 }
 
 /// A matrix of which nothing was eliminated here.
@@ -91,8 +93,8 @@ struct HostMatrix<'k> {
 }
 
 impl Whole for HostMatrix<'_> {
-    fn extended(&self, kept: &[f64]) -> Vec<f64> {
-        kept.to_vec()
+    fn extended(&self, kept: &[f64], _: GoesOn<'_>) -> Option<Vec<f64>> {
+        Some(kept.to_vec())
     }
 
     fn forces(&self, motion: &[f64]) -> Vec<f64> {

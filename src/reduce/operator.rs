@@ -281,10 +281,11 @@ impl StiffnessOperator for InUse<'_> {
         Ok(true)
     }
 
-    fn solve(&mut self, forces: &[f64]) -> Result<Vec<f64>, Error> {
-        match self.can_hold() {
+    fn solve(&mut self, forces: &[f64], _: GoesOn<'_>) -> Result<Option<Vec<f64>>, Error> {
+        let solution = match self.can_hold() {
             true => self.operator.by_held(&self.held, forces),
             false => self.operator.by_inverse(forces),
-        }
+        };
+        solution.map(Some)
     }
 }

@@ -1,7 +1,7 @@
 //! The questions that every reduction of a structure to its contact pairs answers.
 
 use crate::error::{Error, Message};
-use crate::problem::{Dependence, FlexibilityForm, StiffnessOperator};
+use crate::problem::{Dependence, FlexibilityForm, GoesOn, StiffnessOperator};
 use crate::workers::Workers;
 
 /// A reduction that changes variables and condenses nothing.
@@ -79,7 +79,8 @@ pub trait Reduction: Send + Sync {
     /// # Errors
     /// No memory for a factor that is not kept.
     fn condense(&self, load: &[f64], prescribed: Option<&[f64]>) -> Result<Vec<f64>, Error> {
-        Ok(self.condense_cases(&[(load, prescribed)])?.concat())
+        let condensed = self.condense_cases(&[(load, prescribed)], &mut || true)?;
+        Ok(condensed.unwrap_or_default().concat())
     }
 
     /// Displacements of the host from the loads (`None`: zero), the values of the fixed degrees of
@@ -96,12 +97,17 @@ pub trait Reduction: Send + Sync {
         Ok(self.recover_cases(&[SolvedCase { load, prescribed, d }])?.concat())
     }
 
-    /// As [`Self::condense`], of the loads and fixed values of several load cases at once.
+    /// As [`Self::condense`], of the loads and fixed values of several load cases at once; `None` where `goes_on`, which
+    /// is asked now and then, says no.
     ///
     /// # Errors
     /// As [`Self::condense`].
-    fn condense_cases(&self, cases: &[HostLoad<'_>]) -> Result<Vec<Vec<f64>>, Error> {
-        Ok(cases.iter().map(|(load, _)| load.to_vec()).collect())
+    fn condense_cases(
+        &self,
+        cases: &[HostLoad<'_>],
+        _goes_on: GoesOn<'_>,
+    ) -> Result<Option<Vec<Vec<f64>>>, Error> {
+        Ok(Some(cases.iter().map(|(load, _)| load.to_vec()).collect()))
     }
 
     /// As [`Self::recover`], of several load cases at once.

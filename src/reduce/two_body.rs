@@ -19,6 +19,7 @@ use crate::linalg::matrix::Matrix;
 use crate::linalg::pivoted_cholesky::PivotedCholesky;
 use crate::linalg::tolerances::NEGLIGIBLE;
 use crate::linalg::vector::norm_inf;
+use crate::linalg::watched::GoesOn;
 
 /// The reduction of two bodies, kept for further load cases.
 pub struct TwoBodyReduction {
@@ -139,12 +140,20 @@ impl Reduction for TwoBodyReduction {
         2 * self.size
     }
 
-    fn condense_cases(&self, cases: &[HostLoad<'_>]) -> Result<Vec<Vec<f64>>, Error> {
+    fn condense_cases(
+        &self,
+        cases: &[HostLoad<'_>],
+        goes_on: GoesOn<'_>,
+    ) -> Result<Option<Vec<Vec<f64>>>, Error> {
         let condensed = |(load, _): &HostLoad<'_>| {
+            if !goes_on() {
+                return None;
+            }
             let (first, second) = self.split(load);
             let difference: Vec<f64> = first.iter().zip(second).map(|(a, b)| a - b).collect();
             let x = self.solve(&difference);
-            self.times_second(&x).iter().zip(second).map(|(carried, f)| carried + f).collect()
+            let carried = self.times_second(&x);
+            Some(carried.iter().zip(second).map(|(carried, f)| carried + f).collect())
         };
         Ok(cases.iter().map(condensed).collect())
     }

@@ -259,10 +259,13 @@ fn a_factorisation_can_be_cancelled() {
     };
     let (whole, calls) = run(u64::MAX);
     assert_eq!(whole.status, Status::Solved, "{}", whole.message);
-    assert!(calls > whole.iterations, "{calls} calls in {} systems", whole.iterations);
+    // It is asked before each solution with a factor, and in each factorisation.
+    let (solutions, factors) = (whole.outer_iterations, whole.factorisations);
+    assert!(calls > solutions + factors, "{calls} calls: {solutions} solutions, {factors} factors");
     for most in 0..calls {
-        let (solution, _) = run(most);
+        let (solution, asked) = run(most);
         assert_eq!(solution.status, Status::Cancelled, "{most}: {}", solution.message);
+        assert_eq!(asked, most + 1);
     }
     assert_eq!(run(u64::MAX).0.d, whole.d);
 }

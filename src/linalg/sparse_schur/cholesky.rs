@@ -7,6 +7,7 @@ use super::plan::Plan;
 use super::solve::{backward, forward};
 use crate::linalg::sparse_matrix::Csc;
 use crate::linalg::tolerances::NEGLIGIBLE;
+use crate::linalg::watched::GoesOn;
 use crate::workers::Workers;
 
 /// The values of a factor.
@@ -57,12 +58,12 @@ impl SparseCholesky {
         }
     }
 
-    /// The solutions for the right sides `b`, one behind the other.
-    pub fn solve(&self, values: &Values, b: &[f64]) -> Vec<f64> {
+    /// The solutions for the right sides `b`, one behind the other; `None` where `goes_on` says no.
+    pub fn solve(&self, values: &Values, b: &[f64], goes_on: GoesOn<'_>) -> Option<Vec<f64>> {
         let structure = &self.0.structure;
         let mut x = structure.ordered(b);
-        forward(structure, &values.0, &mut x);
-        backward(structure, &values.0, &mut x);
-        structure.unordered(&x)
+        forward(structure, &values.0, &mut x, goes_on)?;
+        backward(structure, &values.0, &mut x, goes_on)?;
+        Some(structure.unordered(&x))
     }
 }

@@ -1,6 +1,6 @@
 //! A factorisation that names the motion which makes it fail.
 
-use super::factor_progress::{FactorProgress, Failure};
+use super::factor_progress::{FactorProgress, FactorStep, Failure};
 use super::numeric::{Numeric, Unfinished, factorised};
 use super::plan::Plan;
 use super::solve;
@@ -10,6 +10,7 @@ use crate::linalg::tolerances::{
     INVERSE_ITERATIONS, NULL_VECTOR, REGULARISATION, SUSPICIOUS_PIVOT,
 };
 use crate::linalg::vector::{norm_inf, normalise, sizes};
+use crate::linalg::watched::GoesOn;
 use crate::workers::Workers;
 
 /// Factorises `matrix`, which stays as it is; or says what motion of the eliminated rows nothing resists, and
@@ -39,7 +40,10 @@ pub fn diagnosed(
     if let Some((place, pivot)) = numeric.weakest
         && (singular || pivot < SUSPICIOUS_PIVOT)
     {
-        let vector = weakest_motion(structure, &numeric.values, place);
+        let goes_on = &mut || progress(FactorStep::HasDone(1.0)).is_ok();
+        let Some(vector) = weakest_motion(structure, &numeric.values, place, goes_on) else {
+            return Err(Failure::Stopped);
+        };
         if singular || resistance(matrix, &vector) <= NULL_VECTOR {
             return Err(Failure::NullVector(vector));
         }
@@ -48,17 +52,22 @@ pub fn diagnosed(
 }
 
 /// The motion of the eliminated rows that `A` resists least, its largest entry 1, by inverse iteration from the unit
-/// vector of a `place`.
-fn weakest_motion(structure: &Structure, values: &[f64], place: usize) -> Vec<f64> {
+/// vector of a `place`; `None` where `goes_on` says no.
+fn weakest_motion(
+    structure: &Structure,
+    values: &[f64],
+    place: usize,
+    goes_on: GoesOn<'_>,
+) -> Option<Vec<f64>> {
     let mut x = vec![0.0; structure.size];
     x[place] = 1.0;
     for _ in 0..INVERSE_ITERATIONS {
-        solve::forward(structure, values, &mut x);
+        solve::forward(structure, values, &mut x, goes_on)?;
         x[structure.eliminated..].fill(0.0);
-        solve::backward(structure, values, &mut x);
+        solve::backward(structure, values, &mut x, goes_on)?;
         normalise(&mut x);
     }
-    structure.unordered(&x)
+    Some(structure.unordered(&x))
 }
 
 /// Largest entry of `A x`, relative to the largest sum of the sizes of its terms. `A` is symmetric, its

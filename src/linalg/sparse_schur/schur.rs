@@ -10,6 +10,7 @@ use crate::linalg::free_motions::{self, StiffnessDefect, Whole, is_suspicious};
 use crate::linalg::last_case::LastCase;
 use crate::linalg::sparse_matrix::{Csc, diagonal, symmetric_magnitude, symmetric_times};
 use crate::linalg::vector::{dot, sizes};
+use crate::linalg::watched::GoesOn;
 use crate::workers::Workers;
 
 /// So many rows of `C` are few beside the rigid motions of a body, which are up to six: pivots tell which of
@@ -59,16 +60,22 @@ impl SparseSchur {
         let units: Vec<f64> =
             (eliminated..lower.ncols()).map(|j| diagonal(&lower, j).unwrap_or_default()).collect();
         if always || m <= FEW || is_suspicious(&units, |i| found.schur[i + m * i]) {
-            found.settle(lower, &units)?;
+            found.settle(lower, &units, &mut || progress(FactorStep::HasDone(1.0)).is_ok())?;
+            progress(FactorStep::HasDone(1.0))?;
         }
         Ok(found)
     }
 
     /// Makes `S` exact on the motions that nothing resists; `lower` is the whole matrix, and `units` is the
     /// diagonal of `C`.
-    fn settle(&mut self, lower: Csc, units: &[f64]) -> Result<(), StiffnessDefect> {
+    fn settle(
+        &mut self,
+        lower: Csc,
+        units: &[f64],
+        goes_on: GoesOn<'_>,
+    ) -> Result<(), StiffnessDefect> {
         let mut schur = std::mem::take(&mut self.schur);
-        free_motions::settle(&mut schur, units, &Unreduced { lower, factor: self })?;
+        free_motions::settle(&mut schur, units, &Unreduced { lower, factor: self }, goes_on)?;
         self.schur = schur;
         Ok(())
     }
@@ -79,35 +86,36 @@ impl SparseSchur {
     }
 
     /// The right sides `(a, c)`, one behind the other, after elimination of the first rows: of each one
-    /// `c - B A⁻¹ a`.
-    pub fn condense(&self, rhs: &[f64]) -> Vec<f64> {
+    /// `c - B A⁻¹ a`; `None` where `goes_on` says no.
+    pub fn condense(&self, rhs: &[f64], goes_on: GoesOn<'_>) -> Option<Vec<f64>> {
         let (size, eliminated) = (self.structure.size.max(1), self.structure.eliminated);
-        let x = self.forward(rhs);
+        let x = self.forward(rhs, goes_on)?;
         let condensed = x.chunks_exact(size).flat_map(|x| &x[eliminated..]).copied().collect();
         if x.len() == size {
             self.last.keep(rhs, &x);
         }
-        condensed
+        Some(condensed)
     }
 
     /// The solution of the first rows, `A⁻¹ (a - Bᵀ d)`, followed by `d`; `rhs` is `(a, c)`, of which
     /// `c` does not matter. Of several, each argument has its vectors one behind the other, and so has the
-    /// result.
-    pub fn recover(&self, rhs: &[f64], d: &[f64]) -> Vec<f64> {
+    /// result. `None` where `goes_on` says no.
+    pub fn recover(&self, rhs: &[f64], d: &[f64], goes_on: GoesOn<'_>) -> Option<Vec<f64>> {
         let (size, eliminated) = (self.structure.size.max(1), self.structure.eliminated);
-        let mut x = self.last.of(rhs, |_| true).unwrap_or_else(|| self.forward(rhs));
+        let known = self.last.of(rhs, |_| true);
+        let mut x = known.or_else(|| self.forward(rhs, goes_on))?;
         let kept = d.chunks_exact(self.structure.kept().max(1));
         for (x, d) in x.chunks_exact_mut(size).zip(kept) {
             x[eliminated..].copy_from_slice(d);
         }
-        solve::backward(&self.structure, &self.values, &mut x);
-        self.structure.unordered(&x)
+        solve::backward(&self.structure, &self.values, &mut x, goes_on)?;
+        Some(self.structure.unordered(&x))
     }
 
-    fn forward(&self, rhs: &[f64]) -> Vec<f64> {
+    fn forward(&self, rhs: &[f64], goes_on: GoesOn<'_>) -> Option<Vec<f64>> {
         let mut x = self.structure.ordered(rhs);
-        solve::forward(&self.structure, &self.values, &mut x);
-        x
+        solve::forward(&self.structure, &self.values, &mut x, goes_on)?;
+        Some(x)
     }
 }
 
@@ -119,11 +127,12 @@ struct Unreduced<'f> {
 
 impl Whole for Unreduced<'_> {
     /// With one step of iterative refinement.
-    fn extended(&self, kept: &[f64]) -> Vec<f64> {
-        let mut motion = self.factor.recover(&vec![0.0; self.lower.ncols()], kept);
-        let correction = self.factor.recover(&self.forces(&motion), &vec![0.0; kept.len()]);
+    fn extended(&self, kept: &[f64], goes_on: GoesOn<'_>) -> Option<Vec<f64>> {
+        let mut motion = self.factor.recover(&vec![0.0; self.lower.ncols()], kept, goes_on)?;
+        let lack = self.forces(&motion);
+        let correction = self.factor.recover(&lack, &vec![0.0; kept.len()], goes_on)?;
         motion.iter_mut().zip(&correction).for_each(|(x, correction)| *x -= correction);
-        motion
+        Some(motion)
     }
 
     fn forces(&self, motion: &[f64]) -> Vec<f64> {

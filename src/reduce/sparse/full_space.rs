@@ -111,17 +111,23 @@ impl FullSpace {
     }
 
     /// `c - B A⁻¹ a` for each of the loads `(a, c)`, one behind the other: minus the forces on the components of
-    /// `d`, all held.
-    pub(super) fn condense(&self, loads: &[f64]) -> Result<Vec<f64>, Error> {
+    /// `d`, all held; `None` where `goes_on` says no.
+    pub(super) fn condense(
+        &self,
+        loads: &[f64],
+        goes_on: GoesOn<'_>,
+    ) -> Result<Option<Vec<f64>>, Error> {
         let mut user = self.in_use(&SingleThread);
-        user.hold_all()?;
-        let x = user.solve(loads)?;
+        if !user.hold_all(goes_on)? {
+            return Ok(None);
+        }
+        let Some(x) = user.solve(loads, goes_on)? else { return Ok(None) };
         let (size, mut condensed) = (self.matrix.ncols().max(1), Vec::new());
         for (x, load) in x.chunks_exact(size).zip(loads.chunks_exact(size)) {
             let residual = symmetric_residual(&self.matrix, (x, &[]), load);
             condensed.extend(residual[self.inner..].iter().map(|force| -force));
         }
-        Ok(condensed)
+        Ok(Some(condensed))
     }
 
     /// All unknowns of loads where those of the pairs are `d`. Of several load cases, each argument has its
@@ -131,7 +137,7 @@ impl FullSpace {
             return Ok(x);
         }
         let mut user = self.in_use(&SingleThread);
-        user.hold_all()?;
+        user.hold_all(&mut || true)?;
         let size = self.matrix.ncols().max(1);
         let mut x = vec![0.0; loads.len()];
         let held = d.chunks_exact((self.matrix.ncols() - self.inner).max(1));
@@ -144,7 +150,7 @@ impl FullSpace {
             for (x, load) in x.chunks_exact(size).zip(loads.chunks_exact(size)) {
                 residuals.extend(symmetric_residual(&self.matrix, (x, &[]), load));
             }
-            let steps = user.solve(&residuals)?;
+            let steps = user.solve(&residuals, &mut || true)?.unwrap_or_default();
             for (x, step) in x.chunks_exact_mut(size).zip(steps.chunks_exact(size)) {
                 x.iter_mut().zip(step).take(self.inner).for_each(|(x, step)| *x -= step);
             }
@@ -174,9 +180,9 @@ pub(super) struct InUse<'a> {
 }
 
 impl InUse<'_> {
-    fn hold_all(&mut self) -> Result<(), Error> {
+    fn hold_all(&mut self, goes_on: GoesOn<'_>) -> Result<bool, Error> {
         let pairs = (self.space.matrix.ncols() - self.space.inner) / self.space.dim;
-        self.hold(&HeldSet::all(self.space.dim, pairs), &mut || true).map(drop)
+        self.hold(&HeldSet::all(self.space.dim, pairs), goes_on)
     }
 }
 
@@ -258,7 +264,7 @@ impl StiffnessOperator for InUse<'_> {
         ))
     }
 
-    fn solve(&mut self, forces: &[f64]) -> Result<Vec<f64>, Error> {
+    fn solve(&mut self, forces: &[f64], goes_on: GoesOn<'_>) -> Result<Option<Vec<f64>>, Error> {
         let Some(factor) = &self.factor else { unreachable!("something is held before") };
         let (inner, size) = (self.space.inner, self.space.matrix.ncols().max(1));
         let mut right = forces.to_vec();
@@ -270,6 +276,6 @@ impl StiffnessOperator for InUse<'_> {
                 }
             }
         }
-        Ok(self.space.cholesky.solve(&factor.values, &right))
+        Ok(self.space.cholesky.solve(&factor.values, &right, goes_on))
     }
 }

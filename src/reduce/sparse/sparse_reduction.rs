@@ -11,7 +11,8 @@ use crate::error::{Argument, Error, Message};
 use crate::linalg::sparse_matrix::{Csc, OutOfMemory, times, transpose_times};
 use crate::linalg::sparse_schur::{FactorStep, Failure, Plan, SparseSchur};
 use crate::linalg::vector::{columns, norm_inf};
-use crate::problem::{Dependence, StiffnessOperator};
+use crate::linalg::watched::unended;
+use crate::problem::{Dependence, GoesOn, StiffnessOperator};
 use crate::reduce::{ContactPairs, HostLoad, MatrixFreeReduction, Reduction, SolvedCase, motion};
 use crate::workers::{SingleThread, Workers};
 
@@ -142,14 +143,18 @@ impl Reduction for SparseReduction {
         self.fixed_count
     }
 
-    fn condense_cases(&self, cases: &[HostLoad<'_>]) -> Result<Vec<Vec<f64>>, Error> {
+    fn condense_cases(
+        &self,
+        cases: &[HostLoad<'_>],
+        goes_on: GoesOn<'_>,
+    ) -> Result<Option<Vec<Vec<f64>>>, Error> {
         let transformed = cases.iter().map(|(load, values)| self.transformed_load(load, *values));
         let loads: Vec<f64> = transformed.flatten().collect();
         let condensed = match &self.engine {
-            Engine::Condensed(schur) => schur.condense(&loads),
-            Engine::FullSpace(space) => space.condense(&loads)?,
+            Engine::Condensed(schur) => schur.condense(&loads, goes_on),
+            Engine::FullSpace(space) => space.condense(&loads, goes_on)?,
         };
-        Ok(columns(&condensed, cases.len()))
+        Ok(condensed.map(|condensed| columns(&condensed, cases.len())))
     }
 
     fn recover_cases(&self, cases: &[SolvedCase<'_>]) -> Result<Vec<Vec<f64>>, Error> {
@@ -164,7 +169,9 @@ impl Reduction for SparseReduction {
             }
         }
         let x = match &self.engine {
-            Engine::Condensed(schur) => schur.recover(&loads, &variables),
+            Engine::Condensed(schur) => {
+                unended(|goes_on| schur.recover(&loads, &variables, goes_on))
+            }
             Engine::FullSpace(space) => space.recover(&loads, &variables)?,
         };
         let of_host = |(x, case): (Vec<f64>, &SolvedCase<'_>)| {

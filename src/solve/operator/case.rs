@@ -104,7 +104,8 @@ pub fn certify(
     let mut at = loaded.at_zero.clone();
     at.x[bodies.operator.inner()..].copy_from_slice(d);
     for _ in 0..SOLUTIONS {
-        at = at.in_equilibrium(&mut bodies, case.load)?;
+        let next = at.clone().in_equilibrium(&mut bodies, case.load, endless);
+        at = ended(next)?.unwrap_or(at);
     }
     let residual = bodies.operator.residual(&at.x, &at.low, case.load)?;
     Ok(measure_spread(&Contact::new(&problem), bodies.operator, &at.x, &residual))
@@ -129,16 +130,21 @@ impl<'a> Loaded<'a> {
         past: &mut CasePast,
         monitor: &mut Monitor<'_>,
     ) -> Result<(Self, Option<Ending>), Error> {
-        let (inner, known) = (bodies.operator.inner(), past.at_zero(case.load));
-        let (mut at_zero, mut ending) = (known.clone().unwrap_or_default(), None);
-        if known.is_none() {
-            at_zero = Displacements::new(vec![0.0; case.load.len()], inner);
-            ending = ended(bodies.hold_all(case.dim, monitor))?;
-            if ending.is_none() {
-                at_zero = at_zero.in_equilibrium(bodies, case.load)?;
-                past.learn(case.load, &at_zero);
+        let inner = bodies.operator.inner();
+        let (mut at_zero, mut ending) = (past.at_zero(case.load), None);
+        if at_zero.is_none() {
+            let rest = Displacements::new(vec![0.0; case.load.len()], inner);
+            let held = bodies.hold_all(case.dim, monitor);
+            match ended(held.and_then(|()| rest.in_equilibrium(bodies, case.load, monitor)))? {
+                Ok(found) => {
+                    past.learn(case.load, &found);
+                    at_zero = Some(found);
+                }
+                Err(stopped) => ending = Some(stopped),
             }
         }
+        let nothing = || Displacements::new(vec![0.0; case.load.len()], inner);
+        let at_zero = at_zero.unwrap_or_else(nothing);
         let residual = bodies.operator.residual(&at_zero.x, &at_zero.low, case.load)?;
         let relative = residual[inner..].iter().map(|f| -f).collect();
         Ok((Loaded { case, at_zero, residual, relative }, ending))
@@ -153,6 +159,28 @@ impl<'a> Loaded<'a> {
         let Case { dim, law, reference_slip, .. } = *self.case;
         let relation = MatrixFree::new(bodies.operator, dim, &self.relative);
         ContactProblem::with_relation(relation, dim, gap, law, reference_slip)
+    }
+
+    /// The first displacements: those of the pairs are `start`, or their references, and the inner ones in equilibrium.
+    fn start(
+        &self,
+        near: &Contact<'_, MatrixFree<'_>>,
+        bodies: &mut Session<'_>,
+        start: Option<&[f64]>,
+        monitor: &mut Monitor<'_>,
+    ) -> Result<Displacements, Ending> {
+        bodies.hold_all(self.case.dim, monitor)?;
+        let mut at = self.at_zero.clone();
+        let of_pairs = &mut at.x[bodies.operator.inner()..];
+        let references = near.pairs().iter().flat_map(|law| {
+            let reference = law.reference();
+            reference.into_iter().take(self.case.dim)
+        });
+        match start {
+            Some(start) => of_pairs.copy_from_slice(&near.admissible(start)),
+            None => of_pairs.iter_mut().zip(references).for_each(|(x, r)| *x = r),
+        }
+        at.in_equilibrium(bodies, self.case.load, monitor)
     }
 
     /// Solves the contact `near`, and measures the result on `contact`, which has further obstacles.
@@ -173,22 +201,14 @@ impl<'a> Loaded<'a> {
             }
         }
         let at = match start.and_then(|start| past.last(start)) {
-            Some(last) => last.clone(),
-            None => {
-                if let Some(ending) = ended(bodies.hold_all(case.dim, monitor))? {
-                    let rest = (&self.at_zero, &self.residual[..], &ending);
-                    return Ok(result(contact, bodies, (settings, case), rest, past));
-                }
-                let mut at = self.at_zero.clone();
-                let references = near.pairs().iter().flat_map(|law| {
-                    let reference = law.reference();
-                    reference.into_iter().take(case.dim)
-                });
-                match start {
-                    Some(start) => at.x[inner..].copy_from_slice(&near.admissible(start)),
-                    None => at.x[inner..].iter_mut().zip(references).for_each(|(x, r)| *x = r),
-                }
-                at.in_equilibrium(bodies, case.load)?
+            Some(last) => Ok(last.clone()),
+            None => ended(self.start(near, bodies, start, monitor))?,
+        };
+        let at = match at {
+            Ok(at) => at,
+            Err(ending) => {
+                let rest = (&self.at_zero, &self.residual[..], &ending);
+                return Ok(result(contact, bodies, (settings, case), rest, past));
             }
         };
         let equations =
@@ -227,7 +247,7 @@ fn by_attempts(
         if has_ended || certificate.holds(equations.tolerance) || !merit.is_finite() {
             break;
         }
-        if let Some(ending) = ended(attempt(equations, bodies, start, &mut best, monitor))? {
+        if let Err(ending) = ended(attempt(equations, bodies, start, &mut best, monitor))? {
             best.ending = ending;
         }
     }
@@ -257,21 +277,19 @@ fn describe(
     solution: &mut Solution,
     monitor: &mut Monitor<'_>,
 ) -> Result<(), Error> {
-    let mut motions = None;
     // If others are not found in time, the motion of the proof stands for all.
-    ended(FreeMotions::of(bodies, contact.dim(), monitor).map(|found| motions = found))?;
+    let motions = ended(FreeMotions::of(bodies, contact.dim(), monitor))?.unwrap_or_default();
     let fits = condensed::fits(contact.unknowns(), bodies.operator.units().len());
     let balance = motions.as_ref().map(|motions| motions.balance(contact, bodies.operator));
     let solve = fits.then_some(plan::solve as Solve);
     rigid::describe(contact, solution, balance, solve, monitor)
 }
 
-/// How the call ends where a work was ended.
-fn ended(result: Result<(), Ending>) -> Result<Option<Ending>, Error> {
+/// The result of a work, or how the call ends where the work was ended.
+fn ended<T>(result: Result<T, Ending>) -> Result<Result<T, Ending>, Error> {
     match result {
-        Ok(()) => Ok(None),
         Err(Ending::Failed(error)) => Err(error),
-        Err(ending) => Ok(Some(ending)),
+        result => Ok(result),
     }
 }
 

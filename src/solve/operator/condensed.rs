@@ -15,7 +15,6 @@ use super::newton::{self, Outcome, improve};
 use super::point::{Displacements, Equations};
 use super::session::Session;
 use crate::certificate::is_spread_escape;
-use crate::error::Error;
 use crate::law::Contact;
 use crate::monitor::Monitor;
 use crate::problem::{ContactData, ContactProblem, HeldSet, SOLUTIONS};
@@ -51,7 +50,7 @@ pub fn solve(
         let joins: Vec<bool> = match condensed.solved(equations, &chosen, &at, monitor)? {
             Found::Nothing => break,
             Found::Solution(d) => {
-                let point = condensed.with(bodies, at, &d, equations.load)?;
+                let point = condensed.with(bodies, at, (&d, equations.load), monitor)?;
                 let point = equations.held_at(point, bodies)?;
                 let closed: Vec<bool> = point.pieces.iter().map(|piece| piece.closed).collect();
                 at = point.at.clone();
@@ -62,7 +61,7 @@ pub fn solve(
                 closed
             }
             Found::Escape(motion) => {
-                let motion = condensed.motion(equations, bodies, &motion)?;
+                let motion = condensed.motion(equations, bodies, &motion, monitor)?;
                 if is_spread_escape(equations.contact, bodies.operator, &motion)? {
                     return Err(Ending::Recession(motion));
                 }
@@ -116,12 +115,14 @@ impl Condensed {
         let (size, unknowns) = (places.len(), equations.load.len());
         let (matrix, load) = (vec![0.0; size * size], Vec::new());
         let mut condensed = Condensed { places, unknowns, matrix, load };
-        let at = condensed.with(bodies, near.clone(), &vec![0.0; size], equations.load)?;
+        let at = {
+            let nothing = vec![0.0; size];
+            condensed.with(bodies, near.clone(), (&nothing, equations.load), monitor)?
+        };
         let forces = bodies.operator.residual(&at.x, &at.low, equations.load)?;
         condensed.load = condensed.places.iter().map(|&i| -forces[i]).collect();
         for j in 0..size {
-            monitor.goes_on()?;
-            let column = condensed.column(bodies, j)?;
+            let column = condensed.column(bodies, j, monitor)?;
             condensed.matrix[size * j..size * (j + 1)].copy_from_slice(&column);
         }
         symmetrise(&mut condensed.matrix, size);
@@ -134,12 +135,18 @@ impl Condensed {
     }
 
     /// The forces on the components where component `j` is moved by one.
-    fn column(&self, bodies: &mut Session<'_>, j: usize) -> Result<Vec<f64>, Error> {
+    fn column(
+        &self,
+        bodies: &mut Session<'_>,
+        j: usize,
+        monitor: &mut Monitor<'_>,
+    ) -> Result<Vec<f64>, Ending> {
+        monitor.goes_on()?;
         let mut x = vec![0.0; self.unknowns];
         x[self.places[j]] = 1.0;
         let mut forces = bodies.operator.product(&x)?;
         if self.has_others() {
-            let mut others = bodies.solve(&forces)?;
+            let mut others = bodies.solve(&forces, monitor)?;
             self.places.iter().for_each(|&i| others[i] = 0.0);
             let taken = bodies.operator.product(&others)?;
             forces.iter_mut().zip(taken).for_each(|(force, taken)| *force -= taken);
@@ -153,14 +160,14 @@ impl Condensed {
         &self,
         bodies: &mut Session<'_>,
         mut at: Displacements,
-        d: &[f64],
-        load: &[f64],
-    ) -> Result<Displacements, Error> {
+        (d, load): (&[f64], &[f64]),
+        monitor: &mut Monitor<'_>,
+    ) -> Result<Displacements, Ending> {
         self.places.iter().zip(d).for_each(|(&i, d)| at.x[i] = *d);
         if self.has_others() {
             for _ in 0..=SOLUTIONS {
                 let lack = bodies.operator.residual(&at.x, &at.low, load)?;
-                let mut step = bodies.solve(&lack)?;
+                let mut step = bodies.solve(&lack, monitor)?;
                 self.places.iter().for_each(|&i| step[i] = 0.0);
                 at = at.moved(-1.0, &step);
             }
@@ -174,10 +181,11 @@ impl Condensed {
         equations: &Equations<'_>,
         bodies: &mut Session<'_>,
         d: &[f64],
-    ) -> Result<Vec<f64>, Error> {
+        monitor: &mut Monitor<'_>,
+    ) -> Result<Vec<f64>, Ending> {
         let nothing = vec![0.0; self.unknowns];
         let rest = Displacements::new(nothing.clone(), equations.inner);
-        Ok(self.with(bodies, rest, d, &nothing)?.x)
+        Ok(self.with(bodies, rest, (d, &nothing), monitor)?.x)
     }
 
     /// Solves the dense problem from displacements of all unknowns. Its data may be none, as where rounding has left a

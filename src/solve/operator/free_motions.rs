@@ -78,7 +78,7 @@ impl FreeMotions {
                 forces.resize(forces.len() + inner, 0.0);
                 forces.extend(motion.iter().zip(&rigid.root).map(|(r, root)| r * root));
             }
-            let images = bodies.solve(&forces)?;
+            let images = bodies.solve(&forces, monitor)?;
             let images = images.chunks_exact(inner + rigid.root.len());
             (basis, whole) = orthonormal(&rigid, inner, images);
         }

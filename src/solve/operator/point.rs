@@ -5,7 +5,9 @@ use crate::error::Error;
 use crate::law::{Contact, Piece, Vector};
 use crate::linalg::double_double::two_sum;
 use crate::linalg::vector::{NormSum, norm};
+use crate::monitor::Monitor;
 use crate::problem::{MatrixFree, StiffnessOperator};
+use crate::solve::result::Ending;
 
 /// The equations `A x - b + (0, P) = 0` with `(d, P)` on the law of each pair.
 pub struct Equations<'a> {
@@ -121,13 +123,18 @@ impl Displacements {
     }
 
     /// With their inner unknowns in equilibrium; all components of the pairs are held.
-    pub fn in_equilibrium(self, bodies: &mut Session<'_>, load: &[f64]) -> Result<Self, Error> {
+    pub fn in_equilibrium(
+        self,
+        bodies: &mut Session<'_>,
+        load: &[f64],
+        monitor: &mut Monitor<'_>,
+    ) -> Result<Self, Ending> {
         let inner = self.low.len();
         if inner == 0 {
             return Ok(self);
         }
         let lack = bodies.operator.residual(&self.x, &self.low, load)?;
-        let mut step = bodies.solve(&lack)?;
+        let mut step = bodies.solve(&lack, monitor)?;
         step[inner..].fill(0.0);
         Ok(self.moved(-1.0, &step))
     }

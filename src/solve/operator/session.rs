@@ -4,7 +4,7 @@ use std::rc::Rc;
 
 use crate::error::Error;
 use crate::monitor::Monitor;
-use crate::problem::{HeldSet, StiffnessOperator};
+use crate::problem::{GoesOn, HeldSet, StiffnessOperator};
 use crate::solve::result::Ending;
 
 /// An operator with its last factor and its counts.
@@ -45,23 +45,34 @@ impl<'b> Session<'b> {
         }
         self.held = None;
         self.factorisations += 1;
-        let mut stop = None;
-        let is_held = self.operator.hold(held_set, &mut || {
-            stop = monitor.goes_on().err();
-            stop.is_none()
-        })?;
+        let is_held = asked(monitor, |goes_on| self.operator.hold(held_set, goes_on))?;
         self.held = is_held.then(|| Rc::new(held_set.clone()));
-        Ok(stop.map_or(Ok(()), Err)?)
+        Ok(())
     }
 
     /// A solution with the held components at zero, or with the inverse.
-    pub fn solve(&mut self, forces: &[f64]) -> Result<Vec<f64>, Error> {
+    pub fn solve(&mut self, forces: &[f64], monitor: &mut Monitor<'_>) -> Result<Vec<f64>, Ending> {
+        monitor.goes_on()?;
         self.solutions += 1;
-        self.operator.solve(forces)
+        let solution = asked(monitor, |goes_on| self.operator.solve(forces, goes_on))?;
+        Ok(solution.unwrap_or_default())
     }
 
     /// True where each product is dear: residuals follow from those of the point before.
     pub fn follows_residuals(&self) -> bool {
         !self.operator.is_sparse()
     }
+}
+
+/// The result of a work of the operator, unless the monitor has ended it.
+fn asked<T>(
+    monitor: &mut Monitor<'_>,
+    work: impl FnOnce(GoesOn<'_>) -> Result<T, Error>,
+) -> Result<T, Ending> {
+    let mut stop = None;
+    let result = work(&mut || {
+        stop = stop.or_else(|| monitor.goes_on().err());
+        stop.is_none()
+    })?;
+    Ok(stop.map_or(Ok(result), Err)?)
 }

@@ -29,7 +29,6 @@
 use super::directions::{Directions, Images, Moved};
 use super::point::{Equations, Point};
 use super::session::Session;
-use crate::error::Error;
 use crate::law::{Linearised, Plane, Vector, ellipse};
 use crate::linalg::gmres::gmres;
 use crate::monitor::Monitor;
@@ -98,7 +97,7 @@ impl<'a> System<'a> {
         monitor.goes_on()?;
         if bodies.held().is_some() {
             let on_inner: Vec<f64> = self.lack[..inner].iter().map(|h| -h).collect();
-            sum = self.moved_by(bodies, &on_inner, &right)?;
+            sum = self.moved_by(bodies, (&on_inner, &right), monitor)?;
             let rows = self.rows(&sum);
             right.iter_mut().zip(rows).for_each(|(right, row)| *right -= row);
         }
@@ -110,9 +109,8 @@ impl<'a> System<'a> {
         let (before, mut by_known) = (known.count(), images.take_out(&mut right));
         let mut taken_out = Vec::new();
         let (shares, left) = gmres(&right, forcing * lack, most, |v| {
-            monitor.goes_on()?;
             let w: Vec<f64> = v.iter().zip(root).map(|(v, root)| v * root).collect();
-            let moved = self.moved_by(bodies, &vec![0.0; inner], &w)?;
+            let moved = self.moved_by(bodies, (&vec![0.0; inner], &w), monitor)?;
             let mut row = image(&moved);
             taken_out.push(images.take_out(&mut row));
             known.add(moved);
@@ -173,9 +171,9 @@ impl<'a> System<'a> {
     fn moved_by(
         &self,
         bodies: &mut Session<'_>,
-        on_inner: &[f64],
-        w: &[f64],
-    ) -> Result<Moved, Error> {
+        (on_inner, w): (&[f64], &[f64]),
+        monitor: &mut Monitor<'_>,
+    ) -> Result<Moved, Ending> {
         let inner = self.equations.inner;
         let factor = bodies.held();
         let softens = factor.is_none() || !bodies.operator.is_sparse();
@@ -184,8 +182,8 @@ impl<'a> System<'a> {
             self.soften(&mut w);
         }
         let mut z = match factor {
-            Some(factor) => self.by_factor(bodies, &factor, on_inner, &w)?,
-            None => self.by_inverse(bodies, w)?,
+            Some(factor) => self.by_factor(bodies, &factor, (on_inner, &w), monitor)?,
+            None => self.by_inverse(bodies, w, monitor)?,
         };
         if softens {
             self.soften(&mut z[inner..]);
@@ -214,16 +212,16 @@ impl<'a> System<'a> {
         &self,
         bodies: &mut Session<'_>,
         factor: &HeldSet,
-        on_inner: &[f64],
-        w: &[f64],
-    ) -> Result<Vec<f64>, Error> {
+        (on_inner, w): (&[f64], &[f64]),
+        monitor: &mut Monitor<'_>,
+    ) -> Result<Vec<f64>, Ending> {
         let mut forces = [on_inner, w].concat();
         let mut released = vec![0.0; forces.len()];
         if self.release(factor, w, &mut released[self.equations.inner..]) {
             let asked = bodies.operator.product(&released)?;
             forces.iter_mut().zip(asked).for_each(|(force, asked)| *force -= asked);
         }
-        let mut z = bodies.solve(&forces)?;
+        let mut z = bodies.solve(&forces, monitor)?;
         z.iter_mut().zip(&released).for_each(|(z, released)| *z += released);
         Ok(z)
     }
@@ -251,14 +249,19 @@ impl<'a> System<'a> {
     }
 
     /// By the block of an inverse.
-    fn by_inverse(&self, bodies: &mut Session<'_>, mut w: Vec<f64>) -> Result<Vec<f64>, Error> {
+    fn by_inverse(
+        &self,
+        bodies: &mut Session<'_>,
+        mut w: Vec<f64>,
+        monitor: &mut Monitor<'_>,
+    ) -> Result<Vec<f64>, Ending> {
         let held = self.held_set.held.iter().zip(&self.equations.root).enumerate();
         let held = held.filter(|(_, (held, _))| **held);
         let mut own = Vec::new();
         for (i, (_, root)) in held {
             own.push((i, std::mem::take(&mut w[i]) / root.powi(2)));
         }
-        let mut z = bodies.solve(&w)?;
+        let mut z = bodies.solve(&w, monitor)?;
         own.iter().for_each(|(i, displacement)| z[*i] = *displacement);
         Ok(z)
     }

@@ -16,6 +16,7 @@ use crate::error::{Argument, Error};
 use crate::law::Contact;
 use crate::linalg::sparse_matrix::{OutOfMemory, column, from_entries, transposed};
 use crate::linalg::sparse_schur::{Failure, SparseSchur, Stopped};
+use crate::linalg::watched::unended;
 use crate::monitor::{Monitor, Stop};
 use crate::problem::{ContactProblem, DependentRows, Relation};
 use crate::settings::Settings;
@@ -75,11 +76,11 @@ impl InSeries for Bodies<'_> {
     fn load(&mut self, force: &[f64]) -> Vec<f64> {
         self.right = self.relation.unbalanced(&self.variables, force);
         self.right.extend(force.iter().map(|force| -force));
-        self.condensed.condense(&self.right)
+        unended(|goes_on| self.condensed.condense(&self.right, goes_on))
     }
 
     fn advance(&mut self, step: &[f64]) {
-        let step = self.condensed.recover(&self.right, step);
+        let step = unended(|goes_on| self.condensed.recover(&self.right, step, goes_on));
         self.variables.iter_mut().zip(&step).for_each(|(z, step)| *z += step);
     }
 }
