@@ -15,7 +15,7 @@ use faer::{Accum, Mat, Par};
 
 use super::ball::{product_up, sum_of_products_up, sum_up};
 use super::factor::{RowOrder, lu};
-use super::watched::{BLOCK, GoesOn, filled};
+use super::watched::{GoesOn, block, filled};
 
 /// A matrix and its approximate inverse.
 pub struct ApproximateInverse {
@@ -74,12 +74,13 @@ impl ApproximateInverse {
     pub fn contraction(&self, doubt: &[f64], goes_on: GoesOn<'_>) -> Option<Vec<f64>> {
         let n = self.size();
         let mut sums = vec![0.0; n];
-        let mut block = Mat::zeros(n, BLOCK.min(n));
-        for begin in (0..n).step_by(BLOCK) {
+        let at_once = block(n * n);
+        let mut block = Mat::zeros(n, at_once);
+        for begin in (0..n).step_by(at_once) {
             if !goes_on() {
                 return None;
             }
-            let width = BLOCK.min(n - begin);
+            let width = at_once.min(n - begin);
             let columns = self.matrix.get(.., begin..begin + width);
             let part = block.get_mut(.., ..width);
             matmul(part, Accum::Replace, &self.inverse, columns, 1.0, Par::Seq);
@@ -132,11 +133,12 @@ fn inverted(matrix: &Mat<f64>, goes_on: GoesOn<'_>) -> Option<Mat<f64>> {
     let RowOrder { forward, inverse: backward, .. } = lu(&mut factors, goes_on)?;
     let mut inverse = Mat::identity(n, n);
     let mut columns = inverse.transpose_mut();
-    for begin in (0..n).step_by(BLOCK) {
+    let at_once = block(n * n);
+    for begin in (0..n).step_by(at_once) {
         if !goes_on() {
             return None;
         }
-        let mut block = columns.as_mut().get_mut(.., begin..n.min(begin + BLOCK));
+        let mut block = columns.as_mut().get_mut(.., begin..n.min(begin + at_once));
         let below = block.as_mut().get_mut(begin.., ..);
         solve_unit_lower_triangular_in_place(factors.get(begin.., begin..), below, Par::Seq);
         solve_upper_triangular_in_place(factors.as_ref(), block, Par::Seq);

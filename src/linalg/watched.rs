@@ -5,6 +5,14 @@ use faer::Mat;
 /// Columns of a block, which stays in a cache: between two of them a long work asks if it goes on.
 pub const BLOCK: usize = 64;
 
+/// Additions and multiplications between two questions: some ten milliseconds.
+const WORK: usize = 1 << 28;
+
+/// Columns of a block where each takes so many additions and multiplications.
+pub fn block(work: usize) -> usize {
+    (WORK / work.max(1)).clamp(1, BLOCK)
+}
+
 /// Rows up to which a matrix is factorised in one go: a few milliseconds.
 pub const SHORT: usize = 512;
 

@@ -73,6 +73,9 @@ fn by_inverse(
     let middle: Vec<f64> = lack.iter().map(|lack| lack.middle()).collect();
     let doubt: Vec<f64> = lack.iter().map(|lack| lack.radius()).collect();
     let first = inverse.image(&middle, &doubt);
+    if !goes_on() {
+        return None;
+    }
     let eps = BOX * first.iter().fold(f64::MIN_POSITIVE, |most, &z| most.max(z));
     let neighbourhood = Neighbourhood::new(system, force, v, eps);
     let alpha = inverse.contraction(&neighbourhood.doubts(), goes_on)?;

@@ -75,6 +75,7 @@ pub fn factorised(
     let above = above(source, &mut values, parallel)?;
     schur_update::subtract(structure, &values, &mut schur, done, parallel)?;
     mirror(&mut schur, kept);
+    progress(FactorStep::HasDone(1.0))?;
     let weakest = weaker(below, above);
     Ok(Numeric { values, schur, weakest })
 }

@@ -88,6 +88,9 @@ fn is_contraction(
     for scale in scales {
         let x: Vec<f64> = (0..m).map(scale).collect();
         let normal = dense(m, |a, b| stiffness(a, b) / (x[a] * x[b]));
+        if monitor.goes_on().is_err() {
+            return false;
+        }
         let tangential =
             dense(m * tangents, |a, b| compliance(a, b) * x[a / tangents] * x[b / tangents]);
         let matrices = [(m, &normal), (m * tangents, &tangential)];

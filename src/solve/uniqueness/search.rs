@@ -43,7 +43,7 @@ pub fn another(
     Ok(others.find_map(|candidate| accepted(call, known, candidate, monitor)))
 }
 
-/// A candidate that is a solution other than `known`.
+/// A candidate that is a solution other than `known`; none if there is no time for the question.
 fn accepted(
     call: &Call<'_>,
     known: &FullyRefined,
@@ -52,6 +52,7 @@ fn accepted(
 ) -> Option<SecondSolution> {
     let (contact, settings) = (call.contact, call.settings);
     let may_be = candidate.ending == Ending::Done
+        && !monitor.is_late()
         && candidate.certificate(contact).holds(settings.tolerance)
         && are_different(contact, known.candidate.d(), candidate.d());
     let other = if may_be { refine_fully(contact, &candidate, monitor)? } else { return None };

@@ -113,6 +113,7 @@ fn run(
     };
     let mut candidate = Candidate::of_displacements(contact, d, ending);
     if candidate.ending == Ending::Done
+        && !monitor.is_late()
         && !(contact.is_frictionless() && candidate.is_settled(contact, settings.tolerance))
     {
         let (pieces, d) = (lcp.pieces(&run.z), candidate.d().to_vec());

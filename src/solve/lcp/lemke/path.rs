@@ -188,7 +188,9 @@ impl Path<'_> {
     /// Refines the values, and refactorises where they have drifted, or always.
     fn check(&mut self, always: bool, monitor: &mut Monitor<'_>) -> Result<(), Ending> {
         monitor.affords(self.tableau.refinement_work())?;
-        if self.tableau.refine(self.problem) <= DRIFT && !always {
+        let drift = self.tableau.refine(self.problem);
+        monitor.goes_on()?;
+        if drift <= DRIFT && !always {
             return Ok(());
         }
         monitor.affords(self.tableau.refactorisation_work())?;

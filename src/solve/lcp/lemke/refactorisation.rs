@@ -79,8 +79,12 @@ impl Tableau {
         }
         // The values by two steps of refinement, which leave the rounding of one.
         self.values.fill(0.0);
-        self.refine(problem);
-        self.refine(problem);
+        for _ in 0..2 {
+            if !goes_on() {
+                return None;
+            }
+            self.refine(problem);
+        }
         Some(())
     }
 
