@@ -131,7 +131,7 @@ module signorini
     integer(c_int32_t), parameter :: SIGNORINI_PROBLEM_CONTACT = 0
     integer(c_int32_t), parameter :: SIGNORINI_PROBLEM_LCP = 1
     integer(c_int32_t), parameter :: SIGNORINI_VERSION_MAJOR = 0
-    integer(c_int32_t), parameter :: SIGNORINI_VERSION_MINOR = 2
+    integer(c_int32_t), parameter :: SIGNORINI_VERSION_MINOR = 9
     integer(c_int32_t), parameter :: SIGNORINI_VERSION_PATCH = 0
     integer(c_int32_t), parameter :: SIGNORINI_ABI_VERSION = 3
 

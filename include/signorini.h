@@ -761,11 +761,11 @@ int32_t signorini_lcp_solve(int64_t n, const double *M, int64_t ldm, const doubl
 /* ---- Versions ------------------------------------------------------------------------------ */
 
 #define SIGNORINI_VERSION_MAJOR 0 /**< Major version. */
-#define SIGNORINI_VERSION_MINOR 2 /**< Minor version. */
+#define SIGNORINI_VERSION_MINOR 9 /**< Minor version. */
 #define SIGNORINI_VERSION_PATCH 0 /**< Patch version. */
 #define SIGNORINI_ABI_VERSION 3   /**< Binary interface of this header. */
 
-/** Version of the library, such as "0.2.0"; static text. */
+/** Version of the library, such as "0.9.0"; static text. */
 const char *signorini_version(void);
 
 /** Binary interface of the library; compare it with SIGNORINI_ABI_VERSION after dlopen. */

@@ -37,7 +37,7 @@ pub const SIGNORINI_STATUS_FILE: i32 = -1002;
 /// Major version.
 pub const SIGNORINI_VERSION_MAJOR: i32 = 0;
 /// Minor version.
-pub const SIGNORINI_VERSION_MINOR: i32 = 2;
+pub const SIGNORINI_VERSION_MINOR: i32 = 9;
 /// Patch version.
 pub const SIGNORINI_VERSION_PATCH: i32 = 0;
 /// Binary interface of this header.
@@ -64,7 +64,7 @@ numbers! {
     }
 }
 
-/// Version of the library, such as "0.2.0"; static text.
+/// Version of the library, such as "0.9.0"; static text.
 #[unsafe(no_mangle)]
 pub extern "C" fn signorini_version() -> *const c_char {
     concat!(env!("CARGO_PKG_VERSION"), "\0").as_ptr().cast()

@@ -12,7 +12,7 @@
 //! % dim: 2
 //! % pairs: 2
 //! % remark: step 7 of the crane hook
-//! % Written by signorini 0.2.0 in the units of the host.
+//! % Written by signorini 0.9.0 in the units of the host.
 //! % Columns: K (4), f, gap and mu in normal rows, slip0 in tangential rows.
 //! 4 8
 //! 4e0

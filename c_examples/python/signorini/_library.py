@@ -8,7 +8,7 @@ from types import SimpleNamespace
 from ._constants import ABI_VERSION, Status, member
 from ._structures import address, i32, i64, real, u32
 
-SONAME_VERSION = "0.2"  # of libsignorini.so.0.2
+SONAME_VERSION = "0.9"  # of libsignorini.so.0.9
 text = ctypes.c_char_p
 
 # Friction in every call: law, its parameters, reference slip.
